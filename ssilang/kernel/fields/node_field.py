@@ -1,0 +1,78 @@
+"""Fields given at nodes (CHPOINT): one sparse vector per component."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray, NodeTable
+
+Nature = Literal["", "DIFFUS", "DISCRET"]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class NodeValues:
+    """One component: increasing node numbers (n,) and their values (n,)."""
+
+    nodes: IntArray
+    values: FloatArray
+
+    def at(self, nodes: IntArray, default: float = 0.0) -> FloatArray:
+        """Values at `nodes` (m,), `default` where the component is not defined."""
+        if len(self.nodes) == 0:
+            return np.full(len(nodes), default)
+        place = np.minimum(np.searchsorted(self.nodes, nodes), len(self.nodes) - 1)
+        return np.where(self.nodes[place] == nodes, self.values[place], default)
+
+
+@dataclass(frozen=True, eq=False)
+class NodeField:
+    """A field at nodes.
+
+    Components need not share their support: a node where a component is absent is not a zero.
+
+    Parameters
+    ----------
+    table : NodeTable
+    components : mapping of str to NodeValues
+        In order of first appearance; names have at most 8 characters (UX, UY, UZ, RX, RY, RZ,
+        UR, FX, FY, LX, FLX, SCAL ...).
+    nature : '', 'DIFFUS' or 'DISCRET'
+        DIFFUS: samples of a continuous field (displacement); DISCRET: lumped quantities that add
+        up (force). Decides what the union of two fields does where both are defined.
+    """
+
+    table: NodeTable
+    components: Mapping[str, NodeValues]
+    nature: Nature = ""
+
+    @classmethod
+    def of(
+        cls,
+        table: NodeTable,
+        nodes: IntArray,
+        values: Mapping[str, FloatArray],
+        nature: Nature = "",
+    ) -> NodeField:
+        """A field whose components all live on `nodes` (n,), unique, in any order."""
+        order = np.argsort(nodes, kind="stable")
+        ids = np.asarray(nodes, dtype=np.int64)[order]
+        return cls(
+            table,
+            {k: NodeValues(ids, np.asarray(v, dtype=float)[order]) for k, v in values.items()},
+            nature,
+        )
+
+    @property
+    def node_ids(self) -> IntArray:
+        """Nodes where at least one component is defined, increasing, shape (n,)."""
+        parts = [c.nodes for c in self.components.values()]
+        return np.unique(np.concatenate(parts)) if parts else np.empty(0, dtype=np.int64)
+
+    def values_at(self, name: str, nodes: IntArray, default: float = 0.0) -> FloatArray:
+        """Values of component `name` at `nodes` (m,); `default` where absent."""
+        part = self.components.get(name)
+        return np.full(len(nodes), default) if part is None else part.at(nodes, default)

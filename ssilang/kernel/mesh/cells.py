@@ -1,0 +1,170 @@
+"""Cell types: names, sizes, faces. Names and node orders are those of Cast3M.
+
+Quadratic cells number their nodes along the contour (corner, middle, corner, middle ...), not
+corners first as VTK does; `ssilang.io` converts.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class CellType:
+    """One kind of cell.
+
+    Attributes
+    ----------
+    name : str
+        Gibiane's name, such as 'QUA4'.
+    dimension : int
+        Of the cell itself: 0 point, 1 line, 2 surface, 3 volume; joints have that of their faces.
+    n_nodes : int
+    degree : int
+        1 linear, 2 quadratic.
+    corners : tuple of int
+        Local numbers of the corner nodes, in order.
+    faces : tuple of (str, tuple of int)
+        Cells of the boundary: type and local nodes, oriented outwards (2D cells: anticlockwise).
+    joint : bool
+        True for two facing sides (RAC2, RAC3, LIA3, LIA4, LIA6, LIA8): first half of the nodes
+        on one face, second half on the other, in the same order.
+    """
+
+    name: str
+    dimension: int
+    n_nodes: int
+    degree: int
+    corners: tuple[int, ...]
+    faces: tuple[tuple[str, tuple[int, ...]], ...] = ()
+    joint: bool = False
+
+
+def _polygon(name: str, corners: int, degree: int) -> CellType:
+    n = corners * degree
+    side = "SEG2" if degree == 1 else "SEG3"
+    faces = tuple(
+        (side, tuple((degree * i + j) % n for j in range(degree + 1))) for i in range(corners)
+    )
+    return CellType(name, 2, n, degree, tuple(range(0, n, degree)), faces)
+
+
+CELL_TYPES: dict[str, CellType] = {
+    c.name: c
+    for c in (
+        CellType("POI1", 0, 1, 1, (0,)),
+        CellType("SEG2", 1, 2, 1, (0, 1), (("POI1", (0,)), ("POI1", (1,)))),
+        CellType("SEG3", 1, 3, 2, (0, 2), (("POI1", (0,)), ("POI1", (2,)))),
+        _polygon("TRI3", 3, 1),
+        _polygon("TRI6", 3, 2),
+        _polygon("QUA4", 4, 1),
+        _polygon("QUA8", 4, 2),
+        CellType(
+            "TET4",
+            3,
+            4,
+            1,
+            (0, 1, 2, 3),
+            (
+                ("TRI3", (0, 2, 1)),
+                ("TRI3", (0, 1, 3)),
+                ("TRI3", (1, 2, 3)),
+                ("TRI3", (2, 0, 3)),
+            ),
+        ),
+        CellType(
+            "PRI6",
+            3,
+            6,
+            1,
+            (0, 1, 2, 3, 4, 5),
+            (
+                ("TRI3", (0, 2, 1)),
+                ("TRI3", (3, 4, 5)),
+                ("QUA4", (0, 1, 4, 3)),
+                ("QUA4", (1, 2, 5, 4)),
+                ("QUA4", (2, 0, 3, 5)),
+            ),
+        ),
+        CellType(
+            "PYR5",
+            3,
+            5,
+            1,
+            (0, 1, 2, 3, 4),
+            (
+                ("QUA4", (0, 3, 2, 1)),
+                ("TRI3", (0, 1, 4)),
+                ("TRI3", (1, 2, 4)),
+                ("TRI3", (2, 3, 4)),
+                ("TRI3", (3, 0, 4)),
+            ),
+        ),
+        CellType(
+            "CUB8",
+            3,
+            8,
+            1,
+            (0, 1, 2, 3, 4, 5, 6, 7),
+            (
+                ("QUA4", (0, 3, 2, 1)),
+                ("QUA4", (4, 5, 6, 7)),
+                ("QUA4", (0, 1, 5, 4)),
+                ("QUA4", (1, 2, 6, 5)),
+                ("QUA4", (2, 3, 7, 6)),
+                ("QUA4", (3, 0, 4, 7)),
+            ),
+        ),
+        # CU20: bottom contour of 8 (corner, middle, ...), 4 middles of the vertical edges, top of 8
+        CellType(
+            "CU20",
+            3,
+            20,
+            2,
+            (0, 2, 4, 6, 12, 14, 16, 18),
+            (
+                ("QUA8", (0, 7, 6, 5, 4, 3, 2, 1)),
+                ("QUA8", (12, 13, 14, 15, 16, 17, 18, 19)),
+                ("QUA8", (0, 1, 2, 9, 14, 13, 12, 8)),
+                ("QUA8", (2, 3, 4, 10, 16, 15, 14, 9)),
+                ("QUA8", (4, 5, 6, 11, 18, 17, 16, 10)),
+                ("QUA8", (6, 7, 0, 8, 12, 19, 18, 11)),
+            ),
+        ),
+        # PR15: triangle contour of 6, 3 middles of the vertical edges, triangle contour of 6
+        CellType(
+            "PR15",
+            3,
+            15,
+            2,
+            (0, 2, 4, 9, 11, 13),
+            (
+                ("TRI6", (0, 5, 4, 3, 2, 1)),
+                ("TRI6", (9, 10, 11, 12, 13, 14)),
+                ("QUA8", (0, 1, 2, 7, 11, 10, 9, 6)),
+                ("QUA8", (2, 3, 4, 8, 13, 12, 11, 7)),
+                ("QUA8", (4, 5, 0, 6, 9, 14, 13, 8)),
+            ),
+        ),
+        # TE10: triangle contour of 6, 3 middles of the edges to the apex, apex
+        CellType(
+            "TE10",
+            3,
+            10,
+            2,
+            (0, 2, 4, 9),
+            (
+                ("TRI6", (0, 5, 4, 3, 2, 1)),
+                ("TRI6", (0, 1, 2, 7, 9, 6)),
+                ("TRI6", (2, 3, 4, 8, 9, 7)),
+                ("TRI6", (4, 5, 0, 6, 9, 8)),
+            ),
+        ),
+        CellType("RAC2", 1, 4, 1, (0, 1, 2, 3), joint=True),
+        CellType("RAC3", 1, 6, 2, (0, 2, 3, 5), joint=True),
+        CellType("LIA3", 2, 6, 1, (0, 1, 2, 3, 4, 5), joint=True),
+        CellType("LIA4", 2, 8, 1, (0, 1, 2, 3, 4, 5, 6, 7), joint=True),
+        CellType("LIA6", 2, 12, 2, (0, 2, 4, 6, 8, 10), joint=True),
+        CellType("LIA8", 2, 16, 2, (0, 2, 4, 6, 8, 10, 12, 14), joint=True),
+    )
+}

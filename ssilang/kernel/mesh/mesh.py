@@ -1,0 +1,166 @@
+"""Meshes and points: blocks of cells over the table of nodes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ssilang.kernel.errors import MeshError
+from ssilang.kernel.mesh.cells import CELL_TYPES, CellType
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray, NodeTable
+
+
+@dataclass(frozen=True, eq=False)
+class Point:
+    """One node, seen from a script (POINT).
+
+    A point is its node: coordinates and density are read from the table at each access.
+    """
+
+    nodes: NodeTable
+    number: int
+
+    @property
+    def node(self) -> int:
+        """Node number (0-based) after merges."""
+        return int(self.nodes.resolve(np.asarray([self.number]))[0])
+
+    @property
+    def coordinates(self) -> FloatArray:
+        """Coordinates, shape (3,)."""
+        row: FloatArray = self.nodes.coordinates[self.node]
+        return row
+
+    @property
+    def density(self) -> float:
+        """Wanted mesh size around the point, 0 if none was set."""
+        return float(self.nodes.density[self.node])
+
+
+@dataclass(frozen=True, eq=False)
+class CellBlock:
+    """Cells of one type.
+
+    Parameters
+    ----------
+    cell_type : str
+        A key of `CELL_TYPES`.
+    raw : array (n_cells, n_nodes)
+        Node numbers as they were when the block was made; read `connectivity` instead.
+    colours : array (n_cells,) of int8
+        Index into Cast3M's colour list, 0 = DEFA(UT).
+    """
+
+    nodes: NodeTable
+    cell_type: str
+    raw: IntArray
+    colours: NDArray[np.int8]
+    _resolved: list[tuple[int, IntArray]] = field(default_factory=list, repr=False)
+
+    @classmethod
+    def make(
+        cls,
+        nodes: NodeTable,
+        cell_type: str,
+        connectivity: IntArray,
+        colours: NDArray[np.int8] | int = 0,
+    ) -> CellBlock:
+        """A block from connectivity (n, k) and one colour for all or one a cell."""
+        kind = CELL_TYPES[cell_type]
+        table = np.ascontiguousarray(connectivity, dtype=np.int64).reshape(-1, kind.n_nodes)
+        shades = np.broadcast_to(np.asarray(colours, dtype=np.int8), (len(table),)).copy()
+        return cls(nodes, cell_type, table, shades)
+
+    @property
+    def kind(self) -> CellType:
+        """The cell type's data."""
+        return CELL_TYPES[self.cell_type]
+
+    @property
+    def connectivity(self) -> IntArray:
+        """Node numbers (n_cells, n_nodes) after merges."""
+        version = self.nodes.version
+        if not self._resolved or self._resolved[0][0] != version:
+            self._resolved[:] = [(version, self.nodes.resolve(self.raw))]
+        return self._resolved[0][1]
+
+    def __len__(self) -> int:
+        return len(self.raw)
+
+    @property
+    def coordinates(self) -> FloatArray:
+        """Coordinates of the cells' nodes, shape (n_cells, n_nodes, 3)."""
+        return self.nodes.coordinates[self.connectivity]
+
+
+@dataclass(frozen=True, eq=False)
+class Mesh:
+    """Blocks of cells (MAILLAGE).
+
+    Parameters
+    ----------
+    nodes : NodeTable
+    blocks : tuple of CellBlock
+        An elementary mesh has one block; ET concatenates blocks of the same type.
+    sides : tuple of Mesh
+        References kept by generators, read with COTE: the lines that bound a surface, in the
+        order in which they were given; the faces 1 (start), 2 (end), 3 (around) of a volume.
+    """
+
+    nodes: NodeTable
+    blocks: tuple[CellBlock, ...]
+    sides: tuple[Mesh, ...] = ()
+
+    @classmethod
+    def of(
+        cls,
+        nodes: NodeTable,
+        cell_type: str,
+        connectivity: IntArray,
+        colours: NDArray[np.int8] | int = 0,
+        sides: tuple[Mesh, ...] = (),
+    ) -> Mesh:
+        """A mesh of one block."""
+        return cls(nodes, (CellBlock.make(nodes, cell_type, connectivity, colours),), sides)
+
+    @property
+    def n_cells(self) -> int:
+        """Number of cells of all blocks."""
+        return sum(len(b) for b in self.blocks)
+
+    @property
+    def node_ids(self) -> IntArray:
+        """Node numbers in order of first appearance, each once, shape (n,)."""
+        if not self.blocks:
+            return np.empty(0, dtype=np.int64)
+        flat = np.concatenate([b.connectivity.ravel() for b in self.blocks])
+        _, first = np.unique(flat, return_index=True)
+        ids: IntArray = flat[np.sort(first)]
+        return ids
+
+    @property
+    def sorted_node_ids(self) -> IntArray:
+        """Node numbers in increasing order, each once, shape (n,)."""
+        if not self.blocks:
+            return np.empty(0, dtype=np.int64)
+        return np.unique(np.concatenate([b.connectivity.ravel() for b in self.blocks]))
+
+    @property
+    def dimension(self) -> int:
+        """Largest dimension of the cells, 0 for points."""
+        return max((b.kind.dimension for b in self.blocks), default=0)
+
+    def single_block(self) -> CellBlock:
+        """The one block of an elementary mesh.
+
+        Raises
+        ------
+        MeshError
+            If the mesh has none or several.
+        """
+        if len(self.blocks) != 1:
+            kinds = ", ".join(b.cell_type for b in self.blocks) or "nothing"
+            raise MeshError(f"a mesh of one cell type is needed, this one holds {kinds}")
+        return self.blocks[0]

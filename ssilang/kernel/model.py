@@ -1,0 +1,66 @@
+"""Models: which element and which law stand on which cells (MMODEL)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from enum import Enum
+
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh
+
+
+class Mode(Enum):
+    """Kinematic hypothesis of a calculation (OPTI 'MODE')."""
+
+    PLANE_STRAIN = "PLAN DEFO"
+    PLANE_STRESS = "PLAN CONT"
+    GENERALISED_PLANE_STRAIN = "PLAN GENE"
+    AXISYMMETRIC = "AXIS"
+    FOURIER = "FOUR"
+    THREE_DIMENSIONAL = "TRID"
+    UNIDIMENSIONAL = "UNID"
+
+    @property
+    def dimension(self) -> int:
+        """Number of coordinates that a point has."""
+        return {"TRID": 3, "UNID": 1}.get(self.value, 2)
+
+
+@dataclass(frozen=True, eq=False)
+class Zone:
+    """One block of cells with its element and law.
+
+    Parameters
+    ----------
+    cells : CellBlock
+    formulation : str
+        'MECANIQUE' here; other formulations are refused when the model is made.
+    behaviour : tuple of str
+        Words of the law, such as ('ELASTIQUE', 'ISOTROPE') or ('ELASTIQUE', 'JOINT_SDM').
+    element : str
+        Finite element: 'QUA4', 'BARR', 'POUT', 'TIMO', 'JOI1', 'JOI2' ...
+    mode : Mode
+        Hypothesis in force when the model was made.
+    constituent : str
+    """
+
+    cells: CellBlock
+    formulation: str
+    behaviour: tuple[str, ...]
+    element: str
+    mode: Mode
+    constituent: str = ""
+    options: dict[str, object] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, eq=False)
+class Model:
+    """Zones, in the order in which they were joined by ET."""
+
+    zones: tuple[Zone, ...]
+
+    @property
+    def mesh(self) -> Mesh:
+        """The mesh of all zones, each block once."""
+        seen: dict[int, CellBlock] = {id(z.cells): z.cells for z in self.zones}
+        blocks = tuple(seen.values())
+        return Mesh(blocks[0].nodes, blocks)
