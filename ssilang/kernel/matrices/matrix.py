@@ -68,6 +68,9 @@ class Relations:
         Multiplier nodes.
     sense : array (n_rows,) of int8
         0 equality; +1 the left side stays >= d (MINI); -1 it stays <= d (MAXI).
+    dual : Relations or None
+        Non-associated relations (RELA ... 'DUAL'): K u + D^T LX = F with these rows D instead
+        of C; same number of rows, same multipliers.
     """
 
     table: NodeTable
@@ -77,6 +80,7 @@ class Relations:
     coefficients: FloatArray
     raw_multipliers: IntArray
     sense: NDArray[np.int8]
+    dual: Relations | None = None
 
     @property
     def nodes(self) -> IntArray:

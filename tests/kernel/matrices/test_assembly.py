@@ -1,0 +1,104 @@
+"""Assembly: against dense sums written out by hand."""
+
+import numpy as np
+import pytest
+
+from ssilang.kernel.errors import FieldError
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.matrices.assembly import (
+    assemble,
+    constraint_matrix,
+    field_to_vector,
+    imposed_values,
+    numbering_of,
+    outside,
+    vector_to_field,
+)
+from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, Relations
+from ssilang.kernel.mesh.nodes import NodeTable
+
+
+def chain(table, nodes, stiffness, unknown="UX", dual="FX"):
+    """Springs between successive nodes."""
+    pairs = np.column_stack([nodes[:-1], nodes[1:]])
+    k = np.broadcast_to(np.asarray(stiffness, float), (len(pairs),))
+    values = k[:, None, None] * np.array([[1.0, -1.0], [-1.0, 1.0]])
+    block = ElementMatrices(table, pairs, np.array([0, 1]), (unknown,) * 2, (dual,) * 2, values)
+    return Matrix(table, (block,))
+
+
+@pytest.fixture
+def table():
+    t = NodeTable()
+    t.add(np.arange(6.0)[:, None])
+    return t
+
+
+def test_springs_in_series_assemble_to_the_textbook_matrix(table):
+    matrix = chain(table, np.array([2, 0, 4]), [3.0, 5.0])
+    numbering = numbering_of(matrix)
+    assert list(numbering.nodes) == [0, 2, 4]
+    K = assemble(matrix).toarray()
+    np.testing.assert_allclose(K, [[8, -3, -5], [-3, 3, 0], [-5, 0, 5]])
+    assert assemble(matrix) is assemble(matrix)
+
+
+def test_one_numbering_serves_matrices_with_different_unknowns(table):
+    k = chain(table, np.array([0, 1]), 2.0)
+    m = chain(table, np.array([1, 2]), 7.0, "UY", "FY")
+    numbering = numbering_of(k, m)
+    assert [numbering.label(i) for i in range(4)] == [
+        "UX at node 1",
+        "UX at node 2",
+        "UY at node 2",
+        "UY at node 3",
+    ]
+    assert assemble(k, numbering).shape == (4, 4)
+    assert assemble(m, numbering).toarray()[2, 3] == -7.0
+    with pytest.raises(FieldError):
+        assemble(m, numbering_of(k))
+
+
+def test_merging_nodes_afterwards_joins_their_unknowns(table):
+    matrix = chain(table, np.array([0, 1]), 2.0)
+    other = chain(table, np.array([3, 4]), 5.0)
+    both = Matrix(table, matrix.blocks + other.blocks)
+    assert numbering_of(both).size == 4
+    table.merge(np.array([1]), np.array([3]))
+    assert numbering_of(both).size == 3
+    np.testing.assert_allclose(assemble(both).toarray(), [[2, -2, 0], [-2, 7, -5], [0, -5, 5]])
+
+
+def test_vector_and_field_are_inverse_of_each_other(table):
+    matrix = chain(table, np.array([0, 1, 2]), 1.0)
+    numbering = numbering_of(matrix)
+    forces = NodeField.of(table, np.array([2, 0, 5]), {"FX": np.array([3.0, 1.0, 9.0])})
+    f = field_to_vector(forces, numbering)
+    np.testing.assert_allclose(f, [1.0, 0.0, 3.0])
+    assert outside(forces, numbering) == ["FX at node 6"]
+    back = vector_to_field(f, numbering)
+    assert back.nature == "DIFFUS"
+    np.testing.assert_allclose(field_to_vector(back, numbering, dual=False), f)
+
+
+def test_relations_become_rows_and_repeated_ones_count_once(table):
+    matrix = chain(table, np.array([0, 1, 2]), 1.0)
+    rows = Relations(
+        table,
+        np.array([0, 2, 3]),
+        np.array([0, 2, 1]),
+        ("UX", "UX", "UZ"),
+        np.array([1.0, -2.0, 4.0]),
+        np.array([4, 5]),
+        np.array([0, 1], dtype=np.int8),
+    )
+    whole = Matrix(table, matrix.blocks, (rows, rows))
+    numbering = numbering_of(whole)
+    assert numbering.size == 4  # UZ stands in a relation alone
+    C, multipliers, sense, D = constraint_matrix(whole)
+    np.testing.assert_allclose(C.toarray(), [[1, 0, 0, -2], [0, 0, 4, 0]])
+    assert list(multipliers) == [4, 5]
+    assert list(sense) == [0, 1]
+    assert D is C
+    given = NodeField.of(table, np.array([5]), {"FLX": np.array([0.25])})
+    np.testing.assert_allclose(imposed_values(given, multipliers), [0.0, 0.25])
