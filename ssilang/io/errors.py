@@ -1,0 +1,13 @@
+"""Errors of reading and writing files."""
+
+from __future__ import annotations
+
+from ssilang.kernel.errors import KernelError
+
+
+class OutputError(KernelError):
+    """A file or picture cannot be written: wrong objects, forbidden or full place."""
+
+
+class InputError(KernelError):
+    """A file cannot be read: absent, of another format, or damaged."""

@@ -1,0 +1,7 @@
+"""VTK files (.vtu, .pvd) that ParaView and pyvista open."""
+
+from ssilang.io.vtk.grid import Grid, grid_of
+from ssilang.io.vtk.series import Part, SeriesWriter
+from ssilang.io.vtk.vtu import Encoding, write_vtu
+
+__all__ = ["Encoding", "Grid", "Part", "SeriesWriter", "grid_of", "write_vtu"]

@@ -1,0 +1,214 @@
+"""Meshes and fields as the arrays that an unstructured VTK grid holds."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ssilang.io.errors import OutputError
+from ssilang.io.vtk.cells import ORDERS
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+
+
+@dataclass(frozen=True)
+class DataArray:
+    """One named array: values (n,) or (n, k), and the names of its k columns if known."""
+
+    values: NDArray[np.generic]
+    columns: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class Grid:
+    """An unstructured grid in VTK's numbering.
+
+    Attributes
+    ----------
+    nodes : array (n,)
+        Node numbers of the rows of `points`, increasing.
+    points : array (n, 3)
+    connectivity : array of int
+        Rows of `points` of all cells, one after the other, in VTK's node order.
+    offsets : array (n_cells,)
+        End of each cell in `connectivity`.
+    types : array (n_cells,) of uint8
+    point_data, cell_data : mapping of str to DataArray
+    """
+
+    nodes: IntArray
+    points: FloatArray
+    connectivity: IntArray
+    offsets: IntArray
+    types: NDArray[np.uint8]
+    point_data: dict[str, DataArray] = field(default_factory=dict)
+    cell_data: dict[str, DataArray] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class _Family:
+    """Components that belong to one array: label, components by column, value where absent."""
+
+    label: str
+    columns: tuple[str, ...]
+    absent: float
+
+
+# 3-vectors: nodes without the component stay in place (0), so that a warped shape is whole
+_VECTORS = (
+    _Family("displacement", ("UX", "UY", "UZ"), 0.0),
+    _Family("rotation", ("RX", "RY", "RZ"), 0.0),
+    _Family("force", ("FX", "FY", "FZ"), 0.0),
+    _Family("moment", ("MX", "MY", "MZ"), 0.0),
+    _Family("velocity", ("VX", "VY", "VZ"), 0.0),
+    _Family("acceleration", ("AX", "AY", "AZ"), 0.0),
+)
+# axisymmetric names: r and z are the first two coordinates
+_AXIAL = (
+    _Family("displacement", ("UR", "UZ", "UT"), 0.0),
+    _Family("force", ("FR", "FZ", "FT"), 0.0),
+)
+# symmetric tensors in ParaView's order XX YY ZZ XY YZ XZ
+_TENSORS = (
+    _Family("stress", ("SMXX", "SMYY", "SMZZ", "SMXY", "SMYZ", "SMXZ"), 0.0),
+    _Family("stress", ("SMRR", "SMZZ", "SMTT", "SMRZ", "SMZT", "SMRT"), 0.0),
+    _Family("strain", ("EPXX", "EPYY", "EPZZ", "GAXY", "GAYZ", "GAXZ"), 0.0),
+    _Family("strain", ("EPRR", "EPZZ", "EPTT", "GARZ", "GAZT", "GART"), 0.0),
+)
+
+
+def grid_of(
+    mesh: Mesh,
+    point_fields: Mapping[str, NodeField] | None = None,
+    cell_fields: Mapping[str, CellField] | None = None,
+) -> Grid:
+    """The grid of a mesh with its fields.
+
+    Parameters
+    ----------
+    point_fields, cell_fields : mapping of str to field
+        Name under which a field appears; '' takes the name from its components
+        ('displacement', 'stress', 'TEMP' ...). Values in several points of a cell are averaged.
+
+    Raises
+    ------
+    OutputError
+        For a cell type that VTK has no cell for.
+    """
+    nodes = mesh.sorted_node_ids
+    rows, types, sizes = [], [], []
+    for block in mesh.blocks:
+        if block.cell_type not in ORDERS:
+            raise OutputError(f"cells {block.cell_type} have no VTK counterpart")
+        number, order = ORDERS[block.cell_type]
+        rows.append(np.searchsorted(nodes, block.connectivity[:, list(order)]).ravel())
+        types.append(np.full(len(block), number, dtype=np.uint8))
+        sizes.append(np.full(len(block), len(order), dtype=np.int64))
+    empty = np.empty(0, dtype=np.int64)
+    grid = Grid(
+        nodes,
+        mesh.nodes.coordinates[nodes],
+        np.concatenate([empty, *rows]),
+        np.cumsum(np.concatenate([empty, *sizes])),
+        np.concatenate([np.empty(0, dtype=np.uint8), *types]),
+    )
+    for name, node_field in (point_fields or {}).items():
+        grid.point_data.update(point_arrays(node_field, nodes, name))
+    for name, cell_field in (cell_fields or {}).items():
+        grid.cell_data.update(cell_arrays(cell_field, mesh, name))
+    return grid
+
+
+def point_arrays(chpoint: NodeField, nodes: IntArray, name: str = "") -> dict[str, DataArray]:
+    """The arrays that show a nodal field at `nodes` (n,).
+
+    Translations, rotations, forces ... become 3-vectors (0 where a node has no value), other
+    components scalars (NaN where a node has none). With a `name` the first vector, or the only
+    component, is called so and the rest `name_label`.
+    """
+
+    def column(component: str, absent: float) -> FloatArray:
+        return chpoint.values_at(component, nodes, absent)
+
+    axial = "UR" in chpoint.components or "FR" in chpoint.components
+    families = (*_AXIAL, *_VECTORS[1:]) if axial else _VECTORS
+    return _arrays(tuple(chpoint.components), families, column, name)
+
+
+def cell_arrays(mchaml: CellField, mesh: Mesh, name: str = "") -> dict[str, DataArray]:
+    """The arrays that show a field in cells over the cells of `mesh`, NaN in cells without one.
+
+    Components that are objects (curves, points) are left out.
+    """
+    values = cell_means(mchaml, mesh)
+
+    def column(component: str, absent: float) -> FloatArray:
+        found = values.get(component)
+        return np.full(mesh.n_cells, absent) if found is None else found
+
+    return _arrays(tuple(values), _TENSORS, column, name)
+
+
+def cell_means(mchaml: CellField, mesh: Mesh) -> dict[str, FloatArray]:
+    """Mean of each component in each cell of `mesh`: component to (n_cells,), NaN if absent."""
+    means: dict[str, FloatArray] = {}
+    start = 0
+    for block in mesh.blocks:
+        for part in mchaml.blocks:
+            place = matching_cells(block, part.cells)
+            found = place >= 0
+            if not found.any():
+                continue
+            for component, values in _numeric(part):
+                row = means.setdefault(component, np.full(mesh.n_cells, np.nan))
+                row[start : start + len(block)][found] = values.mean(axis=1)[place[found]]
+        start += len(block)
+    return means
+
+
+def _numeric(part: CellFieldBlock) -> Iterable[tuple[str, FloatArray]]:
+    for component, values in part.components.items():
+        if values.dtype != object:
+            yield (
+                component,
+                np.broadcast_to(values, (len(part.cells), values.shape[-1])).astype(float),
+            )
+
+
+def matching_cells(block: CellBlock, other: CellBlock) -> IntArray:
+    """Row of `other` that holds the same cell, for each cell of `block` (n,); -1 if none."""
+    if block is other or block.raw is other.raw:
+        return np.arange(len(block), dtype=np.int64)
+    if block.cell_type != other.cell_type or len(other) == 0:
+        return np.full(len(block), -1, dtype=np.int64)
+    both = np.sort(np.concatenate([other.connectivity, block.connectivity]), axis=1)
+    _, first, inverse = np.unique(both, axis=0, return_index=True, return_inverse=True)
+    rows: IntArray = first[inverse.ravel()[len(other) :]]
+    return np.where(rows < len(other), rows, -1)
+
+
+def _arrays(
+    components: tuple[str, ...],
+    families: tuple[_Family, ...],
+    column: object,
+    name: str,
+) -> dict[str, DataArray]:
+    assert callable(column)
+    left = list(components)
+    found: list[tuple[str, DataArray]] = []
+    for family in families:
+        held = [c for c in family.columns if c in left]
+        if not held or (len(held) == 1 and family.label in ("rotation", "moment")):
+            continue
+        stacked = np.column_stack([column(c, family.absent) for c in family.columns])
+        found.append((family.label, DataArray(stacked, family.columns)))
+        left = [c for c in left if c not in held]
+    found += [(c, DataArray(column(c, np.nan))) for c in left]
+    if not name:
+        return dict(found)
+    return {name if i == 0 else f"{name}_{label}": array for i, (label, array) in enumerate(found)}

@@ -1,0 +1,136 @@
+"""Series of .vtu files over time, gathered in a .pvd.
+
+Files are called as Cast3M's SORT 'VTK ' calls them: NAME.xxxx.yyyy.vtu, step number and part.
+"""
+
+from __future__ import annotations
+
+import re
+import time as clock
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import TracebackType
+
+from ssilang.io.errors import OutputError
+from ssilang.io.vtk.grid import grid_of
+from ssilang.io.vtk.pvd import Entry, read_pvd, write_pvd
+from ssilang.io.vtk.vtu import Encoding, write_vtu
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.mesh.mesh import Mesh
+
+_LIST_EVERY = 2.0  # seconds between two updates of the .pvd: a long run stays linear in time
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """A mesh with its fields by name at one instant; see `grid_of` for the names."""
+
+    mesh: Mesh
+    point_fields: Mapping[str, NodeField] = field(default_factory=dict)
+    cell_fields: Mapping[str, CellField] = field(default_factory=dict)
+
+
+class SeriesWriter:
+    """Writes one .vtu a part and step, and the .pvd that lists them.
+
+    Use it as a context manager, or call `close`. Each file appears whole; if the run breaks, the
+    .pvd lists the steps that were finished.
+
+    Parameters
+    ----------
+    base : Path
+        Directory and name without extension; an extension .pvd, .vtu or .vtk is dropped.
+    encoding : Encoding
+    resume : bool
+        Go on after the last step of the .pvd that is there.
+
+    Raises
+    ------
+    OutputError
+        If a time does not grow, or the parts change from one step to the next.
+    """
+
+    def __init__(
+        self, base: Path, encoding: Encoding = Encoding.ZIP, *, resume: bool = False
+    ) -> None:
+        self.base = strip_extension(base)
+        self.encoding = encoding
+        self.files: list[Path] = []
+        self._entries = read_pvd(self.list_path) if resume else []
+        self._listed_at = clock.monotonic()
+
+    @property
+    def list_path(self) -> Path:
+        """The .pvd file."""
+        return self.base.with_name(self.base.name + ".pvd")
+
+    @property
+    def last_time(self) -> float | None:
+        """Time of the last step, None before the first."""
+        return self._entries[-1].time if self._entries else None
+
+    @property
+    def part_names(self) -> tuple[str, ...]:
+        """Names of the parts of the last step."""
+        return tuple(e.part for e in self._entries if e.time == self.last_time)
+
+    def write(
+        self,
+        time: float,
+        mesh: Mesh,
+        point_fields: Mapping[str, NodeField] | None = None,
+        cell_fields: Mapping[str, CellField] | None = None,
+    ) -> None:
+        """Write a step of one part."""
+        self.write_parts(time, {"": Part(mesh, point_fields or {}, cell_fields or {})})
+
+    def write_parts(self, time: float, parts: Mapping[str, Part]) -> None:
+        """Write a step of several named parts."""
+        if self.last_time is not None and time <= self.last_time:
+            raise OutputError(f"step at time {time:g} comes after the one at {self.last_time:g}")
+        if self._entries and self.part_names != tuple(parts):
+            old, new = ", ".join(self.part_names), ", ".join(parts)
+            raise OutputError(f"the series has the parts ({old}), the step brings ({new})")
+        number = len({e.time for e in self._entries}) + 1
+        made = [self._write_part(time, number, name, part) for name, part in parts.items()]
+        self._entries += made
+        if clock.monotonic() - self._listed_at > _LIST_EVERY:
+            self._list()
+
+    def close(self) -> None:
+        """Write the .pvd."""
+        if self._entries:
+            self._list()
+
+    def __enter__(self) -> SeriesWriter:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def _write_part(self, time: float, number: int, name: str, part: Part) -> Entry:
+        tag = re.sub(r"[^\w\-]+", "_", name)
+        suffix = f".{number:04d}.{tag}" if tag else f".{number:04d}"
+        path = self.base.with_name(f"{self.base.name}{suffix}.vtu")
+        grid = grid_of(part.mesh, part.point_fields, part.cell_fields)
+        write_vtu(path, grid, self.encoding, time)
+        self.files.append(path)
+        return Entry(time, name, path.name)
+
+    def _list(self) -> None:
+        write_pvd(self.list_path, self._entries)
+        self._listed_at = clock.monotonic()
+        if self.list_path not in self.files:
+            self.files.append(self.list_path)
+
+
+def strip_extension(path: Path) -> Path:
+    """`path` without an extension of VTK's."""
+    return path.with_suffix("") if path.suffix.lower() in (".pvd", ".vtu", ".vtk") else path

@@ -1,0 +1,169 @@
+"""Grids written as .vtu are read back by meshio, an independent reader."""
+
+from __future__ import annotations
+
+import itertools
+from pathlib import Path
+
+import meshio
+import numpy as np
+import pytest
+
+from ssilang.io.errors import OutputError
+from ssilang.io.vtk import Encoding, grid_of, write_vtu
+from ssilang.io.vtk.cells import ORDERS
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.mesh.cells import CELL_TYPES
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh
+from ssilang.kernel.mesh.nodes import NodeTable
+
+# edges of VTK's quadratic cells whose middles follow the corners, in order (vtkQuadratic*.h)
+VTK_EDGES = {
+    "SEG3": [(0, 1)],
+    "TRI6": [(0, 1), (1, 2), (2, 0)],
+    "QUA8": [(0, 1), (1, 2), (2, 3), (3, 0)],
+    "TE10": [(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)],
+    "PR15": [(0, 1), (1, 2), (2, 0), (3, 4), (4, 5), (5, 3), (0, 3), (1, 4), (2, 5)],
+    "CU20": [
+        *[(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4)],
+        *[(0, 4), (1, 5), (2, 6), (3, 7)],
+    ],
+}
+SHAPES = {
+    "SEG3": [(0, 0, 0), (1, 0, 0)],
+    "TRI6": [(0, 0, 0), (1, 0, 0), (0, 1, 0)],
+    "QUA8": [(0, 0, 0), (2, 0, 0), (2, 1, 0), (0, 1, 0)],
+    "TE10": [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)],
+    "PR15": [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (0, 1, 1)],
+    "CU20": [(x, y, z) for z in (0, 1) for x, y in ((0, 0), (2, 0), (2, 1), (0, 1))],
+}
+
+
+def quadratic_cell(name: str) -> Mesh:
+    """One straight cell; middles stand between their neighbours on the contours of the faces."""
+    kind = CELL_TYPES[name]
+    points = np.full((kind.n_nodes, 3), np.nan)
+    points[list(kind.corners)] = SHAPES[name]
+    contours = [local for face, local in kind.faces if face.endswith(("6", "8"))]
+    if kind.dimension < 3:
+        contours = [tuple(range(kind.n_nodes))]
+    for contour in contours:
+        for a, b, c in zip(
+            contour, contour[1:] + contour[:1], contour[2:] + contour[:2], strict=True
+        ):
+            if b not in kind.corners:
+                points[b] = (points[a] + points[c]) / 2
+    assert not np.isnan(points).any()
+    table = NodeTable()
+    return Mesh.of(table, name, table.add(points)[None, :])
+
+
+@pytest.mark.parametrize("name", sorted(VTK_EDGES))
+def test_quadratic_middles_follow_vtk_edges(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # meshio 5.3 knows the node order of the 15-node wedge but not its dimension
+    monkeypatch.setitem(meshio._mesh.topological_dimension, "wedge15", 3)
+    write_vtu(tmp_path / "cell.vtu", grid_of(quadratic_cell(name)))
+    read = meshio.read(tmp_path / "cell.vtu")
+    points = read.points[read.cells[0].data[0]]
+    corners = len(SHAPES[name])
+    assert np.array_equal(points[:corners], np.array(SHAPES[name], dtype=float))
+    for middle, (a, b) in zip(points[corners:], VTK_EDGES[name], strict=True):
+        assert np.allclose(middle, (points[a] + points[b]) / 2, atol=0)
+
+
+def test_every_cell_type_of_the_kernel_can_be_written() -> None:
+    assert set(CELL_TYPES) <= set(ORDERS)
+
+
+def square_with_fields() -> tuple[Mesh, NodeField, CellField]:
+    table = NodeTable()
+    ids = table.add(np.array(list(itertools.product(range(4), range(3))), dtype=float))
+    grid = ids.reshape(4, 3)
+    corners = [grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]]
+    mesh = Mesh.of(table, "QUA4", np.stack([c.ravel() for c in corners], axis=1))
+    rng = np.random.default_rng(3)
+    field = NodeField.of(
+        table, ids, {"UX": rng.normal(size=12), "UY": rng.normal(size=12), "TEMP": np.arange(12.0)}
+    )
+    stress = {c: rng.normal(size=(6, 4)) for c in ("SMXX", "SMYY", "SMZZ", "SMXY")}
+    cells = CellFieldBlock(mesh.blocks[0], {**stress, "VONM": np.arange(6.0)[:, None]}, "STRESSES")
+    return mesh, field, CellField((cells,), "CONTRAINTES")
+
+
+@pytest.mark.parametrize("encoding", list(Encoding))
+def test_fields_come_back_exactly(encoding: Encoding, tmp_path: Path) -> None:
+    mesh, field, stress = square_with_fields()
+    write_vtu(tmp_path / "f.vtu", grid_of(mesh, {"": field}, {"": stress}), encoding, time=0.25)
+    read = meshio.read(tmp_path / "f.vtu")
+    assert np.array_equal(read.points, mesh.nodes.coordinates[mesh.sorted_node_ids])
+    moved = read.point_data["displacement"]
+    assert np.array_equal(moved[:, 0], field.components["UX"].values)
+    assert np.array_equal(moved[:, 1], field.components["UY"].values)
+    assert not moved[:, 2].any()
+    assert np.array_equal(read.point_data["TEMP"], np.arange(12.0))
+    tensor = read.cell_data["stress"][0]
+    means = stress.blocks[0].components
+    assert np.array_equal(tensor[:, 3], means["SMXY"].mean(axis=1))
+    assert not tensor[:, 4:].any()
+    assert np.array_equal(read.cell_data["VONM"][0], np.arange(6.0))
+
+
+def test_a_named_field_gives_its_name_to_the_first_vector(tmp_path: Path) -> None:
+    mesh, field, _ = square_with_fields()
+    write_vtu(tmp_path / "v.vtu", grid_of(mesh, {"velocity": field}))
+    assert set(meshio.read(tmp_path / "v.vtu").point_data) == {"velocity", "velocity_TEMP"}
+
+
+def test_component_names_of_gibiane_stay_readable(tmp_path: Path) -> None:
+    mesh, field, stress = square_with_fields()
+    write_vtu(tmp_path / "n.vtu", grid_of(mesh, {"": field}, {"": stress}), Encoding.TEXT)
+    text = (tmp_path / "n.vtu").read_text()
+    assert 'ComponentName0="UX"' in text
+    assert 'ComponentName3="SMXY"' in text
+
+
+def test_nodes_without_a_value_stay_in_place_and_scalars_are_unknown_there() -> None:
+    mesh, field, _ = square_with_fields()
+    some = field.node_ids[:5]
+    part = NodeField.of(mesh.nodes, some, {"UX": np.ones(5), "TEMP": np.ones(5)})
+    data = grid_of(mesh, {"": part}).point_data
+    assert data["displacement"].values[5:].sum() == 0
+    assert np.isnan(data["TEMP"].values[5:].astype(float)).all()
+
+
+def test_cell_values_find_their_cells_in_another_order() -> None:
+    mesh, _, stress = square_with_fields()
+    block = mesh.blocks[0]
+    turned = CellBlock.make(mesh.nodes, "QUA4", np.roll(block.connectivity[::-1], 1, axis=1))
+    other = Mesh(mesh.nodes, (turned,))
+    data = grid_of(other, {}, {"": stress}).cell_data
+    assert np.array_equal(data["VONM"].values, np.arange(6.0)[::-1])
+
+
+def test_cells_without_a_value_are_unknown() -> None:
+    mesh, _, stress = square_with_fields()
+    points = Mesh.of(mesh.nodes, "POI1", mesh.sorted_node_ids[:2, None])
+    both = Mesh(mesh.nodes, (*points.blocks, *mesh.blocks))
+    values = grid_of(both, {}, {"": stress}).cell_data["VONM"].values.astype(float)
+    assert np.isnan(values[:2]).all()
+    assert np.array_equal(values[2:], np.arange(6.0))
+
+
+def test_joint_is_the_cell_between_its_faces() -> None:
+    table = NodeTable()
+    ids = table.add(np.array([(0.0, 0), (1, 0), (0, 1), (1, 1)]))
+    grid = grid_of(Mesh.of(table, "RAC2", ids[None, :]))
+    x, y, _ = grid.points[grid.connectivity].T
+    area = 0.5 * np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y)
+    assert area == 1.0
+
+
+def test_nothing_is_left_when_a_file_cannot_be_written(tmp_path: Path) -> None:
+    mesh, field, _ = square_with_fields()
+    (tmp_path / "blocked").write_text("a file where a directory is needed")
+    with pytest.raises(OutputError, match="cannot be written"):
+        write_vtu(tmp_path / "blocked" / "x.vtu", grid_of(mesh, {"": field}))
+    assert [p.name for p in tmp_path.iterdir()] == ["blocked"]
