@@ -1,0 +1,411 @@
+"""Runs statements: operands in a pile, the first unread word tried as an operator, results in front."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any
+
+from ssilang.language import tree
+from ssilang.language.call import Call, Operand, run_operator
+from ssilang.language.errors import SsiError
+from ssilang.language.procedures import call_procedure, method_of
+from ssilang.language.registry import Operator, find_operator
+from ssilang.language.source import Span
+from ssilang.language.values import (
+    ANNULE,
+    Mot,
+    Objet,
+    Procedure,
+    Table,
+    Texte,
+    normalised,
+    type_of,
+)
+
+if TYPE_CHECKING:
+    from ssilang.language.session import Session
+
+
+class StopRun(Exception):
+    """FIN: the run ends."""
+
+
+class LeaveLoop(Exception):
+    """QUIT name."""
+
+    def __init__(self, name: str) -> None:
+        super().__init__(name)
+        self.name = name
+
+
+class NextTurn(Exception):
+    """ITER name."""
+
+    def __init__(self, name: str) -> None:
+        super().__init__(name)
+        self.name = name
+
+
+# operators whose operands must stay as written
+_RAW_ITEMS = frozenset({"TEXT"})
+
+
+class Evaluator:
+    """Executes the nodes of parsed scripts in a session."""
+
+    def __init__(self, session: Session) -> None:
+        self.session = session
+        self.current_span: Span | None = None
+        self.statement_count = 0
+        self._run_node: dict[type, Callable[[Any], None]] = {
+            tree.Statement: self._statement,
+            tree.If: self._if,
+            tree.Loop: self._loop,
+            tree.Definition: self._define,
+        }
+        self._operand: dict[type, Callable[[Any], list[Operand]]] = {
+            tree.Number: lambda i: [Operand(i.value, i.span)],
+            tree.Quoted: lambda i: [Operand(Mot(i.text), i.span)],
+            tree.Symbol: lambda i: [Operand(Mot(i.text), i.span)],
+            tree.Name: self._name,
+            tree.Paren: self._paren,
+            tree.Path: self._path,
+            tree.Attribute: self._attribute,
+        }
+
+    # ---- blocks ----------------------------------------------------------------------------
+
+    def run(self, nodes: Sequence[tree.Node]) -> None:
+        """Run nodes in order."""
+        run_node = self._run_node
+        for node in nodes:
+            run_node[type(node)](node)
+
+    def _if(self, node: tree.If) -> None:
+        statement = node.condition
+        self.current_span = statement.span
+        results = self.phrase(statement.items, statement.span)
+        if len(results) != 1 or not isinstance(results[0].value, bool):
+            found = type_of(results[0].value) if results else "nothing"
+            span = results[0].span if results else statement.span
+            raise SsiError("condition", span, found=found)
+        self.run(node.then if results[0].value else node.otherwise)
+
+    def _loop(self, node: tree.Loop) -> None:
+        limit = self._count(node)
+        counter = ("&" + node.name)[:24]
+        frame = self.session.frame
+        turn = 1
+        while limit is None or turn <= limit:
+            frame.variables[counter] = turn
+            try:
+                self.run(node.body)
+            except NextTurn as jump:
+                if jump.name != node.name:
+                    raise
+            except LeaveLoop as jump:
+                if jump.name != node.name:
+                    raise
+                return
+            turn += 1
+        frame.variables[counter] = turn
+
+    def _count(self, node: tree.Loop) -> int | None:
+        if not node.count:
+            return None
+        self.current_span = node.span
+        results = self.phrase(node.count, node.span)
+        value = results[0].value if len(results) == 1 else None
+        if isinstance(value, float) and value == int(value):
+            value = int(value)
+        if not isinstance(value, int) or isinstance(value, bool):
+            found = type_of(value) if results else "nothing"
+            raise SsiError("loop-count", node.count[0].span, found=found)
+        return None if value < 0 else value
+
+    def _define(self, node: tree.Definition) -> None:
+        self.session.frame.assign(node.name, Procedure(node.name, node))
+
+    # ---- statements ------------------------------------------------------------------------
+
+    def _statement(self, statement: tree.Statement) -> None:
+        self.current_span = statement.span
+        self.statement_count += 1
+        limit = self.session.limits.statements
+        if limit is not None and self.statement_count > limit:
+            raise SsiError("statement-limit", statement.span, limit=limit)
+        if not statement.targets:
+            left = self.phrase(statement.items, statement.span, one_name=True)
+            self._nothing_left([o for o in left if not o.result] if left else left)
+            return
+        one = len(statement.targets) == 1
+        path = statement.targets[0]
+        deep = isinstance(path, tree.Path) and len(path.indices) > 1
+        left = self.phrase(statement.items, statement.span, one_name=one and not deep)
+        self._assign(statement, left)
+
+    def _assign(self, statement: tree.Statement, left: list[Operand]) -> None:
+        targets = self._typed_targets(statement.targets)
+        self._nothing_left(left[:1] if left and self._is_call(left) else [])
+        for target, wanted in targets:
+            at = 0
+            if wanted:
+                at = next((i for i, o in enumerate(left) if type_of(o.value) == wanted), -1)
+            if at < 0 or at >= len(left):
+                raise SsiError(
+                    "no-result",
+                    target.span,
+                    count=len(targets),
+                    wanted=wanted,
+                    name=target.span.text,
+                )
+            self.store(target, left.pop(at).value)
+        if left:
+            self._nothing_left(left)
+
+    @staticmethod
+    def _is_call(left: list[Operand]) -> bool:
+        """A phrase of several leftovers that begins with a bare unknown word: a misspelt call."""
+        first = left[0]
+        return (
+            len(left) > 1 and isinstance(first.value, Mot) and not first.result and not first.name
+        )
+
+    @staticmethod
+    def _typed_targets(items: Sequence[tree.Item]) -> list[tuple[tree.Item, str]]:
+        targets: list[tuple[tree.Item, str]] = []
+        i = 0
+        while i < len(items):
+            wanted = ""
+            if i + 2 < len(items) and isinstance(sign := items[i + 1], tree.Symbol):
+                kind = items[i + 2]
+                if sign.text == "*" and isinstance(kind, tree.Name | tree.Quoted):
+                    targets.append((items[i], kind.text.upper().rstrip()))
+                    i += 3
+                    continue
+            targets.append((items[i], wanted))
+            i += 1
+        return targets
+
+    def store(self, target: tree.Item, value: Any) -> None:
+        """Give a value to a target: name, table access or attribute."""
+        if isinstance(target, tree.Name):
+            self.session.frame.variables[target.text] = value
+        elif isinstance(target, tree.Path):
+            self._store_in_table(target, value)
+        elif isinstance(target, tree.Attribute):
+            self._object_of(target).attributes[target.name] = value
+        else:
+            raise SsiError("target", target.span)
+
+    def _store_in_table(self, target: tree.Path, value: Any) -> None:
+        holder = self._single(target.base)
+        for index in target.indices[:-1]:
+            holder = self._element(holder, index, target)
+        if not isinstance(holder, Table):
+            raise SsiError("not-a-table", target.span, found=type_of(holder))
+        holder.set(self._single(target.indices[-1]), value)
+
+    def _nothing_left(self, left: list[Operand]) -> None:
+        if not left:
+            return
+        operand = next((o for o in left if isinstance(o.value, Mot) and not o.name), left[0])
+        if isinstance(operand.value, Mot) and not operand.result and not operand.name:
+            raise SsiError("unknown-operator", operand.span, name=str(operand.value))
+        raise SsiError("excess", operand.span, found=type_of(operand.value), name=operand.name)
+
+    # ---- phrases ---------------------------------------------------------------------------
+
+    def phrase(
+        self, items: Sequence[tree.Item], span: Span, one_name: bool = True
+    ) -> list[Operand]:
+        """Run a phrase; returns the operands that are left: results first."""
+        if items and isinstance(first := items[0], tree.Name | tree.Quoted):
+            word = first.text.upper()[:4]
+            if word in _RAW_ITEMS and self.session.frame.find(word) is None:
+                return [Operand(self._texte(items[1:]), span, result=True)]
+        call = Call(self.session, self.operands_of(items), span)
+        self._reduce(call)
+        if one_name and call.operands:
+            self._implicit_point(call)
+        return call.operands
+
+    def _texte(self, items: Sequence[tree.Item]) -> Texte:
+        parts: list[tree.Item] = []
+        for item in items:
+            if isinstance(item, tree.Quoted):
+                parts.extend(_words_of(item))
+            else:
+                parts.append(item)
+        return Texte(tuple(parts))
+
+    def _reduce(self, call: Call) -> None:
+        while True:
+            operand = call.read("PROCEDUR")
+            if operand is not None:
+                call.span = operand.span
+                results = call_procedure(self, operand.value, call)
+                self._push(call, results, operand.span)
+                continue
+            found, operand = self._next_operator(call)
+            if found is None or operand is None:
+                return
+            self._operate(found, operand, call)
+            if found.terminal:
+                return
+
+    def _next_operator(self, call: Call) -> tuple[Operator | None, Operand | None]:
+        i = call._word_index()
+        if i is None:
+            return None, None
+        operand = call.operands[i]
+        if operand.result and len(call.operands) == 1:
+            return None, None
+        found = find_operator(str(operand.value).upper().rstrip())
+        if found is None:
+            return None, None
+        del call.operands[i]
+        return found, operand
+
+    def _operate(self, found: Operator, operand: Operand, call: Call) -> None:
+        call.span, call.name, call.used = operand.span, found.full_name, []
+        results = self.guarded(lambda: run_operator(found, call), operand.span, found.full_name)
+        span = operand.span
+        if isinstance(results, tuple):
+            self._push(call, list(results), span)
+        elif results is not None:
+            self._push(call, [results], span)
+
+    def guarded(self, action: Callable[[], Any], span: Span, name: str) -> Any:
+        """Run what an operator does; whatever it raises becomes an error of the script."""
+        try:
+            return action()
+        except (SsiError, StopRun, LeaveLoop, NextTurn, KeyboardInterrupt):
+            raise
+        except RecursionError:
+            raise SsiError("recursion", span, limit=self.session.limits.recursion) from None
+        except MemoryError:
+            raise SsiError("memory", span, operator=name) from None
+        except Exception as problem:
+            message = getattr(problem, "message", None)
+            if message is None:
+                raise SsiError(
+                    "internal",
+                    span,
+                    operator=name,
+                    kind=type(problem).__name__,
+                    reason=str(problem),
+                ) from problem
+            hint = getattr(problem, "hint", "")
+            raise SsiError(
+                "bad-value", span, operator=name, message=message, hint=hint
+            ) from problem
+
+    @staticmethod
+    def _push(call: Call, results: Sequence[Any], span: Span) -> None:
+        call.operands[:0] = [Operand(normalised(r), span, result=True) for r in results]
+
+    def _implicit_point(self, call: Call) -> None:
+        numbers = [o for o in call.operands if type(o.value) in (int, float)]
+        if len(numbers) < 2 or len(numbers) != len(call.operands):
+            return
+        dimension = self.session.dimension()
+        if dimension not in (2, 3) or self.session.make_point is None:
+            return
+        span = numbers[0].span.to(numbers[-1].span)
+        if len(numbers) < dimension:
+            raise SsiError("third-coordinate", span)
+        if len(numbers) == dimension:
+            point = self.session.make_point([float(o.value) for o in numbers])
+            call.operands[:] = [Operand(point, span, result=True)]
+
+    # ---- operands --------------------------------------------------------------------------
+
+    def operands_of(self, items: Sequence[tree.Item]) -> list[Operand]:
+        """Operands of items: names replaced by their objects, parentheses run."""
+        table = self._operand
+        if len(items) == 1:
+            return table[type(items[0])](items[0])
+        parens = {
+            i: self._paren(item) for i, item in enumerate(items) if isinstance(item, tree.Paren)
+        }
+        found: list[Operand] = []
+        for i, item in enumerate(items):
+            found.extend(parens[i] if i in parens else table[type(item)](item))
+        return found
+
+    def _name(self, item: tree.Name) -> list[Operand]:
+        value = self.session.frame.find(item.text)
+        if value is None:
+            value = self.session.library.find(item.text)
+            if value is None:
+                return [Operand(Mot(item.text), item.span)]
+        return [Operand(value, item.span, item.text)]
+
+    def _paren(self, item: tree.Paren) -> list[Operand]:
+        results = self.phrase(item.items, item.span)
+        if not results:
+            return []
+        if self._is_call(results):
+            self._nothing_left(results)
+        if len(results) > 1:
+            unread = [o for o in results[1:] if not o.result]
+            self._nothing_left(unread or results[1:])
+        value = results[0].value
+        return [Operand(value, item.span, results[0].name)]
+
+    def _single(self, item: tree.Item) -> Any:
+        operands = self._operand[type(item)](item)
+        if len(operands) != 1:
+            raise SsiError("index", item.span)
+        return operands[0].value
+
+    def _path(self, item: tree.Path) -> list[Operand]:
+        value = self._single(item.base)
+        for index in item.indices:
+            value = self._element(value, index, item)
+        return [Operand(value, item.span)]
+
+    def _element(self, holder: Any, index: tree.Item, item: tree.Path) -> Any:
+        if isinstance(holder, Objet):
+            holder = holder.attributes.get(self._single(index), ANNULE)
+            return holder
+        if not isinstance(holder, Table):
+            raise SsiError(
+                "not-a-table", item.base.span, found=type_of(holder), name=item.base.span.text
+            )
+        where = self._single(index)
+        value = holder.get(where)
+        if value is None:
+            raise SsiError(
+                "no-index", index.span, index=where, known=[k for k, _ in holder.items()]
+            )
+        return value
+
+    def _attribute(self, item: tree.Attribute) -> list[Operand]:
+        holder = self._object_of(item)
+        method = method_of(holder, item.name)
+        if method is not None:
+            return [Operand(method, item.span, item.name)]
+        value = holder.attributes.get(item.name)
+        if value is None:
+            return [Operand(Mot(item.name), item.span)]
+        return [Operand(value, item.span, item.name)]
+
+    def _object_of(self, item: tree.Attribute) -> Objet:
+        holder = self._single(item.base) if item.base is not None else self.session.frame.object
+        if not isinstance(holder, Objet):
+            raise SsiError("not-an-object", item.span, found=type_of(holder))
+        return holder
+
+
+def _words_of(item: tree.Quoted) -> list[tree.Item]:
+    """Items of the text of a quoted part of a TEXTE."""
+    from ssilang.language.parser import parse_statements
+    from ssilang.language.source import Source
+
+    if not item.text.strip():
+        return []
+    source = Source(item.span.source.name, item.text + ";")
+    statements = parse_statements(source)
+    return [i for s in statements for i in s.items]

@@ -1,0 +1,184 @@
+"""Text to statements, by the Lark grammar."""
+
+from __future__ import annotations
+
+import re
+from functools import lru_cache
+from typing import Any
+
+from lark import Lark, Token, Transformer, UnexpectedInput
+
+from ssilang.language import tree
+from ssilang.language.errors import SeveralErrors, SsiError
+from ssilang.language.source import Source, Span
+from ssilang.resources import resource
+
+NAME_LENGTH = 24  # objects' names keep 24 characters
+MAX_ERRORS = 20
+
+_STATEMENT_END = re.compile(r"'(?:[^']|'')*'|;", re.DOTALL)
+
+
+class _Builder(Transformer[Token, Any]):
+    """Turns grammar rules into tree nodes; `source` is set before each parse."""
+
+    source: Source
+
+    def _span(self, first: Any, last: Any) -> Span:
+        start = first.start_pos if isinstance(first, Token) else first.span.start
+        end = last.end_pos if isinstance(last, Token) else last.span.end
+        return Span(self.source, start or 0, end or 0)
+
+    def word(self, c: list[Token]) -> tree.Name:
+        text = str(c[0])
+        return tree.Name(text.upper()[:NAME_LENGTH], text, self._span(c[0], c[0]))
+
+    def string(self, c: list[Token]) -> tree.Quoted:
+        text = c[0][1:-1].replace("''", "'")
+        if "\n" in text:
+            text = " ".join(part.rstrip() for part in text.split("\n"))
+        return tree.Quoted(text, self._span(c[0], c[0]))
+
+    def integer(self, c: list[Token]) -> tree.Number:
+        return tree.Number(int(c[0]), self._span(c[0], c[0]))
+
+    def real(self, c: list[Token]) -> tree.Number:
+        text = c[0].upper().replace("D", "E")
+        return tree.Number(float(text), self._span(c[0], c[0]))
+
+    def symbol(self, c: list[Token]) -> tree.Symbol:
+        return tree.Symbol(str(c[0]).upper(), self._span(c[0], c[0]))
+
+    def items(self, c: list[Any]) -> tuple[tree.Item, ...]:
+        return tuple(c)
+
+    def paren(self, c: list[Any]) -> tree.Paren:
+        items = c[0]
+        span = self._span(items[0], items[-1])
+        text = self.source.code
+        start = text.rfind("(", 0, span.start)
+        end = text.find(")", span.end)
+        return tree.Paren(items, Span(self.source, start, end + 1))
+
+    def empty_paren(self, c: list[Any]) -> tree.Paren:
+        return tree.Paren((), Span(self.source, 0, 0))
+
+    def path(self, c: list[Any]) -> tree.Path:
+        return tree.Path(c[0], tuple(c[1:]), self._span(c[0], c[-1]))
+
+    def attribute(self, c: list[Any]) -> tree.Attribute:
+        return tree.Attribute(c[0], str(c[2]).upper(), self._span(c[0], c[2]))
+
+    def own_attribute(self, c: list[Any]) -> tree.Attribute:
+        return tree.Attribute(None, str(c[1]).upper(), self._span(c[0], c[1]))
+
+    def empty(self, c: list[Any]) -> None:
+        return None
+
+    def plain(self, c: list[Any]) -> tree.Statement:
+        items = c[0]
+        return tree.Statement((), items, self._span(items[0], items[-1]))
+
+    def assignment(self, c: list[Any]) -> tree.Statement:
+        return tree.Statement(c[0], c[1], self._span(c[0][0], c[1][-1]), assigns=True)
+
+    def empty_assignment(self, c: list[Any]) -> tree.Statement:
+        return tree.Statement(c[0], (), self._span(c[0][0], c[0][-1]), assigns=True)
+
+    def start(self, c: list[Any]) -> list[tree.Statement]:
+        return [s for s in c if s is not None]
+
+
+@lru_cache(maxsize=1)
+def _parser() -> tuple[Lark, _Builder]:
+    builder = _Builder()
+    text = resource("grammar", "ssi.lark").read_text(encoding="utf-8")
+    return Lark(text, parser="lalr", lexer="basic", transformer=builder, cache=False), builder
+
+
+def parse_statements(source: Source) -> list[tree.Statement]:
+    """Cut a source into statements.
+
+    Raises
+    ------
+    SeveralErrors
+        All syntax errors found, at most `MAX_ERRORS`.
+    """
+    lark, builder = _parser()
+    builder.source = source
+    text = source.code
+    if not text.rstrip().endswith(";") and text.strip():
+        text = _closed(text)
+    errors: list[SsiError] = []
+    while True:
+        try:
+            statements: list[tree.Statement] = lark.parse(text)  # type: ignore[assignment]
+        except UnexpectedInput as problem:
+            error, text = _explain(source, text, problem)
+            errors.append(error)
+            if len(errors) >= MAX_ERRORS:
+                break
+            continue
+        break
+    if errors:
+        raise SeveralErrors(errors)
+    return statements
+
+
+def _closed(text: str) -> str:
+    """The text with the last statement ended, when all that misses is its semicolon."""
+    last = 0
+    for m in _STATEMENT_END.finditer(text):
+        if m.group() == ";":
+            last = m.end()
+    tail = text[last:]
+    # `FIN` without semicolon at the end of the file is common; anything else is an error
+    return text + ";" if re.fullmatch(r"\s*FIN\s*", tail, re.IGNORECASE) else text
+
+
+def _explain(source: Source, text: str, problem: UnexpectedInput) -> tuple[SsiError, str]:
+    """The error of one bad statement, and the text with that statement blanked."""
+    offset = problem.pos_in_stream
+    at_end = offset is None or offset < 0 or offset >= len(text)
+    place = len(text) if at_end else int(offset or 0)
+    begin, end = 0, len(text)
+    for m in _STATEMENT_END.finditer(text):
+        if m.group() != ";":
+            continue
+        if m.start() < place:
+            begin = m.end()
+        elif m.start() >= place:
+            end = m.end()
+            break
+    begin += len(text[begin:]) - len(text[begin:].lstrip())
+    error = _syntax_error(source, text, begin, min(place, len(text)), end)
+    blank = "".join(ch if ch == "\n" else " " for ch in text[begin:end])
+    return error, text[:begin] + blank + text[end:]
+
+
+def _syntax_error(source: Source, text: str, begin: int, place: int, end: int) -> SsiError:
+    statement = text[begin:end]
+    head = Span(source, begin, min(end, begin + len(statement.split("\n")[0])))
+    bare = re.sub(r"'(?:[^']|'')*'", lambda m: " " * len(m.group()), statement, flags=re.DOTALL)
+    quote = bare.find("'")
+    if quote >= 0:
+        return SsiError("unclosed-string", Span(source, begin + quote, begin + quote + 1))
+    if bare.count("(") != bare.count(")"):
+        return _unbalanced(source, bare, begin)
+    if place >= len(text.rstrip()):
+        return SsiError("missing-semicolon", head)
+    if text[place] == "=":
+        return SsiError("second-equal", Span(source, place, place + 1))
+    return SsiError("syntax", Span(source, place, place + 1), found=text[place])
+
+
+def _unbalanced(source: Source, bare: str, begin: int) -> SsiError:
+    opened: list[int] = []
+    for i, ch in enumerate(bare):
+        if ch == "(":
+            opened.append(i)
+        elif ch == ")":
+            if not opened:
+                return SsiError("extra-paren", Span(source, begin + i, begin + i + 1))
+            opened.pop()
+    return SsiError("unclosed-paren", Span(source, begin + opened[-1], begin + opened[-1] + 1))

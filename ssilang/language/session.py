@@ -1,0 +1,104 @@
+"""A session: everything that one run of scripts shares. There is no other global state."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, TextIO
+
+from ssilang.language.library import Library
+from ssilang.language.scopes import Frame
+from ssilang.language.values import Mot
+
+
+@dataclass
+class Limits:
+    """What a run may use up; None means no limit."""
+
+    recursion: int = 200
+    statements: int | None = None
+
+
+@dataclass
+class Check:
+    """A value that a script compared with a reference (shown in the summary)."""
+
+    name: str
+    value: float
+    expected: float
+    tolerance: float
+
+
+@dataclass
+class Session:
+    """State of a run.
+
+    Parameters
+    ----------
+    script_directory : Path
+        Folder of the script: files are read below it.
+    output_directory : Path
+        Files are written below it.
+    allowed : list of Path
+        Further folders that may be read and written (`--allow`).
+    out : text stream
+        Where MESS and LIST print.
+    workspace : object
+        State of the operators (nodes, OPTI's options); made by the operators' package.
+    make_point : function
+        Turns numbers into a POINT, set by the operators' package.
+    dimension : function
+        Number of coordinates a point has (OPTI DIME), 0 before it is set.
+    """
+
+    script_directory: Path = field(default_factory=Path.cwd)
+    output_directory: Path = field(default_factory=lambda: Path("results"))
+    allowed: list[Path] = field(default_factory=list)
+    out: TextIO = field(default_factory=lambda: sys.stdout)
+    language: str = "en"
+    options: dict[str, Any] = field(default_factory=dict)
+    limits: Limits = field(default_factory=Limits)
+    workspace: Any = None
+    make_point: Callable[[list[float]], Any] | None = None
+    dimension: Callable[[], int] = lambda: 0
+    warnings: list[Any] = field(default_factory=list)
+    checks: list[Check] = field(default_factory=list)
+    statistics: dict[str, Any] = field(default_factory=dict)
+    started: float = field(default_factory=time.perf_counter)
+
+    def __post_init__(self) -> None:
+        from ssilang.language.evaluator import Evaluator
+
+        self.root = Frame()
+        for name, value in _PREDEFINED.items():
+            self.root.assign(name, value)
+        self.frame = self.root
+        self.library = Library(self)
+        self.evaluator = Evaluator(self)
+
+    def print(self, text: str = "") -> None:
+        """Print a line of results."""
+        self.out.write(text + "\n")
+
+    def warn(self, code: str, span: Any = None, **data: object) -> None:
+        """Report a warning: kept for the summary, shown by the renderer that listens."""
+        from ssilang.language.errors import SsiError
+
+        warning = SsiError(code, span or self.evaluator.current_span, **data)
+        self.warnings.append(warning)
+        if self.on_warning is not None:
+            self.on_warning(warning)
+
+    on_warning: Callable[[Any], None] | None = None
+
+
+_PREDEFINED: dict[str, Any] = {
+    "VRAI": True,
+    "FAUX": False,
+    "PI": 3.141592653589793,
+    "D": Mot("DROI"),
+    "C": Mot("CERC"),
+}

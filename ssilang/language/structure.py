@@ -1,0 +1,226 @@
+"""Nesting of statements into blocks, by their first word, as the language skips branches."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from ssilang.language.errors import SeveralErrors, SsiError
+from ssilang.language.parser import parse_statements
+from ssilang.language.source import Source, Span
+from ssilang.language.tree import (
+    Definition,
+    If,
+    Item,
+    Loop,
+    Name,
+    Node,
+    Number,
+    Parameter,
+    Quoted,
+    Script,
+    Statement,
+    Symbol,
+)
+
+_CONTROL = {
+    "SI": "SI", "SINO": "SINO", "FINS": "FINS", "REPE": "REPE", "FIN": "FIN", "DEBP": "DEBP",
+    "FINP": "FINP", "DEBM": "DEBM", "FINM": "FINM",
+}  # fmt: skip
+_OPENS = {"SI": "FINSI", "SINO": "FINSI", "REPE": "FIN", "DEBP": "FINP", "DEBM": "FINM"}
+
+
+def control_word(statement: Statement) -> str:
+    """The control word that a statement begins with, '' if none."""
+    return _CONTROL.get(statement.first_word[:4].rstrip(), "")
+
+
+@dataclass
+class _Open:
+    """A block under construction."""
+
+    kind: str
+    statement: Statement | None
+    body: list[Node] = field(default_factory=list)
+    name: str = ""
+    then: tuple[Node, ...] = ()
+
+
+def parse(source: Source) -> Script:
+    """Parse and structure a script.
+
+    Raises
+    ------
+    SeveralErrors
+        With all syntax errors, then all errors of nesting.
+    """
+    return structure(parse_statements(source), source)
+
+
+def structure(statements: list[Statement], source: Source) -> Script:
+    """Nest a flat list of statements; see `parse`."""
+    errors: list[SsiError] = []
+    stack = [_Open("", None)]
+    for statement in statements:
+        word = control_word(statement)
+        if word == "FIN" and len(statement.items) == 1:
+            word = ""  # FIN alone stops the run
+        try:
+            _STEPS.get(word, _plain)(stack, statement)
+        except SsiError as error:
+            errors.append(error)
+    for left in reversed(stack[1:]):
+        assert left.statement is not None
+        errors.append(
+            SsiError(
+                "unclosed-block",
+                left.statement.span,
+                word=left.statement.first_word,
+                missing=_OPENS[left.kind] + (f" {left.name}" if left.kind == "REPE" else ""),
+            )
+        )
+    if errors:
+        raise SeveralErrors(errors)
+    return Script(tuple(stack[0].body), Span(source, 0, len(source.text)))
+
+
+def _plain(stack: list[_Open], statement: Statement) -> None:
+    stack[-1].body.append(statement)
+
+
+def _rest(statement: Statement) -> Statement:
+    return Statement((), statement.items[1:], statement.span)
+
+
+def _si(stack: list[_Open], statement: Statement) -> None:
+    stack.append(_Open("SI", statement))
+
+
+def _sinon(stack: list[_Open], statement: Statement) -> None:
+    top = stack[-1]
+    if top.kind != "SI":
+        raise _stray(stack, statement, "SI")
+    top.then, top.body, top.kind = tuple(top.body), [], "SINO"
+
+
+def _finsi(stack: list[_Open], statement: Statement) -> None:
+    top = stack[-1]
+    if top.kind not in ("SI", "SINO") or top.statement is None:
+        raise _stray(stack, statement, "SI")
+    stack.pop()
+    body = tuple(top.body)
+    then, otherwise = (body, ()) if top.kind == "SI" else (top.then, body)
+    span = top.statement.span.to(statement.span)
+    stack[-1].body.append(If(_rest(top.statement), then, otherwise, span))
+
+
+def _repe(stack: list[_Open], statement: Statement) -> None:
+    rest = list(statement.items[1:])
+    at = next((i for i, item in enumerate(rest) if isinstance(item, Name | Quoted)), None)
+    if at is None:
+        raise SsiError("loop-name", statement.span)
+    item = rest.pop(at)
+    assert isinstance(item, Name | Quoted)
+    opened = _Open("REPE", Statement((), (statement.items[0], *rest), statement.span))
+    opened.name = item.text.upper()
+    stack.append(opened)
+
+
+def _fin(stack: list[_Open], statement: Statement) -> None:
+    item = statement.items[1]
+    name = item.text.upper() if isinstance(item, Name | Quoted) else ""
+    top = stack[-1]
+    if top.kind != "REPE" or top.statement is None:
+        raise _stray(stack, statement, "REPE")
+    stack.pop()
+    if name != top.name:
+        stack[-1].body.append(_loop(top, statement))
+        raise SsiError("wrong-loop-name", item.span, expected=top.name, found=name)
+    stack[-1].body.append(_loop(top, statement))
+
+
+def _loop(top: _Open, end: Statement) -> Loop:
+    assert top.statement is not None
+    count = top.statement.items[1:]
+    return Loop(top.name, count, tuple(top.body), top.statement.span.to(end.span))
+
+
+def _debp(stack: list[_Open], statement: Statement) -> None:
+    kind = control_word(statement)
+    if len(statement.items) < 2 or not isinstance(statement.items[1], Name | Quoted):
+        raise SsiError("procedure-name", statement.span)
+    opened = _Open(kind, statement)
+    opened.name = statement.items[1].text.upper()
+    stack.append(opened)
+
+
+def _finp(stack: list[_Open], statement: Statement) -> None:
+    kind = "DEBP" if control_word(statement) == "FINP" else "DEBM"
+    top = stack[-1]
+    if top.kind != kind or top.statement is None:
+        raise _stray(stack, statement, kind)
+    stack.pop()
+    stack[-1].body.append(
+        Definition(
+            top.name,
+            _parameters(top.statement.items[2:]),
+            tuple(top.body),
+            statement.items[1:],
+            kind == "DEBM",
+            top.statement.span.to(statement.span),
+        )
+    )
+
+
+def _parameters(items: tuple[Item, ...]) -> tuple[Parameter, ...]:
+    found: list[Parameter] = []
+    i = 0
+    while i < len(items):
+        item = items[i]
+        if not isinstance(item, Name | Quoted):
+            raise SsiError("parameter", item.span)
+        name, span, optional, types = item.text.upper(), item.span, False, []
+        i += 1
+        while i + 1 < len(items) and isinstance(sign := items[i], Symbol) and sign.text in "*/":
+            kind = items[i + 1]
+            if not isinstance(kind, Name | Quoted):
+                raise SsiError("parameter", kind.span)
+            optional = optional or sign.text == "/"
+            types.append(kind.text.upper().rstrip())
+            span = span.to(kind.span)
+            i += 2
+        if i < len(items) and isinstance(items[i], Number | Symbol):
+            raise SsiError("parameter", items[i].span)
+        found.append(
+            Parameter(
+                name, types[0] if types else "", optional, types[1] if len(types) > 1 else "", span
+            )
+        )
+    return tuple(found)
+
+
+def _stray(stack: list[_Open], statement: Statement, opener: str) -> SsiError:
+    top = stack[-1]
+    return SsiError(
+        "stray-block-end",
+        statement.span,
+        word=statement.first_word,
+        opener=opener,
+        inside=top.statement.first_word if top.statement else "",
+        inside_name=top.name,
+        line=top.statement.span.source.position(top.statement.span.start)[0]
+        if top.statement
+        else 0,
+    )
+
+
+_STEPS = {
+    "SI": _si,
+    "SINO": _sinon,
+    "FINS": _finsi,
+    "REPE": _repe,
+    "FIN": _fin,
+    "DEBP": _debp,
+    "DEBM": _debp,
+    "FINP": _finp,
+    "FINM": _finp,
+}

@@ -1,0 +1,229 @@
+"""Objects of the language itself: words, texts, lists, tables, procedures; and the type words.
+
+ENTIER, FLOTTANT and LOGIQUE are Python's int, float and bool. Classes of the kernel become
+objects of the language by `register_type`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from ssilang.language.tree import Definition, Item
+
+
+class Mot(str):
+    """A word (MOT). Trailing blanks do not count in comparisons made by the language."""
+
+    __slots__ = ()
+
+
+class Texte:
+    """A macro (TEXTE): items that are put where its name stands and evaluated there."""
+
+    __slots__ = ("items",)
+
+    def __init__(self, items: tuple[Item, ...]) -> None:
+        self.items = items
+
+
+class Annule:
+    """What a missing optional argument is (ANNULE)."""
+
+    __slots__ = ()
+
+    def __repr__(self) -> str:
+        return "ANNULE"
+
+
+ANNULE = Annule()
+
+
+class ListReel:
+    """LISTREEL: `values`, array (n,) of float. REMP changes it in place."""
+
+    __slots__ = ("values",)
+
+    def __init__(self, values: object = ()) -> None:
+        self.values: NDArray[np.float64] = np.atleast_1d(np.array(values, dtype=float))
+
+    def __len__(self) -> int:
+        return len(self.values)
+
+
+class ListEnti:
+    """LISTENTI: `values`, array (n,) of int."""
+
+    __slots__ = ("values",)
+
+    def __init__(self, values: object = ()) -> None:
+        self.values: NDArray[np.int64] = np.atleast_1d(np.array(values, dtype=np.int64))
+
+    def __len__(self) -> int:
+        return len(self.values)
+
+
+class ListMots:
+    """LISTMOTS: `values`, a list of words."""
+
+    __slots__ = ("values",)
+
+    def __init__(self, values: Iterator[str] | list[str] | tuple[str, ...] = ()) -> None:
+        self.values = [Mot(v) for v in values]
+
+    def __len__(self) -> int:
+        return len(self.values)
+
+
+class ListChpo:
+    """LISTCHPO: a list of nodal fields."""
+
+    __slots__ = ("values",)
+
+    def __init__(self, values: list[object] | tuple[object, ...] = ()) -> None:
+        self.values = list(values)
+
+    def __len__(self) -> int:
+        return len(self.values)
+
+
+class ListObje:
+    """LISTOBJE: a list of objects of one type (ENUM)."""
+
+    __slots__ = ("values",)
+
+    def __init__(self, values: list[object] | tuple[object, ...] = ()) -> None:
+        self.values = list(values)
+
+    def __len__(self) -> int:
+        return len(self.values)
+
+
+def key_of(index: object) -> tuple[object, ...]:
+    """Dictionary key of a table index: type matters (1 and 1. differ), objects by identity."""
+    if isinstance(index, str):
+        return ("M", index.rstrip())
+    if isinstance(index, bool):
+        return ("L", index)
+    if isinstance(index, int):
+        return ("E", index)
+    if isinstance(index, float):
+        return ("F", index)
+    identity = getattr(index, "identity", None)
+    return ("O", id(index)) if identity is None else ("O", type(index).__name__, identity)
+
+
+class Table:
+    """TABLE: indices of any type to values of any type; shared, never copied by assignment."""
+
+    __slots__ = ("_items",)
+
+    def __init__(self, subtype: str = "") -> None:
+        self._items: dict[tuple[object, ...], tuple[object, object]] = {}
+        if subtype:
+            self.set(Mot("SOUSTYPE"), Mot(subtype))
+
+    def get(self, index: object, default: object = None) -> object:
+        """Value at an index, `default` if there is none."""
+        pair = self._items.get(key_of(index))
+        return default if pair is None else pair[1]
+
+    def set(self, index: object, value: object) -> None:
+        """Create or replace a value."""
+        self._items[key_of(index)] = (index, value)
+
+    def has(self, index: object) -> bool:
+        """Whether the index exists."""
+        return key_of(index) in self._items
+
+    def remove(self, index: object) -> None:
+        """Forget an index; nothing happens if it does not exist."""
+        self._items.pop(key_of(index), None)
+
+    def items(self) -> list[tuple[object, object]]:
+        """Pairs (index, value), in order of creation."""
+        return list(self._items.values())
+
+    @property
+    def subtype(self) -> str:
+        """The word at index SOUSTYPE, '' if none."""
+        value = self.get("SOUSTYPE")
+        return str(value).rstrip() if isinstance(value, str) else ""
+
+    def __len__(self) -> int:
+        return len(self._items)
+
+
+class Procedure:
+    """PROCEDUR: a definition; `origin` says where it came from (script, stdlib)."""
+
+    __slots__ = ("definition", "name", "origin")
+
+    def __init__(self, name: str, definition: Definition, origin: str = "script") -> None:
+        self.name = name
+        self.definition = definition
+        self.origin = origin
+
+
+class Objet:
+    """OBJET: attributes and methods (OBJE, DEBM)."""
+
+    __slots__ = ("attributes", "class_name", "methods")
+
+    def __init__(self, class_name: str = "") -> None:
+        self.class_name = class_name
+        self.attributes: dict[str, object] = {}
+        self.methods: dict[str, Procedure] = {}
+
+
+_TYPE_WORDS: dict[type, str] = {
+    bool: "LOGIQUE",
+    int: "ENTIER",
+    float: "FLOTTANT",
+    Mot: "MOT",
+    str: "MOT",
+    Texte: "TEXTE",
+    Annule: "ANNULE",
+    ListReel: "LISTREEL",
+    ListEnti: "LISTENTI",
+    ListMots: "LISTMOTS",
+    ListChpo: "LISTCHPO",
+    ListObje: "LISTOBJE",
+    Table: "TABLE",
+    Procedure: "PROCEDUR",
+    Objet: "OBJET",
+}
+
+
+def register_type(cls: type, word: str) -> None:
+    """Make a class an object of the language: `word` is its type, 8 characters at most."""
+    _TYPE_WORDS[cls] = word
+
+
+def type_of(value: object) -> str:
+    """Type word of a value, such as 'MAILLAGE' (not blank-padded)."""
+    word = _TYPE_WORDS.get(type(value))
+    if word is not None:
+        return word
+    for cls in type(value).__mro__:
+        if cls in _TYPE_WORDS:
+            return _TYPE_WORDS[cls]
+    return type(value).__name__.upper()[:8]
+
+
+def known_types() -> frozenset[str]:
+    """All type words."""
+    return frozenset(_TYPE_WORDS.values())
+
+
+def normalised(value: object) -> object:
+    """The language's form of what an operator returned (numpy scalars, plain strings)."""
+    if isinstance(value, np.generic):
+        value = value.item()
+    if type(value) is str:
+        return Mot(value)
+    return value
