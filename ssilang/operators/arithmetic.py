@@ -1,0 +1,149 @@
+"""`+ - * / **` on every type that has them: dispatch by pairs of types."""
+
+from __future__ import annotations
+
+import operator as python
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from ssilang.language.call import Call
+from ssilang.language.errors import SsiError
+from ssilang.language.registry import Help, operator
+from ssilang.language.values import ListEnti, ListReel, type_of
+
+Rule = Callable[[Any, Any], Any]
+
+RULES: dict[tuple[str, str, str], Rule] = {}
+"""(sign, left type, right type) -> function; modules of other families add theirs by `rule`."""
+
+
+def rule(signs: str, left: str, right: str, function: Callable[[str], Rule] | None = None) -> Any:
+    """Register what signs (blank separated) do on a pair of types.
+
+    With `function`, it is called with the sign and returns the rule; else use as a decorator of
+    a function `(sign, a, b)`.
+    """
+
+    def add(body: Callable[[str, Any, Any], Any]) -> Callable[[str, Any, Any], Any]:
+        for sign in signs.split():
+            RULES[sign, left, right] = lambda a, b, s=sign: body(s, a, b)
+        return body
+
+    if function is None:
+        return add
+    for sign in signs.split():
+        RULES[sign, left, right] = function(sign)
+    return function
+
+
+def _integer_divide(a: int, b: int) -> int:
+    """Quotient of integers, cut towards zero."""
+    quotient = abs(a) // abs(b)
+    return quotient if (a >= 0) == (b >= 0) else -quotient
+
+
+def _integer_power(a: int, b: int) -> int:
+    return int(a**b) if b >= 0 else int(float(a) ** b)
+
+
+def _real_power(a: float, b: float) -> float:
+    value = a**b
+    if isinstance(value, complex):
+        raise ValueError(f"{a:g} ** {b:g} has no real value")
+    return float(value)
+
+
+_INTEGER: dict[str, Rule] = {
+    "+": python.add, "-": python.sub, "*": python.mul, "/": _integer_divide, "**": _integer_power,
+}  # fmt: skip
+_REAL: dict[str, Rule] = {
+    "+": python.add, "-": python.sub, "*": python.mul, "/": python.truediv, "**": _real_power,
+}  # fmt: skip
+_ARRAY: dict[str, Rule] = {
+    "+": np.add, "-": np.subtract, "*": np.multiply, "/": np.divide, "**": np.power,
+}  # fmt: skip
+SIGNS = "+ - * / **"
+
+
+def _list_rule(sign: str) -> Rule:
+    compute = _ARRAY[sign]
+
+    def run(a: Any, b: Any) -> Any:
+        x, y = getattr(a, "values", a), getattr(b, "values", b)
+        if isinstance(x, np.ndarray) and isinstance(y, np.ndarray) and len(x) != len(y):
+            raise ValueError(f"the lists have {len(x)} and {len(y)} items")
+        if all(isinstance(v, int) or getattr(v, "dtype", None) == np.int64 for v in (x, y)):
+            return ListEnti(_integer_arrays(sign, np.asarray(x), np.asarray(y)))
+        return ListReel(compute(np.asarray(x, dtype=float), np.asarray(y, dtype=float)))
+
+    return run
+
+
+def _integer_arrays(sign: str, x: Any, y: Any) -> Any:
+    if sign == "/":
+        return np.trunc(np.divide(x, y)).astype(np.int64)
+    if sign == "**":
+        return np.trunc(np.power(x.astype(float), y)).astype(np.int64)
+    return _ARRAY[sign](x, y)
+
+
+for _a in ("ENTIER", "FLOTTANT"):
+    for _b in ("ENTIER", "FLOTTANT"):
+        rule(SIGNS, _a, _b, (_INTEGER if _a == _b == "ENTIER" else _REAL).__getitem__)
+for _a in ("LISTENTI", "LISTREEL"):
+    for _b in ("ENTIER", "FLOTTANT", "LISTENTI", "LISTREEL"):
+        rule(SIGNS, _a, _b, _list_rule)
+        if _b in ("ENTIER", "FLOTTANT"):
+            rule(SIGNS, _b, _a, _list_rule)
+
+
+def compute(sign: str, call: Call) -> Any:
+    """Read two operands and combine them.
+
+    Raises
+    ------
+    SsiError
+        'no-rule' when the types do not go together, 'arithmetic' for a division by zero.
+    """
+    left = call.read("*")
+    right = call.read("*") if left is not None else None
+    if left is None or right is None:
+        raise SsiError("two-operands", call.span, operator=sign)
+    types = type_of(left.value), type_of(right.value)
+    found = RULES.get((sign, *types))
+    if found is None:
+        raise SsiError(
+            "no-rule", left.span.to(right.span), operator=sign, left=types[0], right=types[1]
+        )
+    try:
+        return found(left.value, right.value)
+    except (ArithmeticError, ValueError) as problem:
+        raise SsiError(
+            "arithmetic", left.span.to(right.span), operator=sign, reason=str(problem)
+        ) from None
+
+
+_TEXTS = {
+    "+": ("Sum of two objects.", "Somme de deux objets."),
+    "-": ("Difference of two objects.", "Différence de deux objets."),
+    "*": ("Product of two objects.", "Produit de deux objets."),
+    "/": (
+        "Quotient; of two integers it is an integer, cut towards zero.",
+        "Quotient ; entre deux entiers, c'est un entier tronqué vers zéro.",
+    ),
+    "**": ("Power.", "Puissance."),
+}
+for _sign, (_en, _fr) in _TEXTS.items():
+    operator(
+        _sign,
+        family="arithmetic",
+        help=Help(
+            _en + " Phrases run from left to right, without precedence: 1 + 2 * 3 is 9.",
+            _fr + " Les phrases vont de gauche à droite, sans priorité : 1 + 2 * 3 vaut 9.",
+            f"OBJ3 = OBJ1 {_sign} OBJ2 ;",
+            (f"x = 6 {_sign} 3 ; LIST x ;",),
+        ),
+        reads_itself=True,
+    )(lambda call, s=_sign: compute(s, call))

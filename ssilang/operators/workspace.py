@@ -1,0 +1,71 @@
+"""What OPTI sets and operators share during a session: nodes, dimension, mode, element, density."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any, cast
+
+import numpy as np
+
+from ssilang.kernel.mesh.mesh import Point
+from ssilang.kernel.mesh.nodes import NodeTable
+from ssilang.kernel.model import Mode
+from ssilang.language.session import Session
+
+
+@dataclass
+class Workspace:
+    """State of the operators in one session.
+
+    Attributes
+    ----------
+    nodes : NodeTable
+    dimension : int
+        OPTI DIME; 0 until it is set.
+    mode : Mode
+        OPTI MODE.
+    fourier : int
+        Harmonic of OPTI MODE FOUR.
+    element : str
+        OPTI ELEM: type of the cells that generators make.
+    density : float
+        OPTI DENS / DENS: mesh size that new points carry, 0 before it is set.
+    colour : int
+        OPTI COUL: index of the colour given to new cells.
+    title : str
+        TITR: title of the next pictures.
+    options : dict
+        Every other option of OPTI, as set, for VALE.
+    """
+
+    nodes: NodeTable = field(default_factory=NodeTable)
+    dimension: int = 0
+    mode: Mode = Mode.PLANE_STRAIN
+    fourier: int = 0
+    element: str = ""
+    density: float = 0.0
+    colour: int = 0
+    title: str = ""
+    options: dict[str, Any] = field(default_factory=dict)
+
+    def point(self, coordinates: list[float]) -> Point:
+        """A new point with the density in force."""
+        ids = self.nodes.add(np.asarray([coordinates], dtype=float), self.density)
+        return Point(self.nodes, int(ids[0]))
+
+
+def workspace(session: Session) -> Workspace:
+    """The session's workspace."""
+    return cast(Workspace, session.workspace)
+
+
+def open_session(session: Session) -> Session:
+    """Give a session its workspace and load all operators."""
+    from ssilang.operators.loader import load_operators
+
+    load_operators()
+    made = Workspace()
+    session.workspace = made
+    session.make_point = made.point
+    session.dimension = lambda: made.dimension
+    return session
