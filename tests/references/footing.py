@@ -1,0 +1,208 @@
+"""Rigid footings on a no-tension Winkler soil: moment against rotation, onset of uplift.
+
+`k0` is the foundation modulus (Pa/m), N > 0 the compressive resultant, theta > 0 the rotation;
+N constant means that the footing finds its settlement by itself.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import brentq
+
+from .arcs import Array
+
+
+@dataclass(frozen=True)
+class Strip:
+    """Rectangle of width B (in the plane of rotation) and length L."""
+
+    width: float
+    length: float
+    k0: float
+    normal: float
+
+    @property
+    def stiffness(self) -> float:
+        """Rotational stiffness in full contact."""
+        return self.k0 * self.length * self.width**3 / 12.0
+
+    @property
+    def kern(self) -> float:
+        """Eccentricity at which an edge lifts off."""
+        return self.width / 6.0
+
+    @property
+    def uplift_moment(self) -> float:
+        """Moment at which an edge lifts off."""
+        return self.normal * self.kern
+
+    @property
+    def uplift_rotation(self) -> float:
+        """Rotation at which an edge lifts off."""
+        return 2.0 * self.normal / (self.k0 * self.length * self.width**2)
+
+    @property
+    def limit_moment(self) -> float:
+        """Moment that no rotation exceeds."""
+        return self.normal * self.width / 2.0
+
+    def contact(self, theta: Array) -> Array:
+        """Width in contact."""
+        ratio = np.maximum(np.asarray(theta, float) / self.uplift_rotation, 1.0)
+        return self.width / np.sqrt(ratio)
+
+    def moment(self, theta: Array) -> Array:
+        """Moment about the centre."""
+        theta = np.asarray(theta, float)
+        lifted = self.normal * (self.width / 2.0 - self.contact(theta) / 3.0)
+        return np.where(theta <= self.uplift_rotation, self.stiffness * theta, lifted)
+
+    def tangent(self, theta: Array) -> Array:
+        """dM/dtheta."""
+        theta = np.asarray(theta, float)
+        safe = np.maximum(theta, self.uplift_rotation)
+        lifted = self.normal * self.contact(theta) / (6.0 * safe)
+        return np.where(theta <= self.uplift_rotation, self.stiffness, lifted)
+
+    def lift(self, theta: Array) -> Array:
+        """Upward displacement of the centre, counted from the unstressed soil."""
+        theta = np.asarray(theta, float)
+        settled = -self.normal / (self.k0 * self.length * self.width)
+        return np.where(
+            theta <= self.uplift_rotation,
+            settled,
+            theta * (self.width / 2.0 - self.contact(theta)),
+        )
+
+    def energy(self, theta: float) -> float:
+        """Work of the moment from 0 to theta (nothing is dissipated)."""
+        start, ratio = self.uplift_rotation, theta / self.uplift_rotation
+        if ratio <= 1.0:
+            return 0.5 * self.stiffness * theta**2
+        # M/M_u = 3 - 2 ratio^-1/2
+        path = 3.0 * (ratio - 1.0) - 4.0 * (np.sqrt(ratio) - 1.0)
+        return float(self.uplift_moment * start * (0.5 + path))
+
+
+@dataclass(frozen=True)
+class Disc:
+    """Circular footing of radius r."""
+
+    radius: float
+    k0: float
+    normal: float
+
+    @property
+    def stiffness(self) -> float:
+        """Rotational stiffness in full contact."""
+        return self.k0 * np.pi * self.radius**4 / 4.0
+
+    @property
+    def kern(self) -> float:
+        """Eccentricity at which the edge lifts off."""
+        return self.radius / 4.0
+
+    @property
+    def uplift_moment(self) -> float:
+        """Moment at which the edge lifts off."""
+        return self.normal * self.kern
+
+    @property
+    def uplift_rotation(self) -> float:
+        """Rotation at which the edge lifts off."""
+        return self.normal / (np.pi * self.k0 * self.radius**3)
+
+    @property
+    def limit_moment(self) -> float:
+        """Moment that no rotation exceeds."""
+        return self.normal * self.radius
+
+    def half_angle(self, theta: float) -> float:
+        """Half angle of the segment in contact (pi: full contact)."""
+        if theta <= self.uplift_rotation:
+            return float(np.pi)
+        scale = self.k0 * theta * self.radius**3
+
+        def excess(phi: float) -> float:
+            lever = np.cos(phi) * (phi - np.sin(phi) * np.cos(phi))
+            return float(2.0 / 3.0 * np.sin(phi) ** 3 - lever - self.normal / scale)
+
+        return float(brentq(excess, 1e-12, np.pi, xtol=1e-15, rtol=1e-14))
+
+    def moment(self, theta: float) -> float:
+        """Moment about the centre."""
+        if theta <= self.uplift_rotation:
+            return self.stiffness * theta
+        phi = self.half_angle(theta)
+        s, c = np.sin(phi), np.cos(phi)
+        inertia = (phi - s * c + 2.0 * s**3 * c) / 4.0
+        return float(self.k0 * theta * self.radius**4 * (inertia - 2.0 / 3.0 * c * s**3))
+
+
+@dataclass(frozen=True)
+class TwoSprings:
+    """Two springs of stiffness k (N/m each) at +-b: linear, then a constant moment."""
+
+    half_width: float
+    k: float
+    normal: float
+
+    @property
+    def stiffness(self) -> float:
+        """Rotational stiffness with both in contact."""
+        return 2.0 * self.k * self.half_width**2
+
+    @property
+    def uplift_moment(self) -> float:
+        """Moment at which one opens: also the limit."""
+        return self.normal * self.half_width
+
+    @property
+    def uplift_rotation(self) -> float:
+        """Rotation at which one opens."""
+        return self.normal / (2.0 * self.k * self.half_width)
+
+    def moment(self, theta: Array) -> Array:
+        """Moment about the centre."""
+        return np.minimum(self.stiffness * np.asarray(theta, float), self.uplift_moment)
+
+
+def macro_element(
+    width: float, length: float, k0: float, v: float, theta: float
+) -> tuple[float, float, Array]:
+    """Upward force, moment and tangent of a strip at centre lift v and rotation theta > 0.
+
+    They derive from the potential `k0 L/6 theta^2 c^3`, c = B/2 - v/theta, in partial contact;
+    v is upwards and theta > 0 lifts the side +x. Returns (N, M, tangent (2, 2)): N >= 0 is the
+    soil's reaction (minus the derivative with respect to v), M the derivative with respect to
+    theta, the tangent the potential's second derivatives.
+    """
+    half = width / 2.0
+    edges = v - half * theta, v + half * theta
+    if edges[0] >= 0.0:
+        return 0.0, 0.0, np.zeros((2, 2))
+    kl = k0 * length
+    if edges[1] <= 0.0:
+        tangent = kl * np.diag([width, width**3 / 12.0])
+        return -kl * width * v, kl * width**3 / 12.0 * theta, tangent
+    c = half - v / theta
+    force = kl * theta * c**2 / 2.0
+    moment = kl * (theta * c**3 / 3.0 + v * c**2 / 2.0)
+    cross = kl * (c**2 / 2.0 - half * c)
+    rotation = kl * (c**3 / 3.0 + c * (v / theta) * (c + v / theta))
+    return force, moment, np.array([[kl * c, cross], [cross, rotation]])
+
+
+def onset_acceleration(kern: float, height: float, gravity: float = 9.81) -> float:
+    """Slowly applied base acceleration at which a rigid block of centre height `height` lifts."""
+    return gravity * kern / height
+
+
+def onset_step_acceleration(kern: float, height: float, gravity: float = 9.81) -> float:
+    """Suddenly applied and held base acceleration that just reaches lift-off.
+
+    A rigid block on a full-contact Winkler soil answers a step with twice the static rotation.
+    """
+    return 0.5 * onset_acceleration(kern, height, gravity)
