@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import operator as python
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -28,7 +29,7 @@ def rule(signs: str, left: str, right: str, function: Callable[[str], Rule] | No
 
     def add(body: Callable[[str, Any, Any], Any]) -> Callable[[str, Any, Any], Any]:
         for sign in signs.split():
-            RULES[sign, left, right] = lambda a, b, s=sign: body(s, a, b)
+            RULES[sign, left, right] = partial(body, sign)
         return body
 
     if function is None:
