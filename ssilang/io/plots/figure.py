@@ -1,0 +1,107 @@
+"""New figures in one style, and their files."""
+
+from __future__ import annotations
+
+import io
+import re
+import unicodedata
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ssilang.io.atomic import replacing
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+DPI = 150
+_STYLE: dict[str, object] = {
+    "font.family": "DejaVu Sans",
+    "font.size": 10.0,
+    "axes.titlesize": 12.0,
+    "axes.titleweight": "bold",
+    "axes.titlepad": 10.0,
+    "axes.labelsize": 10.5,
+    "axes.linewidth": 0.8,
+    "axes.edgecolor": "#4a4f57",
+    "axes.labelcolor": "#1b1f24",
+    "axes.formatter.use_mathtext": True,
+    "axes.formatter.limits": (-3, 4),
+    "xtick.color": "#4a4f57",
+    "ytick.color": "#4a4f57",
+    "xtick.direction": "out",
+    "ytick.direction": "out",
+    "xtick.labelsize": 9.0,
+    "ytick.labelsize": 9.0,
+    "grid.color": "#d5d9de",
+    "grid.linewidth": 0.6,
+    "legend.frameon": True,
+    "legend.framealpha": 0.92,
+    "legend.edgecolor": "#d5d9de",
+    "legend.fontsize": 9.0,
+    "lines.linewidth": 1.6,
+    "lines.markersize": 5.5,
+    "svg.fonttype": "none",
+    "svg.hashsalt": "ssilang",
+}
+
+
+@contextmanager
+def drawing(width: float = 7.2, height: float = 4.6) -> Iterator[Figure]:
+    """A new figure of `width` x `height` inches; the style holds inside the block."""
+    import matplotlib as mpl
+    from matplotlib.figure import Figure
+
+    with mpl.rc_context(_STYLE):  # type: ignore[arg-type]
+        figure = Figure(figsize=(width, height), dpi=DPI, layout="constrained")
+        figure.get_layout_engine().set(w_pad=0.08, h_pad=0.08)  # type: ignore[union-attr, call-arg]
+        yield figure
+
+
+class Pictures:
+    """The pictures of one run, numbered in order: 0001_name.png ...
+
+    Parameters
+    ----------
+    directory : Path
+    """
+
+    def __init__(self, directory: Path) -> None:
+        self.directory = directory
+        self.files: list[Path] = []
+        self._count = 0
+
+    def save(self, figure: Figure, name: str, formats: tuple[str, ...] = ("png",)) -> list[Path]:
+        """Write `figure` under the next number in each format; the files appear whole.
+
+        Raises
+        ------
+        OutputError
+            If the directory cannot be written.
+        """
+        self._count += 1
+        stem = f"{self._count:04d}_{slug(name)}".rstrip("_")
+        made = [save_figure(figure, self.directory / f"{stem}.{form}") for form in formats]
+        self.files += made
+        return made
+
+
+def save_figure(figure: Figure, path: Path) -> Path:
+    """Write `figure` in the format of the extension of `path`, whole or not at all."""
+    import matplotlib as mpl
+
+    buffer = io.BytesIO()
+    form = path.suffix.lstrip(".")
+    metadata = {"Date": None} if form == "svg" else None
+    with mpl.rc_context(_STYLE):  # type: ignore[arg-type]
+        figure.savefig(buffer, format=form, metadata=metadata)
+    with replacing(path) as stream:
+        stream.write(buffer.getvalue())
+    return path
+
+
+def slug(title: str) -> str:
+    """A short file name made from a title: ASCII letters, digits and hyphens."""
+    plain = unicodedata.normalize("NFKD", title).encode("ascii", "ignore").decode()
+    return re.sub(r"[^A-Za-z0-9]+", "-", plain).strip("-").lower()[:40].rstrip("-")
