@@ -1,0 +1,92 @@
+"""The joint elements by name, as data, and their place in the catalogue of elements.
+
+Sides: a surface joint (RACC, LIAI) has its first half of nodes on the upper side U (structure),
+its second half on the lower side L (soil); a joint of two points has L first, then U, so that
+its normal goes from the first node to the second. The jump is always u_U - u_L.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ssilang.kernel.elements.catalog import (
+    FRAME_MODES,
+    PLANE_MODES,
+    ElementKind,
+    register_element,
+)
+from ssilang.kernel.fields.cell_field import Support
+from ssilang.kernel.joints.integration import GAUSS
+from ssilang.kernel.model import Mode, Zone
+
+
+@dataclass(frozen=True)
+class JointElement:
+    """One joint element.
+
+    Attributes
+    ----------
+    cell_type : str
+    face : str
+        Cell type of one side ('POI1' for two points).
+    dimension : int
+        Of space; the jump has as many components.
+    strains, stresses : tuple of str
+        Names of the jump's and the traction's components, shear first, normal last.
+    """
+
+    name: str
+    cell_type: str
+    face: str
+    dimension: int
+    strains: tuple[str, ...]
+    stresses: tuple[str, ...]
+
+
+_LINE = (("DRSN", "DRN"), ("SMSN", "SMN"))
+_SURFACE = (("DRS1", "DRS2", "DRN"), ("SMS1", "SMS2", "SMN"))
+_POINTS = {
+    2: (("GXY", "EXX"), ("EFFY", "EFFX")),
+    3: (("GXY", "GXZ", "EXX"), ("EFFY", "EFFZ", "EFFX")),
+}
+
+_SURFACES: dict[str, JointElement] = {
+    e.name: e
+    for e in (
+        JointElement("JOI2", "RAC2", "SEG2", 2, *_LINE),
+        JointElement("JOI3", "RAC3", "SEG3", 2, *_LINE),
+        JointElement("JOT3", "LIA3", "TRI3", 3, *_SURFACE),
+        JointElement("JOI4", "LIA4", "QUA4", 3, *_SURFACE),
+        JointElement("JOT6", "LIA6", "TRI6", 3, *_SURFACE),
+        JointElement("JOI8", "LIA8", "QUA8", 3, *_SURFACE),
+    )
+}
+JOINT_NAMES = ("JOI1", *_SURFACES)
+
+
+def joint_element(zone: Zone) -> JointElement:
+    """The joint element of a zone (JOI1 exists in 2D and 3D)."""
+    if zone.element == "JOI1":
+        return JointElement(
+            "JOI1", "SEG2", "POI1", zone.mode.dimension, *_POINTS[zone.mode.dimension]
+        )
+    return _SURFACES[zone.element]
+
+
+def is_joint(zone: Zone) -> bool:
+    """True if the zone holds joints."""
+    return zone.element in JOINT_NAMES
+
+
+def register_joints() -> None:
+    """Put the joints in the catalogue of elements."""
+    one: dict[Support, int] = {"RIGIDITE": 1}
+    register_element(ElementKind("JOI1", "SEG2", "joint", FRAME_MODES, one, False, "POI1"))
+    plane = (*PLANE_MODES, Mode.AXISYMMETRIC)
+    for e in _SURFACES.values():
+        modes = plane if e.dimension == 2 else (Mode.THREE_DIMENSIONAL,)
+        points: dict[Support, int] = {"RIGIDITE": GAUSS[e.face]}
+        register_element(ElementKind(e.name, e.cell_type, "joint", modes, points, False, e.face))
+
+
+register_joints()
