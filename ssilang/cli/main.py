@@ -1,0 +1,142 @@
+"""The command line: `ssilang FILE`, `run`, `check`, `help`, `repl`."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from ssilang.cli.run import RunOptions
+
+# one BLAS thread: several make small factorisations many times slower
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+os.environ.setdefault("MKL_NUM_THREADS", "1")
+
+OK, FAILED, USAGE = 0, 1, 2
+
+_COMMANDS = ("run", "check", "help", "repl")
+
+
+def _parser() -> argparse.ArgumentParser:
+    from ssilang import __version__
+
+    parser = argparse.ArgumentParser(
+        prog="ssilang",
+        description="Runs Gibiane scripts for soil-structure interaction with uplift.",
+        epilog="ssilang case.ssi is short for ssilang run case.ssi; ssilang alone is interactive.",
+    )
+    parser.add_argument("--version", action="version", version=f"ssilang {__version__}")
+    commands = parser.add_subparsers(dest="command", metavar="{run,check,help,repl}")
+    run = commands.add_parser("run", help="run a script (- for standard input)")
+    run.add_argument("file")
+    _run_arguments(run)
+    run.add_argument("-i", "--interactive", action="store_true", help="keep the session after it")
+    check = commands.add_parser("check", help="report mistakes without running")
+    check.add_argument("files", nargs="+")
+    check.add_argument("--syntax-only", action="store_true", help="structure alone")
+    check.add_argument("--lang", choices=("en", "fr"), default="en", help="language of messages")
+    helper = commands.add_parser("help", help="help of an operator or procedure")
+    helper.add_argument("word", nargs="?", default="")
+    helper.add_argument("--lang", choices=("en", "fr"), default="en")
+    repl = commands.add_parser("repl", help="interactive session")
+    _run_arguments(repl)
+    return parser
+
+
+def _run_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--out", type=Path, help="output folder (default results/<case>)")
+    parser.add_argument(
+        "--allow", type=Path, action="append", default=[], help="further folder to read and write"
+    )
+    parser.add_argument("--lang", choices=("en", "fr"), default="en", help="language of messages")
+    parser.add_argument("--debug", action="store_true", help="show Python's traceback too")
+    parser.add_argument("--max-recursion", type=int, default=200, help="procedure calls in depth")
+    parser.add_argument("--max-statements", type=int, help="stop after so many statements")
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Entry point; returns the exit code (0 fine, 1 the script failed, 2 wrong usage)."""
+    words = list(sys.argv[1:] if arguments is None else arguments)
+    if words and not words[0].startswith("-") and words[0] not in _COMMANDS:
+        words.insert(0, "run")
+    if words == ["-"]:
+        words.insert(0, "run")
+    if not words:
+        words = ["repl"] if sys.stdin.isatty() else ["run", "-"]
+    options = _parser().parse_args(words)
+    try:
+        return _ACTIONS[options.command or "repl"](options)
+    except BrokenPipeError:  # the reader of our output left
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return OK
+
+
+def _run(options: argparse.Namespace) -> int:
+    from ssilang.cli.run import run_source
+    from ssilang.language.diagnostics import render
+    from ssilang.language.errors import SsiError
+    from ssilang.language.source import Source
+
+    try:
+        if options.file == "-":
+            source = Source("standard input", sys.stdin.read())
+        else:
+            source = Source.read(Path(options.file))
+    except SsiError as error:
+        sys.stderr.write(render(error, options.lang) + "\n")
+        return USAGE
+    result = run_source(source, _run_options(options), sys.stdout, sys.stderr)
+    if options.interactive:
+        from ssilang.cli.repl import interact
+
+        return interact(result.session)
+    return result.exit_code
+
+
+def _run_options(options: argparse.Namespace) -> RunOptions:
+    from ssilang.cli.run import RunOptions
+    from ssilang.language.session import Limits
+
+    return RunOptions(
+        output_directory=options.out,
+        allowed=[p.resolve() for p in options.allow],
+        language=options.lang,
+        debug=options.debug,
+        limits=Limits(options.max_recursion, options.max_statements),
+    )
+
+
+def _check(options: argparse.Namespace) -> int:
+    from ssilang.cli.check import check_file
+
+    failed = [
+        check_file(Path(f), options.syntax_only, options.lang, sys.stdout) for f in options.files
+    ]
+    return FAILED if any(failed) else OK
+
+
+def _help(options: argparse.Namespace) -> int:
+    from ssilang.cli.helping import show_help
+
+    return show_help(options.word, options.lang, sys.stdout)
+
+
+def _repl(options: argparse.Namespace) -> int:
+    from ssilang.cli.repl import start
+
+    return start(_run_options(options))
+
+
+_ACTIONS: dict[str, Callable[[argparse.Namespace], int]] = {
+    "run": _run,
+    "check": _check,
+    "help": _help,
+    "repl": _repl,
+}
+
+if __name__ == "__main__":
+    sys.exit(main())

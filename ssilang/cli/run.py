@@ -1,0 +1,142 @@
+"""Runs a script from its file or text: the session, the outputs, the messages, the exit code."""
+
+from __future__ import annotations
+
+import io
+import sys
+import traceback
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TextIO
+
+from ssilang.language.diagnostics import render
+from ssilang.language.errors import SeveralErrors, SsiError
+from ssilang.language.evaluator import LeaveLoop, NextTurn, StopRun
+from ssilang.language.procedures import LeaveProcedure
+from ssilang.language.session import Limits, Session
+from ssilang.language.source import Source
+from ssilang.language.structure import parse
+
+
+@dataclass
+class RunResult:
+    """How a run ended.
+
+    Attributes
+    ----------
+    exit_code : int
+        0 fine, 1 the script failed.
+    output : str
+        What MESS and LIST printed, when the run was told to keep it.
+    errors : list of SsiError
+    message : str
+        The rendered errors.
+    session : Session
+        With all objects of the script, in `session.root`.
+    """
+
+    exit_code: int
+    session: Session
+    output: str = ""
+    errors: list[SsiError] = field(default_factory=list)
+    message: str = ""
+
+
+@dataclass
+class RunOptions:
+    """What the command line sets for a run."""
+
+    output_directory: Path | None = None
+    allowed: list[Path] = field(default_factory=list)
+    language: str = "en"
+    debug: bool = False
+    quiet: bool = False
+    limits: Limits = field(default_factory=Limits)
+
+
+def make_session(source: Source, options: RunOptions, out: TextIO) -> Session:
+    """A session with all operators, ready to run `source`."""
+    from ssilang.operators.workspace import open_session
+
+    folder = source.path.parent if source.path is not None else Path.cwd()
+    case = source.path.stem if source.path is not None else "session"
+    target = options.output_directory or Path("results") / case
+    return open_session(
+        Session(
+            script_directory=folder,
+            output_directory=target,
+            allowed=options.allowed,
+            out=out,
+            language=options.language,
+            limits=options.limits,
+        )
+    )
+
+
+def execute(session: Session, source: Source) -> None:
+    """Parse and run a source in a session.
+
+    Raises
+    ------
+    SsiError, SeveralErrors
+        What is wrong in the script.
+    """
+    script = parse(source)
+    sys.setrecursionlimit(max(sys.getrecursionlimit(), 60 * session.limits.recursion + 2000))
+    try:
+        session.evaluator.run(script.body)
+    except StopRun:
+        return
+    except (LeaveLoop, NextTurn, LeaveProcedure) as jump:
+        raise SsiError("no-such-loop", session.evaluator.current_span, name=jump.name) from None
+    except SsiError as error:
+        if error.span is None:
+            error.span = session.evaluator.current_span
+        raise
+
+
+def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) -> RunResult:
+    """Run a source to its end, print what went wrong, write the summary."""
+    session = make_session(source, options, out)
+    session.on_warning = lambda w: err.write(render(w, session.language) + "\n")
+    errors: list[SsiError] = []
+    try:
+        execute(session, source)
+    except SeveralErrors as several:
+        errors = several.errors
+    except SsiError as error:
+        errors = [error]
+    except KeyboardInterrupt:
+        errors = [SsiError("interrupted", session.evaluator.current_span)]
+    names = session.frame.names() | session.library.standard_names
+    message = "\n\n".join(render(e, session.language, names) for e in errors)
+    if message:
+        err.write(message + "\n")
+        if options.debug:
+            for e in errors:
+                traceback.print_exception(e, file=err)
+    return RunResult(1 if errors else 0, session, errors=errors, message=message)
+
+
+def run_file(path: Path | str, options: RunOptions | None = None) -> RunResult:
+    """Run a script file, keeping what it prints in the result."""
+    out = io.StringIO()
+    try:
+        source = Source.read(Path(path))
+    except SsiError as error:
+        text = render(error)
+        return RunResult(1, Session(), errors=[error], message=text)
+    result = run_source(source, options or RunOptions(), out, io.StringIO())
+    result.output = out.getvalue()
+    return result
+
+
+def run_text(
+    text: str, output_directory: Path | None = None, options: RunOptions | None = None
+) -> RunResult:
+    """Run a script given as text, keeping what it prints in the result."""
+    options = options or RunOptions(output_directory=output_directory)
+    out = io.StringIO()
+    result = run_source(Source("script", text), options, out, io.StringIO())
+    result.output = out.getvalue()
+    return result

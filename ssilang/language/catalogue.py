@@ -1,0 +1,214 @@
+"""The sentences of errors and warnings, in English and French, by code.
+
+Templates are filled with the data of the error; `near` is the nearest known name, `types` the
+expected types as a readable list.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Message:
+    """Sentence and hint of one code, in two languages; `number` is Cast3M's, 0 if it has none."""
+
+    en: str
+    fr: str
+    hint_en: str = ""
+    hint_fr: str = ""
+    number: int = 0
+
+
+MESSAGES: dict[str, Message] = {
+    # ---- files and limits
+    "missing-file": Message(
+        "the file {path} cannot be read: {reason}",
+        "le fichier {path} ne peut pas être lu : {reason}",
+    ),
+    "forbidden-path": Message(
+        "the file {path} is outside the script's folder and the output folder",
+        "le fichier {path} est hors du dossier du jeu de données et du dossier de sortie",
+        "run with --allow {folder} to permit it",
+        "lancez avec --allow {folder} pour l'autoriser",
+    ),
+    "statement-limit": Message(
+        "more than {limit} statements were run", "plus de {limit} instructions exécutées"
+    ),
+    "recursion": Message(
+        "procedures call each other more than {limit} levels deep",
+        "les procédures s'appellent sur plus de {limit} niveaux",
+        "look for a recursive call whose end test is never met",
+        "cherchez un appel récursif dont le test d'arrêt n'est jamais vrai",
+    ),
+    "memory": Message(
+        "{operator} needs more memory than there is", "{operator} : mémoire insuffisante"
+    ),
+    "internal": Message(
+        "{operator} failed in a way it should not ({kind}: {reason})",
+        "{operator} a échoué de façon inattendue ({kind} : {reason})",
+        "this is a defect of ssilang; run again with --debug and report what it prints",
+        "c'est un défaut de ssilang ; relancez avec --debug et signalez le résultat",
+    ),
+    # ---- syntax
+    "syntax": Message("unexpected {found!r}", "{found!r} inattendu"),
+    "unclosed-string": Message(
+        "this quote is never closed",
+        "cette apostrophe n'est jamais fermée",
+        "a quote inside a string is written twice: 'l''axe'",
+        "une apostrophe dans un texte se double : 'l''axe'",
+    ),
+    "unclosed-paren": Message(
+        "this parenthesis is never closed", "cette parenthèse n'est jamais fermée", number=1
+    ),
+    "extra-paren": Message(
+        "this closing parenthesis has no opening one",
+        "cette parenthèse fermante n'a pas d'ouvrante",
+        number=2,
+    ),
+    "missing-semicolon": Message(
+        "the last statement does not end with ;",
+        "la dernière instruction ne finit pas par ;",
+    ),
+    "second-equal": Message(
+        "a second = in one statement",
+        "un second = dans une instruction",
+        "is the ; of the statement before missing? A comparison is written EGA",
+        "manque-t-il le ; de l'instruction précédente ? Une comparaison s'écrit EGA",
+    ),
+    "unclosed-block": Message(
+        "{word} opens a block that is never closed: {missing} is missing",
+        "{word} ouvre un bloc qui n'est jamais fermé : il manque {missing}",
+    ),
+    "stray-block-end": Message(
+        "{word} has no open {opener} to close{inside_text}",
+        "{word} ne ferme aucun {opener} ouvert{inside_text}",
+    ),
+    "wrong-loop-name": Message(
+        "FIN closes {found}, but the innermost open loop is {expected}",
+        "FIN ferme {found}, mais la boucle ouverte la plus intérieure est {expected}",
+        number=154,
+    ),
+    "loop-name": Message(
+        "REPE needs a name for its loop",
+        "REPE demande un nom de boucle",
+        "write REPE BOUCLE 10 ; ... FIN BOUCLE ;",
+        "écrivez REPE BOUCLE 10 ; ... FIN BOUCLE ;",
+    ),
+    "procedure-name": Message(
+        "DEBPROC needs a name",
+        "DEBPROC demande un nom",
+        "write DEBP MYPROC A*ENTIER B/FLOTTANT ; ... FINP C ;",
+        "écrivez DEBP MAPROC A*ENTIER B/FLOTTANT ; ... FINP C ;",
+    ),
+    "parameter": Message(
+        "a procedure's argument is written NAME*TYPE (mandatory) or NAME/TYPE (optional)",
+        "un argument de procédure s'écrit NOM*TYPE (obligatoire) ou NOM/TYPE (facultatif)",
+    ),
+    # ---- phrases
+    "unknown-operator": Message(
+        "{name} is neither an operator, nor a procedure, nor an object",
+        "{name} n'est ni un opérateur, ni une procédure, ni un objet",
+        "{near_hint}",
+        "{near_hint}",
+    ),
+    "excess": Message(
+        "nothing reads this {found}{named}",
+        "rien ne lit cet objet {found}{named}",
+        "a phrase runs from left to right: put parentheses around what belongs together",
+        "une phrase va de gauche à droite : mettez entre parenthèses ce qui va ensemble",
+        number=11,
+    ),
+    "no-result": Message(
+        "there is no result{wanted_text} for the name {name}",
+        "il n'y a pas de résultat{wanted_text} pour le nom {name}",
+        number=37,
+    ),
+    "target": Message(
+        "a result can be given to a name, to TABLE . INDEX or to %ATTRIBUTE only",
+        "un résultat se donne à un nom, à TABLE . INDICE ou à %ATTRIBUT seulement",
+    ),
+    "condition": Message(
+        "SI needs one LOGIQUE, found {found}",
+        "SI demande un LOGIQUE, trouvé {found}",
+        "comparisons are written > < >EG <EG EGA NEG, and phrases run from left to right",
+        "les comparaisons s'écrivent > < >EG <EG EGA NEG, et les phrases vont de gauche à droite",
+    ),
+    "loop-count": Message(
+        "REPE needs an ENTIER as its number of turns, found {found}",
+        "REPE demande un ENTIER comme nombre de tours, trouvé {found}",
+    ),
+    "index": Message(
+        "the index of a table must be one object", "l'indice d'une table doit être un objet"
+    ),
+    "not-a-table": Message(
+        "{name} is a {found}, not a TABLE",
+        "{name} est de type {found}, pas TABLE",
+        "make the table first: {name} = TABL ;",
+        "créez d'abord la table : {name} = TABL ;",
+    ),
+    "no-index": Message(
+        "the table has no index {index!r}",
+        "la table n'a pas d'indice {index!r}",
+        "{known_hint}",
+        "{known_hint}",
+        number=171,
+    ),
+    "not-an-object": Message(
+        "% needs an OBJET on its left, found {found}",
+        "% demande un OBJET à sa gauche, trouvé {found}",
+    ),
+    "third-coordinate": Message(
+        "a point needs three coordinates here (OPTI DIME 3), found two",
+        "un point demande trois coordonnées ici (OPTI DIME 3), trouvé deux",
+        number=37,
+    ),
+    # ---- operands
+    "missing-argument": Message(
+        "{operator} wanted {types}, found nothing",
+        "{operator} attendait {types}, rien trouvé",
+        "{syntax_hint}",
+        "{syntax_hint}",
+        number=37,
+    ),
+    "wrong-argument": Message(
+        "{operator} wanted {types}, found {found_text}",
+        "{operator} attendait {types}, trouvé {found_text}",
+        "{syntax_hint}",
+        "{syntax_hint}",
+        number=37,
+    ),
+    "missing-keyword": Message(
+        "{operator} wanted one of the words {words_text}{found_word}",
+        "{operator} attendait l'un des mots {words_text}{found_word}",
+        "{syntax_hint}",
+        "{syntax_hint}",
+    ),
+    "missing-parameter": Message(
+        "{procedure} wanted its argument {parameter} ({expected}), found {found}",
+        "{procedure} attendait son argument {parameter} ({expected}), trouvé {found}",
+        number=37,
+    ),
+    "two-operands": Message(
+        "{operator} needs two operands",
+        "{operator} demande deux opérandes",
+        "there is no unary minus: write -1. * X",
+        "il n'y a pas de moins unaire : écrivez -1. * X",
+    ),
+    "no-rule": Message(
+        "{operator} does not go with {left} and {right}",
+        "{operator} ne s'applique pas à {left} et {right}",
+        "phrases run from left to right without precedence; put parentheses where you mean them",
+        "les phrases vont de gauche à droite sans priorité ; mettez des parenthèses",
+    ),
+    "arithmetic": Message("{reason}", "{reason}"),
+    "bad-value": Message("{message}", "{message}", "{hint}", "{hint}"),
+    "no-such-loop": Message(
+        "no open loop or procedure is called {name}",
+        "aucune boucle ou procédure ouverte ne s'appelle {name}",
+    ),
+    "interrupted": Message("interrupted", "interrompu"),
+    # ---- ERRE
+    "erre": Message("{message}", "{message}"),
+}
+"""Every code that is raised; a test checks that none is missing."""

@@ -1,0 +1,160 @@
+"""From an error to the text that its reader sees: place, source line, caret, hint, calls."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+from typing import Any
+
+from ssilang.language.catalogue import MESSAGES
+from ssilang.language.errors import SsiError
+from ssilang.language.registry import ANY, OPERATORS, find_operator
+from ssilang.language.source import Span
+
+_OR = {"en": " or ", "fr": " ou "}
+_ANY = {"en": "an object", "fr": "un objet"}
+
+
+class _Data(dict[str, Any]):
+    def __missing__(self, name: str) -> str:
+        return ""
+
+
+def nearest(word: str, known: Iterable[str]) -> str:
+    """The known name that looks most like `word`, '' if none does."""
+    found = difflib.get_close_matches(word.upper(), list(known), 1, 0.6)
+    return found[0] if found else ""
+
+
+def render(error: SsiError, language: str = "en", names: Iterable[str] = ()) -> str:
+    """The whole message of an error, several lines, without colours.
+
+    Parameters
+    ----------
+    error : SsiError
+    language : 'en' or 'fr'
+    names : iterable of str
+        Known variables and procedures, for the suggestion of a near name.
+    """
+    head, hint = sentence(error, language, names)
+    lines = [f"{_label(error, language)}: {head}"]
+    if error.span is not None:
+        lines += _place(error.span, "-->")
+    if hint:
+        lines.append(f"  = {hint}")
+    called = {"en": "called by", "fr": "appelé par"}[language]
+    for name, span in error.calls:
+        line, column = span.source.position(span.start)
+        lines.append(f"  {called} {name} at {span.source.name}:{line}:{column}")
+    return "\n".join(lines)
+
+
+def sentence(error: SsiError, language: str, names: Iterable[str] = ()) -> tuple[str, str]:
+    """What is wrong, and the hint ('' if there is none)."""
+    message = MESSAGES[error.code]
+    data = _Data(error.data)
+    data.update(_derived(error, language, names))
+    if error.code == "not-a-table" and not data["name"]:
+        data["name"] = error.span.text.split(".")[0].strip() if error.span else "it"
+    text = message.en if language == "en" else message.fr
+    hint = message.hint_en if language == "en" else message.hint_fr
+    return text.format_map(data), hint.format_map(data).strip()
+
+
+def _label(error: SsiError, language: str) -> str:
+    number = MESSAGES[error.code].number or int(str(error.data.get("number", 0)) or 0)
+    kind = str(error.data.get("severity", "")) or {"en": "error", "fr": "erreur"}[language]
+    return f"{kind} {number}" if number else kind
+
+
+def _place(span: Span, arrow: str) -> list[str]:
+    line, column = span.source.position(span.start)
+    text = span.source.line(line).replace("\t", " ").rstrip()
+    width = max(1, min(span.end, span.start + len(text) - column + 1) - span.start)
+    margin = " " * len(str(line))
+    caret = " " * (column - 1) + "^" * width
+    return [
+        f"{margin} {arrow} {span.source.name}:{line}:{column}",
+        f"{margin} |",
+        f"{line} | {text}",
+        f"{margin} | {caret}",
+    ]
+
+
+def _derived(error: SsiError, language: str, names: Iterable[str]) -> dict[str, str]:
+    """Parts of sentences computed from the data of the error."""
+    data = error.data
+    made: dict[str, str] = {}
+    join = _OR[language]
+    if "expected" in data and isinstance(data["expected"], list):
+        types = [_ANY[language] if t == ANY else f"a {t}" for t in data["expected"]]
+        if language == "fr":
+            types = [t.replace("a ", "un ", 1) for t in types]
+        made["types"] = join.join(types[:8])
+    if "words" in data and isinstance(data["words"], list):
+        made["words_text"] = join.join(f"'{w}'" for w in data["words"][:12])
+    if data.get("found") and error.code == "missing-keyword":
+        made["found_word"] = {"en": ", found ", "fr": ", trouvé "}[language] + str(data["found"])
+    if error.code == "wrong-argument":
+        made["found_text"] = _found(data, language)
+    if error.code == "excess" and data.get("name"):
+        made["named"] = f" ({data['name']})"
+    if data.get("wanted"):
+        made["wanted_text"] = {"en": " of type ", "fr": " de type "}[language] + str(data["wanted"])
+    made["near_hint"] = _near_hint(data, language, names)
+    made["syntax_hint"] = _syntax_hint(data)
+    made["known_hint"] = _known_hint(data, language)
+    made["inside_text"] = _inside(data, language)
+    return made
+
+
+def _found(data: dict[str, object], language: str) -> str:
+    kind = {"en": "a ", "fr": "un "}[language] + str(data["found"])
+    detail = str(data.get("name") or "") or (f"'{data['value']}'" if data.get("value") else "")
+    return f"{kind} ({detail})" if detail else kind
+
+
+def _near_hint(data: dict[str, object], language: str, names: Iterable[str]) -> str:
+    if "name" not in data:
+        return ""
+    word = str(data["name"])
+    full = {o.full_name for o in OPERATORS.values()}
+    near = nearest(word, {*OPERATORS, *full, *names})
+    if near:
+        return {"en": f"did you mean {near}?", "fr": f"vouliez-vous dire {near} ?"}[language]
+    return {
+        "en": "operators are recognised by their first four letters; ssilang help lists them",
+        "fr": "les opérateurs se reconnaissent à leurs quatre premières lettres ; voir ssilang help",
+    }[language]
+
+
+def _syntax_hint(data: dict[str, object]) -> str:
+    found = find_operator(str(data.get("operator", "")))
+    if found is None or not found.help.syntax:
+        return ""
+    return found.help.syntax.split("\n")[0]
+
+
+def _known_hint(data: dict[str, object], language: str) -> str:
+    known = data.get("known")
+    if not isinstance(known, list):
+        return ""
+    near = nearest(str(data.get("index")), [k for k in known if isinstance(k, str)])
+    if near:
+        return {"en": f"did you mean '{near}'?", "fr": f"vouliez-vous dire '{near}' ?"}[language]
+    shown = ", ".join(repr(k) if isinstance(k, str) else str(k) for k in known[:8])
+    more = " ..." if len(known) > 8 else ""
+    text = {"en": "its indices are: ", "fr": "ses indices sont : "}[language]
+    empty = {"en": "it is empty", "fr": "elle est vide"}[language]
+    return text + shown + more if known else empty
+
+
+def _inside(data: dict[str, object], language: str) -> str:
+    if not data.get("inside"):
+        return ""
+    where = f"{data['inside']} {data.get('inside_name', '')}".strip()
+    line = data.get("line")
+    return {
+        "en": f"; the innermost open block is {where} of line {line}",
+        "fr": f" ; le bloc ouvert le plus intérieur est {where}, ligne {line}",
+    }[language]
