@@ -39,6 +39,18 @@ def accepts(types: Sequence[str], value: object) -> bool:
     return (found == "ENTIER" and "FLOTTANT" in types) or (found == "PROCEDUR" and "MOT" in types)
 
 
+def _as_read(operand: Operand, types: Sequence[str]) -> Operand:
+    """The operand in the type asked for: ENTIER to FLOTTANT, PROCEDUR to its name."""
+    value = operand.value
+    if ANY in types:
+        return operand
+    if type(value) is int and "ENTIER" not in types:
+        return Operand(float(value), operand.span, operand.name)
+    if isinstance(value, Procedure) and "PROCEDUR" not in types:
+        return Operand(Mot(value.name), operand.span, operand.name)
+    return operand
+
+
 class Call:
     """The unread operands of a phrase, with the operator that reads them.
 
@@ -87,13 +99,7 @@ class Call:
             if late_enough and accepts(types, value):
                 del operands[i]
                 self.used.append(operand)
-                if type(value) is int and "FLOTTANT" in types and "ENTIER" not in types:
-                    if ANY not in types:
-                        operand = Operand(float(value), operand.span, operand.name)
-                elif isinstance(value, Procedure) and "PROCEDUR" not in types:
-                    if ANY not in types and "MOT" in types:
-                        operand = Operand(Mot(value.name), operand.span, operand.name)
-                return operand
+                return _as_read(operand, types)
             if isinstance(value, Mot | Procedure):
                 return None
             i += 1

@@ -124,7 +124,7 @@ def _near_hint(data: dict[str, object], language: str, names: Iterable[str]) -> 
         return {"en": f"did you mean {near}?", "fr": f"vouliez-vous dire {near} ?"}[language]
     return {
         "en": "operators are recognised by their first four letters; ssilang help lists them",
-        "fr": "les opérateurs se reconnaissent à leurs quatre premières lettres ; voir ssilang help",
+        "fr": "un opérateur se reconnaît à ses quatre premières lettres ; voir ssilang help",
     }[language]
 
 

@@ -1,4 +1,4 @@
-"""Runs statements: operands in a pile, the first unread word tried as an operator, results in front."""
+"""Runs statements: operands in a pile, the first unread word tried as an operator."""
 
 from __future__ import annotations
 
