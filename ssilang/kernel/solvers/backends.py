@@ -1,0 +1,157 @@
+"""Direct solvers of sparse systems behind one interface, chosen by what is installed and fits.
+
+A backend factorises once and solves many times. `factorise` picks the first backend of
+`BACKENDS` that is installed and takes the matrix; whoever adds one writes a class and a line.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+import numpy as np
+import scipy.sparse as sp
+import scipy.sparse.linalg as spla
+
+from ssilang.kernel.errors import KernelError
+from ssilang.kernel.mesh.nodes import FloatArray
+
+LARGE = 20_000  # unknowns from which a threaded solver pays for its start
+
+
+class Factor(Protocol):
+    """A factorised matrix; `solve` takes (n,) or (n, k)."""
+
+    name: str
+
+    def solve(self, b: FloatArray) -> FloatArray:
+        """Solution of A x = b, same shape as b."""
+        ...
+
+
+class SingularFactorError(Exception):
+    """A backend met an exactly zero pivot; `inverse.py` turns it into a message."""
+
+
+class SuperLUFactor:
+    """SciPy's SuperLU: symmetric mode without pivoting if `positive`, else partial pivoting."""
+
+    name = "SuperLU"
+
+    def __init__(self, A: sp.csr_array, positive: bool) -> None:
+        options: dict[str, Any] = {"permc_spec": "COLAMD"}
+        if positive:
+            options = {
+                "permc_spec": "MMD_AT_PLUS_A",
+                "diag_pivot_thresh": 0.0,
+                "options": {"SymmetricMode": True},
+            }
+        try:
+            self.lu = spla.splu(sp.csc_array(A), **options)
+        except RuntimeError as error:
+            raise SingularFactorError(str(error)) from None
+
+    def solve(self, b: FloatArray) -> FloatArray:
+        """Solution of A x = b."""
+        x: FloatArray = self.lu.solve(np.ascontiguousarray(b.T).T if b.ndim == 2 else b)
+        return x
+
+    def negative_pivots(self) -> int:
+        """Number of negative eigenvalues of a symmetric A (Sylvester), if no row was swapped.
+
+        Raises
+        ------
+        SingularFactorError
+            If rows were swapped, so that the signs of the pivots say nothing.
+        """
+        if not np.array_equal(self.lu.perm_r, self.lu.perm_c):
+            raise SingularFactorError("rows were swapped")
+        return int(np.sum(self.lu.U.diagonal() < 0.0))
+
+
+class PardisoFactor:
+    """Intel MKL's PARDISO by pypardiso: LL^T if `positive`, else LU with scaling and matching."""
+
+    name = "PARDISO"
+
+    def __init__(self, A: sp.csr_array, positive: bool) -> None:
+        from pypardiso import PyPardisoSolver
+
+        self._solver = PyPardisoSolver(mtype=2 if positive else 11)
+        self._matrix = sp.csr_matrix(sp.triu(A) if positive else A)
+        self._matrix.sort_indices()
+        try:
+            self._solver.factorize(self._matrix)
+        except Exception as error:
+            raise SingularFactorError(str(error)) from None
+
+    def solve(self, b: FloatArray) -> FloatArray:
+        """Solution of A x = b."""
+        self._solver.set_phase(33)
+        x: FloatArray = self._solver._call_pardiso(self._matrix, np.asfortranarray(b))
+        return x
+
+
+class CholmodFactor:
+    """SuiteSparse's CHOLMOD by scikit-sparse: sparse Cholesky, positive matrices only."""
+
+    name = "CHOLMOD"
+
+    def __init__(self, A: sp.csr_array, positive: bool) -> None:
+        from sksparse.cholmod import cholesky  # type: ignore[import-not-found]
+
+        try:
+            self._factor = cholesky(sp.csc_matrix(A))
+        except Exception as error:
+            raise SingularFactorError(str(error)) from None
+
+    def solve(self, b: FloatArray) -> FloatArray:
+        """Solution of A x = b."""
+        x: FloatArray = self._factor(b)
+        return x
+
+
+@dataclass(frozen=True)
+class Backend:
+    """A solver: what makes it, the package it needs, when it is worth choosing."""
+
+    make: Callable[[sp.csr_array, bool], Factor]
+    package: str
+    suits: Callable[[int, bool], bool]
+
+    @property
+    def installed(self) -> bool:
+        """True if its package can be imported."""
+        return importlib.util.find_spec(self.package) is not None
+
+
+BACKENDS: dict[str, Backend] = {
+    "PARDISO": Backend(PardisoFactor, "pypardiso", lambda n, positive: n >= LARGE),
+    "CHOLMOD": Backend(CholmodFactor, "sksparse", lambda n, positive: positive and n >= 2000),
+    "SuperLU": Backend(SuperLUFactor, "scipy", lambda n, positive: True),
+}
+
+
+def choose(n: int, positive: bool) -> str:
+    """Name of the backend for n unknowns."""
+    return next(k for k, b in BACKENDS.items() if b.suits(n, positive) and b.installed)
+
+
+def factorise(A: sp.csr_array, positive: bool, backend: str | None = None) -> Factor:
+    """Factorise A (n, n), symmetric positive if `positive` (else any).
+
+    Raises
+    ------
+    SingularFactorError
+        If a pivot is exactly zero.
+    KernelError
+        If the backend asked for is not installed.
+    """
+    name = backend or choose(A.shape[0], positive)
+    if name not in BACKENDS:
+        raise KernelError(f"no solver is called {name}", f"known: {', '.join(BACKENDS)}")
+    if not BACKENDS[name].installed:
+        raise KernelError(f"solver {name} needs the package {BACKENDS[name].package}")
+    return BACKENDS[name].make(A, positive)

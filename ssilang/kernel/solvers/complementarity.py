@@ -1,0 +1,142 @@
+"""Small dense contact problems: which unilateral conditions are active, and their reactions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.linalg as la
+from numpy.typing import NDArray
+
+from ssilang.kernel.errors import ConvergenceError
+from ssilang.kernel.mesh.nodes import FloatArray
+
+BoolArray = NDArray[np.bool_]
+ALL_AT_ONCE = 20  # iterations that may change several rows; later ones change a single row
+
+
+@dataclass(frozen=True, eq=False)
+class ContactProblem:
+    """Find p (m,) and a (k,) with `w = q + W p + B a`, `r + E^T p = 0`, and row by row
+    `w >= 0, p >= 0, w p = 0`; on rows in `equality` just `w = 0`.
+
+    W is the flexibility of the rows; the columns of B, E (m, k) are free motions of the body
+    (k = 0 for a body that is held without contact) and r is the work of the loads on them.
+    """
+
+    W: FloatArray
+    q: FloatArray
+    B: FloatArray
+    E: FloatArray
+    r: FloatArray
+    equality: BoolArray
+
+
+@dataclass(frozen=True, eq=False)
+class ContactSolution:
+    """Reactions, amplitudes of the free motions, active rows, iterations taken."""
+
+    p: FloatArray
+    a: FloatArray
+    active: BoolArray
+    iterations: int
+
+
+def solve_contact(problem: ContactProblem, start: BoolArray | None = None) -> ContactSolution:
+    """Active-set iterations from `start` (default: rows that the loads close).
+
+    All wrong rows change at once; when that has gone on for `ALL_AT_ONCE` iterations or comes
+    back to a set it has seen, only the first wrong row changes (Murty's rule, which cannot cycle
+    when W is a P-matrix). Bodies held by contact alone start with all rows active.
+
+    Raises
+    ------
+    ConvergenceError
+        If no set of active rows gives equilibrium, or the iterations do not end.
+    """
+    m, k = problem.B.shape
+    held = k == 0
+    active = problem.equality | (problem.q < 0.0 if held else np.ones(m, bool))
+    if start is not None and held:
+        active = problem.equality | start
+    seen: set[bytes] = set()
+    one_by_one = False
+    limit = 50 + 20 * m
+    for iteration in range(1, limit + 1):
+        p, a, holds = _solve_active(problem, active)
+        if not holds and not one_by_one:
+            one_by_one, active = True, np.ones(m, bool)
+            continue
+        if not holds:
+            break
+        wrong = _wrong_rows(problem, active, p, a)
+        if not wrong.any():
+            return ContactSolution(np.where(active, p, 0.0), a, active, iteration)
+        one_by_one = one_by_one or iteration > ALL_AT_ONCE or active.tobytes() in seen
+        seen.add(active.tobytes())
+        active = active ^ (_one_of(wrong, active, p, held) if one_by_one else wrong)
+    raise ConvergenceError(
+        f"no set of active unilateral conditions gives equilibrium ({limit} tried at most)",
+        "a body held by MINI/MAXI conditions alone must be pressed against them by its loads",
+    )
+
+
+def _solve_active(
+    problem: ContactProblem, active: BoolArray
+) -> tuple[FloatArray, FloatArray, bool]:
+    """Reactions of the active rows, motions, and whether equilibrium holds."""
+    k = problem.B.shape[1]
+    chosen = np.flatnonzero(active)
+    n = len(chosen)
+    system = np.zeros((n + k, n + k))
+    system[:n, :n] = problem.W[np.ix_(chosen, chosen)]
+    system[:n, n:] = problem.B[chosen]
+    system[n:, :n] = problem.E[chosen].T
+    right = -np.concatenate([problem.q[chosen], problem.r])
+    scale = float(np.sqrt(np.abs(np.diag(problem.W)).max(initial=0.0))) or 1.0
+    weights: FloatArray = np.concatenate([np.full(n, 1.0 / scale), np.full(k, scale)])
+    solution = weights * _least_squares(weights[:, None] * system * weights, weights * right)
+    error = np.abs(system @ solution - right)
+    size = np.abs(system) @ np.abs(solution) + np.abs(right)
+    holds = bool((error[n:] <= 1e-7 * size[n:].max(initial=0.0) + 1e-300).all())
+    p = np.zeros(len(active))
+    p[chosen] = solution[:n]
+    return p, solution[n:], holds
+
+
+def _least_squares(A: FloatArray, b: FloatArray) -> FloatArray:
+    """Solution of A x = b, of least norm if A is singular (redundant rows)."""
+    if len(b) == 0:
+        return b
+    try:
+        x: FloatArray = np.asarray(np.linalg.solve(A, b), dtype=float)
+        if np.abs(A @ x - b).max() <= 1e-9 * (np.abs(A) @ np.abs(x) + np.abs(b)).max():
+            return x
+    except np.linalg.LinAlgError:
+        pass
+    least: FloatArray = la.lstsq(A, b, cond=1e-12)[0]
+    return least
+
+
+def _wrong_rows(
+    problem: ContactProblem, active: BoolArray, p: FloatArray, a: FloatArray
+) -> BoolArray:
+    w = problem.q + problem.W @ p + problem.B @ a
+    parts = (problem.q, problem.W @ p, problem.B @ a)
+    size = sum(float(np.abs(part).max(initial=0.0)) for part in parts)
+    pulling = active & ~problem.equality & (p < -1e-12 * np.abs(p).max(initial=0.0))
+    crossing = ~active & (w < -1e-12 * size)
+    wrong: BoolArray = pulling | crossing
+    return wrong
+
+
+def _one_of(wrong: BoolArray, active: BoolArray, p: FloatArray, held: bool) -> BoolArray:
+    """The first wrong row; the most pulling one for a body held by contact alone."""
+    chosen = np.zeros_like(wrong)
+    pulling = wrong & active
+    if not held and pulling.any() and not (wrong & ~active).any():
+        chosen[np.argmin(np.where(pulling, p, np.inf))] = True
+    else:
+        candidates = wrong & ~active if not held and (wrong & ~active).any() else wrong
+        chosen[np.flatnonzero(candidates)[0]] = True
+    return chosen

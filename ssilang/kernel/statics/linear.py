@@ -1,0 +1,337 @@
+"""Linear statics with conditions: `K u + C^T LX = F`, `C u = d` (or >=, <=).
+
+Equalities are eliminated where they can be (`solvers.elimination`), the rest join the matrix as
+a saddle point. Unilateral conditions are found by active sets on the flexibility of their rows,
+from one factorisation. Reactions come from the residual.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+import scipy.sparse as sp
+from numpy.typing import NDArray
+
+from ssilang.kernel.errors import KernelError, SingularMatrixError
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.matrices.assembly import (
+    ConstraintRows,
+    Numbering,
+    assemble,
+    constraint_matrix,
+    field_to_vector,
+    imposed_values,
+    is_symmetric,
+    numbering_of,
+    vector_to_field,
+)
+from ssilang.kernel.matrices.matrix import Matrix
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+from ssilang.kernel.solvers.backends import SingularFactorError, SuperLUFactor
+from ssilang.kernel.solvers.complementarity import ContactProblem, solve_contact
+from ssilang.kernel.solvers.elimination import Elimination, eliminate
+from ssilang.kernel.solvers.inverse import Inverse, invert
+from ssilang.kernel.statics.linear_motion import describe_motions
+
+BoolArray = NDArray[np.bool_]
+BALANCED = 1e-7  # work of the loads on a free motion (of norms 1) taken for rounding
+MET = 1e-7  # mismatch of a redundant condition, relative to the largest displacement
+
+
+@dataclass(frozen=True, slots=True)
+class SolveOptions:
+    """What RESO's words change.
+
+    Attributes
+    ----------
+    unilateral : bool
+        False takes MINI and MAXI conditions for equalities ('NOUNIL').
+    eliminate : bool
+        False keeps every condition in a saddle point ('ELIM' 0).
+    project : bool
+        True leaves out the loads that work on free motions instead of refusing them ('NOID').
+    stabilise : bool
+        True adds to the diagonal until the matrix is positive ('STAB').
+    backend : str or None
+        Name of the direct solver, None to choose.
+    """
+
+    unilateral: bool = True
+    eliminate: bool = True
+    project: bool = False
+    stabilise: bool = False
+    backend: str | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """Displacement u (n,), multipliers (n_rows,) in the rows' order, active unilateral rows."""
+
+    u: FloatArray
+    multipliers: FloatArray
+    active: BoolArray
+    iterations: int = 0
+
+
+@dataclass(eq=False)
+class LinearSystem:
+    """A matrix with its conditions, factorised once.
+
+    Attributes
+    ----------
+    numbering, K, rows : unknowns, stiffness (n, n), conditions.
+    elimination : Elimination
+        Of the equalities that are eliminated.
+    saddle, contact : array of int
+        Rows that stand in the saddle point; rows that may be active or not.
+    inverse : Inverse
+        Of `[T^T K T, T^T D^T; C T, 0]` with the saddle rows.
+    """
+
+    numbering: Numbering
+    K: sp.csr_array
+    rows: ConstraintRows
+    elimination: Elimination
+    saddle: IntArray
+    contact: IntArray
+    inverse: Inverse
+    last_active: BoolArray | None = None
+    _flexibility: FloatArray | None = field(default=None, repr=False)
+
+    # --- the reduced system, unknowns z = (masters, multipliers of the saddle rows)
+
+    @property
+    def n_masters(self) -> int:
+        """Number of displacements that stay after elimination."""
+        return len(self.elimination.masters)
+
+    def _loads(self, f: FloatArray, d: FloatArray, start: FloatArray) -> FloatArray:
+        free = self.elimination.T.T @ (f - self.K @ start)
+        left = d[self.saddle] - self.rows.C[self.saddle] @ start
+        return np.concatenate([free, left])
+
+    def _contact_columns(self, D: sp.csr_array) -> FloatArray:
+        """Rows of `D T` at the contact rows as columns (n_masters + n_saddle, n_contact)."""
+        part = (D[self.contact] @ self.elimination.T).T.toarray()
+        return np.vstack([part, np.zeros((len(self.saddle), len(self.contact)))])
+
+    @property
+    def free_motions(self) -> FloatArray:
+        """Displacements (n, p) that meet no stiffness."""
+        motions: FloatArray = self.elimination.T @ self.inverse.kernel[: self.n_masters]
+        return motions
+
+    def solve(self, f: FloatArray, d: FloatArray, project: bool = False) -> Solution:
+        """Solution for forces f (n,) and imposed values d (n_rows,).
+
+        Raises
+        ------
+        SingularMatrixError
+            If the loads work on a free motion.
+        KernelError
+            If redundant conditions contradict each other.
+        ConvergenceError
+            If unilateral conditions find no equilibrium.
+        """
+        start = self.elimination.particular(d)
+        b = self._loads(f, d, start)
+        if len(self.contact):
+            z, contact, active, iterations = self._solve_contact(b, d, start)
+        else:
+            z = self.inverse.solve(self._balanced(b, project))
+            contact, active, iterations = np.empty(0), np.empty(0, bool), 0
+        u = start + self.elimination.T @ z[: self.n_masters]
+        self._check_redundant(u, d)
+        multipliers = np.zeros(len(d))
+        multipliers[self.saddle] = z[self.n_masters :]
+        multipliers[self.contact] = contact
+        residual = f - self.K @ u - self.rows.D.T @ multipliers
+        multipliers += self.elimination.multipliers(residual)
+        on = self.rows.sense == 0
+        on[self.contact] = active
+        return Solution(u, multipliers, on, iterations)
+
+    def _balanced(self, b: FloatArray, project: bool) -> FloatArray:
+        if not self.inverse.singular:
+            return b
+        work = self.inverse.work(b)
+        if project:
+            return self.inverse.without_work(b)
+        excited = np.abs(work) > BALANCED
+        if excited.any():
+            motions = self.free_motions[:, excited]
+            raise SingularMatrixError(*describe_motions(self.numbering, motions))
+        return b
+
+    def _solve_contact(
+        self, b: FloatArray, d: FloatArray, start: FloatArray
+    ) -> tuple[FloatArray, FloatArray, BoolArray, int]:
+        """Reduced solution, multipliers of the contact rows, active rows."""
+        sign = self.rows.sense[self.contact].astype(float)
+        equality = sign == 0.0
+        sign[equality] = 1.0
+        C = self._contact_columns(self.rows.C).T
+        D = self._contact_columns(self.rows.D)
+        kernel = self.inverse.kernel
+        z = self.inverse.solve(b)
+        gap = C @ z + self.rows.C[self.contact] @ start - d[self.contact]
+        problem = ContactProblem(
+            sign[:, None] * self._contact_flexibility(C, D) * sign,
+            sign * gap,
+            sign[:, None] * (C @ kernel),
+            sign[:, None] * (D.T @ kernel),
+            kernel.T @ b,
+            equality,
+        )
+        found = solve_contact(problem, self.last_active)
+        self.last_active = found.active
+        reaction = sign * found.p
+        z = self.inverse.solve(b + D @ reaction) + kernel @ found.a
+        return z, -reaction, found.active, found.iterations
+
+    def _contact_flexibility(self, C: FloatArray, D: FloatArray) -> FloatArray:
+        if self._flexibility is None:
+            self._flexibility = C @ self.inverse.solve(D)
+        return self._flexibility
+
+    def _check_redundant(self, u: FloatArray, d: FloatArray) -> None:
+        mismatch = self.elimination.mismatch(u, d)
+        size = np.abs(u).max(initial=0.0) + np.abs(d / self.elimination.scale).max(initial=0.0)
+        if mismatch.max(initial=0.0) > MET * size:
+            worst = int(np.argmax(mismatch))
+            terms = self.rows.C[[worst]]
+            names = ", ".join(self.numbering.label(i) for i in terms.indices[:6])
+            raise KernelError(
+                f"conditions contradict each other: one on {names} cannot take the value "
+                f"{d[worst]:.6g}",
+                "the same unknown is imposed twice with different values",
+            )
+
+
+def linear_system(matrix: Matrix, options: SolveOptions = SolveOptions()) -> LinearSystem:
+    """The matrix prepared for solving, kept in its cache for the options.
+
+    Raises
+    ------
+    KernelError
+        If the matrix is empty or holds values that are not finite.
+    """
+    key = f"linear:{options}"
+    numbering = numbering_of(matrix)
+    kept = matrix.cache.get(key)
+    if isinstance(kept, LinearSystem) and kept.numbering is numbering:
+        return kept
+    system = _prepare(matrix, numbering, options)
+    matrix.cache[key] = system
+    return system
+
+
+def _prepare(matrix: Matrix, numbering: Numbering, options: SolveOptions) -> LinearSystem:
+    if numbering.size == 0:
+        raise KernelError("the matrix is empty: there is nothing to solve")
+    K = assemble(matrix, numbering)
+    rows = constraint_matrix(matrix, numbering)
+    equality = (rows.sense == 0) | (not options.unilateral)
+    lawful = equality & _associated_rows(rows)
+    elimination = eliminate(rows.C, lawful & options.eliminate)
+    left = ~elimination.eliminated & equality
+    saddle, contact = np.flatnonzero(left), np.flatnonzero(~equality)
+    reduced = _saddle_point(K, rows, elimination.T, saddle)
+    symmetric = is_symmetric(matrix)
+    if options.stabilise:
+        reduced = stabilised(reduced, len(elimination.masters))
+    inverse = invert(reduced, symmetric, options.backend)
+    return LinearSystem(numbering, K, rows, elimination, saddle, contact, inverse)
+
+
+def _associated_rows(rows: ConstraintRows) -> BoolArray:
+    if rows.associated:
+        return np.ones(len(rows.sense), bool)
+    difference = abs(rows.C - rows.D).sum(axis=1)
+    same: BoolArray = np.asarray(difference).ravel() == 0.0
+    return same
+
+
+def _saddle_point(
+    K: sp.csr_array, rows: ConstraintRows, T: sp.csr_array, saddle: IntArray
+) -> sp.csr_array:
+    reduced = sp.csr_array(T.T @ K @ T)
+    if len(saddle) == 0:
+        return reduced
+    right, below = rows.D[saddle] @ T, rows.C[saddle] @ T
+    return sp.csr_array(sp.block_array([[reduced, right.T], [below, None]], format="csr"))
+
+
+def stabilised(A: sp.csr_array, n: int) -> sp.csr_array:
+    """A with its first n diagonal terms raised until those n unknowns are positive definite.
+
+    The amount is the least power of ten (times the diagonal) from 1e-6 on that leaves no negative
+    pivot; a positive matrix comes back as it is.
+    """
+    size = np.abs(A.diagonal()[:n])
+    size = np.where(size > 0.0, size, size.max(initial=0.0) or 1.0)
+    for amount in (0.0, *(10.0**e for e in range(-6, 3))):
+        added = np.zeros(A.shape[0])
+        added[:n] = amount * size
+        raised = sp.csr_array(A + sp.diags_array(added))
+        try:
+            if SuperLUFactor(raised[:n, :n], True).negative_pivots() == 0:
+                return raised
+        except SingularFactorError:
+            continue
+    return raised
+
+
+def solve(
+    matrix: Matrix,
+    loads: list[NodeField],
+    options: SolveOptions = SolveOptions(),
+) -> list[NodeField]:
+    """Displacement fields (with LX at the multipliers) for each second member.
+
+    A second member holds forces by dual names and imposed values FLX at the multipliers.
+
+    Raises
+    ------
+    As `LinearSystem.solve`.
+    """
+    system = linear_system(matrix, options)
+    solutions = []
+    for load in loads:
+        f = field_to_vector(load, system.numbering)
+        d = imposed_values(load, system.rows.multipliers)
+        found = system.solve(f, d, options.project)
+        pair = (system.rows.multipliers, found.multipliers)
+        solutions.append(vector_to_field(found.u, system.numbering, multipliers=pair))
+    return solutions
+
+
+def reactions(matrix: Matrix, solution: NodeField) -> NodeField:
+    """Forces that the conditions in the matrix apply on the body, `-C^T LX` (REAC).
+
+    Only the relations of the matrix count; the field is empty if it has none.
+    """
+    numbering = numbering_of(matrix)
+    rows = constraint_matrix(matrix, numbering)
+    multipliers = solution.values_at("LX", rows.multipliers)
+    forces = -(rows.D.T @ multipliers)
+    used = np.diff(sp.csc_array(rows.D).indptr) > 0
+    whole = vector_to_field(forces, numbering, dual=True)
+    keep = {}
+    for code, name in enumerate(numbering.duals):
+        on = used[numbering.codes == code]
+        part = whole.components.get(name)
+        if part is not None and on.any():
+            keep[name] = type(part)(part.nodes[on], part.values[on])
+    return NodeField(matrix.table, keep, "DISCRET")
+
+
+def product(matrix: Matrix, field_: NodeField) -> NodeField:
+    """The field of forces `K u` (and C^T LX, C u at the multipliers), by dual names."""
+    numbering = numbering_of(matrix)
+    rows = constraint_matrix(matrix, numbering)
+    u = field_to_vector(field_, numbering, dual=False)
+    multipliers = field_.values_at("LX", rows.multipliers)
+    forces = assemble(matrix, numbering) @ u + rows.D.T @ multipliers
+    return vector_to_field(forces, numbering, dual=True, multipliers=(rows.multipliers, rows.C @ u))

@@ -1,0 +1,256 @@
+"""Linear statics with conditions, against dense Karush-Kuhn-Tucker systems and closed forms."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from ssilang.kernel.errors import ConvergenceError, KernelError, SingularMatrixError
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.matrices.assembly import (
+    assemble,
+    constraint_matrix,
+    field_to_vector,
+    imposed_values,
+    numbering_of,
+)
+from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, Relations
+from ssilang.kernel.mesh.nodes import NodeTable
+from ssilang.kernel.statics.linear import SolveOptions, product, reactions, solve
+
+SADDLE = SolveOptions(eliminate=False)
+
+
+def whole(K, C=None, sense=None, table=None, D=None):
+    """One element of all unknowns (UX at each node) and rows C given densely."""
+    n = len(K)
+    table = table or NodeTable()
+    ids = table.add(np.arange(n, dtype=float)[:, None])
+    symmetric = bool(np.allclose(K, K.T))
+    names = (("UX",) * n, ("FX",) * n)
+    block = ElementMatrices(
+        table, ids[None, :], np.arange(n), *names, np.asarray(K, float)[None], symmetric=symmetric
+    )
+    if C is None:
+        return Matrix(table, (block,))
+    multipliers = table.add(np.zeros((len(C), 1)))
+    sense = np.zeros(len(C), np.int8) if sense is None else np.asarray(sense, np.int8)
+    dual = None if D is None else _rows(table, ids, D, multipliers, sense, None)
+    return Matrix(table, (block,), (_rows(table, ids, C, multipliers, sense, dual),))
+
+
+def _rows(table, ids, C, multipliers, sense, dual):
+    r, c = np.nonzero(C)
+    start = np.concatenate([[0], np.cumsum(np.count_nonzero(C, axis=1))])
+    return Relations(table, start, ids[c], ("UX",) * len(c), C[r, c], multipliers, sense, dual)
+
+
+def load(matrix, f, d=None):
+    """Second member with forces f at the unknowns and values d at the rows."""
+    parts = dict(NodeField.of(matrix.table, np.arange(len(f)), {"FX": np.asarray(f)}).components)
+    if d is not None:
+        nodes = matrix.relations[0].multipliers
+        parts |= NodeField.of(matrix.table, nodes, {"FLX": np.asarray(d, float)}).components
+    return NodeField(matrix.table, parts, "DISCRET")
+
+
+def vectors(matrix, field):
+    u = field_to_vector(field, numbering_of(matrix), dual=False)
+    return u, field.values_at("LX", constraint_matrix(matrix).multipliers)
+
+
+def spd(rng, n):
+    A = rng.normal(size=(n, n))
+    return A @ A.T + n * np.eye(n)
+
+
+def chain(n, k=1.0):
+    """n nodes in a row joined by springs."""
+    K = k * (2.0 * np.eye(n) - np.eye(n, k=1) - np.eye(n, k=-1))
+    K[0, 0] = K[-1, -1] = k
+    return K
+
+
+@settings(max_examples=80, deadline=None)
+@given(st.integers(2, 12), st.integers(0, 10**6), st.sampled_from([0.2, 0.5, 1.0]))
+def test_elimination_and_saddle_point_agree_with_the_dense_kkt_system(n, seed, density):
+    rng = np.random.default_rng(seed)
+    K, m = spd(rng, n), int(rng.integers(1, n))
+    C = rng.normal(size=(m, n)) * (rng.random((m, n)) < density)
+    C[np.arange(m), rng.permutation(n)[:m]] += 1.0
+    if np.linalg.matrix_rank(C) < m:
+        return
+    f, d = rng.normal(size=n), rng.normal(size=m)
+    exact = np.linalg.solve(np.block([[K, C.T], [C, np.zeros((m, m))]]), np.concatenate([f, d]))
+    matrix = whole(K, C)
+    for options in (SolveOptions(), SADDLE):
+        u, multipliers = vectors(matrix, *solve(matrix, [load(matrix, f, d)], options))
+        np.testing.assert_allclose(u, exact[:n], atol=1e-7 * np.abs(exact).max())
+        np.testing.assert_allclose(multipliers, exact[n:], atol=1e-6 * np.abs(exact).max())
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.integers(2, 8), st.integers(0, 10**6))
+def test_unilateral_rows_meet_signs_and_complementarity(n, seed):
+    rng = np.random.default_rng(seed)
+    m = int(rng.integers(1, n + 1))
+    K, C, sense = spd(rng, n), rng.normal(size=(m, n)), rng.choice([-1, 0, 1], m)
+    f, d = rng.normal(size=n) * n, rng.normal(size=m)
+    matrix = whole(K, C, sense)
+    u, multipliers = vectors(matrix, *solve(matrix, [load(matrix, f, d)]))
+    gap, side = C @ u - d, np.where(sense == 0, 1, sense)
+    np.testing.assert_allclose(K @ u + C.T @ multipliers, f, atol=1e-7)
+    assert np.abs(gap[sense == 0]).max(initial=0.0) < 1e-8
+    assert (side * gap)[sense != 0].min(initial=0.0) > -1e-8
+    assert (side * multipliers)[sense != 0].max(initial=0.0) < 1e-8
+    assert np.abs(gap * multipliers).max() < 1e-7
+
+
+def test_support_settlement_of_two_springs():
+    matrix = whole(chain(3, 6.0), np.array([[1.0, 0, 0], [0, 0, 1.0]]))
+    field = solve(matrix, [load(matrix, [0.0, 0.0, 0.0], [0.0, 2.0])])[0]
+    u, multipliers = vectors(matrix, field)
+    np.testing.assert_allclose(u, [0.0, 1.0, 2.0], atol=1e-14)
+    support = reactions(matrix, field)
+    np.testing.assert_allclose(support.values_at("FX", np.array([0, 2])), [-6.0, 6.0])
+    assert len(support.components["FX"].nodes) == 2
+    np.testing.assert_allclose(multipliers, [6.0, -6.0])
+
+
+def test_product_gives_back_the_second_member():
+    rng = np.random.default_rng(4)
+    matrix = whole(spd(rng, 5), rng.normal(size=(2, 5)))
+    given_load = load(matrix, rng.normal(size=5), rng.normal(size=2))
+    back = product(matrix, solve(matrix, [given_load])[0])
+    for name, part in given_load.components.items():
+        np.testing.assert_allclose(back.values_at(name, part.nodes), part.values, atol=1e-10)
+
+
+def test_several_second_members_use_one_factor():
+    matrix = whole(chain(4), np.array([[1.0, 0, 0, 0]]))
+    fields = solve(matrix, [load(matrix, [0, 0, 0, 1.0]), load(matrix, [0, 0, 0, 2.0])])
+    assert len([k for k in matrix.cache if k.startswith("linear")]) == 1
+    np.testing.assert_allclose(vectors(matrix, fields[1])[0], [0, 2, 4, 6], atol=1e-12)
+
+
+def test_loaded_free_body_is_refused_by_name():
+    matrix = whole(chain(4))
+    with pytest.raises(SingularMatrixError) as caught:
+        solve(matrix, [load(matrix, [0, 0, 0, 1.0])])
+    assert "translation along X" in caught.value.message
+    assert "UX at node" in caught.value.hint
+
+
+def test_an_unknown_without_stiffness_is_named():
+    K = chain(3)
+    K[2, :] = K[:, 2] = 0.0
+    K[1, 1] = 1.0
+    matrix = whole(K, np.array([[1.0, 0, 0]]))
+    with pytest.raises(SingularMatrixError) as caught:
+        solve(matrix, [load(matrix, [0, 0, 1.0])])
+    assert "UX at node 3" in caught.value.hint
+
+
+def test_balanced_loads_on_a_free_body_are_solved_and_others_projected_on_demand():
+    matrix = whole(chain(3))
+    u = vectors(matrix, *solve(matrix, [load(matrix, [-1.0, 0, 1.0])]))[0]
+    np.testing.assert_allclose(np.diff(u), [1.0, 1.0], atol=1e-12)
+    free = solve(matrix, [load(matrix, [0.0, 0, 3.0])], SolveOptions(project=True))
+    u = vectors(matrix, *free)[0]
+    np.testing.assert_allclose(np.diff(u), [1.0, 2.0], atol=1e-10)
+
+
+def test_a_cantilever_of_a_thousand_beams_is_not_taken_for_singular():
+    n, length = 1000, 1.0
+    k = np.array(
+        [[12, 6, -12, 6], [6, 4, -6, 2], [-12, -6, 12, -6], [6, 2, -6, 4]], dtype=float
+    ) * np.outer([1, length] * 2, [1, length] * 2)
+    table = NodeTable()
+    ids = table.add(np.arange(n + 1, dtype=float)[:, None])
+    pairs = np.column_stack([ids[:-1], ids[1:]])
+    names = ("UY", "RZ", "UY", "RZ"), ("FY", "MZ", "FY", "MZ")
+    values = np.broadcast_to(k, (n, 4, 4)).copy()
+    block = ElementMatrices(table, pairs, np.array([0, 0, 1, 1]), *names, values)
+    held = Relations(
+        table,
+        np.array([0, 1, 2]),
+        ids[[0, 0]],
+        ("UY", "RZ"),
+        np.ones(2),
+        table.add(np.zeros((2, 1))),
+        np.zeros(2, np.int8),
+    )
+    matrix = Matrix(table, (block,), (held,))
+    tip = NodeField.of(table, ids[-1:], {"FY": np.ones(1)})
+    u = solve(matrix, [tip])[0]
+    assert u.values_at("UY", ids[-1:])[0] == pytest.approx(n**3 / 3.0, rel=1e-3)
+
+
+def test_contradicting_values_are_refused_and_equal_ones_accepted():
+    matrix = whole(chain(2), np.array([[1.0, 0], [1.0, 0]]))
+    with pytest.raises(KernelError, match="contradict"):
+        solve(matrix, [load(matrix, [0, 1.0], [0.0, 1.0])])
+    u = vectors(matrix, *solve(matrix, [load(matrix, [0, 1.0], [1.0, 1.0])]))[0]
+    np.testing.assert_allclose(u, [1.0, 2.0])
+
+
+def test_a_mean_value_condition_holds_a_free_body():
+    n = 300
+    matrix = whole(chain(n), np.ones((1, n)))
+    f = np.zeros(n)
+    f[0], f[-1] = -1.0, 1.0
+    u, multipliers = vectors(matrix, *solve(matrix, [load(matrix, f)]))
+    assert abs(u.mean()) < 1e-10
+    np.testing.assert_allclose(np.diff(u), 1.0, atol=1e-8)
+    np.testing.assert_allclose(multipliers, 0.0, atol=1e-9)
+
+
+def test_a_block_resting_on_stops_lifts_off_where_it_is_pulled():
+    # two nodes joined by a spring, each above a stop; nothing else holds them
+    matrix = whole(chain(2, 10.0), np.eye(2), [1, 1])
+    u, multipliers = vectors(matrix, *solve(matrix, [load(matrix, [-3.0, 1.0])]))
+    np.testing.assert_allclose(u, [0.0, 0.1], atol=1e-12)
+    np.testing.assert_allclose(multipliers, [-2.0, 0.0], atol=1e-12)
+    with pytest.raises(ConvergenceError):
+        solve(matrix, [load(matrix, [-1.0, 3.0])])
+    taken = SolveOptions(unilateral=False)
+    u = vectors(matrix, *solve(matrix, [load(matrix, [-1.0, 3.0])], taken))[0]
+    np.testing.assert_allclose(u, 0.0, atol=1e-14)
+
+
+def test_a_remote_force_controls_a_displacement():
+    # non-associated relation: u1 <= 1 is kept by a force at node 2 (bars of stiffness 1 and 0.5)
+    K = np.array([[1.0, -1, 0], [-1, 1.5, -0.5], [0, -0.5, 0.5]])
+    C, D = np.array([[0.0, 1, 0], [1, 0, 0]]), np.array([[0.0, 0, 1], [1, 0, 0]])
+    matrix = whole(K, C, [-1, 0], D=D)
+    u, multipliers = vectors(matrix, *solve(matrix, [load(matrix, [0, 0, 2.0], [1.0, 0.0])]))
+    np.testing.assert_allclose(u, [0.0, 1.0, 3.0], atol=1e-12)
+    assert multipliers[0] == pytest.approx(1.0)
+    exact = whole(K, C, [0, 0], D=D)
+    u = vectors(exact, *solve(exact, [load(exact, [0, 0, 0.5], [1.0, 0.0])]))[0]
+    np.testing.assert_allclose(u, [0.0, 1.0, 3.0], atol=1e-12)
+
+
+def test_unsymmetric_matrix_with_a_stop():
+    K, C = np.array([[2.0, 0.0], [1.0, 3.0]]), np.array([[0.0, 1.0]])
+    matrix = whole(K, C, [1])
+    f = K @ [1.0, 2.0]
+    for stop, expected in ((1.9, [1.0, 2.0]), (2.2, [1.0, 2.2])):
+        u = vectors(matrix, *solve(matrix, [load(matrix, f, [stop])]))[0]
+        np.testing.assert_allclose(u, expected, atol=1e-12)
+
+
+def test_stabilised_solution_of_an_indefinite_matrix_is_positive():
+    K = np.array([[1.0, 0.0], [0.0, -1.0]])
+    matrix = whole(K)
+    u = vectors(matrix, *solve(matrix, [load(matrix, [1.0, 1.0])], SolveOptions(stabilise=True)))
+    assert (u[0] > 0.0).all()
+    plain = vectors(matrix, *solve(matrix, [load(matrix, [1.0, 1.0])]))[0]
+    np.testing.assert_allclose(plain, [1.0, -1.0])
+
+
+def test_reused_values_of_conditions_come_from_the_field():
+    matrix = whole(chain(3), np.array([[1.0, 0, 0]]))
+    d = imposed_values(load(matrix, [0, 0, 0], [0.5]), constraint_matrix(matrix).multipliers)
+    np.testing.assert_allclose(d, [0.5])
+    assert assemble(matrix).shape == (3, 3)
