@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from ssilang.language import tree
 from ssilang.language.call import Call, Operand, run_operator
 from ssilang.language.errors import SsiError
+from ssilang.language.fast import Slow, Value, compile_phrase
 from ssilang.language.procedures import call_procedure, method_of
 from ssilang.language.registry import Operator, find_operator
 from ssilang.language.source import Span
@@ -57,6 +58,7 @@ class Evaluator:
         self.session = session
         self.current_span: Span | None = None
         self.statement_count = 0
+        self._compiled: dict[tree.Statement, Value | None] = {}
         self._run_node: dict[type, Callable[[Any], None]] = {
             tree.Statement: self._statement,
             tree.If: self._if,
@@ -84,6 +86,10 @@ class Evaluator:
     def _if(self, node: tree.If) -> None:
         statement = node.condition
         self.current_span = statement.span
+        value = self._scalar(statement)
+        if type(value) is bool:
+            self.run(node.then if value else node.otherwise)
+            return
         results = self.phrase(statement.items, statement.span)
         if len(results) != 1 or not isinstance(results[0].value, bool):
             found = type_of(results[0].value) if results else "nothing"
@@ -134,6 +140,11 @@ class Evaluator:
         limit = self.session.limits.statements
         if limit is not None and self.statement_count > limit:
             raise SsiError("statement-limit", statement.span, limit=limit)
+        if len(statement.targets) == 1:
+            value = self._scalar(statement)
+            if value is not None:
+                self.store(statement.targets[0], value)
+                return
         if not statement.targets:
             left = self.phrase(statement.items, statement.span, one_name=True)
             self._nothing_left([o for o in left if not o.result] if left else left)
@@ -143,6 +154,19 @@ class Evaluator:
         deep = isinstance(path, tree.Path) and len(path.indices) > 1
         left = self.phrase(statement.items, statement.span, one_name=one and not deep)
         self._assign(statement, left)
+
+    def _scalar(self, statement: tree.Statement) -> Any:
+        """Value of a phrase of scalars by the short way, None if it is not one."""
+        try:
+            compiled = self._compiled[statement]
+        except KeyError:
+            compiled = self._compiled[statement] = compile_phrase(statement.items)
+        if compiled is None:
+            return None
+        try:
+            return compiled(self.session.frame)
+        except Slow:
+            return None
 
     def _assign(self, statement: tree.Statement, left: list[Operand]) -> None:
         targets = self._typed_targets(statement.targets)

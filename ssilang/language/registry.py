@@ -135,6 +135,10 @@ class Operator:
 
 OPERATORS: dict[str, Operator] = {}
 
+SCALAR_RULES: dict[str, Callable[[Any, Any], Any]] = {}
+"""What signs (and EGA, ET ...) do on two scalars; must raise TypeError for a LOGIQUE that does
+not fit. Registered by the operators that own the signs, used by the short way for scalars."""
+
 
 def operator(
     name: str,

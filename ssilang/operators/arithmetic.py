@@ -11,7 +11,7 @@ import numpy as np
 
 from ssilang.language.call import Call
 from ssilang.language.errors import SsiError
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import SCALAR_RULES, Help, operator
 from ssilang.language.values import ListEnti, ListReel, type_of
 
 Rule = Callable[[Any, Any], Any]
@@ -68,6 +68,20 @@ _ARRAY: dict[str, Rule] = {
 SIGNS = "+ - * / **"
 
 
+def _scalar_rule(sign: str) -> Rule:
+    integer, real = _INTEGER[sign], _REAL[sign]
+
+    def run(a: Any, b: Any) -> Any:
+        kinds = type(a), type(b)
+        if kinds == (int, int):
+            return integer(a, b)
+        if bool in kinds:
+            raise TypeError("LOGIQUE")
+        return real(a, b)
+
+    return run
+
+
 def _list_rule(sign: str) -> Rule:
     compute = _ARRAY[sign]
 
@@ -90,6 +104,8 @@ def _integer_arrays(sign: str, x: Any, y: Any) -> Any:
     return _ARRAY[sign](x, y)
 
 
+for _sign in SIGNS.split():
+    SCALAR_RULES[_sign] = _scalar_rule(_sign)
 for _a in ("ENTIER", "FLOTTANT"):
     for _b in ("ENTIER", "FLOTTANT"):
         rule(SIGNS, _a, _b, (_INTEGER if _a == _b == "ENTIER" else _REAL).__getitem__)
