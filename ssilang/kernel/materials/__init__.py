@@ -1,0 +1,1 @@
+"""Material laws: elastic moduli, tables of parameters, invariants of tensors."""

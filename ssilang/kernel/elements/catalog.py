@@ -1,0 +1,161 @@
+"""The finite elements by name, as data: cells they stand on, family, integration points.
+
+Families give the element its behaviour (see `ssilang.kernel.elements.family`); other packages
+(joints) add their own elements with `register_element`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ssilang.kernel.elements.quadrature import Rule, quadrature
+from ssilang.kernel.elements.reference import REFERENCE_CELLS, ReferenceCell
+from ssilang.kernel.errors import MeshError
+from ssilang.kernel.fields.cell_field import Support
+from ssilang.kernel.model import Mode
+
+PLANE_MODES = (Mode.PLANE_STRAIN, Mode.PLANE_STRESS, Mode.GENERALISED_PLANE_STRAIN)
+SECTION_MODES = (*PLANE_MODES, Mode.AXISYMMETRIC, Mode.FOURIER)
+FRAME_MODES = (Mode.PLANE_STRAIN, Mode.PLANE_STRESS, Mode.THREE_DIMENSIONAL)
+
+
+@dataclass(frozen=True, eq=False)
+class ElementKind:
+    """One finite element.
+
+    Attributes
+    ----------
+    name : str
+        Cast3M's name.
+    cell_type : str
+    family : str
+        Key of the family table: 'solid', 'bar', 'beam', 'timoshenko', ...
+    modes : tuple of Mode
+        Hypotheses under which the element exists.
+    points : mapping of Support to int
+        Number of integration points; supports not listed have those of 'RIGIDITE'.
+    default : bool
+        True if MODE takes this element when none is named.
+    reference : str
+        Reference cell whose points carry the values, `cell_type` if empty; joints name the cell
+        of one of their faces here.
+    """
+
+    name: str
+    cell_type: str
+    family: str
+    modes: tuple[Mode, ...]
+    points: dict[Support, int] = field(default_factory=dict)
+    default: bool = True
+    reference: str = ""
+
+    @property
+    def reference_cell(self) -> ReferenceCell:
+        """The domain on which the integration points stand."""
+        return REFERENCE_CELLS[self.reference or self.cell_type]
+
+
+def _solid(
+    name: str,
+    modes: tuple[Mode, ...],
+    stiffness: int,
+    mass: int = 0,
+    cell_type: str = "",
+    family: str = "solid",
+) -> ElementKind:
+    points: dict[Support, int] = {"RIGIDITE": stiffness, "MASSE": mass or stiffness}
+    return ElementKind(name, cell_type or name, family, modes, points, default=not cell_type)
+
+
+_VOLUME = (Mode.THREE_DIMENSIONAL,)
+_ROD: dict[Support, int] = {"RIGIDITE": 2, "MASSE": 3}
+
+ELEMENTS: dict[str, ElementKind] = {
+    kind.name: kind
+    for kind in (
+        _solid("TRI3", SECTION_MODES, 1, 3),
+        _solid("TRI6", SECTION_MODES, 3, 7),
+        _solid("QUA4", SECTION_MODES, 4),
+        _solid("QUA8", SECTION_MODES, 9),
+        _solid("Q4RI", SECTION_MODES, 1, 4, "QUA4"),
+        _solid("Q8RI", SECTION_MODES, 4, 9, "QUA8"),
+        _solid("TET4", _VOLUME, 1, 4),
+        _solid("TE10", _VOLUME, 4, 27),
+        _solid("PRI6", _VOLUME, 6),
+        _solid("PR15", _VOLUME, 21),
+        _solid("P15R", _VOLUME, 6, 21, "PR15"),
+        _solid("PYR5", _VOLUME, 8),
+        _solid("CUB8", _VOLUME, 8),
+        _solid("CU20", _VOLUME, 27),
+        _solid("C20R", _VOLUME, 8, 27, "CU20"),
+        _solid("ICT3", SECTION_MODES, 3, 3, "TRI3", "incompressible"),
+        _solid("ICT6", SECTION_MODES, 3, 7, "TRI6", "incompressible"),
+        _solid("ICQ4", SECTION_MODES, 4, 4, "QUA4", "incompressible"),
+        _solid("ICQ8", SECTION_MODES, 9, 9, "QUA8", "incompressible"),
+        _solid("ICT4", _VOLUME, 1, 4, "TET4", "incompressible"),
+        _solid("IC10", _VOLUME, 4, 27, "TE10", "incompressible"),
+        _solid("ICP6", _VOLUME, 6, 6, "PRI6", "incompressible"),
+        _solid("IC15", _VOLUME, 21, 21, "PR15", "incompressible"),
+        _solid("ICY5", _VOLUME, 8, 8, "PYR5", "incompressible"),
+        _solid("ICC8", _VOLUME, 8, 8, "CUB8", "incompressible"),
+        _solid("IC20", _VOLUME, 27, 27, "CU20", "incompressible"),
+        ElementKind("M1D2", "SEG2", "solid", (Mode.UNIDIMENSIONAL,), {"RIGIDITE": 2}),
+        ElementKind("M1D3", "SEG3", "solid", (Mode.UNIDIMENSIONAL,), {"RIGIDITE": 3}),
+        ElementKind("BARR", "SEG2", "bar", FRAME_MODES, _ROD, default=False),
+        ElementKind("BAR3", "SEG3", "bar", FRAME_MODES, _ROD, default=False),
+        ElementKind("POUT", "SEG2", "beam", FRAME_MODES, {"RIGIDITE": 2}, default=False),
+        ElementKind(
+            "TIMO", "SEG2", "timoshenko", FRAME_MODES, {"RIGIDITE": 1, "MASSE": 2}, default=False
+        ),
+    )
+}
+
+# words that name an element of each cell type at once
+GENERIC_ELEMENTS: dict[str, dict[str, str]] = {
+    "BBAR": {k.cell_type: k.name for k in ELEMENTS.values() if k.family == "incompressible"},
+}
+
+
+def register_element(kind: ElementKind) -> None:
+    """Add an element to the catalogue (used by packages that bring their own)."""
+    ELEMENTS[kind.name] = kind
+
+
+def default_element(cell_type: str, mode: Mode) -> str:
+    """Name of the element that MODE takes for a cell type when none is named.
+
+    Raises
+    ------
+    MeshError
+        If an element must be named for these cells, or none exists.
+    """
+    fitting = [k for k in ELEMENTS.values() if k.cell_type == cell_type and mode in k.modes]
+    for kind in fitting:
+        if kind.default:
+            return kind.name
+    names = ", ".join(k.name for k in fitting)
+    hint = f"name one of {names}" if names else f"cells that exist in mode {mode.value}"
+    raise MeshError(f"{cell_type} cells have no default element in mode {mode.value}", hint)
+
+
+def support_rule(element: str, support: Support) -> Rule:
+    """Points where a support of an element stands, with weights.
+
+    'NOEUD' gives the nodes and 'GRAVITE' one point; their weights serve only averages.
+    """
+    kind = ELEMENTS[element]
+    cell = kind.reference_cell
+    if support == "NOEUD" or (support == "STRESSES" and kind.family == "beam"):
+        n = len(cell.nodes)
+        return Rule(cell.nodes, np.full(n, cell_volume(cell.shape) / n))
+    if support == "GRAVITE":
+        return quadrature(cell.shape, 1)
+    count = kind.points.get(support, kind.points.get("RIGIDITE", 1))
+    return quadrature(cell.shape, count)
+
+
+def cell_volume(shape: str) -> float:
+    """Measure of a reference domain."""
+    return float(quadrature(shape, 1).weights.sum())

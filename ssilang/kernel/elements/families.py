@@ -1,0 +1,218 @@
+"""The families of elements by name, and the quantities of a zone computed through them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from ssilang.kernel.elements.bar import Bar
+from ssilang.kernel.elements.beam import Beam, Timoshenko
+from ssilang.kernel.elements.catalog import ELEMENTS
+from ssilang.kernel.elements.family import (
+    ElementFamily,
+    apply_moduli,
+    cell_block,
+    element_matrices,
+)
+from ssilang.kernel.elements.hooke import inverted, moduli_from_field
+from ssilang.kernel.elements.solid import Incompressible, Solid
+from ssilang.kernel.elements.solid_moduli import solid_compliance
+from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
+from ssilang.kernel.errors import FieldError
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.matrices.matrix import ElementMatrices
+from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.model import Zone
+
+FAMILIES: dict[str, ElementFamily] = {
+    "solid": Solid(),
+    "incompressible": Incompressible(),
+    "bar": Bar(),
+    "beam": Beam(),
+    "timoshenko": Timoshenko(),
+}
+
+
+def register_family(name: str, family: ElementFamily) -> None:
+    """Add a family of elements (used by packages that bring their own)."""
+    FAMILIES[name] = family
+
+
+def family_of(zone: Zone) -> ElementFamily:
+    """The family of a zone's element."""
+    return FAMILIES[ELEMENTS[zone.element].family]
+
+
+def _moduli(zone: Zone, material: ZoneField, support: Support) -> FloatArray:
+    """Moduli from a field of Hooke matrices if there is one, else from parameters."""
+    given = moduli_from_field(zone, material, support)
+    return family_of(zone).moduli(zone, material, support) if given is None else given
+
+
+def stiffness(zone: Zone, material: CellField) -> ElementMatrices:
+    """Elastic stiffness of a zone.
+
+    Parameters
+    ----------
+    zone : Zone
+    material : CellField
+        Parameters (YOUN, NU ...) or Hooke matrices (MAHO), with the geometric ones (SECT ...).
+
+    Raises
+    ------
+    MaterialError
+        For a missing or inadmissible parameter.
+    """
+    family, parameters = family_of(zone), zone_field(zone, material)
+    moduli = _moduli(zone, parameters, "RIGIDITE")
+    values = family.stiffness_values(zone, moduli, parameters)
+    return element_matrices(zone, family.layout(zone), values, "RIGIDITE")
+
+
+def viscosity(zone: Zone, material: CellField) -> ElementMatrices:
+    """Viscous damping of a zone: its stiffness with VISQ in the place of YOUN."""
+    parameters = renamed(zone_field(zone, material), {"VISQ": "YOUN"})
+    family = family_of(zone)
+    moduli = family.moduli(zone, parameters, "RIGIDITE")
+    values = family.stiffness_values(zone, moduli, parameters)
+    return element_matrices(zone, family.layout(zone), values, "AMORTISSEMENT", keep_zone=False)
+
+
+def mass(zone: Zone, material: CellField, lumped: bool = False) -> ElementMatrices:
+    """Mass of a zone: consistent, or lumped on the diagonal.
+
+    Lumping sums rows for linear continuous elements and bars; elsewhere it scales the diagonal
+    so that the total mass in each direction is kept (Hinton, Rock, Zienkiewicz 1976).
+    """
+    family, parameters = family_of(zone), zone_field(zone, material)
+    values, layout = family.mass_values(zone, parameters)
+    if lumped:
+        rotations = np.array([u.startswith("R") for u in layout.unknowns])
+        summed = zone.cells.kind.degree == 1 and not rotations.any()
+        values = row_sums(values) if summed else scaled_diagonal(values, layout.unknowns)
+    return element_matrices(zone, layout, values, "MASSE", keep_zone=False)
+
+
+def row_sums(values: FloatArray) -> FloatArray:
+    """Diagonal matrices (n, m, m) of the sums of rows."""
+    return _diagonal(values.sum(axis=2))
+
+
+def scaled_diagonal(values: FloatArray, unknowns: tuple[str, ...]) -> FloatArray:
+    """Diagonal matrices in proportion to the diagonal, keeping the mass of each translation."""
+    diagonal = np.einsum("cii->ci", values)
+    out = np.empty_like(diagonal)
+    moving = [u for u in dict.fromkeys(unknowns) if u[0] == "U"]
+    ratios = {}
+    for name in moving:
+        columns = [i for i, u in enumerate(unknowns) if u == name]
+        block = values[:, columns][:, :, columns]
+        ratios[name] = block.sum(axis=(1, 2)) / diagonal[:, columns].sum(axis=1)
+    mean = np.mean(list(ratios.values()), axis=0)
+    for i, name in enumerate(unknowns):
+        out[:, i] = diagonal[:, i] * ratios.get(name, mean)
+    return _diagonal(out)
+
+
+def _diagonal(rows: FloatArray) -> FloatArray:
+    n, m = rows.shape
+    values = np.zeros((n, m, m))
+    values[:, np.arange(m), np.arange(m)] = rows
+    return values
+
+
+def geometric_stiffness(
+    zone: Zone, stress: CellField, material: CellField | None = None
+) -> ElementMatrices:
+    """Geometric stiffness of a stress field."""
+    family = family_of(zone)
+    values = _components(zone, stress, family.stress_names(zone))
+    matrices = family.geometric_values(zone, values, zone_field(zone, material))
+    return element_matrices(zone, family.layout(zone), matrices, "RIGIDITE", keep_zone=False)
+
+
+def strain(
+    zone: Zone, displacement: NodeField, material: CellField | None = None
+) -> CellFieldBlock:
+    """Strains at the points of 'STRESSES'."""
+    family = family_of(zone)
+    values = family.strain_values(zone, displacement, zone_field(zone, material))
+    return cell_block(zone, family.strain_names(zone), values)
+
+
+def stress(zone: Zone, material: CellField, displacement: NodeField) -> CellFieldBlock:
+    """Elastic stresses (section forces for bars and beams) at the points of 'STRESSES'."""
+    family, parameters = family_of(zone), zone_field(zone, material)
+    moduli = _moduli(zone, parameters, "STRESSES")
+    values = family.stress_values(zone, displacement, moduli, parameters)
+    return cell_block(zone, family.stress_names(zone), values)
+
+
+def elastic_stress(zone: Zone, material: CellField, strains: CellField) -> CellFieldBlock:
+    """Stresses of given strains."""
+    family, parameters = family_of(zone), zone_field(zone, material)
+    moduli = _moduli(zone, parameters, "STRESSES")
+    values = apply_moduli(moduli, _components(zone, strains, family.strain_names(zone)))
+    return cell_block(zone, family.stress_names(zone), values)
+
+
+def elastic_strain(zone: Zone, material: CellField, stresses: CellField) -> CellFieldBlock:
+    """Strains of given stresses.
+
+    Raises
+    ------
+    MaterialError
+        If the moduli cannot be inverted (a beam whose shear is neglected).
+    """
+    family, parameters = family_of(zone), zone_field(zone, material)
+    compliance = compliance_of(zone, parameters)
+    values = apply_moduli(compliance, _components(zone, stresses, family.stress_names(zone)))
+    return cell_block(zone, family.strain_names(zone), values)
+
+
+def compliance_of(zone: Zone, parameters: ZoneField) -> FloatArray:
+    """Compliance (n_cells or 1, n_points or 1, s, s) at the points of 'STRESSES'."""
+    family = family_of(zone)
+    if isinstance(family, Solid) and "MAHO" not in parameters:
+        return solid_compliance(zone, parameters, "STRESSES")
+    return inverted(zone, _moduli(zone, parameters, "STRESSES"))
+
+
+def internal_forces(
+    zone: Zone, stresses: CellField, material: CellField | None = None
+) -> NodeField:
+    """Nodal forces in balance with a stress field (BSIG)."""
+    family = family_of(zone)
+    values = _components(zone, stresses, family.stress_names(zone))
+    vectors = family.force_vectors(zone, values, zone_field(zone, material))
+    return family.layout(zone).scatter(vectors)
+
+
+def integration_weights(
+    zone: Zone, support: Support, material: CellField | None = None
+) -> FloatArray:
+    """Weights (n_cells, n_points) that integrate over a zone (thickness or 2 pi r included)."""
+    return family_of(zone).weights(zone, zone_field(zone, material), support)
+
+
+def _components(zone: Zone, field: CellField, names: tuple[str, ...]) -> FloatArray:
+    """Components (n_cells, n_names, n_points) at 'STRESSES', zero where absent."""
+    seen = zone_field(zone, field)
+    if not any(name in seen for name in names):
+        raise FieldError(
+            f"the field has none of {', '.join(names)} on the cells of element {zone.element}",
+            f"it has: {', '.join(seen.names) or 'nothing there'}",
+        )
+    return seen.matrix(names, "STRESSES")
+
+
+def renamed(parameters: ZoneField, names: dict[str, str]) -> ZoneField:
+    """The same field with some components under other names (others of that name are dropped)."""
+    parts = []
+    for block, rows in parameters.parts:
+        kept = {n: v for n, v in block.components.items() if n not in names.values()}
+        components = {names.get(n, n): v for n, v in kept.items()}
+        parts.append((replace(block, components=components), rows))
+    return ZoneField(parameters.zone, tuple(parts))

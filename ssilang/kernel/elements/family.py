@@ -1,0 +1,221 @@
+"""What every family of elements provides, and what follows from it for all of them.
+
+A family gives its strain operator and its elastic moduli at integration points; stiffness,
+strain, stress, internal forces are then the same few lines for all. Arrays are
+(n_cells, n_strains, n_points, ...): one strain component is a contiguous (n_cells, n_points).
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ssilang.kernel.elements.geometry import chunks
+from ssilang.kernel.elements.zone_fields import ZoneField, n_points
+from ssilang.kernel.errors import FieldError
+from ssilang.kernel.fields.cell_field import CellFieldBlock, Support
+from ssilang.kernel.fields.node_field import NodeField, NodeValues
+from ssilang.kernel.matrices.matrix import ElementMatrices, dual_of
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray, NodeTable
+from ssilang.kernel.model import Zone
+
+
+@dataclass(frozen=True, eq=False)
+class Layout:
+    """Rows of a zone's element vectors: row i is `unknowns[i]` at local node `local[i]`."""
+
+    table: NodeTable
+    raw_nodes: IntArray
+    local: NDArray[np.int64]
+    unknowns: tuple[str, ...]
+
+    @property
+    def duals(self) -> tuple[str, ...]:
+        """Dual names of the rows."""
+        return tuple(dual_of(u) for u in self.unknowns)
+
+    def gather(self, field: NodeField) -> FloatArray:
+        """Element vectors (n_cells, n_rows) of a nodal field; absent values count as zero."""
+        nodes = self.table.resolve(self.raw_nodes)
+        out = np.zeros((len(nodes), len(self.unknowns)))
+        for name in dict.fromkeys(self.unknowns):
+            columns = [i for i, u in enumerate(self.unknowns) if u == name]
+            at = nodes[:, self.local[columns]]
+            out[:, columns] = field.values_at(name, at.ravel()).reshape(at.shape)
+        return out
+
+    def scatter(self, vectors: FloatArray) -> NodeField:
+        """Sum of element vectors (n_cells, n_rows) at nodes, as forces (duals, DISCRET)."""
+        nodes = self.table.resolve(self.raw_nodes)
+        components: dict[str, NodeValues] = {}
+        duals = self.duals
+        for name in dict.fromkeys(duals):
+            columns = [i for i, u in enumerate(duals) if u == name]
+            ids, place = np.unique(nodes[:, self.local[columns]], return_inverse=True)
+            sums = np.bincount(place.ravel(), vectors[:, columns].ravel(), len(ids)).astype(
+                np.float64
+            )
+            components[name] = NodeValues(ids, sums)
+        return NodeField(self.table, components, "DISCRET")
+
+
+@dataclass(frozen=True, eq=False)
+class StrainOperator:
+    """Strain operator of some cells of a zone.
+
+    Attributes
+    ----------
+    matrix : array (n_cells, n_strains, n_points, n_rows)
+        strain[c, s, p] = sum_m matrix[c, s, p, m] u[c, m].
+    weights : array (n_cells, n_points)
+        Integration weights: volume, times thickness or circumference where that applies.
+    """
+
+    matrix: FloatArray
+    weights: FloatArray
+
+
+class ElementFamily(ABC):
+    """Behaviour shared by the elements of one family."""
+
+    @abstractmethod
+    def layout(self, zone: Zone) -> Layout:
+        """Rows of the element vectors."""
+
+    @abstractmethod
+    def strain_names(self, zone: Zone) -> tuple[str, ...]:
+        """Components that EPSI gives."""
+
+    @abstractmethod
+    def stress_names(self, zone: Zone) -> tuple[str, ...]:
+        """Components that SIGM gives."""
+
+    @abstractmethod
+    def strain_operator(
+        self, zone: Zone, parameters: ZoneField, support: Support, cells: slice
+    ) -> StrainOperator:
+        """Strain operator at the points of a support, for some cells."""
+
+    @abstractmethod
+    def moduli(self, zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
+        """Elastic moduli (n_cells or 1, n_points or 1, n_strains, n_strains)."""
+
+    @abstractmethod
+    def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, Layout]:
+        """Consistent mass matrices (n_cells, n_rows, n_rows) and their rows."""
+
+    def stiffness_values(self, zone: Zone, moduli: FloatArray, parameters: ZoneField) -> FloatArray:
+        """Stiffness matrices (n_cells, n_rows, n_rows)."""
+        n, m = len(zone.cells), len(self.layout(zone).unknowns)
+        values = np.empty((n, m, m))
+        for cells in chunks(n):
+            operator = self.strain_operator(zone, parameters, "RIGIDITE", cells)
+            values[cells] = contract(operator, per_cell(moduli, cells))
+        return values
+
+    def strain_values(
+        self, zone: Zone, displacement: NodeField, parameters: ZoneField
+    ) -> FloatArray:
+        """Strains (n_cells, n_strains, n_points) at the points of 'STRESSES'."""
+        vectors = self.layout(zone).gather(displacement)
+        shape = (len(zone.cells), len(self.strain_names(zone)), n_points(zone.element, "STRESSES"))
+        values = np.empty(shape)
+        for cells in chunks(len(zone.cells)):
+            operator = self.strain_operator(zone, parameters, "STRESSES", cells)
+            values[cells] = np.einsum("cspm,cm->csp", operator.matrix, vectors[cells])
+        return values
+
+    def stress_values(
+        self, zone: Zone, displacement: NodeField, moduli: FloatArray, parameters: ZoneField
+    ) -> FloatArray:
+        """Stresses (n_cells, n_stresses, n_points) at the points of 'STRESSES'."""
+        return apply_moduli(moduli, self.strain_values(zone, displacement, parameters))
+
+    def force_vectors(self, zone: Zone, stress: FloatArray, parameters: ZoneField) -> FloatArray:
+        """Element vectors (n_cells, n_rows) in balance with a stress field."""
+        n = len(zone.cells)
+        vectors = np.empty((n, len(self.layout(zone).unknowns)))
+        for cells in chunks(n):
+            operator = self.strain_operator(zone, parameters, "STRESSES", cells)
+            weighted = stress[cells] * operator.weights[:, None, :]
+            vectors[cells] = np.einsum("cspm,csp->cm", operator.matrix, weighted)
+        return vectors
+
+    def weights(self, zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
+        """Integration weights (n_cells, n_points) of a support (INTG)."""
+        parts = [
+            self.strain_operator(zone, parameters, support, cells).weights
+            for cells in chunks(len(zone.cells))
+        ]
+        return np.concatenate(parts) if parts else np.empty((0, 1))
+
+    def geometric_values(self, zone: Zone, stress: FloatArray, parameters: ZoneField) -> FloatArray:
+        """Geometric stiffness matrices (n_cells, n_rows, n_rows) of a stress field (KSIG)."""
+        raise FieldError(f"element {zone.element} has no geometric stiffness")
+
+
+def per_cell(array: FloatArray, cells: slice) -> FloatArray:
+    """Rows of some cells, or the single row that serves all."""
+    return array if len(array) == 1 else array[cells]
+
+
+def apply_moduli(moduli: FloatArray, strain: FloatArray) -> FloatArray:
+    """Stresses from strains (n_cells, n_strains, n_points), moduli (n or 1, p or 1, s, s)."""
+    if moduli.shape[:2] == (1, 1):
+        out: FloatArray = np.einsum("st,ctp->csp", moduli[0, 0], strain)
+        return out
+    n, _, p = strain.shape
+    full = np.broadcast_to(moduli, (n, p, *moduli.shape[2:]))
+    out = np.einsum("cpst,ctp->csp", full, strain)
+    return out
+
+
+def contract(operator: StrainOperator, moduli: FloatArray) -> FloatArray:
+    """Sum over points of weight B^T D B, shape (n_cells, n_rows, n_rows)."""
+    B = operator.matrix
+    n, s, p, m = B.shape
+    if moduli.shape[1] == 1:
+        DB = np.matmul(moduli[:, 0], B.reshape(n, s, p * m)).reshape(n, s, p, m)
+    else:
+        DB = np.zeros_like(B)
+        used = np.abs(moduli).max(axis=(0, 1)) > 0
+        for i, j in zip(*np.nonzero(used), strict=True):
+            DB[:, i] += moduli[..., i, j, None] * B[:, j]
+    DB *= operator.weights[:, None, :, None]
+    left, right = B.reshape(n, s * p, m), DB.reshape(n, s * p, m)
+    values: FloatArray = np.matmul(left.transpose(0, 2, 1), right)
+    return values
+
+
+def node_major_layout(zone: Zone, unknowns: tuple[str, ...]) -> Layout:
+    """Rows node by node, the same unknowns at each."""
+    k = zone.cells.kind.n_nodes
+    local = np.repeat(np.arange(k), len(unknowns))
+    return Layout(zone.cells.nodes, zone.cells.raw, local, unknowns * k)
+
+
+def element_matrices(
+    zone: Zone, layout: Layout, values: FloatArray, kind: str, keep_zone: bool = True
+) -> ElementMatrices:
+    """The block of a matrix that a zone contributes."""
+    return ElementMatrices(
+        layout.table,
+        layout.raw_nodes,
+        layout.local,
+        layout.unknowns,
+        layout.duals,
+        values,
+        kind,
+        zone if keep_zone else None,
+    )
+
+
+def cell_block(
+    zone: Zone, names: tuple[str, ...], values: FloatArray, support: Support = "STRESSES"
+) -> CellFieldBlock:
+    """A block of a field in cells from values (n_cells, n_components, n_points)."""
+    components = {name: np.ascontiguousarray(values[:, i]) for i, name in enumerate(names)}
+    return CellFieldBlock(zone.cells, components, support, zone.element, zone.constituent)

@@ -1,0 +1,207 @@
+"""What a field in cells says on the cells of one zone of a model."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
+from ssilang.kernel.elements.reference import REFERENCE_CELLS, shape_functions
+from ssilang.kernel.errors import FieldError, MaterialError
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
+from ssilang.kernel.mesh.mesh import CellBlock
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+from ssilang.kernel.model import Zone
+
+
+def cell_keys(cells: CellBlock) -> NDArray[np.void]:
+    """One comparable key a cell: its nodes in increasing order, shape (n_cells,)."""
+    nodes = np.ascontiguousarray(np.sort(cells.connectivity, axis=1))
+    return nodes.view([("", nodes.dtype)] * nodes.shape[1]).ravel()
+
+
+def cell_rows(inside: CellBlock, wanted: CellBlock) -> IntArray:
+    """Row in `inside` of each cell of `wanted`, -1 where there is none, shape (n_wanted,)."""
+    if inside.cell_type != wanted.cell_type or not len(inside) or not len(wanted):
+        return np.full(len(wanted), -1)
+    keys = cell_keys(inside)
+    order = np.argsort(keys, kind="stable")
+    probe = cell_keys(wanted)
+    place = np.minimum(np.searchsorted(keys, probe, sorter=order), len(keys) - 1)
+    rows = order[place]
+    return np.where(keys[rows] == probe, rows, -1)
+
+
+_LINEAR_OF = {
+    "SEG3": "SEG2", "TRI6": "TRI3", "QUA8": "QUA4", "TE10": "TET4", "PR15": "PRI6", "CU20": "CUB8"
+}  # fmt: skip
+
+
+def _fitting_basis(cell_type: str, source: FloatArray, target: FloatArray) -> list[FloatArray]:
+    """Richest basis that the source points determine, at source and target points."""
+    for name in (cell_type, _LINEAR_OF.get(cell_type, cell_type)):
+        if len(REFERENCE_CELLS[name].nodes) <= len(source):
+            return [shape_functions(name, points) for points in (source, target)]
+    return [np.ones((len(points), 1)) for points in (source, target)]
+
+
+@cache
+def transfer_matrix(element: str, source: Support, target: Support) -> FloatArray:
+    """Matrix (n_target, n_source) that carries values from one support to another.
+
+    Least squares on the element's shape functions; on those of the linear cell, or a constant,
+    where the source points are too few to determine them.
+    """
+    kind = ELEMENTS[element]
+    cell_type = kind.reference or kind.cell_type
+    rules = [support_rule(element, s) for s in (source, target)]
+    if source == "NOEUD":
+        return shape_functions(cell_type, rules[1].points)
+    old, new = _fitting_basis(cell_type, rules[0].points, rules[1].points)
+    matrix: FloatArray = new @ np.linalg.pinv(old)
+    return np.where(np.abs(matrix) < 1e-14, 0.0, matrix)
+
+
+def carry(values: NDArray[Any], element: str, source: Support, target: Support) -> NDArray[Any]:
+    """Values (n_cells, n_points) moved to another support; constants stay as they are."""
+    if values.shape[1] == 1 or source == target:
+        return values
+    if values.dtype == object:
+        raise FieldError(
+            "curves or points that vary inside a cell cannot be moved to other points",
+            "give them constant in each cell",
+        )
+    matrix = transfer_matrix(element, source, target)
+    if matrix.shape[1] != values.shape[1]:
+        raise FieldError(
+            f"a field at '{source}' has {values.shape[1]} values a cell, "
+            f"element {element} has {matrix.shape[1]} points there"
+        )
+    return values @ matrix.T
+
+
+@dataclass(frozen=True, eq=False)
+class ZoneField:
+    """A field seen from the cells of one zone.
+
+    `parts` are the field's blocks that cover the zone: block and, for each cell of the zone, its
+    row there (None: the same cells in the same order).
+    """
+
+    zone: Zone
+    parts: tuple[tuple[CellFieldBlock, IntArray | None], ...]
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Components that are defined on the zone, each once, in order."""
+        return tuple(dict.fromkeys(n for b, _ in self.parts for n in b.components))
+
+    def __contains__(self, name: str) -> bool:
+        return any(name in block.components for block, _ in self.parts)
+
+    def _pieces(self, name: str) -> Iterator[tuple[CellFieldBlock, IntArray | None]]:
+        return ((b, rows) for b, rows in self.parts if name in b.components)
+
+    def raw(self, name: str) -> tuple[NDArray[Any], Support]:
+        """Values (n_cells or 1, n_points) as stored, and their support.
+
+        Raises
+        ------
+        FieldError
+            If the component is missing, or missing on some cells of the zone.
+        """
+        result: NDArray[Any] | None = None
+        support: Support = "NOEUD"
+        known = np.zeros(len(self.zone.cells), dtype=bool)
+        for block, rows in self._pieces(name):
+            values = np.asarray(block.components[name])
+            if rows is None:
+                return values, block.support
+            found = rows >= 0
+            picked = values[np.maximum(rows, 0)] if len(values) > 1 else values[[0] * len(rows)]
+            if result is None:
+                result, support = picked.copy(), block.support
+            else:
+                picked = carry(picked, self.zone.element, block.support, support)
+                width = max(result.shape[1], picked.shape[1])
+                result = np.broadcast_to(result, (len(rows), width)).copy()
+                result[found] = np.broadcast_to(picked, result.shape)[found]
+            known |= found
+        if result is None or not known.all():
+            raise FieldError(f"component {name} is not defined on all cells of the model's zone")
+        return result, support
+
+    def at(self, name: str, support: Support, default: float | None = None) -> FloatArray:
+        """Values at the points of a support, shape (n_cells or 1, n_points or 1).
+
+        Raises
+        ------
+        MaterialError
+            If the component is missing and has no default, or depends on another field.
+        """
+        if name not in self:
+            if default is None:
+                raise missing_parameter(self.zone, name, self.names)
+            return np.full((1, 1), float(default))
+        values, source = self.raw(name)
+        if values.dtype == object:
+            raise MaterialError(
+                f"parameter {name} is a curve: it depends on a field",
+                "evaluate it first at the state wanted (VARI)",
+            )
+        return carry(values.astype(float, copy=False), self.zone.element, source, support)
+
+    def matrix(self, names: tuple[str, ...], support: Support) -> FloatArray:
+        """Several components side by side, zero where absent, (n_cells, len(names), n_points)."""
+        n = len(self.zone.cells)
+        p = len(support_rule(self.zone.element, support))
+        columns = [np.broadcast_to(self.at(name, support, 0.0), (n, p)) for name in names]
+        return np.stack(columns, axis=1)
+
+
+def missing_parameter(zone: Zone, name: str, given: tuple[str, ...]) -> MaterialError:
+    """The error for a parameter that a zone needs and does not have."""
+    law = " ".join(zone.behaviour)
+    return MaterialError(
+        f"parameter {name} is missing for element {zone.element} ({law})",
+        f"give it with MATE or CARA; given: {', '.join(given) or 'none'}",
+    )
+
+
+def zone_field(zone: Zone, field: CellField | None) -> ZoneField:
+    """The part of a field that stands on a zone's cells.
+
+    Blocks made over the very same cells count first; others are compared cell by cell, so that a
+    field made for a larger model serves a part of it.
+    """
+    if field is None:
+        return ZoneField(zone, ())
+    fitting = [b for b in field.blocks if _same_constituent(zone, b)]
+    parts: list[tuple[CellFieldBlock, IntArray | None]] = [
+        (b, None) for b in fitting if b.cells is zone.cells
+    ]
+    known = {name for block, _ in parts for name in block.components}
+    for block in fitting:
+        if block.cells is zone.cells or known.issuperset(block.components):
+            continue
+        if block.cells.cell_type != zone.cells.cell_type:
+            continue
+        rows = cell_rows(block.cells, zone.cells)
+        if (rows >= 0).any():
+            parts.append((block, rows))
+    return ZoneField(zone, tuple(parts))
+
+
+def _same_constituent(zone: Zone, block: CellFieldBlock) -> bool:
+    names = {zone.constituent, block.constituent} - {""}
+    return len(names) < 2
+
+
+def n_points(element: str, support: Support) -> int:
+    """Number of points of a support of an element."""
+    return len(support_rule(element, support))
