@@ -8,10 +8,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from ssilang.language.call import Call
+from ssilang.language.call import Call, Operand
 from ssilang.language.errors import SsiError
 from ssilang.language.registry import OPERATORS, Help, Operator, operator
-from ssilang.language.values import type_of
+from ssilang.language.values import Mot, type_of
 
 Entry = Callable[[Call, Any], Any]
 
@@ -31,7 +31,8 @@ def extend_help(name: str, syntax: str, en: str, fr: str, examples: tuple[str, .
 class ByType:
     """An operator whose work depends on the type of its main operand.
 
-    The first readable operand whose type has an entry is the main one.
+    The first readable operand whose type has an entry is the main one; words written before it
+    (`MAXI 'ABS' L`) are left for the entry to read.
     """
 
     def __init__(
@@ -55,10 +56,22 @@ class ByType:
         )(self._run)
 
     def _run(self, call: Call) -> Any:
-        operand = call.read(*self.entries)
+        operand = call.read(*self.entries) or self._behind_words(call)
         if operand is None:
             raise call.missing(tuple(self.entries))
         return self.entries[type_of(operand.value)](call, operand.value)
+
+    def _behind_words(self, call: Call) -> Operand | None:
+        """Consume the main operand that stands behind one or two words."""
+        words = 0
+        for i, operand in enumerate(call.operands):
+            if type_of(operand.value) in self.entries:
+                call.used.append(operand)
+                return call.operands.pop(i)
+            words += isinstance(operand.value, Mot)
+            if words > 2:
+                break
+        return None
 
     def on(
         self,
@@ -210,6 +223,13 @@ MINI = ByType(
 )
 COPI = ByType("COPI", "objects", "Copy of an object.", "Copie d'un objet.", "COPIER")
 ORDO = ByType("ORDO", "objects", "Sorts the items of an object.", "Ordonne un objet.", "ORDONNER")
+
+COUL = ByType("COUL", "objects", "Gives a colour.", "Attribue une couleur.", "COULEUR")
+INVE = ByType("INVE", "objects", "Inverts an object.", "Inverse un objet.", "INVERSE")
+UNIQ = ByType("UNIQ", "objects", "Removes doubles.", "Supprime les doublons.", "UNIQUE")
+INTG = ByType(
+    "INTG", "fields", "Integral of a field or a curve.", "Intégrale d'un champ ou d'une évolution."
+)
 
 ListingEntry = Callable[[Any, str], str]
 LISTINGS: dict[str, ListingEntry] = {}
