@@ -231,6 +231,7 @@ class Evaluator:
         holder.set(self._single(target.indices[-1]), value)
 
     def _nothing_left(self, left: list[Operand]) -> None:
+        left = [o for o in left if o.value is not ANNULE]
         if not left:
             return
         operand = next((o for o in left if isinstance(o.value, Mot) and not o.name), left[0])
@@ -285,7 +286,7 @@ class Evaluator:
         operand = call.operands[i]
         if operand.result and len(call.operands) == 1:
             return None, None
-        found = find_operator(str(operand.value).upper().rstrip())
+        found = find_operator(str(operand.value).rstrip())
         if found is None:
             return None, None
         del call.operands[i]
