@@ -1,0 +1,377 @@
+"""Making relations: supports, sums over meshes, directions, symmetry planes.
+
+All functions return `Relations` with multiplier nodes of their own, placed at the first node of
+each row. Sense: 0 equality, +1 'MINI' (stays at or above), -1 'MAXI' (stays at or below).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ssilang.kernel.errors import FieldError, MeshError
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, Relations, dual_of
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray, NodeTable
+from ssilang.kernel.model import Mode
+
+_PLANE: tuple[tuple[str, ...], tuple[str, ...]] = (("UX", "UY"), ("RZ",))
+_UNKNOWNS: dict[Mode, tuple[tuple[str, ...], tuple[str, ...]]] = {
+    Mode.PLANE_STRAIN: _PLANE,
+    Mode.PLANE_STRESS: _PLANE,
+    Mode.GENERALISED_PLANE_STRAIN: _PLANE,
+    Mode.AXISYMMETRIC: (("UR", "UZ"), ("RT",)),
+    Mode.FOURIER: (("UR", "UZ", "UT"), ("RT",)),
+    Mode.THREE_DIMENSIONAL: (("UX", "UY", "UZ"), ("RX", "RY", "RZ")),
+    Mode.UNIDIMENSIONAL: (("UX",), ()),
+}
+
+
+def translations(mode: Mode) -> tuple[str, ...]:
+    """Names of the displacement unknowns ('DEPL')."""
+    return _UNKNOWNS[mode][0]
+
+
+def rotations(mode: Mode) -> tuple[str, ...]:
+    """Names of the rotation unknowns ('ROTA')."""
+    return _UNKNOWNS[mode][1]
+
+
+def in_space(mode: Mode) -> tuple[str, ...]:
+    """Displacements along the coordinate axes: without UT of Fourier modes."""
+    return translations(mode)[: mode.dimension]
+
+
+@dataclass(frozen=True, eq=False)
+class Term:
+    """`coefficient * unknown` at each of `nodes`: one term a row, or one node for all rows.
+
+    `coefficients` is a number or an array (n,).
+    """
+
+    coefficients: float | FloatArray
+    unknown: str
+    nodes: IntArray
+
+
+def relation_rows(table: NodeTable, terms: Sequence[Term], sense: int = 0) -> Relations:
+    """Row i: the sum of the terms at their i-th nodes.
+
+    Raises
+    ------
+    MeshError
+        If the terms have different numbers of nodes, none of them 1.
+    FieldError
+        If every coefficient of a row is zero.
+    """
+    sizes = sorted({len(t.nodes) for t in terms} - {1}) or [1]
+    if len(sizes) > 1 or not terms:
+        raise MeshError(
+            f"the meshes of a relation have {' and '.join(map(str, sizes))} nodes",
+            "give meshes of the same number of nodes, or of a single node",
+        )
+    n = sizes[0]
+    coefficients = np.stack([np.broadcast_to(t.coefficients, n) for t in terms], axis=1)
+    nodes = np.stack([np.broadcast_to(t.nodes, n) for t in terms], axis=1)
+    return rows_from_table(table, nodes, tuple(t.unknown for t in terms), coefficients, sense)
+
+
+def rows_from_table(
+    table: NodeTable,
+    nodes: IntArray,
+    unknowns: tuple[str, ...],
+    coefficients: FloatArray,
+    sense: int = 0,
+) -> Relations:
+    """Rows with the same unknowns: nodes and coefficients (n_rows, n_terms); zeros are dropped.
+
+    Raises
+    ------
+    FieldError
+        If every coefficient of a row is zero.
+    """
+    kept = coefficients != 0.0
+    counts = kept.sum(axis=1)
+    if (counts == 0).any():
+        node = int(nodes[np.argmin(counts), 0]) + 1
+        raise FieldError(f"a relation at node {node} has no coefficient other than zero")
+    names = np.array(unknowns, dtype=object)
+    where = np.broadcast_to(np.arange(len(unknowns)), kept.shape)[kept]
+    return Relations(
+        table,
+        np.concatenate([[0], np.cumsum(counts)]).astype(np.int64),
+        nodes[kept],
+        tuple(names[where]),
+        np.asarray(coefficients[kept], dtype=float),
+        _multiplier_nodes(table, nodes[:, 0]),
+        np.full(len(nodes), sense, dtype=np.int8),
+    )
+
+
+def _multiplier_nodes(table: NodeTable, beside: IntArray) -> IntArray:
+    return table.add(table.coordinates[table.resolve(beside)].copy())
+
+
+def joined(parts: Sequence[Relations]) -> Relations:
+    """Rows of all parts (at least one), one after the other, in one object."""
+    starts = np.concatenate([[0], *(np.diff(p.row_start) for p in parts)]).cumsum()
+    return Relations(
+        parts[0].table,
+        starts.astype(np.int64),
+        np.concatenate([p.raw_nodes for p in parts]),
+        tuple(u for p in parts for u in p.unknowns),
+        np.concatenate([p.coefficients for p in parts]),
+        np.concatenate([p.raw_multipliers for p in parts]),
+        np.concatenate([p.sense for p in parts]),
+    )
+
+
+def blocked(
+    table: NodeTable, nodes: IntArray, unknowns: Sequence[str], sense: int = 0
+) -> Relations:
+    """`u = d` for each unknown at each node: rows by unknown, then by node."""
+    return joined([relation_rows(table, [Term(1.0, u, nodes)], sense) for u in unknowns])
+
+
+def blocked_along(
+    table: NodeTable,
+    nodes: IntArray,
+    unknowns: Sequence[str],
+    directions: FloatArray,
+    sense: int = 0,
+) -> Relations:
+    """`u . direction = d` with directions (n_nodes, dim) or (dim,), made of length one.
+
+    Raises
+    ------
+    FieldError
+        If a direction is zero.
+    """
+    d = np.broadcast_to(directions, (len(nodes), len(unknowns))).astype(float)
+    length = np.linalg.norm(d, axis=1, keepdims=True)
+    if (length == 0.0).any():
+        node = int(nodes[int(np.argmin(length))]) + 1
+        raise FieldError(f"the direction at node {node} has no length")
+    d = d / length
+    d[np.abs(d) < 1e-15] = 0.0
+    table_of_nodes = np.repeat(nodes[:, None], len(unknowns), axis=1)
+    return rows_from_table(table, table_of_nodes, tuple(unknowns), d, sense)
+
+
+def radial_directions(
+    table: NodeTable, nodes: IntArray, centre: FloatArray, axis: FloatArray | None
+) -> FloatArray:
+    """Vectors (n, 3) from the centre, or from the line (centre, axis), to the nodes.
+
+    Raises
+    ------
+    MeshError
+        If a node lies on the centre or axis.
+    """
+    away = table.coordinates[nodes] - centre
+    if axis is not None:
+        unit = axis / np.linalg.norm(axis)
+        away = away - np.outer(away @ unit, unit)
+    distance = np.linalg.norm(away, axis=1)
+    if (distance <= 1e-12 * max(distance.max(initial=0.0), 1e-300)).any():
+        node = int(nodes[int(np.argmin(distance))]) + 1
+        raise MeshError(f"node {node} lies on the axis: it has no radial direction")
+    return away
+
+
+def orthoradial_directions(radial: FloatArray, axis: FloatArray | None) -> FloatArray:
+    """Vectors (n, 3) normal to the radial ones and to the axis (Z in the plane)."""
+    turn = np.array([0.0, 0.0, 1.0]) if axis is None else axis / np.linalg.norm(axis)
+    return np.cross(turn, radial)
+
+
+def from_field(field: NodeField, sense: int = 0, multiplier: IntArray | None = None) -> Relations:
+    """One row: the sum of all values of a field times the unknowns of their names.
+
+    Raises
+    ------
+    FieldError
+        If the field has no value other than zero.
+    """
+    parts = [(name, p.nodes[p.values != 0], p.values[p.values != 0])
+             for name, p in field.components.items()]  # fmt: skip
+    nodes = np.concatenate([n for _, n, _ in parts] or [np.empty(0, np.int64)])
+    if len(nodes) == 0:
+        raise FieldError("the field of a relation has no coefficient other than zero")
+    own = _multiplier_nodes(field.table, nodes[:1]) if multiplier is None else multiplier
+    return Relations(
+        field.table,
+        np.array([0, len(nodes)]),
+        nodes,
+        tuple(name for name, n, _ in parts for _ in n),
+        np.concatenate([v for _, _, v in parts]),
+        own,
+        np.array([sense], dtype=np.int8),
+    )
+
+
+# --- planes of symmetry ----------------------------------------------------------------------
+
+
+def on_plane(
+    table: NodeTable, nodes: IntArray, points: FloatArray, tolerance: float
+) -> tuple[IntArray, FloatArray]:
+    """Nodes within `tolerance` of the line (2 points) or plane (3 points), and its unit normal.
+
+    Raises
+    ------
+    MeshError
+        If the points coincide or lie on one line, or no node is near enough.
+    """
+    first, second = points[0], points[1] - points[0]
+    other = points[2] - first if len(points) == 3 else np.array([0.0, 0.0, 1.0])
+    normal = np.cross(second, other)
+    length = float(np.linalg.norm(normal))
+    if length <= 1e-12 * np.linalg.norm(second) * np.linalg.norm(other):
+        raise MeshError("the points that define the symmetry are on one line or coincide")
+    normal = normal / length
+    distance = np.abs((table.coordinates[nodes] - first) @ normal)
+    near = nodes[distance <= tolerance]
+    if len(near) == 0:
+        raise MeshError(
+            f"no node within {tolerance:g} of the symmetry; the nearest is at {distance.min():g}",
+            "raise the tolerance, or check the points",
+        )
+    return near, normal
+
+
+def mirror_rows(
+    table: NodeTable,
+    nodes: IntArray,
+    normal: FloatArray,
+    displacement: Sequence[str],
+    rotation: Sequence[str],
+    mirrored: bool,
+) -> Relations:
+    """Conditions on a plane of symmetry (`mirrored`) or antisymmetry.
+
+    Symmetry holds the displacement along the normal and the rotations about the axes in the
+    plane; antisymmetry holds the others. In 2D the rotation is about an axis in the plane.
+    """
+    dim = len(displacement) or (3 if len(rotation) == 3 else 2)
+    across = [normal[:dim]]
+    within = _tangents(normal)[: dim - 1] if dim == 3 else [np.array([-normal[1], normal[0]])]
+    rows = [
+        blocked_along(table, nodes, displacement, d)
+        for d in (across if mirrored else within)
+        if len(displacement)
+    ]
+    if len(rotation) == 3:
+        turned = within if mirrored else across
+        rows += [blocked_along(table, nodes, rotation, d) for d in turned]
+    elif len(rotation) == 1 and mirrored:
+        rows.append(blocked(table, nodes, rotation))
+    if not rows:
+        raise FieldError("antisymmetry leaves the rotations of a plane model free")
+    return joined(rows)
+
+
+def _tangents(normal: FloatArray) -> list[FloatArray]:
+    side = np.eye(3)[int(np.argmin(np.abs(normal)))]
+    first = np.cross(normal, side)
+    first = first / np.linalg.norm(first)
+    return [first, np.cross(normal, first)]
+
+
+# --- springs to the ground -------------------------------------------------------------------
+
+
+def springs(
+    table: NodeTable, nodes: IntArray, unknowns: Sequence[str], stiffness: float,
+    directions: FloatArray | None = None,
+) -> Matrix:  # fmt: skip
+    """A spring of the given stiffness at each node on each unknown, or along a direction.
+
+    `directions` (n, dim) or (dim,) are made of length one.
+    """
+    m = len(unknowns)
+    if directions is None:
+        values = np.broadcast_to(np.eye(m), (len(nodes), m, m))
+    else:
+        d = np.broadcast_to(directions, (len(nodes), m))
+        d = d / np.linalg.norm(d, axis=1, keepdims=True)
+        values = d[:, :, None] * d[:, None, :]
+    block = ElementMatrices(
+        table,
+        np.asarray(nodes)[:, None],
+        np.zeros(m, dtype=np.int64),
+        tuple(unknowns),
+        tuple(dual_of(u) for u in unknowns),
+        stiffness * values,
+    )
+    return Matrix(table, (block,))
+
+
+# --- imposed values --------------------------------------------------------------------------
+
+
+def imposed_uniform(relations: Sequence[Relations], value: float) -> NodeField:
+    """The same value for all rows: a field FLX at the multipliers (DEPI)."""
+    nodes = np.unique(np.concatenate([r.multipliers for r in relations]))
+    return NodeField.of(relations[0].table, nodes, {"FLX": np.full(len(nodes), value)}, "DISCRET")
+
+
+def imposed_from_field(relations: Sequence[Relations], values: NodeField) -> NodeField:
+    """Values for rows of one unknown, read in the field at that unknown's name and node.
+
+    Rows are `c u = d`: d is the coefficient times the field's value.
+
+    Raises
+    ------
+    FieldError
+        If a row has several unknowns, or the field has none of the values wanted.
+    """
+    nodes, imposed = [], []
+    for part in relations:
+        if (np.diff(part.row_start) != 1).any():
+            raise FieldError(
+                "a field of values fits conditions on a single unknown only",
+                "give relations a number, or 'RELA' and a field of component SCAL",
+            )
+        names = np.array(part.unknowns)
+        for name in dict.fromkeys(part.unknowns):
+            own = names == name
+            component = values.components.get(name)
+            there = np.zeros(own.sum(), bool)
+            if component is not None:
+                there = np.isin(part.nodes[own], component.nodes)
+            found = part.coefficients[own] * values.values_at(name, part.nodes[own])
+            nodes.append(part.multipliers[own][there])
+            imposed.append(found[there])
+    where = np.concatenate(nodes)
+    if len(where) == 0:
+        held = ", ".join(dict.fromkeys(u for r in relations for u in r.unknowns))
+        raise FieldError(
+            f"the field gives no value where something is held ({held})",
+            f"it has the components {', '.join(values.components) or 'none'}",
+        )
+    return NodeField.of(values.table, where, {"FLX": np.concatenate(imposed)}, "DISCRET")
+
+
+def imposed_by_node(relations: Sequence[Relations], values: NodeField) -> NodeField:
+    """Values for relations between unknowns of a single node, from the component SCAL there.
+
+    Raises
+    ------
+    FieldError
+        If a row has terms on several nodes or the field has another component than SCAL.
+    """
+    if list(values.components) != ["SCAL"]:
+        raise FieldError("'RELA' wants a field of one component, SCAL")
+    nodes, imposed = [], []
+    for part in relations:
+        first = part.nodes[part.row_start[:-1]]
+        if (part.nodes != np.repeat(first, np.diff(part.row_start))).any():
+            raise FieldError("'RELA' fits relations between unknowns of one node only")
+        nodes.append(part.multipliers)
+        imposed.append(values.values_at("SCAL", first))
+    return NodeField.of(
+        values.table, np.concatenate(nodes), {"FLX": np.concatenate(imposed)}, "DISCRET"
+    )

@@ -1,0 +1,204 @@
+"""Relations that tie nodes together: rigid bodies, common values, meshes hooked onto others."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import combinations
+
+import numpy as np
+
+from ssilang.kernel.errors import MeshError
+from ssilang.kernel.matrices.matrix import Relations
+from ssilang.kernel.matrices.relations import Term, joined, relation_rows, rows_from_table
+from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray, NodeTable
+
+
+def same_value(table: NodeTable, nodes: IntArray, unknown: str) -> Relations:
+    """`u_i = u_1` for all nodes but the first (ENSE).
+
+    Raises
+    ------
+    MeshError
+        If there is only one node.
+    """
+    if len(nodes) < 2:
+        raise MeshError("a common motion needs at least two nodes")
+    return relation_rows(table, [Term(1.0, unknown, nodes[1:]), Term(-1.0, unknown, nodes[:1])])
+
+
+def rigid_with_rotations(
+    table: NodeTable,
+    turning: IntArray,
+    following: IntArray,
+    displacement: Sequence[str],
+    rotation: Sequence[str],
+) -> Relations:
+    """Small rigid motion of nodes about a master, the first of `turning` (CORI 'ROTA').
+
+    `u_i = u_m + theta_m x (x_i - x_m)` for all nodes, `theta_i = theta_m` for the other turning
+    ones. `following` nodes have displacements only.
+    """
+    master = turning[:1]
+    others = np.concatenate([turning[1:], np.setdiff1d(following, turning)])
+    if len(others) == 0:
+        raise MeshError("a rigid body needs at least two nodes")
+    arm = table.coordinates[others] - table.coordinates[master]
+    rows = [
+        relation_rows(
+            table,
+            [
+                Term(1.0, name, others),
+                Term(-1.0, name, master),
+                *(
+                    Term(-part, turn, master)
+                    for turn, part in zip(rotation, _levers(arm, axis, len(rotation)), strict=True)
+                    if part.any()
+                ),
+            ],
+        )
+        for axis, name in enumerate(displacement)
+    ]
+    if len(turning) > 1:
+        rows += [same_value(table, turning, turn) for turn in rotation]
+    return joined(rows)
+
+
+def _levers(arm: FloatArray, axis: int, n_rotations: int) -> list[FloatArray]:
+    """Component `axis` of `e x arm` for the rotations' axes e (Z alone in the plane)."""
+    turns = np.eye(3) if n_rotations == 3 else np.eye(3)[2:]
+    return [np.cross(turn, arm)[:, axis] for turn in turns]
+
+
+def rigid_by_distances(
+    table: NodeTable, nodes: IntArray, displacement: Sequence[str], check: bool = True
+) -> Relations:
+    """Small rigid motion of nodes by constant distances (CORI 'DEPL').
+
+    A base of dim + 1 nodes far from each other is made rigid by all its distances; each other
+    node keeps its distances to the dim base nodes that fix it best.
+
+    Raises
+    ------
+    MeshError
+        If `check` and the nodes do not span the space.
+    """
+    dim = len(displacement)
+    x = table.coordinates[nodes][:, :dim]
+    base = _spread_base(x, dim)
+    if len(base) < dim + 1 and check:
+        need = "three nodes not on a line" if dim == 2 else "four nodes not in a plane"
+        raise MeshError(f"a rigid body by distances needs {need}", "or say 'NOVERIF'")
+    pairs = [np.array(list(combinations(base, 2)), dtype=np.int64).reshape(-1, 2)]
+    others = np.setdiff1d(np.arange(len(nodes)), base)
+    pairs.append(_best_ties(x, others, base, dim))
+    start, end = np.concatenate(pairs).T
+    along = x[start] - x[end]
+    along /= np.linalg.norm(along, axis=1, keepdims=True)
+    return rows_from_table(
+        table,
+        nodes[np.concatenate([np.tile(start[:, None], dim), np.tile(end[:, None], dim)], axis=1)],
+        (*displacement, *displacement),
+        np.concatenate([along, -along], axis=1),
+    )
+
+
+def _spread_base(x: FloatArray, dim: int) -> IntArray:
+    """Up to dim + 1 nodes, each as far as can be from the span of those before."""
+    base = [int(np.argmax(np.linalg.norm(x - x.mean(axis=0), axis=1)))]
+    rest = x - x[base[0]]
+    size = np.linalg.norm(rest, axis=1).max()
+    for _ in range(dim):
+        distance = np.linalg.norm(rest, axis=1)
+        new = int(np.argmax(distance))
+        if distance[new] <= 1e-8 * size:
+            break
+        base.append(new)
+        unit = rest[new] / distance[new]
+        rest = rest - np.outer(rest @ unit, unit)
+    return np.array(base, dtype=np.int64)
+
+
+def _best_ties(x: FloatArray, others: IntArray, base: IntArray, dim: int) -> IntArray:
+    """Pairs (node, base node), dim for each other node."""
+    if len(others) == 0:
+        return np.empty((0, 2), dtype=np.int64)
+    away = x[others][:, None, :] - x[base][None, :, :]
+    unit = away / np.linalg.norm(away, axis=2, keepdims=True)
+    choices = list(combinations(range(len(base)), min(dim, len(base))))
+    picks = np.array(choices, dtype=np.int64)
+    gram = np.einsum("nci,ndi->ncd", unit, unit)
+    volumes = np.stack([np.linalg.det(gram[:, c][:, :, c]) for c in picks], axis=1)
+    best = picks[np.argmax(volumes, axis=1)]
+    return np.stack([np.repeat(others, best.shape[1]), base[best].ravel()], axis=1)
+
+
+def middle_nodes(mesh: Mesh, unknowns: Sequence[str]) -> Relations:
+    """`u_middle = (u_a + u_b) / 2` on all edges of quadratic cells (MILI).
+
+    Raises
+    ------
+    MeshError
+        If the mesh has no quadratic cell.
+    """
+    edges = [np.empty((0, 3), dtype=np.int64)]
+    for block in mesh.blocks:
+        for corners in _edges(block.cell_type):
+            edges.append(block.connectivity[:, corners])
+    triples = np.concatenate(edges)
+    if len(triples) == 0:
+        raise MeshError("there is no middle node: the mesh has no quadratic cell")
+    _, first = np.unique(triples[:, 1], return_index=True)
+    a, middle, b = triples[np.sort(first)].T
+    return joined(
+        [
+            relation_rows(mesh.nodes, [Term(1.0, u, middle), Term(-0.5, u, a), Term(-0.5, u, b)])
+            for u in unknowns
+        ]
+    )
+
+
+def _edges(cell_type: str) -> list[tuple[int, int, int]]:
+    """Local (end, middle, end) of the edges of a cell type, none for linear ones."""
+    from ssilang.kernel.mesh.cells import CELL_TYPES
+
+    kind = CELL_TYPES[cell_type]
+    if kind.degree != 2 or kind.joint:
+        return []
+    if kind.dimension == 1:
+        return [(0, 1, 2)]
+    if kind.dimension == 2:
+        n = kind.n_nodes
+        return [(i, i + 1, (i + 2) % n) for i in range(0, n, 2)]
+    return [tuple(face[i] for i in edge) for name, face in kind.faces for edge in _edges(name)]  # type: ignore[misc]
+
+
+def hooked(
+    nodes: IntArray, mesh: Mesh, unknowns: Sequence[str], tolerance: float = 1e-5
+) -> Relations:
+    """Nodes follow the cells of `mesh` that they lie in (ACCRO); nodes outside are left free.
+
+    Raises
+    ------
+    MeshError
+        If no node lies in a cell.
+    """
+    from ssilang.kernel.matrices.location import locate
+
+    own = np.setdiff1d(nodes, mesh.sorted_node_ids)
+    found = locate(mesh, mesh.nodes.coordinates[own], tolerance)
+    rows = []
+    for block, (which, shapes) in zip(mesh.blocks, found, strict=True):
+        inside = which >= 0
+        if not inside.any():
+            continue
+        slaves, masters = own[inside], block.connectivity[which[inside]]
+        weights = np.where(np.abs(shapes[inside]) < 1e-10, 0.0, -shapes[inside])
+        table = np.concatenate([slaves[:, None], masters], axis=1)
+        values = np.concatenate([np.ones((len(slaves), 1)), weights], axis=1)
+        rows += [
+            rows_from_table(mesh.nodes, table, (u,) * table.shape[1], values) for u in unknowns
+        ]
+    if not rows:
+        raise MeshError("no node of the first mesh lies in the second one")
+    return joined(rows)
