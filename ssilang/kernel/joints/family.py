@@ -104,7 +104,7 @@ class JointFamily(ElementFamily):
         """Mass of the joint's own matter: RHO (kg/m2) on the mid-surface, MASS (kg) of JOI1."""
         joints = joint_cells(zone, parameters)
         layout = self.layout(zone)
-        n, nodes = zone.cells.raw.shape
+        n = len(zone.cells)
         name = "MASS" if zone.element == "JOI1" else "RHO"
         density = _first_given(joints, parameters, (name,)) * joints.weights
         if zone.element == "JOI1":

@@ -1,0 +1,177 @@
+"""What stands around and over a picture: arrows, numbers, names, frame, colour bar."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ssilang.io.plots.levels import Levels
+from ssilang.io.plots.palette import shade
+from ssilang.io.plots.patches import Faces
+from ssilang.io.plots.values import values_on
+from ssilang.io.plots.view import View
+from ssilang.kernel.fields.deformed import ArrowPart, Arrows, round_down
+from ssilang.kernel.mesh.nodes import FloatArray
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from ssilang.io.plots.scene import Layer, PictureOptions
+
+_HALO_WIDTH = 2.0
+_MOST_LABELS = 2000
+
+
+def draw_arrows(
+    axes: Axes, view: View, arrows: Arrows, size: float, positions: FloatArray | None
+) -> None:
+    """Draw arrows; those that stand at nodes follow `positions` (all nodes of the table)."""
+    for part in arrows.parts:
+        origins = part.origins
+        if positions is not None and part.nodes is not None:
+            origins = positions[part.nodes]
+        length = np.linalg.norm(part.vectors, axis=1)
+        seen = length > 0.03 * length.max(initial=0.0)
+        if not seen.any():
+            continue
+        scale = _arrow_scale(part, size)
+        start = view.project(origins[seen])
+        step = view.project(part.vectors[seen]) * scale
+        if not part.heads:
+            start = start - step / 2
+        elif scale < 0:
+            # a negative amplification: the arrow comes from outside and its tip is at the point
+            start, step = start + step, -step
+        axes.quiver(
+            *start.T,
+            *step.T,
+            angles="xy",
+            scale_units="xy",
+            scale=1.0,
+            color=shade(part.colour),
+            width=0.0035,
+            headwidth=3.6 if part.heads else 0,
+            headlength=4.6 if part.heads else 0,
+            headaxislength=4.2 if part.heads else 0,
+            zorder=4,
+        )
+
+
+def _arrow_scale(part: ArrowPart, size: float) -> float:
+    if part.scale is not None:
+        return part.scale
+    longest = float(np.linalg.norm(part.vectors, axis=1).max()) if len(part.vectors) else 0.0
+    return round_down(0.12 * size / longest) if longest > 0 and size > 0 else 1.0
+
+
+def write_numbers(
+    axes: Axes, view: View, prepared: list[tuple[Layer, list[Faces]]], options: PictureOptions
+) -> None:
+    """Write node numbers, cell numbers, values and names, as asked for."""
+    for layer, faces in prepared:
+        positions = layer.positions()
+        if options.node_numbers:
+            ids = np.unique(np.concatenate([f.nodes.ravel() for f in faces] or [np.empty(0, int)]))
+            _write(axes, view.project(positions[ids]), [str(i + 1) for i in ids], "#14316b")
+        if options.cell_numbers:
+            for f in faces:
+                centres = view.project(positions[f.nodes].mean(axis=1))
+                _write(axes, centres, [str(i + 1) for i in f.cells], "#8b4a1b")
+        if options.point_values and layer.field is not None:
+            for f in faces:
+                _write_values(axes, view, layer, f, positions)
+    for name, mesh in options.labels:
+        ids = mesh.sorted_node_ids
+        if len(ids):
+            _write(axes, view.project(mesh.nodes.coordinates[ids]).mean(axis=0)[None], [name])
+
+
+def _write_values(axes: Axes, view: View, layer: Layer, f: Faces, positions: FloatArray) -> None:
+    assert layer.field is not None
+    values = values_on(f, layer.field, layer.component).ravel()
+    ids, first = np.unique(f.nodes.ravel(), return_index=True)
+    known = np.isfinite(values[first])
+    texts = [f"{v:.4g}" for v in values[first][known]]
+    _write(axes, view.project(positions[ids[known]]), texts, "#1b1f24")
+
+
+def _write(axes: Axes, places: FloatArray, texts: list[str], colour: str = "#1b1f24") -> None:
+    from matplotlib.patheffects import withStroke
+
+    halo = [withStroke(linewidth=_HALO_WIDTH, foreground="white")]
+    for (x, y), text in list(zip(places, texts, strict=True))[:_MOST_LABELS]:
+        axes.text(
+            x,
+            y,
+            text,
+            fontsize=7,
+            color=colour,
+            ha="center",
+            va="center",
+            path_effects=halo,
+            zorder=5,
+            clip_on=True,
+        )
+
+
+def frame(axes: Axes, view: View, bounds: FloatArray) -> None:
+    """Limits, equal scales; coordinates along the sides in the plane, a triad in space."""
+    axes.set_xlim(*bounds[:, 0])
+    axes.set_ylim(*bounds[:, 1])
+    axes.set_aspect("equal", adjustable="box")
+    if view.solid:
+        axes.set_axis_off()
+        _triad(axes, view)
+        return
+    axes.tick_params(length=3, labelsize=8)
+    for side in ("top", "right", "left", "bottom"):
+        axes.spines[side].set_color("#c9ced4")
+
+
+def _triad(axes: Axes, view: View) -> None:
+    """The directions x, y, z in the lower left corner."""
+    corner = axes.inset_axes((0.0, 0.0, 0.13, 0.13))
+    corner.set_axis_off()
+    corner.set_aspect("equal")
+    corner.set_xlim(-1.25, 1.25)
+    corner.set_ylim(-1.25, 1.25)
+    for name, tip in zip("xyz", view.project(np.eye(3)), strict=True):
+        if np.linalg.norm(tip) < 0.05:
+            continue
+        style: Any = {"arrowstyle": "-|>", "color": "#4a4f57", "lw": 0.9, "shrinkA": 0}
+        corner.annotate("", tip, (0.0, 0.0), arrowprops=style)
+        x, y = tip * (1 + 0.25 / np.linalg.norm(tip))
+        corner.text(x, y, name, fontsize=8, color="#4a4f57", ha="center", va="center")
+
+
+def colour_bar(
+    figure: Figure,
+    axes: Axes,
+    levels: Levels,
+    name: str,
+    extremes: tuple[float, float] | None,
+) -> None:
+    """The colour bar with the name of what is shown and its extremes."""
+    from matplotlib.cm import ScalarMappable
+
+    wide = axes.get_xlim()[1] - axes.get_xlim()[0] > 2.2 * (axes.get_ylim()[1] - axes.get_ylim()[0])
+    bounds = levels.bounds
+    every = max(1, -(-len(bounds) // (8 if wide else 12)))
+    bar = figure.colorbar(
+        ScalarMappable(levels.norm, levels.colours),
+        ax=axes,
+        orientation="horizontal" if wide else "vertical",
+        ticks=bounds[::every],
+        fraction=0.06,
+        pad=0.03 if not wide else 0.06,
+        aspect=30 if wide else 26,
+        shrink=0.9,
+    )
+    bar.outline.set_linewidth(0.5)
+    bar.ax.tick_params(labelsize=8, length=2.5)
+    text = name
+    if extremes is not None:
+        text += f"    min {extremes[0]:.4g}   max {extremes[1]:.4g}"
+    bar.set_label(text, fontsize=9)

@@ -1,0 +1,179 @@
+"""Faces of a layer given to the painter: plain, shaded, or coloured by bands."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ssilang.io.plots.bands import cut_bands, cut_lines
+from ssilang.io.plots.levels import Levels
+from ssilang.io.plots.painter import CLEAR, Colours, Painter
+from ssilang.io.plots.palette import shade
+from ssilang.io.plots.patches import Faces, pieces
+from ssilang.io.plots.values import values_on
+from ssilang.kernel.mesh.nodes import FloatArray
+
+if TYPE_CHECKING:
+    from ssilang.io.plots.scene import Layer, PictureOptions
+
+_LIGHT = np.array([0.35, -0.55, 0.76])  # from the front right, above
+_PAPER = np.ones(3)
+_DEFAULT_FILL = np.array([0.72, 0.76, 0.81])
+
+
+def add_faces(
+    painter: Painter, faces: list[Faces], layer: Layer, options: PictureOptions, size: float
+) -> None:
+    """Add the faces in their own colours.
+
+    In the plane they are tinted lightly, in full with FACE; in space only their edges are seen
+    unless hidden parts are taken away (white faces) or faces are filled (shaded).
+    """
+    positions = layer.positions()
+    solid = painter.view.solid
+    for f in faces:
+        if f.kind == "POI1":
+            continue
+        points = _shrunk(positions[f.nodes], options.shrink)
+        inks = _inks(f, layer)
+        if f.kind.startswith("SEG"):
+            width = 1.1 if layer.outline else 1.8
+            painter.add(points, edge=inks, width=width, lift=2e-3 * size * solid)
+            continue
+        if layer.outline:
+            painter.add(points, edge=inks, width=0.8, lift=1e-3 * size * solid)
+            continue
+        fill: Any = CLEAR
+        edge = inks.copy()
+        if options.filled:
+            fill = _filled(f, inks, points, painter)
+            edge[:, :3] = 0.45 * fill[:, :3]
+        elif solid:
+            fill = (1.0, 1.0, 1.0, 1.0) if options.hidden else CLEAR
+        else:
+            fill = _mixed(inks, 0.10)
+        painter.add(points, fill, edge, _edge_width(f, points, painter, size))
+
+
+def _inks(f: Faces, layer: Layer) -> Colours:
+    from matplotlib.colors import to_rgba
+
+    own = f.colours if layer.colour is None else np.full(len(f.nodes), layer.colour)
+    table = {int(c): to_rgba(shade(int(c))) for c in np.unique(own)}
+    return np.array([table[int(c)] for c in own], dtype=float).reshape(-1, 4)
+
+
+def _filled(f: Faces, inks: Colours, points: FloatArray, painter: Painter) -> Colours:
+    plain = (f.colours == 0)[:, None] & (inks[:, :3].max(axis=1) < 0.2)[:, None]
+    base = np.where(plain, _DEFAULT_FILL, 0.25 * _PAPER + 0.75 * inks[:, :3])
+    if painter.view.solid:
+        base = base * _brightness(points, painter)[:, None]
+    return np.column_stack([np.clip(base, 0, 1), np.ones(len(base))])
+
+
+def _brightness(points: FloatArray, painter: Painter) -> FloatArray:
+    """Diffuse light on faces (n, k, 3), from 0.5 to 1; a face shines on the side that is seen."""
+    turned = np.roll(points, -1, axis=1)
+    normal = np.cross(points, turned).sum(axis=1)
+    length = np.linalg.norm(normal, axis=1, keepdims=True)
+    normal = normal / np.where(length > 0, length, 1.0)
+    facing = np.sign(normal @ painter.view.axes[2])[:, None]
+    return np.asarray(0.5 + 0.5 * np.clip((normal * facing) @ _LIGHT, 0, 1))
+
+
+def _mixed(inks: Colours, share: float) -> Colours:
+    rgb = (1 - share) * _PAPER + share * inks[:, :3]
+    return np.column_stack([rgb, np.ones(len(rgb))])
+
+
+def _edge_width(f: Faces, points: FloatArray, painter: Painter, size: float) -> float:
+    """Thin lines for fine meshes, none where they would fill the picture."""
+    flat = painter.view.project(points)
+    cell = float(np.median(np.ptp(flat, axis=1).max(axis=1))) / max(size, 1e-300)
+    return float(np.clip(60 * cell, 0.15, 0.8))
+
+
+def _shrunk(points: FloatArray, ratio: float | None) -> FloatArray:
+    if ratio is None:
+        return points
+    centre = points.mean(axis=1, keepdims=True)
+    return np.asarray(centre + ratio * (points - centre))
+
+
+def band_values(prepared: list[tuple[Layer, list[Faces]]]) -> FloatArray | None:
+    """All nodal values of the coloured layers, None if no layer is coloured."""
+    parts = [
+        values_on(f, layer.field, layer.component).ravel()
+        for layer, faces in prepared
+        if layer.field is not None
+        for f in faces
+    ]
+    if not parts and not any(layer.field is not None for layer, _ in prepared):
+        return None
+    return np.concatenate([*parts, np.empty(0)])
+
+
+def add_bands(
+    painter: Painter,
+    faces: list[Faces],
+    layer: Layer,
+    levels: Levels,
+    options: PictureOptions,
+    size: float,
+) -> None:
+    """Add the faces coloured by a field; faces without a value are grey."""
+    assert layer.field is not None
+    positions = layer.positions()
+    count = sum(len(f.nodes) for f in faces)
+    for f in faces:
+        if f.kind == "POI1":
+            continue
+        values = values_on(f, layer.field, layer.component)
+        known = np.isfinite(values).all(axis=1)
+        points = positions[f.nodes]
+        painter.add(points[~known], (0.93, 0.94, 0.95, 1.0), (0.6, 0.6, 0.6, 1.0), 0.3)
+        if not known.any():
+            continue
+        shape, parts = pieces(f.kind, _cuts(f.kind, count))
+        where = np.einsum("pk,nkd->npd", shape, points[known])
+        what = values[known] @ shape.T
+        depth = np.repeat(painter.view.depth(points[known]).mean(axis=1), len(parts))
+        where = where[:, parts].reshape(-1, parts.shape[1], 3)
+        what = what[:, parts].reshape(-1, parts.shape[1])
+        if f.kind.startswith("SEG"):
+            painter.add(where, edge=levels.rgba(what.mean(axis=1)), width=3.5, depth=depth)
+            continue
+        _add_pieces(painter, where, what, depth, levels, options.iso, 1e-5 * size)
+        width = 0.55 * _edge_width(f, points, painter, size)
+        painter.add(points[known], edge=(0.1, 0.1, 0.1, 0.55), width=width, lift=2e-5 * size)
+
+
+def _add_pieces(
+    painter: Painter,
+    where: FloatArray,
+    what: FloatArray,
+    depth: FloatArray,
+    levels: Levels,
+    iso: str,
+    lift: float,
+) -> None:
+    if iso != "LIGNE":
+        bands, owner, row = cut_bands(where, what, levels.bounds)
+        colours = levels.rgba((levels.bounds[:-1] + levels.bounds[1:]) / 2)[row]
+        painter.add(bands, colours, colours, 0.35, depth=depth[owner])
+    elif painter.view.solid:
+        painter.add(where, (1.0, 1.0, 1.0, 1.0), (1.0, 1.0, 1.0, 1.0), 0.35, depth=depth)
+    if iso != "SURFACE":
+        lines, owner, row = cut_lines(where, what, levels.bounds)
+        ink = (0.0, 0.0, 0.0, 0.8) if iso == "SULI" else levels.rgba(levels.bounds)[row]
+        painter.add(lines, edge=ink, width=1.0, lift=lift, depth=depth[owner])
+
+
+def _cuts(kind: str, count: int) -> int:
+    """Pieces along a side of a face, fewer where there are many faces."""
+    if kind.startswith("SEG"):
+        return 8
+    if count > 8_000:
+        return 1
+    return 2 if kind in ("QUA4", "TRI3") else 4

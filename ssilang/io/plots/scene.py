@@ -1,0 +1,271 @@
+"""Pictures of meshes, fields, deformed shapes and arrows (TRAC).
+
+A picture is a list of layers seen from one or several eyes; each layer is a mesh, moved or not,
+coloured by its own colours or by a field.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from datetime import datetime
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ssilang.io.errors import OutputError
+from ssilang.io.plots import annotations as notes
+from ssilang.io.plots.faces import add_bands, add_faces, band_values
+from ssilang.io.plots.figure import drawing
+from ssilang.io.plots.levels import Levels, choose_levels
+from ssilang.io.plots.markup import to_mathtext
+from ssilang.io.plots.painter import Painter
+from ssilang.io.plots.palette import shade
+from ssilang.io.plots.patches import Faces, visible_faces
+from ssilang.io.plots.view import View, plane_view
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.fields.deformed import Arrows, displacements
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.kernel.mesh.nodes import FloatArray
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+
+@dataclass(frozen=True, eq=False)
+class Layer:
+    """A mesh of a picture.
+
+    Attributes
+    ----------
+    displacement, scale
+        The mesh is moved by `scale` times the displacement.
+    colour : int or None
+        Of all cells, instead of their own.
+    field, component
+        Values that colour it.
+    outline : bool
+        Only the edges are drawn, over everything (a frame of reference).
+    """
+
+    mesh: Mesh
+    displacement: NodeField | None = None
+    scale: float = 0.0
+    colour: int | None = None
+    field: NodeField | CellField | None = None
+    component: str = ""
+    arrows: Arrows | None = None
+    outline: bool = False
+
+    def positions(self) -> FloatArray:
+        """Coordinates of all nodes of the table, moved, shape (len(table), 3)."""
+        table = self.mesh.nodes
+        if self.displacement is None or self.scale == 0.0:
+            return table.coordinates
+        moved: FloatArray = table.coordinates + self.scale * displacements(table, self.displacement)
+        return moved
+
+
+@dataclass(frozen=True)
+class PictureOptions:
+    """Options of TRAC.
+
+    Attributes
+    ----------
+    hidden : bool
+        Hide what lies behind (CACH).
+    filled : bool
+        Fill the faces, shaded in space (FACE).
+    levels, level_count
+        Iso-values to show, or how many.
+    iso : 'SURFACE', 'LIGNE' or 'SULI'
+        Filled bands, lines, or both.
+    legend_name : str, optional
+        Stands over the colour bar instead of the component.
+    frame : Mesh, optional
+        The picture shows its surroundings only (BOIT).
+    only_colour : int, optional
+        Cells of other colours are left out (COUL).
+    shrink : float, optional
+        Cells are drawn reduced by this ratio (ECLA).
+    node_numbers, cell_numbers, point_values : bool
+        Write them on the picture (NOEU, ELEM, CHAM).
+    labels : tuple of (str, Mesh)
+        Names written in the middle of their mesh (QUAL).
+    """
+
+    title: str = ""
+    hidden: bool = False
+    filled: bool = False
+    levels: FloatArray | None = None
+    level_count: int | None = None
+    iso: str = "SURFACE"
+    legend_name: str | None = None
+    legend: bool = True
+    frame: Mesh | None = None
+    only_colour: int | None = None
+    shrink: float | None = None
+    node_numbers: bool = False
+    cell_numbers: bool = False
+    point_values: bool = False
+    labels: tuple[tuple[str, Mesh], ...] = ()
+    date: bool = False
+    notes: tuple[str, ...] = field(default_factory=tuple)
+
+
+def draw_scene(
+    layers: Sequence[Layer],
+    views: Sequence[View] = (),
+    options: PictureOptions | None = None,
+    arrows: Arrows | None = None,
+    components: Sequence[str] = (),
+) -> Figure:
+    """A figure with one panel a view, or a component of the coloured layer.
+
+    Raises
+    ------
+    OutputError
+        If there is nothing to draw.
+    """
+    options = options or PictureOptions()
+    views = views or (plane_view(),)
+    panels = [(v, c) for v in views for c in (components or ("",))]
+    if not any(layer.mesh.n_cells for layer in layers) and arrows is None:
+        raise OutputError("there is nothing to draw: the mesh is empty")
+    box = [_bounds(layers, arrows, view, options) for view, _ in panels]
+    width, height, rows, columns = _sheet(box[0], len(panels))
+    with drawing(width, height) as figure:
+        grid = figure.subplots(rows, columns, squeeze=False).ravel()
+        for axes in grid[len(panels) :]:
+            axes.set_axis_off()
+        for axes, (view, component), bounds in zip(grid, panels, box, strict=False):
+            shown = [_with_component(layer, component) for layer in layers]
+            _draw_panel(figure, axes, shown, view, options, arrows, bounds)
+            if component and len(panels) > 1:
+                axes.set_title(component, fontsize=10.5)
+        _caption(figure, options)
+    return figure
+
+
+def _with_component(layer: Layer, component: str) -> Layer:
+    return replace(layer, component=component) if component and layer.field else layer
+
+
+def _bounds(
+    layers: Sequence[Layer], arrows: Arrows | None, view: View, options: PictureOptions
+) -> FloatArray:
+    """Lower and upper corner of what is shown on the sheet, shape (2, 2), with a margin."""
+    if options.frame is not None:
+        ids = options.frame.sorted_node_ids
+        clouds = [view.project(options.frame.nodes.coordinates[ids])]
+    else:
+        clouds = [view.project(x.positions()[x.mesh.sorted_node_ids]) for x in layers]
+        clouds += [view.project(part.origins) for part in (arrows.parts if arrows else ())]
+    points = np.concatenate([c for c in clouds if len(c)] or [np.zeros((1, 2))])
+    low, high = points.min(axis=0), points.max(axis=0)
+    margin = 0.05 * max(float((high - low).max()), 1e-9)
+    return np.stack([low - margin, high + margin])
+
+
+def _sheet(bounds: FloatArray, panels: int) -> tuple[float, float, int, int]:
+    """Width and height in inches, rows and columns of panels."""
+    extent = bounds[1] - bounds[0]
+    columns = 1 if panels == 1 or (extent[0] > 2.5 * extent[1] and panels < 4) else 2
+    rows = -(-panels // columns)
+    width = 7.6 if columns == 1 else 5.0 * columns
+    one = (width / columns - 1.2) * extent[1] / max(extent[0], 1e-300)
+    return width, float(np.clip(one + 1.1, 2.4, 6.6 if rows == 1 else 4.6)) * rows, rows, columns
+
+
+def _draw_panel(
+    figure: Figure,
+    axes: Axes,
+    layers: list[Layer],
+    view: View,
+    options: PictureOptions,
+    arrows: Arrows | None,
+    bounds: FloatArray,
+) -> None:
+    painter = Painter(view)
+    prepared = [(layer, _faces(layer, options)) for layer in layers]
+    levels = _levels(prepared, options)
+    size = float(np.linalg.norm(bounds[1] - bounds[0]))
+    for layer, faces in prepared:
+        if layer.field is not None and levels is not None:
+            add_bands(painter, faces, layer, levels, options, size)
+        else:
+            add_faces(painter, faces, layer, options, size)
+    painter.draw(axes)
+    for layer, faces in prepared:
+        _draw_points(axes, view, layer, faces, levels, options)
+        if layer.arrows is not None:
+            notes.draw_arrows(axes, view, layer.arrows, size, layer.positions())
+    if arrows is not None:
+        notes.draw_arrows(axes, view, arrows, size, None)
+    notes.write_numbers(axes, view, prepared, options)
+    notes.frame(axes, view, bounds)
+    if levels is not None and options.legend:
+        name = options.legend_name or next(x.component for x in layers if x.field is not None)
+        notes.colour_bar(figure, axes, levels, to_mathtext(name), _range(prepared))
+
+
+def _faces(layer: Layer, options: PictureOptions) -> list[Faces]:
+    faces = visible_faces(layer.mesh)
+    if options.only_colour is None or layer.outline:
+        return faces
+    kept = []
+    for f in faces:
+        mine = f.colours == options.only_colour
+        if mine.any():
+            kept.append(replace(f, nodes=f.nodes[mine], cells=f.cells[mine]))
+    return kept
+
+
+def _levels(prepared: list[tuple[Layer, list[Faces]]], options: PictureOptions) -> Levels | None:
+    values = band_values(prepared)
+    if values is None:
+        return None
+    return choose_levels(values, options.level_count, options.levels)
+
+
+def _range(prepared: list[tuple[Layer, list[Faces]]]) -> tuple[float, float] | None:
+    values = band_values(prepared)
+    known = values[np.isfinite(values)] if values is not None else np.empty(0)
+    return (float(known.min()), float(known.max())) if len(known) else None
+
+
+def _draw_points(
+    axes: Axes,
+    view: View,
+    layer: Layer,
+    faces: list[Faces],
+    levels: Levels | None,
+    options: PictureOptions,
+) -> None:
+    """Cells of one node, as dots."""
+    from ssilang.io.plots.values import values_on
+
+    for f in faces:
+        if f.kind != "POI1":
+            continue
+        x, y = view.project(layer.positions()[f.nodes[:, 0]]).T
+        colours: Any
+        if layer.field is not None and levels is not None:
+            colours = levels.rgba(values_on(f, layer.field, layer.component)[:, 0])
+        else:
+            own = f.colours if layer.colour is None else np.full(len(f.nodes), layer.colour)
+            colours = [shade(int(c)) for c in own]
+        axes.scatter(x, y, s=18, c=colours, zorder=3, linewidths=0)
+
+
+def _caption(figure: Figure, options: PictureOptions) -> None:
+    title = options.title.strip()
+    if title:
+        figure.suptitle(to_mathtext(title), fontsize=12, fontweight="bold")
+    foot = list(options.notes)
+    if options.date:
+        foot.append(datetime.now().strftime("%Y-%m-%d %H:%M"))
+    if foot:
+        figure.supxlabel("   ".join(foot), fontsize=8, color="#5b616a")

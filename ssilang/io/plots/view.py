@@ -1,0 +1,56 @@
+"""Where the eye stands: from space to the sheet."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ssilang.kernel.mesh.nodes import FloatArray
+
+# from the front right, slightly above: three faces of a box are seen
+DEFAULT_DIRECTION = np.array([1.0, -2.0, 0.9])
+
+
+@dataclass(frozen=True, eq=False)
+class View:
+    """A parallel projection.
+
+    Attributes
+    ----------
+    axes : array (3, 3)
+        Rows: to the right on the sheet, upwards on the sheet, towards the eye.
+    solid : bool
+        True for a view in space, False for the plane x, y.
+    """
+
+    axes: FloatArray
+    solid: bool = True
+
+    def project(self, points: FloatArray) -> FloatArray:
+        """Sheet coordinates (..., 2) of points (..., 3)."""
+        flat: FloatArray = points @ self.axes[:2].T
+        return flat
+
+    def depth(self, points: FloatArray) -> FloatArray:
+        """How near points (..., 3) are to the eye; larger is nearer."""
+        near: FloatArray = points @ self.axes[2]
+        return near
+
+
+def plane_view() -> View:
+    """The plane x, y."""
+    return View(np.eye(3), solid=False)
+
+
+def view_along(direction: FloatArray) -> View:
+    """The view from far away in `direction` (3,), z upwards (y if one looks along z)."""
+    towards = np.asarray(direction, dtype=float)
+    length = np.linalg.norm(towards)
+    towards = (
+        DEFAULT_DIRECTION / np.linalg.norm(DEFAULT_DIRECTION) if length == 0 else (towards / length)
+    )
+    up = np.array([0.0, 0, 1]) if abs(towards[2]) < 1 - 1e-9 else np.array([0.0, 1, 0])
+    right = np.cross(up, towards)
+    right /= np.linalg.norm(right)
+    return View(np.stack([right, np.cross(towards, right), towards]))

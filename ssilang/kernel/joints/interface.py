@@ -1,0 +1,234 @@
+"""The interface: all joints of a problem seen from its few unknowns, the jumps of facing nodes.
+
+Equilibrium is `A u + J^T f(J u) = r` with J the jumps of the pairs of facing nodes (global axes)
+and `f(delta) = sum_points weight B^T t(B delta)`. Everything that depends on the law lives on
+delta, whose size is that of the interface and not of the model.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+
+from ssilang.kernel.elements.zone_fields import zone_field
+from ssilang.kernel.errors import FieldError
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.joints.elements import is_joint
+from ssilang.kernel.joints.family import component_order, displacement_names
+from ssilang.kernel.joints.kinematics import JointCells, joint_cells
+from ssilang.kernel.joints.laws import elastic_tangent, law_of
+from ssilang.kernel.joints.sdm_law import N_STATE, XI
+from ssilang.kernel.joints.table import joint_parameters
+from ssilang.kernel.matrices.assembly import Numbering
+from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+from ssilang.kernel.model import Model, Zone
+
+
+@dataclass(frozen=True, eq=False)
+class Interface:
+    """Joints of a problem, ready for compiled code.
+
+    Attributes
+    ----------
+    joints : tuple of JointCells
+        Zones, in order; their points follow one another.
+    dimension : int
+        d, components of a jump.
+    J : csr array (d n_pairs, n_unknowns)
+        Jumps of the pairs from the unknowns.
+    pairs : array (n_points, m)
+        Pairs that each point interpolates (padded with pair 0).
+    B : array (n_points, d, m d)
+        Local jump of a point from its pairs' jumps (padded with zeros).
+    weights : array (n_points,)
+    codes : array (n_points,)
+        Law of each point.
+    parameters : array (n_points, N_PARAMETERS)
+    """
+
+    joints: tuple[JointCells, ...]
+    dimension: int
+    J: sp.csr_array
+    pairs: IntArray
+    B: FloatArray
+    weights: FloatArray
+    codes: IntArray
+    parameters: FloatArray
+
+    @property
+    def size(self) -> int:
+        """Number of interface unknowns."""
+        return int(self.J.shape[0])
+
+    @property
+    def n_points(self) -> int:
+        """Number of integration points."""
+        return len(self.weights)
+
+    def initial_state(self) -> FloatArray:
+        """State of joints never loaded, shape (n_points, N_STATE)."""
+        return np.zeros((self.n_points, N_STATE))
+
+    def closed_stiffness(self) -> FloatArray:
+        """Stiffness of the closed joints on the jumps, dense (size, size)."""
+        D = elastic_tangent(self.parameters, self.dimension) * self.weights[:, None, None]
+        blocks = np.einsum("pia,pij,pjb->pab", self.B, D, self.B, optimize=True)
+        d = self.dimension
+        places = (self.pairs[:, :, None] * d + np.arange(d)).reshape(self.n_points, -1)
+        found = np.zeros((self.size, self.size))
+        np.add.at(found, (places[:, :, None], places[:, None, :]), blocks)
+        return found
+
+
+def joint_zones(model: Model) -> tuple[Zone, ...]:
+    """Zones of joints of a model."""
+    return tuple(z for z in model.zones if is_joint(z))
+
+
+def interface_of(
+    zones: tuple[Zone, ...], characteristics: CellField | None, numbering: Numbering
+) -> Interface:
+    """The interface made by zones of joints.
+
+    Raises
+    ------
+    FieldError
+        If the problem lacks a displacement of a joint's node.
+    MeshError, MaterialError
+        For joints without area, reversed, or with inadmissible parameters.
+    """
+    joints, tables, codes = [], [], []
+    for zone in zones:
+        given = zone_field(zone, characteristics)
+        cells = joint_cells(zone, given)
+        joints.append(cells)
+        tables.append(joint_parameters(cells, given))
+        codes.append(np.full(cells.weights.size, law_of(zone.behaviour).code, dtype=np.int64))
+    d = joints[0].element.dimension
+    keys, places = _pairs(joints)
+    return Interface(
+        tuple(joints),
+        d,
+        _jump_matrix(keys, displacement_names(zones[0]), numbering),
+        places,
+        _padded_operators(joints, places.shape[1]),
+        np.concatenate([j.weights.ravel() for j in joints]),
+        np.concatenate(codes),
+        np.concatenate(tables),
+    )
+
+
+def _pairs(joints: list[JointCells]) -> tuple[IntArray, IntArray]:
+    """Distinct pairs (n_pairs, 2) of (upper, lower) nodes; pairs of each point, padded."""
+    resolve = joints[0].zone.cells.nodes.resolve
+    sides = [np.stack([resolve(j.upper).ravel(), resolve(j.lower).ravel()], axis=1) for j in joints]
+    keys, inverse = np.unique(np.concatenate(sides), axis=0, return_inverse=True)
+    width = max(j.upper.shape[1] for j in joints)
+    rows, start = [], 0
+    for j in joints:
+        n, m = j.upper.shape
+        here = inverse.ravel()[start : start + n * m].reshape(n, m)
+        start += n * m
+        padded = np.pad(here, ((0, 0), (0, width - m)))
+        rows.append(np.repeat(padded, j.weights.shape[1], axis=0))
+    return keys.astype(np.int64), np.concatenate(rows).astype(np.int64)
+
+
+def _padded_operators(joints: list[JointCells], width: int) -> FloatArray:
+    parts = []
+    for j in joints:
+        G = j.operator
+        n, g, d, k = G.shape
+        parts.append(np.pad(G.reshape(n * g, d, k), ((0, 0), (0, 0), (0, width * d - k))))
+    return np.ascontiguousarray(np.concatenate(parts))
+
+
+def _jump_matrix(keys: IntArray, names: tuple[str, ...], numbering: Numbering) -> sp.csr_array:
+    n_pairs, d = len(keys), len(names)
+    codes = np.array([numbering.code(name) for name in names])
+    columns = numbering.index(keys[:, :, None], codes[None, None, :])  # (pairs, side, d)
+    if columns.size and columns.min() < 0:
+        pair, side, i = np.argwhere(columns < 0)[0]
+        raise FieldError(
+            f"a joint needs {names[i]} at node {keys[pair, side] + 1}, which the matrices lack"
+        )
+    rows = np.broadcast_to(np.arange(n_pairs * d).reshape(n_pairs, 1, d), columns.shape)
+    signs = np.broadcast_to(np.array([1.0, -1.0])[None, :, None], columns.shape)
+    shape = (n_pairs * d, numbering.size)
+    entries = (signs.ravel(), (rows.ravel(), columns.ravel()))
+    return sp.csr_array(sp.coo_array(entries, shape=shape))
+
+
+# --- joints in matrices ----------------------------------------------------------------------
+
+
+def same_zone(a: Zone | None, b: Zone) -> bool:
+    """Whether two zones are the same joints (the same element on the same cells)."""
+    if a is None or a.element != b.element:
+        return a is b
+    return a.cells is b.cells or (
+        a.cells.cell_type == b.cells.cell_type
+        and np.array_equal(a.cells.connectivity, b.cells.connectivity)
+    )
+
+
+def without_zones(matrix: Matrix, zones: tuple[Zone, ...]) -> Matrix:
+    """The matrix without the blocks made from these zones (their law replaces them)."""
+    kept = tuple(b for b in matrix.blocks if not any(same_zone(b.zone, z) for z in zones))
+    if len(kept) == len(matrix.blocks):
+        return matrix
+    return Matrix(matrix.table, kept, matrix.relations, matrix.kind)
+
+
+def nonlinear_blocks(matrix: Matrix) -> tuple[ElementMatrices, ...]:
+    """Blocks made from joints whose law is not linear."""
+    return tuple(
+        b
+        for b in matrix.blocks
+        if b.zone is not None and is_joint(b.zone) and not law_of(b.zone.behaviour).linear
+    )
+
+
+# --- results ---------------------------------------------------------------------------------
+
+
+def interface_field(interface: Interface, values: FloatArray, kind: str) -> CellField:
+    """Values (n_points, d) at the points of all joints as a field.
+
+    Parameters
+    ----------
+    kind : 'jump' or 'traction'
+        Which names the components get.
+    """
+    blocks, start = [], 0
+    for j in interface.joints:
+        n, g = j.weights.shape
+        local = values[start : start + n * g].reshape(n, g, -1)
+        start += n * g
+        names = j.element.strains if kind == "jump" else j.element.stresses
+        components = {
+            names[i]: np.ascontiguousarray(local[..., i]) for i in component_order(j.zone)
+        }
+        blocks.append(_block(j, components))
+    title = "DEFORMATIONS" if kind == "jump" else "CONTRAINTES"
+    return CellField(tuple(blocks), title)
+
+
+def state_field(interface: Interface, state: FloatArray) -> CellField:
+    """Internal variables of the joints: SAUT (largest irreversible opening), GLI1, GLI2 (slip)."""
+    blocks, start = [], 0
+    for j in interface.joints:
+        n, g = j.weights.shape
+        local = state[start : start + n * g].reshape(n, g, -1)
+        start += n * g
+        names = ("SAUT", "GLI1", "GLI2")[: interface.dimension]
+        blocks.append(_block(j, {name: local[..., XI + i].copy() for i, name in enumerate(names)}))
+    return CellField(tuple(blocks), "VARIABLES INTERNES")
+
+
+def _block(joints: JointCells, components: dict[str, FloatArray]) -> CellFieldBlock:
+    zone = joints.zone
+    return CellFieldBlock(zone.cells, components, "STRESSES", zone.element, zone.constituent)

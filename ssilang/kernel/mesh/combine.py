@@ -1,0 +1,143 @@
+"""Meshes as sets of cells: union, intersection, symmetric difference, duplicates."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ssilang.kernel.errors import MeshError
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
+from ssilang.kernel.mesh.nodes import IntArray, NodeTable
+
+BoolArray = NDArray[np.bool_]
+
+
+def join_blocks(blocks: Sequence[CellBlock]) -> CellBlock:
+    """One block from several of the same type, cells in order."""
+    if len(blocks) == 1:
+        return blocks[0]
+    return CellBlock.make(
+        blocks[0].nodes,
+        blocks[0].cell_type,
+        np.concatenate([b.connectivity for b in blocks]),
+        np.concatenate([b.colours for b in blocks]),
+    )
+
+
+def union(*meshes: Mesh, as_given: bool = False) -> Mesh:
+    """Cells of all meshes; those of one type become one block.
+
+    Parameters
+    ----------
+    as_given : bool
+        False: two lines are put in the order in which one continues the other (a line whose end
+        is the start of the one before it is put first).
+    """
+    result = meshes[0]
+    for other in meshes[1:]:
+        result = _union_of_two(result, other, as_given)
+    return result
+
+
+def _union_of_two(first: Mesh, second: Mesh, as_given: bool) -> Mesh:
+    blocks = {b.cell_type: b for b in first.blocks if len(b)}
+    for block in second.blocks:
+        mine = blocks.get(block.cell_type)
+        if mine is None:
+            blocks[block.cell_type] = block
+        elif mine is not block and len(block):
+            pair = (mine, block)
+            if not as_given and _continues(block, mine):
+                pair = (block, mine)
+            blocks[block.cell_type] = join_blocks(pair)
+    return Mesh(first.nodes, tuple(b for b in blocks.values() if len(b)))
+
+
+def _continues(line: CellBlock, next_line: CellBlock) -> bool:
+    """True when `next_line` starts where `line` ends, and not the other way round as well."""
+    if line.cell_type not in ("SEG2", "SEG3"):
+        return False
+    a, b = line.connectivity, next_line.connectivity
+    return bool(a[-1, -1] == b[0, 0] and b[-1, -1] != a[0, 0])
+
+
+def points_mesh(points: Iterable[Point], nodes: NodeTable) -> Mesh:
+    """A mesh of POI1 from points, in order, repeats kept."""
+    return poi1(nodes, np.array([p.node for p in points], dtype=np.int64))
+
+
+def poi1(nodes: NodeTable, ids: IntArray, colour: int = 0) -> Mesh:
+    """A mesh of POI1 on node numbers (m,); no block at all when there are none."""
+    if len(ids) == 0:
+        return Mesh(nodes, ())
+    return Mesh.of(nodes, "POI1", np.asarray(ids)[:, None], colour)
+
+
+def take(mesh: Mesh, chosen: Callable[[CellBlock], BoolArray | IntArray]) -> Mesh:
+    """The cells of each block that `chosen` picks (mask or indices); empty blocks vanish."""
+    parts = []
+    for block in mesh.blocks:
+        pick = chosen(block)
+        table, colours = block.connectivity[pick], block.colours[pick]
+        if len(table):
+            parts.append(CellBlock.make(mesh.nodes, block.cell_type, table, colours))
+    return Mesh(mesh.nodes, tuple(parts))
+
+
+def cell_keys(block: CellBlock) -> NDArray[np.void]:
+    """A key for each cell (n,), equal for cells on the same nodes whatever their order."""
+    table = np.sort(block.connectivity, axis=1)
+    return np.ascontiguousarray(table).view([("", table.dtype)] * table.shape[1]).ravel()
+
+
+def intersection(first: Mesh, second: Mesh) -> Mesh:
+    """Cells of `first` that also are cells of `second` (same type, same nodes)."""
+    return take(first, lambda b: _found_in(b, second))
+
+
+def difference(first: Mesh, second: Mesh) -> Mesh:
+    """Cells of `first` that are not cells of `second`."""
+    return take(first, lambda b: ~_found_in(b, second))
+
+
+def symmetric_difference(first: Mesh, second: Mesh) -> Mesh:
+    """Cells that belong to one of the meshes only."""
+    return union(difference(first, second), difference(second, first))
+
+
+def without_duplicates(mesh: Mesh) -> Mesh:
+    """Each cell once (same nodes, whatever the order or the colour), the first one kept."""
+    return take(mesh, lambda b: np.sort(np.unique(cell_keys(b), return_index=True)[1]))
+
+
+def _found_in(block: CellBlock, other: Mesh) -> BoolArray:
+    same = [b for b in other.blocks if b.cell_type == block.cell_type]
+    if not same:
+        return np.zeros(len(block), dtype=bool)
+    return np.isin(cell_keys(block), np.concatenate([cell_keys(b) for b in same]))
+
+
+def of_type(mesh: Mesh, cell_type: str) -> Mesh:
+    """The cells of one type.
+
+    Raises
+    ------
+    MeshError
+        If there are none.
+    """
+    found = tuple(b for b in mesh.blocks if b.cell_type == cell_type)
+    if not found:
+        kinds = ", ".join(b.cell_type for b in mesh.blocks) or "nothing"
+        raise MeshError(f"no {cell_type} in this mesh, which holds {kinds}")
+    return Mesh(mesh.nodes, found)
+
+
+def recolour(mesh: Mesh, colour: int) -> Mesh:
+    """The same mesh in another colour; its sides keep theirs."""
+    blocks = tuple(
+        CellBlock(b.nodes, b.cell_type, b.raw, np.full(len(b), colour, dtype=np.int8))
+        for b in mesh.blocks
+    )
+    return Mesh(mesh.nodes, blocks, mesh.sides)

@@ -1,0 +1,172 @@
+"""Sense of description of cells: reversing, orienting, checking."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ssilang.kernel.errors import MeshError
+from ssilang.kernel.mesh.cells import CELL_TYPES
+from ssilang.kernel.mesh.combine import BoolArray
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+
+
+def _polygon_flip(n: int) -> tuple[int, ...]:
+    return (0, *range(n - 1, 0, -1))
+
+
+# node order of each cell turned inside out, the first node kept where it can be
+_FLIPS: dict[str, tuple[int, ...]] = {
+    "SEG2": (1, 0),
+    "SEG3": (2, 1, 0),
+    "TRI3": _polygon_flip(3),
+    "TRI6": _polygon_flip(6),
+    "QUA4": _polygon_flip(4),
+    "QUA8": _polygon_flip(8),
+    "TET4": (0, 2, 1, 3),
+    "TE10": (*_polygon_flip(6), 6, 8, 7, 9),
+    "PYR5": (0, 3, 2, 1, 4),
+    "PRI6": (0, 2, 1, 3, 5, 4),
+    "PR15": (*_polygon_flip(6), 6, 8, 7, 9, 14, 13, 12, 11, 10),
+    "CUB8": (0, 3, 2, 1, 4, 7, 6, 5),
+    "CU20": (*_polygon_flip(8), 8, 11, 10, 9, 12, 19, 18, 17, 16, 15, 14, 13),
+}
+
+
+def flip(block: CellBlock, which: BoolArray | None = None) -> CellBlock:
+    """The block with the cells of `which` (n,) turned inside out (all when None).
+
+    Cells that have no orientation are left alone; the order of cells is kept.
+    """
+    order = _FLIPS.get(block.cell_type)
+    if order is None:
+        return block
+    table = block.connectivity[:, list(order)]
+    if which is not None:
+        table = np.where(which[:, None], table, block.connectivity)
+    return CellBlock.make(block.nodes, block.cell_type, table, block.colours)
+
+
+def reversed_line(mesh: Mesh) -> Mesh:
+    """The mesh turned inside out; cells of lines are also put in reverse order."""
+    blocks = []
+    for block in mesh.blocks:
+        turned = flip(block)
+        if block.kind.dimension == 1 and not block.kind.joint:
+            turned = CellBlock.make(
+                block.nodes, block.cell_type, turned.connectivity[::-1], block.colours[::-1]
+            )
+        blocks.append(turned)
+    return Mesh(mesh.nodes, tuple(blocks))
+
+
+def surface_normals(block: CellBlock) -> FloatArray:
+    """Mean normals of triangles and quadrangles, as long as the area, shape (n, 3).
+
+    Right-hand rule round the nodes; exact area vector of the polygon of corners.
+    """
+    corners = block.coordinates[:, list(block.kind.corners)]
+    origin = corners[:, :1]
+    rays = corners - origin
+    vectors: FloatArray = 0.5 * np.cross(rays[:, 1:-1], rays[:, 2:]).sum(axis=1)
+    return vectors
+
+
+def signed_volumes(block: CellBlock) -> FloatArray:
+    """Volumes enclosed by the faces of linear 3D cells (corners only), shape (n,).
+
+    Positive when the faces of `CELL_TYPES` point outwards.
+    """
+    corners = _LINEAR[block.cell_type]
+    points = block.coordinates[:, list(block.kind.corners)]
+    points = points - points[:, :1]
+    total = np.zeros(len(block))
+    for _, face in CELL_TYPES[corners].faces:
+        part = points[:, list(face)]
+        centre = part.mean(axis=1)
+        following = np.roll(part, -1, axis=1)
+        triple = np.einsum("nij,nij->n", np.cross(part, following), centre[:, None] + 0 * part)
+        total += triple / 6.0
+    return total
+
+
+_LINEAR = {
+    "TET4": "TET4",
+    "TE10": "TET4",
+    "PYR5": "PYR5",
+    "PRI6": "PRI6",
+    "PR15": "PRI6",
+    "CUB8": "CUB8",
+    "CU20": "CUB8",
+}
+
+
+def orient(mesh: Mesh, space_dimension: int) -> Mesh:
+    """Cells described so that their Jacobian is positive: lines in 1D (x increasing), surfaces in
+    2D (anticlockwise), volumes in 3D; other cells are left alone."""
+    return Mesh(mesh.nodes, tuple(_oriented(b, space_dimension) for b in mesh.blocks), mesh.sides)
+
+
+def _oriented(block: CellBlock, space_dimension: int) -> CellBlock:
+    if block.kind.dimension != space_dimension or block.kind.joint:
+        return block
+    if space_dimension == 1:
+        x = block.coordinates[:, :, 0]
+        return flip(block, x[:, -1] < x[:, 0])
+    if space_dimension == 2:
+        return flip(block, surface_normals(block)[:, 2] < 0)
+    return flip(block, signed_volumes(block) < 0)
+
+
+def orient_towards(mesh: Mesh, target: FloatArray, is_point: bool) -> Mesh:
+    """Surface cells turned so that their normals go along a vector, or towards a point (3,)."""
+    blocks = []
+    for block in mesh.blocks:
+        if block.kind.dimension != 2 or block.kind.joint:
+            blocks.append(block)
+            continue
+        aim = target - block.coordinates.mean(axis=1) if is_point else target
+        sense = (surface_normals(block) * aim).sum(axis=1)
+        blocks.append(flip(block, sense < 0))
+    return Mesh(mesh.nodes, tuple(blocks), mesh.sides)
+
+
+def check_consistent(mesh: Mesh) -> Mesh:
+    """The mesh itself, if no two adjacent cells of one dimension are described in opposite senses.
+
+    Raises
+    ------
+    MeshError
+        With the nodes where two cells disagree.
+    """
+    for dimension in (1, 2):
+        clash = _opposed(mesh, dimension)
+        if len(clash):
+            where = ", ".join(str(int(n) + 1) for n in clash[:4])
+            raise MeshError(
+                f"adjacent cells are described in opposite senses, at node(s) {where}",
+                "turn one of the parts with INVE, or use ORIE",
+            )
+    return mesh
+
+
+def _opposed(mesh: Mesh, dimension: int) -> IntArray:
+    """Nodes of a boundary (end or directed edge) that two cells run in the same sense."""
+    keys = []
+    for block in mesh.blocks:
+        if block.kind.dimension != dimension or block.kind.joint:
+            continue
+        table = block.connectivity
+        if dimension == 1:
+            starts, ends = table[:, [0, 0]] * [1, 0], table[:, [-1, -1]] * [1, 0]
+            keys += [starts + [0, 1], ends + [0, 2]]
+        else:
+            keys += [table[:, [face[0], face[-1]]] for _, face in block.kind.faces]
+    if not keys:
+        return np.empty(0, dtype=np.int64)
+    rows, times = np.unique(np.concatenate(keys), axis=0, return_counts=True)
+    nodes: IntArray = rows[times > 1][:, 0]
+    if dimension == 1:  # a node where three or more lines meet tells nothing
+        ends, met = np.unique(np.concatenate(keys)[:, 0], return_counts=True)
+        nodes = nodes[np.isin(nodes, ends[met == 2])]
+    return nodes
