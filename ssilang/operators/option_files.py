@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from ssilang.language.call import Call
-from ssilang.language.errors import SsiError
 from ssilang.language.source import Source
 from ssilang.language.structure import parse
 from ssilang.language.values import Mot
+from ssilang.operators.files import input_path, run_output
 from ssilang.operators.workspace import workspace
 
-_FORMATS = ("FORMAT", "BINA", "XDR", "SUITE", "TAILLE", "FORMATTE")
+# compared in full: a file may be called 'formes.txt'
+_FORMATS = ("FORMAT", "FORM", "BINA", "BINAIRE", "XDR", "SUITE", "SUIT", "TAILLE", "FORMATTE")
 
 
 def read_file_option(call: Call, word: str) -> None:
@@ -26,35 +25,17 @@ def read_file_option(call: Call, word: str) -> None:
     value = operand.value
     options[word] = Mot(value) if isinstance(value, str) else value
     options[word + " FORMAT"] = tuple(formats)
+    run_output(call.session).reopen(word)
 
 
 def _formats(call: Call, formats: list[str]) -> None:
-    while (said := call.keyword(_FORMATS)) is not None:
+    while (said := call.keyword(_FORMATS, length=12)) is not None:
         formats.append(said)
         if said == "TAILLE":
             call.required("FLOTTANT", after=call.keyword_end)
 
 
-def script_path(call: Call, name: str) -> Path:
-    """Path of a script to read: below the deck's folder or an allowed one.
-
-    Raises
-    ------
-    SsiError
-        'bad-value' outside of these folders, 'missing-file' if there is no such file.
-    """
-    session = call.session
-    base = Path(session.script_directory).resolve()
-    path = (base / name).resolve()
-    roots = [base, *(Path(a).resolve() for a in session.allowed)]
-    if not any(path.is_relative_to(root) for root in roots):
-        raise call.bad(f"'{name}' is outside of the script's folder", name, "allow it by --allow")
-    if not path.is_file():
-        raise SsiError("missing-file", call.span, path=str(path), reason="no such file")
-    return path
-
-
 def include(call: Call, name: str) -> None:
     """Run the statements of another file as if they stood here."""
-    source = Source.read(script_path(call, name))
+    source = Source.read(input_path(call, name))
     call.session.evaluator.run(parse(source).body)

@@ -7,6 +7,7 @@ from typing import Any, cast
 
 import numpy as np
 
+from ssilang.io.run_output import RunOutput
 from ssilang.kernel.mesh.mesh import Point
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.model import Mode
@@ -36,6 +37,8 @@ class Workspace:
         TITR: title of the next pictures.
     options : dict
         Every other option of OPTI, as set, for VALE.
+    output : RunOutput or None
+        Files of the run; made when first asked for (`ssilang.operators.files.run_output`).
     """
 
     nodes: NodeTable = field(default_factory=NodeTable)
@@ -47,6 +50,7 @@ class Workspace:
     colour: int = 0
     title: str = ""
     options: dict[str, Any] = field(default_factory=dict)
+    output: RunOutput | None = None
 
     def point(self, coordinates: list[float]) -> Point:
         """A new point with the density in force."""

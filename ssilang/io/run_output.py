@@ -1,0 +1,112 @@
+"""What one run reads and writes: its folders, its pictures, its series, the list of its files."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from time import monotonic
+from typing import Any
+
+from ssilang.io.atomic import write_text
+from ssilang.io.plots.figure import Pictures
+from ssilang.io.vtk.series import SeriesWriter
+
+_FLUSH_EVERY = 1.0  # seconds: a loop that adds lines does not rewrite the file at each turn
+
+
+@dataclass
+class RunOutput:
+    """Files of one run.
+
+    Parameters
+    ----------
+    directory : Path
+        Output folder (`--out`); everything is written below it. It is made by the first file.
+    inputs : Path
+        Folder of the script; files are read below it or below `directory`.
+    allowed : tuple of Path
+        Further folders that may be read and written (`--allow`).
+
+    Attributes
+    ----------
+    files : list of Path
+        Files written so far, each once, in order.
+    pictures : Pictures
+        Numbers and writes DESS's and TRAC's pictures.
+    series : dict of Path to SeriesWriter
+        VTK series that the run has begun, by their path without extension.
+    opened : dict of str to object
+        What an option's file holds since OPTI named it ('SORT': lines, 'ACQU': values left);
+        forgotten when OPTI names it again.
+    """
+
+    directory: Path
+    inputs: Path
+    allowed: tuple[Path, ...] = ()
+    files: list[Path] = field(default_factory=list)
+    series: dict[Path, SeriesWriter] = field(default_factory=dict)
+    opened: dict[str, Any] = field(default_factory=dict)
+    _pending: dict[Path, list[str]] = field(default_factory=dict, repr=False)
+    _flushed_at: float = 0.0
+
+    def __post_init__(self) -> None:
+        self.directory = self.directory.resolve()
+        self.inputs = self.inputs.resolve()
+        self.allowed = tuple(p.resolve() for p in self.allowed)
+        self.pictures = Pictures(self.directory)
+
+    def target(self, name: str) -> Path | None:
+        """Where a file of that name is written; None if that place is forbidden."""
+        path = (self.directory / name.strip()).resolve()
+        return path if self._within(path, (self.directory, *self.allowed)) else None
+
+    def source(self, name: str) -> Path | None:
+        """The file of that name to read; None if that place is forbidden.
+
+        A file that this run has written is preferred to one of the same name beside the script.
+        """
+        self.flush()
+        written = (self.directory / name.strip()).resolve()
+        path = (self.inputs / name.strip()).resolve()
+        roots = (self.directory, self.inputs, *self.allowed)
+        if written in self.files or (not path.exists() and written.exists()):
+            path = written
+        return path if self._within(path, roots) else None
+
+    @staticmethod
+    def _within(path: Path, roots: tuple[Path, ...]) -> bool:
+        return any(path.is_relative_to(root) for root in roots)
+
+    def reopen(self, option: str) -> None:
+        """OPTI names the file of an option: what was begun there is finished."""
+        self.flush()
+        self.opened.pop(option, None)
+
+    def add_lines(self, option: str, path: Path, lines: list[str]) -> None:
+        """Append lines to a text file that begins empty after each OPTI.
+
+        The file is written whole, at once if the last writing is some time ago, else later.
+        """
+        text = self.opened.setdefault(option, [])
+        text += lines
+        self._pending[path] = text
+        self.wrote(path)
+        if monotonic() - self._flushed_at > _FLUSH_EVERY:
+            self.flush()
+
+    def flush(self) -> None:
+        """Write the text files that have grown."""
+        for path in list(self._pending):
+            write_text(path, "".join(line + "\n" for line in self._pending.pop(path)))
+        self._flushed_at = monotonic()
+
+    def wrote(self, *paths: Path) -> None:
+        """Add files to the list of those written."""
+        self.files += [p for p in dict.fromkeys(paths) if p not in self.files]
+
+    def close(self) -> None:
+        """Finish what is open: text files and the lists of series."""
+        self.flush()
+        for writer in self.series.values():
+            writer.close()
+            self.wrote(*writer.files)

@@ -1,0 +1,63 @@
+"""The files that operators read and write: where they may be, what the options call them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from ssilang.io.run_output import RunOutput
+from ssilang.language.call import Call
+from ssilang.language.errors import SsiError
+from ssilang.language.session import Session
+from ssilang.operators.workspace import workspace
+
+
+def run_output(session: Session) -> RunOutput:
+    """The files of the session's run."""
+    ws = workspace(session)
+    if ws.output is None:
+        ws.output = RunOutput(
+            Path(session.output_directory), Path(session.script_directory), tuple(session.allowed)
+        )
+    return ws.output
+
+
+def output_path(call: Call, name: str) -> Path:
+    """Where a file is written: below the output folder.
+
+    Raises
+    ------
+    SsiError
+        'forbidden-path' for a place outside of it that no `--allow` permits.
+    """
+    path = run_output(call.session).target(name)
+    if path is None:
+        raise _forbidden(call, name, run_output(call.session).directory)
+    return path
+
+
+def input_path(call: Call, name: str) -> Path:
+    """An existing file to read, below the script's folder or the output folder.
+
+    Raises
+    ------
+    SsiError
+        'forbidden-path' outside of them, 'missing-file' if there is no such file.
+    """
+    path = run_output(call.session).source(name)
+    if path is None:
+        raise _forbidden(call, name, run_output(call.session).inputs)
+    if not path.is_file():
+        raise call.error("missing-file", name, path=str(path), reason="no such file")
+    return path
+
+
+def _forbidden(call: Call, name: str, base: Path) -> SsiError:
+    path = (base / name.strip()).resolve()
+    return call.error("forbidden-path", name, path=str(path), folder=str(path.parent))
+
+
+def option_name(session: Session, word: str, default: int) -> str:
+    """The file that OPTI names for `word` ('SORT', 'SAUV', ...): a name, or fort.N for unit N."""
+    value: Any = workspace(session).options.get(word, default)
+    return f"fort.{value}" if isinstance(value, int) else str(value).strip()
