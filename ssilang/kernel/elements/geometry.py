@@ -12,7 +12,7 @@ from ssilang.kernel.elements.reference import shape_functions, shape_gradients
 from ssilang.kernel.errors import MeshError
 from ssilang.kernel.mesh.nodes import FloatArray
 
-CHUNK = 2048
+CHUNK = 512
 """Cells treated at once: the working arrays of a chunk then stay in the cache."""
 
 

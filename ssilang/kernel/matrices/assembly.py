@@ -208,47 +208,41 @@ def assemble(matrix: Matrix, numbering: Numbering | None = None) -> sp.csr_array
     return assembled
 
 
+MANY_TERMS = 2_000_000
+"""Element terms from which the compiled assembly pays for loading the compiler."""
+
+
 def assemble_blocks(blocks: Iterable[ElementMatrices], numbering: Numbering) -> sp.csr_array:
     """Sum of element blocks as CSR (n, n), duplicates summed, indices sorted."""
-    n = numbering.size
-    pattern = AssemblyPattern.of(blocks, numbering)
-    values = np.concatenate([b.values.ravel() for b in pattern.blocks] or [np.empty(0)])
-    total = sp.coo_array((values, (pattern.rows, pattern.columns)), shape=(n, n)).tocsr()
-    total.sum_duplicates()
-    return total
+    kept = tuple(blocks)
+    places = [_places(block, numbering) for block in kept]
+    if sum(b.values.size for b in kept) > MANY_TERMS:
+        from ssilang.kernel.matrices.gathered_rows import assemble_rows
+
+        return assemble_rows(places, [b.values for b in kept], numbering.size)
+    return assemble_triplets(places, [b.values for b in kept], numbering.size)
 
 
-@dataclass(frozen=True, eq=False)
-class AssemblyPattern:
-    """Places of all terms of some blocks, for assembling other values on the same elements.
+def assemble_triplets(
+    places: list[NDArray[np.int32]], values: list[FloatArray], n: int
+) -> sp.csr_array:
+    """Sum of element matrices (n_cells, m, m) at places (n_cells, m) by a list of triplets."""
+    rows = [np.repeat(p, p.shape[1], axis=1).ravel() for p in places]
+    columns = [np.tile(p, (1, p.shape[1])).ravel() for p in places]
+    if not values:
+        return sp.csr_array((n, n))
+    terms = np.concatenate([v.ravel() for v in values])
+    total = sp.coo_array((terms, (np.concatenate(rows), np.concatenate(columns))), shape=(n, n))
+    assembled: sp.csr_array = total.tocsr()
+    assembled.sum_duplicates()
+    return assembled
 
-    `rows`, `columns` (n_terms,) are the places of the terms, blocks one after the other, each
-    in the order of `values.ravel()`.
-    """
 
-    blocks: tuple[ElementMatrices, ...]
-    rows: NDArray[np.int32]
-    columns: NDArray[np.int32]
-
-    @classmethod
-    def of(cls, blocks: Iterable[ElementMatrices], numbering: Numbering) -> AssemblyPattern:
-        """Places of the blocks' terms on a numbering.
-
-        Raises
-        ------
-        FieldError
-            If a block has an unknown that the numbering lacks.
-        """
-        kept = tuple(blocks)
-        rows, columns = [np.empty(0, np.int32)], [np.empty(0, np.int32)]
-        for block in kept:
-            places = block_indices(block, numbering).astype(np.int32)
-            if places.size and places.min() < 0:
-                raise FieldError("the matrix has unknowns that the numbering lacks")
-            m = places.shape[1]
-            rows.append(np.repeat(places, m, axis=1).ravel())
-            columns.append(np.tile(places, (1, m)).ravel())
-        return cls(kept, np.concatenate(rows), np.concatenate(columns))
+def _places(block: ElementMatrices, numbering: Numbering) -> NDArray[np.int32]:
+    places = block_indices(block, numbering).astype(np.int32)
+    if places.size and places.min() < 0:
+        raise FieldError("the matrix has unknowns that the numbering lacks")
+    return places
 
 
 def is_symmetric(matrix: Matrix) -> bool:
