@@ -28,6 +28,23 @@ def extend_help(name: str, syntax: str, en: str, fr: str, examples: tuple[str, .
     )
 
 
+def _adder(
+    name: str,
+    table: dict[str, Entry],
+    keys: tuple[str, ...],
+    texts: tuple[str, str, str],
+    examples: tuple[str, ...],
+) -> Callable[[Entry], Entry]:
+    """A decorator that enters a function under the keys and adds to the operator's help."""
+
+    def add(entry: Entry) -> Entry:
+        table.update(dict.fromkeys(keys, entry))
+        extend_help(name, *texts, examples)
+        return entry
+
+    return add
+
+
 class ByType:
     """An operator whose work depends on the type of its main operand.
 
@@ -83,13 +100,7 @@ class ByType:
     ) -> Callable[[Entry], Entry]:
         """Decorator: a function `(call, value)` for main operands of the types."""
 
-        def add(entry: Entry) -> Entry:
-            for word in types:
-                self.entries[word] = entry
-            extend_help(self.name, syntax, en, fr, examples)
-            return entry
-
-        return add
+        return _adder(self.name, self.entries, types, (syntax, en, fr), examples)
 
 
 class ByWord:
@@ -137,13 +148,7 @@ class ByWord:
     ) -> Callable[[Entry], Entry]:
         """Decorator: a function `(call, word)` for keywords (capitals, in full)."""
 
-        def add(entry: Entry) -> Entry:
-            for word in words:
-                self.entries[word] = entry
-            extend_help(self.name, syntax, en, fr, examples)
-            return entry
-
-        return add
+        return _adder(self.name, self.entries, words, (syntax, en, fr), examples)
 
     def on_type(
         self,
@@ -155,13 +160,7 @@ class ByWord:
     ) -> Callable[[Entry], Entry]:
         """Decorator: a function `(call, value)` when no keyword of the table is there."""
 
-        def add(entry: Entry) -> Entry:
-            for word in types:
-                self.by_type[word] = entry
-            extend_help(self.name, syntax, en, fr, examples)
-            return entry
-
-        return add
+        return _adder(self.name, self.by_type, types, (syntax, en, fr), examples)
 
 
 EXTR = ByType(
