@@ -11,7 +11,7 @@ import scipy.sparse.linalg as spla
 from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.errors import KernelError
 from ssilang.kernel.joints.laws import respond
-from ssilang.kernel.joints.response import interface_forces, local_jumps
+from ssilang.kernel.joints.response import interface_energies, interface_forces, local_jumps
 from ssilang.kernel.mesh.nodes import FloatArray
 
 
@@ -80,3 +80,16 @@ def initial_acceleration(problem: Problem, v: FloatArray, joints: JointState) ->
         raise KernelError("the mass matrix is singular: no initial acceleration can be found")
     a: FloatArray = T @ q
     return a
+
+
+def initial_energies(problem: Problem, v: FloatArray, joints: JointState) -> FloatArray:
+    """Energies at the start, in the order of `compiled_loop` (no work done yet)."""
+    stored = lost = 0.0
+    p = problem.interface
+    if p is not None:
+        stored, lost = interface_energies(
+            p.codes, p.parameters, p.weights, joints.w, joints.t, joints.state
+        )
+    kinetic = 0.5 * v @ (problem.M @ v)
+    elastic = 0.5 * problem.u @ (problem.K @ problem.u)
+    return np.array([kinetic, elastic, stored, lost, 0.0, 0.0])

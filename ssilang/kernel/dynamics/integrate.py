@@ -1,0 +1,288 @@
+"""The time integration of a problem: chooses the loop, runs it, hands instants to observers."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ssilang.kernel.dynamics.compiled_loop import N_ENERGIES, Motion, Saved, march
+from ssilang.kernel.dynamics.dense_loop import joints_of, operators_of, system_of
+from ssilang.kernel.dynamics.effective import effective_matrix, effective_of
+from ssilang.kernel.dynamics.initial import (
+    admissible_velocity,
+    initial_acceleration,
+    initial_energies,
+    joint_state,
+)
+from ssilang.kernel.dynamics.plan import Run, runs_of
+from ssilang.kernel.dynamics.problem import Problem
+from ssilang.kernel.dynamics.snapshot import Observer, Snapshot
+from ssilang.kernel.dynamics.sparse_loop import CondensedSolver, SparseLoop, StepSolver
+from ssilang.kernel.errors import ConvergenceError
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+
+CHUNK_VALUES = 4_000_000  # saved values held at once
+CHUNK_SECONDS = 0.5  # wished duration of a chunk of steps: progress and interruption
+FACTORS_KEPT = 4  # step sizes whose factors stay in memory
+
+Progress = Callable[[int, int], None]
+"""Called with steps done and steps in all."""
+
+
+@dataclass(eq=False)
+class History:
+    """What a run leaves beside the instants that observers took.
+
+    Attributes
+    ----------
+    times : array (n_times,)
+    energies : array (n_times, N_ENERGIES)
+        Kinetic, elastic, stored in joints, lost in joints, damped, work of loads and supports.
+    iterations : int
+        Most interface iterations in one step.
+    solver, loop : str
+        Linear solver and loop used.
+    """
+
+    times: FloatArray
+    energies: FloatArray
+    iterations: int = 0
+    solver: str = ""
+    loop: str = ""
+    seconds: float = 0.0
+
+    @property
+    def imbalance(self) -> FloatArray:
+        """Energy that came from nowhere since the start, shape (n_times,)."""
+        total = self.energies[:, :5].sum(axis=1) - self.energies[:, 5]
+        found: FloatArray = total - total[0]
+        return found
+
+
+@dataclass(eq=False)
+class Integration:
+    """A problem under way."""
+
+    problem: Problem
+    observers: Sequence[Observer] = ()
+    progress: Progress | None = None
+    full_newton: bool = False
+    motion: Motion = field(init=False)
+
+    def __post_init__(self) -> None:
+        p = self.problem
+        joints = joint_state(p)
+        v = admissible_velocity(p)
+        a = initial_acceleration(p, v, joints)
+        load = p.loading.forces @ p.loading.at(p.times[:1])[0]
+        reaction = p.M @ a + p.C @ v + p.K @ p.u - load
+        if p.interface is not None:
+            reaction = reaction + p.interface.J.T @ joints.f
+        energies = initial_energies(p, v, joints)
+        self.motion = Motion(
+            p.u.copy(), v, a, joints.delta, joints.f, joints.w, joints.t, joints.state,
+            reaction, energies,
+        )  # fmt: skip
+        self._engines: dict[float, _Engine] = {}
+        self._kind = _SparseEngine if self.full_newton or not p.small else _DenseEngine
+
+    def run(self) -> History:
+        """All steps.
+
+        Raises
+        ------
+        ConvergenceError
+            If a step's interface iteration does not converge; says which time.
+        SingularMatrixError
+            If bodies are held by nothing, not even by mass.
+        """
+        times, started = self.problem.times, time.perf_counter()
+        history = History(times, np.zeros((len(times), N_ENERGIES)))
+        history.energies[0] = self.motion.energies
+        wanted = np.zeros(len(times), bool)
+        for observer in self.observers:
+            wanted |= observer.wanted
+        try:
+            if wanted[0]:
+                self._hand_over(self._now(0))
+            self._march(history, wanted)
+        finally:
+            for observer in self.observers:
+                observer.close()
+        history.seconds = time.perf_counter() - started
+        return history
+
+    def _march(self, history: History, wanted: np.ndarray) -> None:
+        times, done = self.problem.times, 0
+        longest = 64
+        while done < len(times) - 1:
+            run = next(runs_of(times[done:], longest))
+            before = time.perf_counter()
+            run = Run(done + run.first, done + run.last, run.dt)
+            self._steps(run, history, wanted)
+            spent = time.perf_counter() - before
+            done = run.last
+            if spent < CHUNK_SECONDS / 2 and run.last - run.first == longest:
+                longest = min(2 * longest, 1 << 16)
+            elif spent > 2 * CHUNK_SECONDS:
+                longest = max(longest // 2, 1)
+            if self.progress is not None:
+                self.progress(done, len(times) - 1)
+
+    def _steps(self, run: Run, history: History, wanted: np.ndarray) -> None:
+        engine = self._engine(run.dt)
+        history.solver, history.loop = engine.solver, engine.name
+        first = run.first
+        while first < run.last:
+            last = self._within_memory(first, run.last, wanted)
+            factors = self.problem.loading.at(history.times[first : last + 1])
+            chosen = wanted[first + 1 : last + 1]
+            save = np.where(chosen, np.cumsum(chosen) - 1, -1).astype(np.int64)
+            saved = self._room(int(chosen.sum()))
+            energies = history.energies[first + 1 : last + 1]
+            done, turns, residual = engine.march(factors, save, saved, energies)
+            if turns > 0:
+                history.iterations = max(history.iterations, turns)
+            steps = first + 1 + np.flatnonzero(chosen[:done])
+            for row, step in enumerate(steps):
+                self._hand_over(self._kept(saved, row, int(step)))
+            if done < last - first:
+                raise self._diverged(first + done + 1, turns, residual)
+            first = last
+
+    def _within_memory(self, first: int, last: int, wanted: np.ndarray) -> int:
+        room = max(CHUNK_VALUES // max(4 * len(self.motion.u), 1), 1)
+        counts = np.cumsum(wanted[first + 1 : last + 1])
+        over = np.flatnonzero(counts > room)
+        return last if len(over) == 0 else first + max(int(over[0]), 1)
+
+    def _engine(self, dt: float) -> _Engine:
+        found = self._engines.get(dt)
+        if found is None:
+            if len(self._engines) >= FACTORS_KEPT:
+                self._engines.pop(next(iter(self._engines)))
+            found = self._kind(self.problem, self.motion, dt, self.full_newton)
+            self._engines[dt] = found
+        return found
+
+    def _room(self, rows: int) -> Saved:
+        m = self.motion
+        n = (rows, len(m.u))
+        return Saved(
+            np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n),
+            np.zeros((rows, *m.w.shape)), np.zeros((rows, *m.t.shape)),
+            np.zeros((rows, *m.state.shape)),
+        )  # fmt: skip
+
+    def _now(self, step: int) -> Snapshot:
+        m = self.motion
+        parts = (m.u, m.v, m.a, m.reaction, m.w, m.t, m.state)
+        u, v, a, reaction, w, t, state = (x.copy() for x in parts)
+        time_ = float(self.problem.times[step])
+        return Snapshot(self.problem, step, time_, u, v, a, reaction, w, t, state)
+
+    def _kept(self, s: Saved, row: int, step: int) -> Snapshot:
+        time_ = float(self.problem.times[step])
+        return Snapshot(
+            self.problem, step, time_, s.u[row], s.v[row], s.a[row], s.reaction[row], s.w[row],
+            s.t[row], s.state[row],
+        )  # fmt: skip
+
+    def _hand_over(self, snapshot: Snapshot) -> None:
+        for observer in self.observers:
+            if observer.wanted[snapshot.step]:
+                observer.receive(snapshot)
+
+    def _diverged(self, step: int, turns: int, residual: float) -> ConvergenceError:
+        at = f"step {step}, time {self.problem.times[step]:g}"
+        if turns == 0:
+            return ConvergenceError(
+                f"{at}: the joints have no stiffness left and nothing else holds the bodies",
+                "give mass (MASS) to the bodies that only joints hold",
+            )
+        if not np.isfinite(residual):
+            return ConvergenceError(
+                f"{at}: the motion grew beyond all numbers", "check loads, units and the step"
+            )
+        return ConvergenceError(
+            f"{at}: the interface iteration did not converge (residual {residual:.1e} of the "
+            f"jump after {-turns} turns)",
+            "a smaller step, or softer joints",
+        )
+
+
+class _DenseEngine:
+    """The compiled loop."""
+
+    name = "compiled"
+
+    def __init__(self, problem: Problem, motion: Motion, dt: float, full: bool) -> None:
+        share = 1 - problem.scheme.alpha_f
+        effective = effective_of(problem, effective_matrix(problem, dt), dt, share)
+        self.solver = effective.inverse.factor.name
+        self._system = system_of(problem)
+        self._operators = operators_of(problem, effective)
+        self._joints = joints_of(problem)
+        self._motion = motion
+
+    def march(
+        self, factors: FloatArray, save: IntArray, saved: Saved, history: FloatArray
+    ) -> tuple[int, int, float]:
+        return march(
+            self._system, self._operators, self._joints, self._motion, factors, save, saved, history
+        )
+
+
+class _SparseEngine:
+    """The loop on sparse matrices."""
+
+    name = "condensed"
+
+    def __init__(self, problem: Problem, motion: Motion, dt: float, full: bool) -> None:
+        A = effective_matrix(problem, dt)
+        share = 1 - problem.scheme.alpha_f
+        self._step: StepSolver
+        if full:
+            from ssilang.kernel.dynamics.full_newton import FullNewtonSolver
+
+            self.solver, self.name = "SuperLU", "full Newton"
+            self._step = FullNewtonSolver(problem, A, share)
+        else:
+            effective = effective_of(problem, A, dt, share)
+            self.solver = effective.inverse.factor.name
+            self._step = CondensedSolver(problem, effective)
+        self._loop, self._dt = SparseLoop(problem, motion), dt
+
+    def march(
+        self, factors: FloatArray, save: IntArray, saved: Saved, history: FloatArray
+    ) -> tuple[int, int, float]:
+        return self._loop.march(self._step, self._dt, factors, save, saved, history)
+
+
+_Engine = _DenseEngine | _SparseEngine
+
+
+def integrate(
+    problem: Problem,
+    observers: Sequence[Observer] = (),
+    progress: Progress | None = None,
+    full_newton: bool = False,
+) -> History:
+    """Integrate a problem over its times.
+
+    Parameters
+    ----------
+    observers : sequence of Observer
+        Each receives the instants it wants.
+    full_newton : bool
+        Refactorise at each iteration instead of condensing the interface (comparison).
+
+    Raises
+    ------
+    ConvergenceError, SingularMatrixError
+        See `Integration.run`.
+    """
+    return Integration(problem, observers, progress, full_newton).run()

@@ -1,0 +1,195 @@
+"""The time loop on sparse matrices: one solve a step, the rest on the interface.
+
+Same steps as `compiled_loop`, which tests hold against this one.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+import scipy.sparse as sp
+
+from ssilang.kernel.dynamics.compiled_loop import (
+    DAMPED,
+    ELASTIC,
+    EXTERNAL,
+    KINETIC,
+    LOST,
+    STORED,
+    Motion,
+    Saved,
+)
+from ssilang.kernel.dynamics.effective import Effective
+from ssilang.kernel.dynamics.problem import Problem
+from ssilang.kernel.joints.condensed import solve_interface
+from ssilang.kernel.joints.interface import Interface
+from ssilang.kernel.joints.response import interface_energies
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+
+
+@dataclass
+class StepOutcome:
+    """Increment of a step, iterations it took (<= 0: none converged), last residual."""
+
+    du: FloatArray
+    turns: int
+    residual: float
+
+
+class StepSolver(Protocol):
+    """Solves `A du + c J^T (f_1 - f_0) = r`, `C du = dd`; updates the joints of the motion."""
+
+    def solve(self, motion: Motion, r: FloatArray, dd: FloatArray) -> StepOutcome:
+        """The step's increment; `motion.delta, f, w, t, state` become those of its end."""
+        ...
+
+
+class CondensedSolver:
+    """The interface condensed exactly on its own unknowns (one factorisation a dt)."""
+
+    def __init__(self, problem: Problem, effective: Effective) -> None:
+        self.effective = effective
+        self.interface = problem.interface
+        self.share = 1 - problem.scheme.alpha_f
+        joints = problem.interface
+        if joints is not None:
+            n, d = joints.n_points, joints.dimension
+            self._new = np.zeros_like(problem.state)
+            self._D = np.zeros((n, d, d))
+            self._f, self._h = np.zeros(joints.size), np.zeros(joints.size)
+
+    def solve(self, motion: Motion, r: FloatArray, dd: FloatArray) -> StepOutcome:
+        """One solve, Newton on the interface, one product."""
+        du = self.effective.solve(r)
+        if dd.any():
+            du = du + self.effective.imposed(dd)
+        if self.interface is None:
+            return StepOutcome(du, 1, 0.0)
+        y0 = self.interface.J @ du
+        y = y0.copy()
+        turns, residual = self._iterate(self.interface, motion, y0, y)
+        if turns > 0:
+            du = du - self.effective.Y @ self._h
+            motion.delta[:] += y
+            motion.f[:] = self._f
+            motion.state[:, :] = self._new
+        return StepOutcome(du, turns, residual)
+
+    def _iterate(
+        self, joints: Interface, motion: Motion, y0: FloatArray, y: FloatArray
+    ) -> tuple[int, float]:
+        return solve_interface(
+            joints.pairs,
+            joints.B,
+            joints.weights,
+            joints.codes,
+            joints.parameters,
+            self.effective.S,
+            self.effective.R,
+            self.share,
+            motion.delta,
+            motion.f,
+            motion.state,
+            y0,
+            y,
+            motion.w,
+            motion.t,
+            self._new,
+            self._D,
+            self._f,
+            self._h,
+        )
+
+
+@dataclass(eq=False)
+class SparseLoop:
+    """Steps of one dt with a solver for each."""
+
+    problem: Problem
+    motion: Motion
+
+    def __post_init__(self) -> None:
+        self._damped = self.problem.C.nnz > 0
+        self._J: sp.csr_array | None = None
+        if self.problem.interface is not None:
+            self._J = sp.csr_array(self.problem.interface.J.T)
+
+    def march(
+        self,
+        solver: StepSolver,
+        dt: float,
+        factors: FloatArray,
+        save: IntArray,
+        saved: Saved,
+        history: FloatArray,
+    ) -> tuple[int, int, float]:
+        """As `compiled_loop.march`."""
+        p, worst = self.problem, 0
+        loads = factors @ p.loading.forces.T
+        imposed = factors @ p.loading.imposed.T
+        for k in range(len(save)):
+            r = self._right_side(loads[k], loads[k + 1], dt)
+            dd = imposed[k + 1] - p.constraints.C @ self.motion.u
+            outcome = solver.solve(self.motion, r, dd)
+            if outcome.turns <= 0:
+                return k, outcome.turns, outcome.residual
+            worst = max(worst, outcome.turns)
+            self._advance(outcome.du, dt)
+            if not np.isfinite(self.motion.u).all():
+                return k, -1, np.inf
+            self._account(outcome.du, dd, loads[k], loads[k + 1], dt)
+            history[k] = self.motion.energies
+            if save[k] >= 0:
+                self._keep(saved, int(save[k]))
+        return len(save), worst, 0.0
+
+    def _right_side(self, load0: FloatArray, load1: FloatArray, dt: float) -> FloatArray:
+        p, m, s = self.problem, self.motion, self.problem.scheme
+        pv = (1 - s.alpha_m) * (m.v / (s.beta * dt) + (0.5 / s.beta - 1) * m.a) - s.alpha_m * m.a
+        r = p.M @ pv - p.K @ m.u + (1 - s.alpha_f) * load1 + s.alpha_f * load0
+        if self._damped:
+            ratio = s.gamma / s.beta
+            rate = (1 - ratio) * m.v + dt * (1 - 0.5 * ratio) * m.a
+            r -= p.C @ ((1 - s.alpha_f) * rate + s.alpha_f * m.v)
+        if self._J is not None:
+            r -= self._J @ m.f
+        found: FloatArray = r
+        return found
+
+    def _advance(self, du: FloatArray, dt: float) -> None:
+        m, s = self.motion, self.problem.scheme
+        v0 = m.v.copy()
+        m.u[:] += du
+        ratio = s.gamma / s.beta
+        m.v[:] = ratio / dt * du + (1 - ratio) * v0 + dt * (1 - 0.5 * ratio) * m.a
+        m.a[:] = (du / dt - v0) / (s.beta * dt) - (0.5 / s.beta - 1) * m.a
+
+    def _account(
+        self, du: FloatArray, dd: FloatArray, load0: FloatArray, load1: FloatArray, dt: float
+    ) -> None:
+        p, m = self.problem, self.motion
+        old = m.reaction.copy()
+        Ku, Mv = p.K @ m.u, p.M @ m.v
+        m.reaction[:] = p.M @ m.a + Ku - load1
+        if self._damped:
+            m.reaction[:] += p.C @ m.v
+            m.energies[DAMPED] += du @ (p.C @ du) / dt
+        if self._J is not None:
+            m.reaction[:] += self._J @ m.f
+        m.energies[EXTERNAL] += 0.5 * du @ (load0 + load1)
+        if dd.any():
+            m.energies[EXTERNAL] += dd @ p.constraints.multipliers(0.5 * (old + m.reaction))
+        m.energies[KINETIC], m.energies[ELASTIC] = 0.5 * m.v @ Mv, 0.5 * m.u @ Ku
+        joints = p.interface
+        if joints is not None:
+            m.energies[STORED], m.energies[LOST] = interface_energies(
+                joints.codes, joints.parameters, joints.weights, m.w, m.t, m.state
+            )
+
+    def _keep(self, saved: Saved, row: int) -> None:
+        m = self.motion
+        saved.u[row], saved.v[row], saved.a[row] = m.u, m.v, m.a
+        saved.reaction[row], saved.w[row], saved.t[row] = m.reaction, m.w, m.t
+        saved.state[row] = m.state
