@@ -9,10 +9,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TextIO
 
+from ssilang.cli.colour import coloured
 from ssilang.language.diagnostics import render
 from ssilang.language.errors import SeveralErrors, SsiError
-from ssilang.language.evaluator import LeaveLoop, NextTurn, StopRun
-from ssilang.language.procedures import LeaveProcedure
+from ssilang.language.evaluator import StopRun
 from ssilang.language.session import Limits, Session
 from ssilang.language.source import Source
 from ssilang.language.structure import parse
@@ -84,11 +84,9 @@ def execute(session: Session, source: Source) -> None:
     script = parse(source)
     sys.setrecursionlimit(max(sys.getrecursionlimit(), 60 * session.limits.recursion + 2000))
     try:
-        session.evaluator.run(script.body)
+        session.evaluator.run_top(script.body)
     except StopRun:
         return
-    except (LeaveLoop, NextTurn, LeaveProcedure) as jump:
-        raise SsiError("no-such-loop", session.evaluator.current_span, name=jump.name) from None
     except SsiError as error:
         if error.span is None:
             error.span = session.evaluator.current_span
@@ -98,7 +96,7 @@ def execute(session: Session, source: Source) -> None:
 def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) -> RunResult:
     """Run a source to its end, print what went wrong, write the summary."""
     session = make_session(source, options, out)
-    session.on_warning = lambda w: err.write(render(w, session.language) + "\n")
+    session.on_warning = lambda w: err.write(coloured(render(w, session.language), err) + "\n")
     errors: list[SsiError] = []
     try:
         execute(session, source)
@@ -111,7 +109,7 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
     names = session.frame.names() | session.library.standard_names
     message = "\n\n".join(render(e, session.language, names) for e in errors)
     if message:
-        err.write(message + "\n")
+        err.write(coloured(message, err) + "\n")
         if options.debug:
             for e in errors:
                 traceback.print_exception(e, file=err)

@@ -9,7 +9,7 @@ from ssilang.language import tree
 from ssilang.language.call import Call, Operand, run_operator
 from ssilang.language.errors import SsiError
 from ssilang.language.fast import Slow, Value, compile_phrase
-from ssilang.language.procedures import call_procedure, method_of
+from ssilang.language.procedures import LeaveProcedure, call_procedure, method_of
 from ssilang.language.registry import Operator, find_operator
 from ssilang.language.source import Span
 from ssilang.language.values import (
@@ -146,14 +146,42 @@ class Evaluator:
                 self.store(statement.targets[0], value)
                 return
         if not statement.targets:
-            left = self.phrase(statement.items, statement.span, one_name=True)
-            self._nothing_left([o for o in left if not o.result] if left else left)
+            self._unnamed(statement)
             return
         one = len(statement.targets) == 1
         path = statement.targets[0]
         deep = isinstance(path, tree.Path) and len(path.indices) > 1
         left = self.phrase(statement.items, statement.span, one_name=one and not deep)
         self._assign(statement, left)
+
+    def _unnamed(self, statement: tree.Statement) -> list[Operand]:
+        """Run a statement without names; the results that nobody takes are dropped."""
+        left = self.phrase(statement.items, statement.span, one_name=True)
+        self._nothing_left([o for o in left if not o.result])
+        return left
+
+    def values_of(self, statement: tree.Statement) -> list[Any]:
+        """Results of a statement without names on its left, or the object it names."""
+        self.current_span = statement.span
+        items = statement.items
+        if len(items) == 1 and isinstance(items[0], tree.Name | tree.Path | tree.Number):
+            operands = self.operands_of(items)
+            if not isinstance(operands[0].value, Mot | Texte | Procedure):
+                return [o.value for o in operands]
+        return [o.value for o in self._unnamed(statement)]
+
+    def run_top(self, nodes: Sequence[tree.Node]) -> None:
+        """Run nodes that stand outside of any procedure.
+
+        Raises
+        ------
+        SsiError
+            'no-such-loop' for a QUIT or ITER that names nothing open, besides what nodes raise.
+        """
+        try:
+            self.run(nodes)
+        except (LeaveLoop, NextTurn, LeaveProcedure) as jump:
+            raise SsiError("no-such-loop", self.current_span, name=jump.name) from None
 
     def _scalar(self, statement: tree.Statement) -> Any:
         """Value of a phrase of scalars by the short way, None if it is not one."""

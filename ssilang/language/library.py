@@ -17,18 +17,28 @@ if TYPE_CHECKING:
 _SUFFIXES = (".ssi", ".procedur", ".dgibi")
 
 
+def standard_procedures() -> dict[str, Path]:
+    """Name to file of the standard library's procedures."""
+    return {p.stem.upper(): p for p in sorted(resource("stdlib").glob("*.ssi"))}
+
+
 class Library:
     """Finds and loads procedures on first mention of their name."""
 
     def __init__(self, session: Session) -> None:
         self._session = session
         self._loaded: dict[str, Procedure | None] = {}
-        self._standard = {p.stem.upper(): p for p in sorted(resource("stdlib").glob("*.ssi"))}
+        self._standard = standard_procedures()
 
     @property
     def standard_names(self) -> frozenset[str]:
         """Names of the standard library's procedures."""
         return frozenset(self._standard)
+
+    @property
+    def standard_files(self) -> dict[str, Path]:
+        """Files of the standard library's procedures by name."""
+        return self._standard
 
     def find(self, name: str) -> Procedure | None:
         """The procedure of that name, loaded if it is not yet, None if there is none."""

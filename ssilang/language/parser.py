@@ -139,7 +139,8 @@ def _closed(text: str) -> str:
 def _explain(source: Source, text: str, problem: UnexpectedInput) -> tuple[SsiError, str]:
     """The error of one bad statement, and the text with that statement blanked."""
     offset = problem.pos_in_stream
-    at_end = offset is None or offset < 0 or offset >= len(text)
+    ended = getattr(getattr(problem, "token", None), "type", "") == "$END"
+    at_end = ended or offset is None or offset < 0 or offset >= len(text)
     place = len(text) if at_end else int(offset or 0)
     begin, end = 0, len(text)
     for m in _STATEMENT_END.finditer(text):

@@ -92,7 +92,7 @@ class Session:
         if self.on_warning is not None:
             self.on_warning(warning)
 
-    on_warning: Callable[[Any], None] | None = None
+    on_warning: Callable[[Any], object] | None = None
 
 
 _PREDEFINED: dict[str, Any] = {

@@ -1,0 +1,220 @@
+"""The interactive session: statements typed one after the other, errors that leave it alive."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import TextIO
+
+from ssilang import __version__
+from ssilang.cli.colour import coloured
+from ssilang.cli.completion import completions
+from ssilang.cli.line_editor import Ask, line_editor
+from ssilang.cli.paging import show
+from ssilang.cli.repl_texts import TEXTS
+from ssilang.cli.run import RunOptions, execute, make_session
+from ssilang.language import tree
+from ssilang.language.diagnostics import render
+from ssilang.language.errors import SeveralErrors, SsiError
+from ssilang.language.evaluator import StopRun
+from ssilang.language.reference import find_page, page_text
+from ssilang.language.session import Session
+from ssilang.language.source import Source
+from ssilang.language.structure import parse
+from ssilang.language.values import Mot, type_of
+from ssilang.operators.dispatch import LISTINGS
+
+_UNFINISHED = frozenset(
+    {"missing-semicolon", "unclosed-string", "unclosed-paren", "unclosed-block"}
+)
+
+
+class Repl:
+    """One interactive session over a `Session`.
+
+    Parameters
+    ----------
+    session : Session
+    ask : function
+        Shows a prompt, returns a line; raises EOFError at the end of the input.
+    out : text stream
+        Where the session prints.
+    """
+
+    def __init__(self, session: Session, ask: Ask, out: TextIO) -> None:
+        self.session = session
+        self.ask = ask
+        self.out = out
+        self.kept: list[str] = []  # statements that ran, for %save
+        self.pending = ""
+        self._count = 0
+        self._commands: dict[str, Callable[[str], bool]] = {
+            "%help": self._help,
+            "%vars": self._variables,
+            "%save": self._save,
+            "%run": self._run_file,
+            "%quit": lambda _: False,
+        }
+        session.on_warning = self._report
+
+    def loop(self) -> None:
+        """Read and run until FIN, %quit or the end of the input."""
+        while True:
+            try:
+                line = self.ask("... " if self.pending else "ssi> ")
+            except KeyboardInterrupt:
+                self.pending = ""
+                self.out.write("\n")
+                continue
+            except EOFError:
+                if self.pending.strip():
+                    self._parse_and_run(self.pending, last=True)
+                return
+            if not self.feed(line):
+                return
+
+    def feed(self, line: str) -> bool:
+        """Take one typed line; False when the session is to end."""
+        if not self.pending and line.lstrip().startswith("%"):
+            return self._command(line.strip())
+        self.pending += line + "\n"
+        if not self.pending.strip():
+            self.pending = ""
+            return True
+        return self._parse_and_run(self.pending)
+
+    def _command(self, line: str) -> bool:
+        name, _, rest = line.partition(" ")
+        action = self._commands.get(name.lower())
+        if action is None:
+            self._say("unknown", name=name)
+            return True
+        return action(rest.strip().strip("'\""))
+
+    # ---- statements --------------------------------------------------------------------------
+
+    def _parse_and_run(self, text: str, last: bool = False) -> bool:
+        self._count += 1
+        source = Source(f"<{self._count}>", text)
+        try:
+            script = parse(source)
+        except SeveralErrors as several:
+            if not last and {e.code for e in several.errors} <= _UNFINISHED:
+                self._count -= 1
+                return True  # the statement goes on in the next line
+            self.pending = ""
+            for error in several.errors:
+                self._report(error)
+            return True
+        self.pending = ""
+        return self._guarded(lambda: self._run_nodes(script.body), text)
+
+    def _guarded(self, action: Callable[[], None], text: str = "") -> bool:
+        """Do something that may fail: the session survives; False after FIN."""
+        session = self.session
+        try:
+            action()
+        except StopRun:
+            return False
+        except KeyboardInterrupt:
+            self._say("interrupted")
+        except SeveralErrors as several:
+            for error in several.errors:
+                self._report(error)
+        except SsiError as error:
+            error.span = error.span or session.evaluator.current_span
+            self._report(error)
+        else:
+            self.kept += text.rstrip("\n").split("\n") if text else []
+        finally:
+            session.frame = session.root
+            self.out.flush()
+        return True
+
+    def _run_nodes(self, nodes: tuple[tree.Node, ...]) -> None:
+        for node in nodes:
+            if isinstance(node, tree.Statement) and not node.assigns:
+                self._show_value(node)
+            else:
+                self.session.evaluator.run_top([node])
+
+    def _show_value(self, node: tree.Statement) -> None:
+        """Run a statement without names on its left and show what it gives."""
+        if node.first_word[:4] == "INFO" and len(node.items) == 2:
+            word = node.items[1]
+            if isinstance(word, tree.Name | tree.Quoted) and self._page(word.text):
+                return
+        for value in self.session.evaluator.values_of(node):
+            kind = type_of(value)
+            text = LISTINGS[kind](value, "RESU") if kind in LISTINGS else str(value)
+            self.out.write((text if kind in LISTINGS else f"{kind} : {text}").rstrip("\n") + "\n")
+
+    def _page(self, word: str) -> bool:
+        page = find_page(word, self.session.library.standard_files)
+        if page is None:
+            return False
+        show(page_text(page, self.session.language), self.out)
+        return True
+
+    def _report(self, error: SsiError) -> None:
+        names = self.session.frame.names() | self.session.library.standard_names
+        text = render(error, self.session.language, names)
+        self.out.write(coloured(text, self.out) + "\n")
+
+    def _say(self, key: str, **data: object) -> None:
+        self.out.write(TEXTS[key][self.session.language].format(**data) + "\n")
+
+    # ---- commands ----------------------------------------------------------------------------
+
+    def _help(self, _: str) -> bool:
+        self._say("commands")
+        return True
+
+    def _variables(self, _: str) -> bool:
+        for name, value in sorted(self.session.root.variables.items()):
+            short = f" {value}" if isinstance(value, bool | int | float | Mot) else ""
+            self.out.write(f"{name:<24} {type_of(value)}{short}\n")
+        return True
+
+    def _save(self, path: str) -> bool:
+        if not path:
+            self._say("file", name="%save")
+            return True
+        try:
+            Path(path).write_text("\n".join(self.kept) + "\n", encoding="utf-8")
+        except OSError as problem:
+            self.out.write(f"{path}: {problem.strerror}\n")
+            return True
+        self._say("saved", count=len(self.kept), path=path)
+        return True
+
+    def _run_file(self, path: str) -> bool:
+        if not path:
+            self._say("file", name="%run")
+            return True
+        return self._guarded(lambda: execute(self.session, Source.read(Path(path))))
+
+
+def start(options: RunOptions) -> int:
+    """Open a fresh interactive session; returns the exit code."""
+    return interact(make_session(Source("session", ""), options, sys.stdout), greet=True)
+
+
+def interact(session: Session, greet: bool = False) -> int:
+    """Go on interactively with a session; returns the exit code."""
+    person = sys.stdin.isatty()
+    ask = line_editor(lambda text: completions(text, session)) if person else _next_line
+    repl = Repl(session, ask, sys.stdout)
+    if greet and person:
+        repl._say("welcome", version=__version__)
+    repl.loop()
+    return 0
+
+
+def _next_line(_: str) -> str:
+    """The next line of an input that is no terminal."""
+    line = sys.stdin.readline()
+    if not line:
+        raise EOFError
+    return line.rstrip("\n")
