@@ -1,0 +1,88 @@
+"""Motions that lift off, against the exact ones; the loops against each other."""
+
+import numpy as np
+import pytest
+from references.assembled import Bench
+from references.oscillators import MASS, SOIL_STIFFNESS, STRUCTURE_STIFFNESS, ClubB
+from references.recorder import Recorder
+
+from ssilang.kernel.dynamics.integrate import integrate
+from ssilang.kernel.dynamics.problem import Inputs, make_problem
+from ssilang.kernel.dynamics.scheme import Scheme, generalised_alpha, hht
+
+
+def club_b(dt: float, duration: float = 1.0, scheme: Scheme = Scheme()):
+    bench = Bench()
+    soil, top = bench.node(-1.0, 0.0), bench.node(0.0, 0.0)
+    bench.spring(STRUCTURE_STIFFNESS, top, unknown="UX")
+    bench.mass(MASS, top)
+    bench.fix(soil)
+    bench.fix(top, "UY")
+    bench.joint("SEG2", [soil, top], "JOI1", KN=SOIL_STIFFNESS, KS=0.0)
+    inputs = Inputs(
+        bench.stiffness,
+        np.arange(0, round(duration / dt) + 1) * dt,
+        bench.mass_matrix,
+        displacement=bench.field((top, "UX", 0.01)),
+        model=bench.model,
+        characteristics=bench.characteristics,
+        scheme=scheme,
+    )
+    problem = make_problem(inputs)
+    return problem, problem.numbering.index_of(top, "UX")
+
+
+def run(problem, **options):
+    recorder = Recorder(len(problem.times))
+    history = integrate(problem, [recorder], **options)
+    return recorder, history
+
+
+def club_b_error(dt: float, scheme: Scheme = Scheme()) -> float:
+    problem, i = club_b(dt, scheme=scheme)
+    recorder, _ = run(problem)
+    exact, _ = ClubB().motion(problem.times)
+    return float(np.abs(recorder.of("u")[:, i] - exact).max() / 0.01)
+
+
+def test_bilinear_oscillator_is_of_second_order():
+    errors = np.array([club_b_error(dt) for dt in (1e-3, 5e-4, 2.5e-4)])
+    assert errors[2] < 2e-3
+    orders = np.log2(errors[:-1] / errors[1:])
+    assert (orders > 1.9).all() and (orders < 2.1).all()
+
+
+def test_bilinear_oscillator_keeps_its_energy():
+    problem, _ = club_b(2.5e-4)
+    _, history = run(problem)
+    assert np.abs(history.imbalance).max() < 1e-4 * ClubB().energy
+
+
+@pytest.mark.parametrize("scheme", [Scheme(), hht(0.1), generalised_alpha(0.8)])
+def test_loops_agree(scheme, monkeypatch):
+    problem, _ = club_b(1e-3, 0.4, scheme)
+    compiled, history = run(problem)
+    newton, other = run(problem, full_newton=True)
+    assert history.loop == "compiled" and other.loop == "full Newton"
+    monkeypatch.setattr("ssilang.kernel.dynamics.problem.SMALL", 0)
+    problem, _ = club_b(1e-3, 0.4, scheme)
+    sparse, third = run(problem)
+    assert third.loop == "condensed"
+    for name in ("u", "v", "a", "reaction", "t"):
+        size = np.abs(compiled.of(name)).max()
+        assert np.abs(compiled.of(name) - newton.of(name)).max() < 1e-9 * size
+        assert np.abs(compiled.of(name) - sparse.of(name)).max() < 1e-9 * size
+    np.testing.assert_allclose(history.energies, third.energies, atol=1e-9 * ClubB().energy)
+
+
+@pytest.mark.parametrize("scheme", [hht(0.05), generalised_alpha(0.9)])
+def test_damped_schemes_are_of_second_order(scheme):
+    errors = [club_b_error(dt, scheme) for dt in (5e-4, 2.5e-4)]
+    assert 1.7 < np.log2(errors[0] / errors[1]) < 2.3
+
+
+@pytest.mark.parametrize("scheme", [hht(0.05), generalised_alpha(0.5)])
+def test_damped_schemes_lose_energy(scheme):
+    _, history = run(club_b(1e-3, scheme=scheme)[0])
+    total = history.energies[:, :4].sum(axis=1)
+    assert total[-1] < 0.999 * total[0]
