@@ -13,7 +13,13 @@ import numpy as np
 
 from ssilang.kernel.errors import FieldError, MeshError
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, Relations, dual_of
+from ssilang.kernel.matrices.matrix import (
+    PRIMAL_TO_DUAL,
+    ElementMatrices,
+    Matrix,
+    Relations,
+    dual_of,
+)
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray, NodeTable
 from ssilang.kernel.model import Mode
 
@@ -210,6 +216,16 @@ def from_field(field: NodeField, sense: int = 0, multiplier: IntArray | None = N
         own,
         np.array([sense], dtype=np.int8),
     )
+
+
+def primal_names(field: NodeField) -> NodeField:
+    """A field of forces (FX, MZ ...) under the names of the displacements they work on.
+
+    Components that are no force's names stay as they are.
+    """
+    names = {dual: primal for primal, dual in PRIMAL_TO_DUAL.items()}
+    parts = {names.get(name, name): part for name, part in field.components.items()}
+    return NodeField(field.table, parts, field.nature)
 
 
 # --- planes of symmetry ----------------------------------------------------------------------

@@ -202,3 +202,61 @@ def hooked(
     if not rows:
         raise MeshError("no node of the first mesh lies in the second one")
     return joined(rows)
+
+
+def sliding(line: Mesh, mesh: Mesh, unknowns: Sequence[str], tolerance: float = 1e-5) -> Relations:
+    """Nodes of a line follow the cells that they lie in, but for motion along the line (GLISSANT).
+
+    The direction at a node is the mean of those of the line's cells that meet there.
+
+    Raises
+    ------
+    MeshError
+        If the first mesh is no line or no node of it lies in a cell.
+    """
+    from ssilang.kernel.matrices.location import locate
+
+    dim = len(unknowns)
+    own = np.setdiff1d(line.sorted_node_ids, mesh.sorted_node_ids)
+    tangents = _line_tangents(line)[own, :dim]
+    found = locate(mesh, mesh.nodes.coordinates[own], tolerance)
+    rows = []
+    for block, (which, shapes) in zip(mesh.blocks, found, strict=True):
+        inside = which >= 0
+        if not inside.any():
+            continue
+        masters = block.connectivity[which[inside]]
+        weights = np.concatenate([np.ones((len(masters), 1)), -shapes[inside]], axis=1)
+        weights[np.abs(weights) < 1e-10] = 0.0
+        nodes = np.concatenate([own[inside][:, None], masters], axis=1)
+        for normal in _across(tangents[inside]):
+            values = (normal[:, :, None] * weights[:, None, :]).reshape(len(nodes), -1)
+            names = tuple(u for u in unknowns for _ in range(nodes.shape[1]))
+            rows.append(rows_from_table(mesh.nodes, np.tile(nodes, (1, dim)), names, values))
+    if not rows:
+        raise MeshError("no node of the line lies in the second mesh")
+    return joined(rows)
+
+
+def _line_tangents(line: Mesh) -> FloatArray:
+    """Unit tangents (n_table, 3) at the nodes of a line, zero elsewhere."""
+    total = np.zeros((len(line.nodes), 3))
+    for block in line.blocks:
+        if block.kind.dimension != 1 or block.kind.joint:
+            raise MeshError(f"a sliding relation wants a line, the mesh holds {block.cell_type}")
+        x = block.coordinates
+        along = x[:, -1] - x[:, 0]
+        along = along / np.linalg.norm(along, axis=1, keepdims=True)
+        np.add.at(total, block.connectivity.ravel(), np.repeat(along, x.shape[1], axis=0))
+    length = np.linalg.norm(total, axis=1, keepdims=True)
+    return np.divide(total, length, out=np.zeros_like(total), where=length > 0.0)
+
+
+def _across(tangents: FloatArray) -> list[FloatArray]:
+    """Directions normal to the tangents (n, dim): one in the plane, two in space."""
+    if tangents.shape[1] == 2:
+        return [np.column_stack([-tangents[:, 1], tangents[:, 0]])]
+    sides = np.eye(3)[np.argmin(np.abs(tangents), axis=1)]
+    first = np.cross(tangents, sides)
+    first /= np.linalg.norm(first, axis=1, keepdims=True)
+    return [first, np.cross(tangents, first)]

@@ -1,0 +1,104 @@
+"""Stiffness, mass and damping on the motions that the conditions allow."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+
+from ssilang.kernel.errors import KernelError
+from ssilang.kernel.matrices.assembly import (
+    Numbering,
+    assemble,
+    constraint_matrix,
+    is_symmetric,
+    numbering_of,
+)
+from ssilang.kernel.matrices.matrix import Matrix
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+from ssilang.kernel.solvers.elimination import Elimination, eliminate
+
+
+@dataclass(frozen=True, eq=False)
+class ReducedProblem:
+    """Matrices on the unknowns q that stay, `u = T q`, with the conditions `S q = 0` left over.
+
+    Attributes
+    ----------
+    full_K, full_M : csr arrays (n, n) on `numbering`, for reactions and generalised masses.
+    K, M : csr arrays (r, r)
+    C : csr array (r, r) or None
+        Damping.
+    S : csr array (m, r)
+        Conditions too full to be eliminated.
+    T : csr array (n, r)
+    multipliers : array (n_rows,)
+        Multiplier nodes of all conditions.
+    """
+
+    numbering: Numbering
+    full_K: sp.csr_array
+    full_M: sp.csr_array
+    K: sp.csr_array
+    M: sp.csr_array
+    C: sp.csr_array | None
+    S: sp.csr_array
+    T: sp.csr_array
+    symmetric: bool
+    elimination: Elimination
+    multipliers: IntArray
+
+    @property
+    def size(self) -> int:
+        """Number of unknowns that stay."""
+        return int(self.K.shape[0])
+
+    def bordered(self, A: sp.csr_array) -> sp.csr_array:
+        """`[A S^T; S 0]`, or A itself if no condition is left."""
+        if self.S.shape[0] == 0:
+            return A
+        return sp.csr_array(sp.block_array([[A, self.S.T], [self.S, None]], format="csr"))
+
+    def reactions(self, u: FloatArray, eigenvalue: float) -> FloatArray:
+        """Multipliers (n_rows,) that balance `(K - lambda M) u` at the eliminated unknowns."""
+        return self.elimination.multipliers(eigenvalue * (self.full_M @ u) - self.full_K @ u)
+
+
+def reduced_problem(
+    stiffness: Matrix, mass: Matrix, damping: Matrix | None = None
+) -> ReducedProblem:
+    """Eliminate the conditions of all matrices (unilateral ones taken for equalities).
+
+    Raises
+    ------
+    KernelError
+        If the matrices have no unknown, or a condition is non-associated.
+    """
+    parts = [stiffness, mass] if damping is None else [stiffness, mass, damping]
+    held = {id(r): r for m in parts for r in m.relations}
+    if any(r.dual is not None for r in held.values()):
+        raise KernelError("modes with non-associated relations ('DUAL') have no meaning here")
+    all_rows = Matrix(stiffness.table, (), tuple(held.values()))
+    numbering = numbering_of(*parts)
+    if numbering.size == 0:
+        raise KernelError("the matrix is empty: there is nothing to solve")
+    rows = constraint_matrix(all_rows, numbering)
+    elimination = eliminate(rows.C)
+    T = elimination.T
+    K, M = assemble(stiffness, numbering), assemble(mass, numbering)
+    C = None if damping is None else sp.csr_array(T.T @ assemble(damping, numbering) @ T)
+    left = np.flatnonzero(~elimination.eliminated)
+    return ReducedProblem(
+        numbering,
+        K,
+        M,
+        sp.csr_array(T.T @ K @ T),
+        sp.csr_array(T.T @ M @ T),
+        C,
+        sp.csr_array(rows.C[left] @ T),
+        T,
+        is_symmetric(stiffness) and is_symmetric(mass),
+        elimination,
+        rows.multipliers,
+    )
