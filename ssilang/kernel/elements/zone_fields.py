@@ -154,7 +154,9 @@ class ZoneField:
                 f"parameter {name} is a curve: it depends on a field",
                 "evaluate it first at the state wanted (VARI)",
             )
-        return carry(values.astype(float, copy=False), self.zone.element, source, support)
+        found = carry(values.astype(float, copy=False), self.zone.element, source, support)
+        uniform = len(found) > 1 and found.shape[1] == 1 and (found == found[0, 0]).all()
+        return found[:1] if uniform else found
 
     def matrix(self, names: tuple[str, ...], support: Support) -> FloatArray:
         """Several components side by side, zero where absent, (n_cells, len(names), n_points)."""

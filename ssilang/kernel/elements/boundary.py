@@ -1,0 +1,122 @@
+"""Faces of a model: the cell that each lies on, its outward area vectors at quadrature points."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ssilang.kernel.elements.catalog import ELEMENTS
+from ssilang.kernel.elements.geometry import SurfaceGeometry, surface_geometry
+from ssilang.kernel.elements.quadrature import Rule, quadrature
+from ssilang.kernel.elements.reference import REFERENCE_CELLS
+from ssilang.kernel.errors import MeshError
+from ssilang.kernel.mesh.mesh import CellBlock
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+from ssilang.kernel.model import Mode, Model, Zone
+
+# points that integrate two shape functions of the face times a linear field
+_POINTS = {"POI1": 1, "SEG2": 2, "SEG3": 3, "TRI3": 7, "TRI6": 7, "QUA4": 4, "QUA8": 9}
+
+
+@dataclass(frozen=True, eq=False)
+class Parents:
+    """For each face: zone (n,) and cell (n,) it lies on, -1 where there is none."""
+
+    zone: IntArray
+    cell: IntArray
+
+
+def face_rule(cell_type: str) -> Rule:
+    """Quadrature of a face."""
+    if cell_type not in _POINTS:
+        raise MeshError(f"{cell_type} cells cannot carry a surface load")
+    return quadrature(REFERENCE_CELLS[cell_type].shape, _POINTS[cell_type])
+
+
+def _keys(nodes: IntArray) -> np.ndarray:
+    rows = np.ascontiguousarray(np.sort(nodes, axis=1))
+    return rows.view([("", rows.dtype)] * rows.shape[1]).ravel()
+
+
+def parents(faces: CellBlock, model: Model) -> Parents:
+    """Cells of a model on which faces lie (the first found)."""
+    zone = np.full(len(faces), -1, dtype=np.int64)
+    cell = np.full(len(faces), -1, dtype=np.int64)
+    wanted = _keys(faces.connectivity)
+    for number, part in enumerate(model.zones):
+        sides = [s for kind, s in part.cells.kind.faces if kind == faces.cell_type]
+        if not sides or not len(part.cells):
+            continue
+        table = np.concatenate([part.cells.connectivity[:, list(s)] for s in sides])
+        owner = np.tile(np.arange(len(part.cells)), len(sides))
+        keys = _keys(table)
+        order = np.argsort(keys, kind="stable")
+        place = np.minimum(np.searchsorted(keys, wanted, sorter=order), len(keys) - 1)
+        rows = order[place]
+        found = (keys[rows] == wanted) & (zone < 0)
+        zone[found], cell[found] = number, owner[rows[found]]
+    return Parents(zone, cell)
+
+
+def require_parents(faces: CellBlock, model: Model) -> Parents:
+    """The same, refusing faces that lie on no cell.
+
+    Raises
+    ------
+    MeshError
+    """
+    found = parents(faces, model)
+    lost = int((found.zone < 0).sum())
+    if lost:
+        raise MeshError(
+            f"{lost} of {len(faces)} {faces.cell_type} cells are no side of a cell of the model",
+            "the surface and the model's mesh must share their nodes (ELIM)",
+        )
+    return found
+
+
+def space_coordinates(block: CellBlock, mode: Mode) -> FloatArray:
+    """Coordinates (n, k, dim) that a hypothesis uses."""
+    dim = 3 if mode is Mode.THREE_DIMENSIONAL else mode.dimension
+    return block.coordinates[..., :dim]
+
+
+def face_geometry(faces: CellBlock, mode: Mode, harmonic: int = 0) -> SurfaceGeometry:
+    """Area vectors of faces (times 2 pi r in axisymmetry, pi r for a harmonic > 0)."""
+    x = space_coordinates(faces, mode)
+    geometry = surface_geometry(faces.cell_type, x, face_rule(faces.cell_type))
+    if mode not in (Mode.AXISYMMETRIC, Mode.FOURIER):
+        return geometry
+    ring = (np.pi if harmonic else 2 * np.pi) * (x[..., 0] @ geometry.shapes.T)
+    return SurfaceGeometry(
+        geometry.shapes, geometry.normals * ring[..., None], geometry.measures * ring
+    )
+
+
+def outward(faces: CellBlock, geometry: SurfaceGeometry, model: Model, of: Parents) -> FloatArray:
+    """Area vectors (n, points, dim) that point out of the cells on which the faces lie."""
+    dim = geometry.normals.shape[-1]
+    centre = np.zeros((len(faces), dim))
+    for number, part in enumerate(model.zones):
+        mine = of.zone == number
+        if mine.any():
+            centre[mine] = part.cells.coordinates[of.cell[mine]].mean(axis=1)[:, :dim]
+    out = faces.coordinates.mean(axis=1)[:, :dim] - centre
+    side = np.sign(np.einsum("cd,cpd->c", out, geometry.normals))
+    vectors: FloatArray = geometry.normals * side[:, None, None]
+    return vectors
+
+
+def zones_of_faces(of: Parents, model: Model) -> list[tuple[Zone, IntArray]]:
+    """Zones that own faces, with the faces of each."""
+    return [
+        (zone, np.flatnonzero(of.zone == number))
+        for number, zone in enumerate(model.zones)
+        if (of.zone == number).any()
+    ]
+
+
+def is_solid(zone: Zone) -> bool:
+    """True for continuous elements."""
+    return ELEMENTS[zone.element].family in ("solid", "incompressible")

@@ -1,0 +1,103 @@
+"""Axes of orthotropy (and of joints) from directions, as parameters V1X V1Y V1Z V2X V2Y V2Z."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
+from ssilang.kernel.elements.reference import shape_functions
+from ssilang.kernel.errors import MaterialError
+from ssilang.kernel.fields.cell_field import Support
+from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.model import Mode, Zone
+
+
+@dataclass(frozen=True, eq=False)
+class Directions:
+    """What a script says of the axes.
+
+    Attributes
+    ----------
+    first, second : array (3,); second is None where one vector is enough
+        Vectors, or with `radial` points: the centre, or two points of the axis.
+    radial : bool
+    angle : float
+        Turn about the third axis, degrees.
+    """
+
+    first: FloatArray
+    second: FloatArray | None
+    radial: bool = False
+    angle: float = 0.0
+
+
+def axis_parameters(zone: Zone, given: Directions) -> tuple[dict[str, FloatArray], Support]:
+    """Parameters V1X ... V2Z (n_cells, n_points) and the support they stand on.
+
+    Raises
+    ------
+    MaterialError
+        If a vector is missing, zero or parallel to the other.
+    """
+    flat = zone.mode is not Mode.THREE_DIMENSIONAL
+    support: Support = "RIGIDITE" if given.radial else "GRAVITE"
+    if given.radial:
+        first, second = _radial(zone, given, flat)
+    else:
+        n = len(zone.cells)
+        first = np.broadcast_to(given.first, (n, 1, 3))
+        second = _second(given, flat, first)
+    v1, v2 = _turned(_frame(first, second), given.angle)
+    out = {f"V{i}{a}": v[..., k] for i, v in ((1, v1), (2, v2)) for k, a in enumerate("XYZ")}
+    return out, support
+
+
+def _second(given: Directions, flat: bool, first: FloatArray) -> FloatArray:
+    if given.second is not None:
+        return np.broadcast_to(given.second, first.shape)
+    if not flat:
+        raise MaterialError("in space two vectors show the axes", "DIRECTION V1 V2")
+    return np.stack([-first[..., 1], first[..., 0], np.zeros_like(first[..., 0])], axis=-1)
+
+
+def integration_points(zone: Zone, support: Support) -> FloatArray:
+    """Coordinates (n_cells, n_points, 3) of the points of a support."""
+    rule = support_rule(zone.element, support)
+    kind = ELEMENTS[zone.element]
+    shapes = shape_functions(kind.reference or kind.cell_type, rule.points)
+    corners = zone.cells.coordinates[:, : shapes.shape[1]]
+    points: FloatArray = np.einsum("pk,ckd->cpd", shapes, corners)
+    return points
+
+
+def _radial(zone: Zone, given: Directions, flat: bool) -> tuple[FloatArray, FloatArray]:
+    x = integration_points(zone, "RIGIDITE")
+    if flat:
+        first = given.first - x
+        return first, np.stack([-first[..., 1], first[..., 0], 0 * first[..., 0]], axis=-1)
+    if given.second is None:
+        raise MaterialError("in space RADIAL needs two points of the axis", "RADIAL P1 P2")
+    axis = given.second - given.first
+    along = axis / max(float(np.linalg.norm(axis)), 1e-300)
+    out = x - given.first
+    radius = out - (out @ along)[..., None] * along
+    return np.broadcast_to(along, radius.shape), -radius
+
+
+def _frame(first: FloatArray, second: FloatArray) -> tuple[FloatArray, FloatArray]:
+    third = np.cross(first, second)
+    norms = [np.linalg.norm(v, axis=-1, keepdims=True) for v in (first, third)]
+    if min(float(n.min()) for n in norms) <= 0:
+        raise MaterialError("the vectors that give the axes are zero or parallel")
+    v1, v3 = first / norms[0], third / norms[1]
+    return v1, np.cross(v3, v1)
+
+
+def _turned(frame: tuple[FloatArray, FloatArray], angle: float) -> tuple[FloatArray, FloatArray]:
+    v1, v2 = frame
+    quarter = round(angle / 90.0)
+    exact = {0: (1.0, 0.0), 1: (0.0, 1.0)}.get(quarter) if angle == 90.0 * quarter else None
+    c, s = exact or (np.cos(np.radians(angle)), np.sin(np.radians(angle)))
+    return c * v1 + s * v2, c * v2 - s * v1

@@ -1,0 +1,69 @@
+"""The laws that a model may name, as data: words, families of elements that have them."""
+
+from __future__ import annotations
+
+from ssilang.kernel.errors import MaterialError
+
+FORMULATIONS = ("MECANIQUE",)
+OTHER_FORMULATIONS = (
+    "LIQUIDE", "POREUX", "CONTACT", "THERMIQUE", "DARCY", "MAGNETODYNAMIQUE", "NAVIER_STOKES",
+    "EULER", "MELANGE", "FISSURE", "THERMOHYDRIQUE", "LIAISON", "DIFFUSION", "CHARGEMENT",
+    "FROTTEMENT", "CHANGEMENT_PHASE", "METALLURGIE", "CONVECTION", "RAYONNEMENT",
+)  # fmt: skip
+
+ELASTICITIES: dict[str, tuple[str, ...]] = {
+    "ISOTROPE": ("solid", "incompressible", "bar", "beam", "timoshenko", "joint"),
+    "ORTHOTROPE": ("solid", "incompressible", "joint"),
+    "ANISOTROPE": ("solid", "incompressible"),
+    "UNIDIRECTIONNEL": ("solid", "incompressible"),
+}
+"""Linear elasticities and the families of elements that have them."""
+
+JOINT_WORDS = ("JOINT_SDM", "CISAILLEMENT_ELASTIQUE")
+"""Further words of joints; `ssilang.kernel.joints.laws` says what they mean."""
+
+OTHER_BEHAVIOURS = (
+    "PLASTIQUE", "PLASTIQUE_ENDOM", "ENDOMMAGEMENT", "FLUAGE", "VISCOPLASTIQUE", "VISCO_EXTERNE",
+    "NON_LINEAIRE", "IMPEDANCE", "HOMOGENEISE", "SECTION", "ARMATURE", "MODAL", "STATIQUE",
+    "CAOUTCHOUC",
+)  # fmt: skip
+"""Laws that Cast3M has and that are not built here: refused by name."""
+
+
+def full_word(word: str, known: tuple[str, ...]) -> str | None:
+    """The known word that `word` writes in full, or at least by its first four letters."""
+    said = word.upper().rstrip()
+    if said in known:
+        return said
+    return next((k for k in known if len(said) >= 4 and k.startswith(said)), None)
+
+
+def normalised(words: list[str], family: str) -> tuple[str, ...]:
+    """The words of a law in order, with ISOTROPE where elasticity says nothing more.
+
+    Parameters
+    ----------
+    words : list of str
+        Full words.
+    family : str
+        Of the element: 'solid', 'bar', 'joint' ...
+
+    Raises
+    ------
+    MaterialError
+        If there is no elasticity, or the element's family does not have it.
+    """
+    if words[:1] != ["ELASTIQUE"]:
+        raise MaterialError(
+            "a mechanical model begins with its elasticity",
+            "write MODE mesh 'MECANIQUE' 'ELASTIQUE' 'ISOTROPE'",
+        )
+    rest = list(words[1:])
+    kind = rest.pop(0) if rest and rest[0] in ELASTICITIES else ""
+    if kind and family not in ELASTICITIES[kind]:
+        raise MaterialError(f"elements of the family '{family}' have no elasticity {kind}")
+    if rest and family != "joint":
+        raise MaterialError(
+            f"behaviour {rest[0]} is for joints only", "give it to joint elements (JOI1 ... JOI8)"
+        )
+    return ("ELASTIQUE", *([kind or "ISOTROPE"] if not rest or kind else []), *rest)

@@ -1,0 +1,86 @@
+"""Names of the parameters that elements and laws take, as data."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ssilang.kernel.elements.catalog import ELEMENTS
+from ssilang.kernel.joints.laws import law_of
+from ssilang.kernel.model import Mode, Zone
+
+THERMAL = ("ALPH", "TREF", "TALP")
+ORTHOTROPIC = ("YG1", "YG2", "NU12", "G12", "YG3", "NU23", "NU13", "G23", "G13")
+ORTHOTROPIC_THERMAL = ("ALP1", "ALP2", "ALP3", "TREF", "TALP")
+ANISOTROPIC = tuple(f"D{i}{j}" for i in range(1, 7) for j in range(1, i + 1))
+ANISOTROPIC_THERMAL = (*ORTHOTROPIC_THERMAL, "AL12", "AL13", "AL23")
+AXES = ("V1X", "V1Y", "V1Z", "V2X", "V2Y", "V2Z")
+JOINT_POINT = ("KS1", "KS2", "QS", "QN", "QS1", "QS2", "MASS", "JX", "JY", "JZ")
+JOINT_THERMAL = (
+    "ALPN", "ALPS", "ALP1", "ALP2", "ALQN", "ALQS", "ALQ1", "ALQ2", "TREF", "TALP",
+)  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class Names:
+    """Parameters that a zone needs, and those it takes besides."""
+
+    required: tuple[str, ...] = ()
+    optional: tuple[str, ...] = ()
+
+    @property
+    def all(self) -> tuple[str, ...]:
+        """Both, required first."""
+        return self.required + self.optional
+
+
+_ELASTIC: dict[str, Names] = {
+    "ISOTROPE": Names(("YOUN", "NU"), ("RHO", *THERMAL, "VISQ")),
+    "ANISOTROPE": Names(ANISOTROPIC[:7], ("RHO", *ANISOTROPIC[7:], *ANISOTROPIC_THERMAL, *AXES)),
+    "UNIDIRECTIONNEL": Names(("YOUN",), ("RHO", *THERMAL, *AXES)),
+}
+_ORTHOTROPIC: dict[Mode, int] = {  # how many of ORTHOTROPIC are required
+    Mode.PLANE_STRESS: 4, Mode.THREE_DIMENSIONAL: 9, Mode.FOURIER: 9,
+}  # fmt: skip
+
+_GEOMETRY: dict[str, Names] = {
+    "solid": Names((), ("DIM3",)),
+    "incompressible": Names((), ("DIM3",)),
+    "bar": Names(("SECT",)),
+    "joint": Names((), ("DIM3", "EPAI")),
+}
+_BEAM_PLANE = Names(("SECT", "INRZ"), ("SECY", "SECZ", "INRY", "TORS", "VECT", "DX", "DY", "DZ"))
+_BEAM_SPACE = Names(
+    ("SECT", "INRY", "INRZ", "TORS"), ("SECY", "SECZ", "VECT", "VX", "VY", "VZ", "DX", "DY", "DZ")
+)
+
+
+def family_name(zone: Zone) -> str:
+    """Name of the family of a zone's element."""
+    return ELEMENTS[zone.element].family
+
+
+def material_names(zone: Zone) -> Names:
+    """Parameters of the law of a zone."""
+    if family_name(zone) == "joint":
+        law = law_of(zone.behaviour)
+        taken = ("RHO", *law.optional, *JOINT_POINT, *JOINT_THERMAL, *AXES)
+        return Names(law.required, tuple(n for n in dict.fromkeys(taken) if n not in law.required))
+    kind = zone.behaviour[1] if len(zone.behaviour) > 1 else "ISOTROPE"
+    if kind == "ORTHOTROPE":
+        needed = _ORTHOTROPIC.get(zone.mode, 7)
+        rest = ("RHO", *ORTHOTROPIC[needed:], *ORTHOTROPIC_THERMAL, *AXES)
+        return Names(ORTHOTROPIC[:needed], rest)
+    return _ELASTIC[kind]
+
+
+def geometric_names(zone: Zone) -> Names:
+    """Parameters of the section or thickness of a zone's elements."""
+    family = family_name(zone)
+    if family in ("beam", "timoshenko"):
+        return _BEAM_SPACE if zone.mode is Mode.THREE_DIMENSIONAL else _BEAM_PLANE
+    return _GEOMETRY.get(family, Names())
+
+
+def known_names(zone: Zone) -> tuple[str, ...]:
+    """All parameters that a zone takes."""
+    return material_names(zone).all + geometric_names(zone).all

@@ -1,0 +1,244 @@
+"""RIGI, MASS, LUMP, AMOR, HOOK, KSIG: matrices of the elements of a model."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ssilang.kernel.elements import families
+from ssilang.kernel.elements.absorbing import absorbing_boundary
+from ssilang.kernel.elements.hooke import hooke_block
+from ssilang.kernel.elements.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
+from ssilang.kernel.elements.zone_fields import zone_field
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.matrices.build import nodal_diagonal
+from ssilang.kernel.matrices.lumping import lumped_matrix
+from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
+from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.kernel.mesh.nodes import IntArray
+from ssilang.kernel.model import Model
+from ssilang.language.call import Call
+from ssilang.language.registry import Help, operator
+from ssilang.operators.workspace import workspace
+
+UNKNOWNS = ("UX", "UY", "UZ", "UR", "UT", "RX", "RY", "RZ", "RT", "P", "PI", "T", "ALFA", "BETA")
+
+
+def joined(fields: tuple[CellField, ...]) -> CellField:
+    """Several fields of characteristics as one."""
+    if len(fields) == 1:
+        return fields[0]
+    return CellField(tuple(b for f in fields for b in f.blocks), fields[0].title)
+
+
+def _assembled(model: Model, blocks: list[ElementMatrices], kind: str) -> Matrix:
+    return Matrix(model.mesh.nodes, tuple(blocks), (), kind)
+
+
+def nodes_of(place: Mesh | Point) -> IntArray:
+    """Node numbers of a point or mesh, each once."""
+    return np.array([place.node]) if isinstance(place, Point) else place.sorted_node_ids
+
+
+def additional(call: Call, kind: str) -> Matrix:
+    """Values added at nodes: words DEPL, ROTA or names of unknowns, a number, a place."""
+    mode = workspace(call.session).mode
+    names: list[str] = []
+    value = call.read("FLOTTANT")
+    place = call.read("MAILLAGE", "POINT")
+    while call.peek_word() is not None:
+        if call.keyword(["DEPL"]):
+            names += NODE_TRANSLATIONS[mode]
+        elif call.keyword(["ROTA"]):
+            names += NODE_ROTATIONS[mode]
+        elif (name := call.keyword(UNKNOWNS)) is not None:
+            names.append(name)
+        else:
+            break
+    amount = value.value if value is not None else call.required("FLOTTANT")
+    where = place.value if place is not None else call.required("MAILLAGE", "POINT")
+    nodes = nodes_of(where)
+    chosen = dict.fromkeys(names or NODE_TRANSLATIONS[mode])
+    values = {n: np.full(len(nodes), float(amount)) for n in chosen}
+    return nodal_diagonal(where.nodes, nodes, values, kind)
+
+
+@operator(
+    "RIGI",
+    family="matrix",
+    full_name="RIGIDITE",
+    help=Help(
+        en="Stiffness matrix: of a model with its parameters (or Hooke matrices and geometric "
+        "parameters), or springs added at nodes: 'DEPL' on all translations, 'ROTA' on all "
+        "rotations, or on the named unknowns; every node gets the whole value.",
+        fr="Matrice de rigidité : d'un modèle avec ses paramètres (ou des matrices de Hooke et "
+        "les caractéristiques géométriques), ou raideurs ajoutées aux noeuds : 'DEPL' sur toutes "
+        "les translations, 'ROTA' sur toutes les rotations, ou sur les inconnues nommées ; "
+        "chaque noeud reçoit toute la valeur.",
+        syntax="RIG1 = RIGI MODL1 MAT1 (CAR1) ;\n"
+        "RIG1 = RIGI ('DEPL') ('ROTA') | NOM1 ... VAL1 GEO1 ;",
+        examples=("OPTI DIME 2 ; P = 0. 0. ; K = RIGI 'DEPL' 1.E6 P ; LIST (TYPE K) ;",),
+    ),
+    reads_itself=True,
+)
+def rigi(call: Call) -> Matrix:
+    """Elastic stiffness of a model, or springs at nodes."""
+    model = call.read("MMODEL")
+    if model is None:
+        return additional(call, "RIGIDITE")
+    zones, material = model.value.zones, _fields(call)
+    return _assembled(model.value, [families.stiffness(z, material) for z in zones], "RIGIDITE")
+
+
+def _fields(call: Call) -> CellField:
+    """The fields of characteristics that follow, at least one, as one."""
+    first: CellField = call.required("MCHAML")
+    found = (first, *call.all("MCHAML"))
+    while call.keyword(["NOER", "REFE"]):
+        found = (*found, *call.all("MCHAML"))
+    return joined(found)
+
+
+@operator(
+    "MASS",
+    family="matrix",
+    full_name="MASSE",
+    help=Help(
+        en="Mass matrix: consistent one of a model with its parameters (RHO), or masses added at "
+        "nodes: 'DEPL' on all translations, 'ROTA' inertia on all rotations, or on the named "
+        "unknowns; every node gets the whole value.",
+        fr="Matrice de masse : cohérente d'un modèle avec ses paramètres (RHO), ou masses "
+        "ajoutées aux noeuds : 'DEPL' sur toutes les translations, 'ROTA' inertie sur toutes les "
+        "rotations, ou sur les inconnues nommées ; chaque noeud reçoit toute la valeur.",
+        syntax="MAS1 = MASS MODL1 MAT1 (CAR1) ;\n"
+        "MAS1 = MASS ('DEPL') ('ROTA') | NOM1 ... VAL1 GEO1 ;",
+        examples=("OPTI DIME 2 ; P = 0. 0. ; M = MASS 'DEPL' 3. P ; LIST (TYPE M) ;",),
+    ),
+    reads_itself=True,
+)
+def mass(call: Call) -> Matrix:
+    """Consistent mass of a model, or masses at nodes."""
+    model = call.read("MMODEL")
+    if model is None:
+        return additional(call, "MASSE")
+    zones, material = model.value.zones, _fields(call)
+    return _assembled(model.value, [families.mass(z, material) for z in zones], "MASSE")
+
+
+@operator(
+    "LUMP",
+    family="matrix",
+    help=Help(
+        en="Diagonal mass matrix: of a model (rows summed for linear elements, diagonal scaled "
+        "to keep the mass for the others), or of a full matrix (rows summed; the unknowns of the "
+        "list keep their diagonal term).",
+        fr="Matrice de masse diagonale : d'un modèle (somme des lignes pour les éléments "
+        "linéaires, diagonale mise à l'échelle de la masse pour les autres), ou d'une matrice "
+        "pleine (somme des lignes ; les inconnues de la liste gardent leur terme diagonal).",
+        syntax="MAS1 = LUMP MODL1 MAT1 (CAR1) ;\nMAS2 = LUMP MAS1 (LMOT1) ;",
+        examples=("OPTI DIME 2 ; P = 0. 0. ; M = LUMP (MASS 'DEPL' 3. P) ; LIST (TYPE M) ;",),
+    ),
+    reads_itself=True,
+)
+def lump(call: Call) -> Matrix:
+    """Diagonal mass."""
+    model = call.read("MMODEL")
+    if model is None:
+        full = call.required("RIGIDITE")
+        kept = call.optional("LISTMOTS")
+        return lumped_matrix(full, () if kept is None else tuple(m.rstrip() for m in kept.values))
+    zones, material = model.value.zones, _fields(call)
+    return _assembled(model.value, [families.mass(z, material, True) for z in zones], "MASSE")
+
+
+@operator(
+    "AMOR",
+    family="matrix",
+    full_name="AMORTISSEMENT",
+    help=Help(
+        en="Damping matrix: of a model whose parameters hold the viscosity VISQ (a stiffness "
+        "with VISQ for modulus); of the absorbing boundary GEO1 of a model (Lysmer: RHO VP along "
+        "the normal, RHO VS across, from YOUN NU RHO); or dashpots added at nodes: 'DEPL' on all "
+        "translations, 'ROTA' on all rotations, or on the named unknowns.",
+        fr="Matrice d'amortissement : d'un modèle dont les paramètres ont la viscosité VISQ "
+        "(rigidité dont VISQ est le module) ; de la frontière absorbante GEO1 d'un modèle "
+        "(Lysmer : RHO VP selon la normale, RHO VS en travers, d'après YOUN NU RHO) ; ou "
+        "amortisseurs ajoutés aux noeuds : 'DEPL' sur toutes les translations, 'ROTA' sur "
+        "toutes les rotations, ou sur les inconnues nommées.",
+        syntax="AMO1 = AMOR MODL1 MAT1 ;\nAMO1 = AMOR MODL1 GEO1 MAT1 ;\n"
+        "AMO1 = AMOR ('DEPL') ('ROTA') | NOM1 ... VAL1 GEO1 ;",
+        examples=("OPTI DIME 2 ; P = 0. 0. ; C = AMOR 'DEPL' 3. P ; LIST (TYPE C) ;",),
+    ),
+    reads_itself=True,
+)
+def amor(call: Call) -> Matrix:
+    """Viscous damping of a model, absorbing boundary, or dashpots at nodes."""
+    model = call.read("MMODEL")
+    if model is None:
+        return additional(call, "AMORTISSEMENT")
+    boundary = call.optional("MAILLAGE")
+    material = _fields(call)
+    boundary = call.optional("MAILLAGE") if boundary is None else boundary
+    if boundary is not None:
+        return absorbing_boundary(model.value, boundary, material)
+    blocks = [families.viscosity(z, material) for z in model.value.zones]
+    return _assembled(model.value, blocks, "AMORTISSEMENT")
+
+
+@operator(
+    "HOOK",
+    family="matrix",
+    full_name="HOOKE",
+    help=Help(
+        en="Field of the elastic (Hooke) matrices of a model, component MAHO; RIGI, SIGM and ELAS "
+        "take it in the place of the parameters.",
+        fr="Champ des matrices de Hooke d'un modèle, composante MAHO ; RIGI, SIGM et ELAS "
+        "l'acceptent à la place des paramètres.",
+        syntax="HOO1 = HOOK MODL1 MAT1 (CAR1) ;",
+        examples=(
+            "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0 0) (1 0) ; M = MODE L MECANIQUE ELASTIQUE BARR "
+            "; H = HOOK M (MATE M 'YOUN' 2.E11 'NU' 0.3 'SECT' 0.01) ; LIST (TYPE H) ;",
+        ),
+    ),
+    reads_itself=True,
+)
+def hook(call: Call) -> CellField:
+    """Elastic matrices at the integration points."""
+    model: Model = call.required("MMODEL")
+    material = _fields(call)
+    blocks = []
+    for zone in model.zones:
+        parameters = zone_field(zone, material)
+        moduli = families.family_of(zone).moduli(zone, parameters, "RIGIDITE")
+        blocks.append(hooke_block(zone, moduli, "RIGIDITE"))
+    return CellField(tuple(blocks), "MATRICE DE HOOKE")
+
+
+@operator(
+    "KSIG",
+    family="matrix",
+    full_name="KSIGMA",
+    help=Help(
+        en="Geometric stiffness of a stress field; with 'FLAM' its sign is turned, so that VIBR "
+        "or a buckling analysis gives the critical load factor.",
+        fr="Rigidité géométrique d'un champ de contraintes ; avec 'FLAM' elle change de signe, "
+        "pour une analyse de flambage.",
+        syntax="RIG1 = KSIG MODL1 SIG1 (CAR1) ('FLAM') ;",
+        examples=(
+            "OPTI DIME 2 ELEM SEG2 ; P = 0. 0. ; Q = 1. 0. ; L = DROI 2 P Q ; "
+            "M = MODE L MECANIQUE ELASTIQUE BARR ; A = MATE M 'YOUN' 2.E11 'NU' 0.3 'SECT' 0.01 ; "
+            "U = MANU 'CHPO' L 1 'UX' 1.E-3 ; K = KSIG M (SIGM M A U) ; LIST (TYPE K) ;",
+        ),
+    ),
+    reads_itself=True,
+)
+def ksig(call: Call) -> Matrix:
+    """Geometric stiffness."""
+    model: Model = call.required("MMODEL")
+    stress: CellField = call.required("MCHAML")
+    extra = call.all("MCHAML")
+    buckling = call.keyword(["FLAM"]) is not None
+    fields = (*extra, *call.all("MCHAML"))
+    material = joined(fields) if fields else None
+    blocks = [families.geometric_stiffness(z, stress, material) for z in model.zones]
+    made = _assembled(model, blocks, "MASSE" if buckling else "RIGIDITE")
+    return made.scaled(-1.0) if buckling else made

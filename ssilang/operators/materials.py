@@ -1,0 +1,196 @@
+"""MATE and CARA: fields of parameters of a model."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from difflib import get_close_matches
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ssilang.kernel.curve import Curve
+from ssilang.kernel.elements.zone_fields import zone_field
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
+from ssilang.kernel.materials.axes import Directions, axis_parameters
+from ssilang.kernel.materials.parameters import geometric_names, known_names
+from ssilang.kernel.mesh.mesh import Point
+from ssilang.kernel.model import Model, Zone
+from ssilang.language.call import Call
+from ssilang.language.registry import Help, operator
+
+Known = Callable[[Zone], tuple[str, ...]]
+Value = tuple[NDArray[Any], Support]
+Values = dict[str, Value]
+
+_VALUES = ("FLOTTANT", "EVOLUTIO", "MCHAML", "POINT")
+_TURNS = ("PARALLELE", "PERPENDICULAIRE", "INCLINE")
+
+
+@operator(
+    "MATE",
+    family="model",
+    full_name="MATERIAU",
+    aliases=("MATR",),
+    help=Help(
+        en="Field of the parameters of a model: name and value, as many as wanted.\n"
+        "Continuous elements, bars and beams: YOUN NU RHO ALPH TREF TALP VISQ; orthotropic: YG1 "
+        "YG2 YG3 NU12 NU23 NU13 G12 G23 G13 RHO ALP1 ALP2 ALP3; joints: KN KS (KS1 KS2) RHO and, "
+        "for JOINT_SDM, FU GF FC FROT. Geometric parameters (SECT INRY INRZ TORS SECY SECZ VECT "
+        "DIM3 ...) may be given here too, or by CARA. A value is a number, a field in cells, a "
+        "curve (parameter that depends on another field) or, for VECT, a point. DIRECTION V1 "
+        "(V2) or RADIAL P1 (P2), then PARALLELE, PERPENDICULAIRE or INCLINE angle, give the axes "
+        "of orthotropy (of JOI1: V1 is the normal).",
+        fr="Champ des paramètres d'un modèle : nom et valeur, autant qu'on veut.\n"
+        "Massifs, barres et poutres : YOUN NU RHO ALPH TREF TALP VISQ ; orthotropes : YG1 YG2 "
+        "YG3 NU12 NU23 NU13 G12 G23 G13 RHO ALP1 ALP2 ALP3 ; joints : KN KS (KS1 KS2) RHO et, "
+        "pour JOINT_SDM, FU GF FC FROT. Les paramètres géométriques (SECT INRY INRZ TORS SECY "
+        "SECZ VECT DIM3 ...) se donnent ici aussi, ou par CARA. Une valeur est un nombre, un "
+        "champ par éléments, une évolution ou, pour VECT, un point. DIRECTION V1 (V2) ou RADIAL "
+        "P1 (P2), puis PARALLELE, PERPENDICULAIRE ou INCLINE angle, donnent les axes "
+        "d'orthotropie (de JOI1 : V1 est la normale).",
+        syntax="MAT1 = MATE MODL1 NOM1 VAL1 (NOM2 VAL2 ...) ;",
+        examples=(
+            "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0 0) (1 0) ; M = MODE L MECANIQUE ELASTIQUE BARR "
+            "; A = MATE M 'YOUN' 2.E11 'NU' 0.3 'SECT' 0.01 ; LIST (TYPE A) ;",
+        ),
+    ),
+    reads_itself=True,
+)
+def mate(call: Call) -> CellField:
+    """Parameters of law and section."""
+    return _parameters(call, known_names)
+
+
+@operator(
+    "CARA",
+    family="model",
+    full_name="CARACTERISTIQUE",
+    aliases=("CARB",),
+    help=Help(
+        en="Field of geometric parameters of a model: DIM3 (thickness of plane stress), SECT "
+        "(bars), SECT INRY INRZ TORS SECY SECZ VECT DX DY DZ (beams), EPAI (joints).",
+        fr="Champ des caractéristiques géométriques d'un modèle : DIM3 (épaisseur en contraintes "
+        "planes), SECT (barres), SECT INRY INRZ TORS SECY SECZ VECT DX DY DZ (poutres), EPAI "
+        "(joints).",
+        syntax="CAR1 = CARA MODL1 NOM1 VAL1 (NOM2 VAL2 ...) ;",
+        examples=(
+            "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0 0) (1 0) ; M = MODE L MECANIQUE ELASTIQUE BARR "
+            "; A = (MATE M 'YOUN' 2.E11 'NU' 0.3) ET (CARA M 'SECT' 0.01) ; LIST (TYPE A) ;",
+        ),
+    ),
+    reads_itself=True,
+)
+def cara(call: Call) -> CellField:
+    """Parameters of the section."""
+    return _parameters(call, lambda zone: geometric_names(zone).all)
+
+
+def _parameters(call: Call, known: Known) -> CellField:
+    model: Model = call.required("MMODEL")
+    given: list[Values] = [{} for _ in model.zones]
+    while (word := call.peek_word()) is not None:
+        if call.keyword(["DIRECTION", "RADIAL"]):
+            _read_axes(call, word, model, given, known)
+        else:
+            _read_value(call, word, model, given, known)
+    blocks = [b for z, v in zip(model.zones, given, strict=True) for b in _blocks(z, v)]
+    if not blocks:
+        raise call.bad("no parameter is given", model, hint="NAME VALUE, such as 'YOUN' 2.E11")
+    return CellField(tuple(blocks), "CARACTERISTIQUES")
+
+
+def _read_value(call: Call, word: str, model: Model, given: list[Values], known: Known) -> None:
+    name = word.rstrip()
+    taking = [i for i, z in enumerate(model.zones) if name in known(z)]
+    if not taking:
+        raise _unknown(call, name, model, known)
+    call.keyword([name], length=8)
+    value = call.required(*_VALUES, after=call.keyword_end)
+    found = 0
+    for i in taking:
+        made = _values(call, model.zones[i], name, value)
+        if made is not None:
+            given[i][name] = made
+            found += 1
+    if not found:
+        raise call.bad(f"the field given for {name} is not defined on the model", value)
+
+
+def _unknown(call: Call, name: str, model: Model, known: Known) -> Exception:
+    names = tuple(dict.fromkeys(n for z in model.zones for n in known(z)))
+    near = get_close_matches(name, names, 1, 0.5)
+    hint = f"did you mean {near[0]}? " if near else ""
+    call.word()
+    word = call.used[-1].value
+    return call.bad(
+        f"no zone of the model takes a parameter {name}", word, hint + "known: " + " ".join(names)
+    )
+
+
+def _values(call: Call, zone: Zone, name: str, value: Any) -> Value | None:
+    """Values of a parameter on the cells of a zone; None if a field does not stand there."""
+    n = len(zone.cells)
+    if isinstance(value, CellField):
+        return _field_values(call, zone, name, value)
+    if isinstance(value, Point | Curve):
+        if isinstance(value, Point) and name != "VECT":
+            raise call.bad(f"parameter {name} is a number, not a POINT", value)
+        one = np.empty((1, 1), dtype=object)
+        one[0, 0] = value
+        return np.broadcast_to(one, (n, 1)), "GRAVITE"
+    if name == "VECT":
+        raise call.bad("VECT takes a vector", value, hint="a POINT such as (0. 1. 0.)")
+    return np.full((n, 1), float(value)), "GRAVITE"
+
+
+def _field_values(call: Call, zone: Zone, name: str, value: CellField) -> Value | None:
+    seen = zone_field(zone, value)
+    if not seen.names:
+        return None
+    if name not in seen.names and len(seen.names) > 1:
+        raise call.bad(
+            f"the field given for {name} has several components: {', '.join(seen.names)}",
+            value,
+            hint="take one with EXCO",
+        )
+    return seen.raw(name if name in seen.names else seen.names[0])
+
+
+def _read_axes(call: Call, word: str, model: Model, given: list[Values], known: Known) -> None:
+    taking = [i for i, z in enumerate(model.zones) if "V1X" in known(z)]
+    if not taking:
+        raise call.bad("no zone of the model has axes", hint="ORTHOTROPE, ANISOTROPE or joints do")
+    first = call.required("POINT", after=call.keyword_end)
+    second = call.optional("POINT")
+    call.optional("POINT")
+    said = Directions(
+        first.coordinates,
+        None if second is None else second.coordinates,
+        word[:4] == "RADI",
+        _turn(call),
+    )
+    for i in taking:
+        values, support = axis_parameters(model.zones[i], said)
+        given[i].update({n: (v, support) for n, v in values.items()})
+
+
+def _turn(call: Call) -> float:
+    turn = call.keyword(_TURNS)
+    if turn == "INCLINE":
+        return float(call.required("FLOTTANT", after=call.keyword_end))
+    return 90.0 if turn == "PERPENDICULAIRE" else 0.0
+
+
+def _blocks(zone: Zone, given: Values) -> list[CellFieldBlock]:
+    """One block for each support that the values stand on."""
+    supports: dict[Support, dict[str, NDArray[Any]]] = {}
+    varying = [s for v, s in given.values() if v.shape[1] > 1]
+    main: Support = varying[0] if varying else "GRAVITE"
+    for name, (values, support) in given.items():
+        place = support if values.shape[1] > 1 else main
+        supports.setdefault(place, {})[name] = values
+    return [
+        CellFieldBlock(zone.cells, components, support, zone.element, zone.constituent)
+        for support, components in supports.items()
+    ]

@@ -1,0 +1,162 @@
+"""MODE: which element and which law stand on a mesh."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from difflib import get_close_matches
+
+from ssilang.kernel.elements.catalog import ELEMENTS, GENERIC_ELEMENTS, default_element
+from ssilang.kernel.elements.families import register_family
+from ssilang.kernel.errors import MeshError
+from ssilang.kernel.joints.elements import JOINT_NAMES
+from ssilang.kernel.joints.family import JointFamily
+from ssilang.kernel.materials.behaviours import (
+    ELASTICITIES,
+    FORMULATIONS,
+    JOINT_WORDS,
+    OTHER_BEHAVIOURS,
+    OTHER_FORMULATIONS,
+    full_word,
+    normalised,
+)
+from ssilang.kernel.mesh.mesh import CellBlock, Point
+from ssilang.kernel.model import Mode, Model, Zone
+from ssilang.language.call import Call
+from ssilang.language.registry import Help, operator
+from ssilang.operators.dispatch import union
+from ssilang.operators.workspace import Workspace, workspace
+
+register_family("joint", JointFamily())
+
+LAW_WORDS = ("ELASTIQUE", *ELASTICITIES, *JOINT_WORDS)
+
+
+@dataclass
+class _Wish:
+    """What a MODE statement says."""
+
+    laws: list[str] = field(default_factory=list)
+    elements: list[str] = field(default_factory=list)
+    constituent: str = ""
+    options: dict[str, object] = field(default_factory=dict)
+
+
+@operator(
+    "MODE",
+    family="model",
+    full_name="MODELISER",
+    help=Help(
+        en="Gives a mesh its finite elements and its law.\n"
+        "The formulation is MECANIQUE; the law is ELASTIQUE, followed by ISOTROPE (default), "
+        "ORTHOTROPE, ANISOTROPE or UNIDIRECTIONNEL; joints also have JOINT_SDM. Without a name "
+        "of element, cells get the continuous element of their name; BARR, POUT, TIMO and the "
+        "joints are to be named (QUA4 ... Q4RI, ICQ4, BBAR choose another integration). The "
+        "hypothesis is that of OPTI MODE.\n"
+        "CONS names the constituent, DPGE gives the point that carries the motion of the "
+        "section in generalised plane strain, LIBRE or LIE says if the axes of JOI1 follow.",
+        fr="Donne à un maillage ses éléments finis et sa loi.\n"
+        "La formulation est MECANIQUE ; la loi est ELASTIQUE, suivie d'ISOTROPE (par défaut), "
+        "ORTHOTROPE, ANISOTROPE ou UNIDIRECTIONNEL ; les joints ont aussi JOINT_SDM. Sans nom "
+        "d'élément, les mailles reçoivent l'élément massif de leur nom ; BARR, POUT, TIMO et "
+        "les joints se nomment (Q4RI, ICQ4, BBAR choisissent une autre intégration). "
+        "L'hypothèse est celle d'OPTI MODE.\n"
+        "CONS nomme le constituant, DPGE donne le point qui porte le mouvement de la section "
+        "en déformation plane généralisée, LIBRE ou LIE dit si le repère de JOI1 suit.",
+        syntax="MODL1 = MODE GEO1 'MECANIQUE' 'ELASTIQUE' ('ISOTROPE') (ELEM1 ...) "
+        "('CONS' MOT1) ('DPGE' P1) ('LIBRE' | 'LIE') ;",
+        examples=(
+            "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0 0) (1 0) ; "
+            "M = MODE L 'MECANIQUE' 'ELASTIQUE' 'BARR' ; LIST (TYPE M) ;",
+        ),
+    ),
+    reads_itself=True,
+)
+def mode(call: Call) -> Model:
+    """Read a mesh and words, give a zone to each of its blocks."""
+    ws = workspace(call.session)
+    first = call.read("MAILLAGE", "POINT")
+    wish = _Wish()
+    while (word := call.peek_word()) is not None:
+        _take(call, word, wish)
+    mesh = first.value if first is not None else call.required("MAILLAGE", "POINT")
+    if isinstance(mesh, Point):
+        raise call.bad("no element of this version stands on a point", mesh)
+    if not mesh.blocks:
+        raise call.bad("the mesh is empty", mesh)
+    return Model(tuple(_zone(block, wish, ws) for block in mesh.blocks))
+
+
+def _take(call: Call, word: str, wish: _Wish) -> None:
+    """Consume one word of MODE, with what it introduces."""
+    if call.keyword(["CONS"]):
+        wish.constituent = str(call.required("MOT", after=call.keyword_end)).rstrip()
+    elif call.keyword(["DPGE"]):
+        wish.options["DPGE"] = call.required("POINT", after=call.keyword_end)
+    elif call.keyword(["INTEGRE"]):
+        wish.options["INTEGRE"] = call.required("ENTIER", after=call.keyword_end)
+    elif (bound := call.keyword(["LIBRE", "LIE"])) is not None:
+        wish.options["FRAME"] = bound
+    else:
+        _name(call, str(call.word()), wish)
+
+
+def _name(call: Call, word: str, wish: _Wish) -> None:
+    """A formulation, a law or an element."""
+    said = word.upper().rstrip()
+    if said in ELEMENTS or said in GENERIC_ELEMENTS:
+        wish.elements.append(said)
+    elif (law := full_word(said, LAW_WORDS)) is not None:
+        wish.laws.append(law)
+    elif full_word(said, FORMULATIONS) is None:
+        raise _unknown(call, said)
+
+
+def _unknown(call: Call, said: str) -> Exception:
+    known = (*FORMULATIONS, *LAW_WORDS, *ELEMENTS)
+    for words, what in ((OTHER_FORMULATIONS, "formulation"), (OTHER_BEHAVIOURS, "behaviour")):
+        if full_word(said, words):
+            return call.bad(
+                f"the {what} {said} is not available",
+                next((o.value for o in call.used[::-1] if str(o.value).upper() == said), None),
+                hint="'MECANIQUE' 'ELASTIQUE' is, with " + " ".join((*ELASTICITIES, *JOINT_WORDS)),
+            )
+    near = get_close_matches(said, known, 1, 0.5)
+    hint = f"did you mean {near[0]}?" if near else "known: " + " ".join(known)
+    return call.bad(f"MODE does not know the word {said}", hint=hint)
+
+
+def _zone(block: CellBlock, wish: _Wish, ws: Workspace) -> Zone:
+    name = _element(block, wish, ws.mode)
+    kind = ELEMENTS[name]
+    if ws.mode not in kind.modes:
+        names = ", ".join(m.value for m in kind.modes)
+        raise MeshError(
+            f"element {name} does not exist in mode {ws.mode.value}", f"it exists in {names}"
+        )
+    options = dict(wish.options)
+    if ws.mode is Mode.FOURIER:
+        options["harmonic"] = ws.fourier
+    behaviour = normalised(wish.laws, kind.family)
+    return Zone(block, "MECANIQUE", behaviour, name, ws.mode, wish.constituent, options)
+
+
+def _element(block: CellBlock, wish: _Wish, mode: Mode) -> str:
+    """The named element that fits the cells, else the default one."""
+    cell = block.cell_type
+    for name in wish.elements:
+        if name in GENERIC_ELEMENTS:
+            if cell in GENERIC_ELEMENTS[name]:
+                return GENERIC_ELEMENTS[name][cell]
+        elif ELEMENTS[name].cell_type == cell:
+            return name
+    joints = [n for n in JOINT_NAMES if ELEMENTS[n].cell_type == cell]
+    if joints and (block.kind.joint or any(w in JOINT_WORDS for w in wish.laws)):
+        return joints[0]
+    return default_element(cell, mode)
+
+
+@union(("MMODEL", "MMODEL"))
+def join_models(first: Model, second: Model) -> Model:
+    """Zones of both, each once."""
+    known = {id(z) for z in first.zones}
+    return Model(first.zones + tuple(z for z in second.zones if id(z) not in known))
