@@ -145,8 +145,9 @@ def add_bands(
             painter.add(where, edge=levels.rgba(what.mean(axis=1)), width=3.5, depth=depth)
             continue
         _add_pieces(painter, where, what, depth, levels, options.iso, 1e-5 * size)
-        width = 0.55 * _edge_width(f, points, painter, size)
-        painter.add(points[known], edge=(0.1, 0.1, 0.1, 0.55), width=width, lift=2e-5 * size)
+        if layer.edges:
+            width = 0.55 * _edge_width(f, points, painter, size)
+            painter.add(points[known], edge=(0.1, 0.1, 0.1, 0.55), width=width, lift=2e-5 * size)
 
 
 def _add_pieces(

@@ -17,12 +17,13 @@ from ssilang.io.errors import OutputError
 from ssilang.io.plots import annotations as notes
 from ssilang.io.plots.faces import add_bands, add_faces, band_values
 from ssilang.io.plots.figure import drawing
+from ssilang.io.plots.labels import Annotation, draw_annotation
 from ssilang.io.plots.levels import Levels, choose_levels
 from ssilang.io.plots.markup import to_mathtext
 from ssilang.io.plots.painter import Painter
 from ssilang.io.plots.palette import shade
 from ssilang.io.plots.patches import Faces, visible_faces
-from ssilang.io.plots.view import View, plane_view
+from ssilang.io.plots.view import Plane, View, plane_view
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.deformed import Arrows, displacements
 from ssilang.kernel.fields.node_field import NodeField
@@ -48,6 +49,8 @@ class Layer:
         Values that colour it.
     outline : bool
         Only the edges are drawn, over everything (a frame of reference).
+    edges : bool
+        False: a coloured layer shows its values without the edges of its cells.
     """
 
     mesh: Mesh
@@ -58,6 +61,7 @@ class Layer:
     component: str = ""
     arrows: Arrows | None = None
     outline: bool = False
+    edges: bool = True
 
     def positions(self) -> FloatArray:
         """Coordinates of all nodes of the table, moved, shape (len(table), 3)."""
@@ -94,6 +98,12 @@ class PictureOptions:
         Write them on the picture (NOEU, ELEM, CHAM).
     labels : tuple of (str, Mesh)
         Names written in the middle of their mesh (QUAL).
+    annotation : Annotation, optional
+        Categories and tags (ANNO).
+    beyond : Plane, optional
+        Only what lies behind the plane, seen from the eye, is drawn (COUP).
+    section : Plane, optional
+        Only what the plane cuts is drawn (SECT).
     """
 
     title: str = ""
@@ -113,6 +123,9 @@ class PictureOptions:
     labels: tuple[tuple[str, Mesh], ...] = ()
     date: bool = False
     notes: tuple[str, ...] = field(default_factory=tuple)
+    annotation: Annotation | None = None
+    beyond: Plane | None = None
+    section: Plane | None = None
 
 
 def draw_scene(
@@ -205,6 +218,8 @@ def _draw_panel(
     if arrows is not None:
         notes.draw_arrows(axes, view, arrows, size, None)
     notes.write_numbers(axes, view, prepared, options)
+    if options.annotation is not None:
+        draw_annotation(axes, view, options.annotation, size)
     notes.frame(axes, view, bounds)
     if levels is not None and options.legend:
         name = options.legend_name or next(x.component for x in layers if x.field is not None)

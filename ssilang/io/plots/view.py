@@ -6,10 +6,39 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ssilang.io.errors import OutputError
 from ssilang.kernel.mesh.nodes import FloatArray
 
 # from the front right, slightly above: three faces of a box are seen
 DEFAULT_DIRECTION = np.array([1.0, -2.0, 0.9])
+
+
+@dataclass(frozen=True, eq=False)
+class Plane:
+    """A plane in space: a point of it (3,) and its unit normal (3,)."""
+
+    origin: FloatArray
+    normal: FloatArray
+
+    @classmethod
+    def through(cls, a: FloatArray, b: FloatArray, c: FloatArray) -> Plane:
+        """The plane through three points.
+
+        Raises
+        ------
+        OutputError
+            If they lie on a line.
+        """
+        normal = np.cross(b - a, c - a)
+        length = float(np.linalg.norm(normal))
+        if length <= 1e-12 * float(np.linalg.norm(b - a) * np.linalg.norm(c - a)):
+            raise OutputError("the three points of the plane lie on a line")
+        return cls(a, normal / length)
+
+    def height(self, points: FloatArray) -> FloatArray:
+        """Signed distance of points (..., 3) from the plane."""
+        above: FloatArray = (points - self.origin) @ self.normal
+        return above
 
 
 @dataclass(frozen=True, eq=False)
