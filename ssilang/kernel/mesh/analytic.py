@@ -38,7 +38,8 @@ def line_shape(a: FloatArray, b: FloatArray) -> Shape:
 
     def distance(x: FloatArray) -> FloatArray:
         arm = x - a
-        return np.linalg.norm(arm - (arm @ unit)[:, None] * unit, axis=1)
+        away: FloatArray = np.linalg.norm(arm - (arm @ unit)[:, None] * unit, axis=1)
+        return away
 
     return Shape(distance, lambda x, d: _plane_hit(x, d, a, normal))
 

@@ -150,7 +150,7 @@ def sharp_edges(mesh: Mesh, angle: float = 20.0) -> Mesh:
     if not skin.blocks:
         raise MeshError("edges are sought on volumes or surfaces, this mesh has none")
     rows, normals, middles = _skin_edges(skin)
-    counts, group = sharing(rows)
+    _, group = sharing(rows)
     total = np.zeros((group.max() + 1, 3))
     np.add.at(total, group, normals)
     n_faces = np.zeros(group.max() + 1)

@@ -154,7 +154,8 @@ def sphere_chart(boundary: FloatArray, centre: FloatArray) -> Chart:
         q = p / (2.0 * radius)
         square = (q * q).sum(axis=1)[:, None]
         flat = 2.0 * (q[:, :1] * first + q[:, 1:] * second)
-        return centre + radius * (flat + (1.0 - square) * up) / (1.0 + square)
+        place: FloatArray = centre + radius * (flat + (1.0 - square) * up) / (1.0 + square)
+        return place
 
     return Chart(flatten, lift)
 

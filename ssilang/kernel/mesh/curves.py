@@ -162,7 +162,7 @@ class Polynomial:
         grid = np.linspace(self.begin, self.finish, 257)
         along = self._lengths(grid)
         target = s * along[-1]
-        u = np.interp(target, along, grid)
+        u: FloatArray = np.interp(target, along, grid)
         sign = 1.0 if self.finish >= self.begin else -1.0
         for _ in range(8):
             cell = np.clip(np.searchsorted(along, target, side="right") - 1, 0, len(grid) - 2)
@@ -170,7 +170,7 @@ class Polynomial:
             half = 0.5 * (u - base)
             inner = base[:, None] + half[:, None] * (1.0 + _GAUSS_X)
             reached = along[cell] + sign * half * (self._speed(inner) @ _GAUSS_W)
-            u = u + sign * (target - reached) / np.maximum(self._speed(u), 1e-300)
+            u += sign * (target - reached) / np.maximum(self._speed(u), 1e-300)
         return u
 
 

@@ -107,9 +107,7 @@ def _oriented(block: CellBlock, joint: str, rows: IntArray, partner: IntArray) -
     flipped = _flip_order(block)
     upper = np.where(against[:, None], upper[:, flipped], upper)
     partner = np.where(against[:, None], partner[:, flipped], partner)
-    return CellBlock.make(
-        block.nodes, joint, np.hstack([upper, partner]), block.colours[rows]
-    )
+    return CellBlock.make(block.nodes, joint, np.hstack([upper, partner]), block.colours[rows])
 
 
 def _normals(block: CellBlock, rows: IntArray) -> tuple[FloatArray, FloatArray]:
@@ -129,5 +127,3 @@ def _normals(block: CellBlock, rows: IntArray) -> tuple[FloatArray, FloatArray]:
 def _flip_order(block: CellBlock) -> list[int]:
     n = block.kind.n_nodes
     return list(range(n - 1, -1, -1)) if block.kind.dimension == 1 else [-k % n for k in range(n)]
-
-

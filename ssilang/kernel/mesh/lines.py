@@ -110,7 +110,7 @@ def different_nodes(nodes: NodeTable, start: int, end: int) -> None:
 def polyline(
     nodes: NodeTable, points: Sequence[int] | IntArray, quadratic: bool, colour: int = 0
 ) -> Mesh:
-    """A broken line through existing nodes (m,), as SEG2, or SEG3 with every other node a middle."""
+    """A broken line through existing nodes (m,), as SEG2, or as SEG3 (every other is a middle)."""
     return chain_mesh(nodes, np.asarray(points, dtype=np.int64), quadratic, colour)
 
 

@@ -100,7 +100,8 @@ def _jacobian_sum(cell_type: str, x: FloatArray) -> FloatArray:
     frames = np.einsum("gkd,nkj->ngdj", shape_gradients(cell_type, rule.points), x)
     dimension = frames.shape[2]
     if dimension == 3:
-        return np.abs(np.linalg.det(frames) @ rule.weights)
+        volumes: FloatArray = np.abs(np.linalg.det(frames) @ rule.weights)
+        return volumes
     if dimension == 2:
         size = np.linalg.norm(np.cross(frames[:, :, 0], frames[:, :, 1]), axis=-1)
     else:

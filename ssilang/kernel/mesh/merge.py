@@ -76,9 +76,7 @@ def _check(tolerance: float) -> None:
 def _merge_groups(nodes: NodeTable, ids: IntArray, pairs: IntArray) -> int:
     if not len(pairs):
         return 0
-    links = coo_array(
-        (np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(ids), len(ids))
-    )
+    links = coo_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(ids), len(ids)))
     _, label = connected_components(links, directed=False)
     oldest = np.full(label.max() + 1, np.iinfo(np.int64).max)
     np.minimum.at(oldest, label, ids)
@@ -110,9 +108,7 @@ def _triangle_collapses(degree: int) -> _Collapse:
     rules: _Collapse = {}
     for i in range(3):
         a, b, c = (degree * ((i + k) % 3) for k in range(3))
-        rules[((a, b),)] = (
-            ("SEG2", (b, c)) if degree == 1 else ("SEG3", (b, (b + 1) % n, c))
-        )
+        rules[((a, b),)] = ("SEG2", (b, c)) if degree == 1 else ("SEG3", (b, (b + 1) % n, c))
     return rules
 
 

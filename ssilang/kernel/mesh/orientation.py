@@ -152,14 +152,14 @@ def check_consistent(mesh: Mesh) -> Mesh:
 
 def _opposed(mesh: Mesh, dimension: int) -> IntArray:
     """Nodes of a boundary (end or directed edge) that two cells run in the same sense."""
-    keys = []
+    keys: list[IntArray] = []
     for block in mesh.blocks:
         if block.kind.dimension != dimension or block.kind.joint:
             continue
         table = block.connectivity
         if dimension == 1:
-            starts, ends = table[:, [0, 0]] * [1, 0], table[:, [-1, -1]] * [1, 0]
-            keys += [starts + [0, 1], ends + [0, 2]]
+            one = np.ones(len(table), dtype=np.int64)
+            keys += [np.column_stack([table[:, 0], one]), np.column_stack([table[:, -1], 2 * one])]
         else:
             keys += [table[:, [face[0], face[-1]]] for _, face in block.kind.faces]
     if not keys:

@@ -170,7 +170,7 @@ def inside_contour(positions: FloatArray, contour: Mesh, strict: bool) -> BoolAr
     inside = crossing_inside(p, a, b)
     border = segment_distance(p, a, b) <= 1e-9 * scale
     flat = np.abs((positions - origin) @ (normal / size)) <= 1e-6 * scale
-    return flat & (inside & ~border if strict else inside | border)
+    return np.asarray(flat & (inside & ~border if strict else inside | border))
 
 
 def plane_axes(normal: FloatArray) -> tuple[FloatArray, FloatArray]:

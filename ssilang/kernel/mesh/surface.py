@@ -1,0 +1,140 @@
+"""Surfaces inside closed contours, on a plane or on a surface that can be laid flat."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ssilang.kernel.errors import MeshError
+from ssilang.kernel.mesh.charts import Chart
+from ssilang.kernel.mesh.fill import SizeField, boundary_sizes, fill_contour, sides_of, smooth
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray, NodeTable
+from ssilang.kernel.mesh.recombine import pair_triangles
+
+
+def contour_cells(contour: Mesh) -> IntArray:
+    """Cells (n, 2 or 3) of a closed contour, ends first and last.
+
+    Raises
+    ------
+    MeshError
+        If it holds other cells than lines of one degree, or is not closed.
+    """
+    lines = [b for b in contour.blocks if b.cell_type in ("SEG2", "SEG3")]
+    if not lines or len({b.cell_type for b in lines}) > 1:
+        kinds = ", ".join(b.cell_type for b in contour.blocks) or "nothing"
+        raise MeshError(f"a contour of SEG2 or of SEG3 is needed, this mesh holds {kinds}")
+    cells = np.concatenate([b.connectivity for b in lines])
+    leaving, arriving = np.sort(cells[:, 0]), np.sort(cells[:, -1])
+    if not np.array_equal(leaving, arriving):
+        ends, times = np.unique(cells[:, [0, -1]], return_counts=True)
+        open_ends = ends[times % 2 == 1]
+        if len(open_ends):
+            where = ", ".join(str(int(n) + 1) for n in open_ends[:4])
+            raise MeshError(
+                f"the contour is not closed: a line ends at node(s) {where}",
+                "close it, or merge coincident points with ELIM",
+            )
+        raise MeshError(
+            "the lines of the contour do not all run in the same sense", "turn some with INVE"
+        )
+    return cells
+
+
+def contour_chart_data(contour: Mesh) -> tuple[FloatArray, FloatArray]:
+    """Positions (m, 3) of a contour's nodes and its directed straight segments (n, 2, 3)."""
+    cells = contour_cells(contour)
+    xyz = contour.nodes.coordinates
+    pairs = np.vstack([cells[:, k : k + 2] for k in range(cells.shape[1] - 1)])
+    return xyz[np.unique(cells)].copy(), xyz[pairs].copy()
+
+
+def fill_surface(
+    contour: Mesh,
+    chart: Chart,
+    surface: str,
+    colour: int = 0,
+    sizes: tuple[FloatArray, FloatArray] | None = None,
+) -> Mesh:
+    """The mesh inside a contour, described in the contour's sense.
+
+    Parameters
+    ----------
+    chart : Chart
+        Lays the surface flat; the outer contour turns anticlockwise in it.
+    surface : str
+        'TRI3', 'TRI6', 'QUA4' or 'QUA8'; the quadrangular ones leave some triangles. A contour
+        of SEG3 gives quadratic cells, one of SEG2 linear cells in any case.
+    sizes : (array (m, 3), array (m,)) or None
+        Positions and wanted sizes there; None takes the lengths of the contour's sides.
+    """
+    nodes = contour.nodes
+    cells = contour_cells(contour)
+    ids, local = np.unique(cells[:, [0, -1]], return_inverse=True)
+    segments = local.reshape(-1, 2).astype(np.int64)
+    flat = chart.flatten(nodes.coordinates[ids].copy())
+    turned = _signed_area(flat, segments) < 0
+    if turned:
+        flat = flat * [1.0, -1.0]
+    at, wanted = (flat, boundary_sizes(flat, segments))
+    if sizes is not None:
+        at, wanted = chart.flatten(sizes[0]), sizes[1]
+        at = at * [1.0, -1.0] if turned else at
+    squares = surface.startswith("QUA")
+    points, triangles = fill_contour(flat, segments, SizeField(at, wanted), squares)
+    points = smooth(points, sides_of(triangles), len(flat))
+    polygons = [triangles]
+    if squares:
+        quads, rest = pair_triangles(points, triangles)
+        polygons = [quads, rest]
+        links = np.unique(np.vstack([sides_of(p) for p in polygons if len(p)]), axis=0)
+        points = smooth(points, links, len(flat))
+    new = points[len(flat) :] * ([1.0, -1.0] if turned else [1.0, 1.0])
+    made = nodes.add(chart.lift(new), _sizes_at(points, polygons, len(flat)))
+    table = np.concatenate([ids, made])
+    tables = [table[p] for p in polygons if len(p)]
+    if cells.shape[1] == 3:
+        tables = _with_middles(nodes, chart, cells, tables)
+    names = {3: "TRI3", 4: "QUA4", 6: "TRI6", 8: "QUA8"}
+    blocks = tuple(CellBlock.make(nodes, names[t.shape[1]], t, colour) for t in tables)
+    return Mesh(nodes, blocks, (contour,))
+
+
+def _signed_area(points: FloatArray, segments: IntArray) -> float:
+    a, b = points[segments[:, 0]], points[segments[:, 1]]
+    return float((a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum())
+
+
+def _sizes_at(points: FloatArray, polygons: list[IntArray], fixed: int) -> FloatArray:
+    """Mean length of the sides at each point after the first `fixed`."""
+    links = np.unique(np.vstack([sides_of(p) for p in polygons if len(p)]), axis=0)
+    return boundary_sizes(points, links)[fixed:]
+
+
+def _with_middles(
+    nodes: NodeTable, chart: Chart, contour: IntArray, tables: list[IntArray]
+) -> list[IntArray]:
+    """Quadratic polygons: the contour's own middles, new ones on the chart inside."""
+    links = np.unique(np.vstack([sides_of(t) for t in tables]), axis=0)
+    known = np.sort(contour[:, [0, -1]], axis=1)
+    size = int(links.max()) + 1
+    order = np.argsort(known @ [size, 1])
+    code, wanted = (known @ [size, 1])[order], np.asarray(links @ [size, 1], dtype=np.int64)
+    place = np.minimum(np.searchsorted(code, wanted), len(code) - 1)
+    on_contour = code[place] == wanted
+    middle = np.empty(len(links), dtype=np.int64)
+    middle[on_contour] = contour[order, 1][place[on_contour]]
+    inner = links[~on_contour]
+    flat = chart.flatten(nodes.coordinates[inner.ravel()].copy()).reshape(-1, 2, 2)
+    density = nodes.density[inner].mean(axis=1)
+    middle[~on_contour] = nodes.add(chart.lift(flat.mean(axis=1)), density)
+    return [_quadratic(t, wanted, middle, size) for t in tables]
+
+
+def _quadratic(table: IntArray, links: IntArray, middle: IntArray, size: int) -> IntArray:
+    k = table.shape[1]
+    columns = []
+    for i in range(k):
+        pair = np.sort(table[:, [i, (i + 1) % k]], axis=1)
+        columns += [table[:, i], middle[np.searchsorted(links, pair @ [size, 1])]]
+    return np.column_stack(columns)
