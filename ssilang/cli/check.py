@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import io
 from pathlib import Path
 from typing import TextIO
 
+from ssilang.cli.checking.scope import assigned_names
+from ssilang.cli.checking.walk import Checker
 from ssilang.cli.colour import coloured
-from ssilang.language.diagnostics import render
+from ssilang.cli.run import RunOptions, make_session
+from ssilang.language.diagnostics import is_warning, render
 from ssilang.language.errors import SeveralErrors, SsiError
 from ssilang.language.source import Source
 from ssilang.language.structure import parse
+from ssilang.language.tree import Script
 
 
 def check_file(path: Path, syntax_only: bool, language: str, out: TextIO) -> bool:
@@ -22,13 +27,20 @@ def check_file(path: Path, syntax_only: bool, language: str, out: TextIO) -> boo
     """
     try:
         source = Source.read(path)
-        parse(source)
+        script = parse(source)
     except SeveralErrors as several:
         problems, names = several.errors, set[str]()
     except SsiError as error:
         problems, names = [error], set[str]()
     else:
-        problems = []
+        problems, names = ([], set[str]()) if syntax_only else _problems(script, source)
     for problem in problems:
         out.write(coloured(render(problem, language, names), out) + "\n\n")
-    return bool(problems)
+    return any(not is_warning(p) for p in problems)
+
+
+def _problems(script: Script, source: Source) -> tuple[list[SsiError], set[str]]:
+    """Errors and warnings of a script whose structure is sound, and the names that it knows."""
+    session = make_session(source, RunOptions(), io.StringIO())
+    names = assigned_names(script.body) | session.frame.names() | session.library.standard_names
+    return Checker(session).check(script), names

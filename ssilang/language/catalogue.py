@@ -18,6 +18,7 @@ class Message:
     hint_en: str = ""
     hint_fr: str = ""
     number: int = 0
+    warning: bool = False
 
 
 MESSAGES: dict[str, Message] = {
@@ -208,6 +209,43 @@ MESSAGES: dict[str, Message] = {
         "aucune boucle ou procédure ouverte ne s'appelle {name}",
     ),
     "interrupted": Message("interrupted", "interrompu"),
+    # ---- found by checking, and warnings
+    "undefined-name": Message(
+        "{name} was never given a value before this line",
+        "{name} n'a pas reçu de valeur avant cette ligne",
+        "{near_name}",
+        "{near_name}",
+    ),
+    "undefined-table": Message(
+        "{name} is used as a TABLE but was never given a value before this line",
+        "{name} est utilisé comme TABLE mais n'a pas reçu de valeur avant cette ligne",
+        "make the table first: {name} = TABL ;",
+        "créez d'abord la table : {name} = TABL ;",
+    ),
+    "unused-name": Message(
+        "{name} gets a value that nothing reads",
+        "{name} reçoit une valeur que rien ne lit",
+        warning=True,
+    ),
+    "shadowed-operator": Message(
+        "{name} is also an operator, which this name hides from here on",
+        "{name} est aussi un opérateur, que ce nom cache à partir d'ici",
+        "choose another name, or write the operator between quotes: '{name}'",
+        "choisissez un autre nom, ou écrivez l'opérateur entre apostrophes : '{name}'",
+        warning=True,
+    ),
+    "overrides-procedure": Message(
+        "{name} replaces the procedure of that name in the standard library",
+        "{name} remplace la procédure de ce nom de la bibliothèque",
+        warning=True,
+    ),
+    "integer-division": Message(
+        "{left} / {right} is {value}: a quotient of integers is cut to an integer",
+        "{left} / {right} vaut {value} : le quotient de deux entiers est tronqué",
+        "write {left}. / {right} for {exact:g}",
+        "écrivez {left}. / {right} pour {exact:g}",
+        warning=True,
+    ),
     # ---- ERRE
     "erre": Message("{message}", "{message}"),
 }

@@ -15,6 +15,17 @@ _OR = {"en": " or ", "fr": " ou "}
 _ANY = {"en": "an object", "fr": "un objet"}
 
 
+_KINDS = {
+    False: {"en": "error", "fr": "erreur"},
+    True: {"en": "warning", "fr": "avertissement"},
+}
+
+
+def is_warning(error: SsiError) -> bool:
+    """Whether it only asks for attention."""
+    return MESSAGES[error.code].warning
+
+
 class _Data(dict[str, Any]):
     def __missing__(self, name: str) -> str:
         return ""
@@ -63,7 +74,7 @@ def sentence(error: SsiError, language: str, names: Iterable[str] = ()) -> tuple
 
 def _label(error: SsiError, language: str) -> str:
     number = MESSAGES[error.code].number or int(str(error.data.get("number", 0)) or 0)
-    kind = str(error.data.get("severity", "")) or {"en": "error", "fr": "erreur"}[language]
+    kind = str(error.data.get("severity", "")) or _KINDS[is_warning(error)][language]
     return f"{kind} {number}" if number else kind
 
 

@@ -49,6 +49,8 @@ class NextTurn(Exception):
 
 # operators whose operands must stay as written
 _RAW_ITEMS = frozenset({"TEXT"})
+# methods that every object has: METHODE and HERITE, operators that also want the object
+_METHODS_OF_ALL = frozenset({"METH", "HERI"})
 
 
 class Evaluator:
@@ -157,7 +159,7 @@ class Evaluator:
     def _unnamed(self, statement: tree.Statement) -> list[Operand]:
         """Run a statement without names; the results that nobody takes are dropped."""
         left = self.phrase(statement.items, statement.span, one_name=True)
-        self._nothing_left([o for o in left if not o.result])
+        self.refuse_leftovers([o for o in left if not o.result])
         return left
 
     def values_of(self, statement: tree.Statement) -> list[Any]:
@@ -198,7 +200,7 @@ class Evaluator:
 
     def _assign(self, statement: tree.Statement, left: list[Operand]) -> None:
         targets = self._typed_targets(statement.targets)
-        self._nothing_left(left[:1] if left and self._is_call(left) else [])
+        self.refuse_leftovers(left[:1] if left and self.is_call(left) else [])
         for target, wanted in targets:
             at = 0
             if wanted:
@@ -213,10 +215,10 @@ class Evaluator:
                 )
             self.store(target, left.pop(at).value)
         if left:
-            self._nothing_left(left)
+            self.refuse_leftovers(left)
 
     @staticmethod
-    def _is_call(left: list[Operand]) -> bool:
+    def is_call(left: list[Operand]) -> bool:
         """A phrase of several leftovers that begins with a bare unknown word: a misspelt call."""
         first = left[0]
         return (
@@ -258,7 +260,8 @@ class Evaluator:
             raise SsiError("not-a-table", target.span, found=type_of(holder))
         holder.set(self._single(target.indices[-1]), value)
 
-    def _nothing_left(self, left: list[Operand]) -> None:
+    def refuse_leftovers(self, left: list[Operand]) -> None:
+        """Raise 'unknown-operator' or 'excess' for operands that nothing read."""
         left = [o for o in left if o.value is not ANNULE]
         if not left:
             return
@@ -399,11 +402,11 @@ class Evaluator:
         results = self.phrase(item.items, item.span)
         if not results:
             return []
-        if self._is_call(results):
-            self._nothing_left(results)
+        if self.is_call(results):
+            self.refuse_leftovers(results)
         if len(results) > 1:
             unread = [o for o in results[1:] if not o.result]
-            self._nothing_left(unread or results[1:])
+            self.refuse_leftovers(unread or results[1:])
         value = results[0].value
         return [Operand(value, item.span, results[0].name)]
 
@@ -442,7 +445,10 @@ class Evaluator:
             return [Operand(method, item.span, item.name)]
         value = holder.attributes.get(item.name)
         if value is None:
-            return [Operand(Mot(item.name), item.span)]
+            word = Operand(Mot(item.name), item.span)
+            if item.name[:4] in _METHODS_OF_ALL:
+                return [word, Operand(holder, item.span)]
+            return [word]
         return [Operand(value, item.span, item.name)]
 
     def _object_of(self, item: tree.Attribute) -> Objet:

@@ -75,6 +75,12 @@ class ListMots:
     def __init__(self, values: Iterator[str] | list[str] | tuple[str, ...] = ()) -> None:
         self.values = [Mot(v) for v in values]
 
+    def extended(self, words: list[Mot]) -> ListMots:
+        """A new list with `words` behind those of this one."""
+        made = ListMots()
+        made.values = [*self.values, *words]
+        return made
+
     def __len__(self) -> int:
         return len(self.values)
 
@@ -218,6 +224,11 @@ def type_of(value: object) -> str:
 def known_types() -> frozenset[str]:
     """All type words."""
     return frozenset(_TYPE_WORDS.values())
+
+
+def known_classes() -> dict[type, str]:
+    """Classes that are objects of the language, with their type words."""
+    return dict(_TYPE_WORDS)
 
 
 def normalised(value: object) -> object:

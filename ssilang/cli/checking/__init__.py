@@ -1,0 +1,1 @@
+"""Checking of scripts without running them: phrases are read with types in place of values."""

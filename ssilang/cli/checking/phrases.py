@@ -1,0 +1,291 @@
+"""Reading a phrase with types in place of values, as the evaluator reads it with values."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from ssilang.cli.checking.kinds import (
+    ANY_WORD,
+    NOTHING,
+    SOMETHING,
+    UNKNOWN,
+    Ambiguous,
+    AnyWord,
+    kind_word,
+    result_type,
+    typed,
+)
+from ssilang.cli.checking.scope import Scope
+from ssilang.language import tree
+from ssilang.language.call import Call, Operand, accepts
+from ssilang.language.errors import SsiError
+from ssilang.language.registry import SCALAR_RULES, Operator, find_operator
+from ssilang.language.session import Session
+from ssilang.language.source import Span
+from ssilang.language.values import Mot, Procedure, Texte
+from ssilang.operators.arithmetic import RULES, SIGNS
+
+Report = Callable[[SsiError], None]
+
+_COMPARISONS = frozenset({"EGA", "NEG", ">", "<", ">EG", "<EG"})
+_SCALARS = frozenset({"ENTIER", "FLOTTANT"})
+
+
+class AbstractCall(Call):
+    """A call whose operands may be stand-ins: refuses to guess about unknown ones."""
+
+    def _read(self, types: Sequence[str], after: int) -> Operand | None:
+        for operand in self.operands:
+            if operand.value is UNKNOWN or isinstance(operand.value, Texte):
+                raise Ambiguous
+            if operand.value is SOMETHING:
+                if types == ("PROCEDUR",):
+                    continue
+                raise Ambiguous
+            late = after < 0 or operand.span.start >= after
+            if (late and accepts(types, operand.value)) or isinstance(
+                operand.value, Mot | Procedure
+            ):
+                break
+        return super()._read(types, after)
+
+    def _word_index(self) -> int | None:
+        for i, operand in enumerate(self.operands):
+            if operand.value is UNKNOWN or isinstance(operand.value, AnyWord | Texte):
+                raise Ambiguous
+            if isinstance(operand.value, Mot | Procedure):
+                return i
+        return None
+
+
+class PhraseReader:
+    """Reads phrases of one script; `report` gets what is certainly wrong."""
+
+    def __init__(self, session: Session, report: Report) -> None:
+        self.session = session
+        self.report = report
+
+    def read(
+        self, items: Sequence[tree.Item], scope: Scope, span: Span, one_name: bool = True
+    ) -> list[Operand] | None:
+        """What a phrase leaves, None where that cannot be known."""
+        if items and isinstance(items[0], tree.Name | tree.Quoted):
+            word = items[0].text.upper()[:4]
+            if word == "TEXT" and items[0].text.upper() not in scope.values:
+                return [Operand(UNKNOWN, span, result=True)]
+        call = AbstractCall(self.session, self._operands(items, scope), span)
+        try:
+            while self._step(call):
+                pass
+            return self._finish(call, scope, one_name)
+        except Ambiguous:
+            return None
+
+    # ---- operators -----------------------------------------------------------------------------
+
+    def _step(self, call: AbstractCall) -> bool:
+        """Run one operator or procedure; False when the phrase is at its end."""
+        procedure = call.read("PROCEDUR")
+        if procedure is not None:
+            self._procedure(procedure.value, procedure.span, call)
+            raise Ambiguous  # its results are not known
+        i = call._word_index()
+        if i is None:
+            return False
+        operand = call.operands[i]
+        if operand.result and len(call.operands) == 1:
+            return False
+        found = find_operator(str(operand.value).rstrip())
+        if found is None:
+            return False
+        del call.operands[i]
+        call.span, call.name, call.used = operand.span, found.full_name, []
+        self._operate(found, operand, call)
+        return not found.terminal
+
+    def _operate(self, found: Operator, operand: Operand, call: AbstractCall) -> None:
+        if found.name in SIGNS.split() or found.name in _COMPARISONS:
+            self._sign(found.name, operand, call)
+            return
+        problem: SsiError | None = None
+        for form in found.forms:
+            if form.entries is None:
+                self._free(found, operand, call)
+                return
+            try:
+                call.bind(form)
+            except SsiError as error:
+                problem = problem or error
+                continue
+            self._push(result_type(form), operand.span, call)
+            return
+        if problem is not None:
+            raise problem
+
+    def _free(self, found: Operator, operand: Operand, call: AbstractCall) -> None:
+        """An operator that reads for itself: only when nothing follows is its result known."""
+        for other in call.operands:
+            if other.value is UNKNOWN or isinstance(other.value, Texte | Procedure | AnyWord):
+                raise Ambiguous
+            if isinstance(other.value, Mot) and find_operator(str(other.value)) is not None:
+                raise Ambiguous
+        kind = result_type(found.forms[0])
+        if not kind or kind == NOTHING:
+            raise Ambiguous  # what it leaves unread is not known
+        call.operands.clear()
+        self._push(kind, operand.span, call)
+
+    @staticmethod
+    def _push(kind: str, span: Span, call: AbstractCall) -> None:
+        if not kind:
+            call.operands.insert(0, Operand(SOMETHING, span, result=True))
+        elif kind != NOTHING:
+            call.operands.insert(0, Operand(typed(kind), span, result=True))
+
+    def _sign(self, sign: str, word: Operand, call: AbstractCall) -> None:
+        pair = [o for o in call.operands[:2] if not isinstance(o.value, Mot | Procedure)]
+        if len(pair) < 2:
+            if any(isinstance(o.value, Mot | Procedure) for o in call.operands):
+                raise Ambiguous
+            raise SsiError("two-operands", word.span, operator=sign)
+        left, right = pair
+        kinds = kind_word(left.value), kind_word(right.value)
+        if "" in kinds:
+            raise Ambiguous
+        del call.operands[:2]
+        span = left.span.to(right.span)
+        if sign in _COMPARISONS:
+            call.operands.insert(0, Operand(typed("LOGIQUE"), span, result=True))
+            return
+        if (sign, *kinds) not in RULES:
+            raise SsiError("no-rule", span, operator=sign, left=kinds[0], right=kinds[1])
+        call.operands.insert(
+            0, Operand(self._value(sign, left.value, right.value, span), span, result=True)
+        )
+
+    def _value(self, sign: str, a: Any, b: Any, span: Span) -> Any:
+        """Value of a sign on two operands, as far as it is known."""
+        if type(a) in (int, float) and type(b) in (int, float):
+            try:
+                value = SCALAR_RULES[sign](a, b)
+            except (ArithmeticError, ValueError, TypeError):
+                return UNKNOWN
+            if sign == "/" and type(value) is int and b and a % b:
+                self.report(
+                    SsiError("integer-division", span, left=a, right=b, value=value, exact=a / b)
+                )
+            return value
+        kinds = {kind_word(a), kind_word(b)}
+        if kinds <= _SCALARS:
+            return typed("ENTIER" if kinds == {"ENTIER"} else "FLOTTANT")
+        return typed(kinds.pop()) if len(kinds) == 1 else UNKNOWN
+
+    # ---- procedures ----------------------------------------------------------------------------
+
+    def _procedure(self, procedure: Procedure, span: Span, call: AbstractCall) -> None:
+        call.name, call.used, call.span = procedure.name, [], span
+        for p in procedure.definition.parameters:
+            if p.subtype:
+                raise Ambiguous
+            if call.read(p.type or "*") is None and not p.optional:
+                found = kind_word(call.operands[0].value) if call.operands else "nothing"
+                raise SsiError(
+                    "missing-parameter",
+                    span,
+                    procedure=procedure.name,
+                    parameter=p.name,
+                    expected=p.type or "any object",
+                    found=found,
+                )
+
+    # ---- end of a phrase -----------------------------------------------------------------------
+
+    def _finish(self, call: AbstractCall, scope: Scope, one_name: bool) -> list[Operand]:
+        left = call.operands
+        if any(o.value is SOMETHING for o in left):
+            if one_name:
+                self.session.evaluator.refuse_leftovers(
+                    [o for o in left if isinstance(o.value, Mot) and not o.name and not o.result]
+                )
+            raise Ambiguous
+        if any(o.value is UNKNOWN or isinstance(o.value, Texte) for o in left) and len(left) > 1:
+            raise Ambiguous
+        numbers = [o for o in left if kind_word(o.value) in _SCALARS]
+        if one_name and len(numbers) == len(left) and len(numbers) in (2, 3):
+            span = numbers[0].span.to(numbers[-1].span)
+            if not scope.dimension:
+                return [Operand(UNKNOWN, span, result=True)]
+            if len(numbers) < scope.dimension:
+                raise SsiError("third-coordinate", span)
+            if len(numbers) == scope.dimension:
+                return [Operand(typed("POINT"), span, result=True)]
+        return left
+
+    # ---- operands ------------------------------------------------------------------------------
+
+    def _operands(self, items: Sequence[tree.Item], scope: Scope) -> list[Operand]:
+        found: list[Operand] = []
+        for item in items:
+            found += self._operand(item, scope)
+        return found
+
+    def _operand(self, item: tree.Item, scope: Scope) -> list[Operand]:
+        if isinstance(item, tree.Number):
+            return [Operand(item.value, item.span)]
+        if isinstance(item, tree.Quoted | tree.Symbol):
+            return [Operand(Mot(item.text), item.span)]
+        if isinstance(item, tree.Name):
+            return [self._name(item, scope)]
+        if isinstance(item, tree.Paren):
+            return self._paren(item, scope)
+        if isinstance(item, tree.Path):
+            self._path(item, scope)
+        elif item.base is not None:
+            self._operand(item.base, scope)
+        return [Operand(UNKNOWN, item.span)]
+
+    def _name(self, item: tree.Name, scope: Scope) -> Operand:
+        value = scope.values.get(item.text)
+        if value is not None:
+            return Operand(value, item.span, item.text)
+        procedure = self.session.library.find(item.text)
+        if procedure is not None:
+            return Operand(procedure, item.span, item.text)
+        if scope.open and find_operator(item.text) is None:
+            return Operand(UNKNOWN, item.span, item.text)
+        return Operand(Mot(item.text), item.span)
+
+    def _paren(self, item: tree.Paren, scope: Scope) -> list[Operand]:
+        if not item.items:
+            return []
+        try:
+            left = self.read(item.items, scope, item.span)
+            if left is not None:
+                if self.session.evaluator.is_call(left):
+                    self.session.evaluator.refuse_leftovers(left)
+                if len(left) > 1:
+                    self.session.evaluator.refuse_leftovers(
+                        [o for o in left[1:] if not o.result] or left[1:]
+                    )
+        except SsiError as error:
+            self.report(error)
+            left = None
+        if left is None:
+            return [Operand(UNKNOWN, item.span)]
+        return [Operand(o.value, item.span, o.name) for o in left[:1]]
+
+    def _path(self, item: tree.Path, scope: Scope) -> None:
+        base = item.base
+        if isinstance(base, tree.Name) and not scope.open:
+            value = self._name(base, scope).value
+            known = kind_word(value)
+            if known and known not in ("TABLE", "OBJET") and value is not ANY_WORD:
+                if isinstance(value, Mot) and base.text not in scope.values:
+                    raise SsiError("undefined-table", base.span, name=base.text)
+                raise SsiError("not-a-table", base.span, found=known, name=base.span.text)
+        elif not isinstance(base, tree.Name):
+            self._operand(base, scope)
+        for index in item.indices:
+            if isinstance(index, tree.Paren):
+                self._paren(index, scope)

@@ -1,0 +1,75 @@
+"""Names that get a value which nothing reads."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+
+from ssilang.language import tree
+from ssilang.language.errors import SsiError
+
+_NAME = re.compile(r"[@&!]?[^\W\d]\w*")
+_WHOLE_SESSION = frozenset({"SAUV", "LIST", "REST", "NOMM"})  # may read any name
+
+
+def unused_names(script: tree.Script) -> list[SsiError]:
+    """A warning for each name that no statement reads, at its first assignment.
+
+    Names that stand in quoted words count as read: texts and computed names use them. A statement
+    with several names is left out when one of them is read.
+    """
+    read: set[str] = set()
+    first: dict[str, tree.Name] = {}
+    for statement in _statements(script.body):
+        words = _words(statement.items)
+        if statement.first_word[:4] in _WHOLE_SESSION and len(statement.items) == 1:
+            return []
+        read |= words
+        for target in statement.targets:
+            if isinstance(target, tree.Name):
+                first.setdefault(target.text, target)
+            else:
+                read |= _words((target,))
+    used = [s for s in _statements(script.body) if len(s.targets) > 1]
+    for statement in used:
+        names = {t.text for t in statement.targets if isinstance(t, tree.Name)}
+        if names & read:
+            read |= names
+    return [
+        SsiError("unused-name", target.span, name=name)
+        for name, target in first.items()
+        if name not in read
+    ]
+
+
+def _statements(nodes: Iterable[tree.Node]) -> Iterator[tree.Statement]:
+    """All statements, with the parts of blocks that read values."""
+    for node in nodes:
+        if isinstance(node, tree.Statement):
+            yield node
+        elif isinstance(node, tree.If):
+            yield node.condition
+            yield from _statements(node.then)
+            yield from _statements(node.otherwise)
+        elif isinstance(node, tree.Loop):
+            yield tree.Statement((), node.count, node.span)
+            yield from _statements(node.body)
+        else:
+            yield from _statements(node.body)
+            yield tree.Statement((), node.results, node.span)
+
+
+def _words(items: Iterable[tree.Item]) -> set[str]:
+    found: set[str] = set()
+    for item in items:
+        if isinstance(item, tree.Name):
+            found.add(item.text)
+        elif isinstance(item, tree.Quoted):
+            found |= {w.upper() for w in _NAME.findall(item.text)}
+        elif isinstance(item, tree.Paren):
+            found |= _words(item.items)
+        elif isinstance(item, tree.Path):
+            found |= _words((item.base, *item.indices))
+        elif isinstance(item, tree.Attribute) and item.base is not None:
+            found |= _words((item.base,))
+    return found

@@ -1,0 +1,240 @@
+"""Walks a script, statement after statement, and collects what is certainly wrong or doubtful."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from ssilang.cli.checking.kinds import UNKNOWN, kind_word, typed
+from ssilang.cli.checking.phrases import PhraseReader
+from ssilang.cli.checking.scope import Scope, assigned_names
+from ssilang.cli.checking.usage import unused_names
+from ssilang.language import tree
+from ssilang.language.errors import SsiError
+from ssilang.language.registry import find_operator
+from ssilang.language.session import Session
+from ssilang.language.values import Mot, Procedure
+
+# statements that may bring names the text does not show
+_OPENING = frozenset({"REST", "ACQU", "LIRE", "NOMM", "OBTE", "ARGU", "SAIS", "MENU"})
+
+
+class Checker:
+    """Checks one script against the operators and procedures of a session."""
+
+    def __init__(self, session: Session) -> None:
+        self.session = session
+        self.problems: list[SsiError] = []
+        self.phrases = PhraseReader(session, self._report)
+        self._procedures: list[tree.Definition] = []
+        self._names: set[str] = set()
+        self._visit: dict[type, Callable[[Any, Scope], None]] = {
+            tree.Statement: self._statement,
+            tree.If: self._if,
+            tree.Loop: self._loop,
+            tree.Definition: self._definition,
+        }
+
+    def check(self, script: tree.Script) -> list[SsiError]:
+        """Errors and warnings, in the order of the text."""
+        self._names = assigned_names(script.body)
+        library = all(isinstance(n, tree.Definition) for n in script.body)
+        scope = Scope({n: _kept(v) for n, v in self.session.root.variables.items()})
+        self._walk(script.body, scope)
+        for definition in self._procedures:
+            self._body(definition, scope, library)
+        for problem in unused_names(script):
+            self._report(problem)
+        return sorted(self.problems, key=lambda e: e.span.start if e.span else 0)
+
+    def _report(self, problem: SsiError) -> None:
+        places = {(e.code, e.span.start) for e in self.problems if e.span is not None}
+        if problem.span is None or (problem.code, problem.span.start) not in places:
+            self.problems.append(problem)
+
+    def _walk(self, nodes: Iterable[tree.Node], scope: Scope) -> None:
+        for node in nodes:
+            try:
+                self._visit[type(node)](node, scope)
+            except SsiError as error:
+                self._report(error)
+
+    # ---- blocks --------------------------------------------------------------------------------
+
+    def _if(self, node: tree.If, scope: Scope) -> None:
+        try:
+            self._condition(node, scope)
+        except SsiError as error:
+            self._report(error)
+        other = scope.copy()
+        self._walk(node.then, scope)
+        self._walk(node.otherwise, other)
+        scope.join(other)
+
+    def _condition(self, node: tree.If, scope: Scope) -> None:
+        left = self.phrases.read(node.condition.items, scope, node.condition.span)
+        if left is None or any(o.value is UNKNOWN for o in left):
+            return
+        if self.session.evaluator.is_call(left):
+            self.session.evaluator.refuse_leftovers(left)
+        if len(left) != 1 or kind_word(left[0].value) != "LOGIQUE":
+            found = kind_word(left[0].value) if left else "nothing"
+            span = left[0].span if left else node.condition.span
+            if left and isinstance(left[0].value, Mot) and not left[0].name:
+                self.session.evaluator.refuse_leftovers(left)
+            raise SsiError("condition", span, found=found)
+
+    def _loop(self, node: tree.Loop, scope: Scope) -> None:
+        if node.count:
+            left = self.phrases.read(node.count, scope, node.span)
+            kind = kind_word(left[0].value) if left and len(left) == 1 else ""
+            if kind not in ("", "ENTIER", "FLOTTANT", "TEXTE"):
+                if isinstance(left[0].value, Mot) if left else False:
+                    self._undefined(left[0], "REPE")  # type: ignore[index]
+                else:
+                    self._report(SsiError("loop-count", node.count[0].span, found=kind))
+        before = scope.copy()
+        scope.forget(assigned_names(node.body))
+        scope.values[("&" + node.name)[:24]] = typed("ENTIER")
+        outer = scope.inside
+        scope.inside = (*outer, node.name)
+        if _opens(node.body):
+            scope.open = True
+        self._walk(node.body, scope)
+        scope.inside = outer
+        counter = scope.values[("&" + node.name)[:24]]
+        scope.join(before)
+        scope.values[("&" + node.name)[:24]] = counter
+
+    def _undefined(self, operand: Any, operator: str) -> None:
+        self._report(
+            SsiError("undefined-name", operand.span, name=str(operand.value), operator=operator)
+        )
+
+    def _definition(self, node: tree.Definition, scope: Scope) -> None:
+        self._procedures.append(node)
+        self._shadow(node.name, node.span)
+        if node.name in self.session.library.standard_names:
+            self._report(SsiError("overrides-procedure", _head(node.span), name=node.name))
+        scope.values[node.name] = Procedure(node.name, node)
+
+    def _body(self, node: tree.Definition, outer: Scope, library: bool) -> None:
+        scope = outer.copy()
+        scope.forget(self._names)
+        for name, value in outer.values.items():
+            if isinstance(value, Procedure):
+                scope.values[name] = value
+        scope.open = outer.open or library
+        scope.inside = (node.name,)
+        for p in node.parameters:
+            known = not p.optional and p.type and p.type not in ("MOT", "FLOTTANT")
+            scope.values[p.name] = typed(p.type) if known else UNKNOWN
+        self._walk(node.body, scope)
+
+    # ---- statements ----------------------------------------------------------------------------
+
+    def _statement(self, statement: tree.Statement, scope: Scope) -> None:
+        word = statement.first_word[:4].rstrip()
+        if word in ("QUIT", "ITER") and statement.first_word not in scope.values:
+            self._jump(statement, scope)
+            return
+        if not statement.assigns:
+            self._effects(statement, word, scope)
+        self._targets(statement, scope)
+        one = len(statement.targets) <= 1
+        try:
+            left = self.phrases.read(statement.items, scope, statement.span, one_name=one)
+            values = self._outcome(statement, left)
+        except SsiError as error:
+            self._report(error)
+            values = None
+        self._assign(statement, values, scope)
+
+    def _jump(self, statement: tree.Statement, scope: Scope) -> None:
+        item = statement.items[1] if len(statement.items) == 2 else None
+        if not isinstance(item, tree.Name | tree.Quoted) or item.text.upper() in scope.values:
+            return
+        if item.text.upper() not in scope.inside and scope.inside[:1] != ("",):
+            raise SsiError("no-such-loop", item.span, name=item.text.upper())
+
+    def _effects(self, statement: tree.Statement, word: str, scope: Scope) -> None:
+        """What directives change besides giving values to names."""
+        words = [i.text.upper() if isinstance(i, tree.Name | tree.Quoted) else i
+                 for i in statement.items]  # fmt: skip
+        if word in _OPENING or (word == "OPTI" and "DONN" in words):
+            scope.open = True
+            scope.forget(i.text for i in statement.items[1:] if isinstance(i, tree.Name))
+        if word == "OPTI" and "DIME" in words:
+            at = words.index("DIME") + 1
+            item = statement.items[at] if at < len(words) else None
+            known = isinstance(item, tree.Number) and isinstance(item.value, int)
+            scope.dimension = int(item.value) if known and isinstance(item, tree.Number) else 0
+        if word == "OUBL":
+            for item in statement.items[1:2]:
+                if isinstance(item, tree.Name) and len(statement.items) == 2:
+                    scope.values.pop(item.text, None)
+
+    def _targets(self, statement: tree.Statement, scope: Scope) -> None:
+        for item in statement.targets:
+            if isinstance(item, tree.Name):
+                self._shadow(item.text, item.span)
+            elif isinstance(item, tree.Path):
+                self.phrases._path(item, scope)
+
+    def _shadow(self, name: str, span: Any) -> None:
+        found = find_operator(name)
+        if found is None or name in ("C", "D"):
+            return
+        if name == found.name or found.full_name.startswith(name):
+            self._report(SsiError("shadowed-operator", _head(span), name=name))
+
+    def _outcome(self, statement: tree.Statement, left: Any) -> list[Any] | None:
+        """Values that the names of a statement get, None when unknown; reports leftovers."""
+        if left is None or any(o.value is UNKNOWN for o in left):
+            return None
+        evaluator = self.session.evaluator
+        if not statement.assigns:
+            evaluator.refuse_leftovers([o for o in left if not o.result])
+            return []
+        if any(isinstance(i, tree.Symbol | tree.Quoted) for i in statement.targets):
+            return None
+        if left and evaluator.is_call(left):
+            evaluator.refuse_leftovers(left[:1])
+        count = len(statement.targets)
+        if len(left) < count:
+            target = statement.targets[len(left)]
+            raise SsiError("no-result", target.span, count=count, name=target.span.text)
+        evaluator.refuse_leftovers(left[count:])
+        return [o.value for o in left]
+
+    def _assign(self, statement: tree.Statement, values: list[Any] | None, scope: Scope) -> None:
+        for i, target in enumerate(statement.targets):
+            if isinstance(target, tree.Name):
+                known = values is not None and i < len(values)
+                scope.values[target.text] = values[i] if known and values else UNKNOWN
+
+
+def _kept(value: Any) -> Any:
+    return value
+
+
+def _head(span: Any) -> Any:
+    """The first line of a span."""
+    from ssilang.language.source import Span
+
+    end = span.start + len(span.text.split("\n")[0].split(";")[0].rstrip())
+    return Span(span.source, span.start, min(span.end, end))
+
+
+def _opens(nodes: Iterable[tree.Node]) -> bool:
+    """Whether nodes contain a statement that brings names the text does not show."""
+    for node in nodes:
+        if isinstance(node, tree.Statement):
+            if not node.assigns and node.first_word[:4] in _OPENING:
+                return True
+        elif isinstance(node, tree.If):
+            if _opens(node.then) or _opens(node.otherwise):
+                return True
+        elif isinstance(node, tree.Loop) and _opens(node.body):
+            return True
+    return False
