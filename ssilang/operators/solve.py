@@ -33,7 +33,7 @@ def _reso(call: Call) -> Any:
         return _reso_links(call, matrix, table.value, options)
     several = call.read("LISTCHPO")
     if several is not None:
-        return ListChpo(solve(matrix, several.value.values, options))
+        return ListChpo(tuple(solve(matrix, several.value.values, options)))
     call.optional("FLOTTANT")  # precision: the solution is refined to rounding anyway
     loads = [call.required("CHPOINT"), *call.all("CHPOINT")]
     if "ENSE" in flags:

@@ -1,4 +1,4 @@
-"""BLOQ DEPI SYMT ANTI APPU: conditions on single nodes, their values, planes of symmetry, springs."""
+"""BLOQ DEPI SYMT ANTI APPU: conditions on single nodes, their values, planes, springs."""
 
 from __future__ import annotations
 
@@ -150,7 +150,7 @@ def static_links(table: Table) -> list[tuple[Table, Point, str]]:
 
 def _bloq_table(call: Call, table: Table) -> Matrix:
     ws = workspace(call.session)
-    parts = []
+    parts: list[Relations] = []
     for entry, point, unknown in static_links(table):
         if not isinstance(point, Point) or not unknown:
             raise call.bad("each entry wants POINT_LIAISON (POINT) and DDL_LIAISON (MOT)", table)

@@ -26,7 +26,7 @@ class ReducedProblem:
 
     Attributes
     ----------
-    full_K, full_M : csr arrays (n, n) on `numbering`, for reactions and generalised masses.
+    stiffness, mass : csr arrays (n, n) on `numbering`, for reactions and generalised masses.
     K, M : csr arrays (r, r)
     C : csr array (r, r) or None
         Damping.
@@ -38,8 +38,8 @@ class ReducedProblem:
     """
 
     numbering: Numbering
-    full_K: sp.csr_array
-    full_M: sp.csr_array
+    stiffness: sp.csr_array
+    mass: sp.csr_array
     K: sp.csr_array
     M: sp.csr_array
     C: sp.csr_array | None
@@ -62,7 +62,7 @@ class ReducedProblem:
 
     def reactions(self, u: FloatArray, eigenvalue: float) -> FloatArray:
         """Multipliers (n_rows,) that balance `(K - lambda M) u` at the eliminated unknowns."""
-        return self.elimination.multipliers(eigenvalue * (self.full_M @ u) - self.full_K @ u)
+        return self.elimination.multipliers(eigenvalue * (self.mass @ u) - self.stiffness @ u)
 
 
 def reduced_problem(
