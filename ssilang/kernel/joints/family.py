@@ -22,7 +22,7 @@ from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.fields.cell_field import Support
 from ssilang.kernel.joints.elements import joint_element
 from ssilang.kernel.joints.kinematics import JointCells, joint_cells, point_values
-from ssilang.kernel.joints.laws import elastic_tangent
+from ssilang.kernel.joints.law_table import elastic_tangent
 from ssilang.kernel.joints.table import joint_parameters
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.model import Mode, Zone

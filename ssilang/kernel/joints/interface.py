@@ -15,11 +15,11 @@ import scipy.sparse as sp
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.errors import FieldError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.joints.columns import N_STATE, XI
 from ssilang.kernel.joints.elements import is_joint
 from ssilang.kernel.joints.family import component_order, displacement_names
 from ssilang.kernel.joints.kinematics import JointCells, joint_cells
-from ssilang.kernel.joints.laws import elastic_tangent, law_of
-from ssilang.kernel.joints.sdm_law import N_STATE, XI
+from ssilang.kernel.joints.law_table import elastic_tangent, law_of
 from ssilang.kernel.joints.table import joint_parameters
 from ssilang.kernel.matrices.assembly import Numbering
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix

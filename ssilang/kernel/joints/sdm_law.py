@@ -20,12 +20,21 @@ from __future__ import annotations
 import math
 
 from ssilang.kernel.compiled import compiled
+from ssilang.kernel.joints.columns import (
+    DAMAGE,
+    FC,
+    FROT,
+    FU,
+    GF,
+    KN,
+    KS1,
+    SHEAR,
+    SHEAR_ENERGY,
+    SHEAR_LOSS,
+    SLIP1,
+    XI,
+)
 from ssilang.kernel.mesh.nodes import FloatArray
-
-# columns of the parameter table (Parameter) and of the state table (State), for compiled code
-KN, KS1, KS2, FU, GF, FC, FROT, SHEAR = range(8)
-XI, SLIP1, SLIP2, DAMAGE, SHEAR_ENERGY, SHEAR_LOSS = range(6)
-N_STATE = 6
 
 
 @compiled

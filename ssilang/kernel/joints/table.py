@@ -6,7 +6,7 @@ import numpy as np
 
 from ssilang.kernel.elements.zone_fields import ZoneField, missing_parameter
 from ssilang.kernel.joints.kinematics import JointCells, point_values
-from ssilang.kernel.joints.laws import law_of
+from ssilang.kernel.joints.law_table import law_of
 from ssilang.kernel.joints.parameters import DEFAULTS, N_PARAMETERS, Parameter
 from ssilang.kernel.mesh.nodes import FloatArray
 

@@ -1,0 +1,254 @@
+"""ZDYN: the time integration behind the procedure DYNAMIC."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ssilang.io.vtk.series import SeriesWriter
+from ssilang.kernel.dynamics.plan import every
+from ssilang.kernel.dynamics.scheme import Scheme, generalised_alpha, hht, newmark
+from ssilang.kernel.elements.families import stress
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.joints.elements import is_joint
+from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+from ssilang.kernel.model import Model
+from ssilang.language.call import Call
+from ssilang.language.registry import Help, operator
+from ssilang.language.values import ListMots, ListReel, Mot, Table
+from ssilang.operators.files import output_path
+from ssilang.operators.motion_observers import CsvObserver, TableObserver, VtkObserver
+from ssilang.operators.progress import ProgressLine
+from ssilang.operators.table_entries import Entries
+
+if TYPE_CHECKING:
+    from ssilang.kernel.dynamics.integrate import History
+    from ssilang.kernel.dynamics.problem import Inputs, Problem
+
+KNOWN = (
+    "DEPL", "VITE", "CHAR", "RIGI", "MASS", "AMOR", "MODELE", "CARACTERISTIQUES",
+    "TEMPS_CALCULES", "INST", "FREQ", "PAS_SAUVES", "TEMPS_SAUVES", "MAILLAGE_SAUVE", "SAUV",
+    "ECON", "PAS_SAUVES_VTK", "TEMPS_SAUVES_VTK", "MAILLAGE_VTK", "FICHIER_VTK",
+    "PAS_SAUVES_CSV", "TEMPS_SAUVES_CSV", "MAILLAGE_CSV", "COMPOSANTES_CSV", "FICHIER_CSV",
+    "CHARMECA", "VITEUNIL", "ALPHA_F", "RHO_INF", "BETA", "GAMMA", "NEWTON_COMPLET", "RESULTATS",
+    "RESULTATS_CSV", "ENERGIES", "SOUSTYPE",
+)  # fmt: skip
+REFUSED = {"CHARMECA": "loads computed by a procedure at each step are not built"}
+
+
+@operator(
+    "ZDYN",
+    family="dynamics",
+    help=Help(
+        en="Time integration of the table of DYNAMIC, which is the procedure to call.\n"
+        "Results go to TAB1 . 'RESULTATS_CSV' and 'ENERGIES'; the table of saved instants is "
+        "returned.",
+        fr="Intégration en temps de la table de DYNAMIC, procédure à appeler.\n"
+        "Les résultats vont dans TAB1 . 'RESULTATS_CSV' et 'ENERGIES' ; la table des instants "
+        "sauvés est rendue.",
+        syntax="TAB2 = ZDYN TAB1 ;",
+    ),
+    reads_itself=True,
+)
+def zdyn(call: Call) -> Table:
+    """Read the table, integrate, hand back the saved instants."""
+    from ssilang.kernel.dynamics.integrate import integrate
+    from ssilang.kernel.dynamics.problem import make_problem
+
+    entries = Entries(call, call.required("TABLE"), "DYNAMIC")
+    entries.refuse(REFUSED)
+    entries.warn_unknown(KNOWN)
+    times, saved = _times(entries)
+    problem = make_problem(_inputs(entries, times))
+    _warn_resolution(entries, problem)
+    results = TableObserver(saved, _nodes(entries.get("MAILLAGE_SAUVE", "MAILLAGE", "POINT")))
+    vtk, csv = _vtk(entries, times), _csv(entries, times)
+    line = ProgressLine("DYNAMIC")
+    observers = [o for o in (results, vtk, csv) if o is not None]
+    try:
+        history = integrate(problem, observers, line, entries.flag("NEWTON_COMPLET"))
+    finally:
+        line.close()
+    if csv is not None:
+        entries.table.set(Mot("RESULTATS_CSV"), csv.table)
+    report(entries, problem, history)
+    return results.table
+
+
+# ---- what is read ----------------------------------------------------------------------------
+
+
+def _times(entries: Entries) -> tuple[FloatArray, NDArray[np.bool_]]:
+    """Times of the calculation and which of them the table keeps."""
+    given = entries.get("TEMPS_CALCULES", "LISTREEL")
+    if given is None:
+        return _older_times(entries)
+    times = given.values
+    return times, entries.saved_steps("", times, lambda: every(times, 4))
+
+
+def _older_times(entries: Entries) -> tuple[FloatArray, NDArray[np.bool_]]:
+    """INST (instants to keep) and FREQ (cut-off frequency, dt = 1/(4 FREQ))."""
+    instants = entries.get("INST", "LISTREEL")
+    if instants is None:
+        raise entries.bad(
+            "the entry 'TEMPS_CALCULES' is missing", "TAB1 . 'TEMPS_CALCULES' = PROG 0. 'PAS' ... ;"
+        )
+    frequency = entries.get("FREQ", "FLOTTANT")
+    wanted = np.asarray(instants.values, dtype=float)
+    if frequency is None or len(wanted) < 2:
+        return wanted, np.ones(len(wanted), bool)
+    if frequency <= 0:
+        raise entries.bad(f"'FREQ' is {frequency:g}", "a cut-off frequency > 0 (Hz)")
+    counts = np.maximum(np.ceil(np.diff(wanted) * 4 * frequency * (1 - 1e-9)), 1).astype(int)
+    pieces = [
+        np.linspace(a, b, n, endpoint=False)
+        for a, b, n in zip(wanted[:-1], wanted[1:], counts, strict=True)
+    ]
+    times = np.concatenate([*pieces, wanted[-1:]])
+    saved = np.zeros(len(times), bool)
+    saved[np.concatenate([[0], np.cumsum(counts)])] = True
+    return times, saved
+
+
+def _inputs(entries: Entries, times: FloatArray) -> Inputs:
+    from ssilang.kernel.dynamics.problem import Inputs
+
+    if entries.flag("SAUV"):
+        entries.warn(
+            "'SAUV' asks to write each step to the file of OPTI SAUV: results stay in memory",
+            "SAUV the table behind DYNAMIC, or use the VTK or CSV entries",
+        )
+    return Inputs(
+        entries.needed("RIGI", "RIGIDITE"),
+        times,
+        entries.get("MASS", "RIGIDITE"),
+        entries.get("AMOR", "RIGIDITE"),
+        entries.get("CHAR", "CHARGEME"),
+        entries.get("DEPL", "CHPOINT"),
+        entries.get("VITE", "CHPOINT"),
+        entries.get("MODELE", "MMODEL"),
+        entries.get("CARACTERISTIQUES", "MCHAML"),
+        _scheme(entries),
+    )
+
+
+def _scheme(entries: Entries) -> Scheme:
+    given = [name for name in ("ALPHA_F", "RHO_INF", "BETA", "GAMMA") if entries.has(name)]
+    if len(given) > 1 and given != ["BETA", "GAMMA"]:
+        raise entries.bad(f"'{given[0]}' and '{given[1]}' choose two schemes", "give one")
+    if not given:
+        return Scheme()
+    values = [float(entries.needed(name, "FLOTTANT")) for name in given]
+    makers: dict[str, Callable[[float], Scheme]] = {
+        "ALPHA_F": hht,
+        "RHO_INF": generalised_alpha,
+        "BETA": lambda beta: newmark(beta, values[-1] if len(values) == 2 else 0.5),
+        "GAMMA": lambda gamma: newmark((gamma + 0.5) ** 2 / 4, gamma),
+    }
+    return makers[given[0]](values[0])
+
+
+def _nodes(mesh: Any) -> IntArray | None:
+    if mesh is None:
+        return None
+    if isinstance(mesh, Mesh):
+        return mesh.sorted_node_ids
+    return np.array([mesh.node])
+
+
+# ---- outputs ---------------------------------------------------------------------------------
+
+
+def _vtk(entries: Entries, times: FloatArray) -> VtkObserver | None:
+    if not (entries.has("PAS_SAUVES_VTK") or entries.has("TEMPS_SAUVES_VTK")):
+        return None
+    wanted = entries.saved_steps("_VTK", times, lambda: np.zeros(len(times), bool))
+    given = entries.needed("MAILLAGE_VTK", "MAILLAGE", "TABLE")
+    meshes = {"": given} if isinstance(given, Mesh) else _parts(entries, given)
+    name = entries.get("FICHIER_VTK", "MOT") or "dynamic"
+    path = output_path(entries.call, str(name).rstrip())
+    return VtkObserver(wanted, meshes, SeriesWriter(path), _stress(entries))
+
+
+def _parts(entries: Entries, table: Table) -> dict[str, Mesh]:
+    parts = {str(i): m for i, m in table.items() if isinstance(m, Mesh)}
+    if not parts:
+        raise entries.bad("'MAILLAGE_VTK' is a TABLE without MAILLAGE")
+    return parts
+
+
+def _stress(entries: Entries) -> Callable[[NodeField], CellField | None] | None:
+    """Stresses of the zones of MODELE that are no joints."""
+    model: Model | None = entries.get("MODELE", "MMODEL")
+    material: CellField | None = entries.get("CARACTERISTIQUES", "MCHAML")
+    zones = () if model is None else tuple(z for z in model.zones if not is_joint(z))
+    if not zones or material is None:
+        return None
+    held = material
+
+    def of(displacement: NodeField) -> CellField:
+        return CellField(tuple(stress(z, held, displacement) for z in zones), "CONTRAINTES")
+
+    return of
+
+
+def _csv(entries: Entries, times: FloatArray) -> CsvObserver | None:
+    if not (entries.has("PAS_SAUVES_CSV") or entries.has("TEMPS_SAUVES_CSV")):
+        return None
+    wanted = entries.saved_steps("_CSV", times, lambda: np.zeros(len(times), bool))
+    nodes = _nodes(entries.needed("MAILLAGE_CSV", "MAILLAGE", "POINT"))
+    assert nodes is not None
+    components: ListMots | None = entries.get("COMPOSANTES_CSV", "LISTMOTS")
+    name = entries.get("FICHIER_CSV", "MOT")
+    path = None
+    if name is not None:
+        text = str(name).rstrip()
+        path = output_path(entries.call, text if text.lower().endswith(".csv") else text + ".csv")
+    chosen = None if components is None else [str(c).rstrip() for c in components.values]
+    return CsvObserver(wanted, nodes, chosen, path)
+
+
+ENERGIES = ("CINETIQUE", "ELASTIQUE", "JOINTS", "DISSIPEE", "AMORTIE", "EXTERIEURE")
+
+
+def report(entries: Entries, problem: Problem, history: History) -> None:
+    """Energies in time into the table, and a line of statistics for the summary."""
+    energies = Table()
+    energies.set(Mot("TEMPS"), ListReel(history.times))
+    for i, name in enumerate(ENERGIES):
+        energies.set(Mot(name), ListReel(history.energies[:, i]))
+    energies.set(Mot("ECART"), ListReel(history.imbalance))
+    entries.table.set(Mot("ENERGIES"), energies)
+    steps = len(history.times) - 1
+    line = {
+        "procedure": entries.procedure,
+        "unknowns": problem.numbering.size,
+        "interface_unknowns": problem.interface.size if problem.interface else 0,
+        "steps": steps,
+        "loop": history.loop,
+        "solver": history.solver,
+        "most_interface_iterations": history.iterations,
+        "seconds": history.seconds,
+        "steps_per_second": steps / history.seconds if history.seconds > 0 else None,
+        "energy_imbalance": float(np.abs(history.imbalance).max()),
+    }
+    entries.call.session.statistics.setdefault("calculations", []).append(line)
+
+
+def _warn_resolution(entries: Entries, problem: Problem) -> None:
+    from ssilang.kernel.dynamics.resolution import contact_resolution
+
+    found = contact_resolution(problem)
+    if found is None or found.resolved:
+        return
+    entries.warn(
+        f"the step {found.dt:.3g} s does not resolve contact, whose half period is "
+        f"{found.contact_time:.3g} s with the mass attached to the joints",
+        f"dt <= T_c/30 = {found.wanted_dt:.3g} s keeps energy; or a softer joint, or ALPHA_F",
+    )

@@ -1,0 +1,150 @@
+"""What DYNAMIC and PASAPAS keep of a motion: tables of results, VTK series, CSV files."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ssilang.io.atomic import write_text
+from ssilang.io.vtk.series import Part, SeriesWriter
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.fields.node_field import NodeField, NodeValues
+from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.kernel.mesh.nodes import IntArray
+from ssilang.language.values import ListReel, Mot, Table
+
+if TYPE_CHECKING:
+    from ssilang.kernel.dynamics.snapshot import Snapshot
+
+Steps = NDArray[np.bool_]
+
+
+def restricted(given: NodeField, nodes: IntArray | None) -> NodeField:
+    """A nodal field on these increasing nodes only (None: everywhere)."""
+    if nodes is None:
+        return given
+    parts: dict[str, NodeValues] = {}
+    for name, part in given.components.items():
+        kept = np.isin(part.nodes, nodes)
+        if kept.any():
+            parts[name] = NodeValues(part.nodes[kept], part.values[kept])
+    return NodeField(given.table, parts, given.nature)
+
+
+@dataclass
+class TableObserver:
+    """Fills the table of results: 1, 2 ... with TEMP, DEPL, VITE and what joints give."""
+
+    wanted: Steps
+    nodes: IntArray | None = None
+    table: Table = field(default_factory=Table)
+
+    def receive(self, snapshot: Snapshot) -> None:
+        """Add one instant."""
+        entry = Table()
+        entry.set(Mot("TEMP"), snapshot.time)
+        entry.set(Mot("DEPL"), restricted(snapshot.displacement, self.nodes))
+        entry.set(Mot("VITE"), restricted(snapshot.velocity, self.nodes))
+        entry.set(Mot("ACCE"), restricted(snapshot.acceleration, self.nodes))
+        for word, value in (
+            ("CONTRAINTES", snapshot.tractions),
+            ("SAUTS", snapshot.jumps),
+            ("VARIABLES_INTERNES", snapshot.variables),
+        ):
+            if value is not None:
+                entry.set(Mot(word), value)
+        self.table.set(len(self.table) + 1, entry)
+
+    def close(self) -> None:
+        """Nothing to do: the table is whole after each step."""
+
+
+@dataclass
+class VtkObserver:
+    """Writes a VTK series of meshes with displacement, velocity, reactions, joints, stresses.
+
+    Attributes
+    ----------
+    meshes : dict
+        Name of the part ('' for a single one) to mesh.
+    stress : function or None
+        Stress of the solids for a displacement.
+    """
+
+    wanted: Steps
+    meshes: dict[str, Mesh]
+    writer: SeriesWriter
+    stress: Callable[[NodeField], CellField | None] | None = None
+
+    def receive(self, snapshot: Snapshot) -> None:
+        """Write one instant."""
+        u = snapshot.displacement
+        moved = NodeField(u.table, {k: v for k, v in u.components.items() if k != "LX"}, u.nature)
+        points = {
+            "displacement": moved,
+            "velocity": snapshot.velocity,
+            "acceleration": snapshot.acceleration,
+            "reaction": snapshot.reactions,
+        }
+        cells: dict[str, CellField] = {}
+        jumps, tractions = snapshot.jumps, snapshot.tractions
+        if jumps is not None and tractions is not None:
+            cells |= {"opening": jumps, "traction": tractions}
+        stress = self.stress(u) if self.stress is not None else None
+        if stress is not None:
+            cells["stress"] = stress
+        parts = {name: Part(mesh, points, cells) for name, mesh in self.meshes.items()}
+        self.writer.write_parts(snapshot.time, parts)
+
+    def close(self) -> None:
+        """Write the list of the steps."""
+        self.writer.close()
+
+
+@dataclass
+class CsvObserver:
+    """Lists of values in time at the nodes of a mesh, and a file of them."""
+
+    wanted: Steps
+    nodes: IntArray
+    components: list[str] | None = None
+    path: Path | None = None
+    columns: dict[str, list[float]] = field(default_factory=lambda: {"TEMP": []})
+
+    def receive(self, snapshot: Snapshot) -> None:
+        """Add one row."""
+        self.columns["TEMP"].append(snapshot.time)
+        for word, given in (
+            ("DEPL", snapshot.displacement),
+            ("VITE", snapshot.velocity),
+            ("ACCE", snapshot.acceleration),
+        ):
+            for name, part in given.components.items():
+                if name == "LX" or (self.components is not None and name not in self.components):
+                    continue
+                here = np.intersect1d(self.nodes, part.nodes)
+                for node, value in zip(here, part.at(here), strict=True):
+                    self.columns.setdefault(f"{word}_{name}_{node + 1}", []).append(float(value))
+
+    def close(self) -> None:
+        """Write the file, whole."""
+        if self.path is None:
+            return
+        lines = [";".join(self.columns)]
+        lines += [
+            ";".join(f"{x:.12g}" for x in row) for row in zip(*self.columns.values(), strict=True)
+        ]
+        write_text(self.path, "\n".join(lines) + "\n")
+
+    @property
+    def table(self) -> Table:
+        """RESULTATS_CSV: one LISTREEL a quantity."""
+        made = Table()
+        for name, values in self.columns.items():
+            made.set(Mot(name), ListReel(values))
+        return made

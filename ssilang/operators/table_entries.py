@@ -1,0 +1,132 @@
+"""Reading the entries of a procedure's table: typed, with errors that name the index."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Mapping
+from difflib import get_close_matches
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ssilang.kernel.dynamics.plan import every, nearest
+from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.language.call import Call
+from ssilang.language.errors import SsiError
+from ssilang.language.values import Annule, Table, type_of
+
+
+class Entries:
+    """The entries of a table given to a procedure.
+
+    Parameters
+    ----------
+    procedure : str
+        Name for messages.
+    """
+
+    def __init__(self, call: Call, table: Table, procedure: str) -> None:
+        self.call, self.table, self.procedure = call, table, procedure
+
+    def has(self, index: str) -> bool:
+        """Whether the entry is given (and not ANNULE)."""
+        return self.table.has(index) and not isinstance(self.table.get(index), Annule)
+
+    def get(self, index: str, *types: str) -> Any:
+        """The value at an index, None if there is none.
+
+        Raises
+        ------
+        SsiError
+            If it is of none of the types.
+        """
+        if not self.has(index):
+            return None
+        value = self.table.get(index)
+        found = type_of(value)
+        if found in types:
+            return value
+        if found == "ENTIER" and "FLOTTANT" in types:
+            return float(value)  # type: ignore[arg-type]
+        raise self.bad(f"'{index}' must be {' or '.join(types)}, found {found}")
+
+    def needed(self, index: str, *types: str) -> Any:
+        """The value at an index that must be there."""
+        value = self.get(index, *types)
+        if value is None:
+            raise self.bad(f"the entry '{index}' is missing", f"TAB1 . '{index}' = ... ;")
+        return value
+
+    def flag(self, index: str, default: bool = False) -> bool:
+        """A LOGIQUE."""
+        value = self.get(index, "LOGIQUE")
+        return default if value is None else bool(value)
+
+    def initial(self, index: str, *types: str) -> Any:
+        """`TAB1 . index . 0`, None if there is none."""
+        if not self.has(index):
+            return None
+        inner = self.needed(index, "TABLE")
+        return Entries(self.call, inner, f"{self.procedure} ({index})")._at_zero(types)
+
+    def _at_zero(self, types: tuple[str, ...]) -> Any:
+        value = self.table.get(0)
+        if value is None:
+            return None
+        if type_of(value) not in types:
+            raise self.bad(f"index 0 must be {' or '.join(types)}, found {type_of(value)}")
+        return value
+
+    def refuse(self, wrong: Mapping[str, str]) -> None:
+        """Refuse entries that have no effect here; `wrong` says why, by index.
+
+        A LOGIQUE at FAUX asks for nothing and passes.
+        """
+        for index, reason in wrong.items():
+            if self.has(index) and self.table.get(index) is not False:
+                raise self.bad(f"the entry '{index}' is not available: {reason}")
+
+    def warn_unknown(self, known: Collection[str]) -> None:
+        """Say which words of the table are no entries, with the nearest entry."""
+        for index, _ in self.table.items():
+            if not isinstance(index, str) or str(index).rstrip() in known:
+                continue
+            near = get_close_matches(str(index).upper(), list(known), 1, 0.75)
+            if near:
+                self.warn(
+                    f"'{index}' is no entry of {self.procedure} and has no effect",
+                    f"did you mean '{near[0]}'?",
+                )
+
+    def saved_steps(
+        self, suffix: str, times: FloatArray, default: Callable[[], NDArray[np.bool_]]
+    ) -> NDArray[np.bool_]:
+        """Steps asked for by PAS_SAUVES(suffix) or TEMPS_SAUVES(suffix), shape (n_times,)."""
+        wanted = self.get("TEMPS_SAUVES" + suffix, "LISTREEL")
+        if wanted is not None:
+            return nearest(times, wanted.values)
+        cadence = self.get("PAS_SAUVES" + suffix, "ENTIER", "MOT")
+        if cadence is None:
+            return default()
+        if isinstance(cadence, int):
+            return every(times, cadence)
+        word = str(cadence).upper().rstrip()
+        if word == "TOUS":
+            return np.ones(len(times), bool)
+        if word == "FINAL":
+            last = np.zeros(len(times), bool)
+            last[-1] = True
+            return last
+        raise self.bad(
+            f"'PAS_SAUVES{suffix}' is '{cadence}'", "an ENTIER (one step in N), 'TOUS' or 'FINAL'"
+        )
+
+    def bad(self, message: str, hint: str = "") -> SsiError:
+        """An error of the procedure."""
+        return self.call.bad(f"{self.procedure}: {message}", hint=hint)
+
+    def warn(self, message: str, hint: str = "") -> None:
+        """A warning of the procedure."""
+        self.call.session.warn(
+            "bad-value", self.call.span, operator=self.procedure, message=message, hint=hint
+        )
