@@ -148,6 +148,10 @@ class Call:
         value = self.operands[i].value
         return value.name if isinstance(value, Procedure) else str(value).upper()
 
+    def at_word(self) -> bool:
+        """Whether a word is the very next operand."""
+        return self._word_index() == 0
+
     def keyword(self, words: Sequence[str], length: int = 4) -> str | None:
         """Consume the first unread word if it is one of `words`; returns that entry of `words`.
 

@@ -5,38 +5,55 @@ from __future__ import annotations
 import operator as python
 from collections.abc import Callable
 from functools import partial
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
 from ssilang.language.call import Call
 from ssilang.language.errors import SsiError
 from ssilang.language.registry import SCALAR_RULES, Help, operator
-from ssilang.language.values import ListEnti, ListReel, type_of
+from ssilang.language.values import ListEnti, ListReel, Table, type_of
 
 Rule = Callable[[Any, Any], Any]
 
 RULES: dict[tuple[str, str, str], Rule] = {}
 """(sign, left type, right type) -> function; modules of other families add theirs by `rule`."""
 
+CALL_RULES: dict[tuple[str, str, str], Callable[[Call, str, Any, Any], Any]] = {}
+"""The same for rules that read more than two operands."""
 
-def rule(signs: str, left: str, right: str, function: Callable[[str], Rule] | None = None) -> Any:
-    """Register what signs (blank separated) do on a pair of types.
 
-    With `function`, it is called with the sign and returns the rule; else use as a decorator of
-    a function `(sign, a, b)`.
-    """
+Body = TypeVar("Body", bound=Callable[[str, Any, Any], Any])
 
-    def add(body: Callable[[str, Any, Any], Any]) -> Callable[[str, Any, Any], Any]:
+
+def rule(signs: str, left: str, right: str) -> Callable[[Body], Body]:
+    """Decorator: what signs (blank separated) do on a pair of types, a function `(sign, a, b)`."""
+
+    def add(body: Body) -> Body:
         for sign in signs.split():
             RULES[sign, left, right] = partial(body, sign)
         return body
 
-    if function is None:
-        return add
+    return add
+
+
+CallBody = TypeVar("CallBody", bound=Callable[["Call", str, Any, Any], Any])
+
+
+def rule_with_call(signs: str, left: str, right: str) -> Callable[[CallBody], CallBody]:
+    """Decorator: as `rule` for a function `(call, sign, a, b)` that reads further operands."""
+
+    def add(body: CallBody) -> CallBody:
+        for sign in signs.split():
+            CALL_RULES[sign, left, right] = body
+        return body
+
+    return add
+
+
+def _tabulated(signs: str, left: str, right: str, make: Callable[[str], Rule]) -> None:
     for sign in signs.split():
-        RULES[sign, left, right] = function(sign)
-    return function
+        RULES[sign, left, right] = make(sign)
 
 
 def _integer_divide(a: int, b: int) -> int:
@@ -108,12 +125,12 @@ for _sign in SIGNS.split():
     SCALAR_RULES[_sign] = _scalar_rule(_sign)
 for _a in ("ENTIER", "FLOTTANT"):
     for _b in ("ENTIER", "FLOTTANT"):
-        rule(SIGNS, _a, _b, (_INTEGER if _a == _b == "ENTIER" else _REAL).__getitem__)
+        _tabulated(SIGNS, _a, _b, (_INTEGER if _a == _b == "ENTIER" else _REAL).__getitem__)
 for _a in ("LISTENTI", "LISTREEL"):
     for _b in ("ENTIER", "FLOTTANT", "LISTENTI", "LISTREEL"):
-        rule(SIGNS, _a, _b, _list_rule)
+        _tabulated(SIGNS, _a, _b, _list_rule)
         if _b in ("ENTIER", "FLOTTANT"):
-            rule(SIGNS, _b, _a, _list_rule)
+            _tabulated(SIGNS, _b, _a, _list_rule)
 
 
 def compute(sign: str, call: Call) -> Any:
@@ -125,21 +142,45 @@ def compute(sign: str, call: Call) -> Any:
         'no-rule' when the types do not go together, 'arithmetic' for a division by zero.
     """
     left = call.read("*")
+    if left is not None and not call.operands and type_of(left.value) == "TABLE":
+        return _sum_of_table(sign, call, left.value)
     right = call.read("*") if left is not None else None
     if left is None or right is None:
         raise SsiError("two-operands", call.span, operator=sign)
     types = type_of(left.value), type_of(right.value)
+    reading = CALL_RULES.get((sign, *types))
     found = RULES.get((sign, *types))
-    if found is None:
+    if found is None and reading is None:
         raise SsiError(
             "no-rule", left.span.to(right.span), operator=sign, left=types[0], right=types[1]
         )
     try:
+        if reading is not None:
+            return reading(call, sign, left.value, right.value)
+        assert found is not None
         return found(left.value, right.value)
-    except (ArithmeticError, ValueError) as problem:
+    except (ArithmeticError, ValueError, TypeError) as problem:
         raise SsiError(
             "arithmetic", left.span.to(right.span), operator=sign, reason=str(problem)
         ) from None
+
+
+def _sum_of_table(sign: str, call: Call, table: Table) -> Any:
+    """`+ TAB1`: sum of the objects at the integer indices of a table."""
+    values = [v for index, v in table.items() if type(index) is int]
+    if sign != "+" or not values:
+        raise SsiError("two-operands", call.span, operator=sign)
+    total = values[0]
+    for value in values[1:]:
+        types = type_of(total), type_of(value)
+        reading, found = CALL_RULES.get((sign, *types)), RULES.get((sign, *types))
+        if reading is not None:
+            total = reading(call, sign, total, value)
+        elif found is not None:
+            total = found(total, value)
+        else:
+            raise SsiError("no-rule", call.span, operator=sign, left=types[0], right=types[1])
+    return total
 
 
 _TEXTS = {

@@ -6,12 +6,15 @@ A family adds its entry with the decorator `on`; help texts and examples add up.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ssilang.language.call import Call, Operand
 from ssilang.language.errors import SsiError
 from ssilang.language.registry import OPERATORS, Help, Operator, operator
 from ssilang.language.values import Mot, type_of
+
+if TYPE_CHECKING:
+    from ssilang.language.source import Span
 
 Entry = Callable[[Call, Any], Any]
 
@@ -45,6 +48,9 @@ def _adder(
     return add
 
 
+_BESIDE_WORDS = ("MOT", "LISTENTI")
+
+
 class ByType:
     """An operator whose work depends on the type of its main operand.
 
@@ -73,16 +79,20 @@ class ByType:
         )(self._run)
 
     def _run(self, call: Call) -> Any:
-        operand = call.read(*self.entries) or self._behind_words(call)
+        operand = self._behind_words(call) or call.read(*self.entries)
         if operand is None:
             raise call.missing(tuple(self.entries))
         return self.entries[type_of(operand.value)](call, operand.value)
 
     def _behind_words(self, call: Call) -> Operand | None:
-        """Consume the main operand that stands behind one or two words."""
+        """Consume the main operand that stands behind one or two words.
+
+        A word may be the main operand itself, with integers behind it (`EXTR 'abc' 2`).
+        """
         words = 0
         for i, operand in enumerate(call.operands):
-            if type_of(operand.value) in self.entries:
+            kind = type_of(operand.value)
+            if kind in self.entries and kind not in _BESIDE_WORDS[: 2 if words else 1]:
                 call.used.append(operand)
                 return call.operands.pop(i)
             words += isinstance(operand.value, Mot)
@@ -262,18 +272,76 @@ def union(*pairs: tuple[str, str]) -> Callable[[UnionRule], UnionRule]:
     return add
 
 
+CallUnionRule = Callable[[Call, Any, Any], Any]
+CALL_UNIONS: dict[tuple[str, str], CallUnionRule] = {}
+"""ET for rules that read the words 'TELQUEL' and 'NOER'."""
+
+
+def union_with_call(*pairs: tuple[str, str]) -> Callable[[CallUnionRule], CallUnionRule]:
+    """Decorator: what ET does on pairs of types, a function `(call, left, right)`.
+
+    `call.used` holds the words read: 'TELQUEL' and 'NOER' are given by `union_words(call)`.
+    """
+
+    def add(entry: CallUnionRule) -> CallUnionRule:
+        for pair in pairs:
+            CALL_UNIONS[pair] = entry
+        return entry
+
+    return add
+
+
+def union_words(call: Call) -> set[str]:
+    """The words that stood with ET: 'TELQ', 'NOER'."""
+    found: set[str] = set()
+    while (said := call.keyword(("TELQ", "NOER"))) is not None:
+        found.add(said)
+    return found
+
+
+def united(call: Call, left: Any, right: Any, span: Span) -> Any:
+    """What ET makes of two objects.
+
+    Raises
+    ------
+    SsiError
+        'no-rule' when their types do not go together.
+    """
+    types = type_of(left), type_of(right)
+    reading = CALL_UNIONS.get(types)
+    if reading is not None:
+        return reading(call, left, right)
+    found = UNIONS.get(types)
+    if found is None:
+        raise SsiError("no-rule", span, operator="ET", left=types[0], right=types[1])
+    return found(left, right)
+
+
 def _unite(call: Call) -> Any:
+    exact = call.keyword(("TELQ",)) is not None
     left = call.read("*")
+    if left is not None and not call.operands and type_of(left.value) == "TABLE":
+        return _unite_table(call, left.value)
     right = call.read("*") if left is not None else None
     if left is None or right is None:
         raise SsiError("two-operands", call.span, operator="ET")
-    types = type_of(left.value), type_of(right.value)
-    found = UNIONS.get(types)
-    if found is None:
-        raise SsiError(
-            "no-rule", left.span.to(right.span), operator="ET", left=types[0], right=types[1]
-        )
-    return found(left.value, right.value)
+    if exact and isinstance(left.value, str) and isinstance(right.value, str):
+        return Mot(left.value + right.value)
+    result = united(call, left.value, right.value, left.span.to(right.span))
+    union_words(call)
+    return result
+
+
+def _unite_table(call: Call, table: Any) -> Any:
+    values = [v for index, v in table.items() if type(index) is int]
+    if not values:
+        raise call.bad("the table holds nothing at integer indices", table)
+    total = values[0]
+    if len(values) == 1:
+        return total
+    for value in values[1:]:
+        total = united(call, total, value, call.span)
+    return total
 
 
 operator(
@@ -282,7 +350,7 @@ operator(
     help=Help(
         "Joins two objects: union of meshes, sum of matrices, concatenation of lists, logical and.",
         "Réunit deux objets : union de maillages, somme de rigidités, suite de listes, et logique.",
-        "OBJ3 = OBJ1 ET OBJ2 ;",
+        "OBJ3 = OBJ1 ET OBJ2 ('NOER') ; OBJ3 = ET ('TELQUEL') OBJ1 OBJ2 ; OBJ2 = ET TAB1 ;",
         ("l = (PROG 1. 2.) ET 3. ; LIST l ;", "SI (VRAI ET FAUX) ; ERRE 5 ; FINSI ;"),
     ),
     reads_itself=True,

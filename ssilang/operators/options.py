@@ -38,7 +38,9 @@ _MODES: dict[str, Mode] = {
     "UNID": Mode.UNIDIMENSIONAL, "CONT": Mode.PLANE_STRESS, "DEFO": Mode.PLANE_STRAIN,
     "GENE": Mode.GENERALISED_PLANE_STRAIN,
 }  # fmt: skip
-_UNID = ("DYDZ", "DYCZ", "CYDZ", "CYCZ", "GYDZ", "GYCZ", "DYGZ", "CYGZ", "GYGZ", "AXDZ", "AXCZ", "AXGZ")  # fmt: skip
+_UNID = (
+    "DYDZ", "DYCZ", "CYDZ", "CYCZ", "GYDZ", "GYCZ", "DYGZ", "CYGZ", "GYGZ", "AXDZ", "AXCZ", "AXGZ",
+)  # fmt: skip
 _KNOWN_BY_SESSION = frozenset({"ECHO", "ERRE", "DEBU", "VERI"})
 
 

@@ -1,0 +1,149 @@
+"""EGA NEG < > <EG >EG: comparisons give a LOGIQUE."""
+
+from __future__ import annotations
+
+import operator as python
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from ssilang.kernel.mesh.mesh import Point
+from ssilang.language.call import Call
+from ssilang.language.errors import SsiError
+from ssilang.language.registry import SCALAR_RULES, Help, operator
+from ssilang.language.values import ListEnti, ListMots, ListReel, type_of
+from ssilang.operators.workspace import workspace
+
+_NUMBERS = (int, float)
+
+
+def _equal_scalars(a: Any, b: Any) -> bool:
+    """Equality of scalars; the second number is converted to the type of the first."""
+    kinds = type(a), type(b)
+    if bool in kinds:
+        if kinds != (bool, bool):
+            raise TypeError("LOGIQUE")
+        return bool(a == b)
+    return bool(a == int(b)) if kinds[0] is int else bool(a == b)
+
+
+def _ordered(compare: Callable[[Any, Any], bool]) -> Callable[[Any, Any], bool]:
+    def run(a: Any, b: Any) -> bool:
+        if type(a) is bool or type(b) is bool:
+            raise TypeError("LOGIQUE")
+        return compare(a, b)
+
+    return run
+
+
+SCALAR_RULES["EGA"] = _equal_scalars
+SCALAR_RULES["NEG"] = lambda a, b: not _equal_scalars(a, b)
+_ORDERS: dict[str, Callable[[Any, Any], bool]] = {
+    "<": python.lt, ">": python.gt, "<EG": python.le, ">EG": python.ge,
+}  # fmt: skip
+for _sign, _compare in _ORDERS.items():
+    SCALAR_RULES[_sign] = _ordered(_compare)
+
+
+def _two(call: Call, sign: str) -> tuple[Any, Any]:
+    left = call.read("*")
+    right = call.read("*") if left is not None else None
+    if left is None or right is None:
+        raise SsiError("two-operands", call.span, operator=sign)
+    return left, right
+
+
+def equal(call: Call, sign: str) -> bool:
+    """Read two objects, and a tolerance for reals and points; say whether they are equal."""
+    left, right = _two(call, sign)
+    a, b = left.value, right.value
+    tolerance = call.optional("FLOTTANT")
+    if type(a) in _NUMBERS and type(b) in _NUMBERS:
+        if tolerance is not None:
+            return bool(abs(a - (int(b) if type(a) is int else b)) <= tolerance)
+        return _equal_scalars(a, b)
+    kinds = type_of(a), type_of(b)
+    if isinstance(a, str) and isinstance(b, str):
+        return a.rstrip() == b.rstrip()
+    if kinds[0] != kinds[1] and {*kinds} != {"LISTENTI", "LISTREEL"}:
+        span = left.span.to(right.span)
+        raise SsiError("no-rule", span, operator=sign, left=kinds[0], right=kinds[1])
+    if isinstance(a, Point) and isinstance(b, Point):
+        return _same_place(call, a, b, tolerance)
+    if isinstance(a, ListMots):
+        words = [[str(w).rstrip() for w in v.values] for v in (a, b)]
+        return words[0] == words[1]
+    if isinstance(a, ListReel | ListEnti):
+        if len(a) != len(b):
+            return False
+        return bool(np.all(np.abs(a.values - b.values) <= (tolerance or 0.0)))
+    return bool(a == b) if isinstance(a, bool) else a is b
+
+
+def _same_place(call: Call, a: Point, b: Point, tolerance: float | None) -> bool:
+    if tolerance is None:
+        tolerance = max(a.density, b.density) / 10 or workspace(call.session).density / 10
+    return bool(np.linalg.norm(a.coordinates - b.coordinates) <= tolerance)
+
+
+def _register_equality(sign: str, en: str, fr: str, example: str) -> None:
+    operator(
+        sign,
+        family="comparisons",
+        full_name=sign,
+        help=Help(
+            en + " The second of two numbers is converted to the type of the first; points are "
+            "equal when closer than a tolerance (a tenth of their density at first); trailing "
+            "blanks of words do not count. Words are compared in the order EGA MOT1 MOT2.",
+            fr + " Le second de deux nombres est converti au type du premier ; deux points sont "
+            "égaux s'ils sont plus proches qu'une tolérance (le dixième de leur densité par "
+            "défaut) ; les blancs finaux des mots ne comptent pas. Pour des mots, écrire EGA MOT1 "
+            "MOT2.",
+            f"LOG1 = OBJ1 {sign} OBJ2 (FLOT1) ;",
+            (example,),
+        ),
+        reads_itself=True,
+    )(lambda call: equal(call, sign) == (sign == "EGA"))
+
+
+_register_equality(
+    "EGA",
+    "Whether two objects are equal.",
+    "Dit si deux objets sont égaux.",
+    "SI (EGA 'AA' 'AA  ') ; MESS 'same' ; FINSI ;",
+)
+_register_equality(
+    "NEG",
+    "Whether two objects are not equal.",
+    "Dit si deux objets diffèrent.",
+    "SI (3 NEG 4) ; MESS 'different' ; FINSI ;",
+)
+
+
+def _compare_numbers(call: Call, sign: str) -> bool:
+    left, right = _two(call, sign)
+    a, b = left.value, right.value
+    if type(a) not in _NUMBERS or type(b) not in _NUMBERS:
+        span = left.span.to(right.span)
+        raise SsiError("no-rule", span, operator=sign, left=type_of(a), right=type_of(b))
+    return _ORDERS[sign](a, b)
+
+
+_TEXTS = {
+    "<": ("smaller", "plus petit"), ">": ("larger", "plus grand"),
+    "<EG": ("smaller or equal", "plus petit ou égal"),
+    ">EG": ("larger or equal", "plus grand ou égal"),
+}  # fmt: skip
+for _sign, (_en, _fr) in _TEXTS.items():
+    operator(
+        _sign,
+        family="comparisons",
+        help=Help(
+            f"Whether the first number is {_en} than the second.",
+            f"Dit si le premier nombre est {_fr} au second.",
+            f"LOG1 = VAL1 {_sign} VAL2 ;",
+            (f"SI (1 {_sign} 2) ; MESS 'yes' ; SINON ; MESS 'no' ; FINSI ;",),
+        ),
+        reads_itself=True,
+    )(lambda call, s=_sign: _compare_numbers(call, s))

@@ -1,0 +1,177 @@
+"""QUIT ITER FIN ARGU RESP COMM: where statements go on, what procedures read and give."""
+
+from __future__ import annotations
+
+from typing import Any, NoReturn
+
+from ssilang.language.call import Call, Operand
+from ssilang.language.errors import SsiError
+from ssilang.language.evaluator import LeaveLoop, NextTurn, StopRun
+from ssilang.language.procedures import LeaveProcedure
+from ssilang.language.registry import Help, operator
+from ssilang.language.values import ANNULE, Mot, Procedure
+
+
+def name_of(operand: Operand) -> str:
+    """The name that an operand was written as: a variable, a word, a procedure."""
+    if operand.name:
+        return operand.name
+    if isinstance(operand.value, Procedure):
+        return operand.value.name
+    return str(operand.value).rstrip().upper() if isinstance(operand.value, Mot) else ""
+
+
+def take_name(call: Call) -> str:
+    """Consume the next operand for its name, whatever object bears it.
+
+    Raises
+    ------
+    SsiError
+        'missing-argument' when nothing stands there, 'wrong-argument' for a value without name.
+    """
+    if not call.operands or not (name := name_of(call.operands[0])):
+        raise call.missing(("MOT",))
+    call.used.append(call.operands.pop(0))
+    return name
+
+
+@operator(
+    "QUIT",
+    family="control",
+    full_name="QUITTER",
+    help=Help(
+        en="Leaves the named loop (an outer one too) or the running procedure.",
+        fr="Quitte la boucle nommée (même extérieure) ou la procédure en cours.",
+        syntax="QUIT NOM1 ;",
+        examples=("REPE B1 ; SI (&B1 > 3) ; QUIT B1 ; FINSI ; FIN B1 ; LIST &B1 ;",),
+    ),
+    reads_itself=True,
+)
+def quitter(call: Call) -> NoReturn:
+    """Leave a loop or a procedure."""
+    name = take_name(call)
+    if call.session.frame.procedure == name:
+        raise LeaveProcedure(name)
+    raise LeaveLoop(name)
+
+
+@operator(
+    "ITER",
+    family="control",
+    full_name="ITERER",
+    help=Help(
+        en="Goes on with the next turn of the named loop.",
+        fr="Passe au tour suivant de la boucle nommée.",
+        syntax="ITER NOM1 ;",
+        examples=("REPE B1 4 ; SI (&B1 / 2 * 2 EGA &B1) ; ITER B1 ; FINSI ; MESS &B1 ; FIN B1 ;",),
+    ),
+    reads_itself=True,
+)
+def iterer(call: Call) -> NoReturn:
+    """Go to the end of the turn."""
+    raise NextTurn(take_name(call))
+
+
+@operator(
+    "FIN",
+    family="control",
+    help=Help(
+        en="Ends the run; with a name, ends the block that REPE opened.",
+        fr="Arrête l'exécution ; suivi d'un nom, ferme le bloc ouvert par REPE.",
+        syntax="FIN ; FIN NOM1 ;",
+        examples=("MESS 'last words' ; FIN ;",),
+    ),
+    reads_itself=True,
+)
+def fin(call: Call) -> NoReturn:
+    """End the run."""
+    raise StopRun
+
+
+@operator(
+    "COMM",
+    family="control",
+    full_name="COMMENTAIRE",
+    help=Help(
+        en="A comment up to the end of the statement; a line with * in column 1 is one too.",
+        fr="Un commentaire jusqu'à la fin de l'instruction ; une ligne avec * en colonne 1 aussi.",
+        syntax="COMM ... ;",
+        examples=("COMM nothing happens here ;",),
+    ),
+    reads_itself=True,
+)
+def comm(call: Call) -> None:
+    """Swallow the statement."""
+    call.operands.clear()
+
+
+# ---- procedures --------------------------------------------------------------------------------
+
+
+def _argument_marks(call: Call) -> list[tuple[str, bool, str, Any]]:
+    """Names, whether mandatory, types and places of what ARGU is asked to read."""
+    found: list[tuple[str, bool, str, Any]] = []
+    while call.operands:
+        span = call.operands[0].span
+        name = take_name(call)
+        mandatory, kind = True, ""
+        if call.operands and call.operands[0].span.text in ("*", "/"):
+            mandatory = call.operands.pop(0).span.text == "*"
+            kind = take_name(call)[:8].rstrip()
+        found.append((name, mandatory, kind, span))
+    return found
+
+
+@operator(
+    "ARGU",
+    family="control",
+    full_name="ARGUMENT",
+    help=Help(
+        en="Inside a procedure: reads further arguments. NOM1*TYPE1 is mandatory, NOM1/TYPE1 "
+        "optional; without type any object is taken.",
+        fr="Dans une procédure : lit d'autres arguments. NOM1*TYPE1 est obligatoire, NOM1/TYPE1 "
+        "facultatif ; sans type, tout objet convient.",
+        syntax="ARGU NOM1*TYPE1 NOM2/TYPE2 ... ;",
+        examples=("DEBP ADDITION ; ARGU I*ENTIER J*ENTIER ; FINP (I + J) ; LIST (ADDITION 2 3) ;",),
+    ),
+    reads_itself=True,
+)
+def argu(call: Call) -> None:
+    """Read from the caller's operands."""
+    frame = call.session.frame
+    wanted = _argument_marks(call)
+    if frame.pending is None:
+        raise call.bad("ARGU reads the arguments of a procedure, none is running")
+    for name, mandatory, kind, span in wanted:
+        operand = frame.pending.read(kind or "*")
+        if operand is None and mandatory and kind:
+            left = frame.pending.operands
+            raise SsiError(
+                "missing-parameter",
+                span,
+                procedure=frame.procedure,
+                parameter=name,
+                expected=kind,
+                found="nothing" if not left else str(left[0].value),
+            )
+        frame.assign(name, ANNULE if operand is None else operand.value)
+
+
+@operator(
+    "RESP",
+    family="control",
+    full_name="RESPRO",
+    help=Help(
+        en="Inside a procedure: gives results, delivered before those of FINP.",
+        fr="Dans une procédure : rend des résultats, livrés avant ceux de FINP.",
+        syntax="RESP OBJ1 OBJ2 ... ;",
+        examples=("DEBP DEUX ; RESP 1 ; RESP 2 ; FINP ; A B = DEUX ; LIST B ;",),
+    ),
+    reads_itself=True,
+)
+def resp(call: Call) -> None:
+    """Queue results."""
+    frame = call.session.frame
+    while (operand := call.read("*")) is not None:
+        if operand.value is not ANNULE:
+            frame.results.append(operand.value)

@@ -1,0 +1,266 @@
+"""PROG LECT MOTS ENUM SUIT: lists from their items."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from ssilang.kernel.errors import KernelError
+from ssilang.language.call import Call
+from ssilang.language.registry import Help, many, operator
+from ssilang.language.values import ListChpo, ListEnti, ListMots, ListObje, ListReel, type_of
+
+
+_REAL = ("ENTIER", "FLOTTANT")
+
+
+def _star(call: Call) -> bool:
+    """Whether a repetition mark stands next; it is consumed."""
+    if call.operands and call.operands[0].span.text == "*":
+        call.used.append(call.operands.pop(0))
+        return True
+    return False
+
+
+def _read_items(call: Call, kinds: tuple[str, ...]) -> list[Any]:
+    """Numbers with repetitions and steps, in order; lists among them are taken whole."""
+    items: list[Any] = []
+    while True:
+        if items and call.at_word() and call.keyword(("PAS",)) is not None:
+            items += _steps(call, items[-1], kinds)
+            continue
+        operand = call.read(*kinds, "LISTREEL", "LISTENTI")
+        if operand is None:
+            return items
+        value = operand.value
+        if isinstance(value, ListReel | ListEnti):
+            items += value.values.tolist()
+        elif _star(call):
+            items += _repeated(call, value, kinds)
+        else:
+            items.append(value)
+
+
+def _repeated(call: Call, count: Any, kinds: tuple[str, ...]) -> list[Any]:
+    if count != int(count) or count < 0:
+        raise call.bad(f"an item is repeated a whole number of times, not {count}", count)
+    return [call.required(*kinds)] * int(count)
+
+
+def _steps(call: Call, start: Any, kinds: tuple[str, ...]) -> list[Any]:
+    step = call.required(*kinds, after=call.keyword_end)
+    ratio = None
+    if call.keyword(("GEOM",)) is not None:
+        ratio = call.required("FLOTTANT", after=call.keyword_end)
+    if call.keyword(("NPAS",)) is not None:
+        count = call.required("ENTIER", after=call.keyword_end)
+        if count < 0:
+            raise call.bad(f"NPAS is not negative, found {count}", count)
+        return _progression(start, step, count, ratio)
+    end = call.required(*kinds)
+    more: list[Any] = []
+    if _star(call):
+        more = _repeated(call, end, kinds)
+        end, more = more[0], more[1:]
+    try:
+        if "FLOTTANT" in kinds:
+            return [*real_steps(float(start), float(step), float(end), ratio), *more]
+        return [*integer_steps(start, step, end), *more]
+    except KernelError as problem:
+        raise call.bad(problem.message, end, problem.hint) from None
+
+
+def _progression(start: Any, step: Any, count: int, ratio: float | None) -> list[Any]:
+    if ratio is None:
+        return [start + step * i for i in range(1, count + 1)]
+    sums = np.cumsum(float(step) * ratio ** np.arange(count))
+    values: list[Any] = (start + sums).tolist()
+    return values
+
+
+def integer_steps(start: int, step: int, end: int) -> list[int]:
+    """Integers behind `start` up to `end`, whose distance the step divides."""
+    if start == end:
+        return []
+    if step == 0 or (end - start) % step or (end - start) // step < 0:
+        raise KernelError(
+            f"steps of {step} do not lead from {start} to {end}",
+            "LECT wants a step that divides the distance",
+        )
+    return list(range(start + step, end + (1 if step > 0 else -1), step))
+
+
+def real_steps(start: float, step: float, end: float, ratio: float | None = None) -> list[float]:
+    """Reals behind `start` up to `end`, the step being adjusted so that `end` is hit.
+
+    Without `ratio` the number of steps is the nearest that fits; with it, the smallest geometric
+    number of steps that reaches `end`, all scaled alike. A step of the wrong sign gives `end`.
+    """
+    distance = end - start
+    if ratio is not None:
+        return _geometric_steps(start, step, end, ratio)
+    if step == 0 or distance / step <= 0:
+        return [end]
+    count = max(round(distance / step), 1)
+    values: list[float] = (start + distance * np.arange(1, count + 1) / count).tolist()
+    values[-1] = end
+    return values
+
+
+def _geometric_steps(start: float, step: float, end: float, ratio: float) -> list[float]:
+    distance = end - start
+    if step == 0 or ratio <= 0 or distance / step <= 0:
+        return [end]
+    wanted, total = distance / step, 0.0
+    lengths: list[float] = []
+    while total < wanted * (1 - 1e-9):
+        length = ratio ** len(lengths)
+        if length < 1e-12 * max(total, 1.0) or len(lengths) > 10**6:
+            return [end]
+        lengths.append(length)
+        total += length
+    values: list[float] = (start + distance * np.cumsum(lengths) / total).tolist()
+    values[-1] = end
+    return values
+
+
+@operator(
+    "PROG",
+    family="lists",
+    help=Help(
+        en="List of reals. A PAS S B goes from A to B by steps of about S (adjusted to hit B); "
+        "NPAS N gives N more values; GEOM R makes the steps grow by R; N * X repeats. SINU, LINE, "
+        "EXPO, LOGA give a function of a list.",
+        fr="Liste de réels. A PAS S B va de A à B par pas voisins de S (ajustés pour finir sur B) "
+        "; NPAS N donne N valeurs de plus ; GEOM R fait croître les pas ; N * X répète. SINU, "
+        "LINE, EXPO, LOGA donnent une fonction d'une liste.",
+        syntax="LREE1 = PROG X1 X2 ... (PAS S1 (GEOM R1) X3 | PAS S1 (GEOM R1) NPAS N1) "
+        "(N2 * X4) ... ;\n"
+        "LREE1 = PROG 'SINU' F1 ('PHAS' P1) ('AMPL' A1) LREE2 ;\n"
+        "LREE1 = PROG 'LINE' | 'EXPO' | 'LOGA' ('A' A1) ('B' B1) LREE2 ;",
+        examples=("LIST (PROG 0. PAS 0.5 2. 3 * 7.) ;", "LIST (PROG 'SINU' 1. (PROG 0. 0.25)) ;"),
+    ),
+    reads_itself=True,
+)
+def prog(call: Call) -> ListReel:
+    """Read reals."""
+    word = call.keyword(("SINU", "LINE", "EXPO", "LOGA"))
+    if word is not None:
+        return _function_of_list(call, word)
+    return ListReel(np.asarray(_read_items(call, _REAL), dtype=float))
+
+
+def _function_of_list(call: Call, word: str) -> ListReel:
+    settings = {"PHAS": 0.0, "AMPL": 1.0, "A": 1.0, "B": 0.0}
+    frequency = call.required("FLOTTANT", after=call.keyword_end) if word == "SINU" else 0.0
+    names = ("PHAS", "AMPL") if word == "SINU" else ("A", "B")
+    while (name := call.keyword(names)) is not None:
+        settings[name] = call.required("FLOTTANT", after=call.keyword_end)
+    call.keyword(("PROG",))
+    x = np.asarray(_read_items(call, _REAL), dtype=float)
+    if word == "SINU":
+        angle = np.radians(360.0 * frequency * x + settings["PHAS"])
+        return ListReel(settings["AMPL"] * np.sin(angle))
+    line = settings["A"] * x + settings["B"]
+    if word == "LOGA" and np.any(line <= 0):
+        raise call.bad("a logarithm needs positive values", hint=f"smallest is {line.min():g}")
+    if word == "LINE":
+        return ListReel(line)
+    return ListReel(np.exp(line) if word == "EXPO" else np.log(line))
+
+
+@operator(
+    "LECT",
+    family="lists",
+    help=Help(
+        en="List of integers. A PAS S B goes from A to B by steps of S, NPAS N gives N more "
+        "values, N * I repeats.",
+        fr="Liste d'entiers. A PAS S B va de A à B par pas de S, NPAS N donne N valeurs de plus, "
+        "N * I répète.",
+        syntax="LENT1 = LECT I1 I2 ... (PAS S1 I3 | PAS S1 NPAS N1) (N2 * I4) ... ;",
+        examples=("LIST (LECT 1 PAS 2 9 3 * 0) ;",),
+    ),
+    reads_itself=True,
+)
+def lect(call: Call) -> ListEnti:
+    """Read integers."""
+    items = _read_items(call, ("ENTIER",))
+    if any(isinstance(i, float) and i != math.floor(i) for i in items):
+        raise call.bad("LECT takes integers only", hint="PROG makes lists of reals")
+    return ListEnti(np.asarray(items, dtype=np.int64))
+
+
+@operator(
+    "MOTS",
+    family="lists",
+    help=Help(
+        en="List of words; N * MOT1 repeats.",
+        fr="Liste de mots ; N * MOT1 répète.",
+        syntax="LMOT1 = MOTS (N1 *) MOT1 (MOT2 ...) ;",
+        examples=("LIST (MOTS 'UX' 2 * 'UY') ;",),
+    ),
+    reads_itself=True,
+)
+def mots(call: Call) -> ListMots:
+    """Read words."""
+    words: list[str] = []
+    while True:
+        operand = call.operands[0] if call.operands else None
+        if operand is not None and type(operand.value) is int:
+            count = call.required("ENTIER")
+            if not _star(call):
+                raise call.bad("a number in MOTS is a repetition: N * MOT", count)
+            words += [str(call.required("MOT"))] * count
+            continue
+        found = call.read("MOT")
+        if found is None:
+            return ListMots(words)
+        words.append(str(found.value))
+
+
+@operator(
+    "SUIT",
+    many("fields", "CHPOINT", "LISTCHPO"),
+    family="lists",
+    full_name="SUITE",
+    help=Help(
+        en="List of nodal fields.",
+        fr="Liste de champs par points.",
+        syntax="LCHP1 = SUIT (CHPO1 CHPO2 ...) ;",
+        examples=("OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'T' 1. ; LIST (DIME (SUIT C C)) ;",),
+    ),
+)
+def suit(fields: tuple[Any, ...]) -> ListChpo:
+    """Collect fields."""
+    flat: list[Any] = []
+    for field in fields:
+        flat += field.values if isinstance(field, ListChpo) else [field]
+    return ListChpo(flat)
+
+
+@operator(
+    "ENUM",
+    family="lists",
+    help=Help(
+        en="List of objects of one type.",
+        fr="Liste d'objets d'un même type.",
+        syntax="LOBJ1 = ENUM OBJ1 (OBJ2 ...) ;",
+        examples=("L = ENUM (PROG 1.) (PROG 2. 3.) ; LIST (DIME L) ;",),
+    ),
+    reads_itself=True,
+)
+def enum(call: Call) -> ListObje:
+    """Collect objects."""
+    values: list[Any] = []
+    while (operand := call.read("*")) is not None:
+        value = operand.value
+        values += value.values if isinstance(value, ListObje) else [value]
+        if type_of(values[-1]) != type_of(values[0]):
+            raise call.bad(
+                f"the objects of a list are of one type: {type_of(values[0])} first, "
+                f"{type_of(values[-1])} here",
+                value,
+            )
+    return ListObje(values)

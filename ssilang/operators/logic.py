@@ -1,0 +1,76 @@
+"""ET OU NON on logical values; MULT."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ssilang.language.registry import SCALAR_RULES, Help, arg, operator
+from ssilang.operators.dispatch import union
+
+
+def _both(a: Any, b: Any) -> bool:
+    if type(a) is not bool or type(b) is not bool:
+        raise TypeError("not LOGIQUE")
+    return a and b
+
+
+def _either(a: Any, b: Any) -> bool:
+    if type(a) is not bool or type(b) is not bool:
+        raise TypeError("not LOGIQUE")
+    return a or b
+
+
+SCALAR_RULES["ET"] = _both
+SCALAR_RULES["OU"] = _either
+union(("LOGIQUE", "LOGIQUE"))(_both)
+
+
+@operator(
+    "OU",
+    arg("first", "LOGIQUE"),
+    arg("second", "LOGIQUE"),
+    family="comparisons",
+    help=Help(
+        en="True when one of two logical values is, or both.",
+        fr="Vrai si l'une des deux valeurs logiques l'est, ou les deux.",
+        syntax="LOG3 = LOG1 OU LOG2 ;",
+        examples=("SI (VRAI OU FAUX) ; MESS 'yes' ; FINSI ;",),
+    ),
+)
+def ou(first: bool, second: bool) -> bool:
+    """Disjunction."""
+    return first or second
+
+
+@operator(
+    "NON",
+    arg("value", "LOGIQUE"),
+    family="comparisons",
+    help=Help(
+        en="Negation of a logical value.",
+        fr="Négation d'une valeur logique.",
+        syntax="LOG2 = NON LOG1 ;",
+        examples=("SI (NON FAUX) ; MESS 'yes' ; FINSI ;",),
+    ),
+)
+def non(value: bool) -> bool:
+    """Negation."""
+    return not value
+
+
+@operator(
+    "MULT",
+    arg("first", "ENTIER"),
+    arg("second", "ENTIER"),
+    family="comparisons",
+    full_name="MULTIPLE",
+    help=Help(
+        en="Whether the first integer is a multiple of the second.",
+        fr="Dit si le premier entier est un multiple du second.",
+        syntax="LOG1 = MULT N1 N2 ;",
+        examples=("SI (MULT 12 4) ; MESS 'yes' ; FINSI ;",),
+    ),
+)
+def mult(first: int, second: int) -> bool:
+    """Divisibility."""
+    return first == 0 if second == 0 else first % second == 0
