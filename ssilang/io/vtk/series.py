@@ -45,6 +45,8 @@ class SeriesWriter:
     encoding : Encoding
     resume : bool
         Go on after the last step of the .pvd that is there.
+    listed : bool
+        False: no .pvd is written.
 
     Raises
     ------
@@ -53,10 +55,16 @@ class SeriesWriter:
     """
 
     def __init__(
-        self, base: Path, encoding: Encoding = Encoding.ZIP, *, resume: bool = False
+        self,
+        base: Path,
+        encoding: Encoding = Encoding.ZIP,
+        *,
+        resume: bool = False,
+        listed: bool = True,
     ) -> None:
         self.base = strip_extension(base)
         self.encoding = encoding
+        self.listed = listed
         self.files: list[Path] = []
         self._entries = read_pvd(self.list_path) if resume else []
         self._listed_at = clock.monotonic()
@@ -75,6 +83,19 @@ class SeriesWriter:
     def part_names(self) -> tuple[str, ...]:
         """Names of the parts of the last step."""
         return tuple(e.part for e in self._entries if e.time == self.last_time)
+
+    def accepts(self, time: float, parts: tuple[str, ...]) -> bool:
+        """Whether a step at that time with these parts can follow."""
+        later = self.last_time is None or time > self.last_time
+        return later and (not self._entries or self.part_names == parts)
+
+    def write_single(self, part: Part, time: float = 0.0) -> None:
+        """Write the only file of a series: BASE.vtu, without a step's number."""
+        path = self.base.with_name(self.base.name + ".vtu")
+        write_vtu(path, grid_of(part.mesh, part.point_fields, part.cell_fields), self.encoding)
+        self.files.append(path)
+        self._entries = [Entry(time, "", path.name)]
+        self.close()
 
     def write(
         self,
@@ -96,12 +117,12 @@ class SeriesWriter:
         number = len({e.time for e in self._entries}) + 1
         made = [self._write_part(time, number, name, part) for name, part in parts.items()]
         self._entries += made
-        if clock.monotonic() - self._listed_at > _LIST_EVERY:
+        if self.listed and clock.monotonic() - self._listed_at > _LIST_EVERY:
             self._list()
 
     def close(self) -> None:
         """Write the .pvd."""
-        if self._entries:
+        if self._entries and self.listed:
             self._list()
 
     def __enter__(self) -> SeriesWriter:

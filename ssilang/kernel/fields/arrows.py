@@ -75,7 +75,7 @@ def principal_strokes(
         If the field holds neither.
     """
     names = chosen or _PRINCIPAL
-    shade = {n: c for n, c in zip(names, (*colours, *_USUAL[len(colours) :]), strict=False)}
+    shade = dict(zip(names, (*colours, *_USUAL[len(colours) :]), strict=False))
     parts = []
     for block in field.blocks:
         tensor = _tensor(block)

@@ -1,0 +1,105 @@
+"""Columns written as CSV, and CSV files read into columns."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ssilang.io.errors import InputError
+from ssilang.kernel.mesh.nodes import FloatArray
+
+_TITLE_WIDTH = 12
+_GAP = 3  # blank lines between two groups of columns
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column: title ('' for none) and values, numbers or words."""
+
+    title: str
+    values: Sequence[Any]
+
+
+def csv_lines(
+    columns: Sequence[Column],
+    separator: str = ";",
+    width: int | None = None,
+    digits: int | None = None,
+) -> list[str]:
+    """The lines of a table: titles if there are any, then rows up to the longest column.
+
+    Parameters
+    ----------
+    width : int, optional
+        Columns side by side; further ones follow below, three blank lines apart.
+    digits : int, optional
+        Decimals of real numbers; without it all digits that matter are written.
+    """
+    width = width or len(columns)
+    lines: list[str] = []
+    for start in range(0, len(columns), width):
+        group = columns[start : start + width]
+        if start:
+            lines += [""] * _GAP
+        if any(c.title.strip() for c in group):
+            lines.append(separator.join(c.title.strip()[:_TITLE_WIDTH] for c in group))
+        for row in range(max((len(c.values) for c in group), default=0)):
+            lines.append(separator.join(_cell(c.values, row, digits) for c in group))
+    return lines
+
+
+def _cell(values: Sequence[Any], row: int, digits: int | None) -> str:
+    if row >= len(values):
+        return ""
+    value = values[row]
+    if isinstance(value, str):
+        return value
+    if isinstance(value, int | np.integer):
+        return str(int(value))
+    return repr(float(value)) if digits is None else f"{float(value):.{digits}E}"
+
+
+def read_csv(path: Path, separator: str = ";", first_line: int = 1) -> list[list[float]]:
+    """Numbers of a CSV file, row by row, from line `first_line` (1 is the first).
+
+    Empty cells at the end of a row are left out; an empty line ends nothing.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, or a cell is no number.
+    """
+    try:
+        text = path.read_text(encoding="utf-8", errors="replace")
+    except OSError as error:
+        raise InputError(f"{path} cannot be read: {error.strerror}") from error
+    rows = []
+    for number, line in enumerate(text.splitlines(), start=1):
+        if number < first_line or not line.strip():
+            continue
+        cells = line.split() if separator == " " else line.split(separator)
+        while cells and not cells[-1].strip():
+            cells.pop()
+        rows.append([_number(c, path, number) for c in cells])
+    return rows
+
+
+def _number(cell: str, path: Path, line: int) -> float:
+    text = cell.strip().strip('"')
+    try:
+        return float(text.replace("D", "E").replace("d", "e"))
+    except ValueError:
+        raise InputError(
+            f"{path.name}, line {line}: '{text}' is no number",
+            "begin behind the titles with 'DEBU', or name another separator with 'SEPA'",
+        ) from None
+
+
+def as_columns(rows: Sequence[Sequence[float]]) -> list[FloatArray]:
+    """Columns of rows; a short row ends the columns that it does not reach."""
+    count = max((len(r) for r in rows), default=0)
+    return [np.array([r[i] for r in rows if i < len(r)]) for i in range(count)]
