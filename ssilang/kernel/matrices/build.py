@@ -97,12 +97,3 @@ def repeated_matrix(
         )
     return Matrix(mesh.nodes, tuple(blocks), (), kind)
 
-
-def sum_of(*matrices: Matrix) -> Matrix:
-    """Sum of matrices: their blocks and conditions side by side."""
-    first = matrices[0]
-    blocks = tuple(b for m in matrices for b in m.blocks)
-    relations = tuple(dict.fromkeys(r for m in matrices for r in m.relations))
-    kinds = [m.kind for m in matrices if m.blocks]
-    kind = kinds[0] if kinds else first.kind
-    return Matrix(first.table, blocks, relations, kind)
