@@ -1,0 +1,170 @@
+"""Eigenvalues of `K x = lambda M x` nearest a shift, on the motions that conditions allow.
+
+The spectrum is turned over about the shift: with `A = K - s M`, `A^-1 M x = theta x` and
+`lambda = s + 1/theta`, so that the nearest eigenvalues are the largest theta. A singular mass
+(massless unknowns) only gives theta = 0. Small problems take all eigenvalues (LAPACK), large ones
+the nearest (ARPACK).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.linalg as la
+import scipy.sparse as sp
+
+from ssilang.kernel.errors import KernelError
+from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.modal.reduced import ReducedProblem
+from ssilang.kernel.solvers.backends import SingularFactorError, factorise
+
+DENSE = 400  # unknowns up to which all eigenvalues are computed
+MASSLESS = 1e-13  # theta (relative to the largest) taken for zero
+NUDGE = 1e-8  # shift off an eigenvalue, relative to the largest |lambda|, then to |s|
+
+Solve = Callable[[FloatArray], FloatArray]
+
+
+@dataclass(frozen=True, eq=False)
+class Pairs:
+    """Eigenvalues lambda (k,) and shapes (r, k), mass-orthonormal, by distance from the shift."""
+
+    values: FloatArray
+    shapes: FloatArray
+
+
+def nearest(problem: ReducedProblem, shift: float, count: int) -> Pairs:
+    """The `count` eigenvalues nearest to `shift`, or all there are.
+
+    Raises
+    ------
+    KernelError
+        If no unknown has a mass, or the matrices are not symmetric.
+    """
+    check(problem)
+    moved, solve = shifted_inverse(problem, shift)
+    if problem.size <= DENSE or count >= problem.size // 2:
+        theta, shapes = _all(problem, solve)
+    else:
+        theta, shapes = _some(problem, solve, count)
+    real = np.abs(theta) > MASSLESS * np.abs(theta).max(initial=0.0)
+    values, shapes = moved + 1.0 / theta[real], shapes[:, real]
+    order = np.argsort(np.abs(values - shift), kind="stable")[:count]
+    return Pairs(values[order], shapes[:, order])
+
+
+def check(problem: ReducedProblem) -> None:
+    """Refuse unsymmetric matrices and systems without mass."""
+    if not problem.symmetric:
+        raise KernelError(
+            "the matrices are not symmetric: the modes are complex", "use VIBR 'IRAM'"
+        )
+    if problem.size == 0:
+        raise KernelError("the conditions hold every unknown: there is no mode")
+    if problem.M.nnz == 0 or not np.any(problem.M.data):
+        raise KernelError("no unknown that may move has a mass", "give RHO, or add masses")
+
+
+def largest_value(problem: ReducedProblem) -> float:
+    """Scale of the highest eigenvalue, from the diagonals."""
+    mass = np.abs(problem.M.diagonal())
+    stiffness = np.abs(problem.K.diagonal())
+    heavy = mass > 1e-14 * mass.max(initial=0.0)
+    ratio = stiffness[heavy] / mass[heavy]
+    return float(ratio.max(initial=0.0)) or 1.0
+
+
+def shifted_inverse(problem: ReducedProblem, shift: float) -> tuple[float, Solve]:
+    """A shift near the one wanted at which `K - s M` is regular, and its solver (r,) or (r, k)."""
+    step = NUDGE * largest_value(problem)
+    for moved in (shift, shift - step, shift * (1.0 - 1e-6) - step, shift - 1e3 * step):
+        A = problem.bordered(sp.csr_array(problem.K - moved * problem.M))
+        solve = _regular(A, problem.size)
+        if solve is not None:
+            return moved, solve
+    raise KernelError(
+        "the matrix is singular whatever the frequency: some unknowns have neither stiffness "
+        "nor mass",
+        "hold them with BLOQ, or give the missing parameters",
+    )
+
+
+def _regular(A: sp.csr_array, size: int) -> Solve | None:
+    """Solver of A by its scaled factor, for the first `size` unknowns; None if A is singular."""
+    top = np.asarray(abs(A).max(axis=1).toarray(), dtype=float).ravel()
+    if (top == 0.0).any():
+        return None
+    scale = 1.0 / np.sqrt(top)
+    S = sp.diags_array(scale)
+    try:
+        factor = factorise(sp.csr_array(S @ A @ S), False)
+    except SingularFactorError:
+        return None
+    x = np.random.default_rng(3).standard_normal(A.shape[0])
+    for _ in range(3):
+        x = factor.solve(x / np.linalg.norm(x))
+        if not np.isfinite(x).all():
+            return None
+    if np.linalg.norm(x) > 1e14:
+        return None
+
+    def solve(b: FloatArray) -> FloatArray:
+        full = np.zeros((A.shape[0], *b.shape[1:]))
+        full[:size] = (b.T * scale[:size]).T
+        found: FloatArray = (factor.solve(full)[:size].T * scale[:size]).T
+        return found
+
+    return solve
+
+
+def _all(problem: ReducedProblem, solve: Solve) -> tuple[FloatArray, FloatArray]:
+    """All theta and shapes: `R^T A^-1 R y = theta y` with `M = R R^T`, `x = A^-1 R y`."""
+    weights, vectors = la.eigh(problem.M.toarray())
+    if weights[0] < -1e-10 * abs(weights[-1]):
+        raise KernelError("the mass matrix has negative eigenvalues")
+    heavy = weights > 1e-14 * weights[-1]
+    root = vectors[:, heavy] * np.sqrt(weights[heavy])
+    image = solve(root)
+    flexible = root.T @ image
+    theta, y = la.eigh(0.5 * (flexible + flexible.T))
+    return theta, _normal(problem, image @ y)
+
+
+def _some(problem: ReducedProblem, solve: Solve, count: int) -> tuple[FloatArray, FloatArray]:
+    """The largest |theta| by ARPACK, a few more than wanted so that none is missed."""
+    from scipy.sparse.linalg import ArpackError, LinearOperator, eigsh
+
+    n = problem.size
+    wanted = min(count + 4, n - 1)
+    inverse = LinearOperator((n, n), matvec=solve, dtype=float)
+    start = solve(problem.M @ np.random.default_rng(4).standard_normal(n))
+    try:
+        values, shapes = eigsh(
+            problem.K, wanted, M=problem.M, sigma=0.0, OPinv=inverse, v0=start, which="LM",
+            ncv=min(n, max(2 * wanted + 10, 30)), maxiter=1000,
+        )  # fmt: skip
+    except ArpackError as problem_found:
+        raise KernelError(f"the search for modes does not converge: {problem_found}") from None
+    return 1.0 / values, _normal(problem, shapes)
+
+
+def _normal(problem: ReducedProblem, shapes: FloatArray) -> FloatArray:
+    """Shapes of generalised mass one."""
+    mass = np.einsum("ij,ij->j", shapes, problem.M @ shapes)
+    scaled: FloatArray = shapes / np.sqrt(np.where(mass > 0.0, mass, 1.0))
+    return scaled
+
+
+def between(problem: ReducedProblem, low: float, high: float) -> Pairs:
+    """All eigenvalues in [low, high], increasing."""
+    check(problem)
+    middle, count = 0.5 * (low + high), 12
+    while True:
+        found = nearest(problem, middle, count)
+        inside = (found.values >= low) & (found.values <= high)
+        if not inside.all() or len(found.values) < count or count >= problem.size:
+            order = np.argsort(found.values[inside], kind="stable")
+            return Pairs(found.values[inside][order], found.shapes[:, inside][:, order])
+        count *= 2
