@@ -89,7 +89,9 @@ def _run(options: argparse.Namespace) -> int:
     except SsiError as error:
         sys.stderr.write(render(error, options.lang) + "\n")
         return USAGE
-    result = run_source(source, _run_options(options), sys.stdout, sys.stderr)
+    run_options = _run_options(options)
+    run_options.summary = options.file != "-" or options.out is not None
+    result = run_source(source, run_options, sys.stdout, sys.stderr)
     if options.interactive:
         from ssilang.cli.repl import interact
 

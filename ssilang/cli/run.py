@@ -51,6 +51,7 @@ class RunOptions:
     language: str = "en"
     debug: bool = False
     quiet: bool = False
+    summary: bool = False  # write summary.json into the output folder
     limits: Limits = field(default_factory=Limits)
 
 
@@ -106,6 +107,7 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
         errors = [error]
     except KeyboardInterrupt:
         errors = [SsiError("interrupted", session.evaluator.current_span)]
+    _close_files(session, errors)
     names = session.frame.names() | session.library.standard_names
     message = "\n\n".join(render(e, session.language, names) for e in errors)
     if message:
@@ -113,7 +115,38 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
         if options.debug:
             for e in errors:
                 traceback.print_exception(e, file=err)
-    return RunResult(1 if errors else 0, session, errors=errors, message=message)
+    result = RunResult(1 if errors else 0, session, errors=errors, message=message)
+    if options.summary:
+        _summarise(result, source, err)
+    return result
+
+
+def _close_files(session: Session, errors: list[SsiError]) -> None:
+    """Finish the files of the run, also of one that failed; what cannot be written is an error."""
+    from ssilang.io.errors import OutputError
+    from ssilang.operators.files import run_output
+
+    try:
+        run_output(session).close()
+    except OutputError as problem:
+        errors.append(SsiError("bad-value", None, message=problem.message, hint=problem.hint))
+
+
+def _summarise(result: RunResult, source: Source, err: TextIO) -> None:
+    """Write summary.json; tell a person at a terminal where the files are."""
+    from ssilang.cli.summary import write_summary
+    from ssilang.io.errors import OutputError
+    from ssilang.operators.files import run_output
+
+    output = run_output(result.session)
+    try:
+        write_summary(result.session, source, output, result.errors, result.exit_code)
+    except OutputError as problem:
+        err.write(f"error: {problem.message}\n  = {problem.hint}\n")
+        result.exit_code = 1
+        return
+    if err.isatty() and output.files:
+        err.write(f"{len(output.files)} files in {output.directory}\n")
 
 
 def run_file(path: Path | str, options: RunOptions | None = None) -> RunResult:

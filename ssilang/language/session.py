@@ -24,12 +24,12 @@ class Limits:
 
 @dataclass
 class Check:
-    """A value that a script compared with a reference (shown in the summary)."""
+    """A value that a script reports, compared with a reference or not (shown in the summary)."""
 
     name: str
     value: float
-    expected: float
-    tolerance: float
+    expected: float | None = None
+    tolerance: float | None = None
 
 
 @dataclass

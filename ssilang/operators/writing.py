@@ -8,6 +8,7 @@ from typing import Any
 from ssilang.io.csv_tables import Column, csv_lines
 from ssilang.kernel.curve import Curve
 from ssilang.language.call import Call
+from ssilang.language.session import Check
 from ssilang.language.values import ListEnti, ListMots, ListReel, Table
 from ssilang.operators.dispatch import ByWord
 from ssilang.operators.files import option_name, output_path, run_output
@@ -103,3 +104,21 @@ def _columns(value: Any, name: str) -> list[Column]:
 def _chai(call: Call, word: str) -> None:
     text = read_text(call)
     run_output(call.session).add_lines("SORT", target_path(call), [text])
+
+
+@SORT.on(
+    "BILA",
+    syntax="SORT 'BILA' MOT1 FLOT1 (FLOT2 FLOT3) ;",
+    en="BILA: reports a figure of the run under a name in summary.json, with the value expected "
+    "and the tolerance on their distance if there are any.",
+    fr="BILA : inscrit un résultat du calcul sous un nom dans summary.json, avec s'il y a lieu la "
+    "valeur attendue et la tolérance sur l'écart.",
+    examples=("SORT 'BILA' 'two and two' (2. + 2.) 4. 1.E-12 ;",),
+)
+def _bila(call: Call, word: str) -> None:
+    name = str(call.required("MOT", after=call.keyword_end)).strip()
+    value = float(call.required("FLOTTANT"))
+    expected = call.read("FLOTTANT")
+    tolerance = None if expected is None else float(call.required("FLOTTANT"))
+    reference = None if expected is None else float(expected.value)
+    call.session.checks.append(Check(name, value, reference, tolerance))

@@ -1,0 +1,100 @@
+"""summary.json: what a run did, for machines.
+
+Keys: `deck` (path), `version`, `exit_code`, `seconds`, `statements`, `peak_memory_mb`, `files`
+(list of {`path` relative to the folder of the summary, `bytes`}), `warnings` and `errors` (lists
+of {`code`, `line`, `text`}), `figures` (list of {`name`, `value`, `expected`, `tolerance`, `ok`}:
+what SORT 'BILA' reported, the last three null where nothing was expected), `statistics` (what
+procedures and solvers left in `session.statistics`).
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import time
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from ssilang import __version__
+from ssilang.io.atomic import write_text
+from ssilang.io.run_output import RunOutput
+from ssilang.language.diagnostics import sentence
+from ssilang.language.errors import SsiError
+from ssilang.language.session import Check, Session
+from ssilang.language.source import Source
+
+NAME = "summary.json"
+
+
+def write_summary(
+    session: Session, source: Source, output: RunOutput, errors: list[SsiError], exit_code: int
+) -> Path:
+    """Write the summary of a finished run into its output folder."""
+    path = output.directory / NAME
+    made = {
+        "deck": str(source.path) if source.path is not None else source.name,
+        "version": __version__,
+        "exit_code": exit_code,
+        "seconds": round(time.perf_counter() - session.started, 3),
+        "statements": session.evaluator.statement_count,
+        "peak_memory_mb": _peak_memory(),
+        "files": [_file(p, output.directory) for p in output.files if p.is_file()],
+        "warnings": [_message(w, session.language) for w in session.warnings],
+        "errors": [_message(e, session.language) for e in errors],
+        "figures": [_figure(c) for c in session.checks],
+        "statistics": session.statistics,
+    }
+    write_text(path, json.dumps(plain(made), indent=2, ensure_ascii=False) + "\n")
+    return path
+
+
+def _peak_memory() -> float | None:
+    try:
+        import resource
+    except ImportError:  # not on Windows
+        return None
+    return round(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024, 1)
+
+
+def _file(path: Path, base: Path) -> dict[str, Any]:
+    inside = path.is_relative_to(base)
+    return {
+        "path": (path.relative_to(base) if inside else path).as_posix(),
+        "bytes": path.stat().st_size,
+    }
+
+
+def _message(error: SsiError, language: str) -> dict[str, Any]:
+    line = None
+    if error.span is not None:
+        line = error.span.source.position(error.span.start)[0]
+    return {"code": error.code, "line": line, "text": sentence(error, language, ())[0]}
+
+
+def _figure(check: Check) -> dict[str, Any]:
+    ok = None
+    if check.expected is not None and check.tolerance is not None:
+        ok = abs(check.value - check.expected) <= check.tolerance
+    return {
+        "name": check.name,
+        "value": check.value,
+        "expected": check.expected,
+        "tolerance": check.tolerance,
+        "ok": ok,
+    }
+
+
+def plain(value: Any) -> Any:
+    """The value in types that JSON has: arrays as lists, numbers that are none as null."""
+    if isinstance(value, Mapping):
+        return {str(k): plain(v) for k, v in value.items()}
+    if isinstance(value, list | tuple | set | frozenset):
+        return [plain(v) for v in value]
+    if hasattr(value, "tolist"):
+        return plain(value.tolist())
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    if value is None or isinstance(value, bool | int):
+        return value
+    return str(value)
