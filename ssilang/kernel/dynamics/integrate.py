@@ -17,6 +17,7 @@ from ssilang.kernel.dynamics.initial import (
     initial_energies,
     joint_state,
 )
+from ssilang.kernel.dynamics.motion import snapshot_of
 from ssilang.kernel.dynamics.plan import Run, runs_of
 from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.dynamics.snapshot import Observer, Snapshot
@@ -107,7 +108,7 @@ class Integration:
             wanted |= observer.wanted
         try:
             if wanted[0]:
-                self._hand_over(self._now(0))
+                self._hand_over(snapshot_of(self.problem, self.motion, 0))
             self._march(history, wanted)
         finally:
             for observer in self.observers:
@@ -176,13 +177,6 @@ class Integration:
             np.zeros((rows, *m.w.shape)), np.zeros((rows, *m.t.shape)),
             np.zeros((rows, *m.state.shape)),
         )  # fmt: skip
-
-    def _now(self, step: int) -> Snapshot:
-        m = self.motion
-        parts = (m.u, m.v, m.a, m.reaction, m.w, m.t, m.state)
-        u, v, a, reaction, w, t, state = (x.copy() for x in parts)
-        time_ = float(self.problem.times[step])
-        return Snapshot(self.problem, step, time_, u, v, a, reaction, w, t, state)
 
     def _kept(self, s: Saved, row: int, step: int) -> Snapshot:
         time_ = float(self.problem.times[step])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import scipy.sparse as sp
@@ -11,6 +11,7 @@ from ssilang.kernel.curve import Load
 from ssilang.kernel.dynamics.constraints import Constraints, check_values, constraints_of
 from ssilang.kernel.dynamics.loading import Loading, loading_of
 from ssilang.kernel.dynamics.scheme import Scheme
+from ssilang.kernel.elements.families import stiffness as zone_stiffness
 from ssilang.kernel.errors import FieldError, KernelError
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
@@ -22,6 +23,7 @@ from ssilang.kernel.joints.interface import (
     nonlinear_blocks,
     without_zones,
 )
+from ssilang.kernel.joints.law_table import law_of
 from ssilang.kernel.matrices.assembly import (
     Numbering,
     assemble,
@@ -109,8 +111,9 @@ def make_problem(inputs: Inputs) -> Problem:
         not finite.
     """
     times = _checked_times(inputs.times)
-    zones = () if inputs.model is None else joint_zones(inputs.model)
-    matrices = _matrices(inputs, zones)
+    given_zones = () if inputs.model is None else joint_zones(inputs.model)
+    zones = tuple(z for z in given_zones if not law_of(z.behaviour).linear)
+    matrices = _matrices(inputs, given_zones, zones)
     stiffness = matrices["K"]
     given = tuple(m for m in matrices.values() if m is not None)
     assert stiffness is not None
@@ -146,9 +149,20 @@ def _checked_times(times: FloatArray) -> FloatArray:
     return times
 
 
-def _matrices(inputs: Inputs, zones: tuple[Zone, ...]) -> dict[str, Matrix | None]:
-    """K without the joints of `zones`, M, C, and the joints' unknowns under 'joints'."""
-    stiffness = without_zones(inputs.stiffness, zones)
+def _matrices(
+    inputs: Inputs, joints_given: tuple[Zone, ...], zones: tuple[Zone, ...]
+) -> dict[str, Matrix | None]:
+    """K without the joints of `zones`, M, C, and the joints' unknowns under 'joints'.
+
+    Joints whose law is linear stand in K, from their characteristics.
+    """
+    if joints_given and inputs.characteristics is None:
+        raise KernelError("joints need their parameters", "give CARACTERISTIQUES with MODELE")
+    stiffness = without_zones(inputs.stiffness, joints_given)
+    linear = tuple(z for z in joints_given if z not in zones)
+    if linear and inputs.characteristics is not None:
+        blocks = tuple(zone_stiffness(z, inputs.characteristics) for z in linear)
+        stiffness = replace(stiffness, blocks=(*stiffness.blocks, *blocks), cache={})
     if nonlinear_blocks(stiffness):
         raise KernelError(
             "the stiffness holds joints whose law is not linear (JOINT_SDM), and no law is given "
@@ -156,8 +170,6 @@ def _matrices(inputs: Inputs, zones: tuple[Zone, ...]) -> dict[str, Matrix | Non
             "give MODELE and CARACTERISTIQUES with these joints",
         )
     damping = None if inputs.damping is None else without_zones(inputs.damping, zones)
-    if zones and inputs.characteristics is None:
-        raise KernelError("joints need their parameters", "give CARACTERISTIQUES with MODELE")
     joints = _unknowns_of(zones, stiffness) if zones else None
     return {"K": stiffness, "M": inputs.mass, "C": damping, "joints": joints}
 

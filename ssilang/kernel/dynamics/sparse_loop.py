@@ -41,8 +41,11 @@ class StepOutcome:
 class StepSolver(Protocol):
     """Solves `A du + c J^T (f_1 - f_0) = r`, `C du = dd`; updates the joints of the motion."""
 
-    def solve(self, motion: Motion, r: FloatArray, dd: FloatArray) -> StepOutcome:
-        """The step's increment; `motion.delta, f, w, t, state` become those of its end."""
+    def solve(self, motion: Motion, r: FloatArray, dd: FloatArray, d: FloatArray) -> StepOutcome:
+        """The step's increment; `motion.delta, f, w, t, state` become those of its end.
+
+        `d` (n_rows,) are the imposed values at the end of the step.
+        """
         ...
 
 
@@ -60,7 +63,7 @@ class CondensedSolver:
             self._D = np.zeros((n, d, d))
             self._f, self._h = np.zeros(joints.size), np.zeros(joints.size)
 
-    def solve(self, motion: Motion, r: FloatArray, dd: FloatArray) -> StepOutcome:
+    def solve(self, motion: Motion, r: FloatArray, dd: FloatArray, d: FloatArray) -> StepOutcome:
         """One solve, Newton on the interface, one product."""
         du = self.effective.solve(r)
         if dd.any():
@@ -132,7 +135,7 @@ class SparseLoop:
         for k in range(len(save)):
             r = self._right_side(loads[k], loads[k + 1], dt)
             dd = imposed[k + 1] - p.constraints.C @ self.motion.u
-            outcome = solver.solve(self.motion, r, dd)
+            outcome = solver.solve(self.motion, r, dd, imposed[k + 1])
             if outcome.turns <= 0:
                 return k, outcome.turns, outcome.residual
             worst = max(worst, outcome.turns)

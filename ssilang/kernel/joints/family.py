@@ -11,6 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from ssilang.kernel.elements.catalog import support_rule
+from ssilang.kernel.elements.families import register_family
 from ssilang.kernel.elements.family import (
     ElementFamily,
     Layout,
@@ -153,3 +154,6 @@ def _with_rotations(joints: JointCells, matrix: FloatArray, cells: slice) -> Flo
         full[:, :d, :, start : start + d] = matrix[..., node * d : (node + 1) * d]
         full[:, d:, 0, start + d : start + d + r] = sign * axes
     return full
+
+
+register_family("joint", JointFamily())

@@ -1,0 +1,133 @@
+"""Load steps of a static problem with joints: Newton's method on the condensed interface."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+
+import numpy as np
+
+from ssilang.kernel.dynamics.compiled_loop import ELASTIC, EXTERNAL, LOST, N_ENERGIES, STORED
+from ssilang.kernel.dynamics.effective import effective_of
+from ssilang.kernel.dynamics.initial import initial_energies, joint_state
+from ssilang.kernel.dynamics.integrate import History, Progress
+from ssilang.kernel.dynamics.motion import Motion, snapshot_of
+from ssilang.kernel.dynamics.problem import Problem
+from ssilang.kernel.dynamics.snapshot import Observer
+from ssilang.kernel.dynamics.sparse_loop import StepOutcome, StepSolver
+from ssilang.kernel.dynamics.step_solvers import step_solver
+from ssilang.kernel.errors import ConvergenceError
+from ssilang.kernel.joints.response import interface_energies
+from ssilang.kernel.mesh.nodes import FloatArray
+
+
+def step_statics(
+    problem: Problem, observers: Sequence[Observer] = (), progress: Progress | None = None
+) -> History:
+    """Equilibrium at each time of a problem, from its initial state on.
+
+    The initial state is taken as it is; what is out of balance in it goes into the first step.
+
+    Raises
+    ------
+    ConvergenceError
+        If no equilibrium is found: says at which time, and whether the joints are all open.
+    SingularMatrixError
+        If bodies are free even with all joints closed.
+    """
+    started, times = time.perf_counter(), problem.times
+    motion = _initial_motion(problem)
+    history = History(times, np.zeros((len(times), N_ENERGIES)))
+    history.energies[0] = motion.energies
+    try:
+        effective = effective_of(problem, problem.K, 0.0, 1.0)
+        history.solver, history.loop = effective.inverse.factor.name, "static"
+        solver = step_solver(problem, effective)
+        factors = problem.loading.at(times)
+        _hand_over(observers, problem, motion, 0)
+        for k in range(1, len(times)):
+            outcome = _step(problem, solver, motion, factors[k - 1 : k + 1])
+            if outcome.turns <= 0:
+                raise _lost(problem, motion, k, outcome)
+            history.iterations = max(history.iterations, outcome.turns)
+            history.energies[k] = motion.energies
+            _hand_over(observers, problem, motion, k)
+            if progress is not None:
+                progress(k, len(times) - 1)
+    finally:
+        for observer in observers:
+            observer.close()
+    history.seconds = time.perf_counter() - started
+    return history
+
+
+def _initial_motion(problem: Problem) -> Motion:
+    n = problem.numbering.size
+    joints = joint_state(problem)
+    zero = np.zeros(n)
+    energies = initial_energies(problem, zero, joints)
+    motion = Motion(
+        problem.u.copy(), zero.copy(), zero.copy(), joints.delta, joints.f, joints.w, joints.t,
+        joints.state, zero.copy(), energies,
+    )  # fmt: skip
+    motion.reaction[:] = _imbalance(problem, motion, problem.loading.at(problem.times[:1])[0])
+    return motion
+
+
+def _imbalance(problem: Problem, motion: Motion, factors: FloatArray) -> FloatArray:
+    rest = problem.K @ motion.u - problem.loading.forces @ factors
+    if problem.interface is not None:
+        rest = rest + problem.interface.J.T @ motion.f
+    found: FloatArray = rest
+    return found
+
+
+def _step(problem: Problem, solver: StepSolver, motion: Motion, factors: FloatArray) -> StepOutcome:
+    """Equilibrium for the second of two rows of load factors."""
+    r = -_imbalance(problem, motion, factors[1])
+    d = problem.loading.imposed @ factors[1]
+    dd = d - problem.constraints.C @ motion.u
+    outcome = solver.solve(motion, r, dd, d)
+    if outcome.turns <= 0 or not np.isfinite(outcome.du).all():
+        return outcome if outcome.turns <= 0 else StepOutcome(outcome.du, -1, np.inf)
+    old = motion.reaction.copy()
+    motion.u[:] += outcome.du
+    motion.reaction[:] = _imbalance(problem, motion, factors[1])
+    mean = 0.5 * (factors[0] + factors[1])
+    motion.energies[EXTERNAL] += outcome.du @ (problem.loading.forces @ mean)
+    if dd.any():
+        supports = problem.constraints.multipliers(0.5 * (old + motion.reaction))
+        motion.energies[EXTERNAL] += dd @ supports
+    motion.energies[ELASTIC] = 0.5 * motion.u @ (problem.K @ motion.u)
+    joints = problem.interface
+    if joints is not None:
+        motion.energies[STORED], motion.energies[LOST] = interface_energies(
+            joints.codes, joints.parameters, joints.weights, motion.w, motion.t, motion.state
+        )
+    return outcome
+
+
+def _hand_over(observers: Sequence[Observer], problem: Problem, motion: Motion, step: int) -> None:
+    wanting = [o for o in observers if o.wanted[step]]
+    if wanting:
+        snapshot = snapshot_of(problem, motion, step)
+        for observer in wanting:
+            observer.receive(snapshot)
+
+
+def _lost(problem: Problem, motion: Motion, step: int, outcome: StepOutcome) -> ConvergenceError:
+    at = f"load step {step}, time {problem.times[step]:g}"
+    joints = problem.interface
+    if joints is not None and (outcome.turns == 0 or not (motion.t[:, -1] < 0).any()):
+        node = int(joints.joints[0].zone.cells.nodes.resolve(joints.joints[0].upper).ravel()[0])
+        open_points = int((motion.w[:, -1] > 0).sum())
+        return ConvergenceError(
+            f"{at}: no equilibrium, full uplift: {open_points} of {joints.n_points} joint points "
+            f"are open and nothing else holds the body at node {node + 1}",
+            "less eccentric loads, a support, or a dynamic calculation",
+        )
+    return ConvergenceError(
+        f"{at}: no equilibrium found (residual {outcome.residual:.1e} of the jump after "
+        f"{-outcome.turns} iterations)",
+        "smaller load steps",
+    )
