@@ -6,6 +6,7 @@ import difflib
 from collections.abc import Iterable
 from typing import Any
 
+from ssilang.language.cast3m import IN_SCOPE, SUBJECTS, find_cast3m_word
 from ssilang.language.catalogue import MESSAGES
 from ssilang.language.errors import SsiError
 from ssilang.language.registry import ANY, OPERATORS, find_operator
@@ -129,6 +130,9 @@ def _near_hint(data: dict[str, object], language: str, names: Iterable[str]) -> 
     if "name" not in data:
         return ""
     word = str(data["name"])
+    elsewhere = _elsewhere(word, language)
+    if elsewhere:
+        return elsewhere
     full = {o.full_name for o in OPERATORS.values()}
     near = nearest(word, {*OPERATORS, *full, *names})
     if near:
@@ -136,6 +140,24 @@ def _near_hint(data: dict[str, object], language: str, names: Iterable[str]) -> 
     return {
         "en": "operators are recognised by their first four letters; ssilang help lists them",
         "fr": "un opérateur se reconnaît à ses quatre premières lettres ; voir ssilang help",
+    }[language]
+
+
+def _elsewhere(word: str, language: str) -> str:
+    """What to say of a word of Cast3M that is not built here, '' if it is none."""
+    found = find_cast3m_word(word)
+    if found is None or find_operator(found.name) is not None:
+        return ""
+    english, french = SUBJECTS[found.subject]
+    kind = {"operator": "opérateur", "procedure": "procédure"}[found.kind]
+    if found.subject == IN_SCOPE:
+        return {
+            "en": f"{found.name} is a Cast3M {found.kind} that ssilang does not have",
+            "fr": f"{found.name} est un mot de Cast3M ({kind}) que ssilang n'a pas",
+        }[language]
+    return {
+        "en": f"{found.name} is a Cast3M {found.kind} ({english}), out of ssilang's scope",
+        "fr": f"{found.name} est un mot de Cast3M ({kind}, {french}), hors du champ de ssilang",
     }[language]
 
 

@@ -1,0 +1,61 @@
+"""The words of Cast3M and their subjects, to say of a word that is not built what it is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+_FILE = Path(__file__).with_name("cast3m_words.txt")
+
+SUBJECTS: dict[str, tuple[str, str]] = {
+    "mechanics": ("mechanics and data", "mécanique et données"),
+    "fluids": ("fluids", "fluides"),
+    "heat": ("heat", "thermique"),
+    "porous": ("flow in porous media", "écoulements en milieu poreux"),
+    "chemistry": ("chemistry", "chimie"),
+    "electromagnetism": ("electromagnetism", "électromagnétisme"),
+    "fracture": ("fracture", "rupture"),
+    "concrete": ("concrete, fatigue, prestress", "béton, fatigue, précontrainte"),
+    "optimisation": ("optimisation and statistics", "optimisation et statistiques"),
+    "system": ("the machine and its windows", "la machine et ses fenêtres"),
+    "internal": ("inner workings of Cast3M", "rouages internes de Cast3M"),
+    "old": ("words that Cast3M gave up", "mots abandonnés par Cast3M"),
+    "elsewhere": ("other subjects", "autres sujets"),
+}
+"""Subject: its name in English and in French. All but 'mechanics' are out of scope."""
+
+IN_SCOPE = "mechanics"
+
+
+@dataclass(frozen=True, slots=True)
+class Cast3mWord:
+    """A word of Cast3M: `kind` is 'operator' or 'procedure', `subject` a key of SUBJECTS."""
+
+    name: str
+    kind: str
+    subject: str
+
+
+@cache
+def cast3m_words() -> dict[str, Cast3mWord]:
+    """All words by name."""
+    words: dict[str, Cast3mWord] = {}
+    kind = subject = ""
+    for line in _FILE.read_text(encoding="utf-8").split("\n"):
+        if line.startswith("["):
+            kind, subject = line.strip("[]").split()
+        elif line and not line.startswith("#"):
+            words.update({n: Cast3mWord(n, kind, subject) for n in line.split()})
+    return words
+
+
+def find_cast3m_word(name: str) -> Cast3mWord | None:
+    """The word that a name stands for: a procedure in full, an operator by four letters."""
+    words = cast3m_words()
+    found = words.get(name.upper())
+    if found is None or found.kind == "operator":
+        found = words.get(name.upper()[:4]) or found
+    return (
+        found if found is None or found.kind == "operator" or found.name == name.upper() else None
+    )
