@@ -53,9 +53,8 @@ def cast3m_words() -> dict[str, Cast3mWord]:
 def find_cast3m_word(name: str) -> Cast3mWord | None:
     """The word that a name stands for: a procedure in full, an operator by four letters."""
     words = cast3m_words()
-    found = words.get(name.upper())
-    if found is None or found.kind == "operator":
-        found = words.get(name.upper()[:4]) or found
-    return (
-        found if found is None or found.kind == "operator" or found.name == name.upper() else None
-    )
+    exact = words.get(name.upper())
+    if exact is not None:
+        return exact
+    short = words.get(name.upper()[:4])
+    return short if short is not None and short.kind == "operator" else None
