@@ -65,7 +65,7 @@ def zdyn(call: Call) -> Table:
     entries.warn_unknown(KNOWN)
     times, saved = _times(entries)
     problem = make_problem(_inputs(entries, times))
-    _warn_resolution(entries, problem)
+    warn_resolution(entries, problem)
     results = TableObserver(saved, _nodes(entries.get("MAILLAGE_SAUVE", "MAILLAGE", "POINT")))
     vtk, csv = _vtk(entries, times), _csv(entries, times)
     line = ProgressLine("DYNAMIC")
@@ -134,11 +134,12 @@ def _inputs(entries: Entries, times: FloatArray) -> Inputs:
         entries.get("VITE", "CHPOINT"),
         entries.get("MODELE", "MMODEL"),
         entries.get("CARACTERISTIQUES", "MCHAML"),
-        _scheme(entries),
+        scheme_of(entries),
     )
 
 
-def _scheme(entries: Entries) -> Scheme:
+def scheme_of(entries: Entries) -> Scheme:
+    """Time scheme by ALPHA_F, RHO_INF, or BETA and GAMMA; average acceleration by default."""
     given = [name for name in ("ALPHA_F", "RHO_INF", "BETA", "GAMMA") if entries.has(name)]
     if len(given) > 1 and given != ["BETA", "GAMMA"]:
         raise entries.bad(f"'{given[0]}' and '{given[1]}' choose two schemes", "give one")
@@ -241,7 +242,8 @@ def report(entries: Entries, problem: Problem, history: History) -> None:
     entries.call.session.statistics.setdefault("calculations", []).append(line)
 
 
-def _warn_resolution(entries: Entries, problem: Problem) -> None:
+def warn_resolution(entries: Entries, problem: Problem) -> None:
+    """Warn when the step does not resolve contact, saying the step to use."""
     from ssilang.kernel.dynamics.resolution import contact_resolution
 
     found = contact_resolution(problem)

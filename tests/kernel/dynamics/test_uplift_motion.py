@@ -10,8 +10,10 @@ from ssilang.kernel.dynamics.integrate import integrate
 from ssilang.kernel.dynamics.problem import Inputs, make_problem
 from ssilang.kernel.dynamics.scheme import Scheme, generalised_alpha, hht
 
+AVERAGE = Scheme()
 
-def club_b(dt: float, duration: float = 1.0, scheme: Scheme = Scheme()):
+
+def club_b(dt: float, duration: float = 1.0, scheme: Scheme = AVERAGE):
     bench = Bench()
     soil, top = bench.node(-1.0, 0.0), bench.node(0.0, 0.0)
     bench.spring(STRUCTURE_STIFFNESS, top, unknown="UX")
@@ -38,7 +40,7 @@ def run(problem, **options):
     return recorder, history
 
 
-def club_b_error(dt: float, scheme: Scheme = Scheme()) -> float:
+def club_b_error(dt: float, scheme: Scheme = AVERAGE) -> float:
     problem, i = club_b(dt, scheme=scheme)
     recorder, _ = run(problem)
     exact, _ = ClubB().motion(problem.times)
@@ -49,7 +51,7 @@ def test_bilinear_oscillator_is_of_second_order():
     errors = np.array([club_b_error(dt) for dt in (1e-3, 5e-4, 2.5e-4)])
     assert errors[2] < 2e-3
     orders = np.log2(errors[:-1] / errors[1:])
-    assert (orders > 1.9).all() and (orders < 2.1).all()
+    assert (np.abs(orders - 2.0) < 0.1).all()
 
 
 def test_bilinear_oscillator_keeps_its_energy():
@@ -63,7 +65,7 @@ def test_loops_agree(scheme, monkeypatch):
     problem, _ = club_b(1e-3, 0.4, scheme)
     compiled, history = run(problem)
     newton, other = run(problem, full_newton=True)
-    assert history.loop == "compiled" and other.loop == "full Newton"
+    assert (history.loop, other.loop) == ("compiled", "full Newton")
     monkeypatch.setattr("ssilang.kernel.dynamics.problem.SMALL", 0)
     problem, _ = club_b(1e-3, 0.4, scheme)
     sparse, third = run(problem)
@@ -81,8 +83,8 @@ def test_damped_schemes_are_of_second_order(scheme):
     assert 1.7 < np.log2(errors[0] / errors[1]) < 2.3
 
 
-@pytest.mark.parametrize("scheme", [hht(0.05), generalised_alpha(0.5)])
+@pytest.mark.parametrize("scheme", [hht(0.3), generalised_alpha(0.0)])
 def test_damped_schemes_lose_energy(scheme):
     _, history = run(club_b(1e-3, scheme=scheme)[0])
     total = history.energies[:, :4].sum(axis=1)
-    assert total[-1] < 0.999 * total[0]
+    assert total[-1] < 0.9999 * total[0]

@@ -1,0 +1,108 @@
+"""Footings on joints that lift off, by load steps, against closed forms."""
+
+import numpy as np
+import pytest
+from references.assembled import Bench
+from references.footing import Strip
+from references.recorder import Recorder
+
+from ssilang.kernel.curve import Curve, CurvePart, Load, LoadPart
+from ssilang.kernel.dynamics.problem import Inputs, make_problem
+from ssilang.kernel.errors import ConvergenceError
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.statics.stepping import step_statics
+
+STRIP = Strip(4.0, 1.0, 2e7, 6e5)
+
+
+def strip_problem(times, rotation, cells=16, degree=1, rule="GAUSS"):
+    """Rigid line on joints: UY of its nodes follows its two ends; theta = (uR - uL)/B."""
+    bench = Bench()
+    n = cells * degree + 1
+    x = np.linspace(-2.0, 2.0, n)
+    top = [bench.node(s, 0.0) for s in x]
+    soil = [bench.node(s, 0.0) for s in x]
+    for node in soil:
+        bench.fix(node)
+    bench.fix(top[0], "UX")
+    for i in range(1, n):
+        bench.relate([(1.0, "UX", top[i]), (-1.0, "UX", top[0])])
+    for i in range(1, n - 1):
+        c = (x[i] + 2.0) / 4.0
+        bench.relate([(1.0, "UY", top[i]), (c - 1, "UY", top[0]), (-c, "UY", top[-1])])
+    turn = bench.relate([(0.25, "UY", top[-1]), (-0.25, "UY", top[0])])
+    starts = range(0, n - 1, degree)
+    cellsn = [[*top[i : i + degree + 1], *soil[i : i + degree + 1]] for i in starts]
+    kind = ("RAC2", "JOI2") if degree == 1 else ("RAC3", "JOI3")
+    zone = bench.joint(kind[0], cellsn, kind[1], KN=STRIP.k0, KS=STRIP.k0)
+    zone.options["INTEGRATION"] = rule
+    half = len(top) // 2
+    weight = LoadPart("MECA", bench.field((top[half], "FY", -STRIP.normal)))
+    imposed = NodeField.of(bench.table, np.array([turn]), {"FLX": np.array([1.0])})
+    curve = Curve((CurvePart(np.asarray(times, float), np.asarray(rotation, float)),))
+    inputs = Inputs(
+        bench.stiffness,
+        np.asarray(times, float),
+        load=Load((weight, LoadPart("DIMP", imposed, curve))),
+        model=bench.model,
+        characteristics=bench.characteristics,
+    )
+    return make_problem(inputs), soil, x
+
+
+def moments(problem, soil, x):
+    recorder = Recorder(len(problem.times))
+    history = step_statics(problem, [recorder])
+    forces = np.array([s.reactions.values_at("FY", np.array(soil)) for s in recorder.snapshots])
+    order = np.argsort(soil)
+    assert (np.diff(order) == 1).all()
+    return -forces @ x, forces.sum(axis=1), history
+
+
+@pytest.mark.parametrize(("degree", "within"), [(1, 3e-3), (2, 3e-3)])
+def test_strip_moment_follows_the_closed_form(degree, within):
+    ratios = np.array([0.0, 1e-9, 0.5, 1.5, 2.0, 5.0, 10.0])
+    theta = ratios * STRIP.uplift_rotation
+    problem, soil, x = strip_problem(np.arange(7.0), theta, degree=degree)
+    found, vertical, _ = moments(problem, soil, x)
+    exact = STRIP.moment(theta)
+    np.testing.assert_allclose(vertical[1:], STRIP.normal, rtol=1e-9)
+    np.testing.assert_allclose(found[2:], exact[2:], rtol=within)
+
+
+def test_path_of_load_steps_does_not_matter():
+    last = 5 * STRIP.uplift_rotation
+    one, soil, x = strip_problem([0.0, 1.0], [0.0, last])
+    many, _, _ = strip_problem(np.arange(12.0), np.linspace(0.0, last, 12))
+    np.testing.assert_allclose(
+        moments(one, soil, x)[0][-1], moments(many, soil, x)[0][-1], rtol=1e-9
+    )
+
+
+def test_external_work_is_stored():
+    theta = np.linspace(0, 5 * STRIP.uplift_rotation, 400)
+    problem, soil, x = strip_problem(np.arange(400.0), theta)
+    _, _, history = moments(problem, soil, x)
+    # weight is there from the start, its first step works as a jump; compare from step 1 on
+    drift = history.imbalance[1:] - history.imbalance[1]
+    assert np.abs(drift).max() < 1e-3 * STRIP.energy(theta[-1])
+
+
+def test_full_uplift_is_named():
+    bench = Bench()
+    soil, body = bench.node(0.0, -1.0), bench.node(0.0, 0.0)
+    bench.fix(soil)
+    bench.fix(body, "UX")
+    bench.joint("SEG2", [soil, body], "JOI1", KN=1e6, KS=0.0)
+    load = bench.load(bench.field((body, "FY", 1.0)), [0.0, 1.0, 2.0], [-1.0, -1.0, 1.0])
+    inputs = Inputs(
+        bench.stiffness,
+        np.arange(3.0),
+        load=load,
+        model=bench.model,
+        characteristics=bench.characteristics,
+    )
+    with pytest.raises(ConvergenceError) as error:
+        step_statics(make_problem(inputs))
+    assert "full uplift" in error.value.message
+    assert "time 2" in error.value.message
