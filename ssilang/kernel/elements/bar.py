@@ -14,8 +14,10 @@ from ssilang.kernel.elements.family import (
 )
 from ssilang.kernel.elements.geometry import line_geometry
 from ssilang.kernel.elements.kinematics import NODE_TRANSLATIONS
+from ssilang.kernel.elements.reference import shape_gradients
 from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.fields.cell_field import Support
+from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.model import Zone
 
@@ -80,3 +82,17 @@ def spread(scalar: FloatArray, n_unknowns: int) -> FloatArray:
     for i in range(n_unknowns):
         values[:, i::n_unknowns, i::n_unknowns] = scalar
     return values
+
+
+def bar_stretch(zone: Zone, displacement: NodeField) -> FloatArray:
+    """Length of the derivative of the displacement along the line, (n_cells, n_points)."""
+    rule = support_rule(zone.element, "STRESSES")
+    reference = shape_gradients(zone.cells.cell_type, rule.points)[:, :, 0]
+    d = zone.mode.dimension
+    x = zone.cells.coordinates[..., :d]
+    speed = np.linalg.norm(np.einsum("pk,ckd->cpd", reference, x), axis=-1)
+    layout = node_major_layout(zone, NODE_TRANSLATIONS[zone.mode])
+    u = layout.gather(displacement).reshape(len(zone.cells), -1, d)
+    slopes = np.einsum("pk,ckd->cpd", reference, u) / speed[..., None]
+    found: FloatArray = np.linalg.norm(slopes, axis=-1)
+    return found
