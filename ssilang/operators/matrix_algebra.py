@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
@@ -94,13 +95,13 @@ def _names_of(call: Call, matrix: Matrix) -> ListMots:
     return ListMots(parts.unknown_names(matrix, call.keyword(("DUAL",)) is not None))
 
 
-_EXTRACTED = {
+_EXTRACTED: dict[str, Callable[[Call, Matrix], Any]] = {
     "MAIL": _mesh_of,
     "RIGI": _rigi_of,
     "COMP": _names_of,
-    "DIAG": lambda call, matrix: parts.diagonal(matrix),
-    "SYME": lambda call, matrix: parts.symmetric_part(matrix, 1.0),
-    "ANTI": lambda call, matrix: parts.symmetric_part(matrix, -1.0),
+    "DIAG": lambda _, matrix: parts.diagonal(matrix),
+    "SYME": lambda _, matrix: parts.symmetric_part(matrix, 1.0),
+    "ANTI": lambda _, matrix: parts.symmetric_part(matrix, -1.0),
 }
 
 

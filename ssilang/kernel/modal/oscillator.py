@@ -1,0 +1,164 @@
+"""Damped oscillators under a signal, exactly for a signal linear between its points; spectra.
+
+`x'' + 2 xi w x' + w^2 x = g(t)`, w = 2 pi f (Nigam & Jennings, BSSA 59, 1969: the step is the
+exact solution, so the time step only limits where maxima are looked at).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from ssilang.kernel.errors import KernelError
+from ssilang.kernel.mesh.nodes import FloatArray
+
+CRITICAL = 1e-9  # a damping this near to 1 is moved off it (the step would divide by zero)
+
+
+class Oscillators:
+    """Oscillators of several frequencies and one damping, marched together.
+
+    Parameters
+    ----------
+    frequencies : array (n,)
+        In Hz, positive.
+    damping : float
+        Fraction of critical.
+    """
+
+    def __init__(self, frequencies: FloatArray, damping: float) -> None:
+        if (frequencies <= 0.0).any():
+            raise KernelError("the frequency of an oscillator must be positive")
+        if damping < 0.0:
+            raise KernelError(f"the damping of an oscillator cannot be negative ({damping:g})")
+        self.w = 2.0 * np.pi * frequencies
+        self.xi = damping if abs(damping - 1.0) > CRITICAL else 1.0 - CRITICAL
+        self.turning = self.w * np.sqrt(complex(1.0 - self.xi**2))
+        self._step: tuple[float, FloatArray, FloatArray] | None = None
+
+    def _free(self, h: float) -> tuple[FloatArray, FloatArray]:
+        """`exp(-xi w h)` times cos and sin / wd, each (n,)."""
+        if self._step is None or abs(self._step[0] - h) > 1e-12 * h:
+            decay = np.exp(-self.xi * self.w * h)
+            cos = decay * np.cos(self.turning * h)
+            sin = decay * np.sin(self.turning * h) / self.turning
+            self._step = (h, cos.real, sin.real)
+        return self._step[1], self._step[2]
+
+    def advance(
+        self, x: FloatArray, v: FloatArray, h: float, start: float, end: float
+    ) -> tuple[FloatArray, FloatArray]:
+        """Displacement and velocity after a step h in which g goes linearly from start to end."""
+        w2 = self.w**2
+        slope = (end - start) / h / w2
+        level = start / w2 - 2.0 * self.xi / self.w * slope
+        cos, sin = self._free(h)
+        a = x - level
+        b = v - slope + self.xi * self.w * a
+        free = a * cos + b * sin
+        rate = b * cos - self.turning_square * a * sin - self.xi * self.w * free
+        return level + slope * h + free, slope + rate
+
+    @property
+    def turning_square(self) -> FloatArray:
+        """Square of the damped circular frequency, negative beyond critical damping."""
+        square: FloatArray = self.w**2 * (1.0 - self.xi**2)
+        return square
+
+    def march(
+        self, times: FloatArray, signal: FloatArray, x0: float = 0.0, v0: float = 0.0
+    ) -> Iterator[tuple[FloatArray, FloatArray]]:
+        """Displacement and velocity (n,) at each time."""
+        x, v = np.full(len(self.w), x0), np.full(len(self.w), v0)
+        yield x, v
+        for i in range(len(times) - 1):
+            h = float(times[i + 1] - times[i])
+            x, v = self.advance(x, v, h, float(signal[i]), float(signal[i + 1]))
+            yield x, v
+
+
+def sampled(
+    times: FloatArray, signal: FloatArray, wanted: FloatArray | None = None
+) -> tuple[FloatArray, FloatArray]:
+    """The signal at its own times and the wanted ones (zero outside), increasing.
+
+    Raises
+    ------
+    KernelError
+        If the times do not increase or there are less than two.
+    """
+    if len(times) < 2 or (np.diff(times) <= 0.0).any():
+        raise KernelError("the signal's times must increase")
+    if wanted is None:
+        return times, signal
+    every = np.union1d(times, wanted)
+    every = every[every >= times[0]]
+    return every, np.interp(every, times, signal, right=0.0)
+
+
+def response(
+    times: FloatArray,
+    signal: FloatArray,
+    frequency: float,
+    damping: float,
+    wanted: FloatArray | None = None,
+    x0: float = 0.0,
+    v0: float = 0.0,
+) -> tuple[FloatArray, FloatArray]:
+    """Times and displacements of one oscillator under a signal (OSCI)."""
+    every, values = sampled(times, signal, wanted)
+    oscillator = Oscillators(np.array([frequency]), damping)
+    x = np.array([float(x[0]) for x, _ in oscillator.march(every, values, x0, v0)])
+    if wanted is None:
+        return every, x
+    return wanted, np.interp(wanted, every, x)
+
+
+def spectrum(
+    times: FloatArray, signal: FloatArray, frequencies: FloatArray, damping: float, kind: str,
+    wanted: FloatArray | None = None,
+) -> FloatArray:  # fmt: skip
+    """Largest response (n,) of oscillators whose base follows the acceleration `signal` (SPO).
+
+    Parameters
+    ----------
+    kind : 'DEPL', 'VITE', 'ACCE' or 'ACCA'
+        Relative displacement, pseudo-velocity w x, pseudo-acceleration w^2 x, absolute
+        acceleration.
+    wanted : array, optional
+        Times at which to look (default those of the signal, then half a period of rest).
+    """
+    oscillators = Oscillators(frequencies, damping)
+    if wanted is None:
+        times, signal = _rested(times, signal, float(frequencies.min()))
+    else:
+        times, signal = sampled(times, signal, wanted)
+    w = oscillators.w
+    largest = np.zeros(len(w))
+    for x, v in oscillators.march(times, signal):
+        seen = w**2 * x + 2.0 * damping * w * v if kind == "ACCA" else x
+        np.maximum(largest, np.abs(seen), out=largest)
+    power = {"DEPL": 0, "VITE": 1, "ACCE": 2, "ACCA": 0}[kind]
+    return np.asarray(largest * w**power)
+
+
+def _rested(times: FloatArray, signal: FloatArray, slowest: float) -> tuple[FloatArray, FloatArray]:
+    """The signal followed by zeros for half the longest period."""
+    step = float(np.diff(times).mean())
+    count = min(int(np.ceil(0.5 / slowest / step)) + 1, 200_000)
+    rest = times[-1] + step * np.arange(1, count + 1)
+    return np.concatenate([times, rest]), np.concatenate([signal, np.zeros(count)])
+
+
+def default_frequencies(times: FloatArray, damping: float) -> FloatArray:
+    """From 1/T by steps of 1/T, then of xi f, up to 1/(2 dt) (T duration, dt mean step)."""
+    duration = float(times[-1] - times[0])
+    top = 0.5 / float(np.diff(times).mean())
+    low = 1.0 / duration
+    found = [low]
+    while found[-1] < top:
+        found.append(found[-1] + max(low, damping * found[-1]))
+        if len(found) > 20_000:
+            raise KernelError("the default list of frequencies is too long; give 'FREQ'")
+    return np.array([f for f in found if f <= top * (1.0 + 1e-12)])

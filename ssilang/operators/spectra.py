@@ -1,0 +1,130 @@
+"""OSCI SPO VALP: oscillators under a signal, response spectra, eigenvalues of a tridiagonal."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ssilang.io.plots.palette import index_of
+from ssilang.kernel.curve import Curve, CurvePart
+from ssilang.kernel.modal.oscillator import default_frequencies, response, spectrum
+from ssilang.language.call import Call
+from ssilang.language.registry import Help, arg, choice, key, operator
+from ssilang.language.values import ListReel
+
+
+@operator(
+    "OSCI",
+    key("damping", "AMOR", arg("xi", "FLOTTANT"), optional=False),
+    key("frequency", "FREQ", arg("f", "FLOTTANT"), optional=False),
+    key("times", "TEMPS", arg("t", "LISTREEL")),
+    key("start", "DEPL", arg("x0", "FLOTTANT"), default=0.0),
+    key("speed", "VITE", arg("v0", "FLOTTANT"), default=0.0),
+    key("colour", "COUL", arg("c", "MOT"), default="DEFA"),
+    arg("signal", "EVOLUTIO"),
+    family="modal",
+    help=Help(
+        "Displacement X(t) of an oscillator, X'' + 2 a w X' + w^2 X = g(t), from X and X' at the "
+        "start (0); exact for a signal linear between its points.",
+        "Déplacement X(t) d'un oscillateur, X'' + 2 a w X' + w^2 X = g(t), à partir de X et X' au "
+        "départ (0) ; exact pour un signal linéaire entre ses points.",
+        "EVOL2 = OSCI EVOL1 'AMOR' A1 'FREQ' F1 ('TEMPS' LREEL1) ('DEPL' X0) ('VITE' V0) "
+        "('COUL' MOT1) ;",
+        (
+            "T1 = PROG 0. PAS 0.01 1. ; G1 = EVOL 'MANU' 'TEMP' T1 'ACCE' (0. * T1) ;"
+            " X1 = OSCI G1 'AMOR' 0.05 'FREQ' 2. 'DEPL' 1. ; LIST (EXTR X1 'ORDO') ;",
+        ),
+    ),
+)
+def osci(
+    signal: Curve,
+    damping: float,
+    frequency: float,
+    times: ListReel | None,
+    start: float,
+    speed: float,
+    colour: str,
+) -> Curve:
+    part = signal.parts[0]
+    wanted = None if times is None else times.values
+    t, x = response(
+        part.abscissas, part.ordinates, frequency, damping, wanted, float(start), float(speed)
+    )
+    made = CurvePart(t, x, part.abscissa_name or "TEMP", "DEPL", colour=index_of(colour))
+    return Curve((made,), signal.title)
+
+
+@operator(
+    "SPO",
+    key("dampings", "AMOR", arg("xi", "LISTREEL", "FLOTTANT"), optional=False),
+    key("frequencies", "FREQ", arg("f", "LISTREEL")),
+    key("times", "TEMP", arg("t", "LISTREEL")),
+    key("colour", "COUL", arg("c", "MOT"), default="DEFA"),
+    choice("kind", ("DEPL", "VITE", "ACCE", "ACCA"), optional=False),
+    arg("signal", "EVOLUTIO"),
+    family="modal",
+    help=Help(
+        "Response spectrum of an acceleration: for each damping, the largest relative displacement "
+        "('DEPL'), pseudo-velocity ('VITE'), pseudo-acceleration ('ACCE') or absolute acceleration "
+        "('ACCA') of oscillators against their frequency.",
+        "Spectre d'oscillateurs d'une accélération : pour chaque amortissement, plus grand "
+        "déplacement relatif ('DEPL'), pseudo-vitesse ('VITE'), pseudo-accélération ('ACCE') ou "
+        "accélération absolue ('ACCA') des oscillateurs en fonction de leur fréquence.",
+        "EVOL2 = SPO EVOL1 'AMOR' LREEL1 ('FREQ' LREEL2) ('TEMP' LREEL3) ('COUL' MOT2) "
+        "'DEPL' | 'VITE' | 'ACCE' | 'ACCA' ;",
+        (
+            "T1 = PROG 0. PAS 0.01 2. ; G1 = EVOL 'MANU' 'TEMP' T1 'ACCE' (SIN (720. * T1)) ;"
+            " S1 = SPO G1 'AMOR' (PROG 0.05) 'FREQ' (PROG 1. 2. 4.) 'ACCE' ; LIST S1 ;",
+        ),
+    ),
+)
+def spo(
+    signal: Curve,
+    dampings: ListReel | float,
+    frequencies: ListReel | None,
+    times: ListReel | None,
+    colour: str,
+    kind: str,
+) -> Curve:
+    part = signal.parts[0]
+    values = [dampings] if isinstance(dampings, float) else dampings.values
+    wanted = None if times is None else times.values
+    made = []
+    for xi in values:
+        f = default_frequencies(part.abscissas, xi) if frequencies is None else frequencies.values
+        y = spectrum(part.abscissas, part.ordinates, f, float(xi), kind, wanted)
+        legend = f"{100.0 * xi:g} %"
+        made.append(CurvePart(f, y, "FREQ", kind, legend, index_of(colour)))
+    return Curve(tuple(made), signal.title)
+
+
+def _valp(call: Call) -> ListReel:
+    diagonal = call.required("LISTREEL").values
+    below = call.required("LISTREEL").values
+    while call.keyword(("ITERATION", "ABSOLU", "RELATIF")) is not None:
+        call.required("FLOTTANT", after=call.keyword_end)  # accuracy: always to rounding
+    if len(below) != len(diagonal) - 1:
+        raise call.bad(
+            f"a diagonal of {len(diagonal)} terms has {len(diagonal) - 1} terms below it, "
+            f"not {len(below)}"
+        )
+    matrix = np.diag(diagonal) + np.diag(below, -1) + np.diag(np.ones(len(below)), 1)
+    values = np.linalg.eigvals(matrix)
+    if np.abs(values.imag).max(initial=0.0) > 1e-9 * np.abs(values).max(initial=1.0):
+        raise call.bad("this matrix has complex eigenvalues")
+    return ListReel(np.sort(values.real))
+
+
+operator(
+    "VALP",
+    family="modal",
+    full_name="VALPROPRE",
+    help=Help(
+        "Eigenvalues, increasing, of the tridiagonal matrix of given diagonal and sub-diagonal and "
+        "of ones above the diagonal.",
+        "Valeurs propres, croissantes, de la matrice tridiagonale de diagonale et sous-diagonale "
+        "données, avec des 1 au-dessus de la diagonale.",
+        "LREEL1 = VALP LREEL2 LREEL3 ('ITERATION' N1) ('ABSOLU' | 'RELATIF' X1) ;",
+        ("LIST (VALP (PROG 2. 2.) (PROG 1.)) ;",),
+    ),
+    reads_itself=True,
+)(_valp)
