@@ -14,11 +14,13 @@ from __future__ import annotations
 import numpy as np
 
 from ssilang.kernel.compiled import compiled
+from ssilang.kernel.joints.columns import CLOSED_SHEAR, FROT, FU, HELD, OPEN_SHEAR, SHEAR
 from ssilang.kernel.joints.response import interface_response, interface_stiffness
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 TOLERANCE = 1e-12  # of the largest jump or increment: what double precision leaves
 PLAIN_TURNS = 12  # turns without line search
+HOLDING_TURN = 16  # turn from which shear that jumps with the opening is held
 MOST_TURNS = 60
 ACCEPTED = 1e-9  # residual at which an iteration that only rounding errors move is accepted
 
@@ -95,6 +97,24 @@ def _residual(
 
 
 @compiled
+def _release(state: FloatArray, new: FloatArray) -> None:
+    """End of an iteration: no shear is held any more."""
+    state[:, HELD] = 0.0
+    new[:, HELD] = 0.0
+
+
+@compiled
+def _hold_shear(p: FloatArray, was_closed: FloatArray, state: FloatArray) -> bool:
+    """Hold the shear of points that lose it at once on opening; True if there are any."""
+    found = False
+    for i in range(state.shape[0]):
+        if p[i, FROT] < 0.0 and p[i, SHEAR] != 1.0 and p[i, FU] == 0.0:
+            state[i, HELD] = CLOSED_SHEAR if was_closed[i] else OPEN_SHEAR
+            found = True
+    return found
+
+
+@compiled
 def solve_interface(
     pairs: IntArray,
     B: FloatArray,
@@ -131,17 +151,25 @@ def solve_interface(
     residual : float
         Of the last turn, relative to the jumps.
     """
-    n = y.shape[0]
+    n, normal = y.shape[0], w.shape[1] - 1
     r = np.empty(n)
     K: FloatArray = np.empty((n, n))
     dy: FloatArray = np.empty(n)
+    interface_response(pairs, B, weights, codes, p, delta0, state, w, t, new, D, f)
+    was_closed = (t[:, normal] < 0.0).astype(np.float64)
     delta = delta0 + y
     interface_response(pairs, B, weights, codes, p, delta, state, w, t, new, D, f)
     size = _residual(S, R, c, y, y0, f, f0, h, r)
     scale = max(_largest(y0), _largest(delta0), 1e-300)
     for turn in range(1, MOST_TURNS + 1):
         scale = max(scale, _largest(y))
+        if turn == HOLDING_TURN and _hold_shear(p, was_closed, state):
+            y[:] = y0
+            delta[:] = delta0 + y
+            interface_response(pairs, B, weights, codes, p, delta, state, w, t, new, D, f)
+            size = _residual(S, R, c, y, y0, f, f0, h, r)
         if size <= TOLERANCE * scale:
+            _release(state, new)
             return turn, size / scale
         interface_stiffness(pairs, B, weights, D, K)
         K = c * K - R
@@ -151,6 +179,7 @@ def solve_interface(
             dy[i] = -r[i]
         if n <= 48:
             if not solve_dense(A, dy):
+                _release(state, new)
                 return 0, size / scale
         else:
             dy[:] = np.linalg.solve(A, dy)
@@ -167,5 +196,7 @@ def solve_interface(
                 y[i] -= length * dy[i]
             length *= 0.5
         if length * _largest(dy) <= 1e-14 * scale and size <= ACCEPTED * scale:
+            _release(state, new)
             return turn, size / scale
+    _release(state, new)
     return -MOST_TURNS, size / scale

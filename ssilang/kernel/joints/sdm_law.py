@@ -21,13 +21,16 @@ import math
 
 from ssilang.kernel.compiled import compiled
 from ssilang.kernel.joints.columns import (
+    CLOSED_SHEAR,
     DAMAGE,
     FC,
     FROT,
     FU,
     GF,
+    HELD,
     KN,
     KS1,
+    OPEN_SHEAR,
     SHEAR,
     SHEAR_ENERGY,
     SHEAR_LOSS,
@@ -111,7 +114,7 @@ def sdm_point(
         for i in range(n):
             t[i] = p[KS1 + i] * w[i]
             D[i, i] = p[KS1 + i]
-    elif tn < 0.0:
+    elif (tn < 0.0 and state[HELD] != OPEN_SHEAR) or state[HELD] == CLOSED_SHEAR:
         new[DAMAGE] = 0.0
         _closed_shear(w, p, t, new, D, tn, dtn)
     elif p[FU] > 0.0:
@@ -141,7 +144,8 @@ def _shear_energies(
         stored += 0.5 * t[i] * elastic
         lost += t[i] * (new[SLIP1 + i] - state[SLIP1 + i])
         lost += 0.5 * p[KS1 + i] * elastic**2 * (new[DAMAGE] - state[DAMAGE])
-    if tn >= 0.0 and p[FU] == 0.0 and p[SHEAR] != 1.0:  # opened: the stored shear is given up
+    opened = (tn >= 0.0 and state[HELD] != CLOSED_SHEAR) or state[HELD] == OPEN_SHEAR
+    if opened and p[FU] == 0.0 and p[SHEAR] != 1.0:  # the stored shear is given up
         lost = state[SHEAR_ENERGY]
     new[SHEAR_ENERGY] = stored
     new[SHEAR_LOSS] = state[SHEAR_LOSS] + lost
