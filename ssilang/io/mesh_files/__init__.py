@@ -1,0 +1,1 @@
+"""Meshes and fields in other programs' text formats."""

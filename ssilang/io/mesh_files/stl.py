@@ -1,0 +1,67 @@
+"""Surfaces of triangles in STL files, text and binary."""
+
+from __future__ import annotations
+
+import struct
+from pathlib import Path
+
+import numpy as np
+
+from ssilang.io.errors import InputError, OutputError
+from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.kernel.mesh.nodes import FloatArray
+
+
+def stl_lines(mesh: Mesh, name: str = "surface") -> list[str]:
+    """The lines of a text file of the triangles of a mesh.
+
+    Raises
+    ------
+    OutputError
+        If the mesh holds other cells than TRI3.
+    """
+    others = {b.cell_type for b in mesh.blocks} - {"TRI3"}
+    if others or not mesh.blocks:
+        raise OutputError(f"STL holds TRI3 only, the mesh has {', '.join(others) or 'no cells'}")
+    lines = [f"solid {name}"]
+    for block in mesh.blocks:
+        corners = block.coordinates
+        normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        length = np.linalg.norm(normal, axis=1, keepdims=True)
+        normal = normal / np.where(length > 0, length, 1.0)
+        for n, triangle in zip(normal.tolist(), corners.tolist(), strict=True):
+            lines.append(f"facet normal {n[0]!r} {n[1]!r} {n[2]!r}")
+            lines.append("outer loop")
+            lines += [f"vertex {x!r} {y!r} {z!r}" for x, y, z in triangle]
+            lines += ["endloop", "endfacet"]
+    lines.append(f"endsolid {name}")
+    return lines
+
+
+def read_stl(path: Path) -> FloatArray:
+    """Corners of the triangles, shape (n, 3, 3).
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read.
+    """
+    try:
+        raw = path.read_bytes()
+    except OSError as error:
+        raise InputError(f"{path} cannot be read: {error.strerror}") from error
+    if len(raw) >= 84:
+        (count,) = struct.unpack_from("<I", raw, 80)
+        if len(raw) == 84 + 50 * count:
+            kind = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("rest", "<u2")])
+            return np.frombuffer(raw, kind, count, 84)["corners"].astype(float)
+    rows = [
+        t.split()[1:4] for t in raw.decode("latin-1").splitlines() if t.split()[:1] == ["vertex"]
+    ]
+    try:
+        corners = np.array(rows, dtype=float).reshape(-1, 3, 3)
+    except ValueError as error:
+        raise InputError(f"{path.name} is no readable STL file: {error}") from error
+    if len(corners) == 0:
+        raise InputError(f"{path.name} holds no triangles")
+    return corners

@@ -1,0 +1,141 @@
+"""I-DEAS universal files (.unv): nodes (2411), cells (2412), groups (2467 2470 2477).
+
+Source: SDRC universal file datasets. A dataset stands between two lines that hold -1 alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from ssilang.io.errors import InputError
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+
+# I-DEAS element number -> cell type; orders along the contour, as Cast3M's
+_CELLS: dict[int, str] = {
+    11: "SEG2", 21: "SEG2", 22: "SEG3", 24: "SEG3", 41: "TRI3", 51: "TRI3", 61: "TRI3",
+    74: "TRI3", 81: "TRI3", 91: "TRI3", 42: "TRI6", 52: "TRI6", 62: "TRI6", 72: "TRI6",
+    82: "TRI6", 92: "TRI6", 44: "QUA4", 54: "QUA4", 64: "QUA4", 71: "QUA4", 84: "QUA4",
+    94: "QUA4", 45: "QUA8", 55: "QUA8", 65: "QUA8", 75: "QUA8", 85: "QUA8", 95: "QUA8",
+    111: "TET4", 118: "TE10", 112: "PRI6", 113: "PR15", 115: "CUB8", 116: "CU20",
+}  # fmt: skip
+_BEAMS = frozenset({11, 21, 22, 24})  # these have a line of orientation before their nodes
+
+
+@dataclass
+class UnvMesh:
+    """What a file holds.
+
+    Attributes
+    ----------
+    points : array (n, 3)
+    cells : dict of str to array (m, k)
+        Type to rows of `points`.
+    groups : dict of str to (list of (type, row), list of rows of `points`)
+        Cells and nodes of each group.
+    """
+
+    points: FloatArray
+    cells: dict[str, IntArray]
+    groups: dict[str, tuple[list[tuple[str, int]], list[int]]] = field(default_factory=dict)
+
+
+def read_unv(path: Path) -> UnvMesh:
+    """Read a file.
+
+    Raises
+    ------
+    InputError
+        If it cannot be read or holds no nodes.
+    """
+    try:
+        lines = path.read_text(encoding="latin-1").splitlines()
+    except OSError as error:
+        raise InputError(f"{path} cannot be read: {error.strerror}") from error
+    labels: list[int] = []
+    points: list[list[float]] = []
+    rows: list[tuple[int, str, list[int]]] = []
+    groups: list[tuple[str, list[tuple[int, int]]]] = []
+    try:
+        for number, body in _datasets(lines):
+            if number in (2411, 781):
+                _read_nodes(body, labels, points)
+            elif number in (2412, 780):
+                rows += _read_cells(body)
+            elif number in (2467, 2470, 2477, 2435, 2452):
+                groups += _read_groups(body)
+    except (ValueError, IndexError, KeyError) as error:
+        raise InputError(f"{path.name} is no readable UNV file: {error}") from error
+    if not points:
+        raise InputError(f"{path.name} holds no nodes (dataset 2411)")
+    return _gathered(labels, points, rows, groups)
+
+
+def _datasets(lines: list[str]) -> Iterator[tuple[int, list[str]]]:
+    marks = [i for i, line in enumerate(lines) if line.strip() == "-1"]
+    for start, end in zip(marks[::2], marks[1::2], strict=False):
+        if end > start + 1:
+            yield int(lines[start + 1].split()[0]), lines[start + 2 : end]
+
+
+def _read_nodes(body: list[str], labels: list[int], points: list[list[float]]) -> None:
+    for head, line in zip(body[::2], body[1::2], strict=False):
+        labels.append(int(head.split()[0]))
+        points.append([float(t.replace("D", "E").replace("d", "e")) for t in line.split()[:3]])
+
+
+def _read_cells(body: list[str]) -> list[tuple[int, str, list[int]]]:
+    found = []
+    i = 0
+    while i < len(body):
+        head = [int(t) for t in body[i].split()]
+        label, kind, count = head[0], head[1], head[5]
+        i += 2 if kind in _BEAMS else 1
+        nodes: list[int] = []
+        while len(nodes) < count:
+            nodes += [int(t) for t in body[i].split()]
+            i += 1
+        if kind in _CELLS:
+            found.append((label, _CELLS[kind], nodes))
+    return found
+
+
+def _read_groups(body: list[str]) -> list[tuple[str, list[tuple[int, int]]]]:
+    found = []
+    i = 0
+    while i < len(body):
+        count = int(body[i].split()[7])
+        name = body[i + 1].strip()
+        numbers: list[int] = []
+        i += 2
+        while len(numbers) < 4 * count:
+            numbers += [int(t) for t in body[i].split()]
+            i += 1
+        found.append((name, list(zip(numbers[0::4], numbers[1::4], strict=True))))
+    return found
+
+
+def _gathered(
+    labels: list[int],
+    points: list[list[float]],
+    rows: list[tuple[int, str, list[int]]],
+    groups: list[tuple[str, list[tuple[int, int]]]],
+) -> UnvMesh:
+    row_of = {label: i for i, label in enumerate(labels)}
+    tables: dict[str, list[list[int]]] = {}
+    place: dict[int, tuple[str, int]] = {}
+    for label, kind, nodes in rows:
+        table = tables.setdefault(kind, [])
+        place[label] = kind, len(table)
+        table.append([row_of[n] for n in nodes])
+    made = UnvMesh(
+        np.array(points), {kind: np.array(t, dtype=np.int64) for kind, t in tables.items()}
+    )
+    for name, entities in groups:
+        cells = [place[tag] for kind, tag in entities if kind == 8 and tag in place]
+        nodes = [row_of[tag] for kind, tag in entities if kind == 7 and tag in row_of]
+        made.groups[name] = (cells, nodes)
+    return made
