@@ -240,6 +240,30 @@ INTG = ByType(
     "INTG", "fields", "Integral of a field or a curve.", "Intégrale d'un champ ou d'une évolution."
 )
 
+PSCA = ByType("PSCA", "fields", "Scalar product.", "Produit scalaire.", "PSCAL")
+PVEC = ByType("PVEC", "fields", "Vector product.", "Produit vectoriel.")
+COOR = ByType(
+    "COOR",
+    "mesh",
+    "Coordinates of what an object stands on.",
+    "Coordonnées du support d'un objet.",
+    "COORDONNEE",
+)
+DIFF = ByType(
+    "DIFF",
+    "objects",
+    "What belongs to one of two objects only (symmetric difference).",
+    "Ce qui n'appartient qu'à l'un de deux objets (différence symétrique).",
+    "DIFFERENCE",
+)
+INTE = ByType(
+    "INTE",
+    "objects",
+    "What is common to two objects.",
+    "Ce qui est commun à deux objets.",
+    "INTERSECTION",
+)
+
 ListingEntry = Callable[[Any, str], str]
 LISTINGS: dict[str, ListingEntry] = {}
 """LIST: type -> function (value, 'RESU' or '') giving the text that is printed."""

@@ -52,8 +52,8 @@ def _curved_chart(call: Call, word: str, boundary: FloatArray) -> Chart:
         "some triangles. A nodal field of one component gives the mesh sizes to respect.",
         fr="Maillage intérieur à des lignes fermées (les trous tournent en sens inverse) : dans "
         "leur plan (par défaut), sur une sphère, un cylindre, un cône ou un tore. OPTI ELEM "
-        "choisit triangles, ou quadrangles avec quelques triangles. Un champ par points à une composante "
-        "donne les tailles de maille à respecter.",
+        "choisit triangles, ou quadrangles avec quelques triangles. Un champ par points à une "
+        "composante donne les tailles de maille à respecter.",
         syntax="SURF1 = SURF (CHPO1) LIG1 'PLANE' (CRIT) | 'SPHE' CENTR1 | 'CYLI' AXE1 AXE2 | "
         "'CONI' SOMM1 AXE1 | 'TORI' CENTR1 AXE1 CENTR2 ;",
         examples=(

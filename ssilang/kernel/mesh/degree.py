@@ -1,0 +1,96 @@
+"""Cells of one degree made of cells of the other: middles added or dropped."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ssilang.kernel.errors import MeshError
+from ssilang.kernel.mesh.cells import CELL_TYPES
+from ssilang.kernel.mesh.combine import union
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh
+from ssilang.kernel.mesh.nodes import IntArray
+
+QUADRATIC = {
+    "SEG2": "SEG3",
+    "TRI3": "TRI6",
+    "QUA4": "QUA8",
+    "TET4": "TE10",
+    "PRI6": "PR15",
+    "CUB8": "CU20",
+}
+LINEAR = {v: k for k, v in QUADRATIC.items()}
+
+
+def linear(mesh: Mesh) -> Mesh:
+    """Each quadratic cell replaced by the linear one on its corners."""
+    parts = [Mesh(mesh.nodes, (_linear_block(b),)) for b in mesh.blocks]
+    return union(*parts, as_given=True) if parts else mesh
+
+
+def quadratic(mesh: Mesh) -> Mesh:
+    """Each linear cell replaced by the quadratic one; an edge gets one new node in its middle.
+
+    Raises
+    ------
+    MeshError
+        For cells that have no quadratic counterpart (PYR5, joints).
+    """
+    todo = [b for b in mesh.blocks if b.kind.degree == 1 and b.kind.dimension > 0]
+    for block in todo:
+        if block.cell_type not in QUADRATIC:
+            raise MeshError(f"cells of type {block.cell_type} have no quadratic counterpart here")
+    if not todo:
+        return mesh
+    pairs = np.concatenate([_edge_pairs(b).reshape(-1, 2) for b in todo])
+    edges, which = np.unique(np.sort(pairs, axis=1), axis=0, return_inverse=True)
+    xyz, size = mesh.nodes.coordinates, mesh.nodes.density
+    made = mesh.nodes.add(xyz[edges].mean(axis=1), size[edges].mean(axis=1))
+    middles = made[which.ravel()]
+    blocks, start = [], 0
+    for block in mesh.blocks:
+        if not any(block is b for b in todo):
+            blocks.append(block)
+            continue
+        name = QUADRATIC[block.cell_type]
+        count = CELL_TYPES[name].n_nodes - block.kind.n_nodes
+        part = middles[start : start + count * len(block)].reshape(len(block), count)
+        start += count * len(block)
+        blocks.append(_with_middles(block, name, part))
+    return union(*(Mesh(mesh.nodes, (b,)) for b in blocks), as_given=True)
+
+
+def _linear_block(block: CellBlock) -> CellBlock:
+    name = LINEAR.get(block.cell_type)
+    if name is None:
+        return block
+    table = block.connectivity[:, list(block.kind.corners)]
+    return CellBlock.make(block.nodes, name, table, block.colours)
+
+
+def middle_places(cell_type: str) -> list[tuple[int, int, int]]:
+    """For a quadratic cell: local number of each middle and of the two corners beside it."""
+    kind = CELL_TYPES[cell_type]
+    if kind.dimension == 1:
+        return [(1, 0, 2)]
+    rings = [tuple(range(kind.n_nodes))] if kind.dimension == 2 else [f for _, f in kind.faces]
+    found: dict[int, tuple[int, int, int]] = {}
+    for ring in rings:
+        for k in range(1, len(ring), 2):
+            found[ring[k]] = (ring[k], ring[k - 1], ring[(k + 1) % len(ring)])
+    return [found[m] for m in sorted(found)]
+
+
+def _edge_pairs(block: CellBlock) -> IntArray:
+    """Corner nodes (n_cells, n_middles, 2) beside each middle that the cells will get."""
+    name = QUADRATIC[block.cell_type]
+    corner = {local: k for k, local in enumerate(CELL_TYPES[name].corners)}
+    places = [(corner[a], corner[b]) for _, a, b in middle_places(name)]
+    return block.connectivity[:, places]
+
+
+def _with_middles(block: CellBlock, name: str, middles: IntArray) -> CellBlock:
+    kind = CELL_TYPES[name]
+    table = np.empty((len(block), kind.n_nodes), dtype=np.int64)
+    table[:, list(kind.corners)] = block.connectivity
+    table[:, [m for m, _, _ in middle_places(name)]] = middles
+    return CellBlock.make(block.nodes, name, table, block.colours)
