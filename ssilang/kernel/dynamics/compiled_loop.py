@@ -64,6 +64,7 @@ class Motion(NamedTuple):
     state: FloatArray
     reaction: FloatArray  # (n,) M a + C v + K u + J^T f - F of the last step
     energies: FloatArray  # (N_ENERGIES,)
+    contact: FloatArray  # (m,) reactions of unilateral relations (none in the compiled loop)
 
 
 class Saved(NamedTuple):
@@ -76,6 +77,7 @@ class Saved(NamedTuple):
     w: FloatArray
     t: FloatArray
     state: FloatArray
+    contact: FloatArray
 
 
 @compiled

@@ -85,12 +85,10 @@ def constraints_of(rows: ConstraintRows, small: bool) -> Constraints:
     Raises
     ------
     KernelError
-        For unilateral or non-associated relations.
+        For non-associated relations.
     """
     if not rows.associated:
         raise KernelError("non-associated relations are not solved in time-stepping problems")
-    if (rows.sense != 0).any():
-        raise KernelError("unilateral relations (MINI, MAXI) are not solved here")
     return OrthogonalConstraints(rows.C) if small else EliminatedConstraints(rows.C)
 
 

@@ -23,7 +23,7 @@ class FullNewtonSolver:
         self.A, self.share, self.constraints = A, share, problem.constraints
         self.interface = problem.interface
 
-    def solve(self, motion: Motion, r: FloatArray, dd: FloatArray, d: FloatArray) -> StepOutcome:
+    def solve(self, motion: Motion, r: FloatArray, dd: FloatArray, gap: FloatArray) -> StepOutcome:
         """Newton from the linear prediction with the joints as they are."""
         du = self.constraints.particular(dd)
         f, new = np.zeros_like(motion.f), np.zeros_like(motion.state)

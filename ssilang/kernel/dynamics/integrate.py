@@ -21,7 +21,8 @@ from ssilang.kernel.dynamics.motion import snapshot_of
 from ssilang.kernel.dynamics.plan import Run, runs_of
 from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.dynamics.snapshot import Observer, Snapshot
-from ssilang.kernel.dynamics.sparse_loop import CondensedSolver, SparseLoop, StepSolver
+from ssilang.kernel.dynamics.sparse_loop import SparseLoop, StepSolver
+from ssilang.kernel.dynamics.step_solvers import step_solver
 from ssilang.kernel.errors import ConvergenceError
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
@@ -85,7 +86,7 @@ class Integration:
         energies = initial_energies(p, v, joints)
         self.motion = Motion(
             p.u.copy(), v, a, joints.delta, joints.f, joints.w, joints.t, joints.state,
-            reaction, energies,
+            reaction, energies, np.zeros(0 if p.contact is None else len(p.contact)),
         )  # fmt: skip
         self._engines: dict[float, _Engine] = {}
         self._kind = _SparseEngine if self.full_newton or not p.small else _DenseEngine
@@ -175,14 +176,14 @@ class Integration:
         return Saved(
             np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n),
             np.zeros((rows, *m.w.shape)), np.zeros((rows, *m.t.shape)),
-            np.zeros((rows, *m.state.shape)),
+            np.zeros((rows, *m.state.shape)), np.zeros((rows, len(m.contact))),
         )  # fmt: skip
 
     def _kept(self, s: Saved, row: int, step: int) -> Snapshot:
         time_ = float(self.problem.times[step])
         return Snapshot(
             self.problem, step, time_, s.u[row], s.v[row], s.a[row], s.reaction[row], s.w[row],
-            s.t[row], s.state[row],
+            s.t[row], s.state[row], s.contact[row],
         )  # fmt: skip
 
     def _hand_over(self, snapshot: Snapshot) -> None:
@@ -247,7 +248,7 @@ class _SparseEngine:
         else:
             effective = effective_of(problem, A, dt, share)
             self.solver = effective.inverse.factor.name
-            self._step = CondensedSolver(problem, effective)
+            self._step = step_solver(problem, effective)
         self._loop, self._dt = SparseLoop(problem, motion), dt
 
     def march(

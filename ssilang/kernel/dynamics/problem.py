@@ -9,6 +9,7 @@ import scipy.sparse as sp
 
 from ssilang.kernel.curve import Load
 from ssilang.kernel.dynamics.constraints import Constraints, check_values, constraints_of
+from ssilang.kernel.dynamics.contact import ContactRows, split_rows
 from ssilang.kernel.dynamics.loading import Loading, loading_of
 from ssilang.kernel.dynamics.scheme import Scheme
 from ssilang.kernel.elements.families import stiffness as zone_stiffness
@@ -59,6 +60,8 @@ class Problem:
         Initial state of the joints.
     times : array (n_steps + 1,)
         Strictly increasing, the initial time first.
+    contact : ContactRows or None
+        Unilateral relations.
     """
 
     numbering: Numbering
@@ -74,11 +77,12 @@ class Problem:
     state: FloatArray
     times: FloatArray
     scheme: Scheme = field(default_factory=Scheme)
+    contact: ContactRows | None = None
 
     @property
     def small(self) -> bool:
-        """Whether dense matrices pay."""
-        return self.numbering.size <= SMALL
+        """Whether the compiled loop on dense matrices serves."""
+        return self.numbering.size <= SMALL and self.contact is None
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,6 +124,8 @@ def make_problem(inputs: Inputs) -> Problem:
     numbering = numbering_of(*given)
     rows = constraint_matrix(_with_relations_of(stiffness, given), numbering)
     loading = loading_of(inputs.load, numbering, rows.multipliers)
+    rows, imposed, contact = split_rows(rows, loading.imposed)
+    loading = replace(loading, imposed=imposed)
     constraints = constraints_of(rows, numbering.size <= SMALL)
     check_values(constraints, loading.imposed)
     interface = interface_of(zones, inputs.characteristics, numbering) if zones else None
@@ -139,6 +145,7 @@ def make_problem(inputs: Inputs) -> Problem:
         interface.initial_state() if interface else np.zeros((0, 0)),
         times,
         inputs.scheme,
+        contact,
     )
 
 

@@ -29,6 +29,8 @@ class Snapshot:
     w, t : arrays (n_points, d)
         Jumps and tractions of the joints.
     state : array (n_points, N_STATE)
+    contact : array (m,)
+        Reactions of the unilateral relations.
     """
 
     problem: Problem
@@ -41,12 +43,24 @@ class Snapshot:
     w: FloatArray
     t: FloatArray
     state: FloatArray
+    contact: FloatArray
+
+    @property
+    def _multipliers(self) -> FloatArray:
+        """Reactions of the equalities, C^T of which is what they push by."""
+        rest = self.reaction
+        if self.problem.contact is not None:
+            rest = rest - self.problem.contact.G.T @ self.contact
+        return self.problem.constraints.multipliers(rest)
 
     @property
     def displacement(self) -> NodeField:
         """Displacement, with the multipliers LX of the conditions."""
-        found = -self.problem.constraints.multipliers(self.reaction)
-        pair = (self.problem.multipliers, found)
+        nodes, values, contact = self.problem.multipliers, -self._multipliers, self.problem.contact
+        if contact is not None:
+            nodes = np.concatenate([nodes, contact.multipliers])
+            values = np.concatenate([values, contact.lagrange(self.contact)])
+        pair = (nodes, values)
         return vector_to_field(self.u, self.problem.numbering, multipliers=pair)
 
     @property
@@ -63,7 +77,9 @@ class Snapshot:
     def reactions(self) -> NodeField:
         """Forces of the conditions on the body, by dual names."""
         rows = self.problem.constraints.C
-        forces = rows.T @ self.problem.constraints.multipliers(self.reaction)
+        forces = rows.T @ self._multipliers
+        if self.problem.contact is not None:
+            forces = forces + self.problem.contact.G.T @ self.contact
         return vector_to_field(forces, self.problem.numbering, dual=True)
 
     @property

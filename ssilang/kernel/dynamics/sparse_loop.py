@@ -28,6 +28,8 @@ from ssilang.kernel.joints.interface import Interface
 from ssilang.kernel.joints.response import interface_energies
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
+NOTHING = np.zeros(0)
+
 
 @dataclass
 class StepOutcome:
@@ -135,7 +137,7 @@ class SparseLoop:
         for k in range(len(save)):
             r = self._right_side(loads[k], loads[k + 1], dt)
             dd = imposed[k + 1] - p.constraints.C @ self.motion.u
-            outcome = solver.solve(self.motion, r, dd, imposed[k + 1])
+            outcome = solver.solve(self.motion, r, dd, self._gap(factors[k + 1]))
             if outcome.turns <= 0:
                 return k, outcome.turns, outcome.residual
             worst = max(worst, outcome.turns)
@@ -147,6 +149,10 @@ class SparseLoop:
             if save[k] >= 0:
                 self._keep(saved, int(save[k]))
         return len(save), worst, 0.0
+
+    def _gap(self, factors: FloatArray) -> FloatArray:
+        contact = self.problem.contact
+        return NOTHING if contact is None else contact.gaps(self.motion.u, factors)
 
     def _right_side(self, load0: FloatArray, load1: FloatArray, dt: float) -> FloatArray:
         p, m, s = self.problem, self.motion, self.problem.scheme
@@ -195,4 +201,4 @@ class SparseLoop:
         m = self.motion
         saved.u[row], saved.v[row], saved.a[row] = m.u, m.v, m.a
         saved.reaction[row], saved.w[row], saved.t[row] = m.reaction, m.w, m.t
-        saved.state[row] = m.state
+        saved.state[row], saved.contact[row] = m.state, m.contact

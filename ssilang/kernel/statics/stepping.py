@@ -14,7 +14,7 @@ from ssilang.kernel.dynamics.integrate import History, Progress
 from ssilang.kernel.dynamics.motion import Motion, snapshot_of
 from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.dynamics.snapshot import Observer
-from ssilang.kernel.dynamics.sparse_loop import StepOutcome, StepSolver
+from ssilang.kernel.dynamics.sparse_loop import NOTHING, StepOutcome, StepSolver
 from ssilang.kernel.dynamics.step_solvers import step_solver
 from ssilang.kernel.errors import ConvergenceError
 from ssilang.kernel.joints.response import interface_energies
@@ -69,6 +69,7 @@ def _initial_motion(problem: Problem) -> Motion:
     motion = Motion(
         problem.u.copy(), zero.copy(), zero.copy(), joints.delta, joints.f, joints.w, joints.t,
         joints.state, zero.copy(), energies,
+        np.zeros(0 if problem.contact is None else len(problem.contact)),
     )  # fmt: skip
     motion.reaction[:] = _imbalance(problem, motion, problem.loading.at(problem.times[:1])[0])
     return motion
@@ -85,9 +86,10 @@ def _imbalance(problem: Problem, motion: Motion, factors: FloatArray) -> FloatAr
 def _step(problem: Problem, solver: StepSolver, motion: Motion, factors: FloatArray) -> StepOutcome:
     """Equilibrium for the second of two rows of load factors."""
     r = -_imbalance(problem, motion, factors[1])
-    d = problem.loading.imposed @ factors[1]
-    dd = d - problem.constraints.C @ motion.u
-    outcome = solver.solve(motion, r, dd, d)
+    dd = problem.loading.imposed @ factors[1] - problem.constraints.C @ motion.u
+    contact = problem.contact
+    gap = NOTHING if contact is None else contact.gaps(motion.u, factors[1])
+    outcome = solver.solve(motion, r, dd, gap)
     if outcome.turns <= 0 or not np.isfinite(outcome.du).all():
         return outcome if outcome.turns <= 0 else StepOutcome(outcome.du, -1, np.inf)
     old = motion.reaction.copy()

@@ -1,0 +1,97 @@
+"""A step with unilateral relations beside the joints, on the interface's unknowns.
+
+With the flexibilities of joints (J) and relations (G) from one factorisation,
+
+    y = y_0 - S_JJ h + S_JG p          h = c (f - f_0) - R y
+    g = g_0 - S_GJ h + S_GG p >= 0     p >= 0     p . g = 0
+
+the joints' law is linearised at each turn and eliminated; the complementarity problem that is
+left in p is solved by active sets (Josephy and Newton's method).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ssilang.kernel.dynamics.compiled_loop import Motion
+from ssilang.kernel.dynamics.contact import BoolArray, ContactRows
+from ssilang.kernel.dynamics.effective import Effective
+from ssilang.kernel.dynamics.problem import Problem
+from ssilang.kernel.dynamics.sparse_loop import StepOutcome
+from ssilang.kernel.joints.response import interface_response, interface_stiffness
+from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.solvers.complementarity import ContactProblem, solve_contact
+
+MOST_TURNS = 40
+TOLERANCE = 1e-12
+
+
+class ContactSolver:
+    """Steps with unilateral relations by multipliers (the exact conditions)."""
+
+    def __init__(self, problem: Problem, effective: Effective, contact: ContactRows) -> None:
+        self.effective, self.contact = effective, contact
+        self.interface = problem.interface
+        self.share = 1 - problem.scheme.alpha_f
+        self.YG = effective.solve(contact.G.T.toarray())
+        self.SGG = contact.G @ self.YG
+        self.active: BoolArray | None = None
+
+    def solve(self, motion: Motion, r: FloatArray, dd: FloatArray, gap: FloatArray) -> StepOutcome:
+        """The step's increment; also `motion.contact`, the reactions p.
+
+        `gap` (m,) are the gaps for the imposed values at the end of the step and du = 0.
+        """
+        du = self.effective.solve(r)
+        if dd.any():
+            du = du + self.effective.imposed(dd)
+        g0 = gap + self.contact.G @ du
+        if self.interface is None:
+            p = self._complementarity(self.SGG, g0)
+            motion.contact[:] = p
+            return StepOutcome(du + self.YG @ p, 1, 0.0)
+        return self._with_joints(motion, du, g0)
+
+    def _complementarity(self, W: FloatArray, q: FloatArray) -> FloatArray:
+        m = len(q)
+        none = np.zeros((m, 0))
+        problem = ContactProblem(W, q, none, none, np.zeros(0), np.zeros(m, bool))
+        found = solve_contact(problem, self.active)
+        self.active = found.active
+        return np.maximum(found.p, 0.0)
+
+    def _with_joints(self, motion: Motion, du: FloatArray, g0: FloatArray) -> StepOutcome:
+        joints, e, G = self.interface, self.effective, self.contact.G
+        assert joints is not None
+        SJG, SGJ = joints.J @ self.YG, G @ e.Y
+        y0 = joints.J @ du
+        y, p = y0.copy(), motion.contact.copy()
+        f, new = np.zeros_like(motion.f), np.zeros_like(motion.state)
+        D = np.zeros((*motion.w.shape, motion.w.shape[1]))
+        K = np.zeros((joints.size, joints.size))
+        residual = np.inf
+        for turn in range(1, MOST_TURNS + 1):
+            interface_response(
+                joints.pairs, joints.B, joints.weights, joints.codes, joints.parameters,
+                motion.delta + y, motion.state, motion.w, motion.t, new, D, f,
+            )  # fmt: skip
+            h = self.share * (f - motion.f) - e.R @ y
+            rest = y - (y0 - e.S @ h + SJG @ p)
+            scale = max(np.abs(y).max(), np.abs(motion.delta).max(), np.abs(y0).max(), 1e-300)
+            residual = float(np.abs(rest).max() / scale)
+            if turn > 1 and residual <= TOLERANCE:
+                motion.contact[:] = p
+                motion.delta[:] += y
+                motion.f[:], motion.state[:, :] = f, new
+                return StepOutcome(du - e.Y @ h + self.YG @ p, turn, residual)
+            interface_stiffness(joints.pairs, joints.B, joints.weights, D, K)
+            tangent = self.share * K - e.R
+            inverse = np.linalg.inv(np.eye(joints.size) + e.S @ tangent)
+            # y = base + slope p with the law linearised
+            base = inverse @ (y0 - e.S @ (h - tangent @ y))
+            slope = inverse @ SJG
+            W = self.SGG - SGJ @ (tangent @ slope)
+            q = g0 - SGJ @ (h + tangent @ (base - y))
+            p = self._complementarity(W, q)
+            y = base + slope @ p
+        return StepOutcome(du, -MOST_TURNS, residual)
