@@ -336,7 +336,7 @@ class Evaluator:
         """Run what an operator does; whatever it raises becomes an error of the script."""
         try:
             return action()
-        except (SsiError, StopRun, LeaveLoop, NextTurn, KeyboardInterrupt):
+        except (SsiError, StopRun, LeaveLoop, NextTurn, LeaveProcedure, KeyboardInterrupt):
             raise
         except RecursionError:
             raise SsiError("recursion", span, limit=self.session.limits.recursion) from None

@@ -1,0 +1,58 @@
+"""Running small scripts: their variables, their output, their first error."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from ssilang.cli.run import RunResult, run_text
+from ssilang.language.values import Table, type_of
+
+
+class Script:
+    """A run script, asked for its variables and output."""
+
+    def __init__(self, result: RunResult) -> None:
+        self.result = result
+
+    def __getitem__(self, name: str) -> Any:
+        return self.result.session.root.find(name.upper())
+
+    def kind(self, name: str) -> str:
+        return type_of(self[name])
+
+    def at(self, table: str, *path: Any) -> Any:
+        value = self[table]
+        for index in path:
+            assert isinstance(value, Table)
+            value = value.get(index)
+        return value
+
+    @property
+    def lines(self) -> list[str]:
+        return self.result.output.split("\n")[:-1]
+
+
+@pytest.fixture
+def run(tmp_path):
+    """Run a text that must succeed."""
+
+    def action(text: str) -> Script:
+        result = run_text(text, output_directory=tmp_path / "out")
+        assert result.exit_code == 0, result.message
+        return Script(result)
+
+    return action
+
+
+@pytest.fixture
+def fails(tmp_path):
+    """Run a text that must fail; the code of its first error."""
+
+    def action(text: str) -> str:
+        result = run_text(text, output_directory=tmp_path / "out")
+        assert result.exit_code == 1
+        return result.errors[0].code
+
+    return action

@@ -1,0 +1,90 @@
+"""Section 9: SI, REPE, QUIT, ITER, FIN."""
+
+from __future__ import annotations
+
+import pytest
+
+
+@pytest.mark.parametrize(("test", "value"), [("1 < 2", 1), ("1 > 2", 2)])
+def test_si_runs_one_branch(run, test, value):
+    assert run(f"SI ({test}) ; x = 1 ; SINON ; x = 2 ; FINSI ;")["x"] == value
+
+
+def test_si_without_sinon(run):
+    assert run("x = 0 ; SI FAUX ; x = 1 ; FINSI ;")["x"] == 0
+
+
+def test_condition_needs_no_parenthesis(run):
+    assert run("a = 3 ; x = 0 ; SI a > 2 ; x = 1 ; FINSI ;")["x"] == 1
+
+
+def test_condition_must_be_logical(fails):
+    assert fails("SI 3 ; FINSI ;") == "condition"
+
+
+def test_blocks_nest(run):
+    text = (
+        "x = 0 ; SI VRAI ; SI FAUX ; x = 1 ; SINON ; REPE b 2 ; x = x + 10 ; FIN b ; FINSI ;"
+        "SINON ; x = 3 ; FINSI ;"
+    )
+    assert run(text)["x"] == 20
+
+
+def test_nothing_in_a_skipped_branch_is_evaluated(run):
+    run("SI FAUX ; y = UNKNOWNOP 1 2 ; z = 1 / 0 ; FINSI ;")
+
+
+@pytest.mark.parametrize("words", ["'SI' VRAI ; x = 1 ; 'FINSI'", "si VRAI ; x = 1 ; finsi",
+                                   "SI VRAI ; x = 1 ; FINS"])  # fmt: skip
+def test_control_words_quoted_small_or_short(run, words):
+    assert run(f"{words} ;")["x"] == 1
+
+
+def test_repe_counts_from_one(run):
+    script = run("l1 = PROG ; REPE b 3 ; l1 = l1 ET (FLOT &b) ; FIN b ; n = &b ;")
+    assert list(script["l1"].values) == [1.0, 2.0, 3.0]
+    assert script["n"] == 4
+
+
+def test_repe_zero_turns(run):
+    assert run("x = 0 ; REPE b 0 ; x = 1 ; FIN b ;")["x"] == 0
+
+
+def test_repe_without_count_runs_until_quit(run):
+    assert run("x = 0 ; REPE b ; x = x + 1 ; SI (x > 4) ; QUIT b ; FINSI ; FIN b ;")["x"] == 5
+
+
+def test_the_count_is_read_once(run):
+    assert run("n = 3 ; x = 0 ; REPE b n ; n = 10 ; x = x + 1 ; FIN b ;")["x"] == 3
+
+
+def test_quit_leaves_an_outer_loop(run):
+    text = "x = 0 ; REPE a 5 ; REPE b 5 ; x = x + 1 ; SI (x EGA 7) ; QUIT a ; FINSI ;"
+    assert run(text + "FIN b ; FIN a ;")["x"] == 7
+
+
+def test_iter_goes_on_with_the_next_turn(run):
+    text = "x = 0 ; REPE b 4 ; SI (&b EGA 2) ; ITER b ; FINSI ; x = x + &b ; FIN b ;"
+    assert run(text)["x"] == 8
+
+
+def test_variables_of_a_loop_belong_to_its_surroundings(run):
+    assert run("REPE b 2 ; y = &b ; FIN b ;")["y"] == 2
+
+
+def test_fin_alone_stops_the_run(run):
+    assert run("x = 1 ; FIN ; x = 2 ;")["x"] == 1
+
+
+def test_fin_must_name_the_innermost_loop(fails):
+    assert fails("REPE a 1 ; REPE b 1 ; FIN a ; FIN b ;") == "wrong-loop-name"
+
+
+def test_blocks_must_close(fails):
+    assert fails("SI VRAI ; x = 1 ;") == "unclosed-block"
+    assert fails("REPE b 2 ; x = 1 ;") == "unclosed-block"
+    assert fails("x = 1 ; FINSI ;") == "stray-block-end"
+
+
+def test_quit_of_no_open_loop_is_an_error(fails):
+    assert fails("QUIT nowhere ;") == "no-such-loop"

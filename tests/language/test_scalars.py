@@ -1,0 +1,83 @@
+"""Section 6: arithmetic and comparisons of scalars and lists."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+
+@pytest.mark.parametrize(
+    ("phrase", "value"),
+    [
+        ("7 / 2", 3), ("-7 / 2", -3), ("2 ** 3", 8), ("7 / 2.", 3.5), ("1 + 1.", 2.0),
+        ("2. ** 0.5", math.sqrt(2)), ("3 * 2", 6), ("9 / 3", 3),
+    ],
+)  # fmt: skip
+def test_integers_stay_integers_and_mixtures_are_real(run, phrase, value):
+    found = run(f"x = {phrase} ;")["x"]
+    assert type(found) is type(value)
+    assert found == pytest.approx(value)
+
+
+def test_parity_by_integer_division(run):
+    assert run("i = 7 ; x = i / 2 * 2 EGA i ;")["x"] is False
+
+
+@pytest.mark.parametrize(
+    ("phrase", "value"),
+    [("1 EGA 1.5", True), ("1. EGA 1", True), ("1 NEG 2", True), ("3 > 2", True), ("3 < 2", False),
+     ("2 >EG 2", True), ("2 <EG 1", False), ("EGA 'ab' 'ab   '", True)],
+)  # fmt: skip
+def test_comparisons(run, phrase, value):
+    assert run(f"x = {phrase} ;")["x"] is value
+
+
+def test_ega_takes_a_tolerance(run):
+    script = run("x = EGA 1. 1.001 0.01 ; y = EGA 1. 1.1 0.01 ;")
+    assert script["x"] is True
+    assert script["y"] is False
+
+
+def test_logic(run):
+    script = run("a = VRAI ET FAUX ; b = VRAI OU FAUX ; c1 = NON FAUX ;")
+    assert (script["a"], script["b"], script["c1"]) == (False, True, True)
+
+
+@pytest.mark.parametrize(
+    ("phrase", "value"),
+    [("SIN 30.", 0.5), ("COS 60.", 0.5), ("TAN 45.", 1.0), ("ATG 1.", 45.0), ("ASIN 1.", 90.0),
+     ("ACOS 0.", 90.0), ("EXP 0.", 1.0), ("LOG 1.", 0.0), ("ABS -3.", 3.0), ("ATG 1. -1.", 135.0)],
+)  # fmt: skip
+def test_functions_work_in_degrees(run, phrase, value):
+    assert run(f"x = {phrase} ;")["x"] == pytest.approx(value, abs=1e-12)
+
+
+def test_functions_take_lists(run):
+    assert list(run("x = SIN (PROG 0. 90.) ;")["x"].values) == pytest.approx([0.0, 1.0])
+
+
+def test_conversions(run):
+    script = run("a = ENTI 2.7 ; b = ENTI -2.7 ; c1 = FLOT 3 ; d1 = ENTI 'PROCHE' 2.7 ;")
+    assert (script["a"], script["b"], script["c1"], script["d1"]) == (2, -2, 3.0, 3)
+    assert isinstance(script["c1"], float)
+
+
+def test_lists_combine_item_by_item(run):
+    script = run("x = (PROG 1. 2.) * (PROG 3. 4.) ; y = (LECT 1 2) + 1 ; z = (LECT 1 2) + 0.5 ;")
+    assert list(script["x"].values) == [3.0, 8.0]
+    assert script.kind("y") == "LISTENTI"
+    assert list(script["z"].values) == [1.5, 2.5]
+
+
+def test_division_by_zero_is_an_error(fails):
+    assert fails("x = 1 / 0 ;") == "arithmetic"
+    assert fails("x = 1. / 0. ;") == "arithmetic"
+
+
+def test_negative_number_to_a_fraction_is_an_error(fails):
+    assert fails("x = -1. ** 0.5 ;") == "arithmetic"
+
+
+def test_a_logical_does_not_add(fails):
+    assert fails("x = VRAI + 1 ;") == "no-rule"
