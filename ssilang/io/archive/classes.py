@@ -1,0 +1,99 @@
+"""Which classes a save file may hold, and which of their fields number nodes."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Callable
+from dataclasses import dataclass, fields, is_dataclass
+from enum import Enum
+from typing import Any
+
+from ssilang.io.errors import InputError, OutputError
+
+_TRUSTED = ("ssilang.kernel.", "ssilang.io.plots.labels")
+
+# fields that hold node numbers, shifted when nodes are added to those of a session
+NODE_FIELDS: dict[str, tuple[str, ...]] = {
+    "Point": ("number",),
+    "CellBlock": ("raw",),
+    "NodeValues": ("nodes",),
+    "ElementMatrices": ("raw_nodes",),
+    "Relations": ("raw_nodes", "raw_multipliers"),
+    "ArrowPart": ("nodes",),
+}
+
+
+@dataclass(frozen=True)
+class Packing:
+    """How objects of a class that is no data class are taken apart and made again.
+
+    `fill` completes an object made by `make` (shared or self-containing ones: tables).
+    """
+
+    pack: Callable[[Any], Any]
+    make: Callable[[Any], Any]
+    fill: Callable[[Any, Any], None] | None = None
+    mutable: bool = False
+
+
+_PACKINGS: dict[str, Packing] = {}
+_TAGS: dict[type, str] = {}
+
+
+def register_packing(cls: type, tag: str, packing: Packing) -> None:
+    """Let save files hold objects of a class of the language."""
+    _PACKINGS[tag] = packing
+    _TAGS[cls] = tag
+
+
+def packing_of(cls: type) -> tuple[str, Packing] | None:
+    """Tag and packing of a registered class."""
+    tag = _TAGS.get(cls)
+    return None if tag is None else (tag, _PACKINGS[tag])
+
+
+def packing_named(tag: str) -> Packing:
+    """The packing registered under a tag."""
+    if tag not in _PACKINGS:
+        raise InputError(f"the save file holds an object of unknown kind '{tag}'")
+    return _PACKINGS[tag]
+
+
+def class_name(cls: type) -> str:
+    """Name under which a data class or an enumeration of the kernel is saved.
+
+    Raises
+    ------
+    OutputError
+        For any other class.
+    """
+    name = f"{cls.__module__}:{cls.__qualname__}"
+    if not name.startswith(_TRUSTED) or not (is_dataclass(cls) or issubclass(cls, Enum)):
+        raise OutputError(f"an object of class {cls.__name__} cannot be saved")
+    return name
+
+
+def class_named(name: str) -> type:
+    """The data class or enumeration saved under a name; nothing else is ever looked up.
+
+    Raises
+    ------
+    InputError
+        For a name outside of the kernel.
+    """
+    module, _, qualname = name.partition(":")
+    if not name.startswith(_TRUSTED) or "." in qualname:
+        raise InputError(f"the save file asks for '{name}', which is no saved object's class")
+    try:
+        found = getattr(importlib.import_module(module), qualname)
+    except (ImportError, AttributeError):
+        raise InputError(f"the save file asks for '{name}', which does not exist here") from None
+    if not (isinstance(found, type) and (is_dataclass(found) or issubclass(found, Enum))):
+        raise InputError(f"the save file asks for '{name}', which is no saved object's class")
+    return found
+
+
+def saved_fields(cls: type) -> tuple[str, ...]:
+    """Fields of a data class that are saved: those of its constructor, without caches."""
+    hidden = ("cache", "_resolved")
+    return tuple(f.name for f in fields(cls) if f.init and f.name not in hidden)

@@ -1,0 +1,104 @@
+"""The zip file: JSON for the objects, NPY for their arrays."""
+
+from __future__ import annotations
+
+import io
+import json
+import zipfile
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ssilang.io.atomic import replacing
+from ssilang.io.errors import InputError
+
+FORMAT = "ssilang-save"
+VERSION = 1
+_OBJECTS = "objects.json"
+
+
+@dataclass
+class Record:
+    """What one SAUV wrote: its label, names of the script with the objects they stand for."""
+
+    label: str = ""
+    names: dict[str, Any] = field(default_factory=dict)
+
+
+def write_archive(
+    path: Path,
+    objects: list[Any],
+    arrays: list[NDArray[Any]],
+    records: list[Record],
+    settings: Mapping[str, Any],
+) -> None:
+    """Write a file, whole or not at all."""
+    head = {
+        "format": FORMAT,
+        "version": VERSION,
+        "settings": dict(settings),
+        "records": [{"label": r.label, "names": r.names} for r in records],
+        "objects": objects,
+    }
+    with (
+        replacing(path) as stream,
+        zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED, True, 1) as z,
+    ):
+        z.writestr(_OBJECTS, json.dumps(head))
+        for number, array in enumerate(arrays):
+            buffer = io.BytesIO()
+            np.save(buffer, array, allow_pickle=False)
+            z.writestr(f"arrays/{number}.npy", buffer.getvalue())
+
+
+@dataclass
+class Archive:
+    """A file's content; arrays are loaded when asked for."""
+
+    path: Path
+    objects: list[Any]
+    records: list[Record]
+    settings: dict[str, Any]
+
+    def array(self, number: int) -> NDArray[Any]:
+        """Array by its number."""
+        try:
+            with zipfile.ZipFile(self.path) as z:
+                raw = z.read(f"arrays/{number}.npy")
+            array: NDArray[Any] = np.load(io.BytesIO(raw), allow_pickle=False)
+        except (OSError, KeyError, ValueError, zipfile.BadZipFile) as error:
+            raise _unreadable(self.path, error) from error
+        return array
+
+
+def read_archive(path: Path) -> Archive:
+    """Open a file written by `write_archive`.
+
+    Raises
+    ------
+    InputError
+        If it cannot be read, is of another kind, or of a later version.
+    """
+    try:
+        with zipfile.ZipFile(path) as z:
+            head = json.loads(z.read(_OBJECTS))
+        if head["format"] != FORMAT:
+            raise ValueError(f"format {head['format']!r}")
+        records = [Record(r["label"], r["names"]) for r in head["records"]]
+        version, objects, settings = int(head["version"]), head["objects"], head["settings"]
+    except (OSError, KeyError, ValueError, TypeError, zipfile.BadZipFile) as error:
+        raise _unreadable(path, error) from error
+    if version > VERSION:
+        raise InputError(f"{path.name} was written by a later version of ssilang")
+    return Archive(path, objects, records, settings)
+
+
+def _unreadable(path: Path, error: Exception) -> InputError:
+    return InputError(
+        f"{path.name} is no file that SAUV of ssilang wrote: {error}",
+        "files of Cast3M itself cannot be restored",
+    )

@@ -1,0 +1,111 @@
+"""Objects made again from a save file."""
+
+from __future__ import annotations
+
+from enum import Enum
+from typing import Any
+
+import numpy as np
+
+from ssilang.io.archive.classes import NODE_FIELDS, class_named, packing_named, saved_fields
+from ssilang.io.archive.container import Archive
+from ssilang.io.errors import InputError
+from ssilang.kernel.errors import KernelError
+from ssilang.kernel.mesh.nodes import NodeTable
+
+
+class Decoder:
+    """Makes the objects of a file over the nodes of a session.
+
+    The nodes of the file are appended to those that the session has; node numbers shift by as
+    many.
+
+    Parameters
+    ----------
+    archive : Archive
+    nodes : NodeTable
+        Of the session.
+    """
+
+    def __init__(self, archive: Archive, nodes: NodeTable) -> None:
+        self._archive = archive
+        self._nodes = nodes
+        self._shift = len(nodes)
+        self._made: dict[int, Any] = {}
+        self._added = 0
+
+    def decode(self, code: Any) -> Any:
+        """The value that a code stands for.
+
+        Raises
+        ------
+        InputError
+            If the file is damaged.
+        """
+        if not isinstance(code, list):
+            return code
+        try:
+            return self._decoded(code)
+        except KernelError:
+            raise
+        except (IndexError, KeyError, TypeError, ValueError, AttributeError) as error:
+            raise InputError(f"{self._archive.path.name} is damaged: {error}") from error
+
+    def _decoded(self, code: list[Any]) -> Any:
+        kind, what = code[0], code[1]
+        if kind == "o":
+            return self._object(what)
+        if kind == "a":
+            return self._archive.array(what)
+        if kind == "l":
+            return [self.decode(v) for v in what]
+        if kind == "t":
+            return tuple(self.decode(v) for v in what)
+        if kind == "d":
+            return {self.decode(k): self.decode(v) for k, v in what}
+        if kind == "e":
+            cls = class_named(what)
+            assert issubclass(cls, Enum)
+            return cls[code[2]]
+        if kind == "ao":
+            made = np.empty(int(np.prod(what)), dtype=object)
+            made[:] = [self.decode(v) for v in code[2]]
+            return made.reshape(what)
+        raise InputError(f"{self._archive.path.name} holds an unknown kind of data '{kind}'")
+
+    def _object(self, number: int) -> Any:
+        if number in self._made:
+            return self._made[number]
+        name, parts = self._archive.objects[number]
+        if name == "nodes":
+            self._made[number] = self._table(parts)
+        elif ":" in name:
+            self._made[number] = self._instance(name, parts)
+        else:
+            packing = packing_named(name)
+            if packing.fill is None:
+                self._made[number] = packing.make(self.decode(parts))
+            else:
+                # known before its content is read: it may hold itself
+                made = self._made[number] = packing.make(None)
+                packing.fill(made, self.decode(parts))
+        return self._made[number]
+
+    def _instance(self, name: str, parts: dict[str, Any]) -> Any:
+        cls = class_named(name)
+        known = set(saved_fields(cls))
+        values = {k: self.decode(v) for k, v in parts.items() if k in known}
+        for field in NODE_FIELDS.get(cls.__name__, ()):
+            if values.get(field) is not None and self._shift:
+                values[field] = values[field] + self._shift
+        return cls(**values)
+
+    def _table(self, parts: list[Any]) -> NodeTable:
+        """The session's table, with the nodes of the file that it has not yet."""
+        coordinates, density, alias = (self.decode(p) for p in parts)
+        fresh = slice(self._added, len(density))
+        self._nodes.add(coordinates[fresh], density[fresh])
+        self._added = max(self._added, len(density))
+        dropped = np.flatnonzero(alias != np.arange(len(alias)))
+        self._nodes.merge(alias[dropped] + self._shift, dropped + self._shift)
+        return self._nodes
