@@ -1,6 +1,6 @@
 """Steps per second of the CLUB CAST3M oscillator with an SDM joint (one unknown that moves).
 
-    python benchmarks/club_b.py [steps]
+python benchmarks/club_b.py [steps]
 """
 
 from __future__ import annotations
