@@ -6,8 +6,6 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
-import numpy as np
-
 from ssilang.kernel.errors import MeshError
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
@@ -31,6 +29,7 @@ from ssilang.operators.meshing_maps import (
     read_symmetry,
     read_turn,
 )
+from ssilang.operators.meshing_moves import displacements
 from ssilang.operators.turned_fields import turned_cell_field, turned_node_field
 from ssilang.operators.workspace import Workspace, workspace
 
@@ -120,13 +119,9 @@ def copies(
 def _displaced(call: Call, objects: Sequence[Any], field: NodeField, sign: float) -> Any:
     """Copies whose nodes move by a field of displacements."""
     ws = workspace(call.session)
-    names = ("UR", "UZ") if "UR" in field.components else ("UX", "UY", "UZ")
 
     def moved(ids: IntArray) -> FloatArray:
-        step = np.zeros((len(ids), 3))
-        for k, name in enumerate(names):
-            step[:, k] = field.values_at(name, ids)
-        return ws.nodes.coordinates[ids] + sign * step
+        return ws.nodes.coordinates[ids] + sign * displacements(field, ids)
 
     copier = Copier(NodeCopier(ws.nodes, by_node=moved))
     made = tuple(copier(v) for v in objects)

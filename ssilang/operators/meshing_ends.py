@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from ssilang.kernel.errors import MeshError
 from ssilang.kernel.mesh.combine import union
@@ -15,6 +16,17 @@ from ssilang.kernel.mesh.subdivision import subdivide
 from ssilang.language.call import Call
 from ssilang.language.values import type_of
 from ssilang.operators.workspace import Workspace, workspace
+
+SIZES_EN = (
+    "N1 > 0: that many equal elements; N1 < 0: that many, graded by the mesh sizes of the ends; "
+    "without N1 the sizes decide. DINI and DFIN replace the sizes that the ends carry. A line in "
+    "place of an end point is continued; a line alone is closed."
+)
+SIZES_FR = (
+    "N1 > 0 : N1 éléments égaux ; N1 < 0 : N1 éléments gradués selon les densités ; sans N1 les "
+    "densités décident. DINI et DFIN remplacent les densités des extrémités. Une ligne à la place "
+    "d'une extrémité est prolongée ; une ligne seule est fermée."
+)
 
 
 @dataclass
@@ -128,3 +140,17 @@ def drawn(call: Call, ends: Ends, curve: CurveMap, length: float, cuts: Cuts) ->
     line = mesh_curve(ws.nodes, curve, ends.start, ends.end, parts, quadratic, ws.colour)
     pieces = [m for m in (ends.before, line, ends.after) if m is not None]
     return union(*pieces, as_given=True)
+
+
+def cuts_and_items(call: Call) -> tuple[Cuts, list[Any]]:
+    """Number of elements, sizes and points or lines, in whatever order they stand."""
+    cuts = Cuts()
+    items: list[Any] = []
+    before = -1
+    while before != len(call.operands):
+        before = len(call.operands)
+        read_sizes(call, cuts)
+        if not cuts.count:
+            read_count(call, cuts)
+        items += call.all("POINT", "MAILLAGE")
+    return cuts, items

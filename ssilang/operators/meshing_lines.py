@@ -15,8 +15,6 @@ from ssilang.kernel.mesh.curves import (
     arc_about_axis,
     arc_about_centre,
     arc_through,
-    cubic_tangents,
-    cubic_through,
     parabola,
 )
 from ssilang.kernel.mesh.lines import chain_mesh, end_sizes, line_ends, mesh_curve, polyline
@@ -26,10 +24,13 @@ from ssilang.kernel.mesh.subdivision import subdivide
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
 from ssilang.operators.meshing_ends import (
+    SIZES_EN,
+    SIZES_FR,
     Cuts,
     Ends,
     chosen_family,
     count_and_number,
+    cuts_and_items,
     drawn,
     ends_of,
     positions,
@@ -38,31 +39,6 @@ from ssilang.operators.meshing_ends import (
 )
 from ssilang.operators.workspace import workspace
 
-_SIZES_EN = (
-    "N1 > 0: that many equal elements; N1 < 0: that many, graded by the mesh sizes of the ends; "
-    "without N1 the sizes decide. DINI and DFIN replace the sizes that the ends carry. A line in "
-    "place of an end point is continued; a line alone is closed."
-)
-_SIZES_FR = (
-    "N1 > 0 : N1 éléments égaux ; N1 < 0 : N1 éléments gradués selon les densités ; sans N1 les "
-    "densités décident. DINI et DFIN remplacent les densités des extrémités. Une ligne à la place "
-    "d'une extrémité est prolongée ; une ligne seule est fermée."
-)
-
-
-def _cuts_and_items(call: Call) -> tuple[Cuts, list[Any]]:
-    """Number of elements, sizes and points or lines, in whatever order they stand."""
-    cuts = Cuts()
-    items: list[Any] = []
-    before = -1
-    while before != len(call.operands):
-        before = len(call.operands)
-        read_sizes(call, cuts)
-        if not cuts.count:
-            read_count(call, cuts)
-        items += call.all("POINT", "MAILLAGE")
-    return cuts, items
-
 
 @operator(
     "DROI",
@@ -70,8 +46,8 @@ def _cuts_and_items(call: Call) -> tuple[Cuts, list[Any]]:
     full_name="DROIT",
     aliases=("D",),
     help=Help(
-        en="Straight line between two points. " + _SIZES_EN,
-        fr="Segment de droite entre deux points. " + _SIZES_FR,
+        en="Straight line between two points. " + SIZES_EN,
+        fr="Segment de droite entre deux points. " + SIZES_FR,
         syntax="LIG1 = DROI (N1) POIN1 POIN2 ('DINI' DENS1) ('DFIN' DENS2) ;",
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; LIST (NBEL L) ;",
@@ -82,7 +58,7 @@ def _cuts_and_items(call: Call) -> tuple[Cuts, list[Any]]:
 )
 def droi(call: Call) -> Mesh:
     """Draw a straight line."""
-    cuts, items = _cuts_and_items(call)
+    cuts, items = cuts_and_items(call)
     ends = ends_of(call, items[:2])
     a, b = positions(workspace(call.session), ends.start, ends.end)
     return drawn(call, ends, lambda s: a + s[:, None] * (b - a), float(np.linalg.norm(b - a)), cuts)
@@ -99,7 +75,7 @@ def _three(call: Call, items: list[Any]) -> tuple[Ends, FloatArray]:
 def _by_middle(
     call: Call, curve: Callable[[FloatArray, FloatArray, FloatArray], Arc | Polynomial]
 ) -> Mesh:
-    cuts, items = _cuts_and_items(call)
+    cuts, items = cuts_and_items(call)
     ends, middle = _three(call, items)
     a, b = positions(workspace(call.session), ends.start, ends.end)
     shape = curve(a, middle, b)
@@ -114,10 +90,10 @@ def _by_middle(
     help=Help(
         en="Circular arc: around a centre (the shorter arc, the default), through three points "
         "('PASS'), or by turning a point by an angle in degrees about a point (2D) or an axis (3D) "
-        "('ROTA'; 'ELIM' closes a turn of 360 degrees on its first point). " + _SIZES_EN,
+        "('ROTA'; 'ELIM' closes a turn of 360 degrees on its first point). " + SIZES_EN,
         fr="Arc de cercle : de centre donné (l'arc le plus court, par défaut), par trois points "
         "('PASS'), ou par rotation d'un point d'un angle en degrés autour d'un point (2D) ou d'un "
-        "axe (3D) ('ROTA' ; 'ELIM' ferme un tour complet sur son premier point). " + _SIZES_FR,
+        "axe (3D) ('ROTA' ; 'ELIM' ferme un tour complet sur son premier point). " + SIZES_FR,
         syntax="LIG1 = CERC (N1) ('CENTR') POIN1 CENTR2 POIN3 ('DINI' DENS1) ('DFIN' DENS2) ;\n"
         "LIG1 = CERC (N1) 'PASS' POIN1 POIN2 POIN3 ('DINI' DENS1) ('DFIN' DENS2) ;\n"
         "LIG1 = CERC (N1) 'ROTA' FLOT1 POIN1 POIN2 (POIN3) ('ELIM') ('DINI' D1) ('DFIN' D2) ;",
@@ -140,7 +116,7 @@ def cerc(call: Call) -> Mesh:
         word = call.keyword(("CENTR", "PASS", "ROTA"))
     if word == "ROTA":
         return _turned(call, cuts)
-    more, items = _cuts_and_items(call)
+    more, items = cuts_and_items(call)
     ends, middle = _three(call, items)
     cuts = Cuts(cuts.count or more.count, cuts.first or more.first, cuts.last or more.last)
     a, b = positions(workspace(call.session), ends.start, ends.end)
@@ -184,8 +160,8 @@ def _turned(call: Call, cuts: Cuts) -> Mesh:
     "CER3",
     family="mesh",
     help=Help(
-        en="Circular arc through three points. " + _SIZES_EN,
-        fr="Arc de cercle passant par trois points. " + _SIZES_FR,
+        en="Circular arc through three points. " + SIZES_EN,
+        fr="Arc de cercle passant par trois points. " + SIZES_FR,
         syntax="LIG1 = CER3 (N1) POIN1 POIN2 POIN3 ('DINI' DENS1) ('DFIN' DENS2) ;",
         examples=("OPTI DIME 2 ELEM SEG2 ; L = CER3 8 (1. 0.) (0. 1.) (-1. 0.) ;",),
     ),
@@ -202,9 +178,9 @@ def cer3(call: Call) -> Mesh:
     full_name="PARABOLE",
     help=Help(
         en="Arc of parabola between two points, the middle point being where the end tangents "
-        "meet. " + _SIZES_EN,
+        "meet. " + SIZES_EN,
         fr="Arc de parabole entre deux points, le point du milieu étant l'intersection des "
-        "tangentes aux extrémités. " + _SIZES_FR,
+        "tangentes aux extrémités. " + SIZES_FR,
         syntax="LIG1 = PARA (N1) POIN1 POIN3 POIN2 ('DINI' DENS1) ('DFIN' DENS2) ;",
         examples=("OPTI DIME 2 ELEM SEG2 ; L = PARA 8 (0. 0.) (1. 2.) (2. 0.) ;",),
     ),
@@ -216,123 +192,61 @@ def para(call: Call) -> Mesh:
 
 
 @operator(
-    "CUBP",
+    "LIGN",
     family="mesh",
+    full_name="LIGNE",
     help=Help(
-        en="Cubic through four points; 'UNIF' spaces nodes by length, else by the parameter that "
-        "is 1/3 and 2/3 at the inner points. " + _SIZES_EN,
-        fr="Cubique passant par quatre points ; 'UNIF' répartit les noeuds selon l'abscisse "
-        "curviligne, sinon selon le paramètre valant 1/3 et 2/3 aux points internes. " + _SIZES_FR,
-        syntax="LIG1 = CUBP (N1) POIN1 POIN2 POIN3 POIN4 ('UNIF') ('DINI' D1) ('DFIN' D2) ;",
-        examples=("OPTI DIME 2 ELEM SEG2 ; L = CUBP 9 (0. 0.) (1. 1.) (2. -1.) (3. 0.) ;",),
+        en="Arc ('ROTA') from a point (or the end of a line) about a centre, with the normal of "
+        "its plane in 3D, by an angle in degrees; or segment ('TRAN') from a point along a vector. "
+        + SIZES_EN,
+        fr="Arc ('ROTA') d'un point (ou de la fin d'une ligne) autour d'un centre, avec la normale "
+        "à son plan en 3D, d'un angle en degrés ; ou segment ('TRAN') d'un point selon un vecteur. "
+        + SIZES_FR,
+        syntax="LIG1 = LIGN 'ROTA' (N1) CENTRE POIN1 (NORMAL) ANGLE ('DINI' D1) ('DFIN' D2) ;\n"
+        "LIG1 = LIGN 'TRAN' (N1) POIN1 VEC1 ('DINI' D1) ('DFIN' D2) ;",
+        examples=(
+            "OPTI DIME 2 ELEM SEG2 ; L = LIGN 'ROTA' 8 (0. 0.) (1. 0.) 90. ;"
+            " M = LIGN 'TRAN' 4 (0. 0.) (1. 1.) ;",
+        ),
     ),
     reads_itself=True,
 )
-def cubp(call: Call) -> Mesh:
-    """Draw the cubic through four points."""
-    cuts, items = _cuts_and_items(call)
-    uniform = call.keyword(("UNIF",)) is not None
-    read_sizes(call, cuts)
-    return _four(call, cuts, items, lambda a, p, q, b: cubic_through(a, p, q, b, uniform))
-
-
-@operator(
-    "CUBT",
-    family="mesh",
-    help=Help(
-        en="Cubic between two points, tangent to a vector at each. " + _SIZES_EN,
-        fr="Cubique entre deux points, tangente à un vecteur en chacun. " + _SIZES_FR,
-        syntax="LIG1 = CUBT (N1) POIN1 VECT1 VECT2 POIN2 ('DINI' DENS1) ('DFIN' DENS2) ;",
-        examples=("OPTI DIME 2 ELEM SEG2 ; L = CUBT 9 (0. 0.) (1. 1.) (1. -1.) (3. 0.) ;",),
-    ),
-    reads_itself=True,
-)
-def cubt(call: Call) -> Mesh:
-    """Draw the cubic between two tangents."""
-    cuts, items = _cuts_and_items(call)
-    return _four(call, cuts, items, cubic_tangents)
-
-
-def _four(
-    call: Call,
-    cuts: Cuts,
-    items: list[Any],
-    curve: Callable[[FloatArray, FloatArray, FloatArray, FloatArray], Polynomial],
-) -> Mesh:
-    if len(items) < 3 or not all(isinstance(p, Point) for p in items[1:3]):
-        raise call.missing(("POINT",))
-    ends = ends_of(call, [items[0], *items[3:4]])
-    a, b = positions(workspace(call.session), ends.start, ends.end)
-    shape = curve(a, items[1].coordinates.copy(), items[2].coordinates.copy(), b)
-    return drawn(call, ends, shape, shape.length, cuts)
-
-
-@operator(
-    "COUR",
-    family="mesh",
-    full_name="COURBE",
-    help=Help(
-        en="Polynomial curve P(U) = P0 + U P1 + U**2 P2 + ..., U from 0 to 1 or between the values "
-        "behind 'PARA'. 'REGU' spaces nodes by length. 'PINI' and 'PFIN' give an existing point "
-        "(or a line to continue) where the curve starts or ends.",
-        fr="Courbe polynomiale P(U) = P0 + U P1 + U**2 P2 + ..., U de 0 à 1 ou entre les bornes "
-        "données derrière 'PARA'. 'REGU' répartit les noeuds selon l'abscisse curviligne. 'PINI' "
-        "et 'PFIN' donnent un point existant (ou une ligne à prolonger) aux extrémités.",
-        syntax="LIG1 = COUR (N1) ('DINI' D1) ('DFIN' D2) ('PINI' OBJ1) ('PFIN' OBJ2) POIN0 POIN1 "
-        "(POIN2 ...) ('PARA' U1 U2) ('REGU') ;",
-        examples=("OPTI DIME 2 ELEM SEG2 ; L = COUR 8 (0. 0.) (1. 0.) (0. 1.) ;",),
-    ),
-    reads_itself=True,
-)
-def cour(call: Call) -> Mesh:
-    """Draw a polynomial curve."""
-    cuts = Cuts()
-    points: list[Point] = []
-    limits, regular = (0.0, 1.0), False
-    given: dict[str, Point | Mesh] = {}
-    before = -1
-    while before != len(call.operands):
-        before = len(call.operands)
-        read_sizes(call, cuts)
-        if not cuts.count:
-            read_count(call, cuts)
-        word = call.keyword(("PINI", "PFIN", "PARAMETRE", "REGULIER"))
-        place = call.keyword_end
-        if word in ("PINI", "PFIN"):
-            given[word] = call.required("POINT", "MAILLAGE", after=place)
-        elif word == "PARAMETRE":
-            first = call.required("FLOTTANT", after=place)
-            limits = first, call.required("FLOTTANT", after=place)
-        elif word == "REGULIER":
-            regular = True
-        elif word is None:
-            points += call.all("POINT")
-    if len(points) < 2:
-        raise call.missing(("POINT",))
-    table = np.array([p.coordinates for p in points])
-    shape = Polynomial(table, *limits, regular=regular)
-    ends = _curve_ends(call, shape, given)
-    return drawn(call, ends, shape, shape.length, cuts)
-
-
-def _curve_ends(call: Call, shape: Polynomial, given: dict[str, Point | Mesh]) -> Ends:
-    """Existing or new end nodes of a curve."""
+def lign(call: Call) -> Mesh:
+    """Draw an arc or a segment from a point."""
     ws = workspace(call.session)
-    tips = shape(np.array([0.0, 1.0]))
-    scale = max(shape.length, 1e-300)
-    nodes = []
-    for word, side, tip in (("PINI", 1, tips[0]), ("PFIN", 0, tips[1])):
-        there = given.get(word)
-        if there is None:
-            nodes.append(int(ws.nodes.add(tip[None], ws.density)[0]))
-            continue
-        node = there.node if isinstance(there, Point) else line_ends(there)[side]
-        if float(np.linalg.norm(ws.nodes.coordinates[node] - tip)) > 1e-4 * scale:
-            raise call.bad(f"the point behind {word} is not where the curve ends", there)
-        nodes.append(node)
-    lines = [given.get(w) for w in ("PINI", "PFIN")]
-    before, after = (m if isinstance(m, Mesh) else None for m in lines)
-    return Ends(nodes[0], nodes[1], before, after)
+    word = call.keyword(("ROTA", "TRAN"))
+    cuts = Cuts()
+    read_sizes(call, cuts)
+    angle = None
+    if any(isinstance(o.value, float) for o in call.operands):
+        cuts.count, angle = count_and_number(call)
+    else:
+        read_count(call, cuts)
+    items = call.all("POINT", "MAILLAGE")
+    read_sizes(call, cuts)
+    word = word or call.keyword(("ROTA", "TRAN"))
+    if word is None:
+        raise call.bad("what the line is is not said", hint="'ROTA' or 'TRAN'")
+    if word == "ROTA" and angle is None:
+        angle = call.required("FLOTTANT")
+    base = 1 if word == "ROTA" else 0
+    if len(items) < 2 or (word == "ROTA" and ws.dimension == 3 and len(items) < 3):
+        raise call.missing(("POINT",))
+    before = items[base] if isinstance(items[base], Mesh) else None
+    start = items[base].node if before is None else line_ends(before)[1]
+    at = positions(ws, start)[0]
+    curve: Callable[[FloatArray], FloatArray]
+    if angle is not None:
+        normal = items[2].coordinates.copy() if ws.dimension == 3 else np.array([0.0, 0.0, 1.0])
+        arc = arc_about_axis(at, items[0].coordinates.copy(), normal, math.radians(angle))
+        curve, length, size = arc, arc.length, float(ws.nodes.density[start])
+    else:
+        step, size = items[1].coordinates.copy(), items[1].density
+        curve, length = (lambda s: at + s[:, None] * step), float(np.linalg.norm(step))
+    sizes = cuts.sizes((float(ws.nodes.density[start]), size))
+    parts = subdivide(length, *sizes, cuts.count)
+    line = mesh_curve(ws.nodes, curve, start, None, parts, chosen_family(ws).quadratic, ws.colour)
+    return line if before is None else union(before, line, as_given=True)
 
 
 @operator(
