@@ -98,8 +98,8 @@ def _read_terms(call: Call) -> list[_Sum]:
         if current.support is not None:
             terms.append(current)
             current = _Sum()
-    if not terms:
-        raise call.missing(("MOT", "MAILLAGE"))
+    if not terms or current.unknown:
+        raise call.missing(("MAILLAGE", "POINT") if current.unknown else ("MOT",))
     return terms
 
 

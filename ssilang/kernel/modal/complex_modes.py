@@ -101,7 +101,7 @@ def _linear(problem: ReducedProblem) -> tuple[sp.csc_array, sp.csc_array]:
 def _mode(problem: ReducedProblem, frequency: complex, q: ComplexArray) -> ComplexMode:
     x: ComplexArray = np.asarray(problem.T @ q)
     x = x / x[int(np.argmax(np.abs(x)))]
-    inertia = problem.mass @ x
+    inertia: ComplexArray = np.asarray(problem.mass @ x)
     along = inertia @ unit_translations(problem.numbering)
     return ComplexMode(
         frequency,

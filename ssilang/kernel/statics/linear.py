@@ -24,6 +24,7 @@ from ssilang.kernel.matrices.assembly import (
     imposed_values,
     is_symmetric,
     numbering_of,
+    outside,
     vector_to_field,
 )
 from ssilang.kernel.matrices.matrix import Matrix
@@ -300,11 +301,24 @@ def solve(
     solutions = []
     for load in loads:
         f = field_to_vector(load, system.numbering)
+        if not options.project:
+            _taken(load, system.numbering)
         d = imposed_values(load, system.rows.multipliers)
         found = system.solve(f, d, options.project)
         pair = (system.rows.multipliers, found.multipliers)
         solutions.append(vector_to_field(found.u, system.numbering, multipliers=pair))
     return solutions
+
+
+def _taken(load: NodeField, numbering: Numbering) -> None:
+    """Refuse forces that no unknown of the matrix takes."""
+    lost = outside(load, numbering)
+    if lost:
+        more = f" and {len(lost) - 4} more" if len(lost) > 4 else ""
+        raise KernelError(
+            f"the matrix has no unknown for the force {', '.join(lost[:4])}{more}",
+            "take it out of the second member, or say 'NOID'",
+        )
 
 
 def reactions(matrix: Matrix, solution: NodeField) -> NodeField:

@@ -13,7 +13,8 @@ from ssilang.kernel.statics.linear import SolveOptions, linear_system
 
 
 def free_motion_fields(
-    matrix: Matrix, options: SolveOptions = SolveOptions()  # noqa: B008
+    matrix: Matrix,
+    options: SolveOptions = SolveOptions(),  # noqa: B008
 ) -> tuple[list[NodeField], IntArray]:
     """Motions that meet no stiffness, largest value 1, and the nodes (p,) that pin them."""
     system = linear_system(matrix, options)

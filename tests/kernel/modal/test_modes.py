@@ -1,0 +1,165 @@
+"""Natural modes against chains of masses and springs, whose frequencies are known exactly."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from ssilang.kernel.errors import KernelError
+from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
+from ssilang.kernel.matrices.parts import together
+from ssilang.kernel.matrices.relations import Term, blocked, relation_rows
+from ssilang.kernel.mesh.nodes import NodeTable
+from ssilang.kernel.modal import eigen
+from ssilang.kernel.modal.complex_modes import complex_modes
+from ssilang.kernel.modal.modes import eigenvalue, modes_between, modes_near
+from ssilang.kernel.statics.stability import negative_eigenvalues
+
+
+def chain(n, k=1.0, m=1.0):
+    """n masses on a line joined by springs, both ends free; table, stiffness, mass."""
+    table = NodeTable()
+    ids = table.add(np.column_stack([np.arange(n), np.zeros(n)]))
+    pairs = np.column_stack([ids[:-1], ids[1:]])
+    spring = np.tile(k * np.array([[1.0, -1.0], [-1.0, 1.0]]), (n - 1, 1, 1))
+    stiffness = ElementMatrices(table, pairs, np.arange(2), ("UX",) * 2, ("FX",) * 2, spring)
+    masses = np.full((n, 1, 1), m)
+    zero = np.zeros(1, np.int64)
+    mass = ElementMatrices(table, ids[:, None], zero, ("UX",), ("FX",), masses, "MASSE")
+    return table, Matrix(table, (stiffness,)), Matrix(table, (mass,), (), "MASSE")
+
+
+def with_masses(mass, values):
+    """The same points with other masses (n, 1, 1)."""
+    return Matrix(mass.table, (replace(mass.blocks[0], values=values),), (), "MASSE")
+
+
+def held(table, stiffness, nodes):
+    return together(stiffness, Matrix(table, (), (blocked(table, np.array(nodes), ["UX"]),)))
+
+
+def fixed_free(n, count, k=1.0, m=1.0):
+    """Frequencies of n free masses after a held one, the last one free."""
+    j = np.arange(1, count + 1)
+    return np.sqrt(k / m) * 2.0 * np.sin((2 * j - 1) * np.pi / (4 * n + 2)) / (2.0 * np.pi)
+
+
+@pytest.mark.parametrize("n", [12, 700])  # all eigenvalues, and the nearest only
+def test_chain_held_at_one_end(n):
+    table, K, M = chain(n + 1, 3.0, 0.5)
+    modes = modes_near(held(table, K, [0]), M, [(0.0, 4)])
+    exact = fixed_free(n, 4, 3.0, 0.5)
+    np.testing.assert_allclose([m.frequency for m in modes], exact, rtol=1e-9)
+    x = np.arange(1, n + 1)
+    for j, mode in enumerate(modes, start=1):
+        shape = np.sin((2 * j - 1) * np.pi * x / (2 * n + 1))
+        found = mode.shape.values_at("UX", x)
+        assert np.abs(found).max() == pytest.approx(1.0)
+        cosine = found @ shape / np.linalg.norm(found) / np.linalg.norm(shape)
+        assert abs(cosine) == pytest.approx(1.0, abs=1e-9)
+        assert mode.mass == pytest.approx(0.5 * found @ found)
+        assert mode.along[0] == pytest.approx(0.5 * found.sum())
+        assert mode.along[1:] == (0.0, 0.0)
+
+
+def test_multiplier_of_a_mode_is_the_reaction_at_the_support():
+    table, K, M = chain(9, 3.0)
+    K = held(table, K, [0])
+    mode = modes_near(K, M, [(0.0, 1)])[0]
+    # the support pulls the first mass back with -k u1: LX = k u1
+    multiplier = mode.shape.values_at("LX", K.relations[0].multipliers)
+    np.testing.assert_allclose(multiplier, 3.0 * mode.shape.values_at("UX", np.array([1])))
+
+
+@pytest.mark.parametrize("n", [8, 700])
+def test_free_chain_has_its_rigid_motion_first(n):
+    _, K, M = chain(n, 3.0, 0.5)
+    modes = modes_near(K, M, [(0.0, 3)])
+    exact = 2.0 * np.sqrt(6.0) * np.sin(np.arange(3) * np.pi / (2 * n)) / (2.0 * np.pi)
+    assert abs(modes[0].frequency) < 1e-4 * exact[1]
+    np.testing.assert_allclose([m.frequency for m in modes[1:]], exact[1:], rtol=1e-7)
+    np.testing.assert_allclose(modes[0].shape.components["UX"].values, 1.0, rtol=1e-6)
+
+
+def test_modes_near_several_frequencies_come_sorted_and_are_the_nearest():
+    table, K, M = chain(31)
+    exact = fixed_free(30, 30)
+    modes = modes_near(held(table, K, [0]), M, [(exact[20], 3), (exact[4], 1)])
+    np.testing.assert_allclose([m.frequency for m in modes], exact[[4, 19, 20, 21]], rtol=1e-10)
+
+
+def test_interval_gives_all_modes_inside_and_no_other():
+    table, K, M = chain(601)
+    exact = fixed_free(600, 600)
+    low, high = 0.5 * (exact[9] + exact[10]), 0.5 * (exact[49] + exact[50])
+    modes = modes_between(held(table, K, [0]), M, low, high)
+    np.testing.assert_allclose([m.frequency for m in modes], exact[10:50], rtol=1e-9)
+
+
+def test_massless_nodes_follow_statically():
+    table, K, M = chain(4, 6.0, 2.0)
+    values = M.blocks[0].values.copy()
+    values[1:3] = 0.0  # a mass at the end of three springs in series
+    light = with_masses(M, values)
+    modes = modes_near(held(table, K, [0]), light, [(0.0, 3)])
+    assert len(modes) == 1
+    assert modes[0].frequency == pytest.approx(np.sqrt(2.0 / 2.0) / (2.0 * np.pi))
+    np.testing.assert_allclose(modes[0].shape.values_at("UX", np.array([1, 2])), [1 / 3, 2 / 3])
+
+
+@pytest.mark.parametrize("limit", [400, 5])  # dense, ARPACK
+def test_double_frequencies_are_both_found(limit, monkeypatch):
+    monkeypatch.setattr(eigen, "DENSE", limit)
+    table, K, M = chain(24)
+    ends = relation_rows(table, [Term(1.0, "UX", np.array([0])), Term(-1.0, "UX", np.array([23]))])
+    ring = together(K, Matrix(table, (), (ends,)))  # 23 masses in a ring, one of them twice heavy
+    values = M.blocks[0].values.copy()
+    values[[0, 23]] = 0.5
+    even = with_masses(M, values)
+    modes = modes_near(ring, even, [(0.0, 5)])
+    exact = 2.0 * np.sin(np.pi * np.array([0, 1, 1, 2, 2]) / 23) / (2.0 * np.pi)
+    np.testing.assert_allclose([m.frequency for m in modes], exact, rtol=1e-7, atol=1e-5)
+
+
+def test_a_condition_on_all_masses_is_kept_where_it_cannot_be_eliminated():
+    n = 300
+    table, K, M = chain(n)
+    mean = relation_rows(table, [Term(1.0, "UX", np.array([i])) for i in range(n)])
+    modes = modes_near(together(K, Matrix(table, (), (mean,))), M, [(0.0, 2)])
+    exact = 2.0 * np.sin(np.arange(1, 3) * np.pi / (2 * n)) / (2.0 * np.pi)
+    np.testing.assert_allclose([m.frequency for m in modes], exact, rtol=1e-8)
+
+
+def test_unstable_system_has_a_negative_frequency():
+    table, K, M = chain(2)
+    push = ElementMatrices(table, np.array([[1]]), np.zeros(1, np.int64), ("UX",), ("FX",),
+                           np.array([[[-3.0]]]))  # fmt: skip
+    matrix = together(held(table, K, [0]), Matrix(table, (push,)))
+    assert negative_eigenvalues(matrix) == 1
+    mode = modes_near(matrix, M, [(0.0, 1)])[0]
+    assert mode.frequency == pytest.approx(-np.sqrt(2.0) / (2.0 * np.pi))
+    assert eigenvalue(mode.frequency) == pytest.approx(-2.0)
+
+
+def test_nothing_to_vibrate_is_said():
+    table, K, M = chain(3)
+    with pytest.raises(KernelError, match="hold every unknown"):
+        modes_near(held(table, K, [0, 1, 2]), M, [(0.0, 1)])
+    with pytest.raises(KernelError, match="mass"):
+        modes_near(K, M.scaled(0.0), [(0.0, 1)])
+
+
+@pytest.mark.parametrize("n", [2, 500])
+def test_damped_modes_of_proportional_damping(n):
+    table, K, M = chain(n + 1)
+    K = held(table, K, [0])
+    alpha, beta = 0.02, 0.05
+    damping = together(M.scaled(alpha), Matrix(table, K.blocks).scaled(beta))
+    exact = fixed_free(n, 2)
+    modes = complex_modes(K, M, damping, complex(exact[0]), 2)
+    w = 2.0 * np.pi * exact
+    xi = 0.5 * (alpha / w + beta * w)
+    for mode, wi, x in zip(modes, w, xi, strict=True):
+        if x < 1.0:
+            assert mode.frequency.real == pytest.approx(wi * np.sqrt(1 - x**2) / 2 / np.pi)
+            assert mode.frequency.imag == pytest.approx(wi * x / (2 * np.pi))
