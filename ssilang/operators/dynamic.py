@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ssilang.io.vtk.series import SeriesWriter
+from ssilang.kernel.dynamics.contact import ContactOptions
 from ssilang.kernel.dynamics.plan import every
 from ssilang.kernel.dynamics.scheme import Scheme, generalised_alpha, hht, newmark
 from ssilang.kernel.elements.families import stress
@@ -30,13 +31,14 @@ if TYPE_CHECKING:
     from ssilang.kernel.dynamics.integrate import History
     from ssilang.kernel.dynamics.problem import Inputs, Problem
 
+CONTACT_ENTRIES = ("CONTACT", "COEFFICIENT", "CONTACT_PERSISTANT", "MASSE_MODIFIEE")
 KNOWN = (
     "DEPL", "VITE", "CHAR", "RIGI", "MASS", "AMOR", "MODELE", "CARACTERISTIQUES",
     "TEMPS_CALCULES", "INST", "FREQ", "PAS_SAUVES", "TEMPS_SAUVES", "MAILLAGE_SAUVE", "SAUV",
     "ECON", "PAS_SAUVES_VTK", "TEMPS_SAUVES_VTK", "MAILLAGE_VTK", "FICHIER_VTK",
     "PAS_SAUVES_CSV", "TEMPS_SAUVES_CSV", "MAILLAGE_CSV", "COMPOSANTES_CSV", "FICHIER_CSV",
     "CHARMECA", "VITEUNIL", "ALPHA_F", "RHO_INF", "BETA", "GAMMA", "NEWTON_COMPLET", "RESULTATS",
-    "RESULTATS_CSV", "ENERGIES", "SOUSTYPE",
+    "RESULTATS_CSV", "ENERGIES", "SOUSTYPE", *CONTACT_ENTRIES,
 )  # fmt: skip
 REFUSED = {"CHARMECA": "loads computed by a procedure at each step are not built"}
 
@@ -135,7 +137,47 @@ def _inputs(entries: Entries, times: FloatArray) -> Inputs:
         entries.get("MODELE", "MMODEL"),
         entries.get("CARACTERISTIQUES", "MCHAML"),
         scheme_of(entries),
+        contact_options(entries),
     )
+
+
+def contact_options(entries: Entries, dynamic: bool = True) -> ContactOptions:
+    """How unilateral relations are solved, and velocities corrected (VITEUNIL).
+
+    VRAI, the default of the average acceleration, corrects in the norm of the mass.
+    """
+    methods = ("LAGRANGE", "PENALITE", "AUGMENTE", "UZAWA")
+    method = str(entries.get("CONTACT", "MOT") or "LAGRANGE").upper().rstrip()
+    if method not in methods:
+        raise entries.bad(f"'CONTACT' is '{method}'", "one of " + ", ".join(methods))
+    coefficient = entries.get("COEFFICIENT", "FLOTTANT")
+    if method == "PENALITE" and coefficient is None:
+        raise entries.bad("'CONTACT' = 'PENALITE' needs 'COEFFICIENT'", "a stiffness, N/m")
+    if not dynamic:
+        return ContactOptions(method, coefficient)
+    return ContactOptions(
+        method,
+        coefficient,
+        _correction(entries, method),
+        entries.flag("CONTACT_PERSISTANT"),
+        entries.flag("MASSE_MODIFIEE"),
+    )
+
+
+def _correction(entries: Entries, method: str) -> str:
+    average = scheme_of(entries).average_acceleration
+    given = entries.get("VITEUNIL", "LOGIQUE", "MOT")
+    if given is None:
+        return "MASSE" if average and method != "PENALITE" else "FAUX"
+    word = {True: "MASSE", False: "FAUX"}.get(given, str(given).upper().rstrip())
+    if word not in ("FAUX", "MASSE", "RIGIDITE"):
+        raise entries.bad(f"'VITEUNIL' is '{given}'", "VRAI, FAUX, 'MASSE' or 'RIGIDITE'")
+    if word != "FAUX" and not average:
+        raise entries.bad(
+            "'VITEUNIL' corrects velocities of the average acceleration only",
+            "leave ALPHA_F, RHO_INF, BETA and GAMMA, or VITEUNIL = FAUX",
+        )
+    return word
 
 
 def scheme_of(entries: Entries) -> Scheme:

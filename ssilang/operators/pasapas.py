@@ -20,7 +20,13 @@ from ssilang.kernel.model import Model, Zone
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
 from ssilang.language.values import Mot, Table
-from ssilang.operators.dynamic import report, scheme_of, warn_resolution
+from ssilang.operators.dynamic import (
+    CONTACT_ENTRIES,
+    contact_options,
+    report,
+    scheme_of,
+    warn_resolution,
+)
 from ssilang.operators.progress import ProgressLine
 from ssilang.operators.table_entries import Entries
 
@@ -71,6 +77,7 @@ KNOWN = (
     "AMORTISSEMENT", "DYNAMIQUE", "HYPOTHESE_DEFORMATIONS", "PROCEDURE_PERSO1", "ARRET",
     "DEFORMATIONS_INELASTIQUES", "CONV", "ERREUR", "ENERGIES", "ALPHA_F", "RHO_INF", "BETA",
     "GAMMA", "NEWTON_COMPLET", "VITEUNIL", "SOUSTYPE", "FREA1",
+    *CONTACT_ENTRIES,
 )  # fmt: skip
 
 
@@ -162,6 +169,7 @@ def _inputs(entries: Entries, times: FloatArray, dynamic: bool) -> Inputs:
         model,
         material,
         scheme_of(entries),
+        contact_options(entries, dynamic),
     )
 
 

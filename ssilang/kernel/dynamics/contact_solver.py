@@ -20,7 +20,7 @@ from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.dynamics.sparse_loop import StepOutcome
 from ssilang.kernel.joints.response import interface_response, interface_stiffness
 from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.solvers.complementarity import ContactProblem, solve_contact
+from ssilang.kernel.solvers.contact_methods import METHODS
 
 MOST_TURNS = 40
 TOLERANCE = 1e-12
@@ -35,6 +35,7 @@ class ContactSolver:
         self.share = 1 - problem.scheme.alpha_f
         self.YG = effective.solve(contact.G.T.toarray())
         self.SGG = contact.G @ self.YG
+        self.options = problem.contact_options
         self.active: BoolArray | None = None
 
     def solve(self, motion: Motion, r: FloatArray, dd: FloatArray, gap: FloatArray) -> StepOutcome:
@@ -53,12 +54,9 @@ class ContactSolver:
         return self._with_joints(motion, du, g0)
 
     def _complementarity(self, W: FloatArray, q: FloatArray) -> FloatArray:
-        m = len(q)
-        none = np.zeros((m, 0))
-        problem = ContactProblem(W, q, none, none, np.zeros(0), np.zeros(m, bool))
-        found = solve_contact(problem, self.active)
+        found = METHODS[self.options.method](W, q, self.options.coefficient, self.active)
         self.active = found.active
-        return np.maximum(found.p, 0.0)
+        return found.p
 
     def _with_joints(self, motion: Motion, du: FloatArray, g0: FloatArray) -> StepOutcome:
         joints, e, G = self.interface, self.effective, self.contact.G

@@ -9,8 +9,10 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ssilang.kernel.dynamics.compiled_loop import N_ENERGIES, Motion, Saved, march
+from ssilang.kernel.dynamics.contact import TOUCHING, BoolArray
 from ssilang.kernel.dynamics.dense_loop import joints_of, operators_of, system_of
 from ssilang.kernel.dynamics.effective import effective_matrix, effective_of
+from ssilang.kernel.dynamics.impact import ImpactRule
 from ssilang.kernel.dynamics.initial import (
     admissible_velocity,
     initial_acceleration,
@@ -88,6 +90,7 @@ class Integration:
             p.u.copy(), v, a, joints.delta, joints.f, joints.w, joints.t, joints.state,
             reaction, energies, np.zeros(0 if p.contact is None else len(p.contact)),
         )  # fmt: skip
+        self._closed = _closed_at_start(p)
         self._engines: dict[float, _Engine] = {}
         self._kind = _SparseEngine if self.full_newton or not p.small else _DenseEngine
 
@@ -166,7 +169,7 @@ class Integration:
         if found is None:
             if len(self._engines) >= FACTORS_KEPT:
                 self._engines.pop(next(iter(self._engines)))
-            found = self._kind(self.problem, self.motion, dt, self.full_newton)
+            found = self._kind(self.problem, self.motion, dt, self.full_newton, self._closed)
             self._engines[dt] = found
         return found
 
@@ -214,7 +217,9 @@ class _DenseEngine:
 
     name = "compiled"
 
-    def __init__(self, problem: Problem, motion: Motion, dt: float, full: bool) -> None:
+    def __init__(
+        self, problem: Problem, motion: Motion, dt: float, full: bool, closed: BoolArray
+    ) -> None:
         share = 1 - problem.scheme.alpha_f
         effective = effective_of(problem, effective_matrix(problem, dt), dt, share)
         self.solver = effective.inverse.factor.name
@@ -236,10 +241,13 @@ class _SparseEngine:
 
     name = "condensed"
 
-    def __init__(self, problem: Problem, motion: Motion, dt: float, full: bool) -> None:
+    def __init__(
+        self, problem: Problem, motion: Motion, dt: float, full: bool, closed: BoolArray
+    ) -> None:
         A = effective_matrix(problem, dt)
         share = 1 - problem.scheme.alpha_f
         self._step: StepSolver
+        self._impact: ImpactRule | None = None
         if full:
             from ssilang.kernel.dynamics.full_newton import FullNewtonSolver
 
@@ -249,12 +257,25 @@ class _SparseEngine:
             effective = effective_of(problem, A, dt, share)
             self.solver = effective.inverse.factor.name
             self._step = step_solver(problem, effective)
+            if problem.contact is not None:
+                self._impact = ImpactRule(problem, effective, problem.contact, closed)
         self._loop, self._dt = SparseLoop(problem, motion), dt
 
     def march(
         self, factors: FloatArray, save: IntArray, saved: Saved, history: FloatArray
     ) -> tuple[int, int, float]:
-        return self._loop.march(self._step, self._dt, factors, save, saved, history)
+        return self._loop.march(self._step, self._dt, factors, save, saved, history, self._impact)
+
+
+def _closed_at_start(problem: Problem) -> BoolArray:
+    """Unilateral rows that touch in the initial state."""
+    contact = problem.contact
+    if contact is None:
+        return np.zeros(0, bool)
+    gaps = contact.gaps(problem.u, problem.loading.at(problem.times[:1])[0])
+    size = np.abs(contact.G @ problem.u).max(initial=0.0) + np.abs(gaps).max(initial=0.0)
+    closed: BoolArray = gaps <= TOUCHING * size
+    return closed
 
 
 _Engine = _DenseEngine | _SparseEngine

@@ -9,8 +9,9 @@ import scipy.sparse as sp
 
 from ssilang.kernel.curve import Load
 from ssilang.kernel.dynamics.constraints import Constraints, check_values, constraints_of
-from ssilang.kernel.dynamics.contact import ContactRows, split_rows
+from ssilang.kernel.dynamics.contact import ContactOptions, ContactRows, split_rows
 from ssilang.kernel.dynamics.loading import Loading, loading_of
+from ssilang.kernel.dynamics.modified_mass import without_contact_mass
 from ssilang.kernel.dynamics.scheme import Scheme
 from ssilang.kernel.elements.families import stiffness as zone_stiffness
 from ssilang.kernel.errors import FieldError, KernelError
@@ -62,6 +63,7 @@ class Problem:
         Strictly increasing, the initial time first.
     contact : ContactRows or None
         Unilateral relations.
+    contact_options : ContactOptions
     """
 
     numbering: Numbering
@@ -78,6 +80,7 @@ class Problem:
     times: FloatArray
     scheme: Scheme = field(default_factory=Scheme)
     contact: ContactRows | None = None
+    contact_options: ContactOptions = field(default_factory=ContactOptions)
 
     @property
     def small(self) -> bool:
@@ -103,6 +106,7 @@ class Inputs:
     model: Model | None = None
     characteristics: CellField | None = None
     scheme: Scheme = field(default_factory=Scheme)
+    contact_options: ContactOptions = field(default_factory=ContactOptions)
 
 
 def make_problem(inputs: Inputs) -> Problem:
@@ -131,6 +135,8 @@ def make_problem(inputs: Inputs) -> Problem:
     interface = interface_of(zones, inputs.characteristics, numbering) if zones else None
     assembled = {k: _assembled(m, numbering) for k, m in matrices.items()}
     _refuse_not_finite(assembled, loading)
+    if contact is not None and inputs.contact_options.modified_mass:
+        assembled["M"] = without_contact_mass(assembled["M"], assembled["K"], contact.G)
     return Problem(
         numbering,
         assembled["K"],
@@ -146,6 +152,7 @@ def make_problem(inputs: Inputs) -> Problem:
         times,
         inputs.scheme,
         contact,
+        inputs.contact_options,
     )
 
 

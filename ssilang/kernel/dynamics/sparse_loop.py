@@ -22,6 +22,7 @@ from ssilang.kernel.dynamics.compiled_loop import (
     Saved,
 )
 from ssilang.kernel.dynamics.effective import Effective
+from ssilang.kernel.dynamics.impact import ImpactRule
 from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.joints.condensed import solve_interface
 from ssilang.kernel.joints.interface import Interface
@@ -129,9 +130,10 @@ class SparseLoop:
         save: IntArray,
         saved: Saved,
         history: FloatArray,
+        impact: ImpactRule | None = None,
     ) -> tuple[int, int, float]:
-        """As `compiled_loop.march`."""
-        p, worst = self.problem, 0
+        """As `compiled_loop.march`; `impact` corrects velocities of unilateral relations."""
+        p, worst, contact = self.problem, 0, self.problem.contact
         loads = factors @ p.loading.forces.T
         imposed = factors @ p.loading.imposed.T
         for k in range(len(save)):
@@ -142,6 +144,9 @@ class SparseLoop:
                 return k, outcome.turns, outcome.residual
             worst = max(worst, outcome.turns)
             self._advance(outcome.du, dt)
+            if impact is not None and contact is not None:
+                rate = contact.imposed @ (factors[k + 1] - factors[k]) / dt
+                impact.correct(self.motion, rate)
             if not np.isfinite(self.motion.u).all():
                 return k, -1, np.inf
             self._account(outcome.du, dd, loads[k], loads[k + 1], dt)
