@@ -43,11 +43,14 @@ class NodeField:
     nature : '', 'DIFFUS' or 'DISCRET'
         DIFFUS: samples of a continuous field (displacement); DISCRET: lumped quantities that add
         up (force). Decides what the union of two fields does where both are defined.
+    title : str
+        Free text (CHAN 'TITR').
     """
 
     table: NodeTable
     components: Mapping[str, NodeValues]
     nature: Nature = ""
+    title: str = ""
 
     @classmethod
     def of(
