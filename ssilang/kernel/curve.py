@@ -22,6 +22,7 @@ class CurvePart:
     legend: str = ""
     colour: int = 0
     words: tuple[str, ...] = ()  # ordinates given as words (LISTMOTS), empty otherwise
+    kind: str = ""  # PREE PIMA (parts of a complex curve), MODU PHAS, HIST ENTI MOTS; '' for reals
 
 
 @dataclass(frozen=True, eq=False)

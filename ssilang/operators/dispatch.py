@@ -127,14 +127,16 @@ class ByWord:
         self.length = length
         self.entries: dict[str, Entry] = {}
         self.by_type: dict[str, Entry] = {}
+        self.typed: dict[tuple[str, str], Entry] = {}
         operator(name, family=family, help=Help(en, fr), full_name=full_name, reads_itself=True)(
             self._run
         )
 
     def _run(self, call: Call) -> Any:
-        word = call.keyword([w for w in self.entries if w], self.length)
+        known = dict.fromkeys((*(w for w in self.entries if w), *(w for w, _ in self.typed)))
+        word = call.keyword(list(known), self.length)
         if word is not None:
-            return self.entries[word](call, word)
+            return self._entry(call, word)(call, word)
         operand = call.read(*self.by_type) if self.by_type else None
         if operand is not None:
             return self.by_type[type_of(operand.value)](call, operand.value)
@@ -148,17 +150,37 @@ class ByWord:
             found=call.peek_word() or "",
         )
 
+    def _entry(self, call: Call, word: str) -> Entry:
+        """The entry of a word: that of the first operand's type which has one, else the plain."""
+        for operand in call.operands:
+            found = self.typed.get((word, type_of(operand.value)))
+            if found is not None:
+                return found
+        plain = self.entries.get(word)
+        if plain is None:
+            raise call.missing([t for w, t in self.typed if w == word])
+        return plain
+
     def on(
         self,
         *words: str,
+        of: tuple[str, ...] = (),
         syntax: str = "",
         en: str = "",
         fr: str = "",
         examples: tuple[str, ...] = (),
     ) -> Callable[[Entry], Entry]:
-        """Decorator: a function `(call, word)` for keywords (capitals, in full)."""
+        """Decorator: a function `(call, word)` for keywords (capitals, in full).
 
-        return _adder(self.name, self.entries, words, (syntax, en, fr), examples)
+        With `of`, for operands of these types only: several families may share a keyword.
+        """
+        add_help = _adder(self.name, {} if of else self.entries, words, (syntax, en, fr), examples)
+
+        def add(entry: Entry) -> Entry:
+            self.typed.update({(w, kind): entry for w in words for kind in of})
+            return add_help(entry)
+
+        return add
 
     def on_type(
         self,

@@ -43,11 +43,20 @@ def _tab(call: Call) -> tuple[str, int] | None:
     return mark.span.text, int(column)
 
 
+def _at_format(call: Call) -> bool:
+    """Whether the next two words are FORMAT and a format."""
+    if not call.at_word() or len(call.operands) < 2:
+        return False
+    first, second = (o.value for o in call.operands[:2])
+    said = isinstance(second, Mot) and second.strip()[:1] == "("
+    return said and str(first).upper().rstrip() in ("FORMAT", "FORM", "FORMA")
+
+
 def read_text(call: Call) -> str:
     """Join all the words, numbers and logicals that can be read, with tab marks and formats."""
     text, form = "", DEFAULT_FORMAT
     while True:
-        if call.at_word() and call.keyword(("FORM",)) is not None:
+        if _at_format(call) and call.keyword(("FORM",)) is not None:
             form = str(call.required("MOT", after=call.keyword_end))
             continue
         operand = call.read("MOT", "ENTIER", "FLOTTANT", "LOGIQUE")

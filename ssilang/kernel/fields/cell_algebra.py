@@ -1,0 +1,302 @@
+"""Sums, products and functions of fields in cells, block by block."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ssilang.kernel.errors import FieldError
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.fields.node_field import NodeField, NodeValues
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh
+from ssilang.kernel.mesh.nodes import FloatArray
+
+Values = NDArray[Any]
+SCALAR = "SCAL"
+
+
+def rebuilt(block: CellFieldBlock, components: Mapping[str, Values]) -> CellFieldBlock:
+    """A block like `block` with other components."""
+    return CellFieldBlock(block.cells, components, block.support, block.element, block.constituent)
+
+
+def same_cells(a: CellBlock, b: CellBlock) -> bool:
+    """Whether two blocks hold the same cells in the same order."""
+    return a is b or (
+        a.cell_type == b.cell_type
+        and a.raw.shape == b.raw.shape
+        and np.array_equal(a.connectivity, b.connectivity)
+    )
+
+
+def _same_zone(a: CellFieldBlock, b: CellFieldBlock) -> bool:
+    return a.constituent == b.constituent and same_cells(a.cells, b.cells)
+
+
+def _numeric(name: str, values: Values) -> Values:
+    if values.dtype == object:
+        raise FieldError(f"component {name} holds objects, not numbers")
+    return values
+
+
+def applied(
+    field: CellField, function: Callable[[Any], Any], names: Iterable[str] | None = None
+) -> CellField:
+    """The field of a function `array -> array` of the values (of components `names` only)."""
+    wanted = None if names is None else set(names)
+    blocks = []
+    for block in field.blocks:
+        made = {
+            k: np.asarray(function(_numeric(k, v))) if wanted is None or k in wanted else v
+            for k, v in block.components.items()
+        }
+        blocks.append(rebuilt(block, made))
+    return CellField(tuple(blocks), field.title)
+
+
+def _fitted(name: str, a: CellFieldBlock, b: CellFieldBlock) -> None:
+    x, y = a.components[name], b.components[name]
+    if a.support != b.support and 1 not in (x.shape[1], y.shape[1]):
+        raise FieldError(
+            f"component {name} stands at {a.support} in one field and at {b.support} in the other",
+            "bring them to the same points by CHAN",
+        )
+
+
+def _support(a: CellFieldBlock, b: CellFieldBlock, names: Iterable[str]) -> CellFieldBlock:
+    """The block whose points a result stands at: the one with more points."""
+    count = [max((v.shape[1] for v in block.components.values()), default=1) for block in (a, b)]
+    return b if count[1] > count[0] else a
+
+
+def added(a: CellField, b: CellField, factor: float = 1.0) -> CellField:
+    """`a + factor * b`: common components of common zones add up, the others are kept."""
+    blocks = list(a.blocks)
+    for block in b.blocks:
+        place = next((i for i, mine in enumerate(blocks) if _same_zone(mine, block)), None)
+        if place is None:
+            scaled = {k: _scaled(v, factor) for k, v in block.components.items()}
+            blocks.append(rebuilt(block, scaled))
+        else:
+            blocks[place] = _added_block(blocks[place], block, factor)
+    return CellField(tuple(blocks), a.title or b.title)
+
+
+def _scaled(values: Values, factor: float) -> Values:
+    return values if values.dtype == object or factor == 1.0 else values * factor
+
+
+def _added_block(a: CellFieldBlock, b: CellFieldBlock, factor: float) -> CellFieldBlock:
+    made = dict(a.components)
+    for name, values in b.components.items():
+        if name not in made:
+            made[name] = _scaled(values, factor)
+            continue
+        _fitted(name, a, b)
+        made[name] = _numeric(name, made[name]) + factor * _numeric(name, values)
+    return rebuilt(_support(a, b, made), made)
+
+
+def united(a: CellField, b: CellField) -> CellField:
+    """Union (ET): zones and components of both; where both have one, the values must agree.
+
+    Raises
+    ------
+    FieldError
+        If they differ.
+    """
+    blocks = list(a.blocks)
+    for block in b.blocks:
+        place = next((i for i, mine in enumerate(blocks) if _same_zone(mine, block)), None)
+        if place is None:
+            blocks.append(block)
+            continue
+        made = dict(blocks[place].components)
+        for name, values in block.components.items():
+            if name in made and not _agree(made[name], values):
+                raise FieldError(
+                    f"component {name} differs between the two fields on the same cells",
+                    "write + to add them",
+                )
+            made.setdefault(name, values)
+        blocks[place] = rebuilt(_support(blocks[place], block, made), made)
+    return CellField(tuple(blocks), a.title or b.title)
+
+
+def _agree(a: Values, b: Values) -> bool:
+    if a.dtype == object or b.dtype == object:
+        return bool(np.all(a == b))
+    return bool(np.allclose(a, b, rtol=1e-6, atol=0.0)) if a.shape == b.shape else False
+
+
+def multiplied(a: CellField, b: CellField, divide: bool = False) -> CellField:
+    """Product (or quotient) by a scalar field, or component by component.
+
+    Raises
+    ------
+    FieldError
+        If a zone of one field is not a zone of the other, or components do not fit.
+    """
+    blocks = []
+    for mine in a.blocks:
+        other = next((o for o in b.blocks if same_cells(mine.cells, o.cells)), None)
+        if other is None:
+            raise FieldError(
+                f"a zone of {len(mine.cells)} {mine.cells.cell_type} of the first field is not a "
+                "zone of the second",
+                "reduce both to the same model by REDU",
+            )
+        blocks.append(_multiplied_block(mine, other, divide))
+    return CellField(tuple(blocks), a.title)
+
+
+def _multiplied_block(a: CellFieldBlock, b: CellFieldBlock, divide: bool) -> CellFieldBlock:
+    run = _quotient if divide else np.multiply
+    if len(b.components) == 1 and (SCALAR in b.components or len(a.components) > 1):
+        (factor,) = b.components.values()
+        made = {k: run(_numeric(k, v), factor) for k, v in a.components.items()}
+    elif list(a.components) == [SCALAR] and not divide:
+        factor = a.components[SCALAR]
+        made = {k: run(factor, _numeric(k, v)) for k, v in b.components.items()}
+    elif len(a.components) == len(b.components) == 1:
+        ((name, x),), (y,) = a.components.items(), b.components.values()
+        made = {name: run(x, y)}
+    elif set(a.components) == set(b.components):
+        made = {k: run(_numeric(k, v), b.components[k]) for k, v in a.components.items()}
+    else:
+        raise FieldError(
+            f"a field ({' '.join(a.components)}) by a field ({' '.join(b.components)}) is not "
+            "defined",
+            "one of them has one component, or three lists of words say what goes with what",
+        )
+    return rebuilt(_support(a, b, made), made)
+
+
+def _quotient(a: Values, b: Values) -> Values:
+    if np.any(b == 0):
+        raise FieldError("the field to divide by has a zero", "see MASQ and BORN")
+    return np.asarray(a / b)
+
+
+def multiplied_by_names(
+    a: CellField,
+    b: CellField,
+    names: tuple[Iterable[str], Iterable[str], Iterable[str]],
+    divide: bool = False,
+) -> CellField:
+    """Components of `a` times components of `b` under new names, pair by pair."""
+    run = _quotient if divide else np.multiply
+    pairs = list(zip(*names, strict=True))
+    blocks = []
+    for mine in a.blocks:
+        other = next((o for o in b.blocks if same_cells(mine.cells, o.cells)), None)
+        if other is None:
+            continue
+        made: dict[str, Values] = {}
+        for left, right, name in pairs:
+            if left in mine.components and right in other.components:
+                value = run(mine.components[left], other.components[right])
+                made[name] = made[name] + value if name in made else value
+        blocks.append(rebuilt(_support(mine, other, made), made))
+    return CellField(tuple(blocks), a.title)
+
+
+def component_names(field: CellField) -> list[str]:
+    """Names of the components of all zones, each once, in order."""
+    return list(dict.fromkeys(n for b in field.blocks for n in b.components))
+
+
+def extracted(
+    field: CellField, names: Iterable[str], new: Iterable[str], check: bool = True
+) -> CellField:
+    """Components `names` under the names `new`.
+
+    Raises
+    ------
+    FieldError
+        If the field has none of a name (with `check`).
+    """
+    pairs = list(zip(names, new, strict=True))
+    known = component_names(field)
+    for name, _ in pairs:
+        if check and name not in known:
+            raise FieldError(
+                f"the field has no component {name}", "its components are: " + " ".join(known)
+            )
+    blocks = []
+    for block in field.blocks:
+        made = {n: block.components[o] for o, n in pairs if o in block.components}
+        if made:
+            blocks.append(rebuilt(block, made))
+    return CellField(tuple(blocks), field.title)
+
+
+def renamed(field: CellField, old: Iterable[str], new: Iterable[str]) -> CellField:
+    """Components `old` under the names `new`; the others keep theirs."""
+    names = dict(zip(old, new, strict=True))
+    blocks = [
+        rebuilt(b, {names.get(k, k): v for k, v in b.components.items()}) for b in field.blocks
+    ]
+    return CellField(tuple(blocks), field.title)
+
+
+def values_of(field: CellField, names: Iterable[str] | None = None) -> list[Values]:
+    """Arrays of the numeric components (of those named)."""
+    wanted = None if names is None else set(names)
+    return [
+        v
+        for b in field.blocks
+        for k, v in b.components.items()
+        if v.dtype != object and (wanted is None or k in wanted)
+    ]
+
+
+def mesh_of(field: CellField) -> Mesh:
+    """The mesh on which a field stands."""
+    blocks: list[CellBlock] = []
+    for part in field.blocks:
+        if not any(part.cells is b for b in blocks):
+            blocks.append(part.cells)
+    if not blocks:
+        raise FieldError("the field is empty: it stands on no cell")
+    return Mesh(blocks[0].nodes, tuple(blocks))
+
+
+def at_nodes(field: NodeField, mesh: Mesh, title: str = "") -> CellField:
+    """A nodal field as a field at the nodes of the cells of a mesh (0 where it is absent)."""
+    blocks = []
+    for cells in mesh.blocks:
+        nodes = cells.connectivity
+        made = {k: v.at(nodes.ravel()).reshape(nodes.shape) for k, v in field.components.items()}
+        blocks.append(CellFieldBlock(cells, made, "NOEUD"))
+    return CellField(tuple(blocks), title)
+
+
+def averaged_at_nodes(field: CellField, total: bool = False) -> NodeField:
+    """Mean (or sum) at each node of the values that its cells give there.
+
+    Values at integration points are replaced by their mean over the cell.
+    """
+    sums: dict[str, tuple[list[Values], list[Values]]] = {}
+    for block in field.blocks:
+        nodes = block.cells.connectivity
+        for name, values in block.components.items():
+            numbers = _numeric(name, values)
+            if block.support != "NOEUD" or numbers.shape[1] != nodes.shape[1]:
+                numbers = np.repeat(numbers.mean(axis=1, keepdims=True), nodes.shape[1], axis=1)
+            numbers = np.broadcast_to(numbers, nodes.shape)
+            parts = sums.setdefault(name, ([], []))
+            parts[0].append(nodes.ravel())
+            parts[1].append(numbers.ravel())
+    made = {k: _gathered(np.concatenate(n), np.concatenate(v), total) for k, (n, v) in sums.items()}
+    table = mesh_of(field).nodes
+    return NodeField(table, made, "DIFFUS")
+
+
+def _gathered(nodes: Values, values: Values, total: bool) -> NodeValues:
+    ids, place = np.unique(nodes, return_inverse=True)
+    sums: FloatArray = np.bincount(place, weights=values).astype(float)
+    return NodeValues(ids, sums if total else sums / np.bincount(place))

@@ -1,0 +1,31 @@
+"""Words that operators on curves read: colours, names of axes."""
+
+from __future__ import annotations
+
+from ssilang.io.plots.palette import NAMES, index_of
+from ssilang.language.call import Call
+from ssilang.language.values import ListMots
+
+
+def read_colour(call: Call) -> int | None:
+    """Index of the colour word that stands next, None if there is none."""
+    word = call.keyword(NAMES)
+    return None if word is None else index_of(word)
+
+
+def read_colours(call: Call) -> list[int]:
+    """Indices of a colour word or of a list of colour words; empty without any."""
+    single = read_colour(call)
+    if single is not None:
+        return [single]
+    if call.operands and isinstance(call.operands[0].value, ListMots):
+        words = call.operands[0].value.values
+        if words and all(w.strip().upper()[:4] in NAMES for w in words):
+            call.used.append(call.operands.pop(0))
+            return [index_of(w) for w in words]
+    return []
+
+
+def axis_name(call: Call) -> str:
+    """The word that stands next, as the name of an axis; '' if a list stands there."""
+    return str(call.required("MOT")).rstrip() if call.at_word() else ""

@@ -1,0 +1,203 @@
+"""Functions of one number on numbers, lists, curves and fields: ABS SIN EXP LOG ATG ..."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from ssilang.kernel.curve import Curve
+from ssilang.kernel.errors import KernelError
+from ssilang.kernel.fields import cell_algebra, node_algebra
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.language.call import Call
+from ssilang.language.registry import Help, operator
+from ssilang.language.values import ListEnti, ListReel
+
+Function = Callable[[Any], Any]
+OPERANDS = ("ENTIER", "FLOTTANT", "LISTENTI", "LISTREEL", "EVOLUTIO", "CHPOINT", "MCHAML")
+
+
+def mapped(function: Function, value: Any) -> Any:
+    """A function `array -> array` on the values of a number, list, curve or field.
+
+    A function that gives integers makes an ENTIER or LISTENTI of an ENTIER or LISTENTI.
+    """
+    if isinstance(value, int | float):
+        return np.asarray(function(np.asarray(value))).item()
+    if isinstance(value, ListEnti | ListReel):
+        result = np.asarray(function(value.values))
+        return ListEnti(result) if result.dtype == np.int64 else ListReel(result)
+    if isinstance(value, Curve):
+        parts = (
+            dataclasses.replace(p, ordinates=np.asarray(function(p.ordinates), dtype=float))
+            for p in value.parts
+        )
+        return dataclasses.replace(value, parts=tuple(parts))
+    if isinstance(value, NodeField):
+        return node_algebra.applied(value, function)
+    assert isinstance(value, CellField)
+    return cell_algebra.applied(value, function)
+
+
+def _within(name: str, function: Function, low: float, high: float, strict: bool) -> Function:
+    """A function that refuses arguments outside of an interval."""
+
+    def run(x: Any) -> Any:
+        slack = 0.0 if strict else 1e-12
+        bad = (x <= low) if strict else (x < low - slack)
+        bad = bad | (x > high + slack) | np.isnan(x)
+        if np.any(bad):
+            worst = np.atleast_1d(x)[np.atleast_1d(bad)][0]
+            limits = f"above {low:g}" if strict else f"between {low:g} and {high:g}"
+            limits = f"at least {low:g}" if not strict and high == np.inf else limits
+            raise KernelError(f"{name} of {worst:g}: the argument must be {limits}")
+        return function(np.clip(x, low, high) if not strict else x)
+
+    return run
+
+
+def _degrees(function: Function) -> Function:
+    return lambda x: np.degrees(function(x))
+
+
+def _of_degrees(function: Function) -> Function:
+    return lambda x: function(np.radians(x))
+
+
+def _exponential(x: Any) -> Any:
+    if np.any(np.asarray(x) > 709.7):
+        raise KernelError(f"EXP of {np.max(x):g} is larger than any number that can be held")
+    return np.exp(x)
+
+
+def _erf(x: Any) -> Any:
+    from scipy.special import erf
+
+    return erf(x)
+
+
+def _erfc(x: Any) -> Any:
+    from scipy.special import erfc
+
+    return erfc(x)
+
+
+def _sign(x: Any) -> Any:
+    """-1 below zero, else 1, in the type of the argument."""
+    return np.where(x < 0, -1, 1).astype(np.asarray(x).dtype)
+
+
+_FUNCTIONS: dict[str, tuple[Function, str, str, str, str]] = {
+    "ABS": (np.abs, "Absolute value.", "Valeur absolue.", "ABS (-3)", ""),
+    "SIGN": (_sign, "Sign: 1, or -1 below zero.", "Signe : 1, ou -1 sous zéro.", "SIGN -2.5", ""),
+    "SIN": (_of_degrees(np.sin), "Sine of degrees.", "Sinus de degrés.", "SIN 30.", ""),
+    "COS": (_of_degrees(np.cos), "Cosine of degrees.", "Cosinus de degrés.", "COS 60.", ""),
+    "TAN": (_of_degrees(np.tan), "Tangent of degrees.", "Tangente de degrés.", "TAN 45.", ""),
+    "ASIN": (_degrees(_within("ASIN", np.arcsin, -1, 1, False)), "Arc sine, in degrees.",
+             "Arc sinus, en degrés.", "ASIN 0.5", ""),
+    "ACOS": (_degrees(_within("ACOS", np.arccos, -1, 1, False)), "Arc cosine, in degrees.",
+             "Arc cosinus, en degrés.", "ACOS 0.5", ""),
+    "SINH": (np.sinh, "Hyperbolic sine.", "Sinus hyperbolique.", "SINH 1.", ""),
+    "COSH": (np.cosh, "Hyperbolic cosine.", "Cosinus hyperbolique.", "COSH 1.", ""),
+    "TANH": (np.tanh, "Hyperbolic tangent.", "Tangente hyperbolique.", "TANH 1.", ""),
+    "ASIH": (np.arcsinh, "Inverse hyperbolic sine.", "Argument sinus hyperbolique.", "ASIH 1.", ""),
+    "ACOH": (_within("ACOH", np.arccosh, 1, np.inf, False), "Inverse hyperbolic cosine.",
+             "Argument cosinus hyperbolique.", "ACOH 2.", ""),
+    "ATAH": (_within("ATAH", np.arctanh, -1, 1, False), "Inverse hyperbolic tangent.",
+             "Argument tangente hyperbolique.", "ATAH 0.5", ""),
+    "EXP": (_exponential, "Exponential.", "Exponentielle.", "EXP 1.", ""),
+    "LOG": (_within("LOG", np.log, 0, np.inf, True), "Natural logarithm.",
+            "Logarithme naturel.", "LOG 10.", ""),
+    "ERF": (_erf, "Gauss's error function.", "Fonction d'erreur de Gauss.", "ERF 0.5", ""),
+    "ERFC": (_erfc, "Complementary error function.", "Fonction d'erreur complémentaire.",
+             "ERFC 0.5", ""),
+}  # fmt: skip
+_INTEGERS_STAY = frozenset({"ABS", "SIGN"})
+
+
+def _run(call: Call, name: str, function: Function) -> Any:
+    value = call.required(*OPERANDS)
+    if name not in _INTEGERS_STAY:
+        if isinstance(value, int):
+            value = float(value)
+        elif isinstance(value, ListEnti):
+            value = ListReel(value.values)
+    with np.errstate(all="ignore"):
+        return mapped(function, value)
+
+
+for _name, (_function, _en, _fr, _example, _more) in _FUNCTIONS.items():
+    operator(
+        _name,
+        family="functions",
+        help=Help(
+            _en + " Of a number, of each item of a list, ordinate of a curve or value of a field.",
+            _fr + " D'un nombre, de chaque élément d'une liste, ordonnée d'une évolution ou valeur "
+            "d'un champ.",
+            f"OBJ2 = {_name} OBJ1 ;",
+            (f"LIST ({_example}) ;",),
+        ),
+        reads_itself=True,
+    )(lambda call, n=_name, f=_function: _run(call, n, f))
+
+
+@operator(
+    "ATG",
+    family="functions",
+    help=Help(
+        en="Arc tangent in degrees, between -90 and 90; with two objects, of their quotient, "
+        "between -180 and 180.",
+        fr="Arc tangente en degrés, entre -90 et 90 ; de deux objets, celle de leur quotient, "
+        "entre -180 et 180.",
+        syntax="OBJ3 = ATG OBJ1 (OBJ2) ;",
+        examples=("LIST (ATG 1.) ;", "LIST (ATG -1. -1.) ;"),
+    ),
+    reads_itself=True,
+)
+def atg(call: Call) -> Any:
+    """Arc tangent of one or two objects."""
+    first = call.required(*OPERANDS)
+    second = call.optional(*OPERANDS)
+    if second is None:
+        value = float(first) if isinstance(first, int) else first
+        value = ListReel(value.values) if isinstance(value, ListEnti) else value
+        return mapped(_degrees(np.arctan), value)
+    if isinstance(first, int | float) and isinstance(second, int | float):
+        return float(np.degrees(np.arctan2(first, second)))
+    if isinstance(first, ListReel | ListEnti) and isinstance(second, ListReel | ListEnti):
+        if len(first) != len(second):
+            raise call.bad(f"the lists have {len(first)} and {len(second)} items", second)
+        return ListReel(np.degrees(np.arctan2(first.values, second.values)))
+    if isinstance(first, NodeField) and isinstance(second, NodeField):
+        return _angle_of_fields(first, second)
+    if isinstance(first, CellField) and isinstance(second, CellField):
+        return _angle_of_cells(call, first, second)
+    raise call.bad("ATG of two objects needs two of the same kind", second)
+
+
+def _angle_of_fields(first: NodeField, second: NodeField) -> NodeField:
+    made = {}
+    for name, part in second.components.items():
+        top = first.values_at(name, part.nodes)
+        made[name] = dataclasses.replace(part, values=np.degrees(np.arctan2(top, part.values)))
+    return node_algebra.rebuilt(second, made)
+
+
+def _angle_of_cells(call: Call, first: CellField, second: CellField) -> CellField:
+    blocks = []
+    for block in second.blocks:
+        other = next(
+            (b for b in first.blocks if cell_algebra.same_cells(b.cells, block.cells)), None
+        )
+        if other is None:
+            raise call.bad("the two fields do not stand on the same cells", second)
+        made = {
+            k: np.degrees(np.arctan2(other.components.get(k, np.zeros((1, 1))), v))
+            for k, v in block.components.items()
+        }
+        blocks.append(cell_algebra.rebuilt(block, made))
+    return CellField(tuple(blocks), second.title)
