@@ -39,6 +39,7 @@ class _Said:
 
 
 Option = Callable[[Call, _Said], None]
+_ISO = {"LIGN": "LIGNE", "SULI": "SULI"}
 
 
 def _flags(**values: Any) -> Option:
@@ -217,7 +218,7 @@ def _draw(call: Call, session: Session, said: _Said) -> None:
     made = compose(subjects)
     options = dict(said.options)
     options.setdefault("title", ws.title)
-    options["iso"] = str(ws.options.get("ISOV", "SURFACE"))[:4]
+    options["iso"] = _ISO.get(str(ws.options.get("ISOV", ""))[:4].upper(), "SURFACE")
     options["notes"] = made.notes
     if said.qualify:
         options["labels"] = _labels(session, [layer.mesh for layer in made.layers])

@@ -85,7 +85,8 @@ def write_numbers(
     for name, mesh in options.labels:
         ids = mesh.sorted_node_ids
         if len(ids):
-            _write(axes, view.project(mesh.nodes.coordinates[ids]).mean(axis=0)[None], [name])
+            middle = view.project(mesh.nodes.coordinates[ids]).mean(axis=0)[None]
+            _write(axes, middle, [name], "#7a1fa2", 9)
 
 
 def _write_values(axes: Axes, view: View, layer: Layer, f: Faces, positions: FloatArray) -> None:
@@ -97,7 +98,9 @@ def _write_values(axes: Axes, view: View, layer: Layer, f: Faces, positions: Flo
     _write(axes, view.project(positions[ids[known]]), texts, "#1b1f24")
 
 
-def _write(axes: Axes, places: FloatArray, texts: list[str], colour: str = "#1b1f24") -> None:
+def _write(
+    axes: Axes, places: FloatArray, texts: list[str], colour: str = "#1b1f24", size: int = 7
+) -> None:
     from matplotlib.patheffects import withStroke
 
     halo = [withStroke(linewidth=_HALO_WIDTH, foreground="white")]
@@ -106,7 +109,7 @@ def _write(axes: Axes, places: FloatArray, texts: list[str], colour: str = "#1b1
             x,
             y,
             text,
-            fontsize=7,
+            fontsize=size,
             color=colour,
             ha="center",
             va="center",

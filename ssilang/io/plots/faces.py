@@ -7,11 +7,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ssilang.io.plots.bands import cut_bands, cut_lines
+from ssilang.io.plots.cutting import nodal_means, section_of
 from ssilang.io.plots.levels import Levels
 from ssilang.io.plots.painter import CLEAR, Colours, Painter
 from ssilang.io.plots.palette import shade
-from ssilang.io.plots.patches import Faces, pieces
+from ssilang.io.plots.patches import Faces, all_faces, pieces
 from ssilang.io.plots.values import values_on
+from ssilang.io.plots.view import Plane
 from ssilang.kernel.mesh.nodes import FloatArray
 
 if TYPE_CHECKING:
@@ -148,6 +150,28 @@ def add_bands(
         if layer.edges:
             width = 0.55 * _edge_width(f, points, painter, size)
             painter.add(points[known], edge=(0.1, 0.1, 0.1, 0.55), width=width, lift=2e-5 * size)
+
+
+def add_section(
+    painter: Painter, layer: Layer, plane: Plane, levels: Levels | None, options: PictureOptions
+) -> None:
+    """Add what a plane cuts of the layer's volumes, in its colours or coloured by its field."""
+    from matplotlib.colors import to_rgb
+
+    positions = layer.positions()
+    values = None
+    if layer.field is not None and levels is not None:
+        every = all_faces(layer.mesh)
+        values = nodal_means(every, layer.field, layer.component, len(positions))
+    points, found, colours = section_of(layer.mesh, plane, positions, values)
+    if found is not None and levels is not None:
+        known = np.isfinite(found).all(axis=1)
+        depth = painter.view.depth(points[known]).mean(axis=1)
+        _add_pieces(painter, points[known], found[known], depth, levels, options.iso, 0.0)
+        return
+    base = np.array([to_rgb(shade(int(c))) for c in colours]).reshape(-1, 3)
+    paint = _mixed(np.where((colours == 0)[:, None], _DEFAULT_FILL, base), 0.75)
+    painter.add(points, paint, paint, 0.35)
 
 
 def _add_pieces(

@@ -61,6 +61,11 @@ def visible_faces(mesh: Mesh) -> list[Faces]:
     return [f for f in found if not _is_volume(f.block.kind)] + outer
 
 
+def all_faces(mesh: Mesh) -> list[Faces]:
+    """Faces of all cells, inner ones too."""
+    return [f for block in mesh.blocks for f in _faces_of(block)]
+
+
 def _is_volume(kind: CellType) -> bool:
     return kind.dimension == 3 and not kind.joint
 

@@ -15,7 +15,8 @@ import numpy as np
 
 from ssilang.io.errors import OutputError
 from ssilang.io.plots import annotations as notes
-from ssilang.io.plots.faces import add_bands, add_faces, band_values
+from ssilang.io.plots.cutting import behind
+from ssilang.io.plots.faces import add_bands, add_faces, add_section, band_values
 from ssilang.io.plots.figure import drawing
 from ssilang.io.plots.labels import Annotation, draw_annotation
 from ssilang.io.plots.levels import Levels, choose_levels
@@ -202,11 +203,15 @@ def _draw_panel(
     bounds: FloatArray,
 ) -> None:
     painter = Painter(view)
+    if options.beyond is not None:
+        layers = [_behind(layer, options.beyond, view) for layer in layers]
     prepared = [(layer, _faces(layer, options)) for layer in layers]
     levels = _levels(prepared, options)
     size = float(np.linalg.norm(bounds[1] - bounds[0]))
     for layer, faces in prepared:
-        if layer.field is not None and levels is not None:
+        if options.section is not None and layer.mesh.dimension == 3 and not layer.outline:
+            add_section(painter, layer, options.section, levels, options)
+        elif layer.field is not None and levels is not None:
             add_bands(painter, faces, layer, levels, options, size)
         else:
             add_faces(painter, faces, layer, options, size)
@@ -224,6 +229,10 @@ def _draw_panel(
     if levels is not None and options.legend:
         name = options.legend_name or next(x.component for x in layers if x.field is not None)
         notes.colour_bar(figure, axes, levels, to_mathtext(name), _range(prepared))
+
+
+def _behind(layer: Layer, plane: Plane, view: View) -> Layer:
+    return replace(layer, mesh=behind(layer.mesh, plane, view, layer.positions()))
 
 
 def _faces(layer: Layer, options: PictureOptions) -> list[Faces]:

@@ -46,14 +46,16 @@ def values_on(faces: Faces, field: NodeField | CellField, component: str) -> Flo
 
 def _nodal(part: CellFieldBlock, component: str) -> FloatArray | None:
     """Values at the nodes of the cells of a block, shape (n_cells, n_nodes)."""
-    shape = len(part.cells), part.cells.kind.n_nodes
     if component == VON_MISES:
-        given = _von_mises(part)
-    else:
-        found = part.components.get(component)
-        given = None if found is None else np.asarray(found, dtype=float)
-    if given is None:
-        return None
+        # from the stresses at the nodes: extrapolated itself it could become negative
+        return _von_mises(part)
+    found = part.components.get(component)
+    return None if found is None else _spread(part, np.asarray(found, dtype=float))
+
+
+def _spread(part: CellFieldBlock, given: FloatArray) -> FloatArray:
+    """Values (n_cells, n_points or 1) brought to the nodes."""
+    shape = len(part.cells), part.cells.kind.n_nodes
     if given.shape[1] == 1:
         return np.broadcast_to(given, shape)
     if part.support == "NOEUD":
@@ -112,13 +114,13 @@ def _von_mises(part: CellFieldBlock) -> FloatArray | None:
     if not found:
         return None
     normal, shear = found
-    zero = np.zeros(1)
+    absent = np.zeros((len(part.cells), 1))
 
     def value(name: str) -> FloatArray:
-        return np.asarray(part.components.get(name, zero), dtype=float)
+        return _spread(part, np.asarray(part.components.get(name, absent), dtype=float))
 
     a, b, c = (value(n) for n in normal)
-    shears = sum((value(n) ** 2 for n in shear), zero)
+    shears = sum(value(n) ** 2 for n in shear)
     return np.asarray(np.sqrt(((a - b) ** 2 + (b - c) ** 2 + (c - a) ** 2) / 2 + 3 * shears))
 
 
