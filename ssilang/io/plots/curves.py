@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from datetime import datetime
+from itertools import cycle
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,7 +14,7 @@ from ssilang.io.errors import OutputError
 from ssilang.io.plots.figure import drawing
 from ssilang.io.plots.line_style import DASHES, LineStyle
 from ssilang.io.plots.markup import to_mathtext
-from ssilang.io.plots.palette import CYCLE, shade
+from ssilang.io.plots.palette import CYCLE, index_of, shade
 from ssilang.kernel.curve import Curve, CurvePart
 
 if TYPE_CHECKING:
@@ -124,14 +125,22 @@ def _lines(curve: Curve, options: CurveOptions) -> list[_Line]:
     bad = [n for n in numbers if not 1 <= n <= count]
     if bad:
         raise OutputError(f"curve {bad[0]} is asked for, the evolution has {count}")
-    plain = len(numbers) > 1 and all(curve.parts[n - 1].colour == 0 for n in numbers)
-    return [_line(curve.parts[n - 1], n, i, plain, options) for i, n in enumerate(numbers)]
+    colours = _colours([curve.parts[n - 1].colour for n in numbers])
+    return [_line(curve.parts[n - 1], n, c, options) for n, c in zip(numbers, colours, strict=True)]
 
 
-def _line(part: CurvePart, number: int, rank: int, plain: bool, options: CurveOptions) -> _Line:
+def _colours(given: list[int]) -> list[str]:
+    """Shades of curves: their own; those without one get, if several, colours not yet used."""
+    if given.count(0) < 2:
+        return [shade(c) for c in given]
+    free = [c for c in CYCLE if index_of(c) not in given] or list(CYCLE)
+    turns = cycle(free)
+    return [shade(c) if c else shade(next(turns)) for c in given]
+
+
+def _line(part: CurvePart, number: int, colour: str, options: CurveOptions) -> _Line:
     first, last = options.spans.get(number, (None, None))
     cut = slice(None if first is None else first - 1, last)
-    colour = shade(CYCLE[rank % len(CYCLE)]) if plain else shade(part.colour)
     return _Line(
         number,
         np.asarray(part.abscissas, dtype=float)[cut],
@@ -302,7 +311,7 @@ def _legend(panel: Axes, lines: list[_Line], options: CurveOptions) -> None:
     texts = [to_mathtext(line.name) for line in named]
     place = options.legend
     if place is None and options.separate:
-        panel.legend(handles, texts, loc="upper right", fontsize=8)
+        panel.set_title(texts[0], loc="left", fontsize=9, fontweight="normal")
     elif place is None:
         # beside the curves: inside, it would hide a part of them
         rows: dict[str, Any] = {"loc": "lower center", "ncols": min(len(named), 3)}
