@@ -1,0 +1,282 @@
+"""CHAR TIRE, and loadings in EXTR DIME ENLE ET CHAN."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ssilang.kernel.curve import Curve, Load, LoadPart
+from ssilang.kernel.curve_algebra import check_increasing
+from ssilang.kernel.fields import cell_algebra, node_algebra
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.language.call import Call
+from ssilang.language.registry import Help, operator
+from ssilang.language.values import ListMots, Mot, Table, type_of
+from ssilang.operators.dispatch import CHAN, DIME, ENLE, EXTR, union
+
+_SPACE = ("CHPOINT", "MCHAML")
+_HELD = ("CHPOINT", "MCHAML", "MMODEL", "MAILLAGE", "RIGIDITE", "POINT")
+_EXAMPLE = (
+    "OPTI DIME 2 ; P = 0. 0. ; F = MANU 'CHPO' P 'FY' -10. 'NATURE' 'DISCRET' ; "
+    "E = EVOL 'MANU' (PROG 0. 2.) (PROG 0. 1.) ; C = CHAR 'MECA' F E ; "
+)
+
+
+@operator(
+    "CHAR",
+    family="loads",
+    full_name="CHARGEMENT",
+    help=Help(
+        en="Loading: a field times a curve in time (constant without curve), or a field at each "
+        "of listed times (a table of times and a table of fields, indexed 0 1 2 ...), under a name "
+        "of 4 characters such as MECA (forces), DIMP (imposed displacements), T, PRES. Loadings "
+        "join by ET.",
+        fr="Chargement : un champ multiplié par une évolution en temps (constant sans évolution), "
+        "ou un champ à chacun de temps donnés (une table de temps et une table de champs, indicées "
+        "0 1 2 ...), sous un nom de 4 caractères comme MECA (forces), DIMP (déplacements imposés), "
+        "T, PRES. Les chargements se réunissent par ET.",
+        syntax="CHAR1 = CHAR (MOT1) CHPO1 | CHAM1 (EVOL1) ('LIE' | 'LIBRE') ;\n"
+        "CHAR1 = CHAR (MOT1) TAB1 TAB2 ;",
+        examples=(_EXAMPLE + "LIST (EXTR (TIRE C 1.) 'FY' P) ;",),
+    ),
+    reads_itself=True,
+)
+def char(call: Call) -> Load:
+    """Make a loading."""
+    name = ""
+    word = call.peek_word()
+    moves = ("TRAN", "ROTA", "TRAJ")
+    if word is not None and (word.rstrip() == "TRAJ" or word[:4] not in (*moves, "LIE", "LIBR")):
+        name = str(call.word()).rstrip()[:4].rstrip()
+    tables = [o.value for o in call.operands if isinstance(o.value, Table)]
+    part = _from_tables(call, name) if tables else _from_field(call, name)
+    while (said := call.keyword(("LIE", "LIBR", *moves))) is not None:
+        if said in moves:
+            raise call.bad(
+                f"moving loadings ('{said}') are not supported",
+                hint="give the field at each time by two tables",
+            )
+    return Load((part,))
+
+
+def _from_field(call: Call, name: str) -> LoadPart:
+    operand = call.read(*_HELD)
+    if operand is None:
+        raise call.missing(_SPACE)
+    curve = call.optional("EVOLUTIO")
+    if curve is not None:
+        if len(curve.parts) != 1:
+            raise call.bad(f"one curve is needed, this object has {len(curve.parts)}", curve)
+        if not len(curve.parts[0].abscissas):
+            raise call.bad("the curve is empty", curve)
+        check_increasing(curve.parts[0].abscissas)
+    return LoadPart(name, operand.value, curve)
+
+
+def _from_tables(call: Call, name: str) -> LoadPart:
+    times, fields = call.required("TABLE"), call.required("TABLE")
+    steps: list[tuple[float, Any]] = []
+    for i in range(len(times)):
+        if not times.has(i) or not fields.has(i):
+            raise call.bad(
+                f"index {i} is missing in one of the tables",
+                times,
+                "times and fields are indexed by 0 1 2 ... without a gap",
+            )
+        time, held = times.get(i), fields.get(i)
+        if not isinstance(time, int | float) or type_of(held) not in _HELD:
+            raise call.bad(f"at index {i} a time and a field are needed", times)
+        if steps and time <= steps[-1][0]:
+            raise call.bad(f"times must increase: {time:g} follows {steps[-1][0]:g}", times)
+        steps.append((float(time), held))
+    if not steps:
+        raise call.bad("the tables are empty", times)
+    return LoadPart(name, None, None, tuple(steps))
+
+
+# ---- values at a time ---------------------------------------------------------------------------
+
+
+def _scaled(field: Any, factor: float) -> Any:
+    if factor == 1.0:
+        return field
+    if isinstance(field, NodeField):
+        return node_algebra.applied(field, lambda v: v * factor)
+    return cell_algebra.applied(field, lambda v: v * factor)
+
+
+def _sum(a: Any, b: Any, factor: float = 1.0) -> Any:
+    algebra: Any = node_algebra if isinstance(a, NodeField) else cell_algebra
+    return algebra.added(a, b, factor)
+
+
+def part_at(part: LoadPart, time: float) -> Any:
+    """What one loading is at a time: its field, scaled, or interpolated between its steps."""
+    if not part.steps:
+        factor = 1.0 if part.time is None else part.time.at(time)
+        return part.space if part.time is None else _scaled(part.space, factor)
+    times = [t for t, _ in part.steps]
+    k = int(np.searchsorted(times, time, side="right"))
+    if k == 0:
+        return part.steps[0][1]
+    before = part.steps[k - 1][1]
+    if k == len(times) or not isinstance(before, NodeField | CellField):
+        return before
+    share = (time - times[k - 1]) / (times[k] - times[k - 1])
+    return _sum(_scaled(before, 1.0 - share), part.steps[k][1], share)
+
+
+@operator(
+    "TIRE",
+    family="loads",
+    full_name="TIRER",
+    help=Help(
+        en="What a loading is at a time: the sum of all its parts, those of a name, or a table by "
+        "names ('TABL').",
+        fr="Valeur d'un chargement à un instant : la somme de toutes ses parties, celles d'un nom, "
+        "ou une table indicée par les noms ('TABL').",
+        syntax="CHP1 = TIRE CHAR1 X1 (MOT1) ; TAB1 = TIRE CHAR1 X1 'TABL' ;",
+        examples=(_EXAMPLE + "LIST (TIRE C 0.5 'MECA') ;",),
+    ),
+    reads_itself=True,
+)
+def tire(call: Call) -> Any:
+    """Evaluate a loading."""
+    load: Load = call.required("CHARGEME")
+    time = call.required("FLOTTANT")
+    if call.keyword(("TABL",)) is not None:
+        made = Table()
+        for part in load.parts:
+            value, before = part_at(part, time), made.get(part.name)
+            made.set(Mot(part.name), value if before is None else _sum(before, value))
+        return made
+    name = call.read("MOT")
+    parts = load.parts if name is None else _named(call, load, [str(name.value)])
+    values = [part_at(p, time) for p in parts]
+    kinds = {type_of(v) for v in values}
+    if len(kinds) > 1 or (len(values) > 1 and not kinds <= set(_SPACE)):
+        raise call.bad(f"parts of types {' '.join(sorted(kinds))} do not add up", load, "name one")
+    if not values:
+        raise call.bad("the loading is empty", load)
+    total = values[0]
+    for value in values[1:]:
+        total = _sum(total, value)
+    return total
+
+
+def _named(call: Call, load: Load, names: list[str]) -> tuple[LoadPart, ...]:
+    wanted = {n.rstrip()[:4].rstrip() for n in names}
+    parts = tuple(p for p in load.parts if p.name in wanted)
+    if not parts:
+        known = " ".join(dict.fromkeys(p.name or "''" for p in load.parts))
+        raise call.bad(f"no part is called {' '.join(names)}", load, f"its parts are: {known}")
+    return parts
+
+
+# ---- parts --------------------------------------------------------------------------------------
+
+
+@EXTR.on(
+    "CHARGEME",
+    syntax="CHAR2 = EXTR CHAR1 'CHAR' (N1) | MOT1 | LMOT1 | 'LIE' | 'LIBR' ; "
+    "CHP1 = EXTR CHAR1 'CHAM' (N1) ; EVOL1 = EXTR CHAR1 'EVOL' (N1) ; LMOT1 = EXTR CHAR1 'COMP' ;\n"
+    "TAB1 TAB2 = EXTR CHAR1 MOT1 'TABL' ;",
+    en="Of a loading: a part by number or name, its field, its curve, the names of all parts.",
+    fr="D'un chargement : une partie par numéro ou nom, son champ, son évolution, les noms.",
+    examples=(_EXAMPLE + "LIST (EXTR C 'COMP') ;",),
+)
+def _extract(call: Call, load: Load) -> Any:
+    names = call.read("LISTMOTS")
+    if names is not None:
+        return Load(_named(call, load, [str(w) for w in names.value.values]))
+    known = {p.name for p in load.parts}
+    said = (call.peek_word() or "").rstrip()
+    word = None
+    if said not in known:
+        word = call.keyword(("CHAR", "CHAM", "EVOL", "COMP", "LIE", "LIBR"))
+    if word is None:
+        name = str(call.required("MOT"))
+        if call.keyword(("TABL",)) is not None:
+            return _tables(call, _named(call, load, [name])[0])
+        return Load(_named(call, load, [name]))
+    if word == "COMP":
+        return ListMots([p.name for p in load.parts])
+    if word in ("LIE", "LIBR"):
+        return Load(load.parts if word == "LIE" else ())
+    place = call.optional("ENTIER", default=1)
+    if not 1 <= place <= len(load.parts):
+        raise call.bad(f"the loading has {len(load.parts)} parts, none of number {place}", place)
+    part = load.parts[place - 1]
+    if word == "CHAR":
+        return Load((part,))
+    if word == "CHAM":
+        return part.space if part.space is not None else part.steps[0][1]
+    if part.time is None:
+        raise call.bad("this part has no curve in time", load)
+    return part.time
+
+
+def _tables(call: Call, part: LoadPart) -> tuple[Table, Table]:
+    steps: list[tuple[float, Any]] = list(part.steps)
+    if not steps and part.time is not None:
+        times = part.time.parts[0].abscissas.tolist()
+        steps = [(float(t), part_at(part, float(t))) for t in times]
+    times_table, fields_table = Table(), Table()
+    for i, (time, field) in enumerate(steps):
+        times_table.set(i, time)
+        fields_table.set(i, field)
+    return times_table, fields_table
+
+
+@CHAN.on(
+    "TABL",
+    of=("CHARGEME",),
+    syntax="CHAR2 = CHAN 'TABL' CHAR1 MOT1 ;",
+    en="TABL gives the parts of a loading that have a name as fields at listed times.",
+    fr="TABL met les parties d'un chargement qui portent un nom sous forme de champs à des temps.",
+)
+def _as_tables(call: Call, word: str) -> Load:
+    load: Load = call.required("CHARGEME")
+    name = str(call.required("MOT"))
+    chosen = _named(call, load, [name])
+    times = sorted({t for p in chosen for t in _times(p)})
+    total = Load(chosen)
+    steps = []
+    for time in times:
+        values = [part_at(p, time) for p in total.parts]
+        merged = values[0]
+        for value in values[1:]:
+            merged = _sum(merged, value)
+        steps.append((time, merged))
+    others = tuple(p for p in load.parts if p not in chosen)
+    return Load((LoadPart(chosen[0].name, None, None, tuple(steps)), *others))
+
+
+def _times(part: LoadPart) -> list[float]:
+    if part.steps:
+        return [t for t, _ in part.steps]
+    curve: Curve | None = part.time
+    return [] if curve is None else [float(t) for t in curve.parts[0].abscissas]
+
+
+@DIME.on("CHARGEME", en="Of a loading: its number of parts.", fr="D'un chargement : ses parties.")
+def _count(call: Call, load: Load) -> int:
+    return len(load.parts)
+
+
+@ENLE.on(
+    "CHARGEME",
+    syntax="CHAR2 = ENLE CHAR1 MOT1 ;",
+    en="Of a loading: without the parts of a name.",
+    fr="D'un chargement : sans les parties d'un nom.",
+)
+def _without(call: Call, load: Load) -> Load:
+    gone = _named(call, load, [str(call.required("MOT"))])
+    return Load(tuple(p for p in load.parts if p not in gone))
+
+
+@union(("CHARGEME", "CHARGEME"))
+def _join(a: Load, b: Load) -> Load:
+    return Load((*a.parts, *b.parts))
