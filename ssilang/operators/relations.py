@@ -139,8 +139,9 @@ def _weighted(call: Call, field: NodeField, sense: int) -> Relations:
     if call.keyword(("DUAL",)) is None:
         return rows
     dual: NodeField = call.required("CHPOINT", after=call.keyword_end)
+    # the field is the force on the body for LX = 1, and K u + D^T LX = F
     reaction = made.from_field(made.primal_names(dual), sense, rows.raw_multipliers)
-    return replace(rows, dual=reaction)
+    return replace(rows, dual=replace(reaction, coefficients=-reaction.coefficients))
 
 
 # --- options ---------------------------------------------------------------------------------
@@ -218,7 +219,7 @@ operator(
         "A sum of terms makes one relation for each node of the meshes (all of the same number of "
         "nodes, or of one); with 'MINI' the sum stays at or above the value, with 'MAXI' at or "
         "below. A field makes one relation, its values times the unknowns of their names; 'DUAL' "
-        "gives the field of the reaction. 'CORI' moves a mesh as a rigid body, 'ENSE' gives all "
+        "gives the force on the body for a multiplier of one. 'CORI' moves a mesh as a rigid body, 'ENSE' gives all "
         "nodes the same value, 'ACCRO' hooks nodes onto the cells that they lie in, 'GLIS' does "
         "so but along the line, 'MILI' holds middle nodes between the corners.",
         "Relations linéaires, à ajouter à la matrice d'un système ; DEPI donne leur valeur "

@@ -98,7 +98,7 @@ def effective_of(problem: Problem, A: sp.csr_array, dt: float, share: float) -> 
     if inverse.singular:
         message, hint = describe_motions(problem.numbering, T @ inverse.kernel)
         raise SingularMatrixError(
-            message.replace("the loads drive", "it leaves"),
+            message.replace(" that the loads drive", ""),
             hint + ", or give it mass (MASS)",
         )
     Y = np.zeros((problem.numbering.size, q))

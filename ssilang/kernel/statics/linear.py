@@ -33,7 +33,7 @@ from ssilang.kernel.solvers.backends import SingularFactorError, SuperLUFactor
 from ssilang.kernel.solvers.complementarity import ContactProblem, solve_contact
 from ssilang.kernel.solvers.elimination import Elimination, eliminate
 from ssilang.kernel.solvers.inverse import Inverse, invert
-from ssilang.kernel.statics.linear_motion import describe_motions
+from ssilang.kernel.statics.linear_motion import bodies_of, describe_motions
 
 BoolArray = NDArray[np.bool_]
 BALANCED = 1e-7  # work of the loads on a free motion (of norms 1) taken for rounding
@@ -162,7 +162,8 @@ class LinearSystem:
         excited = np.abs(work) > BALANCED
         if excited.any():
             motions = self.free_motions[:, excited]
-            raise SingularMatrixError(*describe_motions(self.numbering, motions))
+            bodies = bodies_of(self.numbering, self.K, self.rows.C)
+            raise SingularMatrixError(*describe_motions(self.numbering, motions, bodies))
         return b
 
     def _solve_contact(

@@ -3,23 +3,28 @@
 from __future__ import annotations
 
 import numpy as np
+import scipy.sparse as sp
+from numpy.typing import NDArray
+from scipy.sparse.csgraph import connected_components
 
 from ssilang.kernel.matrices.assembly import Numbering
-from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+
+BoolArray = NDArray[np.bool_]
 
 _TRANSLATIONS = {"UX": 0, "UY": 1, "UZ": 2, "UR": 0}
 _ROTATIONS = {"RX": 0, "RY": 1, "RZ": 2}
 _NAMES = ("X", "Y", "Z")
 
 
-def rigid_motions(numbering: Numbering) -> FloatArray:
-    """Unit translations along X, Y, Z and small rotations about them at the origin, (n, 6).
+def rigid_motions(numbering: Numbering, centre: FloatArray | None = None) -> FloatArray:
+    """Unit translations along X, Y, Z and small rotations about them at `centre`, (n, 6).
 
-    Rotations are about the mean of the nodes. In axisymmetric models the columns that are no
-    rigid motions there simply fit nothing.
+    `centre` (3,) is the mean of the nodes if it is not given. In axisymmetric models the columns
+    that are no rigid motions there simply fit nothing.
     """
     points = numbering.table.coordinates[numbering.nodes]
-    points = points - points.mean(axis=0)
+    points = points - (points.mean(axis=0) if centre is None else centre)
     motions = np.zeros((numbering.size, 6))
     for name, axis in _TRANSLATIONS.items():
         at = numbering.where(name) if name in numbering.unknowns else np.empty(0, np.int64)
@@ -33,27 +38,102 @@ def rigid_motions(numbering: Numbering) -> FloatArray:
     return motions
 
 
-def describe_motions(numbering: Numbering, motions: FloatArray) -> tuple[str, str]:
+def bodies_of(numbering: Numbering, *couplings: sp.csr_array) -> IntArray:
+    """Body (0, 1 ...) of each unknown (n,): those of a node, and those that a row couples.
+
+    `couplings` are a stiffness (n, n) or relation rows (m, n).
+    """
+    n = numbering.size
+    _, node = np.unique(numbering.nodes, return_inverse=True)
+    same = sp.csr_array((np.ones(n), (node, np.arange(n))), shape=(node.max(initial=-1) + 1, n))
+    graph = abs(same).T @ abs(same)
+    for rows in couplings:
+        graph = graph + (abs(rows).T @ abs(rows) if rows.shape[0] != n else abs(rows))
+    labels: IntArray = connected_components(graph, directed=False)[1].astype(np.int64)
+    return labels
+
+
+def describe_motions(
+    numbering: Numbering, motions: FloatArray, bodies: IntArray | None = None
+) -> tuple[str, str]:
     """Message and hint for free motions (n, p) of a system.
 
-    Each basic rigid motion that lies in their span is named; what remains is named by the
-    unknowns that move most.
+    Each body that moves is named by its place (if there are several), with the rigid motions
+    that are free; the hint names the unknowns that move most.
     """
     span = np.linalg.qr(motions)[0]
-    rigid = rigid_motions(numbering)
-    size = np.linalg.norm(rigid, axis=0)
-    outside = np.linalg.norm(rigid - span @ (span.T @ rigid), axis=0)
-    named = [
-        f"{'translation along' if k < 3 else 'rotation about'} {_NAMES[k % 3]}"
-        for k in np.flatnonzero(size > 0.0)
-        if outside[k] < 1e-6 * size[k]
-    ]
+    labels = np.zeros(numbering.size, np.int64) if bodies is None else bodies
+    several = len(np.unique(labels)) > 1
+    share = np.zeros(labels.max(initial=0) + 1)
+    np.add.at(share, labels, (span**2).sum(axis=1))
+    moving = np.flatnonzero(share > 1e-9)
+    parts = [_describe_body(numbering, span, labels == b, several) for b in moving[:3]]
+    if len(moving) > 3:
+        parts.append(f"{len(moving) - 3} more bodies")
     count = motions.shape[1]
     what = "free motion" if count == 1 else "free motions"
-    message = f"the matrix is singular: the loads drive {count} {what}"
+    message = f"the matrix is singular, with {count} {what} that the loads drive"
+    named = "; ".join(p for p in parts if p)
     if named:
-        message += " (" + ", ".join(named) + ")"
+        message += f" ({named})"
     return message, "not held: " + _most_moved(numbering, span) + "; hold it with BLOQ or RELA"
+
+
+def _describe_body(numbering: Numbering, span: FloatArray, own: BoolArray, several: bool) -> str:
+    """The free rigid motions of one body and where it is, '' if there is nothing to say."""
+    nodes = np.unique(numbering.nodes[own])
+    points = numbering.table.coordinates[nodes]
+    centre, extent = points.mean(axis=0), float(np.abs(points).max())
+    rigid = rigid_motions(numbering, centre)[own]
+    local = span[own]
+    left, size, _ = np.linalg.svd(local, full_matrices=False)
+    local = left[:, size > 1e-6 * size.max(initial=0.0)]
+    pure = [k for k in range(6) if _inside(rigid[:, k], local)]
+    names = [_motion_name(k) for k in pure]
+    if len(pure) < local.shape[1]:
+        names += _turns(rigid, local, pure, centre, extent)
+    where = f"the body of {len(nodes)} nodes around {_place(centre, extent)}"
+    if not several:
+        return ", ".join(names)
+    return f"{where}: {', '.join(names) or 'a mechanism'}"
+
+
+def _inside(vector: FloatArray, basis: FloatArray) -> bool:
+    size = np.linalg.norm(vector)
+    return bool(size > 0.0 and np.linalg.norm(vector - basis @ (basis.T @ vector)) < 1e-6 * size)
+
+
+def _motion_name(k: int) -> str:
+    return f"{'translation along' if k < 3 else 'rotation about'} {_NAMES[k % 3]}"
+
+
+def _turns(
+    rigid: FloatArray, local: FloatArray, pure: list[int], centre: FloatArray, extent: float
+) -> list[str]:
+    """Names of free rotations about other points than the body's centre."""
+    found = []
+    for axis in range(3):
+        turn = 3 + axis
+        if turn in pure or not rigid[:, turn].any():
+            continue
+        # the translation that makes the rotation free: least squares on what is outside
+        shifts = [k for k in range(3) if rigid[:, k].any() and k not in pure and k != axis]
+        columns = rigid[:, [turn, *shifts]]
+        off = columns - local @ (local.T @ columns)
+        by, *_ = np.linalg.lstsq(off[:, 1:], -off[:, 0], rcond=None)
+        motion = columns[:, 0] + columns[:, 1:] @ by
+        if not _inside(motion, local):
+            continue
+        slide = np.zeros(3)
+        slide[shifts] = by
+        fixed = centre + np.cross(np.eye(3)[axis], slide)
+        found.append(f"rotation about {_NAMES[axis]} around {_place(fixed, extent)}")
+    return found
+
+
+def _place(point: FloatArray, extent: float) -> str:
+    clean = np.where(np.abs(point) < 1e-8 * extent, 0.0, point)
+    return "(" + ", ".join(f"{x:.4g}" for x in clean) + ")"
 
 
 def _most_moved(numbering: Numbering, span: FloatArray, limit: int = 6) -> str:
