@@ -31,7 +31,8 @@ if TYPE_CHECKING:
     from ssilang.kernel.dynamics.integrate import History
     from ssilang.kernel.dynamics.problem import Inputs, Problem
 
-CONTACT_ENTRIES = ("CONTACT", "COEFFICIENT", "CONTACT_PERSISTANT", "MASSE_MODIFIEE")
+SCHEME_ENTRIES = ("ALPHA_F", "RHO_INF", "BETA", "GAMMA")
+CONTACT_ENTRIES = ("CONSERVATIF", "CONTACT", "COEFFICIENT", "CONTACT_PERSISTANT", "MASSE_MODIFIEE")
 KNOWN = (
     "DEPL", "VITE", "CHAR", "RIGI", "MASS", "AMOR", "MODELE", "CARACTERISTIQUES",
     "TEMPS_CALCULES", "INST", "FREQ", "PAS_SAUVES", "TEMPS_SAUVES", "MAILLAGE_SAUVE", "SAUV",
@@ -165,7 +166,8 @@ def contact_options(entries: Entries, dynamic: bool = True) -> ContactOptions:
 
 
 def _correction(entries: Entries, method: str) -> str:
-    average = scheme_of(entries).average_acceleration
+    scheme = scheme_of(entries)
+    average = scheme.average_acceleration
     given = entries.get("VITEUNIL", "LOGIQUE", "MOT")
     if given is None:
         return "MASSE" if average and method != "PENALITE" else "FAUX"
@@ -182,7 +184,11 @@ def _correction(entries: Entries, method: str) -> str:
 
 def scheme_of(entries: Entries) -> Scheme:
     """Time scheme by ALPHA_F, RHO_INF, or BETA and GAMMA; average acceleration by default."""
-    given = [name for name in ("ALPHA_F", "RHO_INF", "BETA", "GAMMA") if entries.has(name)]
+    given = [name for name in SCHEME_ENTRIES if entries.has(name)]
+    if entries.flag("CONSERVATIF"):
+        if given:
+            raise entries.bad(f"'CONSERVATIF' and '{given[0]}' choose two schemes", "give one")
+        return Scheme(conserving=True)
     if len(given) > 1 and given != ["BETA", "GAMMA"]:
         raise entries.bad(f"'{given[0]}' and '{given[1]}' choose two schemes", "give one")
     if not given:

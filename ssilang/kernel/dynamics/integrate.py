@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ssilang.kernel.dynamics.compiled_loop import N_ENERGIES, Motion, Saved, march
+from ssilang.kernel.dynamics.conserving import ConservingLoop
 from ssilang.kernel.dynamics.contact import TOUCHING, BoolArray
 from ssilang.kernel.dynamics.dense_loop import joints_of, operators_of, system_of
 from ssilang.kernel.dynamics.effective import effective_matrix, effective_of
@@ -25,7 +26,7 @@ from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.dynamics.snapshot import Observer, Snapshot
 from ssilang.kernel.dynamics.sparse_loop import SparseLoop, StepSolver
 from ssilang.kernel.dynamics.step_solvers import step_solver
-from ssilang.kernel.errors import ConvergenceError
+from ssilang.kernel.errors import ConvergenceError, KernelError
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 CHUNK_VALUES = 4_000_000  # saved values held at once
@@ -92,7 +93,7 @@ class Integration:
         )  # fmt: skip
         self._closed = _closed_at_start(p)
         self._engines: dict[float, _Engine] = {}
-        self._kind = _SparseEngine if self.full_newton or not p.small else _DenseEngine
+        self._kind = _kind_of(p, self.full_newton)
 
     def run(self) -> History:
         """All steps.
@@ -212,6 +213,24 @@ class Integration:
         )
 
 
+class _ConservingEngine:
+    """The energy-conserving loop."""
+
+    name = "conserving"
+
+    def __init__(
+        self, problem: Problem, motion: Motion, dt: float, full: bool, closed: BoolArray
+    ) -> None:
+        effective = effective_of(problem, effective_matrix(problem, dt), dt, 2.0)
+        self.solver = effective.inverse.factor.name
+        self._loop = ConservingLoop(problem, motion, effective)
+
+    def march(
+        self, factors: FloatArray, save: IntArray, saved: Saved, history: FloatArray
+    ) -> tuple[int, int, float]:
+        return self._loop.march(factors, save, saved, history)
+
+
 class _DenseEngine:
     """The compiled loop."""
 
@@ -278,7 +297,25 @@ def _closed_at_start(problem: Problem) -> BoolArray:
     return closed
 
 
-_Engine = _DenseEngine | _SparseEngine
+_Engine = _DenseEngine | _SparseEngine | _ConservingEngine
+
+
+def _kind_of(problem: Problem, full_newton: bool) -> type[_Engine]:
+    """Which engine runs a problem.
+
+    Raises
+    ------
+    KernelError
+        For combinations that do not exist.
+    """
+    if problem.contact is not None and (problem.scheme.conserving or full_newton):
+        raise KernelError(
+            "unilateral relations go with neither the conserving step nor full Newton",
+            "describe contact by joints (JOINT_SDM)",
+        )
+    if problem.scheme.conserving:
+        return _ConservingEngine
+    return _SparseEngine if full_newton or not problem.small else _DenseEngine
 
 
 def integrate(

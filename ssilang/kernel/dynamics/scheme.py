@@ -16,12 +16,13 @@ from ssilang.kernel.errors import KernelError
 
 @dataclass(frozen=True)
 class Scheme:
-    """A scheme: `alpha_m`, `alpha_f`, `beta`, `gamma`."""
+    """A scheme: `alpha_m`, `alpha_f`, `beta`, `gamma`; `conserving` takes mean tractions."""
 
     alpha_m: float = 0.0
     alpha_f: float = 0.0
     beta: float = 0.25
     gamma: float = 0.5
+    conserving: bool = False
 
     @property
     def average_acceleration(self) -> bool:

@@ -13,14 +13,14 @@ from ssilang.kernel.dynamics.scheme import Scheme, generalised_alpha, hht
 AVERAGE = Scheme()
 
 
-def club_b(dt: float, duration: float = 1.0, scheme: Scheme = AVERAGE):
+def club_b(dt: float, duration: float = 1.0, scheme: Scheme = AVERAGE, **joint: float):
     bench = Bench()
     soil, top = bench.node(-1.0, 0.0), bench.node(0.0, 0.0)
     bench.spring(STRUCTURE_STIFFNESS, top, unknown="UX")
     bench.mass(MASS, top)
     bench.fix(soil)
     bench.fix(top, "UY")
-    bench.joint("SEG2", [soil, top], "JOI1", KN=SOIL_STIFFNESS, KS=0.0)
+    bench.joint("SEG2", [soil, top], "JOI1", **({"KN": SOIL_STIFFNESS, "KS": 0.0} | joint))
     inputs = Inputs(
         bench.stiffness,
         np.arange(0, round(duration / dt) + 1) * dt,
@@ -88,3 +88,35 @@ def test_damped_schemes_lose_energy(scheme):
     _, history = run(club_b(1e-3, scheme=scheme)[0])
     total = history.energies[:, :4].sum(axis=1)
     assert total[-1] < 0.9999 * total[0]
+
+
+CONSERVING = Scheme(conserving=True)
+
+
+def test_conserving_step_is_of_second_order():
+    errors = [club_b_error(dt, CONSERVING) for dt in (5e-4, 2.5e-4)]
+    assert 1.8 < np.log2(errors[0] / errors[1]) < 2.2
+
+
+@pytest.mark.parametrize("dt", [1e-2, 3e-3, 1e-3])
+@pytest.mark.parametrize("stiffness", [1.0, 1e4])
+def test_conserving_step_keeps_energy_at_any_step_and_stiffness(dt, stiffness):
+    problem, _ = club_b(dt, scheme=CONSERVING, KN=stiffness * SOIL_STIFFNESS)
+    _, history = run(problem)
+    assert np.abs(history.imbalance).max() < 1e-10 * ClubB().energy
+
+
+def test_conserving_step_balances_softening_and_friction():
+    problem, _ = club_b(
+        1e-3, 1.0, CONSERVING, KS=5e6, FU=2e4, GF=100.0, FC=-1e4, FROT=0.3, KN=SOIL_STIFFNESS
+    )
+    problem.v[:] = 0.1
+    _recorder, history = run(problem)
+    assert history.energies[-1, 3] > 1.0
+    assert np.abs(history.imbalance).max() < 1e-10 * history.energies[0].sum()
+
+
+def test_conserving_step_is_average_acceleration_without_opening():
+    one, _ = run(club_b(1e-3, 0.02)[0])
+    two, _ = run(club_b(1e-3, 0.02, CONSERVING)[0])
+    assert np.abs(one.of("u") - two.of("u")).max() < 1e-14
