@@ -24,26 +24,35 @@ _HALO_WIDTH = 2.0
 _MOST_LABELS = 2000
 
 
+def arrow_ends(
+    view: View, part: ArrowPart, size: float, positions: FloatArray | None
+) -> tuple[FloatArray, FloatArray]:
+    """Tails and steps on the sheet, (n, 2) each, of the arrows long enough to be seen.
+
+    Those that stand at nodes follow `positions` (all nodes of the table).
+    """
+    origins = part.origins
+    if positions is not None and part.nodes is not None:
+        origins = positions[part.nodes]
+    length = np.linalg.norm(part.vectors, axis=1)
+    seen = length > 0.03 * length.max(initial=0.0)
+    scale = _arrow_scale(part, size)
+    start = view.project(origins[seen])
+    step = view.project(part.vectors[seen]) * scale
+    if not part.heads:
+        return start - step / 2, step
+    # a negative amplification: the arrow comes from outside and its tip is at the point
+    return (start + step, -step) if scale < 0 else (start, step)
+
+
 def draw_arrows(
     axes: Axes, view: View, arrows: Arrows, size: float, positions: FloatArray | None
 ) -> None:
-    """Draw arrows; those that stand at nodes follow `positions` (all nodes of the table)."""
+    """Draw arrows."""
     for part in arrows.parts:
-        origins = part.origins
-        if positions is not None and part.nodes is not None:
-            origins = positions[part.nodes]
-        length = np.linalg.norm(part.vectors, axis=1)
-        seen = length > 0.03 * length.max(initial=0.0)
-        if not seen.any():
+        start, step = arrow_ends(view, part, size, positions)
+        if not len(start):
             continue
-        scale = _arrow_scale(part, size)
-        start = view.project(origins[seen])
-        step = view.project(part.vectors[seen]) * scale
-        if not part.heads:
-            start = start - step / 2
-        elif scale < 0:
-            # a negative amplification: the arrow comes from outside and its tip is at the point
-            start, step = start + step, -step
         axes.quiver(
             *start.T,
             *step.T,

@@ -144,7 +144,9 @@ def add_bands(
         where = where[:, parts].reshape(-1, parts.shape[1], 3)
         what = what[:, parts].reshape(-1, parts.shape[1])
         if f.kind.startswith("SEG"):
-            painter.add(where, edge=levels.rgba(what.mean(axis=1)), width=3.5, depth=depth)
+            # a dark rim, so that pale values are seen
+            painter.add(where, edge=(0.25, 0.27, 0.3, 1.0), width=4.3, depth=depth - 1e-5 * size)
+            painter.add(where, edge=levels.rgba(what.mean(axis=1)), width=3.2, depth=depth)
             continue
         _add_pieces(painter, where, what, depth, levels, options.iso, 1e-5 * size)
         if layer.edges:

@@ -177,10 +177,33 @@ def _bounds(
     else:
         clouds = [view.project(x.positions()[x.mesh.sorted_node_ids]) for x in layers]
         clouds += [view.project(part.origins) for part in (arrows.parts if arrows else ())]
-    points = np.concatenate([c for c in clouds if len(c)] or [np.zeros((1, 2))])
-    low, high = points.min(axis=0), points.max(axis=0)
+        low, high = _corners(clouds)
+        clouds += _arrow_clouds(layers, arrows, view, float(np.linalg.norm(high - low)))
+    low, high = _corners(clouds)
     margin = 0.05 * max(float((high - low).max()), 1e-9)
     return np.stack([low - margin, high + margin])
+
+
+def _corners(clouds: list[FloatArray]) -> tuple[FloatArray, FloatArray]:
+    points = np.concatenate([c for c in clouds if len(c)] or [np.zeros((1, 2))])
+    return points.min(axis=0), points.max(axis=0)
+
+
+def _arrow_clouds(
+    layers: Sequence[Layer], arrows: Arrows | None, view: View, size: float
+) -> list[FloatArray]:
+    """Tails and tips of all arrows."""
+    sets: list[tuple[Arrows, FloatArray | None]] = [
+        (x.arrows, x.positions()) for x in layers if x.arrows is not None
+    ]
+    if arrows is not None:
+        sets.append((arrows, None))
+    clouds = []
+    for each, positions in sets:
+        for part in each.parts:
+            start, step = notes.arrow_ends(view, part, size, positions)
+            clouds += [start, start + step]
+    return clouds
 
 
 def _sheet(bounds: FloatArray, panels: int) -> tuple[float, float, int, int]:
