@@ -219,9 +219,20 @@ def _history(call: Call) -> tuple[list[Any], FloatArray, str]:
     table: Table = operand.value
     index = _DEFAULT_INDEX.get(table.subtype, "DEPL")
     said = call.peek_word()
-    if said is not None and table.has(said.rstrip()):
+    if said is not None and _holds(table, said.rstrip()):
         index = str(call.word()).rstrip()
     return (*results_in_time(table, index), index)
+
+
+def _holds(table: Table, index: str) -> bool:
+    """Whether a table of results has the index, itself (PASAPAS) or in its steps (DYNAMIC)."""
+    steps = (value for place, value in table.items() if type(place) is int)
+    return table.has(index) or any(isinstance(s, Table) and s.has(index) for s in steps)
+
+
+def _in_steps(table: Table, index: str) -> bool:
+    """Whether a table of steps (DYNAMIC) holds results at an index."""
+    return any(isinstance(v, Table) and type(i) is int and v.has(index) for i, v in table.items())
 
 
 def results_in_time(table: Table, index: str) -> tuple[list[Any], FloatArray]:
