@@ -9,7 +9,7 @@ from typing import Any
 
 from ssilang.io.atomic import write_text
 from ssilang.io.plots.figure import Pictures
-from ssilang.io.vtk.series import SeriesWriter
+from ssilang.io.vtk.series import SeriesWriter, strip_extension
 
 _FLUSH_EVERY = 1.0  # seconds: a loop that adds lines does not rewrite the file at each turn
 
@@ -63,7 +63,9 @@ class RunOutput:
     def source(self, name: str) -> Path | None:
         """The file of that name to read; None if that place is forbidden.
 
-        A file that this run has written is preferred to one of the same name beside the script.
+        A file that this run has written is preferred to one of the same name beside the script;
+        failing both, one that another case has left in its own folder beside the output folder
+        (a deck that goes on from the SAUV of the deck before).
         """
         self.flush()
         written = (self.directory / name.strip()).resolve()
@@ -71,7 +73,16 @@ class RunOutput:
         roots = (self.directory, self.inputs, *self.allowed)
         if written in self.files or (not path.exists() and written.exists()):
             path = written
-        return path if self._within(path, roots) else None
+        if not self._within(path, roots):
+            return None
+        return path if path.exists() else self._of_another_case(name.strip()) or path
+
+    def _of_another_case(self, name: str) -> Path | None:
+        """The latest file of that name in the output folder of another run."""
+        results = self.directory.parent
+        paths = [(s.parent / name).resolve() for s in results.glob("*/summary.json")]
+        found = [p for p in paths if p.is_file() and p.is_relative_to(results)]
+        return max(found, key=lambda p: p.stat().st_mtime, default=None)
 
     @staticmethod
     def _within(path: Path, roots: tuple[Path, ...]) -> bool:
@@ -100,8 +111,13 @@ class RunOutput:
             write_text(path, "".join(line + "\n" for line in self._pending.pop(path)))
         self._flushed_at = monotonic()
 
+    def begin_series(self, path: Path) -> SeriesWriter:
+        """A new VTK series, finished and listed when the run ends."""
+        writer = self.series[strip_extension(path)] = SeriesWriter(path)
+        return writer
+
     def wrote(self, *paths: Path) -> None:
-        """Add files to the list of those written."""
+        """Add files to the list of those written (those that are never written drop out)."""
         self.files += [p for p in dict.fromkeys(paths) if p not in self.files]
 
     def close(self) -> None:

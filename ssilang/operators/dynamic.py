@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.io.vtk.series import SeriesWriter
 from ssilang.kernel.dynamics.contact import ContactOptions
 from ssilang.kernel.dynamics.plan import every
 from ssilang.kernel.dynamics.scheme import Scheme, generalised_alpha, hht, newmark
@@ -22,7 +21,7 @@ from ssilang.kernel.model import Model
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
 from ssilang.language.values import ListMots, ListReel, Mot, Table
-from ssilang.operators.files import output_path
+from ssilang.operators.files import output_path, run_output
 from ssilang.operators.motion_observers import CsvObserver, TableObserver, VtkObserver
 from ssilang.operators.progress import ProgressLine
 from ssilang.operators.table_entries import Entries
@@ -222,7 +221,8 @@ def _vtk(entries: Entries, times: FloatArray) -> VtkObserver | None:
     meshes = {"": given} if isinstance(given, Mesh) else _parts(entries, given)
     name = entries.get("FICHIER_VTK", "MOT") or "dynamic"
     path = output_path(entries.call, str(name).rstrip())
-    return VtkObserver(wanted, meshes, SeriesWriter(path), _stress(entries))
+    writer = run_output(entries.call.session).begin_series(path)
+    return VtkObserver(wanted, meshes, writer, _stress(entries))
 
 
 def _parts(entries: Entries, table: Table) -> dict[str, Mesh]:
@@ -259,6 +259,7 @@ def _csv(entries: Entries, times: FloatArray) -> CsvObserver | None:
     if name is not None:
         text = str(name).rstrip()
         path = output_path(entries.call, text if text.lower().endswith(".csv") else text + ".csv")
+        run_output(entries.call.session).wrote(path)
     chosen = None if components is None else [str(c).rstrip() for c in components.values]
     return CsvObserver(wanted, nodes, chosen, path)
 
