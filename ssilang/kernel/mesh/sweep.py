@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ssilang.kernel.errors import MeshError
 from ssilang.kernel.mesh.boundary import contour
@@ -17,6 +18,7 @@ from ssilang.kernel.mesh.orientation import reversed_line
 from ssilang.kernel.mesh.split import split_quadrangles
 from ssilang.kernel.mesh.subdivision import Subdivision, subdivide
 
+BoolArray = NDArray[np.bool_]
 # base positions (m, 3) and one fraction of the way -> moved positions (m, 3)
 Motion = Callable[[FloatArray, float], FloatArray]
 
@@ -234,16 +236,15 @@ class _Layers:
         half = np.full((n, m), -1, dtype=np.int64)
         full[0] = ids
         corner = _corner_mask(base, ids)
-        for k in range(n):
-            if quadratic:
-                s = float(cuts.middles[k])
-                moved = path.motion(start, s)[corner]
-                half[k, corner] = nodes.add(moved, float(cuts.density(np.array(s))))
-            s = float(cuts.fractions[k + 1])
-            if k == n - 1 and path.last is not None:
-                full[n] = path.last
-            else:
-                full[k + 1] = nodes.add(path.motion(start, s), float(cuts.density(np.array(s))))
+        slots = _slots(base, ids, corner if quadratic else None, n)
+        if path.last is not None:
+            full[n] = path.last
+            slots = [s for s in slots if (s[0], s[1]) != ("full", n)]
+        for kind, k, columns in slots:
+            cut = float(cuts.middles[k] if kind == "half" else cuts.fractions[k])
+            moved = path.motion(start, cut)[columns]
+            made = nodes.add(moved, float(cuts.density(np.array(cut))))
+            (half if kind == "half" else full)[k, columns] = made
         return cls(nodes, ids, full, half)
 
     def local(self, connectivity: IntArray) -> IntArray:
@@ -252,7 +253,37 @@ class _Layers:
         return order[np.searchsorted(self.ids[order], connectivity)]
 
 
-def _corner_mask(mesh: Mesh, ids: IntArray) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+def _slots(
+    base: Mesh, ids: IntArray, corner: BoolArray | None, n: int
+) -> list[tuple[str, int, BoolArray]]:
+    """Where nodes are made, in the order of their numbers: ('full' or 'half', level, columns).
+
+    A surface over a line numbers its far side first, then the two lines beside it, then the
+    inside, as Cast3M does; a volume goes layer by layer.
+    """
+    everything = np.ones(len(ids), bool)
+    groups = [everything]
+    slots: list[tuple[str, int, BoolArray]] = []
+    levels = range(1, n + 1)
+    if base.dimension == 1:
+        used = np.bincount(
+            np.concatenate([b.connectivity[:, [0, -1]].ravel() for b in base.blocks]),
+            minlength=int(ids.max()) + 1,
+        )
+        ends = [ids == i for i in ids[used[ids] == 1]]
+        groups = [*ends, ~np.isin(ids, ids[used[ids] == 1])]
+        slots.append(("full", n, everything))
+        levels = range(1, n)
+    for group in groups:
+        for k in range(1, n + 1):
+            if corner is not None and (group & corner).any():
+                slots.append(("half", k - 1, group & corner))
+            if k in levels and group.any():
+                slots.append(("full", k, group))
+    return slots
+
+
+def _corner_mask(mesh: Mesh, ids: IntArray) -> BoolArray:
     corners = [b.connectivity[:, list(b.kind.corners)].ravel() for b in mesh.blocks]
     return np.isin(ids, np.concatenate(corners))
 
