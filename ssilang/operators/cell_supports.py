@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any, cast
 
 from ssilang.kernel.elements.reduction import field_on_mesh, field_on_model, model_on_mesh
@@ -10,13 +11,16 @@ from ssilang.kernel.elements.supports import (
     cells_of_nodal,
     moved,
     nodal_of_cells,
+    point_coordinates,
+    values_at_points,
 )
 from ssilang.kernel.fields.cell_field import CellField, Support
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.model import Model
 from ssilang.language.call import Call
-from ssilang.operators.dispatch import CHAN, REDU
+from ssilang.operators.dispatch import CHAN, COOR, REDU
+from ssilang.operators.workspace import workspace
 
 SUPPORTS = ("NOEUD", "GRAVITE", "RIGIDITE", "MASSE", "STRESSES")
 _EXAMPLE = (
@@ -85,11 +89,11 @@ _TITLES = (
 
 @CHAN.on(
     "CHPO",
-    syntax="CHPO1 = CHAN 'CHPO' MODL1 CHAM1 ('MOYE' | 'SOMM') ;",
+    syntax="CHPO1 = CHAN 'CHPO' MODL1 CHAM1 ('MOYE' | 'SOMM' | 'SUPP') ;",
     en="CHPO: the nodal field with, at each node, the mean (or sum) of the values that the cells "
-    "around it have there.",
+    "around it have there; 'SUPP' makes a new node at each point that carries the field.",
     fr="CHPO : le champ par points ayant, en chaque noeud, la moyenne (ou la somme) des valeurs "
-    "qu'y ont les éléments voisins.",
+    "qu'y ont les éléments voisins ; 'SUPP' crée un noeud à chaque point support du champ.",
     examples=(_EXAMPLE + "C = CHAN 'CHPO' M A ; LIST (MAXI (EXCO 'NU' C)) ;",),
 )
 def chan_nodal(call: Call, word: str) -> NodeField:
@@ -102,10 +106,10 @@ def chan_nodal(call: Call, word: str) -> NodeField:
     rule = call.keyword(["MOYE", "SOMM", "SUPP"]) or "MOYE"
     if isinstance(operand.value, NodeField):
         return operand.value
+    if rule == "SUPP":
+        return values_at_points(operand.value)
     if model is None:
         raise call.missing(("MMODEL",))
-    if rule == "SUPP":
-        raise call.bad("'SUPP' (values at points of their own) is not available")
     return nodal_of_cells(model, operand.value, "SOMM" if rule == "SOMM" else "MOYE")
 
 
@@ -139,3 +143,27 @@ def redu_cells(call: Call, field: CellField) -> CellField:
     if isinstance(operand.value, Mesh):
         return field_on_mesh(field, operand.value)
     return field_on_model(field, operand.value)
+
+
+@COOR.on(
+    "MCHAML",
+    syntax="CHAM2 = COOR N1 CHAM1 ; CHAM2 CHAM3 (CHAM4) = COOR CHAM1 ;",
+    en="Of a field in cells: the coordinates of the points that it stands on, as fields in cells.",
+    fr="D'un champ par éléments : les coordonnées de ses points, en champs par éléments.",
+    examples=(_EXAMPLE + "X = COOR 1 (MANU 'CHML' M 'SCAL' 1.) ; LIST (MAXI X) ;",),
+)
+def coor_cells(call: Call, field: CellField) -> Any:
+    """Coordinates as fields in cells."""
+    wanted = call.optional("ENTIER")
+    dimension = workspace(call.session).dimension
+    if wanted is not None and not 1 <= wanted <= dimension:
+        raise call.bad(f"there is no coordinate {wanted}", wanted)
+    where = point_coordinates(field)
+    axes = range(dimension) if wanted is None else (wanted - 1,)
+    made = tuple(
+        CellField(
+            tuple(replace(b, components={"SCAL": x[..., axis]}) for b, x in where), "SCALAIRE"
+        )
+        for axis in axes
+    )
+    return made[0] if len(made) == 1 else made

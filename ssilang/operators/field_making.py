@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from ssilang.kernel.elements.zone_fields import n_points
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import Nature, NodeField, NodeValues
@@ -127,7 +128,8 @@ def _merged(
     "CHML",
     "CHAM",
     syntax="CHAM1 = MANU 'CHML' GEO1 | MODL1 ('REPA') MOT1 VAL1 MOT2 VAL2 ... ('TYPE' MOT3) "
-    "('CONS' MOT4) ('NOEUD' | 'GRAVITE' | 'RIGIDITE' | 'MASSE' | 'STRESSES') ;",
+    "('CONS' MOT4) ('NOEUD' | 'GRAVITE' | 'RIGIDITE' | 'MASSE' | 'STRESSES') ;\n"
+    "CHAM1 = MANU 'CHAM' MODL1 ('POSI' MOT2) MOT3 CELL1 POINT1 (ZONE1) VAL1 ;",
     en="CHML: field in the cells of a mesh or model; values are numbers or objects, constant in "
     "the cells; 'REPA' deals the values of a list out, one a cell.",
     fr="CHML : champ par éléments sur un maillage ou un modèle ; les valeurs sont des nombres ou "
@@ -161,10 +163,34 @@ def _cell_field(call: Call, word: str) -> CellField:
             value = call.read("*")
             if value is None:
                 raise call.missing(("*",))
+            rest = call.all("FLOTTANT") if type(value.value) is int else []
+            if rest:
+                return _at_one_point(call, operand.value, name, [value.value, *rest], settings)
             pairs.append((name, value.value))
     if not pairs:
         raise call.missing(("MOT",))
     return _in_cells(operand.value, pairs, settings, deal)
+
+
+def _at_one_point(
+    call: Call, model: Mesh | Model, name: str, numbers: list[float], settings: dict[str, str]
+) -> CellField:
+    """Zero but at one point: numbers of cell, point (and zone), then the value."""
+    if not isinstance(model, Model) or len(numbers) not in (3, 4):
+        raise call.bad("a field that is zero but at one point needs a model, cell, point, value")
+    cell, point = int(numbers[0]), int(numbers[1])
+    zone_number = int(numbers[2]) if len(numbers) == 4 else 1
+    if not 1 <= zone_number <= len(model.zones):
+        raise call.bad(f"the model has {len(model.zones)} zones, not {zone_number}")
+    zone = model.zones[zone_number - 1]
+    place: Any = settings.get("POSI", "NOEUD")
+    shape = (len(zone.cells), n_points(zone.element, place))
+    if not (1 <= cell <= shape[0] and 1 <= point <= shape[1]):
+        raise call.bad(f"the zone has {shape[0]} cells of {shape[1]} points there")
+    values = np.zeros(shape)
+    values[cell - 1, point - 1] = float(numbers[-1])
+    block = CellFieldBlock(zone.cells, {name: values}, place, zone.element, zone.constituent)
+    return CellField((block,), settings.get("TYPE", ""))
 
 
 def _in_cells(

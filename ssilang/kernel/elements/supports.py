@@ -119,3 +119,41 @@ def _at_cell_nodes(cells: CellBlock, field: NodeField) -> dict[str, FloatArray]:
         if np.isin(nodes, part.nodes).any():
             out[name] = part.at(nodes.ravel()).reshape(nodes.shape)
     return out
+
+
+def point_coordinates(field: CellField) -> list[tuple[CellFieldBlock, FloatArray]]:
+    """Coordinates (n_cells, n_points, 3) of the points on which each block stands."""
+    out = []
+    for block in field.blocks:
+        if block.support == "NOEUD" or not block.element:
+            out.append((block, block.cells.coordinates))
+            continue
+        kind = ELEMENTS[block.element]
+        points = support_rule(block.element, block.support).points
+        shapes = shape_functions(kind.reference or kind.cell_type, points)
+        corners = block.cells.coordinates
+        half = shapes.shape[1]
+        if corners.shape[1] == 2 * half:
+            corners = (corners[:, :half] + corners[:, half:]) / 2
+        out.append((block, np.einsum("pk,ckd->cpd", shapes, corners)))
+    return out
+
+
+def values_at_points(field: CellField) -> NodeField:
+    """A nodal field on new nodes, one at each point that carries the field."""
+    parts: dict[str, list[NodeValues]] = {}
+    for block, x in point_coordinates(field):
+        n, p, _ = x.shape
+        nodes = block.cells.nodes.add(x.reshape(-1, 3))
+        for name, values in block.components.items():
+            flat = np.broadcast_to(values, (n, p)).astype(float).ravel()
+            parts.setdefault(name, []).append(NodeValues(nodes, flat))
+    if not parts:
+        raise FieldError("the field is empty")
+    made = {
+        name: NodeValues(
+            np.concatenate([v.nodes for v in values]), np.concatenate([v.values for v in values])
+        )
+        for name, values in parts.items()
+    }
+    return NodeField(field.blocks[0].cells.nodes, made, "DIFFUS")

@@ -39,7 +39,7 @@ def full_word(word: str, known: tuple[str, ...]) -> str | None:
 
 
 def normalised(words: list[str], family: str) -> tuple[str, ...]:
-    """The words of a law in order, with ISOTROPE where elasticity says nothing more.
+    """The words of a law in order; ELASTIQUE ISOTROPE where nothing more is said.
 
     Parameters
     ----------
@@ -51,14 +51,9 @@ def normalised(words: list[str], family: str) -> tuple[str, ...]:
     Raises
     ------
     MaterialError
-        If there is no elasticity, or the element's family does not have it.
+        If the element's family does not have the elasticity or law named.
     """
-    if words[:1] != ["ELASTIQUE"]:
-        raise MaterialError(
-            "a mechanical model begins with its elasticity",
-            "write MODE mesh 'MECANIQUE' 'ELASTIQUE' 'ISOTROPE'",
-        )
-    rest = list(words[1:])
+    rest = [w for w in words if w != "ELASTIQUE"]
     kind = rest.pop(0) if rest and rest[0] in ELASTICITIES else ""
     if kind and family not in ELASTICITIES[kind]:
         raise MaterialError(f"elements of the family '{family}' have no elasticity {kind}")
