@@ -16,6 +16,7 @@ from ssilang.language.evaluator import StopRun
 from ssilang.language.session import Limits, Session
 from ssilang.language.source import Source
 from ssilang.language.structure import parse
+from ssilang.language.tree import first_assignments
 
 
 @dataclass
@@ -83,6 +84,7 @@ def execute(session: Session, source: Source) -> None:
         What is wrong in the script.
     """
     script = parse(source)
+    session.assignments = first_assignments(script.body)
     sys.setrecursionlimit(max(sys.getrecursionlimit(), 60 * session.limits.recursion + 2000))
     try:
         session.evaluator.run_top(script.body)

@@ -282,6 +282,7 @@ class Call:
                 found=type_of(wrong.value),
                 name=wrong.name,
                 value=str(wrong.value) if isinstance(wrong.value, str) else "",
+                bare=isinstance(wrong.value, str) and wrong.span.text[:1] not in ("'", "("),
             )
         return SsiError("missing-argument", self.span, operator=self.name, expected=list(types))
 

@@ -59,6 +59,12 @@ MESSAGES: dict[str, Message] = {
         "a quote inside a string is written twice: 'l''axe'",
         "une apostrophe dans un texte se double : 'l''axe'",
     ),
+    "early-quote": Message(
+        "this apostrophe ends the text {text} and what follows is no text any more",
+        "cette apostrophe ferme le texte {text} et la suite n'est plus du texte",
+        "an apostrophe inside a text is written twice: 'l''axe'",
+        "une apostrophe dans un texte se double : 'l''axe'",
+    ),
     "unclosed-paren": Message(
         "this parenthesis is never closed", "cette parenthèse n'est jamais fermée", number=1
     ),
@@ -76,6 +82,36 @@ MESSAGES: dict[str, Message] = {
         "un second = dans une instruction",
         "is the ; of the statement before missing? A comparison is written EGA",
         "manque-t-il le ; de l'instruction précédente ? Une comparaison s'écrit EGA",
+    ),
+    "no-target": Message(
+        "there is no name in front of =",
+        "il n'y a pas de nom devant =",
+        "write NAME = ... ;",
+        "écrivez NOM = ... ;",
+    ),
+    "equal-comparison": Message(
+        "= gives a value to a name, it does not compare",
+        "= donne une valeur à un nom, il ne compare pas",
+        "comparisons are written A EGA B, A NEG B, A > B, A < B, A >EG B, A <EG B",
+        "une comparaison s'écrit A EGA B, A NEG B, A > B, A < B, A >EG B, A <EG B",
+    ),
+    "nothing-behind": Message(
+        "something is missing behind {sign}",
+        "il manque quelque chose derrière {sign}",
+        "a table is read by TABLE . INDEX, an attribute by OBJECT%NAME",
+        "une table se lit par TABLE . INDICE, un attribut par OBJET%NOM",
+    ),
+    "crossed-blocks": Message(
+        "FIN {name} comes while {inside} of line {line} is still open",
+        "FIN {name} arrive alors que {inside} de la ligne {line} est encore ouvert",
+        "blocks nest: write its {missing} before this FIN",
+        "les blocs s'emboîtent : écrivez son {missing} avant ce FIN",
+    ),
+    "second-sinon": Message(
+        "a second SINON for the SI of line {line}",
+        "un second SINON pour le SI de la ligne {line}",
+        "there is no else-if: write SI ... ; ... FINSI ; inside of the SINON",
+        "il n'y a pas de sinon-si : écrivez SI ... ; ... FINSI ; dans le SINON",
     ),
     "unclosed-block": Message(
         "{word} opens a block that is never closed: {missing} is missing",
@@ -108,10 +144,36 @@ MESSAGES: dict[str, Message] = {
     ),
     # ---- phrases
     "unknown-operator": Message(
-        "{name} is neither an operator, nor a procedure, nor an object",
-        "{name} n'est ni un opérateur, ni une procédure, ni un objet",
+        "{name} is neither an operator, nor a procedure, nor an object that has a value",
+        "{name} n'est ni un opérateur, ni une procédure, ni un objet qui a une valeur",
         "{near_hint}",
         "{near_hint}",
+    ),
+    "set-later": Message(
+        "{name} has no value here: line {line} gives it one",
+        "{name} n'a pas de valeur ici : c'est la ligne {line} qui lui en donne une",
+        "statements run from top to bottom: move that line before this one",
+        "les instructions s'exécutent de haut en bas : mettez cette ligne avant celle-ci",
+    ),
+    "unread-operator": Message(
+        "the phrase ends before {name}, which is not run{before_text}",
+        "la phrase finit avant {name}, qui n'est pas exécuté{before_text}",
+        "put what stands before it in parentheses, or write {name} in front of its operands",
+        "mettez ce qui précède entre parenthèses, ou écrivez {name} devant ses opérandes",
+    ),
+    "hidden-operator": Message(
+        "{name} is an object of yours here (of type {found}), which hides the operator {name}",
+        "{name} est ici un de vos objets (de type {found}), qui cache l'opérateur {name}",
+        "give the object another name, or write the operator between quotes: '{name}'",
+        "donnez un autre nom à l'objet, ou écrivez l'opérateur entre apostrophes : '{name}'",
+    ),
+    "glued-sign": Message(
+        "{number} is a number of its own here, not a sum",
+        "{number} est ici un nombre à part, pas une somme",
+        "a sign glued to its number and behind a blank belongs to the number: write {sign} {rest}",
+        "un signe collé à son nombre et après un blanc fait partie du nombre : "
+        "écrivez {sign} {rest}",
+        number=11,
     ),
     "excess": Message(
         "nothing reads this {found}{named}",
@@ -123,6 +185,8 @@ MESSAGES: dict[str, Message] = {
     "no-result": Message(
         "there is no result{wanted_text} for the name {name}",
         "il n'y a pas de résultat{wanted_text} pour le nom {name}",
+        "{count} names stand on the left of =, the right side gives fewer results",
+        "{count} noms sont à gauche de =, la partie droite donne moins de résultats",
         number=37,
     ),
     "target": Message(
@@ -145,8 +209,15 @@ MESSAGES: dict[str, Message] = {
     "not-a-table": Message(
         "{name} is a {found}, not a TABLE",
         "{name} est de type {found}, pas TABLE",
-        "make the table first: {name} = TABL ;",
-        "créez d'abord la table : {name} = TABL ;",
+        "only a TABLE (made by TABL) and an OBJET have indices; was {name} given another value?",
+        "seuls une TABLE (créée par TABL) et un OBJET ont des indices ; {name} a-t-il changé ?",
+    ),
+    "no-inner-table": Message(
+        "the table has no index {index!r} yet",
+        "la table n'a pas encore d'indice {index!r}",
+        "make the inner table first: {path} = TABL ;",
+        "créez d'abord la table intérieure : {path} = TABL ;",
+        number=171,
     ),
     "no-index": Message(
         "the table has no index {index!r}",
@@ -175,8 +246,8 @@ MESSAGES: dict[str, Message] = {
     "wrong-argument": Message(
         "{operator} wanted {types}, found {found_text}",
         "{operator} attendait {types}, trouvé {found_text}",
-        "{syntax_hint}",
-        "{syntax_hint}",
+        "{bare_hint}{syntax_hint}",
+        "{bare_hint}{syntax_hint}",
         number=37,
     ),
     "missing-keyword": Message(
@@ -188,6 +259,8 @@ MESSAGES: dict[str, Message] = {
     "missing-parameter": Message(
         "{procedure} wanted its argument {parameter} ({expected}), found {found}",
         "{procedure} attendait son argument {parameter} ({expected}), trouvé {found}",
+        "it is declared as {heading}",
+        "elle est déclarée {heading}",
         number=37,
     ),
     "two-operands": Message(
@@ -202,7 +275,7 @@ MESSAGES: dict[str, Message] = {
         "phrases run from left to right without precedence; put parentheses where you mean them",
         "les phrases vont de gauche à droite sans priorité ; mettez des parenthèses",
     ),
-    "arithmetic": Message("{reason}", "{reason}"),
+    "arithmetic": Message("{reason_text}", "{reason_text}"),
     "bad-value": Message("{message}", "{message}", "{hint}", "{hint}"),
     "no-such-loop": Message(
         "no open loop or procedure is called {name}",

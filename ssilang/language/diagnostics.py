@@ -16,6 +16,8 @@ _OR = {"en": " or ", "fr": " ou "}
 _ANY = {"en": "an object", "fr": "un objet"}
 
 
+_CALLED = {"en": "called by {name} at", "fr": "appelé par {name},"}
+_CALLS_SHOWN = 4  # at each end of the chain
 _KINDS = {
     False: {"en": "error", "fr": "erreur"},
     True: {"en": "warning", "fr": "avertissement"},
@@ -34,7 +36,7 @@ class _Data(dict[str, Any]):
 
 def nearest(word: str, known: Iterable[str]) -> str:
     """The known name that looks most like `word`, '' if none does."""
-    found = difflib.get_close_matches(word.upper(), list(known), 1, 0.6)
+    found = difflib.get_close_matches(word.upper(), list(known), 1, 0.7)
     return found[0] if found else ""
 
 
@@ -52,13 +54,20 @@ def render(error: SsiError, language: str = "en", names: Iterable[str] = ()) -> 
     lines = [f"{_label(error, language)}: {head}"]
     if error.span is not None:
         lines += _place(error.span, "-->")
-    if hint:
-        lines.append(f"  = {hint}")
-    called = {"en": "called by", "fr": "appelé par"}[language]
+    lines += [f"  = {part}" for part in hint.split("\n") if part]
+    return "\n".join(lines + _calls(error, language))
+
+
+def _calls(error: SsiError, language: str) -> list[str]:
+    """The chain of procedures, innermost first; the middle of a long one is left out."""
+    lines = []
     for name, span in error.calls:
         line, column = span.source.position(span.start)
-        lines.append(f"  {called} {name} at {span.source.name}:{line}:{column}")
-    return "\n".join(lines)
+        lines.append(f"  {_CALLED[language].format(name=name)} {span.source.name}:{line}:{column}")
+    if len(lines) <= 2 * _CALLS_SHOWN:
+        return lines
+    count = len(lines) - 2 * _CALLS_SHOWN
+    return [*lines[:_CALLS_SHOWN], f"  ... {count} ...", *lines[-_CALLS_SHOWN:]]
 
 
 def sentence(error: SsiError, language: str, names: Iterable[str] = ()) -> tuple[str, str]:
@@ -99,10 +108,7 @@ def _derived(error: SsiError, language: str, names: Iterable[str]) -> dict[str, 
     made: dict[str, str] = {}
     join = _OR[language]
     if "expected" in data and isinstance(data["expected"], list):
-        types = [_ANY[language] if t == ANY else f"a {t}" for t in data["expected"]]
-        if language == "fr":
-            types = [t.replace("a ", "un ", 1) for t in types]
-        made["types"] = join.join(types[:8])
+        made["types"] = _types_text(data["expected"], language)
     if "words" in data and isinstance(data["words"], list):
         made["words_text"] = join.join(f"'{w}'" for w in data["words"][:12])
     if data.get("found") and error.code == "missing-keyword":
@@ -113,6 +119,13 @@ def _derived(error: SsiError, language: str, names: Iterable[str]) -> dict[str, 
         made["named"] = f" ({data['name']})"
     if data.get("wanted"):
         made["wanted_text"] = {"en": " of type ", "fr": " de type "}[language] + str(data["wanted"])
+    if error.code == "arithmetic":
+        made["reason_text"] = _reason(str(data.get("reason")), language)
+    if data.get("before"):
+        before = {"en": "; it ends behind a word, here {}", "fr": " ; un mot l'arrête, ici {}"}
+        made["before_text"] = before[language].format(data["before"])
+    if data.get("bare") and error.code == "wrong-argument":
+        made["bare_hint"] = _bare_hint(str(data["value"]), language, names)
     made["near_hint"] = _near_hint(data, language, names)
     made["syntax_hint"] = _syntax_hint(data)
     made["known_hint"] = _known_hint(data, language)
@@ -120,8 +133,49 @@ def _derived(error: SsiError, language: str, names: Iterable[str]) -> dict[str, 
     return made
 
 
+def _types_text(types: list[str], language: str) -> str:
+    """Expected types as a phrase: 'a RIGIDITE', 'an ENTIER or a FLOTTANT', 'one of A, B or C'."""
+    if types == [ANY]:
+        return _ANY[language]
+    if len(types) <= 2:
+        return _OR[language].join(_article(t, language) for t in types)
+    head = {"en": "one of ", "fr": "l'un des types "}[language]
+    return head + ", ".join(types[:-1]) + _OR[language] + types[-1]
+
+
+def _article(kind: str, language: str) -> str:
+    if language == "fr":
+        return f"un {kind}"
+    return f"an {kind}" if kind[0] in "AEIO" else f"a {kind}"
+
+
+def _reason(reason: str, language: str) -> str:
+    """Python's reasons of failed arithmetic in a user's words."""
+    for sign, (english, french) in _REASONS.items():
+        if sign in reason:
+            return english if language == "en" else french
+    return reason
+
+
+_REASONS = {
+    "by zero": ("division by zero", "division par zéro"),
+    "negative power": ("division by zero", "division par zéro"),
+    "too large": ("the result is too large", "le résultat est trop grand"),
+    "out of range": ("the result is too large", "le résultat est trop grand"),
+    "infinity": ("the result is too large", "le résultat est trop grand"),
+}
+
+
+def _bare_hint(word: str, language: str, names: Iterable[str]) -> str:
+    near = nearest(word, names)
+    question = {"en": " (did you mean {}?)", "fr": " (vouliez-vous dire {} ?)"}[language]
+    ask = question.format(near) if near else ""
+    text = {"en": "{} was never given a value{}\n", "fr": "{} n'a jamais reçu de valeur{}\n"}
+    return text[language].format(word, ask)
+
+
 def _found(data: dict[str, object], language: str) -> str:
-    kind = {"en": "a ", "fr": "un "}[language] + str(data["found"])
+    kind = _article(str(data["found"]), language)
     detail = str(data.get("name") or "") or (f"'{data['value']}'" if data.get("value") else "")
     return f"{kind} ({detail})" if detail else kind
 
@@ -138,8 +192,8 @@ def _near_hint(data: dict[str, object], language: str, names: Iterable[str]) -> 
     if near:
         return {"en": f"did you mean {near}?", "fr": f"vouliez-vous dire {near} ?"}[language]
     return {
-        "en": "operators are recognised by their first four letters; ssilang help lists them",
-        "fr": "un opérateur se reconnaît à ses quatre premières lettres ; voir ssilang help",
+        "en": f"give it a value first ({word} = ... ;), or see the operators with `ssilang help`",
+        "fr": f"donnez-lui d'abord une valeur ({word} = ... ;), ou voyez `ssilang help`",
     }[language]
 
 

@@ -9,6 +9,7 @@ from ssilang.language import tree
 from ssilang.language.call import Call, Operand, run_operator
 from ssilang.language.errors import SsiError
 from ssilang.language.fast import Slow, Value, compile_phrase
+from ssilang.language.leftovers import is_call, leftover_error
 from ssilang.language.procedures import LeaveProcedure, call_procedure, method_of
 from ssilang.language.registry import Operator, find_operator
 from ssilang.language.source import Span
@@ -94,9 +95,7 @@ class Evaluator:
             return
         results = self.phrase(statement.items, statement.span)
         if len(results) != 1 or not isinstance(results[0].value, bool):
-            found = type_of(results[0].value) if results else "nothing"
-            span = results[0].span if results else statement.span
-            raise SsiError("condition", span, found=found)
+            raise self._unfit("condition", results, statement.span)
         self.run(node.then if results[0].value else node.otherwise)
 
     def _loop(self, node: tree.Loop) -> None:
@@ -127,9 +126,19 @@ class Evaluator:
         if isinstance(value, float) and value == int(value):
             value = int(value)
         if not isinstance(value, int) or isinstance(value, bool):
-            found = type_of(value) if results else "nothing"
-            raise SsiError("loop-count", node.count[0].span, found=found)
+            raise self._unfit("loop-count", results, node.count[0].span)
         return None if value < 0 else value
+
+    def _unfit(self, code: str, results: Sequence[Operand], span: Span) -> SsiError:
+        """The error for a condition or a count of another type than it must have."""
+        if not results:
+            return SsiError(code, span, found="nothing")
+        words = [o for o in results if isinstance(o.value, Mot) and not o.name and not o.result]
+        if words:
+            error = leftover_error(words, self.session.assignments)
+            if error is not None:
+                return error
+        return SsiError(code, results[0].span, found=type_of(results[0].value))
 
     def _define(self, node: tree.Definition) -> None:
         self.session.frame.assign(node.name, Procedure(node.name, node))
@@ -200,7 +209,7 @@ class Evaluator:
 
     def _assign(self, statement: tree.Statement, left: list[Operand]) -> None:
         targets = self._typed_targets(statement.targets)
-        self.refuse_leftovers(left[:1] if left and self.is_call(left) else [])
+        self.refuse_leftovers(left[:1] if left and is_call(left) else [])
         for target, wanted in targets:
             at = 0
             if wanted:
@@ -216,14 +225,6 @@ class Evaluator:
             self.store(target, left.pop(at).value)
         if left:
             self.refuse_leftovers(left)
-
-    @staticmethod
-    def is_call(left: list[Operand]) -> bool:
-        """A phrase of several leftovers that begins with a bare unknown word: a misspelt call."""
-        first = left[0]
-        return (
-            len(left) > 1 and isinstance(first.value, Mot) and not first.result and not first.name
-        )
 
     @staticmethod
     def _typed_targets(items: Sequence[tree.Item]) -> list[tuple[tree.Item, str]]:
@@ -255,20 +256,16 @@ class Evaluator:
     def _store_in_table(self, target: tree.Path, value: Any) -> None:
         holder = self._single(target.base)
         for index in target.indices[:-1]:
-            holder = self._element(holder, index, target)
+            holder = self._element(holder, index, target, "no-inner-table")
         if not isinstance(holder, Table):
-            raise SsiError("not-a-table", target.span, found=type_of(holder))
+            raise self._no_table(holder, target)
         holder.set(self._single(target.indices[-1]), value)
 
-    def refuse_leftovers(self, left: list[Operand]) -> None:
-        """Raise 'unknown-operator' or 'excess' for operands that nothing read."""
-        left = [o for o in left if o.value is not ANNULE]
-        if not left:
-            return
-        operand = next((o for o in left if isinstance(o.value, Mot) and not o.name), left[0])
-        if isinstance(operand.value, Mot) and not operand.result and not operand.name:
-            raise SsiError("unknown-operator", operand.span, name=str(operand.value))
-        raise SsiError("excess", operand.span, found=type_of(operand.value), name=operand.name)
+    def refuse_leftovers(self, left: Sequence[Operand]) -> None:
+        """Raise the error for operands that nothing read, if there are any."""
+        error = leftover_error(left, self.session.assignments)
+        if error is not None:
+            raise error
 
     # ---- phrases ---------------------------------------------------------------------------
 
@@ -402,11 +399,12 @@ class Evaluator:
         results = self.phrase(item.items, item.span)
         if not results:
             return []
-        if self.is_call(results):
+        if is_call(results):
             self.refuse_leftovers(results)
         if len(results) > 1:
             unread = [o for o in results[1:] if not o.result]
-            self.refuse_leftovers(unread or results[1:])
+            word = results[:1] if unread and isinstance(results[0].value, Mot) else []
+            self.refuse_leftovers(word + (unread or results[1:]))
         value = results[0].value
         return [Operand(value, item.span, results[0].name)]
 
@@ -422,21 +420,27 @@ class Evaluator:
             value = self._element(value, index, item)
         return [Operand(value, item.span)]
 
-    def _element(self, holder: Any, index: tree.Item, item: tree.Path) -> Any:
+    def _element(
+        self, holder: Any, index: tree.Item, item: tree.Path, missing: str = "no-index"
+    ) -> Any:
         if isinstance(holder, Objet):
             holder = holder.attributes.get(self._single(index), ANNULE)
             return holder
         if not isinstance(holder, Table):
-            raise SsiError(
-                "not-a-table", item.base.span, found=type_of(holder), name=item.base.span.text
-            )
+            raise self._no_table(holder, item)
         where = self._single(index)
         value = holder.get(where)
         if value is None:
-            raise SsiError(
-                "no-index", index.span, index=where, known=[k for k, _ in holder.items()]
-            )
+            path = Span(item.span.source, item.span.start, index.span.end).text
+            known = [k for k, _ in holder.items()]
+            raise SsiError(missing, index.span, index=where, known=known, path=path)
         return value
+
+    def _no_table(self, holder: Any, item: tree.Path) -> SsiError:
+        base = item.base.span
+        if isinstance(holder, Mot) and self.session.frame.find(base.text.upper()) is None:
+            return SsiError("undefined-table", base, name=base.text)
+        return SsiError("not-a-table", base, found=type_of(holder), name=base.text)
 
     def _attribute(self, item: tree.Attribute) -> list[Operand]:
         holder = self._object_of(item)

@@ -163,14 +163,33 @@ def _syntax_error(source: Source, text: str, begin: int, place: int, end: int) -
     bare = re.sub(r"'(?:[^']|'')*'", lambda m: " " * len(m.group()), statement, flags=re.DOTALL)
     quote = bare.find("'")
     if quote >= 0:
+        early = re.search(r"'[^'\n]*'(?=\w)", statement)
+        if early is not None and early.end() - 1 < quote:
+            place = begin + early.end() - 1
+            return SsiError("early-quote", Span(source, place, place + 1), text=early.group())
         return SsiError("unclosed-string", Span(source, begin + quote, begin + quote + 1))
+    if place < len(text) and text[place] == "=":
+        return _second_equal(source, text, begin, place)
     if bare.count("(") != bare.count(")"):
         return _unbalanced(source, bare, begin)
     if place >= len(text.rstrip()):
         return SsiError("missing-semicolon", head)
-    if text[place] == "=":
-        return SsiError("second-equal", Span(source, place, place + 1))
+    before = bare[: place - begin].rstrip()[-1:]
+    if before in (".", "%"):
+        return SsiError("nothing-behind", Span(source, place, place + 1), sign=before)
     return SsiError("syntax", Span(source, place, place + 1), found=text[place])
+
+
+def _second_equal(source: Source, text: str, begin: int, place: int) -> SsiError:
+    """The error for an = where there can be none: no name before it, a comparison, a second one."""
+    span = Span(source, place, place + 1)
+    before = text[begin:place]
+    if not before.strip():
+        return SsiError("no-target", span)
+    comparison = before.count("(") > before.count(")") or text[place + 1 : place + 2] == "="
+    if comparison or before.split()[0].upper() == "SI":
+        return SsiError("equal-comparison", span)
+    return SsiError("second-equal", span)
 
 
 def _unbalanced(source: Source, bare: str, begin: int) -> SsiError:

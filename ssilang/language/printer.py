@@ -59,9 +59,14 @@ def _loop(node: tree.Loop, depth: int) -> list[str]:
 
 def _definition(node: tree.Definition, depth: int) -> list[str]:
     first, last = ("DEBM", "FINM") if node.method else ("DEBP", "FINP")
-    head = " ".join([first, _word(node.name), *(_parameter(p) for p in node.parameters)])
+    head = f"{first} {heading(node)}"
     end = " ".join(p for p in (last, print_items(node.results)) if p)
     return [_line(f"{head} ;", depth), *_block(node.body, depth + 1), _line(f"{end} ;", depth)]
+
+
+def heading(node: tree.Definition) -> str:
+    """Name and arguments of a procedure, as they are declared."""
+    return " ".join([_word(node.name), *(_parameter(p) for p in node.parameters)])
 
 
 def _parameter(p: tree.Parameter) -> str:

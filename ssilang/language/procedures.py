@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from ssilang.language.errors import SsiError
+from ssilang.language.printer import heading
 from ssilang.language.scopes import Frame
 from ssilang.language.values import ANNULE, Objet, Procedure, Table, type_of
 
@@ -91,12 +92,13 @@ def _argument(parameter: Parameter, call: Call, procedure: Procedure) -> Any:
         return operand.value
     if parameter.optional:
         return ANNULE
-    found = type_of(call.operands[0].value) if call.operands else "nothing"
+    wrong = call.operands[0] if call.operands else None
     raise SsiError(
         "missing-parameter",
-        call.span,
+        wrong.span if wrong else call.span,
         procedure=procedure.name,
         parameter=parameter.name,
         expected=parameter.type or "any object",
-        found=found,
+        found=type_of(wrong.value) if wrong else "nothing",
+        heading=heading(procedure.definition),
     )

@@ -65,6 +65,7 @@ class Session:
     make_point: Callable[[list[float]], Any] | None = None
     dimension: Callable[[], int] = lambda: 0
     warnings: list[Any] = field(default_factory=list)
+    assignments: dict[str, Any] = field(default_factory=dict)  # name -> span of its first target
     checks: list[Check] = field(default_factory=list)
     statistics: dict[str, Any] = field(default_factory=dict)
     started: float = field(default_factory=time.perf_counter)

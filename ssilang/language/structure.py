@@ -43,6 +43,7 @@ class _Open:
     body: list[Node] = field(default_factory=list)
     name: str = ""
     then: tuple[Node, ...] = ()
+    unnamed: bool = False  # its name is missing: any end fits
 
 
 def parse(source: Source) -> Script:
@@ -60,6 +61,7 @@ def structure(statements: list[Statement], source: Source) -> Script:
     """Nest a flat list of statements; see `parse`."""
     errors: list[SsiError] = []
     stack = [_Open("", None)]
+    crossed: set[str] = set()  # openers that were taken as closed: their late ends are forgiven
     for statement in statements:
         word = control_word(statement)
         if word == "FIN" and len(statement.items) == 1:
@@ -67,9 +69,17 @@ def structure(statements: list[Statement], source: Source) -> Script:
         try:
             _STEPS.get(word, _plain)(stack, statement)
         except SsiError as error:
-            errors.append(error)
+            if error.code == "crossed-blocks":
+                crossed.add(str(error.data["missing"]))
+            late = error.code == "stray-block-end" and str(error.data["word"])[:4] in {
+                c[:4] for c in crossed
+            }
+            if not late:
+                errors.append(error)
     for left in reversed(stack[1:]):
         assert left.statement is not None
+        if left.unnamed:
+            continue
         errors.append(
             SsiError(
                 "unclosed-block",
@@ -97,6 +107,9 @@ def _si(stack: list[_Open], statement: Statement) -> None:
 
 def _sinon(stack: list[_Open], statement: Statement) -> None:
     top = stack[-1]
+    if top.kind == "SINO" and top.statement is not None:
+        line = top.statement.span.source.position(top.statement.span.start)[0]
+        raise SsiError("second-sinon", statement.span, line=line)
     if top.kind != "SI":
         raise _stray(stack, statement, "SI")
     top.then, top.body, top.kind = tuple(top.body), [], "SINO"
@@ -117,6 +130,7 @@ def _repe(stack: list[_Open], statement: Statement) -> None:
     rest = list(statement.items[1:])
     at = next((i for i, item in enumerate(rest) if isinstance(item, Name | Quoted)), None)
     if at is None:
+        stack.append(_Open("REPE", statement, unnamed=True))
         raise SsiError("loop-name", statement.span)
     item = rest.pop(at)
     assert isinstance(item, Name | Quoted)
@@ -130,12 +144,31 @@ def _fin(stack: list[_Open], statement: Statement) -> None:
     name = item.text.upper() if isinstance(item, Name | Quoted) else ""
     top = stack[-1]
     if top.kind != "REPE" or top.statement is None:
-        raise _stray(stack, statement, "REPE")
+        raise _crossed(stack, statement, name) or _stray(stack, statement, "REPE")
     stack.pop()
-    if name != top.name:
+    if name != top.name and not top.unnamed:
         stack[-1].body.append(_loop(top, statement))
         raise SsiError("wrong-loop-name", item.span, expected=top.name, found=name)
     stack[-1].body.append(_loop(top, statement))
+
+
+def _crossed(stack: list[_Open], statement: Statement, name: str) -> SsiError | None:
+    """FIN of a loop inside of which other blocks are open: these are taken as closed."""
+    at = next((i for i, o in enumerate(stack) if o.kind == "REPE" and o.name == name), 0)
+    if not at:
+        return None
+    inner, top = stack[-1], stack[at]
+    assert inner.statement is not None
+    del stack[at:]
+    stack[-1].body.append(_loop(top, statement))
+    return SsiError(
+        "crossed-blocks",
+        statement.span,
+        name=name,
+        inside=inner.statement.first_word,
+        line=inner.statement.span.source.position(inner.statement.span.start)[0],
+        missing=_OPENS[inner.kind],
+    )
 
 
 def _loop(top: _Open, end: Statement) -> Loop:
@@ -147,6 +180,7 @@ def _loop(top: _Open, end: Statement) -> Loop:
 def _debp(stack: list[_Open], statement: Statement) -> None:
     kind = control_word(statement)
     if len(statement.items) < 2 or not isinstance(statement.items[1], Name | Quoted):
+        stack.append(_Open(kind, statement))
         raise SsiError("procedure-name", statement.span)
     opened = _Open(kind, statement)
     opened.name = statement.items[1].text.upper()

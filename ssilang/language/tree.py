@@ -142,3 +142,20 @@ class Script:
 
     body: tuple[Node, ...]
     span: Span
+
+
+def first_assignments(nodes: tuple[Node, ...]) -> dict[str, Span]:
+    """Where each name of a script first gets a value, or is defined; procedures' own left out."""
+    found: dict[str, Span] = {}
+    for node in nodes:
+        if isinstance(node, Statement):
+            inner = {t.text: t.span for t in node.targets if isinstance(t, Name)}
+        elif isinstance(node, If):
+            inner = first_assignments(node.then + node.otherwise)
+        elif isinstance(node, Loop):
+            inner = first_assignments(node.body)
+        else:
+            inner = {node.name: node.span}
+        for name, span in inner.items():
+            found.setdefault(name, span)
+    return found

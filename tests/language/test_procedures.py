@@ -124,7 +124,7 @@ def test_a_procedure_name_is_compared_in_full(fails):
 
 
 def test_a_procedure_must_be_defined_before_it_is_called(fails):
-    assert fails("x = LATER 1 ; DEBP LATER a*ENTIER ; FINP a ;") == "unknown-operator"
+    assert fails("x = LATER 1 ; DEBP LATER a*ENTIER ; FINP a ;") == "set-later"
 
 
 def test_at_procedures_are_found_beside_the_deck(tmp_path):

@@ -45,7 +45,7 @@ def test_loop_counters_are_indices(run):
 
 
 def test_inner_tables_must_exist(fails):
-    assert fails("t = TABL ; t . 'A' . 1 = 3 ;") == "no-index"
+    assert fails("t = TABL ; t . 'A' . 1 = 3 ;") == "no-inner-table"
 
 
 def test_an_index_that_is_missing_is_an_error(fails):

@@ -20,6 +20,8 @@ from ssilang.cli.checking.scope import Scope
 from ssilang.language import tree
 from ssilang.language.call import Call, Operand, accepts
 from ssilang.language.errors import SsiError
+from ssilang.language.leftovers import is_call
+from ssilang.language.printer import heading
 from ssilang.language.registry import SCALAR_RULES, Operator, find_operator
 from ssilang.language.session import Session
 from ssilang.language.source import Span
@@ -189,14 +191,16 @@ class PhraseReader:
             if p.subtype:
                 raise Ambiguous
             if call.read(p.type or "*") is None and not p.optional:
-                found = kind_word(call.operands[0].value) if call.operands else "nothing"
+                wrong = call.operands[0] if call.operands else None
+                found = kind_word(wrong.value) if wrong else "nothing"
                 raise SsiError(
                     "missing-parameter",
-                    span,
+                    wrong.span if wrong else span,
                     procedure=procedure.name,
                     parameter=p.name,
                     expected=p.type or "any object",
                     found=found,
+                    heading=heading(procedure.definition),
                 )
 
     # ---- end of a phrase -----------------------------------------------------------------------
@@ -262,7 +266,7 @@ class PhraseReader:
         try:
             left = self.read(item.items, scope, item.span)
             if left is not None:
-                if self.session.evaluator.is_call(left):
+                if is_call(left):
                     self.session.evaluator.refuse_leftovers(left)
                 if len(left) > 1:
                     self.session.evaluator.refuse_leftovers(

@@ -11,6 +11,7 @@ from ssilang.cli.checking.scope import Scope, assigned_names
 from ssilang.cli.checking.usage import unused_names
 from ssilang.language import tree
 from ssilang.language.errors import SsiError
+from ssilang.language.leftovers import is_call
 from ssilang.language.registry import find_operator
 from ssilang.language.session import Session
 from ssilang.language.values import Mot, Procedure
@@ -75,7 +76,7 @@ class Checker:
         left = self.phrases.read(node.condition.items, scope, node.condition.span)
         if left is None or any(o.value is UNKNOWN for o in left):
             return
-        if self.session.evaluator.is_call(left):
+        if is_call(left):
             self.session.evaluator.refuse_leftovers(left)
         if len(left) != 1 or kind_word(left[0].value) != "LOGIQUE":
             found = kind_word(left[0].value) if left else "nothing"
@@ -198,7 +199,7 @@ class Checker:
             return []
         if any(isinstance(i, tree.Symbol | tree.Quoted) for i in statement.targets):
             return None
-        if left and evaluator.is_call(left):
+        if left and is_call(left):
             evaluator.refuse_leftovers(left[:1])
         count = len(statement.targets)
         if len(left) < count:

@@ -1,0 +1,69 @@
+"""What is wrong with a phrase that leaves operands which nothing reads."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from ssilang.language.call import Operand
+from ssilang.language.errors import SsiError
+from ssilang.language.registry import find_operator
+from ssilang.language.source import Span
+from ssilang.language.values import ANNULE, Mot, type_of
+
+
+def is_call(left: Sequence[Operand]) -> bool:
+    """Whether leftovers begin with a bare unknown word before others: a misspelt call."""
+    first = left[0]
+    return len(left) > 1 and isinstance(first.value, Mot) and not first.result and not first.name
+
+
+def leftover_error(left: Sequence[Operand], later: Mapping[str, Span]) -> SsiError | None:
+    """The error for operands that nothing read, None if there are none.
+
+    Parameters
+    ----------
+    left : sequence of Operand
+    later : mapping
+        Names that the script gives a value to somewhere, with the place where it does.
+    """
+    left = [o for o in left if o.value is not ANNULE]
+    if not left:
+        return None
+    words = [o for o in left if isinstance(o.value, Mot) and not o.name and not o.result]
+    unread = next((o for o in words if find_operator(str(o.value)) is not None), None)
+    if unread is not None:
+        return _unread_operator(unread, left)
+    hidden = next((o for o in left if o.name and find_operator(o.name) is not None), None)
+    if hidden is not None and len(left) > 1:
+        return SsiError(
+            "hidden-operator", hidden.span, name=hidden.name, found=type_of(hidden.value)
+        )
+    if words:
+        return _unknown_word(words[0], later)
+    return _excess(left[0])
+
+
+def _unread_operator(operand: Operand, left: Sequence[Operand]) -> SsiError:
+    before = next((o for o in left if isinstance(o.value, Mot)), operand)
+    name = "" if before is operand else before.span.text
+    return SsiError("unread-operator", operand.span, name=str(operand.value), before=name)
+
+
+def _unknown_word(operand: Operand, later: Mapping[str, Span]) -> SsiError:
+    name = str(operand.value)
+    place = later.get(name.upper())
+    if (
+        place is not None
+        and place.start > operand.span.start
+        and place.source is operand.span.source
+    ):
+        line = place.source.position(place.start)[0]
+        return SsiError("set-later", operand.span, name=name, line=line)
+    return SsiError("unknown-operator", operand.span, name=name)
+
+
+def _excess(operand: Operand) -> SsiError:
+    text = operand.span.text
+    if isinstance(operand.value, int | float) and text[:1] in ("-", "+"):
+        return SsiError("glued-sign", operand.span, number=text, sign=text[0], rest=text[1:])
+    return SsiError("excess", operand.span, found=type_of(operand.value), name=operand.name)
