@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+_WIDTH = 1.6
+_WIDTHS = (2.6, 1.2)  # of the first and the last curve: those that coincide are all seen
 NO_LEGEND = "PAS DE LEGENDE"
 _CORNERS: dict[str, Any] = {
     "NO": "upper left",
@@ -89,6 +91,7 @@ class _Line:
     colour: str
     name: str
     style: LineStyle
+    width: float
     codes: Any = None
 
 
@@ -126,7 +129,11 @@ def _lines(curve: Curve, options: CurveOptions) -> list[_Line]:
     if bad:
         raise OutputError(f"curve {bad[0]} is asked for, the evolution has {count}")
     colours = _colours([curve.parts[n - 1].colour for n in numbers])
-    return [_line(curve.parts[n - 1], n, c, options) for n, c in zip(numbers, colours, strict=True)]
+    widths = np.linspace(*_WIDTHS, len(numbers)) if len(numbers) > 1 else [_WIDTH]
+    return [
+        _line(curve.parts[n - 1], n, colour, float(width), options)
+        for n, colour, width in zip(numbers, colours, widths, strict=True)
+    ]
 
 
 def _colours(given: list[int]) -> list[str]:
@@ -138,7 +145,7 @@ def _colours(given: list[int]) -> list[str]:
     return [shade(c) if c else shade(next(turns)) for c in given]
 
 
-def _line(part: CurvePart, number: int, colour: str, options: CurveOptions) -> _Line:
+def _line(part: CurvePart, number: int, colour: str, width: float, options: CurveOptions) -> _Line:
     first, last = options.spans.get(number, (None, None))
     cut = slice(None if first is None else first - 1, last)
     return _Line(
@@ -148,6 +155,7 @@ def _line(part: CurvePart, number: int, colour: str, options: CurveOptions) -> _
         colour,
         options.names.get(number, part.legend).strip(),
         options.styles.get(number, LineStyle()),
+        width,
         options.dash_codes.get(number),
     )
 
@@ -176,6 +184,7 @@ def _draw_line(panel: Axes, line: _Line) -> None:
         panel.fill_between(line.x, line.y, facecolor=paint, alpha=opacity, lw=0, zorder=order)
     drawn: dict[str, Any] = {
         "color": ink,
+        "linewidth": line.width,
         "marker": style.marker,
         "markersize": style.marker_size,
         "markerfacecolor": ink if style.solid else "white",
@@ -210,6 +219,7 @@ def _draw_segments(panel: Axes, line: _Line) -> None:
         LineCollection(
             [points[a : b + 1] for a, b in zip(starts, ends, strict=True)],
             colors=line.colour,
+            linewidths=line.width,
             linestyles=[dashes[codes[a] % len(dashes)] for a in starts],
             zorder=2.0 + 1e-2 * line.number,
         )
@@ -338,6 +348,7 @@ def _handle(line: _Line) -> Any:
         [],
         [],
         color=line.colour,
+        linewidth=line.width,
         linestyle=style.dash if style.line else "none",
         marker=style.marker,
         markersize=style.marker_size,
