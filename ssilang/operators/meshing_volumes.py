@@ -23,11 +23,13 @@ from ssilang.kernel.mesh.sweep import (
     sweep_surface,
     translation,
 )
+from ssilang.kernel.mesh.volume import fill_volume
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
 from ssilang.language.values import ListReel
 from ssilang.operators.meshing_ends import Cuts, count_and_number, read_count, read_sizes
 from ssilang.operators.meshing_sweeps import generator_path, read_rotation
+from ssilang.operators.workspace import workspace
 
 
 def surface_to_sweep(mesh: Mesh, side: int) -> Mesh:
@@ -144,21 +146,24 @@ _WAYS: dict[str, Callable[[_Reading], Mesh]] = {
     family="mesh",
     full_name="VOLUME",
     help=Help(
-        en="Volume swept by a surface: along a vector ('TRAN'), about an axis ('ROTA', degrees), "
-        "parallel to itself along a line ('GENE'), or from one surface to another of the same "
-        "structure. N1 > 0: that many equal layers; N1 < 0: that many, graded; without N1 the "
-        "mesh sizes decide (DINI and DFIN replace them); 'PROG' gives the positions of the layers. "
-        "A volume in place of a surface is grown from its face 2. With a thickness (or a nodal "
-        "field of thicknesses) and a direction, a shell is made solid in one layer. FACE gives "
-        "the faces.",
-        fr="Volume engendré par une surface : selon un vecteur ('TRAN'), autour d'un axe ('ROTA', "
-        "degrés), parallèlement à elle-même le long d'une ligne ('GENE'), ou d'une surface à une "
-        "autre de même structure. N1 > 0 : N1 couches égales ; N1 < 0 : gradées ; sans N1 les "
-        "densités décident (DINI et DFIN les remplacent) ; 'PROG' donne la position des couches. "
-        "Un volume à la place d'une surface est prolongé de sa face 2. Avec une épaisseur (ou un "
-        "champ d'épaisseurs) et une direction, une coque devient massive. FACE rend les faces.",
-        syntax="VOL1 = SURF1 VOLU (N1) ('DINI' D1) ('DFIN' D2) ('PROG' LR1) "
-        "'TRAN' VEC1 | 'ROTA' FLOT1 AXE1 AXE2 | 'GENE' LIG1 | SURF2 ;\n"
+        en="Volume inside a closed surface, filled with tetrahedra (pyramids on quadrangles) when "
+        "nothing else is said. Volume swept by a surface: along a vector ('TRAN'), about an axis "
+        "('ROTA', degrees), parallel to itself along a line ('GENE'), or from one surface to "
+        "another of the same structure. N1 > 0: that many equal layers; N1 < 0: that many, graded; "
+        "without N1 the mesh sizes decide (DINI and DFIN replace them); 'PROG' gives the positions "
+        "of the layers. A volume in place of a surface is grown from its face 2. With a thickness "
+        "(or a nodal field of thicknesses) and a direction, a shell is made solid in one layer. "
+        "FACE gives the faces.",
+        fr="Volume intérieur à une surface fermée, rempli de tétraèdres (pyramides sur les "
+        "quadrangles) si rien d'autre n'est dit. Volume engendré par une surface : selon un "
+        "vecteur ('TRAN'), autour d'un axe ('ROTA', degrés), parallèlement à elle-même le long "
+        "d'une ligne ('GENE'), ou d'une surface à une autre de même structure. N1 > 0 : N1 couches "
+        "égales ; N1 < 0 : gradées ; sans N1 les densités décident (DINI et DFIN les remplacent) ; "
+        "'PROG' donne la position des couches. Un volume à la place d'une surface est prolongé de "
+        "sa face 2. Avec une épaisseur (ou un champ d'épaisseurs) et une direction, une coque "
+        "devient massive. FACE rend les faces.",
+        syntax="VOL1 = SURF1 VOLU ('VERB') ;\nVOL1 = SURF1 VOLU (N1) ('DINI' D1) ('DFIN' D2) "
+        "('PROG' LR1) 'TRAN' VEC1 | 'ROTA' FLOT1 AXE1 AXE2 | 'GENE' LIG1 | SURF2 ;\n"
         "VOL1 = SURF1 VOLU EPAI|CHPO1 POIN1 ;",
         examples=(
             "OPTI DIME 3 ELEM CUB8 ; L = DROI 2 (0. 0. 0.) (1. 0. 0.) ; S = L TRAN 2 (0. 1. 0.) ;"
@@ -181,10 +186,7 @@ def volu(call: Call) -> Mesh:
     if thickness is None and reading.cuts.count:
         thickness = float(reading.cuts.count)
     if thickness is None:
-        raise call.bad(
-            "how the surface is swept is not said",
-            hint="give 'TRAN' and a vector, 'ROTA' and an axis, or a second surface",
-        )
+        return fill_volume(reading.base(), workspace(call.session).colour)
     return thickened(reading.base(), thickness, call.required("POINT").coordinates.copy())
 
 
