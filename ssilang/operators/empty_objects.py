@@ -1,0 +1,110 @@
+"""VIDE: empty objects, and whether an object is empty."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from ssilang.kernel.curve import Curve, Load
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.matrices.matrix import Matrix
+from ssilang.kernel.mesh.cells import CELL_TYPES
+from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.kernel.model import Model
+from ssilang.language.call import Call
+from ssilang.language.registry import Help, operator
+from ssilang.language.values import ListChpo, ListEnti, ListMots, ListObje, ListReel, Mot, Table
+from ssilang.operators.workspace import Workspace, workspace
+
+_MAKERS: dict[str, Callable[[Workspace, str], Any]] = {
+    "MAILLAGE": lambda ws, sub: Mesh(ws.nodes, ()),
+    "CHPOINT": lambda ws, sub: NodeField(
+        ws.nodes,
+        {},
+        {"DISC": "DISCRET", "DIFF": "DIFFUS"}.get(sub[:4], ""),  # type: ignore[arg-type]
+    ),
+    "MCHAML": lambda ws, sub: CellField(()),
+    "MMODEL": lambda ws, sub: Model(()),
+    "RIGIDITE": lambda ws, sub: Matrix(ws.nodes, (), (), sub),
+    "EVOLUTIO": lambda ws, sub: Curve((), "", sub or "REEL"),
+    "LISTENTI": lambda ws, sub: ListEnti(),
+    "LISTREEL": lambda ws, sub: ListReel(),
+    "LISTMOTS": lambda ws, sub: ListMots(),
+    "LISTCHPO": lambda ws, sub: ListChpo(),
+    "LISTOBJE": lambda ws, sub: ListObje(),
+    "TABLE": lambda ws, sub: Table(sub),
+    "CHARGEME": lambda ws, sub: Load(()),
+}
+
+
+def is_empty(value: Any) -> bool:
+    """Whether an object holds nothing."""
+    for name in ("blocks", "components", "zones", "parts"):
+        if hasattr(value, name):
+            held = getattr(value, name)
+            relations = getattr(value, "relations", ())
+            if isinstance(value, Mesh):
+                return value.n_cells == 0
+            return len(held) == 0 and len(relations) == 0
+    return len(value) == 0
+
+
+def _group(call: Call) -> list[Any] | None:
+    """One `TYPE/SUBTYPE*N` group, None at the end."""
+    said = call.read("MOT")
+    if said is None:
+        return None
+    kind = str(said.value).strip().upper()[:8]
+    if kind not in _MAKERS:
+        raise call.bad(f"no empty '{kind}' can be made", said.value, " ".join(_MAKERS))
+    sub, count = "", 1
+    while call.operands and call.operands[0].span.text in ("/", "*"):
+        mark = call.operands.pop(0).span.text
+        if mark == "*":
+            count = call.required("ENTIER")
+        else:
+            sub = str(call.required("MOT")).strip()
+    if kind == "MAILLAGE" and sub and sub.upper() not in CELL_TYPES:
+        raise call.bad(f"'{sub}' is no type of cell", hint=" ".join(CELL_TYPES))
+    ws = workspace(call.session)
+    return [_MAKERS[kind](ws, sub) for _ in range(count)]
+
+
+@operator(
+    "VIDE",
+    family="objects",
+    help=Help(
+        en="Empty objects to begin unions with, several at once, or in a table ('TABULER', at the "
+        "indices of a list); of an object that is not a word: whether it is empty.",
+        fr="Objets vides pour commencer des réunions, plusieurs à la fois, ou dans une table "
+        "('TABULER', aux indices d'une liste) ; d'un objet autre qu'un mot : dit s'il est vide.",
+        syntax="OBJ1 ... = VIDE ('TABULER' (LIS1)) MOT1(/MOT2)(*N1) ... ; LOG1 = VIDE OBJ1 ;",
+        examples=("L = VIDE 'LISTREEL' ; L = L ET 3. ; LIST L ; SI (VIDE L) ; ERRE 5 ; FINSI ;",),
+    ),
+    reads_itself=True,
+)
+def vide(call: Call) -> Any:
+    """Make empty objects, or test one."""
+    if call.operands and not isinstance(call.operands[0].value, Mot):
+        tested = call.read("*")
+        assert tested is not None
+        if isinstance(tested.value, int | float):
+            raise call.bad("a number is never empty", tested.value)
+        return is_empty(tested.value)
+    tabulated = call.keyword(("TABU",)) is not None
+    places = call.read("LISTENTI", "LISTREEL", "LISTMOTS") if tabulated else None
+    made: list[Any] = []
+    while (group := _group(call)) is not None:
+        made += group
+    if not made:
+        raise call.missing(("MOT",))
+    if not tabulated:
+        return tuple(made)
+    table = Table()
+    indices = [] if places is None else list(getattr(places.value.values, "tolist", list)() or [])
+    if places is not None and isinstance(places.value, ListMots):
+        indices = list(places.value.values)
+    for i, value in enumerate(made):
+        table.set(indices[i] if i < len(indices) else i + 1, value)
+    return table
