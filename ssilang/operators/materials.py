@@ -101,11 +101,12 @@ def _parameters(call: Call, known: Known) -> CellField:
 
 
 def _read_value(call: Call, word: str, model: Model, given: list[Values], known: Known) -> None:
-    name = word.rstrip()
+    said = word.rstrip()
+    name = said if any(said in known(z) for z in model.zones) else said[:4]
     taking = [i for i, z in enumerate(model.zones) if name in known(z)]
     if not taking:
-        raise _unknown(call, name, model, known)
-    call.keyword([name], length=8)
+        raise _unknown(call, said, model, known)
+    call.keyword([said], length=8)
     value = call.required(*_VALUES, after=call.keyword_end)
     found = 0
     for i in taking:

@@ -103,8 +103,9 @@ def _take(call: Call, word: str, wish: _Wish) -> None:
 def _name(call: Call, word: str, wish: _Wish) -> None:
     """A formulation, a law or an element."""
     said = word.upper().rstrip()
-    if said in ELEMENTS or said in GENERIC_ELEMENTS:
-        wish.elements.append(said)
+    element = said if said in GENERIC_ELEMENTS else said[:4]
+    if element in ELEMENTS or element in GENERIC_ELEMENTS:
+        wish.elements.append(element)
     elif (law := full_word(said, LAW_WORDS)) is not None:
         wish.laws.append(law)
     elif full_word(said, FORMULATIONS) is None:
