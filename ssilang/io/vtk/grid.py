@@ -57,6 +57,7 @@ class _Family:
     label: str
     columns: tuple[str, ...]
     absent: float
+    key: str = ""  # component that must be there
 
 
 # 3-vectors: nodes without the component stay in place (0), so that a warped shape is whole
@@ -80,6 +81,17 @@ _TENSORS = (
     _Family("strain", ("EPXX", "EPYY", "EPZZ", "GAXY", "GAYZ", "GAXZ"), 0.0),
     _Family("strain", ("EPRR", "EPZZ", "EPTT", "GARZ", "GAZT", "GART"), 0.0),
 )
+# joints and bars, in their own axes: normal (or axial) first, then the tangents
+_LOCAL = (
+    _Family("traction", ("SMN", "SMSN", "SMS2"), 0.0, "SMSN"),
+    _Family("traction", ("SMN", "SMS1", "SMS2"), 0.0, "SMS1"),
+    _Family("opening", ("DRN", "DRSN", "DRS2"), 0.0, "DRSN"),
+    _Family("opening", ("DRN", "DRS1", "DRS2"), 0.0, "DRS1"),
+    _Family("section_force", ("EFFX", "EFFY", "EFFZ"), 0.0),
+    _Family("section_moment", ("MOMX", "MOMY", "MOMZ"), 0.0),
+)
+# one component of these is shown as a number, under its own name
+_NEVER_ALONE = ("rotation", "moment", "section_force", "section_moment")
 
 
 def grid_of(
@@ -146,12 +158,13 @@ def cell_arrays(mchaml: CellField, mesh: Mesh, name: str = "") -> dict[str, Data
     Components that are objects (curves, points) are left out.
     """
     values = cell_means(mchaml, mesh)
+    nothing = np.isnan(np.array(list(values.values()) or [np.empty(0)])).all(axis=0)
 
     def column(component: str, absent: float) -> FloatArray:
         found = values.get(component)
-        return np.full(mesh.n_cells, absent) if found is None else found
+        return np.where(nothing, np.nan, absent) if found is None else found
 
-    return _arrays(tuple(values), _TENSORS, column, name)
+    return _arrays(tuple(values), (*_TENSORS, *_LOCAL), column, name)
 
 
 def cell_means(mchaml: CellField, mesh: Mesh) -> dict[str, FloatArray]:
@@ -203,7 +216,8 @@ def _arrays(
     found: list[tuple[str, DataArray]] = []
     for family in families:
         held = [c for c in family.columns if c in left]
-        if not held or (len(held) == 1 and family.label in ("rotation", "moment")):
+        lonely = len(held) == 1 and family.label in _NEVER_ALONE
+        if not held or lonely or (family.key and family.key not in held):
             continue
         stacked = np.column_stack([column(c, family.absent) for c in family.columns])
         found.append((family.label, DataArray(stacked, family.columns)))

@@ -167,3 +167,47 @@ def test_nothing_is_left_when_a_file_cannot_be_written(tmp_path: Path) -> None:
     with pytest.raises(OutputError, match="cannot be written"):
         write_vtu(tmp_path / "blocked" / "x.vtu", grid_of(mesh, {"": field}))
     assert [p.name for p in tmp_path.iterdir()] == ["blocked"]
+
+
+def test_tractions_and_openings_of_joints_are_vectors_in_their_axes() -> None:
+    table = NodeTable()
+    ids = table.add(np.array([(0.0, 0), (1, 0), (0, 0), (1, 0), (0, 1), (1, 1)]))
+    joint = CellBlock.make(table, "RAC2", ids[None, :4])
+    solid = CellBlock.make(table, "QUA4", ids[None, [2, 3, 5, 4]])
+    mesh = Mesh(table, (joint, solid))
+
+    def field(**values: list[float]) -> CellField:
+        parts = {k: np.array([v]) for k, v in values.items()}
+        return CellField((CellFieldBlock(joint, parts, "STRESSES", "JOI2"),))
+
+    cells = {"t": field(SMSN=[3.0, 5.0], SMN=[-7.0, -9.0]), "o": field(DRSN=[1.0], DRN=[2.0])}
+    data = grid_of(mesh, {}, cells).cell_data
+    assert np.array_equal(data["t"].values[0], [-8.0, 4.0, 0.0])
+    assert data["t"].columns[:2] == ("SMN", "SMSN")
+    assert np.array_equal(data["o"].values[0], [2.0, 1.0, 0.0])
+    assert np.isnan(data["t"].values[1].astype(float)).all()
+
+
+def test_axial_force_of_a_bar_is_a_number() -> None:
+    table = NodeTable()
+    ids = table.add(np.array([(0.0, 0), (1, 0)]))
+    mesh = Mesh.of(table, "SEG2", ids[None, :])
+    force = CellFieldBlock(mesh.blocks[0], {"EFFX": np.array([[4.0]])}, "STRESSES", "BARR")
+    data = grid_of(mesh, {}, {"": CellField((force,))}).cell_data
+    assert data["EFFX"].values.shape == (1,)
+
+
+def test_pyvista_reads_a_joint_with_its_traction(tmp_path: Path) -> None:
+    pyvista = pytest.importorskip("pyvista")
+    table = NodeTable()
+    ids = table.add(np.array([(0.0, 0), (1, 0), (0, 0), (1, 0)]))
+    mesh = Mesh.of(table, "RAC2", ids[None, :])
+    values = {"SMSN": np.array([[1.0]]), "SMN": np.array([[-2.0]])}
+    traction = CellField((CellFieldBlock(mesh.blocks[0], values, "STRESSES", "JOI2"),))
+    opening = NodeField.of(table, ids, {"UY": np.array([0.0, 0, 0.5, 0.5])})
+    write_vtu(tmp_path / "j.vtu", grid_of(mesh, {"": opening}, {"traction": traction}))
+    read = pyvista.read(tmp_path / "j.vtu")
+    assert np.array_equal(read.cell_data["traction"], [[-2.0, 1.0, 0.0]])
+    # the closed joint has no area; moved by the displacement it has that of the gap
+    assert read.area == pytest.approx(0.0, abs=1e-12)
+    assert read.warp_by_vector("displacement").area == pytest.approx(0.5)

@@ -1,0 +1,131 @@
+"""Save files: objects come back equal and shared, nodes shift, nothing foreign is built."""
+
+from __future__ import annotations
+
+import json
+import zipfile
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from ssilang.io.archive import Decoder, Encoder, Record, read_archive, write_archive
+from ssilang.io.errors import InputError, OutputError
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.kernel.mesh.nodes import NodeTable
+from ssilang.kernel.model import Mode, Model, Zone
+
+
+def saved(path: Path, **values: Any) -> None:
+    encoder = Encoder()
+    names = {k: encoder.encode(v) for k, v in values.items()}
+    write_archive(path, encoder.objects, encoder.arrays, [Record("", names)], {})
+
+
+def restored(path: Path, nodes: NodeTable) -> dict[str, Any]:
+    archive = read_archive(path)
+    decoder = Decoder(archive, nodes)
+    return {k: decoder.decode(c) for k, c in archive.records[0].names.items()}
+
+
+def square() -> Mesh:
+    table = NodeTable()
+    ids = table.add(np.array([(0.0, 0), (1, 0), (1, 1), (0, 1)]))
+    return Mesh.of(table, "QUA4", ids[None, :], 3)
+
+
+def test_objects_come_back_over_shifted_nodes(tmp_path: Path) -> None:
+    mesh = square()
+    field = NodeField.of(mesh.nodes, mesh.node_ids, {"UX": np.arange(4.0)}, "DIFFUS")
+    saved(tmp_path / "s", M=mesh, F=field, P=Point(mesh.nodes, 2))
+    nodes = NodeTable()
+    nodes.add(np.array([[7.0, 7.0], [8.0, 8.0]]))
+    back = restored(tmp_path / "s", nodes)
+    assert back["M"].nodes is nodes
+    assert np.array_equal(back["M"].blocks[0].connectivity, [[2, 3, 4, 5]])
+    assert np.array_equal(back["M"].blocks[0].coordinates, mesh.blocks[0].coordinates)
+    assert np.array_equal(back["F"].values_at("UX", np.arange(2, 6)), np.arange(4.0))
+    assert back["F"].nature == "DIFFUS"
+    assert np.array_equal(back["P"].coordinates, [1.0, 1.0, 0.0])
+    assert nodes.coordinates[0, 0] == 7.0
+
+
+def test_merged_nodes_stay_merged(tmp_path: Path) -> None:
+    mesh = square()
+    mesh.nodes.merge(np.array([0]), np.array([3]))
+    saved(tmp_path / "s", M=mesh)
+    nodes = NodeTable()
+    nodes.add(np.array([[7.0, 7.0]]))
+    assert np.array_equal(
+        restored(tmp_path / "s", nodes)["M"].blocks[0].connectivity, [[1, 2, 3, 1]]
+    )
+
+
+def test_what_is_shared_stays_shared(tmp_path: Path) -> None:
+    mesh = square()
+    block = mesh.blocks[0]
+    zone = Zone(block, "MECANIQUE", ("ELASTIQUE",), "QUA4", Mode.AXISYMMETRIC)
+    cells = CellField((CellFieldBlock(block, {"E": np.ones((1, 4))}, "STRESSES", "QUA4"),))
+    saved(tmp_path / "s", M=mesh, MO=Model((zone,)), C=cells)
+    back = restored(tmp_path / "s", NodeTable())
+    assert back["MO"].zones[0].cells is back["M"].blocks[0]
+    assert back["C"].blocks[0].cells is back["M"].blocks[0]
+    assert back["MO"].zones[0].mode is Mode.AXISYMMETRIC
+
+
+def test_parameters_that_are_objects(tmp_path: Path) -> None:
+    mesh = square()
+    values = np.empty((1, 1), dtype=object)
+    values[0, 0] = Point(mesh.nodes, 1)
+    saved(tmp_path / "s", C=CellField((CellFieldBlock(mesh.blocks[0], {"V": values}),)))
+    back = restored(tmp_path / "s", NodeTable())["C"].blocks[0].components["V"]
+    assert np.array_equal(back[0, 0].coordinates, [1.0, 0.0, 0.0])
+
+
+@pytest.mark.parametrize(
+    "name", ["os:system", "ssilang.cli.main:main", "ssilang.kernel.model:Mode.x"]
+)
+def test_classes_outside_the_kernel_are_never_built(name: str, tmp_path: Path) -> None:
+    write_archive(tmp_path / "s", [[name, {}]], [], [Record("", {"X": ["o", 0]})], {})
+    with pytest.raises(InputError, match="no saved object's class"):
+        restored(tmp_path / "s", NodeTable())
+
+
+def test_pickled_arrays_are_refused(tmp_path: Path) -> None:
+    path = tmp_path / "s"
+    write_archive(path, [], [], [Record("", {"X": ["a", 0]})], {})
+    import io
+
+    buffer = io.BytesIO()
+    np.save(buffer, np.array([{"a": 1}], dtype=object), allow_pickle=True)
+    with zipfile.ZipFile(path, "a") as z:
+        z.writestr("arrays/0.npy", buffer.getvalue())
+    with pytest.raises(InputError, match="no file that SAUV"):
+        restored(path, NodeTable())
+
+
+def test_foreign_files_are_refused(tmp_path: Path) -> None:
+    (tmp_path / "s").write_bytes(b"binary of another program")
+    with pytest.raises(InputError, match="no file that SAUV"):
+        read_archive(tmp_path / "s")
+
+
+def test_a_later_version_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "s"
+    saved(path, X=1)
+    with zipfile.ZipFile(path) as z:
+        head = json.loads(z.read("objects.json"))
+    head["version"] = 99
+    with zipfile.ZipFile(path, "w") as z:
+        z.writestr("objects.json", json.dumps(head))
+    with pytest.raises(InputError, match="later version"):
+        read_archive(path)
+
+
+def test_an_object_of_unknown_class_is_not_saved(tmp_path: Path) -> None:
+    with pytest.raises(OutputError, match="cannot be saved"):
+        saved(tmp_path / "s", X=object())
+    assert not (tmp_path / "s").exists()

@@ -1,0 +1,98 @@
+"""Universal files written by hand; STL read by meshio and back."""
+
+from __future__ import annotations
+
+import struct
+from pathlib import Path
+
+import meshio
+import numpy as np
+import pytest
+
+from ssilang.io.errors import InputError, OutputError
+from ssilang.io.mesh_files.stl import read_stl, stl_lines
+from ssilang.io.mesh_files.unv import read_unv
+from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.kernel.mesh.nodes import NodeTable
+
+UNV = """    -1
+   164
+         1  SI: Meters
+    -1
+    -1
+  2411
+        11         1         1        11
+   0.0D+00   0.0D+00   0.0D+00
+        12         1         1        11
+   1.0D+00   0.0D+00   0.0D+00
+        13         1         1        11
+   1.0D+00   1.0D+00   0.0D+00
+        14         1         1        11
+   0.0D+00   1.0D+00   0.0D+00
+    -1
+    -1
+  2412
+         5        11         1         1         7         2
+         0         1         1
+        11        12
+         7        44         1         1         7         4
+        11        12        13        14
+    -1
+    -1
+  2467
+         1         0         0         0         0         0         0         2
+base side
+         8         5         0         0         7        13         0         0
+    -1
+"""
+
+
+def test_nodes_cells_and_groups(tmp_path: Path) -> None:
+    path = tmp_path / "m.unv"
+    path.write_text(UNV)
+    read = read_unv(path)
+    assert np.array_equal(read.points[2], [1.0, 1.0, 0.0])
+    assert np.array_equal(read.cells["QUA4"], [[0, 1, 2, 3]])
+    assert np.array_equal(read.cells["SEG2"], [[0, 1]])
+    assert read.groups["base side"] == ([("SEG2", 0)], [2])
+
+
+def test_a_file_without_nodes_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "m.unv"
+    path.write_text("    -1\n   164\n    -1\n")
+    with pytest.raises(InputError, match="no nodes"):
+        read_unv(path)
+
+
+def tetrahedron() -> Mesh:
+    table = NodeTable()
+    ids = table.add(np.array([(0.0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]))
+    return Mesh.of(table, "TRI3", ids[[[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]])
+
+
+@pytest.mark.filterwarnings("ignore:overflow")  # of meshio itself
+def test_meshio_reads_our_triangles(tmp_path: Path) -> None:
+    path = tmp_path / "t.stl"
+    path.write_text("\n".join(stl_lines(tetrahedron())))
+    read = meshio.read(path)
+    corners = read.points[read.cells[0].data]
+    volume = np.einsum("ni,ni->n", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])).sum() / 6
+    assert volume == pytest.approx(1.0 / 6.0)  # the normals point outwards
+    assert np.array_equal(read_stl(path), tetrahedron().blocks[0].coordinates)
+
+
+def test_binary_triangles(tmp_path: Path) -> None:
+    corners = tetrahedron().blocks[0].coordinates
+    raw = b"x" * 80 + struct.pack("<I", 4)
+    for t in corners:
+        raw += struct.pack("<12fH", 0, 0, 0, *t.ravel(), 0)
+    path = tmp_path / "b.stl"
+    path.write_bytes(raw)
+    assert np.array_equal(read_stl(path), corners)
+
+
+def test_other_cells_are_refused() -> None:
+    table = NodeTable()
+    ids = table.add(np.array([(0.0, 0), (1, 0)]))
+    with pytest.raises(OutputError, match="SEG2"):
+        stl_lines(Mesh.of(table, "SEG2", ids[None, :]))

@@ -1,0 +1,48 @@
+"""Columns to CSV and back."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from ssilang.io.csv_tables import Column, as_columns, csv_lines, read_csv
+from ssilang.io.errors import InputError
+
+
+def test_titles_stand_over_columns_of_unequal_length() -> None:
+    lines = csv_lines([Column("t", [0.0, 0.1]), Column("", [1, 2, 3]), Column("w", ["AB"])])
+    assert lines == ["t;;w", "0.0;1;AB", "0.1;2;", ";3;"]
+
+
+def test_numbers_come_back_exactly(tmp_path: Path) -> None:
+    values = np.random.default_rng(1).normal(size=50) * 10.0 ** np.arange(-25, 25)
+    path = tmp_path / "x.csv"
+    path.write_text("\n".join(csv_lines([Column("", values), Column("", values[::-1])], ",")))
+    read = as_columns(read_csv(path, ","))
+    assert np.array_equal(read[0], values)
+    assert np.array_equal(read[1], values[::-1])
+
+
+def test_columns_beyond_the_width_follow_below() -> None:
+    lines = csv_lines([Column("", [i]) for i in range(5)], width=2)
+    assert lines == ["0;1", "", "", "", "2;3", "", "", "", "4"]
+
+
+def test_digits_are_decimals_of_the_mantissa() -> None:
+    assert csv_lines([Column("", [1.0 / 3.0])], digits=3) == ["3.333E-01"]
+
+
+def test_reading_starts_behind_titles_and_says_where_a_word_is(tmp_path: Path) -> None:
+    path = tmp_path / "x.csv"
+    path.write_text("time;force\n0;1.5D3\n1;-2\n")
+    assert read_csv(path, ";", 2) == [[0.0, 1500.0], [1.0, -2.0]]
+    with pytest.raises(InputError, match="line 1: 'time'"):
+        read_csv(path)
+
+
+def test_blanks_separate_however_many(tmp_path: Path) -> None:
+    path = tmp_path / "x.txt"
+    path.write_text("  1   2  \n 3 4\n\n")
+    assert read_csv(path, " ") == [[1.0, 2.0], [3.0, 4.0]]
