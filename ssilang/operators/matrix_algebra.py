@@ -149,6 +149,7 @@ def _reduced(call: Call, matrix: Matrix) -> Matrix:
 
 @CHAN.on(
     "TYPE",
+    of=("RIGIDITE",),
     syntax="RIG2 = CHAN 'TYPE' RIG1 MOT1 ;",
     en="The same matrix of another kind ('RIGIDITE', 'MASSE', 'AMORTISS').",
     fr="La même matrice avec un autre sous-type ('RIGIDITE', 'MASSE', 'AMORTISS').",
@@ -162,6 +163,7 @@ def _kind(call: Call, word: str) -> Matrix:
 
 @CHAN.on(
     "DEPE",
+    of=("RIGIDITE",),
     syntax="RIG2 = CHAN 'DEPE' RIG1 ;",
     en="Relations to be eliminated by RESO: RESO eliminates all it can, so they stay as they are.",
     fr="Relations à éliminer par RESO : RESO les élimine toujours quand il le peut, elles restent "
@@ -173,6 +175,7 @@ def _dependent(call: Call, word: str) -> Matrix:
 
 @CHAN.on(
     "INCO",
+    of=("RIGIDITE",),
     syntax="RIG2 = CHAN 'INCO' RIG1 LISTMOTS1 LISTMOTS2 LISTMOTS3 LISTMOTS4 | MOT1 MOT2 MOT3 MOT4 "
     "('SYME' | 'ANTI' | 'QUEL') ;",
     en="Gives the unknowns (first two lists: old, new names) and equations (last two) of a matrix "
