@@ -17,7 +17,7 @@ from ssilang.kernel.elements.families import stiffness as zone_stiffness
 from ssilang.kernel.errors import FieldError, KernelError
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.joints.family import JointFamily
+from ssilang.kernel.joints.family import JointFamily, rotational_stiffness
 from ssilang.kernel.joints.interface import (
     Interface,
     interface_of,
@@ -174,8 +174,10 @@ def _matrices(
         raise KernelError("joints need their parameters", "give CARACTERISTIQUES with MODELE")
     stiffness = without_zones(inputs.stiffness, joints_given)
     linear = tuple(z for z in joints_given if z not in zones)
-    if linear and inputs.characteristics is not None:
+    if joints_given and inputs.characteristics is not None:
+        turning = (rotational_stiffness(z, inputs.characteristics) for z in zones)
         blocks = tuple(zone_stiffness(z, inputs.characteristics) for z in linear)
+        blocks += tuple(b for b in turning if b is not None)
         stiffness = replace(stiffness, blocks=(*stiffness.blocks, *blocks), cache={})
     if nonlinear_blocks(stiffness):
         raise KernelError(

@@ -104,11 +104,11 @@ def _release(state: FloatArray, new: FloatArray) -> None:
 
 
 @compiled
-def _hold_shear(p: FloatArray, was_closed: FloatArray, state: FloatArray) -> bool:
+def _hold_shear(codes: IntArray, p: FloatArray, was_closed: FloatArray, state: FloatArray) -> bool:
     """Hold the shear of points that lose it at once on opening; True if there are any."""
     found = False
     for i in range(state.shape[0]):
-        if p[i, FROT] < 0.0 and p[i, SHEAR] != 1.0 and p[i, FU] == 0.0:
+        if codes[i] == 1 and p[i, FROT] < 0.0 and p[i, SHEAR] != 1.0 and p[i, FU] == 0.0:
             state[i, HELD] = CLOSED_SHEAR if was_closed[i] else OPEN_SHEAR
             found = True
     return found
@@ -163,7 +163,7 @@ def solve_interface(
     scale = max(_largest(y0), _largest(delta0), 1e-300)
     for turn in range(1, MOST_TURNS + 1):
         scale = max(scale, _largest(y))
-        if turn == HOLDING_TURN and _hold_shear(p, was_closed, state):
+        if turn == HOLDING_TURN and _hold_shear(codes, p, was_closed, state):
             y[:] = y0
             delta[:] = delta0 + y
             interface_response(pairs, B, weights, codes, p, delta, state, w, t, new, D, f)

@@ -16,15 +16,17 @@ from ssilang.kernel.elements.family import (
     ElementFamily,
     Layout,
     StrainOperator,
+    element_matrices,
     node_major_layout,
 )
 from ssilang.kernel.elements.reference import shape_functions
-from ssilang.kernel.elements.zone_fields import ZoneField
-from ssilang.kernel.fields.cell_field import Support
+from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
+from ssilang.kernel.fields.cell_field import CellField, Support
 from ssilang.kernel.joints.elements import joint_element
 from ssilang.kernel.joints.kinematics import JointCells, joint_cells, point_values
 from ssilang.kernel.joints.law_table import elastic_tangent
 from ssilang.kernel.joints.table import joint_parameters
+from ssilang.kernel.matrices.matrix import ElementMatrices
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.model import Mode, Zone
 
@@ -43,6 +45,21 @@ def displacement_names(zone: Zone) -> tuple[str, ...]:
 def has_rotations(zone: Zone) -> bool:
     """True for a joint of two points with rotational springs."""
     return zone.element == "JOI1" and "JOINT_SDM" not in zone.behaviour
+
+
+def rotational_stiffness(zone: Zone, given: CellField) -> ElementMatrices | None:
+    """Springs of the relative rotations alone, None for joints without.
+
+    A law of the displacements stands beside them.
+    """
+    if not has_rotations(zone):
+        return None
+    family, parameters = JointFamily(), zone_field(zone, given)
+    moduli = family.moduli(zone, parameters, "RIGIDITE")
+    d = joint_element(zone).dimension
+    moduli[..., :d, :d] = 0.0
+    values = family.stiffness_values(zone, moduli, parameters)
+    return element_matrices(zone, family.layout(zone), values, "RIGIDITE", keep_zone=False)
 
 
 def component_order(zone: Zone) -> list[int]:

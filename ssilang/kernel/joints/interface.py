@@ -15,7 +15,7 @@ import scipy.sparse as sp
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.errors import FieldError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
-from ssilang.kernel.joints.columns import N_STATE, XI
+from ssilang.kernel.joints.columns import N_STATE, OPENING, SLIP2
 from ssilang.kernel.joints.elements import is_joint
 from ssilang.kernel.joints.family import component_order, displacement_names
 from ssilang.kernel.joints.kinematics import JointCells, joint_cells
@@ -218,14 +218,24 @@ def interface_field(interface: Interface, values: FloatArray, kind: str) -> Cell
 
 
 def state_field(interface: Interface, state: FloatArray) -> CellField:
-    """Internal variables of the joints: SAUT (largest irreversible opening), GLI1, GLI2 (slip)."""
+    """Internal variables of the joints, by the names of their law.
+
+    JOINT_SDM: SAUT (largest irreversible opening), GLI1, GLI2 (slip). Mohr-Coulomb joints: EPSE
+    (cumulated plastic jump), STAT (1 open, 2 in contact), EPOU (opening), LAM1 (plastic
+    compression), PLA1, PLA2 (slip), PLA3 (plastic and open normal jump).
+    """
     blocks, start = [], 0
     for j in interface.joints:
         n, g = j.weights.shape
         local = state[start : start + n * g].reshape(n, g, -1)
         start += n * g
-        names = ("SAUT", "GLI1", "GLI2")[: interface.dimension]
-        blocks.append(_block(j, {name: local[..., XI + i].copy() for i, name in enumerate(names)}))
+        shown = law_of(j.zone.behaviour).variables
+        if interface.dimension == 2:
+            shown = {k: v for k, v in shown.items() if v != SLIP2}
+        fields = {name: local[..., column].copy() for name, column in shown.items()}
+        if "PLA3" in fields:
+            fields["PLA3"] += local[..., OPENING]
+        blocks.append(_block(j, fields))
     return CellField(tuple(blocks), "VARIABLES INTERNES")
 
 

@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from ssilang.kernel.errors import MaterialError
-from ssilang.kernel.joints.parameters import Parameter, check_sdm_parameters
+from ssilang.kernel.joints.columns import CUMULATED, DAMAGE, OPENING, SLIP1, SLIP2, STATUS, XI
+from ssilang.kernel.joints.parameters import (
+    Parameter,
+    check_mohr_parameters,
+    check_sdm_parameters,
+)
 from ssilang.kernel.mesh.nodes import FloatArray
 
-ELASTIC, SDM = 0, 1
+ELASTIC, SDM, MOHR = 0, 1, 2
 
 
 @dataclass(frozen=True)
@@ -28,6 +33,10 @@ class Law:
         Refuses inadmissible parameters (n, N_PARAMETERS).
     linear : bool
         True if the elastic stiffness says all.
+    angles : dict
+        Parameters in degrees, with the columns that take their tangents.
+    variables : dict
+        Internal variables that results show, with their column of the state.
     """
 
     code: int
@@ -35,13 +44,48 @@ class Law:
     optional: tuple[str, ...] = ()
     check: Callable[[FloatArray], None] | None = None
     linear: bool = False
+    angles: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    variables: dict[str, int] = field(default_factory=dict)
 
+
+_PLASTIC = {
+    "EPSE": CUMULATED, "STAT": STATUS, "EPOU": OPENING, "LAM1": DAMAGE, "PLA1": SLIP1,
+    "PLA2": SLIP2, "PLA3": XI,
+}  # fmt: skip
 
 LAWS: dict[str, Law] = {
     "ELASTIQUE": Law(ELASTIC, ("KN", "KS"), linear=True),
-    "JOINT_SDM": Law(SDM, ("KN", "KS"), ("FU", "GF", "FC", "FROT"), check_sdm_parameters),
+    "JOINT_SDM": Law(
+        SDM,
+        ("KN", "KS"),
+        ("FU", "GF", "FC", "FROT"),
+        check_sdm_parameters,
+        variables={"SAUT": XI, "GLI1": SLIP1, "GLI2": SLIP2},
+    ),
+    "JOINT_DILATANT": Law(
+        MOHR,
+        ("KN", "KS", "PHI", "MU"),
+        ("FTRC", "COHE"),
+        check_mohr_parameters,
+        angles={"PHI": ("TPHI",), "MU": ("TPSI",)},
+        variables=_PLASTIC,
+    ),
+    "COULOMB": Law(
+        MOHR,
+        ("KN", "KS", "FRIC", "COHE"),
+        ("FTRC", "EF", "ECN", "FNE", "QT", "TYPE"),
+        check_mohr_parameters,
+        angles={"FRIC": ("TPHI", "TPSI")},
+        variables=_PLASTIC,
+    ),
 }
 """Laws by the last word of a model's behaviour; the purely elastic joint under 'ELASTIQUE'."""
+
+
+OTHER_WORDS = (
+    "ISOTROPE", "ORTHOTROPE", "UNIDIRECTIONNEL", "CISAILLEMENT_ELASTIQUE", "PLASTIQUE",
+)  # fmt: skip
+"""Words of a joint's behaviour that name no law."""
 
 
 def law_of(behaviour: tuple[str, ...]) -> Law:
@@ -52,14 +96,13 @@ def law_of(behaviour: tuple[str, ...]) -> Law:
     MaterialError
         If a word names a law that joints do not have.
     """
-    known = {"ELASTIQUE", "ISOTROPE", "ORTHOTROPE", "UNIDIRECTIONNEL", "CISAILLEMENT_ELASTIQUE"}
     for word in behaviour:
         if word in LAWS and word != "ELASTIQUE":
             return LAWS[word]
-    strange = [w for w in behaviour if w not in known and w not in LAWS]
+    strange = [w for w in behaviour if w not in OTHER_WORDS and w not in LAWS]
     if strange:
         raise MaterialError(
-            f"no joint law is called {strange[0]}", "joints have ELASTIQUE and JOINT_SDM"
+            f"no joint law is called {strange[0]}", "joints have " + ", ".join(LAWS)
         )
     return LAWS["ELASTIQUE"]
 

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from ssilang.kernel.compiled import compiled
 from ssilang.kernel.joints.columns import FC, FU, GF, KN, KS1, SHEAR_ENERGY, SHEAR_LOSS, XI
+from ssilang.kernel.joints.mohr_law import mohr_energy, mohr_point
 from ssilang.kernel.joints.sdm_law import normal_energy, opening_loss, sdm_point
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
@@ -43,6 +44,8 @@ def point_response(
     """Traction, new state and tangent of one point by the law of this code."""
     if code == 1:
         sdm_point(w, state, p, t, new, D)
+    elif code == 2:
+        mohr_point(w, state, p, t, new, D)
     else:
         elastic_point(w, state, p, t, new, D)
 
@@ -72,6 +75,8 @@ def point_energies(
         stored = normal_energy(w[n], t[n], state[XI], p[KN], p[FC]) + state[SHEAR_ENERGY]
         return stored, opening_loss(state[XI], p[FU], p[GF]) + state[SHEAR_LOSS]
     stored = 0.0
+    if code == 2:
+        return mohr_energy(w, t, state, p), state[SHEAR_LOSS]
     for i in range(n + 1):
         stored += 0.5 * w[i] * t[i]
     return stored, 0.0

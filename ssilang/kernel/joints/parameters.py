@@ -21,12 +21,20 @@ class Parameter(IntEnum):
     FC = 5  # closing traction, Pa, <= 0
     FROT = 6  # Coulomb coefficient, < 0: no bound on the shear of a closed point
     SHEAR = 7  # 0 lost when open, 1 literally elastic at any opening
+    TPHI = 8  # tangent of the friction angle
+    TPSI = 9  # tangent of the dilatancy angle
+    COHE = 10  # cohesion
+    FTRC = 11  # tensile strength of a Mohr-Coulomb joint
+    EF = 12  # normal stiffness beyond the closing ECN
+    ECN = 13
+    FNE = 14  # compression from which a joint of two points yields, 0: never
+    QT = 15  # its tangent stiffness then
 
 
 N_PARAMETERS = len(Parameter)
 
-DEFAULTS: dict[str, float] = {"FU": 0.0, "GF": 0.0, "FC": 0.0, "FROT": -1.0, "SHEAR": 0.0}
-"""What the law takes for the parameters that are not given: a joint without tension."""
+DEFAULTS: dict[str, float] = {"FROT": -1.0}
+"""What laws take for the parameters that are not given, if not 0: a joint without tension."""
 
 
 def check_sdm_parameters(parameters: FloatArray) -> None:
@@ -59,6 +67,24 @@ def check_sdm_parameters(parameters: FloatArray) -> None:
             f"give GF > FU^2/KN = {fu * fu / kn:g} N/m, or FU = 0 for a joint without tension",
         )
     _check_snap_back(columns["KN"], columns["FU"], columns["GF"])
+
+
+def check_mohr_parameters(parameters: FloatArray) -> None:
+    """Refuse parameters of a Mohr-Coulomb joint that have no meaning.
+
+    Raises
+    ------
+    MaterialError
+        If KN <= 0, or a shear stiffness, angle, cohesion or strength is negative, or the
+        hardening in compression is not below the elastic stiffness.
+    """
+    columns = {p.name: parameters[:, p] for p in Parameter}
+    if not np.isfinite(parameters).all():
+        raise MaterialError("a joint parameter is not a finite number, or an angle reaches 90")
+    _refuse(columns["KN"] <= 0, columns["KN"], "KN", "> 0")
+    for name in ("KS1", "KS2", "TPHI", "TPSI", "COHE", "FTRC", "EF", "ECN", "FNE", "QT"):
+        _refuse(columns[name] < 0, columns[name], name, ">= 0")
+    _refuse((columns["FNE"] > 0) & (columns["QT"] >= columns["KN"]), columns["QT"], "QT", "< KN")
 
 
 def _refuse(wrong: np.ndarray, values: FloatArray, name: str, wanted: str) -> None:

@@ -33,6 +33,16 @@ def joint_parameters(joints: JointCells, given: ZoneField) -> FloatArray:
         values = _values(joints, given, parameter.name)
         if values is not None:
             table[:, :, parameter] = values
+    for name, targets in law.angles.items():
+        angle = point_values(given, name, n, joints.shape)
+        if angle is None:
+            raise missing_parameter(joints.zone, name, given.names)
+        for target in targets:
+            table[:, :, Parameter[target]] = np.where(
+                np.abs(angle) < 90.0, np.tan(np.radians(angle)), np.inf
+            )
+    if joints.element.name == "JOI1":  # slip of a joint of two points is without dilatancy
+        table[:, :, Parameter.TPSI] = 0.0
     if ELASTIC_SHEAR in joints.zone.behaviour:
         table[:, :, Parameter.SHEAR] = 1.0
     flat = table.reshape(n * g, N_PARAMETERS)

@@ -19,11 +19,13 @@ ELASTICITIES: dict[str, tuple[str, ...]] = {
 }
 """Linear elasticities and the families of elements that have them."""
 
-JOINT_WORDS = ("JOINT_SDM", "CISAILLEMENT_ELASTIQUE")
+JOINT_WORDS = (
+    "JOINT_SDM", "CISAILLEMENT_ELASTIQUE", "PLASTIQUE", "JOINT_DILATANT", "COULOMB",
+)  # fmt: skip
 """Further words of joints; `ssilang.kernel.joints.laws` says what they mean."""
 
 OTHER_BEHAVIOURS = (
-    "PLASTIQUE", "PLASTIQUE_ENDOM", "ENDOMMAGEMENT", "FLUAGE", "VISCOPLASTIQUE", "VISCO_EXTERNE",
+    "PLASTIQUE_ENDOM", "ENDOMMAGEMENT", "FLUAGE", "VISCOPLASTIQUE", "VISCO_EXTERNE",
     "NON_LINEAIRE", "IMPEDANCE", "HOMOGENEISE", "SECTION", "ARMATURE", "MODAL", "STATIQUE",
     "CAOUTCHOUC",
 )  # fmt: skip
