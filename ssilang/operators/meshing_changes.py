@@ -52,6 +52,9 @@ def _changed_block(block: CellBlock, target: str) -> Mesh:
         return alone
     if kind.degree == 2 and block.kind.degree == 1:
         return quadratic(_changed_block(block, LINEAR[target]))
+    if (block.cell_type, target) == ("SEG3", "SEG2"):
+        halves = block.connectivity[:, [0, 1, 1, 2]].reshape(-1, 2)
+        return Mesh.of(block.nodes, "SEG2", halves, np.repeat(block.colours, 2))
     if kind.degree == 1 and block.kind.degree == 2:
         return _changed_block(linear(alone).single_block(), target)
     if kind.dimension == 1 and block.kind.dimension > 1:

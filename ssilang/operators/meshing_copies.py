@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
+
 from ssilang.kernel.errors import MeshError
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
@@ -28,6 +30,7 @@ from ssilang.operators.meshing_maps import (
     read_scaling,
     read_symmetry,
     read_turn,
+    rotation_matrix,
 )
 from ssilang.operators.meshing_moves import displacements
 from ssilang.operators.turned_fields import turned_cell_field, turned_node_field
@@ -327,10 +330,11 @@ def proj(call: Call) -> Any:
     full_name="DEDUIRE",
     help=Help(
         en="'TRAN': copies of objects through the transformation that takes one mesh to another of "
-        "the same structure.",
+        "the same structure; 'ROTA': the same, vectors and tensors of fields turning by the angle.",
         fr="'TRAN' : copies d'objets par la transformation qui mène d'un maillage à un autre de "
-        "même structure.",
-        syntax="OBJ2 ... = OBJ1 ... DEDU 'TRAN' GEO1 GEO2 ;",
+        "même structure ; 'ROTA' : de même, vecteurs et tenseurs des champs tournant de l'angle.",
+        syntax="OBJ2 ... = OBJ1 ... DEDU 'TRAN' GEO1 GEO2 ;\n"
+        "OBJ2 ... = OBJ1 ... DEDU 'ROTA' FLOT1 POIN1 (POIN2) GEO1 GEO2 ;",
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; M = DROI 4 (0. 1.) (2. 1.) ;"
             " P = L POIN 'FINAL' ; Q = P DEDU 'TRAN' L M ; LIST (COOR 1 Q) ;",
@@ -341,13 +345,26 @@ def proj(call: Call) -> Any:
 def dedu(call: Call) -> Any:
     """Copy through the map between two meshes."""
     objects = call.all(*GEOMETRIC)
-    if call.keyword(("TRAN",)) is None:
-        raise call.bad("only the form DEDU 'TRAN' is available", hint="OBJ DEDU 'TRAN' GEO1 GEO2")
-    later = call.all(*GEOMETRIC)
-    if len(later) < 2 or not all(isinstance(m, Mesh) for m in later[-2:]):
+    angle = call.optional("FLOTTANT")
+    word = call.keyword(("TRAN", "ROTA"))
+    if word is None:
+        raise call.bad("this form of DEDU is not available", hint="OBJ DEDU 'TRAN' GEO1 GEO2")
+    if word == "ROTA" and angle is None:
+        angle = call.required("FLOTTANT")
+    later = objects + call.all(*GEOMETRIC)
+    if len(later) < 3 or not all(isinstance(m, Mesh) for m in later[-2:]):
         raise call.missing(("MAILLAGE",))
-    copier = Copier(mapping_between(later[-2], later[-1]))
-    made = tuple(copier(v) for v in [*objects, *later[:-2]])
+    objects, rotation = later[:-2], None
+    if word == "ROTA":
+        count = 1 if workspace(call.session).dimension < 3 else 2
+        points = [v for v in objects if isinstance(v, Point)][-count:]
+        if len(points) < count:
+            raise call.missing(("POINT",))
+        objects = [v for v in objects if not any(v is p for p in points)]
+        axis = points[1].coordinates - points[0].coordinates if count == 2 else np.eye(3)[2]
+        rotation = rotation_matrix(float(angle), axis)
+    copier = Copier(mapping_between(later[-2], later[-1]), rotation)
+    made = tuple(copier(v) for v in objects)
     if not made:
         raise MeshError("nothing is given to transform")
     return made if len(made) > 1 else made[0]

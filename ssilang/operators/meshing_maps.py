@@ -57,8 +57,12 @@ def read_turn(call: Call) -> tuple[PointMap, FloatArray]:
     """A rotation: angle in degrees, then its centre (2D) or axis (3D); and its matrix (3, 3)."""
     angle = call.required("FLOTTANT")
     origin, axis = read_axis(call)
-    image = turn(angle, origin, axis)
-    return image, image(origin + np.eye(3)).T - image(origin[None]).T
+    return turn(angle, origin, axis), rotation_matrix(angle, axis)
+
+
+def rotation_matrix(angle: float, axis: FloatArray) -> FloatArray:
+    """Matrix (3, 3) that turns vectors by an angle in degrees about an axis."""
+    return turn(angle, np.zeros(3), axis)(np.eye(3)).T
 
 
 def read_axis(call: Call) -> tuple[FloatArray, FloatArray]:

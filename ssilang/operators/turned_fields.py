@@ -29,7 +29,7 @@ def turned_node_field(field: NodeField, rotation: FloatArray) -> NodeField:
     made = dict(field.components)
     for names in _VECTORS:
         present = [n for n in names if n in made]
-        if not present or (names[0] not in made and names[1] not in made):
+        if not present:
             continue
         nodes = np.unique(np.concatenate([made[n].nodes for n in present]))
         old = np.column_stack([field.values_at(n, nodes) for n in names])
@@ -52,16 +52,19 @@ def turned_cell_field(field: CellField, rotation: FloatArray) -> CellField:
 def _turned_tensors(components: Mapping[str, Any], rotation: FloatArray) -> dict[str, Any]:
     made = dict(components)
     for names in _TENSORS:
-        if names[0] not in components or names[3] not in components:
+        present = [n for n in names if n in components]
+        if not present or (names[3].startswith("GA") and "EPXY" in components):
             continue
         half = 0.5 if names[3].startswith("GA") else 1.0
-        tensor = np.zeros((*np.shape(components[names[0]]), 3, 3))
+        shape = np.broadcast_shapes(*(np.shape(components[n]) for n in present))
+        tensor = np.zeros((*shape, 3, 3))
         for name, (i, j) in zip(names, _PLACES, strict=True):
             if name in components:
                 value = components[name] * (1.0 if i == j else half)
                 tensor[..., i, j] = tensor[..., j, i] = value
         tensor = rotation @ tensor @ rotation.T
         for name, (i, j) in zip(names, _PLACES, strict=True):
-            if name in components:
-                made[name] = tensor[..., i, j] / (1.0 if i == j else half)
+            value = tensor[..., i, j] / (1.0 if i == j else half)
+            if name in components or np.abs(value).max(initial=0.0) > 0.0:
+                made[name] = value
     return made
