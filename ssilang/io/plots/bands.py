@@ -40,7 +40,7 @@ def cut_bands(
     around = [
         _long(corners, heights, lower, 0.0),
         _long(corners, heights, upper, 1.0),
-        _short(corners, heights, upper),
+        _short(corners, heights, upper, 1.0),
         np.where((bend == middle)[:, None], corners[:, 1], _short(corners, heights, bend)),
         _short(corners, heights, lower),
     ]
@@ -84,10 +84,13 @@ def _long(points: FloatArray, values: FloatArray, at: FloatArray, level: float =
     return _between(points, values, 0, 2, at, level)
 
 
-def _short(points: FloatArray, values: FloatArray, at: FloatArray) -> FloatArray:
-    """Point of the path over the middle corner where the value is `at`."""
+def _short(
+    points: FloatArray, values: FloatArray, at: FloatArray, level: float = 0.0
+) -> FloatArray:
+    """Point of the path over the middle corner where the value is `at`; `level` as in `_long`."""
     upper = (at > values[:, 1])[:, None]
-    return np.where(upper, _between(points, values, 1, 2, at), _between(points, values, 0, 1, at))
+    high = _between(points, values, 1, 2, at)
+    return np.where(upper, high, _between(points, values, 0, 1, at, level))
 
 
 def _between(

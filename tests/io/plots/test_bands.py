@@ -1,0 +1,45 @@
+"""Triangles cut into bands: areas and lines against closed forms."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from ssilang.io.plots.bands import cut_bands, cut_lines
+
+
+def areas(polygons: np.ndarray) -> np.ndarray:
+    x, y = polygons[..., 0], polygons[..., 1]
+    return 0.5 * np.abs(np.sum(x * np.roll(y, -1, axis=1) - np.roll(x, -1, axis=1) * y, axis=1))
+
+
+def test_bands_fill_each_triangle() -> None:
+    rng = np.random.default_rng(3)
+    points, values = rng.normal(size=(50, 3, 2)), rng.normal(size=(50, 3))
+    polygons, owner, _ = cut_bands(points, values, np.linspace(-2, 2, 9))
+    total = np.bincount(owner, areas(polygons), minlength=50)
+    assert np.allclose(total, areas(points))
+
+
+def test_area_of_a_band_of_a_linear_field() -> None:
+    # value x on the unit right triangle: the part x < a has the area a - a^2/2
+    points, values = np.array([[(0.0, 0), (1, 0), (0, 1)]]), np.array([[0.0, 1, 0]])
+    polygons, _, band = cut_bands(points, values, np.array([0.0, 0.25, 0.5, 1.0]))
+    found = np.bincount(band, areas(polygons))
+    below = [a - a * a / 2 for a in (0.25, 0.5, 1.0)]
+    assert np.allclose(found, np.diff([0.0, *below]))
+
+
+def test_iso_line_lies_on_its_level() -> None:
+    points, values = np.array([[(0.0, 0), (2, 0), (0, 2)]]), np.array([[0.0, 2.0, 2.0]])
+    lines, _, level = cut_lines(points, values, np.array([0.5, 1.0, 3.0]))
+    assert list(level) == [0, 1]
+    assert np.allclose(lines.sum(axis=2), np.array([[0.5, 0.5], [1.0, 1.0]]))
+
+
+def test_a_uniform_triangle_is_one_band_and_has_no_line() -> None:
+    points, values = np.array([[(0.0, 0), (1, 0), (0, 1)]]), np.full((1, 3), 0.7)
+    polygons, _, band = cut_bands(points, values, np.array([0.0, 0.5, 1.0]))
+    assert list(band) == [1]
+    assert areas(polygons)[0] == pytest.approx(0.5)
+    assert len(cut_lines(points, values, np.array([0.0, 0.5, 1.0]))[0]) == 0

@@ -1,0 +1,241 @@
+"""Pictures of meshes and fields, looked at pixel by pixel."""
+
+from __future__ import annotations
+
+import io
+from typing import Any
+
+import numpy as np
+import pytest
+from matplotlib.colors import to_rgb
+from PIL import Image
+
+from ssilang.io.errors import OutputError
+from ssilang.io.plots.composition import Subjects, compose
+from ssilang.io.plots.cutting import section_of
+from ssilang.io.plots.palette import index_of, shade
+from ssilang.io.plots.patches import visible_faces
+from ssilang.io.plots.scene import Layer, PictureOptions, draw_scene
+from ssilang.io.plots.values import VON_MISES, component_names, values_on
+from ssilang.io.plots.view import Plane, view_along
+from ssilang.kernel.fields.arrows import arrows_at_nodes, principal_strokes
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.fields.deformed import Deformed, DeformedPart
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.kernel.mesh.nodes import NodeTable
+
+
+def grid(n: int = 4, size: float = 1.0) -> Mesh:
+    table = NodeTable()
+    line = np.linspace(0.0, size, n + 1)
+    x, y = np.meshgrid(line, line, indexing="xy")
+    ids = table.add(np.column_stack([x.ravel(), y.ravel()])).reshape(n + 1, n + 1)
+    corners = (ids[:-1, :-1], ids[:-1, 1:], ids[1:, 1:], ids[1:, :-1])
+    return Mesh.of(table, "QUA4", np.stack([c.ravel() for c in corners], axis=1))
+
+
+def cube(n: int = 2) -> Mesh:
+    table = NodeTable()
+    line = np.linspace(0.0, 1.0, n + 1)
+    xyz = np.stack(np.meshgrid(line, line, line, indexing="ij"), axis=-1).reshape(-1, 3)
+    ids = table.add(xyz).reshape(n + 1, n + 1, n + 1)
+    a, b = slice(None, -1), slice(1, None)
+    order = [(a, a, a), (b, a, a), (b, b, a), (a, b, a), (a, a, b), (b, a, b), (b, b, b), (a, b, b)]
+    return Mesh.of(table, "CUB8", np.stack([ids[k].ravel() for k in order], axis=1))
+
+
+def field(mesh: Mesh, **functions: Any) -> NodeField:
+    ids = mesh.sorted_node_ids
+    x = mesh.nodes.coordinates[ids]
+    return NodeField.of(mesh.nodes, ids, {k: f(x) for k, f in functions.items()})
+
+
+def pixels(figure: Any) -> np.ndarray:
+    buffer = io.BytesIO()
+    figure.savefig(buffer, format="png", dpi=60)
+    return np.asarray(Image.open(buffer).convert("RGB"), dtype=float) / 255
+
+
+def share(image: np.ndarray, colour: Any, tolerance: float = 0.06) -> float:
+    return float((np.abs(image - np.array(to_rgb(colour))).max(axis=-1) < tolerance).mean())
+
+
+def drawn(*layers: Layer, **options: Any) -> np.ndarray:
+    return pixels(draw_scene(layers, (), PictureOptions(**options)))
+
+
+def test_a_filled_mesh_shows_its_colour() -> None:
+    red = Layer(grid(), colour=index_of("ROUG"))
+    ink = 0.25 + 0.75 * np.array(to_rgb(shade("ROUG")))
+    assert share(drawn(red, filled=True), ink) > 0.2
+    assert share(drawn(red), ink) < 0.05
+
+
+def test_only_one_colour_is_drawn() -> None:
+    mesh = grid(2)
+    mesh.blocks[0].colours[:] = [2, 2, 1, 1]
+    every = draw_scene((Layer(mesh),))
+    some = draw_scene((Layer(mesh),), (), PictureOptions(only_colour=2))
+    count = [len(f.axes[0].collections[0].get_paths()) for f in (every, some)]
+    assert count == [4, 2]
+
+
+def test_bands_of_a_linear_field_have_equal_areas() -> None:
+    mesh = grid(8)
+    layer = Layer(mesh, field=field(mesh, T=lambda x: x[:, 0]), component="T", edges=False)
+    figure = draw_scene((layer,), (), PictureOptions(level_count=4))
+    bar = figure.axes[-1]
+    assert bar.get_ylabel().startswith("T ")
+    assert "max 1" in bar.get_ylabel()
+    (painted,) = figure.axes[0].collections
+    colours, inverse = np.unique(painted.get_facecolor(), axis=0, return_inverse=True)
+    assert len(colours) == 4
+    areas = np.zeros(4)
+    for path, i in zip(painted.get_paths(), inverse.ravel(), strict=True):
+        x, y = path.vertices[:-1].T
+        areas[i] += 0.5 * abs(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))
+    assert np.allclose(areas, 0.25)
+
+
+def test_cells_without_a_value_are_grey() -> None:
+    mesh = grid(2)
+    half = mesh.sorted_node_ids[:6]
+    values = NodeField.of(mesh.nodes, half, {"T": np.arange(6.0)})
+    image = drawn(Layer(mesh, field=values, component="T"))
+    assert share(image, (0.93, 0.94, 0.95)) > 0.1
+
+
+def test_no_legend_on_demand() -> None:
+    mesh = grid(2)
+    layer = Layer(mesh, field=field(mesh, T=lambda x: x[:, 0]), component="T")
+    assert len(draw_scene((layer,), (), PictureOptions(legend=False)).axes) == 1
+
+
+def test_numbers_of_nodes_and_cells() -> None:
+    mesh = grid(2)
+    options = PictureOptions(node_numbers=True, cell_numbers=True)
+    texts = [t.get_text() for t in draw_scene((Layer(mesh),), (), options).axes[0].texts]
+    assert sorted(map(int, texts)) == sorted([*range(1, 10), *range(1, 5)])
+
+
+def test_deformed_shape_stands_before_its_initial_outline() -> None:
+    mesh = grid(2)
+    u = field(mesh, UX=lambda x: 0.01 * x[:, 1])
+    made = compose(Subjects(deformed=Deformed((DeformedPart(mesh, u, 50.0),))))
+    outline, moved = made.layers
+    assert outline.outline
+    assert {b.cell_type for b in outline.mesh.blocks} == {"SEG2"}
+    assert moved.positions()[:, 0].max() == pytest.approx(1.5)
+    assert made.notes == ("amplification 50",)
+
+
+def test_an_undrawn_scale_is_chosen_and_shared() -> None:
+    mesh = grid(2)
+    small, large = (field(mesh, UX=lambda x, a=a: a * x[:, 1]) for a in (1e-4, 1e-3))
+    parts = (DeformedPart(mesh, small), DeformedPart(mesh, large))
+    made = compose(Subjects(deformed=Deformed(parts)))
+    assert {x.scale for x in made.layers if not x.outline} == {100.0}
+
+
+def test_components_have_a_panel_each() -> None:
+    mesh = grid(2)
+    u = field(mesh, UX=lambda x: x[:, 1], UY=lambda x: x[:, 0])
+    made = compose(Subjects([mesh], values=u))
+    figure = draw_scene(made.layers, (), None, None, made.components)
+    titles = [a.get_title() for a in figure.axes]
+    assert titles[:2] == ["UX", "UY"]
+
+
+def test_arrows_lie_within_the_frame() -> None:
+    mesh = grid(2)
+    arrows = arrows_at_nodes(field(mesh, FX=lambda x: 1.0 + 0 * x[:, 0]), ("FX", "FY", ""), 0.5)
+    figure = draw_scene((Layer(mesh),), (), None, arrows)
+    (quiver,) = [c for c in figure.axes[0].collections if hasattr(c, "U")]
+    assert np.allclose(quiver.U, 0.5)
+    assert figure.axes[0].get_xlim()[1] > 1.5
+
+
+def test_nothing_to_draw_is_said() -> None:
+    with pytest.raises(OutputError, match="nothing to draw"):
+        draw_scene((Layer(Mesh(NodeTable(), ())),))
+
+
+def test_hidden_faces_are_not_seen() -> None:
+    # a red square above a blue one, seen from above and from below
+    table = NodeTable()
+    square = np.array([(0.0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)])
+    low, high = table.add(square), table.add(square + np.array([0, 0, 1.0]))
+    mesh = Mesh.of(table, "QUA4", np.stack([high, low]), np.array([2, 1], dtype=np.int8))
+    options = PictureOptions(filled=True, hidden=True)
+
+    def redness(z: float) -> float:
+        view = view_along(np.array([0.0, 1e-6, z]))
+        image = pixels(draw_scene((Layer(mesh),), (view,), options))
+        return float((image[..., 0] > image[..., 2] + 0.2).mean())
+
+    assert redness(1.0) > 0.2
+    assert redness(-1.0) < 0.001
+
+
+def test_outer_faces_of_a_volume() -> None:
+    assert sum(len(f.nodes) for f in visible_faces(cube(3))) == 6 * 9
+
+
+def test_behind_a_plane() -> None:
+    mesh = cube(2)
+    plane = Plane.through(*np.array([(0.0, 0.5, 0), (1, 0.5, 0), (0, 0.5, 1)]))
+    view = view_along(np.array([0.0, -1.0, 0.2]))
+    figure = draw_scene((Layer(mesh),), (view,), PictureOptions(beyond=plane, hidden=True))
+    # four cells are left: their outer faces
+    assert len(figure.axes[0].collections[0].get_paths()) == 16
+
+
+def test_section_of_a_cube_has_the_area_and_values_of_the_plane() -> None:
+    mesh = cube(3)
+    plane = Plane.through(*np.array([(0.0, 0, 0), (1, 0, 1), (0, 1, 0)]))  # z = x
+    values = mesh.nodes.coordinates @ np.array([1.0, 2.0, 3.0])
+    points, found, colours = section_of(mesh, plane, mesh.nodes.coordinates, values)
+    crossed = np.cross(points[:, 1] - points[:, 0], points[:, 2] - points[:, 0])
+    assert 0.5 * np.linalg.norm(crossed, axis=1).sum() == pytest.approx(np.sqrt(2.0))
+    assert np.allclose(found, points @ np.array([1.0, 2.0, 3.0]))
+    assert set(colours) == {0}
+
+
+def test_a_plane_needs_three_points_off_a_line() -> None:
+    with pytest.raises(OutputError, match="on a line"):
+        Plane.through(np.zeros(3), np.ones(3), 2 * np.ones(3))
+
+
+def stresses(mesh: Mesh, **values: float) -> CellField:
+    n = mesh.n_cells
+    parts = {k: np.full((n, 4), v) for k, v in values.items()}
+    return CellField((CellFieldBlock(mesh.blocks[0], parts, "STRESSES", "QUA4"),), "CONTRAINTES")
+
+
+def test_von_mises_of_a_uniform_stress() -> None:
+    mesh = grid(1)
+    stress = stresses(mesh, SMXX=3.0, SMYY=-1.0, SMZZ=0.0, SMXY=2.0)
+    assert component_names(stress)[0] == VON_MISES
+    (faces,) = visible_faces(mesh)
+    exact = np.sqrt(3.0**2 + 1.0 + 3.0 + 3 * 2.0**2)
+    assert np.allclose(values_on(faces, stress, VON_MISES), exact)
+
+
+def test_values_at_integration_points_are_extended_to_the_nodes() -> None:
+    from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
+
+    mesh = grid(1)
+    element = ELEMENTS["QUA4"]
+    points = support_rule("QUA4", "STRESSES").points
+    s = CellFieldBlock(mesh.blocks[0], {"T": (1 + 2 * points[:, 0])[None]}, "STRESSES", "QUA4")
+    (faces,) = visible_faces(mesh)
+    exact = 1 + 2 * element.reference_cell.nodes[:, 0]
+    assert np.allclose(values_on(faces, CellField((s,)), "T")[0], exact)
+
+
+def test_principal_strokes_of_a_shear() -> None:
+    arrows = principal_strokes(stresses(grid(1), SMXX=0.0, SMYY=0.0, SMZZ=0.0, SMXY=5.0))
+    large = {p.name: p.vectors[0] for p in arrows.parts}
+    assert np.allclose(np.abs(large["SI11"]), 5.0 / np.sqrt(2) * np.array([1, 1, 0]))
+    assert large["SI11"] @ large["SI33"] == pytest.approx(0.0)
