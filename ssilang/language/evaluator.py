@@ -63,7 +63,7 @@ class Evaluator:
         self.statement_count = 0
         self._compiled: dict[tree.Statement, Value | None] = {}
         self._run_node: dict[type, Callable[[Any], None]] = {
-            tree.Statement: self._statement,
+            tree.Statement: self._tolerant,
             tree.If: self._if,
             tree.Loop: self._loop,
             tree.Definition: self._define,
@@ -145,6 +145,17 @@ class Evaluator:
 
     # ---- statements ------------------------------------------------------------------------
 
+    def _tolerant(self, statement: tree.Statement) -> None:
+        """Run a statement; with OPTI ERRE IGNORE its errors are shown and the run goes on."""
+        try:
+            self._statement(statement)
+        except SsiError as error:
+            if self.session.options.get("ERRE") != "IGNORE":
+                raise
+            if error.span is None:
+                error.span = statement.span
+            self.session.report(error)
+
     def _statement(self, statement: tree.Statement) -> None:
         self.current_span = statement.span
         self.statement_count += 1
@@ -193,8 +204,10 @@ class Evaluator:
             self.run(nodes)
         except (LeaveLoop, NextTurn, LeaveProcedure) as jump:
             raise SsiError("no-such-loop", self.current_span, name=jump.name) from None
+        except RecursionError:
+            raise SsiError("nesting", self.current_span) from None
 
-    def _scalar(self, statement: tree.Statement) -> Any:
+    def _scalar(self, statement: tree.Statement | tree.Paren) -> Any:
         """Value of a phrase of scalars by the short way, None if it is not one."""
         try:
             compiled = self._compiled[statement]
@@ -396,6 +409,9 @@ class Evaluator:
         return [Operand(value, item.span, item.text)]
 
     def _paren(self, item: tree.Paren) -> list[Operand]:
+        value = self._scalar(item)
+        if value is not None:
+            return [Operand(value, item.span)]
         results = self.phrase(item.items, item.span)
         if not results:
             return []
