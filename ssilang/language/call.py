@@ -142,7 +142,7 @@ class Call:
 
     def peek_word(self) -> str | None:
         """The first unread word, in capitals, left unread."""
-        i = self._word_index()
+        i = self.word_index()
         if i is None:
             return None
         value = self.operands[i].value
@@ -150,14 +150,14 @@ class Call:
 
     def at_word(self) -> bool:
         """Whether a word is the very next operand."""
-        return self._word_index() == 0
+        return self.word_index() == 0
 
     def keyword(self, words: Sequence[str], length: int = 4) -> str | None:
         """Consume the first unread word if it is one of `words`; returns that entry of `words`.
 
         Words compare on their first `length` characters, in capitals as the language's tables.
         """
-        i = self._word_index()
+        i = self.word_index()
         if i is None:
             return None
         value = self.operands[i].value
@@ -176,7 +176,8 @@ class Call:
         """Offset behind the keyword read last: pass it as `after` to read its value."""
         return self._after
 
-    def _word_index(self) -> int | None:
+    def word_index(self) -> int | None:
+        """Index of the first unread word or procedure."""
         i = 0
         while i < len(self.operands):
             value = self.operands[i].value

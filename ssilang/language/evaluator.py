@@ -61,7 +61,7 @@ class Evaluator:
         self.session = session
         self.current_span: Span | None = None
         self.statement_count = 0
-        self._compiled: dict[tree.Statement, Value | None] = {}
+        self._compiled: dict[tree.Statement | tree.Paren, Value | None] = {}
         self._run_node: dict[type, Callable[[Any], None]] = {
             tree.Statement: self._tolerant,
             tree.If: self._if,
@@ -306,32 +306,22 @@ class Evaluator:
         return Texte(tuple(parts))
 
     def _reduce(self, call: Call) -> None:
-        while True:
-            operand = call.read("PROCEDUR")
-            if operand is not None:
+        while (i := call.word_index()) is not None:
+            operand = call.operands[i]
+            if isinstance(operand.value, Procedure):
+                del call.operands[i]
                 call.span = operand.span
-                results = call_procedure(self, operand.value, call)
-                self._push(call, results, operand.span)
+                self._push(call, call_procedure(self, operand.value, call), operand.span)
                 continue
-            found, operand = self._next_operator(call)
-            if found is None or operand is None:
+            found = None
+            if not operand.result or len(call.operands) > 1:
+                found = find_operator(operand.value.rstrip())
+            if found is None:
                 return
+            del call.operands[i]
             self._operate(found, operand, call)
             if found.terminal:
                 return
-
-    def _next_operator(self, call: Call) -> tuple[Operator | None, Operand | None]:
-        i = call._word_index()
-        if i is None:
-            return None, None
-        operand = call.operands[i]
-        if operand.result and len(call.operands) == 1:
-            return None, None
-        found = find_operator(str(operand.value).rstrip())
-        if found is None:
-            return None, None
-        del call.operands[i]
-        return found, operand
 
     def _operate(self, found: Operator, operand: Operand, call: Call) -> None:
         call.span, call.name, call.used = operand.span, found.full_name, []
