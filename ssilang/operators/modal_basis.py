@@ -35,16 +35,17 @@ class Shape:
 
 def shapes_of(call: Call, *tables: Table) -> list[Shape]:
     """Modes and static shapes of BASE_MODALE, BASE_DE_MODES, LIAISONS_STATIQUES tables."""
-    found = [s for t in tables for s in _shapes(t)]
+    found = [s for t in tables for s in shapes_in(t)]
     if not found:
         raise call.bad("the table holds no mode and no static shape", tables[0] if tables else None)
     return found
 
 
-def _shapes(table: Table) -> list[Shape]:
+def shapes_in(table: Table) -> list[Shape]:
+    """Shapes of one table, in order of number; none if it holds none."""
     inner = table.get("MODES")
     if isinstance(inner, Table):
-        return _shapes(inner)
+        return shapes_in(inner)
     found = []
     entries = [(i, e) for i, e in table.items() if isinstance(i, int) and isinstance(e, Table)]
     for _, entry in sorted(entries, key=lambda pair: pair[0]):

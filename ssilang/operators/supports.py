@@ -8,6 +8,7 @@ import numpy as np
 
 from ssilang.kernel.errors import MeshError
 from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.matrices import imposed
 from ssilang.kernel.matrices import relations as made
 from ssilang.kernel.matrices.matrix import Matrix, Relations
 from ssilang.kernel.mesh.mesh import Mesh, Point
@@ -204,8 +205,8 @@ def _depi(call: Call) -> NodeField | None:
         raise call.bad("this matrix holds no condition", matrix, "give what BLOQ or RELA made")
     value = call.required("FLOTTANT", "CHPOINT")
     if not isinstance(value, NodeField):
-        return made.imposed_uniform(matrix.relations, float(value))
-    fill = made.imposed_by_node if mixed else made.imposed_from_field
+        return imposed.imposed_uniform(matrix.relations, float(value))
+    fill = imposed.imposed_by_node if mixed else imposed.imposed_from_field
     return fill(matrix.relations, value)
 
 
@@ -214,7 +215,7 @@ def _depi_table(call: Call, table: Table) -> None:
         block = entry.get("BLOCAGE")
         if not isinstance(block, Matrix):
             raise call.bad("an entry has no BLOCAGE", table, "call BLOQ on this table first")
-        entry.set("FORCE", made.imposed_uniform(block.relations, 1.0))
+        entry.set("FORCE", imposed.imposed_uniform(block.relations, 1.0))
 
 
 operator(
@@ -334,4 +335,3 @@ operator(
     ),
     reads_itself=True,
 )(_appu)
-

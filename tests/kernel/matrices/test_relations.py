@@ -5,6 +5,7 @@ import pytest
 
 from ssilang.kernel.errors import FieldError, MeshError
 from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.matrices import imposed
 from ssilang.kernel.matrices import relations as make
 from ssilang.kernel.matrices import tied_relations as tied
 from ssilang.kernel.matrices.assembly import assemble, constraint_matrix, numbering_of
@@ -182,14 +183,14 @@ def test_imposed_values_from_a_field_are_taken_by_name_and_node():
     table, ids = cloud(3, 2)
     held = make.blocked(table, ids, ["UX", "UY"])
     values = NodeField.of(table, ids, {"UX": np.array([1.0, 2.0, 3.0])})
-    field = make.imposed_from_field([held], values)
+    field = imposed.imposed_from_field([held], values)
     np.testing.assert_allclose(field.values_at("FLX", held.multipliers[:3]), [1.0, 2.0, 3.0])
     assert len(field.components["FLX"].nodes) == 3
     with pytest.raises(FieldError, match="UX"):
-        make.imposed_from_field([held], NodeField.of(table, ids, {"T": np.ones(3)}))
+        imposed.imposed_from_field([held], NodeField.of(table, ids, {"T": np.ones(3)}))
     slanted = make.blocked_along(table, ids, PLANE, np.array([1.0, 1.0]))
     scal = NodeField.of(table, ids, {"SCAL": np.array([4.0, 5.0, 6.0])})
-    by_node = make.imposed_by_node([slanted], scal)
+    by_node = imposed.imposed_by_node([slanted], scal)
     np.testing.assert_allclose(by_node.values_at("FLX", slanted.multipliers), [4.0, 5.0, 6.0])
     with pytest.raises(FieldError):
-        make.imposed_from_field([slanted], values)
+        imposed.imposed_from_field([slanted], values)

@@ -1,0 +1,162 @@
+"""Modal operators as scripts use them: VIBR, NNOR, PJBA, RECO, PSMO, JEU, OSCI, SPO, VALP."""
+
+import numpy as np
+import pytest
+
+from ssilang.cli.run import run_text
+
+TWO_MASSES = """
+OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; P1 = 0. 0. ; P2 = 1. 0. ;
+L1 = DROI 1 P1 P2 ; MO = MODE L1 'MECANIQUE' 'ELASTIQUE' 'BARR' ;
+MA = MATE MO 'YOUN' 3. 'NU' 0. 'SECT' 1. ;
+K1 = (RIGI MO MA) ET (APPU 'UX' 2. P1) ET (BLOQ 'UY' (P1 ET P2)) ;
+M1 = MANU 'RIGI' 'TYPE' 'MASSE' (P1 ET P2) (MOTS 'UX') (PROG 0.5) ;
+"""
+K = np.array([[5.0, -3.0], [-3.0, 3.0]])
+FREQUENCIES = np.sqrt(np.linalg.eigvalsh(K) / 0.5) / (2.0 * np.pi)
+
+
+def objects(script, *names):
+    result = run_text(script)
+    assert result.exit_code == 0, result.message
+    found = [result.session.root.find(n) for n in names]
+    return found[0] if len(found) == 1 else found
+
+
+def mode(table, i):
+    return table.get("MODES").get(i)
+
+
+@pytest.mark.parametrize(
+    "words", ["'PROCHE' (PROG 0. 9.)", "'PROC' (PROG 0.1) (LECT 2)", "'SIMUL' 0. 2",
+              "'INTER' 0. 10.", "'IRAM' 0.2 2 'LM'"],
+)  # fmt: skip
+def test_every_method_finds_both_modes(words):
+    table = objects(TWO_MASSES + f"T = VIBR {words} K1 M1 ;", "T")
+    assert table.subtype == "BASE_MODALE"
+    modes = table.get("MODES")
+    assert modes.subtype == "BASE_DE_MODES"
+    assert len(modes) == 4  # SOUSTYPE, MAILLAGE and two modes
+    found = [modes.get(i).get("FREQUENCE") for i in (1, 2)]
+    np.testing.assert_allclose(found, FREQUENCIES, rtol=1e-12)
+    assert [modes.get(i).get("NUMERO_MODE") for i in (1, 2)] == [1, 2]
+    assert modes.get(1).get("POINT_REPERE").node != modes.get(2).get("POINT_REPERE").node
+
+
+def test_matrices_may_come_in_any_order_and_ends_of_an_interval_be_kept():
+    script = TWO_MASSES + (
+        "T1 = VIBR 'SIMU' 0. 1 M1 K1 ; T2 = VIBR 'INTE' 0. 10. 'HAUTE' 1 K1 M1 ;"
+    )
+    low, high = objects(script, "T1", "T2")
+    assert mode(low, 1).get("FREQUENCE") == pytest.approx(FREQUENCIES[0])
+    assert mode(high, 1).get("FREQUENCE") == pytest.approx(FREQUENCIES[1])
+
+
+def test_damped_structure_wants_iram_and_gives_complex_entries():
+    damped = TWO_MASSES + "C1 = CHAN 'TYPE' (0.2 * M1) 'AMORTISS' ;"
+    assert run_text(damped + "T = VIBR 'SIMU' 0. 1 K1 M1 C1 ;").exit_code == 1
+    table = objects(damped + "T = VIBR 'IRAM' 0.1 2 K1 M1 C1 ;", "T")
+    w, xi = 2.0 * np.pi * FREQUENCIES, 0.2 / (4.0 * np.pi * FREQUENCIES)
+    real = [mode(table, i).get("FREQUENCE_REELLE") for i in (1, 2)]
+    np.testing.assert_allclose(real, FREQUENCIES * np.sqrt(1.0 - xi**2))
+    lost = [mode(table, i).get("FREQUENCE_IMAGINAIRE") for i in (1, 2)]
+    np.testing.assert_allclose(lost, w * xi / (2.0 * np.pi))
+
+
+def test_unit_shapes_by_largest_value_and_by_mass():
+    script = TWO_MASSES + (
+        "T = VIBR 'SIMU' 0. 2 K1 M1 ; T1 = NNOR 'EUCL' T M1 ;"
+        "U = MANU 'CHPO' P1 2 'UX' 4. 'UY' -8. ; U1 = NNOR U ; U2 = NNOR U 'SANS' (MOTS 'UY') ;"
+    )
+    unit, u1, u2 = objects(script, "T1", "U1", "U2")
+    for i in (1, 2):
+        x = mode(unit, i).get("DEFORMEE_MODALE").components["UX"].values
+        assert 0.5 * x @ x == pytest.approx(1.0)
+        assert mode(unit, i).get("MASSE_GENERALISEE") == pytest.approx(1.0)
+        along = mode(unit, i).get("DEPLACEMENTS_GENERALISES").get(1)
+        assert along == pytest.approx(0.5 * x.sum())
+    assert u1.components["UY"].values[0] == -1.0
+    assert u2.components["UX"].values[0] == 1.0
+
+
+def test_projection_diagonalises_and_recombination_gives_the_solution_back():
+    script = TWO_MASSES + (
+        "T = VIBR 'SIMU' 0. 2 K1 M1 ; KP = PJBA K1 T ; F = FORC 'FX' 1.5 P2 ; FP = PJBA F T ;"
+        "Q = RESO KP FP ; U = RECO Q T ; W = RESO K1 F ;"
+    )
+    projected, u, w = objects(script, "KP", "U", "W")
+    values = projected.blocks[0].values[0]
+    assert abs(values[0, 1]) < 1e-12 * values[0, 0]
+    for name in ("UX", "UY"):
+        nodes = w.components[name].nodes
+        np.testing.assert_allclose(u.values_at(name, nodes), w.values_at(name, nodes), atol=1e-12)
+
+
+def test_modes_and_pseudo_mode_add_up_to_the_static_solution():
+    script = TWO_MASSES + (
+        "T = VIBR 'SIMU' 0. 1 K1 M1 ; F = FORC 'FX' 1.5 P2 ; P = PSMO K1 (T . 'MODES') F ;"
+        "S = P . 1 . 'DEPLACEMENT' ; W = RESO K1 F ; FA = P . 1 . 'CHAMP_BASE_A' ;"
+    )
+    table, rest, w, force = objects(script, "T", "S", "W", "FA")
+    entry = mode(table, 1)
+    shape = entry.get("DEFORMEE_MODALE").values_at("UX", np.array([0, 1]))
+    push = force.values_at("FALF", np.array([entry.get("POINT_REPERE").node]))[0]
+    assert push == pytest.approx(1.5 * shape[1])
+    stiffness = entry.get("MASSE_GENERALISEE") * (2.0 * np.pi * entry.get("FREQUENCE")) ** 2
+    total = rest.values_at("UX", np.array([0, 1])) + push / stiffness * shape
+    np.testing.assert_allclose(total, w.values_at("UX", np.array([0, 1])), rtol=1e-12)
+
+
+def test_pseudo_mode_of_an_earthquake_carries_the_missing_mass():
+    script = TWO_MASSES + (
+        "T = VIBR 'SIMU' 0. 1 K1 M1 ; P = PSMO K1 M1 (T . 'MODES') 'SEISME' 'UX' ;"
+        "S = P . 1 . 'DEPLACEMENT' ; G = K1 * S ;"
+    )
+    table, forces = objects(script, "T", "G")
+    entry = mode(table, 1)
+    kept = entry.get("DEPLACEMENTS_GENERALISES").get(1) ** 2 / entry.get("MASSE_GENERALISEE")
+    total = forces.values_at("FX", np.array([0, 1])).sum()
+    assert total == pytest.approx(-(1.0 - kept), rel=1e-9)
+
+
+def test_pseudo_mode_of_a_moved_support():
+    script = TWO_MASSES + (
+        "BL = BLOQ 'UX' P1 ; KB = K1 ET BL ; T = VIBR 'SIMU' 0. 1 KB M1 ;"
+        "P = PSMO KB (T . 'MODES') 'SEISME' (DEPI BL 0.01) ; S = P . 1 . 'DEPLACEMENT' ;"
+    )
+    # the only mode follows the whole static motion of the free mass
+    rest = objects(script, "S")
+    np.testing.assert_allclose(rest.values_at("UX", np.array([0, 1])), [0.01, 0.0], atol=1e-12)
+
+
+def test_gap_of_two_points_is_closed_not_crossed():
+    script = (
+        "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; P2 = 0. 0.3 ;"
+        "R = RELA 'MINI' 'UY' P2 - 'UY' P1 ;"
+        "K = R ET (BLOQ 'DEPL' P1) ET (APPU 'UX' 'UY' 10. P2) ;"
+        "U1 = RESO K ((JEU R) ET (FORC 'FY' -8. P2)) ;"
+        "U2 = RESO K ((JEU R) ET (FORC 'FY' -2. P2)) ;"
+    )
+    pressed, apart = objects(script, "U1", "U2")
+    assert pressed.values_at("UY", np.array([1]))[0] == pytest.approx(-0.3)
+    assert apart.values_at("UY", np.array([1]))[0] == pytest.approx(-0.2)
+
+
+def test_oscillator_and_spectrum_of_a_script():
+    script = (
+        "T1 = PROG 0. PAS 0.01 1. ; G1 = EVOL 'MANU' 'TEMP' T1 'ACCE' (0. * T1) ;"
+        "X1 = OSCI G1 'AMOR' 0. 'FREQ' 2. 'DEPL' 1. ;"
+        "G2 = EVOL 'MANU' 'TEMP' (PROG 0. 10.) 'ACCE' (PROG 2. 2.) ;"
+        "S1 = SPO G2 'AMOR' (PROG 0. 0.05) 'FREQ' (PROG 4.) 'TEMP' (PROG 0. PAS 0.005 1.) 'ACCE' ;"
+    )
+    free, spectra = objects(script, "X1", "S1")
+    t = free.parts[0].abscissas
+    np.testing.assert_allclose(free.parts[0].ordinates, np.cos(4.0 * np.pi * t), atol=1e-10)
+    # a step: w^2 x peaks at twice the step, at 1 + exp(- pi xi) times with damping
+    peaks = [p.ordinates[0] for p in spectra.parts]
+    np.testing.assert_allclose(peaks, [4.0, 2.0 * (1.0 + np.exp(-0.05 * np.pi))], rtol=3e-3)
+
+
+def test_eigenvalues_of_a_tridiagonal():
+    found = objects("L = VALP (PROG 2. 2. 2.) (PROG 1. 1.) ;", "L")
+    np.testing.assert_allclose(found.values, 2.0 - np.sqrt(2.0) * np.array([1.0, 0.0, -1.0]))
