@@ -72,7 +72,7 @@ def run(steps: int, dt: float, every: int, folder: Path) -> Run:
     seconds = time.perf_counter() - start
     if result.exit_code:
         raise SystemExit(result.message)
-    t, u = (np.asarray(result.session.root.find(n), float) for n in ("LT", "LU"))
+    t, u = (result.session.root.find(n).values for n in ("LT", "LU"))
     return Run(t, u, seconds)
 
 

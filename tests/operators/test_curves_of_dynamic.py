@@ -19,6 +19,6 @@ def test_quantity_of_the_steps_is_drawn_in_time(word, last):
         f"{FREE_MASS} E = EVOL 'TEMP' T2 {word} 'UX' P ; LT = EXTR E 'ABSC' ; LU = EXTR E 'ORDO' ;"
     )
     assert result.exit_code == 0, result.message
-    t, u = (np.asarray(result.session.root.find(n), float) for n in ("LT", "LU"))
+    t, u = (result.session.root.find(n).values for n in ("LT", "LU"))
     assert t == pytest.approx(np.linspace(0.0, 1.0, 11))
     assert u[-1] == pytest.approx(last, rel=1e-8)

@@ -1,0 +1,1 @@
+"""Decks of cases/: they run, agree with the reference solutions, and fail when they should."""

@@ -1,0 +1,39 @@
+"""Runs decks of `cases/`, as they are or changed."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ssilang.cli.run import RunOptions, RunResult, run_file
+
+CASES = Path(__file__).parents[2] / "cases"
+DECKS = sorted(CASES.rglob("*.ssi"))
+
+
+def run_deck(path: Path, out: Path) -> RunResult:
+    """Run a deck, its files going to `out`."""
+    return run_file(path, RunOptions(output_directory=out))
+
+
+def run_changed(path: Path, out: Path, old: str, new: str) -> RunResult:
+    """Run a copy of a deck in which the text `old`, found exactly once, is `new`."""
+    text = path.read_text(encoding="utf-8")
+    assert text.count(old) == 1, f"{old!r} stands {text.count(old)} times in {path.name}"
+    copy = out / path.name
+    copy.write_text(text.replace(old, new), encoding="utf-8")
+    return run_deck(copy, out / "results")
+
+
+def variable(result: RunResult, name: str) -> Any:
+    """An object of the deck."""
+    found = result.session.root.find(name)
+    assert found is not None, f"the deck has no {name}"
+    return found
+
+
+def numbers(result: RunResult, name: str) -> np.ndarray:
+    """A list of reals of the deck."""
+    return np.asarray(variable(result, name).values, dtype=float)

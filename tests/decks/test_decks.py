@@ -1,0 +1,47 @@
+"""Every deck of `cases/` runs and passes; spoilt, it says so and the run fails."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from .running import CASES, DECKS, run_changed, run_deck
+
+# deck, text of the deck, what spoils it: a stiffness, a load, a tolerance
+SPOILT = [
+    ("basics/patch_elements.ssi", "SIG0 = YOU0 * 1.E-3 /", "SIG0 = 1.001 * YOU0 * 1.E-3 /"),
+    ("basics/patch_joint.ssi", "((1. / KN0) +", "((1.001 / KN0) +"),
+    ("basics/cantilever.ssi", "'INRZ' INE0", "'INRZ' (1.001 * INE0)"),
+    ("basics/bar_frequencies.ssi", "'RHO' RHO0", "'RHO' (1.01 * RHO0)"),
+    ("club_cast3m_2014/club_b_sdm.ssi", "'KN' KY0 'KS'", "'KN' (1.02 * KY0) 'KS'"),
+    ("club_cast3m_2014/club_c_sdm.ssi", "'KN' KY0 'KS'", "'KN' (1.02 * KY0) 'KS'"),
+    ("club_cast3m_2014/rocking_two_pairs.ssi", "'KN' K0 'KS'", "'KN' (1.02 * K0) 'KS'"),
+    ("footing/winkler_beam.ssi", "'KN' K0 'KS'", "'KN' (1.02 * K0) 'KS'"),
+    ("footing/flexible_tower.ssi", "'KN' K0 'KS'", "'KN' (1.02 * K0) 'KS'"),
+    ("footing/housner_block.ssi", "'ROTA' J0 PC", "'ROTA' (1.01 * J0) PC"),
+    ("impact/bar_bounce.ssi", "'YOUN' YOU0", "'YOUN' (1.05 * YOU0)"),
+    ("footing/strip_uplift.ssi", "'KN' K0 'KS'", "'KN' (1.02 * K0) 'KS'"),
+]
+
+
+def name_of(deck: Path) -> str:
+    return str(deck.relative_to(CASES))
+
+
+@pytest.mark.parametrize("deck", DECKS, ids=name_of)
+def test_deck_runs_within_its_tolerances(deck: Path, tmp_path: Path):
+    result = run_deck(deck, tmp_path)
+    assert result.exit_code == 0, result.message
+    assert "checks within tolerance" in result.output
+
+
+@pytest.mark.parametrize(("deck", "old", "new"), SPOILT, ids=lambda x: x if "/" in x else "")
+def test_spoilt_deck_fails_on_its_own_checks(deck: str, old: str, new: str, tmp_path: Path):
+    result = run_changed(CASES / deck, tmp_path, old, new)
+    assert result.exit_code == 1
+    assert "out of tolerance" in result.message
+
+
+def test_every_deck_has_a_spoilt_twin():
+    assert {d for d, _, _ in SPOILT} == {name_of(d) for d in DECKS}
