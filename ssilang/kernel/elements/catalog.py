@@ -109,6 +109,10 @@ ELEMENTS: dict[str, ElementKind] = {
         ElementKind(
             "TIMO", "SEG2", "timoshenko", FRAME_MODES, {"RIGIDITE": 1, "MASSE": 2}, default=False
         ),
+        ElementKind("DKT", "TRI3", "plate", _VOLUME, {"RIGIDITE": 3}, default=False),
+        ElementKind(
+            "COQ2", "SEG2", "meridian", SECTION_MODES, {"RIGIDITE": 3, "MASSE": 4}, default=False
+        ),
     )
 }
 

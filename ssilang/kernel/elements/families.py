@@ -16,6 +16,8 @@ from ssilang.kernel.elements.family import (
     element_matrices,
 )
 from ssilang.kernel.elements.hooke import inverted, moduli_from_field
+from ssilang.kernel.elements.meridian_shell import MeridianShell
+from ssilang.kernel.elements.plate import Plate
 from ssilang.kernel.elements.solid import Incompressible, Solid
 from ssilang.kernel.elements.solid_moduli import solid_compliance
 from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
@@ -32,6 +34,8 @@ FAMILIES: dict[str, ElementFamily] = {
     "bar": Bar(),
     "beam": Beam(),
     "timoshenko": Timoshenko(),
+    "plate": Plate(),
+    "meridian": MeridianShell(),
 }
 
 

@@ -94,8 +94,47 @@ def _orthotropic_pair(
     return moduli, back @ local @ np.swapaxes(back, -1, -2)
 
 
+def _axes_or_global(parameters: ZoneField, support: Support) -> FloatArray:
+    return material_axes(parameters, support) if "V1X" in parameters else np.eye(3)[None, None]
+
+
+def _with_compliance(moduli: FloatArray) -> tuple[FloatArray, FloatArray]:
+    return moduli, np.linalg.pinv(moduli).astype(np.float64)
+
+
+def _anisotropic_pair(
+    zone: Zone, parameters: ZoneField, support: Support
+) -> tuple[FloatArray, FloatArray]:
+    """The 21 terms D11 D21 D22 ... in the axes given, the global ones without."""
+    terms = {
+        (i, j): parameters.at(f"D{i + 1}{j + 1}", support, 0.0)
+        for i in range(6)
+        for j in range(i + 1)
+    }
+    shape = np.broadcast_shapes(*(t.shape for t in terms.values()))
+    D = np.zeros((*shape, 6, 6))
+    for (i, j), value in terms.items():
+        D[..., i, j] = D[..., j, i] = value
+    return _with_compliance(rotated_moduli(D, _axes_or_global(parameters, support)))
+
+
+def _unidirectional_pair(
+    zone: Zone, parameters: ZoneField, support: Support
+) -> tuple[FloatArray, FloatArray]:
+    """Stiffness along the first axis only."""
+    young = parameters.at("YOUN", support)
+    D = np.zeros((*young.shape, 6, 6))
+    D[..., 0, 0] = young
+    return _with_compliance(rotated_moduli(D, material_axes(parameters, support)))
+
+
 Pair = Callable[[Zone, ZoneField, Support], tuple[FloatArray, FloatArray]]
-SOLID_LAWS: dict[str, Pair] = {"ISOTROPE": _isotropic_pair, "ORTHOTROPE": _orthotropic_pair}
+SOLID_LAWS: dict[str, Pair] = {
+    "ISOTROPE": _isotropic_pair,
+    "ORTHOTROPE": _orthotropic_pair,
+    "ANISOTROPE": _anisotropic_pair,
+    "UNIDIRECTIONNEL": _unidirectional_pair,
+}
 
 
 def symmetry_of(zone: Zone) -> str:

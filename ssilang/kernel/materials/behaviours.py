@@ -12,8 +12,17 @@ OTHER_FORMULATIONS = (
 )  # fmt: skip
 
 ELASTICITIES: dict[str, tuple[str, ...]] = {
-    "ISOTROPE": ("solid", "incompressible", "bar", "beam", "timoshenko", "joint"),
-    "ORTHOTROPE": ("solid", "incompressible", "joint"),
+    "ISOTROPE": (
+        "solid",
+        "incompressible",
+        "bar",
+        "beam",
+        "timoshenko",
+        "joint",
+        "plate",
+        "meridian",
+    ),
+    "ORTHOTROPE": ("solid", "incompressible", "joint", "plate", "meridian"),
     "ANISOTROPE": ("solid", "incompressible"),
     "UNIDIRECTIONNEL": ("solid", "incompressible"),
 }

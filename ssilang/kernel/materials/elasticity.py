@@ -129,7 +129,8 @@ def reduced_moduli(moduli: FloatArray, mode: Mode) -> FloatArray:
     D = moduli[..., kept, :][..., kept].copy()
     if mode is Mode.PLANE_STRESS:
         column = D[..., :, 2:3].copy()
-        D -= column * D[..., 2:3, :] / D[..., 2:3, 2:3]
+        pivot = np.where(D[..., 2:3, 2:3] == 0, 1.0, D[..., 2:3, 2:3])
+        D -= column * D[..., 2:3, :] / pivot
         D[..., 2, :] = 0
         D[..., :, 2] = 0
     return D

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ssilang.kernel.elements.catalog import ELEMENTS
-from ssilang.kernel.joints.laws import law_of
+from ssilang.kernel.joints.law_table import law_of
 from ssilang.kernel.model import Mode, Zone
 
 THERMAL = ("ALPH", "TREF", "TALP")
@@ -47,6 +47,8 @@ _GEOMETRY: dict[str, Names] = {
     "incompressible": Names((), ("DIM3",)),
     "bar": Names(("SECT",)),
     "joint": Names((), ("DIM3", "EPAI")),
+    "plate": Names(("EPAI",), ("EXCE", "ALFA", "CALF")),
+    "meridian": Names(("EPAI",), ("EXCE", "ALFA", "CALF", "DIM3")),
 }
 _BEAM_PLANE = Names(("SECT", "INRZ"), ("SECY", "SECZ", "INRY", "TORS", "VECT", "DX", "DY", "DZ"))
 _BEAM_SPACE = Names(
@@ -67,7 +69,8 @@ def material_names(zone: Zone) -> Names:
         return Names(law.required, tuple(n for n in dict.fromkeys(taken) if n not in law.required))
     kind = zone.behaviour[1] if len(zone.behaviour) > 1 else "ISOTROPE"
     if kind == "ORTHOTROPE":
-        needed = _ORTHOTROPIC.get(zone.mode, 7)
+        shell = family_name(zone) in ("plate", "meridian")
+        needed = 4 if shell else _ORTHOTROPIC.get(zone.mode, 7)
         rest = ("RHO", *ORTHOTROPIC[needed:], *ORTHOTROPIC_THERMAL, *AXES)
         return Names(ORTHOTROPIC[:needed], rest)
     return _ELASTIC[kind]

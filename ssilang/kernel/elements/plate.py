@@ -1,0 +1,178 @@
+"""DKT: flat triangular thin shell, constant membrane and discrete Kirchhoff bending.
+
+Batoz, Bathe, Ho, "A study of three-node triangular plate bending elements" (1980). Rotations of
+the normal are quadratic; along each side the deflection is cubic and Kirchhoff's condition holds
+at its ends and middle. The element's own frame has x along the side from node 1 to node 2 and z
+along the normal.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ssilang.kernel.elements.catalog import support_rule
+from ssilang.kernel.elements.family import (
+    ElementFamily,
+    Layout,
+    StrainOperator,
+    node_major_layout,
+)
+from ssilang.kernel.elements.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
+from ssilang.kernel.elements.reference import shape_gradients
+from ssilang.kernel.elements.shell_section import section_moduli
+from ssilang.kernel.elements.zone_fields import ZoneField
+from ssilang.kernel.errors import MeshError
+from ssilang.kernel.fields.cell_field import Support
+from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.model import Zone
+
+STRAINS = ("EPSS", "EPTT", "GAST", "RTSS", "RTTT", "RTST")
+STRESSES = ("N11", "N22", "N12", "M11", "M22", "M12")
+DRILLING = 1e-5
+"""Stiffness of the rotation about the normal, relative to the bending stiffness of the section."""
+
+
+def plate_frames(zone: Zone, cells: slice = slice(None)) -> tuple[FloatArray, FloatArray]:
+    """Frames (n, 3, 3), rows being the axes, and coordinates (n, 3, 2) in them.
+
+    Raises
+    ------
+    MeshError
+        If a triangle has no area.
+    """
+    x = zone.cells.nodes.coordinates[zone.cells.connectivity[cells]]
+    first, second = x[:, 1] - x[:, 0], x[:, 2] - x[:, 0]
+    normal = np.cross(first, second)
+    sizes = [np.linalg.norm(v, axis=1, keepdims=True) for v in (first, normal)]
+    if (sizes[1] <= 1e-14 * sizes[0] ** 2).any():
+        raise MeshError("a triangle of a shell has no area", "remove it or merge its nodes")
+    e1, e3 = first / sizes[0], normal / sizes[1]
+    frames = np.stack([e1, np.cross(e3, e1), e3], axis=1)
+    local = np.einsum("cij,ckj->cki", frames[:, :2], x - x[:, :1])
+    return frames, local
+
+
+def _gradients(local: FloatArray, cell_type: str, points: FloatArray) -> FloatArray:
+    """Derivatives (n, p, 2, k) of shape functions on straight triangles."""
+    J = np.stack([local[:, 1] - local[:, 0], local[:, 2] - local[:, 0]], axis=1)
+    reference = shape_gradients(cell_type, points)
+    found: FloatArray = np.einsum("cij,pkj->cpik", np.linalg.inv(J), reference)
+    return found
+
+
+def _rotations(local: FloatArray) -> FloatArray:
+    """Normal's rotations (n, 6 nodes, 2, 9) from w, RX, RY at the corners (own frame)."""
+    n = len(local)
+    T = np.zeros((n, 6, 2, 9))
+    for i in range(3):
+        j = (i + 1) % 3
+        T[:, 2 * i, 0, 3 * i + 2] = 1.0
+        T[:, 2 * i, 1, 3 * i + 1] = -1.0
+        side = local[:, j] - local[:, i]
+        length = np.linalg.norm(side, axis=1)
+        s = side / length[:, None]
+        t = np.stack([-s[:, 1], s[:, 0]], axis=1)
+        middle = T[:, 2 * i + 1]
+        middle[:, :, 3 * i] += 1.5 / length[:, None] * s
+        middle[:, :, 3 * j] -= 1.5 / length[:, None] * s
+        mixed = 0.5 * np.einsum("ca,cb->cab", t, t) - 0.25 * np.einsum("ca,cb->cab", s, s)
+        for node in (i, j):
+            middle[:, :, 3 * node + 2] += mixed[:, :, 0]
+            middle[:, :, 3 * node + 1] -= mixed[:, :, 1]
+    return T
+
+
+class Plate(ElementFamily):
+    """Thin shell made of flat triangles."""
+
+    def layout(self, zone: Zone) -> Layout:
+        """Translations then rotations, node by node."""
+        return node_major_layout(zone, NODE_TRANSLATIONS[zone.mode] + NODE_ROTATIONS[zone.mode])
+
+    def strain_names(self, zone: Zone) -> tuple[str, ...]:
+        """Membrane strains and curvatures in the element's own frame."""
+        return STRAINS
+
+    def stress_names(self, zone: Zone) -> tuple[str, ...]:
+        """Forces and moments per length in the element's own frame."""
+        return STRESSES
+
+    def moduli(self, zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
+        """Membrane and bending moduli."""
+        return section_moduli(zone, parameters, support)
+
+    def strain_operator(
+        self, zone: Zone, parameters: ZoneField, support: Support, cells: slice
+    ) -> StrainOperator:
+        """Membrane strains (constant) and curvatures (linear)."""
+        rule = support_rule(zone.element, support)
+        frames, local = plate_frames(zone, cells)
+        n, p = len(local), len(rule)
+        B = np.zeros((n, 6, p, 18))
+        linear = _gradients(local, "TRI3", rule.points)
+        for node in range(3):
+            B[:, 0, :, 6 * node] = B[:, 2, :, 6 * node + 1] = linear[:, :, 0, node]
+            B[:, 1, :, 6 * node + 1] = B[:, 2, :, 6 * node] = linear[:, :, 1, node]
+        slopes = np.einsum(
+            "cpik,ckjm->cpijm", _gradients(local, "TRI6", rule.points), _rotations(local)
+        )
+        columns = [6 * node + k for node in range(3) for k in (2, 3, 4)]
+        B[:, 3, :, columns] = np.moveaxis(slopes[:, :, 0, 0], -1, 0)
+        B[:, 4, :, columns] = np.moveaxis(slopes[:, :, 1, 1], -1, 0)
+        B[:, 5, :, columns] = np.moveaxis(slopes[:, :, 1, 0] + slopes[:, :, 0, 1], -1, 0)
+        double_area = local[:, 1, 0] * local[:, 2, 1]
+        return StrainOperator(_turn(B, frames), double_area[:, None] * rule.weights)
+
+    def stiffness_values(self, zone: Zone, moduli: FloatArray, parameters: ZoneField) -> FloatArray:
+        """The usual stiffness and a small one about the normal, which the element lacks."""
+        values = super().stiffness_values(zone, moduli, parameters)
+        frames, _ = plate_frames(zone)
+        bending = np.broadcast_to(moduli[:, :, 3, 3].mean(axis=1), (len(frames),))
+        drilling = (
+            DRILLING * bending[:, None, None] * np.einsum("ci,cj->cij", frames[:, 2], frames[:, 2])
+        )
+        for node in range(3):
+            rows = slice(6 * node + 3, 6 * node + 6)
+            values[:, rows, rows] += drilling
+        return values
+
+    def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, Layout]:
+        """Linear interpolation: RHO EPAI of the translations, RHO EPAI^3 / 12 of the rotations."""
+        frames, local = plate_frames(zone)
+        n = len(frames)
+        rho = np.broadcast_to(parameters.at("RHO", "GRAVITE")[:, 0], (n,))
+        h = np.broadcast_to(parameters.at("EPAI", "GRAVITE")[:, 0], (n,))
+        area = 0.5 * local[:, 1, 0] * local[:, 2, 1]
+        pair = (np.ones((3, 3)) + np.eye(3)) / 12
+        tangent = np.einsum("cai,caj->cij", frames[:, :2], frames[:, :2])
+        values = np.zeros((n, 3, 6, 3, 6))
+        scalar = (rho * h * area)[:, None, None] * pair
+        inertia = np.einsum("cab,cij->caibj", scalar * (h**2 / 12)[:, None, None], tangent)
+        for k in range(3):
+            values[:, :, k, :, k] = scalar
+        values[:, :, 3:, :, 3:] = inertia
+        return values.reshape(n, 18, 18), self.layout(zone)
+
+    def geometric_values(self, zone: Zone, stress: FloatArray, parameters: ZoneField) -> FloatArray:
+        """Effect of the membrane forces on linear translations."""
+        rule = support_rule(zone.element, "STRESSES")
+        frames, local = plate_frames(zone)
+        n = len(frames)
+        G = _gradients(local, "TRI3", rule.points)
+        w = local[:, 1, 0] * local[:, 2, 1][:, None] * rule.weights
+        N = np.empty((n, len(rule), 2, 2))
+        N[..., 0, 0], N[..., 1, 1] = stress[:, 0], stress[:, 1]
+        N[..., 0, 1] = N[..., 1, 0] = stress[:, 2]
+        scalar = np.einsum("cp,cpia,cpij,cpjb->cab", w, G, N, G, optimize=True)
+        values = np.zeros((n, 3, 6, 3, 6))
+        for k in range(3):
+            values[:, :, k, :, k] = scalar
+        return values.reshape(n, 18, 18)
+
+
+def _turn(B: FloatArray, frames: FloatArray) -> FloatArray:
+    """Operator on the global unknowns from that on the own ones."""
+    n, s, p, _ = B.shape
+    blocks = B.reshape(n, s, p, 6, 3)
+    turned: FloatArray = np.einsum("cspbi,cij->cspbj", blocks, frames)
+    return turned.reshape(n, s, p, 18)

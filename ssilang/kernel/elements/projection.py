@@ -1,0 +1,68 @@
+"""Fields in cells interpolated on other meshes and models."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ssilang.kernel.elements.frames import points_of
+from ssilang.kernel.errors import FieldError
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
+from ssilang.kernel.fields.node_field import NodeField, NodeValues
+from ssilang.kernel.matrices.location import locate
+from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+from ssilang.kernel.model import Model
+
+
+def _interpolated(
+    field: CellField, x: FloatArray, tolerance: float
+) -> dict[str, tuple[IntArray, FloatArray]]:
+    """For each component the points (m,) inside the field's cells and its values there."""
+    out: dict[str, tuple[IntArray, FloatArray]] = {}
+    seen: dict[str, np.ndarray] = {}
+    for block in field.blocks:
+        found = locate(Mesh(block.cells.nodes, (block.cells,)), x, tolerance)[0]
+        cells, shapes = found
+        for name, values in block.components.items():
+            if values.shape[1] not in (1, block.cells.kind.n_nodes):
+                raise FieldError(
+                    "the field to project must stand at nodes", "CHAN 'NOEUD' model field"
+                )
+            fresh = (cells >= 0) & ~seen.get(name, np.zeros(len(x), bool))
+            rows = np.flatnonzero(fresh)
+            full = np.broadcast_to(values, (len(block.cells), values.shape[1]))[cells[rows]]
+            here = full[:, 0] if values.shape[1] == 1 else np.einsum("nk,nk->n", full, shapes[rows])
+            old_rows, old_values = out.get(name, (np.empty(0, np.int64), np.empty(0)))
+            out[name] = (np.concatenate([old_rows, rows]), np.concatenate([old_values, here]))
+            seen[name] = seen.get(name, np.zeros(len(x), bool)) | fresh
+    return out
+
+
+def on_mesh(field: CellField, mesh: Mesh, tolerance: float) -> NodeField:
+    """Values of a field, given at nodes of its cells, at the nodes of a mesh inside them."""
+    nodes = mesh.sorted_node_ids
+    parts = {}
+    for name, (rows, values) in _interpolated(
+        field, mesh.nodes.coordinates[nodes], tolerance
+    ).items():
+        order = np.argsort(rows)
+        parts[name] = NodeValues(nodes[rows[order]], values[order])
+    return NodeField(mesh.nodes, parts, "DIFFUS")
+
+
+def on_model(field: CellField, model: Model, support: Support, tolerance: float) -> CellField:
+    """Values of a field at the points of a support of a model, zero outside the field's cells."""
+    blocks = []
+    for zone in model.zones:
+        x = points_of(zone, support)
+        n, p, _ = x.shape
+        components = {}
+        for name, (rows, values) in _interpolated(field, x.reshape(-1, 3), tolerance).items():
+            flat = np.zeros(n * p)
+            flat[rows] = values
+            components[name] = flat.reshape(n, p)
+        if components:
+            blocks.append(
+                CellFieldBlock(zone.cells, components, support, zone.element, zone.constituent)
+            )
+    return CellField(tuple(blocks), field.title)

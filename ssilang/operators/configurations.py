@@ -1,0 +1,59 @@
+"""FORM: the coordinates of all nodes, moved by a field and brought back."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ssilang.kernel.fields.deformed import displacements
+from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.language.call import Call
+from ssilang.language.registry import Help, operator
+from ssilang.language.values import register_type
+from ssilang.operators.workspace import workspace
+
+
+@dataclass(frozen=True, eq=False)
+class Configuration:
+    """Coordinates of all nodes at one time (CONFIGURATION), shape (n, 3)."""
+
+    coordinates: FloatArray
+
+
+register_type(Configuration, "CONFIGUR")
+
+
+@operator(
+    "FORM",
+    family="mesh",
+    full_name="FORME",
+    help=Help(
+        en="Moves all nodes: to the coordinates of a configuration if one is given, then by a "
+        "field of displacements if one is given. Gives the configuration that is then in force; "
+        "alone it only gives the present one.",
+        fr="Déplace tous les noeuds : aux coordonnées d'une configuration si elle est donnée, "
+        "puis d'un champ de déplacements s'il est donné. Rend la configuration alors en "
+        "vigueur ; seul, il rend la configuration présente.",
+        syntax="(CONF2 =) FORM (CONF1) (CHPO1) ;",
+        examples=(
+            "OPTI DIME 2 ; P = 1. 0. ; C = FORM ; FORM (MANU 'CHPO' P 'UX' 2.) ; "
+            "LIST (COOR 1 P) ; FORM C ; LIST (COOR 1 P) ;",
+        ),
+    ),
+    reads_itself=True,
+)
+def form(call: Call) -> Configuration:
+    """Move the nodes."""
+    nodes = workspace(call.session).nodes
+    start = call.optional("CONFIGUR")
+    field = call.optional("CHPOINT")
+    start = call.optional("CONFIGUR") if start is None else start
+    if call.read("MMODEL", "MCHAML") is not None:
+        raise call.bad(
+            "the local axes of characteristics are not updated", hint="give new ones with MATE"
+        )
+    if start is not None:
+        nodes.coordinates[: len(start.coordinates)] = start.coordinates
+    if field is not None:
+        ids = field.node_ids
+        nodes.coordinates[ids] += displacements(nodes, field)[ids]
+    return Configuration(nodes.coordinates.copy())

@@ -1,0 +1,176 @@
+"""Shells against plate theory, cylinders and rings."""
+
+import numpy as np
+import pytest
+
+from ssilang.kernel.elements import families
+from ssilang.kernel.elements.family import Layout
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.matrices.assembly import (
+    assemble,
+    field_to_vector,
+    numbering_of,
+    vector_to_field,
+)
+from ssilang.kernel.matrices.matrix import Matrix
+from ssilang.kernel.mesh.mesh import CellBlock
+from ssilang.kernel.mesh.nodes import NodeTable
+from ssilang.kernel.model import Mode, Zone
+from tests.kernel.elements.samples import ELASTIC, field, line_zone, material
+
+E, NU, H, RHO = 2.0e11, 0.3, 0.01, 7800.0
+PLATE = {"YOUN": E, "NU": NU, "EPAI": H, "RHO": RHO}
+D = E * H**3 / 12 / (1 - NU**2)
+
+
+def plate(nx, ny, a, b, turn=None, behaviour=ELASTIC):
+    """Triangles on a rectangle a x b, rotated by `turn` (3, 3)."""
+    table = NodeTable()
+    X, Y = np.meshgrid(np.linspace(0, a, nx + 1), np.linspace(0, b, ny + 1), indexing="ij")
+    x = np.column_stack([X.ravel(), Y.ravel(), 0 * X.ravel()])
+    ids = table.add(x if turn is None else x @ turn.T).reshape(nx + 1, ny + 1)
+    p, q, r, s = (part.ravel() for part in (ids[:-1, :-1], ids[1:, :-1], ids[1:, 1:], ids[:-1, 1:]))
+    cells = np.concatenate([np.column_stack([p, q, r]), np.column_stack([p, r, s])])
+    block = CellBlock.make(table, "TRI3", cells)
+    return Zone(block, "MECANIQUE", behaviour, "DKT", Mode.THREE_DIMENSIONAL), x
+
+
+def rotation():
+    """A rotation of space."""
+    q, _ = np.linalg.qr(np.random.default_rng(3).normal(size=(3, 3)))
+    return q * np.sign(np.linalg.det(q))
+
+
+def solved(zone, mat, fixed, load):
+    K = Matrix(zone.cells.nodes, (families.stiffness(zone, mat),))
+    numbering = numbering_of(K)
+    free = ~fixed(numbering)
+    A = assemble(K, numbering).toarray()
+    u = np.zeros(numbering.size)
+    u[free] = np.linalg.solve(A[np.ix_(free, free)], field_to_vector(load, numbering)[free])
+    return vector_to_field(u, numbering)
+
+
+def test_plate_bent_to_a_quadratic_surface_has_the_exact_moments():
+    zone, _ = plate(2, 2, 1.0, 0.7)
+    kx, ky, kxy = 1e-3, -5e-4, 3e-4
+    u = field(
+        zone,
+        UZ=lambda x: -kx * x[:, 0] ** 2 / 2 - ky * x[:, 1] ** 2 / 2 - kxy * x[:, 0] * x[:, 1] / 2,
+        RX=lambda x: -ky * x[:, 1] - kxy * x[:, 0] / 2,
+        RY=lambda x: kx * x[:, 0] + kxy * x[:, 1] / 2,
+    )
+    lower = slice(0, 4)  # first triangles: the own x is the global x
+    strain = families.strain(zone, u)
+    for name, value in {"RTSS": kx, "RTTT": ky, "RTST": kxy}.items():
+        np.testing.assert_allclose(strain.components[name][lower], value, rtol=1e-9)
+    stress = families.stress(zone, material(zone, **PLATE), u)
+    np.testing.assert_allclose(stress.components["M11"][lower], D * (kx + NU * ky), rtol=1e-9)
+
+
+def test_rigid_motions_of_a_shell_cost_next_to_no_energy():
+    zone, _ = plate(1, 1, 1.0, 0.7, rotation())
+    block = families.stiffness(zone, material(zone, **PLATE))
+    layout = Layout(block.table, block.raw_nodes, block.local, block.unknowns)
+    w = np.array([0.3, -0.2, 0.5])
+    turn = {
+        **{n: (lambda x, i=i: np.cross(w, x)[:, i]) for i, n in enumerate(("UX", "UY", "UZ"))},
+        **{n: (lambda x, i=i: w[i]) for i, n in enumerate(("RX", "RY", "RZ"))},
+    }
+    v = layout.gather(field(zone, **turn))
+    energy = np.einsum("ci,cij,cj->c", v, block.values, v)
+    assert energy.max() < 1e-4 * D  # the rotation about the normal has its small stiffness
+    forces = np.einsum("cij,cj->ci", block.values, v).reshape(-1, 3, 6)[..., :3]
+    assert np.abs(forces).max() < 1e-9 * np.abs(block.values).max()
+
+
+def test_clamped_square_plate_deflects_as_timoshenko_says():
+    n, a = 12, 1.0
+    zone, x = plate(n, n, a, a)
+    edge = np.flatnonzero((np.abs(x[:, :2] - a / 2) > a / 2 - 1e-9).any(axis=1))
+    centre = int(np.argmin(np.linalg.norm(x - [a / 2, a / 2, 0], axis=1)))
+    load = NodeField.of(zone.cells.nodes, np.array([centre]), {"FZ": np.array([1.0])}, "DISCRET")
+    u = solved(zone, material(zone, **PLATE), lambda m: np.isin(m.nodes, edge), load)
+    deflection = u.values_at("UZ", np.array([centre]))[0]
+    assert deflection == pytest.approx(0.00560 * a**2 / D, rel=0.03)
+
+
+def test_orthotropic_plate_is_stiff_along_its_first_axis():
+    orthotropic = ("ELASTIQUE", "ORTHOTROPE")
+    ends = []
+    for c, s in ((1.0, 0.0), (0.0, 1.0)):
+        zone, x = plate(8, 1, 1.0, 0.1, behaviour=orthotropic)
+        # the own frame of the second triangles of a cell starts along the diagonal
+        frames = np.array([np.diff(t[:2], axis=0)[0, :2] for t in zone.cells.coordinates])
+        e = frames / np.linalg.norm(frames, axis=1, keepdims=True)
+        mat = material(zone, YG1=E, YG2=E / 10, NU12=0.0, G12=E / 4, EPAI=H, V1X=0, V1Y=0)
+        mat.blocks[0].components["V1X"][:, 0] = c * e[:, 0] + s * e[:, 1]
+        mat.blocks[0].components["V1Y"][:, 0] = -c * e[:, 1] + s * e[:, 0]
+        tip = np.flatnonzero(x[:, 0] > 1 - 1e-9)
+        load = NodeField.of(zone.cells.nodes, tip, {"FZ": np.full(2, 0.5)}, "DISCRET")
+        u = solved(zone, mat, lambda m, x=x: np.isin(m.nodes, np.flatnonzero(x[:, 0] < 1e-9)), load)
+        ends.append(u.values_at("UZ", tip).mean())
+    assert ends[0] == pytest.approx(1 / (3 * E * 0.1 * H**3 / 12), rel=0.02)
+    assert ends[1] == pytest.approx(10 * ends[0], rel=0.02)
+
+
+def test_shell_mass_is_its_matter():
+    zone, _ = plate(2, 3, 1.0, 0.7, rotation())
+    block = families.mass(zone, material(zone, **PLATE))
+    rows = [i for i, u in enumerate(block.unknowns) if u == "UY"]
+    assert block.values[:, rows][:, :, rows].sum() == pytest.approx(RHO * H * 0.7)
+
+
+def test_long_cylinder_under_pressure_and_clamped_at_one_end():
+    R, L, p = 1.0, 2.0, 1e5
+    z = np.linspace(0, L, 81)
+    zone = line_zone("COQ2", np.column_stack([R + 0 * z, z]), Mode.AXISYMMETRIC)
+    mat = material(zone, **PLATE)
+    nodes = np.arange(81)
+    length = np.full(81, L / 80)
+    length[[0, -1]] /= 2
+    load = NodeField.of(zone.cells.nodes, nodes, {"FR": 2 * np.pi * R * p * length}, "DISCRET")
+    u = solved(zone, mat, lambda m: m.nodes == 0, load)
+    free = p * R**2 / (E * H)
+    assert u.values_at("UR", nodes[60:61])[0] == pytest.approx(free, rel=1e-4)
+    beta = (3 * (1 - NU**2)) ** 0.25 / np.sqrt(R * H)
+    stress = families.stress(zone, mat, u)
+    clamped = stress.components["M11"][0, 0]
+    at = (1 - np.sqrt(3 / 5)) / 2 * L / 80
+    moment = -np.exp(-beta * at) * (np.cos(beta * at) - np.sin(beta * at)) * p / (2 * beta**2)
+    assert abs(clamped) == pytest.approx(abs(moment), rel=0.02)
+    np.testing.assert_allclose(stress.components["N22"][60], p * R, rtol=1e-3)
+
+
+def test_ring_buckles_at_n_squared_d_over_r_cubed_under_dead_pressure():
+    R, n, young = 1000.0, 2, 20000.0
+    z = np.linspace(0, 100, 5)
+    zone = line_zone("COQ2", np.column_stack([R + 0 * z, z]), Mode.FOURIER)
+    zone.options["harmonic"] = n
+    mat = material(zone, YOUN=young, NU=0.0, EPAI=1.0)
+    K = Matrix(zone.cells.nodes, (families.stiffness(zone, mat),))
+    hoop = CellField((material(zone, N22=R).blocks[0],))
+    G = Matrix(zone.cells.nodes, (families.geometric_stiffness(zone, hoop),))
+    numbering = numbering_of(K, G)
+    ends = np.isin(numbering.nodes, [0, 4])
+    axial = np.array([numbering.label(i)[:2] in ("UZ", "RT") for i in range(numbering.size)])
+    free = ~(ends & axial)
+    k, g = (assemble(m, numbering).toarray()[np.ix_(free, free)] for m in (K, G))
+    load = 1 / np.linalg.eigvals(np.linalg.solve(k, g)).real.max()
+    assert load == pytest.approx(n**2 * young / 12 / R**3, rel=1e-5)
+
+
+def test_strip_in_plane_stress_is_a_beam():
+    zone = line_zone("COQ2", [(0, 0), (0.6, 0.8)], Mode.PLANE_STRESS)
+    mat = material(zone, YOUN=E, NU=NU, EPAI=H, DIM3=0.2)
+    load = NodeField.of(
+        zone.cells.nodes,
+        np.array([1]),
+        {"FX": np.array([-0.8]), "FY": np.array([0.6])},
+        "DISCRET",
+    )
+    u = solved(zone, mat, lambda m: m.nodes == 0, load)
+    tip = np.array([1])
+    across = -0.8 * u.values_at("UX", tip) + 0.6 * u.values_at("UY", tip)
+    assert across[0] == pytest.approx(1 / (3 * E * 0.2 * H**3 / 12), rel=1e-9)
