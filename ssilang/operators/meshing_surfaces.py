@@ -16,12 +16,14 @@ from ssilang.kernel.mesh.charts import (
 )
 from ssilang.kernel.mesh.combine import union
 from ssilang.kernel.mesh.grid import grid_surface, matching_sides, sides_in_order
-from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.mesh.split import split_quadrangles
+from ssilang.kernel.mesh.stitch import cone, stitch
 from ssilang.kernel.mesh.surface import contour_chart_data, fill_surface
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, arg, operator, opt
+from ssilang.language.session import Session
 from ssilang.operators.meshing_ends import chosen_family
 from ssilang.operators.workspace import workspace
 
@@ -66,10 +68,11 @@ def _curved_chart(call: Call, word: str, boundary: FloatArray) -> Chart:
 def surf(call: Call) -> Mesh:
     """Mesh the inside of a contour."""
     field: NodeField | None = call.optional("CHPOINT")
-    contour: Mesh = call.required("MAILLAGE")
+    contour: Mesh | None = call.optional("MAILLAGE")
     field = field or call.optional("CHPOINT")
-    boundary, segments = contour_chart_data(contour)
     word = call.keyword(_SHAPES)
+    contour = contour or call.required("MAILLAGE")
+    boundary, segments = contour_chart_data(contour)
     if word is None or word == "PLANE":
         criterion = call.optional("FLOTTANT")
         chart = plane_chart(boundary, segments, 1e-3 if criterion is None else abs(criterion))
@@ -111,9 +114,10 @@ def _wanted_sizes(field: NodeField | None) -> tuple[FloatArray, FloatArray] | No
 def dall(call: Call) -> Mesh:
     """Make a grid on four sides."""
     ws = workspace(call.session)
-    sides: list[Any] = [call.required("MAILLAGE") for _ in range(4)]
-    ordered = sides_in_order(sides)
+    sides: list[Mesh] = call.all("MAILLAGE")
     word = call.keyword((*_SHAPES, "QUELCONQUE"))
+    sides += [call.required("MAILLAGE") for _ in range(4 - len(sides))]
+    ordered = sides_in_order(sides)
     chart = None
     if word in _CHARTS:
         boundary, _ = contour_chart_data(union(*ordered, as_given=True))
@@ -127,6 +131,33 @@ def dall(call: Call) -> Mesh:
         chart = plane_chart(*contour_chart_data(contour))
     made = fill_surface(contour, chart, surface, ws.colour)
     return Mesh(made.nodes, made.blocks, ordered)
+
+
+@operator(
+    "COUT",
+    arg("first", "MAILLAGE"),
+    arg("second", "MAILLAGE", "POINT"),
+    family="mesh",
+    full_name="COUTURE",
+    help=Help(
+        en="Triangles between two lines described in the same sense, whatever their numbers of "
+        "cells; or the cells of a mesh joined to a point (POI1 give SEG2, SEG2 TRI3, TRI3 TET4, "
+        "QUA4 PYR5), those that hold the point being left out.",
+        fr="Triangles entre deux lignes décrites dans le même sens, quels que soient leurs nombres "
+        "d'éléments ; ou éléments d'un maillage joints à un point (POI1 donnent SEG2, SEG2 TRI3, "
+        "TRI3 TET4, QUA4 PYR5), sauf ceux qui touchent le point.",
+        syntax="SURF1 = COUT LIG1 LIG2 ;\nMAIL2 = COUT MAIL1 POIN1 ;",
+        examples=(
+            "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; M = DROI 2 (0. 1.) (1. 1.) ;"
+            " LIST (NBEL (COUT L M)) ;",
+        ),
+    ),
+)
+def cout(session: Session, first: Mesh, second: Mesh | Point) -> Mesh:
+    """Stitch lines together, or join cells to a point."""
+    if isinstance(second, Point):
+        return cone(first, second.node)
+    return stitch(first, second, workspace(session).colour)
 
 
 @operator(

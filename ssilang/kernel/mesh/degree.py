@@ -27,8 +27,14 @@ def linear(mesh: Mesh) -> Mesh:
     return union(*parts, as_given=True) if parts else mesh
 
 
-def quadratic(mesh: Mesh) -> Mesh:
-    """Each linear cell replaced by the quadratic one; an edge gets one new node in its middle.
+def quadratic(mesh: Mesh, lines: Mesh | None = None) -> Mesh:
+    """Each linear cell replaced by the quadratic one; an edge gets one node in its middle.
+
+    Parameters
+    ----------
+    lines : Mesh or None
+        SEG3 (or TRI6, QUA8 by their sides) whose middles are used where their edges are met;
+        other middles are new nodes.
 
     Raises
     ------
@@ -43,9 +49,7 @@ def quadratic(mesh: Mesh) -> Mesh:
         return mesh
     pairs = np.concatenate([_edge_pairs(b).reshape(-1, 2) for b in todo])
     edges, which = np.unique(np.sort(pairs, axis=1), axis=0, return_inverse=True)
-    xyz, size = mesh.nodes.coordinates, mesh.nodes.density
-    made = mesh.nodes.add(xyz[edges].mean(axis=1), size[edges].mean(axis=1))
-    middles = made[which.ravel()]
+    middles = _middles(mesh, edges, lines)[which.ravel()]
     blocks, start = [], 0
     for block in mesh.blocks:
         if not any(block is b for b in todo):
@@ -57,6 +61,36 @@ def quadratic(mesh: Mesh) -> Mesh:
         start += count * len(block)
         blocks.append(_with_middles(block, name, part))
     return union(*(Mesh(mesh.nodes, (b,)) for b in blocks), as_given=True)
+
+
+def _middles(mesh: Mesh, edges: IntArray, lines: Mesh | None) -> IntArray:
+    """Middle nodes (e,) of edges (e, 2): those of `lines`, or new ones."""
+    nodes = mesh.nodes
+    middle = np.full(len(edges), -1, dtype=np.int64)
+    if lines is not None:
+        known = _known_middles(lines)
+        size = int(max(edges.max(), known[:, :2].max(initial=0))) + 1
+        code, wanted = known[:, :2] @ [size, 1], edges @ [size, 1]
+        order = np.argsort(code)
+        place = np.minimum(np.searchsorted(code[order], wanted), len(code) - 1)
+        met = code[order][place] == wanted
+        middle[met] = known[order, 2][place[met]]
+    fresh = edges[middle < 0]
+    middle[middle < 0] = nodes.add(
+        nodes.coordinates[fresh].mean(axis=1), nodes.density[fresh].mean(axis=1)
+    )
+    return middle
+
+
+def _known_middles(lines: Mesh) -> IntArray:
+    """Rows (ends in increasing order, middle) of the edges of quadratic cells."""
+    parts = [np.empty((0, 3), dtype=np.int64)]
+    for block in lines.blocks:
+        if block.kind.degree == 2 and not block.kind.joint:
+            for m, a, b in middle_places(block.cell_type):
+                ends = np.sort(block.connectivity[:, [a, b]], axis=1)
+                parts.append(np.column_stack([ends, block.connectivity[:, m]]))
+    return np.concatenate(parts)
 
 
 def _linear_block(block: CellBlock) -> CellBlock:

@@ -6,9 +6,10 @@ import numpy as np
 
 from ssilang.kernel.errors import MeshError
 from ssilang.kernel.mesh.charts import Chart
+from ssilang.kernel.mesh.degree import quadratic
 from ssilang.kernel.mesh.fill import SizeField, boundary_sizes, fill_contour, sides_of, smooth
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray, NodeTable
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.mesh.recombine import pair_triangles
 
 
@@ -93,11 +94,15 @@ def fill_surface(
     made = nodes.add(chart.lift(new), _sizes_at(points, polygons, len(flat)))
     table = np.concatenate([ids, made])
     tables = [table[p] for p in polygons if len(p)]
-    if cells.shape[1] == 3:
-        tables = _with_middles(nodes, chart, cells, tables)
-    names = {3: "TRI3", 4: "QUA4", 6: "TRI6", 8: "QUA8"}
+    names = {3: "TRI3", 4: "QUA4"}
     blocks = tuple(CellBlock.make(nodes, names[t.shape[1]], t, colour) for t in tables)
-    return Mesh(nodes, blocks, (contour,))
+    mesh = Mesh(nodes, blocks)
+    if cells.shape[1] == 3:
+        before = len(nodes)
+        mesh = quadratic(mesh, contour)
+        fresh = nodes.coordinates[before:]
+        fresh[:] = chart.lift(chart.flatten(fresh.copy()))
+    return Mesh(nodes, mesh.blocks, (contour,))
 
 
 def _signed_area(points: FloatArray, segments: IntArray) -> float:
@@ -109,32 +114,3 @@ def _sizes_at(points: FloatArray, polygons: list[IntArray], fixed: int) -> Float
     """Mean length of the sides at each point after the first `fixed`."""
     links = np.unique(np.vstack([sides_of(p) for p in polygons if len(p)]), axis=0)
     return boundary_sizes(points, links)[fixed:]
-
-
-def _with_middles(
-    nodes: NodeTable, chart: Chart, contour: IntArray, tables: list[IntArray]
-) -> list[IntArray]:
-    """Quadratic polygons: the contour's own middles, new ones on the chart inside."""
-    links = np.unique(np.vstack([sides_of(t) for t in tables]), axis=0)
-    known = np.sort(contour[:, [0, -1]], axis=1)
-    size = int(links.max()) + 1
-    order = np.argsort(known @ [size, 1])
-    code, wanted = (known @ [size, 1])[order], np.asarray(links @ [size, 1], dtype=np.int64)
-    place = np.minimum(np.searchsorted(code, wanted), len(code) - 1)
-    on_contour = code[place] == wanted
-    middle = np.empty(len(links), dtype=np.int64)
-    middle[on_contour] = contour[order, 1][place[on_contour]]
-    inner = links[~on_contour]
-    flat = chart.flatten(nodes.coordinates[inner.ravel()].copy()).reshape(-1, 2, 2)
-    density = nodes.density[inner].mean(axis=1)
-    middle[~on_contour] = nodes.add(chart.lift(flat.mean(axis=1)), density)
-    return [_quadratic(t, wanted, middle, size) for t in tables]
-
-
-def _quadratic(table: IntArray, links: IntArray, middle: IntArray, size: int) -> IntArray:
-    k = table.shape[1]
-    columns = []
-    for i in range(k):
-        pair = np.sort(table[:, [i, (i + 1) % k]], axis=1)
-        columns += [table[:, i], middle[np.searchsorted(links, pair @ [size, 1])]]
-    return np.column_stack(columns)

@@ -75,7 +75,7 @@ def _filled(
         shells = Mesh.of(nodes, "PYR5", np.column_stack([quads, tips]), colour)
         return union(volume, shells, as_given=True)
     if any(b.cell_type == "TRI6" for b in skin.blocks):
-        return _on_skin_middles(skin, quadratic(volume))
+        return quadratic(volume, skin)
     return volume
 
 
@@ -101,24 +101,3 @@ def _apexes(
     # apexes in one plane on one circle would give tetrahedra without volume between them
     disorder = np.random.default_rng(1).uniform(-0.03, 0.03, centre.shape) * side
     return turned, centre + sign * height * side * normal + disorder
-
-
-def _on_skin_middles(skin: Mesh, volume: Mesh) -> Mesh:
-    """TE10 that use the middle nodes of the skin's TRI6 on its edges."""
-    pairs, middles = [], []
-    for block in skin.blocks:
-        table = block.connectivity
-        for a, m, b in ((0, 1, 2), (2, 3, 4), (4, 5, 0)):
-            pairs.append(np.sort(table[:, [a, b]], axis=1))
-            middles.append(table[:, m])
-    known, own = np.concatenate(pairs), np.concatenate(middles)
-    table = volume.single_block().connectivity.copy()
-    size = int(max(known.max(), table.max())) + 1
-    code = known @ [size, 1]
-    order = np.argsort(code)
-    for a, m, b in ((0, 1, 2), (2, 3, 4), (4, 5, 0), (0, 6, 9), (2, 7, 9), (4, 8, 9)):
-        wanted = np.sort(table[:, [a, b]], axis=1) @ [size, 1]
-        place = np.minimum(np.searchsorted(code[order], wanted), len(code) - 1)
-        hit = code[order][place] == wanted
-        table[hit, m] = own[order][place[hit]]
-    return Mesh.of(volume.nodes, "TE10", table, volume.blocks[0].colours)

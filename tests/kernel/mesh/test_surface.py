@@ -32,7 +32,7 @@ def square(nodes: NodeTable, side: float, cuts: int, quadratic: bool = False) ->
 def circle(nodes: NodeTable, centre: tuple[float, float, float], radius: float, cuts: int) -> Mesh:
     """Closed circle of SEG2 in the plane z of its centre, anticlockwise."""
     middle = np.array(centre)
-    start = int(nodes.add((middle + [radius, 0, 0])[None])[0])
+    start = int(nodes.add((middle + np.array([radius, 0, 0]))[None])[0])
     arc = arc_about_axis(nodes.coordinates[start].copy(), middle, np.array([0.0, 0, 1]), 2 * np.pi)
     return mesh_curve(nodes, arc, start, start, subdivide(arc.length, count=cuts))
 
