@@ -74,7 +74,7 @@ class Session:
         from ssilang.language.evaluator import Evaluator
 
         self.root = Frame()
-        for name, value in _PREDEFINED.items():
+        for name, value in PREDEFINED.items():
             self.root.assign(name, value)
         self.frame = self.root
         self.library = Library(self)
@@ -88,7 +88,10 @@ class Session:
         """Report a warning: kept for the summary, shown by the renderer that listens."""
         from ssilang.language.errors import SsiError
 
-        warning = SsiError(code, span or self.evaluator.current_span, **data)
+        self.report(SsiError(code, span or self.evaluator.current_span, **data))
+
+    def report(self, warning: Any) -> None:
+        """Keep a warning, or an error that does not stop the run, and show it."""
         self.warnings.append(warning)
         if self.on_warning is not None:
             self.on_warning(warning)
@@ -96,7 +99,7 @@ class Session:
     on_warning: Callable[[Any], object] | None = None
 
 
-_PREDEFINED: dict[str, Any] = {
+PREDEFINED: dict[str, Any] = {
     "VRAI": True,
     "FAUX": False,
     "PI": 3.141592653589793,

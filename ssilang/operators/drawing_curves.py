@@ -11,7 +11,7 @@ from ssilang.kernel.curve import Curve
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
 from ssilang.language.values import Table
-from ssilang.operators.pictures import picture_formats, picture_name, save_picture
+from ssilang.operators.pictures import picture_formats, picture_name, refuse_rest, save_picture
 from ssilang.operators.workspace import workspace
 
 Option = Callable[[Call, dict[str, Any]], None]
@@ -146,6 +146,7 @@ def dess(call: Call) -> None:
             curve = Curve(curve.parts + operand.value.parts, curve.title, curve.kind)
     if curve is None:
         raise call.missing(("EVOLUTIO",))
+    refuse_rest(call, _OPTIONS)
     if table is not None:
         found |= _styles(call, table)
     # the title of the evolution, else the one in force

@@ -23,7 +23,7 @@ from ssilang.language.call import Call, Operand
 from ssilang.language.registry import Help, operator
 from ssilang.language.session import Session
 from ssilang.language.values import type_of
-from ssilang.operators.pictures import picture_formats, picture_name, save_picture
+from ssilang.operators.pictures import picture_formats, picture_name, refuse_rest, save_picture
 from ssilang.operators.workspace import workspace
 
 
@@ -199,6 +199,7 @@ def trac(call: Call) -> None:
             break
         _OBJECTS[type_of(operand.value)](said, operand.value)
         _keep_name(said, operand)
+    refuse_rest(call, _OPTIONS)
     _draw(call, session, said)
 
 

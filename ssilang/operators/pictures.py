@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ssilang.language.call import Call
+from ssilang.language.diagnostics import nearest
 from ssilang.language.session import Session
+from ssilang.language.values import type_of
 from ssilang.operators.files import run_output
 from ssilang.operators.workspace import workspace
 
@@ -32,3 +36,16 @@ def save_picture(session: Session, figure: Figure, name: str, formats: tuple[str
     """Write a figure under the next number."""
     output = run_output(session)
     output.wrote(*output.pictures.save(figure, name, formats))
+
+
+def refuse_rest(call: Call, words: Iterable[str]) -> None:
+    """Refuse what a drawing statement has not read, before anything is drawn."""
+    if not call.operands:
+        return
+    left = call.operands[0]
+    call.used.append(left)
+    if isinstance(left.value, str):
+        near = nearest(str(left.value), words)
+        hint = f"did you mean {near}?" if near else "its words are " + " ".join(words)
+        raise call.bad(f"{call.name} does not know the word '{left.value}'", left.value, hint)
+    raise call.bad(f"{call.name} has no use for this {type_of(left.value)}", left.value)

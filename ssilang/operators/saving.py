@@ -12,6 +12,7 @@ from ssilang.kernel.model import Mode
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
 from ssilang.language.scopes import Frame
+from ssilang.language.session import PREDEFINED
 from ssilang.language.source import Source
 from ssilang.language.structure import parse
 from ssilang.language.tree import Definition
@@ -156,7 +157,8 @@ def sauv(call: Call) -> None:
 
 def _own_names(frame: Frame) -> set[str]:
     """Names that the script has given; those that every session has and loops' counters not."""
-    return {n for n in frame.names() if n not in ("VRAI", "FAUX", "PI", "D", "C") and n[0] != "&"}
+    given = {n for n in frame.names() if n[0] != "&"}
+    return {n for n in given if n not in PREDEFINED or frame.find(n) is not PREDEFINED[n]}
 
 
 def _record(begun: _Begun, frame: Frame, operands: list[tuple[str, Any]], label: str) -> Record:

@@ -109,7 +109,9 @@ def _writer(output: RunOutput, path: Path, said: _Said, parts: tuple[str, ...]) 
 def _read(call: Call) -> _Said:
     said = _Said()
     while True:
-        word = call.keyword(_WORDS)
+        # a word behind an object is looked at as its name first
+        first = call.operands[0].value if call.operands else None
+        word = call.keyword(_WORDS) if isinstance(first, str) else None
         if word in _ENCODINGS:
             said.encoding = Encoding(word)
         elif word in _LISTS:
@@ -125,7 +127,8 @@ def _read(call: Call) -> _Said:
             for index, value in operand.value.items():
                 said.add(value, _index_name(index))
         else:
-            said.add(operand.value, _given_name(call) or operand.name)
+            usual = "" if isinstance(operand.value, Mesh) else operand.name
+            said.add(operand.value, _given_name(call) or usual)
 
 
 def _given_name(call: Call) -> str:

@@ -1,0 +1,80 @@
+"""DESS: what a statement makes of its words and table."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+
+from ssilang.cli.run import RunResult, run_text
+
+CURVES = (
+    "E1 = EVOL 'BLEU' 'MANU' 't (s)' (PROG 0. 1. 2.) 'u' (PROG 0. 3. 1.) ; "
+    "E2 = EVOL 'ROUG' 'MANU' 't (s)' (PROG 0. 1. 2.) 'v' (PROG 1. 1. 4.) ; E = E1 ET E2 ; "
+)
+
+
+def run(text: str, folder: Path) -> RunResult:
+    result = run_text(CURVES + text, folder)
+    assert result.exit_code == 0, result.message
+    return result
+
+
+def words(folder: Path, number: int = 1) -> list[str]:
+    (path,) = folder.glob(f"{number:04d}_*.svg")
+    root = ElementTree.parse(path).getroot()
+    return [t.text or "" for t in root.iter("{http://www.w3.org/2000/svg}text")]
+
+
+def test_a_curve_is_drawn_as_png_and_svg_under_its_name(tmp_path: Path) -> None:
+    run("DESS E1 ; DESS E 'TITR' 'Both' ;", tmp_path)
+    names = sorted(p.name for p in tmp_path.iterdir())
+    assert names == ["0001_e1.png", "0001_e1.svg", "0002_both.png", "0002_both.svg"]
+    assert (tmp_path / "0001_e1.png").read_bytes()[:4] == b"\x89PNG"
+    assert {"t (s)", "u"} <= set(words(tmp_path))
+
+
+def test_options_stand_in_any_order(tmp_path: Path) -> None:
+    run("DESS 'XBOR' 0. 5. 'TITX' 'abscissa' E 'GRIL' 'POIN' 'GRIS' 'MIMA' 'TITY' 'y' ;", tmp_path)
+    assert {"abscissa", "y", "min 0    max 4"} <= set(words(tmp_path))
+
+
+def test_the_title_in_force_is_used(tmp_path: Path) -> None:
+    run("TITR 'case 1' ; DESS E1 ; DESS E1 'TITR' 'other' ;", tmp_path)
+    assert "case 1" in words(tmp_path, 1)
+    assert "case 1" not in words(tmp_path, 2)
+
+
+def test_legends_of_the_table(tmp_path: Path) -> None:
+    script = (
+        "T = TABL ; T . 1 = 'TIRR MARQ CROI' ; T . 'TITRE' = TABL ; "
+        "T . 'TITRE' . 1 = MOT 'first' ; T . 'TITRE' . 2 = MOT 'second' ; "
+        "DESS E T 'LEGE' 'SE' ; DESS E 'LEGE' T 'CHOI' 2 ;"
+    )
+    run(script, tmp_path)
+    assert {"first", "second"} <= set(words(tmp_path, 1))
+    assert "first" not in words(tmp_path, 2)
+
+
+def test_only_one_format_on_demand_named_after_the_file(tmp_path: Path) -> None:
+    run("OPTI 'TRAC' 'SVG' 'FTRA' 'out/fig.ps' ; DESS E ; DESS E ;", tmp_path)
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["0001_fig.svg", "0002_fig.svg"]
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("DESS 3 ;", "EVOLUTIO"),
+        ("DESS E 'XBOR' 2. 2. ;", "both 2"),
+        ("DESS E 'CHOI' 7 ;", "curve 7 is asked for"),
+        ("T = TABL ; T . 1 = 'MARQ BALL' ; DESS E T ;", "'BALL' is no marker"),
+        ("T = TABL ; T . 'INITIAL' = TABL ; T . 'INITIAL' . 1 = 1.5 ; DESS E T ;", "whole numbers"),
+        ("DESS E 'XFMT' '(Q3)' ;", "no number format"),
+    ],
+)
+def test_what_is_wrong_is_said_and_nothing_written(text: str, said: str, tmp_path: Path) -> None:
+    result = run_text(CURVES + text, tmp_path)
+    assert result.exit_code == 1
+    assert said in result.message
+    assert list(tmp_path.iterdir()) == []

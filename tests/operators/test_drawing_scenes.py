@@ -1,0 +1,129 @@
+"""TRAC, DEFO, VECT, ANNO: what statements draw."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from ssilang.cli.run import RunResult, run_text
+from ssilang.kernel.fields.deformed import Arrows, Deformed
+
+PLATE = (
+    "OPTI DIME 2 ELEM QUA4 MODE PLAN DEFO ; L = DROI 4 (0. 0.) (2. 0.) ; S = TRAN L 2 (0. 1.) ; "
+    "X = COOR 1 S ; U = (NOMC 'UX' (0.01 * X)) ET (NOMC 'UY' (-0.02 * X)) ; "
+    "MO = MODE S 'MECANIQUE' 'ELASTIQUE' ; MA = MATE MO 'YOUN' 1.E9 'NU' 0.3 ; "
+    "SG = SIGM MO MA U ; "
+)
+
+
+def run(text: str, folder: Path | None = None) -> RunResult:
+    result = run_text(PLATE + text, folder)
+    assert result.exit_code == 0, result.message
+    return result
+
+
+STATEMENTS = [
+    "TRAC S ;",
+    "TRAC 'NOEU' 'ELEM' 'QUAL' S 'TITR' 'numbers' ;",
+    "TRAC 'FACE' (S COUL 'VERT') (CONT S) ;",
+    "TRAC S 'ECLA' ;",
+    "TRAC S 'COUL' 'ROUG' ;",
+    "TRAC X S ;",
+    "TRAC 7 X S (CONT S) 'LEGE' 'abscissa' ;",
+    "TRAC (PROG 0.5 1. 1.5) X S 'NOLE' ;",
+    "TRAC X ;",
+    "TRAC X S 'CHAM' ;",
+    "TRAC U S ;",
+    "TRAC MO SG ;",
+    "TRAC SG MO (DEFO S U) (CONT S) 5 ;",
+    "TRAC (DEFO S U) ;",
+    "TRAC ((DEFO S U 0. 'BLEU') ET (DEFO S U 10. 'ROUG')) 'BOIT' L ;",
+    "TRAC (DEFO S U 10. X) ;",
+    "TRAC X (DEFO S U 10.) ;",
+    "TRAC (VECT U 'DEPL') S ;",
+    "TRAC S (VECT SG MO) ;",
+    "TRAC ((RIGI MO MA) ET (BLOQ 'DEPL' L)) ;",
+    "TRAC S ((ANNO 'CATE' 'ROUG' 'soil') ET (ANNO 'ETIQ' (0. 0.) 'BLEU' 'SO' 0.1 FAUX 'base')) ;",
+    "OPTI ISOV LIGNE ; TRAC X S ;",
+    "OPTI ISOV SULI ; TRAC X S ;",
+]
+
+
+@pytest.mark.parametrize("text", STATEMENTS)
+def test_forms_that_draw_one_picture(text: str, tmp_path: Path) -> None:
+    result = run(text, tmp_path)
+    (path,) = tmp_path.iterdir()
+    assert path.read_bytes()[:4] == b"\x89PNG"
+    assert result.session.workspace.output.files == [path]
+
+
+def test_pictures_are_named_after_title_or_objects(tmp_path: Path) -> None:
+    run("TRAC X S ; TRAC S 'TITR' 'The plate' ; TITR 'in force' ; TRAC S ;", tmp_path)
+    names = sorted(p.name for p in tmp_path.iterdir())
+    assert names == ["0001_x-s.png", "0002_the-plate.png", "0003_in-force.png"]
+
+
+SOLID = (
+    "OPTI DIME 3 ELEM SEG2 MODE TRID ; L = DROI 2 (0. 0. 0.) (2. 0. 0.) ; OPTI ELEM QUA4 ; "
+    "S = TRAN L 1 (0. 1. 0.) ; OPTI ELEM CUB8 ; V = S VOLU 'TRAN' 2 (0. 0. 1.) ; X = COOR 1 V ; "
+)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "TRAC V ;",
+        "TRAC (10. -20. 5.) 'CACH' V ;",
+        "TRAC 'FACE' V (ARET V) ;",
+        "OPTI OEIL (0. -10. 3.) ; TRAC 'CACH' X V ;",
+        "TRAC X V 'COUP' (0. 0.4 0.) (1. 0.4 0.) (0. 0.4 1.) ;",
+        "TRAC X V 'SECT' (0. 0.5 0.) (1. 0.5 0.) (0. 0.5 1.) ;",
+    ],
+)
+def test_views_in_space(text: str, tmp_path: Path) -> None:
+    result = run_text(SOLID + text, tmp_path)
+    assert result.exit_code == 0, result.message
+    assert len(list(tmp_path.iterdir())) == 1
+
+
+def test_deformed_shape_keeps_what_is_given() -> None:
+    result = run("V = VECT U 'DEPL' ; D = (DEFO S U V 3. 'ROUG') ET (DEFO U S) ;")
+    made = result.session.root.find("D")
+    assert isinstance(made, Deformed)
+    first, second = made.parts
+    assert (first.scale, first.colour, second.scale, second.colour) == (3.0, 2, None, None)
+    assert first.arrows is result.session.root.find("V")
+
+
+@pytest.mark.parametrize(
+    ("words", "columns"),
+    [("'DEPL'", "UX UY"), ("'UY' ' '", "UY"), ("(MOTS 'UX' 'UY')", "UX UY"), ("", "UX UY")],
+)
+def test_components_of_arrows(words: str, columns: str) -> None:
+    result = run(f"V = VECT U -2. {words} 'ROUG' ;")
+    made = result.session.root.find("V")
+    assert isinstance(made, Arrows)
+    (part,) = made.parts
+    assert (part.name, part.scale, part.colour) == (columns, -2.0, 2)
+    tip = part.vectors[part.origins[:, 0] == 2.0][0]
+    expected = [0.02, -0.04, 0] if columns == "UX UY" else [-0.04, 0, 0]
+    assert np.allclose(tip, expected)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("TRAC 'FACE' ;", "MAILLAGE"),
+        ("TRAC S 'COUPE' (0. 0.) (1. 1.) (2. 2.) ;", "on a line"),
+        ("V = VECT U 'FORC' ;", "none of FX FY"),
+        ("D = DEFO S ;", "CHPOINT"),
+        ("TRAC S 'COLOUR' ;", "COLOUR"),
+    ],
+)
+def test_what_is_wrong_is_said_and_nothing_written(text: str, said: str, tmp_path: Path) -> None:
+    result = run_text(PLATE + text, tmp_path)
+    assert result.exit_code == 1
+    assert said in result.message
+    assert list(tmp_path.iterdir()) == []

@@ -1,0 +1,114 @@
+"""LIRE and ACQU: values, procedures and meshes from files beside the script."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from ssilang.cli.run import RunOptions, RunResult, run_file
+from ssilang.language.values import Table
+
+
+def run(text: str, folder: Path, **files: str) -> RunResult:
+    for name, content in files.items():
+        (folder / name.replace("_", ".")).write_text(content)
+    (folder / "deck.ssi").write_text(text)
+    return run_file(folder / "deck.ssi", RunOptions(output_directory=folder / "out"))
+
+
+def values(result: RunResult, *names: str) -> list[object]:
+    assert result.exit_code == 0, result.message
+    return [result.session.root.find(n) for n in names]
+
+
+def test_columns_and_lines_of_a_table(tmp_path: Path) -> None:
+    text = (
+        "A = LIRE 'CSV' 'x.csv' 'DEBU' 2 ; B = LIRE 'CSV' 'x.csv' 'DEBU' 2 'LIGN' ; "
+        "C = LIRE 'CSV' 'y.txt' 'SEPA' ',' ;"
+    )
+    result = run(text, tmp_path, x_csv="t;u\n0.;1.\n2.;3.\n", y_txt="5,6\n")
+    a, b, c = values(result, "A", "B", "C")
+    assert isinstance(a, Table)
+    assert isinstance(b, Table)
+    assert isinstance(c, Table)
+    assert [list(t.get(2).values) for t in (a, b, c)] == [[1.0, 3.0], [2.0, 3.0], [6.0]]
+
+
+def test_values_of_the_manual_s_kind(tmp_path: Path) -> None:
+    text = (
+        "OPTI ACQU 'v.txt' ; ACQU I*ENTIER MM*MOT J*FLOTTANT ; ACQU K*ENTIER ; "
+        "ACQU LL*LISTENTI 5 LR*LISTREEL 2 ; ACQU A B ; C = ACQU 'BRUT' ;"
+    )
+    content = "1 ' is less than ' 2\n2 times 3\n1 2 3\n4 5 6.5 1D3\nfree 1.5\nall of this\n"
+    found = values(
+        run(text, tmp_path, v_txt=content), *["I", "MM", "J", "K", "LL", "LR", "A", "B", "C"]
+    )
+    assert found[:4] == [1, " is less than ", 2.0, 2]
+    assert [list(x.values) for x in found[4:6]] == [[1, 2, 3, 4, 5], [6.5, 1000.0]]  # type: ignore[attr-defined]
+    assert found[6:] == ["free", 1.5, "all of this"]
+
+
+def test_names_that_exist_are_given_new_values(tmp_path: Path) -> None:
+    text = "I = 5 ; X = PROG 1. ; OPTI ACQU 'v.txt' ; ACQU I*ENTIER X*FLOTTANT ;"
+    assert values(run(text, tmp_path, v_txt="7 8\n"), "I", "X") == [7, 8.0]
+
+
+def test_procedures_of_a_file(tmp_path: Path) -> None:
+    library = (
+        "$$$$ DOUBLE\nDEBP DOUBLE A*ENTIER ; B = 2 * A ; FINP B ;\n$$$$ ONE\nDEBP ONE ; FINP 1 ;\n"
+    )
+    text = "LIRE 'PROC' 'lib.procedur' ; X = DOUBLE 4 ;"
+    assert values(run(text, tmp_path, lib_procedur=library), "X") == [8]
+    only = "LIRE 'PROC' 'lib.procedur' ONE ; X = EXIS DOUBLE ; Y = ONE ;"
+    assert values(run(only, tmp_path), "Y") == [1]
+
+
+def test_statements_become_a_procedure(tmp_path: Path) -> None:
+    text = "T = TABL ; LIRE 'PROC' 'part.dgibi' FILL ; FILL ; X = T . 1 ;"
+    assert values(run(text, tmp_path, part_dgibi="T . 1 = 3 ;\n"), "X") == [3]
+
+
+def test_triangles_and_universal_files(tmp_path: Path) -> None:
+    stl = "solid s\n" + "facet normal 0 0 1\nouter loop\n" + "".join(
+        f"vertex {x} {y} 0\n" for x, y in ((0, 0), (1, 0), (0, 1))
+    ) + "endloop\nendfacet\nendsolid\n"  # fmt: skip
+    unv = (
+        "    -1\n  2411\n 1 1 1 11\n 0. 0. 0.\n 2 1 1 11\n 2. 0. 0.\n    -1\n"
+        "    -1\n  2412\n 1 11 1 1 7 2\n 0 1 1\n 1 2\n    -1\n"
+        "    -1\n  2467\n 1 0 0 0 0 0 0 1\nbase\n 8 1 0 0\n    -1\n"
+    )
+    text = (
+        "OPTI DIME 3 ; M = LIRE 'STL' 's.stl' ; A = MESU M 'SURF' ; "
+        "T = LIRE 'UNV' 'm.unv' ; N = NBEL (T . 'base') ; P = NBNO (T . 'NOEUDS') ;"
+    )
+    result = run(text, tmp_path, s_stl=stl, m_unv=unv)
+    assert values(result, "A", "N", "P") == [0.5, 1, 2]
+
+
+def test_files_of_other_folders_are_refused(tmp_path: Path) -> None:
+    (tmp_path / "deck").mkdir()
+    (tmp_path / "secret.csv").write_text("1;2\n")
+    result = run("A = LIRE 'CSV' '../secret.csv' ;", tmp_path / "deck")
+    assert result.exit_code == 1
+    assert result.errors[0].code == "forbidden-path"
+    (tmp_path / "deck" / "deck.ssi").write_text("A = LIRE 'CSV' '../secret.csv' ;")
+    options = RunOptions(output_directory=tmp_path / "out", allowed=[tmp_path])
+    assert run_file(tmp_path / "deck" / "deck.ssi", options).exit_code == 0
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("A = LIRE 'CSV' 'none.csv' ;", "no such file"),
+        ("A = LIRE 'MED' 'x' ;", "not supported"),
+        ("OPTI ACQU 'v.txt' ; ACQU I*ENTIER ;", "'word' is no number"),
+        ("OPTI ACQU 'v.txt' ; ACQU I*MAILLAGE ;", "'MAILLAGE' cannot be read"),
+        ("OPTI ACQU 'v.txt' ; ACQU L*LISTREEL ;", "number of values must follow"),
+        ("OPTI ACQU 'v.txt' ; ACQU A B C ;", "all have been read"),
+    ],
+)
+def test_what_is_wrong_is_said(text: str, said: str, tmp_path: Path) -> None:
+    result = run(text, tmp_path, v_txt="word 2\n")
+    assert result.exit_code == 1
+    assert said in result.message

@@ -1,0 +1,137 @@
+"""SORT: VTK, CSV, text, AVS, figures."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import meshio
+import numpy as np
+import pytest
+
+from ssilang.cli.run import RunResult, run_text
+from ssilang.io.vtk.pvd import read_pvd
+
+PLATE = (
+    "OPTI DIME 2 ELEM QUA4 MODE PLAN DEFO ; L = DROI 4 (0. 0.) (2. 0.) ; S = TRAN L 2 (0. 1.) ; "
+    "X = COOR 1 S ; U = (NOMC 'UX' (0.01 * X)) ET (NOMC 'UY' (-0.02 * X)) ; "
+    "MO = MODE S 'MECANIQUE' 'ELASTIQUE' ; MA = MATE MO 'YOUN' 1.E9 'NU' 0.3 ; "
+    "SG = SIGM MO MA U ; OPTI SORT 'out' ; "
+)
+
+
+def run(text: str, folder: Path) -> RunResult:
+    result = run_text(PLATE + text, folder)
+    assert result.exit_code == 0, result.message
+    return result
+
+
+def names(folder: Path) -> list[str]:
+    return sorted(p.name for p in folder.iterdir())
+
+
+def test_one_mesh_is_one_file(tmp_path: Path) -> None:
+    run("SORT 'VTK ' S U SG 'stress' ;", tmp_path)
+    assert names(tmp_path) == ["out.pvd", "out.vtu"]
+    read = meshio.read(tmp_path / "out.vtu")
+    assert np.allclose(read.point_data["U"][:, 1], -0.02 * read.points[:, 0])
+    # plane strain, EPXX = 0.01 and GAXY = -0.02
+    stress = read.cell_data["stress"][0]
+    assert np.allclose(stress[:, 0], 1e9 * 0.7 / (1.3 * 0.4) * 0.01)
+    assert np.allclose(stress[:, 3], 1e9 / 2.6 * -0.02)
+
+
+def test_times_make_a_series(tmp_path: Path) -> None:
+    run(
+        "REPE B 3 ; SORT 'VTK ' S 'soil' L 'base' (U * &B) 'u' 'TEMP' (0.5 * &B) ; FIN B ;",
+        tmp_path,
+    )
+    entries = read_pvd(tmp_path / "out.pvd")
+    assert [(e.time, e.part) for e in entries[::2]] == [(0.5, "soil"), (1.0, "soil"), (1.5, "soil")]
+    assert entries[-1].file == "out.0003.base.vtu"
+    read = meshio.read(tmp_path / "out.0003.soil.vtu")
+    assert np.allclose(read.point_data["u"][:, 0], 0.03 * read.points[:, 0])
+
+
+def test_an_earlier_time_begins_anew(tmp_path: Path) -> None:
+    run("SORT 'VTK ' S 'TEMP' 1. ; SORT 'VTK ' S 'TEMP' 2. ; SORT 'VTK ' S 'TEMP' 1.5 ;", tmp_path)
+    assert [e.time for e in read_pvd(tmp_path / "out.pvd")] == [1.5]
+
+
+def test_a_series_of_another_run_is_gone_on_with(tmp_path: Path) -> None:
+    run("SORT 'VTK ' S 'TEMP' 1. ;", tmp_path)
+    run("SORT 'VTK ' S 'TEMP' 2. 'SUIT' ;", tmp_path)
+    assert [e.time for e in read_pvd(tmp_path / "out.pvd")] == [1.0, 2.0]
+    run("SORT 'VTK ' S 'TEMP' 3. 'NOUV' ;", tmp_path)
+    assert [e.time for e in read_pvd(tmp_path / "out.pvd")] == [3.0]
+
+
+def test_no_list_on_demand_and_text(tmp_path: Path) -> None:
+    run("SORT 'VTK ' S 'TEMP' 1. 'NPVD' 'FORM' ;", tmp_path)
+    assert names(tmp_path) == ["out.0001.0001.vtu"]
+    assert "ascii" in (tmp_path / "out.0001.0001.vtu").read_text()
+
+
+def test_tables_name_their_objects(tmp_path: Path) -> None:
+    run("T = TABL ; T . 'PART' = S ; T . 1 = L ; T . 'DEPL' = U ; SORT 'VTK ' T ;", tmp_path)
+    assert names(tmp_path) == ["out.0001.1.vtu", "out.0001.PART.vtu", "out.pvd"]
+    assert "DEPL" in meshio.read(tmp_path / "out.0001.1.vtu").point_data
+
+
+def test_a_field_may_be_called_temp(tmp_path: Path) -> None:
+    run("SORT 'VTK ' S X 'TEMP' 'TEMP' 4. ;", tmp_path)
+    assert "TEMP" in meshio.read(tmp_path / "out.0001.0001.vtu").point_data
+
+
+def test_curves_and_lists_in_columns(tmp_path: Path) -> None:
+    text = (
+        "OPTI SORT 'c.csv' ; E = EVOL 'MANU' 'time' (PROG 0. 1.) 'u' (PROG 2. 3.) ; "
+        "T = TABL ; T . 'n' = LECT 7 8 9 ; SORT 'EXCE' E T (MOTS 'AA') 'SEPA' 'VIRG' ;"
+    )
+    run(text, tmp_path)
+    lines = (tmp_path / "c.csv").read_text().splitlines()
+    assert lines == ["time,u,n,", "0.0,2.0,7,AA", "1.0,3.0,8,", ",,9,"]
+
+
+def test_text_lines_append_until_the_file_is_named_again(tmp_path: Path) -> None:
+    text = "OPTI SORT 'n.txt' ; SORT 'CHAI' 'a' 1 ; SORT 'CHAI' 'b' ;"
+    run(text, tmp_path)
+    assert (tmp_path / "n.txt").read_text() == "a1\nb\n"
+    run(text + "OPTI SORT 'n.txt' ; SORT 'CHAI' 'c' ;", tmp_path)
+    assert (tmp_path / "n.txt").read_text() == "c\n"
+
+
+def test_fields_written_for_avs_are_read_again(tmp_path: Path) -> None:
+    text = (
+        "SGG = CHAN 'GRAVITE' SG MO ; SORT 'AVS' U SGG 'TEMP' 1.25 ; OPTI LECT 'out.inp' ; "
+        "T = LIRE 'AVS' ; ELIM (S ET (T . 'LEMAILLA')) 1.E-6 ; "
+        "D = MAXI 'ABS' (U - (T . 'LECHPOIN')) ; A = T . 'time' ; N = NBEL (T . 'LEMAILLA') ;"
+    )
+    found = run(text, tmp_path).session.root
+    assert found.find("D") == pytest.approx(0.0, abs=1e-15)
+    assert (found.find("A"), found.find("N")) == (1.25, 8)
+
+
+def test_figures_go_to_the_session(tmp_path: Path) -> None:
+    checks = run("SORT 'BILA' 'a' 2 ; SORT 'BILA' 'b' 1. 2. 0.5 ;", tmp_path).session.checks
+    assert [(c.name, c.value, c.expected, c.tolerance) for c in checks] == [
+        ("a", 2.0, None, None),
+        ("b", 1.0, 2.0, 0.5),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("SORT 'VTK ' U ;", "MAILLAGE"),
+        ("SORT 'VTKX' U ;", "VTK"),
+        ("OPTI SORT '../evil' ; SORT 'VTK ' S ;", "outside the script's folder"),
+        ("OPTI SORT '/tmp/evil.csv' ; SORT 'EXCE' (PROG 1.) ;", "--allow /tmp"),
+        ("SORT 'EXCE' (PROG 1.) 'SEPA' 'POINT' ;", "SEPA"),
+        ("SORT 'VTK ' S 'SUIT' 'TEMP' 1. ;", "no such file"),
+    ],
+)
+def test_what_is_wrong_is_said_and_nothing_written(text: str, said: str, tmp_path: Path) -> None:
+    result = run_text(PLATE + text, tmp_path / "out")
+    assert result.exit_code == 1
+    assert said.lower() in result.message.lower()
+    assert not (tmp_path / "out").exists()
