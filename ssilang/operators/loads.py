@@ -6,7 +6,13 @@ import numpy as np
 
 from ssilang.kernel.elements.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
 from ssilang.kernel.elements.line_loads import line_load
-from ssilang.kernel.elements.loads import body_force, loaded_faces, pressure, traction
+from ssilang.kernel.elements.loads import (
+    body_force,
+    loaded_faces,
+    pressure,
+    shell_load,
+    traction,
+)
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.matrix import dual_of
@@ -86,12 +92,15 @@ def mome(call: Call) -> NodeField:
         en="Nodal forces of a pressure on sides of continuous elements, pushing into them when "
         "positive. The pressure is a number on a mesh of sides, a nodal field with one component "
         "(on the outer sides of the model whose nodes all have a value), or a field in cells "
-        "over sides.",
+        "over sides. On shells ('COQU') it pushes along their normal ('NORM') or to the side that "
+        "a vector shows.",
         fr="Forces nodales d'une pression sur des faces d'éléments massifs, dirigée vers "
         "l'intérieur quand elle est positive. La pression est un nombre sur un maillage de "
         "faces, un champ par points à une composante (sur les faces extérieures du modèle dont "
-        "tous les noeuds ont une valeur), ou un champ par éléments sur des faces.",
-        syntax="FOR1 = PRES 'MASS' MODL1 | VAL1 GEO1 | CHPO1 | CHAM1 ;",
+        "tous les noeuds ont une valeur), ou un champ par éléments sur des faces. Sur les coques "
+        "('COQU') elle pousse selon la normale ('NORM') ou du côté que montre un vecteur.",
+        syntax="FOR1 = PRES 'MASS' MODL1 | VAL1 GEO1 | CHPO1 | CHAM1 ;\n"
+        "FOR1 = PRES 'COQU' MODL1 | VAL1 | CHPO1 | CHAM1 'NORM' | VEC1 ;",
         examples=(
             "OPTI DIME 2 ELEM QUA4 ; P = 0. 0. ; Q = 2. 0. ; L = DROI 2 P Q ; "
             "S = TRAN 1 L (0. 1.) ; M = MODE S MECANIQUE ELASTIQUE ; "
@@ -102,12 +111,17 @@ def mome(call: Call) -> NodeField:
 )
 def pres(call: Call) -> NodeField:
     """Pressure on sides."""
-    _kind(call, ("COQU", "FISS", "TUYA", "SHB8"))
+    kind = _kind(call, ("FISS", "TUYA", "SHB8"))
     model: Model = call.required("MMODEL")
     operand = call.read("CHPOINT", "MCHAML", "FLOTTANT")
     if operand is None:
         raise call.missing(("FLOTTANT", "CHPOINT", "MCHAML"))
     value = operand.value
+    if kind == "COQU":
+        if call.keyword(["POIN"]):
+            raise call.bad("'POIN' is not available", hint="'NORM' or a vector")
+        along = call.optional("POINT") if call.keyword(["NORM"]) is None else None
+        return shell_load(model, value, None if along is None else along.coordinates)
     faces = call.optional("MAILLAGE")
     if faces is None:
         if not isinstance(value, NodeField | CellField):
@@ -118,7 +132,7 @@ def pres(call: Call) -> NodeField:
 
 def _kind(call: Call, others: tuple[str, ...]) -> str:
     """MASS, or a refusal of the elements that are not here."""
-    found = call.keyword(["MASS", "POUT", *others])
+    found = call.keyword(["MASS", "POUT", "COQU", *others])
     if found in others:
         raise call.bad(f"'{found}' loads are not available", hint="'MASS' is")
     return found or "MASS"
@@ -138,6 +152,7 @@ def _kind(call: Call, others: tuple[str, ...]) -> str:
         "points FX FY FZ (avec des moments MX MY MZ sur les poutres). CAR1 donne l'épaisseur "
         "DIM3 en contraintes planes.",
         syntax="FOR1 = FSUR 'MASS' MODL1 | VEC1 GEO1 | CHPO1 (CAR1) ;\n"
+        "FOR1 = FSUR 'COQU' MODL1 | VEC1 | CHPO1 ;\n"
         "FOR1 = FSUR 'POUT' MODL1 | VEC1 | CHPO1 ('PROJ' VEC2) ;",
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0 0) (2 0) ; M = MODE L MECANIQUE ELASTIQUE POUT "
@@ -148,12 +163,14 @@ def _kind(call: Call, others: tuple[str, ...]) -> str:
 )
 def fsur(call: Call) -> NodeField:
     """Surface and line forces."""
-    kind = _kind(call, ("COQU",))
+    kind = _kind(call, ())
     model: Model = call.required("MMODEL")
     operand = call.read("CHPOINT", "POINT")
     if operand is None:
         raise call.missing(("POINT", "CHPOINT"))
     density = operand.value if isinstance(operand.value, NodeField) else operand.value.coordinates
+    if kind == "COQU":
+        return shell_load(model, density)
     if kind == "POUT":
         projected = call.keyword(["PROJ"])
         normal = call.required("POINT", after=call.keyword_end) if projected else None

@@ -163,14 +163,11 @@ def _read_axes(call: Call, word: str, model: Model, given: list[Values], known: 
     if not taking:
         raise call.bad("no zone of the model has axes", hint="ORTHOTROPE, ANISOTROPE or joints do")
     first = call.required("POINT", after=call.keyword_end)
-    second = call.optional("POINT")
-    call.optional("POINT")
-    said = Directions(
-        first.coordinates,
-        None if second is None else second.coordinates,
-        word[:4] == "RADI",
-        _turn(call),
-    )
+    others = call.all("POINT")
+    angle = _turn(call)
+    others += call.all("POINT")
+    vectors = [None if p is None else p.coordinates for p in (*others, None, None)]
+    said = Directions(first.coordinates, vectors[0], word[:4] == "RADI", angle, vectors[1])
     for i in taking:
         values, support = axis_parameters(model.zones[i], said)
         given[i].update({n: (v, support) for n, v in values.items()})

@@ -14,6 +14,7 @@ from ssilang.kernel.elements.boundary import (
     require_parents,
     zones_of_faces,
 )
+from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.family import Layout
 from ssilang.kernel.elements.geometry import SurfaceGeometry, chunks
 from ssilang.kernel.elements.kinematics import NODE_TRANSLATIONS, harmonic
@@ -215,6 +216,51 @@ def loaded_faces(model: Model, field: NodeField | CellField) -> Mesh:
     if not blocks:
         raise MeshError("the field has values on no outer side of the model")
     return Mesh(table, tuple(blocks))
+
+
+def shell_load(
+    model: Model, value: float | FloatArray | NodeField | CellField, along: FloatArray | None = None
+) -> NodeField:
+    """Forces on shells: a pressure, or a force per area.
+
+    Parameters
+    ----------
+    value : number or field with one component (pressure), array (3,) or field FX FY FZ (force)
+    along : array (3,), optional
+        The side to which a pressure pushes; the shells' own normals without.
+    """
+    out = []
+    for zone in model.zones:
+        if ELEMENTS[zone.element].family not in ("plate", "meridian"):
+            raise MeshError(f"a load on shells is not for element {zone.element}")
+        geometry = face_geometry(zone.cells, zone.mode, harmonic(zone))
+        out.append(_scatter(zone, zone.cells, _shell_forces(zone, geometry, value, along)))
+    return total(model.mesh.nodes, out)
+
+
+def _shell_forces(
+    zone: Zone,
+    geometry: SurfaceGeometry,
+    value: float | FloatArray | NodeField | CellField,
+    along: FloatArray | None,
+) -> FloatArray:
+    force = isinstance(value, np.ndarray) or (
+        isinstance(value, NodeField) and any(n in value.components for n in force_names(zone))
+    )
+    if force:
+        density = _vector_values(zone.cells, geometry, zone, value)  # type: ignore[arg-type]
+        w = geometry.measures
+        forces: FloatArray = np.einsum("cp,cpd,pk->ckd", w, density, geometry.shapes)
+        return forces
+    p = _face_values(zone.cells, geometry, value)  # type: ignore[arg-type]
+    normals = geometry.normals
+    if normals.shape[-1] == 2:  # a quarter turn from the line, not the other way
+        normals = -normals
+    if along is not None:
+        side = np.sign(np.einsum("cpd,d->c", normals, along[: normals.shape[-1]]))
+        normals = normals * side[:, None, None]
+    pushed: FloatArray = np.einsum("cp,cpd,pk->ckd", p, normals, geometry.shapes)
+    return pushed
 
 
 def body_force(

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
+from ssilang.kernel.elements.plate import plate_frames
 from ssilang.kernel.elements.reference import shape_functions
 from ssilang.kernel.errors import MaterialError
 from ssilang.kernel.fields.cell_field import Support
@@ -25,12 +26,15 @@ class Directions:
     radial : bool
     angle : float
         Turn about the third axis, degrees.
+    outside : array (3,), optional
+        Side of a shell to which its normal counts positive for the angle.
     """
 
     first: FloatArray
     second: FloatArray | None
     radial: bool = False
     angle: float = 0.0
+    outside: FloatArray | None = None
 
 
 def axis_parameters(zone: Zone, given: Directions) -> tuple[dict[str, FloatArray], Support]:
@@ -41,6 +45,11 @@ def axis_parameters(zone: Zone, given: Directions) -> tuple[dict[str, FloatArray
     MaterialError
         If a vector is missing, zero or parallel to the other.
     """
+    family = ELEMENTS[zone.element].family
+    if family == "plate":
+        return _on_shell(zone, given), "GRAVITE"
+    if family == "joint" and zone.element != "JOI1" and given.second is None:
+        return _on_joint(zone, given), "GRAVITE"
     flat = zone.mode is not Mode.THREE_DIMENSIONAL
     support: Support = "RIGIDITE" if given.radial else "GRAVITE"
     if given.radial:
@@ -52,6 +61,37 @@ def axis_parameters(zone: Zone, given: Directions) -> tuple[dict[str, FloatArray
     v1, v2 = _turned(_frame(first, second), given.angle)
     out = {f"V{i}{a}": v[..., k] for i, v in ((1, v1), (2, v2)) for k, a in enumerate("XYZ")}
     return out, support
+
+
+def _on_shell(zone: Zone, given: Directions) -> dict[str, FloatArray]:
+    """Cosines V1X V1Y of the first axis in the own frame of each shell cell."""
+    frames, _ = plate_frames(zone)
+    vector = np.broadcast_to(given.first, (len(frames), 3))
+    if given.radial:
+        vector = zone.cells.coordinates.mean(axis=1) - given.first
+    inside = np.einsum("cij,cj->ci", frames[:, :2], vector)
+    size = np.linalg.norm(inside, axis=1)
+    if (size <= 1e-9 * np.linalg.norm(vector, axis=1)).any():
+        raise MaterialError("the direction of orthotropy is normal to the shell somewhere")
+    angle = np.arctan2(inside[:, 1], inside[:, 0])
+    sign = np.ones(len(frames))
+    if given.outside is not None:
+        sign = np.sign(frames[:, 2] @ given.outside)
+    angle = angle + sign * np.radians(given.angle)
+    return {"V1X": np.cos(angle)[:, None], "V1Y": np.sin(angle)[:, None]}
+
+
+def _on_joint(zone: Zone, given: Directions) -> dict[str, FloatArray]:
+    """First axis in the surface of a joint, turned about its normal."""
+    half = zone.cells.kind.n_nodes // 2
+    x = zone.cells.coordinates[:, :half][:, [c for c in zone.cells.kind.corners if c < half]]
+    if zone.mode is not Mode.THREE_DIMENSIONAL:
+        normal = np.broadcast_to(np.array([0.0, 0.0, 1.0]), (len(x), 3))
+    else:
+        normal = np.cross(x[:, 1] - x[:, 0], x[:, 2] - x[:, 0])
+    first = np.broadcast_to(given.first, (len(x), 3))[:, None]
+    v1, _ = _turned(_frame(first, np.cross(normal[:, None], first)), given.angle)
+    return {f"V1{a}": v1[..., k] for k, a in enumerate("XYZ")}
 
 
 def _second(given: Directions, flat: bool, first: FloatArray) -> FloatArray:
