@@ -97,8 +97,8 @@ def _polygon_collapses(n: int, degree: int, smaller: str) -> _Collapse:
     size = n * degree
     for i in range(n):
         a, b = i * degree, (i + 1) * degree % size
-        gone = {b} if degree == 1 else {b, (a + 1) % size}
-        rules[((a, b),)] = (smaller, tuple(k for k in range(size) if k not in gone))
+        kept = (a, *((b + 1 + k) % size for k in range(size - degree - 1)))
+        rules[((a, b),)] = (smaller, kept)
     return rules
 
 

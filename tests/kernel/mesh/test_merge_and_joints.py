@@ -1,0 +1,152 @@
+"""Merging, degenerate cells, opened surfaces, joint cells."""
+
+from __future__ import annotations
+
+import time
+
+import numpy as np
+import pytest
+
+from ssilang.kernel.errors import MeshError
+from ssilang.kernel.mesh.combine import poi1, union
+from ssilang.kernel.mesh.cut_open import cut_open
+from ssilang.kernel.mesh.interfaces import joint_mesh
+from ssilang.kernel.mesh.lines import straight_line
+from ssilang.kernel.mesh.measure import total_measure
+from ssilang.kernel.mesh.merge import merge_between, merge_close, regenerate, repeated_nodes
+from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.kernel.mesh.nodes import NodeTable
+from ssilang.kernel.mesh.orientation import reversed_line
+from ssilang.kernel.mesh.subdivision import subdivide
+from ssilang.kernel.mesh.sweep import rotation, sweep_line, translation
+
+UP, DOWN = np.array([0.0, 1, 0]), np.array([0.0, -1, 0])
+
+
+def line(nodes: NodeTable, a: list[float], b: list[float], n: int, quadratic: bool = False) -> Mesh:
+    ids = nodes.add(np.array([a, b], dtype=float))
+    return straight_line(nodes, int(ids[0]), int(ids[1]), n, quadratic=quadratic)
+
+
+def test_oldest_node_of_a_group_stays() -> None:
+    nodes = NodeTable()
+    ids = nodes.add(np.array([[0.0, 0], [1, 0], [1.001, 0], [0.999, 0]]))
+    assert merge_close(nodes, ids, 0.01) == 2
+    assert nodes.resolve(ids).tolist() == [0, 1, 1, 1]
+
+
+def test_merging_between_two_sets_leaves_each_as_it_is() -> None:
+    nodes = NodeTable()
+    first = nodes.add(np.array([[0.0, 0], [0.001, 0]]))
+    second = nodes.add(np.array([[0.0, 0], [5.0, 0]]))
+    assert merge_between(nodes, first, second, 0.01) == 1
+    assert nodes.resolve(second).tolist() == [0, 3]
+    assert len(np.unique(nodes.resolve(first))) == 2
+
+
+def test_merging_a_hundred_thousand_nodes_takes_less_than_two_seconds() -> None:
+    nodes = NodeTable()
+    grid = np.stack(np.meshgrid(np.arange(250.0), np.arange(200.0)), axis=-1).reshape(-1, 2)
+    ids = nodes.add(np.vstack([grid, grid + 1e-6]))
+    start = time.perf_counter()
+    assert merge_close(nodes, ids, 1e-3) == len(grid)
+    assert time.perf_counter() - start < 2.0
+
+
+def test_merging_needs_a_distance() -> None:
+    nodes = NodeTable()
+    with pytest.raises(MeshError, match="positive"):
+        merge_close(nodes, nodes.add(np.zeros((2, 2))), 0.0)
+
+
+@pytest.mark.parametrize(("quadratic", "cell"), [(False, "TRI3"), (True, "TRI6")])
+def test_turned_line_that_touches_its_centre_becomes_triangles(quadratic: bool, cell: str) -> None:
+    nodes = NodeTable()
+    radius = line(nodes, [0, 0], [1, 0], 2, quadratic)
+    path = rotation(radius, 90.0, np.zeros(3), np.array([0.0, 0, 1]))
+    name = "QUA8" if quadratic else "QUA4"
+    sector = sweep_line(radius, path, subdivide(path.length, count=4), name)
+    area = total_measure(sector)
+    merge_close(nodes, sector.node_ids, 1e-6)
+    assert repeated_nodes(sector) == 4
+    made = regenerate(sector)
+    assert {b.cell_type: len(b) for b in made.blocks} == {name: 4, cell: 4}
+    assert repeated_nodes(made) == 0
+    assert total_measure(made) == pytest.approx(area)
+
+
+def plate_and_line(cuts: int) -> tuple[Mesh, Mesh, Mesh]:
+    """Two rows of squares about the line y = 0 from x = 0 to 2, and its two halves."""
+    nodes = NodeTable()
+    first = line(nodes, [0, 0], [1, 0], cuts)
+    last = int(first.single_block().connectivity[-1, -1])
+    end = int(nodes.add(np.array([[2.0, 0]]))[0])
+    second = straight_line(nodes, last, end, cuts)
+    both = union(first, second)
+    rows = [sweep_line(both, translation(v), subdivide(1.0, count=2), "QUA4") for v in (UP, DOWN)]
+    return union(*rows), first, both
+
+
+def test_crack_tip_stays_single_and_the_mouth_opens() -> None:
+    plate, first, _ = plate_and_line(3)
+    opened, lip = cut_open(plate, first)
+    assert len(opened.node_ids) == len(plate.node_ids) + 3
+    assert lip.n_cells == 3
+    tip = first.single_block().connectivity[-1, -1]
+    assert lip.single_block().connectivity[-1, -1] == tip
+    nodes = plate.nodes
+    nodes.coordinates[np.setdiff1d(lip.node_ids, [tip]), 1] -= 0.1
+    assert total_measure(opened) == pytest.approx(4.0 - 0.1 * (2 / 3 + 1 / 6))
+
+
+def test_line_across_the_whole_surface_cuts_it_in_two() -> None:
+    plate, _, both = plate_and_line(2)
+    opened, lip = cut_open(plate, both)
+    assert len(opened.node_ids) == len(plate.node_ids) + len(both.node_ids)
+    assert not set(lip.node_ids.tolist()) & set(both.node_ids.tolist())
+
+
+@pytest.mark.parametrize(("quadratic", "name"), [(False, "RAC2"), (True, "RAC3")])
+def test_joint_pairs_nodes_whatever_the_sense_of_the_second_line(
+    quadratic: bool, name: str
+) -> None:
+    nodes = NodeTable()
+    upper = line(nodes, [0, 0], [1, 0], 3, quadratic)
+    lower = reversed_line(line(nodes, [0, 0], [1, 0], 3, quadratic))
+    block = joint_mesh(upper, lower, 1e-3).single_block()
+    assert (block.cell_type, len(block)) == (name, 3)
+    x = block.coordinates
+    half = x.shape[1] // 2
+    assert x[:, :half] == pytest.approx(x[:, half:])
+    assert set(block.connectivity[:, :half].ravel()) == set(upper.node_ids)
+
+
+def test_gap_turns_the_first_half_so_that_the_normal_opens_the_joint() -> None:
+    nodes = NodeTable()
+    lower = line(nodes, [0, 0], [1, 0], 2)
+    upper = reversed_line(line(nodes, [0, 0.01], [1, 0.01], 2))
+    x = joint_mesh(upper, lower, 0.1).single_block().coordinates
+    way = x[:, 1] - x[:, 0]
+    normal = np.column_stack([-way[:, 1], way[:, 0]])
+    assert ((x[:, 0] - x[:, 2])[:, :2] * normal).sum(axis=1) == pytest.approx(0.005)
+
+
+def test_facets_are_paired_in_space() -> None:
+    nodes = NodeTable()
+    first = line(nodes, [0, 0, 0], [1, 0, 0], 2)
+    other = line(nodes, [0, 0, 0], [1, 0, 0], 2)
+    sheets = [
+        sweep_line(m, translation(UP), subdivide(1.0, count=3), "QUA4") for m in (first, other)
+    ]
+    block = joint_mesh(*sheets, 1e-6).single_block()
+    assert (block.cell_type, len(block)) == ("LIA4", 6)
+    assert block.coordinates[:, :4] == pytest.approx(block.coordinates[:, 4:])
+
+
+def test_far_meshes_do_not_join() -> None:
+    nodes = NodeTable()
+    first, second = line(nodes, [0, 0], [1, 0], 2), line(nodes, [0, 1], [1, 1], 2)
+    with pytest.raises(MeshError, match="faces"):
+        joint_mesh(first, second, 0.1)
+    with pytest.raises(MeshError, match="POI1"):
+        joint_mesh(poi1(nodes, first.node_ids), second, 0.1)
