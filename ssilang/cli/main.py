@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import io
 import os
 import sys
 from collections.abc import Callable, Sequence
@@ -56,6 +57,7 @@ def _run_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--debug", action="store_true", help="show Python's traceback too")
     parser.add_argument("--max-recursion", type=int, default=200, help="procedure calls in depth")
     parser.add_argument("--max-statements", type=int, help="stop after so many statements")
+    parser.add_argument("--max-memory", type=int, metavar="MB", help="stop past so much memory")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -68,6 +70,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if not words:
         words = ["repl"] if sys.stdin.isatty() else ["run", "-"]
     options = _parser().parse_args(words)
+    for stream in (sys.stdout, sys.stderr):  # a terminal without accents must not stop a run
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="replace")
     try:
         return _ACTIONS[options.command or "repl"](options)
     except BrokenPipeError:  # the reader of our output left
@@ -83,7 +88,7 @@ def _run(options: argparse.Namespace) -> int:
 
     try:
         if options.file == "-":
-            source = Source("standard input", sys.stdin.read())
+            source = Source.decode("standard input", sys.stdin.buffer.read())
         else:
             source = Source.read(Path(options.file))
     except SsiError as error:
@@ -100,9 +105,12 @@ def _run(options: argparse.Namespace) -> int:
 
 
 def _run_options(options: argparse.Namespace) -> RunOptions:
+    from ssilang.cli.memory import limit_memory
     from ssilang.cli.run import RunOptions
     from ssilang.language.session import Limits
 
+    if options.max_memory is not None:
+        limit_memory(options.max_memory)
     return RunOptions(
         output_directory=options.out,
         allowed=[p.resolve() for p in options.allow],

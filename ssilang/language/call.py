@@ -51,6 +51,9 @@ def _as_read(operand: Operand, types: Sequence[str]) -> Operand:
     return operand
 
 
+_MAX_EXPANSIONS = 10_000  # TEXTE objects put into one phrase
+
+
 class Call:
     """The unread operands of a phrase, with the operator that reads them.
 
@@ -61,7 +64,7 @@ class Call:
         Unread ones, in order; consumed operands are removed.
     """
 
-    __slots__ = ("_after", "_session_expand", "name", "operands", "session", "span", "used")
+    __slots__ = ("_after", "_expansions", "name", "operands", "session", "span", "used")
 
     def __init__(self, session: Session, operands: list[Operand], span: Span) -> None:
         self.session = session
@@ -70,6 +73,7 @@ class Call:
         self.name = ""
         self.used: list[Operand] = []  # consumed since the operator began
         self._after: int = -1
+        self._expansions = 0
 
     # ---- reading ---------------------------------------------------------------------------
 
@@ -107,6 +111,9 @@ class Call:
 
     def _expand(self, i: int) -> None:
         operand = self.operands[i]
+        self._expansions += 1
+        if self._expansions > _MAX_EXPANSIONS:
+            raise SsiError("endless-text", operand.span, name=operand.name or operand.span.text)
         inserted = self.session.evaluator.operands_of(operand.value.items)
         self.operands[i : i + 1] = inserted
 

@@ -51,6 +51,22 @@ MESSAGES: dict[str, Message] = {
         "this is a defect of ssilang; run again with --debug and report what it prints",
         "c'est un défaut de ssilang ; relancez avec --debug et signalez le résultat",
     ),
+    "nesting": Message(
+        "parentheses, blocks or procedures are nested too deep",
+        "parenthèses, blocs ou procédures trop profondément emboîtés",
+        "cut the statement in several, with names for the parts",
+        "coupez l'instruction en plusieurs, en nommant les parties",
+    ),
+    "endless-text": Message(
+        "the TEXTE {name} leads back to itself",
+        "le TEXTE {name} renvoie à lui-même",
+    ),
+    "long-integer": Message(
+        "an ENTIER of {digits} digits is too large",
+        "un ENTIER de {digits} chiffres est trop grand",
+        "write it as a FLOTTANT, with a dot or an exponent",
+        "écrivez-le comme un FLOTTANT, avec un point ou un exposant",
+    ),
     # ---- syntax
     "syntax": Message("unexpected {found!r}", "{found!r} inattendu"),
     "unclosed-string": Message(

@@ -17,6 +17,7 @@ _ANY = {"en": "an object", "fr": "un objet"}
 
 
 _CALLED = {"en": "called by {name} at", "fr": "appelé par {name},"}
+_LINE_SHOWN = 160  # characters of a source line
 _CALLS_SHOWN = 4  # at each end of the chain
 _KINDS = {
     False: {"en": "error", "fr": "erreur"},
@@ -93,13 +94,28 @@ def _place(span: Span, arrow: str) -> list[str]:
     text = span.source.line(line).replace("\t", " ").rstrip()
     width = max(1, min(span.end, span.start + len(text) - column + 1) - span.start)
     margin = " " * len(str(line))
-    caret = " " * (column - 1) + "^" * width
+    text, before, width = _window(text, column - 1, width)
+    caret = " " * before + "^" * width
     return [
         f"{margin} {arrow} {span.source.name}:{line}:{column}",
         f"{margin} |",
         f"{line} | {text}",
         f"{margin} | {caret}",
     ]
+
+
+def _window(text: str, before: int, width: int) -> tuple[str, int, int]:
+    """The part of a very long line around the caret, and where the caret stands in it."""
+    if len(text) <= _LINE_SHOWN:
+        return text, before, width
+    first = max(0, min(before - _LINE_SHOWN // 3, len(text) - _LINE_SHOWN))
+    shown = text[first : first + _LINE_SHOWN]
+    if first:
+        shown = "..." + shown[3:]
+    if first + _LINE_SHOWN < len(text):
+        shown = shown[:-3] + "..."
+    before -= first
+    return shown, before, max(1, min(width, _LINE_SHOWN - before))
 
 
 def _derived(error: SsiError, language: str, names: Iterable[str]) -> dict[str, str]:

@@ -123,7 +123,7 @@ class Evaluator:
         self.current_span = node.span
         results = self.phrase(node.count, node.span)
         value = results[0].value if len(results) == 1 else None
-        if isinstance(value, float) and value == int(value):
+        if isinstance(value, float) and value.is_integer():
             value = int(value)
         if not isinstance(value, int) or isinstance(value, bool):
             raise self._unfit("loop-count", results, node.count[0].span)

@@ -16,6 +16,7 @@ from ssilang.language.scopes import Frame
 from ssilang.language.values import Table
 
 Value = Callable[[Frame], Any]
+_LONGEST = 199  # items of a phrase; each sign is one more closure in depth
 _SCALARS = frozenset({int, float, bool})
 
 
@@ -28,7 +29,9 @@ _SLOW = Slow()
 
 def compile_phrase(items: Sequence[tree.Item]) -> Value | None:
     """A function that computes the phrase for a frame, None if its shape does not allow it."""
-    if len(items) % 2 == 0 or not all(isinstance(i, tree.Symbol | tree.Name) for i in items[1::2]):
+    if len(items) % 2 == 0 or len(items) > _LONGEST:
+        return None
+    if not all(isinstance(i, tree.Symbol | tree.Name) for i in items[1::2]):
         return None
     value = _operand(items[0])
     for sign, item in zip(items[1::2], items[2::2], strict=True):

@@ -15,6 +15,7 @@ from ssilang.resources import resource
 
 NAME_LENGTH = 24  # objects' names keep 24 characters
 MAX_ERRORS = 20
+INTEGER_DIGITS = 19  # with the sign: what 64 bits hold
 
 _STATEMENT_END = re.compile(r"'(?:[^']|'')*'|;", re.DOTALL)
 
@@ -40,7 +41,10 @@ class _Builder(Transformer[Token, Any]):
         return tree.Quoted(text, self._span(c[0], c[0]))
 
     def integer(self, c: list[Token]) -> tree.Number:
-        return tree.Number(int(c[0]), self._span(c[0], c[0]))
+        span = self._span(c[0], c[0])
+        if len(c[0]) > INTEGER_DIGITS:
+            raise SsiError("long-integer", span, digits=len(c[0].lstrip("+-")))
+        return tree.Number(int(c[0]), span)
 
     def real(self, c: list[Token]) -> tree.Number:
         text = c[0].upper().replace("D", "E")

@@ -35,11 +35,16 @@ class Source:
             data = path.read_bytes()
         except OSError as error:
             raise SsiError("missing-file", None, path=str(path), reason=error.strerror) from None
+        return cls.decode(str(path), data, path)
+
+    @classmethod
+    def decode(cls, name: str, data: bytes, path: Path | None = None) -> Source:
+        """A source from bytes, UTF-8 or else Latin-1, with any kind of line ends."""
         try:
             text = data.decode("utf-8-sig")
         except UnicodeDecodeError:
             text = data.decode("latin-1")
-        return cls(str(path), text.replace("\r\n", "\n").replace("\r", "\n"), path)
+        return cls(name, text.replace("\r\n", "\n").replace("\r", "\n"), path)
 
     @cached_property
     def code(self) -> str:

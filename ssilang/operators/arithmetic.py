@@ -56,6 +56,9 @@ def _tabulated(signs: str, left: str, right: str, make: Callable[[str], Rule]) -
         RULES[sign, left, right] = make(sign)
 
 
+_INTEGER_BITS = 4096  # far more than any count; keeps a loop of squares from filling the memory
+
+
 def _integer_divide(a: int, b: int) -> int:
     """Quotient of integers, cut towards zero."""
     quotient = abs(a) // abs(b)
@@ -63,7 +66,15 @@ def _integer_divide(a: int, b: int) -> int:
 
 
 def _integer_power(a: int, b: int) -> int:
+    if b > 0 and b * a.bit_length() > _INTEGER_BITS:
+        raise OverflowError("the integer is too large")
     return int(a**b) if b >= 0 else int(float(a) ** b)
+
+
+def _integer_product(a: int, b: int) -> int:
+    if a.bit_length() + b.bit_length() > _INTEGER_BITS:
+        raise OverflowError("the integer is too large")
+    return a * b
 
 
 def _real_power(a: float, b: float) -> float:
@@ -74,7 +85,8 @@ def _real_power(a: float, b: float) -> float:
 
 
 _INTEGER: dict[str, Rule] = {
-    "+": python.add, "-": python.sub, "*": python.mul, "/": _integer_divide, "**": _integer_power,
+    "+": python.add, "-": python.sub, "*": _integer_product,
+    "/": _integer_divide, "**": _integer_power,
 }  # fmt: skip
 _REAL: dict[str, Rule] = {
     "+": python.add, "-": python.sub, "*": python.mul, "/": python.truediv, "**": _real_power,
