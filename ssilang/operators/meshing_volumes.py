@@ -96,7 +96,8 @@ class _Reading:
 
 
 def _translated(reading: _Reading) -> Mesh:
-    vector: Point = reading.call.required("POINT", after=reading.call.keyword_end)
+    reading.loose()
+    vector: Point = reading.call.required("POINT")
     reading.loose()
     path = translation(vector.coordinates.copy())
     return _make(reading.base(), path, vector.density, reading.cuts, reading.listed)
@@ -104,6 +105,7 @@ def _translated(reading: _Reading) -> Mesh:
 
 def _turned(reading: _Reading) -> Mesh:
     call, cuts = reading.call, reading.cuts
+    read_sizes(call, cuts)
     count, angle = count_and_number(call)
     if angle is None:
         if not cuts.count:
@@ -178,7 +180,6 @@ def volu(call: Call) -> Mesh:
     reading.loose()
     word = call.keyword(tuple(_WAYS))
     if word is not None:
-        reading.loose() if word != "ROTATION" else read_sizes(call, reading.cuts)
         return _WAYS[word](reading)
     if len(reading.meshes) > 1:
         return _between(reading)
