@@ -54,6 +54,7 @@ def _joined(a: NodeValues, b: NodeValues, factor: float) -> NodeValues:
 
 def added(a: NodeField, b: NodeField, factor: float = 1.0) -> NodeField:
     """`a + factor * b`, over the union of their supports."""
+    a, b = a.after_merges(), b.after_merges()
     made = dict(a.components)
     for name, part in b.components.items():
         mine = made.get(name)
@@ -76,6 +77,7 @@ def united(a: NodeField, b: NodeField, check: bool = True) -> NodeField:
     FieldError
         If two values differ at a node of two fields that are not DISCRET (with `check`).
     """
+    a, b = a.after_merges(), b.after_merges()
     if a.components and b.components and a.nature != b.nature:
         raise FieldError(
             f"fields of natures {a.nature or 'INDETERMINE'} and {b.nature or 'INDETERMINE'} "
@@ -127,6 +129,7 @@ def multiplied(a: NodeField, b: NodeField, divide: bool = False) -> NodeField:
     FieldError
         If neither rule applies, or a divisor is zero.
     """
+    a, b = a.after_merges(), b.after_merges()
     if divide and any(np.any(v.values == 0) for v in b.components.values()):
         raise FieldError("the field to divide by has a zero", "see MASQ and BORN")
     run = np.divide if divide else np.multiply
@@ -198,6 +201,7 @@ def renamed(field: NodeField, old: Iterable[str], new: Iterable[str]) -> NodeFie
 
 def restricted(field: NodeField, nodes: IntArray) -> NodeField:
     """The field at those of `nodes` where it is defined."""
+    field = field.after_merges()
     wanted = np.unique(nodes)
     made: dict[str, NodeValues] = {}
     for name, part in field.components.items():

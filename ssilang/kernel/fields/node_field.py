@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -79,3 +79,29 @@ class NodeField:
         """Values of component `name` at `nodes` (m,); `default` where absent."""
         part = self.components.get(name)
         return np.full(len(nodes), default) if part is None else part.at(nodes, default)
+
+    def after_merges(self) -> NodeField:
+        """The field on the nodes that survive merges (ELIM); itself if none of its nodes is gone.
+
+        Of two values on nodes that became one, discrete ones add up; of others the one of the
+        surviving node is kept.
+        """
+        if self.table.version == 0:
+            return self
+        made = {name: self._surviving(part) for name, part in self.components.items()}
+        if all(made[name] is part for name, part in self.components.items()):
+            return self
+        return replace(self, components=made)
+
+    def _surviving(self, part: NodeValues) -> NodeValues:
+        now = self.table.resolve(part.nodes)
+        if np.array_equal(now, part.nodes):
+            return part
+        # survivors first, so that their values are those kept
+        order = np.argsort(now != part.nodes, kind="stable")
+        nodes, first, place = np.unique(now[order], return_index=True, return_inverse=True)
+        values = part.values[order][first]
+        if self.nature == "DISCRET":
+            weights = part.values[order]
+            values = np.asarray(np.bincount(place.ravel(), weights, len(nodes)), dtype=float)
+        return NodeValues(nodes, values)

@@ -1,0 +1,50 @@
+"""Nodal fields made before nodes were merged."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ssilang.kernel.fields.node_algebra import added, restricted
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.mesh.nodes import NodeTable
+
+
+def two_lines(nature: str = "") -> tuple[NodeTable, NodeField, NodeField]:
+    table = NodeTable()
+    first, second = table.add(np.zeros((3, 2))), table.add(np.zeros((3, 2)))
+    a = NodeField.of(table, first, {"UX": np.array([1.0, 2, 3])}, nature)  # type: ignore[arg-type]
+    b = NodeField.of(table, second, {"UX": np.array([10.0, 20, 30])}, nature)  # type: ignore[arg-type]
+    table.merge(first, second)
+    return table, a, b
+
+
+def test_fields_on_merged_nodes_meet() -> None:
+    _, a, b = two_lines()
+    sum_ = added(a, b).components["UX"]
+    assert np.array_equal(sum_.nodes, [0, 1, 2])
+    assert np.array_equal(sum_.values, [11, 22, 33])
+
+
+def test_a_field_is_found_on_the_surviving_nodes() -> None:
+    _, _, b = two_lines()
+    assert np.array_equal(restricted(b, np.array([1])).components["UX"].values, [20.0])
+
+
+def test_a_field_on_both_keeps_the_survivor_or_adds_up() -> None:
+    table, _, _ = two_lines()
+    for nature, expected in (("DIFFUS", [5.0, 6, 7]), ("DISCRET", [13.0, 15, 17])):
+        both = np.array([8.0, 9, 10])
+        given = NodeField.of(
+            table,
+            np.arange(6),
+            {"FX": np.concatenate([[5.0, 6, 7], both])},
+            nature,  # type: ignore[arg-type]
+        )
+        assert np.array_equal(given.after_merges().components["FX"].values, expected)
+
+
+def test_a_field_without_merged_nodes_is_itself() -> None:
+    table, a, _ = two_lines()
+    assert a.after_merges() is a
+    assert NodeTable().version == 0
+    assert table.version == 1
