@@ -1,0 +1,85 @@
+"""summary.json and the files of a run, fine or failed."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from ssilang.cli.run import RunOptions, run_file
+from ssilang.cli.summary import plain
+
+SCRIPT = """
+X = PROG 1. 2. ;
+OPTI SORT 'a.csv' ; SORT 'EXCE' X ;
+SORT 'BILA' 'sum' 3. 3.1 0.2 ; SORT 'BILA' 'count' 2 ;
+"""
+
+
+def run(folder: Path, text: str) -> dict[str, Any]:
+    (folder / "deck.ssi").write_text(text)
+    run_file(folder / "deck.ssi", RunOptions(output_directory=folder / "out", summary=True))
+    made: dict[str, Any] = json.loads((folder / "out" / "summary.json").read_text())
+    return made
+
+
+def test_files_figures_and_statistics_are_listed(tmp_path: Path) -> None:
+    made = run(tmp_path, SCRIPT)
+    assert made["exit_code"] == 0
+    assert made["deck"] == str(tmp_path / "deck.ssi")
+    assert made["files"] == [{"path": "a.csv", "bytes": 8}]
+    assert [(f["name"], f["value"], f["ok"]) for f in made["figures"]] == [
+        ("sum", 3.0, True),
+        ("count", 2.0, None),
+    ]
+    assert made["seconds"] > 0
+    assert made["statements"] == 5
+
+
+def test_a_failed_run_says_where_and_keeps_whole_files(tmp_path: Path) -> None:
+    made = run(tmp_path, SCRIPT + "SORT 'CHAI' 'more' ;\nY = X . 3 ;\nSORT 'CHAI' 'never' ;\n")
+    assert made["exit_code"] == 1
+    (error,) = made["errors"]
+    assert (error["code"], error["line"]) == ("not-a-table", 6)
+    assert (tmp_path / "out" / "a.csv").read_text() == "1.0\n2.0\nmore\n"
+    assert sorted(p.name for p in (tmp_path / "out").iterdir()) == ["a.csv", "summary.json"]
+
+
+def test_numbers_that_are_none_are_null() -> None:
+    given = {"a": np.float64("nan"), 1: [np.int64(3), float("inf")], "c": np.array([1.5]), "d": {2}}
+    assert json.dumps(plain(given)) == '{"a": null, "1": [3, null], "c": [1.5], "d": [2]}'
+
+
+def test_an_output_folder_that_cannot_be_made_is_an_error(tmp_path: Path) -> None:
+    (tmp_path / "out").write_text("a file")
+    (tmp_path / "deck.ssi").write_text(SCRIPT)
+    options = RunOptions(output_directory=tmp_path / "out", summary=True)
+    result = run_file(tmp_path / "deck.ssi", options)
+    assert result.exit_code == 1
+    assert "cannot be written" in result.message
+
+
+def test_the_command_writes_below_results(tmp_path: Path) -> None:
+    (tmp_path / "deck.ssi").write_text(SCRIPT)
+    command = [sys.executable, "-m", "ssilang.cli.main", "deck.ssi"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    names = sorted(p.name for p in (tmp_path / "results" / "deck").iterdir())
+    assert names == ["a.csv", "summary.json"]
+
+
+@pytest.mark.skipif(os.name != "posix", reason="imports are counted on one system")
+def test_drawing_libraries_are_not_loaded_without_a_picture(tmp_path: Path) -> None:
+    code = (
+        "import sys; from ssilang.cli.run import run_text; run_text('X = 1 ;'); "
+        "print(sorted({'matplotlib', 'meshio', 'pyvista', 'PIL'} & set(sys.modules)))"
+    )
+    command = [sys.executable, "-c", code]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.stdout.strip() == "[]"
