@@ -27,5 +27,11 @@ def read_colours(call: Call) -> list[int]:
 
 
 def axis_name(call: Call) -> str:
-    """The word that stands next, as the name of an axis; '' if a list stands there."""
-    return str(call.required("MOT")).rstrip() if call.at_word() else ""
+    """The words that stand next, as the name of an axis; '' if a list stands there.
+
+    `F(T)` without quotes is two words, F and T.
+    """
+    words = []
+    while call.at_word():
+        words.append(str(call.required("MOT")).rstrip())
+    return words[0] if len(words) == 1 else "".join(w.rstrip() for w in words)

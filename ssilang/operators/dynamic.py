@@ -34,7 +34,8 @@ SCHEME_ENTRIES = ("ALPHA_F", "RHO_INF", "BETA", "GAMMA")
 CONTACT_ENTRIES = ("CONSERVATIF", "CONTACT", "COEFFICIENT", "CONTACT_PERSISTANT", "MASSE_MODIFIEE")
 KNOWN = (
     "DEPL", "VITE", "CHAR", "RIGI", "MASS", "AMOR", "MODELE", "CARACTERISTIQUES",
-    "TEMPS_CALCULES", "INST", "FREQ", "PAS_SAUVES", "TEMPS_SAUVES", "MAILLAGE_SAUVE", "SAUV",
+    "TEMPS_CALCULES", "INST", "FREQ", "DEBU",
+    "PAS_SAUVES", "TEMPS_SAUVES", "MAILLAGE_SAUVE", "SAUV",
     "ECON", "PAS_SAUVES_VTK", "TEMPS_SAUVES_VTK", "MAILLAGE_VTK", "FICHIER_VTK",
     "PAS_SAUVES_CSV", "TEMPS_SAUVES_CSV", "MAILLAGE_CSV", "COMPOSANTES_CSV", "FICHIER_CSV",
     "CHARMECA", "VITEUNIL", "ALPHA_F", "RHO_INF", "BETA", "GAMMA", "NEWTON_COMPLET", "RESULTATS",
@@ -95,7 +96,7 @@ def _times(entries: Entries) -> tuple[FloatArray, NDArray[np.bool_]]:
 
 
 def _older_times(entries: Entries) -> tuple[FloatArray, NDArray[np.bool_]]:
-    """INST (instants to keep) and FREQ (cut-off frequency, dt = 1/(4 FREQ))."""
+    """INST (instants kept), DEBU (start, 0), FREQ (cut-off frequency, dt = 1/(4 FREQ))."""
     instants = entries.get("INST", "LISTREEL")
     if instants is None:
         raise entries.bad(
@@ -103,19 +104,21 @@ def _older_times(entries: Entries) -> tuple[FloatArray, NDArray[np.bool_]]:
         )
     frequency = entries.get("FREQ", "FLOTTANT")
     wanted = np.asarray(instants.values, dtype=float)
-    if frequency is None or len(wanted) < 2:
-        return wanted, np.ones(len(wanted), bool)
+    begin = entries.get("DEBU", "FLOTTANT")
+    if begin is None:
+        begin = min(0.0, float(wanted[0])) if len(wanted) else 0.0
+    stops = wanted if len(wanted) and wanted[0] <= begin else np.concatenate([[begin], wanted])
+    if frequency is None or len(stops) < 2:
+        return stops, np.isin(stops, wanted)
     if frequency <= 0:
         raise entries.bad(f"'FREQ' is {frequency:g}", "a cut-off frequency > 0 (Hz)")
-    counts = np.maximum(np.ceil(np.diff(wanted) * 4 * frequency * (1 - 1e-9)), 1).astype(int)
+    counts = np.maximum(np.ceil(np.diff(stops) * 4 * frequency * (1 - 1e-9)), 1).astype(int)
     pieces = [
         np.linspace(a, b, n, endpoint=False)
-        for a, b, n in zip(wanted[:-1], wanted[1:], counts, strict=True)
+        for a, b, n in zip(stops[:-1], stops[1:], counts, strict=True)
     ]
-    times = np.concatenate([*pieces, wanted[-1:]])
-    saved = np.zeros(len(times), bool)
-    saved[np.concatenate([[0], np.cumsum(counts)])] = True
-    return times, saved
+    times = np.concatenate([*pieces, stops[-1:]])
+    return times, np.isin(times, wanted)
 
 
 def _inputs(entries: Entries, times: FloatArray) -> Inputs:

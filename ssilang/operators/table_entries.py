@@ -62,20 +62,32 @@ class Entries:
         value = self.get(index, "LOGIQUE")
         return default if value is None else bool(value)
 
-    def initial(self, index: str, *types: str) -> Any:
-        """`TAB1 . index . 0`, None if there is none."""
-        if not self.has(index):
-            return None
-        inner = self.needed(index, "TABLE")
-        return Entries(self.call, inner, f"{self.procedure} ({index})")._at_zero(types)
+    def numbers(self, index: str) -> list[int]:
+        """Integer indices of the table at an index, none if there is no table."""
+        inner = self.table.get(index)
+        return [i for i, _ in inner.items() if type(i) is int] if isinstance(inner, Table) else []
 
-    def _at_zero(self, types: tuple[str, ...]) -> Any:
-        value = self.table.get(0)
-        if value is None:
+    def at(self, index: str, number: int, *types: str) -> Any:
+        """`TAB1 . index . number`, None if there is none."""
+        inner = self.table.get(index)
+        if not isinstance(inner, Table) or not inner.has(number):
             return None
+        return Entries(self.call, inner, f"{self.procedure}, {index}")._number(number, types)
+
+    def _number(self, number: int, types: tuple[str, ...]) -> Any:
+        value = self.table.get(number)
         if type_of(value) not in types:
-            raise self.bad(f"index 0 must be {' or '.join(types)}, found {type_of(value)}")
+            found = type_of(value)
+            raise self.bad(f"index {number} must be {' or '.join(types)}, found {found}")
         return value
+
+    def forget_after(self, number: int) -> None:
+        """Remove the results of higher numbers."""
+        for _, inner in self.table.items():
+            if isinstance(inner, Table):
+                for i, _ in inner.items():
+                    if type(i) is int and i > number:
+                        inner.remove(i)
 
     def refuse(self, wrong: Mapping[str, str]) -> None:
         """Refuse entries that have no effect here; `wrong` says why, by index.
@@ -128,5 +140,6 @@ class Entries:
     def warn(self, message: str, hint: str = "") -> None:
         """A warning of the procedure."""
         self.call.session.warn(
-            "bad-value", self.call.span, operator=self.procedure, message=message, hint=hint
-        )
+            "bad-value", self.call.span, operator=self.procedure, message=message, hint=hint,
+            severity="warning",
+        )  # fmt: skip

@@ -71,21 +71,28 @@ def loading_of(load: Load | None, numbering: Numbering, multipliers: IntArray) -
     )
 
 
-def _terms(part: LoadPart) -> list[tuple[NodeField, tuple[FloatArray, FloatArray]]]:
-    """Fields of a part, each with its curve."""
+TimeCurve = tuple[FloatArray, FloatArray]
+
+
+def _terms(part: LoadPart) -> list[tuple[NodeField, TimeCurve]]:
+    """Fields of a mechanical part, each with its curve."""
     if part.name.strip() not in MECHANICAL:
         raise FieldError(
             f"the load {part.name} is not mechanical", "MECA (or FORC) and DIMP are taken here"
         )
+    return [(_nodal(field), curve) for field, curve in terms_of(part)]
+
+
+def terms_of(part: LoadPart) -> list[tuple[object, TimeCurve]]:
+    """Fields of a part, each with its curve (abscissas, ordinates)."""
     if part.steps:
         times = np.array([t for t, _ in part.steps])
         hats = np.eye(len(times))
-        return [(_nodal(f), (times, hats[i])) for i, (_, f) in enumerate(part.steps)]
-    constant = (np.zeros(1), np.ones(1))
+        return [(f, (times, hats[i])) for i, (_, f) in enumerate(part.steps)]
     if part.time is None:
-        return [(_nodal(part.space), constant)]
+        return [(part.space, (np.zeros(1), np.ones(1)))]
     curve = part.time.parts[0]
-    return [(_nodal(part.space), (curve.abscissas, curve.ordinates))]
+    return [(part.space, (curve.abscissas, curve.ordinates))]
 
 
 def _nodal(field: object) -> NodeField:

@@ -23,6 +23,7 @@ from ssilang.kernel.joints.interface import (
     interface_of,
     joint_zones,
     nonlinear_blocks,
+    state_from_field,
     without_zones,
 )
 from ssilang.kernel.joints.law_table import law_of
@@ -93,7 +94,8 @@ class Inputs:
     """A problem as a script gives it.
 
     `model` and `characteristics` hold the joints whose law replaces their linear stiffness;
-    other zones of the model are ignored (their matrices are in `stiffness`).
+    other zones of the model are ignored (their matrices are in `stiffness`). `variables` are the
+    joints' internal variables at the start.
     """
 
     stiffness: Matrix
@@ -107,6 +109,7 @@ class Inputs:
     characteristics: CellField | None = None
     scheme: Scheme = field(default_factory=Scheme)
     contact_options: ContactOptions = field(default_factory=ContactOptions)
+    variables: CellField | None = None
 
 
 def make_problem(inputs: Inputs) -> Problem:
@@ -148,12 +151,19 @@ def make_problem(inputs: Inputs) -> Problem:
         interface,
         _start(inputs.displacement, numbering),
         _start(inputs.velocity, numbering),
-        interface.initial_state() if interface else np.zeros((0, 0)),
+        _joint_states(interface, inputs.variables),
         times,
         inputs.scheme,
         contact,
         inputs.contact_options,
     )
+
+
+def _joint_states(interface: Interface | None, given: CellField | None) -> FloatArray:
+    """Initial state of the joints: never loaded, or from internal variables."""
+    if interface is None:
+        return np.zeros((0, 0))
+    return interface.initial_state() if given is None else state_from_field(interface, given)
 
 
 def _checked_times(times: FloatArray) -> FloatArray:

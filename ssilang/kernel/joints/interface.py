@@ -15,7 +15,7 @@ import scipy.sparse as sp
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.errors import FieldError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
-from ssilang.kernel.joints.columns import N_STATE, OPENING, SLIP2
+from ssilang.kernel.joints.columns import N_STATE, OPENING, SLIP2, XI
 from ssilang.kernel.joints.elements import is_joint
 from ssilang.kernel.joints.family import component_order, displacement_names
 from ssilang.kernel.joints.kinematics import JointCells, joint_cells
@@ -237,6 +237,26 @@ def state_field(interface: Interface, state: FloatArray) -> CellField:
             fields["PLA3"] += local[..., OPENING]
         blocks.append(_block(j, fields))
     return CellField(tuple(blocks), "VARIABLES INTERNES")
+
+
+def state_from_field(interface: Interface, field: CellField) -> FloatArray:
+    """State (n_points, N_STATE) from internal variables as `state_field` gives them.
+
+    Variables that the field lacks are zero.
+    """
+    state, start = interface.initial_state(), 0
+    for j in interface.joints:
+        n, g = j.weights.shape
+        local = state[start : start + n * g]
+        start += n * g
+        given = zone_field(j.zone, field)
+        for name, column in law_of(j.zone.behaviour).variables.items():
+            if name in given:
+                values = np.broadcast_to(given.at(name, "STRESSES"), (n, g))
+                local[:, column] = values.ravel()
+        if "PLA3" in given:
+            local[:, XI] -= local[:, OPENING]
+    return state
 
 
 def _block(joints: JointCells, components: dict[str, FloatArray]) -> CellFieldBlock:

@@ -1,0 +1,60 @@
+"""Calls of the user's procedures from a calculation (PERSO1)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ssilang.language.call import Call, Operand
+from ssilang.language.procedures import call_procedure
+from ssilang.language.values import Procedure, Table
+
+if TYPE_CHECKING:
+    from ssilang.kernel.dynamics.snapshot import Snapshot
+
+
+class StopCalculation(Exception):
+    """The user's procedure set ARRET: results so far stand."""
+
+
+def call_user(call: Call, name: str, *values: Any) -> list[Any]:
+    """Call a procedure of the script by name; its results in order.
+
+    Raises
+    ------
+    SsiError
+        If there is no such procedure.
+    """
+    session = call.session
+    procedure = session.frame.find(name) or session.library.find(name)
+    if not isinstance(procedure, Procedure):
+        raise call.bad(
+            f"no procedure is called {name}", hint=f"DEBP {name} TAB1*TABLE ; ... FINP ;"
+        )
+    operands = [Operand(v, call.span) for v in values]
+    return call_procedure(session.evaluator, procedure, Call(session, operands, call.span))
+
+
+class AfterEachStep:
+    """Calls a procedure with the table after each computed time."""
+
+    def __init__(self, call: Call, name: str, table: Table, n_times: int) -> None:
+        self.call, self.name, self.table = call, name, table
+        self.wanted = np.ones(n_times, bool)
+        self.wanted[0] = False
+
+    def receive(self, snapshot: Snapshot) -> None:
+        """One computed time.
+
+        Raises
+        ------
+        StopCalculation
+            When the table's entry ARRET is VRAI.
+        """
+        call_user(self.call, self.name, self.table)
+        if self.table.get("ARRET") is True:
+            raise StopCalculation
+
+    def close(self) -> None:
+        """Nothing to do."""
