@@ -210,6 +210,7 @@ DIME = ByType(
     "Nombre d'éléments d'une liste, table, mot, évolution ...",
     "DIMENSION",
 )
+extend_help("DIME", "ENTI1 = DIME OBJ1 ;", "", "", ("LIST (DIME (PROG 1. 2. 3.)) ;",))
 ENLE = ByType(
     "ENLE",
     "objects",

@@ -1,0 +1,136 @@
+"""`ssilang FILE`, `run`, `check`, `help`: output, messages, exit codes."""
+
+from __future__ import annotations
+
+import pytest
+
+
+def test_a_file_alone_is_run(ssilang, script):
+    done = ssilang(script("MESS 'sum ' (1 + 2) ;\n"))
+    assert (done.code, done.out, done.err) == (0, "sum 3\n", "")
+
+
+def test_a_failing_script_gives_exit_code_1_and_a_placed_message(process, script):
+    done = process(script("x = 1 ;\ny = 1 / 0 ;\n"))
+    assert done.code == 1
+    assert "deck.ssi:2:5" in done.err
+    assert "Traceback" not in done.err
+
+
+def test_debug_shows_the_traceback_too(ssilang, script):
+    assert "Traceback" in ssilang("run", script("y = 1 / 0 ;\n"), "--debug").err
+
+
+def test_a_missing_file_is_wrong_usage(ssilang):
+    done = ssilang("no_such_file.ssi")
+    assert done.code == 2
+    assert "no_such_file.ssi" in done.err
+
+
+def test_a_folder_is_no_script(ssilang, tmp_path):
+    assert ssilang(str(tmp_path)).code == 2
+
+
+def test_scripts_come_by_standard_input(ssilang, process):
+    done = process(stdin="MESS 'piped' ;\n")
+    assert (done.code, done.out) == (0, "piped\n")
+    assert ssilang("-", stdin="MESS 'dash' ;\n").out == "dash\n"
+
+
+def test_standard_input_may_be_latin1(process):
+    assert process("-", stdin="MESS 'déjà' ;\n".encode("latin-1")).out == "déjà\n"
+
+
+def test_a_terminal_without_accents_does_not_stop_a_run(process, script):
+    done = process(script("MESS 'déjà' ;\n"), PYTHONIOENCODING="ascii", LC_ALL="C")
+    assert done.code == 0
+
+
+def test_messages_in_french(ssilang, script):
+    assert "division par zéro" in ssilang("run", script("y = 1 / 0 ;\n"), "--lang", "fr").err
+
+
+def test_opti_lang_switches_the_messages(ssilang, script):
+    assert "division par zéro" in ssilang(script("OPTI 'LANG' 'FRAN' ;\ny = 1 / 0 ;\n")).err
+
+
+def test_limits_are_options(ssilang, script):
+    endless = script("REPE b ; x = &b ; FIN b ;\n")
+    done = ssilang("run", endless, "--max-statements", "500")
+    assert done.code == 1
+    assert "500" in done.err
+
+
+def test_memory_is_bounded_by_option(process, script):
+    big = script("l1 = PROG 0. PAS 1.E-9 1. ;\n")
+    done = process("run", big, "--max-memory", "1500")
+    assert done.code == 1
+    assert "memory" in done.err
+
+
+def test_i_keeps_the_session(ssilang, script):
+    done = ssilang("run", script("x = 41 ;\n"), "-i", stdin="MESS (x + 1) ;\n")
+    assert "42" in done.out
+
+
+def test_check_finds_errors_without_running(ssilang, script):
+    done = ssilang("check", script("MESS 'not run' ;\ny = PORG 1. 2. ;\n"))
+    assert done.code == 1
+    assert "did you mean PROG?" in done.out
+    assert "not run" not in done.out
+
+
+def test_check_of_a_sound_script_says_nothing(ssilang, script):
+    done = ssilang("check", script("y = PROG 1. 2. ;\nMESS (DIME y) ;\n"))
+    assert (done.code, done.out) == (0, "")
+
+
+def test_check_of_several_files(ssilang, script):
+    done = ssilang("check", script("x = 1 ; MESS x ;\n", "a.ssi"), script("x = (1 ;\n", "b.ssi"))
+    assert done.code == 1
+    assert "b.ssi" in done.out
+    assert "a.ssi" not in done.out
+
+
+def test_syntax_only_passes_operators_out_of_scope(ssilang, script):
+    deck = script("x = FLUX 1 2 3 ;\n")
+    assert ssilang("check", deck).code == 1
+    assert ssilang("check", "--syntax-only", deck).code == 0
+
+
+def test_warnings_do_not_fail_a_check(ssilang, script):
+    done = ssilang("check", script("x = 1 / 2 ;\nMESS x ;\n"))
+    assert done.code == 0
+    assert "warning" in done.out
+
+
+def test_help_of_an_operator(ssilang):
+    done = ssilang("help", "prog")
+    assert done.code == 0
+    assert "PROG" in done.out
+    assert "Syntax" in done.out
+
+
+def test_help_lists_every_operator_and_procedure(ssilang):
+    out = ssilang("help").out
+    for word in ("PROG", "DIME", "@VERIFIE"):
+        assert word in out
+
+
+def test_help_of_an_unknown_word(ssilang):
+    done = ssilang("help", "ZZZZ")
+    assert done.code == 1
+    assert "ZZZZ" in done.out
+
+
+def test_version(process):
+    assert process("--version").out.startswith("ssilang ")
+
+
+@pytest.mark.parametrize("arguments", [["check"], ["run"], ["--nonsense"]])
+def test_wrong_usage_gives_exit_code_2(arguments):
+    from ssilang.cli.main import main
+
+    with pytest.raises(SystemExit) as stopped:
+        main(arguments)
+    assert stopped.value.code == 2

@@ -1,0 +1,31 @@
+"""Help pages: every operator and procedure has one, in two languages."""
+
+from __future__ import annotations
+
+import pytest
+
+from ssilang.language.library import standard_procedures
+from ssilang.language.reference import find_page, overview, page_text
+from ssilang.language.registry import OPERATORS
+from ssilang.operators.loader import load_operators
+
+load_operators()
+_WORKERS = ("ZDYN", "ZPAS")  # what procedures of the library call; not for users
+_NAMES = sorted({o.name for o in OPERATORS.values()}) + sorted(standard_procedures())
+
+
+@pytest.mark.parametrize("name", _NAMES)
+def test_page(name):
+    page = find_page(name, standard_procedures())
+    assert page is not None
+    assert page.help.en
+    assert page.help.fr
+    assert page.help.syntax, "a syntax line"
+    assert page.help.examples or name in _WORKERS, "an example"
+    for language in ("en", "fr"):
+        assert name in page_text(page, language)
+
+
+def test_overview_names_them_all():
+    text = overview(standard_procedures().values(), "en")
+    assert all(name in text for name in _NAMES)
