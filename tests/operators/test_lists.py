@@ -1,0 +1,199 @@
+"""Making, searching, sorting and changing lists against Python's own lists."""
+
+import time
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from ssilang.cli.run import run_text
+
+INTEGERS = st.lists(st.integers(-99, 99), min_size=1, max_size=15)
+WORDS = st.lists(st.text("ABCab", min_size=1, max_size=4), min_size=1, max_size=10)
+
+
+def value(script):
+    result = run_text(f"X = {script} ;")
+    assert result.exit_code == 0, result.message
+    return result.session.root.find("X")
+
+
+def items(script):
+    made = value(script).values
+    return made.tolist() if isinstance(made, np.ndarray) else [str(w) for w in made]
+
+
+def lect(numbers):
+    return "(LECT " + " ".join(str(n) for n in numbers) + ")"
+
+
+def mots(words):
+    return "(MOTS " + " ".join(f"'{w}'" for w in words) + ")"
+
+
+@pytest.mark.parametrize(
+    ("phrase", "expected"),
+    [
+        ("PROG 1. 2. PAS -2. -6. 2. 3 * 9. PAS 2. 3. * 13.",
+         [1, 2, 0, -2, -4, -6, 2, 9, 9, 9, 11, 13, 13, 13]),
+        ("PROG 1. PAS 2. NPAS 2", [1, 3, 5]),
+        ("PROG 1. PAS 1. GEOM 2. 8.", [1, 2, 4, 8]),
+        ("PROG 1. PAS 1. GEOM 2. NPAS 3", [1, 2, 4, 8]),
+        ("PROG 0. PAS 0.3 1.", [0, 1 / 3, 2 / 3, 1]),
+        ("PROG 0. PAS -1. 5.", [0, 5]),
+        ("PROG", []),
+        ("LECT 1 2 PAS -2 NPAS 4 2 3 * 9 PAS 2 3 * 13",
+         [1, 2, 0, -2, -4, -6, 2, 9, 9, 9, 11, 13, 13, 13]),
+        ("LECT 1 PAS 2 5", [1, 3, 5]),
+        ("MOTS 2 * 'BLEU' 'ROUG'", ["BLEU", "BLEU", "ROUG"]),
+        ("PROG 'LINE' 'A' 2. 'B' 1. (PROG 0. 1.)", [1, 3]),
+    ],
+)  # fmt: skip
+def test_list_is_made_as_its_notice_says(phrase, expected):
+    made = items(phrase)
+    if expected and isinstance(expected[0], str):
+        assert made == expected
+    else:
+        np.testing.assert_allclose(made, expected, rtol=1e-14)
+
+
+def test_sine_of_a_list_has_frequency_phase_and_amplitude():
+    t = np.linspace(0, 1, 11)
+    made = items("PROG 'SINU' 2. 'PHAS' 30. 'AMPL' 3. (PROG 0. PAS 0.1 1.)")
+    np.testing.assert_allclose(made, 3 * np.sin(2 * np.pi * 2 * t + np.pi / 6), atol=1e-13)
+
+
+def test_step_that_does_not_divide_is_refused_for_integers(refused):
+    assert "steps of 2" in refused("L = LECT 1 PAS 2 6 ;")
+
+
+@given(INTEGERS, INTEGERS)
+@settings(max_examples=25, deadline=None)
+def test_union_concatenates(a, b):
+    assert items(f"{lect(a)} ET {lect(b)}") == a + b
+
+
+def test_union_makes_lists_of_numbers():
+    assert items("1 ET 2") == [1, 2]
+    assert items("1 ET 2.5") == [1.0, 2.5]
+    assert items("(LECT 1) ET (PROG 2.5)") == [1.0, 2.5]
+    assert items("ET 'A' (MOTS 'B')") == ["A", "B"]
+
+
+@given(INTEGERS)
+@settings(max_examples=25, deadline=None)
+def test_sorting_agrees_with_python(numbers):
+    assert items(f"ORDO {lect(numbers)}") == sorted(numbers)
+    assert items(f"ORDO {lect(numbers)} 'DECR'") == sorted(numbers, reverse=True)
+    assert items(f"ORDO {lect(numbers)} 'ABSO'") == sorted(numbers, key=abs)
+    assert items(f"ORDO {lect(numbers)} 'UNIQ'") == sorted(set(numbers))
+    assert items(f"UNIQ {lect(numbers)}") == list(dict.fromkeys(numbers))
+    assert items(f"INVE {lect(numbers)}") == numbers[::-1]
+
+
+@given(WORDS)
+@settings(max_examples=25, deadline=None)
+def test_sorting_of_words_puts_capitals_first_unless_told(words):
+    assert items(f"ORDO {mots(words)}") == sorted(words)
+    assert items(f"ORDO {mots(words)} 'NOCA'") == sorted(words, key=str.upper)
+
+
+@given(INTEGERS)
+@settings(max_examples=25, deadline=None)
+def test_other_lists_follow_the_order_of_the_first(numbers):
+    result = run_text(f"A B = ORDO {lect(numbers)} {lect(range(len(numbers)))} ;")
+    order = result.session.root.find("B").values
+    assert [numbers[i] for i in order] == sorted(numbers)
+
+
+def test_cheapest_permutation_is_found():
+    result = run_text(
+        "P L = ORDO (LECT 10 20 30) 'COUT' (PROG 9. 1. 9. 9. 9. 1. 1. 9. 9.) 'HONG' ;"
+    )
+    assert result.session.root.find("P").values.tolist() == [2, 3, 1]
+    assert result.session.root.find("L").values.tolist() == [20, 30, 10]
+
+
+@given(INTEGERS, st.data())
+@settings(max_examples=25, deadline=None)
+def test_items_are_taken_removed_and_inserted_by_place(numbers, data):
+    place = data.draw(st.integers(1, len(numbers)))
+    assert value(f"EXTR {lect(numbers)} {place}") == numbers[place - 1]
+    assert items(f"ENLE {lect(numbers)} {place}") == numbers[: place - 1] + numbers[place:]
+    expected = [*numbers[: place - 1], 7, *numbers[place - 1 :]]
+    assert items(f"INSE {lect(numbers)} {place} 7") == expected
+    assert value(f"DIME {lect(numbers)}") == len(numbers)
+    assert value(f"SOMM {lect(numbers)}") == sum(numbers)
+
+
+def test_place_outside_of_a_list_is_refused(refused):
+    assert "3 items" in refused("X = EXTR (LECT 1 2 3) 4 ;")
+    assert "3 items" in refused("X = ENLE (LECT 1 2 3) 0 ;")
+
+
+def test_replacing_changes_the_list_for_all_its_names_but_not_a_copy(found):
+    first, second, copy = found(
+        "A = PROG 1. 2. 3. ; B = A ; C = COPI A ; REMP A 2 9. ; REMP A (LECT 1 3) 0. ;",
+        "A", "B", "C",
+    )  # fmt: skip
+    assert first.values.tolist() == second.values.tolist() == [0, 9, 0]
+    assert copy.values.tolist() == [1, 2, 3]
+
+
+def test_replacing_in_a_word_makes_a_new_one():
+    assert value("REMP 'a_b_c' '_' '-'") == "a-b-c"
+
+
+@pytest.mark.parametrize(
+    ("phrase", "expected"),
+    [
+        ("POSI 3 'DANS' (LECT 5 3 3)", 2),
+        ("POSI 4 'DANS' (LECT 5 3 3)", 0),
+        ("POSI 1.05 'DANS' (PROG 0. 1.) 0.1", 2),
+        ("POSI 'uy' 'DANS' (MOTS 'UX' 'UY') 'NOCA'", 2),
+        ("POSI 'an' 'DANS' 'banana'", 2),
+    ],
+)
+def test_place_of_an_item(phrase, expected):
+    assert value(phrase) == expected
+
+
+def test_all_places_and_places_of_several():
+    assert items("POSI 3 'DANS' (LECT 5 3 3) 'TOUS'") == [2, 3]
+    assert items("POSI 'a' 'DANS' 'banana' 'TOUS'") == [2, 4, 6]
+    assert items("POSI (LECT 5 8) 'DANS' (LECT 4 5)") == [2, 0]
+
+
+def test_subtracting_and_testing_lists():
+    assert items("(LECT 1 2 3 4) SAUF (LECT 2 4)") == [1, 3]
+    assert value("DANS (PROG 1. 2.) 2.") is True
+    assert value("DANS 'QUEL' (PROG 2. 1.) (PROG 1. 2. 3.)") is True
+    assert value("DANS 'SEQU' (PROG 2. 1.) (PROG 1. 2. 3.)") is False
+
+
+def test_list_arithmetic_keeps_integers_and_goes_item_by_item():
+    assert items("(LECT 4 5 6) + 1") == [5, 6, 7]
+    assert items("1 - (LECT 4 5 6)") == [-3, -4, -5]
+    assert items("(LECT 4 5) - (PROG 1.5 1.)") == [2.5, 4.0]
+    assert items("(PROG 2. 3.) ** 2") == [4.0, 9.0]
+
+
+def test_running_sum_and_item_by_item_maximum():
+    assert items("SOMM 'CUMU' (PROG 1. 2. 3.)") == [1, 3, 6]
+    assert items("MAXI (PROG 1. 5.) (PROG 3. 2.)") == [3, 5]
+    assert value("MAXI (PROG 1. -5.) 'ABS'") == 5
+
+
+def test_list_of_objects_holds_one_type(refused):
+    assert value("DIME (ENUM (PROG 1.) (PROG 2.))") == 2
+    assert "one type" in refused("L = ENUM (PROG 1.) 'word' ;")
+
+
+def test_ten_thousand_appends_take_little_time():
+    script = "L = PROG ; M = MOTS ; REPE B 10000 ; L = L ET 1. ; M = M ET 'UX' ; FIN B ;"
+    begin = time.perf_counter()
+    result = run_text(script)
+    # copies of 10^4 lists of mean length 5000; about 1 s here, quadratic rebuilding would take 10
+    assert time.perf_counter() - begin < 6
+    assert len(result.session.root.find("L")) == len(result.session.root.find("M")) == 10000

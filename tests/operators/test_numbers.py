@@ -1,0 +1,174 @@
+"""Functions, conversions, comparisons, masks, random values against Python's own."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from ssilang.cli.run import run_text
+
+NUMBERS = st.floats(-1e6, 1e6, allow_nan=False)
+
+
+def value(script):
+    result = run_text(f"X = {script} ;")
+    assert result.exit_code == 0, result.message
+    return result.session.root.find("X")
+
+
+@pytest.mark.parametrize(
+    ("phrase", "expected"),
+    [
+        ("SIN 30.", 0.5),
+        ("COS 60", 0.5),
+        ("TAN 45.", 1.0),
+        ("ASIN 1.", 90.0),
+        ("ACOS (2. ** -0.5)", 45.0),
+        ("ATG 1.", 45.0),
+        ("ATG -1. -1.", -135.0),
+        ("ATG 1. 0.", 90.0),
+        ("SINH 1.", math.sinh(1)),
+        ("COSH 1.", math.cosh(1)),
+        ("TANH 1.", math.tanh(1)),
+        ("ASIH 1.", math.asinh(1)),
+        ("ACOH 2.", math.acosh(2)),
+        ("ATAH 0.5", math.atanh(0.5)),
+        ("EXP 1.", math.e),
+        ("LOG 10.", math.log(10)),
+        ("ERF 0.5", math.erf(0.5)),
+        ("ERFC 0.5", math.erfc(0.5)),
+        ("ABS -2.5", 2.5),
+        ("SIGN -2.5", -1.0),
+        ("FLOT '-1.5'", -1.5),
+        ("FLOT '.2E3'", 200.0),
+    ],
+)
+def test_function_has_the_value_of_the_c_library(phrase, expected):
+    # a few units in the last place, for the conversion of degrees
+    assert value(phrase) == pytest.approx(expected, rel=1e-14)
+
+
+def test_integers_stay_integers_in_abs_and_sign_only():
+    assert (value("ABS -3"), type(value("ABS -3"))) == (3, int)
+    assert type(value("SIGN -3")) is int
+    assert type(value("SIN 30")) is float
+
+
+ROUNDED = {
+    # number: cut, below, above, nearest (halves away from zero)
+    8.0: (8, 8, 8, 8),
+    0.5: (0, 0, 1, 1),
+    -3.5: (-3, -4, -3, -4),
+    5.21: (5, 5, 6, 5),
+    -4.9: (-4, -5, -4, -5),
+    -2.05: (-2, -3, -2, -2),
+}
+
+
+@pytest.mark.parametrize("number", ROUNDED)
+def test_four_ways_to_round(number):
+    words = ("TRONCATURE", "INFERIEUR", "SUPERIEUR", "PROCHE")
+    assert tuple(value(f"ENTI '{w}' {number}") for w in words) == ROUNDED[number]
+
+
+def test_words_and_lists_of_words_become_integers():
+    assert value("ENTI '12'") == 12
+    assert value("ENTI (MOTS '1.7' '-1.7')").values.tolist() == [1, -1]
+
+
+@pytest.mark.parametrize("phrase", ["LOG 0.", "ACOS 2.", "ENTI 'abc'", "EXP 1.E4", "1 / 0"])
+def test_impossible_value_is_explained(phrase, refused):
+    assert "error" in refused(f"X = {phrase} ;")
+
+
+@given(NUMBERS, NUMBERS)
+@settings(max_examples=40, deadline=None)
+def test_comparisons_order_like_the_reals(a, b):
+    script = f"A = {a!r} ; B = {b!r} ; L1 = A < B ; L2 = A > B ; L3 = A <EG B ; L4 = A >EG B ; "
+    root = run_text(script + "L5 = A EGA B ; L6 = A NEG B ;").session.root
+    assert [root.find(f"L{i}") for i in range(1, 7)] == [
+        a < b,
+        a > b,
+        a <= b,
+        a >= b,
+        a == b,
+        a != b,
+    ]
+
+
+def test_equality_converts_the_second_number_to_the_type_of_the_first():
+    assert value("1 EGA 1.5") is True
+    assert value("1.5 EGA 1") is False
+    assert value("1. EGA 1.05 0.1") is True
+
+
+def test_equal_words_forget_trailing_blanks_and_points_their_identity(found):
+    assert value("EGA 'AA' 'AA  '") is True
+    assert value("EGA 'AA' 'aa'") is False
+    same, other = found(
+        "OPTI DIME 2 ; P = 1. 2. ; Q = 1. 2. ; R = 1. 2.1 ; A = P EGA Q ; B = P EGA R ;", "A", "B"
+    )
+    assert (same, other) == (True, False)
+
+
+def test_logic_and_multiples():
+    assert value("VRAI ET FAUX") is False
+    assert value("FAUX OU VRAI") is True
+    assert value("NON FAUX") is True
+    assert value("MULT 12 4") is True
+    assert value("MULT 12 5") is False
+
+
+def test_maximum_of_numbers_keeps_integers():
+    assert value("MAXI -10 1 7 -5") == 7
+    assert value("MAXI 'ABS' -10. 1. 7.") == 10.0
+    assert type(value("MINI 3 2")) is int
+    assert type(value("MINI 3 2.")) is float
+
+
+@given(st.lists(st.integers(-50, 50), min_size=1, max_size=20), st.integers(-50, 50))
+@settings(max_examples=30, deadline=None)
+def test_mask_counts_like_numpy(items, limit):
+    written = " ".join(str(i) for i in items)
+    tests = {
+        "SUPERIEUR": np.greater, "EGSUPE": np.greater_equal, "EGALE": np.equal,
+        "EGINFE": np.less_equal, "INFERIEUR": np.less, "DIFFERENT": np.not_equal,
+    }  # fmt: skip
+    for word, test in tests.items():
+        expected = int(test(np.asarray(items), limit).sum())
+        assert value(f"MASQ (LECT {written}) '{word}' 'SOMME' {limit}") == expected
+
+
+def test_bounds_cut_values():
+    assert value("BORN (PROG -1. 0.5 3.) 'COMPRIS' 0. 1.").values.tolist() == [0.0, 0.5, 1.0]
+    assert value("BORN (LECT -1 5) 'MAXIMUM' 2").values.tolist() == [-1, 2]
+
+
+def test_random_values_follow_their_law_and_repeat():
+    gauss = value("BRUI 'BLAN' 'GAUS' 2. 0.5 20000").values
+    # mean within 5 deviations of the mean's own distribution
+    assert gauss.mean() == pytest.approx(2.0, abs=5 * 0.5 / math.sqrt(20000))
+    assert gauss.std() == pytest.approx(0.5, rel=0.03)
+    uniform = value("BRUI 'BLAN' 'UNIF' 1. 3. 1000").values
+    assert uniform.min() >= -2
+    assert uniform.max() <= 4
+    assert value("BRUI 'BLAN' 'GAUS' 2. 0.5 20000").values.tolist() == gauss.tolist()
+
+
+def test_successive_draws_differ(found):
+    a, b = found("A = BRUI 'BLAN' 'GAUS' 0. 1. 5 ; B = BRUI 'BLAN' 'GAUS' 0. 1. 5 ;", "A", "B")
+    assert a.values.tolist() != b.values.tolist()
+
+
+def test_roots_of_a_polynomial(found):
+    real, re, im, word = found(
+        "R = RACP (PROG -6. 11. -6. 1.) ; RE IM = RACP 'IMAGINAIRE' (PROG 1. 0. 1.) ; "
+        "W = RACP 'INTE' 5. 6. (PROG -6. 11. -6. 1.) ;",
+        "R", "RE", "IM", "W",
+    )  # fmt: skip
+    np.testing.assert_allclose(real.values, [1, 2, 3], rtol=1e-10)
+    np.testing.assert_allclose(re.values, [0, 0], atol=1e-14)
+    np.testing.assert_allclose(im.values, [-1, 1], rtol=1e-14)
+    assert word == "VIDE"

@@ -1,0 +1,101 @@
+"""TFR, TFRI, FILT, HANN, COMT, TOTE against closed forms."""
+
+import numpy as np
+import pytest
+
+from ssilang.kernel.errors import FieldError
+from ssilang.kernel.signals import constant_step, fourier, inverse_fourier, shocks, time_above
+
+
+def test_transform_of_a_gaussian_is_a_gaussian():
+    t = np.arange(1024) * 0.01
+    f, values = fourier(np.exp(-np.pi * (t - 5) ** 2), 0.01, 1024)
+    # the continuous transform: exp(-pi f^2), delayed by 5
+    np.testing.assert_allclose(values, np.exp(-np.pi * f**2 - 10j * np.pi * f), atol=1e-12)
+
+
+def test_inverse_transform_gives_the_signal_back(found):
+    back, original = found(
+        "S = EVOL 'MANU' 'T' (PROG 0. PAS 0.02 NPAS 63) 'A' (BRUI 'BLAN' 'GAUS' 0. 1. 64) ; "
+        "R1 = EXTR (TFRI (TFR 6 S 'REIM')) 'ORDO' ; R2 = EXTR (TFRI (TFR 6 S 'MOPH')) 'ORDO' ; "
+        "B = MAXI ((R1 - R2) ET (R1 - (EXTR S 'ORDO'))) 'ABS' ; "
+        "X = EXTR (TFRI (TFR 6 S 'REIM')) 'ABSC' ;",
+        "B", "X",
+    )  # fmt: skip
+    assert back < 1e-12
+    np.testing.assert_allclose(original.values, 0.02 * np.arange(64), atol=1e-12)
+
+
+def test_frequencies_are_limited_on_demand(found):
+    f = found(
+        "S = EVOL 'MANU' (PROG 0. PAS 0.1 NPAS 15) (PROG 16 * 1.) ; "
+        "F = EXTR (TFR 4 S 'MOPH' 'FMIN' 1. 'FMAX' 3.) 'ABSC' ;",
+        "F",
+    )
+    np.testing.assert_allclose(f.values, [1.25, 1.875, 2.5])
+
+
+def test_transform_of_a_list_of_fields_is_that_of_its_values(found):
+    script = (
+        "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'UX' 1. ; LT = PROG 0. PAS 0.1 NPAS 7 ; "
+        "LC = VIDE 'LISTCHPO' ; REPE B 8 ; LC = LC ET (C * (SIN (40. * &B))) ; FIN B ; "
+        "RE IM LF = TFR 3 LC LT 'REIM' ; A = EXTR RE 'VALE' 'UX' P ; B = EXTR IM 'VALE' 'UX' P ; "
+    )
+    re, im, f = found(script, "A", "B", "LF")
+    expected = np.fft.rfft(np.sin(np.radians(40.0 * np.arange(1, 9)))) * 0.1
+    np.testing.assert_allclose(re.values + 1j * im.values, expected, atol=1e-14)
+    np.testing.assert_allclose(f.values, np.arange(5) / 0.8)
+
+
+def test_uneven_times_are_refused(refused):
+    with pytest.raises(FieldError, match="regularly"):
+        constant_step(np.array([0.0, 1.0, 3.0]))
+    assert "regularly" in refused(
+        "F = TFR 2 (EVOL 'MANU' (PROG 0. 1. 3.) (PROG 1. 2. 3.)) 'REIM' ;"
+    )
+
+
+def test_low_pass_halves_the_power_at_its_cut_off(found):
+    module, phase = found(
+        "E = FILT 4 'TYPE' 'PBAS' 2. 'DFRQ' 0.5 ; M = EXTR (EXTR E 'ORDO' 1) 5 ; "
+        "P = EXTR (EXTR E 'ORDO' 2) 5 ;",
+        "M", "P",
+    )  # fmt: skip
+    assert module == pytest.approx(2**-0.5)
+    assert phase == pytest.approx(-45)
+
+
+def test_power_of_the_circular_frequency_differentiates(found):
+    """Transform times i omega, back: the derivative of a periodic signal."""
+    error = found(
+        "N = 64 ; T = PROG 0. PAS 0.1 NPAS 63 ; "
+        "S = EVOL 'MANU' 'T' T 'A' (SIN (T * (360. / 6.4 * 3.))) ; "
+        "D = TFRI ((TFR 6 S 'REIM') * (FILT 6 'TYPE' 'OMEG' 1 'SORT' 'REIM' 'DFRQ' (1. / 6.4))) ; "
+        "W = 2. * PI * 3. / 6.4 ; "
+        "X = MAXI ((EXTR D 'ORDO') - (W * (COS (T * (360. / 6.4 * 3.))))) 'ABS' ;",
+        "X",
+    )
+    assert error < 1e-12
+
+
+def test_hanning_keeps_a_straight_line_inside(found):
+    y = found(
+        "Y = EXTR (HANN (EVOL 'MANU' (PROG 1. PAS 1. 6.) (PROG 2. PAS 2. 12.)) 1) 'ORDO' ;", "Y"
+    )
+    np.testing.assert_allclose(y.values[1:-1], [4, 6, 8, 10])
+
+
+def test_shocks_are_counted_with_their_peaks_and_places():
+    peaks, begins, ends = shocks(np.array([0, 0, 3, 5, 0, -2, 0, 0, 1.0]), 10)
+    assert peaks.tolist() == [5, -2, 1]
+    assert begins.tolist() == [2, 5, 8]
+    assert ends.tolist() == [4, 6]
+
+
+def test_time_above_a_level_of_a_triangle():
+    assert time_above(np.array([0.0, 1, 2]), np.array([0.0, 2, 0]), 0.5) == pytest.approx(1.5)
+
+
+def test_inverse_needs_two_frequencies():
+    with pytest.raises(FieldError):
+        inverse_fourier(np.array([0.0]), np.array([1.0 + 0j]))

@@ -1,0 +1,71 @@
+"""TABL, INDE, ENLE, COPI, vectors; VIDE."""
+
+import pytest
+
+from ssilang.language.values import Table
+
+
+def test_table_is_shared_by_its_names_and_copied_by_copi(found):
+    sizes = found(
+        "T = TABL ; U = T ; V = COPI T ; W = TABL T ; T . 1 = 5 ; "
+        "A = DIME U ; B = DIME V ; C = DIME W ;",
+        "A", "B", "C",
+    )  # fmt: skip
+    assert sizes == (1, 0, 1)
+
+
+def test_indices_come_in_order_of_creation(found):
+    made = found("T = TABL 'S' ; T . 2. = 1 ; T . 'B' = 2 ; I = INDE T ;", "I")
+    assert [made.get(i) for i in (1, 2, 3)] == ["SOUSTYPE", 2.0, "B"]
+
+
+def test_removing_an_index_leaves_the_first_table(found):
+    a, b = found("T = TABL ; T . 1 = 5 ; U = ENLE T 1 ; A = DIME T ; B = DIME U ;", "A", "B")
+    assert (a, b) == (1, 0)
+
+
+def test_vectors_add_and_scale(found):
+    made = found(
+        "T = TABL 'VECTEUR' ; T . 'X' = 2. ; U = TABL 'VECTEUR' ; U . 'X' = 3. ; U . 'Y' = 1. ; "
+        "V = (T + U) * 2. ;",
+        "V",
+    )
+    assert (made.get("X"), made.get("Y")) == (10.0, 2.0)
+
+
+def test_tables_of_another_kind_do_not_add(refused):
+    assert "VECTEUR" in refused("T = TABL ; U = T + T ;")
+
+
+def test_sum_and_union_of_a_table(found):
+    total, joined = found(
+        "T = TABL 'ESCLAVE' ; T . 1 = PROG 1. ; T . 2 = PROG 5. ; S = + T ; L = ET T ;", "S", "L"
+    )
+    assert total.values.tolist() == [6.0]
+    assert joined.values.tolist() == [1.0, 5.0]
+
+
+@pytest.mark.parametrize(
+    "kind",
+    ["CHPOINT", "MCHAML", "MMODEL", "RIGIDITE", "EVOLUTIO", "LISTENTI", "LISTREEL", "LISTMOTS",
+     "LISTCHPO", "TABLE", "CHARGEME", "MAILLAGE"],
+)  # fmt: skip
+def test_empty_objects_are_empty(kind, found):
+    kind_word, empty = found(f"O = VIDE '{kind}' ; K = TYPE O ; E = VIDE O ;", "K", "E")
+    assert kind_word.rstrip() == kind
+    assert empty is True
+
+
+def test_empty_object_begins_a_union(found):
+    field, full = found(
+        "OPTI DIME 2 ; P = 0. 0. ; C = VIDE 'CHPOINT'/'DIFFUS' ; "
+        "C = C ET (MANU 'CHPO' P 'T' 4. 'NATURE' 'DIFFUS') ; X = MAXI C ; E = VIDE C ;",
+        "X", "E",
+    )  # fmt: skip
+    assert (field, full) == (4.0, False)
+
+
+def test_several_empty_objects_in_a_table(found):
+    made = found("T = VIDE 'TABU' (MOTS 'UX' 'UY') 'LISTENTI'*2 ;", "T")
+    assert isinstance(made, Table)
+    assert [str(i) for i, _ in made.items()] == ["UX", "UY"]

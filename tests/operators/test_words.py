@@ -1,0 +1,154 @@
+"""CHAI, EXTR, CHAN and ET of words; Fortran formats; TYPE and EXIS."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from ssilang.kernel.errors import KernelError
+from ssilang.operators.fortran_format import formatted
+
+
+@pytest.mark.parametrize(
+    ("form", "value", "expected"),
+    [
+        ("(1PE12.5)", 25.86, " 2.58600E+01"),
+        ("(F6.2)", 25.86, " 25.86"),
+        ("(SP,1PE10.3)", 25.86, "+2.586E+01"),
+        ("(E12.5)", 25.86, " 0.25860E+02"),
+        ("(D12.5)", 25.86, " 0.25860D+02"),
+        ("(I5)", 42, "   42"),
+        ("(A4)", "abcdef", "abcd"),
+        ("(F8.5)", -0.5, "-0.50000"),
+        ("(F3.1)", 123.4, "***"),
+        ("(1PE12.5)", 1e-100, " 1.00000-100"),
+        ("(1PE12.5)", 0.0, " 0.00000E+00"),
+        ("(2X,F4.1)", 1.25, "   1.2"),
+        ("(F4.2)", float("nan"), " NaN"),
+    ],
+)
+def test_number_is_written_as_fortran_writes_it(form, value, expected):
+    assert formatted(form, value) == expected
+
+
+@given(st.floats(allow_nan=False, allow_infinity=False, width=32))
+def test_exponential_format_reads_back_to_its_digits(x):
+    written = formatted("(1PE15.8)", x)
+    assert len(written) == 15
+    assert float(written) == pytest.approx(x, rel=1e-8, abs=0)
+
+
+@pytest.mark.parametrize("form", ["F6.2", "(Q3)", "(", ""])
+def test_wrong_format_is_explained(form):
+    with pytest.raises(KernelError, match="format"):
+        formatted(form, 1.0)
+
+
+@pytest.mark.parametrize(
+    ("phrase", "expected"),
+    [
+        ("CHAI 'a' 2 ' ' VRAI", "a2 VRAI"),
+        ("CHAI ' x:' 25.86", " x: 2.58600E+01"),
+        ("CHAI FORMAT '(F6.2)' 'p' 25.86 'q' 1.", "p 25.86q  1.00"),
+        ("CHAI 'ABC' 'DEF'*10", "ABC    DEF"),
+        ("CHAI 'ABC' 'DEF'/10", "ABC      DEF"),
+        ("CHAI 'ABC' 'DEF'<10", "ABC       DEF"),
+        ("CHAI 'ABC' 'DEF'>10", "ABC         DEF"),
+        ("CHAI 321*10 321*20", "       321       321"),
+        ("EXTR 'abcdef' 2 4", "bcd"),
+        ("EXTR 'abcdef' 3", "cdef"),
+        ("EXTR 'abcdef' (LECT 6 1)", "fa"),
+        ("CHAN 'MAJU' 'aB1'", "AB1"),
+        ("CHAN 'MINU' 'aB1'", "ab1"),
+        ("ET 'left ' ' right'", "leftright"),
+        ("ET 'TELQUEL' 'left ' 'right'", "left right"),
+        ("TYPE 3.", "FLOTTANT"),
+        ("TYPE (PROG 1.)", "LISTREEL"),
+        ("TYPE 'x'", "MOT     "),
+        ("MOT 'TRAC'", "TRAC"),
+    ],
+)
+def test_word_made_by_a_phrase(phrase, expected, found):
+    assert found(f"X = {phrase} ;", "X") == expected
+
+
+def test_length_of_a_word_and_characters_outside(found, refused):
+    assert found("N = DIME 'abc' ;", "N") == 3
+    assert "3 characters" in refused("X = EXTR 'abc' 2 5 ;")
+
+
+def test_message_prints_one_line_and_an_empty_one(printed):
+    assert printed("MESS 'n = ' 3 ; MESS ; SAUT 2 'LIGN' ; MESS 'end' ;") == [
+        "n = 3", "", "", "", "end"
+    ]  # fmt: skip
+
+
+def test_message_of_an_object_is_refused(refused):
+    assert "MESSAGE" in refused("T = TABL ; MESS T ;")
+
+
+def test_error_by_text_by_number_and_in_passing(refused, printed):
+    assert "the beam broke" in refused("ERRE 'the beam broke' ;")
+    assert "error 5" in refused("ERRE 5 ;")
+    lines = printed("ERRE 0 ; ERRE -366 'AVEC' 'test' (LECT 1 2) 3.5 VRAI ; MESS 'on' ;")
+    assert lines[-1] == "on"
+    assert "test 1 2 3.50000E+00 VRAI" in lines[0]
+
+
+def test_errors_ignored_are_shown_and_the_run_goes_on(printed):
+    assert printed("OPTI ERRE IGNORE ; X = 1 / 0 ; OPTI ERRE NORMALE ; MESS 'on' ;") == ["on"]
+
+
+def test_existence(found):
+    names = "A B C D E F"
+    values = found(
+        "DEBP P1 X/ENTIER ; L = EXIS X ; FINP L ; A = P1 ; B = P1 3 ; T = TABL ; T . 'K' = 1 ; "
+        "C = EXIS T 'K' ; D = EXIS T 'L' ; E F = EXIS (MOTS 'UX' 'UY') (MOTS 'UY' 'UZ') ;",
+        *names.split(),
+    )
+    assert values == (False, True, True, False, True, False)
+
+
+def test_forgotten_index_and_name(found):
+    size, known = found("T = TABL ; T . 1 = 5 ; OUBL T 1 ; N = DIME T ; X = 2 ; OUBL X ;", "N", "X")
+    assert size == 0
+    assert known is None
+
+
+def test_computed_name(found):
+    a, b = found("REPE B 2 ; NOMM (CHAI 'v' &B) (10 * &B) ; FIN B ;", "V1", "V2")
+    assert (a, b) == (10, 20)
+
+
+def test_listings_say_what_objects_hold(printed):
+    text = "\n".join(
+        printed(
+            "LIST 3 ; LIST 2.5 ; LIST VRAI ; LIST 'abc' ; LIST (LECT 1 2) ; LIST (MOTS 'UX') ; "
+            "T = TABL ; T . 'A' = 4 ; LIST T ; "
+            "E = EVOL 'MANU' (PROG 0. 1.) (PROG 2. 3.) ; LIST E ; "
+            "X = 7 ; LIST *ENTIER ;"
+        )
+    )
+    for part in ("valant : 3", "2.50000", "VRAI", "abc", "UX", "3.00000E+00", "X "):
+        assert part in text
+
+
+def test_object_with_methods_keeps_its_state(found):
+    values = found(
+        "DEBM NAIT X*ENTIER ; %N = X ; %METHODE AJOUTE PLUS ; FINM ; "
+        "DEBM PLUS M*ENTIER ; %N = %N + M ; FINM %N ; "
+        "O = OBJE NAIT 10 ; A = O%AJOUTE 2 ; B = O%AJOUTE 3 ; "
+        "Q = OBJE NAIT 0 ; C = EXIS Q 'N' ; ",
+        "A", "B", "C",
+    )  # fmt: skip
+    assert values == (12, 15, True)
+
+
+def test_inherited_method_runs_on_the_heir(found):
+    assert (
+        found(
+            "DEBM A1 ; %V = 1 ; %METHODE DIT LIRE ; FINM ; DEBM LIRE ; FINM %V ; "
+            "DEBM B1 ; %V = 2 ; FINM ; P = OBJE A1 ; Q = OBJE B1 ; Q%HERITE P ; X = Q%DIT ;",
+            "X",
+        )
+        == 2
+    )
