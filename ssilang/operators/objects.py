@@ -233,12 +233,11 @@ def nomm(call: Call) -> None:
     """Assign to a computed name."""
     if len(call.operands) < 2:
         raise call.bad("a name and an object are needed", hint="NOMM NOM1 OBJ1 ;")
-    first = call.operands[0]
-    if isinstance(first.value, Mot):
-        name = str(first.value).strip().upper()
-        call.operands.pop(0)
-    else:
-        name = take_name(call)
+    first = call.operands.pop(0)
+    call.used.append(first)
+    if not isinstance(first.value, Mot):
+        raise call.bad("a name is a word, or a variable that holds one", first.value)
+    name = str(first.value).strip().upper()
     operand = call.operands.pop(0)
     if not name:
         raise call.bad("the name is empty", first.value)
