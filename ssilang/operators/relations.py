@@ -150,10 +150,11 @@ def _weighted(call: Call, field: NodeField, sense: int) -> Relations:
 def _rigid(call: Call) -> Matrix:
     ws = workspace(call.session)
     names = made.in_space(ws.mode)
-    word = call.keyword(("DEPL", "ROTA"))
-    if word != "ROTA":
-        check = call.keyword(("NOVERIF",)) is None
-        mesh = call.required("MAILLAGE")
+    words = set()
+    while (word := call.keyword(("DEPL", "ROTA", "NOVERIF"))) is not None:
+        words.add(word)
+    if "ROTA" not in words:
+        mesh, check = call.required("MAILLAGE"), "NOVERIF" not in words
         return as_matrix(tied.rigid_by_distances(ws.nodes, mesh.node_ids, names, check))
     turning = nodes_of(call.required("MAILLAGE", "POINT"))
     rest = call.read("MAILLAGE", "POINT")
@@ -232,7 +233,7 @@ operator(
         "RIG1 = RELA ('MINI' | 'MAXI') (X1) MOT1 GEO1 + | - (X2) MOT2 GEO2 ... ;\n"
         "RIG1 = RELA ... (X1) 'DEPL' | 'ROTA' ('DIRE' VEC1) GEO1 + | - ... ;\n"
         "RIG1 = RELA ('MINI' | 'MAXI') CHPO1 ('DUAL' CHPO2) ;\n"
-        "RIG1 = RELA 'CORI' 'DEPL' ('NOVERIF') GEO1 | 'ROTA' GEO1 (GEO2) ;\n"
+        "RIG1 = RELA 'CORI' 'DEPL' ('NOVERIF') GEO1 | 'DEPL' 'ROTA' GEO1 (GEO2) ;\n"
         "RIG1 = RELA 'ENSE' MOT1 GEO1 ;\n"
         "RIG1 = RELA GEO1 'ACCRO' | 'GLIS' GEO2 (LISTMOTS1) (FLOT1) ;\n"
         "RIG1 = RELA 'ACCRO' 'FORT' MODL2 GEO1 | MODL1 ;\n"

@@ -172,3 +172,16 @@ def test_relation_with_its_own_reaction_field():
     assert u.values_at("UX", [1])[0] == pytest.approx(1.0)
     assert u.values_at("UX", [2])[0] == pytest.approx(3.0)
     assert u.values_at("LX", multiplier)[0] == pytest.approx(1.0)
+
+
+def test_rigid_body_with_rotations_carries_solid_nodes_along():
+    script = PLANE + (
+        "L1 = DROI 2 (0. 1.) (2. 1.) ; R = RELA 'CORI' 'DEPL' 'ROTA' (P0 ET P1) L1 ;"
+        "K = R ET (APPU 'UX' 'UY' 'RZ' 1. P0) ; U = RESO K (MOME 'MZ' 2. P1) ;"
+    )
+    u, line = objects(script, "U", "L1")
+    for node in (1, *line.node_ids):
+        x, y, _ = u.table.coordinates[node]
+        assert u.values_at("UX", [node])[0] == pytest.approx(-2.0 * y)
+        assert u.values_at("UY", [node])[0] == pytest.approx(2.0 * x)
+    assert u.values_at("RZ", [1])[0] == pytest.approx(2.0)
