@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
-import scipy.sparse.linalg as spla
 
 from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.errors import KernelError
@@ -62,6 +61,8 @@ def initial_acceleration(problem: Problem, v: FloatArray, joints: JointState) ->
 
     Motions without mass get none: their equilibrium is that of the next step.
     """
+    import scipy.sparse.linalg as spla
+
     T = problem.constraints.T
     load = problem.loading.forces @ problem.loading.at(problem.times[:1])[0]
     rest = load - problem.K @ problem.u - problem.C @ v

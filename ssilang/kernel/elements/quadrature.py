@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
-from scipy.special import roots_jacobi, roots_legendre
 
 from ssilang.kernel.mesh.nodes import FloatArray
 
@@ -24,6 +23,8 @@ class Rule:
 
 
 def _line(n: int) -> Rule:
+    from scipy.special import roots_legendre
+
     x, w = roots_legendre(n)
     return Rule(x[:, None], w)
 
@@ -92,6 +93,8 @@ def _tetrahedron(n: int) -> Rule:
 
 def _conical_tetrahedron(n: int) -> Rule:
     """Collapsed cube: exact up to degree 2 n - 1 (Stroud 1971)."""
+    from scipy.special import roots_jacobi
+
     (x, wx), (y, wy), (z, wz) = (roots_jacobi(n, k, 0) for k in (0, 1, 2))
     u, v, t = ((1 + r) / 2 for r in (x, y, z))
     grid_t, grid_v, grid_u = np.meshgrid(t, v, u, indexing="ij")
@@ -108,6 +111,8 @@ def _conical_tetrahedron(n: int) -> Rule:
 
 def _pyramid(n: int) -> Rule:
     """Gauss on the section times Gauss-Jacobi along the height."""
+    from scipy.special import roots_jacobi
+
     if n == 1:
         return Rule(np.array([[0.0, 0.0, 0.25]]), np.array([4 / 3]))
     section = _quadrangle(n)

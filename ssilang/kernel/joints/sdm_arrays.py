@@ -6,7 +6,6 @@ Independent of the compiled iteration of `sdm_law`; the tests hold one against t
 from __future__ import annotations
 
 import numpy as np
-from scipy.special import lambertw
 
 from ssilang.kernel.mesh.nodes import FloatArray
 
@@ -25,6 +24,8 @@ def normal_arrays(
     `w - xi = -W0(-(a FU/k) exp(-a w))/a` with the principal branch of Lambert's function, which
     is real because KN > FU^2/GF.
     """
+    from scipy.special import lambertw
+
     w, xi_n, k, fu, gf, fc = np.broadcast_arrays(w, xi_n, k, fu, gf, fc)
     a = np.divide(fu, gf, out=np.zeros(w.shape), where=fu > 0)
     soften = (w > xi_n) & (k * (w - xi_n) > fu * np.exp(-a * xi_n))

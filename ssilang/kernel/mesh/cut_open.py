@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from ssilang.kernel.errors import MeshError
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
@@ -104,6 +102,9 @@ def _side(
     seeds: set[tuple[int, int]],
 ) -> set[tuple[int, int]]:
     """Cells joined to the seeds by edges that the line does not cut."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
     number = {c: i for i, c in enumerate(cells)}
     links = [
         (number[a], number[b])

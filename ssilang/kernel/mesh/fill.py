@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.interpolate import LinearNDInterpolator
-from scipy.spatial import cKDTree
 
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.mesh.select import crossing_inside, segment_distance
@@ -18,6 +16,8 @@ class SizeField:
 
     def __init__(self, points: FloatArray, sizes: FloatArray) -> None:
         # corners of a larger square with the mean size make the interpolation total
+        from scipy.interpolate import LinearNDInterpolator
+
         low, high = points.min(axis=0), points.max(axis=0)
         middle, reach = (low + high) / 2, 3.0 * float((high - low).max())
         far = middle + reach * np.array([[-1.0, -1.1], [1.1, -1.0], [1.0, 1.1], [-1.1, 1.0]])
@@ -144,6 +144,8 @@ def _accepted(
     proposals: FloatArray, points: FloatArray, a: FloatArray, b: FloatArray, size: SizeField
 ) -> FloatArray:
     """Proposals that are inside and far enough from points, from the contour and one another."""
+    from scipy.spatial import cKDTree
+
     if not len(proposals):
         return proposals
     inside = crossing_inside(proposals, a, b)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from ssilang.kernel.errors import MeshError
 from ssilang.kernel.mesh.combine import union
@@ -65,6 +64,8 @@ def joint_mesh(first: Mesh, second: Mesh, tolerance: float) -> Mesh:
 
 def _paired(block: CellBlock, other: CellBlock, tolerance: float) -> tuple[IntArray, IntArray]:
     """Cells of `block` that have a partner (m,), and the partner's nodes (m, k) in their order."""
+    from scipy.spatial import cKDTree
+
     tree = cKDTree(other.coordinates.mean(axis=1))
     centres = block.coordinates.mean(axis=1)
     near = tree.query_ball_point(centres, tolerance)

@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
-from scipy.spatial import cKDTree
 
 from ssilang.kernel.errors import MeshError
 from ssilang.kernel.mesh.combine import take, union
@@ -21,6 +18,8 @@ def merge_close(nodes: NodeTable, ids: IntArray, tolerance: float) -> int:
     int
         Number of nodes that vanished.
     """
+    from scipy.spatial import cKDTree
+
     ids = np.unique(nodes.resolve(ids))
     _check(tolerance)
     if len(ids) < 2:
@@ -40,6 +39,8 @@ def merge_between(nodes: NodeTable, first: IntArray, second: IntArray, tolerance
     int
         Number of nodes that vanished.
     """
+    from scipy.spatial import cKDTree
+
     _check(tolerance)
     a, b = np.unique(nodes.resolve(first)), np.unique(nodes.resolve(second))
     common = np.intersect1d(a, b)
@@ -74,6 +75,9 @@ def _check(tolerance: float) -> None:
 
 
 def _merge_groups(nodes: NodeTable, ids: IntArray, pairs: IntArray) -> int:
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
     if not len(pairs):
         return 0
     links = coo_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(ids), len(ids)))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from ssilang.kernel.errors import MeshError
 from ssilang.kernel.mesh.combine import BoolArray, take
@@ -131,6 +130,8 @@ def nearest_node(mesh: Mesh, position: FloatArray) -> int:
 
 def nearest_nodes(mesh: Mesh, positions: FloatArray) -> IntArray:
     """Nodes of a mesh nearest to positions (m, 3)."""
+    from scipy.spatial import cKDTree
+
     ids = mesh.node_ids
     if not len(ids):
         raise MeshError("the mesh is empty: it has no nearest point")
@@ -231,6 +232,8 @@ def inside_volume(positions: FloatArray, volume: Mesh, margin: float) -> BoolArr
         Tolerance on barycentric coordinates: positive takes points slightly outside, negative
         only those strictly inside.
     """
+    from scipy.spatial import cKDTree
+
     xyz = volume.nodes.coordinates
     tables = [tetrahedra(b) for b in volume.blocks if b.kind.dimension == 3]
     if not tables:

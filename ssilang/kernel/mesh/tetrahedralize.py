@@ -6,9 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
-from scipy.spatial import ConvexHull, QhullError, cKDTree
 
 from ssilang.kernel.errors import MeshError
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
@@ -96,6 +93,8 @@ def _outside_spheres(
     positions: FloatArray, centres: FloatArray, radii: FloatArray, factor: float
 ) -> FloatArray:
     """Positions that lie in none of the spheres enlarged by a factor."""
+    from scipy.spatial import cKDTree
+
     if not len(positions):
         return positions
     hit = cKDTree(positions).query_ball_point(centres, factor * radii)
@@ -114,6 +113,8 @@ def _sizes(points: FloatArray, triangles: IntArray) -> FloatArray:
 
 def _inner_points(points: FloatArray, triangles: IntArray) -> FloatArray:
     """Lattice points inside, their spacing following the sizes of the surface nearby."""
+    from scipy.spatial import cKDTree
+
     used = np.unique(triangles)
     sizes = _sizes(points, triangles)[used]
     tree = cKDTree(points[used])
@@ -251,6 +252,8 @@ def _regular_triangulation(points: FloatArray, weights: FloatArray) -> IntArray:
 
     Eight far points, numbered last, surround the others.
     """
+    from scipy.spatial import ConvexHull, QhullError
+
     signs = np.array(np.meshgrid([-1, 1], [-1, 1], [-1, 1])).reshape(3, -1).T
     far = signs * [[3.0, 3.1, 2.9]] + 0.01 * np.arange(8)[:, None]
     every = np.vstack([points, far])
@@ -285,6 +288,9 @@ def _inside_cells(
     points: FloatArray, cells: IntArray, surface: FloatArray, triangles: IntArray
 ) -> IntArray:
     """Cells inside the surface, turned to positive volume."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
     size = int(cells.max()) + 1
     codes = _codes(_faces(cells), size)
     walls = np.isin(codes, _codes(np.sort(triangles, axis=1), size))

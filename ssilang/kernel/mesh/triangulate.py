@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.spatial import Delaunay, QhullError
 
 from ssilang.kernel.errors import MeshError
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
@@ -36,6 +35,8 @@ def _delaunay(points: FloatArray) -> IntArray:
     The square's corners keep the convex hull away from the points, so that points in line on
     the contour give no flat triangles.
     """
+    from scipy.spatial import Delaunay, QhullError
+
     low, high = points.min(axis=0), points.max(axis=0)
     middle, reach = (low + high) / 2, 8.0 * float((high - low).max())
     far = middle + reach * np.array([[-1.0, -0.9], [1.0, -1.1], [0.9, 1.0], [-1.1, 1.1]])

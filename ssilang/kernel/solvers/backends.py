@@ -13,7 +13,6 @@ from typing import Any, Protocol
 
 import numpy as np
 import scipy.sparse as sp
-import scipy.sparse.linalg as spla
 
 from ssilang.kernel.errors import KernelError
 from ssilang.kernel.mesh.nodes import FloatArray
@@ -41,6 +40,8 @@ class SuperLUFactor:
     name = "SuperLU"
 
     def __init__(self, A: sp.csr_array, positive: bool) -> None:
+        import scipy.sparse.linalg as spla
+
         options: dict[str, Any] = {"permc_spec": "COLAMD"}
         if positive:
             options = {

@@ -20,7 +20,6 @@ import numpy as np
 import scipy.linalg as la
 import scipy.sparse as sp
 from numpy.typing import NDArray
-from scipy.sparse.csgraph import connected_components
 
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
@@ -193,6 +192,8 @@ def _group_stage(
     C: sp.csr_array, todo: BoolArray, fixed: list[_Stage], peeled: list[_Stage]
 ) -> list[_Stage]:
     """What is left, group by group, by QR with column pivoting (one stage for all groups)."""
+    from scipy.sparse.csgraph import connected_components
+
     taken = _taken(C, fixed + peeled)
     rows = np.flatnonzero(todo & (_open_terms(C, taken) ** 2 <= LARGEST_FILL))
     if len(rows) == 0:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
-from scipy.sparse.csgraph import connected_components
 
 from ssilang.kernel.matrices.assembly import Numbering
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
@@ -43,6 +42,8 @@ def bodies_of(numbering: Numbering, *couplings: sp.csr_array) -> IntArray:
 
     `couplings` are a stiffness (n, n) or relation rows (m, n).
     """
+    from scipy.sparse.csgraph import connected_components
+
     n = numbering.size
     _, node = np.unique(numbering.nodes, return_inverse=True)
     same = sp.csr_array((np.ones(n), (node, np.arange(n))), shape=(node.max(initial=-1) + 1, n))
