@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Protocol
 
 import numpy as np
-import scipy.linalg as la
 import scipy.sparse as sp
 
 from ssilang.kernel.errors import KernelError
@@ -56,6 +55,8 @@ class OrthogonalConstraints:
     """Dense orthogonal elimination, for small systems; redundant rows share their multipliers."""
 
     def __init__(self, C: sp.csr_array) -> None:
+        import scipy.linalg as la
+
         self.C = C
         dense = C.toarray()
         n = dense.shape[1]

@@ -9,7 +9,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.linalg as la
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
@@ -60,6 +59,8 @@ def complex_modes(
 def _eigenpairs(
     problem: ReducedProblem, shift: complex, count: int
 ) -> tuple[ComplexArray, ComplexArray]:
+    import scipy.linalg as la
+
     A, B = _linear(problem)
     r = problem.size
     wanted = 2 * count + 6

@@ -12,7 +12,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.linalg as la
 import scipy.sparse as sp
 
 from ssilang.kernel.errors import KernelError
@@ -121,6 +120,8 @@ def _regular(A: sp.csr_array, size: int) -> Solve | None:
 
 def _all(problem: ReducedProblem, solve: Solve) -> tuple[FloatArray, FloatArray]:
     """All theta and shapes: `R^T A^-1 R y = theta y` with `M = R R^T`, `x = A^-1 R y`."""
+    import scipy.linalg as la
+
     weights, vectors = la.eigh(problem.M.toarray())
     if weights[0] < -1e-10 * abs(weights[-1]):
         raise KernelError("the mass matrix has negative eigenvalues")

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.linalg as la
 from numpy.typing import NDArray
 
 from ssilang.kernel.errors import ConvergenceError
@@ -106,6 +105,8 @@ def _solve_active(
 
 def _least_squares(A: FloatArray, b: FloatArray) -> FloatArray:
     """Solution of A x = b, of least norm if A is singular (redundant rows)."""
+    import scipy.linalg as la
+
     if len(b) == 0:
         return b
     try:

@@ -17,7 +17,6 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-import scipy.linalg as la
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
@@ -218,6 +217,8 @@ def _group_stage(
 
 
 def _one_group(part: sp.csr_array, rows: IntArray, columns: IntArray, group: IntArray) -> _Stage:
+    import scipy.linalg as la
+
     block = part[group]
     used = np.unique(block.indices)
     Q, R, pivots = la.qr(block[:, used].toarray(), mode="economic", pivoting=True)

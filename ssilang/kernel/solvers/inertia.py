@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-import scipy.linalg as la
 import scipy.sparse as sp
 
 from ssilang.kernel.solvers.backends import SingularFactorError, SuperLUFactor
@@ -38,4 +37,6 @@ def count_negative(A: sp.csr_array) -> int:
 
 
 def _by_eigenvalues(A: sp.csr_array, size: float) -> int:
+    import scipy.linalg as la
+
     return int(np.sum(la.eigvalsh(A.toarray()) < -1e-12 * size))

@@ -10,7 +10,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.linalg as la
 import scipy.sparse as sp
 
 from ssilang.kernel.errors import KernelError
@@ -87,6 +86,8 @@ def invert(A: sp.csr_array, symmetric: bool, backend: str | None = None) -> Inve
     KernelError
         If A holds values that are not finite.
     """
+    import scipy.linalg as la
+
     if not np.isfinite(A.data).all():
         raise KernelError("the matrix holds values that are not finite numbers")
     n = A.shape[0]
