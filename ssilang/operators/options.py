@@ -9,13 +9,14 @@ from typing import Any
 
 from ssilang.io.plots.palette import NAMES as COLOURS
 from ssilang.io.plots.palette import index_of
+from ssilang.kernel.matrices.matrix import PRIMAL_TO_DUAL
 from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.kernel.model import Mode
 from ssilang.language.call import Call
 from ssilang.language.errors import SsiError
 from ssilang.language.registry import Help, arg, operator
 from ssilang.language.session import Session
-from ssilang.language.values import Mot
+from ssilang.language.values import ListMots, Mot
 from ssilang.operators.option_files import include, read_file_option
 from ssilang.operators.workspace import Workspace, workspace
 
@@ -259,6 +260,16 @@ def _unknown_option(call: Call, said: str) -> SsiError:
     )
 
 
+def _unknowns(ws: Workspace) -> tuple[ListMots, ListMots]:
+    """Names of primal and dual unknowns: the usual ones, then those of OPTI INCO."""
+    pairs = dict(PRIMAL_TO_DUAL)
+    said = ws.options.get("INCO")
+    if said is not None:
+        names = [list(w.values) if isinstance(w, ListMots) else [w] for w in said]
+        pairs.update(zip(*names, strict=False))
+    return ListMots(list(pairs)), ListMots(list(pairs.values()))
+
+
 _CURRENT: dict[str, Callable[[Workspace], Any]] = {
     "DIME": lambda ws: ws.dimension,
     "ELEM": lambda ws: Mot(ws.element or "    "),
@@ -293,6 +304,8 @@ def vale(call: Call) -> Any:
         raise _unknown_option(call, left)
     if word == "MODE" and call.keyword(("FOUR",)) is not None:
         return ws.fourier
+    if word == "INCO":
+        return _unknowns(ws)
     if word in _CURRENT:
         return _CURRENT[word](ws)
     value = ws.options.get(word, _DEFAULTS.get(word))

@@ -10,9 +10,7 @@ from numpy.typing import NDArray
 
 from ssilang.kernel.errors import FieldError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
-from ssilang.kernel.fields.node_field import NodeField, NodeValues
-from ssilang.kernel.mesh.mesh import CellBlock, Mesh
-from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.mesh.mesh import CellBlock
 
 Values = NDArray[Any]
 SCALAR = "SCAL"
@@ -252,51 +250,3 @@ def values_of(field: CellField, names: Iterable[str] | None = None) -> list[Valu
         for k, v in b.components.items()
         if v.dtype != object and (wanted is None or k in wanted)
     ]
-
-
-def mesh_of(field: CellField) -> Mesh:
-    """The mesh on which a field stands."""
-    blocks: list[CellBlock] = []
-    for part in field.blocks:
-        if not any(part.cells is b for b in blocks):
-            blocks.append(part.cells)
-    if not blocks:
-        raise FieldError("the field is empty: it stands on no cell")
-    return Mesh(blocks[0].nodes, tuple(blocks))
-
-
-def at_nodes(field: NodeField, mesh: Mesh, title: str = "") -> CellField:
-    """A nodal field as a field at the nodes of the cells of a mesh (0 where it is absent)."""
-    blocks = []
-    for cells in mesh.blocks:
-        nodes = cells.connectivity
-        made = {k: v.at(nodes.ravel()).reshape(nodes.shape) for k, v in field.components.items()}
-        blocks.append(CellFieldBlock(cells, made, "NOEUD"))
-    return CellField(tuple(blocks), title)
-
-
-def averaged_at_nodes(field: CellField, total: bool = False) -> NodeField:
-    """Mean (or sum) at each node of the values that its cells give there.
-
-    Values at integration points are replaced by their mean over the cell.
-    """
-    sums: dict[str, tuple[list[Values], list[Values]]] = {}
-    for block in field.blocks:
-        nodes = block.cells.connectivity
-        for name, values in block.components.items():
-            numbers = _numeric(name, values)
-            if block.support != "NOEUD" or numbers.shape[1] != nodes.shape[1]:
-                numbers = np.repeat(numbers.mean(axis=1, keepdims=True), nodes.shape[1], axis=1)
-            numbers = np.broadcast_to(numbers, nodes.shape)
-            parts = sums.setdefault(name, ([], []))
-            parts[0].append(nodes.ravel())
-            parts[1].append(numbers.ravel())
-    made = {k: _gathered(np.concatenate(n), np.concatenate(v), total) for k, (n, v) in sums.items()}
-    table = mesh_of(field).nodes
-    return NodeField(table, made, "DIFFUS")
-
-
-def _gathered(nodes: Values, values: Values, total: bool) -> NodeValues:
-    ids, place = np.unique(nodes, return_inverse=True)
-    sums: FloatArray = np.bincount(place, weights=values).astype(float)
-    return NodeValues(ids, sums if total else sums / np.bincount(place))

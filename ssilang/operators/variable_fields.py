@@ -1,0 +1,145 @@
+"""VARI: fields that follow a law of variation, parameters that depend on a field."""
+
+from __future__ import annotations
+
+from typing import Any, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ssilang.kernel.curve import Curve, CurvePart
+from ssilang.kernel.curve_algebra import interpolated
+from ssilang.kernel.elements.supports import cells_of_nodal, moved
+from ssilang.kernel.errors import FieldError
+from ssilang.kernel.fields import cell_algebra, node_algebra
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
+from ssilang.kernel.fields.node_field import NodeField, NodeValues
+from ssilang.kernel.model import Model
+from ssilang.language.call import Call
+from ssilang.language.registry import Help, operator
+
+_SUPPORTS = ("NOEUD", "GRAVITE", "RIGIDITE", "MASSE", "STRESSES")
+
+
+def argument_name(names: list[str], part: CurvePart) -> str:
+    """The component that a law is a function of: its abscissa's name, or the only one.
+
+    Raises
+    ------
+    FieldError
+        If the field has several components and none bears the name.
+    """
+    wanted = part.abscissa_name.strip()
+    if wanted in names:
+        return wanted
+    if len(names) == 1:
+        return names[0]
+    raise FieldError(
+        f"none of the components {' '.join(names)} is the abscissa '{wanted}' of the law",
+        "name the abscissa of the curve as the component",
+    )
+
+
+@operator(
+    "VARI",
+    family="fields",
+    full_name="VARIATION",
+    help=Help(
+        en="Field of the values of a curve at those of a field (of its component that is named as "
+        "the abscissa); with a model, in cells at the points of a support ('RIGIDITE' by "
+        "default). 'NUAG': parameters given by curves become numbers, from the fields that they "
+        "depend on.",
+        fr="Champ des valeurs d'une évolution pour celles d'un champ (de sa composante nommée "
+        "comme l'abscisse) ; avec un modèle, par éléments aux points d'un support ('RIGIDITE' par "
+        "défaut). 'NUAG' : des paramètres donnés par évolutions deviennent des nombres, selon les "
+        "champs dont ils dépendent.",
+        syntax="CHPO2 = VARI CHPO1 EVOL1 (MOT1) ; CHAM2 = VARI MODL1 CHAM1 | CHPO1 EVOL1 (MOT1) ;\n"
+        "CHAM2 = VARI 'NUAG' MODL1 CHAM1 CHAM3 | CHPO3 (MOT1) (MOT2) ;",
+        examples=(
+            "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'T' 50. ; "
+            "E = EVOL 'MANU' 'T' (PROG 0. 100.) 'YOUN' (PROG 2. 1.) ; LIST (VARI C E) ;",
+        ),
+    ),
+    reads_itself=True,
+)
+def vari(call: Call) -> Any:
+    """Evaluate laws of variation."""
+    if call.keyword(("NUAG",)) is not None:
+        return _parameters(call)
+    model = call.optional("MMODEL")
+    operand = call.read("CHPOINT", "MCHAML")
+    if operand is None:
+        raise call.missing(("CHPOINT", "MCHAML"))
+    curve: Curve = call.required("EVOLUTIO")
+    if len(curve.parts) != 1:
+        raise call.bad(f"a law is one curve, this object has {len(curve.parts)}", curve)
+    part, field = curve.parts[0], operand.value
+    if model is None:
+        if not isinstance(field, NodeField):
+            raise call.missing(("MMODEL",))
+        return _at_nodes(call, field, part)
+    support = cast(Support, call.keyword(_SUPPORTS) or "RIGIDITE")
+    placed = _placed(model, field, support)
+    name = argument_name(cell_algebra.component_names(placed), part)
+    one = cell_algebra.extracted(placed, [name], ["SCAL"])
+    made = cell_algebra.applied(one, lambda v: interpolated(part.abscissas, part.ordinates, v))
+    return CellField(made.blocks, "SCALAIRE")
+
+
+def _placed(model: Model, field: NodeField | CellField, support: Support) -> CellField:
+    if isinstance(field, NodeField):
+        return cells_of_nodal(model, field, support)
+    return moved(model, field, support, None)
+
+
+def _at_nodes(call: Call, field: NodeField, part: CurvePart) -> NodeField:
+    said = call.read("MOT")
+    target = str(said.value).rstrip() if said is not None else part.ordinate_name.strip()
+    given = field.components[argument_name(list(field.components), part)]
+    values = interpolated(part.abscissas, part.ordinates, given.values)
+    made = {target or "SCAL": NodeValues(given.nodes, values)}
+    return node_algebra.rebuilt(field, made)
+
+
+# ---- parameters given by curves -----------------------------------------------------------------
+
+
+def _parameters(call: Call) -> CellField:
+    model: Model = call.required("MMODEL")
+    laws: CellField = call.required("MCHAML")
+    operand = call.read("MCHAML", "CHPOINT")
+    if operand is None:
+        raise call.missing(("MCHAML", "CHPOINT"))
+    support = cast(Support, call.keyword(_SUPPORTS) or "RIGIDITE")
+    title = call.word()
+    fields = _placed(model, operand.value, support)
+    blocks = [_evaluated(block, fields, support) for block in laws.blocks]
+    return CellField(tuple(blocks), laws.title if title is None else title.rstrip())
+
+
+def _evaluated(block: CellFieldBlock, fields: CellField, support: Support) -> CellFieldBlock:
+    if not any(v.dtype == object for v in block.components.values()):
+        return block
+    given = next((b for b in fields.blocks if cell_algebra.same_cells(b.cells, block.cells)), None)
+    if given is None:
+        raise FieldError("the parameters and the fields they depend on stand on different cells")
+    made: dict[str, NDArray[Any]] = {}
+    for name, values in block.components.items():
+        made[name] = _numbers(name, values, given) if values.dtype == object else values
+    return CellFieldBlock(block.cells, made, support, given.element, block.constituent)
+
+
+def _numbers(name: str, laws: NDArray[Any], given: CellFieldBlock) -> NDArray[Any]:
+    """Values (n_cells, n_points) of laws (n_cells, 1) at those of the fields."""
+    n_cells, n_points = len(given.cells), max(v.shape[1] for v in given.components.values())
+    column = np.broadcast_to(laws[:, :1], (n_cells, 1))[:, 0]
+    found = np.empty((n_cells, n_points))
+    for law in {id(v): v for v in column}.values():
+        if not isinstance(law, Curve):
+            return laws
+        part = law.parts[0]
+        x = given.components[argument_name(list(given.components), part)]
+        rows = np.array([v is law for v in column])
+        values = interpolated(part.abscissas, part.ordinates, np.asarray(x, dtype=float))
+        found[rows] = np.broadcast_to(values, (n_cells, n_points))[rows]
+    return found

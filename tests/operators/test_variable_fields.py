@@ -1,0 +1,38 @@
+"""VARI: fields through a law, parameters that depend on temperature."""
+
+import numpy as np
+import pytest
+
+PLATE = (
+    "OPTI DIME 2 ELEM QUA4 ; P1 = 0. 0. ; P2 = 2. 0. ; L = DROI 2 P1 P2 ; S = TRAN 1 L (0. 1.) ; "
+    "MO = MODE S 'MECANIQUE' 'ELASTIQUE' ; X Y = COOR S ; T = NOMC 'T' (X * 50.) ; "
+    "E = EVOL 'MANU' 'T' (PROG 0. 100.) 'YOUN' (PROG 2.E11 1.E11) ; "
+)
+
+
+def test_nodal_field_through_a_law(found):
+    top, names = found(PLATE + "C = VARI T E ; A = MINI C ; N = EXTR C 'COMP' ;", "A", "N")
+    assert top == pytest.approx(1e11)
+    assert [str(w) for w in names.values] == ["YOUN"]
+
+
+def test_field_in_cells_through_a_law_stands_at_the_support(found):
+    field = found(PLATE + "C = VARI MO T E 'GRAVITE' ;", "C")
+    assert field.title == "SCALAIRE"
+    assert field.blocks[0].support == "GRAVITE"
+    # temperature at the centres x = 0.5 and 1.5 of the two cells: 25 and 75
+    np.testing.assert_allclose(np.ravel(field.blocks[0].components["SCAL"]), [1.75e11, 1.25e11])
+
+
+def test_parameters_given_by_curves_become_numbers(found):
+    field = found(
+        PLATE + "MA = MATE MO 'YOUN' E 'NU' 0.3 ; C = VARI 'NUAG' MO MA T 'GRAVITE' ;", "C"
+    )
+    block = field.blocks[0].components
+    np.testing.assert_allclose(np.ravel(block["YOUN"]), [1.75e11, 1.25e11])
+    assert float(np.ravel(block["NU"])[0]) == 0.3
+
+
+def test_law_of_another_field_is_refused(refused):
+    message = refused(PLATE + "C = VARI ((NOMC 'A' X) ET (NOMC 'B' Y)) E ;")
+    assert "abscissa 'T'" in message
