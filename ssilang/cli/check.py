@@ -27,16 +27,24 @@ def check_file(path: Path, syntax_only: bool, language: str, out: TextIO) -> boo
     """
     try:
         source = Source.read(path)
-        script = parse(source)
-    except SeveralErrors as several:
-        problems, names = several.errors, set[str]()
     except SsiError as error:
         problems, names = [error], set[str]()
     else:
-        problems, names = ([], set[str]()) if syntax_only else _problems(script, source)
+        problems, names = check_source(source, syntax_only)
     for problem in problems:
         out.write(coloured(render(problem, language, names), out) + "\n\n")
     return any(not is_warning(p) for p in problems)
+
+
+def check_source(source: Source, syntax_only: bool = False) -> tuple[list[SsiError], set[str]]:
+    """Errors and warnings of a script in the order of its text, and the names that it knows."""
+    try:
+        script = parse(source)
+    except SeveralErrors as several:
+        return several.errors, set()
+    except SsiError as error:
+        return [error], set()
+    return ([], set()) if syntax_only else _problems(script, source)
 
 
 def _problems(script: Script, source: Source) -> tuple[list[SsiError], set[str]]:

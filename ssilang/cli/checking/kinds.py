@@ -41,6 +41,9 @@ class AnyWord(Mot):
 ANY_WORD = AnyWord("?")
 
 
+_ACTIVE = frozenset({"PROCEDUR", "TEXTE", "ANNULE"})  # what they do depends on which one it is
+
+
 @cache
 def typed(word: str) -> Any:
     """A stand-in for an object of which only the type is known.
@@ -49,6 +52,8 @@ def typed(word: str) -> Any:
     """
     if word == "MOT":
         return ANY_WORD
+    if word in _ACTIVE:
+        return UNKNOWN
     return type(word, (), {"__slots__": ()})() if word else UNKNOWN
 
 

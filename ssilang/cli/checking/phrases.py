@@ -32,6 +32,7 @@ Report = Callable[[SsiError], None]
 
 _COMPARISONS = frozenset({"EGA", "NEG", ">", "<", ">EG", "<EG"})
 _SCALARS = frozenset({"ENTIER", "FLOTTANT"})
+_NEVER = frozenset({"LOGIQUE", "MOT", "LISTMOTS", "MAILLAGE", "MMODEL"})  # no signs on these
 
 
 class AbstractCall(Call):
@@ -161,6 +162,8 @@ class PhraseReader:
             call.operands.insert(0, Operand(typed("LOGIQUE"), span, result=True))
             return
         if (sign, *kinds) not in RULES:
+            if _NEVER.isdisjoint(kinds):
+                raise Ambiguous  # the operator may have a way of its own for them
             raise SsiError("no-rule", span, operator=sign, left=kinds[0], right=kinds[1])
         call.operands.insert(
             0, Operand(self._value(sign, left.value, right.value, span), span, result=True)
@@ -218,9 +221,9 @@ class PhraseReader:
         numbers = [o for o in left if kind_word(o.value) in _SCALARS]
         if one_name and len(numbers) == len(left) and len(numbers) in (2, 3):
             span = numbers[0].span.to(numbers[-1].span)
-            if not scope.dimension:
+            if scope.dimension is None:
                 return [Operand(UNKNOWN, span, result=True)]
-            if len(numbers) < scope.dimension:
+            if len(numbers) < scope.dimension and scope.dimension:
                 raise SsiError("third-coordinate", span)
             if len(numbers) == scope.dimension:
                 return [Operand(typed("POINT"), span, result=True)]

@@ -19,13 +19,13 @@ class Scope:
     values : dict
     open : bool
         Other names may exist: a file was read, a name was computed, or a caller has them.
-    dimension : int
-        OPTI DIME where it is known, else 0.
+    dimension : int or None
+        OPTI DIME, 0 before it is set, None where it is not known.
     """
 
     values: dict[str, Any] = field(default_factory=dict)
     open: bool = False
-    dimension: int = 0
+    dimension: int | None = 0
     inside: tuple[str, ...] = ()  # open loops and procedures, for QUIT and ITER
 
     def copy(self) -> Scope:
@@ -39,7 +39,7 @@ class Scope:
             self.values[name] = same(a, b)
         self.open = self.open or other.open
         if self.dimension != other.dimension:
-            self.dimension = 0
+            self.dimension = None
 
     def forget(self, names: Iterable[str]) -> None:
         """The values of these names are not known any more."""

@@ -39,6 +39,7 @@ class Checker:
     def check(self, script: tree.Script) -> list[SsiError]:
         """Errors and warnings, in the order of the text."""
         self._names = assigned_names(script.body)
+        self.session.assignments = tree.first_assignments(script.body)
         library = all(isinstance(n, tree.Definition) for n in script.body)
         scope = Scope({n: _kept(v) for n, v in self.session.root.variables.items()})
         self._walk(script.body, scope)
@@ -126,6 +127,7 @@ class Checker:
             if isinstance(value, Procedure):
                 scope.values[name] = value
         scope.open = outer.open or library
+        scope.dimension = None
         scope.inside = (node.name,)
         for p in node.parameters:
             known = not p.optional and p.type and p.type not in ("MOT", "FLOTTANT")
@@ -169,7 +171,7 @@ class Checker:
             at = words.index("DIME") + 1
             item = statement.items[at] if at < len(words) else None
             known = isinstance(item, tree.Number) and isinstance(item.value, int)
-            scope.dimension = int(item.value) if known and isinstance(item, tree.Number) else 0
+            scope.dimension = int(item.value) if known and isinstance(item, tree.Number) else None
         if word == "OUBL":
             for item in statement.items[1:2]:
                 if isinstance(item, tree.Name) and len(statement.items) == 2:

@@ -1,0 +1,160 @@
+"""Checking without running: what it finds, and that it raises no false alarm."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from ssilang.cli.check import check_source
+from ssilang.language.diagnostics import is_warning, render
+from ssilang.language.registry import OPERATORS
+from ssilang.language.source import Source
+from ssilang.operators.loader import load_operators
+
+_ROOT = Path(__file__).resolve().parents[2]
+_DECK = """OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ;
+P1 = 0. 0. ; P2 = 1. 0. ; L1 = P1 DROI 4 P2 ; S1 = L1 TRAN 2 (0. 1.) ;
+DEBP RATIO A*FLOTTANT B/FLOTTANT P*PROCEDUR ;
+  SI (EXIS B) ; R = A / B ; SINON ; R = P A ; FINSI ;
+FINP R ;
+T1 = TABL ; T1 . 'LIST' = PROG 1. PAS 0.5 4. ; T2 = TEXT 'DIME' ;
+REPE B1 (DIME T1 . 'LIST') ;
+  X = EXTR T1 . 'LIST' &B1 ; N = T2 T1 . 'LIST' ; M = MOT 'PROG' ; V = M X ;
+  SI (X > 2.) ; ITER B1 ; FINSI ;
+  Y = (RATIO X 2.) + (X ** 2) ; MESS 'x = ' X*20 ' l''essai' N V Y ;
+FIN B1 ;
+"""
+
+load_operators()
+_EXAMPLES = {o.name: o.help.examples for o in OPERATORS.values()}
+
+
+def codes(text: str) -> list[str]:
+    problems, _ = check_source(Source("test", text))
+    return [p.code for p in problems]
+
+
+def errors(source: Source) -> list[str]:
+    problems, names = check_source(source)
+    return [render(p, "en", names) for p in problems if not is_warning(p)]
+
+
+@pytest.mark.parametrize(
+    ("text", "code"),
+    [
+        ("X = PORG 1. 2. ; MESS X ;", "unknown-operator"),
+        ("X = (PORG 1. 2.) ; MESS X ;", "unknown-operator"),
+        ("T = TABL ; T . 'A' = PORG 1. 2. ;", "unknown-operator"),
+        ("SI (PORG 1. 2.) ; FINSI ;", "unknown-operator"),
+        ("DEBP P A*ENTIER ; B = PORG A ; FINP B ; X = P 1 ; MESS X ;", "unknown-operator"),
+        ("X = 1 + VRAI ; MESS X ;", "no-rule"),
+        ("X = 1. + ; MESS X ;", "two-operands"),
+        ("A = 2. ; X = -A ; MESS X ;", "two-operands"),
+        ("A = 2 ; X = A -1 ; MESS X ;", "glued-sign"),
+        ("X = A + 1 ; MESS X ;", "unknown-operator"),
+        ("X = A + 1 ; A = 2 ; MESS X ;", "set-later"),
+        ("T . 'A' = 1 ;", "undefined-table"),
+        ("T = 3 ; X = T . 1 ; MESS X ;", "not-a-table"),
+        ("SI 3 ; FINSI ;", "condition"),
+        ("REPE B MANY ; FIN B ;", "undefined-name"),
+        ("REPE B VRAI ; FIN B ;", "loop-count"),
+        ("REPE B 2 ; QUIT C1 ; FIN B ;", "no-such-loop"),
+        ("REPE B 2 ; ITER C1 ; FIN B ;", "no-such-loop"),
+        ("A B = 1 + 2 ; MESS A B ;", "no-result"),
+        ("A = 1. 2. 3. 4. ; MESS A ;", "excess"),
+        ("OPTI DIME 3 ; P = 1. 2. ; MESS (TYPE P) ;", "third-coordinate"),
+        ("DEBP P A*ENTIER ; FINP A ; X = P 'B' ; MESS X ;", "missing-parameter"),
+        ("DEBP P A*ENTIER ; FINP A ; X = P ; MESS X ;", "missing-parameter"),
+        ("SI VRAI ; X = 1 ;", "unclosed-block"),
+        ("X = (1 + 2 ;", "unclosed-paren"),
+        ("X = FLUX 1 2 ; MESS X ;", "unknown-operator"),
+    ],
+)
+def test_finds(text, code):
+    assert code in codes(text)
+
+
+@pytest.mark.parametrize(
+    ("text", "code"),
+    [
+        ("X = 1 / 2 ; MESS X ;", "integer-division"),
+        ("N = 7 ; X = N / 2 ; MESS X ;", "integer-division"),
+        ("X = 1 ;", "unused-name"),
+        ("DENS = 0.1 ; MESS DENS ;", "shadowed-operator"),
+        ("PROG = 0.1 ; MESS PROG ;", "shadowed-operator"),
+        ("DEBP @VERIFIE ; FINP ;", "overrides-procedure"),
+    ],
+)
+def test_warns(text, code):
+    problems, _ = check_source(Source("test", text))
+    assert [p.code for p in problems] == [code]
+    assert is_warning(problems[0])
+
+
+def test_several_errors_in_one_pass():
+    found = codes("X = PORG 1. ;\nY = 1 + VRAI ;\nSI 3 ; MESS X Y ; FINSI ;\nZ = -Y ; MESS Z ;\n")
+    assert found == ["unknown-operator", "no-rule", "condition", "two-operands"]
+
+
+def test_an_operator_out_of_scope_is_named_with_its_subject():
+    (message,) = errors(Source("test", "X = CAPA 1. 2. ; MESS X ;"))
+    assert "CAPA is a Cast3M operator (heat), out of ssilang's scope" in message
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "X = ABRACADABRA ; MESS X ;",
+        "T = TABL ; T . FOO = 1 ; MESS T . FOO ;",
+        "DEBP P A*ENTIER ; B = A + GLOBAL ; FINP B ; GLOBAL = 2 ; X = P 1 ; MESS X ;",
+        "REPE B 3 ; SI (&B > 1) ; X = X + 1 ; SINON ; X = 0 ; FINSI ; FIN B ; MESS X ;",
+        "OPTI 'ACQU' 'f' ; ACQU N*ENTIER ; X = N + 1 ; MESS X ;",
+        "REST ; X = RESTORED + 1 ; MESS X ;",
+        "NOMM 'ABC' 3 ; X = ABC + 1 ; MESS X ;",
+        "T = TEXT '1 + 2' ; X = T * 3 ; MESS X ;",
+        "M = MOT 'PROG' ; X = M 1. 2. ; MESS X ;",
+        "OPTI DIME 2 ; P = 1. 2. ; Q = P PLUS (1. 0.) ; MESS (COOR 1 Q) ;",
+        "T = TABL ; T . 1 = MOT 'X' ; Y = T . 1 3 ; MESS Y ;",
+        "X Y = MAXI (EVOL 'MANU' (PROG 1. 2.) (PROG 1. 2.)) ; MESS X Y ;",
+        "DEBP P A/ENTIER ; B = 0 ; SI (EXIS A) ; B = A + 1 ; FINSI ; FINP B ; X = P ; MESS X ;",
+        "DEBP P ; ARGU A*ENTIER ; FINP A ; X = P 3 ; MESS X ;",
+        "I = 7 ; J = 2 ; K = I * 2 / J ; MESS K ;",
+    ],
+)
+def test_raises_no_false_alarm(text):
+    assert errors(Source("test", text)) == []
+
+
+@pytest.mark.parametrize(
+    "path",
+    sorted(_ROOT.glob("cases/**/*.ssi")) + sorted(_ROOT.glob("stdlib/*.ssi")),
+    ids=lambda p: p.name,
+)
+def test_sound_decks_pass(path):
+    assert errors(Source.read(path)) == []
+
+
+_WORDS = "PROG DIME DROI A B T P1 'X' ( ) ; = . % + - * EGA ET SI FINSI REPE FIN QUIT 1 2. VRAI"
+_PIECES = st.sampled_from(_WORDS.split())
+
+
+@settings(max_examples=150, deadline=None)
+@given(st.data())
+def test_any_mutation_of_a_deck_is_checked(data):
+    text = _DECK
+    for _ in range(data.draw(st.integers(1, 6))):
+        at = data.draw(st.integers(0, len(text)))
+        drop = data.draw(st.integers(0, 6))
+        text = f"{text[:at]} {data.draw(_PIECES)} {text[at + drop :]}"
+    for problem in check_source(Source("test", text))[0]:
+        assert render(problem, "en")
+        assert render(problem, "fr")
+
+
+@pytest.mark.parametrize("name", sorted(_EXAMPLES))
+def test_examples_of_the_help_pass(name):
+    for example in _EXAMPLES[name]:
+        assert errors(Source(name, example)) == []
