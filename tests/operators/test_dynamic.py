@@ -1,0 +1,204 @@
+"""DYNAMIC: entries, what is kept, files, refusals."""
+
+import numpy as np
+import pytest
+
+from ssilang.cli.run import run_text
+
+OSCILLATOR = """
+OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ;
+P = 0. 0. ; Q = -1. 0. ; L = DROI 1 Q P ;
+MO = MODE L 'MECANIQUE' 'ELASTIQUE' 'BARR' ;
+MA = MATE MO 'YOUN' 4. 'NU' 0. 'SECT' 1. 'RHO' 0. ;
+T1 = TABL ;
+T1 . 'RIGI' = (RIGI MO MA) ET (BLOQ 'UX' 'UY' Q) ET (BLOQ 'UY' P) ;
+T1 . 'MASS' = MASS 'DEPL' 1. P ;
+T1 . 'VITE' = MANU 'CHPO' P 1 'UX' 1. ;
+T1 . 'TEMPS_CALCULES' = PROG 0. 'PAS' 0.01 1. ;
+"""
+
+HOPPER = """
+OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ;
+SOL = 0. -1. ; P = 0. 0. ;
+J = MANU 'SEG2' SOL P ;
+MO = MODE J 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' 'JOI1' ;
+MA = MATE MO 'KN' 1000. 'KS' 0. ;
+T1 = TABL ;
+T1 . 'RIGI' = (BLOQ 'UX' 'UY' SOL) ET (BLOQ 'UX' P) ;
+T1 . 'MASS' = MASS 'DEPL' 1. P ;
+T1 . 'CHAR' = CHAR 'MECA' (FORC (0. -9.81) P) ;
+T1 . 'DEPL' = MANU 'CHPO' P 1 'UY' -0.05 ;
+T1 . 'MODELE' = MO ; T1 . 'CARACTERISTIQUES' = MA ;
+T1 . 'TEMPS_CALCULES' = PROG 0. 'PAS' 1.E-3 0.5 ;
+"""
+
+
+def run(text, tmp_path):
+    result = run_text(text, output_directory=tmp_path)
+    assert result.exit_code == 0, result.message
+    return result
+
+
+def table(result, name="T2"):
+    return result.session.root.find(name)
+
+
+def fails(text, tmp_path):
+    result = run_text(text, output_directory=tmp_path)
+    assert result.exit_code == 1
+    return result.message
+
+
+def test_free_oscillation_and_the_default_cadence(tmp_path):
+    found = table(run(OSCILLATOR + "T2 = DYNAMIC T1 ;", tmp_path))
+    times = [found.get(i).get("TEMP") for i in range(1, len(found) + 1)]
+    assert times == pytest.approx(np.arange(26) * 0.04)
+    last = found.get(26).get("DEPL")
+    node = last.components["UX"].nodes[-1]
+    node = int(last.components["UX"].nodes[np.argmax(np.abs(last.components["UX"].values))])
+    value = last.values_at("UX", np.array([node]))[0]
+    assert value == pytest.approx(np.sin(2.0) / 2, abs=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("entry", "times"),
+    [
+        ("T1 . 'PAS_SAUVES' = 30 ;", [0.0, 0.3, 0.6, 0.9, 1.0]),
+        ("T1 . 'PAS_SAUVES' = 'FINAL' ;", [1.0]),
+        ("T1 . 'TEMPS_SAUVES' = PROG 0.25 0.5 ;", [0.25, 0.5]),
+    ],
+)
+def test_saved_instants(entry, times, tmp_path):
+    found = table(run(OSCILLATOR + entry + "T2 = DYNAMIC T1 ;", tmp_path))
+    assert [found.get(i + 1).get("TEMP") for i in range(len(found))] == pytest.approx(times)
+    assert len(found) == len(times)
+
+
+def test_older_entries_start_at_zero_and_keep_their_instants(tmp_path):
+    text = OSCILLATOR + "OUBL T1 'TEMPS_CALCULES' ; T1 . 'INST' = PROG 0.5 1. ;"
+    text += "T1 . 'FREQ' = 100. ; T2 = DYNAMIC T1 ; E = T1 . 'ENERGIES' . 'TEMPS' ;"
+    result = run(text, tmp_path)
+    found = table(result)
+    assert [found.get(i).get("TEMP") for i in (1, 2)] == [0.5, 1.0]
+    assert len(found) == 2
+    times = table(result, "E").values
+    assert times[0] == 0.0
+    assert np.diff(times) == pytest.approx(0.0025)
+
+
+def test_reactions_come_from_the_multipliers(tmp_path):
+    text = OSCILLATOR.replace("(BLOQ 'UX' 'UY' Q)", "B ").replace(
+        "T1 = TABL ;", "T1 = TABL ; B = BLOQ 'UX' 'UY' Q ;"
+    )
+    text += "T1 . 'PAS_SAUVES' = 'TOUS' ; T2 = DYNAMIC T1 ;"
+    text += "R = MAXI (REAC (T2 . 51 . 'DEPL') B) 'ABS' ; U = EXTR (T2 . 51 . 'DEPL') 'UX' P ;"
+    result = run(text, tmp_path)
+    assert table(result, "R") == pytest.approx(4.0 * table(result, "U"), rel=1e-10)
+
+
+def test_joints_in_the_stiffness_are_replaced_by_their_law(tmp_path):
+    one = run(HOPPER + "T2 = DYNAMIC T1 ;", tmp_path)
+    text = HOPPER + "T1 . 'RIGI' = (T1 . 'RIGI') ET (RIGI MO MA) ; T2 = DYNAMIC T1 ;"
+    two = run(text, tmp_path)
+    ends = [table(r).get(126).get("DEPL").components["UY"].values for r in (one, two)]
+    np.testing.assert_array_equal(*ends)
+    assert ends[0].max() > 0.0
+    last = table(one).get(126)
+    assert last.get("SAUTS").blocks[0].components["EXX"][0, 0] == pytest.approx(ends[0].max())
+    energies = table(one, "T1").get("ENERGIES")
+    assert np.abs(energies.get("ECART").values).max() < 1e-3
+
+
+def test_bonded_joint_without_its_law_is_refused(tmp_path):
+    text = HOPPER + "T1 . 'RIGI' = (T1 . 'RIGI') ET (RIGI MO MA) ; OUBL T1 'MODELE' ;"
+    assert "bonded" in fails(text + "T2 = DYNAMIC T1 ;", tmp_path)
+
+
+def test_vtk_series_and_csv_file(tmp_path):
+    text = (
+        HOPPER
+        + """
+    T1 . 'PAS_SAUVES_VTK' = 100 ; T1 . 'MAILLAGE_VTK' = J ; T1 . 'FICHIER_VTK' = 'hop' ;
+    T1 . 'PAS_SAUVES_CSV' = 'TOUS' ; T1 . 'MAILLAGE_CSV' = MANU 'POI1' P ;
+    T1 . 'COMPOSANTES_CSV' = MOTS 'UY' ; T1 . 'FICHIER_CSV' = 'hop' ;
+    T1 . 'MAILLAGE_SAUVE' = MANU 'POI1' P ;
+    T2 = DYNAMIC T1 ; N = DIME (T1 . 'RESULTATS_CSV') ;
+    """
+    )
+    result = run(text, tmp_path)
+    assert (tmp_path / "hop.pvd").is_file()
+    assert len(list(tmp_path.glob("hop.*.vtu"))) == 6
+    lines = (tmp_path / "hop.csv").read_text().splitlines()
+    assert len(lines) == 502
+    assert len(lines[0].split(";")) == table(result, "N") == 4
+    assert set(table(result).get(1).get("DEPL").components) == {"UX", "UY"}
+
+
+def test_unresolved_contact_warns_with_the_step_to_use(tmp_path):
+    text = HOPPER.replace("1000.", "1.E7") + "T2 = DYNAMIC T1 ;"
+    result = run(text, tmp_path)
+    warning = result.session.warnings[0]
+    wanted = np.pi * np.sqrt(1.0 / 1e7) / 30
+    assert f"{wanted:.3g}" in warning.data["hint"]
+    assert not run(HOPPER + "T2 = DYNAMIC T1 ;", tmp_path).session.warnings
+
+
+@pytest.mark.parametrize(
+    ("entry", "words"),
+    [
+        ("T1 . 'CHARMECA' = VRAI ;", ["CHARMECA", "not available"]),
+        ("T1 . 'VITEUNIL' = 'TOTO' ;", ["VITEUNIL", "TOTO"]),
+        ("T1 . 'ALPHA_F' = 0.1 ; T1 . 'RHO_INF' = 0.5 ;", ["ALPHA_F", "RHO_INF", "two schemes"]),
+        ("T1 . 'ALPHA_F' = 0.5 ;", ["0.5", "out of range"]),
+        ("T1 . 'ALPHA_F' = 0.1 ; T1 . 'VITEUNIL' = VRAI ;", ["average acceleration"]),
+        ("T1 . 'RIGI' = 3 ;", ["RIGI", "RIGIDITE", "ENTIER"]),
+        ("T1 . 'PAS_SAUVES' = 'PARFOIS' ;", ["PARFOIS", "TOUS"]),
+        ("T1 . 'TEMPS_SAUVES' = PROG 3. ;", ["3", "outside"]),
+        ("T1 . 'TEMPS_CALCULES' = PROG 0. 1. 0.5 ;", ["strictly increase"]),
+        ("OUBL T1 'RIGI' ;", ["RIGI", "missing"]),
+        ("T1 . 'CONTACT' = 'PENALITE' ;", ["COEFFICIENT"]),
+        ("T1 . 'PAS_SAUVES_VTK' = 1 ;", ["MAILLAGE_VTK", "missing"]),
+    ],
+)
+def test_wrong_entries_are_named(entry, words, tmp_path):
+    message = fails(OSCILLATOR + entry + "T2 = DYNAMIC T1 ;", tmp_path)
+    for word in words:
+        assert word in message
+
+
+def test_misspelt_entry_is_reported(tmp_path):
+    result = run(OSCILLATOR + "T1 . 'PAS_SAUVE' = 1 ; T2 = DYNAMIC T1 ;", tmp_path)
+    assert "PAS_SAUVES" in result.session.warnings[0].data["hint"]
+
+
+def test_schemes_agree_on_a_smooth_motion(tmp_path):
+    ends = []
+    for entry in (
+        "",
+        "T1 . 'ALPHA_F' = 0.05 ;",
+        "T1 . 'RHO_INF' = 0.9 ;",
+        "T1 . 'BETA' = 0.25 ; T1 . 'GAMMA' = 0.5 ;",
+        "T1 . 'CONSERVATIF' = VRAI ;",
+        "T1 . 'NEWTON_COMPLET' = VRAI ;",
+    ):
+        text = OSCILLATOR + entry + "T2 = DYNAMIC T1 ; U = EXTR (T2 . 26 . 'DEPL') 'UX' P ;"
+        ends.append(table(run(text, tmp_path), "U"))
+    assert ends == pytest.approx([ends[0]] * 6, abs=1e-4)
+
+
+def test_relation_mini_bounces_and_keeps_energy(tmp_path):
+    text = OSCILLATOR.replace("PROG 0. 'PAS' 0.01 1.", "PROG 0. 'PAS' 0.01 6.")
+    text += """
+    B = BLOQ 'MAXI' 'UX' P ;
+    T1 . 'RIGI' = (T1 . 'RIGI') ET B ;
+    T1 . 'CHAR' = CHAR 'DIMP' (DEPI B 0.2) (EVOL 'MANU' (PROG 0. 10.) (PROG 1. 1.)) ;
+    T1 . 'PAS_SAUVES' = 'TOUS' ; T2 = DYNAMIC T1 ; V = EXTR (T2 . 51 . 'VITE') 'UX' P ;
+    M = MAXI (EXTR (EVOL 'TEMP' T2 'DEPL' 'UX' P) 'ORDO') ;
+    """
+    result = run(text, tmp_path)
+    assert table(result, "M") == pytest.approx(0.2, abs=1e-12)
+    assert table(result, "V") < 0.0
+    energies = table(result, "T1").get("ENERGIES")
+    assert energies.get("ELASTIQUE").values[-1] + energies.get("CINETIQUE").values[
+        -1
+    ] == pytest.approx(0.5, rel=1e-9)

@@ -1,0 +1,143 @@
+"""PASAPAS: static and dynamic steps, going on, temperatures, initial stresses, PERSO1."""
+
+import numpy as np
+import pytest
+
+from ssilang.cli.run import run_text
+
+BAR = """
+OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ;
+P1 = 0. 0. ; P2 = 2. 0. ; L = DROI 4 P1 P2 ; S = L TRAN 1 (0. 1.) ;
+G = S COTE 4 ; R = S COTE 2 ;
+MO = MODE S 'MECANIQUE' 'ELASTIQUE' ;
+MA = MATE MO 'YOUN' 1.E6 'NU' 0. 'RHO' 1000. 'ALPH' 1.E-5 ;
+T = TABL ; T . 'MODELE' = MO ; T . 'CARACTERISTIQUES' = MA ;
+T . 'BLOCAGES_MECANIQUES' = (BLOQ 'UX' G) ET (BLOQ 'UY' L) ;
+F = FORC (1000. 0.) R ;
+EV = EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.) ;
+T . 'CHARGEMENT' = CHAR 'MECA' F EV ;
+T . 'TEMPS_CALCULES' = PROG 0.25 'PAS' 0.25 1. ;
+"""
+
+
+def run(text, tmp_path):
+    result = run_text(text, output_directory=tmp_path)
+    assert result.exit_code == 0, result.message
+    return result.session.root.find
+
+
+def test_results_by_number_with_the_initial_state_first(tmp_path):
+    find = run(BAR + "PASAPAS T ; U = EXTR (T . 'DEPLACEMENTS' . 4) 'UX' P2 ;", tmp_path)
+    T = find("T")
+    assert [i for i, _ in T.get("TEMPS").items()] == [0, 1, 2, 3, 4]
+    assert [v for _, v in T.get("TEMPS").items()] == pytest.approx([0, 0.25, 0.5, 0.75, 1])
+    assert find("U") == pytest.approx(2e-3, rel=1e-12)
+    stress = T.get("CONTRAINTES").get(2).blocks[0].components["SMXX"]
+    assert stress == pytest.approx(500.0, rel=1e-12)
+    reactions = T.get("REACTIONS").get(4).components["FX"].values
+    assert reactions.sum() == pytest.approx(-1000.0)
+    assert T.get("CONV") is True
+
+
+def test_saved_times(tmp_path):
+    find = run(BAR + "T . 'TEMPS_SAUVES' = PROG 0.5 1. ; PASAPAS T ;", tmp_path)
+    assert [v for _, v in find("T").get("TEMPS").items()] == pytest.approx([0, 0.5, 1])
+
+
+def test_second_call_goes_on_and_reprise_goes_back(tmp_path):
+    text = (
+        BAR
+        + """
+    PASAPAS T ; T . 'TEMPS_CALCULES' = PROG 0.5 'PAS' 0.5 2. ;
+    T . 'CHARGEMENT' = CHAR 'MECA' F (EVOL 'MANU' (PROG 0. 2.) (PROG 0. 2.)) ;
+    PASAPAS T ; N1 = DIME (T . 'TEMPS') ; U1 = EXTR (T . 'DEPLACEMENTS' . 6) 'UX' P2 ;
+    T . 'REPRISE' = 0.5 ; PASAPAS T ; N2 = DIME (T . 'TEMPS') ;
+    U2 = EXTR (T . 'DEPLACEMENTS' . 5) 'UX' P2 ;
+    """
+    )
+    find = run(text, tmp_path)
+    assert (find("N1"), find("N2")) == (7, 6)
+    assert find("U1") == pytest.approx(4e-3)
+    assert find("U2") == pytest.approx(4e-3)
+
+
+def test_restrained_expansion_presses(tmp_path):
+    text = (
+        BAR.replace("(BLOQ 'UX' G)", "(BLOQ 'UX' (G ET R))")
+        + """
+    T . 'CHARGEMENT' = CHAR 'T' (MANU 'CHPO' S 1 'T' 10.) EV ; PASAPAS T ;
+    """
+    )
+    T = run(text, tmp_path)("T")
+    stress = T.get("CONTRAINTES").get(2).blocks[0].components["SMXX"]
+    assert stress == pytest.approx(-1e6 * 1e-5 * 5.0, rel=1e-10)
+
+
+def test_initial_stress_is_balanced_by_the_first_load(tmp_path):
+    text = (
+        BAR
+        + """
+    T . 'CONTRAINTES' = TABL ; T . 'CONTRAINTES' . 0 = MANU 'CHML' MO 'SMXX' 250. 'SMYY' 0.
+      'SMZZ' 0. 'SMXY' 0. 'TYPE' 'CONTRAINTES' 'STRESSES' ;
+    PASAPAS T ; U = EXTR (T . 'DEPLACEMENTS' . 1) 'UX' P2 ;
+    """
+    )
+    find = run(text, tmp_path)
+    assert find("U") == pytest.approx(0.0, abs=1e-15)
+    stress = find("T").get("CONTRAINTES").get(4).blocks[0].components["SMXX"]
+    assert stress == pytest.approx(1000.0, rel=1e-10)
+
+
+def test_user_procedure_runs_after_each_time_and_may_stop(tmp_path):
+    text = """
+    DEBP PERSO1 T*TABLE ;
+      T . 'COMPTE' = (T . 'COMPTE') + 1 ;
+      SI ((T . 'COMPTE') EGA 3) ; T . 'ARRET' = VRAI ; FINSI ;
+    FINP ;
+    """
+    text += BAR + "T . 'COMPTE' = 0 ; T . 'PROCEDURE_PERSO1' = VRAI ; PASAPAS T ;"
+    T = run(text, tmp_path)("T")
+    assert T.get("COMPTE") == 3
+    assert len(T.get("TEMPS")) == 4
+
+
+def test_dynamic_steps_follow_a_mode(tmp_path):
+    text = (
+        BAR
+        + """
+    OUBL T 'CHARGEMENT' ; T . 'DYNAMIQUE' = VRAI ;
+    X = COOR 1 S ; T . 'DEPLACEMENTS' = TABL ; T . 'VITESSES' = TABL ;
+    T . 'VITESSES' . 0 = NOMC 'UX' (SIN (45. * X)) ;
+    T . 'TEMPS_CALCULES' = PROG 2.E-3 'PAS' 2.E-3 0.1 ; PASAPAS T ;
+    U = EXTR (T . 'DEPLACEMENTS' . 31) 'UX' P2 ;
+    """
+    )
+    w = np.pi / 4 * np.sqrt(1e6 / 1000.0)  # first axial mode of a bar of 2 m
+    assert run(text, tmp_path)("U") == pytest.approx(np.sin(w * 0.062) / w, rel=1e-2)
+
+
+def test_unilateral_support_opens_and_closes(tmp_path):
+    text = (
+        BAR.replace("(BLOQ 'UX' G)", "(BLOQ 'UX' G) ET B").replace(
+            "T = TABL ;", "B = BLOQ 'MAXI' 'UX' R ; T = TABL ;"
+        )
+        + """
+    T . 'CHARGEMENT' = (T . 'CHARGEMENT') ET
+       (CHAR 'DIMP' (DEPI B 1.E-3) (EVOL 'MANU' (PROG 0. 1.) (PROG 1. 1.))) ;
+    PASAPAS T ; U1 = EXTR (T . 'DEPLACEMENTS' . 1) 'UX' P2 ;
+    U4 = EXTR (T . 'DEPLACEMENTS' . 4) 'UX' P2 ; RE = REAC (T . 'DEPLACEMENTS' . 4) B ;
+    """
+    )
+    find = run(text, tmp_path)
+    assert find("U1") == pytest.approx(5e-4, rel=1e-10)
+    assert find("U4") == pytest.approx(1e-3, rel=1e-10)
+    assert find("RE").components["FX"].values.sum() == pytest.approx(-500.0, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    "entry", ["T . 'GRANDS_DEPLACEMENTS' = VRAI ;", "T . 'BLOCAGES_THERMIQUES' = 1 ;"]
+)
+def test_what_is_not_built_is_refused_by_name(entry, tmp_path):
+    result = run_text(BAR + entry + "PASAPAS T ;", output_directory=tmp_path)
+    assert result.exit_code == 1
+    assert entry.split("'")[1] in result.message
