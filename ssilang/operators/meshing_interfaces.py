@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ssilang.kernel.errors import MeshError
-from ssilang.kernel.mesh.interfaces import joint_mesh
+from ssilang.kernel.mesh.interfaces import joint_mesh, joints_inside
 from ssilang.kernel.mesh.merge import merge_between, merge_close
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.nodes import IntArray
@@ -122,3 +122,28 @@ def liai(session: Session, distance: float | None, first: Mesh, second: Mesh) ->
     if first.dimension < 2:
         raise MeshError("LIAI joins surfaces", "between lines use RACC")
     return _joint(session, first, second, distance)
+
+
+@operator(
+    "GENJ",
+    arg("mesh", "MAILLAGE"),
+    opt("distance", "FLOTTANT"),
+    family="mesh",
+    help=Help(
+        en="Joint cells between the parts of a mesh that touch without sharing nodes: on each pair "
+        "of coincident edges of surfaces, or faces of volumes, within a distance.",
+        fr="Eléments de joint entre les parties d'un maillage qui se touchent sans partager leurs "
+        "noeuds : sur chaque paire d'arêtes de surfaces, ou de faces de volumes, confondues à une "
+        "distance près.",
+        syntax="GEO2 = GENJ GEO1 FLOT1 ;",
+        examples=(
+            "OPTI DIME 2 ELEM QUA4 ; S = (DROI 2 (0. 0.) (1. 0.)) TRAN 2 (0. 1.) ;"
+            " T = (DROI 2 (0. 1.) (1. 1.)) TRAN 2 (0. 1.) ; LIST (NBEL (GENJ (S ET T) 1E-3)) ;",
+        ),
+    ),
+)
+def genj(session: Session, mesh: Mesh, distance: float | None) -> Mesh:
+    """Joints between the touching parts of a mesh."""
+    ws = workspace(session)
+    near = tolerance_of(ws, distance, ws.nodes.coordinates[mesh.node_ids])
+    return joints_inside(mesh, max(near, 1e-300))

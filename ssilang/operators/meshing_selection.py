@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ssilang.io.plots.palette import NAMES as COLOURS
 from ssilang.kernel.errors import MeshError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
-from ssilang.kernel.mesh.boundary import chained
+from ssilang.kernel.mesh.boundary import chained, contour
 from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.kernel.mesh.combine import (
     intersection,
@@ -262,12 +262,13 @@ def _extreme_cell(field: CellField, values: Sequence[FloatArray], word: str) -> 
 def incl(
     volume: bool, mesh: Mesh, outer: Mesh, how: str | None, allowed: bool, margin: float | None
 ) -> Mesh:
-    """Cells inside a contour or a volume."""
+    """Cells inside a contour (or the contour of a surface), or inside a volume."""
+    border = contour(outer) if not volume and outer.dimension == 2 else outer
 
     def inside(at: FloatArray) -> NDArray[np.bool_]:
         if volume:
             return inside_volume(at, outer, 1e-2 if margin is None else margin)
-        return inside_contour(at, outer, how == "STRI")
+        return inside_contour(at, border, how == "STRI")
 
     def chosen(block: CellBlock) -> NDArray[np.bool_]:
         if how == "BARY":

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ssilang.kernel.errors import MeshError
+from ssilang.kernel.mesh.boundary import contour, envelope
 from ssilang.kernel.mesh.combine import union
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
@@ -75,13 +76,7 @@ def _paired(block: CellBlock, other: CellBlock, tolerance: float) -> tuple[IntAr
         return rows, np.empty((0, block.kind.n_nodes), dtype=np.int64)
     ours = block.coordinates[rows]
     theirs = other.coordinates[candidates]
-    worst = np.full(len(rows), np.inf)
-    order = np.zeros((len(rows), block.kind.n_nodes), dtype=np.int64)
-    for turn in _renumberings(block.kind.n_nodes, block.kind.degree, block.kind.dimension):
-        gap = np.linalg.norm(ours - theirs[:, turn], axis=2).max(axis=1)
-        better = gap < worst
-        worst[better] = gap[better]
-        order[better] = turn
+    order, worst = _best_order(ours, theirs, block)
     good = worst <= tolerance
     best = np.lexsort((worst, rows))
     best = best[good[best]]
@@ -128,3 +123,56 @@ def _normals(block: CellBlock, rows: IntArray) -> tuple[FloatArray, FloatArray]:
 def _flip_order(block: CellBlock) -> list[int]:
     n = block.kind.n_nodes
     return list(range(n - 1, -1, -1)) if block.kind.dimension == 1 else [-k % n for k in range(n)]
+
+
+def joints_inside(mesh: Mesh, tolerance: float) -> Mesh:
+    """Joint cells between the boundary cells of a mesh that face one another.
+
+    For parts that touch without sharing nodes: each pair of coincident edges (2D) or faces (3D)
+    of different cells gives one joint.
+
+    Raises
+    ------
+    MeshError
+        If no two boundary cells face each other within the tolerance.
+    """
+    skin = envelope(mesh) if mesh.dimension == 3 else contour(mesh)
+    made = []
+    for block in skin.blocks:
+        rows, partner = _facing_pairs(block, tolerance)
+        if len(rows):
+            made.append(_oriented(block, _JOINTS[block.cell_type], rows, partner))
+    if not made:
+        raise MeshError(
+            f"no two boundaries inside the mesh face each other within {tolerance:g}",
+            "the parts must touch without sharing nodes",
+        )
+    return union(*(Mesh(mesh.nodes, (b,)) for b in made), as_given=True)
+
+
+def _facing_pairs(block: CellBlock, tolerance: float) -> tuple[IntArray, IntArray]:
+    """Cells of a block that face a later one (m,), and the nodes of that one in their order."""
+    pairs = cKDTree(block.coordinates.mean(axis=1)).query_pairs(tolerance, output_type="ndarray")
+    if not len(pairs):
+        return np.empty(0, dtype=np.int64), np.empty((0, block.kind.n_nodes), dtype=np.int64)
+    pairs = pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))]
+    order, worst = _best_order(
+        block.coordinates[pairs[:, 0]], block.coordinates[pairs[:, 1]], block
+    )
+    good = worst <= tolerance
+    partner = np.take_along_axis(block.connectivity[pairs[good, 1]], order[good], axis=1)
+    return pairs[good, 0].astype(np.int64), partner
+
+
+def _best_order(
+    ours: FloatArray, theirs: FloatArray, block: CellBlock
+) -> tuple[IntArray, FloatArray]:
+    """For pairs of cells: the node order of the second closest to the first, and its gap."""
+    worst = np.full(len(ours), np.inf)
+    order = np.zeros((len(ours), block.kind.n_nodes), dtype=np.int64)
+    for turn in _renumberings(block.kind.n_nodes, block.kind.degree, block.kind.dimension):
+        gap = np.linalg.norm(ours - theirs[:, turn], axis=2).max(axis=1)
+        better = gap < worst
+        worst[better] = gap[better]
+        order[better] = turn
+    return order, worst

@@ -1,0 +1,37 @@
+"""Triangles refined to wanted sizes, their contour kept."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ssilang.kernel.mesh.boundary import contour
+from ssilang.kernel.mesh.charts import plane_chart
+from ssilang.kernel.mesh.fill import SizeField, fill_contour
+from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+from ssilang.kernel.mesh.surface import contour_cells, contour_chart_data
+
+
+def refined_triangles(mesh: Mesh, ids: IntArray, sizes: FloatArray, colour: int = 0) -> Mesh:
+    """A plane mesh of TRI3 with points added inside until its triangles have the wanted sizes.
+
+    Parameters
+    ----------
+    ids, sizes : array (n,)
+        Nodes of the mesh and the sizes wanted there; all nodes are kept.
+    """
+    border = contour(mesh)
+    chart = plane_chart(*contour_chart_data(border))
+    nodes = mesh.nodes
+    edge = contour_cells(border)
+    first = np.unique(edge)
+    every = np.concatenate([first, np.setdiff1d(ids, first)])
+    number = np.zeros(int(every.max()) + 1, dtype=np.int64)
+    number[every] = np.arange(len(every))
+    flat = chart.flatten(nodes.coordinates[every].copy())
+    field = SizeField(chart.flatten(nodes.coordinates[ids].copy()), sizes)
+    points, triangles = fill_contour(flat, number[edge], field, squares=False)
+    fresh = points[len(every) :]
+    made = nodes.add(chart.lift(fresh), field(fresh)) if len(fresh) else fresh[:, 0].astype(int)
+    table = np.concatenate([every, made])
+    return Mesh.of(nodes, "TRI3", table[triangles], colour)
