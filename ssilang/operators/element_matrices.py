@@ -233,12 +233,16 @@ def hook(call: Call) -> CellField:
 )
 def ksig(call: Call) -> Matrix:
     """Geometric stiffness."""
+    fields: list[CellField] = call.all("MCHAML")
     model: Model = call.required("MMODEL")
-    stress: CellField = call.required("MCHAML")
-    extra = call.all("MCHAML")
+    fields += call.all("MCHAML")
     buckling = call.keyword(["FLAM"]) is not None
-    fields = (*extra, *call.all("MCHAML"))
-    material = joined(fields) if fields else None
+    fields += call.all("MCHAML")
+    if not fields:
+        raise call.missing(("MCHAML",))
+    stress = next((f for f in fields if f.title != "CARACTERISTIQUES"), fields[0])
+    rest = tuple(f for f in fields if f is not stress)
+    material = joined(rest) if rest else None
     blocks = [families.geometric_stiffness(z, stress, material) for z in model.zones]
     made = _assembled(model, blocks, "MASSE" if buckling else "RIGIDITE")
     return made.scaled(-1.0) if buckling else made

@@ -168,7 +168,7 @@ def vloc(call: Call) -> CellField:
 def calp(call: Call) -> CellField:
     """Skin stress of beams."""
     said = Reading(call, ("SUPE", "MOYE", "INFE"))
-    field, material = said.first_and_rest()
+    field, material = said.state_and_rest()
     if material is None:
         raise call.missing(("MCHAML",))
     return on_zones(said.model, field.title, lambda z: skin_stress(z, field, material))

@@ -9,6 +9,7 @@ from ssilang.kernel.elements.line_loads import line_load
 from ssilang.kernel.elements.loads import (
     body_force,
     loaded_faces,
+    pipe_pressure,
     pressure,
     shell_load,
     traction,
@@ -93,14 +94,16 @@ def mome(call: Call) -> NodeField:
         "positive. The pressure is a number on a mesh of sides, a nodal field with one component "
         "(on the outer sides of the model whose nodes all have a value), or a field in cells "
         "over sides. On shells ('COQU') it pushes along their normal ('NORM') or to the side that "
-        "a vector shows.",
+        "a vector shows. In pipes ('TUYA') the parameter PRES pushes on closed ends.",
         fr="Forces nodales d'une pression sur des faces d'éléments massifs, dirigée vers "
         "l'intérieur quand elle est positive. La pression est un nombre sur un maillage de "
         "faces, un champ par points à une composante (sur les faces extérieures du modèle dont "
         "tous les noeuds ont une valeur), ou un champ par éléments sur des faces. Sur les coques "
-        "('COQU') elle pousse selon la normale ('NORM') ou du côté que montre un vecteur.",
+        "('COQU') elle pousse selon la normale ('NORM') ou du côté que montre un vecteur. Dans "
+        "les tuyaux ('TUYA') le paramètre PRES pousse sur les bouts fermés.",
         syntax="FOR1 = PRES 'MASS' MODL1 | VAL1 GEO1 | CHPO1 | CHAM1 ;\n"
-        "FOR1 = PRES 'COQU' MODL1 | VAL1 | CHPO1 | CHAM1 'NORM' | VEC1 ;",
+        "FOR1 = PRES 'COQU' MODL1 | VAL1 | CHPO1 | CHAM1 'NORM' | VEC1 ;\n"
+        "FOR1 = PRES 'TUYA' MODL1 CAR1 ;",
         examples=(
             "OPTI DIME 2 ELEM QUA4 ; P = 0. 0. ; Q = 2. 0. ; L = DROI 2 P Q ; "
             "S = TRAN 1 L (0. 1.) ; M = MODE S MECANIQUE ELASTIQUE ; "
@@ -111,8 +114,10 @@ def mome(call: Call) -> NodeField:
 )
 def pres(call: Call) -> NodeField:
     """Pressure on sides."""
-    kind = _kind(call, ("FISS", "TUYA", "SHB8"))
+    kind = _kind(call, ("FISS", "SHB8"))
     model: Model = call.required("MMODEL")
+    if kind == "TUYA":
+        return pipe_pressure(model, joined((call.required("MCHAML"), *call.all("MCHAML"))))
     operand = call.read("CHPOINT", "MCHAML", "FLOTTANT")
     if operand is None:
         raise call.missing(("FLOTTANT", "CHPOINT", "MCHAML"))
@@ -132,7 +137,7 @@ def pres(call: Call) -> NodeField:
 
 def _kind(call: Call, others: tuple[str, ...]) -> str:
     """MASS, or a refusal of the elements that are not here."""
-    found = call.keyword(["MASS", "POUT", "COQU", *others])
+    found = call.keyword(["MASS", "POUT", "COQU", "TUYA", *others])
     if found in others:
         raise call.bad(f"'{found}' loads are not available", hint="'MASS' is")
     return found or "MASS"

@@ -28,6 +28,9 @@ from ssilang.operators.workspace import Workspace, workspace
 
 register_family("joint", JointFamily())
 
+LONG_NAMES = {"BARRE": "BARR", "POUTRE": "POUT", "TUYAU": "TUYA"}
+"""Elements that scripts also write in full."""
+
 LAW_WORDS = ("ELASTIQUE", *ELASTICITIES, *JOINT_WORDS)
 
 
@@ -102,7 +105,7 @@ def _take(call: Call, word: str, wish: _Wish) -> None:
 
 def _name(call: Call, word: str, wish: _Wish) -> None:
     """A formulation, a law or an element."""
-    said = word.upper().rstrip()
+    said = LONG_NAMES.get(word.upper().rstrip(), word.upper().rstrip())
     element = said if said in GENERIC_ELEMENTS else said[:4]
     if element in ELEMENTS or element in GENERIC_ELEMENTS:
         wish.elements.append(element)

@@ -25,6 +25,10 @@ _BAR = (
 )
 
 
+PARAMETERS = ("CARACTERISTIQUES", "MATRICE DE HOOKE")
+"""Types of fields in cells that hold parameters."""
+
+
 class Reading:
     """What an operator with a model and fields in any order says.
 
@@ -69,11 +73,13 @@ class Reading:
             raise self.call.missing(("MCHAML",))
         return joined(self.cells)
 
-    def first_and_rest(self) -> tuple[CellField, CellField | None]:
-        """The first field in cells, and the others as one."""
+    def state_and_rest(self) -> tuple[CellField, CellField | None]:
+        """The field of stresses or strains, in whatever order, and the parameters as one."""
         if not self.cells:
             raise self.call.missing(("MCHAML",))
-        return self.cells[0], joined(self.cells[1:]) if len(self.cells) > 1 else None
+        state = next((f for f in self.cells if f.title not in PARAMETERS), self.cells[0])
+        rest = tuple(f for f in self.cells if f is not state)
+        return state, joined(rest) if rest else None
 
 
 def on_zones(model: Model, title: str, make: Callable[[Zone], CellFieldBlock]) -> CellField:
@@ -165,7 +171,7 @@ def _logarithmic(zone: Zone, gradient: CellField, by_displacement: bool) -> Cell
 def bsig(call: Call) -> NodeField:
     """Internal forces."""
     said = Reading(call, ("NOER",))
-    stress, material = said.first_and_rest()
+    stress, material = said.state_and_rest()
     forces = [families.internal_forces(z, stress, material) for z in said.model.zones]
     return total(said.model.mesh.nodes, forces)
 

@@ -43,7 +43,7 @@ def _scalar(zone: Zone, values: FloatArray, support: Support) -> CellFieldBlock:
 
 
 def _equivalent(said: Reading, compute: Callable[[FloatArray], FloatArray], what: str) -> CellField:
-    field, material = said.first_and_rest()
+    field, material = said.state_and_rest()
 
     def make(zone: Zone) -> CellFieldBlock:
         if is_solid(zone):
@@ -111,7 +111,7 @@ def tres(call: Call) -> CellField:
 def prin(call: Call) -> CellField:
     """Principal values and directions."""
     said = Reading(call, ("TRID", *_SKINS))
-    field = said.first_and_rest()[0]
+    field = said.state_and_rest()[0]
 
     def make(zone: Zone) -> CellFieldBlock:
         if not is_solid(zone):
@@ -139,7 +139,7 @@ def prin(call: Call) -> CellField:
 def inva(call: Call) -> tuple[CellField, CellField, CellField]:
     """Invariants."""
     said = Reading(call, _SKINS)
-    field = said.first_and_rest()[0]
+    field = said.state_and_rest()[0]
     rows: list[list[CellFieldBlock]] = [[], [], []]
     for zone in said.model.zones:
         if not is_solid(zone):

@@ -205,10 +205,11 @@ class Beam(_LineBeam):
         return to_global(keep(local, zone), frame.rotation(zone)), self.layout(zone)
 
     def geometric_values(self, zone: Zone, stress: FloatArray, parameters: ZoneField) -> FloatArray:
-        """Effect of the mean normal force on the cubic deflection."""
+        """Effect of the mean normal force on the cubic deflection and linear lengthening."""
         frame = beam_frame(zone, parameters)
         scale = stress[:, 0].mean(axis=1) / (30 * frame.lengths)
         local = _plane_blocks(_KSIG, frame.lengths, scale)
+        _place(local, [0, 6], 30 * scale[:, None, None] * np.array([[1.0, -1.0], [-1.0, 1.0]]))
         return to_global(keep(local, zone), frame.rotation(zone))
 
 
@@ -247,11 +248,11 @@ class Timoshenko(_LineBeam):
         return to_global(keep(local, zone), frame.rotation(zone)), self.layout(zone)
 
     def geometric_values(self, zone: Zone, stress: FloatArray, parameters: ZoneField) -> FloatArray:
-        """Effect of the normal force on the deflections."""
+        """Effect of the normal force on the three displacements."""
         frame = beam_frame(zone, parameters)
         scale = (stress[:, 0, 0] / frame.lengths)[:, None, None]
         local = np.zeros((len(scale), 12, 12))
-        for v in (1, 2):
+        for v in (0, 1, 2):
             _place(local, [v, v + 6], scale * np.array([[1.0, -1.0], [-1.0, 1.0]]))
         return to_global(keep(local, zone), frame.rotation(zone))
 

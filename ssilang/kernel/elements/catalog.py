@@ -109,6 +109,7 @@ ELEMENTS: dict[str, ElementKind] = {
         ElementKind(
             "TIMO", "SEG2", "timoshenko", FRAME_MODES, {"RIGIDITE": 1, "MASSE": 2}, default=False
         ),
+        ElementKind("TUYA", "SEG2", "pipe", _VOLUME, {"RIGIDITE": 2}, default=False),
         ElementKind("DKT", "TRI3", "plate", _VOLUME, {"RIGIDITE": 3}, default=False),
         ElementKind(
             "COQ2", "SEG2", "meridian", SECTION_MODES, {"RIGIDITE": 3, "MASSE": 4}, default=False
@@ -151,7 +152,7 @@ def support_rule(element: str, support: Support) -> Rule:
     """
     kind = ELEMENTS[element]
     cell = kind.reference_cell
-    if support == "NOEUD" or (support == "STRESSES" and kind.family == "beam"):
+    if support == "NOEUD" or (support == "STRESSES" and kind.family in ("beam", "pipe")):
         n = len(cell.nodes)
         return Rule(cell.nodes, np.full(n, cell_volume(cell.shape) / n))
     if support == "GRAVITE":

@@ -17,6 +17,7 @@ from ssilang.kernel.elements.family import (
 )
 from ssilang.kernel.elements.hooke import inverted, moduli_from_field
 from ssilang.kernel.elements.meridian_shell import MeridianShell
+from ssilang.kernel.elements.pipe import Pipe
 from ssilang.kernel.elements.plate import Plate
 from ssilang.kernel.elements.solid import Incompressible, Solid
 from ssilang.kernel.elements.solid_moduli import solid_compliance
@@ -34,6 +35,7 @@ FAMILIES: dict[str, ElementFamily] = {
     "bar": Bar(),
     "beam": Beam(),
     "timoshenko": Timoshenko(),
+    "pipe": Pipe(),
     "plate": Plate(),
     "meridian": MeridianShell(),
 }

@@ -15,9 +15,11 @@ from ssilang.kernel.elements.boundary import (
     zones_of_faces,
 )
 from ssilang.kernel.elements.catalog import ELEMENTS
+from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.family import Layout
 from ssilang.kernel.elements.geometry import SurfaceGeometry, chunks
 from ssilang.kernel.elements.kinematics import NODE_TRANSLATIONS, harmonic
+from ssilang.kernel.elements.pipe import pressure_forces
 from ssilang.kernel.elements.solid import integration_weights, zone_geometry
 from ssilang.kernel.elements.zone_fields import cell_rows, zone_field
 from ssilang.kernel.errors import FieldError, MeshError
@@ -216,6 +218,17 @@ def loaded_faces(model: Model, field: NodeField | CellField) -> Mesh:
     if not blocks:
         raise MeshError("the field has values on no outer side of the model")
     return Mesh(table, tuple(blocks))
+
+
+def pipe_pressure(model: Model, material: CellField) -> NodeField:
+    """Forces of the inner pressure PRES of pipes on their closed ends."""
+    out = []
+    for zone in model.zones:
+        if ELEMENTS[zone.element].family != "pipe":
+            raise MeshError(f"a pressure in pipes is not for element {zone.element}")
+        layout = family_of(zone).layout(zone)
+        out.append(layout.scatter(pressure_forces(zone, zone_field(zone, material))))
+    return total(model.mesh.nodes, out)
 
 
 def shell_load(

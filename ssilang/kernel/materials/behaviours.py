@@ -21,6 +21,7 @@ ELASTICITIES: dict[str, tuple[str, ...]] = {
         "joint",
         "plate",
         "meridian",
+        "pipe",
     ),
     "ORTHOTROPE": ("solid", "incompressible", "joint", "plate", "meridian"),
     "ANISOTROPE": ("solid", "incompressible"),
@@ -36,7 +37,8 @@ JOINT_WORDS = (
 OTHER_BEHAVIOURS = (
     "PLASTIQUE_ENDOM", "ENDOMMAGEMENT", "FLUAGE", "VISCOPLASTIQUE", "VISCO_EXTERNE",
     "NON_LINEAIRE", "IMPEDANCE", "HOMOGENEISE", "SECTION", "ARMATURE", "MODAL", "STATIQUE",
-    "CAOUTCHOUC",
+    "CAOUTCHOUC", "PARFAIT", "CINEMATIQUE", "DRUCKER_PARFAIT", "DRUCKER_PRAGER", "CHABOCHE1",
+    "CHABOCHE2", "CAM_CLAY", "HUJEUX", "UBIQUITOUS", "BETON", "MOHR_COULOMB", "MAZARS",
 )  # fmt: skip
 """Laws that Cast3M has and that are not built here: refused by name."""
 

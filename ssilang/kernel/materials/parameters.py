@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ssilang.kernel.elements.catalog import ELEMENTS
+from ssilang.kernel.joints.elements import is_joint
 from ssilang.kernel.joints.law_table import law_of
 from ssilang.kernel.model import Mode, Zone
 
@@ -47,6 +48,10 @@ _GEOMETRY: dict[str, Names] = {
     "incompressible": Names((), ("DIM3",)),
     "bar": Names(("SECT",)),
     "joint": Names((), ("DIM3", "EPAI")),
+    "pipe": Names(
+        ("EPAI", "RAYO"),
+        ("RACO", "VECT", "PRES", "CISA", "CFFX", "CFMX", "CFMY", "CFMZ", "CFPR"),
+    ),
     "plate": Names(("EPAI",), ("EXCE", "ALFA", "CALF")),
     "meridian": Names(("EPAI",), ("EXCE", "ALFA", "CALF", "DIM3")),
 }
@@ -63,7 +68,7 @@ def family_name(zone: Zone) -> str:
 
 def material_names(zone: Zone) -> Names:
     """Parameters of the law of a zone."""
-    if family_name(zone) == "joint":
+    if is_joint(zone):
         law = law_of(zone.behaviour)
         taken = ("RHO", *law.optional, *JOINT_POINT, *JOINT_THERMAL, *AXES)
         return Names(law.required, tuple(n for n in dict.fromkeys(taken) if n not in law.required))

@@ -1,0 +1,49 @@
+"""Axes from directions, radii and turns."""
+
+import numpy as np
+import pytest
+
+from ssilang.kernel.errors import MaterialError
+from ssilang.kernel.materials.axes import Directions, axis_parameters
+from ssilang.kernel.materials.parameters import geometric_names, known_names, material_names
+from ssilang.kernel.model import Mode
+from tests.kernel.elements.samples import cell_zone, line_zone
+
+X, Y = np.array([2.0, 0, 0]), np.array([0, 3.0, 0])
+
+
+def test_direction_is_normalised_and_turned():
+    zone = cell_zone("QUA4", Mode.PLANE_STRAIN)
+    for angle, expected in ((0.0, (1, 0)), (90.0, (0, 1)), (30.0, (np.sqrt(3) / 2, 0.5))):
+        values, support = axis_parameters(zone, Directions(X, None, angle=angle))
+        got = [values[n][0, 0] for n in ("V1X", "V1Y")]
+        np.testing.assert_allclose(got, expected, atol=1e-15)
+        assert support == "GRAVITE"
+
+
+def test_radius_points_from_each_integration_point_to_the_centre():
+    zone = cell_zone("QUA4", Mode.PLANE_STRAIN)
+    values, support = axis_parameters(zone, Directions(np.zeros(3), None, radial=True))
+    assert support == "RIGIDITE"
+    assert values["V1X"].shape == (1, 4)
+    assert (values["V1X"] < 0).all()  # the cell stands at x > 0
+
+
+def test_space_needs_two_vectors_that_are_not_parallel():
+    zone = cell_zone("CUB8", Mode.THREE_DIMENSIONAL)
+    with pytest.raises(MaterialError, match="two vectors"):
+        axis_parameters(zone, Directions(X, None))
+    with pytest.raises(MaterialError, match="parallel"):
+        axis_parameters(zone, Directions(X, X))
+    values, _ = axis_parameters(zone, Directions(X, X + Y))
+    assert values["V2Y"][0, 0] == pytest.approx(1.0)
+
+
+def test_each_element_knows_its_parameters():
+    beam = line_zone("POUT", [(0, 0, 0), (1, 0, 0)], Mode.THREE_DIMENSIONAL)
+    assert geometric_names(beam).required == ("SECT", "INRY", "INRZ", "TORS")
+    joint = line_zone("JOI1", [(0, 0), (1, 0)], Mode.PLANE_STRAIN, ("ELASTIQUE", "JOINT_SDM"))
+    assert {"KN", "KS", "FU", "GF", "FC", "FROT"} <= set(known_names(joint))
+    solid = cell_zone("QUA4", Mode.PLANE_STRAIN)
+    assert material_names(solid).required == ("YOUN", "NU")
+    assert "SECT" not in known_names(solid)
