@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.spatial import Delaunay, QhullError
 
 from ssilang.kernel.errors import MeshError
 from ssilang.kernel.fields.node_field import NodeField
@@ -11,7 +10,7 @@ from ssilang.kernel.mesh.boundary import contour
 from ssilang.kernel.mesh.charts import plane_chart
 from ssilang.kernel.mesh.fillet import fillet
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.kernel.mesh.refine import refined_triangles
+from ssilang.kernel.mesh.refine import delaunay_mesh, refined_triangles
 from ssilang.kernel.mesh.select import inside_contour
 from ssilang.kernel.mesh.surface import contour_cells, contour_chart_data
 from ssilang.kernel.mesh.tetrahedralize import ray_inside
@@ -79,7 +78,7 @@ def tria(session: Session, mesh: Mesh, limit: int | None) -> Mesh:
     """Triangulate a contour or points."""
     ws = workspace(session)
     if mesh.dimension == 0:
-        return _delaunay(mesh, ws.dimension, ws.colour)
+        return delaunay_mesh(mesh, ws.dimension, ws.colour)
     boundary, segments = contour_chart_data(mesh)
     flat = plane_chart(boundary, segments)
     cells = contour_cells(mesh)
@@ -87,19 +86,6 @@ def tria(session: Session, mesh: Mesh, limit: int | None) -> Mesh:
     points = flat.flatten(mesh.nodes.coordinates[ids].copy())
     table = triangulate_inside(points, local.reshape(cells.shape).astype(np.int64))
     return Mesh.of(mesh.nodes, "TRI3", ids[table], ws.colour)
-
-
-def _delaunay(mesh: Mesh, dimension: int, colour: int) -> Mesh:
-    ids = mesh.node_ids
-    at = mesh.nodes.coordinates[ids, :dimension]
-    try:
-        cells = Delaunay(at).simplices.astype(np.int64)
-    except QhullError as error:
-        raise MeshError("the points are too few, or all in one line or plane") from error
-    arms = at[cells[:, 1:]] - at[cells[:, :1]]
-    negative = np.linalg.det(arms) < 0
-    cells[negative, :2] = cells[negative, 1::-1]
-    return Mesh.of(mesh.nodes, "TRI3" if dimension == 2 else "TET4", ids[cells], colour)
 
 
 @operator(

@@ -152,6 +152,8 @@ def joints_inside(mesh: Mesh, tolerance: float) -> Mesh:
 
 def _facing_pairs(block: CellBlock, tolerance: float) -> tuple[IntArray, IntArray]:
     """Cells of a block that face a later one (m,), and the nodes of that one in their order."""
+    from scipy.spatial import cKDTree
+
     pairs = cKDTree(block.coordinates.mean(axis=1)).query_pairs(tolerance, output_type="ndarray")
     if not len(pairs):
         return np.empty(0, dtype=np.int64), np.empty((0, block.kind.n_nodes), dtype=np.int64)

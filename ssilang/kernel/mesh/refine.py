@@ -1,9 +1,10 @@
-"""Triangles refined to wanted sizes, their contour kept."""
+"""Triangles refined to wanted sizes, their contour kept; triangulations of points."""
 
 from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.errors import MeshError
 from ssilang.kernel.mesh.boundary import contour
 from ssilang.kernel.mesh.charts import plane_chart
 from ssilang.kernel.mesh.fill import SizeField, fill_contour
@@ -35,3 +36,25 @@ def refined_triangles(mesh: Mesh, ids: IntArray, sizes: FloatArray, colour: int 
     made = nodes.add(chart.lift(fresh), field(fresh)) if len(fresh) else fresh[:, 0].astype(int)
     table = np.concatenate([every, made])
     return Mesh.of(nodes, "TRI3", table[triangles], colour)
+
+
+def delaunay_mesh(mesh: Mesh, dimension: int, colour: int = 0) -> Mesh:
+    """The Delaunay triangulation of a mesh's nodes: TRI3 in 2D, TET4 in 3D.
+
+    Raises
+    ------
+    MeshError
+        If the points are too few or lie in one line or plane.
+    """
+    from scipy.spatial import Delaunay, QhullError
+
+    ids = mesh.node_ids
+    at = mesh.nodes.coordinates[ids, :dimension]
+    try:
+        cells = Delaunay(at).simplices.astype(np.int64)
+    except QhullError as error:
+        raise MeshError("the points are too few, or all in one line or plane") from error
+    arms = at[cells[:, 1:]] - at[cells[:, :1]]
+    negative = np.linalg.det(arms) < 0
+    cells[negative, :2] = cells[negative, 1::-1]
+    return Mesh.of(mesh.nodes, "TRI3" if dimension == 2 else "TET4", ids[cells], colour)
