@@ -1,0 +1,89 @@
+"""Mutates the examples of the help word by word and runs them: only messages, never a traceback.
+
+    python benchmarks/fuzz_interpreter.py [COUNT] [SEED]
+
+Prints how many runs succeeded, failed with a message, and each defect (an operator that let
+something of Python through) once, with the shortest script that shows it; exits 1 if any.
+"""
+
+from __future__ import annotations
+
+import io
+import random
+import re
+import sys
+import tempfile
+from collections import Counter
+from pathlib import Path
+
+from ssilang.cli.run import RunOptions, run_source
+from ssilang.language.registry import OPERATORS
+from ssilang.language.session import Limits
+from ssilang.language.source import Source
+from ssilang.operators.loader import load_operators
+
+_TOKEN = re.compile(r"'[^']*'|[@&!]?\w+(?:\.\d*)?|\*\*|[-+*/<>=();.%]")
+_SPARE = "1 -1 0 2.5 -3. 1E9 'ABC' '' VRAI (0. 0.) (PROG 1. 2.) (PROG) (LECT 3) (TABL) X ( ) ;"
+_STATEMENTS = 2000
+
+
+def examples() -> list[list[str]]:
+    """Examples of all operators, cut to words."""
+    load_operators()
+    texts = {e for o in OPERATORS.values() for e in o.help.examples}
+    return [_TOKEN.findall(t) for t in sorted(texts) if "TRAC" not in t and "DESS" not in t]
+
+
+def mutated(words: list[str], pool: list[list[str]], rng: random.Random) -> str:
+    """A script with one to three words dropped, doubled, swapped or replaced."""
+    words = list(words)
+    for _ in range(rng.randint(1, 3)):
+        at = rng.randrange(len(words))
+        match rng.randint(0, 3):
+            case 0 if len(words) > 1:
+                del words[at]
+            case 1:
+                words.insert(at, rng.choice(_SPARE.split(" ")))
+            case 2:
+                words[at] = rng.choice(rng.choice(pool))
+            case _:
+                other = rng.randrange(len(words))
+                words[at], words[other] = words[other], words[at]
+    return " ".join(words) + " ;"
+
+
+def main() -> int:
+    """Run the campaign."""
+    count = int(sys.argv[1]) if len(sys.argv) > 1 else 2000
+    rng = random.Random(int(sys.argv[2]) if len(sys.argv) > 2 else 1)
+    pool = examples()
+    outcomes: Counter[str] = Counter()
+    defects: dict[str, str] = {}
+    with tempfile.TemporaryDirectory() as folder:
+        for _ in range(count):
+            text = mutated(rng.choice(pool), pool, rng)
+            options = RunOptions(Path(folder), limits=Limits(50, _STATEMENTS))
+            source = Source("mutant", text, Path(folder) / "mutant.ssi")
+            try:
+                result = run_source(source, options, io.StringIO(), io.StringIO())
+            except Exception as problem:
+                _keep(defects, f"crash {type(problem).__name__}: {problem}", text)
+                continue
+            outcomes["ran" if not result.errors else "failed with a message"] += 1
+            for error in result.errors:
+                if error.code == "internal":
+                    name = f"{error.data['operator']} {error.data['kind']}: {error.data['reason']}"
+                    _keep(defects, name[:120], text)
+    print(dict(outcomes))
+    for name, text in sorted(defects.items()):
+        print(f"DEFECT {name}\n    {text}")
+    return 1 if defects else 0
+
+
+def _keep(defects: dict[str, str], name: str, text: str) -> None:
+    if len(text) < len(defects.get(name, "x" * 10**6)):
+        defects[name] = text
+
+
+if __name__ == "__main__":
+    sys.exit(main())
