@@ -138,11 +138,12 @@ def _reco(call: Call) -> Any:
     shapes = shapes[: call.optional("ENTIER", default=len(shapes))]
     call.keyword(("DEPL", "VITE", "ACCE"))
     if isinstance(thing, ListChpo):
-        return ListChpo([_recombined(f, shapes) for f in thing.values])
-    return _recombined(thing, shapes)
+        return ListChpo([recombined(f, shapes) for f in thing.values])
+    return recombined(thing, shapes)
 
 
-def _recombined(weights: Any, shapes: list[Shape]) -> NodeField:
+def recombined(weights: Any, shapes: list[Shape]) -> NodeField:
+    """Sum of shapes times the values ALFA and BETA of a field at their marks."""
     factors = [float(weights.values_at(s.unknown, np.array([s.mark.node]))[0]) for s in shapes]
     return combined(factors, [s.field for s in shapes])
 
@@ -274,6 +275,12 @@ operator(
         "est prise à la moitié de la première fréquence, ou à 'FREQ'.",
         "TAB2 = PSMO RIG1 (MASS1) TAB1 ('FREQ' F1) ('SEISME' ('UX') ('UY') ('UZ')) (CHPO1 | "
         "LCHP1) ;",
+        (
+            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; P2 = 1. 0. ;"
+            " K1 = (APPU 'UX' 400. P1) ET (APPU 'UX' 900. P2) ; M1 = MASS 'UX' 4. (P1 ET P2) ;"
+            " T1 = VIBR 'SIMU' 1. 1 K1 M1 ; PM = PSMO K1 (T1 . 'MODES') (FORC 'FX' 9. P2) ;"
+            " LIST (PM . 1 . 'DEPLACEMENT') ;",
+        ),
     ),
     reads_itself=True,
 )(_psmo)
@@ -307,6 +314,11 @@ operator(
         "Table LIAISONS_STATIQUES des points d'un maillage, et de leurs inconnues, sur lesquels "
         "portent les conditions d'une rigidité.",
         "TAB1 = IDLI RIG1 GEO1 ;",
+        (
+            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; P2 = 1. 0. ;"
+            " T1 = IDLI (RELA 'UX' P1 - 'UX' P2) (MANU 'POI1' P1) ;"
+            " LIST (T1 . 1 . 'DDL_LIAISON') ;",
+        ),
     ),
     reads_itself=True,
 )(_idli)

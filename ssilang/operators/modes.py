@@ -91,7 +91,7 @@ def _vibr(call: Call) -> Table:
     if len(matrices) < 2:
         raise call.missing(("RIGIDITE",))
     signed = call.optional("LOGIQUE", default=True)
-    stiffness, mass, damping = _sorted(matrices)
+    stiffness, mass, damping = matrices_by_kind(matrices)
     if damping is not None or not (is_symmetric(stiffness) and is_symmetric(mass)):
         return _complex(call, asked, stiffness, mass, damping)
     if asked.method == "INTERVALLE":
@@ -101,11 +101,16 @@ def _vibr(call: Call) -> Table:
     return modal_table(call, mass, [_real_entry(m, signed) for m in modes])
 
 
-def _sorted(matrices: Sequence[Matrix]) -> tuple[Matrix, Matrix, Matrix | None]:
-    """Stiffness, mass and damping, by their kinds where these tell, else in that order."""
+def matrices_by_kind(
+    matrices: Sequence[Matrix], mass_first: bool = False
+) -> tuple[Matrix, Matrix, Matrix | None]:
+    """Stiffness, mass and damping, by their kinds where these tell, else in that order.
+
+    `mass_first`: else mass, stiffness, damping.
+    """
     left = list(matrices[:3])
     masses = [m for m in left if m.kind.startswith("MASS")]
-    mass = masses[0] if len(masses) == 1 else left[1]
+    mass = masses[0] if len(masses) == 1 else left[0 if mass_first else 1]
     left.remove(mass)
     damped = [m for m in left if m.kind.startswith("AMOR")]
     if len(left) == 2:
@@ -165,13 +170,15 @@ def _complex_entry(mode: ComplexMode) -> dict[str, Any]:
     }
 
 
-def modal_table(call: Call, mass: Matrix, entries: list[dict[str, Any]]) -> Table:
+def modal_table(
+    call: Call, mass: Matrix, entries: list[dict[str, Any]], subtype: str = "MODE"
+) -> Table:
     """The BASE_MODALE table of modes, each with a point of its own that marks it."""
     ws = workspace(call.session)
     modes = filled("BASE_DE_MODES", {"MAILLAGE": support_mesh(mass)})
     for number, entry in enumerate(entries, start=1):
         mark = Point(ws.nodes, int(ws.nodes.add([[0.0, 0.0, 0.0]])[0]))  # type: ignore[arg-type]
-        modes.set(number, filled("MODE", {"NUMERO_MODE": number, "POINT_REPERE": mark, **entry}))
+        modes.set(number, filled(subtype, {"NUMERO_MODE": number, "POINT_REPERE": mark, **entry}))
     return filled("BASE_MODALE", {"MODES": modes})
 
 

@@ -160,3 +160,45 @@ def test_oscillator_and_spectrum_of_a_script():
 def test_eigenvalues_of_a_tridiagonal():
     found = objects("L = VALP (PROG 2. 2. 2.) (PROG 1. 1.) ;", "L")
     np.testing.assert_allclose(found.values, 2.0 - np.sqrt(2.0) * np.array([1.0, 0.0, -1.0]))
+
+
+def test_harmonic_response_on_real_and_imaginary_parts():
+    script = TWO_MASSES + (
+        "C1 = CHAN 'TYPE' (APPU 'UX' 0.7 P1) 'AMORTISS' ; W1 = 1.3 ;"
+        "Z = (IMPE K1) ET (IMPE M1 W1) ET (IMPE C1 W1 'AMOR') ;"
+        "U = RESO Z (MANU 'CHPO' P2 2 'FX' 2. 'IFX' -1. 'NATURE' 'DISCRET') ;"
+    )
+    u = objects(script, "U")
+    w = 1.3
+    Z = K - w**2 * 0.5 * np.eye(2) + 1j * w * np.diag([0.7, 0.0])
+    exact = np.linalg.solve(Z, [0.0, 2.0 - 1.0j])
+    nodes = np.array([0, 1])
+    np.testing.assert_allclose(u.values_at("UX", nodes), exact.real, rtol=1e-10)
+    np.testing.assert_allclose(u.values_at("IUX", nodes), exact.imag, rtol=1e-10)
+    np.testing.assert_allclose(u.values_at("IUY", nodes), 0.0, atol=1e-14)
+
+
+def test_complex_modes_of_a_projected_system_are_couples_with_physical_shapes():
+    script = TWO_MASSES + (
+        "T = VIBR 'SIMU' 0. 2 K1 M1 ; C1 = CHAN 'TYPE' (APPU 'UX' 0.7 P1) 'AMORTISS' ;"
+        "B1 = VIBC (PJBA M1 T) (PJBA K1 T) (PJBA C1 T) T ;"
+        "B2 = VIBC (PJBA M1 T) (PJBA K1 T) (PJBA C1 T) T 1 ;"
+    )
+    every, first = objects(script, "B1", "B2")
+    modes = every.get("MODES")
+    assert len(modes) == 6
+    assert every.get("CONVERGENCE") is True
+    assert len(first.get("MODES")) == 4
+    C = np.diag([0.7, 0.0])
+    for i in range(1, 5):
+        entry = modes.get(i)
+        assert entry.subtype == "MODE_COMPLEXE"
+        f = complex(entry.get("FREQUENCE_REELLE"), entry.get("FREQUENCE_IMAGINAIRE"))
+        w = 2.0 * np.pi * f
+        parts = [entry.get(f"DEFORMEE_MODALE_{p}") for p in ("REELLE", "IMAGINAIRE")]
+        x, y = (p.values_at("UX", np.array([0, 1])) for p in parts)
+        residual = (K + 1j * w * C - w**2 * 0.5 * np.eye(2)) @ (x + 1j * y)
+        assert np.abs(residual).max() < 1e-9
+    real = [modes.get(i).get("FREQUENCE_REELLE") for i in range(1, 5)]
+    assert real[0] == pytest.approx(-real[1])
+    assert real[2] == pytest.approx(-real[3])

@@ -117,12 +117,19 @@ class Matrix:
         return Matrix(self.table, blocks, self.relations, self.kind)
 
 
+def imaginary(name: str) -> str:
+    """Name of the imaginary part of an unknown or force: 'IUX', 'IFX', 'IFAL'."""
+    return ("I" + name)[:4]
+
+
 PRIMAL_TO_DUAL: dict[str, str] = {
     "UX": "FX", "UY": "FY", "UZ": "FZ", "RX": "MX", "RY": "MY", "RZ": "MZ",
     "UR": "FR", "UT": "FT", "RT": "MT", "LX": "FLX", "T": "Q", "P": "FP", "ALFA": "FALF",
     "BETA": "FBET",
 }  # fmt: skip
 """Dual of each unknown, as Cast3M names them; others: 'F' + name cut at 4 characters."""
+
+PRIMAL_TO_DUAL |= {imaginary(u): imaginary(d) for u, d in PRIMAL_TO_DUAL.items()}
 
 
 def dual_of(unknown: str) -> str:

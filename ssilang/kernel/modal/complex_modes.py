@@ -56,6 +56,24 @@ def complex_modes(
     return [_mode(problem, complex(frequencies[k]), shapes[:, k]) for k in keep]
 
 
+def conjugate_modes(
+    stiffness: Matrix, mass: Matrix, damping: Matrix | None, pairs: int | None = None
+) -> list[ComplexMode]:
+    """All complex modes, or the `pairs` couples of least modulus: each mode and its mirror image.
+
+    Sorted by modulus, the positive real part of a couple first.
+    """
+    problem = reduced_problem(stiffness, mass, damping)
+    if problem.size == 0:
+        raise KernelError("the conditions hold every unknown: there is no mode")
+    values, shapes = _eigenpairs(problem, 0.0, problem.size)
+    frequencies = values / (2j * np.pi)
+    modulus = np.round(np.abs(frequencies) / np.abs(frequencies).max(initial=1e-300), 9)
+    order = np.lexsort((-frequencies.real, modulus))
+    keep = order if pairs is None else order[: 2 * pairs]
+    return [_mode(problem, complex(frequencies[k]), shapes[:, k]) for k in keep]
+
+
 def _eigenpairs(
     problem: ReducedProblem, shift: complex, count: int
 ) -> tuple[ComplexArray, ComplexArray]:
