@@ -14,6 +14,7 @@ SPOILT = [
     ("basics/patch_joint.ssi", "((1. / KN0) +", "((1.001 / KN0) +"),
     ("basics/cantilever.ssi", "'INRZ' INE0", "'INRZ' (1.001 * INE0)"),
     ("basics/bar_frequencies.ssi", "'RHO' RHO0", "'RHO' (1.01 * RHO0)"),
+    ("club_cast3m_2014/club_a_methods.ssi", "INR0 'INRZ' INR0", "INR0 'INRZ' (1.02 * INR0)"),
     ("club_cast3m_2014/club_b_sdm.ssi", "'KN' KY0 'KS'", "'KN' (1.02 * KY0) 'KS'"),
     ("club_cast3m_2014/club_c_sdm.ssi", "'KN' KY0 'KS'", "'KN' (1.02 * KY0) 'KS'"),
     ("club_cast3m_2014/rocking_two_pairs.ssi", "'KN' K0 'KS'", "'KN' (1.02 * K0) 'KS'"),
@@ -21,6 +22,7 @@ SPOILT = [
     ("footing/flexible_tower.ssi", "'KN' K0 'KS'", "'KN' (1.02 * K0) 'KS'"),
     ("footing/housner_block.ssi", "'ROTA' J0 PC", "'ROTA' (1.01 * J0) PC"),
     ("impact/bar_bounce.ssi", "'YOUN' YOU0", "'YOUN' (1.05 * YOU0)"),
+    ("footing/block_on_soil.ssi", "W0 = RHOB * B0", "W0 = 1.01 * RHOB * B0"),
     ("footing/strip_uplift.ssi", "'KN' K0 'KS'", "'KN' (1.02 * K0) 'KS'"),
 ]
 
