@@ -92,7 +92,8 @@ class ByType:
         words = 0
         for i, operand in enumerate(call.operands):
             kind = type_of(operand.value)
-            if kind in self.entries and kind not in _BESIDE_WORDS[: 2 if words else 1]:
+            beside = 2 if words and "MOT" in self.entries else 1
+            if kind in self.entries and kind not in _BESIDE_WORDS[:beside]:
                 call.used.append(operand)
                 return call.operands.pop(i)
             words += isinstance(operand.value, Mot)

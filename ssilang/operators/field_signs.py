@@ -13,7 +13,7 @@ from ssilang.kernel.fields.node_field import Nature, NodeField
 from ssilang.language.call import Call
 from ssilang.language.values import ListMots
 from ssilang.operators.arithmetic import _ARRAY, SIGNS, rule, rule_with_call
-from ssilang.operators.dispatch import PSCA, union_with_call, union_words
+from ssilang.operators.dispatch import PSCA, PVEC, union_with_call, union_words
 
 _NATURES: dict[str, Nature] = {"INDE": "", "DIFF": "DIFFUS", "DISC": "DISCRET"}
 
@@ -162,3 +162,49 @@ def _scalar_product(call: Call, first: Any) -> Any:
         return node_algebra.rebuilt(first, {"SCAL": part})
     scalar = ["SCAL"] * len(names[0])
     return cell_algebra.multiplied_by_names(first, second, (names[0], names[1], scalar))
+
+
+def _read_names(call: Call, count: int) -> list[list[str]]:
+    names = [names_of(call.required("LISTMOTS")) for _ in range(count)]
+    dimension = call.session.dimension() or 3
+    if any(len(n) != dimension for n in names):
+        raise call.bad(f"in dimension {dimension} each list names {dimension} components")
+    return names
+
+
+@PVEC.on(
+    "CHPOINT",
+    "MCHAML",
+    syntax="CHP3 = PVEC CHP1 CHP2 LMOT1 LMOT2 LMOT3 ; (3D)   CHP2 = PVEC CHP1 LMOT1 LMOT2 ; (2D)",
+    en="Of fields: at each place the vector product of the components LMOT1 of the first and LMOT2 "
+    "of the second, named LMOT3; in 2D the components LMOT1 turned by a quarter turn.",
+    fr="De champs : en chaque lieu le produit vectoriel des composantes LMOT1 du premier et LMOT2 "
+    "du second, nommé LMOT3 ; en 2D les composantes LMOT1 tournées d'un quart de tour.",
+    examples=(
+        "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'UX' 3. 'UY' 4. ; L = MOTS 'UX' 'UY' ; "
+        "LIST (PVEC C L L) ;",
+    ),
+)
+def _vector_product(call: Call, first: Any) -> Any:
+    node = isinstance(first, NodeField)
+    algebra: Any = node_algebra if node else cell_algebra
+    extracted = _picked_nodes if node else cell_algebra.extracted
+    if call.session.dimension() == 2:
+        (x, y), (u, v) = _read_names(call, 2)
+        turned = algebra.applied(extracted(first, [y], [u]), np.negative)
+        return algebra.added(turned, extracted(first, [x], [v]))
+    second = call.required("CHPOINT" if node else "MCHAML")
+    a, b, c = _read_names(call, 3)
+    total = None
+    for i in range(3):
+        j, k = (i + 1) % 3, (i + 2) % 3
+        plus = algebra.multiplied_by_names(first, second, ([a[j]], [b[k]], [c[i]]))
+        minus = algebra.multiplied_by_names(first, second, ([a[k]], [b[j]], [c[i]]))
+        term = algebra.added(plus, minus, -1.0)
+        total = term if total is None else algebra.added(total, term)
+    return total
+
+
+def _picked_nodes(field: NodeField, old: list[str], new: list[str]) -> NodeField:
+    made = {n: node_algebra.component(field, o) for o, n in zip(old, new, strict=True)}
+    return node_algebra.rebuilt(field, made)

@@ -74,3 +74,22 @@ def test_type_and_constituent_change(found):
     field = found(LINE + "D = CHAN 'CONS' (CHAN 'TYPE' C 'CARACTERISTIQUES') 'SOIL' ;", "D")
     assert field.title == "CARACTERISTIQUES"
     assert field.blocks[0].constituent == "SOIL"
+
+
+def test_curves_in_cells_add_up(found):
+    y = found(
+        LINE + "E = EVOL 'MANU' 'T' (PROG 0. 1.) 'YOUN' (PROG 2. 3.) ; "
+        "D = MANU 'CHML' L 'YOUN' E ; F = D + D - (MANU 'CHML' L 'YOUN' (E * 0.5)) ; "
+        "Y = EXTR (EXTR F 'YOUN' 1 1 1) 'ORDO' ;",
+        "Y",
+    )
+    assert y.values.tolist() == [3.0, 4.5]
+
+
+def test_vector_product_of_fields_turns_in_2d(found):
+    x, y = found(
+        LINE + "LM = MOTS 'A' 'B' ; D = PVEC C LM LM ; X = MAXI (EXCO 'A' D) ; "
+        "Y = MAXI (EXCO 'B' D) ;",
+        "X", "Y",
+    )  # fmt: skip
+    assert (x, y) == (-5.0, 2.0)

@@ -182,6 +182,7 @@ def test_list_arithmetic_keeps_integers_and_goes_item_by_item():
 def test_running_sum_and_item_by_item_maximum():
     assert items("SOMM 'CUMU' (PROG 1. 2. 3.)") == [1, 3, 6]
     assert items("MAXI (PROG 1. 5.) (PROG 3. 2.)") == [3, 5]
+    assert value("MAXI 'ABS' (LECT 1 -5)") == 5
     assert value("MAXI (PROG 1. -5.) 'ABS'") == 5
 
 

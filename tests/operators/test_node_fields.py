@@ -219,3 +219,13 @@ def test_negative_value_has_no_fractional_power():
 
     with pytest.raises(FieldError):
         _node_number("**", field, 0.5)
+
+
+def test_vector_product_in_3d_is_orthogonal_to_both_factors(found):
+    values = found(
+        "OPTI DIME 3 ; P = 0. 0. 0. ; L = MOTS 'X' 'Y' 'Z' ; "
+        "A = MANU 'CHPO' P 3 'X' 1. 'Y' 2. 'Z' -3. ; B = MANU 'CHPO' P 3 'X' 0. 'Y' 5. 'Z' 7. ; "
+        "C = PVEC A B L L L ; D = XTY A C L L ; E = XTY B C L L ; F = EXTR C 'X' P ;",
+        "D", "E", "F",
+    )  # fmt: skip
+    assert values == (0.0, 0.0, 2 * 7 + 3 * 5)

@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ssilang.kernel.curve import Curve
+from ssilang.kernel.curve_algebra import combined
 from ssilang.kernel.errors import FieldError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.mesh.mesh import CellBlock
@@ -94,8 +96,34 @@ def _added_block(a: CellFieldBlock, b: CellFieldBlock, factor: float) -> CellFie
             made[name] = _scaled(values, factor)
             continue
         _fitted(name, a, b)
-        made[name] = _numeric(name, made[name]) + factor * _numeric(name, values)
+        if made[name].dtype == object or values.dtype == object:
+            made[name] = _added_objects(name, made[name], values, factor)
+        else:
+            made[name] = made[name] + factor * values
     return rebuilt(_support(a, b, made), made)
+
+
+def _added_objects(name: str, a: Values, b: Values, factor: float) -> Values:
+    """Sums of curves (or of a curve and a number), cell by cell; equal pairs are added once."""
+    wide = np.broadcast_shapes(a.shape, b.shape)
+    x, y = np.broadcast_to(a, wide).ravel(), np.broadcast_to(b, wide).ravel()
+    made = np.empty(x.size, dtype=object)
+    known: dict[tuple[int, int], object] = {}
+    for i, (left, right) in enumerate(zip(x, y, strict=True)):
+        pair = id(left), id(right)
+        if pair not in known:
+            known[pair] = _added_object(name, left, right, factor)
+        made[i] = known[pair]
+    return made.reshape(wide)
+
+
+def _added_object(name: str, a: object, b: object, factor: float) -> object:
+    if isinstance(a, Curve) and isinstance(b, Curve):
+        return combined(a, b, "+", lambda u, v: u + factor * v)
+    raise FieldError(
+        f"component {name} holds objects of types {type(a).__name__} and {type(b).__name__}",
+        "only numbers and curves add up",
+    )
 
 
 def united(a: CellField, b: CellField) -> CellField:
