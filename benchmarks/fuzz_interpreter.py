@@ -22,8 +22,13 @@ from ssilang.language.session import Limits
 from ssilang.language.source import Source
 from ssilang.operators.loader import load_operators
 
-_TOKEN = re.compile(r"'[^']*'|[@&!]?\w+(?:\.\d*)?|\*\*|[-+*/<>=();.%]")
-_SPARE = "1 -1 0 2.5 -3. 1E9 'ABC' '' VRAI (0. 0.) (PROG 1. 2.) (PROG) (LECT 3) (TABL) X ( ) ;"
+_TOKEN = re.compile(
+    r"'[^']*'|(?<![\w)])[-+]?(?:\d+\.?\d*|\.\d+)(?:[EDed][-+]?\d+)?(?!\w)"
+    r"|[@&!]?\w+|\*\*|[<>]EG|[-+*/<>=();.%]"
+)
+_NUMBERS = ["1", "-1", "0", "2.5", "-3.", "1E9", "1000", "VRAI"]
+_SPARE = [*_NUMBERS, "'ABC'", "''", "(0. 0.)", "(PROG 1. 2.)", "(PROG)", "(LECT 3)", "(TABL)"]
+_FIXED = frozenset("();=.")  # changing these makes errors of syntax, which another script tries
 _STATEMENTS = 2000
 
 
@@ -35,19 +40,25 @@ def examples() -> list[list[str]]:
 
 
 def mutated(words: list[str], pool: list[list[str]], rng: random.Random) -> str:
-    """A script with one to three words dropped, doubled, swapped or replaced."""
+    """A script with one to three words dropped, doubled, swapped or replaced by others."""
     words = list(words)
+    numbers = [i for i, w in enumerate(words) if re.match(r"[-+]?\.?\d", w)]
+    if numbers and rng.random() < 0.6:  # values alone: what operators must check for themselves
+        for at in rng.sample(numbers, min(len(numbers), rng.randint(1, 2))):
+            words[at] = rng.choice(_NUMBERS)
+        return " ".join(words) + " ;"
     for _ in range(rng.randint(1, 3)):
-        at = rng.randrange(len(words))
+        free = [i for i, w in enumerate(words) if w not in _FIXED]
+        at = rng.choice(free)
         match rng.randint(0, 3):
-            case 0 if len(words) > 1:
+            case 0 if len(free) > 1:
                 del words[at]
             case 1:
-                words.insert(at, rng.choice(_SPARE.split(" ")))
+                words.insert(at, rng.choice(_SPARE))
             case 2:
-                words[at] = rng.choice(rng.choice(pool))
+                words[at] = rng.choice([w for w in rng.choice(pool) if w not in _FIXED])
             case _:
-                other = rng.randrange(len(words))
+                other = rng.choice(free)
                 words[at], words[other] = words[other], words[at]
     return " ".join(words) + " ;"
 
