@@ -219,7 +219,7 @@ def _parameters(items: tuple[Item, ...]) -> tuple[Parameter, ...]:
             if not isinstance(kind, Name | Quoted):
                 raise SsiError("parameter", kind.span)
             optional = optional or sign.text == "/"
-            types.append(kind.text.upper().rstrip())
+            types.append(kind.text.upper()[:8].rstrip())  # type words have 8 letters
             span = span.to(kind.span)
             i += 2
         if i < len(items) and isinstance(items[i], Number | Symbol):

@@ -181,7 +181,7 @@ def _draw_line(panel: Axes, line: _Line) -> None:
         paint = "white" if style.fill_white else line.colour
         opacity = 1.0 if style.fill_white else 0.25
         order = 2.0 - 1e-3 * line.number if not style.fill_white else 2.0 + 1e-2 * line.number
-        panel.fill_between(line.x, line.y, facecolor=paint, alpha=opacity, lw=0, zorder=order)
+        _fill(panel, line, facecolor=paint, alpha=opacity, lw=0, zorder=order)
     drawn: dict[str, Any] = {
         "color": ink,
         "linewidth": line.width,
@@ -204,6 +204,19 @@ def _draw_line(panel: Axes, line: _Line) -> None:
     panel.plot(line.x, line.y, **drawn)
     if style.label and len(line.x):
         _label_points(panel, line)
+
+
+def _fill(panel: Axes, line: _Line, **style: Any) -> None:
+    """Fill down to zero, or to the lower end of a logarithmic axis."""
+    from matplotlib.collections import PolyCollection
+
+    base = 1e-300 if panel.get_yscale() == "log" else 0.0
+    known = np.isfinite(line.x) & np.isfinite(line.y)
+    x, y = line.x[known], np.maximum(line.y[known], base) if base else line.y[known]
+    if len(x) < 2:
+        return
+    around = np.column_stack([[x[0], *x, x[-1]], [base, *y, base]])
+    panel.add_collection(PolyCollection([around], **style), autolim=base == 0.0)
 
 
 def _draw_segments(panel: Axes, line: _Line) -> None:

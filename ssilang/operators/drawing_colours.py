@@ -1,0 +1,49 @@
+"""COUL of curves, deformed shapes and arrows."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from ssilang.io.plots.palette import NAMES, index_of
+from ssilang.language.call import Call
+from ssilang.language.values import ListMots
+from ssilang.operators.dispatch import COUL
+from ssilang.operators.workspace import workspace
+
+
+@COUL.on(
+    "EVOLUTIO",
+    "DEFORME",
+    "VECTEUR",
+    syntax="OBJ2 = OBJ1 COUL (MOT1 | LISTMOTS1 | N1) ;",
+    en="A curve, deformed shape or set of arrows in one colour for all its parts, or in one each "
+    "(LISTMOTS); without a colour, in that of OPTI COUL.",
+    fr="Une évolution, une déformée ou des vecteurs dans une couleur pour toutes leurs parties, ou "
+    "dans une couleur pour chacune (LISTMOTS) ; sans couleur, dans celle d'OPTI COUL.",
+    examples=(
+        "E = EVOL 'MANU' 't' (PROG 0. 1.) 'u' (PROG 1. 2.) ; F = (E ET E) COUL (MOTS ROUG VERT) ; "
+        "DESS F ;",
+    ),
+)
+def _recolour(call: Call, value: Any) -> Any:
+    operand = call.read("LISTMOTS") or call.read("ENTIER") or call.read("MOT")
+    if operand is None:
+        colours = [workspace(call.session).colour] * len(value.parts)
+    elif isinstance(operand.value, ListMots):
+        colours = [index_of(str(v)) for v in operand.value.values]
+        if len(colours) != len(value.parts):
+            raise call.bad(f"{len(colours)} colours for {len(value.parts)} parts", operand.value)
+    else:
+        colours = [_colour(call, operand.value)] * len(value.parts)
+    parts = tuple(replace(p, colour=c) for p, c in zip(value.parts, colours, strict=True))
+    return replace(value, parts=parts)
+
+
+def _colour(call: Call, given: str | int) -> int:
+    """Index of a colour given by name, or by its number from 1 (negative: the default)."""
+    if isinstance(given, str):
+        return index_of(given)
+    if given > len(NAMES):
+        raise call.bad(f"colours have the numbers 1 to {len(NAMES)}, not {given}", given)
+    return max(given - 1, 0)
