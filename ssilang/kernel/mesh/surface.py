@@ -5,12 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from ssilang.kernel.errors import MeshError
+from ssilang.kernel.mesh.boundary import chained
 from ssilang.kernel.mesh.charts import Chart
 from ssilang.kernel.mesh.degree import quadratic
 from ssilang.kernel.mesh.fill import SizeField, boundary_sizes, fill_contour, sides_of, smooth
+from ssilang.kernel.mesh.grid import grid_surface
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.mesh.recombine import pair_triangles
+from ssilang.kernel.mesh.recombine import pair_triangles, squareness
 
 
 def contour_cells(contour: Mesh) -> IntArray:
@@ -71,6 +73,10 @@ def fill_surface(
     """
     nodes = contour.nodes
     cells = contour_cells(contour)
+    if surface.startswith("QUA") and sizes is None:
+        regular = _as_grid(contour, chart, colour)
+        if regular is not None:
+            return Mesh(nodes, regular.blocks, (contour,))
     ids, local = np.unique(cells[:, [0, -1]], return_inverse=True)
     segments = local.reshape(-1, 2).astype(np.int64)
     flat = chart.flatten(nodes.coordinates[ids].copy())
@@ -93,7 +99,7 @@ def fill_surface(
     new = points[len(flat) :] * ([1.0, -1.0] if turned else [1.0, 1.0])
     made = nodes.add(chart.lift(new), _sizes_at(points, polygons, len(flat)))
     table = np.concatenate([ids, made])
-    tables = [table[p] for p in polygons if len(p)]
+    tables = [_from_smallest(table[p]) for p in polygons if len(p)]
     names = {3: "TRI3", 4: "QUA4"}
     blocks = tuple(CellBlock.make(nodes, names[t.shape[1]], t, colour) for t in tables)
     mesh = Mesh(nodes, blocks)
@@ -103,6 +109,44 @@ def fill_surface(
         fresh = nodes.coordinates[before:]
         fresh[:] = chart.lift(chart.flatten(fresh.copy()))
     return Mesh(nodes, mesh.blocks, (contour,))
+
+
+def _from_smallest(polygons: IntArray) -> IntArray:
+    """Polygons (n, k) turned so that each starts with its oldest node."""
+    k = polygons.shape[1]
+    start = np.asarray(polygons.argmin(axis=1), dtype=np.int64)
+    return np.take_along_axis(polygons, (start[:, None] + np.arange(k)) % k, axis=1)
+
+
+def _as_grid(contour: Mesh, chart: Chart, colour: int) -> Mesh | None:
+    """A grid, when the contour is one loop of four corners whose opposite sides match."""
+    cells = contour_cells(contour)
+    name = "SEG2" if cells.shape[1] == 2 else "SEG3"
+    block = chained(Mesh.of(contour.nodes, name, cells)).single_block()
+    table = block.connectivity
+    if not np.array_equal(table[:, -1], np.roll(table[:, 0], -1)):
+        return None
+    way = chart.flatten(contour.nodes.coordinates[table[:, -1]].copy())
+    way -= chart.flatten(contour.nodes.coordinates[table[:, 0]].copy())
+    before = np.roll(way, 1, axis=0)
+    turn = np.arctan2(
+        before[:, 0] * way[:, 1] - before[:, 1] * way[:, 0], (before * way).sum(axis=1)
+    )
+    corners = np.flatnonzero(np.abs(turn) > np.pi / 4)
+    counts = np.diff(np.append(corners, corners[:1] + len(table)))
+    if len(corners) != 4 or not np.array_equal(counts[:2], counts[2:]):
+        return None
+    sides = []
+    for start, count in zip(corners, counts, strict=True):
+        rows = (start + np.arange(count)) % len(table)
+        sides.append(Mesh.of(contour.nodes, block.cell_type, table[rows]))
+    made = grid_surface(sides, chart, colour)
+    quads = made.single_block().connectivity[:, :: 1 if block.cell_type == "SEG2" else 2]
+    ids, local = np.unique(quads, return_inverse=True)
+    flat = chart.flatten(contour.nodes.coordinates[ids].copy())
+    sense = float(np.sign(turn[corners].sum()))
+    shape = squareness(flat * [1.0, sense], local.reshape(quads.shape).astype(np.int64))
+    return made if shape.min() > 0.4 else None
 
 
 def _signed_area(points: FloatArray, segments: IntArray) -> float:
