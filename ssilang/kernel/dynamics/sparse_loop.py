@@ -134,6 +134,7 @@ class SparseLoop:
     ) -> tuple[int, int, float]:
         """As `compiled_loop.march`; `impact` corrects velocities of unilateral relations."""
         p, worst, contact = self.problem, 0, self.problem.contact
+        self._begin()
         loads = factors @ p.loading.forces.T
         imposed = factors @ p.loading.imposed.T
         for k in range(len(save)):
@@ -159,18 +160,26 @@ class SparseLoop:
         contact = self.problem.contact
         return NOTHING if contact is None else contact.gaps(self.motion.u, factors)
 
+    def _begin(self) -> None:
+        """Products of the current state, that each step hands to the next."""
+        p, m = self.problem, self.motion
+        self._Ku, self._Mv, self._Ma = p.K @ m.u, p.M @ m.v, p.M @ m.a
+        self._Cv = p.C @ m.v if self._damped else NOTHING
+
     def _right_side(self, load0: FloatArray, load1: FloatArray, dt: float) -> FloatArray:
-        p, m, s = self.problem, self.motion, self.problem.scheme
-        pv = (1 - s.alpha_m) * (m.v / (s.beta * dt) + (0.5 / s.beta - 1) * m.a) - s.alpha_m * m.a
-        r = p.M @ pv - p.K @ m.u + (1 - s.alpha_f) * load1 + s.alpha_f * load0
+        m, s = self.motion, self.problem.scheme
+        r: FloatArray = ((1 - s.alpha_m) / (s.beta * dt)) * self._Mv - self._Ku
+        r += ((1 - s.alpha_m) * (0.5 / s.beta - 1) - s.alpha_m) * self._Ma
+        r += (1 - s.alpha_f) * load1 + s.alpha_f * load0
         if self._damped:
             ratio = s.gamma / s.beta
-            rate = (1 - ratio) * m.v + dt * (1 - 0.5 * ratio) * m.a
-            r -= p.C @ ((1 - s.alpha_f) * rate + s.alpha_f * m.v)
+            r -= ((1 - s.alpha_f) * (1 - ratio) + s.alpha_f) * self._Cv
+            part = (1 - s.alpha_f) * dt * (1 - 0.5 * ratio)
+            if part != 0.0:
+                r -= part * (self.problem.C @ m.a)
         if self._J is not None:
             r -= self._J @ m.f
-        found: FloatArray = r
-        return found
+        return r
 
     def _advance(self, du: FloatArray, dt: float) -> None:
         m, s = self.motion, self.problem.scheme
@@ -185,17 +194,18 @@ class SparseLoop:
     ) -> None:
         p, m = self.problem, self.motion
         old = m.reaction.copy()
-        Ku, Mv = p.K @ m.u, p.M @ m.v
-        m.reaction[:] = p.M @ m.a + Ku - load1
+        Cv = self._Cv
+        self._begin()
+        m.reaction[:] = self._Ma + self._Ku - load1
         if self._damped:
-            m.reaction[:] += p.C @ m.v
-            m.energies[DAMPED] += du @ (p.C @ du) / dt
+            m.reaction[:] += self._Cv
+            m.energies[DAMPED] += 0.5 * du @ (Cv + self._Cv)
         if self._J is not None:
             m.reaction[:] += self._J @ m.f
         m.energies[EXTERNAL] += 0.5 * du @ (load0 + load1)
         if dd.any():
             m.energies[EXTERNAL] += dd @ p.constraints.multipliers(0.5 * (old + m.reaction))
-        m.energies[KINETIC], m.energies[ELASTIC] = 0.5 * m.v @ Mv, 0.5 * m.u @ Ku
+        m.energies[KINETIC], m.energies[ELASTIC] = 0.5 * m.v @ self._Mv, 0.5 * m.u @ self._Ku
         joints = p.interface
         if joints is not None:
             m.energies[STORED], m.energies[LOST] = interface_energies(
