@@ -138,7 +138,7 @@ def _as_grid(contour: Mesh, chart: Chart, colour: int) -> Mesh | None:
         return None
     sides = []
     for start, count in zip(corners, counts, strict=True):
-        rows = (start + np.arange(count)) % len(table)
+        rows = np.arange(int(start), int(start) + int(count)) % len(table)
         sides.append(Mesh.of(contour.nodes, block.cell_type, table[rows]))
     made = grid_surface(sides, chart, colour)
     quads = made.single_block().connectivity[:, :: 1 if block.cell_type == "SEG2" else 2]
