@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.dynamics.contact import ContactOptions
+from ssilang.kernel.dynamics.contact_options import ContactOptions
 from ssilang.kernel.dynamics.plan import every
 from ssilang.kernel.dynamics.scheme import Scheme, generalised_alpha, hht, newmark
 from ssilang.kernel.elements.families import stress

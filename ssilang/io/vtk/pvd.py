@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 from xml.etree import ElementTree
-from xml.sax.saxutils import quoteattr
 
 from ssilang.io.atomic import write_text
 from ssilang.io.errors import InputError
+from ssilang.io.vtk.quoting import quoteattr
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,13 +13,13 @@ from enum import Enum
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
-from xml.sax.saxutils import quoteattr
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ssilang.io.atomic import replacing
 from ssilang.io.vtk.grid import DataArray, Grid
+from ssilang.io.vtk.quoting import quoteattr
 
 _BLOCK = 1 << 16
 _TYPES = {"f8": "Float64", "f4": "Float32", "i8": "Int64", "i4": "Int32", "u1": "UInt8"}

@@ -53,30 +53,6 @@ class ContactRows:
         return -self.sense * p
 
 
-@dataclass(frozen=True)
-class ContactOptions:
-    """How unilateral relations are enforced.
-
-    Attributes
-    ----------
-    method : 'LAGRANGE', 'PENALITE', 'AUGMENTE' or 'UZAWA'
-    coefficient : float or None
-        Penalty or augmentation.
-    correction : 'FAUX', 'MASSE' or 'RIGIDITE'
-        Of velocities when a relation closes.
-    persistent : bool
-        Relative velocity of relations that stay closed set to zero.
-    modified_mass : bool
-        Mass taken off the contact unknowns.
-    """
-
-    method: str = "LAGRANGE"
-    coefficient: float | None = None
-    correction: str = "FAUX"
-    persistent: bool = False
-    modified_mass: bool = False
-
-
 def split_rows(
     rows: ConstraintRows, imposed: FloatArray
 ) -> tuple[ConstraintRows, FloatArray, ContactRows | None]:

@@ -9,7 +9,8 @@ import scipy.sparse as sp
 
 from ssilang.kernel.curve import Load
 from ssilang.kernel.dynamics.constraints import Constraints, check_values, constraints_of
-from ssilang.kernel.dynamics.contact import ContactOptions, ContactRows, split_rows
+from ssilang.kernel.dynamics.contact import ContactRows, split_rows
+from ssilang.kernel.dynamics.contact_options import ContactOptions
 from ssilang.kernel.dynamics.loading import Loading, loading_of
 from ssilang.kernel.dynamics.modified_mass import without_contact_mass
 from ssilang.kernel.dynamics.scheme import Scheme
