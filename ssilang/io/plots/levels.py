@@ -32,7 +32,7 @@ def choose_levels(
     """Levels for the values of a picture: round numbers, `count` equal bands, or those given.
 
     Values that lie on both sides of zero are shown from blue (negative) to red (positive) with
-    zero in the middle, others from dark to bright.
+    zero in the middle, others, and given levels, from dark to bright.
     """
     from matplotlib import colormaps
     from matplotlib.colors import BoundaryNorm, ListedColormap
@@ -40,12 +40,14 @@ def choose_levels(
     known = values[np.isfinite(values)]
     low, high = (float(known.min()), float(known.max())) if len(known) else (0.0, 1.0)
     bounds = _bounds(low, high, count, given)
-    both = bounds[0] < 0 < bounds[-1] and 0.15 < -bounds[0] / bounds[-1] < 1 / 0.15
     middles = (bounds[1:] + bounds[:-1]) / 2
-    if both:
+    both = bounds[0] < 0 < bounds[-1] and 0.15 < -bounds[0] / bounds[-1] < 1 / 0.15
+    if given is not None and len(given) and len(middles) > 1:
+        # levels chosen by hand may be far from even: one step of colour a band
+        shades = colormaps["viridis"](np.linspace(0.04, 0.98, len(middles)))
+    elif both:
         reach = np.abs(bounds).max()
-        place = 0.5 + 0.46 * middles / reach
-        shades = colormaps["RdBu_r"](place)
+        shades = colormaps["RdBu_r"](0.5 + 0.46 * middles / reach)
     else:
         place = (middles - middles[0]) / max(np.ptp(middles), 1e-300)
         shades = colormaps["viridis"](0.04 + 0.94 * place)

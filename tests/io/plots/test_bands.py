@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from ssilang.io.plots.bands import cut_bands, cut_lines
+from ssilang.io.plots.levels import choose_levels
 
 
 def areas(polygons: np.ndarray) -> np.ndarray:
@@ -43,3 +44,29 @@ def test_a_uniform_triangle_is_one_band_and_has_no_line() -> None:
     assert list(band) == [1]
     assert areas(polygons)[0] == pytest.approx(0.5)
     assert len(cut_lines(points, values, np.array([0.0, 0.5, 1.0]))[0]) == 0
+
+
+def test_levels_are_round_numbers_next_to_the_extremes() -> None:
+    bounds = choose_levels(np.array([0.13, 0.87, np.nan])).bounds
+    assert bounds[0] <= 0.13 < bounds[1]
+    assert bounds[-2] < 0.87 <= bounds[-1]
+    assert np.allclose(bounds * 100, np.round(bounds * 100))
+
+
+def test_number_of_levels_and_levels_by_hand() -> None:
+    values = np.array([-1.0, 3.0])
+    assert np.allclose(choose_levels(values, 4).bounds, [-1, 0, 1, 2, 3])
+    # values beyond the levels given have bands of their own
+    assert np.allclose(choose_levels(values, None, np.array([0.0, 2.0])).bounds, [-1, 0, 2, 3])
+
+
+def test_colours_of_both_signs_meet_at_white() -> None:
+    levels = choose_levels(np.array([-1.0, 1.0]), 20)
+    blue, middle, red = levels.rgba(np.array([-0.99, 0.01, 0.99]))
+    assert blue[2] > blue[0] + 0.2
+    assert red[0] > red[2] + 0.2
+    assert middle[:3].min() > 0.9
+
+
+def test_one_value_is_one_band() -> None:
+    assert len(choose_levels(np.full(5, 2.0)).bounds) == 2
