@@ -1,0 +1,220 @@
+"""Writes the operator reference and the coverage table from the registry.
+
+    python docs/build.py [FOLDER]        (default docs/reference)
+
+One page an operator and a procedure: syntax, arguments, help, each example with what it printed
+when it ran here, and the pictures it drew. `index.md` lists them by family, `coverage.md` says of
+every word of Cast3M whether it is built.
+"""
+
+from __future__ import annotations
+
+import re
+import shutil
+import sys
+import tempfile
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from ssilang.cli.run import RunOptions, run_text
+from ssilang.language.cast3m import IN_SCOPE, SUBJECTS, Cast3mWord, cast3m_words
+from ssilang.language.library import standard_procedures
+from ssilang.language.reference import Page, describe, first_sentence, operator_page, procedure_page
+from ssilang.language.registry import OPERATORS, operators_by_family
+from ssilang.operators.loader import load_operators
+
+_HERE = Path(__file__).resolve().parent
+_LINES_SHOWN = 40
+_SIGNS = {
+    "+": "sign_plus", "-": "sign_minus", "*": "sign_times", "/": "sign_divide", "**": "sign_power",
+    "<": "sign_less", ">": "sign_greater", "<EG": "sign_less_equal", ">EG": "sign_greater_equal",
+}  # fmt: skip
+
+
+@dataclass
+class Ran:
+    """An example that was run: what it printed, what it drew, what went wrong."""
+
+    text: str
+    output: str = ""
+    message: str = ""
+    pictures: list[Path] = field(default_factory=list)
+
+
+def run_example(text: str, folder: Path) -> Ran:
+    """Run an example in a folder of its own."""
+    result = run_text(text, options=RunOptions(output_directory=folder, language="en"))
+    pictures = sorted(p for p in folder.rglob("*") if p.suffix in (".png", ".svg"))
+    kept = [p for p in pictures if p.suffix == ".png"] or pictures
+    return Ran(text, result.output.rstrip("\n"), result.message, kept)
+
+
+def file_name(name: str) -> str:
+    """Name of the page's file: signs have words."""
+    return _SIGNS.get(name, name.replace("@", "at_").lower()) + ".md"
+
+
+def all_pages() -> list[Page]:
+    """Pages of all operators, then of all procedures."""
+    load_operators()
+    members = [o for group in operators_by_family().values() for o in group]
+    return [operator_page(o) for o in members] + [
+        procedure_page(p) for p in standard_procedures().values()
+    ]
+
+
+def page_markdown(page: Page, examples: Iterable[Ran]) -> str:
+    """The page of one operator or procedure."""
+    full = f" ({page.full_name})" if page.full_name != page.name else ""
+    lines = [f"# {page.name}{full}", "", f"*{page.kind}, {page.family}*", ""]
+    lines += [paragraph + "\n" for paragraph in page.help.en.split("\n")]
+    if page.help.syntax:
+        syntax = [line.strip() for line in page.help.syntax.split("\n")]
+        lines += ["## Syntax", "", "```", *syntax, "```", ""]
+    lines += _arguments(page)
+    for ran in examples:
+        lines += _example(ran)
+    lines += ["## En français", "", page.help.fr.replace("\n", "\n\n"), ""]
+    return "\n".join(lines)
+
+
+def _arguments(page: Page) -> list[str]:
+    forms = [form for form in page.forms if form]
+    if not forms:
+        return []
+    lines = ["## Arguments", ""]
+    for number, form in enumerate(forms, 1):
+        lines += [f"Form {number}:", ""] if len(forms) > 1 else []
+        lines += [f"- `{' '.join(describe(entry).split())}`" for entry in form] + [""]
+    return lines
+
+
+def _example(ran: Ran) -> list[str]:
+    lines = ["## Example", "", "```", ran.text, "```", ""]
+    if ran.output:
+        shown = ran.output.split("\n")
+        more = ["..."] if len(shown) > _LINES_SHOWN else []
+        lines += ["prints", "", "```", *shown[:_LINES_SHOWN], *more, "```", ""]
+    return lines + [f"![{p.stem}](pictures/{p.name})\n" for p in ran.pictures]
+
+
+def index_markdown(pages: Iterable[Page]) -> str:
+    """All pages by family."""
+    families: dict[str, list[Page]] = {}
+    for page in pages:
+        families.setdefault(page.family, []).append(page)
+    lines = ["# Operators and procedures", ""]
+    for family, members in sorted(families.items()):
+        lines += [f"## {family}", "", "| name | what it does |", "| --- | --- |"]
+        for page in sorted(members, key=lambda p: p.name):
+            text = first_sentence(page.help.en).replace("|", "\\|")
+            lines.append(f"| [`{page.name}`]({file_name(page.name)}) | {text} |")
+        lines.append("")
+    return "\n".join(lines)
+
+
+# ---- coverage --------------------------------------------------------------------------------
+
+
+def partly_built() -> dict[str, str]:
+    """Operators whose notice has forms that are not built, with these forms (`partly.txt`)."""
+    found: dict[str, str] = {}
+    for line in (_HERE / "partly.txt").read_text(encoding="utf-8").split("\n"):
+        if line.strip() and not line.startswith("#"):
+            name, _, text = line.partition(":")
+            found[name.strip()] = text.strip()
+    return found
+
+
+def status(word: Cast3mWord, built: set[str], partly: dict[str, str]) -> tuple[str, str]:
+    """Whether a word of Cast3M is built, and a remark."""
+    if word.name in built:
+        return ("partly", partly[word.name]) if word.name in partly else ("built", "")
+    if word.subject == IN_SCOPE:
+        return "not built", ""
+    return "out of scope", SUBJECTS[word.subject][0]
+
+
+def coverage_markdown() -> str:
+    """The table of every word of Cast3M."""
+    load_operators()
+    control = {"SI", "SINO", "FINS", "REPE", "DEBP", "FINP", "DEBM", "FINM", "TEXT", "COMM"}
+    built = {*OPERATORS, *standard_procedures(), *control}
+    partly = partly_built()
+    words = cast3m_words()
+    lines = ["# What is built of Cast3M", "",
+             "Names are those of Cast3M's public documentation. *built*: every form of the notice "
+             "that belongs to mechanics; *partly*: the remark says what is missing; *not built*: "
+             "belongs here and does not exist yet; *out of scope*: another subject. "
+             "`python docs/build.py` writes this table.", ""]  # fmt: skip
+    for kind in ("operator", "procedure"):
+        rows = {w.name: status(w, built, partly) for w in words.values() if w.kind == kind}
+        lines += [f"## {kind.capitalize()}s", "", *_counts(rows), ""]
+        lines += ["| name | state | remark |", "| --- | --- | --- |"]
+        for name, (state, remark) in sorted(rows.items()):
+            if kind == "procedure" and state == "out of scope":
+                continue
+            lines.append(f"| `{name}` | {state} | {remark} |")
+        lines.append("")
+    lines += ["## Ours, not Cast3M's", ""]
+    own = sorted(built - set(words) - {n for o in OPERATORS.values() for n in o.aliases})
+    lines += [", ".join(f"`{n}`" for n in own), ""]
+    return "\n".join(lines)
+
+
+def _counts(rows: dict[str, tuple[str, str]]) -> list[str]:
+    states = ("built", "partly", "not built", "out of scope")
+    count = {s: sum(state == s for state, _ in rows.values()) for s in states}
+    return [f"{len(rows)} in all: " + ", ".join(f"{n} {s}" for s, n in count.items()) + "."]
+
+
+# ---- writing ---------------------------------------------------------------------------------
+
+
+def build(target: Path) -> list[str]:
+    """Write everything below `target`; returns the examples that failed."""
+    pages = all_pages()
+    pictures = target / "pictures"
+    shutil.rmtree(target, ignore_errors=True)
+    pictures.mkdir(parents=True)
+    failed = []
+    for page in pages:
+        examples = []
+        for number, text in enumerate(page.help.examples, 1):
+            with tempfile.TemporaryDirectory() as folder:
+                ran = run_example(text, Path(folder))
+                ran.pictures = _kept(page, number, ran.pictures, pictures)
+            examples.append(ran)
+            if ran.message:
+                failed.append(f"{page.name}: {ran.message}")
+        text = page_markdown(page, examples)
+        (target / file_name(page.name)).write_text(text, encoding="utf-8")
+    (target / "index.md").write_text(index_markdown(pages), encoding="utf-8")
+    (target / "coverage.md").write_text(coverage_markdown(), encoding="utf-8")
+    return failed
+
+
+def _kept(page: Page, number: int, found: list[Path], pictures: Path) -> list[Path]:
+    """Copies of an example's pictures under names of their own."""
+    kept = []
+    stem = re.sub(r"\.md$", "", file_name(page.name))
+    for i, path in enumerate(found):
+        copy = pictures / f"{stem}_{number}{'abcdefgh'[i % 8]}{path.suffix}"
+        shutil.copy(path, copy)
+        kept.append(copy)
+    return kept
+
+
+def main() -> int:
+    """Build the reference; exit code 1 if an example failed."""
+    target = Path(sys.argv[1]) if len(sys.argv) > 1 else _HERE / "reference"
+    failed = build(target)
+    for text in failed:
+        print(text)
+    print(f"{len(list(target.glob('*.md')))} pages in {target}, {len(failed)} examples failed")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

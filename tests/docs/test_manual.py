@@ -1,0 +1,90 @@
+"""The manual is built from the registry and speaks of every word of Cast3M."""
+
+from __future__ import annotations
+
+import importlib.util
+import re
+from pathlib import Path
+
+import pytest
+
+from ssilang.cli.check import check_source
+from ssilang.cli.run import run_text
+from ssilang.language.cast3m import cast3m_words, find_cast3m_word
+from ssilang.language.diagnostics import is_warning
+from ssilang.language.registry import OPERATORS
+from ssilang.language.source import Source
+
+_DOCS = Path(__file__).resolve().parents[2] / "docs"
+
+
+@pytest.fixture(scope="module")
+def build():
+    spec = importlib.util.spec_from_file_location("build_manual", _DOCS / "build.py")
+    module = importlib.util.module_from_spec(spec)
+    import sys
+
+    sys.modules["build_manual"] = module
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_a_page_shows_syntax_help_and_what_the_example_printed(build, tmp_path):
+    page = next(p for p in build.all_pages() if p.name == "DIME")
+    text = build.page_markdown(page, [build.run_example("MESS (DIME (PROG 1. 2.)) ;", tmp_path)])
+    assert "# DIME (DIMENSION)" in text
+    assert "## Syntax" in text
+    assert "MESS (DIME (PROG 1. 2.)) ;" in text
+    assert "\nprints\n\n```\n2\n```" in text
+
+
+def test_every_operator_is_in_the_index_and_has_a_file_name_of_its_own(build):
+    pages = build.all_pages()
+    names = [build.file_name(p.name) for p in pages]
+    assert len(names) == len(set(names))
+    index = build.index_markdown(pages)
+    assert all(f"]({name})" in index for name in names)
+
+
+def test_coverage_speaks_of_every_operator_of_cast3m(build):
+    text = build.coverage_markdown()
+    rows = dict(re.findall(r"^\| `(\S+)` \| ([a-z ]+) \|", text, re.MULTILINE))
+    operators = {w.name for w in cast3m_words().values() if w.kind == "operator"}
+    assert operators <= set(rows)
+    assert rows["DROI"] in ("built", "partly")
+    assert rows["CAPA"] == "out of scope"
+    built = {n for n, state in rows.items() if state in ("built", "partly")}
+    assert {n for n in built if len(n) <= 4 and n in OPERATORS} >= operators & set(OPERATORS)
+
+
+def test_partly_built_operators_exist(build):
+    for name, text in build.partly_built().items():
+        assert name in OPERATORS or name in cast3m_words(), name
+        assert text
+
+
+def test_words_of_cast3m_are_found_by_four_letters_or_in_full():
+    assert find_cast3m_word("CAPACITE").name == "CAPA"
+    assert find_cast3m_word("capa").subject == "heat"
+    assert find_cast3m_word("PASAPAS").kind == "procedure"
+    assert find_cast3m_word("NOWORDATALL") is None
+
+
+@pytest.mark.parametrize("name", ["language.md", "differences.md"])
+def test_scripts_in_the_guides_run(name, tmp_path):
+    text = (_DOCS / name).read_text(encoding="utf-8")
+    scripts = re.findall(r"```ssi\n(.*?)```", text, re.DOTALL)
+    assert scripts
+    for script in scripts:
+        result = run_text(script, output_directory=tmp_path)
+        assert result.exit_code == 0, script + result.message
+        problems, _ = check_source(Source(name, script))
+        assert not [p for p in problems if not is_warning(p)], script
+
+
+def test_outputs_in_the_guides_are_those_of_their_scripts(tmp_path):
+    text = (_DOCS / "language.md").read_text(encoding="utf-8")
+    pairs = re.findall(r"```ssi\n(.*?)```\n+prints\n+```\n(.*?)```", text, re.DOTALL)
+    assert pairs
+    for script, printed in pairs:
+        assert run_text(script, output_directory=tmp_path).output == printed
