@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from ssilang.io.plots.palette import NAMES as COLOURS
+from ssilang.kernel.elements.zone_fields import carry
 from ssilang.kernel.errors import MeshError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
@@ -126,6 +128,22 @@ def field_coordinates(call: Call, field: NodeField) -> Any:
 def model_coordinates(call: Call, model: Model) -> Any:
     """Coordinates of the cells' nodes of a model."""
     return _one_or_all([_model_axis(call, model, a) for a in _axes(call)])
+
+
+@COOR.on("MCHAML", en="Of a cell field: cell fields, at the same points.")
+def cell_field_coordinates(call: Call, field: CellField) -> Any:
+    """Coordinates of the points that carry a cell field."""
+    return _one_or_all([_field_axis(call, field, a) for a in _axes(call)])
+
+
+def _field_axis(call: Call, field: CellField, axis: int) -> CellField:
+    blocks = []
+    for b in field.blocks:
+        values = _column(call, b.cells.nodes, axis)[b.cells.connectivity]
+        if b.support != "NOEUD":
+            values = carry(values, b.element, "NOEUD", b.support)
+        blocks.append(replace(b, components={"SCAL": values}))
+    return CellField(tuple(blocks), "SCALAIRE")
 
 
 def _model_axis(call: Call, model: Model, axis: int) -> CellField:

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ssilang.kernel.elements.zone_fields import carry
 from ssilang.kernel.errors import MeshError
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.lines import line_ends
@@ -72,9 +75,11 @@ def tolerance_of(ws: Workspace, given: float | None, positions: FloatArray) -> f
 )
 def poin(call: Call) -> Any:
     """Pick or make points."""
-    support = call.optional("MAILLAGE", "CHPOINT")
+    support = call.optional("MAILLAGE", "CHPOINT", "MCHAML")
     if isinstance(support, NodeField):
         return _of_field(call, support)
+    if isinstance(support, CellField):
+        return _of_cell_field(call, support)
     ws = workspace(call.session)
     if support is None and call.peek_word() in (None, "DENS"):
         made = _from_coordinates(call, ws)
@@ -157,35 +162,88 @@ def _numbered(call: Call, mesh: Mesh, numbers: Sequence[int]) -> int:
     return int(ids[number - 1])
 
 
-def _of_field(call: Call, field: NodeField) -> Mesh:
-    """Nodes where values are extreme or compare."""
+@dataclass
+class _Search:
+    """What is sought in a field: a word, its limits, absolute values, components."""
+
+    word: str
+    limits: list[float]
+    absolute: bool
+    wanted: list[str]
+
+    def picks(self, values: FloatArray) -> NDArray[np.bool_]:
+        """Which values (n,) fit."""
+        return picked(np.abs(values) if self.absolute else values, self.word, self.limits)
+
+
+def _read_search(call: Call, components: Sequence[str]) -> _Search:
     word = call.keyword(_SELECTORS)
     if word is None:
         raise call.bad("what is sought in the field is not said", hint=" ".join(_SELECTORS))
     limits = []
     for _ in range({"MAXI": 0, "MINI": 0, "COMPRIS": 2}.get(word, 1)):
         limits.append(call.required("FLOTTANT", after=call.keyword_end))
-    absolute, wanted = False, list(field.components)
+    absolute, wanted = False, list(components)
     while (option := call.keyword(("ABS", "AVEC", "SANS"))) is not None:
         if option == "ABS":
             absolute = True
             continue
         names = {str(n).rstrip() for n in call.required("LISTMOTS", after=call.keyword_end).values}
         wanted = [n for n in wanted if (n in names) == (option == "AVEC")]
-    parts = [field.components[n] for n in wanted]
+    return _Search(word, limits, absolute, wanted)
+
+
+def _of_field(call: Call, field: NodeField) -> Mesh:
+    """Nodes where values are extreme or compare."""
+    search = _read_search(call, list(field.components))
+    parts = [field.components[n] for n in search.wanted]
     if not parts:
         return Mesh(field.table, ())
     nodes = np.concatenate([p.nodes for p in parts])
     values = np.concatenate([p.values for p in parts])
-    chosen = nodes[picked(np.abs(values) if absolute else values, word, limits)]
-    return poi1(field.table, _once(chosen))
+    return poi1(field.table, _once(nodes[search.picks(values)]))
+
+
+def _of_cell_field(call: Call, field: CellField) -> Mesh:
+    """Nodes, or new points at integration points, where values are extreme or compare."""
+    names = list(dict.fromkeys(n for b in field.blocks for n in b.components))
+    search = _read_search(call, names)
+    nodes = field.blocks[0].cells.nodes
+    values, places, ids = [], [], []
+    for block in field.blocks:
+        x, numbers = _support_points(block)
+        for name in search.wanted:
+            if name in block.components:
+                part = np.asarray(block.components[name], dtype=float)
+                values.append(np.broadcast_to(part, numbers.shape).ravel())
+                places.append(x.reshape(-1, 3))
+                ids.append(numbers.ravel())
+    if not values:
+        return Mesh(nodes, ())
+    chosen = search.picks(np.concatenate(values))
+    numbers = np.concatenate(ids)[chosen]
+    fresh = numbers < 0
+    if fresh.any():
+        at = np.unique(np.concatenate(places)[chosen][fresh], axis=0)
+        return poi1(nodes, nodes.add(at, workspace(call.session).density))
+    return poi1(nodes, _once(numbers))
+
+
+def _support_points(block: CellFieldBlock) -> tuple[FloatArray, IntArray]:
+    """Positions (n_cells, p, 3) that carry a field, and their node numbers, -1 off nodes."""
+    x, table = block.cells.coordinates, block.cells.connectivity
+    if block.support == "NOEUD":
+        return x, table
+    columns = [carry(x[..., k], block.element, "NOEUD", block.support) for k in range(3)]
+    at = np.stack(columns, axis=-1)
+    return at, np.full(at.shape[:2], -1, dtype=np.int64)
 
 
 def picked(values: FloatArray, word: str, limits: Sequence[float]) -> NDArray[np.bool_]:
     """Which values (n,) are extreme, or compare with the limits as the word says."""
     if word in ("MAXI", "MINI"):
         extreme = values.max() if word == "MAXI" else values.min()
-        return np.asarray(values == extreme)
+        return np.isclose(values, extreme, rtol=1e-12, atol=1e-14 * float(np.abs(values).max()))
     if word == "COMPRIS":
         low, high = sorted(limits)
         return np.asarray((values >= low) & (values <= high))
