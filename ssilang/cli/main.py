@@ -6,6 +6,7 @@ import argparse
 import io
 import os
 import sys
+import warnings
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -73,6 +74,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     for stream in (sys.stdout, sys.stderr):  # a terminal without accents must not stop a run
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")
+    if not getattr(options, "debug", False):
+        warnings.simplefilter("ignore")  # of libraries; the language's own are messages
     try:
         return _ACTIONS[options.command or "repl"](options)
     except BrokenPipeError:  # the reader of our output left

@@ -345,8 +345,12 @@ def brui(call: Call) -> Any:
         raise call.bad("which law?", hint="'GAUS' 'UNIF' 'EXPO' 'POIS'")
     if law == "POIS":
         mean, count = call.required("ENTIER"), call.required("ENTIER")
+        if mean < 0 or count < 0:
+            raise call.bad("the mean and the number of values are not negative")
         return ListEnti(_generator(call, call.optional("ENTIER")).poisson(mean, count))
     mean, width = call.required("FLOTTANT"), call.required("FLOTTANT")
+    if width < 0:
+        raise call.bad(f"the width of a law is not negative, this one is {width:g}", width)
     support = call.read("ENTIER", "LISTREEL", "MAILLAGE")
     if support is None:
         raise call.missing(("ENTIER", "LISTREEL", "MAILLAGE"))
