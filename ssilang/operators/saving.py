@@ -29,6 +29,7 @@ from ssilang.language.values import (
     Table,
     Texte,
 )
+from ssilang.operators.configurations import Configuration
 from ssilang.operators.files import input_path, option_name, output_path, run_output
 from ssilang.operators.workspace import Workspace, workspace
 
@@ -85,6 +86,7 @@ def _text_of(value: Texte) -> str:
 for _cls in (ListReel, ListEnti, ListMots, ListChpo, ListObje):
     register_packing(_cls, _cls.__name__, _list_packing(_cls))
 register_packing(Mot, "Mot", Packing(str, Mot))
+register_packing(Configuration, "Configuration", Packing(lambda c: c.coordinates, Configuration))
 register_packing(Annule, "Annule", Packing(lambda _: None, lambda _: Annule()))
 register_packing(Texte, "Texte", Packing(_text_of, _texte))
 register_packing(Procedure, "Procedure", Packing(_source_of, _procedure))

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _WIDTH = 1.6
-_WIDTHS = (2.6, 1.2)  # of the first and the last curve: those that coincide are all seen
+_WIDTHS = (2.4, 1.3)  # of the first and the last curve: those that coincide are all seen
 NO_LEGEND = "PAS DE LEGENDE"
 _CORNERS: dict[str, Any] = {
     "NO": "upper left",
