@@ -13,6 +13,12 @@ SPOILT = [
     ("basics/patch_elements.ssi", "SIG0 = YOU0 * 1.E-3 /", "SIG0 = 1.001 * YOU0 * 1.E-3 /"),
     ("basics/patch_joint.ssi", "((1. / KN0) +", "((1.001 / KN0) +"),
     ("basics/cantilever.ssi", "'INRZ' INE0", "'INRZ' (1.001 * INE0)"),
+    ("basics/lifted_beam.ssi", "'INRZ' INE0", "'INRZ' (1.05 * INE0)"),
+    (
+        "basics/beam_frequencies.ssi",
+        "'TORS' 5.E-6",
+        "'TORS' 5.E-6 'SECY' (0.1 * SEC0) 'SECZ' (0.1 * SEC0)",
+    ),
     ("basics/bar_frequencies.ssi", "'RHO' RHO0", "'RHO' (1.01 * RHO0)"),
     ("club_cast3m_2014/club_a_methods.ssi", "INR0 'INRZ' INR0", "INR0 'INRZ' (1.02 * INR0)"),
     ("club_cast3m_2014/club_b_sdm.ssi", "'KN' KY0 'KS'", "'KN' (1.02 * KY0) 'KS'"),

@@ -61,7 +61,7 @@ def conjugate_modes(
 ) -> list[ComplexMode]:
     """All complex modes, or the `pairs` couples of least modulus: each mode and its mirror image.
 
-    Sorted by modulus, the positive real part of a couple first.
+    Sorted by modulus, the positive real part of a couple first; shapes of Euclidean norm one.
     """
     problem = reduced_problem(stiffness, mass, damping)
     if problem.size == 0:
@@ -71,7 +71,7 @@ def conjugate_modes(
     modulus = np.round(np.abs(frequencies) / np.abs(frequencies).max(initial=1e-300), 9)
     order = np.lexsort((-frequencies.real, modulus))
     keep = order if pairs is None else order[: 2 * pairs]
-    return [_mode(problem, complex(frequencies[k]), shapes[:, k]) for k in keep]
+    return [_mode(problem, complex(frequencies[k]), shapes[:, k], True) for k in keep]
 
 
 def _eigenpairs(
@@ -117,9 +117,14 @@ def _linear(problem: ReducedProblem) -> tuple[sp.csc_array, sp.csc_array]:
     return sp.csc_array(A), sp.csc_array(B)
 
 
-def _mode(problem: ReducedProblem, frequency: complex, q: ComplexArray) -> ComplexMode:
+def _mode(
+    problem: ReducedProblem, frequency: complex, q: ComplexArray, unit: bool = False
+) -> ComplexMode:
+    """A mode whose largest component is 1, or of Euclidean norm 1 with that component real."""
     x: ComplexArray = np.asarray(problem.T @ q)
     x = x / x[int(np.argmax(np.abs(x)))]
+    if unit:
+        x = x / np.linalg.norm(x)
     inertia: ComplexArray = np.asarray(problem.mass @ x)
     along = inertia @ unit_translations(problem.numbering)
     return ComplexMode(
