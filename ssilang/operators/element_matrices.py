@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from ssilang.kernel.elements import families
@@ -15,7 +17,7 @@ from ssilang.kernel.matrices.lumping import lumped_matrix
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.nodes import IntArray
-from ssilang.kernel.model import Model
+from ssilang.kernel.model import Mode, Model
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
 from ssilang.operators.workspace import workspace
@@ -28,6 +30,19 @@ def joined(fields: tuple[CellField, ...]) -> CellField:
     if len(fields) == 1:
         return fields[0]
     return CellField(tuple(b for f in fields for b in f.blocks), fields[0].title)
+
+
+def present(call: Call, model: Model) -> Model:
+    """The mechanical zones of a model, Fourier ones with the harmonic that OPTI says now."""
+    harmonic = workspace(call.session).fourier
+    zones = []
+    for zone in model.zones:
+        if zone.formulation != "MECANIQUE":
+            continue
+        if zone.mode is Mode.FOURIER and zone.options.get("harmonic") != harmonic:
+            zone = replace(zone, options={**zone.options, "harmonic": harmonic})
+        zones.append(zone)
+    return Model(tuple(zones))
 
 
 def _assembled(model: Model, blocks: list[ElementMatrices], kind: str) -> Matrix:
@@ -82,11 +97,12 @@ def additional(call: Call, kind: str) -> Matrix:
 )
 def rigi(call: Call) -> Matrix:
     """Elastic stiffness of a model, or springs at nodes."""
-    model = call.read("MMODEL")
-    if model is None:
+    operand = call.read("MMODEL")
+    if operand is None:
         return additional(call, "RIGIDITE")
-    zones, material = model.value.zones, _fields(call)
-    return _assembled(model.value, [families.stiffness(z, material) for z in zones], "RIGIDITE")
+    model, material = present(call, operand.value), _fields(call)
+    blocks = [families.stiffness(z, material) for z in model.zones]
+    return _assembled(model, blocks, "RIGIDITE")
 
 
 def _fields(call: Call) -> CellField:
@@ -117,11 +133,11 @@ def _fields(call: Call) -> CellField:
 )
 def mass(call: Call) -> Matrix:
     """Consistent mass of a model, or masses at nodes."""
-    model = call.read("MMODEL")
-    if model is None:
+    operand = call.read("MMODEL")
+    if operand is None:
         return additional(call, "MASSE")
-    zones, material = model.value.zones, _fields(call)
-    return _assembled(model.value, [families.mass(z, material) for z in zones], "MASSE")
+    model, material = present(call, operand.value), _fields(call)
+    return _assembled(model, [families.mass(z, material) for z in model.zones], "MASSE")
 
 
 @operator(
@@ -141,13 +157,13 @@ def mass(call: Call) -> Matrix:
 )
 def lump(call: Call) -> Matrix:
     """Diagonal mass."""
-    model = call.read("MMODEL")
-    if model is None:
+    operand = call.read("MMODEL")
+    if operand is None:
         full = call.required("RIGIDITE")
         kept = call.optional("LISTMOTS")
         return lumped_matrix(full, () if kept is None else tuple(m.rstrip() for m in kept.values))
-    zones, material = model.value.zones, _fields(call)
-    return _assembled(model.value, [families.mass(z, material, True) for z in zones], "MASSE")
+    model, material = present(call, operand.value), _fields(call)
+    return _assembled(model, [families.mass(z, material, True) for z in model.zones], "MASSE")
 
 
 @operator(
@@ -172,16 +188,17 @@ def lump(call: Call) -> Matrix:
 )
 def amor(call: Call) -> Matrix:
     """Viscous damping of a model, absorbing boundary, or dashpots at nodes."""
-    model = call.read("MMODEL")
-    if model is None:
+    operand = call.read("MMODEL")
+    if operand is None:
         return additional(call, "AMORTISSEMENT")
+    model = present(call, operand.value)
     boundary = call.optional("MAILLAGE")
     material = _fields(call)
     boundary = call.optional("MAILLAGE") if boundary is None else boundary
     if boundary is not None:
-        return absorbing_boundary(model.value, boundary, material)
-    blocks = [families.viscosity(z, material) for z in model.value.zones]
-    return _assembled(model.value, blocks, "AMORTISSEMENT")
+        return absorbing_boundary(model, boundary, material)
+    blocks = [families.viscosity(z, material) for z in model.zones]
+    return _assembled(model, blocks, "AMORTISSEMENT")
 
 
 @operator(
@@ -203,7 +220,7 @@ def amor(call: Call) -> Matrix:
 )
 def hook(call: Call) -> CellField:
     """Elastic matrices at the integration points."""
-    model: Model = call.required("MMODEL")
+    model = present(call, call.required("MMODEL"))
     material = _fields(call)
     blocks = []
     for zone in model.zones:
@@ -218,10 +235,11 @@ def hook(call: Call) -> CellField:
     family="matrix",
     full_name="KSIGMA",
     help=Help(
-        en="Geometric stiffness of a stress field; with 'FLAM' its sign is turned, so that VIBR "
-        "or a buckling analysis gives the critical load factor.",
-        fr="Rigidité géométrique d'un champ de contraintes ; avec 'FLAM' elle change de signe, "
-        "pour une analyse de flambage.",
+        en="Geometric stiffness of a stress field; with 'FLAM' it has the type MASSE that VIBR "
+        "wants: made from the opposite stresses, its eigenvalues are the critical load factors.",
+        fr="Rigidité géométrique d'un champ de contraintes ; avec 'FLAM' elle a le type MASSE que "
+        "veut VIBR : faite avec les contraintes opposées, ses valeurs propres sont les facteurs "
+        "de charge critique.",
         syntax="RIG1 = KSIG MODL1 SIG1 (CAR1) ('FLAM') ;",
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; P = 0. 0. ; Q = 1. 0. ; L = DROI 2 P Q ; "
@@ -234,7 +252,7 @@ def hook(call: Call) -> CellField:
 def ksig(call: Call) -> Matrix:
     """Geometric stiffness."""
     fields: list[CellField] = call.all("MCHAML")
-    model: Model = call.required("MMODEL")
+    model = present(call, call.required("MMODEL"))
     fields += call.all("MCHAML")
     buckling = call.keyword(["FLAM"]) is not None
     fields += call.all("MCHAML")
@@ -244,5 +262,4 @@ def ksig(call: Call) -> Matrix:
     rest = tuple(f for f in fields if f is not stress)
     material = joined(rest) if rest else None
     blocks = [families.geometric_stiffness(z, stress, material) for z in model.zones]
-    made = _assembled(model, blocks, "MASSE" if buckling else "RIGIDITE")
-    return made.scaled(-1.0) if buckling else made
+    return _assembled(model, blocks, "MASSE" if buckling else "RIGIDITE")

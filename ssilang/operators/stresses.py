@@ -16,7 +16,7 @@ from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.model import Model, Zone
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
-from ssilang.operators.element_matrices import joined
+from ssilang.operators.element_matrices import joined, present
 
 _BAR = (
     "OPTI DIME 2 ELEM SEG2 ; P = 0. 0. ; Q = 1. 0. ; L = DROI 1 P Q ; "
@@ -59,7 +59,8 @@ class Reading:
                 (nodal if isinstance(value, NodeField) else cells).append(value)
         if not models:
             raise call.missing(("MMODEL",))
-        self.model, self.nodal, self.cells = models[0], tuple(nodal), tuple(cells)
+        self.model = present(call, models[0])
+        self.nodal, self.cells = tuple(nodal), tuple(cells)
 
     def displacement(self) -> NodeField:
         """The nodal field, mandatory."""

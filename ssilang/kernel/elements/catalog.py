@@ -41,6 +41,8 @@ class ElementKind:
     reference : str
         Reference cell whose points carry the values, `cell_type` if empty; joints name the cell
         of one of their faces here.
+    layers : int
+        How often the points of 'RIGIDITE' and 'STRESSES' are repeated across a thickness.
     """
 
     name: str
@@ -50,6 +52,7 @@ class ElementKind:
     points: dict[Support, int] = field(default_factory=dict)
     default: bool = True
     reference: str = ""
+    layers: int = 1
 
     @property
     def reference_cell(self) -> ReferenceCell:
@@ -111,6 +114,13 @@ ELEMENTS: dict[str, ElementKind] = {
         ),
         ElementKind("TUYA", "SEG2", "pipe", _VOLUME, {"RIGIDITE": 2}, default=False),
         ElementKind("DKT", "TRI3", "plate", _VOLUME, {"RIGIDITE": 3}, default=False),
+        ElementKind("COQ4", "QUA4", "mindlin", _VOLUME, {"RIGIDITE": 4}, default=False),
+        ElementKind(
+            "COQ6", "TRI6", "thick", _VOLUME, {"RIGIDITE": 3, "MASSE": 7}, default=False, layers=2
+        ),
+        ElementKind(
+            "COQ8", "QUA8", "thick", _VOLUME, {"RIGIDITE": 4, "MASSE": 9}, default=False, layers=2
+        ),
         ElementKind(
             "COQ2", "SEG2", "meridian", SECTION_MODES, {"RIGIDITE": 3, "MASSE": 4}, default=False
         ),
@@ -158,7 +168,11 @@ def support_rule(element: str, support: Support) -> Rule:
     if support == "GRAVITE":
         return quadrature(cell.shape, 1)
     count = kind.points.get(support, kind.points.get("RIGIDITE", 1))
-    return quadrature(cell.shape, count)
+    rule = quadrature(cell.shape, count)
+    if kind.layers == 1 or support == "MASSE":
+        return rule
+    points, weights = np.tile(rule.points, (kind.layers, 1)), np.tile(rule.weights, kind.layers)
+    return Rule(points, weights / kind.layers)
 
 
 def cell_volume(shape: str) -> float:

@@ -17,10 +17,12 @@ from ssilang.kernel.elements.family import (
 )
 from ssilang.kernel.elements.hooke import inverted, moduli_from_field
 from ssilang.kernel.elements.meridian_shell import MeridianShell
+from ssilang.kernel.elements.mindlin import Mindlin
 from ssilang.kernel.elements.pipe import Pipe
 from ssilang.kernel.elements.plate import Plate
 from ssilang.kernel.elements.solid import Incompressible, Solid
 from ssilang.kernel.elements.solid_moduli import solid_compliance
+from ssilang.kernel.elements.thick_shell import ThickShell
 from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
 from ssilang.kernel.errors import FieldError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
@@ -36,6 +38,8 @@ FAMILIES: dict[str, ElementFamily] = {
     "beam": Beam(),
     "timoshenko": Timoshenko(),
     "pipe": Pipe(),
+    "mindlin": Mindlin(),
+    "thick": ThickShell(),
     "plate": Plate(),
     "meridian": MeridianShell(),
 }

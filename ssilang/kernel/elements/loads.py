@@ -220,6 +220,9 @@ def loaded_faces(model: Model, field: NodeField | CellField) -> Mesh:
     return Mesh(table, tuple(blocks))
 
 
+SHELLS = ("plate", "meridian", "mindlin", "thick")
+
+
 def pipe_pressure(model: Model, material: CellField) -> NodeField:
     """Forces of the inner pressure PRES of pipes on their closed ends."""
     out = []
@@ -244,7 +247,7 @@ def shell_load(
     """
     out = []
     for zone in model.zones:
-        if ELEMENTS[zone.element].family not in ("plate", "meridian"):
+        if ELEMENTS[zone.element].family not in SHELLS:
             raise MeshError(f"a load on shells is not for element {zone.element}")
         geometry = face_geometry(zone.cells, zone.mode, harmonic(zone))
         out.append(_scatter(zone, zone.cells, _shell_forces(zone, geometry, value, along)))

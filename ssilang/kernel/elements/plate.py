@@ -19,7 +19,7 @@ from ssilang.kernel.elements.family import (
 )
 from ssilang.kernel.elements.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
 from ssilang.kernel.elements.reference import shape_gradients
-from ssilang.kernel.elements.shell_section import section_moduli
+from ssilang.kernel.elements.shell_section import drilled, own_to_global, section_moduli
 from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.errors import MeshError
 from ssilang.kernel.fields.cell_field import Support
@@ -28,8 +28,6 @@ from ssilang.kernel.model import Zone
 
 STRAINS = ("EPSS", "EPTT", "GAST", "RTSS", "RTTT", "RTST")
 STRESSES = ("N11", "N22", "N12", "M11", "M22", "M12")
-DRILLING = 1e-5
-"""Stiffness of the rotation about the normal, relative to the bending stiffness of the section."""
 
 
 def plate_frames(zone: Zone, cells: slice = slice(None)) -> tuple[FloatArray, FloatArray]:
@@ -121,20 +119,13 @@ class Plate(ElementFamily):
         B[:, 4, :, columns] = np.moveaxis(slopes[:, :, 1, 1], -1, 0)
         B[:, 5, :, columns] = np.moveaxis(slopes[:, :, 1, 0] + slopes[:, :, 0, 1], -1, 0)
         double_area = local[:, 1, 0] * local[:, 2, 1]
-        return StrainOperator(_turn(B, frames), double_area[:, None] * rule.weights)
+        return StrainOperator(own_to_global(B, frames), double_area[:, None] * rule.weights)
 
     def stiffness_values(self, zone: Zone, moduli: FloatArray, parameters: ZoneField) -> FloatArray:
         """The usual stiffness and a small one about the normal, which the element lacks."""
         values = super().stiffness_values(zone, moduli, parameters)
-        frames, _ = plate_frames(zone)
-        bending = np.broadcast_to(moduli[:, :, 3, 3].mean(axis=1), (len(frames),))
-        drilling = (
-            DRILLING * bending[:, None, None] * np.einsum("ci,cj->cij", frames[:, 2], frames[:, 2])
-        )
-        for node in range(3):
-            rows = slice(6 * node + 3, 6 * node + 6)
-            values[:, rows, rows] += drilling
-        return values
+        normals = np.repeat(plate_frames(zone)[0][:, None, 2], 3, axis=1)
+        return drilled(values, moduli[:, :, 3, 3].mean(axis=1), normals)
 
     def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, Layout]:
         """Linear interpolation: RHO EPAI of the translations, RHO EPAI^3 / 12 of the rotations."""
@@ -168,11 +159,3 @@ class Plate(ElementFamily):
         for k in range(3):
             values[:, :, k, :, k] = scalar
         return values.reshape(n, 18, 18)
-
-
-def _turn(B: FloatArray, frames: FloatArray) -> FloatArray:
-    """Operator on the global unknowns from that on the own ones."""
-    n, s, p, _ = B.shape
-    blocks = B.reshape(n, s, p, 6, 3)
-    turned: FloatArray = np.einsum("cspbi,cij->cspbj", blocks, frames)
-    return turned.reshape(n, s, p, 18)

@@ -12,6 +12,10 @@ from ssilang.kernel.materials.elasticity import check_isotropic
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.model import Zone
 
+DRILLING = 1e-5
+"""Stiffness of the rotation about the normal, relative to the bending stiffness of the section."""
+SHEAR_FACTOR = 5 / 6
+
 
 def _isotropic(parameters: ZoneField, support: Support) -> FloatArray:
     young, poisson = (parameters.at(n, support) for n in ("YOUN", "NU"))
@@ -64,3 +68,64 @@ def section_moduli(zone: Zone, parameters: ZoneField, support: Support) -> Float
     D[..., :3, :3] = Q * h
     D[..., 3:, 3:] = Q * h**3 / 12
     return D
+
+
+def transverse_moduli(zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
+    """Moduli (n_cells or 1, n_points or 1, 2, 2) of transverse shear: 5/6 G h."""
+    h = parameters.at("EPAI", support)[..., None, None]
+    return SHEAR_FACTOR * h * _shear(zone, parameters, support)
+
+
+def _shear(zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
+    """Shear moduli (n, p, 2, 2) across, in the element's own frame."""
+    if symmetry_of(zone) == "ISOTROPE":
+        young, poisson = (parameters.at(n, support) for n in ("YOUN", "NU"))
+        G = young / (2 * (1 + poisson))
+        out: FloatArray = G[..., None, None] * np.eye(2)
+        return out
+    names = ("G13", "G23", "V1X", "V1Y")
+    G13, G23, c, s = np.broadcast_arrays(*(parameters.at(n, support) for n in names))
+    first, second = np.stack([c, s], axis=-1), np.stack([-s, c], axis=-1)
+    pair = ((G13, first), (G23, second))
+    turned: FloatArray = sum(
+        G[..., None, None] * v[..., :, None] * v[..., None, :] for G, v in pair
+    )
+    return turned
+
+
+def material_moduli(zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
+    """Moduli (n_cells or 1, n_points or 1, 5, 5) of plane stress and transverse shear."""
+    kind = symmetry_of(zone)
+    if kind not in _LAWS:
+        raise MaterialError(f"elasticity {kind} is not available for shells ({zone.element})")
+    Q, G = _LAWS[kind](parameters, support), _shear(zone, parameters, support)
+    D = np.zeros((*np.broadcast_shapes(Q.shape[:2], G.shape[:2]), 5, 5))
+    D[..., :3, :3], D[..., 3:, 3:] = Q, SHEAR_FACTOR * G
+    return D
+
+
+def drilled(values: FloatArray, bending: FloatArray, normals: FloatArray) -> FloatArray:
+    """Stiffness matrices with a small term for the rotation about the normal of each node.
+
+    Parameters
+    ----------
+    values : array (n, 6 k, 6 k)
+    bending : array (n,) or (1,)
+        Bending stiffness of the section.
+    normals : array (n, k, 3)
+    """
+    n, k, _ = normals.shape
+    scale = DRILLING * np.broadcast_to(bending, (n,))
+    blocks = values.reshape(n, k, 6, k, 6)
+    for node in range(k):
+        v = normals[:, node]
+        blocks[:, node, 3:, node, 3:] += scale[:, None, None] * v[:, :, None] * v[:, None, :]
+    return blocks.reshape(n, 6 * k, 6 * k)
+
+
+def own_to_global(B: FloatArray, frames: FloatArray) -> FloatArray:
+    """Operator on the global unknowns (n, s, p, 6 k) from that on those of the own frame."""
+    n, s, p, m = B.shape
+    blocks = B.reshape(n, s, p, m // 3, 3)
+    turned: FloatArray = np.einsum("cspbi,cij->cspbj", blocks, frames)
+    return turned.reshape(n, s, p, m)

@@ -22,8 +22,10 @@ ELASTICITIES: dict[str, tuple[str, ...]] = {
         "plate",
         "meridian",
         "pipe",
+        "mindlin",
+        "thick",
     ),
-    "ORTHOTROPE": ("solid", "incompressible", "joint", "plate", "meridian"),
+    "ORTHOTROPE": ("solid", "incompressible", "joint", "plate", "meridian", "mindlin"),
     "ANISOTROPE": ("solid", "incompressible"),
     "UNIDIRECTIONNEL": ("solid", "incompressible"),
 }

@@ -52,6 +52,8 @@ _GEOMETRY: dict[str, Names] = {
         ("EPAI", "RAYO"),
         ("RACO", "VECT", "PRES", "CISA", "CFFX", "CFMX", "CFMY", "CFMZ", "CFPR"),
     ),
+    "mindlin": Names(("EPAI",), ("EXCE", "ALFA", "CALF")),
+    "thick": Names(("EPAI",), ("EXCE",)),
     "plate": Names(("EPAI",), ("EXCE", "ALFA", "CALF")),
     "meridian": Names(("EPAI",), ("EXCE", "ALFA", "CALF", "DIM3")),
 }
@@ -74,8 +76,12 @@ def material_names(zone: Zone) -> Names:
         return Names(law.required, tuple(n for n in dict.fromkeys(taken) if n not in law.required))
     kind = zone.behaviour[1] if len(zone.behaviour) > 1 else "ISOTROPE"
     if kind == "ORTHOTROPE":
-        shell = family_name(zone) in ("plate", "meridian")
-        needed = 4 if shell else _ORTHOTROPIC.get(zone.mode, 7)
+        shells = {"plate": 4, "meridian": 4, "mindlin": 4}
+        needed = (
+            shells[family_name(zone)]
+            if family_name(zone) in shells
+            else _ORTHOTROPIC.get(zone.mode, 7)
+        )
         rest = ("RHO", *ORTHOTROPIC[needed:], *ORTHOTROPIC_THERMAL, *AXES)
         return Names(ORTHOTROPIC[:needed], rest)
     return _ELASTIC[kind]

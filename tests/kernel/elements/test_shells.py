@@ -5,6 +5,7 @@ import pytest
 
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.family import Layout
+from ssilang.kernel.elements.loads import shell_load
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import (
@@ -16,7 +17,7 @@ from ssilang.kernel.matrices.assembly import (
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.mesh import CellBlock
 from ssilang.kernel.mesh.nodes import NodeTable
-from ssilang.kernel.model import Mode, Zone
+from ssilang.kernel.model import Mode, Model, Zone
 from tests.kernel.elements.samples import ELASTIC, field, line_zone, material
 
 E, NU, H, RHO = 2.0e11, 0.3, 0.01, 7800.0
@@ -34,6 +35,28 @@ def plate(nx, ny, a, b, turn=None, behaviour=ELASTIC):
     cells = np.concatenate([np.column_stack([p, q, r]), np.column_stack([p, r, s])])
     block = CellBlock.make(table, "TRI3", cells)
     return Zone(block, "MECANIQUE", behaviour, "DKT", Mode.THREE_DIMENSIONAL), x
+
+
+def quadrangles(element, nx, ny, a, b, bend=None):
+    """Cells COQ4 or COQ8 on a rectangle a x b, mapped by `bend`."""
+    degree = 2 if element == "COQ8" else 1
+    table = NodeTable()
+    X, Y = np.meshgrid(
+        np.linspace(0, a, degree * nx + 1), np.linspace(0, b, degree * ny + 1), indexing="ij"
+    )
+    x = np.column_stack([X.ravel(), Y.ravel(), 0 * X.ravel()])
+    ids = table.add(x if bend is None else bend(x)).reshape(X.shape)
+    d = degree
+    steps = {
+        1: [(0, 0), (1, 0), (1, 1), (0, 1)],
+        2: [(0, 0), (1, 0), (2, 0), (2, 1), (2, 2), (1, 2), (0, 2), (0, 1)],
+    }[d]
+    cells = np.column_stack([ids[i : i + d * nx : d, j : j + d * ny : d].ravel() for i, j in steps])
+    kind = "QUA8" if d == 2 else "QUA4"
+    block = CellBlock.make(table, kind, cells)
+    zone = Zone(block, "MECANIQUE", ELASTIC, element, Mode.THREE_DIMENSIONAL)
+    used = np.unique(cells)
+    return zone, x, used
 
 
 def rotation():
@@ -174,3 +197,64 @@ def test_strip_in_plane_stress_is_a_beam():
     tip = np.array([1])
     across = -0.8 * u.values_at("UX", tip) + 0.6 * u.values_at("UY", tip)
     assert across[0] == pytest.approx(1 / (3 * E * 0.2 * H**3 / 12), rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("element", "thickness"), [("COQ4", 1e-2), ("COQ4", 1e-4), ("COQ8", 1e-2), ("COQ8", 2e-3)]
+)
+def test_clamped_square_plate_with_shear_does_not_lock(element, thickness):
+    n, a = (16, 1.0) if element == "COQ4" else (8, 1.0)
+    zone, x, _ = quadrangles(element, n, n, a, a)
+    edge = np.flatnonzero((np.abs(x[:, :2] - a / 2) > a / 2 - 1e-9).any(axis=1))
+    centre = int(np.argmin(np.linalg.norm(x - [a / 2, a / 2, 0], axis=1)))
+    mat = material(zone, YOUN=E, NU=NU, EPAI=thickness)
+    load = NodeField.of(zone.cells.nodes, np.array([centre]), {"FZ": np.array([1.0])}, "DISCRET")
+    u = solved(zone, mat, lambda m: np.isin(m.nodes, edge), load)
+    rigidity = E * thickness**3 / 12 / (1 - NU**2)
+    deflection = u.values_at("UZ", np.array([centre]))[0]
+    assert deflection == pytest.approx(0.00560 * a**2 / rigidity, rel=0.02)
+
+
+@pytest.mark.parametrize("element", ["COQ4", "COQ8"])
+def test_ring_of_shell_cells_under_pressure_grows_evenly(element):
+    radius, p, quarter = 1.0, 1e5, np.pi / 2
+    zone, x, used = quadrangles(
+        element,
+        12,
+        1,
+        quarter,
+        0.1,
+        lambda x: np.column_stack([radius * np.cos(x[:, 0]), radius * np.sin(x[:, 0]), x[:, 1]]),
+    )
+    mat = material(zone, YOUN=E, NU=0.0, EPAI=H)
+    load = shell_load(Model((zone,)), p)
+    start, end = (np.isin(np.arange(len(x)), used) & np.isclose(x[:, 0], s) for s in (0, quarter))
+
+    def fixed(m):
+        names = np.array([m.label(i)[:2] for i in range(m.size)])
+        at = [np.isin(m.nodes, np.flatnonzero(part)) for part in (start, end)]
+        first = at[0] & np.isin(names, ["UY", "RX", "RZ"])
+        last = at[1] & np.isin(names, ["UX", "RY", "RZ"])
+        return first | last | np.isin(names, ["UZ"])
+
+    u = solved(zone, mat, fixed, load)
+    grown = np.abs(u.values_at("UX", np.flatnonzero(start)))
+    assert grown.mean() == pytest.approx(p * radius**2 / (E * H), rel=0.01)
+
+
+@pytest.mark.parametrize("element", ["COQ4", "COQ8"])
+def test_rigid_motions_of_a_thick_shell_cost_next_to_no_energy(element):
+    turn = rotation()
+    zone, _, _ = quadrangles(element, 1, 1, 1.0, 0.7, lambda x: x @ turn.T)
+    block = families.stiffness(zone, material(zone, **PLATE))
+    layout = Layout(block.table, block.raw_nodes, block.local, block.unknowns)
+    w = np.array([0.3, -0.2, 0.5])
+    spin = {
+        **{n: (lambda x, i=i: np.cross(w, x)[:, i]) for i, n in enumerate(("UX", "UY", "UZ"))},
+        **{n: (lambda x, i=i: w[i]) for i, n in enumerate(("RX", "RY", "RZ"))},
+    }
+    v = layout.gather(field(zone, **spin))
+    assert np.einsum("ci,cij,cj->c", v, block.values, v).max() < 1e-3 * D
+    rows = [i for i, u in enumerate(block.unknowns) if u == "UX"]
+    mass = families.mass(zone, material(zone, **PLATE)).values
+    assert mass[:, rows][:, :, rows].sum() == pytest.approx(RHO * H * 0.7)
