@@ -14,7 +14,16 @@ from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.model import Model
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
-from ssilang.language.values import ListChpo, ListEnti, ListMots, ListObje, ListReel, Mot, Table
+from ssilang.language.values import (
+    ListChpo,
+    ListEnti,
+    ListMots,
+    ListObje,
+    ListReel,
+    Mot,
+    Table,
+    type_of,
+)
 from ssilang.operators.workspace import Workspace, workspace
 
 _MAKERS: dict[str, Callable[[Workspace, str], Any]] = {
@@ -89,8 +98,8 @@ def vide(call: Call) -> Any:
     if call.operands and not isinstance(call.operands[0].value, Mot):
         tested = call.read("*")
         assert tested is not None
-        if isinstance(tested.value, int | float):
-            raise call.bad("a number is never empty", tested.value)
+        if type_of(tested.value) not in (*_MAKERS, "DEFORME", "VECTEUR"):
+            raise call.bad(f"a {type_of(tested.value)} is never empty", tested.value)
         return is_empty(tested.value)
     tabulated = call.keyword(("TABU",)) is not None
     places = call.read("LISTENTI", "LISTREEL", "LISTMOTS") if tabulated else None

@@ -79,8 +79,7 @@ def _of_node_fields(call: Call, first: NodeField, largest: bool) -> Any:
     others = call.all("CHPOINT")
     if not others:
         if not names:
-            words = call.optional("LISTMOTS")
-            names = list(first.components) if words is None else list(words.values)
+            raise call.bad("the field is empty", first)
         arrays = [first.components[n].values for n in names]
         return _of_arrays(call, arrays, absolute or _absolute(call), largest)
     absolute = _absolute(call) or absolute

@@ -110,6 +110,8 @@ def _on_line(call: Call, field: NodeField, distance: float) -> Point:
 
 
 def _through(field: Any, curve: Curve) -> Any:
+    if len(curve.parts) != 1:
+        raise ValueError(f"one curve is needed, this object has {len(curve.parts)}")
     part = curve.parts[0]
     return mapped(lambda at: interpolated(part.abscissas, part.ordinates, at), field)
 

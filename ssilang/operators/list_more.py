@@ -240,8 +240,10 @@ def racp(call: Call) -> Any:
     # a real double root comes out of the companion matrix with an imaginary part of order
     # sqrt(machine precision)
     real = np.sort(roots.real[np.abs(roots.imag) <= 1e-7 * np.maximum(np.abs(roots), 1e-12)])
-    if not bounds:
+    if "INTE" not in words:
         return ListReel(real)
+    if len(bounds) != 2:
+        raise call.bad("'INTE' needs the two ends of the interval", hint="RACP 'INTE' X1 X2 LREE1")
     low, high = sorted(bounds)
     inside = real[(real >= low) & (real <= high)]
     return float(inside[0]) if len(inside) else Mot("VIDE")

@@ -84,7 +84,8 @@ def _comparable(call: Call, item: Any, where: Any) -> tuple[Any, Any]:
     if isinstance(where, ListReel | ListEnti | ListMots):
         if isinstance(item, ListReel | ListEnti | ListMots):
             return where.values, item.values
-        if isinstance(where, ListMots) != isinstance(item, str):
+        fits = isinstance(item, str) if isinstance(where, ListMots) else type(item) in (int, float)
+        if not fits:
             raise call.bad("the item is not of the type of the list", item)
         return where.values, item
     nodes = where.single_block().connectivity[:, 0]
@@ -242,7 +243,7 @@ def _unique(call: Call, value: Sortable) -> Any:
     tolerance = call.optional("FLOTTANT", default=0.0)
     fold = call.keyword(("NOCA",)) is not None
     values: Any = value.values
-    if tolerance:
+    if tolerance and not isinstance(value, ListMots):
         kept: list[int] = []
         for i in range(len(values)):
             if not any(abs(values[i] - values[j]) <= tolerance for j in kept):
