@@ -53,7 +53,8 @@ class _Wish:
         "The formulation is MECANIQUE; the law is ELASTIQUE, followed by ISOTROPE (default), "
         "ORTHOTROPE, ANISOTROPE or UNIDIRECTIONNEL; joints also have JOINT_SDM. Without a name "
         "of element, cells get the continuous element of their name; BARR, POUT, TIMO, TUYA, "
-        "DKT, COQ2, COQ4, COQ6, COQ8 and the joints are to be named (Q4RI, ICQ4, BBAR choose another integration). "
+        "DKT, COQ2, COQ4, COQ6, COQ8 and the joints are to be named (Q4RI, ICQ4, BBAR choose "
+        "another integration). "
         "The hypothesis is that of OPTI MODE.\n"
         "CONS names the constituent, DPGE gives the point that carries the motion of the "
         "section in generalised plane strain, LIBRE or LIE says if the axes of JOI1 follow.",
@@ -61,7 +62,8 @@ class _Wish:
         "La formulation est MECANIQUE ; la loi est ELASTIQUE, suivie d'ISOTROPE (par défaut), "
         "ORTHOTROPE, ANISOTROPE ou UNIDIRECTIONNEL ; les joints ont aussi JOINT_SDM. Sans nom "
         "d'élément, les mailles reçoivent l'élément massif de leur nom ; BARR, POUT, TIMO, TUYA, "
-        "DKT, COQ2, COQ4, COQ6, COQ8 et les joints se nomment (Q4RI, ICQ4, BBAR choisissent une autre intégration). "
+        "DKT, COQ2, COQ4, COQ6, COQ8 et les joints se nomment (Q4RI, ICQ4, BBAR choisissent une "
+        "autre intégration). "
         "L'hypothèse est celle d'OPTI MODE.\n"
         "CONS nomme le constituant, DPGE donne le point qui porte le mouvement de la section "
         "en déformation plane généralisée, LIBRE ou LIE dit si le repère de JOI1 suit.",
