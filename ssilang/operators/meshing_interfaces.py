@@ -9,7 +9,7 @@ from ssilang.kernel.mesh.interfaces import joint_mesh, joints_inside
 from ssilang.kernel.mesh.merge import merge_between, merge_close
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.nodes import IntArray
-from ssilang.language.registry import Help, arg, operator, opt
+from ssilang.language.registry import Help, arg, flag, many, operator, opt
 from ssilang.language.session import Session
 from ssilang.operators.points import tolerance_of
 from ssilang.operators.workspace import workspace
@@ -147,3 +147,20 @@ def genj(session: Session, mesh: Mesh, distance: float | None) -> Mesh:
     ws = workspace(session)
     near = tolerance_of(ws, distance, ws.nodes.coordinates[mesh.node_ids])
     return joints_inside(mesh, max(near, 1e-300))
+
+
+@operator(
+    "TASS",
+    many("meshes", "MAILLAGE"),
+    flag("keep", "NOOP"),
+    family="mesh",
+    full_name="TASSER",
+    help=Help(
+        en="Accepted and without effect: unknowns are renumbered when systems are solved.",
+        fr="Accepté et sans effet : les inconnues sont renumérotées à la résolution.",
+        syntax="TASS (GEO1 ...) ('NOOP') ;",
+        examples=("OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (1. 0.) ; TASS L ;",),
+    ),
+)
+def tass(meshes: tuple[Mesh, ...], keep: bool) -> None:
+    """Do nothing."""

@@ -9,6 +9,7 @@ import numpy as np
 
 from ssilang.kernel.errors import MeshError
 from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.mesh.block import fill_block
 from ssilang.kernel.mesh.combine import union
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.nodes import FloatArray
@@ -25,7 +26,8 @@ from ssilang.kernel.mesh.sweep import (
 )
 from ssilang.kernel.mesh.volume import fill_volume
 from ssilang.language.call import Call
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import Help, many, operator
+from ssilang.language.session import Session
 from ssilang.language.values import ListReel
 from ssilang.operators.meshing_ends import Cuts, count_and_number, read_count, read_sizes
 from ssilang.operators.meshing_sweeps import generator_path, read_rotation
@@ -230,3 +232,30 @@ def _thickness_at(shell: Mesh, thickness: Any) -> FloatArray:
     if np.isnan(values).any():
         raise MeshError("the field of thicknesses does not cover the surface")
     return values
+
+
+@operator(
+    "PAVE",
+    many("faces", "MAILLAGE"),
+    family="mesh",
+    help=Help(
+        en="Bricks inside six faces meshed as grids of quadrangles (DALL), opposite faces one "
+        "after the other.",
+        fr="Briques à l'intérieur de six faces maillées en grilles de quadrangles (DALL), les "
+        "faces opposées se suivant.",
+        syntax="VOL1 = PAVE SURF1 SURF2 SURF3 SURF4 SURF5 SURF6 ;",
+        examples=(
+            "OPTI DIME 3 ELEM CUB8 ; L = DROI 2 (0. 0. 0.) (1. 0. 0.) ;"
+            " M = DROI 3 (0. 0. 0.) (0. 1. 0.) ; B = L TRAN 3 (0. 1. 0.) ;"
+            " F = L TRAN 2 (0. 0. 1.) ; G = M TRAN 2 (0. 0. 1.) ; B2 = B PLUS (0. 0. 1.) ;"
+            " F2 = F PLUS (0. 1. 0.) ; G2 = G PLUS (1. 0. 0.) ;"
+            " ELIM 1E-6 (B ET B2 ET F ET F2 ET G ET G2) ;"
+            " LIST (MESU (PAVE B B2 F F2 G G2)) ;",
+        ),
+    ),
+)
+def pave(session: Session, call: Call, faces: tuple[Mesh, ...]) -> Mesh:
+    """Fill a block."""
+    if len(faces) != 6:
+        raise call.bad(f"a block has six faces, {len(faces)} are given")
+    return fill_block(faces, workspace(session).colour)

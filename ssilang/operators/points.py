@@ -243,7 +243,8 @@ def picked(values: FloatArray, word: str, limits: Sequence[float]) -> NDArray[np
     """Which values (n,) are extreme, or compare with the limits as the word says."""
     if word in ("MAXI", "MINI"):
         extreme = values.max() if word == "MAXI" else values.min()
-        return np.isclose(values, extreme, rtol=1e-12, atol=1e-14 * float(np.abs(values).max()))
+        hair = 1e-12 * float(np.abs(values).max())
+        return np.asarray(np.abs(values - extreme) <= hair)
     if word == "COMPRIS":
         low, high = sorted(limits)
         return np.asarray((values >= low) & (values <= high))

@@ -49,6 +49,8 @@ def delaunay_mesh(mesh: Mesh, dimension: int, colour: int = 0) -> Mesh:
     from scipy.spatial import Delaunay, QhullError
 
     ids = mesh.node_ids
+    if not len(ids):
+        raise MeshError("the mesh is empty: there is nothing to triangulate")
     at = mesh.nodes.coordinates[ids, :dimension]
     try:
         cells = Delaunay(at).simplices.astype(np.int64)
