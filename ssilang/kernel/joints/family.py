@@ -24,7 +24,7 @@ from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
 from ssilang.kernel.fields.cell_field import CellField, Support
 from ssilang.kernel.joints.elements import joint_element
 from ssilang.kernel.joints.kinematics import JointCells, joint_cells, point_values
-from ssilang.kernel.joints.law_table import elastic_tangent
+from ssilang.kernel.joints.law_table import elastic_tangent, law_of, rocking_stiffness
 from ssilang.kernel.joints.table import joint_parameters
 from ssilang.kernel.matrices.matrix import ElementMatrices
 from ssilang.kernel.mesh.nodes import FloatArray
@@ -57,7 +57,13 @@ def rotational_stiffness(zone: Zone, given: CellField) -> ElementMatrices | None
     family, parameters = JointFamily(), zone_field(zone, given)
     moduli = family.moduli(zone, parameters, "RIGIDITE")
     d = joint_element(zone).dimension
-    moduli[..., :d, :d] = 0.0
+    if law_of(zone.behaviour).macro:  # shear and torsion stay, rocking and opening do not
+        keep = np.zeros(moduli.shape[-1], bool)
+        keep[1:d] = True
+        keep[d] = d == 3
+        moduli[..., ~keep, :] = 0.0
+    else:
+        moduli[..., :d, :d] = 0.0
     values = family.stiffness_values(zone, moduli, parameters)
     return element_matrices(zone, family.layout(zone), values, "RIGIDITE", keep_zone=False)
 
@@ -116,6 +122,12 @@ class JointFamily(ElementFamily):
         full[..., : len(order), : len(order)] = D
         for i, names in enumerate(springs, start=len(order)):
             full[..., i, i] = _first_given(joints, parameters, names)
+        law = law_of(zone.behaviour)
+        if law.macro:
+            rocking = rocking_stiffness(law.code, joint_parameters(joints, parameters))
+            for i, values in enumerate(rocking[: len(springs)]):
+                place = len(order) + i + (len(springs) == 3)
+                full[..., place, place] = values[:, None]
         return full
 
     def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, Layout]:

@@ -13,13 +13,14 @@ import numpy as np
 import scipy.sparse as sp
 
 from ssilang.kernel.elements.zone_fields import zone_field
-from ssilang.kernel.errors import FieldError
+from ssilang.kernel.errors import FieldError, MaterialError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.joints.columns import N_STATE, OPENING, SLIP2, XI
 from ssilang.kernel.joints.elements import is_joint
 from ssilang.kernel.joints.family import component_order, displacement_names
 from ssilang.kernel.joints.kinematics import JointCells, joint_cells
-from ssilang.kernel.joints.law_table import elastic_tangent, law_of
+from ssilang.kernel.joints.law_table import elastic_tangent, law_of, rocking_stiffness
+from ssilang.kernel.joints.parameters import Parameter
 from ssilang.kernel.joints.table import joint_parameters
 from ssilang.kernel.matrices.assembly import Numbering
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
@@ -91,7 +92,7 @@ def joint_zones(model: Model) -> tuple[Zone, ...]:
 def interface_of(
     zones: tuple[Zone, ...], characteristics: CellField | None, numbering: Numbering
 ) -> Interface:
-    """The interface made by zones of joints.
+    """The interface made by zones of joints; macro-elements come after the others.
 
     Raises
     ------
@@ -101,24 +102,97 @@ def interface_of(
         For joints without area, reversed, or with inadmissible parameters.
     """
     joints, tables, codes = [], [], []
-    for zone in zones:
-        given = zone_field(zone, characteristics)
+    ordered = sorted(zones, key=lambda z: law_of(z.behaviour).macro)
+    for zone in ordered:
+        given, law = zone_field(zone, characteristics), law_of(zone.behaviour)
         cells = joint_cells(zone, given)
+        table = joint_parameters(cells, given)
+        if law.macro:
+            _refuse_unfit_macro(zone, law.code, table)
+            about_1, about_2 = rocking_stiffness(law.code, table)
+            table[:, Parameter.KS1], table[:, Parameter.KS2] = about_1, about_2
         joints.append(cells)
-        tables.append(joint_parameters(cells, given))
-        codes.append(np.full(cells.weights.size, law_of(zone.behaviour).code, dtype=np.int64))
+        tables.append(table)
+        codes.append(np.full(cells.weights.size, law.code, dtype=np.int64))
     d = joints[0].element.dimension
-    keys, places = _pairs(joints)
+    J, places, B = _jumps(joints, numbering)
     return Interface(
         tuple(joints),
         d,
-        _jump_matrix(keys, displacement_names(zones[0]), numbering),
+        J,
         places,
-        _padded_operators(joints, places.shape[1]),
+        B,
         np.concatenate([j.weights.ravel() for j in joints]),
         np.concatenate(codes),
         np.concatenate(tables),
     )
+
+
+def _refuse_unfit_macro(zone: Zone, code: int, table: FloatArray) -> None:
+    if zone.mode.dimension != 3:
+        return
+    if code == 5:
+        raise MaterialError(
+            "MACRO_RESSORTS exists in two dimensions only", "MACRO_SEMELLE or MACRO_DISQUE"
+        )
+    if code == 3 and not (table[:, Parameter.LONG] > 0).all():
+        raise MaterialError("MACRO_SEMELLE needs LONG, the second width, in three dimensions")
+
+
+def is_macro(joints: JointCells) -> bool:
+    """Whether the zone's law is that of a whole footing."""
+    return law_of(joints.zone.behaviour).macro
+
+
+def _jumps(
+    joints: list[JointCells], numbering: Numbering
+) -> tuple[sp.csr_array, IntArray, FloatArray]:
+    """Jump matrix, pairs of each point, operators of the points."""
+    plain = [j for j in joints if not is_macro(j)]
+    macro = [j for j in joints if is_macro(j)]
+    d = joints[0].element.dimension
+    rows: list[sp.csr_array] = []
+    places, B = np.zeros((0, 1), dtype=np.int64), np.zeros((0, d, d))
+    if plain:
+        keys, places = _pairs(plain)
+        rows.append(_jump_matrix(keys, displacement_names(plain[0].zone), numbering))
+        B = _padded_operators(plain, places.shape[1])
+    if macro:
+        rows += [macro_jumps(j, numbering) for j in macro]
+        n, width = sum(len(j.upper) for j in macro), places.shape[1]
+        first = sum(r.shape[0] for r in rows[: len(rows) - len(macro)]) // d
+        own = np.zeros((n, width), dtype=np.int64)
+        own[:, 0] = first + np.arange(n)
+        unit = np.zeros((n, d, width * d))
+        unit[:, :, :d] = np.eye(d)
+        places, B = np.concatenate([places, own]), np.concatenate([B, unit])
+    return sp.csr_array(sp.vstack(rows, format="csr")), places, np.ascontiguousarray(B)
+
+
+def macro_jumps(joints: JointCells, numbering: Numbering) -> sp.csr_array:
+    """Rotations about t1 (and t2) and opening of macro-elements, d rows a cell."""
+    d, frames = joints.element.dimension, joints.frames[:, 0]
+    resolve = joints.zone.cells.nodes.resolve
+    turning = ("RZ",) if d == 2 else ("RX", "RY", "RZ")
+    moving = displacement_names(joints.zone)
+    matrix = sp.lil_array((len(frames) * d, numbering.size))
+    for side, sign in ((joints.upper, 1.0), (joints.lower, -1.0)):
+        for cell, node in enumerate(resolve(side).ravel()):
+            turn = _places(numbering, int(node), turning)
+            move = _places(numbering, int(node), moving)
+            axes = np.ones((1, 1)) if d == 2 else frames[cell, : d - 1]
+            for row in range(d - 1):
+                matrix[cell * d + row, turn] += sign * axes[row]
+            matrix[cell * d + d - 1, move] += sign * frames[cell, -1]
+    return sp.csr_array(matrix)
+
+
+def _places(numbering: Numbering, node: int, names: tuple[str, ...]) -> list[int]:
+    found = [numbering.index_of(node, name) for name in names]
+    if min(found) < 0:
+        missing = names[found.index(min(found))]
+        raise FieldError(f"a joint needs {missing} at node {node + 1}, which the matrices lack")
+    return found
 
 
 def _pairs(joints: list[JointCells]) -> tuple[IntArray, IntArray]:
@@ -195,6 +269,13 @@ def nonlinear_blocks(matrix: Matrix) -> tuple[ElementMatrices, ...]:
 # --- results ---------------------------------------------------------------------------------
 
 
+MACRO_NAMES = {
+    "jump": {2: ("CXZ", "EXX"), 3: ("CXY", "CXZ", "EXX")},
+    "traction": {2: ("MOMZ", "EFFX"), 3: ("MOMY", "MOMZ", "EFFX")},
+}
+"""Components of macro-elements: rotations and moments about t1 (t2), opening and force."""
+
+
 def interface_field(interface: Interface, values: FloatArray, kind: str) -> CellField:
     """Values (n_points, d) at the points of all joints as a field.
 
@@ -209,6 +290,8 @@ def interface_field(interface: Interface, values: FloatArray, kind: str) -> Cell
         local = values[start : start + n * g].reshape(n, g, -1)
         start += n * g
         names = j.element.strains if kind == "jump" else j.element.stresses
+        if is_macro(j):
+            names = MACRO_NAMES[kind][interface.dimension]
         components = {
             names[i]: np.ascontiguousarray(local[..., i]) for i in component_order(j.zone)
         }

@@ -11,6 +11,7 @@ from ssilang.kernel.errors import MaterialError
 from ssilang.kernel.joints.columns import CUMULATED, DAMAGE, OPENING, SLIP1, SLIP2, STATUS, XI
 from ssilang.kernel.joints.parameters import (
     Parameter,
+    check_macro_parameters,
     check_mohr_parameters,
     check_sdm_parameters,
 )
@@ -37,6 +38,8 @@ class Law:
         Parameters in degrees, with the columns that take their tangents.
     variables : dict
         Internal variables that results show, with their column of the state.
+    macro : bool
+        True for a whole footing at a joint of two points: its jumps are rotations and opening.
     """
 
     code: int
@@ -46,6 +49,7 @@ class Law:
     linear: bool = False
     angles: dict[str, tuple[str, ...]] = field(default_factory=dict)
     variables: dict[str, int] = field(default_factory=dict)
+    macro: bool = False
 
 
 _PLASTIC = {
@@ -78,6 +82,9 @@ LAWS: dict[str, Law] = {
         angles={"FRIC": ("TPHI", "TPSI")},
         variables=_PLASTIC,
     ),
+    "MACRO_SEMELLE": Law(3, ("KN", "KS", "LARG"), ("LONG",), check_macro_parameters, macro=True),
+    "MACRO_DISQUE": Law(4, ("KN", "KS", "RAYO"), (), check_macro_parameters, macro=True),
+    "MACRO_RESSORTS": Law(5, ("KN", "KS", "LARG"), (), check_macro_parameters, macro=True),
 }
 """Laws by the last word of a model's behaviour; the purely elastic joint under 'ELASTIQUE'."""
 
@@ -114,3 +121,16 @@ def elastic_tangent(parameters: FloatArray, dimension: int) -> FloatArray:
     for i, column in enumerate(columns):
         tangent[:, i, i] = parameters[:, column]
     return tangent
+
+
+def rocking_stiffness(code: int, parameters: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Stiffness of a macro-element in full contact about t1 and t2 (the same in 2D), each (n,)."""
+    k, b = parameters[:, Parameter.KN], parameters[:, Parameter.LARG]
+    if code == 4:
+        both = k * parameters[:, Parameter.RAYO] ** 2 / 4
+        return both, both
+    if code == 5:
+        return k * b**2 / 4, k * b**2 / 4
+    other = parameters[:, Parameter.LONG]
+    about_1 = np.where(other > 0, k * other**2 / 12, k * b**2 / 12)
+    return about_1, k * b**2 / 12

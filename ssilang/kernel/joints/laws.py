@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from ssilang.kernel.compiled import compiled
 from ssilang.kernel.joints.columns import FC, FU, GF, KN, KS1, SHEAR_ENERGY, SHEAR_LOSS, XI
+from ssilang.kernel.joints.macro_law import macro_point
 from ssilang.kernel.joints.mohr_law import mohr_energy, mohr_point
 from ssilang.kernel.joints.sdm_law import normal_energy, opening_loss, sdm_point
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
@@ -46,6 +47,8 @@ def point_response(
         sdm_point(w, state, p, t, new, D)
     elif code == 2:
         mohr_point(w, state, p, t, new, D)
+    elif code >= 3:
+        macro_point(code, w, state, p, t, new, D)
     else:
         elastic_point(w, state, p, t, new, D)
 

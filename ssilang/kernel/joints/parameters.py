@@ -29,6 +29,9 @@ class Parameter(IntEnum):
     ECN = 13
     FNE = 14  # compression from which a joint of two points yields, 0: never
     QT = 15  # its tangent stiffness then
+    LARG = 16  # width of a footing (macro-elements), along t1 in 3D
+    LONG = 17  # its other width
+    RAYO = 18  # its radius
 
 
 N_PARAMETERS = len(Parameter)
@@ -85,6 +88,22 @@ def check_mohr_parameters(parameters: FloatArray) -> None:
     for name in ("KS1", "KS2", "TPHI", "TPSI", "COHE", "FTRC", "EF", "ECN", "FNE", "QT"):
         _refuse(columns[name] < 0, columns[name], name, ">= 0")
     _refuse((columns["FNE"] > 0) & (columns["QT"] >= columns["KN"]), columns["QT"], "QT", "< KN")
+
+
+def check_macro_parameters(parameters: FloatArray) -> None:
+    """Refuse a macro-element without stiffness or size.
+
+    Raises
+    ------
+    MaterialError
+        Naming the parameter.
+    """
+    if not np.isfinite(parameters).all():
+        raise MaterialError("a joint parameter is not a finite number")
+    columns = {p.name: parameters[:, p] for p in Parameter}
+    _refuse(columns["KN"] <= 0, columns["KN"], "KN", "> 0")
+    for name in ("LARG", "LONG", "RAYO"):
+        _refuse(columns[name] < 0, columns[name], name, "> 0")
 
 
 def _refuse(wrong: np.ndarray, values: FloatArray, name: str, wanted: str) -> None:

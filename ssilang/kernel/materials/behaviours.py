@@ -33,6 +33,7 @@ ELASTICITIES: dict[str, tuple[str, ...]] = {
 
 JOINT_WORDS = (
     "JOINT_SDM", "CISAILLEMENT_ELASTIQUE", "PLASTIQUE", "JOINT_DILATANT", "COULOMB",
+    "MACRO_SEMELLE", "MACRO_DISQUE", "MACRO_RESSORTS",
 )  # fmt: skip
 """Further words of joints; `ssilang.kernel.joints.laws` says what they mean."""
 
