@@ -12,13 +12,12 @@ from ssilang.language.call import Call
 from ssilang.language.registry import Help, many, operator
 from ssilang.language.values import ListChpo, ListEnti, ListMots, ListObje, ListReel, type_of
 
-
 _REAL = ("ENTIER", "FLOTTANT")
 
 
 def _star(call: Call) -> bool:
     """Whether a repetition mark stands next; it is consumed."""
-    if call.operands and call.operands[0].span.text == "*":
+    if call.operands and call.operands[0].span.text in ("*", "'*'"):
         call.used.append(call.operands.pop(0))
         return True
     return False

@@ -80,6 +80,10 @@ def test_a_star_in_prog_repeats(run):
     assert list(run("n = 3 ; x = PROG n * 2.5 1. ;")["x"].values) == [2.5, 2.5, 2.5, 1.0]
 
 
+def test_the_star_of_a_repetition_may_be_quoted(run):
+    assert list(run("n = 2 ; x = 'PROG' n '*' 1.5 ;")["x"].values) == [1.5, 1.5]
+
+
 def test_a_real_argument_takes_an_integer(run):
     assert run("x = SIN 90 ;")["x"] == pytest.approx(1.0)
 
