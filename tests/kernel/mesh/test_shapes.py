@@ -1,0 +1,177 @@
+"""Blocks, rounded corners, refined triangles, frames along lines, joints inside a mesh."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from ssilang.kernel.errors import MeshError
+from ssilang.kernel.mesh.block import fill_block
+from ssilang.kernel.mesh.boundary import contour, envelope
+from ssilang.kernel.mesh.combine import union
+from ssilang.kernel.mesh.curves import arc_about_axis
+from ssilang.kernel.mesh.fillet import fillet
+from ssilang.kernel.mesh.frenet import frenet_frames
+from ssilang.kernel.mesh.interfaces import joints_inside
+from ssilang.kernel.mesh.lines import line_chain, mesh_curve, polyline, straight_line
+from ssilang.kernel.mesh.measure import total_measure
+from ssilang.kernel.mesh.merge import merge_close
+from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.kernel.mesh.nodes import NodeTable
+from ssilang.kernel.mesh.orientation import reversed_line, signed_volumes
+from ssilang.kernel.mesh.refine import delaunay_mesh, refined_triangles
+from ssilang.kernel.mesh.split import split_quadrangles
+from ssilang.kernel.mesh.subdivision import subdivide
+from ssilang.kernel.mesh.sweep import sweep_line, translation
+from ssilang.kernel.mesh.transform import NodeCopier, shift
+
+X, Y, Z = np.eye(3)
+
+
+def line(nodes: NodeTable, a: object, b: object, n: int, quadratic: bool = False) -> Mesh:
+    ids = nodes.add(np.array([a, b], dtype=float))
+    return straight_line(nodes, int(ids[0]), int(ids[1]), n, quadratic=quadratic)
+
+
+def sheet(base: Mesh, way: np.ndarray, n: int) -> Mesh:
+    name = "QUA8" if base.single_block().cell_type == "SEG3" else "QUA4"
+    length = float(np.linalg.norm(way))
+    return sweep_line(base, translation(way), subdivide(length, count=n), name)
+
+
+def six_faces(quadratic: bool) -> list[Mesh]:
+    """Faces of a box of sides 1, 2 and 3, cut in 2, 3 and 4, with common nodes merged."""
+    nodes = NodeTable()
+    width = line(nodes, [0, 0, 0], X, 2, quadratic)
+    depth = line(nodes, [0, 0, 0], 2 * Y, 3, quadratic)
+    pairs = [
+        (sheet(width, 2 * Y, 3), 3 * Z),
+        (sheet(width, 3 * Z, 4), 2 * Y),
+        (sheet(depth, 3 * Z, 4), X),
+    ]
+    faces = []
+    for first, way in pairs:
+        faces += [first, NodeCopier(nodes, shift(way)).mesh(first)]
+    merge_close(nodes, union(*faces).node_ids, 1e-6)
+    return faces
+
+
+@pytest.mark.parametrize(("quadratic", "name"), [(False, "CUB8"), (True, "CU20")])
+def test_block_of_six_faces_is_filled_with_bricks(quadratic: bool, name: str) -> None:
+    faces = six_faces(quadratic)
+    made = fill_block([*faces[4:], faces[1], faces[0], *faces[2:4]])
+    block = made.single_block()
+    assert (block.cell_type, len(block)) == (name, 24)
+    assert np.abs(signed_volumes(block)) == pytest.approx(0.25)
+    skin = envelope(made)
+    assert set(skin.node_ids) == set(union(*faces).node_ids)
+
+
+def test_block_whose_faces_do_not_match_is_refused() -> None:
+    faces = six_faces(False)
+    with pytest.raises(MeshError, match="side faces"):
+        fill_block([faces[0], faces[2], faces[1], faces[3], *faces[4:]])
+
+
+@pytest.mark.parametrize("quadratic", [False, True])
+def test_rounded_corner_is_tangent_to_both_lines(quadratic: bool) -> None:
+    nodes = NodeTable()
+    corner = int(nodes.add(np.array([[2.0, 0, 0]]))[0])
+    start, end = nodes.add(np.array([[0.0, 0], [3.0, 1.0]])).tolist()
+    first = straight_line(nodes, start, corner, 8, quadratic=quadratic)
+    second = straight_line(nodes, corner, end, 8, quadratic=quadratic)
+    one, arc, two = fillet(first, second, 0.5, 6)
+    reach = 0.5 * math.tan(math.pi / 8)
+    assert total_measure(one) == pytest.approx(2 - reach)
+    assert total_measure(two) == pytest.approx(math.sqrt(2) - reach)
+    at = nodes.coordinates[line_chain(arc)]
+    centre = np.array([2 - reach, 0.5, 0])
+    assert np.linalg.norm(at - centre, axis=1) == pytest.approx(0.5)
+    assert line_chain(one)[-1] == line_chain(arc)[0]
+    assert line_chain(arc)[-1] == line_chain(two)[0]
+
+
+def test_too_large_a_radius_is_refused() -> None:
+    nodes = NodeTable()
+    first, second = line(nodes, [0, 0], [1, 0], 4), line(nodes, [1, 0], [1, 1], 4)
+    with pytest.raises(MeshError, match="too large"):
+        fillet(first, second, 2.0, 4)
+    with pytest.raises(MeshError, match="parallel"):
+        fillet(first, first, 0.1, 4)
+
+
+def test_refined_triangles_keep_the_contour_and_the_area() -> None:
+    base = line(NodeTable(), [0, 0], [1, 0], 5)
+    coarse = split_quadrangles(sheet(base, Y, 5))
+    ids = coarse.node_ids
+    fine = refined_triangles(coarse, ids, np.full(len(ids), 0.08))
+    assert total_measure(fine) == pytest.approx(1.0)
+    assert set(contour(fine).node_ids) == set(contour(coarse).node_ids)
+    assert fine.n_cells > 2 * coarse.n_cells
+
+
+def test_delaunay_triangulation_fills_the_hull_of_points() -> None:
+    nodes = NodeTable()
+    rng = np.random.default_rng(0)
+    corners = np.array(np.meshgrid([0, 1], [0, 1], [0, 1])).reshape(3, -1).T
+    ids = nodes.add(np.vstack([corners, rng.uniform(0.1, 0.9, (40, 3))]))
+    made = delaunay_mesh(Mesh.of(nodes, "POI1", ids[:, None]), 3)
+    assert (signed_volumes(made.single_block()) > 0).all()
+    assert total_measure(made) == pytest.approx(1.0)
+
+
+def test_frames_of_a_closed_circle_are_exact() -> None:
+    nodes = NodeTable()
+    start = int(nodes.add(np.array([[2.0, 0, 0]]))[0])
+    arc = arc_about_axis(nodes.coordinates[start].copy(), np.zeros(3), Z, 2 * math.pi)
+    cuts = subdivide(arc.length, 0.3, 0.9, -17)
+    circle = mesh_curve(nodes, arc, start, start, cuts)
+    ids, frames = frenet_frames(circle)
+    radial = nodes.coordinates[ids] / 2.0
+    assert frames[:, 0] == pytest.approx(np.cross(Z, radial), abs=1e-12)
+    assert frames[:, 1] == pytest.approx(-radial, abs=1e-12)
+    assert frames[:, 2] == pytest.approx(np.tile(Z, (len(ids), 1)), abs=1e-12)
+
+
+def test_frames_of_a_helix_converge_with_second_order() -> None:
+    errors = []
+    for n in (40, 80):
+        nodes = NodeTable()
+        t = np.linspace(0, 4 * math.pi, n + 1)
+        ids = nodes.add(np.column_stack([np.cos(t), np.sin(t), 0.3 * t]))
+        _, frames = frenet_frames(polyline(nodes, ids, False))
+        exact = np.column_stack([-np.sin(t), np.cos(t), 0.3 + 0 * t]) / math.hypot(1, 0.3)
+        errors.append(np.abs(frames[1:-1, 0] - exact[1:-1]).max())
+    assert errors[0] / errors[1] == pytest.approx(4.0, rel=0.1)
+
+
+def test_straight_line_keeps_its_binormal_along_z() -> None:
+    nodes = NodeTable()
+    straight = line(nodes, [0, 0, 0], [1, 1, 0], 3)
+    _, frames = frenet_frames(straight)
+    assert frames[:, 2] == pytest.approx(np.tile(Z, (4, 1)))
+    with pytest.raises(MeshError, match="branches"):
+        frenet_frames(union(straight, polyline(nodes, [0, 2], False)))
+
+
+def test_touching_parts_are_joined_once() -> None:
+    nodes = NodeTable()
+    base = line(nodes, [0, 0], [1, 0], 3)
+    low = sheet(base, Y, 2)
+    high = NodeCopier(nodes, shift(Y)).mesh(low)
+    block = joints_inside(union(low, high), 1e-6).single_block()
+    assert (block.cell_type, len(block)) == ("RAC2", 3)
+    assert block.coordinates[:, :2] == pytest.approx(block.coordinates[:, 2:])
+    assert block.coordinates[..., 1] == pytest.approx(1.0)
+    with pytest.raises(MeshError, match="face each other"):
+        joints_inside(low, 1e-6)
+
+
+def test_reversed_line_gives_opposite_tangents() -> None:
+    nodes = NodeTable()
+    one = line(nodes, [0, 0, 0], [1, 2, 0], 4)
+    _, there = frenet_frames(one)
+    _, back = frenet_frames(reversed_line(one))
+    assert back[:, 0] == pytest.approx(-there[:, 0])
