@@ -18,14 +18,23 @@ Colours = NDArray[np.float64]  # (n, 4) red green blue opacity
 CLEAR = (0.0, 0.0, 0.0, 0.0)
 
 
+@dataclass(frozen=True, eq=False)
+class _Batch:
+    """Polygons added together: corners on the sheet (n, k, 2), depths (n,), inks (n, 4), width."""
+
+    corners: FloatArray
+    depth: FloatArray
+    face: Colours
+    edge: Colours
+    width: float
+
+
 @dataclass
 class Painter:
     """Collects polygons (segments are polygons of two points) for one view."""
 
     view: View
-    _outlines: list[FloatArray] = field(default_factory=list)
-    _depths: list[FloatArray] = field(default_factory=list)
-    _inks: list[tuple[Colours, Colours, FloatArray]] = field(default_factory=list)
+    _batches: list[_Batch] = field(default_factory=list)
 
     def add(
         self,
@@ -44,34 +53,71 @@ class Painter:
         n = len(points)
         if n == 0:
             return
-        self._outlines.extend(self.view.project(points))
         if depth is None:
             depth = self.view.depth(points).mean(axis=1)
-        self._depths.append(depth + lift)
-        self._inks.append((_rows(face, n), _rows(edge, n), np.full(n, width)))
+        corners = self.view.project(points)
+        self._batches.append(_Batch(corners, depth + lift, _rows(face, n), _rows(edge, n), width))
 
     def draw(self, axes: Axes) -> None:
-        """Draw what was added, farthest first; in the plane, in the order of adding."""
+        """Draw what was added: in space farthest first, in the plane in the order of adding."""
+        if self._batches:
+            draw = self._draw_sorted if self.view.solid else self._draw_together
+            draw(axes)
+
+    def _draw_sorted(self, axes: Axes) -> None:
         from matplotlib.collections import PolyCollection
 
-        if not self._outlines:
-            return
-        depth = np.concatenate(self._depths)
-        order = np.argsort(depth, kind="stable") if self.view.solid else np.arange(len(depth))
-        face, edge, width = (
-            np.concatenate(parts)[order] for parts in zip(*self._inks, strict=True)
-        )
+        batches = self._batches
+        order = np.argsort(np.concatenate([b.depth for b in batches]), kind="stable")
+        corners = [polygon for b in batches for polygon in b.corners]
+        widths = np.concatenate([np.full(len(b.corners), b.width) for b in batches])
         axes.add_collection(
             PolyCollection(
-                [self._outlines[i] for i in order],
-                facecolors=face,
-                edgecolors=edge,
-                linewidths=width,
+                [corners[i] for i in order],
+                facecolors=np.concatenate([b.face for b in batches])[order],
+                edgecolors=np.concatenate([b.edge for b in batches])[order],
+                linewidths=widths[order],
                 joinstyle="round",
                 capstyle="round",
             ),
             autolim=False,
         )
+
+    def _draw_together(self, axes: Axes) -> None:
+        """One path for all polygons of a batch that have the same ink: they do not overlap."""
+        from matplotlib.collections import PathCollection
+
+        paths, faces, edges, widths = [], [], [], []
+        for b in self._batches:
+            inks, group = np.unique(np.hstack([b.face, b.edge]), axis=0, return_inverse=True)
+            for i, ink in enumerate(inks):
+                paths.append(_compound(b.corners[group.ravel() == i]))
+                faces.append(ink[:4])
+                edges.append(ink[4:])
+                widths.append(b.width)
+        axes.add_collection(
+            PathCollection(
+                paths,
+                facecolors=faces,
+                edgecolors=edges,
+                linewidths=widths,
+                joinstyle="round",
+                capstyle="round",
+            ),
+            autolim=False,
+        )
+
+
+def _compound(polygons: FloatArray) -> Any:
+    """One path of many polygons (n, k, 2); those of two points stay open."""
+    from matplotlib.path import Path
+
+    n, k, _ = polygons.shape
+    codes = [Path.MOVETO] + [Path.LINETO] * (k - 1)
+    if k > 2:
+        polygons = np.concatenate([polygons, polygons[:, :1]], axis=1)
+        codes = [*codes, Path.CLOSEPOLY]
+    return Path(polygons.reshape(-1, 2), np.tile(np.array(codes, dtype=np.uint8), n))
 
 
 def _rows(colour: Any, n: int) -> Colours:
