@@ -18,6 +18,7 @@ from ssilang.kernel.errors import KernelError
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.modal.reduced import ReducedProblem
 from ssilang.kernel.solvers.backends import SingularFactorError, factorise
+from ssilang.kernel.solvers.inverse import invert
 
 DENSE = 400  # unknowns up to which all eigenvalues are computed
 MASSLESS = 1e-13  # theta (relative to the largest) taken for zero
@@ -43,7 +44,10 @@ def nearest(problem: ReducedProblem, shift: float, count: int) -> Pairs:
         If no unknown has a mass, or the matrices are not symmetric.
     """
     check(problem)
-    moved, solve = shifted_inverse(problem, shift)
+    found = shifted_inverse(problem, shift)
+    if found is None:
+        return _without_idle(problem, shift, count)
+    moved, solve = found
     if problem.size <= DENSE or count >= problem.size // 2:
         theta, shapes = _all(problem, solve)
     else:
@@ -75,19 +79,35 @@ def largest_value(problem: ReducedProblem) -> float:
     return float(ratio.max(initial=0.0)) or 1.0
 
 
-def shifted_inverse(problem: ReducedProblem, shift: float) -> tuple[float, Solve]:
-    """A shift near the one wanted at which `K - s M` is regular, and its solver (r,) or (r, k)."""
+def _without_idle(problem: ReducedProblem, shift: float, count: int) -> Pairs:
+    """Eigenvalues of a system with motions that meet neither stiffness nor mass.
+
+    Such motions (rotations of a flat shell about its normal) are held by as few unknowns.
+    """
+    size = abs(problem.K).max() / (abs(problem.M).max() or 1.0)
+    inverse = invert(problem.bordered(sp.csr_array(problem.K + size * problem.M)), True)
+    pinned = inverse.pinned[inverse.pinned < problem.size]
+    if len(pinned) == 0:
+        raise KernelError("the matrix is singular whatever the frequency")
+    kept = np.setdiff1d(np.arange(problem.size), pinned)
+    part = nearest(problem.restricted(kept), shift, count)
+    shapes = np.zeros((problem.size, len(part.values)))
+    shapes[kept] = part.shapes
+    return Pairs(part.values, shapes)
+
+
+def shifted_inverse(problem: ReducedProblem, shift: float) -> tuple[float, Solve] | None:
+    """A shift near the one wanted at which `K - s M` is regular, and its solver (r,) or (r, k).
+
+    None if there is none: some motion meets neither stiffness nor mass.
+    """
     step = NUDGE * largest_value(problem)
     for moved in (shift, shift - step, shift * (1.0 - 1e-6) - step, shift - 1e3 * step):
         A = problem.bordered(sp.csr_array(problem.K - moved * problem.M))
         solve = _regular(A, problem.size)
         if solve is not None:
             return moved, solve
-    raise KernelError(
-        "the matrix is singular whatever the frequency: some unknowns have neither stiffness "
-        "nor mass",
-        "hold them with BLOQ, or give the missing parameters",
-    )
+    return None
 
 
 def _regular(A: sp.csr_array, size: int) -> Solve | None:

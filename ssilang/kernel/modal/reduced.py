@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.sparse as sp
@@ -59,6 +59,17 @@ class ReducedProblem:
         if self.S.shape[0] == 0:
             return A
         return sp.csr_array(sp.block_array([[A, self.S.T], [self.S, None]], format="csr"))
+
+    def restricted(self, kept: IntArray) -> ReducedProblem:
+        """The problem with only the unknowns `kept` (k,), the others held at zero."""
+        return replace(
+            self,
+            K=sp.csr_array(self.K[kept][:, kept]),
+            M=sp.csr_array(self.M[kept][:, kept]),
+            C=None if self.C is None else sp.csr_array(self.C[kept][:, kept]),
+            S=sp.csr_array(self.S[:, kept]),
+            T=sp.csr_array(self.T[:, kept]),
+        )
 
     def reactions(self, u: FloatArray, eigenvalue: float) -> FloatArray:
         """Multipliers (n_rows,) that balance `(K - lambda M) u` at the eliminated unknowns."""

@@ -163,3 +163,21 @@ def test_damped_modes_of_proportional_damping(n):
         if x < 1.0:
             assert mode.frequency.real == pytest.approx(wi * np.sqrt(1 - x**2) / 2 / np.pi)
             assert mode.frequency.imag == pytest.approx(wi * x / (2 * np.pi))
+
+
+def test_motions_without_stiffness_and_mass_are_left_out():
+    table, K, M = chain(8, 3.0, 0.5)
+    slanted = np.array([[0.36, 0.48], [0.48, 0.64]])  # stiff along (0.6, 0.8), idle across
+    nodes = np.arange(3, 6)[:, None]
+    twice, zero = ("UY", "UZ"), np.zeros(2, np.int64)
+    parts = [
+        ElementMatrices(
+            table, nodes, zero, twice, ("FY", "FZ"), factor * np.tile(slanted, (3, 1, 1)), kind
+        )
+        for factor, kind in ((8.0, "RIGIDITE"), (2.0, "MASSE"))
+    ]
+    K2 = together(held(table, K, [0]), Matrix(table, (parts[0],)))
+    M2 = Matrix(table, (*M.blocks, parts[1]), (), "MASSE")
+    found = [m.frequency for m in modes_near(K2, M2, [(0.0, 20)])]
+    exact = np.sort(np.concatenate([fixed_free(7, 7, 3.0, 0.5), np.full(3, 1.0 / np.pi)]))
+    np.testing.assert_allclose(found, exact, rtol=1e-9)
