@@ -1,0 +1,59 @@
+"""Runs decks and keeps small copies of their pictures for the pages of `cases/`.
+
+    python cases/make_pictures.py [deck ...]
+
+Each picture is the deck's own (DESS or TRAC), scaled to 640 pixels and 128 colours.
+"""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from PIL import Image
+
+HERE = Path(__file__).parent
+WIDTH, COLOURS, LARGEST = 640, 128, 60_000
+
+# deck: number of its picture to name of the copy
+PICTURES = {
+    "club_cast3m_2014/club_a_methods": {1: "club_a_displacement", 2: "club_a_velocity"},
+    "club_cast3m_2014/club_b_sdm": {1: "club_b_displacement", 2: "club_b_velocity"},
+    "club_cast3m_2014/club_c_sdm": {1: "club_c_displacement"},
+    "club_cast3m_2014/rocking_two_pairs": {1: "rocking_two_pairs"},
+    "footing/strip_uplift": {1: "strip_uplift"},
+    "footing/winkler_beam": {1: "winkler_beam"},
+    "footing/flexible_tower": {1: "flexible_tower"},
+    "footing/housner_block": {1: "housner_block"},
+    "footing/block_on_soil": {1: "block_lift", 3: "block_energies", 4: "block_deformed"},
+    "impact/bar_bounce": {1: "bar_bounce"},
+}
+
+
+def shrink(source: Path, target: Path) -> None:
+    """A small copy of a picture."""
+    image = Image.open(source).convert("RGB")
+    height = round(image.height * WIDTH / image.width)
+    small = image.resize((WIDTH, height), Image.Resampling.LANCZOS)
+    small.quantize(COLOURS, Image.Quantize.MAXCOVERAGE).save(target, optimize=True)
+    if target.stat().st_size > LARGEST:
+        raise SystemExit(f"{target} is larger than {LARGEST} bytes")
+
+
+def main(decks: list[str]) -> None:
+    """Make the pictures of some decks, all if none is named."""
+    for deck in decks or PICTURES:
+        target = HERE / Path(deck).parent / "pictures"
+        target.mkdir(exist_ok=True)
+        with tempfile.TemporaryDirectory() as folder:
+            command = [sys.executable, "-m", "ssilang.cli.main", f"{HERE / deck}.ssi"]
+            subprocess.run([*command, "--out", folder], check=True, capture_output=True)
+            for number, name in PICTURES[deck].items():
+                (source,) = Path(folder).glob(f"{number:04d}_*.png")
+                shrink(source, target / f"{name}.png")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
