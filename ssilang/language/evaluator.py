@@ -10,13 +10,12 @@ from ssilang.language.call import Call, Operand, run_operator
 from ssilang.language.errors import SsiError
 from ssilang.language.fast import Slow, Value, compile_phrase
 from ssilang.language.leftovers import is_call, leftover_error
-from ssilang.language.procedures import LeaveProcedure, call_procedure, method_of
+from ssilang.language.operands import OperandReader
+from ssilang.language.procedures import LeaveProcedure, call_procedure
 from ssilang.language.registry import Operator, find_operator
 from ssilang.language.source import Span
 from ssilang.language.values import (
-    ANNULE,
     Mot,
-    Objet,
     Procedure,
     Table,
     Texte,
@@ -50,15 +49,13 @@ class NextTurn(Exception):
 
 # operators whose operands must stay as written
 _RAW_ITEMS = frozenset({"TEXT"})
-# methods that every object has: METHODE and HERITE, operators that also want the object
-_METHODS_OF_ALL = frozenset({"METH", "HERI"})
 
 
-class Evaluator:
+class Evaluator(OperandReader):
     """Executes the nodes of parsed scripts in a session."""
 
     def __init__(self, session: Session) -> None:
-        self.session = session
+        super().__init__(session)
         self.current_span: Span | None = None
         self.statement_count = 0
         self._compiled: dict[tree.Statement | tree.Paren, Value | None] = {}
@@ -67,15 +64,6 @@ class Evaluator:
             tree.If: self._if,
             tree.Loop: self._loop,
             tree.Definition: self._define,
-        }
-        self._operand: dict[type, Callable[[Any], list[Operand]]] = {
-            tree.Number: lambda i: [Operand(i.value, i.span)],
-            tree.Quoted: lambda i: [Operand(Mot(i.text), i.span)],
-            tree.Symbol: lambda i: [Operand(Mot(i.text), i.span)],
-            tree.Name: self._name,
-            tree.Paren: self._paren,
-            tree.Path: self._path,
-            tree.Attribute: self._attribute,
         }
 
     # ---- blocks ----------------------------------------------------------------------------
@@ -89,7 +77,7 @@ class Evaluator:
     def _if(self, node: tree.If) -> None:
         statement = node.condition
         self.current_span = statement.span
-        value = self._scalar(statement)
+        value = self.scalar(statement)
         if type(value) is bool:
             self.run(node.then if value else node.otherwise)
             return
@@ -141,6 +129,9 @@ class Evaluator:
         return SsiError(code, results[0].span, found=type_of(results[0].value))
 
     def _define(self, node: tree.Definition) -> None:
+        if node.name in self.session.library.standard_names:
+            place = Span(node.span.source, node.span.start, node.span.start + len("DEBP"))
+            self.session.warn("overrides-procedure", place, name=node.name)
         self.session.frame.assign(node.name, Procedure(node.name, node))
 
     # ---- statements ------------------------------------------------------------------------
@@ -163,7 +154,7 @@ class Evaluator:
         if limit is not None and self.statement_count > limit:
             raise SsiError("statement-limit", statement.span, limit=limit)
         if len(statement.targets) == 1:
-            value = self._scalar(statement)
+            value = self.scalar(statement)
             if value is not None:
                 self.store(statement.targets[0], value)
                 return
@@ -207,7 +198,7 @@ class Evaluator:
         except RecursionError:
             raise SsiError("nesting", self.current_span) from None
 
-    def _scalar(self, statement: tree.Statement | tree.Paren) -> Any:
+    def scalar(self, statement: tree.Statement | tree.Paren) -> Any:
         """Value of a phrase of scalars by the short way, None if it is not one."""
         try:
             compiled = self._compiled[statement]
@@ -262,17 +253,17 @@ class Evaluator:
         elif isinstance(target, tree.Path):
             self._store_in_table(target, value)
         elif isinstance(target, tree.Attribute):
-            self._object_of(target).attributes[target.name] = value
+            self.object_of(target).attributes[target.name] = value
         else:
             raise SsiError("target", target.span)
 
     def _store_in_table(self, target: tree.Path, value: Any) -> None:
-        holder = self._single(target.base)
+        holder = self.single(target.base)
         for index in target.indices[:-1]:
-            holder = self._element(holder, index, target, "no-inner-table")
+            holder = self.element(holder, index, target, "no-inner-table")
         if not isinstance(holder, Table):
-            raise self._no_table(holder, target)
-        holder.set(self._single(target.indices[-1]), value)
+            raise self.no_table(holder, target)
+        holder.set(self.single(target.indices[-1]), value)
 
     def refuse_leftovers(self, left: Sequence[Operand]) -> None:
         """Raise the error for operands that nothing read, if there are any."""
@@ -374,98 +365,6 @@ class Evaluator:
         if len(numbers) == dimension:
             point = self.session.make_point([float(o.value) for o in numbers])
             call.operands[:] = [Operand(point, span, result=True)]
-
-    # ---- operands --------------------------------------------------------------------------
-
-    def operands_of(self, items: Sequence[tree.Item]) -> list[Operand]:
-        """Operands of items: names replaced by their objects, parentheses run."""
-        table = self._operand
-        if len(items) == 1:
-            return table[type(items[0])](items[0])
-        parens = {
-            i: self._paren(item) for i, item in enumerate(items) if isinstance(item, tree.Paren)
-        }
-        found: list[Operand] = []
-        for i, item in enumerate(items):
-            found.extend(parens[i] if i in parens else table[type(item)](item))
-        return found
-
-    def _name(self, item: tree.Name) -> list[Operand]:
-        value = self.session.frame.find(item.text)
-        if value is None:
-            value = self.session.library.find(item.text)
-            if value is None:
-                return [Operand(Mot(item.text), item.span)]
-        return [Operand(value, item.span, item.text)]
-
-    def _paren(self, item: tree.Paren) -> list[Operand]:
-        value = self._scalar(item)
-        if value is not None:
-            return [Operand(value, item.span)]
-        results = self.phrase(item.items, item.span)
-        if not results:
-            return []
-        if is_call(results):
-            self.refuse_leftovers(results)
-        if len(results) > 1:
-            unread = [o for o in results[1:] if not o.result]
-            word = results[:1] if unread and isinstance(results[0].value, Mot) else []
-            self.refuse_leftovers(word + (unread or results[1:]))
-        value = results[0].value
-        return [Operand(value, item.span, results[0].name)]
-
-    def _single(self, item: tree.Item) -> Any:
-        operands = self._operand[type(item)](item)
-        if len(operands) != 1:
-            raise SsiError("index", item.span)
-        return operands[0].value
-
-    def _path(self, item: tree.Path) -> list[Operand]:
-        value = self._single(item.base)
-        for index in item.indices:
-            value = self._element(value, index, item)
-        return [Operand(value, item.span)]
-
-    def _element(
-        self, holder: Any, index: tree.Item, item: tree.Path, missing: str = "no-index"
-    ) -> Any:
-        if isinstance(holder, Objet):
-            holder = holder.attributes.get(self._single(index), ANNULE)
-            return holder
-        if not isinstance(holder, Table):
-            raise self._no_table(holder, item)
-        where = self._single(index)
-        value = holder.get(where)
-        if value is None:
-            path = Span(item.span.source, item.span.start, index.span.end).text
-            known = [k for k, _ in holder.items()]
-            raise SsiError(missing, index.span, index=where, known=known, path=path)
-        return value
-
-    def _no_table(self, holder: Any, item: tree.Path) -> SsiError:
-        base = item.base.span
-        if isinstance(holder, Mot) and self.session.frame.find(base.text.upper()) is None:
-            return SsiError("undefined-table", base, name=base.text)
-        return SsiError("not-a-table", base, found=type_of(holder), name=base.text)
-
-    def _attribute(self, item: tree.Attribute) -> list[Operand]:
-        holder = self._object_of(item)
-        method = method_of(holder, item.name)
-        if method is not None:
-            return [Operand(method, item.span, item.name)]
-        value = holder.attributes.get(item.name)
-        if value is None:
-            word = Operand(Mot(item.name), item.span)
-            if item.name[:4] in _METHODS_OF_ALL:
-                return [word, Operand(holder, item.span)]
-            return [word]
-        return [Operand(value, item.span, item.name)]
-
-    def _object_of(self, item: tree.Attribute) -> Objet:
-        holder = self._single(item.base) if item.base is not None else self.session.frame.object
-        if not isinstance(holder, Objet):
-            raise SsiError("not-an-object", item.span, found=type_of(holder))
-        return holder
 
 
 def _words_of(item: tree.Quoted) -> list[tree.Item]:

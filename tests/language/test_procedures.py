@@ -142,3 +142,12 @@ def test_the_chain_of_calls_is_told(tmp_path):
     text = "DEBP INNER ; x = 1 / 0 ; FINP ;\nDEBP OUTER ; INNER ; FINP ;\nOUTER ;"
     error = run_text(text, output_directory=tmp_path).errors[0]
     assert [name for name, _ in error.calls] == ["INNER", "OUTER"]
+
+
+def test_replacing_a_procedure_of_the_library_is_told(tmp_path):
+    from ssilang.cli.run import run_text
+
+    text = "DEBP @BILAN t*TABLE ; FINP 7 ; t1 = TABL ; x = @BILAN t1 ;"
+    result = run_text(text, output_directory=tmp_path)
+    assert result.session.root.find("X") == 7
+    assert [w.code for w in result.session.warnings] == ["overrides-procedure"]
