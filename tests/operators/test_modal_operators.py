@@ -202,3 +202,17 @@ def test_complex_modes_of_a_projected_system_are_couples_with_physical_shapes():
     real = [modes.get(i).get("FREQUENCE_REELLE") for i in range(1, 5)]
     assert real[0] == pytest.approx(-real[1])
     assert real[2] == pytest.approx(-real[3])
+
+
+def test_modal_matrices_are_those_of_the_projection():
+    script = TWO_MASSES + (
+        "T = VIBR 'SIMU' 0. 2 K1 M1 ; KM = RIGI T ; KP = PJBA K1 T ; MM = MASS (T . 'MODES') ;"
+        "MP = PJBA M1 T ; CM = AMOR T (PROG 5. 2.) ; DK = EXTR KM 'DIAG' ; EK = EXTR KP 'DIAG' ;"
+        "DM = EXTR MM 'DIAG' ; EM = EXTR MP 'DIAG' ; DC = EXTR CM 'DIAG' ;"
+    )
+    dk, ek, dm, em, dc = (
+        f.components["ALFA"].values for f in objects(script, "DK", "EK", "DM", "EM", "DC")
+    )
+    np.testing.assert_allclose(dk, ek)
+    np.testing.assert_allclose(dm, em)
+    np.testing.assert_allclose(dc, 2.0 * np.array([0.05, 0.02]) * np.sqrt(dk * dm))
