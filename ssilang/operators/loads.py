@@ -9,12 +9,15 @@ from ssilang.kernel.elements.line_loads import line_load
 from ssilang.kernel.elements.loads import (
     body_force,
     loaded_faces,
+    on_sides,
     pipe_pressure,
     pressure,
     shell_load,
     traction,
 )
-from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.elements.reduction import model_on_mesh
+from ssilang.kernel.elements.zone_fields import zone_field
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.matrix import dual_of
 from ssilang.kernel.mesh.mesh import Mesh, Point
@@ -94,16 +97,21 @@ def mome(call: Call) -> NodeField:
         "positive. The pressure is a number on a mesh of sides, a nodal field with one component "
         "(on the outer sides of the model whose nodes all have a value), or a field in cells "
         "over sides. On shells ('COQU') it pushes along their normal ('NORM') or to the side that "
-        "a vector shows. In pipes ('TUYA') the parameter PRES pushes on closed ends.",
+        "a vector shows. In pipes ('TUYA') the parameter PRES pushes on closed ends. "
+        "With a model CHARGEMENT PRESSION: the field of pressure, whose forces BSIG gives along "
+        "the sides' own normals.",
         fr="Forces nodales d'une pression sur des faces d'éléments massifs, dirigée vers "
         "l'intérieur quand elle est positive. La pression est un nombre sur un maillage de "
         "faces, un champ par points à une composante (sur les faces extérieures du modèle dont "
         "tous les noeuds ont une valeur), ou un champ par éléments sur des faces. Sur les coques "
         "('COQU') elle pousse selon la normale ('NORM') ou du côté que montre un vecteur. Dans "
-        "les tuyaux ('TUYA') le paramètre PRES pousse sur les bouts fermés.",
+        "les tuyaux ('TUYA') le paramètre PRES pousse sur les bouts fermés. Avec un modèle "
+        "CHARGEMENT PRESSION : le champ de pression, dont BSIG donne les forces selon les "
+        "normales propres des faces.",
         syntax="FOR1 = PRES 'MASS' MODL1 | VAL1 GEO1 | CHPO1 | CHAM1 ;\n"
         "FOR1 = PRES 'COQU' MODL1 | VAL1 | CHPO1 | CHAM1 'NORM' | VEC1 ;\n"
-        "FOR1 = PRES 'TUYA' MODL1 CAR1 ;",
+        "FOR1 = PRES 'TUYA' MODL1 CAR1 ;\n"
+        "CHAM2 = PRES MODL1 | MOT1 VAL1 (GEO1) | CHAM1 ;",
         examples=(
             "OPTI DIME 2 ELEM QUA4 ; P = 0. 0. ; Q = 2. 0. ; L = DROI 2 P Q ; "
             "S = TRAN 1 L (0. 1.) ; M = MODE S MECANIQUE ELASTIQUE ; "
@@ -112,8 +120,10 @@ def mome(call: Call) -> NodeField:
     ),
     reads_itself=True,
 )
-def pres(call: Call) -> NodeField:
+def pres(call: Call) -> NodeField | CellField:
     """Pressure on sides."""
+    if (loaded := _of_loads(call)) is not None:
+        return loaded
     kind = _kind(call, ("FISS", "SHB8"))
     model: Model = call.required("MMODEL")
     if kind == "TUYA":
@@ -128,11 +138,41 @@ def pres(call: Call) -> NodeField:
         along = call.optional("POINT") if call.keyword(["NORM"]) is None else None
         return shell_load(model, value, None if along is None else along.coordinates)
     faces = call.optional("MAILLAGE")
+    if isinstance(value, CellField):
+        value = on_sides(model, value)
     if faces is None:
         if not isinstance(value, NodeField | CellField):
             raise call.missing(("MAILLAGE",))
         faces = loaded_faces(model, value)
     return pressure(model, faces, value)
+
+
+def _of_loads(call: Call) -> CellField | None:
+    """The field of pressure of a model of loads: a number or a field in cells."""
+    first = call.operands[0].value if call.operands else None
+    if not isinstance(first, Model) or any(z.formulation != "CHARGEMENT" for z in first.zones):
+        return None
+    model: Model = call.required("MMODEL")
+    given = call.read("MCHAML")
+    name = None if given is not None else call.word()
+    value = given.value if given is not None else call.required("FLOTTANT", "MCHAML")
+    faces = call.optional("MAILLAGE")
+    if faces is not None:
+        model = model_on_mesh(model, faces)
+    label = (name or "PRES").rstrip()
+    blocks = []
+    for zone in model.zones:
+        if isinstance(value, CellField):
+            seen = zone_field(zone, value)
+            if len(seen.names) != 1:
+                raise call.bad("a pressure is a field with one component", value)
+            values = seen.raw(seen.names[0])[0]
+        else:
+            values = np.full((len(zone.cells), 1), float(value))
+        blocks.append(
+            CellFieldBlock(zone.cells, {label: values}, "NOEUD", zone.element, zone.constituent)
+        )
+    return CellField(tuple(blocks), "PRESSION")
 
 
 def _kind(call: Call, others: tuple[str, ...]) -> str:

@@ -38,6 +38,7 @@ LAW_WORDS = ("ELASTIQUE", *ELASTICITIES, *JOINT_WORDS)
 class _Wish:
     """What a MODE statement says."""
 
+    formulation: str = "MECANIQUE"
     laws: list[str] = field(default_factory=list)
     elements: list[str] = field(default_factory=list)
     constituent: str = ""
@@ -56,6 +57,7 @@ class _Wish:
         "DKT, COQ2, COQ4, COQ6, COQ8 and the joints are to be named (Q4RI, ICQ4, BBAR choose "
         "another integration). "
         "The hypothesis is that of OPTI MODE.\n"
+        "The formulation CHARGEMENT PRESSION makes a model of loaded sides, for PRES and BSIG.\n"
         "CONS names the constituent, DPGE gives the point that carries the motion of the "
         "section in generalised plane strain, LIBRE or LIE says if the axes of JOI1 follow.",
         fr="Donne à un maillage ses éléments finis et sa loi.\n"
@@ -65,10 +67,12 @@ class _Wish:
         "DKT, COQ2, COQ4, COQ6, COQ8 et les joints se nomment (Q4RI, ICQ4, BBAR choisissent une "
         "autre intégration). "
         "L'hypothèse est celle d'OPTI MODE.\n"
+        "La formulation CHARGEMENT PRESSION fait un modèle de faces chargées, pour PRES et BSIG.\n"
         "CONS nomme le constituant, DPGE donne le point qui porte le mouvement de la section "
         "en déformation plane généralisée, LIBRE ou LIE dit si le repère de JOI1 suit.",
         syntax="MODL1 = MODE GEO1 'MECANIQUE' 'ELASTIQUE' ('ISOTROPE') (ELEM1 ...) "
-        "('CONS' MOT1) ('DPGE' P1) ('LIBRE' | 'LIE') ;",
+        "('CONS' MOT1) ('DPGE' P1) ('LIBRE' | 'LIE') ;\n"
+        "MODL1 = MODE GEO1 'CHARGEMENT' 'PRESSION' (ELEM1 ...) ;",
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0 0) (1 0) ; "
             "M = MODE L 'MECANIQUE' 'ELASTIQUE' 'BARR' ; LIST (TYPE M) ;",
@@ -88,6 +92,8 @@ def mode(call: Call) -> Model:
         raise call.bad("no element of this version stands on a point", mesh)
     if not mesh.blocks:
         raise call.bad("the mesh is empty", mesh)
+    if wish.formulation == "CHARGEMENT":
+        return Model(tuple(_pressure_zone(block, wish, ws) for block in mesh.blocks))
     return Model(tuple(_zone(block, wish, ws) for block in mesh.blocks))
 
 
@@ -113,7 +119,9 @@ def _name(call: Call, word: str, wish: _Wish) -> None:
         wish.elements.append(element)
     elif (law := full_word(said, LAW_WORDS)) is not None:
         wish.laws.append(law)
-    elif full_word(said, FORMULATIONS) is None:
+    elif (formulation := full_word(said, FORMULATIONS)) is not None:
+        wish.formulation = formulation
+    elif said != "PRESSION" or wish.formulation != "CHARGEMENT":
         raise _unknown(call, said)
 
 
@@ -144,6 +152,17 @@ def _zone(block: CellBlock, wish: _Wish, ws: Workspace) -> Zone:
         options["harmonic"] = ws.fourier
     behaviour = normalised(wish.laws, kind.family)
     return Zone(block, "MECANIQUE", behaviour, name, ws.mode, wish.constituent, options)
+
+
+def _pressure_zone(block: CellBlock, wish: _Wish, ws: Workspace) -> Zone:
+    """Sides that carry a pressure."""
+    if block.kind.dimension != ws.mode.dimension - 1 or block.kind.joint:
+        raise MeshError(f"{block.cell_type} cells cannot carry a pressure in this space")
+    options = {"harmonic": ws.fourier} if ws.mode is Mode.FOURIER else {}
+    named = [n for n in wish.elements if ELEMENTS[n].cell_type == block.cell_type]
+    element = named[0] if named else block.cell_type
+    behaviour = ("PRESSION",)
+    return Zone(block, "CHARGEMENT", behaviour, element, ws.mode, wish.constituent, dict(options))
 
 
 def _element(block: CellBlock, wish: _Wish, mode: Mode) -> str:

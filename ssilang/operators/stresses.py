@@ -7,7 +7,7 @@ from collections.abc import Callable
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.gradients import gradient_names, logarithmic_strain
-from ssilang.kernel.elements.loads import total
+from ssilang.kernel.elements.loads import pressure_vectors, total
 from ssilang.kernel.elements.second_order import green_strain, green_stress
 from ssilang.kernel.elements.thermal import thermal_strain
 from ssilang.kernel.elements.zone_fields import zone_field
@@ -60,6 +60,7 @@ class Reading:
         if not models:
             raise call.missing(("MMODEL",))
         self.model = present(call, models[0])
+        self.loads = tuple(z for z in models[0].zones if z.formulation == "CHARGEMENT")
         self.nodal, self.cells = tuple(nodal), tuple(cells)
 
     def displacement(self) -> NodeField:
@@ -162,8 +163,11 @@ def _logarithmic(zone: Zone, gradient: CellField, by_displacement: bool) -> Cell
     family="stress",
     full_name="BSIGMA",
     help=Help(
-        en="Nodal forces in balance with a field of stresses: the integral of B^T sigma.",
-        fr="Forces nodales en équilibre avec un champ de contraintes : l'intégrale de B^T sigma.",
+        en="Nodal forces in balance with a field of stresses: the integral of B^T sigma; on a "
+        "model CHARGEMENT PRESSION, the forces of a field of pressure along the sides' normals.",
+        fr="Forces nodales en équilibre avec un champ de contraintes : l'intégrale de B^T sigma ; "
+        "sur un modèle CHARGEMENT PRESSION, les forces d'un champ de pression selon les normales "
+        "des faces.",
         syntax="FOR1 = BSIG ('NOER') MODL1 SIG1 (CAR1) ;",
         examples=(_BAR + "F = BSIG M (SIGM M A U) ; LIST (EXTR F 'FX' Q) ;",),
     ),
@@ -174,7 +178,8 @@ def bsig(call: Call) -> NodeField:
     said = Reading(call, ("NOER",))
     stress, material = said.state_and_rest()
     forces = [families.internal_forces(z, stress, material) for z in said.model.zones]
-    return total(said.model.mesh.nodes, forces)
+    forces += [pressure_vectors(z, stress) for z in said.loads]
+    return total(forces[0].table, forces)
 
 
 @operator(

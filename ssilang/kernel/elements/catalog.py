@@ -114,6 +114,8 @@ ELEMENTS: dict[str, ElementKind] = {
         ),
         ElementKind("TUYA", "SEG2", "pipe", _VOLUME, {"RIGIDITE": 2}, default=False),
         ElementKind("DKT", "TRI3", "plate", _VOLUME, {"RIGIDITE": 3}, default=False),
+        ElementKind("SEG2", "SEG2", "pressure", SECTION_MODES, {"RIGIDITE": 2}, default=False),
+        ElementKind("SEG3", "SEG3", "pressure", SECTION_MODES, {"RIGIDITE": 2}, default=False),
         ElementKind("COQ4", "QUA4", "mindlin", _VOLUME, {"RIGIDITE": 4}, default=False),
         ElementKind(
             "COQ6", "TRI6", "thick", _VOLUME, {"RIGIDITE": 3, "MASSE": 7}, default=False, layers=2

@@ -21,6 +21,7 @@ from ssilang.kernel.elements.geometry import SurfaceGeometry, chunks
 from ssilang.kernel.elements.kinematics import NODE_TRANSLATIONS, harmonic
 from ssilang.kernel.elements.pipe import pressure_forces
 from ssilang.kernel.elements.solid import integration_weights, zone_geometry
+from ssilang.kernel.elements.supports import nodal_of_cells
 from ssilang.kernel.elements.zone_fields import cell_rows, zone_field
 from ssilang.kernel.errors import FieldError, MeshError
 from ssilang.kernel.fields.cell_field import CellField
@@ -277,6 +278,28 @@ def _shell_forces(
         normals = normals * side[:, None, None]
     pushed: FloatArray = np.einsum("cp,cpd,pk->ckd", p, normals, geometry.shapes)
     return pushed
+
+
+def on_sides(model: Model, field: CellField) -> NodeField | CellField:
+    """A pressure in cells as it serves sides: as it is when it stands on sides, else its nodes.
+
+    A field in the cells of the model itself loads the sides where it is not zero.
+    """
+    inside = {z.cells.kind.dimension for z in model.zones}
+    if not any(b.cells.kind.dimension in inside for b in field.blocks):
+        return field
+    nodal = nodal_of_cells(model, field)
+    kept = {}
+    for name, part in nodal.components.items():
+        loaded = part.values != 0
+        kept[name] = NodeValues(part.nodes[loaded], part.values[loaded])
+    return NodeField(nodal.table, kept, "DIFFUS")
+
+
+def pressure_vectors(zone: Zone, field: CellField) -> NodeField:
+    """Forces of the pressure field on a zone of pressure loads, along the sides' own normals."""
+    geometry = face_geometry(zone.cells, zone.mode, harmonic(zone))
+    return _scatter(zone, zone.cells, _shell_forces(zone, geometry, field, None))
 
 
 def body_force(
