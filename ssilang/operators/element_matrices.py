@@ -8,6 +8,7 @@ import numpy as np
 
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.absorbing import absorbing_boundary
+from ssilang.kernel.elements.follower import pressure_stiffness
 from ssilang.kernel.elements.hooke import hooke_block
 from ssilang.kernel.elements.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
 from ssilang.kernel.elements.zone_fields import zone_field
@@ -32,12 +33,15 @@ def joined(fields: tuple[CellField, ...]) -> CellField:
     return CellField(tuple(b for f in fields for b in f.blocks), fields[0].title)
 
 
-def present(call: Call, model: Model) -> Model:
-    """The mechanical zones of a model, Fourier ones with the harmonic that OPTI says now."""
+def present(call: Call, model: Model, pressures: bool = False) -> Model:
+    """The mechanical zones of a model, Fourier ones with the harmonic that OPTI says now.
+
+    With `pressures` the zones of loads are kept too.
+    """
     harmonic = workspace(call.session).fourier
     zones = []
     for zone in model.zones:
-        if zone.formulation != "MECANIQUE":
+        if zone.formulation != "MECANIQUE" and not pressures:
             continue
         if zone.mode is Mode.FOURIER and zone.options.get("harmonic") != harmonic:
             zone = replace(zone, options={**zone.options, "harmonic": harmonic})
@@ -263,3 +267,34 @@ def ksig(call: Call) -> Matrix:
     material = joined(rest) if rest else None
     blocks = [families.geometric_stiffness(z, stress, material) for z in model.zones]
     return _assembled(model, blocks, "MASSE" if buckling else "RIGIDITE")
+
+
+@operator(
+    "KP",
+    family="matrix",
+    help=Help(
+        en="How the forces of a pressure change when the sides that carry it move and turn "
+        "(follower pressure): derivative of the nodal forces, symmetric part unless 'ASYM'. The "
+        "pressure, a nodal field or a field in cells, is positive along the sides' own normals. "
+        "'FLAM' gives the type MASSE for a buckling analysis with VIBR.",
+        fr="Variation des forces d'une pression quand les faces qui la portent bougent et tournent "
+        "(pression suiveuse) : dérivée des forces nodales, partie symétrique sauf avec 'ASYM'. La "
+        "pression, champ par points ou par éléments, est positive selon les normales propres des "
+        "faces. 'FLAM' donne le type MASSE pour une analyse de flambage avec VIBR.",
+        syntax="RIG1 = KP MODL1 | CHPO1 | CHAM1 ('FLAM') ('ASYM') ;",
+        examples=(
+            "OPTI DIME 2 MODE AXIS ELEM SEG2 ; L = DROI 2 (1. 0.) (1. 1.) ; "
+            "M = MODE L MECANIQUE COQ2 ; K = KP M (MANU 'CHPO' L 1 'P' 2.) ; LIST (TYPE K) ;",
+        ),
+    ),
+    reads_itself=True,
+)
+def kp(call: Call) -> Matrix:
+    """Follower pressure."""
+    model = present(call, call.required("MMODEL"), pressures=True)
+    operand = call.read("CHPOINT", "MCHAML")
+    if operand is None:
+        raise call.missing(("CHPOINT", "MCHAML"))
+    words = [call.keyword(["FLAM", "ASYM"]) for _ in range(2)]
+    blocks = [pressure_stiffness(z, operand.value, "ASYM" in words) for z in model.zones]
+    return _assembled(model, blocks, "MASSE" if "FLAM" in words else "RIGIDITE")
