@@ -57,12 +57,22 @@ def _chosen(attribute: str) -> Callable[[Call, Model], Model]:
     return choose
 
 
+def _behaving(call: Call, model: Model) -> Model:
+    """Zones whose behaviour has all the words that follow."""
+    words = [w.rstrip().upper() for w in iter(call.word, None) if w is not None]
+    kept = tuple(z for z in model.zones if all(w in z.behaviour for w in words))
+    if not kept:
+        raise call.bad(f"no zone of the model behaves as {' '.join(words)}", model)
+    return Model(kept)
+
+
 _OF_MODEL: dict[str, Callable[[Call, Model], Any]] = {
     "MAIL": lambda call, model: model.mesh,
     "ZONE": _zone_list,
     "FORM": _chosen("formulation"),
     "CONS": _chosen("constituent"),
     "ELEM": _chosen("element"),
+    "COMP": _behaving,
     "PARA": lambda call, model: ListMots(),
     "NLOC": lambda call, model: ListMots(),
     "PHAS": lambda call, model: ListMots(),
@@ -72,7 +82,7 @@ _OF_MODEL: dict[str, Callable[[Call, Model], Any]] = {
 @EXTR.on(
     "MMODEL",
     syntax="OBJ1 = EXTR MODL1 'MAIL' | 'ZONE' ;\n"
-    "MODL2 = EXTR MODL1 'FORM' | 'CONS' | 'ELEM' MOT1 ... ;\n"
+    "MODL2 = EXTR MODL1 'FORM' | 'CONS' | 'ELEM' | 'COMP' MOT1 ... ;\n"
     "LMOT1 = EXTR MODL1 'CONT' | 'DEFO' | 'DEPL' | 'FORC' | 'MATE' | 'GEOM' | 'GRAD' | 'CONP' ;",
     en="Of a model: its mesh (MAIL), a table of its zones and their meshes (ZONE), the zones of a "
     "formulation, constituent or element, or the names of the components of its stresses (CONT), "

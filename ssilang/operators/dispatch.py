@@ -359,7 +359,7 @@ def united(call: Call, left: Any, right: Any, span: Span) -> Any:
     reading = CALL_UNIONS.get(types)
     if reading is not None:
         return reading(call, left, right)
-    found = UNIONS.get(types)
+    found = UNIONS.get(types) or UNIONS.get((types[0], "*")) or UNIONS.get(("*", types[1]))
     if found is None:
         raise SsiError("no-rule", span, operator="ET", left=types[0], right=types[1])
     return found(left, right)

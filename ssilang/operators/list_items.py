@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from ssilang.kernel.errors import KernelError
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
 from ssilang.language.values import (
@@ -276,13 +277,12 @@ def _objects(value: Any) -> list[Any]:
     return value.values if isinstance(value, ListChpo | ListObje) else [value]
 
 
-def join_objects(a: Any, b: Any) -> ListObje:
-    """ET of a LISTOBJE with a list or an object of the same type."""
+@union(("LISTOBJE", "*"), ("*", "LISTOBJE"))
+def _join_objects(a: Any, b: Any) -> ListObje:
+    """A LISTOBJE with a list or an object of the same type."""
     made = ListObje()
     made.values = [*_objects(a), *_objects(b)]
-    kinds = {type_of(v) for v in (made.values[:1] + made.values[-1:])}
+    kinds = dict.fromkeys(type_of(v) for v in made.values)
     if len(kinds) > 1:
-        from ssilang.kernel.errors import KernelError
-
         raise KernelError(f"the objects of a list are of one type, here {' and '.join(kinds)}")
     return made

@@ -198,3 +198,10 @@ def test_ten_thousand_appends_take_little_time():
     # copies of 10^4 lists of mean length 5000; about 1 s here, quadratic rebuilding would take 10
     assert time.perf_counter() - begin < 6
     assert len(result.session.root.find("L")) == len(result.session.root.find("M")) == 10000
+
+
+def test_lists_of_objects_join_objects_of_their_type(found, refused):
+    script = "L = (ENUM (PROG 1.)) ET (PROG 2. 3.) ; N = DIME L ; S = SOMM (EXTR L 2) ;"
+    size, sum_ = found(script, "N", "S")
+    assert (size, sum_) == (2, 5.0)
+    assert "one type" in refused("L = (ENUM (PROG 1.)) ET 'a' ;")
