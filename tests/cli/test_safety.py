@@ -1,0 +1,88 @@
+"""A deck reads and writes below its folder and the output folder, and nowhere else."""
+
+from __future__ import annotations
+
+import io
+from pathlib import Path
+
+import pytest
+
+from ssilang.cli.run import RunOptions, run_source
+from ssilang.language.source import Source
+
+_MESH = "OPTI DIME 2 ELEM QUA4 ; S = (DROI 2 (0. 0.) (1. 0.)) TRAN 2 (0. 1.) ; L = PROG 1. 2. ;"
+_WRITERS = [
+    "OPTI SORT '{path}' ; SORT 'EXCE' L ;",
+    "OPTI SORT '{path}' ; SORT 'CHAI' 'text' ;",
+    "OPTI SORT '{path}' ; SORT 'VTK ' S ;",
+    "OPTI SORT '{path}' ; SORT 'AVS ' S ;",
+    "OPTI SAUV '{path}' ; SAUV L ;",
+    "OPTI TRAC PSC FTRA '{path}' ; TRAC S ;",
+    "OPTI TRAC PSC FTRA '{path}' ; DESS (EVOL 'MANU' L L) ;",
+    "OPTI IMPR '{path}' ; MESS 'text' ;",
+]
+_READERS = [
+    "OPTI DONN '{path}' ;",
+    "OPTI ACQU '{path}' ; ACQU X*FLOTTANT ;",
+    "T = LIRE 'CSV' '{path}' ;",
+    "LIRE 'PROC' '{path}' ;",
+    "OPTI REST '{path}' ; REST ;",
+    "OPTI LECT '{path}' ; T = LIRE 'AVS' ;",
+    "T = LIRE 'UNV' '{path}' ;",
+    "M = LIRE 'STL' '{path}' ;",
+]
+
+
+@pytest.fixture
+def outside(tmp_path):
+    """A deck's folder, and a folder beside it that the deck has no business in."""
+    (tmp_path / "deck").mkdir()
+    (tmp_path / "private").mkdir()
+    (tmp_path / "private" / "secret.csv").write_text("1;2\n3;4\n")
+    return tmp_path
+
+
+def run(text: str, base: Path, *allowed: Path):
+    source = Source("deck.ssi", text, base / "deck" / "deck.ssi")
+    options = RunOptions(output_directory=base / "deck" / "out", allowed=list(allowed))
+    return run_source(source, options, io.StringIO(), io.StringIO())
+
+
+@pytest.mark.parametrize("statement", _WRITERS)
+@pytest.mark.parametrize("form", ["../../private/made", "{base}/private/made"])
+def test_writing_outside_is_refused(outside, statement, form):
+    text = _MESH + statement.format(path=form.format(base=outside))
+    run(text, outside)
+    names = {p.name for p in (outside / "private").iterdir()}
+    assert names == {"secret.csv"}
+    made = [p for p in outside.rglob("made*") if outside / "deck" not in p.parents]
+    assert made == []
+
+
+@pytest.mark.parametrize("statement", _READERS)
+@pytest.mark.parametrize("form", ["../private/secret.csv", "{base}/private/secret.csv"])
+def test_reading_outside_is_refused(outside, statement, form):
+    result = run(_MESH + statement.format(path=form.format(base=outside)), outside)
+    assert result.exit_code == 1
+    assert "outside" in result.message or "--allow" in result.message
+
+
+def test_a_link_that_leads_outside_is_refused(outside):
+    (outside / "deck" / "link.csv").symlink_to(outside / "private" / "secret.csv")
+    assert run("T = LIRE 'CSV' 'link.csv' ;", outside).exit_code == 1
+
+
+def test_allow_opens_a_folder(outside):
+    text = "OPTI ACQU '../private/secret.txt' ; ACQU X*FLOTTANT ;"
+    (outside / "private" / "secret.txt").write_text("1.5\n")
+    assert run(text, outside).exit_code == 1
+    result = run(text, outside, (outside / "private").resolve())
+    assert result.exit_code == 0, result.message
+    assert result.session.root.find("X") == 1.5
+
+
+@pytest.mark.parametrize("word", ["EXTE", "CHAU", "VENV"])
+def test_no_operator_talks_to_the_system(outside, word):
+    result = run(f"X = {word} 'ls' ;", outside)
+    assert result.exit_code == 1
+    assert "out of ssilang's scope" in result.message
