@@ -96,4 +96,3 @@ def repeated_matrix(
             )
         )
     return Matrix(mesh.nodes, tuple(blocks), (), kind)
-
