@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import Protocol
 
 import numpy as np
-import scipy.sparse as sp
 
 from ssilang.kernel.errors import KernelError
 from ssilang.kernel.matrices.assembly import ConstraintRows
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.solvers.elimination import eliminate
+from ssilang.kernel.sparse import sp
 
 
 class Constraints(Protocol):

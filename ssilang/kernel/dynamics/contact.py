@@ -9,11 +9,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from ssilang.kernel.matrices.assembly import ConstraintRows
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+from ssilang.kernel.sparse import sp
 
 BoolArray = NDArray[np.bool_]
 TOUCHING = 1e-12  # of the largest gap or displacement: closed at the start

@@ -14,13 +14,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.sparse as sp
 
 from ssilang.kernel.dynamics.constraints import Constraints
 from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.errors import SingularMatrixError
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.solvers.inverse import Inverse, invert
+from ssilang.kernel.sparse import sp
 from ssilang.kernel.statics.linear_motion import describe_motions
 
 COLUMNS = 64  # right-hand sides solved together

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-import scipy.sparse as sp
 
 from ssilang.kernel.dynamics.compiled_loop import Motion
 from ssilang.kernel.dynamics.problem import Problem
@@ -11,6 +10,7 @@ from ssilang.kernel.dynamics.sparse_loop import StepOutcome
 from ssilang.kernel.joints.response import interface_response, interface_stiffness
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.solvers.backends import SingularFactorError, factorise
+from ssilang.kernel.sparse import sp
 
 MOST_TURNS = 40
 TOLERANCE = 1e-12

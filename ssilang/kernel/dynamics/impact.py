@@ -11,7 +11,6 @@ relations impose.
 from __future__ import annotations
 
 import numpy as np
-import scipy.sparse as sp
 
 from ssilang.kernel.dynamics.compiled_loop import Motion
 from ssilang.kernel.dynamics.contact import BoolArray, ContactRows
@@ -19,6 +18,7 @@ from ssilang.kernel.dynamics.effective import Effective
 from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.solvers.inverse import invert
+from ssilang.kernel.sparse import sp
 
 CORRECTIONS = ("FAUX", "MASSE", "RIGIDITE")
 MASSLESS = 1e-10

@@ -5,13 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.sparse as sp
 
 from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.errors import KernelError
 from ssilang.kernel.joints.laws import respond
 from ssilang.kernel.joints.response import interface_energies, interface_forces, local_jumps
 from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.sparse import sp
 
 
 @dataclass(eq=False)

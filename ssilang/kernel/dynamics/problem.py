@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-import scipy.sparse as sp
 
 from ssilang.kernel.curve import Load
 from ssilang.kernel.dynamics.constraints import Constraints, check_values, constraints_of
@@ -38,6 +37,7 @@ from ssilang.kernel.matrices.assembly import (
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.model import Model, Zone
+from ssilang.kernel.sparse import sp
 
 SMALL = 160
 """Unknowns up to which dense matrices and the compiled loop are used."""

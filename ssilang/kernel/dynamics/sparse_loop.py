@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
-import scipy.sparse as sp
 
 from ssilang.kernel.dynamics.compiled_loop import (
     DAMPED,
@@ -28,6 +27,7 @@ from ssilang.kernel.joints.condensed import solve_interface
 from ssilang.kernel.joints.interface import Interface
 from ssilang.kernel.joints.response import interface_energies
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+from ssilang.kernel.sparse import sp
 
 NOTHING = np.zeros(0)
 
@@ -153,7 +153,7 @@ class SparseLoop:
             self._account(outcome.du, dd, loads[k], loads[k + 1], dt)
             history[k] = self.motion.energies
             if save[k] >= 0:
-                self._keep(saved, int(save[k]))
+                self.keep(saved, int(save[k]))
         return len(save), worst, 0.0
 
     def _gap(self, factors: FloatArray) -> FloatArray:
@@ -212,7 +212,8 @@ class SparseLoop:
                 joints.codes, joints.parameters, joints.weights, m.w, m.t, m.state
             )
 
-    def _keep(self, saved: Saved, row: int) -> None:
+    def keep(self, saved: Saved, row: int) -> None:
+        """Put the current state into a row of the saved ones."""
         m = self.motion
         saved.u[row], saved.v[row], saved.a[row] = m.u, m.v, m.a
         saved.reaction[row], saved.w[row], saved.t[row] = m.reaction, m.w, m.t

@@ -10,7 +10,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.sparse as sp
 
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.errors import FieldError, MaterialError
@@ -26,6 +25,7 @@ from ssilang.kernel.matrices.assembly import Numbering
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.model import Model, Zone
+from ssilang.kernel.sparse import sp
 
 
 @dataclass(frozen=True, eq=False)

@@ -19,13 +19,13 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from ssilang.kernel.errors import FieldError
 from ssilang.kernel.fields.node_field import Nature, NodeField, NodeValues
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, Relations, dual_of
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray, NodeTable
+from ssilang.kernel.sparse import sp
 
 MULTIPLIER = "LX"
 IMPOSED = "FLX"

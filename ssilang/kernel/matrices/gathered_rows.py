@@ -7,11 +7,11 @@ elements around its node, so that the cost is one pass over the terms and no cop
 from __future__ import annotations
 
 import numpy as np
-import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from ssilang.kernel.compiled import compiled
 from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.sparse import sp
 
 Index = NDArray[np.int32]
 

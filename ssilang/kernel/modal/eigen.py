@@ -12,13 +12,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.sparse as sp
 
 from ssilang.kernel.errors import KernelError
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.modal.reduced import ReducedProblem
 from ssilang.kernel.solvers.backends import SingularFactorError, factorise
 from ssilang.kernel.solvers.inverse import invert
+from ssilang.kernel.sparse import sp
 
 DENSE = 400  # unknowns up to which all eigenvalues are computed
 MASSLESS = 1e-13  # theta (relative to the largest) taken for zero
@@ -144,13 +144,31 @@ def _all(problem: ReducedProblem, solve: Solve) -> tuple[FloatArray, FloatArray]
 
     weights, vectors = la.eigh(problem.M.toarray())
     if weights[0] < -1e-10 * abs(weights[-1]):
-        raise KernelError("the mass matrix has negative eigenvalues")
+        return _indefinite(problem, solve)
     heavy = weights > 1e-14 * weights[-1]
     root = vectors[:, heavy] * np.sqrt(weights[heavy])
     image = solve(root)
     flexible = root.T @ image
     theta, y = la.eigh(0.5 * (flexible + flexible.T))
     return theta, _normal(problem, image @ y)
+
+
+def _indefinite(problem: ReducedProblem, solve: Solve) -> tuple[FloatArray, FloatArray]:
+    """The same where the "mass" has both signs (buckling) and A is positive.
+
+    With `A^-1 = L L^T` and `x = L y`: `L^T M L y = theta y`.
+    """
+    import scipy.linalg as la
+
+    flexibility = solve(np.eye(problem.size))
+    try:
+        lower = la.cholesky(0.5 * (flexibility + flexibility.T), lower=True)
+    except la.LinAlgError:
+        raise KernelError(
+            "the mass matrix has negative eigenvalues and the stiffness is not positive"
+        ) from None
+    theta, y = la.eigh(lower.T @ problem.M.toarray() @ lower)
+    return theta, _normal(problem, lower @ y)
 
 
 def _some(problem: ReducedProblem, solve: Solve, count: int) -> tuple[FloatArray, FloatArray]:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-import scipy.sparse as sp
 
 from ssilang.kernel.errors import KernelError
 from ssilang.kernel.matrices.assembly import (
@@ -18,6 +17,7 @@ from ssilang.kernel.matrices.assembly import (
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.solvers.elimination import Elimination, eliminate
+from ssilang.kernel.sparse import sp
 
 
 @dataclass(frozen=True, eq=False)

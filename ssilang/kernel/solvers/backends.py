@@ -12,10 +12,10 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 import numpy as np
-import scipy.sparse as sp
 
 from ssilang.kernel.errors import KernelError
 from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.sparse import sp
 
 LARGE = 20_000  # unknowns from which a threaded solver pays for its start
 

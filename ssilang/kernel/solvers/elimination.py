@@ -17,10 +17,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+from ssilang.kernel.sparse import sp
 
 BoolArray = NDArray[np.bool_]
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-import scipy.sparse as sp
 
 from ssilang.kernel.solvers.backends import SingularFactorError, SuperLUFactor
+from ssilang.kernel.sparse import sp
 
 DENSE = 1500  # unknowns up to which eigenvalues are computed where the pivots say nothing
 NUDGE = 1e-10  # relative shift tried when a pivot vanishes

@@ -10,11 +10,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.sparse as sp
 
 from ssilang.kernel.errors import KernelError
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.solvers.backends import Factor, SingularFactorError, factorise
+from ssilang.kernel.sparse import sp
 
 SUSPECT = 1e-9  # smallest eigenvalue (unit diagonal) below which free motions are looked for
 FREE = 1e-14  # energy below which a motion is free: some tens of rounding errors

@@ -10,7 +10,6 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from ssilang.kernel.errors import KernelError, SingularMatrixError
@@ -33,6 +32,7 @@ from ssilang.kernel.solvers.backends import SingularFactorError, SuperLUFactor
 from ssilang.kernel.solvers.complementarity import ContactProblem, solve_contact
 from ssilang.kernel.solvers.elimination import Elimination, eliminate
 from ssilang.kernel.solvers.inverse import Inverse, invert
+from ssilang.kernel.sparse import sp
 from ssilang.kernel.statics.linear_motion import bodies_of, describe_motions
 
 BoolArray = NDArray[np.bool_]

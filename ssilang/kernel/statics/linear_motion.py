@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from ssilang.kernel.matrices.assembly import Numbering
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+from ssilang.kernel.sparse import sp
 
 BoolArray = NDArray[np.bool_]
 
