@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -31,7 +32,14 @@ if TYPE_CHECKING:
     from ssilang.kernel.dynamics.problem import Inputs, Problem
 
 SCHEME_ENTRIES = ("ALPHA_F", "RHO_INF", "BETA", "GAMMA")
-CONTACT_ENTRIES = ("CONSERVATIF", "CONTACT", "COEFFICIENT", "CONTACT_PERSISTANT", "MASSE_MODIFIEE")
+CONTACT_ENTRIES = (
+    "CONSERVATIF",
+    "PAS_ADAPTE",
+    "CONTACT",
+    "COEFFICIENT",
+    "CONTACT_PERSISTANT",
+    "MASSE_MODIFIEE",
+)
 KNOWN = (
     "DEPL", "VITE", "CHAR", "RIGI", "MASS", "AMOR", "MODELE", "CARACTERISTIQUES",
     "TEMPS_CALCULES", "INST", "FREQ", "DEBU",
@@ -186,6 +194,10 @@ def _correction(entries: Entries, method: str) -> str:
 
 def scheme_of(entries: Entries) -> Scheme:
     """Time scheme by ALPHA_F, RHO_INF, or BETA and GAMMA; average acceleration by default."""
+    return replace(_basic_scheme(entries), adaptive=entries.flag("PAS_ADAPTE"))
+
+
+def _basic_scheme(entries: Entries) -> Scheme:
     given = [name for name in SCHEME_ENTRIES if entries.has(name)]
     if entries.flag("CONSERVATIF"):
         if given:

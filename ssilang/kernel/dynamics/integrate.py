@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ssilang.kernel.dynamics.adaptive import AdaptiveLoop
 from ssilang.kernel.dynamics.compiled_loop import N_ENERGIES, Motion, Saved, march
 from ssilang.kernel.dynamics.conserving import ConservingLoop
 from ssilang.kernel.dynamics.contact import TOUCHING, BoolArray
@@ -231,6 +232,23 @@ class _ConservingEngine:
         return self._loop.march(factors, save, saved, history)
 
 
+class _AdaptiveEngine:
+    """Steps split at contact events."""
+
+    name = "adaptive"
+
+    def __init__(
+        self, problem: Problem, motion: Motion, dt: float, full: bool, closed: BoolArray
+    ) -> None:
+        self._loop = AdaptiveLoop(problem, motion, dt)
+        self.solver = self._loop.solver
+
+    def march(
+        self, factors: FloatArray, save: IntArray, saved: Saved, history: FloatArray
+    ) -> tuple[int, int, float]:
+        return self._loop.march(factors, save, saved, history)
+
+
 class _DenseEngine:
     """The compiled loop."""
 
@@ -297,7 +315,7 @@ def _closed_at_start(problem: Problem) -> BoolArray:
     return closed
 
 
-_Engine = _DenseEngine | _SparseEngine | _ConservingEngine
+_Engine = _DenseEngine | _SparseEngine | _ConservingEngine | _AdaptiveEngine
 
 
 def _kind_of(problem: Problem, full_newton: bool) -> type[_Engine]:
@@ -313,7 +331,15 @@ def _kind_of(problem: Problem, full_newton: bool) -> type[_Engine]:
             "unilateral relations go with neither the conserving step nor full Newton",
             "describe contact by joints (JOINT_SDM)",
         )
-    if problem.scheme.conserving:
+    scheme = problem.scheme
+    if scheme.adaptive and (scheme.conserving or full_newton or problem.contact is not None):
+        raise KernelError(
+            "steps are adapted to the contact of joints alone",
+            "leave the conserving step, full Newton and MINI/MAXI relations",
+        )
+    if scheme.adaptive and problem.interface is not None:
+        return _AdaptiveEngine
+    if scheme.conserving:
         return _ConservingEngine
     return _SparseEngine if full_newton or not problem.small else _DenseEngine
 

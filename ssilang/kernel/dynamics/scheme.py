@@ -16,18 +16,22 @@ from ssilang.kernel.errors import KernelError
 
 @dataclass(frozen=True)
 class Scheme:
-    """A scheme: `alpha_m`, `alpha_f`, `beta`, `gamma`; `conserving` takes mean tractions."""
+    """A scheme: `alpha_m`, `alpha_f`, `beta`, `gamma`; `conserving` takes mean tractions.
+
+    `adaptive` halves steps in which joints open or close.
+    """
 
     alpha_m: float = 0.0
     alpha_f: float = 0.0
     beta: float = 0.25
     gamma: float = 0.5
     conserving: bool = False
+    adaptive: bool = False
 
     @property
     def average_acceleration(self) -> bool:
         """True for the scheme that keeps the energy of linear systems."""
-        return self == Scheme()
+        return (self.alpha_m, self.alpha_f, self.beta, self.gamma) == (0.0, 0.0, 0.25, 0.5)
 
 
 def newmark(beta: float = 0.25, gamma: float = 0.5) -> Scheme:

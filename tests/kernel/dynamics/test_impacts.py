@@ -6,7 +6,7 @@ from references.assembled import Bench
 from references.oscillators import MASS, STRUCTURE_STIFFNESS, ClubA
 from references.recorder import Recorder
 
-from ssilang.kernel.dynamics.contact import ContactOptions
+from ssilang.kernel.dynamics.contact_options import ContactOptions
 from ssilang.kernel.dynamics.integrate import integrate
 from ssilang.kernel.dynamics.problem import Inputs, make_problem
 from ssilang.kernel.solvers.contact_methods import METHODS

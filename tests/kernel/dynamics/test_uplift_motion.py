@@ -120,3 +120,15 @@ def test_conserving_step_is_average_acceleration_without_opening():
     one, _ = run(club_b(1e-3, 0.02)[0])
     two, _ = run(club_b(1e-3, 0.02, CONSERVING)[0])
     assert np.abs(one.of("u") - two.of("u")).max() < 1e-14
+
+
+def test_adapted_steps_find_the_events_and_keep_the_step_elsewhere():
+    plain, adapted = club_b_error(2e-3), club_b_error(2e-3, Scheme(adaptive=True))
+    smooth, _ = club_b(2e-3, 0.02)
+    split, _ = club_b(2e-3, 0.02, Scheme(adaptive=True))
+    assert adapted < plain
+    np.testing.assert_allclose(run(split)[0].of("u"), run(smooth)[0].of("u"), atol=1e-12)
+    problem, _ = club_b(2e-3, scheme=Scheme(adaptive=True))
+    _, history = run(problem)
+    _, coarse = run(club_b(2e-3)[0])
+    assert np.abs(history.imbalance).max() < 0.05 * np.abs(coarse.imbalance).max()

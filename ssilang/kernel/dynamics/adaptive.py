@@ -1,0 +1,89 @@
+"""Steps halved, again and again, where a joint opens or closes within them.
+
+The event is located to dt/2^DEEPEST; elsewhere the step asked for is kept. Loads are linear
+within a step.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ssilang.kernel.dynamics.compiled_loop import N_ENERGIES, Motion, Saved
+from ssilang.kernel.dynamics.effective import effective_matrix, effective_of
+from ssilang.kernel.dynamics.problem import Problem
+from ssilang.kernel.dynamics.sparse_loop import SparseLoop, StepSolver
+from ssilang.kernel.dynamics.step_solvers import step_solver
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+
+DEEPEST = 5
+
+
+class AdaptiveLoop:
+    """Steps of one dt, split at contact events."""
+
+    def __init__(self, problem: Problem, motion: Motion, dt: float) -> None:
+        self.problem, self.motion, self.dt = problem, motion, dt
+        self.loop = SparseLoop(problem, motion)
+        self._solvers: dict[int, StepSolver] = {}
+        self.solver = ""
+        self._solver(0)
+
+    def march(
+        self, factors: FloatArray, save: IntArray, saved: Saved, history: FloatArray
+    ) -> tuple[int, int, float]:
+        """As `compiled_loop.march`."""
+        worst = 0
+        for k in range(len(save)):
+            turns, residual = self._step(0, factors[k], factors[k + 1])
+            if turns <= 0:
+                return k, turns, residual
+            worst = max(worst, turns)
+            history[k] = self.motion.energies
+            if save[k] >= 0:
+                self.loop.keep(saved, int(save[k]))
+        return len(save), worst, 0.0
+
+    def _solver(self, level: int) -> StepSolver:
+        if level not in self._solvers:
+            dt = self.dt / 2**level
+            share = 1 - self.problem.scheme.alpha_f
+            effective = effective_of(self.problem, effective_matrix(self.problem, dt), dt, share)
+            self.solver = effective.inverse.factor.name
+            self._solvers[level] = step_solver(self.problem, effective)
+        return self._solvers[level]
+
+    def _step(self, level: int, start: FloatArray, end: FloatArray) -> tuple[int, float]:
+        """One step between two rows of load factors, split if contact changes in it."""
+        before = [x.copy() for x in self.motion]
+        closed = self._closed()
+        done, turns, residual = self.loop.march(
+            self._solver(level),
+            self.dt / 2**level,
+            np.stack([start, end]),
+            np.full(1, -1),
+            _nowhere(),
+            np.zeros((1, N_ENERGIES)),
+        )
+        fine = done == 1 and np.array_equal(closed, self._closed())
+        if fine or (level == DEEPEST and done == 1):
+            return turns, residual
+        if level == DEEPEST:
+            return min(turns, 0), residual
+        for array, old in zip(self.motion, before, strict=True):
+            array[...] = old
+        middle = 0.5 * (start + end)
+        first, residual = self._step(level + 1, start, middle)
+        if first <= 0:
+            return first, residual
+        second, residual = self._step(level + 1, middle, end)
+        return (second if second <= 0 else max(first, second)), residual
+
+    def _closed(self) -> NDArray[np.bool_]:
+        found: NDArray[np.bool_] = self.motion.t[:, -1] < 0.0
+        return found
+
+
+def _nowhere() -> Saved:
+    empty = np.zeros((0, 0))
+    return Saved(empty, empty, empty, empty, empty, empty, empty, empty)
