@@ -1,0 +1,60 @@
+"""INFO, NOTI, AIDE, SOUC."""
+
+from __future__ import annotations
+
+from ssilang.cli.run import run_text
+
+
+def run(text, folder):
+    result = run_text(text, output_directory=folder)
+    assert result.exit_code == 0, result.message
+    return result
+
+
+def test_info_prints_the_page_in_the_language_of_the_session(tmp_path):
+    assert (
+        "Real numbers" in run("INFO PROG ;", tmp_path).output
+        or "Syntax" in run("INFO PROG ;", tmp_path).output
+    )
+    assert "Syntaxe" in run("OPTI 'LANG' 'FRAN' ; INFO PROG ;", tmp_path).output
+
+
+def test_info_of_a_procedure(tmp_path):
+    assert "VERIFIE" in run("INFO @VERIFIE ;", tmp_path).output
+
+
+def test_info_of_nothing_known_says_so(tmp_path):
+    result = run_text("INFO ZZZZ ;", output_directory=tmp_path)
+    assert result.exit_code == 1
+    assert "no help about ZZZZ" in result.message
+
+
+def test_noti_lists_operators_and_procedures(tmp_path):
+    output = run("NOTI GIBI ;", tmp_path).output
+    assert "  DROI " in output
+    assert "  @VERIFIE" in output
+
+
+def test_aide_finds_operators_by_a_text_of_their_help(tmp_path):
+    found = run("L1 = AIDE 'factorial' ;", tmp_path).session.root.find("L1")
+    assert found.values == ["FACTORIE"]
+    assert len(run("L1 = AIDE 'no such text' ;", tmp_path).session.root.find("L1")) == 0
+
+
+def test_souc_only_grows_until_it_is_lowered(tmp_path):
+    text = "A = SOUC ; SOUC 3 ; SOUC 1 ; B = SOUC ; SOUC 0 ; C1 = SOUC ;"
+    root = run(text, tmp_path).session.root
+    assert (root.find("A"), root.find("B"), root.find("C1")) == (False, True, False)
+
+
+def test_factorie(tmp_path):
+    root = run("A = FACTORIE 0 ; B = FACTORIE 6 ;", tmp_path).session.root
+    assert (root.find("A"), root.find("B")) == (1, 720)
+    assert run_text("A = FACTORIE -1 ;", output_directory=tmp_path).exit_code == 1
+
+
+def test_vertytab(tmp_path):
+    run("T = TABL ; T . 'X' = 1. ; VERTYTAB T 'X' 'FLOTTANT' ;", tmp_path)
+    for bad in ("VERTYTAB T 'Y' 'FLOTTANT'", "VERTYTAB T 'X' 'ENTIER'"):
+        result = run_text(f"T = TABL ; T . 'X' = 1. ; {bad} ;", output_directory=tmp_path)
+        assert result.errors[0].code == "erre"
