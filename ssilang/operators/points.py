@@ -154,6 +154,8 @@ def _numbered(call: Call, mesh: Mesh, numbers: Sequence[int]) -> int:
     if any(b.kind.dimension > 1 for b in mesh.blocks):
         ids = mesh.node_ids
     else:
+        if not mesh.n_cells:
+            raise MeshError("the mesh is empty: it has no points")
         starts = [b.connectivity[:, 0] for b in mesh.blocks]
         ends = [b.connectivity[-1:, -1] for b in mesh.blocks if b.kind.dimension == 1]
         ids = np.concatenate([*starts, *ends])

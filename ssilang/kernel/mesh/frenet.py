@@ -37,6 +37,8 @@ def frenet_frames(line: Mesh) -> tuple[IntArray, FloatArray]:
 
 def _neighbours(line: Mesh) -> tuple[IntArray, IntArray]:
     """Node before and node after each node of the table, -1 where there is none."""
+    if not line.n_cells:
+        raise MeshError("the mesh is empty: there is no line")
     pairs = []
     for block in line.blocks:
         if block.cell_type not in ("SEG2", "SEG3"):

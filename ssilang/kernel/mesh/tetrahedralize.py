@@ -206,8 +206,9 @@ class _Ties:
         normal = np.cross(b - a, points[opposite[:, 0]] - a)
         normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-300)
         flat = np.abs(((other - a) * normal).sum(axis=1)) < 1e-6 * radius
-        tie = flat & (np.linalg.norm(other - centre, axis=1) < (1 + 1e-6) * radius)
-        margin = np.where(tie, _TIE * size[edge].mean(axis=1) ** 2, 0.0)
+        inside = radius**2 - ((other - centre) ** 2).sum(axis=1)  # > 0: not Delaunay in its plane
+        hair = _TIE * size[edge].mean(axis=1) ** 2
+        margin = np.where(flat & (inside > -hair), np.maximum(inside, 0.0) * 1.1 + hair, 0.0)
         return cls(edge, opposite, margin, size)
 
     def harder(self, missing: IntArray) -> None:
