@@ -249,6 +249,9 @@ class Evaluator(OperandReader):
     def store(self, target: tree.Item, value: Any) -> None:
         """Give a value to a target: name, table access or attribute."""
         if isinstance(target, tree.Name):
+            given = self.session.given
+            if given and self.session.frame is self.session.root:
+                value = given.pop(target.text, value)
             self.session.frame.variables[target.text] = value
         elif isinstance(target, tree.Path):
             self._store_in_table(target, value)
@@ -290,11 +293,28 @@ class Evaluator(OperandReader):
     def _texte(self, items: Sequence[tree.Item]) -> Texte:
         parts: list[tree.Item] = []
         for item in items:
-            if isinstance(item, tree.Quoted):
-                parts.extend(_words_of(item))
+            value = self._spelled(item)
+            if isinstance(value, Mot):
+                parts.extend(_words_of(tree.Quoted(str(value), item.span)))
+            elif value is not None:
+                parts.append(tree.Number(value, item.span))
             else:
                 parts.append(item)
         return Texte(tuple(parts))
+
+    def _spelled(self, item: tree.Item) -> Any:
+        """What a part of a TEXTE says now: a quoted word, the value of a word or a number."""
+        if isinstance(item, tree.Quoted):
+            return Mot(item.text)
+        if isinstance(item, tree.Name | tree.Path):
+            operands = self._operand[type(item)](item)
+            value = operands[0].value if len(operands) == 1 else None
+            unnamed = (
+                isinstance(value, Mot) and isinstance(item, tree.Name) and not operands[0].name
+            )
+            if type(value) in (int, float) or (isinstance(value, Mot) and not unnamed):
+                return value
+        return None
 
     def _reduce(self, call: Call) -> None:
         while (i := call.word_index()) is not None:
@@ -374,6 +394,7 @@ def _words_of(item: tree.Quoted) -> list[tree.Item]:
 
     if not item.text.strip():
         return []
-    source = Source(item.span.source.name, item.text + ";")
+    # behind a blank: a sign * in the first column would begin a comment
+    source = Source(item.span.source.name, " " + item.text + ";")
     statements = parse_statements(source)
     return [i for s in statements for i in s.items]

@@ -70,3 +70,11 @@ def test_type_exis_and_oubl(run):
     assert script["k"].rstrip() == "ENTIER"
     assert script["e"] is True
     assert script["f"].rstrip() == "MOT"
+
+
+def test_a_text_spells_the_values_of_words_and_numbers(run):
+    script = run(
+        "I = 2 ; W = MOT '+ 3' ; T = TABL ; T . 1 = MOT '* 4' ; "
+        "X = TEXT I W T . 1 ; I = 9 ; Y = X ;"
+    )
+    assert script["Y"] == 20

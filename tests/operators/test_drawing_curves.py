@@ -78,3 +78,17 @@ def test_what_is_wrong_is_said_and_nothing_written(text: str, said: str, tmp_pat
     assert result.exit_code == 1
     assert said in result.message
     assert list(tmp_path.iterdir()) == []
+
+
+def test_bars_of_a_histogram(tmp_path: Path) -> None:
+    script = (
+        "T = TABL ; T . 'HPOS' = 10. ; T . 'DESS' = 'GRIL AXES' ; "
+        "T . 'COUL' = MOTS ROUG VERT BLEU ; H P = @HISTOGR (PROG 3. -1. 2.) T ; "
+        "N = DIME H ; A = EXTR H 'ABSC' 3 ; B = P . 'TITRE' . 2 ;"
+    )
+    found = run(script, tmp_path).session.root
+    assert len(list(tmp_path.glob("*.png"))) == 1
+    assert found.find("N") == 3
+    assert list(found.find("A").values) == pytest.approx([12.1, 12.1, 12.9, 12.9])
+    assert found.find("B") == "2"
+    assert [p.colour for p in found.find("H").parts] == [2, 4, 1]

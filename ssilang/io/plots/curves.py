@@ -11,7 +11,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ssilang.io.errors import OutputError
+from ssilang.io.plots.bars import draw_bars
 from ssilang.io.plots.figure import drawing
+from ssilang.io.plots.line import Line
 from ssilang.io.plots.line_style import DASHES, LineStyle
 from ssilang.io.plots.markup import to_mathtext
 from ssilang.io.plots.palette import CYCLE, index_of, shade
@@ -81,20 +83,6 @@ class CurveOptions:
     dash_codes: Mapping[int, Any] = field(default_factory=dict)
 
 
-@dataclass(frozen=True)
-class _Line:
-    """One curve ready to draw."""
-
-    number: int
-    x: np.ndarray[Any, np.dtype[np.float64]]
-    y: np.ndarray[Any, np.dtype[np.float64]]
-    colour: str
-    name: str
-    style: LineStyle
-    width: float
-    codes: Any = None
-
-
 def draw_curves(curve: Curve, options: CurveOptions | None = None) -> Figure:
     """A figure of all curves.
 
@@ -122,7 +110,7 @@ def draw_curves(curve: Curve, options: CurveOptions | None = None) -> Figure:
     return figure
 
 
-def _lines(curve: Curve, options: CurveOptions) -> list[_Line]:
+def _lines(curve: Curve, options: CurveOptions) -> list[Line]:
     count = len(curve.parts)
     numbers = options.chosen or tuple(range(1, count + 1))
     bad = [n for n in numbers if not 1 <= n <= count]
@@ -145,10 +133,10 @@ def _colours(given: list[int]) -> list[str]:
     return [shade(c) if c else shade(next(turns)) for c in given]
 
 
-def _line(part: CurvePart, number: int, colour: str, width: float, options: CurveOptions) -> _Line:
+def _line(part: CurvePart, number: int, colour: str, width: float, options: CurveOptions) -> Line:
     first, last = options.spans.get(number, (None, None))
     cut = slice(None if first is None else first - 1, last)
-    return _Line(
+    return Line(
         number,
         np.asarray(part.abscissas, dtype=float)[cut],
         np.asarray(part.ordinates, dtype=float)[cut],
@@ -157,16 +145,18 @@ def _line(part: CurvePart, number: int, colour: str, width: float, options: Curv
         options.styles.get(number, LineStyle()),
         width,
         options.dash_codes.get(number),
+        part.kind,
     )
 
 
-def _draw_panel(panel: Axes, lines: list[_Line], curve: Curve, options: CurveOptions) -> None:
+def _draw_panel(panel: Axes, lines: list[Line], curve: Curve, options: CurveOptions) -> None:
     if options.log_x:
         panel.set_xscale("log", nonpositive="mask")
     if options.log_y:
         panel.set_yscale("log", nonpositive="mask")
     for line in lines:
-        _draw_histogram(panel, line) if curve.kind == "HIST" else _draw_line(panel, line)
+        bars = "HIST" in (line.kind, curve.kind)
+        draw_bars(panel, line) if bars else _draw_line(panel, line)
     _frame(panel, options)
     _titles(panel, curve.parts[lines[0].number - 1] if lines else None, options)
     if options.extremes:
@@ -174,7 +164,7 @@ def _draw_panel(panel: Axes, lines: list[_Line], curve: Curve, options: CurveOpt
     _legend(panel, lines, options)
 
 
-def _draw_line(panel: Axes, line: _Line) -> None:
+def _draw_line(panel: Axes, line: Line) -> None:
     style = line.style
     ink = line.colour
     if style.fill:
@@ -206,7 +196,7 @@ def _draw_line(panel: Axes, line: _Line) -> None:
         _label_points(panel, line)
 
 
-def _fill(panel: Axes, line: _Line, **style: Any) -> None:
+def _fill(panel: Axes, line: Line, **style: Any) -> None:
     """Fill down to zero, or to the lower end of a logarithmic axis."""
     from matplotlib.collections import PolyCollection
 
@@ -219,7 +209,7 @@ def _fill(panel: Axes, line: _Line, **style: Any) -> None:
     panel.add_collection(PolyCollection([around], **style), autolim=base == 0.0)
 
 
-def _draw_segments(panel: Axes, line: _Line) -> None:
+def _draw_segments(panel: Axes, line: Line) -> None:
     from matplotlib.collections import LineCollection
 
     codes = np.asarray(line.codes, dtype=int)[: max(len(line.x) - 1, 0)]
@@ -239,7 +229,7 @@ def _draw_segments(panel: Axes, line: _Line) -> None:
     )
 
 
-def _label_points(panel: Axes, line: _Line) -> None:
+def _label_points(panel: Axes, line: Line) -> None:
     few = line.style.few_markers and len(line.x) > 6
     rows = np.linspace(0, len(line.x) - 1, 6).astype(int) if few else range(len(line.x))
     for i in rows:
@@ -251,19 +241,6 @@ def _label_points(panel: Axes, line: _Line) -> None:
             fontsize=8,
             color=line.colour,
         )
-
-
-def _draw_histogram(panel: Axes, line: _Line) -> None:
-    width = np.min(np.diff(line.x)) if len(line.x) > 1 else 1.0
-    panel.bar(
-        line.x,
-        line.y,
-        width=0.96 * width,
-        color=line.colour,
-        alpha=0.75,
-        edgecolor=line.colour,
-        label=line.name,
-    )
 
 
 def _frame(panel: Axes, options: CurveOptions) -> None:
@@ -317,7 +294,7 @@ def _titles(panel: Axes, first: CurvePart | None, options: CurveOptions) -> None
     panel.set_ylabel(to_mathtext(y.strip()), loc="top" if options.y_title_at_end else "center")
 
 
-def _extremes(panel: Axes, lines: list[_Line]) -> None:
+def _extremes(panel: Axes, lines: list[Line]) -> None:
     y = np.concatenate([line.y[np.isfinite(line.y)] for line in lines] or [np.empty(0)])
     if len(y) == 0:
         return
@@ -326,16 +303,17 @@ def _extremes(panel: Axes, lines: list[_Line]) -> None:
     )
 
 
-def _legend(panel: Axes, lines: list[_Line], options: CurveOptions) -> None:
+def _legend(panel: Axes, lines: list[Line], options: CurveOptions) -> None:
     named = [line for line in lines if line.name and line.name.upper() != NO_LEGEND]
-    if not named or (options.legend is None and len(lines) < 2 and not options.separate):
+    usual = len(lines) > 1 and not all(line.kind == "HIST" for line in lines)
+    if not named or (options.legend is None and not usual and not options.separate):
         return
     handles = [_handle(line) for line in named]
     texts = [to_mathtext(line.name) for line in named]
     place = options.legend
     if place is None and options.separate:
         panel.set_title(texts[0], loc="left", fontsize=9, fontweight="normal")
-    elif place is None:
+    elif place is None and len(named) <= 9:
         # beside the curves: inside, it would hide a part of them
         rows: dict[str, Any] = {"loc": "lower center", "ncols": min(len(named), 3)}
         panel.legend(handles, texts, bbox_to_anchor=(0.5, 1.0), frameon=False, **rows)
@@ -353,7 +331,7 @@ def _legend(panel: Axes, lines: list[_Line], options: CurveOptions) -> None:
         panel.legend(handles, texts, loc="upper left", bbox_to_anchor=(1.01, 1.0))
 
 
-def _handle(line: _Line) -> Any:
+def _handle(line: Line) -> Any:
     from matplotlib.lines import Line2D
 
     style: Any = line.style
