@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
+from ssilang.kernel.elements.mindlin import quadrangle_frames
+from ssilang.kernel.elements.plate import plate_frames
 from ssilang.kernel.elements.reference import shape_functions
 from ssilang.kernel.elements.solid import kinematics
 from ssilang.kernel.elements.solid_moduli import material_axes
@@ -74,9 +76,22 @@ def spherical_frames(x: FloatArray, centre: FloatArray, on_axis: FloatArray) -> 
     return np.stack([r, np.cross(east, r), east], axis=-2)
 
 
+SHELL_FRAMES = {"plate": plate_frames, "mindlin": quadrangle_frames}
+"""Own frames of flat shells; their parameters V1X V1Y are cosines in them."""
+
+
 def material_frames(zone: Zone, material: CellField, support: Support) -> FloatArray:
-    """Axes of orthotropy (n_cells or 1, n_points or 1, 3, 3)."""
-    return material_axes(zone_field(zone, material), support)
+    """Axes of orthotropy (n_cells or 1, n_points or 1, 3, 3), global components."""
+    parameters = zone_field(zone, material)
+    own = SHELL_FRAMES.get(ELEMENTS[zone.element].family)
+    if own is None:
+        return material_axes(parameters, support)
+    frames = own(zone)[0][:, None]
+    c, s = (parameters.at(n, support)[..., None] for n in ("V1X", "V1Y"))
+    first = c * frames[..., 0, :] + s * frames[..., 1, :]
+    second = c * frames[..., 1, :] - s * frames[..., 0, :]
+    third = np.broadcast_to(frames[..., 2, :], first.shape)
+    return np.stack([first, second, third], axis=-2)
 
 
 def seen_in(zone: Zone, field: CellField, frames: FloatArray) -> CellFieldBlock:

@@ -7,8 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
-from ssilang.kernel.elements.mindlin import quadrangle_frames
-from ssilang.kernel.elements.plate import plate_frames
+from ssilang.kernel.elements.frames import SHELL_FRAMES
 from ssilang.kernel.elements.reference import shape_functions
 from ssilang.kernel.errors import MaterialError
 from ssilang.kernel.fields.cell_field import Support
@@ -38,9 +37,6 @@ class Directions:
     outside: FloatArray | None = None
 
 
-_SHELL_FRAMES = {"plate": plate_frames, "mindlin": quadrangle_frames}
-
-
 def axis_parameters(zone: Zone, given: Directions) -> tuple[dict[str, FloatArray], Support]:
     """Parameters V1X ... V2Z (n_cells, n_points) and the support they stand on.
 
@@ -50,7 +46,7 @@ def axis_parameters(zone: Zone, given: Directions) -> tuple[dict[str, FloatArray
         If a vector is missing, zero or parallel to the other.
     """
     family = ELEMENTS[zone.element].family
-    if family in _SHELL_FRAMES:
+    if family in SHELL_FRAMES:
         return _on_shell(zone, given), "GRAVITE"
     if family == "joint" and zone.element != "JOI1" and given.second is None:
         return _on_joint(zone, given), "GRAVITE"
@@ -69,7 +65,7 @@ def axis_parameters(zone: Zone, given: Directions) -> tuple[dict[str, FloatArray
 
 def _on_shell(zone: Zone, given: Directions) -> dict[str, FloatArray]:
     """Cosines V1X V1Y of the first axis in the own frame of each shell cell."""
-    frames, _ = _SHELL_FRAMES[ELEMENTS[zone.element].family](zone)
+    frames, _ = SHELL_FRAMES[ELEMENTS[zone.element].family](zone)
     vector = np.broadcast_to(given.first, (len(frames), 3))
     if given.radial:
         vector = zone.cells.coordinates.mean(axis=1) - given.first
