@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from ssilang.kernel.cloud import Cloud
 from ssilang.kernel.curve import Curve
 from ssilang.kernel.curve_algebra import crossings, integral, interpolated, primitive, spline
 from ssilang.kernel.fields import cell_algebra, node_algebra
@@ -17,6 +18,7 @@ from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
 from ssilang.language.values import ListReel, Table
 from ssilang.operators.arithmetic import rule
+from ssilang.operators.cloud_functions import interpolate_cloud
 from ssilang.operators.curve_items import numbered
 from ssilang.operators.dispatch import INTG
 from ssilang.operators.functions import mapped
@@ -38,7 +40,8 @@ from ssilang.operators.workspace import workspace
         "d'une courbe multivaluée. Champ entre ceux d'une table RESULTAT. Point à une distance le "
         "long d'une ligne, donnée par son champ d'abscisses curvilignes.",
         syntax="OBJ2 = IPOL OBJ1 EVOL1 | LREE1 LREE2 ('SPLI' ('DGAU' X1) ('DDRO' X2) | 'TOUS') ;\n"
-        "CHAM1 = IPOL TAB1 X1 ; POIN1 = IPOL CHPO1 X1 ;",
+        "CHAM1 = IPOL TAB1 X1 ; POIN1 = IPOL CHPO1 X1 ;\n"
+        "CHP2 = IPOL NUAG1 CHP1 ('GAUSS' | 'RATIO' | 'PID' (P1) ('ELIM' X1) | 'GRILL') ;",
         examples=(
             "LIST (IPOL 1.5 (PROG 0. 1. 2.) (PROG 0. 10. 30.)) ;",
             "LIST (IPOL (PROG 0.5 5.) (EVOL 'MANU' (PROG 0. 1.) (PROG 2. 4.))) ;",
@@ -51,6 +54,9 @@ def ipol(call: Call) -> Any:
     table = call.read("TABLE")
     if table is not None:
         return _in_table(call, table.value, call.required("FLOTTANT"))
+    cloud = call.read("NUAGE")
+    if cloud is not None:
+        return interpolate_cloud(call, cloud.value, call.required("CHPOINT", "MCHAML"))
     operand = call.read("FLOTTANT", "LISTREEL", "CHPOINT", "MCHAML")
     if operand is None:
         raise call.missing(("FLOTTANT", "LISTREEL", "CHPOINT", "MCHAML"))
@@ -148,10 +154,7 @@ def _integrate(call: Call, curve: Curve) -> Any:
         for part in curve.parts
     ]
     if len(curve.parts) > 1 and len(results[0]) > 1:
-        made = Table()
-        for i, row in enumerate(results, start=1):
-            made.set(f"IE{i}", ListReel(row))
-        return made
+        return Cloud({f"IE{i}": (ListReel(row),) for i, row in enumerate(results, start=1)})
     flat = [v for row in results for v in row]
     one = len(curve.parts) == 1 and (bounds is None or isinstance(bounds[0], int | float))
     return flat[0] if one else ListReel(flat)

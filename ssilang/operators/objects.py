@@ -125,6 +125,10 @@ def _in_numbers(call: Call, values: Any) -> bool:
     return bool(np.any(equal_items(values.values, item, tolerance, False)))
 
 
+def _in_cloud(call: Call, cloud: Any) -> bool:
+    return str(call.required("MOT")).rstrip() in cloud.columns
+
+
 def _in_load(call: Call, load: Load) -> bool:
     said = str(call.required("MOT")).rstrip()
     if said.upper() in ("LIBR", "LIBRE"):
@@ -154,7 +158,7 @@ def _in_model(call: Call, model: Model) -> bool:
 _SEARCHES: dict[str, Callable[[Call, Any], Any]] = {
     "TABLE": _in_table, "OBJET": _in_object, "CHPOINT": _in_field, "MCHAML": _in_field,
     "LISTMOTS": _in_words, "LISTENTI": _in_numbers, "LISTREEL": _in_numbers,
-    "CHARGEME": _in_load, "MMODEL": _in_model,
+    "CHARGEME": _in_load, "NUAGE": _in_cloud, "MMODEL": _in_model,
 }  # fmt: skip
 
 

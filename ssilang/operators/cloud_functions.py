@@ -1,0 +1,77 @@
+"""IPOL of clouds: functions of several variables given by points or on a grid."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ssilang.kernel.cloud import Cloud, inverse_distance, moving_plane, on_grid
+from ssilang.kernel.errors import FieldError
+from ssilang.kernel.fields import cell_algebra, node_algebra
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.fields.node_field import NodeField, NodeValues
+from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.language.call import Call
+from ssilang.language.values import ListReel
+
+
+def interpolate_cloud(call: Call, cloud: Cloud, field: NodeField | CellField) -> Any:
+    """Read the method and evaluate the cloud at the values of a field."""
+    settings: dict[str, float] = {"PID": 1.0, "ELIM": 0.0}
+    method = "GAUS"
+    while (said := call.keyword(("GAUS", "RATI", "PID", "ELIM", "GRIL"))) is not None:
+        if said != "ELIM":
+            method = said
+        if said in settings:
+            settings[said] = call.optional("FLOTTANT", default=settings[said])
+    if isinstance(field, NodeField):
+        return _at_nodes(cloud, field, method, settings)
+    blocks = []
+    for block in field.blocks:
+        width = max((v.shape[1] for v in block.components.values()), default=1)
+        shape = (len(block.cells), width)
+        given = {
+            k: np.broadcast_to(v, shape).ravel().astype(float) for k, v in block.components.items()
+        }
+        made = _evaluated(cloud, given, method, settings)
+        blocks.append(cell_algebra.rebuilt(block, {k: v.reshape(shape) for k, v in made.items()}))
+    return CellField(tuple(blocks), field.title)
+
+
+def _at_nodes(cloud: Cloud, field: NodeField, method: str, settings: dict[str, float]) -> NodeField:
+    nodes = field.node_ids
+    given = {k: v.at(nodes) for k, v in field.components.items()}
+    made = _evaluated(cloud, given, method, settings)
+    return node_algebra.rebuilt(field, {k: NodeValues(nodes, v) for k, v in made.items()})
+
+
+def _evaluated(
+    cloud: Cloud, given: dict[str, FloatArray], method: str, settings: dict[str, float]
+) -> dict[str, FloatArray]:
+    names = [n for n in cloud.columns if n in given]
+    wanted = [n for n in cloud.columns if n not in given]
+    if not names or not wanted:
+        raise FieldError(
+            f"the field ({' '.join(given)}) and the cloud ({' '.join(cloud.columns)}) must share "
+            "some components, not all",
+        )
+    at = np.stack([given[n] for n in names], axis=1)
+    if method == "GRIL":
+        return {wanted[-1]: _grid(cloud, names, wanted[-1], at)}
+    points = np.stack([cloud.numbers(n) for n in names], axis=1)
+    values = np.stack([cloud.numbers(n) for n in wanted], axis=1)
+    if method == "PID":
+        found = inverse_distance(points, values, at, settings["PID"], settings["ELIM"])
+    else:
+        found = moving_plane(points, values, at, method == "GAUS")
+    return {n: found[:, i] for i, n in enumerate(wanted)}
+
+
+def _grid(cloud: Cloud, names: list[str], target: str, at: FloatArray) -> FloatArray:
+    lists = {n: cloud.columns[n][0] for n in (*names, target)}
+    for name, held in lists.items():
+        if not isinstance(held, ListReel):
+            raise FieldError(f"component {name} of a grid holds one LISTREEL")
+    arrays: dict[str, Any] = {n: getattr(held, "values", None) for n, held in lists.items()}
+    return on_grid([arrays[n] for n in names], arrays[target], at)

@@ -1,0 +1,167 @@
+"""NUAG: clouds, and clouds in EXTR DIME REDU LIST."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ssilang.kernel.cloud import Cloud
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.language.call import Call
+from ssilang.language.registry import Help, operator
+from ssilang.language.values import ListMots, register_type, type_of
+from ssilang.operators.dispatch import DIME, EXTR, REDU, listing
+
+register_type(Cloud, "NUAGE")
+_EXAMPLE = "N = NUAG 'COMP' 'X' 0. 1. 2. 'COMP' 'Y' 5. 6. 9. ; "
+
+
+@operator(
+    "NUAG",
+    family="clouds",
+    full_name="NUAGE",
+    help=Help(
+        en="Cloud of rows of named values: column by column ('COMP' name values ...), row by row "
+        "(names with their types first), or the values of a field, one row a node or point.",
+        fr="Nuage de n-uplets de valeurs nommées : colonne par colonne ('COMP' nom valeurs ...), "
+        "ligne par ligne (d'abord les noms et leurs types), ou les valeurs d'un champ, un n-uplet "
+        "par noeud ou point.",
+        syntax="NUAG1 = NUAG 'COMP' MOT1 OBJ1 OBJ2 ... 'COMP' MOT2 ... ;\n"
+        "NUAG1 = NUAG MOT1*TYP1 MOT2*TYP2 ... OBJ1 OBJ2 ... ; NUAG1 = NUAG CHPO1 | CHAM1 ;",
+        examples=(_EXAMPLE + "LIST N ;",),
+    ),
+    reads_itself=True,
+)
+def nuag(call: Call) -> Cloud:
+    """Make a cloud."""
+    field = call.read("CHPOINT", "MCHAML")
+    if field is not None:
+        return _of_field(field.value)
+    if call.peek_word() is not None and str(call.peek_word())[:4] == "COMP":
+        return _by_columns(call)
+    return _by_rows(call)
+
+
+def _of_field(field: NodeField | CellField) -> Cloud:
+    if isinstance(field, NodeField):
+        nodes = field.node_ids
+        return Cloud({k: tuple(v.at(nodes).tolist()) for k, v in field.components.items()})
+    names = dict.fromkeys(n for b in field.blocks for n in b.components)
+    columns: dict[str, list[float]] = {n: [] for n in names}
+    for block in field.blocks:
+        width = max((v.shape[1] for v in block.components.values()), default=1)
+        shape = (len(block.cells), width)
+        for name in names:
+            values = block.components.get(name, np.zeros((1, 1)))
+            columns[name] += np.broadcast_to(values, shape).ravel().tolist()
+    return Cloud({k: tuple(v) for k, v in columns.items()})
+
+
+def _by_columns(call: Call) -> Cloud:
+    columns: dict[str, tuple[object, ...]] = {}
+    while call.keyword(("COMP",)) is not None:
+        name = str(call.required("MOT", after=call.keyword_end)).rstrip()
+        values: list[object] = []
+        while call.operands and not call.at_word():
+            values.append(call.operands.pop(0).value)
+        columns[name] = tuple(values)
+    sizes = {len(v) for v in columns.values()}
+    if len(sizes) != 1 or 0 in sizes:
+        counts = " ".join(f"{k}: {len(v)}" for k, v in columns.items())
+        raise call.bad(f"the components have different numbers of values ({counts})")
+    return Cloud(columns)
+
+
+def _by_rows(call: Call) -> Cloud:
+    kinds: dict[str, str] = {}
+    while call.at_word():
+        name = str(call.required("MOT")).rstrip()
+        if not call.operands or call.operands[0].span.text != "*":
+            raise call.bad(f"the type of component {name} is missing", hint="NAME*TYPE")
+        call.operands.pop(0)
+        kinds[name] = str(call.required("MOT")).rstrip().upper()
+    if not kinds:
+        raise call.missing(("MOT",))
+    rows: list[list[object]] = []
+    while call.operands:
+        rows.append([call.required(kind) for kind in kinds.values()])
+    return Cloud({n: tuple(r[i] for r in rows) for i, n in enumerate(kinds)})
+
+
+@EXTR.on(
+    "NUAGE",
+    syntax="LMOT1 = EXTR NUAG1 'COMP' ; NUAG2 = EXTR NUAG1 'MAXI' | 'MINI' MOT1 ; "
+    "NUAG2 = EXTR NUAG1 'INFE' | 'SUPE' MOT1 X1 | 'ENTR' MOT1 X1 X2 ; OBJ1 = EXTR NUAG1 MOT1 ;",
+    en="Of a cloud: names of components; the row of the largest or smallest value, of the value "
+    "just below or above a number; the rows between two numbers; the object of a single row.",
+    fr="D'un nuage : noms des composantes ; le n-uplet de la plus grande ou petite valeur, de la "
+    "valeur juste inférieure ou supérieure à un nombre ; ceux compris entre deux nombres ; "
+    "l'objet d'un nuage à un seul n-uplet.",
+    examples=(_EXAMPLE + "LIST (EXTR (EXTR N 'MAXI' 'Y') 'X') ;",),
+)
+def _extract(call: Call, cloud: Cloud) -> Any:
+    known = (call.peek_word() or "").rstrip() in cloud.columns
+    words = ("COMP", "MAXI", "MINI", "INFE", "SUPE", "ENTR")
+    word = None if known else call.keyword(words)
+    if word == "COMP":
+        return ListMots(list(cloud.columns))
+    name = str(call.required("MOT")).rstrip()
+    if word is None:
+        if name not in cloud.columns:
+            raise call.bad(f"the cloud has no component {name}", hint=" ".join(cloud.columns))
+        if len(cloud) != 1:
+            raise call.bad(f"the cloud has {len(cloud)} rows: take one first", cloud)
+        return cloud.columns[name][0]
+    values = cloud.numbers(name)
+    if word in ("MAXI", "MINI"):
+        place = np.argmax(values) if word == "MAXI" else np.argmin(values)
+        return cloud.rows([int(place)])
+    low = call.required("FLOTTANT")
+    if word == "ENTR":
+        high = call.required("FLOTTANT")
+        return cloud.rows([int(i) for i in np.flatnonzero((values >= low) & (values <= high))])
+    side = values <= low if word == "INFE" else values >= low
+    if not np.any(side):
+        raise call.bad(
+            f"no value of {name} is {'below' if word == 'INFE' else 'above'} {low:g}", low
+        )
+    inside = np.where(side, values, -np.inf if word == "INFE" else np.inf)
+    place = np.argmax(inside) if word == "INFE" else np.argmin(inside)
+    return cloud.rows([int(place)])
+
+
+@DIME.on(
+    "NUAGE",
+    syntax="N1 = DIME NUAG1 'COMP' | 'UPLE' ;",
+    en="Of a cloud: its number of components, or of rows ('UPLE').",
+    fr="D'un nuage : son nombre de composantes, ou de n-uplets ('UPLE').",
+)
+def _size(call: Call, cloud: Cloud) -> int:
+    return len(cloud) if call.keyword(("COMP", "UPLE")) == "UPLE" else len(cloud.columns)
+
+
+@REDU.on(
+    "NUAGE",
+    syntax="NUAG2 = REDU NUAG1 MOT1 MOT2 ... ;",
+    en="Of a cloud: some of its components.",
+    fr="D'un nuage : certaines de ses composantes.",
+)
+def _reduce(call: Call, cloud: Cloud) -> Cloud:
+    names = [str(w).rstrip() for w in call.all("MOT")]
+    missing = [n for n in names if n not in cloud.columns]
+    if missing or not names:
+        raise call.bad(f"the cloud has no component {' '.join(missing)}", cloud)
+    return Cloud({n: cloud.columns[n] for n in names})
+
+
+@listing("NUAGE")
+def _list(cloud: Cloud, mode: str) -> str:
+    lines = [f"Nuage de {len(cloud)} n-uplet(s) à {len(cloud.columns)} composante(s)"]
+    for name, held in cloud.columns.items():
+        kind = type_of(held[0]) if held else ""
+        lines.append(f"  composante {name} de type {kind}")
+        if not mode and kind in ("FLOTTANT", "ENTIER"):
+            lines.append("   " + " ".join(f"{v:.5E}" for v in cloud.numbers(name)))
+    return "\n".join(lines)

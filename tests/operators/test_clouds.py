@@ -1,0 +1,74 @@
+"""NUAG, its parts, and functions through clouds."""
+
+import numpy as np
+import pytest
+
+from ssilang.kernel.cloud import inverse_distance, moving_plane, on_grid
+
+CLOUD = "N = NUAG 'COMP' 'X' 0. 1. 2. 'COMP' 'Y' 5. 9. 6. ; "
+GRID = (
+    "OPTI DIME 2 ; P = 0. 0. ; N = NUAG 'COMP' 'X' (PROG 0. 1. 3.) 'COMP' 'Y' (PROG 0. 2.) "
+    "'COMP' 'F' (PROG 0. 1. 3. 20. 21. 23.) ; "
+)
+
+
+def test_both_ways_to_write_a_cloud_give_the_same(found):
+    a, b = found(CLOUD + "M = NUAG 'X'*'FLOTTANT' 'Y'*'FLOTTANT' 0. 5. 1. 9. 2. 6. ;", "N", "M")
+    assert a.columns == b.columns
+
+
+def test_rows_are_taken_by_value(found):
+    values = found(
+        CLOUD + "A = EXTR (EXTR N 'MAXI' 'Y') 'X' ; B = EXTR (EXTR N 'MINI' 'Y') 'X' ; "
+        "C = EXTR (EXTR N 'INFE' 'X' 1.5) 'Y' ; D = EXTR (EXTR N 'SUPE' 'X' 1.5) 'Y' ; "
+        "E = DIME (EXTR N 'ENTR' 'X' 0.5 3.) 'UPLE' ; F = EXIS N 'Z' ; "
+        "G = DIME (REDU N 'X') 'COMP' ;",
+        "A", "B", "C", "D", "E", "F", "G",
+    )  # fmt: skip
+    assert values == (1.0, 0.0, 9.0, 6.0, 2, False, 1)
+
+
+def test_cloud_of_a_field_has_a_row_a_node(found):
+    cloud = found("OPTI DIME 2 ; P = 0. 0. ; N = NUAG (MANU 'CHPO' P 'UX' 10. 'UY' 20.) ;", "N")
+    assert cloud.columns == {"UX": (10.0,), "UY": (20.0,)}
+
+
+@pytest.mark.parametrize(("x", "y"), [(0.5, 1.0), (2.0, 0.5), (3.0, 2.0), (9.0, -1.0)])
+def test_grid_reproduces_a_bilinear_function(x, y, found):
+    field = f"C = MANU 'CHPO' P 'X' {x} 'Y' {y} ; "
+    value = found(GRID + field + "V = EXTR (IPOL N C 'GRILL') 'F' P ;", "V")
+    assert value == pytest.approx(min(x, 3.0) + 10 * min(max(y, 0.0), 2.0))
+
+
+def test_moving_plane_reproduces_a_plane_and_shepard_a_constant():
+    points = np.array([[0.0, 0], [1, 0], [0, 1], [1, 1], [0.4, 0.7]])
+    at = np.array([[0.3, 0.2], [0.9, 0.8]])
+    plane = (1 + 2 * points[:, 0] - 3 * points[:, 1])[:, None]
+    for gaussian in (True, False):
+        made = moving_plane(points, plane, at, gaussian)
+        np.testing.assert_allclose(made[:, 0], 1 + 2 * at[:, 0] - 3 * at[:, 1], rtol=1e-12)
+    assert inverse_distance(points, 0 * plane + 7, at, 2.0, 0.0) == pytest.approx(7.0)
+    np.testing.assert_allclose(inverse_distance(points, plane, points, 1.0, 0.0), plane)
+
+
+def test_grid_of_three_axes_is_linear_in_each():
+    axes = [np.array([0.0, 1, 3]), np.array([0.0, 2]), np.array([-1.0, 0, 4])]
+    x, y, z = np.meshgrid(*axes, indexing="ij")
+    values = (x + 2 * y - z + x * y * z).ravel(order="F")
+    at = np.array([[0.5, 1.0, -0.5], [2.0, 0.3, 3.0]])
+    # trilinear interpolation is exact for x y z inside each cell
+    expected = at[:, 0] + 2 * at[:, 1] - at[:, 2] + at.prod(axis=1)
+    np.testing.assert_allclose(on_grid(axes, values, at), expected, rtol=1e-12)
+
+
+def test_unequal_columns_are_refused(refused):
+    assert "different numbers" in refused("N = NUAG 'COMP' 'X' 0. 1. 'COMP' 'Y' 5. ;")
+
+
+def test_integrals_of_several_curves_over_several_intervals_make_a_cloud(found):
+    second = found(
+        "E = EVOL 'MANU' (PROG 0. 1. 2.) (PROG 0. 2. 0.) ; "
+        "N = INTG (E ET (E * 3.)) 'BORN' (PROG 0. 1.) (PROG 1. 2.) ; L = EXTR N 'IE2' ;",
+        "L",
+    )
+    np.testing.assert_allclose(second.values, [3.0, 3.0])
