@@ -1,0 +1,48 @@
+"""Options that name files: the listing, further scripts."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from ssilang.cli.run import RunOptions, run_file, run_text
+
+
+def test_the_listing_goes_to_a_file_too(tmp_path: Path) -> None:
+    script = "MESS 'a' ; OPTI IMPR 'list.txt' ; MESS 'b' ; MESS 'c' 1 ; OPTI IMPR 6 ; MESS 'd' ;"
+    result = run_text(script, tmp_path)
+    assert result.output == "a\nb\nc1\nd\n"
+    assert (tmp_path / "list.txt").read_text() == "b\nc1\n"
+
+
+def test_what_was_listed_can_be_read(tmp_path: Path) -> None:
+    script = (
+        "OPTI IMPR 'v.txt' ; MESS 'FORMAT' '(F6.2)' 2.5 ; OPTI IMPR 6 ; "
+        "OPTI ACQU 'v.txt' ; ACQU X*FLOTTANT ;"
+    )
+    result = run_text(script, tmp_path)
+    assert result.exit_code == 0, result.message
+    assert result.session.root.find("X") == 2.5
+
+
+def test_a_file_name_may_begin_like_a_format_word(tmp_path: Path) -> None:
+    result = run_text("OPTI SORT 'FORMES.txt' ; SORT 'CHAI' 'x' ;", tmp_path)
+    assert result.exit_code == 0, result.message
+    assert [p.name for p in tmp_path.iterdir()] == ["FORMES.txt"]
+
+
+def test_another_script_runs_in_the_middle(tmp_path: Path) -> None:
+    (tmp_path / "part.dgibi").write_text("Y = 2 * X ;\n")
+    (tmp_path / "deck.ssi").write_text("X = 3 ; OPTI DONN 'part.dgibi' ; Z = Y + 1 ;")
+    result = run_file(tmp_path / "deck.ssi", RunOptions(output_directory=tmp_path / "out"))
+    assert result.session.root.find("Z") == 7
+
+
+@pytest.mark.parametrize("name", ["../part.dgibi", "/etc/passwd"])
+def test_scripts_of_other_folders_are_refused(name: str, tmp_path: Path) -> None:
+    (tmp_path / "deck").mkdir()
+    (tmp_path / "part.dgibi").write_text("Y = 1 ;")
+    (tmp_path / "deck" / "deck.ssi").write_text(f"OPTI DONN '{name}' ;")
+    result = run_file(tmp_path / "deck" / "deck.ssi", RunOptions(output_directory=tmp_path / "out"))
+    assert result.errors[0].code == "forbidden-path"
