@@ -62,7 +62,7 @@ def structure(statements: list[Statement], source: Source) -> Script:
     errors: list[SsiError] = []
     stack = [_Open("", None)]
     crossed: set[str] = set()  # openers that were taken as closed: their late ends are forgiven
-    for statement in statements:
+    for statement in map(_without_strays, statements):
         word = control_word(statement)
         if word == "FIN" and len(statement.items) == 1:
             word = ""  # FIN alone stops the run
@@ -91,6 +91,16 @@ def structure(statements: list[Statement], source: Source) -> Script:
     if errors:
         raise SeveralErrors(errors)
     return Script(tuple(stack[0].body), Span(source, 0, len(source.text)))
+
+
+def _without_strays(statement: Statement) -> Statement:
+    """`3 SINON ;` is SINON: numbers in front of the word are operands that nothing reads."""
+    items = statement.items
+    if len(items) < 2 or statement.assigns or not isinstance(items[0], Number):
+        return statement
+    at = next((i for i, item in enumerate(items) if not isinstance(item, Number)), 0)
+    rest = Statement((), items[at:], statement.span)
+    return rest if at and control_word(rest) in ("SINO", "FINS") else statement
 
 
 def _plain(stack: list[_Open], statement: Statement) -> None:

@@ -80,6 +80,10 @@ def test_fin_must_name_the_innermost_loop(fails):
     assert fails("REPE a 1 ; REPE b 1 ; FIN a ; FIN b ;") == "wrong-loop-name"
 
 
+def test_a_stray_number_before_sinon_does_not_hide_it(run):
+    assert run("SI VRAI ; x = 1 ; 3 SINON ; x = 2 ; FINSI ;")["x"] == 1
+
+
 def test_blocks_must_close(fails):
     assert fails("SI VRAI ; x = 1 ;") == "unclosed-block"
     assert fails("REPE b 2 ; x = 1 ;") == "unclosed-block"

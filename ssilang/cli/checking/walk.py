@@ -162,10 +162,13 @@ class Checker:
 
     def _effects(self, statement: tree.Statement, word: str, scope: Scope) -> None:
         """What directives change besides giving values to names."""
-        words = [i.text.upper() if isinstance(i, tree.Name | tree.Quoted) else i
-                 for i in statement.items]  # fmt: skip
+        words = [
+            i.text.upper()[:4] if isinstance(i, tree.Name | tree.Quoted) else ""
+            for i in statement.items
+        ]
         if word in _OPENING or (word == "OPTI" and "DONN" in words):
             scope.open = True
+            scope.dimension = None
             scope.forget(i.text for i in statement.items[1:] if isinstance(i, tree.Name))
         if word == "OPTI" and "DIME" in words:
             at = words.index("DIME") + 1
