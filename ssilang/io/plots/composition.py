@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
+import numpy as np
+
 from ssilang.io.plots.scene import Layer
 from ssilang.io.plots.values import component_names
 from ssilang.kernel.fields.cell_field import CellField
@@ -98,7 +100,7 @@ def _add_field(made: Composition, subjects: Subjects, moved: DeformedPart | None
         mesh = moved.mesh
     else:
         mesh = meshes.pop(0) if meshes else poi1(values.table, values.node_ids)
-    names = component_names(values)
+    names = _present(values, mesh)
     displacement, scale = (moved.displacement, moved.scale or 0.0) if moved else (None, 0.0)
     if isinstance(values, NodeField) and 1 < len(names) <= _MOST_PANELS:
         made.components = names
@@ -114,6 +116,16 @@ def _add_field(made: Composition, subjects: Subjects, moved: DeformedPart | None
         )
     )
     made.layers += [Layer(m, displacement, scale, outline=True) for m in meshes]
+
+
+def _present(values: NodeField | CellField, mesh: Mesh) -> tuple[str, ...]:
+    """Components that have a value on the mesh (multipliers have none), or all if none has."""
+    names = component_names(values)
+    if isinstance(values, CellField):
+        return names
+    ids = mesh.sorted_node_ids
+    found = tuple(n for n in names if np.isin(values.components[n].nodes, ids).any())
+    return found or names
 
 
 def _cells(values: CellField) -> Mesh:

@@ -21,7 +21,7 @@ from ssilang.io.plots.view import Plane, view_along
 from ssilang.kernel.fields.arrows import arrows_at_nodes, principal_strokes
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.deformed import Deformed, DeformedPart
-from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
 
@@ -153,6 +153,16 @@ def test_components_have_a_panel_each() -> None:
     figure = draw_scene(made.layers, (), None, None, made.components)
     titles = [a.get_title() for a in figure.axes]
     assert titles[:2] == ["UX", "UY"]
+
+
+def test_multipliers_have_no_panel() -> None:
+    mesh = grid(2)
+    u = field(mesh, UX=lambda x: x[:, 1])
+    away = mesh.nodes.add(np.zeros((1, 2)))
+    both = NodeField(mesh.nodes, {**u.components, "LX": NodeValues(away, np.ones(1))})
+    made = compose(Subjects([mesh], values=both))
+    assert made.components == ()
+    assert made.layers[0].component == "UX"
 
 
 def test_arrows_lie_within_the_frame() -> None:
