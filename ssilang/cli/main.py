@@ -20,7 +20,7 @@ os.environ.setdefault("MKL_NUM_THREADS", "1")
 
 OK, FAILED, USAGE = 0, 1, 2
 
-_COMMANDS = ("run", "check", "help", "repl")
+_COMMANDS = ("run", "check", "help", "sweep", "repl")
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -32,10 +32,17 @@ def _parser() -> argparse.ArgumentParser:
         epilog="ssilang case.ssi is short for ssilang run case.ssi; ssilang alone is interactive.",
     )
     parser.add_argument("--version", action="version", version=f"ssilang {__version__}")
-    commands = parser.add_subparsers(dest="command", metavar="{run,check,help,repl}")
+    commands = parser.add_subparsers(dest="command", metavar="{run,check,help,sweep,repl}")
     run = commands.add_parser("run", help="run a script (- for standard input)")
     run.add_argument("file")
     _run_arguments(run)
+    run.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        metavar="NAME=VALUE",
+        help="value that the script's first assignment to NAME gives instead of its own",
+    )
     run.add_argument("-i", "--interactive", action="store_true", help="keep the session after it")
     check = commands.add_parser("check", help="report mistakes without running")
     check.add_argument("files", nargs="+")
@@ -44,9 +51,31 @@ def _parser() -> argparse.ArgumentParser:
     helper = commands.add_parser("help", help="help of an operator or procedure")
     helper.add_argument("word", nargs="?", default="")
     helper.add_argument("--lang", choices=("en", "fr"), default="en")
+    _sweep_arguments(commands.add_parser("sweep", help="run a script over parameters and motions"))
     repl = commands.add_parser("repl", help="interactive session")
     _run_arguments(repl)
     return parser
+
+
+def _sweep_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("file", type=Path)
+    parser.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        metavar="NAME=VALUES",
+        help="values of NAME: a,b,c or first:last:step; several --set make all combinations",
+    )
+    parser.add_argument(
+        "--motions", type=Path, metavar="DIR", help="run each file of DIR; its path is MOTION"
+    )
+    parser.add_argument("--out", type=Path, help="output folder (default results/<case>_sweep)")
+    parser.add_argument("--jobs", type=int, default=0, help="processes (default: one a core)")
+    parser.add_argument("--scheduler", default="", help="address of a Dask scheduler")
+    parser.add_argument(
+        "--allow", type=Path, action="append", default=[], help="further folder to read and write"
+    )
+    parser.add_argument("--lang", choices=("en", "fr"), default="en", help="language of messages")
 
 
 def _run_arguments(parser: argparse.ArgumentParser) -> None:
@@ -120,6 +149,44 @@ def _run_options(options: argparse.Namespace) -> RunOptions:
         language=options.lang,
         debug=options.debug,
         limits=Limits(options.max_recursion, options.max_statements),
+        given=_given(getattr(options, "set", [])),
+    )
+
+
+def _given(settings: list[str]) -> dict[str, object]:
+    """Values of `--set`, one each."""
+    from ssilang.cli.sweeping.given import GivenError, parse_setting
+
+    given: dict[str, object] = {}
+    for text in settings:
+        try:
+            name, values = parse_setting(text)
+        except GivenError as problem:
+            sys.stderr.write(f"error: {problem}\n")
+            raise SystemExit(USAGE) from None
+        if len(values) != 1:
+            sys.stderr.write(f"error: {text} gives {name} several values: that is a sweep\n")
+            raise SystemExit(USAGE)
+        given[name] = values[0]
+    return given
+
+
+def _sweep(options: argparse.Namespace) -> int:
+    from ssilang.cli.sweeping.sweep import SweepOptions, sweep
+
+    return sweep(
+        SweepOptions(
+            options.file,
+            options.set,
+            options.motions,
+            options.out,
+            options.jobs,
+            options.scheduler,
+            options.allow,
+            options.lang,
+        ),
+        sys.stdout,
+        sys.stderr,
     )
 
 
@@ -148,6 +215,7 @@ _ACTIONS: dict[str, Callable[[argparse.Namespace], int]] = {
     "run": _run,
     "check": _check,
     "help": _help,
+    "sweep": _sweep,
     "repl": _repl,
 }
 

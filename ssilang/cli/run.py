@@ -7,7 +7,7 @@ import sys
 import traceback
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TextIO
+from typing import Any, TextIO
 
 from ssilang.cli.colour import coloured
 from ssilang.language.diagnostics import render
@@ -17,6 +17,7 @@ from ssilang.language.session import Limits, Session
 from ssilang.language.source import Source
 from ssilang.language.structure import parse
 from ssilang.language.tree import first_assignments
+from ssilang.language.values import Mot
 
 
 @dataclass
@@ -54,6 +55,7 @@ class RunOptions:
     quiet: bool = False
     summary: bool = False  # write summary.json into the output folder
     limits: Limits = field(default_factory=Limits)
+    given: dict[str, Any] = field(default_factory=dict)  # name -> value, `--set`
 
 
 def make_session(source: Source, options: RunOptions, out: TextIO) -> Session:
@@ -71,8 +73,13 @@ def make_session(source: Source, options: RunOptions, out: TextIO) -> Session:
             out=out,
             language=options.language,
             limits=options.limits,
+            given={k: _as_object(v) for k, v in options.given.items()},
         )
     )
+
+
+def _as_object(value: Any) -> Any:
+    return Mot(value) if isinstance(value, str) else value
 
 
 def execute(session: Session, source: Source) -> None:
@@ -85,6 +92,8 @@ def execute(session: Session, source: Source) -> None:
     """
     script = parse(source)
     session.assignments = first_assignments(script.body)
+    for name in session.given.keys() - session.assignments.keys():
+        session.root.assign(name, session.given.pop(name))
     sys.setrecursionlimit(max(sys.getrecursionlimit(), 60 * session.limits.recursion + 2000))
     try:
         session.evaluator.run_top(script.body)

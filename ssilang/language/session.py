@@ -68,6 +68,7 @@ class Session:
     assignments: dict[str, Any] = field(default_factory=dict)  # name -> span of its first target
     checks: list[Check] = field(default_factory=list)
     statistics: dict[str, Any] = field(default_factory=dict)
+    given: dict[str, Any] = field(default_factory=dict)  # replaces a name's first assignment
     started: float = field(default_factory=time.perf_counter)
 
     def __post_init__(self) -> None:

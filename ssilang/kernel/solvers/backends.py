@@ -6,7 +6,9 @@ A backend factorises once and solves many times. `factorise` picks the first bac
 
 from __future__ import annotations
 
+import hashlib
 import importlib.util
+from collections import OrderedDict
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Protocol
@@ -140,6 +142,29 @@ def choose(n: int, positive: bool) -> str:
     return next(k for k, b in BACKENDS.items() if b.suits(n, positive) and b.installed)
 
 
+_kept: OrderedDict[bytes, Factor] = OrderedDict()
+_keeping = 0
+
+
+def keep_factors(count: int) -> None:
+    """Keep the last `count` factors of this process for matrices that come back (0: none).
+
+    For processes that run one script after another on the same model; a factor is found by the
+    content of its matrix.
+    """
+    global _keeping
+    _keeping = count
+    while len(_kept) > count:
+        _kept.popitem(last=False)
+
+
+def _content(A: sp.csr_array, name: str, positive: bool) -> bytes:
+    digest = hashlib.blake2b(f"{name}{positive}{A.shape}".encode())
+    for part in (A.indptr, A.indices, A.data):
+        digest.update(np.ascontiguousarray(part).tobytes())
+    return digest.digest()
+
+
 def factorise(A: sp.csr_array, positive: bool, backend: str | None = None) -> Factor:
     """Factorise A (n, n), symmetric positive if `positive` (else any).
 
@@ -155,4 +180,12 @@ def factorise(A: sp.csr_array, positive: bool, backend: str | None = None) -> Fa
         raise KernelError(f"no solver is called {name}", f"known: {', '.join(BACKENDS)}")
     if not BACKENDS[name].installed:
         raise KernelError(f"solver {name} needs the package {BACKENDS[name].package}")
-    return BACKENDS[name].make(A, positive)
+    if not _keeping:
+        return BACKENDS[name].make(A, positive)
+    key = _content(A, name, positive)
+    if key not in _kept:
+        _kept[key] = BACKENDS[name].make(A, positive)
+    _kept.move_to_end(key)
+    while len(_kept) > _keeping:
+        _kept.popitem(last=False)
+    return _kept[key]

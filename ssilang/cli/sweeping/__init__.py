@@ -1,0 +1,1 @@
+"""`ssilang sweep`: one deck over many parameters and ground motions."""

@@ -1,0 +1,123 @@
+"""Values given on the command line: `--set NAME=VALUES`, `--motions DIR`."""
+
+from __future__ import annotations
+
+import hashlib
+import itertools
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+Value = int | float | bool | str
+
+MOTION = "MOTION"
+"""Name under which a deck finds the path of its ground motion."""
+
+_NAME = re.compile(r"@?[A-Za-z][A-Za-z0-9_]*")
+_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([EeDd][+-]?\d+)?")
+MOST_VALUES = 1_000_000
+
+
+class GivenError(Exception):
+    """A value of the command line that cannot be read."""
+
+
+def parse_value(text: str) -> Value:
+    """A number, VRAI or FAUX, else a word."""
+    text = text.strip()
+    if _NUMBER.fullmatch(text):
+        if re.fullmatch(r"[+-]?\d+", text):
+            return int(text)
+        return float(re.sub("[dD]", "E", text))
+    if text.upper() in ("VRAI", "FAUX"):
+        return text.upper() == "VRAI"
+    return text
+
+
+def parse_values(text: str) -> list[Value]:
+    """`a,b,c`, or `first:last:step` with both ends in it.
+
+    Raises
+    ------
+    GivenError
+        If a range is empty or goes the wrong way.
+    """
+    parts = text.split(":")
+    if len(parts) != 3 or not all(_NUMBER.fullmatch(p.strip()) for p in parts):
+        return [parse_value(p) for p in text.split(",")]
+    first, last, step = (parse_value(p) for p in parts)
+    assert isinstance(first, int | float)
+    assert isinstance(last, int | float)
+    assert isinstance(step, int | float)
+    if step == 0 or (last - first) / step < 0:
+        raise GivenError(f"the range {text} has no values: it is first:last:step")
+    count = int((last - first) / step + 1e-9) + 1
+    if count > MOST_VALUES:
+        raise GivenError(f"the range {text} has {count} values")
+    if all(isinstance(v, int) for v in (first, last, step)):
+        return [first + i * step for i in range(count)]
+    return [float(f"{first + i * step:.12g}") for i in range(count)]
+
+
+def parse_setting(text: str) -> tuple[str, list[Value]]:
+    """`NAME=VALUES`.
+
+    Raises
+    ------
+    GivenError
+        If it is not written so.
+    """
+    name, sign, values = text.partition("=")
+    name = name.strip().upper()
+    if not sign or not _NAME.fullmatch(name) or not values.strip():
+        raise GivenError(f"'{text}' is not NAME=VALUE, such as AG=0.3 or AG=0.1:1.0:0.1")
+    return name, parse_values(values)
+
+
+@dataclass(frozen=True)
+class Case:
+    """One run of a sweep: its number from 1 and the values it sets."""
+
+    number: int
+    values: dict[str, Value]
+
+    def key(self, deck: str) -> str:
+        """A name for what the run computes: the deck's text, values, the motion's content."""
+        digest = hashlib.sha256(deck.encode())
+        for name, value in sorted(self.values.items()):
+            digest.update(f"|{name}={value!r}".encode())
+            if name == MOTION:
+                digest.update(Path(str(value)).read_bytes())
+        return digest.hexdigest()[:12]
+
+
+def cases_of(settings: Sequence[str], motions: Path | None) -> list[Case]:
+    """All combinations of the settings' values and the motions, the last one fastest.
+
+    Raises
+    ------
+    GivenError
+        For a setting that cannot be read or is given twice, a folder without files.
+    """
+    axes: dict[str, list[Value]] = {}
+    for text in settings:
+        name, values = parse_setting(text)
+        if name in axes:
+            raise GivenError(f"{name} is set twice")
+        axes[name] = values
+    if motions is not None:
+        axes[MOTION] = [*_files_of(motions)]
+    if not axes:
+        raise GivenError("nothing to sweep: give --set NAME=VALUES or --motions DIR")
+    rows = itertools.product(*axes.values())
+    return [Case(i, dict(zip(axes, row, strict=True))) for i, row in enumerate(rows, start=1)]
+
+
+def _files_of(folder: Path) -> list[str]:
+    if not folder.is_dir():
+        raise GivenError(f"{folder} is not a folder of ground motions")
+    files = sorted(p for p in folder.iterdir() if p.is_file() and not p.name.startswith("."))
+    if not files:
+        raise GivenError(f"there is no file in {folder}")
+    return [str(p.resolve()) for p in files]

@@ -1,0 +1,103 @@
+"""The command: plan the runs, skip those that are done, run the rest, write the table."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, TextIO
+
+from ssilang.cli.sweeping.given import Case, GivenError, cases_of
+from ssilang.cli.sweeping.pool import dask_installed, run_here, run_on_cluster
+from ssilang.cli.sweeping.table import can_write, draw_figures, write_table
+from ssilang.cli.sweeping.worker import ROW, Task
+
+TABLE = "sweep.parquet"
+
+
+@dataclass
+class SweepOptions:
+    """What the command line says of a sweep."""
+
+    deck: Path
+    settings: list[str] = field(default_factory=list)
+    motions: Path | None = None
+    out: Path | None = None
+    jobs: int = 0  # 0: one a core
+    scheduler: str = ""
+    allowed: list[Path] = field(default_factory=list)
+    language: str = "en"
+
+
+def sweep(options: SweepOptions, out: TextIO, err: TextIO) -> int:
+    """Run a sweep; returns the exit code: 1 if a run failed, 2 for a wrong command.
+
+    Runs that an earlier sweep of the same folder finished are taken from there.
+    """
+    try:
+        cases = _checked_cases(options)
+        text = options.deck.read_text(encoding="utf-8", errors="replace")
+    except (GivenError, OSError) as problem:
+        err.write(f"error: {problem}\n")
+        return 2
+    folder = (options.out or Path("results") / f"{options.deck.stem}_sweep").resolve()
+    tasks = [_task(case, options, folder / "runs" / case.key(text)) for case in cases]
+    rows = {task.number: row for task in tasks if (row := _done(task)) is not None}
+    if rows:
+        out.write(f"{len(rows)} of {len(tasks)} runs are done already\n")
+    waiting = [task for task in tasks if task.number not in rows]
+    for row in _progress(_run(waiting, options), len(waiting), err):
+        rows[row["run"]] = row
+        if row["exit_code"] != 0:
+            err.write(f"run {row['run']} failed: {row['error']} (runs/{row['folder']})\n")
+    return _finish([rows[k] for k in sorted(rows)], list(cases[0].values), folder, out)
+
+
+def _checked_cases(options: SweepOptions) -> list[Case]:
+    if not can_write():
+        raise GivenError("a sweep writes Parquet: pip install 'ssilang[sweep]'")
+    if options.scheduler and not dask_installed():
+        raise GivenError("a cluster needs dask.distributed: pip install 'ssilang[cluster]'")
+    return cases_of(options.settings, options.motions)
+
+
+def _task(case: Case, options: SweepOptions, folder: Path) -> Task:
+    allowed = tuple(p.resolve() for p in options.allowed)
+    return Task(case.number, options.deck.resolve(), folder, case.values, allowed, options.language)
+
+
+def _done(task: Task) -> dict[str, Any] | None:
+    """The row of a run that ended well before, with its number in this sweep."""
+    try:
+        row: dict[str, Any] = json.loads((task.folder / ROW).read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return None
+    return {**row, "run": task.number} if row["exit_code"] == 0 else None
+
+
+def _run(tasks: list[Task], options: SweepOptions) -> Iterator[dict[str, Any]]:
+    if options.scheduler:
+        return run_on_cluster(tasks, options.scheduler)
+    jobs = options.jobs or os.cpu_count() or 1
+    return run_here(tasks, max(min(jobs, len(tasks)), 1))
+
+
+def _progress(rows: Iterator[dict[str, Any]], total: int, err: TextIO) -> Iterator[dict[str, Any]]:
+    """The same rows, with a bar at a terminal."""
+    if not err.isatty() or total == 0:
+        yield from rows
+        return
+    from rich.console import Console
+    from rich.progress import track
+
+    yield from track(rows, "runs", total=total, console=Console(file=err))
+
+
+def _finish(rows: list[dict[str, Any]], swept: list[str], folder: Path, out: TextIO) -> int:
+    write_table(rows, folder / TABLE)
+    pictures = draw_figures(rows, swept, folder)
+    failed = sum(row["exit_code"] != 0 for row in rows)
+    out.write(f"{len(rows)} runs, {failed} failed; {folder / TABLE}, {len(pictures)} pictures\n")
+    return 1 if failed else 0

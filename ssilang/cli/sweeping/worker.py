@@ -1,0 +1,66 @@
+"""One run of a sweep, in a process of its own."""
+
+from __future__ import annotations
+
+import json
+import time
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from ssilang.cli.sweeping.given import MOTION, Value
+
+ROW = "row.json"
+"""Written last into a run's folder: a run that has it is done."""
+
+
+@dataclass(frozen=True)
+class Task:
+    """What a worker needs; all of it can be sent to another machine that sees the same files."""
+
+    number: int
+    deck: Path
+    folder: Path
+    values: dict[str, Value]
+    allowed: tuple[Path, ...] = ()
+    language: str = "en"
+    limits: dict[str, Any] = field(default_factory=dict)
+
+
+def run_task(task: Task) -> dict[str, Any]:
+    """Run the deck with the task's values; returns its row of the table.
+
+    The run's folder gets what the deck writes, its `summary.json`, `output.txt` (what it printed
+    and its messages) and, when all is done, its row.
+    """
+    from ssilang.cli.run import RunOptions, run_file
+    from ssilang.io.atomic import write_text
+    from ssilang.kernel.solvers.backends import keep_factors
+    from ssilang.language.session import Limits
+
+    keep_factors(4)
+    allowed = [*task.allowed]
+    if MOTION in task.values:
+        allowed.append(Path(str(task.values[MOTION])).parent)
+    options = RunOptions(
+        output_directory=task.folder,
+        allowed=allowed,
+        language=task.language,
+        summary=True,
+        limits=Limits(**task.limits),
+        given=dict(task.values),
+    )
+    started = time.perf_counter()
+    result = run_file(task.deck, options)
+    write_text(task.folder / "output.txt", result.output + result.message + "\n")
+    row = {
+        "run": task.number,
+        **task.values,
+        "exit_code": result.exit_code,
+        "seconds": round(time.perf_counter() - started, 3),
+        "error": result.message.partition("\n")[0],
+        **{check.name: check.value for check in result.session.checks},
+        "folder": task.folder.name,
+    }
+    write_text(task.folder / ROW, json.dumps(row, ensure_ascii=False) + "\n")
+    return row
