@@ -149,7 +149,9 @@ def point_arrays(chpoint: NodeField, nodes: IntArray, name: str = "") -> dict[st
 
     axial = "UR" in chpoint.components or "FR" in chpoint.components
     families = (*_AXIAL, *_VECTORS[1:]) if axial else _VECTORS
-    return _arrays(tuple(chpoint.components), families, column, name)
+    # a component without a value here (multipliers LX of conditions) makes no array
+    here = (k for k, part in chpoint.components.items() if np.isin(part.nodes, nodes).any())
+    return _arrays(tuple(here), families, column, name)
 
 
 def cell_arrays(mchaml: CellField, mesh: Mesh, name: str = "") -> dict[str, DataArray]:

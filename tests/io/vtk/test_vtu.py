@@ -13,7 +13,7 @@ from ssilang.io.errors import OutputError
 from ssilang.io.vtk import Encoding, grid_of, write_vtu
 from ssilang.io.vtk.cells import ORDERS
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
-from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
@@ -132,6 +132,13 @@ def test_nodes_without_a_value_stay_in_place_and_scalars_are_unknown_there() -> 
     data = grid_of(mesh, {"": part}).point_data
     assert data["displacement"].values[5:].sum() == 0
     assert np.isnan(data["TEMP"].values[5:].astype(float)).all()
+
+
+def test_multipliers_make_no_array() -> None:
+    mesh, field, _ = square_with_fields()
+    away = mesh.nodes.add(np.zeros((1, 2)))
+    both = NodeField(mesh.nodes, {**field.components, "LX": NodeValues(away, np.ones(1))})
+    assert set(grid_of(mesh, {"": both}).point_data) == set(grid_of(mesh, {"": field}).point_data)
 
 
 def test_cell_values_find_their_cells_in_another_order() -> None:
