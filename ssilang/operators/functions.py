@@ -11,7 +11,7 @@ import numpy as np
 from ssilang.kernel.curve import Curve
 from ssilang.kernel.errors import KernelError
 from ssilang.kernel.fields import cell_algebra, node_algebra
-from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
@@ -196,8 +196,14 @@ def _angle_of_cells(call: Call, first: CellField, second: CellField) -> CellFiel
         if other is None:
             raise call.bad("the two fields do not stand on the same cells", second)
         made = {
-            k: np.degrees(np.arctan2(other.components.get(k, np.zeros((1, 1))), v))
+            k: np.degrees(np.arctan2(_part(other, k), cell_algebra.numeric(k, v)))
             for k, v in block.components.items()
         }
         blocks.append(cell_algebra.rebuilt(block, made))
     return CellField(tuple(blocks), second.title)
+
+
+def _part(block: CellFieldBlock, name: str) -> Any:
+    """A component of a block, zero where it is absent."""
+    values = block.components.get(name)
+    return np.zeros((1, 1)) if values is None else cell_algebra.numeric(name, values)

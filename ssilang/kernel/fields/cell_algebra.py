@@ -36,7 +36,8 @@ def _same_zone(a: CellFieldBlock, b: CellFieldBlock) -> bool:
     return a.constituent == b.constituent and same_cells(a.cells, b.cells)
 
 
-def _numeric(name: str, values: Values) -> Values:
+def numeric(name: str, values: Values) -> Values:
+    """The values of a component, refused when they are objects."""
     if values.dtype == object:
         raise FieldError(f"component {name} holds objects, not numbers")
     return values
@@ -50,7 +51,7 @@ def applied(
     blocks = []
     for block in field.blocks:
         made = {
-            k: np.asarray(function(_numeric(k, v))) if wanted is None or k in wanted else v
+            k: np.asarray(function(numeric(k, v))) if wanted is None or k in wanted else v
             for k, v in block.components.items()
         }
         blocks.append(rebuilt(block, made))
@@ -183,15 +184,15 @@ def _multiplied_block(a: CellFieldBlock, b: CellFieldBlock, divide: bool) -> Cel
     run = _quotient if divide else np.multiply
     if len(b.components) == 1 and (SCALAR in b.components or len(a.components) > 1):
         (factor,) = b.components.values()
-        made = {k: run(_numeric(k, v), factor) for k, v in a.components.items()}
+        made = {k: run(numeric(k, v), factor) for k, v in a.components.items()}
     elif list(a.components) == [SCALAR] and not divide:
         factor = a.components[SCALAR]
-        made = {k: run(factor, _numeric(k, v)) for k, v in b.components.items()}
+        made = {k: run(factor, numeric(k, v)) for k, v in b.components.items()}
     elif len(a.components) == len(b.components) == 1:
         ((name, x),), (y,) = a.components.items(), b.components.values()
         made = {name: run(x, y)}
     elif set(a.components) == set(b.components):
-        made = {k: run(_numeric(k, v), b.components[k]) for k, v in a.components.items()}
+        made = {k: run(numeric(k, v), b.components[k]) for k, v in a.components.items()}
     else:
         raise FieldError(
             f"a field ({' '.join(a.components)}) by a field ({' '.join(b.components)}) is not "
