@@ -5,9 +5,12 @@ from __future__ import annotations
 import argparse
 import io
 import os
+import signal
 import sys
+import threading
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -106,10 +109,28 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if not getattr(options, "debug", False):
         warnings.simplefilter("ignore")  # of libraries; the language's own are messages
     try:
-        return _ACTIONS[options.command or "repl"](options)
+        with _ended_by_signal():
+            return _ACTIONS[options.command or "repl"](options)
     except BrokenPipeError:  # the reader of our output left
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return OK
+
+
+@contextmanager
+def _ended_by_signal() -> Iterator[None]:
+    """A run that is told to end (`timeout`, a queue's limit) still writes its files and summary."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGTERM, _interrupt)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
+
+
+def _interrupt(number: int, frame: object) -> None:
+    raise KeyboardInterrupt
 
 
 def _run(options: argparse.Namespace) -> int:

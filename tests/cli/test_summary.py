@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import json
 import os
+import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 from typing import Any
 
@@ -72,6 +74,23 @@ def test_the_command_writes_below_results(tmp_path: Path) -> None:
     assert (done.returncode, done.stderr) == (0, "")
     names = sorted(p.name for p in (tmp_path / "results" / "deck").iterdir())
     assert names == ["a.csv", "summary.json"]
+
+
+@pytest.mark.skipif(os.name != "posix", reason="signals of one system")
+def test_a_run_told_to_end_writes_its_files(tmp_path: Path) -> None:
+    script = "OPTI SORT 'a.txt' ; REPE B ; SORT 'CHAI' &B ; FIN B ;"
+    (tmp_path / "deck.ssi").write_text(script)
+    command = [sys.executable, "-m", "ssilang.cli.main", "deck.ssi", "--out", "out"]
+    with subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE) as process:
+        while not (tmp_path / "out" / "a.txt").exists():
+            assert process.poll() is None
+            time.sleep(0.05)
+        process.send_signal(signal.SIGTERM)
+        assert process.wait(30) == 1
+    made = json.loads((tmp_path / "out" / "summary.json").read_text())
+    assert [e["code"] for e in made["errors"]] == ["interrupted"]
+    lines = (tmp_path / "out" / "a.txt").read_text().splitlines()
+    assert lines == [str(i + 1) for i in range(len(lines))]
 
 
 @pytest.mark.skipif(os.name != "posix", reason="imports are counted on one system")
