@@ -70,7 +70,7 @@ def page_markdown(page: Page, examples: Iterable[Ran]) -> str:
     lines = [f"# {page.name}{full}", "", f"*{page.kind}, {page.family}*", ""]
     lines += [paragraph + "\n" for paragraph in page.help.en.split("\n")]
     if page.help.syntax:
-        syntax = [line.strip() for line in page.help.syntax.split("\n")]
+        syntax = [line.rstrip() for line in page.help.syntax.split("\n")]
         lines += ["## Syntax", "", "```", *syntax, "```", ""]
     lines += _arguments(page)
     for ran in examples:

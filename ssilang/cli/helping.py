@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TextIO
 
 from ssilang.cli.paging import show
-from ssilang.language.diagnostics import nearest
+from ssilang.language.diagnostics import elsewhere, nearest
 from ssilang.language.library import standard_procedures
 from ssilang.language.reference import find_page, overview, page_names, page_text
 from ssilang.operators.loader import load_operators
@@ -34,6 +34,7 @@ def show_help(word: str, language: str, out: TextIO) -> int:
         show(page_text(page, language), out)
         return OK
     near = nearest(word, page_names(procedures))
-    hint = _TEXTS["near" if near else "list"][language].format(near=near)
+    hint = elsewhere(word, language)
+    hint = hint or _TEXTS["near" if near else "list"][language].format(near=near)
     out.write(f"{_TEXTS['unknown'][language].format(word=word)}\n  = {hint}\n")
     return UNKNOWN

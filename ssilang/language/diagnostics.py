@@ -200,7 +200,7 @@ def _near_hint(data: dict[str, object], language: str, names: Iterable[str]) -> 
     if "name" not in data:
         return ""
     word = str(data["name"])
-    elsewhere = _elsewhere(word, language)
+    elsewhere = elsewhere(word, language)
     if elsewhere:
         return elsewhere
     full = {o.full_name for o in OPERATORS.values()}
@@ -213,7 +213,7 @@ def _near_hint(data: dict[str, object], language: str, names: Iterable[str]) -> 
     }[language]
 
 
-def _elsewhere(word: str, language: str) -> str:
+def elsewhere(word: str, language: str) -> str:
     """What to say of a word of Cast3M that is not built here, '' if it is none."""
     found = find_cast3m_word(word)
     if found is None or find_operator(found.name) is not None:

@@ -71,15 +71,23 @@ def procedure_page(path: Path) -> Page:
     current = "syntax"
     for line in head[1:]:
         current = _sort_line(line, current, parts)
-    examples = textwrap.dedent("\n".join(parts["example"])).strip()
+    examples = _even("\n".join(parts["example"]))
     help_ = Help(
         " ".join(" ".join(parts["EN"]).split()),
         " ".join(" ".join(parts["FR"]).split()),
-        "\n".join(line.strip() for line in parts["syntax"] if line.strip()),
+        _even("\n".join(line for line in parts["syntax"] if line.strip())),
         (examples,) if examples else (),
     )
     name = path.stem.upper()
     return Page(name, name, "procedure", "procedures", title, help_)
+
+
+def _even(text: str) -> str:
+    """Text without its common indentation; a first line that stands alone does not count."""
+    first, _, rest = text.rstrip().partition("\n")
+    if first.strip() and not first.startswith("    "):
+        return "\n".join(p for p in (first.strip(), textwrap.dedent(rest)) if p)
+    return textwrap.dedent(text).strip("\n").rstrip()
 
 
 def _head(text: str) -> list[str]:
@@ -128,7 +136,7 @@ def page_text(page: Page, language: str) -> str:
         lines += textwrap.wrap(paragraph, WIDTH)
     if page.help.syntax:
         lines += ["", _WORDS["syntax"][language]]
-        lines += ["    " + line.strip() for line in page.help.syntax.split("\n")]
+        lines += ["    " + line.rstrip() for line in page.help.syntax.split("\n")]
     arguments = _arguments(page, language)
     if arguments:
         lines += ["", _WORDS["arguments"][language], *arguments]

@@ -21,7 +21,7 @@ from ssilang.kernel.signals import (
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
 from ssilang.language.values import ListChpo, ListEnti, ListReel
-from ssilang.operators.curve_words import axis_name, read_colour
+from ssilang.operators.curve_words import read_colour
 
 _SIGNAL = "S = EVOL 'MANU' 'TEMP' (PROG 0. PAS 0.01 NPAS 63) 'A' (PROG 64 * 1.) ; "
 
@@ -290,7 +290,7 @@ def tote(call: Call) -> ListReel:
 )
 def fdt(call: Call) -> Curve:
     """Make a curve in time."""
-    name = axis_name(call)
+    name = call.word() or ""
     word = call.keyword(("CONS", "NOCO"))
     if word == "CONS":
         step = call.required("FLOTTANT", after=call.keyword_end)

@@ -123,6 +123,12 @@ def test_help_of_an_unknown_word(ssilang):
     assert "ZZZZ" in done.out
 
 
+def test_help_of_a_word_of_cast3m_that_is_not_built(ssilang):
+    done = ssilang("help", "CAPACITE")
+    assert done.code == 1
+    assert "CAPA is a Cast3M operator (heat)" in done.out
+
+
 def test_version(process):
     assert process("--version").out.startswith("ssilang ")
 
