@@ -130,6 +130,8 @@ def _mode(call: Call, word: str) -> None:
         said = "FOUR"
         if call.keyword(("NOHARM",)) is None:
             ws.fourier = call.required("ENTIER", after=call.keyword_end)
+        if ws.dimension == 3:  # a harmonic asked for after CREER_3D went to space
+            ws.dimension = 2
     elif said == "UNID":
         call.keyword(("PLAN", "AXIS", "SPHE"))
         call.keyword(_UNID)
