@@ -200,9 +200,9 @@ def _near_hint(data: dict[str, object], language: str, names: Iterable[str]) -> 
     if "name" not in data:
         return ""
     word = str(data["name"])
-    elsewhere = elsewhere(word, language)
-    if elsewhere:
-        return elsewhere
+    known = elsewhere(word, language)
+    if known:
+        return known
     full = {o.full_name for o in OPERATORS.values()}
     near = nearest(word, {*OPERATORS, *full, *names})
     if near:
