@@ -1,7 +1,9 @@
-"""SORT 'AVS ' and 'STL ': meshes and fields in other programs' text formats."""
+"""SORT 'AVS ', 'STL ' and 'MAT ': meshes, fields and matrices in others' text formats."""
 
 from __future__ import annotations
 
+from ssilang.io.atomic import write_text
+from ssilang.io.matrix_market import market_lines, node_lines, system_of, unknown_lines
 from ssilang.io.mesh_files.avs import avs_lines, structure_of
 from ssilang.io.mesh_files.stl import stl_lines
 from ssilang.kernel.fields.cell_field import CellField
@@ -77,3 +79,50 @@ def _stl(call: Call, word: str) -> None:
     output = run_output(call.session)
     output.reopen("SORT")
     output.add_lines("SORT", target_path(call, ".stl"), stl_lines(mesh))
+
+
+@SORT.on(
+    "MAT",
+    syntax="SORT 'MAT ' 'MM' 'ASSE' RIGI1 ('TITR' MOT1) ('INCO') ('GEOM') ;",
+    en="MAT: a matrix, assembled, as Matrix Market text (.mm), the multipliers of its conditions "
+    "behind its unknowns. INCO adds a file .inco (local node and component of each unknown, then "
+    "of each equation, then the names), GEOM a file .geom (coordinates of the local nodes, number "
+    "of the node).",
+    fr="MAT : une rigidité assemblée, en texte Matrix Market (.mm), les multiplicateurs de ses "
+    "conditions derrière ses inconnues. INCO ajoute un fichier .inco (noeud local et composante "
+    "de chaque inconnue, puis de chaque équation, puis les noms), GEOM un fichier .geom "
+    "(coordonnées des noeuds locaux, numéro du noeud).",
+    examples=(
+        "OPTI DIME 2 MODE PLAN DEFO ; P = 0. 0. ; K = APPU 'UX' 400. P ; OPTI SORT 'k' ; "
+        "SORT 'MAT ' 'MM' 'ASSE' K 'INCO' ;",
+    ),
+)
+def _mat(call: Call, word: str) -> None:
+    form = call.keyword(("MM", "MATRIX_MARKET", "RB", "RUTHERFORD_BOEING"))
+    storage = call.keyword(("ASSEMBLEE", "ELEMENTAIRE"))
+    if form not in ("MM", "MATRIX_MARKET") or storage != "ASSEMBLEE":
+        raise call.bad("only 'MM' 'ASSE' is supported, the assembled matrix as Matrix Market text")
+    title, extras, matrix = "", set(), None
+    while True:
+        said = call.keyword(("TITR", "INCO", "GEOM"))
+        if said == "TITR":
+            title = str(call.required("MOT", after=call.keyword_end))
+        elif said is not None:
+            extras.add(said)
+        elif (operand := call.read("RIGIDITE")) is not None:
+            matrix = operand.value
+        else:
+            break
+    if matrix is None:
+        raise call.missing(("RIGIDITE",))
+    system = system_of(matrix)
+    path = target_path(call, ".mm")
+    output = run_output(call.session)
+    texts = {path: market_lines(system, title)}
+    if "INCO" in extras:
+        texts[path.with_suffix(".inco")] = unknown_lines(system)
+    if "GEOM" in extras:
+        texts[path.with_suffix(".geom")] = node_lines(system, matrix.table.coordinates)
+    for target, lines in texts.items():
+        write_text(target, "".join(line + "\n" for line in lines))
+        output.wrote(target)

@@ -111,6 +111,31 @@ def test_fields_written_for_avs_are_read_again(tmp_path: Path) -> None:
     assert (found.find("A"), found.find("N")) == (1.25, 8)
 
 
+def test_a_matrix_with_its_conditions_as_matrix_market(tmp_path: Path) -> None:
+    from scipy.io import mmread
+
+    text = (
+        "K = (RIGI MO MA) ET (BLOQ 'DEPL' L) ; F = FORC 'FY' 3. (S POIN 'PROC' (2. 1.)) ; "
+        "V = RESO K F ; SORT 'MAT ' 'MM' 'ASSE' K 'TITR' 'plate' 'INCO' 'GEOM' ; "
+    )
+    found = run(text, tmp_path).session.root
+    matrix = mmread(tmp_path / "out.mm").toarray()
+    n = 2 * 15 + 2 * 5
+    assert matrix.shape == (n, n)
+    inco = (tmp_path / "out.inco").read_text().splitlines()
+    geom = np.loadtxt(tmp_path / "out.geom")
+    names = inco[-2].split()
+    unknowns = [tuple(map(int, line.split())) for line in inco[:n]]
+    # the second member by the list of unknowns, and RESO's own solution at each of them
+    load, solution = np.zeros(n), np.zeros(n)
+    for row, (node, component) in enumerate(unknowns):
+        number, name = int(geom[node - 1, 3]) - 1, names[component - 1]
+        solution[row] = found.find("V").values_at(name, np.array([number]))[0]
+        if name == "UY" and np.allclose(geom[node - 1, :2], [2.0, 1.0]):
+            load[row] = 3.0
+    assert np.allclose(matrix @ solution, load, atol=1e-6)
+
+
 def test_figures_go_to_the_session(tmp_path: Path) -> None:
     checks = run("SORT 'BILA' 'a' 2 ; SORT 'BILA' 'b' 1. 2. 0.5 ;", tmp_path).session.checks
     assert [(c.name, c.value, c.expected, c.tolerance) for c in checks] == [

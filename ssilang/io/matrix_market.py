@@ -1,0 +1,104 @@
+"""Assembled matrices as Matrix Market text, with the list of their unknowns.
+
+Source: R. F. Boisvert, R. Pozo, K. A. Remington, "The Matrix Market Exchange Formats", NIST 1996.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ssilang.kernel.matrices.assembly import (
+    assemble,
+    constraint_matrix,
+    is_symmetric,
+    numbering_of,
+)
+from ssilang.kernel.matrices.matrix import Matrix
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+
+
+@dataclass(frozen=True, eq=False)
+class System:
+    """An assembled matrix, its multipliers behind its unknowns: [K D^T; C 0].
+
+    Attributes
+    ----------
+    rows, columns, values : arrays (n_terms,)
+        Lower triangle if `symmetric`, by columns.
+    size : int
+    nodes : array (size,)
+        Node of each unknown, multiplier nodes last.
+    names, duals : tuple of str, length size
+    """
+
+    rows: IntArray
+    columns: IntArray
+    values: FloatArray
+    size: int
+    symmetric: bool
+    nodes: IntArray
+    names: tuple[str, ...]
+    duals: tuple[str, ...]
+
+
+def system_of(matrix: Matrix) -> System:
+    """The system that RESO solves, before any elimination."""
+    import scipy.sparse as sp
+
+    numbering = numbering_of(matrix)
+    stiffness = assemble(matrix, numbering)
+    held = constraint_matrix(matrix, numbering)
+    whole: Any = stiffness
+    if len(held.multipliers):
+        parts: Any = [[stiffness, held.D.T], [held.C, None]]
+        whole = sp.block_array(parts)
+    symmetric = is_symmetric(matrix)
+    terms = sp.coo_array(sp.tril(whole) if symmetric else whole)
+    order = np.lexsort((terms.row, terms.col))
+    count = len(held.multipliers)
+    return System(
+        terms.row[order].astype(np.int64),
+        terms.col[order].astype(np.int64),
+        terms.data[order],
+        whole.shape[0],
+        symmetric,
+        np.concatenate([numbering.nodes, held.multipliers]),
+        (*(numbering.unknowns[c] for c in numbering.codes), *["LX"] * count),
+        (*(numbering.duals[c] for c in numbering.codes), *["FLX"] * count),
+    )
+
+
+def market_lines(system: System, title: str = "") -> list[str]:
+    """Lines of the Matrix Market file; rows and columns count from 1."""
+    kind = "symmetric" if system.symmetric else "general"
+    lines = [f"%%MatrixMarket matrix coordinate real {kind}"]
+    lines += [f"% {text}" for text in title.splitlines()]
+    lines.append(f"{system.size} {system.size} {len(system.values)}")
+    terms = zip(system.rows.tolist(), system.columns.tolist(), system.values.tolist(), strict=True)
+    lines += [f"{i + 1} {j + 1} {v!r}" for i, j, v in terms]
+    return lines
+
+
+def unknown_lines(system: System) -> list[str]:
+    """For each unknown, then for each equation: local node, component; then the names' lists."""
+    lines = []
+    local = np.unique(system.nodes, return_inverse=True)[1].ravel() + 1
+    for names in (system.names, system.duals):
+        known = list(dict.fromkeys(names))
+        place = {name: i for i, name in enumerate(known, start=1)}
+        lines += [f"{n} {place[name]}" for n, name in zip(local.tolist(), names, strict=True)]
+    for names in (system.names, system.duals):
+        lines.append(" ".join(dict.fromkeys(names)))
+    return lines
+
+
+def node_lines(system: System, coordinates: FloatArray) -> list[str]:
+    """Coordinates of the local nodes, and their number in the script (from 1) at the end."""
+    ids = np.unique(system.nodes)
+    return [
+        f"{x!r} {y!r} {z!r} {i + 1}"
+        for i, (x, y, z) in zip(ids.tolist(), coordinates[ids].tolist(), strict=True)
+    ]
