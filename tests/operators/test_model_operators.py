@@ -151,3 +151,41 @@ def test_shells_beams_and_bars_share_a_model_list(run):
     )
     assert value(run, text) == 6
     assert value(run, text, "Y") == 4
+
+
+def test_pressure_model_gives_the_same_forces_as_a_pressure_on_sides(run):
+    text = ELASTIC + (
+        "F1 = PRES 'MASS' M 5. C ; MP = MODE C 'CHARGEMENT' 'PRESSION' ; "
+        "F2 = BSIG MP (PRES MP 'PRES' 5.) ; X = MAXI 'ABS' (F1 - F2) ; "
+        "CP = MANU 'CHPO' C 1 'P' 5. ; F3 = PRES 'MASS' M (CHAN 'CHAM' CP M) ; "
+        "Y = MAXI 'ABS' (F1 - F3) ; Z = MAXI 'ABS' (RESU F1) ; "
+        "T = MAXI 'ABS' (SIGM (M ET MP) A (MANU 'CHPO' S 1 'UX' 0.)) ;"
+    )
+    assert value(run, text) == pytest.approx(0.0, abs=1e-12)
+    assert value(run, text, "Y") == pytest.approx(0.0, abs=1e-12)
+    assert value(run, text, "Z") == pytest.approx(10.0)
+    assert value(run, text, "T") == 0.0
+
+
+def test_the_harmonic_in_force_counts_not_that_of_the_model(run):
+    text = (
+        "OPTI DIME 2 MODE FOUR 0 ELEM QUA4 ; P1 = 1. 0. ; P2 = 2. 0. ; L = DROI 1 P1 P2 ; "
+        "S = TRAN 1 L (0. 1.) ; M = MODE S MECANIQUE ; A = MATE M 'YOUN' 1. 'NU' 0. ; "
+        "U = MANU 'CHPO' S 1 'UR' 1. ; X = XTMX U (RIGI M A) ; OPTI MODE FOUR 1 ; "
+        "V = MANU 'CHPO' S 2 'UR' 1. 'UT' -1. ; Y = XTMX V (RIGI M A) ;"
+    )
+    assert value(run, text) > 0.1
+    assert value(run, text, "Y") == pytest.approx(0.0, abs=1e-12)  # a rigid translation
+
+
+def test_field_of_revolution_in_space(run):
+    text = (
+        "OPTI DIME 2 MODE AXIS ELEM SEG2 ; L = DROI 2 (1. 0.) (1. 1.) ; "
+        "U = MANU 'CHPO' L 2 'UR' 2. 'UZ' 3. 'NATURE' 'DIFFUS' ; T = CREER_3D L U 360. 8 0 ; "
+        "G = T . 'MAILLAGE' ; D = T . 'DEPLACEMENT' ; "
+        "X = MAXI 'ABS' ((EXCO 'UY' D) - (2. * (COOR 2 G))) ; Y = MINI (EXCO 'UZ' D) ; "
+        "Z = NBNO G ;"
+    )
+    assert value(run, text) == pytest.approx(0.0, abs=1e-12)
+    assert value(run, text, "Y") == pytest.approx(3.0)
+    assert value(run, text, "Z") == 24
