@@ -29,6 +29,8 @@ SPOILT = [
     ("footing/housner_block.ssi", "'ROTA' J0 PC", "'ROTA' (1.01 * J0) PC"),
     ("impact/bar_bounce.ssi", "'YOUN' YOU0", "'YOUN' (1.05 * YOU0)"),
     ("footing/block_on_soil.ssi", "W0 = RHOB * B0", "W0 = 1.01 * RHOB * B0"),
+    ("footing/disc_uplift.ssi", "'KN' K0 'KS'", "'KN' (1.1 * K0) 'KS'"),
+    ("footing/macro_element.ssi", "'KS' 1.E8 'RAYO' R0", "'KS' 1.E8 'RAYO' (1.001 * R0)"),
     ("footing/strip_uplift.ssi", "'KN' K0 'KS'", "'KN' (1.02 * K0) 'KS'"),
 ]
 
