@@ -24,6 +24,8 @@ PICTURES = {
     "club_cast3m_2014/club_c_sdm": {1: "club_c_displacement"},
     "club_cast3m_2014/rocking_two_pairs": {1: "rocking_two_pairs"},
     "footing/strip_uplift": {1: "strip_uplift"},
+    "footing/disc_uplift": {1: "disc_uplift"},
+    "footing/macro_element": {2: "macro_rocking"},
     "footing/winkler_beam": {1: "winkler_beam"},
     "footing/flexible_tower": {1: "flexible_tower"},
     "footing/housner_block": {1: "housner_block"},
