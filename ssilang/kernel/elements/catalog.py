@@ -18,6 +18,8 @@ from ssilang.kernel.model import Mode
 
 PLANE_MODES = (Mode.PLANE_STRAIN, Mode.PLANE_STRESS, Mode.GENERALISED_PLANE_STRAIN)
 SECTION_MODES = (*PLANE_MODES, Mode.AXISYMMETRIC, Mode.FOURIER)
+SOLID_FAMILIES = ("solid", "incompressible", "one point")
+"""Families of continuous elements."""
 FRAME_MODES = (Mode.PLANE_STRAIN, Mode.PLANE_STRESS, Mode.THREE_DIMENSIONAL)
 
 
@@ -82,7 +84,7 @@ ELEMENTS: dict[str, ElementKind] = {
         _solid("TRI6", SECTION_MODES, 3, 7),
         _solid("QUA4", SECTION_MODES, 4),
         _solid("QUA8", SECTION_MODES, 9),
-        _solid("Q4RI", SECTION_MODES, 1, 4, "QUA4"),
+        _solid("Q4RI", SECTION_MODES, 1, 4, "QUA4", "one point"),
         _solid("Q8RI", SECTION_MODES, 4, 9, "QUA8"),
         _solid("TET4", _VOLUME, 1, 4),
         _solid("TE10", _VOLUME, 4, 27),

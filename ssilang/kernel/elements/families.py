@@ -18,6 +18,7 @@ from ssilang.kernel.elements.family import (
 from ssilang.kernel.elements.hooke import inverted, moduli_from_field
 from ssilang.kernel.elements.meridian_shell import MeridianShell
 from ssilang.kernel.elements.mindlin import Mindlin
+from ssilang.kernel.elements.one_point import OnePoint
 from ssilang.kernel.elements.pipe import Pipe
 from ssilang.kernel.elements.plate import Plate
 from ssilang.kernel.elements.solid import Incompressible, Solid
@@ -34,6 +35,7 @@ from ssilang.kernel.model import Zone
 FAMILIES: dict[str, ElementFamily] = {
     "solid": Solid(),
     "incompressible": Incompressible(),
+    "one point": OnePoint(),
     "bar": Bar(),
     "beam": Beam(),
     "timoshenko": Timoshenko(),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
+from ssilang.kernel.elements.catalog import ELEMENTS, SOLID_FAMILIES, support_rule
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.reference import shape_functions
 from ssilang.kernel.elements.solid_moduli import material_axes, symmetry_of
@@ -48,7 +48,7 @@ def thermal_strain(zone: Zone, material: CellField, field: NodeField | CellField
     names = family.strain_names(zone)
     values = np.zeros((len(zone.cells), len(names), rise.shape[1]))
     kind = ELEMENTS[zone.element].family
-    if kind in ("solid", "incompressible"):
+    if kind in SOLID_FAMILIES:
         return _solid(zone, parameters, rise, len(names))
     if kind == "joint":
         raise MaterialError("the thermal expansion of joints is not available")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ssilang.kernel.elements.catalog import SOLID_FAMILIES
 from ssilang.kernel.errors import MaterialError
 
 FORMULATIONS = ("MECANIQUE", "CHARGEMENT")
@@ -11,24 +12,15 @@ OTHER_FORMULATIONS = (
     "FROTTEMENT", "CHANGEMENT_PHASE", "METALLURGIE", "CONVECTION", "RAYONNEMENT",
 )  # fmt: skip
 
+_SHELLS = ("plate", "meridian", "mindlin")
 ELASTICITIES: dict[str, tuple[str, ...]] = {
     "ISOTROPE": (
-        "solid",
-        "incompressible",
-        "bar",
-        "beam",
-        "timoshenko",
-        "joint",
-        "plate",
-        "meridian",
-        "pipe",
-        "mindlin",
-        "thick",
+        *SOLID_FAMILIES, *_SHELLS, "thick", "bar", "beam", "timoshenko", "pipe", "joint",
     ),
-    "ORTHOTROPE": ("solid", "incompressible", "joint", "plate", "meridian", "mindlin"),
-    "ANISOTROPE": ("solid", "incompressible"),
-    "UNIDIRECTIONNEL": ("solid", "incompressible"),
-}
+    "ORTHOTROPE": (*SOLID_FAMILIES, *_SHELLS, "joint"),
+    "ANISOTROPE": SOLID_FAMILIES,
+    "UNIDIRECTIONNEL": SOLID_FAMILIES,
+}  # fmt: skip
 """Linear elasticities and the families of elements that have them."""
 
 JOINT_WORDS = (

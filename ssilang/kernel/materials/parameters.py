@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ssilang.kernel.elements.catalog import ELEMENTS
+from ssilang.kernel.elements.catalog import ELEMENTS, SOLID_FAMILIES
 from ssilang.kernel.joints.elements import is_joint
 from ssilang.kernel.joints.law_table import law_of
 from ssilang.kernel.model import Mode, Zone
@@ -44,8 +44,7 @@ _ORTHOTROPIC: dict[Mode, int] = {  # how many of ORTHOTROPIC are required
 }  # fmt: skip
 
 _GEOMETRY: dict[str, Names] = {
-    "solid": Names((), ("DIM3",)),
-    "incompressible": Names((), ("DIM3",)),
+    **dict.fromkeys(SOLID_FAMILIES, Names((), ("DIM3",))),
     "bar": Names(("SECT",)),
     "joint": Names((), ("DIM3", "EPAI")),
     "pipe": Names(

@@ -12,7 +12,11 @@ from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.model import Mode, Model, Zone
 
 ELASTIC = ("ELASTIQUE", "ISOTROPE")
-SOLIDS = [k.name for k in ELEMENTS.values() if k.family == "solid" and k.cell_type[:3] != "SEG"]
+SOLIDS = [
+    k.name
+    for k in ELEMENTS.values()
+    if k.family in ("solid", "one point") and k.cell_type[:3] != "SEG"
+]
 PLANE = [n for n in SOLIDS if CELL_TYPES[ELEMENTS[n].cell_type].dimension == 2]
 SPACE = [n for n in SOLIDS if CELL_TYPES[ELEMENTS[n].cell_type].dimension == 3]
 

@@ -77,7 +77,7 @@ def test_rigid_motions_cost_no_force(element):
         assert np.abs(force).max() < 1e-9 * np.abs(stiffness.values).max()
 
 
-@pytest.mark.parametrize("element", [n for n in (*PLANE, *SPACE) if n not in ("Q4RI", "Q8RI")])
+@pytest.mark.parametrize("element", [n for n in (*PLANE, *SPACE) if n != "Q8RI"])
 def test_only_rigid_motions_cost_no_energy(element):
     mode = Mode.PLANE_STRAIN if element in PLANE else Mode.THREE_DIMENSIONAL
     zone = cell_zone(element, mode)
