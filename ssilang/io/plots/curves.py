@@ -12,7 +12,7 @@ import numpy as np
 
 from ssilang.io.errors import OutputError
 from ssilang.io.plots.bars import draw_bars
-from ssilang.io.plots.figure import drawing
+from ssilang.io.plots.figure import drawing, head
 from ssilang.io.plots.line import Line
 from ssilang.io.plots.line_style import DASHES, LineStyle
 from ssilang.io.plots.markup import to_mathtext
@@ -102,8 +102,7 @@ def draw_curves(curve: Curve, options: CurveOptions | None = None) -> Figure:
         for panel in panels[:-1]:
             panel.set_xlabel("")
         title = curve.title if options.title is None else options.title
-        if title.strip():
-            figure.suptitle(to_mathtext(title.strip()), fontsize=12, fontweight="bold")
+        head(figure, title)
         if options.date:
             stamp = datetime.now().strftime("%Y-%m-%d %H:%M")
             figure.text(0.995, 0.005, stamp, ha="right", va="bottom", fontsize=7, color="#777777")

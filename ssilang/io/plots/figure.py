@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import re
+import textwrap
 import unicodedata
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -57,6 +58,16 @@ def drawing(width: float = 7.2, height: float = 4.6) -> Iterator[Figure]:
         figure = Figure(figsize=(width, height), dpi=DPI, layout="constrained")
         figure.get_layout_engine().set(w_pad=0.08, h_pad=0.08)  # type: ignore[union-attr, call-arg]
         yield figure
+
+
+def head(figure: Figure, title: str) -> None:
+    """Write a title over a figure, on several lines if it is long."""
+    from ssilang.io.plots.markup import to_mathtext
+
+    text = title.strip()
+    if text:
+        lines = textwrap.wrap(text, max(20, int(8.0 * figure.get_figwidth())))
+        figure.suptitle("\n".join(map(to_mathtext, lines)), fontsize=12, fontweight="bold")
 
 
 class Pictures:

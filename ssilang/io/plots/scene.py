@@ -17,7 +17,7 @@ from ssilang.io.errors import OutputError
 from ssilang.io.plots import annotations as notes
 from ssilang.io.plots.cutting import behind
 from ssilang.io.plots.faces import add_bands, add_faces, add_section, band_values
-from ssilang.io.plots.figure import drawing
+from ssilang.io.plots.figure import drawing, head
 from ssilang.io.plots.labels import Annotation, draw_annotation
 from ssilang.io.plots.levels import Levels, choose_levels
 from ssilang.io.plots.markup import to_mathtext
@@ -308,9 +308,7 @@ def _draw_points(
 
 
 def _caption(figure: Figure, options: PictureOptions) -> None:
-    title = options.title.strip()
-    if title:
-        figure.suptitle(to_mathtext(title), fontsize=12, fontweight="bold")
+    head(figure, options.title)
     foot = list(options.notes)
     if options.date:
         foot.append(datetime.now().strftime("%Y-%m-%d %H:%M"))

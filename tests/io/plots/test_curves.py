@@ -40,6 +40,14 @@ def test_titles_of_the_options_come_first() -> None:
     assert axes.get_ylabel() == r"50 % \$"
 
 
+def test_a_long_title_takes_several_lines() -> None:
+    title = "word " * 15 + "x_{1}"
+    lines = draw_curves(curve(0), CurveOptions(title=title)).get_suptitle().split("\n")
+    assert len(lines) == 2
+    assert lines[1].endswith(to_mathtext("x_{1}"))
+    assert max(map(len, lines)) < 80
+
+
 def test_curves_without_a_colour_get_different_ones() -> None:
     (axes,) = draw_curves(curve(0, 1, 0, 0)).axes
     colours = [to_hex(line.get_color()) for line in axes.lines]
