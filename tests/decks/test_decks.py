@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -55,3 +56,16 @@ def test_spoilt_deck_fails_on_its_own_checks(deck: str, old: str, new: str, tmp_
 
 def test_every_deck_has_a_spoilt_twin():
     assert {d for d, _, _ in SPOILT} == {name_of(d) for d in DECKS}
+
+
+def test_the_table_of_decks_names_every_deck():
+    table = (CASES / "README.md").read_text(encoding="utf-8")
+    missing = [d.stem for d in DECKS if f"| `{d.stem}` |" not in table]
+    assert not missing
+
+
+def test_pictures_of_the_pages_exist_and_are_small():
+    for page in CASES.rglob("README.md"):
+        text = page.read_text(encoding="utf-8")
+        for name in re.findall(r"\]\((pictures/[^)]+)\)", text):
+            assert (page.parent / name).stat().st_size < 60_000, name
