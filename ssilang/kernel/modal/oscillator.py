@@ -130,6 +130,7 @@ def spectrum(
         Times at which to look (default those of the signal, then half a period of rest).
     """
     oscillators = Oscillators(frequencies, damping)
+    sampled(times, signal)
     if wanted is None:
         times, signal = _rested(times, signal, float(frequencies.min()))
     else:
@@ -153,6 +154,7 @@ def _rested(times: FloatArray, signal: FloatArray, slowest: float) -> tuple[Floa
 
 def default_frequencies(times: FloatArray, damping: float) -> FloatArray:
     """From 1/T by steps of 1/T, then of xi f, up to 1/(2 dt) (T duration, dt mean step)."""
+    times, _ = sampled(times, times)
     duration = float(times[-1] - times[0])
     top = 0.5 / float(np.diff(times).mean())
     low = 1.0 / duration

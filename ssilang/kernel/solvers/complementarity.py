@@ -11,6 +11,11 @@ from ssilang.kernel.errors import ConvergenceError
 from ssilang.kernel.mesh.nodes import FloatArray
 
 BoolArray = NDArray[np.bool_]
+PENALTY = (100.0, 1e7)  # least and largest, of equilibrium against energy, in scaled unknowns
+SMALL = 1e-10  # energy of its own of each row, relative to the mean
+PASSES = 100  # of the augmented Lagrangian
+ROUNDING = 1e-8  # how wrong, relative to the largest, rows may be that only rounding decides
+HUGE = 1e7  # motions of the rows, relative to gaps and loads, that no equilibrium has
 ALL_AT_ONCE = 20  # iterations that may change several rows; later ones change a single row
 
 
@@ -58,26 +63,99 @@ def solve_contact(problem: ContactProblem, start: BoolArray | None = None) -> Co
     active = problem.equality | (problem.q < 0.0 if held else np.ones(m, bool))
     if start is not None and held:
         active = problem.equality | start
-    seen: set[bytes] = set()
-    one_by_one = False
     limit = 50 + 20 * m
+    found = _iterate(problem, active, limit)
+    if found is None and _symmetric(problem):
+        guess = _least_energy(problem)
+        found = _iterate(problem, guess, limit, one_by_one=True) or _accepted(problem, guess)
+    if found is None:
+        raise ConvergenceError(
+            "no set of active unilateral conditions gives equilibrium",
+            "a body held by MINI/MAXI conditions alone must be pressed against them by its loads",
+        )
+    return found
+
+
+def _iterate(
+    problem: ContactProblem, active: BoolArray, limit: int, one_by_one: bool = False
+) -> ContactSolution | None:
+    """Active-set iterations; None if they end nowhere."""
+    held = problem.B.shape[1] == 0
+    seen: set[bytes] = set()
     for iteration in range(1, limit + 1):
         p, a, holds = _solve_active(problem, active)
         if not holds and not one_by_one:
-            one_by_one, active = True, np.ones(m, bool)
+            one_by_one, active = True, np.ones(len(active), bool)
             continue
         if not holds:
-            break
+            return None
         wrong = _wrong_rows(problem, active, p, a)
         if not wrong.any():
             return ContactSolution(np.where(active, p, 0.0), a, active, iteration)
+        if one_by_one and not held and active.tobytes() in seen:
+            return None
         one_by_one = one_by_one or iteration > ALL_AT_ONCE or active.tobytes() in seen
         seen.add(active.tobytes())
         active = active ^ (_one_of(wrong, active, p, held) if one_by_one else wrong)
-    raise ConvergenceError(
-        f"no set of active unilateral conditions gives equilibrium ({limit} tried at most)",
-        "a body held by MINI/MAXI conditions alone must be pressed against them by its loads",
+    return None
+
+
+def _symmetric(problem: ContactProblem) -> bool:
+    W, E = problem.W, problem.E
+    near = 1e-9 * np.abs(W).max(initial=0.0)
+    same = 1e-9 * np.abs(E).max(initial=0.0)
+    return bool(np.abs(W - W.T).max(initial=0.0) <= near) and bool(
+        np.abs(E - problem.B).max(initial=0.0) <= same
     )
+
+
+def _least_energy(problem: ContactProblem) -> BoolArray:
+    """Rows that push where `p W p / 2 + q p` is least over p >= 0 with `r + E^T p = 0`.
+
+    Equilibrium is met by an augmented Lagrangian; each minimum is a non-negative least-squares
+    problem (Lawson & Hanson), which ends whatever the rows.
+    """
+    import scipy.linalg as la
+    from scipy.optimize import nnls
+
+    scale = np.sqrt(np.diag(problem.W).clip(0.0))
+    scale = 1.0 / np.where(scale > 1e-12 * scale.max(initial=0.0), scale, scale.max() or 1.0)
+    E = scale[:, None] * problem.E
+    norm = np.linalg.norm(E, axis=0)
+    norm[norm == 0.0] = 1.0
+    E, r = E / norm, problem.r / norm
+    largest = np.abs(scale * problem.q).max(initial=0.0) / (np.abs(r).max(initial=0.0) or 1.0)
+    penalty = float(np.clip(10.0 * largest, *PENALTY))
+    H = scale[:, None] * problem.W * scale
+    # opposite rows (MINI and MAXI of one unknown) have no energy together: a little of their own
+    H[np.diag_indices_from(H)] += SMALL * (np.trace(H) / len(H) or 1.0)
+    H += penalty * E @ E.T
+    values, vectors = la.eigh(0.5 * (H + H.T))
+    root = np.sqrt(values.clip(1e-3 * SMALL * values[-1]))
+    R = root[:, None] * vectors.T
+    both = np.hstack([R, -R[:, problem.equality]])
+    p, shift = np.zeros(len(scale)), np.zeros(len(r))
+    for _ in range(PASSES):
+        g = scale * problem.q + penalty * E @ (r + shift)
+        try:
+            p = nnls(both, -(vectors.T @ g) / root, maxiter=30 * len(both.T))[0]
+        except RuntimeError:  # too many iterations
+            break
+        p = p[: len(scale)]
+        off = r + E.T @ p
+        shift += off
+        if np.abs(off).max(initial=0.0) <= 1e-12 * np.abs(r).max(initial=0.0):
+            break
+    active: BoolArray = problem.equality | (p > 1e-9 * p.max(initial=0.0))
+    return active
+
+
+def _accepted(problem: ContactProblem, active: BoolArray) -> ContactSolution | None:
+    """The solution for a set of rows if it is wrong by rounding only, else None."""
+    p, a, holds = _solve_active(problem, active)
+    if not holds or _wrong_rows(problem, active, p, a, ROUNDING).any():
+        return None
+    return ContactSolution(np.where(active, p, 0.0), a, active, 1)
 
 
 def _solve_active(
@@ -100,7 +178,15 @@ def _solve_active(
     holds = bool((error[n:] <= 1e-7 * size[n:].max(initial=0.0) + 1e-300).all())
     p = np.zeros(len(active))
     p[chosen] = solution[:n]
-    return p, solution[n:], holds
+    return p, solution[n:], holds and _of_natural_size(problem, p, solution[n:])
+
+
+def _of_natural_size(problem: ContactProblem, p: FloatArray, a: FloatArray) -> bool:
+    """False for the huge numbers that contradictory rows give (a stop on both sides at once)."""
+    push = np.abs(problem.r).max(initial=0.0) / (np.abs(problem.E).max(initial=0.0) or 1.0)
+    natural = np.abs(problem.q).max(initial=0.0) + np.abs(problem.W).max(initial=0.0) * push
+    moved = np.abs(problem.W @ p).max(initial=0.0) + np.abs(problem.B @ a).max(initial=0.0)
+    return bool(moved <= HUGE * natural + 1e-300)
 
 
 def _least_squares(A: FloatArray, b: FloatArray) -> FloatArray:
@@ -120,13 +206,17 @@ def _least_squares(A: FloatArray, b: FloatArray) -> FloatArray:
 
 
 def _wrong_rows(
-    problem: ContactProblem, active: BoolArray, p: FloatArray, a: FloatArray
+    problem: ContactProblem,
+    active: BoolArray,
+    p: FloatArray,
+    a: FloatArray,
+    tolerance: float = 1e-12,
 ) -> BoolArray:
     w = problem.q + problem.W @ p + problem.B @ a
     parts = (problem.q, problem.W @ p, problem.B @ a)
     size = sum(float(np.abs(part).max(initial=0.0)) for part in parts)
-    pulling = active & ~problem.equality & (p < -1e-12 * np.abs(p).max(initial=0.0))
-    crossing = ~active & (w < -1e-12 * size)
+    pulling = active & ~problem.equality & (p < -tolerance * np.abs(p).max(initial=0.0))
+    crossing = ~active & (w < -tolerance * size)
     wrong: BoolArray = pulling | crossing
     return wrong
 
