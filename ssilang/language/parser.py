@@ -100,8 +100,8 @@ def _parser() -> tuple[Lark, _Builder]:
     return Lark(text, parser="lalr", lexer="basic", transformer=builder, cache=False), builder
 
 
-def parse_statements(source: Source) -> list[tree.Statement]:
-    """Cut a source into statements.
+def parse_statements(source: Source, end: int | None = None) -> list[tree.Statement]:
+    """Cut a source into statements, up to the offset `end` if it is given.
 
     Raises
     ------
@@ -110,7 +110,7 @@ def parse_statements(source: Source) -> list[tree.Statement]:
     """
     lark, builder = _parser()
     builder.source = source
-    text = source.code
+    text = source.code[:end]
     if not text.rstrip().endswith(";") and text.strip():
         text = _closed(text)
     errors: list[SsiError] = []
@@ -127,6 +127,33 @@ def parse_statements(source: Source) -> list[tree.Statement]:
     if errors:
         raise SeveralErrors(errors)
     return statements
+
+
+_FIRST_WORD = re.compile(r"\s*'?(\w+)'?")
+_LAST_STATEMENT = re.compile(r"\s*(?:FIN|'FIN')\s*;", re.IGNORECASE)
+_DEEPER = frozenset({"SI", "REPE", "DEBP", "DEBM"})
+_HIGHER = frozenset({"FINS", "FIN", "FINP", "FINM"})
+
+
+def end_of_run(source: Source) -> int | None:
+    """Offset behind the first `FIN ;` outside of all blocks, None if there is none.
+
+    What stands behind is never run: decks keep remarks there that are no statements.
+    """
+    text = source.code
+    start = depth = 0
+    for m in _STATEMENT_END.finditer(text):
+        if m.group() != ";":
+            continue
+        statement, start = text[start : m.end()], m.end()
+        if _LAST_STATEMENT.fullmatch(statement):
+            if depth == 0:
+                return m.end()
+            continue
+        found = _FIRST_WORD.match(statement)
+        word = found.group(1).upper()[:4] if found else ""
+        depth += (word in _DEEPER) - (word in _HIGHER)
+    return None
 
 
 def _closed(text: str) -> str:

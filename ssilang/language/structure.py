@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from ssilang.language.errors import SeveralErrors, SsiError
-from ssilang.language.parser import parse_statements
+from ssilang.language.parser import end_of_run, parse_statements
 from ssilang.language.source import Source, Span
 from ssilang.language.tree import (
     Definition,
@@ -54,7 +54,13 @@ def parse(source: Source) -> Script:
     SeveralErrors
         With all syntax errors, then all errors of nesting.
     """
-    return structure(parse_statements(source), source)
+    try:
+        return structure(parse_statements(source), source)
+    except SeveralErrors:
+        end = end_of_run(source)
+        if end is None or not source.code[end:].strip():
+            raise
+    return structure(parse_statements(source, end), source)
 
 
 def structure(statements: list[Statement], source: Source) -> Script:

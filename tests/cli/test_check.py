@@ -113,6 +113,7 @@ def test_an_operator_out_of_scope_is_named_with_its_subject():
         "REPE B 3 ; SI (&B > 1) ; X = X + 1 ; SINON ; X = 0 ; FINSI ; FIN B ; MESS X ;",
         "OPTI 'ACQU' 'f' ; ACQU N*ENTIER ; X = N + 1 ; MESS X ;",
         "REST ; X = RESTORED + 1 ; MESS X ;",
+        "FIN ; X = PORG 1. ;",
         "REST ; P = 0. -1.E6 0. ; MESS P ;",
         "OPTION DIMENSION 3 ; P = 0. -1.E6 0. ; MESS (TYPE P) ;",
         "NOMM 'ABC' 3 ; X = ABC + 1 ; MESS X ;",

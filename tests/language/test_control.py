@@ -76,6 +76,15 @@ def test_fin_alone_stops_the_run(run):
     assert run("x = 1 ; FIN ; x = 2 ;")["x"] == 1
 
 
+def test_what_stands_behind_fin_need_not_be_statements(run):
+    text = "SI VRAI ; REPE b 1 ; x = 1 ; FIN b ; FINSI ;\n'FIN' ;\nl'essai : (a\n *** x == 3"
+    assert run(text)["x"] == 1
+
+
+def test_an_error_before_fin_is_reported(fails):
+    assert fails("x = (1 ;\nFIN ;\nl'essai") == "unclosed-paren"
+
+
 def test_fin_must_name_the_innermost_loop(fails):
     assert fails("REPE a 1 ; REPE b 1 ; FIN a ; FIN b ;") == "wrong-loop-name"
 

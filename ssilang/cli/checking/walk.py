@@ -38,10 +38,11 @@ class Checker:
 
     def check(self, script: tree.Script) -> list[SsiError]:
         """Errors and warnings, in the order of the text."""
+        script = tree.Script(_until_fin(script.body), script.span)
         self._names = assigned_names(script.body)
         self.session.assignments = tree.first_assignments(script.body)
         library = all(isinstance(n, tree.Definition) for n in script.body)
-        scope = Scope({n: _kept(v) for n, v in self.session.root.variables.items()})
+        scope = Scope(dict(self.session.root.variables))
         self._walk(script.body, scope)
         for definition in self._procedures:
             self._body(definition, scope, library)
@@ -220,8 +221,12 @@ class Checker:
                 scope.values[target.text] = values[i] if known and values else UNKNOWN
 
 
-def _kept(value: Any) -> Any:
-    return value
+def _until_fin(nodes: tuple[tree.Node, ...]) -> tuple[tree.Node, ...]:
+    """The nodes up to the first FIN that ends the run."""
+    for i, node in enumerate(nodes):
+        if isinstance(node, tree.Statement) and len(node.items) == 1 and node.first_word == "FIN":
+            return nodes[:i]
+    return nodes
 
 
 def _head(span: Any) -> Any:
