@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
 from ssilang.kernel.errors import MeshError
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+from ssilang.kernel.mesh.regular_weights import lift_faces, small_spheres
 
 BoolArray = NDArray[np.bool_]
-_TIE = 1e-5  # weights that choose between equal diagonals, relative to the squared size
-_ROUNDS = 6
+_ROUNDS = 10
 
 
 def tetrahedralize(points: FloatArray, triangles: IntArray) -> tuple[FloatArray, IntArray]:
@@ -40,29 +38,43 @@ def tetrahedralize(points: FloatArray, triangles: IntArray) -> tuple[FloatArray,
 
     Notes
     -----
-    A lattice of points is put inside, away from the surface and out of the smallest spheres
-    through its triangles, so that the triangles are Delaunay faces. Between points of a plane on
-    one circle the given diagonals are favoured by small weights (a regular triangulation,
-    computed as the lower convex hull of the lifted points).
+    The triangulation is regular (weighted Delaunay), computed as the lower convex hull of the
+    lifted points; the weights are those for which the surface's triangles are faces of it
+    (`lift_faces`). A lattice of points is put inside, out of the spheres of the triangles.
     """
     _check_closed(points, triangles)
     low, high = points.min(axis=0), points.max(axis=0)
     scale = float((high - low).max())
     unit = (points - (low + high) / 2) / scale
-    inner = _inner_points(unit, triangles)
-    ties = _Ties.of(unit, triangles)
+    lattice = _inner_points(unit, triangles)
+    reach = np.full(len(triangles), 1.02)
+    # far smaller than the clearance of the faces: four points of a plane on one circle, which
+    # would give a cell without volume, are told apart
+    disorder = np.random.default_rng(2).uniform(-1.0, 1.0, len(unit))
+    disorder *= 1e-4 * _sizes(unit, triangles) ** 2
     for _ in range(_ROUNDS):
-        cells = _regular_triangulation(np.vstack([unit, inner]), ties.weights())
-        missing = _missing_triangles(cells, triangles)
-        if not len(missing):
-            kept = _inside_cells(np.vstack([unit, inner]), cells, unit, triangles)
-            return np.vstack([unit, inner]) * scale + (low + high) / 2, kept
-        inner = _outside_spheres(inner, *small_spheres(unit, missing), 1.6)
-        ties.harder(missing)
+        lifted = lift_faces(unit, triangles, reach)
+        inner = _outside_spheres(lattice, lifted.centres, lifted.radii, 1.02)
+        every = np.vstack([unit, inner])
+        cells = _regular_triangulation(every, lifted.weights + disorder)
+        lost = _missing_triangles(cells, triangles)
+        if not lost.any():
+            kept = _inside_cells(every, cells, unit, triangles)
+            return _compact(every * scale + (low + high) / 2, kept, len(points))
+        reach[lost] *= 1.4
     raise MeshError(
-        f"{len(missing)} triangles of the surface cannot be kept in the volume's mesh",
+        f"{int(lost.sum())} triangles of the surface cannot be kept in the volume's mesh",
         "make the surface's mesh finer or more regular where it is thin, or sweep the volume",
     )
+
+
+def _compact(points: FloatArray, cells: IntArray, fixed: int) -> tuple[FloatArray, IntArray]:
+    """Points that no cell uses dropped, after the first `fixed`."""
+    used = np.zeros(len(points), dtype=bool)
+    used[:fixed] = True
+    used[cells] = True
+    number = np.cumsum(used) - 1
+    return points[used], number[cells].astype(np.int64)
 
 
 def _check_closed(points: FloatArray, triangles: IntArray) -> None:
@@ -76,17 +88,6 @@ def _check_closed(points: FloatArray, triangles: IntArray) -> None:
             f"({', '.join(f'{v:g}' for v in where)})",
             "merge coincident points with ELIM, and check that no face is missing",
         )
-
-
-def small_spheres(points: FloatArray, triangles: IntArray) -> tuple[FloatArray, FloatArray]:
-    """Centres (t, 3) and radii (t,) of the smallest spheres through triangles."""
-    a = points[triangles[:, 0]]
-    u, v = points[triangles[:, 1]] - a, points[triangles[:, 2]] - a
-    normal = np.cross(u, v)
-    square = np.maximum((normal**2).sum(axis=1, keepdims=True), 1e-300)
-    uu, vv = ((x * x).sum(axis=1, keepdims=True) for x in (u, v))
-    arm = np.cross(uu * v - vv * u, normal) / (2.0 * square)
-    return a + arm, np.linalg.norm(arm, axis=1)
 
 
 def _outside_spheres(
@@ -177,77 +178,6 @@ def _turn(u: FloatArray, v: FloatArray) -> FloatArray:
     return u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0]
 
 
-@dataclass
-class _Ties:
-    """Sides of the surface that small weights must make win over the opposite diagonals.
-
-    Attributes
-    ----------
-    edge, opposite : array (e, 2)
-        Ends of a side, and the corners opposite to it in its two triangles.
-    margin : array (e,)
-        By how much the sum of the weights at the ends must exceed that at the corners; nothing
-        is asked where it is zero.
-    """
-
-    edge: IntArray
-    opposite: IntArray
-    margin: FloatArray
-    size: FloatArray
-
-    @classmethod
-    def of(cls, points: FloatArray, triangles: IntArray) -> _Ties:
-        """Ties between points of a plane on one circle."""
-        edge, opposite = _adjacent(triangles)
-        size = _sizes(points, triangles)
-        a, b = points[edge[:, 0]], points[edge[:, 1]]
-        centre, radius = small_spheres(points, np.column_stack([edge, opposite[:, 0]]))
-        other = points[opposite[:, 1]]
-        normal = np.cross(b - a, points[opposite[:, 0]] - a)
-        normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-300)
-        flat = np.abs(((other - a) * normal).sum(axis=1)) < 1e-6 * radius
-        inside = radius**2 - ((other - centre) ** 2).sum(axis=1)  # > 0: not Delaunay in its plane
-        hair = _TIE * size[edge].mean(axis=1) ** 2
-        margin = np.where(flat & (inside > -hair), np.maximum(inside, 0.0) * 1.1 + hair, 0.0)
-        return cls(edge, opposite, margin, size)
-
-    def harder(self, missing: IntArray) -> None:
-        """Ask four times more of the sides of triangles that were not found."""
-        sides = np.sort(missing[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
-        n = int(self.edge.max()) + 1
-        hit = np.isin(self.edge @ [n, 1], sides @ [n, 1])
-        least = _TIE * self.size[self.edge].mean(axis=1) ** 2
-        self.margin[hit] = np.maximum(4.0 * self.margin[hit], least[hit])
-
-    def weights(self) -> FloatArray:
-        """Weights (m,) that keep the margins, as far as a few thousand corrections find them."""
-        made = np.zeros(len(self.size))
-        asked = self.margin > 0
-        edge, opposite, margin = self.edge[asked], self.opposite[asked], self.margin[asked]
-        both = np.hstack([edge, opposite])
-        times = np.maximum(np.bincount(both.ravel(), minlength=len(made)), 1)
-        signs = np.array([1.0, 1.0, -1.0, -1.0])
-        for _ in range(4000):
-            lack = np.maximum(1.01 * margin - made[both] @ signs, 0.0)
-            if not (lack > 0.01 * margin).any():
-                break
-            step = np.bincount(both.ravel(), np.outer(lack, signs).ravel(), len(made))
-            made += 0.5 * step / np.sqrt(times)
-        return made
-
-
-def _adjacent(triangles: IntArray) -> tuple[IntArray, IntArray]:
-    """Sides (e, 2) shared by two triangles, and the corners (e, 2) opposite to them."""
-    sides = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
-    far = triangles[:, [2, 0, 1]].ravel()
-    order = np.lexsort((sides[:, 1], sides[:, 0]))
-    sides, far = sides[order], far[order]
-    starts = np.flatnonzero(np.r_[True, (sides[1:] != sides[:-1]).any(axis=1)])
-    counts = np.diff(np.r_[starts, len(sides)])
-    two = starts[counts == 2]
-    return sides[two], np.column_stack([far[two], far[two + 1]])
-
-
 def _regular_triangulation(points: FloatArray, weights: FloatArray) -> IntArray:
     """Cells (n, 4) of the weighted Delaunay triangulation; missing weights are zero.
 
@@ -279,10 +209,10 @@ def _codes(faces: IntArray, size: int) -> IntArray:
     return codes
 
 
-def _missing_triangles(cells: IntArray, triangles: IntArray) -> IntArray:
-    size = int(cells.max()) + 1
+def _missing_triangles(cells: IntArray, triangles: IntArray) -> BoolArray:
+    size = int(max(cells.max(), triangles.max())) + 1
     have = _codes(_faces(cells), size)
-    return triangles[~np.isin(_codes(np.sort(triangles, axis=1), size), have)]
+    return np.asarray(~np.isin(_codes(np.sort(triangles, axis=1), size), have))
 
 
 def _inside_cells(

@@ -29,12 +29,25 @@ def box_skin(cuts: tuple[int, int, int]) -> Mesh:
     return envelope(sweep_surface(floor, translation(z), subdivide(1.5, count=cuts[2])))
 
 
-@pytest.mark.parametrize("cuts", [(1, 1, 1), (3, 4, 5), (6, 6, 2)])
+@pytest.mark.parametrize("cuts", [(1, 1, 1), (3, 4, 5), (6, 6, 2), (8, 8, 8)])
 def test_tetrahedra_fill_a_box_and_keep_its_triangles(cuts: tuple[int, int, int]) -> None:
     skin = split_quadrangles(box_skin(cuts))
     volume = fill_volume(skin)
     assert total_measure(volume) == pytest.approx(3.0, rel=1e-12)
-    assert (signed_volumes(volume.single_block()) > 0).all()
+    # a cell without volume would have a vanishing part of the cube of its size
+    assert signed_volumes(volume.single_block()).min() > 1e-5 * 3.0 / volume.n_cells
+    found = envelope(volume).single_block()
+    assert sorted(cell_keys(found).tolist()) == sorted(cell_keys(skin.single_block()).tolist())
+
+
+def test_long_triangles_on_a_sheared_box_are_kept() -> None:
+    skin = box_skin((5, 3, 2))
+    xyz = skin.nodes.coordinates
+    xyz[:, 0] += 0.7 * xyz[:, 2]
+    xyz[:, 1] += 0.4 * xyz[:, 2]
+    skin = split_quadrangles(skin)
+    volume = fill_volume(skin)
+    assert total_measure(volume) == pytest.approx(3.0, rel=1e-12)
     found = envelope(volume).single_block()
     assert sorted(cell_keys(found).tolist()) == sorted(cell_keys(skin.single_block()).tolist())
 
