@@ -47,7 +47,8 @@ def test_envelope_holds_and_signals_differ():
 
 def test_white_noise_has_unit_deviation_and_a_flat_spectrum():
     noise, module = found(
-        "T = TABL ; T . 'NP' = 8 ; T . 'DELTAF' = 0.5 ; T . 'NALEAT' = 2 ; E = SIGNSYNT 'BLANC' T ; "
+        "T = TABL ; T . 'NP' = 8 ; T . 'DELTAF' = 0.5 ; T . 'NALEAT' = 2 ; "
+        "E = SIGNSYNT 'BLANC' T ; "
         "Y = EXTR E 'ORDO' ; M = EXTR (TFR 8 E 'MOPH') 'ORDO' 1 ;",
         "Y", "M",
     )  # fmt: skip
