@@ -51,6 +51,15 @@ class Joints(NamedTuple):
     p: FloatArray
 
 
+class Scratch(NamedTuple):
+    """Vectors (n,) that each step overwrites."""
+
+    pv: FloatArray
+    px: FloatArray
+    tmp: FloatArray
+    old: FloatArray
+
+
 class Motion(NamedTuple):
     """The current state, changed in place."""
 
@@ -102,6 +111,46 @@ def _form(A: FloatArray, x: FloatArray) -> float:
 
 
 @compiled
+def _copy(source: FloatArray, target: FloatArray) -> None:
+    for i in range(source.shape[0]):
+        target[i] = source[i]
+
+
+@compiled
+def _copy_rows(source: FloatArray, target: FloatArray) -> None:
+    for i in range(source.shape[0]):
+        for j in range(source.shape[1]):
+            target[i, j] = source[i, j]
+
+
+@compiled
+def _add(target: FloatArray, factor: float, source: FloatArray) -> None:
+    for i in range(source.shape[0]):
+        target[i] += factor * source[i]
+
+
+@compiled
+def _finite(x: FloatArray) -> bool:
+    for i in range(x.shape[0]):  # noqa: SIM110
+        if not np.isfinite(x[i]):
+            return False
+    return True
+
+
+@compiled
+def _keep(motion: Motion, saved: Saved, row: int) -> None:
+    """Put the current state into a row of the saved ones."""
+    for i in range(len(motion.u)):
+        saved.u[row, i], saved.v[row, i] = motion.u[i], motion.v[i]
+        saved.a[row, i], saved.reaction[row, i] = motion.a[i], motion.reaction[i]
+    for i in range(motion.w.shape[0]):
+        for j in range(motion.w.shape[1]):
+            saved.w[row, i, j], saved.t[row, i, j] = motion.w[i, j], motion.t[i, j]
+        for j in range(motion.state.shape[1]):
+            saved.state[row, i, j] = motion.state[i, j]
+
+
+@compiled
 def _account(
     system: System,
     joints: Joints,
@@ -111,14 +160,15 @@ def _account(
     load0: FloatArray,
     load1: FloatArray,
     dt: float,
+    scratch: Scratch,
 ) -> None:
     """Reactions and energies of the new state.
 
     Work is that of mean forces on the increment, exact for the average acceleration.
     """
     n = len(du)
-    old = motion.reaction.copy()
-    tmp = np.zeros(n)
+    old, tmp = scratch.old, scratch.tmp
+    _copy(motion.reaction, old)
     _times_vector(system.M, motion.a, motion.reaction)
     _times_vector(system.K, motion.u, tmp)
     elastic, external = 0.0, 0.0
@@ -128,7 +178,7 @@ def _account(
         motion.reaction[i] += tmp[i] - load1[i]
     if system.damped:
         _times_vector(system.C, motion.v, tmp)
-        motion.reaction[:] += tmp
+        _add(motion.reaction, 1.0, tmp)
         motion.energies[DAMPED] += _form(system.C, du) / dt
     for j in range(len(motion.f)):
         if motion.f[j] != 0.0:
@@ -158,11 +208,12 @@ def _predict(
     load1: FloatArray,
     dt: float,
     r: FloatArray,
+    scratch: Scratch,
 ) -> None:
     """Right-hand side r of `A du + c J^T (f1 - f0) = r`."""
     am, af, beta, gamma = system.scheme[0], system.scheme[1], system.scheme[2], system.scheme[3]
     v, a, n = motion.v, motion.a, len(r)
-    pv, px, tmp = np.zeros(n), np.zeros(n), np.zeros(n)
+    pv, px, tmp = scratch.pv, scratch.px, scratch.tmp
     for i in range(n):
         pv[i] = (1 - am) * (v[i] / (beta * dt) + (0.5 / beta - 1) * a[i]) - am * a[i]
         px[i] = (1 - af) * (
@@ -228,12 +279,14 @@ def march(
     r, du, tmp, dd = np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(len(system.rows))
     y0, y, h, f1 = np.zeros(q), np.zeros(q), np.zeros(q), np.zeros(q)
     d = motion.w.shape[1]
-    new, D = np.zeros_like(motion.state), np.zeros((len(motion.w), d, d))
+    new = np.zeros((motion.state.shape[0], motion.state.shape[1]))
+    D = np.zeros((motion.w.shape[0], d, d))
+    scratch = Scratch(np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n))
     worst = 0
     _times_vector(system.forces, factors[0], load0)
     for k in range(len(save)):
         _times_vector(system.forces, factors[k + 1], load1)
-        _predict(system, joints, motion, load0, load1, dt, r)
+        _predict(system, joints, motion, load0, load1, dt, r, scratch)
         _times_vector(step.P, r, du)
         if len(dd):
             _times_vector(system.imposed, factors[k + 1], dd)
@@ -241,10 +294,10 @@ def march(
                 for i in range(n):
                     dd[row] -= system.rows[row, i] * motion.u[i]
             _times_vector(step.Q, dd, tmp)
-            du += tmp
+            _add(du, 1.0, tmp)
         if q:
             _times_vector(joints.J, du, y0)
-            y[:] = y0
+            _copy(y0, y)
             turns, residual = solve_interface(
                 joints.pairs, joints.B, joints.weights, joints.codes, joints.p, step.S, step.R,
                 1 - system.scheme[1], delta, f, motion.state, y0, y, motion.w, motion.t, new, D,
@@ -254,19 +307,16 @@ def march(
                 return k, turns, residual
             worst = max(worst, turns)
             _times_vector(step.Y, h, tmp)
-            du -= tmp
-            delta += y
-            f[:] = f1
-            motion.state[:, :] = new
+            _add(du, -1.0, tmp)
+            _add(delta, 1.0, y)
+            _copy(f1, f)
+            _copy_rows(new, motion.state)
         _advance(system, motion, du, dt)
-        if not np.isfinite(motion.u).all():
+        if not _finite(motion.u):
             return k, -1, np.inf
-        _account(system, joints, motion, du, dd, load0, load1, dt)
-        history[k] = motion.energies
+        _account(system, joints, motion, du, dd, load0, load1, dt, scratch)
+        _copy(motion.energies, history[k])
         if save[k] >= 0:
-            row = save[k]
-            saved.u[row], saved.v[row], saved.a[row] = motion.u, motion.v, motion.a
-            saved.reaction[row] = motion.reaction
-            saved.w[row], saved.t[row], saved.state[row] = motion.w, motion.t, motion.state
-        load0[:] = load1
+            _keep(motion, saved, save[k])
+        _copy(load1, load0)
     return len(save), worst, 0.0

@@ -23,7 +23,7 @@ from ssilang.kernel.dynamics.compiled_loop import (
 from ssilang.kernel.dynamics.effective import Effective
 from ssilang.kernel.dynamics.impact import ImpactRule
 from ssilang.kernel.dynamics.problem import Problem
-from ssilang.kernel.joints.condensed import solve_interface
+from ssilang.kernel.joints.condensed_large import solve_any_interface
 from ssilang.kernel.joints.interface import Interface
 from ssilang.kernel.joints.response import interface_energies
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
@@ -86,12 +86,8 @@ class CondensedSolver:
     def _iterate(
         self, joints: Interface, motion: Motion, y0: FloatArray, y: FloatArray
     ) -> tuple[int, float]:
-        return solve_interface(
-            joints.pairs,
-            joints.B,
-            joints.weights,
-            joints.codes,
-            joints.parameters,
+        return solve_any_interface(
+            joints,
             self.effective.S,
             self.effective.R,
             self.share,

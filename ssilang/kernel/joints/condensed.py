@@ -97,19 +97,42 @@ def _residual(
 
 
 @compiled
-def _release(state: FloatArray, new: FloatArray) -> None:
-    """End of an iteration: no shear is held any more."""
-    state[:, HELD] = 0.0
-    new[:, HELD] = 0.0
+def _newton_matrix(S: FloatArray, K: FloatArray, R: FloatArray, c: float, A: FloatArray) -> None:
+    """A = 1 + S (c K - R); K (overwritten) is sparse for few points."""
+    n = S.shape[0]
+    for k in range(n):
+        for j in range(n):
+            K[k, j] = c * K[k, j] - R[k, j]
+    for i in range(n):
+        for j in range(n):
+            A[i, j] = 0.0
+        A[i, i] = 1.0
+    for k in range(n):
+        for j in range(n):
+            value = K[k, j]
+            if value != 0.0:
+                for i in range(n):
+                    A[i, j] += S[i, k] * value
 
 
 @compiled
-def _hold_shear(codes: IntArray, p: FloatArray, was_closed: FloatArray, state: FloatArray) -> bool:
-    """Hold the shear of points that lose it at once on opening; True if there are any."""
-    found = False
+def _release(state: FloatArray, new: FloatArray) -> None:
+    """End of an iteration: no shear is held any more."""
+    for i in range(state.shape[0]):
+        state[i, HELD] = 0.0
+        new[i, HELD] = 0.0
+
+
+@compiled
+def _hold_shear(codes: IntArray, p: FloatArray, t: FloatArray, state: FloatArray) -> bool:
+    """Hold the shear of points that lose it at once on opening; True if there are any.
+
+    `t` are the tractions at the start of the step.
+    """
+    found, normal = False, t.shape[1] - 1
     for i in range(state.shape[0]):
         if codes[i] == 1 and p[i, FROT] < 0.0 and p[i, SHEAR] != 1.0 and p[i, FU] == 0.0:
-            state[i, HELD] = CLOSED_SHEAR if was_closed[i] else OPEN_SHEAR
+            state[i, HELD] = CLOSED_SHEAR if t[i, normal] < 0.0 else OPEN_SHEAR
             found = True
     return found
 
@@ -151,38 +174,37 @@ def solve_interface(
     residual : float
         Of the last turn, relative to the jumps.
     """
-    n, normal = y.shape[0], w.shape[1] - 1
+    n = y.shape[0]
     r = np.empty(n)
     K: FloatArray = np.empty((n, n))
+    A: FloatArray = np.empty((n, n))
     dy: FloatArray = np.empty(n)
-    interface_response(pairs, B, weights, codes, p, delta0, state, w, t, new, D, f)
-    was_closed = (t[:, normal] < 0.0).astype(np.float64)
-    delta = delta0 + y
+    delta: FloatArray = np.empty(n)
+    for i in range(n):
+        delta[i] = delta0[i] + y[i]
     interface_response(pairs, B, weights, codes, p, delta, state, w, t, new, D, f)
     size = _residual(S, R, c, y, y0, f, f0, h, r)
     scale = max(_largest(y0), _largest(delta0), 1e-300)
     for turn in range(1, MOST_TURNS + 1):
         scale = max(scale, _largest(y))
-        if turn == HOLDING_TURN and _hold_shear(codes, p, was_closed, state):
-            y[:] = y0
-            delta[:] = delta0 + y
+        if turn == HOLDING_TURN:
+            interface_response(pairs, B, weights, codes, p, delta0, state, w, t, new, D, f)
+            if _hold_shear(codes, p, t, state):
+                for i in range(n):
+                    y[i] = y0[i]
+                    delta[i] = delta0[i] + y[i]
             interface_response(pairs, B, weights, codes, p, delta, state, w, t, new, D, f)
             size = _residual(S, R, c, y, y0, f, f0, h, r)
         if size <= TOLERANCE * scale:
             _release(state, new)
             return turn, size / scale
         interface_stiffness(pairs, B, weights, D, K)
-        K = c * K - R
-        A = S @ K
+        _newton_matrix(S, K, R, c, A)
         for i in range(n):
-            A[i, i] += 1.0
             dy[i] = -r[i]
-        if n <= 48:
-            if not solve_dense(A, dy):
-                _release(state, new)
-                return 0, size / scale
-        else:
-            dy[:] = np.linalg.solve(A, dy)
+        if not solve_dense(A, dy):
+            _release(state, new)
+            return 0, size / scale
         before, length = size, 1.0
         for halving in range(12):
             for i in range(n):

@@ -10,6 +10,7 @@ To add a law: write it, give it a code in `law_table.LAWS` and a line in `point_
 from __future__ import annotations
 
 from ssilang.kernel.compiled import compiled
+from ssilang.kernel.joints.arrays import clear, copy_state
 from ssilang.kernel.joints.columns import FC, FU, GF, KN, KS1, SHEAR_ENERGY, SHEAR_LOSS, XI
 from ssilang.kernel.joints.macro_law import macro_point
 from ssilang.kernel.joints.mohr_law import mohr_energy, mohr_point
@@ -23,8 +24,8 @@ def elastic_point(
 ) -> None:
     """Bonded joint: t = diag(KS1, KS2, KN) w, no state."""
     n = w.shape[0] - 1
-    D[:, :] = 0.0
-    new[:] = state
+    clear(D)
+    copy_state(state, new)
     for i in range(n):
         D[i, i] = p[KS1 + i]
         t[i] = p[KS1 + i] * w[i]

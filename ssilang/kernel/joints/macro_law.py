@@ -16,6 +16,7 @@ import math
 import numpy as np
 
 from ssilang.kernel.compiled import compiled
+from ssilang.kernel.joints.arrays import clear, copy_state
 from ssilang.kernel.joints.columns import KN, LARG, LONG, RAYO
 from ssilang.kernel.mesh.nodes import FloatArray
 
@@ -89,7 +90,8 @@ def rectangle_contact(
             share = g1 / (g1 - g2)
             points[n, 0], points[n, 1] = x1 + share * (x2 - x1), y1 + share * (y2 - y1)
             n += 1
-    out[:] = 0.0
+    for i in range(6):
+        out[i] = 0.0
     for i in range(n):
         j = (i + 1) % n
         x1, y1, x2, y2 = points[i, 0], points[i, 1], points[j, 0], points[j, 1]
@@ -113,7 +115,7 @@ def macro_point(
     D: FloatArray,
 ) -> None:
     """Moments and force t, tangent D, written in place."""
-    new[:] = state
+    copy_state(state, new)
     if w.shape[0] == 2:
         _plane(code, w, p, t, D)
     elif code == DISC_CODE:
@@ -147,7 +149,7 @@ def _disc(w: FloatArray, p: FloatArray, t: FloatArray, D: FloatArray) -> None:
     theta = math.sqrt(w[0] ** 2 + w[1] ** 2)
     A, S, Q = disc_contact(v, theta, p[RAYO])
     t[0], t[1], t[2] = 0.0, 0.0, k * (v * A + theta * S)
-    D[:, :] = 0.0
+    clear(D)
     D[2, 2] = k * A
     if theta == 0.0:
         D[0, 0] = D[1, 1] = k * Q

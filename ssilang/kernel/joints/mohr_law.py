@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 
 from ssilang.kernel.compiled import compiled
+from ssilang.kernel.joints.arrays import clear, copy_state
 from ssilang.kernel.joints.columns import (
     COHE,
     CUMULATED,
@@ -64,8 +65,8 @@ def mohr_point(
 ) -> None:
     """Traction, new state and tangent, written in place (arguments as `sdm_point`)."""
     n = w.shape[0] - 1
-    D[:, :] = 0.0
-    new[:] = state
+    clear(D)
+    copy_state(state, new)
     new[OPENING] = 0.0
     new[STATUS] = 2.0
     strength = p[FTRC]

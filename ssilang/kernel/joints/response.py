@@ -26,7 +26,8 @@ def interface_forces(
 ) -> None:
     """Forces f (size,) on the pair jumps from local tractions t (n_points, d)."""
     n, d, _ = B.shape
-    f[:] = 0.0
+    for i in range(f.shape[0]):
+        f[i] = 0.0
     for p in range(n):
         for i in range(d):
             force = weights[p] * t[p, i]
@@ -42,7 +43,9 @@ def interface_stiffness(
 ) -> None:
     """Dense stiffness K (size, size) from local tangents D (n_points, d, d)."""
     n, d, _ = B.shape
-    K[:, :] = 0.0
+    for row in range(K.shape[0]):
+        for column in range(K.shape[1]):
+            K[row, column] = 0.0
     for p in range(n):
         for i in range(d):
             for j in range(d):

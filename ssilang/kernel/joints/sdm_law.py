@@ -20,6 +20,7 @@ from __future__ import annotations
 import math
 
 from ssilang.kernel.compiled import compiled
+from ssilang.kernel.joints.arrays import clear, copy_state
 from ssilang.kernel.joints.columns import (
     CLOSED_SHEAR,
     DAMAGE,
@@ -105,8 +106,8 @@ def sdm_point(
     """
     n = w.shape[0] - 1
     tn, xi, dtn = normal_law(w[n], state[XI], p[KN], p[FU], p[GF], p[FC])
-    D[:, :] = 0.0
-    new[:] = state
+    clear(D)
+    copy_state(state, new)
     new[XI] = xi
     t[n] = tn
     D[n, n] = dtn

@@ -1,0 +1,21 @@
+"""Small loops for compiled code: assignments of whole arrays take numba seconds to compile."""
+
+from __future__ import annotations
+
+from ssilang.kernel.compiled import compiled
+from ssilang.kernel.mesh.nodes import FloatArray
+
+
+@compiled
+def clear(matrix: FloatArray) -> None:
+    """Zeros into a matrix."""
+    for i in range(matrix.shape[0]):
+        for j in range(matrix.shape[1]):
+            matrix[i, j] = 0.0
+
+
+@compiled
+def copy_state(source: FloatArray, target: FloatArray) -> None:
+    """A vector into another."""
+    for i in range(source.shape[0]):
+        target[i] = source[i]
