@@ -90,3 +90,17 @@ def test_what_is_wrong_is_said(text: str, said: str, tmp_path: Path) -> None:
     result = run_text("I = 1 ; OPTI SAUV 'state' ; " + text, tmp_path)
     assert result.exit_code == 1
     assert said in result.message
+
+
+def test_a_mesh_and_its_named_parts_go_through_a_file(tmp_path: Path) -> None:
+    first = run_text(FIRST + "Q = 7. 7. ; OPTI SORT 'mesh' ; SORT S 'NOOP' ;", tmp_path)
+    assert first.exit_code == 0, first.message
+    again = run_text("OPTI DIME 2 ; X0 = 9. 9. ; OPTI LECT 'mesh' ; LIRE S ;", tmp_path)
+    assert again.exit_code == 0, again.message
+    root = again.session.root
+    assert [type_of(root.find(n)) for n in ("S", "L", "P")] == ["MAILLAGE", "MAILLAGE", "POINT"]
+    assert root.find("Q") is None
+    assert np.isin(root.find("L").sorted_node_ids, root.find("S").sorted_node_ids).all()
+    assert np.array_equal(root.find("P").coordinates[:2], [2.0, 1.0])
+    wrong = run_text("OPTI LECT 'mesh' ; LIRE NONE ;", tmp_path)
+    assert "holds no mesh 'NONE'" in wrong.message
