@@ -125,7 +125,7 @@ class ElementFamily(ABC):
         values = np.empty(shape)
         for cells in chunks(len(zone.cells)):
             operator = self.strain_operator(zone, parameters, "STRESSES", cells)
-            values[cells] = np.einsum("cspm,cm->csp", operator.matrix, vectors[cells])
+            values[cells] = np.matmul(operator.matrix, vectors[cells][:, None, :, None])[..., 0]
         return values
 
     def stress_values(
@@ -141,7 +141,9 @@ class ElementFamily(ABC):
         for cells in chunks(n):
             operator = self.strain_operator(zone, parameters, "STRESSES", cells)
             weighted = stress[cells] * operator.weights[:, None, :]
-            vectors[cells] = np.einsum("cspm,csp->cm", operator.matrix, weighted)
+            n_rows = operator.matrix.shape[-1]
+            B = operator.matrix.reshape(len(weighted), -1, n_rows)
+            vectors[cells] = np.matmul(weighted.reshape(len(weighted), 1, -1), B)[:, 0]
         return vectors
 
     def weights(self, zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
