@@ -17,7 +17,7 @@ from ssilang.kernel.elements.frames import (
     seen_in,
     spherical_frames,
 )
-from ssilang.kernel.elements.skin import skin_stress
+from ssilang.kernel.elements.skin import SIDES, is_shell, shell_skin, skin_stress
 from ssilang.kernel.elements.tensors import tensor
 from ssilang.kernel.elements.zone_fields import n_points
 from ssilang.kernel.errors import FieldError
@@ -152,10 +152,14 @@ def vloc(call: Call) -> CellField:
     family="stress",
     help=Help(
         en="Stress at the point DY DZ of the section of beams (local axes): SMXX = EFFX / SECT + "
-        "MOMY DZ / INRY - MOMZ DY / INRZ.",
+        "MOMY DZ / INRY - MOMZ DY / INRZ; stresses SMSS SMTT SMST (or strains) of shells in their "
+        "own frame at the side of the normal ('SUPE'), in the middle ('MOYE', default) or at the "
+        "other side ('INFE').",
         fr="Contrainte au point DY DZ de la section des poutres (repère local) : SMXX = EFFX / "
-        "SECT + MOMY DZ / INRY - MOMZ DY / INRZ.",
-        syntax="CHAM2 = CALP MODL1 SIG1 CAR1 ;",
+        "SECT + MOMY DZ / INRY - MOMZ DY / INRZ ; contraintes SMSS SMTT SMST (ou déformations) des "
+        "coques dans leur repère, du côté de la normale ('SUPE'), au milieu ('MOYE', par défaut) "
+        "ou de l'autre côté ('INFE').",
+        syntax="CHAM2 = CALP MODL1 SIG1 CAR1 ('SUPE' | 'MOYE' | 'INFE') ;",
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; P = 0. 0. ; Q = 1. 0. ; L = DROI 2 P Q ; "
             "M = MODE L MECANIQUE ELASTIQUE POUT ; A = MATE M 'YOUN' 1. 'NU' 0. 'SECT' 1. "
@@ -167,8 +171,16 @@ def vloc(call: Call) -> CellField:
 )
 def calp(call: Call) -> CellField:
     """Skin stress of beams."""
-    said = Reading(call, ("SUPE", "MOYE", "INFE"))
+    said = Reading(call, tuple(SIDES))
     field, material = said.state_and_rest()
     if material is None:
         raise call.missing(("MCHAML",))
-    return on_zones(said.model, field.title, lambda z: skin_stress(z, field, material))
+    side = said.words[-1] if said.words else "MOYE"
+
+    def make(zone: Zone) -> CellFieldBlock:
+        if not is_shell(zone):
+            return skin_stress(zone, field, material)
+        parts, support = shell_skin(zone, field, material, side)
+        return CellFieldBlock(zone.cells, parts, support, zone.element, zone.constituent)
+
+    return on_zones(said.model, field.title, make)

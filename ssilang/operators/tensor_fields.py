@@ -11,6 +11,7 @@ from ssilang.kernel.elements.equivalent import equivalent_of_lines
 from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.gradients import gradient_names, gradient_values, scalar_gradient
 from ssilang.kernel.elements.integrals import integrals
+from ssilang.kernel.elements.skin import is_shell, shell_equivalent, shell_tensor
 from ssilang.kernel.elements.solid import coordinates, zone_geometry
 from ssilang.kernel.elements.tensors import (
     PRINCIPAL,
@@ -46,8 +47,10 @@ def _equivalent(said: Reading, compute: Callable[[FloatArray], FloatArray], what
     field, material = said.state_and_rest()
 
     def make(zone: Zone) -> CellFieldBlock:
-        if is_solid(zone):
-            T, support, _ = tensor(zone, field)
+        if what == "VMIS" and is_shell(zone) and material is not None:
+            return _scalar(zone, *shell_equivalent(zone, field, material))
+        if is_solid(zone) or is_shell(zone):
+            T, support = _tensor(said, zone, field, material)
             return _scalar(zone, compute(T), support)
         if what == "VMIS":
             return _scalar(zone, *equivalent_of_lines(zone, field, material))
@@ -56,14 +59,31 @@ def _equivalent(said: Reading, compute: Callable[[FloatArray], FloatArray], what
     return on_zones(said.model, "SCALAIRE", make)
 
 
+def _tensor(
+    said: Reading, zone: Zone, field: CellField, material: CellField | None
+) -> tuple[FloatArray, Support]:
+    """Tensors of a continuous zone, or of a shell at the side that a word says."""
+    if is_solid(zone):
+        return tensor(zone, field)[:2]
+    if not is_shell(zone) or material is None:
+        raise FieldError(
+            f"element {zone.element} has no stress tensor here",
+            "continuous elements have; shells with their parameters (EPAI)",
+        )
+    side = next((w for w in said.words if w in _SKINS), "MOYE")
+    return shell_tensor(zone, field, material, side)
+
+
 @operator(
     "VMIS",
     family="stress",
     help=Help(
         en="Von Mises stress of a stress field; in beams and bars the equivalent stress of the "
-        "section forces with the parameters SECT INRY INRZ TORS and the distances DX DY DZ.",
+        "section forces with the parameters SECT INRY INRZ TORS and the distances DX DY DZ; in "
+        "shells that of the membrane forces and, weighed by ALFA (2/3), of the moments.",
         fr="Contrainte de von Mises d'un champ de contraintes ; dans les poutres et barres la "
-        "contrainte équivalente des efforts avec SECT INRY INRZ TORS et les distances DX DY DZ.",
+        "contrainte équivalente des efforts avec SECT INRY INRZ TORS et les distances DX DY DZ ; "
+        "dans les coques celle des efforts membranaires et, pondérée par ALFA (2/3), des moments.",
         syntax="CHAM1 = VMIS MODL1 SIG1 (CAR1) ;",
         examples=(_SQUARE + "LIST (MAXI (VMIS M (SIGM M A U))) ;",),
     ),
@@ -82,7 +102,7 @@ def vmis(call: Call) -> CellField:
         en="Tresca's equivalent stress: the largest difference of principal stresses.",
         fr="Contrainte équivalente de Tresca : la plus grande différence de contraintes "
         "principales.",
-        syntax="CHAM1 = TRES MODL1 SIG1 ;",
+        syntax="CHAM1 = TRES MODL1 SIG1 (CAR1 'SUPE' | 'MOYE' | 'INFE') ;",
         examples=(_SQUARE + "LIST (MAXI (TRES M (SIGM M A U))) ;",),
     ),
     reads_itself=True,
@@ -103,7 +123,8 @@ def tres(call: Call) -> CellField:
         fr="Contraintes ou déformations principales SI11 SI22 SI33 et leurs directions COX1 COY1 "
         "COZ1 COX2 ... ; elles décroissent en 3D. En 2D la troisième est celle hors du plan, "
         "sauf avec 'TRID'.",
-        syntax="CHAM2 = PRIN CHAM1 MODL1 ('TRID') ;",
+        syntax="CHAM2 = PRIN CHAM1 MODL1 ('TRID') ;\n"
+        "CHAM2 = PRIN CHAM1 MODL1 CAR1 ('SUPE' | 'MOYE' | 'INFE') ;",
         examples=(_SQUARE + "LIST (MAXI (EXCO 'SI11' (PRIN (SIGM M A U) M))) ;",),
     ),
     reads_itself=True,
@@ -111,13 +132,12 @@ def tres(call: Call) -> CellField:
 def prin(call: Call) -> CellField:
     """Principal values and directions."""
     said = Reading(call, ("TRID", *_SKINS))
-    field = said.state_and_rest()[0]
+    field, material = said.state_and_rest()
 
     def make(zone: Zone) -> CellFieldBlock:
-        if not is_solid(zone):
-            raise FieldError(f"PRIN is for continuous elements, not {zone.element}")
-        T, support, _ = tensor(zone, field)
-        return cell_block(zone, PRINCIPAL, principal(zone, T, "TRID" in said.words), support)
+        T, support = _tensor(said, zone, field, material)
+        ordered = "TRID" in said.words and is_solid(zone)
+        return cell_block(zone, PRINCIPAL, principal(zone, T, ordered), support)
 
     return on_zones(said.model, "PRINCIPALE", make)
 
@@ -131,7 +151,7 @@ def prin(call: Call) -> CellField:
         "of order two, determinant.",
         fr="Les trois invariants d'un champ de contraintes ou de déformations : trace, somme des "
         "mineurs principaux d'ordre deux, déterminant.",
-        syntax="CHAM1 CHAM2 CHAM3 = INVA MODL1 CHAM4 ;",
+        syntax="CHAM1 CHAM2 CHAM3 = INVA MODL1 CHAM4 (CAR1 'SUPE' | 'MOYE' | 'INFE') ;",
         examples=(_SQUARE + "I J K = INVA M (SIGM M A U) ; LIST (MAXI I) ;",),
     ),
     reads_itself=True,
@@ -139,12 +159,10 @@ def prin(call: Call) -> CellField:
 def inva(call: Call) -> tuple[CellField, CellField, CellField]:
     """Invariants."""
     said = Reading(call, _SKINS)
-    field = said.state_and_rest()[0]
+    field, material = said.state_and_rest()
     rows: list[list[CellFieldBlock]] = [[], [], []]
     for zone in said.model.zones:
-        if not is_solid(zone):
-            raise FieldError(f"INVA is for continuous elements, not {zone.element}")
-        T, support, _ = tensor(zone, field)
+        T, support = _tensor(said, zone, field, material)
         for row, values in zip(rows, invariants(T), strict=True):
             row.append(_scalar(zone, values, support))
     one, two, three = (CellField(tuple(r), "SCALAIRE") for r in rows)

@@ -8,6 +8,7 @@ from scipy.sparse.linalg import spsolve
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.family import Layout
 from ssilang.kernel.elements.loads import shell_load
+from ssilang.kernel.elements.skin import shell_equivalent, shell_skin, shell_tensor
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import (
@@ -260,3 +261,22 @@ def test_rigid_motions_of_a_thick_shell_cost_next_to_no_energy(element):
     rows = [i for i, u in enumerate(block.unknowns) if u == "UX"]
     mass = families.mass(zone, material(zone, **PLATE)).values
     assert mass[:, rows][:, :, rows].sum() == pytest.approx(RHO * H * 0.7)
+
+
+def test_skin_stresses_of_a_bent_and_pulled_plate():
+    zone, _ = plate(1, 1, 1.0, 1.0)
+    forces = {"N11": 3.0, "N22": 1.0, "N12": 0.5, "M11": 2.0, "M22": -1.0, "M12": 0.25}
+    stress = CellField((material(zone, **forces).blocks[0],))
+    mat = material(zone, EPAI=0.2)
+    for side, sign in (("SUPE", 1), ("MOYE", 0), ("INFE", -1)):
+        parts, _ = shell_skin(zone, stress, mat, side)
+        assert parts["SMSS"][0, 0] == pytest.approx(3 / 0.2 + sign * 6 * 2 / 0.04)
+        assert parts["SMST"][0, 0] == pytest.approx(0.5 / 0.2 + sign * 6 * 0.25 / 0.04)
+        T, _ = shell_tensor(zone, stress, mat, side)
+        assert T[0, 0, 1, 1] == pytest.approx(1 / 0.2 - sign * 6 / 0.04)
+    equivalent, _ = shell_equivalent(zone, stress, mat)
+    N, M = np.sqrt(9 + 1 - 3 + 0.75), np.sqrt(4 + 1 + 2 + 3 / 16)
+    assert equivalent[0, 0] == pytest.approx(np.hypot(N / 0.2, 4 * M / 0.04))
+    strains = {"EPSS": 1e-3, "EPTT": 0.0, "GAST": 2e-4, "RTSS": 1e-2, "RTTT": 0.0, "RTST": 0.0}
+    bent = CellField((material(zone, **strains).blocks[0],))
+    assert shell_skin(zone, bent, mat, "SUPE")[0]["EPSS"][0, 0] == pytest.approx(2e-3)
