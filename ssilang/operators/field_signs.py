@@ -79,9 +79,15 @@ def _power(x: Any, exponent: float) -> Any:
     return np.power(np.asarray(x, dtype=float), exponent)
 
 
+def _raised(number: float, x: Any) -> Any:
+    if number < 0 or (number == 0 and np.any(np.asarray(x) < 0)):
+        raise FieldError(f"{number:g} cannot be raised to the powers of a field")
+    return np.power(number, np.asarray(x, dtype=float))
+
+
 def _with_number(sign: str, x: Any, number: float, left: bool) -> Any:
     if sign == "**":
-        return _power(number, x) if left else _power(x, number)
+        return _raised(number, x) if left else _power(x, number)
     if sign == "/" and (np.any(x == 0) if left else number == 0):
         raise FieldError("division by zero")
     return _ARRAY[sign](number, x) if left else _ARRAY[sign](x, number)
@@ -97,7 +103,7 @@ def _number_node(sign: str, number: float, field: NodeField) -> NodeField:
 
 for _kind in ("ENTIER", "FLOTTANT"):
     rule(SIGNS, "CHPOINT", _kind)(_node_number)
-    rule("+ - * /", _kind, "CHPOINT")(_number_node)
+    rule(SIGNS, _kind, "CHPOINT")(_number_node)
 
 
 @union_with_call(("CHPOINT", "CHPOINT"))
@@ -135,7 +141,7 @@ def _number_cell(call: Call, sign: str, number: float, field: CellField) -> Cell
 
 for _kind in ("ENTIER", "FLOTTANT"):
     rule_with_call(SIGNS, "MCHAML", _kind)(_cell_number)
-    rule_with_call("+ - * /", _kind, "MCHAML")(_number_cell)
+    rule_with_call(SIGNS, _kind, "MCHAML")(_number_cell)
 
 
 # ---- PSCA ---------------------------------------------------------------------------------------

@@ -229,3 +229,8 @@ def test_vector_product_in_3d_is_orthogonal_to_both_factors(found):
         "D", "E", "F",
     )  # fmt: skip
     assert values == (0.0, 0.0, 2 * 7 + 3 * 5)
+
+
+def test_number_raised_to_the_values_of_a_field(found, refused):
+    assert found(POINT + "A = MAXI (2. ** C) ; B = MINI (2 ** C) ;", "A", "B") == (16.0, 8.0)
+    assert "powers of a field" in refused(POINT + "A = -2. ** C ;")
