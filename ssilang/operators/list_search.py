@@ -151,13 +151,13 @@ def distinct(values: Any, order: list[int], tolerance: float, fold: bool) -> lis
     "LISTMOTS",
     syntax="LIS2 = ORDO LIS1 ('CROI' | 'DECR') ('ABSO') ('NOCA') ('UNIQ' (FLOT1)) ;\n"
     "LIS3 LIS4 ... = ORDO LIS1 LIS2 ... ('CROI' | 'DECR') ('ABSO') ('NOCA') ;\n"
-    "LENT1 LIS2 ... = ORDO LIS1 ... 'COUT' LIS3 ('HONG' | 'COMP') ;",
+    "X1 LIS2 ... = ORDO LIS1 ... 'COUT' LIS3 ('HONG' | 'COMP') ;",
     en="Of lists: increasing order ('DECR': decreasing), 'ABSO' by absolute values, 'NOCA' "
     "whatever the case, 'UNIQ' without doubles; further lists follow the first one's order. "
-    "'COUT' finds the permutation of least total cost.",
+    "'COUT' gives the least total cost, then the lists in the permutation that has it.",
     fr="De listes : ordre croissant ('DECR' : décroissant), 'ABSO' selon les valeurs absolues, "
     "'NOCA' sans égard à la casse, 'UNIQ' sans doublons ; les autres listes suivent l'ordre de la "
-    "première. 'COUT' cherche la permutation de moindre coût total.",
+    "première. 'COUT' donne le moindre coût total, puis les listes dans la permutation qui l'a.",
     examples=(
         "LIST (ORDO (PROG 3. 1. 2.) 'DECR') ;",
         "A B = ORDO (LECT 2 1) (MOTS 'X' 'Y') ; LIST B ;",
@@ -175,8 +175,8 @@ def _sort_lists(call: Call, first: Sortable) -> Any:
         sizes = " ".join(str(len(v)) for v in lists)
         raise call.bad(f"lists sorted together have the same length, these have {sizes}")
     if cost is not None:
-        order = _cheapest(call, cost, len(first))
-        return (ListEnti([i + 1 for i in order]), *(taken(v, order) for v in lists))
+        total, order = _cheapest(call, cost, len(first))
+        return (total, *(taken(v, order) for v in lists))
     fold = "NOCA" in words
     order = sorting(first.values, "DECR" in words, "ABSO" in words, fold)
     if "UNIQ" in words:
@@ -199,13 +199,15 @@ def _sort_words(call: Call) -> tuple[set[str], float, Any]:
     return words, tolerance, cost
 
 
-def _cheapest(call: Call, cost: Any, n: int) -> list[int]:
+def _cheapest(call: Call, cost: Any, n: int) -> tuple[float | int, list[int]]:
+    """Least total cost, whole if the costs are, and the permutation that gives it."""
     from scipy.optimize import linear_sum_assignment
 
     if len(cost) != n * n:
         raise call.bad(f"'COUT' needs {n * n} costs for {n} items, found {len(cost)}", cost)
-    _, order = linear_sum_assignment(np.asarray(cost.values, dtype=float).reshape(n, n))
-    return [int(i) for i in order]
+    costs = cost.values.reshape(n, n)
+    rows, order = linear_sum_assignment(costs.astype(float))
+    return costs[rows, order].sum().item(), [int(i) for i in order]
 
 
 @ORDO.on(

@@ -197,8 +197,8 @@ def _other_names(call: Call, word: str) -> Matrix:
 
 
 @listing("RIGIDITE")
-def _listed(matrix: Matrix, _detail: str) -> str:
-    return "\n".join(parts.listed(matrix))
+def _listed(matrix: Matrix, detail: str) -> str:
+    return "\n".join(parts.listed(matrix, not detail))
 
 
 # --- quadratic forms -------------------------------------------------------------------------

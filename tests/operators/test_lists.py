@@ -111,7 +111,7 @@ def test_cheapest_permutation_is_found():
     result = run_text(
         "P L = ORDO (LECT 10 20 30) 'COUT' (PROG 9. 1. 9. 9. 9. 1. 1. 9. 9.) 'HONG' ;"
     )
-    assert result.session.root.find("P").values.tolist() == [2, 3, 1]
+    assert result.session.root.find("P") == 3.0
     assert result.session.root.find("L").values.tolist() == [20, 30, 10]
 
 

@@ -201,8 +201,8 @@ def renamed(
     return Matrix(matrix.table, blocks, relations, matrix.kind)
 
 
-def listed(matrix: Matrix) -> list[str]:
-    """Lines that describe the element matrices and the relations, with their values."""
+def listed(matrix: Matrix, values: bool = True) -> list[str]:
+    """Lines that describe the element matrices and the relations, with their first values."""
     lines = [f"RIGIDITE, {matrix.kind}: {len(matrix.blocks)} blocks of element matrices"]
     for block in matrix.blocks:
         shape = "symmetric" if block.symmetric else "unsymmetric"
@@ -210,13 +210,14 @@ def listed(matrix: Matrix) -> list[str]:
         lines.append(
             f"  {len(block.values)} matrices of {len(block.unknowns)} unknowns ({names}), {shape}"
         )
-        lines += [_shown(block, i) for i in range(min(len(block.values), 3))]
-    rows = constraint_matrix(matrix) if matrix.relations else None
-    if rows is not None:
+        if values:
+            lines += [_shown(block, i) for i in range(min(len(block.values), 3))]
+    if matrix.relations:
+        rows = constraint_matrix(matrix)
         signs = {0: "=", 1: ">=", -1: "<="}
         numbering = numbering_of(matrix)
         lines.append(f"  {len(rows.multipliers)} conditions")
-        for i, node in enumerate(rows.multipliers[:20]):
+        for i, node in enumerate(rows.multipliers[: 20 if values else 0]):
             row = rows.C[[i]]
             terms = " ".join(
                 f"{v:+.6g} {numbering.label(int(j))}"
