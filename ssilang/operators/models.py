@@ -49,6 +49,7 @@ class _Wish:
     "MODE",
     family="model",
     full_name="MODELISER",
+    aliases=("MODL",),
     help=Help(
         en="Gives a mesh its finite elements and its law.\n"
         "The formulation is MECANIQUE; the law is ELASTIQUE, followed by ISOTROPE (default), "
