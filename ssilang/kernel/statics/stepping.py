@@ -20,6 +20,9 @@ from ssilang.kernel.errors import ConvergenceError
 from ssilang.kernel.joints.response import interface_energies
 from ssilang.kernel.mesh.nodes import FloatArray
 
+BALANCED = 1e-13
+"""Imbalance over the loads taken for rounding."""
+
 
 def step_statics(
     problem: Problem, observers: Sequence[Observer] = (), progress: Progress | None = None
@@ -94,6 +97,7 @@ def _step(problem: Problem, solver: StepSolver, motion: Motion, factors: FloatAr
         return outcome if outcome.turns <= 0 else StepOutcome(outcome.du, -1, np.inf)
     old = motion.reaction.copy()
     motion.u[:] += outcome.du
+    _polish(problem, solver, motion, factors[1])
     motion.reaction[:] = _imbalance(problem, motion, factors[1])
     mean = 0.5 * (factors[0] + factors[1])
     motion.energies[EXTERNAL] += outcome.du @ (problem.loading.forces @ mean)
@@ -107,6 +111,25 @@ def _step(problem: Problem, solver: StepSolver, motion: Motion, factors: FloatAr
             joints.codes, joints.parameters, joints.weights, motion.w, motion.t, motion.state
         )
     return outcome
+
+
+def _polish(problem: Problem, solver: StepSolver, motion: Motion, factors: FloatArray) -> None:
+    """One more solution for what rounding left out of balance (stiff joints on soft bodies)."""
+    if problem.contact is not None:
+        return
+    T = problem.constraints.T
+    rest = T.T @ _imbalance(problem, motion, factors)
+    size = np.abs(T.T @ (problem.loading.forces @ factors)).max(initial=0.0)
+    if np.abs(rest).max(initial=0.0) <= BALANCED * max(size, 1e-300):
+        return
+    dd = problem.loading.imposed @ factors - problem.constraints.C @ motion.u
+    before = [x.copy() for x in motion]
+    outcome = solver.solve(motion, -_imbalance(problem, motion, factors), dd, NOTHING)
+    if outcome.turns > 0 and np.isfinite(outcome.du).all():
+        motion.u[:] += outcome.du
+        return
+    for array, old in zip(motion, before, strict=True):
+        array[...] = old
 
 
 def _hand_over(observers: Sequence[Observer], problem: Problem, motion: Motion, step: int) -> None:
