@@ -246,6 +246,12 @@ MESSAGES: dict[str, Message] = {
         "% needs an OBJET on its left, found {found}",
         "% demande un OBJET à sa gauche, trouvé {found}",
     ),
+    "no-attribute": Message(
+        "the object {holder} has neither an attribute nor a method called {name}",
+        "l'objet {holder} n'a ni attribut ni méthode de nom {name}",
+        "its constructor gives it methods: %METHODE {name} PROCEDURE ;",
+        "son constructeur lui donne des méthodes : %METHODE {name} PROCEDURE ;",
+    ),
     "third-coordinate": Message(
         "a point needs three coordinates here (OPTI DIME 3), found two",
         "un point demande trois coordonnées ici (OPTI DIME 3), trouvé deux",

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from ssilang.language import tree
 from ssilang.language.call import Call, Operand, run_operator
-from ssilang.language.errors import SsiError
+from ssilang.language.errors import SeveralErrors, SsiError
 from ssilang.language.fast import Slow, Value, compile_phrase
 from ssilang.language.leftovers import is_call, leftover_error
 from ssilang.language.operands import OperandReader
@@ -396,5 +396,10 @@ def _words_of(item: tree.Quoted) -> list[tree.Item]:
         return []
     # behind a blank: a sign * in the first column would begin a comment
     source = Source(item.span.source.name, " " + item.text + ";")
-    statements = parse_statements(source)
-    return [i for s in statements for i in s.items]
+    try:
+        statements = parse_statements(source)
+    except SeveralErrors as several:
+        for error in several.errors:
+            error.span = item.span
+        raise
+    return [tree.placed(i, item.span) for s in statements for i in s.items]

@@ -51,6 +51,9 @@ def _unread_operator(operand: Operand, left: Sequence[Operand]) -> SsiError:
 
 def _unknown_word(operand: Operand, later: Mapping[str, Span]) -> SsiError:
     name = str(operand.value)
+    holder, sign, _ = operand.span.text.rpartition("%")
+    if sign:
+        return SsiError("no-attribute", operand.span, name=name, holder=holder.strip() or "%")
     place = later.get(name.upper())
     if (
         place is not None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from ssilang.language.source import Span
 
@@ -67,6 +67,17 @@ class Attribute:
 
 
 Item = Number | Name | Quoted | Symbol | Paren | Path | Attribute
+
+
+def placed(item: Item, span: Span) -> Item:
+    """The same item, said to stand at `span` (items that were parsed from a text)."""
+    if isinstance(item, Paren):
+        return Paren(tuple(placed(i, span) for i in item.items), span)
+    if isinstance(item, Path):
+        return Path(placed(item.base, span), tuple(placed(i, span) for i in item.indices), span)
+    if isinstance(item, Attribute):
+        return Attribute(None if item.base is None else placed(item.base, span), item.name, span)
+    return replace(item, span=span)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
