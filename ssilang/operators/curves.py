@@ -52,11 +52,11 @@ _LISTS = ("LISTREEL", "LISTENTI", "LISTMOTS")
 def evol(call: Call) -> Curve:
     """Choose the kind of curve."""
     colours = read_colours(call)
-    word = call.keyword(tuple(_KINDS))
+    word = call.keyword(tuple(KINDS))
     if word is None:
-        raise call.bad("what kind of curve?", hint="EVOL " + " ".join(f"'{w}'" for w in _KINDS))
+        raise call.bad("what kind of curve?", hint="EVOL " + " ".join(f"'{w}'" for w in KINDS))
     colours = colours or read_colours(call) or [workspace(call.session).colour]
-    made: Curve = _KINDS[word](call, colours)
+    made: Curve = KINDS[word](call, colours)
     return made
 
 
@@ -165,21 +165,21 @@ _DEFAULT_INDEX = {"DYNAMIC": "DEPL", "PASAPAS": "DEPLACEMENTS"}
 
 
 def _in_time(call: Call, colours: list[int]) -> Curve:
-    fields, times, title = _history(call)
+    fields, times, title = history(call)
     chosen = call.read("LISTENTI")
     if chosen is not None:
         places = chosen.value.values - 1 if not title else chosen.value.values
         if np.any(places < 0) or np.any(places >= len(fields)):
             raise call.bad(f"there are {len(fields)} steps", chosen.value)
         fields, times = [fields[int(i)] for i in places], times[places]
-    names = _names_in_time(call, fields)
+    names = names_in_time(call, fields)
     support = call.read("POINT", "MAILLAGE")
     if support is None:
         raise call.missing(("POINT", "MAILLAGE"))
-    names = names or _names_in_time(call, fields)
+    names = names or names_in_time(call, fields)
     if not names:
         names = [_only(call, fields[0])] if fields else []
-    nodes = _nodes(support.value)
+    nodes = nodes_named(support.value)
     parts: list[CurvePart] = []
     for name in names:
         for node in nodes:
@@ -190,11 +190,11 @@ def _in_time(call: Call, colours: list[int]) -> Curve:
     return Curve(tuple(parts), workspace(call.session).title)
 
 
-def _nodes(support: Point | Mesh) -> list[int]:
+def nodes_named(support: Point | Mesh) -> list[int]:
     return [support.node] if isinstance(support, Point) else [int(n) for n in support.node_ids]
 
 
-def _names_in_time(call: Call, fields: list[Any]) -> list[str]:
+def names_in_time(call: Call, fields: list[Any]) -> list[str]:
     operand = call.read("LISTMOTS")
     if operand is not None:
         return [str(w).rstrip() for w in operand.value.values]
@@ -205,7 +205,7 @@ def _names_in_time(call: Call, fields: list[Any]) -> list[str]:
     return []
 
 
-def _history(call: Call) -> tuple[list[Any], FloatArray, str]:
+def history(call: Call) -> tuple[list[Any], FloatArray, str]:
     """Fields, their times, and the index of the table they came from ('' for a list)."""
     operand = call.read("LISTCHPO", "TABLE")
     if operand is None:
@@ -246,7 +246,7 @@ def results_in_time(table: Table, index: str) -> tuple[list[Any], FloatArray]:
     held, times = table.get(index), table.get("TEMPS")
     if isinstance(held, Table) and isinstance(times, Table):
         steps = sorted(i for i, _ in held.items() if type(i) is int)
-        return [held.get(i) for i in steps], _reals([times.get(i) for i in steps])
+        return [held.get(i) for i in steps], reals([times.get(i) for i in steps])
     found = []
     for place, value in table.items():
         if type(place) is int and isinstance(value, Table) and value.has(index):
@@ -254,13 +254,13 @@ def results_in_time(table: Table, index: str) -> tuple[list[Any], FloatArray]:
     if not found:
         raise KernelError(f"the table holds no results in time at index {index}")
     found.sort(key=lambda pair: float(str(pair[0])))
-    return [f for _, f in found], _reals([t for t, _ in found])
+    return [f for _, f in found], reals([t for t, _ in found])
 
 
-def _reals(values: list[Any]) -> FloatArray:
+def reals(values: list[Any]) -> FloatArray:
     return np.asarray(values, dtype=float)
 
 
-_KINDS: dict[str, Any] = {
+KINDS: dict[str, Any] = {
     "MANU": _manual, "COMP": _complex, "CHPO": _along_line, "TEMP": _in_time,
 }  # fmt: skip
