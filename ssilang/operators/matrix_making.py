@@ -8,11 +8,12 @@ from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.build import field_diagonal, repeated_matrix
 from ssilang.kernel.matrices.by_hand import column, from_columns, square
 from ssilang.kernel.matrices.matrix import Matrix, dual_of
-from ssilang.kernel.mesh.cells import CELL_TYPES
+from ssilang.kernel.mesh.cells import CELL_TYPES, many_noded
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.language.call import Call
 from ssilang.language.values import ListChpo, ListMots
 from ssilang.operators.dispatch import MANU
+from ssilang.operators.supports import nodes_of
 
 _SIGN = {"SYME": 1.0, "ANTI": -1.0, "QUEL": None}
 
@@ -49,6 +50,26 @@ def _rigidity(call: Call, word: str) -> Matrix:
     if several is not None:
         return _from_list(call, several.value, kind)
     return _repeated(call, kind)
+
+
+@MANU.on(
+    "SUPE",
+    "MULT",
+    syntax="GEO1 = MANU 'SUPE' | 'MULT' P1 (P2 ...) | GEO2 ;",
+    en="'SUPE' and 'MULT' make one cell of all the points given, to carry a matrix by hand.",
+    fr="'SUPE' et 'MULT' font un seul élément de tous les points donnés, support d'une rigidité "
+    "manuelle.",
+    examples=(
+        "OPTI DIME 2 ; G1 = MANU 'SUPE' (0. 0.) (1. 0.) (2. 0.) ; LIST (NBEL G1) ;"
+        " R1 = MANU 'RIGI' G1 (MOTS 'ALFA') (PROG 1. 0. 2. 0. 0. 3.) ;",
+    ),
+)
+def _one_cell(call: Call, word: str) -> Mesh:
+    places = [call.required("POINT", "MAILLAGE"), *call.all("POINT", "MAILLAGE")]
+    nodes = np.concatenate([nodes_of(p) for p in places])
+    if len(np.unique(nodes)) != len(nodes):
+        raise call.bad("a point stands twice in the cell")
+    return Mesh.of(places[0].nodes, many_noded(word, len(nodes)), nodes[None, :])
 
 
 def _kind(call: Call, default: str) -> str:

@@ -9,7 +9,6 @@ import numpy as np
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.matrices.assembly import assemble, constraint_matrix, numbering_of
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, Relations
-from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.nodes import IntArray
 
@@ -42,7 +41,7 @@ def _joined(parts: list[IntArray]) -> IntArray:
 
 
 def support_mesh(matrix: Matrix) -> Mesh:
-    """Cells under the element blocks where known, points elsewhere; each block once."""
+    """Cells under the element blocks where known, lines under pairs of nodes, else points."""
     blocks: dict[int, CellBlock] = {}
     loose = [np.empty(0, np.int64)]
     for block in matrix.blocks:
@@ -63,13 +62,9 @@ def support_mesh(matrix: Matrix) -> Mesh:
 def _cells_of(block: ElementMatrices) -> CellBlock | None:
     if block.zone is not None:
         return block.zone.cells
-    count = block.raw_nodes.shape[1]
-    if count == 1:
+    if block.raw_nodes.shape[1] != 2:
         return None
-    for kind in ("SEG2", "TRI3", "QUA4"):
-        if CELL_TYPES[kind].n_nodes == count:
-            return CellBlock.make(block.table, kind, block.nodes)
-    return None
+    return CellBlock.make(block.table, "SEG2", block.nodes)
 
 
 def all_nodes(matrix: Matrix) -> IntArray:

@@ -168,3 +168,15 @@ CELL_TYPES: dict[str, CellType] = {
         CellType("LIA8", 2, 16, 2, (0, 2, 4, 6, 8, 10, 12, 14), joint=True),
     )
 }
+
+
+def many_noded(family: str, n_nodes: int) -> str:
+    """Name of a cell of any number of nodes that only carries matrices ('SUPE5', 'MULT2').
+
+    Such cells have no shape; their types are made when they are first asked for.
+    """
+    if n_nodes == 1:
+        return "POI1"
+    name = f"{family}{n_nodes}"
+    CELL_TYPES.setdefault(name, CellType(name, 0, n_nodes, 1, tuple(range(n_nodes))))
+    return name
