@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from contextlib import closing
 from dataclasses import dataclass, field
 from typing import Any
 
-from ssilang.io.archive import Decoder, Encoder, Record, read_archive, write_archive
+from ssilang.io.archive import Archive, Decoder, Encoder, Record, read_archive, write_archive
 from ssilang.io.archive.classes import Packing, register_packing
 from ssilang.io.errors import InputError
 from ssilang.kernel.model import Mode
@@ -219,7 +220,11 @@ def rest(call: Call) -> None:
         if said == "LABEL":
             label = str(call.required("MOT", after=call.keyword_end)).strip()
     name = option_name(call.session, "REST", 2)
-    archive = read_archive(input_path(call, name))
+    with closing(read_archive(input_path(call, name))) as archive:
+        _restore(call, archive, name, label)
+
+
+def _restore(call: Call, archive: Archive, name: str, label: str) -> None:
     ws = workspace(call.session)
     labels = [r.label for r in archive.records]
     if label and label not in labels:

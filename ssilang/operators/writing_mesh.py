@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from contextlib import closing
 from typing import Any
 
 import numpy as np
 
-from ssilang.io.archive import Decoder, Encoder, Record, read_archive, write_archive
+from ssilang.io.archive import Archive, Decoder, Encoder, Record, read_archive, write_archive
 from ssilang.io.errors import InputError
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.language.call import Call
@@ -67,11 +68,15 @@ def _lire_mesh(call: Call, word: str) -> None:
     operand = call.read("*")
     wanted = "" if operand is None else operand.name or str(operand.value).strip().upper()
     path = input_path(call, option_name(call.session, "LECT", 4))
-    archive = read_archive(path)
+    with closing(read_archive(path)) as archive:
+        _restore(call, archive, wanted)
+
+
+def _restore(call: Call, archive: Archive, wanted: str) -> None:
     names = archive.records[0].names if archive.records else {}
     if wanted and wanted not in names:
         known = ", ".join(names)
-        raise InputError(f"{path.name} holds no mesh '{wanted}'", f"it holds {known}")
+        raise InputError(f"{archive.path.name} holds no mesh '{wanted}'", f"it holds {known}")
     ws = workspace(call.session)
     decoder = Decoder(archive, ws.nodes)
     for name, code in names.items():

@@ -57,18 +57,22 @@ def write_archive(
 
 @dataclass
 class Archive:
-    """A file's content; arrays are loaded when asked for."""
+    """A file's content; arrays are loaded when asked for, from the file kept open till `close`."""
 
     path: Path
     objects: list[Any]
     records: list[Record]
     settings: dict[str, Any]
+    file: zipfile.ZipFile
+
+    def close(self) -> None:
+        """Close the file."""
+        self.file.close()
 
     def array(self, number: int) -> NDArray[Any]:
         """Array by its number."""
         try:
-            with zipfile.ZipFile(self.path) as z:
-                raw = z.read(f"arrays/{number}.npy")
+            raw = self.file.read(f"arrays/{number}.npy")
             array: NDArray[Any] = np.load(io.BytesIO(raw), allow_pickle=False)
         except (OSError, KeyError, ValueError, zipfile.BadZipFile) as error:
             raise _unreadable(self.path, error) from error
@@ -76,7 +80,7 @@ class Archive:
 
 
 def read_archive(path: Path) -> Archive:
-    """Open a file written by `write_archive`.
+    """Open a file written by `write_archive`; the caller closes it.
 
     Raises
     ------
@@ -84,8 +88,8 @@ def read_archive(path: Path) -> Archive:
         If it cannot be read, is of another kind, or of a later version.
     """
     try:
-        with zipfile.ZipFile(path) as z:
-            head = json.loads(z.read(_OBJECTS))
+        file = zipfile.ZipFile(path)
+        head = json.loads(file.read(_OBJECTS))
         if head["format"] != FORMAT:
             raise ValueError(f"format {head['format']!r}")
         records = [Record(r["label"], r["names"]) for r in head["records"]]
@@ -94,7 +98,7 @@ def read_archive(path: Path) -> Archive:
         raise _unreadable(path, error) from error
     if version > VERSION:
         raise InputError(f"{path.name} was written by a later version of ssilang")
-    return Archive(path, objects, records, settings)
+    return Archive(path, objects, records, settings, file)
 
 
 def _unreadable(path: Path, error: Exception) -> InputError:
