@@ -322,6 +322,13 @@ MESSAGES: dict[str, Message] = {
         "{name} reçoit une valeur que rien ne lit",
         warning=True,
     ),
+    "perhaps-misspelt": Message(
+        "{name} has no value and is read as a word; {like} has one",
+        "{name} n'a pas de valeur et se lit comme un mot ; {like} en a une",
+        "if the word is meant, write it between quotes: '{name}'",
+        "si c'est bien le mot, écrivez-le entre apostrophes : '{name}'",
+        warning=True,
+    ),
     "shadowed-operator": Message(
         "{name} is also an operator, which this name hides from here on",
         "{name} est aussi un opérateur, que ce nom cache à partir d'ici",

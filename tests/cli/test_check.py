@@ -84,6 +84,7 @@ def test_finds(text, code):
         ("N = 7 ; X = N / 2 ; MESS X ;", "integer-division"),
         ("X = 1 ;", "unused-name"),
         ("DENS = 0.1 ; MESS DENS ;", "shadowed-operator"),
+        ("LENGTH = 3. ; X = PROG LENGTH LENGHT ; MESS X ;", "perhaps-misspelt"),
         ("PROG = 0.1 ; MESS PROG ;", "shadowed-operator"),
         ("DEBP @VERIFIE ; FINP ;", "overrides-procedure"),
     ],
@@ -125,6 +126,7 @@ def test_an_operator_out_of_scope_is_named_with_its_subject():
         "DEBP P A/ENTIER ; B = 0 ; SI (EXIS A) ; B = A + 1 ; FINSI ; FINP B ; X = P ; MESS X ;",
         "DEBP P ; ARGU A*ENTIER ; FINP A ; X = P 3 ; MESS X ;",
         "I = 7 ; J = 2 ; K = I * 2 / J ; MESS K ;",
+        "REPE BLOC1 3 ; SI (&BLOC1 > 1) ; QUIT BLOC1 ; FINSI ; FIN BLOC1 ;",
     ],
 )
 def test_raises_no_false_alarm(text):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import re
 from collections.abc import Iterable, Iterator
 
@@ -9,6 +10,8 @@ from ssilang.language import tree
 from ssilang.language.errors import SsiError
 
 _NAME = re.compile(r"[@&!]?[^\W\d]\w*")
+_SHORTEST = 4  # letters of a word that may be a misspelt name
+_LIKENESS = 0.8
 _WHOLE_SESSION = frozenset({"SAUV", "LIST", "REST", "NOMM"})  # may read any name
 
 
@@ -40,6 +43,49 @@ def unused_names(script: tree.Script) -> list[SsiError]:
         for name, target in first.items()
         if name not in read
     ]
+
+
+def misspelt_names(
+    script: tree.Script, names: frozenset[str], words: frozenset[str]
+) -> list[SsiError]:
+    """A warning for each bare word that has no value and looks like a name that has one.
+
+    Parameters
+    ----------
+    names : frozenset of str
+        Names that have a value somewhere.
+    words : frozenset of str
+        Words that operators know, which need no value.
+    """
+    found: dict[str, SsiError] = {}
+    long_names = [n for n in names if len(n) >= _SHORTEST and n[0] != "&"]
+    for statement in _statements(script.body):
+        for item in _bare_names(statement.items[1:] if not statement.assigns else statement.items):
+            if len(item.text) < _SHORTEST or item.text in names or item.text[:4] in words:
+                continue
+            near = difflib.get_close_matches(item.text, long_names, 1, _LIKENESS)
+            # a word with a letter in front or behind is a name made from a keyword
+            made = bool(near) and (near[0] in item.text or item.text in near[0])
+            if near and not made and item.text not in found:
+                found[item.text] = SsiError(
+                    "perhaps-misspelt", item.span, name=item.text, like=near[0]
+                )
+    return list(found.values())
+
+
+def _bare_names(items: Iterable[tree.Item]) -> Iterator[tree.Name]:
+    """Names that stand as operands, not as indices of tables."""
+    for item in items:
+        if isinstance(item, tree.Name):
+            yield item
+        elif isinstance(item, tree.Paren):
+            yield from _bare_names(item.items)
+        elif isinstance(item, tree.Path):
+            yield from _bare_names((item.base, *(i for i in item.indices if _is_paren(i))))
+
+
+def _is_paren(item: tree.Item) -> bool:
+    return isinstance(item, tree.Paren)
 
 
 def _statements(nodes: Iterable[tree.Node]) -> Iterator[tree.Statement]:

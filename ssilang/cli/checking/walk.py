@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from functools import cache
 from typing import Any
 
 from ssilang.cli.checking.kinds import UNKNOWN, kind_word, typed
 from ssilang.cli.checking.phrases import PhraseReader
 from ssilang.cli.checking.scope import Scope, assigned_names
-from ssilang.cli.checking.usage import unused_names
+from ssilang.cli.checking.usage import misspelt_names, unused_names
+from ssilang.cli.completion import keywords_of
 from ssilang.language import tree
+from ssilang.language.cast3m import cast3m_words
 from ssilang.language.errors import SsiError
 from ssilang.language.leftovers import is_call
-from ssilang.language.registry import find_operator
+from ssilang.language.registry import OPERATORS, find_operator
 from ssilang.language.session import Session
-from ssilang.language.values import Mot, Procedure
+from ssilang.language.values import Mot, Procedure, known_types
 
 # statements that may bring names the text does not show
 _OPENING = frozenset({"REST", "ACQU", "LIRE", "NOMM", "OBTE", "ARGU", "SAIS", "MENU"})
@@ -48,6 +51,10 @@ class Checker:
             self._body(definition, scope, library)
         for problem in unused_names(script):
             self._report(problem)
+        names = frozenset({*self._names, *scope.values, *self.session.library.standard_names})
+        for problem in misspelt_names(script, names, _known_words()):
+            if problem.span not in [e.span for e in self.problems]:
+                self._report(problem)
         return sorted(self.problems, key=lambda e: e.span.start if e.span else 0)
 
     def _report(self, problem: SsiError) -> None:
@@ -219,6 +226,13 @@ class Checker:
             if isinstance(target, tree.Name):
                 known = values is not None and i < len(values)
                 scope.values[target.text] = values[i] if known and values else UNKNOWN
+
+
+@cache
+def _known_words() -> frozenset[str]:
+    """First four letters of operators, procedures of Cast3M and keywords."""
+    words = {w[:4] for o in OPERATORS.values() for w in keywords_of(o)}
+    return frozenset({*words, *OPERATORS, *(n[:4] for n in cast3m_words()), *known_types()})
 
 
 def _until_fin(nodes: tuple[tree.Node, ...]) -> tuple[tree.Node, ...]:
