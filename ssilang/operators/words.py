@@ -19,6 +19,8 @@ def written(value: object, form: str = DEFAULT_FORMAT) -> str:
         return "VRAI" if value else "FAUX"
     if isinstance(value, float):
         return formatted(form, value)
+    if isinstance(value, int) and form.upper().lstrip("( SP,").startswith("I"):
+        return formatted(form, value)
     return str(value)
 
 
@@ -81,7 +83,7 @@ def read_text(call: Call) -> str:
     terminal=True,
     help=Help(
         en="Joins words and numbers into one word, without blanks between. Reals are written by "
-        "the last FORMAT (a Fortran format, (1PE12.5) at first). Behind an item, *N puts its end "
+        "the last FORMAT (a Fortran format, (1PE12.5) at first), integers too if it is an I format. Behind an item, *N puts its end "
         "at column N, /N its beginning; <N and >N count from the end of what is written already.",
         fr="Assemble des mots et des nombres en un mot, sans blancs entre eux. Les réels suivent "
         "le dernier FORMAT (à la Fortran, d'abord (1PE12.5)). Derrière un élément, *N met sa fin "

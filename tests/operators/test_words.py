@@ -49,6 +49,8 @@ def test_wrong_format_is_explained(form):
         ("CHAI 'a' 2 ' ' VRAI", "a2 VRAI"),
         ("CHAI ' x:' 25.86", " x: 2.58600E+01"),
         ("CHAI FORMAT '(F6.2)' 'p' 25.86 'q' 1.", "p 25.86q  1.00"),
+        ("CHAI FORMAT '(I5)' 'n' 42", "n   42"),
+        ("CHAI FORMAT '(F5.1)' 42 1.", "42  1.0"),
         ("CHAI 'ABC' 'DEF'*10", "ABC    DEF"),
         ("CHAI 'ABC' 'DEF'/10", "ABC      DEF"),
         ("CHAI 'ABC' 'DEF'<10", "ABC       DEF"),
