@@ -211,7 +211,10 @@ def thickened(shell: Mesh, thickness: Any, direction: FloatArray) -> Mesh:
         place = order[np.searchsorted(ids[order], block.connectivity)]
         for k in range(place.shape[1]):
             np.add.at(normal, place[:, k], vectors)
-    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+    length = np.linalg.norm(normal, axis=1, keepdims=True)
+    if (length == 0.0).any():
+        raise MeshError("a shell of triangles or quadrangles with an area is needed to thicken it")
+    normal /= length
     size = _thickness_at(shell, thickness)[:, None]
     inner = shell.nodes.add(shell.nodes.coordinates[ids] - 0.5 * size * normal)
     table = np.zeros(int(ids.max()) + 1, dtype=np.int64)

@@ -68,6 +68,8 @@ def fill_contour(
     for _ in range(_ROUNDS):
         proposals = _proposals(points, triangles, size, squares)
         fresh = _accepted(proposals, points, a, b, size)
+        if not len(fresh):  # the front is done: what is still too large gets its centre
+            fresh = _accepted(_large_centres(points, triangles, size, squares), points, a, b, size)
         if not len(fresh):
             break
         points = np.vstack([points, fresh])
@@ -111,6 +113,16 @@ def _proposals(
     rise = radius + np.sqrt(np.maximum(radius**2 - half**2, 0.0))
     made = middle + rise[:, None] * normal
     return np.vstack([made[order], _far_centres(centres, radii, ideal, large)])
+
+
+def _large_centres(
+    points: FloatArray, triangles: IntArray, size: SizeField, squares: bool
+) -> FloatArray:
+    """Circumcentres of triangles that are too large, the largest first."""
+    centres, radii = _circumscribed(points, triangles)
+    excess = radii / size(points[triangles].mean(axis=1)) * (2.0 if squares else 3.0) ** 0.5
+    pick = np.flatnonzero((excess > 1.4) & (excess < 8.0))
+    return centres[pick[np.argsort(-excess[pick])]]
 
 
 def _far_centres(

@@ -1,0 +1,166 @@
+"""Rarer meshing operators and forms, as scripts write them."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import pytest
+
+from ssilang.cli.run import run_text
+
+PLANE = "OPTI DIME 2 ELEM QUA4 ; O = 0. 0. ; A = 1. 0. ; B = 1. 1. ; E = 0. 1. ; "
+STRIP = PLANE + "L = O D 4 A ; S = L TRAN 2 (0. 1.) ; "
+SPACE = "OPTI DIME 3 ELEM CUB8 ; O = 0. 0. 0. ; A = 1. 0. 0. ; Z = 0. 0. 1. ; "
+
+
+def value(script: str, name: str = "X") -> Any:
+    result = run_text(script)
+    assert result.exit_code == 0, result.message
+    return result.session.root.find(name)
+
+
+def message(script: str) -> str:
+    result = run_text(script)
+    assert result.exit_code == 1
+    return result.message
+
+
+def test_words_may_stand_before_the_lines() -> None:
+    sides = "(O D 3 A) (A D 2 B) (B D 3 E) (E D 2 O)"
+    assert value(PLANE + f"X = NBEL (DALL 'PLAN' {sides}) ;") == 6
+    assert value(PLANE + "X = NBEL (SURF 'PLAN' (O D 3 A D 2 B D 3 E D 2 O)) ;") == 6
+
+
+def test_sides_of_unequal_cuts_are_filled_too() -> None:
+    script = PLANE + "S = DALL (O D 3 A) (A D 2 B) (B D 5 E) (E D 2 O) 'PLAN' ; "
+    assert value(script + "X = MESU S ;") == pytest.approx(1.0)
+    assert value(script + "X = NBEL (CONT S) ;") == 12
+
+
+def test_rectangle_of_matching_sides_gives_a_grid() -> None:
+    script = PLANE + "S = SURF (O D 7 A D 4 B D 7 E D 4 O) 'PLAN' ; "
+    assert value(script + "X = S ELEM 'TYPE' ;").values == ["QUA4"]
+    assert value(script + "X = NBEL S ;") == 28
+
+
+def test_sizes_of_a_field_are_followed() -> None:
+    script = (
+        "OPTI DIME 2 ELEM TRI3 ; O = 0. 0. ; L = O D 20 (1. 0.) D 20 (1. 1.) D 20 (0. 1.) D 20 O ; "
+    )
+    fine = value(script + "X = NBEL (SURF L 'PLAN') ;")
+    coarse = value(script + "C = MANU 'CHPO' L 1 'SCAL' 0.2 ; X = NBEL (SURF C L 'PLAN') ;")
+    assert coarse < 0.6 * fine
+
+
+def test_rounded_corner() -> None:
+    script = PLANE + "D1 E1 F1 = (O D 5 A) CONG 8 0.25 (A D 5 B) ; "
+    arc = 16 * 0.25 * math.sin(math.pi / 32)
+    assert value(script + "X = MESU E1 ;") == pytest.approx(arc)
+    assert value(script + "X = NBNO (D1 ET E1 ET F1) ;") == 8 + 2 * 4 + 1
+    assert "DOUBLE" in message(PLANE + "D1 E1 F1 = (O D 5 A) CONG 8 0.25 (A D 5 B) 'DOUBLE' ;")
+
+
+def test_triangulations() -> None:
+    closed = "L = O D 6 A D 6 B D 6 E D 6 O ; T = TRIA L ; "
+    assert value(PLANE + closed + "X = MESU T ;") == pytest.approx(1.0)
+    assert value(PLANE + closed + "X = (NBNO T) - (NBNO L) ;") == 0
+    fine = PLANE + closed + "C = MANU 'CHPO' T 1 'SCAL' 0.08 ; R = RAFT C T ; "
+    assert value(fine + "X = MESU R ;") == pytest.approx(1.0)
+    assert value(fine + "X = NBEL R ;") > 8 * value(PLANE + closed + "X = NBEL T ;")
+    assert value(PLANE + "X = MESU (TRIA (O ET A ET B ET E)) ;") == pytest.approx(1.0)
+
+
+def test_points_are_inside_or_not() -> None:
+    assert value(STRIP + "X = DEDA (0.3 0.4) (CONT S) ;") is True
+    assert value(STRIP + "X = DEDA (1.3 0.4) (CONT S) ;") is False
+    solid = SPACE + "V = ((O D 2 A) TRAN 2 (0. 1. 0.)) VOLU 2 'TRAN' Z ; E = CHAN TRI3 (ENVE V) ; "
+    assert value(solid + "X = DEDA (0.3 0.4 0.5) E ;") is True
+    assert value(solid + "X = DEDA (0.3 0.4 1.5) E ;") is False
+
+
+def test_cells_inside_a_surface_or_a_line() -> None:
+    inner = "T = (DROI 1 (0. 0.) (0.5 0.)) TRAN 1 (0. 1.) ; "
+    assert value(STRIP + inner + "X = NBEL (INCL S T) ;") == 4
+    assert value(STRIP + inner + "X = NBEL (S INCL (CONT T) 'STRI' 'NOID') ;") == 0
+    assert "inside" in message(STRIP + inner + "X = INCL S (CONT T) 'STRI' ;")
+
+
+def test_joints_of_touching_parts() -> None:
+    script = STRIP + "T = S PLUS (0. 1.) ; J = GENJ (S ET T) 1E-6 ; "
+    assert value(script + "X = NBEL J ;") == 4
+    assert value(script + "X = J ELEM 'TYPE' ;").values == ["RAC2"]
+
+
+def test_opened_surface() -> None:
+    script = (
+        STRIP + "T = L TRAN 2 (0. -1.) ; C = L ELEM 'COMP' O (L POIN 3) ; U V = DEDO (S ET T) C ; "
+    )
+    assert value(script + "X = (NBNO U) - (NBNO (S ET T)) ;") == 2
+    assert value(script + "X = NBEL V ;") == 2
+
+
+def test_block_of_six_faces() -> None:
+    script = SPACE + (
+        "L = O D 2 A ; M = O D 3 (0. 1. 0.) ; B = L TRAN 3 (0. 1. 0.) ; F = L TRAN 4 Z ;"
+        " G = M TRAN 4 Z ; B2 = B PLUS Z ; F2 = F PLUS (0. 1. 0.) ; G2 = G PLUS A ;"
+        " ELIM 1E-6 (B ET B2 ET F ET F2 ET G ET G2) ; V = PAVE F F2 B B2 G2 G ; "
+    )
+    assert value(script + "X = MESU V ;") == pytest.approx(1.0)
+    assert value(script + "X = NBEL V ;") == 24
+    assert "six faces" in message(script + "X = PAVE F F2 ;")
+
+
+def test_frame_of_an_arc() -> None:
+    script = PLANE + "C = CERC 30 'ROTA' 90. A O ; F = FREN C ; P = C POIN 'FINA' ; "
+    assert value(script + "X = EXTR F 'TX' P ;") == pytest.approx(-1.0, abs=1e-12)
+    assert value(script + "X = EXTR F 'NY' P ;") == pytest.approx(-1.0, abs=1e-12)
+
+
+def test_cell_fields_tell_their_points() -> None:
+    script = STRIP + "M = MODE S MECANIQUE ELASTIQUE ; U = MANU 'CHML' M 'SCAL' 1. ; "
+    assert value(script + "X = MAXI (COOR 2 U) ;") == pytest.approx(1.0)
+    gauss = script + "V = CHAN 'STRESSES' M U ; Y = COOR 2 V ; "
+    highest = 1.0 - 0.5 * (0.5 - 0.5 / math.sqrt(3))
+    assert value(gauss + "X = MAXI Y ;") == pytest.approx(highest)
+    assert value(gauss + "X = NBNO (Y POIN 'MAXI') ;") == 8
+    assert value(gauss + "X = NBEL (Y ELEM 'SUPE' 0.5) ;") == 4
+
+
+def test_models_and_fields_are_copied_together() -> None:
+    script = STRIP + "M = MODE S MECANIQUE ELASTIQUE ; U = MANU 'CHML' M 'SMXX' 1. 'SMYY' 0. ; "
+    script += "M2 U2 = M U TOUR 90. O ; "
+    assert value(script + "X = MAXI (EXCO 'SMYY' U2) ;") == pytest.approx(1.0)
+    assert value(script + "X = NBNO ((EXTR M2 'MAIL') ET (S TOUR 90. O)) ;") == 30
+
+
+def test_transformation_between_meshes_carries_other_objects() -> None:
+    script = STRIP + "T = S TOUR 30. O ; K = CONT S ; N = K DEDU 'TRAN' S T ; "
+    assert value(script + "X = NBNO (N ET T) ;") == 15
+    assert "does not belong" in message(script + "X = (DROI 1 (7. 7.) A) DEDU 'TRAN' S T ;")
+
+
+def test_meshes_of_other_cells() -> None:
+    assert value(STRIP + "X = NBEL (CHAN 'TRI3' S) ;") == 16
+    assert value(STRIP + "X = NBEL (CHAN 'LIGN' S) ;") == 22
+    assert value(STRIP + "X = NBEL (CHAN 'SEG2' (CHAN 'SEG3' L)) ;") == 8
+    assert value(STRIP + "P = CHAN 'POI1' S ; X = MESU (CHAN 'TRI3' P (LECT 1 2 3)) ;") > 0
+    assert "cannot be changed" in message(STRIP + "X = CHAN 'CUB8' S ;")
+
+
+def test_cells_by_hand() -> None:
+    assert value(PLANE + "X = MESU (MANU 'QUA4' O A B E) ;") == pytest.approx(1.0)
+    assert value(PLANE + "X = (MANU 'TRI3' ROUG O A B) ELEM 'COUL' ;").values == ["ROUG"]
+    assert "needs 3 points" in message(PLANE + "X = MANU 'TRI3' O A ;")
+
+
+def test_stitched_lines_and_cones() -> None:
+    assert value(PLANE + "X = MESU (COUT (O D 5 A) (E D 2 B)) ;") == pytest.approx(1.0)
+    cone = SPACE + "S = (O D 2 A) TRAN 2 (0. 1. 0.) ; X = MESU (COUT S Z) ;"
+    assert value(cone) == pytest.approx(1 / 3)
+
+
+def test_line_put_in_order() -> None:
+    script = PLANE + "L = (A D 2 O) ET (A D 2 B) ; M = ORDO L ; "
+    assert value(script + "X = MAXI (COOR M 'CURV') ;") == pytest.approx(2.0)
+    assert "opposite senses" in message(script + "X = VERS L ;")
