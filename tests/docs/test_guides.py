@@ -1,0 +1,32 @@
+"""The scripts shown in the README and the guide to uplift run."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from ssilang.cli.run import run_text
+
+_ROOT = Path(__file__).resolve().parents[2]
+_SCRIPTS = [
+    pytest.param(script, id=f"{page}-{number}")
+    for page in ("README.md", "docs/uplift.md")
+    for number, script in enumerate(
+        re.findall(r"```ssi\n(.*?)```", (_ROOT / page).read_text(encoding="utf-8"), re.DOTALL), 1
+    )
+]
+
+
+def test_there_are_scripts():
+    assert len(_SCRIPTS) >= 2
+
+
+@pytest.mark.parametrize("script", _SCRIPTS)
+def test_script_runs(script, tmp_path):
+    result = run_text(script, output_directory=tmp_path)
+    assert result.exit_code == 0, result.message
+    if "DYNAMIC" in script:
+        assert list(tmp_path.glob("*.pvd"))
+        assert list(tmp_path.glob("*.png"))
