@@ -186,7 +186,10 @@ def _bounds(
 
 def _corners(clouds: list[FloatArray]) -> tuple[FloatArray, FloatArray]:
     points = np.concatenate([c for c in clouds if len(c)] or [np.zeros((1, 2))])
-    return points.min(axis=0), points.max(axis=0)
+    known = points[np.isfinite(points).all(axis=1)]
+    if not len(known):
+        known = np.zeros((1, 2))
+    return known.min(axis=0), known.max(axis=0)
 
 
 def _arrow_clouds(

@@ -155,6 +155,15 @@ def test_components_have_a_panel_each() -> None:
     assert titles[:2] == ["UX", "UY"]
 
 
+def test_a_field_that_is_not_a_number_is_still_drawn() -> None:
+    mesh = grid(2)
+    lost = field(mesh, UX=lambda x: np.where(x[:, 1] > 0.6, np.nan, x[:, 1]))
+    layer = Layer(mesh, lost, 1.0, field=lost, component="UX")
+    assert np.isfinite(draw_scene((layer,)).axes[0].get_xlim()).all()
+    nothing = field(mesh, UX=lambda x: np.nan * x[:, 1])
+    assert share(drawn(Layer(mesh, field=nothing, component="UX")), (0.93, 0.94, 0.95)) > 0.1
+
+
 def test_multipliers_have_no_panel() -> None:
     mesh = grid(2)
     u = field(mesh, UX=lambda x: x[:, 1])
