@@ -84,7 +84,8 @@ def read_text(call: Call) -> str:
     help=Help(
         en="Joins words and numbers into one word, without blanks between. Reals are written by "
         "the last FORMAT (a Fortran format, (1PE12.5) at first), integers too by an I format. "
-        "Behind an item, *N puts its end at column N, /N its beginning; <N and >N count from the end of what is written already.",
+        "Behind an item, *N puts its end at column N, /N its beginning; <N and >N count from the "
+        "end of what is written already.",
         fr="Assemble des mots et des nombres en un mot, sans blancs entre eux. Les réels suivent "
         "le dernier FORMAT (à la Fortran, d'abord (1PE12.5)). Derrière un élément, *N met sa fin "
         "en colonne N, /N son début ; <N et >N comptent depuis la fin de ce qui est déjà écrit.",
