@@ -310,6 +310,7 @@ def warn_resolution(entries: Entries, problem: Problem) -> None:
     """Warn when the step does not resolve contact, saying the step to use."""
     from ssilang.kernel.dynamics.resolution import contact_resolution
 
+    warn_contrast(entries, problem)
     found = contact_resolution(problem)
     if found is None or found.resolved:
         return
@@ -317,4 +318,18 @@ def warn_resolution(entries: Entries, problem: Problem) -> None:
         f"the step {found.dt:.3g} s does not resolve contact, whose half period is "
         f"{found.contact_time:.3g} s with the mass attached to the joints",
         f"dt <= T_c/30 = {found.wanted_dt:.3g} s keeps energy; or a softer joint, or ALPHA_F",
+    )
+
+
+def warn_contrast(entries: Entries, problem: Problem) -> None:
+    """Warn when joints are out of all proportion to the bodies: units, most often."""
+    from ssilang.kernel.dynamics.contrast import STRANGE, stiffness_contrast
+
+    ratio = stiffness_contrast(problem)
+    if ratio is None or 1 / STRANGE <= ratio <= STRANGE:
+        return
+    more = f"{ratio:.1e} times as stiff as" if ratio > 1 else f"{1 / ratio:.1e} times softer than"
+    entries.warn(
+        f"the joints are {more} the bodies at the same nodes: digits are lost",
+        "KN and KS are in Pa/m (N/m for JOI1); check their units",
     )

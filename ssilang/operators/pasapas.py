@@ -21,7 +21,13 @@ from ssilang.kernel.statics.thermal_load import split_thermal
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
 from ssilang.language.values import Mot
-from ssilang.operators.dynamic import contact_options, report, scheme_of, warn_resolution
+from ssilang.operators.dynamic import (
+    contact_options,
+    report,
+    scheme_of,
+    warn_contrast,
+    warn_resolution,
+)
 from ssilang.operators.initial_stress import offset_load, stress_offsets
 from ssilang.operators.pasapas_entries import KNOWN, REFUSED
 from ssilang.operators.pasapas_results import ResultTables, Stresses
@@ -69,6 +75,7 @@ def zpas(call: Call) -> None:
             warn_resolution(entries, problem)
             history = integrate(problem, observers, line, entries.flag("NEWTON_COMPLET"))
         else:
+            warn_contrast(entries, problem)
             history = step_statics(problem, observers, line)
         report(entries, problem, history)
     except StopCalculation:

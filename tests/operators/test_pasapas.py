@@ -141,3 +141,21 @@ def test_what_is_not_built_is_refused_by_name(entry, tmp_path):
     result = run_text(BAR + entry + "PASAPAS T ;", output_directory=tmp_path)
     assert result.exit_code == 1
     assert entry.split("'")[1] in result.message
+
+
+def test_joint_of_the_wrong_unit_scale_is_reported(tmp_path):
+    text = """
+    OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;
+    P1 = 0. 0. ; P2 = 1. 0. ; L = DROI 2 P1 P2 ; S = L TRAN 1 (0. 1.) ; L2 = L PLUS (0. 0.) ;
+    J = RACC 1.E-3 L L2 ;
+    MO = MODE S 'MECANIQUE' 'ELASTIQUE' ; MA = MATE MO 'YOUN' 1.E9 'NU' 0.2 ;
+    MJ = MODE J 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' ; MAJ = MATE MJ 'KN' KN0 'KS' KN0 ;
+    T = TABL ; T . 'MODELE' = MO ET MJ ; T . 'CARACTERISTIQUES' = MA ET MAJ ;
+    T . 'BLOCAGES_MECANIQUES' = (BLOQ 'UX' 'UY' L2) ET (BLOQ 'UX' S) ;
+    T . 'CHARGEMENT' = CHAR 'MECA' (FORC (0. -1.E3) (S COTE 3)) ; T . 'TEMPS_CALCULES' = PROG 1. ;
+    PASAPAS T ;
+    """
+    for stiffness, warned in (("1.E19", True), ("1.E10", False)):
+        result = run_text(text.replace("KN0", stiffness), output_directory=tmp_path)
+        assert result.exit_code == 0, result.message
+        assert any("units" in w.data["hint"] for w in result.session.warnings) is warned

@@ -20,6 +20,7 @@ from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.dynamics.sparse_loop import StepOutcome
 from ssilang.kernel.joints.response import interface_response, interface_stiffness
 from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.solvers.complementarity import ContactProblem, solve_contact
 from ssilang.kernel.solvers.contact_methods import METHODS
 
 MOST_TURNS = 40
@@ -33,6 +34,7 @@ class ContactSolver:
         self.effective, self.contact = effective, contact
         self.interface = problem.interface
         self.share = 1 - problem.scheme.alpha_f
+        self.free: FloatArray = effective.constraints.T @ effective.inverse.kernel
         self.YG = effective.solve(contact.G.T.toarray())
         self.SGG = contact.G @ self.YG
         self.options = problem.contact_options
@@ -47,11 +49,25 @@ class ContactSolver:
         if dd.any():
             du = du + self.effective.imposed(dd)
         g0 = gap + self.contact.G @ du
+        if self.free.shape[1]:
+            return self._held_by_contact(motion, r, du, g0)
         if self.interface is None:
             p = self._complementarity(self.SGG, g0)
             motion.contact[:] = p
             return StepOutcome(du + self.YG @ p, 1, 0.0)
         return self._with_joints(motion, du, g0)
+
+    def _held_by_contact(
+        self, motion: Motion, r: FloatArray, du: FloatArray, g0: FloatArray
+    ) -> StepOutcome:
+        """Bodies that move freely but for the relations: their motions are unknowns too."""
+        B = self.contact.G @ self.free
+        problem = ContactProblem(self.SGG, g0, B, B, self.free.T @ r, np.zeros(len(g0), dtype=bool))
+        found = solve_contact(problem, self.active)
+        self.active = found.active
+        motion.contact[:] = found.p
+        moved = self.effective.solve(r + self.contact.G.T @ found.p) - self.effective.solve(r)
+        return StepOutcome(du + moved + self.free @ found.a, found.iterations, 0.0)
 
     def _complementarity(self, W: FloatArray, q: FloatArray) -> FloatArray:
         found = METHODS[self.options.method](W, q, self.options.coefficient, self.active)

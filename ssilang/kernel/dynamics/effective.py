@@ -74,13 +74,17 @@ def effective_matrix(problem: Problem, dt: float) -> sp.csr_array:
     return sp.csr_array(A)
 
 
-def effective_of(problem: Problem, A: sp.csr_array, dt: float, share: float) -> Effective:
+def effective_of(
+    problem: Problem, A: sp.csr_array, dt: float, share: float, free: bool = False
+) -> Effective:
     """Factorise A (n, n) and condense it on the interface.
 
     Parameters
     ----------
     share : float
         c in `c J^T f`: the stiffness of closed joints enters with it.
+    free : bool
+        True leaves motions free that unilateral relations may hold (statics).
 
     Raises
     ------
@@ -95,7 +99,7 @@ def effective_of(problem: Problem, A: sp.csr_array, dt: float, share: float) -> 
         R = share * joints.closed_stiffness()
         A = sp.csr_array(A + joints.J.T @ sp.csr_array(R) @ joints.J)
         inverse = invert(sp.csr_array(T.T @ A @ T), True)
-    if inverse.singular:
+    if inverse.singular and not (free and joints is None):
         message, hint = describe_motions(problem.numbering, T @ inverse.kernel)
         raise SingularMatrixError(
             message.replace(" that the loads drive", ""),

@@ -186,7 +186,7 @@ def _of_natural_size(problem: ContactProblem, p: FloatArray, a: FloatArray) -> b
     push = np.abs(problem.r).max(initial=0.0) / (np.abs(problem.E).max(initial=0.0) or 1.0)
     natural = np.abs(problem.q).max(initial=0.0) + np.abs(problem.W).max(initial=0.0) * push
     moved = np.abs(problem.W @ p).max(initial=0.0) + np.abs(problem.B @ a).max(initial=0.0)
-    return bool(moved <= HUGE * natural + 1e-300)
+    return natural == 0.0 or bool(moved <= HUGE * natural)  # rigid and touching: only rounding
 
 
 def _least_squares(A: FloatArray, b: FloatArray) -> FloatArray:

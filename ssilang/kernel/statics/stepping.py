@@ -43,7 +43,7 @@ def step_statics(
     history = History(times, np.zeros((len(times), N_ENERGIES)))
     history.energies[0] = motion.energies
     try:
-        effective = effective_of(problem, problem.K, 0.0, 1.0)
+        effective = effective_of(problem, problem.K, 0.0, 1.0, problem.contact is not None)
         history.solver, history.loop = effective.inverse.factor.name, "static"
         solver = step_solver(problem, effective)
         factors = problem.loading.at(times)

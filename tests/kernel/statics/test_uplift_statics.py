@@ -1,5 +1,7 @@
 """Footings on joints that lift off, by load steps, against closed forms."""
 
+import itertools
+
 import numpy as np
 import pytest
 from references.assembled import Bench
@@ -106,3 +108,42 @@ def test_full_uplift_is_named():
         step_statics(make_problem(inputs))
     assert "full uplift" in error.value.message
     assert "time 2" in error.value.message
+
+
+def held_by_relations(forces):
+    """A rigid beam of 2 m on three unilateral supports, loaded at its ends in steps."""
+    bench = Bench()
+    x = [-1.0, 0.0, 1.0]
+    nodes = [bench.node(s, 0.0) for s in x]
+    for a, b in itertools.pairwise(nodes):
+        bench.spring(0.0, a, b)
+    bench.spring(0.0, nodes[0], unknown="UX")
+    for n in nodes:
+        bench.relate([(1.0, "UY", n)], sense=1)
+    bench.fix(nodes[0], "UX")
+    bench.relate([(1.0, "UY", nodes[0]), (-2.0, "UY", nodes[1]), (1.0, "UY", nodes[2])])
+    loads = [bench.field((nodes[0], "FY", f[0]), (nodes[2], "FY", f[1])) for f in forces]
+    steps = tuple((float(i), field) for i, field in enumerate(loads))
+    problem = make_problem(
+        Inputs(
+            bench.stiffness,
+            np.arange(float(len(forces))),
+            load=Load((LoadPart("MECA", steps=steps),)),
+        )
+    )
+    recorder = Recorder(len(forces))
+    step_statics(problem, [recorder])
+    where = [problem.numbering.index_of(n, "UY") for n in nodes]
+    return recorder.of("contact"), recorder.of("u")[:, where]
+
+
+def test_body_held_by_unilateral_relations_alone_is_in_balance():
+    contact, u = held_by_relations([(0.0, 0.0), (-3.0, -1.0), (-1.0, -1.0)])
+    np.testing.assert_allclose(contact[1:].sum(axis=1), [4.0, 2.0], rtol=1e-12)
+    np.testing.assert_allclose(contact[1:] @ [-1.0, 0.0, 1.0], [-2.0, 0.0], atol=1e-12)
+    assert (u > -1e-12).all()
+
+
+def test_overturned_body_has_no_equilibrium():
+    with pytest.raises(ConvergenceError):
+        held_by_relations([(0.0, 0.0), (-1.0, 2.0)])
