@@ -18,12 +18,14 @@ def run_deck(path: Path, out: Path) -> RunResult:
     return run_file(path, RunOptions(output_directory=out))
 
 
-def run_changed(path: Path, out: Path, old: str, new: str) -> RunResult:
-    """Run a copy of a deck in which the text `old`, found exactly once, is `new`."""
+def run_changed(path: Path, out: Path, *changes: tuple[str, str]) -> RunResult:
+    """Run a copy of a deck in which each `(old, new)`, `old` found exactly once, is replaced."""
     text = path.read_text(encoding="utf-8")
-    assert text.count(old) == 1, f"{old!r} stands {text.count(old)} times in {path.name}"
+    for old, new in changes:
+        assert text.count(old) == 1, f"{old!r} stands {text.count(old)} times in {path.name}"
+        text = text.replace(old, new)
     copy = out / path.name
-    copy.write_text(text.replace(old, new), encoding="utf-8")
+    copy.write_text(text, encoding="utf-8")
     return run_deck(copy, out / "results")
 
 

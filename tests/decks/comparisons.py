@@ -1,0 +1,113 @@
+"""Figures of the decks against the reference solutions, not against the decks' own formulas."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from references.bar import Bar, solve_bar
+from references.contact import solve
+from references.footing import Disc, Strip
+from references.oscillators import STRUCTURE_STIFFNESS, ClubA, ClubB, ClubC
+from references.rocking import FlexibleTower, TwoSpringBlock, macro_element_period
+
+from ssilang.cli.run import RunResult
+
+from .running import numbers, variable
+
+
+def hopping(case: ClubB | ClubC) -> Callable[[RunResult], None]:
+    """The last and finest motion of club-b or club-c."""
+
+    def compare(result: RunResult) -> None:
+        t, u, v = (numbers(result, n) for n in ("LT", "LU", "LV"))
+        exact_u, exact_v = case.motion(t)
+        assert len(t) >= 4001
+        assert np.max(np.abs(u - exact_u)) <= 2e-3 * np.max(np.abs(exact_u))
+        assert np.max(np.abs(v - exact_v)) <= 5e-3 * np.max(np.abs(exact_v))
+
+    return compare
+
+
+def methods_on_a_wall(result: RunResult) -> None:
+    """Corrected methods follow the rigid wall, penalty and SDM a wall of their stiffness."""
+    tables = [variable(result, n) for n in ("TT", "TU")]
+    # impacts are seen at the end of their step: a lag of less than a step for each of the eight
+    t, u = (table.get(3).values for table in tables)
+    error = np.max(np.abs(u - ClubA().motion(t)[0]))
+    assert error <= 8 * (t[1] - t[0]) * ClubA().u0 * ClubA().w
+    soft = ClubB(k_y=1e4 * STRUCTURE_STIFFNESS)
+    for method in (1, 7):
+        t, u = (table.get(method).values for table in tables)
+        assert np.max(np.abs(u - soft.motion(t)[0])) <= 1e-2 * soft.u0
+
+
+def rocking(result: RunResult) -> None:
+    """The whole history, not only the deck's samples."""
+    block = TwoSpringBlock(1e5, 8e5, 5.0, 1.5, 5e7)
+    start = np.array([1.5 * 0.01 - block.weight / block.k, 0.01])
+    motion = solve(block.system(), start, np.zeros(2), 2.0)
+    exact = motion(numbers(result, "LT"))[0]
+    assert np.max(np.abs(numbers(result, "LTH") - exact[:, 1])) <= 3e-4 * 0.01
+    assert np.max(np.abs(numbers(result, "LV") - exact[:, 0])) <= 1e-3 * np.ptp(exact[:, 0])
+
+
+def tower(result: RunResult) -> None:
+    """The mass's whole history and the column's deflection."""
+    model = FlexibleTower(8e4, 4e4, 1.2e5, 8.0, 2.0, 6e6, 4e7)
+    motion = solve(model.system(8.0, np.pi / 0.25), model.rest, np.zeros(3), 2.0)
+    exact = motion(numbers(result, "LT"))[0]
+    top = exact @ np.array([1.0, 0.0, -8.0])
+    assert np.max(np.abs(numbers(result, "LU") - top)) <= 1e-3 * np.max(np.abs(top))
+    assert np.max(np.abs(numbers(result, "LQ") - exact[:, 0])) <= 5e-3 * np.max(np.abs(exact[:, 0]))
+
+
+def bar(result: RunResult) -> None:
+    """Foot and top of the bar up to its release."""
+    motion, t = solve_bar(Bar(), 3.0), numbers(result, "LT")
+    touching = t <= motion.releases[0]
+    for name, x in (("LPIE", 0.0), ("LTOP", 10.0)):
+        error = numbers(result, name) - 5.0 - motion.displacement(x, t)
+        assert np.max(np.abs(error[touching])) <= 1e-2 * 5.0, name
+
+
+def strip(result: RunResult) -> None:
+    """Moment before and after lift-off."""
+    width, k0, normal = (float(variable(result, n)) for n in ("B0", "K0", "N0"))
+    model = Strip(width, 1.0, k0, normal)
+    ratio, moment = numbers(result, "LTHE"), numbers(result, "LMOM")
+    exact = model.moment(ratio * model.uplift_rotation) / model.uplift_moment
+    lifted = ratio >= 1.5
+    assert np.max(np.abs(moment[lifted] / exact[lifted] - 1.0)) <= 3e-3
+    assert moment[ratio < 1.0] == pytest.approx(ratio[ratio < 1.0], rel=1e-9, abs=1e-12)
+
+
+def disc(result: RunResult) -> None:
+    """Moment at every rotation of the deck."""
+    model = Disc(*(float(variable(result, n)) for n in ("R0", "K0", "N0")))
+    ratio, moment = numbers(result, "LTHE"), numbers(result, "LMOM")
+    exact = [float(model.moment(r * model.uplift_rotation)) / model.uplift_moment for r in ratio]
+    assert moment == pytest.approx(exact, rel=1e-2)
+
+
+def macro_element(result: RunResult) -> None:
+    """The exact period that the deck holds is the reference's."""
+    width, k0, normal, inertia = (float(variable(result, n)) for n in ("B0", "K0", "N0", "I0"))
+    model = Strip(width, 1.0, k0, normal)
+    exact = macro_element_period(model, inertia, 3.0 * model.uplift_rotation)
+    assert variable(result, "PERX") == pytest.approx(exact, rel=1e-9)
+    assert variable(result, "PER1") == pytest.approx(exact, rel=2e-4)
+
+
+COMPARISONS: dict[str, Callable[[RunResult], None]] = {
+    "club_cast3m_2014/club_a_methods.ssi": methods_on_a_wall,
+    "club_cast3m_2014/club_b_sdm.ssi": hopping(ClubB()),
+    "club_cast3m_2014/club_c_sdm.ssi": hopping(ClubC()),
+    "club_cast3m_2014/rocking_two_pairs.ssi": rocking,
+    "footing/strip_uplift.ssi": strip,
+    "footing/disc_uplift.ssi": disc,
+    "footing/macro_element.ssi": macro_element,
+    "footing/flexible_tower.ssi": tower,
+    "impact/bar_bounce.ssi": bar,
+}
