@@ -71,6 +71,7 @@ def value_word(call: Call) -> str:
             break
         if operand.name:
             call.operands.remove(operand)
+            call.used.append(operand)
             return operand.name
         break
     return str(call.required("MOT", after=call.keyword_end))
@@ -83,7 +84,13 @@ def _one_of(call: Call, option: str, words: tuple[str, ...]) -> str:
             return word
     near = get_close_matches(said, words, 1, 0.3)
     hint = f"did you mean {near[0]}? " if near else ""
-    raise call.bad(f"'{said}' is no value of {option}", hint=f"{hint}it takes {' '.join(words)}")
+    raise SsiError(
+        "bad-value",
+        call.used[-1].span,
+        operator="OPTION",
+        message=f"'{said}' is no value of {option}",
+        hint=f"{hint}it takes {' '.join(words)}",
+    )
 
 
 @reader("DIME")
