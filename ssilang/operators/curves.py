@@ -8,6 +8,7 @@ import numpy as np
 
 from ssilang.kernel.curve import Curve, CurvePart
 from ssilang.kernel.errors import KernelError
+from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_algebra import component
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.lines import line_chain
@@ -39,6 +40,7 @@ _LISTS = ("LISTREEL", "LISTENTI", "LISTMOTS")
         "EVOL1 = EVOL (COUL) 'CHPO' CHPO1 (COMP) GEO1 ;\n"
         "EVOL1 = EVOL (COUL) 'TEMP' LCHP1 LREE1 | TAB1 (MOT1) (LENT1) COMP | LCOMP POIN1 "
         "| MAIL1 ;\n"
+        "EVOL1 = EVOL (COUL) 'TEMP' TAB1 MOT1 COMP N1 N2 N3 ; (field in cells: zone, cell, point)\n"
         "EVOL1 = EVOL (COUL) 'COMP' ('REIM' | 'MOPH') ('LEGE' TIT1 TIT2) NOMABS LREE1 (NOMOR1) "
         "LREE2 (NOMOR2) LREE3 ;",
         examples=(
@@ -172,6 +174,8 @@ def _in_time(call: Call, colours: list[int]) -> Curve:
         if np.any(places < 0) or np.any(places >= len(fields)):
             raise call.bad(f"there are {len(fields)} steps", chosen.value)
         fields, times = [fields[int(i)] for i in places], times[places]
+    if fields and isinstance(fields[0], CellField):
+        return _in_a_cell(call, fields, times, colours[0])
     names = names_in_time(call, fields)
     support = call.read("POINT", "MAILLAGE")
     if support is None:
@@ -190,6 +194,23 @@ def _in_time(call: Call, colours: list[int]) -> Curve:
     return Curve(tuple(parts), workspace(call.session).title)
 
 
+def _in_a_cell(call: Call, fields: list[Any], times: FloatArray, colour: int) -> Curve:
+    """Component of fields in cells at point N3 of cell N2 of zone N1."""
+    name = str(call.required("MOT")).rstrip()
+    zone, cell, point = (call.required("ENTIER") for _ in range(3))
+    values = []
+    for field in fields:
+        held = (
+            field.blocks[zone - 1].components.get(name) if 1 <= zone <= len(field.blocks) else None
+        )
+        if held is None or not 1 <= cell <= len(held) or point < 1:
+            raise call.bad(f"no value of {name} in zone {zone}, cell {cell}, point {point}")
+        row = held[cell - 1]
+        values.append(float(row[min(point, len(row)) - 1]))
+    part = CurvePart(times, np.asarray(values), "TEMP", name[:12], name, colour)
+    return Curve((part,), workspace(call.session).title)
+
+
 def nodes_named(support: Point | Mesh) -> list[int]:
     return [support.node] if isinstance(support, Point) else [int(n) for n in support.node_ids]
 
@@ -198,7 +219,7 @@ def names_in_time(call: Call, fields: list[Any]) -> list[str]:
     operand = call.read("LISTMOTS")
     if operand is not None:
         return [str(w).rstrip() for w in operand.value.values]
-    known = {n for f in fields for n in f.components}
+    known = {n for f in fields for n in getattr(f, "components", ())}
     word = call.peek_word()
     if word is not None and (word.rstrip() in known or call.at_word()):
         return [str(call.word()).rstrip()]

@@ -215,3 +215,15 @@ def test_sorted_points_of_a_curve(found):
 def test_title_and_legend_change_in_a_new_curve(found):
     e, f = found(TENT + "F = CHAN 'LEGE' E 1 'later' ; F = CHAN 'TITR' F 'all' ;", "E", "F")
     assert (e.parts[0].legend, f.parts[0].legend, f.title) == ("", "later", "all")
+
+
+def test_curve_in_time_at_a_point_of_a_cell(found):
+    part = found(
+        "OPTI DIME 2 ELEM SEG2 ; L = DROI 3 (0. 0.) (1. 0.) ; C = MANU 'CHML' L 'SMXX' 2. ; "
+        "T = TABL 'PASAPAS' ; T . 'TEMPS' = TABL ; T . 'CONTRAINTES' = TABL ; "
+        "REPE B 3 ; I = &B - 1 ; T . 'TEMPS' . I = 0.5 * I ; T . 'CONTRAINTES' . I = C * I ; "
+        "FIN B ; E = EVOL 'TEMP' T 'CONTRAINTES' 'SMXX' 1 2 1 ;",
+        "E",
+    ).parts[0]
+    assert part.abscissas.tolist() == [0, 0.5, 1]
+    assert part.ordinates.tolist() == [0, 2, 4]
