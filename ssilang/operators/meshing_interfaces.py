@@ -33,7 +33,7 @@ def _ids(item: Mesh | Point) -> IntArray:
         fr="Fusionne les noeuds d'un maillage plus proches qu'une distance (le dixième de la "
         "densité par défaut), dans tous les objets qui les portent ; avec deux maillages, "
         "seulement des noeuds de l'un avec des noeuds de l'autre.",
-        syntax="ELIM GEO1 (GEO2) (FLOT1) ;",
+        syntax="(GEO1 =) ELIM GEO1 (GEO2) (FLOT1) ;",
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; L = (DROI 2 (0. 0.) (1. 0.)) ET (DROI 2 (1. 0.) (2. 0.)) ;"
             " ELIM L 1E-3 ; LIST (NBNO L) ;",
@@ -42,8 +42,8 @@ def _ids(item: Mesh | Point) -> IntArray:
 )
 def elim(
     session: Session, first: Mesh | Point, second: Mesh | Point | None, distance: float | None
-) -> None:
-    """Merge close nodes."""
+) -> Mesh | Point:
+    """Merge close nodes; gives the first object back."""
     ws = workspace(session)
     ids = _ids(first)
     near = max(tolerance_of(ws, distance, ws.nodes.coordinates[ids]), 1e-300)
@@ -51,6 +51,7 @@ def elim(
         merge_close(ws.nodes, ids, near)
     else:
         merge_between(ws.nodes, ids, _ids(second), near)
+    return first
 
 
 def _joint(session: Session, first: Mesh, second: Mesh, distance: float | None) -> Mesh:
