@@ -10,8 +10,8 @@ import numpy as np
 from ssilang.kernel.errors import KernelError
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import assemble, field_to_vector, numbering_of
-from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.matrices.imposed import geometric_gaps
+from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.statics.linear import product
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, arg, operator

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.errors import KernelError, SingularMatrixError
+from ssilang.kernel.errors import ConvergenceError, KernelError, SingularMatrixError
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import (
     ConstraintRows,
@@ -33,7 +33,7 @@ from ssilang.kernel.solvers.complementarity import ContactProblem, solve_contact
 from ssilang.kernel.solvers.elimination import Elimination, eliminate
 from ssilang.kernel.solvers.inverse import Inverse, invert
 from ssilang.kernel.sparse import sp
-from ssilang.kernel.statics.linear_motion import bodies_of, describe_motions
+from ssilang.kernel.statics.linear_motion import bodies_of, describe_motions, named_motions
 
 BoolArray = NDArray[np.bool_]
 BALANCED = 1e-7  # work of the loads on a free motion (of norms 1) taken for rounding
@@ -186,11 +186,24 @@ class LinearSystem:
             kernel.T @ b,
             equality,
         )
-        found = solve_contact(problem, self.last_active)
+        try:
+            found = solve_contact(problem, self.last_active)
+        except ConvergenceError as failure:
+            raise self._loose(failure) from None
         self.last_active = found.active
         reaction = sign * found.p
         z = self.inverse.solve(b + D @ reaction) + kernel @ found.a
         return z, -reaction, found.active, found.iterations
+
+    def _loose(self, failure: ConvergenceError) -> ConvergenceError:
+        """The failure with the motions that only contact holds."""
+        if not self.inverse.singular:
+            return failure
+        bodies = bodies_of(self.numbering, self.K, self.rows.C[self.saddle])
+        named = named_motions(self.numbering, self.free_motions, bodies)
+        return ConvergenceError(
+            f"{failure.message}; held by them alone: {named or 'a mechanism'}", failure.hint
+        )
 
     def _contact_flexibility(self, C: FloatArray, D: FloatArray) -> FloatArray:
         if self._flexibility is None:

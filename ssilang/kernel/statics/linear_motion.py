@@ -62,6 +62,18 @@ def describe_motions(
     Each body that moves is named by its place (if there are several), with the rigid motions
     that are free; the hint names the unknowns that move most.
     """
+    named = named_motions(numbering, motions, bodies)
+    count = motions.shape[1]
+    what = "free motion" if count == 1 else "free motions"
+    message = f"the matrix is singular, with {count} {what} that the loads drive"
+    if named:
+        message += f" ({named})"
+    free = _most_moved(numbering, np.linalg.qr(motions)[0])
+    return message, f"not held: {free}; hold it with BLOQ or RELA"
+
+
+def named_motions(numbering: Numbering, motions: FloatArray, bodies: IntArray | None = None) -> str:
+    """The bodies that free motions (n, p) move and the rigid motions among these, in words."""
     span = np.linalg.qr(motions)[0]
     labels = np.zeros(numbering.size, np.int64) if bodies is None else bodies
     several = len(np.unique(labels)) > 1
@@ -71,13 +83,7 @@ def describe_motions(
     parts = [_describe_body(numbering, span, labels == b, several) for b in moving[:3]]
     if len(moving) > 3:
         parts.append(f"{len(moving) - 3} more bodies")
-    count = motions.shape[1]
-    what = "free motion" if count == 1 else "free motions"
-    message = f"the matrix is singular, with {count} {what} that the loads drive"
-    named = "; ".join(p for p in parts if p)
-    if named:
-        message += f" ({named})"
-    return message, "not held: " + _most_moved(numbering, span) + "; hold it with BLOQ or RELA"
+    return "; ".join(p for p in parts if p)
 
 
 def _describe_body(numbering: Numbering, span: FloatArray, own: BoolArray, several: bool) -> str:
