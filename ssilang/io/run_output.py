@@ -77,6 +77,10 @@ class RunOutput:
             return None
         return path if path.exists() else self._of_another_case(name.strip()) or path
 
+    def is_foreign(self, path: Path) -> bool:
+        """Whether a file that may be read is another case's output."""
+        return not self._within(path, (self.directory, self.inputs, *self.allowed))
+
     def _of_another_case(self, name: str) -> Path | None:
         """The latest file of that name in the output folder of another run."""
         results = self.directory.parent

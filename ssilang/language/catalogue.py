@@ -27,6 +27,13 @@ MESSAGES: dict[str, Message] = {
         "the file {path} cannot be read: {reason}",
         "le fichier {path} ne peut pas être lu : {reason}",
     ),
+    "other-case": Message(
+        "{path} is read: an earlier case left it in its own output folder",
+        "{path} est lu : un cas précédent l'a laissé dans son dossier de sortie",
+        "copy the file beside the script if it belongs to it",
+        "copiez le fichier à côté du jeu de données s'il lui appartient",
+        warning=True,
+    ),
     "forbidden-path": Message(
         "the file {path} is outside the script's folder and the output folder",
         "le fichier {path} est hors du dossier du jeu de données et du dossier de sortie",

@@ -49,6 +49,8 @@ def input_path(call: Call, name: str) -> Path:
         raise _forbidden(call, name, run_output(call.session).inputs)
     if not path.is_file():
         raise call.error("missing-file", name, path=str(path), reason="no such file")
+    if run_output(call.session).is_foreign(path):
+        call.session.warn("other-case", call.span, path=str(path))
     return path
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from ssilang.cli.run import run_text
+from ssilang.cli.run import RunOptions, run_file, run_text
 from ssilang.language.scopes import Frame
 from ssilang.language.values import type_of
 
@@ -104,3 +104,16 @@ def test_a_mesh_and_its_named_parts_go_through_a_file(tmp_path: Path) -> None:
     assert np.array_equal(root.find("P").coordinates[:2], [2.0, 1.0])
     wrong = run_text("OPTI LECT 'mesh' ; LIRE NONE ;", tmp_path)
     assert "holds no mesh 'NONE'" in wrong.message
+
+
+def test_a_deck_goes_on_from_the_output_of_the_deck_before(tmp_path: Path) -> None:
+    for name, text in (("one", "X = 4 ; OPTI SAUV 'x.sauv' ; SAUV X ;"),
+                       ("two", "OPTI REST 'x.sauv' ; REST ; Y = X + 1 ;")):  # fmt: skip
+        (tmp_path / "decks").mkdir(exist_ok=True)
+        deck = tmp_path / "decks" / f"{name}.dgibi"
+        deck.write_text(text)
+        options = RunOptions(output_directory=tmp_path / "results" / name, summary=True)
+        result = run_file(deck, options)
+        assert result.exit_code == 0, result.message
+    assert result.session.root.find("Y") == 5
+    assert [w.code for w in result.session.warnings] == ["other-case"]
