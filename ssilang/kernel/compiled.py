@@ -30,6 +30,11 @@ def compiled(function: Function) -> Function:
     return cast(Function, numba.njit(cache=True, error_model="numpy")(function))
 
 
+def is_compiled(package: str) -> bool:
+    """Whether functions of a package of the kernel ('dynamics') were compiled before."""
+    return any(Path(_CACHE).glob(f"{package}_*/*.nbi"))
+
+
 def _state() -> str:
     """A name for the state of the modules: paths, sizes, times of change."""
     digest = hashlib.sha256()
@@ -63,5 +68,5 @@ def _remove_old(kept: Path) -> None:
             shutil.rmtree(folder, ignore_errors=True)
 
 
-if "NUMBA_CACHE_DIR" not in os.environ:
-    numba.config.CACHE_DIR = str(_cache_folder())  # type: ignore[attr-defined]
+_CACHE = os.environ.get("NUMBA_CACHE_DIR") or str(_cache_folder())
+numba.config.CACHE_DIR = _CACHE  # type: ignore[attr-defined]

@@ -24,7 +24,7 @@ from ssilang.language.registry import Help, operator
 from ssilang.language.values import ListMots, ListReel, Mot, Table
 from ssilang.operators.files import output_path, run_output
 from ssilang.operators.motion_observers import CsvObserver, TableObserver, VtkObserver
-from ssilang.operators.progress import ProgressLine
+from ssilang.operators.progress import COMPILING, ProgressLine
 from ssilang.operators.table_entries import Entries
 
 if TYPE_CHECKING:
@@ -68,6 +68,7 @@ REFUSED = {"CHARMECA": "loads computed by a procedure at each step are not built
 )
 def zdyn(call: Call) -> Table:
     """Read the table, integrate, hand back the saved instants."""
+    from ssilang.kernel.compiled import is_compiled
     from ssilang.kernel.dynamics.integrate import integrate
     from ssilang.kernel.dynamics.problem import make_problem
 
@@ -81,6 +82,8 @@ def zdyn(call: Call) -> Table:
     vtk, csv = _vtk(entries, times), _csv(entries, times)
     line = ProgressLine("DYNAMIC")
     observers = [o for o in (results, vtk, csv) if o is not None]
+    if not is_compiled("dynamics"):
+        line.note(COMPILING)
     try:
         history = integrate(problem, observers, line, entries.flag("NEWTON_COMPLET"))
     finally:

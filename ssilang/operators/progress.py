@@ -6,6 +6,7 @@ import sys
 import time
 from typing import TextIO
 
+COMPILING = "compiling the time loop, once on this machine (10 to 20 s)"
 PATIENCE = 2.0  # seconds before anything shows
 REFRESH = 0.2
 WIDTH = 30
@@ -19,24 +20,36 @@ class ProgressLine:
         self.stream = stream or sys.stderr
         self._started = self._shown = time.monotonic()
         self._visible = False
+        # the first report: what came before it is start-up
+        self._first: tuple[float, int] | None = None
 
     def __call__(self, done: int, total: int) -> None:
         """Show that `done` of `total` steps are done."""
         now = time.monotonic()
+        since, before = self._first = self._first or (now, done)
         if not self.stream.isatty() or now - self._started < PATIENCE:
             return
         if done < total and now - self._shown < REFRESH:
             return
         self._shown = now
         share = done / total if total else 1.0
-        left = (now - self._started) * (1 - share) / max(share, 1e-9)
+        left = ""
+        if done > before:
+            left = f", {(now - since) * (total - done) / (done - before):.0f} s left"
         bar = ("#" * round(share * WIDTH)).ljust(WIDTH, ".")
-        self.stream.write(f"\r{self.title} [{bar}] {done}/{total}, {left:.0f} s left ")
+        self.stream.write(f"\r{self.title} [{bar}] {done}/{total}{left}".ljust(80))
         self._visible = True
         self.stream.flush()
+
+    def note(self, text: str) -> None:
+        """Say at once, on the line, what takes time before the first step."""
+        if self.stream.isatty():
+            self.stream.write(f"\r{self.title}: {text} ")
+            self._visible = True
+            self.stream.flush()
 
     def close(self) -> None:
         """Wipe the line."""
         if self._visible:
-            self.stream.write("\r" + " " * (len(self.title) + WIDTH + 40) + "\r")
+            self.stream.write("\r" + " " * 80 + "\r")
             self.stream.flush()
