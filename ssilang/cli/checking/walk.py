@@ -124,7 +124,9 @@ class Checker:
     def _definition(self, node: tree.Definition, scope: Scope) -> None:
         self._procedures.append(node)
         self._shadow(node.name, node.span)
-        if node.name in self.session.library.standard_names:
+        theirs = self.session.library.standard_files.get(node.name)
+        here = node.span.source.path
+        if theirs is not None and (here is None or here.resolve() != theirs.resolve()):
             self._report(SsiError("overrides-procedure", _head(node.span), name=node.name))
         scope.values[node.name] = Procedure(node.name, node)
 
