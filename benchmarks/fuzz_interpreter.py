@@ -92,6 +92,8 @@ def main() -> int:
 
 
 def _keep(defects: dict[str, str], name: str, text: str) -> None:
+    if name not in defects:
+        print(f"found: {name}", flush=True)
     if len(text) < len(defects.get(name, "x" * 10**6)):
         defects[name] = text
 
