@@ -164,3 +164,22 @@ def test_line_put_in_order() -> None:
     script = PLANE + "L = (A D 2 O) ET (A D 2 B) ; M = ORDO L ; "
     assert value(script + "X = MAXI (COOR M 'CURV') ;") == pytest.approx(2.0)
     assert "opposite senses" in message(script + "X = VERS L ;")
+
+
+def test_sets_of_models() -> None:
+    script = STRIP + "T = S PLUS (3. 0.) ; A1 = MODE S MECANIQUE ELASTIQUE ; "
+    script += "B1 = MODE T MECANIQUE ELASTIQUE ; C = A1 ET B1 ; "
+    assert value(script + "X = NBEL (EXTR (C DIFF A1) 'MAIL') ;") == 8
+    assert value(script + "X = COOR 1 (BARY (EXTR (C INTE B1) 'MAIL')) ;") == pytest.approx(3.5)
+    assert "in common" in message(script + "X = A1 INTE B1 ;")
+
+
+def test_merged_mesh_may_be_named_again() -> None:
+    script = PLANE + "L = (O D 2 A) ET ((1. 0.) D 2 B) ; "
+    assert value(script + "M = ELIM 1E-3 L ; X = NBNO M ;") == 5
+
+
+def test_line_in_one_dimension() -> None:
+    script = "OPTI DIME 1 ELEM SEG2 ; P = POIN 0. ; Q = POIN 2. ; L = P D 4 Q ; "
+    assert value(script + "X = MESU L ;") == pytest.approx(2.0)
+    assert value(script + "X = COOR (L POIN 'PROC' (POIN 0.9)) ;") == pytest.approx(1.0)
