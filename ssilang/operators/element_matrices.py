@@ -12,6 +12,7 @@ from ssilang.kernel.elements.follower import pressure_stiffness
 from ssilang.kernel.elements.hooke import hooke_block
 from ssilang.kernel.elements.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
 from ssilang.kernel.elements.zone_fields import zone_field
+from ssilang.kernel.errors import MeshError
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.matrices.build import nodal_diagonal
 from ssilang.kernel.matrices.lumping import lumped_matrix
@@ -50,6 +51,8 @@ def present(call: Call, model: Model, pressures: bool = False) -> Model:
 
 
 def _assembled(model: Model, blocks: list[ElementMatrices], kind: str) -> Matrix:
+    if not blocks:
+        raise MeshError("the model has no mechanical zone", "CHARGEMENT zones only carry loads")
     return Matrix(model.mesh.nodes, tuple(blocks), (), kind)
 
 

@@ -37,6 +37,8 @@ def _shared(call: Call, usual: tuple[str, ...], allowed: tuple[str, ...]) -> Nod
     while (name := call.keyword(allowed)) is not None:
         values[name] = float(call.required("FLOTTANT", after=call.keyword_end))
     if not values:
+        if not usual:
+            raise call.bad("a vector gives no moment in the plane", hint="name it: 'MZ' value")
         vector: Point = call.required("POINT")
         values = dict(zip(usual, vector.coordinates[: len(usual)], strict=True))
     place: Mesh | Point = call.required("MAILLAGE", "POINT")

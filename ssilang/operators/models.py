@@ -19,7 +19,7 @@ from ssilang.kernel.materials.behaviours import (
     full_word,
     normalised,
 )
-from ssilang.kernel.mesh.mesh import CellBlock, Point
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
 from ssilang.kernel.model import Mode, Model, Zone
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
@@ -38,7 +38,7 @@ LAW_WORDS = ("ELASTIQUE", *ELASTICITIES, *JOINT_WORDS)
 class _Wish:
     """What a MODE statement says."""
 
-    formulation: str = "MECANIQUE"
+    formulation: str = ""
     laws: list[str] = field(default_factory=list)
     elements: list[str] = field(default_factory=list)
     constituent: str = ""
@@ -93,9 +93,23 @@ def mode(call: Call) -> Model:
         raise call.bad("no element of this version stands on a point", mesh)
     if not mesh.blocks:
         raise call.bad("the mesh is empty", mesh)
+    if not wish.formulation and not wish.laws:
+        raise call.bad("the formulation is not said", mesh, "MODE mesh 'MECANIQUE' 'ELASTIQUE'")
+    _check_elements(call, wish, mesh)
     if wish.formulation == "CHARGEMENT":
         return Model(tuple(_pressure_zone(block, wish, ws) for block in mesh.blocks))
     return Model(tuple(_zone(block, wish, ws) for block in mesh.blocks))
+
+
+def _check_elements(call: Call, wish: _Wish, mesh: Mesh) -> None:
+    """Refuse names of elements of which none fits the mesh."""
+    kinds = [b.cell_type for b in mesh.blocks]
+    fitting = [n for n in wish.elements if n in GENERIC_ELEMENTS or ELEMENTS[n].cell_type in kinds]
+    if wish.elements and not fitting:
+        raise call.bad(
+            f"element {wish.elements[0]} does not stand on {' '.join(dict.fromkeys(kinds))} cells",
+            hint=f"{wish.elements[0]} needs {ELEMENTS[wish.elements[0]].cell_type} cells",
+        )
 
 
 def _take(call: Call, word: str, wish: _Wish) -> None:

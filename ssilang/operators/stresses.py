@@ -11,6 +11,7 @@ from ssilang.kernel.elements.loads import pressure_vectors, total
 from ssilang.kernel.elements.second_order import green_strain, green_stress
 from ssilang.kernel.elements.thermal import thermal_strain
 from ssilang.kernel.elements.zone_fields import zone_field
+from ssilang.kernel.errors import FieldError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.model import Model, Zone
@@ -153,7 +154,14 @@ def epsi(call: Call) -> CellField:
 
 
 def _logarithmic(zone: Zone, gradient: CellField, by_displacement: bool) -> CellFieldBlock:
-    values = zone_field(zone, gradient).matrix(gradient_names(zone), "STRESSES")
+    names = gradient_names(zone)
+    seen = zone_field(zone, gradient)
+    if not any(n in seen for n in names):
+        raise FieldError(
+            f"EPSI takes displacements, or a field of gradients {' '.join(names)}",
+            f"this field has: {' '.join(seen.names) or 'nothing there'}",
+        )
+    values = seen.matrix(names, "STRESSES")
     strains = logarithmic_strain(zone, values, by_displacement)
     return cell_block(zone, families.family_of(zone).strain_names(zone), strains)
 

@@ -24,7 +24,7 @@ from ssilang.kernel.elements.plate import Plate
 from ssilang.kernel.elements.solid import Incompressible, Solid
 from ssilang.kernel.elements.solid_moduli import solid_compliance
 from ssilang.kernel.elements.thick_shell import ThickShell
-from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
+from ssilang.kernel.elements.zone_fields import ZoneField, missing_parameter, zone_field
 from ssilang.kernel.errors import FieldError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.fields.node_field import NodeField
@@ -85,7 +85,10 @@ def stiffness(zone: Zone, material: CellField) -> ElementMatrices:
 
 def viscosity(zone: Zone, material: CellField) -> ElementMatrices:
     """Viscous damping of a zone: its stiffness with VISQ in the place of YOUN."""
-    parameters = renamed(zone_field(zone, material), {"VISQ": "YOUN"})
+    given = zone_field(zone, material)
+    if "VISQ" not in given:
+        raise missing_parameter(zone, "VISQ", given.names)
+    parameters = renamed(given, {"VISQ": "YOUN"})
     family = family_of(zone)
     moduli = family.moduli(zone, parameters, "RIGIDITE")
     values = family.stiffness_values(zone, moduli, parameters)

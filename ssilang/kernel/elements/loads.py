@@ -312,6 +312,15 @@ def body_force(
     MeshError
         If the model holds elements that are not continuous.
     """
+    wanted = {n for zone in model.zones for n in force_names(zone)}
+    blocks = [density] if isinstance(density, NodeField) else density.blocks
+    given = [n for block in blocks for n in block.components]
+    if not wanted.intersection(given):
+        raise FieldError(
+            f"a volume force has components {' '.join(sorted(wanted))}, this field has "
+            f"{' '.join(dict.fromkeys(given)) or 'none'}",
+            "change their names with NOMC or EXCO",
+        )
     out = [_body_force(zone, density, material) for zone in model.zones]
     return total(model.mesh.nodes, out)
 
