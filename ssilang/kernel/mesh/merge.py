@@ -5,7 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from ssilang.kernel.errors import MeshError
+from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.kernel.mesh.combine import take, union
+from ssilang.kernel.mesh.degree import middle_places
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.nodes import IntArray, NodeTable
 
@@ -120,16 +122,37 @@ def _brick_collapses() -> _Collapse:
     """A brick with two parallel edges vanished, side by side on a face, is a prism."""
     rules: _Collapse = {}
     brick = ((0, 1, 2, 3), (4, 5, 6, 7))
-    frames = (
+    frames = (  # the three ways to see a brick as two opposite faces, all right-handed
         brick,
-        ((0, 1, 5, 4), (3, 2, 6, 7)),
-        ((0, 4, 7, 3), (1, 5, 6, 2)),
+        ((0, 4, 5, 1), (3, 7, 6, 2)),
+        ((0, 3, 7, 4), (1, 2, 6, 5)),
     )
     for low, high in frames:
         for i in range(4):
             a, b, c, d = (low[(i + k) % 4] for k in range(4))
             e, f, g, h = (high[(i + k) % 4] for k in range(4))
             rules[((a, b), (e, f))] = ("PRI6", (a, c, d, e, g, h))
+    return rules
+
+
+def _quadratic_brick_collapses() -> _Collapse:
+    """The same with middle nodes: CU20 to PR15."""
+    corner = CELL_TYPES["CU20"].corners
+    middle = {frozenset((a, b)): m for m, a, b in middle_places("CU20")}
+    rules: _Collapse = {}
+    for pairs, (_, prism) in _brick_collapses().items():
+        a, c, d, e, g, h = (corner[k] for k in prism)
+        b, f = (corner[pair[1]] for pair in pairs)  # merged with a and e
+
+        def between(i: int, j: int) -> int:
+            return middle[frozenset((i, j))]
+
+        local = (
+            *(a, between(b, c), c, between(c, d), d, between(d, a)),
+            *(between(a, e), between(c, g), between(d, h)),
+            *(e, between(f, g), g, between(g, h), h, between(h, e)),
+        )
+        rules[tuple((corner[i], corner[j]) for i, j in pairs)] = ("PR15", local)
     return rules
 
 
@@ -140,6 +163,7 @@ _COLLAPSES: dict[str, _Collapse] = {
     "QUA4": _polygon_collapses(4, 1, "TRI3"),
     "QUA8": _polygon_collapses(4, 2, "TRI6"),
     "CUB8": _brick_collapses(),
+    "CU20": _quadratic_brick_collapses(),
 }
 
 

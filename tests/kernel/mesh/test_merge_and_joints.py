@@ -16,9 +16,9 @@ from ssilang.kernel.mesh.measure import total_measure
 from ssilang.kernel.mesh.merge import merge_between, merge_close, regenerate, repeated_nodes
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
-from ssilang.kernel.mesh.orientation import reversed_line
+from ssilang.kernel.mesh.orientation import reversed_line, signed_volumes
 from ssilang.kernel.mesh.subdivision import subdivide
-from ssilang.kernel.mesh.sweep import rotation, sweep_line, translation
+from ssilang.kernel.mesh.sweep import rotation, sweep_line, sweep_surface, translation
 
 UP, DOWN = np.array([0.0, 1, 0]), np.array([0.0, -1, 0])
 
@@ -73,6 +73,31 @@ def test_turned_line_that_touches_its_centre_becomes_triangles(quadratic: bool, 
     assert {b.cell_type: len(b) for b in made.blocks} == {name: 4, cell: 4}
     assert repeated_nodes(made) == 0
     assert total_measure(made) == pytest.approx(area)
+
+
+@pytest.mark.parametrize(
+    ("quadratic", "brick", "prism"), [(False, "CUB8", "PRI6"), (True, "CU20", "PR15")]
+)
+@pytest.mark.parametrize("along", [0, 1])
+def test_surface_turned_about_its_edge_gives_prisms(
+    quadratic: bool, brick: str, prism: str, along: int
+) -> None:
+    nodes = NodeTable()
+    a, b = ([0, 0, 0], [1, 0, 0]) if along == 0 else ([0, 0, 0], [0, 0, 2])
+    way = np.array([0.0, 0, 2]) if along == 0 else np.array([1.0, 0, 0])
+    base = line(nodes, a, b, 2, quadratic)
+    name = "QUA8" if quadratic else "QUA4"
+    plate = sweep_line(base, translation(way), subdivide(1.0, count=2), name)
+    path = rotation(plate, 90.0 if along else -90.0, np.zeros(3), np.array([0.0, 0, 1]))
+    wedge = sweep_surface(plate, path, subdivide(path.length, count=6))
+    volume = total_measure(wedge)
+    merge_close(nodes, wedge.node_ids, 1e-6)
+    made = regenerate(wedge)
+    assert {b.cell_type: len(b) for b in made.blocks} == {brick: 12, prism: 12}
+    assert total_measure(made) == pytest.approx(volume, rel=1e-9)
+    # cells keep the sense of the bricks from which they come
+    senses = [np.sign(signed_volumes(b)) for b in made.blocks]
+    assert len(set(np.concatenate(senses))) == 1
 
 
 def plate_and_line(cuts: int) -> tuple[Mesh, Mesh, Mesh]:
