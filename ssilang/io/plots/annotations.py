@@ -183,6 +183,8 @@ def colour_bar(
     )
     bar.outline.set_linewidth(0.5)
     bar.ax.tick_params(labelsize=8, length=2.5)
+    # each mark says its whole value: a common power of ten would stand inside the label below
+    bar.formatter = lambda value, _: f"{value:.4g}"
     text = name
     if extremes is not None:
         text += f"    min {extremes[0]:.4g}   max {extremes[1]:.4g}"

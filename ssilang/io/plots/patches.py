@@ -43,10 +43,11 @@ class Faces:
         return self.block.colours[self.cells]
 
 
-# joints: the flat cell between two lines, or the two faces of a surface joint
+# joints: the cell between two lines and these lines (all that is seen of a closed one), or the
+# two faces of a surface joint
 _JOINT_FACES: dict[str, tuple[tuple[str, tuple[int, ...]], ...]] = {
-    "RAC2": (("QUA4", (0, 1, 3, 2)),),
-    "RAC3": (("QUA4", (0, 2, 5, 3)),),
+    "RAC2": (("QUA4", (0, 1, 3, 2)), ("SEG2", (0, 1)), ("SEG2", (2, 3))),
+    "RAC3": (("QUA4", (0, 2, 5, 3)), ("SEG3", (0, 1, 2)), ("SEG3", (3, 4, 5))),
     "LIA3": (("TRI3", (0, 1, 2)), ("TRI3", (3, 4, 5))),
     "LIA4": (("QUA4", (0, 1, 2, 3)), ("QUA4", (4, 5, 6, 7))),
     "LIA6": (("TRI6", (0, 1, 2, 3, 4, 5)), ("TRI6", (6, 7, 8, 9, 10, 11))),

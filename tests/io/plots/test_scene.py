@@ -13,6 +13,7 @@ from PIL import Image
 from ssilang.io.errors import OutputError
 from ssilang.io.plots.composition import Subjects, compose
 from ssilang.io.plots.cutting import section_of
+from ssilang.io.plots.levels import choose_levels
 from ssilang.io.plots.palette import index_of, shade
 from ssilang.io.plots.patches import visible_faces
 from ssilang.io.plots.scene import Layer, PictureOptions, draw_scene
@@ -266,3 +267,18 @@ def test_principal_strokes_of_a_shear() -> None:
     large = {p.name: p.vectors[0] for p in arrows.parts}
     assert np.allclose(np.abs(large["SI11"]), 5.0 / np.sqrt(2) * np.array([1, 1, 0]))
     assert large["SI11"] @ large["SI33"] == pytest.approx(0.0)
+
+
+def test_a_closed_joint_shows_its_values_along_its_lines() -> None:
+    table = NodeTable()
+    ids = table.add(np.array([(0.0, 0), (1, 0), (0, 0), (1, 0)]))
+    joint = Mesh.of(table, "RAC2", ids[None, :])
+    values = {"SMN": np.array([[-3.0]])}
+    traction = CellField((CellFieldBlock(joint.blocks[0], values, "STRESSES", "JOI2"),))
+    layer = Layer(joint, field=traction, component="SMN")
+    figure = draw_scene((layer,), (), PictureOptions(levels=np.array([-4.0, -2.0, 0.0])))
+    low = figure.axes[0].collections[0].get_edgecolor()
+    wide = figure.axes[0].collections[0].get_linewidths()
+    expected = choose_levels(np.array([-3.0]), None, np.array([-4.0, -2.0, 0.0]))
+    shown = np.isclose(low, expected.rgba(np.array([-3.0]))).all(axis=1)
+    assert max(w for w, s in zip(wide, shown, strict=True) if s) > 3
