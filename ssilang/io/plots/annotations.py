@@ -167,6 +167,7 @@ def colour_bar(
 ) -> None:
     """The colour bar with the name of what is shown and its extremes."""
     from matplotlib.cm import ScalarMappable
+    from matplotlib.ticker import FuncFormatter
 
     wide = axes.get_xlim()[1] - axes.get_xlim()[0] > 2.2 * (axes.get_ylim()[1] - axes.get_ylim()[0])
     bounds = levels.bounds
@@ -184,7 +185,7 @@ def colour_bar(
     bar.outline.set_linewidth(0.5)
     bar.ax.tick_params(labelsize=8, length=2.5)
     # each mark says its whole value: a common power of ten would stand inside the label below
-    bar.formatter = lambda value, _: f"{value:.4g}"
+    bar.formatter = FuncFormatter(lambda value, _: f"{value:.4g}")
     text = name
     if extremes is not None:
         text += f"    min {extremes[0]:.4g}   max {extremes[1]:.4g}"
