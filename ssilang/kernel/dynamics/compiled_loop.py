@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ssilang.kernel.compiled import compiled
-from ssilang.kernel.joints.condensed import solve_interface
+from ssilang.kernel.joints.condensed import iterate_interface
 from ssilang.kernel.joints.response import interface_energies
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
@@ -281,6 +281,8 @@ def march(
     d = motion.w.shape[1]
     new = np.zeros((motion.state.shape[0], motion.state.shape[1]))
     D = np.zeros((motion.w.shape[0], d, d))
+    rq, dyq, deltaq = np.zeros(q), np.zeros(q), np.zeros(q)
+    Kq, Aq = np.zeros((q, q)), np.zeros((q, q))
     scratch = Scratch(np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n))
     worst = 0
     _times_vector(system.forces, factors[0], load0)
@@ -298,10 +300,10 @@ def march(
         if q:
             _times_vector(joints.J, du, y0)
             _copy(y0, y)
-            turns, residual = solve_interface(
+            turns, residual = iterate_interface(
                 joints.pairs, joints.B, joints.weights, joints.codes, joints.p, step.S, step.R,
                 1 - system.scheme[1], delta, f, motion.state, y0, y, motion.w, motion.t, new, D,
-                f1, h,
+                f1, h, rq, dyq, deltaq, Kq, Aq,
             )  # fmt: skip
             if turns <= 0:
                 return k, turns, residual

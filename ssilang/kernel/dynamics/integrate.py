@@ -24,6 +24,7 @@ from ssilang.kernel.dynamics.initial import (
 from ssilang.kernel.dynamics.motion import snapshot_of
 from ssilang.kernel.dynamics.plan import Run, runs_of
 from ssilang.kernel.dynamics.problem import Problem
+from ssilang.kernel.dynamics.reduced_loop import ReducedLoop, supports_are_still
 from ssilang.kernel.dynamics.snapshot import Observer, Snapshot
 from ssilang.kernel.dynamics.sparse_loop import SparseLoop, StepSolver
 from ssilang.kernel.dynamics.step_solvers import step_solver
@@ -126,7 +127,7 @@ class Integration:
         times, done = self.problem.times, 0
         longest = 64
         while done < len(times) - 1:
-            run = next(runs_of(times[done:], longest))
+            run = next(runs_of(times[done : done + longest + 1], longest))
             before = time.perf_counter()
             run = Run(done + run.first, done + run.last, run.dt)
             self._steps(run, history, wanted)
@@ -260,6 +261,10 @@ class _DenseEngine:
         share = 1 - problem.scheme.alpha_f
         effective = effective_of(problem, effective_matrix(problem, dt), dt, share)
         self.solver = effective.inverse.factor.name
+        self._reduced: ReducedLoop | None = None
+        if supports_are_still(problem):
+            self._reduced = ReducedLoop(problem, motion, effective)
+            return
         self._system = system_of(problem)
         self._operators = operators_of(problem, effective)
         self._joints = joints_of(problem)
@@ -268,6 +273,8 @@ class _DenseEngine:
     def march(
         self, factors: FloatArray, save: IntArray, saved: Saved, history: FloatArray
     ) -> tuple[int, int, float]:
+        if self._reduced is not None:
+            return self._reduced.march(factors, save, saved, history)
         return march(
             self._system, self._operators, self._joints, self._motion, factors, save, saved, history
         )

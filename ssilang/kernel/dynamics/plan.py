@@ -32,9 +32,8 @@ def runs_of(times: FloatArray, longest: int) -> Iterator[Run]:
         dt = next((k for k in known if abs(k - steps[start]) <= SAME * k), float(steps[start]))
         if dt not in known:
             known.append(dt)
-        stop = start + 1
-        while stop < len(steps) and stop - start < longest and abs(steps[stop] - dt) <= SAME * dt:
-            stop += 1
+        other = np.abs(steps[start : start + longest] - dt) > SAME * dt
+        stop = start + (int(np.argmax(other)) if other.any() else len(other))
         yield Run(start, stop, dt)
         start = stop
 

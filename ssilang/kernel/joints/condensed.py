@@ -138,7 +138,7 @@ def _hold_shear(codes: IntArray, p: FloatArray, t: FloatArray, state: FloatArray
 
 
 @compiled
-def solve_interface(
+def iterate_interface(
     pairs: IntArray,
     B: FloatArray,
     weights: FloatArray,
@@ -158,28 +158,14 @@ def solve_interface(
     D: FloatArray,
     f: FloatArray,
     h: FloatArray,
+    r: FloatArray,
+    dy: FloatArray,
+    delta: FloatArray,
+    K: FloatArray,
+    A: FloatArray,
 ) -> tuple[int, float]:
-    """Increment y of the jumps (start value on entry), tractions, new states, forces.
-
-    Parameters
-    ----------
-    h : array (size,)
-        On return `c (f - f0) - R y`, the load that corrects the linear solution:
-        `x = A^-1 r - A^-1 J^T h`.
-
-    Returns
-    -------
-    turns : int
-        Newton turns, negative if it did not converge, 0 if the interface lost its stiffness.
-    residual : float
-        Of the last turn, relative to the jumps.
-    """
+    """`solve_interface` with its working arrays: r, dy, delta (size,), K, A (size, size)."""
     n = y.shape[0]
-    r = np.empty(n)
-    K: FloatArray = np.empty((n, n))
-    A: FloatArray = np.empty((n, n))
-    dy: FloatArray = np.empty(n)
-    delta: FloatArray = np.empty(n)
     for i in range(n):
         delta[i] = delta0[i] + y[i]
     interface_response(pairs, B, weights, codes, p, delta, state, w, t, new, D, f)
@@ -222,3 +208,47 @@ def solve_interface(
             return turn, size / scale
     _release(state, new)
     return -MOST_TURNS, size / scale
+
+
+@compiled
+def solve_interface(
+    pairs: IntArray,
+    B: FloatArray,
+    weights: FloatArray,
+    codes: IntArray,
+    p: FloatArray,
+    S: FloatArray,
+    R: FloatArray,
+    c: float,
+    delta0: FloatArray,
+    f0: FloatArray,
+    state: FloatArray,
+    y0: FloatArray,
+    y: FloatArray,
+    w: FloatArray,
+    t: FloatArray,
+    new: FloatArray,
+    D: FloatArray,
+    f: FloatArray,
+    h: FloatArray,
+) -> tuple[int, float]:
+    """Increment y of the jumps (start value on entry), tractions, new states, forces.
+
+    Parameters
+    ----------
+    h : array (size,)
+        On return `c (f - f0) - R y`, the load that corrects the linear solution:
+        `x = A^-1 r - A^-1 J^T h`.
+
+    Returns
+    -------
+    turns : int
+        Newton turns, negative if it did not converge, 0 if the interface lost its stiffness.
+    residual : float
+        Of the last turn, relative to the jumps.
+    """
+    n = y.shape[0]
+    return iterate_interface(
+        pairs, B, weights, codes, p, S, R, c, delta0, f0, state, y0, y, w, t, new, D, f, h,
+        np.empty(n), np.empty(n), np.empty(n), np.empty((n, n)), np.empty((n, n)),
+    )  # fmt: skip
