@@ -36,8 +36,8 @@ def with_nature(call: Call, field: NodeField) -> NodeField:
         en="Field of some components, under new names if they are given (one component of a field "
         "at nodes is called SCAL without). 'NOID': a missing component is no error.",
         fr="Champ de certaines composantes, sous de nouveaux noms s'ils sont donnés (sinon, "
-        "l'unique composante d'un champ par points s'appelle SCAL). 'NOID' : une composante absente n'est "
-        "pas une erreur.",
+        "l'unique composante d'un champ par points s'appelle SCAL). 'NOID' : une composante "
+        "absente n'est pas une erreur.",
         syntax="CHP2 = EXCO MOT1 | LMOT1 ('NOID') CHP1 (MOT2 | LMOT2) ('NATURE' MOT3) ;",
         examples=(_POINT_FIELD + "LIST (EXCO 'UX' C) ;",),
     ),

@@ -220,8 +220,8 @@ operator(
         "A sum of terms makes one relation for each node of the meshes (all of the same number of "
         "nodes, or of one); with 'MINI' the sum stays at or above the value, with 'MAXI' at or "
         "below. A field makes one relation, its values times the unknowns of their names; 'DUAL' "
-        "gives the force on the body for a multiplier of one. 'CORI' moves a mesh as a rigid body, 'ENSE' gives all "
-        "nodes the same value, 'ACCRO' hooks nodes onto the cells that they lie in, 'GLIS' does "
+        "gives the force on the body for a multiplier of one. 'CORI' moves a mesh as a rigid body, "
+        "'ENSE' gives all nodes the same value, 'ACCRO' hooks nodes onto the cells that they lie in, 'GLIS' does "
         "so but along the line, 'MILI' holds middle nodes between the corners.",
         "Relations linéaires, à ajouter à la matrice d'un système ; DEPI donne leur valeur "
         "(0 par défaut). Une somme de termes fait une relation par nœud des maillages (de même "
