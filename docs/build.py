@@ -20,7 +20,14 @@ from pathlib import Path
 from ssilang.cli.run import RunOptions, run_text
 from ssilang.language.cast3m import IN_SCOPE, SUBJECTS, Cast3mWord, cast3m_words
 from ssilang.language.library import standard_procedures
-from ssilang.language.reference import Page, describe, first_sentence, operator_page, procedure_page
+from ssilang.language.reference import (
+    Page,
+    describe,
+    example_lines,
+    first_sentence,
+    operator_page,
+    procedure_page,
+)
 from ssilang.language.registry import OPERATORS, operators_by_family
 from ssilang.operators.loader import load_operators
 
@@ -91,7 +98,7 @@ def _arguments(page: Page) -> list[str]:
 
 
 def _example(ran: Ran) -> list[str]:
-    lines = ["## Example", "", "```", ran.text, "```", ""]
+    lines = ["## Example", "", "```", *example_lines(ran.text), "```", ""]
     if ran.output:
         shown = ran.output.split("\n")
         more = ["..."] if len(shown) > _LINES_SHOWN else []

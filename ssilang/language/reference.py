@@ -142,8 +142,26 @@ def page_text(page: Page, language: str) -> str:
         lines += ["", _WORDS["arguments"][language], *arguments]
     for example in page.help.examples:
         lines += ["", _WORDS["example"][language]]
-        lines += ["    " + line for line in example.split("\n")]
+        lines += ["    " + line for line in example_lines(example)]
     return "\n".join(lines)
+
+
+_STATEMENT = re.compile(r"(?:'(?:[^']|'')*'|[^;'])*;\s*")
+
+
+def example_lines(text: str) -> list[str]:
+    """An example cut into lines of some whole statements each, where it is written in one."""
+    if "\n" in text or len(text) <= WIDTH:
+        return text.split("\n")
+    statements = _STATEMENT.findall(text)
+    if "".join(statements).strip() != text.strip():
+        return [text]
+    lines = [""]
+    for statement in statements:
+        if lines[-1] and len(lines[-1]) + len(statement.strip()) > WIDTH:
+            lines.append("")
+        lines[-1] += statement
+    return [line.rstrip() for line in lines]
 
 
 def _arguments(page: Page, language: str) -> list[str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from ssilang.language.library import standard_procedures
-from ssilang.language.reference import find_page, overview, page_text
+from ssilang.language.reference import example_lines, find_page, overview, page_text
 from ssilang.language.registry import OPERATORS
 from ssilang.operators.loader import load_operators
 
@@ -29,3 +29,10 @@ def test_page(name):
 def test_overview_names_them_all():
     text = overview(standard_procedures().values(), "en")
     assert all(name in text for name in _NAMES)
+
+
+@pytest.mark.parametrize("name", _NAMES)
+def test_examples_are_shown_as_they_run(name):
+    for example in find_page(name, standard_procedures()).help.examples:
+        shown = example_lines(example)
+        assert " ".join(" ".join(shown).split()) == " ".join(example.split())
