@@ -44,6 +44,11 @@ def value(run, text, name="X"):
         ("M = MODE S MECANIQUE ELASTIQUE ; A = MATE M 'YOUN' (0. 1.) ;", "number"),
         ("M = MODE S MECANIQUE ELASTIQUE ; K = RIGI M (MATE M 'YOUN' 3.) ;", "NU is missing"),
         ("M = MODE S MECANIQUE ELASTIQUE ; K = RIGI M (MATE M 'YOUN' 3. 'NU' 0.6) ;", "0.6"),
+        ("M = MODE S ;", "formulation"),
+        ("M = MODE S MECANIQUE QUA8 ;", "QUA8 does not stand on QUA4"),
+        ("M = MODE S MECANIQUE ; F = CNEQ M (MANU 'CHPO' S 1 'UX' 1.) ;", "FX FY"),
+        ("M = MODE S MECANIQUE ; C = AMOR M (MATE M 'YOUN' 1. 'NU' 0.) ;", "VISQ is missing"),
+        ("F = MOME (0. 1.) P1 ;", "no moment in the plane"),
         ("OPTI MODE AXIS ; M = MODE L MECANIQUE ELASTIQUE POUT ;", "AXIS"),
     ],
 )
@@ -189,3 +194,12 @@ def test_field_of_revolution_in_space(run):
     assert value(run, text) == pytest.approx(0.0, abs=1e-12)
     assert value(run, text, "Y") == pytest.approx(3.0)
     assert value(run, text, "Z") == 24
+
+
+def test_vibr_takes_a_mass_of_both_signs_for_a_buckling_load(run):
+    text = (
+        "OPTI DIME 2 ; P = 0. 0. ; K = MANU 'RIGIDITE' P (MOTS 'UX' 'UY') (PROG 4. 0. 9.) ; "
+        "G = MANU 'RIGIDITE' 'TYPE' 'MASSE' P (MOTS 'UX' 'UY') (PROG 1. 0. -1.) ; "
+        "T = VIBR 'PROC' (PROG 0.) K G ; X = (2. * PI * (T . 'MODES' . 1 . 'FREQUENCE')) ** 2 ;"
+    )
+    assert value(run, text) == pytest.approx(4.0)
