@@ -11,6 +11,7 @@ from __future__ import annotations
 import io
 import random
 import re
+import signal
 import sys
 import tempfile
 from collections import Counter
@@ -30,6 +31,7 @@ _NUMBERS = ["1", "-1", "0", "2.5", "-3.", "1E9", "1000", "VRAI"]
 _SPARE = [*_NUMBERS, "'ABC'", "''", "(0. 0.)", "(PROG 1. 2.)", "(PROG)", "(LECT 3)", "(TABL)"]
 _FIXED = frozenset("();=.")  # changing these makes errors of syntax, which another script tries
 _STATEMENTS = 2000
+_SECONDS = 20
 
 
 def examples() -> list[list[str]]:
@@ -70,18 +72,24 @@ def main() -> int:
     pool = examples()
     outcomes: Counter[str] = Counter()
     defects: dict[str, str] = {}
+    signal.signal(signal.SIGALRM, _interrupt)
     with tempfile.TemporaryDirectory() as folder:
         for _ in range(count):
             text = mutated(rng.choice(pool), pool, rng)
             options = RunOptions(Path(folder), limits=Limits(50, _STATEMENTS))
             source = Source("mutant", text, Path(folder) / "mutant.ssi")
+            signal.alarm(_SECONDS)
             try:
                 result = run_source(source, options, io.StringIO(), io.StringIO())
             except Exception as problem:
                 _keep(defects, f"crash {type(problem).__name__}: {problem}", text)
                 continue
+            finally:
+                signal.alarm(0)
             outcomes["ran" if not result.errors else "failed with a message"] += 1
             for error in result.errors:
+                if error.code == "interrupted":
+                    _keep(defects, f"slow, line {error.span.text[:60] if error.span else ''}", text)
                 if error.code == "internal":
                     name = f"{error.data['operator']} {error.data['kind']}: {error.data['reason']}"
                     _keep(defects, name[:120], text)
@@ -89,6 +97,10 @@ def main() -> int:
     for name, text in sorted(defects.items()):
         print(f"DEFECT {name}\n    {text}")
     return 1 if defects else 0
+
+
+def _interrupt(*_: object) -> None:
+    raise KeyboardInterrupt
 
 
 def _keep(defects: dict[str, str], name: str, text: str) -> None:
