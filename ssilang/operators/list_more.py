@@ -8,6 +8,7 @@ import numpy as np
 
 from ssilang.kernel.errors import KernelError
 from ssilang.kernel.fields import cell_algebra, node_algebra
+from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.mesh import Point
 from ssilang.language.call import Call
@@ -154,9 +155,12 @@ def coli(call: Call) -> Any:
         if len({len(o) for o in objects}) > 1:
             raise call.bad("the lists have not the same length")
         return ListReel(sum(f * o.values for f, o in zip(factors, objects, strict=True)))
-    kind = type(objects[0])
-    if any(type(o) is not kind for o in objects):
-        raise call.bad("the objects are not all of one type")
+    kinds = {type(o) for o in objects}
+    if len(kinds) > 1 or not kinds <= {NodeField, CellField}:
+        raise call.bad(
+            "the objects are not fields or lists of one type",
+            hint="a TABLE holds them at 1, 2, 3 ...",
+        )
     algebra: Any = node_algebra if isinstance(objects[0], NodeField) else cell_algebra
     total = algebra.applied(objects[0], lambda v: v * factors[0])
     for factor, field in zip(factors[1:], objects[1:], strict=True):

@@ -359,6 +359,8 @@ def brui(call: Call) -> Any:
     colour = read_colour(call)
     generator = _generator(call, call.optional("ENTIER"))
     where = support.value
+    if isinstance(where, int) and where < 0:
+        raise call.bad(f"the number of values is not negative, this one is {where}", where)
     nodes = where.sorted_node_ids if hasattr(where, "sorted_node_ids") else None
     count = where if isinstance(where, int) else len(where if nodes is None else nodes)
     values = {
