@@ -317,10 +317,13 @@ def warn_resolution(entries: Entries, problem: Problem) -> None:
     found = contact_resolution(problem)
     if found is None or found.resolved:
         return
+    advice = f"dt <= T_c/30 = {found.wanted_dt:.3g} s keeps energy; or CONSERVATIF, a softer joint"
+    if problem.scheme.conserving:
+        advice = f"energy is kept; dt <= T_c/30 = {found.wanted_dt:.3g} s follows the contact too"
     entries.warn(
         f"the step {found.dt:.3g} s does not resolve contact, whose half period is "
         f"{found.contact_time:.3g} s with the mass attached to the joints",
-        f"dt <= T_c/30 = {found.wanted_dt:.3g} s keeps energy; or a softer joint, or ALPHA_F",
+        advice,
     )
 
 
