@@ -76,7 +76,7 @@ class Evaluator(OperandReader):
 
     def _if(self, node: tree.If) -> None:
         statement = node.condition
-        self.current_span = statement.span
+        self._begin(statement.span)
         value = self.scalar(statement)
         if type(value) is bool:
             self.run(node.then if value else node.otherwise)
@@ -93,6 +93,7 @@ class Evaluator(OperandReader):
         turn = 1
         while limit is None or turn <= limit:
             frame.variables[counter] = turn
+            self._begin(node.span)
             try:
                 self.run(node.body)
             except NextTurn as jump:
@@ -147,12 +148,16 @@ class Evaluator(OperandReader):
                 error.span = statement.span
             self.session.report(error)
 
-    def _statement(self, statement: tree.Statement) -> None:
-        self.current_span = statement.span
+    def _begin(self, span: Span) -> None:
+        """Note the place and count what is run, conditions and turns of loops included."""
+        self.current_span = span
         self.statement_count += 1
         limit = self.session.limits.statements
         if limit is not None and self.statement_count > limit:
-            raise SsiError("statement-limit", statement.span, limit=limit)
+            raise SsiError("statement-limit", span, limit=limit)
+
+    def _statement(self, statement: tree.Statement) -> None:
+        self._begin(statement.span)
         if len(statement.targets) == 1:
             value = self.scalar(statement)
             if value is not None:

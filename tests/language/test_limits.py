@@ -14,6 +14,13 @@ def test_statement_limit_stops_an_endless_loop(tmp_path):
     assert result.errors[0].code == "statement-limit"
 
 
+@pytest.mark.parametrize("body", ["", "SI FAUX ; FINSI ;", "ITER b ;"])
+def test_the_limit_counts_turns_and_conditions(tmp_path, body):
+    options = RunOptions(output_directory=tmp_path, limits=Limits(statements=1000))
+    result = run_text(f"REPE b ; {body} FIN b ;", options=options)
+    assert result.errors[0].code == "statement-limit"
+
+
 def test_recursion_limit_is_an_option(tmp_path):
     text = "DEBP P n*ENTIER ; SI (n > 0) ; P (n - 1) ; FINSI ; FINP ; P 50 ;"
     deep = RunOptions(output_directory=tmp_path, limits=Limits(recursion=60))
