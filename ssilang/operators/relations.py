@@ -221,8 +221,8 @@ operator(
         "nodes, or of one); with 'MINI' the sum stays at or above the value, with 'MAXI' at or "
         "below. A field makes one relation, its values times the unknowns of their names; 'DUAL' "
         "gives the force on the body for a multiplier of one. 'CORI' moves a mesh as a rigid body, "
-        "'ENSE' gives all nodes the same value, 'ACCRO' hooks nodes onto the cells that they lie in, "
-        "'GLIS' does so but along the line, 'MILI' holds middle nodes between the corners.",
+        "'ENSE' gives all nodes the same value, 'ACCRO' hooks nodes onto the cells that they "
+        "lie in, 'GLIS' does so but along the line, 'MILI' holds middle nodes between the corners.",
         "Relations linéaires, à ajouter à la matrice d'un système ; DEPI donne leur valeur "
         "(0 par défaut). Une somme de termes fait une relation par nœud des maillages (de même "
         "nombre de nœuds, ou d'un seul) ; avec 'MINI' la somme reste supérieure ou égale à la "
