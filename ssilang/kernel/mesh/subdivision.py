@@ -98,7 +98,8 @@ def subdivide(
 def _ratio(d1: float, d2: float) -> float:
     half = 0.5 * (d1 - d2) ** 2
     root = math.sqrt(half * (2.0 + half))
-    return 1.0 + half + (root if d2 >= d1 else -root)
+    growth = 1.0 + half + root  # and 1 + half - root is its inverse, without the cancellation
+    return growth if d2 >= d1 else 1.0 / growth
 
 
 def _nearest(wanted: float) -> int:
