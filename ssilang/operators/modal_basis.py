@@ -135,7 +135,10 @@ operator(
 def _reco(call: Call) -> Any:
     thing = call.required("CHPOINT", "LISTCHPO")
     shapes = shapes_of(call, *call.all("TABLE"))
-    shapes = shapes[: call.optional("ENTIER", default=len(shapes))]
+    number = call.optional("ENTIER", default=len(shapes))
+    if number < 1:
+        raise call.bad(f"at least one mode is recombined, not {number}", number)
+    shapes = shapes[:number]
     call.keyword(("DEPL", "VITE", "ACCE"))
     if isinstance(thing, ListChpo):
         return ListChpo([recombined(f, shapes) for f in thing.values])
