@@ -196,7 +196,16 @@ def _lang(call: Call, word: str) -> None:
 def _inco(call: Call, word: str) -> None:
     primal = call.required("LISTMOTS", "MOT", after=call.keyword_end)
     dual = call.required("LISTMOTS", "MOT", after=call.keyword_end)
-    _store(call, word, (primal, dual))
+    names = [
+        [str(w).strip()[:4] for w in (said.values if isinstance(said, ListMots) else [said])]
+        for said in (primal, dual)
+    ]
+    if len(names[0]) != len(names[1]):
+        raise call.bad(
+            f"{len(names[0])} primal unknowns and {len(names[1])} dual ones are named", dual
+        )
+    earlier = workspace(call.session).options.get(word, {})
+    _store(call, word, {**earlier, **dict(zip(*names, strict=True))})
 
 
 @reader("NORM")
@@ -271,11 +280,7 @@ def _unknown_option(call: Call, said: str) -> SsiError:
 
 def _unknowns(ws: Workspace) -> tuple[ListMots, ListMots]:
     """Names of primal and dual unknowns: the usual ones, then those of OPTI INCO."""
-    pairs = dict(PRIMAL_TO_DUAL)
-    said = ws.options.get("INCO")
-    if said is not None:
-        names = [list(w.values) if isinstance(w, ListMots) else [w] for w in said]
-        pairs.update(zip(*names, strict=False))
+    pairs = {**PRIMAL_TO_DUAL, **ws.options.get("INCO", {})}
     return ListMots(list(pairs)), ListMots(list(pairs.values()))
 
 

@@ -188,7 +188,13 @@ def _is_reached(value: Any, reached: set[int]) -> bool:
 
 
 def _settings(ws: Workspace) -> dict[str, Any]:
-    return {"DIME": ws.dimension, "MODE": ws.mode.name, "ELEM": ws.element, "TITR": ws.title}
+    return {
+        "DIME": ws.dimension,
+        "MODE": ws.mode.name,
+        "ELEM": ws.element,
+        "TITR": ws.title,
+        "INCO": ws.options.get("INCO", {}),
+    }
 
 
 # ---- REST
@@ -200,11 +206,11 @@ def _settings(ws: Workspace) -> dict[str, Any]:
     full_name="RESTITUER",
     help=Help(
         en="Gives back the objects of the file that OPTI REST names, under their names; up to the "
-        "record of a LABEL if one is given. Its nodes are added to those that exist. Dimension and "
-        "mode are those of the file if none has been set.",
+        "record of a LABEL if one is given. Its nodes are added to those that exist, as are the "
+        "unknowns of OPTI INCO. Dimension and mode are those of the file if none has been set.",
         fr="Rend les objets du fichier que nomme OPTI REST, sous leurs noms ; jusqu'à celui d'un "
-        "LABEL s'il est donné. Ses noeuds s'ajoutent à ceux qui existent. Dimension et mode sont "
-        "ceux du fichier s'ils n'ont pas été fixés.",
+        "LABEL s'il est donné. Ses noeuds s'ajoutent à ceux qui existent, comme les inconnues "
+        "d'OPTI INCO. Dimension et mode sont ceux du fichier s'ils n'ont pas été fixés.",
         syntax="REST ('FORMAT') ('LABEL' MOT1) ;",
         examples=(
             "X = PROG 1. 2. ; OPTI SAUV 'x.sauv' ; SAUV X ; X = 0 ; "
@@ -235,6 +241,8 @@ def _restore(call: Call, archive: Archive, name: str, label: str) -> None:
     for record in records:
         for key, code in record.names.items():
             call.session.frame.assign(key, decoder.decode(code))
+    if added := archive.settings.get("INCO"):
+        ws.options["INCO"] = {**ws.options.get("INCO", {}), **added}
     if not ws.dimension:
         _restore_settings(ws, archive.settings)
 

@@ -117,3 +117,26 @@ def test_a_deck_goes_on_from_the_output_of_the_deck_before(tmp_path: Path) -> No
         assert result.exit_code == 0, result.message
     assert result.session.root.find("Y") == 5
     assert [w.code for w in result.session.warnings] == ["other-case"]
+
+
+def test_named_unknowns_come_back(tmp_path: Path) -> None:
+    text = (
+        "OPTI INCO 'PP' 'PQ' ; OPTI INCO (MOTS 'AA') (MOTS 'BB') ; OPTI SAUV 's' ; X = 1 ; SAUV ;"
+    )
+    assert run_text(text, tmp_path).exit_code == 0
+    second = run_text(
+        "OPTI INCO 'CC' 'DD' ; OPTI REST 's' ; REST ; LP LD = VALE 'INCO' ;"
+        "PP = POSI (MOTS 'PP' 'AA' 'CC' 'UX') 'DANS' LP ;"
+        "PD = POSI (MOTS 'PQ' 'BB' 'DD' 'FX') 'DANS' LD ; OK = EGA PP PD ;",
+        tmp_path,
+    )
+    assert second.exit_code == 0, second.message
+    root = second.session.root
+    assert root.find("OK")
+    assert 0 not in root.find("PP").values
+
+
+def test_unequal_lists_of_unknowns_are_refused(tmp_path: Path) -> None:
+    result = run_text("OPTI INCO (MOTS 'A' 'B') (MOTS 'C') ;", tmp_path)
+    assert result.exit_code == 1
+    assert "2 primal" in result.message
