@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 from ssilang.kernel.curve import Curve
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
+from ssilang.kernel.joints.elements import is_joint
+from ssilang.kernel.joints.table import check_given
 from ssilang.kernel.materials.axes import Directions, axis_parameters
 from ssilang.kernel.materials.parameters import geometric_names, known_names
 from ssilang.kernel.mesh.mesh import Point
@@ -22,6 +24,7 @@ from ssilang.language.registry import Help, operator
 Known = Callable[[Zone], tuple[str, ...]]
 Value = tuple[NDArray[Any], Support]
 Values = dict[str, Value]
+Check = Callable[[Model, list[Values]], None]
 
 _VALUES = ("FLOTTANT", "EVOLUTIO", "MCHAML", "POINT")
 _TURNS = ("PARALLELE", "PERPENDICULAIRE", "INCLINE")
@@ -36,7 +39,8 @@ _TURNS = ("PARALLELE", "PERPENDICULAIRE", "INCLINE")
         en="Field of the parameters of a model: name and value, as many as wanted.\n"
         "Continuous elements, bars and beams: YOUN NU RHO ALPH TREF TALP VISQ; orthotropic: YG1 "
         "YG2 YG3 NU12 NU23 NU13 G12 G23 G13 RHO ALP1 ALP2 ALP3; joints: KN KS (KS1 KS2) RHO and, "
-        "for JOINT_SDM, FU GF FC FROT. Geometric parameters (SECT INRY INRZ TORS SECY SECZ VECT "
+        "for JOINT_SDM, FU GF FC FROT (KN <= FU**2/GF is refused, with the least KN). "
+        "Geometric parameters (SECT INRY INRZ TORS SECY SECZ VECT "
         "DIM3 ...) may be given here too, or by CARA. A value is a number, a field in cells, a "
         "curve (parameter that depends on another field) or, for VECT, a point. DIRECTION V1 "
         "(V2) or RADIAL P1 (P2), then PARALLELE, PERPENDICULAIRE or INCLINE angle, give the axes "
@@ -44,7 +48,8 @@ _TURNS = ("PARALLELE", "PERPENDICULAIRE", "INCLINE")
         fr="Champ des paramètres d'un modèle : nom et valeur, autant qu'on veut.\n"
         "Massifs, barres et poutres : YOUN NU RHO ALPH TREF TALP VISQ ; orthotropes : YG1 YG2 "
         "YG3 NU12 NU23 NU13 G12 G23 G13 RHO ALP1 ALP2 ALP3 ; joints : KN KS (KS1 KS2) RHO et, "
-        "pour JOINT_SDM, FU GF FC FROT. Les paramètres géométriques (SECT INRY INRZ TORS SECY "
+        "pour JOINT_SDM, FU GF FC FROT (KN <= FU**2/GF est refusé, avec le plus petit "
+        "KN). Les paramètres géométriques (SECT INRY INRZ TORS SECY "
         "SECZ VECT DIM3 ...) se donnent ici aussi, ou par CARA. Une valeur est un nombre, un "
         "champ par éléments, une évolution ou, pour VECT, un point. DIRECTION V1 (V2) ou RADIAL "
         "P1 (P2), puis PARALLELE, PERPENDICULAIRE ou INCLINE angle, donnent les axes "
@@ -58,8 +63,15 @@ _TURNS = ("PARALLELE", "PERPENDICULAIRE", "INCLINE")
     reads_itself=True,
 )
 def mate(call: Call) -> CellField:
-    """Parameters of law and section."""
-    return _parameters(call, known_names)
+    """Parameters of law and section; those of joints are checked by their law."""
+    return _parameters(call, known_names, check_joints)
+
+
+def check_joints(model: Model, given: list[Values]) -> None:
+    """Let the laws of joints look at parameters where they are given."""
+    for zone, values in zip(model.zones, given, strict=True):
+        if is_joint(zone):
+            check_given(zone, {name: value for name, (value, _) in values.items()})
 
 
 @operator(
@@ -86,7 +98,7 @@ def cara(call: Call) -> CellField:
     return _parameters(call, lambda zone: geometric_names(zone).all)
 
 
-def _parameters(call: Call, known: Known) -> CellField:
+def _parameters(call: Call, known: Known, check: Check | None = None) -> CellField:
     model: Model = call.required("MMODEL")
     given: list[Values] = [{} for _ in model.zones]
     while (word := call.peek_word()) is not None:
@@ -97,6 +109,8 @@ def _parameters(call: Call, known: Known) -> CellField:
     blocks = [b for z, v in zip(model.zones, given, strict=True) for b in _blocks(z, v)]
     if not blocks:
         raise call.bad("no parameter is given", model, hint="NAME VALUE, such as 'YOUN' 2.E11")
+    if check is not None:
+        check(model, given)
     return CellField(tuple(blocks), "CARACTERISTIQUES")
 
 

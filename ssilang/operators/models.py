@@ -8,7 +8,7 @@ from difflib import get_close_matches
 from ssilang.kernel.elements.catalog import ELEMENTS, GENERIC_ELEMENTS, default_element
 from ssilang.kernel.elements.families import register_family
 from ssilang.kernel.errors import MeshError
-from ssilang.kernel.joints.elements import JOINT_NAMES
+from ssilang.kernel.joints.elements import JOINT_NAMES, with_rule
 from ssilang.kernel.joints.family import JointFamily
 from ssilang.kernel.materials.behaviours import (
     ELASTICITIES,
@@ -42,6 +42,7 @@ class _Wish:
     laws: list[str] = field(default_factory=list)
     elements: list[str] = field(default_factory=list)
     constituent: str = ""
+    rule: str = ""
     options: dict[str, object] = field(default_factory=dict)
 
 
@@ -60,7 +61,9 @@ class _Wish:
         "The hypothesis is that of OPTI MODE.\n"
         "The formulation CHARGEMENT PRESSION makes a model of loaded sides, for PRES and BSIG.\n"
         "CONS names the constituent, DPGE gives the point that carries the motion of the "
-        "section in generalised plane strain, LIBRE or LIE says if the axes of JOI1 follow.",
+        "section in generalised plane strain, LIBRE or LIE says if the axes of JOI1 follow.\n"
+        "Joints are integrated at GAUSS points (default) or, by LOBATTO, at the nodes of faces "
+        "SEG2 SEG3 TRI3 QUA4, which avoids oscillating tractions in very stiff joints.",
         fr="Donne à un maillage ses éléments finis et sa loi.\n"
         "La formulation est MECANIQUE ; la loi est ELASTIQUE, suivie d'ISOTROPE (par défaut), "
         "ORTHOTROPE, ANISOTROPE ou UNIDIRECTIONNEL ; les joints ont aussi JOINT_SDM. Sans nom "
@@ -70,9 +73,12 @@ class _Wish:
         "L'hypothèse est celle d'OPTI MODE.\n"
         "La formulation CHARGEMENT PRESSION fait un modèle de faces chargées, pour PRES et BSIG.\n"
         "CONS nomme le constituant, DPGE donne le point qui porte le mouvement de la section "
-        "en déformation plane généralisée, LIBRE ou LIE dit si le repère de JOI1 suit.",
+        "en déformation plane généralisée, LIBRE ou LIE dit si le repère de JOI1 suit.\n"
+        "Les joints s'intègrent aux points de GAUSS (par défaut) ou, par LOBATTO, aux noeuds des "
+        "faces SEG2 SEG3 TRI3 QUA4, ce qui évite les oscillations des joints très raides.",
         syntax="MODL1 = MODE GEO1 'MECANIQUE' 'ELASTIQUE' ('ISOTROPE') (ELEM1 ...) "
-        "('CONS' MOT1) ('DPGE' P1) ('LIBRE' | 'LIE') ;\n"
+        "('CONS' MOT1) ('DPGE' P1) ('LIBRE' | 'LIE') "
+        "('GAUSS' | 'LOBATTO') ;\n"
         "MODL1 = MODE GEO1 'CHARGEMENT' 'PRESSION' (ELEM1 ...) ;",
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0 0) (1 0) ; "
@@ -96,6 +102,7 @@ def mode(call: Call) -> Model:
     if not wish.formulation and not wish.laws:
         raise call.bad("the formulation is not said", mesh, "MODE mesh 'MECANIQUE' 'ELASTIQUE'")
     _check_elements(call, wish, mesh)
+    _check_rule(call, wish, mesh)
     if wish.formulation == "CHARGEMENT":
         return Model(tuple(_pressure_zone(block, wish, ws) for block in mesh.blocks))
     return Model(tuple(_zone(block, wish, ws) for block in mesh.blocks))
@@ -112,6 +119,17 @@ def _check_elements(call: Call, wish: _Wish, mesh: Mesh) -> None:
         )
 
 
+def _check_rule(call: Call, wish: _Wish, mesh: Mesh) -> None:
+    """Refuse a rule of joints where there are none."""
+    if wish.rule and not any(
+        ELEMENTS[n].cell_type == b.cell_type for b in mesh.blocks for n in JOINT_NAMES
+    ):
+        raise call.bad(
+            f"{wish.rule} chooses the integration of joints: the mesh has none",
+            hint="other elements have their own (Q4RI, Q8RI ... by name)",
+        )
+
+
 def _take(call: Call, word: str, wish: _Wish) -> None:
     """Consume one word of MODE, with what it introduces."""
     if call.keyword(["CONS"]):
@@ -120,6 +138,8 @@ def _take(call: Call, word: str, wish: _Wish) -> None:
         wish.options["DPGE"] = call.required("POINT", after=call.keyword_end)
     elif call.keyword(["INTEGRE"]):
         wish.options["INTEGRE"] = call.required("ENTIER", after=call.keyword_end)
+    elif (rule := call.keyword(["GAUSS", "LOBATTO"], length=8)) is not None:
+        wish.rule = rule
     elif (bound := call.keyword(["LIBRE", "LIE"])) is not None:
         wish.options["FRAME"] = bound
     else:
@@ -166,6 +186,8 @@ def _zone(block: CellBlock, wish: _Wish, ws: Workspace) -> Zone:
     if ws.mode is Mode.FOURIER:
         options["harmonic"] = ws.fourier
     behaviour = normalised(wish.laws, kind.family)
+    if wish.rule and kind.family == "joint":
+        name = with_rule(name, wish.rule)
     return Zone(block, "MECANIQUE", behaviour, name, ws.mode, wish.constituent, options)
 
 

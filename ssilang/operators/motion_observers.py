@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -95,6 +95,8 @@ class VtkObserver:
         jumps, tractions = snapshot.jumps, snapshot.tractions
         if jumps is not None and tractions is not None:
             cells |= {"opening": jumps, "traction": tractions}
+        if snapshot.variables is not None:
+            cells |= joint_points(snapshot.variables)
         stress = self.stress(u) if self.stress is not None else None
         if stress is not None:
             cells["stress"] = stress
@@ -104,6 +106,25 @@ class VtkObserver:
     def close(self) -> None:
         """Write the list of the steps."""
         self.writer.close()
+
+
+SHOWN = {"joint_state": "ETAT", "stored_energy": "ESTO", "lost_energy": "EPER"}
+"""Names in VTK files of what the points of joints have."""
+
+
+def joint_points(variables: CellField) -> dict[str, CellField]:
+    """State and energies of joints, for cells: the most open point, and means of energies."""
+    found = {}
+    for name, component in SHOWN.items():
+        blocks = []
+        for block in variables.blocks:
+            values = block.components[component]
+            if component == "ETAT":
+                values = values.max(axis=1, keepdims=True)
+            support = "GRAVITE" if component == "ETAT" else block.support
+            blocks.append(replace(block, components={component: values}, support=support))
+        found[name] = CellField(tuple(blocks), "VARIABLES INTERNES")
+    return found
 
 
 @dataclass

@@ -98,7 +98,7 @@ class Snapshot:
     def variables(self) -> CellField | None:
         """Internal variables of the joints, None without joints."""
         joints = self.problem.interface
-        return None if joints is None else state_field(joints, self.state)
+        return None if joints is None else state_field(joints, self.state, self.w, self.t)
 
 
 class Observer(Protocol):

@@ -45,6 +45,8 @@ class ElementKind:
         of one of their faces here.
     layers : int
         How often the points of 'RIGIDITE' and 'STRESSES' are repeated across a thickness.
+    nodal : tuple of float
+        Weights of integration at the nodes of the reference cell; empty: Gauss points.
     """
 
     name: str
@@ -55,6 +57,7 @@ class ElementKind:
     default: bool = True
     reference: str = ""
     layers: int = 1
+    nodal: tuple[float, ...] = ()
 
     @property
     def reference_cell(self) -> ReferenceCell:
@@ -171,6 +174,8 @@ def support_rule(element: str, support: Support) -> Rule:
         return Rule(cell.nodes, np.full(n, cell_volume(cell.shape) / n))
     if support == "GRAVITE":
         return quadrature(cell.shape, 1)
+    if kind.nodal:
+        return Rule(cell.nodes, np.array(kind.nodal))
     count = kind.points.get(support, kind.points.get("RIGIDITE", 1))
     rule = quadrature(cell.shape, count)
     if kind.layers == 1 or support == "MASSE":

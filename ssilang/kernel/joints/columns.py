@@ -4,7 +4,7 @@ from __future__ import annotations
 
 # parameters (see Parameter)
 KN, KS1, KS2, FU, GF, FC, FROT, SHEAR, TPHI, TPSI, COHE, FTRC, EF, ECN, FNE, QT = range(16)
-LARG, LONG, RAYO = range(16, 19)
+LARG, LONG, RAYO, SYMMETRIC = range(16, 20)
 # state of a point: largest irreversible opening, slips, share of shear stiffness lost, stored
 # shear energy, energy lost in shear; HELD: during a step's iteration, whether shear is transmitted
 # (CLOSED_SHEAR) or not (OPEN_SHEAR) whatever the normal traction; 0 between steps

@@ -15,8 +15,9 @@ from ssilang.kernel.elements.catalog import (
     ElementKind,
     register_element,
 )
+from ssilang.kernel.errors import MeshError
 from ssilang.kernel.fields.cell_field import Support
-from ssilang.kernel.joints.integration import GAUSS
+from ssilang.kernel.joints.integration import GAUSS, NODAL_WEIGHTS
 from ssilang.kernel.model import Mode, Zone
 
 
@@ -33,6 +34,8 @@ class JointElement:
         Of space; the jump has as many components.
     strains, stresses : tuple of str
         Names of the jump's and the traction's components, shear first, normal last.
+    rule : str
+        'GAUSS', or 'LOBATTO': integration at the nodes.
     """
 
     name: str
@@ -41,6 +44,7 @@ class JointElement:
     dimension: int
     strains: tuple[str, ...]
     stresses: tuple[str, ...]
+    rule: str = "GAUSS"
 
 
 _LINE = (("DRSN", "DRN"), ("SMSN", "SMN"))
@@ -59,9 +63,39 @@ _SURFACES: dict[str, JointElement] = {
         JointElement("JOI4", "LIA4", "QUA4", 3, *_SURFACE),
         JointElement("JOT6", "LIA6", "TRI6", 3, *_SURFACE),
         JointElement("JOI8", "LIA8", "QUA8", 3, *_SURFACE),
+        JointElement("JNO2", "RAC2", "SEG2", 2, *_LINE, "LOBATTO"),
+        JointElement("JNO3", "RAC3", "SEG3", 2, *_LINE, "LOBATTO"),
+        JointElement("JNT3", "LIA3", "TRI3", 3, *_SURFACE, "LOBATTO"),
+        JointElement("JNO4", "LIA4", "QUA4", 3, *_SURFACE, "LOBATTO"),
     )
 }
 JOINT_NAMES = ("JOI1", *_SURFACES)
+
+
+def with_rule(element: str, rule: str) -> str:
+    """The joint element on the same cells that is integrated by a rule.
+
+    Parameters
+    ----------
+    rule : 'GAUSS' or 'LOBATTO'
+
+    Raises
+    ------
+    MeshError
+        If the faces have no such rule: nodal weights of 8-node faces are negative, those of
+        6-node triangles zero at the corners.
+    """
+    if element == "JOI1":  # one pair of points: both rules are the same
+        return element
+    here = _SURFACES[element]
+    for other in _SURFACES.values():
+        if other.cell_type == here.cell_type and other.rule == rule:
+            return other.name
+    raise MeshError(
+        f"the joint {element} cannot be integrated at its nodes (LOBATTO): weights there are "
+        "negative or zero",
+        "GAUSS, or linear faces (" + " ".join(NODAL_WEIGHTS) + ")",
+    )
 
 
 def joint_element(zone: Zone) -> JointElement:
@@ -85,8 +119,11 @@ def register_joints() -> None:
     plane = (*PLANE_MODES, Mode.AXISYMMETRIC)
     for e in _SURFACES.values():
         modes = plane if e.dimension == 2 else (Mode.THREE_DIMENSIONAL,)
-        points: dict[Support, int] = {"RIGIDITE": GAUSS[e.face]}
-        register_element(ElementKind(e.name, e.cell_type, "joint", modes, points, False, e.face))
+        nodal = NODAL_WEIGHTS[e.face] if e.rule == "LOBATTO" else ()
+        points: dict[Support, int] = {"RIGIDITE": len(nodal) or GAUSS[e.face]}
+        register_element(
+            ElementKind(e.name, e.cell_type, "joint", modes, points, False, e.face, nodal=nodal)
+        )
 
 
 register_joints()

@@ -20,6 +20,7 @@ from ssilang.kernel.joints.family import component_order, displacement_names
 from ssilang.kernel.joints.kinematics import JointCells, joint_cells
 from ssilang.kernel.joints.law_table import elastic_tangent, law_of, rocking_stiffness
 from ssilang.kernel.joints.parameters import Parameter
+from ssilang.kernel.joints.point_state import energies_of_points, point_states
 from ssilang.kernel.joints.table import joint_parameters
 from ssilang.kernel.matrices.assembly import Numbering
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
@@ -269,6 +270,9 @@ def nonlinear_blocks(matrix: Matrix) -> tuple[ElementMatrices, ...]:
 # --- results ---------------------------------------------------------------------------------
 
 
+COMMON_VARIABLES = ("ETAT", "ESTO", "EPER")
+"""Results at the points of all joints: state, energy stored, energy lost."""
+
 MACRO_NAMES = {
     "jump": {2: ("CXZ", "EXX"), 3: ("CXY", "CXZ", "EXX")},
     "traction": {2: ("MOMZ", "EFFX"), 3: ("MOMY", "MOMZ", "EFFX")},
@@ -300,17 +304,23 @@ def interface_field(interface: Interface, values: FloatArray, kind: str) -> Cell
     return CellField(tuple(blocks), title)
 
 
-def state_field(interface: Interface, state: FloatArray) -> CellField:
-    """Internal variables of the joints, by the names of their law.
+def state_field(interface: Interface, state: FloatArray, w: FloatArray, t: FloatArray) -> CellField:
+    """Internal variables of the joints, by the names of their law, with state and energies.
+
+    All joints: ETAT (1 closed, 2 closing, 3 open, 4 opening, see `point_states`), ESTO and EPER,
+    energy stored and lost so far at the point (J/m2; J for a joint of two points).
 
     JOINT_SDM: SAUT (largest irreversible opening), GLI1, GLI2 (slip). Mohr-Coulomb joints: EPSE
     (cumulated plastic jump), STAT (1 open, 2 in contact), EPOU (opening), LAM1 (plastic
     compression), PLA1, PLA2 (slip), PLA3 (plastic and open normal jump).
     """
     blocks, start = [], 0
+    arrays = (interface.codes, w, t, state, interface.parameters)
+    common = np.vstack([point_states(*arrays)[None], energies_of_points(*arrays)])
     for j in interface.joints:
         n, g = j.weights.shape
         local = state[start : start + n * g].reshape(n, g, -1)
+        of_all = common[:, start : start + n * g].reshape(-1, n, g)
         start += n * g
         shown = law_of(j.zone.behaviour).variables
         if interface.dimension == 2:
@@ -318,6 +328,7 @@ def state_field(interface: Interface, state: FloatArray) -> CellField:
         fields = {name: local[..., column].copy() for name, column in shown.items()}
         if "PLA3" in fields:
             fields["PLA3"] += local[..., OPENING]
+        fields |= {name: of_all[i].copy() for i, name in enumerate(COMMON_VARIABLES)}
         blocks.append(_block(j, fields))
     return CellField(tuple(blocks), "VARIABLES INTERNES")
 

@@ -67,7 +67,7 @@ def joint_cells(zone: Zone, given: ZoneField | None = None, rule: str = "") -> J
         imposed by the user: for a joint of two points V1 is n and V2 is t1; for a surface V1 is
         t1).
     rule : str
-        'GAUSS' or 'LOBATTO'; default: the zone's option 'INTEGRATION', else Gauss.
+        'GAUSS' or 'LOBATTO'; default: the zone's option 'INTEGRATION', else the element's.
 
     Raises
     ------
@@ -80,7 +80,7 @@ def joint_cells(zone: Zone, given: ZoneField | None = None, rule: str = "") -> J
     if element.face == "POI1":
         return _two_points(zone, element, given, *half)
     return _surface(
-        zone, element, given, *half, rule or str(zone.options.get("INTEGRATION", "GAUSS"))
+        zone, element, given, *half, rule or str(zone.options.get("INTEGRATION", element.rule))
     )
 
 

@@ -91,6 +91,7 @@ LAWS: dict[str, Law] = {
 
 OTHER_WORDS = (
     "ISOTROPE", "ORTHOTROPE", "UNIDIRECTIONNEL", "CISAILLEMENT_ELASTIQUE", "PLASTIQUE",
+    "FROTTEMENT_SYMETRIQUE",
 )  # fmt: skip
 """Words of a joint's behaviour that name no law."""
 

@@ -32,6 +32,7 @@ class Parameter(IntEnum):
     LARG = 16  # width of a footing (macro-elements), along t1 in 3D
     LONG = 17  # its other width
     RAYO = 18  # its radius
+    SYMMETRIC = 19  # 1: tangent of friction without its unsymmetric part
 
 
 N_PARAMETERS = len(Parameter)

@@ -36,6 +36,7 @@ from ssilang.kernel.joints.columns import (
     SHEAR_ENERGY,
     SHEAR_LOSS,
     SLIP1,
+    SYMMETRIC,
     XI,
 )
 from ssilang.kernel.mesh.nodes import FloatArray
@@ -162,7 +163,11 @@ def _closed_shear(
     tn: float,
     dtn: float,
 ) -> None:
-    """Shear of a point in compression: elastic, returned to Coulomb's cone if FROT >= 0."""
+    """Shear of a point in compression: elastic, returned to Coulomb's cone if FROT >= 0.
+
+    The tangent is the consistent one, which is not symmetric (the bound depends on the normal
+    traction); with SYMMETRIC the bound counts as constant in it and the rest is made symmetric.
+    """
     n = w.shape[0] - 1
     size = 0.0
     for i in range(n):
@@ -178,8 +183,12 @@ def _closed_shear(
         direction = t[i] / size
         for j in range(n):
             cross = direction * t[j] / size
-            D[i, j] = ratio * p[KS1 + j] * ((1.0 if i == j else 0.0) - cross)
-        D[i, n] = -p[FROT] * dtn * direction
+            stiffness = p[KS1 + j]
+            if p[SYMMETRIC] == 1.0:
+                stiffness = 0.5 * (p[KS1 + i] + p[KS1 + j])
+            D[i, j] = ratio * stiffness * ((1.0 if i == j else 0.0) - cross)
+        if p[SYMMETRIC] != 1.0:
+            D[i, n] = -p[FROT] * dtn * direction
     for i in range(n):
         new[SLIP1 + i] += (1.0 - ratio) * (w[i] - new[SLIP1 + i])
         t[i] *= ratio

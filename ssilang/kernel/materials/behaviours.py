@@ -24,8 +24,8 @@ ELASTICITIES: dict[str, tuple[str, ...]] = {
 """Linear elasticities and the families of elements that have them."""
 
 JOINT_WORDS = (
-    "JOINT_SDM", "CISAILLEMENT_ELASTIQUE", "PLASTIQUE", "JOINT_DILATANT", "COULOMB",
-    "MACRO_SEMELLE", "MACRO_DISQUE", "MACRO_RESSORTS",
+    "JOINT_SDM", "CISAILLEMENT_ELASTIQUE", "FROTTEMENT_SYMETRIQUE", "PLASTIQUE", "JOINT_DILATANT",
+    "COULOMB", "MACRO_SEMELLE", "MACRO_DISQUE", "MACRO_RESSORTS",
 )  # fmt: skip
 """Further words of joints; `ssilang.kernel.joints.laws` says what they mean."""
 
