@@ -221,7 +221,7 @@ def peer_loads(case: Case, forces: Forces) -> None:
     """Weight (constant) and inertia of the moving base."""
     import openseespy.opensees as ops
 
-    times = DT * np.arange(case.steps + 1)
+    times = DT * np.arange(case.steps + 2)  # beyond its last value a path gives nothing
     ops.timeSeries("Constant", 1)
     ops.timeSeries("Path", 2, "-dt", DT, "-values", *pulse(times).tolist())
     ops.pattern("Plain", 1, 1)
