@@ -143,7 +143,7 @@ def test_strip_and_disc_follow_their_closed_forms(mode):
     k = 2e7 * np.pi * 4.0
     found = pushed(mode, "MACRO_DISQUE", turn, 6e5, theta, KN=k, KS=1e8, RAYO=2.0)
     exact = np.array([disc.moment(x) for x in theta])
-    np.testing.assert_allclose(found[1:], exact[1:], rtol=1e-8)
+    np.testing.assert_allclose(found[1:], exact[1:], rtol=1e-10)
 
 
 def test_two_springs_carry_a_constant_moment_once_lifted():
