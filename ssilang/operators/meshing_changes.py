@@ -12,6 +12,7 @@ from ssilang.kernel.errors import MeshError
 from ssilang.kernel.mesh.boundary import edges, faces
 from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.kernel.mesh.combine import poi1, recolour, union
+from ssilang.kernel.mesh.complete import COMPLETE, complete, taken_apart
 from ssilang.kernel.mesh.cut_open import cut_open
 from ssilang.kernel.mesh.degree import LINEAR, linear, quadratic
 from ssilang.kernel.mesh.merge import regenerate, repeated_nodes
@@ -50,6 +51,10 @@ def _changed_block(block: CellBlock, target: str) -> Mesh:
     kind = CELL_TYPES[target]
     if block.cell_type == target:
         return alone
+    if block.cell_type in COMPLETE.values() and kind.degree == 1 and kind.dimension > 1:
+        return taken_apart(block, target)
+    if target in COMPLETE.values():
+        return complete(alone)
     if kind.degree == 2 and block.kind.degree == 1:
         return quadratic(_changed_block(block, LINEAR[target]))
     if (block.cell_type, target) == ("SEG3", "SEG2"):
@@ -112,16 +117,25 @@ def change_to_current(call: Call, mesh: Mesh) -> Mesh:
     return changed(mesh, target) if numbers is None else _by_hand(mesh, target, numbers.values)
 
 
-_WHOLE = {"LIGNE": edges, "SURFACE": faces, "LINEAIRE": linear, "QUADRATIQUE": quadratic}
+_WHOLE = {
+    "LIGNE": edges,
+    "SURFACE": faces,
+    "LINEAIRE": linear,
+    "QUADRATIQUE": quadratic,
+    "QUAF": complete,
+}
 
 
 @CHAN.on(
     *_WHOLE,
-    syntax="GEO2 = CHAN 'LIGNE'|'SURFACE'|'LINEAIRE'|'QUADRATIQUE' GEO1 ;",
+    syntax="GEO2 = CHAN 'LIGNE'|'SURFACE'|'LINEAIRE'|'QUADRATIQUE'|'QUAF' GEO1 ;",
     en="'LIGN': all edges of the cells, each once; 'SURF': all faces; 'LINE', 'QUAD': linear or "
-    "quadratic cells in place of the others.",
+    "quadratic cells in place of the others; 'QUAF': complete ones, with nodes in the middle of "
+    "faces and cells, that linear types then take apart (TRI7 into 6 TRI3, CU27 into 8 CUB8).",
     fr="'LIGN' : toutes les arêtes des éléments, une fois chacune ; 'SURF' : toutes les faces ; "
-    "'LINE', 'QUAD' : éléments linéaires ou quadratiques à la place des autres.",
+    "'LINE', 'QUAD' : éléments linéaires ou quadratiques à la place des autres ; 'QUAF' : éléments "
+    "complets, à noeuds au milieu des faces et des éléments, que les types linéaires découpent "
+    "ensuite (TRI7 en 6 TRI3, CU27 en 8 CUB8).",
     examples=(
         "OPTI DIME 2 ELEM QUA4 ; S = (DROI 4 (0. 0.) (1. 0.)) TRAN 3 (0. 1.) ;"
         " LIST (NBNO (CHAN 'QUAD' S)) ; LIST (NBEL (CHAN 'LIGN' S)) ;",

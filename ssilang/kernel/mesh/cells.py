@@ -49,6 +49,66 @@ def _polygon(name: str, corners: int, degree: int) -> CellType:
     return CellType(name, 2, n, degree, tuple(range(0, n, degree)), faces)
 
 
+_COMPLETE = {"TRI6": "TRI7", "QUA8": "QUA9"}
+
+
+def _complete(name: str, quadratic: CellType) -> CellType:
+    """The cell with a node in the middle of each face of three or four sides, and in its own."""
+    n, faces = quadratic.n_nodes, quadratic.faces
+    if quadratic.dimension == 3:
+        faces = tuple((_COMPLETE[k], (*local, n + i)) for i, (k, local) in enumerate(faces))
+        n += len(faces)
+    return CellType(name, quadratic.dimension, n + 1, 2, quadratic.corners, faces)
+
+
+# CU20: bottom contour of 8 (corner, middle, ...), 4 middles of the vertical edges, top of 8
+_CU20 = CellType(
+    "CU20",
+    3,
+    20,
+    2,
+    (0, 2, 4, 6, 12, 14, 16, 18),
+    (
+        ("QUA8", (0, 7, 6, 5, 4, 3, 2, 1)),
+        ("QUA8", (12, 13, 14, 15, 16, 17, 18, 19)),
+        ("QUA8", (0, 1, 2, 9, 14, 13, 12, 8)),
+        ("QUA8", (2, 3, 4, 10, 16, 15, 14, 9)),
+        ("QUA8", (4, 5, 6, 11, 18, 17, 16, 10)),
+        ("QUA8", (6, 7, 0, 8, 12, 19, 18, 11)),
+    ),
+)
+
+# PR15: triangle contour of 6, 3 middles of the vertical edges, triangle contour of 6
+_PR15 = CellType(
+    "PR15",
+    3,
+    15,
+    2,
+    (0, 2, 4, 9, 11, 13),
+    (
+        ("TRI6", (0, 5, 4, 3, 2, 1)),
+        ("TRI6", (9, 10, 11, 12, 13, 14)),
+        ("QUA8", (0, 1, 2, 7, 11, 10, 9, 6)),
+        ("QUA8", (2, 3, 4, 8, 13, 12, 11, 7)),
+        ("QUA8", (4, 5, 0, 6, 9, 14, 13, 8)),
+    ),
+)
+
+# TE10: triangle contour of 6, 3 middles of the edges to the apex, apex
+_TE10 = CellType(
+    "TE10",
+    3,
+    10,
+    2,
+    (0, 2, 4, 9),
+    (
+        ("TRI6", (0, 5, 4, 3, 2, 1)),
+        ("TRI6", (0, 1, 2, 7, 9, 6)),
+        ("TRI6", (2, 3, 4, 8, 9, 7)),
+        ("TRI6", (4, 5, 0, 6, 9, 8)),
+    ),
+)
+
 CELL_TYPES: dict[str, CellType] = {
     c.name: c
     for c in (
@@ -115,51 +175,16 @@ CELL_TYPES: dict[str, CellType] = {
                 ("QUA4", (3, 0, 4, 7)),
             ),
         ),
-        # CU20: bottom contour of 8 (corner, middle, ...), 4 middles of the vertical edges, top of 8
-        CellType(
-            "CU20",
-            3,
-            20,
-            2,
-            (0, 2, 4, 6, 12, 14, 16, 18),
-            (
-                ("QUA8", (0, 7, 6, 5, 4, 3, 2, 1)),
-                ("QUA8", (12, 13, 14, 15, 16, 17, 18, 19)),
-                ("QUA8", (0, 1, 2, 9, 14, 13, 12, 8)),
-                ("QUA8", (2, 3, 4, 10, 16, 15, 14, 9)),
-                ("QUA8", (4, 5, 6, 11, 18, 17, 16, 10)),
-                ("QUA8", (6, 7, 0, 8, 12, 19, 18, 11)),
-            ),
-        ),
-        # PR15: triangle contour of 6, 3 middles of the vertical edges, triangle contour of 6
-        CellType(
-            "PR15",
-            3,
-            15,
-            2,
-            (0, 2, 4, 9, 11, 13),
-            (
-                ("TRI6", (0, 5, 4, 3, 2, 1)),
-                ("TRI6", (9, 10, 11, 12, 13, 14)),
-                ("QUA8", (0, 1, 2, 7, 11, 10, 9, 6)),
-                ("QUA8", (2, 3, 4, 8, 13, 12, 11, 7)),
-                ("QUA8", (4, 5, 0, 6, 9, 14, 13, 8)),
-            ),
-        ),
-        # TE10: triangle contour of 6, 3 middles of the edges to the apex, apex
-        CellType(
-            "TE10",
-            3,
-            10,
-            2,
-            (0, 2, 4, 9),
-            (
-                ("TRI6", (0, 5, 4, 3, 2, 1)),
-                ("TRI6", (0, 1, 2, 7, 9, 6)),
-                ("TRI6", (2, 3, 4, 8, 9, 7)),
-                ("TRI6", (4, 5, 0, 6, 9, 8)),
-            ),
-        ),
+        _CU20,
+        _PR15,
+        _TE10,
+        # complete cells: the quadratic ones, a node in the middle of each face of theirs (not those
+        # of plane cells, which are lines), then one in the middle of the cell
+        _complete("TRI7", _polygon("TRI6", 3, 2)),
+        _complete("QUA9", _polygon("QUA8", 4, 2)),
+        _complete("CU27", _CU20),
+        _complete("PR21", _PR15),
+        _complete("TE15", _TE10),
         CellType("RAC2", 1, 4, 1, (0, 1, 2, 3), joint=True),
         CellType("RAC3", 1, 6, 2, (0, 2, 3, 5), joint=True),
         CellType("LIA3", 2, 6, 1, (0, 1, 2, 3, 4, 5), joint=True),

@@ -106,9 +106,11 @@ def middle_places(cell_type: str) -> list[tuple[int, int, int]]:
     kind = CELL_TYPES[cell_type]
     if kind.dimension == 1:
         return [(1, 0, 2)]
-    rings = [tuple(range(kind.n_nodes))] if kind.dimension == 2 else [f for _, f in kind.faces]
+    around = tuple(range(2 * len(kind.corners)))
+    rings = [around] if kind.dimension == 2 else [f for _, f in kind.faces]
     found: dict[int, tuple[int, int, int]] = {}
-    for ring in rings:
+    for face in rings:
+        ring = face[: len(face) // 2 * 2]  # without the node in the middle of a complete face
         for k in range(1, len(ring), 2):
             found[ring[k]] = (ring[k], ring[k - 1], ring[(k + 1) % len(ring)])
     return [found[m] for m in sorted(found)]

@@ -1,0 +1,100 @@
+"""ISOV's cuts: lengths, areas and volumes of level sets of linear fields, degenerate positions."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from ssilang.kernel.errors import MeshError
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.fields.isovalue import isovalue
+from ssilang.kernel.mesh.measure import total_measure
+from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.kernel.mesh.nodes import NodeTable
+
+
+def field_on(mesh: Mesh, values: np.ndarray) -> CellField:
+    """A field given by its value at every node of the table."""
+    blocks = (CellFieldBlock(b, {"SCAL": values[b.connectivity]}) for b in mesh.blocks)
+    return CellField(tuple(blocks))
+
+
+def kinds(mesh: Mesh) -> dict[str, int]:
+    return {b.cell_type: len(b) for b in mesh.blocks}
+
+
+def two_tetrahedra() -> tuple[Mesh, NodeTable]:
+    table = NodeTable()
+    table.add(np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1.0]]))
+    return Mesh.of(table, "TET4", np.array([[3, 1, 2, 0], [4, 1, 2, 3]])), table
+
+
+def bricks(n: int) -> tuple[Mesh, NodeTable]:
+    table = NodeTable()
+    grid = np.stack(np.meshgrid(*[np.linspace(0, 1, n + 1)] * 3, indexing="ij"), -1)
+    ids = table.add(grid.reshape(-1, 3)).reshape(n + 1, n + 1, n + 1)
+    low, high = slice(None, -1), slice(1, None)
+    ring = [(low, low), (high, low), (high, high), (low, high)]
+    corners = [ids[(*xy, z)].ravel() for z in (low, high) for xy in ring]
+    return Mesh.of(table, "CUB8", np.stack(corners, axis=1)), table
+
+
+@pytest.mark.parametrize("level", [0.1, 0.5, 1.0, 1.7, 2.6])
+def test_plane_through_bricks_has_its_area_and_volume(level: float) -> None:
+    mesh, table = bricks(3)
+    field = field_on(mesh, table.coordinates.sum(axis=1))
+    below, above = isovalue(field, level, -1), isovalue(field, level, 1)
+    # corner tetrahedra of x + y + z <= level, by inclusion and exclusion at the cube's corners
+    corners = [(max(level - k, 0.0), s) for k, s in ((0, 1), (1, -3), (2, 3))]
+    volume = sum(s * h**3 for h, s in corners) / 6
+    area = sum(s * h**2 for h, s in corners) * np.sqrt(3) / 2
+    assert total_measure(below) == pytest.approx(volume, abs=1e-14)
+    assert total_measure(above) == pytest.approx(1 - volume, abs=1e-14)
+    assert total_measure(isovalue(field, level)) == pytest.approx(area, abs=1e-14)
+
+
+def test_neighbours_share_the_nodes_of_the_cut() -> None:
+    mesh, table = bricks(2)
+    cut = isovalue(field_on(mesh, table.coordinates @ [1.0, 0.3, 0.2]), 0.6)
+    places = table.coordinates[cut.sorted_node_ids].round(12)
+    assert len(np.unique(places, axis=0)) == len(places)
+
+
+@pytest.mark.parametrize(
+    ("signs", "equal", "below", "above"),
+    [
+        ([0, -1, -1, -1, 0], {"POI1": 2}, {"TET4": 2}, {"POI1": 2}),
+        ([0, 0, 1, 1, 0], {"SEG2": 2}, {"SEG2": 2}, {"TET4": 2}),
+        ([0, 0, 0, -1, 0], {"TRI3": 2}, {"TET4": 2}, {"TRI3": 2}),
+        ([1, 0, 0, 0, -1], {"TRI3": 1}, {"TET4": 1}, {"TET4": 1}),
+        ([0, 0, 0, 0, 0], {"TET4": 2}, {"TET4": 2}, {"TET4": 2}),
+        ([1, 1, 1, 1, 1], {}, {}, {"TET4": 2}),
+    ],
+)
+def test_what_touches_the_value_gives_what_touches(
+    signs: list[int], equal: dict[str, int], below: dict[str, int], above: dict[str, int]
+) -> None:
+    mesh, _ = two_tetrahedra()
+    field = field_on(mesh, np.array(signs) + 5 / 3)
+    assert kinds(isovalue(field, 5 / 3)) == equal
+    assert kinds(isovalue(field, 5 / 3, -1)) == below
+    assert kinds(isovalue(field, 5 / 3, 1)) == above
+
+
+def test_existing_nodes_on_the_value_are_kept() -> None:
+    table = NodeTable()
+    line = Mesh.of(table, "SEG2", np.column_stack([np.arange(3), np.arange(1, 4)]))
+    table.add(np.linspace(0, 1, 4)[:, None])
+    field = field_on(line, table.coordinates[:, 0])
+    assert isovalue(field, 1 / 3).node_ids.tolist() == [1]
+    assert isovalue(field, 1 / 3 - 1e-10).node_ids.tolist() == [4]
+
+
+def test_wrong_fields_are_refused() -> None:
+    mesh, _ = two_tetrahedra()
+    block = mesh.blocks[0]
+    ones = np.ones((2, 4))
+    with pytest.raises(MeshError, match="components A B"):
+        isovalue(CellField((CellFieldBlock(block, {"A": ones, "B": ones}),)), 0.0)
+    with pytest.raises(MeshError, match="at nodes"):
+        isovalue(CellField((CellFieldBlock(block, {"A": ones}, "STRESSES"),)), 0.0)

@@ -1,0 +1,65 @@
+"""Complete quadratic cells: shared middles, and the cells that they are taken apart into."""
+
+from __future__ import annotations
+
+import pytest
+
+from ssilang.cli.run import run_text
+
+CUBES = (
+    "OPTI DIME 3 ELEM CUB8 ; L = DROI 2 (0. 0. 0.) (2. 0. 0.) ; "
+    "S = L TRAN 1 (0. 1. 0.) ; V = S VOLU 'TRAN' 1 (0. 0. 1.) ; "
+)
+
+
+def found(script: str, *names: str) -> list[object]:
+    result = run_text(script)
+    assert result.exit_code == 0, result.message
+    return [result.session.root.find(n) for n in names]
+
+
+@pytest.mark.parametrize(("kind", "cells"), [("TET4", 96), ("CUB8", 16)])
+def test_bricks_are_taken_apart_on_all_their_nodes(kind: str, cells: int) -> None:
+    script = CUBES + f"Q = CHAN V 'QUAF' ; M = CHAN Q '{kind}' ; N = NBNO Q ; K = NBNO M ;"
+    n, k, volume, count = found(script + "X = MESU M ; C = NBEL M ;", "N", "K", "X", "C")
+    assert n == k == 5 * 3 * 3  # all points of a grid of half the size: nothing is doubled
+    assert volume == pytest.approx(2.0)
+    assert count == cells
+
+
+@pytest.mark.parametrize(
+    ("source", "kind", "target", "cells", "nodes"),
+    [
+        ("TRI3", "TRI7", "TRI3", 24, 19),
+        ("QUA4", "QUA9", "TRI3", 16, 15),
+        ("QUA4", "QUA9", "QUA4", 8, 15),
+    ],
+)
+def test_plane_cells(source: str, kind: str, target: str, cells: int, nodes: int) -> None:
+    script = f"OPTI DIME 2 ELEM {source} ; S = (DROI 2 (0. 0.) (2. 0.)) TRAN 1 (0. 1.) ; "
+    script += f"Q = CHAN S 'QUAF' ; T = ELEM Q 'TYPE' ; M = CHAN '{target}' Q ; "
+    kinds, n, area, count = found(
+        script + "N = NBNO Q ; X = MESU M ; C = NBEL M ;", "T", "N", "X", "C"
+    )
+    assert [str(w).strip() for w in kinds.values] == [kind]
+    assert (n, count) == (nodes, cells)
+    assert area == pytest.approx(2.0)
+
+
+def test_tetrahedra_and_prisms_keep_their_volume() -> None:
+    script = (
+        CUBES.replace("CUB8", "PRI6")
+        .replace("S = L", "OPTI ELEM TRI3 ; S = L")
+        .replace("V = S", "OPTI ELEM PRI6 ; V = S")
+    )
+    script += "A = CHAN 'TET4' (CHAN 'QUAF' V) ; B = CHAN 'TET4' (CHAN 'QUAF' (CHAN 'TET4' V)) ; "
+    a, b, n, k = found(script + "X = MESU A ; Y = MESU B ; N = NBEL A ; K = NBEL B ;", *"XYNK")
+    assert a == pytest.approx(2.0)
+    assert b == pytest.approx(2.0)
+    assert (n, k) == (4 * 36, 12 * 24)
+
+
+def test_cells_that_cannot_be_taken_apart_are_named() -> None:
+    result = run_text(CUBES + "M = CHAN 'PRI6' (CHAN V 'QUAF') ;")
+    assert result.exit_code == 1
+    assert "CU27 cannot be changed into PRI6" in result.message
