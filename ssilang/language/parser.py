@@ -10,12 +10,20 @@ from lark import Lark, Token, Transformer, UnexpectedInput
 
 from ssilang.language import tree
 from ssilang.language.errors import SeveralErrors, SsiError
+from ssilang.language.reader import (
+    Reader,
+    Unsound,
+    integer_of,
+    name_of,
+    quoted_of,
+    real_of,
+    statement_of,
+    symbol_of,
+)
 from ssilang.language.source import Source, Span
 from ssilang.resources import resource
 
-NAME_LENGTH = 24  # objects' names keep 24 characters
 MAX_ERRORS = 20
-INTEGER_DIGITS = 19  # with the sign: what 64 bits hold
 
 _STATEMENT_END = re.compile(r"'(?:[^']|'')*'|;", re.DOTALL)
 
@@ -31,27 +39,19 @@ class _Builder(Transformer[Token, Any]):
         return Span(self.source, start or 0, end or 0)
 
     def word(self, c: list[Token]) -> tree.Name:
-        text = str(c[0])
-        return tree.Name(text.upper()[:NAME_LENGTH], text, self._span(c[0], c[0]))
+        return name_of(str(c[0]), self._span(c[0], c[0]))
 
     def string(self, c: list[Token]) -> tree.Quoted:
-        text = c[0][1:-1].replace("''", "'")
-        if "\n" in text:
-            text = " ".join(part.rstrip() for part in text.split("\n"))
-        return tree.Quoted(text, self._span(c[0], c[0]))
+        return quoted_of(str(c[0]), self._span(c[0], c[0]))
 
     def integer(self, c: list[Token]) -> tree.Number:
-        span = self._span(c[0], c[0])
-        if len(c[0]) > INTEGER_DIGITS:
-            raise SsiError("long-integer", span, digits=len(c[0].lstrip("+-")))
-        return tree.Number(int(c[0]), span)
+        return integer_of(str(c[0]), self._span(c[0], c[0]))
 
     def real(self, c: list[Token]) -> tree.Number:
-        text = c[0].upper().replace("D", "E")
-        return tree.Number(float(text), self._span(c[0], c[0]))
+        return real_of(str(c[0]), self._span(c[0], c[0]))
 
     def symbol(self, c: list[Token]) -> tree.Symbol:
-        return tree.Symbol(str(c[0]).upper(), self._span(c[0], c[0]))
+        return symbol_of(str(c[0]), self._span(c[0], c[0]))
 
     def items(self, c: list[Any]) -> tuple[tree.Item, ...]:
         return tuple(c)
@@ -80,24 +80,24 @@ class _Builder(Transformer[Token, Any]):
         return None
 
     def plain(self, c: list[Any]) -> tree.Statement:
-        items = c[0]
-        return tree.Statement((), items, self._span(items[0], items[-1]))
+        return statement_of(None, c[0])
 
     def assignment(self, c: list[Any]) -> tree.Statement:
-        return tree.Statement(c[0], c[1], self._span(c[0][0], c[1][-1]), assigns=True)
+        return statement_of(c[0], c[1])
 
     def empty_assignment(self, c: list[Any]) -> tree.Statement:
-        return tree.Statement(c[0], (), self._span(c[0][0], c[0][-1]), assigns=True)
+        return statement_of(c[0], [])
 
     def start(self, c: list[Any]) -> list[tree.Statement]:
         return [s for s in c if s is not None]
 
 
 @lru_cache(maxsize=1)
-def _parser() -> tuple[Lark, _Builder]:
+def _parser() -> tuple[Lark, _Builder, Reader]:
     builder = _Builder()
     text = resource("grammar", "ssi.lark").read_text(encoding="utf-8")
-    return Lark(text, parser="lalr", lexer="basic", transformer=builder, cache=False), builder
+    lark = Lark(text, parser="lalr", lexer="basic", transformer=builder, cache=False)
+    return lark, builder, Reader(lark.terminals)
 
 
 def parse_statements(source: Source, end: int | None = None) -> list[tree.Statement]:
@@ -108,11 +108,20 @@ def parse_statements(source: Source, end: int | None = None) -> list[tree.Statem
     SeveralErrors
         All syntax errors found, at most `MAX_ERRORS`.
     """
-    lark, builder = _parser()
-    builder.source = source
+    reader = _parser()[2]
     text = source.code[:end]
     if not text.rstrip().endswith(";") and text.strip():
         text = _closed(text)
+    try:
+        return reader.read(source, text)
+    except Unsound:
+        return parse_by_grammar(source, text)
+
+
+def parse_by_grammar(source: Source, text: str) -> list[tree.Statement]:
+    """The statements of a text by the grammar alone; errors as in `parse_statements`."""
+    lark, builder, _ = _parser()
+    builder.source = source
     errors: list[SsiError] = []
     while True:
         try:
