@@ -8,7 +8,7 @@ from difflib import get_close_matches
 from ssilang.kernel.elements.catalog import ELEMENTS, GENERIC_ELEMENTS, default_element
 from ssilang.kernel.elements.families import register_family
 from ssilang.kernel.errors import MeshError
-from ssilang.kernel.joints.elements import JOINT_NAMES, with_rule
+from ssilang.kernel.joints.elements import JOINT_NAMES, is_joint, with_rule
 from ssilang.kernel.joints.family import JointFamily
 from ssilang.kernel.materials.behaviours import (
     ELASTICITIES,
@@ -102,10 +102,11 @@ def mode(call: Call) -> Model:
     if not wish.formulation and not wish.laws:
         raise call.bad("the formulation is not said", mesh, "MODE mesh 'MECANIQUE' 'ELASTIQUE'")
     _check_elements(call, wish, mesh)
-    _check_rule(call, wish, mesh)
     if wish.formulation == "CHARGEMENT":
         return Model(tuple(_pressure_zone(block, wish, ws) for block in mesh.blocks))
-    return Model(tuple(_zone(block, wish, ws) for block in mesh.blocks))
+    zones = tuple(_zone(block, wish, ws) for block in mesh.blocks)
+    _check_rule(call, wish, zones)
+    return Model(zones)
 
 
 def _check_elements(call: Call, wish: _Wish, mesh: Mesh) -> None:
@@ -119,11 +120,9 @@ def _check_elements(call: Call, wish: _Wish, mesh: Mesh) -> None:
         )
 
 
-def _check_rule(call: Call, wish: _Wish, mesh: Mesh) -> None:
+def _check_rule(call: Call, wish: _Wish, zones: tuple[Zone, ...]) -> None:
     """Refuse a rule of joints where there are none."""
-    if wish.rule and not any(
-        ELEMENTS[n].cell_type == b.cell_type for b in mesh.blocks for n in JOINT_NAMES
-    ):
+    if wish.rule and not any(is_joint(z) for z in zones):
         raise call.bad(
             f"{wish.rule} chooses the integration of joints: the mesh has none",
             hint="other elements have their own (Q4RI, Q8RI ... by name)",
