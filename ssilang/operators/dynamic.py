@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -30,6 +30,7 @@ from ssilang.operators.table_entries import Entries
 if TYPE_CHECKING:
     from ssilang.kernel.dynamics.integrate import History
     from ssilang.kernel.dynamics.problem import Inputs, Problem
+    from ssilang.kernel.dynamics.snapshot import Observer
 
 SCHEME_ENTRIES = ("ALPHA_F", "RHO_INF", "BETA", "GAMMA")
 CONTACT_ENTRIES = (
@@ -47,7 +48,7 @@ KNOWN = (
     "ECON", "PAS_SAUVES_VTK", "TEMPS_SAUVES_VTK", "MAILLAGE_VTK", "FICHIER_VTK",
     "PAS_SAUVES_CSV", "TEMPS_SAUVES_CSV", "MAILLAGE_CSV", "COMPOSANTES_CSV", "FICHIER_CSV",
     "CHARMECA", "VITEUNIL", "ALPHA_F", "RHO_INF", "BETA", "GAMMA", "NEWTON_COMPLET", "RESULTATS",
-    "RESULTATS_CSV", "ENERGIES", "SOUSTYPE", *CONTACT_ENTRIES,
+    "RESULTATS_CSV", "ENERGIES", "SOUSTYPE", "REDUCTION", *CONTACT_ENTRIES,
 )  # fmt: skip
 REFUSED = {"CHARMECA": "loads computed by a procedure at each step are not built"}
 
@@ -69,7 +70,6 @@ REFUSED = {"CHARMECA": "loads computed by a procedure at each step are not built
 def zdyn(call: Call) -> Table:
     """Read the table, integrate, hand back the saved instants."""
     from ssilang.kernel.compiled import is_compiled
-    from ssilang.kernel.dynamics.integrate import integrate
     from ssilang.kernel.dynamics.problem import make_problem
 
     entries = Entries(call, call.required("TABLE"), "DYNAMIC")
@@ -85,13 +85,39 @@ def zdyn(call: Call) -> Table:
     if not is_compiled("dynamics"):
         line.note(COMPILING)
     try:
-        history = integrate(problem, observers, line, entries.flag("NEWTON_COMPLET"))
+        history = _integrated(entries, problem, observers, line)
     finally:
         line.close()
+    _say_reduction(entries, history)
     if csv is not None:
         entries.table.set(Mot("RESULTATS_CSV"), csv.table)
     report(entries, problem, history)
     return results.table
+
+
+def _integrated(
+    entries: Entries, problem: Problem, observers: Sequence[Observer], line: ProgressLine
+) -> History:
+    """The history, on a reduced basis if REDUCTION gives a tolerance."""
+    from ssilang.kernel.dynamics.integrate import integrate
+    from ssilang.kernel.dynamics.reduced_run import integrate_reduced
+
+    tolerance = entries.get("REDUCTION", "FLOTTANT")
+    full = entries.flag("NEWTON_COMPLET")
+    if tolerance is None:
+        return integrate(problem, observers, line, full)
+    if full:
+        raise entries.bad("'REDUCTION' and 'NEWTON_COMPLET' choose two methods", "give one")
+    return integrate_reduced(problem, float(tolerance), observers, line)
+
+
+def _say_reduction(entries: Entries, history: History) -> None:
+    """Warn when a reduction that was asked for was not made."""
+    found = history.reduction
+    if found is not None and found.vectors == 0:
+        entries.warn(
+            f"no reduced model was used: {found.refused}", "the whole model was run, exactly"
+        )
 
 
 # ---- what is read ----------------------------------------------------------------------------
@@ -294,7 +320,7 @@ def report(entries: Entries, problem: Problem, history: History) -> None:
     energies.set(Mot("ECART"), ListReel(history.imbalance))
     entries.table.set(Mot("ENERGIES"), energies)
     steps = len(history.times) - 1
-    line = {
+    line: dict[str, Any] = {
         "procedure": entries.procedure,
         "unknowns": problem.numbering.size,
         "interface_unknowns": problem.interface.size if problem.interface else 0,
@@ -306,7 +332,22 @@ def report(entries: Entries, problem: Problem, history: History) -> None:
         "steps_per_second": steps / history.seconds if history.seconds > 0 else None,
         "energy_imbalance": float(np.abs(history.imbalance).max()),
     }
+    if history.reduction is not None:
+        line |= {
+            "reduced": history.reduction.vectors > 0,
+            "vectors": history.reduction.vectors,
+            "estimated_error": none_if_nan(history.reduction.estimate),
+            "estimated_error_of_velocities": none_if_nan(history.reduction.velocity),
+            "estimated_error_of_accelerations": none_if_nan(history.reduction.acceleration),
+            "not_reduced_because": history.reduction.refused,
+            "seconds_preparing_the_basis": history.reduction.prepared,
+        }
     entries.call.session.statistics.setdefault("calculations", []).append(line)
+
+
+def none_if_nan(value: float) -> float | None:
+    """A number for JSON."""
+    return None if np.isnan(value) else value
 
 
 def warn_resolution(entries: Entries, problem: Problem) -> None:

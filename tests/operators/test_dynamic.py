@@ -202,3 +202,46 @@ def test_relation_mini_bounces_and_keeps_energy(tmp_path):
     assert energies.get("ELASTIQUE").values[-1] + energies.get("CINETIQUE").values[
         -1
     ] == pytest.approx(0.5, rel=1e-9)
+
+
+SHAKEN = """
+OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;
+T = MAILLER 'SOL' 24. 8. 'SEMELLE' 4. 1. 'TAILLE' 0.5 1. ;
+V = (T . 'SOL') ET (T . 'SEMELLE') ;
+MS = MODE V 'MECANIQUE' 'ELASTIQUE' ;
+AS = MATE MS 'YOUN' 5.E7 'NU' 0.3 'RHO' 1900. ;
+MJ = MODE (T . 'JOINT') 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' ;
+AJ = MATE MJ 'KN' 2.E8 'KS' 1.E8 'FROT' 0.7 ;
+R1 = RIGI MS AS ; M1 = MASS MS AS ;
+T1 = TABL ;
+T1 . 'RIGI' = R1 ET (BLOQ 'DEPL' (T . 'BASE')) ;
+T1 . 'MASS' = M1 ; T1 . 'AMOR' = (0.5 * M1) ET (2.E-3 * R1) ;
+T1 . 'MODELE' = MJ ; T1 . 'CARACTERISTIQUES' = AJ ;
+F = (M1 * (MANU 'CHPO' V 2 'UX' 0. 'UY' -9.81 'NATURE' 'DIFFUS')) ;
+T1 . 'CHAR' = CHAR 'MECA' F ;
+T1 . 'TEMPS_CALCULES' = PROG 0. 'PAS' 5.E-3 0.5 ;
+"""
+
+
+def test_reduction_agrees_with_the_whole_model(tmp_path):
+    asked = "T2 = DYNAMIC T1 ; T1 . 'REDUCTION' = 1.E-5 ; T3 = DYNAMIC T1 ;"
+    result = run(SHAKEN + asked, tmp_path)
+    whole, reduced = result.session.statistics["calculations"]
+    assert whole["loop"] == "condensed"
+    assert reduced["reduced"]
+    assert reduced["estimated_error"] <= 1e-5
+    last = [table(result, n).get(26).get("DEPL").components["UY"].values for n in ("T2", "T3")]
+    assert np.abs(last[0] - last[1]).max() <= 1e-5 * np.abs(last[0]).max()
+
+
+def test_reduction_of_a_small_problem_runs_it_whole(tmp_path):
+    result = run(OSCILLATOR + "T1 . 'REDUCTION' = 1.E-6 ; T2 = DYNAMIC T1 ;", tmp_path)
+    line = result.session.statistics["calculations"][0]
+    assert not line["reduced"]
+    assert line["estimated_error"] is None
+    assert line["not_reduced_because"]
+
+
+def test_reduction_goes_with_one_method(tmp_path):
+    both = "T1 . 'REDUCTION' = 1.E-6 ; T1 . 'NEWTON_COMPLET' = VRAI ; T2 = DYNAMIC T1 ;"
+    assert "NEWTON_COMPLET" in fails(OSCILLATOR + both, tmp_path)

@@ -20,11 +20,13 @@ from ssilang.kernel.dynamics.initial import (
     initial_acceleration,
     initial_energies,
     joint_state,
+    with_contact,
 )
 from ssilang.kernel.dynamics.motion import snapshot_of
 from ssilang.kernel.dynamics.plan import Run, runs_of
 from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.dynamics.reduced_loop import ReducedLoop, supports_are_still
+from ssilang.kernel.dynamics.reduction import Reduction
 from ssilang.kernel.dynamics.snapshot import Observer, Snapshot
 from ssilang.kernel.dynamics.sparse_loop import SparseLoop, StepSolver
 from ssilang.kernel.dynamics.step_solvers import step_solver
@@ -52,6 +54,8 @@ class History:
         Most interface iterations in one step.
     solver, loop : str
         Linear solver and loop used.
+    reduction : Reduction or None
+        Of runs on a reduced basis.
     """
 
     times: FloatArray
@@ -60,6 +64,7 @@ class History:
     solver: str = ""
     loop: str = ""
     seconds: float = 0.0
+    reduction: Reduction | None = None
 
     @property
     def imbalance(self) -> FloatArray:
@@ -83,7 +88,8 @@ class Integration:
         p = self.problem
         joints = joint_state(p)
         v = admissible_velocity(p)
-        a = initial_acceleration(p, v, joints)
+        self._closed = _closed_at_start(p)
+        a, pushing = with_contact(p, v, initial_acceleration(p, v, joints), self._closed)
         load = p.loading.forces @ p.loading.at(p.times[:1])[0]
         reaction = p.M @ a + p.C @ v + p.K @ p.u - load
         if p.interface is not None:
@@ -91,9 +97,8 @@ class Integration:
         energies = initial_energies(p, v, joints)
         self.motion = Motion(
             p.u.copy(), v, a, joints.delta, joints.f, joints.w, joints.t, joints.state,
-            reaction, energies, np.zeros(0 if p.contact is None else len(p.contact)),
+            reaction, energies, pushing,
         )  # fmt: skip
-        self._closed = _closed_at_start(p)
         self._engines: dict[float, _Engine] = {}
         self._kind = _kind_of(p, self.full_newton)
 

@@ -1,0 +1,193 @@
+"""The interface iteration of `condensed`, that keeps its factors while the tangents stay equal.
+
+Between changes of contact the tangents of successive turns and steps are the same numbers: the
+matrix `1 + c S K` is then factorised once. The answer is that of `solve_interface`.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ssilang.kernel.compiled import compiled
+from ssilang.kernel.joints.condensed import (
+    ACCEPTED,
+    HOLDING_TURN,
+    MOST_TURNS,
+    PLAIN_TURNS,
+    TOLERANCE,
+    _hold_shear,
+    _largest,
+    _release,
+)
+from ssilang.kernel.joints.response import interface_response, interface_stiffness
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+
+
+@compiled
+def factorise_dense(A: FloatArray, pivots: IntArray) -> bool:
+    """LU with row exchanges in place; False if a pivot vanishes."""
+    n, top = A.shape[0], 0.0
+    for i in range(n):
+        for j in range(n):
+            top = max(top, abs(A[i, j]))
+    for k in range(n):
+        pivot = k
+        for i in range(k + 1, n):
+            if abs(A[i, k]) > abs(A[pivot, k]):
+                pivot = i
+        pivots[k] = pivot
+        if abs(A[pivot, k]) <= 1e-15 * top:
+            return False
+        if pivot != k:
+            for j in range(n):
+                A[k, j], A[pivot, j] = A[pivot, j], A[k, j]
+        inverse = 1.0 / A[k, k]
+        for i in range(k + 1, n):
+            factor = A[i, k] * inverse
+            A[i, k] = factor
+            if factor != 0.0:
+                for j in range(k + 1, n):
+                    A[i, j] -= factor * A[k, j]
+    return True
+
+
+@compiled
+def solve_factors(A: FloatArray, pivots: IntArray, b: FloatArray) -> None:
+    """Solve with the factors of `factorise_dense`, in place."""
+    n = A.shape[0]
+    for k in range(n):
+        p = pivots[k]
+        if p != k:
+            b[k], b[p] = b[p], b[k]
+    for i in range(n):
+        total = b[i]
+        for j in range(i):
+            total -= A[i, j] * b[j]
+        b[i] = total
+    for k in range(n - 1, -1, -1):
+        total = b[k]
+        for j in range(k + 1, n):
+            total -= A[k, j] * b[j]
+        b[k] = total / A[k, k]
+
+
+@compiled
+def _residual(
+    S: FloatArray, c: float, y: FloatArray, y0: FloatArray, f: FloatArray, f0: FloatArray,
+    h: FloatArray, r: FloatArray,
+) -> float:  # fmt: skip
+    """h = c (f - f0) and r = y - y0 + S h; returns max |r|."""
+    for i in range(len(y)):
+        h[i] = c * (f[i] - f0[i])
+    Sh = np.dot(S, h)
+    size = 0.0
+    for i in range(len(y)):
+        r[i] = y[i] - y0[i] + Sh[i]
+        size = max(size, abs(r[i]))
+    return size
+
+
+@compiled
+def _same(D: FloatArray, known: FloatArray) -> bool:
+    a, b = D.ravel(), known.ravel()
+    for i in range(len(a)):  # noqa: SIM110
+        if a[i] != b[i]:
+            return False
+    return True
+
+
+@compiled
+def _factorise(
+    pairs: IntArray, B: FloatArray, weights: FloatArray, S: FloatArray, c: float, D: FloatArray,
+    K: FloatArray, A: FloatArray, known: FloatArray, pivots: IntArray,
+) -> bool:  # fmt: skip
+    """Factors of `1 + c S K` in A, unless those of the same tangents D are there."""
+    if _same(D, known):
+        return True
+    interface_stiffness(pairs, B, weights, D, K)
+    A[:, :] = np.dot(S, K)
+    for i in range(A.shape[0]):
+        for j in range(A.shape[1]):
+            A[i, j] *= c
+        A[i, i] += 1.0
+    if factorise_dense(A, pivots):
+        known[:] = D
+        return True
+    known[:] = np.nan
+    return False
+
+
+@compiled
+def iterate_cached(
+    pairs: IntArray,
+    B: FloatArray,
+    weights: FloatArray,
+    codes: IntArray,
+    p: FloatArray,
+    S: FloatArray,
+    c: float,
+    delta0: FloatArray,
+    f0: FloatArray,
+    state: FloatArray,
+    y0: FloatArray,
+    y: FloatArray,
+    w: FloatArray,
+    t: FloatArray,
+    new: FloatArray,
+    D: FloatArray,
+    f: FloatArray,
+    h: FloatArray,
+    r: FloatArray,
+    dy: FloatArray,
+    delta: FloatArray,
+    K: FloatArray,
+    A: FloatArray,
+    known: FloatArray,
+    pivots: IntArray,
+) -> tuple[int, float]:
+    """As `iterate_interface` without R; `known` (as D) and `pivots` belong to the factors in A.
+
+    `known` filled with NaN says that there are no factors yet.
+    """
+    n = y.shape[0]
+    for i in range(n):
+        delta[i] = delta0[i] + y[i]
+    interface_response(pairs, B, weights, codes, p, delta, state, w, t, new, D, f)
+    size = _residual(S, c, y, y0, f, f0, h, r)
+    scale = max(_largest(y0), _largest(delta0), 1e-300)
+    for turn in range(1, MOST_TURNS + 1):
+        scale = max(scale, _largest(y))
+        if turn == HOLDING_TURN:
+            interface_response(pairs, B, weights, codes, p, delta0, state, w, t, new, D, f)
+            if _hold_shear(codes, p, t, state):
+                for i in range(n):
+                    y[i] = y0[i]
+                    delta[i] = delta0[i] + y[i]
+            interface_response(pairs, B, weights, codes, p, delta, state, w, t, new, D, f)
+            size = _residual(S, c, y, y0, f, f0, h, r)
+        if size <= TOLERANCE * scale:
+            _release(state, new)
+            return turn, size / scale
+        if not _factorise(pairs, B, weights, S, c, D, K, A, known, pivots):
+            _release(state, new)
+            return 0, size / scale
+        for i in range(n):
+            dy[i] = -r[i]
+        solve_factors(A, pivots, dy)
+        before, length = size, 1.0
+        for halving in range(12):
+            for i in range(n):
+                y[i] += length * dy[i]
+                delta[i] = delta0[i] + y[i]
+            interface_response(pairs, B, weights, codes, p, delta, state, w, t, new, D, f)
+            size = _residual(S, c, y, y0, f, f0, h, r)
+            if turn <= PLAIN_TURNS or size < before or halving == 11:
+                break
+            for i in range(n):
+                y[i] -= length * dy[i]
+            length *= 0.5
+        if length * _largest(dy) <= 1e-14 * scale and size <= ACCEPTED * scale:
+            _release(state, new)
+            return turn, size / scale
+    _release(state, new)
+    return -MOST_TURNS, size / scale
