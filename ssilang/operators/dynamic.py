@@ -261,7 +261,10 @@ def _vtk(entries: Entries, times: FloatArray) -> VtkObserver | None:
     if not (entries.has("PAS_SAUVES_VTK") or entries.has("TEMPS_SAUVES_VTK")):
         return None
     wanted = entries.saved_steps("_VTK", times, lambda: np.zeros(len(times), bool))
-    given = entries.needed("MAILLAGE_VTK", "MAILLAGE", "TABLE")
+    given = entries.get("MAILLAGE_VTK", "MAILLAGE", "TABLE")
+    if given is None:
+        model: Model | None = entries.get("MODELE", "MMODEL")
+        given = entries.needed("MAILLAGE_VTK", "MAILLAGE", "TABLE") if model is None else model.mesh
     meshes = {"": given} if isinstance(given, Mesh) else _parts(entries, given)
     name = entries.get("FICHIER_VTK", "MOT") or "dynamic"
     path = output_path(entries.call, str(name).rstrip())

@@ -6,11 +6,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ssilang.kernel.dynamics.contact import BoolArray
 from ssilang.kernel.dynamics.problem import Problem
-from ssilang.kernel.errors import KernelError
+from ssilang.kernel.errors import ConvergenceError, KernelError
 from ssilang.kernel.joints.laws import respond
 from ssilang.kernel.joints.response import interface_energies, interface_forces, local_jumps
 from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.solvers.complementarity import ContactProblem, solve_contact
 from ssilang.kernel.sparse import sp
 
 
@@ -61,22 +63,71 @@ def initial_acceleration(problem: Problem, v: FloatArray, joints: JointState) ->
 
     Motions without mass get none: their equilibrium is that of the next step.
     """
-    import scipy.sparse.linalg as spla
-
-    T = problem.constraints.T
     load = problem.loading.forces @ problem.loading.at(problem.times[:1])[0]
     rest = load - problem.K @ problem.u - problem.C @ v
     if problem.interface is not None:
         rest = rest - problem.interface.J.T @ joints.f
+    return _accelerated(problem, rest)
+
+
+def with_contact(
+    problem: Problem, v: FloatArray, a: FloatArray, touching: BoolArray
+) -> tuple[FloatArray, FloatArray]:
+    """Initial acceleration and reactions (m,) of the unilateral relations that touch.
+
+    They push where the bodies would accelerate through them: a body at rest on its support has
+    no acceleration, and none rings on from step to step. Rows that open, rows of penalty and
+    rows without mass have no reaction yet.
+
+    Parameters
+    ----------
+    a : array (n,)
+        Acceleration without contact.
+    touching : array (m,)
+    """
+    contact = problem.contact
+    none = np.zeros(0 if contact is None else len(contact))
+    if contact is None or problem.contact_options.method == "PENALITE":
+        return a, none
+    factors = problem.loading.at(problem.times[:2])
+    rate = contact.imposed @ (factors[1] - factors[0]) / (problem.times[1] - problem.times[0])
+    speed = contact.G @ v - rate
+    chosen = np.flatnonzero(touching & (speed <= 1e-12 * np.abs(v).max(initial=0.0)))
+    G = contact.G[chosen]
+    moved = _accelerated(problem, G.T.toarray())
+    W = G @ moved
+    heavy = np.diag(W) > 1e-12 * np.diag(W).max(initial=0.0)
+    chosen, moved, W = chosen[heavy], moved[:, heavy], W[np.ix_(heavy, heavy)]
+    if len(chosen) == 0:
+        return a, none
+    nothing = np.zeros((len(chosen), 0))
+    try:
+        found = solve_contact(
+            ContactProblem(
+                W, contact.G[chosen] @ a, nothing, nothing, np.zeros(0), np.zeros(len(chosen), bool)
+            )
+        )
+    except ConvergenceError:  # opposite stops on both sides: the first step finds its own way
+        return a, none
+    none[chosen] = np.maximum(found.p, 0.0)
+    return a + moved @ none[chosen], none
+
+
+def _accelerated(problem: Problem, force: FloatArray) -> FloatArray:
+    """Accelerations (n,) or (n, k) that forces give to the motions that have mass."""
+    import scipy.sparse.linalg as spla
+
+    T = problem.constraints.T
     mass = sp.csr_array(T.T @ problem.M @ T)
     heavy = np.flatnonzero(np.abs(mass.diagonal()) > 0.0)
-    q = np.zeros(T.shape[1])
+    q = np.zeros((T.shape[1], *force.shape[1:]))
     if len(heavy):
         block = sp.csc_array(mass[heavy][:, heavy])
+        pushed = (T.T @ force)[heavy]
         try:
-            q[heavy] = spla.splu(block).solve((T.T @ rest)[heavy])
+            q[heavy] = spla.splu(block).solve(pushed)
         except RuntimeError:
-            q[heavy] = np.linalg.lstsq(block.toarray(), (T.T @ rest)[heavy], rcond=1e-12)[0]
+            q[heavy] = np.linalg.lstsq(block.toarray(), pushed, rcond=1e-12)[0]
     if not np.isfinite(q).all():
         raise KernelError("the mass matrix is singular: no initial acceleration can be found")
     a: FloatArray = T @ q

@@ -1,0 +1,305 @@
+"""Joints through scripts: rules, states and energies in results, parameters refused early."""
+
+import numpy as np
+import pytest
+
+from ssilang.cli.run import run_text
+
+STRIP = """
+OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ;
+A = DROI 4 (-2. 0.) (2. 0.) ; B = A PLUS (0. 0.) ; J = RACC 1.E-6 A B ;
+"""
+SURFACE = """
+OPTI DIME 3 ELEM {} ;
+L = DROI 2 (0. 0. 0.) (1. 0. 0.) ; B = L TRAN 2 (0. 1. 0.) ; A = B PLUS (0. 0. 0.) ;
+J = LIAI A B ;
+"""
+HOPPER = """
+OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ;
+SOL = 0. -1. ; P = 0. 0. ; J = MANU 'SEG2' SOL P ;
+MO = MODE J 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' 'JOI1' ;
+MA = MATE MO 'KN' 1000. 'KS' 0. ;
+T1 = TABL ;
+T1 . 'RIGI' = (BLOQ 'UX' 'UY' SOL) ET (BLOQ 'UX' P) ;
+T1 . 'MASS' = MASS 'DEPL' 1. P ;
+T1 . 'CHAR' = CHAR 'MECA' (FORC (0. -9.81) P) ;
+T1 . 'DEPL' = MANU 'CHPO' P 1 'UY' -0.05 ;
+T1 . 'MODELE' = MO ; T1 . 'CARACTERISTIQUES' = MA ;
+T1 . 'TEMPS_CALCULES' = PROG 0. 'PAS' 1.E-3 0.5 ;
+"""
+
+
+@pytest.fixture
+def found(tmp_path):
+    def run(text, *names):
+        result = run_text(text, output_directory=tmp_path)
+        assert result.exit_code == 0, result.message
+        values = tuple(result.session.root.find(n) for n in names)
+        return values[0] if len(values) == 1 else values
+
+    return run
+
+
+@pytest.fixture
+def refused(tmp_path):
+    def run(text):
+        result = run_text(text, output_directory=tmp_path)
+        assert result.exit_code == 1
+        assert "defect of ssilang" not in result.message
+        return result.message
+
+    return run
+
+
+# --- integration --------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("rule", "inertia"),
+    # four cells of a line of 4 m: Gauss sums x^2 exactly, the trapezium adds L h^2/6
+    [("'GAUSS'", 64 / 12), ("", 64 / 12), ("'LOBATTO'", 64 / 12 + 4 / 6)],
+)
+def test_rule_by_name_gives_its_rocking_stiffness(found, rule, inertia):
+    turned = """
+    M = MODE J 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' {} ; C = MATE M 'KN' 3. 'KS' 1. ;
+    K = RIGI M C ; U = NOMC 'UY' (COOR 1 A) ; F = K * U ; X = XTY U F (MOTS 'UY') (MOTS 'FY') ;
+    """
+    assert found(STRIP + turned.format(rule), "X") == pytest.approx(3.0 * inertia, rel=1e-12)
+
+
+def test_rule_by_name_on_bilinear_faces(found):
+    turned = """
+    M = MODE J 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' 'LOBATTO' ; C = MATE M 'KN' 3. 'KS' 1. ;
+    U = NOMC 'UZ' ((COOR 1 A) - 0.5) ; F = (RIGI M C) * U ;
+    X = XTY U F (MOTS 'UZ') (MOTS 'FZ') ; S = CHAN 'NOEUD' M (SIGM M C U) ;
+    Y = MAXI (EXCO 'SMN' S) ;
+    """
+    x, y = found(SURFACE.format("QUA4") + turned, "X", "Y")
+    assert x == pytest.approx(3.0 * (1 / 12 + 0.25 / 6), rel=1e-12)
+    assert y == pytest.approx(1.5, rel=1e-12)  # the nodes are the points
+
+
+@pytest.mark.parametrize("element", ["QUA8", "TRI6"])
+def test_nodal_rule_is_refused_on_faces_with_bad_weights(refused, element):
+    message = refused(
+        SURFACE.format(element) + "M = MODE J 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' 'LOBATTO' ;"
+    )
+    assert "LOBATTO" in message
+    assert "negative or zero" in message
+    assert "GAUSS" in message
+
+
+def test_rule_without_joints_is_refused(refused):
+    message = refused(STRIP + "M = MODE A 'MECANIQUE' 'ELASTIQUE' 'BARR' 'LOBATTO' ;")
+    assert "the mesh has none" in message
+
+
+def test_strip_footing_with_sixteen_joints_and_lobatto_points(found):
+    text = (
+        STRIP.replace("DROI 4", "DROI 16")
+        + """
+    M = MODE J 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' 'LOBATTO' ; C = MATE M 'KN' 2.E7 'KS' 2.E7 ;
+    G = A POIN 'PROC' (-2. 0.) ; D = A POIN 'PROC' (2. 0.) ;
+    BLO = (BLOQ 'UX' 'UY' B) ET (BLOQ 'UX' A) ET (RELA 0.25 'UY' D - 0.25 'UY' G) ;
+    TURN = RELA 0.25 'UY' D - 0.25 'UY' G ;
+    BLO = (BLOQ 'UX' 'UY' B) ET (BLOQ 'UX' A) ET TURN ;
+    REPE I (NBNO A) ; P = A POIN &I ; X = COOR 1 P ; S = (X + 2.) / 4. ; R = 1. - S ;
+      SI ((NEG P G) ET (NEG P D)) ;
+        BLO = BLO ET (RELA 'UY' P - R 'UY' G - S 'UY' D) ;
+      FINSI ;
+    FIN I ;
+    T = TABL ; T . 'MODELE' = M ; T . 'CARACTERISTIQUES' = C ; T . 'BLOCAGES_MECANIQUES' = BLO ;
+    EV = EVOL 'MANU' (PROG 0. 1.) (PROG 1. 1.) ; EW = EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.) ;
+    T . 'CHARGEMENT' = (CHAR 'MECA' (FORC (0. -6.E5) (A POIN 'PROC' (0. 0.))) EV)
+      ET (CHAR 'DIMP' (DEPI TURN 0.0375) EW) ;
+    T . 'TEMPS_CALCULES' = PROG 0.5 1. ; PASAPAS T ;
+    R = T . 'REACTIONS' . 2 ; Z = XTY (NOMC 'SCAL' (COOR 1 B)) (EXCO 'FY' (REDU R B) 'SCAL')
+      (MOTS 'SCAL') (MOTS 'SCAL') ;
+    """
+    )
+    # theta_u = 2 N/(k0 B^2) = 0.00375, theta = 10 theta_u: M = (3 - 2 sqrt(1/10)) N B/6
+    exact = (3 - 2 * np.sqrt(0.1)) * 6e5 * 4 / 6
+    assert abs(found(text, "Z")) == pytest.approx(exact, rel=1e-2)
+
+
+# --- states and energies ------------------------------------------------------------------------
+
+
+def test_dynamic_gives_state_and_energies_of_each_point(found):
+    table = found(HOPPER + "T1 . 'PAS_SAUVES' = 'TOUS' ; T2 = DYNAMIC T1 ;", "T2")
+    for i in (1, 50, 120, 300):
+        at = table.get(i)
+        variables = at.get("VARIABLES_INTERNES").blocks[0].components
+        u = at.get("DEPL").components["UY"].values.min(initial=0.0)
+        jump = at.get("SAUTS").blocks[0].components["EXX"][0, 0]
+        assert variables["ETAT"][0, 0] == (1.0 if jump <= 0 else variables["ETAT"][0, 0])
+        assert (variables["ETAT"][0, 0] > 2.0) == (jump > 0)
+        assert variables["ESTO"][0, 0] == pytest.approx(500 * min(jump, 0.0) ** 2, abs=1e-15)
+        assert variables["EPER"][0, 0] == 0.0
+        assert u <= 0.0
+
+
+def test_energies_of_points_add_up_to_those_of_the_table(found):
+    text = (
+        STRIP
+        + """
+    M = MODE J 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' ;
+    C = MATE M 'KN' 1.E9 'KS' 1.E9 'FU' 1.E5 'GF' 20. ;
+    D = BLOQ 'UY' A ; T = TABL ; T . 'MODELE' = M ; T . 'CARACTERISTIQUES' = C ;
+    T . 'BLOCAGES_MECANIQUES' = (BLOQ 'UX' 'UY' B) ET (BLOQ 'UX' A) ET D ;
+    T . 'CHARGEMENT' = CHAR 'DIMP' (DEPI D 4.E-4) (EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.)) ;
+    T . 'TEMPS_CALCULES' = PROG 0.25 'PAS' 0.25 1. ; PASAPAS T ;
+    V = T . 'VARIABLES_INTERNES' . 4 ; S = INTG M (EXCO 'ESTO' V) ; P = INTG M (EXCO 'EPER' V) ;
+    E = MAXI (EXCO 'ETAT' V) ; XI = MAXI (EXCO 'SAUT' V) ;
+    SJ = EXTR (T . 'ENERGIES' . 'JOINTS') 5 ; PJ = EXTR (T . 'ENERGIES' . 'DISSIPEE') 5 ;
+    """
+    )
+    s, p, sj, pj, state, xi = found(text, "S", "P", "SJ", "PJ", "E", "XI")
+    assert state == 4.0
+    assert p == pytest.approx(pj, rel=1e-12)
+    assert s == pytest.approx(sj, rel=1e-12)
+    assert p == pytest.approx(4 * 20 * (1 - np.exp(-1e5 * xi / 20)), rel=1e-7)
+
+
+def test_vtk_without_mesh_takes_that_of_the_model_and_shows_states(tmp_path):
+    import meshio
+
+    text = HOPPER + "T1 . 'PAS_SAUVES_VTK' = 100 ; T1 . 'FICHIER_VTK' = 'hop' ; T2 = DYNAMIC T1 ;"
+    result = run_text(text, output_directory=tmp_path)
+    assert result.exit_code == 0, result.message
+    files = sorted(tmp_path.rglob("hop*.vtu"))
+    assert len(files) == 6
+    for file in files:
+        read = meshio.read(file)
+        (opening,) = read.cell_data["opening"][0].ravel()[:1]
+        state = read.cell_data["joint_state"][0][0]
+        assert (state > 2) == (opening > 0)
+        stored = read.cell_data["stored_energy"][0][0]
+        assert stored == pytest.approx(500 * min(opening, 0.0) ** 2, abs=1e-12)
+        assert read.cell_data["lost_energy"][0][0] == 0.0
+
+
+def test_vtk_without_mesh_and_model_names_the_missing_entry(refused):
+    text = HOPPER + "T1 . 'PAS_SAUVES_VTK' = 100 ; OUBL T1 'MODELE' ; T2 = DYNAMIC T1 ;"
+    assert "MAILLAGE_VTK" in refused(text)
+
+
+# --- parameters ---------------------------------------------------------------------------------
+
+
+def test_mate_refuses_snap_back_at_its_own_line(refused):
+    text = STRIP + (
+        "M = MODE J 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' ;\n"
+        "C = MATE M 'KN' 1.E7 'KS' 1. 'FU' 1.E5 'GF' 100. ;\n"
+    )
+    message = refused(text)
+    assert "KN = 1e+07 must exceed FU^2/GF = 1e+08" in message
+    assert "C = MATE M" in message
+    assert "KN > 1e+08" in message
+
+
+def test_mate_waits_for_parameters_that_come_later(found):
+    text = (
+        STRIP
+        + """
+    M = MODE J 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' ;
+    C = (MATE M 'FU' 1.E5 'GF' 100.) ET (MATE M 'KN' 1.E9 'KS' 1.) ; K = RIGI M C ;
+    """
+    )
+    found(text, "K")
+
+
+@pytest.mark.parametrize(
+    ("law", "values", "said"),
+    [
+        ("JOINT_SDM", "'KN' -1. 'KS' 1.", "KN = -1 must be > 0"),
+        ("JOINT_SDM", "'KN' 1. 'KS' 1. 'FC' 5.", "FC = 5 must be <= 0"),
+        ("JOINT_SDM", "'KN' 1.E9 'KS' 1. 'FU' 1.E5", "perfectly brittle"),
+        ("COULOMB", "'KN' 1. 'KS' 1. 'FRIC' 30. 'COHE' -1.", "COHE = -1"),
+        ("COULOMB", "'KN' 1. 'KS' 1. 'FRIC' 30. 'COHE' 0. 'TYPE' 2.", "TYPE = 2"),
+    ],
+)
+def test_mate_refuses_what_the_law_refuses(refused, law, values, said):
+    message = refused(STRIP + f"M = MODE J 'MECANIQUE' 'ELASTIQUE' '{law}' ; C = MATE M {values} ;")
+    assert said in message
+
+
+def test_symmetric_friction_finds_the_same_slip(found):
+    text = (
+        STRIP
+        + """
+    DEBP SLIDE MO*MMODEL ;
+      C = MATE MO 'KN' 1.E8 'KS' 1.E8 'FROT' 0.5 ; D = BLOQ 'UX' A ;
+      T = TABL ; T . 'MODELE' = MO ; T . 'CARACTERISTIQUES' = C ;
+      KE = APPUI 'DEPL' 'UY' 1.E6 A ; T . 'RIGIDITE_CONSTANTE' = KE ;
+      T . 'BLOCAGES_MECANIQUES' = (BLOQ 'UX' 'UY' B) ET D ;
+      E1 = EVOL 'MANU' (PROG 0. 1. 2.) (PROG 1. 1. 0.4) ;
+      E2 = EVOL 'MANU' (PROG 0. 1. 2.) (PROG 0. 1. -1.) ;
+      T . 'CHARGEMENT' = (CHAR 'MECA' (FORC (0. -1.E4) A) E1) ET (CHAR 'DIMP' (DEPI D 1.E-3) E2) ;
+      T . 'TEMPS_CALCULES' = PROG 0.25 'PAS' 0.25 2. ; PASAPAS T ;
+    FINP (T . 'CONTRAINTES' . 8) (T . 'VARIABLES_INTERNES' . 8) ;
+    M1 = MODE J 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' ;
+    M2 = MODE J 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' 'FROTTEMENT_SYMETRIQUE' ;
+    S1 V1 = SLIDE M1 ; S2 V2 = SLIDE M2 ;
+    """
+    )
+    s1, s2, v1, v2 = found(text, "S1", "S2", "V1", "V2")
+    for one, two in ((s1, s2), (v1, v2)):
+        for name, values in one.blocks[0].components.items():
+            scale = np.abs(values).max()
+            np.testing.assert_allclose(
+                two.blocks[0].components[name], values, rtol=0, atol=1e-9 * scale
+            )
+    shear, normal = (s1.blocks[0].components[n] for n in ("SMSN", "SMN"))
+    np.testing.assert_allclose(np.abs(shear), 0.5 * np.abs(normal), rtol=1e-9)  # it slides
+
+
+# --- persistent contact -------------------------------------------------------------------------
+
+RESTING = """
+OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ;
+* two masses joined by a spring on a rigid floor, the lower one touching it with a small velocity
+P1 = 0. 0. ; P2 = 0. 1. ; L = DROI 1 P1 P2 ;
+MO = MODE L 'MECANIQUE' 'ELASTIQUE' 'BARR' ; MA = MATE MO 'YOUN' 400. 'NU' 0. 'SECT' 1. ;
+T1 = TABL ;
+T1 . 'RIGI' = (RIGI MO MA) ET (BLOQ 'UX' L) ET (BLOQ 'MINI' 'UY' P1) ;
+T1 . 'MASS' = (MASS 'DEPL' 3. P1) ET (MASS 'DEPL' 1. P2) ;
+T1 . 'CHAR' = CHAR 'MECA' ((FORC (0. -30.) P1) ET (FORC (0. -10.) P2)) ;
+T1 . 'VITE' = MANU 'CHPO' P1 1 'UY' -1.E-4 ;
+T1 . 'TEMPS_CALCULES' = PROG 0. 'PAS' 5.E-4 1. ; T1 . 'PAS_SAUVES' = 'TOUS' ;
+T1 . 'VITEUNIL' = FAUX ;
+"""
+READ = """
+T2 = DYNAMIC T1 ;
+EV = EVOL 'TEMP' T2 'VITE' 'UY' P1 ; V1 = EXTR EV 'ORDO' ; T = EXTR EV 'ABSC' ;
+U1 = EXTR (EVOL 'TEMP' T2 'DEPL' 'UY' P1) 'ORDO' ;
+U2 = EXTR (EVOL 'TEMP' T2 'DEPL' 'UY' P2) 'ORDO' ;
+"""
+
+
+def test_persistent_contact_stops_the_alternating_velocity(found):
+    names = ("T", "U1", "V1", "U2")
+    rings = [x.values for x in found(RESTING + READ, *names)]
+    rests = [x.values for x in found(RESTING + "T1 . 'CONTACT_PERSISTANT' = VRAI ;" + READ, *names)]
+    # it stays in contact: the upper mass swings on its spring, w = 20 rad/s, g = 10 m/s2
+    t, u1, v1, u2 = rests
+    assert np.abs(u1).max() < 1e-15
+    exact = -10.0 / 400 * (1 - np.cos(20.0 * t))
+    assert np.abs(u2 - exact).max() < 1e-4 * 0.05
+    assert np.abs(v1[1:]).max() < 1e-16
+    # C u_1 = C u_0 alone turns the velocity's sign at each step; the acceleration grows by
+    # 4 V/dt a step until the mass is thrown off
+    first = rings[2][:10]
+    np.testing.assert_allclose(np.abs(first), 1e-4, rtol=1e-6)
+    assert (first[1:] * first[:-1] < 0).all()
+    assert rings[1].max() > 1e-3
+
+
+def test_body_at_rest_on_a_relation_has_no_acceleration(found):
+    text = (
+        RESTING.replace("-1.E-4", "0.")
+        + """
+    T2 = DYNAMIC T1 ; A = EXTR (EVOL 'TEMP' T2 'ACCE' 'UY' P1) 'ORDO' ;
+    """
+    )
+    assert np.abs(found(text, "A").values).max() < 1e-9
