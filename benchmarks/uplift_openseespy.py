@@ -6,10 +6,10 @@
 The same plane-strain quads, lumped masses, springs (compression only along the normal, elastic in
 shear), loads (weight of the block, a sine at the base) and step (average acceleration, 5 ms) in
 both; OpenSees with Newton's method and each of its sparse solvers in turn. The best of them is
-taken. A ratio is printed only if the displacements of the block's top agree at every step that both
-kept (one in ten) within 1e-6 of the largest one. Times are those of the stepping loops, the factorisation
-included: ssilang over 1 000 steps, the peer, whose steps all cost the same, over fewer. The two run
-in turn; the median of three is kept (one above 10 000 unknowns).
+taken. A ratio is printed only if the displacements of the block's top agree within 1e-6 of the
+largest one at every step that both kept (one in ten). Times are those of the stepping loops, the
+factorisation included: ssilang over 1 000 steps, the peer, whose steps all cost the same, over
+fewer. The two run in turn; the median of three is kept (one above 10 000 unknowns).
 """
 
 from __future__ import annotations
