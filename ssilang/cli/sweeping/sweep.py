@@ -85,14 +85,14 @@ def _run(tasks: list[Task], options: SweepOptions) -> Iterator[dict[str, Any]]:
 
 
 def _progress(rows: Iterator[dict[str, Any]], total: int, err: TextIO) -> Iterator[dict[str, Any]]:
-    """The same rows, with a bar at a terminal."""
-    if not err.isatty() or total == 0:
-        yield from rows
-        return
-    from rich.console import Console
-    from rich.progress import track
+    """The same rows, with a line of progress at a terminal."""
+    from ssilang.operators.progress import ProgressLine
 
-    yield from track(rows, "runs", total=total, console=Console(file=err))
+    line = ProgressLine("runs", err)
+    for done, row in enumerate(rows, start=1):
+        line(done, total)
+        yield row
+    line.close()
 
 
 def _finish(rows: list[dict[str, Any]], swept: list[str], folder: Path, out: TextIO) -> int:
