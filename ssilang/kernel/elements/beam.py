@@ -42,7 +42,8 @@ _HERMITE_MASS = np.array(
     [[156, 22, 54, -13], [22, 4, 13, -3], [54, 13, 156, -22], [-13, -3, -22, 4]], float
 )
 _MASS_POWERS = np.array([[0, 1, 0, 1], [1, 2, 1, 2], [0, 1, 0, 1], [1, 2, 1, 2]], float)
-_KSIG = np.array([[36, 3, -36, 3], [3, 4, -3, -1], [-36, -3, 36, -3], [3, -1, -3, 4]], float)
+# integral of the products of slopes of the cubic deflection, times 30 L
+_SLOPES = np.array([[36, 3, -36, 3], [3, 4, -3, -1], [-36, -3, 36, -3], [3, -1, -3, 4]], float)
 
 
 def _signs(sign: float) -> FloatArray:
@@ -71,12 +72,18 @@ def local_stiffness(section: Section, lengths: FloatArray) -> FloatArray:
     return K
 
 
-def _plane_blocks(base: FloatArray, lengths: FloatArray, scale: FloatArray) -> FloatArray:
-    """Both bending planes filled with scale * base * L^powers, (n_cells, 12, 12)."""
+def _plane_blocks(
+    base: FloatArray, lengths: FloatArray, scale: FloatArray, other: FloatArray | None = None
+) -> FloatArray:
+    """Bending planes filled with scale * base * L^powers, (n_cells, 12, 12).
+
+    `scale` (n_cells,) holds for x y, `other` for x z; the same in both planes without it.
+    """
     K = np.zeros((len(lengths), 12, 12))
     powers = lengths[:, None, None] ** _MASS_POWERS
-    for v, t, sign, _, _ in _PLANES:
-        _place(K, [v, t, v + 6, t + 6], scale[:, None, None] * base * powers * _signs(sign))
+    scales = (scale, scale if other is None else other)
+    for (v, t, sign, _, _), factor in zip(_PLANES, scales, strict=True):
+        _place(K, [v, t, v + 6, t + 6], factor[:, None, None] * base * powers * _signs(sign))
     return K
 
 
@@ -141,7 +148,7 @@ class _LineBeam(ElementFamily):
 
 
 class Beam(_LineBeam):
-    """POUT: cubic deflection; SECY, SECZ add shear flexibility, rotary inertia is neglected."""
+    """POUT: cubic deflection; SECY, SECZ add shear flexibility; sections turn with the slope."""
 
     def stiffness_values(self, zone: Zone, moduli: FloatArray, parameters: ZoneField) -> FloatArray:
         """Exact stiffness; `moduli` give the rigidities when they come from HOOK."""
@@ -194,11 +201,12 @@ class Beam(_LineBeam):
         return vectors
 
     def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, Layout]:
-        """Consistent mass of the cubic deflection, linear lengthening and twist."""
+        """Consistent mass of the cubic deflection and its slope, linear lengthening and twist."""
         frame = beam_frame(zone, parameters)
         L = frame.lengths
         linear, moments = self.linear_mass(zone, parameters)
         local = _plane_blocks(_HERMITE_MASS, L, linear * L / 420)
+        local += _plane_blocks(_SLOPES, L, moments[:, 2] / (30 * L), moments[:, 1] / (30 * L))
         pair = np.array([[2.0, 1.0], [1.0, 2.0]])
         for row, scale in ((0, linear), (3, moments[:, 0])):
             _place(local, [row, row + 6], (scale * L / 6)[:, None, None] * pair)
@@ -208,7 +216,7 @@ class Beam(_LineBeam):
         """Effect of the mean normal force on the cubic deflection and linear lengthening."""
         frame = beam_frame(zone, parameters)
         scale = stress[:, 0].mean(axis=1) / (30 * frame.lengths)
-        local = _plane_blocks(_KSIG, frame.lengths, scale)
+        local = _plane_blocks(_SLOPES, frame.lengths, scale)
         _place(local, [0, 6], 30 * scale[:, None, None] * np.array([[1.0, -1.0], [-1.0, 1.0]]))
         return to_global(keep(local, zone), frame.rotation(zone))
 
@@ -248,13 +256,26 @@ class Timoshenko(_LineBeam):
         return to_global(keep(local, zone), frame.rotation(zone)), self.layout(zone)
 
     def geometric_values(self, zone: Zone, stress: FloatArray, parameters: ZoneField) -> FloatArray:
-        """Effect of the normal force on the three displacements."""
+        """Effect of the normal force on the displacements and on the turning of sections."""
         frame = beam_frame(zone, parameters)
         scale = (stress[:, 0, 0] / frame.lengths)[:, None, None]
         local = np.zeros((len(scale), 12, 12))
+        pair = np.array([[1.0, -1.0], [-1.0, 1.0]])
         for v in (0, 1, 2):
-            _place(local, [v, v + 6], scale * np.array([[1.0, -1.0], [-1.0, 1.0]]))
+            _place(local, [v, v + 6], scale * pair)
+        radii = self._squared_radii(zone, parameters)
+        for column, r in enumerate((4, 5)):
+            _place(local, [r, r + 6], scale * radii[:, column, None, None] * pair)
         return to_global(keep(local, zone), frame.rotation(zone))
+
+    def _squared_radii(self, zone: Zone, parameters: ZoneField) -> FloatArray:
+        """Squared radii of gyration about y and z, (n_cells, 2); zero where no section is known."""
+        n = len(zone.cells)
+        if "SECT" not in parameters:
+            return np.zeros((n, 2))
+        area = parameters.at("SECT", "GRAVITE")[:, 0]
+        inertia = [parameters.at(name, "GRAVITE", 0.0)[:, 0] for name in ("INRY", "INRZ")]
+        return np.stack([np.broadcast_to(i / area, (n,)) for i in inertia], axis=1)
 
 
 def section_of(moduli: FloatArray, zone: Zone) -> Section:

@@ -140,7 +140,8 @@ def test_projected_load_counts_the_projected_length():
 def test_beam_mass_gives_the_cantilever_frequency():
     n = 6
     zone = line_zone("POUT", [(x, 0) for x in np.linspace(0, L, n + 1)], Mode.PLANE_STRESS)
-    mat = material(zone, **SECTION)
+    slender = SECTION | {"SECT": 1e4 * A}  # no rotary inertia to speak of
+    mat = material(zone, **slender)
     K = Matrix(zone.cells.nodes, (families.stiffness(zone, mat),))
     M = Matrix(zone.cells.nodes, (families.mass(zone, mat),))
     numbering = numbering_of(K, M)
@@ -148,7 +149,36 @@ def test_beam_mass_gives_the_cantilever_frequency():
     k, m = (assemble(a, numbering).toarray()[np.ix_(free, free)] for a in (K, M))
     omega = np.sqrt(np.sort(np.linalg.eigvals(np.linalg.solve(m, k)).real)[:2])
     beta = np.array([1.875104, 4.694091])
-    np.testing.assert_allclose(omega, (beta / L) ** 2 * np.sqrt(E * IZ / (7800 * A)), rtol=5e-4)
+    np.testing.assert_allclose(omega, (beta / L) ** 2 * np.sqrt(E * IZ / (7800e4 * A)), rtol=5e-4)
+
+
+def test_sections_of_a_beam_turn_with_its_slope():
+    # simply supported Rayleigh beam: w^2 = E I k^4 / (rho A (1 + r^2 k^2))
+    n = 12
+    zone = line_zone("POUT", [(x, 0) for x in np.linspace(0, L, n + 1)], Mode.PLANE_STRESS)
+    thick = SECTION | {"INRZ": A * (L / 20) ** 2}
+    mat = material(zone, **thick)
+    K = Matrix(zone.cells.nodes, (families.stiffness(zone, mat),))
+    M = Matrix(zone.cells.nodes, (families.mass(zone, mat),))
+    numbering = numbering_of(K, M)
+    names = np.array([numbering.unknowns[c] for c in numbering.codes])
+    ends = np.isin(numbering.nodes, (0, n))
+    free = (names != "UX") & ~(ends & (names == "UY"))
+    k, m = (assemble(a, numbering).toarray()[np.ix_(free, free)] for a in (K, M))
+    omega = np.sqrt(np.sort(np.linalg.eigvals(np.linalg.solve(m, k)).real)[:2])
+    wave = np.array([1.0, 2.0]) * np.pi / L
+    rayleigh = E * (L / 20) ** 2 * wave**4 / (7800 * (1 + (L / 20) ** 2 * wave**2))
+    np.testing.assert_allclose(omega, np.sqrt(rayleigh), rtol=2e-4)
+
+
+def test_normal_force_works_on_the_turning_of_timoshenko_sections():
+    zone = line_zone("TIMO", [(0, 0), (0.5, 0)], Mode.PLANE_STRESS)
+    mat = material(zone, **SECTION)
+    pull = CellField((material(zone, EFFX=3.0).blocks[0],), "CONTRAINTES")
+    block = families.geometric_stiffness(zone, pull, mat)
+    turned = np.array([0, 0, 0, 0, 0, 0.2])  # UX UY RZ at each end: only the second turns
+    work = turned @ block.values[0] @ turned
+    assert work == pytest.approx(3.0 * IZ / A * (0.2 / 0.5) ** 2 * 0.5)
 
 
 def test_euler_buckling_load_from_the_geometric_stiffness():
