@@ -14,6 +14,7 @@ from ssilang.kernel.mesh.mesh import Point
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, arg, operator
 from ssilang.language.values import ListChpo, ListReel, Mot, Table
+from ssilang.operators.dispatch import INTE
 from ssilang.operators.list_items import taken
 from ssilang.operators.list_search import equal_items
 
@@ -251,3 +252,16 @@ def racp(call: Call) -> Any:
     low, high = sorted(bounds)
     inside = real[(real >= low) & (real <= high)]
     return float(inside[0]) if len(inside) else Mot("VIDE")
+
+
+@INTE.on(
+    "LISTREEL",
+    syntax="LREE3 = LREE1 INTE LREE2 ;",
+    en="Two lists of reals: the values of the first that the second holds as well.",
+    fr="Deux listes de réels : les valeurs de la première que contient aussi la seconde.",
+    examples=("LIST (INTE (PROG 1. 2. 3.) (PROG 2. 3. 4.)) ;",),
+)
+def common_reals(call: Call, first: ListReel) -> ListReel:
+    """Values in both lists, in the order of the first."""
+    second: ListReel = call.required("LISTREEL")
+    return ListReel(first.values[np.isin(first.values, second.values)])

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.kernel.mesh.partition import connected, separated
+from ssilang.kernel.mesh.partition import balanced, connected, scattered, separated
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
 from ssilang.language.values import Mot, Table
@@ -22,16 +23,20 @@ _CUT = "OPTI DIME 2 ELEM SEG2 ; L = (DROI 2 (0. 0.) (1. 0.)) ET (DROI 3 (2. 0.) 
         "'CONN': parts joined by common nodes. 'SEPA': parts joined by common sides, except "
         "('FACE', 'LIGN') sides of more than two cells, ('MAIL') sides within cells of a mesh, "
         "('ANGL') sides where normals or tangents turn by more than an angle (20 degrees); cells "
-        "described in opposite senses are not taken as folded unless 'TELQ' is said.",
+        "described in opposite senses are not taken as folded unless 'TELQ' is said. 'OPTI': as "
+        "many equal parts as said (a power of 2, by default 2). 'ARLE': cells dealt out in "
+        "turn to that many parts. ETG joins the parts again.",
         fr="Table des zones 1, 2 ... d'un maillage, de sous-type 'ESCLAVE' sauf avec 'NESC'. "
         "'CONN' : parties jointes par des noeuds communs. 'SEPA' : parties jointes par des côtés "
         "communs, sauf ('FACE', 'LIGN') ceux de plus de deux éléments, ('MAIL') ceux compris dans "
         "des éléments d'un maillage, ('ANGL') ceux où normales ou tangentes tournent de plus d'un "
         "angle (20 degrés) ; des éléments de sens contraires ne sont pas pris pour repliés sauf "
-        "avec 'TELQ'.",
+        "avec 'TELQ'. 'OPTI' : autant de parties égales que dit (puissance de 2, par défaut 2). "
+        "'ARLE' : éléments distribués tour à tour à ce nombre de parties. ETG les réunit.",
         syntax="TAB1 = PART ('NESC') 'CONN' MAIL1 ;\n"
         "TAB1 = PART ('NESC') 'SEPA' MAIL1 ('FACE'|'LIGN') ('MAIL' MAIL2) "
-        "('ANGL' (FLOT1) ('TELQ')) ;",
+        "('ANGL' (FLOT1) ('TELQ')) ;\n"
+        "TAB1 = PART ('NESC') 'OPTI'|'ARLE' MAIL1 (N1) ;",
         examples=(_CUT + "T = PART 'NESC' 'CONN' L ; MESS (DIME T) ;",),
     ),
     reads_itself=True,
@@ -41,14 +46,28 @@ def part(call: Call) -> Table:
     slaves = call.keyword(("NESC",)) is None
     how = call.keyword(("CONN", "SEPA", "OPTI", "ARLE"))
     slaves = slaves and call.keyword(("NESC",)) is None
-    if how not in ("CONN", "SEPA"):
+    if how is None:
         raise call.bad(
-            "how the mesh is taken apart is not said" if how is None else f"no '{how}' here",
-            hint="say 'CONN' (common nodes) or 'SEPA' with what separates",
+            "how the mesh is taken apart is not said",
+            hint="say 'CONN' (common nodes), 'SEPA' with what separates, 'OPTI' or 'ARLE'",
         )
     mesh: Mesh = call.required("MAILLAGE")
-    zones = connected(mesh) if how == "CONN" else separated(mesh, **_separators(call))
-    return _table(zones, "ESCLAVE" if slaves else "")
+    return _table(_ZONES[how](call, mesh), "ESCLAVE" if slaves else "")
+
+
+def _dealt_out(call: Call, mesh: Mesh) -> list[Mesh]:
+    count: int = call.required("ENTIER")
+    if count < 1:
+        raise call.bad(f"a mesh is not taken apart into {count} parts", count)
+    return scattered(mesh, count)
+
+
+_ZONES: dict[str, Callable[[Call, Mesh], list[Mesh]]] = {
+    "CONN": lambda call, mesh: connected(mesh),
+    "SEPA": lambda call, mesh: separated(mesh, **_separators(call)),
+    "OPTI": lambda call, mesh: balanced(mesh, call.optional("ENTIER", default=2)),
+    "ARLE": _dealt_out,
+}
 
 
 def _separators(call: Call) -> dict[str, Any]:

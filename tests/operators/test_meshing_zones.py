@@ -80,3 +80,31 @@ def test_lines_of_several_values() -> None:
     assert result.exit_code == 0, result.message
     values = [result.session.root.find(n) for n in "LABE"]
     assert values == pytest.approx([4.0, 0.25, 0.5, 0.0])
+
+
+@pytest.mark.parametrize(
+    ("phrase", "expected"),
+    [
+        ("PART 'ARLE' L 4", [4, 4, 3, 3]),
+        ("PART 'OPTI' L", [7, 7]),
+        ("PART 'OPTI' 4 L", [4, 3, 4, 3]),
+    ],
+)
+def test_parts_of_equal_sizes_and_their_union(phrase: str, expected: list[int]) -> None:
+    script = STAR + f"T = {phrase} ; M = ETG T ; N = NBEL (DIFF M L) ; K = NBEL M ;"
+    assert sorted(cells_of(script)) == sorted(expected)
+    root = run_text(script).session.root
+    assert (root.find("N"), root.find("K")) == (0, 14)
+
+
+def test_union_of_a_table_of_numbers_and_of_no_parts() -> None:
+    result = run_text(
+        "T = TABL 'ESCLAVE' ; T . 1 = PROG 1. ; T . 2 = PROG 2. 3. ; X = ETG T ; "
+        "Y = INTE X (PROG 3. 1. 7.) ;"
+    )
+    assert result.exit_code == 0, result.message
+    assert result.session.root.find("X").values.tolist() == [1.0, 2.0, 3.0]
+    assert result.session.root.find("Y").values.tolist() == [1.0, 3.0]
+    refused = run_text("T = TABL ; T . 1 = 2 ; X = ETG T ;")
+    assert refused.exit_code == 1
+    assert "sub-type" in refused.message

@@ -41,6 +41,15 @@ def union(*meshes: Mesh, as_given: bool = False) -> Mesh:
     return result
 
 
+def gathered(meshes: Sequence[Mesh]) -> Mesh:
+    """Cells of many meshes in the order given; those of one type become one block."""
+    by_type: dict[str, list[CellBlock]] = {}
+    for mesh in meshes:
+        for block in mesh.blocks:
+            by_type.setdefault(block.cell_type, []).append(block)
+    return Mesh(meshes[0].nodes, tuple(join_blocks(blocks) for blocks in by_type.values()))
+
+
 def _union_of_two(first: Mesh, second: Mesh, as_given: bool) -> Mesh:
     blocks = {b.cell_type: b for b in first.blocks if len(b)}
     for block in second.blocks:

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ssilang.kernel.errors import MeshError
-from ssilang.kernel.mesh.combine import take
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
@@ -67,6 +65,40 @@ def separated(
     return _zones(mesh, links)
 
 
+def scattered(mesh: Mesh, count: int) -> list[Mesh]:
+    """Cells dealt out in turn to `count` parts (fewer if the mesh has fewer cells)."""
+    return _by_label(mesh, np.arange(mesh.n_cells) % count)
+
+
+def balanced(mesh: Mesh, count: int) -> list[Mesh]:
+    """`count` parts (a power of two) of equal numbers of cells, halved across their longest way.
+
+    Raises
+    ------
+    MeshError
+        If the number of parts is not a power of two.
+    """
+    if count < 1 or count & (count - 1):
+        raise MeshError(f"a mesh is not halved into {count} parts", "say 2, 4, 8 ...")
+    centres = np.concatenate([b.coordinates.mean(axis=1) for b in mesh.blocks])
+    parts = [np.arange(mesh.n_cells)]
+    while len(parts) < count:
+        parts = [half for part in parts for half in _halves(part, centres)]
+    label = np.empty(mesh.n_cells, dtype=np.int64)
+    for number, part in enumerate(parts):
+        label[part] = number
+    return _by_label(mesh, label)
+
+
+def _halves(cells: IntArray, centres: FloatArray) -> tuple[IntArray, IntArray]:
+    if not len(cells):
+        return cells, cells
+    axis = int(np.ptp(centres[cells], axis=0).argmax())
+    order = cells[np.argsort(centres[cells, axis], kind="stable")]
+    middle = (len(cells) + 1) // 2
+    return order[:middle], order[middle:]
+
+
 def _starts(mesh: Mesh) -> IntArray:
     return np.cumsum([0, *(len(b) for b in mesh.blocks)])[:-1]
 
@@ -79,13 +111,24 @@ def _zones(mesh: Mesh, links: IntArray) -> list[Mesh]:
     size = int(max(links.max(initial=-1) + 1, mesh.n_cells))
     graph = coo_matrix((np.ones(len(links), dtype=bool), links.T), shape=(size, size))
     label = connected_components(graph, directed=False)[1][: mesh.n_cells]
-    order = label[np.sort(np.unique(label, return_index=True)[1])]
-    start = dict(zip(map(id, mesh.blocks), _starts(mesh), strict=True))
+    return _by_label(mesh, label.astype(np.int64))
 
-    def of(number: int) -> Callable[[CellBlock], BoolArray]:
-        return lambda b: label[start[id(b)] : start[id(b)] + len(b)] == number
 
-    return [take(mesh, of(int(number))) for number in order]
+def _by_label(mesh: Mesh, label: IntArray) -> list[Mesh]:
+    """Meshes of the cells of each label, in the order in which the labels appear."""
+    names, first, label = np.unique(label, return_index=True, return_inverse=True)
+    parts: list[list[CellBlock]] = [[] for _ in names]
+    for block, start in zip(mesh.blocks, _starts(mesh), strict=True):
+        mine = label[start : start + len(block)]
+        order = np.argsort(mine, kind="stable")
+        ends = np.searchsorted(mine[order], np.arange(len(names) + 1))
+        table, colours = block.connectivity[order], block.colours[order]
+        for number in np.unique(mine):
+            rows = slice(ends[number], ends[number + 1])
+            parts[number].append(
+                CellBlock.make(mesh.nodes, block.cell_type, table[rows], colours[rows])
+            )
+    return [Mesh(mesh.nodes, tuple(parts[number])) for number in np.argsort(first)]
 
 
 def _sides(mesh: Mesh) -> tuple[IntArray, IntArray]:

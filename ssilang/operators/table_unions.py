@@ -1,0 +1,46 @@
+"""ETG: the union of all that a table of parts holds."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ssilang.kernel.mesh.combine import gathered
+from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.language.call import Call
+from ssilang.language.registry import Help, operator
+from ssilang.language.values import Table
+from ssilang.operators.dispatch import united
+
+
+@operator(
+    "ETG",
+    family="objects",
+    help=Help(
+        en="Union (ET) of the objects that a table of sub-type 'ESCLAVE' holds at the indices 1, 2 "
+        "...: PART makes such tables. A mesh gets the cells in the order of the table.",
+        fr="Réunion (ET) des objets que contient une table de sous-type 'ESCLAVE' aux indices 1, 2 "
+        "... : PART en fait. Un maillage reçoit les éléments dans l'ordre de la table.",
+        syntax="OBJ2 = ETG TAB1 ;",
+        examples=(
+            "OPTI DIME 2 ELEM SEG2 ; L = DROI 9 (0. 0.) (1. 0.) ; T = PART 'ARLE' L 3 ; "
+            "MESS (NBEL (T . 1)) (NBEL (ETG T)) ;",
+        ),
+    ),
+    reads_itself=True,
+)
+def etg(call: Call) -> Any:
+    """Union of a table's objects."""
+    table: Table = call.required("TABLE")
+    if table.subtype != "ESCLAVE":
+        raise call.bad(
+            f"the table is of sub-type '{table.subtype}'", table, hint="TABL 'ESCLAVE', PART"
+        )
+    values = [v for index, v in table.items() if type(index) is int]
+    if not values:
+        raise call.bad("the table holds nothing at integer indices", table)
+    if all(isinstance(v, Mesh) for v in values):
+        return gathered([v for v in values if isinstance(v, Mesh)])
+    total = values[0]
+    for value in values[1:]:
+        total = united(call, total, value, call.span)
+    return total
