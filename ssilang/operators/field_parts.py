@@ -194,10 +194,12 @@ def support_nodes(support: Point | Mesh) -> IntArray:
     syntax="X1 = EXTR CHPO1 MOT1 POIN1 ; LREE1 = EXTR CHPO1 'VALE' (MOT1 | LMOT1) (POIN1 | GEO1) "
     "('NOID') ;\nMAIL1 = EXTR CHPO1 'MAIL' ('NOMU') ; LMOT1 = EXTR CHPO1 'COMP' ; "
     "MOT1 = EXTR CHPO1 'TITR' | 'TYPE' | 'NATU' ;",
-    en="Of a field at nodes: a value at a point, values as a list (in the order of the points of "
-    "a mesh), its mesh of points, names of components, title, type, nature.",
-    fr="D'un champ par points : une valeur en un point, des valeurs en liste (dans l'ordre des "
-    "points d'un maillage), son maillage de points, noms des composantes, titre, type, nature.",
+    en="Of a field at nodes: a value at a point (0. outside of its support), values as a list (in "
+    "the order of the points of a mesh), its mesh of points, names of components, title, type, "
+    "nature.",
+    fr="D'un champ par points : une valeur en un point (0. hors de son support), des valeurs en "
+    "liste (dans l'ordre des points d'un maillage), son maillage de points, noms des composantes, "
+    "titre, type, nature.",
     examples=(_POINT_FIELD + "LIST (EXTR C 'UY' P) ; LIST (EXTR C 'VALE' 'UX') ;",),
 )
 def _extract(call: Call, field: NodeField) -> Any:
@@ -212,7 +214,7 @@ def _extract(call: Call, field: NodeField) -> Any:
         place = point or call.read("POINT")
         if place is None:
             raise call.missing(("POINT",))
-        return _value_at(call, field, name, place.value)
+        return _value_at(field, name, place.value)
     if word == "VALE":
         return _values(call, field, None if point is None else point.value)
     if word == "MAIL":
@@ -222,14 +224,11 @@ def _extract(call: Call, field: NodeField) -> Any:
     return Mot({"TITR": field.title, "TYPE": " " * 8, "NATU": nature_word(field.nature)}[word])
 
 
-def _value_at(call: Call, field: NodeField, name: str, point: Point) -> float:
+def _value_at(field: NodeField, name: str, point: Point) -> float:
+    """The value at a point, 0. outside of the field's support, as for a list of values."""
     part = node_algebra.component(field, name)
     if point.node not in part.nodes:
-        raise call.bad(
-            f"the field has no value of {name} at node {point.node + 1}",
-            point,
-            "the point must belong to the support of the field",
-        )
+        return 0.0
     return float(part.at(np.asarray([point.node]))[0])
 
 

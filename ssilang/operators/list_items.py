@@ -19,6 +19,7 @@ from ssilang.language.values import (
     type_of,
 )
 from ssilang.operators.dispatch import COPI, DIME, ENLE, EXTR, INVE, union
+from ssilang.operators.list_making import check_length
 
 AnyList = ListReel | ListEnti | ListMots | ListChpo | ListObje
 LISTS = ("LISTREEL", "LISTENTI", "LISTMOTS", "LISTCHPO", "LISTOBJE")
@@ -243,6 +244,11 @@ def _copy(call: Call, value: AnyList) -> Any:
 # ---- ET ---------------------------------------------------------------------------------------
 
 
+def _check_joined(a: Any, b: Any) -> None:
+    """A loop of `L = L ET L` is stopped long before it fills the memory."""
+    check_length(sum(len(v) if isinstance(v, AnyList) else 1 for v in (a, b)))
+
+
 def _array(value: Any) -> Any:
     return value.values if isinstance(value, ListReel | ListEnti) else [value]
 
@@ -254,6 +260,7 @@ def _array(value: Any) -> Any:
     ("FLOTTANT", "FLOTTANT"), ("ENTIER", "FLOTTANT"), ("FLOTTANT", "ENTIER"),
 )  # fmt: skip
 def _join_reals(a: Any, b: Any) -> ListReel:
+    _check_joined(a, b)
     made = ListReel()
     made.values = np.concatenate((_array(a), _array(b))).astype(float, copy=False)
     return made
@@ -261,6 +268,7 @@ def _join_reals(a: Any, b: Any) -> ListReel:
 
 @union(("LISTENTI", "LISTENTI"), ("LISTENTI", "ENTIER"), ("ENTIER", "LISTENTI"), ("ENTIER",) * 2)
 def _join_integers(a: Any, b: Any) -> ListEnti:
+    _check_joined(a, b)
     made = ListEnti()
     made.values = np.concatenate((_array(a), _array(b))).astype(np.int64, copy=False)
     return made
@@ -268,6 +276,7 @@ def _join_integers(a: Any, b: Any) -> ListEnti:
 
 @union(("LISTCHPO", "LISTCHPO"), ("LISTCHPO", "CHPOINT"), ("CHPOINT", "LISTCHPO"))
 def _join_fields(a: Any, b: Any) -> ListChpo:
+    _check_joined(a, b)
     made = ListChpo()
     made.values = [*_objects(a), *_objects(b)]
     return made
@@ -280,6 +289,7 @@ def _objects(value: Any) -> list[Any]:
 @union(("LISTOBJE", "*"), ("*", "LISTOBJE"))
 def _join_objects(a: Any, b: Any) -> ListObje:
     """A LISTOBJE with a list or an object of the same type."""
+    _check_joined(a, b)
     made = ListObje()
     made.values = [*_objects(a), *_objects(b)]
     kinds = dict.fromkeys(type_of(v) for v in made.values)

@@ -13,6 +13,23 @@ from ssilang.language.registry import Help, many, operator
 from ssilang.language.values import ListChpo, ListEnti, ListMots, ListObje, ListReel, type_of
 
 _REAL = ("ENTIER", "FLOTTANT")
+LONGEST = 20_000_000
+"""Items of one list, or letters of one word, at most: more than any use, and they fit any memory."""
+
+
+def check_length(count: float) -> None:
+    """Refuse a list of so many items before any of them is made.
+
+    Raises
+    ------
+    KernelError
+        If there are more than `LONGEST`.
+    """
+    if not count <= LONGEST:
+        raise KernelError(
+            f"a list or word of {count:.4g} items is too long, the limit is {LONGEST}",
+            "look for a step that is too small or a count that is too large",
+        )
 
 
 def _star(call: Call) -> bool:
@@ -29,6 +46,7 @@ def _read_items(call: Call, kinds: tuple[str, ...]) -> list[Any]:
     while True:
         if items and call.at_word() and call.keyword(("PAS",)) is not None:
             items += _steps(call, items[-1], kinds)
+            check_length(len(items))
             continue
         operand = call.read(*kinds, "LISTREEL", "LISTENTI")
         if operand is None:
@@ -38,6 +56,7 @@ def _read_items(call: Call, kinds: tuple[str, ...]) -> list[Any]:
             items += value.values.tolist()
         elif _star(call):
             items += _repeated(call, value, kinds)
+            check_length(len(items))
         else:
             items.append(value)
 
@@ -45,6 +64,7 @@ def _read_items(call: Call, kinds: tuple[str, ...]) -> list[Any]:
 def _repeated(call: Call, count: Any, kinds: tuple[str, ...]) -> list[Any]:
     if count != int(count) or count < 0:
         raise call.bad(f"an item is repeated a whole number of times, not {count}", count)
+    check_length(count)
     return [call.required(*kinds)] * int(count)
 
 
@@ -57,12 +77,15 @@ def _steps(call: Call, start: Any, kinds: tuple[str, ...]) -> list[Any]:
         count = call.required("ENTIER", after=call.keyword_end)
         if count < 0:
             raise call.bad(f"NPAS is not negative, found {count}", count)
+        check_length(count)
         return _progression(start, step, count, ratio)
     end = call.required(*kinds)
     more: list[Any] = []
     if _star(call):
         more = _repeated(call, end, kinds)
         end, more = more[0], more[1:]
+    if step and (end - start) / step > 0:
+        check_length(0 if ratio else (end - start) / step)
     try:
         if "FLOTTANT" in kinds:
             return [*real_steps(float(start), float(step), float(end), ratio), *more]
@@ -211,6 +234,7 @@ def mots(call: Call) -> ListMots:
             count = call.required("ENTIER")
             if not _star(call):
                 raise call.bad("a number in MOTS is a repetition: N * MOT", count)
+            check_length(len(words) + max(count, 0))
             words += [str(call.required("MOT"))] * count
             continue
         found = call.read("MOT")

@@ -9,6 +9,7 @@ from ssilang.language.registry import Help, operator
 from ssilang.language.values import ListMots, Mot, Table
 from ssilang.operators.dispatch import CHAN, DIME, EXTR, union
 from ssilang.operators.fortran_format import DEFAULT_FORMAT, formatted
+from ssilang.operators.list_making import check_length
 
 _MARKS = frozenset("*/<>")
 
@@ -66,9 +67,9 @@ def read_text(call: Call) -> str:
             break
         item = written(operand.value, form)
         tab = _tab(call)
-        if tab is not None:
-            text += " " * _place(*tab, len(text), len(item))
-        text += item
+        blanks = 0 if tab is None else _place(*tab, len(text), len(item))
+        check_length(len(text) + blanks + len(item))
+        text += " " * blanks + item
     if call.operands:
         wrong = call.operands[0]
         call.used.append(wrong)
@@ -195,6 +196,7 @@ def _length(call: Call, word: str) -> int:
 
 @union(("MOT", "MOT"))
 def _join_words(a: str, b: str) -> Mot:
+    check_length(len(a) + len(b))
     return Mot(a.strip() + b.strip())
 
 
@@ -210,4 +212,5 @@ def _append(a: ListMots, b: str) -> ListMots:
 
 @union(("LISTMOTS", "LISTMOTS"))
 def _concatenate(a: ListMots, b: ListMots) -> ListMots:
+    check_length(len(a.values) + len(b.values))
     return a.extended(b.values)

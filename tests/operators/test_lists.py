@@ -206,3 +206,25 @@ def test_lists_of_objects_join_objects_of_their_type(found, refused):
     size, sum_ = found(script, "N", "S")
     assert (size, sum_) == (2, 5.0)
     assert "one type" in refused("L = (ENUM (PROG 1.)) ET 'a' ;")
+
+
+@pytest.mark.parametrize(
+    "phrase",
+    [
+        "L = PROG 1000000000 * 1. ;",
+        "L = PROG 1. PAS 1. NPAS 1000000000 ;",
+        "L = PROG 0. PAS 1.E-12 1. ;",
+        "L = PROG 0. PAS 0.5 -3. 1E9 * 7. ;",
+        "L = LECT 1 PAS 1 NPAS 1000000000 ;",
+        "L = LECT 1 PAS 1 1000000000 ;",
+        "L = MOTS 1000000000 * 'A' ;",
+        "L = PROG 1. 2. ; REPE B 60 ; L = L ET L ; FIN B ;",
+        "L = LECT 1 2 ; REPE B 60 ; L = L ET L ; FIN B ;",
+        "L = MOTS 'A' ; REPE B 60 ; L = L ET L ; FIN B ;",
+        "L = ENUM (PROG 1.) ; REPE B 60 ; L = L ET L ; FIN B ;",
+        "L = CHAI 'A' *1000000000 ;",
+        "L = MOT 'A' ; REPE B 60 ; L = CHAI L L ; FIN B ;",
+    ],
+)
+def test_lists_that_would_fill_the_memory_are_refused_at_once(refused, phrase):
+    assert "too long" in refused(phrase)

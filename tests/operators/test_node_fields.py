@@ -209,8 +209,11 @@ def test_restriction_to_points_and_to_where_another_field_is_not_zero(found):
     assert (a, b) == (1, 4)
 
 
-def test_value_outside_of_the_support_is_refused(refused):
-    assert "no value of UX" in refused(POINT + "R = 5. 5. ; X = EXTR C 'UX' R ;")
+def test_value_outside_of_the_support_is_zero_but_its_component_must_exist(found, refused):
+    script = POINT + "R = 5. 5. ; X = EXTR C 'UX' R ; Y = EXTR C 'UX' P ;"
+    outside, inside = found(script, "X", "Y")
+    assert (outside, inside != 0.0) == (0.0, True)
+    assert "RZ" in refused(POINT + "R = 5. 5. ; X = EXTR C 'RZ' R ;")
 
 
 def test_negative_value_has_no_fractional_power():
