@@ -41,7 +41,8 @@ from ssilang.kernel.errors import KernelError
 from ssilang.kernel.joints.response import interface_forces
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
-INSTANTS = 48  # at which whole fields are compared
+INSTANTS = 32  # at which whole fields are compared
+SPARSER = 4  # velocities and accelerations at one of so many of them
 CHUNK = 512  # steps between comparisons
 GROWTH = 1.2  # a basis is compared with one that is this much smaller, or more
 MOST_VECTORS = 0.5  # of the unknowns: more do not pay
@@ -148,14 +149,15 @@ class Difference:
 
     def take(self, poor: Trace, rich: Trace, a: Chunk, b: Chunk) -> None:
         """Compare a chunk: all jumps, and whole fields at the instants that both kept."""
-        where = np.isin(b.steps, a.steps)
-        u, other = rich.model.V @ b.rows.u[where].T, poor.model.V @ a.rows.u.T
-        pairs = [(a.rows.jumps, b.rows.jumps)] + [(other[g], u[g]) for g in self._groups]
-        V, W = rich.model.V, poor.model.V
-        pairs += [(W @ a.rows.v.T, V @ b.rows.v[where].T), (W @ a.rows.a.T, V @ b.rows.a[where].T)]
-        for i, (x, y) in enumerate(pairs):
-            self._gap[i] = max(self._gap[i], np.abs(x - y).max(initial=0.0))
-            self._size[i] = max(self._size[i], np.abs(y).max(initial=0.0))
+        where = np.flatnonzero(np.isin(b.steps, a.steps))
+        few = slice(None, None, SPARSER)
+        x, y = a.rows, b.rows
+        both = [(x.u, y.u[where]), (x.v[few], y.v[where[few]]), (x.a[few], y.a[where[few]])]
+        (gap, u), *others = _fields(poor.model, rich.model, both)
+        pairs = [(x.jumps - y.jumps, y.jumps), *((gap[g], u[g]) for g in self._groups), *others]
+        for i, (change, value) in enumerate(pairs):
+            self._gap[i] = max(self._gap[i], np.abs(change).max(initial=0.0))
+            self._size[i] = max(self._size[i], np.abs(value).max(initial=0.0))
 
     @property
     def relative(self) -> FloatArray:
@@ -167,6 +169,21 @@ class Difference:
     def estimate(self) -> float:
         """The largest of jumps, displacements and rotations: what the tolerance holds."""
         return float(self.relative[:3].max())
+
+
+def _fields(
+    poor: ReducedModel, rich: ReducedModel, pairs: list[tuple[FloatArray, FloatArray]]
+) -> list[tuple[FloatArray, FloatArray]]:
+    """Difference and values of whole fields (n, k) for pairs of rows of coordinates."""
+    columns = []
+    for p, q in pairs:
+        z = rich.X @ q.T
+        gap = z.copy()
+        gap[: poor.size] -= poor.X @ p.T
+        columns += [gap, z]
+    ends = np.cumsum([z.shape[1] for z in columns])[:-1]
+    parts = np.split(rich.whole(np.concatenate(columns, axis=1)), ends, axis=1)  # one product
+    return list(zip(parts[::2], parts[1::2], strict=True))
 
 
 @dataclass(eq=False)
@@ -332,7 +349,7 @@ def expanded(
 ) -> Iterator[Snapshot]:
     """Whole fields of some rows of a chunk, with the reactions that their balance asks for."""
     p, x = problem, chunk.rows
-    u, v, a = (model.V @ part[rows].T for part in (x.u, x.v, x.a))
+    u, v, a = (model.expand(part[rows].T) for part in (x.u, x.v, x.a))
     steps = chunk.steps[rows]
     rest = p.M @ a + p.C @ v + p.K @ u - p.loading.forces @ p.loading.at(p.times[steps]).T
     joints = p.interface

@@ -37,11 +37,16 @@ HIGHEST_SHIFT = 0.25  # of 2/dt
 
 @dataclass(frozen=True, eq=False)
 class ReducedModel:
-    """A problem on r coordinates q, `u = V q`.
+    """A problem on r coordinates q, `u = V q` with `V = T basis^T X`.
 
     Attributes
     ----------
-    V : array (n, r)
+    T : csr array (n, n_y)
+        Motions that the supports leave.
+    basis : array (r, n_y)
+        One vector a row.
+    X : array (r, r)
+        From diagonal coordinates to the basis.
     m, c, k : arrays (r,)
         Diagonals of mass, damping and stiffness.
     J : array (n_interface, r)
@@ -51,7 +56,9 @@ class ReducedModel:
         Displacement, velocity and acceleration at the start.
     """
 
-    V: FloatArray
+    T: sp.csr_array
+    basis: FloatArray
+    X: FloatArray
     m: FloatArray
     c: FloatArray
     k: FloatArray
@@ -63,6 +70,15 @@ class ReducedModel:
     def size(self) -> int:
         """Number r of vectors."""
         return len(self.m)
+
+    def expand(self, q: FloatArray) -> FloatArray:
+        """Whole fields (n, k) of coordinates (r, k)."""
+        return self.whole(self.X @ q)
+
+    def whole(self, z: FloatArray) -> FloatArray:
+        """Whole fields (n, k) of combinations (r, k) of the basis."""
+        found: FloatArray = self.T @ (self.basis.T @ z)
+        return found
 
 
 @dataclass(frozen=True)
@@ -168,9 +184,9 @@ class Basis:
         self.inputs = np.column_stack([ports.T.toarray(), self.F])
         self._store = np.zeros((largest, T.shape[1]))  # one vector a row
         self._KV = np.zeros((largest, largest))
-        self.size = 0
+        self.size = self._fixed = 0
         static = self._static()
-        s = min(HIGHEST_SHIFT * 2.0 / dt, SHIFT * self._lowest(static))
+        s = self.shift = min(HIGHEST_SHIFT * 2.0 / dt, SHIFT * self._lowest(static))
         self.N = sp.csr_array(self.M + self.K / s**2)
         self._inverse = self._inverted(s**2)
         self._last = np.zeros((T.shape[1], 0))
@@ -226,6 +242,7 @@ class Basis:
         if not static.singular:
             self._add(static.solve(self.inputs))
         self._add(self._inverted(rate**2).solve(self.inputs))
+        self._fixed = self.size
         self._last = self._add(self._inverse.solve(self.inputs))
 
     def grow(self) -> None:
@@ -235,10 +252,17 @@ class Basis:
         self._last = self._add(self._inverse.solve(self.M @ self._last))
 
     def _add(self, W: FloatArray) -> FloatArray:
-        """Orthonormalise W (n_y, b) against the basis and itself, append; the new vectors."""
+        """Orthonormalise W (n_y, b) against the basis and itself, append; the new vectors.
+
+        A first pass takes off what exact arithmetic leaves: the parts along the first vectors and
+        the last two blocks (the Krylov operator is symmetric in N); a second one takes off the
+        rounding along all.
+        """
         W = W / np.sqrt(np.maximum(np.einsum("ij,ij->j", W, self.N @ W), 1e-300))
-        V = self.vectors
-        W = W - V.T @ (V @ (self.N @ W))
+        V, late = self.vectors, max(self.size - 2 * W.shape[1], self._fixed)
+        NW = self.N @ W
+        for part in (V[: self._fixed], V[late:]):
+            W = W - part.T @ (part @ NW)
         W = _whiten(W, self.N)
         W = W - V.T @ (V @ (self.N @ W))
         W = _whiten(W, self.N)
@@ -256,16 +280,14 @@ class Basis:
         """The problem on the space of the basis, in diagonal coordinates."""
         import scipy.linalg as la
 
-        r = self.size
-        X = la.eigh(self._KV[:r, :r])[1]
-        V = np.ascontiguousarray(self.vectors.T) @ X
-        m = np.einsum("ij,ij->j", V, self.M @ V)
-        k = np.einsum("ij,ij->j", V, self.K @ V)
-        m, k = np.maximum(m, 0.0), np.maximum(k, 0.0)
-        full = np.asarray(self.T @ V)
+        r, V = self.size, self.vectors
+        values, X = la.eigh(self._KV[:r, :r])
+        k = np.maximum(values, 0.0)
+        m = np.maximum(1.0 - k / self.shift**2, 0.0)  # m + k / s**2 = 1: the vectors' length
+        J, F, start = self.J @ V.T, V @ self.F, V @ (self.N @ self._start)
         return ReducedModel(
-            full, m, self.alpha * m + self.beta * k, k, np.ascontiguousarray(self.J @ V),
-            V.T @ self.F, V.T @ (self.N @ self._start),
+            self.T, V, X, m, self.alpha * m + self.beta * k, k, np.ascontiguousarray(J @ X),
+            X.T @ F, X.T @ start,
         )  # fmt: skip
 
 
