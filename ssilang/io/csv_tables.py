@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -91,12 +92,18 @@ def read_csv(path: Path, separator: str = ";", first_line: int = 1) -> list[list
 def _number(cell: str, path: Path, line: int) -> float:
     text = cell.strip().strip('"')
     try:
-        return float(text.replace("D", "E").replace("d", "e"))
+        value = float(text.replace("D", "E").replace("d", "e"))
     except ValueError:
         raise InputError(
             f"{path.name}, line {line}: '{text}' is no number",
             "begin behind the titles with 'DEBU', or name another separator with 'SEPA'",
         ) from None
+    if not math.isfinite(value):
+        raise InputError(
+            f"{path.name}, line {line}: '{text}' is no finite number",
+            "a gap in a record: fill it before, or leave the line out",
+        )
+    return value
 
 
 def as_columns(rows: Sequence[Sequence[float]]) -> list[FloatArray]:

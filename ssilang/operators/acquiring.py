@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -59,9 +60,10 @@ def _item(match: re.Match[str]) -> str | float | int:
     except ValueError:
         pass
     try:
-        return float(re.sub("[dD]", "E", text))
+        value = float(re.sub("[dD]", "E", text))
     except ValueError:
         return text
+    return value if math.isfinite(value) else text  # a gap in a record is no number
 
 
 def _whole(records: Records) -> int:

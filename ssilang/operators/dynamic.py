@@ -358,6 +358,7 @@ def warn_resolution(entries: Entries, problem: Problem) -> None:
     from ssilang.kernel.dynamics.resolution import contact_resolution
 
     warn_contrast(entries, problem)
+    warn_massless(entries, problem)
     found = contact_resolution(problem)
     if found is None or found.resolved:
         return
@@ -369,6 +370,22 @@ def warn_resolution(entries: Entries, problem: Problem) -> None:
         f"{found.contact_time:.3g} s with the mass attached to the joints",
         advice,
     )
+
+
+def warn_massless(entries: Entries, problem: Problem) -> None:
+    """Warn of bodies without mass that only joints hold: MASS was forgotten, most often."""
+    from ssilang.kernel.dynamics.bodies import loose_bodies
+
+    joints = problem.interface
+    if joints is None:
+        return
+    for body in loose_bodies(problem, np.zeros((joints.n_points, joints.dimension))):
+        if body.mass == 0.0:
+            entries.warn(
+                f"the body at node {body.node} has no mass and only joints hold it: it follows "
+                "its loads at once, and is lost where all its joints open",
+                "give its MASS",
+            )
 
 
 def warn_contrast(entries: Entries, problem: Problem) -> None:

@@ -72,7 +72,22 @@ def _from_field(call: Call, name: str) -> LoadPart:
         if not len(curve.parts[0].abscissas):
             raise call.bad("the curve is empty", curve)
         check_increasing(curve.parts[0].abscissas)
+        _check_numbers(call, curve)
     return LoadPart(name, operand.value, curve)
+
+
+def _check_numbers(call: Call, curve: Curve) -> None:
+    part = curve.parts[0]
+    values = np.asarray(part.ordinates, dtype=float)
+    wrong = np.flatnonzero(~np.isfinite(values))
+    if len(wrong):
+        first = int(wrong[0])
+        more = f" (and {len(wrong) - 1} more)" if len(wrong) > 1 else ""
+        raise call.bad(
+            f"the curve has {values[first]:g} at abscissa {part.abscissas[first]:g}{more}",
+            curve,
+            "a gap in the record of a motion: fill it before",
+        )
 
 
 def _from_tables(call: Call, name: str) -> LoadPart:

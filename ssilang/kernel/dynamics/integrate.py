@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ssilang.kernel.dynamics.adaptive import AdaptiveLoop
+from ssilang.kernel.dynamics.bodies import full_uplift
 from ssilang.kernel.dynamics.compiled_loop import N_ENERGIES, Motion, Saved, march
 from ssilang.kernel.dynamics.conserving import ConservingLoop
 from ssilang.kernel.dynamics.contact import TOUCHING, BoolArray
@@ -205,9 +206,13 @@ class Integration:
     def _diverged(self, step: int, turns: int, residual: float) -> ConvergenceError:
         at = f"step {step}, time {self.problem.times[step]:g}"
         if turns == 0:
+            body = full_uplift(self.problem, self.motion.t)
+            who = "the bodies" if body is None else f"the body at node {body.node}"
+            which = "" if body is None else f" {body.points}"
             return ConvergenceError(
-                f"{at}: the joints have no stiffness left and nothing else holds the bodies",
-                "give mass (MASS) to the bodies that only joints hold",
+                f"{at}: full uplift of {who}: all{which} joint points there are open and nothing "
+                "else holds it",
+                "give it mass (MASS), a support, or loads that press it on its joints",
             )
         if not np.isfinite(residual):
             return ConvergenceError(

@@ -12,6 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ssilang.kernel.elements.reference import shape_functions, shape_gradients
 from ssilang.kernel.elements.zone_fields import ZoneField
@@ -174,7 +175,9 @@ def _surface(
     if flat.any():
         raise MeshError(f"{_cells(flat)} of the joint {zone.element} has no area")
     _refuse_reversed(zone, frames[:, :, -1], np.einsum("gm,nmi->ngi", N, x_u - x_l), size)
+    _refuse_folded(zone, frames[:, :, -1])
     weights = area * rule.weights * _thickness(zone, given, N, middle)
+    _refuse_negative(zone, weights)
     return JointCells(zone, element, upper, lower, N, frames, weights)
 
 
@@ -203,6 +206,27 @@ def _refuse_reversed(zone: Zone, normal: FloatArray, gap: FloatArray, size: Floa
             "side to its second: opening and closing would be exchanged",
             "walk both sides with the joint on the right hand, or exchange the two meshes given "
             "to RACC (LIAI): the first is the upper side",
+        )
+
+
+def _refuse_folded(zone: Zone, normal: FloatArray) -> None:
+    """Refuse cells whose normal turns round between their points: corners in a wrong order."""
+    folded = (np.einsum("ngi,ni->ng", normal, normal[:, 0]) <= 0.0).any(axis=1)
+    if folded.any():
+        raise MeshError(
+            f"{_cells(folded)} of the joint {zone.element} is folded: part of it has a negative "
+            "area",
+            "its nodes must follow one another round the face, on both sides in the same order",
+        )
+
+
+def _refuse_negative(zone: Zone, weights: FloatArray) -> None:
+    negative: NDArray[np.bool_] = np.asarray((weights <= 0.0).any(axis=1))
+    if negative.any():
+        axisymmetric = zone.mode is Mode.AXISYMMETRIC
+        raise MeshError(
+            f"{_cells(negative)} of the joint {zone.element} has a negative area",
+            "radii must be positive" if axisymmetric else "the thickness DIM3 must be positive",
         )
 
 

@@ -1,0 +1,128 @@
+"""What is wrong with joints, bodies and motions is said where it is, with the figure."""
+
+import pytest
+
+from ssilang.cli.run import run_text
+
+BODY = """
+OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ;
+SOL = 0. -1. ; P = 0. 0. ; J = MANU 'SEG2' SOL P ;
+MO = MODE J 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' 'JOI1' ;
+MA = MATE MO 'KN' 1000. 'KS' 0. ;
+T1 = TABL ;
+T1 . 'RIGI' = (BLOQ 'UX' 'UY' SOL) ET (BLOQ 'UX' P) ;
+T1 . 'CHAR' = CHAR 'MECA' (FORC (0. 1.) P) (EVOL 'MANU' (PROG 0. 1.) (PROG -1. 1.)) ;
+T1 . 'MODELE' = MO ; T1 . 'CARACTERISTIQUES' = MA ;
+T1 . 'TEMPS_CALCULES' = PROG 0. 'PAS' 0.1 1. ;
+"""
+SIDES = """
+OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ;
+A = DROI 2 (0. 0.) (1. 0.) ; B = A PLUS (0. 0.) ; J = RACC 1.E-6 A B ;
+"""
+
+
+@pytest.fixture
+def outcome(tmp_path):
+    def run(text):
+        result = run_text(text, output_directory=tmp_path)
+        assert "defect of ssilang" not in result.message
+        return result
+
+    return run
+
+
+def test_full_uplift_without_mass_names_body_and_time(outcome):
+    result = outcome(BODY + "T2 = DYNAMIC T1 ;")
+    assert result.exit_code == 1
+    # the load turns upwards at 0.5 s, where it is zero: the first step with a pull is that of 0.6
+    assert "time 0.6: full uplift of the body at node 2: all 1 joint points" in result.message
+
+
+def test_missing_mass_is_warned_of(outcome):
+    down = BODY.replace("PROG -1. 1.", "PROG -1. -1.")
+    warned = "no mass and only joints hold it"
+    result = outcome(down + "T2 = DYNAMIC T1 ;")
+    assert result.exit_code == 0
+    assert any(warned in w for w in messages(result))
+    result = outcome(down + "T1 . 'MASS' = MASS 'DEPL' 1. P ; T2 = DYNAMIC T1 ;")
+    assert not any(warned in w for w in messages(result))
+
+
+def messages(result):
+    return [f"{w.data['message']} {w.data['hint']}" for w in result.session.warnings]
+
+
+def test_wrong_unit_of_a_stiffness_is_warned_of(outcome):
+    text = (
+        SIDES
+        + """
+    S = B TRAN 1 (0. -1.) ; MS = MODE S 'MECANIQUE' 'ELASTIQUE' ;
+    AS = MATE MS 'YOUN' 5.E7 'NU' 0.3 ; MJ = MODE J 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' ;
+    T = TABL ; T . 'MODELE' = MS ET MJ ;
+    T . 'CARACTERISTIQUES' = AS ET (MATE MJ 'KN' {0} 'KS' {0}) ;
+    T . 'BLOCAGES_MECANIQUES' = (BLOQ 'UX' 'UY' (COTE 3 S)) ET (BLOQ 'UX' A) ;
+    T . 'CHARGEMENT' = CHAR 'MECA' (FORC (0. -1.) A) (EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.)) ;
+    T . 'TEMPS_CALCULES' = PROG 1. ; PASAPAS T ;
+    """.replace("MATE MJ 'KN' {} 'KS' 1.E9", "MATE MJ 'KN' {0} 'KS' {0}").replace("ELEM", "ELEM")
+    )
+    text = text.replace("S = B TRAN", "OPTI ELEM QUA4 ; S = B TRAN")
+    for stiffness, warned in (("1.E9", False), ("1.E18", True)):
+        result = outcome(text.format(stiffness))
+        assert result.exit_code == 0, result.message
+        said = " ".join(messages(result))
+        assert ("check their units" in said) is warned
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ("C = MATE M 'KN' 1. 'KS' 1. 'DIM3' -1. ;", "has a negative area"),
+        ("C = MATE M 'KN' 1. 'KS' 1. ;", ""),
+    ],
+)
+def test_negative_thickness_is_refused(outcome, change, said):
+    text = SIDES + "M = MODE J 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' ; " + change + "K = RIGI M C ;"
+    result = outcome(text)
+    assert (result.exit_code == 1) is bool(said)
+    assert said in result.message
+
+
+def test_axisymmetric_joint_left_of_the_axis_is_refused(outcome):
+    text = SIDES.replace("PLAN DEFO", "AXIS").replace("(1. 0.)", "(-1. 0.)")
+    text = text.replace("RACC 1.E-6 A B", "RACC 1.E-6 B A")
+    text += "M = MODE J 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' ; K = RIGI M (MATE M 'KN' 1. 'KS' 1.) ;"
+    result = outcome(text)
+    assert result.exit_code == 1
+    assert "has a negative area" in result.message
+    assert "radii must be positive" in result.message
+
+
+def test_folded_face_is_refused(outcome):
+    text = """
+    OPTI DIME 3 ELEM QUA4 ;
+    P1 = 0. 0. 0. ; P2 = 1. 0. 0. ; P3 = 1. 1. 0. ; P4 = 0. 1. 0. ;
+    B = MANU 'QUA4' P1 P2 P4 P3 ; A = B PLUS (0. 0. 0.) ; J = LIAI A B ;
+    M = MODE J 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' ; K = RIGI M (MATE M 'KN' 1. 'KS' 1.) ;
+    """
+    result = outcome(text)
+    assert result.exit_code == 1
+    assert "is folded" in result.message or "no area" in result.message
+
+
+@pytest.mark.parametrize("bad", ["nan", "inf", "-1.E999"])
+def test_gap_in_a_motion_file_is_refused_with_its_line(outcome, tmp_path, bad):
+    (tmp_path / "m.txt").write_text(f"0.0 1.0\n0.01 {bad}\n0.02 3.0\n")
+    result = outcome(f"OPTI ACQU '{tmp_path}/m.txt' ; ACQU L1*'LISTREEL' 6 ;")
+    assert result.exit_code == 1
+    assert f"m.txt, line 2: '{bad}' is no number" in result.message
+    (tmp_path / "m.csv").write_text(f"0.0;1.0\n0.01;{bad}\n0.02;3.0\n")
+    result = outcome(f"A B = LIRE 'CSV' '{tmp_path}/m.csv' 'SEPA' ';' ;")
+    assert result.exit_code == 1
+    assert f"m.csv, line 2: '{bad}' is no finite number" in result.message
+
+
+def test_curve_of_a_load_with_a_gap_is_refused(outcome):
+    text = BODY.replace("PROG -1. 1.", "PROG -1. (1.E300 * 1.E300)")
+    result = outcome(text)
+    assert result.exit_code == 1
+    assert "the curve has inf at abscissa 1" in result.message
