@@ -1,0 +1,126 @@
+"""DECONV, DECONV3D: a soil without structure moves as the free field does."""
+
+import numpy as np
+import pytest
+
+from ssilang.cli.run import run_text
+
+SOIL = "NU1 = 0.3 ; G1 = 2.E8 ; E1 = 2. * (1. + NU1) * G1 ; RO1 = 2000. ; "
+MATRICES = (
+    "MA1 = MATE M1 'YOUN' E1 'NU' NU1 'RHO' RO1 ; "
+    "K1 = RIGI M1 MA1 ; MM1 = MASS M1 MA1 ; "
+    "C1 = 0.05 * ((4. * PI * 100. / 25. * MM1) ET (1. / (PI * 25.) * K1)) ; "
+)
+SIGNAL = (
+    "LT = PROG 0. PAS 0.02 1.2 ; LX = (LT - 0.6) * (PI * 4.) ; LX = LX * LX ; "
+    "ACC1 = EVOL 'MANU' LT ((1. - (2. * LX)) * (EXP (-1. * LX))) ; "
+)
+LAYER = (
+    "T1 = TABL ; T1 . 1 = TABL ; T1 . 1 . 'FRONTIERE' = BOR1 ; T1 . 1 . 'MASSE_VOLUMIQUE' = RO1 ; "
+    "T1 . 1 . 'POISSON' = NU1 ; T1 . 1 . 'YOUNG' = E1 ; T1 . 1 . 'AMORTISSEMENT' = 0.05 ; "
+)
+RUN = (
+    "TD = TABL ; TD . 'RIGI' = K1 ; TD . 'MASS' = MM1 ; TD . 'AMOR' = C1 ET (T2 . 'AMOR') ; "
+    "TD . 'CHAR' = T2 . 'CHAR' ; TD . 'FREQ' = T2 . 'FCDYN' ; TD . 'INST' = LT ; "
+    "TR = DYNAMIC TD ; LA = PROG ; LB = PROG ; REPE B1 (DIME LT) ; "
+    "LA = LA ET (EXTR (TR . &B1 . 'ACCE') PA COMP1) ; "
+    "LB = LB ET (EXTR (TR . &B1 . 'ACCE') PB COMP1) ; FIN B1 ; "
+)
+
+
+def found(script, *names):
+    result = run_text(script)
+    assert result.exit_code == 0, result.message
+    return tuple(result.session.root.find(n) for n in names)
+
+
+PLANE = (
+    "OPTI DIME 2 MODE {mode} ELEM QUA8 ; PA = 0. 0. ; PB = 8. 0. ; "
+    "S1 = TRAN 4 (DROI 4 PA PB) (0. -8.) ; BOR1 = COTE 2 S1 ; FON1 = COTE 3 S1 ; BOR2 = COTE 4 S1 ;"
+    "M1 = MODE S1 MECANIQUE ELASTIQUE ; "
+)
+
+
+@pytest.mark.parametrize(
+    ("mode", "direction", "component"),
+    [("FOUR 1", "HORI", "UR"), ("FOUR 0", "VERT", "UZ")],
+)
+@pytest.mark.parametrize("dampers", ["LYSMER", "WHITE"])
+def test_round_soil_moves_as_the_free_field(mode, direction, component, dampers):
+    la, lb, given = found(
+        PLANE.format(mode=mode) + SOIL + MATRICES + SIGNAL + LAYER
+        + f"T2 = DECONV T1 FON1 M1 '{direction}' ACC1 5. 20. 20. '{dampers}' ; "
+        + f"COMP1 = MOT '{component}' ; " + RUN + "LG = EXTR ACC1 'ORDO' ;",
+        "LA", "LB", "LG",
+    )  # fmt: skip
+    assert np.abs(given.values).max() == pytest.approx(1.0)
+    assert la.values == pytest.approx(given.values, abs=4e-3)
+    assert lb.values == pytest.approx(given.values, abs=4e-3)
+
+
+def test_plane_half_with_symmetry():
+    # pressure waves: the left side is the axis of symmetry
+    la, lb, given = found(
+        PLANE.format(mode="PLAN DEFO") + SOIL + MATRICES + SIGNAL + LAYER
+        + "K1 = K1 ET (BLOQ 'UX' BOR2) ; "
+        + "T2 = DECONV T1 FON1 M1 'VERT' ACC1 5. 20. 20. 'LYSMER' ; "
+        + "COMP1 = MOT 'UY' ; " + RUN + "LG = EXTR ACC1 'ORDO' ;",
+        "LA", "LB", "LG",
+    )  # fmt: skip
+    assert la.values == pytest.approx(given.values, abs=4e-3)
+    assert lb.values == pytest.approx(given.values, abs=4e-3)
+
+
+def test_plane_half_with_antisymmetry():
+    # shear waves: no vertical motion on the axis
+    la, lb, given = found(
+        PLANE.format(mode="PLAN DEFO") + SOIL + MATRICES + SIGNAL + LAYER
+        + "K1 = K1 ET (BLOQ 'UY' BOR2) ; "
+        + "T2 = DECONV T1 FON1 M1 'HORI' ACC1 5. 20. 20. ; "
+        + "COMP1 = MOT 'UX' ; " + RUN + "LG = EXTR ACC1 'ORDO' ;",
+        "LA", "LB", "LG",
+    )  # fmt: skip
+    assert la.values == pytest.approx(given.values, abs=4e-3)
+    assert lb.values == pytest.approx(given.values, abs=4e-3)
+
+
+@pytest.mark.parametrize("component", ["UX", "UY", "UZ"])
+def test_box_of_soil(component):
+    la, lb, given = found(
+        "OPTI DIME 3 ELEM CU20 ; PA = 0. 0. 0. ; PB = 4. 4. 0. ; "
+        "V1 = VOLU 'TRAN' 3 (TRAN 1 (DROI 1 PA (4. 0. 0.)) (0. 4. 0.)) (0. 0. -6.) ; "
+        "ELIM 0.001 (V1 ET PB) ; BOR1 = FACE 3 V1 ; FON1 = FACE 2 V1 ; "
+        "M1 = MODE V1 MECANIQUE ELASTIQUE ; " + SOIL + MATRICES + SIGNAL + LAYER
+        + f"COMP1 = MOT '{component}' ; T2 = DECONV3D T1 PA FON1 M1 MA1 COMP1 ACC1 5. 20. 20. ; "
+        + RUN + "LG = EXTR ACC1 'ORDO' ;",
+        "LA", "LB", "LG",
+    )  # fmt: skip
+    assert la.values == pytest.approx(given.values, abs=4e-3)
+    assert lb.values == pytest.approx(given.values, abs=4e-3)
+
+
+def test_accelerations_asked_for_and_given_inside():
+    surface, base = found(
+        PLANE.format(mode="FOUR 1") + SOIL + SIGNAL + LAYER
+        + "P1 = TABL ; P1 . 'ENTREE' = TABL ; P1 . 'ENTREE' . 'NATURE' = CHAI 'INSIDE' ; "
+        "P1 . 'ENTREE' . 'CONTROLE' = BOR1 POIN 'PROC' (0. -100.) ; "
+        "P1 . 1 = BOR1 POIN 'PROC' PA ; P1 . 2 = BOR1 POIN 'PROC' (0. -100.) ; "
+        "T2 = DECONV T1 FON1 M1 'HORI' ACC1 5. 20. 20. 'LYSMER' P1 ; "
+        "LS = IPOL LT (T2 . 'ACCE' . 1) ; LB = IPOL LT (T2 . 'ACCE' . 2) ; LG = EXTR ACC1 'ORDO' ; "
+        "D1 = MAXI (LB - LG) 'ABS' ;",
+        "LS", "D1",
+    )  # fmt: skip
+    assert base < 1e-3
+    assert np.abs(surface.values).max() > 1.05
+
+
+def test_refusals():
+    start = PLANE.format(mode="FOUR 0") + SOIL + SIGNAL + LAYER
+    for call, text in (
+        ("DECONV T1 FON1 M1 'HORI' ACC1 5. 20. 20. 'LYSMER'", "MODE FOUR"),
+        ("DECONV T1 FON1 M1 'BIAIS' ACC1 5. 20.", "HORI or VERT"),
+        ("DECONV (TABL) FON1 M1 'VERT' ACC1 5. 20.", "no item 1"),
+    ):
+        result = run_text(start + f"T2 = {call} ;")
+        assert result.exit_code == 1
+        assert text in result.message
