@@ -51,7 +51,8 @@ def _changed_block(block: CellBlock, target: str) -> Mesh:
     kind = CELL_TYPES[target]
     if block.cell_type == target:
         return alone
-    if block.cell_type in COMPLETE.values() and kind.degree == 1 and kind.dimension > 1:
+    whole = block.cell_type in COMPLETE.values() and kind.degree == 1
+    if whole and kind.dimension >= block.kind.dimension:
         return taken_apart(block, target)
     if target in COMPLETE.values():
         return complete(alone)
@@ -60,7 +61,7 @@ def _changed_block(block: CellBlock, target: str) -> Mesh:
     if (block.cell_type, target) == ("SEG3", "SEG2"):
         halves = block.connectivity[:, [0, 1, 1, 2]].reshape(-1, 2)
         return Mesh.of(block.nodes, "SEG2", halves, np.repeat(block.colours, 2))
-    if kind.degree == 1 and block.kind.degree == 2:
+    if kind.degree == 1 and block.kind.degree == 2 and not whole:
         return _changed_block(linear(alone).single_block(), target)
     if kind.dimension == 1 and block.kind.dimension > 1:
         return edges(alone)
@@ -131,11 +132,12 @@ _WHOLE = {
     syntax="GEO2 = CHAN 'LIGNE'|'SURFACE'|'LINEAIRE'|'QUADRATIQUE'|'QUAF' GEO1 ;",
     en="'LIGN': all edges of the cells, each once; 'SURF': all faces; 'LINE', 'QUAD': linear or "
     "quadratic cells in place of the others; 'QUAF': complete ones, with nodes in the middle of "
-    "faces and cells, that linear types then take apart (TRI7 into 6 TRI3, CU27 into 8 CUB8).",
+    "faces and cells, that linear types then take apart (TRI7 into 6 TRI3 or 3 QUA4, CU27 into 8 "
+    "CUB8).",
     fr="'LIGN' : toutes les arêtes des éléments, une fois chacune ; 'SURF' : toutes les faces ; "
     "'LINE', 'QUAD' : éléments linéaires ou quadratiques à la place des autres ; 'QUAF' : éléments "
     "complets, à noeuds au milieu des faces et des éléments, que les types linéaires découpent "
-    "ensuite (TRI7 en 6 TRI3, CU27 en 8 CUB8).",
+    "ensuite (TRI7 en 6 TRI3 ou 3 QUA4, CU27 en 8 CUB8).",
     examples=(
         "OPTI DIME 2 ELEM QUA4 ; S = (DROI 4 (0. 0.) (1. 0.)) TRAN 3 (0. 1.) ;"
         " LIST (NBNO (CHAN 'QUAD' S)) ; LIST (NBEL (CHAN 'LIGN' S)) ;",

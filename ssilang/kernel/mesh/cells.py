@@ -109,6 +109,22 @@ _TE10 = CellType(
     ),
 )
 
+# PY13: base contour of 8, 4 middles of the edges to the apex, apex
+_PY13 = CellType(
+    "PY13",
+    3,
+    13,
+    2,
+    (0, 2, 4, 6, 12),
+    (
+        ("QUA8", (0, 7, 6, 5, 4, 3, 2, 1)),
+        ("TRI6", (0, 1, 2, 9, 12, 8)),
+        ("TRI6", (2, 3, 4, 10, 12, 9)),
+        ("TRI6", (4, 5, 6, 11, 12, 10)),
+        ("TRI6", (6, 7, 0, 8, 12, 11)),
+    ),
+)
+
 CELL_TYPES: dict[str, CellType] = {
     c.name: c
     for c in (
@@ -178,6 +194,7 @@ CELL_TYPES: dict[str, CellType] = {
         _CU20,
         _PR15,
         _TE10,
+        _PY13,
         # complete cells: the quadratic ones, a node in the middle of each face of theirs (not those
         # of plane cells, which are lines), then one in the middle of the cell
         _complete("TRI7", _polygon("TRI6", 3, 2)),
@@ -185,6 +202,7 @@ CELL_TYPES: dict[str, CellType] = {
         _complete("CU27", _CU20),
         _complete("PR21", _PR15),
         _complete("TE15", _TE10),
+        _complete("PY19", _PY13),
         CellType("RAC2", 1, 4, 1, (0, 1, 2, 3), joint=True),
         CellType("RAC3", 1, 6, 2, (0, 2, 3, 5), joint=True),
         CellType("LIA3", 2, 6, 1, (0, 1, 2, 3, 4, 5), joint=True),

@@ -1,17 +1,26 @@
-"""Complete quadratic cells (TRI7, QUA9, TE15, PR21, CU27) and the linear cells inside them."""
+"""Complete quadratic cells (TRI7 QUA9 TE15 PY19 PR21 CU27) and the linear cells inside them."""
 
 from __future__ import annotations
+
+from collections.abc import Callable
 
 import numpy as np
 
 from ssilang.kernel.errors import MeshError
-from ssilang.kernel.mesh.cells import CELL_TYPES
+from ssilang.kernel.mesh.cells import CELL_TYPES, CellType
 from ssilang.kernel.mesh.combine import union
 from ssilang.kernel.mesh.degree import quadratic
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.nodes import IntArray, NodeTable
 
-COMPLETE = {"TRI6": "TRI7", "QUA8": "QUA9", "TE10": "TE15", "PR15": "PR21", "CU20": "CU27"}
+COMPLETE = {
+    "TRI6": "TRI7",
+    "QUA8": "QUA9",
+    "TE10": "TE15",
+    "PY13": "PY19",
+    "PR15": "PR21",
+    "CU20": "CU27",
+}
 
 
 def complete(mesh: Mesh) -> Mesh:
@@ -57,8 +66,15 @@ def _middles(nodes: NodeTable, corners: IntArray) -> IntArray:
     return nodes.add(xyz, size[:, 0]) if len(corners) else np.empty(0, dtype=np.int64)
 
 
+Places = list[tuple[int, ...]]
+
+
 def taken_apart(block: CellBlock, target: str) -> Mesh:
-    """Linear cells on all nodes of complete cells: simplices (6 in TRI7, 48 in CU27), QUA4, CUB8.
+    """Linear cells on all nodes of complete cells.
+
+    TET4, PYR5 stand on the triangles, quadrangles between a corner, the middles beside it and
+    those of the faces, with the middle of the cell as apex; a CUB8 fills each corner. Plane cells
+    become the triangles or quadrangles that such volumes would have on them.
 
     Raises
     ------
@@ -66,58 +82,70 @@ def taken_apart(block: CellBlock, target: str) -> Mesh:
         If the cells cannot be taken apart into that type.
     """
     kind = block.kind
-    if target in ("TRI3", "QUA4") and kind.dimension == 2:
-        places = _triangles(2 * len(kind.corners)) if target == "TRI3" else _quadrangles(kind.name)
-    elif target == "TET4" and kind.dimension == 3:
-        places = _tetrahedra(kind.name)
-    elif target == "CUB8" and kind.name == "CU27":
-        places = _BRICKS
-    else:
+    rule = _RULES.get((target, kind.dimension))
+    places = rule(kind) if rule is not None else []
+    if not places:
         raise MeshError(f"cells of type {kind.name} cannot be changed into {target}")
     table = block.connectivity[:, places].reshape(-1, len(places[0]))
-    return Mesh.of(block.nodes, target, table, np.repeat(block.colours, len(places)))
+    name = CELL_TYPES[target].name if kind.dimension == 3 else _FLAT[target]
+    return Mesh.of(block.nodes, name, table, np.repeat(block.colours, len(places)))
 
 
-def _triangles(around: int) -> list[tuple[int, ...]]:
-    return [(k, (k + 1) % around, around) for k in range(around)]
+_FLAT = {"TRI3": "TRI3", "QUA4": "QUA4", "TET4": "TRI3", "PYR5": "QUA4", "CUB8": "QUA4"}
 
 
-def _quadrangles(name: str) -> list[tuple[int, ...]]:
-    if name != "QUA9":
-        raise MeshError(f"cells of type {name} cannot be changed into QUA4")
-    return [(k, k + 1, 8, (k - 1) % 8) for k in (0, 2, 4, 6)]
+def _triangles_on(face: tuple[int, ...]) -> Places:
+    """The triangles of a complete face, oriented as it is."""
+    *ring, centre = face
+    return [(a, b, centre) for a, b in zip(ring, [*ring[1:], ring[0]], strict=True)]
 
 
-def _tetrahedra(name: str) -> list[tuple[int, ...]]:
-    kind = CELL_TYPES[name]
+def _quadrangles_on(face: tuple[int, ...]) -> Places:
+    """The quadrangle at each corner of a complete face, from the corner, oriented as it is."""
+    *ring, centre = face
+    return [(ring[k], ring[k + 1], centre, ring[k - 1]) for k in range(0, len(ring), 2)]
+
+
+def _tetrahedra(kind: CellType) -> Places:
     centre = kind.n_nodes - 1
-    return [
-        (face[b], face[a], face[c], centre)
-        for _, face in kind.faces
-        for a, b, c in _triangles(len(face) - 1)
-    ]
+    return [(b, a, c, centre) for _, face in kind.faces for a, b, c in _triangles_on(face)]
 
 
-def _bricks() -> list[tuple[int, ...]]:
-    """The eight bricks of a CU27: corner, middles of edges and faces, centre of each eighth."""
-    grid = [(x, y, z) for z in (0, 2) for x, y in ((0, 0), (2, 0), (2, 2), (0, 2))]
-    kind = CELL_TYPES["CU27"]
-    place = {c: local for local, c in zip(kind.corners, grid, strict=True)}
-    at = {local: c for c, local in place.items()}
-    for _, face in kind.faces:
-        for k in range(1, 8, 2):
-            a, b = at[face[k - 1]], at[face[(k + 1) % 8]]
-            place[tuple((np.add(a, b) // 2).tolist())] = face[k]
-        a, b = at[face[0]], at[face[4]]
-        place[tuple((np.add(a, b) // 2).tolist())] = face[8]
-    place[1, 1, 1] = 26
-    ring = [(0, 0), (1, 0), (1, 1), (0, 1)]
-    return [
-        tuple(place[x + i, y + j, z + k] for k in (0, 1) for i, j in ring)
-        for z in (0, 1)
-        for y in (0, 1)
-        for x in (0, 1)
-    ]
+def _pyramids(kind: CellType) -> Places:
+    centre = kind.n_nodes - 1
+    return [(a, d, c, b, centre) for _, face in kind.faces for a, b, c, d in _quadrangles_on(face)]
 
 
-_BRICKS = _bricks()
+def _bricks(kind: CellType) -> Places:
+    """One brick a corner, of cells three faces of which meet at each corner; else none."""
+    quads = [quad for _, face in kind.faces for quad in _quadrangles_on(face)]
+    bricks: Places = []
+    for corner in kind.corners:
+        mine = [quad for quad in quads if quad[0] == corner]
+        if len(mine) != 3:
+            return []
+        (_, first, below, last), *others = mine
+        # of the two other faces at the corner one holds `first`, one `last`; both the third edge
+        side = {
+            middle: face for _, a, face, b in others for middle in (a, b) if middle in (first, last)
+        }
+        (third,) = {m for _, a, _, b in others for m in (a, b)} - {first, last}
+        top = (third, side[last], kind.n_nodes - 1, side[first])
+        bricks.append((corner, last, below, first, *top))
+    return bricks
+
+
+def _itself(kind: CellType) -> tuple[int, ...]:
+    return tuple(range(kind.n_nodes))
+
+
+_RULES: dict[tuple[str, int], Callable[[CellType], Places]] = {
+    ("TRI3", 2): lambda kind: _triangles_on(_itself(kind)),
+    ("TET4", 2): lambda kind: _triangles_on(_itself(kind)),
+    ("QUA4", 2): lambda kind: _quadrangles_on(_itself(kind)),
+    ("PYR5", 2): lambda kind: _quadrangles_on(_itself(kind)),
+    ("CUB8", 2): lambda kind: _quadrangles_on(_itself(kind)),
+    ("TET4", 3): _tetrahedra,
+    ("PYR5", 3): _pyramids,
+    ("CUB8", 3): _bricks,
+}

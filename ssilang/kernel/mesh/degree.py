@@ -16,6 +16,7 @@ QUADRATIC = {
     "QUA4": "QUA8",
     "TET4": "TE10",
     "PRI6": "PR15",
+    "PYR5": "PY13",
     "CUB8": "CU20",
 }
 LINEAR = {v: k for k, v in QUADRATIC.items()}
@@ -39,7 +40,7 @@ def quadratic(mesh: Mesh, lines: Mesh | None = None) -> Mesh:
     Raises
     ------
     MeshError
-        For cells that have no quadratic counterpart (PYR5, joints).
+        For cells that have no quadratic counterpart (joints).
     """
     todo = [b for b in mesh.blocks if b.kind.degree == 1 and b.kind.dimension > 0]
     for block in todo:

@@ -38,7 +38,7 @@ def box(surface: str = "QUA4") -> Mesh:
 @pytest.mark.parametrize("name", sorted(QUADRATIC.values()))
 def test_each_middle_stands_between_two_corners(name: str) -> None:
     places = middle_places(name)
-    expected = {"SEG3": 1, "TRI6": 3, "QUA8": 4, "TE10": 6, "PR15": 9, "CU20": 12}
+    expected = {"SEG3": 1, "TRI6": 3, "QUA8": 4, "TE10": 6, "PY13": 8, "PR15": 9, "CU20": 12}
     assert len(places) == expected[name]
 
 

@@ -59,6 +59,30 @@ def test_tetrahedra_and_prisms_keep_their_volume() -> None:
     assert (n, k) == (4 * 36, 12 * 24)
 
 
+@pytest.mark.parametrize(
+    ("source", "target", "cells"),
+    [("TET4", "CUB8", 4 * 12), ("TET4", "PYR5", 12 * 12), ("PYR5", "PYR5", 16 * 48),
+     ("PYR5", "TET4", 32 * 48), ("CUB8", "PYR5", 24 * 2)],
+)  # fmt: skip
+def test_volumes_and_their_envelope_are_taken_apart_alike(
+    source: str, target: str, cells: int
+) -> None:
+    script = CUBES
+    if source == "TET4":
+        script += "V = CHAN 'TET4' V ; "
+    if source == "PYR5":
+        script += "V = CHAN 'PYR5' (CHAN V 'QUAF') ; "
+    script += (
+        "Q = CHAN V 'QUAF' ; E = CHAN (ENVE V) 'QUAF' ; ELIM (Q ET E) 1.E-6 ; "
+        f"M = CHAN Q '{target}' ; D = NBEL (DIFF (ENVE M) (CHAN E '{target}')) ; "
+        "X = MESU M ; C = NBEL M ; Y = MESU (ENVE (ORIE M)) ; "
+    )
+    d, x, c, area = found(script, "D", "X", "C", "Y")
+    assert (d, c) == (0, cells)
+    assert x == pytest.approx(2.0)
+    assert area == pytest.approx(10.0)
+
+
 def test_cells_that_cannot_be_taken_apart_are_named() -> None:
     result = run_text(CUBES + "M = CHAN 'PRI6' (CHAN V 'QUAF') ;")
     assert result.exit_code == 1

@@ -1,0 +1,44 @@
+"""VERM: what is wrong with a mesh is said and named."""
+
+from __future__ import annotations
+
+from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.kernel.mesh.soundness import repeated_cells, unfit_faces, unmatched_middles
+from ssilang.language.registry import Help, arg, operator
+from ssilang.language.session import Session
+
+_CHECKS = (
+    ("MESH", repeated_cells, "cells stand on the nodes of another one"),
+    ("NODE", unmatched_middles, "middle nodes stand on edges of linear cells"),
+    ("MESH", unfit_faces, "triangular faces lie on quadrangular ones"),
+)
+
+
+@operator(
+    "VERM",
+    arg("mesh", "MAILLAGE"),
+    family="mesh",
+    help=Help(
+        en="Checks a mesh and says what is wrong: cells on the same nodes, linear cells next to "
+        "quadratic ones, triangular faces on quadrangular ones. Cells and nodes found get the "
+        "names MESH1 MESH2 ..., NODE1 ...",
+        fr="Vérifie un maillage et dit ce qui ne va pas : éléments aux mêmes noeuds, éléments "
+        "linéaires accolés à des éléments quadratiques, faces triangulaires sur des faces "
+        "quadrangulaires. Éléments et noeuds trouvés sont nommés MESH1 MESH2 ..., NODE1 ...",
+        syntax="VERM GEO1 ;",
+        examples=(
+            "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (1. 0.) ; M = L ET (INVE L) ; VERM M ; "
+            "MESS (NBEL MESH1) ;",
+        ),
+    ),
+)
+def verm(session: Session, mesh: Mesh) -> None:
+    """Check a mesh."""
+    count = {"MESH": 0, "NODE": 0}
+    for kind, check, said in _CHECKS:
+        found = check(mesh)
+        if found.n_cells:
+            count[kind] += 1
+            name = f"{kind}{count[kind]}"
+            session.frame.assign(name, found)
+            session.print(f" VERM: {found.n_cells} {said} ({name})")

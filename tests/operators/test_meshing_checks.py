@@ -1,0 +1,40 @@
+"""VERM: defects are found and named, sound meshes are silent."""
+
+from __future__ import annotations
+
+import pytest
+
+from ssilang.cli.run import run_text
+
+CUBE = (
+    "OPTI DIME 3 ELEM CUB8 ; S = (DROI 1 (0. 0. 0.) (1. 0. 0.)) TRAN 1 (0. 1. 0.) ; "
+    "V = S VOLU 'TRAN' 1 (0. 0. 1.) ; F = FACE 2 V ; "
+)
+
+
+def names_after(script: str) -> tuple[dict[str, int], str]:
+    result = run_text(script)
+    assert result.exit_code == 0, result.message
+    root = result.session.root
+    names = [n for n in ("MESH1", "MESH2", "NODE1") if n in root.names()]
+    return {n: root.find(n).n_cells for n in names}, result.output
+
+
+def test_sound_meshes_are_silent() -> None:
+    found, output = names_after(CUBE + "VERM V ; VERM (CHAN V 'QUAF') ; VERM (CHAN 'TET4' V) ;")
+    assert found == {}
+    assert "VERM" not in output
+
+
+@pytest.mark.parametrize(
+    ("statements", "expected"),
+    [
+        ("VERM (V ET (CHAN 'CUB8' V) ET S ET (INVE S)) ;", {"MESH1": 1}),
+        ("VERM (V ET (CHAN 'QUAD' (F VOLU 'TRAN' 1 (0. 0. 1.)))) ;", {"NODE1": 4}),
+        ("VERM (V ET (CHAN 'TET4' (F VOLU 'TRAN' 1 (0. 0. 1.)))) ;", {"MESH1": 2}),
+    ],
+)
+def test_defects_are_named(statements: str, expected: dict[str, int]) -> None:
+    found, output = names_after(CUBE + statements)
+    assert found == expected
+    assert all(f"({name})" in output for name in expected)
