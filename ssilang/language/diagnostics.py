@@ -11,6 +11,7 @@ from ssilang.language.catalogue import MESSAGES
 from ssilang.language.errors import SsiError
 from ssilang.language.registry import ANY, OPERATORS, find_operator
 from ssilang.language.source import Span
+from ssilang.language.translations import in_french
 
 _OR = {"en": " or ", "fr": " ou "}
 _ANY = {"en": "an object", "fr": "un objet"}
@@ -78,6 +79,8 @@ def sentence(error: SsiError, language: str, names: Iterable[str] = ()) -> tuple
     data.update(_derived(error, language, names))
     if error.code == "not-a-table" and not data["name"]:
         data["name"] = error.span.text.split(".")[0].strip() if error.span else "it"
+    if language == "fr":
+        data.update({k: in_french(str(data[k])) for k in ("message", "hint") if k in data})
     text = message.en if language == "en" else message.fr
     hint = message.hint_en if language == "en" else message.hint_fr
     return text.format_map(data), hint.format_map(data).strip()

@@ -14,7 +14,7 @@ from ssilang.language.values import ListChpo, ListEnti, ListMots, ListObje, List
 
 _REAL = ("ENTIER", "FLOTTANT")
 LONGEST = 20_000_000
-"""Items of one list, or letters of one word, at most: more than any use, and they fit any memory."""
+"""Items of one list, or letters of one word, at most: more than any use, and memory holds them."""
 
 
 def check_length(count: float) -> None:

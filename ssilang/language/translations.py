@@ -1,0 +1,201 @@
+"""French of what the parts below the language report in English.
+
+Kernel and operators raise errors whose sentence is English; they know no language. A sentence is
+recognised here by its template and said again in French, with its figures and names taken over.
+What has no template stays English. Rows are (English, French); `{}` stands for any text, the same
+in the same order in both.
+"""
+
+from __future__ import annotations
+
+import re
+from functools import lru_cache
+
+TEMPLATES: tuple[tuple[str, str], ...] = (
+    # ---- singular matrices
+    (
+        "the matrix is singular, with {} free motion that the loads drive ({})",
+        "la matrice est singulière : {} mouvement libre, que le chargement entraîne ({})",
+    ),
+    (
+        "the matrix is singular, with {} free motions that the loads drive ({})",
+        "la matrice est singulière : {} mouvements libres, que le chargement entraîne ({})",
+    ),
+    (
+        "the matrix is singular, with {} free motion that the loads drive",
+        "la matrice est singulière : {} mouvement libre, que le chargement entraîne",
+    ),
+    (
+        "the matrix is singular, with {} free motions that the loads drive",
+        "la matrice est singulière : {} mouvements libres, que le chargement entraîne",
+    ),
+    (
+        "not held: {}; hold it with BLOQ or RELA",
+        "non tenu : {} ; bloquez-le par BLOQ ou RELA",
+    ),
+    (
+        "not held: {}; hold it with BLOQ or RELA, or give it mass (MASS)",
+        "non tenu : {} ; bloquez-le par BLOQ ou RELA, ou donnez-lui une masse (MASS)",
+    ),
+    # ---- materials
+    (
+        "parameter {} is missing for element {} ({})",
+        "le paramètre {} manque pour l'élément {} ({})",
+    ),
+    ("give it with MATE or CARA; given: none", "donnez-le par MATE ou CARA ; rien n'est donné"),
+    ("give it with MATE or CARA; given: {}", "donnez-le par MATE ou CARA ; sont donnés : {}"),
+    (
+        "parameter {} is a curve: it depends on a field",
+        "le paramètre {} est une évolution : il dépend d'un champ",
+    ),
+    (
+        "Poisson's ratio NU = {} is outside ]-1, 0.5[",
+        "le coefficient de Poisson NU = {} est hors de ]-1, 0.5[",
+    ),
+    (
+        "use a value such as 0.49 with an incompressible element (ICQ4, BBAR) near 0.5",
+        "près de 0.5, prenez 0.49 par exemple, avec un élément incompressible (ICQ4, BBAR)",
+    ),
+    (
+        "an orthotropic material needs its axes",
+        "un matériau orthotrope demande ses axes",
+    ),
+    # ---- laws of joints
+    ("the joint parameter {} = {} must be {}", "le paramètre de joint {} = {} doit être {}"),
+    ("a joint parameter is not a finite number", "un paramètre de joint n'est pas un nombre fini"),
+    (
+        "a joint with FU = {} and GF = 0 is perfectly brittle, which JOINT_SDM refuses",
+        "un joint avec FU = {} et GF = 0 est parfaitement fragile, ce que JOINT_SDM refuse",
+    ),
+    (
+        "give GF > FU^2/KN = {} N/m, or FU = 0 for a joint without tension",
+        "donnez GF > FU^2/KN = {} N/m, ou FU = 0 pour un joint sans traction",
+    ),
+    (
+        "KN = {} must exceed FU^2/GF = {}: the joint would soften faster than it unloads and one "
+        "opening would have several tractions",
+        "KN = {} doit dépasser FU^2/GF = {} : le joint s'adoucirait plus vite qu'il ne se décharge "
+        "et une ouverture aurait plusieurs tractions",
+    ),
+    (
+        "KN > {} with this FU and GF, or FU < {} with this KN and GF",
+        "KN > {} avec ces FU et GF, ou FU < {} avec ces KN et GF",
+    ),
+    # ---- geometry of joints and cells
+    (
+        "{} of the joint {} has a normal that goes from its first side to its second: opening and "
+        "closing would be exchanged",
+        "{} du joint {} a une normale qui va de sa première face à sa seconde : ouverture et "
+        "fermeture seraient échangées",
+    ),
+    (
+        "walk both sides with the joint on the right hand, or exchange the two meshes given to "
+        "RACC (LIAI): the first is the upper side",
+        "parcourez les deux faces en ayant le joint à main droite, ou échangez les deux maillages "
+        "donnés à RACC (LIAI) : le premier est la face supérieure",
+    ),
+    (
+        "{} of the joint {} has both sides on the same nodes",
+        "{} du joint {} a ses deux faces sur les mêmes noeuds",
+    ),
+    (
+        "do not apply ELIM to the two sides of a joint together",
+        "n'appliquez pas ELIM aux deux faces d'un joint ensemble",
+    ),
+    (
+        "{} of the joint JOI1 has no length, so its normal is unknown",
+        "{} du joint JOI1 est de longueur nulle : sa normale est inconnue",
+    ),
+    (
+        "{} of the joint JOI1 has a normal that goes from its second node to its first: opening "
+        "and closing would be exchanged",
+        "{} du joint JOI1 a une normale qui va de son second noeud à son premier : ouverture et "
+        "fermeture seraient échangées",
+    ),
+    (
+        "reverse the DIRECTION, or the order of the two nodes",
+        "inversez la DIRECTION, ou l'ordre des deux noeuds",
+    ),
+    (
+        "the Jacobian vanishes or changes sign inside {} cell(s), the first being number {} of "
+        "its block",
+        "le jacobien s'annule ou change de signe dans {} élément(s), dont le premier porte le "
+        "numéro {} de sa zone",
+    ),
+    (
+        "look for flat or folded cells in the mesh",
+        "cherchez des éléments plats ou repliés dans le maillage",
+    ),
+    # ---- steps that do not converge
+    (
+        "step {}, time {}: the interface iteration did not converge (residual {} of the jump "
+        "after {} turns)",
+        "pas {}, temps {} : l'itération de l'interface n'a pas convergé (résidu {} du saut après "
+        "{} tours)",
+    ),
+    ("a smaller step, or softer joints", "un pas plus petit, ou des joints plus souples"),
+    (
+        "step {}, time {}: the motion grew beyond all numbers",
+        "pas {}, temps {} : le mouvement a dépassé tout nombre",
+    ),
+    (
+        "check loads, units and the step",
+        "vérifiez le chargement, les unités et le pas",
+    ),
+    (
+        "step {}, time {}: the joints have no stiffness left and nothing else holds the bodies",
+        "pas {}, temps {} : les joints n'ont plus de raideur et rien d'autre ne tient les corps",
+    ),
+    (
+        "give mass (MASS) to the bodies that only joints hold",
+        "donnez une masse (MASS) aux corps que seuls des joints tiennent",
+    ),
+    (
+        "no set of active unilateral conditions gives equilibrium",
+        "aucun jeu de conditions unilatérales actives ne donne l'équilibre",
+    ),
+    # ---- bounds
+    (
+        "a list or word of {} items is too long, the limit is {}",
+        "une liste ou un mot de {} éléments est trop long, la limite est {}",
+    ),
+    (
+        "look for a step that is too small or a count that is too large",
+        "cherchez un pas trop petit ou un nombre trop grand",
+    ),
+)
+PARTS: tuple[tuple[str, str], ...] = (
+    (r"the body of (\d+) nodes around", r"le corps de \1 noeuds autour de"),
+    (r"\btranslation along\b", "translation suivant"),
+    (r"\brotation about (\w+) around\b", r"rotation autour de \1 au point"),
+    (r"\brotation about\b", "rotation autour de"),
+    (r"\band (\d+) more\b", r"et \1 autres"),
+    (r"\ba mechanism\b", "un mécanisme"),
+    (r"\b(\d+) more bodies\b", r"\1 autres corps"),
+    (r"\bcell (\d+)\b", r"l'élément \1"),
+)
+"""Words inside of what a `{}` stands for (regular expressions)."""
+
+
+@lru_cache(maxsize=1)
+def _patterns() -> list[tuple[re.Pattern[str], str]]:
+    ordered = sorted(TEMPLATES, key=lambda row: -len(row[0].replace("{}", "")))
+    return [
+        (re.compile("(.+?)".join(map(re.escape, english.split("{}"))), re.DOTALL), french)
+        for english, french in ordered
+    ]
+
+
+def in_french(sentence: str) -> str:
+    """A sentence in French, unchanged if there is no template for it."""
+    for pattern, french in _patterns():
+        found = pattern.fullmatch(sentence)
+        if found is not None:
+            return french.format(*map(_part, found.groups()))
+    return sentence
+
+
+def _part(text: str) -> str:
+    for pattern, french in PARTS:
+        text = re.sub(pattern, french, text)
+    return text
