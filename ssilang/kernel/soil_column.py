@@ -140,7 +140,7 @@ def free_field(
     """
     depths = np.asarray(depths, float)
     bottom = soil.tops[-1]
-    inside = depths if control is None else np.append(depths, control)
+    inside: FloatArray = np.append(depths, np.zeros(0) if control is None else control)
     if step <= 0 or cutoff <= 0 or len(acceleration) < 2:
         raise MaterialError(
             "the acceleration needs two points, a positive step and cut-off frequency"
@@ -156,7 +156,7 @@ def free_field(
     given[frequencies > cutoff * (1 + 1e-9)] = 0
     if finer > 1:
         given[-1] *= 0.5
-    omega = 2 * np.pi * frequencies[1:]
+    omega = (2 * np.pi * frequencies[1:]).astype(float)
     u, s, e, outcrop = transfers(soil, omega, inside)
     surface = given[1:] / (outcrop if control is None else u[-1])
     mean = given[0].real / padded

@@ -50,7 +50,9 @@ def zcol(call: Call) -> Table:
     from ssilang.kernel.soil_column import SoilColumn, free_field
 
     entries = Entries(call, call.required("TABLE"), "ZCOL")
-    layers = [entries.needed(name, "LISTREEL").values for name in _LAYERS]
+    thickness, density, modulus, damping = (
+        entries.needed(name, "LISTREEL").values for name in _LAYERS
+    )
     f1, f2, cutoff = (entries.needed(name, "FLOTTANT") for name in ("F1", "F2", "FC"))
     depths = entries.needed("PROFONDEURS", "LISTREEL").values
     signal = entries.needed("GAMMAO", "EVOLUTIO").parts[0]
@@ -59,7 +61,7 @@ def zcol(call: Call) -> Table:
     if len(steps) == 0 or np.ptp(steps) > 1e-3 * abs(steps.mean()):
         raise entries.bad("the acceleration GAMMAO needs equal steps of time", "IPOL it first")
     field = free_field(
-        SoilColumn(*layers, f1, f2),
+        SoilColumn(thickness, density, modulus, damping, f1, f2),
         float(steps.mean()),
         signal.ordinates,
         depths,
