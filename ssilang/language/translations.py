@@ -170,6 +170,7 @@ PARTS: tuple[tuple[str, str], ...] = (
     (r"\brotation about (\w+) around\b", r"rotation autour de \1 au point"),
     (r"\brotation about\b", "rotation autour de"),
     (r"\band (\d+) more\b", r"et \1 autres"),
+    (r"\bat node (\d+)", r"au noeud \1"),
     (r"\ba mechanism\b", "un mécanisme"),
     (r"\b(\d+) more bodies\b", r"\1 autres corps"),
     (r"\bcell (\d+)\b", r"l'élément \1"),

@@ -1,0 +1,149 @@
+"""@CDG @TOTAL @HELICE @CIRCONS BOITE DEDANS MOYESPEC against closed forms."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from ssilang.cli.run import run_text
+
+_TRIANGLE = (
+    "OPTI DIME 2 MODE PLAN CONT ELEM TRI3 ; PA = 0. 0. ; PB = 3. 0. ; PC = 0. 6. ; "
+    "S1 = MANU 'TRI3' PA PB PC ; M1 = MODE S1 MECANIQUE ELASTIQUE ; "
+)
+_HELIX = "OPTI DIME 3 ELEM {element} ; P0 = 0. 0. 0. ; VZ = 0. 0. 3. ; PA = 1. 0. 0. ; "
+
+
+def found(script, *names):
+    result = run_text(script)
+    assert result.exit_code == 0, result.message
+    return tuple(result.session.root.find(n) for n in names)
+
+
+def refused(script):
+    result = run_text(script)
+    assert result.exit_code == 1
+    return result.message
+
+
+def test_centre_of_a_triangle_is_the_mean_of_its_corners():
+    x, y = found(_TRIANGLE + "X1 X2 = @CDG M1 ;", "X1", "X2")
+    assert (x, y) == pytest.approx((1.0, 2.0), rel=1e-12)
+
+
+def test_centre_of_two_densities_is_their_balance():
+    """Unit squares side by side with densities 1 and 3: 0.5 + 3/4."""
+    x, y = found(
+        "OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ; PA = 0. 0. ; L1 = PA DROI 1 (0. 1.) ; "
+        "SA = L1 TRAN 1 (1. 0.) ; SB = (COTE 3 SA) TRAN 1 (1. 0.) ; "
+        "MA = MODE SA MECANIQUE ELASTIQUE ; MB = MODE SB MECANIQUE ELASTIQUE ; "
+        "X1 X2 = @CDG (MA ET MB) ((MATE MA RHO 1.) ET (MATE MB RHO 3.)) ;",
+        "X1", "X2",
+    )  # fmt: skip
+    assert (x, y) == pytest.approx((1.25, 0.5), rel=1e-12)
+
+
+def test_centre_in_space_has_three_coordinates():
+    values = found(
+        "OPTI DIME 3 ELEM CUB8 ; P = 0. 0. 0. ; S = (P DROI 2 (2. 0. 0.)) TRAN 2 (0. 4. 0.) ; "
+        "V = VOLU 2 S TRAN (0. 0. 6.) ; X Y Z = @CDG (MODE V MECANIQUE ELASTIQUE) ;",
+        "X", "Y", "Z",
+    )  # fmt: skip
+    assert values == pytest.approx((1.0, 2.0, 3.0), rel=1e-12)
+
+
+def test_resultant_counts_the_nodes_of_the_mesh_only():
+    (total,) = found(
+        "OPTI DIME 2 ELEM SEG2 ; L1 = (0. 0.) DROI 4 (1. 0.) ; L2 = L1 ELEM (LECT 1 2) ; "
+        "C = MANU 'CHPO' L1 2 'FX' 2. 'FY' 5. ; X = @TOTAL C L2 'FY' ;",
+        "X",
+    )
+    assert total == 15.0
+
+
+@pytest.mark.parametrize(("turns", "count"), [(1.0, 40), (0.5, 30)])
+def test_helix_of_a_point_has_its_length_and_end(turns, count):
+    script = _HELIX.format(element="SEG2") + (
+        f"P2 L2 = @HELICE PA 'POIN' P0 VZ 0.5 {360 * turns} {count} ; "
+        "X = MESU L2 ; A B C = COOR P2 ; N = NBEL L2 ;"
+    )
+    length, a, b, c, n = found(script, "X", "A", "B", "C", "N")
+    chord = 2 * math.sin(math.pi * turns / count)
+    assert n == count
+    assert length == pytest.approx(count * math.hypot(chord, 0.5 * turns / count), rel=1e-9)
+    assert (a, b, c) == pytest.approx((math.cos(2 * math.pi * turns), 0.0, 0.5 * turns), abs=1e-9)
+
+
+def test_helix_of_a_line_is_a_surface_and_of_a_surface_a_volume():
+    line = _HELIX.format(element="QUA4") + (
+        "L1 = PA DROI 2 (2. 0. 0.) ; L2 S2 = @HELICE L1 'LIGN' P0 VZ 0.5 90. 8 ; N = NBEL S2 ;"
+    )
+    assert found(line, "N") == (16,)
+    solid = _HELIX.format(element="CUB8") + (
+        "S1 = (PA DROI 1 (2. 0. 0.)) TRAN 1 (0. 0. 0.1) ; "
+        "S2 V2 = @HELICE S1 'SURF' P0 VZ 0. 90. 60 ; N = NBEL V2 ; X = MESU V2 ; "
+    )
+    count, volume = found(solid, "N", "X")
+    assert count == 60
+    assert volume == pytest.approx(math.pi / 4 * 3 * 0.1, rel=2e-4)
+
+
+def test_box_holds_the_mesh():
+    script = "OPTI DIME {0} ELEM SEG2 ; L = DROI 3 {1} {2} ; B = BOITE L ; X = MESU B ;"
+    assert found(script.format(2, "(1. 2.)", "(3. 7.)"), "X")[0] == pytest.approx(10.0)
+    space = script.format(3, "(1. 2. 0.)", "(3. 7. 4.)")
+    assert found(space, "X")[0] == pytest.approx(40.0)
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.floats(-0.4, 1.4), st.floats(-0.4, 1.4))
+def test_inside_of_a_folded_contour_agrees_with_its_formula(x, y):
+    """An L: the unit square without its upper right quarter."""
+    near = min(abs(x), abs(y), abs(x - 1), abs(y - 1), abs(x - 0.5), abs(y - 0.5)) < 1e-6
+    if near:
+        return
+    inside = (0 < x < 1 and 0 < y < 1) and not (x > 0.5 and y > 0.5)
+    (answer,) = found(
+        "OPTI DIME 2 ELEM SEG2 ; PA = 0. 0. ; C = PA DROI 2 (1. 0.) DROI 2 (1. 0.5) DROI 2 "
+        f"(0.5 0.5) DROI 1 (0.5 1.) DROI 1 (0. 1.) DROI 1 PA ; R = DEDANS ({x:.9f} {y:.9f}) C ;",
+        "R",
+    )
+    assert bool(answer) == inside
+
+
+def test_points_near_the_contour_count_as_inside_when_told():
+    square = (
+        "OPTI DIME 2 ELEM SEG2 ; PA = 0. 0. ; C = PA DROI 1 (1. 0.) DROI 1 (1. 1.) DROI 1 PA ; "
+        "P = 1.01 0.5 ; A = DEDANS P C ; B = DEDANS P C 0.1 ; D = DEDANS (1. 0.5) C ;"
+    )
+    assert [bool(v) for v in found(square, "A", "B", "D")] == [False, True, True]
+
+
+def test_mean_of_a_curve_cuts_its_ends():
+    """A hat of height 2 on [0, 2]: over [0.5, 1.5] its mean is 1.5."""
+    (mean,) = found(
+        "E = EVOL 'MANU' (PROG 0. 1. 2.) (PROG 0. 2. 0.) ; X = MOYESPEC E 0.5 1.5 ;", "X"
+    )
+    assert mean == pytest.approx(1.5, rel=1e-12)
+    assert "must exceed" in refused(
+        "E = EVOL 'MANU' (PROG 0. 1.) (PROG 0. 2.) ; MOYESPEC E 1. 1. ;"
+    )
+
+
+def test_circle_and_sphere_are_as_far_from_all_corners():
+    x, y, r = found(
+        "OPTI DIME 2 ; T = MANU 'TRI3' (0. 0.) (2. 1.) (-1. 3.) ; P R = @CIRCONS T ; "
+        "X Y = COOR P ;",
+        "X", "Y", "R",
+    )  # fmt: skip
+    distances = [math.hypot(x - a, y - b) for a, b in ((0, 0), (2, 1), (-1, 3))]
+    assert np.allclose(distances, r, rtol=1e-12)
+    *centre, radius = found(
+        "OPTI DIME 3 ; T = MANU 'TET4' (0. 0. 0.) (2. 1. 0.) (-1. 3. 0.5) (0. 0.5 4.) ; "
+        "P R = @CIRCONS T ; X Y Z = COOR P ;",
+        "X", "Y", "Z", "R",
+    )  # fmt: skip
+    corners = np.array([(0, 0, 0), (2, 1, 0), (-1, 3, 0.5), (0, 0.5, 4)])
+    assert np.allclose(np.linalg.norm(corners - centre, axis=1), radius, rtol=1e-12)
