@@ -9,6 +9,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
+from ssilang.kernel.powers import real_power
 from ssilang.language.call import Call
 from ssilang.language.errors import SsiError
 from ssilang.language.registry import SCALAR_RULES, Help, operator
@@ -79,9 +80,7 @@ def _integer_product(a: int, b: int) -> int:
 
 def _real_power(a: float, b: float) -> float:
     value = a**b
-    if isinstance(value, complex):
-        raise ValueError(f"{a:g} ** {b:g} has no real value")
-    return float(value)
+    return float(real_power(a, b)) if isinstance(value, complex) else float(value)
 
 
 _INTEGER: dict[str, Rule] = {
@@ -92,7 +91,7 @@ _REAL: dict[str, Rule] = {
     "+": python.add, "-": python.sub, "*": python.mul, "/": python.truediv, "**": _real_power,
 }  # fmt: skip
 _ARRAY: dict[str, Rule] = {
-    "+": np.add, "-": np.subtract, "*": np.multiply, "/": np.divide, "**": np.power,
+    "+": np.add, "-": np.subtract, "*": np.multiply, "/": np.divide, "**": real_power,
 }  # fmt: skip
 SIGNS = "+ - * / **"
 

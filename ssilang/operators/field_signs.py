@@ -10,6 +10,7 @@ from ssilang.kernel.errors import FieldError
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import Nature, NodeField
+from ssilang.kernel.powers import real_power
 from ssilang.language.call import Call
 from ssilang.language.values import ListMots
 from ssilang.operators.arithmetic import _ARRAY, SIGNS, rule, rule_with_call
@@ -72,11 +73,12 @@ def _multiply(call: Call, sign: str, a: NodeField, b: NodeField) -> NodeField:
 
 
 def _power(x: Any, exponent: float) -> Any:
-    if exponent != int(exponent) and np.any(np.asarray(x) < 0):
-        raise FieldError(f"a negative value has no power {exponent:g}")
     if exponent < 0 and np.any(np.asarray(x) == 0):
         raise FieldError(f"zero has no power {exponent:g}")
-    return np.power(np.asarray(x, dtype=float), exponent)
+    try:
+        return real_power(x, exponent)
+    except ValueError as error:
+        raise FieldError(f"a negative value has no power {exponent:g}") from error
 
 
 def _raised(number: float, x: Any) -> Any:

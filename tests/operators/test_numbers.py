@@ -172,3 +172,24 @@ def test_roots_of_a_polynomial(found):
     np.testing.assert_allclose(re.values, [0, 0], atol=1e-14)
     np.testing.assert_allclose(im.values, [-1, 1], rtol=1e-14)
     assert word == "VIDE"
+
+
+@pytest.mark.parametrize(
+    "base", ["-8.", "(PROG -8. 8.)", "(EVOL 'MANU' (PROG 0. 1.) (PROG -8. 8.))"]
+)
+def test_roots_of_odd_order_of_negative_values(base: str) -> None:
+    text = f"X = ({base}) ** (1. / 3.) ; "
+    result = run_text(text + ("X = EXTR X 'ORDO' ;" if "EVOL" in base else ""))
+    assert result.exit_code == 0, result.message
+    found = result.session.root.find("X")
+    expected = [-2.0] if base == "-8." else [-2.0, 2.0]
+    assert np.atleast_1d(getattr(found, "values", found)).tolist() == pytest.approx(expected)
+
+
+@pytest.mark.parametrize("base", ["-8.", "(PROG -8. 8.)", "(NOMC 'A' (COOR 1 L))"])
+def test_other_roots_of_negative_values_are_refused(base: str) -> None:
+    line = "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (-8. 0.) (8. 0.) ; "
+    result = run_text(line + f"X = ({base}) ** 0.5 ;")
+    assert result.exit_code == 1
+    assert "0.5" in result.message
+    assert run_text(line + f"X = ({base}) ** (1. / 9.) ;").exit_code == 0

@@ -1,0 +1,31 @@
+"""Powers of real numbers, roots of odd order of negative ones included."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+def real_power(base: Any, exponent: Any) -> NDArray[np.float64]:
+    """``base ** exponent`` elementwise; (-8) ** (1/3) is -2.
+
+    Raises
+    ------
+    ValueError
+        If a negative number is raised to a power that is neither an integer nor the inverse of
+        an odd integer.
+    """
+    x, power = np.broadcast_arrays(np.asarray(base, dtype=float), np.asarray(exponent, dtype=float))
+    low = (x < 0) & (power != np.round(power))
+    if not low.any():
+        return np.asarray(np.power(x, power), dtype=float)
+    order = 1.0 / power[low]
+    odd = (np.abs(order - np.round(order)) <= 1e-12 * np.abs(order)) & (np.round(order) % 2 == 1)
+    if not odd.all():
+        worst = np.flatnonzero(~odd)[0]
+        raise ValueError(f"{x[low][worst]:g} ** {power[low][worst]:g} has no real value")
+    roots = np.power(np.abs(x), power)
+    made: NDArray[np.float64] = np.where(low, -roots, np.power(np.where(low, 1.0, x), power))
+    return made
