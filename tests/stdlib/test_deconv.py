@@ -104,7 +104,7 @@ def test_accelerations_asked_for_and_given_inside():
         PLANE.format(mode="FOUR 1") + SOIL + SIGNAL + LAYER
         + "P1 = TABL ; P1 . 'ENTREE' = TABL ; P1 . 'ENTREE' . 'NATURE' = CHAI 'INSIDE' ; "
         "P1 . 'ENTREE' . 'CONTROLE' = BOR1 POIN 'PROC' (0. -100.) ; "
-        "P1 . 1 = BOR1 POIN 'PROC' PA ; P1 . 2 = BOR1 POIN 'PROC' (0. -100.) ; "
+        "P1 . 1 = MANU 'POI1' (BOR1 POIN 'PROC' PA) ; P1 . 2 = BOR1 POIN 'PROC' (0. -100.) ; "
         "T2 = DECONV T1 FON1 M1 'HORI' ACC1 5. 20. 20. 'LYSMER' P1 ; "
         "LS = IPOL LT (T2 . 'ACCE' . 1) ; LB = IPOL LT (T2 . 'ACCE' . 2) ; LG = EXTR ACC1 'ORDO' ; "
         "D1 = MAXI (LB - LG) 'ABS' ;",
