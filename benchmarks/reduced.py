@@ -37,9 +37,9 @@ from uplift_openseespy import (
 from ssilang.kernel import elements
 from ssilang.kernel.curve import Curve, CurvePart, Load, LoadPart
 from ssilang.kernel.dynamics.integrate import integrate
-from ssilang.kernel.dynamics.plan import every, runs_of
+from ssilang.kernel.dynamics.plan import every
 from ssilang.kernel.dynamics.problem import Inputs, Problem, make_problem
-from ssilang.kernel.dynamics.reduced_run import CHUNK, Trace, _pair_of, integrate_reduced
+from ssilang.kernel.dynamics.reduced_run import Trace, _pair_of, comparing, integrate_reduced
 from ssilang.kernel.dynamics.snapshot import Snapshot
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.matrices.assembly import assemble, numbering_of, vector_to_field
@@ -125,7 +125,7 @@ def seconds(run: Callable[..., object], *given: object) -> float:
 def march(problem: Problem, tolerance: float) -> None:
     """The steps of the reduced model alone."""
     trace = Trace(problem, _pair_of(problem, tolerance).rich, np.zeros(len(problem.times), bool))
-    for run in runs_of(problem.times, CHUNK):
+    for run in comparing(problem.times):
         trace.advance(run)
 
 
