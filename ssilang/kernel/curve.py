@@ -23,6 +23,7 @@ class CurvePart:
     colour: int = 0
     words: tuple[str, ...] = ()  # ordinates given as words (LISTMOTS), empty otherwise
     kind: str = ""  # PREE PIMA (parts of a complex curve), MODU PHAS, HIST ENTI MOTS; '' for reals
+    abscissa_words: tuple[str, ...] = ()  # abscissas given as words, standing at 1, 2, 3 ...
 
 
 @dataclass(frozen=True, eq=False)

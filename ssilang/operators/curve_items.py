@@ -26,6 +26,11 @@ def numbered(call: Call, curve: Curve, place: int | None) -> CurvePart:
     return curve.parts[place - 1]
 
 
+def abscissa_list(part: CurvePart) -> ListReel | ListMots:
+    """Abscissas as reals, or as the words that they were given as."""
+    return ListMots(part.abscissa_words) if part.abscissa_words else ListReel(part.abscissas)
+
+
 def ordinate_list(part: CurvePart) -> ListReel | ListEnti | ListMots:
     """Ordinates as the list that they were given as."""
     if part.words:
@@ -60,7 +65,7 @@ def _extract(call: Call, curve: Curve) -> Any:
     wanted = str(said.value).rstrip()[:12]
     for part in curve.parts:
         if part.abscissa_name.rstrip() == wanted:
-            return ListReel(part.abscissas)
+            return abscissa_list(part)
         if part.ordinate_name.rstrip() == wanted:
             return ordinate_list(part)
     names = sorted({n for p in curve.parts for n in (p.abscissa_name, p.ordinate_name)} - {""})
@@ -69,8 +74,8 @@ def _extract(call: Call, curve: Curve) -> Any:
     )
 
 
-def _abscissas(call: Call, curve: Curve) -> ListReel:
-    return ListReel(numbered(call, curve, call.optional("ENTIER")).abscissas)
+def _abscissas(call: Call, curve: Curve) -> Any:
+    return abscissa_list(numbered(call, curve, call.optional("ENTIER")))
 
 
 def _ordinates(call: Call, curve: Curve) -> Any:
@@ -100,7 +105,10 @@ def _pick(part: CurvePart, kept: Any, zero: bool = False) -> CurvePart:
     if zero and len(x):
         x = x - x[0]
     words = tuple(np.asarray(part.words)[kept]) if part.words else ()
-    return dataclasses.replace(part, abscissas=x, ordinates=part.ordinates[kept], words=words)
+    marks = tuple(np.asarray(part.abscissa_words)[kept]) if part.abscissa_words else ()
+    return dataclasses.replace(
+        part, abscissas=x, ordinates=part.ordinates[kept], words=words, abscissa_words=marks
+    )
 
 
 def _picked(curve: Curve, choose: Any, zero: bool = False) -> Curve:

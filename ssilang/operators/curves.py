@@ -73,8 +73,8 @@ def _manual(call: Call, colours: list[int]) -> Curve:
     y = call.required(*_LISTS)
     if len(x) != len(y):
         raise call.bad(f"{len(x)} abscissas for {len(y)} ordinates", y)
-    if isinstance(x, ListMots):
-        raise call.bad("abscissas in words are not supported", x)
+    marks = tuple(x.values) if isinstance(x, ListMots) else ()
+    abscissas = np.arange(1.0, len(x) + 1) if marks else x.values.astype(float)
     words: tuple[str, ...] = ()
     if isinstance(y, ListMots):
         words, ordinates = tuple(y.values), np.arange(1.0, len(y) + 1)
@@ -82,8 +82,8 @@ def _manual(call: Call, colours: list[int]) -> Curve:
         ordinates = y.values.astype(float)
     made = {ListMots: "MOTS", ListEnti: "ENTI", ListReel: ""}[type(y)]
     part = CurvePart(
-        x.values.astype(float), ordinates, x_name[:12], y_name[:12], legend.strip(), colours[0],
-        words, kind if kind not in ("", "REEL") else made,
+        abscissas, ordinates, x_name[:12], y_name[:12], legend.strip(), colours[0],
+        words, kind if kind not in ("", "REEL") else made, marks,
     )  # fmt: skip
     return Curve((part,), workspace(call.session).title)
 

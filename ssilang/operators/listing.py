@@ -158,8 +158,9 @@ def _curves(value: Curve, mode: str) -> str:
             f"  {part.abscissa_name or 'abscisse':>13s} {part.ordinate_name or 'ordonnée':>13s}"
         )
         ordinates = part.words or [f" {real(y)}" for y in part.ordinates.tolist()]
-        pairs = zip(part.abscissas.tolist(), ordinates, strict=True)
-        lines += _shortened([f"   {real(x)} {y}" for x, y in pairs])
+        abscissas = part.abscissa_words or [real(x) for x in part.abscissas.tolist()]
+        pairs = zip(abscissas, ordinates, strict=True)
+        lines += _shortened([f"   {x} {y}" for x, y in pairs])
     return "\n".join(lines)
 
 

@@ -83,7 +83,7 @@ def _columns(value: Any, name: str) -> list[Column]:
     if isinstance(value, Curve):
         made = []
         for part in value.parts:
-            made.append(Column(part.abscissa_name, list(part.abscissas)))
+            made.append(Column(part.abscissa_name, list(part.abscissa_words or part.abscissas)))
             made.append(Column(part.ordinate_name, list(part.words or part.ordinates)))
         return made
     if isinstance(value, Table):

@@ -227,3 +227,14 @@ def test_curve_in_time_at_a_point_of_a_cell(found):
     ).parts[0]
     assert part.abscissas.tolist() == [0, 0.5, 1]
     assert part.ordinates.tolist() == [0, 2, 4]
+
+
+def test_words_as_abscissas_stand_at_whole_numbers_and_come_back(found):
+    words, second, total = found(
+        "E = EVOL 'MANU' 'CAS' (MOTS 'A' 'B' 'C') 'Y' (PROG 1. 2. 4.) ; L = EXTR (2. * E) 'ABSC' ; "
+        "M = EXTR (EXTR E 'PAS' 2) 'CAS' ; X = INTG E ;",
+        "L", "M", "X",
+    )  # fmt: skip
+    assert [w.strip() for w in words.values] == ["A", "B", "C"]
+    assert [w.strip() for w in second.values] == ["A", "C"]
+    assert total == pytest.approx(1.5 + 3.0)  # trapezoids of width 1

@@ -291,6 +291,8 @@ def _titles(panel: Axes, first: CurvePart | None, options: CurveOptions) -> None
     y = options.y_title if options.y_title is not None else (first.ordinate_name if first else "")
     panel.set_xlabel(to_mathtext(x.strip()), loc="right" if options.x_title_at_end else "center")
     panel.set_ylabel(to_mathtext(y.strip()), loc="top" if options.y_title_at_end else "center")
+    if first is not None and first.abscissa_words:
+        panel.set_xticks(first.abscissas, [w.strip() for w in first.abscissa_words])
 
 
 def _extremes(panel: Axes, lines: list[Line]) -> None:
