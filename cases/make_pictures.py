@@ -28,6 +28,8 @@ PICTURES = {
     "footing/macro_element": {2: "macro_rocking"},
     "footing/winkler_beam": {1: "winkler_beam"},
     "footing/flexible_tower": {1: "flexible_tower"},
+    "footing/raft_3d": {1: "raft_3d"},
+    "footing/tower_3d": {1: "tower_3d"},
     "footing/housner_block": {1: "housner_block"},
     "footing/block_on_soil": {1: "block_lift", 3: "block_energies", 4: "block_deformed"},
     "impact/bar_bounce": {1: "bar_bounce"},

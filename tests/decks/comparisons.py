@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from references.bar import Bar, solve_bar
 from references.contact import solve
-from references.footing import Disc, Strip
+from references.footing import Disc, Rectangle, Strip
 from references.oscillators import STRUCTURE_STIFFNESS, ClubA, ClubB, ClubC
-from references.rocking import FlexibleTower, TwoSpringBlock, macro_element_period
+from references.rocking import FlexibleTower, RigidTower, TwoSpringBlock, macro_element_period
 
 from ssilang.cli.run import RunResult
 
@@ -62,6 +62,29 @@ def tower(result: RunResult) -> None:
     top = exact @ np.array([1.0, 0.0, -8.0])
     assert np.max(np.abs(numbers(result, "LU") - top)) <= 1e-3 * np.max(np.abs(top))
     assert np.max(np.abs(numbers(result, "LQ") - exact[:, 0])) <= 5e-3 * np.max(np.abs(exact[:, 0]))
+
+
+def tower_3d(result: RunResult) -> None:
+    """The whole history of lift and rotations."""
+    model = RigidTower(1e5, 3.2e6, 5.0, 1.5, 2.0, 4e7)
+    system = model.system(np.pi / 0.25, (4.0, 1.5, 2.0), (1.0, 5.0, -2.0))
+    motion = solve(system, model.rest, np.zeros(3), 2.0)
+    exact = motion(numbers(result, "LT"))[0]
+    for column, name in enumerate(("LV", "LTHX", "LTHY")):
+        error = np.abs(numbers(result, name) - exact[:, column]).max()
+        assert error <= 1e-3 * np.abs(exact[:, column]).max(), name
+
+
+def raft_3d(result: RunResult) -> None:
+    """Position at every angle; the reference is in equilibrium there."""
+    width, length, k0, normal, moment = (
+        float(variable(result, n)) for n in ("B0", "L0", "K0", "N0", "M0")
+    )
+    model = Rectangle(width, length, k0, normal)
+    angles = np.radians(numbers(result, "LANG"))
+    found = np.stack([numbers(result, n) for n in ("LV", "LTHX", "LTHY")], axis=1)
+    exact = np.array([model.position(moment * np.cos(a), moment * np.sin(a)) for a in angles])
+    assert np.all(np.abs(found - exact).max(axis=0) <= 1e-4 * np.abs(exact).max(axis=0))
 
 
 def bar(result: RunResult) -> None:
@@ -134,5 +157,7 @@ COMPARISONS: dict[str, Callable[[RunResult], None]] = {
     "footing/macro_element.ssi": macro_element,
     "footing/flexible_tower.ssi": tower,
     "footing/block_on_soil.ssi": block_on_soil,
+    "footing/tower_3d.ssi": tower_3d,
+    "footing/raft_3d.ssi": raft_3d,
     "impact/bar_bounce.ssi": bar,
 }

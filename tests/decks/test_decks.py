@@ -28,6 +28,8 @@ SPOILT = [
     ("club_cast3m_2014/rocking_two_pairs.ssi", "'KN' K0 'KS'", "'KN' (1.02 * K0) 'KS'"),
     ("footing/winkler_beam.ssi", "'KN' K0 'KS'", "'KN' (1.02 * K0) 'KS'"),
     ("footing/flexible_tower.ssi", "'KN' K0 'KS'", "'KN' (1.02 * K0) 'KS'"),
+    ("footing/tower_3d.ssi", "'KN' K0 'KS'", "'KN' (1.02 * K0) 'KS'"),
+    ("footing/raft_3d.ssi", "'KN' K0 'KS'", "'KN' (1.01 * K0) 'KS'"),
     ("footing/housner_block.ssi", "'ROTA' J0 PC", "'ROTA' (1.01 * J0) PC"),
     ("impact/bar_bounce.ssi", "'YOUN' YOU0", "'YOUN' (1.05 * YOU0)"),
     ("footing/block_on_soil.ssi", "W0 = RHOB * B0", "W0 = 1.01 * RHOB * B0"),

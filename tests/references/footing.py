@@ -7,6 +7,7 @@ N constant means that the footing finds its settlement by itself.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from scipy.optimize import brentq
@@ -206,3 +207,60 @@ def onset_step_acceleration(kern: float, height: float, gravity: float = 9.81) -
     A rigid block on a full-contact Winkler soil answers a step with twice the static rotation.
     """
     return 0.5 * onset_acceleration(kern, height, gravity)
+
+
+@dataclass(frozen=True)
+class Rectangle:
+    """Rigid rectangle B x L on a no-tension bed of modulus k0 under N and two moments.
+
+    Opening `v + theta_x y - theta_y x`; the bed pushes where it is negative.
+    """
+
+    width: float
+    length: float
+    k0: float
+    normal: float
+
+    def contact(self, u: Array) -> Array:
+        """Corners (n, 2) of the part in contact: the rectangle cut by the line of no opening."""
+        b, c = self.width / 2.0, self.length / 2.0
+        corners = [(-b, -c), (b, -c), (b, c), (-b, c)]
+        opening = [u[0] + u[1] * y - u[2] * x for x, y in corners]
+        kept: list[tuple[float, float]] = []
+        for i in range(4):
+            (p, q), (g, h) = (corners[i], corners[i - 3]), (opening[i], opening[i - 3])
+            if g < 0.0:
+                kept.append(p)
+            if (g < 0.0) != (h < 0.0):
+                s = g / (g - h)
+                kept.append((p[0] + s * (q[0] - p[0]), p[1] + s * (q[1] - p[1])))
+        return np.array(kept).reshape(-1, 2)
+
+    def forces(self, u: Array) -> tuple[Array, Array]:
+        """Forces (N, M_x, M_y) that hold the rectangle at u = (v, theta_x, theta_y); tangent.
+
+        Integrals over triangles from the first corner of the contact, by the rule of the
+        mid-sides, which is exact for the quadratic integrand.
+        """
+        corners, K = self.contact(np.asarray(u, float)), np.zeros((3, 3))
+        for p, q in pairwise(corners[1:]):
+            one, two = p - corners[0], q - corners[0]
+            area = 0.5 * abs(one[0] * two[1] - one[1] * two[0])
+            for x, y in ((corners[0] + p) / 2, (p + q) / 2, (q + corners[0]) / 2):
+                shape = np.array([1.0, y, -x])
+                K += self.k0 * area / 3.0 * np.outer(shape, shape)
+        return K @ u, K
+
+    def position(self, mx: float, my: float) -> Array:
+        """(v, theta_x, theta_y) under -N and the moments, by Newton's method."""
+        wanted = np.array([-self.normal, mx, my])
+        u = np.array([-self.normal / (self.k0 * self.width * self.length), 0.0, 0.0])
+        for part in np.linspace(0.1, 1.0, 10):
+            target = np.array([wanted[0], part * mx, part * my])
+            for _ in range(60):
+                found, K = self.forces(u)
+                step = np.linalg.solve(K, target - found)
+                u = u + step
+                if np.abs(step).max() <= 1e-15 * np.abs(u).max():
+                    break
+        return u

@@ -174,3 +174,45 @@ class HousnerBlock:
         k = 1.0 - (1.0 - theta / self.alpha) ** 2
         powers = self.restitution ** (2.0 * np.arange(n + 1))
         return np.asarray(self.alpha * (1.0 - np.sqrt(1.0 - powers * k)))
+
+
+@dataclass(frozen=True)
+class RigidTower:
+    """Rigid tower in space on four unilateral springs at (+-b, +-c), small rotations.
+
+    Unknowns (v, theta_x, theta_y): upward displacement of the base's centre and rotations. The
+    base does not slide; `inertia` is about horizontal axes through the base's centre, the mass
+    stands at `height`. Gaps are `v + theta_x y - theta_y x`.
+    """
+
+    mass: float
+    inertia: float
+    height: float
+    b: float
+    c: float
+    k: float
+    gravity: float = 9.81
+
+    def push(self, ax: float, ay: float, az: float) -> Array:
+        """Forces of a base acceleration."""
+        lever = self.mass * self.height
+        return np.array([-self.mass * az, lever * ay, -lever * ax])
+
+    def system(self, pulsation: float, *accelerations: tuple[float, float, float]) -> System:
+        """One vector of accelerations, times sin(pulsation t), for each half period; then rest."""
+        weight = np.array([-self.mass * self.gravity, 0.0, 0.0])
+        half = np.pi / pulsation
+        forcings = [
+            Forcing(i * half, weight, self.push(*a), pulsation, 0.0)
+            for i, a in enumerate(accelerations)
+        ]
+        forcings.append(Forcing(len(accelerations) * half, weight))
+        corners = [(x, y) for x in (-self.b, self.b) for y in (-self.c, self.c)]
+        springs = tuple(UnilateralSpring(np.array([1.0, y, -x]), self.k) for x, y in corners)
+        mass = np.diag([self.mass, self.inertia, self.inertia])
+        return System(mass, np.zeros((3, 3)), springs, tuple(forcings))
+
+    @property
+    def rest(self) -> Array:
+        """Static position."""
+        return np.array([-self.mass * self.gravity / (4.0 * self.k), 0.0, 0.0])

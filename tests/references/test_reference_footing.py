@@ -6,6 +6,7 @@ from scipy.optimize import brentq
 
 from .footing import (
     Disc,
+    Rectangle,
     Strip,
     TwoSprings,
     macro_element,
@@ -124,3 +125,26 @@ def test_sudden_acceleration_lifts_at_half_the_slow_one():
     for factor, lifts in ((0.999, False), (1.001, True)):
         motion = solve(block.system((0.0, factor * a)), block.rest, np.zeros(2), 2.0)
         assert bool(motion.events) == lifts
+
+
+def test_rectangle_about_one_axis_is_the_strip():
+    model = Rectangle(6.0, 4.0, 2e7, 2.4e6)
+    about_x, about_y = Strip(4.0, 6.0, 2e7, 2.4e6), Strip(6.0, 4.0, 2e7, 2.4e6)
+    for moment in (1e6, 3e6):
+        v, turn, rest = model.position(moment, 0.0)
+        assert about_x.moment(turn) == pytest.approx(moment, rel=1e-12)
+        assert v == pytest.approx(about_x.lift(turn), rel=1e-10)
+        assert abs(rest) < 1e-15
+        assert about_y.moment(model.position(0.0, moment)[2]) == pytest.approx(moment, rel=1e-12)
+
+
+def test_rectangle_is_in_equilibrium_about_both_axes():
+    model = Rectangle(6.0, 4.0, 2e7, 2.4e6)
+    u = model.position(2e6, 2.5e6)
+    n = 2000  # a bed of small springs
+    x = ((np.arange(n) + 0.5) / n - 0.5) * 6.0
+    y = ((np.arange(n) + 0.5) / n - 0.5)[:, None] * 4.0
+    push = 2e7 * np.minimum(u[0] + u[1] * y - u[2] * x, 0.0) * 24.0 / n**2
+    assert push.sum() == pytest.approx(-2.4e6, rel=1e-6)
+    assert (push * y).sum() == pytest.approx(2e6, rel=1e-6)
+    assert -(push * x).sum() == pytest.approx(2.5e6, rel=1e-6)

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from .contact import solve
 from .footing import Strip
-from .rocking import HousnerBlock, macro_element_period
+from .rocking import HousnerBlock, RigidTower, TwoSpringBlock, macro_element_period
 
 STRIP = Strip(width=4.0, length=1.0, k0=2e7, normal=6e5)
 
@@ -65,3 +66,21 @@ def test_housner_amplitudes_follow_the_energy_lost_at_each_impact():
     # slender energy p^2 (alpha theta - theta^2/2) falls by e^2 at each impact
     energy = block.alpha * heights - heights**2 / 2
     assert energy[1:] / energy[:-1] == pytest.approx(block.restitution**2, rel=1e-12)
+
+
+def test_tower_in_space_keeps_its_energy_and_is_the_block_in_a_plane():
+    tower = RigidTower(1e5, 3.2e6, 5.0, 1.5, 2.0, 4e7)
+    motion = solve(
+        tower.system(np.pi / 0.25, (4.0, 1.5, 2.0), (1.0, 5.0, -2.0)), tower.rest, np.zeros(3), 2.0
+    )
+    energy = motion.energy(np.linspace(0.51, 2.0, 30))
+    assert np.ptp(energy) <= 1e-9 * np.abs(energy).max()
+    assert all(len(motion.times(i, False)) > 0 for i in range(4))
+    # pushed about y alone: a block on two springs of twice the stiffness
+    block = TwoSpringBlock(1e5, 3.2e6 - 1e5 * 25.0, 5.0, 1.5, 8e7)
+    start = np.array([-block.settlement + 0.01, 0.0, 0.006])
+    space = solve(tower.system(1.0), start, np.zeros(3), 1.0)
+    plane = solve(block.system(), np.array([start[0], -start[2]]), np.zeros(2), 1.0)
+    t = np.linspace(0.0, 1.0, 50)
+    np.testing.assert_allclose(space(t)[0][:, 0], plane(t)[0][:, 0], atol=1e-10)
+    np.testing.assert_allclose(space(t)[0][:, 2], -plane(t)[0][:, 1], atol=1e-10)

@@ -14,6 +14,7 @@ from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.sparse import sp
 
 ROUNDING = 1e-9  # stiffness against a translation, relative to the diagonal
+FREE = 1e-12  # share of the free motions in an unknown that is not fixed; less is rounding
 
 
 @dataclass(frozen=True)
@@ -58,7 +59,7 @@ def translation(problem: Problem, normals: FloatArray) -> FloatArray:
     assert joints is not None
     for name, value in zip(displacement_names(joints.joints[0].zone), mean, strict=True):
         motion[problem.numbering.where(name)] = value
-    fixed = np.asarray(abs(problem.constraints.T).sum(axis=1)).ravel() == 0.0
+    fixed = np.asarray(abs(problem.constraints.T).sum(axis=1)).ravel() <= FREE
     return np.where(fixed, 0.0, motion)
 
 
