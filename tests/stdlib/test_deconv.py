@@ -99,6 +99,35 @@ def test_box_of_soil(component):
     assert lb.values == pytest.approx(given.values, abs=4e-3)
 
 
+@pytest.mark.parametrize(("direction", "component"), [("HORI", "UX"), ("VERT", "UY")])
+def test_layers_given_from_the_bottom_up(direction, component):
+    held = "UY" if component == "UX" else "UX"
+    la, lb, given = found(
+        "OPTI DIME 2 MODE PLAN DEFO ELEM QUA8 ; PA = 0. 0. ; PB = 6. 0. ; "
+        "S1 = TRAN 3 (DROI 3 PA PB) (0. -3.) ; S2 = TRAN 3 (COTE 3 S1) (0. -4.) ; "
+        "M1 = MODE S1 MECANIQUE ELASTIQUE ; M2 = MODE S2 MECANIQUE ELASTIQUE ; "
+        "A1 = MATE M1 'YOUN' 2.E8 'NU' 0.2 'RHO' 1800. ; "
+        "A2 = MATE M2 'YOUN' 9.E8 'NU' 0.4 'RHO' 2200. ; "
+        "AL1 = 4. * PI * 100. / 25. ; BE1 = 1. / (PI * 25.) ; KA = RIGI M1 A1 ; KB = RIGI M2 A2 ; "
+        "MA = MASS M1 A1 ; MB = MASS M2 A2 ; MM1 = MA ET MB ; "
+        "K1 = KA ET KB ET (BLOQ '" + held + "' ((COOR 1 (S1 ET S2)) POIN 'INFERIEUR' 1.E-3)) ; "
+        "C1 = (0.05 * ((AL1 * MA) ET (BE1 * KA))) ET (0.02 * ((AL1 * MB) ET (BE1 * KB))) ; "
+        + SIGNAL
+        + "T1 = TABL ; T1 . 1 = TABL ; T1 . 1 . 'FRONTIERE' = COTE 4 S2 ; "
+        "T1 . 1 . 'YOUNG' = 9.E8 ; "
+        "T1 . 1 . 'MASSE_VOLUMIQUE' = 2200. ; T1 . 1 . 'POISSON' = 0.4 ; "
+        "T1 . 1 . 'AMORTISSEMENT' = 0.02 ; "
+        "T1 . 2 = TABL ; T1 . 2 . 'FRONTIERE' = COTE 2 S1 ; T1 . 2 . 'YOUNG' = 2.E8 ; "
+        "T1 . 2 . 'MASSE_VOLUMIQUE' = 1800. ; T1 . 2 . 'POISSON' = 0.2 ; "
+        "T1 . 2 . 'AMORTISSEMENT' = 0.05 ; "
+        f"T2 = DECONV T1 (COTE 3 S2) (M1 ET M2) '{direction}' ACC1 5. 20. 20. 'LYSMER' ; "
+        f"COMP1 = MOT '{component}' ; " + RUN + "LG = EXTR ACC1 'ORDO' ;",
+        "LA", "LB", "LG",
+    )  # fmt: skip
+    assert la.values == pytest.approx(given.values, abs=1e-3)
+    assert lb.values == pytest.approx(given.values, abs=1e-3)
+
+
 def test_accelerations_asked_for_and_given_inside():
     surface, base = found(
         PLANE.format(mode="FOUR 1") + SOIL + SIGNAL + LAYER
