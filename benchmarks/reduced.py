@@ -39,7 +39,8 @@ from ssilang.kernel.curve import Curve, CurvePart, Load, LoadPart
 from ssilang.kernel.dynamics.integrate import integrate
 from ssilang.kernel.dynamics.plan import every
 from ssilang.kernel.dynamics.problem import Inputs, Problem, make_problem
-from ssilang.kernel.dynamics.reduced_run import Trace, _pair_of, comparing, integrate_reduced
+from ssilang.kernel.dynamics.reduced_run import _pair_of, integrate_reduced
+from ssilang.kernel.dynamics.reduced_trace import Trace, comparing
 from ssilang.kernel.dynamics.snapshot import Snapshot
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.matrices.assembly import assemble, numbering_of, vector_to_field
