@@ -152,11 +152,11 @@ def vloc(call: Call) -> CellField:
     family="stress",
     help=Help(
         en="Stress at the point DY DZ of the section of beams (local axes): SMXX = EFFX / SECT + "
-        "MOMY DZ / INRY - MOMZ DY / INRZ; stresses SMSS SMTT SMST (or strains) of shells in their "
+        "MOMY DZ / INRY - MOMZ DY / INRZ; stresses SMXX SMYY SMXY (or strains) of shells in their "
         "own frame at the side of the normal ('SUPE'), in the middle ('MOYE', default) or at the "
         "other side ('INFE').",
         fr="Contrainte au point DY DZ de la section des poutres (repère local) : SMXX = EFFX / "
-        "SECT + MOMY DZ / INRY - MOMZ DY / INRZ ; contraintes SMSS SMTT SMST (ou déformations) des "
+        "SECT + MOMY DZ / INRY - MOMZ DY / INRZ ; contraintes SMXX SMYY SMXY (ou déformations) des "
         "coques dans leur repère, du côté de la normale ('SUPE'), au milieu ('MOYE', par défaut) "
         "ou de l'autre côté ('INFE').",
         syntax="CHAM2 = CALP MODL1 SIG1 CAR1 ('SUPE' | 'MOYE' | 'INFE') ;",

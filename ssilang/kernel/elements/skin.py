@@ -16,7 +16,11 @@ from ssilang.kernel.model import Zone
 
 SIDES = {"SUPE": 1.0, "MOYE": 0.0, "INFE": -1.0}
 """Side of a shell: towards its normal, in the middle, away from it."""
-_SKIN_NAMES = {"11": "SS", "22": "TT", "12": "ST", "ZZ": "ZZ"}
+_SKIN_NAMES = {
+    "N11": "SMXX", "N22": "SMYY", "N12": "SMXY", "NZZ": "SMZZ",
+    "EPSS": "EPXX", "EPTT": "EPYY", "GAST": "GAXY",
+}  # fmt: skip
+"""Components of a solid, x and y being the axes of the shell's own frame."""
 
 
 def is_shell(zone: Zone) -> bool:
@@ -31,7 +35,7 @@ def shell_skin(
 
     Returns
     -------
-    components : SMSS SMTT SMST, or EPSS EPTT GAST
+    components : SMXX SMYY SMXY, or EPXX EPYY GAXY
     support : where they stand
     """
     family, parameters = family_of(zone), zone_field(zone, material)
@@ -44,8 +48,7 @@ def shell_skin(
     h = parameters.at("EPAI", support)[:, None]
     lever = SIDES[side] * (h / 2 if strains else 6 / h**2)
     skin = (membrane if strains else membrane / h) + lever * bending
-    labels = names[:half] if strains else tuple("SM" + _SKIN_NAMES[n[1:]] for n in names[:half])
-    return {label: skin[:, i] for i, label in enumerate(labels)}, support
+    return {_SKIN_NAMES.get(n, n): skin[:, i] for i, n in enumerate(names[:half])}, support
 
 
 def shell_tensor(
@@ -57,7 +60,7 @@ def shell_tensor(
     T = np.zeros((*rows[0].shape, 3, 3))
     T[..., 0, 0], T[..., 1, 1] = rows[0], rows[1]
     if len(rows) > 2:
-        shear = rows[2] / 2 if "GAST" in parts else rows[2]
+        shear = rows[2] / 2 if "GAXY" in parts else rows[2]
         T[..., 0, 1] = T[..., 1, 0] = shear
     return T, support
 

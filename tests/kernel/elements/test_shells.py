@@ -270,8 +270,8 @@ def test_skin_stresses_of_a_bent_and_pulled_plate():
     mat = material(zone, EPAI=0.2)
     for side, sign in (("SUPE", 1), ("MOYE", 0), ("INFE", -1)):
         parts, _ = shell_skin(zone, stress, mat, side)
-        assert parts["SMSS"][0, 0] == pytest.approx(3 / 0.2 + sign * 6 * 2 / 0.04)
-        assert parts["SMST"][0, 0] == pytest.approx(0.5 / 0.2 + sign * 6 * 0.25 / 0.04)
+        assert parts["SMXX"][0, 0] == pytest.approx(3 / 0.2 + sign * 6 * 2 / 0.04)
+        assert parts["SMXY"][0, 0] == pytest.approx(0.5 / 0.2 + sign * 6 * 0.25 / 0.04)
         T, _ = shell_tensor(zone, stress, mat, side)
         assert T[0, 0, 1, 1] == pytest.approx(1 / 0.2 - sign * 6 / 0.04)
     equivalent, _ = shell_equivalent(zone, stress, mat)
@@ -279,4 +279,4 @@ def test_skin_stresses_of_a_bent_and_pulled_plate():
     assert equivalent[0, 0] == pytest.approx(np.hypot(N / 0.2, 4 * M / 0.04))
     strains = {"EPSS": 1e-3, "EPTT": 0.0, "GAST": 2e-4, "RTSS": 1e-2, "RTTT": 0.0, "RTST": 0.0}
     bent = CellField((material(zone, **strains).blocks[0],))
-    assert shell_skin(zone, bent, mat, "SUPE")[0]["EPSS"][0, 0] == pytest.approx(2e-3)
+    assert shell_skin(zone, bent, mat, "SUPE")[0]["EPXX"][0, 0] == pytest.approx(2e-3)
