@@ -303,3 +303,24 @@ def test_body_at_rest_on_a_relation_has_no_acceleration(found):
     """
     )
     assert np.abs(found(text, "A").values).max() < 1e-9
+
+
+def test_mesh_split_along_a_surface_opens_there_alone(found):
+    text = """
+    OPTI DIME 3 ELEM CUB8 ;
+    B = (DROI 2 (0. 0. 0.) (1. 0. 0.)) TRAN 2 (0. 1. 0.) ;
+    S = B VOLU 'TRAN' 2 (0. 0. -1.) ; V = B VOLU 'TRAN' 2 (0. 0. 1.) ;
+    V2 B2 = PLUS V B (0. 0. 0.) ; J = LIAI B2 B ;
+    N = (NBNO (S ET V2)) - (NBNO (S ET V)) - (NBNO B) ;
+    MS = MODE (S ET V2) 'MECANIQUE' 'ELASTIQUE' ; MJ = MODE J 'MECANIQUE' 'ELASTIQUE' 'JOI4' ;
+    AS = MATE MS 'YOUN' 1.E9 'NU' 0. ; AJ = MATE MJ 'KN' 2.E9 'KS' 2.E9 ;
+    F = V2 FACE 2 ; G = S FACE 2 ; C = BLOQ 'UX' 'UY' (S ET V2) ; C = C ET (BLOQ 'UZ' G) ;
+    D = BLOQ 'UZ' F ; K = (RIGI MS AS) ET (RIGI MJ AJ) ET C ET D ;
+    U = RESO K (DEPI D 1.E-3) ; O = EXCO 'DRN' (EPSI MJ U) ; O1 = MINI O ; O2 = MAXI O ;
+    """
+    # two blocks of 1 m and a joint in series: 1/1e9 + 1/2e9 + 1/1e9
+    added, least, largest = found(text, "N", "O1", "O2")
+    assert added == 0
+    expected = 1e-3 * (1 / 2e9) / (2 / 1e9 + 1 / 2e9)
+    assert least == pytest.approx(expected, rel=1e-10)
+    assert largest == pytest.approx(expected, rel=1e-10)
