@@ -262,6 +262,13 @@ def integrate_reduced(
         history = integrate(problem, observers, progress)
         history.reduction = Reduction(refused=str(reason), prepared=spent)
         return history
+    except BaseException:
+        _close(observers)
+        raise
+    _close(observers)
+    return history
+
+
+def _close(observers: Sequence[Observer]) -> None:
     for observer in observers:
         observer.close()
-    return history
