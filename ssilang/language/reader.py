@@ -78,6 +78,7 @@ class _Assembly:
         self.items: list[tree.Item] = []
         self.targets: tuple[tree.Item, ...] | None = None
         self.outer: list[tuple[list[tree.Item], str, int]] = []  # of open parentheses
+        self.sign = 0  # where the % of an own attribute stands
         self.joint = ""  # what ends just before: '.', '%' or 'own'
         self.steps: dict[str, _Step] = {
             "WORD": partial(self._leaf, name_of),
@@ -113,7 +114,8 @@ class _Assembly:
         if not isinstance(item, tree.Name):
             raise Unsound
         base_of = None if joint == "own" else self.items.pop()
-        span = base_of.span.to(item.span) if base_of else item.span
+        start = base_of.span.start if base_of else self.sign
+        span = Span(self.source, start, item.span.end)
         self.items.append(tree.Attribute(base_of, item.spelling.upper(), span))
 
     def _symbol(self, text: str, start: int, end: int) -> None:
@@ -151,7 +153,7 @@ class _Assembly:
 
     def _own(self, text: str, start: int, end: int) -> None:
         self._free()
-        self.joint = "own"
+        self.joint, self.sign = "own", start
 
     def _equal(self, text: str, start: int, end: int) -> None:
         self._free()

@@ -83,6 +83,8 @@ def _steps(call: Call, start: Any, kinds: tuple[str, ...]) -> list[Any]:
     more: list[Any] = []
     if _star(call):
         more = _repeated(call, end, kinds)
+        if not more:
+            raise call.bad("steps need an end: it is repeated at least once, not 0 times")
         end, more = more[0], more[1:]
     if step and (end - start) / step > 0:
         check_length(0 if ratio else (end - start) / step)

@@ -64,6 +64,10 @@ def test_sine_of_a_list_has_frequency_phase_and_amplitude():
     np.testing.assert_allclose(made, 3 * np.sin(2 * np.pi * 2 * t + np.pi / 6), atol=1e-13)
 
 
+def test_end_of_steps_is_repeated_at_least_once(refused):
+    assert "need an end" in refused("L = PROG 0. PAS 0.5 0 * 7. ;")
+
+
 def test_step_that_does_not_divide_is_refused_for_integers(refused):
     assert "steps of 2" in refused("L = LECT 1 PAS 2 6 ;")
 
