@@ -18,8 +18,8 @@ SPOILT = [
     ("basics/lifted_beam.ssi", "'INRZ' INE0", "'INRZ' (1.05 * INE0)"),
     (
         "basics/beam_frequencies.ssi",
-        "'TORS' 5.E-6",
-        "'TORS' 5.E-6 'SECY' (0.1 * SEC0) 'SECZ' (0.1 * SEC0)",
+        "'TORS' 1.E-8",
+        "'TORS' 1.E-8 'SECY' (0.1 * SEC0) 'SECZ' (0.1 * SEC0)",
     ),
     ("basics/bar_frequencies.ssi", "'RHO' RHO0", "'RHO' (1.01 * RHO0)"),
     ("club_cast3m_2014/club_a_methods.ssi", "INR0 'INRZ' INR0", "INR0 'INRZ' (1.02 * INR0)"),
