@@ -27,8 +27,7 @@ _CHECKS = (
         "quadrangulaires. Éléments et noeuds trouvés sont nommés MESH1 MESH2 ..., NODE1 ...",
         syntax="VERM GEO1 ;",
         examples=(
-            "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (1. 0.) ; M = L ET (INVE L) ; VERM M ; "
-            "MESS (NBEL MESH1) ;",
+            "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (1. 0.) ; M = L ET (INVE L) ; VERM M ;",
         ),
     ),
 )
