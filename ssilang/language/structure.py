@@ -86,17 +86,20 @@ def structure(statements: list[Statement], source: Source) -> Script:
         assert left.statement is not None
         if left.unnamed:
             continue
-        errors.append(
-            SsiError(
-                "unclosed-block",
-                left.statement.span,
-                word=left.statement.first_word,
-                missing=_OPENS[left.kind] + (f" {left.name}" if left.kind == "REPE" else ""),
-            )
-        )
+        errors.append(_unclosed(left))
     if errors:
         raise SeveralErrors(errors)
     return Script(tuple(stack[0].body), Span(source, 0, len(source.text)))
+
+
+def _unclosed(left: _Open) -> SsiError:
+    assert left.statement is not None
+    return SsiError(
+        "unclosed-block",
+        left.statement.span,
+        word=left.statement.first_word,
+        missing=_OPENS[left.kind] + (f" {left.name}" if left.kind == "REPE" else ""),
+    )
 
 
 def _without_strays(statement: Statement) -> Statement:
@@ -205,10 +208,12 @@ def _debp(stack: list[_Open], statement: Statement) -> None:
 
 def _finp(stack: list[_Open], statement: Statement) -> None:
     kind = "DEBP" if control_word(statement) == "FINP" else "DEBM"
-    top = stack[-1]
-    if top.kind != kind or top.statement is None:
+    at = next((i for i in reversed(range(len(stack))) if stack[i].kind == kind), 0)
+    top = stack[at]
+    if top.statement is None:
         raise _stray(stack, statement, kind)
-    stack.pop()
+    inner = stack[at + 1 :]  # what the procedure's end finds open was never closed
+    del stack[at:]
     stack[-1].body.append(
         Definition(
             top.name,
@@ -219,6 +224,8 @@ def _finp(stack: list[_Open], statement: Statement) -> None:
             top.statement.span.to(statement.span),
         )
     )
+    if inner and not inner[0].unnamed:
+        raise _unclosed(inner[0])
 
 
 def _parameters(items: tuple[Item, ...]) -> tuple[Parameter, ...]:
