@@ -161,6 +161,11 @@ def _older_times(entries: Entries) -> tuple[FloatArray, NDArray[np.bool_]]:
 def _inputs(entries: Entries, times: FloatArray) -> Inputs:
     from ssilang.kernel.dynamics.problem import Inputs
 
+    if entries.flag("ECON"):
+        entries.warn(
+            "'ECON' asks to keep results on disk: they stay in memory",
+            "PAS_SAUVES and MAILLAGE_SAUVE make them smaller",
+        )
     if entries.flag("SAUV"):
         entries.warn(
             "'SAUV' asks to write each step to the file of OPTI SAUV: results stay in memory",

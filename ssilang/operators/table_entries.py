@@ -13,6 +13,7 @@ from ssilang.kernel.dynamics.plan import every, nearest
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.language.call import Call
 from ssilang.language.errors import SsiError
+from ssilang.language.source import Span
 from ssilang.language.values import Annule, Table, type_of
 
 
@@ -137,9 +138,20 @@ class Entries:
         """An error of the procedure."""
         return self.call.bad(f"{self.procedure}: {message}", hint=hint)
 
+    @property
+    def place(self) -> Span:
+        """Where the script calls the procedure: its own line, not one of the library."""
+        session, place = self.call.session, self.call.span
+        frame = session.frame
+        while frame.pending is not None and frame.procedure in session.library.standard_names:
+            place = frame.pending.span
+            assert frame.caller is not None
+            frame = frame.caller
+        return place
+
     def warn(self, message: str, hint: str = "") -> None:
         """A warning of the procedure."""
         self.call.session.warn(
-            "bad-value", self.call.span, operator=self.procedure, message=message, hint=hint,
+            "bad-value", self.place, operator=self.procedure, message=message, hint=hint,
             severity="warning",
         )  # fmt: skip

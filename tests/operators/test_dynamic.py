@@ -245,3 +245,10 @@ def test_reduction_of_a_small_problem_runs_it_whole(tmp_path):
 def test_reduction_goes_with_one_method(tmp_path):
     both = "T1 . 'REDUCTION' = 1.E-6 ; T1 . 'NEWTON_COMPLET' = VRAI ; T2 = DYNAMIC T1 ;"
     assert "NEWTON_COMPLET" in fails(OSCILLATOR + both, tmp_path)
+
+
+def test_a_warning_of_the_library_stands_at_the_scripts_own_line(tmp_path):
+    result = run(OSCILLATOR + "T1 . 'ECON' = VRAI ;\nT2 = DYNAMIC T1 ;", tmp_path)
+    warning = next(w for w in result.session.warnings if "'ECON'" in w.data["message"])
+    assert warning.span.source.name == "script"
+    assert warning.span.text == "DYNAMIC"
