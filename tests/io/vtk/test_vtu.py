@@ -75,7 +75,10 @@ def test_quadratic_middles_follow_vtk_edges(
 
 
 def test_every_cell_type_of_the_kernel_can_be_written() -> None:
-    assert set(CELL_TYPES) <= set(ORDERS)
+    # cells of any number of nodes, made as they are asked for, carry matrices and have no shape
+    shapes = {name for name, kind in CELL_TYPES.items() if kind.dimension or name == "POI1"}
+    assert len(shapes) > 20
+    assert shapes <= set(ORDERS)
 
 
 def square_with_fields() -> tuple[Mesh, NodeField, CellField]:
