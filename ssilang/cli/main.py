@@ -96,8 +96,8 @@ def _run_arguments(parser: argparse.ArgumentParser) -> None:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Entry point; returns the exit code (0 fine, 1 the script failed, 2 wrong usage)."""
     words = list(sys.argv[1:] if arguments is None else arguments)
-    if words and not words[0].startswith("-") and words[0] not in _COMMANDS:
-        words.insert(0, "run")
+    if words and words[0] not in (*_COMMANDS, "-h", "--help", "--version"):
+        words.insert(0, "run")  # also for options before the file
     if words == ["-"]:
         words.insert(0, "run")
     if not words:

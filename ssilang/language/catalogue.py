@@ -230,7 +230,7 @@ MESSAGES: dict[str, Message] = {
         "the index of a table must be one object", "l'indice d'une table doit être un objet"
     ),
     "not-a-table": Message(
-        "{name} is a {found}, not a TABLE",
+        "{name} is {a_found}, not a TABLE",
         "{name} est de type {found}, pas TABLE",
         "only a TABLE (made by TABL) and an OBJET have indices; was {name} given another value?",
         "seuls une TABLE (créée par TABL) et un OBJET ont des indices ; {name} a-t-il changé ?",

@@ -134,6 +134,8 @@ def _derived(error: SsiError, language: str, names: Iterable[str]) -> dict[str, 
         made["found_word"] = {"en": ", found ", "fr": ", trouvé "}[language] + str(data["found"])
     if error.code == "wrong-argument":
         made["found_text"] = _found(data, language)
+    if error.code == "not-a-table":
+        made["a_found"] = _article(str(data["found"]), language)
     if error.code == "excess" and data.get("name"):
         made["named"] = f" ({data['name']})"
     if data.get("wanted"):
