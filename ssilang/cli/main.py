@@ -98,8 +98,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
     words = list(sys.argv[1:] if arguments is None else arguments)
     if words and words[0] not in (*_COMMANDS, "-h", "--help", "--version"):
         words.insert(0, "run")  # also for options before the file
-    if words == ["-"]:
-        words.insert(0, "run")
     if not words:
         words = ["repl"] if sys.stdin.isatty() else ["run", "-"]
     options = _parser().parse_args(words)

@@ -147,6 +147,6 @@ def test_options_may_stand_before_the_file(tmp_path, capsys):
     from ssilang.cli.main import main
 
     path = tmp_path / "x.ssi"
-    path.write_text("A = PROGG 1. ;\n", encoding="utf-8")
+    path.write_text("A = PRGO 1. ;\n", encoding="utf-8")
     assert main(["--lang", "fr", "--out", str(tmp_path / "o"), str(path)]) == 1
     assert "erreur" in capsys.readouterr().err
