@@ -60,7 +60,7 @@ def solve_dense(A: FloatArray, b: FloatArray) -> bool:
 
 
 @compiled
-def _largest(v: FloatArray) -> float:
+def largest(v: FloatArray) -> float:
     top = 0.0
     for i in range(v.shape[0]):
         top = max(top, abs(v[i]))
@@ -116,7 +116,7 @@ def _newton_matrix(S: FloatArray, K: FloatArray, R: FloatArray, c: float, A: Flo
 
 
 @compiled
-def _release(state: FloatArray, new: FloatArray) -> None:
+def release_shear(state: FloatArray, new: FloatArray) -> None:
     """End of an iteration: no shear is held any more."""
     for i in range(state.shape[0]):
         state[i, HELD] = 0.0
@@ -124,7 +124,7 @@ def _release(state: FloatArray, new: FloatArray) -> None:
 
 
 @compiled
-def _hold_shear(codes: IntArray, p: FloatArray, t: FloatArray, state: FloatArray) -> bool:
+def hold_shear(codes: IntArray, p: FloatArray, t: FloatArray, state: FloatArray) -> bool:
     """Hold the shear of points that lose it at once on opening; True if there are any.
 
     `t` are the tractions at the start of the step.
@@ -170,26 +170,26 @@ def iterate_interface(
         delta[i] = delta0[i] + y[i]
     interface_response(pairs, B, weights, codes, p, delta, state, w, t, new, D, f)
     size = _residual(S, R, c, y, y0, f, f0, h, r)
-    scale = max(_largest(y0), _largest(delta0), 1e-300)
+    scale = max(largest(y0), largest(delta0), 1e-300)
     for turn in range(1, MOST_TURNS + 1):
-        scale = max(scale, _largest(y))
+        scale = max(scale, largest(y))
         if turn == HOLDING_TURN:
             interface_response(pairs, B, weights, codes, p, delta0, state, w, t, new, D, f)
-            if _hold_shear(codes, p, t, state):
+            if hold_shear(codes, p, t, state):
                 for i in range(n):
                     y[i] = y0[i]
                     delta[i] = delta0[i] + y[i]
             interface_response(pairs, B, weights, codes, p, delta, state, w, t, new, D, f)
             size = _residual(S, R, c, y, y0, f, f0, h, r)
         if size <= TOLERANCE * scale:
-            _release(state, new)
+            release_shear(state, new)
             return turn, size / scale
         interface_stiffness(pairs, B, weights, D, K)
         _newton_matrix(S, K, R, c, A)
         for i in range(n):
             dy[i] = -r[i]
         if not solve_dense(A, dy):
-            _release(state, new)
+            release_shear(state, new)
             return 0, size / scale
         before, length = size, 1.0
         for halving in range(12):
@@ -203,10 +203,10 @@ def iterate_interface(
             for i in range(n):
                 y[i] -= length * dy[i]
             length *= 0.5
-        if length * _largest(dy) <= 1e-14 * scale and size <= ACCEPTED * scale:
-            _release(state, new)
+        if length * largest(dy) <= 1e-14 * scale and size <= ACCEPTED * scale:
+            release_shear(state, new)
             return turn, size / scale
-    _release(state, new)
+    release_shear(state, new)
     return -MOST_TURNS, size / scale
 
 

@@ -15,9 +15,9 @@ from ssilang.kernel.joints.condensed import (
     MOST_TURNS,
     PLAIN_TURNS,
     TOLERANCE,
-    _hold_shear,
-    _largest,
-    _release,
+    hold_shear,
+    largest,
+    release_shear,
 )
 from ssilang.kernel.joints.response import interface_response, interface_stiffness
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
@@ -154,22 +154,22 @@ def iterate_cached(
         delta[i] = delta0[i] + y[i]
     interface_response(pairs, B, weights, codes, p, delta, state, w, t, new, D, f)
     size = _residual(S, c, y, y0, f, f0, h, r)
-    scale = max(_largest(y0), _largest(delta0), 1e-300)
+    scale = max(largest(y0), largest(delta0), 1e-300)
     for turn in range(1, MOST_TURNS + 1):
-        scale = max(scale, _largest(y))
+        scale = max(scale, largest(y))
         if turn == HOLDING_TURN:
             interface_response(pairs, B, weights, codes, p, delta0, state, w, t, new, D, f)
-            if _hold_shear(codes, p, t, state):
+            if hold_shear(codes, p, t, state):
                 for i in range(n):
                     y[i] = y0[i]
                     delta[i] = delta0[i] + y[i]
             interface_response(pairs, B, weights, codes, p, delta, state, w, t, new, D, f)
             size = _residual(S, c, y, y0, f, f0, h, r)
         if size <= TOLERANCE * scale:
-            _release(state, new)
+            release_shear(state, new)
             return turn, size / scale
         if not _factorise(pairs, B, weights, S, c, D, K, A, known, pivots):
-            _release(state, new)
+            release_shear(state, new)
             return 0, size / scale
         for i in range(n):
             dy[i] = -r[i]
@@ -186,8 +186,8 @@ def iterate_cached(
             for i in range(n):
                 y[i] -= length * dy[i]
             length *= 0.5
-        if length * _largest(dy) <= 1e-14 * scale and size <= ACCEPTED * scale:
-            _release(state, new)
+        if length * largest(dy) <= 1e-14 * scale and size <= ACCEPTED * scale:
+            release_shear(state, new)
             return turn, size / scale
-    _release(state, new)
+    release_shear(state, new)
     return -MOST_TURNS, size / scale

@@ -3,22 +3,21 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ssilang.kernel.joints.columns import CLOSED_SHEAR, FROT, FU, HELD, OPEN_SHEAR, SHEAR
 from ssilang.kernel.joints.condensed import (
     ACCEPTED,
     HOLDING_TURN,
     MOST_TURNS,
     PLAIN_TURNS,
     TOLERANCE,
+    hold_shear,
+    release_shear,
     solve_interface,
 )
 from ssilang.kernel.joints.interface import Interface
 from ssilang.kernel.joints.response import interface_response, interface_stiffness
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
-BoolArray = NDArray[np.bool_]
 LARGE = 64
 """Unknowns from which LAPACK beats plain compiled loops."""
 
@@ -85,7 +84,7 @@ def solve_large_interface(
             scale = max(scale, float(np.abs(y).max()))
             if turn == HOLDING_TURN:
                 interface_response(pairs, B, weights, codes, p, delta0, state, w, t, new, D, f)
-                if _hold(codes, p, t[:, -1] < 0.0, state):
+                if hold_shear(codes, p, t, state):
                     y[:] = y0
                 rest, size = respond()
             if size <= TOLERANCE * scale:
@@ -106,13 +105,4 @@ def solve_large_interface(
                 return turn, size / scale
         return -MOST_TURNS, size / scale
     finally:
-        state[:, HELD] = 0.0
-        new[:, HELD] = 0.0
-
-
-def _hold(codes: IntArray, p: FloatArray, was_closed: BoolArray, state: FloatArray) -> bool:
-    """Hold the shear of points that lose it at once on opening; True if there are any."""
-    jumping = (codes == 1) & (p[:, FROT] < 0.0) & (p[:, SHEAR] != 1.0) & (p[:, FU] == 0.0)
-    held = np.where(was_closed, CLOSED_SHEAR, OPEN_SHEAR)
-    state[jumping, HELD] = held[jumping]
-    return bool(jumping.any())
+        release_shear(state, new)
