@@ -5,6 +5,7 @@ import pytest
 
 from ssilang.kernel.joints.columns import HELD, N_STATE
 from ssilang.kernel.joints.condensed import HOLDING_TURN, solve_interface
+from ssilang.kernel.joints.condensed_large import solve_large_interface
 
 ONE_POINT = {
     "pairs": np.zeros((1, 1), dtype=np.int64),
@@ -16,19 +17,20 @@ ONE_POINT = {
 }
 
 
-def solve(S, delta0, f0, state, y0):
+def solve(solver, S, delta0, f0, state, y0):
     """One step of a single point; turns, increment, forces, new state."""
     y, h, f = y0.copy(), np.zeros(2), np.zeros(2)
     w, t, D = np.zeros((1, 2)), np.zeros((1, 2)), np.zeros((1, 2, 2))
     new = np.zeros_like(state)
-    turns, _ = solve_interface(
+    turns, _ = solver(
         *ONE_POINT.values(), S, np.zeros((2, 2)), 1.0,
         delta0, f0, state, y0, y, w, t, new, D, f, h,
     )  # fmt: skip
     return turns, y, f, new
 
 
-def test_a_step_with_no_consistent_shear_keeps_that_of_its_start():
+@pytest.mark.parametrize("solver", [solve_interface, solve_large_interface])
+def test_a_step_with_no_consistent_shear_keeps_that_of_its_start(solver):
     """Closed, the shear opens the joint; open, nothing does: the law alone has no solution.
 
     With S = [[1, s], [s, 1]], KN = KS = 1, a start closed by 1 and y0 = (push, 1.9): open, the
@@ -40,7 +42,7 @@ def test_a_step_with_no_consistent_shear_keeps_that_of_its_start():
     found = []
     for push in np.linspace(-6.0, 6.0, 241):
         y0 = np.array([push, 1.9])
-        turns, y, f, new = solve(S, delta0, f0, state.copy(), y0)
+        turns, y, f, new = solve(solver, S, delta0, f0, state.copy(), y0)
         assert turns > 0
         assert y + S @ (f - f0) == pytest.approx(y0, abs=1e-10)
         assert new[0, HELD] == 0.0
