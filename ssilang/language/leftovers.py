@@ -31,7 +31,7 @@ def leftover_error(left: Sequence[Operand], later: Mapping[str, Span]) -> SsiErr
         return None
     words = [o for o in left if isinstance(o.value, Mot) and not o.name and not o.result]
     unread = next((o for o in words if find_operator(str(o.value)) is not None), None)
-    if unread is not None:
+    if unread is not None and not (_quoted(unread) and not _quoted(words[0])):
         return _unread_operator(unread, left)
     hidden = next((o for o in left if o.name and find_operator(o.name) is not None), None)
     if hidden is not None and len(left) > 1:
@@ -41,6 +41,11 @@ def leftover_error(left: Sequence[Operand], later: Mapping[str, Span]) -> SsiErr
     if words:
         return _unknown_word(words[0], later)
     return _excess(left[0])
+
+
+def _quoted(operand: Operand) -> bool:
+    """Whether a word stands in quotes: behind a bare one that nobody knows it is its keyword."""
+    return operand.span.text[:1] == "'"
 
 
 def _unread_operator(operand: Operand, left: Sequence[Operand]) -> SsiError:
