@@ -26,7 +26,7 @@ _SIGNS = st.sampled_from(["+", "-", "*", "/", "**", "<", ">EG"])
 
 def parse_or_explain(text: str) -> None:
     """Parse; every error must have a place and render in both languages, in time."""
-    start = time.perf_counter()
+    start = time.process_time()
     try:
         script = parse(Source("test", text))
     except SeveralErrors as several:
@@ -36,7 +36,7 @@ def parse_or_explain(text: str) -> None:
         again = parse(Source("printed", print_script(script)))
         assert same_tree(script.body, again.body)
     assert all(e.span is not None and render(e, "en") and render(e, "fr") for e in problems)
-    assert time.perf_counter() - start < _SECONDS
+    assert time.process_time() - start < _SECONDS
 
 
 @_QUICK
