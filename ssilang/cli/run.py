@@ -135,7 +135,7 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
 def _close_files(session: Session, errors: list[SsiError]) -> None:
     """Finish the files of the run, also of one that failed; what cannot be written is an error."""
     from ssilang.io.errors import OutputError
-    from ssilang.operators.files import run_output
+    from ssilang.operators.files.outputs import run_output
 
     try:
         run_output(session).close()
@@ -147,7 +147,7 @@ def _summarise(result: RunResult, source: Source, err: TextIO) -> None:
     """Write summary.json; tell a person at a terminal where the files are."""
     from ssilang.cli.summary import write_summary
     from ssilang.io.errors import OutputError
-    from ssilang.operators.files import run_output
+    from ssilang.operators.files.outputs import run_output
 
     output = run_output(result.session)
     try:

@@ -10,5 +10,5 @@ import ssilang.operators as package
 
 def load_operators() -> None:
     """Load all operators; modules import heavy libraries only inside their functions."""
-    for module in pkgutil.iter_modules(package.__path__):
-        importlib.import_module(f"{package.__name__}.{module.name}")
+    for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
+        importlib.import_module(module.name)

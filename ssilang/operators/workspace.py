@@ -38,7 +38,7 @@ class Workspace:
     options : dict
         Every other option of OPTI, as set, for VALE.
     output : RunOutput or None
-        Files of the run; made when first asked for (`ssilang.operators.files.run_output`).
+        Files of the run; made when first asked for (`ssilang.operators.files.outputs.run_output`).
     """
 
     nodes: NodeTable = field(default_factory=NodeTable)

@@ -218,7 +218,7 @@ def test_value_outside_of_the_support_is_zero_but_its_component_must_exist(found
 
 def test_negative_value_has_no_fractional_power():
     field = NodeField.of(TABLE, np.array([0]), {"T": np.array([-1.0])})
-    from ssilang.operators.field_signs import _node_number
+    from ssilang.operators.fields.signs import _node_number
 
     with pytest.raises(FieldError):
         _node_number("**", field, 0.5)

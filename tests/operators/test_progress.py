@@ -2,8 +2,8 @@
 
 import io
 
-from ssilang.operators import progress
-from ssilang.operators.progress import ProgressLine
+from ssilang.operators.session import progress
+from ssilang.operators.session.progress import ProgressLine
 
 
 class Terminal(io.StringIO):

@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ssilang.kernel.errors import KernelError
-from ssilang.operators.fortran_format import formatted
+from ssilang.operators.texts.fortran_format import formatted
 
 
 @pytest.mark.parametrize(

@@ -26,7 +26,7 @@ from ssilang.language.registry import SCALAR_RULES, Operator, find_operator
 from ssilang.language.session import Session
 from ssilang.language.source import Span
 from ssilang.language.values import Mot, Procedure, Texte
-from ssilang.operators.arithmetic import RULES, SIGNS
+from ssilang.operators.numbers.arithmetic import RULES, SIGNS
 
 Report = Callable[[SsiError], None]
 

@@ -86,7 +86,7 @@ def _run(tasks: list[Task], options: SweepOptions) -> Iterator[dict[str, Any]]:
 
 def _progress(rows: Iterator[dict[str, Any]], total: int, err: TextIO) -> Iterator[dict[str, Any]]:
     """The same rows, with a line of progress at a terminal."""
-    from ssilang.operators.progress import ProgressLine
+    from ssilang.operators.session.progress import ProgressLine
 
     line = ProgressLine("runs", err)
     for done, row in enumerate(rows, start=1):

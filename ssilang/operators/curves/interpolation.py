@@ -1,0 +1,200 @@
+"""IPOL INTG PRIM on curves: interpolation, integrals, primitives."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Any
+
+import numpy as np
+
+from ssilang.kernel.cloud import Cloud
+from ssilang.kernel.curve import Curve
+from ssilang.kernel.curve_algebra import crossings, integral, interpolated, primitive, spline
+from ssilang.kernel.fields import cell_algebra, node_algebra
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.mesh.mesh import Point
+from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.language.call import Call
+from ssilang.language.registry import Help, operator
+from ssilang.language.values import ListReel, Table
+from ssilang.operators.curves.items import numbered
+from ssilang.operators.dispatch import INTG
+from ssilang.operators.fields.cloud_functions import interpolate_cloud
+from ssilang.operators.numbers.arithmetic import rule
+from ssilang.operators.numbers.functions import mapped
+from ssilang.operators.workspace import workspace
+
+
+@operator(
+    "IPOL",
+    family="curves",
+    help=Help(
+        en="Value of a function given by a curve or two lists, at a number, at each item of a "
+        "list or value of a field: linear, or by a cubic spline ('SPLI', with slopes at the ends "
+        "'DGAU' and 'DDRO'); constant outside. 'TOUS': all ordinates of a curve that goes back. "
+        "Field between those of a table RESULTAT. Point at a distance along a line, given by its "
+        "field of curvilinear abscissas.",
+        fr="Valeur d'une fonction donnée par une évolution ou deux listes, en un nombre, en chaque "
+        "élément d'une liste ou valeur d'un champ : linéaire, ou par spline cubique ('SPLI', "
+        "pentes aux bords 'DGAU' et 'DDRO') ; constante au-delà. 'TOUS' : toutes les ordonnées "
+        "d'une courbe multivaluée. Champ entre ceux d'une table RESULTAT. Point à une distance le "
+        "long d'une ligne, donnée par son champ d'abscisses curvilignes.",
+        syntax="OBJ2 = IPOL OBJ1 EVOL1 | LREE1 LREE2 ('SPLI' ('DGAU' X1) ('DDRO' X2) | 'TOUS') ;\n"
+        "CHAM1 = IPOL TAB1 X1 ; POIN1 = IPOL CHPO1 X1 ;\n"
+        "CHP2 = IPOL NUAG1 CHP1 ('GAUSS' | 'RATIO' | 'PID' (P1) ('ELIM' X1) | 'GRILL') ;",
+        examples=(
+            "LIST (IPOL 1.5 (PROG 0. 1. 2.) (PROG 0. 10. 30.)) ;",
+            "LIST (IPOL (PROG 0.5 5.) (EVOL 'MANU' (PROG 0. 1.) (PROG 2. 4.))) ;",
+        ),
+    ),
+    reads_itself=True,
+)
+def ipol(call: Call) -> Any:
+    """Interpolate."""
+    table = call.read("TABLE")
+    if table is not None:
+        return _in_table(call, table.value, call.required("FLOTTANT"))
+    cloud = call.read("NUAGE")
+    if cloud is not None:
+        return interpolate_cloud(call, cloud.value, call.required("CHPOINT", "MCHAML"))
+    operand = call.read("FLOTTANT", "LISTREEL", "CHPOINT", "MCHAML")
+    if operand is None:
+        raise call.missing(("FLOTTANT", "LISTREEL", "CHPOINT", "MCHAML"))
+    value = operand.value
+    curve = call.read("EVOLUTIO")
+    if curve is not None:
+        part = numbered(call, curve.value, 1)
+        x, y = part.abscissas, part.ordinates
+    elif isinstance(value, NodeField) and (distance := call.read("FLOTTANT")) is not None:
+        return _on_line(call, value, distance.value)
+    else:
+        x, y = call.required("LISTREEL").values, call.required("LISTREEL").values
+    return _interpolate(call, value, x, y)
+
+
+def _interpolate(call: Call, value: Any, x: FloatArray, y: FloatArray) -> Any:
+    slopes: dict[str, float] = {}
+    word = call.keyword(("SPLI", "TOUS"))
+    while (said := call.keyword(("DGAU", "DDRO"))) is not None:
+        slopes[said] = call.required("FLOTTANT", after=call.keyword_end)
+    if word == "TOUS":
+        if not isinstance(value, float):
+            raise call.bad("'TOUS' looks one number up", value)
+        return ListReel(crossings(x, y, value))
+    if word == "SPLI":
+        ends = slopes.get("DGAU"), slopes.get("DDRO")
+        return mapped(lambda at: spline(x, y, at, *ends), value)
+    return mapped(lambda at: interpolated(x, y, at), value)
+
+
+def _in_table(call: Call, table: Table, time: float) -> Any:
+    pairs = sorted((i, v) for i, v in table.items() if isinstance(i, float))
+    if not pairs:
+        raise call.bad("the table has no FLOTTANT index", table)
+    times = [t for t, _ in pairs]
+    if not times[0] <= time <= times[-1]:
+        raise call.bad(f"{time:g} is outside of the table, {times[0]:g} to {times[-1]:g}", time)
+    k = min(int(np.searchsorted(times, time, side="right")), len(times) - 1)
+    (t0, a), (t1, b) = pairs[k - 1] if k else pairs[0], pairs[k]
+    share = 0.0 if t1 == t0 else (time - t0) / (t1 - t0)
+    algebra: Any = node_algebra if isinstance(a, NodeField) else cell_algebra
+    first = algebra.applied(a, lambda v: v * (1.0 - share))
+    return algebra.added(first, b, share)
+
+
+def _on_line(call: Call, field: NodeField, distance: float) -> Point:
+    if len(field.components) != 1:
+        raise call.bad("a field of curvilinear abscissas has one component", field)
+    (part,) = field.components.values()
+    order = np.argsort(part.values, kind="stable")
+    x = field.table.coordinates[part.nodes[order]]
+    s = part.values[order]
+    if not s[0] <= distance <= s[-1]:
+        raise call.bad(f"{distance:g} is outside of the line, {s[0]:g} to {s[-1]:g}", distance)
+    ws = workspace(call.session)
+    return ws.point([float(np.interp(distance, s, x[:, i])) for i in range(ws.dimension or 3)])
+
+
+def _through(field: Any, curve: Curve) -> Any:
+    if len(curve.parts) != 1:
+        raise ValueError(f"one curve is needed, this object has {len(curve.parts)}")
+    part = curve.parts[0]
+    return mapped(lambda at: interpolated(part.abscissas, part.ordinates, at), field)
+
+
+for _kind in ("CHPOINT", "MCHAML"):
+    rule("*", _kind, "EVOLUTIO")(lambda sign, field, curve: _through(field, curve))
+    rule("*", "EVOLUTIO", _kind)(lambda sign, curve, field: _through(field, curve))
+
+
+# ---- integrals ----------------------------------------------------------------------------------
+
+
+@INTG.on(
+    "EVOLUTIO",
+    syntax="X1 | LREE1 = INTG EVOL1 ('ABS') ('BORN' X1 X2 | LREE1 LREE2) "
+    "('INDI' N1 N2 | LENT1 LENT2) ;",
+    en="Of a curve: integral by trapezes, over all or between bounds (abscissas 'BORN' or places "
+    "'INDI', one interval or lists of them); 'ABS' of the absolute value. Several curves give a "
+    "list.",
+    fr="D'une évolution : intégrale par trapèzes, en entier ou entre bornes (abscisses 'BORN' ou "
+    "rangs 'INDI', un intervalle ou des listes) ; 'ABS' de la valeur absolue. Plusieurs courbes "
+    "donnent une liste.",
+    examples=("LIST (INTG (EVOL 'MANU' (PROG 0. 1. 2.) (PROG 0. 1. 0.))) ;",),
+)
+def _integrate(call: Call, curve: Curve) -> Any:
+    absolute, word, bounds = False, "", None
+    while (said := call.keyword(("ABS", "BORN", "INDI"))) is not None:
+        if said == "ABS":
+            absolute = True
+        else:
+            word, bounds = said, _bounds(call, said)
+    results = [
+        [integral(part, low, high, absolute) for low, high in _intervals(call, part, word, bounds)]
+        for part in curve.parts
+    ]
+    if len(curve.parts) > 1 and len(results[0]) > 1:
+        return Cloud({f"IE{i}": (ListReel(row),) for i, row in enumerate(results, start=1)})
+    flat = [v for row in results for v in row]
+    one = len(curve.parts) == 1 and (bounds is None or isinstance(bounds[0], int | float))
+    return flat[0] if one else ListReel(flat)
+
+
+def _bounds(call: Call, word: str) -> tuple[Any, Any]:
+    kinds = ("FLOTTANT", "LISTREEL") if word == "BORN" else ("ENTIER", "LISTENTI")
+    return call.required(*kinds, after=call.keyword_end), call.required(*kinds)
+
+
+def _intervals(call: Call, part: Any, word: str, bounds: Any) -> list[tuple[float, float]]:
+    x = part.abscissas
+    if len(x) == 0:
+        raise call.bad("a curve is empty")
+    if bounds is None:
+        return [(float(x[0]), float(x[-1]))]
+    low, high = (np.atleast_1d(getattr(b, "values", b)) for b in bounds)
+    if len(low) != len(high):
+        raise call.bad(f"{len(low)} lower and {len(high)} upper bounds")
+    if word == "INDI":
+        both = np.concatenate((low, high))
+        if both.min() < 1 or both.max() > len(x):
+            raise call.bad(f"the curve has {len(x)} points, places go from 1 to {len(x)}")
+        low, high = x[low - 1], x[high - 1]
+    return [(float(a), float(b)) for a, b in zip(low, high, strict=True)]
+
+
+@operator(
+    "PRIM",
+    family="curves",
+    full_name="PRIMITIVE",
+    help=Help(
+        en="Primitive of curves by trapezes, zero at the first abscissa.",
+        fr="Primitive d'évolutions par trapèzes, nulle à la première abscisse.",
+        syntax="EVOL2 = PRIM EVOL1 ;",
+        examples=("LIST (PRIM (EVOL 'MANU' (PROG 0. 1. 2.) (PROG 1. 1. 1.))) ;",),
+    ),
+    reads_itself=True,
+)
+def prim(call: Call) -> Curve:
+    """Running integral."""
+    curve: Curve = call.required("EVOLUTIO")
+    return dataclasses.replace(curve, parts=tuple(primitive(p) for p in curve.parts))

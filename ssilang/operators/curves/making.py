@@ -1,0 +1,287 @@
+"""EVOL: curves from lists, along lines of nodes, in time."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ssilang.kernel.curve import Curve, CurvePart
+from ssilang.kernel.errors import KernelError
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.fields.node_algebra import component
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.mesh.lines import line_chain
+from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+from ssilang.language.call import Call
+from ssilang.language.registry import Help, operator
+from ssilang.language.values import ListChpo, ListEnti, ListMots, ListReel, Table
+from ssilang.operators.curves.words import axis_name, read_colours
+from ssilang.operators.workspace import workspace
+
+_LISTS = ("LISTREEL", "LISTENTI", "LISTMOTS")
+
+
+@operator(
+    "EVOL",
+    family="curves",
+    full_name="EVOLUTION",
+    help=Help(
+        en="Curve, or several: from two lists ('MANU'), from real and imaginary parts or modulus "
+        "and phase ('COMP'), of a component along a line of nodes ('CHPO'), in time at points "
+        "('TEMP': from a list of fields and a list of times, or a table of results).",
+        fr="Évolution à une ou plusieurs courbes : de deux listes ('MANU'), de parties réelle et "
+        "imaginaire ou module et phase ('COMP'), d'une composante le long d'une ligne de noeuds "
+        "('CHPO'), en fonction du temps en des points ('TEMP' : d'une liste de champs et d'une "
+        "liste de temps, ou d'une table de résultats).",
+        syntax="EVOL1 = EVOL (COUL) 'MANU' ('TYPE' MTYP1) ('LEGE' TIT1) (NOMABS) LIS1 "
+        "(NOMORD) LIS2 ;\n"
+        "EVOL1 = EVOL (COUL) 'CHPO' CHPO1 (COMP) GEO1 ;\n"
+        "EVOL1 = EVOL (COUL) 'TEMP' LCHP1 LREE1 | TAB1 (MOT1) (LENT1) COMP | LCOMP POIN1 "
+        "| MAIL1 ;\n"
+        "EVOL1 = EVOL (COUL) 'TEMP' TAB1 MOT1 COMP N1 N2 N3 ; (field in cells: zone, cell, point)\n"
+        "EVOL1 = EVOL (COUL) 'COMP' ('REIM' | 'MOPH') ('LEGE' TIT1 TIT2) NOMABS LREE1 (NOMOR1) "
+        "LREE2 (NOMOR2) LREE3 ;",
+        examples=(
+            "E = EVOL 'ROUG' 'MANU' 'TEMPS' (PROG 0. 1. 2.) 'DEPL' (PROG 0. 3. 1.) ; LIST E ;",
+            "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; X = COOR 1 L ; "
+            "E = EVOL 'CHPO' (X * X) 'SCAL' L ; LIST E ;",
+        ),
+    ),
+    reads_itself=True,
+)
+def evol(call: Call) -> Curve:
+    """Choose the kind of curve."""
+    colours = read_colours(call)
+    word = call.keyword(tuple(KINDS))
+    if word is None:
+        raise call.bad("what kind of curve?", hint="EVOL " + " ".join(f"'{w}'" for w in KINDS))
+    colours = colours or read_colours(call) or [workspace(call.session).colour]
+    made: Curve = KINDS[word](call, colours)
+    return made
+
+
+def _manual(call: Call, colours: list[int]) -> Curve:
+    kind, legend = "", ""
+    while (said := call.keyword(("TYPE", "LEGE"))) is not None:
+        value = str(call.required("MOT", after=call.keyword_end))
+        kind, legend = (value.strip().upper()[:4], legend) if said == "TYPE" else (kind, value)
+    x_name = axis_name(call)
+    x = call.required(*_LISTS)
+    y_name = axis_name(call)
+    y = call.required(*_LISTS)
+    if len(x) != len(y):
+        raise call.bad(f"{len(x)} abscissas for {len(y)} ordinates", y)
+    marks = tuple(x.values) if isinstance(x, ListMots) else ()
+    abscissas = np.arange(1.0, len(x) + 1) if marks else x.values.astype(float)
+    words: tuple[str, ...] = ()
+    if isinstance(y, ListMots):
+        words, ordinates = tuple(y.values), np.arange(1.0, len(y) + 1)
+    else:
+        ordinates = y.values.astype(float)
+    made = {ListMots: "MOTS", ListEnti: "ENTI", ListReel: ""}[type(y)]
+    part = CurvePart(
+        abscissas, ordinates, x_name[:12], y_name[:12], legend.strip(), colours[0],
+        words, kind if kind not in ("", "REEL") else made, marks,
+    )  # fmt: skip
+    return Curve((part,), workspace(call.session).title)
+
+
+def _complex(call: Call, colours: list[int]) -> Curve:
+    form, legends = "REIM", ["", ""]
+    while (said := call.keyword(("REIM", "MOPH", "LEGE"))) is not None:
+        if said == "LEGE":
+            legends = [str(call.required("MOT")), str(call.required("MOT"))]
+        else:
+            form = said
+    x_name = axis_name(call)
+    x = call.required("LISTREEL")
+    names, values = [], []
+    for _ in range(2):
+        names.append(axis_name(call))
+        values.append(call.required("LISTREEL").values)
+    if len({len(x), len(values[0]), len(values[1])}) > 1:
+        raise call.bad(f"the lists have {len(x)}, {len(values[0])} and {len(values[1])} items", x)
+    kinds = ("PREE", "PIMA") if form == "REIM" else ("MODU", "PHAS")
+    default = ("Re", "Im") if form == "REIM" else ("Amp", "Phi")
+    parts = tuple(
+        CurvePart(
+            x.values,
+            values[i],
+            x_name[:12],
+            names[i][:12],
+            legends[i] or default[i],
+            colours[min(i, len(colours) - 1)],
+            (),
+            kinds[i],
+        )
+        for i in range(2)
+    )
+    return Curve(parts, workspace(call.session).title, "COMPLEXE")
+
+
+# ---- along lines --------------------------------------------------------------------------------
+
+
+def line_abscissas(line: Mesh) -> tuple[IntArray, FloatArray]:
+    """Nodes of a line in order, and their distance from its beginning along it."""
+    kinds = {b.cell_type for b in line.blocks}
+    nodes = line.node_ids if kinds == {"POI1"} else line_chain(line)
+    x = line.nodes.coordinates[nodes]
+    steps = np.linalg.norm(np.diff(x, axis=0), axis=1)
+    return nodes, np.concatenate(([0.0], np.cumsum(steps)))
+
+
+def _along_line(call: Call, colours: list[int]) -> Curve:
+    field: NodeField = call.required("CHPOINT")
+    said = call.read("MOT")
+    line: Mesh = call.required("MAILLAGE")
+    if said is None:
+        said = call.read("MOT")
+    name = str(said.value).rstrip() if said is not None else _only(call, field)
+    part = component(field, name)
+    nodes, s = line_abscissas(line)
+    missing = ~np.isin(nodes, part.nodes)
+    if np.any(missing):
+        raise call.bad(
+            f"the field has no value of {name} at {missing.sum()} of the {len(nodes)} nodes of the "
+            "line",
+            line,
+            "the line must lie in the support of the field",
+        )
+    made = CurvePart(s, part.at(nodes), "ABS", name, "", colours[0])
+    return Curve((made,), workspace(call.session).title)
+
+
+def _only(call: Call, field: NodeField) -> str:
+    names = list(field.components)
+    if len(names) != 1:
+        raise call.bad("the field has several components", field, "name one: " + " ".join(names))
+    return names[0]
+
+
+# ---- in time ------------------------------------------------------------------------------------
+
+_DEFAULT_INDEX = {"DYNAMIC": "DEPL", "PASAPAS": "DEPLACEMENTS"}
+
+
+def _in_time(call: Call, colours: list[int]) -> Curve:
+    fields, times, title = history(call)
+    chosen = call.read("LISTENTI")
+    if chosen is not None:
+        places = chosen.value.values - 1 if not title else chosen.value.values
+        if np.any(places < 0) or np.any(places >= len(fields)):
+            raise call.bad(f"there are {len(fields)} steps", chosen.value)
+        fields, times = [fields[int(i)] for i in places], times[places]
+    if fields and isinstance(fields[0], CellField):
+        return _in_a_cell(call, fields, times, colours[0])
+    names = names_in_time(call, fields)
+    support = call.read("POINT", "MAILLAGE")
+    if support is None:
+        raise call.missing(("POINT", "MAILLAGE"))
+    names = names or names_in_time(call, fields)
+    if not names:
+        names = [_only(call, fields[0])] if fields else []
+    nodes = nodes_named(support.value)
+    parts: list[CurvePart] = []
+    for name in names:
+        for node in nodes:
+            values = np.asarray([float(f.values_at(name, np.asarray([node]))[0]) for f in fields])
+            legend = f"{name} {node + 1}" if len(nodes) > 1 else name
+            colour = colours[len(parts) % len(colours)]
+            parts.append(CurvePart(times, values, "TEMP", name, legend, colour))
+    return Curve(tuple(parts), workspace(call.session).title)
+
+
+def _in_a_cell(call: Call, fields: list[Any], times: FloatArray, colour: int) -> Curve:
+    """Component of fields in cells at point N3 of cell N2 of zone N1."""
+    name = str(call.required("MOT")).rstrip()
+    zone, cell, point = (call.required("ENTIER") for _ in range(3))
+    values = []
+    for field in fields:
+        held = (
+            field.blocks[zone - 1].components.get(name) if 1 <= zone <= len(field.blocks) else None
+        )
+        if held is None or not 1 <= cell <= len(held) or point < 1:
+            raise call.bad(f"no value of {name} in zone {zone}, cell {cell}, point {point}")
+        row = held[cell - 1]
+        values.append(float(row[min(point, len(row)) - 1]))
+    part = CurvePart(times, np.asarray(values), "TEMP", name[:12], name, colour)
+    return Curve((part,), workspace(call.session).title)
+
+
+def nodes_named(support: Point | Mesh) -> list[int]:
+    return [support.node] if isinstance(support, Point) else [int(n) for n in support.node_ids]
+
+
+def names_in_time(call: Call, fields: list[Any]) -> list[str]:
+    operand = call.read("LISTMOTS")
+    if operand is not None:
+        return [str(w).rstrip() for w in operand.value.values]
+    known = {n for f in fields for n in getattr(f, "components", ())}
+    word = call.peek_word()
+    if word is not None and (word.rstrip() in known or call.at_word()):
+        return [str(call.word()).rstrip()]
+    return []
+
+
+def history(call: Call) -> tuple[list[Any], FloatArray, str]:
+    """Fields, their times, and the index of the table they came from ('' for a list)."""
+    operand = call.read("LISTCHPO", "TABLE")
+    if operand is None:
+        raise call.missing(("LISTCHPO", "TABLE"))
+    if isinstance(operand.value, ListChpo):
+        times = call.required("LISTREEL").values
+        fields = list(operand.value.values)
+        if len(times) != len(fields):
+            raise call.bad(f"{len(fields)} fields for {len(times)} times", operand.value)
+        return fields, times, ""
+    table: Table = operand.value
+    index = _DEFAULT_INDEX.get(table.subtype, "DEPL")
+    said = call.peek_word()
+    if said is not None and _holds(table, said.rstrip()):
+        index = str(call.word()).rstrip()
+    return (*results_in_time(table, index), index)
+
+
+def _holds(table: Table, index: str) -> bool:
+    """Whether a table of results has the index, itself (PASAPAS) or in its steps (DYNAMIC)."""
+    steps = (value for place, value in table.items() if type(place) is int)
+    return table.has(index) or any(isinstance(s, Table) and s.has(index) for s in steps)
+
+
+def _in_steps(table: Table, index: str) -> bool:
+    """Whether a table of steps (DYNAMIC) holds results at an index."""
+    return any(isinstance(v, Table) and type(i) is int and v.has(index) for i, v in table.items())
+
+
+def results_in_time(table: Table, index: str) -> tuple[list[Any], FloatArray]:
+    """Fields and times of a table of results: of PASAPAS by index, of DYNAMIC by step.
+
+    Raises
+    ------
+    KernelError
+        If the table holds no such results.
+    """
+    held, times = table.get(index), table.get("TEMPS")
+    if isinstance(held, Table) and isinstance(times, Table):
+        steps = sorted(i for i, _ in held.items() if type(i) is int)
+        return [held.get(i) for i in steps], reals([times.get(i) for i in steps])
+    found = []
+    for place, value in table.items():
+        if type(place) is int and isinstance(value, Table) and value.has(index):
+            found.append((value.get("TEMP", place), value.get(index)))
+    if not found:
+        raise KernelError(f"the table holds no results in time at index {index}")
+    found.sort(key=lambda pair: float(str(pair[0])))
+    return [f for _, f in found], reals([t for t, _ in found])
+
+
+def reals(values: list[Any]) -> FloatArray:
+    return np.asarray(values, dtype=float)
+
+
+KINDS: dict[str, Any] = {
+    "MANU": _manual, "COMP": _complex, "CHPO": _along_line, "TEMP": _in_time,
+}  # fmt: skip

@@ -1,0 +1,51 @@
+"""Pictures of a run: their formats, names and numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ssilang.language.call import Call
+from ssilang.language.diagnostics import nearest
+from ssilang.language.session import Session
+from ssilang.language.values import type_of
+from ssilang.operators.files.outputs import run_output
+from ssilang.operators.workspace import workspace
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+_FORMATS = {"PNG": ("png",), "SVG": ("svg",), "PDF": ("pdf",)}
+
+
+def picture_formats(session: Session, usual: tuple[str, ...]) -> tuple[str, ...]:
+    """Formats to write: the one of OPTI TRAC if it is PNG, SVG or PDF, else the usual ones."""
+    return _FORMATS.get(str(workspace(session).options.get("TRAC", "")), usual)
+
+
+def picture_name(session: Session, title: str, fallback: str) -> str:
+    """Name of a picture: OPTI FTRA's file, else its title, else the name of what is drawn."""
+    chosen = workspace(session).options.get("FTRA")
+    if isinstance(chosen, str) and chosen.strip():
+        return Path(chosen.strip()).stem
+    return title.strip() or fallback
+
+
+def save_picture(session: Session, figure: Figure, name: str, formats: tuple[str, ...]) -> None:
+    """Write a figure under the next number."""
+    output = run_output(session)
+    output.wrote(*output.pictures.save(figure, name, formats))
+
+
+def refuse_rest(call: Call, words: Iterable[str]) -> None:
+    """Refuse what a drawing statement has not read, before anything is drawn."""
+    if not call.operands:
+        return
+    left = call.operands[0]
+    call.used.append(left)
+    if isinstance(left.value, str):
+        near = nearest(str(left.value), words)
+        hint = f"did you mean {near}?" if near else "its words are " + " ".join(words)
+        raise call.bad(f"{call.name} does not know the word '{left.value}'", left.value, hint)
+    raise call.bad(f"{call.name} has no use for this {type_of(left.value)}", left.value)

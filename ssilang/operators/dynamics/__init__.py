@@ -1,0 +1,1 @@
+"""Operators: DYNAMIC and free-field motions."""

@@ -1,0 +1,90 @@
+"""ZCOL: the soil column behind the procedures DECONV and DECONV3D."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ssilang.kernel.curve import Curve, CurvePart
+from ssilang.language.call import Call
+from ssilang.language.registry import Help, operator
+from ssilang.language.values import ListReel, Table
+from ssilang.operators.tables.entries import Entries
+
+if TYPE_CHECKING:
+    from ssilang.kernel.mesh.nodes import FloatArray
+    from ssilang.kernel.soil_column import FreeField
+
+_LAYERS = ("EPAISSEUR", "MASSE_VOLUMIQUE", "MODULE", "AMORTISSEMENT")
+
+
+@operator(
+    "ZCOL",
+    family="dynamics",
+    help=Help(
+        en="Free field of a layered soil under vertical waves, behind DECONV and DECONV3D: "
+        "layers from the top (lists EPAISSEUR, MASSE_VOLUMIQUE, MODULE, AMORTISSEMENT), Rayleigh "
+        "damping right at F1 and F2, cut-off FC, acceleration GAMMAO at depth CONTROLE (0.; below "
+        "zero: at an outcrop of the base). At the depths PROFONDEURS: curves ACCE, VITE, CONT "
+        "(stress along the upward axis), list DEFO (largest strain); PAS is the step.",
+        fr="Champ libre d'un sol stratifié sous des ondes verticales, pour DECONV et DECONV3D : "
+        "couches depuis le haut (listes EPAISSEUR, MASSE_VOLUMIQUE, MODULE, AMORTISSEMENT), "
+        "amortissement de Rayleigh exact à F1 et F2, coupure FC, accélération GAMMAO à la "
+        "profondeur CONTROLE (0. ; négative : à l'affleurement de la base). Aux profondeurs "
+        "PROFONDEURS : évolutions ACCE, VITE, CONT (contrainte selon l'axe montant), liste DEFO "
+        "(déformation maximale) ; PAS est le pas.",
+        syntax="TAB2 = ZCOL TAB1 ;",
+        examples=(
+            "T = TABL ; T . 'EPAISSEUR' = PROG 10. ; T . 'MASSE_VOLUMIQUE' = PROG 2000. ;"
+            " T . 'MODULE' = PROG 8.E7 ; T . 'AMORTISSEMENT' = PROG 0.05 ; T . 'F1' = 2. ;"
+            " T . 'F2' = 10. ; T . 'FC' = 20. ; T . 'PROFONDEURS' = PROG 0. 10. ;"
+            " LT = PROG 0. PAS 0.02 2. ; LA = (LT - 0.5) MASQ 'COMPRIS' 0. 0.1 ;"
+            " T . 'GAMMAO' = EVOL 'MANU' LT LA ; R = ZCOL T ; LIST (R . 'DEFO') ;",
+        ),
+    ),
+    reads_itself=True,
+)
+def zcol(call: Call) -> Table:
+    """Read the table, compute, hand back curves."""
+    from ssilang.kernel.soil_column import SoilColumn, free_field
+
+    entries = Entries(call, call.required("TABLE"), "ZCOL")
+    thickness, density, modulus, damping = (
+        entries.needed(name, "LISTREEL").values for name in _LAYERS
+    )
+    f1, f2, cutoff = (entries.needed(name, "FLOTTANT") for name in ("F1", "F2", "FC"))
+    depths = entries.needed("PROFONDEURS", "LISTREEL").values
+    signal = entries.needed("GAMMAO", "EVOLUTIO").parts[0]
+    control = entries.get("CONTROLE", "FLOTTANT") or 0.0
+    steps = np.diff(signal.abscissas)
+    if len(steps) == 0 or np.ptp(steps) > 1e-3 * abs(steps.mean()):
+        raise entries.bad("the acceleration GAMMAO needs equal steps of time", "IPOL it first")
+    field = free_field(
+        SoilColumn(thickness, density, modulus, damping, f1, f2),
+        float(steps.mean()),
+        signal.ordinates,
+        depths,
+        cutoff,
+        None if control < 0 else control,
+    )
+    return _results(field, float(signal.abscissas[0]))
+
+
+def _results(field: FreeField, start: float) -> Table:
+    result = Table()
+    times = field.times + start
+    result.set("PAS", float(times[1] - times[0]))
+    for name, rows in (
+        ("ACCE", field.acceleration), ("VITE", field.velocity), ("CONT", field.stress),
+    ):  # fmt: skip
+        inner = Table()
+        for i, row in enumerate(rows):
+            inner.set(i + 1, _curve(times, row, name))
+        result.set(name, inner)
+    result.set("DEFO", ListReel(field.strain))
+    return result
+
+
+def _curve(times: FloatArray, values: FloatArray, name: str) -> Curve:
+    return Curve((CurvePart(times, values, "TEMP", name),), "")

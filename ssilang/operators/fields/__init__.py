@@ -1,0 +1,1 @@
+"""Operators on nodal and element fields."""

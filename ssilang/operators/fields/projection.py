@@ -1,0 +1,140 @@
+"""PROI and ZERO: fields in cells projected on other supports, fields of zeros."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import cast
+
+import numpy as np
+
+from ssilang.kernel.elements.boundary import is_solid
+from ssilang.kernel.elements.families import family_of
+from ssilang.kernel.elements.gradients import gradient_names
+from ssilang.kernel.elements.projection import on_mesh, on_model
+from ssilang.kernel.elements.tensors import PRINCIPAL
+from ssilang.kernel.elements.zone_fields import n_points
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.materials.parameters import geometric_names, material_names
+from ssilang.kernel.model import Model, Zone
+from ssilang.language.call import Call
+from ssilang.language.registry import Help, operator
+from ssilang.operators.statics.stresses import on_zones
+
+SUPPORTS = ("NOEUDS", "GRAVITE", "RIGIDITE", "MASSE", "STRESSES")
+
+
+@operator(
+    "PROI",
+    family="fields",
+    help=Help(
+        en="Projection of a field in cells, given at nodes, by its shape functions: on a mesh (a "
+        "nodal field, where the nodes lie inside), or on a model (a field in cells at the nodes "
+        "or at the points of a support). The tolerance is relative to the cells (1.E-5).",
+        fr="Projection d'un champ par éléments, donné aux noeuds, par ses fonctions de forme : sur "
+        "un maillage (un champ par points, là où les noeuds sont à l'intérieur), ou sur un modèle "
+        "(un champ par éléments aux noeuds ou aux points d'un support). La tolérance est relative "
+        "aux éléments (1.E-5).",
+        syntax="CHPO1 = PROI GEO1 CHAM1 (TOL1) ;\nCHAM2 = PROI MODL1 CHAM1 (MOT1) (TOL1) ;",
+        examples=(
+            "OPTI DIME 2 ELEM QUA4 ; L = DROI 2 (0. 0.) (2. 0.) ; S = TRAN 1 L (0. 1.) ; "
+            "P = 0.3 0.4 ; C = CHAN 'CHAM' (NOMC 'SCAL' (COOR 1 S)) S ; "
+            "LIST (EXTR (PROI (MANU 'POI1' P) C) 'SCAL' P) ;",
+        ),
+    ),
+    reads_itself=True,
+)
+def proi(call: Call) -> NodeField | CellField:
+    """Projection."""
+    if call.keyword(["POLY"]):
+        raise call.bad("'POLY' is not available", hint="give a field in cells")
+    place = call.read("MAILLAGE", "MMODEL")
+    fields: list[CellField] = call.all("MCHAML")
+    word = call.keyword((*SUPPORTS, "MINI"))
+    if word == "MINI":
+        raise call.bad("'MINI' (least squares) is not available")
+    place = call.read("MAILLAGE", "MMODEL") if place is None else place
+    fields += call.all("MCHAML")
+    tolerance = call.optional("FLOTTANT", default=1e-5)
+    if place is None or not fields:
+        raise call.missing(("MAILLAGE", "MMODEL") if place is None else ("MCHAML",))
+    if isinstance(place.value, Model):
+        support = cast(Support, "NOEUD" if word in (None, "NOEUDS") else word)
+        return on_model(fields[-1], place.value, support, tolerance)
+    return on_mesh(fields[-1], place.value, tolerance)
+
+
+def _scalar(support: Support) -> tuple[str, Support]:
+    return "SCALAIRE", support
+
+
+_TITLES: dict[str, tuple[str, Support]] = {
+    "NOEUD": _scalar("NOEUD"),
+    "GRAVITE": _scalar("GRAVITE"),
+    "RIGIDITE": _scalar("RIGIDITE"),
+    "MASSE": _scalar("MASSE"),
+    "STRESSES": _scalar("STRESSES"),
+    "DEPLACEM": ("DEPLACEMENTS", "NOEUD"),
+    "FORCES": ("FORCES", "NOEUD"),
+    "TEMPERAT": ("TEMPERATURES", "NOEUD"),
+    "GRADIENT": ("GRADIENT", "STRESSES"),
+    "CONTRAIN": ("CONTRAINTES", "STRESSES"),
+    "DEFORMAT": ("DEFORMATIONS", "STRESSES"),
+    "PRINCIPA": ("PRINCIPALE", "STRESSES"),
+    "MATERIAU": ("CARACTERISTIQUES", "STRESSES"),
+    "CARACTER": ("CARACTERISTIQUES", "STRESSES"),
+    "DEFINELA": ("DEFORMATIONS INELASTIQUES", "STRESSES"),
+    "VARINTER": ("VARIABLES INTERNES", "STRESSES"),
+}
+
+
+def _names(zone: Zone, what: str) -> tuple[str, ...]:
+    family = family_of(zone)
+    tables: dict[str, Callable[[], tuple[str, ...]]] = {
+        "DEPLACEM": lambda: tuple(dict.fromkeys(family.layout(zone).unknowns)),
+        "FORCES": lambda: tuple(dict.fromkeys(family.layout(zone).duals)),
+        "TEMPERAT": lambda: ("T",),
+        "GRADIENT": lambda: gradient_names(zone) if is_solid(zone) else (),
+        "CONTRAIN": lambda: family.stress_names(zone),
+        "DEFORMAT": lambda: family.strain_names(zone),
+        "DEFINELA": lambda: family.strain_names(zone),
+        "PRINCIPA": lambda: PRINCIPAL,
+        "MATERIAU": lambda: material_names(zone).all,
+        "CARACTER": lambda: geometric_names(zone).all,
+        "VARINTER": lambda: ("EPSE",),
+    }
+    return tables[what]() if what in tables else ("SCAL",)
+
+
+@operator(
+    "ZERO",
+    family="fields",
+    help=Help(
+        en="Field of zeros on a model: a scalar at the points of a support (NOEUD GRAVITE RIGIDITE "
+        "MASSE STRESSES), or the components of a kind of field (CONTRAIN, DEFORMAT, DEPLACEM, "
+        "FORCES, GRADIENT, MATERIAU, CARACTER, TEMPERAT, PRINCIPA, DEFINELA, VARINTER).",
+        fr="Champ nul sur un modèle : un scalaire aux points d'un support (NOEUD GRAVITE RIGIDITE "
+        "MASSE STRESSES), ou les composantes d'un type de champ (CONTRAIN, DEFORMAT, DEPLACEM, "
+        "FORCES, GRADIENT, MATERIAU, CARACTER, TEMPERAT, PRINCIPA, DEFINELA, VARINTER).",
+        syntax="CHAM1 = ZERO MODL1 MOT1 ;",
+        examples=(
+            "OPTI DIME 2 ELEM QUA4 ; L = DROI 2 (0. 0.) (2. 0.) ; S = TRAN 1 L (0. 1.) ; "
+            "M = MODE S MECANIQUE ELASTIQUE ; LIST (MAXI (ZERO M 'CONTRAIN')) ;",
+        ),
+    ),
+    reads_itself=True,
+)
+def zero(call: Call) -> CellField:
+    """Zeros."""
+    model: Model = call.required("MMODEL")
+    word = call.keyword(tuple(_TITLES), length=8)
+    if word is None:
+        raise call.bad(f"which zeros? one of {' '.join(_TITLES)}")
+    title, support = _TITLES[word]
+
+    def make(zone: Zone) -> CellFieldBlock:
+        shape = (len(zone.cells), n_points(zone.element, support))
+        components = {n: np.zeros(shape) for n in _names(zone, word)}
+        return CellFieldBlock(zone.cells, components, support, zone.element, zone.constituent)
+
+    return on_zones(model, title, make)

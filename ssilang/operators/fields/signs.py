@@ -1,0 +1,218 @@
+"""`+ - * / **`, ET, PSCA on fields at nodes and in cells."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ssilang.kernel.errors import FieldError
+from ssilang.kernel.fields import cell_algebra, node_algebra
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.fields.node_field import Nature, NodeField
+from ssilang.kernel.powers import real_power
+from ssilang.language.call import Call
+from ssilang.language.values import ListMots
+from ssilang.operators.dispatch import PSCA, PVEC, union_with_call, union_words
+from ssilang.operators.numbers.arithmetic import _ARRAY, SIGNS, rule, rule_with_call
+
+_NATURES: dict[str, Nature] = {"INDE": "", "DIFF": "DIFFUS", "DISC": "DISCRET"}
+
+
+def names_of(value: Any) -> list[str]:
+    """Component names from a MOT or a LISTMOTS."""
+    words = value.values if isinstance(value, ListMots) else [value]
+    return [str(w).rstrip() for w in words]
+
+
+def read_nature(call: Call) -> Nature | None:
+    """'NATURE' with its word, None if it does not stand there."""
+    if call.keyword(("NATU",)) is None:
+        return None
+    word = call.keyword(tuple(_NATURES))
+    if word is None:
+        raise call.bad("the nature is INDETERMINE, DIFFUS or DISCRET")
+    return _NATURES[word]
+
+
+def nature_word(nature: Nature) -> str:
+    """The nature as EXTR 'NATU' tells it."""
+    return nature or "INDETERMINE"
+
+
+def _lists(call: Call) -> tuple[list[str], list[str], list[str]] | None:
+    """Three lists of names of equal length, if the first is there."""
+    first = call.read("LISTMOTS")
+    if first is None:
+        return None
+    lists = [first.value, call.required("LISTMOTS"), call.required("LISTMOTS")]
+    names = [names_of(v) for v in lists]
+    if len({len(n) for n in names}) > 1:
+        raise call.bad(f"the three lists have {', '.join(str(len(n)) for n in names)} words")
+    return names[0], names[1], names[2]
+
+
+# ---- at nodes -----------------------------------------------------------------------------------
+
+
+@rule("+ -", "CHPOINT", "CHPOINT")
+def _add(sign: str, a: NodeField, b: NodeField) -> NodeField:
+    return node_algebra.added(a, b, 1.0 if sign == "+" else -1.0)
+
+
+@rule_with_call("* /", "CHPOINT", "CHPOINT")
+def _multiply(call: Call, sign: str, a: NodeField, b: NodeField) -> NodeField:
+    names = _lists(call)
+    divide = sign == "/"
+    if names is None:
+        made = node_algebra.multiplied(a, b, divide)
+    else:
+        made = node_algebra.multiplied_by_names(a, b, names, divide)
+    nature = read_nature(call)
+    return made if nature is None else node_algebra.rebuilt(made, made.components, nature)
+
+
+def _power(x: Any, exponent: float) -> Any:
+    if exponent < 0 and np.any(np.asarray(x) == 0):
+        raise FieldError(f"zero has no power {exponent:g}")
+    try:
+        return real_power(x, exponent)
+    except ValueError as error:
+        raise FieldError(f"a negative value has no power {exponent:g}") from error
+
+
+def _raised(number: float, x: Any) -> Any:
+    if number < 0 or (number == 0 and np.any(np.asarray(x) < 0)):
+        raise FieldError(f"{number:g} cannot be raised to the powers of a field")
+    return np.power(number, np.asarray(x, dtype=float))
+
+
+def _with_number(sign: str, x: Any, number: float, left: bool) -> Any:
+    if sign == "**":
+        return _raised(number, x) if left else _power(x, number)
+    if sign == "/" and (np.any(x == 0) if left else number == 0):
+        raise FieldError("division by zero")
+    return _ARRAY[sign](number, x) if left else _ARRAY[sign](x, number)
+
+
+def _node_number(sign: str, field: NodeField, number: float) -> NodeField:
+    return node_algebra.applied(field, lambda x: _with_number(sign, x, float(number), False))
+
+
+def _number_node(sign: str, number: float, field: NodeField) -> NodeField:
+    return node_algebra.applied(field, lambda x: _with_number(sign, x, float(number), True))
+
+
+for _kind in ("ENTIER", "FLOTTANT"):
+    rule(SIGNS, "CHPOINT", _kind)(_node_number)
+    rule(SIGNS, _kind, "CHPOINT")(_number_node)
+
+
+@union_with_call(("CHPOINT", "CHPOINT"))
+def _join_node_fields(call: Call, a: NodeField, b: NodeField) -> NodeField:
+    return node_algebra.united(a, b, "NOER" not in union_words(call))
+
+
+# ---- in cells -----------------------------------------------------------------------------------
+
+
+@rule("+ -", "MCHAML", "MCHAML")
+def _add_cells(sign: str, a: CellField, b: CellField) -> CellField:
+    return cell_algebra.added(a, b, 1.0 if sign == "+" else -1.0)
+
+
+@rule_with_call("* /", "MCHAML", "MCHAML")
+def _multiply_cells(call: Call, sign: str, a: CellField, b: CellField) -> CellField:
+    names = _lists(call)
+    if names is None:
+        return cell_algebra.multiplied(a, b, sign == "/")
+    return cell_algebra.multiplied_by_names(a, b, names, sign == "/")
+
+
+def _cell_number(
+    call: Call, sign: str, field: CellField, number: float, left: bool = False
+) -> CellField:
+    chosen = call.read("LISTMOTS") if sign in "+-" else None
+    names = None if chosen is None else names_of(chosen.value)
+    return cell_algebra.applied(field, lambda x: _with_number(sign, x, float(number), left), names)
+
+
+def _number_cell(call: Call, sign: str, number: float, field: CellField) -> CellField:
+    return _cell_number(call, sign, field, number, True)
+
+
+for _kind in ("ENTIER", "FLOTTANT"):
+    rule_with_call(SIGNS, "MCHAML", _kind)(_cell_number)
+    rule_with_call(SIGNS, _kind, "MCHAML")(_number_cell)
+
+
+# ---- PSCA ---------------------------------------------------------------------------------------
+
+
+@PSCA.on(
+    "CHPOINT",
+    "MCHAML",
+    syntax="CHP3 = PSCA CHP1 CHP2 LMOT1 LMOT2 ;",
+    en="Of two fields: at each place the sum of products of paired components.",
+    fr="De deux champs : en chaque lieu la somme des produits de composantes appariées.",
+    examples=(
+        "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'UX' 3. 'UY' 4. ; "
+        "LIST (MAXI (PSCA C C (MOTS 'UX' 'UY') (MOTS 'UX' 'UY'))) ;",
+    ),
+)
+def _scalar_product(call: Call, first: Any) -> Any:
+    second = call.required("CHPOINT" if isinstance(first, NodeField) else "MCHAML")
+    names = [names_of(call.required("LISTMOTS")) for _ in range(2)]
+    if len(names[0]) != len(names[1]):
+        raise call.bad(f"the lists have {len(names[0])} and {len(names[1])} words")
+    if isinstance(first, NodeField):
+        part = node_algebra.scalar_product(first, second, names[0], names[1])
+        return node_algebra.rebuilt(first, {"SCAL": part})
+    scalar = ["SCAL"] * len(names[0])
+    return cell_algebra.multiplied_by_names(first, second, (names[0], names[1], scalar))
+
+
+def _read_names(call: Call, count: int) -> list[list[str]]:
+    names = [names_of(call.required("LISTMOTS")) for _ in range(count)]
+    dimension = call.session.dimension() or 3
+    if any(len(n) != dimension for n in names):
+        raise call.bad(f"in dimension {dimension} each list names {dimension} components")
+    return names
+
+
+@PVEC.on(
+    "CHPOINT",
+    "MCHAML",
+    syntax="CHP3 = PVEC CHP1 CHP2 LMOT1 LMOT2 LMOT3 ; (3D)   CHP2 = PVEC CHP1 LMOT1 LMOT2 ; (2D)",
+    en="Of fields: at each place the vector product of the components LMOT1 of the first and LMOT2 "
+    "of the second, named LMOT3; in 2D the components LMOT1 turned by a quarter turn.",
+    fr="De champs : en chaque lieu le produit vectoriel des composantes LMOT1 du premier et LMOT2 "
+    "du second, nommé LMOT3 ; en 2D les composantes LMOT1 tournées d'un quart de tour.",
+    examples=(
+        "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'UX' 3. 'UY' 4. ; L = MOTS 'UX' 'UY' ; "
+        "LIST (PVEC C L L) ;",
+    ),
+)
+def _vector_product(call: Call, first: Any) -> Any:
+    node = isinstance(first, NodeField)
+    algebra: Any = node_algebra if node else cell_algebra
+    extracted = _picked_nodes if node else cell_algebra.extracted
+    if call.session.dimension() == 2:
+        (x, y), (u, v) = _read_names(call, 2)
+        turned = algebra.applied(extracted(first, [y], [u]), np.negative)
+        return algebra.added(turned, extracted(first, [x], [v]))
+    second = call.required("CHPOINT" if node else "MCHAML")
+    a, b, c = _read_names(call, 3)
+    total = None
+    for i in range(3):
+        j, k = (i + 1) % 3, (i + 2) % 3
+        plus = algebra.multiplied_by_names(first, second, ([a[j]], [b[k]], [c[i]]))
+        minus = algebra.multiplied_by_names(first, second, ([a[k]], [b[j]], [c[i]]))
+        term = algebra.added(plus, minus, -1.0)
+        total = term if total is None else algebra.added(total, term)
+    return total
+
+
+def _picked_nodes(field: NodeField, old: list[str], new: list[str]) -> NodeField:
+    made = {n: node_algebra.component(field, o) for o, n in zip(old, new, strict=True)}
+    return node_algebra.rebuilt(field, made)

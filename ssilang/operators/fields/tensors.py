@@ -1,0 +1,313 @@
+"""PRIN INVA VMIS TRES ENER GRAD INTG JACO: quantities derived from fields in cells."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from ssilang.kernel.elements import families
+from ssilang.kernel.elements.boundary import is_solid
+from ssilang.kernel.elements.catalog import support_rule
+from ssilang.kernel.elements.equivalent import equivalent_of_lines
+from ssilang.kernel.elements.family import cell_block
+from ssilang.kernel.elements.gradients import gradient_names, gradient_values, scalar_gradient
+from ssilang.kernel.elements.integrals import integrals
+from ssilang.kernel.elements.skin import is_shell, shell_equivalent, shell_tensor
+from ssilang.kernel.elements.solid import coordinates, zone_geometry
+from ssilang.kernel.elements.tensors import (
+    PRINCIPAL,
+    components_at_home,
+    invariants,
+    principal,
+    tensor,
+    tresca,
+    von_mises,
+)
+from ssilang.kernel.errors import FieldError
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
+from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.model import Model, Zone
+from ssilang.language.call import Call
+from ssilang.language.registry import Help, operator
+from ssilang.operators.dispatch import INTG
+from ssilang.operators.statics.stresses import Reading, on_zones
+
+_SQUARE = (
+    "OPTI DIME 2 ELEM QUA4 ; L = DROI 2 (0 0) (2 0) ; S = TRAN 1 L (0. 1.) ; "
+    "M = MODE S MECANIQUE ELASTIQUE ; A = MATE M 'YOUN' 2. 'NU' 0.3 ; "
+    "U = MANU 'CHPO' S 2 'UX' 1. 'UY' 0. 'NATURE' 'DIFFUS' ; "
+)
+_SKINS = ("SUPE", "MOYE", "INFE")
+
+
+def _scalar(zone: Zone, values: FloatArray, support: Support) -> CellFieldBlock:
+    return CellFieldBlock(zone.cells, {"SCAL": values}, support, zone.element, zone.constituent)
+
+
+def _equivalent(said: Reading, compute: Callable[[FloatArray], FloatArray], what: str) -> CellField:
+    field, material = said.state_and_rest()
+
+    def make(zone: Zone) -> CellFieldBlock:
+        if what == "VMIS" and is_shell(zone) and material is not None:
+            return _scalar(zone, *shell_equivalent(zone, field, material))
+        if is_solid(zone) or is_shell(zone):
+            T, support = _tensor(said, zone, field, material)
+            return _scalar(zone, compute(T), support)
+        if what == "VMIS":
+            return _scalar(zone, *equivalent_of_lines(zone, field, material))
+        raise FieldError(f"{what} is for continuous elements, not {zone.element}")
+
+    return on_zones(said.model, "SCALAIRE", make)
+
+
+def _tensor(
+    said: Reading, zone: Zone, field: CellField, material: CellField | None
+) -> tuple[FloatArray, Support]:
+    """Tensors of a continuous zone, or of a shell at the side that a word says."""
+    if is_solid(zone):
+        return tensor(zone, field)[:2]
+    if not is_shell(zone) or material is None:
+        raise FieldError(
+            f"element {zone.element} has no stress tensor here",
+            "continuous elements have; shells with their parameters (EPAI)",
+        )
+    side = next((w for w in said.words if w in _SKINS), "MOYE")
+    return shell_tensor(zone, field, material, side)
+
+
+@operator(
+    "VMIS",
+    family="stress",
+    help=Help(
+        en="Von Mises stress of a stress field; in beams and bars the equivalent stress of the "
+        "section forces with the parameters SECT INRY INRZ TORS and the distances DX DY DZ; in "
+        "shells that of the membrane forces and, weighed by ALFA (2/3), of the moments.",
+        fr="Contrainte de von Mises d'un champ de contraintes ; dans les poutres et barres la "
+        "contrainte équivalente des efforts avec SECT INRY INRZ TORS et les distances DX DY DZ ; "
+        "dans les coques celle des efforts membranaires et, pondérée par ALFA (2/3), des moments.",
+        syntax="CHAM1 = VMIS MODL1 SIG1 (CAR1) ;",
+        examples=(_SQUARE + "LIST (MAXI (VMIS M (SIGM M A U))) ;",),
+    ),
+    reads_itself=True,
+)
+def vmis(call: Call) -> CellField:
+    """Equivalent stress."""
+    return _equivalent(Reading(call), von_mises, "VMIS")
+
+
+@operator(
+    "TRES",
+    family="stress",
+    full_name="TRESCA",
+    help=Help(
+        en="Tresca's equivalent stress: the largest difference of principal stresses.",
+        fr="Contrainte équivalente de Tresca : la plus grande différence de contraintes "
+        "principales.",
+        syntax="CHAM1 = TRES MODL1 SIG1 (CAR1 'SUPE' | 'MOYE' | 'INFE') ;",
+        examples=(_SQUARE + "LIST (MAXI (TRES M (SIGM M A U))) ;",),
+    ),
+    reads_itself=True,
+)
+def tres(call: Call) -> CellField:
+    """Equivalent stress."""
+    return _equivalent(Reading(call, _SKINS), tresca, "TRES")
+
+
+@operator(
+    "PRIN",
+    family="stress",
+    full_name="PRINCIPALE",
+    help=Help(
+        en="Principal stresses or strains SI11 SI22 SI33 and their directions COX1 COY1 COZ1 COX2 "
+        "...; they decrease in space. In the plane the third is the one out of the plane, unless "
+        "'TRID' is given.",
+        fr="Contraintes ou déformations principales SI11 SI22 SI33 et leurs directions COX1 COY1 "
+        "COZ1 COX2 ... ; elles décroissent en 3D. En 2D la troisième est celle hors du plan, "
+        "sauf avec 'TRID'.",
+        syntax="CHAM2 = PRIN CHAM1 MODL1 ('TRID') ;\n"
+        "CHAM2 = PRIN CHAM1 MODL1 CAR1 ('SUPE' | 'MOYE' | 'INFE') ;",
+        examples=(_SQUARE + "LIST (MAXI (EXCO 'SI11' (PRIN (SIGM M A U) M))) ;",),
+    ),
+    reads_itself=True,
+)
+def prin(call: Call) -> CellField:
+    """Principal values and directions."""
+    said = Reading(call, ("TRID", *_SKINS))
+    field, material = said.state_and_rest()
+
+    def make(zone: Zone) -> CellFieldBlock:
+        T, support = _tensor(said, zone, field, material)
+        ordered = "TRID" in said.words and is_solid(zone)
+        return cell_block(zone, PRINCIPAL, principal(zone, T, ordered), support)
+
+    return on_zones(said.model, "PRINCIPALE", make)
+
+
+@operator(
+    "INVA",
+    family="stress",
+    full_name="INVARIANT",
+    help=Help(
+        en="The three invariants of a stress or strain field: trace, sum of the principal minors "
+        "of order two, determinant.",
+        fr="Les trois invariants d'un champ de contraintes ou de déformations : trace, somme des "
+        "mineurs principaux d'ordre deux, déterminant.",
+        syntax="CHAM1 CHAM2 CHAM3 = INVA MODL1 CHAM4 (CAR1 'SUPE' | 'MOYE' | 'INFE') ;",
+        examples=(_SQUARE + "I J K = INVA M (SIGM M A U) ; LIST (MAXI I) ;",),
+    ),
+    reads_itself=True,
+)
+def inva(call: Call) -> tuple[CellField, CellField, CellField]:
+    """Invariants."""
+    said = Reading(call, _SKINS)
+    field, material = said.state_and_rest()
+    rows: list[list[CellFieldBlock]] = [[], [], []]
+    for zone in said.model.zones:
+        T, support = _tensor(said, zone, field, material)
+        for row, values in zip(rows, invariants(T), strict=True):
+            row.append(_scalar(zone, values, support))
+    one, two, three = (CellField(tuple(r), "SCALAIRE") for r in rows)
+    return one, two, three
+
+
+@operator(
+    "ENER",
+    family="stress",
+    full_name="ENERGIE",
+    help=Help(
+        en="Density sigma : epsilon of a field of stresses and a field of strains (for a linear "
+        "material twice the energy); INTG integrates it.",
+        fr="Densité sigma : epsilon d'un champ de contraintes et d'un champ de déformations (pour "
+        "un matériau linéaire, deux fois l'énergie) ; INTG l'intègre.",
+        syntax="CHAM3 = ENER MODL1 CHAM1 CHAM2 ;",
+        examples=(_SQUARE + "E = ENER M (SIGM M A U) (EPSI M U) ; LIST (INTG M E) ;",),
+    ),
+    reads_itself=True,
+)
+def ener(call: Call) -> CellField:
+    """Product of stresses and strains."""
+    said = Reading(call)
+    if len(said.cells) < 2:
+        raise call.missing(("MCHAML",))
+
+    def make(zone: Zone) -> CellFieldBlock:
+        family = families.family_of(zone)
+        stress, strain = family.stress_names(zone), family.strain_names(zone)
+        pair = [f for names in (stress, strain) for f in [_holding(zone, said.cells, names)]]
+        s, support = components_at_home(zone, pair[0], stress)
+        e, other = components_at_home(zone, pair[1], strain)
+        if s.shape[2] != e.shape[2] and 1 not in (s.shape[2], e.shape[2]):
+            raise FieldError(f"the stresses stand at '{support}', the strains at '{other}'")
+        return _scalar(zone, (s * e).sum(axis=1), support)
+
+    return on_zones(said.model, "SCALAIRE", make)
+
+
+def _holding(zone: Zone, fields: tuple[CellField, ...], names: tuple[str, ...]) -> CellField:
+    wanted = set(names)
+    for field in fields:
+        if any(wanted.intersection(b.components) for b in field.blocks):
+            return field
+    raise FieldError(f"no field has components {' '.join(names)} for element {zone.element}")
+
+
+@operator(
+    "GRAD",
+    family="stress",
+    full_name="GRADIENT",
+    help=Help(
+        en="Gradient of a displacement field, components UX,X UX,Y ..., or of a scalar field such "
+        "as a temperature T, components T,X T,Y (T,Z).",
+        fr="Gradient d'un champ de déplacements, composantes UX,X UX,Y ..., ou d'un champ "
+        "scalaire comme une température T, composantes T,X T,Y (T,Z).",
+        syntax="GRAD1 = GRAD MODL1 CHPO1 (CAR1) ;",
+        examples=(_SQUARE + "LIST (MAXI (EXCO 'UX,X' (GRAD M U))) ;",),
+    ),
+    reads_itself=True,
+)
+def grad(call: Call) -> CellField:
+    """Gradients."""
+    said = Reading(call)
+    u = said.displacement()
+    names = tuple(u.components)
+
+    def make(zone: Zone) -> CellFieldBlock:
+        if not is_solid(zone):
+            raise FieldError(f"GRAD is for continuous elements, not {zone.element}")
+        if any(n in names for n in families.family_of(zone).layout(zone).unknowns):
+            return cell_block(zone, gradient_names(zone), gradient_values(zone, u))
+        if len(names) != 1:
+            raise FieldError(f"GRAD takes displacements or one scalar, not {' '.join(names)}")
+        axes = "RZ" if "R" in gradient_names(zone)[0] else "XYZ"
+        labels = tuple(f"{names[0].rstrip()},{a}" for a in axes[: coordinates(zone).shape[-1]])
+        return cell_block(zone, labels, scalar_gradient(zone, u, names[0]))
+
+    return on_zones(said.model, "GRADIENT", make)
+
+
+@INTG.on(
+    "MMODEL",
+    syntax="VAL1 = INTG MODL1 CHAM1 (MOT1) (CAR1) ;\n"
+    "CHAM2 = INTG 'ELEM' MODL1 CHAM1 (MOT1) (CAR1) ;",
+    en="Of a field in cells: integral of a component over the model, or cell by cell ('ELEM'); "
+    "with the parameters CAR1 beams and bars count with their section, plane stress with its "
+    "thickness.",
+    fr="D'un champ par éléments : intégrale d'une composante sur le modèle, ou élément par élément "
+    "('ELEM') ; avec les caractéristiques CAR1 les poutres et barres comptent avec leur section, "
+    "les contraintes planes avec leur épaisseur.",
+    examples=(_SQUARE + "LIST (INTG M A 'YOUN') ;",),
+)
+def intg(call: Call, model: Model) -> float | CellField:
+    """Integral of a field in cells."""
+    by_cell = call.keyword(["ELEM"]) is not None
+    cells: list[CellField] = call.all("MCHAML")
+    name = call.word()
+    cells += call.all("MCHAML")
+    by_cell = by_cell or call.keyword(["ELEM"]) is not None
+    if not cells:
+        raise call.missing(("MCHAML",))
+    wanted = name.rstrip() if name is not None else _only(call, cells[0])
+    material = cells[1] if len(cells) > 1 else None
+    parts = [integrals(z, cells[0], wanted, material) for z in model.zones]
+    if all(p is None for p in parts):
+        raise call.bad(f"the field has no component {wanted} on the model", cells[0])
+    if not by_cell:
+        return float(sum(p.sum() for p in parts if p is not None))
+    blocks = [
+        _scalar(z, p[:, None], "GRAVITE")
+        for z, p in zip(model.zones, parts, strict=True)
+        if p is not None
+    ]
+    return CellField(tuple(blocks), "SCALAIRE")
+
+
+def _only(call: Call, field: CellField) -> str:
+    names = tuple(dict.fromkeys(n for b in field.blocks for n in b.components))
+    if len(names) != 1:
+        raise call.bad(f"which component? the field has {' '.join(names)}", field)
+    return names[0]
+
+
+@operator(
+    "JACO",
+    family="stress",
+    full_name="JACOBIEN",
+    help=Help(
+        en="Jacobian of the map from the reference cell, at the points of 'RIGIDITE'.",
+        fr="Jacobien de la transformation depuis l'élément de référence, aux points de 'RIGIDITE'.",
+        syntax="CHAM1 = JACO MODL1 ;",
+        examples=(_SQUARE + "LIST (MINI (JACO M)) ;",),
+    ),
+    reads_itself=True,
+)
+def jaco(call: Call) -> CellField:
+    """Jacobians."""
+    model: Model = call.required("MMODEL")
+
+    def make(zone: Zone) -> CellFieldBlock:
+        if not is_solid(zone):
+            raise FieldError(f"JACO is for continuous elements, not {zone.element}")
+        geometry = zone_geometry(zone, "RIGIDITE", slice(0, len(zone.cells)))
+        weights = support_rule(zone.element, "RIGIDITE").weights
+        return _scalar(zone, geometry.volumes / weights, "RIGIDITE")
+
+    return on_zones(model, "SCALAIRE", make)

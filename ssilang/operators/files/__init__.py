@@ -1,0 +1,1 @@
+"""Operators: what is read and written."""

@@ -1,0 +1,163 @@
+"""ACQU: values read from a text file into names."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+from ssilang.io.errors import InputError
+from ssilang.language.call import Call, Operand
+from ssilang.language.registry import Help, operator
+from ssilang.language.values import ListEnti, ListReel, Mot
+from ssilang.operators.files.outputs import input_path, option_name, run_output
+
+_ITEM = re.compile(r"'((?:[^']|'')*)'|([^\s,;]+)")
+
+
+@dataclass
+class Records:
+    """The lines of a file and how far they have been read."""
+
+    name: str
+    lines: list[str]
+    line: int = 0
+    items: list[str | float | int] = field(default_factory=list)
+
+    def begin(self) -> None:
+        """Go to the start of the next line: what is left of this one is dropped."""
+        self.items = []
+
+    def next_line(self) -> str:
+        """The next line, whole."""
+        if self.line >= len(self.lines):
+            raise InputError(f"{self.name} has only {len(self.lines)} lines, all have been read")
+        self.line += 1
+        return self.lines[self.line - 1]
+
+    def next(self) -> str | float | int:
+        """The next item, over as many lines as are needed."""
+        while not self.items:
+            self.items = [_item(m) for m in _ITEM.finditer(self.next_line())]
+        return self.items.pop(0)
+
+    def number(self) -> float | int:
+        """The next item, which must be a number."""
+        item = self.next()
+        if isinstance(item, str):
+            raise InputError(f"{self.name}, line {self.line}: '{item}' is no number")
+        return item
+
+
+def _item(match: re.Match[str]) -> str | float | int:
+    if match.group(2) is None:
+        return match.group(1).replace("''", "'")
+    text = match.group(2)
+    try:
+        return int(text)
+    except ValueError:
+        pass
+    try:
+        value = float(re.sub("[dD]", "E", text))
+    except ValueError:
+        return text
+    return value if math.isfinite(value) else text  # a gap in a record is no number
+
+
+def _whole(records: Records) -> int:
+    value = records.number()
+    if value != int(value):
+        raise InputError(f"{records.name}, line {records.line}: {value} is no whole number")
+    return int(value)
+
+
+def _any(records: Records, count: int) -> Any:
+    item = records.next()
+    return Mot(item) if isinstance(item, str) else item
+
+
+_READERS: dict[str, Callable[[Records, int], Any]] = {
+    "": _any,
+    "ENTIER": lambda r, n: _whole(r),
+    "FLOTTANT": lambda r, n: float(r.number()),
+    "MOT": lambda r, n: Mot(r.next()),
+    "LISTENTI": lambda r, n: ListEnti([_whole(r) for _ in range(n)]),
+    "LISTREEL": lambda r, n: ListReel([float(r.number()) for _ in range(n)]),
+}
+
+
+@operator(
+    "ACQU",
+    family="files",
+    full_name="ACQUERIR",
+    help=Help(
+        en="Reads values in free format from the file that OPTI ACQU names into names, each with "
+        "its type (ENTIER FLOTTANT MOT LISTENTI LISTREEL; without a type, that of the value), "
+        "behind a list the number of its values. Each statement begins on a new line of the file. "
+        "BRUT gives the next line as a word.",
+        fr="Lit en format libre, dans le fichier que nomme OPTI ACQU, des valeurs qu'il donne à "
+        "des noms, chacun avec son type (ENTIER FLOTTANT MOT LISTENTI LISTREEL ; sans type, celui "
+        "de la valeur), et pour une liste son nombre de valeurs. Chaque instruction commence à une "
+        "nouvelle ligne du fichier. BRUT rend la ligne suivante comme mot.",
+        syntax="ACQU NOM1*TYPE1 (N1) (NOM2*TYPE2 (N2) ...) ;\nMOT1 = ACQU 'BRUT' ;",
+        examples=(
+            "OPTI SORT 'in.txt' ; SORT 'CHAI' '3 4.5 7 8' ; OPTI ACQU 'in.txt' ; "
+            "ACQU I*ENTIER X*FLOTTANT L*LISTENTI 2 ; LIST X ;",
+        ),
+    ),
+    reads_itself=True,
+)
+def acqu(call: Call) -> Mot | None:
+    """Read values into names, or one line."""
+    records = _records(call)
+    records.begin()
+    if len(call.operands) == 1 and call.keyword(("BRUT",)) is not None:
+        return Mot(records.next_line())
+    wanted = _wanted(call)
+    if not wanted:
+        raise call.missing(("MOT",))
+    for name, kind, count in wanted:
+        call.session.frame.assign(name, _READERS[kind](records, count))
+    return None
+
+
+def _records(call: Call) -> Records:
+    output = run_output(call.session)
+    records = output.opened.get("ACQU")
+    if records is None:
+        path = input_path(call, option_name(call.session, "ACQU", 9))
+        text = path.read_text(encoding="utf-8", errors="replace")
+        records = output.opened["ACQU"] = Records(path.name, text.splitlines())
+    assert isinstance(records, Records)
+    return records
+
+
+def _name(operand: Operand) -> str:
+    return operand.name or (str(operand.value).upper() if isinstance(operand.value, str) else "")
+
+
+def _wanted(call: Call) -> list[tuple[str, str, int]]:
+    """Names, types and numbers of values; the operands stand as written."""
+    found = []
+    operands = call.operands
+    while operands:
+        operand = operands.pop(0)
+        call.used.append(operand)
+        name, kind, count = _name(operand), "", 1
+        if not name:
+            raise call.bad("ACQU wants names, each with *TYPE", operand.value)
+        if operands and operands[0].span.text == "*":
+            operands.pop(0)
+            kind = _name(operands.pop(0)).strip() if operands else ""
+            if kind not in _READERS or not kind:
+                types = " ".join(k for k in _READERS if k)
+                raise call.bad(f"'{kind}' cannot be read from a file", hint=f"types are {types}")
+        if kind.startswith("LIST"):
+            number = operands.pop(0).value if operands else None
+            if type(number) is not int or number < 0:
+                raise call.bad(f"the number of values must follow {name}*{kind}")
+            count = number
+        found.append((name, kind, count))
+    return found

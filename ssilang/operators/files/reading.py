@@ -1,0 +1,212 @@
+"""LIRE: tables of numbers, procedures and meshes from files."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ssilang.io.csv_tables import as_columns, read_csv
+from ssilang.io.mesh_files.avs import Structure, read_avs
+from ssilang.io.mesh_files.stl import read_stl
+from ssilang.io.mesh_files.unv import UnvMesh, read_unv
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.mesh.combine import poi1
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh
+from ssilang.language.call import Call
+from ssilang.language.source import Source
+from ssilang.language.structure import parse
+from ssilang.language.tree import Definition
+from ssilang.language.values import ListReel, Mot, Procedure, Table
+from ssilang.operators.dispatch import ByWord
+from ssilang.operators.files.outputs import input_path, option_name, run_output
+from ssilang.operators.workspace import workspace
+
+LIRE = ByWord(
+    "LIRE",
+    "files",
+    "Reads a file below the script's folder or the output folder.",
+    "Lit un fichier sous le dossier du jeu de données ou le dossier de sortie.",
+)
+
+
+def _file(call: Call, suffix: str = "") -> Path:
+    name = str(call.required("MOT", after=call.keyword_end))
+    output = run_output(call.session)
+    with_suffix = output.source(name + suffix) if suffix else None
+    plain = output.source(name)
+    if with_suffix is not None and with_suffix.is_file() and not (plain and plain.is_file()):
+        return with_suffix
+    return input_path(call, name)
+
+
+@LIRE.on(
+    "CSV",
+    syntax="TAB1 = LIRE 'CSV' FIC1 ('DEBU' N1) ('SEPA' MOT1) ('COLO' | 'LIGN') ;",
+    en="CSV: a table of LISTREEL, 1 to the number of columns (COLO) or lines (LIGN) of a CSV file, "
+    "from line DEBU, separated by SEPA (one character, ; if it is not given).",
+    fr="CSV : une table de LISTREEL, de 1 au nombre de colonnes (COLO) ou de lignes (LIGN) d'un "
+    "fichier CSV, à partir de la ligne DEBU, séparées par SEPA (un caractère, ; par défaut).",
+    examples=(
+        "OPTI SORT 'two.csv' ; SORT 'EXCE' (PROG 1. 2.) (PROG 3. 4.) ; "
+        "T = LIRE 'CSV' 'two.csv' ; LIST (T . 2) ;",
+    ),
+)
+def _csv(call: Call, word: str) -> Table:
+    path = _file(call, ".csv")
+    separator, first, by_line = ";", 1, False
+    while (said := call.keyword(("DEBU", "SEPA", "COLO", "LIGN"))) is not None:
+        if said == "SEPA":
+            separator = str(call.required("MOT", after=call.keyword_end)) or ";"
+            if len(separator) > 1:
+                separator = separator.strip()[:1] or " "
+        elif said == "DEBU":
+            first = call.required("ENTIER", after=call.keyword_end)
+        else:
+            by_line = said == "LIGN"
+    rows = read_csv(path, separator, first)
+    made = Table()
+    for i, values in enumerate(rows if by_line else as_columns(rows), start=1):
+        made.set(i, ListReel(values))
+    return made
+
+
+@LIRE.on(
+    "PROC",
+    syntax="LIRE 'PROC' FIC1 (MOT1) ;",
+    en="PROC: the procedures that a file defines (only MOT1 if it is given); a file of statements "
+    "without a DEBP becomes the procedure MOT1.",
+    fr="PROC : les procédures définies dans un fichier (seulement MOT1 s'il est donné) ; un "
+    "fichier d'instructions sans DEBP devient la procédure MOT1.",
+)
+def _proc(call: Call, word: str) -> None:
+    name = call.required("MOT", after=call.keyword_end)
+    path = input_path(call, name)
+    wanted = (call.word() or "").strip().upper()
+    script = parse(Source.read(path))
+    frame = call.session.frame
+    found = {n.name: n for n in script.body if isinstance(n, Definition)}
+    if not found and wanted:
+        body = Definition(wanted, (), script.body, (), False, script.span)
+        frame.assign(wanted, Procedure(wanted, body, str(path)))
+        return
+    if wanted and wanted not in found:
+        raise call.bad(f"{path.name} defines no procedure {wanted}", name,
+                       "it defines " + ", ".join(found))  # fmt: skip
+    for key, node in found.items():
+        if not wanted or key == wanted:
+            frame.assign(key, Procedure(key, node, str(path)))
+
+
+@LIRE.on(
+    "AVS",
+    syntax="TAB1 = LIRE 'AVS' ;",
+    en="AVS: the next structure of the AVS UCD file that OPTI LECT names, as a table: MAILSUPP its "
+    "nodes, LEMAILLA its cells, SOUMAILA the parts by kind and material, LECHPOIN and LEMCHAML "
+    "its fields, values of the model under their names.",
+    fr="AVS : la structure suivante du fichier AVS UCD que nomme OPTI LECT, en table : MAILSUPP "
+    "ses noeuds, LEMAILLA ses éléments, SOUMAILA les parties par type et matériau, LECHPOIN et "
+    "LEMCHAML ses champs, les valeurs globales sous leur nom.",
+)
+def _avs(call: Call, word: str) -> Table:
+    name = option_name(call.session, "LECT", 4)
+    output = run_output(call.session)
+    path = output.source(name + ".inp")
+    if path is None or not path.is_file():
+        path = input_path(call, name)
+    done = output.opened.get("LECT", 0)
+    structure = read_avs(path, done)
+    if structure is None:
+        raise call.bad(f"{path.name} holds {done} structures, all have been read")
+    output.opened["LECT"] = done + 1
+    return _avs_table(call, structure)
+
+
+def _avs_table(call: Call, structure: Structure) -> Table:
+    nodes = workspace(call.session).nodes
+    ids = nodes.add(structure.points)
+    blocks = [CellBlock.make(nodes, kind, ids[t]) for kind, _, t in structure.cells]
+    made, parts = Table(), Table()
+    for i, block in enumerate(blocks, start=1):
+        parts.set(i, Mesh(nodes, (block,)))
+    made.set(Mot("MAILSUPP"), poi1(nodes, ids))
+    made.set(Mot("LEMAILLA"), Mesh(nodes, tuple(blocks)))
+    made.set(Mot("SOUMAILA"), parts)
+    if structure.node_values:
+        made.set(Mot("LECHPOIN"), NodeField.of(nodes, ids, structure.node_values))
+    if structure.cell_values:
+        made.set(Mot("LEMCHAML"), CellField(_cell_parts(structure, blocks), "SCALAIRE"))
+    for key, value in structure.model_values.items():
+        made.set(Mot(key), value)
+    return made
+
+
+def _cell_parts(structure: Structure, blocks: list[CellBlock]) -> tuple[CellFieldBlock, ...]:
+    ends = np.cumsum([len(b) for b in blocks])
+    made = []
+    for block, end in zip(blocks, ends, strict=True):
+        rows = slice(end - len(block), end)
+        values = {n: v[rows, None] for n, v in structure.cell_values.items()}
+        made.append(CellFieldBlock(block, values, "GRAVITE"))
+    return tuple(made)
+
+
+@LIRE.on(
+    "UNV",
+    syntax="TAB1 = LIRE 'UNV' FIC1 ;",
+    en="UNV: nodes, cells and groups of an I-DEAS universal file, as a table of meshes: NOEUDS, "
+    "MAILLAGE, '@SEG2' ... by type, and each group under its name (NAME_GN for the nodes of a "
+    "group that holds cells too).",
+    fr="UNV : noeuds, éléments et groupes d'un fichier universel I-DEAS, en table de maillages : "
+    "NOEUDS, MAILLAGE, '@SEG2' ... par type, et chaque groupe sous son nom (NOM_GN pour les "
+    "noeuds d'un groupe qui contient aussi des éléments).",
+)
+def _unv(call: Call, word: str) -> Table:
+    return _unv_table(call, read_unv(_file(call, ".unv")))
+
+
+def _unv_table(call: Call, read: UnvMesh) -> Table:
+    ws = workspace(call.session)
+    ids = ws.nodes.add(read.points)
+    made = Table()
+    made.set(Mot("NOEUDS"), poi1(ws.nodes, ids))
+    blocks = {kind: CellBlock.make(ws.nodes, kind, ids[t]) for kind, t in read.cells.items()}
+    made.set(Mot("MAILLAGE"), Mesh(ws.nodes, tuple(blocks.values())))
+    for kind, block in blocks.items():
+        made.set(Mot("@" + kind), Mesh(ws.nodes, (block,)))
+    for name, (cells, rows) in read.groups.items():
+        rows_of: dict[str, list[int]] = {}
+        for kind, row in cells:
+            rows_of.setdefault(kind, []).append(row)
+        parts = [
+            CellBlock.make(ws.nodes, kind, blocks[kind].connectivity[chosen])
+            for kind, chosen in rows_of.items()
+        ]
+        if parts:
+            made.set(Mot(name), Mesh(ws.nodes, tuple(parts)))
+        if rows:
+            made.set(Mot(f"{name}_GN" if parts else name), poi1(ws.nodes, ids[rows]))
+    return made
+
+
+@LIRE.on(
+    "STL",
+    syntax="MAIL1 = LIRE 'STL' FIC1 ;",
+    en="STL: a mesh of TRI3, text or binary; ELIM joins its nodes.",
+    fr="STL : un maillage de TRI3, texte ou binaire ; ELIM réunit ses noeuds.",
+)
+def _stl(call: Call, word: str) -> Mesh:
+    corners = read_stl(_file(call, ".stl"))
+    nodes = workspace(call.session).nodes
+    ids = nodes.add(corners.reshape(-1, 3))
+    return Mesh.of(nodes, "TRI3", ids.reshape(-1, 3))
+
+
+@LIRE.on("MED", "FEM", "NAS")
+def _refused(call: Call, word: str) -> Any:
+    raise call.bad(
+        f"LIRE '{word}' is not supported",
+        hint="formats that are read: CSV, AVS, UNV, STL, PROC",
+    )

@@ -1,0 +1,254 @@
+"""SAUV and REST: objects kept in a file between two runs."""
+
+from __future__ import annotations
+
+from contextlib import closing
+from dataclasses import dataclass, field
+from typing import Any
+
+from ssilang.io.archive import Archive, Decoder, Encoder, Record, read_archive, write_archive
+from ssilang.io.archive.classes import Packing, register_packing
+from ssilang.io.errors import InputError
+from ssilang.kernel.model import Mode
+from ssilang.language.call import Call
+from ssilang.language.registry import Help, operator
+from ssilang.language.scopes import Frame
+from ssilang.language.session import PREDEFINED
+from ssilang.language.source import Source
+from ssilang.language.structure import parse
+from ssilang.language.tree import Definition
+from ssilang.language.values import (
+    Annule,
+    ListChpo,
+    ListEnti,
+    ListMots,
+    ListObje,
+    ListReel,
+    Mot,
+    Objet,
+    Procedure,
+    Table,
+    Texte,
+)
+from ssilang.operators.files.outputs import input_path, option_name, output_path, run_output
+from ssilang.operators.session.configurations import Configuration
+from ssilang.operators.workspace import Workspace, workspace
+
+# ---- how objects of the language are taken apart
+
+
+def _list_packing(cls: type) -> Packing:
+    def fill(made: Any, values: Any) -> None:
+        made.values = cls(values).values
+
+    return Packing(lambda v: v.values, lambda _: cls(), fill, mutable=True)
+
+
+def _fill_table(made: Table, pairs: Any) -> None:
+    for index, value in pairs:
+        made.set(index, value)
+
+
+def _pack_objet(value: Objet) -> Any:
+    return [value.class_name, value.attributes, value.methods]
+
+
+def _fill_objet(made: Objet, parts: Any) -> None:
+    made.class_name, attributes, methods = parts
+    made.attributes.update(attributes)
+    made.methods.update(methods)
+
+
+def _source_of(value: Procedure) -> list[str]:
+    span = value.definition.span
+    return [value.name, span.source.code[span.start : span.end], value.origin]
+
+
+def _procedure(parts: Any) -> Procedure:
+    name, text, origin = parts
+    body = parse(Source(f"saved {name}", text.rstrip().rstrip(";") + ";")).body
+    if len(body) == 1 and isinstance(body[0], Definition):
+        return Procedure(name, body[0], origin)
+    whole = parse(Source(f"saved {name}", text))
+    return Procedure(name, Definition(name, (), whole.body, (), False, whole.span), origin)
+
+
+def _texte(text: str) -> Texte:
+    from ssilang.language.parser import parse_statements
+
+    statements = parse_statements(Source("saved text", text + ";")) if text.strip() else []
+    return Texte(tuple(item for s in statements for item in s.items))
+
+
+def _text_of(value: Texte) -> str:
+    return " ".join(item.span.text for item in value.items)
+
+
+for _cls in (ListReel, ListEnti, ListMots, ListChpo, ListObje):
+    register_packing(_cls, _cls.__name__, _list_packing(_cls))
+register_packing(Mot, "Mot", Packing(str, Mot))
+register_packing(Configuration, "Configuration", Packing(lambda c: c.coordinates, Configuration))
+register_packing(Annule, "Annule", Packing(lambda _: None, lambda _: Annule()))
+register_packing(Texte, "Texte", Packing(_text_of, _texte))
+register_packing(Procedure, "Procedure", Packing(_source_of, _procedure))
+register_packing(
+    Table,
+    "Table",
+    Packing(lambda t: [list(p) for p in t.items()], lambda _: Table(), _fill_table, mutable=True),
+)
+register_packing(Objet, "Objet", Packing(_pack_objet, lambda _: Objet(), _fill_objet, mutable=True))
+
+
+# ---- SAUV
+
+
+@dataclass
+class _Begun:
+    """The file that SAUV is writing since OPTI named it."""
+
+    encoder: Encoder = field(default_factory=Encoder)
+    records: list[Record] = field(default_factory=list)
+
+
+@operator(
+    "SAUV",
+    family="files",
+    full_name="SAUVER",
+    help=Help(
+        en="Saves objects, all that they refer to and the names of both, to the file that OPTI "
+        "SAUV names, in the output folder; without objects, everything that has a name. Further "
+        "statements add to the file, under a LABEL if one is given. REST reads it back. The "
+        "format is ssilang's own (JSON and arrays), FORMAT and MUET change nothing.",
+        fr="Sauve des objets, tout ce à quoi ils se réfèrent et les noms des uns et des autres, "
+        "dans le fichier que nomme OPTI SAUV, dans le dossier de sortie ; sans objet, tout ce qui "
+        "a un nom. Les instructions suivantes complètent le fichier, sous un LABEL s'il est donné. "
+        "REST le relit. Le format est propre à ssilang (JSON et tableaux) ; FORMAT et MUET n'y "
+        "changent rien.",
+        syntax="SAUV ('FORMAT') ('LABEL' MOT1) ('MUET') (OBJ1 OBJ2 ...) ;",
+        examples=(
+            "OPTI DIME 2 ELEM SEG2 ; L = DROI 3 (0. 0.) (1. 0.) ; OPTI SAUV 'l.sauv' ; SAUV L ; "
+            "OPTI REST 'l.sauv' ; REST ; MESS (NBEL L) ;",
+        ),
+    ),
+    reads_itself=True,
+)
+def sauv(call: Call) -> None:
+    """Add a record to the file and write it."""
+    label = ""
+    while (said := call.keyword(("FORMAT", "LABEL", "MUET"))) is not None:
+        if said == "LABEL":
+            label = str(call.required("MOT", after=call.keyword_end)).strip()
+    frame = call.session.frame
+    operands = [(o.name, o.value) for o in iter(lambda: call.read("*", "TEXTE"), None)]
+    for name, value in operands:
+        if not name and isinstance(value, str) and frame.find(value.upper()) is None:
+            raise call.bad(f"there is no object '{value}' to save", value)
+    if not operands:
+        operands = [(n, frame.find(n)) for n in sorted(_own_names(frame))]
+    output = run_output(call.session)
+    begun = output.opened.setdefault("SAUV", _Begun())
+    assert isinstance(begun, _Begun)
+    record = _record(begun, frame, operands, label)
+    path = output_path(call, option_name(call.session, "SAUV", 8))
+    settings = _settings(workspace(call.session))
+    write_archive(
+        path, begun.encoder.objects, begun.encoder.arrays, [*begun.records, record], settings
+    )
+    begun.records.append(record)
+    output.wrote(path)
+
+
+def _own_names(frame: Frame) -> set[str]:
+    """Names that the script has given; those that every session has and loops' counters not."""
+    given = {n for n in frame.names() if n[0] != "&"}
+    return {n for n in given if n not in PREDEFINED or frame.find(n) is not PREDEFINED[n]}
+
+
+def _record(begun: _Begun, frame: Frame, operands: list[tuple[str, Any]], label: str) -> Record:
+    """Codes of the operands, and of every named object that they hold."""
+    encoder = begun.encoder
+    before = encoder.held()
+    encoder.begin_record()
+    codes = [(name, encoder.encode(value)) for name, value in operands]
+    reached = encoder.held() - before
+    record = Record(label, {name: code for name, code in codes if name})
+    for name in sorted(_own_names(frame)):
+        value = frame.find(name)
+        if name not in record.names and _is_reached(value, reached):
+            record.names[name] = encoder.encode(value)
+    return record
+
+
+def _is_reached(value: Any, reached: set[int]) -> bool:
+    """Whether an object, or all that it consists of (blocks of a mesh, zones of a model), is in."""
+    if id(value) in reached:
+        return True
+    parts = getattr(value, "blocks", None) or getattr(value, "zones", None) or ()
+    return bool(parts) and all(id(part) in reached for part in parts)
+
+
+def _settings(ws: Workspace) -> dict[str, Any]:
+    return {
+        "DIME": ws.dimension,
+        "MODE": ws.mode.name,
+        "ELEM": ws.element,
+        "TITR": ws.title,
+        "INCO": ws.options.get("INCO", {}),
+    }
+
+
+# ---- REST
+
+
+@operator(
+    "REST",
+    family="files",
+    full_name="RESTITUER",
+    help=Help(
+        en="Gives back the objects of the file that OPTI REST names, under their names; up to the "
+        "record of a LABEL if one is given. Its nodes are added to those that exist, as are the "
+        "unknowns of OPTI INCO. Dimension and mode are those of the file if none has been set.",
+        fr="Rend les objets du fichier que nomme OPTI REST, sous leurs noms ; jusqu'à celui d'un "
+        "LABEL s'il est donné. Ses noeuds s'ajoutent à ceux qui existent, comme les inconnues "
+        "d'OPTI INCO. Dimension et mode sont ceux du fichier s'ils n'ont pas été fixés.",
+        syntax="REST ('FORMAT') ('LABEL' MOT1) ;",
+        examples=(
+            "X = PROG 1. 2. ; OPTI SAUV 'x.sauv' ; SAUV X ; X = 0 ; "
+            "OPTI REST 'x.sauv' ; REST ; MESS (DIME X) ;",
+        ),
+    ),
+    reads_itself=True,
+)
+def rest(call: Call) -> None:
+    """Read a file's records into names."""
+    label = ""
+    while (said := call.keyword(("FORMAT", "LABEL", "MUET"))) is not None:
+        if said == "LABEL":
+            label = str(call.required("MOT", after=call.keyword_end)).strip()
+    name = option_name(call.session, "REST", 2)
+    with closing(read_archive(input_path(call, name))) as archive:
+        _restore(call, archive, name, label)
+
+
+def _restore(call: Call, archive: Archive, name: str, label: str) -> None:
+    ws = workspace(call.session)
+    labels = [r.label for r in archive.records]
+    if label and label not in labels:
+        known = ", ".join(x for x in labels if x) or "none"
+        raise InputError(f"{name} has no record labelled '{label}'", f"its labels are: {known}")
+    records = archive.records[: labels.index(label) + 1] if label else archive.records
+    decoder = Decoder(archive, ws.nodes)
+    for record in records:
+        for key, code in record.names.items():
+            call.session.frame.assign(key, decoder.decode(code))
+    if added := archive.settings.get("INCO"):
+        ws.options["INCO"] = {**ws.options.get("INCO", {}), **added}
+    if not ws.dimension:
+        _restore_settings(ws, archive.settings)
+
+
+def _restore_settings(ws: Workspace, saved: dict[str, Any]) -> None:
+    ws.dimension = int(saved.get("DIME", 0))
+    ws.element = str(saved.get("ELEM", ""))
+    if saved.get("MODE") in Mode.__members__:
+        ws.mode = Mode[saved["MODE"]]

@@ -1,0 +1,128 @@
+"""SORT 'AVS ', 'STL ' and 'MAT ': meshes, fields and matrices in others' text formats."""
+
+from __future__ import annotations
+
+from ssilang.io.atomic import write_text
+from ssilang.io.matrix_market import market_lines, node_lines, system_of, unknown_lines
+from ssilang.io.mesh_files.avs import avs_lines, structure_of
+from ssilang.io.mesh_files.stl import stl_lines
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.mesh.combine import poi1
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh
+from ssilang.language.call import Call
+from ssilang.operators.files.outputs import run_output
+from ssilang.operators.files.writing import SORT, target_path
+
+
+@SORT.on(
+    "AVS",
+    syntax="SORT 'AVS ' (MAIL1) (CHPO1) (MCHAML1) ('SUIT') ('TEMP' FLOT1) ;",
+    en="AVS: a mesh (else the cells of the field in cells, else the nodes of the nodal field) with "
+    "a nodal field and a field in cells (one mean value a cell), in AVS UCD text. SUIT appends a "
+    "structure to those written since OPTI SORT, TEMP adds the value 'time'.",
+    fr="AVS : un maillage (sinon les éléments du champ par éléments, sinon les noeuds du champ par "
+    "points) avec un champ par points et un champ par éléments (une valeur moyenne par élément), "
+    "en texte AVS UCD. SUIT ajoute une structure à celles écrites depuis OPTI SORT, TEMP ajoute la "
+    "valeur 'time'.",
+    examples=(
+        "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; OPTI SORT 'line' ; "
+        "SORT 'AVS ' L 'TEMP' 1.5 ;",
+    ),
+)
+def _avs(call: Call, word: str) -> None:
+    found: dict[type, object] = {}
+    time: float | None = None
+    follows = False
+    while True:
+        said = call.keyword(("SUIT", "TEMP"))
+        if said == "SUIT":
+            follows = True
+            continue
+        if said == "TEMP":
+            time = float(call.required("FLOTTANT", after=call.keyword_end))
+            continue
+        operand = call.read("MAILLAGE", "CHPOINT", "MCHAML")
+        if operand is None:
+            break
+        found[type(operand.value)] = operand.value
+    nodal, cells = found.get(NodeField), found.get(CellField)
+    assert nodal is None or isinstance(nodal, NodeField)
+    assert cells is None or isinstance(cells, CellField)
+    mesh = _support(call, found.get(Mesh), nodal, cells)
+    output = run_output(call.session)
+    if not follows:
+        output.reopen("SORT")
+    lines = avs_lines(structure_of(mesh, nodal, cells, time))
+    output.add_lines("SORT", target_path(call, ".inp"), lines)
+
+
+def _support(call: Call, mesh: object, nodal: NodeField | None, cells: CellField | None) -> Mesh:
+    if isinstance(mesh, Mesh):
+        return mesh
+    if cells is not None and cells.blocks:
+        blocks: dict[int, CellBlock] = {id(b.cells): b.cells for b in cells.blocks}
+        return Mesh(cells.blocks[0].cells.nodes, tuple(blocks.values()))
+    if nodal is not None:
+        return poi1(nodal.table, nodal.node_ids)
+    raise call.missing(("MAILLAGE", "CHPOINT", "MCHAML"))
+
+
+@SORT.on(
+    "STL",
+    syntax="SORT 'STL ' MAIL1 ;",
+    en="STL: a surface of TRI3 as STL text.",
+    fr="STL : une surface de TRI3 en texte STL.",
+)
+def _stl(call: Call, word: str) -> None:
+    mesh = call.required("MAILLAGE")
+    output = run_output(call.session)
+    output.reopen("SORT")
+    output.add_lines("SORT", target_path(call, ".stl"), stl_lines(mesh))
+
+
+@SORT.on(
+    "MAT",
+    syntax="SORT 'MAT ' 'MM' 'ASSE' RIGI1 ('TITR' MOT1) ('INCO') ('GEOM') ;",
+    en="MAT: a matrix, assembled, as Matrix Market text (.mm), the multipliers of its conditions "
+    "behind its unknowns. INCO adds a file .inco (local node and component of each unknown, then "
+    "of each equation, then the names), GEOM a file .geom (coordinates of the local nodes, number "
+    "of the node).",
+    fr="MAT : une rigidité assemblée, en texte Matrix Market (.mm), les multiplicateurs de ses "
+    "conditions derrière ses inconnues. INCO ajoute un fichier .inco (noeud local et composante "
+    "de chaque inconnue, puis de chaque équation, puis les noms), GEOM un fichier .geom "
+    "(coordonnées des noeuds locaux, numéro du noeud).",
+    examples=(
+        "OPTI DIME 2 MODE PLAN DEFO ; P = 0. 0. ; K = APPU 'UX' 400. P ; OPTI SORT 'k' ; "
+        "SORT 'MAT ' 'MM' 'ASSE' K 'INCO' ;",
+    ),
+)
+def _mat(call: Call, word: str) -> None:
+    form = call.keyword(("MM", "MATRIX_MARKET", "RB", "RUTHERFORD_BOEING"))
+    storage = call.keyword(("ASSEMBLEE", "ELEMENTAIRE"))
+    if form not in ("MM", "MATRIX_MARKET") or storage != "ASSEMBLEE":
+        raise call.bad("only 'MM' 'ASSE' is supported, the assembled matrix as Matrix Market text")
+    title, extras, matrix = "", set(), None
+    while True:
+        said = call.keyword(("TITR", "INCO", "GEOM"))
+        if said == "TITR":
+            title = str(call.required("MOT", after=call.keyword_end))
+        elif said is not None:
+            extras.add(said)
+        elif (operand := call.read("RIGIDITE")) is not None:
+            matrix = operand.value
+        else:
+            break
+    if matrix is None:
+        raise call.missing(("RIGIDITE",))
+    system = system_of(matrix)
+    path = target_path(call, ".mm")
+    output = run_output(call.session)
+    texts = {path: market_lines(system, title)}
+    if "INCO" in extras:
+        texts[path.with_suffix(".inco")] = unknown_lines(system)
+    if "GEOM" in extras:
+        texts[path.with_suffix(".geom")] = node_lines(system, matrix.table.coordinates)
+    for target, lines in texts.items():
+        write_text(target, "".join(line + "\n" for line in lines))
+        output.wrote(target)

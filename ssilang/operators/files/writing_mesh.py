@@ -1,0 +1,84 @@
+"""SORT and LIRE without a format: a mesh with its named parts, in ssilang's own file."""
+
+from __future__ import annotations
+
+from contextlib import closing
+from typing import Any
+
+import numpy as np
+
+from ssilang.io.archive import Archive, Decoder, Encoder, Record, read_archive, write_archive
+from ssilang.io.errors import InputError
+from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.language.call import Call
+from ssilang.operators.files.outputs import input_path, option_name, run_output
+from ssilang.operators.files.reading import LIRE
+from ssilang.operators.files.writing import SORT, target_path
+from ssilang.operators.workspace import workspace
+
+
+@SORT.on_type(
+    "MAILLAGE",
+    syntax="SORT MAIL1 ('NOOP') ;",
+    en="Without a word: a mesh with its named parts (points and meshes on its nodes), in a file of "
+    "ssilang's own that LIRE reads; SAUV saves everything else too.",
+    fr="Sans mot : un maillage avec ses parties nommées (points et maillages sur ses noeuds), dans "
+    "un fichier propre à ssilang que relit LIRE ; SAUV sauve aussi tout le reste.",
+    examples=(
+        "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; OPTI SORT 'line' ; SORT L ; "
+        "OPTI LECT 'line' ; LIRE L ; MESS (NBEL L) ;",
+    ),
+)
+def _sort_mesh(call: Call, mesh: Mesh) -> None:
+    call.keyword(("NOOP",))
+    frame = call.session.frame
+    encoder = Encoder()
+    names = {}
+    for name in sorted(frame.names()):
+        value = frame.find(name)
+        if value is mesh or _is_part(value, mesh):
+            names[name] = encoder.encode(value)
+    if not any(frame.find(name) is mesh for name in names):
+        names["MAILLAGE"] = encoder.encode(mesh)
+    path = target_path(call)
+    ws = workspace(call.session)
+    write_archive(
+        path, encoder.objects, encoder.arrays, [Record("", names)], {"DIME": ws.dimension}
+    )
+    run_output(call.session).wrote(path)
+
+
+def _is_part(value: Any, mesh: Mesh) -> bool:
+    if isinstance(value, Point):
+        return bool(np.isin(value.node, mesh.sorted_node_ids))
+    if isinstance(value, Mesh) and value.blocks:
+        return bool(np.isin(value.sorted_node_ids, mesh.sorted_node_ids).all())
+    return False
+
+
+@LIRE.on(
+    "",
+    syntax="LIRE (GEO1) ;",
+    en="Without a word: the mesh and its named parts from the file that OPTI LECT names, written "
+    "by SORT; GEO1 must be one of them if it is given.",
+    fr="Sans mot : le maillage et ses parties nommées du fichier que nomme OPTI LECT, écrit par "
+    "SORT ; GEO1 doit en être un s'il est donné.",
+)
+def _lire_mesh(call: Call, word: str) -> None:
+    operand = call.read("*")
+    wanted = "" if operand is None else operand.name or str(operand.value).strip().upper()
+    path = input_path(call, option_name(call.session, "LECT", 4))
+    with closing(read_archive(path)) as archive:
+        _restore(call, archive, wanted)
+
+
+def _restore(call: Call, archive: Archive, wanted: str) -> None:
+    names = archive.records[0].names if archive.records else {}
+    if wanted and wanted not in names:
+        known = ", ".join(names)
+        raise InputError(f"{archive.path.name} holds no mesh '{wanted}'", f"it holds {known}")
+    ws = workspace(call.session)
+    decoder = Decoder(archive, ws.nodes)
+    for name, code in names.items():
+        call.session.frame.assign(name, decoder.decode(code))
+    ws.dimension = ws.dimension or int(archive.settings.get("DIME", 0))

@@ -1,0 +1,159 @@
+"""SORT 'VTK ': meshes and fields to .vtu files and the .pvd that lists them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ssilang.io.run_output import RunOutput
+from ssilang.io.vtk.series import Part, SeriesWriter, strip_extension
+from ssilang.io.vtk.vtu import Encoding
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.language.call import Call
+from ssilang.language.values import Table
+from ssilang.operators.files.outputs import run_output
+from ssilang.operators.files.writing import SORT, target_path
+
+_ENCODINGS = ("FORM", "BINA", "ZIP")
+_LISTS = ("AUTO", "NOUV", "SUIT", "NPVD")
+_WORDS = (*_ENCODINGS, *_LISTS, "TEMP", "DOUBLE_PRECISION")
+_OBJECTS = ("MAILLAGE", "CHPOINT", "MCHAML", "TABLE")
+
+
+@dataclass
+class _Said:
+    """What a SORT 'VTK ' statement holds: objects by name, and its options."""
+
+    meshes: dict[str, Mesh] = field(default_factory=dict)
+    points: dict[str, NodeField] = field(default_factory=dict)
+    cells: dict[str, CellField] = field(default_factory=dict)
+    encoding: Encoding = Encoding.ZIP
+    listing: str = "AUTO"
+    time: float | None = None
+
+    def add(self, value: Any, name: str) -> None:
+        """Add an object under its name, or under a usual one."""
+        if isinstance(value, Mesh):
+            self.meshes[name or f"{len(self.meshes) + 1:04d}"] = value
+        elif isinstance(value, NodeField):
+            self.points[name or f"CHPO{len(self.points) + 1}"] = value
+        elif isinstance(value, CellField):
+            self.cells[name or f"CHEL{len(self.cells) + 1}"] = value
+
+
+@SORT.on(
+    "VTK",
+    syntax="SORT 'VTK ' OBJ1 (MOT1) (OBJ2 (MOT2) ...) ('FORM'|'BINA'|'ZIP') "
+    "('AUTO'|'NOUV'|'SUIT'|'NPVD') ('TEMP' FLOT1) ('DOUBLE_PRECISION') ;",
+    en="VTK: meshes, nodal fields, fields in cells and tables of them, each with an optional name, "
+    "as .vtu files for ParaView: NAME.vtu for one mesh, NAME.step.mesh.vtu for several meshes or "
+    "times (TEMP), and NAME.pvd that lists them. Displacements, velocities and forces become "
+    "vectors, stresses and strains tensors, joints' tractions and openings vectors in the joint's "
+    "axes. AUTO goes on with the series that this run began when the time grows, else begins a "
+    "new one; SUIT goes on with the .pvd that is there, NOUV begins anew, NPVD writes no list. "
+    "Numbers are written in double precision, packed unless FORM or BINA says otherwise.",
+    fr="VTK : maillages, champs par points ou par éléments et tables de tels objets, chacun avec "
+    "un nom facultatif, en fichiers .vtu pour ParaView : NOM.vtu pour un maillage, "
+    "NOM.pas.maillage.vtu pour plusieurs maillages ou instants (TEMP), et NOM.pvd qui les "
+    "énumère. Déplacements, vitesses et forces deviennent des vecteurs, contraintes et "
+    "déformations des tenseurs, tractions et ouvertures de joints des vecteurs dans les axes du "
+    "joint. AUTO poursuit la série commencée par ce calcul si le temps croît, sinon en commence "
+    "une ; SUIT poursuit le .pvd existant, NOUV recommence, NPVD n'écrit pas de liste. Les "
+    "nombres sont en double précision, compressés sauf FORM ou BINA.",
+    examples=(
+        "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; "
+        "U = MANU 'CHPO' L 2 'UX' 0. 'UY' 0.1 ; "
+        "OPTI SORT 'beam' ; SORT 'VTK ' L 'BEAM' U 'DEPL' 'TEMP' 0.5 ;",
+    ),
+)
+def _vtk(call: Call, word: str) -> None:
+    said = _read(call)
+    if not said.meshes:
+        raise call.missing(("MAILLAGE",))
+    path = strip_extension(target_path(call))
+    output = run_output(call.session)
+    parts = {name: _part(mesh, said) for name, mesh in said.meshes.items()}
+    if said.time is None and len(parts) == 1:
+        (part,) = parts.values()
+        writer = SeriesWriter(path, said.encoding, listed=said.listing != "NPVD")
+        writer.write_single(part)
+        output.wrote(*writer.files)
+        output.series.pop(path, None)
+        return
+    writer = _writer(output, path, said, tuple(parts))
+    writer.write_parts(said.time or 0.0, parts)
+    output.wrote(*writer.files)
+
+
+def _writer(output: RunOutput, path: Path, said: _Said, parts: tuple[str, ...]) -> SeriesWriter:
+    """The series to which the step is added."""
+    begun = output.series.get(path)
+    time = said.time or 0.0
+    if said.listing == "SUIT" and begun is None:
+        begun = SeriesWriter(path, said.encoding, resume=True)
+    elif said.listing == "NOUV" or (
+        said.listing == "AUTO" and begun is not None and not begun.accepts(time, parts)
+    ):
+        begun = None
+    if begun is None:
+        begun = SeriesWriter(path, said.encoding, listed=said.listing != "NPVD")
+    output.series[path] = begun
+    return begun
+
+
+def _read(call: Call) -> _Said:
+    said = _Said()
+    while True:
+        # a word behind an object is looked at as its name first
+        first = call.operands[0].value if call.operands else None
+        word = call.keyword(_WORDS) if isinstance(first, str) else None
+        if word in _ENCODINGS:
+            said.encoding = Encoding(word)
+        elif word in _LISTS:
+            said.listing = str(word)
+        elif word == "TEMP":
+            said.time = float(call.required("FLOTTANT", after=call.keyword_end))
+        if word is not None:
+            continue
+        operand = call.read(*_OBJECTS)
+        if operand is None:
+            return said
+        if isinstance(operand.value, Table):
+            for index, value in operand.value.items():
+                said.add(value, _index_name(index))
+        else:
+            usual = "" if isinstance(operand.value, Mesh) else operand.name
+            said.add(operand.value, _given_name(call) or usual)
+
+
+def _given_name(call: Call) -> str:
+    """The word right behind the object just read, unless it is an option."""
+    if not call.operands or not isinstance(call.operands[0].value, str):
+        return ""
+    text = str(call.operands[0].value).strip()
+    known = any(text.upper()[:4] == w[:4] for w in _WORDS)
+    behind = call.operands[1].value if len(call.operands) > 1 else None
+    is_time = isinstance(behind, int | float) and not isinstance(behind, bool)
+    # a field may well be called TEMP: it is the option only before a number
+    if known and (text.upper()[:4] != "TEMP" or is_time):
+        return ""
+    call.used.append(call.operands.pop(0))
+    return text
+
+
+def _index_name(index: object) -> str:
+    if isinstance(index, float):
+        return f"{index:g}"
+    return str(index).strip() if isinstance(index, str | int) else ""
+
+
+def _part(mesh: Mesh, said: _Said) -> Part:
+    """The mesh with the fields that have values on it."""
+    ids = mesh.sorted_node_ids
+    points = {n: f for n, f in said.points.items() if np.isin(f.node_ids, ids).any()}
+    return Part(mesh, points, said.cells)

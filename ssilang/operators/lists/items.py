@@ -1,0 +1,298 @@
+"""Items of lists: EXTR ENLE INSE REMP SOMM DIME POSI INVE COPI, ET."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ssilang.kernel.errors import KernelError
+from ssilang.language.call import Call
+from ssilang.language.registry import Help, operator
+from ssilang.language.values import (
+    ListChpo,
+    ListEnti,
+    ListMots,
+    ListObje,
+    ListReel,
+    Mot,
+    type_of,
+)
+from ssilang.operators.dispatch import COPI, DIME, ENLE, EXTR, INVE, union
+from ssilang.operators.lists.making import check_length
+
+AnyList = ListReel | ListEnti | ListMots | ListChpo | ListObje
+LISTS = ("LISTREEL", "LISTENTI", "LISTMOTS", "LISTCHPO", "LISTOBJE")
+_ITEM = {
+    "LISTREEL": ("FLOTTANT",), "LISTENTI": ("ENTIER",), "LISTMOTS": ("MOT",),
+    "LISTCHPO": ("CHPOINT",), "LISTOBJE": ("*",),
+}  # fmt: skip
+
+
+def _places(call: Call, size: int, places: Any) -> list[int]:
+    """0-based places from an ENTIER or LISTENTI, checked."""
+    wanted = places.values.tolist() if isinstance(places, ListEnti) else [int(places)]
+    for i in wanted:
+        if not 1 <= i <= size:
+            raise call.bad(f"the list has {size} items, there is none at place {i}", places)
+    return [i - 1 for i in wanted]
+
+
+def taken(value: Any, places: list[int]) -> Any:
+    """The list of the items at 0-based places."""
+    if isinstance(value, ListReel | ListEnti):
+        return type(value)(value.values[places])
+    return type(value)([value.values[i] for i in places])
+
+
+def _plain(item: Any) -> Any:
+    return item.item() if isinstance(item, np.generic) else item
+
+
+@EXTR.on(
+    *LISTS,
+    syntax="OBJ1 = EXTR LIS1 N1 ; LIS2 = EXTR LIS1 LENT1 ;",
+    en="Of a list: the item at place N1 (from 1), or the list of the items at places LENT1.",
+    fr="D'une liste : l'élément de rang N1 (à partir de 1), ou la liste des éléments de rangs "
+    "LENT1.",
+    examples=("LIST (EXTR (PROG 5. 6. 7.) 2) ;", "LIST (EXTR (MOTS 'A' 'B' 'C') (LECT 3 1)) ;"),
+)
+def _extract(call: Call, value: AnyList) -> Any:
+    if isinstance(value, ListChpo) and call.keyword(("VALE",)) is not None:
+        return _values_at(call, value)
+    operand = call.read("ENTIER", "LISTENTI")
+    if operand is None:
+        raise call.missing(("ENTIER", "LISTENTI"))
+    places = _places(call, len(value), operand.value)
+    if isinstance(operand.value, ListEnti):
+        return taken(value, places)
+    return _plain(value.values[places[0]])
+
+
+def _values_at(call: Call, value: ListChpo) -> ListReel:
+    point = call.read("POINT")
+    names = call.read("LISTMOTS", "MOT")
+    if point is None:
+        point = call.read("POINT")
+    if point is None:
+        raise call.missing(("POINT",))
+    node = np.asarray([point.value.node])
+    fields: list[Any] = value.values
+    if names is not None:
+        said = names.value
+        wanted = list(said.values) if isinstance(said, ListMots) else [said]
+    else:
+        wanted = list(dict.fromkeys(n for f in fields for n in f.components))
+        if any(set(f.components) != set(wanted) for f in fields):
+            raise call.bad("the fields have not the same components", hint="name the one wanted")
+    return ListReel([float(f.values_at(str(n).rstrip(), node)[0]) for n in wanted for f in fields])
+
+
+@ENLE.on(
+    *LISTS,
+    syntax="LIS2 = ENLE LIS1 N1 | LENT1 ;",
+    en="Of a list: without the items at places N1 or LENT1 (places before any removal).",
+    fr="D'une liste : sans les éléments de rangs N1 ou LENT1 (rangs avant toute suppression).",
+    examples=("LIST (ENLE (LECT 4 5 6) 2) ;",),
+)
+def _remove(call: Call, value: AnyList) -> Any:
+    operand = call.read("ENTIER", "LISTENTI")
+    if operand is None:
+        raise call.missing(("ENTIER", "LISTENTI"))
+    gone = set(_places(call, len(value), operand.value))
+    return taken(value, [i for i in range(len(value)) if i not in gone])
+
+
+@DIME.on(
+    *LISTS,
+    en="Of a list: its number of items.",
+    fr="D'une liste : son nombre d'éléments.",
+    examples=("LIST (DIME (PROG 1. 2. 3.)) ;",),
+)
+def _size(call: Call, value: AnyList) -> int:
+    return len(value)
+
+
+@operator(
+    "INSE",
+    family="lists",
+    full_name="INSERER",
+    help=Help(
+        en="New list with an item put at place N1; those from there on move up.",
+        fr="Nouvelle liste avec un élément mis au rang N1 ; les suivants se décalent.",
+        syntax="LIS2 = INSE LIS1 N1 OBJ1 ;",
+        examples=("LIST (INSE (PROG 1. 3.) 2 2.) ;",),
+    ),
+    reads_itself=True,
+)
+def inse(call: Call) -> Any:
+    """Insert an item."""
+    operand = call.read(*LISTS)
+    if operand is None:
+        raise call.missing(LISTS)
+    value, kind = operand.value, type_of(operand.value)
+    place = call.required("ENTIER")
+    item = call.required(*_ITEM[kind])
+    if not 1 <= place <= len(value) + 1:
+        raise call.bad(f"the list has {len(value)} items, nothing goes to place {place}", place)
+    if isinstance(value, ListReel | ListEnti):
+        return type(value)(np.insert(value.values, place - 1, item))
+    items = list(value.values)
+    items.insert(place - 1, item)
+    return type(value)(items)
+
+
+@operator(
+    "REMP",
+    family="lists",
+    full_name="REMPLACER",
+    help=Help(
+        en="Replaces items of a list in place: all names of the list see it. Of a word: a new "
+        "word where each MOT2 is replaced by MOT3.",
+        fr="Remplace des éléments d'une liste sur place : tous les noms de la liste le voient. "
+        "D'un mot : un nouveau mot où chaque MOT2 est remplacé par MOT3.",
+        syntax="REMP LIS1 N1 | LENT1 OBJ1 | LIS2 ; MOT4 = REMP MOT1 MOT2 | LMOT2 MOT3 | LMOT3 ;",
+        examples=(
+            "L = PROG 1. 2. 3. ; REMP L 2 9. ; LIST L ;",
+            "LIST (REMP 'a_b' '_' ' ') ;",
+        ),
+    ),
+    reads_itself=True,
+)
+def remp(call: Call) -> Mot | None:
+    """Replace items."""
+    operand = call.read("MOT", *LISTS)
+    if operand is None:
+        raise call.missing(("MOT", *LISTS))
+    value = operand.value
+    if isinstance(value, str):
+        return _replace_in_word(call, value)
+    kind = type_of(value)
+    where = call.read("ENTIER", "LISTENTI")
+    if where is None:
+        raise call.missing(("ENTIER", "LISTENTI"))
+    places = _places(call, len(value), where.value)
+    new = call.read(*_ITEM[kind], kind) or call.read(*_ITEM[kind])
+    if new is None:
+        raise call.missing((*_ITEM[kind], kind))
+    items = list(new.value.values) if type_of(new.value) == kind else [new.value] * len(places)
+    if len(items) != len(places):
+        raise call.bad(f"{len(places)} places for {len(items)} items", new.value)
+    for i, item in zip(places, items, strict=True):
+        value.values[i] = item
+    return None
+
+
+def _replace_in_word(call: Call, word: str) -> Mot:
+    old = call.required("MOT", "LISTMOTS")
+    new = call.required("MOT", "LISTMOTS")
+    olds = list(old.values) if isinstance(old, ListMots) else [old]
+    news = list(new.values) if isinstance(new, ListMots) else [new]
+    if len(olds) != len(news):
+        raise call.bad(f"{len(olds)} words to replace by {len(news)}", new)
+    for a, b in zip(olds, news, strict=True):
+        if not a:
+            raise call.bad("an empty word cannot be replaced", old)
+        word = word.replace(a, b)
+    return Mot(word)
+
+
+@operator(
+    "SOMM",
+    family="lists",
+    full_name="SOMME",
+    help=Help(
+        en="Sum of the values of a list; with 'CUMU' the list of partial sums.",
+        fr="Somme des valeurs d'une liste ; avec 'CUMU' la liste des sommes partielles.",
+        syntax="X1 = SOMM LIS1 ; LIS2 = SOMM 'CUMU' LIS1 ;",
+        examples=("LIST (SOMM (LECT 1 2 3)) ;", "LIST (SOMM 'CUMU' (PROG 1. 2. 3.)) ;"),
+    ),
+    reads_itself=True,
+)
+def somm(call: Call) -> Any:
+    """Sum a list."""
+    running = call.keyword(("CUMU",)) is not None
+    value = call.required("LISTREEL", "LISTENTI")
+    running = running or call.keyword(("CUMU",)) is not None
+    if running:
+        return type(value)(np.cumsum(value.values))
+    return value.values.sum()
+
+
+@INVE.on(
+    *LISTS,
+    syntax="LIS2 = INVE LIS1 ;",
+    en="Of a list: its items in reverse order.",
+    fr="D'une liste : ses éléments dans l'ordre inverse.",
+    examples=("LIST (INVE (PROG 1. 2.)) ;",),
+)
+def _reverse(call: Call, value: AnyList) -> Any:
+    return taken(value, list(range(len(value) - 1, -1, -1)))
+
+
+@COPI.on(
+    *LISTS,
+    syntax="LIS2 = COPI LIS1 ;",
+    en="Of a list: a list of its own, that REMP changes without changing the first.",
+    fr="D'une liste : une liste indépendante, que REMP change sans changer la première.",
+    examples=("L = PROG 1. 2. ; M = COPI L ; REMP M 1 5. ; LIST L ;",),
+)
+def _copy(call: Call, value: AnyList) -> Any:
+    return taken(value, list(range(len(value))))
+
+
+# ---- ET ---------------------------------------------------------------------------------------
+
+
+def _check_joined(a: Any, b: Any) -> None:
+    """A loop of `L = L ET L` is stopped long before it fills the memory."""
+    check_length(sum(len(v) if isinstance(v, AnyList) else 1 for v in (a, b)))
+
+
+def _array(value: Any) -> Any:
+    return value.values if isinstance(value, ListReel | ListEnti) else [value]
+
+
+@union(
+    ("LISTREEL", "LISTREEL"), ("LISTREEL", "LISTENTI"), ("LISTENTI", "LISTREEL"),
+    ("LISTREEL", "FLOTTANT"), ("LISTREEL", "ENTIER"), ("FLOTTANT", "LISTREEL"),
+    ("ENTIER", "LISTREEL"), ("LISTENTI", "FLOTTANT"), ("FLOTTANT", "LISTENTI"),
+    ("FLOTTANT", "FLOTTANT"), ("ENTIER", "FLOTTANT"), ("FLOTTANT", "ENTIER"),
+)  # fmt: skip
+def _join_reals(a: Any, b: Any) -> ListReel:
+    _check_joined(a, b)
+    made = ListReel()
+    made.values = np.concatenate((_array(a), _array(b))).astype(float, copy=False)
+    return made
+
+
+@union(("LISTENTI", "LISTENTI"), ("LISTENTI", "ENTIER"), ("ENTIER", "LISTENTI"), ("ENTIER",) * 2)
+def _join_integers(a: Any, b: Any) -> ListEnti:
+    _check_joined(a, b)
+    made = ListEnti()
+    made.values = np.concatenate((_array(a), _array(b))).astype(np.int64, copy=False)
+    return made
+
+
+@union(("LISTCHPO", "LISTCHPO"), ("LISTCHPO", "CHPOINT"), ("CHPOINT", "LISTCHPO"))
+def _join_fields(a: Any, b: Any) -> ListChpo:
+    _check_joined(a, b)
+    made = ListChpo()
+    made.values = [*_objects(a), *_objects(b)]
+    return made
+
+
+def _objects(value: Any) -> list[Any]:
+    return value.values if isinstance(value, ListChpo | ListObje) else [value]
+
+
+@union(("LISTOBJE", "*"), ("*", "LISTOBJE"))
+def _join_objects(a: Any, b: Any) -> ListObje:
+    """A LISTOBJE with a list or an object of the same type."""
+    _check_joined(a, b)
+    made = ListObje()
+    made.values = [*_objects(a), *_objects(b)]
+    kinds = dict.fromkeys(type_of(v) for v in made.values)
+    if len(kinds) > 1:
+        raise KernelError(f"the objects of a list are of one type, here {' and '.join(kinds)}")
+    return made

@@ -1,0 +1,1 @@
+"""Operators: stiffness, mass, damping, supports, relations."""

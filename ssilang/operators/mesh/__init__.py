@@ -1,0 +1,1 @@
+"""Operators on points and meshes."""

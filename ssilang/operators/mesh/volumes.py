@@ -1,0 +1,264 @@
+"""Volumes: VOLU by translation, rotation, along a line, between two surfaces, by thickness."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from ssilang.kernel.errors import MeshError
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.mesh.block import fill_block
+from ssilang.kernel.mesh.combine import union
+from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.mesh.orientation import surface_normals
+from ssilang.kernel.mesh.subdivision import Subdivision
+from ssilang.kernel.mesh.sweep import (
+    Path,
+    layer_cuts,
+    listed_cuts,
+    mean_density,
+    ruling,
+    sweep_surface,
+    translation,
+)
+from ssilang.kernel.mesh.volume import fill_volume
+from ssilang.language.call import Call
+from ssilang.language.registry import Help, many, operator
+from ssilang.language.session import Session
+from ssilang.language.values import ListReel
+from ssilang.operators.mesh.ends import Cuts, count_and_number, read_count, read_sizes
+from ssilang.operators.mesh.sweeps import generator_path, read_rotation
+from ssilang.operators.workspace import workspace
+
+
+def surface_to_sweep(mesh: Mesh, side: int) -> Mesh:
+    """The mesh itself if it is a surface, else one of its faces (0 start, 1 end)."""
+    if mesh.dimension < 3:
+        return mesh
+    if len(mesh.sides) < 2:
+        raise MeshError(
+            f"this volume has no face {side + 1}",
+            "give a surface, or a volume made by sweeping a surface",
+        )
+    return mesh.sides[side]
+
+
+def stacked(lower: Mesh, upper: Mesh) -> Mesh:
+    """Two volumes as one, the first below the second."""
+    made = union(lower, upper, as_given=True)
+    around = tuple(m.sides[2] for m in (lower, upper) if len(m.sides) > 2)
+    lateral = (union(*around, as_given=True),) if around else ()
+    return Mesh(made.nodes, made.blocks, (lower.sides[0], upper.sides[1], *lateral))
+
+
+def _make(base: Mesh, path: Path, end_size: float, cuts: Cuts, listed: ListReel | None) -> Mesh:
+    surface = surface_to_sweep(base, 1)
+    layers: Subdivision
+    if listed is not None:
+        layers = listed_cuts(listed.values, path.length)
+    else:
+        layers = layer_cuts(surface, path, end_size, cuts.count, (cuts.first, cuts.last))
+    made = sweep_surface(surface, path, layers)
+    return made if surface is base else stacked(base, made)
+
+
+class _Reading:
+    """Operands of VOLU as they are found."""
+
+    def __init__(self, call: Call) -> None:
+        self.call = call
+        self.cuts = Cuts()
+        self.meshes: list[Mesh] = []
+        self.points: list[Point] = []
+        self.listed: ListReel | None = None
+        self.thickness: float | NodeField | None = None
+
+    def loose(self) -> None:
+        """Consume what may stand anywhere: sizes, number of layers, list of positions, meshes."""
+        call = self.call
+        before = -1
+        while before != len(call.operands):
+            before = len(call.operands)
+            read_sizes(call, self.cuts)
+            if call.keyword(("PROG",)) is not None:
+                self.listed = call.required("LISTREEL", after=call.keyword_end)
+            call.keyword(("VERB",))
+            if not self.cuts.count:
+                read_count(call, self.cuts)
+            self.meshes += call.all("MAILLAGE")
+
+    def base(self) -> Mesh:
+        """The surface or volume that is swept."""
+        if not self.meshes:
+            raise self.call.missing(("MAILLAGE",))
+        return self.meshes[0]
+
+
+def _translated(reading: _Reading) -> Mesh:
+    reading.loose()
+    vector: Point = reading.call.required("POINT")
+    reading.loose()
+    path = translation(vector.coordinates.copy())
+    return _make(reading.base(), path, vector.density, reading.cuts, reading.listed)
+
+
+def _turned(reading: _Reading) -> Mesh:
+    call, cuts = reading.call, reading.cuts
+    read_sizes(call, cuts)
+    count, angle = count_and_number(call)
+    if angle is None:
+        if not cuts.count:
+            raise call.missing(("FLOTTANT",))
+        angle, cuts.count = float(cuts.count), 0
+    cuts.count = cuts.count or count
+    turn, size = read_rotation(call, angle, cuts)
+    reading.loose()
+    base = reading.base()
+    return _make(base, turn(surface_to_sweep(base, 1)), size, cuts, reading.listed)
+
+
+def _along_line(reading: _Reading) -> Mesh:
+    line = reading.call.required("MAILLAGE", after=reading.call.keyword_end)
+    reading.loose()
+    path, layers = generator_path(line)
+    base = reading.base()
+    surface = surface_to_sweep(base, 1)
+    made = sweep_surface(surface, path, layers)
+    return made if surface is base else stacked(base, made)
+
+
+def _between(reading: _Reading) -> Mesh:
+    base, second = reading.meshes[:2]
+    goal = surface_to_sweep(second, 0)
+    path = ruling(surface_to_sweep(base, 1), goal)
+    made = _make(base, path, mean_density(goal), reading.cuts, reading.listed)
+    return made if goal is second else stacked(made, second)
+
+
+_WAYS: dict[str, Callable[[_Reading], Mesh]] = {
+    "TRANSLATION": _translated,
+    "ROTATION": _turned,
+    "GENERATRICE": _along_line,
+}
+
+
+@operator(
+    "VOLU",
+    family="mesh",
+    full_name="VOLUME",
+    help=Help(
+        en="Volume inside a closed surface, filled with tetrahedra (pyramids on quadrangles) when "
+        "nothing else is said. Volume swept by a surface: along a vector ('TRAN'), about an axis "
+        "('ROTA', degrees), parallel to itself along a line ('GENE'), or from one surface to "
+        "another of the same structure. N1 > 0: that many equal layers; N1 < 0: that many, graded; "
+        "without N1 the mesh sizes decide (DINI and DFIN replace them); 'PROG' gives the positions "
+        "of the layers. A volume in place of a surface is grown from its face 2. With a thickness "
+        "(or a nodal field of thicknesses) and a direction, a shell is made solid in one layer. "
+        "FACE gives the faces.",
+        fr="Volume intérieur à une surface fermée, rempli de tétraèdres (pyramides sur les "
+        "quadrangles) si rien d'autre n'est dit. Volume engendré par une surface : selon un "
+        "vecteur ('TRAN'), autour d'un axe ('ROTA', degrés), parallèlement à elle-même le long "
+        "d'une ligne ('GENE'), ou d'une surface à une autre de même structure. N1 > 0 : N1 couches "
+        "égales ; N1 < 0 : gradées ; sans N1 les densités décident (DINI et DFIN les remplacent) ; "
+        "'PROG' donne la position des couches. Un volume à la place d'une surface est prolongé de "
+        "sa face 2. Avec une épaisseur (ou un champ d'épaisseurs) et une direction, une coque "
+        "devient massive. FACE rend les faces.",
+        syntax="VOL1 = SURF1 VOLU ('VERB') ;\nVOL1 = SURF1 VOLU (N1) ('DINI' D1) ('DFIN' D2) "
+        "('PROG' LR1) 'TRAN' VEC1 | 'ROTA' FLOT1 AXE1 AXE2 | 'GENE' LIG1 | SURF2 ;\n"
+        "VOL1 = SURF1 VOLU EPAI|CHPO1 POIN1 ;",
+        examples=(
+            "OPTI DIME 3 ELEM CUB8 ; L = DROI 2 (0. 0. 0.) (1. 0. 0.) ; S = L TRAN 2 (0. 1. 0.) ;"
+            " V = S VOLU 3 'TRAN' (0. 0. 1.) ; LIST (NBEL V) ;",
+        ),
+    ),
+    reads_itself=True,
+)
+def volu(call: Call) -> Mesh:
+    """Sweep a volume."""
+    reading = _Reading(call)
+    reading.loose()
+    word = call.keyword(tuple(_WAYS))
+    if word is not None:
+        return _WAYS[word](reading)
+    if len(reading.meshes) > 1:
+        return _between(reading)
+    thickness = call.optional("FLOTTANT", "CHPOINT")
+    if thickness is None and reading.cuts.count:
+        thickness = float(reading.cuts.count)
+    if thickness is None:
+        return fill_volume(reading.base(), workspace(call.session).colour)
+    return thickened(reading.base(), thickness, call.required("POINT").coordinates.copy())
+
+
+def thickened(shell: Mesh, thickness: Any, direction: FloatArray) -> Mesh:
+    """Bricks on a shell, half the thickness on each side along the nodes' mean normals.
+
+    Parameters
+    ----------
+    thickness : float or NodeField
+    direction : array (3,)
+        From the inner to the outer skin.
+    """
+    ids = shell.node_ids
+    normal = np.zeros((len(ids), 3))
+    order = np.argsort(ids)
+    for block in shell.blocks:
+        vectors = surface_normals(block)
+        vectors *= np.where(vectors @ direction < 0, -1.0, 1.0)[:, None]
+        place = order[np.searchsorted(ids[order], block.connectivity)]
+        for k in range(place.shape[1]):
+            np.add.at(normal, place[:, k], vectors)
+    length = np.linalg.norm(normal, axis=1, keepdims=True)
+    if (length == 0.0).any():
+        raise MeshError("a shell of triangles or quadrangles with an area is needed to thicken it")
+    normal /= length
+    size = _thickness_at(shell, thickness)[:, None]
+    inner = shell.nodes.add(shell.nodes.coordinates[ids] - 0.5 * size * normal)
+    table = np.zeros(int(ids.max()) + 1, dtype=np.int64)
+    table[ids] = inner
+    blocks = tuple(
+        type(b).make(b.nodes, b.cell_type, table[b.connectivity], b.colours) for b in shell.blocks
+    )
+    path = Path(lambda x, s: x + s * size * normal, float(size.mean()))
+    return sweep_surface(Mesh(shell.nodes, blocks), path, Subdivision(np.array([0.0, 1.0]), 0, 0))
+
+
+def _thickness_at(shell: Mesh, thickness: Any) -> FloatArray:
+    ids = shell.node_ids
+    if not isinstance(thickness, NodeField):
+        return np.full(len(ids), float(thickness))
+    name = next(iter(thickness.components))
+    values = thickness.values_at(name, ids, np.nan)
+    if np.isnan(values).any():
+        raise MeshError("the field of thicknesses does not cover the surface")
+    return values
+
+
+@operator(
+    "PAVE",
+    many("faces", "MAILLAGE"),
+    family="mesh",
+    help=Help(
+        en="Bricks inside six faces meshed as grids of quadrangles (DALL), opposite faces one "
+        "after the other.",
+        fr="Briques à l'intérieur de six faces maillées en grilles de quadrangles (DALL), les "
+        "faces opposées se suivant.",
+        syntax="VOL1 = PAVE SURF1 SURF2 SURF3 SURF4 SURF5 SURF6 ;",
+        examples=(
+            "OPTI DIME 3 ELEM CUB8 ; L = DROI 2 (0. 0. 0.) (1. 0. 0.) ;"
+            " M = DROI 3 (0. 0. 0.) (0. 1. 0.) ; B = L TRAN 3 (0. 1. 0.) ;"
+            " F = L TRAN 2 (0. 0. 1.) ; G = M TRAN 2 (0. 0. 1.) ; B2 = B PLUS (0. 0. 1.) ;"
+            " F2 = F PLUS (0. 1. 0.) ; G2 = G PLUS (1. 0. 0.) ;"
+            " ELIM 1E-6 (B ET B2 ET F ET F2 ET G ET G2) ;"
+            " LIST (MESU (PAVE B B2 F F2 G G2)) ;",
+        ),
+    ),
+)
+def pave(session: Session, call: Call, faces: tuple[Mesh, ...]) -> Mesh:
+    """Fill a block."""
+    if len(faces) != 6:
+        raise call.bad(f"a block has six faces, {len(faces)} are given")
+    return fill_block(faces, workspace(session).colour)

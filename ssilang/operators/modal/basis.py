@@ -1,0 +1,327 @@
+"""PJBA RECO PSMO IDLI: projection on modes and static shapes, recombination, pseudo-modes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from ssilang.kernel.curve import Load
+from ssilang.kernel.fields.node_field import NodeField, NodeValues
+from ssilang.kernel.matrices.matrix import Matrix
+from ssilang.kernel.matrices.parts import together
+from ssilang.kernel.mesh.mesh import Point
+from ssilang.kernel.mesh.nodes import NodeTable
+from ssilang.kernel.modal.basis import combined, projected_matrix, static_complement, work
+from ssilang.kernel.modal.modes import eigenvalue
+from ssilang.kernel.statics.linear import product, solve
+from ssilang.language.call import Call
+from ssilang.language.registry import Help, operator
+from ssilang.language.values import ListChpo, Mot, Table
+from ssilang.operators.modal.modes import filled
+from ssilang.operators.workspace import workspace
+
+
+@dataclass(frozen=True)
+class Shape:
+    """A shape of a basis, the point that marks it and its unknown ('ALFA' mode, 'BETA' static)."""
+
+    field: NodeField
+    mark: Point
+    unknown: str
+    entry: Table
+
+
+def shapes_of(call: Call, *tables: Table) -> list[Shape]:
+    """Modes and static shapes of BASE_MODALE, BASE_DE_MODES, LIAISONS_STATIQUES tables."""
+    found = [s for t in tables for s in shapes_in(t)]
+    if not found:
+        raise call.bad("the table holds no mode and no static shape", tables[0] if tables else None)
+    return found
+
+
+def shapes_in(table: Table) -> list[Shape]:
+    """Shapes of one table, in order of number; none if it holds none."""
+    inner = table.get("MODES")
+    if isinstance(inner, Table):
+        return shapes_in(inner)
+    found = []
+    entries = [(i, e) for i, e in table.items() if isinstance(i, int) and isinstance(e, Table)]
+    for _, entry in sorted(entries, key=lambda pair: pair[0]):
+        for index, unknown in (("DEFORMEE_MODALE", "ALFA"), ("DEFORMEE", "BETA")):
+            field, mark = entry.get(index), entry.get("POINT_REPERE")
+            if isinstance(field, NodeField) and isinstance(mark, Point):
+                found.append(Shape(field, mark, unknown, entry))
+    return found
+
+
+def _at_marks(table: NodeTable, shapes: list[Shape], values: list[float], dual: bool) -> NodeField:
+    parts: dict[str, NodeValues] = {}
+    for unknown, force in (("ALFA", "FALF"), ("BETA", "FBET")):
+        own = [
+            (s.mark.node, v) for s, v in zip(shapes, values, strict=True) if s.unknown == unknown
+        ]
+        if own:
+            own.sort()
+            nodes, numbers = zip(*own, strict=True)
+            name = force if dual else unknown
+            parts[name] = NodeValues(np.array(nodes), np.array(numbers, dtype=float))
+    return NodeField(table, parts, "DISCRET" if dual else "DIFFUS")
+
+
+# --- projection ------------------------------------------------------------------------------
+
+
+def _pjba(call: Call) -> Any:
+    thing = call.required("CHPOINT", "CHARGEME", "LISTCHPO", "RIGIDITE")
+    tables = call.all("TABLE")
+    shapes = shapes_of(call, *tables)
+    if isinstance(thing, ListChpo):
+        return _project_list(call, thing, shapes)
+    if isinstance(thing, Load):
+        return Load(tuple(replace(p, space=_forces(call, p.space, shapes)) for p in thing.parts))
+    if isinstance(thing, NodeField):
+        return _forces(call, thing, shapes)
+    marks = np.array([s.mark.node for s in shapes])
+    unknowns = [s.unknown for s in shapes]
+    duals = ["FALF" if u == "ALFA" else "FBET" for u in unknowns]
+    return projected_matrix(thing, [s.field for s in shapes], marks, unknowns, duals)
+
+
+def _forces(call: Call, force: object, shapes: list[Shape]) -> NodeField:
+    if not isinstance(force, NodeField):
+        raise call.bad("only nodal forces times a curve can be projected")
+    return _at_marks(force.table, shapes, [work(force, s.field) for s in shapes], dual=True)
+
+
+def _project_list(call: Call, fields: ListChpo, shapes: list[Shape]) -> ListChpo:
+    count = call.optional("ENTIER", default=len(shapes))
+    metric: Matrix | None = call.optional("RIGIDITE")
+    shapes = shapes[:count]
+    dual = [s.field if metric is None else product(metric, s.field) for s in shapes]
+    out: list[object] = []
+    for field in fields.values:
+        if not isinstance(field, NodeField):
+            raise call.bad("the list holds something else than nodal fields", fields)
+        values = [work(d, field, same_names=metric is None) for d in dual]
+        out.append(_at_marks(field.table, shapes, values, dual=False))
+    return ListChpo(out)
+
+
+operator(
+    "PJBA",
+    family="modal",
+    help=Help(
+        "Projects on the shapes of a modal basis (and static shapes): forces or loads give FALF "
+        "(and FBET) at the points that mark the shapes, matrices give the matrix X^T K X there, a "
+        "list of fields the products with each shape (with a matrix: X^T M u).",
+        "Projette sur une base modale (et des déformées statiques) : forces et chargements donnent "
+        "FALF (et FBET) aux points repères, une rigidité donne X^T K X, une liste de champs les "
+        "produits avec chaque déformée (avec une matrice : X^T M u).",
+        "OBJ2 = PJBA CHPO1 | CHAR1 | RIG1 TAB1 (TAB2) ;\nLCHP2 = PJBA LCHP1 TAB1 (N1) (RIG1) ;",
+        (
+            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = APPU 'UX' 400. P1 ;"
+            " T1 = VIBR 'SIMU' 1. 1 K1 (MASS 'UX' 4. P1) ; LIST (PJBA (FORC 'FX' 2. P1) T1) ;",
+        ),
+    ),
+    reads_itself=True,
+)(_pjba)
+
+
+# --- recombination ---------------------------------------------------------------------------
+
+
+def _reco(call: Call) -> Any:
+    thing = call.required("CHPOINT", "LISTCHPO")
+    shapes = shapes_of(call, *call.all("TABLE"))
+    number = call.optional("ENTIER", default=len(shapes))
+    if number < 1:
+        raise call.bad(f"at least one mode is recombined, not {number}", number)
+    shapes = shapes[:number]
+    call.keyword(("DEPL", "VITE", "ACCE"))
+    if isinstance(thing, ListChpo):
+        return ListChpo([recombined(f, shapes) for f in thing.values])
+    return recombined(thing, shapes)
+
+
+def recombined(weights: Any, shapes: list[Shape]) -> NodeField:
+    """Sum of shapes times the values ALFA and BETA of a field at their marks."""
+    factors = [float(weights.values_at(s.unknown, np.array([s.mark.node]))[0]) for s in shapes]
+    return combined(factors, [s.field for s in shapes])
+
+
+operator(
+    "RECO",
+    family="modal",
+    help=Help(
+        "Field u = sum of the shapes of a basis times the contributions ALFA (and BETA) that a "
+        "field holds at the points that mark them.",
+        "Champ u = somme des déformées d'une base multipliées par les contributions ALFA (et BETA) "
+        "que porte un champ à leurs points repères.",
+        "CHPO2 = RECO CHPO1 TAB1 (TAB2) ;\nLCHP2 = RECO LCHP1 TAB1 (N1) ;",
+        (
+            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = APPU 'UX' 400. P1 ;"
+            " T1 = VIBR 'SIMU' 1. 1 K1 (MASS 'UX' 4. P1) ;"
+            " Q1 = MANU 'CHPO' (T1 . 'MODES' . 1 . 'POINT_REPERE') 1 'ALFA' 3. ;"
+            " LIST (RECO Q1 T1) ;",
+        ),
+    ),
+    reads_itself=True,
+)(_reco)
+
+
+# --- pseudo-modes ----------------------------------------------------------------------------
+
+
+def _psmo(call: Call) -> Table:
+    frequency, seismic, directions = 0.0, False, []
+    while (word := call.keyword(("FREQ", "SEISME", "UX", "UY", "UZ"))) is not None:
+        if word == "FREQ":
+            frequency = call.required("FLOTTANT", after=call.keyword_end)
+        elif word == "SEISME":
+            seismic = True
+        else:
+            directions.append(word)
+    matrices: list[Matrix] = call.all("RIGIDITE")
+    modes = shapes_of(call, call.required("TABLE"))
+    masses = [m for m in matrices if m.kind.startswith("MASS")]
+    others = [m for m in matrices if not m.kind.startswith("MASS")]
+    if len(others) != 1 or len(masses) > 1:
+        raise call.bad("PSMO wants one stiffness, and a mass for 'SEISME' and free bodies")
+    system = _Shifted(call, others[0], masses[0] if masses else None, modes, float(frequency))
+    table = Table("PSEUDO_MODE")
+    entries = system.seismic(directions) if directions else []
+    field = call.read("CHPOINT", "LISTCHPO")
+    if field is not None:
+        value = field.value
+        fields: list[Any] = value.values if isinstance(value, ListChpo) else [value]
+        entries += [system.driven(f, seismic) for f in fields]
+    if not entries:
+        raise call.bad("nothing drives the structure: give a CHPOINT, or 'SEISME' 'UX' ...")
+    for number, entry in enumerate(entries, start=1):
+        table.set(number, filled("", entry))
+    return table
+
+
+class _Shifted:
+    """Stiffness with its modes, shifted off zero frequency when there are free motions."""
+
+    def __init__(
+        self, call: Call, stiffness: Matrix, mass: Matrix | None, modes: list[Shape], f: float
+    ) -> None:
+        self.call, self.mass, self.modes = call, mass, modes
+        known = [float(m.entry.get("FREQUENCE", 0.0)) for m in modes]  # type: ignore[arg-type]
+        if f == 0.0 and any(abs(k) < 1e-5 for k in known):
+            f = 0.5 * min((k for k in known if abs(k) >= 1e-5), default=0.0)
+        shift = eigenvalue(f)
+        if shift and mass is None:
+            raise call.bad("a structure with free motions wants its mass matrix")
+        self.system = together(stiffness, mass.scaled(-shift)) if shift and mass else stiffness
+        masses = [float(m.entry.get("MASSE_GENERALISEE", 1.0)) for m in modes]  # type: ignore[arg-type]
+        self.stiffnesses = [m * (eigenvalue(k) - shift) for m, k in zip(masses, known, strict=True)]
+
+    def complement(self, force: NodeField) -> NodeField:
+        """Static response to a force without what the modes hold of it."""
+        shapes = [m.field for m in self.modes]
+        works = [work(force, s) for s in shapes]
+        return static_complement(solve(self.system, [force])[0], shapes, works, self.stiffnesses)
+
+    def driven(self, field: NodeField, supports: bool) -> dict[str, Any]:
+        """A concentrated force, or imposed displacements of supports (field FLX of DEPI)."""
+        shapes = [m.field for m in self.modes]
+        if supports:
+            static = solve(self.system, [field])[0]
+            reactions = field.components.get("FLX")
+            works = [
+                0.0
+                if reactions is None
+                else float(s.values_at("LX", reactions.nodes) @ reactions.values)
+                for s in shapes
+            ]
+            shape = static_complement(static, shapes, works, self.stiffnesses)
+        else:
+            works = [work(field, s) for s in shapes]
+            shape = self.complement(field)
+        on_modes = _at_marks(field.table, self.modes, works, dual=True)
+        return {"DEPLACEMENT": shape, "CHAMP_BASE_B": field, "CHAMP_BASE_A": on_modes}
+
+    def seismic(self, directions: list[str]) -> list[dict[str, Any]]:
+        """Unit accelerations of the base along X, Y, Z: forces - M d."""
+        if self.mass is None:
+            raise self.call.bad("'SEISME' wants the mass matrix")
+        nodes = np.unique(np.concatenate([b.nodes.ravel() for b in self.mass.blocks]))
+        entries = []
+        for name in directions:
+            ones = NodeField.of(self.mass.table, nodes, {name: np.ones(len(nodes))}, "DIFFUS")
+            force = product(self.mass.scaled(-1.0), ones)
+            entries.append(
+                {
+                    "DEPLACEMENT": self.complement(force),
+                    "DIRECTION": ("UX", "UY", "UZ").index(name) + 1,
+                }
+            )
+        return entries
+
+
+operator(
+    "PSMO",
+    family="modal",
+    help=Help(
+        "Pseudo-modes: the static response to forces, to displacements of supports ('SEISME' and a "
+        "field of DEPI) or to a unit acceleration of the base ('SEISME' 'UX': forces - M d), minus "
+        "what the modes of the table hold of it. With free motions the response is taken at half "
+        "the first frequency, or at 'FREQ'.",
+        "Pseudo-modes : réponse statique à des forces, à des déplacements d'appuis ('SEISME' et un "
+        "champ de DEPI) ou à une accélération unité de la base ('SEISME' 'UX' : forces - M d), "
+        "moins la part que portent les modes de la table. Avec des mouvements libres, la réponse "
+        "est prise à la moitié de la première fréquence, ou à 'FREQ'.",
+        "TAB2 = PSMO RIG1 (MASS1) TAB1 ('FREQ' F1) ('SEISME' ('UX') ('UY') ('UZ')) (CHPO1 | "
+        "LCHP1) ;",
+        (
+            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; P2 = 1. 0. ;"
+            " K1 = (APPU 'UX' 400. P1) ET (APPU 'UX' 900. P2) ; M1 = MASS 'UX' 4. (P1 ET P2) ;"
+            " T1 = VIBR 'SIMU' 1. 1 K1 M1 ; PM = PSMO K1 (T1 . 'MODES') (FORC 'FX' 9. P2) ;"
+            " LIST (PM . 1 . 'DEPLACEMENT') ;",
+        ),
+    ),
+    reads_itself=True,
+)(_psmo)
+
+
+def _idli(call: Call) -> Table:
+    matrix: Matrix = call.required("RIGIDITE")
+    inside = call.required("MAILLAGE").sorted_node_ids
+    ws = workspace(call.session)
+    pairs = sorted(
+        {
+            (int(node), unknown)
+            for r in matrix.relations
+            for node, unknown in zip(r.nodes, r.unknowns, strict=True)
+            if node in inside
+        }
+    )
+    table = Table("LIAISONS_STATIQUES")
+    for number, (node, unknown) in enumerate(pairs, start=1):
+        entry = {"POINT_LIAISON": Point(ws.nodes, node), "DDL_LIAISON": Mot(unknown)}
+        table.set(number, filled("", entry))
+    return table
+
+
+operator(
+    "IDLI",
+    family="modal",
+    help=Help(
+        "Table LIAISONS_STATIQUES of the points of a mesh, and their unknowns, on which the "
+        "conditions of a matrix act.",
+        "Table LIAISONS_STATIQUES des points d'un maillage, et de leurs inconnues, sur lesquels "
+        "portent les conditions d'une rigidité.",
+        "TAB1 = IDLI RIG1 GEO1 ;",
+        (
+            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; P2 = 1. 0. ;"
+            " T1 = IDLI (RELA 'UX' P1 - 'UX' P2) (MANU 'POI1' P1) ;"
+            " LIST (T1 . 1 . 'DDL_LIAISON') ;",
+        ),
+    ),
+    reads_itself=True,
+)(_idli)

@@ -1,0 +1,113 @@
+"""IMPE VIBC: matrices of harmonic motions, complex modes of small systems."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.matrices.impedance import factors, impedance
+from ssilang.kernel.matrices.matrix import Matrix
+from ssilang.kernel.modal.complex_modes import ComplexMode, conjugate_modes
+from ssilang.language.call import Call
+from ssilang.language.registry import Help, operator
+from ssilang.language.values import Table
+from ssilang.operators.modal.basis import Shape, recombined, shapes_of
+from ssilang.operators.modal.modes import matrices_by_kind, modal_table
+
+_KINDS = {"RIGI": "RAIDEUR", "MASS": "MASSE", "AMOR": "AMORTISSEMENT"}
+
+
+def _impe(call: Call) -> Matrix:
+    word = call.keyword(("MASSE", "RAIDEUR", "AMORTISSEMENT", "QUELCONQUE"))
+    chosen = call.required("LISTREEL", after=call.keyword_end) if word == "QUELCONQUE" else None
+    matrix: Matrix = call.required("RIGIDITE")
+    other: Matrix | None = call.optional("RIGIDITE")
+    pulsation = float(call.optional("FLOTTANT", default=1.0))
+    buckling = call.optional("LOGIQUE", default=False)
+    kind = "MASSE" if buckling else matrix.kind
+    if chosen is not None:
+        values = [float(v) for v in chosen.values]
+        if len(values) != 4:
+            raise call.bad("'QUELCONQUE' wants a list of four numbers", chosen)
+        return impedance(matrix, (values[0], values[1], values[2], values[3]), kind, other)
+    said = word or _KINDS.get(matrix.kind[:4], "RAIDEUR")
+    return impedance(matrix, factors(said, pulsation), kind, other)
+
+
+operator(
+    "IMPE",
+    family="modal",
+    full_name="IMPEDANCE",
+    help=Help(
+        "Matrix of harmonic motions u exp(i w t) on real and imaginary parts (UX and IUX, FX and "
+        "IFX ...): of a stiffness (K), a mass (- w^2 M) or a damping (i w C), w = 1 if it is not "
+        "given; 'QUEL' gives the factors of the four blocks. A second matrix serves the imaginary "
+        "rows.",
+        "Matrice des mouvements harmoniques u exp(i w t) sur les parties réelles et imaginaires "
+        "(UX et IUX, FX et IFX ...) : d'une raideur (K), d'une masse (- w^2 M) ou d'un "
+        "amortissement (i w C), w = 1 par défaut ; 'QUEL' donne les facteurs des quatre blocs. "
+        "Une seconde matrice sert aux lignes imaginaires.",
+        "RIG1 = IMPE RIG2 (RIG3) (W1) ('MASSE' | 'RAIDEUR' | 'AMORTISSEMENT' | 'QUELCONQUE' "
+        "LREEL1) (LOG1) ;",
+        (
+            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = APPU 'UX' 400. P1 ;"
+            " M1 = MASS 'UX' 4. P1 ; C1 = CHAN 'TYPE' (APPU 'UX' 3. P1) 'AMORTISS' ;"
+            " Z1 = (IMPE K1) ET (IMPE M1 5.) ET (IMPE C1 5.) ;"
+            " U1 = RESO Z1 (MANU 'CHPO' P1 1 'FX' 1. 'NATURE' 'DISCRET') ; LIST U1 ;",
+        ),
+    ),
+    reads_itself=True,
+)(_impe)
+
+
+def _vibc(call: Call) -> Table:
+    matrices = call.all("RIGIDITE")
+    if len(matrices) not in (2, 3):
+        raise call.bad(
+            f"{len(matrices)} matrices are given",
+            hint="VIBC wants a mass, a stiffness and, if there is one, a damping",
+        )
+    stiffness, mass, damping = matrices_by_kind(matrices, mass_first=True)
+    basis = call.read("TABLE")
+    pairs = call.optional("ENTIER")
+    modes = conjugate_modes(stiffness, mass, damping, pairs)
+    shapes = None if basis is None else shapes_of(call, basis.value)
+    table = modal_table(call, mass, [_entry(m, shapes) for m in modes], "MODE_COMPLEXE")
+    table.set("CONVERGENCE", True)
+    return table
+
+
+def _entry(mode: ComplexMode, shapes: list[Shape] | None) -> dict[str, Any]:
+    def physical(field: NodeField) -> NodeField:
+        return field if shapes is None else recombined(field, shapes)
+
+    return {
+        "FREQUENCE_REELLE": mode.frequency.real,
+        "FREQUENCE_IMAGINAIRE": mode.frequency.imag,
+        "DEFORMEE_MODALE_REELLE": physical(mode.real),
+        "DEFORMEE_MODALE_IMAGINAIRE": physical(mode.imaginary),
+    }
+
+
+operator(
+    "VIBC",
+    family="modal",
+    full_name="VIBC",
+    help=Help(
+        "All complex modes of a small system (usually projected on real modes by PJBA), "
+        "[K + i w C - w^2 M] x = 0 with w = 2 pi f: couples f, - conj f by increasing modulus, or "
+        "the N1 first couples. With the basis of the projection the shapes are physical. A "
+        "positive imaginary part of f means decay.",
+        "Tous les modes complexes d'un petit système (en général projeté sur des modes réels par "
+        "PJBA), [K + i w C - w^2 M] x = 0 avec w = 2 pi f : couples f, - conj f par module "
+        "croissant, ou les N1 premiers couples. Avec la base de projection les déformées sont "
+        "physiques. Une partie imaginaire positive de f traduit un amortissement.",
+        "BAS2 = VIBC MASS1 RIG1 (AMOR1) (BAS1) (N1) ;",
+        (
+            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = APPU 'UX' 400. P1 ;"
+            " M1 = MASS 'UX' 4. P1 ; C1 = CHAN 'TYPE' (APPU 'UX' 3. P1) 'AMORTISS' ;"
+            " B1 = VIBC M1 K1 C1 ; LIST (B1 . 'MODES' . 1 . 'FREQUENCE_IMAGINAIRE') ;",
+        ),
+    ),
+    reads_itself=True,
+)(_vibc)

@@ -1,0 +1,166 @@
+"""NNOR, TABLE * RIGIDITE, JEU: shapes made of unit size, inertia of shapes, gaps of relations."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from ssilang.kernel.errors import KernelError
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.matrices.assembly import assemble, field_to_vector, numbering_of
+from ssilang.kernel.matrices.imposed import geometric_gaps
+from ssilang.kernel.matrices.matrix import Matrix
+from ssilang.kernel.statics.linear import product
+from ssilang.language.call import Call
+from ssilang.language.registry import Help, arg, operator
+from ssilang.language.values import Mot, Table
+from ssilang.operators.modal.basis import Shape, shapes_in
+from ssilang.operators.modal.modes import filled
+from ssilang.operators.numbers.arithmetic import rule
+
+# --- unit size -------------------------------------------------------------------------------
+
+
+def _nnor(call: Call) -> Any:
+    norm = call.keyword(("INFI", "EUCL")) or "INFI"
+    thing = call.required("CHPOINT", "TABLE")
+    side = call.keyword(("AVEC", "SANS"))
+    words = call.read("LISTMOTS")
+    names = None if words is None else {str(w).rstrip() for w in words.value.values}
+    metric: Matrix | None = call.optional("RIGIDITE") if norm == "EUCL" else None
+
+    def size(field: NodeField) -> float:
+        if norm == "EUCL":
+            return _euclidean(field, metric)
+        return _largest(call, field, names, side == "SANS")
+
+    if isinstance(thing, NodeField):
+        return _divided(thing, size(thing))
+    return _unit_basis(thing, size)
+
+
+def _largest(call: Call, field: NodeField, names: set[str] | None, without: bool) -> float:
+    chosen = [
+        part.values
+        for name, part in field.components.items()
+        if names is None or (name in names) != without
+    ]
+    top = max((float(np.abs(v).max(initial=0.0)) for v in chosen), default=0.0)
+    if top == 0.0:
+        raise call.bad("the field is zero on the components looked at", field)
+    return top
+
+
+def _euclidean(field: NodeField, metric: Matrix | None) -> float:
+    if metric is None:
+        return float(np.sqrt(sum(float(p.values @ p.values) for p in field.components.values())))
+    numbering = numbering_of(metric)
+    x = field_to_vector(field, numbering, dual=False)
+    return float(np.sqrt(x @ (assemble(metric, numbering) @ x)))
+
+
+def _divided(field: NodeField, size: float) -> NodeField:
+    parts = {k: replace(p, values=p.values / size) for k, p in field.components.items()}
+    return NodeField(field.table, parts, field.nature)
+
+
+def _unit_basis(table: Table, size: Any) -> Table:
+    """A copy of a BASE_MODALE or BASE_DE_MODES table with shapes of size one."""
+    inner = table.get("MODES")
+    if isinstance(inner, Table):
+        rest = {i: v for i, v in table.items() if i not in ("MODES", "SOUSTYPE")}
+        return filled(table.subtype, {**rest, "MODES": _unit_basis(inner, size)})
+    made = Table(table.subtype)
+    for index, entry in table.items():
+        shape = entry.get("DEFORMEE_MODALE") if isinstance(entry, Table) else None
+        if isinstance(entry, Table) and isinstance(shape, NodeField):
+            entry = _unit_mode(entry, shape, size(shape))
+        made.set(index, entry)
+    return made
+
+
+def _unit_mode(entry: Table, shape: NodeField, by: float) -> Table:
+    """A mode's table after its shape was divided by a number."""
+    made = Table()
+    for index, value in entry.items():
+        if index == "DEFORMEE_MODALE":
+            value = _divided(shape, by)
+        elif index == "MASSE_GENERALISEE" and isinstance(value, float):
+            value = value / by**2
+        elif index == "DEPLACEMENTS_GENERALISES" and isinstance(value, Table):
+            scaled = {i: v / by for i, v in value.items() if isinstance(v, float)}
+            value = filled(value.subtype, scaled)
+        made.set(index, value)
+    return made
+
+
+operator(
+    "NNOR",
+    family="modal",
+    full_name="NNOR",
+    help=Help(
+        "Divides a field by its largest value (of the components named, or without them), or by "
+        "its Euclidean norm (of a matrix: square root of X^T M X). Of a modal table: all shapes, "
+        "with generalised masses and displacements that follow.",
+        "Divise un champ par sa plus grande valeur (des composantes citées, ou sans elles), ou par "
+        "sa norme euclidienne (d'une matrice : racine de X^T M X). D'une base modale : toutes les "
+        "déformées, masses et déplacements généralisés en accord.",
+        "OBJ2 = NNOR ('INFI') OBJ1 (('AVEC') | 'SANS' LISTMOTS1) ;\n"
+        "OBJ2 = NNOR 'EUCL' OBJ1 (RIG1) ;",
+        (
+            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; U1 = MANU 'CHPO' P1 2 'UX' 4. 'UY' -8. ;"
+            " LIST (NNOR U1) ; LIST (NNOR U1 'AVEC' (MOTS 'UX')) ;",
+        ),
+    ),
+    reads_itself=True,
+)(_nnor)
+
+
+# --- inertia of shapes -----------------------------------------------------------------------
+
+
+@rule("*", "TABLE", "RIGIDITE")
+def _inertia(_sign: str, table: Table, mass: Matrix) -> Table:
+    """MASSE_DEFORMEE of each shape of a table of modes or static links, which is completed."""
+    for shape in _known(table):
+        shape.entry.set(Mot("MASSE_DEFORMEE"), product(mass, shape.field))
+    return table
+
+
+@rule("*", "RIGIDITE", "TABLE")
+def _inertia_left(sign: str, mass: Matrix, table: Table) -> Table:
+    return _inertia(sign, table, mass)
+
+
+def _known(table: Table) -> list[Shape]:
+    found = shapes_in(table)
+    if not found:
+        raise KernelError("the table holds no mode and no static shape to multiply")
+    return found
+
+
+# --- gaps ------------------------------------------------------------------------------------
+
+
+@operator(
+    "JEU",
+    arg("matrix", "RIGIDITE"),
+    family="relations",
+    help=Help(
+        "Second member of relations between displacements so that they speak of positions: the sum "
+        "of coefficients times (coordinate + displacement) is held at zero, above or below it.",
+        "Second membre de relations entre déplacements pour qu'elles portent sur les positions : "
+        "la somme des coefficients fois (coordonnée + déplacement) vaut zéro, ou reste au-dessus "
+        "ou au-dessous.",
+        "CHPO1 = JEU RIG1 ;",
+        (
+            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; P2 = 0. 0.3 ;"
+            " R1 = RELA 'MINI' 'UY' P2 - 'UY' P1 ; LIST (JEU R1) ;",
+        ),
+    ),
+)
+def jeu(matrix: Matrix) -> NodeField:
+    """Values -C x of the relations."""
+    return geometric_gaps(matrix)

@@ -1,0 +1,186 @@
+"""RTEN VLOC CALP: stresses and strains in other frames or places of the section."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from ssilang.kernel.elements.boundary import is_solid
+from ssilang.kernel.elements.family import cell_block
+from ssilang.kernel.elements.frames import (
+    cylindrical_frames,
+    fixed_frame,
+    material_frames,
+    points_of,
+    polar_frames,
+    seen_in,
+    spherical_frames,
+)
+from ssilang.kernel.elements.skin import SIDES, is_shell, shell_skin, skin_stress
+from ssilang.kernel.elements.tensors import tensor
+from ssilang.kernel.elements.zone_fields import n_points
+from ssilang.kernel.errors import FieldError
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.mesh.mesh import Point
+from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.model import Mode, Model, Zone
+from ssilang.language.call import Call
+from ssilang.language.registry import Help, operator
+from ssilang.operators.fields.turned import turned_node_field
+from ssilang.operators.statics.stresses import Reading, on_zones
+
+Frames = Callable[[Zone, Support], FloatArray]
+
+_EXAMPLE = (
+    "OPTI DIME 2 ELEM QUA4 ; L = DROI 2 (1. 0.) (2. 0.) ; S = TRAN 1 L (0. 1.) ; "
+    "M = MODE S MECANIQUE ELASTIQUE ; A = MATE M 'YOUN' 2. 'NU' 0.3 ; "
+    "U = (NOMC 'UX' (COOR 1 S)) ET (NOMC 'UY' (COOR 2 S)) ; "
+)
+
+
+@operator(
+    "RTEN",
+    family="stress",
+    full_name="RTENS",
+    help=Help(
+        en="Stresses or strains of continuous elements in another frame: along a vector (in space "
+        "two: the first axis and a vector of the plane of the first two), in the axes of "
+        "orthotropy of a field of parameters, or in polar ('POLA' centre), cylindrical ('CYLI' "
+        "centre, point of the axis) or spherical ('SPHE') coordinates. The components keep their "
+        "names. A nodal field of vectors is turned to the frame of the vectors.",
+        fr="Contraintes ou déformations de massifs dans un autre repère : selon un vecteur (en 3D "
+        "deux : le premier axe et un vecteur du plan des deux premiers), dans le repère "
+        "d'orthotropie d'un champ de caractéristiques, ou en coordonnées polaires ('POLA' "
+        "centre), cylindriques ('CYLI' centre, point de l'axe) ou sphériques ('SPHE'). Les "
+        "composantes gardent leurs noms. Un champ par points de vecteurs est tourné dans le "
+        "repère des vecteurs.",
+        syntax="CHAM3 = RTEN CHAM1 MODL1 | VEC1 (VEC2) | CHAM2 ;\n"
+        "CHAM3 = RTEN CHAM1 MODL1 'POLA' P1 | 'CYLI' P1 P2 | 'SPHE' P1 P2 ;\n"
+        "CHPO2 = RTEN CHPO1 VEC1 (VEC2) ;",
+        examples=(_EXAMPLE + "LIST (MAXI (RTEN (SIGM M A U) M 'POLA' (0. 0.))) ;",),
+    ),
+    reads_itself=True,
+)
+def rten(call: Call) -> CellField | NodeField:
+    """Another frame."""
+    if (nodal := call.read("CHPOINT")) is not None:
+        rotation = _fixed(call)
+        return turned_node_field(nodal.value, rotation)
+    cells: list[CellField] = call.all("MCHAML")
+    model: Model = call.required("MMODEL")
+    cells += call.all("MCHAML")
+    if not cells:
+        raise call.missing(("MCHAML",))
+    field = cells[0]
+    frames = _frames(call, cells[1] if len(cells) > 1 else None)
+
+    def make(zone: Zone) -> CellFieldBlock:
+        if not is_solid(zone):
+            raise FieldError(f"RTEN is for continuous elements, not {zone.element}")
+        support = tensor(zone, field)[1]
+        return seen_in(zone, field, frames(zone, support))
+
+    return on_zones(model, field.title, make)
+
+
+def _fixed(call: Call) -> FloatArray:
+    first: Point = call.required("POINT")
+    second = call.optional("POINT")
+    return fixed_frame(first.coordinates, None if second is None else second.coordinates)
+
+
+def _frames(call: Call, material: CellField | None) -> Frames:
+    word = call.keyword(["POLA", "CYLI", "SPHE", "TORI"])
+    if word == "TORI":
+        raise call.bad("'TORI' is not available", hint="'POLA', 'CYLI' and 'SPHE' are")
+    if (
+        word is None
+        and material is not None
+        and not any(isinstance(o.value, Point) for o in call.operands)
+    ):
+        return lambda zone, support: material_frames(zone, material, support)
+    if word is None:
+        rotation = _fixed(call)
+        return lambda zone, support: rotation
+    centre = call.required("POINT", after=call.keyword_end).coordinates
+    if word == "POLA":
+        return lambda zone, support: polar_frames(points_of(zone, support), centre)
+    on_axis = call.required("POINT").coordinates
+    build = cylindrical_frames if word == "CYLI" else spherical_frames
+    return lambda zone, support: build(points_of(zone, support), centre, on_axis)
+
+
+@operator(
+    "VLOC",
+    family="model",
+    help=Help(
+        en="Axes of orthotropy of a material as a field in cells: V1X V1Y (V1Z) V2X ....",
+        fr="Repère d'orthotropie d'un matériau en champ par éléments : V1X V1Y (V1Z) V2X ....",
+        syntax="CHAM1 = VLOC MODL1 MAT1 ;",
+        examples=(
+            "OPTI DIME 2 ELEM QUA4 ; L = DROI 2 (1. 0.) (2. 0.) ; S = TRAN 1 L (0. 1.) ; "
+            "M = MODE S MECANIQUE ELASTIQUE ORTHOTROPE ; A = MATE M 'YG1' 2. 'YG2' 1. 'YG3' 1. "
+            "'NU12' 0.1 'NU23' 0. 'NU13' 0. 'G12' 1. 'DIRECTION' (0. 2.) ; "
+            "LIST (MAXI (EXCO 'V1Y' (VLOC M A))) ;",
+        ),
+    ),
+    reads_itself=True,
+)
+def vloc(call: Call) -> CellField:
+    """Axes of orthotropy."""
+    said = Reading(call)
+    material = said.field()
+
+    def make(zone: Zone) -> CellFieldBlock:
+        axes = material_frames(zone, material, "RIGIDITE")
+        shape = (len(zone.cells), n_points(zone.element, "RIGIDITE"), 3, 3)
+        full = np.broadcast_to(axes, shape)
+        space = zone.mode is Mode.THREE_DIMENSIONAL
+        letters = "RZT" if zone.mode in (Mode.AXISYMMETRIC, Mode.FOURIER) else "XYZ"
+        kept = 3 if space else 2
+        names = tuple(f"V{i + 1}{letters[k]}" for i in range(kept) for k in range(kept))
+        values = np.stack([full[..., i, k] for i in range(kept) for k in range(kept)], axis=1)
+        return cell_block(zone, names, values, "RIGIDITE")
+
+    return on_zones(said.model, "VECTEUR LOCAUX", make)
+
+
+@operator(
+    "CALP",
+    family="stress",
+    help=Help(
+        en="Stress at the point DY DZ of the section of beams (local axes): SMXX = EFFX / SECT + "
+        "MOMY DZ / INRY - MOMZ DY / INRZ; stresses SMXX SMYY SMXY (or strains) of shells in their "
+        "own frame at the side of the normal ('SUPE'), in the middle ('MOYE', default) or at the "
+        "other side ('INFE').",
+        fr="Contrainte au point DY DZ de la section des poutres (repère local) : SMXX = EFFX / "
+        "SECT + MOMY DZ / INRY - MOMZ DY / INRZ ; contraintes SMXX SMYY SMXY (ou déformations) des "
+        "coques dans leur repère, du côté de la normale ('SUPE'), au milieu ('MOYE', par défaut) "
+        "ou de l'autre côté ('INFE').",
+        syntax="CHAM2 = CALP MODL1 SIG1 CAR1 ('SUPE' | 'MOYE' | 'INFE') ;",
+        examples=(
+            "OPTI DIME 2 ELEM SEG2 ; P = 0. 0. ; Q = 1. 0. ; L = DROI 2 P Q ; "
+            "M = MODE L MECANIQUE ELASTIQUE POUT ; A = MATE M 'YOUN' 1. 'NU' 0. 'SECT' 1. "
+            "'INRZ' 0.1 'DY' 0.5 ; U = RESO ((RIGI M A) ET (BLOQ P 'UX' 'UY' 'RZ')) "
+            "(FORC (0. 1.) Q) ; LIST (MAXI (CALP M (SIGM M A U) A)) ;",
+        ),
+    ),
+    reads_itself=True,
+)
+def calp(call: Call) -> CellField:
+    """Skin stress of beams."""
+    said = Reading(call, tuple(SIDES))
+    field, material = said.state_and_rest()
+    if material is None:
+        raise call.missing(("MCHAML",))
+    side = said.words[-1] if said.words else "MOYE"
+
+    def make(zone: Zone) -> CellFieldBlock:
+        if not is_shell(zone):
+            return skin_stress(zone, field, material)
+        parts, support = shell_skin(zone, field, material, side)
+        return CellFieldBlock(zone.cells, parts, support, zone.element, zone.constituent)
+
+    return on_zones(said.model, field.title, make)

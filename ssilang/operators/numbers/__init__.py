@@ -1,0 +1,1 @@
+"""Operators on numbers, comparisons and the signs."""

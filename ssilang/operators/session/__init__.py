@@ -1,0 +1,1 @@
+"""Operators: the session: control, options, objects, help."""

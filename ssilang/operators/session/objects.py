@@ -1,0 +1,335 @@
+"""TYPE EXIS OUBL DETR MENA NOMM OBJE METH HERI: objects and their names."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from ssilang.kernel.curve import Load
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.model import Model
+from ssilang.language.call import Call
+from ssilang.language.procedures import BoundMethod, call_procedure
+from ssilang.language.registry import Help, operator
+from ssilang.language.values import (
+    ANNULE,
+    ListEnti,
+    ListMots,
+    Mot,
+    Objet,
+    Procedure,
+    Table,
+    type_of,
+)
+from ssilang.operators.lists.search import equal_items
+from ssilang.operators.session.control import take_name
+
+
+@operator(
+    "TYPE",
+    family="objects",
+    terminal=True,
+    help=Help(
+        en="The type of an object, as a word of 8 characters.",
+        fr="Le type d'un objet, mot de 8 caractères.",
+        syntax="MOT1 = TYPE OBJ1 ;",
+        examples=("SI (EGA (TYPE 3.) 'FLOTTANT') ; MESS 'a real' ; FINSI ;",),
+    ),
+    reads_itself=True,
+)
+def type_word(call: Call) -> Mot:
+    """Name the type."""
+    operand = call.read("*", "TEXTE")
+    if operand is None:
+        raise call.missing(("*",))
+    return Mot(type_of(operand.value).ljust(8))
+
+
+@operator(
+    "EXIS",
+    family="objects",
+    full_name="EXISTE",
+    help=Help(
+        en="Whether a name holds an object (a missing optional argument does not), a table has an "
+        "index, a field a component or a zone, a list an item, a loading a name, a model a zone.",
+        fr="Dit si un nom porte un objet (un argument facultatif absent n'en porte pas), si une "
+        "table a un indice, un champ une composante ou une zone, une liste un élément, un "
+        "chargement un nom, un modèle une zone.",
+        syntax="LOG1 = EXIS OBJ1 ; LOG1 = EXIS TAB1 OBJ1 ; LOG1 = EXIS CHP1 MOT1 ; "
+        "LOG1 = EXIS LREE1 FLOT1 (FLOT2) ;\nLOG1 ... = EXIS LMOT1 MOT1 | LMOT2 ('ET' | 'OU') ; "
+        "LOG1 = EXIS CHAR1 MOT1 ; LOG1 = EXIS MODL1 MOT1 MOT2 ;",
+        examples=(
+            "T = TABL ; T . 'A' = 1 ; SI (EXIS T 'A') ; MESS 'it does' ; FINSI ;",
+            "SI (EXIS (MOTS 'UX' 'UY') 'UY') ; MESS 'it does' ; FINSI ;",
+        ),
+    ),
+    reads_itself=True,
+)
+def exis(call: Call) -> Any:
+    """Look for something."""
+    if not call.operands:
+        raise call.missing(("*",))
+    operand = call.operands.pop(0)
+    call.used.append(operand)
+    value = operand.value
+    if isinstance(value, Mot) and "%" in operand.span.text and not operand.name:
+        return False  # an attribute that the object does not have
+    search = _SEARCHES.get(type_of(value))
+    if search is None or not call.operands:
+        return value is not ANNULE
+    return search(call, value)
+
+
+def _in_table(call: Call, table: Table) -> bool:
+    operand = call.operands.pop(0)
+    call.used.append(operand)
+    return table.has(operand.value)
+
+
+def _in_object(call: Call, holder: Objet) -> bool:
+    name = take_name(call)
+    return name in holder.attributes or name in holder.methods
+
+
+def _in_field(call: Call, field: Any) -> bool:
+    support = call.read("MAILLAGE", "MMODEL") if isinstance(field, CellField) else None
+    if support is not None:
+        mesh = support.value.mesh if isinstance(support.value, Model) else support.value
+        wanted = {b.raw.tobytes() for b in mesh.blocks}
+        return any(b.cells.raw.tobytes() in wanted for b in field.blocks)
+    name = str(call.required("MOT")).rstrip()
+    if isinstance(field, NodeField):
+        return name in field.components
+    return any(name in b.components for b in field.blocks)
+
+
+def _in_words(call: Call, words: ListMots) -> Any:
+    operand = call.read("MOT", "LISTMOTS")
+    if operand is None:
+        raise call.missing(("MOT", "LISTMOTS"))
+    if isinstance(operand.value, str):
+        return bool(np.any(equal_items(words.values, operand.value, None, False)))
+    found = [bool(np.any(equal_items(words.values, w, None, False))) for w in operand.value.values]
+    word = call.keyword(("ET", "OU"))
+    if word is None:
+        return tuple(found)
+    return all(found) if word == "ET" else any(found)
+
+
+def _in_numbers(call: Call, values: Any) -> bool:
+    item = call.required("ENTIER" if isinstance(values, ListEnti) else "FLOTTANT")
+    tolerance = call.optional("FLOTTANT")
+    return bool(np.any(equal_items(values.values, item, tolerance, False)))
+
+
+def _in_cloud(call: Call, cloud: Any) -> bool:
+    return str(call.required("MOT")).rstrip() in cloud.columns
+
+
+def _in_load(call: Call, load: Load) -> bool:
+    said = str(call.required("MOT")).rstrip()
+    if said.upper() in ("LIBR", "LIBRE"):
+        return False
+    if said.upper() == "LIE":
+        return bool(load.parts)
+    return any(p.name.rstrip() == said for p in load.parts)
+
+
+def _in_model(call: Call, model: Model) -> bool:
+    what = call.keyword(("FORM", "CONS", "ELEM", "MATE"))
+    if what is None:
+        raise call.bad("what is looked for in the model?", hint="FORM CONS ELEM MATE")
+    words = [str(w).strip() for w in call.all("MOT")]
+    for zone in model.zones:
+        holders = {
+            "FORM": (zone.formulation,),
+            "CONS": (zone.constituent,),
+            "ELEM": (zone.element,),
+            "MATE": zone.behaviour,
+        }[what]
+        if all(w in holders for w in words):
+            return True
+    return False
+
+
+_SEARCHES: dict[str, Callable[[Call, Any], Any]] = {
+    "TABLE": _in_table, "OBJET": _in_object, "CHPOINT": _in_field, "MCHAML": _in_field,
+    "LISTMOTS": _in_words, "LISTENTI": _in_numbers, "LISTREEL": _in_numbers,
+    "CHARGEME": _in_load, "NUAGE": _in_cloud, "MMODEL": _in_model,
+}  # fmt: skip
+
+
+@operator(
+    "OUBL",
+    family="objects",
+    full_name="OUBLIER",
+    help=Help(
+        en="Forgets a name, or an index of a table.",
+        fr="Oublie un nom, ou un indice d'une table.",
+        syntax="OUBL NOM1 ; OUBL TAB1 OBJ1 ;",
+        examples=("T = TABL ; T . 1 = 5 ; OUBL T 1 ; LIST (DIME T) ;",),
+    ),
+    reads_itself=True,
+)
+def oubl(call: Call) -> None:
+    """Forget."""
+    if len(call.operands) > 1 and isinstance(call.operands[0].value, Table):
+        table = call.operands.pop(0).value
+        table.remove(call.operands.pop(0).value)
+        return
+    call.session.frame.forget(take_name(call))
+
+
+@operator(
+    "DETR",
+    family="objects",
+    full_name="DETRUIRE",
+    help=Help(
+        en="Does nothing: memory is freed when no name holds an object any more.",
+        fr="Sans effet : la mémoire est rendue quand plus aucun nom ne porte l'objet.",
+        syntax="DETR OBJ1 ;",
+        examples=("L = PROG 1. ; DETR L ;",),
+    ),
+    reads_itself=True,
+)
+def detr(call: Call) -> None:
+    """Accept and ignore."""
+    call.operands.clear()
+
+
+@operator(
+    "MENA",
+    family="objects",
+    full_name="MENAGE",
+    help=Help(
+        en="Frees memory that no object uses any more.",
+        fr="Rend la mémoire qu'aucun objet n'utilise plus.",
+        syntax="MENA ('OBLI') (N1) ;",
+        examples=("MENA ;",),
+    ),
+    reads_itself=True,
+)
+def mena(call: Call) -> None:
+    """Collect garbage when it is asked for by 'OBLI'."""
+    if call.keyword(("OBLI",)) is not None:
+        import gc
+
+        gc.collect()
+    call.operands.clear()
+
+
+@operator(
+    "NOMM",
+    family="objects",
+    full_name="NOMMER",
+    help=Help(
+        en="Gives an object a name that is written or computed: the content of a word counts.",
+        fr="Donne à un objet un nom écrit ou calculé : le contenu d'un mot compte.",
+        syntax="NOMM NOM1 OBJ1 ;",
+        examples=("REPE B 2 ; NOMM (CHAI 'L' &B) (PROG &B) ; FIN B ; LIST L2 ;",),
+    ),
+    reads_itself=True,
+)
+def nomm(call: Call) -> None:
+    """Assign to a computed name."""
+    if len(call.operands) < 2:
+        raise call.bad("a name and an object are needed", hint="NOMM NOM1 OBJ1 ;")
+    first = call.operands.pop(0)
+    call.used.append(first)
+    if not isinstance(first.value, Mot):
+        raise call.bad("a name is a word, or a variable that holds one", first.value)
+    name = str(first.value).strip().upper()
+    operand = call.operands.pop(0)
+    if not name:
+        raise call.bad("the name is empty", first.value)
+    call.session.frame.assign(name[:24], operand.value)
+
+
+# ---- objects with methods -----------------------------------------------------------------------
+
+
+@operator(
+    "OBJE",
+    family="objects",
+    full_name="OBJET",
+    help=Help(
+        en="Makes an object and runs its constructor, a method made by DEBM; what stands behind "
+        "are the constructor's arguments. Methods run by OBJ1%NAME, elements are %NAME inside.",
+        fr="Crée un objet et lui applique son constructeur, méthode définie par DEBM ; ce qui suit "
+        "sont les arguments du constructeur. Une méthode s'appelle par OBJ1%NOM, un élément est "
+        "%NOM à l'intérieur.",
+        syntax="OBJ1 = OBJE METH1 (ARG1 ...) ;",
+        examples=("DEBM POSE X*ENTIER ; %VAL = X ; FINM ; O = OBJE POSE 5 ; LIST (O%VAL + 1) ;",),
+    ),
+    reads_itself=True,
+)
+def obje(call: Call) -> tuple[Any, ...]:
+    """Construct an object."""
+    constructor = call.required("PROCEDUR")
+    made = Objet(constructor.name)
+    results = call_procedure(call.session.evaluator, BoundMethod(constructor, made), call)
+    return (made, *results)
+
+
+def _target(call: Call) -> Objet:
+    for i, operand in enumerate(call.operands):
+        if isinstance(operand.value, Objet):
+            del call.operands[i]
+            return operand.value
+    found = call.session.frame.object
+    if found is None:
+        raise call.bad("no object is there", hint="OBJ1%METHODE NOM1 METH1 ;")
+    return found
+
+
+@operator(
+    "METH",
+    family="objects",
+    full_name="METHODE",
+    help=Help(
+        en="Gives an object a method under a name.",
+        fr="Attribue à un objet une méthode sous un nom.",
+        syntax="OBJ1%METHODE NOM1 METH1 ;",
+        examples=(
+            "DEBM NAIT ; %N = 0 ; %METHODE AJOUTE PLUSUN ; FINM ; "
+            "DEBM PLUSUN ; %N = %N + 1 ; FINM %N ; "
+            "O = OBJE NAIT ; LIST (O%AJOUTE) ;",
+        ),
+    ),
+    reads_itself=True,
+)
+def meth(call: Call) -> None:
+    """Attach a method."""
+    holder = _target(call)
+    name = take_name(call)
+    if not call.operands or not isinstance(call.operands[0].value, Procedure):
+        raise call.missing(("PROCEDUR",))
+    holder.methods[name] = call.operands.pop(0).value
+
+
+@operator(
+    "HERI",
+    family="objects",
+    full_name="HERITE",
+    help=Help(
+        en="Gives an object all the methods of another one.",
+        fr="Donne à un objet toutes les méthodes d'un autre.",
+        syntax="OBJ1%HERITE OBJ2 ;",
+        examples=(
+            "DEBM A ; %METHODE DIT SALUT ; FINM ; DEBM SALUT ; MESS 'hello' ; FINM ; "
+            "DEBM B ; %X = 1 ; FINM ; P = OBJE A ; Q = OBJE B ; Q%HERITE P ; Q%DIT ;",
+        ),
+    ),
+    reads_itself=True,
+)
+def heri(call: Call) -> None:
+    """Inherit methods."""
+    others = [o for o in call.operands if isinstance(o.value, Objet)]
+    holder = others[0].value if len(others) > 1 else call.session.frame.object
+    if not others or holder is None:
+        raise call.bad("the object to inherit from is missing", hint="OBJ1%HERITE OBJ2 ;")
+    call.operands[:] = [o for o in call.operands if o not in others]
+    holder.methods.update(others[-1].value.methods)

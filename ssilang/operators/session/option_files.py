@@ -1,0 +1,78 @@
+"""Options of OPTI that name files; reading another script in the middle of one (OPTI DONN)."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable
+from typing import Any, TextIO
+
+from ssilang.language.call import Call
+from ssilang.language.source import Source
+from ssilang.language.structure import parse
+from ssilang.language.values import Mot
+from ssilang.operators.files.outputs import input_path, output_path, run_output
+from ssilang.operators.workspace import workspace
+
+# compared in full: a file may be called 'formes.txt'
+_FORMATS = ("FORMAT", "FORM", "BINA", "BINAIRE", "XDR", "SUITE", "SUIT", "TAILLE", "FORMATTE")
+
+
+def read_file_option(call: Call, word: str) -> None:
+    """A file's name, or the number of a logical unit; words of format around it are kept."""
+    options = workspace(call.session).options
+    formats: list[str] = []
+    _formats(call, formats)
+    operand = call.read("ENTIER", "MOT")
+    if operand is None:
+        raise call.missing(("MOT", "ENTIER"))
+    _formats(call, formats)
+    value = operand.value
+    options[word] = Mot(value) if isinstance(value, str) else value
+    options[word + " FORMAT"] = tuple(formats)
+    run_output(call.session).reopen(word)
+    if word == "IMPR":
+        _keep_listing(call, value if isinstance(value, str) else "")
+
+
+class Listing(io.TextIOBase):
+    """Writes what the script prints to its usual place, and whole lines to `keep` as well."""
+
+    def __init__(self, usual: TextIO, keep: Callable[[list[str]], None]) -> None:
+        self.usual = usual
+        self._keep = keep
+        self._rest = ""
+
+    def write(self, text: str) -> int:
+        """Print, and keep the lines that are complete."""
+        *lines, self._rest = (self._rest + text).split("\n")
+        if lines:
+            self._keep(lines)
+        return self.usual.write(text)
+
+    def flush(self) -> None:
+        """Flush the usual place."""
+        self.usual.flush()
+
+
+def _keep_listing(call: Call, name: str) -> None:
+    """OPTI IMPR: what is printed from now on also goes to a file; to none when a unit is named."""
+    session = call.session
+    usual = session.out.usual if isinstance(session.out, Listing) else session.out
+    session.out = usual
+    if name:
+        path, output = output_path(call, name), run_output(session)
+        listing: Any = Listing(usual, lambda lines: output.add_lines("IMPR", path, lines))
+        session.out = listing
+
+
+def _formats(call: Call, formats: list[str]) -> None:
+    while (said := call.keyword(_FORMATS, length=12)) is not None:
+        formats.append(said)
+        if said == "TAILLE":
+            call.required("FLOTTANT", after=call.keyword_end)
+
+
+def include(call: Call, name: str) -> None:
+    """Run the statements of another file as if they stood here."""
+    source = Source.read(input_path(call, name))
+    call.session.evaluator.run(parse(source).body)

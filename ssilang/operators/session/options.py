@@ -1,0 +1,347 @@
+"""OPTI, VALE, DENS: the settings of a calculation, several in one statement."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from difflib import get_close_matches
+from typing import Any
+
+from ssilang.io.plots.palette import NAMES as COLOURS
+from ssilang.io.plots.palette import index_of
+from ssilang.kernel.matrices.matrix import PRIMAL_TO_DUAL
+from ssilang.kernel.mesh.cells import CELL_TYPES
+from ssilang.kernel.model import Mode
+from ssilang.language.call import Call
+from ssilang.language.errors import SsiError
+from ssilang.language.registry import Help, arg, operator
+from ssilang.language.session import Session
+from ssilang.language.values import ListMots, Mot
+from ssilang.operators.session.option_files import include, read_file_option
+from ssilang.operators.workspace import Workspace, workspace
+
+Reader = Callable[[Call, str], None]
+READERS: dict[str, Reader] = {}
+"""Option word -> function that reads its value from the call and stores it."""
+
+# what VALE gives for an option that was never set
+_DEFAULTS: dict[str, Any] = {
+    "ACQU": 9, "ASSI": 0, "ATTE": 0, "CADR": 30.0, "COSC": "NOIR", "DEBU": 0, "DONN": 5,
+    "ECHO": 1, "EPSI": "LINEAIRE", "EPTR": 1, "ERRE": 0, "FTRA": "", "IMPI": 0, "IMPR": 6,
+    "ISOV": "SURFACE", "LANG": "FRAN", "LECT": 4, "LOCA": False, "NBP": 0, "NGMA": 100000,
+    "NIVE": 19, "OMBR": True, "PARA": False, "PLAC": 0, "POLI": "8_BY_13", "POTR": "COURIER_14",
+    "RESO": "DIRECTE", "REST": 2, "SAUV": 8, "SORT": 7, "SOUC": 0, "TRAC": "BENS", "VERI": 0,
+    "ZERO": 4, "PETI": sys.float_info.min, "GRAN": sys.float_info.max,
+    "PREC": sys.float_info.epsilon,
+}  # fmt: skip
+_MODES: dict[str, Mode] = {
+    "AXIS": Mode.AXISYMMETRIC, "FOUR": Mode.FOURIER, "TRID": Mode.THREE_DIMENSIONAL,
+    "UNID": Mode.UNIDIMENSIONAL, "CONT": Mode.PLANE_STRESS, "DEFO": Mode.PLANE_STRAIN,
+    "GENE": Mode.GENERALISED_PLANE_STRAIN,
+}  # fmt: skip
+_UNID = (
+    "DYDZ", "DYCZ", "CYDZ", "CYCZ", "GYDZ", "GYCZ", "DYGZ", "CYGZ", "GYGZ", "AXDZ", "AXCZ", "AXGZ",
+)  # fmt: skip
+_KNOWN_BY_SESSION = frozenset({"ECHO", "ERRE", "DEBU", "VERI"})
+
+
+def reader(*words: str) -> Callable[[Reader], Reader]:
+    """Decorator: how these options are read."""
+
+    def add(body: Reader) -> Reader:
+        for word in words:
+            READERS[word] = body
+        return body
+
+    return add
+
+
+def _store(call: Call, word: str, value: Any) -> None:
+    workspace(call.session).options[word] = value
+    if word in _KNOWN_BY_SESSION:
+        call.session.options[word] = value
+
+
+def value_word(call: Call) -> str:
+    """The word that follows the keyword just read, also when a variable bears that name."""
+    for operand in call.operands:
+        if operand.span.start < call.keyword_end:
+            continue
+        if isinstance(operand.value, str):
+            break
+        if operand.name:
+            call.operands.remove(operand)
+            call.used.append(operand)
+            return operand.name
+        break
+    return str(call.required("MOT", after=call.keyword_end))
+
+
+def _one_of(call: Call, option: str, words: tuple[str, ...]) -> str:
+    said = value_word(call).upper().rstrip()
+    for word in words:
+        if said[:4] == word[:4].rstrip():
+            return word
+    near = get_close_matches(said, words, 1, 0.3)
+    hint = f"did you mean {near[0]}? " if near else ""
+    raise SsiError(
+        "bad-value",
+        call.used[-1].span,
+        operator="OPTION",
+        message=f"'{said}' is no value of {option}",
+        hint=f"{hint}it takes {' '.join(words)}",
+    )
+
+
+@reader("DIME")
+def _dime(call: Call, word: str) -> None:
+    n = call.required("ENTIER", after=call.keyword_end)
+    if n not in (1, 2, 3):
+        raise call.bad(f"the space has 1, 2 or 3 dimensions, not {n}", n)
+    ws = workspace(call.session)
+    ws.dimension = n
+    if ws.mode.dimension != n:
+        ws.mode = {1: Mode.UNIDIMENSIONAL, 2: Mode.PLANE_STRAIN, 3: Mode.THREE_DIMENSIONAL}[n]
+
+
+@reader("ELEM")
+def _elem(call: Call, word: str) -> None:
+    workspace(call.session).element = _one_of(call, "ELEM", tuple(CELL_TYPES))
+
+
+@reader("DENS")
+def _dens(call: Call, word: str) -> None:
+    _set_density(call, call.required("FLOTTANT", after=call.keyword_end))
+
+
+def _set_density(call: Call, size: float) -> None:
+    if size <= 0:
+        raise call.bad(f"a mesh size is positive, this one is {size:g}", size)
+    workspace(call.session).density = float(size)
+
+
+@reader("COUL")
+def _coul(call: Call, word: str) -> None:
+    workspace(call.session).colour = index_of(value_word(call))
+
+
+@reader("MODE")
+def _mode(call: Call, word: str) -> None:
+    ws = workspace(call.session)
+    said = _one_of(call, "MODE", ("PLAN", "AXIS", "FOURIER", "TRID", "UNID", "FREQ"))
+    if said == "FREQ":
+        raise call.bad("MODE FREQ is not supported", hint="work in time, or with TFR on curves")
+    if said == "PLAN":
+        said = call.keyword(("CONT", "DEFO", "GENE")) or "DEFO"
+    elif said == "FOURIER":
+        said = "FOUR"
+        if call.keyword(("NOHARM",)) is None:
+            ws.fourier = call.required("ENTIER", after=call.keyword_end)
+        if ws.dimension == 3:  # a harmonic asked for after CREER_3D went to space
+            ws.dimension = 2
+    elif said == "UNID":
+        call.keyword(("PLAN", "AXIS", "SPHE"))
+        call.keyword(_UNID)
+    ws.mode = _MODES[said]
+
+
+@reader("OEIL")
+def _oeil(call: Call, word: str) -> None:
+    _store(call, word, call.required("POINT", after=call.keyword_end))
+
+
+@reader(
+    "ASSI", "ATTE", "DEBU", "ECHO", "EPTR", "IMPI", "NBP", "NGMA", "NIVE", "PLAC", "SURV", "VERI",
+    "ZERO", "SOUC",
+)  # fmt: skip
+def _integer(call: Call, word: str) -> None:
+    _store(call, word, call.required("ENTIER", after=call.keyword_end))
+
+
+@reader("CADR", "PETI", "GRAN", "PREC")
+def _real(call: Call, word: str) -> None:
+    _store(call, word, call.required("FLOTTANT", after=call.keyword_end))
+
+
+@reader("OMBR", "PARA", "LOCA")
+def _logical(call: Call, word: str) -> None:
+    _store(call, word, call.required("LOGIQUE", after=call.keyword_end))
+
+
+@reader("COSC", "ISOV", "POLI", "POTR", "RESO", "EPSI", "NAVI", "TITR", "ECRA")
+def _word(call: Call, word: str) -> None:
+    _store(call, word, Mot(value_word(call).rstrip()))
+
+
+@reader("TRAC")
+def _trac(call: Call, word: str) -> None:
+    known = ("BENSON", "IBM", "GKS", "PHIGS", "X", "PS", "PSC", "MIF", "OPENGL", "XWINDOW",
+             "PSC8", "PNG", "SVG", "PDF")  # fmt: skip
+    _store(call, word, Mot(_one_of(call, "TRAC", known)))
+
+
+@reader("ERRE")
+def _erre(call: Call, word: str) -> None:
+    _store(call, word, Mot(_one_of(call, "ERRE", ("FATALE", "NORMALE", "CONTROLE", "IGNORE"))))
+
+
+@reader("LANG")
+def _lang(call: Call, word: str) -> None:
+    said = value_word(call).upper()
+    call.session.language = "fr" if said.startswith("FRA") else "en"
+    _store(call, word, Mot(said[:4]))
+
+
+@reader("INCO")
+def _inco(call: Call, word: str) -> None:
+    primal = call.required("LISTMOTS", "MOT", after=call.keyword_end)
+    dual = call.required("LISTMOTS", "MOT", after=call.keyword_end)
+    names = [
+        [str(w).strip()[:4] for w in (said.values if isinstance(said, ListMots) else [said])]
+        for said in (primal, dual)
+    ]
+    if len(names[0]) != len(names[1]):
+        raise call.bad(
+            f"{len(names[0])} primal unknowns and {len(names[1])} dual ones are named", dual
+        )
+    earlier = workspace(call.session).options.get(word, {})
+    _store(call, word, {**earlier, **dict(zip(*names, strict=True))})
+
+
+@reader("NORM")
+def _norm(call: Call, word: str) -> None:
+    said = call.keyword(("AUTO", "ANNU"))
+    if said is not None:
+        _store(call, word, Mot(said))
+        return
+    pairs = []
+    while (names := call.read("LISTMOTS")) is not None:
+        pairs.append((names.value, call.required("LISTREEL")))
+    _store(call, word, tuple(pairs))
+
+
+READERS.update(
+    dict.fromkeys(("ACQU", "FTRA", "IMPR", "LECT", "REST", "SAUV", "SORT"), read_file_option)
+)
+
+
+@reader("DONN")
+def _donn(call: Call, word: str) -> None:
+    operand = call.read("ENTIER", "MOT")
+    if operand is not None and isinstance(operand.value, str):
+        include(call, operand.value)
+
+
+@operator(
+    "OPTI",
+    family="session",
+    full_name="OPTION",
+    help=Help(
+        en="Sets options of the calculation; several may stand in one statement, values quoted or "
+        "not. An option keeps its value until it is set again; VALE reads it back.",
+        fr="Fixe des options du calcul ; plusieurs peuvent se suivre dans une instruction, valeurs "
+        "entre apostrophes ou non. VALE relit la valeur courante.",
+        syntax="OPTI 'DIME' N1 'MODE' MODE1 (MODE2) 'ELEM' TYPE1 'DENS' FLOT1 'COUL' COUL1 ... ;\n"
+        "OPTI 'TRAC' UNITE 'FTRA' FICHIER ; OPTI 'SORT' FICHIER ; OPTI 'SAUV' FICHIER ; "
+        "OPTI 'REST' FICHIER ; OPTI 'ACQU' FICHIER ; OPTI 'DONN' FICHIER ;",
+        examples=("OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; LIST (VALE 'DIME') ;",),
+    ),
+    reads_itself=True,
+)
+def opti(call: Call) -> None:
+    """Read option after option; then check that mode and dimension agree."""
+    options = sorted(READERS)
+    found = False
+    while (word := call.keyword(options)) is not None:
+        READERS[word](call, word)
+        found = True
+    left = call.peek_word()
+    if left is not None:
+        raise _unknown_option(call, left)
+    if not found:
+        raise call.bad("no option is named", hint="for example OPTI DIME 2 ELEM QUA4 ;")
+    ws = workspace(call.session)
+    if ws.dimension and ws.mode.dimension != ws.dimension:
+        raise call.bad(
+            f"mode {ws.mode.value} needs dimension {ws.mode.dimension}, DIME is {ws.dimension}",
+            hint=f"set DIME {ws.mode.dimension}",
+        )
+
+
+def _unknown_option(call: Call, said: str) -> SsiError:
+    word = call.word()
+    near = get_close_matches(said.strip()[:4], sorted(READERS), 1, 0.4)
+    hint = f"did you mean {near[0]}?" if near else "options are " + " ".join(sorted(READERS))
+    span = call.used[-1].span if call.used else call.span
+    return SsiError(
+        "bad-value", span, operator="OPTION", message=f"'{word}' is no option", hint=hint
+    )
+
+
+def _unknowns(ws: Workspace) -> tuple[ListMots, ListMots]:
+    """Names of primal and dual unknowns: the usual ones, then those of OPTI INCO."""
+    pairs = {**PRIMAL_TO_DUAL, **ws.options.get("INCO", {})}
+    return ListMots(list(pairs)), ListMots(list(pairs.values()))
+
+
+_CURRENT: dict[str, Callable[[Workspace], Any]] = {
+    "DIME": lambda ws: ws.dimension,
+    "ELEM": lambda ws: Mot(ws.element or "    "),
+    "DENS": lambda ws: ws.density,
+    "COUL": lambda ws: Mot(COLOURS[ws.colour]),
+    "MODE": lambda ws: Mot(ws.mode.value.replace(" ", "")),
+}
+
+
+@operator(
+    "VALE",
+    family="session",
+    full_name="VALEUR",
+    terminal=True,
+    help=Help(
+        en="Current value of an option of OPTI; 'MODE' 'FOUR' gives the harmonic.",
+        fr="Valeur courante d'une option d'OPTI ; 'MODE' 'FOUR' donne l'harmonique.",
+        syntax="VAL1 = VALE MOT1 ;",
+        examples=("OPTI DIME 3 ; N = VALE 'DIME' ; LIST N ;",),
+    ),
+    reads_itself=True,
+)
+def vale(call: Call) -> Any:
+    """Read an option back."""
+    ws = workspace(call.session)
+    known = sorted({*_CURRENT, *_DEFAULTS, *READERS})
+    word = call.keyword(known)
+    if word is None:
+        left = call.peek_word()
+        if left is None:
+            raise call.missing(("MOT",))
+        raise _unknown_option(call, left)
+    if word == "MODE" and call.keyword(("FOUR",)) is not None:
+        return ws.fourier
+    if word == "INCO":
+        return _unknowns(ws)
+    if word in _CURRENT:
+        return _CURRENT[word](ws)
+    value = ws.options.get(word, _DEFAULTS.get(word))
+    if value is None:
+        raise call.bad(f"option {word} was not set")
+    if word == "ERRE":
+        return {"IGNORE": 2, "CONTROLE": 1}.get(str(value), 0)
+    return Mot(value) if isinstance(value, str) else value
+
+
+@operator(
+    "DENS",
+    arg("size", "FLOTTANT"),
+    family="mesh",
+    full_name="DENSITE",
+    help=Help(
+        en="Sets the mesh size that points made from now on carry (as OPTI DENS does).",
+        fr="Fixe la taille de maille portée par les points créés ensuite (comme OPTI DENS).",
+        syntax="DENS FLOT1 ;",
+        examples=("OPTI DIME 2 ; DENS 0.5 ; LIST (VALE 'DENS') ;",),
+    ),
+)
+def dens(session: Session, call: Call, size: float) -> None:
+    """Set the density in force."""
+    _set_density(call, size)

@@ -1,0 +1,1 @@
+"""Operators: loads, statics, stresses, PASAPAS."""

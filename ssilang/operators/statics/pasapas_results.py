@@ -1,0 +1,102 @@
+"""The tables that PASAPAS fills."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ssilang.kernel.elements.families import stress
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.model import Zone
+from ssilang.kernel.statics.thermal_load import ThermalStress
+from ssilang.language.values import Mot, Table
+from ssilang.operators.statics.pasapas_entries import RESULTS
+
+if TYPE_CHECKING:
+    from ssilang.kernel.dynamics.snapshot import Snapshot
+
+
+@dataclass
+class Stresses:
+    """Stresses of the zones whose stiffness says all.
+
+    Attributes
+    ----------
+    thermal : list of ThermalStress
+        Taken off.
+    offsets : list of CellFieldBlock
+        Initial stresses that no displacement causes, by zone (empty: none).
+    """
+
+    zones: list[tuple[Zone, CellField]]
+    thermal: list[ThermalStress]
+    offsets: dict[int, CellFieldBlock] = field(default_factory=dict)
+
+    def at(self, displacement: NodeField, time: float) -> list[CellFieldBlock]:
+        """Stresses of all zones at a displacement and a time."""
+        return [self._zone(z, m, displacement, time) for z, m in self.zones]
+
+    def _zone(
+        self, zone: Zone, material: CellField, displacement: NodeField, time: float
+    ) -> CellFieldBlock:
+        found = stress(zone, material, displacement)
+        for part in self.thermal:
+            if part.zone is zone:
+                found = part.taken_off(found, time)
+        offset = self.offsets.get(id(zone))
+        if offset is None:
+            return found
+        total = {k: v + offset.components[k] for k, v in found.components.items()}
+        return CellFieldBlock(found.cells, total, found.support, found.element, found.constituent)
+
+
+@dataclass
+class ResultTables:
+    """Fills TEMPS, DEPLACEMENTS, CONTRAINTES ... of the table at each saved time.
+
+    `number` is that of the initial state; what the table already holds there is kept.
+    """
+
+    table: Table
+    wanted: NDArray[np.bool_]
+    stresses: Stresses
+    dynamic: bool
+    number: int = 0
+
+    def __post_init__(self) -> None:
+        for word in RESULTS[: None if self.dynamic else 5]:
+            if not isinstance(self.table.get(word), Table):
+                self.table.set(Mot(word), Table())
+
+    def receive(self, snapshot: Snapshot) -> None:
+        """Add one time."""
+        u = snapshot.displacement
+        tractions = snapshot.tractions
+        blocks = self.stresses.at(u, snapshot.time)
+        values = {
+            "TEMPS": snapshot.time,
+            "DEPLACEMENTS": u,
+            "REACTIONS": snapshot.reactions,
+            "CONTRAINTES": CellField(
+                (*blocks, *(tractions.blocks if tractions else ())), "CONTRAINTES"
+            ),
+            "VARIABLES_INTERNES": snapshot.variables or CellField((), "VARIABLES INTERNES"),
+        }
+        if self.dynamic:
+            values |= {"VITESSES": snapshot.velocity, "ACCELERATIONS": snapshot.acceleration}
+        for word, value in values.items():
+            self._put(word, value, keep=snapshot.step == 0)
+        self.number += 1
+
+    def _put(self, word: str, value: Any, keep: bool) -> None:
+        inner = self.table.get(word)
+        assert isinstance(inner, Table)
+        if not (keep and inner.has(self.number)):
+            inner.set(self.number, value)
+
+    def close(self) -> None:
+        """Nothing to do: tables are whole after each time."""

@@ -1,0 +1,217 @@
+"""RESO REAC DIAG: linear systems with conditions, reactions, negative eigenvalues."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ssilang.kernel.errors import KernelError
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.matrices.matrix import Matrix
+from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.kernel.statics.linear import SolveOptions, reactions, solve
+from ssilang.kernel.statics.stability import free_motion_fields, negative_eigenvalues
+from ssilang.language.call import Call
+from ssilang.language.registry import Help, operator
+from ssilang.language.values import ListChpo, Table
+from ssilang.operators.matrices.supports import static_links
+from ssilang.operators.workspace import workspace
+
+_FLAGS = ("NOID", "NOUNIL", "STAB", "NOSTAB", "SOUC", "ENSE", "ELIM", "INIB")
+
+
+def _reso(call: Call) -> Any:
+    flags, passes = _read_flags(call)
+    matrix: Matrix = call.required("RIGIDITE")
+    options = SolveOptions(
+        unilateral="NOUNIL" not in flags,
+        eliminate=passes is None or passes > 0,
+        project=bool({"NOID", "SOUC"} & flags),
+        stabilise="STAB" in flags,
+    )
+    table = call.read("TABLE")
+    if table is not None:
+        return _reso_links(call, matrix, table.value, options)
+    several = call.read("LISTCHPO")
+    if several is not None:
+        return ListChpo(tuple(solve(matrix, several.value.values, options)))
+    call.optional("FLOTTANT")  # precision: the solution is refined to rounding anyway
+    loads = [call.required("CHPOINT"), *call.all("CHPOINT")]
+    if "ENSE" in flags:
+        return _with_motions(call, matrix, loads, options)
+    if "SOUC" in flags:
+        return _or_warning(call, matrix, loads, options)
+    return tuple(solve(matrix, loads, options))
+
+
+def _read_flags(call: Call) -> tuple[set[str], int | None]:
+    flags: set[str] = set()
+    passes: int | None = None
+    while (word := call.keyword(_FLAGS)) is not None:
+        flags.add(word)
+        if word == "ELIM":
+            passes = call.required("ENTIER", after=call.keyword_end)
+        elif word == "INIB":  # the first guess of the active rows: found without it
+            call.required("RIGIDITE", after=call.keyword_end)
+            call.required("LISTENTI", after=call.keyword_end)
+    return flags, passes
+
+
+def _or_warning(
+    call: Call, matrix: Matrix, loads: list[NodeField], options: SolveOptions
+) -> tuple[NodeField, ...]:
+    """Solutions; loads that drive a free motion give a warning instead of an error."""
+    from dataclasses import replace
+
+    try:
+        return tuple(solve(matrix, loads, replace(options, project=False)))
+    except KernelError as problem:
+        call.session.warn("bad-value", call.span, operator="RESO", message=problem.message,
+                          hint=problem.hint)  # fmt: skip
+    return tuple(solve(matrix, loads, options))
+
+
+def _with_motions(
+    call: Call, matrix: Matrix, loads: list[NodeField], options: SolveOptions
+) -> tuple[Any, ...]:
+    """'ENSE': solutions, then the number of free motions and the nodes that pin them.
+
+    Where the loads drive a free motion, the motion itself is given.
+    """
+    from dataclasses import replace
+
+    motions, pins = free_motion_fields(matrix, options)
+    fields = []
+    for load in loads:
+        try:
+            fields += solve(matrix, [load], replace(options, project=False))
+        except KernelError:
+            fields.append(motions[0])
+    nodes = Mesh.of(matrix.table, "POI1", pins[:, None])
+    return (*fields, len(motions), nodes)
+
+
+def _reso_links(call: Call, matrix: Matrix, table: Table, options: SolveOptions) -> Table:
+    """Static shapes of a LIAISONS_STATIQUES table: DEFORMEE and POINT_REPERE of each entry."""
+    ws = workspace(call.session)
+    for entry, _, _ in static_links(table):
+        force, block = entry.get("FORCE"), entry.get("BLOCAGE")
+        if not isinstance(force, NodeField):
+            raise call.bad("an entry has no FORCE", table, "call DEPI on this table first")
+        whole = matrix
+        if isinstance(block, Matrix):
+            known = {id(r) for r in matrix.relations}
+            extra = tuple(r for r in block.relations if id(r) not in known)
+            if extra:
+                whole = Matrix(matrix.table, matrix.blocks, (*matrix.relations, *extra))
+        entry.set("DEFORMEE", solve(whole, [force], options)[0])
+        mark = ws.nodes.add(ws.nodes.coordinates[:1] * 0.0)
+        entry.set("POINT_REPERE", Point(ws.nodes, int(mark[0])))
+    return table
+
+
+operator(
+    "RESO",
+    family="solve",
+    full_name="RESO",
+    help=Help(
+        "Solves K u = F with the conditions in the matrix: equalities exactly, 'MINI' and 'MAXI' "
+        "by active sets. Forces FX, FY, MZ ... and imposed values of DEPI add up in the second "
+        "member; the solution holds UX, UY, RZ ... and the multipliers LX (K u + C^T LX = F). One "
+        "solution for each second member; a LISTCHPO gives a LISTCHPO. Free motions that the "
+        "loads drive are an error that names them. 'NOID' leaves that part of the loads out, "
+        "'SOUC' too with a warning; 'NOUNIL' takes unilateral conditions for equalities; 'STAB' "
+        "adds to the diagonal what makes the matrix positive; 'ELIM' 0 keeps all conditions in a "
+        "saddle point; 'ENSE' also gives the number of free motions and the nodes that pin them.",
+        "Résout K u = F avec les conditions que contient la matrice : égalités exactes, 'MINI' et "
+        "'MAXI' par ensembles actifs. Les forces FX, FY, MZ ... et les valeurs imposées par DEPI "
+        "s'ajoutent au second membre ; la solution contient UX, UY, RZ ... et les multiplicateurs "
+        "LX (K u + C^T LX = F). Une solution par second membre ; un LISTCHPO donne un LISTCHPO. "
+        "Un mouvement libre excité est une erreur qui le nomme. 'NOID' retire cette part du "
+        "chargement, 'SOUC' aussi avec un avertissement ; 'NOUNIL' prend les conditions "
+        "unilatérales pour des égalités ; 'STAB' ajoute à la diagonale de quoi rendre la matrice "
+        "positive ; 'ELIM' 0 garde toutes les conditions dans un point-selle ; 'ENSE' donne "
+        "aussi le nombre de mouvements libres et les nœuds qui les fixent.",
+        "CHPO1 (CHPO2 ...) = RESO RIG1 CHPO3 (CHPO4 ...) ('NOID') ('NOUNIL') ('STAB') ('SOUC') "
+        "('ELIM' N1) ;\n"
+        "CHPO1 NB1 MAIL1 = RESO RIG1 CHPO3 'ENSE' ;\n"
+        "LCHPO2 = RESO RIG1 LCHPO1 ;\n(TAB2 =) RESO RIG1 TAB1 ;  (LIAISONS_STATIQUES)",
+        (
+            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; R1 = APPU 'UX' 100. P1 ;"
+            " B1 = BLOQ 'MAXI' 'UX' P1 ; F1 = DEPI B1 0.02 ; F2 = FORC 'FX' 5. P1 ;"
+            " U1 = RESO (R1 ET B1) (F1 ET F2) ; LIST (EXTR U1 'UX' P1) ;",
+        ),
+    ),
+    reads_itself=True,
+)(_reso)
+
+
+def _reac(call: Call) -> Any:
+    matrix: Matrix = call.required("RIGIDITE")
+    found = call.required("CHPOINT", "TABLE")
+    if isinstance(found, NodeField):
+        return reactions(matrix, found)
+    for entry, shape, index in _shapes(found):
+        entry.set(index, reactions(matrix, shape))
+    return found
+
+
+def _shapes(table: Table) -> list[tuple[Table, NodeField, str]]:
+    """Sub-tables that hold a shape: entry, shape, index under which its reaction is put."""
+    indices = {
+        "DEFORMEE_MODALE": "REACTION_MODALE",
+        "DEFORMEE": "REACTION",
+        "DEPLACEMENT": "REACTION",
+    }
+    found = []
+    for _, entry in table.items():
+        if not isinstance(entry, Table):
+            continue
+        for name, reaction in indices.items():
+            shape = entry.get(name)
+            if isinstance(shape, NodeField):
+                found.append((entry, shape, reaction))
+                break
+        else:
+            found += _shapes(entry)
+    return found
+
+
+operator(
+    "REAC",
+    family="solve",
+    full_name="REACTION",
+    help=Help(
+        "Forces that the conditions in a matrix apply on the body, - C^T LX, from a solution of "
+        "RESO. A table of modes or of static shapes is completed by REACTION_MODALE or REACTION.",
+        "Forces que les conditions d'une matrice exercent sur le corps, - C^T LX, d'après une "
+        "solution de RESO. Une table de modes ou de déformées statiques est complétée par "
+        "REACTION_MODALE ou REACTION.",
+        "CHPO2 = REAC RIG1 CHPO1 ;\nTAB2 = REAC RIG1 TAB1 ;",
+        (
+            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; R1 = APPU 'UX' 100. P1 ;"
+            " B1 = BLOQ 'UX' P1 ; U1 = RESO (R1 ET B1) (FORC 'FX' 5. P1) ;"
+            " LIST (EXTR (REAC B1 U1) 'FX' P1) ;",
+        ),
+    ),
+    reads_itself=True,
+)(_reac)
+
+
+def _diag(call: Call) -> int:
+    return negative_eigenvalues(call.required("RIGIDITE"))
+
+
+operator(
+    "DIAG",
+    family="solve",
+    full_name="DIAGNEG",
+    help=Help(
+        "Number of negative eigenvalues of a matrix on the motions that its conditions allow: "
+        "zero if it is stable.",
+        "Nombre de valeurs propres négatives d'une matrice sur les mouvements que permettent ses "
+        "conditions : zéro si elle est stable.",
+        "N1 = DIAG RIG1 ;",
+        ("OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; LIST (DIAG (APPU 'UX' -3. P1)) ;",),
+    ),
+    reads_itself=True,
+)(_diag)

@@ -1,0 +1,148 @@
+"""TABL INDE and tables in DIME, ENLE, COPI, EXTR; tables of type VECTEUR in sums."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ssilang.language.call import Call
+from ssilang.language.registry import Help, operator
+from ssilang.language.values import Mot, Table, known_types, type_of
+from ssilang.operators.dispatch import COPI, DIME, ENLE
+from ssilang.operators.numbers.arithmetic import rule
+
+
+@operator(
+    "TABL",
+    family="tables",
+    full_name="TABLE",
+    help=Help(
+        en="A new table; a word becomes its sub-type (index SOUSTYPE). Behind a table: that same "
+        "table, under a further name.",
+        fr="Une nouvelle table ; un mot devient son sous-type (indice SOUSTYPE). Suivi d'une "
+        "table : cette même table, sous un autre nom.",
+        syntax="TAB1 = TABL (MOT1) ; TAB1 = TABL TAB2 ;",
+        examples=("T = TABL ; T . 'A' = 3 ; T . 2 = 'x' ; LIST T ;",),
+    ),
+    reads_itself=True,
+)
+def tabl(call: Call) -> Table:
+    """Make a table."""
+    same = call.read("TABLE")
+    if same is not None:
+        table: Table = same.value
+        return table
+    word = call.read("MOT")
+    return Table("" if word is None else str(word.value))
+
+
+@operator(
+    "INDE",
+    family="tables",
+    full_name="INDEX",
+    help=Help(
+        en="Table (1 to n) of the indices of a table; with a type word such as *MAILLAGE, table "
+        "of the named objects of that type, by name.",
+        fr="Table (1 à n) des indices d'une table ; avec un mot de type comme *MAILLAGE, table des "
+        "objets nommés de ce type, indicée par leur nom.",
+        syntax="TAB1 = INDE TAB2 ; TAB1 = INDE MOT1 ;",
+        examples=("T = TABL ; T . 'A' = 3 ; I = INDE T ; LIST (I . 1) ;",),
+    ),
+    reads_itself=True,
+)
+def inde(call: Call) -> Table:
+    """List indices."""
+    made = Table()
+    operand = call.read("TABLE")
+    if operand is not None:
+        for place, (index, _) in enumerate(operand.value.items(), start=1):
+            made.set(place, index)
+        return made
+    call.operands[:] = [o for o in call.operands if o.span.text != "*"]
+    kind = str(call.required("MOT")).strip().lstrip("*").upper()[:8]
+    if kind not in known_types():
+        raise call.bad(f"'{kind}' is no type", hint="types are " + " ".join(sorted(known_types())))
+    frame = call.session.frame
+    for name in sorted(frame.names()):
+        value = frame.find(name)
+        if type_of(value) == kind:
+            made.set(Mot(name), value)
+    return made
+
+
+@DIME.on(
+    "TABLE",
+    en="Of a table: its number of indices.",
+    fr="D'une table : son nombre d'indices.",
+    examples=("T = TABL ; T . 1 = 2. ; LIST (DIME T) ;",),
+)
+def _size(call: Call, table: Table) -> int:
+    return len(table)
+
+
+@ENLE.on(
+    "TABLE",
+    syntax="TAB2 = ENLE TAB1 OBJ1 ;",
+    en="Of a table: a new table without an index.",
+    fr="D'une table : une nouvelle table sans un indice.",
+    examples=("T = TABL ; T . 1 = 5 ; T . 2 = 6 ; LIST (DIME (ENLE T 1)) ;",),
+)
+def _without(call: Call, table: Table) -> Table:
+    if not call.operands:
+        raise call.missing(("*",))
+    index = call.operands.pop(0).value
+    if not table.has(index):
+        raise call.error("no-index", index=index, known=[k for k, _ in table.items()])
+    made = copied(table)
+    made.remove(index)
+    return made
+
+
+def copied(table: Table) -> Table:
+    """A new table with the same indices and values."""
+    made = Table()
+    for index, value in table.items():
+        made.set(index, value)
+    return made
+
+
+@COPI.on(
+    "TABLE",
+    syntax="TAB2 = COPI TAB1 ;",
+    en="Of a table: a new table with the same values; what it gets is its own.",
+    fr="D'une table : une nouvelle table aux mêmes valeurs ; ce qu'on y met n'est qu'à elle.",
+    examples=("T = TABL ; U = COPI T ; U . 1 = 2 ; LIST (DIME T) ;",),
+)
+def _copy(call: Call, table: Table) -> Table:
+    return copied(table)
+
+
+@rule("+ -", "TABLE", "TABLE")
+def _add_vectors(sign: str, a: Table, b: Table) -> Table:
+    _check_vectors(a, b)
+    made = copied(a)
+    for index, value in b.items():
+        if index == "SOUSTYPE":
+            continue
+        before: Any = a.get(index, 0.0)
+        made.set(index, before + value if sign == "+" else before - value)
+    return made
+
+
+def _scale_vector(sign: str, table: Table, factor: float) -> Table:
+    _check_vectors(table)
+    made = copied(table)
+    for index, value in table.items():
+        if isinstance(value, int | float):
+            made.set(index, value * factor if sign == "*" else value / factor)
+    return made
+
+
+def _check_vectors(*tables: Table) -> None:
+    for table in tables:
+        if table.subtype != "VECTEUR":
+            raise ValueError(f"a table of sub-type VECTEUR is needed, found '{table.subtype}'")
+
+
+for _kind in ("ENTIER", "FLOTTANT"):
+    rule("* /", "TABLE", _kind)(_scale_vector)
+    rule("*", _kind, "TABLE")(lambda sign, factor, table: _scale_vector(sign, table, factor))

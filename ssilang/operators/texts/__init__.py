@@ -1,0 +1,1 @@
+"""Operators on words, messages and readable layouts."""

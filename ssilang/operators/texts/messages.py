@@ -1,0 +1,126 @@
+"""MESS, ERRE, SAUT, TITR: what a script says to its reader."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ssilang.language.call import Call
+from ssilang.language.errors import SsiError
+from ssilang.language.registry import Help, choice, operator, opt
+from ssilang.language.session import Session
+from ssilang.language.values import ListEnti, ListMots, ListReel
+from ssilang.operators.texts.words import read_text, written
+from ssilang.operators.workspace import workspace
+
+
+@operator(
+    "MESS",
+    family="output",
+    full_name="MESSAGE",
+    help=Help(
+        en="Prints words and numbers on one line, written as CHAI writes them.",
+        fr="Écrit des mots et des nombres sur une ligne, comme CHAI les écrit.",
+        syntax="MESS ('FORMAT' MOT2) OBJ1 (*N1 | /N1 | <N1 | >N1) (OBJ2 ...) ;",
+        examples=("X = 2. ; MESS 'x = ' X ;", "MESS 'count' 12*20 ;"),
+    ),
+    reads_itself=True,
+)
+def mess(call: Call) -> None:
+    """Print one line."""
+    call.session.print(read_text(call))
+
+
+# what the numbers most used in decks mean, in words of our own: English, French
+_SENTENCES: dict[int, tuple[str, str]] = {
+    5: ("the deck found a result out of tolerance", "le jeu de données a trouvé un écart"),
+    6: ("not enough memory", "mémoire insuffisante"),
+    21: ("incompatible data", "données incompatibles"),
+    22: ("this operation is not foreseen", "opération non prévue"),
+    26: ("this task is not implemented", "tâche non implémentée"),
+    37: ("an object is missing", "il manque un objet"),
+    153: ("the calculation does not converge", "le calcul ne converge pas"),
+    251: ("an attempt at a forbidden operation", "tentative d'opération interdite"),
+    626: ("the object has not the right sub-type", "l'objet n'a pas le bon sous-type"),
+}
+
+
+def _flat(values: list[Any]) -> str:
+    words: list[str] = []
+    for value in values:
+        many = value.values if isinstance(value, ListReel | ListEnti | ListMots) else [value]
+        words += [written(float(v) if isinstance(value, ListReel) else v).strip() for v in many]
+    return " ".join(words)
+
+
+@operator(
+    "ERRE",
+    family="output",
+    full_name="ERREUR",
+    help=Help(
+        en="Reports an error and stops the run: a text, or the number of a message with the "
+        "objects that fill it. ERRE 0 reports nothing; a negative number prints the message and "
+        "goes on.",
+        fr="Signale une erreur et arrête le calcul : un texte, ou le numéro d'un message avec les "
+        "objets qui le complètent. ERRE 0 ne signale rien ; un numéro négatif écrit le message et "
+        "continue.",
+        syntax="ERRE MOT1 ; ERRE N1 ('AVEC' OBJ1 OBJ2 ...) ;",
+        examples=("SI (1 > 2) ; ERRE 'one is not larger than two' ; FINSI ;",),
+    ),
+    reads_itself=True,
+)
+def erre(call: Call) -> None:
+    """Raise the error 'erre'."""
+    number = call.read("ENTIER")
+    if number is None:
+        text = call.required("MOT")
+        raise SsiError("erre", call.span, message=str(text), number=308)
+    if number.value == 0:
+        return
+    values: list[Any] = []
+    if call.keyword(("AVEC",)) is not None:
+        kinds = ("MOT", "ENTIER", "FLOTTANT", "LOGIQUE", "LISTMOTS", "LISTENTI", "LISTREEL")
+        values = call.all(*kinds)
+    french = call.session.language == "fr"
+    unknown = ("the deck stops", "le jeu de données s'arrête")
+    sentence = _SENTENCES.get(abs(number.value), unknown)
+    said = _flat(values)
+    message = sentence[french] + (f": {said}" if said else "")
+    if number.value < 0:
+        call.session.print(f" ***** {-number.value} ***** {said or message}")
+        return
+    raise SsiError("erre", call.span, message=message, number=number.value)
+
+
+@operator(
+    "SAUT",
+    opt("count", "ENTIER", default=1),
+    choice("what", ("LIGN", "PAGE")),
+    family="output",
+    help=Help(
+        en="Prints blank lines ('PAGE': one).",
+        fr="Saute des lignes ('PAGE' : une seule).",
+        syntax="SAUT (N1) 'LIGN' | 'PAGE' ;",
+        examples=("SAUT 2 'LIGN' ; MESS 'below' ;",),
+    ),
+)
+def saut(session: Session, count: int, what: str | None) -> None:
+    """Print blank lines."""
+    for _ in range(1 if what == "PAGE" else max(count, 0)):
+        session.print("")
+
+
+@operator(
+    "TITR",
+    family="output",
+    full_name="TITRE",
+    help=Help(
+        en="Sets the title of the pictures and curves made from now on.",
+        fr="Fixe le titre des dessins et évolutions faits ensuite.",
+        syntax="TITR OBJ1 (OBJ2 ...) ;",
+        examples=("TITR 'Settlement of the footing' ;",),
+    ),
+    reads_itself=True,
+)
+def titr(call: Call) -> None:
+    """Set the title."""
+    workspace(call.session).title = read_text(call)
