@@ -10,12 +10,11 @@ import numpy as np
 
 from ssilang.kernel.elements.catalog import support_rule
 from ssilang.kernel.elements.family import (
-    ElementFamily,
     Layout,
     StrainOperator,
-    node_major_layout,
 )
-from ssilang.kernel.elements.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS, harmonic
+from ssilang.kernel.elements.kinematics import harmonic
+from ssilang.kernel.elements.shell_family import ShellFamily
 from ssilang.kernel.elements.shell_section import section_moduli
 from ssilang.kernel.elements.solid import circumference
 from ssilang.kernel.elements.zone_fields import ZoneField
@@ -94,12 +93,8 @@ class _Meridian:
         return found
 
 
-class MeridianShell(ElementFamily):
+class MeridianShell(ShellFamily):
     """COQ2."""
-
-    def layout(self, zone: Zone) -> Layout:
-        """Translations then the rotation, node by node."""
-        return node_major_layout(zone, NODE_TRANSLATIONS[zone.mode] + NODE_ROTATIONS[zone.mode])
 
     def strain_names(self, zone: Zone) -> tuple[str, ...]:
         """Membrane strains and curvatures."""

@@ -10,14 +10,12 @@ import numpy as np
 
 from ssilang.kernel.elements.catalog import support_rule
 from ssilang.kernel.elements.family import (
-    ElementFamily,
     Layout,
     StrainOperator,
-    node_major_layout,
 )
-from ssilang.kernel.elements.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
 from ssilang.kernel.elements.quadrature import quadrature
 from ssilang.kernel.elements.reference import shape_functions, shape_gradients
+from ssilang.kernel.elements.shell_family import ShellFamily
 from ssilang.kernel.elements.shell_section import (
     drilled,
     own_to_global,
@@ -29,9 +27,6 @@ from ssilang.kernel.errors import MeshError
 from ssilang.kernel.fields.cell_field import Support
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.model import Zone
-
-STRAINS = ("EPSS", "EPTT", "GAST", "RTSS", "RTTT", "RTST", "GASN", "GATN")
-STRESSES = ("N11", "N22", "N12", "M11", "M22", "M12", "V1", "V2")
 
 
 def quadrangle_frames(zone: Zone, cells: slice = slice(None)) -> tuple[FloatArray, FloatArray]:
@@ -74,20 +69,11 @@ def _covariant_shear(local: FloatArray, place: tuple[float, float], axis: int) -
     return row.reshape(len(local), 24)
 
 
-class Mindlin(ElementFamily):
+class Mindlin(ShellFamily):
     """Flat shell with transverse shear."""
 
-    def layout(self, zone: Zone) -> Layout:
-        """Translations then rotations, node by node."""
-        return node_major_layout(zone, NODE_TRANSLATIONS[zone.mode] + NODE_ROTATIONS[zone.mode])
-
-    def strain_names(self, zone: Zone) -> tuple[str, ...]:
-        """Membrane strains, curvatures and shears in the element's own frame."""
-        return STRAINS
-
-    def stress_names(self, zone: Zone) -> tuple[str, ...]:
-        """Forces, moments and shear forces per length in the element's own frame."""
-        return STRESSES
+    strains = ("EPSS", "EPTT", "GAST", "RTSS", "RTTT", "RTST", "GASN", "GATN")
+    stresses = ("N11", "N22", "N12", "M11", "M22", "M12", "V1", "V2")
 
     def moduli(self, zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
         """Membrane, bending and shear moduli."""

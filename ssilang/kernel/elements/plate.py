@@ -12,22 +12,17 @@ import numpy as np
 
 from ssilang.kernel.elements.catalog import support_rule
 from ssilang.kernel.elements.family import (
-    ElementFamily,
     Layout,
     StrainOperator,
-    node_major_layout,
 )
-from ssilang.kernel.elements.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
 from ssilang.kernel.elements.reference import shape_gradients
+from ssilang.kernel.elements.shell_family import ShellFamily
 from ssilang.kernel.elements.shell_section import drilled, own_to_global, section_moduli
 from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.errors import MeshError
 from ssilang.kernel.fields.cell_field import Support
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.model import Zone
-
-STRAINS = ("EPSS", "EPTT", "GAST", "RTSS", "RTTT", "RTST")
-STRESSES = ("N11", "N22", "N12", "M11", "M22", "M12")
 
 
 def plate_frames(zone: Zone, cells: slice = slice(None)) -> tuple[FloatArray, FloatArray]:
@@ -80,20 +75,11 @@ def _rotations(local: FloatArray) -> FloatArray:
     return T
 
 
-class Plate(ElementFamily):
+class Plate(ShellFamily):
     """Thin shell made of flat triangles."""
 
-    def layout(self, zone: Zone) -> Layout:
-        """Translations then rotations, node by node."""
-        return node_major_layout(zone, NODE_TRANSLATIONS[zone.mode] + NODE_ROTATIONS[zone.mode])
-
-    def strain_names(self, zone: Zone) -> tuple[str, ...]:
-        """Membrane strains and curvatures in the element's own frame."""
-        return STRAINS
-
-    def stress_names(self, zone: Zone) -> tuple[str, ...]:
-        """Forces and moments per length in the element's own frame."""
-        return STRESSES
+    strains = ("EPSS", "EPTT", "GAST", "RTSS", "RTTT", "RTST")
+    stresses = ("N11", "N22", "N12", "M11", "M22", "M12")
 
     def moduli(self, zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
         """Membrane and bending moduli."""

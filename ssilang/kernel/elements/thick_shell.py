@@ -11,17 +11,15 @@ import numpy as np
 
 from ssilang.kernel.elements.catalog import support_rule
 from ssilang.kernel.elements.family import (
-    ElementFamily,
     Layout,
     StrainOperator,
-    node_major_layout,
 )
-from ssilang.kernel.elements.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
 from ssilang.kernel.elements.reference import (
     REFERENCE_CELLS,
     shape_functions,
     shape_gradients,
 )
+from ssilang.kernel.elements.shell_family import ShellFamily
 from ssilang.kernel.elements.shell_section import drilled, material_moduli
 from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.errors import MeshError
@@ -29,8 +27,6 @@ from ssilang.kernel.fields.cell_field import Support
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.model import Zone
 
-STRAINS = ("EPSS", "EPTT", "GAST", "GASN", "GATN")
-STRESSES = ("SMSS", "SMTT", "SMST", "SMSN", "SMTN")
 _ACROSS = 1 / np.sqrt(3.0)
 
 
@@ -63,20 +59,11 @@ def _crossed(v: FloatArray) -> FloatArray:
     return out
 
 
-class ThickShell(ElementFamily):
+class ThickShell(ShellFamily):
     """Curved shell with transverse shear."""
 
-    def layout(self, zone: Zone) -> Layout:
-        """Translations then rotations, node by node."""
-        return node_major_layout(zone, NODE_TRANSLATIONS[zone.mode] + NODE_ROTATIONS[zone.mode])
-
-    def strain_names(self, zone: Zone) -> tuple[str, ...]:
-        """Strains in the local frame of each point."""
-        return STRAINS
-
-    def stress_names(self, zone: Zone) -> tuple[str, ...]:
-        """Stresses in the local frame of each point."""
-        return STRESSES
+    strains = ("EPSS", "EPTT", "GAST", "GASN", "GATN")
+    stresses = ("SMSS", "SMTT", "SMST", "SMSN", "SMTN")
 
     def moduli(self, zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
         """Plane stress with transverse shear."""
