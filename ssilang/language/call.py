@@ -296,12 +296,17 @@ class Call:
 
     def error(self, code: str, value: object = None, **data: object) -> SsiError:
         """An error placed at the operand that holds `value`, else at the operator."""
-        span = next((o.span for o in self.used if o.value is value), self.span)
+        span = next((o.span for o in self.used if _is_operand(o.value, value)), self.span)
         return SsiError(code, span, operator=self.name, **data)
 
     def bad(self, message: str, value: object = None, hint: str = "") -> SsiError:
         """An error in words of its own, placed like `error`."""
         return self.error("bad-value", value, message=message, hint=hint)
+
+
+def _is_operand(held: object, value: object) -> bool:
+    """Whether an operand's value is the one meant; words are also known by what they say."""
+    return held is value or (isinstance(held, Mot) and isinstance(value, str) and held == value)
 
 
 def run_operator(found: Operator, call: Call) -> Any:

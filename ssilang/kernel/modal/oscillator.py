@@ -13,6 +13,7 @@ import numpy as np
 from ssilang.kernel.errors import KernelError
 from ssilang.kernel.mesh.nodes import FloatArray
 
+SAME_STEP = 1e-12  # of the last time: the rounding of equally spaced times
 CRITICAL = 1e-9  # a damping this near to 1 is moved off it (the step would divide by zero)
 
 
@@ -40,9 +41,13 @@ class Oscillators:
     def _free(self, h: float) -> tuple[FloatArray, FloatArray]:
         """`exp(-xi w h)` times cos and sin / wd, each (n,)."""
         if self._step is None or abs(self._step[0] - h) > 1e-12 * h:
-            decay = np.exp(-self.xi * self.w * h)
-            cos = decay * np.cos(self.turning * h)
-            sin = decay * np.sin(self.turning * h) / self.turning
+            decay, phase = -self.xi * self.w * h, self.turning * h
+            # far beyond critical damping cosh overflows where its product with exp does not
+            far = np.abs(phase.imag) > 1.0
+            near = np.where(far, 0.0, phase)
+            up, down = np.exp(decay + 1j * phase), np.exp(decay - 1j * phase)
+            cos = np.where(far, (up + down) / 2.0, np.exp(decay) * np.cos(near))
+            sin = np.where(far, (up - down) / 2j, np.exp(decay) * np.sin(near)) / self.turning
             self._step = (h, cos.real, sin.real)
         return self._step[1], self._step[2]
 
@@ -65,6 +70,34 @@ class Oscillators:
         """Square of the damped circular frequency, negative beyond critical damping."""
         square: FloatArray = self.w**2 * (1.0 - self.xi**2)
         return square
+
+    def history(self, times: FloatArray, signal: FloatArray, x0: float, v0: float) -> FloatArray:
+        """Displacements (n_times,) of a single oscillator.
+
+        Equal steps repeat one linear map, y_i = A y_(i-1) + f_i: all sums of its powers are
+        found by doubling, in log2 (n_times) passes over the whole history.
+        """
+        even = np.linspace(times[0], times[-1], len(times))
+        if np.abs(times - even).max() > SAME_STEP * np.abs(even).max():
+            return np.array([float(x[0]) for x, _ in self.march(times, signal, x0, v0)])
+        h = float(times[-1] - times[0]) / (len(times) - 1)
+        one, nil = np.ones(1), np.zeros(1)
+        cases = (
+            (one, nil, 0.0, 0.0),
+            (nil, one, 0.0, 0.0),
+            (nil, nil, 1.0, 0.0),
+            (nil, nil, 0.0, 1.0),
+        )
+        columns = np.array([self.advance(x, v, h, a, b) for x, v, a, b in cases])[:, :, 0].T
+        power, begin, end = columns[:, :2], columns[:, 2], columns[:, 3]
+        states = np.empty((len(times), 2))
+        states[0] = x0, v0
+        states[1:] = np.outer(signal[:-1], begin) + np.outer(signal[1:], end)
+        shift = 1
+        while shift < len(times):
+            states[shift:] += states[:-shift] @ power.T
+            power, shift = power @ power, 2 * shift
+        return states[:, 0].copy()
 
     def march(
         self, times: FloatArray, signal: FloatArray, x0: float = 0.0, v0: float = 0.0
@@ -109,7 +142,7 @@ def response(
     """Times and displacements of one oscillator under a signal (OSCI)."""
     every, values = sampled(times, signal, wanted)
     oscillator = Oscillators(np.array([frequency]), damping)
-    x = np.array([float(x[0]) for x, _ in oscillator.march(every, values, x0, v0)])
+    x = oscillator.history(every, values, x0, v0)
     if wanted is None:
         return every, x
     return wanted, np.interp(wanted, every, x)

@@ -35,6 +35,8 @@ _ROWS = 200  # rows printed of a field or curve before the middle is left out
 
 def real(x: float) -> str:
     """A real in 12 columns."""
+    if x == 0.0 or 1e-98 < abs(x) < 1e98:  # two digits of exponent: Python writes them the same
+        return f"{x:12.5E}"
     return formatted("(1PE12.5)", x)
 
 

@@ -4,7 +4,12 @@ import numpy as np
 import pytest
 
 from ssilang.kernel.errors import KernelError
-from ssilang.kernel.modal.oscillator import default_frequencies, response, spectrum
+from ssilang.kernel.modal.oscillator import (
+    Oscillators,
+    default_frequencies,
+    response,
+    spectrum,
+)
 
 
 @pytest.mark.parametrize("xi", [0.0, 0.05, 0.7])
@@ -85,3 +90,28 @@ def test_bad_signals_are_refused():
         response(np.array([0.0, 0.0]), np.zeros(2), 1.0, 0.1)
     with pytest.raises(KernelError):
         response(np.array([0.0, 1.0]), np.zeros(2), -1.0, 0.1)
+
+
+def test_equal_steps_give_the_history_of_the_step_by_step_march():
+    rng = np.random.default_rng(4)
+    t = np.linspace(2.0, 5.0, 1000)
+    g = rng.normal(size=1000)
+    for xi in (0.0, 0.3, 1.0, 3.0):
+        oscillator = Oscillators(np.array([1.7]), xi)
+        marched = np.array([x[0] for x, _ in oscillator.march(t, g, 0.4, -2.0)])
+        found = oscillator.history(t, g, 0.4, -2.0)
+        np.testing.assert_allclose(found, marched, atol=1e-11 * np.abs(marched).max())
+
+
+def test_a_million_steps_keep_their_digits():
+    t = np.linspace(0.0, 1.0, 1_000_001)
+    _, x = response(t, np.zeros_like(t), 2.0, 0.0, None, 1.0, 0.0)
+    assert np.abs(x - np.cos(4.0 * np.pi * t)).max() < 1e-8
+
+
+def test_huge_damping_does_not_overflow():
+    with np.errstate(all="raise", under="ignore"):
+        t = np.linspace(0.0, 1.0, 11)
+        _, x = response(t, np.ones(11), 100.0, 1e3, None, 0.0, 0.0)
+    assert np.isfinite(x).all()
+    assert (np.diff(x) > 0.0).all()
