@@ -306,7 +306,7 @@ def _clipped_field(call: Call, value: Any, wanted: list[tuple[Any, float, float]
 # ---- BRUI ---------------------------------------------------------------------------------------
 
 
-def _generator(call: Call, skip: int | None) -> np.random.Generator:
+def session_generator(call: Call, skip: int | None) -> np.random.Generator:
     """The session's generator; `skip` starts it again, that many terms further."""
     options = workspace(call.session).options
     found = options.get("RANDOM GENERATOR")
@@ -347,7 +347,7 @@ def brui(call: Call) -> Any:
         mean, count = call.required("ENTIER"), call.required("ENTIER")
         if mean < 0 or count < 0:
             raise call.bad("the mean and the number of values are not negative")
-        return ListEnti(_generator(call, call.optional("ENTIER")).poisson(mean, count))
+        return ListEnti(session_generator(call, call.optional("ENTIER")).poisson(mean, count))
     mean, width = call.required("FLOTTANT"), call.required("FLOTTANT")
     if width < 0:
         raise call.bad(f"the width of a law is not negative, this one is {width:g}", width)
@@ -357,7 +357,7 @@ def brui(call: Call) -> Any:
     from ssilang.operators.curves.words import read_colour
 
     colour = read_colour(call)
-    generator = _generator(call, call.optional("ENTIER"))
+    generator = session_generator(call, call.optional("ENTIER"))
     where = support.value
     if isinstance(where, int) and where < 0:
         raise call.bad(f"the number of values is not negative, this one is {where}", where)

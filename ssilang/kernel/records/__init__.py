@@ -1,0 +1,1 @@
+"""Records of ground motions: integration, correction, spectra, artificial signals, wavelets."""

@@ -1,0 +1,252 @@
+"""PROL CONC LSQF MAPP CMOY LAPL: curves made longer, joined, simplified, and read off others."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+
+from ssilang.kernel.curve import Curve, CurvePart
+from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.records.envelope import energy_envelope, inverse_laplace, mean_shock
+from ssilang.kernel.signals import constant_step
+from ssilang.language.call import Call
+from ssilang.language.registry import Help, arg, key, operator
+from ssilang.operators.curves.words import read_colour
+
+_LINE = "E = EVOL 'MANU' 'X' (PROG 0. 1. 2.) 'Y' (PROG 0. 1. 4.) ; "
+
+
+@operator(
+    "PROL",
+    family="curves",
+    help=Help(
+        en="Curves continued to one or two abscissas outside their range: with the value at the "
+        "end ('BORN', the default) or along the line of the last two points ('LINE'). Abscissas "
+        "inside change nothing.",
+        fr="Évolutions prolongées à une ou deux abscisses hors de leur intervalle : par la valeur "
+        "à la borne ('BORN', par défaut) ou selon la droite des deux derniers points ('LINE'). "
+        "Des abscisses à l'intérieur ne changent rien.",
+        syntax="EVOL2 = PROL ('BORN' | 'LINE') EVOL1 X1 (X2) ;",
+        examples=(_LINE + "LIST (PROL 'LINE' E 3. -1.) ;",),
+    ),
+    reads_itself=True,
+)
+def prol(call: Call) -> Curve:
+    """Continue curves."""
+    rule = call.keyword(("BORN", "LINE"))
+    curve: Curve = call.required("EVOLUTIO")
+    wanted = [call.required("FLOTTANT")]
+    second = call.optional("FLOTTANT")
+    wanted += [] if second is None else [second]
+    rule = rule or call.keyword(("BORN", "LINE"))
+    return dataclasses.replace(
+        curve, parts=tuple(_continued(call, p, wanted, rule == "LINE") for p in curve.parts)
+    )
+
+
+def _continued(call: Call, part: CurvePart, wanted: list[float], line: bool) -> CurvePart:
+    x, y = part.abscissas, part.ordinates
+    if part.words or part.abscissa_words or len(x) < 1 + line:
+        raise call.bad("this curve has too few points, or words, and cannot be continued")
+    order = np.argsort(x, kind="stable")
+    low, high = order[:2], order[-1:-3:-1]
+    rows = [(float(a), float(b)) for a, b in zip(x, y, strict=True)]
+    rising = x[0] <= x[-1]
+    for w in sorted(set(wanted)):
+        if x.min() <= w <= x.max():
+            continue
+        ends = low if w < x.min() else high
+        value = float(y[ends[0]])
+        if line:
+            run = float(x[ends[1]] - x[ends[0]])
+            if run == 0.0:
+                raise call.bad("the last two points of the curve have the same abscissa")
+            value += (w - float(x[ends[0]])) * float(y[ends[1]] - y[ends[0]]) / run
+        first = (w < x.min()) == rising
+        rows = [(w, value), *rows] if first else [*rows, (w, value)]
+    if rising:
+        rows.sort(key=lambda r: r[0])
+    made = np.array(rows)
+    return dataclasses.replace(part, abscissas=made[:, 0], ordinates=made[:, 1])
+
+
+@operator(
+    "CONC",
+    arg("first", "EVOLUTIO"),
+    arg("second", "EVOLUTIO"),
+    family="curves",
+    full_name="CONCAT",
+    help=Help(
+        en="Curves joined end to end, two by two: the one that begins first stands first.",
+        fr="Évolutions mises bout à bout, deux à deux : celle qui commence la première est placée "
+        "en premier.",
+        syntax="EVOL3 = CONC EVOL1 EVOL2 ;",
+        examples=(_LINE + "F = EVOL 'MANU' (PROG 3. 4.) (PROG 0. 5.) ; LIST (CONC F E) ;",),
+    ),
+)
+def conc(call: Call, first: Curve, second: Curve) -> Curve:
+    """Join curves."""
+    if len(first.parts) != len(second.parts):
+        raise call.bad(
+            f"curves are joined two by two: here are {len(first.parts)} and {len(second.parts)}"
+        )
+    parts = []
+    for a, b in zip(first.parts, second.parts, strict=True):
+        if bool(a.words) != bool(b.words):
+            raise call.bad("a curve of words and a curve of numbers cannot be joined")
+        one, two = (a, b) if _start(a) <= _start(b) else (b, a)
+        parts.append(
+            dataclasses.replace(
+                a,
+                abscissas=np.concatenate([one.abscissas, two.abscissas]),
+                ordinates=np.concatenate([one.ordinates, two.ordinates]),
+                words=one.words + two.words,
+                abscissa_words=one.abscissa_words + two.abscissa_words,
+            )
+        )
+    return dataclasses.replace(first, parts=tuple(parts))
+
+
+def _start(part: CurvePart) -> float:
+    return float(part.abscissas[0]) if len(part.abscissas) else np.inf
+
+
+@operator(
+    "LSQF",
+    family="curves",
+    help=Help(
+        en="Broken lines of about N1 intervals that stand for the size of signals at constant "
+        "step: positive, with the signal's sum of squares on each interval (the modulation of a "
+        "signal). 'REDU': intervals of N2 samples of the signal, N1 intervals at least.",
+        fr="Lignes brisées d'environ N1 intervalles qui représentent l'amplitude de signaux à pas "
+        "constant : positives, avec la somme des carrés du signal sur chaque intervalle (la "
+        "modulation d'un signal). 'REDU' : intervalles de N2 pas du signal, au moins N1.",
+        syntax="EVOL1 = LSQF EVOL2 N1 ('UNIF') ('REDU' N2) ;",
+        examples=(
+            "S = EVOL 'MANU' (PROG 0. PAS 1. 8.) (PROG 2. -2. 2. -2. 2. -2. 2. -2. 2.) ; "
+            "LIST (LSQF S 2) ;",
+        ),
+    ),
+    reads_itself=True,
+)
+def lsqf(call: Call) -> Curve:
+    """Simplify signals."""
+    curve: Curve = call.required("EVOLUTIO")
+    count = call.required("ENTIER")
+    word = call.keyword(("UNIF", "OPTI", "REDU"))
+    size = call.required("ENTIER", after=call.keyword_end) if word in ("OPTI", "REDU") else 1
+    if word == "OPTI":
+        raise call.bad("'OPTI' is not available in LSQF", hint="'UNIF' or 'REDU'")
+    if count < 1 or size < 1:
+        raise call.bad("the numbers of intervals and of samples must be positive")
+    parts = []
+    for p in curve.parts:
+        constant_step(p.abscissas)
+        wanted = max(count, (len(p.abscissas) - 1) // size) if word == "REDU" else count
+        x, y = energy_envelope(p.abscissas, p.ordinates, wanted)
+        parts.append(dataclasses.replace(p, abscissas=x, ordinates=y))
+    return Curve(tuple(parts), curve.title)
+
+
+@operator(
+    "MAPP",
+    family="curves",
+    help=Help(
+        en="Poincaré map: displacement and velocity of a node at the instants where a shock "
+        "begins, that is where the contact force EVOL2 leaves zero.",
+        fr="Carte de Poincaré : déplacement et vitesse d'un noeud aux instants où un choc "
+        "commence, c'est-à-dire où la force de contact EVOL2 quitte zéro.",
+        syntax="EVOL1 = MAPP (COUL1) EVOL2 EVOL3 EVOL4 ;",
+        examples=(
+            "T = PROG 0. PAS 1. 4. ; F = EVOL 'MANU' T (PROG 0. 0. 5. 0. 7.) ; "
+            "D = EVOL 'MANU' T (PROG 1. 2. 3. 4. 5.) ; V = EVOL 'MANU' T (PROG 9. 8. 7. 6. 5.) ; "
+            "LIST (MAPP F D V) ;",
+        ),
+    ),
+    reads_itself=True,
+)
+def mapp(call: Call) -> Curve:
+    """Poincaré map."""
+    colour = read_colour(call) or 0
+    force, moved, speed = (call.required("EVOLUTIO") for _ in range(3))
+    colour = read_colour(call) or colour
+    parts = []
+    for f in force.parts:
+        x, y = f.abscissas, np.abs(f.ordinates) > 0.0
+        begins = x[np.flatnonzero(~y[:-1] & y[1:]) + 1]
+        pair = [_at(call, c, begins) for c in (moved, speed)]
+        parts.append(CurvePart(pair[0], pair[1], "DEPL", "VITE", "", colour))
+    return Curve(tuple(parts), "CARTE DE POINCARE")
+
+
+def _at(call: Call, curve: Curve, times: FloatArray) -> FloatArray:
+    part = curve.parts[0]
+    if len(part.abscissas) == 0 or (len(times) and times[-1] > part.abscissas[-1]):
+        raise call.bad("displacement and velocity must cover the times of the force", curve)
+    return np.asarray(np.interp(times, part.abscissas, part.ordinates))
+
+
+@operator(
+    "CMOY",
+    arg("records", "EVOLUTIO"),
+    key("duration", "ACQU", arg("t", "FLOTTANT"), optional=False),
+    key("percent", "DECL", arg("p", "FLOTTANT"), default=1e-6),
+    key("count", "NCHO", arg("n", "ENTIER")),
+    family="signals",
+    help=Help(
+        en="Mean shock of records: each shock is recorded for the time 'ACQU' from where the "
+        "absolute value passes 'DECL' percent of its largest (1.E-6 by default); 'NCHO' keeps "
+        "the first ones.",
+        fr="Choc moyen d'enregistrements : chaque choc est enregistré pendant 'ACQU' à partir du "
+        "passage de la valeur absolue au-dessus de 'DECL' pour cent du maximum (1.E-6 par "
+        "défaut) ; 'NCHO' garde les premiers.",
+        syntax="EVOL1 = CMOY EVOL2 'ACQU' X1 ('DECL' X2) ('NCHO' N1) ;",
+        examples=(
+            "E = EVOL 'MANU' (PROG 0. PAS 1. 7.) (PROG 0. 3. 1. 0. 5. 3. 0. 0.) ; "
+            "LIST (CMOY E 'ACQU' 1.) ;",
+        ),
+    ),
+)
+def cmoy(call: Call, records: Curve, duration: float, percent: float, count: int | None) -> Curve:
+    """Mean shock."""
+    if count is not None and count < 1:
+        raise call.bad(f"the number of shocks is positive, not {count}", count)
+    parts = []
+    for p in records.parts:
+        constant_step(p.abscissas)
+        x, y = mean_shock(p.abscissas, p.ordinates, percent, duration, count)
+        parts.append(dataclasses.replace(p, abscissas=x, ordinates=y))
+    return Curve(tuple(parts), records.title)
+
+
+@operator(
+    "LAPL",
+    family="signals",
+    full_name="LAPLACE",
+    help=Help(
+        en="Inverse Laplace transform by Durbin's series: f(t) from the circular frequencies w "
+        "(2**N of them, from 0, at a constant step), the real and imaginary parts of F(a + i w), "
+        "the number a, and the group size L: the result has 2**N / L times over 2 pi / step.",
+        fr="Transformée de Laplace inverse par la série de Durbin : f(t) à partir des pulsations "
+        "w (au nombre de 2**N, depuis 0, à pas constant), des parties réelle et imaginaire de "
+        "F(a + i w), du réel a et du regroupement L : le résultat a 2**N / L instants sur "
+        "2 pi / pas.",
+        syntax="EVOL1 = LAPL 'INVERSE' LREEL1 LREEL2 LREEL3 X1 N1 ;",
+        examples=(
+            "W = PROG 0. PAS 0.5 NPAS 1023 ; D = (W * W) + 1.44 ; "
+            "E = LAPL 'INVERSE' W (1.2 / D) (-1. * W / D) 0.2 4 ; LIST (EXTR (EXTR E 'ORDO') 50) ;",
+        ),
+    ),
+    reads_itself=True,
+)
+def lapl(call: Call) -> Curve:
+    """Inverse Laplace transform."""
+    if call.keyword(("INVE",)) is None:
+        raise call.bad("only the inverse transform is available", hint="LAPL 'INVERSE' ...")
+    omega, real, imaginary = (call.required("LISTREEL").values for _ in range(3))
+    shift, group = call.required("FLOTTANT"), call.required("ENTIER")
+    if len(real) != len(imaginary):
+        raise call.bad(f"{len(real)} real parts for {len(imaginary)} imaginary parts")
+    t, y = inverse_laplace(omega, real + 1j * imaginary, shift, group)
+    return Curve((CurvePart(t, y, "TEMPS", "F(T)", "LAPLACE INVERSE"),))

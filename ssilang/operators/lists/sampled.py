@@ -1,0 +1,185 @@
+"""DIAD LTL CVOL FONC ZLEG: lists of reals as samples, special functions, quadrature."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ssilang.language.call import Call
+from ssilang.language.registry import Help, arg, operator, opt
+from ssilang.language.values import ListReel
+
+
+@operator(
+    "DIAD",
+    family="lists",
+    help=Help(
+        en="Every other value of a list ('DIRE', the default), the first kept; or a list with a "
+        "zero ('INVE') or the mean of the two neighbours ('IVIN') put after each value, up to an "
+        "even length 2 n or, for odd n, 2 n - 1.",
+        fr="Une valeur sur deux d'une liste ('DIRE', par défaut), la première gardée ; ou une "
+        "liste avec un zéro ('INVE') ou la moyenne des deux voisines ('IVIN') après chaque "
+        "valeur, jusqu'à la longueur 2 n ou, pour n impair, 2 n - 1.",
+        syntax="LIST1 = DIAD ('DIRE' | 'INVE' | 'IVIN') LIST2 ;",
+        examples=("LIST (DIAD 'IVIN' (PROG 1. 3. 7.)) ;",),
+    ),
+    reads_itself=True,
+)
+def diad(call: Call) -> ListReel:
+    """Halve or double the sampling."""
+    word = call.keyword(("DIRE", "INVE", "IVIN"))
+    y = call.required("LISTREEL").values
+    word = word or call.keyword(("DIRE", "INVE", "IVIN")) or "DIRE"
+    if word == "DIRE":
+        return ListReel(y[::2].copy())
+    made = np.zeros(2 * len(y) - len(y) % 2)
+    made[::2] = y
+    if word == "IVIN" and len(y):
+        after = np.append(y[1:], y[-1])  # behind the last value stands nothing: the same again
+        made[1::2] = 0.5 * (y + after)[: len(made) // 2]
+    return ListReel(made)
+
+
+@operator(
+    "LTL",
+    arg("first", "LISTREEL"),
+    opt("second", "LISTREEL"),
+    opt("a", "FLOTTANT", default=1.0),
+    opt("b", "FLOTTANT", default=1.0),
+    family="lists",
+    help=Help(
+        en="Dot product of two lists (or of one with itself) times two numbers.",
+        fr="Produit scalaire de deux listes (ou d'une avec elle-même) fois deux nombres.",
+        syntax="X1 = LTL LREEL1 (LREEL2) (X2 (X3)) ;",
+        examples=("LIST (LTL (PROG 1. 2.) (PROG 3. 4.) 10.) ;",),
+    ),
+)
+def ltl(call: Call, first: ListReel, second: ListReel | None, a: float, b: float) -> float:
+    """Dot product."""
+    other = first if second is None else second
+    if len(first) != len(other):
+        raise call.bad(f"lists of {len(first)} and {len(other)} values have no dot product")
+    return float(a * b * (first.values @ other.values))
+
+
+@operator(
+    "CVOL",
+    family="signals",
+    help=Help(
+        en="Signal weighed by a response: value k is the sum over j of response j times signal "
+        "k + j. The list gives the response for j = 0, 1 ... of a symmetric one, or with 'NPNE' N1 "
+        "all of it from j = -N1. Beyond its ends the signal is mirrored ('SYME', the default) or "
+        "zero ('PADD').",
+        fr="Signal pondéré par une réponse : la valeur k est la somme sur j de la réponse j fois "
+        "le signal k + j. La liste donne la réponse pour j = 0, 1 ... si elle est symétrique, ou "
+        "avec 'NPNE' N1 toute la réponse depuis j = -N1. Hors de ses bornes le signal est pris "
+        "symétrique ('SYME', par défaut) ou nul ('PADD').",
+        syntax="LREEL1 = CVOL LREEL2 LREEL3 ('NPNE' N1) ('SYME' | 'PADD') ;",
+        examples=("LIST (CVOL (PROG 0. 0. 4. 0.) (PROG 0.5 0.25) 'PADD') ;",),
+    ),
+    reads_itself=True,
+)
+def cvol(call: Call) -> ListReel:
+    """Convolution."""
+    signal, response = (call.required("LISTREEL").values for _ in range(2))
+    before, mirrored = None, True
+    while (word := call.keyword(("NPNE", "SYME", "PADD"))) is not None:
+        if word == "NPNE":
+            before = call.required("ENTIER", after=call.keyword_end)
+        else:
+            mirrored = word == "SYME"
+    if before is None:
+        before = len(response) - 1
+        response = np.concatenate([response[:0:-1], response])
+    after = len(response) - 1 - before
+    if len(response) == 0 or before < 0 or after < 0:
+        raise call.bad(f"a response of {len(response)} values cannot have {before} before 0")
+    if mirrored and max(before, after) > len(signal) - 1:
+        raise call.bad(
+            f"a signal of {len(signal)} values is too short to be mirrored over "
+            f"{max(before, after)}",
+            hint="'PADD' fills with zeros",
+        )
+    padded = np.pad(signal, (before, after), "reflect" if mirrored else "constant")
+    return ListReel(np.correlate(padded, response, "valid"))
+
+
+_FUNCTIONS = {
+    "BESS": ("J0", "J1", "Y0", "Y1"),
+    "FRES": ("CX", "SX"),
+    "GAMM": (),
+}
+
+
+def _special(kind: str, name: str, x: NDArray[np.float64]) -> NDArray[np.float64]:
+    from scipy import special
+
+    if kind == "BESS":
+        found = {"J0": special.j0, "J1": special.j1, "Y0": special.y0, "Y1": special.y1}[name](x)
+    elif kind == "FRES":
+        sine, cosine = special.fresnel(np.sqrt(2.0 * x / np.pi))
+        found = cosine if name == "CX" else sine
+    else:
+        found = special.gamma(x)
+    return np.asarray(found, dtype=float)
+
+
+@operator(
+    "FONC",
+    family="lists",
+    full_name="FONCTION",
+    help=Help(
+        en="Special functions of the values of a list: Bessel's J0 J1 Y0 Y1 ('BESSEL'), Fresnel's "
+        "integrals of cos(t)/sqrt(2 pi t) ('FRESNEL' 'CX') or sin(t)/sqrt(2 pi t) ('SX') from 0 "
+        "to x, the gamma function ('GAMMA').",
+        fr="Fonctions spéciales des valeurs d'une liste : J0 J1 Y0 Y1 de Bessel ('BESSEL'), "
+        "intégrales de Fresnel de cos(t)/sqrt(2 pi t) ('FRESNEL' 'CX') ou sin(t)/sqrt(2 pi t) "
+        "('SX') de 0 à x, fonction gamma ('GAMMA').",
+        syntax="LREEL1 = FONC 'BESSEL' 'J0' | 'J1' | 'Y0' | 'Y1' LREEL2 ;\n"
+        "LREEL1 = FONC 'FRESNEL' 'CX' | 'SX' LREEL2 ; LREEL1 = FONC 'GAMMA' LREEL2 ;",
+        examples=("LIST (FONC 'GAMMA' (PROG 5. 0.5)) ;",),
+    ),
+    reads_itself=True,
+)
+def fonc(call: Call) -> Any:
+    """Special functions."""
+    kind = call.keyword(tuple(_FUNCTIONS))
+    if kind is None:
+        raise call.bad("which function?", hint="'BESSEL' 'FRESNEL' 'GAMMA'")
+    names = _FUNCTIONS[kind]
+    name = call.keyword(names) if names else ""
+    if name is None:
+        raise call.bad("which function?", hint=" ".join(f"'{n}'" for n in names))
+    x = call.required("LISTREEL").values
+    bad = {"FRES": x < 0.0, "GAMM": (x <= 0.0) & (x == np.round(x))}.get(kind, np.zeros(0, bool))
+    if name in ("Y0", "Y1"):
+        bad = x <= 0.0
+    if bad.any():
+        raise call.bad(f"the function is not defined at {x[bad][0]:g}")
+    return ListReel(_special(kind, name, x))
+
+
+@operator(
+    "ZLEG",
+    arg("degree", "ENTIER"),
+    family="lists",
+    help=Help(
+        en="Points of Gauss-Lobatto on (-1, 1): the zeros of the derivative of Legendre's "
+        "polynomial of degree N1 and the two ends, and their weights: N1 + 1 of each.",
+        fr="Points de Gauss-Lobatto sur (-1, 1) : les zéros de la dérivée du polynôme de Legendre "
+        "de degré N1 et les deux bouts, et leurs poids : N1 + 1 de chaque.",
+        syntax="LREEL1 LREEL2 = ZLEG N1 ;",
+        examples=("X W = ZLEG 2 ; LIST X ; LIST W ;",),
+    ),
+)
+def zleg(call: Call, degree: int) -> tuple[ListReel, ListReel]:
+    """Lobatto's quadrature."""
+    if not 1 <= degree <= 500:
+        raise call.bad(f"the degree is between 1 and 500, not {degree}", degree)
+    legendre = np.polynomial.legendre.Legendre.basis(degree)
+    inner = np.sort(legendre.deriv().roots().real) if degree > 1 else np.zeros(0)
+    x = np.concatenate([[-1.0], inner, [1.0]])
+    w = 2.0 / (degree * (degree + 1) * legendre(x) ** 2)
+    return ListReel(x), ListReel(w)

@@ -1,0 +1,352 @@
+"""Records, artificial signals, wavelets and sampled lists against closed forms."""
+
+import itertools
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+from scipy.special import gamma, jv, yv
+
+from ssilang.kernel.records.artificial import Band, motion, sines
+from ssilang.kernel.records.envelope import energy_envelope
+from ssilang.kernel.records.integration import displacement_integral, integrated
+from ssilang.kernel.records.power import (
+    mean_peak,
+    median_peak,
+    power_density,
+    response_moments,
+)
+
+
+def parts(curve):
+    return [(p.abscissas, p.ordinates) for p in curve.parts]
+
+
+# ---- integration and correction
+
+
+def test_linear_rule_is_exact_for_a_ramp(found):
+    d, v = found("T = PROG 0. PAS 0.5 3. ; D V = INSI (EVOL 'MANU' T (6. * T)) 'LINE' ;", "D", "V")
+    t = np.arange(7) * 0.5
+    np.testing.assert_allclose(parts(v)[0][1], 3 * t**2)
+    np.testing.assert_allclose(parts(d)[0][1], t**3)
+
+
+@pytest.mark.parametrize("rule", ["SIMP", "LINE"])
+def test_corrected_record_ends_at_rest_and_is_the_nearest_such(found, rule):
+    script = (
+        "A = EVOL 'MANU' 'T' (PROG 0. PAS 0.02 NPAS 200) 'A' (BRUI 'BLAN' 'GAUS' 0.3 1. 201) ; "
+        f"B = COSI A '{rule}' ; D V = INSI B '{rule}' ; "
+    )
+    a, b, d, v = (parts(c)[0][1] for c in found(script, "A", "B", "D", "V"))
+    assert abs(v[-1]) < 1e-13
+    assert abs(d[-1]) < 1e-13
+    linear = rule == "LINE"
+    assert abs(displacement_integral(b, 0.02, linear)) < 1e-13
+    # nearest: the change is orthogonal to every record that ends at rest
+    other = np.random.default_rng(2).normal(size=201)
+    rows = []
+    for k in range(201):
+        unit = np.eye(201)[k]
+        w, x = integrated(unit, 0.02, linear)
+        rows.append([w[-1], x[-1], displacement_integral(unit, 0.02, linear)])
+    rows = np.array(rows).T
+    other -= rows.T @ np.linalg.solve(rows @ rows.T, rows @ other)
+    assert abs(other @ (a - b)) < 1e-9
+
+
+def test_three_points_are_too_few_to_correct(refused):
+    script = "A = COSI (EVOL 'MANU' (PROG 0. 1. 2.) (PROG 1. 2. 3.)) ;"
+    assert "four points" in refused(script)
+
+
+# ---- spectra
+
+
+def test_spectra_change_unit_and_back(found):
+    script = (
+        "S = EVOL 'MANU' (PROG 1. 2. 5.) (PROG 3. 1. 2.) ; "
+        "A = CHSP S 'ENTR' 'DEPL' 'SORT' 'ACCE' ; B = CHSP A 'ENTR' 'ACCE' 'SORT' 'DEPL' ; "
+    )
+    a, b = found(script, "A", "B")
+    w = 2 * np.pi * np.array([1, 2, 5])
+    np.testing.assert_allclose(parts(a)[0][1], w**2 * [3, 1, 2])
+    np.testing.assert_allclose(parts(b)[0][1], [3, 1, 2])
+
+
+def test_power_density_sums_to_the_mean_square(found):
+    y = np.random.default_rng(0).normal(size=256)
+    f, density = power_density(y, 0.01, 256)
+    assert density.sum() * f[1] == pytest.approx(np.mean(y**2))
+    seen = found(
+        "S = EVOL 'MANU' (PROG 0. PAS 0.125 NPAS 7) (SIN (PROG 0. PAS 90. NPAS 7)) ; "
+        "P = DSPR 3 S 'FMIN' 1. 'FMAX' 3. ;",
+        "P",
+    )
+    np.testing.assert_allclose(parts(seen)[0], ([1, 2, 3], [0, 0.5, 0]), atol=1e-15)
+
+
+def test_moments_of_white_noise_are_the_known_ones():
+    f = np.linspace(0.0, 400.0, 5)
+    w, xi = 2 * np.pi * 2.0, 0.05
+    # one-sided density 1 per hertz is 1 / (4 pi) two-sided per rad/s: variance pi S / (2 xi w^3)
+    m0, _, m2 = response_moments(f, np.ones(5), 2.0, xi, "DEPL")
+    assert m0 == pytest.approx(1.0 / (8 * xi * w**3), rel=1e-4)
+    # the speed's variance is 1 / (8 xi w), short of the tail beyond 400 Hz (1 / (2 pi 400 2 pi))
+    assert m2 == pytest.approx(1.0 / (8 * xi * w) - 1 / (2 * np.pi) ** 2 / 400, rel=1e-3)
+
+
+def test_median_peak_leaves_half_of_the_crossings_out():
+    moments = (4.0, 0.0, 4.0 * (2 * np.pi * 5) ** 2)  # deviation 2, five crossings a second
+    x = median_peak(moments, 20.0)
+    assert np.exp(-5 * 20 * np.exp(-(x**2) / 8)) == pytest.approx(0.5)
+
+
+def test_mean_peak_is_that_of_drawn_signals():
+    f = np.linspace(0.5, 1.5, 11)
+    density = np.full(11, 1.0)
+    xi, natural, duration = 0.05, 1.0, 60.0
+    moments = response_moments(f, density, natural, xi, "DEPL")
+    rng = np.random.default_rng(4)
+    t = np.arange(0.0, duration, 0.02)
+    x, amplitude = sines(f, density, 400)
+    w = 2 * np.pi * x
+    gain = 1 / np.abs((2 * np.pi) ** 2 - w**2 + 2j * xi * w * 2 * np.pi)
+    angle = np.outer(w, t)
+    peaks = []
+    for _ in range(100):
+        phase = rng.uniform(0, 2 * np.pi, 400)
+        amp = amplitude * gain
+        peaks.append(
+            np.abs(
+                (amp * np.cos(phase)) @ np.cos(angle) - (amp * np.sin(phase)) @ np.sin(angle)
+            ).max()
+        )
+    # a hundred drawn peaks: their mean is known to 1 %; of a lightly damped response the law of
+    # Vanmarcke is 5 % low and the Gumbel law through two of its fractiles 2 % more
+    assert mean_peak(moments, duration) == pytest.approx(np.mean(peaks), rel=0.1)
+
+
+def test_response_spectrum_over_frequencies_increases_them(found):
+    script = (
+        "S = EVOL 'MANU' (PROG 0.1 20.) (PROG 0.1 0.1) ; "
+        "A = PSRS S 10. (PROG 0.02 0.05) (PROG 0.1 0.5) 'FREQ' 'DEPL' ; "
+        "B = PSRS S 10. (PROG 0.05) ;"
+    )
+    a, b = found(script, "A", "B")
+    (fa, low), (_, high) = parts(a)
+    np.testing.assert_allclose(fa, [2, 10])
+    assert (low > high).all()
+    moments = response_moments(np.array([0.1, 20]), np.full(2, 0.1), 2.0, 0.02, "DEPL")
+    assert low[0] == pytest.approx(median_peak(moments, 10.0))
+    assert len(parts(b)[0][0]) == 75
+    assert parts(b)[0][0][[0, -1]] == pytest.approx([0.04, 10])
+
+
+def test_stiff_oscillator_follows_the_ground(found):
+    script = (
+        "S = EVOL 'MANU' (PROG 0.5 2.) (PROG 1. 1.) ; "
+        "A = PSRS S 20. (PROG 0.05) (PROG 0.001) 'ACCE' ; "
+    )
+    # the acceleration of a stiff oscillator is the ground's: variance 1.5, sum of f^2 = 2.625
+    crossings = 20 * np.sqrt(2.625 / 1.5)
+    expected = np.sqrt(2 * 1.5 * np.log(crossings / np.log(2)))
+    assert parts(found(script, "A"))[0][1][0] == pytest.approx(expected, rel=1e-3)
+
+
+# ---- artificial signals
+
+
+def test_motion_is_the_integral_of_its_acceleration():
+    bands = (
+        Band(0.0, 2.0, np.array([0.0, 1.0, 4.0]), np.array([0.0, 1.0, 0.3])),
+        Band(2.0, 4.0, np.array([0.0, 2.0, 4.0]), np.array([0.5, 1.0, 0.0])),
+    )
+    t = np.linspace(0.0, 4.0, 4001)
+    f = np.array([0.7, 1.1, 2.0, 3.3])
+    a, v, d = motion(t, f, np.ones(4), np.array([0.1, 2.0, 4.0, 1.0]), bands, 0.0)
+    w, x = integrated(a, 0.001, True)
+    # linear between 1 ms samples: the error of a sine is (w dt)^2 / 12 of its amplitude
+    assert np.abs(v - w).max() < 1e-5
+    assert np.abs(d - x).max() < 2e-5
+
+
+def test_artificial_signal_has_the_power_of_its_spectrum(found):
+    script = (
+        "S = EVOL 'MANU' (PROG 1. 5.) (PROG 0.5 0.5) ; "
+        "A = SIAR S 40. 'ACCE' 'NCOU' 3 'INIT' 7 ; B = SIAR S 40. 'ACCE' 'NCOU' 3 'INIT' 7 ; "
+        "C V D = SIAR S 4. 'NPOI' 11 'TINI' 1. ; "
+    )
+    a, b, c, v, d = found(script, "A", "B", "C", "V", "D")
+    for (t, y), (_, again) in zip(parts(a), parts(b), strict=True):
+        assert len(t) == 2001
+        assert np.mean(y**2) == pytest.approx(2.0, rel=0.02)  # 0.5 times 4 Hz
+        np.testing.assert_array_equal(y, again)
+    np.testing.assert_allclose(parts(c)[0][0], np.linspace(1, 4, 11))
+    assert len(v.parts) == len(d.parts) == 1
+
+
+def test_modulations_need_their_bands(refused):
+    script = (
+        "S = EVOL 'MANU' (PROG 1. 5.) (PROG 0.5 0.5) ; M = EVOL 'MANU' (PROG 0. 1.) (PROG 1. 1.) ; "
+        "A = SIAR S M (PROG 1. 2. 5.) ;"
+    )
+    assert "limits of bands" in refused(script)
+
+
+def test_perturbed_list_keeps_its_power(found):
+    made, signed = found(
+        "L = PROG 1. -2. 3. -4. 5. ; A = PERT L 'AMPL' 60. 'INIT' 5 ; B = PERT L 'INIT' 5 ;",
+        "A", "B",
+    )  # fmt: skip
+    assert np.sum(made.values**2) == pytest.approx(55.0)
+    assert list(np.sign(made.values)) == [1, -1, 1, -1, 1]
+    assert not np.allclose(np.abs(made.values), [1, 2, 3, 4, 5])
+    assert list(np.abs(signed.values)) == [1, 2, 3, 4, 5]
+
+
+# ---- wavelets
+
+
+def test_wavelets_give_amplitude_frequency_and_phase_of_a_sine(found):
+    script = (
+        "OPTI DIME 2 ; T = PROG 0. PAS 0.02 NPAS 1023 ; "
+        "S = EVOL 'MANU' 'TEMP' T 'A' (3. * (COS (540. * T))) ; "
+        "R = ONDE 10 S 'CRMO' 'FMIN' 1. 'FMAX' 3. 'NFRQ' 200 ; "
+        "P = ONDE 10 S 'CRPH' 'FMIN' 1. 'FMAX' 3. 'NFRQ' 200 'EPSI' 0.002 ; "
+        "C M = ONDE 9 S 'MOPH' 'FMIN' 1. 'FMAX' 3. 'NFRQ' 20 ; N = NBEL M ;"
+    )
+    ridge, phase, field, cells = found(script, "R", "P", "C", "N")
+    for found_ridge in (ridge, phase):
+        (_, f), (_, size) = parts(found_ridge)
+        assert len(f) > 500
+        np.testing.assert_allclose(f, 1.5, rtol=3e-3)  # the grid of scales is this fine
+        np.testing.assert_allclose(size, 3.0, rtol=3e-3)  # the ends still count a little
+    assert cells == 20 * 511
+    assert field.components["MODU"].values.max() == pytest.approx(3.0, rel=0.01)
+
+
+# ---- shaping
+
+
+def test_energy_envelope_keeps_the_squares_of_each_interval():
+    x = np.linspace(0.0, 4.0, 81)
+    y = np.random.default_rng(1).normal(size=81) * (1 + np.sin(x))
+    places, level = energy_envelope(x, y, 8)
+    line = np.interp(x, places, level)
+    for a, b in itertools.pairwise(places):
+        inside = (x > a + 1e-9) & (x < b + 1e-9)
+        assert np.sum(line[inside] ** 2) == pytest.approx(np.sum(y[inside] ** 2), rel=1e-9)
+    assert (level >= 0).all()
+
+
+def test_a_signal_of_constant_size_gives_a_level(found):
+    e = found("E = LSQF (EVOL 'MANU' (PROG 0. PAS 1. 8.) (PROG 9 * -2.)) 2 ;", "E")
+    np.testing.assert_allclose(parts(e)[0], ([0, 4, 8], [2, 2, 2]))
+
+
+def test_curves_are_continued_by_value_or_line(found):
+    script = (
+        "E = EVOL 'MANU' (PROG 0. 1. 2.) (PROG 0. 1. 4.) ; A = PROL E 3. -1. ; "
+        "B = PROL 'LINE' 4. E 3. ; C = PROL E 1.5 ; "
+    )
+    a, b, c = found(script, "A", "B", "C")
+    np.testing.assert_allclose(parts(a)[0], ([-1, 0, 1, 2, 3], [0, 0, 1, 4, 4]))
+    np.testing.assert_allclose(parts(b)[0], ([0, 1, 2, 3, 4], [0, 1, 4, 7, 10]))
+    assert len(parts(c)[0][0]) == 3
+
+
+def test_curves_are_joined_in_order(found):
+    e = found(
+        "E = CONC (EVOL 'MANU' (PROG 3. 4.) (PROG 5. 6.)) "
+        "(EVOL 'MANU' (PROG 1. 2.) (PROG 7. 8.)) ;",
+        "E",
+    )
+    np.testing.assert_allclose(parts(e)[0], ([1, 2, 3, 4], [7, 8, 5, 6]))
+
+
+def test_poincare_map_takes_the_beginnings_of_shocks(found):
+    script = (
+        "T = PROG 0. PAS 1. 5. ; F = EVOL 'MANU' T (PROG 0. 0. -5. -1. 0. 7.) ; "
+        "M = MAPP 'ROUG' F (EVOL 'MANU' T T) (EVOL 'MANU' T (T * T)) ;"
+    )
+    np.testing.assert_allclose(parts(found(script, "M"))[0], ([2, 5], [4, 25]))
+
+
+def test_mean_shock_averages_the_recorded_ones(found):
+    script = (
+        "E = EVOL 'MANU' (PROG 0. PAS 1. 9.) (PROG 0. 3. 1. 0. 5. 3. 0. 0. 0. 9.) ; "
+        "M = CMOY E 'ACQU' 1. ; N = CMOY E 'ACQU' 1. 'NCHO' 1 ; P = CMOY E 'ACQU' 1. 'DECL' 50. ;"
+    )
+    m, n, p = found(script, "M", "N", "P")
+    np.testing.assert_allclose(parts(m)[0], ([0, 1], [4, 2]))
+    np.testing.assert_allclose(parts(n)[0][1], [3, 1])
+    np.testing.assert_allclose(parts(p)[0][1], [5, 3])
+
+
+def test_inverse_laplace_of_a_sine(found):
+    script = (
+        "W = PROG 0. PAS 0.25 NPAS 8191 ; A = 0.3 ; B = 2. ; "
+        "RE = (A * A) + (B * B) - (W * W) ; IM = 2. * A * W ; D = (RE * RE) + (IM * IM) ; "
+        "E = LAPL 'INVERSE' W (B * RE / D) (-1. * B * IM / D) A 16 ;"
+    )
+    t, y = parts(found(script, "E"))[0]
+    assert len(t) == 512
+    # Durbin's aliasing is exp(-2 a T) of the next period, and the end of a period is poor
+    kept = (t > 0.1) & (t < 15)
+    np.testing.assert_allclose(y[kept], np.sin(2 * t[kept]), atol=2e-3)
+
+
+# ---- sampled lists
+
+
+def test_dyadic_lists(found):
+    a, b, c, d = found(
+        "L = PROG 1. 3. 7. 9. ; A = DIAD L ; B = DIAD 'INVE' L ; C = DIAD L 'IVIN' ; "
+        "D = DIAD 'INVE' (PROG 1. 2. 3.) ;",
+        "A", "B", "C", "D",
+    )  # fmt: skip
+    assert a.values.tolist() == [1, 7]
+    assert b.values.tolist() == [1, 0, 3, 0, 7, 0, 9, 0]
+    assert c.values.tolist() == [1, 2, 3, 5, 7, 8, 9, 9]
+    assert d.values.tolist() == [1, 0, 2, 0, 3]
+
+
+def test_dot_products(found):
+    x = found(
+        "L = PROG 1. 2. ; X = LTL L ; Y = LTL L (PROG 3. 4.) ; Z = LTL L (PROG 3. 4.) 2. 5. ;",
+        "X", "Y", "Z",
+    )  # fmt: skip
+    assert x == (5.0, 11.0, 110.0)
+
+
+def test_convolution_with_symmetric_and_full_responses(found):
+    a, b, c = found(
+        "S = PROG 1. 2. 4. 8. ; A = CVOL S (PROG 2. 1.) ; B = CVOL S (PROG 2. 1.) 'PADD' ; "
+        "C = CVOL S (PROG 1. 2. 1.) 'NPNE' 1 ;",
+        "A", "B", "C",
+    )  # fmt: skip
+    assert a.values.tolist() == [2 + 4, 1 + 4 + 4, 2 + 8 + 8, 16 + 8]
+    assert b.values.tolist() == [2 + 2, 1 + 4 + 4, 2 + 8 + 8, 16 + 4]
+    assert c.values.tolist() == a.values.tolist()
+
+
+def test_special_functions(found, refused):
+    x = np.array([0.5, 2.0, 9.0])
+    names = ("J0", "J1", "Y0", "Y1")
+    script = "L = PROG 0.5 2. 9. ; " + " ".join(f"{n}X = FONC 'BESSEL' '{n}' L ;" for n in names)
+    seen = found(script + " C = FONC 'FRESNEL' 'CX' L ; G = FONC 'GAMMA' L ;",
+                 *(f"{n}X" for n in names), "C", "G")  # fmt: skip
+    for made, (law, order) in zip(seen, [(jv, 0), (jv, 1), (yv, 0), (yv, 1)], strict=False):
+        np.testing.assert_allclose(made.values, law(order, x), rtol=1e-12)
+    integral = [quad(lambda u: 2 * np.cos(u * u) / np.sqrt(2 * np.pi), 0, np.sqrt(v))[0] for v in x]
+    np.testing.assert_allclose(seen[4].values, integral, rtol=1e-9)
+    np.testing.assert_allclose(seen[5].values, gamma(x))
+    assert "not defined at 0" in refused("L = FONC 'BESSEL' 'Y0' (PROG 0.) ;")
+
+
+def test_lobatto_points_integrate_high_degrees(found):
+    x, w = found("X W = ZLEG 4 ;", "X", "W")
+    for degree in range(8):
+        exact = 2 / (degree + 1) if degree % 2 == 0 else 0
+        assert w.values @ x.values**degree == pytest.approx(exact, abs=1e-14)
