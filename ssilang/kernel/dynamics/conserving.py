@@ -4,6 +4,7 @@
 
 For linear systems it is the average acceleration; with joints the balance of energy holds to
 rounding whatever dt and the joints' stiffness. The matrix is that of the average acceleration.
+Unilateral relations push by mean reactions that give back all energy (`conserving_contact`).
 """
 
 from __future__ import annotations
@@ -20,8 +21,10 @@ from ssilang.kernel.dynamics.compiled_loop import (
     Motion,
     Saved,
 )
+from ssilang.kernel.dynamics.conserving_contact import ConservingContact
 from ssilang.kernel.dynamics.effective import Effective
 from ssilang.kernel.dynamics.problem import Problem
+from ssilang.kernel.dynamics.sparse_loop import support_work
 from ssilang.kernel.joints.interface import Interface
 from ssilang.kernel.joints.mean_traction import mean_response
 from ssilang.kernel.joints.response import (
@@ -49,6 +52,33 @@ class ConservingLoop:
             self._new, self._D = np.zeros_like(problem.state), np.zeros((n, d, d))
             self._f = np.zeros(joints.size)
             self._K = np.zeros((joints.size, joints.size))
+        self._contact: ConservingContact | None = None
+        if problem.contact is not None:
+            self._contact = ConservingContact(
+                effective,
+                problem.contact,
+                problem.contact_options,
+                None if joints is None else joints.J,
+            )
+
+    @property
+    def size(self) -> int:
+        """Unknowns of the joints."""
+        return 0 if self.problem.interface is None else self.problem.interface.size
+
+    def respond(self, y: FloatArray) -> FloatArray:
+        """h = 2 f* - R y at the increment y of the jumps."""
+        joints = self.problem.interface
+        assert joints is not None
+        return self._residual(joints, y, y)[1]
+
+    def tangent(self) -> FloatArray:
+        """dh/dy at the last response."""
+        joints = self.problem.interface
+        assert joints is not None
+        interface_stiffness(joints.pairs, joints.B, joints.weights, self._D, self._K)
+        found: FloatArray = 2 * self._K - self.effective.R
+        return found
 
     def march(
         self, factors: FloatArray, save: IntArray, saved: Saved, history: FloatArray
@@ -60,11 +90,14 @@ class ConservingLoop:
             mean_load = 0.5 * (loads[k] + loads[k + 1])
             r = 2 * mean_load - 2 * (p.K @ m.u) + (4 / dt) * (p.M @ m.v)
             dd = imposed[k + 1] - p.constraints.C @ m.u
-            du, turns, residual = self._increment(r, dd)
+            if self._contact is None:
+                du, turns, residual = self._increment(r, dd)
+            else:
+                du, turns, residual = self._with_contact(self._contact, r, dd, factors[k : k + 2])
             if turns <= 0:
                 return k, turns, residual
             worst = max(worst, turns)
-            self._advance(du, dd, mean_load)
+            self._advance(du, dd, mean_load, factors[k : k + 2])
             if not np.isfinite(m.u).all():
                 return k, -1, np.inf
             history[k] = m.energies
@@ -72,7 +105,7 @@ class ConservingLoop:
                 row = int(save[k])
                 saved.u[row], saved.v[row], saved.a[row] = m.u, m.v, m.a
                 saved.reaction[row], saved.w[row], saved.t[row] = m.reaction, m.w, m.t
-                saved.state[row] = m.state
+                saved.state[row], saved.contact[row] = m.state, m.contact
         return len(save), worst, 0.0
 
     def _increment(self, r: FloatArray, dd: FloatArray) -> tuple[FloatArray, int, float]:
@@ -98,6 +131,24 @@ class ConservingLoop:
             if length * np.abs(dy).max() <= 1e-15 * scale and size <= ACCEPTED * scale:
                 return du - e.Y @ h, turn, size / scale
         return du, -MOST_TURNS, size / scale
+
+    def _with_contact(
+        self, contact: ConservingContact, r: FloatArray, dd: FloatArray, factors: FloatArray
+    ) -> tuple[FloatArray, int, float]:
+        """The increment with unilateral relations; `motion.contact` becomes their mean reaction."""
+        e, m, rows, joints = self.effective, self.motion, contact.contact, self.problem.interface
+        du = e.solve(r)
+        if dd.any():
+            du = du + e.imposed(dd)
+        y0 = joints.J @ du if joints is not None else np.zeros(0)
+        gap = rows.gaps(m.u, factors[0])
+        change = rows.G @ du - rows.imposed @ (factors[1] - factors[0])
+        found = contact.solve(self, y0, gap, change)
+        m.contact[:] = 0.5 * found.P
+        du = du + contact.YG @ found.P
+        if joints is not None:
+            du = du - e.Y @ found.h
+        return du, found.turns, found.residual
 
     def _search(
         self, joints: Interface, y: FloatArray, y0: FloatArray, dy: FloatArray, before: float,
@@ -125,7 +176,9 @@ class ConservingLoop:
         h = 2 * self._f - e.R @ y
         return float(np.abs(y - y0 + e.S @ h).max()), h
 
-    def _advance(self, du: FloatArray, dd: FloatArray, mean_load: FloatArray) -> None:
+    def _advance(
+        self, du: FloatArray, dd: FloatArray, mean_load: FloatArray, factors: FloatArray
+    ) -> None:
         p, m, dt, joints = self.problem, self.motion, self.effective.dt, self.problem.interface
         v0, middle = m.v.copy(), m.u + 0.5 * du
         m.u[:] += du
@@ -144,7 +197,12 @@ class ConservingLoop:
                 joints.codes, joints.parameters, joints.weights, m.w, m.t, m.state
             )
         m.energies[EXTERNAL] += du @ mean_load
-        if dd.any():
-            m.energies[EXTERNAL] += dd @ p.constraints.multipliers(m.reaction)
+        m.energies[EXTERNAL] += support_work(
+            p, m.reaction, m.contact, du, dd, factors[1] - factors[0]
+        )
         m.energies[KINETIC] = 0.5 * m.v @ (p.M @ m.v)
         m.energies[ELASTIC] = 0.5 * m.u @ (p.K @ m.u)
+        if p.contact is not None and p.contact_options.method == "PENALITE":
+            m.energies[ELASTIC] += p.contact.penalty_energy(
+                p.contact.gaps(m.u, factors[1]), p.contact_options.coefficient
+            )

@@ -1,4 +1,8 @@
-"""Conditions of a time-stepping problem, eliminated: `u = T q + particular(d)`."""
+"""Conditions of a time-stepping problem, eliminated: `u = T q + particular(d)`.
+
+Non-associated relations (RELA ... 'DUAL') push by `D^T lambda` with rows D that are not C:
+equilibrium then holds on the motions V that D leaves, `V^T (K u - F) = 0`.
+"""
 
 from __future__ import annotations
 
@@ -14,17 +18,28 @@ from ssilang.kernel.sparse import sp
 
 
 class Constraints(Protocol):
-    """Equality conditions `C u = d` with the motions that they leave."""
+    """Equality conditions `C u = d` with the motions that they leave.
+
+    Attributes
+    ----------
+    C, D : csr arrays (n_rows, n)
+        Conditions, and the forces of their multipliers; the same but for non-associated ones.
+    T, V : csr arrays (n, r)
+        Motions that C leaves, and motions on which equilibrium is written.
+    """
 
     C: sp.csr_array
+    D: sp.csr_array
     T: sp.csr_array
+    V: sp.csr_array
+    associated: bool
 
     def particular(self, d: FloatArray) -> FloatArray:
         """A displacement (n,) with `C u = d`."""
         ...
 
     def multipliers(self, residual: FloatArray) -> FloatArray:
-        """lambda (n_rows,) with `C^T lambda = residual` (n,)."""
+        """lambda (n_rows,) with `D^T lambda = residual` (n,)."""
         ...
 
 
@@ -32,7 +47,7 @@ class EliminatedConstraints:
     """Sparse elimination, for systems of any size."""
 
     def __init__(self, C: sp.csr_array) -> None:
-        self.C = C
+        self.C = self.D = C
         self._elimination = eliminate(C)
         if not self._elimination.eliminated.all():
             raise KernelError(
@@ -40,7 +55,8 @@ class EliminatedConstraints:
                 "problem",
                 "split it, or write it on fewer unknowns",
             )
-        self.T = self._elimination.T
+        self.T = self.V = self._elimination.T
+        self.associated = True
 
     def particular(self, d: FloatArray) -> FloatArray:
         """A displacement (n,) with `C u = d`."""
@@ -57,7 +73,7 @@ class OrthogonalConstraints:
     def __init__(self, C: sp.csr_array) -> None:
         import scipy.linalg as la
 
-        self.C = C
+        self.C = self.D = C
         dense = C.toarray()
         n = dense.shape[1]
         fixed = np.flatnonzero((dense != 0).any(axis=0))
@@ -66,7 +82,8 @@ class OrthogonalConstraints:
         T = np.zeros((n, len(free) + basis.shape[1]))
         T[free, np.arange(len(free))] = 1.0
         T[np.ix_(fixed, np.arange(len(free), T.shape[1]))] = basis
-        self.T = sp.csr_array(T)
+        self.T = self.V = sp.csr_array(T)
+        self.associated = True
         self._inverse = la.pinv(dense) if dense.size else np.zeros((n, len(dense)))
 
     def particular(self, d: FloatArray) -> FloatArray:
@@ -80,16 +97,38 @@ class OrthogonalConstraints:
         return found
 
 
-def constraints_of(rows: ConstraintRows, small: bool) -> Constraints:
-    """Eliminated equality conditions.
+class NonAssociatedConstraints:
+    """Conditions whose multipliers push by other rows: C gives the motions, D the forces.
 
     Raises
     ------
     KernelError
-        For non-associated relations.
+        If C and D leave different numbers of motions.
     """
+
+    def __init__(self, C: sp.csr_array, D: sp.csr_array) -> None:
+        self.C, self.D, self.associated = C, D, False
+        self._moving, self._pushing = EliminatedConstraints(C), EliminatedConstraints(D)
+        self.T, self.V = self._moving.T, self._pushing.T
+        if self.T.shape != self.V.shape:
+            raise KernelError(
+                f"the relations leave {self.T.shape[1]} motions, their duals {self.V.shape[1]}",
+                "give each relation and its dual independent rows",
+            )
+
+    def particular(self, d: FloatArray) -> FloatArray:
+        """A displacement (n,) with `C u = d`."""
+        return self._moving.particular(d)
+
+    def multipliers(self, residual: FloatArray) -> FloatArray:
+        """lambda (n_rows,) with `D^T lambda = residual`."""
+        return self._pushing.multipliers(residual)
+
+
+def constraints_of(rows: ConstraintRows, small: bool) -> Constraints:
+    """Eliminated equality conditions."""
     if not rows.associated:
-        raise KernelError("non-associated relations are not solved in time-stepping problems")
+        return NonAssociatedConstraints(rows.C, rows.D)
     return OrthogonalConstraints(rows.C) if small else EliminatedConstraints(rows.C)
 
 

@@ -36,7 +36,7 @@ class Effective:
     A : csr array (n, n)
         With the closed joints' stiffness if R is not zero.
     inverse : Inverse
-        Of `T^T A T`.
+        Of `V^T A T` (V is T but for non-associated relations).
     Y : array (n, q)
         `A^-1 J^T` on the admissible motions, q interface unknowns.
     S : array (q, q)
@@ -55,8 +55,8 @@ class Effective:
 
     def solve(self, r: FloatArray) -> FloatArray:
         """Admissible motion (n,) or (n, k) under r, for `C du = 0`."""
-        T = self.constraints.T
-        found: FloatArray = T @ self.inverse.solve(T.T @ r)
+        c = self.constraints
+        found: FloatArray = c.T @ self.inverse.solve(c.V.T @ r)
         return found
 
     def imposed(self, dd: FloatArray) -> FloatArray:
@@ -91,14 +91,15 @@ def effective_of(
     SingularMatrixError
         If bodies stay free with all joints closed; it names the motions.
     """
-    T, joints = problem.constraints.T, problem.interface
+    T, V, joints = problem.constraints.T, problem.constraints.V, problem.interface
+    symmetric = problem.constraints.associated
     q = joints.size if joints else 0
     R = np.zeros((q, q))
-    inverse = invert(sp.csr_array(T.T @ A @ T), True)
+    inverse = invert(sp.csr_array(V.T @ A @ T), symmetric)
     if inverse.singular and joints is not None:
         R = share * joints.closed_stiffness()
         A = sp.csr_array(A + joints.J.T @ sp.csr_array(R) @ joints.J)
-        inverse = invert(sp.csr_array(T.T @ A @ T), True)
+        inverse = invert(sp.csr_array(V.T @ A @ T), symmetric)
     if inverse.singular and not (free and joints is None):
         message, hint = describe_motions(problem.numbering, T @ inverse.kernel)
         raise SingularMatrixError(
@@ -107,7 +108,7 @@ def effective_of(
         )
     Y = np.zeros((problem.numbering.size, q))
     if joints is not None:
-        right = sp.csc_array(T.T @ joints.J.T)
+        right = sp.csc_array(V.T @ joints.J.T)
         for start in range(0, q, COLUMNS):
             part = right[:, start : start + COLUMNS].toarray()
             Y[:, start : start + COLUMNS] = T @ inverse.solve(part)

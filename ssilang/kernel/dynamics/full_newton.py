@@ -30,15 +30,15 @@ class FullNewtonSolver:
         residual = np.inf
         for turn in range(1, MOST_TURNS + 1):
             K, force = self._joints(motion, du, f, new)
-            rest = self.constraints.T.T @ (r - self.A @ du - force)
+            rest = self.constraints.V.T @ (r - self.A @ du - force)
             scale = np.abs(r).max(initial=0.0) + np.abs(self.A @ du).max(initial=0.0)
             residual = float(np.abs(rest).max(initial=0.0)) / max(scale, 1e-300)
             if turn > 1 and residual <= TOLERANCE:
                 self._commit(motion, du, f, new)
                 return StepOutcome(du, turn, residual)
-            T = self.constraints.T
+            T, V = self.constraints.T, self.constraints.V
             try:
-                factor = factorise(sp.csr_array(T.T @ (self.A + K) @ T), False)
+                factor = factorise(sp.csr_array(V.T @ (self.A + K) @ T), False)
             except SingularFactorError:
                 return StepOutcome(du, 0, residual)
             du = du + T @ factor.solve(rest)

@@ -75,8 +75,8 @@ class ImpactRule:
 
 def _mass_motions(problem: Problem, effective: Effective, contact: ContactRows) -> FloatArray:
     """`M^-1 G^T` on the admissible motions (n, m)."""
-    T = problem.constraints.T
+    T, V = problem.constraints.T, problem.constraints.V
     mass = problem.M + (MASSLESS * 0.25 * effective.dt**2) * effective.A
-    inverse = invert(sp.csr_array(T.T @ mass @ T), True)
-    found: FloatArray = T @ inverse.solve(T.T @ contact.G.T.toarray())
+    inverse = invert(sp.csr_array(V.T @ mass @ T), problem.constraints.associated)
+    found: FloatArray = T @ inverse.solve(V.T @ contact.G.T.toarray())
     return found

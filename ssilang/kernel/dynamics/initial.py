@@ -117,8 +117,10 @@ def _accelerated(problem: Problem, force: FloatArray) -> FloatArray:
     """Accelerations (n,) or (n, k) that forces give to the motions that have mass."""
     import scipy.sparse.linalg as spla
 
-    T = problem.constraints.T
-    mass = sp.csr_array(T.T @ problem.M @ T)
+    T, V = problem.constraints.T, problem.constraints.V
+    mass = sp.csr_array(V.T @ problem.M @ T)
+    if not problem.constraints.associated:
+        return np.asarray(T @ _least_squares(mass, V.T @ force))
     heavy = np.flatnonzero(np.abs(mass.diagonal()) > 0.0)
     q = np.zeros((T.shape[1], *force.shape[1:]))
     if len(heavy):
@@ -134,6 +136,17 @@ def _accelerated(problem: Problem, force: FloatArray) -> FloatArray:
     return a
 
 
+def _least_squares(mass: sp.csr_array, force: FloatArray) -> FloatArray:
+    """Least q with `mass q = force` as nearly as can be, for a mass that is not symmetric."""
+    import scipy.sparse.linalg as spla
+
+    if mass.nnz == 0:
+        return np.zeros((mass.shape[1], *force.shape[1:]))
+    columns = force.reshape(len(force), -1)
+    found = np.column_stack([spla.lsqr(mass, b, 0.0, 1e-15, 1e-15)[0] for b in columns.T])
+    return found.reshape(mass.shape[1], *force.shape[1:])
+
+
 def initial_energies(problem: Problem, v: FloatArray, joints: JointState) -> FloatArray:
     """Energies at the start, in the order of `compiled_loop` (no work done yet)."""
     stored = lost = 0.0
@@ -144,4 +157,8 @@ def initial_energies(problem: Problem, v: FloatArray, joints: JointState) -> Flo
         )
     kinetic = 0.5 * v @ (problem.M @ v)
     elastic = 0.5 * problem.u @ (problem.K @ problem.u)
+    contact, options = problem.contact, problem.contact_options
+    if contact is not None and options.method == "PENALITE":
+        gaps = contact.gaps(problem.u, problem.loading.at(problem.times[:1])[0])
+        elastic += contact.penalty_energy(gaps, options.coefficient)
     return np.array([kinetic, elastic, stored, lost, 0.0, 0.0])

@@ -343,10 +343,9 @@ def _kind_of(problem: Problem, full_newton: bool) -> type[_Engine]:
     KernelError
         For combinations that do not exist.
     """
-    if problem.contact is not None and (problem.scheme.conserving or full_newton):
+    if problem.contact is not None and full_newton:
         raise KernelError(
-            "unilateral relations go with neither the conserving step nor full Newton",
-            "describe contact by joints (JOINT_SDM)",
+            "unilateral relations do not go with full Newton", "leave 'NEWTON_COMPLET'"
         )
     scheme = problem.scheme
     if scheme.adaptive and (scheme.conserving or full_newton or problem.contact is not None):

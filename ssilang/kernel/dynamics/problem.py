@@ -87,7 +87,7 @@ class Problem:
     @property
     def small(self) -> bool:
         """Whether the compiled loop on dense matrices serves."""
-        return self.numbering.size <= SMALL and self.contact is None
+        return self.numbering.size <= SMALL and self.contact is None and self.constraints.associated
 
 
 @dataclass(frozen=True, eq=False)

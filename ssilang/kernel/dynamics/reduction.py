@@ -126,6 +126,8 @@ def refuse_reduction(problem: Problem) -> None:
             "'REDUCTION' does not take unilateral relations (MINI, MAXI)",
             hint + ", or describe contact by joints (JOINT_SDM)",
         )
+    if not problem.constraints.associated:
+        raise KernelError("'REDUCTION' does not take non-associated relations (DUAL)", hint)
     if problem.loading.imposed.any() or np.any(problem.constraints.C @ problem.u):
         raise KernelError(
             "'REDUCTION' does not take imposed displacements (DIMP): supports must stay still",

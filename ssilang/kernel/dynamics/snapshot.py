@@ -47,7 +47,7 @@ class Snapshot:
 
     @property
     def _multipliers(self) -> FloatArray:
-        """Reactions of the equalities, C^T of which is what they push by."""
+        """Reactions of the equalities, D^T of which is what they push by."""
         rest = self.reaction
         if self.problem.contact is not None:
             rest = rest - self.problem.contact.G.T @ self.contact
@@ -76,7 +76,7 @@ class Snapshot:
     @property
     def reactions(self) -> NodeField:
         """Forces of the conditions on the body, by dual names."""
-        rows = self.problem.constraints.C
+        rows = self.problem.constraints.D
         forces = rows.T @ self._multipliers
         if self.problem.contact is not None:
             forces = forces + self.problem.contact.G.T @ self.contact

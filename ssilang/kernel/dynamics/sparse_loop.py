@@ -105,6 +105,33 @@ class CondensedSolver:
         )
 
 
+def support_work(
+    problem: Problem,
+    reaction: FloatArray,
+    pushed: FloatArray,
+    du: FloatArray,
+    dd: FloatArray,
+    dc: FloatArray,
+) -> float:
+    """Work of moving supports and stops in a step, and of non-associated relations.
+
+    Parameters
+    ----------
+    reaction : array (n,)
+        Mean force of all conditions on the body.
+    pushed : array (m,)
+        Mean reactions of the unilateral relations.
+    du, dd, dc : increments of displacement, imposed values and load factors.
+    """
+    contact, rest, work = problem.contact, reaction, 0.0
+    if contact is not None and len(pushed):
+        rest = reaction - contact.G.T @ pushed
+        work = float(pushed @ (contact.imposed @ dc))
+    if not problem.constraints.associated:
+        return work + float(rest @ du)
+    return work + float(dd @ problem.constraints.multipliers(rest)) if dd.any() else work
+
+
 @dataclass(eq=False)
 class SparseLoop:
     """Steps of one dt with a solver for each."""
@@ -136,6 +163,7 @@ class SparseLoop:
         for k in range(len(save)):
             r = self._right_side(loads[k], loads[k + 1], dt)
             dd = imposed[k + 1] - p.constraints.C @ self.motion.u
+            pushed = self.motion.contact.copy()
             outcome = solver.solve(self.motion, r, dd, self._gap(factors[k + 1]))
             if outcome.turns <= 0:
                 return k, outcome.turns, outcome.residual
@@ -146,7 +174,7 @@ class SparseLoop:
                 impact.correct(self.motion, rate)
             if not np.isfinite(self.motion.u).all():
                 return k, -1, np.inf
-            self._account(outcome.du, dd, loads[k], loads[k + 1], dt)
+            self._account(outcome.du, dd, loads[k], loads[k + 1], pushed, factors[k : k + 2])
             history[k] = self.motion.energies
             if save[k] >= 0:
                 self.keep(saved, int(save[k]))
@@ -186,8 +214,15 @@ class SparseLoop:
         m.a[:] = (du / dt - v0) / (s.beta * dt) - (0.5 / s.beta - 1) * m.a
 
     def _account(
-        self, du: FloatArray, dd: FloatArray, load0: FloatArray, load1: FloatArray, dt: float
+        self,
+        du: FloatArray,
+        dd: FloatArray,
+        load0: FloatArray,
+        load1: FloatArray,
+        pushed: FloatArray,
+        factors: FloatArray,
     ) -> None:
+        """Reactions and energies; `pushed` are the contact reactions at the step's start."""
         p, m = self.problem, self.motion
         old = m.reaction.copy()
         Cv = self._Cv
@@ -199,9 +234,14 @@ class SparseLoop:
         if self._J is not None:
             m.reaction[:] += self._J @ m.f
         m.energies[EXTERNAL] += 0.5 * du @ (load0 + load1)
-        if dd.any():
-            m.energies[EXTERNAL] += dd @ p.constraints.multipliers(0.5 * (old + m.reaction))
+        m.energies[EXTERNAL] += support_work(
+            p, 0.5 * (old + m.reaction), 0.5 * (pushed + m.contact), du, dd, factors[1] - factors[0]
+        )
         m.energies[KINETIC], m.energies[ELASTIC] = 0.5 * m.v @ self._Mv, 0.5 * m.u @ self._Ku
+        if p.contact is not None and p.contact_options.method == "PENALITE":
+            m.energies[ELASTIC] += p.contact.penalty_energy(
+                self._gap(factors[1]), p.contact_options.coefficient
+            )
         joints = p.interface
         if joints is not None:
             m.energies[STORED], m.energies[LOST] = interface_energies(

@@ -14,7 +14,7 @@ from ssilang.kernel.dynamics.integrate import History, Progress
 from ssilang.kernel.dynamics.motion import Motion, snapshot_of
 from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.dynamics.snapshot import Observer
-from ssilang.kernel.dynamics.sparse_loop import NOTHING, StepOutcome, StepSolver
+from ssilang.kernel.dynamics.sparse_loop import NOTHING, StepOutcome, StepSolver, support_work
 from ssilang.kernel.dynamics.step_solvers import step_solver
 from ssilang.kernel.errors import ConvergenceError
 from ssilang.kernel.joints.response import interface_energies
@@ -92,6 +92,7 @@ def _step(problem: Problem, solver: StepSolver, motion: Motion, factors: FloatAr
     dd = problem.loading.imposed @ factors[1] - problem.constraints.C @ motion.u
     contact = problem.contact
     gap = NOTHING if contact is None else contact.gaps(motion.u, factors[1])
+    pushed = motion.contact.copy()
     outcome = solver.solve(motion, r, dd, gap)
     if outcome.turns <= 0 or not np.isfinite(outcome.du).all():
         return outcome if outcome.turns <= 0 else StepOutcome(outcome.du, -1, np.inf)
@@ -101,10 +102,15 @@ def _step(problem: Problem, solver: StepSolver, motion: Motion, factors: FloatAr
     motion.reaction[:] = _imbalance(problem, motion, factors[1])
     mean = 0.5 * (factors[0] + factors[1])
     motion.energies[EXTERNAL] += outcome.du @ (problem.loading.forces @ mean)
-    if dd.any():
-        supports = problem.constraints.multipliers(0.5 * (old + motion.reaction))
-        motion.energies[EXTERNAL] += dd @ supports
+    motion.energies[EXTERNAL] += support_work(
+        problem, 0.5 * (old + motion.reaction), 0.5 * (pushed + motion.contact), outcome.du, dd,
+        factors[1] - factors[0],
+    )  # fmt: skip
     motion.energies[ELASTIC] = 0.5 * motion.u @ (problem.K @ motion.u)
+    if contact is not None and problem.contact_options.method == "PENALITE":
+        motion.energies[ELASTIC] += contact.penalty_energy(
+            contact.gaps(motion.u, factors[1]), problem.contact_options.coefficient
+        )
     joints = problem.interface
     if joints is not None:
         motion.energies[STORED], motion.energies[LOST] = interface_energies(
@@ -117,7 +123,7 @@ def _polish(problem: Problem, solver: StepSolver, motion: Motion, factors: Float
     """One more solution for what rounding left out of balance (stiff joints on soft bodies)."""
     if problem.contact is not None:
         return
-    T = problem.constraints.T
+    T = problem.constraints.V
     rest = T.T @ _imbalance(problem, motion, factors)
     size = np.abs(T.T @ (problem.loading.forces @ factors)).max(initial=0.0)
     if np.abs(rest).max(initial=0.0) <= BALANCED * max(size, 1e-300):

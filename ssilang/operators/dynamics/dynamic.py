@@ -213,6 +213,8 @@ def _correction(entries: Entries, method: str) -> str:
     scheme = scheme_of(entries)
     average = scheme.average_acceleration
     given = entries.get("VITEUNIL", "LOGIQUE", "MOT")
+    if scheme.conserving:
+        return _no_correction(entries, given)
     if given is None:
         return "MASSE" if average and method != "PENALITE" else "FAUX"
     word = {True: "MASSE", False: "FAUX"}.get(given, str(given).upper().rstrip())
@@ -224,6 +226,21 @@ def _correction(entries: Entries, method: str) -> str:
             "leave ALPHA_F, RHO_INF, BETA and GAMMA, or VITEUNIL = FAUX",
         )
     return word
+
+
+def _no_correction(entries: Entries, given: object) -> str:
+    """The conserving step reflects velocities by itself."""
+    if given is not None and given is not False and str(given).upper().rstrip() != "FAUX":
+        entries.warn(
+            "'VITEUNIL' has no effect: the conserving step keeps the energy of impacts by itself",
+            "VITEUNIL = FAUX",
+        )
+    if entries.flag("CONTACT_PERSISTANT"):
+        raise entries.bad(
+            "'CONTACT_PERSISTANT' takes energy, 'CONSERVATIF' keeps it: they exclude each other",
+            "leave one",
+        )
+    return "FAUX"
 
 
 def scheme_of(entries: Entries) -> Scheme:
