@@ -218,10 +218,12 @@ def test_wavelets_give_amplitude_frequency_and_phase_of_a_sine(found):
     )
     ridge, phase, field, cells = found(script, "R", "P", "C", "N")
     for found_ridge in (ridge, phase):
-        (_, f), (_, size) = parts(found_ridge)
+        (t, f), (_, size) = parts(found_ridge)
         assert len(f) > 500
-        np.testing.assert_allclose(f, 1.5, rtol=3e-3)  # the grid of scales is this fine
-        np.testing.assert_allclose(size, 3.0, rtol=3e-3)  # the ends still count a little
+        # two scales from the ends still count e^-2; in the middle nothing does
+        middle = (t > 4) & (t < 16)
+        np.testing.assert_allclose(f[middle], 1.5, rtol=3e-3)  # the grid of scales is this fine
+        np.testing.assert_allclose(size[middle], 3.0, rtol=1e-3)
     assert cells == 20 * 511
     assert field.components["MODU"].values.max() == pytest.approx(3.0, rel=0.01)
 

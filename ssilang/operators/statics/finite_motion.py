@@ -1,0 +1,233 @@
+"""POLA PICA CAPI WORK FOFI TAGR: gradients and configurations of finite motions."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from ssilang.kernel.elements.boundary import is_solid
+from ssilang.kernel.elements.family import cell_block
+from ssilang.kernel.elements.finite_motion import (
+    carried,
+    gradient_components,
+    gradient_forces,
+    polar,
+    transformation,
+    work,
+)
+from ssilang.kernel.elements.gradients import gradient_names
+from ssilang.kernel.elements.loads import total
+from ssilang.kernel.elements.tensors import components_at_home
+from ssilang.kernel.elements.zone_fields import zone_field
+from ssilang.kernel.errors import FieldError
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.model import Zone
+from ssilang.language.call import Call
+from ssilang.language.registry import Help, arg, operator
+from ssilang.operators.matrices.element import joined
+from ssilang.operators.statics.stresses import Reading, on_zones
+
+_SQUARE = (
+    "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; L = DROI 1 (0 0) (1 0) ; S = TRAN 1 L (0. 1.) ; "
+    "M = MODE S MECANIQUE ELASTIQUE ; A = MATE M 'YOUN' 2. 'NU' 0.3 ; "
+    "X Y = COOR S ; U = (NOMC 'UX' (0.5 * X) 'NATU' 'DIFFUS') ET (NOMC 'UY' (0. * Y) 'NATU' "
+    "'DIFFUS') ; "
+)
+
+
+def _solid(zone: Zone, name: str) -> None:
+    if not is_solid(zone):
+        raise FieldError(f"{name} is for continuous elements, not {zone.element}")
+
+
+def _stands(zone: Zone, field: CellField, names: tuple[str, ...]) -> bool:
+    seen = zone_field(zone, field)
+    return any(n in seen for n in names)
+
+
+@operator(
+    "POLA",
+    family="stress",
+    full_name="POLAIRE",
+    help=Help(
+        en="Polar decomposition F = R U of a field of gradients: F itself ('GEOM', the default) "
+        "or F - 1 ('DEPL', what GRAD gives of a displacement). R is a rotation, U a symmetric "
+        "stretch; both are fields of gradients.",
+        fr="Décomposition polaire F = R U d'un champ de gradients : F lui-même ('GEOM', par "
+        "défaut) ou F - 1 ('DEPL', ce que GRAD donne d'un déplacement). R est une rotation, U une "
+        "déformation pure symétrique ; tous deux sont des champs de gradients.",
+        syntax="R1 U1 = POLA MODL1 GRAD1 ('GEOM' | 'DEPL') ;",
+        examples=(
+            _SQUARE + "R V = POLA M (GRAD M U) 'DEPL' ; LIST (MAXI (EXCO 'UX,X' V)) ; "
+            "LIST (MAXI (EXCO 'UX,X' R)) ;",
+        ),
+    ),
+    reads_itself=True,
+)
+def pola(call: Call) -> tuple[CellField, CellField]:
+    """Rotation and stretch."""
+    said = Reading(call, ("GEOM", "DEPL"))
+    gradient, by_displacement = said.field(), "DEPL" in said.words
+    rows: tuple[list[CellFieldBlock], list[CellFieldBlock]] = ([], [])
+    for zone in said.model.zones:
+        _solid(zone, "POLA")
+        names = gradient_names(zone)
+        flat, support = components_at_home(zone, gradient, names)
+        for row, tensor in zip(
+            rows, polar(transformation(zone, flat, by_displacement)), strict=True
+        ):
+            row.append(cell_block(zone, names, gradient_components(zone, tensor), support))
+    turned, stretched = (CellField(tuple(r), "GRADIENT") for r in rows)
+    return turned, stretched
+
+
+def _carried(call: Call, name: str, forward: bool) -> CellField:
+    said = Reading(call, ("JAUM", "UTIL"))
+    field, u = said.field(), said.displacement()
+    if len(said.nodal) > 1:
+        raise call.bad(f"{name} takes one field of displacements: cracks (XFEM) are not built")
+    if "UTIL" in said.words:
+        return field
+
+    def make(zone: Zone) -> CellFieldBlock:
+        _solid(zone, name)
+        names, values, support = carried(zone, field, u, forward, "JAUM" in said.words)
+        return cell_block(zone, names, values, support)
+
+    return on_zones(said.model, field.title, make)
+
+
+@operator(
+    "PICA",
+    family="stress",
+    help=Help(
+        en="Stresses of Piola-Kirchhoff (second kind) changed into Cauchy's, or strains of "
+        "Green-Lagrange into Almansi's, for the displacement DEP1 from the present mesh. 'JAUM' "
+        "turns from the frame that follows the matter to the general one; 'UTIL' changes nothing.",
+        fr="Contraintes de Piola-Kirchhoff (seconde espèce) changées en contraintes de Cauchy, ou "
+        "déformations de Green-Lagrange en déformations d'Almansi, pour le déplacement DEP1 à "
+        "partir du maillage actuel. 'JAUM' passe du repère qui tourne avec la matière au repère "
+        "général ; 'UTIL' ne change rien.",
+        syntax="CH2 = PICA ('JAUM' | 'UTIL') MODL1 CH1 DEP1 ;",
+        examples=(_SQUARE + "LIST (MAXI (EXCO 'SMXX' (PICA M (SIGM 'QUAD' M A U) U))) ;",),
+    ),
+    reads_itself=True,
+)
+def pica(call: Call) -> CellField:
+    """From the reference to the present configuration."""
+    return _carried(call, "PICA", True)
+
+
+@operator(
+    "CAPI",
+    family="stress",
+    help=Help(
+        en="Stresses of Cauchy changed into Piola-Kirchhoff's (second kind), or strains of Almansi "
+        "into Green-Lagrange's: the inverse of PICA. 'JAUM' turns from the general frame to the "
+        "one that follows the matter; 'UTIL' changes nothing.",
+        fr="Contraintes de Cauchy changées en contraintes de Piola-Kirchhoff (seconde espèce), ou "
+        "déformations d'Almansi en déformations de Green-Lagrange : l'inverse de PICA. 'JAUM' "
+        "passe du repère général à celui qui tourne avec la matière ; 'UTIL' ne change rien.",
+        syntax="CH2 = CAPI ('JAUM' | 'UTIL') MODL1 CH1 DEP1 ;",
+        examples=(_SQUARE + "LIST (MAXI (EXCO 'SMXX' (CAPI M (SIGM M A U) U))) ;",),
+    ),
+    reads_itself=True,
+)
+def capi(call: Call) -> CellField:
+    """From the present to the reference configuration."""
+    return _carried(call, "CAPI", False)
+
+
+@operator(
+    "WORK",
+    family="stress",
+    help=Help(
+        en="Trace of the product of a field of stresses and a field of gradients, in continuous "
+        "elements.",
+        fr="Trace du produit d'un champ de contraintes et d'un champ de gradients, dans les "
+        "éléments massifs.",
+        syntax="WORK1 = WORK MODL1 SIG1 GRAD1 ;",
+        examples=(_SQUARE + "LIST (INTG M (WORK M (SIGM M A U) (GRAD M U))) ;",),
+    ),
+    reads_itself=True,
+)
+def work_of(call: Call) -> CellField:
+    """Work of stresses on gradients."""
+    said = Reading(call)
+    stress, gradient = _stress_and_gradient(said)
+
+    def make(zone: Zone) -> CellFieldBlock:
+        _solid(zone, "WORK")
+        values, support = work(zone, stress, gradient)
+        return CellFieldBlock(zone.cells, {"SCAL": values}, support, zone.element, zone.constituent)
+
+    return on_zones(said.model, "SCALAIRE", make)
+
+
+def _stress_and_gradient(said: Reading) -> tuple[CellField, CellField]:
+    if len(said.cells) < 2:
+        raise said.call.missing(("MCHAML",))
+    zones = [z for z in said.model.zones if is_solid(z)]
+    gradient = next(
+        (f for f in said.cells if any(_stands(z, f, gradient_names(z)) for z in zones)), None
+    )
+    if gradient is None:
+        raise said.call.bad("no field of gradients is given", hint="GRAD makes one")
+    stress = next(f for f in said.cells if f is not gradient)
+    return stress, gradient
+
+
+@operator(
+    "FOFI",
+    family="stress",
+    full_name="FOFISS",
+    help=Help(
+        en="Nodal forces of stresses S on the gradients of a displacement u: their work in v is "
+        "the integral of S_ij du_k/dx_i dv_k/dx_j, as BSIG for the part of the strain of second "
+        "order.",
+        fr="Forces nodales de contraintes S sur les gradients d'un déplacement u : leur travail "
+        "dans v est l'intégrale de S_ij du_k/dx_i dv_k/dx_j, comme BSIG pour la partie quadratique "
+        "de la déformation.",
+        syntax="FORC1 = FOFI MODL1 SIG1 GRDEP1 (CAR1) ;",
+        examples=(_SQUARE + "LIST (MAXI (FOFI M (SIGM M A U) (GRAD M U))) ;",),
+    ),
+    reads_itself=True,
+)
+def fofi(call: Call) -> NodeField:
+    """Forces of stresses on gradients."""
+    said = Reading(call)
+    stress, gradient = _stress_and_gradient(said)
+    rest = tuple(f for f in said.cells if f is not stress and f is not gradient)
+    forces = []
+    for zone in said.model.zones:
+        _solid(zone, "FOFI")
+        parameters = zone_field(zone, joined(rest) if rest else None)
+        forces.append(gradient_forces(zone, stress, gradient, parameters))
+    return total(forces[0].table, forces)
+
+
+@operator(
+    "TAGR",
+    arg("gradient", "MCHAML"),
+    family="stress",
+    help=Help(
+        en="Transposed field of gradients: UX,Y and UY,X change places.",
+        fr="Champ de gradients transposé : UX,Y et UY,X sont échangés.",
+        syntax="GRAD1 = TAGR GRAD2 ;",
+        examples=(_SQUARE + "LIST (MAXI (EXCO 'UX,X' (TAGR (GRAD M U)))) ;",),
+    ),
+)
+def tagr(call: Call, gradient: CellField) -> CellField:
+    """Transpose gradients."""
+    blocks = []
+    for block in gradient.blocks:
+        names = {n: f"U{n[3]},{n[1]}" for n in block.components if len(n) == 4 and n[2] == ","}
+        if not names or any(n not in block.components for n in names.values()):
+            raise call.bad(
+                "a field of gradients has components UX,X UX,Y ...; this one has "
+                + " ".join(block.components),
+                gradient,
+            )
+        made = {n: block.components[names.get(n, n)] for n in block.components}
+        blocks.append(replace(block, components=made))
+    return CellField(tuple(blocks), gradient.title)
