@@ -33,6 +33,12 @@ PICTURES = {
     "footing/housner_block": {1: "housner_block"},
     "footing/block_on_soil": {1: "block_lift", 3: "block_energies", 4: "block_deformed"},
     "impact/bar_bounce": {1: "bar_bounce"},
+    "seismic/tower_quake": {
+        1: "quake_surface",
+        2: "quake_lift",
+        3: "quake_moment",
+        4: "quake_deformed",
+    },
 }
 
 

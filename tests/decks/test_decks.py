@@ -36,6 +36,7 @@ SPOILT = [
     ("footing/disc_uplift.ssi", "'KN' K0 'KS'", "'KN' (1.1 * K0) 'KS'"),
     ("footing/macro_element.ssi", "'KS' 1.E8 'RAYO' R0", "'KS' 1.E8 'RAYO' (1.001 * R0)"),
     ("footing/strip_uplift.ssi", "'KN' K0 'KS'", "'KN' (1.02 * K0) 'KS'"),
+    ("seismic/tower_quake.ssi", ". 'YOUNG' = YOUS", ". 'YOUNG' = 1.02 * YOUS"),
 ]
 
 # a spoilt deck need not run to its end
@@ -43,6 +44,7 @@ SHORTER = {
     "club_cast3m_2014/club_a_methods.ssi": ("DUREE = 0.4 ;", "DUREE = 0.04 ;"),
     "club_cast3m_2014/club_b_sdm.ssi": ("DUREE = 1. ;", "DUREE = 0.3 ;"),
     "club_cast3m_2014/club_c_sdm.ssi": ("DUREE = 1. ;", "DUREE = 0.3 ;"),
+    "seismic/tower_quake.ssi": ("DUREE = 3. ;", "DUREE = 1.5 ;"),
 }
 
 
