@@ -8,14 +8,11 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ssilang.kernel.dynamics.adaptive import AdaptiveLoop
 from ssilang.kernel.dynamics.bodies import full_uplift
-from ssilang.kernel.dynamics.compiled_loop import N_ENERGIES, Motion, Saved, march
-from ssilang.kernel.dynamics.conserving import ConservingLoop
+from ssilang.kernel.dynamics.compiled_loop import N_ENERGIES, Motion, Saved
 from ssilang.kernel.dynamics.contact import TOUCHING, BoolArray
-from ssilang.kernel.dynamics.dense_loop import joints_of, operators_of, system_of
-from ssilang.kernel.dynamics.effective import effective_matrix, effective_of
-from ssilang.kernel.dynamics.impact import ImpactRule
+from ssilang.kernel.dynamics.driven import Drive, Driver
+from ssilang.kernel.dynamics.engines import Engine, kind_of
 from ssilang.kernel.dynamics.initial import (
     admissible_velocity,
     initial_acceleration,
@@ -26,13 +23,10 @@ from ssilang.kernel.dynamics.initial import (
 from ssilang.kernel.dynamics.motion import snapshot_of
 from ssilang.kernel.dynamics.plan import Run, runs_of
 from ssilang.kernel.dynamics.problem import Problem
-from ssilang.kernel.dynamics.reduced_loop import ReducedLoop, supports_are_still
 from ssilang.kernel.dynamics.reduction import Reduction
 from ssilang.kernel.dynamics.snapshot import Observer, Snapshot
-from ssilang.kernel.dynamics.sparse_loop import SparseLoop, StepSolver
-from ssilang.kernel.dynamics.step_solvers import step_solver
-from ssilang.kernel.errors import ConvergenceError, KernelError
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+from ssilang.kernel.errors import ConvergenceError
+from ssilang.kernel.mesh.nodes import FloatArray
 
 CHUNK_VALUES = 4_000_000  # saved values held at once
 CHUNK_SECONDS = 0.5  # wished duration of a chunk of steps: progress and interruption
@@ -83,10 +77,14 @@ class Integration:
     observers: Sequence[Observer] = ()
     progress: Progress | None = None
     full_newton: bool = False
+    driver: Driver | None = None
     motion: Motion = field(init=False)
 
     def __post_init__(self) -> None:
-        p = self.problem
+        p, self._drive = self.problem, None
+        if self.driver is not None:
+            self._drive = Drive(self.problem, self.driver, self.full_newton)
+            p = self._drive.start()
         joints = joint_state(p)
         v = admissible_velocity(p)
         self._closed = _closed_at_start(p)
@@ -100,8 +98,8 @@ class Integration:
             p.u.copy(), v, a, joints.delta, joints.f, joints.w, joints.t, joints.state,
             reaction, energies, pushing,
         )  # fmt: skip
-        self._engines: dict[float, _Engine] = {}
-        self._kind = _kind_of(p, self.full_newton)
+        self._engines: dict[float, Engine] = {}
+        self._kind = kind_of(p, self.full_newton)
 
     def run(self) -> History:
         """All steps.
@@ -147,12 +145,17 @@ class Integration:
                 self.progress(done, len(times) - 1)
 
     def _steps(self, run: Run, history: History, wanted: np.ndarray) -> None:
-        engine = self._engine(run.dt)
-        history.solver, history.loop = engine.solver, engine.name
         first = run.first
         while first < run.last:
             last = self._within_memory(first, run.last, wanted)
             factors = self.problem.loading.at(history.times[first : last + 1])
+            engine: Engine
+            if self._drive is None:
+                engine = self._engine(run.dt)
+            else:
+                at = float(history.times[last])
+                engine, factors = self._drive.engine(self.motion, run.dt, at, factors, self._closed)
+            history.solver, history.loop = engine.solver, engine.name
             chosen = wanted[first + 1 : last + 1]
             save = np.where(chosen, np.cumsum(chosen) - 1, -1).astype(np.int64)
             saved = self._room(int(chosen.sum()))
@@ -168,12 +171,14 @@ class Integration:
             first = last
 
     def _within_memory(self, first: int, last: int, wanted: np.ndarray) -> int:
+        if self._drive is not None:
+            return first + 1
         room = max(CHUNK_VALUES // max(4 * len(self.motion.u), 1), 1)
         counts = np.cumsum(wanted[first + 1 : last + 1])
         over = np.flatnonzero(counts > room)
         return last if len(over) == 0 else first + max(int(over[0]), 1)
 
-    def _engine(self, dt: float) -> _Engine:
+    def _engine(self, dt: float) -> Engine:
         found = self._engines.get(dt)
         if found is None:
             if len(self._engines) >= FACTORS_KEPT:
@@ -193,8 +198,9 @@ class Integration:
 
     def _kept(self, s: Saved, row: int, step: int) -> Snapshot:
         time_ = float(self.problem.times[step])
+        problem = self.problem if self._drive is None else self._drive.problem
         return Snapshot(
-            self.problem, step, time_, s.u[row], s.v[row], s.a[row], s.reaction[row], s.w[row],
+            problem, step, time_, s.u[row], s.v[row], s.a[row], s.reaction[row], s.w[row],
             s.t[row], s.state[row], s.contact[row],
         )  # fmt: skip
 
@@ -225,102 +231,6 @@ class Integration:
         )
 
 
-class _ConservingEngine:
-    """The energy-conserving loop."""
-
-    name = "conserving"
-
-    def __init__(
-        self, problem: Problem, motion: Motion, dt: float, full: bool, closed: BoolArray
-    ) -> None:
-        effective = effective_of(problem, effective_matrix(problem, dt), dt, 2.0)
-        self.solver = effective.inverse.factor.name
-        self._loop = ConservingLoop(problem, motion, effective)
-
-    def march(
-        self, factors: FloatArray, save: IntArray, saved: Saved, history: FloatArray
-    ) -> tuple[int, int, float]:
-        return self._loop.march(factors, save, saved, history)
-
-
-class _AdaptiveEngine:
-    """Steps split at contact events."""
-
-    name = "adaptive"
-
-    def __init__(
-        self, problem: Problem, motion: Motion, dt: float, full: bool, closed: BoolArray
-    ) -> None:
-        self._loop = AdaptiveLoop(problem, motion, dt)
-        self.solver = self._loop.solver
-
-    def march(
-        self, factors: FloatArray, save: IntArray, saved: Saved, history: FloatArray
-    ) -> tuple[int, int, float]:
-        return self._loop.march(factors, save, saved, history)
-
-
-class _DenseEngine:
-    """The compiled loop."""
-
-    name = "compiled"
-
-    def __init__(
-        self, problem: Problem, motion: Motion, dt: float, full: bool, closed: BoolArray
-    ) -> None:
-        share = 1 - problem.scheme.alpha_f
-        effective = effective_of(problem, effective_matrix(problem, dt), dt, share)
-        self.solver = effective.inverse.factor.name
-        self._reduced: ReducedLoop | None = None
-        if supports_are_still(problem):
-            self._reduced = ReducedLoop(problem, motion, effective)
-            return
-        self._system = system_of(problem)
-        self._operators = operators_of(problem, effective)
-        self._joints = joints_of(problem)
-        self._motion = motion
-
-    def march(
-        self, factors: FloatArray, save: IntArray, saved: Saved, history: FloatArray
-    ) -> tuple[int, int, float]:
-        if self._reduced is not None:
-            return self._reduced.march(factors, save, saved, history)
-        return march(
-            self._system, self._operators, self._joints, self._motion, factors, save, saved, history
-        )
-
-
-class _SparseEngine:
-    """The loop on sparse matrices."""
-
-    name = "condensed"
-
-    def __init__(
-        self, problem: Problem, motion: Motion, dt: float, full: bool, closed: BoolArray
-    ) -> None:
-        A = effective_matrix(problem, dt)
-        share = 1 - problem.scheme.alpha_f
-        self._step: StepSolver
-        self._impact: ImpactRule | None = None
-        if full:
-            from ssilang.kernel.dynamics.full_newton import FullNewtonSolver
-
-            self.solver, self.name = "SuperLU", "full Newton"
-            self._step = FullNewtonSolver(problem, A, share)
-        else:
-            effective = effective_of(problem, A, dt, share)
-            self.solver = effective.inverse.factor.name
-            self._step = step_solver(problem, effective)
-            if problem.contact is not None:
-                self._impact = ImpactRule(problem, effective, problem.contact, closed)
-        self._loop, self._dt = SparseLoop(problem, motion), dt
-
-    def march(
-        self, factors: FloatArray, save: IntArray, saved: Saved, history: FloatArray
-    ) -> tuple[int, int, float]:
-        return self._loop.march(self._step, self._dt, factors, save, saved, history, self._impact)
-
-
 def _closed_at_start(problem: Problem) -> BoolArray:
     """Unilateral rows that touch in the initial state."""
     contact = problem.contact
@@ -332,39 +242,12 @@ def _closed_at_start(problem: Problem) -> BoolArray:
     return closed
 
 
-_Engine = _DenseEngine | _SparseEngine | _ConservingEngine | _AdaptiveEngine
-
-
-def _kind_of(problem: Problem, full_newton: bool) -> type[_Engine]:
-    """Which engine runs a problem.
-
-    Raises
-    ------
-    KernelError
-        For combinations that do not exist.
-    """
-    if problem.contact is not None and full_newton:
-        raise KernelError(
-            "unilateral relations do not go with full Newton", "leave 'NEWTON_COMPLET'"
-        )
-    scheme = problem.scheme
-    if scheme.adaptive and (scheme.conserving or full_newton or problem.contact is not None):
-        raise KernelError(
-            "steps are adapted to the contact of joints alone",
-            "leave the conserving step, full Newton and MINI/MAXI relations",
-        )
-    if scheme.adaptive and problem.interface is not None:
-        return _AdaptiveEngine
-    if scheme.conserving:
-        return _ConservingEngine
-    return _SparseEngine if full_newton or not problem.small else _DenseEngine
-
-
 def integrate(
     problem: Problem,
     observers: Sequence[Observer] = (),
     progress: Progress | None = None,
     full_newton: bool = False,
+    driver: Driver | None = None,
 ) -> History:
     """Integrate a problem over its times.
 
@@ -374,10 +257,12 @@ def integrate(
         Each receives the instants it wants.
     full_newton : bool
         Refactorise at each iteration instead of condensing the interface (comparison).
+    driver : callable, optional
+        What it adds to matrices and loads at each step; see `driven`.
 
     Raises
     ------
     ConvergenceError, SingularMatrixError
         See `Integration.run`.
     """
-    return Integration(problem, observers, progress, full_newton).run()
+    return Integration(problem, observers, progress, full_newton, driver).run()

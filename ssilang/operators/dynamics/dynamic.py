@@ -22,6 +22,7 @@ from ssilang.kernel.model import Model
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
 from ssilang.language.values import ListMots, ListReel, Mot, Table
+from ssilang.operators.dynamics.charmeca import AddedByProcedure
 from ssilang.operators.dynamics.motion_observers import CsvObserver, TableObserver, VtkObserver
 from ssilang.operators.files.outputs import output_path, run_output
 from ssilang.operators.session.progress import COMPILING, ProgressLine
@@ -47,10 +48,9 @@ KNOWN = (
     "PAS_SAUVES", "TEMPS_SAUVES", "MAILLAGE_SAUVE", "SAUV",
     "ECON", "PAS_SAUVES_VTK", "TEMPS_SAUVES_VTK", "MAILLAGE_VTK", "FICHIER_VTK",
     "PAS_SAUVES_CSV", "TEMPS_SAUVES_CSV", "MAILLAGE_CSV", "COMPOSANTES_CSV", "FICHIER_CSV",
-    "CHARMECA", "VITEUNIL", "ALPHA_F", "RHO_INF", "BETA", "GAMMA", "NEWTON_COMPLET", "RESULTATS",
-    "RESULTATS_CSV", "ENERGIES", "SOUSTYPE", "REDUCTION", *CONTACT_ENTRIES,
+    "CHARMECA", "ETAT", "VITEUNIL", "ALPHA_F", "RHO_INF", "BETA", "GAMMA", "NEWTON_COMPLET",
+    "RESULTATS", "RESULTATS_CSV", "ENERGIES", "SOUSTYPE", "REDUCTION", *CONTACT_ENTRIES,
 )  # fmt: skip
-REFUSED = {"CHARMECA": "loads computed by a procedure at each step are not built"}
 
 
 @operator(
@@ -73,7 +73,6 @@ def zdyn(call: Call) -> Table:
     from ssilang.kernel.dynamics.problem import make_problem
 
     entries = Entries(call, call.required("TABLE"), "DYNAMIC")
-    entries.refuse(REFUSED)
     entries.warn_unknown(KNOWN)
     times, saved = _times(entries)
     problem = make_problem(_inputs(entries, times))
@@ -104,8 +103,11 @@ def _integrated(
 
     tolerance = entries.get("REDUCTION", "FLOTTANT")
     full = entries.flag("NEWTON_COMPLET")
+    driver = AddedByProcedure(entries) if entries.flag("CHARMECA") else None
     if tolerance is None:
-        return integrate(problem, observers, line, full)
+        return integrate(problem, observers, line, full, driver)
+    if driver is not None:
+        raise entries.bad("'REDUCTION' and 'CHARMECA' exclude each other", "leave one")
     if full:
         raise entries.bad("'REDUCTION' and 'NEWTON_COMPLET' choose two methods", "give one")
     return integrate_reduced(problem, float(tolerance), observers, line)

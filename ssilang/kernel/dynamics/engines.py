@@ -1,0 +1,196 @@
+"""The loops that run steps of one length, behind one interface; which one a problem gets."""
+
+from __future__ import annotations
+
+from typing import cast
+
+from ssilang.kernel.dynamics.adaptive import AdaptiveLoop
+from ssilang.kernel.dynamics.compiled_loop import Motion, Saved, march
+from ssilang.kernel.dynamics.conserving import ConservingLoop
+from ssilang.kernel.dynamics.contact import BoolArray
+from ssilang.kernel.dynamics.dense_loop import joints_of, operators_of, system_of
+from ssilang.kernel.dynamics.effective import effective_matrix, effective_of
+from ssilang.kernel.dynamics.impact import ImpactRule
+from ssilang.kernel.dynamics.problem import Problem
+from ssilang.kernel.dynamics.reduced_loop import ReducedLoop, supports_are_still
+from ssilang.kernel.dynamics.sparse_loop import SparseLoop, StepSolver
+from ssilang.kernel.dynamics.step_solvers import step_solver
+from ssilang.kernel.errors import KernelError
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+
+
+class ConservingEngine:
+    """The energy-conserving loop."""
+
+    name = "conserving"
+
+    def __init__(
+        self, problem: Problem, motion: Motion, dt: float, full: bool, closed: BoolArray
+    ) -> None:
+        effective = effective_of(problem, effective_matrix(problem, dt), dt, 2.0)
+        self.solver = effective.inverse.factor.name
+        self._loop = ConservingLoop(problem, motion, effective)
+
+    def renew(self, problem: Problem) -> None:
+        """Go on with other loads, all else being the same."""
+        self._loop.problem = problem
+
+    def march(
+        self, factors: FloatArray, save: IntArray, saved: Saved, history: FloatArray
+    ) -> tuple[int, int, float]:
+        return self._loop.march(factors, save, saved, history)
+
+
+class AdaptiveEngine:
+    """Steps split at contact events."""
+
+    name = "adaptive"
+
+    def __init__(
+        self, problem: Problem, motion: Motion, dt: float, full: bool, closed: BoolArray
+    ) -> None:
+        self._loop = AdaptiveLoop(problem, motion, dt)
+        self.solver = self._loop.solver
+
+    def renew(self, problem: Problem) -> None:
+        """Go on with other loads, all else being the same."""
+        self._loop.problem = self._loop.loop.problem = problem
+
+    def march(
+        self, factors: FloatArray, save: IntArray, saved: Saved, history: FloatArray
+    ) -> tuple[int, int, float]:
+        return self._loop.march(factors, save, saved, history)
+
+
+class DenseEngine:
+    """The compiled loop."""
+
+    name = "compiled"
+
+    def __init__(
+        self, problem: Problem, motion: Motion, dt: float, full: bool, closed: BoolArray
+    ) -> None:
+        share = 1 - problem.scheme.alpha_f
+        effective = effective_of(problem, effective_matrix(problem, dt), dt, share)
+        self.solver = effective.inverse.factor.name
+        self._reduced: ReducedLoop | None = None
+        if supports_are_still(problem):
+            self._reduced = ReducedLoop(problem, motion, effective)
+            return
+        self._system = system_of(problem)
+        self._operators = operators_of(problem, effective)
+        self._joints = joints_of(problem)
+        self._motion = motion
+
+    def march(
+        self, factors: FloatArray, save: IntArray, saved: Saved, history: FloatArray
+    ) -> tuple[int, int, float]:
+        if self._reduced is not None:
+            return self._reduced.march(factors, save, saved, history)
+        return march(
+            self._system, self._operators, self._joints, self._motion, factors, save, saved, history
+        )
+
+
+class SparseEngine:
+    """The loop on sparse matrices."""
+
+    name = "condensed"
+
+    def __init__(
+        self, problem: Problem, motion: Motion, dt: float, full: bool, closed: BoolArray
+    ) -> None:
+        A = effective_matrix(problem, dt)
+        share = 1 - problem.scheme.alpha_f
+        self._step: StepSolver
+        self._impact: ImpactRule | None = None
+        if full:
+            from ssilang.kernel.dynamics.full_newton import FullNewtonSolver
+
+            self.solver, self.name = "SuperLU", "full Newton"
+            self._step = FullNewtonSolver(problem, A, share)
+        else:
+            effective = effective_of(problem, A, dt, share)
+            self.solver = effective.inverse.factor.name
+            self._step = step_solver(problem, effective)
+            if problem.contact is not None:
+                self._impact = ImpactRule(problem, effective, problem.contact, closed)
+        self._loop, self._dt = SparseLoop(problem, motion), dt
+
+    def renew(self, problem: Problem) -> None:
+        """Go on with other loads, all else being the same."""
+        self._loop.problem = problem
+
+    def march(
+        self, factors: FloatArray, save: IntArray, saved: Saved, history: FloatArray
+    ) -> tuple[int, int, float]:
+        return self._loop.march(self._step, self._dt, factors, save, saved, history, self._impact)
+
+
+class InterleavedEngine:
+    """The compiled loop of large problems; the loop on sparse matrices for what it cannot do."""
+
+    name = "interleaved"
+
+    def __init__(
+        self, problem: Problem, motion: Motion, dt: float, full: bool, closed: BoolArray
+    ) -> None:
+        from ssilang.kernel.dynamics.interleaved_loop import InterleavedLoop, fits
+
+        share = 1 - problem.scheme.alpha_f
+        effective = effective_of(problem, effective_matrix(problem, dt), dt, share)
+        self.solver = effective.inverse.factor.name
+        self._loop: InterleavedLoop | None = None
+        if fits(problem, effective):
+            self._loop = InterleavedLoop(problem, motion, effective)
+            return
+        self.name, self._dt = SparseEngine.name, dt
+        self._step = step_solver(problem, effective)
+        self._plain = SparseLoop(problem, motion)
+
+    def march(
+        self, factors: FloatArray, save: IntArray, saved: Saved, history: FloatArray
+    ) -> tuple[int, int, float]:
+        if self._loop is not None:
+            return self._loop.march(factors, save, saved, history)
+        return self._plain.march(self._step, self._dt, factors, save, saved, history)
+
+
+Engine = DenseEngine | SparseEngine | ConservingEngine | AdaptiveEngine | InterleavedEngine
+
+
+RenewableEngine = SparseEngine | ConservingEngine | AdaptiveEngine
+
+
+def renewable_kind(problem: Problem, full_newton: bool) -> type[RenewableEngine]:
+    """As `kind_of`, for steps whose matrices and loads are made as the motion goes."""
+    kind = kind_of(problem, full_newton)
+    loads_fixed = kind in (DenseEngine, InterleavedEngine)
+    return SparseEngine if loads_fixed else cast("type[RenewableEngine]", kind)
+
+
+def kind_of(problem: Problem, full_newton: bool) -> type[Engine]:
+    """Which engine runs a problem.
+
+    Raises
+    ------
+    KernelError
+        For combinations that do not exist.
+    """
+    if problem.contact is not None and full_newton:
+        raise KernelError(
+            "unilateral relations do not go with full Newton", "leave 'NEWTON_COMPLET'"
+        )
+    scheme = problem.scheme
+    if scheme.adaptive and (scheme.conserving or full_newton or problem.contact is not None):
+        raise KernelError(
+            "steps are adapted to the contact of joints alone",
+            "leave the conserving step, full Newton and MINI/MAXI relations",
+        )
+    if scheme.adaptive and problem.interface is not None:
+        return AdaptiveEngine
+    if scheme.conserving:
+        return ConservingEngine
+    if full_newton or problem.contact is not None:
+        return SparseEngine
+    return DenseEngine if problem.small else InterleavedEngine

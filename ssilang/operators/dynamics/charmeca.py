@@ -1,0 +1,58 @@
+"""CHARMECA: what a procedure of the script adds to matrices and loads at each step of DYNAMIC."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from ssilang.kernel.matrices.assembly import vector_to_field
+from ssilang.language.values import Mot, Table
+from ssilang.operators.session.user_procedures import call_user
+from ssilang.operators.tables.entries import Entries
+
+if TYPE_CHECKING:
+    from ssilang.kernel.dynamics.driven import Additions, State
+    from ssilang.kernel.dynamics.problem import Problem
+
+TERMS = {
+    "ADDI_KNL": ("stiffness", "RIGIDITE"),
+    "ADDI_CNL": ("damping", "RIGIDITE"),
+    "ADDI_MATRICE": ("operator", "RIGIDITE"),
+    "ADDI_FNL": ("force", "CHPOINT"),
+    "ADDI_SECOND": ("imposed", "CHPOINT"),
+}
+
+
+class AddedByProcedure:
+    """Calls `TCHAR = CHARMECA TAB1 TIME` and reads its table.
+
+    TAB1 . 'ETAT' holds TEMP DEPL VITE ACCE of the start of the step while the procedure runs.
+    """
+
+    def __init__(self, entries: Entries) -> None:
+        self.entries = entries
+
+    def __call__(self, time: float, state: State, problem: Problem) -> Additions:
+        """Additions at `time`."""
+        from ssilang.kernel.dynamics.driven import Additions
+
+        self.entries.table.set(Mot("ETAT"), _table_of(state, problem))
+        results = call_user(self.entries.call, "CHARMECA", self.entries.table, time)
+        if len(results) != 1 or not isinstance(results[0], Table):
+            raise self.entries.bad(
+                "the procedure CHARMECA must give one TABLE",
+                "TCHAR = TABL ; TCHAR . 'ADDI_FNL' = ... ; FINP TCHAR ;",
+            )
+        found = Entries(self.entries.call, results[0], "CHARMECA")
+        found.warn_unknown(tuple(TERMS))
+        given: dict[str, Any] = {
+            name: found.get(word, type_) for word, (name, type_) in TERMS.items()
+        }
+        return Additions(**given)
+
+
+def _table_of(state: State, problem: Problem) -> Table:
+    table = Table()
+    table.set(Mot("TEMP"), state.time)
+    for word, values in (("DEPL", state.u), ("VITE", state.v), ("ACCE", state.a)):
+        table.set(Mot(word), vector_to_field(values, problem.numbering))
+    return table
