@@ -1,0 +1,32 @@
+"""ZXXT: the sum of outer products behind the procedures M_DAMPIN and M_DAMP_K."""
+
+from __future__ import annotations
+
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.matrices.matrix import Matrix
+from ssilang.kernel.matrices.outer import sum_of_outer_products
+from ssilang.language.registry import Help, arg, operator
+from ssilang.language.values import ListChpo, ListReel
+
+
+@operator(
+    "ZXXT",
+    arg("fields", "LISTCHPO"),
+    arg("factors", "LISTREEL"),
+    family="matrix",
+    help=Help(
+        en="Full matrix of damping a1 v1 v1T + a2 v2 v2T + ... of fields v and numbers a, behind "
+        "M_DAMPIN and M_DAMP_K.",
+        fr="Matrice pleine d'amortissement a1 v1 v1T + a2 v2 v2T + ... de champs v et de nombres "
+        "a, pour M_DAMPIN et M_DAMP_K.",
+        syntax="RIG1 = ZXXT LCHP1 LREE1 ;",
+        examples=(
+            "OPTI DIME 2 ; V = MANU 'CHPO' (0. 0.) 2 'FX' 1. 'FY' 2. 'NATURE' 'DISCRET' ; "
+            "LIST (EXTR (ZXXT (SUIT V) (PROG 3.)) 'DIAG') ;",
+        ),
+    ),
+)
+def zxxt(fields: ListChpo, factors: ListReel) -> Matrix:
+    """Sum of the outer products."""
+    vectors = [f for f in fields.values if isinstance(f, NodeField)]
+    return sum_of_outer_products(vectors, [float(a) for a in factors.values], "AMORTISSEMENT")

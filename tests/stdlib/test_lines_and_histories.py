@@ -1,0 +1,160 @@
+"""FREPART HAUBAN ROTA_IMP TRACHIS TRACHIT against closed forms."""
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from ssilang.cli.run import run_text
+
+
+def found(script, *names):
+    result = run_text(script)
+    assert result.exit_code == 0, result.message
+    values = tuple(result.session.root.find(n) for n in names)
+    return values[0] if len(values) == 1 else values
+
+
+def test_spread_force_keeps_its_resultant_and_its_parabola_of_moments():
+    values = found(
+        "OPTI DIME 2 ELEM SEG3 ; L = (DROI 2 (0. 0.) (1. 0.)) ET (DROI 1 (1. 0.) (3. 0.)) ;"
+        "ELIM 1.E-6 L ; F = FREPART (3. -6.) L ; X = COOR 1 L ;"
+        "A = MAXI (RESU (EXCO 'FY' F)) ; B = XTY F X (MOTS 'FY') (MOTS 'SCAL') ;"
+        "C = XTY F (X * X) (MOTS 'FY') (MOTS 'SCAL') ; D = MAXI (RESU (EXCO 'FX' F)) ;",
+        "A", "B", "C", "D",
+    )  # fmt: skip
+    np.testing.assert_allclose(values, (-6, -6 * 1.5, -6 * 3, 3))
+
+
+def test_spread_force_on_unequal_cells_in_space():
+    values = found(
+        "OPTI DIME 3 ELEM SEG2 ; P1 = 0. 0. 0. ; P2 = 0. 1. 0. ; P3 = 0. 4. 0. ;"
+        "L = (DROI 1 P1 P2) ET (DROI 1 P2 P3) ; F = FREPART (0. 0. 8.) L ;"
+        "A = EXTR F 'FZ' P1 ; B = EXTR F 'FZ' P2 ; C = EXTR F 'FZ' P3 ;",
+        "A", "B", "C",
+    )  # fmt: skip
+    np.testing.assert_allclose(values, (1, 4, 3))
+
+
+def catenary(x, z, h, w):
+    """Length and integral of the tension of the catenary of horizontal tension h through points."""
+    a = h / w
+    slope = np.arcsinh(z / (2 * a * np.sinh(x / (2 * a)))) - x / (2 * a)
+    length = quad(lambda s: np.cosh(s / a + slope), 0, x)[0]
+    work = quad(lambda s: h * np.cosh(s / a + slope) ** 2, 0, x)[0]
+    return a, slope, length, work
+
+
+@pytest.mark.parametrize(
+    ("dimension", "first", "second"),
+    [
+        (2, "(3. 1.)", "(103. 31.)"),
+        (2, "(103. 31.)", "(3. 1.)"),
+        (3, "(3. 2. 1.)", "(63. 82. 31.)"),
+    ],
+)
+def test_cable_is_the_elastic_catenary(dimension, first, second):
+    mode = "MODE PLAN CONT" if dimension == 2 else ""
+    z, t, length, points = found(
+        f"OPTI DIME {dimension} {mode} ELEM SEG2 ; P1 = {first} ; P2 = {second} ;"
+        "G M C = HAUBAN P1 P2 2.E6 50. 106. 40 ; Z = EXTR (COOR (VALE 'DIME') G) 'VALE' 'SCAL' G ;"
+        "T = EXTR (CHAN 'CHPO' M C) 'VALE' 'EFFX' G ; L = MESU G ; N = NBEL G ;",
+        "Z", "T", "L", "N",
+    )  # fmt: skip
+    assert points == 40
+    z, tension = np.array(z.values), np.array(t.values)
+    z = z if z[0] < z[-1] else z[::-1]
+    horizontal = tension.min()
+    for _ in range(60):
+        a, slope, exact, work = catenary(100, 30, horizontal, 50)
+        error = exact - 106 - work / 2e6
+        _, _, other, more = catenary(100, 30, horizontal * 1.0001, 50)
+        horizontal -= error / ((other - 106 - more / 2e6) - error) * 1e-4 * horizontal
+        if abs(error) < 1e-10:
+            break
+    x = np.linspace(0, 100, 41)
+    shape = 1 + a * (np.cosh(x / a + slope) - np.cosh(slope))
+    np.testing.assert_allclose(z, shape, atol=1e-6)
+    assert length == pytest.approx(exact, rel=1e-4)
+    # tension = weight a unit length times height above the directrix
+    above = a * np.cosh(slope) + (z - 1)
+    np.testing.assert_allclose(np.sort(tension), np.sort(50 * above), rtol=2e-3)
+
+
+def test_cable_between_points_of_one_vertical_is_an_error():
+    script = "OPTI DIME 2 ELEM SEG2 ; P = 0. 0. ; Q = 0. 5. ; G M C = HAUBAN P Q 1.E6 1. 6. 4 ;"
+    assert "one vertical" in run_text(script).message
+
+
+def test_imposed_rotation_leaves_radius_and_axis_free():
+    values = found(
+        "OPTI DIME 3 ELEM CUB8 ; P1 = 1. 1. 0. ; P2 = 1. 1. 3. ;"
+        "L = DROI 2 (3. 1. 0.) (5. 1. 0.) ; S = TRAN 2 L (0. 1. 0.) ;"
+        "V = VOLU 'TRAN' 1 S (0. 0. 1.) ;"
+        "MO = MODE V 'MECANIQUE' 'ELASTIQUE' ; K = RIGI MO (MATE MO 'YOUN' 1. 'NU' 0.3) ;"
+        "R C = ROTA_IMP 40. P1 P2 L ;"
+        "Q = POIN L 2 ;"
+        "U = RESO (K ET R ET (BLOQ 'UZ' V) ET (RIGI 'DEPL' 1.E-6 V)) C ;"
+        "X = EXTR U 'UX' Q ; Y = EXTR U 'UY' Q ; D = Q MOIN P1 ; E = COOR 1 D ; F = COOR 2 D ;"
+       
+        "X", "Y", "E", "F",
+    )  # fmt: skip
+    x, y, dx, dy = values
+    turned = np.degrees(np.arctan2(y + dy, x + dx) - np.arctan2(dy, dx))
+    assert turned == pytest.approx(40, abs=1e-6)
+
+
+def test_right_angle_is_refused():
+    script = (
+        "OPTI DIME 3 ELEM SEG2 ; P = 0. 0. 0. ; Q = 0. 0. 1. ; L = DROI 1 (1. 0. 0.) (2. 0. 0.) ;"
+    )
+    assert "between -90 and 90" in run_text(script + "R C = ROTA_IMP 90. P Q L ;").message
+
+
+HISTORY = (
+    "OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ; L = DROI 4 (0. 0.) (2. 0.) ; X = COOR 1 L ;"
+    "T = TABL ; T . 'TEMPS' = TABL ; T . 'DE' = TABL ;"
+    "REPE B 4 ; I = &B - 1 ; T . 'TEMPS' . I = 0.5 * I ;"
+    "T . 'DE' . I = (NOMC 'UX' (X * I)) ET (NOMC 'UY' (X * X * I)) ; FIN B ;"
+)
+
+
+def test_curves_along_a_line():
+    n, e, a, b = found(
+        HISTORY + "R = TRACHIS T 'DE' L (LECT 1 3) (MOTS 'UY') 'PREF' 'depl' 'UNIT' 'ms' ;"
+        "N = DIME R ; E = R . 2 . 'VALEUR' ; A = R . 2 . 'LEGEND1' ; B = R . 2 . 'LEGEND2' ;",
+        "N", "E", "A", "B",
+    )  # fmt: skip
+    assert n == 2
+    x = np.linspace(0, 2, 5)
+    np.testing.assert_allclose(e.parts[0].abscissas, x)
+    np.testing.assert_allclose(e.parts[0].ordinates, 3 * x**2)
+    assert str(a) == "depl"
+    assert str(b).replace(" ", "") == "UYt=1.50000E+03ms"
+
+
+def test_curves_along_a_line_by_times_and_names():
+    n, e, b = found(
+        HISTORY + "R = TRACHIS T 'DE' L (PROG 0.5) (MOTS 'UX' 'UY') (MOTS 'HORI' 'VERT') ;"
+        "N = DIME R ; E = R . 1 . 'VALEUR' ; B = R . 2 . 'LEGEND2' ;",
+        "N", "E", "B",
+    )  # fmt: skip
+    assert n == 2
+    np.testing.assert_allclose(e.parts[0].ordinates, np.linspace(0, 2, 5))
+    assert str(b).startswith("VERT t=")
+
+
+def test_unknown_time_is_an_error():
+    assert "no time" in run_text(HISTORY + "R = TRACHIS T 'DE' L (PROG 0.7) ;").message
+
+
+def test_curves_in_time_at_points():
+    n, e, a, b = found(
+        HISTORY + "C = TABL 'NOM_COMPOSANTE' ; C . 2 = 'monte' ; P = TABL 'NOM_POINT' ;"
+        "P . 5 = 'bout' ; R = TRACHIT T 'DE' L C P 'PREF' 'u' ; N = DIME R ;"
+        "E = R . 10 . 'VALEUR' ; A = R . 10 . 'LEGEND2' ; B = R . 4 . 'LEGEND2' ;",
+        "N", "E", "A", "B",
+    )  # fmt: skip
+    assert n == 10
+    np.testing.assert_allclose(e.parts[0].abscissas, [0, 0.5, 1, 1.5])
+    np.testing.assert_allclose(e.parts[0].ordinates, [0, 4, 8, 12])
+    assert (str(a), str(b)) == ("monte bout", "UX PT 4")
