@@ -94,8 +94,7 @@ def test_imposed_rotation_leaves_radius_and_axis_free():
         "R C = ROTA_IMP 40. P1 P2 L ;"
         "Q = POIN L 2 ;"
         "U = RESO (K ET R ET (BLOQ 'UZ' V) ET (RIGI 'DEPL' 1.E-6 V)) C ;"
-        "X = EXTR U 'UX' Q ; Y = EXTR U 'UY' Q ; D = Q MOIN P1 ; E = COOR 1 D ; F = COOR 2 D ;"
-       
+        "X = EXTR U 'UX' Q ; Y = EXTR U 'UY' Q ; D = Q MOIN P1 ; E = COOR 1 D ; F = COOR 2 D ;",
         "X", "Y", "E", "F",
     )  # fmt: skip
     x, y, dx, dy = values
