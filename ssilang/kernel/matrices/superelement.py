@@ -1,0 +1,319 @@
+"""Super-elements: a body condensed onto a few of its unknowns, and back.
+
+With the master unknowns q imposed, the inner ones follow: `u = Phi q + u0`, where `Phi` (n, m) is
+the response to unit masters and `u0` that of the loads with the masters held. Then `Phi^T K Phi` is
+the stiffness that the masters feel, `Phi^T (f - K u0)` their loads, `Phi^T M Phi` their mass
+(Guyan): the first two exact, the third an approximation that improves with the masters.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ssilang.kernel.errors import KernelError, SingularMatrixError
+from ssilang.kernel.fields.node_field import NodeField, NodeValues
+from ssilang.kernel.matrices.assembly import (
+    ConstraintRows,
+    Numbering,
+    assemble,
+    constraint_matrix,
+    field_to_vector,
+    imposed_values,
+    is_symmetric,
+    numbering_of,
+    outside,
+    vector_to_field,
+)
+from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+from ssilang.kernel.solvers.elimination import Elimination, eliminate
+from ssilang.kernel.solvers.inverse import Inverse, invert
+from ssilang.kernel.sparse import sp
+from ssilang.kernel.statics.linear_motion import bodies_of, describe_motions
+
+LARGEST = 6000  # masters; the condensed matrix is full
+
+
+@dataclass(frozen=True, eq=False)
+class SuperElement:
+    """A body seen from its master unknowns (SUPERELE).
+
+    Attributes
+    ----------
+    source : Matrix
+        The stiffness that was condensed.
+    stiffness : Matrix
+        One full element matrix on the masters, with the conditions that were kept.
+    numbering : Numbering
+        Of `source`, n unknowns.
+    masters : array (m,)
+        Their indices in `numbering`.
+    shapes : array (n, m)
+        Displacement for a unit of each master.
+    elimination, inverse, saddle
+        Of the inner unknowns, the masters being held by the last m rows of `rows`.
+    rows : ConstraintRows
+        Conditions inside (none if they were kept), then one row a master.
+    inner_rows : int
+        How many of `rows` are conditions inside.
+    """
+
+    source: Matrix
+    stiffness: Matrix
+    numbering: Numbering
+    masters: IntArray
+    shapes: FloatArray
+    elimination: Elimination
+    inverse: Inverse
+    saddle: IntArray
+    rows: ConstraintRows
+    inner_rows: int
+
+
+def condense(
+    matrix: Matrix, chosen: Matrix | NodeField | IntArray, inside: bool = False
+) -> SuperElement:
+    """Condense a stiffness onto some of its unknowns.
+
+    Parameters
+    ----------
+    chosen : Matrix, NodeField or array of int
+        Whose unknowns are masters; for nodes, all unknowns that the stiffness has there.
+    inside : bool
+        True: the conditions of the matrix hold inside, with the value zero or what a load says
+        ('NOMU'). False: they are kept on the condensed matrix, and their unknowns are masters.
+
+    Raises
+    ------
+    KernelError
+        Without masters; with conditions inside that are unilateral or hold masters alone.
+    SingularMatrixError
+        If the inner unknowns can move with the masters held.
+    """
+    numbering = numbering_of(matrix)
+    conditions = constraint_matrix(matrix, numbering)
+    kept = np.zeros(numbering.size, bool)
+    kept[_chosen_unknowns(numbering, chosen)] = True
+    if not kept.any():
+        raise KernelError(
+            "none of the master unknowns is an unknown of the stiffness",
+            "give nodes of the body, or fields of its unknowns (UX, UY ...)",
+        )
+    if not inside:
+        for part in (conditions.C, conditions.D):
+            kept[np.unique(part.indices)] = True
+    elif (conditions.sense != 0).any() or not conditions.associated:
+        raise KernelError(
+            "unilateral and non-associated conditions cannot be condensed", "leave out 'NOMU'"
+        )
+    masters = np.flatnonzero(kept)
+    if len(masters) > LARGEST:
+        raise KernelError(
+            f"{len(masters)} master unknowns make too large a full matrix (at most {LARGEST})"
+        )
+    return _made(matrix, numbering, masters, conditions if inside else None)
+
+
+def _chosen_unknowns(numbering: Numbering, chosen: Matrix | NodeField | IntArray) -> IntArray:
+    if isinstance(chosen, Matrix):
+        other = numbering_of(chosen)
+        codes = np.array([numbering.code(u) for u in other.unknowns], dtype=np.int64)
+        found = numbering.index(other.nodes, codes[other.codes])
+    elif isinstance(chosen, NodeField):
+        pairs = [numbering.index(v.nodes, numbering.code(k)) for k, v in chosen.components.items()]
+        found = np.concatenate([np.empty(0, np.int64), *pairs])
+    else:
+        found = np.flatnonzero(np.isin(numbering.nodes, chosen))
+    return found[found >= 0]
+
+
+def _made(
+    matrix: Matrix, numbering: Numbering, masters: IntArray, inside: ConstraintRows | None
+) -> SuperElement:
+    K = assemble(matrix, numbering)
+    m, n = len(masters), numbering.size
+    held = sp.csr_array((np.ones(m), (np.arange(m), masters)), shape=(m, n))
+    inner = 0 if inside is None else len(inside.multipliers)
+    C = held if inside is None else sp.csr_array(sp.vstack([inside.C, held]))
+    rows = ConstraintRows(C, np.empty(0, np.int64), np.zeros(inner + m, np.int8), C)
+    elimination = eliminate(C)
+    saddle = np.flatnonzero(~elimination.eliminated)
+    T = elimination.T
+    reduced = sp.csr_array(T.T @ K @ T)
+    if len(saddle):
+        below = C[saddle] @ T
+        reduced = sp.csr_array(sp.block_array([[reduced, below.T], [below, None]], format="csr"))
+    inverse = invert(reduced, is_symmetric(matrix))
+    if inverse.singular:
+        motions = T @ inverse.kernel[: len(elimination.masters)]
+        raise SingularMatrixError(
+            *describe_motions(numbering, motions, bodies_of(numbering, K, rows.C))
+        )
+    values = np.zeros((inner + m, m))
+    values[inner:] = np.eye(m)
+    draft = SuperElement(
+        matrix, matrix, numbering, masters, np.empty((n, 0)), elimination, inverse, saddle, rows,
+        inner,
+    )  # fmt: skip
+    shapes = _responses(draft, np.zeros((n, m)), values)[0]
+    _free_masters(draft, shapes)
+    full = shapes.T @ (K @ shapes)
+    if is_symmetric(matrix):
+        full = 0.5 * (full + full.T)
+    block = _block(numbering, masters, full, "RIGIDITE", is_symmetric(matrix))
+    relations = matrix.relations if inside is None else ()
+    stiffness = Matrix(matrix.table, (block,), relations, matrix.kind)
+    return SuperElement(
+        matrix, stiffness, numbering, masters, shapes, elimination, inverse, saddle, rows, inner
+    )
+
+
+def _free_masters(element: SuperElement, shapes: FloatArray) -> None:
+    """Refuse masters that a condition inside holds."""
+    error = np.abs(shapes[element.masters] - np.eye(len(element.masters))).max(axis=0)
+    error = np.maximum(error, np.abs(element.rows.C[: element.inner_rows] @ shapes).max(
+        axis=0, initial=0.0))  # fmt: skip
+    worst = int(np.argmax(error))
+    if error[worst] > 1e-6:
+        label = element.numbering.label(int(element.masters[worst]))
+        raise KernelError(
+            f"the conditions of the matrix hold the master unknown {label}",
+            "leave out 'NOMU', or choose other masters",
+        )
+
+
+def _responses(
+    element: SuperElement, forces: FloatArray, values: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Displacements (n, k) for forces (n, k) and values (rows, k), and the saddle's multipliers."""
+    elimination, C = element.elimination, element.rows.C
+    K = assemble(element.source, element.numbering)
+    start = np.column_stack([elimination.particular(d) for d in values.T])
+    left = values[element.saddle] - C[element.saddle] @ start
+    z = element.inverse.solve(np.vstack([elimination.T.T @ (forces - K @ start), left]))
+    count = len(elimination.masters)
+    return start + elimination.T @ z[:count], z[count:]
+
+
+def _block(
+    numbering: Numbering, masters: IntArray, values: FloatArray, kind: str, symmetric: bool
+) -> ElementMatrices:
+    nodes, local = np.unique(numbering.nodes[masters], return_inverse=True)
+    codes = numbering.codes[masters]
+    return ElementMatrices(
+        numbering.table,
+        nodes[None, :],
+        local.astype(np.int64),
+        tuple(numbering.unknowns[c] for c in codes),
+        tuple(numbering.duals[c] for c in codes),
+        values[None],
+        kind,
+        None,
+        symmetric,
+    )
+
+
+def _inner_values(element: SuperElement, load: NodeField) -> FloatArray:
+    """Values of the rows (rows,) with the masters held: what the load imposes inside."""
+    values = np.zeros(len(element.rows.sense))
+    if element.inner_rows:
+        nodes = constraint_matrix(element.source, element.numbering).multipliers
+        values[: element.inner_rows] = imposed_values(load, nodes)
+    return values
+
+
+def _forces(element: SuperElement, load: NodeField) -> FloatArray:
+    lost = outside(load, element.numbering)
+    if lost:
+        raise KernelError(f"the super-element has no unknown for the force {', '.join(lost[:4])}")
+    return field_to_vector(load, element.numbering)
+
+
+def condensed_load(element: SuperElement, load: NodeField) -> NodeField:
+    """Loads on the masters that do what `load` does on the body (SUPE 'CHARGE').
+
+    Imposed values (FLX) of conditions that were kept go through.
+
+    Raises
+    ------
+    KernelError
+        If the body has no unknown for a force.
+    """
+    f = _forces(element, load)
+    K = assemble(element.source, element.numbering)
+    u0 = _responses(element, f[:, None], _inner_values(element, load)[:, None])[0][:, 0]
+    whole = np.zeros(element.numbering.size)
+    whole[element.masters] = element.shapes.T @ (f - K @ u0)
+    field = vector_to_field(whole, element.numbering, dual=True)
+    masters = _only(field, element)
+    imposed = load.components.get("FLX")
+    if imposed is not None and not element.inner_rows:
+        masters["FLX"] = imposed
+    return NodeField(field.table, masters, "DISCRET")
+
+
+def _only(field: NodeField, element: SuperElement) -> dict[str, NodeValues]:
+    """Components of a field at the masters alone."""
+    numbering = element.numbering
+    kept: dict[str, NodeValues] = {}
+    for code, name in enumerate(numbering.duals):
+        nodes = numbering.nodes[element.masters[numbering.codes[element.masters] == code]]
+        part = field.components.get(name)
+        if part is not None and len(nodes):
+            kept[name] = NodeValues(nodes, part.at(nodes))
+    return kept
+
+
+def inner_displacement(
+    element: SuperElement, masters: NodeField, load: NodeField | None = None
+) -> NodeField:
+    """Displacement of the whole body from that of its masters and its loads (SUPE 'DEPLA').
+
+    Raises
+    ------
+    KernelError
+        If the body has no unknown for a force.
+    """
+    numbering = element.numbering
+    values = np.zeros(len(element.rows.sense))
+    f = np.zeros(numbering.size)
+    if load is not None:
+        f, values = _forces(element, load), _inner_values(element, load)
+    values[element.inner_rows :] = field_to_vector(masters, numbering, dual=False)[element.masters]
+    u, saddle = _responses(element, f[:, None], values[:, None])
+    conditions = constraint_matrix(element.source, numbering)
+    if element.inner_rows:
+        found = np.zeros(len(values))
+        found[element.saddle] = saddle[:, 0]
+        K = assemble(element.source, numbering)
+        rest = f - K @ u[:, 0] - element.rows.C.T @ found
+        found += element.elimination.multipliers(rest)
+        pair = (conditions.multipliers, found[: element.inner_rows])
+    else:
+        pair = (conditions.multipliers, masters.values_at("LX", conditions.multipliers))
+    return vector_to_field(u[:, 0], numbering, multipliers=pair)
+
+
+def condensed_mass(element: SuperElement, mass: Matrix) -> Matrix:
+    """`Phi^T M Phi` on the masters (SUPE 'MASSE'); the conditions of `mass` do not count.
+
+    Raises
+    ------
+    FieldError
+        If the mass has unknowns that the stiffness lacks.
+    """
+    M = assemble(Matrix(mass.table, mass.blocks), element.numbering)
+    full = element.shapes.T @ (M @ element.shapes)
+    symmetric = all(b.symmetric for b in mass.blocks)
+    if symmetric:
+        full = 0.5 * (full + full.T)
+    kind = mass.blocks[0].kind if mass.blocks else "MASSE"
+    block = _block(element.numbering, element.masters, full, kind, symmetric)
+    return Matrix(mass.table, (block,), (), mass.kind)
+
+
+def shape_fields(element: SuperElement) -> list[NodeField]:
+    """The displacement of the body for a unit of each master, in their order."""
+    return [vector_to_field(shape, element.numbering) for shape in element.shapes.T]
