@@ -9,9 +9,17 @@ import numpy as np
 import pytest
 from references.bar import Bar, solve_bar
 from references.contact import solve
-from references.footing import Disc, Rectangle, Strip
+from references.footing import (
+    Disc,
+    Rectangle,
+    Strip,
+    onset_acceleration,
+    onset_ramp_time,
+    onset_step_acceleration,
+)
 from references.oscillators import STRUCTURE_STIFFNESS, ClubA, ClubB, ClubC
 from references.rocking import FlexibleTower, RigidTower, TwoSpringBlock, macro_element_period
+from scipy.optimize import brentq
 
 from ssilang.cli.run import RunResult
 
@@ -147,6 +155,34 @@ def block_on_soil(result: RunResult) -> None:
     assert "stress" in soil.cell_data
 
 
+def onset(result: RunResult) -> None:
+    """Edges before and beyond the onset, and the accelerations, against the closed forms."""
+    strip_, disc_ = Strip(4.0, 1.0, 2e7, 6e5), Disc(2.0, 2e7, 6e5)
+    ratios = numbers(result, "LRAT")
+    edges: dict[str, list[float]] = {"LESTR": [], "LEDIS": []}
+    for ratio in ratios:
+        theta = brentq(lambda t, r=ratio: strip_.moment(t) - r * strip_.uplift_moment, 0.0, 1.0)
+        lifted = float(strip_.lift(theta)) + theta * strip_.width / 2
+        edges["LESTR"].append(lifted / (strip_.normal / (strip_.k0 * strip_.width)))
+        theta = brentq(lambda t, r=ratio: disc_.moment(t) - r * disc_.uplift_moment, 1e-9, 1.0)
+        phi = disc_.half_angle(theta)
+        settled = disc_.normal / (disc_.k0 * np.pi * disc_.radius**2)
+        lifted = disc_.radius * theta * (1 + np.cos(phi))
+        if ratio <= 1:
+            lifted = disc_.radius * theta - settled
+        edges["LEDIS"].append(lifted / settled)
+    # Gauss points see the contact's end to a fraction of a cell; the disc is a polygon
+    assert numbers(result, "LESTR") == pytest.approx(edges["LESTR"], abs=5e-3)
+    assert numbers(result, "LEDIS") == pytest.approx(edges["LEDIS"], rel=1e-2, abs=1e-2)
+    inertia, height = 5e4 * 30.0, 5.0
+    wanted = onset_acceleration(strip_.kern, height)
+    assert variable(result, "AU0") == pytest.approx(wanted, rel=1e-12)
+    time = onset_ramp_time(20.0, float(np.sqrt(strip_.stiffness / inertia)))
+    assert variable(result, "TRAM") == pytest.approx(time, rel=1e-5)
+    sudden = onset_step_acceleration(strip_.kern, height)
+    assert variable(result, "ASUD") * wanted == pytest.approx(sudden, rel=1e-4)
+
+
 COMPARISONS: dict[str, Callable[[RunResult], None]] = {
     "club_cast3m_2014/club_a_methods.ssi": methods_on_a_wall,
     "club_cast3m_2014/club_b_sdm.ssi": hopping(ClubB()),
@@ -155,6 +191,7 @@ COMPARISONS: dict[str, Callable[[RunResult], None]] = {
     "footing/strip_uplift.ssi": strip,
     "footing/disc_uplift.ssi": disc,
     "footing/macro_element.ssi": macro_element,
+    "footing/onset_of_uplift.ssi": onset,
     "footing/flexible_tower.ssi": tower,
     "footing/block_on_soil.ssi": block_on_soil,
     "footing/tower_3d.ssi": tower_3d,

@@ -35,6 +35,7 @@ SPOILT = [
     ("footing/block_on_soil.ssi", "W0 = RHOB * B0", "W0 = 1.01 * RHOB * B0"),
     ("footing/disc_uplift.ssi", "'KN' K0 'KS'", "'KN' (1.1 * K0) 'KS'"),
     ("footing/macro_element.ssi", "'KS' 1.E8 'RAYO' R0", "'KS' 1.E8 'RAYO' (1.001 * R0)"),
+    ("footing/onset_of_uplift.ssi", "'MZ' (N0 * B0 / 6.)", "'MZ' (1.01 * N0 * B0 / 6.)"),
     ("footing/strip_uplift.ssi", "'KN' K0 'KS'", "'KN' (1.02 * K0) 'KS'"),
     ("seismic/tower_quake.ssi", ". 'YOUNG' = YOUS", ". 'YOUNG' = 1.02 * YOUS"),
 ]

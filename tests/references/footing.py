@@ -209,6 +209,18 @@ def onset_step_acceleration(kern: float, height: float, gravity: float = 9.81) -
     return 0.5 * onset_acceleration(kern, height, gravity)
 
 
+def onset_ramp_time(rise: float, frequency: float) -> float:
+    """Lift-off under an acceleration that grows linearly, `onset_acceleration` at `rise` (s).
+
+    The block's rotation over that of onset is `(t - sin(w t)/w)/rise`, w = `frequency` (rad/s).
+    """
+
+    def excess(t: float) -> float:
+        return float(t - np.sin(frequency * t) / frequency - rise)
+
+    return float(brentq(excess, rise - 1.0 / frequency, rise + 1.0 / frequency, xtol=1e-15))
+
+
 @dataclass(frozen=True)
 class Rectangle:
     """Rigid rectangle B x L on a no-tension bed of modulus k0 under N and two moments.

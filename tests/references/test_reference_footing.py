@@ -11,6 +11,7 @@ from .footing import (
     TwoSprings,
     macro_element,
     onset_acceleration,
+    onset_ramp_time,
     onset_step_acceleration,
 )
 
@@ -148,3 +149,16 @@ def test_rectangle_is_in_equilibrium_about_both_axes():
     assert push.sum() == pytest.approx(-2.4e6, rel=1e-6)
     assert (push * y).sum() == pytest.approx(2e6, rel=1e-6)
     assert -(push * x).sum() == pytest.approx(2.5e6, rel=1e-6)
+
+
+def test_onset_under_a_ramp_by_direct_integration():
+    from scipy.integrate import solve_ivp
+
+    rise, w = 3.0, 8.0
+    reached = lambda t, y: y[0] - 1.0  # noqa: E731
+    reached.terminal = True  # type: ignore[attr-defined]
+    motion = solve_ivp(
+        lambda t, y: [y[1], w**2 * (t / rise - y[0])], (0, 10), [0.0, 0.0], rtol=1e-11,
+        atol=1e-13, events=reached,
+    )  # fmt: skip
+    assert onset_ramp_time(rise, w) == pytest.approx(motion.t_events[0][0], rel=1e-8)
