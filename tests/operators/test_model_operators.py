@@ -34,7 +34,7 @@ def value(run, text, name="X"):
 @pytest.mark.parametrize(
     ("statement", "said"),
     [
-        ("M = MODE S MECANIQUE PLASTIQUE PARFAIT ;", "PARFAIT is not available"),
+        ("M = MODE S MECANIQUE PLASTIQUE HUJEUX ;", "HUJEUX is not available"),
         ("M = MODE S MECANIQUE ELASTIQUE JOINT_SDM ;", "for joints only"),
         ("M = MODE S THERMIQUE ;", "THERMIQUE is not available"),
         ("M = MODE S MECANIQUE ELASTIQUE ISOTORPE ;", "ISOTROPE"),

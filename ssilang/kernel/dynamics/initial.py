@@ -67,7 +67,7 @@ def initial_acceleration(problem: Problem, v: FloatArray, joints: JointState) ->
     rest = load - problem.K @ problem.u - problem.C @ v
     if problem.interface is not None:
         rest = rest - problem.interface.J.T @ joints.f
-    return _accelerated(problem, rest)
+    return accelerated(problem, rest)
 
 
 def with_contact(
@@ -94,7 +94,7 @@ def with_contact(
     speed = contact.G @ v - rate
     chosen = np.flatnonzero(touching & (speed <= 1e-12 * np.abs(v).max(initial=0.0)))
     G = contact.G[chosen]
-    moved = _accelerated(problem, G.T.toarray())
+    moved = accelerated(problem, G.T.toarray())
     W = G @ moved
     heavy = np.diag(W) > 1e-12 * np.diag(W).max(initial=0.0)
     chosen, moved, W = chosen[heavy], moved[:, heavy], W[np.ix_(heavy, heavy)]
@@ -113,7 +113,7 @@ def with_contact(
     return a + moved @ none[chosen], none
 
 
-def _accelerated(problem: Problem, force: FloatArray) -> FloatArray:
+def accelerated(problem: Problem, force: FloatArray) -> FloatArray:
     """Accelerations (n,) or (n, k) that forces give to the motions that have mass."""
     import scipy.sparse.linalg as spla
 

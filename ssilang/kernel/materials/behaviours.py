@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from ssilang.kernel.elements.catalog import SOLID_FAMILIES
 from ssilang.kernel.errors import MaterialError
+from ssilang.kernel.materials.plastic.laws import PLASTIC_LAWS, plastic_law
 
 FORMULATIONS = ("MECANIQUE", "CHARGEMENT")
 OTHER_FORMULATIONS = (
@@ -29,11 +30,17 @@ JOINT_WORDS = (
 )  # fmt: skip
 """Further words of joints; `ssilang.kernel.joints.laws` says what they mean."""
 
+PLASTIC_WORDS = tuple(w for w in PLASTIC_LAWS if w not in ELASTICITIES)
+"""Words that follow PLASTIQUE in a model of bodies (beside ISOTROPE)."""
+
+PLASTIC_FAMILIES = ("solid", "incompressible", "bar")
+"""Families of elements that have plastic laws."""
+
 OTHER_BEHAVIOURS = (
     "PLASTIQUE_ENDOM", "ENDOMMAGEMENT", "FLUAGE", "VISCOPLASTIQUE", "VISCO_EXTERNE",
     "NON_LINEAIRE", "IMPEDANCE", "HOMOGENEISE", "SECTION", "ARMATURE", "MODAL", "STATIQUE",
-    "CAOUTCHOUC", "PARFAIT", "CINEMATIQUE", "DRUCKER_PARFAIT", "DRUCKER_PRAGER", "CHABOCHE1",
-    "CHABOCHE2", "CAM_CLAY", "HUJEUX", "UBIQUITOUS", "BETON", "MOHR_COULOMB", "MAZARS",
+    "CAOUTCHOUC", "CHABOCHE1", "CHABOCHE2", "CAM_CLAY", "HUJEUX", "UBIQUITOUS", "BETON",
+    "MOHR_COULOMB", "MAZARS",
 )  # fmt: skip
 """Laws that Cast3M has and that are not built here: refused by name."""
 
@@ -65,8 +72,26 @@ def normalised(words: list[str], family: str) -> tuple[str, ...]:
     kind = rest.pop(0) if rest and rest[0] in ELASTICITIES else ""
     if kind and family not in ELASTICITIES[kind]:
         raise MaterialError(f"elements of the family '{family}' have no elasticity {kind}")
+    if rest and rest[0] == "PLASTIQUE" and family != "joint":
+        return ("ELASTIQUE", kind or "ISOTROPE", *_plastic_words(rest, kind, family))
     if rest and family != "joint":
         raise MaterialError(
             f"behaviour {rest[0]} is for joints only", "give it to joint elements (JOI1 ... JOI8)"
         )
+    if rest[1:2] and rest[0] == "PLASTIQUE" and rest[1] in PLASTIC_WORDS:
+        raise MaterialError(f"the plastic law {rest[1]} is for bodies, not for joints")
     return ("ELASTIQUE", *([kind or "ISOTROPE"] if not rest or kind else []), *rest)
+
+
+def _plastic_words(words: list[str], elasticity: str, family: str) -> tuple[str, str]:
+    """PLASTIQUE and the law behind it, ISOTROPE where none is said."""
+    law = words[1] if len(words) > 1 else "ISOTROPE"
+    if family not in PLASTIC_FAMILIES:
+        raise MaterialError(
+            f"elements of the family '{family}' have no plastic law",
+            "continuous elements (TRI3 ... CU20, ICQ4 ...) and bars have",
+        )
+    if elasticity not in ("", "ISOTROPE"):
+        raise MaterialError(f"plastic laws go with elasticity ISOTROPE, not with {elasticity}")
+    plastic_law(("PLASTIQUE", law))
+    return ("PLASTIQUE", law)

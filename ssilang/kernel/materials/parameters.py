@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from ssilang.kernel.elements.catalog import ELEMENTS, SOLID_FAMILIES
 from ssilang.kernel.joints.elements import is_joint
 from ssilang.kernel.joints.law_table import law_of
+from ssilang.kernel.materials.plastic.laws import plastic_law
 from ssilang.kernel.model import Mode, Zone
 
 THERMAL = ("ALPH", "TREF", "TALP")
@@ -83,6 +84,10 @@ def material_names(zone: Zone) -> Names:
         )
         rest = ("RHO", *ORTHOTROPIC[needed:], *ORTHOTROPIC_THERMAL, *AXES)
         return Names(ORTHOTROPIC[:needed], rest)
+    plastic = plastic_law(zone.behaviour)
+    if plastic is not None:
+        elastic = _ELASTIC[kind]
+        return Names((*elastic.required, *plastic.required), elastic.optional)
     return _ELASTIC[kind]
 
 

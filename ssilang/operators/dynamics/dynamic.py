@@ -19,19 +19,23 @@ from ssilang.kernel.joints.elements import is_joint
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.model import Model
+from ssilang.kernel.plasticity.bulk import without_stiffness
+from ssilang.kernel.plasticity.points import is_plastic, plastic_zones
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
-from ssilang.language.values import ListMots, ListReel, Mot, Table
+from ssilang.language.values import LazyTable, ListMots, ListReel, Mot, Table
 from ssilang.operators.dynamics.charmeca import AddedByProcedure
 from ssilang.operators.dynamics.motion_observers import CsvObserver, TableObserver, VtkObserver
 from ssilang.operators.files.outputs import output_path, run_output
 from ssilang.operators.session.progress import COMPILING, ProgressLine
+from ssilang.operators.statics.bodies import plastic_bodies
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
     from ssilang.kernel.dynamics.integrate import History
     from ssilang.kernel.dynamics.problem import Inputs, Problem
     from ssilang.kernel.dynamics.snapshot import Observer
+    from ssilang.kernel.plasticity.bulk import Bulk, State
 
 SCHEME_ENTRIES = ("ALPHA_F", "RHO_INF", "BETA", "GAMMA")
 CONTACT_ENTRIES = (
@@ -75,7 +79,10 @@ def zdyn(call: Call) -> Table:
     entries = Entries(call, call.required("TABLE"), "DYNAMIC")
     entries.warn_unknown(KNOWN)
     times, saved = _times(entries)
-    problem = make_problem(_inputs(entries, times))
+    inputs = _with_bodies(entries, _inputs(entries, times))
+    problem = make_problem(inputs)
+    make_bodies = plastic_bodies(entries)
+    bodies = None if make_bodies is None else make_bodies(problem, inputs)
     warn_resolution(entries, problem)
     results = TableObserver(saved, _nodes(entries.get("MAILLAGE_SAUVE", "MAILLAGE", "POINT")))
     vtk, csv = _vtk(entries, times), _csv(entries, times)
@@ -84,7 +91,7 @@ def zdyn(call: Call) -> Table:
     if not is_compiled("dynamics"):
         line.note(COMPILING)
     try:
-        history = _integrated(entries, problem, observers, line)
+        history = _integrated(entries, problem, observers, line, bodies)
     finally:
         line.close()
     _say_reduction(entries, history)
@@ -95,14 +102,23 @@ def zdyn(call: Call) -> Table:
 
 
 def _integrated(
-    entries: Entries, problem: Problem, observers: Sequence[Observer], line: ProgressLine
+    entries: Entries,
+    problem: Problem,
+    observers: Sequence[Observer],
+    line: ProgressLine,
+    bodies: tuple[Bulk, State] | None = None,
 ) -> History:
     """The history, on a reduced basis if REDUCTION gives a tolerance."""
     from ssilang.kernel.dynamics.integrate import integrate
     from ssilang.kernel.dynamics.reduced_run import integrate_reduced
+    from ssilang.kernel.plasticity.run import run_bulk
 
     tolerance = entries.get("REDUCTION", "FLOTTANT")
     full = entries.flag("NEWTON_COMPLET")
+    if bodies is not None:
+        if tolerance is not None:
+            raise entries.bad("'REDUCTION' needs linear bodies", "MODELE has plastic ones")
+        return run_bulk(problem, *bodies, observers, line, dynamic=True)
     driver = AddedByProcedure(entries) if entries.flag("CHARMECA") else None
     if tolerance is None:
         return integrate(problem, observers, line, full, driver)
@@ -186,6 +202,19 @@ def _inputs(entries: Entries, times: FloatArray) -> Inputs:
         scheme_of(entries),
         contact_options(entries),
     )
+
+
+def _with_bodies(entries: Entries, inputs: Inputs) -> Inputs:
+    """The stiffness without that of plastic bodies: their law replaces it."""
+    from ssilang.kernel.joints.interface import without_zones
+
+    zones = plastic_zones(inputs.model)
+    if not zones:
+        return inputs
+    entries.needed("CARACTERISTIQUES", "MCHAML")
+    stiffness = without_zones(inputs.stiffness, zones)
+    blocks = (*stiffness.blocks, *(without_stiffness(z) for z in zones))
+    return replace(inputs, stiffness=replace(stiffness, blocks=blocks, cache={}))
 
 
 def contact_options(entries: Entries, dynamic: bool = True) -> ContactOptions:
@@ -307,7 +336,8 @@ def _stress(entries: Entries) -> Callable[[NodeField], CellField | None] | None:
     """Stresses of the zones of MODELE that are no joints."""
     model: Model | None = entries.get("MODELE", "MMODEL")
     material: CellField | None = entries.get("CARACTERISTIQUES", "MCHAML")
-    zones = () if model is None else tuple(z for z in model.zones if not is_joint(z))
+    zones = () if model is None else model.zones
+    zones = tuple(z for z in zones if not is_joint(z) and not is_plastic(z))
     if not zones or material is None:
         return None
     held = material
@@ -340,11 +370,11 @@ ENERGIES = ("CINETIQUE", "ELASTIQUE", "JOINTS", "DISSIPEE", "AMORTIE", "EXTERIEU
 
 def report(entries: Entries, problem: Problem, history: History) -> None:
     """Energies in time into the table, and a line of statistics for the summary."""
-    energies = Table()
+    energies = LazyTable()
     energies.set(Mot("TEMPS"), ListReel(history.times))
     for i, name in enumerate(ENERGIES):
-        energies.set(Mot(name), ListReel(history.energies[:, i]))
-    energies.set(Mot("ECART"), ListReel(history.imbalance))
+        energies.promise(Mot(name), lambda i=i: ListReel(history.energies[:, i]))
+    energies.promise(Mot("ECART"), lambda: ListReel(history.imbalance))
     entries.table.set(Mot("ENERGIES"), energies)
     steps = len(history.times) - 1
     line: dict[str, Any] = {
@@ -357,7 +387,7 @@ def report(entries: Entries, problem: Problem, history: History) -> None:
         "most_interface_iterations": history.iterations,
         "seconds": history.seconds,
         "steps_per_second": steps / history.seconds if history.seconds > 0 else None,
-        "energy_imbalance": float(np.abs(history.imbalance).max()),
+        "energy_imbalance": history.worst_imbalance,
     }
     if history.reduction is not None:
         line |= {

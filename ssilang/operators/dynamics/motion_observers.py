@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -16,7 +17,7 @@ from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import IntArray
-from ssilang.language.values import ListReel, Mot, Table
+from ssilang.language.values import LazyTable, ListReel, Mot, Table
 
 if TYPE_CHECKING:
     from ssilang.kernel.dynamics.snapshot import Snapshot
@@ -36,9 +37,23 @@ def restricted(given: NodeField, nodes: IntArray | None) -> NodeField:
     return NodeField(given.table, parts, given.nature)
 
 
+NODAL = (("DEPL", "displacement"), ("VITE", "velocity"), ("ACCE", "acceleration"))
+JOINTS = (
+    ("CONTRAINTES", "tractions"), ("SAUTS", "jumps"), ("VARIABLES_INTERNES", "variables"),
+)  # fmt: skip
+"""Words of the table of results, with what they are of an instant."""
+
+
+def _nodal(snapshot: Snapshot, name: str, nodes: IntArray | None) -> NodeField:
+    return restricted(getattr(snapshot, name), nodes)
+
+
 @dataclass
 class TableObserver:
-    """Fills the table of results: 1, 2 ... with TEMP, DEPL, VITE and what joints give."""
+    """Fills the table of results: 1, 2 ... with TEMP, DEPL, VITE and what joints give.
+
+    Fields are made of an instant's vectors when a script first asks for them.
+    """
 
     wanted: Steps
     nodes: IntArray | None = None
@@ -46,18 +61,15 @@ class TableObserver:
 
     def receive(self, snapshot: Snapshot) -> None:
         """Add one instant."""
-        entry = Table()
+        entry = LazyTable()
         entry.set(Mot("TEMP"), snapshot.time)
-        entry.set(Mot("DEPL"), restricted(snapshot.displacement, self.nodes))
-        entry.set(Mot("VITE"), restricted(snapshot.velocity, self.nodes))
-        entry.set(Mot("ACCE"), restricted(snapshot.acceleration, self.nodes))
-        for word, value in (
-            ("CONTRAINTES", snapshot.tractions),
-            ("SAUTS", snapshot.jumps),
-            ("VARIABLES_INTERNES", snapshot.variables),
-        ):
-            if value is not None:
-                entry.set(Mot(word), value)
+        for word, name in NODAL:
+            entry.promise(Mot(word), partial(_nodal, snapshot, name, self.nodes))
+        if snapshot.problem.interface is not None:
+            for word, name in JOINTS:
+                entry.promise(Mot(word), partial(getattr, snapshot, name))
+        if self.nodes is not None and not snapshot.problem.small:
+            entry.items()  # lets go of the rest of a large model
         self.table.set(len(self.table) + 1, entry)
 
     def close(self) -> None:
@@ -92,14 +104,19 @@ class VtkObserver:
             "reaction": snapshot.reactions,
         }
         cells: dict[str, CellField] = {}
-        jumps, tractions = snapshot.jumps, snapshot.tractions
+        bodies: CellField | None = getattr(snapshot, "body_stresses", None)
+        jumps = snapshot.jumps
+        tractions = snapshot.tractions
+        if bodies is not None:
+            tractions = getattr(snapshot, "joint_tractions", None)
         if jumps is not None and tractions is not None:
             cells |= {"opening": jumps, "traction": tractions}
         if snapshot.variables is not None:
             cells |= joint_points(snapshot.variables)
         stress = self.stress(u) if self.stress is not None else None
-        if stress is not None:
-            cells["stress"] = stress
+        found = [f for f in (stress, bodies) if f is not None]
+        if found:
+            cells["stress"] = CellField(tuple(b for f in found for b in f.blocks), "CONTRAINTES")
         parts = {name: Part(mesh, points, cells) for name, mesh in self.meshes.items()}
         self.writer.write_parts(snapshot.time, parts)
 

@@ -16,6 +16,7 @@ from ssilang.kernel.materials.behaviours import (
     JOINT_WORDS,
     OTHER_BEHAVIOURS,
     OTHER_FORMULATIONS,
+    PLASTIC_WORDS,
     full_word,
     normalised,
 )
@@ -31,7 +32,7 @@ register_family("joint", JointFamily())
 LONG_NAMES = {"BARRE": "BARR", "POUTRE": "POUT", "TUYAU": "TUYA"}
 """Elements that scripts also write in full."""
 
-LAW_WORDS = ("ELASTIQUE", *ELASTICITIES, *JOINT_WORDS)
+LAW_WORDS = ("ELASTIQUE", *ELASTICITIES, *JOINT_WORDS, *PLASTIC_WORDS)
 
 
 @dataclass
@@ -54,7 +55,9 @@ class _Wish:
     help=Help(
         en="Gives a mesh its finite elements and its law.\n"
         "The formulation is MECANIQUE; the law is ELASTIQUE, followed by ISOTROPE (default), "
-        "ORTHOTROPE, ANISOTROPE or UNIDIRECTIONNEL; joints also have JOINT_SDM. Without a name "
+        "ORTHOTROPE, ANISOTROPE or UNIDIRECTIONNEL; joints also have JOINT_SDM. Continuous "
+        "elements and bars may add PLASTIQUE and PARFAIT, ISOTROPE (default) or CINEMATIQUE (von Mises), "
+        "DRUCKER_PARFAIT, DRUCKER_PRAGER or RH_COULOMB (rounded Mohr-Coulomb). Without a name "
         "of element, cells get the continuous element of their name; BARR, POUT, TIMO, TUYA, "
         "DKT, COQ2, COQ4, COQ6, COQ8 and the joints are to be named (Q4RI, ICQ4, BBAR choose "
         "another integration). "
@@ -66,7 +69,9 @@ class _Wish:
         "SEG2 SEG3 TRI3 QUA4, which avoids oscillating tractions in very stiff joints.",
         fr="Donne à un maillage ses éléments finis et sa loi.\n"
         "La formulation est MECANIQUE ; la loi est ELASTIQUE, suivie d'ISOTROPE (par défaut), "
-        "ORTHOTROPE, ANISOTROPE ou UNIDIRECTIONNEL ; les joints ont aussi JOINT_SDM. Sans nom "
+        "ORTHOTROPE, ANISOTROPE ou UNIDIRECTIONNEL ; les joints ont aussi JOINT_SDM. Les massifs "
+        "et les barres ajoutent PLASTIQUE et PARFAIT, ISOTROPE (par défaut) ou CINEMATIQUE (von "
+        "Mises), DRUCKER_PARFAIT, DRUCKER_PRAGER ou RH_COULOMB (Mohr-Coulomb arrondi). Sans nom "
         "d'élément, les mailles reçoivent l'élément massif de leur nom ; BARR, POUT, TIMO, TUYA, "
         "DKT, COQ2, COQ4, COQ6, COQ8 et les joints se nomment (Q4RI, ICQ4, BBAR choisissent une "
         "autre intégration). "
@@ -76,7 +81,8 @@ class _Wish:
         "en déformation plane généralisée, LIBRE ou LIE dit si le repère de JOI1 suit.\n"
         "Les joints s'intègrent aux points de GAUSS (par défaut) ou, par LOBATTO, aux noeuds des "
         "faces SEG2 SEG3 TRI3 QUA4, ce qui évite les oscillations des joints très raides.",
-        syntax="MODL1 = MODE GEO1 'MECANIQUE' 'ELASTIQUE' ('ISOTROPE') (ELEM1 ...) "
+        syntax="MODL1 = MODE GEO1 'MECANIQUE' 'ELASTIQUE' ('ISOTROPE') "
+        "('PLASTIQUE' (LOI1)) (ELEM1 ...) "
         "('CONS' MOT1) ('DPGE' P1) ('LIBRE' | 'LIE') "
         "('GAUSS' | 'LOBATTO') ;\n"
         "MODL1 = MODE GEO1 'CHARGEMENT' 'PRESSION' (ELEM1 ...) ;",

@@ -17,6 +17,8 @@ from ssilang.kernel.joints.law_table import law_of
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.model import Model, Zone
+from ssilang.kernel.plasticity.bulk import without_stiffness
+from ssilang.kernel.plasticity.points import is_plastic, plastic_zones
 from ssilang.kernel.statics.thermal_load import split_thermal
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
@@ -30,6 +32,7 @@ from ssilang.operators.dynamics.dynamic import (
 )
 from ssilang.operators.session.progress import ProgressLine
 from ssilang.operators.session.user_procedures import AfterEachStep, StopCalculation
+from ssilang.operators.statics.bodies import plastic_bodies
 from ssilang.operators.statics.initial_stress import offset_load, stress_offsets
 from ssilang.operators.statics.pasapas_entries import KNOWN, REFUSED
 from ssilang.operators.statics.pasapas_results import ResultTables, Stresses
@@ -54,6 +57,7 @@ def zpas(call: Call) -> None:
     """Read the table, step through the times, fill the tables of results."""
     from ssilang.kernel.dynamics.integrate import integrate
     from ssilang.kernel.dynamics.problem import make_problem
+    from ssilang.kernel.plasticity.run import run_bulk
     from ssilang.kernel.statics.stepping import step_statics
 
     entries = Entries(call, call.required("TABLE"), "PASAPAS")
@@ -65,17 +69,19 @@ def zpas(call: Call) -> None:
     entries.table.set(Mot("CONV"), False)
     entries.table.set(Mot("ERREUR"), True)
     inputs, stresses = _inputs(entries, start, times, dynamic)
+    bodies = plastic_bodies(entries, start)
     problem = make_problem(inputs)
     observers: list[Observer] = [ResultTables(entries.table, saved, stresses, dynamic, start.index)]
     if entries.flag("PROCEDURE_PERSO1"):
         observers.append(AfterEachStep(call, "PERSO1", entries.table, len(times)))
     line = ProgressLine("PASAPAS")
     try:
-        if dynamic:
-            warn_resolution(entries, problem)
+        (warn_resolution if dynamic else warn_contrast)(entries, problem)
+        if bodies is not None:
+            history = run_bulk(problem, *bodies(problem, inputs), observers, line, dynamic)
+        elif dynamic:
             history = integrate(problem, observers, line, entries.flag("NEWTON_COMPLET"))
         else:
-            warn_contrast(entries, problem)
             history = step_statics(problem, observers, line)
         report(entries, problem, history)
     except StopCalculation:
@@ -162,7 +168,11 @@ def _inputs(
         parts = offset_load(stresses.offsets, solids)
         load = Load((*(load.parts if load else ()), *(LoadPart("MECA", f) for f in parts)))
     blocks = [stiffness(z, m) for z, m in solids]
+    plastic = plastic_zones(model)
+    blocks += [without_stiffness(z) for z in plastic]
     heavy = [mass(z, m) for z, m in solids] if dynamic else []
+    if dynamic and material is not None:
+        heavy += [mass(z, material) for z in plastic]
     constant = entries.get("RIGIDITE_CONSTANTE", "RIGIDITE")
     supports = entries.get("BLOCAGES_MECANIQUES", "RIGIDITE")
     masses: Matrix | None = None
@@ -207,4 +217,8 @@ def _linear_zones(entries: Entries) -> list[tuple[Zone, CellField]]:
     if model is None:
         return []
     material = entries.needed("CARACTERISTIQUES", "MCHAML")
-    return [(z, material) for z in model.zones if not is_joint(z) or law_of(z.behaviour).linear]
+    return [(z, material) for z in model.zones if _is_linear(z)]
+
+
+def _is_linear(zone: Zone) -> bool:
+    return law_of(zone.behaviour).linear if is_joint(zone) else not is_plastic(zone)

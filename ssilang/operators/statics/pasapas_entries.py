@@ -6,7 +6,7 @@ from ssilang.operators.dynamics.dynamic import CONTACT_ENTRIES
 
 RESULTS = (
     "TEMPS", "DEPLACEMENTS", "CONTRAINTES", "VARIABLES_INTERNES", "REACTIONS", "VITESSES",
-    "ACCELERATIONS",
+    "ACCELERATIONS", "DEFORMATIONS_INELASTIQUES",
 )  # fmt: skip
 
 # entries that steer iterations which the exact interface solution does not need

@@ -68,7 +68,8 @@ class ResultTables:
     number: int = 0
 
     def __post_init__(self) -> None:
-        for word in RESULTS[: None if self.dynamic else 5]:
+        skipped = () if self.dynamic else ("VITESSES", "ACCELERATIONS")
+        for word in (w for w in RESULTS if w not in skipped):
             if not isinstance(self.table.get(word), Table):
                 self.table.set(Mot(word), Table())
 
@@ -86,6 +87,8 @@ class ResultTables:
             ),
             "VARIABLES_INTERNES": snapshot.variables or CellField((), "VARIABLES INTERNES"),
         }
+        strains = getattr(snapshot, "plastic_strains", None)
+        values["DEFORMATIONS_INELASTIQUES"] = strains or CellField((), "DEFORMATIONS INELASTIQUES")
         if self.dynamic:
             values |= {"VITESSES": snapshot.velocity, "ACCELERATIONS": snapshot.acceleration}
         for word, value in values.items():

@@ -85,6 +85,8 @@ def _with_motions(
         try:
             fields += solve(matrix, [load], replace(options, project=False))
         except KernelError:
+            if not motions:
+                raise
             fields.append(motions[0])
     nodes = Mesh.of(matrix.table, "POI1", pins[:, None])
     return (*fields, len(motions), nodes)

@@ -1,0 +1,95 @@
+"""Drucker and Prager's cone for soils: perfect and associated, or hardening with its own flow."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ssilang.kernel.errors import MaterialError
+from ssilang.kernel.materials.plastic.cone import Cone, cone_return
+from ssilang.kernel.materials.plastic.response import PointParameters, Response
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+
+
+def perfect(
+    parameters: PointParameters, stress: FloatArray, strain: FloatArray, variables: FloatArray
+) -> Response:
+    """Cone through the simple strengths LTR (tension) and LCS (compression); variable EPSE."""
+    tension, compression = parameters["LTR"], np.abs(parameters["LCS"])
+    alpha = (compression - tension) / (compression + tension)
+    limit = 2 * compression * tension / (compression + tension)
+    one = np.ones(len(stress))
+
+    def strength(rows: IntArray, p: FloatArray) -> tuple[FloatArray, FloatArray]:
+        return limit[rows], np.zeros(len(rows))
+
+    cone = Cone(alpha, one, alpha, one, 0 * one, strength)
+    return _respond(parameters, cone, stress, strain, variables)
+
+
+def hardening(
+    parameters: PointParameters, stress: FloatArray, strain: FloatArray, variables: FloatArray
+) -> Response:
+    """`ALFA tr(s) + BETA q <= K + H p`, at most the ultimate cone; flow by GAMM and DELT."""
+    limit, slope = parameters["K"], parameters["H"]
+    last = parameters["KL"] * parameters["BETA"] / parameters["MU"]
+    falls = slope < 0
+
+    def strength(rows: IntArray, p: FloatArray) -> tuple[FloatArray, FloatArray]:
+        value = limit[rows] + slope[rows] * p
+        end = last[rows]
+        ended = np.where(falls[rows], value <= end, value >= end) | (slope[rows] == 0)
+        stop = np.where(slope[rows] == 0, limit[rows], end)
+        return np.where(ended, stop, value), np.where(ended, 0.0, slope[rows])
+
+    zero = np.zeros(len(stress))
+    names = ("ALFA", "BETA", "GAMM", "DELT")
+    alpha, beta, gamma, delta = (parameters[n] for n in names)
+    cone = Cone(alpha, beta, gamma, delta, zero, strength)
+    return _respond(parameters, cone, stress, strain, variables)
+
+
+def _respond(
+    parameters: PointParameters,
+    cone: Cone,
+    stress: FloatArray,
+    strain: FloatArray,
+    variables: FloatArray,
+) -> Response:
+    trial = stress + np.einsum("mij,mj->mi", parameters.moduli, strain)
+    found, p, tangent = cone_return(parameters, cone, trial, variables[:, 0])
+    return Response(found, p[:, None], tangent)
+
+
+def check_perfect(parameters: PointParameters) -> None:
+    """Refuse strengths without a cone.
+
+    Raises
+    ------
+    MaterialError
+        Unless LTR > 0 and |LCS| >= LTR.
+    """
+    tension, compression = parameters["LTR"], np.abs(parameters["LCS"])
+    if (tension <= 0).any() or (compression < tension).any():
+        raise MaterialError(
+            f"DRUCKER_PARFAIT has LTR = {tension.min():g} and LCS = {compression.min():g}",
+            "0 < LTR <= LCS (strengths in simple tension and compression)",
+        )
+
+
+def check_hardening(parameters: PointParameters) -> None:
+    """Refuse an ultimate cone of another slope than the first.
+
+    Raises
+    ------
+    MaterialError
+        Unless ETA / MU = ALFA / BETA, with BETA, MU and DELT positive.
+    """
+    alpha, beta, eta, mu = (parameters[n] for n in ("ALFA", "BETA", "ETA", "MU"))
+    if (beta <= 0).any() or (mu <= 0).any() or (parameters["DELT"] < 0).any():
+        raise MaterialError("DRUCKER_PRAGER needs BETA > 0, MU > 0 and DELT >= 0")
+    if (np.abs(eta * beta - alpha * mu) > 1e-9 * np.abs(alpha * mu) + 1e-30).any():
+        raise MaterialError(
+            "the ultimate cone of DRUCKER_PRAGER has another slope than the first "
+            f"(ETA/MU = {(eta / mu).flat[0]:g}, ALFA/BETA = {(alpha / beta).flat[0]:g})",
+            "ETA/MU = ALFA/BETA",
+        )

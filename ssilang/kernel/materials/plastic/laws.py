@@ -1,0 +1,104 @@
+"""The plastic laws by the words of MODE: parameters, internal variables, function."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from ssilang.kernel.errors import MaterialError
+from ssilang.kernel.materials.plastic import drucker_prager, rounded_coulomb, von_mises
+from ssilang.kernel.materials.plastic.response import PointParameters, Response
+from ssilang.kernel.mesh.nodes import FloatArray
+
+Respond = Callable[[PointParameters, FloatArray, FloatArray, FloatArray], Response]
+"""Response from parameters, stress (m, 6), step of strain (m, 6), variables (m, k)."""
+
+
+@dataclass(frozen=True)
+class PlasticLaw:
+    """One law.
+
+    Attributes
+    ----------
+    respond : callable
+    required : tuple of str
+        Parameters beside YOUN and NU.
+    variables : tuple of str
+        Names of the internal variables, EPSE (cumulated plastic strain) first.
+    positive : tuple of str
+        Parameters that must be > 0.
+    curves : tuple of str
+        Parameters that are curves.
+    check : callable or None
+        Refuses other inadmissible parameters.
+    symmetric : bool
+        Whether the tangent is symmetric.
+    """
+
+    respond: Respond
+    required: tuple[str, ...]
+    variables: tuple[str, ...] = ("EPSE",)
+    positive: tuple[str, ...] = ()
+    curves: tuple[str, ...] = ()
+    check: Callable[[PointParameters], None] | None = None
+    symmetric: bool = True
+
+
+_CENTRE = ("ALXX", "ALYY", "ALZZ", "ALXY", "ALXZ", "ALYZ")
+_CONE = ("ALFA", "BETA", "K", "ETA", "MU", "KL", "H", "GAMM", "DELT")
+
+PLASTIC_LAWS: dict[str, PlasticLaw] = {
+    "PARFAIT": PlasticLaw(von_mises.perfect, ("SIGY",), positive=("SIGY",)),
+    "ISOTROPE": PlasticLaw(von_mises.isotropic, ("ECRO",), curves=("ECRO",)),
+    "CINEMATIQUE": PlasticLaw(
+        von_mises.kinematic, ("SIGY", "H"), ("EPSE", *_CENTRE), positive=("SIGY",)
+    ),
+    "DRUCKER_PARFAIT": PlasticLaw(
+        drucker_prager.perfect, ("LTR", "LCS"), check=drucker_prager.check_perfect
+    ),
+    "DRUCKER_PRAGER": PlasticLaw(
+        drucker_prager.hardening, _CONE, check=drucker_prager.check_hardening, symmetric=False
+    ),
+    "RH_COULOMB": PlasticLaw(rounded_coulomb.respond, ("COHE", "PHI"), check=rounded_coulomb.check),
+}
+"""By the word after PLASTIQUE; ISOTROPE is meant where there is none."""
+
+
+def plastic_law(behaviour: tuple[str, ...]) -> PlasticLaw | None:
+    """The plastic law in the words of a zone's behaviour, None for an elastic one.
+
+    Raises
+    ------
+    MaterialError
+        If the word after PLASTIQUE names no law.
+    """
+    if "PLASTIQUE" not in behaviour:
+        return None
+    after = behaviour[behaviour.index("PLASTIQUE") + 1 :] or ("ISOTROPE",)
+    if after[0] not in PLASTIC_LAWS:
+        raise MaterialError(
+            f"no plastic law of bodies is called {after[0]}", "there are " + ", ".join(PLASTIC_LAWS)
+        )
+    return PLASTIC_LAWS[after[0]]
+
+
+def check_parameters(law: PlasticLaw, parameters: PointParameters) -> None:
+    """Refuse inadmissible parameters.
+
+    Raises
+    ------
+    MaterialError
+        Naming the parameter and its value.
+    """
+    for name in law.positive:
+        if (parameters[name] <= 0).any():
+            raise MaterialError(f"{name} = {parameters[name].min():g}: it must be > 0")
+    for name in law.curves:
+        for curve in parameters.curves[name][0]:
+            if (curve.parts[0].ordinates <= 0).any():
+                raise MaterialError(
+                    f"the curve {name} has strengths that are not > 0",
+                    "abscissas are plastic strains from 0, ordinates stresses",
+                )
+    if law.check is not None:
+        law.check(parameters)

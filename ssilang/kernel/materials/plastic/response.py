@@ -1,0 +1,110 @@
+"""What a plastic law receives and gives, at many points at once.
+
+Stresses are XX YY ZZ XY XZ YZ, strains the same with engineering shears (GAXY = 2 EPXY), so that
+`stress . strain` is the work.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from ssilang.kernel.curve import Curve
+from ssilang.kernel.materials.elasticity import isotropic_compliance, isotropic_moduli
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+
+UNIT = np.array([1.0, 1.0, 1.0, 0.0, 0.0, 0.0])
+"""The unit tensor."""
+DEVIATOR = np.diag([1.0, 1.0, 1.0, 0.5, 0.5, 0.5])
+DEVIATOR[:3, :3] -= 1 / 3
+"""Deviatoric part, as a stress, of a strain."""
+
+
+@dataclass(frozen=True, eq=False)
+class PointParameters:
+    """Parameters of a law at m points.
+
+    Attributes
+    ----------
+    values : mapping of str to array (m,)
+        YOUN, NU and those of the law.
+    curves : mapping of str to (list of Curve, array (m,))
+        Curves, and which of them each point has.
+    """
+
+    values: Mapping[str, FloatArray]
+    curves: Mapping[str, tuple[list[Curve], IntArray]]
+
+    def __getitem__(self, name: str) -> FloatArray:
+        return self.values[name]
+
+    @property
+    def shear(self) -> FloatArray:
+        """Shear modulus (m,)."""
+        found: FloatArray = self["YOUN"] / (2 * (1 + self["NU"]))
+        return found
+
+    @property
+    def bulk(self) -> FloatArray:
+        """Bulk modulus (m,)."""
+        found: FloatArray = self["YOUN"] / (3 * (1 - 2 * self["NU"]))
+        return found
+
+    @property
+    def moduli(self) -> FloatArray:
+        """Elastic moduli (m, 6, 6)."""
+        return isotropic_moduli(self["YOUN"], self["NU"])
+
+    @property
+    def compliance(self) -> FloatArray:
+        """Elastic compliance (m, 6, 6)."""
+        return isotropic_compliance(self["YOUN"], self["NU"])
+
+    def at(self, points: IntArray) -> PointParameters:
+        """The same for some of the points."""
+        values = {name: v[points] for name, v in self.values.items()}
+        curves = {name: (all_, which[points]) for name, (all_, which) in self.curves.items()}
+        return PointParameters(values, curves)
+
+    def curve(self, name: str, x: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Ordinate and slope (m,) of a curve at x (m,); constant beyond its ends."""
+        all_, which = self.curves[name]
+        y, slope = np.zeros(len(x)), np.zeros(len(x))
+        for i, curve in enumerate(all_):
+            a, b = curve.parts[0].abscissas, curve.parts[0].ordinates
+            rows = which == i
+            y[rows] = np.interp(x[rows], a, b)
+            if len(a) > 1:
+                inside = (x[rows] >= a[0]) & (x[rows] < a[-1])
+                place = np.clip(np.searchsorted(a, x[rows], side="right"), 1, len(a) - 1)
+                rise = np.diff(b)[place - 1] / np.maximum(np.diff(a)[place - 1], 1e-300)
+                slope[rows] = np.where(inside, rise, 0.0)
+        return y, slope
+
+
+@dataclass(frozen=True, eq=False)
+class Response:
+    """A law's answer to a step of strain.
+
+    Attributes
+    ----------
+    stress : array (m, 6)
+        At the end of the step.
+    variables : array (m, k)
+        Internal variables at the end.
+    tangent : array (m, 6, 6)
+        Derivative of the stress by the strain of the step (consistent with the integration).
+    """
+
+    stress: FloatArray
+    variables: FloatArray
+    tangent: FloatArray
+
+
+def mises(stress: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Equivalent stress of von Mises (m,) and deviator (m, 6)."""
+    deviator = stress - (stress[:, :3].sum(axis=1) / 3)[:, None] * UNIT
+    square = (deviator[:, :3] ** 2).sum(axis=1) + 2 * (deviator[:, 3:] ** 2).sum(axis=1)
+    return np.sqrt(1.5 * square), deviator

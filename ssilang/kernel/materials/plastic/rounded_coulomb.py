@@ -1,0 +1,212 @@
+"""Mohr and Coulomb's criterion with rounded edges and tip, perfect and associated.
+
+    f = sin(PHI) I1/3 + sqrt(J2 k(theta)^2 + (0.05 COHE cos(PHI))^2) - COHE cos(PHI)
+
+k is Coulomb's section up to 25 degrees of Lode's angle and a sine of three times the angle
+beyond, with continuous slope (Abbo and Sloan, Computers and Structures 54, 1995). The tip is a
+hyperbola. The surface being smooth, the return is the closest point by Newton on stress and
+multiplier together, and its tangent is exact.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ssilang.kernel.errors import MaterialError
+from ssilang.kernel.materials.plastic.response import DEVIATOR, PointParameters, Response
+from ssilang.kernel.mesh.nodes import FloatArray
+
+TRANSITION = np.radians(25.0)
+TIP = 0.05
+TURNS = 60
+CUTS = 12
+_S = -1.5 * np.sqrt(3.0)
+
+_PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
+_BASIS = np.zeros((6, 3, 3))
+for _a, (_i, _j) in enumerate(_PAIRS):
+    _BASIS[_a, _i, _j] = _BASIS[_a, _j, _i] = 1.0
+_DEVIATORIC = _BASIS - np.einsum("aii->a", _BASIS)[:, None, None] / 3 * np.eye(3)
+_PRODUCTS = np.einsum("aij,bjk->abik", _DEVIATORIC, _DEVIATORIC)
+_PRODUCTS = _PRODUCTS + _PRODUCTS.transpose(1, 0, 2, 3)
+_SECOND = np.einsum("abii->ab", _PRODUCTS) / 2
+"""Hessian of J2."""
+_MEAN = np.array([1.0, 1.0, 1.0, 0.0, 0.0, 0.0]) / 3
+
+
+def respond(
+    parameters: PointParameters, stress: FloatArray, strain: FloatArray, variables: FloatArray
+) -> Response:
+    """Parameters COHE and PHI (radians); variable EPSE."""
+    moduli = parameters.moduli
+    trial = stress + np.einsum("mij,mj->mi", moduli, strain)
+    found, tangent, p = trial.copy(), moduli.copy(), variables[:, 0].copy()
+    size = np.abs(trial).max(axis=1) + parameters["COHE"]
+    rows = np.flatnonzero(_surface(parameters, trial)[0] > 1e-13 * size)
+    if len(rows):
+        some = parameters.at(rows)
+        compliance = some.compliance
+        found[rows], tangent[rows] = _closest_point(some, compliance, trial[rows])
+        plastic = np.einsum("mij,mj->mi", compliance, trial[rows] - found[rows])
+        square = (plastic[:, :3] ** 2).sum(axis=1) + 0.5 * (plastic[:, 3:] ** 2).sum(axis=1)
+        p[rows] += np.sqrt(2 / 3 * square)
+    return Response(found, p[:, None], tangent)
+
+
+def _closest_point(
+    parameters: PointParameters, compliance: FloatArray, trial: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    m = len(trial)
+    unknown = np.column_stack([trial, np.zeros(m)])
+    rest, jacobian, _ = _equations(parameters, compliance, trial, unknown)
+    norm = _norm(parameters, rest)
+    for _ in range(TURNS):
+        active = norm > 1e-12
+        if not active.any():
+            break
+        step = -_solved(jacobian, rest)
+        step[~active] = 0.0
+        unknown, rest, jacobian, norm = _searched(
+            parameters, compliance, trial, unknown, step, norm
+        )
+    inverse = np.linalg.inv(jacobian).astype(np.float64)
+    return unknown[:, :6], inverse[:, :6, :6]
+
+
+def _solved(jacobian: FloatArray, rest: FloatArray) -> FloatArray:
+    found: FloatArray = np.linalg.solve(jacobian, rest[..., None])[..., 0].astype(np.float64)
+    return found
+
+
+def _searched(
+    parameters: PointParameters,
+    compliance: FloatArray,
+    trial: FloatArray,
+    unknown: FloatArray,
+    step: FloatArray,
+    norm: FloatArray,
+) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """A step, halved where the residual would grow."""
+    length = np.ones(len(norm))
+    for _ in range(CUTS):
+        new = unknown + length[:, None] * step
+        rest, jacobian, _ = _equations(parameters, compliance, trial, new)
+        found = _norm(parameters, rest)
+        worse = ~(found <= (1 - 0.1 * length) * norm) & (norm > 1e-12) & (found > 1e-13)
+        if not worse.any():
+            break
+        length = np.where(worse, 0.5 * length, length)
+    return new, rest, jacobian, found
+
+
+def _norm(parameters: PointParameters, rest: FloatArray) -> FloatArray:
+    """Residual over the strain and stress of first yield (m,)."""
+    scale = parameters["COHE"] * np.cos(parameters["PHI"])
+    strain = np.abs(rest[:, :6]).max(axis=1) * parameters["YOUN"] / scale
+    found: FloatArray = np.maximum(strain, np.abs(rest[:, 6]) / scale)
+    return found
+
+
+def _equations(
+    parameters: PointParameters, compliance: FloatArray, trial: FloatArray, unknown: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Residual (m, 7), its derivative (m, 7, 7), yield function (m,)."""
+    stress, multiplier = unknown[:, :6], unknown[:, 6]
+    f, gradient, hessian = _surface(parameters, stress)
+    rest = np.empty_like(unknown)
+    rest[:, :6] = np.einsum("mij,mj->mi", compliance, stress - trial)
+    rest[:, :6] += multiplier[:, None] * gradient
+    rest[:, 6] = f
+    jacobian = np.zeros((len(f), 7, 7))
+    jacobian[:, :6, :6] = compliance + multiplier[:, None, None] * hessian
+    jacobian[:, :6, 6] = jacobian[:, 6, :6] = gradient
+    return rest, jacobian, f
+
+
+def _surface(
+    parameters: PointParameters, stress: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Yield function (m,), gradient (m, 6), Hessian (m, 6, 6)."""
+    c, phi = parameters["COHE"], parameters["PHI"]
+    sine, limit = np.sin(phi), c * np.cos(phi)
+    tensor = np.einsum("ma,aij->mij", stress, _DEVIATORIC)
+    J2 = 0.5 * np.einsum("mij,mij->m", tensor, tensor)
+    J2 = np.maximum(J2, 1e-24 * limit**2 + 1e-300)
+    square = np.einsum("mij,mjk->mik", tensor, tensor)
+    J3 = np.einsum("mij,mij->m", square, tensor) / 3
+    g2 = np.einsum("mij,aij->ma", tensor, _DEVIATORIC)
+    g3 = np.einsum("mij,aij->ma", square, _DEVIATORIC)
+    h3 = np.einsum("mij,abij->mab", tensor, _PRODUCTS)
+    h, d2, d3, d22, d23, d33 = _section(J2, J3, sine)
+    root = np.sqrt(h + (TIP * limit) ** 2)
+    inner = d2[:, None] * g2 + d3[:, None] * g3
+    cross = g2[:, :, None] * g3[:, None, :]
+    bend = d22[:, None, None] * g2[:, :, None] * g2[:, None, :]
+    bend += d23[:, None, None] * (cross + cross.transpose(0, 2, 1))
+    bend += d33[:, None, None] * g3[:, :, None] * g3[:, None, :]
+    bend += d2[:, None, None] * _SECOND + d3[:, None, None] * h3
+    f = sine * (stress @ _MEAN) - limit + root
+    gradient = sine[:, None] * _MEAN + inner / (2 * root[:, None])
+    hessian = bend / (2 * root[:, None, None])
+    hessian -= inner[:, :, None] * inner[:, None, :] / (4 * root[:, None, None] ** 3)
+    return f, gradient, hessian
+
+
+def _section(J2: FloatArray, J3: FloatArray, sine: FloatArray) -> tuple[FloatArray, ...]:
+    """`J2 k^2` and its derivatives by J2, J3: h, h_2, h_3, h_22, h_23, h_33, each (m,)."""
+    lode = np.clip(_S * J3 / J2**1.5, -1.0, 1.0)
+    k, k1, k2 = _shape(lode, sine)
+    by2, by3 = -1.5 * lode / J2, _S / J2**1.5
+    turn = k1**2 + k * k2
+    mixed = -k * k1 - 3 * turn * lode
+    return (
+        J2 * k**2,
+        k**2 - 3 * k * k1 * lode,
+        2 * J2 * k * k1 * by3,
+        mixed * by2,
+        mixed * by3,
+        2 * J2 * turn * by3**2,
+    )
+
+
+def _shape(lode: FloatArray, sine: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """k and its derivatives by sin(3 theta)."""
+    angle = np.arcsin(lode) / 3
+    side = np.where(lode >= 0, 1.0, -1.0)
+    t, r = TRANSITION, np.sqrt(3.0)
+    tan, tan3 = np.tan(t), np.tan(3 * t)
+    A = np.cos(t) / 3 * (3 + tan * tan3 + side * (tan3 - 3 * tan) * sine / r)
+    B = (side * np.sin(t) + sine * np.cos(t) / r) / (3 * np.cos(3 * t))
+    inside = np.abs(angle) <= t
+    a = np.where(inside, angle, 0.0)
+    k = np.cos(a) - sine * np.sin(a) / r
+    first = -np.sin(a) - sine * np.cos(a) / r
+    cos3 = 3 * np.cos(3 * a)
+    k1 = first / cos3
+    k2 = (-k + 3 * np.tan(3 * a) * first) / cos3**2
+    zero = np.zeros_like(lode)
+    return (
+        np.where(inside, k, A - B * lode),
+        np.where(inside, k1, -B),
+        np.where(inside, k2 * 1.0, zero),
+    )
+
+
+def check(parameters: PointParameters) -> None:
+    """Refuse a material without cohesion or with an angle in degrees.
+
+    Raises
+    ------
+    MaterialError
+        Unless COHE > 0 and 0 < PHI < pi/2.
+    """
+    if (parameters["COHE"] <= 0).any():
+        raise MaterialError("RH_COULOMB needs a cohesion COHE > 0", "a small one for sand")
+    phi = parameters["PHI"]
+    if (phi <= 0).any() or (phi >= np.pi / 2).any():
+        raise MaterialError(
+            f"RH_COULOMB has PHI = {phi.flat[0]:g}", "an angle in radians between 0 and pi/2"
+        )
+
+
+__all__ = ["DEVIATOR", "check", "respond"]

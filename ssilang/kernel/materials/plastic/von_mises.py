@@ -1,0 +1,78 @@
+"""Von Mises' plasticity: perfect, with isotropic or with linear kinematic hardening."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ssilang.kernel.materials.plastic.cone import Cone, Hardening, cone_return
+from ssilang.kernel.materials.plastic.response import UNIT, PointParameters, Response, mises
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+
+
+def _cylinder(m: int, hardening: Hardening, kinematic: FloatArray | None = None) -> Cone:
+    one, zero = np.ones(m), np.zeros(m)
+    return Cone(zero, one, zero, one, zero if kinematic is None else kinematic, hardening)
+
+
+def perfect(
+    parameters: PointParameters, stress: FloatArray, strain: FloatArray, variables: FloatArray
+) -> Response:
+    """Elastic, perfectly plastic: `q <= SIGY`; variable EPSE."""
+    limit = parameters["SIGY"]
+
+    def strength(rows: IntArray, p: FloatArray) -> tuple[FloatArray, FloatArray]:
+        return limit[rows], np.zeros(len(rows))
+
+    return _isotropic(parameters, stress, strain, variables, strength)
+
+
+def isotropic(
+    parameters: PointParameters, stress: FloatArray, strain: FloatArray, variables: FloatArray
+) -> Response:
+    """`q <= ECRO(p)`; variable EPSE."""
+
+    def strength(rows: IntArray, p: FloatArray) -> tuple[FloatArray, FloatArray]:
+        return parameters.at(rows).curve("ECRO", p)
+
+    return _isotropic(parameters, stress, strain, variables, strength)
+
+
+def _isotropic(
+    parameters: PointParameters,
+    stress: FloatArray,
+    strain: FloatArray,
+    variables: FloatArray,
+    strength: Hardening,
+) -> Response:
+    trial = stress + np.einsum("mij,mj->mi", parameters.moduli, strain)
+    cone = _cylinder(len(stress), strength)
+    found, p, tangent = cone_return(parameters, cone, trial, variables[:, 0])
+    return Response(found, p[:, None], tangent)
+
+
+def kinematic(
+    parameters: PointParameters, stress: FloatArray, strain: FloatArray, variables: FloatArray
+) -> Response:
+    """`q(s - X) <= SIGY`, `dX = 2/3 H dep` (Prager); variables EPSE and X."""
+    limit, H = parameters["SIGY"], parameters["H"]
+
+    def strength(rows: IntArray, p: FloatArray) -> tuple[FloatArray, FloatArray]:
+        return limit[rows], np.zeros(len(rows))
+
+    centre = variables[:, 1:7]
+    trial = stress + np.einsum("mij,mj->mi", parameters.moduli, strain) - centre
+    cone = _cylinder(len(stress), strength, H)
+    found, p, tangent = cone_return(parameters, cone, trial, variables[:, 0])
+    q, deviator = mises(trial)
+    N = deviator / np.maximum(q, 1e-300)[:, None]
+    moved = centre + (H * (p - variables[:, 0]))[:, None] * N
+    return Response(found + centre, np.column_stack([p, moved]), tangent)
+
+
+def yield_function(parameters: PointParameters, stress: FloatArray) -> FloatArray:
+    """`q - SIGY` (m,) of perfect plasticity."""
+    found: FloatArray = mises(stress)[0] - parameters["SIGY"]
+    return found
+
+
+__all__ = ["UNIT", "isotropic", "kinematic", "perfect", "yield_function"]

@@ -1,0 +1,1 @@
+"""Bodies of plastic material in statics and dynamics: Newton's method on all unknowns."""

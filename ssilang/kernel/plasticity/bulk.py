@@ -1,0 +1,245 @@
+"""All plastic zones of a problem together: state, forces, tangent, results."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ssilang.kernel.elements.families import family_of
+from ssilang.kernel.elements.family import cell_block
+from ssilang.kernel.elements.zone_fields import zone_field
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.matrices.assembly import (
+    MANY_TERMS,
+    Numbering,
+    assemble_triplets,
+    block_indices,
+)
+from ssilang.kernel.matrices.matrix import ElementMatrices
+from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.model import Zone
+from ssilang.kernel.plasticity.points import PlasticPoints, plastic_points
+from ssilang.kernel.sparse import sp
+
+FreeStrain = Callable[[float], FloatArray]
+"""Strain without stress (n_cells, n_strains, n_points) of a zone at a time."""
+
+
+@dataclass(eq=False)
+class PointState:
+    """State of one zone's points; never changed in place.
+
+    Attributes
+    ----------
+    stress, plastic, free : array (m, 6)
+        Stress, plastic strain, strain without stress (expansion) already taken up.
+    variables : array (m, k)
+    """
+
+    stress: FloatArray
+    plastic: FloatArray
+    free: FloatArray
+    variables: FloatArray
+
+
+State = tuple[PointState, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Answer:
+    """What a step of displacement makes of the plastic zones.
+
+    Attributes
+    ----------
+    force : array (n,)
+        Internal forces at the end of the step.
+    tangent : csr array (n, n)
+    state : State
+    work : float
+        Work of the stresses over the step (average of both ends).
+    """
+
+    force: FloatArray
+    tangent: sp.csr_array
+    state: State
+    work: float
+
+
+@dataclass(frozen=True, eq=False)
+class Bulk:
+    """Plastic zones on the numbering of a problem.
+
+    Attributes
+    ----------
+    zones : tuple of PlasticPoints
+    places : tuple of array (n_cells, n_rows)
+        Unknown of each row of each element vector.
+    size : int
+        Number of unknowns.
+    free : dict
+        Strains without stress in time, by position of the zone.
+    """
+
+    zones: tuple[PlasticPoints, ...]
+    places: tuple[NDArray[np.int32], ...]
+    size: int
+    free: dict[int, FreeStrain] = field(default_factory=dict)
+
+    @property
+    def symmetric(self) -> bool:
+        """Whether all tangents are."""
+        return all(z.law.symmetric for z in self.zones)
+
+    @property
+    def words(self) -> str:
+        """The laws, for messages."""
+        return ", ".join(dict.fromkeys(z.zone.behaviour[-1] for z in self.zones))
+
+    def unloaded(self) -> State:
+        """The state of virgin material."""
+        return tuple(
+            PointState(
+                np.zeros((z.count, 6)),
+                np.zeros((z.count, 6)),
+                np.zeros((z.count, 6)),
+                np.zeros((z.count, len(z.law.variables))),
+            )
+            for z in self.zones
+        )
+
+    def respond(self, state: State, du: FloatArray, time: float) -> Answer:
+        """Forces and tangent after a step `du` (n,) of displacement that ends at a time."""
+        force, values, after, work = np.zeros(self.size), [], [], 0.0
+        for i, (zone, places, old) in enumerate(zip(self.zones, self.places, state, strict=True)):
+            strain = zone.strains(du[places])
+            free = old.free
+            if i in self.free:
+                free = zone.spread(self.free[i](time))
+                strain = strain - (free - old.free)
+            found, whole = zone.respond(old.stress, strain, old.variables)
+            vectors = zone.forces(found.stress)
+            force += np.bincount(places.ravel(), vectors.ravel(), self.size)
+            values.append(zone.stiffness(found.tangent))
+            elastic = np.einsum("mij,mj->mi", zone.parameters.compliance, found.stress - old.stress)
+            plastic = old.plastic + whole - elastic
+            after.append(PointState(found.stress, plastic, free, found.variables))
+            density = np.einsum("mi,mi->m", 0.5 * (old.stress + found.stress), strain)
+            work += float(density @ zone.weights.ravel())
+        return Answer(force, self._assembled(values), tuple(after), work)
+
+    def _assembled(self, values: list[FloatArray]) -> sp.csr_array:
+        if sum(v.size for v in values) > MANY_TERMS:
+            from ssilang.kernel.matrices.gathered_rows import assemble_rows
+
+            return assemble_rows(list(self.places), values, self.size)
+        return assemble_triplets(list(self.places), values, self.size)
+
+    def force(self, state: State) -> FloatArray:
+        """Internal forces (n,) of a state."""
+        total = np.zeros(self.size)
+        for zone, places, old in zip(self.zones, self.places, state, strict=True):
+            total += np.bincount(places.ravel(), zone.forces(old.stress).ravel(), self.size)
+        return total
+
+    def stored(self, state: State) -> float:
+        """Elastic energy."""
+        total = 0.0
+        for zone, old in zip(self.zones, state, strict=True):
+            strain = np.einsum("mij,mj->mi", zone.parameters.compliance, old.stress)
+            total += 0.5 * float(np.einsum("mi,mi->m", strain, old.stress) @ zone.weights.ravel())
+        return total
+
+
+def bulk_of(zones: tuple[Zone, ...], characteristics: CellField, numbering: Numbering) -> Bulk:
+    """Plastic zones placed on a numbering."""
+    points = tuple(plastic_points(z, characteristics) for z in zones)
+    places = tuple(
+        block_indices(without_stiffness(p.zone), numbering).astype(np.int32) for p in points
+    )
+    return Bulk(points, places, numbering.size)
+
+
+def without_stiffness(zone: Zone) -> ElementMatrices:
+    """A block of zeros that has the unknowns of a zone."""
+    layout = family_of(zone).layout(zone)
+    k = len(layout.unknowns)
+    zeros = np.zeros((len(layout.raw_nodes), k, k))
+    return ElementMatrices(
+        layout.table, layout.raw_nodes, layout.local, layout.unknowns, layout.duals, zeros
+    )
+
+
+# --- fields ----------------------------------------------------------------------------------
+
+
+def stress_blocks(bulk: Bulk, state: State) -> list[CellFieldBlock]:
+    """Stresses of the zones (forces in bars)."""
+    return [
+        cell_block(z.zone, family_of(z.zone).stress_names(z.zone), _in_section(z, s.stress))
+        for z, s in zip(bulk.zones, state, strict=True)
+    ]
+
+
+def _in_section(zone: PlasticPoints, stress: FloatArray) -> FloatArray:
+    values = zone.gathered(stress)
+    return values if zone.section is None else values * zone.section[:, None]
+
+
+def variable_blocks(bulk: Bulk, state: State) -> list[CellFieldBlock]:
+    """Internal variables of the zones."""
+    blocks = []
+    for z, s in zip(bulk.zones, state, strict=True):
+        n, p = z.weights.shape
+        values = s.variables.reshape(n, p, -1).transpose(0, 2, 1)
+        blocks.append(cell_block(z.zone, z.law.variables, values))
+    return blocks
+
+
+def plastic_strain_names(zone: Zone) -> tuple[str, ...]:
+    """EIXX EIYY EIZZ GIXY ..., EISS in bars."""
+    names = family_of(zone).strain_names(zone)
+    return tuple(n[0] + "I" + n[2:] for n in names)
+
+
+def plastic_strain_blocks(bulk: Bulk, state: State) -> list[CellFieldBlock]:
+    """Plastic strains of the zones."""
+    return [
+        cell_block(z.zone, plastic_strain_names(z.zone), z.gathered(s.plastic))
+        for z, s in zip(bulk.zones, state, strict=True)
+    ]
+
+
+def state_from_fields(
+    bulk: Bulk,
+    stress: CellField | None,
+    variables: CellField | None,
+    plastic: CellField | None,
+) -> State | None:
+    """The state that an earlier calculation left; None if no stress of the zones is given."""
+    found, known = [], False
+    for zone, blank in zip(bulk.zones, bulk.unloaded(), strict=True):
+        names = family_of(zone.zone).stress_names(zone.zone)
+        seen = zone_field(zone.zone, stress)
+        inner = zone_field(zone.zone, variables)
+        strains = zone_field(zone.zone, plastic)
+        state = blank
+        if any(n in seen for n in names):
+            known = True
+            values = seen.matrix(names, "STRESSES")
+            if zone.section is not None:
+                values = values / zone.section[:, None]
+            state = PointState(zone.spread(values), blank.plastic, blank.free, blank.variables)
+        if any(n in inner for n in zone.law.variables):
+            kept = inner.matrix(zone.law.variables, "STRESSES").transpose(0, 2, 1)
+            state = PointState(
+                state.stress, state.plastic, state.free, kept.reshape(zone.count, -1)
+            )
+        names = plastic_strain_names(zone.zone)
+        if any(n in strains for n in names):
+            held = zone.spread(strains.matrix(names, "STRESSES"))
+            state = PointState(state.stress, held, state.free, state.variables)
+        found.append(state)
+    return tuple(found) if known else None

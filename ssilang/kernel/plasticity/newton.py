@@ -1,0 +1,129 @@
+"""The step by Newton's method on all unknowns: plastic bodies and joints together."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ssilang.kernel.dynamics.compiled_loop import Motion
+from ssilang.kernel.dynamics.full_newton import FullNewtonSolver
+from ssilang.kernel.dynamics.problem import Problem
+from ssilang.kernel.dynamics.sparse_loop import StepOutcome
+from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.plasticity.bulk import Answer, Bulk, State
+from ssilang.kernel.solvers.backends import SingularFactorError, factorise
+from ssilang.kernel.sparse import sp
+
+TURNS = 30
+TOLERANCE = 1e-10
+"""Residual over the forces at play; Newton's last step leaves far less."""
+STALLED = 1e-7
+"""Residual that is accepted where rounding (stiff on soft) keeps Newton from the tolerance."""
+SEARCHES = 4
+PATIENCE = 8
+"""Turns after which the residual must have fallen below a tenth of what it was at their start."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Trial:
+    """A displacement under trial: answers of bodies and joints, what is out of balance."""
+
+    du: FloatArray
+    answer: Answer
+    K: sp.csr_array
+    f: FloatArray
+    new: FloatArray
+    rest: FloatArray
+    residual: float
+
+    @property
+    def size(self) -> float:
+        return float(np.linalg.norm(self.rest))
+
+
+class BulkSolver(FullNewtonSolver):
+    """`A du + c (F_1 - F_0) + c J^T (f_1 - f_0) = r` with the tangents of bodies and joints.
+
+    Attributes
+    ----------
+    state : State
+        Of the bodies at the start of the step; an accepted step replaces it.
+    force : array (n,)
+        Internal forces of that state.
+    work : float
+        Of the stresses over the last accepted step.
+    time : float
+        At the end of the step.
+    guess : array (n,) or None
+        Increment to start from first; the elastic prediction is tried where it leads nowhere.
+    residuals : list of float
+        Of the iterations of the last step.
+    """
+
+    def __init__(
+        self, problem: Problem, A: sp.csr_array, share: float, bulk: Bulk, state: State
+    ) -> None:
+        super().__init__(problem, A, share)
+        self.bulk, self.state, self.force = bulk, state, bulk.force(state)
+        self.work, self.time = 0.0, 0.0
+        self.guess: FloatArray | None = None
+        self.residuals: list[float] = []
+
+    def solve(self, motion: Motion, r: FloatArray, dd: FloatArray, gap: FloatArray) -> StepOutcome:
+        """Newton's method; commits joints and bodies if it converges."""
+        if self.guess is not None:
+            start = self.guess + self.constraints.particular(dd - self.constraints.C @ self.guess)
+            outcome = self._newton(motion, r, start)
+            if outcome.turns > 0:
+                return outcome
+        return self._newton(motion, r, self.constraints.particular(dd))
+
+    def _newton(self, motion: Motion, r: FloatArray, start: FloatArray) -> StepOutcome:
+        T, V = self.constraints.T, self.constraints.V
+        now = self._trial(motion, r, start)
+        self.residuals = [now.residual]
+        for turn in range(1, TURNS + 1):
+            whole = self.A + now.K + self.share * now.answer.tangent
+            try:
+                factor = factorise(sp.csr_array(V.T @ whole @ T), False)
+            except SingularFactorError:
+                return StepOutcome(now.du, 0, now.residual)
+            now = self._searched(motion, r, now, T @ factor.solve(now.rest))
+            self.residuals.append(now.residual)
+            if not np.isfinite(now.residual):
+                break
+            if now.residual <= TOLERANCE or self._stalled():
+                self._commit(motion, now.du, now.f, now.new)
+                answer = now.answer
+                self.state, self.force, self.work = answer.state, answer.force, answer.work
+                return StepOutcome(now.du, turn, now.residual)
+            if turn > PATIENCE and now.residual > 0.1 * self.residuals[-PATIENCE - 1]:
+                break
+        return StepOutcome(now.du, 1 - len(self.residuals), self.residuals[-1])
+
+    def _searched(self, motion: Motion, r: FloatArray, now: _Trial, step: FloatArray) -> _Trial:
+        """The step, halved while what is out of balance would grow."""
+        length = 1.0
+        for _ in range(SEARCHES):
+            found = self._trial(motion, r, now.du + length * step)
+            if found.size < now.size or found.residual <= TOLERANCE:
+                break
+            length = 0.5 * length
+        return found
+
+    def _trial(self, motion: Motion, r: FloatArray, du: FloatArray) -> _Trial:
+        f, new = np.zeros_like(motion.f), np.zeros_like(motion.state)
+        answer = self.bulk.respond(self.state, du, self.time)
+        K, force = self._joints(motion, du, f, new)
+        linear = self.A @ du
+        rest = r - linear - force - self.share * (answer.force - self.force)
+        rest = self.constraints.V.T @ rest
+        parts = (r, linear, answer.force, self.force, force)
+        scale = max(sum(float(np.abs(x).max(initial=0.0)) for x in parts), 1e-300)
+        residual = float(np.abs(rest).max(initial=0.0)) / scale
+        return _Trial(du, answer, K, f, new, rest, residual)
+
+    def _stalled(self) -> bool:
+        last = self.residuals[-3:]
+        return len(last) == 3 and max(last) <= STALLED and last[-1] > 0.3 * last[0]

@@ -1,0 +1,197 @@
+"""The integration points of a plastic zone: strain operator, parameters, law."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from ssilang.kernel.elements.catalog import ELEMENTS
+from ssilang.kernel.elements.families import family_of
+from ssilang.kernel.elements.family import Layout
+from ssilang.kernel.elements.geometry import chunks
+from ssilang.kernel.elements.zone_fields import ZoneField, n_points, zone_field
+from ssilang.kernel.errors import KernelError, MaterialError
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.materials.elasticity import check_isotropic
+from ssilang.kernel.materials.plastic.held_stress import respond_held
+from ssilang.kernel.materials.plastic.laws import PlasticLaw, check_parameters, plastic_law
+from ssilang.kernel.materials.plastic.response import PointParameters, Response
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+from ssilang.kernel.model import Mode, Model, Zone
+
+_PLANE, _SPACE = (0, 1, 2, 3), (0, 1, 2, 3, 4, 5)
+COMPONENTS: dict[Mode, tuple[int, ...]] = {
+    Mode.PLANE_STRAIN: _PLANE,
+    Mode.PLANE_STRESS: _PLANE,
+    Mode.GENERALISED_PLANE_STRAIN: _PLANE,
+    Mode.AXISYMMETRIC: _PLANE,
+    Mode.THREE_DIMENSIONAL: _SPACE,
+    Mode.UNIDIMENSIONAL: (0, 1, 2),
+}
+"""Components of the tensor XX YY ZZ XY XZ YZ that a hypothesis has (RR ZZ TT RZ likewise)."""
+
+
+@dataclass(frozen=True, eq=False)
+class PlasticPoints:
+    """One zone.
+
+    Attributes
+    ----------
+    B : array (n_cells, n_strains, n_points, n_rows)
+        Strain operator at the points of 'STRESSES'.
+    weights : array (n_cells, n_points)
+        With the section of bars.
+    section : array (n_cells, n_points) or None
+        Section of bars: results are forces.
+    components : tuple of int
+        Where the strains stand in the tensor.
+    held : tuple of int
+        Components whose stress is zero whatever the strain.
+    """
+
+    zone: Zone
+    law: PlasticLaw
+    layout: Layout
+    B: FloatArray
+    weights: FloatArray
+    section: FloatArray | None
+    components: tuple[int, ...]
+    held: tuple[int, ...]
+    parameters: PointParameters
+
+    @property
+    def count(self) -> int:
+        """Number of points."""
+        return self.weights.size
+
+    def strains(self, vectors: FloatArray) -> FloatArray:
+        """Strains (m, 6) of element vectors (n_cells, n_rows)."""
+        n, s, p, _ = self.B.shape
+        own = np.matmul(self.B.reshape(n, s * p, -1), vectors[..., None]).reshape(n, s, p)
+        return self.spread(own)
+
+    def spread(self, own: FloatArray) -> FloatArray:
+        """Components of the hypothesis (n_cells, n_strains, n_points) as tensors (m, 6)."""
+        full = np.zeros((self.count, 6))
+        for i, c in enumerate(self.components):
+            full[:, c] = own[:, i].ravel()
+        return full
+
+    def gathered(self, full: FloatArray) -> FloatArray:
+        """Tensors (m, 6) as the hypothesis' components (n_cells, n_strains, n_points)."""
+        n, p = self.weights.shape
+        return np.stack([full[:, c].reshape(n, p) for c in self.components], axis=1)
+
+    def respond(
+        self, stress: FloatArray, strain: FloatArray, variables: FloatArray
+    ) -> tuple[Response, FloatArray]:
+        """The law at the points, and the strains with those across held stresses."""
+        return respond_held(self.law, self.parameters, stress, strain, variables, self.held)
+
+    def forces(self, stress: FloatArray) -> FloatArray:
+        """Element vectors (n_cells, n_rows) in balance with stresses (m, 6)."""
+        n, s, p, rows = self.B.shape
+        weighted = (self.gathered(stress) * self.weights[:, None]).reshape(n, 1, s * p)
+        found: FloatArray = np.matmul(weighted, self.B.reshape(n, s * p, rows))[:, 0]
+        return found
+
+    def stiffness(self, tangent: FloatArray) -> FloatArray:
+        """Element matrices (n_cells, n_rows, n_rows) of tangents (m, 6, 6)."""
+        n, s, p, rows = self.B.shape
+        chosen = np.array(self.components)
+        D = tangent[:, chosen[:, None], chosen[None, :]].reshape(n, p, s, s)
+        D = D * self.weights[:, :, None, None]
+        values = np.empty((n, rows, rows))
+        for cells in chunks(n):
+            B = self.B[cells].transpose(0, 2, 1, 3)
+            left = B.reshape(len(B), p * s, rows).transpose(0, 2, 1)
+            values[cells] = np.matmul(left, np.matmul(D[cells], B).reshape(len(B), p * s, rows))
+        return values
+
+
+def is_plastic(zone: Zone) -> bool:
+    """Whether a zone of bodies has a plastic law."""
+    family = ELEMENTS[zone.element].family
+    return family != "joint" and plastic_law(zone.behaviour) is not None
+
+
+def plastic_zones(model: Model | None) -> tuple[Zone, ...]:
+    """Zones of bodies with a plastic law."""
+    zones = () if model is None else model.zones
+    return tuple(z for z in zones if z.formulation == "MECANIQUE" and is_plastic(z))
+
+
+def plastic_points(zone: Zone, characteristics: CellField) -> PlasticPoints:
+    """Everything that does not change during a calculation.
+
+    Raises
+    ------
+    KernelError
+        In hypotheses without plastic laws.
+    MaterialError
+        For missing or inadmissible parameters.
+    """
+    law, family = plastic_law(zone.behaviour), family_of(zone)
+    assert law is not None
+    given = zone_field(zone, characteristics)
+    bar = ELEMENTS[zone.element].family == "bar"
+    if not bar and zone.mode not in COMPONENTS:
+        raise KernelError(f"plastic laws do not exist in mode {zone.mode.value}")
+    parts = [
+        family.strain_operator(zone, given, "STRESSES", cells) for cells in chunks(len(zone.cells))
+    ]
+    B = np.concatenate([part.matrix for part in parts])
+    weights = np.concatenate([np.broadcast_to(p.weights, (len(p.matrix), p.matrix.shape[2]))
+                              for p in parts])  # fmt: skip
+    section: FloatArray | None = None
+    if bar:
+        section = np.broadcast_to(given.at("SECT", "STRESSES"), weights.shape)
+        weights = weights * section
+    parameters = _parameters(zone, law, given)
+    held: tuple[int, ...] = (1, 2, 3, 4, 5) if bar else ()
+    if zone.mode is Mode.PLANE_STRESS and not bar:
+        held = (2,)
+    components = (0,) if bar else COMPONENTS[zone.mode]
+    return PlasticPoints(
+        zone, law, family.layout(zone), B, weights, section, components, held, parameters
+    )
+
+
+def _parameters(zone: Zone, law: PlasticLaw, given: ZoneField) -> PointParameters:
+    shape = (len(zone.cells), n_points(zone.element, "STRESSES"))
+
+    def at_points(name: str) -> FloatArray:
+        return np.broadcast_to(given.at(name, "STRESSES"), shape).ravel()
+
+    names = [n for n in ("YOUN", "NU", *law.required) if n not in law.curves]
+    values = {name: at_points(name) for name in names}
+    check_isotropic(values["YOUN"], values["NU"])
+    if (values["YOUN"] <= 0).any():
+        raise MaterialError(f"YOUN = {values['YOUN'].min():g}: a plastic law needs YOUN > 0")
+    curves = {name: _curves(given, name, shape) for name in law.curves}
+    found = PointParameters(values, curves)
+    check_parameters(law, found)
+    return found
+
+
+def _curves(given: ZoneField, name: str, shape: tuple[int, int]) -> tuple[list, IntArray]:  # type: ignore[type-arg]
+    """The different curves of a parameter, and which each point has."""
+    from ssilang.kernel.curve import Curve
+    from ssilang.kernel.elements.zone_fields import missing_parameter
+
+    if name not in given:
+        raise missing_parameter(given.zone, name, given.names)
+    values = np.broadcast_to(given.raw(name)[0], shape).ravel()
+    different = list({id(v): v for v in values}.values())
+    wrong = next((v for v in different if not isinstance(v, Curve)), None)
+    if wrong is not None:
+        raise MaterialError(f"parameter {name} is a curve", "EVOL 'MANU' strains stresses")
+    place = {id(v): i for i, v in enumerate(different)}
+    which: IntArray = np.array([place[id(v)] for v in values], dtype=np.int64)
+    return different, which
+
+
+Expansion = Callable[[float], FloatArray]
+"""Free strain (m, 6) at a time."""

@@ -1,0 +1,291 @@
+"""Load steps and time steps of problems with plastic bodies."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ssilang.kernel.dynamics.compiled_loop import (
+    ELASTIC,
+    EXTERNAL,
+    LOST,
+    N_ENERGIES,
+    STORED,
+    Motion,
+)
+from ssilang.kernel.dynamics.effective import effective_matrix
+from ssilang.kernel.dynamics.initial import admissible_velocity, initial_energies, joint_state
+from ssilang.kernel.dynamics.integrate import History, Progress
+from ssilang.kernel.dynamics.problem import Problem
+from ssilang.kernel.dynamics.snapshot import Observer
+from ssilang.kernel.dynamics.sparse_loop import SparseLoop, StepOutcome
+from ssilang.kernel.errors import ConvergenceError, KernelError
+from ssilang.kernel.joints.response import interface_energies
+from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.plasticity.bulk import Bulk, State
+from ssilang.kernel.plasticity.newton import BulkSolver
+from ssilang.kernel.plasticity.snapshot import NOTHING, hand_over
+
+HALVINGS = 7
+"""How often a step that does not converge is cut in two."""
+SAME_STEP = 1e-9
+"""Relative difference below which two steps of time share their matrix."""
+
+
+@dataclass(eq=False)
+class BulkRun:
+    """A calculation under way: `motion` and `state` are those of the last accepted step."""
+
+    problem: Problem
+    bulk: Bulk
+    state: State
+    observers: tuple[Observer, ...] = ()
+    progress: Progress | None = None
+    lost: float = 0.0
+    residuals: list[list[float]] = field(default_factory=list)
+    last: tuple[FloatArray, FloatArray] | None = None
+    motion: Motion = field(init=False)
+
+    def __post_init__(self) -> None:
+        p = self.problem
+        if p.contact is not None:
+            raise KernelError(
+                "unilateral relations (MINI, MAXI) do not go with plastic bodies",
+                "describe contact by joints (JOINT_SDM)",
+            )
+        if p.scheme.conserving or p.scheme.adaptive:
+            raise KernelError(
+                "plastic bodies are stepped by Newmark, HHT or generalised alpha",
+                "leave CONSERVATIF and PAS_ADAPTE",
+            )
+        joints = joint_state(p)
+        n = p.numbering.size
+        self.motion = Motion(
+            p.u.copy(), np.zeros(n), np.zeros(n), joints.delta, joints.f, joints.w, joints.t,
+            joints.state, np.zeros(n), initial_energies(p, np.zeros(n), joints), NOTHING,
+        )  # fmt: skip
+        self.motion.energies[ELASTIC] += self.bulk.stored(self.state)
+
+    def imbalance(self, force: FloatArray, factors: FloatArray) -> FloatArray:
+        """Internal forces less loads (n,), without inertia; `force` is that of the bodies."""
+        p, m = self.problem, self.motion
+        rest: FloatArray = p.K @ m.u + force - p.loading.forces @ factors
+        return rest if p.interface is None else rest + p.interface.J.T @ m.f
+
+    def account(self, before: float, work: float) -> None:
+        """Energies of bodies and joints after a step; `before` was the bodies' stored energy."""
+        p, m = self.problem, self.motion
+        stored = self.bulk.stored(self.state)
+        self.lost += work - (stored - before)
+        m.energies[ELASTIC] = 0.5 * m.u @ (p.K @ m.u) + stored
+        joints = p.interface
+        m.energies[LOST] = 0.0
+        if joints is not None:
+            m.energies[STORED], m.energies[LOST] = interface_energies(
+                joints.codes, joints.parameters, joints.weights, m.w, m.t, m.state
+            )
+        m.energies[LOST] += self.lost
+
+    def save(self, step: int) -> None:
+        """Hand the state to the observers."""
+        hand_over(self.observers, self.problem, self.motion, step, self.bulk, self.state)
+
+
+def step_bulk_statics(run: BulkRun) -> History:
+    """Equilibrium at each time; a step that does not converge is cut in two, again and again.
+
+    Raises
+    ------
+    ConvergenceError
+        Where no equilibrium is found: a limit load, most often.
+    """
+    problem, started = run.problem, time.perf_counter()
+    times = problem.times
+    history = History(times, np.zeros((len(times), N_ENERGIES)), solver="SuperLU")
+    history.loop = f"full Newton (plastic bodies: {run.bulk.words})"
+    history.energies[0] = run.motion.energies
+    factors = problem.loading.at(times)
+    solver = BulkSolver(problem, problem.K, 1.0, run.bulk, run.state)
+    try:
+        run.motion.reaction[:] = run.imbalance(solver.force, factors[0])
+        run.save(0)
+        for k in range(1, len(times)):
+            _static_step(run, solver, history, k, factors)
+            history.energies[k] = run.motion.energies
+            run.save(k)
+            if run.progress is not None:
+                run.progress(k, len(times) - 1)
+    finally:
+        for observer in run.observers:
+            observer.close()
+    history.seconds = time.perf_counter() - started
+    return history
+
+
+def _static_step(
+    run: BulkRun, solver: BulkSolver, history: History, k: int, factors: FloatArray
+) -> None:
+    """From one time to the next, in as many parts as it takes."""
+    times, done, length = run.problem.times, 0.0, 1.0
+    while done < 1.0:
+        end = min(done + length, 1.0)
+        before = (1 - done) * factors[k - 1] + done * factors[k]
+        after = (1 - end) * factors[k - 1] + end * factors[k]
+        solver.time = float((1 - end) * times[k - 1] + end * times[k])
+        outcome = _increment(run, solver, before, after)
+        run.residuals.append(solver.residuals)
+        if outcome.turns > 0:
+            history.iterations = max(history.iterations, outcome.turns)
+            done, length = end, min(2 * length, 1.0)
+            continue
+        length = 0.5 * length
+        if length < 0.5**HALVINGS:
+            raise ConvergenceError(
+                f"load step {k}, time {solver.time:g}: no equilibrium found (residual "
+                f"{outcome.residual:.1e} after {len(solver.residuals)} iterations, step cut "
+                f"{HALVINGS} times)",
+                "the load may exceed what the bodies can carry: impose displacements to go on",
+            )
+
+
+def _increment(
+    run: BulkRun, solver: BulkSolver, before: FloatArray, after: FloatArray
+) -> StepOutcome:
+    p, m = run.problem, run.motion
+    r = -run.imbalance(solver.force, after)
+    dd = p.loading.imposed @ after - p.constraints.C @ m.u
+    stored, old = run.bulk.stored(run.state), m.reaction.copy()
+    change = after - before
+    solver.guess = _carried_on(run.last, change)
+    outcome = solver.solve(m, r, dd, NOTHING)
+    if outcome.turns <= 0 or not np.isfinite(outcome.du).all():
+        return outcome if outcome.turns <= 0 else StepOutcome(outcome.du, -1, np.inf)
+    m.u[:] += outcome.du
+    run.state = solver.state
+    m.reaction[:] = run.imbalance(solver.force, after)
+    m.energies[EXTERNAL] += outcome.du @ (p.loading.forces @ (0.5 * (before + after)))
+    if dd.any():
+        m.energies[EXTERNAL] += dd @ p.constraints.multipliers(0.5 * (old + m.reaction))
+    run.account(stored, solver.work)
+    run.last = (outcome.du, change)
+    return outcome
+
+
+def _carried_on(
+    last: tuple[FloatArray, FloatArray] | None, change: FloatArray
+) -> FloatArray | None:
+    """The last increment, in proportion to that of the loads, while these go on the same way."""
+    if last is None:
+        return None
+    du, old = last
+    size = float(old @ old)
+    ratio = float(change @ old) / size if size > 0 else 0.0
+    same = np.abs(change - ratio * old).max(initial=0.0) <= 1e-6 * np.abs(change).max(initial=0.0)
+    return ratio * du if ratio > 0 and same else None
+
+
+def integrate_bulk(run: BulkRun) -> History:
+    """Motion over all times, Newton's method on all unknowns at each step.
+
+    Raises
+    ------
+    ConvergenceError
+        If a step does not converge; says at which time.
+    """
+    problem, started = run.problem, time.perf_counter()
+    times = problem.times
+    history = History(times, np.zeros((len(times), N_ENERGIES)), solver="SuperLU")
+    history.loop = f"full Newton (plastic bodies: {run.bulk.words})"
+    factors = problem.loading.at(times)
+    _start(run, factors[0])
+    history.energies[0] = run.motion.energies
+    loop = _BulkLoop(run)
+    try:
+        run.save(0)
+        for k in range(1, len(times)):
+            outcome = loop.step(float(times[k - 1]), float(times[k]), factors[k - 1 : k + 1])
+            if outcome.turns <= 0 or not np.isfinite(run.motion.u).all():
+                raise ConvergenceError(
+                    f"step {k}, time {times[k]:g}: no equilibrium found (residual "
+                    f"{outcome.residual:.1e} after {-outcome.turns} iterations)",
+                    "smaller steps",
+                )
+            history.iterations = max(history.iterations, outcome.turns)
+            history.energies[k] = run.motion.energies
+            run.save(k)
+            if run.progress is not None:
+                run.progress(k, len(times) - 1)
+    finally:
+        for observer in run.observers:
+            observer.close()
+    history.seconds = time.perf_counter() - started
+    return history
+
+
+def _start(run: BulkRun, factors: FloatArray) -> None:
+    """Initial velocity, acceleration, reactions, kinetic energy."""
+    from ssilang.kernel.dynamics.initial import accelerated
+
+    p, m = run.problem, run.motion
+    m.v[:] = admissible_velocity(p)
+    rest = run.imbalance(run.bulk.force(run.state), factors) + p.C @ m.v
+    m.a[:] = accelerated(p, -rest)
+    m.reaction[:] = rest + p.M @ m.a
+    m.energies[0] = 0.5 * m.v @ (p.M @ m.v)
+
+
+class _BulkLoop(SparseLoop):
+    """The steps of `SparseLoop` with the bodies' forces among the loads."""
+
+    def __init__(self, run: BulkRun) -> None:
+        super().__init__(run.problem, run.motion)
+        self.run = run
+        self._solvers: list[tuple[float, BulkSolver]] = []
+        self._begin()
+
+    def _solver(self, dt: float) -> BulkSolver:
+        for known, solver in self._solvers:
+            if abs(known - dt) <= SAME_STEP * dt:
+                return solver
+        share = 1 - self.problem.scheme.alpha_f
+        A = effective_matrix(self.problem, dt)
+        solver = BulkSolver(self.problem, A, share, self.run.bulk, self.run.state)
+        self._solvers = [*self._solvers[-3:], (dt, solver)]
+        return solver
+
+    def step(self, start: float, end: float, factors: FloatArray) -> StepOutcome:
+        """One step of time."""
+        p, m, run, dt = self.problem, self.motion, self.run, end - start
+        solver = self._solver(dt)
+        solver.state, solver.time = run.state, end
+        solver.force = old = run.bulk.force(run.state)
+        load0, load1 = factors @ p.loading.forces.T
+        r = self._right_side(load0 - old, load1 - old, dt)
+        dd = p.loading.imposed @ factors[1] - p.constraints.C @ m.u
+        outcome = solver.solve(m, r, dd, NOTHING)
+        if outcome.turns <= 0:
+            return outcome
+        stored = run.bulk.stored(run.state)
+        run.state = solver.state
+        self._advance(outcome.du, dt)
+        # the bodies' forces are no loads: their part in the work of the loads is taken back
+        self._account(outcome.du, dd, load0 - old, load1 - solver.force, NOTHING, factors)
+        m.energies[EXTERNAL] += 0.5 * outcome.du @ (old + solver.force)
+        run.account(stored, solver.work)
+        return outcome
+
+
+def run_bulk(
+    problem: Problem,
+    bulk: Bulk,
+    state: State,
+    observers: Sequence[Observer] = (),
+    progress: Progress | None = None,
+    dynamic: bool = False,
+) -> History:
+    """Step a problem with plastic bodies through its times."""
+    run = BulkRun(problem, bulk, state, tuple(observers), progress)
+    return integrate_bulk(run) if dynamic else step_bulk_statics(run)

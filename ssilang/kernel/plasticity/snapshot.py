@@ -1,0 +1,83 @@
+"""A saved instant with the state of the plastic bodies."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ssilang.kernel.dynamics.compiled_loop import Motion
+from ssilang.kernel.dynamics.motion import snapshot_of
+from ssilang.kernel.dynamics.problem import Problem
+from ssilang.kernel.dynamics.snapshot import Observer, Snapshot
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.plasticity.bulk import (
+    Bulk,
+    State,
+    plastic_strain_blocks,
+    stress_blocks,
+    variable_blocks,
+)
+
+NOTHING = np.zeros(0)
+
+
+@dataclass(frozen=True, eq=False)
+class BulkSnapshot(Snapshot):
+    """State at one instant, the bodies' included: their fields come with those of the joints."""
+
+    bulk: Bulk
+    bulk_state: State
+
+    @property
+    def body_stresses(self) -> CellField:
+        """Stresses of the plastic bodies alone."""
+        return CellField(tuple(stress_blocks(self.bulk, self.bulk_state)), "CONTRAINTES")
+
+    @property
+    def joint_tractions(self) -> CellField | None:
+        """Tractions of the joints alone, None without joints."""
+        return super().tractions
+
+    @property
+    def tractions(self) -> CellField | None:
+        """Stresses of the plastic bodies and tractions of the joints."""
+        blocks = stress_blocks(self.bulk, self.bulk_state)
+        return CellField((*blocks, *_blocks(super().tractions)), "CONTRAINTES")
+
+    @property
+    def variables(self) -> CellField | None:
+        """Internal variables of bodies and joints."""
+        blocks = variable_blocks(self.bulk, self.bulk_state)
+        return CellField((*blocks, *_blocks(super().variables)), "VARIABLES INTERNES")
+
+    @property
+    def plastic_strains(self) -> CellField:
+        """Plastic strains of the bodies."""
+        blocks = plastic_strain_blocks(self.bulk, self.bulk_state)
+        return CellField(tuple(blocks), "DEFORMATIONS INELASTIQUES")
+
+
+def _blocks(field: CellField | None) -> tuple[CellFieldBlock, ...]:
+    return () if field is None else field.blocks
+
+
+def hand_over(
+    observers: tuple[Observer, ...],
+    problem: Problem,
+    motion: Motion,
+    step: int,
+    bulk: Bulk,
+    state: State,
+) -> None:
+    """Give the instant to the observers that want it."""
+    wanting = [o for o in observers if o.wanted[step]]
+    if not wanting:
+        return
+    s = snapshot_of(problem, motion, step)
+    snapshot = BulkSnapshot(
+        s.problem, s.step, s.time, s.u, s.v, s.a, s.reaction, s.w, s.t, s.state, s.contact,
+        bulk, state,
+    )  # fmt: skip
+    for observer in wanting:
+        observer.receive(snapshot)

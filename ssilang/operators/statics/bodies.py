@@ -1,0 +1,55 @@
+"""Plastic bodies of the tables of PASAPAS and DYNAMIC."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.model import Model
+from ssilang.kernel.plasticity.bulk import Bulk, State, bulk_of, state_from_fields
+from ssilang.kernel.plasticity.points import plastic_zones
+from ssilang.operators.tables.entries import Entries
+
+if TYPE_CHECKING:
+    from ssilang.kernel.dynamics.problem import Inputs, Problem
+
+Bodies = Callable[["Problem", "Inputs"], tuple[Bulk, State]]
+
+
+def plastic_bodies(entries: Entries, start: Any = None) -> Bodies | None:
+    """What makes the plastic bodies of MODELE once the problem is numbered; None without any.
+
+    Parameters
+    ----------
+    start : Start, optional
+        Where the calculation goes on from, with stresses and internal variables.
+    """
+    model: Model | None = entries.get("MODELE", "MMODEL")
+    zones = plastic_zones(model)
+    if not zones:
+        return None
+    material: CellField = entries.needed("CARACTERISTIQUES", "MCHAML")
+
+    def make(problem: Problem, inputs: Inputs) -> tuple[Bulk, State]:
+        from ssilang.kernel.plasticity.expansion import free_strains
+
+        bulk = bulk_of(zones, material, problem.numbering)
+        load = entries.get("CHARGEMENT", "CHARGEME") or entries.get("CHAR", "CHARGEME")
+        bulk = replace(bulk, free=free_strains(load, zones, material))
+        given = None if start is None else _given(bulk, start)
+        if given is not None:
+            return bulk, given
+        blank = bulk.unloaded()
+        if inputs.displacement is None:
+            return bulk, blank
+        # a displacement without stresses: those of a step from nothing to it
+        return bulk, replace(bulk, free={}).respond(blank, problem.u, 0.0).state
+
+    return make
+
+
+def _given(bulk: Bulk, start: Any) -> State | None:
+    words = ("CONTRAINTES", "VARIABLES_INTERNES", "DEFORMATIONS_INELASTIQUES")
+    return state_from_fields(bulk, *(start.of(word, "MCHAML") for word in words))

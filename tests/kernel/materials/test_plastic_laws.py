@@ -1,0 +1,147 @@
+"""Plastic laws at points: consistent tangents, admissible stresses, closed forms."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from ssilang.kernel.curve import Curve, CurvePart
+from ssilang.kernel.materials.plastic.held_stress import respond_held
+from ssilang.kernel.materials.plastic.laws import PLASTIC_LAWS
+from ssilang.kernel.materials.plastic.response import PointParameters, mises
+
+M = 60
+CURVE = Curve((CurvePart(np.array([0.0, 0.01, 0.1]), np.array([1.0, 2.0, 3.0])),))
+GIVEN = {
+    "PARFAIT": {"SIGY": 1},
+    "ISOTROPE": {},
+    "CINEMATIQUE": {"SIGY": 1, "H": 100},
+    "DRUCKER_PARFAIT": {"LTR": 1, "LCS": 5},
+    "DRUCKER_PRAGER": {
+        "ALFA": 0.3, "BETA": 1, "K": 1, "ETA": 0.6, "MU": 2, "KL": 4, "H": 50, "GAMM": 0.1,
+        "DELT": 1,
+    },
+    "RH_COULOMB": {"COHE": 1, "PHI": 0.5},
+}  # fmt: skip
+
+
+def parameters(name: str, m: int = M) -> PointParameters:
+    values = {"YOUN": 1000.0, "NU": 0.3, **GIVEN[name]}
+    arrays = {n: np.full(m, float(v)) for n, v in values.items()}
+    return PointParameters(arrays, {"ECRO": ([CURVE], np.zeros(m, dtype=np.int64))})
+
+
+def steps(seed: int) -> tuple[np.ndarray, np.ndarray]:
+    random = np.random.default_rng(seed)
+    first = 2e-3 * random.normal(size=(M, 6))
+    second = 4e-3 * random.normal(size=(M, 6))
+    second[:, :3] += 2e-3 * random.normal(size=(M, 1))
+    return first, second
+
+
+@pytest.mark.parametrize("held", [(), (2,), (1, 2, 3, 4, 5)])
+@pytest.mark.parametrize("name", list(PLASTIC_LAWS))
+def test_tangent_is_the_derivative_of_the_stress(name: str, held: tuple[int, ...]) -> None:
+    law, p = PLASTIC_LAWS[name], parameters(name)
+    first, second = steps(3)
+    blank = np.zeros((M, len(law.variables)))
+    start, _ = respond_held(law, p, np.zeros((M, 6)), first, blank, held)
+    after, _ = respond_held(law, p, start.stress, second, start.variables, held)
+    assert (after.variables[:, 0] > start.variables[:, 0]).mean() > 0.2
+    h = 1e-8
+    for j in set(range(6)) - set(held):
+        shift = np.zeros((M, 6))
+        shift[:, j] = h
+        ends = [
+            respond_held(law, p, start.stress, second + s * shift, start.variables, held)[0].stress
+            for s in (1, -1)
+        ]
+        # central differences at 1e-8 of stresses near 1 in moduli of 1000: 1e-8 relative
+        wanted = (ends[0] - ends[1]) / (2 * h)
+        assert np.abs(after.tangent[:, :, j] - wanted).max() < 1e-4
+
+
+@pytest.mark.parametrize("name", ["PARFAIT", "ISOTROPE", "DRUCKER_PARFAIT", "RH_COULOMB"])
+def test_stress_is_admissible(name: str) -> None:
+    law, p = PLASTIC_LAWS[name], parameters(name)
+    first, second = steps(5)
+    blank = np.zeros((M, len(law.variables)))
+    start = law.respond(p, np.zeros((M, 6)), first, blank)
+    found = law.respond(p, start.stress, 10 * second, start.variables)
+    assert excess(name, p, found.stress, found.variables).max() < 1e-9
+
+
+def excess(name: str, p: PointParameters, stress: np.ndarray, variables: np.ndarray) -> np.ndarray:
+    """The yield functions, written again from their definitions."""
+    q, _ = mises(stress)
+    trace = stress[:, :3].sum(axis=1)
+    if name == "PARFAIT":
+        return q - 1
+    if name == "ISOTROPE":
+        return q - np.interp(variables[:, 0], [0, 0.01, 0.1], [1, 2, 3])
+    if name == "DRUCKER_PARFAIT":
+        return (4 / 6) * trace + q - 10 / 6
+    tensors = stress[:, [0, 3, 4, 3, 1, 5, 4, 5, 2]].reshape(-1, 3, 3)
+    s = np.linalg.eigvalsh(tensors)
+    phi = 0.5
+    # the rounded surface lies inside Mohr and Coulomb's
+    return (s[:, 2] - s[:, 0]) / 2 + (s[:, 2] + s[:, 0]) / 2 * np.sin(phi) - np.cos(phi)
+
+
+def test_rounded_surface_meets_coulomb_away_from_edges_and_tip() -> None:
+    law = PLASTIC_LAWS["RH_COULOMB"]
+    p = parameters("RH_COULOMB", 1)
+    strain = np.zeros((1, 6))
+    strain[0, 3] = 0.5  # shear, from a strong pressure: Lode's angle near 0, far from the tip
+    pressure = np.zeros((1, 6))
+    pressure[0, :3] = -50.0
+    found = law.respond(p, pressure, strain, np.zeros((1, 1)))
+    q = np.linalg.eigvalsh(found.stress[0, [0, 3, 4, 3, 1, 5, 4, 5, 2]].reshape(3, 3))
+    value = (q[2] - q[0]) / 2 + (q[2] + q[0]) / 2 * np.sin(0.5)
+    assert value == pytest.approx(np.cos(0.5), abs=2e-3)  # the tip's hyperbola, at 50 cohesions
+
+
+def uniaxial(name: str, path: list[float]) -> list[float]:
+    """Stresses of a bar along a path of strains."""
+    law, p = PLASTIC_LAWS[name], parameters(name, 1)
+    stress, variables, last, out = np.zeros((1, 6)), np.zeros((1, len(law.variables))), 0.0, []
+    for strain in path:
+        step = np.zeros((1, 6))
+        step[0, 0] = strain - last
+        answer, _ = respond_held(law, p, stress, step, variables, (1, 2, 3, 4, 5))
+        stress, variables, last = answer.stress, answer.variables, strain
+        out.append(float(stress[0, 0]))
+    return out
+
+
+def test_perfect_bar_cycles_between_its_limits() -> None:
+    found = uniaxial("PARFAIT", [0.0005, 0.01, 0.009, -0.01, 0.0])
+    assert found == pytest.approx([0.5, 1.0, 0.0, -1.0, 1.0])
+
+
+def test_kinematic_bar_keeps_twice_its_limit_between_yields() -> None:
+    # E = 1000, H = 100: slope E H / (E + H) beyond yield; yield again 2 SIGY below
+    slope = 1000 * 100 / 1100
+    top = 1 + slope * (0.011 - 0.001)
+    found = uniaxial("CINEMATIQUE", [0.011, 0.010, 0.009, 0.0])
+    bottom = top - 2 - slope * (0.009 - 0.0)
+    assert found == pytest.approx([top, top - 1, top - 2, bottom])
+
+
+def test_isotropic_bar_follows_its_curve_and_grows_both_ways() -> None:
+    strain = 0.005 + 1.5 / 1000  # plastic strain 0.005 on the first branch: stress 1.5
+    found = uniaxial("ISOTROPE", [strain, strain - 3e-3, strain - 3e-3 - 0.005 - 0.5e-3])
+    assert found == pytest.approx([1.5, -1.5, -2.0])
+
+
+def test_drucker_bar_has_the_strengths_given() -> None:
+    assert uniaxial("DRUCKER_PARFAIT", [0.004]) == pytest.approx([1.0])
+    assert uniaxial("DRUCKER_PARFAIT", [-0.04]) == pytest.approx([-5.0])
+
+
+def test_pure_tension_ends_at_the_tip_of_the_cone() -> None:
+    law, p = PLASTIC_LAWS["DRUCKER_PARFAIT"], parameters("DRUCKER_PARFAIT", 1)
+    strain = np.array([[0.01, 0.01, 0.011, 0.0, 0.0, 0.0]])
+    found = law.respond(p, np.zeros((1, 6)), strain, np.zeros((1, 1)))
+    tip = (10 / 6) / (4 / 6) / 3
+    assert found.stress[0] == pytest.approx([tip, tip, tip, 0, 0, 0])

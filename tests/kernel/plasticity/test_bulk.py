@@ -1,0 +1,198 @@
+"""Plastic bodies in calculations: limit loads, convergence of Newton, energy, elastic limit."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from ssilang.cli.run import run_text
+from ssilang.kernel.dynamics.problem import Inputs, make_problem
+from ssilang.kernel.matrices.matrix import Matrix
+from ssilang.kernel.plasticity.bulk import bulk_of, without_stiffness
+from ssilang.kernel.plasticity.points import plastic_zones
+from ssilang.kernel.plasticity.run import BulkRun, step_bulk_statics
+
+TUBE = """
+OPTI DIME 2 ELEM QUA8 MODE AXIS ;
+S = (DROI 6 (1 0) (2 0)) TRAN 1 (0 .2) ;
+M = MODE S 'MECANIQUE' 'ELASTIQUE' 'PLASTIQUE' 'PARFAIT' Q8RI ;
+A = MATE M 'YOUN' 2.E5 'NU' 0.3 'SIGY' 240. ;
+P = PRES 'MASS' M 1. (COTE 4 S) ;
+T = TABLE ; T.MODELE = M ; T.CARACTERISTIQUES = A ; T.BLOCAGES_MECANIQUES = BLOQ S UZ ;
+"""
+
+
+def values(script: str, tmp_path: Path, code: int = 0) -> dict:
+    result = run_text(script, output_directory=tmp_path)
+    assert result.exit_code == code, result.output
+    return result
+
+
+def at(result, name: str):
+    return result.session.root.find(name)
+
+
+def tube(pressure: float) -> str:
+    return TUBE + (
+        f"T.CHARGEMENT = CHAR 'MECA' P (EVOL MANU (PROG 0. 1.) (PROG 0. {pressure})) ; "
+        "T.TEMPS_CALCULES = PROG 0. PAS .2 1. ; PASAPAS T ; "
+        "U = EXTR (T.DEPLACEMENTS . 5) UR (S POIN PROC (2. 0.)) ; "
+        "E = MAXI (T.VARIABLES_INTERNES . 5) ; "
+    )
+
+
+LIMIT = 2 / np.sqrt(3) * 240 * np.log(2)
+"""Pressure at which a tube held along its axis is plastic all through."""
+
+
+def test_thick_tube_carries_its_limit_pressure_and_no_more(tmp_path: Path) -> None:
+    result = run_text(tube(0.995 * LIMIT), output_directory=tmp_path)
+    assert result.exit_code == 0, result.message
+    assert at(result, "E") > 1e-3
+    over = run_text(tube(1.01 * LIMIT), output_directory=tmp_path)
+    assert over.exit_code != 0
+    assert "no equilibrium" in over.message
+
+
+def test_thick_tube_with_a_plastic_ring(tmp_path: Path) -> None:
+    """Hill's solution for Tresca's limit k = SIGY / sqrt 3 and elastic-plastic radius c."""
+    c, k = 1.5, 240 / np.sqrt(3)
+    pressure = k * (2 * np.log(c) + 1 - c**2 / 4)
+    result = run_text(tube(pressure), output_directory=tmp_path)
+    assert result.exit_code == 0, result.message
+    nu, E = 0.3, 2e5
+    outside = 2 * (1 - nu**2) * k * c**2 / (E * 4) * 2
+    # Hill's axial stress is the middle one but not half the sum: 1 % on the displacement
+    assert at(result, "U") == pytest.approx(outside, rel=0.01)
+
+
+STRIP = """
+OPTI DIME 2 ELEM QUA4 MODE PLAN DEFO ;
+PE = 1 0 ; B = DROI (0 0) PE DINI .25 DFIN .03 ; B2 = DROI PE (5 0) DINI .03 DFIN .8 ;
+S = (B ET B2) TRAN (0 -4) DINI .06 DFIN .8 ;
+M = MODE S 'MECANIQUE' 'ELASTIQUE' 'PLASTIQUE' 'PARFAIT' 'ICQ4' ;
+A = MATE M 'YOUN' 1.E4 'NU' 0.48 'SIGY' (3. ** 0.5) ;
+X = COOR 1 S ; Y = COOR 2 S ;
+SIDES = BLOQ UX ((X POIN EGAL 0.) ET (X POIN EGAL 5.)) ;
+BAS = BLOQ UX UY (Y POIN EGAL -4.) ; HEAD = BLOQ UY B ; ROUGH = BLOQ UX B ;
+T = TABLE ; T.MODELE = M ; T.CARACTERISTIQUES = A ;
+T.BLOCAGES_MECANIQUES = SIDES ET BAS ET HEAD ET ROUGH ;
+T.CHARGEMENT = CHAR 'DIMP' (DEPI HEAD -0.02) (EVOL MANU (PROG 0. 1.) (PROG 0. 1.)) ;
+T.TEMPS_CALCULES = PROG 0. PAS .1 1. ; PASAPAS T ;
+R = MAXI (RESU (REAC HEAD (T.DEPLACEMENTS . 10))) 'AVEC' (MOTS FY) 'ABS' ;
+R0 = MAXI (RESU (REAC HEAD (T.DEPLACEMENTS . 9))) 'AVEC' (MOTS FY) 'ABS' ;
+"""
+
+
+def test_strip_footing_collapses_at_prandtls_load(tmp_path: Path) -> None:
+    """(2 + pi) c on clay of shear strength 1; coarse elements at the edge carry a little more."""
+    result = run_text(STRIP, output_directory=tmp_path)
+    assert result.exit_code == 0, result.message
+    load, before = at(result, "R"), at(result, "R0")
+    assert load == pytest.approx(before, rel=0.01)  # it has collapsed
+    assert 1.0 < load / (2 + np.pi) < 1.12
+
+
+def test_newton_converges_quadratically() -> None:
+    result = run_text(
+        "OPTI DIME 2 ELEM QUA8 MODE PLAN CONT ; S = (DROI 6 (0 0) (3 0)) TRAN 3 (0 1) ; "
+        "M = MODE S MECANIQUE ELASTIQUE PLASTIQUE ISOTROPE ; "
+        "A = MATE M YOUN 1.E3 NU .3 ECRO (EVOL MANU (PROG 0. 1.) (PROG 1. 101.)) ; "
+        "B = BLOQ UX UY (COTE 4 S) ; F = FORC FY -.3 (COTE 2 S) ; "
+        "C = CHAR MECA F (EVOL MANU (PROG 0. 1.) (PROG 0. 1.)) ;"
+    )
+    assert result.exit_code == 0, result.message
+    model, material = at(result, "M"), at(result, "A")
+    zones = plastic_zones(model)
+    support = at(result, "B")
+    stiffness = Matrix(support.table, tuple(without_stiffness(z) for z in zones), support.relations)
+    inputs = Inputs(stiffness, np.linspace(0, 1, 2), load=at(result, "C"))
+    problem = make_problem(inputs)
+    bulk = bulk_of(zones, material, problem.numbering)
+    run = BulkRun(problem, bulk, bulk.unloaded())
+    step_bulk_statics(run)
+    r = np.array(run.residuals[-1])
+    assert len(r) <= 12
+    near = [i for i in range(1, len(r) - 1) if 1e-7 < r[i] < 1e-2]
+    assert near
+    i = near[-1]
+    assert r[i + 1] < 1e-10 or np.log(r[i + 1]) / np.log(r[i]) > 1.6
+
+
+BAR = """
+OPTI DIME 2 ELEM SEG2 MODE PLAN CONT ;
+L = DROI 1 (0 0) (1 0) ; Q = POIN L 'FINAL' ;
+M = MODE L 'MECANIQUE' 'ELASTIQUE' 'PLASTIQUE' 'PARFAIT' BARR ;
+A = MATE M 'YOUN' 100. 'NU' 0.3 'SIGY' 1. 'SECT' 2. RHO 0. ;
+B = (BLOQ UX (POIN L 'INITIAL')) ET (BLOQ UY L) ; MA = MASS 'UX' 1. Q ;
+T = TABLE ; T.MODELE = M ; T.CARACTERISTIQUES = A ; T.RIGI = (RIGI M A) ET B ; T.MASS = MA ;
+T.TEMPS_CALCULES = PROG 0. PAS .005 1. ; T.TEMPS_SAUVES = PROG 1. ;
+"""
+
+
+def test_mass_on_a_plastic_bar_stops_where_its_energy_is_spent(tmp_path: Path) -> None:
+    """v = 1: SIGY SECT x = 1/2 less the elastic energy; it stays there but for elastic ringing."""
+    result = run_text(
+        BAR + "T.VITE = MANU CHPO Q 1 UX 1. ; T2 = DYNAMIC T ; "
+        "EC = MAXI (T.ENERGIES.ECART) 'ABS' ; P = MAXI (T2 . (DIME T2) . VARIABLES_INTERNES) ; "
+        "S = MAXI (T2 . (DIME T2) . CONTRAINTES) 'ABS' ; ",
+        output_directory=tmp_path,
+    )
+    assert result.exit_code == 0, result.message
+    assert at(result, "EC") < 1e-10
+    plastic = (0.5 - 0.5 * 2**2 / 200) / 2  # plastic lengthening of a bar of length 1
+    assert at(result, "P") == pytest.approx(plastic, rel=1e-3)  # error of dt = 0.005
+    assert at(result, "S") <= 2 + 1e-9
+
+
+def test_summary_says_that_full_newton_ran(tmp_path: Path) -> None:
+    result = run_text(BAR + "T.VITE = MANU CHPO Q 1 UX 1. ; T2 = DYNAMIC T ;")
+    line = result.session.statistics["calculations"][-1]
+    assert "full Newton" in line["loop"]
+    assert "PARFAIT" in line["loop"]
+
+
+def test_strong_material_moves_as_the_linear_calculation(tmp_path: Path) -> None:
+    script = BAR.replace("'SIGY' 1.", "'SIGY' 1.E9") + (
+        "T.VITE = MANU CHPO Q 1 UX 1. ; T2 = DYNAMIC T ; U = EXTR (T2 . (DIME T2) . DEPL) UX Q ; "
+        "T.MODELE = VIDE MMODEL ; OUBL T MODELE ; T3 = DYNAMIC T ; "
+        "V = EXTR (T3 . (DIME T3) . DEPL) UX Q ;"
+    )
+    result = run_text(script, output_directory=tmp_path)
+    assert result.exit_code == 0, result.message
+    assert at(result, "U") == pytest.approx(at(result, "V"), rel=1e-8)
+
+
+def test_expansion_held_beyond_yield_leaves_the_limit_stress(tmp_path: Path) -> None:
+    script = (
+        BAR.split("T = TABLE")[0].replace("'RHO'", "RHO")
+        + "A = A ET (MATE M ALPH 1.E-3) ; B = BLOQ UX UY L ; "
+        "T = TABLE ; T.MODELE = M ; T.CARACTERISTIQUES = A ; T.BLOCAGES_MECANIQUES = B ; "
+        "T.CHARGEMENT = CHAR 'T' (MANU CHPO L 1 'T' 1.) "
+        "(EVOL MANU (PROG 0. 1. 2.) (PROG 0 30. 0)) ; "
+        "T.TEMPS_CALCULES = PROG 0. 1. 2. ; PASAPAS T ; "
+        "S1 = MAXI (T.CONTRAINTES . 1) 'ABS' ; S2 = MAXI (T.CONTRAINTES . 2) ; "
+        "I1 = MAXI (T.'DEFORMATIONS_INELASTIQUES' . 1) 'ABS' ;"
+    )
+    result = run_text(script, output_directory=tmp_path)
+    assert result.exit_code == 0, result.message
+    assert at(result, "S1") == pytest.approx(2.0)  # SIGY SECT, in compression
+    assert at(result, "I1") == pytest.approx(0.03 - 0.01)
+    assert at(result, "S2") == pytest.approx(2.0)  # and in tension when cold again
+
+
+def test_calculation_goes_on_from_its_own_results(tmp_path: Path) -> None:
+    once = tube(0.9 * LIMIT)
+    twice = once.replace(
+        "PASAPAS T ;",
+        "T.TEMPS_CALCULES = PROG 0. .2 .4 ; PASAPAS T ; "
+        "T.TEMPS_CALCULES = PROG .6 .8 1. ; PASAPAS T ;",
+    )
+    ends = []
+    for script in (once, twice):
+        result = run_text(script, output_directory=tmp_path)
+        assert result.exit_code == 0, result.message
+        ends.append((at(result, "U"), at(result, "E")))
+    assert ends[0] == pytest.approx(ends[1], rel=1e-9)
