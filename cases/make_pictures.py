@@ -33,6 +33,12 @@ PICTURES = {
     "footing/tower_3d": {1: "tower_3d"},
     "footing/housner_block": {1: "housner_block"},
     "footing/block_on_soil": {1: "block_lift", 3: "block_energies", 4: "block_deformed"},
+    "basics/patch_elements": {1: "patch_elements"},
+    "basics/patch_joint": {1: "patch_joint"},
+    "basics/cantilever": {1: "cantilever"},
+    "basics/lifted_beam": {1: "lifted_beam"},
+    "basics/beam_frequencies": {1: "beam_frequencies"},
+    "basics/bar_frequencies": {1: "bar_frequencies"},
     "impact/bar_bounce": {1: "bar_bounce"},
     "seismic/tower_quake": {
         1: "quake_surface",
