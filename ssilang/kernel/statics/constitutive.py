@@ -1,0 +1,297 @@
+"""Constitutive laws at the points of one zone: from the state at the start and the strain at the
+end of a step to stresses, internal variables and tangent moduli.
+
+One table of families of laws serves COMP, ECOU, KTAN, HOTA: elastic, plastic bodies, joints.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from ssilang.kernel.elements.families import family_of
+from ssilang.kernel.elements.family import apply_moduli
+from ssilang.kernel.elements.hooke import moduli_from_field
+from ssilang.kernel.elements.zone_fields import ZoneField, n_points, zone_field
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.joints.columns import N_STATE, OPENING, SLIP1, SLIP2, XI
+from ssilang.kernel.joints.elements import is_joint
+from ssilang.kernel.joints.family import component_order, has_rotations
+from ssilang.kernel.joints.kinematics import joint_cells
+from ssilang.kernel.joints.law_table import MOHR, SDM, law_of
+from ssilang.kernel.joints.parameters import Parameter
+from ssilang.kernel.joints.table import joint_parameters
+from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.model import Zone
+from ssilang.kernel.plasticity.bulk import plastic_strain_names
+from ssilang.kernel.plasticity.points import PlasticPoints, is_plastic, plastic_points
+
+Variables = Mapping[str, FloatArray]
+
+
+@dataclass(frozen=True, eq=False)
+class Answer:
+    """What a law answers at the points of 'STRESSES' of a zone.
+
+    Attributes
+    ----------
+    stress : array (n_cells, n_stresses, n_points)
+    variables : mapping of str to array (n_cells, n_points)
+    inelastic : mapping of str to array (n_cells, n_points)
+        Step of inelastic strain.
+    tangent : array (n_cells, n_points, n_stresses, n_strains)
+    symmetric : bool
+        Whether the tangent is symmetric whatever the state.
+    """
+
+    stress: FloatArray
+    variables: Variables
+    inelastic: Variables
+    tangent: FloatArray
+    symmetric: bool = True
+
+
+Law = Callable[[Zone, CellField, FloatArray, ZoneField, FloatArray], Answer]
+"""Answer from the zone, parameters, stress at the start, variables there, step of strain."""
+
+
+def has_law(zone: Zone) -> bool:
+    """Whether a zone's law is more than elasticity."""
+    return (is_joint(zone) and not law_of(zone.behaviour).linear) or (
+        not is_joint(zone) and is_plastic(zone)
+    )
+
+
+def respond(
+    zone: Zone,
+    material: CellField,
+    stress: FloatArray,
+    variables: ZoneField,
+    step: FloatArray,
+) -> Answer:
+    """The law of a zone over a step.
+
+    Parameters
+    ----------
+    stress : array (n_cells, n_stresses, n_points)
+        At the start, at the points of 'STRESSES'.
+    variables : ZoneField
+        Internal variables at the start; those absent are zero.
+    step : array (n_cells, n_strains, n_points)
+        Increment of strain (of jump, for joints).
+    """
+    law = _joint if is_joint(zone) else _plastic if is_plastic(zone) else _elastic
+    return law(zone, material, stress, variables, step)
+
+
+def probing_step(
+    zone: Zone, material: CellField, stress: FloatArray, variables: ZoneField, precision: float
+) -> FloatArray:
+    """A step of strain that takes the points within `precision` of yielding just past it.
+
+    It raises the stress by that share of itself (of a joint its shear, and its normal traction
+    where that is a tension), elastically: the law's tangent over it is the one of the state.
+    """
+    if is_joint(zone):
+        return _joint_probe(zone, material, stress, precision)
+    family, parameters = family_of(zone), zone_field(zone, material)
+    if not is_plastic(zone):
+        return np.zeros((len(stress), len(family.strain_names(zone)), stress.shape[2]))
+    points = plastic_points(zone, material)
+    raised = section_stress(points, stress) * precision
+    step = np.einsum("mij,mj->mi", points.parameters.compliance, raised)
+    del parameters
+    return points.gathered(step)
+
+
+# ---- elasticity -----------------------------------------------------------------------------
+
+
+def elastic_moduli(zone: Zone, parameters: ZoneField) -> FloatArray:
+    """Moduli (n_cells, n_points, s, s) at 'STRESSES', from Hooke matrices or parameters."""
+    given = moduli_from_field(zone, parameters, "STRESSES")
+    found = family_of(zone).moduli(zone, parameters, "STRESSES") if given is None else given
+    shape = (len(zone.cells), n_points(zone.element, "STRESSES"), *found.shape[2:])
+    return np.broadcast_to(found, shape)
+
+
+def _elastic(
+    zone: Zone, material: CellField, stress: FloatArray, variables: ZoneField, step: FloatArray
+) -> Answer:
+    D = elastic_moduli(zone, zone_field(zone, material))
+    return Answer(stress + apply_moduli(D, step), {}, {}, D)
+
+
+# ---- plastic bodies -------------------------------------------------------------------------
+
+
+def section_stress(points: PlasticPoints, stress: FloatArray) -> FloatArray:
+    """Stress tensors (m, 6) of a zone's stresses (forces in bars)."""
+    own = stress if points.section is None else stress / points.section[:, None]
+    return points.spread(own)
+
+
+def _plastic(
+    zone: Zone, material: CellField, stress: FloatArray, variables: ZoneField, step: FloatArray
+) -> Answer:
+    points = plastic_points(zone, material)
+    n, p = points.weights.shape
+    before = section_stress(points, stress)
+    kept = variables.matrix(points.law.variables, "STRESSES").transpose(0, 2, 1)
+    found, whole = points.respond(before, points.spread(step), kept.reshape(n * p, -1))
+    elastic = np.einsum("mij,mj->mi", points.parameters.compliance, found.stress - before)
+    plastic = points.gathered(whole - elastic)
+    chosen = np.array(points.components)
+    tangent = found.tangent[:, chosen[:, None], chosen[None, :]].reshape(n, p, *step.shape[1:2] * 2)
+    after = points.gathered(found.stress)
+    if points.section is not None:
+        after, tangent = after * points.section[:, None], tangent * points.section[..., None, None]
+    inner = found.variables.reshape(n, p, -1)
+    return Answer(
+        after,
+        {name: inner[..., k] for k, name in enumerate(points.law.variables)},
+        {name: plastic[:, k] for k, name in enumerate(plastic_strain_names(zone))},
+        tangent,
+        points.law.symmetric,
+    )
+
+
+# ---- joints ---------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, eq=False)
+class JointPoints:
+    """Points of a zone of joints, components in the order that compiled laws use."""
+
+    zone: Zone
+    table: FloatArray
+    dimension: int
+    shape: tuple[int, int]
+
+    @property
+    def order(self) -> list[int]:
+        return component_order(self.zone)
+
+    def local(self, values: FloatArray) -> FloatArray:
+        """Rows (m, d) of components (n_cells, n_names, n_points)."""
+        made = np.empty((*self.shape, self.dimension))
+        made[..., self.order] = values[:, : self.dimension].transpose(0, 2, 1)
+        return made.reshape(-1, self.dimension)
+
+    def named(self, rows: FloatArray) -> FloatArray:
+        """Components (n_cells, d, n_points) of rows (m, d)."""
+        made = rows.reshape(*self.shape, self.dimension)[..., self.order]
+        return np.ascontiguousarray(made.transpose(0, 2, 1))
+
+    def stiffness(self) -> FloatArray:
+        """Elastic stiffness (m, d)."""
+        shear = (Parameter.KS1, Parameter.KS2)[: self.dimension - 1]
+        return np.stack([self.table[:, c] for c in (*shear, Parameter.KN)], axis=1)
+
+
+def joint_points(zone: Zone, material: CellField) -> JointPoints:
+    given = zone_field(zone, material)
+    cells = joint_cells(zone, given)
+    table = joint_parameters(cells, given)
+    n, g = cells.weights.shape
+    return JointPoints(zone, table, cells.element.dimension, (n, g))
+
+
+def joint_state(points: JointPoints, variables: ZoneField) -> FloatArray:
+    """State (m, N_STATE) from internal variables by name."""
+    state = np.zeros((len(points.table), N_STATE))
+    for name, column in law_of(points.zone.behaviour).variables.items():
+        if name in variables:
+            values = np.broadcast_to(variables.at(name, "STRESSES"), points.shape)
+            state[:, column] = values.ravel()
+    if "PLA3" in variables:
+        state[:, XI] -= state[:, OPENING]
+    return state
+
+
+def _jump(points: JointPoints, traction: FloatArray, state: FloatArray, code: int) -> FloatArray:
+    """The jump (m, d) that tractions and internal variables belong to.
+
+    It is unique but for open points, which start from the opening that their variables hold.
+    """
+    k = points.stiffness()
+    w = traction / k
+    slips = (SLIP1, SLIP2)[: points.dimension - 1]
+    if code in (SDM, MOHR):
+        for i, column in enumerate(slips):
+            w[:, i] += state[:, column]
+    if code == MOHR:
+        w[:, -1] += state[:, XI] + state[:, OPENING]
+    if code == SDM:
+        t, xi, limit = traction[:, -1], state[:, XI], points.table[:, Parameter.FC]
+        closing = (t > limit) & (xi > 0) & (t < 0)
+        ratio = np.divide(np.abs(limit), np.abs(limit) + k[:, -1] * xi,
+                          out=np.ones_like(xi), where=np.abs(limit) > 0)  # fmt: skip
+        open_ = (t >= 0) & (xi > 0)
+        w[:, -1] = np.where(closing, xi + t / (k[:, -1] * ratio), w[:, -1])
+        w[:, -1] = np.where(open_, xi + t / k[:, -1], w[:, -1])
+    return w
+
+
+def _joint_probe(
+    zone: Zone, material: CellField, stress: FloatArray, precision: float
+) -> FloatArray:
+    points = joint_points(zone, material)
+    raised = points.local(stress) * precision
+    raised[:, -1] = np.maximum(raised[:, -1], 0.0)
+    step = np.zeros((len(stress), len(family_of(zone).strain_names(zone)), stress.shape[2]))
+    step[:, : points.dimension] = points.named(raised / points.stiffness())
+    return step
+
+
+def _joint(
+    zone: Zone, material: CellField, stress: FloatArray, variables: ZoneField, step: FloatArray
+) -> Answer:
+    from ssilang.kernel.joints.laws import respond as compiled_respond
+
+    law, d = law_of(zone.behaviour), None
+    if law.linear or law.macro:
+        return _elastic(zone, material, stress, variables, step)
+    points = joint_points(zone, material)
+    d, m = points.dimension, len(points.table)
+    state = joint_state(points, variables)
+    w = _jump(points, points.local(stress), state, law.code) + points.local(step)
+    t, new, D = np.zeros((m, d)), np.zeros((m, N_STATE)), np.zeros((m, d, d))
+    compiled_respond(np.full(m, law.code), w, state, points.table, t, new, D)
+    return _joint_answer(zone, material, points, (stress, step), (t, new, D), state)
+
+
+def _joint_answer(
+    zone: Zone,
+    material: CellField,
+    points: JointPoints,
+    given: tuple[FloatArray, FloatArray],
+    found: tuple[FloatArray, FloatArray, FloatArray],
+    state: FloatArray,
+) -> Answer:
+    (stress, step), (t, new, D) = given, found
+    d, order = points.dimension, points.order
+    n, g = points.shape
+    local = D.reshape(n, g, d, d)[..., order, :][..., order]
+    after = points.named(t)
+    tangent = local
+    if has_rotations(zone):
+        whole = elastic_moduli(zone, zone_field(zone, material)).copy()
+        turned = stress + apply_moduli(whole, step)
+        whole[..., :d, :] = 0.0
+        whole[..., :, :d] = 0.0
+        whole[..., :d, :d] = local
+        turned[:, :d], after, tangent = after, turned, whole
+        after[:, :d] = points.named(t)
+    shown = law_of(zone.behaviour).variables
+    kept = {k: c for k, c in shown.items() if d == 3 or c != SLIP2}
+    inner = {name: new[:, c].reshape(n, g).copy() for name, c in kept.items()}
+    if "PLA3" in inner:
+        inner["PLA3"] += new[:, OPENING].reshape(n, g)
+    elastic = (t - points.local(stress)) / points.stiffness()
+    rest = points.named(points.local(step) - elastic)
+    names = plastic_strain_names(zone)[:d]
+    inelastic = {name: rest[:, k] for k, name in enumerate(names)}
+    return Answer(after, inner, inelastic, tangent, False)

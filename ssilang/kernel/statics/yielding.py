@@ -1,0 +1,142 @@
+"""Yield criteria of stresses: negative inside, zero on the surface, in the unit of the stress."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
+from ssilang.kernel.errors import FieldError
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.joints.columns import XI
+from ssilang.kernel.joints.elements import is_joint
+from ssilang.kernel.joints.law_table import MOHR, SDM, law_of
+from ssilang.kernel.joints.parameters import Parameter
+from ssilang.kernel.materials.plastic.response import PointParameters, mises
+from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.model import Zone
+from ssilang.kernel.plasticity.points import is_plastic, plastic_points
+from ssilang.kernel.statics.constitutive import joint_points, joint_state, section_stress
+
+Criterion = Callable[[PointParameters, FloatArray, FloatArray], FloatArray]
+"""Criterion (m,) from parameters, stresses (m, 6), internal variables (m, k)."""
+
+
+def _perfect(p: PointParameters, s: FloatArray, v: FloatArray) -> FloatArray:
+    return np.asarray(mises(s)[0] - p["SIGY"])
+
+
+def _isotropic(p: PointParameters, s: FloatArray, v: FloatArray) -> FloatArray:
+    return np.asarray(mises(s)[0] - p.curve("ECRO", v[:, 0])[0])
+
+
+def _kinematic(p: PointParameters, s: FloatArray, v: FloatArray) -> FloatArray:
+    return np.asarray(mises(s - v[:, 1:7])[0] - p["SIGY"])
+
+
+def _trace(s: FloatArray) -> FloatArray:
+    return np.asarray(s[:, :3].sum(axis=1))
+
+
+def _cone_of_strengths(p: PointParameters, s: FloatArray, v: FloatArray) -> FloatArray:
+    tension, compression = p["LTR"], np.abs(p["LCS"])
+    alpha = (compression - tension) / (compression + tension)
+    limit = 2.0 * compression * tension / (compression + tension)
+    return np.asarray(alpha * _trace(s) + mises(s)[0] - limit)
+
+
+def _hardening_cone(p: PointParameters, s: FloatArray, v: FloatArray) -> FloatArray:
+    strength, slope = p["K"] + p["H"] * v[:, 0], p["H"]
+    last = p["KL"] * p["BETA"] / p["MU"]
+    moving = np.where(slope < 0, np.maximum(strength, last), np.minimum(strength, last))
+    strength = np.where(slope == 0, p["K"], moving)
+    return np.asarray(p["ALFA"] * _trace(s) + p["BETA"] * mises(s)[0] - strength)
+
+
+CRITERIA: dict[str, Criterion] = {
+    "PARFAIT": _perfect,
+    "ISOTROPE": _isotropic,
+    "CINEMATIQUE": _kinematic,
+    "DRUCKER_PARFAIT": _cone_of_strengths,
+    "DRUCKER_PRAGER": _hardening_cone,
+}
+"""By the word after PLASTIQUE."""
+
+
+def criterion(
+    zone: Zone, material: CellField, stress: FloatArray, variables: ZoneField
+) -> FloatArray:
+    """Criterion (n_cells, n_points) of the stresses (n_cells, n_stresses, n_points) of a zone.
+
+    Raises
+    ------
+    FieldError
+        If the law of the zone has none.
+    """
+    if is_joint(zone):
+        return _of_joint(zone, material, stress, variables)
+    words = zone.behaviour
+    name = words[words.index("PLASTIQUE") + 1] if is_plastic(zone) else ""
+    if name not in CRITERIA:
+        raise FieldError(
+            f"the law {' '.join(words)} of element {zone.element} has no criterion here",
+            "there are " + ", ".join(CRITERIA) + " and the joints' laws",
+        )
+    points = plastic_points(zone, material)
+    kept = variables.matrix(points.law.variables, "STRESSES").transpose(0, 2, 1)
+    s = section_stress(points, stress)
+    found = CRITERIA[name](points.parameters, s, kept.reshape(len(s), -1))
+    return np.asarray(found.reshape(points.weights.shape))
+
+
+def _of_joint(
+    zone: Zone, material: CellField, stress: FloatArray, variables: ZoneField
+) -> FloatArray:
+    law = law_of(zone.behaviour)
+    if law.code not in (SDM, MOHR):
+        raise FieldError(f"joints {zone.element} with this law have no criterion")
+    points = joint_points(zone, material)
+    t, p = points.local(stress), points.table
+    shear, normal = np.linalg.norm(t[:, :-1], axis=1), t[:, -1]
+    if law.code == MOHR:
+        sliding = shear + normal * p[:, Parameter.TPHI] - p[:, Parameter.COHE]
+        opening = normal - p[:, Parameter.FTRC]
+        return np.asarray(np.maximum(sliding, opening).reshape(points.shape))
+    xi, fu = joint_state(points, variables)[:, XI], p[:, Parameter.FU]
+    rate = np.divide(fu, p[:, Parameter.GF], out=np.zeros_like(fu), where=fu > 0)
+    opening = normal - fu * np.exp(-rate * xi)
+    rough = p[:, Parameter.FROT]
+    sliding = shear - rough * np.maximum(-normal, 0.0)
+    found = np.where(rough > 0, np.maximum(opening, sliding), opening)
+    return found.reshape(points.shape)
+
+
+def tangent_modulus(
+    zone: Zone, material: CellField, stress: FloatArray, variables: ZoneField, precision: float
+) -> FloatArray:
+    """Slope of the equivalent stress on the equivalent plastic strain, Young's modulus inside.
+
+    A point is on the surface where it has yielded (EPSE > 0) and the criterion is above
+    `-precision` times the size of the surface.
+    """
+    parameters = zone_field(zone, material)
+    shape = (len(zone.cells), stress.shape[2])
+    elastic = np.broadcast_to(parameters.at("YOUN", "STRESSES"), shape)
+    words = zone.behaviour
+    if is_joint(zone) or not is_plastic(zone):
+        return elastic.copy()
+    name = words[words.index("PLASTIQUE") + 1]
+    if name not in ("PARFAIT", "ISOTROPE", "CINEMATIQUE"):
+        raise FieldError(f"MOTA knows von Mises laws, not {name}")
+    points = plastic_points(zone, material)
+    p = points.parameters
+    cumulated = np.broadcast_to(variables.at("EPSE", "STRESSES", 0.0), shape).ravel()
+    if name == "ISOTROPE":
+        size, slope = p.curve("ECRO", cumulated)
+    else:
+        size = p["SIGY"]
+        slope = p["H"] if name == "CINEMATIQUE" else np.zeros_like(size)
+    above = criterion(zone, material, stress, variables).ravel() > -precision * size
+    found = np.where(above & (cumulated > 0), slope, elastic.ravel())
+    return found.reshape(shape)

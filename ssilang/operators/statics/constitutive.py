@@ -1,0 +1,401 @@
+"""COMP ECOU PLAS KTAN HOTA CRIT MOTA: constitutive laws at integration points."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ssilang.kernel.elements.families import family_of
+from ssilang.kernel.elements.family import cell_block, contract, element_matrices
+from ssilang.kernel.elements.geometry import chunks
+from ssilang.kernel.elements.hooke import hooke_block
+from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
+from ssilang.kernel.errors import FieldError, MeshError
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
+from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.model import Model, Zone
+from ssilang.kernel.statics.constitutive import Answer, has_law, probing_step, respond
+from ssilang.kernel.statics.yielding import criterion, tangent_modulus
+from ssilang.language.call import Call
+from ssilang.language.registry import Help, operator
+from ssilang.language.values import Mot, Table
+from ssilang.operators.matrices.element import joined, present
+
+_BAR = (
+    "OPTI DIME 2 ELEM SEG2 ; L = DROI 1 (0. 0.) (1. 0.) ; "
+    "M = MODE L MECANIQUE ELASTIQUE PLASTIQUE PARFAIT BARR ; "
+    "A = MATE M 'YOUN' 1.E3 'NU' 0. 'SIGY' 2. 'SECT' 1. ; "
+)
+
+
+def _strains_of(zone: Zone, field: CellField) -> FloatArray:
+    """Strains (n_cells, n_strains, n_points) at 'STRESSES', zero where absent."""
+    return zone_field(zone, field).matrix(family_of(zone).strain_names(zone), "STRESSES")
+
+
+def _stresses_of(zone: Zone, field: CellField) -> FloatArray:
+    return zone_field(zone, field).matrix(family_of(zone).stress_names(zone), "STRESSES")
+
+
+def _named(zone: Zone, answer: Answer, wanted: str) -> CellFieldBlock:
+    """Stresses, variables or inelastic strains of an answer as a block."""
+    if wanted == "CONTRAINTES":
+        return cell_block(zone, family_of(zone).stress_names(zone), answer.stress)
+    values = answer.variables if wanted == "VARIABLES INTERNES" else answer.inelastic
+    return CellFieldBlock(zone.cells, dict(values), "STRESSES", zone.element, zone.constituent)
+
+
+# ---- COMP -----------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, eq=False)
+class _Step:
+    """Two states as COMP takes them."""
+
+    start: CellField
+    end: CellField
+
+    def material(self, zone: Zone) -> CellField:
+        """Parameters: those of the end, and of the start where the end has none."""
+        return joined((self.end, self.start))
+
+    def increment(self, zone: Zone) -> FloatArray:
+        """Step of strain."""
+        names = family_of(zone).strain_names(zone)
+        seen = zone_field(zone, self.end)
+        if not any(n in seen for n in names):
+            raise FieldError(
+                f"the second field has no strain ({' '.join(names)}) on the cells of element "
+                f"{zone.element}",
+                f"it has: {' '.join(seen.names) or 'nothing there'}",
+            )
+        return seen.matrix(names, "STRESSES") - _strains_of(zone, self.start)
+
+    def answer(self, zone: Zone, more: FloatArray | float = 0.0) -> Answer:
+        """The law over the step, with another step of strain added."""
+        return respond(
+            zone,
+            self.material(zone),
+            _stresses_of(zone, self.start),
+            zone_field(zone, self.start),
+            self.increment(zone) + more,
+        )
+
+
+def _two_states(call: Call) -> tuple[Model, _Step]:
+    model: Model = call.required("MMODEL")
+    start, end = call.required("MCHAML"), call.required("MCHAML")
+    return present(call, model), _Step(start, end)
+
+
+@operator(
+    "COMP",
+    family="stress",
+    full_name="COMPORTEMENT",
+    help=Help(
+        en="The constitutive laws of a model over a step: from the state at the start (stresses, "
+        "internal variables, inelastic strains, strains, parameters, joined by ET) and at the end "
+        "(strains, parameters), one field with the stresses, internal variables and inelastic "
+        "strains at the end. Elastic and plastic bodies, joints (whose strain is the jump).",
+        fr="Les lois de comportement d'un modèle sur un pas : de l'état initial (contraintes, "
+        "variables internes, déformations inélastiques, déformations, caractéristiques, réunies "
+        "par ET) et de l'état final (déformations, caractéristiques), un champ avec les "
+        "contraintes, variables internes et déformations inélastiques finales. Massifs et barres "
+        "élastiques et plastiques, joints (dont la déformation est le saut).",
+        syntax="CHE1 = COMP MODL1 CHE2 CHE3 ;",
+        examples=(
+            _BAR + "U = MANU 'CHPO' L 1 'UX' (PROG 0. 5.E-3) ; Z = ZERO M 'DEFORMATIONS' ; "
+            "C = COMP M (A ET Z) (A ET (EPSI M U)) ; LIST (MAXI (EXCO 'EFFX' C)) ; "
+            "LIST (MAXI (EXCO 'EISS' C)) ;",
+        ),
+    ),
+    reads_itself=True,
+)
+def comp(call: Call) -> CellField:
+    """Integrate the laws."""
+    model, step = _two_states(call)
+    blocks = []
+    for zone in model.zones:
+        answer = step.answer(zone)
+        before = zone_field(zone, step.start)
+        parts = dict(_named(zone, answer, "CONTRAINTES").components) | dict(answer.variables)
+        for name, values in answer.inelastic.items():
+            parts[name] = values + before.at(name, "STRESSES", 0.0)
+        blocks.append(CellFieldBlock(zone.cells, parts, "STRESSES", zone.element, zone.constituent))
+    return CellField(tuple(blocks))
+
+
+# ---- ECOU, PLAS -----------------------------------------------------------------------------
+
+
+def _flow(call: Call) -> tuple[CellField, CellField, CellField]:
+    model = present(call, call.required("MMODEL"))
+    stress, variables, strain = (call.required("MCHAML") for _ in range(3))
+    material = joined((call.required("MCHAML"), *call.all("MCHAML")))
+    extra = call.optional("TABLE")
+    call.optional("FLOTTANT")  # accuracy: the laws are solved to rounding
+    call.keyword(("NOID",))
+    call.optional("ENTIER")
+    found: dict[str, list[CellFieldBlock]] = {
+        "CONTRAINTES": [], "VARIABLES INTERNES": [], "DEFORMATIONS INELASTIQUES": []
+    }  # fmt: skip
+    for zone in model.zones:
+        answer = respond(
+            zone,
+            material,
+            _stresses_of(zone, stress),
+            zone_field(zone, variables),
+            _strains_of(zone, strain),
+        )
+        for title, blocks in found.items():
+            blocks.append(_named(zone, answer, title))
+    if isinstance(extra, Table):
+        extra.set(Mot("SUCCES"), True)
+    made = [CellField(tuple(b for b in bs if b.components), t) for t, bs in found.items()]
+    return made[0], made[1], made[2]
+
+
+for _name, _full in (("ECOU", "ECOULE"), ("PLAS", "PLAS")):
+    operator(
+        _name,
+        family="stress",
+        full_name=_full,
+        help=Help(
+            en="The constitutive laws over a step of strain: from stresses and internal variables "
+            "at the start, the step of strain and the parameters, in this order, the stresses and "
+            "internal variables at the end and the step of inelastic strain. Joints take the step "
+            "of jump; their open points start from the largest opening.",
+            fr="Les lois de comportement sur un incrément de déformation : des contraintes et "
+            "variables internes initiales, de l'incrément de déformation et des caractéristiques, "
+            "dans cet ordre, les contraintes et variables internes finales et l'incrément de "
+            "déformation inélastique. Les joints prennent l'incrément de saut ; leurs points "
+            "ouverts partent de la plus grande ouverture.",
+            syntax=f"SIG1 VAR1 DEPS1 = {_name} MODL1 SIG2 VAR2 EPS3 CAR1 (TAB1) (X1) ;",
+            examples=(
+                _BAR + "U = MANU 'CHPO' L 1 'UX' (PROG 0. 5.E-3) ; "
+                f"S V E = {_name} M (ZERO M 'CONTRAINTES') (ZERO M 'VARINTER') (EPSI M U) A ; "
+                "LIST (MAXI S) ;",
+            ),
+        ),
+        reads_itself=True,
+    )(_flow)
+
+
+# ---- tangents -------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, eq=False)
+class _StateRead:
+    """What KTAN, HOTA, CRIT and MOTA read: model, stresses, variables, parameters, precision."""
+
+    model: Model
+    stress: CellField
+    variables: CellField
+    material: CellField
+    precision: float
+    symmetric: bool
+
+    def tangent(self, zone: Zone) -> Answer:
+        """The law's tangent at this state."""
+        stress, variables = _stresses_of(zone, self.stress), zone_field(zone, self.variables)
+        step = probing_step(zone, self.material, stress, variables, self.precision)
+        return respond(zone, self.material, stress, variables, step)
+
+
+def _state_read(call: Call) -> _StateRead:
+    model: Model = call.required("MMODEL")
+    stress, variables = call.required("MCHAML"), call.required("MCHAML")
+    material = joined((call.required("MCHAML"), *call.all("MCHAML")))
+    precision, symmetric = 1e-3, False
+    while (word := call.keyword(("PREC", "DT", "SYME"))) is not None:
+        if word == "SYME":
+            symmetric = True
+            continue
+        value = call.required("FLOTTANT", after=call.keyword_end)
+        precision = value if word == "PREC" else precision  # no law here has a viscosity
+    number = call.optional("FLOTTANT")
+    precision = precision if number is None else number
+    if precision <= 0.0:
+        raise call.bad(f"the precision must be positive, not {precision:g}")
+    return _StateRead(present(call, model), stress, variables, material, precision, symmetric)
+
+
+def _tangent_matrix(
+    model: Model, tangents: list[tuple[FloatArray, bool]], material: CellField, symmetric: bool
+) -> Matrix:
+    if not model.zones:
+        raise MeshError("the model has no mechanical zone", "CHARGEMENT zones only carry loads")
+    blocks = []
+    for zone, (tangent, own) in zip(model.zones, tangents, strict=True):
+        parameters = zone_field(zone, material)
+        D = 0.5 * (tangent + np.swapaxes(tangent, -1, -2)) if symmetric else tangent
+        block = _stiffness(zone, D, parameters)
+        blocks.append(replace(block, symmetric=own or symmetric))
+    return Matrix(model.mesh.nodes, tuple(blocks), (), "RIGIDITE")
+
+
+def _stiffness(zone: Zone, tangent: FloatArray, parameters: ZoneField) -> ElementMatrices:
+    """Stiffness of moduli at the points of 'STRESSES'."""
+    family = family_of(zone)
+    layout = family.layout(zone)
+    values = np.empty((len(zone.cells), *(len(layout.unknowns),) * 2))
+    for cells in chunks(len(zone.cells)):
+        operator_ = family.strain_operator(zone, parameters, "STRESSES", cells)
+        values[cells] = contract(operator_, tangent[cells])
+    return element_matrices(zone, layout, values, "RIGIDITE")
+
+
+@operator(
+    "KTAN",
+    family="matrix",
+    help=Help(
+        en="Tangent stiffness of a model at a state given by stresses, internal variables and "
+        "parameters, in this order: elastic inside the surfaces, elastoplastic at the points "
+        "within 'PREC' (1.E-3, a share of the stress) of them; of joints by their state. 'SYME' "
+        "keeps the symmetric part. 'PERT': the stiffness of a step between two states as COMP "
+        "takes them, by perturbing its strain (C1 times the step, 1.E-3; at least C2, C1 / 100).",
+        fr="Raideur tangente d'un modèle dans un état donné par les contraintes, les variables "
+        "internes et les caractéristiques, dans cet ordre : élastique à l'intérieur des surfaces, "
+        "élastoplastique aux points à 'PREC' près (1.E-3, part de la contrainte) d'elles ; des "
+        "joints selon leur état. 'SYME' garde la partie symétrique. 'PERT' : la raideur d'un pas "
+        "entre deux états comme les prend COMP, par perturbation de sa déformation (C1 fois le "
+        "pas, 1.E-3 ; au moins C2, C1 / 100).",
+        syntax="RIG1 = KTAN MODL1 SIG1 VAR1 MAT1 ('PREC' X1) ('DT' X2) ('SYME') ;\n"
+        "RIG1 = KTAN 'PERT' MODL1 CHE1 CHE2 ('C1' X1) ('C2' X2) ('SYME') ;",
+        examples=(
+            _BAR + "S = MANU 'CHML' M 'EFFX' 1. 'TYPE' 'CONTRAINTES' 'STRESSES' ; "
+            "K = KTAN M S (ZERO M 'VARINTER') A ; LIST (TYPE K) ;",
+        ),
+    ),
+    reads_itself=True,
+)
+def ktan(call: Call) -> Matrix:
+    """Tangent stiffness."""
+    if call.keyword(("PERT",)) is not None:
+        return _perturbed(call)
+    said = _state_read(call)
+    answers = [said.tangent(z) for z in said.model.zones]
+    tangents = [(a.tangent, a.symmetric) for a in answers]
+    return _tangent_matrix(said.model, tangents, said.material, said.symmetric)
+
+
+def _perturbed(call: Call) -> Matrix:
+    model, step = _two_states(call)
+    said: dict[str, float] = {"C1": 1e-3}
+    symmetric = False
+    while (word := call.keyword(("C1", "C2", "SYME"))) is not None:
+        if word == "SYME":
+            symmetric = True
+        else:
+            said[word] = call.required("FLOTTANT", after=call.keyword_end)
+    share, least = said["C1"], said.get("C2", said["C1"] / 100.0)
+    if share <= 0.0 or least <= 0.0:
+        raise call.bad("the coefficients of the perturbation must be positive")
+    tangents = [(_by_differences(z, step, share, least), not has_law(z)) for z in model.zones]
+    return _tangent_matrix(model, tangents, joined((step.end, step.start)), symmetric)
+
+
+def _by_differences(zone: Zone, step: _Step, share: float, least: float) -> FloatArray:
+    """Tangent (n_cells, n_points, s, s) by one perturbation a component of strain."""
+    base, increment = step.answer(zone).stress, step.increment(zone)
+    n, s, p = increment.shape
+    size = np.maximum(share * np.abs(increment).max(axis=1), least)
+    D = np.empty((n, p, base.shape[1], s))
+    for k in range(s):
+        more = np.zeros_like(increment)
+        # in the direction of the step, so that a loading point stays loading
+        more[:, k] = np.where(increment[:, k] < 0.0, -size, size)
+        change = (step.answer(zone, more).stress - base) / more[:, k][:, None]
+        D[..., k] = change.transpose(0, 2, 1)
+    return D
+
+
+@operator(
+    "HOTA",
+    family="stress",
+    full_name="HOTANGE",
+    help=Help(
+        en="Field of tangent Hooke matrices at a state given by stresses, internal variables and "
+        "parameters, in this order (as KTAN finds them); RIGI and SIGM take it for parameters.",
+        fr="Champ de matrices de Hooke tangentes dans un état donné par les contraintes, les "
+        "variables internes et les caractéristiques, dans cet ordre (comme KTAN les trouve) ; "
+        "RIGI et SIGM le prennent comme caractéristiques.",
+        syntax="CHEL1 = HOTA MODL1 SIG1 VAR1 MAT1 ('PREC' X1) ('DT' X2) ;",
+        examples=(
+            _BAR + "S = MANU 'CHML' M 'EFFX' 1. 'TYPE' 'CONTRAINTES' 'STRESSES' ; "
+            "H = HOTA M S (ZERO M 'VARINTER') A ; LIST (EXTR H 'COMP') ;",
+        ),
+    ),
+    reads_itself=True,
+)
+def hota(call: Call) -> CellField:
+    """Tangent Hooke matrices."""
+    said = _state_read(call)
+    blocks = [hooke_block(z, said.tangent(z).tangent, "STRESSES") for z in said.model.zones]
+    return CellField(tuple(blocks), "MATRICE DE HOOKE")
+
+
+@operator(
+    "CRIT",
+    family="stress",
+    full_name="CRITERE",
+    help=Help(
+        en="Yield criterion of stresses with internal variables and parameters, in this order: "
+        "negative inside, zero on the surface, in the unit of the stress. Von Mises and "
+        "Drucker-Prager laws, joints.",
+        fr="Critère de plasticité de contraintes avec les variables internes et les "
+        "caractéristiques, dans cet ordre : négatif à l'intérieur, nul sur la surface, dans "
+        "l'unité des contraintes. Lois de von Mises et de Drucker-Prager, joints.",
+        syntax="CHEL1 = CRIT MODL1 SIG1 VAR1 CAR1 ;",
+        examples=(
+            _BAR + "S = MANU 'CHML' M 'EFFX' 1.5 'TYPE' 'CONTRAINTES' 'STRESSES' ; "
+            "LIST (MAXI (CRIT M S (ZERO M 'VARINTER') A)) ;",
+        ),
+    ),
+    reads_itself=True,
+)
+def crit(call: Call) -> CellField:
+    """Yield criterion."""
+    said = _state_read(call)
+    blocks = []
+    for zone in said.model.zones:
+        stress = _stresses_of(zone, said.stress)
+        values = criterion(zone, said.material, stress, zone_field(zone, said.variables))
+        blocks.append(_scalar(zone, values))
+    return CellField(tuple(blocks), "SCALAIRE")
+
+
+def _scalar(zone: Zone, values: FloatArray) -> CellFieldBlock:
+    return CellFieldBlock(zone.cells, {"SCAL": values}, "STRESSES", zone.element, zone.constituent)
+
+
+@operator(
+    "MOTA",
+    family="stress",
+    help=Help(
+        en="Tangent moduli of equivalent stress on equivalent plastic strain, of von Mises laws: "
+        "the hardening slope where a point has yielded and stands on the surface (to a precision, "
+        "1.E-3), Young's modulus elsewhere.",
+        fr="Modules tangents de la contrainte équivalente par rapport à la déformation plastique "
+        "équivalente, des lois de von Mises : la pente d'écrouissage où un point a plastifié et "
+        "est sur la surface (à une précision près, 1.E-3), le module d'Young ailleurs.",
+        syntax="CHEL1 = MOTA MODL1 SIG1 VAR1 MAT1 (X1) ;",
+        examples=(
+            _BAR + "S = MANU 'CHML' M 'EFFX' 1.5 'TYPE' 'CONTRAINTES' 'STRESSES' ; "
+            "LIST (MAXI (MOTA M S (ZERO M 'VARINTER') A)) ;",
+        ),
+    ),
+    reads_itself=True,
+)
+def mota(call: Call) -> CellField:
+    """Tangent moduli."""
+    said = _state_read(call)
+    blocks = []
+    for zone in said.model.zones:
+        stress, variables = _stresses_of(zone, said.stress), zone_field(zone, said.variables)
+        blocks.append(
+            _scalar(zone, tangent_modulus(zone, said.material, stress, variables, said.precision))
+        )
+    return CellField(tuple(blocks), "SCALAIRE")

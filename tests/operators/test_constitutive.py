@@ -1,0 +1,202 @@
+"""COMP ECOU KTAN HOTA CRIT MOTA against closed forms and finite differences."""
+
+import numpy as np
+import pytest
+
+from ssilang.kernel.matrices.assembly import assemble
+
+PLATE = (
+    "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; L = DROI 1 (0 0) (1 0) ; S = TRAN 1 L (0. 1.) ; "
+    "X Y = COOR S ; "
+    "U = (NOMC 'UX' ((4.E-3 * X) + (1.E-3 * Y)) 'NATU' 'DIFFUS') ET "
+    "(NOMC 'UY' (-1.E-3 * Y) 'NATU' 'DIFFUS') ; "
+)
+ELASTIC = "M = MODE S MECANIQUE ELASTIQUE ; A = MATE M 'YOUN' 2.E3 'NU' 0.3 ; "
+MISES = (
+    "M = MODE S MECANIQUE ELASTIQUE PLASTIQUE CINEMATIQUE ; "
+    "A = MATE M 'YOUN' 2.E3 'NU' 0.3 'SIGY' 3. 'H' 100. ; "
+)
+BAR = (
+    "OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ; L = DROI 1 (0. 0.) (1. 0.) ; "
+    "M = MODE L MECANIQUE ELASTIQUE PLASTIQUE CINEMATIQUE BARR ; "
+    "A = MATE M 'YOUN' 1.E3 'NU' 0. 'SIGY' 2. 'H' 250. 'SECT' 3. ; "
+    "U = MANU 'CHPO' L 1 'UX' (PROG 0. 6.E-3) 'NATURE' 'DIFFUS' ; "
+)
+JOINT = (
+    "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; P = 0. 0. ; Q = 1. 0. ; B = DROI 1 P Q ; "
+    "T = B PLUS (0. 0.) ; J = RACC 1.E-6 T B ; "
+    "M = MODE J MECANIQUE ELASTIQUE {law} JOI2 ; A = MATE M 'KN' 1.E6 'KS' 4.E5 {more} ; "
+)
+ZEROS = "Z = ZERO M 'DEFORMATIONS' ; S0 = ZERO M 'CONTRAINTES' ; V0 = ZERO M 'VARINTER' ; "
+
+
+def component(field, name):
+    return np.ravel(field.blocks[0].components[name])
+
+
+def matrix(rigidity):
+    return assemble(rigidity).toarray()
+
+
+def test_elastic_law_adds_the_stress_of_the_step(found):
+    a, b = found(
+        PLATE + ELASTIC + ZEROS + "S1 = SIGM M A U ; C = COMP M (S1 ET (EPSI M U) ET A) "
+        "(A ET (EPSI M (3. * U))) ; B = 3. * S1 ;",
+        "C", "B",
+    )  # fmt: skip
+    for name in ("SMXX", "SMYY", "SMZZ", "SMXY"):
+        np.testing.assert_allclose(component(a, name), component(b, name), rtol=1e-12)
+
+
+def test_plastic_bar_hardens_and_keeps_its_plastic_strain(found):
+    c, s, v, e = found(
+        BAR + ZEROS + "C = COMP M (A ET Z) (A ET (EPSI M U)) ; "
+        "S1 V1 E1 = ECOU M S0 V0 (EPSI M U) A ;",
+        "C", "S1", "V1", "E1",
+    )  # fmt: skip
+    plastic = (1e3 * 6e-3 - 2) / (1e3 + 250)
+    np.testing.assert_allclose(component(c, "EFFX"), 3 * (2 + 250 * plastic), rtol=1e-9)
+    np.testing.assert_allclose(component(c, "EISS"), plastic, rtol=1e-9)
+    np.testing.assert_allclose(component(s, "EFFX"), component(c, "EFFX"))
+    np.testing.assert_allclose(component(v, "EPSE"), plastic, rtol=1e-9)
+    np.testing.assert_allclose(component(e, "EISS"), plastic, rtol=1e-9)
+
+
+def test_second_step_unloads_elastically(found):
+    c = found(
+        BAR + ZEROS + "E1 = EPSI M U ; C = COMP M (A ET Z) (A ET E1) ; "
+        "D = COMP M (A ET E1 ET C) (A ET (0.5 * E1)) ; ",
+        "D",
+    )
+    plastic = (1e3 * 6e-3 - 2) / 1250
+    np.testing.assert_allclose(component(c, "EFFX"), 3 * (2 + 250 * plastic - 3.0), rtol=1e-9)
+    np.testing.assert_allclose(component(c, "EISS"), plastic, rtol=1e-9)
+
+
+def test_tangent_of_a_bar_is_elastic_inside_and_hardening_on_the_surface(found):
+    script = (
+        BAR + ZEROS + "S1 V1 E1 = ECOU M S0 V0 (EPSI M U) A ; K0 = RIGI M A ; "
+        "K1 = KTAN M (0.5 * S1) V0 A ; K2 = KTAN M S1 V1 A ; K3 = RIGI M (HOTA M S1 V1 A) A ; "
+    )
+    k0, k1, k2, k3 = map(matrix, found(script, "K0", "K1", "K2", "K3"))
+    np.testing.assert_allclose(k1, k0)
+    expected = k0 * 250 / 1250
+    np.testing.assert_allclose(k2, expected, rtol=1e-9)
+    np.testing.assert_allclose(k3, expected, rtol=1e-9)
+
+
+@pytest.mark.parametrize("law", [ELASTIC, MISES])
+def test_perturbed_tangent_is_the_consistent_one(found, law):
+    script = (
+        PLATE + law + ZEROS + "E1 = EPSI M U ; C = COMP M (A ET Z) (A ET E1) ; "
+        "K = KTAN 'PERT' M (A ET Z) (C ET A ET E1) 'C1' 1.E-6 ; "
+        "DU = MANU 'CHPO' S 2 'UX' 0. 'UY' 0. 'NATURE' 'DIFFUS' ; "
+        "W = (NOMC 'UX' (1.E-7 * Y * X) 'NATU' 'DIFFUS') ET (NOMC 'UY' (2.E-7 * X) 'NATU' 'DIFFUS')"
+        " ; D = COMP M (A ET Z) (A ET (EPSI M (U + W))) ; "
+        "F = (BSIG M (REDU D M)) - (BSIG M (REDU C M)) ; R = F - (K * W) ; "
+        "X1 = MAXI R 'ABS' ; X2 = MAXI F 'ABS' ;"
+    )
+    script = script.replace("(REDU D M)", "D").replace("(REDU C M)", "C")
+    error, size = found(script, "X1", "X2")
+    assert size > 0
+    assert error < 1e-4 * size  # second order in a step of 1e-4
+
+
+def test_tangent_of_a_state_is_that_of_a_small_step(found):
+    script = (
+        PLATE + MISES + ZEROS + "S1 V1 E1 = ECOU M S0 V0 (EPSI M U) A ; K = KTAN M S1 V1 A ; "
+        "S2 V2 E2 = ECOU M S1 V1 (EPSI M (1.E-5 * U)) A ; F = (BSIG M S2) - (BSIG M S1) ; "
+        "W = 1.E-5 * U ; X1 = MAXI (F - (K * W)) 'ABS' ; X2 = MAXI F 'ABS' ; "
+        "K0 = RIGI M A ; X3 = MAXI (F - (K0 * W)) 'ABS' ;"
+    )
+    error, size, elastic = found(script, "X1", "X2", "X3")
+    assert error < 3e-3 * size  # the precision of the probe
+    assert elastic > 0.1 * size
+
+
+def test_joint_opens_and_loses_its_stiffness(found):
+    script = (
+        JOINT.format(law="JOINT_SDM", more="")
+        + ZEROS
+        + (
+            "O = MANU 'CHPO' T 2 'UX' 1.E-4 'UY' 2.E-4 'NATURE' 'DIFFUS' ; "
+            "F = MANU 'CHPO' T 2 'UX' 1.E-4 'UY' -2.E-4 'NATURE' 'DIFFUS' ; "
+            "C1 = COMP M (A ET Z) (A ET (EPSI M O A)) ; C2 = COMP M (A ET Z) (A ET (EPSI M F A)) ; "
+            "K1 = KTAN M C1 C1 A ; K2 = KTAN M C2 C2 A ; K0 = RIGI M A ; "
+        )
+    )
+    c1, c2, k1, k2, k0 = found(script, "C1", "C2", "K1", "K2", "K0")
+    np.testing.assert_allclose(component(c1, "SMN"), 0.0)
+    np.testing.assert_allclose(component(c1, "SAUT"), 2e-4)
+    np.testing.assert_allclose(component(c2, "SMN"), -200.0)
+    np.testing.assert_allclose(component(c2, "SMSN"), 40.0)
+    assert np.abs(matrix(k1)).max() == 0.0
+    np.testing.assert_allclose(matrix(k2), matrix(k0), atol=1e-6)
+
+
+def test_sliding_joint_has_the_unsymmetric_tangent_of_coulomb(found):
+    script = (
+        JOINT.format(law="JOINT_SDM", more="'FROT' 0.5")
+        + ZEROS
+        + (
+            "F = MANU 'CHPO' T 2 'UX' 1.E-3 'UY' -2.E-4 'NATURE' 'DIFFUS' ; "
+            "C = COMP M (A ET Z) (A ET (EPSI M F A)) ; K = KTAN M C C A ; "
+            "KS = KTAN M C C A 'SYME' ; R = CRIT M C C A ; "
+        )
+    )
+    c, k, ks, r = found(script, "C", "K", "KS", "R")
+    np.testing.assert_allclose(component(c, "SMSN"), 0.5 * 200.0)
+    np.testing.assert_allclose(component(r, "SCAL"), 0.0, atol=1e-9)
+    K = matrix(k)
+    # shear by a closing jump: -0.5 KN; no shear by a slip
+    assert np.abs(K - K.T).max() > 1e4
+    np.testing.assert_allclose(matrix(ks), (K + K.T) / 2, rtol=1e-12)
+
+
+def test_mohr_coulomb_joint_starts_again_from_its_state(found):
+    law = "PLASTIQUE COULOMB"
+    script = (
+        JOINT.format(law=law, more="'FRIC' 30. 'COHE' 10.")
+        + ZEROS
+        + (
+            "F = MANU 'CHPO' T 2 'UX' 6.E-4 'UY' -2.E-4 'NATURE' 'DIFFUS' ; E1 = EPSI M F A ; "
+            "C1 = COMP M (A ET Z) (A ET E1) ; "
+            "C2 = COMP M (A ET E1 ET C1) (A ET (2. * E1)) ; "
+            "CE = COMP M (A ET Z) (A ET (2. * E1)) ; "
+        )
+    )
+    c1, c2, direct = found(script, "C1", "C2", "CE")
+    # dilatancy presses the joint, the point stays on the surface
+    pressed = -component(c1, "SMN")
+    assert (pressed > 200).all()
+    expected = 10 + pressed * np.tan(np.radians(30))
+    np.testing.assert_allclose(component(c1, "SMSN"), expected, rtol=1e-9)
+    # proportional loading: two steps are as good as one
+    for name in ("SMSN", "SMN"):
+        np.testing.assert_allclose(component(c2, name), component(direct, name), rtol=1e-6)
+
+
+def test_criterion_of_von_mises(found):
+    script = PLATE + MISES + ZEROS + "S1 = SIGM M A U ; C = CRIT M S1 V0 A ; V = VMIS M S1 ;"
+    c, v = found(script, "C", "V")
+    np.testing.assert_allclose(component(c, "SCAL"), component(v, "SCAL") - 3.0)
+
+
+def test_tangent_moduli(found):
+    script = (
+        BAR
+        + ZEROS
+        + (
+            "S1 V1 E1 = ECOU M S0 V0 (EPSI M U) A ; X1 = MAXI (MOTA M S1 V1 A) ; "
+            "X2 = MAXI (MOTA M (0.5 * S1) V1 A) ;"
+        )
+    )
+    assert found(script, "X1", "X2") == (250.0, 1000.0)
+
+
+def test_step_without_strain_is_refused(refused):
+    assert "no strain" in refused(PLATE + ELASTIC + "C = COMP M A A ;")
+
+
+def test_elastic_law_has_no_criterion(refused):
+    assert "no criterion" in refused(PLATE + ELASTIC + ZEROS + "C = CRIT M S0 V0 A ;")
