@@ -144,11 +144,14 @@ def _along_line(call: Call, colours: list[int]) -> Curve:
     nodes, s = line_abscissas(line)
     missing = ~np.isin(nodes, part.nodes)
     if np.any(missing):
-        raise call.bad(
-            f"the field has no value of {name} at {missing.sum()} of the {len(nodes)} nodes of the "
-            "line",
-            line,
-            "the line must lie in the support of the field",
+        call.session.warn(
+            "bad-value",
+            call.span,
+            operator="EVOL",
+            message=f"the field has no value of {name} at {missing.sum()} of the {len(nodes)} "
+            "nodes of the line",
+            hint="the curve is zero there",
+            severity="warning",
         )
     made = CurvePart(s, part.at(nodes), "ABS", name, "", colours[0])
     return Curve((made,), workspace(call.session).title)

@@ -6,6 +6,9 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
+
+from ssilang.kernel.errors import FieldError
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices import parts
 from ssilang.kernel.matrices.assembly import assemble, field_to_vector, numbering_of
@@ -32,6 +35,22 @@ def _scale(sign: str, matrix: Matrix, number: float) -> Matrix:
 @rule("*", "ENTIER", "RIGIDITE")
 def _scale_left(_sign: str, number: float, matrix: Matrix) -> Matrix:
     return matrix.scaled(float(number))
+
+
+@rule("**", "RIGIDITE", "FLOTTANT")
+@rule("**", "RIGIDITE", "ENTIER")
+def _power(_sign: str, matrix: Matrix, power: float) -> Matrix:
+    """Terms of the elements' matrices, each to a power; terms that are zero stay."""
+    made = []
+    for block in matrix.blocks:
+        v = block.values
+        if power != int(power) and (v < 0).any():
+            raise FieldError(
+                f"the matrix has negative terms ({v.min():g}): they have no power {power:g}"
+            )
+        raised = np.where(v == 0.0, 0.0, np.where(v == 0.0, 1.0, v) ** float(power))
+        made.append(replace(block, values=raised, zone=None))
+    return Matrix(matrix.table, tuple(made), matrix.relations, matrix.kind)
 
 
 @rule("*", "RIGIDITE", "CHPOINT")

@@ -11,6 +11,8 @@ from ssilang.language.call import Call
 from ssilang.language.registry import Help, arg, operator, opt
 from ssilang.operators.workspace import workspace
 
+_NONE = np.empty(0, dtype=np.int64)
+
 
 @operator(
     "VISA",
@@ -38,6 +40,8 @@ def visa(call: Call, distance: float | None, first: Mesh, second: Mesh | None) -
     """Pairs of nodes."""
     ws = workspace(call.session)
     reach = ws.density / 10 if distance is None else distance
+    if not first.n_cells or (second is not None and not second.n_cells):
+        return poi1(ws.nodes, _NONE), poi1(ws.nodes, _NONE)
     if reach <= 0:
         raise call.bad("a distance is needed", hint="give FLOT1, or set a density with DENS")
     here = first.sorted_node_ids

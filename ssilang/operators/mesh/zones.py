@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.partition import balanced, connected, scattered, separated
+from ssilang.kernel.model import Model, Zone
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
 from ssilang.language.values import Mot, Table
@@ -24,19 +26,20 @@ _CUT = "OPTI DIME 2 ELEM SEG2 ; L = (DROI 2 (0. 0.) (1. 0.)) ET (DROI 3 (2. 0.) 
         "('FACE', 'LIGN') sides of more than two cells, ('MAIL') sides within cells of a mesh, "
         "('ANGL') sides where normals or tangents turn by more than an angle (20 degrees); cells "
         "described in opposite senses are not taken as folded unless 'TELQ' is said. 'OPTI': as "
-        "many equal parts as said (a power of 2, by default 2). 'ARLE': cells dealt out in "
-        "turn to that many parts. ETG joins the parts again.",
+        "many equal parts as said (a power of 2, by default 2). 'ARLE': cells (of a mesh or of a "
+        "model) dealt out in turn to that many parts. ETG joins the parts again.",
         fr="Table des zones 1, 2 ... d'un maillage, de sous-type 'ESCLAVE' sauf avec 'NESC'. "
         "'CONN' : parties jointes par des noeuds communs. 'SEPA' : parties jointes par des côtés "
         "communs, sauf ('FACE', 'LIGN') ceux de plus de deux éléments, ('MAIL') ceux compris dans "
         "des éléments d'un maillage, ('ANGL') ceux où normales ou tangentes tournent de plus d'un "
         "angle (20 degrés) ; des éléments de sens contraires ne sont pas pris pour repliés sauf "
         "avec 'TELQ'. 'OPTI' : autant de parties égales que dit (puissance de 2, par défaut 2). "
-        "'ARLE' : éléments distribués tour à tour à ce nombre de parties. ETG les réunit.",
+        "'ARLE' : éléments (d'un maillage ou d'un modèle) distribués tour à tour à ce nombre de "
+        "parties. ETG les réunit.",
         syntax="TAB1 = PART ('NESC') 'CONN' MAIL1 ;\n"
         "TAB1 = PART ('NESC') 'SEPA' MAIL1 ('FACE'|'LIGN') ('MAIL' MAIL2) "
         "('ANGL' (FLOT1) ('TELQ')) ;\n"
-        "TAB1 = PART ('NESC') 'OPTI'|'ARLE' MAIL1 (N1) ;",
+        "TAB1 = PART ('NESC') 'OPTI' MAIL1 (N1) ; TAB1 = PART ('NESC') 'ARLE' MAIL1 | MODL1 N1 ;",
         examples=(_CUT + "T = PART 'NESC' 'CONN' L ; MESS (DIME T) ;",),
     ),
     reads_itself=True,
@@ -51,15 +54,30 @@ def part(call: Call) -> Table:
             "how the mesh is taken apart is not said",
             hint="say 'CONN' (common nodes), 'SEPA' with what separates, 'OPTI' or 'ARLE'",
         )
+    if how == "ARLE" and (operand := call.read("MMODEL")) is not None:
+        return _table(_models(call, operand.value), "ESCLAVE" if slaves else "")
     mesh: Mesh = call.required("MAILLAGE")
     return _table(_ZONES[how](call, mesh), "ESCLAVE" if slaves else "")
 
 
-def _dealt_out(call: Call, mesh: Mesh) -> list[Mesh]:
+def _count(call: Call) -> int:
     count: int = call.required("ENTIER")
     if count < 1:
         raise call.bad(f"a mesh is not taken apart into {count} parts", count)
-    return scattered(mesh, count)
+    return count
+
+
+def _dealt_out(call: Call, mesh: Mesh) -> list[Mesh]:
+    return scattered(mesh, _count(call))
+
+
+def _models(call: Call, model: Model) -> list[Model]:
+    """Models whose cells are dealt out in turn, zone by zone."""
+    made: list[list[Zone]] = [[] for _ in range(_count(call))]
+    for zone in model.zones:
+        for place, mesh in enumerate(scattered(Mesh(zone.cells.nodes, (zone.cells,)), len(made))):
+            made[place] += [replace(zone, cells=cells) for cells in mesh.blocks]
+    return [Model(tuple(zones)) for zones in made if zones]
 
 
 _ZONES: dict[str, Callable[[Call, Mesh], list[Mesh]]] = {
@@ -85,7 +103,7 @@ def _separators(call: Call) -> dict[str, Any]:
     return said
 
 
-def _table(zones: list[Mesh], kind: str) -> Table:
+def _table(zones: list[Mesh] | list[Model], kind: str) -> Table:
     table = Table()
     if kind:
         table.set(Mot("SOUSTYPE"), Mot(kind))
@@ -114,4 +132,6 @@ def ccon(call: Call) -> Table:
     strict = call.keyword(("STR1", "STR2"))
     mesh: Mesh = call.required("MAILLAGE")
     strict = strict or call.keyword(("STR1", "STR2"))
+    if not len(mesh.node_ids):
+        return _table([], "")
     return _table(separated(mesh, by_branching=True) if strict else connected(mesh), "")
