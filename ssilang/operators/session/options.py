@@ -129,10 +129,11 @@ def _coul(call: Call, word: str) -> None:
 def _mode(call: Call, word: str) -> None:
     ws = workspace(call.session)
     said = _one_of(call, "MODE", ("PLAN", "AXIS", "FOURIER", "TRID", "UNID", "FREQ"))
+    glued = str(call.used[-1].value).upper().rstrip()[4:8]  # PLANCONT, as VALE 'MODE' says it
     if said == "FREQ":
         raise call.bad("MODE FREQ is not supported", hint="work in time, or with TFR on curves")
     if said == "PLAN":
-        said = call.keyword(("CONT", "DEFO", "GENE")) or "DEFO"
+        said = call.keyword(("CONT", "DEFO", "GENE")) or (glued if glued in _MODES else "DEFO")
     elif said == "FOURIER":
         said = "FOUR"
         if call.keyword(("NOHARM",)) is None:
