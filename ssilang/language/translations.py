@@ -12,6 +12,14 @@ import re
 from functools import lru_cache
 
 TEMPLATES: tuple[tuple[str, str], ...] = (
+    (
+        "{} elements have no shear strain of their own",
+        "les éléments {} n'ont pas de distorsion propre",
+    ),
+    (
+        "a full matrix of {} rows is too large",
+        "une matrice pleine de {} lignes est trop grande",
+    ),
     # ---- singular matrices
     (
         "the matrix is singular, with {} free motion that the loads drive ({})",

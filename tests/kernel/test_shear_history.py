@@ -1,0 +1,53 @@
+"""Largest shear strain over a motion."""
+
+import numpy as np
+import pytest
+
+from ssilang.cli.run import run_text
+
+_BLOCK = (
+    "OPTI DIME 3 ELEM CU20 ; L = DROI 1 (0. 0. 0.) (1. 0. 0.) ; S = TRAN 1 L (0. 2. 0.) ;"
+    "V = VOLU 'TRAN' 2 S (0.3 0. 3.) ; M = MODE V MECANIQUE ELASTIQUE ; X Y Z = COOR V ;"
+)
+
+
+def largest(script):
+    result = run_text(script)
+    assert result.exit_code == 0, result.message
+    field = result.session.root.find("G")
+    return np.concatenate([b.components["SCAL"].ravel() for b in field.blocks])
+
+
+def test_simple_shear_is_its_own_strain_and_the_largest_counts():
+    script = _BLOCK + "U = NOMC 'UY' (Z * 3.E-3) ; G = ZGAM M (SUIT U (U * -2.) (U * 0.5)) ;"
+    np.testing.assert_allclose(largest(script), 6e-3)
+
+
+def test_any_linear_motion_gives_the_deviator():
+    gradient = np.array([[1.0, 2, -1], [0, -2, 3], [4, 1, 5]]) * 1e-4
+    words = " ET ".join(
+        f"(NOMC 'U{a}' ((X * {g[0]}) + (Y * {g[1]}) + (Z * {g[2]})))"
+        for a, g in zip("XYZ", gradient, strict=True)
+    )
+    e = (gradient + gradient.T) / 2
+    e -= np.eye(3) * np.trace(e) / 3
+    script = _BLOCK + f"G = ZGAM M (SUIT ({words})) ;"
+    np.testing.assert_allclose(largest(script), np.sqrt(2 * (e * e).sum()))
+
+
+def test_round_solids_count_the_hoop():
+    script = (
+        "OPTI DIME 2 MODE AXIS ELEM QUA8 ; S = TRAN 1 (DROI 1 (1. 0.) (2. 0.)) (0. 1.) ;"
+        "M = MODE S MECANIQUE ELASTIQUE ; R = COOR 1 S ; G = ZGAM M (SUIT (NOMC UR (R * 3.E-3))) ;"
+    )
+    # strains (3, 0, 3): deviator (1, -2, 1)
+    np.testing.assert_allclose(largest(script), 1e-3 * np.sqrt(2 * 6))
+
+
+@pytest.mark.parametrize("element", ["BARR", "POUT"])
+def test_bars_have_none(element):
+    script = (
+        "OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ; L = DROI 1 (0. 0.) (1. 0.) ;"
+        f"M = MODE L MECANIQUE ELASTIQUE {element} ; G = ZGAM M (SUIT (COOR 1 L)) ;"
+    )
+    assert "no shear strain" in run_text(script).message
