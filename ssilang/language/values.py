@@ -6,7 +6,7 @@ objects of the language by `register_type`.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -162,6 +162,37 @@ class Table:
 
     def __len__(self) -> int:
         return len(self._items)
+
+
+class _Promise:
+    """What finds a value that nobody has asked for yet."""
+
+    __slots__ = ("find",)
+
+    def __init__(self, find: Callable[[], object]) -> None:
+        self.find = find
+
+
+class LazyTable(Table):
+    """TABLE some of whose values are found when they are first asked for."""
+
+    __slots__ = ()
+
+    def promise(self, index: object, find: Callable[[], object]) -> None:
+        """Create or replace a value by what finds it."""
+        self._items[key_of(index)] = (index, _Promise(find))
+
+    def get(self, index: object, default: object = None) -> object:
+        """Value at an index, `default` if there is none."""
+        value = super().get(index, default)
+        if isinstance(value, _Promise):
+            value = value.find()
+            self._items[key_of(index)] = (self._items[key_of(index)][0], value)
+        return value
+
+    def items(self) -> list[tuple[object, object]]:
+        """Pairs (index, value), in order of creation."""
+        return [(index, self.get(index)) for index, _ in self._items.values()]
 
 
 class Procedure:

@@ -13,6 +13,7 @@ from ssilang.kernel.dynamics.effective import effective_matrix, effective_of
 from ssilang.kernel.dynamics.impact import ImpactRule
 from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.dynamics.reduced_loop import ReducedLoop, supports_are_still
+from ssilang.kernel.dynamics.small_loop import SmallLoop, modes_of
 from ssilang.kernel.dynamics.sparse_loop import SparseLoop, StepSolver
 from ssilang.kernel.dynamics.step_solvers import step_solver
 from ssilang.kernel.errors import KernelError
@@ -63,9 +64,10 @@ class AdaptiveEngine:
 
 
 class DenseEngine:
-    """The compiled loop."""
+    """The compiled loop; a light one takes an empty history of energies."""
 
     name = "compiled"
+    light = False
 
     def __init__(
         self, problem: Problem, motion: Motion, dt: float, full: bool, closed: BoolArray
@@ -73,7 +75,12 @@ class DenseEngine:
         share = 1 - problem.scheme.alpha_f
         effective = effective_of(problem, effective_matrix(problem, dt), dt, share)
         self.solver = effective.inverse.factor.name
-        self._reduced: ReducedLoop | None = None
+        self._reduced: ReducedLoop | SmallLoop | None = None
+        modes = modes_of(problem, effective)
+        if modes is not None:
+            self._reduced = SmallLoop(problem, motion, effective, modes)
+            self.light = self._reduced.light
+            return
         if supports_are_still(problem):
             self._reduced = ReducedLoop(problem, motion, effective)
             return
@@ -81,6 +88,11 @@ class DenseEngine:
         self._operators = operators_of(problem, effective)
         self._joints = joints_of(problem)
         self._motion = motion
+
+    def watch(self, balance: FloatArray) -> None:
+        """Keep the sum of energies at the start and the largest departure from it in `balance`."""
+        if isinstance(self._reduced, SmallLoop):
+            self._reduced.balance = balance
 
     def march(
         self, factors: FloatArray, save: IntArray, saved: Saved, history: FloatArray
@@ -130,7 +142,7 @@ class SparseEngine:
 class InterleavedEngine:
     """The compiled loop of large problems; the loop on sparse matrices for what it cannot do."""
 
-    name = "interleaved"
+    name = "condensed"
 
     def __init__(
         self, problem: Problem, motion: Motion, dt: float, full: bool, closed: BoolArray

@@ -12,7 +12,7 @@ from ssilang.kernel.dynamics.bodies import full_uplift
 from ssilang.kernel.dynamics.compiled_loop import N_ENERGIES, Motion, Saved
 from ssilang.kernel.dynamics.contact import TOUCHING, BoolArray
 from ssilang.kernel.dynamics.driven import Drive, Driver
-from ssilang.kernel.dynamics.engines import Engine, kind_of
+from ssilang.kernel.dynamics.engines import DenseEngine, Engine, kind_of
 from ssilang.kernel.dynamics.initial import (
     admissible_velocity,
     initial_acceleration,
@@ -43,28 +43,46 @@ class History:
     Attributes
     ----------
     times : array (n_times,)
-    energies : array (n_times, N_ENERGIES)
-        Kinetic, elastic, stored in joints, lost in joints, damped, work of loads and supports.
+    kept : array (n_times, N_ENERGIES)
+        Kinetic, elastic, stored in joints, lost in joints, damped, work of loads and supports;
+        ask for `energies`.
     iterations : int
         Most interface iterations in one step.
     solver, loop : str
         Linear solver and loop used.
     reduction : Reduction or None
         Of runs on a reduced basis.
+    again : callable or None
+        Finds the energies of a run that did not keep them; `worst` is then its imbalance.
     """
 
     times: FloatArray
-    energies: FloatArray
+    kept: FloatArray
     iterations: int = 0
     solver: str = ""
     loop: str = ""
     seconds: float = 0.0
     reduction: Reduction | None = None
+    again: Callable[[], FloatArray] | None = None
+    worst: float = 0.0
+
+    @property
+    def energies(self) -> FloatArray:
+        """Energies at all times, shape (n_times, N_ENERGIES); light loops step again for them."""
+        if self.again is not None:
+            self.kept, self.again = self.again(), None
+        return self.kept
+
+    @property
+    def worst_imbalance(self) -> float:
+        """The largest energy that came from nowhere, its absolute value."""
+        return self.worst if self.again else float(np.abs(self.imbalance).max(initial=0.0))
 
     @property
     def imbalance(self) -> FloatArray:
         """Energy that came from nowhere since the start, shape (n_times,)."""
-        total = self.energies[:, :5].sum(axis=1) - self.energies[:, 5]
+        kept = self.energies.T
+        total = kept[0] + kept[1] + kept[2] + kept[3] + kept[4] - kept[5]
         found: FloatArray = total - total[0]
         return found
 
@@ -78,6 +96,7 @@ class Integration:
     progress: Progress | None = None
     full_newton: bool = False
     driver: Driver | None = None
+    light: bool = True
     motion: Motion = field(init=False)
 
     def __post_init__(self) -> None:
@@ -100,6 +119,7 @@ class Integration:
         )  # fmt: skip
         self._engines: dict[float, Engine] = {}
         self._kind = kind_of(p, self.full_newton)
+        self._balance = np.array([energies[:5].sum() - energies[5], 0.0])  # at the start, worst
 
     def run(self) -> History:
         """All steps.
@@ -113,7 +133,7 @@ class Integration:
         """
         times, started = self.problem.times, time.perf_counter()
         history = History(times, np.zeros((len(times), N_ENERGIES)))
-        history.energies[0] = self.motion.energies
+        history.kept[0] = self.motion.energies
         wanted = np.zeros(len(times), bool)
         for observer in self.observers:
             wanted |= observer.wanted
@@ -159,8 +179,12 @@ class Integration:
             chosen = wanted[first + 1 : last + 1]
             save = np.where(chosen, np.cumsum(chosen) - 1, -1).astype(np.int64)
             saved = self._room(int(chosen.sum()))
-            energies = history.energies[first + 1 : last + 1]
+            energies = history.kept[first + 1 : last + 1]
+            if self.light and isinstance(engine, DenseEngine) and engine.light:
+                energies, history.again = energies[:0], self._energies
+                engine.watch(self._balance)
             done, turns, residual = engine.march(factors, save, saved, energies)
+            history.worst = float(self._balance[1])
             if turns > 0:
                 history.iterations = max(history.iterations, turns)
             steps = first + 1 + np.flatnonzero(chosen[:done])
@@ -169,6 +193,10 @@ class Integration:
             if done < last - first:
                 raise self._diverged(first + done + 1, turns, residual)
             first = last
+
+    def _energies(self) -> FloatArray:
+        """Energies at all times, by stepping again."""
+        return Integration(self.problem, light=False).run().kept
 
     def _within_memory(self, first: int, last: int, wanted: np.ndarray) -> int:
         if self._drive is not None:

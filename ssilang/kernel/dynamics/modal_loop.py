@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ssilang.kernel.compiled import compiled
+from ssilang.kernel.compiled import compiled_fast
 from ssilang.kernel.dynamics.compiled_loop import (
     DAMPED,
     ELASTIC,
@@ -21,9 +21,11 @@ from ssilang.kernel.dynamics.compiled_loop import (
     Joints,
     Motion,
 )
-from ssilang.kernel.joints.condensed_cached import iterate_cached
+from ssilang.kernel.joints.condensed_cached import iterate_cached, solve_factors
 from ssilang.kernel.joints.response import interface_energies
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+
+BLOCK = 128  # coordinates whose rows of Jt stay in the nearest cache
 
 
 class Modal(NamedTuple):
@@ -34,7 +36,7 @@ class Modal(NamedTuple):
     k: FloatArray
     J: FloatArray  # (q, r)
     Jt: FloatArray  # (r, q)
-    forces: FloatArray  # (r, n_loads)
+    forces: FloatArray  # (n_loads, r)
     scheme: FloatArray  # alpha_m, alpha_f, beta, gamma
 
 
@@ -58,53 +60,127 @@ class ModalRows(NamedTuple):
     state: FloatArray
 
 
-@compiled
-def _right_side(
-    modal: Modal, dt: float, x: Motion, load0: FloatArray, load1: FloatArray, g: FloatArray,
-    r: FloatArray,
-) -> None:  # fmt: skip
-    """r of `A dq + c J^T (f1 - f0) = r`; g = J^T f0."""
+class Sweep(NamedTuple):
+    """Vectors that each step overwrites."""
+
+    du: FloatArray  # (r,) increments, first without the change of the joints' forces
+    g: FloatArray  # (r,) forces of the joints on the coordinates
+    y0: FloatArray  # (q,) jumps of du
+    load0: FloatArray  # (r,)
+    load1: FloatArray  # (r,)
+
+
+@compiled_fast
+def _load(modal: Modal, factors: FloatArray, sweep: Sweep, first: int, last: int) -> None:
+    """The loads at the end of the next step; those of the last one become its first."""
+    load0, load1, forces = sweep.load0[first:last], sweep.load1[first:last], modal.forces
+    for i in range(len(load1)):
+        load0[i] = load1[i]
+        load1[i] = 0.0
+    for j in range(len(factors)):
+        part, factor = forces[j, first:last], factors[j]
+        for i in range(len(load1)):
+            load1[i] += part[i] * factor
+
+
+@compiled_fast
+def _add_jumps(Jt: FloatArray, du: FloatArray, y: FloatArray) -> None:
+    """y += J du, four coordinates at a time: y is read and written less often."""
+    fours = len(du) // 4 * 4
+    for i in range(0, fours, 4):
+        a, b, c, d = du[i], du[i + 1], du[i + 2], du[i + 3]
+        row0, row1, row2, row3 = Jt[i], Jt[i + 1], Jt[i + 2], Jt[i + 3]
+        for j in range(len(y)):
+            y[j] += (row0[j] * a + row1[j] * b) + (row2[j] * c + row3[j] * d)
+    for i in range(fours, len(du)):
+        for j in range(len(y)):
+            y[j] += Jt[i, j] * du[i]
+
+
+@compiled_fast
+def _predict(modal: Modal, step: ModalStep, x: Motion, sweep: Sweep, first: int, last: int) -> None:
+    """`du = P r` of `A du + c J^T (f1 - f0) = r`, the joints' forces left as they are; y0 += J du.
+
+    Some coordinates only: those from `first` to `last`.
+    """
     am, af, beta, gamma = modal.scheme[0], modal.scheme[1], modal.scheme[2], modal.scheme[3]
-    mass_v, mass_a = (1 - am) / (beta * dt), (1 - am) * (0.5 / beta - 1) - am
+    mass_v, mass_a = (1 - am) / (beta * step.dt), (1 - am) * (0.5 / beta - 1) - am
     damping_v = (1 - af) * (1 - gamma / beta) + af
-    damping_a = (1 - af) * dt * (1 - 0.5 * gamma / beta)
-    for i in range(len(r)):
-        r[i] = (
-            modal.m[i] * (mass_v * x.v[i] + mass_a * x.a[i])
-            - modal.c[i] * (damping_v * x.v[i] + damping_a * x.a[i])
-            - modal.k[i] * x.u[i]
-            - g[i]
-            + (1 - af) * load1[i]
-            + af * load0[i]
-        )
-
-
-@compiled
-def _advance(
-    modal: Modal, dt: float, x: Motion, du: FloatArray, load0: FloatArray, load1: FloatArray
-) -> float:
-    """Motion and energies after the increment; returns a number that is finite if they are."""
-    beta, gamma = modal.scheme[2], modal.scheme[3]
-    kinetic, elastic, damped, external, size = 0.0, 0.0, 0.0, 0.0, 0.0
+    damping_a = (1 - af) * step.dt * (1 - 0.5 * gamma / beta)
+    du, g, P = sweep.du[first:last], sweep.g[first:last], step.P[first:last]
+    m, c, k = modal.m[first:last], modal.c[first:last], modal.k[first:last]
+    u, v, a = x.u[first:last], x.v[first:last], x.a[first:last]
+    load0, load1 = sweep.load0[first:last], sweep.load1[first:last]
     for i in range(len(du)):
-        v0, a0 = x.v[i], x.a[i]
-        x.u[i] += du[i]
-        v1 = gamma / (beta * dt) * du[i] + (1 - gamma / beta) * v0
-        v1 += dt * (1 - 0.5 * gamma / beta) * a0
-        x.v[i] = v1
-        x.a[i] = (du[i] / dt - v0) / (beta * dt) - (0.5 / beta - 1) * a0
-        kinetic += modal.m[i] * v1 * v1
-        elastic += modal.k[i] * x.u[i] * x.u[i]
-        damped += modal.c[i] * du[i] * (v0 + v1)
+        r = m[i] * (mass_v * v[i] + mass_a * a[i]) - c[i] * (damping_v * v[i] + damping_a * a[i])
+        du[i] = P[i] * (r - k[i] * u[i] - g[i] + (1 - af) * load1[i] + af * load0[i])
+    _add_jumps(modal.Jt[first:last], du, sweep.y0)
+
+
+@compiled_fast
+def _correct(
+    modal: Modal, step: ModalStep, f: FloatArray, sweep: Sweep, first: int, last: int
+) -> None:
+    """The joints' new forces f into g and the increments of some coordinates."""
+    share, Jt = 1 - modal.scheme[1], modal.Jt[first:last]
+    du, old, P = sweep.du[first:last], sweep.g[first:last], step.P[first:last]
+    for i in range(len(du)):
+        g = 0.0
+        for j in range(len(f)):
+            g += Jt[i, j] * f[j]
+        du[i] -= P[i] * share * (g - old[i])
+        old[i] = g
+
+
+@compiled_fast
+def _advance(modal: Modal, dt: float, x: Motion, sweep: Sweep, first: int, last: int) -> float:
+    """Motion and energies of some coordinates; returns a number that is finite if they are."""
+    beta, gamma = modal.scheme[2], modal.scheme[3]
+    rate, keep, drift = gamma / (beta * dt), 1 - gamma / beta, dt * (1 - 0.5 * gamma / beta)
+    bend, slow, late = 1 / (beta * dt**2), 1 / (beta * dt), 0.5 / beta - 1
+    u, v, a, du = x.u[first:last], x.v[first:last], x.a[first:last], sweep.du[first:last]
+    m, c, k = modal.m[first:last], modal.c[first:last], modal.k[first:last]
+    load0, load1 = sweep.load0[first:last], sweep.load1[first:last]
+    for i in range(len(u)):
+        v0, a0 = v[i], a[i]
+        u[i] += du[i]
+        v[i] = rate * du[i] + keep * v0 + drift * a0
+        a[i] = bend * du[i] - slow * v0 - late * a0
+    kinetic, elastic, damped, external, size = 0.0, 0.0, 0.0, 0.0, 0.0
+    for i in range(len(u)):
+        kinetic += m[i] * v[i] * v[i]
+        elastic += k[i] * u[i] * u[i]
+        damped += c[i] * du[i] * du[i]
         external += du[i] * (load0[i] + load1[i])
-        size += abs(x.u[i])
-    x.energies[KINETIC], x.energies[ELASTIC] = 0.5 * kinetic, 0.5 * elastic
-    x.energies[DAMPED] += 0.5 * damped
+        size += abs(u[i])
+    x.energies[KINETIC] += 0.5 * kinetic
+    x.energies[ELASTIC] += 0.5 * elastic
+    x.energies[DAMPED] += damped / dt
     x.energies[EXTERNAL] += 0.5 * external
     return size
 
 
-@compiled
+@compiled_fast
+def _turn(
+    modal: Modal, step: ModalStep, x: Motion, f: FloatArray, factors: FloatArray, sweep: Sweep,
+    predict: bool,
+) -> float:  # fmt: skip
+    """End of a step under the joints' forces f and prediction of the next, in one pass over Jt."""
+    n, size = len(x.u), 0.0
+    x.energies[KINETIC], x.energies[ELASTIC] = 0.0, 0.0
+    for j in range(len(sweep.y0)):
+        sweep.y0[j] = 0.0
+    for first in range(0, n, BLOCK):
+        last = min(first + BLOCK, n)
+        _correct(modal, step, f, sweep, first, last)
+        size += _advance(modal, step.dt, x, sweep, first, last)
+        if predict:
+            _load(modal, factors, sweep, first, last)
+            _predict(modal, step, x, sweep, first, last)
+    return size
+
+
+@compiled_fast
 def march_modal(
     modal: Modal,
     step: ModalStep,
@@ -116,45 +192,41 @@ def march_modal(
     history: FloatArray,
 ) -> tuple[int, int, float]:
     """As `compiled_loop.march`; `x` and the rows hold reduced coordinates."""
-    n, q, d, dt = len(x.u), len(x.delta), x.w.shape[1], step.dt
-    share = 1 - modal.scheme[1]
-    r, du, g1, load1 = np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n)
+    n, q, d, steps = len(x.u), len(x.delta), x.w.shape[1], len(save)
+    share, worst = 1 - modal.scheme[1], 0
+    sweep = Sweep(np.zeros(n), np.zeros(n), np.zeros(q), np.zeros(n), np.zeros(n))
     y, f1, h = np.zeros(q), np.zeros(q), np.zeros(q)
     new = np.zeros((x.state.shape[0], x.state.shape[1]))
     D = np.zeros((x.w.shape[0], d, d))
     known = np.full((x.w.shape[0], d, d), np.nan)
     rq, dyq, deltaq, pivots = np.zeros(q), np.zeros(q), np.zeros(q), np.zeros(q, np.int64)
-    Kq, Aq = np.zeros((q, q)), np.zeros((q, q))
-    g = np.dot(modal.Jt, x.f) if q else np.zeros(n)
-    load0 = np.dot(modal.forces, factors[0])
-    worst = 0
-    for k in range(len(save)):
-        load1 = np.dot(modal.forces, factors[k + 1])
-        _right_side(modal, dt, x, load0, load1, g, r)
-        for i in range(n):
-            du[i] = step.P[i] * r[i]
+    Kq, Aq, none = np.zeros((q, q)), np.zeros((q, q)), np.zeros((0, 0))
+    _correct(modal, step, x.f, sweep, 0, n)
+    _load(modal, factors[0], sweep, 0, n)
+    _load(modal, factors[min(1, steps)], sweep, 0, n)
+    _predict(modal, step, x, sweep, 0, n)
+    for k in range(steps):
         if q:
-            y0 = np.dot(modal.J, du)
             for i in range(q):
-                y[i] = y0[i]
+                y[i] = sweep.y0[i]
+            if not np.isnan(known[0, 0, 0]):  # starts where the last tangents lead
+                solve_factors(Aq, pivots, y)
             turns, residual = iterate_cached(
-                joints.pairs, joints.B, joints.weights, joints.codes, joints.p, step.S, share,
-                x.delta, x.f, x.state, y0, y, x.w, x.t, new, D, f1, h, rq, dyq, deltaq, Kq, Aq,
-                known, pivots,
+                joints.pairs, joints.B, joints.weights, joints.codes, joints.p, step.S, none, share,
+                x.delta, x.f, x.state, sweep.y0, y, x.w, x.t, new, D, f1, h, rq, dyq, deltaq, Kq,
+                Aq, known, pivots,
             )  # fmt: skip
             if turns <= 0:
                 return k, turns, residual
             worst = max(worst, turns)
-            g1 = np.dot(modal.Jt, f1)
-            for i in range(n):
-                du[i] -= step.P[i] * share * (g1[i] - g[i])
-            g = g1
             for i in range(q):
                 x.delta[i] += y[i]
                 x.f[i] = f1[i]
             x.state[:, :] = new
-            rows.jumps[k] = x.w
-        if not np.isfinite(_advance(modal, dt, x, du, load0, load1)):
+            if len(rows.jumps):
+                rows.jumps[k] = x.w
+        size = _turn(modal, step, x, f1, factors[min(k + 2, steps)], sweep, k + 1 < steps)
+        if not np.isfinite(size):
             return k, -1, np.inf
         if q:
             stored, lost = interface_energies(
@@ -166,5 +238,4 @@ def march_modal(
             row = save[k]
             rows.u[row], rows.v[row], rows.a[row] = x.u, x.v, x.a
             rows.w[row], rows.t[row], rows.state[row] = x.w, x.t, x.state
-        load0 = load1
-    return len(save), worst, 0.0
+    return steps, worst, 0.0

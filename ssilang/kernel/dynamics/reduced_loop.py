@@ -77,22 +77,27 @@ class ReducedLoop:
         m.u[:], m.v[:], m.a[:] = self.T @ few.u, self.T @ few.v, self.T @ few.a
         saved.u[:], saved.v[:], saved.a[:] = u @ self.T.T, v @ self.T.T, a @ self.T.T
         loads = factors[1:][save >= 0] @ self.problem.loading.forces.T
-        saved.reaction[:] = self._balance(saved.u, saved.v, saved.a, saved.t, loads)
+        saved.reaction[:] = reactions(
+            self.problem, self.full, saved.u, saved.v, saved.a, saved.t, loads
+        )
         last = factors[outcome[0]] @ self.problem.loading.forces.T
-        m.reaction[:] = self._balance(*(x[None] for x in (m.u, m.v, m.a, m.t, last)))[0]
+        now = (x[None] for x in (m.u, m.v, m.a, m.t, last))
+        m.reaction[:] = reactions(self.problem, self.full, *now)[0]
         return outcome
 
-    def _balance(
-        self, u: FloatArray, v: FloatArray, a: FloatArray, t: FloatArray, loads: FloatArray
-    ) -> FloatArray:
-        """`M a + C v + K u + J^T f - F` of several instants, one a row."""
-        p, joints = self.problem, self.full
-        total: FloatArray = (p.M @ a.T + p.C @ v.T + p.K @ u.T).T - loads
-        if p.interface is not None:
-            d = p.interface.dimension
-            local = np.einsum("p,rpi,pik->rpk", joints.weights, t, joints.B)
-            places = (joints.pairs[:, :, None] * d + np.arange(d)).reshape(len(joints.pairs), -1)
-            f = np.zeros((len(u), p.interface.size))
-            np.add.at(f, (np.arange(len(u))[:, None, None], places[None]), local)
-            total = total + f @ joints.J
-        return total
+
+def reactions(
+    problem: Problem, joints: Joints, u: FloatArray, v: FloatArray, a: FloatArray, t: FloatArray,
+    loads: FloatArray,
+) -> FloatArray:  # fmt: skip
+    """`M a + C v + K u + J^T f - F` of several instants, one a row."""
+    p = problem
+    total: FloatArray = (p.M @ a.T + p.C @ v.T + p.K @ u.T).T - loads
+    if p.interface is not None:
+        d = p.interface.dimension
+        local = np.einsum("p,rpi,pik->rpk", joints.weights, t, joints.B)
+        places = (joints.pairs[:, :, None] * d + np.arange(d)).reshape(len(joints.pairs), -1)
+        f = np.zeros((len(u), p.interface.size))
+        np.add.at(f, (np.arange(len(u))[:, None, None], places[None]), local)
+        total = total + f @ joints.J
+    return total

@@ -68,7 +68,7 @@ class Trace:
         scheme = np.array([s.alpha_m, s.alpha_f, s.beta, s.gamma])
         m = self.model
         Jt = np.ascontiguousarray(m.J.T)
-        self._modal = Modal(m.m, m.c, m.k, m.J, Jt, np.ascontiguousarray(m.forces), scheme)
+        self._modal = Modal(m.m, m.c, m.k, m.J, Jt, np.ascontiguousarray(m.forces.T), scheme)
         self._joints = _joints(p)
         self._steps: dict[float, ModalStep] = {}
 

@@ -97,8 +97,11 @@ def _steps(call: Call, start: Any, kinds: tuple[str, ...]) -> list[Any]:
 
 
 def _progression(start: Any, step: Any, count: int, ratio: float | None) -> list[Any]:
-    if ratio is None:
+    if ratio is None and isinstance(start + step, int):
         return [start + step * i for i in range(1, count + 1)]
+    if ratio is None:
+        steps: list[Any] = (start + step * np.arange(1, count + 1)).tolist()
+        return steps
     sums = np.cumsum(float(step) * ratio ** np.arange(count))
     values: list[Any] = (start + sums).tolist()
     return values

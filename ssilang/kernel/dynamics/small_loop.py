@@ -1,0 +1,224 @@
+"""Small problems in the coordinates that make their matrices diagonal, for the compiled loops.
+
+The coordinates are all those of the problem: nothing is truncated. Supports that do not move and
+motions that nothing excites take no part; displacements, and reactions from equilibrium, are put
+back for the instants that are kept.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ssilang.kernel.dynamics.compiled_loop import Joints, Motion, Saved
+from ssilang.kernel.dynamics.dense_loop import joints_of
+from ssilang.kernel.dynamics.effective import Effective
+from ssilang.kernel.dynamics.modal_loop import Modal, ModalRows, ModalStep, march_modal
+from ssilang.kernel.dynamics.problem import Problem
+from ssilang.kernel.dynamics.reduced_loop import reactions, supports_are_still
+from ssilang.kernel.dynamics.scalar_loop import Line, LineRows, LineState, Spring, march_line
+from ssilang.kernel.joints.columns import DAMAGE, FC, FU, GF, KN, XI
+from ssilang.kernel.joints.law_table import SDM
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+
+DIAGONAL = 1e-13  # of the step's matrix: damping off the diagonal that rounding leaves
+NOTHING = 1e-14  # of the largest: a part of a mode that is rounding
+LINE_MODES = 8  # most modes of the loop of one spring
+
+
+@dataclass(frozen=True, eq=False)
+class Modes:
+    """Coordinates z, `u = X z` (n, r), in which mass, damping and stiffness are diagonal.
+
+    `start` gives z from the motions that the supports leave; `P` is the inverse of the step's
+    matrix, `J` (q, r) the interface, `forces` (n_loads, r) the loads.
+    """
+
+    X: FloatArray
+    T: FloatArray
+    inner: FloatArray
+    m: FloatArray
+    c: FloatArray
+    k: FloatArray
+    J: FloatArray
+    forces: FloatArray
+
+    @property
+    def size(self) -> int:
+        """Number r of coordinates."""
+        return len(self.m)
+
+    def coordinates(self, fields: FloatArray) -> FloatArray:
+        """z (r, k) of fields (n, k) that the supports allow."""
+        return np.asarray(np.linalg.solve(self.inner, self.T.T @ fields), dtype=float)
+
+
+def modes_of(problem: Problem, effective: Effective) -> Modes | None:
+    """All modes of a step's problem; None if its damping has no common modes, or a support moves.
+
+    They are orthonormal in the step's matrix, which is regular also where the mass is not.
+    """
+    import scipy.linalg as la
+
+    if effective.R.any() or not supports_are_still(problem):
+        return None
+    T = problem.constraints.T.toarray()
+    A, M, C, K = (T.T @ (x @ T) for x in (effective.A, problem.M, problem.C, problem.K))
+    try:
+        m, inner = la.eigh(M, A)
+    except la.LinAlgError:
+        return None
+    c = inner.T @ C @ inner
+    if np.abs(c - np.diag(np.diag(c))).max(initial=0.0) > DIAGONAL * max(effective.dt, 1e-300):
+        return None
+    m[np.abs(m) <= NOTHING * np.abs(m).max(initial=0.0)] = 0.0
+    X = T @ inner
+    J = np.zeros((0, len(m))) if problem.interface is None else problem.interface.J @ X
+    return Modes(
+        X, T, inner, m, np.diag(c).copy(), np.einsum("ji,jk,ki->i", inner, K, inner, optimize=True),
+        np.ascontiguousarray(J), np.ascontiguousarray(problem.loading.forces.T @ X),
+    )  # fmt: skip
+
+
+class SmallLoop:
+    """Steps of one dt; `light` says that a run without its energies costs much less."""
+
+    def __init__(self, problem: Problem, motion: Motion, effective: Effective, modes: Modes):
+        self.problem, self.motion, self.modes = problem, motion, modes
+        s = problem.scheme
+        self._scheme = np.array([s.alpha_m, s.alpha_f, s.beta, s.gamma])
+        self._joints = joints_of(problem)
+        self._dt = effective.dt
+        self._seen: FloatArray | None = None  # displacement up to which z is known
+        self._z = np.zeros((3, modes.size))
+        self._line = line_of(problem, motion, modes, self._joints, self._scheme)
+        self.balance = np.zeros(2)  # see `LineState`
+        Jt = np.ascontiguousarray(modes.J.T)
+        one = np.ones(modes.size)
+        self._modal = Modal(modes.m, modes.c, modes.k, modes.J, Jt, modes.forces, self._scheme)
+        self._step = ModalStep(effective.dt, one, np.ascontiguousarray(modes.J @ Jt))
+
+    @property
+    def light(self) -> bool:
+        """Whether energies are kept only if asked for."""
+        return self._line is not None
+
+    def march(
+        self, factors: FloatArray, save: IntArray, saved: Saved, history: FloatArray
+    ) -> tuple[int, int, float]:
+        """As `compiled_loop.march`, on the whole problem's arrays; a history may be empty."""
+        m, X = self.motion, self.modes.X
+        if self._seen is None or not np.array_equal(self._seen, m.u):
+            self._z = self.modes.coordinates(np.stack([m.u, m.v, m.a], axis=1)).T.copy()
+        chosen = save >= 0
+        run = self._march_line if self._line is not None else self._march_modal
+        outcome, kept = run(factors, save, saved, history)
+        m.u[:], m.v[:], m.a[:] = self._z @ X.T
+        self._seen = m.u.copy()
+        forces = self.problem.loading.forces.T
+        if len(saved.u):
+            for part, z in zip((saved.u, saved.v, saved.a), kept, strict=True):
+                np.matmul(z, X.T, out=part)
+            loads = factors[1:][chosen] @ forces
+            saved.reaction[:] = reactions(
+                self.problem, self._joints, saved.u, saved.v, saved.a, saved.t, loads
+            )
+        now = (x[None] for x in (m.u, m.v, m.a, m.t, factors[outcome[0]] @ forces))
+        m.reaction[:] = reactions(self.problem, self._joints, *now)[0]
+        return outcome
+
+    def _march_modal(
+        self, factors: FloatArray, save: IntArray, saved: Saved, history: FloatArray
+    ) -> tuple[tuple[int, int, float], list[FloatArray]]:
+        m, rows = self.motion, len(saved.u)
+        u, v, a = self._z
+        few = Motion(u, v, a, m.delta, m.f, m.w, m.t, m.state, np.zeros(0), m.energies, m.contact)
+        kept = [np.zeros((rows, self.modes.size)) for _ in range(3)]
+        none = np.zeros((0, *m.w.shape))
+        to = ModalRows(none, kept[0], kept[1], kept[2], saved.w, saved.t, saved.state)
+        outcome = march_modal(
+            self._modal, self._step, self._joints, few, factors, save, to, history
+        )
+        return outcome, kept
+
+    def _march_line(
+        self, factors: FloatArray, save: IntArray, saved: Saved, history: FloatArray
+    ) -> tuple[tuple[int, int, float], list[FloatArray]]:
+        assert self._line is not None
+        line, spring, active = self._line
+        m, rows = self.motion, len(saved.u)
+        joint = np.zeros(3)
+        if spring.weight > 0.0:
+            joint[:] = m.w[0, -1], m.t[0, -1], m.state[0, XI]
+        u, v, a = self._z[:, active].copy()
+        x = LineState(u, v, a, joint, m.energies, self.balance)
+        few = [np.zeros((rows, len(active))) for _ in range(3)]
+        to = LineRows(few[0], few[1], few[2], np.zeros((rows, 3)))
+        if not line.forces.shape[0]:
+            factors = factors[:, :0]
+        outcome = march_line(
+            line, self._dt, np.ones(len(active)), spring, x, np.ascontiguousarray(factors), save,
+            to, history,
+        )  # fmt: skip
+        self._z[:, active] = x.u, x.v, x.a
+        if spring.weight > 0.0:
+            self._put_joint(joint[None], m.w[None], m.t[None], m.state[None])
+            self._put_joint(to.joint, saved.w, saved.t, saved.state)
+            B = self._joints.B[0]
+            m.delta[:], m.f[:] = B.T @ m.w[0], spring.weight * (B.T @ m.t[0])
+        kept = [np.zeros((rows, self.modes.size)) for _ in range(3)]
+        for whole, part in zip(kept, few, strict=True):
+            whole[:, active] = part
+        return outcome, kept
+
+    def _put_joint(self, rows: FloatArray, w: FloatArray, t: FloatArray, state: FloatArray) -> None:
+        """Jumps, tractions and states of instants from rows of (w, t, xi)."""
+        p = self._joints.p[0]
+        w[:, 0, -1], t[:, 0, -1], state[:, 0, XI] = rows.T
+        if p[FU] > 0.0:
+            lost = -np.expm1(-p[FU] / p[GF] * rows[:, 2])
+            state[:, 0, DAMAGE] = np.where(rows[:, 1] < 0.0, 0.0, lost)
+
+
+def line_of(
+    problem: Problem, motion: Motion, modes: Modes, joints: Joints, scheme: FloatArray
+) -> tuple[Line, Spring, IntArray] | None:
+    """The problem as a few modes and one spring, with the modes that move; None if it is not."""
+    spring, b = Spring(0.0, 0.0, 0.0, 0.0, 0.0), np.zeros(modes.size)
+    if problem.interface is not None:
+        found = _spring_of(motion, modes, joints, 1 - scheme[1])
+        if found is None:
+            return None
+        spring, b = found
+    z = np.abs(modes.coordinates(np.stack([motion.u, motion.v, motion.a], axis=1)))
+    moves = (z > NOTHING * z.max(axis=0)).any(axis=1)
+    pulls = np.abs(b) > NOTHING * np.abs(b).max(initial=0.0)
+    loaded = np.abs(modes.forces) > NOTHING * np.abs(modes.forces).max(axis=1, initial=0.0)[:, None]
+    active = np.flatnonzero(moves | pulls | loaded.any(axis=0))
+    if not 0 < len(active) <= LINE_MODES:
+        return None
+    forces = modes.forces[:, active] if loaded.any() else np.zeros((0, len(active)))
+    m, c, k, b = (np.ascontiguousarray(x[active]) for x in (modes.m, modes.c, modes.k, b))
+    return Line(m, c, k, b, np.ascontiguousarray(forces), scheme), spring, active
+
+
+def _spring_of(
+    motion: Motion, modes: Modes, joints: Joints, share: float
+) -> tuple[Spring, FloatArray] | None:
+    """The only point of the interface and its jump (r,), if shear cannot move there."""
+    if len(joints.weights) != 1 or joints.codes[0] != SDM or joints.pairs.shape[1] != 1:
+        return None
+    jumps = joints.B[0] @ modes.J
+    still = np.abs(jumps[:-1]).max(initial=0.0) <= NOTHING * np.abs(jumps[-1]).max(initial=0.0)
+    state = motion.state[0].copy()
+    state[[XI, DAMAGE]] = 0.0
+    if not still or state.any() or motion.w[0, :-1].any():
+        return None
+    p, weight, b = joints.p[0], float(joints.weights[0]), jumps[-1]
+    k, fu, gf = (float(p[i]) for i in (KN, FU, GF))
+    if fu > 0.0:  # the closed form is the only answer if the rest is stiffer than the softening
+        a = fu / gf
+        if 1.0 - share * weight * float(b @ b) * k * a * fu / (k - a * fu) <= 0.0:
+            return None
+    return Spring(weight, k, fu, gf, float(p[FC])), b
