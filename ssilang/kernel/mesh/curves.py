@@ -140,9 +140,13 @@ class Polynomial:
         return float(self._lengths(np.linspace(self.begin, self.finish, 65))[-1])
 
     def __call__(self, s: FloatArray) -> FloatArray:
+        return self.at(self.parameter(s))
+
+    def parameter(self, s: FloatArray) -> FloatArray:
+        """Parameters at fractions (m,) of the way."""
         if not self.regular:
-            return self.at(self.begin + (self.finish - self.begin) * s)
-        return self.at(self._parameter(s))
+            return self.begin + (self.finish - self.begin) * s
+        return self._parameter(s)
 
     def _speed(self, u: FloatArray) -> FloatArray:
         order = np.arange(1, len(self.coefficients))
@@ -207,3 +211,34 @@ def cubic_tangents(
             ]
         )
     )
+
+
+@dataclass(frozen=True, slots=True)
+class ParabolicArc:
+    """An arc of circle cut into parabolas that touch it at their ends, tangentially.
+
+    Attributes
+    ----------
+    arc : Arc
+    fractions : array (n + 1,)
+        Ends of the parabolas, as parts of the arc.
+    """
+
+    arc: Arc
+    fractions: FloatArray
+
+    def middles(self) -> FloatArray:
+        """Positions (n, 3) of the parabolas' middles.
+
+        Raises
+        ------
+        MeshError
+            If one of them opens by a half turn or more: its end tangents do not meet.
+        """
+        half = 0.5 * self.arc.angle * np.diff(self.fractions)
+        if (np.abs(half) >= 0.5 * math.pi).any():
+            raise MeshError("a parabola covers a half turn or more", "ask for more elements")
+        centred = self.arc(0.5 * (self.fractions[:-1] + self.fractions[1:])) - self.arc.centre
+        reach = 0.5 * (np.cos(half) + 1.0 / np.cos(half))
+        middle: FloatArray = self.arc.centre + reach[:, None] * centred
+        return middle

@@ -78,11 +78,13 @@ def grid_surface(sides: Sequence[Mesh], chart: Chart | None, colour: int = 0) ->
     positions = inside[wanted]
     density = _sizes(nodes.density, bottom, right, top, left)[wanted]
     ids[wanted] = nodes.add(positions if chart is None else chart.lift(positions), density)
-    return Mesh.of(nodes, "QUA8" if step == 2 else "QUA4", _cells(ids, step), colour, tuple(sides))
+    return Mesh.of(
+        nodes, "QUA8" if step == 2 else "QUA4", grid_cells(ids, step), colour, tuple(sides)
+    )
 
 
-def _cells(ids: IntArray, step: int) -> IntArray:
-    """Connectivity, row after row, of a grid of node numbers."""
+def grid_cells(ids: IntArray, step: int) -> IntArray:
+    """Connectivity, row after row, of a grid of node numbers; step 2 leaves QUA8 middles out."""
     a, b = ids[:-1:step, :-1:step], ids[:-1:step, step::step]
     c, d = ids[step::step, step::step], ids[step::step, :-1:step]
     if step == 1:

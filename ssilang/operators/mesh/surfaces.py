@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
+
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.charts import (
     Chart,
@@ -18,6 +20,7 @@ from ssilang.kernel.mesh.combine import union
 from ssilang.kernel.mesh.grid import grid_surface, matching_sides, sides_in_order
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.mesh.polynomial_surface import PolynomialSurface, mesh_polynomial_surface
 from ssilang.kernel.mesh.split import split_quadrangles
 from ssilang.kernel.mesh.stitch import cone, stitch
 from ssilang.kernel.mesh.surface import contour_chart_data, fill_surface
@@ -27,6 +30,21 @@ from ssilang.language.session import Session
 from ssilang.operators.mesh.ends import chosen_family
 from ssilang.operators.workspace import workspace
 
+_POLYNOMIAL_EN = (
+    "'POLY': the surface P(U,V), sum of P1 P2 P3 ... times 1 U U**2 ..., and of the further rows "
+    "times V V**2 ..., N1 columns and N2 rows of points; U and V go from 0 to 1 or between the "
+    "values behind 'PARA'. OPTI DENS says the size of the cells; 'REGU' spaces the nodes evenly "
+    "along the sides, else they are even in U and V."
+)
+_POLYNOMIAL_FR = (
+    "'POLY' : la surface P(U,V), somme de P1 P2 P3 ... fois 1 U U**2 ... et des lignes suivantes "
+    "fois V V**2 ..., N1 colonnes et N2 lignes de points ; U et V vont de 0 à 1 ou entre les "
+    "valeurs données derrière 'PARA'. OPTI DENS dit la taille des éléments ; 'REGU' répartit les "
+    "noeuds régulièrement le long des côtés, sinon ils le sont en U et V."
+)
+_POLYNOMIAL_SYNTAX = (
+    "SURF1 = {} 'POLY' N1 N2 P1 P2 (P3 ...) P11 P12 (P13 ...) (...) ('PARA' U1 U2 V1 V2) ('REGU') ;"
+)
 _SHAPES = ("PLANE", "SPHERIQUE", "CYLINDRIQUE", "CONIQUE", "TORIQUE")
 # word -> number of points that follow, chart of the contour's positions and those points
 _CHARTS: dict[str, tuple[int, Callable[..., Chart]]] = {
@@ -35,6 +53,25 @@ _CHARTS: dict[str, tuple[int, Callable[..., Chart]]] = {
     "CONIQUE": (2, cone_chart),
     "TORIQUE": (3, torus_chart),
 }
+
+
+def _polynomial(call: Call) -> Mesh:
+    """Behind 'POLYNOME': numbers of columns and rows, the points row by row, the limits."""
+    ws = workspace(call.session)
+    columns, rows = (int(call.required("ENTIER")) for _ in range(2))
+    if columns < 1 or rows < 1 or columns * rows < 2:
+        raise call.bad(f"{columns} columns and {rows} rows make no surface", columns)
+    points = [call.required("POINT") for _ in range(columns * rows)]
+    limits, regular = [0.0, 1.0, 0.0, 1.0], False
+    while (word := call.keyword(("PARAMETRE", "REGULIER"))) is not None:
+        regular = regular or word == "REGULIER"
+        if word == "PARAMETRE":
+            place = call.keyword_end
+            limits = [call.required("FLOTTANT", after=place) for _ in range(4)]
+    table = np.array([p.coordinates for p in points]).reshape(rows, columns, 3)
+    shape = PolynomialSurface(table, (limits[0], limits[1]), (limits[2], limits[3]))
+    surface = chosen_family(ws).need_surface()
+    return mesh_polynomial_surface(ws.nodes, shape, ws.density, surface, regular, ws.colour)
 
 
 def _curved_chart(call: Call, word: str, boundary: FloatArray) -> Chart:
@@ -51,13 +88,14 @@ def _curved_chart(call: Call, word: str, boundary: FloatArray) -> Chart:
     help=Help(
         en="Mesh inside closed lines (holes run the other way): in their plane (the default), on a "
         "sphere, cylinder, cone or torus. OPTI ELEM decides between triangles and quadrangles with "
-        "some triangles. A nodal field of one component gives the mesh sizes to respect.",
+        "some triangles. A nodal field of one component gives the mesh sizes to respect. "
+        + _POLYNOMIAL_EN,
         fr="Maillage intérieur à des lignes fermées (les trous tournent en sens inverse) : dans "
         "leur plan (par défaut), sur une sphère, un cylindre, un cône ou un tore. OPTI ELEM "
         "choisit triangles, ou quadrangles avec quelques triangles. Un champ par points à une "
-        "composante donne les tailles de maille à respecter.",
+        "composante donne les tailles de maille à respecter. " + _POLYNOMIAL_FR,
         syntax="SURF1 = SURF (CHPO1) LIG1 'PLANE' (CRIT) | 'SPHE' CENTR1 | 'CYLI' AXE1 AXE2 | "
-        "'CONI' SOMM1 AXE1 | 'TORI' CENTR1 AXE1 CENTR2 ;",
+        "'CONI' SOMM1 AXE1 | 'TORI' CENTR1 AXE1 CENTR2 ;\n" + _POLYNOMIAL_SYNTAX.format("SURF"),
         examples=(
             "OPTI DIME 2 ELEM TRI3 ; A = 0. 0. ; B = 1. 0. ; C = 0. 1. ;"
             " L = A DROI 5 B DROI 5 C DROI 5 A ; S = SURF L 'PLANE' ;",
@@ -67,6 +105,8 @@ def _curved_chart(call: Call, word: str, boundary: FloatArray) -> Chart:
 )
 def surf(call: Call) -> Mesh:
     """Mesh the inside of a contour."""
+    if call.keyword(("POLYNOME",)) is not None:
+        return _polynomial(call)
     field: NodeField | None = call.optional("CHPOINT")
     contour: Mesh | None = call.optional("MAILLAGE")
     field = field or call.optional("CHPOINT")
@@ -97,12 +137,14 @@ def _wanted_sizes(field: NodeField | None) -> tuple[FloatArray, FloatArray] | No
     help=Help(
         en="Surface on four lines that form a contour: a grid when opposite sides have the same "
         "number of cells. 'PLAN', 'SPHE', 'CYLI', 'CONI', 'TORI' say on what it lies; 'QUEL' "
-        "interpolates between the sides. Cells turn as the contour does. COTE gives the sides.",
+        "interpolates between the sides. Cells turn as the contour does. COTE gives the sides. "
+        + _POLYNOMIAL_EN,
         fr="Surface sur quatre lignes formant un contour : une grille si les côtés opposés ont le "
         "même nombre d'éléments. 'PLAN', 'SPHE', 'CYLI', 'CONI', 'TORI' disent sur quoi elle "
-        "s'appuie ; 'QUEL' interpole entre les côtés. COTE rend les côtés.",
+        "s'appuie ; 'QUEL' interpole entre les côtés. COTE rend les côtés. " + _POLYNOMIAL_FR,
         syntax="SURF1 = DALL COTE1 COTE2 COTE3 COTE4 'PLAN' | 'SPHE' CENTR1 | 'CYLI' POIN1 POIN2 | "
-        "'CONI' POIN1 POIN2 | 'TORI' CENTR1 POIN1 CENTR2 | 'QUELCONQUE' ;",
+        "'CONI' POIN1 POIN2 | 'TORI' CENTR1 POIN1 CENTR2 | 'QUELCONQUE' ;\n"
+        + _POLYNOMIAL_SYNTAX.format("DALL"),
         examples=(
             "OPTI DIME 2 ELEM QUA4 ; A = 0. 0. ; B = 1. 0. ; C = 1. 1. ; D0 = 0. 1. ;"
             " S = DALL (DROI 3 A B) (DROI 2 B C) (DROI 3 C D0) (DROI 2 D0 A) 'PLAN' ;"
@@ -113,6 +155,8 @@ def _wanted_sizes(field: NodeField | None) -> tuple[FloatArray, FloatArray] | No
 )
 def dall(call: Call) -> Mesh:
     """Make a grid on four sides."""
+    if call.keyword(("POLYNOME",)) is not None:
+        return _polynomial(call)
     ws = workspace(call.session)
     sides: list[Mesh] = call.all("MAILLAGE")
     word = call.keyword((*_SHAPES, "QUELCONQUE"))
