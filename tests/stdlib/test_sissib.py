@@ -1,0 +1,189 @@
+"""SISSIB against the modal combinations written out on a frame of three masses."""
+
+import numpy as np
+import pytest
+
+from ssilang.cli.run import run_text
+
+STIFFNESS = np.array([[900.0, -400, 0], [-400, 700, -300], [0, -300, 330]])
+MASS = np.diag([1.0, 1.2, 0.8])
+DAMPING = np.array([0.03, 0.05, 0.08])
+FREQUENCIES = [0.1, 1.0, 2.0, 4.0, 6.0, 10.0, 40.0]
+SPECTRA = {0.02: [1, 4, 9, 8, 6, 3, 1.5], 0.1: [1, 2, 5, 4, 3, 2, 1.5]}
+DIRECTIONS = {"X": 1.0, "Y": 0.7}
+
+
+def frame(axis, scale):
+    k = scale * STIFFNESS
+    words = []
+    for i, j in ((1, 2), (2, 3)):
+        words.append(
+            f"(MANU 'RIGI' (MANU 'SEG2' P{i} P{j}) (MOTS 'U{axis}') "
+            f"(PROG {-k[i - 1, j - 1]} {k[i - 1, j - 1]} {-k[i - 1, j - 1]}))"
+        )
+    for i in (1, 2, 3):
+        words.append(f"(APPU 'U{axis}' {k[i - 1].sum()} P{i})")
+    return " ET ".join(words)
+
+
+def script(rule, more=""):
+    curves = " ET ".join(
+        f"(EVOL 'MANU' (PROG {' '.join(map(str, FREQUENCIES))}) (PROG {' '.join(map(str, s))}))"
+        for s in SPECTRA.values()
+    )
+    text = (
+        "OPTI DIME 3 ELEM SEG2 ; P1 = 0. 0. 0. ; P2 = 0. 0. 1. ; P3 = 0. 0. 2. ;"
+        f"K = {frame('X', 1)} ; L = {frame('Y', 1.7)} ; K = K ET L ;"
+        "M = (MASS 'UX' 'UY' 1. P1) ET (MASS 'UX' 'UY' 1.2 P2) ET (MASS 'UX' 'UY' 0.8 P3) ;"
+        "B = VIBR 'SIMU' 0.1 6 K M ; T = TABL 'DONNEE' ; T . 'STRUCTURE' = B ; LX = PROG ;"
+        f"REPE B1 6 ; LX = LX ET (IPOL (B . 'MODES' . &B1 . 'FREQUENCE') (PROG 0. 10.) "
+        "(PROG 0.02 0.1)) ; FIN B1 ; T . 'AMORTISSEMENT' = LX ;"
+        f"T . 'RECOMBINAISON_MODES' = '{rule}' ; T . 'DUREE' = 6. ;"
+        "T . 'SORTIES' = TABL 'SORTIES' ; T . 'SORTIES' . 'DEPLACEMENTS' = VRAI ;"
+        f"T . 'SORTIES' . 'ACCELERATIONS' = VRAI ; T . 'EXCITATION' = TABL ; S = {curves} ;"
+    )
+    for i, (axis, factor) in enumerate(DIRECTIONS.items(), 1):
+        text += (
+            f"E = TABL ; E . 'DIRECTION' = '{axis}' ; E . 'SPECTRE' = S * {factor} ;"
+            f"E . 'AMORTISSEMENT' = PROG 0.02 0.1 ; T . 'EXCITATION' . {i} = E ;"
+        )
+    return text + more
+
+
+def combined(rule, scale, factor, n_modes=3):
+    """Displacements and accelerations of the masses in one direction, and the modal data."""
+    squares, shapes = np.linalg.eig(np.linalg.solve(MASS, scale * STIFFNESS))
+    order = np.argsort(squares)
+    w, shapes = np.sqrt(squares[order]), shapes[:, order]
+    f = w / (2 * np.pi)
+    x = np.interp(f, [0, 10], [0.02, 0.1])
+    low, high = (np.interp(f, FREQUENCIES, s) for s in SPECTRA.values())
+    spectrum = factor * (low + (high - low) * (x - 0.02) / 0.08)
+    gamma = shapes.T @ MASS @ np.ones(3) / np.diag(shapes.T @ MASS @ shapes)
+    acceleration = shapes * gamma * spectrum
+    found = []
+    for answers in (acceleration / w**2, acceleration):
+        if rule == "DIX_POUR_CENT":
+            answers = np.abs(answers)
+        total = np.zeros(3)
+        for i in range(n_modes):
+            for j in range(n_modes):
+                total += answers[:, i] * answers[:, j] * correlation(rule, w, x, i, j)
+        found.append(np.sqrt(total))
+    return found, shapes * gamma, w
+
+
+def correlation(rule, w, x, i, j):
+    if i == j:
+        return 1.0
+    if rule == "CQC":
+        r = w[j] / w[i]
+        top = 8 * np.sqrt(x[i] * x[j]) * (x[i] + r * x[j]) * r**1.5
+        bottom = (1 - r * r) ** 2 + 4 * x[i] * x[j] * r * (1 + r * r)
+        return top / (bottom + 4 * (x[i] ** 2 + x[j] ** 2) * r * r)
+    if rule == "ROSENBLUETH":
+        wd, xd = w * np.sqrt(1 - x**2), x + 2 / (w * 6.0)
+        return 1 / (1 + ((wd[i] - wd[j]) / (xd[i] * w[i] + xd[j] * w[j])) ** 2)
+    return float(rule == "DIX_POUR_CENT" and abs(w[i] - w[j]) <= 0.1 * min(w[i], w[j]))
+
+
+_READ = "".join(
+    f"{n}{i} = EXTR (R . '{d}' . '{w}') '{c}' P{i} ;"
+    for n, d, w, c in (
+        ("D", "X", "DEPLACEMENTS", "UX"),
+        ("A", "X", "ACCELERATIONS", "UX"),
+        ("E", "Y", "DEPLACEMENTS", "UY"),
+        ("F", "REPONSE_TOTALE", "ACCELERATIONS", "UY"),
+    )
+    for i in (1, 2, 3)
+)
+
+
+def read(text, *names):
+    result = run_text(text)
+    assert result.exit_code == 0, result.message
+    root = result.session.root
+    return [np.array([root.find(f"{n}{i}") for i in (1, 2, 3)]) for n in names]
+
+
+@pytest.mark.parametrize("rule", ["SRSS", "CQC", "ROSENBLUETH", "DIX_POUR_CENT"])
+def test_rules_of_combination(rule):
+    found = read(script(rule) + "R = SISSIB T ;" + _READ, *"DAEF")
+    (d, a), _, _ = combined(rule, 1.0, 1.0)
+    (e, f), _, _ = combined(rule, 1.7, 0.7)
+    np.testing.assert_allclose(found, (d, a, e, f), rtol=1e-8)
+
+
+def test_directions_add_their_squares():
+    text = script("CQC") + (
+        "R = SISSIB T ; X = R . 'X' . 'DEPLACEMENTS' ;"
+        "Y = R . 'Y' . 'DEPLACEMENTS' ; Z = R . 'REPONSE_TOTALE' . 'DEPLACEMENTS' ;"
+        "D = MAXI (ABS ((Z * Z) - (X * X) - (Y * Y))) ;"
+    )
+    result = run_text(text)
+    assert result.exit_code == 0, result.message
+    assert result.session.root.find("D") < 1e-12
+
+
+def test_results_serve_again():
+    text = script("CQC") + (
+        "R1 = SISSIB T ; T . 'REPRISE' = R1 . 'REPRISE' ;"
+        "REPE B 2 ; T . 'EXCITATION' . &B . 'SPECTRE' = S * 100. ; FIN B ; R = SISSIB T ;"
+    )
+    found = read(text + _READ, "D")
+    np.testing.assert_allclose(found[0], combined("CQC", 1.0, 1.0)[0][0], rtol=1e-8)
+
+
+def test_truncation_adds_the_rigid_answer_of_the_modes_left_out():
+    text = script("SRSS") + (
+        "B = VIBR 'SIMU' 0.1 2 K M ; PM = PSMO K M (B . 'MODES') 'SEISME' 'UX' 'UY' ;"
+        "B . 'PSEUDO_MODES' = PM ; T . 'STRUCTURE' = B ; T . 'TRONCATURE' = VRAI ;"
+        "T . 'EXCITATION' . 1 . 'ACCELERATION_MAXIMALE' = 1.3 ; R = SISSIB T ;"
+    )
+    found = read(text + _READ, "D", "A")
+    (d, a), shares, w = combined("SRSS", 1.0, 1.0, n_modes=1)
+    kept = 1  # the two lowest modes are one along X and one along Y
+    static = 1.3 * (shares[:, kept:] / w[kept:] ** 2).sum(axis=1)
+    rigid = 1.3 * shares[:, kept:].sum(axis=1)
+    np.testing.assert_allclose(found[0], np.hypot(d, static), rtol=1e-8)
+    np.testing.assert_allclose(found[1], np.hypot(a, rigid), rtol=1e-8)
+
+
+def test_reactions_and_the_domain():
+    text = script("SRSS", "K2 = K ET (BLOQ 'UX' 'UY' P1) ; B = VIBR 'SIMU' 0.1 4 K2 M ;") + (
+        "B = REAC B K2 ; T . 'STRUCTURE' = B ; LX = PROG ; REPE B1 4 ; LX = LX ET "
+        "(IPOL (B . 'MODES' . &B1 . 'FREQUENCE') (PROG 0. 10.) (PROG 0.02 0.1)) ; FIN B1 ;"
+        "T . 'AMORTISSEMENT' = LX ; T . 'SORTIES' . 'REACTIONS' = VRAI ;"
+        "T . 'SORTIES' . 'DOMAINE' = MANU 'POI1' P1 ; R = SISSIB T ;"
+        "C = NBNO (EXTR (R . 'X' . 'DEPLACEMENTS') 'MAIL') ;"
+        "Q = R . 'X' . 'REACTIONS' ; C1 = EXTR Q 'FX' P1 ; C2 = C ; C3 = 0. ;"
+    )
+    (found,) = read(text, "C")
+    part = np.array([1, 2])
+    squares, shapes = np.linalg.eig(
+        np.linalg.solve(MASS[np.ix_(part, part)], STIFFNESS[np.ix_(part, part)])
+    )
+    f = np.sqrt(squares) / (2 * np.pi)
+    x = np.interp(f, [0, 10], [0.02, 0.1])
+    low, high = (np.interp(f, FREQUENCIES, s) for s in SPECTRA.values())
+    spectrum = low + (high - low) * (x - 0.02) / 0.08
+    mass = MASS[np.ix_(part, part)]
+    gamma = shapes.T @ mass @ np.ones(2) / np.diag(shapes.T @ mass @ shapes)
+    answers = shapes * gamma * spectrum / squares
+    assert found[1] == 1
+    assert found[0] == pytest.approx(np.sqrt(((-400 * answers[0]) ** 2).sum()))
+
+
+@pytest.mark.parametrize(
+    ("more", "said"),
+    [
+        ("T . 'RECOMBINAISON_MODES' = 'SOMME' ;", "SOMME"),
+        ("T . 'SORTIES' = TABL ;", "asks for nothing"),
+        ("T . 'AMORTISSEMENT' = PROG 0.05 ;", "1 dampings"),
+        ("T . 'SORTIES' . 'CONTRAINTES' = VRAI ;", "CONTRAINTE_MODALE"),
+        ("T . 'TRONCATURE' = VRAI ;", "PSEUDO_MODES"),
+        ("T . 'EXCITATION' . 1 . 'AMORTISSEMENT' = PROG 0.05 ;", "2 spectra"),
+    ],
+)
+def test_what_is_missing_is_said(more, said):
+    assert said in run_text(script("CQC", more) + "R = SISSIB T ;").message
