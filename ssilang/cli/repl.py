@@ -11,6 +11,7 @@ from ssilang import __version__
 from ssilang.cli.colour import coloured
 from ssilang.cli.completion import completions
 from ssilang.cli.line_editor import Ask, line_editor
+from ssilang.cli.loop_progress import follow_loops
 from ssilang.cli.paging import show
 from ssilang.cli.repl_texts import TEXTS
 from ssilang.cli.run import RunOptions, execute, make_session
@@ -57,6 +58,7 @@ class Repl:
             "%quit": lambda _: False,
         }
         session.on_warning = self._report
+        follow_loops(session, sys.stderr)
 
     def loop(self) -> None:
         """Read and run until FIN, %quit or the end of the input."""

@@ -5,11 +5,15 @@ from __future__ import annotations
 import io
 import sys
 import traceback
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TextIO
 
 from ssilang.cli.colour import coloured
+from ssilang.cli.loop_progress import follow_loops
 from ssilang.language.diagnostics import render
 from ssilang.language.errors import SeveralErrors, SsiError
 from ssilang.language.evaluator import StopRun
@@ -109,9 +113,11 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
     """Run a source to its end, print what went wrong, write the summary."""
     session = make_session(source, options, out)
     session.on_warning = lambda w: err.write(coloured(render(w, session.language), err) + "\n")
+    follow_loops(session, err)
     errors: list[SsiError] = []
     try:
-        execute(session, source)
+        with _libraries_quiet(options.debug):
+            execute(session, source)
     except SeveralErrors as several:
         errors = several.errors
     except SsiError as error:
@@ -130,6 +136,15 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
     if options.summary:
         _summarise(result, source, err)
     return result
+
+
+@contextmanager
+def _libraries_quiet(debug: bool) -> Iterator[None]:
+    """No warnings of libraries, whoever runs the script: what matters to it is a message."""
+    with warnings.catch_warnings():
+        if not debug:
+            warnings.simplefilter("ignore")
+        yield
 
 
 def _close_files(session: Session, errors: list[SsiError]) -> None:

@@ -148,6 +148,8 @@ def spline(
 
     if len(x) < 2:
         raise FieldError(f"a spline needs two points at least, found {len(x)}")
+    if len(x) != len(y):
+        raise FieldError(f"a spline has as many abscissas as values, found {len(x)} and {len(y)}")
     order = slice(None, None, -1) if x[0] > x[-1] else slice(None)
     ends: Any = (
         (2, 0.0) if left is None else (1, left),

@@ -24,7 +24,7 @@ from ssilang.language.values import (
 )
 
 if TYPE_CHECKING:
-    from ssilang.language.session import Session
+    from ssilang.language.session import LoopObserver, Session
 
 
 class StopRun(Exception):
@@ -88,11 +88,24 @@ class Evaluator(OperandReader):
 
     def _loop(self, node: tree.Loop) -> None:
         limit = self._count(node)
+        observer = self.session.loops
+        if observer is None:
+            self._turns(node, limit, None)
+            return
+        observer.enter(node.name, limit)
+        try:
+            self._turns(node, limit, observer)
+        finally:
+            observer.leave()
+
+    def _turns(self, node: tree.Loop, limit: int | None, observer: LoopObserver | None) -> None:
         counter = ("&" + node.name)[:24]
         frame = self.session.frame
         turn = 1
         while limit is None or turn <= limit:
             frame.variables[counter] = turn
+            if observer is not None:
+                observer.turn(turn)
             self._begin(node.span)
             try:
                 self.run(node.body)

@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, TextIO
+from typing import Any, Protocol, TextIO
 
 from ssilang.language.library import Library
 from ssilang.language.scopes import Frame
@@ -20,6 +20,19 @@ class Limits:
 
     recursion: int = 200
     statements: int | None = None
+
+
+class LoopObserver(Protocol):
+    """Is told of the REPE loops of a run."""
+
+    def enter(self, name: str, limit: int | None) -> None:
+        """A loop begins; `limit` is its number of turns, if it has one."""
+
+    def turn(self, number: int) -> None:
+        """The innermost loop begins a turn."""
+
+    def leave(self) -> None:
+        """The innermost loop ends."""
 
 
 @dataclass
@@ -98,6 +111,7 @@ class Session:
             self.on_warning(warning)
 
     on_warning: Callable[[Any], object] | None = None
+    loops: LoopObserver | None = None
 
 
 PREDEFINED: dict[str, Any] = {

@@ -251,8 +251,9 @@ def on_plane(
     distance = np.abs((table.coordinates[nodes] - first) @ normal)
     near = nodes[distance <= tolerance]
     if len(near) == 0:
+        nearest = f"the nearest is at {distance.min():g}" if len(distance) else "the mesh is empty"
         raise MeshError(
-            f"no node within {tolerance:g} of the symmetry; the nearest is at {distance.min():g}",
+            f"no node within {tolerance:g} of the symmetry; {nearest}",
             "raise the tolerance, or check the points",
         )
     return near, normal

@@ -41,7 +41,7 @@ def rigid_with_rotations(
     """
     master = turning[:1]
     others = np.concatenate([turning[1:], np.setdiff1d(following, turning)])
-    if len(others) == 0:
+    if len(turning) == 0 or len(others) == 0:
         raise MeshError("a rigid body needs at least two nodes")
     arm = table.coordinates[others] - table.coordinates[master]
     rows = [
@@ -83,6 +83,8 @@ def rigid_by_distances(
     MeshError
         If `check` and the nodes do not span the space.
     """
+    if len(nodes) < 2:
+        raise MeshError("a rigid body needs at least two nodes")
     dim = len(displacement)
     x = table.coordinates[nodes][:, :dim]
     base = _spread_base(x, dim)

@@ -165,6 +165,10 @@ def affine_through(old: FloatArray, new: FloatArray, dimension: int) -> PointMap
     MeshError
         With too many points or points that are affinely dependent.
     """
+    if len(old) != len(new) or len(old) == 0:
+        raise MeshError(
+            f"the map takes as many points as it gives, one at least: got {len(old)} and {len(new)}"
+        )
     if len(old) > dimension + 1:
         raise MeshError(f"at most {dimension + 1} points define the map, got {len(old)}")
     before, after = (old[1:] - old[0]).T, (new[1:] - new[0]).T

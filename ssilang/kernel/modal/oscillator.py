@@ -162,6 +162,8 @@ def spectrum(
     wanted : array, optional
         Times at which to look (default those of the signal, then half a period of rest).
     """
+    if not len(frequencies):
+        raise KernelError("a spectrum needs one frequency at least")
     oscillators = Oscillators(frequencies, damping)
     sampled(times, signal)
     if wanted is None:

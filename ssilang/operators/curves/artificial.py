@@ -71,6 +71,8 @@ def siar(call: Call) -> Any:
             f"signals from {start:g} to {end:g} do not fit in the modulation, "
             f"from {bands[0].times[0]:g} to {bands[0].times[-1]:g}"
         )
+    if said.get("NPOI", 2) < 2 or said.get("NSIN", 1) < 1:
+        raise call.bad("a signal needs two instants and one sine at least")
     times = np.linspace(start, end, said.get("NPOI", round((end - start) / 0.02) + 1))
     width = float(part.abscissas[-1] - part.abscissas[0])
     count = said.get("NSIN", max(round(width / 0.1), 1))

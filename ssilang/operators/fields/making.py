@@ -15,7 +15,7 @@ from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.model import Model
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
-from ssilang.language.values import ListChpo, ListReel, Table
+from ssilang.language.values import ListChpo, ListReel, Table, type_of
 from ssilang.operators.dispatch import MANU
 from ssilang.operators.fields.parts import support_nodes
 from ssilang.operators.fields.signs import names_of, read_nature
@@ -304,7 +304,7 @@ def xty(call: Call) -> Any:
 def xtx(call: Call) -> float:
     """Square norm."""
     first = call.required("CHPOINT", "MCHAML")
-    second = call.optional("CHPOINT", "MCHAML")
+    second = call.optional(type_of(first))
     if second is not None:
         a, b = call.required("FLOTTANT"), call.required("FLOTTANT")
         algebra: Any = node_algebra if isinstance(first, NodeField) else cell_algebra

@@ -86,7 +86,7 @@ def _spelled(call: Call, term: _Sum) -> list[list[Term]]:
 
 
 def _read_terms(call: Call) -> list[_Sum]:
-    """Terms `(+|-) (number) unknown ('DIRE' vector) mesh`, as they stand."""
+    """Terms `(+|-) (number) unknown ('DIRE' vector) mesh`, the mesh before the unknown or behind."""
     terms: list[_Sum] = []
     current = _Sum()
     while call.operands:
@@ -95,10 +95,10 @@ def _read_terms(call: Call) -> list[_Sum]:
             value = Mot(value.name)
         if not _take(call, current, value):
             break
-        if current.support is not None:
+        if current.support is not None and current.unknown:
             terms.append(current)
             current = _Sum()
-    if not terms or current.unknown:
+    if not terms or current.unknown or current.support is not None:
         raise call.missing(("MAILLAGE", "POINT") if current.unknown else ("MOT",))
     return terms
 
@@ -119,7 +119,7 @@ def _take(call: Call, term: _Sum, value: object) -> bool:
             term.unknown = word if word[:4] not in ("DEPL", "ROTA") else word[:4]
     elif isinstance(value, int | float) and not isinstance(value, bool):
         term.factor *= float(value)
-    elif isinstance(value, Point | Mesh) and term.unknown:
+    elif isinstance(value, Point | Mesh) and term.support is None:
         term.support = value
     else:
         return False
@@ -183,6 +183,8 @@ def _hooked(call: Call) -> Matrix:
 
 def _sliding(call: Call) -> Matrix:
     guest, host, names, tolerance = _two_meshes(call)
+    if not isinstance(guest, Mesh):
+        raise call.bad("a line slides in a mesh, not a single point", guest)
     return as_matrix(tied.sliding(guest, host, names, tolerance))
 
 

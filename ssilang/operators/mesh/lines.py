@@ -229,7 +229,12 @@ def lign(call: Call) -> Mesh:
         raise call.bad("what the line is is not said", hint="'ROTA' or 'TRAN'")
     if word == "ROTA" and angle is None:
         angle = call.required("FLOTTANT")
+    if word == "TRAN" and angle is not None:
+        raise call.bad("a straight line has no angle", angle, hint="'ROTA' draws arcs")
     base = 1 if word == "ROTA" else 0
+    others = [items[i] for i in range(len(items)) if i != base]
+    if any(isinstance(other, Mesh) for other in others):
+        raise call.bad("only the beginning of the line may be a mesh", hint="give points")
     if len(items) < 2 or (word == "ROTA" and ws.dimension == 3 and len(items) < 3):
         raise call.missing(("POINT",))
     before = items[base] if isinstance(items[base], Mesh) else None

@@ -312,6 +312,8 @@ def session_generator(call: Call, skip: int | None) -> np.random.Generator:
     found = options.get("RANDOM GENERATOR")
     if found is None or skip is not None:
         found = np.random.default_rng(1)
+        if skip is not None and skip < 0:
+            raise call.bad(f"the generator skips a number of terms, found {skip}", skip)
         if skip:
             found.random(skip)
         options["RANDOM GENERATOR"] = found

@@ -1,0 +1,69 @@
+"""Senseless operands end in a message that says what is wrong, never in a defect."""
+
+import io
+
+import pytest
+
+from ssilang.cli.run import RunOptions, execute, make_session
+from ssilang.language.errors import SsiError
+from ssilang.language.source import Source
+
+OBJECTS = """
+OPTI 'DIME' 3 'ELEM' 'CUB8' 'MODE' 'TRID' ; DENS 0.5 ;
+A = 0. 0. 0. ; B = 1. 0. 0. ; E = 0. 1. 0. ; L1 = DROI 2 A B ; W1 = L1 TRAN 2 E ;
+MO = MODE L1 'MECANIQUE' 'BARR' ; MA = MATE MO 'YOUN' 2. 'NU' 0. 'RHO' 1. 'SECT' 1. ;
+R1 = RIGI MO MA ; U1 = MANU 'CHPO' L1 1 'UX' 2. ; MZ = VIDE 'MAILLAGE' ;
+T1 = PROG 0. 'PAS' 0.1 1. ; EV = EVOL 'MANU' 'T' T1 'A' T1 ; P0 = PROG ; K1 = MOTS 'UX' 'UY' ;
+"""
+
+
+@pytest.fixture(scope="module")
+def session(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("hostile")
+    made = make_session(Source("prelude", ""), RunOptions(folder), io.StringIO())
+    execute(made, Source("prelude", OBJECTS))
+    return made
+
+
+@pytest.mark.parametrize(
+    ("statement", "says"),
+    [
+        ("X = BRUI 'BLAN' 'POIS' 7 2 -1", "skips"),
+        ("X = SPO EV 'AMOR' 0.05 'FREQ' P0 'DEPL'", "one frequency"),
+        ("X = SIAR EV 1. 'ACCE' 'NPOI' -1", "two instants"),
+        ("X = IPOL 0.5 T1 P0 'SPLI'", "as many"),
+        ("X = LIGN 'TRAN' 3 B E 0.5", "no angle"),
+        ("X = LIGN 'ROTA' 3 W1 A E 20.", "mesh"),
+        ("X = RELA 'CORI' 'DEPL' MZ", "two nodes"),
+        ("X = RELA 'CORI' 'DEPL' 'ROTA' MZ L1", "two nodes"),
+        ("X = RELA 'GLIS' A W1", "line"),
+        ("X = SYMT 'DEPL' A B E MZ 0.1", "empty"),
+        ("X = ANTI 'DEPL' A B E MZ 0.1", "empty"),
+        ("DEPL L1 'DEDU' MZ MZ", "one at least"),
+    ],
+)
+def test_senseless_operands_are_refused_in_words(session, statement, says):
+    with pytest.raises(SsiError) as caught:
+        execute(session, Source("statement", statement + " ;"))
+    assert caught.value.code == "bad-value"
+    assert says in str(caught.value.data["message"])
+
+
+def test_sum_of_squares_joins_fields_of_one_kind(session):
+    with pytest.raises(SsiError) as caught:
+        execute(session, Source("statement", "X = XTX 2. U1 MA 3. ;"))
+    assert caught.value.code == "excess" or caught.value.code == "wrong-argument"
+
+
+def test_an_empty_mesh_has_no_connected_parts(session):
+    execute(session, Source("statement", "X = DIME (CCON MZ) ;"))
+    assert session.root.find("X") == 0
+
+
+def test_no_free_motion_means_no_projected_solution(session):
+    with pytest.raises(SsiError) as caught:
+        execute(
+            session,
+            Source("statement", "X N M = RESO (MASS MO MA) (MANU 'CHPO' L1 1 'SCAL' 2.) 'ENSE' ;"),
+        )
+    assert caught.value.code != "internal"
