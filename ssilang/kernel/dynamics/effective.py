@@ -12,13 +12,15 @@ on the motions `du = T q + particular(dd)` that the conditions leave. Where A al
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from ssilang.kernel.dynamics.constraints import Constraints
-from ssilang.kernel.dynamics.problem import Problem
+from ssilang.kernel.dynamics.problem import SMALL, Problem
 from ssilang.kernel.errors import SingularMatrixError
 from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.solvers.backends import DISSECTION, Ordering
 from ssilang.kernel.solvers.inverse import Inverse, invert
 from ssilang.kernel.sparse import sp
 from ssilang.kernel.statics.linear_motion import describe_motions
@@ -37,10 +39,10 @@ class Effective:
         With the closed joints' stiffness if R is not zero.
     inverse : Inverse
         Of `V^T A T` (V is T but for non-associated relations).
-    Y : array (n, q)
-        `A^-1 J^T` on the admissible motions, q interface unknowns.
+    right : csc array (r, q)
+        `V^T J^T`, q interface unknowns.
     S : array (q, q)
-        Compliance `J Y`.
+        Compliance `J Y`, `Y = A^-1 J^T` on the admissible motions.
     R : array (q, q)
         Stiffness of the joints that A holds.
     """
@@ -49,9 +51,14 @@ class Effective:
     A: sp.csr_array
     constraints: Constraints
     inverse: Inverse
-    Y: FloatArray
+    right: sp.csc_array
     S: FloatArray
     R: FloatArray
+
+    @cached_property
+    def Y(self) -> FloatArray:  # noqa: N802
+        """Motions (n, q) under forces on the interface's jumps."""
+        return _responses(self.constraints, self.inverse, self.right)
 
     def solve(self, r: FloatArray) -> FloatArray:
         """Admissible motion (n,) or (n, k) under r, for `C du = 0`."""
@@ -95,22 +102,83 @@ def effective_of(
     symmetric = problem.constraints.associated
     q = joints.size if joints else 0
     R = np.zeros((q, q))
-    inverse = invert(sp.csr_array(V.T @ A @ T), symmetric)
+    right = sp.csc_array((T.shape[1], 0)) if joints is None else sp.csc_array(V.T @ joints.J.T)
+    order = _ordering(problem, right)
+    inverse = invert(sp.csr_array(V.T @ A @ T), symmetric, ordering=order)
     if inverse.singular and joints is not None:
         R = share * joints.closed_stiffness()
         A = sp.csr_array(A + joints.J.T @ sp.csr_array(R) @ joints.J)
-        inverse = invert(sp.csr_array(V.T @ A @ T), symmetric)
+        inverse = invert(sp.csr_array(V.T @ A @ T), symmetric, ordering=order)
     if inverse.singular and not (free and joints is None):
         message, hint = describe_motions(problem.numbering, T @ inverse.kernel)
         raise SingularMatrixError(
             message.replace(" that the loads drive", ""),
             hint + ", or give it mass (MASS)",
         )
-    Y = np.zeros((problem.numbering.size, q))
+    S = R
     if joints is not None:
-        right = sp.csc_array(V.T @ joints.J.T)
-        for start in range(0, q, COLUMNS):
-            part = right[:, start : start + COLUMNS].toarray()
-            Y[:, start : start + COLUMNS] = T @ inverse.solve(part)
-    S = np.ascontiguousarray(joints.J @ Y) if joints is not None else R
-    return Effective(dt, A, problem.constraints, inverse, Y, S, R)
+        root = root_response(inverse, right)
+        S = _compliance(problem, inverse, right) if root is None else root.J @ root.Y
+    return Effective(dt, A, problem.constraints, inverse, right, np.ascontiguousarray(S), R)
+
+
+def _responses(constraints: Constraints, inverse: Inverse, right: sp.csc_array) -> FloatArray:
+    """`T A^-1 right`, some columns at a time."""
+    q = right.shape[1]
+    Y = np.zeros((constraints.T.shape[0], q))
+    for start in range(0, q, COLUMNS):
+        part = right[:, start : start + COLUMNS].toarray()
+        Y[:, start : start + COLUMNS] = constraints.T @ inverse.solve(part)
+    return Y
+
+
+def _compliance(problem: Problem, inverse: Inverse, right: sp.csc_array) -> FloatArray:
+    assert problem.interface is not None
+    S: FloatArray = problem.interface.J @ _responses(problem.constraints, inverse, right)
+    return S
+
+
+def _ordering(problem: Problem, right: sp.csc_array) -> Ordering | None:
+    """Places of the unknowns of a large symmetric problem, its interface last."""
+    if problem.numbering.size <= SMALL or not problem.constraints.associated:
+        return None
+    T = problem.constraints.T
+    own = np.asarray(abs(T).argmax(axis=0)).ravel()
+    points = problem.numbering.table.coordinates[problem.numbering.nodes[own]]
+    return Ordering(points, np.unique(right.indices).astype(np.int64))
+
+
+@dataclass(frozen=True, eq=False)
+class RootResponse:
+    """The interface seen from the root of the elimination tree, r unknowns.
+
+    Attributes
+    ----------
+    J : array (q, r)
+        Jumps of the root's scaled unknowns.
+    Y : array (r, q)
+        Scaled motions under forces on the jumps.
+    """
+
+    J: FloatArray
+    Y: FloatArray
+
+
+def root_response(inverse: Inverse, right: sp.csc_array) -> RootResponse | None:
+    """Response of the interface, None if it is not the root of a dissected factor."""
+    factor = inverse.factor
+    if factor.name != DISSECTION or inverse.singular or right.shape[1] == 0:
+        return None
+    from ssilang.kernel.solvers.dissected import DissectedFactor
+    from ssilang.kernel.solvers.triangular import solve_columns
+
+    assert isinstance(factor, DissectedFactor)
+    begin, n = int(factor.panels.first[-2]), len(factor.tree.order)
+    loads = sp.csr_array(right)[factor.tree.order].toarray()
+    loads = (loads.T * inverse.scale[factor.tree.order]).T
+    if loads[:begin].any():
+        return None
+    Y = loads.copy()
+    count = len(factor.panels.first) - 1
+    solve_columns(factor.panels, Y, count - 1, count)
+    return RootResponse(np.ascontiguousarray(loads[begin:n].T), np.ascontiguousarray(Y[begin:n]))

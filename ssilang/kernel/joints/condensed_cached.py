@@ -1,14 +1,14 @@
 """The interface iteration of `condensed`, that keeps its factors while the tangents stay equal.
 
 Between changes of contact the tangents of successive turns and steps are the same numbers: the
-matrix `1 + c S K` is then factorised once. The answer is that of `solve_interface`.
+matrix `1 + S (c K - R)` is then factorised once. The answer is that of `solve_interface`.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.compiled import compiled
+from ssilang.kernel.compiled import compiled, compiled_fast
 from ssilang.kernel.joints.condensed import (
     ACCEPTED,
     HOLDING_TURN,
@@ -22,15 +22,14 @@ from ssilang.kernel.joints.condensed import (
 from ssilang.kernel.joints.response import interface_response, interface_stiffness
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
+BLOCK = 32  # columns factorised together
 
-@compiled
-def factorise_dense(A: FloatArray, pivots: IntArray) -> bool:
-    """LU with row exchanges in place; False if a pivot vanishes."""
-    n, top = A.shape[0], 0.0
-    for i in range(n):
-        for j in range(n):
-            top = max(top, abs(A[i, j]))
-    for k in range(n):
+
+@compiled_fast
+def _factorise_columns(A: FloatArray, k0: int, k1: int, top: float, pivots: IntArray) -> bool:
+    """LU of the columns k0 to k1, rows exchanged as a whole; False if a pivot vanishes."""
+    n = A.shape[0]
+    for k in range(k0, k1):
         pivot = k
         for i in range(k + 1, n):
             if abs(A[i, k]) > abs(A[pivot, k]):
@@ -46,12 +45,33 @@ def factorise_dense(A: FloatArray, pivots: IntArray) -> bool:
             factor = A[i, k] * inverse
             A[i, k] = factor
             if factor != 0.0:
-                for j in range(k + 1, n):
+                for j in range(k + 1, k1):
                     A[i, j] -= factor * A[k, j]
     return True
 
 
-@compiled
+@compiled_fast
+def factorise_dense(A: FloatArray, pivots: IntArray) -> bool:
+    """LU with row exchanges in place, by blocks of columns; False if a pivot vanishes."""
+    n, top = A.shape[0], 0.0
+    for i in range(n):
+        for j in range(n):
+            top = max(top, abs(A[i, j]))
+    for k0 in range(0, n, BLOCK):
+        k1 = min(k0 + BLOCK, n)
+        if not _factorise_columns(A, k0, k1, top, pivots):
+            return False
+        if k1 < n:
+            for k in range(k0, k1):
+                for i in range(k + 1, k1):
+                    for j in range(k1, n):
+                        A[i, j] -= A[i, k] * A[k, j]
+            left = np.ascontiguousarray(A[k1:, k0:k1])
+            A[k1:, k1:] -= np.dot(left, np.ascontiguousarray(A[k0:k1, k1:]))
+    return True
+
+
+@compiled_fast
 def solve_factors(A: FloatArray, pivots: IntArray, b: FloatArray) -> None:
     """Solve with the factors of `factorise_dense`, in place."""
     n = A.shape[0]
@@ -73,12 +93,14 @@ def solve_factors(A: FloatArray, pivots: IntArray, b: FloatArray) -> None:
 
 @compiled
 def _residual(
-    S: FloatArray, c: float, y: FloatArray, y0: FloatArray, f: FloatArray, f0: FloatArray,
-    h: FloatArray, r: FloatArray,
+    S: FloatArray, R: FloatArray, c: float, y: FloatArray, y0: FloatArray, f: FloatArray,
+    f0: FloatArray, h: FloatArray, r: FloatArray,
 ) -> float:  # fmt: skip
-    """h = c (f - f0) and r = y - y0 + S h; returns max |r|."""
+    """h = c (f - f0) - R y and r = y - y0 + S h; returns max |r|."""
     for i in range(len(y)):
         h[i] = c * (f[i] - f0[i])
+    if len(R):
+        h -= np.dot(R, y)
     Sh = np.dot(S, h)
     size = 0.0
     for i in range(len(y)):
@@ -98,17 +120,20 @@ def _same(D: FloatArray, known: FloatArray) -> bool:
 
 @compiled
 def _factorise(
-    pairs: IntArray, B: FloatArray, weights: FloatArray, S: FloatArray, c: float, D: FloatArray,
-    K: FloatArray, A: FloatArray, known: FloatArray, pivots: IntArray,
+    pairs: IntArray, B: FloatArray, weights: FloatArray, S: FloatArray, R: FloatArray, c: float,
+    D: FloatArray, K: FloatArray, A: FloatArray, known: FloatArray, pivots: IntArray,
 ) -> bool:  # fmt: skip
-    """Factors of `1 + c S K` in A, unless those of the same tangents D are there."""
+    """Factors of `1 + S (c K - R)` in A, unless those of the same tangents D are there."""
     if _same(D, known):
         return True
     interface_stiffness(pairs, B, weights, D, K)
+    for i in range(len(S)):
+        for j in range(len(S)):
+            K[i, j] *= c
+    if len(R):
+        K -= R
     A[:, :] = np.dot(S, K)
-    for i in range(A.shape[0]):
-        for j in range(A.shape[1]):
-            A[i, j] *= c
+    for i in range(len(S)):
         A[i, i] += 1.0
     if factorise_dense(A, pivots):
         known[:] = D
@@ -125,6 +150,7 @@ def iterate_cached(
     codes: IntArray,
     p: FloatArray,
     S: FloatArray,
+    R: FloatArray,
     c: float,
     delta0: FloatArray,
     f0: FloatArray,
@@ -145,15 +171,15 @@ def iterate_cached(
     known: FloatArray,
     pivots: IntArray,
 ) -> tuple[int, float]:
-    """As `iterate_interface` without R; `known` (as D) and `pivots` belong to the factors in A.
+    """As `iterate_interface`; `known` (as D) and `pivots` belong to the factors in A.
 
-    `known` filled with NaN says that there are no factors yet.
+    `known` filled with NaN says that there are no factors yet; an R without rows is zero.
     """
     n = y.shape[0]
     for i in range(n):
         delta[i] = delta0[i] + y[i]
     interface_response(pairs, B, weights, codes, p, delta, state, w, t, new, D, f)
-    size = _residual(S, c, y, y0, f, f0, h, r)
+    size = _residual(S, R, c, y, y0, f, f0, h, r)
     scale = max(largest(y0), largest(delta0), 1e-300)
     for turn in range(1, MOST_TURNS + 1):
         scale = max(scale, largest(y))
@@ -164,11 +190,11 @@ def iterate_cached(
                     y[i] = y0[i]
                     delta[i] = delta0[i] + y[i]
             interface_response(pairs, B, weights, codes, p, delta, state, w, t, new, D, f)
-            size = _residual(S, c, y, y0, f, f0, h, r)
+            size = _residual(S, R, c, y, y0, f, f0, h, r)
         if size <= TOLERANCE * scale:
             release_shear(state, new)
             return turn, size / scale
-        if not _factorise(pairs, B, weights, S, c, D, K, A, known, pivots):
+        if not _factorise(pairs, B, weights, S, R, c, D, K, A, known, pivots):
             release_shear(state, new)
             return 0, size / scale
         for i in range(n):
@@ -180,7 +206,7 @@ def iterate_cached(
                 y[i] += length * dy[i]
                 delta[i] = delta0[i] + y[i]
             interface_response(pairs, B, weights, codes, p, delta, state, w, t, new, D, f)
-            size = _residual(S, c, y, y0, f, f0, h, r)
+            size = _residual(S, R, c, y, y0, f, f0, h, r)
             if turn <= PLAIN_TURNS or size < before or halving == 11:
                 break
             for i in range(n):

@@ -16,9 +16,10 @@ from typing import Any, Protocol
 import numpy as np
 
 from ssilang.kernel.errors import KernelError
-from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.sparse import sp
 
+DISSECTION = "nested dissection"
 LARGE = 20_000  # unknowns from which a threaded solver pays for its start
 
 
@@ -30,6 +31,29 @@ class Factor(Protocol):
     def solve(self, b: FloatArray) -> FloatArray:
         """Solution of A x = b, same shape as b."""
         ...
+
+
+@dataclass(frozen=True, eq=False)
+class Ordering:
+    """What helps to order the unknowns of a matrix.
+
+    Attributes
+    ----------
+    points : array (n, d)
+        Coordinates of the unknowns.
+    last : array of int
+        Unknowns to be eliminated last, together.
+    """
+
+    points: FloatArray
+    last: IntArray
+
+    def of(self, kept: IntArray) -> Ordering:
+        """The ordering of some of the unknowns (increasing)."""
+        place = np.full(len(self.points), -1, np.int64)
+        place[kept] = np.arange(len(kept))
+        last = place[self.last]
+        return Ordering(self.points[kept], last[last >= 0])
 
 
 class SingularFactorError(Exception):
@@ -158,34 +182,60 @@ def keep_factors(count: int) -> None:
         _kept.popitem(last=False)
 
 
-def _content(A: sp.csr_array, name: str, positive: bool) -> bytes:
+def _content(A: sp.csr_array, name: str, positive: bool, ordering: Ordering | None) -> bytes:
     digest = hashlib.blake2b(f"{name}{positive}{A.shape}".encode())
-    for part in (A.indptr, A.indices, A.data):
+    parts = (A.indptr, A.indices, A.data)
+    for part in parts if ordering is None else (*parts, ordering.points, ordering.last):
         digest.update(np.ascontiguousarray(part).tobytes())
     return digest.digest()
 
 
-def factorise(A: sp.csr_array, positive: bool, backend: str | None = None) -> Factor:
+def factorise(
+    A: sp.csr_array, positive: bool, backend: str | None = None, ordering: Ordering | None = None
+) -> Factor:
     """Factorise A (n, n), symmetric positive if `positive` (else any).
+
+    Parameters
+    ----------
+    ordering : Ordering or None
+        Given for a positive matrix, and if no backend is asked for, it is factorised by nested
+        dissection.
 
     Raises
     ------
     SingularFactorError
-        If a pivot is exactly zero.
+        If a pivot is exactly zero, or not positive by nested dissection.
     KernelError
         If the backend asked for is not installed.
     """
-    name = backend or choose(A.shape[0], positive)
-    if name not in BACKENDS:
+    dissected = ordering is not None and positive and backend is None
+    name = DISSECTION if dissected else backend or choose(A.shape[0], positive)
+    if not dissected and name not in BACKENDS:
         raise KernelError(f"no solver is called {name}", f"known: {', '.join(BACKENDS)}")
-    if not BACKENDS[name].installed:
+    if not dissected and not BACKENDS[name].installed:
         raise KernelError(f"solver {name} needs the package {BACKENDS[name].package}")
-    if not _keeping:
+
+    def make() -> Factor:
+        if dissected and ordering is not None:
+            return _dissected(A, ordering)
         return BACKENDS[name].make(A, positive)
-    key = _content(A, name, positive)
+
+    if not _keeping:
+        return make()
+    key = _content(A, name, positive, ordering)
     if key not in _kept:
-        _kept[key] = BACKENDS[name].make(A, positive)
+        _kept[key] = make()
     _kept.move_to_end(key)
     while len(_kept) > _keeping:
         _kept.popitem(last=False)
     return _kept[key]
+
+
+def _dissected(A: sp.csr_array, ordering: Ordering) -> Factor:
+    from ssilang.kernel.solvers.dissected import DissectedFactor
+    from ssilang.kernel.solvers.multifrontal import NotPositiveError
+
+    try:
+        return DissectedFactor(A, ordering.points, ordering.last)
+    except NotPositiveError as error:
+        raise SingularFactorError(str(error)) from None

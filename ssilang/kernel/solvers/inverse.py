@@ -1,6 +1,6 @@
 """Inverse of a sparse matrix that knows whether it is singular, and along which motions.
 
-The matrix is scaled to a unit diagonal first, so that metres, radians and multipliers compare.
+The matrix is scaled to a diagonal near one first, so that metres, radians and multipliers compare.
 A small eigenvalue is suspected from a few inverse iterations on the factor; then the motions
 without stiffness are found from a slightly shifted matrix and judged by their energy.
 """
@@ -13,7 +13,12 @@ import numpy as np
 
 from ssilang.kernel.errors import KernelError
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.solvers.backends import Factor, SingularFactorError, factorise
+from ssilang.kernel.solvers.backends import (
+    Factor,
+    Ordering,
+    SingularFactorError,
+    factorise,
+)
 from ssilang.kernel.sparse import sp
 
 SUSPECT = 1e-9  # smallest eigenvalue (unit diagonal) below which free motions are looked for
@@ -75,10 +80,16 @@ class Inverse:
         return part
 
 
-def invert(A: sp.csr_array, symmetric: bool, backend: str | None = None) -> Inverse:
+def invert(
+    A: sp.csr_array,
+    symmetric: bool,
+    backend: str | None = None,
+    ordering: Ordering | None = None,
+) -> Inverse:
     """Factorise A (n, n); of a singular symmetric A find the free motions and pin them.
 
-    Positive matrices are factorised without pivoting; a symmetric matrix that turns out not to
+    Positive matrices are factorised without pivoting (by nested dissection if an ordering is
+    given, see `factorise`); a symmetric matrix that turns out not to
     be positive (negative or zero pivots) is factorised again with pivoting.
 
     Raises
@@ -95,7 +106,7 @@ def invert(A: sp.csr_array, symmetric: bool, backend: str | None = None) -> Inve
     if n == 0:
         return Inverse(_Empty(), np.empty(0), np.empty((0, 0)), nothing, nothing)
     scaled, scale = _unit_diagonal(A)
-    factor = _try_factors(scaled, symmetric, backend)
+    factor = _try_factors(scaled, symmetric, backend, ordering)
     if factor is not None and _smallest_eigenvalue(factor, n) > SUSPECT:
         return Inverse(factor, scale, np.empty((n, 0)), nothing, np.arange(n))
     motions = free_motions(scaled, symmetric, backend)
@@ -103,7 +114,8 @@ def invert(A: sp.csr_array, symmetric: bool, backend: str | None = None) -> Inve
         return Inverse(factor, scale, np.empty((n, 0)), nothing, np.arange(n))
     pinned = np.sort(la.qr(motions.T, mode="r", pivoting=True)[1][: motions.shape[1]])
     kept = np.setdiff1d(np.arange(n), pinned)
-    held = _try_factors(sp.csr_array(scaled[kept][:, kept]), symmetric, backend)
+    part = None if ordering is None else ordering.of(kept.astype(np.int64))
+    held = _try_factors(sp.csr_array(scaled[kept][:, kept]), symmetric, backend, part)
     if held is None:
         raise KernelError("the matrix stays singular when its free motions are held")
     motions = (motions.T * scale).T
@@ -123,18 +135,21 @@ def _unit_diagonal(A: sp.csr_array) -> tuple[sp.csr_array, FloatArray]:
     size = np.abs(A.diagonal())
     largest = np.asarray(abs(A).max(axis=1).toarray(), dtype=float).ravel()
     size = np.where(size > 1e-14 * largest, size, largest)
-    scale = 1.0 / np.sqrt(np.where(size > 0.0, size, 1.0))
+    # powers of two: scaling rounds nothing
+    scale = np.exp2(np.round(-0.5 * np.log2(np.where(size > 0.0, size, 1.0))))
     S = sp.diags_array(scale)
     return sp.csr_array(S @ A @ S), scale
 
 
-def _try_factors(A: sp.csr_array, symmetric: bool, backend: str | None) -> Factor | None:
+def _try_factors(
+    A: sp.csr_array, symmetric: bool, backend: str | None, ordering: Ordering | None
+) -> Factor | None:
     """Factor without pivoting if A seems positive, else with; None if exactly singular."""
     if A.shape[0] == 0:  # everything was pinned
         return _Empty()
     for positive in (True, False) if symmetric and (A.diagonal() > 0.0).all() else (False,):
         try:
-            factor = factorise(A, positive, backend)
+            factor = factorise(A, positive, backend, ordering)
         except SingularFactorError:
             continue
         if not positive or _accurate(A, factor):
