@@ -71,6 +71,21 @@ def test_wrong_unit_of_a_stiffness_is_warned_of(outcome):
         assert result.exit_code == 0, result.message
         said = " ".join(messages(result))
         assert ("check their units" in said) is warned
+        assert ("condition number of the stiffness with closed joints" in said) is warned
+        assert ("is as stiff as the bodies" in said) is warned
+
+
+def test_a_matrix_of_two_unit_systems_is_warned_of_by_its_condition_number(outcome):
+    text = """OPTI DIME 2 ELEM SEG2 ; P = 0. 0. ; Q = 1. 0. ; L = DROI 1 P Q ; M = MODE L
+    'MECANIQUE' 'ELASTIQUE' 'BARR' ; A = MATE M 'YOUN' 2.E11 'NU' 0.3 'SECT' 1. ;
+    K = (RIGI M A) ET (BLOQ 'UY' L) ET (APPU 'UX' {} P) ; U = RESO K (FORC (1. 0.) Q) ;
+    U = RESO K (FORC (2. 0.) Q) ;"""
+    result = outcome(text.format("2.E5"))
+    assert messages(result) == []
+    result = outcome(text.format("2.E-1"))
+    (said,) = messages(result)
+    assert "condition number of the matrix" in said
+    assert "the softest 2.0e-01 (UX at node 1)" in said
 
 
 @pytest.mark.parametrize(

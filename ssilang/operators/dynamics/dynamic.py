@@ -445,7 +445,18 @@ def warn_massless(entries: Entries, problem: Problem) -> None:
 def warn_contrast(entries: Entries, problem: Problem) -> None:
     """Warn when joints are out of all proportion to the bodies: units, most often."""
     from ssilang.kernel.dynamics.contrast import STRANGE, stiffness_contrast
+    from ssilang.kernel.statics.conditioning import joint_conditioning
 
+    found = joint_conditioning(problem)
+    if found is not None and found.joints_are_to_blame:
+        entries.warn(
+            f"the condition number of the stiffness with closed joints is {found.number:.0e}: "
+            f"{found.digits} of 16 digits are left; with joints as stiff as the bodies at their "
+            f"nodes it is {found.balanced:.0e}",
+            f"KN and KS are in Pa/m (N/m for JOI1), here KN = {found.kn:.3g}: check their units; "
+            f"{found.wanted_kn:.1e} is as stiff as the bodies",
+        )
+        return
     ratio = stiffness_contrast(problem)
     if ratio is None or 1 / STRANGE <= ratio <= STRANGE:
         return

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from ssilang.kernel.errors import KernelError
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.kernel.statics.linear import SolveOptions, reactions, solve
+from ssilang.kernel.statics.linear import SolveOptions, linear_system, reactions, solve
 from ssilang.kernel.statics.stability import free_motion_fields, negative_eigenvalues
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
@@ -40,7 +41,30 @@ def _reso(call: Call) -> Any:
         return _with_motions(call, matrix, loads, options)
     if "SOUC" in flags:
         return _or_warning(call, matrix, loads, options)
-    return tuple(solve(matrix, loads, options))
+    solutions = tuple(solve(matrix, loads, options))
+    _warn_condition(call, matrix, options)
+    return solutions
+
+
+def _warn_condition(call: Call, matrix: Matrix, options: SolveOptions) -> None:
+    """Warn, once a matrix, of stiffnesses that differ so much that few digits are left."""
+    from ssilang.kernel.statics.conditioning import FEW_DIGITS, system_extremes
+
+    if "condition" in matrix.cache:
+        return
+    found = system_extremes(linear_system(matrix, options), matrix)
+    matrix.cache["condition"] = found
+    if found is None or found.number <= FEW_DIGITS:
+        return
+    (stiff, most), (soft, least) = found.stiffest, found.softest
+    digits = max(0, round(16 - math.log10(found.number)))
+    call.session.warn(
+        "bad-value", call.span, operator="RESO",
+        message=f"the condition number of the matrix is {found.number:.0e}: {digits} of 16 "
+        f"digits are left",
+        hint=f"check units: the stiffest part reaches {most:.1e} ({stiff}), the softest "
+        f"{least:.1e} ({soft})", severity="warning",
+    )  # fmt: skip
 
 
 def _read_flags(call: Call) -> tuple[set[str], int | None]:

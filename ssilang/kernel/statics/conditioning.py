@@ -1,0 +1,163 @@
+"""How many digits a stiffness leaves: condition numbers, and whether joints are to blame.
+
+The matrix is scaled to a unit diagonal first, so that metres, radians and elements of different
+sizes compare; what is left is the contrast of stiffnesses that act on one another. The number is
+that of the 1-norm, its inverse part estimated from a few solutions (Hager and Higham).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ssilang.kernel.dynamics.contrast import stiffness_contrast
+from ssilang.kernel.dynamics.effective import effective_matrix
+from ssilang.kernel.dynamics.problem import Problem
+from ssilang.kernel.joints.columns import KN
+from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
+from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.sparse import sp
+from ssilang.kernel.statics.linear import LinearSystem
+
+LARGEST = 20_000  # unknowns for which a factorisation of its own costs little
+FEW_DIGITS = 1e12  # condition number that leaves four digits of sixteen
+STRANGE_JOINTS = 1e10  # the same for joints, whose stiffness is a free choice
+BLAME = 1e4  # fall of the condition number that makes joints its cause
+
+
+@dataclass(frozen=True)
+class JointConditioning:
+    """Condition number with closed joints, and with joints as stiff as the bodies there.
+
+    Attributes
+    ----------
+    number, balanced : float
+    contrast : float
+        Stiffness of the joints over that of the bodies at the same unknowns.
+    kn : float
+        Median KN given (Pa/m; N/m for JOI1).
+    """
+
+    number: float
+    balanced: float
+    contrast: float
+    kn: float
+
+    @property
+    def joints_are_to_blame(self) -> bool:
+        """True if few digits are left and the joints' stiffness takes them."""
+        return self.number > STRANGE_JOINTS and self.balanced < self.number / BLAME
+
+    @property
+    def digits(self) -> int:
+        """Digits of sixteen that are left."""
+        return max(0, round(16 - float(np.log10(self.number))))
+
+    @property
+    def wanted_kn(self) -> float:
+        """KN with which the joints are as stiff as the bodies."""
+        return self.kn / self.contrast
+
+
+def condition_number(A: sp.csr_array) -> float:
+    """Estimate of the 1-norm condition number of A (n, n) scaled to a unit diagonal.
+
+    Infinite if A is singular.
+    """
+    import scipy.sparse.linalg as spla
+
+    if A.shape[0] == 0:
+        return 1.0
+    size = np.abs(A.diagonal())
+    scale = sp.diags_array(1.0 / np.sqrt(np.where(size > 0.0, size, 1.0)))
+    scaled = sp.csr_array(scale @ A @ scale)
+    try:
+        factor: Any = spla.splu(sp.csc_array(scaled))
+    except RuntimeError:
+        return np.inf
+
+    def solve(b: FloatArray) -> FloatArray:
+        return np.asarray(factor.solve(np.asarray(b, dtype=float)))
+
+    def solve_transposed(b: FloatArray) -> FloatArray:
+        return np.asarray(factor.solve(np.asarray(b, dtype=float), "T"))
+
+    return _product(scaled, solve, solve_transposed)
+
+
+def _product(
+    A: sp.csr_array,
+    solve: Callable[[FloatArray], FloatArray],
+    solve_transposed: Callable[[FloatArray], FloatArray],
+) -> float:
+    import scipy.sparse.linalg as spla
+
+    n = A.shape[0]
+    norm = float(abs(A).sum(axis=0).max())
+    if n < 4:
+        return norm * float(np.abs(solve(np.eye(n))).sum(axis=0).max())
+    inverse = spla.LinearOperator((n, n), matvec=solve, rmatvec=solve_transposed, dtype=float)
+    return norm * float(spla.onenormest(inverse))
+
+
+def joint_conditioning(problem: Problem) -> JointConditioning | None:
+    """Condition of a problem's matrix with closed joints; None without joints to compare.
+
+    Not computed above `LARGEST` unknowns.
+    """
+    joints, contrast = problem.interface, stiffness_contrast(problem)
+    if joints is None or contrast is None or problem.numbering.size > LARGEST:
+        return None
+    T, V = problem.constraints.T, problem.constraints.V
+    A = problem.K
+    if problem.M.nnz:
+        A = effective_matrix(problem, float(np.diff(problem.times).max()))
+    closed = joints.J.T @ sp.csr_array(joints.closed_stiffness()) @ joints.J
+    number = condition_number(sp.csr_array(V.T @ (A + closed) @ T))
+    balanced = number
+    if number > STRANGE_JOINTS:
+        balanced = condition_number(sp.csr_array(V.T @ (A + closed / contrast) @ T))
+    return JointConditioning(number, balanced, contrast, float(np.median(joints.parameters[:, KN])))
+
+
+@dataclass(frozen=True)
+class Extremes:
+    """Condition number of a linear system; where its stiffest and softest elements stand."""
+
+    number: float
+    stiffest: tuple[str, float]
+    softest: tuple[str, float]
+
+
+def system_extremes(system: LinearSystem, matrix: Matrix) -> Extremes | None:
+    """Condition of a matrix that is factorised; None if it is singular, or has saddle rows."""
+    inverse = system.inverse
+    if inverse.singular or len(system.saddle) or system.n_masters == 0:
+        return None
+    T = system.elimination.T
+    A = sp.csr_array(T.T @ system.K @ T)
+    scale = sp.diags_array(inverse.scale)
+
+    def solve(b: FloatArray) -> FloatArray:
+        return inverse.factor.solve(np.asarray(b, dtype=float))
+
+    number = _product(sp.csr_array(scale @ A @ scale), solve, solve)
+    parts = [p for p in (_largest_term(block) for block in matrix.blocks) if p[1] > 0.0]
+    return Extremes(number, max(parts, key=_value), min(parts, key=_value))
+
+
+def _value(part: tuple[str, float]) -> float:
+    return part[1]
+
+
+def _largest_term(block: ElementMatrices) -> tuple[str, float]:
+    """'UX at node 3' and the largest diagonal term of the elements of a block."""
+    terms = np.abs(np.diagonal(block.values, axis1=1, axis2=2))
+    if terms.size == 0:
+        return "", 0.0
+    cell, row = np.unravel_index(int(np.argmax(terms)), terms.shape)
+    node = int(block.nodes[cell, block.local[row]])
+    return f"{block.unknowns[row]} at node {node + 1}", float(terms[cell, row])
