@@ -21,6 +21,8 @@ ELASTICITIES: dict[str, tuple[str, ...]] = {
     "ORTHOTROPE": (*SOLID_FAMILIES, *_SHELLS, "joint"),
     "ANISOTROPE": SOLID_FAMILIES,
     "UNIDIRECTIONNEL": SOLID_FAMILIES,
+    "MODAL": ("shape",),
+    "STATIQUE": ("shape",),
 }  # fmt: skip
 """Linear elasticities and the families of elements that have them."""
 
@@ -38,7 +40,7 @@ PLASTIC_FAMILIES = ("solid", "incompressible", "bar")
 
 OTHER_BEHAVIOURS = (
     "PLASTIQUE_ENDOM", "ENDOMMAGEMENT", "FLUAGE", "VISCOPLASTIQUE", "VISCO_EXTERNE",
-    "NON_LINEAIRE", "IMPEDANCE", "HOMOGENEISE", "SECTION", "ARMATURE", "MODAL", "STATIQUE",
+    "NON_LINEAIRE", "IMPEDANCE", "HOMOGENEISE", "SECTION", "ARMATURE",
     "CAOUTCHOUC", "CHABOCHE1", "CHABOCHE2", "CAM_CLAY", "HUJEUX", "UBIQUITOUS", "BETON",
     "MOHR_COULOMB", "MAZARS",
 )  # fmt: skip

@@ -39,6 +39,8 @@ _ELASTIC: dict[str, Names] = {
     "ISOTROPE": Names(("YOUN", "NU"), ("RHO", *THERMAL, "VISQ")),
     "ANISOTROPE": Names(ANISOTROPIC[:7], ("RHO", *ANISOTROPIC[7:], *ANISOTROPIC_THERMAL, *AXES)),
     "UNIDIRECTIONNEL": Names(("YOUN",), ("RHO", *THERMAL, *AXES)),
+    "MODAL": Names(("FREQ", "MASS", "DEFO"), ("AMOR", "CGRA", "MADE")),
+    "STATIQUE": Names(("DEFO", "RIDE", "MADE"), ("AMOR",)),
 }
 _ORTHOTROPIC: dict[Mode, int] = {  # how many of ORTHOTROPIC are required
     Mode.PLANE_STRESS: 4, Mode.THREE_DIMENSIONAL: 9, Mode.FOURIER: 9,

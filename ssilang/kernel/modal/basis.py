@@ -7,8 +7,13 @@ from collections.abc import Sequence
 import numpy as np
 
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
-from ssilang.kernel.matrices.assembly import assemble, field_to_vector, numbering_of
-from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, dual_of
+from ssilang.kernel.matrices.assembly import (
+    assemble,
+    constraint_matrix,
+    field_to_vector,
+    numbering_of,
+)
+from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, Relations, dual_of
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 MULTIPLIERS = ("LX", "FLX")
@@ -66,6 +71,34 @@ def projected_matrix(
         symmetric=symmetric,
     )
     return Matrix(matrix.table, (block,), (), matrix.kind)
+
+
+def projected_relations(
+    matrix: Matrix, shapes: Sequence[NodeField], marks: IntArray, unknowns: Sequence[str]
+) -> Matrix:
+    """Conditions on the body as conditions `C X q = d` on the participations q.
+
+    Rows that no shape touches are left out; multipliers stay those of the body's conditions.
+    """
+    rows = constraint_matrix(matrix)
+    numbering = numbering_of(matrix)
+    X = np.stack([field_to_vector(s, numbering, dual=False) for s in shapes], axis=1)
+    values = rows.C @ X
+    small = 1e-12 * np.abs(values).max(initial=0.0)
+    kept = np.flatnonzero((np.abs(values) > small).any(axis=1))
+    terms = [np.flatnonzero(np.abs(values[i]) > small) for i in kept]
+    counts = np.array([len(t) for t in terms], dtype=np.int64)
+    flat = np.concatenate(terms) if terms else np.zeros(0, dtype=np.int64)
+    found = Relations(
+        matrix.table,
+        np.concatenate([[0], np.cumsum(counts)]),
+        marks[flat],
+        tuple(unknowns[i] for i in flat),
+        values[np.repeat(kept, counts), flat],
+        rows.multipliers[kept],
+        rows.sense[kept],
+    )
+    return Matrix(matrix.table, (), (found,), matrix.kind)
 
 
 def static_complement(

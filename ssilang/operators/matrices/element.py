@@ -19,6 +19,7 @@ from ssilang.kernel.matrices.lumping import lumped_matrix
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.nodes import IntArray
+from ssilang.kernel.modal.shape_models import is_shape, shape_matrix
 from ssilang.kernel.model import Mode, Model
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
@@ -108,8 +109,14 @@ def rigi(call: Call) -> Matrix:
     if operand is None:
         return additional(call, "RIGIDITE")
     model, material = present(call, operand.value), _fields(call)
-    blocks = [families.stiffness(z, material) for z in model.zones]
-    return _assembled(model, blocks, "RIGIDITE")
+    blocks = [families.stiffness(z, material) for z in model.zones if not is_shape(z)]
+    return _assembled(model, [*blocks, *_shapes(model, material, "RIGIDITE")], "RIGIDITE")
+
+
+def _shapes(model: Model, material: CellField, kind: str) -> list[ElementMatrices]:
+    """The block of the modes and static shapes of a model, if it has any."""
+    block = shape_matrix(model.zones, material, kind)
+    return [] if block is None else [block]
 
 
 def _fields(call: Call) -> CellField:
@@ -144,7 +151,8 @@ def mass(call: Call) -> Matrix:
     if operand is None:
         return additional(call, "MASSE")
     model, material = present(call, operand.value), _fields(call)
-    return _assembled(model, [families.mass(z, material) for z in model.zones], "MASSE")
+    blocks = [families.mass(z, material) for z in model.zones if not is_shape(z)]
+    return _assembled(model, [*blocks, *_shapes(model, material, "MASSE")], "MASSE")
 
 
 @operator(
@@ -204,8 +212,9 @@ def amor(call: Call) -> Matrix:
     boundary = call.optional("MAILLAGE") if boundary is None else boundary
     if boundary is not None:
         return absorbing_boundary(model, boundary, material)
-    blocks = [families.viscosity(z, material) for z in model.zones]
-    return _assembled(model, blocks, "AMORTISSEMENT")
+    blocks = [families.viscosity(z, material) for z in model.zones if not is_shape(z)]
+    kind = "AMORTISSEMENT"
+    return _assembled(model, [*blocks, *_shapes(model, material, kind)], kind)
 
 
 @operator(

@@ -8,17 +8,27 @@ from typing import Any
 import numpy as np
 
 from ssilang.kernel.curve import Load
+from ssilang.kernel.errors import KernelError
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.matrices.parts import together
 from ssilang.kernel.mesh.mesh import Point
 from ssilang.kernel.mesh.nodes import NodeTable
-from ssilang.kernel.modal.basis import combined, projected_matrix, static_complement, work
+from ssilang.kernel.modal.basis import (
+    combined,
+    projected_matrix,
+    projected_relations,
+    static_complement,
+    work,
+)
 from ssilang.kernel.modal.modes import eigenvalue
+from ssilang.kernel.modal.shape_models import shape_points
 from ssilang.kernel.statics.linear import product, solve
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
 from ssilang.language.values import ListChpo, Mot, Table
+from ssilang.operators.dispatch import union
+from ssilang.operators.matrices.element import joined
 from ssilang.operators.modal.modes import filled
 from ssilang.operators.workspace import workspace
 
@@ -75,8 +85,7 @@ def _at_marks(table: NodeTable, shapes: list[Shape], values: list[float], dual: 
 
 def _pjba(call: Call) -> Any:
     thing = call.required("CHPOINT", "CHARGEME", "LISTCHPO", "RIGIDITE")
-    tables = call.all("TABLE")
-    shapes = shapes_of(call, *tables)
+    shapes = _basis(call)
     if isinstance(thing, ListChpo):
         return _project_list(call, thing, shapes)
     if isinstance(thing, Load):
@@ -86,7 +95,23 @@ def _pjba(call: Call) -> Any:
     marks = np.array([s.mark.node for s in shapes])
     unknowns = [s.unknown for s in shapes]
     duals = ["FALF" if u == "ALFA" else "FBET" for u in unknowns]
-    return projected_matrix(thing, [s.field for s in shapes], marks, unknowns, duals)
+    fields = [s.field for s in shapes]
+    if not thing.blocks:
+        return projected_relations(thing, fields, marks, unknowns)
+    return projected_matrix(thing, fields, marks, unknowns, duals)
+
+
+def _basis(call: Call) -> list[Shape]:
+    """Shapes of tables, or of a model with its parameters."""
+    model = call.read("MMODEL")
+    if model is None:
+        return shapes_of(call, *call.all("TABLE"))
+    material = joined((call.required("MCHAML"), *call.all("MCHAML")))
+    points = shape_points(model.value.zones, material)
+    if not points:
+        raise call.bad("the model has no zone MODAL or STATIQUE", model.value)
+    nodes = workspace(call.session).nodes
+    return [Shape(p.field, Point(nodes, p.node), p.unknown, Table()) for p in points]
 
 
 def _forces(call: Call, force: object, shapes: list[Shape]) -> NodeField:
@@ -119,7 +144,7 @@ operator(
         "Projette sur une base modale (et des déformées statiques) : forces et chargements donnent "
         "FALF (et FBET) aux points repères, une rigidité donne X^T K X, une liste de champs les "
         "produits avec chaque déformée (avec une matrice : X^T M u).",
-        "OBJ2 = PJBA CHPO1 | CHAR1 | RIG1 TAB1 (TAB2) ;\nLCHP2 = PJBA LCHP1 TAB1 (N1) (RIG1) ;",
+        "OBJ2 = PJBA CHPO1 | CHAR1 | RIG1 TAB1 (TAB2 ...) | MODL1 MAT1 ;\nLCHP2 = PJBA LCHP1 TAB1 (N1) (RIG1) ;",
         (
             "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = APPU 'UX' 400. P1 ;"
             " T1 = VIBR 'SIMU' 1. 1 K1 (MASS 'UX' 4. P1) ; LIST (PJBA (FORC 'FX' 2. P1) T1) ;",
@@ -134,7 +159,7 @@ operator(
 
 def _reco(call: Call) -> Any:
     thing = call.required("CHPOINT", "LISTCHPO")
-    shapes = shapes_of(call, *call.all("TABLE"))
+    shapes = _basis(call)
     number = call.optional("ENTIER", default=len(shapes))
     if number < 1:
         raise call.bad(f"at least one mode is recombined, not {number}", number)
@@ -159,7 +184,7 @@ operator(
         "field holds at the points that mark them.",
         "Champ u = somme des déformées d'une base multipliées par les contributions ALFA (et BETA) "
         "que porte un champ à leurs points repères.",
-        "CHPO2 = RECO CHPO1 TAB1 (TAB2) ;\nLCHP2 = RECO LCHP1 TAB1 (N1) ;",
+        "CHPO2 = RECO CHPO1 TAB1 (TAB2 ...) | MODL1 MAT1 ;\nLCHP2 = RECO LCHP1 TAB1 (N1) ;",
         (
             "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = APPU 'UX' 400. P1 ;"
             " T1 = VIBR 'SIMU' 1. 1 K1 (MASS 'UX' 4. P1) ;"
@@ -325,3 +350,31 @@ operator(
     ),
     reads_itself=True,
 )(_idli)
+
+
+# --- union -----------------------------------------------------------------------------------
+
+
+@union(("TABLE", "TABLE"))
+def join_bases(first: Table, second: Table) -> Table:
+    """Shapes of two tables of one sub-type, numbered through; other entries are the first's."""
+    kinds = ("LIAISONS_STATIQUES", "BASE_MODALE", "BASE_DE_MODES")
+    if first.subtype != second.subtype or first.subtype not in kinds:
+        raise KernelError(
+            f"tables '{first.subtype}' and '{second.subtype}' cannot be joined",
+            "ET joins two tables LIAISONS_STATIQUES or two tables BASE_MODALE",
+        )
+    inner = [t.get("MODES") for t in (first, second)]
+    table = Table(first.subtype)
+    if all(isinstance(t, Table) for t in inner):
+        for index, value in first.items():
+            table.set(index, value)
+        table.set(Mot("MODES"), join_bases(*inner))  # type: ignore[arg-type]
+        return table
+    for index, value in first.items():
+        if not isinstance(index, int):
+            table.set(index, value)
+    entries = [v for t in (first, second) for i, v in t.items() if isinstance(i, int)]
+    for number, entry in enumerate(entries, start=1):
+        table.set(number, entry)
+    return table

@@ -21,6 +21,7 @@ from ssilang.kernel.materials.behaviours import (
     normalised,
 )
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
+from ssilang.kernel.modal import shape_models
 from ssilang.kernel.model import Mode, Model, Zone
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
@@ -56,8 +57,9 @@ class _Wish:
         en="Gives a mesh its finite elements and its law.\n"
         "The formulation is MECANIQUE; the law is ELASTIQUE, followed by ISOTROPE (default), "
         "ORTHOTROPE, ANISOTROPE or UNIDIRECTIONNEL; joints also have JOINT_SDM. Continuous "
-        "elements and bars may add PLASTIQUE and PARFAIT, ISOTROPE (default) or CINEMATIQUE (von Mises), "
-        "DRUCKER_PARFAIT, DRUCKER_PRAGER or RH_COULOMB (rounded Mohr-Coulomb). Without a name "
+        "elements and bars may add PLASTIQUE and PARFAIT, ISOTROPE (default) or CINEMATIQUE (von "
+        "Mises), DRUCKER_PARFAIT, DRUCKER_PRAGER or RH_COULOMB (rounded Mohr-Coulomb). MODAL and "
+        "STATIQUE make a point stand for a mode or a static shape. Without a name "
         "of element, cells get the continuous element of their name; BARR, POUT, TIMO, TUYA, "
         "DKT, COQ2, COQ4, COQ6, COQ8 and the joints are to be named (Q4RI, ICQ4, BBAR choose "
         "another integration). "
@@ -66,12 +68,17 @@ class _Wish:
         "CONS names the constituent, DPGE gives the point that carries the motion of the "
         "section in generalised plane strain, LIBRE or LIE says if the axes of JOI1 follow.\n"
         "Joints are integrated at GAUSS points (default) or, by LOBATTO, at the nodes of faces "
-        "SEG2 SEG3 TRI3 QUA4, which avoids oscillating tractions in very stiff joints.",
+        "SEG2 SEG3 TRI3 QUA4, which avoids oscillating tractions in very stiff joints. After "
+        "JOINT_SDM, CISAILLEMENT_ELASTIQUE keeps shear elastic when the joint is open, "
+        "FROTTEMENT_SYMETRIQUE makes the tangent of Coulomb's friction (FROT) symmetric: the "
+        "same solution in more iterations. Other laws of joints are JOINT_DILATANT, COULOMB, "
+        "and for one point MACRO_SEMELLE, MACRO_DISQUE, MACRO_RESSORTS.",
         fr="Donne à un maillage ses éléments finis et sa loi.\n"
         "La formulation est MECANIQUE ; la loi est ELASTIQUE, suivie d'ISOTROPE (par défaut), "
         "ORTHOTROPE, ANISOTROPE ou UNIDIRECTIONNEL ; les joints ont aussi JOINT_SDM. Les massifs "
         "et les barres ajoutent PLASTIQUE et PARFAIT, ISOTROPE (par défaut) ou CINEMATIQUE (von "
-        "Mises), DRUCKER_PARFAIT, DRUCKER_PRAGER ou RH_COULOMB (Mohr-Coulomb arrondi). Sans nom "
+        "Mises), DRUCKER_PARFAIT, DRUCKER_PRAGER ou RH_COULOMB (Mohr-Coulomb arrondi). MODAL et "
+        "STATIQUE font d'un point un mode ou une déformée statique. Sans nom "
         "d'élément, les mailles reçoivent l'élément massif de leur nom ; BARR, POUT, TIMO, TUYA, "
         "DKT, COQ2, COQ4, COQ6, COQ8 et les joints se nomment (Q4RI, ICQ4, BBAR choisissent une "
         "autre intégration). "
@@ -80,11 +87,17 @@ class _Wish:
         "CONS nomme le constituant, DPGE donne le point qui porte le mouvement de la section "
         "en déformation plane généralisée, LIBRE ou LIE dit si le repère de JOI1 suit.\n"
         "Les joints s'intègrent aux points de GAUSS (par défaut) ou, par LOBATTO, aux noeuds des "
-        "faces SEG2 SEG3 TRI3 QUA4, ce qui évite les oscillations des joints très raides.",
+        "faces SEG2 SEG3 TRI3 QUA4, ce qui évite les oscillations des joints très raides. Après "
+        "JOINT_SDM, CISAILLEMENT_ELASTIQUE garde le cisaillement élastique à l'ouverture, "
+        "FROTTEMENT_SYMETRIQUE rend symétrique la tangente du frottement (FROT) : même solution "
+        "en plus d'itérations. Autres lois des joints : JOINT_DILATANT, COULOMB et, en un "
+        "point, MACRO_SEMELLE, MACRO_DISQUE, MACRO_RESSORTS.",
         syntax="MODL1 = MODE GEO1 'MECANIQUE' 'ELASTIQUE' ('ISOTROPE') "
         "('PLASTIQUE' (LOI1)) (ELEM1 ...) "
         "('CONS' MOT1) ('DPGE' P1) ('LIBRE' | 'LIE') "
         "('GAUSS' | 'LOBATTO') ;\n"
+        "MODL1 = MODE GEO1 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' ('CISAILLEMENT_ELASTIQUE') "
+        "('FROTTEMENT_SYMETRIQUE') (JOI1 ...) ;\n"
         "MODL1 = MODE GEO1 'CHARGEMENT' 'PRESSION' (ELEM1 ...) ;",
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0 0) (1 0) ; "
@@ -216,6 +229,9 @@ def _element(block: CellBlock, wish: _Wish, mode: Mode) -> str:
                 return GENERIC_ELEMENTS[name][cell]
         elif ELEMENTS[name].cell_type == cell:
             return name
+    for shape in shape_models.UNKNOWN:
+        if shape in wish.laws and cell == "POI1":
+            return shape
     joints = [n for n in JOINT_NAMES if ELEMENTS[n].cell_type == cell]
     if joints and (block.kind.joint or any(w in JOINT_WORDS for w in wish.laws)):
         return joints[0]

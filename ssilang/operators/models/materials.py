@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ssilang.kernel.curve import Curve
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
+from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.joints.elements import is_joint
 from ssilang.kernel.joints.table import check_given
 from ssilang.kernel.materials.axes import Directions, axis_parameters
@@ -26,7 +27,9 @@ Value = tuple[NDArray[Any], Support]
 Values = dict[str, Value]
 Check = Callable[[Model, list[Values]], None]
 
-_VALUES = ("FLOTTANT", "EVOLUTIO", "MCHAML", "POINT")
+_VALUES = ("FLOTTANT", "EVOLUTIO", "MCHAML", "POINT", "CHPOINT")
+SHAPES = ("DEFO", "RIDE", "MADE")
+"""Parameters of models MODAL and STATIQUE that are fields at points."""
 _TURNS = ("PARALLELE", "PERPENDICULAIRE", "INCLINE")
 
 
@@ -42,7 +45,8 @@ _TURNS = ("PARALLELE", "PERPENDICULAIRE", "INCLINE")
         "for JOINT_SDM, FU GF FC FROT (KN <= FU**2/GF is refused, with the least KN). "
         "Geometric parameters (SECT INRY INRZ TORS SECY SECZ VECT "
         "DIM3 ...) may be given here too, or by CARA. A value is a number, a field in cells, a "
-        "curve (parameter that depends on another field) or, for VECT, a point. DIRECTION V1 "
+        "curve (parameter that depends on another field) or, for VECT, a point. MODAL takes FREQ "
+        "MASS DEFO (AMOR), STATIQUE DEFO RIDE MADE, the last three fields at points. DIRECTION V1 "
         "(V2) or RADIAL P1 (P2), then PARALLELE, PERPENDICULAIRE or INCLINE angle, give the axes "
         "of orthotropy (of JOI1: V1 is the normal).",
         fr="Champ des paramètres d'un modèle : nom et valeur, autant qu'on veut.\n"
@@ -51,7 +55,9 @@ _TURNS = ("PARALLELE", "PERPENDICULAIRE", "INCLINE")
         "pour JOINT_SDM, FU GF FC FROT (KN <= FU**2/GF est refusé, avec le plus petit "
         "KN). Les paramètres géométriques (SECT INRY INRZ TORS SECY "
         "SECZ VECT DIM3 ...) se donnent ici aussi, ou par CARA. Une valeur est un nombre, un "
-        "champ par éléments, une évolution ou, pour VECT, un point. DIRECTION V1 (V2) ou RADIAL "
+        "champ par éléments, une évolution ou, pour VECT, un point. MODAL prend FREQ MASS DEFO "
+        "(AMOR), STATIQUE DEFO RIDE MADE, ces trois étant des champs par points. DIRECTION V1 (V2) "
+        "ou RADIAL "
         "P1 (P2), puis PARALLELE, PERPENDICULAIRE ou INCLINE angle, donnent les axes "
         "d'orthotropie (de JOI1 : V1 est la normale).",
         syntax="MAT1 = MATE MODL1 NOM1 VAL1 (NOM2 VAL2 ...) ;",
@@ -148,8 +154,10 @@ def _values(call: Call, zone: Zone, name: str, value: Any) -> Value | None:
     n = len(zone.cells)
     if isinstance(value, CellField):
         return _field_values(call, zone, name, value)
-    if isinstance(value, Point | Curve):
-        if isinstance(value, Point) and name != "VECT":
+    if isinstance(value, NodeField) and name not in SHAPES:
+        raise call.bad(f"parameter {name} is no field at points", value, "CHAN 'CHAM' makes cells")
+    if isinstance(value, Point | Curve | NodeField):
+        if isinstance(value, Point) and name not in ("VECT", "CGRA"):
             raise call.bad(f"parameter {name} is a number, not a POINT", value)
         one = np.empty((1, 1), dtype=object)
         one[0, 0] = value

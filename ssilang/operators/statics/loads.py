@@ -24,7 +24,9 @@ from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.model import Mode, Model
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
+from ssilang.language.values import Table
 from ssilang.operators.matrices.element import joined, nodes_of
+from ssilang.operators.matrices.supports import static_links
 from ssilang.operators.workspace import workspace
 
 FORCES = ("FX", "FY", "FZ", "FR", "FT")
@@ -58,15 +60,32 @@ def _shared(call: Call, usual: tuple[str, ...], allowed: tuple[str, ...]) -> Nod
         fr="Champ par points d'une force, répartie également sur les noeuds d'un lieu : un "
         "vecteur (ses coordonnées sont les composantes, donné avant le lieu) ou des composantes "
         "nommées FX FY FZ (FR FZ FT en axisymétrie).",
-        syntax="FOR1 = FORC | VEC1 | MOT1 VAL1 ... GEO1 ;",
+        syntax="FOR1 = FORC | VEC1 | MOT1 VAL1 ... GEO1 ;\nFORC TAB1 ;  (LIAISONS_STATIQUES)",
         examples=("OPTI DIME 2 ; P = 0. 0. ; F = FORC (0. -3.) P ; LIST (EXTR F 'FY' P) ;",),
     ),
     reads_itself=True,
 )
-def forc(call: Call) -> NodeField:
+def forc(call: Call) -> NodeField | None:
     """Point forces."""
+    table = call.read("TABLE")
+    if table is not None:
+        _unit_forces(call, table.value)
+        return None
     names = NODE_TRANSLATIONS[workspace(call.session).mode]
     return _shared(call, tuple(dual_of(n) for n in names), FORCES)
+
+
+def _unit_forces(call: Call, table: Table) -> None:
+    """FORCE in each entry of a table LIAISONS_STATIQUES: one, at its point."""
+    nodes = workspace(call.session).nodes
+    links = static_links(table)
+    for entry, point, component in links:
+        if not isinstance(point, Point) or not component:
+            raise call.bad("each entry wants POINT_LIAISON (POINT) and DDL_LIAISON (MOT)", table)
+        at, one = np.array([point.node]), np.ones(1)
+        entry.set("FORCE", NodeField.of(nodes, at, {component: one}, "DISCRET"))
+    if not links:
+        raise call.bad("the table has no entry numbered 1, 2 ...", table)
 
 
 @operator(

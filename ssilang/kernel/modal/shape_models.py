@@ -1,0 +1,190 @@
+"""Models of shapes: points that stand for modes and static shapes of a body (super-elements).
+
+A zone MODAL has one unknown ALFA, its participation in a mode of vibration; a zone STATIQUE has
+BETA, that in a static shape. All shapes of a model make one matrix: the stiffness and mass of the
+body on the motions that they span, couplings included.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ssilang.kernel.elements.catalog import ElementKind, register_element
+from ssilang.kernel.elements.families import register_family
+from ssilang.kernel.elements.family import ElementFamily, Layout, StrainOperator
+from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
+from ssilang.kernel.errors import FieldError, MaterialError
+from ssilang.kernel.fields.cell_field import CellField, Support
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.matrices.matrix import ElementMatrices, dual_of
+from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.modal.basis import work
+from ssilang.kernel.modal.modes import eigenvalue
+from ssilang.kernel.model import Mode, Zone
+
+UNKNOWN = {"MODAL": "ALFA", "STATIQUE": "BETA"}
+"""Unknown of each kind of point."""
+
+for _name in UNKNOWN:
+    register_element(
+        ElementKind(_name, "POI1", "shape", tuple(Mode), {"RIGIDITE": 1}, default=False)
+    )
+
+
+class _ShapeFamily(ElementFamily):
+    """Points that stand for shapes: they have no strains."""
+
+    def layout(self, zone: Zone) -> Layout:
+        """ALFA or BETA."""
+        return Layout(zone.cells.nodes, zone.cells.raw, np.array([0]), (UNKNOWN[zone.element],))
+
+    def strain_names(self, zone: Zone) -> tuple[str, ...]:
+        """None."""
+        return ()
+
+    def stress_names(self, zone: Zone) -> tuple[str, ...]:
+        """None."""
+        return ()
+
+    def strain_operator(
+        self, zone: Zone, parameters: ZoneField, support: Support, cells: slice
+    ) -> StrainOperator:
+        """Refused."""
+        raise _no_strains()
+
+    def moduli(self, zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
+        """Refused."""
+        raise _no_strains()
+
+    def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, Layout]:
+        """Refused: `shape_matrix` makes the mass of all shapes together."""
+        raise _no_strains()
+
+
+register_family("shape", _ShapeFamily())
+
+
+def _no_strains() -> FieldError:
+    return FieldError(
+        "models MODAL and STATIQUE have no strains of their own",
+        "recombine the displacement with RECO, then use the model of the body",
+    )
+
+
+def is_shape(zone: Zone) -> bool:
+    """Whether a zone stands for a mode or a static shape."""
+    return zone.element in UNKNOWN
+
+
+@dataclass(frozen=True, eq=False)
+class ShapePoint:
+    """One shape of a model: its node, unknown, field, and what it was made with.
+
+    Attributes
+    ----------
+    frequency, mass : float
+        Of modes (0 for static shapes).
+    damping : float
+        Generalised damping (N s/m for a shape in metres).
+    push, inertia : NodeField or None
+        Stiffness and mass of the body times the shape (RIDE, MADE).
+    """
+
+    node: int
+    unknown: str
+    field: NodeField
+    frequency: float
+    mass: float
+    damping: float
+    push: NodeField | None
+    inertia: NodeField | None
+
+
+def shape_points(zones: tuple[Zone, ...], material: CellField) -> list[ShapePoint]:
+    """The shapes of the zones MODAL and STATIQUE among these, in order.
+
+    Raises
+    ------
+    MaterialError
+        For a missing parameter.
+    """
+    return [_shape_point(z, zone_field(z, material)) for z in zones if is_shape(z)]
+
+
+def _shape_point(zone: Zone, given: ZoneField) -> ShapePoint:
+    if len(zone.cells) != 1:
+        raise MaterialError(
+            f"a model {zone.behaviour[-1]} stands on one point, not {len(zone.cells)}",
+            "one model for each shape, joined with ET",
+        )
+    modal = zone.element == "MODAL"
+    needed = ("FREQ", "MASS", "DEFO") if modal else ("DEFO", "RIDE", "MADE")
+    missing = [n for n in needed if n not in given]
+    if missing:
+        raise MaterialError(f"a shape {zone.behaviour[-1]} needs {' '.join(missing)}")
+
+    def number(name: str) -> float:
+        return float(given.raw(name)[0][0, 0]) if name in given else 0.0
+
+    def of(name: str) -> NodeField | None:
+        return given.raw(name)[0][0, 0] if name in given else None
+
+    field = of("DEFO")
+    assert field is not None
+    node = int(zone.cells.connectivity[0, 0])
+    return ShapePoint(
+        node, UNKNOWN[zone.element], field, number("FREQ"), number("MASS"), number("AMOR"),
+        of("RIDE"), of("MADE"),
+    )  # fmt: skip
+
+
+def _stiffness(a: ShapePoint, b: ShapePoint) -> float:
+    """`a^T K b`: modes are orthogonal; a static shape has K b."""
+    if b.push is not None:
+        return work(b.push, a.field)
+    return a.mass * eigenvalue(a.frequency) if a is b else 0.0
+
+
+def _mass(a: ShapePoint, b: ShapePoint) -> float:
+    if a.unknown == b.unknown == "ALFA":
+        return a.mass if a is b else 0.0
+    return 0.0 if b.inertia is None else work(b.inertia, a.field)
+
+
+def _damping(a: ShapePoint, b: ShapePoint) -> float:
+    return a.damping if a is b else 0.0
+
+
+_TERMS = {"RIGIDITE": _stiffness, "MASSE": _mass, "AMORTISSEMENT": _damping}
+
+
+def shape_matrix(zones: tuple[Zone, ...], material: CellField, kind: str) -> ElementMatrices | None:
+    """Matrix of all shapes among the zones; None if there is none.
+
+    Parameters
+    ----------
+    kind : str
+        'RIGIDITE', 'MASSE' or 'AMORTISSEMENT'.
+    """
+    shapes = shape_points(zones, material)
+    if not shapes:
+        return None
+    m = len(shapes)
+    values = np.zeros((m, m))
+    for j, b in enumerate(shapes):
+        # products with a mode's own K X are those of the other shape: modes stand first
+        for i, a in enumerate(shapes):
+            if b.unknown == "BETA" or a.unknown == b.unknown:
+                values[i, j] = _TERMS[kind](a, b)
+                if a.unknown != b.unknown:
+                    values[j, i] = values[i, j]
+    values = 0.5 * (values + values.T)
+    unknowns = tuple(s.unknown for s in shapes)
+    nodes = np.array([[s.node for s in shapes]])
+    table = zones[0].cells.nodes
+    return ElementMatrices(
+        table, nodes, np.arange(m), unknowns, tuple(dual_of(u) for u in unknowns), values[None],
+        kind,
+    )  # fmt: skip
