@@ -37,6 +37,29 @@ def enclosed_area(line: Mesh) -> float:
 
     Quadratic cells are counted with their curvature.
     """
+    return float(np.linalg.norm(_area_vector(line)))
+
+
+def signed_area(contour: Mesh) -> float:
+    """Area inside a contour in the plane, positive if it runs anticlockwise.
+
+    A contour that is open is closed by a straight segment from its last node to its first.
+
+    Raises
+    ------
+    MeshError
+        If the mesh is not a line.
+    """
+    total = _area_vector(contour)[2]
+    table = np.concatenate([b.connectivity[:, [0, -1]] for b in contour.blocks])
+    first, last = np.setdiff1d(table[:, 0], table[:, 1]), np.setdiff1d(table[:, 1], table[:, 0])
+    xyz = contour.nodes.coordinates
+    if len(first) == len(last) == 1:
+        total += 0.5 * np.cross(xyz[last[0]], xyz[first[0]])[2]
+    return float(total)
+
+
+def _area_vector(line: Mesh) -> FloatArray:
     total = np.zeros(3)
     for block in line.blocks:
         if block.kind.dimension != 1 or block.kind.joint:
@@ -51,7 +74,7 @@ def enclosed_area(line: Mesh) -> float:
                 at = np.einsum("i,nij->nj", n, x)
                 slope = np.einsum("i,nij->nj", dn, x)
                 total += 0.5 * weight * np.cross(at, slope).sum(axis=0)
-    return float(np.linalg.norm(total))
+    return total
 
 
 def enclosed_volume(surface: Mesh) -> float:

@@ -29,7 +29,7 @@ register_type(SuperElement, "SUPERELE")
 
 @operator(
     "SUPE",
-    family="matrices",
+    family="matrix",
     full_name="SUPER",
     help=Help(
         "Super-elements. 'RIGIDITE': the stiffness of a body condensed onto master unknowns: those "

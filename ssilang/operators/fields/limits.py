@@ -1,0 +1,107 @@
+"""PILE SENS: how far a strain may go, differences of fields, senses of contours."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ssilang.kernel.fields.cell_algebra import added, component_names
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.mesh.measure import signed_area
+from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.language.call import Call
+from ssilang.language.registry import Help, arg, operator
+from ssilang.language.values import Table
+
+
+@operator(
+    "PILE",
+    arg("first", "MCHAML"),
+    arg("second", "MCHAML"),
+    arg("limit", "FLOTTANT"),
+    family="fields",
+    full_name="PILEPS",
+    help=Help(
+        "The largest X with -CRIT < E1 + X E2 < CRIT on the side that E2 goes to, for every value "
+        "of the fields in cells E1 and E2 (strains), component by component.",
+        "Le plus grand X tel que -CRIT < E1 + X E2 < CRIT du côté vers lequel va E2, pour toutes "
+        "les valeurs des champs par éléments E1 et E2 (déformations), composante par composante.",
+        "X1 = PILE MCHAML1 MCHAML2 CRIT ;",
+        (
+            "OPTI DIME 2 ELEM QUA4 ; S = (DROI 2 (0. 0.) (2. 0.)) TRAN 1 (0. 1.) ; "
+            "E = CHAN 'CHAM' (COOR 1 S) S ; LIST (PILE (0. * E) E 0.5) ;",
+        ),
+    ),
+)
+def pile(call: Call, first: CellField, second: CellField, limit: float) -> float:
+    """Largest factor before a component passes the limit."""
+    if limit <= 0.0:
+        raise call.bad(f"the limit is positive, not {limit:g}", limit)
+    if component_names(first) != component_names(second) or len(first.blocks) != len(second.blocks):
+        raise call.bad("the two fields do not have the same components and zones", second)
+    best = np.inf
+    for a, b in zip(first.blocks, second.blocks, strict=True):
+        for name, values in b.components.items():
+            start, step = np.broadcast_arrays(a.components[name], values)
+            moving = step != 0.0
+            room = (np.sign(step[moving]) * limit - start[moving]) / step[moving]
+            best = min(best, float(room.min(initial=np.inf)))
+    if not np.isfinite(best):
+        raise call.bad("the second field is zero: nothing limits it", second)
+    return best
+
+
+@operator(
+    "SENS",
+    family="fields",
+    help=Help(
+        "Of a table of closed contours in the plane, such as CCON gives: the table of their "
+        "senses, "
+        "1 anticlockwise, -1 clockwise. In MODE AXIS a contour may be open along the axis. Of two "
+        "fields in cells: the table, by number of the cell, of the mean over the cell's points of "
+        "their difference (one component).",
+        "D'une table de contours fermés du plan, comme celle de CCON : la table de leurs sens, 1 "
+        "direct, -1 sinon. En MODE AXIS un contour peut être ouvert le long de l'axe. De deux "
+        "champs par éléments : la table, par numéro d'élément, de la moyenne sur les points de "
+        "l'élément de leur différence (une composante).",
+        "TAB2 = SENS TAB1 ;\nTAB1 = SENS MCHAML1 MCHAML2 ;",
+        (
+            "OPTI DIME 2 ELEM SEG2 ; C = CERC 8 'ROTA' 360. (1. 0.) (0. 0.) 'ELIM' ; "
+            "T = SENS (CCON (INVE C)) ; LIST (T . 1) ;",
+        ),
+    ),
+    reads_itself=True,
+)
+def sens(call: Call) -> Table:
+    """Senses of contours, or means of differences."""
+    found: Any = call.required("TABLE", "MCHAML")
+    if isinstance(found, CellField):
+        return _differences(call, found, call.required("MCHAML"))
+    made = Table()
+    for number, contour in found.items():
+        if not isinstance(number, int):
+            continue
+        if not isinstance(contour, Mesh):
+            raise call.bad(f"entry {number} is not a contour", found)
+        area = signed_area(contour)
+        if area == 0.0:
+            raise call.bad(f"contour {number} encloses no area", found)
+        made.set(number, 1 if area > 0.0 else -1)
+    return made
+
+
+def _differences(call: Call, first: CellField, second: CellField) -> Table:
+    names = component_names(first)
+    if len(names) != 1 or component_names(second) != names:
+        raise call.bad("fields of one component, the same in both, are compared", second)
+    made, start = Table(), 1
+    for block in added(first, second, -1.0).blocks:
+        values = np.broadcast_to(
+            block.components[names[0]],
+            (len(block.cells), block.components[names[0]].shape[1]),
+        )
+        for number, mean in enumerate(values.astype(float).mean(axis=1), start):
+            made.set(number, float(mean))
+        start += len(block.cells)
+    return made
