@@ -1,0 +1,89 @@
+"""FOUR2TRI: fields of a Fourier series in space."""
+
+import numpy as np
+import pytest
+
+from ssilang.cli.run import run_text
+
+PLANE = (
+    "OPTI DIME 2 MODE FOUR 3 ELEM QUA8 ; L0 = DROI 2 (0. 0.) (2. 0.) ; S1 = TRAN 2 L0 (0. 1.) ;"
+    "OPTI ELEM SEG3 ; L1 = DROI 2 (2. 1.) (2. 3.) ; G = S1 ET L1 ; ELIM 1.E-6 G ;"
+    "R Z = COOR G ; T = TABL ; T . 'MAILLAGE' = G ; D = TABL ; T . 'DEPLACEMENTS' = D ;"
+    "D . 1 = (NOMC 'UR' (R * R)) ET (NOMC 'UT' (R * Z)) ET (NOMC 'UZ' (R * (Z + 2.))) ;"
+    "T . 'CHPO_SYME' = TABL ; T . 'CHPO_SYME' . 1 = NOMC 'P' (R * Z) ;"
+    "T . 'CHPO_ANTI' = TABL ; T . 'CHPO_ANTI' . 1 = NOMC 'P' (R + Z) ;"
+)
+
+
+def field(result, name, component, mesh="M"):
+    value = result.session.root.find(name)
+    nodes = result.session.root.find(mesh).sorted_node_ids
+    return value.values_at(component, nodes)
+
+
+def solved(script):
+    result = run_text(script)
+    assert result.exit_code == 0, result.message
+    mesh = result.session.root.find("M")
+    return result, mesh.nodes.coordinates[mesh.sorted_node_ids]
+
+
+def expected(r, t, z, n):
+    even, odd = (np.cos(n * t), np.sin(n * t)) if n >= 0 else (np.sin(-n * t), np.cos(n * t))
+    turning = np.ones_like(t) if n == 0 else odd
+    return r * r * even, r * z * turning, r * (z + 2) * even, r * z * even, (r + z) * odd
+
+
+@pytest.mark.parametrize("n", [0, 1, 3, -2])
+@pytest.mark.parametrize("upright", [False, True])
+def test_fields_in_space(n, upright):
+    script = PLANE + (
+        f"T . 'REDRESSE' = {'VRAI' if upright else 'FAUX'} ; T . 'ANGLES' = PROG 0. PAS 30. 180. ;"
+        f"T . 'ELIM' = 1.E-8 ; FOUR2TRI T {n} ; M = T . 'MAILLAGE_3D' ;"
+        "U = T . 'DEPLACEMENTS_3D' . 1 ; A = T . 'CHPO_SYME_3D' . 1 ; B = T . 'CHPO_ANTI_3D' . 1 ;"
+        "H = T . 'ANGLE_3D' ;"
+    )
+    result, points = solved(script)
+    x, y, z = points.T if upright else (points[:, 0], -points[:, 2], points[:, 1])
+    r, t = np.hypot(x, y), np.arctan2(y, np.where(np.hypot(x, y) > 1e-9, x, 1))
+    ur, ut, uz, even, odd = expected(r, t, z, n)
+    ux, uy = ur * np.cos(t) - ut * np.sin(t), ur * np.sin(t) + ut * np.cos(t)
+    names = ["UX", "UY", "UZ"] if upright else ["UX", "UZ", "UY"]
+    turned = uy if upright else -uy
+    for name, exact in zip(names, (ux, turned, uz), strict=True):
+        np.testing.assert_allclose(field(result, "U", name), exact, atol=1e-6)
+    np.testing.assert_allclose(field(result, "A", "P"), even, atol=1e-6)
+    np.testing.assert_allclose(field(result, "B", "P"), odd, atol=1e-6)
+    np.testing.assert_allclose(field(result, "H", "SCAL"), np.degrees(t), atol=1e-6)
+
+
+def test_whole_turn_closes_and_has_the_volume_of_the_body():
+    result, points = solved(
+        PLANE + "T . 'ELIM' = 1.E-8 ; FOUR2TRI T ; M = T . 'MAILLAGE_3D' ;"
+        "V = MESU (T . 'MAILLAGE_3D_MASSIF') ; N = NBNO M ;"
+        "P = NBNO ((T . 'MAILLAGE_3D_COQUE') POIN 'DROIT' (2. 0. 0.) (2. 1. 0.) 1.E-6) ;"
+    )
+    root = result.session.root
+    assert len(np.unique(np.round(points, 6), axis=0)) == root.find("N")
+    assert root.find("V") == pytest.approx(np.pi * 4, rel=0.02)
+    assert root.find("P") == 5
+
+
+def test_a_second_call_keeps_the_mesh():
+    result, _ = solved(
+        PLANE + "T . 'ANGLES' = PROG 0. 45. 90. ; T . 'ELIM' = 1.E-8 ; FOUR2TRI T 1 ;"
+        "M = T . 'MAILLAGE_3D' ; U1 = T . 'DEPLACEMENTS_3D' . 1 ; FOUR2TRI T 3 ;"
+        "N = T . 'MAILLAGE_3D' ; U = U1 + (T . 'DEPLACEMENTS_3D' . 1) ; Q = MAXI U ;"
+    )
+    assert result.session.root.find("M") is result.session.root.find("N")
+
+
+@pytest.mark.parametrize(
+    ("more", "said"),
+    [
+        ("T . 'ANGLES' = PROG 0. 10. 30. ;", "equal positive steps"),
+        ("OUBL T 'MAILLAGE' ;", "no MAILLAGE"),
+    ],
+)
+def test_what_is_wrong_is_said(more, said):
+    assert said in run_text(PLANE + more + "FOUR2TRI T ;").message
