@@ -164,35 +164,40 @@ class Table:
         return len(self._items)
 
 
-class _Promise:
-    """What finds a value that nobody has asked for yet."""
-
-    __slots__ = ("find",)
-
-    def __init__(self, find: Callable[[], object]) -> None:
-        self.find = find
+PENDING = object()
 
 
 class LazyTable(Table):
-    """TABLE some of whose values are found when they are first asked for."""
+    """TABLE some of whose values are found when they are first asked for, by index.
 
-    __slots__ = ()
+    `promised` are pairs (index, PENDING) by key, that many tables may share.
+    """
 
-    def promise(self, index: object, find: Callable[[], object]) -> None:
-        """Create or replace a value by what finds it."""
-        self._items[key_of(index)] = (index, _Promise(find))
+    __slots__ = ("_find",)
+
+    def __init__(
+        self,
+        find: Callable[[str], object],
+        promised: dict[tuple[object, ...], tuple[object, object]],
+    ) -> None:
+        self._items, self._find = promised.copy(), find
 
     def get(self, index: object, default: object = None) -> object:
         """Value at an index, `default` if there is none."""
         value = super().get(index, default)
-        if isinstance(value, _Promise):
-            value = value.find()
-            self._items[key_of(index)] = (self._items[key_of(index)][0], value)
+        if value is PENDING:
+            value = self._find(str(index).rstrip())
+            self.set(index, value)
         return value
 
     def items(self) -> list[tuple[object, object]]:
         """Pairs (index, value), in order of creation."""
         return [(index, self.get(index)) for index, _ in self._items.values()]
+
+
+def promises(*words: str) -> dict[tuple[object, ...], tuple[object, object]]:
+    """What a `LazyTable` is told to find."""
+    return {key_of(Mot(word)): (Mot(word), PENDING) for word in words}
 
 
 class Procedure:

@@ -149,7 +149,7 @@ class Integration:
 
     def _march(self, history: History, wanted: np.ndarray) -> None:
         times, done = self.problem.times, 0
-        longest = 64
+        longest = 4096 if self.problem.small else 64
         while done < len(times) - 1:
             run = next(runs_of(times[done : done + longest + 1], longest))
             before = time.perf_counter()

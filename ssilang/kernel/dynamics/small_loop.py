@@ -124,8 +124,6 @@ class SmallLoop:
             saved.reaction[:] = reactions(
                 self.problem, self._joints, saved.u, saved.v, saved.a, saved.t, loads
             )
-        now = (x[None] for x in (m.u, m.v, m.a, m.t, factors[outcome[0]] @ forces))
-        m.reaction[:] = reactions(self.problem, self._joints, *now)[0]
         return outcome
 
     def _march_modal(

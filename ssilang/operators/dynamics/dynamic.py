@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -23,7 +24,7 @@ from ssilang.kernel.plasticity.bulk import without_stiffness
 from ssilang.kernel.plasticity.points import is_plastic, plastic_zones
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
-from ssilang.language.values import LazyTable, ListMots, ListReel, Mot, Table
+from ssilang.language.values import LazyTable, ListMots, ListReel, Mot, Table, promises
 from ssilang.operators.dynamics.charmeca import AddedByProcedure
 from ssilang.operators.dynamics.motion_observers import CsvObserver, TableObserver, VtkObserver
 from ssilang.operators.files.outputs import output_path, run_output
@@ -368,13 +369,18 @@ def _csv(entries: Entries, times: FloatArray) -> CsvObserver | None:
 ENERGIES = ("CINETIQUE", "ELASTIQUE", "JOINTS", "DISSIPEE", "AMORTIE", "EXTERIEURE")
 
 
+def _energy(history: History, word: str) -> ListReel:
+    """Energies in time by their word."""
+    if word == "TEMPS":
+        return ListReel(history.times)
+    if word == "ECART":
+        return ListReel(history.imbalance)
+    return ListReel(history.energies[:, ENERGIES.index(word)])
+
+
 def report(entries: Entries, problem: Problem, history: History) -> None:
     """Energies in time into the table, and a line of statistics for the summary."""
-    energies = LazyTable()
-    energies.set(Mot("TEMPS"), ListReel(history.times))
-    for i, name in enumerate(ENERGIES):
-        energies.promise(Mot(name), lambda i=i: ListReel(history.energies[:, i]))
-    energies.promise(Mot("ECART"), lambda: ListReel(history.imbalance))
+    energies = LazyTable(partial(_energy, history), promises("TEMPS", *ENERGIES, "ECART"))
     entries.table.set(Mot("ENERGIES"), energies)
     steps = len(history.times) - 1
     line: dict[str, Any] = {

@@ -17,7 +17,7 @@ from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import IntArray
-from ssilang.language.values import LazyTable, ListReel, Mot, Table
+from ssilang.language.values import LazyTable, ListReel, Mot, Table, promises
 
 if TYPE_CHECKING:
     from ssilang.kernel.dynamics.snapshot import Snapshot
@@ -37,15 +37,16 @@ def restricted(given: NodeField, nodes: IntArray | None) -> NodeField:
     return NodeField(given.table, parts, given.nature)
 
 
-NODAL = (("DEPL", "displacement"), ("VITE", "velocity"), ("ACCE", "acceleration"))
-JOINTS = (
-    ("CONTRAINTES", "tractions"), ("SAUTS", "jumps"), ("VARIABLES_INTERNES", "variables"),
-)  # fmt: skip
+NODAL = {"DEPL": "displacement", "VITE": "velocity", "ACCE": "acceleration"}
+JOINTS = {"CONTRAINTES": "tractions", "SAUTS": "jumps", "VARIABLES_INTERNES": "variables"}
 """Words of the table of results, with what they are of an instant."""
+NODAL_WORDS, ALL_WORDS = promises("TEMP", *NODAL), promises("TEMP", *NODAL, *JOINTS)
 
 
-def _nodal(snapshot: Snapshot, name: str, nodes: IntArray | None) -> NodeField:
-    return restricted(getattr(snapshot, name), nodes)
+def _found(snapshot: Snapshot, nodes: IntArray | None, word: str) -> object:
+    if word in JOINTS:
+        return getattr(snapshot, JOINTS[word])
+    return restricted(getattr(snapshot, NODAL[word]), nodes)
 
 
 @dataclass
@@ -61,13 +62,9 @@ class TableObserver:
 
     def receive(self, snapshot: Snapshot) -> None:
         """Add one instant."""
-        entry = LazyTable()
+        words = NODAL_WORDS if snapshot.problem.interface is None else ALL_WORDS
+        entry = LazyTable(partial(_found, snapshot, self.nodes), words)
         entry.set(Mot("TEMP"), snapshot.time)
-        for word, name in NODAL:
-            entry.promise(Mot(word), partial(_nodal, snapshot, name, self.nodes))
-        if snapshot.problem.interface is not None:
-            for word, name in JOINTS:
-                entry.promise(Mot(word), partial(getattr, snapshot, name))
         if self.nodes is not None and not snapshot.problem.small:
             entry.items()  # lets go of the rest of a large model
         self.table.set(len(self.table) + 1, entry)

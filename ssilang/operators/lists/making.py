@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from array import array
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ssilang.kernel.errors import KernelError
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, many, operator
 from ssilang.language.values import ListChpo, ListEnti, ListMots, ListObje, ListReel, type_of
@@ -40,12 +42,25 @@ def _star(call: Call) -> bool:
     return False
 
 
-def _read_items(call: Call, kinds: tuple[str, ...]) -> list[Any]:
+if TYPE_CHECKING:
+    Items = list[Any] | array[float]  # numbers under way: reals in one piece of memory
+
+
+def _extend(items: Items, more: list[Any] | FloatArray | IntArray) -> None:
+    if isinstance(more, list):
+        items.extend(more)
+    elif isinstance(items, array):
+        items.frombytes(np.ascontiguousarray(more, dtype=float).tobytes())
+    else:
+        items.extend(more.tolist())
+
+
+def _read_items(call: Call, kinds: tuple[str, ...]) -> Items:
     """Numbers with repetitions and steps, in order; lists among them are taken whole."""
-    items: list[Any] = []
+    items: Items = array("d") if "FLOTTANT" in kinds else []
     while True:
         if items and call.at_word() and call.keyword(("PAS",)) is not None:
-            items += _steps(call, items[-1], kinds)
+            _extend(items, _steps(call, items[-1], kinds))
             check_length(len(items))
             continue
         operand = call.read(*kinds, "LISTREEL", "LISTENTI")
@@ -53,9 +68,9 @@ def _read_items(call: Call, kinds: tuple[str, ...]) -> list[Any]:
             return items
         value = operand.value
         if isinstance(value, ListReel | ListEnti):
-            items += value.values.tolist()
+            _extend(items, value.values)
         elif _star(call):
-            items += _repeated(call, value, kinds)
+            _extend(items, _repeated(call, value, kinds))
             check_length(len(items))
         else:
             items.append(value)
@@ -68,7 +83,7 @@ def _repeated(call: Call, count: Any, kinds: tuple[str, ...]) -> list[Any]:
     return [call.required(*kinds)] * int(count)
 
 
-def _steps(call: Call, start: Any, kinds: tuple[str, ...]) -> list[Any]:
+def _steps(call: Call, start: Any, kinds: tuple[str, ...]) -> list[Any] | FloatArray:
     step = call.required(*kinds, after=call.keyword_end)
     ratio = None
     if call.keyword(("GEOM",)) is not None:
@@ -96,14 +111,13 @@ def _steps(call: Call, start: Any, kinds: tuple[str, ...]) -> list[Any]:
         raise call.bad(problem.message, end, problem.hint) from None
 
 
-def _progression(start: Any, step: Any, count: int, ratio: float | None) -> list[Any]:
-    if ratio is None and isinstance(start + step, int):
+def _progression(start: Any, step: Any, count: int, ratio: float | None) -> list[Any] | FloatArray:
+    if ratio is not None:
+        sums: FloatArray = start + np.cumsum(float(step) * ratio ** np.arange(count))
+        return sums
+    if isinstance(start, int) and isinstance(step, int):
         return [start + step * i for i in range(1, count + 1)]
-    if ratio is None:
-        steps: list[Any] = (start + step * np.arange(1, count + 1)).tolist()
-        return steps
-    sums = np.cumsum(float(step) * ratio ** np.arange(count))
-    values: list[Any] = (start + sums).tolist()
+    values: FloatArray = start + step * np.arange(1.0, count + 1)
     return values
 
 
