@@ -61,7 +61,8 @@ _GEOMETRY: dict[str, Names] = {
 }
 _BEAM_PLANE = Names(("SECT", "INRZ"), ("SECY", "SECZ", "INRY", "TORS", "VECT", "DX", "DY", "DZ"))
 _BEAM_SPACE = Names(
-    ("SECT", "INRY", "INRZ", "TORS"), ("SECY", "SECZ", "VECT", "VX", "VY", "VZ", "DX", "DY", "DZ")
+    ("SECT", "INRY", "INRZ", "TORS"),
+    ("SECY", "SECZ", "VECT", "VX", "VY", "VZ", "DX", "DY", "DZ", "OMEG"),
 )
 
 
@@ -72,6 +73,8 @@ def family_name(zone: Zone) -> str:
 
 def material_names(zone: Zone) -> Names:
     """Parameters of the law of a zone."""
+    if zone.formulation == "CONTACT":
+        return Names((), ("JEU",))
     if is_joint(zone):
         law = law_of(zone.behaviour)
         taken = ("RHO", *law.optional, *JOINT_POINT, *JOINT_THERMAL, *AXES)

@@ -1,0 +1,245 @@
+"""CHPO XXT CMCT CABL MFIL DIMN ORTH: fields and matrices made from a matrix or for one."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ssilang.kernel.fields import node_algebra
+from ssilang.kernel.fields.node_field import NodeField, NodeValues
+from ssilang.kernel.matrices.assembly import numbering_of
+from ssilang.kernel.matrices.derived import (
+    cable_stiffness,
+    condensed_by_relations,
+    condensed_on_multipliers,
+    filter_weights,
+)
+from ssilang.kernel.matrices.matrix import Matrix
+from ssilang.kernel.matrices.outer import sum_of_outer_products
+from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.kernel.modal.basis import work
+from ssilang.kernel.statics.linear import linear_system, product
+from ssilang.language.call import Call
+from ssilang.language.registry import Help, arg, operator, opt
+from ssilang.operators.numbers.numbers import session_generator
+from ssilang.operators.workspace import workspace
+
+_TWO = "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; K = (APPU 'UX' 4. P) ET (APPU 'UX' 5. Q) ; "
+
+
+@operator(
+    "CHPO",
+    family="fields",
+    full_name="CHPOINT",
+    help=Help(
+        en="Nodal field on the unknowns of a matrix: the same value everywhere ('UNIFORME'), or "
+        "random values between 0 and 1 ('ALEATOIRE').",
+        fr="Champ par points sur les inconnues d'une rigidité : la même valeur partout "
+        "('UNIFORME'), ou des valeurs aléatoires entre 0 et 1 ('ALEATOIRE').",
+        syntax="CHPO1 = CHPO 'ALEATOIRE' | 'UNIFORME' X1 RIG1 ;",
+        examples=(_TWO + "LIST (CHPO 'UNIFORME' 2. K) ;",),
+    ),
+    reads_itself=True,
+)
+def chpo(call: Call) -> NodeField:
+    """Field on the unknowns of a matrix."""
+    word = call.keyword(("ALEA", "UNIF"))
+    if word is None:
+        raise call.bad("which values?", hint="'ALEATOIRE', or 'UNIFORME' and a number")
+    value = call.required("FLOTTANT", after=call.keyword_end) if word == "UNIF" else 0.0
+    numbering = numbering_of(call.required("RIGIDITE"))
+    generator = session_generator(call, None)
+    made = {}
+    for name in numbering.unknowns:
+        nodes = numbering.nodes[numbering.where(name)]
+        n = len(nodes)
+        made[name] = NodeValues(nodes, np.full(n, value) if word == "UNIF" else generator.random(n))
+    return NodeField(numbering.table, made, "DIFFUS")
+
+
+@operator(
+    "XXT",
+    arg("field", "CHPOINT"),
+    opt("factor", "FLOTTANT", default=1.0),
+    family="matrix",
+    help=Help(
+        en="Stiffness a v v^T of a nodal field v (forces, or displacements): one full element on "
+        "all its nodes.",
+        fr="Rigidité a v v^T d'un champ par points v (forces, ou déplacements) : un seul "
+        "superélément plein sur tous ses noeuds.",
+        syntax="RIG1 = XXT CHPO1 (X1) ;",
+        examples=(
+            "OPTI DIME 2 ; V = MANU 'CHPO' (0. 0.) 2 'FX' 1. 'FY' 2. 'NATURE' 'DISCRET' ; "
+            "LIST (EXTR (XXT V 3.) 'DIAG') ;",
+        ),
+    ),
+)
+def xxt(field: NodeField, factor: float) -> Matrix:
+    """Outer product."""
+    return sum_of_outer_products([field], [factor], "RIGIDITE")
+
+
+@operator(
+    "CMCT",
+    arg("matrix", "RIGIDITE"),
+    arg("diagonal", "CHPOINT"),
+    family="matrix",
+    help=Help(
+        en="Condensation. With relations C and a field holding the inverse of a diagonal M: the "
+        "matrix C M^-1 C^T on the multipliers LX. With a matrix K and relations: the matrix "
+        "without the unknowns that the relations give by the others.",
+        fr="Condensation. Avec des relations C et un champ contenant l'inverse d'une diagonale "
+        "M : la matrice C M^-1 C^T sur les multiplicateurs LX. Avec une matrice K et des "
+        "relations : la matrice sans les inconnues que les relations donnent par les autres.",
+        syntax="RIG3 = CMCT RIG1 CHPO1 ; RIG3 = CMCT RIG1 RIG2 ;",
+        examples=(
+            _TWO + "C = RELA 2. 'UX' P '+' 3. 'UX' Q ; "
+            "D = MANU 'CHPO' (P ET Q) 1 'UX' 0.5 ; LIST (EXTR (CMCT C D) 'DIAG') ;",
+        ),
+    ),
+)
+def cmct(matrix: Matrix, diagonal: NodeField) -> Matrix:
+    """On the multipliers."""
+    return condensed_on_multipliers(matrix, diagonal)
+
+
+@cmct.form(arg("matrix", "RIGIDITE"), arg("relations", "RIGIDITE"))
+def cmct_of_matrix(matrix: Matrix, relations: Matrix) -> Matrix:
+    """On the unknowns that stay."""
+    return condensed_by_relations(matrix, relations)
+
+
+@operator(
+    "CABL",
+    arg("mesh", "MAILLAGE"),
+    arg("force", "FLOTTANT"),
+    arg("percent", "FLOTTANT"),
+    family="matrix",
+    full_name="CABLE",
+    help=Help(
+        en="Stiffness of cables (SEG2) whose force is X1 at a lengthening of X2 percent.",
+        fr="Rigidité de câbles (SEG2) dont la force est X1 à un allongement de X2 pour cent.",
+        syntax="RIG1 = CABL GEO1 X1 X2 ;",
+        examples=(
+            "OPTI DIME 2 ELEM SEG2 ; L = DROI 1 (0. 0.) (2. 0.) ; "
+            "LIST (EXTR (CABL L 10. 1.) 'DIAG') ;",
+        ),
+    ),
+)
+def cabl(call: Call, mesh: Mesh, force: float, percent: float) -> Matrix:
+    """Cables."""
+    if percent == 0.0:
+        raise call.bad("a force at no lengthening gives no stiffness")
+    return cable_stiffness(mesh, workspace(call.session).dimension, force, percent)
+
+
+@operator(
+    "MFIL",
+    arg("weights", "CHPOINT"),
+    opt("radius", "FLOTTANT", default=0.0),
+    opt("power", "FLOTTANT", default=1.0),
+    opt("least", "FLOTTANT", default=0.0),
+    opt("unknown", "MOT"),
+    opt("dual", "MOT"),
+    family="matrix",
+    help=Help(
+        en="Matrix whose product with a nodal field smooths it: each node takes the mean of its "
+        "neighbours nearer than X1, weighed by (1 - d / X1) ** X2 and by the field CHPO1 (the "
+        "nodes' volumes, say); weights not above X3 are dropped. The words name the unknown "
+        "(SCAL) and the dual (the same).",
+        fr="Rigidité dont le produit par un champ par points le lisse : chaque noeud prend la "
+        "moyenne de ses voisins à moins de X1, pondérée par (1 - d / X1) ** X2 et par le champ "
+        "CHPO1 (les volumes des noeuds, par exemple) ; les poids non supérieurs à X3 sont omis. "
+        "Les mots nomment l'inconnue (SCAL) et la duale (la même).",
+        syntax="RIG1 = MFIL CHPO1 (X1 (X2 (X3))) (MOT1 (MOT2)) ;",
+        examples=(
+            "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (4. 0.) ; X = COOR 1 L ; "
+            "W = MANU 'CHPO' L 1 'SCAL' 1. ; LIST ((MFIL W 1.5) * (X * X)) ;",
+        ),
+    ),
+)
+def mfil(
+    call: Call,
+    weights: NodeField,
+    radius: float,
+    power: float,
+    least: float,
+    unknown: str | None,
+    dual: str | None,
+) -> Matrix:
+    """Weights of a filter."""
+    if radius < 0.0:
+        raise call.bad(f"the radius of a filter is not negative, this one is {radius:g}", radius)
+    name = "SCAL" if unknown is None else unknown.rstrip()
+    return filter_weights(
+        weights, radius, power, least, name, name if dual is None else dual.rstrip()
+    )
+
+
+@operator(
+    "DIMN",
+    arg("matrix", "RIGIDITE"),
+    family="matrix",
+    full_name="DIMNOYAU",
+    help=Help(
+        en="Dimension of the kernel of a matrix with its relations: the number of free motions.",
+        fr="Dimension du noyau d'une rigidité avec ses relations : le nombre de mouvements libres.",
+        syntax="N1 = DIMN RIG1 ;",
+        examples=(
+            "OPTI DIME 2 ELEM QUA4 ; L = DROI 1 (0. 0.) (1. 0.) ; S = TRAN 1 L (0. 1.) ; "
+            "M = MODE S MECANIQUE ELASTIQUE ; K = RIGI M (MATE M 'YOUN' 1. 'NU' 0.3) ; "
+            "LIST (DIMN K) ;",
+        ),
+    ),
+)
+def dimn(matrix: Matrix) -> int:
+    """Dimension of the kernel."""
+    return int(linear_system(matrix).free_motions.shape[1])
+
+
+@operator(
+    "ORTH",
+    family="matrix",
+    full_name="ORTHOGONALISER",
+    help=Help(
+        en="Field made orthogonal, for a matrix K, to fields U of a list that are so among "
+        "themselves: X - sum (X K U) / (U K U) U. The list of reals holds the U K U; a second "
+        "list of fields may hold the K U. A precision asks for further passes, N1 at most.",
+        fr="Champ rendu orthogonal, au sens d'une rigidité K, aux champs U d'une liste qui le sont "
+        "entre eux : X - somme (X K U) / (U K U) U. La liste de réels contient les U K U ; une "
+        "seconde liste de champs peut contenir les K U. Une précision demande d'autres passages, "
+        "N1 au plus.",
+        syntax="CHPO1 = ORTH ('SEMBLABLE') CHPO2 LCHPO1 LREEL1 (LCHPO2) RIG1 (X1 (N1)) ;",
+        examples=(
+            _TWO + "U = MANU 'CHPO' (P ET Q) 1 'UX' 1. ; X = MANU 'CHPO' (P ET Q) 1 'UX' "
+            "(PROG 1. 2.) ; Y = ORTH X (SUIT U) (PROG 9.) K ; LIST (YTMX Y U K) ;",
+        ),
+    ),
+    reads_itself=True,
+)
+def orth(call: Call) -> NodeField:
+    """Gram and Schmidt's step."""
+    call.keyword(("SEMB",))
+    x: NodeField = call.required("CHPOINT")
+    shapes = call.required("LISTCHPO").values
+    norms = call.required("LISTREEL").values
+    loaded = call.optional("LISTCHPO")
+    matrix: Matrix = call.required("RIGIDITE")
+    precision = call.optional("FLOTTANT")
+    passes = call.optional("ENTIER", default=2)
+    call.keyword(("SEMB",))
+    forces = [product(matrix, u) for u in shapes] if loaded is None else loaded.values
+    if not len(shapes) == len(norms) == len(forces):
+        raise call.bad(
+            f"{len(shapes)} fields, {len(norms)} products and {len(forces)} forces do not match"
+        )
+    if (norms == 0.0).any():
+        raise call.bad("a field whose product U K U is zero cannot be orthogonalised to")
+    for turn in range(max(passes, 1)):
+        worst = 0.0
+        for u, k, f in zip(shapes, norms, forces, strict=True):
+            share = work(f, x) / k
+            worst = max(worst, abs(share))
+            x = node_algebra.added(x, u, -share)
+        if precision is None or (turn and worst <= precision):
+            break
+    return x

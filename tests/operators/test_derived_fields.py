@@ -1,0 +1,226 @@
+"""CHPO XXT CMCT CABL MFIL DIMN ORTH MAX1 DFOU PSIP POD against closed forms."""
+
+import numpy as np
+import pytest
+
+from ssilang.kernel.matrices.assembly import assemble, numbering_of
+
+TWO = "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; K = (APPU 'UX' 4. P) ET (APPU 'UX' 5. Q) ; "
+AT = np.array([0, 4, 1, 2, 3])  # the ends of a line come first
+LINE = "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (4. 0.) ; X = COOR 1 L ; "
+PLATE = (
+    "OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ; L = DROI 3 (0 0) (3 0) ; S = TRAN 2 L (0. 2.) ; "
+    "M = MODE S MECANIQUE ELASTIQUE ; A = MATE M 'YOUN' 2. 'NU' 0.3 'RHO' 1. ; K = RIGI M A ; "
+)
+
+
+def dense(matrix):
+    return assemble(matrix).toarray()
+
+
+# ---- matrices
+
+
+def test_field_on_the_unknowns_of_a_matrix(found):
+    u, r = found(PLATE + "U = CHPO 'UNIFORME' 2.5 K ; R = CHPO K 'ALEATOIRE' ;", "U", "R")
+    assert set(u.components) == {"UX", "UY"}
+    assert (u.components["UX"].values == 2.5).all()
+    assert len(r.components["UY"].nodes) == 12
+    assert len(set(r.components["UY"].values)) == 12
+
+
+def test_outer_product_of_forces(found):
+    k = found(
+        TWO + "V = MANU 'CHPO' (P ET Q) 1 'FX' (PROG 1. 3.) 'NATURE' 'DISCRET' ; K = XXT V 2. ;",
+        "K",
+    )
+    np.testing.assert_allclose(dense(k), [[2, 6], [6, 18]])
+    assert numbering_of(k).unknowns == ("UX",)
+
+
+def test_relations_condensed_on_their_multipliers(found):
+    script = TWO + (
+        "C = (RELA 2. 'UX' P '+' 3. 'UX' Q) ET (BLOQ 'UX' Q) ; "
+        "D = MANU 'CHPO' (P ET Q) 1 'UX' (PROG 0.5 0.25) ; S = CMCT C D ; "
+        "DF = MANU 'CHPO' (P ET Q) 1 'FX' (PROG 0.5 0.25) ; SF = CMCT C DF ; "
+    )
+    s, sf = found(script, "S", "SF")
+    C = np.array([[2.0, 3.0], [0.0, 1.0]])
+    expected = C @ np.diag([0.5, 0.25]) @ C.T
+    np.testing.assert_allclose(dense(s), expected)
+    np.testing.assert_allclose(dense(sf), expected)
+    assert numbering_of(s).unknowns == ("LX",)
+
+
+def test_missing_inverse_is_refused(refused):
+    script = TWO + "C = RELA 2. 'UX' P '+' 3. 'UX' Q ; S = CMCT C (MANU 'CHPO' P 1 'UX' 1.) ;"
+    assert "no value for UX" in refused(script)
+
+
+def test_matrix_condensed_by_relations_answers_as_the_whole(found):
+    script = PLATE + (
+        "P1 = S POIN 'PROC' (3. 2.) ; P2 = S POIN 'PROC' (3. 0.) ; "
+        "B = (BLOQ 'DEPL' (S POIN 'DROI' (0. 0.) (0. 1.) 1.E-6)) ; "
+        "C = RELA 1. 'UX' P1 '-' 2. 'UX' P2 ; F = FORC 'FY' 1. P2 ; "
+        "U1 = RESO (K ET B ET C) F ; KC = CMCT K C ; U2 = RESO (KC ET B) F ; "
+        "Y1 = EXTR U1 'UY' P2 ; Y2 = EXTR U2 'UY' P2 ; N = DIMN (KC ET B) ; "
+    )
+    y1, y2, n = found(script, "Y1", "Y2", "N")
+    assert y2 == pytest.approx(y1, rel=1e-10)
+    assert n == 0
+
+
+def test_cable_is_a_bar_along_its_segments(found):
+    k = found("OPTI DIME 2 ELEM SEG2 ; L = DROI 1 (0. 0.) (3. 4.) ; K = CABL L 10. 2. ;", "K")
+    c = np.array([-0.6, -0.8, 0.6, 0.8])
+    np.testing.assert_allclose(dense(k), 10 / 0.02 / 5 * np.outer(c, c))
+
+
+def test_filter_is_a_weighted_mean(found):
+    script = LINE + "W = 1. + (X MASQ 'EGAL' 1.) ; F = MFIL W 1.5 2. ; Y = F * X ; "
+    f, y = found(script, "F", "Y")
+    A = dense(f)
+    np.testing.assert_allclose(A.sum(axis=1), 1.0)
+    w = (1 - 1 / 1.5) ** 2  # of a neighbour at distance 1; the node at 1 weighs twice
+    row = A[list(AT).index(2)]
+    np.testing.assert_allclose(row[np.argsort(AT)], np.array([0, 2 * w, 1, w, 0]) / (1 + 3 * w))
+    smooth = (2 * w + 2 + 3 * w) / (1 + 3 * w)
+    assert y.components["SCAL"].values[list(AT).index(2)] == pytest.approx(smooth)
+    none = found(LINE + "F = MFIL (X + 1.) ;", "F")
+    np.testing.assert_allclose(dense(none), np.eye(5))
+
+
+def test_free_plate_has_three_motions(found):
+    assert found(PLATE + "N = DIMN K ;", "N") == 3
+
+
+def test_orthogonal_field(found):
+    script = PLATE + (
+        "MS = MASS M A ; B = VIBR 'SIMU' 0.01 5 (K ET (BLOQ 'DEPL' L)) MS ; "
+        "U1 = B . 'MODES' . 1 . 'DEFORMEE_MODALE' ; U2 = B . 'MODES' . 2 . 'DEFORMEE_MODALE' ; "
+        "LU = (SUIT U1) ET U2 ; LN = PROG (XTMX U1 MS) (XTMX U2 MS) ; "
+        "XX = CHPO 'ALEATOIRE' K ; Y = ORTH XX LU LN MS ; "
+        "A1 = YTMX Y U1 MS ; A2 = YTMX Y U2 MS ; A0 = YTMX XX U1 MS ; "
+    )
+    a1, a2, a0 = found(script, "A1", "A2", "A0")
+    assert abs(a0) > 1e-3
+    assert max(abs(a1), abs(a2)) < 1e-9
+
+
+# ---- fields
+
+
+def test_largest_value_becomes_one(found):
+    a, b = found(
+        LINE + "U = (NOMC 'UX' (X - 7.)) ET (NOMC 'UY' X) ; A = MAX1 U ; "
+        "B = MAX1 U 'SANS' (MOTS 'UX') ;",
+        "A", "B",
+    )  # fmt: skip
+    np.testing.assert_allclose(a.components["UX"].values, (AT - 7) / -7)
+    assert b.components["UY"].values.max() == 1.0
+    assert b.components["UX"].values.min() == -7 / 4
+
+
+def test_harmonic_at_an_angle(found):
+    make = "P = 1. 0. ; U = MANU 'CHPO' P 3 'UR' 3. 'UZ' 2. 'UT' 4. ; V = DFOU U 20. ;"
+    for n in (0, 2, -3):
+        v = found(f"OPTI DIME 2 MODE FOUR {n} ; " + make, "V").components
+        a = np.radians(20 * abs(n))
+        even, odd = (np.cos(a), np.sin(a)) if n > 0 else (np.sin(a), np.cos(a))
+        even, odd = (1.0, 1.0) if n == 0 else (even, odd)
+        seen = [v[k].values[0] for k in ("UR", "UZ", "UT")]
+        np.testing.assert_allclose(seen, [3 * even, 2 * even, 4 * odd])
+
+
+@pytest.mark.parametrize("n", [2, -2])
+def test_strains_of_a_harmonic_are_those_of_the_motion_in_space(found, n):
+    # u_r = r^2 f(t), u_t = r^2 g(t): hoop strain u_r / r + (du_t/dt) / r at r = 2.5
+    script = (
+        f"OPTI DIME 2 MODE FOUR {n} ELEM QUA8 ; L = DROI 1 (2 0) (3 0) ; S = TRAN 1 L (0. 1.) ; "
+        "M = MODE S MECANIQUE ELASTIQUE ; R = COOR 1 S ; "
+        "U = (NOMC 'UR' (R * R) 'NATU' 'DIFFUS') ET (NOMC 'UT' (R * R) 'NATU' 'DIFFUS') ; "
+        "E = CHAN 'GRAVITE' (EPSI M U) M ; V = DFOU E 15. ; "
+        "E1 = EXTR V 'EPTT' 1 1 1 ; G1 = EXTR V 'GART' 1 1 1 ; R1 = 2.5 ; "
+    )
+    hoop, shear = found(script, "E1", "G1")
+    t, m, h = np.radians(15.0), abs(n), 1e-6
+    f = (lambda a: np.cos(m * a)) if n > 0 else (lambda a: np.sin(m * a))
+    g = (lambda a: np.sin(m * a)) if n > 0 else (lambda a: np.cos(m * a))
+    r = 2.5
+    turn = (g(t + h) - g(t - h)) / (2 * h)
+    assert hoop == pytest.approx(r * f(t) + r * turn, rel=2e-2)  # mean over the cell: r^2 curves
+    slope = (f(t + h) - f(t - h)) / (2 * h)
+    assert shear == pytest.approx(r * slope + r * g(t), rel=2e-2)
+
+
+def test_distance_to_a_corner_of_lines_is_signed(found):
+    script = (
+        "OPTI DIME 2 ELEM SEG2 ; A = 0. 0. ; B = 2. 0. ; C = 2. 2. ; "
+        "L = (DROI 2 A B) ET (DROI 2 B C) ; "
+        "P = (1. 0.5) ET (1. -0.5) ET (3. -1.) ET (-3. 4.) ET (2.5 1.) ; "
+        "D = PSIP P L ; E = PSIP P L 1.2 ; F G = PSIP P L 'DEUX' A C ; "
+    )
+    d, e, g = found(script, "D", "E", "G")
+    np.testing.assert_allclose(d.components["PHI"].values, [0.5, -0.5, -np.sqrt(2), 5, -0.5])
+    assert len(e.components["PHI"].nodes) == 4
+    # ahead of the nearer end: of A towards -x, of C towards +y
+    np.testing.assert_allclose(g.components["PSI"].values, [-1, -1, -3, 3, -1])
+
+
+def test_distance_to_a_surface_in_space(found):
+    script = (
+        "OPTI DIME 3 ELEM TRI3 ; A = 0. 0. 0. ; B = 2. 0. 0. ; C = 2. 2. 0. ; D = 0. 2. 0. ; "
+        "S = (MANU 'TRI3' A B C) ET (MANU 'QUA4' A C D D) ; S = MANU 'TRI3' A B C ; "
+        "S = S ET (MANU 'TRI3' A C D) ; OPTI ELEM SEG2 ; FR = DROI 2 B C ; ELIM 1.E-6 FR S ; "
+        "FR = (DROI 1 B C) ; "
+        "P = (1. 1. 3.) ET (1. 1. -2.) ET (5. 1. 4.) ET (3. 0.5 1.) ; "
+        "X Y Z = PSIP P S 'TROI' FR ; "
+    )
+    phi, psi, tau = found(script, "X", "Y", "Z")
+    np.testing.assert_allclose(phi.components["PHI"].values, [3, -2, 5, np.sqrt(2)])
+    np.testing.assert_allclose(psi.components["PSI"].values, [-1, -1, 3, 1])
+    np.testing.assert_allclose(tau.components["TAU"].values, [1, 1, 1, 0.5])
+
+
+SERIES = (
+    LINE
+    + "S1 = NOMC 'UX' (SIN (45. * X)) ; S2 = NOMC 'UX' (COS (90. * X)) ; LC = VIDE 'LISTCHPO' ; "
+    "REPE B 7 ; T = FLOT &B ; LC = LC ET ((S1 * (SIN (40. * T))) + (S2 * (0.1 * (COS (70. * T))))) "
+    "; FIN B ; "
+)
+
+
+def test_decomposition_is_the_singular_one_both_ways(found):
+    script = SERIES + (
+        "M1 V1 = POD LC 'SNAPSHOTS' 3 ; M2 V2 = POD LC 'CLASSIQUE' 3 ; D = DIME M1 ; "
+        "T1 = POD LC (LECT 1 2 3) (MOTS 'UX') 'SNAPSHOTS' 2 'TBAS' L ; "
+        "VP = T1 . 'MODES' . 1 . 'VALEUR_PROPRE' ; "
+    )
+    m1, v1, m2, v2, lc, vp = found(script, "M1", "V1", "M2", "V2", "LC", "VP")
+    rows = np.array([f.components["UX"].values for f in lc.values])
+    _, s, vectors = np.linalg.svd(rows)
+    np.testing.assert_allclose(v1.values, s[:2] ** 2 / 7, rtol=1e-9)  # rank two
+    np.testing.assert_allclose(v2.values, v1.values, rtol=1e-9)
+    for k in range(2):
+        mode = m1.values[k].components["UX"].values
+        expected = vectors[k] / vectors[k][np.abs(vectors[k]).argmax()]
+        np.testing.assert_allclose(mode, expected, atol=1e-9)
+        np.testing.assert_allclose(m2.values[k].components["UX"].values, mode, atol=1e-8)
+    first = np.linalg.svd(rows[:3])[1][0]
+    assert vp == pytest.approx(first**2 / 3)
+
+
+def test_decomposition_with_a_mass_is_the_same_both_ways(found):
+    script = SERIES + (
+        "MO = MODE L MECANIQUE ELASTIQUE BARR ; "
+        "MA = MATE MO 'YOUN' 1. 'NU' 0. 'SECT' 1. 'RHO' 1. ; "
+        "MS = MASS MO MA ; M1 V1 = POD LC 'SNAPSHOTS' MS 2 ; M2 V2 = POD LC 'CLASSIQUE' MS 2 ; "
+        "A = YTMX (EXTR M1 1) (EXTR M1 2) MS ; "
+    )
+    m1, v1, m2, v2, a = found(script, "M1", "V1", "M2", "V2", "A")
+    np.testing.assert_allclose(v2.values, v1.values, rtol=1e-8)
+    assert abs(a) < 1e-9
+    for one, other in zip(m1.values, m2.values, strict=True):
+        np.testing.assert_allclose(
+            one.components["UX"].values, other.components["UX"].values, atol=1e-8
+        )

@@ -1,0 +1,116 @@
+"""KENT and GYRO against energies, whirling shafts and turning rods."""
+
+import numpy as np
+import pytest
+
+from ssilang.kernel.matrices.assembly import assemble, constraint_matrix, numbering_of
+
+SHAFT = (
+    "OPTI DIME 3 MODE TRID ELEM SEG2 ; P = 0 0 0 ; Q = {q} ; L = DROI {n} P Q ; "
+    "M = MODE L MECANIQUE ELASTIQUE {element} ; A = MATE M 'YOUN' 2.E11 'NU' 0.3 'RHO' 7800. "
+    "'SECT' 0.01 'INRY' 2.E-5 'INRZ' 2.E-5 'TORS' 4.E-5 'OMEG' 50. ; "
+)
+
+
+def shaft(element="TIMO", n=4, q="(0. 0. 2.)"):
+    return SHAFT.format(element=element, n=n, q=q)
+
+
+def dense(matrix):
+    return assemble(matrix).toarray()
+
+
+@pytest.mark.parametrize("element", ["TIMO", "POUT"])
+def test_gyroscopic_moment_of_a_tilting_shaft(found, element):
+    g = found(shaft(element) + "G = GYRO M A ;", "G")
+    G, numbering = dense(g), numbering_of(g)
+    np.testing.assert_allclose(G, -G.T, atol=1e-9)
+    # the whole shaft tilts rigidly about x and about y: moments +-I_p OMEG
+    x, y = np.zeros(len(G)), np.zeros(len(G))
+    for node in numbering.nodes[numbering.where("UX")]:
+        z = numbering.table.coordinates[node][2]
+        x[numbering.index_of(node, "UY")], x[numbering.index_of(node, "RX")] = -z, 1.0
+        y[numbering.index_of(node, "UX")], y[numbering.index_of(node, "RY")] = z, 1.0
+    polar = 7800 * 4e-5 * 2.0 * 50.0
+    # the axis is z: M_x = I_p OMEG ty', M_y = -I_p OMEG tx'
+    assert x @ G @ y == pytest.approx(polar, rel=1e-9)
+    assert y @ G @ x == pytest.approx(-polar, rel=1e-9)
+    assert x @ G @ x == pytest.approx(0.0, abs=1e-9)
+
+
+def test_forward_whirl_is_faster_than_backward_whirl(found):
+    script = shaft("TIMO", 8).replace("'OMEG' 50.", "'OMEG' 3000.") + (
+        "K = (RIGI M A) ET (BLOQ 'UX' 'UY' (P ET Q)) ET (BLOQ 'UZ' 'RZ' P) ; B = MASS M A ; "
+        "G = GYRO M A ; "
+    )
+    k, b, g = found(script, "K", "B", "G")
+    held = constraint_matrix(k, numbering_of(k)).C.toarray().any(axis=0)
+    free = np.ix_(~held, ~held)
+    K, M, G = (dense(m)[free] for m in (k, b, g))
+    n = len(K)
+    A = np.block([[np.zeros((n, n)), np.eye(n)], [-np.linalg.solve(M, K), -np.linalg.solve(M, G)]])
+    w = np.linalg.eigvals(A).imag
+    low, high = np.sort(w[w > 1])[:2]
+    # a slender shaft on two supports: w^2 (1 + a) -+ 2 a OMEG w = w0^2, a = pi^2 I / (S L^2)
+    a = np.pi**2 * 2e-5 / (0.01 * 4)
+    assert high - low == pytest.approx(2 * a * 3000 / (1 + a), rel=0.05)
+
+
+@pytest.mark.parametrize("element", ["TIMO", "POUT", "BARR"])
+def test_centrifugal_stiffness_of_a_rigid_translation_is_its_mass(found, element):
+    script = shaft(element, q="(1. 2. 2.)").replace("'OMEG' 50.", "")
+    if element == "BARR":
+        i = script.index("'INRY'")
+        script = script[:i] + "; "
+    k, e = found(
+        script + "K = KENT 'CENTRIFUGE' M A (0. 3. 4.) ; E = KENT 'EULER' M A (0. 3. 4.) ;",
+        "K",
+        "E",
+    )
+    K, E, numbering = dense(k), dense(e), numbering_of(k)
+    mass = 7800 * 0.01 * 3.0
+    t = np.array([0.3, -1.0, 2.0])
+    u = np.zeros(len(K))
+    for i, name in enumerate(("UX", "UY", "UZ")):
+        u[numbering.where(name)] = t[i]
+    w = np.array([0.0, 3.0, 4.0])
+    assert u @ K @ u == pytest.approx(mass * t @ np.cross(w, np.cross(w, t)))
+    np.testing.assert_allclose(K, K.T, atol=1e-8)
+    np.testing.assert_allclose(E, -E.T, atol=1e-8)
+    v = np.zeros(len(K))
+    v[numbering.where("UX")] = 1.0
+    assert v @ E @ u == pytest.approx(mass * np.cross(w, t)[0])
+
+
+def test_centrifugal_stiffness_of_a_bent_beam_is_the_integral_of_its_deflection(found):
+    k = found(shaft("POUT", 1) + "K = KENT 'CENTRIFUGE' M A (0. 0. 5.) ;", "K")
+    K, numbering = dense(k), numbering_of(k)
+    u = np.zeros(len(K))
+    tip = numbering.nodes[numbering.where("UX")].max()
+    u[numbering.index_of(tip, "UX")] = 1.0  # cubic 3 s^2 - 2 s^3: mean square 13 / 35
+    assert u @ K @ u == pytest.approx(-25 * 7800 * 0.01 * 2 * 13 / 35)
+
+
+def test_block_in_a_turning_frame(found):
+    script = (
+        "OPTI DIME 3 MODE TRID ELEM CUB8 ; L = DROI 1 (1 0 0) (2 0 0) ; S = TRAN 1 L (0. 1. 0.) ; "
+        "V = VOLU 2 S 'TRAN' (0. 0. 1.) ; M = MODE V MECANIQUE ELASTIQUE ; "
+        "A = MATE M 'YOUN' 1. 'NU' 0.3 'RHO' 3. ; B = MASS M A ; "
+        "K = KENT 'CENTRIFUGE' M A (0. 0. 2.) ; "
+    )
+    k, b = found(script, "K", "B")
+    K, M, numbering = dense(k), dense(b), numbering_of(k)
+    turned = np.isin(numbering.codes, [numbering.code("UX"), numbering.code("UY")])
+    expected = -4 * M * np.outer(turned, turned)
+    np.testing.assert_allclose(K, expected, atol=1e-12)
+
+
+def test_shells_are_refused(refused):
+    script = (
+        "OPTI DIME 3 MODE TRID ELEM QUA4 ; L = DROI 1 (1 0 0) (2 0 0) ; S = TRAN 1 L (0. 1. 0.) ; "
+        "M = MODE S MECANIQUE ELASTIQUE DKT ; A = MATE M 'YOUN' 1. 'NU' 0.3 'RHO' 3. 'EPAI' 0.1 ; "
+    )
+    assert "no matrices of turning frames" in refused(
+        script.replace("QUA4", "TRI3") + "K = KENT 'CENTRIFUGE' M A (0. 0. 2.) ;"
+    )
+    assert "beams in space" in refused(script.replace("QUA4", "TRI3") + "K = GYRO M A ;")
