@@ -21,7 +21,7 @@ from ssilang.kernel.dynamics.initial import (
     with_contact,
 )
 from ssilang.kernel.dynamics.motion import snapshot_of
-from ssilang.kernel.dynamics.plan import Run, runs_of
+from ssilang.kernel.dynamics.plan import SAME, Run, runs_of
 from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.dynamics.reduction import Reduction
 from ssilang.kernel.dynamics.snapshot import Observer, Snapshot
@@ -207,6 +207,7 @@ class Integration:
         return last if len(over) == 0 else first + max(int(over[0]), 1)
 
     def _engine(self, dt: float) -> Engine:
+        dt = next((known for known in self._engines if abs(known - dt) <= SAME * known), dt)
         found = self._engines.get(dt)
         if found is None:
             if len(self._engines) >= FACTORS_KEPT:

@@ -128,3 +128,16 @@ def test_light_runs_find_their_energies_when_asked():
     assert worst == pytest.approx(np.abs(history.imbalance).max(), rel=1e-9)
     assert history.energies.shape == (len(problem.times), 6)
     assert history.energies[-1, 0] > 0.0
+
+
+def test_steps_that_differ_by_rounding_share_their_engine(monkeypatch):
+    made = []
+
+    class Counted(DenseEngine):
+        def __init__(self, *given):
+            made.append(given)
+            super().__init__(*given)
+
+    monkeypatch.setattr("ssilang.kernel.dynamics.integrate.kind_of", lambda p, full: Counted)
+    integrate(replace(problem_of(LAWS["no tension"]), times=0.1 + 2.5e-4 * np.arange(30_000)))
+    assert len(made) == 1
