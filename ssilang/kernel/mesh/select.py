@@ -40,7 +40,7 @@ def cells_containing(block: CellBlock, position: FloatArray) -> BoolArray:
         return np.asarray(np.linalg.norm(x[:, 0] - position, axis=1) <= tolerance * scale)
     corners = x[:, list(block.kind.corners)]
     inside = np.zeros(len(block), dtype=bool)
-    for simplex in _simplices(block):
+    for simplex in simplices(block):
         inside |= _in_simplex(corners[:, list(simplex)], position, size, tolerance)
     return inside
 
@@ -58,7 +58,8 @@ _SIMPLICES: dict[int, dict[int, tuple[tuple[int, ...], ...]]] = {
 }
 
 
-def _simplices(block: CellBlock) -> tuple[tuple[int, ...], ...]:
+def simplices(block: CellBlock) -> tuple[tuple[int, ...], ...]:
+    """Triangles or tetrahedra that fill a cell, as places among its corners."""
     return _SIMPLICES[block.kind.dimension][len(block.kind.corners)]
 
 

@@ -1,0 +1,98 @@
+"""DEDU without keyword: meshes that follow; RAFF of lists."""
+
+import numpy as np
+import pytest
+
+from ssilang.cli.run import run_text
+
+
+def found(script, *names):
+    result = run_text(script)
+    assert result.exit_code == 0, result.message
+    values = tuple(result.session.root.find(n) for n in names)
+    return values[0] if len(names) == 1 else values
+
+
+def refused(script):
+    result = run_text(script)
+    assert result.exit_code == 1
+    return result.message
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        "OPTI DIME 2 ELEM QUA4 ; S = (DROI 4 (0. 0.) (2. 0.)) TRAN 3 (0.5 1.) ; C = CONT S ; "
+        "D = C AFFI 3. (0. 0.) (1. 1.) ; T = S AFFI 3. (0. 0.) (1. 1.) ;",
+        "OPTI DIME 2 ELEM TRI3 ; C = CERC 20 'ROTA' 360. (1. 0.) (0. 0.) 'ELIM' ; S = SURF C ; "
+        "D = C AFFI 2. (0. 0.) (1. 0.) ; T = S AFFI 2. (0. 0.) (1. 0.) ;",
+        "OPTI DIME 3 ELEM CUB8 ; S = ((0. 0. 0.) DROI 3 (1. 0. 0.)) TRAN 3 (0. 1. 0.) ; "
+        "S = VOLU 3 S 'TRAN' (0. 0. 1.) ; C = ENVE S ; D = C AFFI 2. (0. 0. 0.) (1. 1. 1.) ; "
+        "T = S AFFI 2. (0. 0. 0.) (1. 1. 1.) ;",
+    ],
+)
+def test_homogeneous_move_of_the_boundary_is_followed_exactly(body):
+    script = body + (
+        " R = DEDU S C D ; E = MAXI (ABS (T MOIN R)) ; N = (NBNO R) - (NBNO S) ; "
+        "M = NBNO ((CHAN 'POI1' R) ET (CHAN 'POI1' D)) ; A = MESU R ; B = MESU T ;"
+    )
+    error, same, together, a, b = found(script, "E", "N", "M", "A", "B")
+    assert error == pytest.approx(0.0, abs=1e-10)
+    assert same == 0
+    assert a == pytest.approx(b)
+    assert together == found(script + " K = NBNO R ;", "K")
+
+
+def test_inner_nodes_go_to_the_middle_of_their_neighbours():
+    """One inner node pulled aside comes back to the middle; the contour's nodes stay themselves."""
+    script = (
+        "OPTI DIME 2 ELEM QUA4 ; S = (DROI 2 (0. 0.) (2. 0.)) TRAN 2 (0. 2.) ; P = S POIN "
+        "'PROC' (1. 1.) ; "
+        "DEPL P 'PLUS' (0.4 0.3) ; C = CONT S ; {} Q = R POIN 'PROC' (1. 1.) ; X Y = COOR Q ; "
+        "N = NBNO ((CHAN 'POI1' C) ET (CHAN 'POI1' R)) ; XP = COOR 1 P ;"
+    )
+    x, y, count, kept = found(script.format("R = S DEDU C C 'REGU' ;"), "X", "Y", "N", "XP")
+    assert (x, y, count, kept) == pytest.approx((1.0, 1.0, 9, 1.4))
+    assert found(script.format("R = DEDU S C C ;"), "X") == pytest.approx(1.4)
+
+
+def test_parts_without_masters_and_quadratic_cells_are_refused():
+    base = (
+        "OPTI DIME 2 ELEM {} ; S = (DROI 2 (0. 0.) (2. 0.)) TRAN 2 (0. 2.) ; T = S PLUS (5. 0.) ; "
+        "C = COTE 1 S ; R = DEDU (S ET T) C (C PLUS (0. 0.1)) ;"
+    )
+    assert "no master node" in refused(base.format("QUA4"))
+    assert "cannot follow" in refused(base.format("QUA8"))
+    assert "three meshes" in refused(
+        "OPTI DIME 2 ELEM SEG2 ; L = DROI 1 (0. 0.) (1. 0.) ; M = DEDU L ;"
+    )
+
+
+@pytest.mark.parametrize(
+    ("call", "want"),
+    [
+        ("(PROG 0. 1. 3.) 2", [0.0, 0.5, 1.0, 2.0, 3.0]),
+        ("(PROG 1. 1.) 3", [1.0, 1.0, 1.0, 1.0]),
+        ("(PROG 3. 0.) 0.9", [3.0, 2.0, 1.0, 0.0]),
+        ("(PROG 0. 1. 1. 2.) 0.5", [0.0, 0.5, 1.0, 1.0, 1.5, 2.0]),
+        ("(PROG 7.) 4", [7.0]),
+        ("(PROG 0. 1. 2.) -2", [0.0, 0.5, 1.0, 1.5, 2.0]),
+    ],
+)
+def test_lists_are_refined(call, want):
+    assert list(found(f"L = RAFF {call} ;", "L").values) == pytest.approx(want)
+
+
+def test_refined_intervals_of_different_sizes_grade_into_each_other():
+    values = np.asarray(found("L = RAFF (PROG 0. 1. 9.) -4 ;", "L").values)
+    steps = np.diff(values)
+    assert set(np.round([0.0, 1.0, 9.0], 9)) <= set(np.round(values, 9))
+    assert (steps > 0).all()
+    ratios = steps[1:] / steps[:-1]
+    assert ratios.max() < 2.0
+    assert steps[-1] > 3.0 * steps[0]
+
+
+def test_refining_wants_a_part_and_a_size():
+    assert "one part at least" in refused("L = RAFF (PROG 0. 1.) 0 ;")
+    assert "positive" in refused("L = RAFF (PROG 0. 1.) -0.5 ;")
