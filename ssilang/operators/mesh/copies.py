@@ -333,11 +333,13 @@ def proj(call: Call) -> Any:
         en="Copy of a mesh of linear surfaces or volumes whose master nodes GEO2 have become those "
         "of GEO3, of the same structure; the others follow harmonically. 'REGU': then each inner "
         "node goes to the mean of its neighbours. 'TRAN': copies of objects through the "
-        "transformation that takes one mesh to another of the same structure; 'ROTA': the same, vectors and tensors of fields turning by the angle.",
+        "transformation that takes one mesh to another of the same structure; 'ROTA': the "
+        "same, vectors and tensors of fields turning by the angle.",
         fr="Copie d'un maillage de surfaces ou volumes linéaires dont les noeuds maîtres GEO2 sont "
         "devenus ceux de GEO3, de même structure ; les autres suivent harmoniquement. 'REGU' : "
         "puis chaque noeud intérieur va au milieu de ses voisins. 'TRAN' : copies d'objets par "
-        "la transformation qui mène d'un maillage à un autre de même structure ; 'ROTA' : de même, vecteurs et tenseurs des champs tournant de l'angle.",
+        "la transformation qui mène d'un maillage à un autre de même structure ; 'ROTA' : de "
+        "même, vecteurs et tenseurs des champs tournant de l'angle.",
         syntax="GEO4 = DEDU GEO1 GEO2 GEO3 ('REGU') ;\n"
         "OBJ2 ... = OBJ1 ... DEDU 'TRAN' GEO1 GEO2 ;\n"
         "OBJ2 ... = OBJ1 ... DEDU 'ROTA' FLOT1 POIN1 (POIN2) GEO1 GEO2 ;",
