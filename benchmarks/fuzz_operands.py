@@ -21,11 +21,10 @@ import time
 from collections import Counter
 from pathlib import Path
 
-from ssilang.cli.completion import keywords_of
 from ssilang.cli.run import RunOptions, execute, make_session
 from ssilang.language.errors import SeveralErrors, SsiError
 from ssilang.language.evaluator import StopRun
-from ssilang.language.registry import OPERATORS, Operator
+from ssilang.language.registry import OPERATORS, Operator, keywords_of
 from ssilang.language.session import Limits, Session
 from ssilang.language.source import Source
 from ssilang.language.structure import parse

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from ssilang.language.registry import Keyword, Operator, find_operator, operators_by_family
+from ssilang.language.registry import find_operator, keywords_of, operators_by_family
 from ssilang.language.session import Session
 from ssilang.language.values import Table
 
@@ -68,16 +68,6 @@ def _keywords(text: str) -> list[str]:
         if found is not None and word[0].isalpha():
             return keywords_of(found)
     return []
-
-
-def keywords_of(found: Operator) -> list[str]:
-    """Keywords that an operator declares or that its syntax lines quote."""
-    words = set(re.findall(r"'([A-Z][A-Z0-9_]*) *'", found.help.syntax))
-    for form in found.forms:
-        for entry in form.entries or ():
-            if isinstance(entry, Keyword):
-                words.update(w.strip() for w in entry.words)
-    return sorted(words)
 
 
 def _table_keys(path: str, session: Session) -> list[str]:

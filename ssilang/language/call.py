@@ -281,7 +281,7 @@ class Call:
     def missing(self, types: Sequence[str]) -> SsiError:
         """The error for an operand that is not there, pointing at what stands instead."""
         if self.operands:
-            wrong = self.operands[0]
+            wrong, every = self.operands[0], (*self.used, *self.operands)
             return SsiError(
                 "wrong-argument",
                 wrong.span,
@@ -291,6 +291,7 @@ class Call:
                 name=wrong.name,
                 value=str(wrong.value) if isinstance(wrong.value, str) else "",
                 bare=isinstance(wrong.value, str) and wrong.span.text[:1] not in ("'", "("),
+                quoted=[o.span.text[1:-1] for o in every if o.span.text[:1] == "'"],
             )
         return SsiError("missing-argument", self.span, operator=self.name, expected=list(types))
 

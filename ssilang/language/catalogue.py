@@ -275,8 +275,8 @@ MESSAGES: dict[str, Message] = {
     "wrong-argument": Message(
         "{operator} wanted {types}, found {found_text}",
         "{operator} attendait {types}, trouvé {found_text}",
-        "{bare_hint}{syntax_hint}",
-        "{bare_hint}{syntax_hint}",
+        "{bare_hint}{keyword_hint}{syntax_hint}",
+        "{bare_hint}{keyword_hint}{syntax_hint}",
         number=37,
     ),
     "missing-keyword": Message(

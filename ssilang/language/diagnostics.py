@@ -9,9 +9,10 @@ from typing import Any
 from ssilang.language.cast3m import IN_SCOPE, SUBJECTS, find_cast3m_word
 from ssilang.language.catalogue import MESSAGES
 from ssilang.language.errors import SsiError
-from ssilang.language.registry import ANY, OPERATORS, find_operator
+from ssilang.language.registry import ANY, OPERATORS, find_operator, keywords_of
 from ssilang.language.source import Span
 from ssilang.language.translations import in_french
+from ssilang.resources import resource
 
 _OR = {"en": " or ", "fr": " ou "}
 _ANY = {"en": "an object", "fr": "un objet"}
@@ -38,8 +39,9 @@ class _Data(dict[str, Any]):
 
 def nearest(word: str, known: Iterable[str]) -> str:
     """The known name that looks most like `word`, '' if none does."""
-    found = difflib.get_close_matches(word.upper(), list(known), 1, 0.7)
-    return found[0] if found else ""
+    found = difflib.get_close_matches(word.upper(), list(known), 8, 0.7)
+    likeness = {w: difflib.SequenceMatcher(None, w, word.upper()).ratio() for w in found}
+    return min(found, key=lambda w: (-likeness[w], w), default="")
 
 
 def render(error: SsiError, language: str = "en", names: Iterable[str] = ()) -> str:
@@ -54,16 +56,35 @@ def render(error: SsiError, language: str = "en", names: Iterable[str] = ()) -> 
     """
     head, hint = sentence(error, language, names)
     lines = [f"{_label(error, language)}: {head}"]
-    if error.span is not None:
-        lines += _place(error.span, "-->")
+    place, calls = _seen(error)
+    if place is not None:
+        lines += _place(place, "-->")
     lines += [f"  = {part}" for part in hint.split("\n") if part]
-    return "\n".join(lines + _calls(error, language))
+    return "\n".join(lines + _calls(calls, language))
 
 
-def _calls(error: SsiError, language: str) -> list[str]:
+def _seen(error: SsiError) -> tuple[Span | None, list[tuple[str, Span]]]:
+    """Where the reader's own script is wrong, and the chain of calls outside of it.
+
+    What a procedure of the standard library reports is shown at the call in the script.
+    """
+    place, calls = error.span, list(error.calls)
+    while place is not None and calls and _is_standard(place):
+        place = calls.pop(0)[1]
+    return (
+        (error.span, list(error.calls)) if place is None or _is_standard(place) else (place, calls)
+    )
+
+
+def _is_standard(span: Span) -> bool:
+    path = span.source.path
+    return path is not None and path.parent == resource("stdlib")
+
+
+def _calls(calls: list[tuple[str, Span]], language: str) -> list[str]:
     """The chain of procedures, innermost first; the middle of a long one is left out."""
     lines = []
-    for name, span in error.calls:
+    for name, span in calls:
         line, column = span.source.position(span.start)
         lines.append(f"  {_CALLED[language].format(name=name)} {span.source.name}:{line}:{column}")
     if len(lines) <= 2 * _CALLS_SHOWN:
@@ -138,6 +159,8 @@ def _derived(error: SsiError, language: str, names: Iterable[str]) -> dict[str, 
         made["a_found"] = _article(str(data["found"]), language)
     if error.code == "excess" and data.get("name"):
         made["named"] = f" ({data['name']})"
+    if data.get("found") == "nothing":
+        made["found"] = {"en": "nothing", "fr": "rien"}[language]
     if data.get("wanted"):
         made["wanted_text"] = {"en": " of type ", "fr": " de type "}[language] + str(data["wanted"])
     if error.code == "arithmetic":
@@ -147,6 +170,8 @@ def _derived(error: SsiError, language: str, names: Iterable[str]) -> dict[str, 
         made["before_text"] = before[language].format(data["before"])
     if data.get("bare") and error.code == "wrong-argument":
         made["bare_hint"] = _bare_hint(str(data["value"]), language, names)
+    if data.get("quoted"):
+        made["keyword_hint"] = _keyword_hint(data, language)
     made["near_hint"] = _near_hint(data, language, names)
     made["syntax_hint"] = _syntax_hint(data)
     made["known_hint"] = _known_hint(data, language)
@@ -193,6 +218,25 @@ def _bare_hint(word: str, language: str, names: Iterable[str]) -> str:
     ask = question.format(near) if near else ""
     text = {"en": "{} was never given a value{}\n", "fr": "{} n'a jamais reçu de valeur{}\n"}
     return text[language].format(word, ask)
+
+
+def _keyword_hint(data: dict[str, object], language: str) -> str:
+    """A quoted word of the phrase that is nearly a keyword of its operator."""
+    found = find_operator(str(data.get("operator", "")))
+    quoted = data.get("quoted")
+    if found is None or not isinstance(quoted, list):
+        return ""
+    keywords = [w.rstrip() for w in keywords_of(found)]
+    beginnings = {w[:4] for w in keywords}
+    for word in quoted:
+        near = "" if word.upper()[:4] in beginnings else nearest(word, keywords)
+        if near:
+            text = {
+                "en": "'{}' is no keyword of {}: did you mean '{}'?\n",
+                "fr": "'{}' n'est pas un mot-clé de {} : vouliez-vous dire '{}' ?\n",
+            }[language]
+            return text.format(word, found.name.strip(), near)
+    return ""
 
 
 def _found(data: dict[str, object], language: str) -> str:

@@ -232,6 +232,7 @@ class Evaluator(OperandReader):
     def _assign(self, statement: tree.Statement, left: list[Operand]) -> None:
         targets = self._typed_targets(statement.targets)
         self.refuse_leftovers(left[:1] if left and is_call(left) else [])
+        taken = []
         for target, wanted in targets:
             at = 0
             if wanted:
@@ -244,9 +245,10 @@ class Evaluator(OperandReader):
                     wanted=wanted,
                     name=target.span.text,
                 )
-            self.store(target, left.pop(at).value)
+            taken.append(left.pop(at))
+            self.store(target, taken[-1].value)
         if left:
-            self.refuse_leftovers(left)
+            self.refuse_leftovers(left, taken)
 
     @staticmethod
     def _typed_targets(items: Sequence[tree.Item]) -> list[tuple[tree.Item, str]]:
@@ -286,9 +288,9 @@ class Evaluator(OperandReader):
             raise self.no_table(holder, target)
         holder.set(self.single(target.indices[-1]), value)
 
-    def refuse_leftovers(self, left: Sequence[Operand]) -> None:
-        """Raise the error for operands that nothing read, if there are any."""
-        error = leftover_error(left, self.session.assignments)
+    def refuse_leftovers(self, left: Sequence[Operand], taken: Sequence[Operand] = ()) -> None:
+        """Raise the error for operands that nothing read, behind those taken, if there are any."""
+        error = leftover_error(left, self.session.assignments, taken)
         if error is not None:
             raise error
 

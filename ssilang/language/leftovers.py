@@ -17,12 +17,16 @@ def is_call(left: Sequence[Operand]) -> bool:
     return len(left) > 1 and isinstance(first.value, Mot) and not first.result and not first.name
 
 
-def leftover_error(left: Sequence[Operand], later: Mapping[str, Span]) -> SsiError | None:
+def leftover_error(
+    left: Sequence[Operand], later: Mapping[str, Span], taken: Sequence[Operand] = ()
+) -> SsiError | None:
     """The error for operands that nothing read, None if there are none.
 
     Parameters
     ----------
     left : sequence of Operand
+    taken : sequence of Operand
+        Those before them, which names on the left of = have taken.
     later : mapping
         Names that the script gives a value to somewhere, with the place where it does.
     """
@@ -33,8 +37,9 @@ def leftover_error(left: Sequence[Operand], later: Mapping[str, Span]) -> SsiErr
     unread = next((o for o in words if find_operator(str(o.value)) is not None), None)
     if unread is not None and not (_quoted(unread) and not _quoted(words[0])):
         return _unread_operator(unread, left)
-    hidden = next((o for o in left if o.name and find_operator(o.name) is not None), None)
-    if hidden is not None and len(left) > 1:
+    every = (*taken, *left)
+    hidden = next((o for o in every if o.name and find_operator(o.name) is not None), None)
+    if hidden is not None and len(every) > 1:
         return SsiError(
             "hidden-operator", hidden.span, name=hidden.name, found=type_of(hidden.value)
         )

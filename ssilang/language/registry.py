@@ -7,6 +7,7 @@ Operators register themselves with the decorator `operator`; everything that nee
 from __future__ import annotations
 
 import inspect
+import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal
@@ -203,3 +204,13 @@ def operators_by_family() -> Mapping[str, list[Operator]]:
         if made.name == name:
             groups.setdefault(made.family, []).append(made)
     return groups
+
+
+def keywords_of(found: Operator) -> list[str]:
+    """Keywords that an operator declares or that its syntax lines quote."""
+    words = set(re.findall(r"'([A-Z][A-Z0-9_]*) *'", found.help.syntax))
+    for form in found.forms:
+        for entry in form.entries or ():
+            if isinstance(entry, Keyword):
+                words.update(w.strip() for w in entry.words)
+    return sorted(words)

@@ -45,6 +45,34 @@ TEMPLATES: tuple[tuple[str, str], ...] = (
         "not held: {}; hold it with BLOQ or RELA, or give it mass (MASS)",
         "non tenu : {} ; bloquez-le par BLOQ ou RELA, ou donnez-lui une masse (MASS)",
     ),
+    (
+        "the matrix is singular, with {} free motion ({})",
+        "la matrice est singulière : {} mouvement libre ({})",
+    ),
+    (
+        "the matrix is singular, with {} free motions ({})",
+        "la matrice est singulière : {} mouvements libres ({})",
+    ),
+    (
+        "the matrix has no unknown for the force {}",
+        "la matrice n'a pas d'inconnue pour la force {}",
+    ),
+    (
+        "take it out of the second member, or say 'NOID'",
+        "ôtez-la du second membre, ou dites 'NOID'",
+    ),
+    # ---- tables of procedures
+    ("{}: the entry '{}' is missing", "{} : l'entrée '{}' manque"),
+    ("{}: '{}' must be {}, found {}", "{} : '{}' doit être {}, trouvé {}"),
+    (
+        "the times of a calculation must be at least two and strictly increase",
+        "les instants d'un calcul sont deux au moins et croissent strictement",
+    ),
+    # ---- models
+    ("MODE does not know the word {}", "MODE ne connaît pas le mot {}"),
+    ("did you mean {}?", "vouliez-vous dire {} ?"),
+    ("element {} does not stand on {} cells", "l'élément {} ne va pas sur des mailles {}"),
+    ("{} needs {} cells", "{} demande des mailles {}"),
     # ---- materials
     (
         "parameter {} is missing for element {} ({})",

@@ -24,7 +24,10 @@ FRENCH = frozenset(
         "variable_never_set", "minus_in_front_of_a_name", "operand_of_the_wrong_type",
         "table_index_misspelt", "table_never_made", "error_three_calls_deep",
         "operator_of_another_subject", "structure_without_supports", "more_names_than_results",
-        "loop_closed_by_another_name", "comparison_before_a_sum",
+        "loop_closed_by_another_name", "comparison_before_a_sum", "joint_law_misspelt",
+        "joint_without_its_stiffness", "dynamic_entry_misspelt", "dynamic_without_its_mass",
+        "load_on_nodes_out_of_the_model", "four_errors_of_different_kinds_in_one_pass",
+        "operator_hidden_by_a_variable", "error_in_a_procedure_of_a_table",
     }
 )  # fmt: skip
 _CASES = [(p.stem, "en") for p in sorted(_SCRIPTS.glob("*.ssi"))] + [

@@ -34,7 +34,7 @@ def _literals():
 
 def _windows(english, size=4):
     """Runs of four words of the longest fixed part of a template."""
-    words = max(english.split("{}"), key=len).split()
+    words = max(english.split("{}"), key=len).strip(" :'").split()
     return [" ".join(words[i : i + size]) for i in range(max(len(words) - size + 1, 1))]
 
 

@@ -40,6 +40,7 @@ def session(tmp_path_factory):
         ("X = SYMT 'DEPL' A B E MZ 0.1", "empty"),
         ("X = ANTI 'DEPL' A B E MZ 0.1", "empty"),
         ("DEPL L1 'DEDU' MZ MZ", "one at least"),
+        ("X = FORC 'FX' 1. MZ", "empty"),
     ],
 )
 def test_senseless_operands_are_refused_in_words(session, statement, says):
@@ -56,8 +57,9 @@ def test_sum_of_squares_joins_fields_of_one_kind(session):
 
 
 def test_an_empty_mesh_has_no_connected_parts(session):
-    execute(session, Source("statement", "X = DIME (CCON MZ) ;"))
-    assert session.root.find("X") == 0
+    for parts in ("CCON MZ", "CCON 'STR1' MZ", "PART 'CONN' 'NESC' MZ"):
+        execute(session, Source("statement", f"X = DIME ({parts}) ;"))
+        assert session.root.find("X") == 0
 
 
 def test_no_free_motion_means_no_projected_solution(session):

@@ -10,12 +10,11 @@ from ssilang.cli.checking.kinds import UNKNOWN, kind_word, typed
 from ssilang.cli.checking.phrases import PhraseReader
 from ssilang.cli.checking.scope import Scope, assigned_names
 from ssilang.cli.checking.usage import misspelt_names, unused_names
-from ssilang.cli.completion import keywords_of
 from ssilang.language import tree
 from ssilang.language.cast3m import cast3m_words
 from ssilang.language.errors import SsiError
 from ssilang.language.leftovers import is_call
-from ssilang.language.registry import OPERATORS, find_operator
+from ssilang.language.registry import OPERATORS, find_operator, keywords_of
 from ssilang.language.session import Session
 from ssilang.language.values import Mot, Procedure, known_types
 

@@ -17,6 +17,8 @@ _WIDTH = 4  # corners of the largest side of a cell
 
 def connected(mesh: Mesh) -> list[Mesh]:
     """Parts of a mesh whose cells are joined by common nodes, in the order of their first cell."""
+    if not mesh.n_cells:
+        return []
     rows = [np.repeat(np.arange(len(b)), b.kind.n_nodes) for b in mesh.blocks]
     starts = _starts(mesh)
     cells = np.concatenate([r + s for r, s in zip(rows, starts, strict=True)])
@@ -49,6 +51,8 @@ def separated(
     MeshError
         If an angle is asked for in volumes.
     """
+    if not mesh.n_cells:
+        return []
     cells, sides = _sides(mesh)
     names, which, counts = np.unique(sides, axis=0, return_inverse=True, return_counts=True)
     which = which.ravel()

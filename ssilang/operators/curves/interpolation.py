@@ -176,7 +176,7 @@ def _intervals(call: Call, part: Any, word: str, bounds: Any) -> list[tuple[floa
         raise call.bad(f"{len(low)} lower and {len(high)} upper bounds")
     if word == "INDI":
         both = np.concatenate((low, high))
-        if both.min() < 1 or both.max() > len(x):
+        if len(both) and (both.min() < 1 or both.max() > len(x)):
             raise call.bad(f"the curve has {len(x)} points, places go from 1 to {len(x)}")
         low, high = x[low - 1], x[high - 1]
     return [(float(a), float(b)) for a, b in zip(low, high, strict=True)]

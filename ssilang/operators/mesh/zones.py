@@ -132,6 +132,4 @@ def ccon(call: Call) -> Table:
     strict = call.keyword(("STR1", "STR2"))
     mesh: Mesh = call.required("MAILLAGE")
     strict = strict or call.keyword(("STR1", "STR2"))
-    if not len(mesh.node_ids):
-        return _table([], "")
     return _table(separated(mesh, by_branching=True) if strict else connected(mesh), "")

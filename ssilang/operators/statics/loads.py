@@ -45,6 +45,8 @@ def _shared(call: Call, usual: tuple[str, ...], allowed: tuple[str, ...]) -> Nod
         values = dict(zip(usual, vector.coordinates[: len(usual)], strict=True))
     place: Mesh | Point = call.required("MAILLAGE", "POINT")
     nodes = nodes_of(place)
+    if not len(nodes):
+        raise call.bad("the mesh is empty: there is nothing to share the force out to", place)
     parts = {n: np.full(len(nodes), v / len(nodes)) for n, v in values.items()}
     return NodeField.of(place.nodes, nodes, parts, "DISCRET")
 
