@@ -1,0 +1,77 @@
+"""CAMPBELL: a disc on a shaft, whose frequencies are known in closed form."""
+
+import numpy as np
+import pytest
+
+from ssilang.cli.run import run_text
+
+INERTIA, POLAR, STIFFNESS = 2.0, 3.0, 800.0
+SPEEDS = np.array([0.0, 10.0, 40.0])
+DISC = (
+    "OPTI DIME 3 ; P1 = 0. 0. 0. ; N = MOTS 'RX' 'RY' ; T = TABL ;"
+    f"K1 = APPU 'RX' 'RY' {STIFFNESS} P1 ; M1 = MASS 'RX' 'RY' {INERTIA} P1 ;"
+    f"G1 = MANU 'RIGI' 'TYPE' 'AMORTISS' P1 N 'ANTI' (PROG 0. {POLAR} 0.) ;"
+    "B1 = VIBR 'SIMU' 1. 2 K1 M1 ; T . 'MASSE' = M1 ; T . 'RIGIDITE' = K1 ;"
+)
+
+
+def rows(script):
+    result = run_text(script)
+    assert result.exit_code == 0, result.message
+    table = result.session.root.find("T")
+    return [table.get(i) for i in (1, 2, 3, 4)]
+
+
+def ordinates(row, name):
+    from ssilang.language.values import Mot
+
+    return np.asarray(row.get(Mot(name)).parts[0].ordinates)
+
+
+BY_BASIS = "T . 'BASE_MODALE' = B1 ; T . 'GYROSCOPIQUE' = G1 ;"
+PROJECTED = "T . 'BASE_MODALE' = B1 ; T . 'GYRO_PROJ' = PJBA B1 G1 ;"
+AT_EACH_SPEED = "T . 'NMODES' = 2 ; T . 'FREQ_PROCHE' = 1. ; T . 'GYROSCOPIQUE' = G1 ;"
+
+
+@pytest.mark.parametrize("way", [BY_BASIS, PROJECTED, AT_EACH_SPEED])
+def test_gyroscopic_coupling_splits_the_frequencies(way):
+    found = rows(DISC + way + "CAMPBELL T (PROG 0. 10. 40.) ;")
+    half = SPEEDS * POLAR / INERTIA / 2
+    root = np.sqrt(half**2 + STIFFNESS / INERTIA)
+    exact = np.array([-root - half, -root + half, root - half, root + half]) / (2 * np.pi)
+    for row, frequencies in zip(found, exact, strict=True):
+        np.testing.assert_allclose(ordinates(row, "FREQUENCE_REELLE"), frequencies, rtol=1e-8)
+        np.testing.assert_allclose(ordinates(row, "FREQUENCE_IMAGINAIRE"), 0, atol=1e-8)
+        np.testing.assert_allclose(ordinates(row, "FREQUENCE_MODULE"), np.abs(frequencies))
+
+
+def test_rotating_damping_makes_the_shaft_unstable():
+    """With damping c and the circulation w c, decay turns to growth above w = sqrt(k/m)."""
+    script = (
+        DISC
+        + BY_BASIS.replace("T . 'GYROSCOPIQUE' = G1 ;", "")
+        + (
+            "C1 = 0.004 ; T . 'AMORTISSEMENT' = CHAN 'TYPE' (K1 * C1) 'AMORTISS' ;"
+            f"T . 'KROTATIF' = MANU 'RIGI' P1 N 'ANTI' (PROG 0. {0.004 * STIFFNESS} 0.) ;"
+            "CAMPBELL T (PROG 0. 19. 21.) ;"
+        )
+    )
+    least = np.min([ordinates(row, "AMORTISSEMENT") for row in rows(script)], axis=0)
+    assert least[0] == pytest.approx(0.004 * 20 / 2)
+    assert least[1] > 0 > least[2]
+
+
+def test_centrifugal_stiffness_goes_with_the_square_of_the_speed():
+    script = (
+        DISC
+        + AT_EACH_SPEED.replace("T . 'GYROSCOPIQUE' = G1 ;", "")
+        + ("T . 'KCENT' = K1 * -1.E-4 ; T . 'KSIGMA' = K1 * 3.E-4 ; CAMPBELL T (PROG 0. 10. 40.) ;")
+    )
+    exact = np.sqrt(STIFFNESS / INERTIA * (1 + 2e-4 * SPEEDS**2)) / (2 * np.pi)
+    np.testing.assert_allclose(ordinates(rows(script)[3], "FREQUENCE_REELLE"), exact)
+
+
+def test_what_is_missing_is_said():
+    assert "BASE_MODALE" in run_text("T = TABL ; CAMPBELL T (PROG 0. 1.) ;").message
+    script = DISC + BY_BASIS + "OUBL T 'MASSE' ; CAMPBELL T (PROG 0. 1.) ;"
+    assert "no MASSE" in run_text(script).message
