@@ -11,7 +11,6 @@ import numpy as np
 from ssilang.kernel.errors import MeshError
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.mesh.follow import followed
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.mesh.sweep import corresponding_nodes
@@ -26,6 +25,7 @@ from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
 from ssilang.language.values import Table
 from ssilang.operators.fields.turned import turned_cell_field, turned_node_field
+from ssilang.operators.mesh.following import following
 from ssilang.operators.mesh.maps import (
     read_affinity,
     read_projection,
@@ -332,15 +332,17 @@ def proj(call: Call) -> Any:
     help=Help(
         en="Copy of a mesh of linear surfaces or volumes whose master nodes GEO2 have become those "
         "of GEO3, of the same structure; the others follow harmonically. 'REGU': then each inner "
-        "node goes to the mean of its neighbours. 'TRAN': copies of objects through the "
-        "transformation that takes one mesh to another of the same structure; 'ROTA': the "
-        "same, vectors and tensors of fields turning by the angle.",
+        "node goes to the mean of its neighbours. A displacement of some nodes is carried to all "
+        "in the same way. 'TRAN': copies of objects through the transformation that takes one mesh "
+        "to another of the same structure; 'ROTA': the same, vectors and tensors of fields turning "
+        "by the angle.",
         fr="Copie d'un maillage de surfaces ou volumes linéaires dont les noeuds maîtres GEO2 sont "
         "devenus ceux de GEO3, de même structure ; les autres suivent harmoniquement. 'REGU' : "
-        "puis chaque noeud intérieur va au milieu de ses voisins. 'TRAN' : copies d'objets par "
-        "la transformation qui mène d'un maillage à un autre de même structure ; 'ROTA' : de "
-        "même, vecteurs et tenseurs des champs tournant de l'angle.",
-        syntax="GEO4 = DEDU GEO1 GEO2 GEO3 ('REGU') ;\n"
+        "puis chaque noeud intérieur va au milieu de ses voisins. Un déplacement de certains "
+        "noeuds est étendu à tous de même. 'TRAN' : copies d'objets par la transformation qui mène "
+        "d'un maillage à un autre de même structure ; 'ROTA' : de même, vecteurs et tenseurs des "
+        "champs tournant de l'angle.",
+        syntax="GEO4 = DEDU GEO1 GEO2 GEO3 ('REGU') ;\nCHPO2 = DEDU GEO1 CHPO1 ;\n"
         "OBJ2 ... = OBJ1 ... DEDU 'TRAN' GEO1 GEO2 ;\n"
         "OBJ2 ... = OBJ1 ... DEDU 'ROTA' FLOT1 POIN1 (POIN2) GEO1 GEO2 ;",
         examples=(
@@ -356,7 +358,8 @@ def dedu(call: Call) -> Any:
     angle = call.optional("FLOTTANT")
     word = call.keyword(("TRAN", "ROTA"))
     if word is None:
-        return _following(call, objects)
+        made = following(call, objects)
+        return made if isinstance(made, NodeField) else Copier(made[1]).mesh(made[0])
     if word == "ROTA" and angle is None:
         angle = call.required("FLOTTANT")
     later = objects + call.all(*GEOMETRIC)
@@ -376,22 +379,3 @@ def dedu(call: Call) -> Any:
     if not made:
         raise MeshError("nothing is given to transform")
     return made if len(made) > 1 else made[0]
-
-
-def _following(call: Call, objects: Sequence[Any]) -> Mesh:
-    """The mesh that follows its master nodes."""
-    even = call.keyword(("REGU",)) is not None
-    meshes = [*objects, *call.all("MAILLAGE")]
-    even = even or call.keyword(("REGU",)) is not None
-    if len(meshes) != 3 or not all(isinstance(m, Mesh) for m in meshes):
-        raise call.bad("DEDU wants three meshes, or 'TRAN' or 'ROTA'", hint="DEDU GEO1 OLD NEW")
-    mesh, old, new = meshes
-    target = corresponding_nodes(old, new)
-    masters = old.node_ids
-    nodes, places = followed(mesh, masters, mesh.nodes.coordinates[target], even)
-    kept = dict(zip(masters.tolist(), target.tolist(), strict=True))
-
-    def moved(ids: IntArray) -> FloatArray:
-        return places[np.searchsorted(nodes, ids)]
-
-    return Copier(NodeCopier(mesh.nodes, by_node=moved, copies=kept)).mesh(mesh)
