@@ -141,3 +141,21 @@ def test_curve_of_a_load_with_a_gap_is_refused(outcome):
     result = outcome(text)
     assert result.exit_code == 1
     assert "the curve has inf at abscissa 1" in result.message
+
+
+@pytest.mark.parametrize("law", ["JOINT_SOFT", "JOINT_COAT"])
+def test_a_law_that_is_described_nowhere_is_refused_with_that_reason(outcome, law):
+    result = outcome(SIDES + f"M = MODE J 'MECANIQUE' 'ELASTIQUE' 'PLASTIQUE' '{law}' ;")
+    assert result.exit_code == 1
+    assert "BETA (unloading) and CPLG" in result.message
+
+
+def test_contradictory_supports_are_named_in_time_too(outcome):
+    result = outcome(
+        "OPTI DIME 2 ; P = 0. 0. ; B1 = BLOQ 'UX' P ; B2 = BLOQ 'UX' P ; T = TABL ;"
+        " T . 'RIGI' = (APPU 'UY' 1. P) ET B1 ET B2 ; T . 'MASS' = MASS 'DEPL' 1. P ;"
+        " EV = EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.) ; T . 'CHAR' = CHAR 'DIMP' (DEPI B1 1.) EV ;"
+        " T . 'TEMPS_CALCULES' = PROG 0. 'PAS' 0.1 1. ; T2 = DYNAMIC T ;"
+    )
+    assert result.exit_code == 1
+    assert "one on UX at node 1 cannot take the value" in result.message

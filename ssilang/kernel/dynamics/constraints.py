@@ -11,7 +11,7 @@ from typing import Protocol
 import numpy as np
 
 from ssilang.kernel.errors import KernelError
-from ssilang.kernel.matrices.assembly import ConstraintRows
+from ssilang.kernel.matrices.assembly import ConstraintRows, Numbering
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.solvers.elimination import eliminate
 from ssilang.kernel.sparse import sp
@@ -132,18 +132,22 @@ def constraints_of(rows: ConstraintRows, small: bool) -> Constraints:
     return OrthogonalConstraints(rows.C) if small else EliminatedConstraints(rows.C)
 
 
-def check_values(constraints: Constraints, imposed: FloatArray) -> None:
+def check_values(constraints: Constraints, imposed: FloatArray, numbering: Numbering) -> None:
     """Refuse imposed values (n_rows, k) that redundant conditions contradict.
 
     Raises
     ------
     KernelError
-        Naming the first such row.
+        Naming the unknowns of the worst such row.
     """
     for d in imposed.T:
         gap = np.abs(constraints.C @ constraints.particular(d) - d)
         wrong = np.flatnonzero(gap > 1e-9 * np.abs(d).max(initial=0.0))
         if len(wrong):
+            worst = int(np.argmax(gap))
+            names = ", ".join(numbering.label(int(i)) for i in constraints.C[[worst]].indices[:6])
             raise KernelError(
-                f"condition {wrong[0] + 1} contradicts others: its imposed value cannot be met"
+                f"conditions contradict each other: one on {names} cannot take the value "
+                f"{d[worst]:.6g}",
+                "the same unknown is imposed twice with different values",
             )

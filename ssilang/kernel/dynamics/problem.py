@@ -135,7 +135,7 @@ def make_problem(inputs: Inputs) -> Problem:
     rows, imposed, contact = split_rows(rows, loading.imposed)
     loading = replace(loading, imposed=imposed)
     constraints = constraints_of(rows, numbering.size <= SMALL)
-    check_values(constraints, loading.imposed)
+    check_values(constraints, loading.imposed, numbering)
     interface = interface_of(zones, inputs.characteristics, numbering) if zones else None
     assembled = {k: _assembled(m, numbering) for k, m in matrices.items()}
     _refuse_not_finite(assembled, loading)

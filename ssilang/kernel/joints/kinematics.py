@@ -221,7 +221,10 @@ def _refuse_folded(zone: Zone, normal: FloatArray) -> None:
 
 
 def _refuse_negative(zone: Zone, weights: FloatArray) -> None:
-    negative: NDArray[np.bool_] = np.asarray((weights <= 0.0).any(axis=1))
+    largest = weights.max(axis=1, keepdims=True)  # a node on the axis of revolution has none
+    negative: NDArray[np.bool_] = np.asarray(
+        ((weights < -1e-12 * np.abs(largest)) | (largest <= 0.0)).any(axis=1)
+    )
     if negative.any():
         axisymmetric = zone.mode is Mode.AXISYMMETRIC
         raise MeshError(

@@ -46,6 +46,9 @@ OTHER_BEHAVIOURS = (
 )  # fmt: skip
 """Laws that Cast3M has and that are not built here: refused by name."""
 
+UNDESCRIBED_LAWS = ("JOINT_SOFT", "JOINT_COAT")
+"""Joint laws whose parameters BETA and CPLG no public text defines: refused with that reason."""
+
 
 def full_word(word: str, known: tuple[str, ...]) -> str | None:
     """The known word that `word` writes in full, or at least by its first four letters."""

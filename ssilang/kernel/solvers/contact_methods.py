@@ -80,7 +80,7 @@ def augmented(
         gap[on] = 0.0
         closed: BoolArray = p - c * gap > 0.0
         if np.array_equal(closed, active):
-            return Reactions(p, active, turn)
+            return Reactions(_exact(W, q, p, active), active, turn)
         if closed.tobytes() in seen:
             break
         seen.add(closed.tobytes())
@@ -112,11 +112,17 @@ def uzawa(
         change = np.abs(new - p).max(initial=0.0)
         p = new
         if change <= TOLERANCE * p.max(initial=0.0):
-            return Reactions(p, p > 0.0, sweep)
+            return Reactions(_exact(W, q, p, p > 0.0), p > 0.0, sweep)
     raise ConvergenceError(
         f"Uzawa's sweeps did not converge in {MOST_SWEEPS} (last change {change:.1e})",
         f"a coefficient near {1.8 / largest:g}, or another method",
     )
+
+
+def _exact(W: FloatArray, q: FloatArray, p: FloatArray, active: BoolArray) -> FloatArray:
+    """Reactions p freed of what the iteration left over, if the active rows are the right ones."""
+    found = lagrange(W, q, None, active)
+    return found.p if np.array_equal(found.active, active) else p
 
 
 def _largest_eigenvalue(W: FloatArray) -> float:

@@ -15,6 +15,7 @@ from ssilang.kernel.materials.behaviours import (
     FORMULATIONS,
     JOINT_WORDS,
     OTHER_BEHAVIOURS,
+    UNDESCRIBED_LAWS,
     OTHER_FORMULATIONS,
     PLASTIC_WORDS,
     full_word,
@@ -180,6 +181,12 @@ def _name(call: Call, word: str, wish: _Wish) -> None:
 
 def _unknown(call: Call, said: str) -> Exception:
     known = (*FORMULATIONS, *LAW_WORDS, *ELEMENTS)
+    if said in UNDESCRIBED_LAWS:
+        return call.bad(
+            f"the joint law {said} is not built: what its parameters BETA (unloading) and CPLG "
+            "(coupling) do is published nowhere",
+            hint="JOINT_SDM softens in tension with FU and GF; JOINT_DILATANT and COULOMB slide",
+        )
     for words, what in ((OTHER_FORMULATIONS, "formulation"), (OTHER_BEHAVIOURS, "behaviour")):
         if full_word(said, words):
             return call.bad(
