@@ -19,6 +19,10 @@ SUBJECTS: dict[str, tuple[str, str]] = {
     "concrete": ("concrete, fatigue, prestress", "béton, fatigue, précontrainte"),
     "optimisation": ("optimisation and statistics", "optimisation et statistiques"),
     "system": ("the machine and its windows", "la machine et ses fenêtres"),
+    "substructures": (
+        "substructures held in STRUCTURE, ATTACHE and SOLUTION objects",
+        "sous-structures des objets STRUCTURE, ATTACHE et SOLUTION",
+    ),
     "internal": ("inner workings of Cast3M", "rouages internes de Cast3M"),
     "old": ("words that Cast3M gave up", "mots abandonnés par Cast3M"),
     "elsewhere": ("other subjects", "autres sujets"),

@@ -36,7 +36,7 @@ def _rule(call: Call) -> bool:
         "fois les trapèzes ('SIMP', par défaut) ou exactement pour une accélération linéaire dans "
         "les pas ('LINE').",
         syntax="EVOL1 EVOL2 = INSI EVOL3 ('SIMP' | 'LINE') ;",
-        examples=(_RECORD + "D V = INSI A 'LINE' ; LIST (MAXI D) ; LIST (MAXI V) ;",),
+        examples=(_RECORD + "D V = INSI A 'LINE' ; LIST (EXTR V 'ORDO') ; LIST (EXTR D 'ORDO') ;",),
     ),
     reads_itself=True,
 )

@@ -1,0 +1,118 @@
+"""SEIS SIGS: seismic loads on modal bases, stresses of modes."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ssilang.kernel.curve import Curve, Load, LoadPart
+from ssilang.kernel.elements import families
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.fields.node_field import NodeField, NodeValues
+from ssilang.kernel.model import Model
+from ssilang.language.call import Call
+from ssilang.language.registry import Help, operator
+from ssilang.language.values import Mot, Table
+from ssilang.operators.matrices.element import joined, present
+from ssilang.operators.modal.basis import shapes_in
+from ssilang.operators.tables.making import copied
+
+_AXES = ("UX", "UY", "UZ")
+_MODE = (
+    "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; L = DROI 2 (0. 0.) (2. 0.) ; "
+    "MO = MODE L MECANIQUE ELASTIQUE BARR ; "
+    "MA = MATE MO 'YOUN' 4. 'NU' 0. 'SECT' 1. 'RHO' 1. ; "
+    "K = (RIGI MO MA) ET (BLOQ 'UX' (L POIN 'INIT')) ET (BLOQ 'UY' L) ; "
+    "B = VIBR 'SIMU' 0.1 1 K (MASS MO MA) ; "
+)
+
+
+@operator(
+    "SEIS",
+    family="modal",
+    full_name="SEISME",
+    help=Help(
+        en="Load on the modes of a basis by an acceleration of the ground in time, along 'UX', "
+        "'UY' or 'UZ', times a number: the generalised force of mode i is -Q_i X1 times the curve, "
+        "Q_i the generalised displacement of the mode in that direction.",
+        fr="Chargement sur les modes d'une base par une accélération du sol en temps, selon 'UX', "
+        "'UY' ou 'UZ', fois un nombre : la force généralisée du mode i est -Q_i X1 fois la courbe, "
+        "Q_i le déplacement généralisé du mode dans cette direction.",
+        syntax="CHAR1 = SEIS EVOL1 TAB1 X1 'UX' | 'UY' | 'UZ' ;",
+        examples=(
+            _MODE + "E = EVOL 'MANU' (PROG 0. 1.) (PROG 2. 2.) ; C = SEIS E B 3. 'UX' ; "
+            "LIST (MAXI (TIRE C 1. 'MECA') 'ABS') ;",
+        ),
+    ),
+    reads_itself=True,
+)
+def seis(call: Call) -> Load:
+    """Seismic load."""
+    curve: Curve = call.required("EVOLUTIO")
+    table: Table = call.required("TABLE")
+    factor = call.required("FLOTTANT")
+    word = call.keyword(_AXES)
+    if word is None:
+        raise call.bad("in which direction does the ground move?", hint="'UX' 'UY' 'UZ'")
+    shapes = [s for s in shapes_in(table) if s.unknown == "ALFA"]
+    if not shapes:
+        raise call.bad("the table holds no mode", table)
+    values = {}
+    for shape in shapes:
+        along = shape.entry.get(Mot("DEPLACEMENTS_GENERALISES"))
+        number = along.get(_AXES.index(word) + 1) if isinstance(along, Table) else None
+        if not isinstance(number, int | float):
+            raise call.bad("a mode has no generalised displacements in this direction", table)
+        values[shape.mark.node] = -factor * float(number)
+    nodes = np.array(sorted(values))
+    part = NodeValues(nodes, np.array([values[int(n)] for n in nodes]))
+    field = NodeField(shapes[0].mark.nodes, {"FALF": part}, "DISCRET")
+    return Load((LoadPart("MECA", field, curve),))
+
+
+@operator(
+    "SIGS",
+    family="modal",
+    full_name="SIGSOL",
+    help=Help(
+        en="Table of modes, pseudo-modes or static shapes with the stresses of each: entry "
+        "CONTRAINTE_MODALE of modes, CONTRAINTE of the others. A new table; the shapes are those "
+        "of the old one.",
+        fr="Table de modes, pseudo-modes ou déformées statiques avec les contraintes de chacun : "
+        "indice CONTRAINTE_MODALE des modes, CONTRAINTE des autres. Une nouvelle table ; les "
+        "déformées sont celles de l'ancienne.",
+        syntax="TAB2 = SIGS MODL1 MAT1 (CAR1) TAB1 ;",
+        examples=(
+            _MODE
+            + "C = SIGS MO MA B ; LIST (MAXI (C . 'MODES' . 1 . 'CONTRAINTE_MODALE') 'ABS') ;",
+        ),
+    ),
+    reads_itself=True,
+)
+def sigs(call: Call) -> Table:
+    """Stresses of modes."""
+    model: Model = present(call, call.required("MMODEL"))
+    cells = [call.required("MCHAML"), *call.all("MCHAML")]
+    table: Table = call.required("TABLE")
+    material = joined((*cells, *call.all("MCHAML")))
+    made, found = _with_stresses(model, material, table)
+    if not found:
+        raise call.bad("the table holds no mode and no static shape", table)
+    return made
+
+
+def _with_stresses(model: Model, material: CellField, table: Table) -> tuple[Table, int]:
+    """The table, and those in it, copied with the stresses; and how many were computed."""
+    made, found = copied(table), 0
+    for shape, entry in (("DEFORMEE_MODALE", "CONTRAINTE_MODALE"), ("DEFORMEE", "CONTRAINTE")):
+        field = table.get(Mot(shape))
+        if isinstance(field, NodeField):
+            blocks = tuple(families.stress(z, material, field) for z in model.zones)
+            made.set(Mot(entry), CellField(blocks, "CONTRAINTES"))
+            return made, 1
+    for index, value in table.items():
+        if isinstance(value, Table):
+            inner, count = _with_stresses(model, material, value)
+            found += count
+            if count:
+                made.set(index, inner)
+    return made, found
