@@ -20,6 +20,7 @@ from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.sparse import sp
 
 DISSECTION = "nested dissection"
+DISSECTED = 8_000  # unknowns of a static problem from which nested dissection pays
 LARGE = 20_000  # unknowns from which a threaded solver pays for its start
 
 
@@ -122,30 +123,41 @@ class PardisoFactor:
 
 
 class CholmodFactor:
-    """SuiteSparse's CHOLMOD by scikit-sparse: sparse Cholesky, positive matrices only."""
+    """SuiteSparse's CHOLMOD by cvxopt: supernodal Cholesky, positive matrices only."""
 
     name = "CHOLMOD"
 
     def __init__(self, A: sp.csr_array, positive: bool) -> None:
-        from sksparse.cholmod import cholesky  # type: ignore[import-not-found]
+        from cvxopt import cholmod, spmatrix
 
+        if not positive:
+            raise SingularFactorError("CHOLMOD takes positive matrices")
+        lower = sp.coo_array(sp.tril(A))
+        rows, columns = (x.astype(int).tolist() for x in lower.coords)
+        matrix = spmatrix(lower.data.tolist(), rows, columns, A.shape)
+        cholmod.options["supernodal"] = 2
+        self._factor = cholmod.symbolic(matrix)
         try:
-            self._factor = cholesky(sp.csc_matrix(A))
-        except Exception as error:
+            cholmod.numeric(matrix, self._factor)
+        except ArithmeticError as error:
             raise SingularFactorError(str(error)) from None
 
     def solve(self, b: FloatArray) -> FloatArray:
         """Solution of A x = b."""
-        x: FloatArray = self._factor(b)
-        return x
+        from cvxopt import cholmod, matrix
+
+        x = matrix(np.asfortranarray(b, dtype=float))
+        cholmod.solve(self._factor, x)
+        return np.array(x).reshape(b.shape)
 
 
 @dataclass(frozen=True)
 class Backend:
-    """A solver: what makes it, the package it needs, when it is worth choosing."""
+    """A solver: what makes it, the package it needs, how to get that, when it is chosen."""
 
     make: Callable[[sp.csr_array, bool], Factor]
     package: str
+    remedy: str
     suits: Callable[[int, bool], bool]
 
     @property
@@ -155,10 +167,26 @@ class Backend:
 
 
 BACKENDS: dict[str, Backend] = {
-    "PARDISO": Backend(PardisoFactor, "pypardiso", lambda n, positive: n >= LARGE),
-    "CHOLMOD": Backend(CholmodFactor, "sksparse", lambda n, positive: positive and n >= 2000),
-    "SuperLU": Backend(SuperLUFactor, "scipy", lambda n, positive: True),
+    "PARDISO": Backend(
+        PardisoFactor, "pypardiso", "pip install 'ssilang[pardiso]'", lambda n, positive: n >= LARGE
+    ),
+    "CHOLMOD": Backend(
+        CholmodFactor,
+        "cvxopt",
+        "pip install 'ssilang[cholmod]'",
+        lambda n, positive: positive and n >= 2000,
+    ),
+    "SuperLU": Backend(SuperLUFactor, "scipy", "pip install scipy", lambda n, positive: True),
 }
+
+
+def dissection_pays(n: int) -> bool:
+    """Whether a positive matrix of n unknowns with coordinates is best factorised by dissection.
+
+    Below, loading its compiled code costs more than SuperLU; PARDISO's threads factorise large
+    ones faster where it is installed.
+    """
+    return n >= DISSECTED and choose(n, True) != "PARDISO"
 
 
 def choose(n: int, positive: bool) -> str:
@@ -213,7 +241,10 @@ def factorise(
     if not dissected and name not in BACKENDS:
         raise KernelError(f"no solver is called {name}", f"known: {', '.join(BACKENDS)}")
     if not dissected and not BACKENDS[name].installed:
-        raise KernelError(f"solver {name} needs the package {BACKENDS[name].package}")
+        raise KernelError(
+            f"solver {name} needs the package {BACKENDS[name].package}, which is not installed",
+            BACKENDS[name].remedy,
+        )
 
     def make() -> Factor:
         if dissected and ordering is not None:

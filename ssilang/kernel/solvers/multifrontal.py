@@ -18,7 +18,7 @@ from ssilang.kernel.sparse import sp
 
 WIDTH = 32
 BLAS_ROWS = 192  # rows of a front from which BLAS is called
-BLAS_COLUMNS = 128
+BLOCK = 128  # columns of a front whose update of the rest is one product
 
 
 class NotPositiveError(Exception):
@@ -233,31 +233,54 @@ def _panel(F: FloatArray, k0: int, k1: int, inverse: FloatArray, P: FloatArray) 
 
 
 @compiled_fast
-def _update(F: FloatArray, k1: int, P: FloatArray) -> None:
-    """F[j, i] -= sum_k P[k, j] P[k, i] for the columns j from k1 and rows i >= j."""
-    w, m = P.shape
-    if m > BLAS_ROWS:
-        for j0 in range(0, m, BLAS_COLUMNS):
-            left = np.ascontiguousarray(P[:, j0 : j0 + BLAS_COLUMNS].T)
-            F[k1 + j0 : k1 + j0 + left.shape[0], k1 + j0 :] -= np.dot(
-                left, np.ascontiguousarray(P[:, j0:])
-            )
+def _update(F: FloatArray, k0: int, k1: int, limit: int) -> None:
+    """F[j, i] -= sum_k F[k, j] F[k, i], k from k0 to k1, columns j to limit, rows i >= j."""
+    m = F.shape[0]
+    if m - k1 > BLAS_ROWS:
+        for j0 in range(k1, limit, BLOCK):
+            left = np.ascontiguousarray(F[k0:k1, j0 : min(j0 + BLOCK, limit)].T)
+            right = np.ascontiguousarray(F[k0:k1, j0:])
+            F[j0 : j0 + left.shape[0], j0:] -= np.dot(left, right)
         return
-    for j in range(m):
-        f = F[k1 + j, k1 + j :]
-        k = 0
-        while k + 3 < w:
-            a0, a1, a2, a3 = P[k, j], P[k + 1, j], P[k + 2, j], P[k + 3, j]
-            p0, p1, p2, p3 = P[k, j:], P[k + 1, j:], P[k + 2, j:], P[k + 3, j:]
+    for j in range(k1, limit):
+        f = F[j, j:]
+        k = k0
+        while k + 3 < k1:
+            a0, a1, a2, a3 = F[k, j], F[k + 1, j], F[k + 2, j], F[k + 3, j]
+            p0, p1, p2, p3 = F[k, j:], F[k + 1, j:], F[k + 2, j:], F[k + 3, j:]
             for i in range(m - j):
                 f[i] -= a0 * p0[i] + a1 * p1[i] + a2 * p2[i] + a3 * p3[i]
             k += 4
-        while k < w:
-            a0 = P[k, j]
-            p0 = P[k, j:]
+        while k < k1:
+            a0 = F[k, j]
+            p0 = F[k, j:]
             for i in range(m - j):
                 f[i] -= a0 * p0[i]
             k += 1
+
+
+@compiled
+def _columns(F: FloatArray, k: int, pos: int, values: FloatArray) -> int:
+    """Factorise the first k columns of a front, put their panels; a bad pivot or -1."""
+    m = F.shape[0]
+    for block in range(0, k, BLOCK):
+        end = min(block + BLOCK, k)
+        for k0 in range(block, end, WIDTH):
+            k1 = min(k0 + WIDTH, k)
+            w = k1 - k0
+            inverse = values[pos : pos + w * w].reshape((w, w))
+            bad = _diagonal_block(F, k0, k1, inverse)
+            if bad >= 0:
+                return bad
+            pos += w * w
+            P = values[pos : pos + w * (m - k1)].reshape((w, m - k1))
+            if m > k1:
+                _panel(F, k0, k1, inverse, P)
+                F[k0:k1, k1:] = P
+                _update(F, k0, k1, end)
+            pos += w * (m - k1)
+        _update(F, block, end, m)
+    return -1
 
 
 @compiled
@@ -292,20 +315,9 @@ def _factorise(
             used[c] = True
             c = sibling[c]
         alive = _free(alive, live, used)
-        pos = at[s]
-        for k0 in range(0, k, WIDTH):
-            k1 = min(k0 + WIDTH, k)
-            w = k1 - k0
-            inverse = values[pos : pos + w * w].reshape((w, w))
-            bad = _diagonal_block(F, k0, k1, inverse)
-            if bad >= 0:
-                return int(c0 + bad)
-            pos += w * w
-            P = values[pos : pos + w * (m - k1)].reshape((w, m - k1))
-            if m > k1:
-                _panel(F, k0, k1, inverse, P)
-                _update(F, k1, P)
-            pos += w * (m - k1)
+        bad = _columns(F, k, at[s], values)
+        if bad >= 0:
+            return int(c0 + bad)
         if below > 0:
             mine[s] = spot[alive]
             U = stack[mine[s] : mine[s] + below * below].reshape((below, below))

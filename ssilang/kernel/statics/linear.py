@@ -28,7 +28,12 @@ from ssilang.kernel.matrices.assembly import (
 )
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.solvers.backends import SingularFactorError, SuperLUFactor
+from ssilang.kernel.solvers.backends import (
+    Ordering,
+    SingularFactorError,
+    SuperLUFactor,
+    dissection_pays,
+)
 from ssilang.kernel.solvers.complementarity import ContactProblem, solve_contact
 from ssilang.kernel.solvers.elimination import Elimination, eliminate
 from ssilang.kernel.solvers.inverse import Inverse, invert
@@ -256,8 +261,17 @@ def _prepare(matrix: Matrix, numbering: Numbering, options: SolveOptions) -> Lin
     symmetric = is_symmetric(matrix)
     if options.stabilise:
         reduced = stabilised(reduced, len(elimination.masters))
-    inverse = invert(reduced, symmetric, options.backend)
+    order = _ordering(numbering, elimination) if symmetric and len(saddle) == 0 else None
+    inverse = invert(reduced, symmetric, options.backend, order)
     return LinearSystem(numbering, K, rows, elimination, saddle, contact, inverse)
+
+
+def _ordering(numbering: Numbering, elimination: Elimination) -> Ordering | None:
+    """Places of the unknowns left, where nested dissection is the best solver there is."""
+    if not dissection_pays(len(elimination.masters)):
+        return None
+    nodes = numbering.nodes[elimination.masters]
+    return Ordering(numbering.table.coordinates[nodes], np.zeros(0, np.int64))
 
 
 def _associated_rows(rows: ConstraintRows) -> BoolArray:
