@@ -1,0 +1,72 @@
+"""MULTIDEC MULTIREC: the LeGall 5/3 filters take a signal apart and give it back exactly."""
+
+import numpy as np
+import pytest
+
+from ssilang.cli.run import run_text
+
+_APART = "(PROG 0.75 0.25 -0.125) -1 (PROG -0.5 1. -0.5) 0"
+_TOGETHER = "(PROG 1. 0.5) -1 (PROG -0.125 -0.25 0.75 -0.25 -0.125) 3"
+
+
+def found(script, *names):
+    result = run_text(script)
+    assert result.exit_code == 0, result.message
+    return tuple(result.session.root.find(n) for n in names)
+
+
+def signal(values):
+    return f"E = EVOL 'MANU' (PROG 0. 'PAS' 0.5 'NPAS' {len(values) - 1}) (PROG " + " ".join(
+        f"{v:.12f}" for v in values
+    ) + ") ; "  # fmt: skip
+
+
+def pulse():
+    values = np.zeros(65)
+    values[24:41] = np.random.default_rng(2).normal(size=17)
+    return values
+
+
+@pytest.mark.parametrize("levels", [1, 2, 3])
+def test_signal_taken_apart_comes_back(levels):
+    script = signal(pulse()) + (
+        f"N D R = MULTIDEC E {_APART} {levels} 'PADD' ; M F = MULTIREC R D {_TOGETHER} 'PADD' ; "
+        "L = EXTR F 'ORDO' ; X = EXTR F 'ABSC' ; C = DIME D ;"
+    )
+    n, m, back, x, count = found(script, "N", "M", "L", "X", "C")
+    assert n == m == count == levels
+    assert np.asarray(back.values) == pytest.approx(pulse(), abs=1e-11)
+    assert np.asarray(x.values) == pytest.approx(0.5 * np.arange(65))
+
+
+def test_straight_line_has_no_detail():
+    """The detail filter has two vanishing moments; the smoothing filter keeps a line."""
+    script = signal(np.arange(33.0)) + (
+        f"N D R = MULTIDEC E {_APART} ; L = EXTR R 'ORDO' ; A = EXTR D 'ORDO' 1 ; "
+        "X = EXTR R 'ABSC' ; B = EXTR D 'ORDO' N ;"
+    )
+    n, rest, x, high = found(script, "N", "L", "X", "B")
+    assert n == 4  # 33 17 9 5 3 points
+    assert len(rest.values) == 3
+    assert list(x.values) == [0.0, 8.0, 16.0]
+    assert np.asarray(high.values)[:-1] == pytest.approx(np.zeros(16), abs=1e-12)
+
+
+def test_details_go_from_low_to_high_frequencies():
+    """An alternating signal is all in the finest level, the last curve."""
+    script = signal((-1.0) ** np.arange(33)) + (
+        f"N D R = MULTIDEC E {_APART} 2 ; A = MAXI (ABS (EXTR D 'ORDO' 1)) ; "
+        "B = MAXI (ABS (EXTR D 'ORDO' 2)) ; C = MAXI (ABS (EXTR R 'ORDO')) ;"
+    )
+    low, high, rest = found(script, "A", "B", "C")
+    assert high == pytest.approx(2.0)
+    assert low == pytest.approx(0.0, abs=1e-12)
+    assert rest == pytest.approx(0.0, abs=1e-12)
+
+
+def test_details_must_fit_the_rest():
+    result = run_text(
+        signal(pulse()) + f"N D R = MULTIDEC E {_APART} 2 ; M F = MULTIREC E D {_TOGETHER} ;"
+    )
+    assert result.exit_code == 1
+    assert "level 1 has" in result.message
