@@ -12,14 +12,13 @@ import re
 from collections.abc import Callable, Iterable
 from functools import partial
 
-from lark.lexer import TerminalDef
-
 from ssilang.language import tree
 from ssilang.language.errors import SsiError
 from ssilang.language.source import Source, Span
 
 NAME_LENGTH = 24  # objects' names keep 24 characters
-INTEGER_DIGITS = 19  # with the sign: what 64 bits hold
+LARGEST = 2**63 - 1  # what 64 bits hold
+LONGEST = len(str(LARGEST))
 
 
 class Unsound(Exception):
@@ -41,8 +40,9 @@ def quoted_of(text: str, span: Span) -> tree.Quoted:
 
 def integer_of(text: str, span: Span) -> tree.Number:
     """A whole number; 'long-integer' is raised beyond what 64 bits hold."""
-    if len(text) > INTEGER_DIGITS:
-        raise SsiError("long-integer", span, digits=len(text.lstrip("+-")))
+    digits = len(text.lstrip("+-0"))
+    if digits > LONGEST or abs(int(text)) > LARGEST:
+        raise SsiError("long-integer", span, digits=digits)
     return tree.Number(int(text), span)
 
 
@@ -175,17 +175,20 @@ class _Assembly:
 
 
 class Reader:
-    """Reads sound scripts; made from the terminals of the grammar."""
+    """Reads sound scripts.
 
-    def __init__(self, terminals: Iterable[TerminalDef], ignored: str = "IGNORED") -> None:
-        ordered = sorted(
-            terminals,
-            key=lambda t: (-t.priority, -t.pattern.max_width, -len(t.pattern.value), t.name),
-        )
-        blank = next(t for t in ordered if t.name == ignored).pattern.to_regexp()
-        words = [t for t in ordered if t.name != ignored]
-        self._kinds = [t.name for t in words]
-        tokens = "|".join(f"({t.pattern.to_regexp()})" for t in words)
+    Parameters
+    ----------
+    words : iterable of (name, regular expression)
+        The terminals of the grammar, in the order in which they are tried.
+    """
+
+    def __init__(self, words: Iterable[tuple[str, str]], ignored: str = "IGNORED") -> None:
+        ordered = list(words)
+        blank = dict(ordered)[ignored]
+        words = [w for w in ordered if w[0] != ignored]
+        self._kinds = [name for name, _ in words]
+        tokens = "|".join(f"({pattern})" for _, pattern in words)
         self._token = re.compile(f"(?:{blank})?(?:{tokens})")
         self._blank = re.compile(f"(?:{blank})?")
 

@@ -10,6 +10,8 @@ from pathlib import Path
 
 from ssilang.language.errors import SsiError
 
+# strings, so that what stands in them is passed over, and the ends of statements
+STATEMENT_END = re.compile(r"'(?:[^']|'')*'|;", re.DOTALL)
 # comment lines, and the lines that separate the procedures of a library file
 _COMMENT_LINE = re.compile(r"^(?:\*|\$\$\$\$).*$", re.MULTILINE)
 

@@ -5,7 +5,10 @@ from __future__ import annotations
 import pytest
 
 from ssilang.cli.run import RunOptions, run_text
+from ssilang.language.errors import SeveralErrors
 from ssilang.language.session import Limits
+from ssilang.language.source import Source
+from ssilang.language.structure import parse
 
 
 def test_statement_limit_stops_an_endless_loop(tmp_path):
@@ -64,3 +67,19 @@ def test_a_very_long_line_is_shown_around_its_error(tmp_path):
     result = run_text("x = " + "1 + " * 2000 + "FOO 3 ;", output_directory=tmp_path)
     assert max(len(line) for line in result.message.split("\n")) < 200
     assert "FOO" in result.message
+
+
+def test_zeros_in_front_do_not_make_an_integer_long(run):
+    assert run("X = 00000000000000000000007 ;")["X"] == 7
+
+
+def test_a_long_integer_does_not_hide_the_errors_behind_it():
+    with pytest.raises(SeveralErrors) as caught:
+        parse(Source("deck", "X = 99999999999999999999 ; Y = 3.) ; Z = 88888888888888888888 ;"))
+    codes = sorted(e.code for e in caught.value.errors)
+    assert codes == ["extra-paren", "long-integer", "long-integer"]
+
+
+def test_the_largest_integer_is_that_of_64_bits(run, fails):
+    assert run("X = 9223372036854775807 ;")["X"] == 2**63 - 1
+    assert fails("X = 9223372036854775808 ;") == "long-integer"

@@ -7,10 +7,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from ssilang.language.by_grammar import parse_by_grammar, words_of_grammar
 from ssilang.language.errors import SeveralErrors
-from ssilang.language.parser import _parser, parse_by_grammar
+from ssilang.language.parser import quick_reader
 from ssilang.language.reader import Unsound
 from ssilang.language.source import Source, Span
+from ssilang.language.words import grammar_words
 
 _ROOT = Path(__file__).resolve().parents[2]
 _FILES = sorted([*_ROOT.glob("cases/*/*.ssi"), *_ROOT.glob("stdlib/*.ssi")])
@@ -36,7 +38,7 @@ def tree(node, spans=True):
 
 
 def quick(source):
-    return _parser()[2].read(source, source.code)
+    return quick_reader().read(source, source.code)
 
 
 @pytest.mark.parametrize("path", _FILES, ids=lambda p: p.name)
@@ -65,3 +67,29 @@ def test_any_text_is_read_or_refused_as_by_the_grammar(pieces):
 def test_an_empty_parenthesis_has_its_place():
     (statement,) = quick(Source("x", "A = PROG () ;"))
     assert statement.items[1].span.text == "()"
+
+
+def test_kept_words_are_those_of_the_grammar(tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    for _ in range(2):  # made, then read
+        assert grammar_words() == words_of_grammar()
+    assert len(list((tmp_path / "ssilang").iterdir())) == 1
+
+
+@pytest.mark.parametrize("damage", ["", "{", "[1, 2]", '{"sum": 1, "words": 3}', "cut", "changed"])
+def test_damaged_words_are_made_again(tmp_path, monkeypatch, damage):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    grammar_words()
+    (path,) = (tmp_path / "ssilang").iterdir()
+    good = path.read_text()
+    texts = {"cut": good[:-20], "changed": good.replace("OWN", "OWM")}
+    path.write_text(texts.get(damage, damage))
+    assert grammar_words() == words_of_grammar()
+    assert path.read_text() == good
+
+
+def test_words_need_no_folder(tmp_path, monkeypatch):
+    blocked = tmp_path / "file"
+    blocked.write_text("")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(blocked))
+    assert grammar_words() == words_of_grammar()
