@@ -114,3 +114,21 @@ def test_shells_are_refused(refused):
         script.replace("QUA4", "TRI3") + "K = KENT 'CENTRIFUGE' M A (0. 0. 2.) ;"
     )
     assert "beams in space" in refused(script.replace("QUA4", "TRI3") + "K = GYRO M A ;")
+
+
+def test_damping_that_turns_resists_nothing_when_the_body_turns_with_it(found):
+    script = shaft("TIMO").replace("'OMEG' 50.", "'OMEG' 50. 'VISQ' 1.E6") + (
+        "C H = AMOR M A 'COROTATIF' ; "
+    )
+    c, h = found(script, "C", "H")
+    C, H, numbering = dense(c), dense(h), numbering_of(c)
+    np.testing.assert_allclose(H, -H.T, atol=1e-9 * np.abs(H).max())  # a round section
+    # a bent shape carried round at OMEG: v = w x u in the fixed frame, no force
+    rng = np.random.default_rng(0)
+    u, v = np.zeros(len(C)), np.zeros(len(C))
+    for names in (("UX", "UY"), ("RX", "RY")):
+        x, y = (numbering.where(n) for n in names)
+        u[x], u[y] = rng.normal(size=(2, len(x)))
+        v[x], v[y] = -50.0 * u[y], 50.0 * u[x]
+    assert np.abs(C @ v).max() > 1.0
+    np.testing.assert_allclose(C @ v + H @ u, 0.0, atol=1e-9 * np.abs(C @ v).max())

@@ -110,6 +110,34 @@ def _shapes(s: float, L: FloatArray, cubic: bool) -> tuple[FloatArray, FloatArra
     return N, R
 
 
+def corotational(zone: Zone, damping: ElementMatrices, material: CellField) -> ElementMatrices:
+    """Circulatory stiffness of a damping that turns with beams at OMEG about their axis.
+
+    The damping C resists velocities seen in the turning frame, `C (v - w x u)`: to C stands beside
+    it the stiffness -C W, W the cross product by w on translations and on rotations.
+
+    Raises
+    ------
+    FieldError
+        For other elements than beams in space.
+    """
+    if ELEMENTS[zone.element].family not in _LINE_FAMILIES or (
+        zone.mode is not Mode.THREE_DIMENSIONAL
+    ):
+        raise FieldError(f"corotational damping is for beams in space, not {zone.element}")
+    parameters = zone_field(zone, material)
+    axes = beam_frame(zone, parameters).axes
+    speed = np.broadcast_to(parameters.at("OMEG", "GRAVITE")[:, 0], (len(axes),))
+    turn = np.zeros((len(axes), *damping.values.shape[1:]))
+    w = speed[:, None] * axes[:, 0]
+    for start in range(0, turn.shape[1], 3):
+        for i, j, c, sign in ((0, 1, 2, -1), (1, 0, 2, 1), (0, 2, 1, 1), (2, 0, 1, -1),
+                              (1, 2, 0, -1), (2, 1, 0, 1)):  # fmt: skip
+            turn[:, start + i, start + j] = sign * w[:, c]
+    values = -damping.values @ turn
+    return replace(damping, values=values, kind="RIGIDITE", zone=None, symmetric=False)
+
+
 def gyroscopic(zone: Zone, material: CellField) -> ElementMatrices:
     """Gyroscopic coupling of beams that turn at OMEG (rad/s) about their own axis x, fixed frame.
 

@@ -11,6 +11,7 @@ from ssilang.kernel.elements.absorbing import absorbing_boundary
 from ssilang.kernel.elements.follower import pressure_stiffness
 from ssilang.kernel.elements.hooke import hooke_block
 from ssilang.kernel.elements.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
+from ssilang.kernel.elements.rotating import corotational
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.errors import MeshError
 from ssilang.kernel.fields.cell_field import CellField
@@ -189,19 +190,22 @@ def lump(call: Call) -> Matrix:
         en="Damping matrix: of a model whose parameters hold the viscosity VISQ (a stiffness "
         "with VISQ for modulus); of the absorbing boundary GEO1 of a model (Lysmer: RHO VP along "
         "the normal, RHO VS across, from YOUN NU RHO); or dashpots added at nodes: 'DEPL' on all "
-        "translations, 'ROTA' on all rotations, or on the named unknowns.",
+        "translations, 'ROTA' on all rotations, or on the named unknowns. 'COROTATIF': damping "
+        "that turns with beams at OMEG about their axis, with the circulatory stiffness beside it.",
         fr="Matrice d'amortissement : d'un modèle dont les paramètres ont la viscosité VISQ "
         "(rigidité dont VISQ est le module) ; de la frontière absorbante GEO1 d'un modèle "
         "(Lysmer : RHO VP selon la normale, RHO VS en travers, d'après YOUN NU RHO) ; ou "
         "amortisseurs ajoutés aux noeuds : 'DEPL' sur toutes les translations, 'ROTA' sur "
-        "toutes les rotations, ou sur les inconnues nommées.",
-        syntax="AMO1 = AMOR MODL1 MAT1 ;\nAMO1 = AMOR MODL1 GEO1 MAT1 ;\n"
+        "toutes les rotations, ou sur les inconnues nommées. 'COROTATIF' : amortissement qui "
+        "tourne avec des poutres à OMEG autour de leur axe, avec la raideur circulatoire.",
+        syntax="AMO1 = AMOR MODL1 MAT1 ; AMO1 RIG1 = AMOR MODL1 MAT1 'COROTATIF' ;\n"
+        "AMO1 = AMOR MODL1 GEO1 MAT1 ;\n"
         "AMO1 = AMOR ('DEPL') ('ROTA') | NOM1 ... VAL1 GEO1 ;",
         examples=("OPTI DIME 2 ; P = 0. 0. ; C = AMOR 'DEPL' 3. P ; LIST (TYPE C) ;",),
     ),
     reads_itself=True,
 )
-def amor(call: Call) -> Matrix:
+def amor(call: Call) -> Matrix | tuple[Matrix, Matrix]:
     """Viscous damping of a model, absorbing boundary, or dashpots at nodes."""
     operand = call.read("MMODEL")
     if operand is None:
@@ -214,6 +218,10 @@ def amor(call: Call) -> Matrix:
         return absorbing_boundary(model, boundary, material)
     blocks = [families.viscosity(z, material) for z in model.zones if not is_shape(z)]
     kind = "AMORTISSEMENT"
+    if call.keyword(["COROTATIF"]) is not None:
+        pairs = zip(model.zones, blocks, strict=True)
+        turned = [corotational(z, b, material) for z, b in pairs]
+        return _assembled(model, blocks, kind), _assembled(model, turned, "RIGIDITE")
     return _assembled(model, [*blocks, *_shapes(model, material, kind)], kind)
 
 
