@@ -20,6 +20,60 @@ TEMPLATES: tuple[tuple[str, str], ...] = (
         "a full matrix of {} rows is too large",
         "une matrice pleine de {} lignes est trop grande",
     ),
+    # ---- super-elements
+    (
+        "none of the master unknowns is an unknown of the stiffness",
+        "aucune des inconnues maîtresses n'est une inconnue de la rigidité",
+    ),
+    (
+        "give nodes of the body, or fields of its unknowns (UX, UY ...)",
+        "donnez des noeuds du corps, ou des champs de ses inconnues (UX, UY ...)",
+    ),
+    (
+        "unilateral and non-associated conditions cannot be condensed",
+        "des conditions unilatérales ou non associées ne se condensent pas",
+    ),
+    ("leave out 'NOMU'", "retirez 'NOMU'"),
+    (
+        "{} master unknowns make too large a full matrix (at most {})",
+        "{} inconnues maîtresses font une matrice pleine trop grande (au plus {})",
+    ),
+    (
+        "the conditions of the matrix hold the master unknown {}",
+        "les conditions de la matrice bloquent l'inconnue maîtresse {}",
+    ),
+    (
+        "leave out 'NOMU', or choose other masters",
+        "retirez 'NOMU', ou choisissez d'autres maîtres",
+    ),
+    (
+        "the super-element has no unknown for the force {}",
+        "le super-élément n'a pas d'inconnue pour la force {}",
+    ),
+    # ---- meshes that follow, polynomial surfaces
+    (
+        "none of the master nodes belongs to the mesh",
+        "aucun des noeuds maîtres n'appartient au maillage",
+    ),
+    (
+        "a part of the mesh has no master node",
+        "une partie du maillage n'a pas de noeud maître",
+    ),
+    ("give masters in each part", "donnez des maîtres dans chaque partie"),
+    ("cells of type {} cannot follow", "les éléments de type {} ne peuvent pas suivre"),
+    (
+        "linear surfaces and volumes do: CHAN 'LINEAIRE'",
+        "les surfaces et volumes linéaires le peuvent : CHAN 'LINEAIRE'",
+    ),
+    (
+        "two opposite sides of the surface have no length",
+        "deux côtés opposés de la surface sont de longueur nulle",
+    ),
+    (
+        "a parabola covers a half turn or more",
+        "une parabole couvre un demi-tour ou davantage",
+    ),
+    ("ask for more elements", "demandez plus d'éléments"),
     # ---- singular matrices
     (
         "the matrix is singular, with {} free motion that the loads drive ({})",

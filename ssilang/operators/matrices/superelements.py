@@ -62,7 +62,7 @@ register_type(SuperElement, "SUPERELE")
             "0.3)) ET (BLOQ 'DEPL' (COTE 4 S)) ; SU = SUPE 'RIGI' 'NOMU' R L ; F = FORC (0. "
             "-1.) L ; "
             "U = RESO (EXTR SU 'RIGI') (SUPE 'CHAR' SU F) ; V = SUPE 'DEPL' SU U F ; "
-            "LIST (MAXI (ABS (V - (RESO R F)) 'AVEC' (MOTS 'UX' 'UY'))) ;",
+            "LIST (MAXI (ABS (V - (RESO R F))) 'AVEC' (MOTS 'UX' 'UY')) ;",
         ),
     ),
     reads_itself=True,
