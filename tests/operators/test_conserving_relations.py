@@ -1,0 +1,47 @@
+"""CONSERVATIF with contact relations, as a script asks for it."""
+
+import numpy as np
+import pytest
+
+from ssilang.cli.run import run_text
+
+# a rigid block on two stops, tilted, its weight pulling it back: rocks for ever
+BLOCK = """
+OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; PC = 0. 0. ;
+R = (BLOQ 'UX' PC) ET (RELA 'MINI' 'UY' PC + 1.5 'RZ' PC) ET (RELA 'MINI' 'UY' PC - 1.5 'RZ' PC) ;
+T = TABL ; T . 'RIGI' = R ; T . 'MASS' = (MASS 'DEPL' 1.E5 PC) ET (MASS 'ROTA' 8.E5 PC) ;
+T . 'DEPL' = (MANU 'CHPO' PC 1 'UY' 0.015) ET (MANU 'CHPO' PC 1 'RZ' 0.01) ;
+T . 'CHAR' = CHAR 'MECA' (FORC (0. -9.81E5) PC) (EVOL 'MANU' (PROG 0. 9.) (PROG 1. 1.)) ;
+T . 'TEMPS_CALCULES' = PROG 0. 'PAS' 1.E-3 3. ; T . 'CONSERVATIF' = VRAI ;
+"""
+END = """ T2 = DYNAMIC T ; LE = T . 'ENERGIES' . 'ECART' ; LC = T . 'ENERGIES' . 'CINETIQUE' ;
+LTH = EXTR (EVOL 'TEMP' T2 'DEPL' 'RZ' PC) 'ORDO' ; """
+
+
+@pytest.mark.parametrize("method", ["LAGRANGE", "AUGMENTE", "UZAWA", "PENALITE"])
+def test_a_rocking_block_keeps_its_energy_whatever_the_method(found, method):
+    extra = f"T . 'CONTACT' = MOT '{method}' ; T . 'COEFFICIENT' = 1.E9 ; "
+    if method == "UZAWA":
+        extra = "T . 'CONTACT' = MOT 'UZAWA' ; "
+    gap, kinetic, theta = found(BLOCK + extra + END, "LE", "LC", "LTH")
+    assert np.abs(gap.values).max() <= 1e-10 * kinetic.values.max()
+    assert np.abs(theta.values).max() <= 0.0100001
+    assert (theta.values < -1e-3).any()
+    assert (theta.values > 1e-3).any()
+
+
+@pytest.mark.parametrize(
+    ("entry", "warned"), [("", False), ("FAUX", False), ("VRAI", True), ("MOT 'RIGIDITE'", True)]
+)
+def test_a_velocity_correction_beside_it_has_no_effect_and_is_warned_of(entry, warned):
+    text = BLOCK.replace("1.E-3 3.", "1.E-3 0.1") + (
+        f"T . 'VITEUNIL' = {entry} ; " if entry else ""
+    )
+    result = run_text(text + END)
+    assert result.exit_code == 0, result.message
+    said = " ".join(w.data["message"] for w in result.session.warnings)
+    assert ("'VITEUNIL' has no effect" in said) is warned
+
+
+def test_persistent_contact_and_the_conserving_step_exclude_each_other(refused):
+    assert "exclude each other" in refused(BLOCK + "T . 'CONTACT_PERSISTANT' = VRAI ; " + END)
