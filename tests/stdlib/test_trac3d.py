@@ -65,6 +65,20 @@ def test_other_fields_go_under_their_names(name):
     np.testing.assert_allclose(root.find("D").values_at(b, nodes), z, atol=1e-9)
 
 
+def test_creer_3d_is_the_same():
+    plane = (
+        "OPTI DIME 2 MODE AXIS ELEM QUA4 ; S = TRAN 1 (DROI 1 (1. 0.) (3. 0.)) (0. 1.) ;"
+        "MO = MODE S MECANIQUE ELASTIQUE ; E = CHAN 'CHAM' (NOMC 'SMTT' (COOR 1 S)) MO 'NOEUD' ;"
+    )
+    for name in ("CREER_3D", "TRAC3D_2"):
+        root, nodes, r, _, _ = solved(
+            plane + f"T = {name} E MO 90. 3 0 ; M = T . 'MAILLAGE' ;"
+            "D = CHAN 'CHPO' (T . 'MODELE') (T . 'CONTRAINTE') ;"
+        )
+        np.testing.assert_allclose(root.find("D").values_at("SMTT", nodes), r, atol=1e-9)
+    assert "model" in run_text(plane + "T = CREER_3D E 90. 3 0 ;").message
+
+
 def test_unknown_components_are_named():
     script = (
         "OPTI DIME 2 MODE AXIS ELEM SEG2 ; L = DROI 1 (1. 0.) (1. 1.) ;"
