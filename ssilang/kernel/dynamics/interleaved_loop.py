@@ -10,12 +10,12 @@ from ssilang.kernel.dynamics.effective import Effective, RootResponse, root_resp
 from ssilang.kernel.dynamics.interleaved_march import (
     Flow,
     Kept,
-    Newton,
     Plan,
     Sparse,
     march_interleaved,
 )
 from ssilang.kernel.dynamics.problem import Problem
+from ssilang.kernel.joints.condensed_cached import workspace
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.solvers.dissected import DissectedFactor
 from ssilang.kernel.solvers.triangular import longest
@@ -67,7 +67,7 @@ class InterleavedLoop:
         joints = joints_of(problem) if problem.interface is None else None
         self.joints = joints or _joints_without_rows(problem)
         self.J = sp.csr_array((0, n)) if problem.interface is None else problem.interface.J @ self.T
-        self.newton = _newton(motion, q)
+        self.newton = workspace(q, motion.w, motion.state)
         gram = sp.csr_array(self.T.T @ self.T)
         self._gram_diagonal = gram.diagonal()
         self._gram = None if gram.nnz == n else sp.csc_array(gram)
@@ -151,15 +151,6 @@ class InterleavedLoop:
         saved.u[to], saved.v[to], saved.a[to] = u, v, a
         saved.reaction[to] = self._reaction(u, v, a, kept.f[row], factors)
         saved.w[to], saved.t[to], saved.state[to] = kept.w[row], kept.t[row], kept.state[row]
-
-
-def _newton(motion: Motion, q: int) -> Newton:
-    """Arrays for the iteration on q jumps, without factors yet."""
-    tangents = np.zeros((*motion.w.shape, motion.w.shape[1]))
-    f, h, r, dy, delta = (np.zeros(q) for _ in range(5))
-    K, A, pivots = np.zeros((q, q)), np.zeros((q, q)), np.zeros(q, np.int64)
-    known = np.full_like(tangents, np.nan)
-    return Newton(np.zeros_like(motion.state), tangents, f, h, r, dy, delta, K, A, known, pivots)
 
 
 def _joints_without_rows(problem: Problem) -> Joints:

@@ -33,7 +33,7 @@ from ssilang.kernel.dynamics.compiled_loop import (
     STORED,
     Joints,
 )
-from ssilang.kernel.joints.condensed_cached import iterate_cached
+from ssilang.kernel.joints.condensed_cached import Workspace, iterate_cached
 from ssilang.kernel.joints.response import interface_energies
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.solvers.multifrontal import Panels
@@ -126,22 +126,6 @@ class Kept(NamedTuple):
     state: FloatArray
 
 
-class Newton(NamedTuple):
-    """Arrays of the interface's iteration; A, known and pivots last from step to step."""
-
-    new: FloatArray
-    D: FloatArray
-    f: FloatArray
-    h: FloatArray
-    r: FloatArray
-    dy: FloatArray
-    delta: FloatArray
-    K: FloatArray
-    A: FloatArray
-    known: FloatArray
-    pivots: IntArray
-
-
 @compiled_fast
 def _row(A: Sparse, i: int, x: FloatArray) -> float:
     total = 0.0
@@ -232,7 +216,7 @@ def _trunk_forward(plan: Plan, b: FloatArray, above: FloatArray, local: FloatArr
 
 @compiled
 def _interface(
-    plan: Plan, joints: Joints, flow: Flow, newton: Newton, b: FloatArray, above: FloatArray,
+    plan: Plan, joints: Joints, flow: Flow, newton: Workspace, b: FloatArray, above: FloatArray,
     du: FloatArray, local: FloatArray,
 ) -> tuple[int, float]:  # fmt: skip
     """Increment of the root's unknowns; the joints' state becomes that of the step's end."""
@@ -289,7 +273,7 @@ def _account(
 
 @compiled
 def march_interleaved(
-    plan: Plan, joints: Joints, flow: Flow, newton: Newton, factors: FloatArray, save: IntArray,
+    plan: Plan, joints: Joints, flow: Flow, newton: Workspace, factors: FloatArray, save: IntArray,
     kept: Kept, history: FloatArray,
 ) -> tuple[int, int, float]:  # fmt: skip
     """Steps between the rows of `factors`; see `compiled_loop.march` for the results."""

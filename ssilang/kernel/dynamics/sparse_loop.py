@@ -23,7 +23,7 @@ from ssilang.kernel.dynamics.compiled_loop import (
 from ssilang.kernel.dynamics.effective import Effective
 from ssilang.kernel.dynamics.impact import ImpactRule
 from ssilang.kernel.dynamics.problem import Problem
-from ssilang.kernel.joints.condensed_large import solve_any_interface
+from ssilang.kernel.joints.condensed_cached import Workspace, iterate_cached, workspace
 from ssilang.kernel.joints.interface import Interface
 from ssilang.kernel.joints.response import interface_energies
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
@@ -59,12 +59,9 @@ class CondensedSolver:
         self.effective = effective
         self.interface = problem.interface
         self.share = 1 - problem.scheme.alpha_f
-        joints = problem.interface
-        if joints is not None:
-            n, d = joints.n_points, joints.dimension
-            self._new = np.zeros_like(problem.state)
-            self._D = np.zeros((n, d, d))
-            self._f, self._h = np.zeros(joints.size), np.zeros(joints.size)
+        R = effective.R
+        self._R = R if R.any() else np.zeros((0, 0))
+        self._work: Workspace | None = None
 
     def solve(self, motion: Motion, r: FloatArray, dd: FloatArray, d: FloatArray) -> StepOutcome:
         """One solve, Newton on the interface, one product."""
@@ -77,32 +74,25 @@ class CondensedSolver:
         y = y0.copy()
         turns, residual = self._iterate(self.interface, motion, y0, y)
         if turns > 0:
-            du = du - self.effective.Y @ self._h
+            assert self._work is not None
+            du = du - self.effective.Y @ self._work.h
             motion.delta[:] += y
-            motion.f[:] = self._f
-            motion.state[:, :] = self._new
+            motion.f[:] = self._work.f
+            motion.state[:, :] = self._work.new
         return StepOutcome(du, turns, residual)
 
     def _iterate(
         self, joints: Interface, motion: Motion, y0: FloatArray, y: FloatArray
     ) -> tuple[int, float]:
-        return solve_any_interface(
-            joints,
-            self.effective.S,
-            self.effective.R,
-            self.share,
-            motion.delta,
-            motion.f,
-            motion.state,
-            y0,
-            y,
-            motion.w,
-            motion.t,
-            self._new,
-            self._D,
-            self._f,
-            self._h,
-        )
+        if self._work is None:
+            self._work = workspace(joints.size, motion.w, motion.state)
+        k = self._work
+        return iterate_cached(
+            joints.pairs, joints.B, joints.weights, joints.codes,
+            np.ascontiguousarray(joints.parameters), self.effective.S, self._R, self.share,
+            motion.delta, motion.f, motion.state, y0, y, motion.w, motion.t, k.new, k.D, k.f, k.h,
+            k.r, k.dy, k.delta, k.K, k.A, k.known, k.pivots,
+        )  # fmt: skip
 
 
 def support_work(

@@ -6,6 +6,8 @@ matrix `1 + S (c K - R)` is then factorised once. The answer is that of `solve_i
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from ssilang.kernel.compiled import compiled, compiled_fast
@@ -23,6 +25,42 @@ from ssilang.kernel.joints.response import interface_response, interface_stiffne
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 BLOCK = 32  # columns factorised together
+
+
+class Workspace(NamedTuple):
+    """Arrays of an iteration on q jumps, d a point.
+
+    Attributes
+    ----------
+    new, D, f, h : results
+        States (n_points, N_STATE), tangents (n_points, d, d), forces (q,) and `h` of
+        `solve_interface`.
+    r, dy, delta, K, A
+        Room (q,) and (q, q); A holds factors.
+    known, pivots
+        Tangents of these factors (NaN: none yet), and their row exchanges.
+    """
+
+    new: FloatArray
+    D: FloatArray
+    f: FloatArray
+    h: FloatArray
+    r: FloatArray
+    dy: FloatArray
+    delta: FloatArray
+    K: FloatArray
+    A: FloatArray
+    known: FloatArray
+    pivots: IntArray
+
+
+def workspace(q: int, w: FloatArray, state: FloatArray) -> Workspace:
+    """Room for q jumps, local jumps w (n_points, d), states (n_points, N_STATE); no factors."""
+    tangents = np.zeros((*w.shape, w.shape[1]))
+    f, h, r, dy, delta = (np.zeros(q) for _ in range(5))
+    K, A, pivots = np.zeros((q, q)), np.zeros((q, q)), np.zeros(q, np.int64)
+    known = np.full_like(tangents, np.nan)
+    return Workspace(np.zeros_like(state), tangents, f, h, r, dy, delta, K, A, known, pivots)
 
 
 @compiled_fast
