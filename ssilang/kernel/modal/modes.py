@@ -14,6 +14,7 @@ from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.modal.eigen import Pairs, between, nearest
 from ssilang.kernel.modal.reduced import ReducedProblem, reduced_problem
 
+ROUNDING = 1e-9
 TRANSLATIONS = ({"UX", "UR"}, {"UY"}, {"UZ"})
 
 
@@ -90,11 +91,14 @@ def _modes(problem: ReducedProblem, pairs: Pairs) -> list[Mode]:
 
 
 def largest_displacement(numbering: Numbering, u: FloatArray) -> float:
-    """The translation component of largest size, with its sign; any unknown's if none moves."""
+    """The translation component of largest size, with its sign; any unknown's if none moves.
+
+    Translations that are rounding beside the rotations (a shaft in torsion) do not count.
+    """
     named = set().union(*TRANSLATIONS)
     codes = [c for c, name in enumerate(numbering.unknowns) if name in named]
     moved = np.where(np.isin(numbering.codes, codes), u, 0.0)
-    if not moved.any():
+    if np.abs(moved).max(initial=0.0) <= ROUNDING * np.abs(u).max(initial=0.0):
         moved = u
     top = np.abs(moved).max()
     first = int(np.argmax(np.abs(moved) > (1.0 - 1e-9) * top))

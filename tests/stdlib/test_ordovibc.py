@@ -1,0 +1,28 @@
+"""ORDOVIBC: complex modes in order, and followed from one basis to the next."""
+
+import numpy as np
+
+from ssilang.cli.run import run_text
+
+SCRIPT = (
+    "OPTI DIME 2 ; P1 = 0. 0. ; P2 = 1. 0. ; K1 = APPU 'UX' 4. P1 ; K2 = APPU 'UX' 9. P2 ; "
+    "M = MASS 'UX' 1. (P1 ET P2) ; C = AMOR 'UX' 0.1 (P1 ET P2) ; "
+    "B = VIBR 'SIMU' 0.1 2 (K1 ET K2) M ; MP = PJBA B M ; CP = PJBA B C ; "
+    "T = VIBC MP (PJBA B (K1 ET K2)) CP ; ORDOVIBC T ; "
+    "T2 = VIBC MP (PJBA B (K2 ET (4. * K1))) CP ; ORDOVIBC T2 T ; "
+    "L1 = T . 'LISTE_FREQUENCES_REELLES' ; I1 = T . 'LISTE_FREQUENCES_IMAGINAIRES' ; "
+    "L2 = T2 . 'LISTE_FREQUENCES_REELLES' ; F = T2 . 'MODES' . 3 . 'FREQUENCE_REELLE' ; "
+)
+
+
+def test_modes_increase_then_keep_their_shape():
+    result = run_text(SCRIPT)
+    assert result.exit_code == 0, result.message
+    find = result.session.root.find
+    w = np.sqrt(np.array([4.0, 9.0]) - 0.05**2) / (2 * np.pi)
+    np.testing.assert_allclose(find("L1").values, [-w[1], -w[0], w[0], w[1]], rtol=1e-9)
+    np.testing.assert_allclose(find("I1").values, 0.05 / (2 * np.pi), rtol=1e-9)
+    # the soft oscillator has become the stiff one (16 > 9): its modes keep their places
+    moved = np.sqrt(np.array([16.0, 9.0]) - 0.05**2) / (2 * np.pi)
+    np.testing.assert_allclose(find("L2").values, [-moved[1], -moved[0], moved[0], moved[1]])
+    assert find("F") == find("L2").values[2]
