@@ -244,6 +244,83 @@ TEMPLATES: tuple[tuple[str, str], ...] = (
         "no set of active unilateral conditions gives equilibrium",
         "aucun jeu de conditions unilatérales actives ne donne l'équilibre",
     ),
+    # ---- records, constitutive laws, turning bodies
+    (
+        "the field has no value of {} at {} of the {} nodes of the line",
+        "le champ n'a pas de valeur de {} en {} des {} noeuds de la ligne",
+    ),
+    (
+        "a record to correct needs four points at least, found {}",
+        "un enregistrement à corriger a au moins quatre points, il y en a {}",
+    ),
+    (
+        "a power spectrum is positive, over increasing frequencies",
+        "un spectre de puissance est positif, sur des fréquences croissantes",
+    ),
+    (
+        "lists of {} and {} values have no dot product",
+        "des listes de {} et {} valeurs n'ont pas de produit scalaire",
+    ),
+    (
+        "one curve is needed, here are {}",
+        "il faut une courbe, il y en a {}",
+    ),
+    (
+        "the gradient of the motion has a determinant that is not positive",
+        "le gradient du mouvement a un déterminant qui n'est pas positif",
+    ),
+    (
+        "matter cannot be turned inside out: is the field F, or F - 1 ('DEPL')?",
+        "la matière ne se retourne pas : le champ est-il F, ou F - 1 ('DEPL') ?",
+    ),
+    (
+        "the second field has no strain ({}) on the cells of element {}",
+        "le second champ n'a pas de déformation ({}) sur les éléments {}",
+    ),
+    (
+        "the law {} of element {} has no criterion here",
+        "la loi {} de l'élément {} n'a pas de critère ici",
+    ),
+    (
+        "gyroscopic coupling is for beams in space, not {}",
+        "le couplage gyroscopique est pour les poutres en 3D, pas {}",
+    ),
+    (
+        "corotational damping is for beams in space, not {}",
+        "l'amortissement corotatif est pour les poutres en 3D, pas {}",
+    ),
+    (
+        "element {} has no matrices of turning frames",
+        "l'élément {} n'a pas de matrices de repère tournant",
+    ),
+    (
+        "the matrix has no relation",
+        "la rigidité n'a pas de relation",
+    ),
+    (
+        "the diagonal field has no value for {}",
+        "le champ diagonal n'a pas de valeur pour {}",
+    ),
+    (
+        "distances are taken to {} in {}D, not to {}",
+        "les distances se prennent à {} en {}D, pas à {}",
+    ),
+    (
+        "the matrix has negative terms ({}): they have no power {}",
+        "la rigidité a des termes négatifs ({}) : ils n'ont pas de puissance {}",
+    ),
+    (
+        "the fields have no energy: there is no mode",
+        "les champs n'ont pas d'énergie : il n'y a pas de mode",
+    ),
+    (
+        "the record has no whole shock",
+        "l'enregistrement n'a pas de choc entier",
+    ),
+    (
+        "a cable is made of segments of two nodes (SEG2)",
+        "un câble est fait de segments à deux noeuds (SEG2)",
+    ),
     # ---- bounds
     (
         "a list or word of {} items is too long, the limit is {}",
