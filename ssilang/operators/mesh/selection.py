@@ -24,6 +24,7 @@ from ssilang.kernel.mesh.combine import (
 )
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+from ssilang.kernel.mesh.paths import network_of_lines, shortest_line
 from ssilang.kernel.mesh.select import (
     containing,
     inside_contour,
@@ -48,13 +49,15 @@ _EXTREMES = ("MAXI", "MINI", "SUPERIEUR", "EGSUPE", "EGALE", "EGINFE", "INFERIEU
         en="Picks cells: by type, by colour, by number or list of numbers among those; 'CONT' the "
         "cell that holds a point ('TOUS': all of them); 'APPU' those on given points ('STRI' with "
         "all nodes, the default, 'LARG' with one at least); 'COMP' the part of a line between two "
-        "points, described from the first to the second. 'TYPE' and 'COUL' alone list the cell "
+        "points, described from the first to the second; of a network such as ARET's the shortest "
+        "way. 'TYPE' and 'COUL' alone list the cell "
         "types and colours. From a cell field: cells whose values are extreme or compare. 'NOVE' "
         "allows an empty result.",
         fr="Choisit des éléments : par type, par couleur, par numéro ou liste de numéros parmi "
         "ceux-ci ; 'CONT' l'élément contenant un point ('TOUS' : tous) ; 'APPU' ceux qui "
         "s'appuient sur des points ('STRI' par tous leurs noeuds, par défaut, 'LARG' par un au "
-        "moins) ; 'COMP' la partie d'une ligne entre deux points, décrite du premier au second. "
+        "moins) ; 'COMP' la partie d'une ligne entre deux points, décrite du premier au second ; "
+        "d'un réseau comme celui d'ARET le plus court chemin. "
         "'TYPE' et 'COUL' seuls listent types et couleurs. D'un champ par éléments : éléments de "
         "valeurs extrêmes ou vérifiant une comparaison. 'NOVE' permet un résultat vide.",
         syntax="GEO1 = GEO2 ELEM (TYPE) (COUL1) (N1|LENTI1) | 'COUL' I1 | 'CONT' P1 ('TOUS') "
@@ -82,10 +85,20 @@ def elem(call: Call) -> Any:
     mesh = source or call.required("MAILLAGE")
     if way == "COMPRIS":
         first, second = call.required("POINT"), call.required("POINT")
-        return stretch(chained(mesh), first.node, second.node)
+        return _part_of_line(mesh, first.node, second.node)
     if way == "TYPE":
         return ListMots([b.cell_type for b in mesh.blocks])
     return _by_type_and_colour(call, mesh)
+
+
+def _part_of_line(mesh: Mesh, first: int, second: int) -> Mesh:
+    """The part of a line between two nodes; of a network, the shortest way."""
+    try:
+        return stretch(chained(mesh), first, second)
+    except MeshError:
+        if not network_of_lines(mesh):
+            raise
+    return shortest_line(mesh, first, second)
 
 
 def _by_type_and_colour(call: Call, mesh: Mesh) -> Any:
