@@ -25,6 +25,10 @@ from ssilang.kernel.solvers.contact_methods import METHODS
 
 MOST_TURNS = 40
 TOLERANCE = 1e-12
+DRIVEN = 1e-6
+"""Share of the work of the loads on free motions above which they drive one that nothing stops."""
+UNSTOPPED = 1e-9
+"""Share of the largest motion of the relations under which a free motion meets none of them."""
 
 
 class ContactSolver:
@@ -61,13 +65,29 @@ class ContactSolver:
         self, motion: Motion, r: FloatArray, du: FloatArray, g0: FloatArray
     ) -> StepOutcome:
         """Bodies that move freely but for the relations: their motions are unknowns too."""
-        B = self.contact.G @ self.free
-        problem = ContactProblem(self.SGG, g0, B, B, self.free.T @ r, np.zeros(len(g0), dtype=bool))
+        stopped = self._stopped()
+        free = self.free @ stopped
+        work = self.free.T @ r
+        left = work - stopped @ (stopped.T @ work)
+        if np.abs(left).max(initial=0.0) > DRIVEN * np.abs(work).max(initial=0.0):
+            return StepOutcome(du, 0, float(np.abs(left).max()))
+        B = self.contact.G @ free
+        problem = ContactProblem(self.SGG, g0, B, B, free.T @ r, np.zeros(len(g0), dtype=bool))
         found = solve_contact(problem, self.active)
         self.active = found.active
         motion.contact[:] = found.p
         moved = self.effective.solve(r + self.contact.G.T @ found.p) - self.effective.solve(r)
-        return StepOutcome(du + moved + self.free @ found.a, found.iterations, 0.0)
+        return StepOutcome(du + moved + free @ found.a, found.iterations, 0.0)
+
+    def _stopped(self) -> FloatArray:
+        """The free motions (k, j) that some relation stops; the others stay at rest.
+
+        A cylinder on a flat slides freely: nothing says how far, and no load drives it there.
+        """
+        B = self.contact.G @ self.free
+        _, sizes, motions = np.linalg.svd(B, full_matrices=False)
+        found: FloatArray = motions[sizes > UNSTOPPED * sizes.max(initial=0.0)].T
+        return found
 
     def _complementarity(self, W: FloatArray, q: FloatArray) -> FloatArray:
         found = METHODS[self.options.method](W, q, self.options.coefficient, self.active)

@@ -6,9 +6,9 @@ from ssilang.kernel.elements.catalog import SOLID_FAMILIES
 from ssilang.kernel.errors import MaterialError
 from ssilang.kernel.materials.plastic.laws import PLASTIC_LAWS, plastic_law
 
-FORMULATIONS = ("MECANIQUE", "CHARGEMENT")
+FORMULATIONS = ("MECANIQUE", "CHARGEMENT", "CONTACT")
 OTHER_FORMULATIONS = (
-    "LIQUIDE", "POREUX", "CONTACT", "THERMIQUE", "DARCY", "MAGNETODYNAMIQUE", "NAVIER_STOKES",
+    "LIQUIDE", "POREUX", "THERMIQUE", "DARCY", "MAGNETODYNAMIQUE", "NAVIER_STOKES",
     "EULER", "MELANGE", "FISSURE", "THERMOHYDRIQUE", "LIAISON", "DIFFUSION",
     "FROTTEMENT", "CHANGEMENT_PHASE", "METALLURGIE", "CONVECTION", "RAYONNEMENT",
 )  # fmt: skip

@@ -52,8 +52,40 @@ _MANY = 2**31
 
 
 def contour(mesh: Mesh) -> Mesh:
-    """Edges of surface cells that belong to one cell only, in the cells' own order."""
-    return _boundary(mesh, 2, (1, 1))
+    """Edges of surface cells that belong to one cell only, in the cells' own order.
+
+    Where cells of both senses meet, closed loops all run the way of their first edge.
+    """
+    found = _boundary(mesh, 2, (1, 1))
+    blocks = []
+    for block in found.blocks:
+        table = block.connectivity
+        _, times = np.unique(table[:, [0, -1]], return_counts=True)
+        mixed = not np.array_equal(np.sort(table[:, 0]), np.sort(table[:, -1]))
+        if mixed and (times == 2).all():
+            turned = in_one_sense(table)
+            block = CellBlock.make(mesh.nodes, block.cell_type, turned, block.colours)
+        blocks.append(block)
+    return Mesh(mesh.nodes, tuple(blocks))
+
+
+def in_one_sense(cells: IntArray) -> IntArray:
+    """Cells of closed loops, all turned the way of the first of their loop."""
+    at_node: dict[int, list[int]] = {}
+    for i, (a, b) in enumerate(cells[:, [0, -1]].tolist()):
+        at_node.setdefault(a, []).append(i)
+        at_node.setdefault(b, []).append(i)
+    turned = cells.copy()
+    waiting = set(range(len(cells)))
+    while waiting:
+        i = min(waiting)
+        while i in waiting:
+            waiting.discard(i)
+            end = int(turned[i, -1])
+            i = next(j for j in at_node[end] if j != i)
+            if i in waiting and turned[i, 0] != end:
+                turned[i] = turned[i, ::-1]
+    return turned
 
 
 def inner_contour(mesh: Mesh) -> Mesh:

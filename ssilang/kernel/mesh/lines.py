@@ -122,18 +122,33 @@ def line_chain(line: Mesh) -> IntArray:
     Raises
     ------
     MeshError
-        If the mesh is not one connected line described from one end to the other.
+        If the mesh is not one connected line whose cells all run the same way.
     """
     if any(b.cell_type not in ("SEG2", "SEG3") for b in line.blocks) or not line.blocks:
         kinds = ", ".join(b.cell_type for b in line.blocks) or "nothing"
         raise MeshError(f"a line of SEG2 or SEG3 is needed, this mesh holds {kinds}")
     table = line.single_block().connectivity
     if not np.array_equal(table[1:, 0], table[:-1, -1]):
+        table = _in_order(table)
+    return np.concatenate([table[:, :-1].ravel(), table[-1:, -1]])
+
+
+def _in_order(table: IntArray) -> IntArray:
+    """Cells (n, 2 or 3) of one line that all run in its sense, one behind the other."""
+    leaving = {int(first): i for i, first in enumerate(table[:, 0])}
+    starts = np.setdiff1d(table[:, 0], table[:, -1])
+    rows: list[int] = []
+    if len(leaving) == len(table) and len(starts) <= 1:
+        at = int(starts[0] if len(starts) else table[0, 0])
+        while at in leaving and len(rows) < len(table):
+            rows.append(leaving[at])
+            at = int(table[rows[-1], -1])
+    if len(rows) != len(table):
         raise MeshError(
             "the line's cells do not follow one another",
-            "join its parts in order with ET, and turn the reversed ones with INVE",
+            "join its parts with ET, and turn the reversed ones with INVE",
         )
-    return np.concatenate([table[:, :-1].ravel(), table[-1:, -1]])
+    return table[rows]
 
 
 def line_ends(line: Mesh) -> tuple[int, int]:

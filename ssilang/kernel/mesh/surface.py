@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ssilang.kernel.errors import MeshError
-from ssilang.kernel.mesh.boundary import chained
+from ssilang.kernel.mesh.boundary import chained, in_one_sense
 from ssilang.kernel.mesh.charts import Chart
 from ssilang.kernel.mesh.degree import quadratic
 from ssilang.kernel.mesh.fill import SizeField, boundary_sizes, fill_contour, sides_of, smooth
@@ -38,9 +38,11 @@ def contour_cells(contour: Mesh) -> IntArray:
                 f"the contour is not closed: a line ends at node(s) {where}",
                 "close it, or merge coincident points with ELIM",
             )
-        raise MeshError(
-            "the lines of the contour do not all run in the same sense", "turn some with INVE"
-        )
+        if (times != 2).any():
+            raise MeshError(
+                "the lines of the contour do not all run in the same sense", "turn some with INVE"
+            )
+        return in_one_sense(cells)
     return cells
 
 

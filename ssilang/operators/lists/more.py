@@ -194,17 +194,17 @@ def veri(value: Any) -> bool:
     arg("field", "CHPOINT"),
     family="fields",
     help=Help(
-        en="Sum of the values of a field of single component SCAL.",
-        fr="Somme des valeurs d'un champ de composante unique SCAL.",
+        en="Sum of the values of a field of a single component (SCAL, most often).",
+        fr="Somme des valeurs d'un champ de composante unique (SCAL, le plus souvent).",
         syntax="X1 = SOMT CHPO1 ;",
         examples=("OPTI DIME 2 ; P = 0. 0. ; LIST (SOMT (MANU 'CHPO' P 'SCAL' 3.)) ;",),
     ),
 )
 def somt(field: NodeField) -> float:
     """Sum values."""
-    if list(field.components) != ["SCAL"]:
-        raise KernelError("SOMT sums a field of single component SCAL", "see EXCO and RESU")
-    return float(field.components["SCAL"].values.sum())
+    if len(field.components) != 1:
+        raise KernelError("SOMT sums a field of a single component", "see EXCO and RESU")
+    return float(next(iter(field.components.values())).values.sum())
 
 
 @operator(

@@ -24,6 +24,7 @@ from ssilang.kernel.modal.shape_models import is_shape, shape_matrix
 from ssilang.kernel.model import Mode, Model
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
+from ssilang.operators.models.contact import model_relations
 from ssilang.operators.workspace import workspace
 
 UNKNOWNS = ("UX", "UY", "UZ", "UR", "UT", "RX", "RY", "RZ", "RT", "P", "PI", "T", "ALFA", "BETA")
@@ -109,9 +110,23 @@ def rigi(call: Call) -> Matrix:
     operand = call.read("MMODEL")
     if operand is None:
         return additional(call, "RIGIDITE")
+    if any(z.formulation == "CONTACT" for z in operand.value.zones):
+        return _contact(call, operand.value)
     model, material = present(call, operand.value), _fields(call)
     blocks = [families.stiffness(z, material) for z in model.zones if not is_shape(z)]
     return _assembled(model, [*blocks, *_shapes(model, material, "RIGIDITE")], "RIGIDITE")
+
+
+def _contact(call: Call, model: Model) -> Matrix:
+    """Stiffness of the bodies of a model and the unilateral relations of its sides."""
+    fields = call.all("MCHAML")
+    material = joined(tuple(fields)) if fields else None
+    relations = tuple(c.relations for c in model_relations(model, material))
+    zones = present(call, model).zones
+    if zones and material is None:
+        raise call.missing(("MCHAML",))
+    blocks = [families.stiffness(z, material) for z in zones if material is not None]
+    return Matrix(model.mesh.nodes, tuple(blocks), relations, "RIGIDITE")
 
 
 def _shapes(model: Model, material: CellField, kind: str) -> list[ElementMatrices]:

@@ -86,7 +86,7 @@ def _spelled(call: Call, term: _Sum) -> list[list[Term]]:
 
 
 def _read_terms(call: Call) -> list[_Sum]:
-    """Terms `(+|-) (number) unknown ('DIRE' vector) mesh`, the mesh before the unknown or behind."""
+    """Terms `(+|-) (number) unknown ('DIRE' vector) mesh`; the mesh may come first."""
     terms: list[_Sum] = []
     current = _Sum()
     while call.operands:

@@ -144,7 +144,8 @@ operator(
         "Projette sur une base modale (et des déformées statiques) : forces et chargements donnent "
         "FALF (et FBET) aux points repères, une rigidité donne X^T K X, une liste de champs les "
         "produits avec chaque déformée (avec une matrice : X^T M u).",
-        "OBJ2 = PJBA CHPO1 | CHAR1 | RIG1 TAB1 (TAB2 ...) | MODL1 MAT1 ;\nLCHP2 = PJBA LCHP1 TAB1 (N1) (RIG1) ;",
+        "OBJ2 = PJBA CHPO1 | CHAR1 | RIG1 TAB1 (TAB2 ...) | MODL1 MAT1 ;\n"
+        "LCHP2 = PJBA LCHP1 TAB1 (N1) (RIG1) ;",
         (
             "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = APPU 'UX' 400. P1 ;"
             " T1 = VIBR 'SIMU' 1. 1 K1 (MASS 'UX' 4. P1) ; LIST (PJBA (FORC 'FX' 2. P1) T1) ;",
@@ -369,7 +370,7 @@ def join_bases(first: Table, second: Table) -> Table:
     if all(isinstance(t, Table) for t in inner):
         for index, value in first.items():
             table.set(index, value)
-        table.set(Mot("MODES"), join_bases(*inner))  # type: ignore[arg-type]
+        table.set(Mot("MODES"), join_bases(*inner))
         return table
     for index, value in first.items():
         if not isinstance(index, int):

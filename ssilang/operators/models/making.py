@@ -15,9 +15,9 @@ from ssilang.kernel.materials.behaviours import (
     FORMULATIONS,
     JOINT_WORDS,
     OTHER_BEHAVIOURS,
-    UNDESCRIBED_LAWS,
     OTHER_FORMULATIONS,
     PLASTIC_WORDS,
+    UNDESCRIBED_LAWS,
     full_word,
     normalised,
 )
@@ -27,6 +27,7 @@ from ssilang.kernel.model import Mode, Model, Zone
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
 from ssilang.operators.dispatch import union
+from ssilang.operators.models.contact import contact_model, take_contact
 from ssilang.operators.workspace import Workspace, workspace
 
 register_family("joint", JointFamily())
@@ -65,6 +66,11 @@ class _Wish:
         "DKT, COQ2, COQ4, COQ6, COQ8 and the joints are to be named (Q4RI, ICQ4, BBAR choose "
         "another integration). "
         "The hypothesis is that of OPTI MODE.\n"
+        "The formulation CONTACT (UNILATERAL) keeps two sides, the second mesh given after it, "
+        "from going into each other: MESC (default: no node of the second into the first), SYME, "
+        "FAIB (in the mean over each cell of the second), MORT (mean weighted at its nodes). Lines "
+        "(SEG2) have the other body on their right, surfaces (TRI3, QUA4) on the side of their "
+        "normal. PASAPAS and RIGI take such models.\n"
         "The formulation CHARGEMENT PRESSION makes a model of loaded sides, for PRES and BSIG.\n"
         "CONS names the constituent, DPGE gives the point that carries the motion of the "
         "section in generalised plane strain, LIBRE or LIE says if the axes of JOI1 follow.\n"
@@ -84,6 +90,11 @@ class _Wish:
         "DKT, COQ2, COQ4, COQ6, COQ8 et les joints se nomment (Q4RI, ICQ4, BBAR choisissent une "
         "autre intégration). "
         "L'hypothèse est celle d'OPTI MODE.\n"
+        "La formulation CONTACT (UNILATERAL) empêche deux bords, le second donné derrière elle, "
+        "de se pénétrer : MESC (par défaut : aucun noeud du second dans le premier), SYME, FAIB "
+        "(en moyenne sur chaque maille du second), MORT (moyenne pondérée à ses noeuds). Les "
+        "lignes (SEG2) ont l'autre corps à leur droite, les surfaces (TRI3, QUA4) du côté de leur "
+        "normale. PASAPAS et RIGI prennent ces modèles.\n"
         "La formulation CHARGEMENT PRESSION fait un modèle de faces chargées, pour PRES et BSIG.\n"
         "CONS nomme le constituant, DPGE donne le point qui porte le mouvement de la section "
         "en déformation plane généralisée, LIBRE ou LIE dit si le repère de JOI1 suit.\n"
@@ -99,6 +110,7 @@ class _Wish:
         "('GAUSS' | 'LOBATTO') ;\n"
         "MODL1 = MODE GEO1 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' ('CISAILLEMENT_ELASTIQUE') "
         "('FROTTEMENT_SYMETRIQUE') (JOI1 ...) ;\n"
+        "MODL1 = MODE GEO1 'CONTACT' ('UNILATERAL') GEO2 ('MESC' | 'SYME' | 'FAIB' | 'MORT') ;\n"
         "MODL1 = MODE GEO1 'CHARGEMENT' 'PRESSION' (ELEM1 ...) ;",
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0 0) (1 0) ; "
@@ -122,6 +134,8 @@ def mode(call: Call) -> Model:
     if not wish.formulation and not wish.laws:
         raise call.bad("the formulation is not said", mesh, "MODE mesh 'MECANIQUE' 'ELASTIQUE'")
     _check_elements(call, wish, mesh)
+    if wish.formulation == "CONTACT":
+        return contact_model(call, mesh, wish.options, ws)
     if wish.formulation == "CHARGEMENT":
         return Model(tuple(_pressure_zone(block, wish, ws) for block in mesh.blocks))
     zones = tuple(_zone(block, wish, ws) for block in mesh.blocks)
@@ -151,6 +165,8 @@ def _check_rule(call: Call, wish: _Wish, zones: tuple[Zone, ...]) -> None:
 
 def _take(call: Call, word: str, wish: _Wish) -> None:
     """Consume one word of MODE, with what it introduces."""
+    if wish.formulation == "CONTACT" and take_contact(call, wish.options):
+        return
     if call.keyword(["CONS"]):
         wish.constituent = str(call.required("MOT", after=call.keyword_end)).rstrip()
     elif call.keyword(["DPGE"]):

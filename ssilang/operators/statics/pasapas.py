@@ -12,6 +12,7 @@ from ssilang.kernel.curve import Load, LoadPart
 from ssilang.kernel.dynamics.plan import nearest
 from ssilang.kernel.elements.families import mass, stiffness
 from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.joints.elements import is_joint
 from ssilang.kernel.joints.law_table import law_of
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
@@ -30,6 +31,7 @@ from ssilang.operators.dynamics.dynamic import (
     warn_contrast,
     warn_resolution,
 )
+from ssilang.operators.models.contact import model_relations
 from ssilang.operators.session.progress import ProgressLine
 from ssilang.operators.session.user_procedures import AfterEachStep, StopCalculation
 from ssilang.operators.statics.bodies import plastic_bodies
@@ -173,13 +175,16 @@ def _inputs(
     heavy = [mass(z, m) for z, m in solids] if dynamic else []
     if dynamic and material is not None:
         heavy += [mass(z, material) for z in plastic]
+    contact, gaps = _contact(model, material)
+    if gaps is not None:
+        load = Load((*(load.parts if load else ()), LoadPart("MECA", gaps)))
     constant = entries.get("RIGIDITE_CONSTANTE", "RIGIDITE")
     supports = entries.get("BLOCAGES_MECANIQUES", "RIGIDITE")
     masses: Matrix | None = None
     if dynamic:
         masses = _joined(entries, heavy, (entries.get("MASSE_CONSTANTE", "RIGIDITE"),), "MASSE")
     inputs = Inputs(
-        _joined(entries, blocks, (constant, supports), "RIGIDITE"),
+        _joined(entries, blocks, (constant, supports, contact), "RIGIDITE"),
         times,
         masses,
         entries.get("AMORTISSEMENT", "RIGIDITE") if dynamic else None,
@@ -193,6 +198,21 @@ def _inputs(
         start.of("VARIABLES_INTERNES", "MCHAML"),
     )
     return inputs, stresses
+
+
+def _contact(
+    model: Model | None, material: CellField | None
+) -> tuple[Matrix | None, NodeField | None]:
+    """Unilateral relations of the sides in contact, and the values that they stay above."""
+    found = [] if model is None else model_relations(model, material)
+    if not found or model is None:
+        return None, None
+    table = model.mesh.nodes
+    nodes = np.concatenate([c.relations.multipliers for c in found])
+    values = np.concatenate([c.distances for c in found])
+    order = np.argsort(nodes, kind="stable")
+    gaps = NodeField(table, {"FLX": NodeValues(nodes[order], values[order])}, "DISCRET")
+    return Matrix(table, (), tuple(c.relations for c in found)), gaps
 
 
 def _joined(
@@ -217,7 +237,8 @@ def _linear_zones(entries: Entries) -> list[tuple[Zone, CellField]]:
     if model is None:
         return []
     material = entries.needed("CARACTERISTIQUES", "MCHAML")
-    return [(z, material) for z in model.zones if _is_linear(z)]
+    mechanical = (z for z in model.zones if z.formulation == "MECANIQUE")
+    return [(z, material) for z in mechanical if _is_linear(z)]
 
 
 def _is_linear(zone: Zone) -> bool:

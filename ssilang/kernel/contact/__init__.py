@@ -1,0 +1,1 @@
+"""Contact between the sides of bodies: unilateral relations from the geometry."""

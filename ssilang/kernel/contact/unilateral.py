@@ -1,0 +1,192 @@
+"""Unilateral relations of two sides: no node, or in the mean no cell, goes into the other body.
+
+For points x of one side (the slave), with shape functions N there and M at their feet on the
+other (the master), n the master's outer normal:
+
+    sum_i w_i n . (N_i u_s - M_i u_m) >= sum_i w_i (distance - gap_i)
+
+The formulations differ by the points and weights: nodes one by one (MESC), both ways round
+(SYME), the mean over each slave cell (FAIB), means weighted by the nodes' shape functions (MORT).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from ssilang.kernel.contact.facing import Projection, Side, project, side_of
+from ssilang.kernel.elements.quadrature import quadrature
+from ssilang.kernel.matrices.matrix import Relations
+from ssilang.kernel.matrices.relations import joined, rows_from_table
+from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray, NodeTable
+
+NOTHING = 1e-13
+"""Coefficients (of a mean: at most 1) that are rounding."""
+
+
+@dataclass(frozen=True, eq=False)
+class ContactRelations:
+    """Relations `>= distances`, one for each multiplier."""
+
+    relations: Relations
+    distances: FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class _Points:
+    """Points of a slave side: cell, shape functions, row of the relation they go into, weight."""
+
+    cell: IntArray
+    shapes: FloatArray
+    row: IntArray
+    weight: FloatArray
+
+
+def contact_relations(
+    table: NodeTable,
+    unknowns: tuple[str, ...],
+    master: Mesh,
+    slave: Mesh,
+    method: str,
+    distance: float = 0.0,
+) -> ContactRelations | None:
+    """Relations of two sides as they lie now; None where no point faces the other side.
+
+    Parameters
+    ----------
+    unknowns : tuple of str
+        Displacements along the axes.
+    method : str
+        'MESC', 'SYME', 'FAIB' or 'MORT'.
+    distance : float
+        Least distance to keep.
+    """
+    dimension = len(unknowns)
+    a, b = side_of(master, dimension), side_of(slave, dimension)
+    pairs = [(a, b)] if method != "SYME" else [(a, b), (b, a)]
+    parts = [_rows(one, other, _POINTS[method](one, other), distance) for one, other in pairs]
+    kept = [p for p in parts if p is not None]
+    if not kept:
+        return None
+    relations = [_as_relations(table, unknowns, nodes, values) for nodes, values, _ in kept]
+    return ContactRelations(joined(relations), np.concatenate([d for _, _, d in kept]))
+
+
+def _node_points(master: Side, slave: Side) -> _Points:
+    """Each node once, seen from the first cell that has it facing."""
+    k = slave.cells.shape[1]
+    nodes = slave.cells.ravel()
+    cell = np.repeat(np.arange(len(slave.cells)), k)
+    shapes = np.tile(np.eye(k), (len(slave.cells), 1))
+    _, row = np.unique(nodes, return_inverse=True)
+    return _Points(cell, shapes, row.ravel(), np.full(len(nodes), -1.0))
+
+
+def _inner_points(master: Side, slave: Side) -> _Points:
+    """Points that integrate over the slave's cells, each cell a row."""
+    if slave.cells.shape[1] == 2:
+        return _pieces(master, slave)
+    rule = quadrature("triangle", 7)
+    shapes = np.column_stack([1 - rule.points.sum(axis=1), rule.points])
+    n, p = len(slave.cells), len(rule.points)
+    cell = np.repeat(np.arange(n), p)
+    weight = np.tile(rule.weights / rule.weights.sum(), n) * slave.sizes[cell]
+    return _Points(cell, np.tile(shapes, (n, 1)), cell, weight)
+
+
+def _pieces(master: Side, slave: Side) -> _Points:
+    """Two Gauss points on each piece of a segment between the feet of the master's nodes."""
+    start = slave.corners[:, 0]
+    along = slave.corners[:, 1] - start
+    ends = master.corners.reshape(-1, start.shape[1])
+    feet = np.einsum("cnd,cd->cn", ends[None] - start[:, None], along)
+    feet = np.clip(feet / np.einsum("cd,cd->c", along, along)[:, None], 0.0, 1.0)
+    cuts = np.sort(np.column_stack([np.zeros(len(start)), feet, np.ones(len(start))]), axis=1)
+    length = np.diff(cuts, axis=1)
+    middle = 0.5 * (cuts[:, 1:] + cuts[:, :-1])
+    cell, piece = np.nonzero(length > 1e-9)
+    half = 0.5 * length[cell, piece]
+    s = (middle[cell, piece][:, None] + half[:, None] * np.array([-1, 1]) / np.sqrt(3)).ravel()
+    cell, weight = np.repeat(cell, 2), np.repeat(half, 2) * slave.sizes[np.repeat(cell, 2)]
+    return _Points(cell, np.stack([1 - s, s], axis=1), cell, weight)
+
+
+def _weighted_points(master: Side, slave: Side) -> _Points:
+    """Points that integrate each node's shape function over the slave: a row a node."""
+    inner = _inner_points(master, slave)
+    k = slave.cells.shape[1]
+    _, place = np.unique(slave.cells, return_inverse=True)
+    row = place.reshape(slave.cells.shape)[inner.cell]
+    return _Points(
+        np.repeat(inner.cell, k),
+        np.repeat(inner.shapes, k, axis=0),
+        row.ravel(),
+        (inner.shapes * inner.weight[:, None]).ravel(),
+    )
+
+
+_POINTS: dict[str, Callable[[Side, Side], _Points]] = {
+    "MESC": _node_points,
+    "SYME": _node_points,
+    "FAIB": _inner_points,
+    "MORT": _weighted_points,
+}
+METHODS = tuple(_POINTS)
+
+Rows = tuple[IntArray, FloatArray, FloatArray]
+
+
+def _rows(master: Side, slave: Side, points: _Points, distance: float) -> Rows | None:
+    """Nodes (r,), coefficients (r, nodes, dim) of the relations, and the least values (r,)."""
+    corners = slave.corners[points.cell]
+    x = np.einsum("nk,nkd->nd", points.shapes, corners)
+    found = project(master, x, slave.normals[points.cell])
+    seen = np.flatnonzero(found.cell >= 0)
+    if points.weight[:1].tolist() == [-1.0]:  # nodes: the first facing cell stands for each
+        _, first = np.unique(points.row[seen], return_index=True)
+        seen = seen[first]
+    if len(seen) == 0:
+        return None
+    weight = np.abs(points.weight[seen])
+    rows, row = np.unique(points.row[seen], return_inverse=True)
+    whole = np.bincount(row, weight, len(rows))
+    weight = weight / whole[row]
+    return _gathered(master, slave, points, found, seen, row, weight, distance)
+
+
+def _gathered(
+    master: Side,
+    slave: Side,
+    points: _Points,
+    found: Projection,
+    seen: IntArray,
+    row: IntArray,
+    weight: FloatArray,
+    distance: float,
+) -> Rows:
+    """Sums over the points of each row."""
+    normal = master.normals[found.cell[seen]]
+    own, other = slave.cells[points.cell[seen]], master.cells[found.cell[seen]]
+    nodes = np.concatenate([own, other], axis=1)
+    shapes = np.concatenate([points.shapes[seen], -found.shapes[seen]], axis=1)
+    values = (weight[:, None] * shapes)[..., None] * normal[:, None, :]
+    unique, place = np.unique(nodes, return_inverse=True)
+    place = place.reshape(nodes.shape)
+    n, d = int(row.max()) + 1, values.shape[2]
+    table = np.zeros((n, len(unique), d))
+    np.add.at(table, (np.repeat(row, nodes.shape[1]), place.ravel()), values.reshape(-1, d))
+    least = np.bincount(row, weight * (distance - found.gap[seen]), n).astype(np.float64)
+    return unique, table, least
+
+
+def _as_relations(
+    table: NodeTable, unknowns: tuple[str, ...], nodes: IntArray, values: FloatArray
+) -> Relations:
+    """One relation `>= ...` a row; zero coefficients are left out."""
+    n, d = len(values), len(unknowns)
+    flat = np.where(np.abs(values) > NOTHING, values, 0.0).reshape(n, -1)
+    columns = np.broadcast_to(np.repeat(nodes, d), flat.shape)
+    return rows_from_table(table, columns, unknowns * len(nodes), flat, sense=1)
