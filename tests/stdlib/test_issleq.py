@@ -125,3 +125,19 @@ def test_constant_layers_keep_their_modulus():
 )
 def test_what_is_missing_is_said(more, said):
     assert said in run_text(soil(1, more)).message
+
+
+def test_damping_is_rayleighs_with_the_factor_of_each_layer():
+    result = run_text(
+        soil(2, "I . 2 . 'H_GAMMA' = EH * 3. ; P . 'CRITERE' = 100. ;")
+        + "Z = Z . 'ITERATION' ; A = PROG ; B = PROG ;"
+        f"F1 = {F1} ; F2 = {F2} ; AL = 4. * PI * F1 * F2 / (F1 + F2) ; BE = 1. / (PI * (F1 + F2)) ;"
+        "REPE B 2 ; X Y W = COOR (Z . 'T_SOL' . &B) ; V = (NOMC 'UX' (W * W)) ET (NOMC 'UZ' X) ;"
+        "XI = 0.02 * (2 * &B - 1) ; A = A ET (XTMX V (Z . 'T_AMO' . &B)) ;"
+        "B = B ET (XI * AL * (XTMX V (Z . 'T_MAS' . &B)) + (XI * BE * (XTMX V (Z . 'T_RIG' . &B))))"
+        " ; FIN B ;"
+    )
+    assert result.exit_code == 0, result.message
+    found, exact = (result.session.root.find(n).values for n in "AB")
+    assert len(found) == 2
+    np.testing.assert_allclose(found, exact, rtol=1e-9)
