@@ -41,6 +41,8 @@ NODAL = {"DEPL": "displacement", "VITE": "velocity", "ACCE": "acceleration"}
 JOINTS = {"CONTRAINTES": "tractions", "SAUTS": "jumps", "VARIABLES_INTERNES": "variables"}
 """Words of the table of results, with what they are of an instant."""
 NODAL_WORDS, ALL_WORDS = promises("TEMP", *NODAL), promises("TEMP", *NODAL, *JOINTS)
+BODY_WORDS = promises("TEMP", *NODAL, "CONTRAINTES", "VARIABLES_INTERNES")
+"""Of plastic bodies without joints."""
 
 
 def _found(snapshot: Snapshot, nodes: IntArray | None, word: str) -> object:
@@ -62,7 +64,9 @@ class TableObserver:
 
     def receive(self, snapshot: Snapshot) -> None:
         """Add one instant."""
-        words = NODAL_WORDS if snapshot.problem.interface is None else ALL_WORDS
+        words = ALL_WORDS
+        if snapshot.problem.interface is None:
+            words = BODY_WORDS if hasattr(snapshot, "body_stresses") else NODAL_WORDS
         entry = LazyTable(partial(_found, snapshot, self.nodes), words)
         entry.set(Mot("TEMP"), snapshot.time)
         if self.nodes is not None and not snapshot.problem.small:
