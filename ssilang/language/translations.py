@@ -20,6 +20,55 @@ TEMPLATES: tuple[tuple[str, str], ...] = (
         "a full matrix of {} rows is too large",
         "une matrice pleine de {} lignes est trop grande",
     ),
+    # ---- plastic bodies, shapes, contact
+    (
+        "unilateral relations (MINI, MAXI) do not go with plastic bodies",
+        "les relations unilatérales (MINI, MAXI) ne vont pas avec des corps plastiques",
+    ),
+    (
+        "plastic bodies are stepped by Newmark, HHT or generalised alpha",
+        "les corps plastiques avancent par Newmark, HHT ou alpha généralisé",
+    ),
+    (
+        "plastic laws do not exist in mode {}",
+        "les lois plastiques n'existent pas en mode {}",
+    ),
+    (
+        "no plastic law of bodies is called {}",
+        "aucune loi plastique de corps ne s'appelle {}",
+    ),
+    (
+        "elements of the family '{}' have no plastic law",
+        "les éléments de la famille '{}' n'ont pas de loi plastique",
+    ),
+    (
+        "RH_COULOMB needs a cohesion COHE > 0",
+        "RH_COULOMB demande une cohésion COHE > 0",
+    ),
+    (
+        "models MODAL and STATIQUE have no strains of their own",
+        "les modèles MODAL et STATIQUE n'ont pas de déformations propres",
+    ),
+    (
+        "a shape {} needs {}",
+        "une déformée {} demande {}",
+    ),
+    (
+        "a side of contact is made of {}, not {}",
+        "un bord de contact se fait de {}, pas de {}",
+    ),
+    (
+        "contact with friction between two meshes is not available",
+        "le contact avec frottement entre deux maillages n'existe pas",
+    ),
+    (
+        "JEU varies along a side of contact",
+        "JEU varie le long d'un bord de contact",
+    ),
+    (
+        "SOMT sums a field of a single component",
+        "SOMT somme un champ d'une seule composante",
+    ),
     # ---- super-elements
     (
         "none of the master unknowns is an unknown of the stiffness",
