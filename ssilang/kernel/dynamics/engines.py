@@ -11,7 +11,7 @@ from ssilang.kernel.dynamics.contact import BoolArray
 from ssilang.kernel.dynamics.dense_loop import joints_of, operators_of, system_of
 from ssilang.kernel.dynamics.effective import effective_matrix, effective_of
 from ssilang.kernel.dynamics.impact import ImpactRule
-from ssilang.kernel.dynamics.problem import Problem
+from ssilang.kernel.dynamics.problem import SMALL, Problem
 from ssilang.kernel.dynamics.reduced_loop import ReducedLoop, supports_are_still
 from ssilang.kernel.dynamics.small_loop import SmallLoop, modes_of
 from ssilang.kernel.dynamics.sparse_loop import SparseLoop, StepSolver
@@ -205,4 +205,5 @@ def kind_of(problem: Problem, full_newton: bool) -> type[Engine]:
         return ConservingEngine
     if full_newton or problem.contact is not None:
         return SparseEngine
-    return DenseEngine if problem.small else InterleavedEngine
+    few = problem.numbering.size <= SMALL or (problem.small and supports_are_still(problem))
+    return DenseEngine if problem.small and few else InterleavedEngine

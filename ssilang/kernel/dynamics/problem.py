@@ -40,7 +40,9 @@ from ssilang.kernel.model import Model, Zone
 from ssilang.kernel.sparse import sp
 
 SMALL = 160
-"""Unknowns up to which dense matrices and the compiled loop are used."""
+"""Motions that supports leave, up to which dense matrices and the compiled loop are used."""
+MOST_SMALL = 1000
+"""Unknowns in all, held ones too, of such a problem."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,7 +89,8 @@ class Problem:
     @property
     def small(self) -> bool:
         """Whether the compiled loop on dense matrices serves."""
-        return self.numbering.size <= SMALL and self.contact is None and self.constraints.associated
+        few = self.numbering.size <= MOST_SMALL and self.constraints.T.shape[1] <= SMALL
+        return few and self.contact is None and self.constraints.associated
 
 
 @dataclass(frozen=True, eq=False)

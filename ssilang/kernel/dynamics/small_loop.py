@@ -18,8 +18,9 @@ from ssilang.kernel.dynamics.modal_loop import Modal, ModalRows, ModalStep, marc
 from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.dynamics.reduced_loop import reactions, supports_are_still
 from ssilang.kernel.dynamics.scalar_loop import Line, LineRows, LineState, Spring, march_line
-from ssilang.kernel.joints.columns import DAMAGE, FC, FU, GF, KN, XI
+from ssilang.kernel.joints.columns import DAMAGE, FC, FU, GF, KN, KS1, KS2, XI
 from ssilang.kernel.joints.law_table import SDM
+from ssilang.kernel.joints.response import interface_forces
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 DIAGONAL = 1e-13  # of the step's matrix: damping off the diagonal that rounding leaves
@@ -94,10 +95,13 @@ class SmallLoop:
         self._z = np.zeros((3, modes.size))
         self._line = line_of(problem, motion, modes, self._joints, self._scheme)
         self.balance = np.zeros(2)  # see `LineState`
-        Jt = np.ascontiguousarray(modes.J.T)
-        one = np.ones(modes.size)
-        self._modal = Modal(modes.m, modes.c, modes.k, modes.J, Jt, modes.forces, self._scheme)
-        self._step = ModalStep(effective.dt, one, np.ascontiguousarray(modes.J @ Jt))
+        self._normal = shearless(self._joints, modes)
+        joints = self._joints if self._normal is None else self._normal
+        J = modes.J if self._normal is None else self._normal.J
+        Jt = np.ascontiguousarray(J.T)
+        self._stepped = joints._replace(J=np.zeros((0, 0)))
+        self._modal = Modal(modes.m, modes.c, modes.k, J, Jt, modes.forces, self._scheme)
+        self._step = ModalStep(effective.dt, np.ones(modes.size), np.ascontiguousarray(J @ Jt))
 
     @property
     def light(self) -> bool:
@@ -131,14 +135,35 @@ class SmallLoop:
     ) -> tuple[tuple[int, int, float], list[FloatArray]]:
         m, rows = self.motion, len(saved.u)
         u, v, a = self._z
-        few = Motion(u, v, a, m.delta, m.f, m.w, m.t, m.state, np.zeros(0), m.energies, m.contact)
         kept = [np.zeros((rows, self.modes.size)) for _ in range(3)]
-        none = np.zeros((0, *m.w.shape))
-        to = ModalRows(none, kept[0], kept[1], kept[2], saved.w, saved.t, saved.state)
+        w, t, delta, f, to_w, to_t = m.w, m.t, m.delta, m.f, saved.w, saved.t
+        if self._normal is not None:
+            w, t, to_w, to_t = (x[..., -1:].copy() for x in (w, t, to_w, to_t))
+            delta, f = w[:, 0].copy(), self._normal.weights * t[:, 0]
+        few = Motion(u, v, a, delta, f, w, t, m.state, np.zeros(0), m.energies, m.contact)
+        none = np.zeros((0, *w.shape))
+        to = ModalRows(none, kept[0], kept[1], kept[2], to_w, to_t, saved.state)
         outcome = march_modal(
-            self._modal, self._step, self._joints, few, factors, save, to, history
+            self._modal, self._step, self._stepped, few, factors, save, to, history
         )
+        if self._normal is not None:
+            self._put_normal(self._z[:1], w[None], t[None], m.w[None], m.t[None])
+            self._put_normal(kept[0], to_w, to_t, saved.w, saved.t)
+            m.delta[:] = self.modes.J @ self._z[0]
+            j = self._joints
+            interface_forces(j.pairs, j.B, j.weights, m.t, m.f)
         return outcome, kept
+
+    def _put_normal(
+        self, z: FloatArray, w: FloatArray, t: FloatArray, to_w: FloatArray, to_t: FloatArray
+    ) -> None:
+        """Whole jumps and tractions of instants from their coordinates and normal parts."""
+        j = self._joints
+        d = j.B.shape[1]
+        jumps = (z @ self.modes.J.T).reshape(len(z), j.J.shape[0] // d, d)[:, j.pairs[:, 0]]
+        to_w[:] = np.einsum("pij,kpj->kpi", j.B, jumps)
+        to_w[..., -1], to_t[..., -1] = w[..., 0], t[..., 0]
+        to_t[..., :-1] = 0.0
 
     def _march_line(
         self, factors: FloatArray, save: IntArray, saved: Saved, history: FloatArray
@@ -177,6 +202,19 @@ class SmallLoop:
         if p[FU] > 0.0:
             lost = -np.expm1(-p[FU] / p[GF] * rows[:, 2])
             state[:, 0, DAMAGE] = np.where(rows[:, 1] < 0.0, 0.0, lost)
+
+
+def shearless(joints: Joints, modes: Modes) -> Joints | None:
+    """Joints that push along their normals alone, J on the modes; None if some resist shear."""
+    n, width = joints.pairs.shape
+    shear = joints.p[:, KS1 : KS2 + 1]
+    if n == 0 or width != 1 or (joints.codes != SDM).any() or shear.any():
+        return None
+    d = joints.B.shape[1]
+    rows = modes.J.reshape(-1, d, modes.size)[joints.pairs[:, 0]]
+    J = np.ascontiguousarray(np.einsum("pj,pjr->pr", joints.B[:, -1], rows))
+    places = np.arange(n, dtype=np.int64)[:, None]
+    return Joints(J, places, np.ones((n, 1, 1)), joints.weights, joints.codes, joints.p)
 
 
 def line_of(

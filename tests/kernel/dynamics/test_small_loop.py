@@ -141,3 +141,19 @@ def test_steps_that_differ_by_rounding_share_their_engine(monkeypatch):
     monkeypatch.setattr("ssilang.kernel.dynamics.integrate.kind_of", lambda p, full: Counted)
     integrate(replace(problem_of(LAWS["no tension"]), times=0.1 + 2.5e-4 * np.arange(30_000)))
     assert len(made) == 1
+
+
+@pytest.mark.parametrize("name", ["no tension", "softening and closing"])
+def test_joints_without_shear_stiffness_step_along_their_normals(name, monkeypatch):
+    problem = problem_of(LAWS[name], joints=4, shear=True)
+    engine = DenseEngine(problem, Integration(problem).motion, 1e-3, False, np.zeros(0, bool))
+    assert engine._reduced._normal is not None
+    compared(problem, monkeypatch, light=False, tolerance=1e-10)
+
+
+def test_held_unknowns_do_not_make_a_problem_large(monkeypatch):
+    problem = problem_of(LAWS["no tension"], joints=3)
+    monkeypatch.setattr("ssilang.kernel.dynamics.problem.SMALL", 3)
+    monkeypatch.setattr("ssilang.kernel.dynamics.engines.SMALL", 3)
+    assert problem.numbering.size > 3
+    assert integrate(problem).loop == "compiled"
