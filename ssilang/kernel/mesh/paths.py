@@ -5,8 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import dijkstra
 
 from ssilang.kernel.errors import MeshError
 from ssilang.kernel.mesh.mesh import Mesh
@@ -28,6 +26,9 @@ def shortest_line(network: Mesh, start: int, end: int) -> Mesh:
     MeshError
         If the mesh is not of lines of one kind, or no way leads from one node to the other.
     """
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import dijkstra
+
     block = network.single_block()
     if block.cell_type not in ("SEG2", "SEG3"):
         raise MeshError(f"a line of SEG2 or SEG3 is needed, this mesh holds {block.cell_type}")
