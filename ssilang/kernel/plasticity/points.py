@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -191,7 +190,3 @@ def _curves(given: ZoneField, name: str, shape: tuple[int, int]) -> tuple[list, 
     place = {id(v): i for i, v in enumerate(different)}
     which: IntArray = np.array([place[id(v)] for v in values], dtype=np.int64)
     return different, which
-
-
-Expansion = Callable[[float], FloatArray]
-"""Free strain (m, 6) at a time."""

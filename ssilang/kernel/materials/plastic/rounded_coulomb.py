@@ -13,7 +13,7 @@ from __future__ import annotations
 import numpy as np
 
 from ssilang.kernel.errors import MaterialError
-from ssilang.kernel.materials.plastic.response import DEVIATOR, PointParameters, Response
+from ssilang.kernel.materials.plastic.response import PointParameters, Response
 from ssilang.kernel.mesh.nodes import FloatArray
 
 TRANSITION = np.radians(25.0)
@@ -207,6 +207,3 @@ def check(parameters: PointParameters) -> None:
         raise MaterialError(
             f"RH_COULOMB has PHI = {phi.flat[0]:g}", "an angle in radians between 0 and pi/2"
         )
-
-
-__all__ = ["DEVIATOR", "check", "respond"]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ssilang.kernel.materials.plastic.cone import Cone, Hardening, cone_return
-from ssilang.kernel.materials.plastic.response import UNIT, PointParameters, Response, mises
+from ssilang.kernel.materials.plastic.response import PointParameters, Response, mises
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 
@@ -67,12 +67,3 @@ def kinematic(
     N = deviator / np.maximum(q, 1e-300)[:, None]
     moved = centre + (H * (p - variables[:, 0]))[:, None] * N
     return Response(found + centre, np.column_stack([p, moved]), tangent)
-
-
-def yield_function(parameters: PointParameters, stress: FloatArray) -> FloatArray:
-    """`q - SIGY` (m,) of perfect plasticity."""
-    found: FloatArray = mises(stress)[0] - parameters["SIGY"]
-    return found
-
-
-__all__ = ["UNIT", "isotropic", "kinematic", "perfect", "yield_function"]
