@@ -20,6 +20,67 @@ TEMPLATES: tuple[tuple[str, str], ...] = (
         "a full matrix of {} rows is too large",
         "une matrice pleine de {} lignes est trop grande",
     ),
+    # ---- contact in time, CHARMECA, condition numbers
+    (
+        "the relations leave {} motions, their duals {}",
+        "les relations laissent {} mouvements, leurs duales {}",
+    ),
+    (
+        "unilateral relations (MINI, MAXI) with a dual are solved by RESO only",
+        "les relations unilatérales (MINI, MAXI) avec une duale ne sont résolues que par RESO",
+    ),
+    (
+        "unilateral relations do not go with full Newton",
+        "les relations unilatérales ne vont pas avec NEWTON_COMPLET",
+    ),
+    (
+        "a matrix added during the calculation has {} at node {}, which RIGI and MASS lack",
+        "une matrice ajoutée pendant le calcul a {} au noeud {}, absent de RIGI et de MASS",
+    ),
+    (
+        "unilateral relations (MINI, MAXI) cannot be added during a calculation",
+        "des relations unilatérales (MINI, MAXI) ne s'ajoutent pas pendant un calcul",
+    ),
+    (
+        "a force added during the calculation has {}, which the matrices lack",
+        "une force ajoutée pendant le calcul a {}, absent des matrices",
+    ),
+    (
+        "a force added during the calculation is not a finite number",
+        "une force ajoutée pendant le calcul n'est pas un nombre fini",
+    ),
+    (
+        "'VITEUNIL' has no effect: the conserving step keeps the energy of impacts by itself",
+        "'VITEUNIL' est sans effet : le pas conservatif garde de lui-même l'énergie des chocs",
+    ),
+    (
+        "'CONTACT_PERSISTANT' takes energy, 'CONSERVATIF' keeps it: they exclude each other",
+        "'CONTACT_PERSISTANT' prend de l'énergie, 'CONSERVATIF' la garde : ils s'excluent",
+    ),
+    (
+        "'REDUCTION' and 'CHARMECA' exclude each other",
+        "'REDUCTION' et 'CHARMECA' s'excluent",
+    ),
+    (
+        "the procedure CHARMECA must give one TABLE",
+        "la procédure CHARMECA doit rendre une TABLE",
+    ),
+    (
+        "the condition number of the matrix is {}: {} of 16 digits are left",
+        "le conditionnement de la matrice vaut {} : il reste {} chiffres sur 16",
+    ),
+    (
+        "the condition number of the stiffness with closed joints is {}: {} of 16 digits "
+        "are left; with joints as stiff as the bodies at their nodes it is {}",
+        "le conditionnement de la raideur, joints fermés, vaut {} : il reste {} chiffres "
+        "sur 16 ; avec des joints aussi raides que les corps à leurs noeuds il vaut {}",
+    ),
+    (
+        "the joint law {} is not built: what its parameters BETA (unloading) and CPLG "
+        "(coupling) do is published nowhere",
+        "la loi de joint {} n'est pas construite : ce que font ses paramètres BETA "
+        "(décharge) et CPLG (couplage) n'est publié nulle part",
+    ),
     # ---- plastic bodies, shapes, contact
     (
         "unilateral relations (MINI, MAXI) do not go with plastic bodies",
