@@ -94,11 +94,15 @@ def execute(session: Session, source: Source) -> None:
     SsiError, SeveralErrors
         What is wrong in the script.
     """
+    # before anything walks the tree: blocks may be nested deep
+    sys.setrecursionlimit(max(sys.getrecursionlimit(), 60 * session.limits.recursion + 2000))
     script = parse(source)
-    session.assignments = first_assignments(script.body)
+    try:
+        session.assignments = first_assignments(script.body)
+    except RecursionError:
+        raise SsiError("nesting", None) from None
     for name in session.given.keys() - session.assignments.keys():
         session.root.assign(name, session.given.pop(name))
-    sys.setrecursionlimit(max(sys.getrecursionlimit(), 60 * session.limits.recursion + 2000))
     try:
         session.evaluator.run_top(script.body)
     except StopRun:

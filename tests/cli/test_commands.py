@@ -150,3 +150,10 @@ def test_options_may_stand_before_the_file(tmp_path, capsys):
     path.write_text("A = PRGO 1. ;\n", encoding="utf-8")
     assert main(["--lang", "fr", "--out", str(tmp_path / "o"), str(path)]) == 1
     assert "erreur" in capsys.readouterr().err
+
+
+def test_deep_blocks_run_in_a_fresh_process(process, tmp_path):
+    text = "A = 1 ; " + "SI VRAI ; " * 1000 + "A = 2 ; " + "FINSI ; " * 1000 + "MESS A ;"
+    (tmp_path / "deep.ssi").write_text(text)
+    done = process("deep.ssi")
+    assert (done.code, done.out) == (0, "2\n"), done.err[-500:]
