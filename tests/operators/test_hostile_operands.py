@@ -41,6 +41,7 @@ def session(tmp_path_factory):
         ("X = ANTI 'DEPL' A B E MZ 0.1", "empty"),
         ("DEPL L1 'DEDU' MZ MZ", "one at least"),
         ("X = FORC 'FX' 1. MZ", "empty"),
+        ("X = DEDU MZ U1", "empty"),
     ],
 )
 def test_senseless_operands_are_refused_in_words(session, statement, says):

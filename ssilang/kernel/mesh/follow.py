@@ -35,6 +35,8 @@ def followed(
     """
     nodes = mesh.sorted_node_ids
     xyz = mesh.nodes.coordinates[nodes]
+    if not len(nodes):
+        raise MeshError("the mesh is empty: it has no nodes to move")
     place = np.searchsorted(nodes, masters)
     here = nodes[np.minimum(place, len(nodes) - 1)] == masters
     held, target = place[here], places[here]
