@@ -146,7 +146,7 @@ def test_unresolved_contact_warns_with_the_step_to_use(tmp_path):
 @pytest.mark.parametrize(
     ("entry", "words"),
     [
-        ("T1 . 'CHARMECA' = VRAI ;", ["CHARMECA", "not available"]),
+        ("T1 . 'CHARMECA' = VRAI ;", ["no procedure", "CHARMECA", "DEBP CHARMECA"]),
         ("T1 . 'VITEUNIL' = 'TOTO' ;", ["VITEUNIL", "TOTO"]),
         ("T1 . 'ALPHA_F' = 0.1 ; T1 . 'RHO_INF' = 0.5 ;", ["ALPHA_F", "RHO_INF", "two schemes"]),
         ("T1 . 'ALPHA_F' = 0.5 ;", ["0.5", "out of range"]),
