@@ -11,7 +11,8 @@ t > 0 in tension, w_n > 0 open. `xi` is the largest irreversible opening. Normal
 
 With FU = FC = 0 this is `t = k min(w, 0)`. Shear: `k_t (w_t - s)` while t_n < 0, bounded by
 `FROT |t_n|` if FROT >= 0, lost (s := w_t) while t_n >= 0 (no slip without k_t); in cohesive
-tension k_t is scaled by Y(xi)/FU. Source: Strong Discontinuity Method, CLUB CAST3M 2014, and its closed form.
+tension k_t is scaled by Y(xi)/FU. Source: Strong Discontinuity Method, CLUB CAST3M 2014, and its
+closed form.
 `sdm_arrays` has the same law on arrays, with Lambert's function in place of the iteration.
 """
 
