@@ -60,7 +60,7 @@ class InterleavedLoop:
         branches, trunk = _cut(factor, root.J.shape[1] > 0)
         self.plan = Plan(
             factor.panels, branches, trunk, len(factor.panels.first) - 2 + (root.J.shape[1] == 0),
-            _rows(self.M), _rows(self.C), self.C.nnz > 0, self.forces, root.J, root.Y, effective.S,
+            _rows(self.M), _all_rows(self.C), self.C.nnz > 0, self.forces, root.J, root.Y, effective.S,
             effective.R if effective.R.any() else np.zeros((0, 0)),
             (s.alpha_m, s.alpha_f, s.beta, s.gamma, effective.dt), longest(factor.panels),
         )  # fmt: skip
@@ -167,6 +167,10 @@ def _rows(A: sp.csr_array) -> Sparse:
     diagonal = A.diagonal()
     if A.nnz == np.count_nonzero(diagonal):
         return Sparse(np.zeros(0, np.int64), np.zeros(0, np.int64), diagonal, True)
+    return _all_rows(A)
+
+
+def _all_rows(A: sp.csr_array) -> Sparse:
     return Sparse(A.indptr.astype(np.int64), A.indices.astype(np.int64), A.data, False)
 
 

@@ -73,6 +73,12 @@ def test_schemes(scheme, damping):
     assert_same(soil_block(steps=100, size=SIZE, scheme=scheme, damping=damping))
 
 
+def test_damping_that_is_a_diagonal_matrix():
+    problem = soil_block(steps=60, size=SIZE)
+    lumped = sparse.diags_array(problem.M.sum(axis=1)).tocsr()
+    assert_same(replace(problem, M=lumped, C=0.8 * lumped))
+
+
 def test_dashpots():
     assert_same(soil_block(steps=100, size=SIZE, extra_damping=0.01))
 
