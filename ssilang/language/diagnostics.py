@@ -104,7 +104,21 @@ def sentence(error: SsiError, language: str, names: Iterable[str] = ()) -> tuple
         data.update({k: in_french(str(data[k])) for k in ("message", "hint") if k in data})
     text = message.en if language == "en" else message.fr
     hint = message.hint_en if language == "en" else message.hint_fr
-    return text.format_map(data), hint.format_map(data).strip()
+    found = hint.format_map(data).strip()
+    return text.format_map(data), "\n".join(h for h in (_held_hint(data, language), found) if h)
+
+
+def _held_hint(data: dict[str, Any], language: str) -> str:
+    """Says that an operator ran because the value of a name or an entry is its name."""
+    if "held_word" not in data:
+        return ""
+    text = {
+        "en": "'{0}', the value of {1}, names an operator, which ran: MOT {1} takes it as a word, "
+        "EGA {1} 'OTHER' compares it",
+        "fr": "'{0}', la valeur de {1}, nomme un opérateur, exécuté : MOT {1} le prend comme mot, "
+        "EGA {1} 'AUTRE' le compare",
+    }
+    return text[language].format(*data["held_word"])
 
 
 def _label(error: SsiError, language: str) -> str:
@@ -168,7 +182,7 @@ def _derived(error: SsiError, language: str, names: Iterable[str]) -> dict[str, 
     if data.get("before"):
         before = {"en": "; it ends behind a word, here {}", "fr": " ; un mot l'arrête, ici {}"}
         made["before_text"] = before[language].format(data["before"])
-    if data.get("bare") and error.code == "wrong-argument":
+    if data.get("bare") and error.code == "wrong-argument" and "held_word" not in data:
         made["bare_hint"] = _bare_hint(str(data["value"]), language, names)
     if data.get("quoted"):
         made["keyword_hint"] = _keyword_hint(data, language)

@@ -59,6 +59,7 @@ class Evaluator(OperandReader):
         self.current_span: Span | None = None
         self.statement_count = 0
         self._compiled: dict[tree.Statement | tree.Paren, Value | None] = {}
+        self._held: Operand | None = None  # a value that ran as an operator and gave nothing
         self._run_node: dict[type, Callable[[Any], None]] = {
             tree.Statement: self._tolerant,
             tree.If: self._if,
@@ -238,13 +239,16 @@ class Evaluator(OperandReader):
             if wanted:
                 at = next((i for i, o in enumerate(left) if type_of(o.value) == wanted), -1)
             if at < 0 or at >= len(left):
-                raise SsiError(
+                error = SsiError(
                     "no-result",
                     target.span,
                     count=len(targets),
                     wanted=wanted,
                     name=target.span.text,
                 )
+                if (held := self._held) is not None:
+                    error.data["held_word"] = (str(held.value), held.span.text)
+                raise error
             taken.append(left.pop(at))
             self.store(target, taken[-1].value)
         if left:
@@ -304,6 +308,7 @@ class Evaluator(OperandReader):
             word = first.text.upper()[:4]
             if word in _RAW_ITEMS and self.session.frame.find(word) is None:
                 return [Operand(self._texte(items[1:]), span, result=True)]
+        self._held = None
         call = Call(self.session, self.operands_of(items), span)
         self._reduce(call)
         if one_name and call.operands:
@@ -356,8 +361,15 @@ class Evaluator(OperandReader):
 
     def _operate(self, found: Operator, operand: Operand, call: Call) -> None:
         call.span, call.name, call.used = operand.span, found.full_name, []
-        results = self.guarded(lambda: run_operator(found, call), operand.span, found.full_name)
+        held = None if operand.result or _is_spelled(operand) else operand
+        try:
+            results = self.guarded(lambda: run_operator(found, call), operand.span, found.full_name)
+        except SsiError as error:
+            if held is not None:
+                error.data.setdefault("held_word", (str(held.value), held.span.text))
+            raise
         span = operand.span
+        self._held = held if results is None else None
         if isinstance(results, tuple):
             self._push(call, list(results), span)
         elif results is not None:
@@ -405,6 +417,11 @@ class Evaluator(OperandReader):
         if len(numbers) == dimension:
             point = self.session.make_point([float(o.value) for o in numbers])
             call.operands[:] = [Operand(point, span, result=True)]
+
+
+def _is_spelled(operand: Operand) -> bool:
+    """Whether the script writes the word itself, not something whose value it is."""
+    return operand.span.text.strip("'").upper()[:4] == str(operand.value).upper()[:4]
 
 
 def _words_of(item: tree.Quoted) -> list[tree.Item]:

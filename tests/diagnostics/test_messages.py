@@ -28,6 +28,7 @@ FRENCH = frozenset(
         "joint_without_its_stiffness", "dynamic_entry_misspelt", "dynamic_without_its_mass",
         "load_on_nodes_out_of_the_model", "four_errors_of_different_kinds_in_one_pass",
         "operator_hidden_by_a_variable", "error_in_a_procedure_of_a_table",
+        "word_held_by_a_table_is_an_operator",
     }
 )  # fmt: skip
 _CASES = [(p.stem, "en") for p in sorted(_SCRIPTS.glob("*.ssi"))] + [
