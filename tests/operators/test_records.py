@@ -333,6 +333,19 @@ def test_convolution_with_symmetric_and_full_responses(found):
     assert c.values.tolist() == a.values.tolist()
 
 
+def test_convolution_with_a_response_that_is_not_symmetric(found):
+    """A response at abscissa 1 delays; in general the sums are those of polynomials' product."""
+    late, general, mirrored = found(
+        "S = PROG 1. 2. 4. 8. ; A = CVOL S (PROG 0. 1.) 'NPNE' 0 'PADD' ; "
+        "B = CVOL S (PROG 3. 5. 7. 11.) 'NPNE' 1 'PADD' ; C = CVOL S (PROG 0. 0. 1.) 'NPNE' 0 ;",
+        "A", "B", "C",
+    )  # fmt: skip
+    assert late.values.tolist() == [0.0, 1.0, 2.0, 4.0]
+    product = np.polynomial.polynomial.polymul([1.0, 2.0, 4.0, 8.0], [3.0, 5.0, 7.0, 11.0])
+    assert general.values.tolist() == product[1:5].tolist()
+    assert mirrored.values.tolist() == [4.0, 2.0, 1.0, 2.0]
+
+
 def test_special_functions(found, refused):
     x = np.array([0.5, 2.0, 9.0])
     names = ("J0", "J1", "Y0", "Y1")

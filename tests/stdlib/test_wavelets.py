@@ -1,12 +1,15 @@
-"""MULTIDEC MULTIREC: the LeGall 5/3 filters take a signal apart and give it back exactly."""
+"""MULTIDEC MULTIREC: known wavelets take a signal apart and give it back exactly.
+
+LeGall's 5/3 filters, and Daubechies' four (low-pass sums to 1, as in Mallat 1989).
+"""
 
 import numpy as np
 import pytest
 
 from ssilang.cli.run import run_text
 
-_APART = "(PROG 0.75 0.25 -0.125) -1 (PROG -0.5 1. -0.5) 0"
-_TOGETHER = "(PROG 1. 0.5) -1 (PROG -0.125 -0.25 0.75 -0.25 -0.125) 3"
+_APART = "(PROG 0.75 0.25 -0.125) -1 (PROG -0.5 1. -0.5) 2"
+_TOGETHER = "(PROG 0.5 0.25) -1 (PROG -0.0625 -0.125 0.375 -0.125 -0.0625) 1"
 
 
 def found(script, *names):
@@ -70,3 +73,38 @@ def test_details_must_fit_the_rest():
     )
     assert result.exit_code == 1
     assert "level 1 has" in result.message
+
+
+def listed(values):
+    return "(PROG " + " ".join(f"{v:.16f}" for v in values) + ")"
+
+
+def daubechies():
+    """Filters h(0..3) and g(-2..1) = (-1)^(1-n) h(1-n), the sum of h being 1."""
+    root = np.sqrt(3.0)
+    h = np.array([1 + root, 3 + root, 3 - root, 1 - root]) / 8
+    g = np.array([(-1.0) ** (1 - n) * h[1 - n] for n in range(-2, 2)])
+    return h, g
+
+
+@pytest.mark.parametrize("levels", [1, 2])
+def test_daubechies_wavelet_keeps_the_energy_and_comes_back(levels):
+    """Taken apart with the mirrored filters h(-n) g(-n), put together with h and g."""
+    h, g = daubechies()
+    values = np.zeros(129)
+    values[48:80] = np.random.default_rng(5).normal(size=32)
+    script = signal(values) + (
+        f"N D R = MULTIDEC E {listed(h[::-1])} 3 {listed(g[::-1])} 1 {levels} 'PADD' ; "
+        f"M F = MULTIREC R D {listed(h)} 0 {listed(g)} 2 'PADD' ; L = EXTR F 'ORDO' ; "
+        "RY = EXTR R 'ORDO' ; D1 = EXTR D 'ORDO' 1 ; DN = EXTR D 'ORDO' N ;"
+    )
+    back, rest, low, high = found(script, "L", "RY", "D1", "DN")
+    assert np.asarray(back.values) == pytest.approx(values, abs=1e-10)
+    # by hand: the finest detail is the scalar product with g shifted by two
+    by_hand = [2 * k - 2 + np.arange(4) for k in range(24, 40)]
+    expected = [float(g @ values[i]) for i in by_hand]
+    assert np.asarray(high.values)[24:40] == pytest.approx(expected, abs=1e-10)
+    energy = 2.0**levels * (np.sum(rest.values**2) + np.sum(low.values**2))
+    if levels == 2:
+        energy += 2.0 * np.sum(high.values**2)
+    assert energy == pytest.approx(np.sum(values**2))

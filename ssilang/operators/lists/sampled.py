@@ -68,12 +68,12 @@ def ltl(call: Call, first: ListReel, second: ListReel | None, a: float, b: float
     "CVOL",
     family="signals",
     help=Help(
-        en="Signal weighed by a response: value k is the sum over j of response j times signal "
-        "k + j. The list gives the response for j = 0, 1 ... of a symmetric one, or with 'NPNE' N1 "
-        "all of it from j = -N1. Beyond its ends the signal is mirrored ('SYME', the default) or "
-        "zero ('PADD').",
-        fr="Signal pondéré par une réponse : la valeur k est la somme sur j de la réponse j fois "
-        "le signal k + j. La liste donne la réponse pour j = 0, 1 ... si elle est symétrique, ou "
+        en="Convolution of a signal with a response: value k is the sum over j of response j times "
+        "signal k - j. The list gives the response for j = 0, 1 ... of a symmetric one, or with "
+        "'NPNE' N1 all of it from j = -N1. Beyond its ends the signal is mirrored ('SYME', the "
+        "default) or zero ('PADD').",
+        fr="Convolution d'un signal avec une réponse : la valeur k est la somme sur j de la réponse "
+        "j fois le signal k - j. La liste donne la réponse pour j = 0, 1 ... si elle est symétrique, ou "
         "avec 'NPNE' N1 toute la réponse depuis j = -N1. Hors de ses bornes le signal est pris "
         "symétrique ('SYME', par défaut) ou nul ('PADD').",
         syntax="LREEL1 = CVOL LREEL2 LREEL3 ('NPNE' N1) ('SYME' | 'PADD') ;",
@@ -102,8 +102,9 @@ def cvol(call: Call) -> ListReel:
             f"{max(before, after)}",
             hint="'PADD' fills with zeros",
         )
-    padded = np.pad(signal, (before, after), "reflect" if mirrored else "constant")
-    return ListReel(np.correlate(padded, response, "valid"))
+    # value k needs the signal from k - after to k + before
+    padded = np.pad(signal, (after, before), "reflect" if mirrored else "constant")
+    return ListReel(np.convolve(padded, response, "valid"))
 
 
 _FUNCTIONS = {
