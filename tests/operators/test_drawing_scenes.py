@@ -127,3 +127,29 @@ def test_what_is_wrong_is_said_and_nothing_written(text: str, said: str, tmp_pat
     assert result.exit_code == 1
     assert said in result.message
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(("word", "frames"), [("ANIME", 3), ("OSCIL", 4)])
+def test_successive_shapes_become_an_animation(word: str, frames: int, tmp_path: Path) -> None:
+    """Three shapes: three frames, and one more on the way back; the middle one repeats itself."""
+    from PIL import Image, ImageSequence
+
+    run(
+        "D = (DEFO S U 0.) ET (DEFO S U 10.) ET (DEFO S U 20.) ; "
+        f"TRAC D '{word}' 'TITR' 'shapes' ;",
+        tmp_path,
+    )
+    assert sorted(p.suffix for p in tmp_path.rglob("0001_shapes.*")) == [".gif", ".png"]
+    with Image.open(next(tmp_path.rglob("*.gif"))) as movie:
+        seen = [np.asarray(f.convert("RGB"), int) for f in ImageSequence.Iterator(movie)]
+    assert len(seen) == frames
+    assert {f.shape for f in seen} == {seen[0].shape}
+    assert (np.abs(seen[0] - seen[1]) > 60).any()
+    assert (np.abs(seen[1] - seen[2]) > 60).any()
+    if word == "OSCIL":
+        assert (np.abs(seen[1] - seen[3]) < 60).all()
+
+
+def test_one_shape_makes_no_animation(tmp_path: Path) -> None:
+    run("TRAC (DEFO S U 10.) 'ANIME' ;", tmp_path)
+    assert not list(tmp_path.rglob("*.gif"))

@@ -9,10 +9,10 @@ import pytest
 from ssilang.cli.run import RunOptions, run_file, run_text
 
 
-def test_the_listing_goes_to_a_file_too(tmp_path: Path) -> None:
+def test_the_listing_goes_to_a_file_instead(tmp_path: Path) -> None:
     script = "MESS 'a' ; OPTI IMPR 'list.txt' ; MESS 'b' ; MESS 'c' 1 ; OPTI IMPR 6 ; MESS 'd' ;"
     result = run_text(script, tmp_path)
-    assert result.output == "a\nb\nc1\nd\n"
+    assert result.output == "a\nd\n"
     assert (tmp_path / "list.txt").read_text() == "b\nc1\n"
 
 

@@ -100,16 +100,21 @@ class Pictures:
 
 def save_figure(figure: Figure, path: Path) -> Path:
     """Write `figure` in the format of the extension of `path`, whole or not at all."""
+    content = figure_bytes(figure, path.suffix.lstrip("."))
+    with replacing(path) as stream:
+        stream.write(content)
+    return path
+
+
+def figure_bytes(figure: Figure, form: str) -> bytes:
+    """`figure` as a file of a format: 'png', 'svg' or 'pdf'."""
     import matplotlib as mpl
 
     buffer = io.BytesIO()
-    form = path.suffix.lstrip(".")
     metadata = {"Date": None} if form == "svg" else None
     with mpl.rc_context(_STYLE):  # type: ignore[arg-type]
         figure.savefig(buffer, format=form, metadata=metadata)
-    with replacing(path) as stream:
-        stream.write(buffer.getvalue())
-    return path
+    return buffer.getvalue()
 
 
 def slug(title: str) -> str:

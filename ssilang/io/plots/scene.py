@@ -105,6 +105,8 @@ class PictureOptions:
         Only what lies behind the plane, seen from the eye, is drawn (COUP).
     section : Plane, optional
         Only what the plane cuts is drawn (SECT).
+    bounds : array (2, 2), optional
+        Lower and upper corner of the sheet, for the frames of an animation to agree.
     """
 
     title: str = ""
@@ -116,6 +118,7 @@ class PictureOptions:
     legend_name: str | None = None
     legend: bool = True
     frame: Mesh | None = None
+    bounds: FloatArray | None = None
     only_colour: int | None = None
     shrink: float | None = None
     node_numbers: bool = False
@@ -148,7 +151,7 @@ def draw_scene(
     panels = [(v, c) for v in views for c in (components or ("",))]
     if not any(layer.mesh.n_cells for layer in layers) and arrows is None:
         raise OutputError("there is nothing to draw: the mesh is empty")
-    box = [_bounds(layers, arrows, view, options) for view, _ in panels]
+    box = [sheet_bounds(layers, arrows, view, options) for view, _ in panels]
     width, height, rows, columns = _sheet(box[0], len(panels))
     with drawing(width, height) as figure:
         grid = figure.subplots(rows, columns, squeeze=False).ravel()
@@ -167,10 +170,12 @@ def _with_component(layer: Layer, component: str) -> Layer:
     return replace(layer, component=component) if component and layer.field else layer
 
 
-def _bounds(
+def sheet_bounds(
     layers: Sequence[Layer], arrows: Arrows | None, view: View, options: PictureOptions
 ) -> FloatArray:
     """Lower and upper corner of what is shown on the sheet, shape (2, 2), with a margin."""
+    if options.bounds is not None:
+        return options.bounds
     if options.frame is not None:
         ids = options.frame.sorted_node_ids
         clouds = [view.project(options.frame.nodes.coordinates[ids])]

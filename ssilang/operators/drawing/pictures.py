@@ -32,10 +32,14 @@ def picture_name(session: Session, title: str, fallback: str) -> str:
     return title.strip() or fallback
 
 
-def save_picture(session: Session, figure: Figure, name: str, formats: tuple[str, ...]) -> None:
-    """Write a figure under the next number."""
+def save_picture(
+    session: Session, figure: Figure, name: str, formats: tuple[str, ...]
+) -> list[Path]:
+    """Write a figure under the next number; returns the files."""
     output = run_output(session)
-    output.wrote(*output.pictures.save(figure, name, formats))
+    files = output.pictures.save(figure, name, formats)
+    output.wrote(*files)
+    return files
 
 
 def refuse_rest(call: Call, words: Iterable[str]) -> None:

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ssilang.io.plots.animation import animation_frames, save_animation
 from ssilang.io.plots.composition import Subjects, compose
 from ssilang.io.plots.labels import Annotation
 from ssilang.io.plots.palette import NAMES as COLOURS
@@ -29,6 +30,7 @@ from ssilang.operators.drawing.pictures import (
     refuse_rest,
     save_picture,
 )
+from ssilang.operators.files.outputs import run_output
 from ssilang.operators.workspace import workspace
 
 
@@ -41,6 +43,7 @@ class _Said:
     eye: Point | None = None
     names: list[str] = field(default_factory=list)
     qualify: bool = False
+    animation: str = ""
 
 
 Option = Callable[[Call, _Said], None]
@@ -81,6 +84,10 @@ def _box(call: Call, said: _Said) -> None:
     said.options["frame"] = call.required("MAILLAGE", after=call.keyword_end)
 
 
+def _animate(word: str) -> Option:
+    return lambda call, said: setattr(said, "animation", word)
+
+
 def _qualify(call: Call, said: _Said) -> None:
     said.qualify = True
 
@@ -105,8 +112,8 @@ _OPTIONS: dict[str, Option] = {
     "BOIT": _box,
     "NCLK": _flags(),
     "ARET": _flags(),
-    "ANIM": _flags(),
-    "OSCI": _flags(),
+    "ANIM": _animate("ANIM"),
+    "OSCI": _animate("OSCI"),
     "DIRE": _flags(),
     "LOGO": _flags(),
 }
@@ -167,8 +174,9 @@ _OBJECTS: dict[str, Callable[[_Said, Any], None]] = {
         "drawn as lines. A POINT is the eye of a view in space. Words: CACH hides what is behind, "
         "FACE fills, ECLA shrinks cells, COUL draws one colour, NOEU ELEM QUAL CHAM write numbers, "
         "names and values, COUP shows what is beyond a plane, SECT what is cut by it, BOIT frames "
-        "a mesh, TITR LEGE NOLE DATE for texts. A field of several components is drawn in several "
-        "panels, a stress in cells as von Mises.",
+        "a mesh, TITR LEGE NOLE DATE for texts; ANIME writes an animated GIF of the successive "
+        "deformed shapes beside the picture, OSCIL one that also runs back. A field of several "
+        "components is drawn in several panels, a stress in cells as von Mises.",
         fr="Trace dans une image PNG numérotée du dossier de sortie : un maillage (ou celui sur "
         "lequel s'appuie une rigidité), des déformées, des vecteurs, un champ par points ou par "
         "éléments en isovaleurs (selon OPTI ISOV), avec un nombre ou une liste de niveaux ; un "
@@ -176,11 +184,12 @@ _OBJECTS: dict[str, Callable[[_Said, Any], None]] = {
         "CACH cache l'arrière, FACE remplit, ECLA réduit les éléments, COUL ne trace qu'une "
         "couleur, NOEU ELEM QUAL CHAM écrivent numéros, noms et valeurs, COUP montre ce qui est "
         "au-delà d'un plan, SECT ce qu'il coupe, BOIT cadre sur un maillage, TITR LEGE NOLE DATE "
-        "pour les textes. Un champ à plusieurs composantes a plusieurs vignettes, une contrainte "
-        "par éléments est tracée en von Mises.",
+        "pour les textes ; ANIME écrit à côté de l'image un GIF animé des déformées successives, "
+        "OSCIL un GIF aller et retour. Un champ à plusieurs composantes a plusieurs vignettes, "
+        "une contrainte par éléments est tracée en von Mises.",
         syntax="TRAC MAIL1 (OEIL1) ('QUAL') ('NOEU') ('ELEM') ('COUL' (COUL1)) ('CACH') ('FACE') "
         "('ECLA' (FLOT1)) ('COUP' P1 P2 P3) ('SECT' P1 P2 P3) ('TITR' T) ('BOIT' MAIL2) ;\n"
-        "TRAC DEFO1 (OEIL1) ... ; TRAC VEC1 MAIL1 ... ;\n"
+        "TRAC DEFO1 (OEIL1) ('ANIME' | 'OSCIL') ... ; TRAC VEC1 MAIL1 ... ;\n"
         "TRAC (N1 | LISTREEL1) CHPO1 (MAIL1 | DEFO1) (MAIL2) (VEC1) ('LEGE' T) ('NOLE') ... ;\n"
         "TRAC (N1 | LISTREEL1) MODEL1 MCHAML1 (DEFO1) (MAIL1) ... ; TRAC 'ARET' MAIL1 MAIL2 ;",
         examples=(
@@ -232,7 +241,12 @@ def _draw(call: Call, session: Session, said: _Said) -> None:
     figure = draw_scene(made.layers, (view,), PictureOptions(**options), made.arrows,
                         made.components)  # fmt: skip
     stem = picture_name(session, options["title"], "-".join(said.names[:3]) or "trac")
-    save_picture(session, figure, stem, picture_formats(session, ("png",)))
+    files = save_picture(session, figure, stem, picture_formats(session, ("png",)))
+    deformed = subjects.deformed
+    if said.animation and deformed is not None and len(deformed.parts) > 1:
+        frames = animation_frames(deformed, subjects, view, PictureOptions(**options))
+        path = save_animation(frames, files[0].with_suffix(".gif"), said.animation == "OSCI")
+        run_output(session).wrote(path)
 
 
 def _view(session: Session, said: _Said, meshes: list[Mesh]) -> View:

@@ -72,10 +72,10 @@ def ltl(call: Call, first: ListReel, second: ListReel | None, a: float, b: float
         "signal k - j. The list gives the response for j = 0, 1 ... of a symmetric one, or with "
         "'NPNE' N1 all of it from j = -N1. Beyond its ends the signal is mirrored ('SYME', the "
         "default) or zero ('PADD').",
-        fr="Convolution d'un signal avec une réponse : la valeur k est la somme sur j de la réponse "
-        "j fois le signal k - j. La liste donne la réponse pour j = 0, 1 ... si elle est symétrique, ou "
-        "avec 'NPNE' N1 toute la réponse depuis j = -N1. Hors de ses bornes le signal est pris "
-        "symétrique ('SYME', par défaut) ou nul ('PADD').",
+        fr="Convolution d'un signal avec une réponse : la valeur k est la somme sur j de la "
+        "réponse j fois le signal k - j. La liste donne la réponse pour j = 0, 1 ... si elle est "
+        "symétrique, ou avec 'NPNE' N1 toute la réponse depuis j = -N1. Hors de ses bornes le "
+        "signal est pris symétrique ('SYME', par défaut) ou nul ('PADD').",
         syntax="LREEL1 = CVOL LREEL2 LREEL3 ('NPNE' N1) ('SYME' | 'PADD') ;",
         examples=("LIST (CVOL (PROG 0. 0. 4. 0.) (PROG 0.5 0.25) 'PADD') ;",),
     ),

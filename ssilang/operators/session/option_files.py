@@ -35,7 +35,7 @@ def read_file_option(call: Call, word: str) -> None:
 
 
 class Listing(io.TextIOBase):
-    """Writes what the script prints to its usual place, and whole lines to `keep` as well."""
+    """Takes what the script prints away from its usual place, whole lines to `keep`."""
 
     def __init__(self, usual: TextIO, keep: Callable[[list[str]], None]) -> None:
         self.usual = usual
@@ -43,19 +43,15 @@ class Listing(io.TextIOBase):
         self._rest = ""
 
     def write(self, text: str) -> int:
-        """Print, and keep the lines that are complete."""
+        """Keep the lines that are complete."""
         *lines, self._rest = (self._rest + text).split("\n")
         if lines:
             self._keep(lines)
-        return self.usual.write(text)
-
-    def flush(self) -> None:
-        """Flush the usual place."""
-        self.usual.flush()
+        return len(text)
 
 
 def _keep_listing(call: Call, name: str) -> None:
-    """OPTI IMPR: what is printed from now on also goes to a file; to none when a unit is named."""
+    """OPTI IMPR: what is printed from now on goes to a file; a unit's number ends that."""
     session = call.session
     usual = session.out.usual if isinstance(session.out, Listing) else session.out
     session.out = usual
