@@ -64,7 +64,11 @@ def _cell(values: Sequence[Any], row: int, digits: int | None) -> str:
     return repr(float(value)) if digits is None else f"{float(value):.{digits}E}"
 
 
-def read_csv(path: Path, separator: str = ";", first_line: int = 1) -> list[list[float]]:
+Rows = list[list[float]] | FloatArray
+"""Rows of numbers: an array if all have as many."""
+
+
+def read_csv(path: Path, separator: str = ";", first_line: int = 1) -> Rows:
     """Numbers of a CSV file, row by row, from line `first_line` (1 is the first).
 
     Empty cells at the end of a row are left out; an empty line ends nothing.
@@ -78,6 +82,9 @@ def read_csv(path: Path, separator: str = ";", first_line: int = 1) -> list[list
         text = path.read_text(encoding="utf-8", errors="replace")
     except OSError as error:
         raise InputError(f"{path} cannot be read: {error.strerror}") from error
+    regular = _regular(text, separator, first_line)
+    if regular is not None:
+        return regular
     rows = []
     for number, line in enumerate(text.splitlines(), start=1):
         if number < first_line or not line.strip():
@@ -87,6 +94,19 @@ def read_csv(path: Path, separator: str = ";", first_line: int = 1) -> list[list
             cells.pop()
         rows.append([_number(c, path, number) for c in cells])
     return rows
+
+
+def _regular(text: str, separator: str, first_line: int) -> FloatArray | None:
+    """The rows of a text that has plain numbers alone, as many in each; None of any other."""
+    lines = text.splitlines()[first_line - 1 :]
+    if not any(line.strip() for line in lines):
+        return None
+    delimiter = None if separator == " " else separator
+    try:
+        found = np.loadtxt(lines, delimiter=delimiter, comments=None, ndmin=2)
+    except ValueError:
+        return None
+    return found if np.isfinite(found).all() else None
 
 
 def _number(cell: str, path: Path, line: int) -> float:
@@ -106,7 +126,9 @@ def _number(cell: str, path: Path, line: int) -> float:
     return value
 
 
-def as_columns(rows: Sequence[Sequence[float]]) -> list[FloatArray]:
+def as_columns(rows: Rows) -> list[FloatArray]:
     """Columns of rows; a short row ends the columns that it does not reach."""
+    if isinstance(rows, np.ndarray):
+        return list(np.ascontiguousarray(rows.T))
     count = max((len(r) for r in rows), default=0)
     return [np.array([r[i] for r in rows if i < len(r)]) for i in range(count)]

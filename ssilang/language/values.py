@@ -170,17 +170,28 @@ PENDING = object()
 class LazyTable(Table):
     """TABLE some of whose values are found when they are first asked for, by index.
 
-    `promised` are pairs (index, PENDING) by key, that many tables may share.
+    `promised` are pairs (index, PENDING) by key, that many tables may share. `stand_in` gives
+    what serves instead of a value that is not made yet, for readers that know it (None: nothing
+    does).
     """
 
-    __slots__ = ("_find",)
+    __slots__ = ("_find", "_stand_in")
 
     def __init__(
         self,
         find: Callable[[str], object],
         promised: dict[tuple[object, ...], tuple[object, object]],
+        stand_in: Callable[[str, Callable[[], object]], object] | None = None,
     ) -> None:
-        self._items, self._find = promised.copy(), find
+        self._items, self._find, self._stand_in = promised.copy(), find, stand_in
+
+    def glance(self, index: object) -> object:
+        """As `get`; of a value that is not made yet, its stand-in if it has one."""
+        if self._stand_in is not None and super().get(index) is PENDING:
+            found = self._stand_in(str(index).rstrip(), lambda: self.get(index))
+            if found is not None:
+                return found
+        return self.get(index)
 
     def get(self, index: object, default: object = None) -> object:
         """Value at an index, `default` if there is none."""

@@ -45,4 +45,25 @@ def test_reading_starts_behind_titles_and_says_where_a_word_is(tmp_path: Path) -
 def test_blanks_separate_however_many(tmp_path: Path) -> None:
     path = tmp_path / "x.txt"
     path.write_text("  1   2  \n 3 4\n\n")
-    assert read_csv(path, " ") == [[1.0, 2.0], [3.0, 4.0]]
+    assert read_csv(path, " ").tolist() == [[1.0, 2.0], [3.0, 4.0]]
+
+
+@pytest.mark.parametrize("end", ["", ";", '\n"7";8', "\n3;4;5", "\n\n9"])
+def test_uneven_and_even_rows_are_read_alike(tmp_path: Path, end: str) -> None:
+    path = tmp_path / "x.csv"
+    path.write_text("1;2\n3;4" + end)
+    rows = [list(row) for row in read_csv(path)]
+    assert rows[:2] == [[1.0, 2.0], [3.0, 4.0]]
+    assert rows[2:] == {
+        '\n"7";8': [[7.0, 8.0]],
+        "\n3;4;5": [[3.0, 4.0, 5.0]],
+        "\n\n9": [[9.0]],
+    }.get(end, [])
+
+
+@pytest.mark.parametrize("cell", ["nan", "inf", "-1E999"])
+def test_what_is_not_finite_is_refused_where_it_stands(tmp_path: Path, cell: str) -> None:
+    path = tmp_path / "x.csv"
+    path.write_text(f"1;2\n3;{cell}\n")
+    with pytest.raises(InputError, match="line 2"):
+        read_csv(path)

@@ -16,7 +16,8 @@ from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
-from ssilang.language.values import ListChpo, ListEnti, ListMots, ListReel, Table
+from ssilang.language.values import LazyTable, ListChpo, ListEnti, ListMots, ListReel, Table
+from ssilang.operators.curves.instants import InstantField, components_in_time, value_in_time
 from ssilang.operators.curves.words import axis_name, read_colours
 from ssilang.operators.workspace import workspace
 
@@ -170,7 +171,7 @@ _DEFAULT_INDEX = {"DYNAMIC": "DEPL", "PASAPAS": "DEPLACEMENTS"}
 
 
 def _in_time(call: Call, colours: list[int]) -> Curve:
-    fields, times, title = history(call)
+    fields, times, title = history(call, unmade=True)
     chosen = call.read("LISTENTI")
     if chosen is not None:
         places = chosen.value.values - 1 if not title else chosen.value.values
@@ -185,16 +186,20 @@ def _in_time(call: Call, colours: list[int]) -> Curve:
         raise call.missing(("POINT", "MAILLAGE"))
     names = names or names_in_time(call, fields)
     if not names:
-        names = [_only(call, fields[0])] if fields else []
+        names = [_only(call, _made(fields[0]))] if fields else []
     nodes = nodes_named(support.value)
     parts: list[CurvePart] = []
     for name in names:
         for node in nodes:
-            values = np.asarray([float(f.values_at(name, np.asarray([node]))[0]) for f in fields])
+            values = value_in_time(fields, name, node)
             legend = f"{name} {node + 1}" if len(nodes) > 1 else name
             colour = colours[len(parts) % len(colours)]
             parts.append(CurvePart(times, values, "TEMP", name, legend, colour))
     return Curve(tuple(parts), workspace(call.session).title)
+
+
+def _made(field: NodeField | InstantField) -> NodeField:
+    return field.make() if isinstance(field, InstantField) else field
 
 
 def _in_a_cell(call: Call, fields: list[Any], times: FloatArray, colour: int) -> Curve:
@@ -222,15 +227,17 @@ def names_in_time(call: Call, fields: list[Any]) -> list[str]:
     operand = call.read("LISTMOTS")
     if operand is not None:
         return [str(w).rstrip() for w in operand.value.values]
-    known = {n for f in fields for n in getattr(f, "components", ())}
     word = call.peek_word()
-    if word is not None and (word.rstrip() in known or call.at_word()):
+    if word is not None and (call.at_word() or word.rstrip() in components_in_time(fields)):
         return [str(call.word()).rstrip()]
     return []
 
 
-def history(call: Call) -> tuple[list[Any], FloatArray, str]:
-    """Fields, their times, and the index of the table they came from ('' for a list)."""
+def history(call: Call, unmade: bool = False) -> tuple[list[Any], FloatArray, str]:
+    """Fields, their times, and the index of the table they came from ('' for a list).
+
+    With `unmade`, an `InstantField` may stand for a field that nobody asked for yet.
+    """
     operand = call.read("LISTCHPO", "TABLE")
     if operand is None:
         raise call.missing(("LISTCHPO", "TABLE"))
@@ -245,7 +252,7 @@ def history(call: Call) -> tuple[list[Any], FloatArray, str]:
     said = call.peek_word()
     if said is not None and _holds(table, said.rstrip()):
         index = str(call.word()).rstrip()
-    return (*results_in_time(table, index), index)
+    return (*results_in_time(table, index, unmade), index)
 
 
 def _holds(table: Table, index: str) -> bool:
@@ -259,8 +266,13 @@ def _in_steps(table: Table, index: str) -> bool:
     return any(isinstance(v, Table) and type(i) is int and v.has(index) for i, v in table.items())
 
 
-def results_in_time(table: Table, index: str) -> tuple[list[Any], FloatArray]:
+def results_in_time(table: Table, index: str, unmade: bool = False) -> tuple[list[Any], FloatArray]:
     """Fields and times of a table of results: of PASAPAS by index, of DYNAMIC by step.
+
+    Parameters
+    ----------
+    unmade : bool
+        Whether an `InstantField` may stand for a field that is not made yet.
 
     Raises
     ------
@@ -274,7 +286,8 @@ def results_in_time(table: Table, index: str) -> tuple[list[Any], FloatArray]:
     found = []
     for place, value in table.items():
         if type(place) is int and isinstance(value, Table) and value.has(index):
-            found.append((value.get("TEMP", place), value.get(index)))
+            look = value.glance if unmade and isinstance(value, LazyTable) else value.get
+            found.append((value.get("TEMP", place), look(index)))
     if not found:
         raise KernelError(f"the table holds no results in time at index {index}")
     found.sort(key=lambda pair: float(str(pair[0])))

@@ -18,6 +18,7 @@ from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import IntArray
 from ssilang.language.values import LazyTable, ListReel, Mot, Table, promises
+from ssilang.operators.curves.instants import InstantField
 
 if TYPE_CHECKING:
     from ssilang.kernel.dynamics.snapshot import Snapshot
@@ -51,6 +52,18 @@ def _found(snapshot: Snapshot, nodes: IntArray | None, word: str) -> object:
     return restricted(getattr(snapshot, NODAL[word]), nodes)
 
 
+VECTORS = {"DEPL": "u", "VITE": "v", "ACCE": "a"}
+
+
+def _stand_in(
+    snapshot: Snapshot, nodes: IntArray | None, word: str, make: Callable[[], NodeField]
+) -> InstantField | None:
+    """A field of the whole body that stays unmade while single values are asked for."""
+    if nodes is not None or word not in VECTORS:
+        return None
+    return InstantField(snapshot.problem.numbering, getattr(snapshot, VECTORS[word]), make)
+
+
 @dataclass
 class TableObserver:
     """Fills the table of results: 1, 2 ... with TEMP, DEPL, VITE and what joints give.
@@ -67,7 +80,9 @@ class TableObserver:
         words = ALL_WORDS
         if snapshot.problem.interface is None:
             words = BODY_WORDS if hasattr(snapshot, "body_stresses") else NODAL_WORDS
-        entry = LazyTable(partial(_found, snapshot, self.nodes), words)
+        entry = LazyTable(
+            partial(_found, snapshot, self.nodes), words, partial(_stand_in, snapshot, self.nodes)
+        )
         entry.set(Mot("TEMP"), snapshot.time)
         if self.nodes is not None and not snapshot.problem.small:
             entry.items()  # lets go of the rest of a large model
