@@ -70,7 +70,7 @@ def test_words_of_cast3m_are_found_by_four_letters_or_in_full():
     assert find_cast3m_word("NOWORDATALL") is None
 
 
-@pytest.mark.parametrize("name", ["language.md", "differences.md"])
+@pytest.mark.parametrize("name", ["language.md", "differences.md", "laws.md"])
 def test_scripts_in_the_guides_run(name, tmp_path):
     text = (_DOCS / name).read_text(encoding="utf-8")
     scripts = re.findall(r"```ssi\n(.*?)```", text, re.DOTALL)
