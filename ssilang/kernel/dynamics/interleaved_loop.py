@@ -60,8 +60,8 @@ class InterleavedLoop:
         branches, trunk = _cut(factor, root.J.shape[1] > 0)
         self.plan = Plan(
             factor.panels, branches, trunk, len(factor.panels.first) - 2 + (root.J.shape[1] == 0),
-            _rows(self.M), _all_rows(self.C), self.C.nnz > 0, self.forces, root.J, root.Y, effective.S,
-            effective.R if effective.R.any() else np.zeros((0, 0)),
+            _rows(self.M), _all_rows(self.C), self.C.nnz > 0, self.forces, root.J, root.Y,
+            effective.S, effective.R if effective.R.any() else np.zeros((0, 0)),
             (s.alpha_m, s.alpha_f, s.beta, s.gamma, effective.dt), longest(factor.panels),
         )  # fmt: skip
         joints = joints_of(problem) if problem.interface is None else None

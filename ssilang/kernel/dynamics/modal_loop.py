@@ -71,20 +71,21 @@ class Sweep(NamedTuple):
 
 
 @compiled_fast
-def _load(modal: Modal, factors: FloatArray, sweep: Sweep, first: int, last: int) -> None:
+def next_load(
+    forces: FloatArray, factors: FloatArray, load0: FloatArray, load1: FloatArray
+) -> None:
     """The loads at the end of the next step; those of the last one become its first."""
-    load0, load1, forces = sweep.load0[first:last], sweep.load1[first:last], modal.forces
     for i in range(len(load1)):
         load0[i] = load1[i]
         load1[i] = 0.0
     for j in range(len(factors)):
-        part, factor = forces[j, first:last], factors[j]
+        part, factor = forces[j], factors[j]
         for i in range(len(load1)):
             load1[i] += part[i] * factor
 
 
 @compiled_fast
-def _add_jumps(Jt: FloatArray, du: FloatArray, y: FloatArray) -> None:
+def add_jumps(Jt: FloatArray, du: FloatArray, y: FloatArray) -> None:
     """y += J du, four coordinates at a time: y is read and written less often."""
     fours = len(du) // 4 * 4
     for i in range(0, fours, 4):
@@ -114,7 +115,7 @@ def _predict(modal: Modal, step: ModalStep, x: Motion, sweep: Sweep, first: int,
     for i in range(len(du)):
         r = m[i] * (mass_v * v[i] + mass_a * a[i]) - c[i] * (damping_v * v[i] + damping_a * a[i])
         du[i] = P[i] * (r - k[i] * u[i] - g[i] + (1 - af) * load1[i] + af * load0[i])
-    _add_jumps(modal.Jt[first:last], du, sweep.y0)
+    add_jumps(modal.Jt[first:last], du, sweep.y0)
 
 
 @compiled_fast
@@ -175,7 +176,8 @@ def _turn(
         _correct(modal, step, f, sweep, first, last)
         size += _advance(modal, step.dt, x, sweep, first, last)
         if predict:
-            _load(modal, factors, sweep, first, last)
+            load0, load1 = sweep.load0[first:last], sweep.load1[first:last]
+            next_load(modal.forces[:, first:last], factors, load0, load1)
             _predict(modal, step, x, sweep, first, last)
     return size
 
@@ -202,8 +204,8 @@ def march_modal(
     rq, dyq, deltaq, pivots = np.zeros(q), np.zeros(q), np.zeros(q), np.zeros(q, np.int64)
     Kq, Aq, none = np.zeros((q, q)), np.zeros((q, q)), np.zeros((0, 0))
     _correct(modal, step, x.f, sweep, 0, n)
-    _load(modal, factors[0], sweep, 0, n)
-    _load(modal, factors[min(1, steps)], sweep, 0, n)
+    next_load(modal.forces, factors[0], sweep.load0, sweep.load1)
+    next_load(modal.forces, factors[min(1, steps)], sweep.load0, sweep.load1)
     _predict(modal, step, x, sweep, 0, n)
     for k in range(steps):
         if q:

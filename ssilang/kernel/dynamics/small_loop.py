@@ -15,6 +15,7 @@ from ssilang.kernel.dynamics.compiled_loop import Joints, Motion, Saved
 from ssilang.kernel.dynamics.dense_loop import joints_of
 from ssilang.kernel.dynamics.effective import Effective
 from ssilang.kernel.dynamics.modal_loop import Modal, ModalRows, ModalStep, march_modal
+from ssilang.kernel.dynamics.normal_loop import march_normal
 from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.dynamics.reduced_loop import reactions, supports_are_still
 from ssilang.kernel.dynamics.scalar_loop import Line, LineRows, LineState, Spring, march_line
@@ -102,6 +103,7 @@ class SmallLoop:
         self._stepped = joints._replace(J=np.zeros((0, 0)))
         self._modal = Modal(modes.m, modes.c, modes.k, J, Jt, modes.forces, self._scheme)
         self._step = ModalStep(effective.dt, np.ones(modes.size), np.ascontiguousarray(J @ Jt))
+        self._pushes = self._normal is not None and only_pushes(joints, motion.state)
 
     @property
     def light(self) -> bool:
@@ -143,9 +145,16 @@ class SmallLoop:
         few = Motion(u, v, a, delta, f, w, t, m.state, np.zeros(0), m.energies, m.contact)
         none = np.zeros((0, *w.shape))
         to = ModalRows(none, kept[0], kept[1], kept[2], to_w, to_t, saved.state)
-        outcome = march_modal(
-            self._modal, self._step, self._stepped, few, factors, save, to, history
-        )
+        if self._pushes:
+            weights = self._stepped.weights
+            k = weights * self._stepped.p[:, KN]
+            outcome = march_normal(
+                self._modal, self._step, weights, k, few, factors, save, to, history
+            )
+        else:
+            outcome = march_modal(
+                self._modal, self._step, self._stepped, few, factors, save, to, history
+            )
         if self._normal is not None:
             self._put_normal(self._z[:1], w[None], t[None], m.w[None], m.t[None])
             self._put_normal(kept[0], to_w, to_t, saved.w, saved.t)
@@ -215,6 +224,13 @@ def shearless(joints: Joints, modes: Modes) -> Joints | None:
     J = np.ascontiguousarray(np.einsum("pj,pjr->pr", joints.B[:, -1], rows))
     places = np.arange(n, dtype=np.int64)[:, None]
     return Joints(J, places, np.ones((n, 1, 1)), joints.weights, joints.codes, joints.p)
+
+
+def only_pushes(joints: Joints, state: FloatArray) -> bool:
+    """Whether joints without shear have no strength, no closing traction and no past but xi."""
+    past = state.copy()
+    past[:, XI] = 0.0
+    return not (joints.p[:, [FU, FC]].any() or past.any())
 
 
 def line_of(
