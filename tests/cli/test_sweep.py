@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from ssilang.cli.sweeping.given import GivenError, cases_of, parse_setting, parse_values
 from ssilang.cli.sweeping.pool import run_here
 from ssilang.cli.sweeping.sweep import SweepOptions, sweep
+from ssilang.cli.sweeping.trunk import run_grown
 from ssilang.cli.sweeping.worker import Task
 
 DECK = """OPTI DIME 2 ELEM SEG2 ;
@@ -124,6 +125,94 @@ def test_a_process_that_dies_costs_its_own_run_alone(tmp_path):
     rows = sorted(run_here(tasks, 2, dies_once), key=lambda r: r["run"])
     assert [r["exit_code"] for r in rows] == [0, 1, 0, 0]
     assert "lost" in rows[1]["error"]
+
+
+SEEN: list[int] = []
+
+
+def remembers(task: Task) -> dict[str, object]:
+    """Says which run was made first in the memory of its process, and in which process."""
+    SEEN.append(task.number)
+    return {"run": task.number, "exit_code": 0, "first": SEEN[0], "process": os.getpid()}
+
+
+def dies_first(task: Task) -> dict[str, object]:
+    """Kills its process for the first run."""
+    if task.number == 1:
+        os._exit(3)
+    return {"run": task.number, "exit_code": 0, "folder": ""}
+
+
+def some_tasks(tmp_path, count):
+    return [Task(i, tmp_path / "x.ssi", tmp_path / str(i), {}) for i in range(1, count + 1)]
+
+
+def test_later_runs_begin_with_the_memory_of_the_first(tmp_path):
+    rows = list(run_grown(some_tasks(tmp_path, 9), 2, remembers))
+    assert sorted(r["run"] for r in rows) == list(range(1, 10))
+    assert {r["first"] for r in rows} == {1}
+    others = {r["process"] for r in rows if r["run"] > 1}
+    assert rows[0]["process"] not in others
+    assert len(others) <= 2
+
+
+@pytest.mark.parametrize(("work", "lost"), [(dies_once, 2), (dies_first, 1)])
+def test_a_trunk_or_a_fork_that_dies_costs_its_own_run_alone(tmp_path, work, lost):
+    rows = sorted(run_grown(some_tasks(tmp_path, 6), 2, work), key=lambda r: r["run"])
+    assert [r["run"] for r in rows] == list(range(1, 7))
+    assert [r["run"] for r in rows if r["exit_code"]] == [lost]
+
+
+def test_a_sweep_that_is_left_ends_its_processes(tmp_path):
+    rows = run_grown(some_tasks(tmp_path, 6), 2, remembers)
+    made = next(rows)
+    rows.close()
+    with pytest.raises(ProcessLookupError):
+        os.kill(int(made["process"]), 0)
+
+
+UPLIFT = """OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ;
+MOTION = 'none' ; T0 = LIRE 'CSV' MOTION ;
+P1 = 0. 0. ; P2 = 4. 0. ; FOO = DROI 8 P1 P2 ; GRO = FOO PLUS (0. -1.) ;
+JOI = MANU 'SEG2' (POIN 1 GRO) (POIN 1 FOO) ;
+REPE BJ 8 ; I = &BJ + 1 ; JOI = JOI ET (MANU 'SEG2' (POIN I GRO) (POIN I FOO)) ; FIN BJ ;
+MOF = MODE FOO 'MECANIQUE' 'ELASTIQUE' 'POUT' ;
+MAF = MATE MOF 'YOUN' 3.E10 'NU' 0.2 'RHO' 0. 'SECT' 1. 'INRY' 0.1 'INRZ' 0.1 ;
+MOJ = MODE JOI 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' 'JOI1' ; MAJ = MATE MOJ 'KN' 4.E6 'KS' 0. ;
+MAS = MASS 'DEPL' 2.E3 FOO ;
+T1 = TABL ; T1 . 'RIGI' = (RIGI MOF MAF) ET (BLOQ 'UX' 'UY' GRO) ET (BLOQ 'UX' P1) ;
+T1 . 'MASS' = MAS ; T1 . 'MODELE' = MOJ ; T1 . 'CARACTERISTIQUES' = MAJ ;
+UP = MANU 'CHPO' (POIN 1 FOO) 1 'FY' 1.E5 ;
+DOWN = MAS * (MANU 'CHPO' FOO 1 'UY' -9.81) ;
+T1 . 'CHAR' = (CHAR 'MECA' DOWN) ET (CHAR 'MECA' UP (EVOL 'MANU' (T0 . 1) (T0 . 2))) ;
+T1 . 'TEMPS_CALCULES' = PROG 0. 'PAS' 2.E-3 'NPAS' 100 ; T1 . 'PAS_SAUVES' = 1 ;
+T2 = DYNAMIC T1 ; LU = EXTR (EVOL 'TEMP' T2 'DEPL' 'UY' P1) 'ORDO' ;
+@VERIFIE T1 'highest' (MAXI LU) -10. 100. ; @VERIFIE T1 'lowest' (MINI LU) -10. 100. ;
+"""
+
+
+def test_motions_on_a_shared_model_move_as_in_runs_of_their_own(tmp_path):
+    from ssilang.cli.run import RunOptions, run_file
+
+    (tmp_path / "motions").mkdir()
+    deck = tmp_path / "uplift.ssi"
+    deck.write_text(UPLIFT)
+    for i in range(5):
+        rows = "".join(f"{t};{(1 + i) * t * (1 - t)}\n" for t in (0.0, 0.05, 0.1, 0.2))
+        (tmp_path / "motions" / f"m{i}.csv").write_text(rows)
+    options = SweepOptions(deck, motions=tmp_path / "motions", out=tmp_path / "out", jobs=1)
+    assert run(options)[0] == 0
+    together = pq.read_table(tmp_path / "out" / "sweep.parquet").to_pylist()
+    for row in together:
+        alone = RunOptions(
+            output_directory=tmp_path / "alone",
+            allowed=[tmp_path],
+            given={"MOTION": row["MOTION"]},
+        )
+        checks = {c.name: c.value for c in run_file(deck, alone).session.checks}
+        assert row["highest"] == pytest.approx(checks["highest"], rel=1e-12)
+        assert row["lowest"] == pytest.approx(checks["lowest"], rel=1e-12)
+    assert len({row["highest"] for row in together}) == 5
 
 
 def test_a_dask_cluster_gives_the_same_table(deck, tmp_path):

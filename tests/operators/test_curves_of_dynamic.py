@@ -45,7 +45,8 @@ def test_curves_are_the_same_before_and_after_fields_are_made(found, what):
         assert np.array_equal(one.ordinates, other.ordinates)
     if what == "'UX' Q":  # average acceleration of sqrt(4 N/m / 1 kg), cos of the step's angle
         angle = 2.0 * np.arctan(2.0 * 0.1 / 2.0)
-        assert before.parts[0].ordinates == pytest.approx(1.5 * np.sin(angle * np.arange(11)), abs=1e-12)
+        exact = 1.5 * np.sin(angle * np.arange(11))
+        assert before.parts[0].ordinates == pytest.approx(exact, abs=1e-12)
 
 
 def test_a_multiplier_in_time_is_the_force_of_its_support(found):

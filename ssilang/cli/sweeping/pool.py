@@ -3,15 +3,27 @@
 from __future__ import annotations
 
 import importlib.util
+import os
+import threading
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
-from multiprocessing import get_context
+from multiprocessing import get_context, parent_process
+from multiprocessing.connection import wait
 from typing import Any
 
 from ssilang.cli.sweeping.worker import Task, run_task
 
 Row = dict[str, Any]
+Work = Callable[[Task], Row]
+
+ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+
+
+def one_thread() -> None:
+    """Processes started from now on use one thread for linear algebra, if nothing else is asked."""
+    for name in ONE_THREAD:
+        os.environ.setdefault(name, "1")
 
 
 def lost_row(task: Task, reason: str) -> Row:
@@ -26,13 +38,32 @@ def lost_row(task: Task, reason: str) -> Row:
     }
 
 
+def _end_with_parent() -> None:
+    """Let this process end when the one that gives it work is no more."""
+    parent = parent_process()
+    if parent is None:
+        return
+
+    def watch() -> None:
+        wait([parent.sentinel])
+        os._exit(1)
+
+    threading.Thread(target=watch, daemon=True).start()
+
+
 def run_here(
-    tasks: Sequence[Task], jobs: int, work: Callable[[Task], Row] = run_task
+    tasks: Sequence[Task], jobs: int, work: Work = run_task, start: str = "spawn"
 ) -> Iterator[Row]:
-    """Rows as they come, from `jobs` processes; a process that dies costs its own run alone."""
-    waiting = list(tasks)
+    """Rows as they come, from `jobs` processes; a process that dies costs its own run alone.
+
+    Parameters
+    ----------
+    start : str
+        How processes begin: empty ('spawn') or with the memory of this one ('fork').
+    """
+    waiting, context = list(tasks), get_context(start)
     while waiting:
-        with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
+        with ProcessPoolExecutor(jobs, context, _end_with_parent) as pool:
             futures = {pool.submit(work, task): task for task in waiting}
             broken: list[Task] = []
             try:

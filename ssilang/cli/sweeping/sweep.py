@@ -10,8 +10,9 @@ from pathlib import Path
 from typing import Any, TextIO
 
 from ssilang.cli.sweeping.given import Case, GivenError, cases_of
-from ssilang.cli.sweeping.pool import dask_installed, run_here, run_on_cluster
+from ssilang.cli.sweeping.pool import dask_installed, one_thread, run_on_cluster
 from ssilang.cli.sweeping.table import can_write, draw_figures, write_table
+from ssilang.cli.sweeping.trunk import run_all
 from ssilang.cli.sweeping.worker import ROW, Task
 
 TABLE = "sweep.parquet"
@@ -81,7 +82,8 @@ def _run(tasks: list[Task], options: SweepOptions) -> Iterator[dict[str, Any]]:
     if options.scheduler:
         return run_on_cluster(tasks, options.scheduler)
     jobs = options.jobs or os.cpu_count() or 1
-    return run_here(tasks, max(min(jobs, len(tasks)), 1))
+    one_thread()
+    return run_all(tasks, max(min(jobs, len(tasks)), 1))
 
 
 def _progress(rows: Iterator[dict[str, Any]], total: int, err: TextIO) -> Iterator[dict[str, Any]]:

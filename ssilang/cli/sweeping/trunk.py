@@ -1,0 +1,84 @@
+"""Workers that go on from the first run: what it left in memory is theirs, and held once.
+
+The first run of a long sweep is made in a process of its own, the trunk. It leaves imported
+modules, compiled code and the factors of the model's matrices, which are found again by content.
+The other runs are made in forks of it, that share this memory until they write to it.
+"""
+
+from __future__ import annotations
+
+import gc
+import os
+from collections.abc import Callable, Iterator, Sequence
+from multiprocessing import get_all_start_methods, get_context
+from multiprocessing.connection import Connection, wait
+
+from ssilang.cli.sweeping.pool import Row, Work, lost_row, run_here
+from ssilang.cli.sweeping.worker import Task, run_task
+
+ROUNDS = 4
+"""Runs for each job from which the others may wait for the first one."""
+
+
+def run_all(tasks: Sequence[Task], jobs: int, work: Work = run_task) -> Iterator[Row]:
+    """Rows as they come, the way that takes least: forks of the first run, or all at once."""
+    if len(tasks) < ROUNDS * jobs or "fork" not in get_all_start_methods():
+        return run_here(tasks, jobs, work)
+    return run_grown(tasks, jobs, work)
+
+
+def run_grown(tasks: Sequence[Task], jobs: int, work: Work = run_task) -> Iterator[Row]:
+    """Rows of the first run, then of the others from forks of its process.
+
+    If the trunk dies in the first run, that run is lost and the others are made without it.
+    """
+    spawn = get_context("spawn")
+    receiver, sender = spawn.Pipe(duplex=False)
+    trunk = spawn.Process(target=_grow, args=(list(tasks), jobs, work, sender))
+    trunk.start()
+    sender.close()
+    waiting = {task.number: task for task in tasks}
+    try:
+        for row in _received(receiver, trunk.sentinel):
+            del waiting[row["run"]]
+            yield row
+    finally:
+        receiver.close()
+        trunk.terminate()  # its forks end with it
+        trunk.join()
+    rest = list(waiting.values())
+    if len(rest) == len(tasks):
+        yield lost_row(rest.pop(0), "its process was killed (memory?)")
+    if rest:
+        yield from run_here(rest, jobs, work)
+
+
+def _received(receiver: Connection, sentinel: int) -> Iterator[Row]:
+    """What the trunk sends, until it says that it is done or is no more."""
+    while receiver in wait([receiver, sentinel]):
+        try:
+            row = receiver.recv()
+        except EOFError:
+            return
+        if row is None:
+            return
+        yield row
+
+
+def _grow(tasks: list[Task], jobs: int, work: Work, sender: Connection) -> None:
+    """The trunk: one run, then the others in forks."""
+    try:
+        sender.send(_whole(work, tasks[0]))
+        gc.freeze()  # collections in a fork would copy the memory that it shares
+        for row in run_here(tasks[1:], jobs, work, "fork"):
+            sender.send(row)
+        sender.send(None)
+    except (BrokenPipeError, KeyboardInterrupt):
+        os._exit(1)
+
+
+def _whole(work: Callable[[Task], Row], task: Task) -> Row:
+    try:
+        return work(task)
+    except Exception as problem:
+        return lost_row(task, str(problem))
