@@ -440,6 +440,20 @@ TEMPLATES: tuple[tuple[str, str], ...] = (
         "look for a step that is too small or a count that is too large",
         "cherchez un pas trop petit ou un nombre trop grand",
     ),
+    # ---- surfaces that cross
+    ("the two surfaces do not cross", "les deux surfaces ne se croisent pas"),
+    (
+        "surfaces of TRI3 are needed to cross, this mesh holds {}",
+        "il faut des surfaces de TRI3 à croiser, ce maillage contient {}",
+    ),
+    (
+        "CHAN 'TRI3' cuts quadrangles into triangles",
+        "CHAN 'TRI3' coupe les quadrangles en triangles",
+    ),
+    (
+        "a triangle that the other surface cuts cannot be meshed",
+        "un triangle que l'autre surface coupe ne peut être maillé",
+    ),
 )
 PARTS: tuple[tuple[str, str], ...] = (
     (r"the body of (\d+) nodes around", r"le corps de \1 noeuds autour de"),

@@ -183,3 +183,29 @@ def test_line_in_one_dimension() -> None:
     script = "OPTI DIME 1 ELEM SEG2 ; P = POIN 0. ; Q = POIN 2. ; L = P D 4 Q ; "
     assert value(script + "X = MESU L ;") == pytest.approx(2.0)
     assert value(script + "X = COOR (L POIN 'PROC' (POIN 0.9)) ;") == pytest.approx(1.0)
+
+
+CROSSING = (
+    "OPTI DIME 3 ELEM TRI3 ; A = (DROI 2 (0. 0. 0.) (2. 0. 0.)) TRAN 2 (0. 2. 0.) COUL 'ROUG' ; "
+    "B = (DROI 2 (-1. 1.1 -1.) (3. 1.1 -1.)) TRAN 2 (0. 0. 2.) ; "
+)
+
+
+def test_two_surfaces_are_cut_where_they_cross() -> None:
+    script = CROSSING + "C D L M = INTE 'GEOM' A B ; X = "
+    assert value(script + "MESU L ;") == pytest.approx(2.0)
+    assert value(script + "MESU C ;") == pytest.approx(4.0)
+    assert value(script + "NBNO (INTE (CHAN 'POI1' L) (CHAN 'POI1' C)) ;") == value(
+        script + "NBNO M ;"
+    )
+    red = value(script + "C ;").blocks[0].colours
+    assert len(set(red.tolist())) == 1
+    assert red[0] != 0
+
+
+def test_surfaces_that_do_not_cross_need_noverif() -> None:
+    script = CROSSING + "B = B PLUS (0. 5. 0.) ; C D L M = INTE 'GEOM' A B "
+    assert "do not cross" in message(script + "; ")
+    assert value(script + "'NOVERIF' ; X = (NBEL C) + (NBEL L) ;") == 8
+    square = script.replace("TRI3", "QUA4")
+    assert "surfaces of TRI3 are needed" in message(square + "; ")

@@ -213,7 +213,7 @@ def crossing_inside(p: FloatArray, a: FloatArray, b: FloatArray) -> BoolArray:
 
 
 def segment_distance(p: FloatArray, a: FloatArray, b: FloatArray) -> FloatArray:
-    """Distance of points (m, 2) to the nearest of the segments a-b (n, 2)."""
+    """Distance of points (m, 2 or 3) to the nearest of the segments a-b (n, 2 or 3)."""
     nearest = np.full(len(p), np.inf)
     way = b - a
     square = np.maximum((way * way).sum(axis=1), 1e-300)

@@ -32,6 +32,7 @@ from ssilang.kernel.mesh.select import (
     resting_on,
     stretch,
 )
+from ssilang.kernel.mesh.surface_crossing import crossed
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, arg, choice, flag, operator, opt
 from ssilang.language.values import ListEnti, ListMots
@@ -325,18 +326,34 @@ def difference_of_meshes(call: Call, first: Mesh) -> Mesh:
 
 @INTE.on(
     "MAILLAGE",
-    syntax="GEO3 = GEO1 INTE GEO2 ;",
-    en="Of meshes: cells (same type, same nodes) that both hold.",
-    fr="De maillages : éléments (mêmes type et noeuds) communs.",
+    syntax="GEO3 = GEO1 INTE GEO2 ;\nGEO1B GEO2B LIG1 LIG2 = INTE 'GEOM' GEO1 GEO2 ('NOVERIF') ;",
+    en="Of meshes: cells (same type, same nodes) that both hold. With 'GEOM', of two surfaces of "
+    "TRI3 in space: both surfaces with their triangles cut where the surfaces cross, then the "
+    "lines where they cross, by nodes of the first surface and by nodes of the second. Parts "
+    "where the surfaces lie in one plane give no line. 'NOVERIF' allows an empty result.",
+    fr="De maillages : éléments (mêmes type et noeuds) communs. Avec 'GEOM', de deux surfaces de "
+    "TRI3 dans l'espace : les deux surfaces, leurs triangles coupés là où elles se croisent, puis "
+    "les lignes où elles se croisent, par des noeuds de la première surface et par des noeuds de "
+    "la seconde. Les parties situées dans un même plan ne donnent pas de ligne. 'NOVERIF' permet "
+    "un résultat vide.",
     examples=(
         "OPTI DIME 2 ELEM SEG2 ; A = DROI 2 (0. 0.) (1. 0.) ; B = A ET (DROI 3 (0. 1.) (1. 1.)) ;"
         " LIST (NBEL (A INTE B)) ;",
+        "OPTI DIME 3 ELEM TRI3 ; A = (DROI 2 (0. 0. 0.) (2. 0. 0.)) TRAN 2 (0. 2. 0.) ;"
+        " B = (DROI 2 (-1. 1.1 -1.) (3. 1.1 -1.)) TRAN 2 (0. 0. 2.) ;"
+        " C D L M = INTE 'GEOM' A B ; MESS (NBEL C) (NBEL D) (MESU L) ;",
     ),
 )
-def intersection_of_meshes(call: Call, first: Mesh) -> Mesh:
-    """Common cells of two meshes."""
+def intersection_of_meshes(call: Call, first: Mesh) -> Mesh | tuple[Mesh, ...]:
+    """Common cells of two meshes, or surfaces cut along their common lines."""
+    geometric = call.keyword(("GEOM",)) is not None
     second = as_mesh(call.required("MAILLAGE", "POINT"))
     allowed = call.keyword(("NOVERIF",)) is not None
+    if geometric:
+        cut = crossed(first, second)
+        if not cut[2].blocks and not allowed:
+            raise MeshError("the two surfaces do not cross", "'NOVE' allows that")
+        return cut
     made = intersection(first, second)
     if not made.blocks and not allowed:
         raise MeshError("the two meshes have no element in common", "'NOVE' allows that")
