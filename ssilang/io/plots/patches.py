@@ -9,8 +9,9 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from ssilang.kernel.elements.polygons import regular_polygon
 from ssilang.kernel.elements.reference import shape_functions
-from ssilang.kernel.mesh.cells import CELL_TYPES, CellType
+from ssilang.kernel.mesh.cells import CELL_TYPES, POLYGON_SIDES, CellType
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
@@ -125,9 +126,18 @@ def pieces(kind: str, n: int) -> tuple[FloatArray, IntArray]:
         parts = np.column_stack([rows, rows + 1])
     elif kind in ("TRI3", "TRI6"):
         points, parts = _cut_triangle(n)
+    elif kind in POLYGON_SIDES:
+        points, parts = _cut_polygon(POLYGON_SIDES[kind])
     else:
         points, parts = _cut_quadrangle(n)
     return shape_functions(kind, points), parts
+
+
+def _cut_polygon(sides: int) -> tuple[FloatArray, IntArray]:
+    """Triangles between the centre and the sides."""
+    rows = np.arange(sides)
+    parts = np.column_stack([rows, (rows + 1) % sides, np.full(sides, sides)])
+    return np.vstack([regular_polygon(sides), np.zeros((1, 2))]), parts
 
 
 def _cut_triangle(n: int) -> tuple[FloatArray, IntArray]:

@@ -10,6 +10,8 @@ Source: the VTK file formats and `vtkCellType.h` (numbers 1 to 31).
 
 from __future__ import annotations
 
+from ssilang.kernel.mesh.cells import POLYGON_SIDES
+
 VtkOrder = tuple[int, tuple[int, ...]]
 
 ORDERS: dict[str, VtkOrder] = {
@@ -22,6 +24,7 @@ ORDERS: dict[str, VtkOrder] = {
     "QUA4": (9, (0, 1, 2, 3)),
     "QUA8": (23, (0, 2, 4, 6, 1, 3, 5, 7)),
     "QUA9": (28, (0, 2, 4, 6, 1, 3, 5, 7, 8)),
+    **{name: (7, tuple(range(n))) for name, n in POLYGON_SIDES.items()},
     "TET4": (10, (0, 1, 2, 3)),
     "TE10": (24, (0, 2, 4, 9, 1, 3, 5, 6, 7, 8)),
     "PRI6": (13, (0, 1, 2, 3, 4, 5)),

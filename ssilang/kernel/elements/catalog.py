@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ssilang.kernel.elements.polygons import SIDES
 from ssilang.kernel.elements.quadrature import Rule, quadrature
 from ssilang.kernel.elements.reference import REFERENCE_CELLS, ReferenceCell
 from ssilang.kernel.errors import MeshError
@@ -87,6 +88,7 @@ ELEMENTS: dict[str, ElementKind] = {
         _solid("TRI6", SECTION_MODES, 3, 7),
         _solid("QUA4", SECTION_MODES, 4),
         _solid("QUA8", SECTION_MODES, 9),
+        *(_solid(name, SECTION_MODES, n, 3 * n) for name, n in SIDES.items()),
         _solid("Q4RI", SECTION_MODES, 1, 4, "QUA4", "one point"),
         _solid("Q8RI", SECTION_MODES, 4, 9, "QUA8"),
         _solid("TET4", _VOLUME, 1, 4),
@@ -137,6 +139,7 @@ ELEMENTS: dict[str, ElementKind] = {
 # words that name an element of each cell type at once
 GENERIC_ELEMENTS: dict[str, dict[str, str]] = {
     "BBAR": {k.cell_type: k.name for k in ELEMENTS.values() if k.family == "incompressible"},
+    "POLY": {name: name for name in ("TRI3", "QUA4", *SIDES)},
 }
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ssilang.kernel.elements.polygons import SIDES, consistent
 from ssilang.kernel.elements.quadrature import Rule
 from ssilang.kernel.elements.reference import shape_functions, shape_gradients
 from ssilang.kernel.errors import MeshError
@@ -100,7 +101,10 @@ def cell_geometry(cell_type: str, coordinates: FloatArray, rule: Rule) -> CellGe
         for i in range(d):
             gradients[:, :, j] += inverse[j, i][:, :, None] * reference[:, :, i]
     shapes = shape_functions(cell_type, rule.points)
-    return CellGeometry(shapes, gradients, rule.weights * np.abs(det))
+    volumes = rule.weights * np.abs(det)
+    if cell_type in SIDES and p > 1:
+        gradients, volumes = consistent(gradients, volumes, coordinates)
+    return CellGeometry(shapes, gradients, volumes)
 
 
 @dataclass(frozen=True, eq=False)

@@ -127,6 +127,30 @@ def _prism(n: int) -> Rule:
     return _product(_triangle(layers[0]), _line(layers[1]))
 
 
+def _polygon(sides: int, n: int) -> Rule:
+    """One point; one on the way to each corner (degree 2 at least); or, in each triangle between
+    the centre and a side, those of the triangle.
+    """
+    turn = 2.0 * np.pi / sides
+    area = 0.5 * np.sin(turn)
+    if n == sides:  # at the mean square of the distance from the centre
+        angle = turn * np.arange(n)
+        ring = np.sqrt((2.0 + np.cos(turn)) / 6.0)
+        return Rule(ring * np.column_stack([np.cos(angle), np.sin(angle)]), np.full(n, area))
+    if n == 1:
+        return Rule(np.zeros((1, 2)), np.array([sides * area]))
+    own = _triangle(n // sides)
+    edge = np.array([[1.0, 0.0], [np.cos(turn), np.sin(turn)]])
+    first = own.points @ edge
+    points = [first @ _turned(k * turn) for k in range(sides)]
+    return Rule(np.concatenate(points), np.tile(own.weights * 2.0 * area, sides))
+
+
+def _turned(angle: float) -> FloatArray:
+    c, s = np.cos(angle), np.sin(angle)
+    return np.array([[c, s], [-s, c]])
+
+
 _RULES: dict[str, Callable[[int], Rule]] = {
     "point": lambda n: Rule(np.zeros((1, 0)), np.ones(1)),
     "line": _line,
@@ -145,4 +169,6 @@ def quadrature(shape: str, n_points: int) -> Rule:
 
     Points are ordered like the nodes where both are as many (2 x 2, 2 x 2 x 2, 3 on a triangle).
     """
+    if shape.startswith("polygon"):
+        return _polygon(int(shape[len("polygon") :]), n_points)
     return _RULES[shape](n_points)

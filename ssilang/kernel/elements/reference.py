@@ -12,6 +12,12 @@ from functools import cache
 
 import numpy as np
 
+from ssilang.kernel.elements.polygons import (
+    SIDES,
+    polygon_functions,
+    polygon_gradients,
+    regular_polygon,
+)
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 
@@ -23,8 +29,8 @@ class ReferenceCell:
     ----------
     shape : str
         Domain: 'point', 'line' [-1, 1], 'triangle' (unit), 'quadrangle' [-1, 1]^2, 'tetrahedron'
-        (unit), 'prism' (triangle times [-1, 1]), 'pyramid' (base [-1, 1]^2, apex z = 1),
-        'hexahedron' [-1, 1]^3.
+        (unit), 'polygon5' (regular, in the unit circle) ..., 'prism' (triangle times [-1, 1]),
+        'pyramid' (base [-1, 1]^2, apex z = 1), 'hexahedron' [-1, 1]^3.
     nodes : array (n_nodes, dim)
         In Cast3M's order.
     exponents : array (n_monomials, dim) of int
@@ -114,6 +120,13 @@ REFERENCE_CELLS: dict[str, ReferenceCell] = {
 }
 
 
+REFERENCE_CELLS |= {
+    # Wachspress' functions are no polynomials: polygons have no exponents
+    name: ReferenceCell(f"polygon{n}", regular_polygon(n), np.zeros((0, 2), np.int64))
+    for name, n in SIDES.items()
+}
+
+
 def _monomials(cell: ReferenceCell, points: FloatArray) -> FloatArray:
     """Values (n_points, n_functions) of the spanning functions."""
     powers = points[:, None, :] ** cell.exponents[None]
@@ -164,6 +177,8 @@ def shape_functions(cell_type: str, points: FloatArray) -> FloatArray:
     -------
     array (n_points, n_nodes)
     """
+    if cell_type in SIDES:
+        return polygon_functions(SIDES[cell_type], points)
     return _monomials(REFERENCE_CELLS[cell_type], points) @ _coefficients(cell_type)
 
 
@@ -174,6 +189,8 @@ def shape_gradients(cell_type: str, points: FloatArray) -> FloatArray:
     -------
     array (n_points, n_nodes, dim)
     """
+    if cell_type in SIDES:
+        return polygon_gradients(SIDES[cell_type], points)
     gradients = _monomial_gradients(REFERENCE_CELLS[cell_type], points)
     out: FloatArray = np.einsum("pfd,fn->pnd", gradients, _coefficients(cell_type))
     return out

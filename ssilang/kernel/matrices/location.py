@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from ssilang.kernel.elements.polygons import SIDES, polygon_excess
 from ssilang.kernel.elements.reference import REFERENCE_CELLS, shape_functions, shape_gradients
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
@@ -85,7 +86,10 @@ def _inverse_map(
 def _outside(cell_type: str, xi: FloatArray) -> FloatArray:
     """How far reference coordinates lie outside the cell, zero inside, shape (n,)."""
     shape = REFERENCE_CELLS[cell_type].shape
-    excess = _EXCESS.get(shape, _box)(xi)
+    if cell_type in SIDES:
+        excess = polygon_excess(SIDES[cell_type], xi)
+    else:
+        excess = _EXCESS.get(shape, _box)(xi)
     worst: FloatArray = np.clip(excess, 0.0, None).max(axis=1, initial=0.0)
     return worst
 

@@ -40,6 +40,12 @@ class CellType:
     joint: bool = False
 
 
+POLYGON_SIDES: dict[str, int] = {f"POL{n}": n for n in range(5, 10)} | {
+    f"PO{n}": n for n in (10, 11, 12)
+}
+"""Sides of the cells of a mesh of polygons (ELEM POLY) that are no triangles or quadrangles."""
+
+
 def _polygon(name: str, corners: int, degree: int) -> CellType:
     n = corners * degree
     side = "SEG2" if degree == 1 else "SEG3"
@@ -135,6 +141,7 @@ CELL_TYPES: dict[str, CellType] = {
         _polygon("TRI6", 3, 2),
         _polygon("QUA4", 4, 1),
         _polygon("QUA8", 4, 2),
+        *(_polygon(name, n, 1) for name, n in POLYGON_SIDES.items()),
         CellType(
             "TET4",
             3,

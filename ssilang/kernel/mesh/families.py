@@ -16,7 +16,7 @@ class Family:
     line : str
         'SEG2' or 'SEG3'.
     surface : str
-        'TRI3', 'TRI6', 'QUA4' or 'QUA8'; '' when the choice is a line.
+        'TRI3', 'TRI6', 'QUA4', 'QUA8' or 'POLY' (polygons); '' when the choice is a line.
     volume : str
         '' when the choice is a line or a surface.
     """
@@ -54,6 +54,7 @@ FAMILIES: dict[str, Family] = {
     "TRI6": Family("SEG3", "TRI6"),
     "QUA4": Family("SEG2", "QUA4"),
     "QUA8": Family("SEG3", "QUA8"),
+    "POLY": Family("SEG2", "POLY"),
     "RAC2": Family("SEG2"),
     "RAC3": Family("SEG3"),
     "LIA3": Family("SEG2", "TRI3"),

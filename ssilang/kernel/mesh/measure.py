@@ -8,6 +8,7 @@ from ssilang.kernel.elements.quadrature import quadrature
 from ssilang.kernel.elements.reference import REFERENCE_CELLS, shape_gradients
 from ssilang.kernel.errors import MeshError
 from ssilang.kernel.mesh.boundary import edges
+from ssilang.kernel.mesh.cells import POLYGON_SIDES
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
@@ -114,6 +115,7 @@ def node_sizes(mesh: Mesh) -> tuple[IntArray, FloatArray]:
 _POINTS = {
     "SEG2": 1, "SEG3": 5, "TRI3": 1, "TRI6": 7, "QUA4": 9, "QUA8": 25,
     "TET4": 1, "TE10": 27, "PRI6": 6, "PR15": 21, "PYR5": 27, "CUB8": 8, "CU20": 27,
+    **{name: 7 * n for name, n in POLYGON_SIDES.items()},
 }  # fmt: skip
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ssilang.kernel.errors import MeshError
-from ssilang.kernel.mesh.cells import CELL_TYPES
+from ssilang.kernel.mesh.cells import CELL_TYPES, POLYGON_SIDES
 from ssilang.kernel.mesh.combine import BoolArray
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
@@ -23,6 +23,7 @@ _FLIPS: dict[str, tuple[int, ...]] = {
     "TRI6": _polygon_flip(6),
     "QUA4": _polygon_flip(4),
     "QUA8": _polygon_flip(8),
+    **{name: _polygon_flip(n) for name, n in POLYGON_SIDES.items()},
     "TET4": (0, 2, 1, 3),
     "TE10": (*_polygon_flip(6), 6, 8, 7, 9),
     "PYR5": (0, 3, 2, 1, 4),

@@ -6,12 +6,14 @@ import numpy as np
 
 from ssilang.kernel.errors import MeshError
 from ssilang.kernel.mesh.boundary import chained, in_one_sense
+from ssilang.kernel.mesh.cells import POLYGON_SIDES
 from ssilang.kernel.mesh.charts import Chart
 from ssilang.kernel.mesh.degree import quadratic
 from ssilang.kernel.mesh.fill import SizeField, boundary_sizes, fill_contour, sides_of, smooth
 from ssilang.kernel.mesh.grid import grid_surface
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+from ssilang.kernel.mesh.polygons import join_triangles
 from ssilang.kernel.mesh.recombine import pair_triangles, squareness
 
 
@@ -68,13 +70,18 @@ def fill_surface(
     chart : Chart
         Lays the surface flat; the outer contour turns anticlockwise in it.
     surface : str
-        'TRI3', 'TRI6', 'QUA4' or 'QUA8'; the quadrangular ones leave some triangles. A contour
-        of SEG3 gives quadratic cells, one of SEG2 linear cells in any case.
+        'TRI3', 'TRI6', 'QUA4', 'QUA8' or 'POLY'; quadrangles and polygons leave some
+        triangles. A contour of SEG3 gives quadratic cells, one of SEG2 linear cells in any case.
     sizes : (array (m, 3), array (m,)) or None
         Positions and wanted sizes there; None takes the lengths of the contour's sides.
     """
     nodes = contour.nodes
     cells = contour_cells(contour)
+    if surface == "POLY" and cells.shape[1] > 2:
+        raise MeshError(
+            "polygons have straight sides, the contour is of SEG3",
+            "CHAN 'LINEAIRE' makes it straight",
+        )
     if surface.startswith("QUA") and sizes is None:
         regular = _as_grid(contour, chart, colour)
         if regular is not None:
@@ -92,7 +99,11 @@ def fill_surface(
     squares = surface.startswith("QUA")
     points, triangles = fill_contour(flat, segments, SizeField(at, wanted), squares)
     points = smooth(points, sides_of(triangles), len(flat))
-    polygons = [triangles]
+    if surface == "POLY":
+        polygons = [*join_triangles(points, triangles, len(flat)).values()]
+        points, polygons = _without_unused(points, polygons, len(flat))
+    else:
+        polygons = [triangles]
     if squares:
         quads, rest = pair_triangles(points, triangles)
         polygons = [quads, rest]
@@ -102,7 +113,7 @@ def fill_surface(
     made = nodes.add(chart.lift(new), _sizes_at(points, polygons, len(flat)))
     table = np.concatenate([ids, made])
     tables = [_from_smallest(table[p]) for p in polygons if len(p)]
-    names = {3: "TRI3", 4: "QUA4"}
+    names = {3: "TRI3", 4: "QUA4"} | {n: name for name, n in POLYGON_SIDES.items()}
     blocks = tuple(CellBlock.make(nodes, names[t.shape[1]], t, colour) for t in tables)
     mesh = Mesh(nodes, blocks)
     if cells.shape[1] == 3:
@@ -111,6 +122,18 @@ def fill_surface(
         fresh = nodes.coordinates[before:]
         fresh[:] = chart.lift(chart.flatten(fresh.copy()))
     return Mesh(nodes, mesh.blocks, (contour,))
+
+
+def _without_unused(
+    points: FloatArray, polygons: list[IntArray], fixed: int
+) -> tuple[FloatArray, list[IntArray]]:
+    """The points that polygons use, the first `fixed` in any case, and the polygons on them."""
+    kept = np.zeros(len(points), dtype=bool)
+    kept[:fixed] = True
+    for table in polygons:
+        kept[table] = True
+    fresh = np.cumsum(kept) - 1
+    return points[kept], [fresh[table] for table in polygons]
 
 
 def _from_smallest(polygons: IntArray) -> IntArray:

@@ -87,12 +87,13 @@ def _curved_chart(call: Call, word: str, boundary: FloatArray) -> Chart:
     full_name="SURFACE",
     help=Help(
         en="Mesh inside closed lines (holes run the other way): in their plane (the default), on a "
-        "sphere, cylinder, cone or torus. OPTI ELEM decides between triangles and quadrangles with "
-        "some triangles. A nodal field of one component gives the mesh sizes to respect. "
-        + _POLYNOMIAL_EN,
+        "sphere, cylinder, cone or torus. OPTI ELEM decides between triangles, quadrangles with "
+        "some triangles, and (POLY) polygons with some triangles. A nodal "
+        "field of one component gives the mesh sizes to respect. " + _POLYNOMIAL_EN,
         fr="Maillage intérieur à des lignes fermées (les trous tournent en sens inverse) : dans "
         "leur plan (par défaut), sur une sphère, un cylindre, un cône ou un tore. OPTI ELEM "
-        "choisit triangles, ou quadrangles avec quelques triangles. Un champ par points à une "
+        "choisit triangles, quadrangles avec quelques triangles, ou (POLY) polygones avec quelques "
+        "triangles. Un champ par points à une "
         "composante donne les tailles de maille à respecter. " + _POLYNOMIAL_FR,
         syntax="SURF1 = SURF (CHPO1) LIG1 'PLANE' (CRIT) | 'SPHE' CENTR1 | 'CYLI' AXE1 AXE2 | "
         "'CONI' SOMM1 AXE1 | 'TORI' CENTR1 AXE1 CENTR2 ;\n" + _POLYNOMIAL_SYNTAX.format("SURF"),

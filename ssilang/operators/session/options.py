@@ -106,7 +106,7 @@ def _dime(call: Call, word: str) -> None:
 
 @reader("ELEM")
 def _elem(call: Call, word: str) -> None:
-    workspace(call.session).element = _one_of(call, "ELEM", tuple(CELL_TYPES))
+    workspace(call.session).element = _one_of(call, "ELEM", (*CELL_TYPES, "POLY"))
 
 
 @reader("DENS")
