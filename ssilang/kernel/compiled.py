@@ -21,19 +21,23 @@ import numba
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
-CALLING = ("joints", "dynamics", "solvers")  # packages whose compiled functions call one another
+# packages whose compiled functions call one another
+CALLING = ("joints", "dynamics", "solvers", "modal")
 KEPT_SECONDS = 30 * 86400.0  # code of older states of the kernel is removed after this
+
+# no entry for C, that nothing uses: it takes time to compile
+_OPTIONS: dict[str, Any] = {"cache": True, "error_model": "numpy", "no_cfunc_wrapper": True}
 
 
 def compiled(function: Function) -> Function:
     """Compile with numba (no Python objects, result kept on disk for the next start)."""
-    return cast(Function, numba.njit(cache=True, error_model="numpy")(function))
+    return cast(Function, numba.njit(**_OPTIONS)(function))
 
 
 def compiled_fast(function: Function) -> Function:
     """As `compiled`, sums in any order (vectors); NaN and infinity keep their meaning."""
     freedom = {"reassoc", "contract", "nsz", "arcp"}
-    return cast(Function, numba.njit(cache=True, error_model="numpy", fastmath=freedom)(function))
+    return cast(Function, numba.njit(fastmath=freedom, **_OPTIONS)(function))
 
 
 def is_compiled(package: str) -> bool:

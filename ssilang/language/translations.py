@@ -12,6 +12,67 @@ import re
 from functools import lru_cache
 
 TEMPLATES: tuple[tuple[str, str], ...] = (
+    # ---- time stepping on modes and its links, recombination
+    ("link {} has no positive stiffness", "la liaison {} n'a pas de raideur positive"),
+    (
+        "the law of link {} wants two points or more, abscissas growing",
+        "la loi de la liaison {} veut deux points ou plus, abscisses croissantes",
+    ),
+    (
+        "the law of link {} is not elastic, then plastic with hardening",
+        "la loi de la liaison {} n'est pas élastique, puis plastique avec écrouissage",
+    ),
+    (
+        "its first line is the steepest; those behind it do not descend",
+        "son premier segment est le plus raide ; les suivants ne descendent pas",
+    ),
+    ("the run diverges", "le calcul diverge"),
+    (
+        "shorten the step: the links are stiffer than it can follow",
+        "raccourcir le pas : les liaisons sont trop raides pour lui",
+    ),
+    ("the mass of the modes is singular", "la masse des modes est singulière"),
+    (
+        "each mode and static shape needs a mass",
+        "chaque mode et chaque déformée statique a besoin d'une masse",
+    ),
+    (
+        "the step {} s is too long for {}: {} s at most",
+        "le pas de {} s est trop long pour {} : {} s au plus",
+    ),
+    (
+        "shorten the step, or leave out the highest modes",
+        "raccourcir le pas, ou se passer des modes les plus hauts",
+    ),
+    (
+        "the step and the numbers of steps must be positive",
+        "le pas et les nombres de pas doivent être positifs",
+    ),
+    ("which scheme steps in time?", "quel schéma avance en temps ?"),
+    (
+        "DYNE wants a table BASE_MODALE or RAIDEUR_ET_MASSE",
+        "DYNE veut une table BASE_MODALE ou RAIDEUR_ET_MASSE",
+    ),
+    ("DYNE knows no table '{}'", "DYNE ne connaît pas la table '{}'"),
+    ("links '{}' are not built", "les liaisons '{}' ne sont pas programmées"),
+    ("the link has no '{}'", "la liaison n'a pas de '{}'"),
+    ("'{}' of a link is a number", "'{}' d'une liaison est un nombre"),
+    ("'{}' of a link is a point", "'{}' d'une liaison est un point"),
+    ("'{}' of a link has no length", "'{}' d'une liaison est de longueur nulle"),
+    (
+        "links of base B need the shapes: give the table 'BASE_MODALE'",
+        "les liaisons en base B veulent les déformées : donner la table 'BASE_MODALE'",
+    ),
+    ("the point marks no mode of the basis", "le point ne repère aucun mode de la base"),
+    (
+        "the matrices of DYNE are on ALFA and BETA: project them with PJBA",
+        "les matrices de DYNE portent sur ALFA et BETA : les projeter par PJBA",
+    ),
+    ("the results go from {} to {} s", "les résultats vont de {} à {} s"),
+    (
+        "a load counts by pseudo-modes: the basis has no 'PSEUDO_MODES'",
+        "un chargement compte par des pseudo-modes : la base n'a pas de 'PSEUDO_MODES'",
+    ),
     (
         "{} elements have no shear strain of their own",
         "les éléments {} n'ont pas de distorsion propre",

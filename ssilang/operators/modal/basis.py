@@ -1,4 +1,4 @@
-"""PJBA RECO PSMO IDLI: projection on modes and static shapes, recombination, pseudo-modes."""
+"""PJBA PSMO IDLI: projection on modes and static shapes, pseudo-modes."""
 
 from __future__ import annotations
 
@@ -15,7 +15,6 @@ from ssilang.kernel.matrices.parts import together
 from ssilang.kernel.mesh.mesh import Point
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.modal.basis import (
-    combined,
     projected_matrix,
     projected_relations,
     static_complement,
@@ -52,13 +51,18 @@ def shapes_of(call: Call, *tables: Table) -> list[Shape]:
 
 
 def shapes_in(table: Table) -> list[Shape]:
-    """Shapes of one table, in order of number; none if it holds none."""
+    """Shapes of one table, in order of number; none if it holds none.
+
+    A table ENSEMBLE_DE_BASES gives those of its bases, one after the other.
+    """
     inner = table.get("MODES")
     if isinstance(inner, Table):
         return shapes_in(inner)
-    found = []
+    found: list[Shape] = []
     entries = [(i, e) for i, e in table.items() if isinstance(i, int) and isinstance(e, Table)]
     for _, entry in sorted(entries, key=lambda pair: pair[0]):
+        if table.subtype == "ENSEMBLE_DE_BASES":
+            found += shapes_in(entry)
         for index, unknown in (("DEFORMEE_MODALE", "ALFA"), ("DEFORMEE", "BETA")):
             field, mark = entry.get(index), entry.get("POINT_REPERE")
             if isinstance(field, NodeField) and isinstance(mark, Point):
@@ -83,9 +87,22 @@ def _at_marks(table: NodeTable, shapes: list[Shape], values: list[float], dual: 
 # --- projection ------------------------------------------------------------------------------
 
 
+def read_basis(call: Call) -> list[Shape]:
+    """Shapes of the tables that stand in a call, or of a model with its parameters."""
+    model = call.read("MMODEL")
+    if model is None:
+        return shapes_of(call, *call.all("TABLE"))
+    material = joined((call.required("MCHAML"), *call.all("MCHAML")))
+    points = shape_points(model.value.zones, material)
+    if not points:
+        raise call.bad("the model has no zone MODAL or STATIQUE", model.value)
+    nodes = workspace(call.session).nodes
+    return [Shape(p.field, Point(nodes, p.node), p.unknown, Table()) for p in points]
+
+
 def _pjba(call: Call) -> Any:
     thing = call.required("CHPOINT", "CHARGEME", "LISTCHPO", "RIGIDITE")
-    shapes = _basis(call)
+    shapes = read_basis(call)
     if isinstance(thing, ListChpo):
         return _project_list(call, thing, shapes)
     if isinstance(thing, Load):
@@ -99,19 +116,6 @@ def _pjba(call: Call) -> Any:
     if not thing.blocks:
         return projected_relations(thing, fields, marks, unknowns)
     return projected_matrix(thing, fields, marks, unknowns, duals)
-
-
-def _basis(call: Call) -> list[Shape]:
-    """Shapes of tables, or of a model with its parameters."""
-    model = call.read("MMODEL")
-    if model is None:
-        return shapes_of(call, *call.all("TABLE"))
-    material = joined((call.required("MCHAML"), *call.all("MCHAML")))
-    points = shape_points(model.value.zones, material)
-    if not points:
-        raise call.bad("the model has no zone MODAL or STATIQUE", model.value)
-    nodes = workspace(call.session).nodes
-    return [Shape(p.field, Point(nodes, p.node), p.unknown, Table()) for p in points]
 
 
 def _forces(call: Call, force: object, shapes: list[Shape]) -> NodeField:
@@ -153,48 +157,6 @@ operator(
     ),
     reads_itself=True,
 )(_pjba)
-
-
-# --- recombination ---------------------------------------------------------------------------
-
-
-def _reco(call: Call) -> Any:
-    thing = call.required("CHPOINT", "LISTCHPO")
-    shapes = _basis(call)
-    number = call.optional("ENTIER", default=len(shapes))
-    if number < 1:
-        raise call.bad(f"at least one mode is recombined, not {number}", number)
-    shapes = shapes[:number]
-    call.keyword(("DEPL", "VITE", "ACCE"))
-    if isinstance(thing, ListChpo):
-        return ListChpo([recombined(f, shapes) for f in thing.values])
-    return recombined(thing, shapes)
-
-
-def recombined(weights: Any, shapes: list[Shape]) -> NodeField:
-    """Sum of shapes times the values ALFA and BETA of a field at their marks."""
-    factors = [float(weights.values_at(s.unknown, np.array([s.mark.node]))[0]) for s in shapes]
-    return combined(factors, [s.field for s in shapes])
-
-
-operator(
-    "RECO",
-    family="modal",
-    help=Help(
-        "Field u = sum of the shapes of a basis times the contributions ALFA (and BETA) that a "
-        "field holds at the points that mark them.",
-        "Champ u = somme des déformées d'une base multipliées par les contributions ALFA (et BETA) "
-        "que porte un champ à leurs points repères.",
-        "CHPO2 = RECO CHPO1 TAB1 (TAB2 ...) | MODL1 MAT1 ;\nLCHP2 = RECO LCHP1 TAB1 (N1) ;",
-        (
-            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = APPU 'UX' 400. P1 ;"
-            " T1 = VIBR 'SIMU' 1. 1 K1 (MASS 'UX' 4. P1) ;"
-            " Q1 = MANU 'CHPO' (T1 . 'MODES' . 1 . 'POINT_REPERE') 1 'ALFA' 3. ;"
-            " LIST (RECO Q1 T1) ;",
-        ),
-    ),
-    reads_itself=True,
-)(_reco)
 
 
 # --- pseudo-modes ----------------------------------------------------------------------------

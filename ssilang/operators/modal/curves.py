@@ -12,10 +12,11 @@ from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.modal.basis import work
 from ssilang.kernel.statics.linear import product
 from ssilang.language.call import Call
-from ssilang.language.values import ListEnti, Table
+from ssilang.language.values import ListChpo, ListEnti, ListReel, Table
 from ssilang.operators.curves.making import KINDS, history, names_in_time, nodes_named
 from ssilang.operators.dispatch import extend_help
-from ssilang.operators.modal.basis import Shape, shapes_of
+from ssilang.operators.modal.basis import Shape, read_basis, shapes_of
+from ssilang.operators.modal.recombination import modal_history, pseudo_shapes
 from ssilang.operators.workspace import workspace
 
 _MODE = (
@@ -44,6 +45,9 @@ def contributions(fields: list[Any], shapes: list[Shape]) -> FloatArray:
 
 
 def _recombined(call: Call, colours: list[int]) -> Curve:
+    first = next((o.value for o in call.operands if isinstance(o.value, ListChpo | Table)), None)
+    if isinstance(first, Table):
+        return _recombined_results(call, colours)
     fields, times, _ = history(call)
     steps = call.read("LISTENTI")
     shapes = _basis(call)
@@ -60,13 +64,107 @@ def _recombined(call: Call, colours: list[int]) -> Curve:
     names = names or names_in_time(call, known)
     if not names:
         raise call.missing(("MOT",))
-    weights = contributions(fields, shapes)
+    places_of = [(name, node) for name in names for node in nodes_named(support.value)]
+    return _curves(call, times, contributions(fields, shapes), known, places_of, colours)
+
+
+def _curves(
+    call: Call,
+    times: FloatArray,
+    weights: FloatArray,
+    shapes: list[NodeField],
+    places: list[tuple[str, int]],
+    colours: list[int],
+) -> Curve:
+    """Curves of components at nodes: weights (m, n) times the n shapes there."""
     parts: list[CurvePart] = []
-    for name in names:
-        for node in nodes_named(support.value):
-            shape = np.asarray([float(f.values_at(name, np.array([node]))[0]) for f in known])
-            colour = colours[len(parts) % len(colours)]
-            parts.append(CurvePart(times, weights @ shape, "TEMP", name, name, colour))
+    for name, node in places:
+        shape = np.asarray([float(f.values_at(name, np.array([node]))[0]) for f in shapes])
+        colour = colours[len(parts) % len(colours)]
+        parts.append(CurvePart(times, weights @ shape, "TEMP", name, name, colour))
+    return Curve(tuple(parts), workspace(call.session).title)
+
+
+def _recombined_results(call: Call, colours: list[int]) -> Curve:
+    """Of results of DYNE or PASAPAS, pseudo-modes that a load drives included."""
+    results: Table = call.required("TABLE")
+    basis = next((o.value for o in call.operands if isinstance(o.value, Table)), None)
+    shapes = read_basis(call)
+    load = call.optional("CHARGEME")
+    quantity = call.keyword(("DEPL", "VITE", "ACCE")) or "DEPL"
+    fields, times = modal_history(call, results, quantity)
+    weights = contributions(fields, shapes)
+    known = [s.field for s in shapes]
+    if load is not None and quantity == "DEPL":
+        if basis is None:
+            raise call.bad("pseudo-modes want a table of the basis", load)
+        pseudo = pseudo_shapes(call, basis, load)
+        weights = np.column_stack([weights, *(p.at(times) for p in pseudo)])
+        known += [p.field for p in pseudo]
+    places = _places_asked(call, known)
+    at = call.read("LISTREEL")
+    if at is not None:
+        weights, times = _at(call, at.value, times, weights), np.asarray(at.value.values)
+    return _curves(call, times, weights, known, places, colours)
+
+
+def _places_asked(call: Call, fields: list[NodeField]) -> list[tuple[str, int]]:
+    """Components and nodes: of a field CHPO1, or components of points."""
+    chosen = call.read("CHPOINT")
+    if chosen is not None:
+        parts = chosen.value.components.items()
+        return [(name, int(n)) for name, part in parts for n in part.nodes]
+    support = call.read("POINT", "MAILLAGE")
+    if support is None:
+        raise call.missing(("POINT", "MAILLAGE", "CHPOINT"))
+    names = names_in_time(call, fields)
+    if not names:
+        raise call.missing(("MOT",))
+    return [(name, node) for name in names for node in nodes_named(support.value)]
+
+
+def _at(call: Call, asked: ListReel, times: FloatArray, weights: FloatArray) -> FloatArray:
+    """Weights at asked instants, linear between the saved ones."""
+    wanted = asked.values
+    span = 1e-9 * max(float(times[-1] - times[0]), 1e-300)
+    if len(wanted) and not (times[0] - span <= wanted.min() and wanted.max() <= times[-1] + span):
+        raise call.bad(f"the results go from {times[0]:.6g} to {times[-1]:.6g} s", asked)
+    return np.stack([np.interp(wanted, times, w) for w in weights.T], axis=1)
+
+
+_SOLU = {"DEPL": "DEPLACEMENT", "VITE": "VITESSE", "ACCE": "ACCELERATION"}
+
+
+def _of_contributions(call: Call, colours: list[int]) -> Curve:
+    """EVOL 'SOLU': contributions in time of results of DYNE."""
+    results: Table = call.required("TABLE")
+    words = (*_SOLU, "TRAVAIL_INTERIEUR", "TRAVAIL_EXTERIEUR")
+    word = call.keyword(words, length=9)
+    if word is None:
+        raise call.bad("which contributions?", hint=" ".join(f"'{w}'" for w in words))
+    fields, times = modal_history(call, results, _SOLU.get(word, word))
+    other = call.read("TABLE")
+    if other is not None:
+        shapes = shapes_of(call, other.value)
+        call.keyword(("ALFA",))
+        places = [(s.unknown, s.mark.node) for s in shapes]
+    else:
+        places = _places_asked(call, fields[:1])
+    nodes = np.array([n for _, n in places])
+    names = [c for c, _ in places]
+    weights = np.array(
+        [
+            [float(f.values_at(c, np.array([n]))[0]) for c, n in zip(names, nodes, strict=True)]
+            for f in fields
+        ]
+    )
+    at = call.read("LISTREEL")
+    if at is not None:
+        weights, times = _at(call, at.value, times, weights), np.asarray(at.value.values)
+    parts = [
+        CurvePart(times, weights[:, i], "TEMP", c, c, colours[i % len(colours)])
+        for i, c in enumerate(names)
+    ]
     return Curve(tuple(parts), workspace(call.session).title)
 
 
@@ -119,16 +217,25 @@ def _lists_before_table(call: Call) -> bool:
 
 KINDS["RECO"] = _recombined
 KINDS["PJBA"] = _projected
+KINDS["SOLU"] = _of_contributions
 extend_help(
     "EVOL",
     "EVOL1 = EVOL (COUL) 'RECO' LCHP1 LREE1 TBAS1 (N1) COMP | LCOMP GEO1 ;\n"
+    "EVOL1 = EVOL (COUL) 'RECO' TDYNE | TPASA TBAS1 | MODL1 MAT1 (CHAR1) 'DEPL' | 'VITE' | 'ACCE' "
+    "GEO1 COMP | CHPO1 (LREE1) ;\n"
+    "EVOL1 = EVOL (COUL) 'SOLU' TDYNE 'DEPL' | 'VITE' | 'ACCE' | 'TRAVAIL_INTERIEUR' | "
+    "'TRAVAIL_EXTERIEUR' GEO1 COMP | CHPO1 | TBAS1 'ALFA' (LREE1) ;\n"
     "EVOL1 = EVOL (COUL) 'PJBA' LCHP1 LREE1 | TAB1 (MOT1) (LENT1) TBAS1 (N1 | LENT2) (RIG1) ;",
-    "RECO gives components at points from modal contributions in time; PJBA the projections of "
-    "fields in time on the shapes of a basis.",
-    "RECO donne des composantes en des points à partir de contributions modales en temps ; PJBA "
-    "les projections de champs en temps sur les déformées d'une base.",
+    "RECO gives components at points from modal contributions in time (of DYNE with a load: with "
+    "the pseudo-modes that it drives); SOLU the contributions of DYNE themselves; PJBA the "
+    "projections of fields in time on the shapes of a basis.",
+    "RECO donne des composantes en des points à partir de contributions modales en temps (de DYNE "
+    "avec un chargement : avec les pseudo-modes qu'il excite) ; SOLU les contributions de DYNE ; "
+    "PJBA les projections de champs en temps sur les déformées d'une base.",
     (
         _MODE + "LIST (EVOL 'RECO' (SUIT Q1 (Q1 * 2.)) (PROG 0. 1.) T1 'UX' P1) ;",
+        _MODE + "TI = TABL 'INITIAL' ; TI . 'VITESSE' = Q1 ; R = DYNE 'DE_VOGELAERE' T1 TI 4 0.1 ; "
+        "LIST ((EVOL 'RECO' R T1 'DEPL' P1 'UX') ET (EVOL 'SOLU' R 'VITE' T1 'ALFA')) ;",
         _MODE + "U = RECO Q1 T1 ; LIST (EVOL 'PJBA' (SUIT U (U * 2.)) (PROG 0. 1.) T1) ;",
     ),
 )

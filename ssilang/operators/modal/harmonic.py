@@ -11,8 +11,9 @@ from ssilang.kernel.modal.complex_modes import ComplexMode, conjugate_modes
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
 from ssilang.language.values import Table
-from ssilang.operators.modal.basis import Shape, recombined, shapes_of
+from ssilang.operators.modal.basis import Shape, shapes_of
 from ssilang.operators.modal.modes import matrices_by_kind, modal_table
+from ssilang.operators.modal.recombination import recombined
 
 _KINDS = {"RIGI": "RAIDEUR", "MASS": "MASSE", "AMOR": "AMORTISSEMENT"}
 

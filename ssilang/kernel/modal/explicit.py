@@ -1,0 +1,134 @@
+"""Time stepping on modes with links: De Vogelaere, central differences, Newmark on the modes.
+
+`M a + C v + K q = f(t) + links(q, v, t)`. The velocity that links see is the change of the
+displacement since the last evaluation, as contact laws of this kind are defined.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ssilang.kernel.errors import KernelError
+from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.modal.links import RECORDS, STATES, LinkArrays
+
+SCHEMES = ("DE_VOGELAERE", "DIFFERENCES_CENTREES", "ACCELERATION_MOYENNE", "FOX_GOODWIN")
+BETA = {"DIFFERENCES_CENTREES": 0.0, "ACCELERATION_MOYENNE": 0.25, "FOX_GOODWIN": 1.0 / 12.0}
+VARIABLES = ("DEPLACEMENT", "VITESSE", "DEPLACEMENT_1/2", "VITESSE_1/2", "ACCELERATION",
+             "ACCELERATION_1/2", "TRAVAIL_EXTERIEUR", "TRAVAIL_INTERIEUR")  # fmt: skip
+"""Rows of each saved step."""
+
+
+@dataclass(frozen=True, eq=False)
+class ModalState:
+    """Where a run stands: q, v, acceleration and displacement of the half step before, links."""
+
+    time: float
+    q: FloatArray
+    v: FloatArray
+    before: FloatArray | None
+    q_before: FloatArray | None
+    links: FloatArray | None
+
+
+@dataclass(frozen=True, eq=False)
+class ModalRun:
+    """What a run gives: times (m,), values (m, 8, n), links (m, L, RECORDS), the last state."""
+
+    times: FloatArray
+    values: FloatArray
+    links: FloatArray
+    last: ModalState
+
+
+def march(
+    M: FloatArray,
+    C: FloatArray,
+    K: FloatArray,
+    spaces: FloatArray,
+    amplitudes: FloatArray,
+    links: LinkArrays,
+    start: ModalState,
+    h: float,
+    steps: int,
+    every: int,
+    scheme: str,
+) -> ModalRun:
+    """Step through time.
+
+    Parameters
+    ----------
+    M, C, K : arrays (n, n)
+    spaces, amplitudes : arrays (p, n) and (p, 2 steps + 1)
+        Forces and their values at each half step.
+    h, steps, every : step (s), number of steps, steps from one saved to the next
+    scheme : str
+        One of SCHEMES.
+
+    Raises
+    ------
+    KernelError
+        For a singular mass, a step too long for the scheme, or a run that diverges.
+    """
+    from ssilang.kernel.modal.explicit_loops import de_vogelaere, newmark
+
+    if h <= 0.0 or steps < 1 or every < 1:
+        raise KernelError("the step and the numbers of steps must be positive")
+    _check_mass(M)
+    _check_step(M, K, h, scheme)
+    n = len(M)
+    saved = steps // every + 1
+    values = np.zeros((saved, len(VARIABLES), n))
+    records = np.zeros((saved, len(links.kinds), RECORDS))
+    state = np.zeros((len(links.kinds), STATES)) if start.links is None else start.links.copy()
+    has_before = start.before is not None
+    before = np.zeros(n) if start.before is None else start.before.copy()
+    q_before = np.zeros(n) if start.q_before is None else start.q_before.copy()
+    q, v = start.q.copy(), start.v.copy()
+    given = (
+        spaces, amplitudes, start.time, h, steps, every,
+        links.kinds, links.receives, links.sees, links.numbers, links.law_sizes, links.laws,
+        links.conditions, state, q, v, before, q_before, has_before, values, records,
+    )  # fmt: skip
+    if scheme == "DE_VOGELAERE":
+        full, half = _inverse(M + h / 6.0 * C), _inverse(M + 5.0 * h / 24.0 * C)
+        de_vogelaere(_inverse(M), half, full, C, K, *given)
+    else:
+        beta = BETA[scheme]
+        system = _inverse(M + 0.5 * h * C + beta * h * h * K)
+        newmark(_inverse(M), system, C, K, beta, *given)
+    if not np.isfinite(values).all():
+        raise KernelError(
+            "the run diverges", "shorten the step: the links are stiffer than it can follow"
+        )
+    times = start.time + h * every * np.arange(saved, dtype=np.float64)
+    end = ModalState(start.time + h * steps, q, v, before, q_before, state)
+    return ModalRun(times, values, records, end)
+
+
+def _inverse(A: FloatArray) -> FloatArray:
+    return np.asarray(np.linalg.inv(A), dtype=np.float64)
+
+
+def _check_mass(M: FloatArray) -> None:
+    if not np.isfinite(M).all() or np.linalg.matrix_rank(M) < len(M):
+        raise KernelError(
+            "the mass of the modes is singular", "each mode and static shape needs a mass"
+        )
+
+
+def _check_step(M: FloatArray, K: FloatArray, h: float, scheme: str) -> None:
+    """The explicit and conditionally stable schemes have a largest step."""
+    limit = {"DE_VOGELAERE": 2.0 * np.sqrt(2.0), "DIFFERENCES_CENTREES": 2.0,
+             "FOX_GOODWIN": np.sqrt(6.0)}.get(scheme)  # fmt: skip
+    if limit is None:
+        return
+    squares = np.linalg.eigvals(np.linalg.solve(M, K)).real
+    largest = float(np.sqrt(max(squares.max(initial=0.0), 0.0)))
+    if h * largest > limit:
+        raise KernelError(
+            f"the step {h:.4g} s is too long for {scheme}: {limit / largest:.4g} s at most",
+            "shorten the step, or leave out the highest modes",
+        )

@@ -1,0 +1,338 @@
+"""Tables LIAISON_ELEMENTAIRE of DYNE read as links of the kernel, and their results as tables."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from ssilang.kernel.curve import Curve
+from ssilang.kernel.mesh.mesh import Point
+from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.modal import links as law
+from ssilang.kernel.modal.links import Link
+from ssilang.language.call import Call
+from ssilang.language.values import ListReel, Mot, Table
+from ssilang.operators.modal.basis import Shape
+
+Named = tuple[str, int, FloatArray | int]
+"""Index in the results, component, rows of a point or column of the record."""
+MOVES, TURNS = ("UX", "UY", "UZ"), ("RX", "RY", "RZ")
+
+
+@dataclass(frozen=True)
+class Basis:
+    """Points that mark the unknowns, their unknowns, and their shapes where they are known."""
+
+    marks: tuple[int, ...]
+    unknowns: tuple[str, ...]
+    shapes: tuple[Shape, ...] | None
+
+    def rows(self, call: Call, point: Point, names: Sequence[str] = MOVES) -> FloatArray:
+        """Components of the motion of a point, (3, n): zero where a shape has none."""
+        if self.shapes is None:
+            raise call.bad(
+                "links of base B need the shapes: give the table 'BASE_MODALE'",
+                hint="in the table RAIDEUR_ET_MASSE, at the index 'BASE_MODALE'",
+            )
+        node = np.array([point.node])
+        rows = [[float(s.field.values_at(c, node)[0]) for s in self.shapes] for c in names]
+        return np.array(rows)
+
+    def unit(self, call: Call, point: object) -> FloatArray:
+        """Row (3, n) that picks the unknown of a mode by its point."""
+        if not isinstance(point, Point) or point.node not in self.marks:
+            raise call.bad("the point marks no mode of the basis", point)
+        rows = np.zeros((3, len(self.marks)))
+        rows[0, self.marks.index(point.node)] = 1.0
+        return rows
+
+
+@dataclass(frozen=True)
+class ReadLink:
+    """A link, its table, and the rows of the points whose motion is in the results."""
+
+    table: Table
+    link: Link
+    names: tuple[Named, ...] = field(default=())
+
+
+class LinkTable:
+    """Values of one table LIAISON_ELEMENTAIRE."""
+
+    def __init__(self, call: Call, table: Table) -> None:
+        self.call, self.table = call, table
+        self.kind = str(self.need("TYPE_LIAISON")).rstrip()
+
+    def need(self, name: str) -> object:
+        """A mandatory value."""
+        if not self.table.has(Mot(name)):
+            raise self.call.bad(f"the link has no '{name}'", self.table)
+        return self.table.get(Mot(name))
+
+    def real(self, name: str, default: float | None = None) -> float:
+        """A number."""
+        value = self.need(name) if default is None else self.table.get(Mot(name), default)
+        if isinstance(value, bool) or not isinstance(value, int | float):
+            raise self.call.bad(f"'{name}' of a link is a number", self.table)
+        return float(value)
+
+    def point(self, name: str) -> Point:
+        """A point."""
+        value = self.need(name)
+        if not isinstance(value, Point):
+            raise self.call.bad(f"'{name}' of a link is a point", self.table)
+        return value
+
+    def vector(self, name: str) -> FloatArray:
+        """Coordinates of a point, three of them."""
+        at = np.asarray(self.point(name).coordinates, dtype=float)
+        return np.concatenate([at, np.zeros(3 - len(at))])
+
+    def direction(self, name: str) -> FloatArray:
+        """Unit vector."""
+        v = self.vector(name)
+        size = float(np.linalg.norm(v))
+        if size == 0.0:
+            raise self.call.bad(f"'{name}' of a link has no length", self.table)
+        return v / size
+
+    def says(self, name: str, default: bool = False) -> bool:
+        """A logical."""
+        return bool(self.table.get(Mot(name), default))
+
+    def law(self) -> FloatArray | None:
+        """Points of 'LOI_DE_COMPORTEMENT', if there is one."""
+        curve = self.table.get(Mot("LOI_DE_COMPORTEMENT"))
+        if curve is None:
+            return None
+        if not isinstance(curve, Curve):
+            raise self.call.bad("'LOI_DE_COMPORTEMENT' of a link is an EVOLUTIO", self.table)
+        return np.stack([curve.parts[0].abscissas, curve.parts[0].ordinates], axis=1)
+
+
+def _vector(column: int, values: FloatArray) -> dict[int, float]:
+    return {column + i: float(v) for i, v in enumerate(values)}
+
+
+def _spring(t: LinkTable) -> tuple[dict[int, float], FloatArray | None]:
+    """Numbers of the normal spring: stiffness or law, damping, plastic limit, permanence."""
+    points = t.law()
+    numbers = {
+        law.STIFF: 0.0 if points is not None else t.real("RAIDEUR"),
+        law.DAMP: t.real("AMORTISSEMENT", 0.0),
+        law.PERMANENT: float(t.says("LIAISON_PERMANENTE")),
+    }
+    limit = t.real("SEUIL_PLASTIQUE", 0.0)
+    if limit > 0.0:
+        if points is not None:
+            raise t.call.bad("'SEUIL_PLASTIQUE' goes with 'RAIDEUR', not with a law", t.table)
+        points = np.array([[0.0, 0.0], [limit / numbers[law.STIFF], limit]])
+        numbers[law.PLASTIC] = 1.0
+    return numbers, points
+
+
+def _friction(t: LinkTable) -> dict[int, float]:
+    if not t.kind.endswith(("_FROTTEMENT", "_MOBILE")):
+        return {}
+    numbers = {
+        law.FRICTION: 1.0,
+        law.SLIDE: t.real("COEFFICIENT_GLISSEMENT"),
+        law.STICK: t.real("COEFFICIENT_ADHERENCE"),
+        law.TANGENT: t.real("RAIDEUR_TANGENTIELLE"),
+        law.TANGENT_DAMP: t.real("AMORTISSEMENT_TANGENTIEL"),
+    }
+    drive = t.table.get(Mot("VITESSE_ENTRAINEMENT"))
+    if isinstance(drive, Point):
+        numbers |= _vector(law.DX, t.vector("VITESSE_ENTRAINEMENT"))
+    elif drive is not None:
+        numbers[law.DX] = t.real("VITESSE_ENTRAINEMENT")
+    if numbers[law.TANGENT] < 0.0 and numbers[law.TANGENT_DAMP] <= 0.0:
+        raise t.call.bad("Oden's friction wants a positive velocity of regularisation", t.table)
+    return numbers
+
+
+def _of_point(rows: FloatArray, names: Sequence[str], tail: str = "") -> list[Named]:
+    return [(name + tail, i, rows) for i, name in enumerate(names)]
+
+
+def _push_names(t: LinkTable, rubs: bool) -> list[Named]:
+    rate: list[Named] = []
+    if t.table.has(Mot("AMORTISSEMENT")):
+        rate = [("VITESSE_NORMALE", 0, law.VN)]
+    if not rubs:
+        return [("FORCE_DE_CHOC", 0, law.FN), *rate]
+    return [
+        ("FORCE_DE_CHOC_NORMALE", 0, law.FN), ("FORCE_DE_CHOC_TANGENTIELLE", 0, law.FT),
+        ("PUISSANCE_USURE_INSTANTANEE", 0, law.WEAR), ("VITESSE_TANGENTIELLE", 0, law.VT), *rate,
+    ]  # fmt: skip
+
+
+def _plane(t: LinkTable, basis: Basis) -> ReadLink:
+    """POINT_PLAN on the basis or on a mode, with friction or without."""
+    support = t.point("SUPPORT")
+    numbers, points = _spring(t)
+    numbers |= _friction(t)
+    gap = t.real("JEU", 0.0)
+    if not t.table.has(Mot("NORMALE")):
+        rows = basis.unit(t.call, support)
+        numbers |= {law.NX: 1.0 if gap >= 0.0 else -1.0, law.GAP: abs(gap)}
+        named = [("DEPLACEMENT", 0, rows), *_push_names(t, False)]
+        return ReadLink(t.table, Link(law.PLANE, rows, rows, numbers, points), tuple(named))
+    rows = basis.rows(t.call, support)
+    numbers |= _vector(law.NX, t.direction("NORMALE")) | {law.GAP: gap}
+    named = _of_point(rows, MOVES) + _push_names(t, law.FRICTION in numbers)
+    if law.PLASTIC in numbers:
+        named.append(("DEPLACEMENT_PLASTIQUE", 0, law.PLASTIC_PART))
+    return ReadLink(t.table, Link(law.PLANE, rows, rows, numbers, points), tuple(named))
+
+
+def _two_points(t: LinkTable, basis: Basis) -> ReadLink:
+    """POINT_POINT and its variants with friction and plasticity (of displacements, rotations)."""
+    turning = "ROTATION" in t.kind
+    names = TURNS if turning else MOVES
+    a, b = (basis.rows(t.call, t.point(p), names) for p in ("POINT_A", "POINT_B"))
+    numbers, points = _spring(t)
+    numbers |= _friction(t)
+    axis = "AXE_ROTATION" if turning and t.table.has(Mot("AXE_ROTATION")) else "NORMALE"
+    numbers |= _vector(law.NX, t.direction(axis))
+    numbers[law.GAP] = 0.0 if numbers[law.PERMANENT] else t.real("JEU", 0.0)
+    plastic = t.kind.endswith("_PLASTIQUE") and not t.says("ELASTIQUE")
+    if plastic:
+        if points is None:
+            raise t.call.bad("the link has no 'LOI_DE_COMPORTEMENT'", t.table)
+        numbers[law.PLASTIC] = 1.0
+        word = str(t.table.get(Mot("ECROUISSAGE"), "ISOTROPE")).rstrip()
+        if word not in ("ISOTROPE", "CINEMATIQUE"):
+            raise t.call.bad("'ECROUISSAGE' is 'ISOTROPE' or 'CINEMATIQUE'", t.table)
+        numbers[law.KINEMATIC] = float(word == "CINEMATIQUE")
+    kind = "MOMENT" if turning else "FORCE"
+    named = _of_point(a, names, "_POINT_A") + _of_point(b, names, "_POINT_B")
+    named += [(f"{kind}_DE_CHOC_POINT_A", 0, law.FN), (f"{kind}_DE_CHOC_POINT_B", 1, law.FN)]
+    if law.FRICTION in numbers:
+        named.append(("FORCE_DE_CHOC_TANGENTIELLE", 0, law.FT))
+        named.append(("PUISSANCE_USURE_INSTANTANEE", 0, law.WEAR))
+    if plastic:
+        word = "ROTATION" if turning else "DEPLACEMENT"
+        named.append((f"{word}_PLASTIQUE", 0, law.PLASTIC_PART))
+        named.append((f"{word}_PLASTIQUE_CUMULE", 0, law.PLASTIC_SUM))
+    if t.table.has(Mot("AMORTISSEMENT")):
+        named.append(("VITESSE_ROTATION_AXIALE" if turning else "VITESSE_NORMALE", 0, law.VN))
+    return ReadLink(t.table, Link(law.PLANE, a - b, a - b, numbers, points), tuple(named))
+
+
+def _circle(t: LinkTable, basis: Basis) -> ReadLink:
+    """POINT_CERCLE, with friction, or on a circle that follows a point."""
+    moving = t.kind.endswith("_MOBILE")
+    rows = basis.rows(t.call, t.point("POINT" if moving else "SUPPORT"))
+    numbers, points = _spring(t)
+    numbers |= _friction(t) | _vector(law.NX, t.direction("NORMALE"))
+    numbers |= {law.GAP: t.real("RAYON"), law.OUTSIDE: float(not t.says("CONTACT_INTERIEUR", True))}
+    if moving:
+        rows = rows - basis.rows(t.call, t.point("CERCLE"))
+        away = t.vector("CERCLE") - t.vector("POINT")
+    else:
+        away = t.vector("EXCENTRATION")
+    axis = t.direction("NORMALE")
+    numbers |= _vector(law.EX, away - (away @ axis) * axis)
+    named = _of_point(rows, MOVES) + _push_names(t, law.FRICTION in numbers)
+    return ReadLink(t.table, Link(law.CIRCLE, rows, rows, numbers, points), tuple(named))
+
+
+def _coupling(t: LinkTable, basis: Basis) -> ReadLink:
+    """COUPLAGE_DEPLACEMENT and COUPLAGE_VITESSE: a force on a mode from the motion of another."""
+    to, of = (basis.unit(t.call, t.need(p)) for p in ("SUPPORT", "ORIGINE"))
+    numbers = {law.FACTOR: t.real("COEFFICIENT"), law.EXPONENT: t.real("EXPOSANT", 1.0)}
+    named: list[Named] = [("DEPLACEMENT", 0, of)]
+    if t.kind.endswith("_VITESSE"):
+        named += [("VITESSE", 0, law.VN), ("FORCE_DE_COUPLAGE_VITESSE", 0, law.FN)]
+        return ReadLink(t.table, Link(law.VELOCITY, to, of, numbers), tuple(named))
+    if t.table.has(Mot("FONCTION_CONVOLUTION")):
+        raise t.call.bad("couplings by convolution are not built", t.table)
+    kind = law.POWER
+    named.append(("FORCE_DE_COUPLAGE_DEPLACEMENT", 0, law.FN))
+    if t.table.has(Mot("FONCTION")):
+        word = str(t.need("FONCTION")).rstrip()
+        if word not in ("COS", "SIN"):
+            raise t.call.bad("'FONCTION' of a coupling is 'COS' or 'SIN'", t.table)
+        timed = t.table.has(Mot("FREQUENCE"))
+        numbers[law.FREQUENCY] = t.real("FREQUENCE", 0.0)
+        kind = {
+            ("COS", False): law.COSINE, ("SIN", False): law.SINE,
+            ("COS", True): law.COSINE_OF_TIME, ("SIN", True): law.SINE_OF_TIME,
+        }[word, timed]  # fmt: skip
+    return ReadLink(t.table, Link(kind, to, of, numbers), tuple(named))
+
+
+_READERS = {
+    "POINT_PLAN": _plane,
+    "POINT_PLAN_FROTTEMENT": _plane,
+    "POINT_POINT": _two_points,
+    "POINT_POINT_FROTTEMENT": _two_points,
+    "POINT_POINT_DEPLACEMENT_PLASTIQUE": _two_points,
+    "POINT_POINT_ROTATION_PLASTIQUE": _two_points,
+    "POINT_CERCLE": _circle,
+    "POINT_CERCLE_FROTTEMENT": _circle,
+    "POINT_CERCLE_MOBILE": _circle,
+    "COUPLAGE_DEPLACEMENT": _coupling,
+    "COUPLAGE_VITESSE": _coupling,
+}
+
+
+def links_of(call: Call, table: Table | None, basis: Basis) -> list[ReadLink]:
+    """Links of a table 'LIAISON' (LIAISON_A, LIAISON_B), conditions on one another included."""
+    found: list[ReadLink] = []
+    for name in ("LIAISON_A", "LIAISON_B"):
+        inner = None if table is None else table.get(Mot(name))
+        if isinstance(inner, Table):
+            found += _with_conditions([_read(call, e, basis) for e in _numbered(inner)], len(found))
+    return found
+
+
+def _numbered(table: Table) -> list[Table]:
+    entries = [(i, e) for i, e in table.items() if type(i) is int and isinstance(e, Table)]
+    return [e for _, e in sorted(entries, key=lambda pair: pair[0])]
+
+
+def _read(call: Call, table: Table, basis: Basis) -> ReadLink:
+    values = LinkTable(call, table)
+    if values.kind not in _READERS:
+        raise call.bad(
+            f"links '{values.kind}' are not built", table, hint="built: " + " ".join(_READERS)
+        )
+    return _READERS[values.kind](values, basis)
+
+
+def _with_conditions(read: list[ReadLink], first: int) -> list[ReadLink]:
+    """Each link with the numbers of those that its table names with VRAI or FAUX."""
+    numbers = {id(r.table): first + i for i, r in enumerate(read)}
+    out = []
+    for r in read:
+        named = {
+            numbers[id(i)]: v for i, v in r.table.items() if id(i) in numbers and type(v) is bool
+        }
+        out.append(replace(r, link=replace(r.link, conditions=named)))
+    return out
+
+
+def link_results(
+    read: ReadLink, place: int, values: FloatArray, records: FloatArray, wanted: object
+) -> Table:
+    """Table of lists in time of a link: displacements (m, n) and records (m, L, RECORDS)."""
+    table = Table()
+    for name, component, source in read.names:
+        if isinstance(wanted, Table) and not wanted.get(Mot(name), False):
+            continue
+        if isinstance(source, int):
+            numbers = _recorded(records[:, place], source, component)
+        else:
+            numbers = values @ source[component]
+        table.set(Mot(name), ListReel(numbers))
+    return table
+
+
+def _recorded(record: FloatArray, column: int, component: int) -> FloatArray:
+    if column == law.FT:
+        return np.asarray(np.linalg.norm(record[:, law.FT : law.FT + 3], axis=1))
+    return -record[:, column] if component == 1 else record[:, column]

@@ -1,0 +1,242 @@
+"""RECO: fields on the body from the contributions of modes and static shapes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ssilang.kernel.curve import Load
+from ssilang.kernel.dynamics.loading import terms_of
+from ssilang.kernel.fields import cell_algebra, node_algebra
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.fields.node_field import NodeField, NodeValues
+from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.modal.basis import combined
+from ssilang.language.call import Call
+from ssilang.language.registry import Help, operator
+from ssilang.language.values import ListChpo, ListReel, Mot, Table
+from ssilang.operators.curves.making import results_in_time
+from ssilang.operators.modal.basis import Shape, read_basis, shapes_in
+
+QUANTITIES = ("DEPL", "VITE", "ACCE", "CONT")
+_INDEX = {"DEPL": "DEPLACEMENT", "VITE": "VITESSE", "ACCE": "ACCELERATION", "CONT": "DEPLACEMENT"}
+_AXES = ("UX", "UY", "UZ")
+
+
+@dataclass(frozen=True, eq=False)
+class PseudoShape:
+    """A pseudo-mode and its amplitude in time: what neglected modes answer to a load at once."""
+
+    entry: Table
+    curves: tuple[tuple[float, FloatArray, FloatArray], ...]
+    """Factors of curves (abscissas, ordinates), linear between points."""
+
+    @property
+    def field(self) -> NodeField:
+        """Its displacement."""
+        value = self.entry.get(Mot("DEPLACEMENT"))
+        assert isinstance(value, NodeField)
+        return value
+
+    def at(self, times: FloatArray) -> FloatArray:
+        """Amplitudes (m,) at times."""
+        total = np.zeros(len(times))
+        for factor, x, y in self.curves:
+            total += factor * np.interp(times, x, y)
+        return total
+
+
+def pseudo_shapes(call: Call, basis: Table, load: Load) -> list[PseudoShape]:
+    """Pseudo-modes of a basis ('PSEUDO_MODES') that parts of a load drive.
+
+    A part drives the pseudo-mode whose force (or projected force) is proportional to it.
+    """
+    table = basis.get(Mot("PSEUDO_MODES"))
+    if not isinstance(table, Table):
+        raise call.bad("a load counts by pseudo-modes: the basis has no 'PSEUDO_MODES'", basis)
+    found = []
+    for index, entry in table.items():
+        if type(index) is not int or not isinstance(entry, Table):
+            continue
+        references = _references(entry, shapes_in(basis))
+        curves = []
+        for part in load.parts:
+            for field, (x, y) in terms_of(part):
+                factor = next((f for r in references if (f := ratio(field, r)) is not None), None)
+                if factor is not None:
+                    curves.append((factor, x, y))
+        if curves:
+            found.append(PseudoShape(entry, tuple(curves)))
+    return found
+
+
+def _references(entry: Table, shapes: list[Shape]) -> list[NodeField]:
+    """Loads of one unit of a pseudo-mode: forces on the body, forces on the modes."""
+    given = [entry.get(Mot(name)) for name in ("CHAMP_BASE_B", "CHAMP_BASE_A")]
+    found = [f for f in given if isinstance(f, NodeField)]
+    direction = entry.get(Mot("DIRECTION"))
+    if isinstance(direction, int):
+        values = {}
+        for s in shapes:
+            along = s.entry.get(Mot("DEPLACEMENTS_GENERALISES"))
+            number = along.get(direction) if isinstance(along, Table) else None
+            if isinstance(number, int | float):
+                values[s.mark.node] = -float(number)
+        nodes = np.array(sorted(values), dtype=np.int64)
+        part = NodeValues(nodes, np.array([values[int(n)] for n in nodes]))
+        if values:
+            found.append(NodeField(shapes[0].mark.nodes, {"FALF": part}, "DISCRET"))
+    return found
+
+
+def ratio(field: object, reference: NodeField) -> float | None:
+    """Factor f with field = f x reference, None if they are not proportional."""
+    if not isinstance(field, NodeField):
+        return None
+    names = set(field.components) | set(reference.components)
+    pairs = []
+    for name in sorted(names):
+        nodes = [f.components[name].nodes for f in (field, reference) if name in f.components]
+        all_nodes = np.unique(np.concatenate(nodes))
+        pairs.append([f.values_at(name, all_nodes) for f in (field, reference)])
+    a, b = (np.concatenate([p[i] for p in pairs]) for i in (0, 1)) if pairs else (np.zeros(0),) * 2
+    size = float(b @ b)
+    if size == 0.0:
+        return None
+    factor = float(a @ b) / size
+    return factor if np.abs(a - factor * b).max() <= 1e-8 * np.abs(a).max() else None
+
+
+def recombined(weights: Any, shapes: list[Shape]) -> NodeField:
+    """Sum of shapes times the values ALFA and BETA of a field at their marks."""
+    return combined(contribution(weights, shapes), [s.field for s in shapes])
+
+
+def contribution(weights: Any, shapes: list[Shape]) -> list[float]:
+    """Values ALFA or BETA of a field at the marks of the shapes."""
+    return [float(weights.values_at(s.unknown, np.array([s.mark.node]))[0]) for s in shapes]
+
+
+def modal_history(call: Call, table: Table, quantity: str) -> tuple[list[Any], FloatArray]:
+    """Contributions in time of the results of DYNE or of PASAPAS, and the times."""
+    name = _INDEX.get(quantity, quantity)
+    if table.subtype != "RESULTAT_DYNE":
+        plural = {"ACCELERATION": "ACCELERATIONS"}.get(name, name + "S")
+        return results_in_time(table, plural)
+    times = table.get(Mot("TEMPS_DE_SORTIE"))
+    assert isinstance(times, ListReel)
+    fields = []
+    for i in range(1, len(times) + 1):
+        entry = table.get(i)
+        field = entry.get(Mot(name)) if isinstance(entry, Table) else None
+        if field is None:
+            raise call.bad(
+                f"the results hold no {name} in steps", table, hint="ask for it in the table SORTIE"
+            )
+        fields.append(field)
+    return fields, times.values
+
+
+def at_time(call: Call, fields: list[Any], times: FloatArray, time: float) -> NodeField:
+    """A field in time at one instant, linear between the saved ones."""
+    span = 1e-9 * max(float(times[-1] - times[0]), 1e-300)
+    if not times[0] - span <= time <= times[-1] + span:
+        raise call.bad(f"the results go from {times[0]:.6g} to {times[-1]:.6g} s", time)
+    i = int(np.clip(np.searchsorted(times, time) - 1, 0, max(len(times) - 2, 0)))
+    if len(times) == 1:
+        return fields[0]  # type: ignore[no-any-return]
+    part = float(np.clip((time - times[i]) / (times[i + 1] - times[i]), 0.0, 1.0))
+    return combined([1.0 - part, part], [fields[i], fields[i + 1]])
+
+
+def _reco(call: Call) -> Any:
+    quantity = call.keyword((*QUANTITIES, "REAC")) or "DEPL"
+    if quantity == "REAC":
+        raise call.bad("reactions of modes are not kept: recombine the displacement, then REAC")
+    first = call.required("CHPOINT", "LISTCHPO", "TABLE")
+    basis = next((o.value for o in call.operands if isinstance(o.value, Table)), None)
+    shapes = read_basis(call)
+    if isinstance(first, ListChpo):
+        shapes = _first_shapes(call, shapes)
+        return ListChpo([recombined(f, shapes) for f in first.values])
+    load = call.optional("CHARGEME")
+    time = call.optional("FLOTTANT")
+    if isinstance(first, Table):
+        if time is None:
+            raise call.missing(("FLOTTANT",))
+        first = at_time(call, *modal_history(call, first, quantity), time)
+    elif time is not None and load is None:  # a number of shapes to take
+        shapes = shapes[: _count(call, time)]
+    pseudo: list[PseudoShape] = []
+    if load is not None and quantity in ("DEPL", "CONT"):
+        if time is None or basis is None:
+            raise call.bad("pseudo-modes want a table of the basis and the time", load)
+        pseudo = pseudo_shapes(call, basis, load)
+    if quantity == "CONT":
+        return _stresses(call, first, shapes, pseudo, time)
+    field = recombined(first, shapes)
+    if pseudo:
+        amplitudes = [float(p.at(np.array([time]))[0]) for p in pseudo]
+        field = node_algebra.added(field, combined(amplitudes, [p.field for p in pseudo]))
+    return field
+
+
+def _count(call: Call, number: float) -> int:
+    if number != int(number) or number < 1:
+        raise call.bad(f"at least one mode is recombined, not {number:g}", number)
+    return int(number)
+
+
+def _first_shapes(call: Call, shapes: list[Shape]) -> list[Shape]:
+    number = call.optional("ENTIER", default=len(shapes))
+    return shapes[: _count(call, number)]
+
+
+def _stresses(
+    call: Call, weights: Any, shapes: list[Shape], pseudo: list[PseudoShape], time: float | None
+) -> CellField:
+    """Sum of the stresses of shapes (CONTRAINTE_MODALE, CONTRAINTE), as SIGS gives them."""
+    factors = contribution(weights, shapes)
+    entries = [(f, s.entry) for f, s in zip(factors, shapes, strict=True)]
+    entries += [(float(p.at(np.array([time]))[0]), p.entry) for p in pseudo]
+    total: CellField | None = None
+    for factor, entry in entries:
+        stress = entry.get(Mot("CONTRAINTE_MODALE"), entry.get(Mot("CONTRAINTE")))
+        if not isinstance(stress, CellField):
+            raise call.bad("a shape has no stresses", entry, hint="SIGS gives them to the table")
+        first = total is None
+        total = cell_algebra.added(stress if total is None else total, stress, factor - first)
+    assert total is not None
+    return total
+
+
+operator(
+    "RECO",
+    family="modal",
+    help=Help(
+        "Field u = sum of the shapes of a basis times the contributions ALFA (and BETA) that a "
+        "field holds at the points that mark them; of results in time (DYNE, PASAPAS) at an "
+        "instant: 'DEPL', 'VITE', 'ACCE', or 'CONT' for stresses (SIGS gives those of the shapes). "
+        "With a load, the pseudo-modes of the basis that its forces drive are added.",
+        "Champ u = somme des déformées d'une base multipliées par les contributions ALFA (et BETA) "
+        "que porte un champ à leurs points repères ; de résultats en temps (DYNE, PASAPAS) à un "
+        "instant : 'DEPL', 'VITE', 'ACCE', ou 'CONT' pour les contraintes (SIGS donne celles des "
+        "déformées). Avec un chargement, on ajoute les pseudo-modes que ses forces excitent.",
+        "CHPO2 = RECO CHPO1 TAB1 (TAB2 ...) | MODL1 MAT1 ;\n"
+        "OBJ2 = RECO TDYNE | TPASA TAB1 | MODL1 MAT1 FLOT1 (CHAR1) ('DEPL' | 'VITE' | 'ACCE' | "
+        "'CONT') ;\nLCHP2 = RECO LCHP1 TAB1 (N1) ;",
+        (
+            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = APPU 'UX' 400. P1 ;"
+            " T1 = VIBR 'SIMU' 1. 1 K1 (MASS 'UX' 4. P1) ;"
+            " Q1 = MANU 'CHPO' (T1 . 'MODES' . 1 . 'POINT_REPERE') 1 'ALFA' 3. ;"
+            " LIST (RECO Q1 T1) ;",
+            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = APPU 'UX' 400. P1 ;"
+            " T1 = VIBR 'SIMU' 1. 1 K1 (MASS 'UX' 4. P1) ; TI = TABL 'INITIAL' ;"
+            " TI . 'VITESSE' = MANU 'CHPO' (T1 . 'MODES' . 1 . 'POINT_REPERE') 1 'ALFA' 3. ;"
+            " R = DYNE 'DE_VOGELAERE' T1 TI 20 0.01 ; LIST (RECO R T1 0.15 'VITE') ;",
+        ),
+    ),
+    reads_itself=True,
+)(_reco)
