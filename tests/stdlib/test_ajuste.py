@@ -1,0 +1,108 @@
+"""AJUSTE against SciPy's least squares and closed forms."""
+
+import numpy as np
+import pytest
+from scipy.optimize import least_squares
+
+from ssilang.cli.run import run_text
+
+X = np.linspace(0.1, 3.0, 25)
+NOISE = 0.02 * np.cos(17.0 * np.arange(25) ** 2)
+WEIGHTS = 1.0 + np.arange(25) % 4
+
+DECAY = """
+DEBP {f} X1*TABLE P1*LISTREEL ;
+  T1 = TABL ; T1 . 'F' = TABL ; X1 = X1 . 1 ;
+  T1 . 'F' . 1 = EXP ((0. - (EXTR P1 1)) * X1) ;
+  T1 . 'F' . 2 = COS ((180. / PI * (EXTR P1 2)) * X1) ;
+  T1 . 'G' = 0.5 * X1 ;
+FINP T1 ;
+DEBP {d} X1*TABLE P1*LISTREEL ;
+  T1 = TABL ; T1 . 'F' = TABL ; T1 . 'F' . 1 = TABL ; T1 . 'F' . 2 = TABL ; X1 = X1 . 1 ;
+  T1 . 'F' . 1 . 1 = 0. - (X1 * (EXP ((0. - (EXTR P1 1)) * X1))) ;
+  T1 . 'F' . 1 . 2 = 0. * X1 ;
+  T1 . 'F' . 2 . 1 = 0. * X1 ;
+  T1 . 'F' . 2 . 2 = 0. - (X1 * (SIN ((180. / PI * (EXTR P1 2)) * X1))) ;
+FINP T1 ;
+"""
+
+PLAIN = DECAY.format(f="FCT", d="DERI")
+
+
+def prog(values):
+    return "(PROG " + " ".join(f"{v:.17g}" for v in values) + ")"
+
+
+def shape(z):
+    q1, q2, p1, p2 = z
+    return q1 * np.exp(-p1 * X) + q2 * np.cos(p2 * X) + 0.5 * X
+
+
+def fitted(measured, entries="", procedures=PLAIN, kl=(2, 2)):
+    result = run_text(
+        procedures
+        + f"T = TABL ; T . 'X' = TABL ; T . 'X' . 1 = {prog(X)} ; T . 'F' = {prog(measured)} ;"
+        f"T . 'K' = {kl[0]} ; T . 'L' = {kl[1]} ; {entries} Q P = AJUSTE T ;"
+    )
+    assert result.exit_code == 0, result.message
+    root = result.session.root
+    return np.concatenate([root.find("Q").values, root.find("P").values])
+
+
+BOUNDS = "T . 'PMIN' = PROG 0. 0. ; T . 'PMAX' = PROG 6. 8. ; "
+
+
+def test_exact_values_give_the_parameters_back():
+    true = (2.0, -0.7, 0.9, 4.1)
+    assert fitted(shape(true), BOUNDS) == pytest.approx(true, rel=1e-9)
+
+
+def test_noisy_weighted_values_give_what_scipy_finds():
+    true = (2.0, -0.7, 0.9, 4.1)
+    measured = shape(true) + NOISE
+    peer = least_squares(
+        lambda z: np.sqrt(WEIGHTS) * (shape(z) - measured), true, xtol=1e-15, ftol=1e-15, gtol=1e-15
+    )
+    found = fitted(measured, BOUNDS + f"T . 'POIDS' = {prog(WEIGHTS)} ;")
+    assert found == pytest.approx(peer.x, rel=1e-6)
+    assert found != pytest.approx(fitted(measured, BOUNDS), rel=1e-4)
+
+
+def test_a_bound_holds_its_parameter():
+    measured = shape((2.0, -0.7, 0.9, 4.1))
+    peer = least_squares(
+        lambda z: shape(z) - measured,
+        (2.0, -0.7, 1.5, 4.1),
+        bounds=([-9, -9, 1.2, 0], [9, 9, 6, 8]),
+    )
+    found = fitted(measured, "T . 'PMIN' = PROG 1.2 0. ; T . 'PMAX' = PROG 6. 8. ; ")
+    assert found[2] == pytest.approx(1.2)
+    assert found == pytest.approx(peer.x, rel=1e-4)
+
+
+def test_procedures_may_have_other_names():
+    true = (2.0, -0.7, 0.9, 4.1)
+    entries = BOUNDS + "T . 'NOM_FCT' = 'MYF' ; T . 'NOM_DERI' = 'MYD' ;"
+    found = fitted(shape(true), entries, DECAY.format(f="MYF", d="MYD"))
+    assert found == pytest.approx(true, rel=1e-9)
+
+
+def test_without_nonlinear_parameters_it_is_linear_least_squares():
+    linear = (
+        "DEBP FCT X1*TABLE P1*LISTREEL ; T1 = TABL ; T1 . 'F' = TABL ;"
+        "T1 . 'F' . 1 = (X1 . 1) ** 0 ; T1 . 'F' . 2 = X1 . 1 ; T1 . 'F' . 3 = (X1 . 1) ** 2 ;"
+        "FINP T1 ; "
+    )
+    measured = 1.0 - 2.0 * X + 0.3 * X**2 + NOISE
+    found = fitted(measured, procedures=linear, kl=(0, 3))
+    peer = np.linalg.lstsq(np.stack([X**0, X, X**2], axis=1), measured, rcond=None)[0]
+    assert found == pytest.approx(peer, rel=1e-9)
+
+
+def test_bounds_are_wanted_for_each_parameter():
+    result = run_text(
+        PLAIN + "T = TABL ; T . 'F' = PROG 1. ; T . 'K' = 2 ;"
+        "T . 'L' = 2 ; T . 'PMIN' = PROG 0. ; T . 'PMAX' = PROG 1. ; Q P = AJUSTE T ;"
+    )
+    assert result.exit_code != 0
+    assert "a bound for each" in result.message
