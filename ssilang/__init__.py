@@ -1,3 +1,7 @@
 """ssilang: a Gibiane interpreter for soil-structure interaction with foundation uplift."""
 
+from ssilang.threads import one_blas_thread
+
 __version__ = "0.1.0"
+
+one_blas_thread()

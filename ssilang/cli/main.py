@@ -17,10 +17,6 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from ssilang.cli.run import RunOptions
 
-# one BLAS thread: several make small factorisations many times slower
-os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-os.environ.setdefault("MKL_NUM_THREADS", "1")
-
 OK, FAILED, USAGE = 0, 1, 2
 
 _COMMANDS = ("run", "check", "help", "sweep", "repl")
