@@ -12,6 +12,39 @@ import re
 from functools import lru_cache
 
 TEMPLATES: tuple[tuple[str, str], ...] = (
+    # ---- contours cut in two, sections, polygons, animations
+    (
+        "the nearest nodes, {} and {}, are neighbours on the contour",
+        "les noeuds les plus proches, {} et {}, sont voisins sur le contour",
+    ),
+    (
+        "give meshes of which no nodes are neighbours",
+        "donner des maillages dont aucun noeud n'est voisin d'un autre",
+    ),
+    ("a contour of SEG2 is needed", "il faut un contour de SEG2"),
+    ("the contour is not one line", "le contour n'est pas une seule ligne"),
+    ("put several contours one by one", "traiter plusieurs contours l'un après l'autre"),
+    (
+        "the {} mesh has no node on the contour",
+        "le maillage ({}) n'a pas de noeud sur le contour",
+    ),
+    (
+        "the two meshes have one and the same node on the contour",
+        "les deux maillages ont un seul et même noeud sur le contour",
+    ),
+    (
+        "the three points lie in line and give no plane",
+        "les trois points sont alignés et ne donnent pas de plan",
+    ),
+    (
+        "polygons have straight sides, the contour is of SEG3",
+        "les polygones ont des côtés droits, le contour est en SEG3",
+    ),
+    ("CHAN 'LINEAIRE' makes it straight", "CHAN 'LINEAIRE' le rend droit"),
+    (
+        "no polygons of five sides or more in this mesh",
+        "aucun polygone de cinq côtés ou plus dans ce maillage",
+    ),
     # ---- time stepping on modes and its links, recombination
     ("link {} has no positive stiffness", "la liaison {} n'a pas de raideur positive"),
     (

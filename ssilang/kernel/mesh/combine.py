@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ssilang.kernel.errors import MeshError
+from ssilang.kernel.mesh.cells import POLYGON_SIDES
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
 from ssilang.kernel.mesh.nodes import IntArray, NodeTable
 
@@ -126,6 +127,20 @@ def _found_in(block: CellBlock, other: Mesh) -> BoolArray:
     if not same:
         return np.zeros(len(block), dtype=bool)
     return np.isin(cell_keys(block), np.concatenate([cell_keys(b) for b in same]))
+
+
+def polygons(mesh: Mesh) -> Mesh:
+    """The cells of five sides and more.
+
+    Raises
+    ------
+    MeshError
+        If there are none.
+    """
+    found = tuple(b for b in mesh.blocks if b.cell_type in POLYGON_SIDES)
+    if not found:
+        raise MeshError("no polygons of five sides or more in this mesh")
+    return Mesh(mesh.nodes, found)
 
 
 def of_type(mesh: Mesh, cell_type: str) -> Mesh:

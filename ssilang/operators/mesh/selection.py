@@ -17,6 +17,7 @@ from ssilang.kernel.mesh.combine import (
     intersection,
     of_type,
     points_mesh,
+    polygons,
     symmetric_difference,
     take,
     union,
@@ -105,7 +106,7 @@ def _part_of_line(mesh: Mesh, first: int, second: int) -> Mesh:
 def _by_type_and_colour(call: Call, mesh: Mesh) -> Any:
     chosen = mesh
     while True:
-        word = call.keyword((*CELL_TYPES, "COUL", *COLOURS))
+        word = call.keyword((*CELL_TYPES, "POLY", "COUL", *COLOURS))
         if word is None:
             break
         if word == "COUL":
@@ -117,6 +118,8 @@ def _by_type_and_colour(call: Call, mesh: Mesh) -> Any:
             chosen = _of_colour(chosen, max(number - 1, 0))
         elif word in CELL_TYPES:
             chosen = of_type(chosen, word)
+        elif word == "POLY":
+            chosen = polygons(chosen)
         else:
             chosen = _of_colour(chosen, COLOURS.index(word))
     which = call.optional("ENTIER", "LISTENTI")
