@@ -284,7 +284,10 @@ def apart(limit: float, *words: object) -> dict[str, Any] | None:
     """What a run in a process of its own said last within the limit; None if nothing."""
     command = [sys.executable, __file__, *map(str, words)]
     try:
-        said = subprocess.run(command, capture_output=True, timeout=limit).stdout
+        done = subprocess.run(command, capture_output=True, timeout=limit)
+        said = done.stdout
+        if done.returncode:
+            print(done.stderr.decode()[-300:], file=sys.stderr)
     except subprocess.TimeoutExpired as late:
         said = late.stdout or b""
     lines = [line for line in said.decode().splitlines() if line.startswith('{"values"')]
@@ -297,7 +300,7 @@ def best_peer(cells: int, limit: float) -> tuple[str, dict[str, Any]]:
     for solver in PEER_SOLVERS:
         ran = apart(limit, "--peer", cells, PEER_STEPS, solver)
         if ran is None:
-            print(f"OpenSees {solver:10s} made no step in {limit:.0f} s", flush=True)
+            print(f"OpenSees {solver:10s} made no step (at most {limit:.0f} s)", flush=True)
             continue
         found[solver] = ran
         print(

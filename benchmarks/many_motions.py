@@ -1,6 +1,8 @@
-"""200 motions on the rocking frame: `ssilang sweep` against OpenSeesPy, both on all cores.
+"""200 motions on the rocking frame: `ssilang sweep` against OpenSeesPy, both on as many cores.
 
-    OMP_NUM_THREADS=1 python benchmarks/many_motions.py [motions] [steps]    default 200 20000
+    OMP_NUM_THREADS=1 python benchmarks/many_motions.py [motions [steps [cores]]]
+
+By default 200 motions of 20 000 steps on all cores.
 
 Each motion is the ground acceleration of `rocking_frame.py` at another scale. Wall times of whole
 runs: reading, modelling and writing included on both sides. The largest roof displacements of all
@@ -43,7 +45,7 @@ def peer_roof(task: tuple[int, str, float]) -> float:
     return top
 
 
-def our_roofs(count: int, steps: int, folder: Path) -> tuple[np.ndarray, float]:
+def our_roofs(count: int, steps: int, folder: Path, cores: int = 0) -> tuple[np.ndarray, float]:
     """Largest roof displacements of all motions from a sweep, and its seconds."""
     import pyarrow.parquet as pq
 
@@ -56,7 +58,7 @@ def our_roofs(count: int, steps: int, folder: Path) -> tuple[np.ndarray, float]:
     deck = folder / "frame.ssi"
     deck.write_text(script(steps, EVERY, Path("none")))
     started = time.perf_counter()
-    options = SweepOptions(deck, motions=motions, out=folder / "out")
+    options = SweepOptions(deck, motions=motions, out=folder / "out", jobs=cores)
     if sweep(options, io.StringIO(), sys.stderr):
         raise SystemExit("a run failed")
     seconds = time.perf_counter() - started
@@ -64,11 +66,11 @@ def our_roofs(count: int, steps: int, folder: Path) -> tuple[np.ndarray, float]:
     return np.array([row["roof"] for row in rows]), seconds
 
 
-def main(count: int = 200, steps: int = 20_000) -> None:
+def main(count: int = 200, steps: int = 20_000, cores: int = 0) -> None:
     """Compare the answers, then the times."""
-    cores = os.cpu_count() or 1
+    cores = cores or os.cpu_count() or 1
     with tempfile.TemporaryDirectory() as name:
-        found, mine = our_roofs(count, steps, Path(name))
+        found, mine = our_roofs(count, steps, Path(name), cores)
     with ProcessPoolExecutor(cores, mp_context=get_context("spawn")) as pool:
         system = pool.submit(best_system).result()
         tasks = [(steps, system, scale_of(i, count)) for i in range(count)]
@@ -79,10 +81,10 @@ def main(count: int = 200, steps: int = 20_000) -> None:
     print(f"{count} motions of {steps} steps on {cores} cores; largest difference {gap:.1e}")
     if not gap <= AGREEMENT:
         raise SystemExit(f"the two do not agree within {AGREEMENT:.0e}: no ratio")
-    print(f"ssilang sweep {mine:8.1f} s")
-    print(f"OpenSeesPy    {theirs:8.1f} s ({system})")
+    print(f"ssilang sweep {mine:8.1f} s, {count / mine:.1f} motions/s")
+    print(f"OpenSeesPy    {theirs:8.1f} s, {count / theirs:.1f} motions/s ({system})")
     print(f"ratio         {theirs / mine:8.1f}")
 
 
 if __name__ == "__main__":
-    main(*(int(a) for a in sys.argv[1:3]))
+    main(*(int(a) for a in sys.argv[1:4]))
