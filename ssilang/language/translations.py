@@ -548,6 +548,34 @@ TEMPLATES: tuple[tuple[str, str], ...] = (
         "a triangle that the other surface cuts cannot be meshed",
         "un triangle que l'autre surface coupe ne peut être maillé",
     ),
+    # ---- spectra of oscillators that yield
+    (
+        "the elastic limit of an oscillator must be positive",
+        "la limite élastique d'un oscillateur doit être positive",
+    ),
+    ("a ductility is at least 1 ({})", "une ductilité vaut au moins 1 ({})"),
+    (
+        "the signal's times must go by equal steps",
+        "les temps du signal doivent aller par pas égaux",
+    ),
+    (
+        "the hardening ratio lies from 0 to 1, 1 left out ({})",
+        "le rapport d'écrouissage va de 0 à 1, 1 exclu ({})",
+    ),
+    ("the law of Takeda is not available", "la loi de Takeda n'est pas disponible"),
+    ("SPON wants '{}'", "SPON veut '{}'"),
+    (
+        "SPON wants a law (CINE ISOT ELAS) and the kinds of both spectra",
+        "SPON veut une loi (CINE ISOT ELAS) et le type des deux spectres",
+    ),
+    (
+        "a law wants a ductility and a hardening ratio",
+        "une loi veut une ductilité et un rapport d'écrouissage",
+    ),
+    (
+        "SPON wants one linear spectrum for each damping",
+        "SPON veut un spectre linéaire par amortissement",
+    ),
 )
 PARTS: tuple[tuple[str, str], ...] = (
     (r"the body of (\d+) nodes around", r"le corps de \1 noeuds autour de"),
