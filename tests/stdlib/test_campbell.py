@@ -75,3 +75,26 @@ def test_what_is_missing_is_said():
     assert "BASE_MODALE" in run_text("T = TABL ; CAMPBELL T (PROG 0. 1.) ;").message
     script = DISC + BY_BASIS + "OUBL T 'MASSE' ; CAMPBELL T (PROG 0. 1.) ;"
     assert "no MASSE" in run_text(script).message
+
+
+PLANE = DISC.replace("'RX' 'RY'", "'UX' 'UY'")
+
+
+@pytest.mark.parametrize("axis", [1.0, -1.0])
+def test_forward_and_backward_whirl_are_told_apart(axis):
+    """z = x + i y of m z'' - i a w z' + k z = 0 turns at (a w +- sqrt(a^2 w^2 + 4 k m)) / 2 m."""
+    found = rows(
+        PLANE + f"{BY_BASIS} T . 'CLASSEMENT' = VRAI ; T . 'AXE_DIRECT' = 0. 0. {axis} ; "
+        "CAMPBELL T (PROG 10. 40.) ; "
+    )
+    sign = np.sign(
+        run_text(PLANE + "V = EXTR (G1 * (MANU 'CHPO' P1 1 'UX' 1.)) 'FY' P1 ;").session.root.find(
+            "V"
+        )
+    )
+    half = -sign * SPEEDS[1:] * POLAR / INERTIA / 2  # [0 a; -a 0]: a in the row of x is positive
+    root = np.sqrt(half**2 + STIFFNESS / INERTIA)
+    turning = axis * np.array([half + root, half - root]) / (2 * np.pi)
+    low, high = np.sort(turning, axis=0)
+    for row, frequencies in zip(found, [low, low, high, high], strict=True):
+        np.testing.assert_allclose(ordinates(row, "FREQUENCE_REELLE"), frequencies, rtol=1e-8)
