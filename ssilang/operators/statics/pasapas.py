@@ -24,13 +24,8 @@ from ssilang.kernel.statics.thermal_load import split_thermal
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
 from ssilang.language.values import Mot
-from ssilang.operators.dynamics.dynamic import (
-    contact_options,
-    report,
-    scheme_of,
-    warn_contrast,
-    warn_resolution,
-)
+from ssilang.operators.dynamics.reports import report, warn_contrast, warn_resolution
+from ssilang.operators.dynamics.scheme_entries import contact_options, scheme_of
 from ssilang.operators.models.contact import model_relations
 from ssilang.operators.session.progress import ProgressLine
 from ssilang.operators.session.user_procedures import AfterEachStep, StopCalculation

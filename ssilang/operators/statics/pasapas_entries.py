@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ssilang.operators.dynamics.dynamic import CONTACT_ENTRIES
+from ssilang.operators.dynamics.scheme_entries import CONTACT_ENTRIES
 
 RESULTS = (
     "TEMPS", "DEPLACEMENTS", "CONTRAINTES", "VARIABLES_INTERNES", "REACTIONS", "VITESSES",

@@ -1,0 +1,90 @@
+"""VTK and CSV series that a table of DYNAMIC asks for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ssilang.kernel.elements.families import stress
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.joints.elements import is_joint
+from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+from ssilang.kernel.model import Model
+from ssilang.kernel.plasticity.points import is_plastic
+from ssilang.language.values import ListMots, Table
+from ssilang.operators.dynamics.motion_observers import CsvObserver, VtkObserver
+from ssilang.operators.files.outputs import output_path, run_output
+from ssilang.operators.tables.entries import Entries
+
+if TYPE_CHECKING:
+    pass
+
+
+def nodes_asked(mesh: Any) -> IntArray | None:
+    if mesh is None:
+        return None
+    if isinstance(mesh, Mesh):
+        return mesh.sorted_node_ids
+    return np.array([mesh.node])
+
+
+# ---- outputs ---------------------------------------------------------------------------------
+
+
+def vtk_observer(entries: Entries, times: FloatArray) -> VtkObserver | None:
+    if not (entries.has("PAS_SAUVES_VTK") or entries.has("TEMPS_SAUVES_VTK")):
+        return None
+    wanted = entries.saved_steps("_VTK", times, lambda: np.zeros(len(times), bool))
+    given = entries.get("MAILLAGE_VTK", "MAILLAGE", "TABLE")
+    if given is None:
+        model: Model | None = entries.get("MODELE", "MMODEL")
+        given = entries.needed("MAILLAGE_VTK", "MAILLAGE", "TABLE") if model is None else model.mesh
+    meshes = {"": given} if isinstance(given, Mesh) else _parts(entries, given)
+    name = entries.get("FICHIER_VTK", "MOT") or "dynamic"
+    path = output_path(entries.call, str(name).rstrip())
+    writer = run_output(entries.call.session).begin_series(path)
+    return VtkObserver(wanted, meshes, writer, _stress(entries))
+
+
+def _parts(entries: Entries, table: Table) -> dict[str, Mesh]:
+    parts = {str(i): m for i, m in table.items() if isinstance(m, Mesh)}
+    if not parts:
+        raise entries.bad("'MAILLAGE_VTK' is a TABLE without MAILLAGE")
+    return parts
+
+
+def _stress(entries: Entries) -> Callable[[NodeField], CellField | None] | None:
+    """Stresses of the zones of MODELE that are no joints."""
+    model: Model | None = entries.get("MODELE", "MMODEL")
+    material: CellField | None = entries.get("CARACTERISTIQUES", "MCHAML")
+    zones = () if model is None else model.zones
+    zones = tuple(z for z in zones if not is_joint(z) and not is_plastic(z))
+    if not zones or material is None:
+        return None
+    held = material
+
+    def of(displacement: NodeField) -> CellField:
+        return CellField(tuple(stress(z, held, displacement) for z in zones), "CONTRAINTES")
+
+    return of
+
+
+def csv_observer(entries: Entries, times: FloatArray) -> CsvObserver | None:
+    if not (entries.has("PAS_SAUVES_CSV") or entries.has("TEMPS_SAUVES_CSV")):
+        return None
+    wanted = entries.saved_steps("_CSV", times, lambda: np.zeros(len(times), bool))
+    nodes = nodes_asked(entries.needed("MAILLAGE_CSV", "MAILLAGE", "POINT"))
+    assert nodes is not None
+    components: ListMots | None = entries.get("COMPOSANTES_CSV", "LISTMOTS")
+    name = entries.get("FICHIER_CSV", "MOT")
+    path = None
+    if name is not None:
+        text = str(name).rstrip()
+        path = output_path(entries.call, text if text.lower().endswith(".csv") else text + ".csv")
+        run_output(entries.call.session).wrote(path)
+    chosen = None if components is None else [str(c).rstrip() for c in components.values]
+    return CsvObserver(wanted, nodes, chosen, path)
