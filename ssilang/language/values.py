@@ -185,9 +185,12 @@ class LazyTable(Table):
     ) -> None:
         self._items, self._find, self._stand_in = promised.copy(), find, stand_in
 
-    def glance(self, index: object) -> object:
+    def glance(self, index: object, default: object = None) -> object:
         """As `get`; of a value that is not made yet, its stand-in if it has one."""
-        if self._stand_in is not None and super().get(index) is PENDING:
+        pair = self._items.get(key_of(index))
+        if pair is None or pair[1] is not PENDING:
+            return default if pair is None else pair[1]
+        if self._stand_in is not None:
             found = self._stand_in(str(index).rstrip(), lambda: self.get(index))
             if found is not None:
                 return found

@@ -167,6 +167,7 @@ def _only(call: Call, field: NodeField) -> str:
 
 # ---- in time ------------------------------------------------------------------------------------
 
+MISSING = object()
 _DEFAULT_INDEX = {"DYNAMIC": "DEPL", "PASAPAS": "DEPLACEMENTS"}
 
 
@@ -285,9 +286,11 @@ def results_in_time(table: Table, index: str, unmade: bool = False) -> tuple[lis
         return [held.get(i) for i in steps], reals([times.get(i) for i in steps])
     found = []
     for place, value in table.items():
-        if type(place) is int and isinstance(value, Table) and value.has(index):
+        if type(place) is int and isinstance(value, Table):
             look = value.glance if unmade and isinstance(value, LazyTable) else value.get
-            found.append((value.get("TEMP", place), look(index)))
+            field = look(index, MISSING)
+            if field is not MISSING:
+                found.append((value.get("TEMP", place), field))
     if not found:
         raise KernelError(f"the table holds no results in time at index {index}")
     found.sort(key=lambda pair: float(str(pair[0])))
