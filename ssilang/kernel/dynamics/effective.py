@@ -118,7 +118,7 @@ def effective_of(
     S = R
     if joints is not None:
         root = root_response(inverse, right)
-        S = _compliance(problem, inverse, right) if root is None else root.J @ root.Y
+        S = _compliance(problem, inverse, right) if root is None else np.asarray(root.J @ root.Y)
     return Effective(dt, A, problem.constraints, inverse, right, np.ascontiguousarray(S), R)
 
 
@@ -154,13 +154,13 @@ class RootResponse:
 
     Attributes
     ----------
-    J : array (q, r)
+    J : csr array (q, r)
         Jumps of the root's scaled unknowns.
     Y : array (r, q)
         Scaled motions under forces on the jumps.
     """
 
-    J: FloatArray
+    J: sp.csr_array
     Y: FloatArray
 
 
@@ -173,12 +173,13 @@ def root_response(inverse: Inverse, right: sp.csc_array) -> RootResponse | None:
     from ssilang.kernel.solvers.triangular import solve_columns
 
     assert isinstance(factor, DissectedFactor)
-    begin, n = int(factor.panels.first[-2]), len(factor.tree.order)
-    loads = sp.csr_array(right)[factor.tree.order].toarray()
-    loads = (loads.T * inverse.scale[factor.tree.order]).T
-    if loads[:begin].any():
+    begin = int(factor.panels.first[-2])
+    order = factor.tree.order
+    loads = sp.csr_array(sp.diags_array(inverse.scale[order]) @ sp.csr_array(right)[order])
+    if loads[:begin].count_nonzero():
         return None
-    Y = loads.copy()
+    own = sp.csr_array(loads[begin:])
+    Y = own.toarray()
     count = len(factor.panels.first) - 1
-    solve_columns(factor.panels, Y, count - 1, count)
-    return RootResponse(np.ascontiguousarray(loads[begin:n].T), np.ascontiguousarray(Y[begin:n]))
+    solve_columns(factor.panels, Y, count - 1, count, begin)
+    return RootResponse(sp.csr_array(own.T), np.ascontiguousarray(Y))

@@ -1,6 +1,8 @@
-"""Large problems with supports at rest, set up for `march_interleaved`."""
+"""Large problems with supports at rest or in motion, set up for `march_interleaved`."""
 
 from __future__ import annotations
+
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -8,13 +10,16 @@ from ssilang.kernel.dynamics.compiled_loop import Joints, Motion, Saved
 from ssilang.kernel.dynamics.dense_loop import joints_of
 from ssilang.kernel.dynamics.effective import Effective, RootResponse, root_response
 from ssilang.kernel.dynamics.interleaved_march import (
+    Damping,
     Flow,
     Kept,
     Plan,
     Sparse,
     march_interleaved,
 )
+from ssilang.kernel.dynamics.moving_supports import MOST, Columns, Course, MovingSupports, Start
 from ssilang.kernel.dynamics.problem import Problem
+from ssilang.kernel.dynamics.rayleigh import split_damping
 from ssilang.kernel.joints.condensed_cached import workspace
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.solvers.dissected import DissectedFactor
@@ -28,12 +33,12 @@ BLOCK = 64  # steps between two evaluations of the equilibrium from the displace
 def fits(problem: Problem, effective: Effective) -> bool:
     """Whether `InterleavedLoop` can run a problem.
 
-    Supports at rest, associated relations, no unilateral ones, and a factor by dissection.
+    Associated relations, no unilateral ones, few curves of imposed values, and a factor by
+    dissection.
     """
-    C, c = problem.constraints.C, problem.constraints
-    if problem.contact is not None or not c.associated or effective.inverse.singular:
+    if problem.contact is not None or not problem.constraints.associated:
         return False
-    if problem.loading.imposed.any() or np.any(C @ problem.u) or np.any(C @ problem.v):
+    if effective.inverse.singular or problem.loading.imposed.any(axis=0).sum() > MOST:
         return False
     if problem.interface is not None and root_response(effective.inverse, effective.right) is None:
         return False
@@ -56,14 +61,17 @@ class InterleavedLoop:
         n, q, s = len(order), effective.S.shape[0], problem.scheme
         root = root_response(inverse, effective.right)
         if root is None:
-            root = RootResponse(np.zeros((q, 0)), np.zeros((0, q)))
+            root = RootResponse(sp.csr_array((q, 0)), np.zeros((0, q)))
         branches, trunk = _cut(factor, root.J.shape[1] > 0)
+        alpha, beta, rest = split_damping(self.C, self.M, self.K)
         self.plan = Plan(
             factor.panels, branches, trunk, len(factor.panels.first) - 2 + (root.J.shape[1] == 0),
-            _rows(self.M), _all_rows(self.C), self.C.nnz > 0, self.forces, root.J, root.Y,
+            _rows(self.M), Damping(alpha, beta, _all_rows(rest)), self.C.nnz > 0, self.forces,
+            np.zeros((q, 0)), _all_rows(root.J), _all_rows(sp.csr_array(root.J.T)), root.Y,
             effective.S, effective.R if effective.R.any() else np.zeros((0, 0)),
             (s.alpha_m, s.alpha_f, s.beta, s.gamma, effective.dt), longest(factor.panels),
         )  # fmt: skip
+        self.supports = MovingSupports(problem, effective.dt, self.T)
         joints = joints_of(problem) if problem.interface is None else None
         self.joints = joints or _joints_without_rows(problem)
         self.J = sp.csr_array((0, n)) if problem.interface is None else problem.interface.J @ self.T
@@ -82,33 +90,71 @@ class InterleavedLoop:
         worst, steps = 0, len(save)
         for first in range(0, steps, BLOCK):
             last = min(first + BLOCK, steps)
-            flow, rows = self._flow(factors[first]), save[first:last]
+            rows, given = save[first:last], np.ascontiguousarray(factors[first : last + 1])
             chosen = np.flatnonzero(rows >= 0)
             places = np.where(rows >= 0, np.cumsum(rows >= 0) - 1, -1)
             kept = self._room(len(chosen))
+            block = self._block(given)
             done, turns, residual = march_interleaved(
-                self.plan, self.joints, flow, self.newton,
-                np.ascontiguousarray(factors[first : last + 1]), places, kept,
-                history[first:last],
+                block.plan, self.joints, block.flow, self.newton, block.factors, places, kept,
+                history[first:last], block.works,
             )  # fmt: skip
-            self._unfold(flow, factors[first + done])
+            self._finish(block, given, history[first : first + done])
             for row, k in enumerate(chosen[chosen < done]):
-                self._keep(kept, row, factors[first + k + 1], saved, int(rows[k]))
+                self._keep(kept, row, block, int(k) + 1, given[k + 1], saved, int(rows[k]))
             if turns <= 0:
                 return first + done, turns, residual
             worst = max(worst, turns)
         return steps, worst, 0.0
 
-    def _flow(self, factors: FloatArray) -> Flow:
+    def _block(self, factors: FloatArray) -> _Block:
         """The motion on the loop's unknowns, with the forces of equilibrium from scratch."""
-        m = self.motion
-        u, v, a = (self._folded(x) for x in (m.u, m.v, m.a))
+        m, s = self.motion, self.problem.scheme
+        columns, course = self.supports.begin(m, factors)
+        moved = columns.X.shape[1] > 0
+        parts = (course.c[0], course.v[0], course.a[0])
+        u, v, a = (
+            self._folded(x - columns.X @ p if moved else x)
+            for x, p in zip((m.u, m.v, m.a), parts, strict=True)
+        )
+        plan, whole, extra = self.plan, factors, self.forces.shape[0]
+        if moved:
+            whole = np.hstack([factors, course.factors(s.alpha_m, s.alpha_f)])
+            forces = np.vstack([self.forces, columns.forces])
+            lift = np.zeros((len(m.f), whole.shape[1]))
+            lift[:, whole.shape[1] - columns.X.shape[1] :] = columns.lift
+            plan = plan._replace(forces=forces, lift=lift if lift.any() else lift[:, :0].copy())
         Cv, Ca = self.C @ v, self.C @ a
-        g = self.K @ u + Cv + self.J.T @ m.f - self.forces.T @ factors
-        return Flow(
-            u, v, a, g, self.M @ v, self.M @ a, Cv, Ca, self.forces @ u, m.delta, m.f, m.w, m.t,
+        g = self.K @ u + Cv + self.J.T @ m.f - plan.forces.T @ whole[0]
+        flow = Flow(
+            u, v, a, g, self.M @ v, self.M @ a, Cv, Ca, plan.forces @ u, m.delta, m.f, m.w, m.t,
             m.state, m.energies,
         )  # fmt: skip
+        own = plan.forces[extra:]
+        start = Start(np.array([own @ u, own @ v, own @ a]), m.f.copy())
+        works = np.zeros((2, len(factors) - 1, whole.shape[1]))
+        return _Block(plan, flow, columns, course, whole, works, start)
+
+    def _finish(self, block: _Block, factors: FloatArray, history: FloatArray) -> None:
+        """The motion and its energies after the steps that were done."""
+        m, flow, done = self.motion, block.flow, len(history)
+        extra = self.forces.shape[0]
+        works = block.works[:, :done, extra:]
+        self.supports.complete(block.columns, block.course, block.start, works, factors, history)
+        if done:
+            m.energies[:] = history[-1]
+        m.u[:], m.v[:], m.a[:] = self._unfolded(block, flow.u, flow.v, flow.a, done)
+        m.reaction[:] = self._reaction(m.u, m.v, m.a, m.f, factors[done])
+
+    def _unfolded(
+        self, block: _Block, u: FloatArray, v: FloatArray, a: FloatArray, k: int
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Displacement, velocity and acceleration (n,) after k steps."""
+        X, c = block.columns.X, block.course
+        u, v, a = self.T @ u, self.T @ v, self.T @ a
+        if X.shape[1]:
+            u, v, a = u + X @ c.c[k], v + X @ c.v[k], a + X @ c.a[k]
+        return u, v, a
 
     def _folded(self, x: FloatArray) -> FloatArray:
         """q of an admissible x = T q."""
@@ -121,11 +167,6 @@ class InterleavedLoop:
             self._gram_factor = spla.splu(self._gram)
         found: FloatArray = self._gram_factor.solve(b)
         return found
-
-    def _unfold(self, flow: Flow, factors: FloatArray) -> None:
-        m = self.motion
-        m.u[:], m.v[:], m.a[:] = self.T @ flow.u, self.T @ flow.v, self.T @ flow.a
-        m.reaction[:] = self._reaction(m.u, m.v, m.a, m.f, factors)
 
     def _reaction(
         self, u: FloatArray, v: FloatArray, a: FloatArray, f: FloatArray, factors: FloatArray
@@ -146,11 +187,33 @@ class InterleavedLoop:
             np.zeros((rows, *m.t.shape)), np.zeros((rows, *m.state.shape)),
         )  # fmt: skip
 
-    def _keep(self, kept: Kept, row: int, factors: FloatArray, saved: Saved, to: int) -> None:
-        u, v, a = self.T @ kept.u[row], self.T @ kept.v[row], self.T @ kept.a[row]
+    def _keep(
+        self,
+        kept: Kept,
+        row: int,
+        block: _Block,
+        k: int,
+        factors: FloatArray,
+        saved: Saved,
+        to: int,
+    ) -> None:
+        u, v, a = self._unfolded(block, kept.u[row], kept.v[row], kept.a[row], k)
         saved.u[to], saved.v[to], saved.a[to] = u, v, a
         saved.reaction[to] = self._reaction(u, v, a, kept.f[row], factors)
         saved.w[to], saved.t[to], saved.state[to] = kept.w[row], kept.t[row], kept.state[row]
+
+
+@dataclass(frozen=True, eq=False)
+class _Block:
+    """Some steps: what `march_interleaved` takes, and the supports' part of the motion."""
+
+    plan: Plan
+    flow: Flow
+    columns: Columns
+    course: Course
+    factors: FloatArray
+    works: FloatArray
+    start: Start
 
 
 def _joints_without_rows(problem: Problem) -> Joints:

@@ -21,7 +21,7 @@ from ssilang.kernel.dynamics.compiled_loop import (
     Joints,
     Motion,
 )
-from ssilang.kernel.joints.condensed_cached import iterate_cached, solve_factors
+from ssilang.kernel.joints.condensed_cached import iterate_cached, solve_known
 from ssilang.kernel.joints.response import interface_energies
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
@@ -125,12 +125,33 @@ def _correct(
     """The joints' new forces f into g and the increments of some coordinates."""
     share, Jt = 1 - modal.scheme[1], modal.Jt[first:last]
     du, old, P = sweep.du[first:last], sweep.g[first:last], step.P[first:last]
-    for i in range(len(du)):
+    fours = len(du) // 4 * 4
+    for i in range(0, fours, 4):  # four sums at a time: f is read less often
+        a, b, c, d = 0.0, 0.0, 0.0, 0.0
+        row0, row1, row2, row3 = Jt[i], Jt[i + 1], Jt[i + 2], Jt[i + 3]
+        for j in range(len(f)):
+            a += row0[j] * f[j]
+            b += row1[j] * f[j]
+            c += row2[j] * f[j]
+            d += row3[j] * f[j]
+        _turn_force(du, old, P, share, i, a)
+        _turn_force(du, old, P, share, i + 1, b)
+        _turn_force(du, old, P, share, i + 2, c)
+        _turn_force(du, old, P, share, i + 3, d)
+    for i in range(fours, len(du)):
         g = 0.0
         for j in range(len(f)):
             g += Jt[i, j] * f[j]
-        du[i] -= P[i] * share * (g - old[i])
-        old[i] = g
+        _turn_force(du, old, P, share, i, g)
+
+
+@compiled_fast
+def _turn_force(
+    du: FloatArray, old: FloatArray, P: FloatArray, share: float, i: int, g: float
+) -> None:
+    """The increment of a coordinate whose joints' force becomes g."""
+    du[i] -= P[i] * share * (g - old[i])
+    old[i] = g
 
 
 @compiled_fast
@@ -212,7 +233,9 @@ def march_modal(
             for i in range(q):
                 y[i] = sweep.y0[i]
             if not np.isnan(known[0, 0, 0]):  # starts where the last tangents lead
-                solve_factors(Aq, pivots, y)
+                solve_known(
+                    joints.pairs, joints.B, joints.weights, none, share, Aq, known, pivots, rq, y
+                )
             turns, residual = iterate_cached(
                 joints.pairs, joints.B, joints.weights, joints.codes, joints.p, step.S, none, share,
                 x.delta, x.f, x.state, sweep.y0, y, x.w, x.t, new, D, f1, h, rq, dyq, deltaq, Kq,

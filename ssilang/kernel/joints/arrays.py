@@ -19,3 +19,11 @@ def copy_state(source: FloatArray, target: FloatArray) -> None:
     """A vector into another."""
     for i in range(source.shape[0]):
         target[i] = source[i]
+
+
+@compiled
+def copy_rows(source: FloatArray, target: FloatArray) -> None:
+    """A matrix into another."""
+    for i in range(source.shape[0]):
+        for j in range(source.shape[1]):
+            target[i, j] = source[i, j]

@@ -10,7 +10,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ssilang.kernel.compiled import compiled, compiled_fast
+from ssilang.kernel.compiled import compiled
+from ssilang.kernel.joints.arrays import copy_rows
 from ssilang.kernel.joints.condensed import (
     ACCEPTED,
     HOLDING_TURN,
@@ -22,9 +23,16 @@ from ssilang.kernel.joints.condensed import (
     release_shear,
 )
 from ssilang.kernel.joints.response import interface_response, interface_stiffness
+from ssilang.kernel.joints.updated import UPDATES, apply_inverse, invert, is_few, update_point
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+from ssilang.kernel.solvers.dense import (
+    factorise_dense,
+    solve_factors,
+    solve_factors_together,
+)
 
-BLOCK = 32  # columns factorised together
+LARGE = 300  # jumps from which factors are changed rather than made again
+MOST_CHANGED = 4  # one of so many jumps may have changed
 
 
 class Workspace(NamedTuple):
@@ -38,7 +46,11 @@ class Workspace(NamedTuple):
     r, dy, delta, K, A
         Room (q,) and (q, q); A holds factors.
     known, pivots
-        Tangents of these factors (NaN: none yet), and their row exchanges.
+        Tangents of these factors (NaN: none yet), and their row exchanges (q,).
+
+    From `LARGE` jumps on, points whose tangents differ from the factors' change the answer and not
+    the factors (Woodbury): the rows of K are then answers to forces on their jumps, and `pivots`
+    (2 q + 1,) goes on with the row of each jump, see `_answers`.
     """
 
     new: FloatArray
@@ -58,75 +70,10 @@ def workspace(q: int, w: FloatArray, state: FloatArray) -> Workspace:
     """Room for q jumps, local jumps w (n_points, d), states (n_points, N_STATE); no factors."""
     tangents = np.zeros((*w.shape, w.shape[1]))
     f, h, r, dy, delta = (np.zeros(q) for _ in range(5))
-    K, A, pivots = np.zeros((q, q)), np.zeros((q, q)), np.zeros(q, np.int64)
+    K, A = np.zeros((q, q)), np.zeros((q, q))
+    pivots = np.full(q if q < LARGE else 2 * q + 1, -1, np.int64)
     known = np.full_like(tangents, np.nan)
     return Workspace(np.zeros_like(state), tangents, f, h, r, dy, delta, K, A, known, pivots)
-
-
-@compiled_fast
-def _factorise_columns(A: FloatArray, k0: int, k1: int, top: float, pivots: IntArray) -> bool:
-    """LU of the columns k0 to k1, rows exchanged as a whole; False if a pivot vanishes."""
-    n = A.shape[0]
-    for k in range(k0, k1):
-        pivot = k
-        for i in range(k + 1, n):
-            if abs(A[i, k]) > abs(A[pivot, k]):
-                pivot = i
-        pivots[k] = pivot
-        if abs(A[pivot, k]) <= 1e-15 * top:
-            return False
-        if pivot != k:
-            for j in range(n):
-                A[k, j], A[pivot, j] = A[pivot, j], A[k, j]
-        inverse = 1.0 / A[k, k]
-        for i in range(k + 1, n):
-            factor = A[i, k] * inverse
-            A[i, k] = factor
-            if factor != 0.0:
-                for j in range(k + 1, k1):
-                    A[i, j] -= factor * A[k, j]
-    return True
-
-
-@compiled_fast
-def factorise_dense(A: FloatArray, pivots: IntArray) -> bool:
-    """LU with row exchanges in place, by blocks of columns; False if a pivot vanishes."""
-    n, top = A.shape[0], 0.0
-    for i in range(n):
-        for j in range(n):
-            top = max(top, abs(A[i, j]))
-    for k0 in range(0, n, BLOCK):
-        k1 = min(k0 + BLOCK, n)
-        if not _factorise_columns(A, k0, k1, top, pivots):
-            return False
-        if k1 < n:
-            for k in range(k0, k1):
-                for i in range(k + 1, k1):
-                    for j in range(k1, n):
-                        A[i, j] -= A[i, k] * A[k, j]
-            left = np.ascontiguousarray(A[k1:, k0:k1])
-            A[k1:, k1:] -= np.dot(left, np.ascontiguousarray(A[k0:k1, k1:]))
-    return True
-
-
-@compiled_fast
-def solve_factors(A: FloatArray, pivots: IntArray, b: FloatArray) -> None:
-    """Solve with the factors of `factorise_dense`, in place."""
-    n = A.shape[0]
-    for k in range(n):
-        p = pivots[k]
-        if p != k:
-            b[k], b[p] = b[p], b[k]
-    for i in range(n):
-        total = b[i]
-        for j in range(i):
-            total -= A[i, j] * b[j]
-        b[i] = total
-    for k in range(n - 1, -1, -1):
-        total = b[k]
-        for j in range(k + 1, n):
-            total -= A[k, j] * b[j]
-        b[k] = total / A[k, k]
 
 
 @compiled
@@ -138,7 +85,9 @@ def _residual(
     for i in range(len(y)):
         h[i] = c * (f[i] - f0[i])
     if len(R):
-        h -= np.dot(R, y)
+        Ry = np.dot(R, y)
+        for i in range(len(y)):
+            h[i] -= Ry[i]
     Sh = np.dot(S, h)
     size = 0.0
     for i in range(len(y)):
@@ -148,12 +97,43 @@ def _residual(
 
 
 @compiled
-def _same(D: FloatArray, known: FloatArray) -> bool:
-    a, b = D.ravel(), known.ravel()
-    for i in range(len(a)):  # noqa: SIM110
-        if a[i] != b[i]:
-            return False
+def _same(D: FloatArray, known: FloatArray, first: int, last: int) -> bool:
+    """Whether the tangents of the points first to last are those known."""
+    for p in range(first, last):
+        for i in range(D.shape[1]):
+            for j in range(D.shape[2]):
+                if D[p, i, j] != known[p, i, j]:
+                    return False
     return True
+
+
+@compiled
+def _times_stiffness(S: FloatArray, K: FloatArray, A: FloatArray) -> None:
+    """A = 1 + S K, K being dense or with few terms a row."""
+    n, terms = len(S), 0
+    for k in range(n):
+        for j in range(n):
+            if K[k, j] != 0.0:
+                terms += 1
+    if 4 * terms > n * n:
+        np.dot(S, K, A)
+    else:
+        start, column, value = np.zeros(n + 1, np.int64), np.empty(terms, np.int64), np.empty(terms)
+        terms = 0
+        for k in range(n):
+            for j in range(n):
+                if K[k, j] != 0.0:
+                    column[terms], value[terms] = j, K[k, j]
+                    terms += 1
+            start[k + 1] = terms
+        for i in range(n):
+            for j in range(n):
+                A[i, j] = 0.0
+            for k in range(n):
+                for e in range(start[k], start[k + 1]):
+                    A[i, column[e]] += S[i, k] * value[e]
+    for i in range(n):
+        A[i, i] += 1.0
 
 
 @compiled
@@ -161,23 +141,192 @@ def _factorise(
     pairs: IntArray, B: FloatArray, weights: FloatArray, S: FloatArray, R: FloatArray, c: float,
     D: FloatArray, K: FloatArray, A: FloatArray, known: FloatArray, pivots: IntArray,
 ) -> bool:  # fmt: skip
-    """Factors of `1 + S (c K - R)` in A, unless those of the same tangents D are there."""
-    if _same(D, known):
-        return True
+    """Factors of `1 + S (c K - R)` in A."""
+    n = len(S)
     interface_stiffness(pairs, B, weights, D, K)
-    for i in range(len(S)):
-        for j in range(len(S)):
+    for i in range(n):
+        for j in range(n):
             K[i, j] *= c
-    if len(R):
-        K -= R
-    A[:, :] = np.dot(S, K)
-    for i in range(len(S)):
-        A[i, i] += 1.0
-    if factorise_dense(A, pivots):
-        known[:] = D
+            if len(R):
+                K[i, j] -= R[i, j]
+    _times_stiffness(S, K, A)
+    for i in range(n, len(pivots)):
+        pivots[i] = -1
+    good = factorise_dense(A, pivots)
+    for i in range(D.shape[0]):
+        for j in range(D.shape[1]):
+            for k in range(D.shape[2]):
+                known[i, j, k] = D[i, j, k] if good else np.nan
+    return good
+
+
+@compiled
+def _changed(pairs: IntArray, D: FloatArray, known: FloatArray, n: int) -> tuple[IntArray, int]:
+    """Place (n,) of each jump among those of points whose tangent changed, -1 elsewhere."""
+    place, count, d = np.full(n, -1, np.int64), 0, D.shape[1]
+    for p in range(D.shape[0]):
+        if not _same(D, known, p, p + 1):
+            for a in range(pairs.shape[1]):
+                for i in range(d):
+                    if place[pairs[p, a] * d + i] < 0:
+                        place[pairs[p, a] * d + i] = count
+                        count += 1
+    return place, count
+
+
+@compiled
+def _stiffness_change(
+    pairs: IntArray, B: FloatArray, weights: FloatArray, c: float, D: FloatArray, known: FloatArray,
+    place: IntArray, count: int,
+) -> FloatArray:  # fmt: skip
+    """Change (count, count) of `c K` since the factors, on the changed jumps."""
+    change, d, m = np.zeros((count, count)), D.shape[1], pairs.shape[1]
+    for p in range(D.shape[0]):
+        if _same(D, known, p, p + 1):
+            continue
+        for i in range(d):
+            for j in range(d):
+                value = c * weights[p] * (D[p, i, j] - known[p, i, j])
+                if value != 0.0:
+                    for a in range(m * d):
+                        row = place[pairs[p, a // d] * d + a % d]
+                        part = value * B[p, i, a]
+                        for b in range(m * d):
+                            change[row, place[pairs[p, b // d] * d + b % d]] += part * B[p, j, b]
+    return change
+
+
+@compiled
+def _answers(
+    S: FloatArray, place: IntArray, K: FloatArray, A: FloatArray, pivots: IntArray
+) -> bool:
+    """Rows `A^-1 S e_j` of K for the changed jumps j; False if there is no room left.
+
+    `pivots[n + j]` is the row of jump j, -1 for none, `pivots[2 n]` one less than their number.
+    """
+    n, wanted = len(S), 0
+    for j in range(n):
+        if place[j] >= 0 and pivots[n + j] < 0:
+            wanted += 1
+    held = pivots[2 * n] + 1
+    if held + wanted > n // MOST_CHANGED:
+        return False
+    if wanted == 0:
         return True
-    known[:] = np.nan
-    return False
+    X, fresh = np.empty((n, wanted)), 0
+    for j in range(n):
+        if place[j] >= 0 and pivots[n + j] < 0:
+            for i in range(n):
+                X[i, fresh] = S[i, j]
+            pivots[n + j] = held + fresh
+            fresh += 1
+    solve_factors_together(A, pivots, X)
+    for e in range(wanted):
+        for i in range(n):
+            K[held + e, i] = X[i, e]
+    pivots[2 * n] = held + wanted - 1
+    return True
+
+
+@compiled
+def _solve_changed(
+    place: IntArray, change: FloatArray, K: FloatArray, pivots: IntArray, x: FloatArray
+) -> bool:
+    """x = (A + S E change E^T)^-1 A x, from `x - Z (1 + change E^T Z)^-1 change E^T x`."""
+    n, count = len(x), len(change)
+    jumps = np.empty(count, np.int64)
+    for j in range(n):
+        if place[j] >= 0:
+            jumps[place[j]] = j
+    right, own = np.empty(count), np.empty((count, count))
+    for a in range(count):
+        right[a] = x[jumps[a]]
+        for b in range(count):
+            own[a, b] = K[pivots[n + jumps[b]], jumps[a]]
+    small = np.dot(change, own)
+    right = np.dot(change, right)
+    for a in range(count):
+        small[a, a] += 1.0
+    order = np.empty(count, np.int64)
+    if not factorise_dense(small, order):
+        return False
+    solve_factors(small, order, right)
+    for a in range(count):
+        row = pivots[n + jumps[a]]
+        for i in range(n):
+            x[i] -= right[a] * K[row, i]
+    return True
+
+
+@compiled
+def _kept_answer(
+    pairs: IntArray, B: FloatArray, weights: FloatArray, S: FloatArray, R: FloatArray, c: float,
+    D: FloatArray, K: FloatArray, Y: FloatArray, known: FloatArray, pivots: IntArray,
+) -> bool:  # fmt: skip
+    """`Y = (1 + S (c K - R))^-1 S` of the tangents D, see `updated`; False if there is none."""
+    n, d, changed = len(S), D.shape[1], 0
+    for p in range(D.shape[0]):
+        if not _same(D, known, p, p + 1):
+            changed += 1
+    if changed == 0:
+        return True
+    if known[0, 0, 0] == known[0, 0, 0] and 3 * d * changed <= 2 * n:
+        room, good = np.empty((2, d, n)), pivots[0] + changed <= UPDATES
+        for p in range(D.shape[0]):
+            if good and not _same(D, known, p, p + 1):
+                good = update_point(pairs[p], B[p], c * weights[p], D[p], known[p], Y, room)
+                if good:
+                    pivots[0] += 1
+                    copy_rows(D[p], known[p])
+        if good:
+            return True
+    factors = np.empty((n, n))
+    if not _factorise(pairs, B, weights, S, R, c, D, K, factors, known, pivots):
+        return False
+    invert(factors, pivots, S, Y)
+    pivots[0] = 0
+    return True
+
+
+@compiled
+def solve_known(
+    pairs: IntArray, B: FloatArray, weights: FloatArray, R: FloatArray, c: float, A: FloatArray,
+    known: FloatArray, pivots: IntArray, room: FloatArray, x: FloatArray,
+) -> None:  # fmt: skip
+    """x = (1 + S (c K - R))^-1 x, K of the tangents `known`; `room` is (q,)."""
+    if is_few(len(x)):
+        apply_inverse(pairs, B, weights, known, R, c, A, room, x)
+    else:
+        solve_factors(A, pivots, x)
+
+
+@compiled
+def _newton_step(
+    pairs: IntArray, B: FloatArray, weights: FloatArray, S: FloatArray, R: FloatArray, c: float,
+    D: FloatArray, K: FloatArray, A: FloatArray, known: FloatArray, pivots: IntArray,
+    x: FloatArray,
+) -> bool:  # fmt: skip
+    """x = (1 + S (c K - R))^-1 x by the factors at hand, changed ones, or new ones.
+
+    Few jumps keep `(1 + S (c K - R))^-1 S` in A instead.
+    """
+    n, room = len(x), np.empty(len(x))
+    if is_few(n):
+        if not _kept_answer(pairs, B, weights, S, R, c, D, K, A, known, pivots):
+            return False
+        solve_known(pairs, B, weights, R, c, A, known, pivots, room, x)
+        return True
+    same = _same(D, known, n - n, len(D))
+    if not same and len(pivots) > n and known[0, 0, 0] == known[0, 0, 0]:
+        place, count = _changed(pairs, D, known, n)
+        if count <= n // MOST_CHANGED and _answers(S, place, K, A, pivots):
+            change = _stiffness_change(pairs, B, weights, c, D, known, place, count)
+            solve_factors(A, pivots, x)
+            return _solve_changed(place, change, K, pivots, x)
+    if not same and not _factorise(pairs, B, weights, S, R, c, D, K, A, known, pivots):
+        return False
+    solve_factors(A, pivots, x)
+    return True
 
 
 @compiled
@@ -211,7 +360,8 @@ def iterate_cached(
 ) -> tuple[int, float]:
     """As `iterate_interface`; `known` (as D) and `pivots` belong to the factors in A.
 
-    `known` filled with NaN says that there are no factors yet; an R without rows is zero.
+    `known` filled with NaN says that there are no factors yet; an R without rows is zero. See
+    `Workspace` for longer `pivots`.
     """
     n = y.shape[0]
     for i in range(n):
@@ -232,12 +382,11 @@ def iterate_cached(
         if size <= TOLERANCE * scale:
             release_shear(state, new)
             return turn, size / scale
-        if not _factorise(pairs, B, weights, S, R, c, D, K, A, known, pivots):
-            release_shear(state, new)
-            return 0, size / scale
         for i in range(n):
             dy[i] = -r[i]
-        solve_factors(A, pivots, dy)
+        if not _newton_step(pairs, B, weights, S, R, c, D, K, A, known, pivots, dy):
+            release_shear(state, new)
+            return 0, size / scale
         before, length = size, 1.0
         for halving in range(12):
             for i in range(n):

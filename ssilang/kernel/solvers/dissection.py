@@ -109,6 +109,33 @@ def _sides(
 
 
 @compiled
+def _middle(keys: FloatArray, size: int) -> float:
+    """Value that has size // 2 of the first keys before it in their order (Hoare's selection).
+
+    The keys change places. NumPy's `partition` takes seconds to compile.
+    """
+    low, high, wanted = 0, size - 1, size // 2
+    while low < high:
+        i, j, pivot = low, high, keys[(low + high) // 2]
+        while i <= j:
+            while keys[i] < pivot:
+                i += 1
+            while keys[j] > pivot:
+                j -= 1
+            if i <= j:
+                keys[i], keys[j] = keys[j], keys[i]
+                i += 1
+                j -= 1
+        if wanted <= j:
+            high = j
+        elif wanted >= i:
+            low = i
+        else:
+            break
+    return float(keys[wanted])
+
+
+@compiled
 def _best_cut(
     ptr: IntArray, neighbours: IntArray, points: FloatArray, order: IntArray, lo: int, hi: int,
     keys: FloatArray, side: IntArray,
@@ -127,7 +154,9 @@ def _best_cut(
             continue
         for i in range(lo, hi):
             keys[i - lo] = points[order[i], a]
-        cut = np.partition(keys[:size], size // 2)[size // 2] - 1e-9 * spans.max()
+        cut = _middle(keys, size) - 1e-9 * spans.max()
+        for i in range(lo, hi):
+            keys[i - lo] = points[order[i], a]
         below, above_touching, below_touching = _sides(
             ptr, neighbours, order, lo, hi, keys, cut, side
         )

@@ -13,6 +13,7 @@ import numpy as np
 
 from ssilang.kernel.compiled import compiled, compiled_fast
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+from ssilang.kernel.solvers.dense import subtract_from
 from ssilang.kernel.solvers.dissection import Tree
 from ssilang.kernel.sparse import sp
 
@@ -74,7 +75,8 @@ def factorise_panels(A: sp.csr_array, tree: Tree) -> Panels:
 @compiled
 def _longer(rows: IntArray, size: int) -> IntArray:
     more = np.empty(2 * size, np.int64)
-    more[:size] = rows
+    for i in range(size):
+        more[i] = rows[i]
     return more
 
 
@@ -111,7 +113,7 @@ def _rows_below(
                     rows[size] = i
                     size += 1
             c = sibling[c]
-        rows[start:size] = np.sort(rows[start:size])
+        rows[start:size].sort()
         ptr[s + 1] = size
         if size > start:
             above[s] = owner[rows[start]]
@@ -221,7 +223,11 @@ def _panel(F: FloatArray, k0: int, k1: int, inverse: FloatArray, P: FloatArray) 
     """Rows below a factorised block: P = inverse F[k0:k1, k1:]."""
     w, m = P.shape
     if w * m > 4096:
-        P[:, :] = np.dot(inverse, np.ascontiguousarray(F[k0:k1, k1:]))
+        right = np.empty((w, m))
+        for a in range(w):
+            for i in range(m):
+                right[a, i] = F[k0 + a, k1 + i]
+        np.dot(inverse, right, P)
         return
     for a in range(w):
         p = P[a]
@@ -238,9 +244,14 @@ def _update(F: FloatArray, k0: int, k1: int, limit: int) -> None:
     m = F.shape[0]
     if m - k1 > BLAS_ROWS:
         for j0 in range(k1, limit, BLOCK):
-            left = np.ascontiguousarray(F[k0:k1, j0 : min(j0 + BLOCK, limit)].T)
-            right = np.ascontiguousarray(F[k0:k1, j0:])
-            F[j0 : j0 + left.shape[0], j0:] -= np.dot(left, right)
+            left = np.empty((min(BLOCK, limit - j0), k1 - k0))
+            right = np.empty((k1 - k0, m - j0))
+            for k in range(k0, k1):
+                for i in range(j0, m):
+                    right[k - k0, i - j0] = F[k, i]
+                for i in range(left.shape[0]):
+                    left[i, k - k0] = F[k, j0 + i]
+            subtract_from(F, np.dot(left, right), j0, j0)
         return
     for j in range(k1, limit):
         f = F[j, j:]
@@ -276,7 +287,9 @@ def _columns(F: FloatArray, k: int, pos: int, values: FloatArray) -> int:
             P = values[pos : pos + w * (m - k1)].reshape((w, m - k1))
             if m > k1:
                 _panel(F, k0, k1, inverse, P)
-                F[k0:k1, k1:] = P
+                for a in range(w):
+                    for i in range(m - k1):
+                        F[k0 + a, k1 + i] = P[a, i]
                 _update(F, k0, k1, end)
             pos += w * (m - k1)
         _update(F, block, end, m)
@@ -301,7 +314,8 @@ def _factorise(
         m = k + below
         F = work[: m * m].reshape((m, m))
         for j in range(m):
-            F[j, j:] = 0.0
+            for i in range(j, m):
+                F[j, i] = 0.0
         for j in range(k):
             where[c0 + j] = j
         for i in range(below):
@@ -322,7 +336,8 @@ def _factorise(
             mine[s] = spot[alive]
             U = stack[mine[s] : mine[s] + below * below].reshape((below, below))
             for j in range(below):
-                U[j, j:] = F[k + j, k + j :]
+                for i in range(j, below):
+                    U[j, i] = F[k + j, k + i]
             live[alive] = s
             spot[alive + 1] = mine[s] + below * below
             alive += 1

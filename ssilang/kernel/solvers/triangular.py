@@ -144,27 +144,35 @@ def backward(
 @compiled
 def solve_column(L: Panels, b: FloatArray, local: FloatArray) -> None:
     """b = (L L^T)^-1 b."""
-    count, n = len(L.first) - 1, len(b)
-    forward(L, 0, count, b, n, b, local)
-    backward(L, 0, count, b, b, local)
+    count, n, start = len(L.first) - 1, len(b), L.first[0]  # not 0: a literal is a type of its own
+    forward(L, start, count, b, n, b, local)
+    backward(L, start, count, b, b, local)
 
 
-def solve_columns(L: Panels, b: FloatArray, begin: int, end: int) -> None:
-    """b = (L L^T)^-1 b for many columns b (n, k), on the supernodes begin to end, by BLAS."""
+def solve_columns(L: Panels, b: FloatArray, begin: int, end: int, missing: int = 0) -> None:
+    """b = (L L^T)^-1 b for many columns b, on the supernodes begin to end, by BLAS.
+
+    `b` (n - missing, k) lacks its first rows, those before the supernode `begin`.
+    """
     for s in range(begin, end):
-        for block, P, k0, k1, rows in _blocks(L, s):
+        for block, P, k0, k1, rows in _blocks(L, s, missing):
             b[k0:k1] = block @ b[k0:k1]
             if len(rows):
                 b[rows] -= P.T @ b[k0:k1]
     for s in range(end - 1, begin - 1, -1):
-        for block, P, k0, k1, rows in reversed(_blocks(L, s)):
+        for block, P, k0, k1, rows in reversed(_blocks(L, s, missing)):
             if len(rows):
                 b[k0:k1] -= P @ b[rows]
             b[k0:k1] = block.T @ b[k0:k1]
 
 
-def _blocks(L: Panels, s: int) -> list[tuple[FloatArray, FloatArray, int, int, IntArray]]:
-    """Of each panel: inverse of its block (w, w), rows (w, m), its columns, its rows' places."""
+def _blocks(
+    L: Panels, s: int, missing: int
+) -> list[tuple[FloatArray, FloatArray, int, int, IntArray]]:
+    """Of each panel: inverse of its block (w, w), rows (w, m), its columns, its rows' places.
+
+    Places count from `missing`.
+    """
     c0, c1, pos = int(L.first[s]), int(L.first[s + 1]), int(L.at[s])
     below = L.rows[L.ptr[s] : L.ptr[s + 1]]
     found = []
@@ -173,7 +181,8 @@ def _blocks(L: Panels, s: int) -> list[tuple[FloatArray, FloatArray, int, int, I
         w, m = k1 - k0, c1 - k1 + len(below)
         block = L.values[pos : pos + w * w].reshape(w, w)
         P = L.values[pos + w * w : pos + w * (w + m)].reshape(w, m)
-        found.append((block, P, k0, k1, np.concatenate([np.arange(k1, c1), below])))
+        places = np.concatenate([np.arange(k1, c1), below]) - missing
+        found.append((block, P, k0 - missing, k1 - missing, places))
         pos += w * (w + m)
     return found
 

@@ -8,7 +8,7 @@ import scipy.sparse as sparse
 from references.soil_block import FRICTION, soil_block
 
 from ssilang.kernel.dynamics import effective, interleaved_loop
-from ssilang.kernel.dynamics.engines import SparseEngine
+from ssilang.kernel.dynamics.constraints import EliminatedConstraints
 from ssilang.kernel.dynamics.integrate import integrate
 from ssilang.kernel.dynamics.scheme import generalised_alpha, hht, newmark
 
@@ -106,13 +106,37 @@ def test_a_body_without_mass_that_joints_alone_hold():
     assert_same(light)
 
 
-def test_moving_supports_take_the_plain_loop():
-    problem = soil_block(steps=40, size=SIZE, moving=True)
-    fast, kept = motions(problem, False)
-    _, expected = motions(problem, True)
-    assert fast.loop == SparseEngine.name
-    a, b = np.array([s.u for s in kept]), np.array([s.u for s in expected])
-    assert np.abs(a - b).max() <= 1e-9 * np.abs(b).max()
+@pytest.mark.parametrize("scheme", [newmark(0.25, 0.5), hht(0.1), generalised_alpha(0.6)])
+@pytest.mark.parametrize("damping", [None, (0.5, 2e-3)])
+def test_moving_supports(scheme, damping):
+    problem = soil_block(steps=100, size=SIZE, moving=True, scheme=scheme, damping=damping)
+    problem.loading.imposed[::2, 0] = 0.0  # two patterns: the weight's curve and the shaking
+    assert np.ptp(problem.loading.at(problem.times)[:, 1]) > 0.0
+    assert_same(problem)
+
+
+def test_supports_of_the_joints_themselves_move():
+    problem = soil_block(steps=100, size=SIZE, damping=None)
+    up = problem.numbering.table.coordinates[problem.numbering.nodes, 1] < -0.5
+    rows = np.flatnonzero(up | (problem.interface.J.toarray().min(axis=0) < 0.0))
+    C = sparse.csr_array(
+        (np.ones(len(rows)), (np.arange(len(rows)), rows)), shape=(len(rows), len(up))
+    )
+    imposed = np.zeros((len(rows), 2))
+    imposed[:, 1] = 2e-4
+    moving = replace(
+        problem, constraints=EliminatedConstraints(C),
+        loading=replace(problem.loading, imposed=imposed),
+    )  # fmt: skip
+    kept = assert_same(moving)
+    assert (np.array([s.w[:, -1] for s in kept]) > 1e-6).any()
+
+
+def test_a_first_motion_that_the_supports_do_not_allow():
+    problem = soil_block(steps=60, size=SIZE)
+    rng = np.random.default_rng(3)
+    u, v = (1e-4 * rng.standard_normal(problem.numbering.size) for _ in range(2))
+    assert_same(replace(problem, u=u, v=v), 1e-8)
 
 
 @pytest.mark.parametrize("block", [1, 7, 64])
