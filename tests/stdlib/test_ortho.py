@@ -1,0 +1,67 @@
+"""@ORTHO: orthotropic axes that follow a line, against MATE 'DIRECTION' and about a circle."""
+
+import pytest
+
+from ssilang.cli.run import run_text
+
+VALUES = "(PROG 2.E9 1.E9 1.5E9 0.2 0.1 0.15 5.E8 4.E8 3.E8 0. 0. 0. 2000.)"
+NAMED = "'YG1' 2.E9 'YG2' 1.E9 'YG3' 1.5E9 'NU12' 0.2 'NU23' 0.1 'NU13' 0.15 'G12' 5.E8 'RHO' 2000."
+
+
+def found(script, *names):
+    result = run_text(script)
+    assert result.exit_code == 0, result.message
+    return tuple(result.session.root.find(n) for n in names)
+
+
+@pytest.mark.parametrize("mode", ["PLAN CONT", "PLAN DEFO"])
+def test_axes_of_a_straight_line_are_those_of_one_direction(mode):
+    apart, size, mass = found(
+        f"OPTI DIME 2 MODE {mode} ELEM QUA4 ; L = DROI 8 (0. 0.) (2. 1.) ; "
+        "S = L TRAN 2 (-0.5 1.) ; T N B = @FRENET L ; "
+        f"MA MO = @ORTHO S L T N 10. {VALUES} ; A = 10. + (ATG 0.5) ; "
+        f"MB = MATE MO {NAMED} 'DIRECTION' ((COS A) (SIN A)) ; X Y = COOR S ; "
+        "U = (NOMC 'UX' (X * Y)) ET (NOMC 'UY' (X - (Y * Y))) ; F = (RIGI MO MB) * U ; "
+        "D = MAXI (ABS (((RIGI MO MA) * U) - F)) ; G = MAXI (ABS F) ; "
+        "M = MAXI (ABS (((MASS MO MA) * U) - ((MASS MO MB) * U))) ;",
+        "D", "G", "M",
+    )  # fmt: skip
+    assert apart < 1e-12 * size
+    assert mass == pytest.approx(0.0, abs=1e-9)
+
+
+def test_axes_in_space():
+    apart, size = found(
+        "OPTI DIME 3 ELEM CUB8 ; L = DROI 2 (0. 0. 0.) (1. 0. 0.) ; "
+        "S = L TRAN 1 (0. 1. 0.) ; V = S VOLU 1 'TRAN' (0. 0. 1.) ; "
+        "T = MANU 'CHPO' L 3 'TX' 0. 'TY' 0.6 'TZ' 0.8 ; "
+        "N = MANU 'CHPO' L 3 'NX' 1. 'NY' 0. 'NZ' 0. ;"
+        f"MA MO = @ORTHO V L T N 90. {VALUES} 'TRID' ; "
+        f"MB = MATE MO {NAMED} 'G23' 4.E8 'G13' 3.E8 'DIRECTION' (1. 0. 0.) (0. -0.6 -0.8) ; "
+        "X Y Z = COOR V ; U = (NOMC 'UX' (X * Z)) ET (NOMC 'UZ' (X - (Y * Z))) ; "
+        "F = (RIGI MO MB) * U ; D = MAXI (ABS (((RIGI MO MA) * U) - F)) ; G = MAXI (ABS F) ;",
+        "D", "G",
+    )  # fmt: skip
+    assert apart < 1e-10 * size
+
+
+def test_a_ring_of_hoops_is_stiff_along_them():
+    """First axis along the circle: V1 is (-y, x) / r at each point, in the line's sense."""
+    worst = found(
+        "OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ; L = CERC 40 (1. 0.) (0. 0.) (0. 1.) ; "
+        "S = L REGL 1 (CERC 40 (1.02 0.) (0. 0.) (0. 1.02)) ; "
+        "T N B = @FRENET L ; "
+        f"MA MO = @ORTHO S L T N 0. {VALUES} ; "
+        "X Y = COOR S ; R = ((X * X) + (Y * Y)) ** 0.5 ; "
+        "P = CHAN 'CHAM' ((X / R) NOMC 'SCAL') MO 'RIGIDITE' ; "
+        "D = (EXCO 'V1Y' MA 'SCAL') - P ; W = MAXI (ABS D) ;",
+        "W",
+    )[0]
+    assert worst < 2e-3
+
+
+def test_what_is_missing_is_said():
+    plate = "OPTI DIME 2 ELEM QUA4 ; L = DROI 5 (0. 0.) (1. 0.) ; S = L TRAN 1 (0. 1.) ; "
+    result = run_text(plate + "T N B = @FRENET L ; A M = @ORTHO S L T N 0. (PROG 1. 2.) ;")
+    assert result.exit_code == 1
+    assert "13 characteristics" in result.message
