@@ -117,16 +117,32 @@ def _combined_complex(a: Curve, b: Curve, run: Callable[[Any, Any], Any]) -> Cur
     return Curve(tuple(parts), a.title, a.kind)
 
 
-def integral(part: CurvePart, low: float, high: float, absolute: bool = False) -> float:
-    """Integral from `low` to `high` by trapezes, exact for a curve linear between its points.
+def integral_along(part: CurvePart, first: int, last: int, absolute: bool = False) -> float:
+    """Integral by trapezes from one point to another (0-based), in the order of the points.
 
-    With `absolute`, of the absolute value of the ordinates at the points.
+    Abscissas may go back, as on the loops of a force against its displacement: the integral of
+    a closed one is the area inside, negative where it is turned around anticlockwise. `first`
+    behind `last` changes the sign.
     """
-    check_increasing(part.abscissas)
+    if first > last:
+        return -integral_along(part, last, first, absolute)
+    y = np.abs(part.ordinates) if absolute else part.ordinates
+    span = slice(first, last + 1)
+    return float(np.trapezoid(y[span], part.abscissas[span]))
+
+
+def integral(part: CurvePart, low: float, high: float, absolute: bool = False) -> float:
+    """Integral from abscissa `low` to `high` by trapezes, exact for a curve linear between points.
+
+    The abscissas of the curve increase or decrease. With `absolute`, of the absolute value of
+    the ordinates at the points.
+    """
     if low > high:
         return -integral(part, high, low, absolute)
-    x = part.abscissas
-    y = np.abs(part.ordinates) if absolute else part.ordinates
+    order = -1 if len(part.abscissas) and part.abscissas[0] > part.abscissas[-1] else 1
+    x, ordinates = part.abscissas[::order], part.ordinates[::order]
+    check_increasing(x)
+    y = np.abs(ordinates) if absolute else ordinates
     inside = (x > low) & (x < high)
     ends = np.interp([low, high], x, y)
     points = np.concatenate(([low], x[inside], [high]))

@@ -194,6 +194,20 @@ def test_integral_by_trapezes(words, expected, found):
     assert found(TENT + f"Y = INTG E {words} ;", "Y") == pytest.approx(expected)
 
 
+def test_integral_of_a_curve_run_backwards_changes_sign(found):
+    back = "E = EVOL 'MANU' (PROG 2. 1. 0.) (PROG 0. 1. 3.) ; "
+    assert found(back + "Y = INTG E ;", "Y") == pytest.approx(-2.5)
+    assert found(back + "Y = INTG E 'INDI' 3 2 ;", "Y") == pytest.approx(2.0)
+    assert found(back + "Y = INTG E 'BORN' 0.5 2. ;", "Y") == pytest.approx(1.25)
+
+
+def test_integral_around_a_loop_is_the_area_inside(found):
+    loop = "X = PROG 0. 2. 3. 1. 0. ; Y = PROG 0. 0. 5. 5. 0. ; "  # a parallelogram 2 x 5
+    assert found(loop + "A = INTG (EVOL 'MANU' X Y) ;", "A") == pytest.approx(-10.0)
+    result = run_text(loop + "A = INTG (EVOL 'MANU' X Y) 'BORN' 0. 1. ;")
+    assert "abscissas must increase" in result.message
+
+
 def test_integrals_over_several_intervals_and_of_several_curves(found):
     a, b = found(
         TENT + "A = INTG E 'BORN' (PROG 0. 1.) (PROG 1. 2.) ; B = INTG (E ET (E * 2.)) ;", "A", "B"

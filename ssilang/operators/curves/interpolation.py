@@ -8,8 +8,15 @@ from typing import Any
 import numpy as np
 
 from ssilang.kernel.cloud import Cloud
-from ssilang.kernel.curve import Curve
-from ssilang.kernel.curve_algebra import crossings, integral, interpolated, primitive, spline
+from ssilang.kernel.curve import Curve, CurvePart
+from ssilang.kernel.curve_algebra import (
+    crossings,
+    integral,
+    integral_along,
+    interpolated,
+    primitive,
+    spline,
+)
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.mesh import Point
@@ -136,10 +143,11 @@ for _kind in ("CHPOINT", "MCHAML"):
     "('INDI' N1 N2 | LENT1 LENT2) ;",
     en="Of a curve: integral by trapezes, over all or between bounds (abscissas 'BORN' or places "
     "'INDI', one interval or lists of them); 'ABS' of the absolute value. Several curves give a "
-    "list.",
+    "list. Without 'BORN' abscissas may go back: a loop gives the area inside it.",
     fr="D'une évolution : intégrale par trapèzes, en entier ou entre bornes (abscisses 'BORN' ou "
     "rangs 'INDI', un intervalle ou des listes) ; 'ABS' de la valeur absolue. Plusieurs courbes "
-    "donnent une liste.",
+    "donnent une liste. Sans 'BORN' les abscisses peuvent revenir en arrière : une boucle donne "
+    "l'aire qu'elle entoure.",
     examples=("LIST (INTG (EVOL 'MANU' (PROG 0. 1. 2.) (PROG 0. 1. 0.))) ;",),
 )
 def _integrate(call: Call, curve: Curve) -> Any:
@@ -149,8 +157,9 @@ def _integrate(call: Call, curve: Curve) -> Any:
             absolute = True
         else:
             word, bounds = said, _bounds(call, said)
+    way = integral if word == "BORN" else integral_along
     results = [
-        [integral(part, low, high, absolute) for low, high in _intervals(call, part, word, bounds)]
+        [way(part, low, high, absolute) for low, high in _intervals(call, part, word, bounds)]
         for part in curve.parts
     ]
     if len(curve.parts) > 1 and len(results[0]) > 1:
@@ -165,21 +174,22 @@ def _bounds(call: Call, word: str) -> tuple[Any, Any]:
     return call.required(*kinds, after=call.keyword_end), call.required(*kinds)
 
 
-def _intervals(call: Call, part: Any, word: str, bounds: Any) -> list[tuple[float, float]]:
-    x = part.abscissas
-    if len(x) == 0:
+def _intervals(call: Call, part: CurvePart, word: str, bounds: Any) -> list[tuple[Any, Any]]:
+    """Pairs of abscissas for 'BORN', of 0-based places otherwise."""
+    count = len(part.abscissas)
+    if count == 0:
         raise call.bad("a curve is empty")
     if bounds is None:
-        return [(float(x[0]), float(x[-1]))]
+        return [(0, count - 1)]
     low, high = (np.atleast_1d(getattr(b, "values", b)) for b in bounds)
     if len(low) != len(high):
         raise call.bad(f"{len(low)} lower and {len(high)} upper bounds")
     if word == "INDI":
         both = np.concatenate((low, high))
-        if len(both) and (both.min() < 1 or both.max() > len(x)):
-            raise call.bad(f"the curve has {len(x)} points, places go from 1 to {len(x)}")
-        low, high = x[low - 1], x[high - 1]
-    return [(float(a), float(b)) for a, b in zip(low, high, strict=True)]
+        if len(both) and (both.min() < 1 or both.max() > count):
+            raise call.bad(f"the curve has {count} points, places go from 1 to {count}")
+        low, high = low - 1, high - 1
+    return list(zip(low.tolist(), high.tolist(), strict=True))
 
 
 @operator(
