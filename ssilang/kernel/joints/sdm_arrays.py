@@ -1,4 +1,4 @@
-"""The normal SDM law on arrays, in closed form by Lambert's function.
+"""The SDM law on arrays, its normal part in closed form by Lambert's function.
 
 Independent of the compiled iteration of `sdm_law`; the tests hold one against the other.
 """
@@ -45,3 +45,41 @@ def normal_arrays(
     t = np.where(closed, k * w, slope * (w - xi_n))
     t = np.where(soften, strength, t)
     return t, xi, slope
+
+
+def shear_arrays(
+    w: FloatArray,
+    slip: FloatArray,
+    stiffness: FloatArray,
+    tn: FloatArray,
+    xi: FloatArray,
+    fu: FloatArray,
+    gf: FloatArray,
+    friction: FloatArray,
+) -> tuple[FloatArray, FloatArray]:
+    """Shear tractions and new slips (n, d - 1) of the law at many points.
+
+    Parameters
+    ----------
+    w, slip, stiffness : arrays (n, d - 1)
+        Shear jumps, slips of the last step, and stiffness KS1[, KS2].
+    tn, xi : arrays (n,)
+        Normal traction and largest opening at the end of the step, of `normal_arrays`.
+    fu, gf, friction : arrays (n,)
+        Friction below zero says that none bounds the shear.
+
+    Notes
+    -----
+    A closed point (tn < 0) holds `k (w - slip)` up to Coulomb's bound, and slips by the rest. An
+    open one loses its shear: its slip follows its jump. In cohesive tension the stiffness fades as
+    the strength. Directions without stiffness have nothing to relieve, and no slip.
+    """
+    trial = stiffness * (w - slip)
+    size = np.linalg.norm(trial, axis=1)
+    bound = np.where(friction >= 0.0, -friction * tn, np.inf)
+    slides = (tn < 0.0) & (size > bound)
+    share = np.divide(bound, size, out=np.ones(len(size)), where=slides)
+    decay = np.divide(fu * xi, gf, out=np.zeros(len(tn)), where=fu > 0)
+    left = np.where(tn < 0.0, share, np.where(fu > 0, np.exp(-decay), 0.0))
+    relieved = np.where(slides, 1.0 - share, (tn >= 0.0) & (fu == 0.0))[:, None] * (w - slip)
+    return left[:, None] * trial, slip + np.where(stiffness > 0.0, relieved, 0.0)

@@ -192,5 +192,6 @@ def _closed_shear(
         if p[SYMMETRIC] != 1.0:
             D[i, n] = -p[FROT] * dtn * direction
     for i in range(n):
-        new[SLIP1 + i] += (1.0 - ratio) * (w[i] - new[SLIP1 + i])
+        if p[KS1 + i] > 0.0:
+            new[SLIP1 + i] += (1.0 - ratio) * (w[i] - new[SLIP1 + i])
         t[i] *= ratio

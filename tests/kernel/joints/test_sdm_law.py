@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from ssilang.kernel.errors import MaterialError
-from ssilang.kernel.joints.columns import N_STATE, SHEAR_LOSS, XI
+from ssilang.kernel.joints.columns import N_STATE, SHEAR_LOSS, SLIP1, XI
 from ssilang.kernel.joints.laws import point_energies, respond
 from ssilang.kernel.joints.parameters import N_PARAMETERS, Parameter, check_sdm_parameters
-from ssilang.kernel.joints.sdm_arrays import normal_arrays
+from ssilang.kernel.joints.sdm_arrays import normal_arrays, shear_arrays
 from ssilang.kernel.joints.sdm_law import normal_law
 
 SDM = 1
@@ -54,6 +54,33 @@ def test_iteration_gives_lamberts_closed_form():
         assert found[0] == pytest.approx(t[i], rel=1e-9, abs=1e-9 * k[i] * length[i])
         assert found[1] == pytest.approx(new[i], rel=1e-9, abs=1e-12 * length[i])
         assert found[2] == pytest.approx(slope[i], rel=1e-6, abs=1e-9 * k[i])
+
+
+@pytest.mark.parametrize("d", [2, 3])
+def test_points_take_the_tractions_and_slips_of_the_arrays(d):
+    """Paths through opening, sliding and closing; one shear direction in three has no stiffness."""
+    rng, n = np.random.default_rng(d), 300
+    p = parameters(n, GF=20.0)
+    p[:, Parameter.FU] = np.where(rng.random(n) < 0.4, 1e5, 0.0)
+    p[:, Parameter.FROT] = np.where(rng.random(n) < 0.5, 0.6, -1.0)
+    columns = [Parameter.KS1, Parameter.KS2][: d - 1]
+    stiffness = p[:, columns] * (rng.random((n, d - 1)) < 0.67)
+    p[:, columns] = stiffness
+    k, fu, gf, fc, friction = (p[:, Parameter[name]] for name in ("KN", "FU", "GF", "FC", "FROT"))
+    state, xi, slip = np.zeros((n, N_STATE)), np.zeros(n), np.zeros((n, d - 1))
+    seen = set()
+    for _ in range(12):
+        w = rng.normal(scale=3e-4, size=(n, d))
+        t, state, _ = answer(w, state, p)
+        tn, xi, _ = normal_arrays(w[:, -1], xi, k, fu, gf, fc)
+        shear, slip = shear_arrays(w[:, :-1], slip, stiffness, tn, xi, fu, gf, friction)
+        np.testing.assert_allclose(t[:, -1], tn, rtol=1e-9, atol=1e-4)
+        np.testing.assert_allclose(t[:, :-1], shear, rtol=1e-9, atol=1e-4)
+        np.testing.assert_allclose(state[:, SLIP1 : SLIP1 + d - 1], slip, rtol=1e-9, atol=1e-15)
+        seen |= set(zip((tn < 0.0).tolist(), (fu > 0.0).tolist(), strict=True))
+    assert len(seen) == 4
+    assert not slip[stiffness == 0.0].any()  # never slides, never records a slip
+    assert slip[stiffness > 0.0].any()
 
 
 def test_path_does_not_depend_on_the_steps():
