@@ -42,6 +42,32 @@ LU = EXTR EVU 'ORDO' ;
 FIN ;
 """
 
+POINT = """
+OPTI ECHO 0 ;
+OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ;
+PTOP = 0. {height} ; PSOL = -1. {height} ;
+JOI = MANU 'SEG2' PSOL PTOP ;
+MOJ = MODE JOI 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' 'JOI1' ;
+MAJ = MATE MOJ 'KN' {soil} 'KS' 0. ;
+SPR = APPU 'UX' {stiffness} PTOP ;
+RIG = SPR ET (BLOQ 'UX' 'UY' PSOL) ET (BLOQ 'UY' PTOP) ;
+TAB1 = TABL ;
+TAB1 . 'DEPL' = MANU 'CHPO' PTOP 1 'UX' {release} ;
+TAB1 . 'RIGI' = RIG ;
+TAB1 . 'MASS' = MASS 'DEPL' {mass} PTOP ;
+TAB1 . 'MODELE' = MOJ ;
+TAB1 . 'CARACTERISTIQUES' = MAJ ;
+TAB1 . 'TEMPS_CALCULES' = PROG 0. 'PAS' {dt} 'NPAS' {steps} ;
+TAB1 . 'PAS_SAUVES' = {every} ;
+TAB1 . 'VITEUNIL' = FAUX ;
+TAB2 = DYNAMIC TAB1 ;
+EVU = EVOL 'TEMP' TAB2 'DEPL' 'UX' PTOP ;
+LT = EXTR EVU 'ABSC' ;
+LU = EXTR EVU 'ORDO' ;
+FIN ;
+"""
+"""The same as a mass on a spring and a joint."""
+
 
 @dataclass(frozen=True)
 class Run:
@@ -52,17 +78,19 @@ class Run:
     seconds: float
 
 
-def run(steps: int, dt: float, every: int, folder: Path) -> Run:
+def run(steps: int, dt: float, every: int, folder: Path, script: str = SCRIPT) -> Run:
     """Run the script in this process."""
     from ssilang.cli.run import run_text
 
-    text = SCRIPT.format(
+    text = script.format(
         young=YOUNG,
         inertia=INERTIA,
         height=HEIGHT,
         soil=SOIL,
         mass=repr(float(MASS)),
         push=repr(STIFFNESS * RELEASE),
+        stiffness=repr(STIFFNESS),
+        release=repr(RELEASE),
         dt=dt,
         steps=steps,
         every=every,
@@ -76,9 +104,11 @@ def run(steps: int, dt: float, every: int, folder: Path) -> Run:
     return Run(t, u, seconds)
 
 
-def steps_per_second(steps: int, dt: float, folder: Path) -> tuple[float, float]:
+def steps_per_second(
+    steps: int, dt: float, folder: Path, script: str = SCRIPT
+) -> tuple[float, float]:
     """Steps per second of the loop (the script's fixed part taken off), and that part (s)."""
-    run(100, dt, 100, folder)  # compiles
-    short = min(run(100, dt, 100, folder).seconds for _ in range(3))
-    long = min(run(100 + steps, dt, 100 + steps, folder).seconds for _ in range(3))
+    run(100, dt, 100, folder, script)  # compiles
+    short = min(run(100, dt, 100, folder, script).seconds for _ in range(3))
+    long = min(run(100 + steps, dt, 100 + steps, folder, script).seconds for _ in range(3))
     return steps / (long - short), short
