@@ -343,6 +343,13 @@ MESSAGES: dict[str, Message] = {
         "choisissez un autre nom, ou écrivez l'opérateur entre apostrophes : '{name}'",
         warning=True,
     ),
+    "behind-condition": Message(
+        "{name} stands behind the condition of SI, in the same statement: it is not run",
+        "{name} suit la condition de SI dans la même instruction : il n'est pas exécuté",
+        "a ; is probably missing between the condition and {name}",
+        "il manque sans doute un ; entre la condition et {name}",
+        warning=True,
+    ),
     "overrides-procedure": Message(
         "{name} replaces the procedure of that name in the standard library",
         "{name} remplace la procédure de ce nom de la bibliothèque",

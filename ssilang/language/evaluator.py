@@ -27,6 +27,21 @@ if TYPE_CHECKING:
     from ssilang.language.session import LoopObserver, Session
 
 
+DIRECTIVES = frozenset(
+    ["QUIT", "ITER", "MESS", "ERRE", "LIST", "TRAC", "DESS", "OPTI", "MENA", "SAUT", "RESP", "TITR"]
+)
+"""Operators that give nothing, so that none of them can be a part of a condition."""
+
+
+def _behind_condition(items: Sequence[tree.Item]) -> tree.Item | None:
+    """The directive that follows a parenthesised condition, if one does."""
+    if len(items) < 2 or not isinstance(items[0], tree.Paren):
+        return None
+    word = items[1]
+    said = isinstance(word, tree.Name | tree.Quoted) and word.text[:4] in DIRECTIVES
+    return word if said else None
+
+
 class StopRun(Exception):
     """FIN: the run ends."""
 
@@ -59,6 +74,7 @@ class Evaluator(OperandReader):
         self.current_span: Span | None = None
         self.statement_count = 0
         self._compiled: dict[tree.Statement | tree.Paren, Value | None] = {}
+        self._cut_short: set[tree.Statement] = set()  # conditions warned of
         self._held: Operand | None = None  # a value that ran as an operator and gave nothing
         self._run_node: dict[type, Callable[[Any], None]] = {
             tree.Statement: self._tolerant,
@@ -82,7 +98,14 @@ class Evaluator(OperandReader):
         if type(value) is bool:
             self.run(node.then if value else node.otherwise)
             return
-        results = self.phrase(statement.items, statement.span)
+        items = statement.items
+        if unread := _behind_condition(items):
+            # SI ends its statement: what stands there for want of a ; is not run
+            items = items[:1]
+            if statement not in self._cut_short:
+                self._cut_short.add(statement)
+                self.session.warn("behind-condition", unread.span, name=unread.span.text)
+        results = self.phrase(items, statement.span)
         if len(results) != 1 or not isinstance(results[0].value, bool):
             raise self._unfit("condition", results, statement.span)
         self.run(node.then if results[0].value else node.otherwise)

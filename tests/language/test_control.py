@@ -22,6 +22,18 @@ def test_condition_must_be_logical(fails):
     assert fails("SI 3 ; FINSI ;") == "condition"
 
 
+@pytest.mark.parametrize("behind", ["QUITTER b", "ITER b", "MESS x", "'ERRE' 5"])
+def test_a_directive_behind_the_condition_is_not_run(run, behind):
+    text = f"x = 0 ; REPE b 3 ; SI (x < 2) {behind} ; x = x + 1 ; SINO ; x = x + 10 ; FINSI ;"
+    text += "FIN b ;"
+    assert run(text)["x"] == 12
+
+
+def test_a_directive_behind_the_condition_is_warned_of_once(run):
+    text = "x = 0 ; REPE b 3 ; SI (x < 2) QUITTER b ; x = x + 1 ; FINSI ; FIN b ;"
+    assert [w.code for w in run(text).result.session.warnings] == ["behind-condition"]
+
+
 def test_blocks_nest(run):
     text = (
         "x = 0 ; SI VRAI ; SI FAUX ; x = 1 ; SINON ; REPE b 2 ; x = x + 10 ; FIN b ; FINSI ;"
