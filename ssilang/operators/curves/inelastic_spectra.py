@@ -8,10 +8,10 @@ import numpy as np
 
 from ssilang.io.plots.palette import index_of
 from ssilang.kernel.curve import Curve, CurvePart
-from ssilang.kernel.records.inelastic import LAWS, limits_for_ductility, yielding_peaks
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
 
+_LAWS = ("CINE", "ISOT", "ELAS")
 _POWER = {"DEPL": 0, "VITE": 1, "ACCE": 2}
 _VALUES = {"SIGN": "EVOLUTIO", "SPEL": "EVOLUTIO", "AMOR": "LISTREEL", "COUL": "MOT"}
 
@@ -19,7 +19,7 @@ _VALUES = {"SIGN": "EVOLUTIO", "SPEL": "EVOLUTIO", "AMOR": "LISTREEL", "COUL": "
 def _read(call: Call) -> dict[str, Any]:
     """What is said by keyword; the two kinds of spectrum under 'KINDS', the law under 'LAW'."""
     said: dict[str, Any] = {"KINDS": []}
-    words = ("DEMA", *_VALUES, *LAWS, "TAKE", *_POWER)
+    words = ("DEMA", *_VALUES, *_LAWS, "TAKE", *_POWER)
     while (word := call.keyword(words)) is not None:
         if word in _POWER:
             said["KINDS"].append(word)
@@ -45,6 +45,8 @@ def _read(call: Call) -> dict[str, Any]:
 
 
 def _spon(call: Call) -> Curve:
+    from ssilang.kernel.records.inelastic import limits_for_ductility, yielding_peaks
+
     said = _read(call)
     signal = said["SIGN"].parts[0]
     t, g = np.asarray(signal.abscissas, float), np.asarray(signal.ordinates, float)
