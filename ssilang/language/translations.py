@@ -45,6 +45,20 @@ TEMPLATES: tuple[tuple[str, str], ...] = (
         "no polygons of five sides or more in this mesh",
         "aucun polygone de cinq côtés ou plus dans ce maillage",
     ),
+    # ---- finite displacements
+    (
+        "finite displacements are not built for {} in this hypothesis",
+        "les grands déplacements ne sont pas programmés pour {} dans cette hypothèse",
+    ),
+    (
+        "continuous elements and bars have them; leave 'GRANDS_DEPLACEMENTS' for others",
+        "les massifs et les barres les ont ; ôter 'GRANDS_DEPLACEMENTS' pour les autres",
+    ),
+    (
+        "plastic bodies have small displacements only",
+        "les corps plastiques n'ont que de petits déplacements",
+    ),
+    ("a bar is shrunk to nothing", "une barre est réduite à rien"),
     # ---- time stepping on modes and its links, recombination
     ("link {} has no positive stiffness", "la liaison {} n'a pas de raideur positive"),
     (

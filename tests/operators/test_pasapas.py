@@ -135,7 +135,7 @@ def test_unilateral_support_opens_and_closes(tmp_path):
 
 
 @pytest.mark.parametrize(
-    "entry", ["T . 'GRANDS_DEPLACEMENTS' = VRAI ;", "T . 'BLOCAGES_THERMIQUES' = 1 ;"]
+    "entry", ["T . 'UPDATE_LAGRANGIAN' = VRAI ;", "T . 'BLOCAGES_THERMIQUES' = 1 ;"]
 )
 def test_what_is_not_built_is_refused_by_name(entry, tmp_path):
     result = run_text(BAR + entry + "PASAPAS T ;", output_directory=tmp_path)

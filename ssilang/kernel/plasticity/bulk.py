@@ -98,6 +98,11 @@ class Bulk:
         """The laws, for messages."""
         return ", ".join(dict.fromkeys(z.zone.behaviour[-1] for z in self.zones))
 
+    @property
+    def searched(self) -> bool:
+        """Whether Newton's steps are cut where what is out of balance would grow."""
+        return True
+
     def unloaded(self) -> State:
         """The state of virgin material."""
         return tuple(
@@ -151,6 +156,10 @@ class Bulk:
             strain = np.einsum("mij,mj->mi", zone.parameters.compliance, old.stress)
             total += 0.5 * float(np.einsum("mi,mi->m", strain, old.stress) @ zone.weights.ravel())
         return total
+
+    def stresses(self, state: State) -> list[CellFieldBlock]:
+        """Stresses of the zones (forces in bars)."""
+        return stress_blocks(self, state)
 
 
 def bulk_of(zones: tuple[Zone, ...], characteristics: CellField, numbering: Numbering) -> Bulk:

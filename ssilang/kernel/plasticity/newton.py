@@ -98,14 +98,21 @@ class BulkSolver(FullNewtonSolver):
                 answer = now.answer
                 self.state, self.force, self.work = answer.state, answer.force, answer.work
                 return StepOutcome(now.du, turn, now.residual)
-            if turn > PATIENCE and now.residual > 0.1 * self.residuals[-PATIENCE - 1]:
+            if (
+                self.bulk.searched
+                and turn > PATIENCE
+                and now.residual > 0.1 * self.residuals[-PATIENCE - 1]
+            ):
                 break
         return StepOutcome(now.du, 1 - len(self.residuals), self.residuals[-1])
 
     def _searched(self, motion: Motion, r: FloatArray, now: _Trial, step: FloatArray) -> _Trial:
-        """The step, halved while what is out of balance would grow."""
+        """The step, halved while what is out of balance would grow.
+
+        Finite displacements take whole steps: bending stretches at first, then falls at once.
+        """
         length = 1.0
-        for _ in range(SEARCHES):
+        for _ in range(SEARCHES if self.bulk.searched else 1):
             found = self._trial(motion, r, now.du + length * step)
             if found.size < now.size or found.residual <= TOLERANCE:
                 break

@@ -15,7 +15,6 @@ from ssilang.kernel.plasticity.bulk import (
     Bulk,
     State,
     plastic_strain_blocks,
-    stress_blocks,
     variable_blocks,
 )
 
@@ -32,7 +31,7 @@ class BulkSnapshot(Snapshot):
     @property
     def body_stresses(self) -> CellField:
         """Stresses of the plastic bodies alone."""
-        return CellField(tuple(stress_blocks(self.bulk, self.bulk_state)), "CONTRAINTES")
+        return CellField(tuple(self.bulk.stresses(self.bulk_state)), "CONTRAINTES")
 
     @property
     def joint_tractions(self) -> CellField | None:
@@ -42,19 +41,21 @@ class BulkSnapshot(Snapshot):
     @property
     def tractions(self) -> CellField | None:
         """Stresses of the plastic bodies and tractions of the joints."""
-        blocks = stress_blocks(self.bulk, self.bulk_state)
+        blocks = self.bulk.stresses(self.bulk_state)
         return CellField((*blocks, *_blocks(super().tractions)), "CONTRAINTES")
 
     @property
     def variables(self) -> CellField | None:
         """Internal variables of bodies and joints."""
-        blocks = variable_blocks(self.bulk, self.bulk_state)
+        blocks = variable_blocks(self.bulk, self.bulk_state) if self.bulk.zones else []
+        if not blocks and super().variables is None:
+            return None
         return CellField((*blocks, *_blocks(super().variables)), "VARIABLES INTERNES")
 
     @property
     def plastic_strains(self) -> CellField:
         """Plastic strains of the bodies."""
-        blocks = plastic_strain_blocks(self.bulk, self.bulk_state)
+        blocks = plastic_strain_blocks(self.bulk, self.bulk_state) if self.bulk.zones else []
         return CellField(tuple(blocks), "DEFORMATIONS INELASTIQUES")
 
 

@@ -7,7 +7,8 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.model import Model
+from ssilang.kernel.joints.elements import is_joint
+from ssilang.kernel.model import Model, Zone
 from ssilang.kernel.plasticity.bulk import Bulk, State, bulk_of, state_from_fields
 from ssilang.kernel.plasticity.points import plastic_zones
 from ssilang.operators.tables.entries import Entries
@@ -48,6 +49,30 @@ def plastic_bodies(entries: Entries, start: Any = None) -> Bodies | None:
         return bulk, replace(bulk, free={}).respond(blank, problem.u, 0.0).state
 
     return make
+
+
+def finite_bodies(entries: Entries, zones: tuple[Zone, ...], start: Any) -> Bodies:
+    """What makes the bodies in finite displacements once the problem is numbered."""
+    material: CellField = entries.needed("CARACTERISTIQUES", "MCHAML")
+
+    def make(problem: Problem, inputs: Inputs) -> tuple[Bulk, State]:
+        from ssilang.kernel.plasticity.finite import finite_bulk, finite_state
+
+        given = start.of("CONTRAINTES", "MCHAML")
+        bulk = finite_bulk(zones, material, problem.numbering, problem.u, given)
+        return bulk, finite_state(problem.u)
+
+    return make
+
+
+def finite_zones(entries: Entries) -> tuple[Zone, ...]:
+    """Zones of MODELE in finite displacements: all bodies, where GRANDS_DEPLACEMENTS says so."""
+    model: Model | None = entries.get("MODELE", "MMODEL")
+    if model is None or not entries.flag("GRANDS_DEPLACEMENTS"):
+        return ()
+    if plastic_zones(model):
+        raise entries.bad("plastic bodies have small displacements only")
+    return tuple(z for z in model.zones if z.formulation == "MECANIQUE" and not is_joint(z))
 
 
 def _given(bulk: Bulk, start: Any) -> State | None:

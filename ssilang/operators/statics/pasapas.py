@@ -23,15 +23,15 @@ from ssilang.kernel.plasticity.points import is_plastic, plastic_zones
 from ssilang.kernel.statics.thermal_load import split_thermal
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
-from ssilang.language.values import Mot
+from ssilang.language.values import Mot, Table
 from ssilang.operators.dynamics.reports import report, warn_contrast, warn_resolution
 from ssilang.operators.dynamics.scheme_entries import contact_options, scheme_of
 from ssilang.operators.models.contact import model_relations
 from ssilang.operators.session.progress import ProgressLine
 from ssilang.operators.session.user_procedures import AfterEachStep, StopCalculation
-from ssilang.operators.statics.bodies import plastic_bodies
+from ssilang.operators.statics.bodies import finite_bodies, finite_zones, plastic_bodies
 from ssilang.operators.statics.initial_stress import offset_load, stress_offsets
-from ssilang.operators.statics.pasapas_entries import KNOWN, REFUSED
+from ssilang.operators.statics.pasapas_entries import KNOWN, REFUSED, RESULTS
 from ssilang.operators.statics.pasapas_results import ResultTables, Stresses
 from ssilang.operators.tables.entries import Entries
 
@@ -66,9 +66,11 @@ def zpas(call: Call) -> None:
     entries.table.set(Mot("CONV"), False)
     entries.table.set(Mot("ERREUR"), True)
     inputs, stresses = _inputs(entries, start, times, dynamic)
-    bodies = plastic_bodies(entries, start)
+    finite = finite_zones(entries)
+    bodies = finite_bodies(entries, finite, start) if finite else plastic_bodies(entries, start)
     problem = make_problem(inputs)
-    observers: list[Observer] = [ResultTables(entries.table, saved, stresses, dynamic, start.index)]
+    results = ResultTables(entries.table, saved, stresses, dynamic, start.index)
+    observers: list[Observer] = [results]
     if entries.flag("PROCEDURE_PERSO1"):
         observers.append(AfterEachStep(call, "PERSO1", entries.table, len(times)))
     line = ProgressLine("PASAPAS")
@@ -85,8 +87,19 @@ def zpas(call: Call) -> None:
         pass
     finally:
         line.close()
+    _say_last(entries, results)
     entries.table.set(Mot("CONV"), True)
     entries.table.set(Mot("ERREUR"), False)
+
+
+def _say_last(entries: Entries, results: ResultTables) -> None:
+    """Table CONTINUATION: the last results, from which a further call goes on."""
+    last = Table()
+    for word in RESULTS:
+        inner = entries.table.get(Mot(word))
+        if isinstance(inner, Table) and inner.has(results.number - 1):
+            last.set(Mot(word), inner.get(results.number - 1))
+    entries.table.set(Mot("CONTINUATION"), last)
 
 
 @dataclass(frozen=True)
@@ -111,7 +124,7 @@ def start_of(entries: Entries) -> Start:
     ]
     again = entries.get("REPRISE", "FLOTTANT")
     if again is None:
-        index = max(numbers, default=0)
+        index = max(entries.numbers("TEMPS") or numbers, default=0)
     else:
         times = {i: entries.at("TEMPS", i, "FLOTTANT", "ENTIER") for i in entries.numbers("TEMPS")}
         if not times:
@@ -160,12 +173,12 @@ def _inputs(
     displacement = start.of("DEPLACEMENTS", "CHPOINT")
     stresses = Stresses(linear, thermal)
     given = start.of("CONTRAINTES", "MCHAML")
-    if isinstance(given, CellField):
+    if isinstance(given, CellField) and solids:
         stresses.offsets = stress_offsets(solids, stresses, given, displacement, float(times[0]))
         parts = offset_load(stresses.offsets, solids)
         load = Load((*(load.parts if load else ()), *(LoadPart("MECA", f) for f in parts)))
     blocks = [stiffness(z, m) for z, m in solids]
-    plastic = plastic_zones(model)
+    plastic = (*plastic_zones(model), *finite_zones(entries))
     blocks += [without_stiffness(z) for z in plastic]
     heavy = [mass(z, m) for z, m in solids] if dynamic else []
     if dynamic and material is not None:
@@ -232,7 +245,8 @@ def _linear_zones(entries: Entries) -> list[tuple[Zone, CellField]]:
     if model is None:
         return []
     material = entries.needed("CARACTERISTIQUES", "MCHAML")
-    mechanical = (z for z in model.zones if z.formulation == "MECANIQUE")
+    finite = finite_zones(entries)
+    mechanical = (z for z in model.zones if z.formulation == "MECANIQUE" and z not in finite)
     return [(z, material) for z in mechanical if _is_linear(z)]
 
 

@@ -1,0 +1,322 @@
+"""Elastic bodies in finite displacements: continuous elements and bars, total Lagrangian.
+
+Continuous elements: `E = (F^T F - 1)/2`, `S = S0 + D E` (second Piola-Kirchhoff), dead loads. Bars
+turn with their ends: force `N = N0 + ES (l/L - 1)` along the present direction. Stresses given and
+shown are Cauchy's (of bars: the present force).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Protocol, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ssilang.kernel.elements.boundary import is_solid
+from ssilang.kernel.elements.families import _moduli, family_of, integration_weights
+from ssilang.kernel.elements.family import cell_block
+from ssilang.kernel.elements.kinematics import harmonic
+from ssilang.kernel.elements.solid import REVOLUTION, kinematics, radius, zone_geometry
+from ssilang.kernel.elements.tensors import as_components, as_tensor
+from ssilang.kernel.elements.zone_fields import zone_field
+from ssilang.kernel.errors import FieldError
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.matrices.assembly import Numbering, block_indices
+from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.model import Mode, Zone
+from ssilang.kernel.plasticity.bulk import Answer, Bulk, State, without_stiffness
+
+
+class FiniteZone(Protocol):
+    """A zone whose forces follow from the displacements of its cells, u (n_cells, n_rows)."""
+
+    @property
+    def zone(self) -> Zone:
+        """Where it stands."""
+        ...
+
+    def forces(self, u: FloatArray) -> FloatArray:
+        """Internal forces (n_cells, n_rows)."""
+        ...
+
+    def tangent(self, u: FloatArray) -> FloatArray:
+        """Their derivative (n_cells, n_rows, n_rows)."""
+        ...
+
+    def stored(self, u: FloatArray) -> float:
+        """Elastic energy, from the state without displacement on."""
+        ...
+
+    def shown(self, u: FloatArray) -> FloatArray:
+        """Cauchy stresses (n_cells, n_components, n_points)."""
+        ...
+
+    def stressed(self, given: FloatArray, u: FloatArray) -> FiniteZone:
+        """The zone whose Cauchy stresses at the displacement u are the given ones."""
+        ...
+
+
+@dataclass(frozen=True, eq=False)
+class FiniteSolid:
+    """Continuous elements.
+
+    Attributes
+    ----------
+    slopes : array (n_cells, n_points, n_rows, 3, 3)
+        Gradient of the displacement for one unit of each unknown.
+    moduli : array (n_cells, n_points, n_strains, n_strains)
+    weights : array (n_cells, n_points)
+    initial : array (n_cells, n_points, n_strains)
+        Second Piola-Kirchhoff stress without displacement.
+    """
+
+    zone: Zone
+    slopes: FloatArray
+    moduli: FloatArray
+    weights: FloatArray
+    initial: FloatArray
+
+    def _transformation(self, u: FloatArray) -> FloatArray:
+        return np.asarray(np.eye(3) + np.einsum("na,npaij->npij", u, self.slopes))
+
+    def _strain(self, F: FloatArray) -> FloatArray:
+        E = 0.5 * (np.swapaxes(F, -1, -2) @ F - np.eye(3))
+        count = self.moduli.shape[-1]
+        return np.moveaxis(as_components(E, count, True), 1, -1)
+
+    def _stress(self, F: FloatArray) -> FloatArray:
+        elastic = np.einsum("npij,npj->npi", self.moduli, self._strain(F))
+        return np.asarray(self.initial + elastic)
+
+    def _variations(self, F: FloatArray) -> FloatArray:
+        """Strain components (n, p, n_rows, n_strains) for one unit of each unknown."""
+        turned = np.einsum("npki,npakj->npaij", F, self.slopes)
+        tensors = 0.5 * (turned + np.swapaxes(turned, -1, -2))
+        n, p, a = tensors.shape[:3]
+        rows = as_components(tensors.reshape(n, p * a, 3, 3), self.moduli.shape[-1], True)
+        return np.moveaxis(rows, 1, -1).reshape(n, p, a, -1)
+
+    def forces(self, u: FloatArray) -> FloatArray:
+        """Internal forces."""
+        F = self._transformation(u)
+        S = self._stress(F) * self.weights[..., None]
+        return np.asarray(np.einsum("npac,npc->na", self._variations(F), S))
+
+    def tangent(self, u: FloatArray) -> FloatArray:
+        """Material and geometric parts."""
+        F = self._transformation(u)
+        B, S = self._variations(F), self._stress(F)
+        weighted = self.moduli * self.weights[..., None, None]
+        material = np.einsum("npac,npcd,npbd->nab", B, weighted, B, optimize=True)
+        tensor = as_tensor(np.moveaxis(S, -1, 1), False) * self.weights[..., None, None]
+        pulled = np.einsum("npaki,npij->npakj", self.slopes, tensor)
+        n, a = len(pulled), pulled.shape[2]
+        rows = np.moveaxis(pulled, 2, 1).reshape(n, a, -1)
+        columns = np.moveaxis(self.slopes, 2, 1).reshape(n, a, -1)
+        return np.asarray(material + rows @ np.swapaxes(columns, 1, 2))
+
+    def stored(self, u: FloatArray) -> float:
+        """Elastic energy."""
+        F = self._transformation(u)
+        mean = 0.5 * (self.initial + self._stress(F))
+        return float(np.einsum("npc,npc,np->", mean, self._strain(F), self.weights))
+
+    def shown(self, u: FloatArray) -> FloatArray:
+        """Cauchy stresses."""
+        F = self._transformation(u)
+        S = as_tensor(np.moveaxis(self._stress(F), -1, 1), False)
+        cauchy = F @ S @ np.swapaxes(F, -1, -2) / np.linalg.det(F)[..., None, None]
+        return as_components(cauchy, self.moduli.shape[-1], False)
+
+    def stressed(self, given: FloatArray, u: FloatArray) -> FiniteSolid:
+        """Initial stresses from Cauchy stresses."""
+        F = self._transformation(u)
+        back = np.linalg.inv(F)
+        S = back @ as_tensor(given, False) @ np.swapaxes(back, -1, -2)
+        S = S * np.linalg.det(F)[..., None, None]
+        flat = np.moveaxis(as_components(S, self.moduli.shape[-1], False), 1, -1)
+        elastic = np.einsum("npij,npj->npi", self.moduli, self._strain(F))
+        return FiniteSolid(self.zone, self.slopes, self.moduli, self.weights, flat - elastic)
+
+
+@dataclass(frozen=True, eq=False)
+class FiniteBar:
+    """Bars: span (n, d) from end to end, stiffness ES (n,), force without displacement (n,)."""
+
+    zone: Zone
+    span: FloatArray
+    stiffness: FloatArray
+    initial: FloatArray
+    points: int
+
+    def _present(self, u: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Lengths at rest and now, present directions."""
+        d = self.span.shape[1]
+        now = self.span + u[:, d:] - u[:, :d]
+        length = np.linalg.norm(now, axis=1)
+        if (length == 0.0).any():
+            raise FieldError("a bar is shrunk to nothing")
+        return np.linalg.norm(self.span, axis=1), length, now / length[:, None]
+
+    def _force(self, u: FloatArray) -> FloatArray:
+        rest, length, _ = self._present(u)
+        return np.asarray(self.initial + self.stiffness * (length / rest - 1.0))
+
+    def forces(self, u: FloatArray) -> FloatArray:
+        """Internal forces."""
+        pull = self._force(u)[:, None] * self._present(u)[2]
+        return np.concatenate([-pull, pull], axis=1)
+
+    def tangent(self, u: FloatArray) -> FloatArray:
+        """Stretching and turning parts."""
+        rest, length, t = self._present(u)
+        along = t[:, :, None] * t[:, None, :]
+        across = np.eye(t.shape[1]) - along
+        k = (self.stiffness / rest)[:, None, None] * along
+        k = k + (self._force(u) / length)[:, None, None] * across
+        return np.block([[k, -k], [-k, k]])
+
+    def stored(self, u: FloatArray) -> float:
+        """Elastic energy."""
+        rest, length, _ = self._present(u)
+        return float(0.5 * (self.initial + self._force(u)) @ (length - rest))
+
+    def shown(self, u: FloatArray) -> FloatArray:
+        """Present forces."""
+        return np.repeat(self._force(u)[:, None, None], self.points, axis=2)
+
+    def stressed(self, given: FloatArray, u: FloatArray) -> FiniteBar:
+        """Initial forces from present ones."""
+        zero = FiniteBar(self.zone, self.span, self.stiffness, 0.0 * self.initial, self.points)
+        start = given[:, 0].mean(axis=1) - zero._force(u)
+        return FiniteBar(self.zone, self.span, self.stiffness, start, self.points)
+
+
+def finite_zone(zone: Zone, material: CellField) -> FiniteZone:
+    """A zone in finite displacements, without stress.
+
+    Raises
+    ------
+    FieldError
+        For an element or a hypothesis that has none.
+    """
+    parameters = zone_field(zone, material)
+    weights = integration_weights(zone, "STRESSES", material)
+    moduli = _moduli(zone, parameters, "STRESSES")
+    if zone.element == "BARR":
+        d = len(set(family_of(zone).layout(zone).unknowns))
+        ends = zone.cells.nodes.coordinates[zone.cells.connectivity][..., :d]
+        stiffness = np.broadcast_to(moduli[:, 0, 0, 0], (len(ends),)).copy()
+        span = ends[:, 1] - ends[:, 0]
+        return FiniteBar(zone, span, stiffness, np.zeros(len(ends)), weights.shape[1])
+    turning = zone.mode is Mode.FOURIER or (zone.mode in REVOLUTION and harmonic(zone))
+    if not is_solid(zone) or turning:
+        raise FieldError(
+            f"finite displacements are not built for {zone.element} in this hypothesis",
+            "continuous elements and bars have them; leave 'GRANDS_DEPLACEMENTS' for others",
+        )
+    slopes = _slopes(zone)
+    count = moduli.shape[-1]
+    D = np.broadcast_to(moduli, (*weights.shape, count, count)).copy()
+    return FiniteSolid(zone, slopes, D, weights, np.zeros((*weights.shape, count)))
+
+
+def _slopes(zone: Zone) -> FloatArray:
+    geometry = zone_geometry(zone, "STRESSES", slice(None))
+    n, p, d, m = geometry.gradients.shape
+    nu = len(kinematics(zone).unknowns)
+    out = np.zeros((n, p, m, nu, 3, 3))
+    for k in range(nu):
+        out[:, :, :, k, k, :d] = np.swapaxes(geometry.gradients, 2, 3)
+    if zone.mode is Mode.AXISYMMETRIC:
+        r = radius(zone, geometry.shapes, slice(None))
+        out[:, :, :, 0, 2, 2] = geometry.shapes / r[..., None]
+    return out.reshape(n, p, m * nu, 3, 3)
+
+
+@dataclass(frozen=True, eq=False)
+class FiniteBulk(Bulk):
+    """Bodies in finite displacements on the numbering of a problem; their state is u (n,)."""
+
+    finite: tuple[FiniteZone, ...] = ()
+
+    @property
+    def symmetric(self) -> bool:
+        """Tangents are."""
+        return True
+
+    @property
+    def words(self) -> str:
+        """What is said of them."""
+        return "finite displacements"
+
+    @property
+    def searched(self) -> bool:
+        """Whole steps of Newton."""
+        return False
+
+    def respond(self, state: State, du: FloatArray, time: float) -> Answer:
+        """Forces and tangent after a step `du` (n,)."""
+        before = _displacement(state)
+        u = before + du
+        force = self._sum(u)
+        tangents = [z.tangent(u[p]) for z, p in zip(self.finite, self.places, strict=True)]
+        work = 0.5 * float((self._sum(before) + force) @ du)
+        return Answer(force, self._assembled(tangents), finite_state(u), work)
+
+    def force(self, state: State) -> FloatArray:
+        """Internal forces (n,) of a state."""
+        return self._sum(_displacement(state))
+
+    def _sum(self, u: FloatArray) -> FloatArray:
+        total = np.zeros(self.size)
+        for zone, places in zip(self.finite, self.places, strict=True):
+            total += np.bincount(places.ravel(), zone.forces(u[places]).ravel(), self.size)
+        return total
+
+    def stored(self, state: State) -> float:
+        """Elastic energy."""
+        u = _displacement(state)
+        return sum(z.stored(u[p]) for z, p in zip(self.finite, self.places, strict=True))
+
+    def stresses(self, state: State) -> list[CellFieldBlock]:
+        """Cauchy stresses."""
+        u = _displacement(state)
+        return [
+            cell_block(z.zone, family_of(z.zone).stress_names(z.zone), z.shown(u[p]))
+            for z, p in zip(self.finite, self.places, strict=True)
+        ]
+
+
+def finite_state(u: FloatArray) -> State:
+    """The state of bodies in finite displacements: all follows from where they are."""
+    return cast(State, (u.copy(),))
+
+
+def _displacement(state: State) -> FloatArray:
+    return cast("tuple[Any, ...]", state)[0]  # type: ignore[no-any-return]
+
+
+def finite_bulk(
+    zones: Sequence[Zone],
+    material: CellField,
+    numbering: Numbering,
+    u: FloatArray,
+    given: CellField | None,
+) -> FiniteBulk:
+    """Zones placed on a numbering; `given` are Cauchy stresses at the displacement u (n,)."""
+    made, places = [], []
+    for zone in zones:
+        finite = finite_zone(zone, material)
+        at: NDArray[np.int32] = block_indices(without_stiffness(zone), numbering).astype(np.int32)
+        if given is not None:
+            names = family_of(zone).stress_names(zone)
+            values = zone_field(zone, given).matrix(names, "STRESSES")
+            count = integration_weights(zone, "STRESSES", material).shape[1]
+            values = np.broadcast_to(values, (*values.shape[:2], count))
+            finite = finite.stressed(values, u[at])
+        made.append(finite)
+        places.append(at)
+    return FiniteBulk((), tuple(places), numbering.size, {}, tuple(made))

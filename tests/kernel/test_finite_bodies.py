@@ -1,0 +1,87 @@
+"""Bodies in finite displacements: turned without stress, tangents, patch states."""
+
+import numpy as np
+import pytest
+
+from ssilang.cli.run import run_text
+from ssilang.kernel.plasticity.finite import finite_zone
+
+MESH = {
+    "plane": "OPTI DIME 2 MODE PLAN DEFO ELEM QUA8 ; S = TRAN 1 (DROI 1 (0 0) (1 0)) (0.3 1.) ;",
+    "membrane": "OPTI DIME 2 MODE PLAN CONT ELEM TRI3 ; S = TRAN 1 (DROI 1 (0 0) (1 0)) (0.3 1.) ;",
+    "ring": "OPTI DIME 2 MODE AXIS ELEM QUA4 ; S = TRAN 1 (DROI 1 (1 0) (2 0)) (0.3 1.) ;",
+    "space": "OPTI DIME 3 ELEM CUB8 ; "
+    "S = VOLU 1 (TRAN 1 (DROI 1 (0 0 0) (1 0 0)) (0 1 0)) 'TRAN' (0.2 0 1) ;",
+    "bar": "OPTI DIME 3 ELEM SEG2 ; S = DROI 2 (0 0 0) (1 2 0.5) ;",
+}
+
+
+def zone_of(name):
+    law = "MECANIQUE BARR" if name == "bar" else "MECANIQUE ELASTIQUE"
+    section = "'SECT' 0.1" if name == "bar" else ""
+    text = f"{MESH[name]} M = MODE S {law} ; A = MATE M 'YOUN' 5. 'NU' 0.3 {section} ;"
+    result = run_text(text)
+    assert result.exit_code == 0, result.message
+    zone = result.session.root.find("M").zones[0]
+    made = finite_zone(zone, result.session.root.find("A"))
+    cells = zone.cells.nodes.coordinates[zone.cells.connectivity]
+    return made, cells[..., : 3 if name in ("space", "bar") else 2]
+
+
+def moved(cells, amount=0.3, seed=3):
+    return amount * np.random.default_rng(seed).standard_normal(cells.shape).reshape(len(cells), -1)
+
+
+@pytest.mark.parametrize("name", MESH)
+def test_tangent_is_the_derivative_of_the_forces(name):
+    zone, cells = zone_of(name)
+    u, du = moved(cells, 0.1), moved(cells, 1.0, 4)
+    given = zone.shown(moved(cells, 0.05, 5))
+    zone = zone.stressed(given, u)
+    h = 1e-6
+    slope = (zone.forces(u + h * du) - zone.forces(u - h * du)) / (2 * h)
+    np.testing.assert_allclose(
+        np.einsum("nab,nb->na", zone.tangent(u), du), slope, atol=2e-8 * np.abs(slope).max()
+    )
+
+
+@pytest.mark.parametrize("name", MESH)
+def test_forces_are_the_derivative_of_the_energy(name):
+    zone, cells = zone_of(name)
+    u, du, h = moved(cells, 0.1), moved(cells, 1.0, 4), 1e-6
+    slope = (zone.stored(u + h * du) - zone.stored(u - h * du)) / (2 * h)
+    assert np.sum(zone.forces(u) * du) == pytest.approx(slope, rel=1e-7)
+
+
+@pytest.mark.parametrize("name", ["plane", "membrane", "space", "bar"])
+def test_a_turned_body_has_no_stress(name):
+    zone, cells = zone_of(name)
+    angle, R = 2.1, np.eye(cells.shape[-1])
+    R[:2, :2] = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
+    u = (cells @ R.T - cells).reshape(len(cells), -1)
+    np.testing.assert_allclose(zone.shown(u), 0.0, atol=1e-13)
+    np.testing.assert_allclose(zone.forces(u), 0.0, atol=1e-13)
+
+
+@pytest.mark.parametrize("name", MESH)
+def test_given_stresses_are_shown_at_their_displacement(name):
+    zone, cells = zone_of(name)
+    given, u = zone.shown(moved(cells, 0.05, 5)), moved(cells, 0.1)
+    np.testing.assert_allclose(zone.stressed(given, u).shown(u), given, atol=1e-12)
+
+
+def test_a_long_cantilever_follows_the_elastica():
+    """End load P L^2 / E I = 2: the tip of the elastica moves 0.4935 L down and 0.1606 L back."""
+    result = run_text("""
+    OPTI DIME 2 MODE PLAN CONT ELEM QUA8 ;
+    L = DROI 1 (0. 0.) (0. 1.) ; S = TRAN 20 L (40. 0.) ; M = MODE S MECANIQUE ELASTIQUE ;
+    A = MATE M 'YOUN' 1.2E4 'NU' 0. ; C = BLOQ 'DEPL' L ; P = S POIN 'PROC' (40. 0.5) ;
+    T = TABL ; T . 'MODELE' = M ; T . 'CARACTERISTIQUES' = A ; T . 'BLOCAGES_MECANIQUES' = C ;
+    T . 'GRANDS_DEPLACEMENTS' = VRAI ;
+    T . 'CHARGEMENT' = CHAR 'MECA' (FORC 'FY' -1.25 P) (EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.)) ;
+    T . 'TEMPS_CALCULES' = PROG 0. PAS 0.2 1. ; PASAPAS T ; U = T . 'DEPLACEMENTS' . 5 ;
+    X = EXTR U P 'UX' ; Y = EXTR U P 'UY' ;
+    """)
+    assert result.exit_code == 0, result.message
+    assert result.session.root.find("Y") == pytest.approx(-0.4935 * 40, rel=3e-3)
+    assert result.session.root.find("X") == pytest.approx(-0.1606 * 40, rel=6e-3)
