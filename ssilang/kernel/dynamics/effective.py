@@ -45,6 +45,8 @@ class Effective:
         Compliance `J Y`, `Y = A^-1 J^T` on the admissible motions.
     R : array (q, q)
         Stiffness of the joints that A holds.
+    root : RootResponse or None
+        The interface as the root of a dissected factor, if it is that.
     """
 
     dt: float
@@ -54,6 +56,7 @@ class Effective:
     right: sp.csc_array
     S: FloatArray
     R: FloatArray
+    root: RootResponse | None = None
 
     @cached_property
     def Y(self) -> FloatArray:  # noqa: N802
@@ -115,11 +118,11 @@ def effective_of(
             message.replace(" that the loads drive", ""),
             hint + ", or give it mass (MASS)",
         )
-    S = R
+    S, root = R, None
     if joints is not None:
         root = root_response(inverse, right)
         S = _compliance(problem, inverse, right) if root is None else np.asarray(root.J @ root.Y)
-    return Effective(dt, A, problem.constraints, inverse, right, np.ascontiguousarray(S), R)
+    return Effective(dt, A, problem.constraints, inverse, right, np.ascontiguousarray(S), R, root)
 
 
 def _responses(constraints: Constraints, inverse: Inverse, right: sp.csc_array) -> FloatArray:

@@ -8,7 +8,7 @@ import numpy as np
 
 from ssilang.kernel.dynamics.compiled_loop import Joints, Motion, Saved
 from ssilang.kernel.dynamics.dense_loop import joints_of
-from ssilang.kernel.dynamics.effective import Effective, RootResponse, root_response
+from ssilang.kernel.dynamics.effective import Effective, RootResponse
 from ssilang.kernel.dynamics.interleaved_march import (
     Damping,
     Flow,
@@ -40,7 +40,7 @@ def fits(problem: Problem, effective: Effective) -> bool:
         return False
     if effective.inverse.singular or problem.loading.imposed.any(axis=0).sum() > MOST:
         return False
-    if problem.interface is not None and root_response(effective.inverse, effective.right) is None:
+    if problem.interface is not None and effective.root is None:
         return False
     return isinstance(effective.inverse.factor, DissectedFactor)
 
@@ -59,7 +59,7 @@ class InterleavedLoop:
         self.M, self.C, self.K = (self._reduced(A) for A in (problem.M, problem.C, problem.K))
         self.forces = np.ascontiguousarray((self.T.T @ problem.loading.forces).T)
         n, q, s = len(order), effective.S.shape[0], problem.scheme
-        root = root_response(inverse, effective.right)
+        root = effective.root
         if root is None:
             root = RootResponse(sp.csr_array((q, 0)), np.zeros((0, q)))
         branches, trunk = _cut(factor, root.J.shape[1] > 0)

@@ -157,31 +157,33 @@ def solve_columns(L: Panels, b: FloatArray, begin: int, end: int, missing: int =
     for s in range(begin, end):
         for block, P, k0, k1, rows in _blocks(L, s, missing):
             b[k0:k1] = block @ b[k0:k1]
-            if len(rows):
+            if P.shape[1]:
                 b[rows] -= P.T @ b[k0:k1]
     for s in range(end - 1, begin - 1, -1):
         for block, P, k0, k1, rows in reversed(_blocks(L, s, missing)):
-            if len(rows):
+            if P.shape[1]:
                 b[k0:k1] -= P @ b[rows]
             b[k0:k1] = block.T @ b[k0:k1]
 
 
 def _blocks(
     L: Panels, s: int, missing: int
-) -> list[tuple[FloatArray, FloatArray, int, int, IntArray]]:
+) -> list[tuple[FloatArray, FloatArray, int, int, IntArray | slice]]:
     """Of each panel: inverse of its block (w, w), rows (w, m), its columns, its rows' places.
 
-    Places count from `missing`.
+    Places count from `missing`; a slice, that no copy is made of, where they follow one another.
     """
     c0, c1, pos = int(L.first[s]), int(L.first[s + 1]), int(L.at[s])
     below = L.rows[L.ptr[s] : L.ptr[s + 1]]
-    found = []
+    found: list[tuple[FloatArray, FloatArray, int, int, IntArray | slice]] = []
     for k0 in range(c0, c1, WIDTH):
         k1 = min(k0 + WIDTH, c1)
         w, m = k1 - k0, c1 - k1 + len(below)
         block = L.values[pos : pos + w * w].reshape(w, w)
         P = L.values[pos + w * w : pos + w * (w + m)].reshape(w, m)
-        places = np.concatenate([np.arange(k1, c1), below]) - missing
+        places: IntArray | slice = slice(k1 - missing, c1 - missing)
+        if len(below):
+            places = np.concatenate([np.arange(k1, c1), below]) - missing
         found.append((block, P, k0 - missing, k1 - missing, places))
         pos += w * (w + m)
     return found
