@@ -35,6 +35,7 @@ from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 BLOCK = 64  # coordinates whose rows of J and Jt stay in the nearest cache
 ALL_AT_ONCE = 20  # turns of a step that change all springs with the wrong sign
+MOST_TURNS = 2000  # of a step: more only if rounding decides the signs
 EXCHANGES = 64  # between two times that Q is exchanged anew: rounding does not grow
 WRONG = 1e-14  # of the largest jump, or of the force that makes it: a sign that is not rounding
 
@@ -129,7 +130,7 @@ def _solve(contact: Contact, g: FloatArray, out: FloatArray) -> None:
 
 @compiled_fast
 def _settle(contact: Contact, g: FloatArray, out: FloatArray) -> int:
-    """The springs' answer in `out` (see `_solve`) to the jumps g; returns the turns."""
+    """The springs' answer in `out` (see `_solve`) to the jumps g; returns turns (< 0: none found)."""
     turn, largest = 0, 0.0
     for i in range(len(g)):
         largest = max(largest, abs(g[i]))
@@ -149,6 +150,8 @@ def _settle(contact: Contact, g: FloatArray, out: FloatArray) -> int:
                     break
         if not changed:
             return turn
+        if turn == MOST_TURNS:
+            return -turn
         if contact.tally[1] > EXCHANGES:
             _anew(contact)
         _list_closed(contact)
@@ -282,7 +285,13 @@ def march_normal(
     next_load(modal.forces, factors[min(1, steps)], out.load0, out.load1)
     _release(modal, step, x, out, 0, n)
     for s in range(steps):
-        worst = max(worst, _settle(contact, out.jumps, answer))
+        turns = _settle(contact, out.jumps, answer)
+        if turns < 0:
+            wrong = 0.0
+            for i in range(q):
+                wrong = max(wrong, answer[i] / k[i] if contact.closed[i] else -answer[i])
+            return s, turns, wrong / np.abs(out.jumps).max()
+        worst = max(worst, turns)
         for i in range(q):
             closed = contact.closed[i]
             f[i] = min(answer[i], 0.0) if closed else 0.0
