@@ -130,7 +130,7 @@ def _solve(contact: Contact, g: FloatArray, out: FloatArray) -> None:
 
 @compiled_fast
 def _settle(contact: Contact, g: FloatArray, out: FloatArray) -> int:
-    """The springs' answer in `out` (see `_solve`) to the jumps g; returns turns (< 0: none found)."""
+    """The springs' answer in `out` (see `_solve`) to the jumps g; its turns (< 0: none found)."""
     turn, largest = 0, 0.0
     for i in range(len(g)):
         largest = max(largest, abs(g[i]))
