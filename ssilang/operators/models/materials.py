@@ -42,7 +42,10 @@ _TURNS = ("PARALLELE", "PERPENDICULAIRE", "INCLINE")
         en="Field of the parameters of a model: name and value, as many as wanted.\n"
         "Continuous elements, bars and beams: YOUN NU RHO ALPH TREF TALP VISQ; orthotropic: YG1 "
         "YG2 YG3 NU12 NU23 NU13 G12 G23 G13 RHO ALP1 ALP2 ALP3; joints: KN KS (KS1 KS2) RHO and, "
-        "for JOINT_SDM, FU GF FC FROT (KN <= FU**2/GF is refused, with the least KN). "
+        "for JOINT_SDM, FU GF FC FROT (KN <= FU**2/GF is refused, with the least KN). Plastic "
+        "bodies besides: PARFAIT SIGY; ISOTROPE ECRO (curve of the strength over the plastic "
+        "strain); CINEMATIQUE SIGY H; DRUCKER_PARFAIT LTR LCS; DRUCKER_PRAGER ALFA BETA K ETA MU "
+        "KL H GAMM DELT; RH_COULOMB COHE PHI. "
         "Geometric parameters (SECT INRY INRZ TORS SECY SECZ VECT "
         "DIM3 ...) may be given here too, or by CARA. A value is a number, a field in cells, a "
         "curve (parameter that depends on another field) or, for VECT, a point. MODAL takes FREQ "
@@ -53,7 +56,10 @@ _TURNS = ("PARALLELE", "PERPENDICULAIRE", "INCLINE")
         "Massifs, barres et poutres : YOUN NU RHO ALPH TREF TALP VISQ ; orthotropes : YG1 YG2 "
         "YG3 NU12 NU23 NU13 G12 G23 G13 RHO ALP1 ALP2 ALP3 ; joints : KN KS (KS1 KS2) RHO et, "
         "pour JOINT_SDM, FU GF FC FROT (KN <= FU**2/GF est refusé, avec le plus petit "
-        "KN). Les paramètres géométriques (SECT INRY INRZ TORS SECY "
+        "KN). Corps plastiques, en plus : PARFAIT SIGY ; ISOTROPE ECRO (courbe de la limite en "
+        "fonction de la déformation plastique) ; CINEMATIQUE SIGY H ; DRUCKER_PARFAIT LTR LCS ; "
+        "DRUCKER_PRAGER ALFA BETA K ETA MU KL H GAMM DELT ; RH_COULOMB COHE PHI. "
+        "Les paramètres géométriques (SECT INRY INRZ TORS SECY "
         "SECZ VECT DIM3 ...) se donnent ici aussi, ou par CARA. Une valeur est un nombre, un "
         "champ par éléments, une évolution ou, pour VECT, un point. MODAL prend FREQ MASS DEFO "
         "(AMOR), STATIQUE DEFO RIDE MADE, ces trois étant des champs par points. DIRECTION V1 (V2) "
@@ -64,6 +70,9 @@ _TURNS = ("PARALLELE", "PERPENDICULAIRE", "INCLINE")
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0 0) (1 0) ; M = MODE L MECANIQUE ELASTIQUE BARR "
             "; A = MATE M 'YOUN' 2.E11 'NU' 0.3 'SECT' 0.01 ; LIST (TYPE A) ;",
+            "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; S = TRAN 1 (DROI 1 (0 0) (1 0)) (0. 1.) ; "
+            "M = MODE S MECANIQUE ELASTIQUE PLASTIQUE RH_COULOMB ; "
+            "A = MATE M 'YOUN' 5.E7 'NU' 0.3 'COHE' 1.E4 'PHI' 30. ; LIST (TYPE A) ;",
         ),
     ),
     reads_itself=True,
