@@ -136,7 +136,7 @@ class Solid(ElementFamily):
         return values
 
     def geometric_values(self, zone: Zone, stress: FloatArray, parameters: ZoneField) -> FloatArray:
-        """Integral of grad(N)^T sigma grad(N), the same for each unknown of a node."""
+        """Integral of grad(N)^T sigma grad(N); hoop stress acts through `hoop_weights`."""
         nu, k = len(kinematics(zone).unknowns), zone.cells.kind.n_nodes
         m = len(self.layout(zone).unknowns)
         values = np.zeros((len(zone.cells), m, m))
@@ -144,10 +144,29 @@ class Solid(ElementFamily):
             geometry = zone_geometry(zone, "STRESSES", cells)
             w = integration_weights(zone, geometry, parameters, "STRESSES", cells)
             scalar, hoop = geometric_scalar(zone, geometry, stress[cells], w, cells)
+            factors = hoop_weights(zone, nu)
             for i in range(nu):
-                block = scalar + hoop if i == 0 else scalar
-                values[cells, i : k * nu : nu, i : k * nu : nu] = block
+                for j in np.flatnonzero(factors[i] + np.eye(nu)[i]):
+                    block = factors[i, j] * hoop + (scalar if i == j else 0.0)
+                    values[cells, i : k * nu : nu, j : k * nu : nu] = block
         return values
+
+
+def hoop_weights(zone: Zone, n_unknowns: int) -> FloatArray:
+    """How pairs of unknowns of a node enter the work of the hoop stress, (nu, nu).
+
+    It works on ((u_r,t - u_t)^2 + (u_t,t + u_r)^2 + u_z,t^2) / r^2, `,t` being the derivative along
+    the angle; with u_r, u_z as cos(n t) and u_t as sin(n t), the mean over the turn makes it
+    (n^2 + 1) (u_r^2 + u_t^2) + 4 n u_r u_t + n^2 u_z^2, over r^2.
+    """
+    factors = np.zeros((n_unknowns, n_unknowns))
+    factors[0, 0] = 1.0
+    if zone.mode is Mode.FOURIER:
+        n = harmonic(zone)
+        factors[0, 0] = factors[2, 2] = n * n + 1.0
+        factors[1, 1] = n * n
+        factors[0, 2] = factors[2, 0] = 2.0 * n
+    return factors
 
 
 def geometric_scalar(
