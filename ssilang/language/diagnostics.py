@@ -37,9 +37,9 @@ class _Data(dict[str, Any]):
         return ""
 
 
-def nearest(word: str, known: Iterable[str]) -> str:
-    """The known name that looks most like `word`, '' if none does."""
-    found = difflib.get_close_matches(word.upper(), list(known), 8, 0.7)
+def nearest(word: str, known: Iterable[str], least: float = 0.7) -> str:
+    """The known name that looks most like `word`, '' if none is as like as `least`."""
+    found = difflib.get_close_matches(word.upper(), list(known), 8, least)
     likeness = {w: difflib.SequenceMatcher(None, w, word.upper()).ratio() for w in found}
     return min(found, key=lambda w: (-likeness[w], w), default="")
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from difflib import get_close_matches
 
 from ssilang.kernel.elements.catalog import ELEMENTS, GENERIC_ELEMENTS, default_element
 from ssilang.kernel.elements.families import register_family
@@ -25,6 +24,7 @@ from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
 from ssilang.kernel.modal import shape_models
 from ssilang.kernel.model import Mode, Model, Zone
 from ssilang.language.call import Call
+from ssilang.language.diagnostics import nearest
 from ssilang.language.registry import Help, operator
 from ssilang.operators.dispatch import union
 from ssilang.operators.models.contact import contact_model, take_contact
@@ -210,8 +210,8 @@ def _unknown(call: Call, said: str) -> Exception:
                 next((o.value for o in call.used[::-1] if str(o.value).upper() == said), None),
                 hint="'MECANIQUE' 'ELASTIQUE' is, with " + " ".join((*ELASTICITIES, *JOINT_WORDS)),
             )
-    near = get_close_matches(said, known, 1, 0.5)
-    hint = f"did you mean {near[0]}?" if near else "known: " + " ".join(known)
+    near = nearest(said, known, 0.5)
+    hint = f"did you mean {near}?" if near else "known: " + " ".join(known)
     return call.bad(f"MODE does not know the word {said}", hint=hint)
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from difflib import get_close_matches
 from typing import Any
 
 import numpy as np
@@ -20,6 +19,7 @@ from ssilang.kernel.materials.parameters import geometric_names, known_names
 from ssilang.kernel.mesh.mesh import Point
 from ssilang.kernel.model import Model, Zone
 from ssilang.language.call import Call
+from ssilang.language.diagnostics import nearest
 from ssilang.language.registry import Help, operator
 
 Known = Callable[[Zone], tuple[str, ...]]
@@ -149,8 +149,8 @@ def _read_value(call: Call, word: str, model: Model, given: list[Values], known:
 
 def _unknown(call: Call, name: str, model: Model, known: Known) -> Exception:
     names = tuple(dict.fromkeys(n for z in model.zones for n in known(z)))
-    near = get_close_matches(name, names, 1, 0.5)
-    hint = f"did you mean {near[0]}? " if near else ""
+    near = nearest(name, names, 0.5)
+    hint = f"did you mean {near}? " if near else ""
     call.word()
     word = call.used[-1].value
     return call.bad(

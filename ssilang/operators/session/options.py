@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable
-from difflib import get_close_matches
 from typing import Any
 
 from ssilang.io.plots.palette import NAMES as COLOURS
 from ssilang.io.plots.palette import index_of
 from ssilang.kernel.matrices.matrix import PRIMAL_TO_DUAL
-from ssilang.kernel.mesh.cells import CELL_TYPES
+from ssilang.kernel.mesh.cells import CELL_TYPES, POLYGON_SIDES
 from ssilang.kernel.model import Mode
 from ssilang.language.call import Call
+from ssilang.language.diagnostics import nearest
 from ssilang.language.errors import SsiError
 from ssilang.language.registry import Help, arg, operator
 from ssilang.language.session import Session
@@ -34,6 +34,8 @@ _DEFAULTS: dict[str, Any] = {
     "ZERO": 4, "PETI": sys.float_info.min, "GRAN": sys.float_info.max,
     "PREC": sys.float_info.epsilon,
 }  # fmt: skip
+# cells of more than four straight sides go by one name
+_CELLS = (*(c for c in CELL_TYPES if c not in POLYGON_SIDES), "POLY")
 _MODES: dict[str, Mode] = {
     "AXIS": Mode.AXISYMMETRIC, "FOUR": Mode.FOURIER, "TRID": Mode.THREE_DIMENSIONAL,
     "UNID": Mode.UNIDIMENSIONAL, "CONT": Mode.PLANE_STRESS, "DEFO": Mode.PLANE_STRAIN,
@@ -82,8 +84,8 @@ def _one_of(call: Call, option: str, words: tuple[str, ...]) -> str:
     for word in words:
         if said[:4] == word[:4].rstrip():
             return word
-    near = get_close_matches(said, words, 1, 0.3)
-    hint = f"did you mean {near[0]}? " if near else ""
+    near = nearest(said, words, 0.3)
+    hint = f"did you mean {near}? " if near else ""
     raise SsiError(
         "bad-value",
         call.used[-1].span,
@@ -106,7 +108,7 @@ def _dime(call: Call, word: str) -> None:
 
 @reader("ELEM")
 def _elem(call: Call, word: str) -> None:
-    workspace(call.session).element = _one_of(call, "ELEM", (*CELL_TYPES, "POLY"))
+    workspace(call.session).element = _one_of(call, "ELEM", _CELLS)
 
 
 @reader("DENS")
@@ -271,8 +273,8 @@ def opti(call: Call) -> None:
 
 def _unknown_option(call: Call, said: str) -> SsiError:
     word = call.word()
-    near = get_close_matches(said.strip()[:4], sorted(READERS), 1, 0.4)
-    hint = f"did you mean {near[0]}?" if near else "options are " + " ".join(sorted(READERS))
+    near = nearest(said.strip()[:4], sorted(READERS), 0.4)
+    hint = f"did you mean {near}?" if near else "options are " + " ".join(sorted(READERS))
     span = call.used[-1].span if call.used else call.span
     return SsiError(
         "bad-value", span, operator="OPTION", message=f"'{word}' is no option", hint=hint

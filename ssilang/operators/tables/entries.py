@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
-from difflib import get_close_matches
 from typing import Any
 
 import numpy as np
@@ -12,6 +11,7 @@ from numpy.typing import NDArray
 from ssilang.kernel.dynamics.plan import every, nearest
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.language.call import Call
+from ssilang.language.diagnostics import nearest as nearest_word
 from ssilang.language.errors import SsiError
 from ssilang.language.source import Span
 from ssilang.language.values import Annule, Table, type_of
@@ -104,11 +104,11 @@ class Entries:
         for index, _ in self.table.items():
             if not isinstance(index, str) or str(index).rstrip() in known:
                 continue
-            near = get_close_matches(str(index).upper(), list(known), 1, 0.75)
+            near = nearest_word(str(index), known, 0.75)
             if near:
                 self.warn(
                     f"'{index}' is no entry of {self.procedure} and has no effect",
-                    f"did you mean '{near[0]}'?",
+                    f"did you mean '{near}'?",
                 )
 
     def saved_steps(
