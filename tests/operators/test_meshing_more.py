@@ -209,3 +209,14 @@ def test_surfaces_that_do_not_cross_need_noverif() -> None:
     assert value(script + "'NOVERIF' ; X = (NBEL C) + (NBEL L) ;") == 8
     square = script.replace("TRI3", "QUA4")
     assert "surfaces of TRI3 are needed" in message(square + "; ")
+
+
+def test_colours_tell_the_types_of_cells(found):
+    red, blue, white, total = found(
+        "OPTI DIME 2 ELEM QUA4 ; L = DROI 3 (0. 0.) (1. 0.) ; S = L TRAN 2 (0. 1.) ; "
+        "T = MANU 'TRI3' (3. 0.) (4. 0.) (3. 1.) ; P = MANU 'POI1' (5. 5.) ; "
+        "A = AFCO (S ET L ET T ET P) ; R = NBEL (A ELEM ROUG) ; B = NBEL (A ELEM BLEU) ; "
+        "W = NBEL (A ELEM BLAN) ; N = NBEL A ;",
+        "R", "B", "W", "N",
+    )  # fmt: skip
+    assert (red, blue, white, total) == (6, 4, 1, 11)
