@@ -216,3 +216,63 @@ def test_modal_matrices_are_those_of_the_projection():
     np.testing.assert_allclose(dk, ek)
     np.testing.assert_allclose(dm, em)
     np.testing.assert_allclose(dc, 2.0 * np.array([0.05, 0.02]) * np.sqrt(dk * dm))
+
+
+BAND = """
+OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; L1 = DROI 4 (0. 0.) (4. 0.) ; S1 = L1 TRAN 1 (0. 1.) ;
+MO = MODE S1 'MECANIQUE' 'ELASTIQUE' ; MA = MATE MO 'YOUN' 5. 'NU' 0.3 'RHO' 2. ;
+K0 = RIGI MO MA ; M0 = MASS MO MA ; K1 = K0 ET (BLOQ 'DEPL' (S1 POIN 'DROI' (0. 0.) (0. 1.))) ;
+E1 = S1 POIN 'DROI' (4. 0.) (4. 1.) ; B1 = BLOQ 'DEPL' E1 ; TS = IDLI B1 E1 ;
+"""
+HELD = BAND + "B2 = BLOQ TS ; DEPI TS ; RESO (K1 ET B2) TS ; REAC B2 TS ; "
+PUSH = (
+    "REPE B 2 ; I = 2 * &B ; TS . I . 'DDL_LIAISON' = MOT 'FY' ; "
+    "TS . (I - 1) . 'DDL_LIAISON' = MOT 'FX' ; FIN B ; FORC TS ; RESO K1 TS ; "
+)
+PUSHED = BAND + PUSH
+
+
+def dense(matrix):
+    (block,) = matrix.blocks
+    order = np.argsort(block.nodes[0])
+    assert set(zip(block.unknowns, block.duals, strict=True)) <= {
+        ("ALFA", "FALF"), ("BETA", "FBET")
+    }  # fmt: skip
+    return block.values[0][np.ix_(order, order)]
+
+
+@pytest.mark.parametrize("order", ["TM TS", "TS TM"])
+@pytest.mark.parametrize("statics", [HELD, PUSHED])
+@pytest.mark.parametrize("fixed", ["K1", "(K1 ET B1)"])
+def test_modes_with_static_shapes_give_the_projected_matrices(order, statics, fixed):
+    """The works of forces and reactions are X^T K X, coupling terms of free modes included."""
+    script = statics + (
+        f"TM = VIBR 'SIMU' 0. 3 {fixed} M0 ; KM = RIGI {order} ; KP = PJBA K0 TM TS ; "
+        f"MM = MASS {order} M0 ; MP = PJBA M0 TM TS ;"
+    )
+    km, kp, mm, mp = (dense(m) for m in objects(script, "KM", "KP", "MM", "MP"))
+    assert km.shape == (7, 7)
+    np.testing.assert_allclose(km, kp, rtol=1e-9, atol=1e-9 * np.abs(kp).max())
+    np.testing.assert_allclose(mm, mp, rtol=1e-9, atol=1e-9 * np.abs(mp).max())
+
+
+def test_static_shapes_alone_condense_the_stiffness_on_their_unknowns():
+    """Rows of the condensed stiffness of a held band sum up to what its reactions hold."""
+    script = HELD + "KS = RIGI TS ; KP = PJBA K0 TS ; MS = MASS TS M0 ; MP = PJBA M0 TS ;"
+    ks, kp, ms, mp = (m.blocks[0].values[0] for m in objects(script, "KS", "KP", "MS", "MP"))
+    np.testing.assert_allclose(ks, kp, rtol=1e-9, atol=1e-9 * np.abs(kp).max())
+    np.testing.assert_allclose(ms, mp, rtol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("last", "said"),
+    [
+        ("B2 = BLOQ TS ; DEPI TS ; RESO (K1 ET B2) TS ; X = RIGI TS ;", "neither FORCE nor"),
+        (PUSH + "X = MASS TS ;", "hold no mass"),
+        (PUSH + "X = RIGI TS TS ;", "of two tables one holds modes"),
+    ],
+)
+def test_static_shapes_without_what_their_matrices_need_are_refused(last, said):
+    result = run_text(BAND + last)
+    assert result.exit_code == 1
+    assert said in result.message

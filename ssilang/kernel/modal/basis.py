@@ -14,7 +14,7 @@ from ssilang.kernel.matrices.assembly import (
     numbering_of,
 )
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, Relations, dual_of
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray, NodeTable
 
 MULTIPLIERS = ("LX", "FLX")
 
@@ -58,19 +58,32 @@ def projected_matrix(
     X = np.stack([field_to_vector(s, numbering, dual=False) for s in shapes], axis=1)
     values: FloatArray = X.T @ (assemble(matrix, numbering) @ X)
     symmetric = all(b.symmetric for b in matrix.blocks)
+    return on_marks(matrix.table, values, marks, unknowns, duals, matrix.kind, symmetric)
+
+
+def on_marks(
+    table: NodeTable,
+    values: FloatArray,
+    marks: IntArray,
+    unknowns: Sequence[str],
+    duals: Sequence[str],
+    kind: str,
+    symmetric: bool = True,
+) -> Matrix:
+    """Values (n, n) as one element matrix on the points that mark n shapes; symmetrised if so."""
     if symmetric:
         values = 0.5 * (values + values.T)
     block = ElementMatrices(
-        matrix.table,
+        table,
         marks[None, :],
         np.arange(len(marks)),
         tuple(unknowns),
         tuple(duals),
         values[None],
-        matrix.kind,
+        kind,
         symmetric=symmetric,
     )
-    return Matrix(matrix.table, (block,), (), matrix.kind)
+    return Matrix(table, (block,), (), kind)
 
 
 def projected_relations(

@@ -6,11 +6,14 @@ from collections.abc import Callable
 
 import numpy as np
 
+from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.build import nodal_diagonal
-from ssilang.kernel.matrices.matrix import Matrix
+from ssilang.kernel.matrices.matrix import Matrix, dual_of
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+from ssilang.kernel.modal.basis import MULTIPLIERS, on_marks, projected_matrix, work
 from ssilang.kernel.modal.modes import eigenvalue
 from ssilang.language.call import Call
-from ssilang.language.registry import Argument, Function, Operator, arg
+from ssilang.language.registry import Argument, Function, Operator, arg, opt
 from ssilang.language.values import ListReel, Table
 from ssilang.operators.dispatch import extend_help
 from ssilang.operators.matrices.element import amor, mass, rigi
@@ -38,26 +41,100 @@ def _diagonal(modes: list[Shape], values: list[float], kind: str) -> Matrix:
 def _modal(call: Call, basis: Table) -> tuple[list[Shape], list[float], list[float]]:
     """Real modes of a basis, their masses and frequencies."""
     modes = [s for s in shapes_of(call, basis) if s.unknown == "ALFA"]
-    numbers = []
-    for name in ("MASSE_GENERALISEE", "FREQUENCE"):
-        column = [m.entry.get(name) for m in modes]
-        if not modes or not all(isinstance(v, float) for v in column):
-            raise call.bad(f"the basis holds no modes with {name}", basis)
-        numbers.append([float(v) for v in column])  # type: ignore[arg-type]
-    return modes, numbers[0], numbers[1]
+    if not modes:
+        raise call.bad("the basis holds no modes", basis)
+    return modes, _numbers(call, modes, "MASSE_GENERALISEE"), _numbers(call, modes, "FREQUENCE")
 
 
-@_first(rigi, arg("basis", "TABLE"))
-def modal_stiffness(call: Call, basis: Table) -> Matrix:
-    modes, masses, frequencies = _modal(call, basis)
-    values = [m * eigenvalue(f) for m, f in zip(masses, frequencies, strict=True)]
-    return _diagonal(modes, values, "RIGIDITE")
+def _numbers(call: Call, modes: list[Shape], name: str) -> list[float]:
+    """A number of each mode's entry, say its frequency."""
+    column = [m.entry.get(name) for m in modes]
+    if not all(isinstance(v, float) for v in column):
+        raise call.bad(f"the basis holds no modes with {name}")
+    return [float(v) for v in column]  # type: ignore[arg-type]
+
+
+def _stiffnesses(call: Call, modes: list[Shape]) -> list[float]:
+    """Generalised stiffness `m w |w|` of each mode."""
+    masses = _numbers(call, modes, "MASSE_GENERALISEE")
+    frequencies = _numbers(call, modes, "FREQUENCE")
+    return [m * eigenvalue(f) for m, f in zip(masses, frequencies, strict=True)]
+
+
+# --- modes and static shapes -----------------------------------------------------------------
+
+
+@_first(rigi, arg("basis", "TABLE"), opt("other", "TABLE"))
+def modal_stiffness(call: Call, basis: Table, other: Table | None) -> Matrix:
+    shapes = shapes_of(call, *_tables(call, basis, other))
+    modes = [s for s in shapes if s.unknown == "ALFA"]
+    if len(modes) == len(shapes):
+        return _diagonal(modes, _stiffnesses(call, modes), "RIGIDITE")
+    return _on_shapes(shapes, _static_stiffness(call, shapes), "RIGIDITE")
+
+
+def _tables(call: Call, basis: Table, other: Table | None) -> tuple[Table, ...]:
+    if other is None:
+        return (basis,)
+    if (basis.subtype == "LIAISONS_STATIQUES") == (other.subtype == "LIAISONS_STATIQUES"):
+        raise call.bad("of two tables one holds modes, the other is LIAISONS_STATIQUES", other)
+    return (basis, other)
+
+
+def _static_stiffness(call: Call, shapes: list[Shape]) -> FloatArray:
+    """`X^T K X` (n, n) without K: what holds a static shape, `K psi`, is known from its entry.
+
+    Modes fill the diagonal with `m w^2`; the products with a static shape are the works of its
+    forces and reactions, zero for a mode that is fixed where they act.
+    """
+    values = np.zeros((len(shapes), len(shapes)))
+    modes = [i for i, s in enumerate(shapes) if s.unknown == "ALFA"]
+    values[modes, modes] = _stiffnesses(call, [shapes[i] for i in modes])
+    for j, shape in enumerate(shapes):
+        if shape.unknown == "BETA":
+            forces = _held_by(call, shape)
+            values[:, j] = [sum(work(f, s.field) for f in forces) for s in shapes]
+    statics = [i for i, s in enumerate(shapes) if s.unknown == "BETA"]
+    values[np.ix_(statics, modes)] = values[np.ix_(modes, statics)].T
+    return values
+
+
+def _held_by(call: Call, shape: Shape) -> list[NodeField]:
+    """Force and reactions of a static shape; their sum is `K psi`."""
+    found = [f for f in map(shape.entry.get, ("FORCE", "REACTION")) if isinstance(f, NodeField)]
+    real = [f for f in found if any(name not in MULTIPLIERS for name in f.components)]
+    if not real:
+        raise call.bad(
+            "a static shape has neither FORCE nor REACTION", hint="call REAC on this table first"
+        )
+    return real
+
+
+def _on_shapes(shapes: list[Shape], values: FloatArray, kind: str) -> Matrix:
+    marks, unknowns, duals = _places(shapes)
+    return on_marks(shapes[0].field.table, values, marks, unknowns, duals, kind)
+
+
+def _places(shapes: list[Shape]) -> tuple[IntArray, list[str], list[str]]:
+    """Points that mark shapes (n,), their unknowns and duals."""
+    unknowns = [s.unknown for s in shapes]
+    return np.array([s.mark.node for s in shapes]), unknowns, [dual_of(u) for u in unknowns]
 
 
 @_first(mass, arg("basis", "TABLE"))
 def modal_mass(call: Call, basis: Table) -> Matrix:
+    if basis.subtype == "LIAISONS_STATIQUES":
+        raise call.bad(
+            "static shapes hold no mass", basis, "give the mass matrix too: MASS TAB1 MASS1"
+        )
     modes, masses, _ = _modal(call, basis)
     return _diagonal(modes, masses, "MASSE")
+
+
+@_first(mass, arg("basis", "TABLE"), opt("other", "TABLE"), arg("inertia", "RIGIDITE"))
+def projected_mass(call: Call, basis: Table, other: Table | None, inertia: Matrix) -> Matrix:
+    shapes = shapes_of(call, *_tables(call, basis, other))
+    return projected_matrix(inertia, [s.field for s in shapes], *_places(shapes))
 
 
 @_first(amor, arg("basis", "TABLE"), arg("ratios", "LISTREEL"))
@@ -78,16 +155,22 @@ _EXAMPLE = (
 )
 extend_help(
     "RIGI",
-    "RIG1 = RIGI TAB1 ;  (BASE_MODALE, BASE_DE_MODES)",
-    "Of a modal basis: generalised stiffnesses on the diagonal, on ALFA at the modes' points.",
-    "D'une base modale : rigidités généralisées sur la diagonale, sur ALFA aux points repères.",
+    "RIG1 = RIGI TAB1 ;  (BASE_MODALE, BASE_DE_MODES)\n"
+    "RIG1 = RIGI TAB1 (TAB2) ;  (BASE_MODALE, LIAISONS_STATIQUES, in either order)",
+    "Of a modal basis: generalised stiffnesses on the diagonal, on ALFA at the modes' points. Of "
+    "static shapes, on BETA, with modes or without: the works of their FORCE and REACTION.",
+    "D'une base modale : rigidités généralisées sur la diagonale, sur ALFA aux points repères. De "
+    "déformées statiques, sur BETA, avec ou sans modes : travaux de leurs FORCE et REACTION.",
     (_EXAMPLE.format("RIGI", ""),),
 )
 extend_help(
     "MASS",
-    "MASS1 = MASS TAB1 ;  (BASE_MODALE, BASE_DE_MODES)",
-    "Of a modal basis: generalised masses on the diagonal.",
-    "D'une base modale : masses généralisées sur la diagonale.",
+    "MASS1 = MASS TAB1 ;  (BASE_MODALE, BASE_DE_MODES)\n"
+    "MASS1 = MASS TAB1 (TAB2) MASS2 ;  (BASE_MODALE, LIAISONS_STATIQUES, in either order)",
+    "Of a modal basis: generalised masses on the diagonal. With a mass matrix of the body: its "
+    "projection on modes (ALFA), on static shapes (BETA) or on both.",
+    "D'une base modale : masses généralisées sur la diagonale. Avec une matrice de masse du "
+    "corps : sa projection sur des modes (ALFA), des déformées statiques (BETA) ou les deux.",
     (_EXAMPLE.format("MASS", ""),),
 )
 extend_help(
