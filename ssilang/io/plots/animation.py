@@ -12,7 +12,8 @@ import numpy as np
 from ssilang.io.atomic import replacing
 from ssilang.io.plots.composition import Subjects, compose, with_scales
 from ssilang.io.plots.figure import figure_bytes
-from ssilang.io.plots.scene import PictureOptions, draw_scene, sheet_bounds
+from ssilang.io.plots.layers import PictureOptions
+from ssilang.io.plots.scene import draw_scene, sheet_bounds
 from ssilang.io.plots.values import component_names
 from ssilang.io.plots.view import View
 from ssilang.kernel.fields.deformed import Deformed, DeformedPart

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from ssilang.io.plots.scene import Layer, PictureOptions
+    from ssilang.io.plots.layers import Layer, PictureOptions
 
 _HALO_WIDTH = 2.0
 _MOST_LABELS = 2000

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ssilang.io.plots.scene import Layer
+from ssilang.io.plots.layers import Layer
 from ssilang.io.plots.values import component_names
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.deformed import (

@@ -17,7 +17,7 @@ from ssilang.io.plots.view import Plane
 from ssilang.kernel.mesh.nodes import FloatArray
 
 if TYPE_CHECKING:
-    from ssilang.io.plots.scene import Layer, PictureOptions
+    from ssilang.io.plots.layers import Layer, PictureOptions
 
 _LIGHT = np.array([0.35, -0.55, 0.76])  # from the front right, above
 _PAPER = np.ones(3)

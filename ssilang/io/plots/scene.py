@@ -7,7 +7,7 @@ coloured by its own colours or by a field.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from datetime import datetime
 from typing import TYPE_CHECKING, Any
 
@@ -18,118 +18,20 @@ from ssilang.io.plots import annotations as notes
 from ssilang.io.plots.cutting import behind
 from ssilang.io.plots.faces import add_bands, add_faces, add_section, band_values
 from ssilang.io.plots.figure import drawing, head
-from ssilang.io.plots.labels import Annotation, draw_annotation
+from ssilang.io.plots.labels import draw_annotation
+from ssilang.io.plots.layers import Layer, PictureOptions
 from ssilang.io.plots.levels import Levels, choose_levels
 from ssilang.io.plots.markup import to_mathtext
 from ssilang.io.plots.painter import Painter
 from ssilang.io.plots.palette import shade
 from ssilang.io.plots.patches import Faces, visible_faces
 from ssilang.io.plots.view import Plane, View, plane_view
-from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.fields.deformed import Arrows, displacements
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.kernel.fields.deformed import Arrows
 from ssilang.kernel.mesh.nodes import FloatArray
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-
-
-@dataclass(frozen=True, eq=False)
-class Layer:
-    """A mesh of a picture.
-
-    Attributes
-    ----------
-    displacement, scale
-        The mesh is moved by `scale` times the displacement.
-    colour : int or None
-        Of all cells, instead of their own.
-    field, component
-        Values that colour it.
-    outline : bool
-        Only the edges are drawn, over everything (a frame of reference).
-    edges : bool
-        False: a coloured layer shows its values without the edges of its cells.
-    """
-
-    mesh: Mesh
-    displacement: NodeField | None = None
-    scale: float = 0.0
-    colour: int | None = None
-    field: NodeField | CellField | None = None
-    component: str = ""
-    arrows: Arrows | None = None
-    outline: bool = False
-    edges: bool = True
-
-    def positions(self) -> FloatArray:
-        """Coordinates of all nodes of the table, moved, shape (len(table), 3)."""
-        table = self.mesh.nodes
-        if self.displacement is None or self.scale == 0.0:
-            return table.coordinates
-        moved: FloatArray = table.coordinates + self.scale * displacements(table, self.displacement)
-        return moved
-
-
-@dataclass(frozen=True)
-class PictureOptions:
-    """Options of TRAC.
-
-    Attributes
-    ----------
-    hidden : bool
-        Hide what lies behind (CACH).
-    filled : bool
-        Fill the faces, shaded in space (FACE).
-    levels, level_count
-        Iso-values to show, or how many.
-    iso : 'SURFACE', 'LIGNE' or 'SULI'
-        Filled bands, lines, or both.
-    legend_name : str, optional
-        Stands over the colour bar instead of the component.
-    frame : Mesh, optional
-        The picture shows its surroundings only (BOIT).
-    only_colour : int, optional
-        Cells of other colours are left out (COUL).
-    shrink : float, optional
-        Cells are drawn reduced by this ratio (ECLA).
-    node_numbers, cell_numbers, point_values : bool
-        Write them on the picture (NOEU, ELEM, CHAM).
-    labels : tuple of (str, Mesh)
-        Names written in the middle of their mesh (QUAL).
-    annotation : Annotation, optional
-        Categories and tags (ANNO).
-    beyond : Plane, optional
-        Only what lies behind the plane, seen from the eye, is drawn (COUP).
-    section : Plane, optional
-        Only what the plane cuts is drawn (SECT).
-    bounds : array (2, 2), optional
-        Lower and upper corner of the sheet, for the frames of an animation to agree.
-    """
-
-    title: str = ""
-    hidden: bool = False
-    filled: bool = False
-    levels: FloatArray | None = None
-    level_count: int | None = None
-    iso: str = "SURFACE"
-    legend_name: str | None = None
-    legend: bool = True
-    frame: Mesh | None = None
-    bounds: FloatArray | None = None
-    only_colour: int | None = None
-    shrink: float | None = None
-    node_numbers: bool = False
-    cell_numbers: bool = False
-    point_values: bool = False
-    labels: tuple[tuple[str, Mesh], ...] = ()
-    date: bool = False
-    notes: tuple[str, ...] = field(default_factory=tuple)
-    annotation: Annotation | None = None
-    beyond: Plane | None = None
-    section: Plane | None = None
 
 
 def draw_scene(

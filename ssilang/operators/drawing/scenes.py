@@ -11,9 +11,10 @@ import numpy as np
 from ssilang.io.plots.animation import animation_frames, save_animation
 from ssilang.io.plots.composition import Subjects, compose
 from ssilang.io.plots.labels import Annotation
+from ssilang.io.plots.layers import PictureOptions
 from ssilang.io.plots.palette import NAMES as COLOURS
 from ssilang.io.plots.palette import index_of
-from ssilang.io.plots.scene import PictureOptions, draw_scene
+from ssilang.io.plots.scene import draw_scene
 from ssilang.io.plots.view import DEFAULT_DIRECTION, Plane, View, plane_view, view_along
 from ssilang.kernel.fields.deformed import Arrows, Deformed
 from ssilang.kernel.matrices.support import support_mesh

@@ -13,10 +13,11 @@ from PIL import Image
 from ssilang.io.errors import OutputError
 from ssilang.io.plots.composition import Subjects, compose
 from ssilang.io.plots.cutting import section_of
+from ssilang.io.plots.layers import Layer, PictureOptions
 from ssilang.io.plots.levels import choose_levels
 from ssilang.io.plots.palette import index_of, shade
 from ssilang.io.plots.patches import visible_faces
-from ssilang.io.plots.scene import Layer, PictureOptions, draw_scene
+from ssilang.io.plots.scene import draw_scene
 from ssilang.io.plots.values import VON_MISES, component_names, values_on
 from ssilang.io.plots.view import Plane, view_along
 from ssilang.kernel.fields.arrows import arrows_at_nodes, principal_strokes
