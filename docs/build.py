@@ -126,20 +126,31 @@ def index_markdown(pages: Iterable[Page]) -> str:
 
 def partly_built() -> dict[str, str]:
     """Operators whose notice has forms that are not built, with these forms (`partly.txt`)."""
+    return _remarks("partly.txt")
+
+
+def not_built() -> dict[str, str]:
+    """Names that belong here and do not exist, with the reason (`not_built.txt`)."""
+    return _remarks("not_built.txt")
+
+
+def _remarks(file: str) -> dict[str, str]:
     found: dict[str, str] = {}
-    for line in (_HERE / "partly.txt").read_text(encoding="utf-8").split("\n"):
+    for line in (_HERE / file).read_text(encoding="utf-8").split("\n"):
         if line.strip() and not line.startswith("#"):
             name, _, text = line.partition(":")
             found[name.strip()] = text.strip()
     return found
 
 
-def status(word: Cast3mWord, built: set[str], partly: dict[str, str]) -> tuple[str, str]:
-    """Whether a word of Cast3M is built, and a remark."""
+def status(
+    word: Cast3mWord, built: set[str], partly: dict[str, str], reasons: dict[str, str]
+) -> tuple[str, str]:
+    """Whether a word of Cast3M is built, and a remark: what is missing, or why it is not built."""
     if word.name in built:
         return ("partly", partly[word.name]) if word.name in partly else ("built", "")
     if word.subject == IN_SCOPE:
-        return "not built", ""
+        return "not built", reasons.get(word.name, "")
     return "out of scope", SUBJECTS[word.subject][0]
 
 
@@ -148,15 +159,16 @@ def coverage_markdown() -> str:
     load_operators()
     control = {"SI", "SINO", "FINS", "REPE", "DEBP", "FINP", "DEBM", "FINM", "TEXT", "COMM"}
     built = {*OPERATORS, *standard_procedures(), *control}
-    partly = partly_built()
+    partly, reasons = partly_built(), not_built()
     words = cast3m_words()
     lines = ["# What is built of Cast3M", "",
              "Names are those of Cast3M's public documentation. *built*: every form of the notice "
              "that belongs to mechanics; *partly*: the remark says what is missing; *not built*: "
-             "belongs here and does not exist yet; *out of scope*: another subject. "
-             "`python docs/build.py` writes this table.", ""]  # fmt: skip
+             "belongs here and does not exist (the remark says why); *out of scope*: another "
+             "subject. `python docs/build.py` writes this table.", ""]  # fmt: skip
     for kind in ("operator", "procedure"):
-        rows = {w.name: status(w, built, partly) for w in words.values() if w.kind == kind}
+        chosen = [w for w in words.values() if w.kind == kind]
+        rows = {w.name: status(w, built, partly, reasons) for w in chosen}
         lines += [f"## {kind.capitalize()}s", "", *_counts(rows), ""]
         lines += ["| name | state | remark |", "| --- | --- | --- |"]
         for name, (state, remark) in sorted(rows.items()):

@@ -10,8 +10,9 @@ import pytest
 
 from ssilang.cli.check import check_source
 from ssilang.cli.run import run_text
-from ssilang.language.cast3m import cast3m_words, find_cast3m_word
+from ssilang.language.cast3m import IN_SCOPE, cast3m_words, find_cast3m_word
 from ssilang.language.diagnostics import is_warning
+from ssilang.language.library import standard_procedures
 from ssilang.language.registry import OPERATORS
 from ssilang.language.source import Source
 
@@ -61,6 +62,17 @@ def test_partly_built_operators_exist(build):
     for name, text in build.partly_built().items():
         assert name in OPERATORS or name in cast3m_words(), name
         assert text
+
+
+def test_names_that_are_not_built_say_why_and_do_not_exist(build):
+    reasons = build.not_built()
+    existing = {*OPERATORS, *standard_procedures()}
+    words, table = cast3m_words(), build.coverage_markdown()
+    assert reasons
+    for name, text in reasons.items():
+        assert words[name].subject == IN_SCOPE
+        assert name not in existing
+        assert f"| `{name}` | not built | {text} |" in table
 
 
 def test_words_of_cast3m_are_found_by_four_letters_or_in_full():
