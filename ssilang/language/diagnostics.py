@@ -19,6 +19,8 @@ _ANY = {"en": "an object", "fr": "un objet"}
 
 
 _CALLED = {"en": "called by {name} at", "fr": "appelé par {name},"}
+_LETTERS = 4  # that an operator goes by
+_LIKE, _VERY_LIKE = 0.7, 0.8  # ratio of letters that two words share in order
 _LINE_SHOWN = 160  # characters of a source line
 _CALLS_SHOWN = 4  # at each end of the chain
 _KINDS = {
@@ -37,7 +39,7 @@ class _Data(dict[str, Any]):
         return ""
 
 
-def nearest(word: str, known: Iterable[str], least: float = 0.7) -> str:
+def nearest(word: str, known: Iterable[str], least: float = _LIKE) -> str:
     """The known name that looks most like `word`, '' if none is as like as `least`."""
     found = difflib.get_close_matches(word.upper(), list(known), 8, least)
     likeness = {w: difflib.SequenceMatcher(None, w, word.upper()).ratio() for w in found}
@@ -264,10 +266,11 @@ def _near_hint(data: dict[str, object], language: str, names: Iterable[str]) -> 
         return ""
     word = str(data["name"])
     known = elsewhere(word, language)
-    if known:
+    candidates = {*OPERATORS, *(o.full_name for o in OPERATORS.values()), *names}
+    # a misspelt long name may begin as an operator of another subject does
+    near = nearest(word, candidates, _VERY_LIKE if known else _LIKE)
+    if known and not (near and len(word) > _LETTERS):
         return known
-    full = {o.full_name for o in OPERATORS.values()}
-    near = nearest(word, {*OPERATORS, *full, *names})
     if near:
         return {"en": f"did you mean {near}?", "fr": f"vouliez-vous dire {near} ?"}[language]
     return {
