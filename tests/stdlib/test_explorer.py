@@ -1,0 +1,100 @@
+"""EXPLORER: what it draws of a PASAPAS table, against an elastic bar in tension."""
+
+import numpy as np
+import pytest
+
+from ssilang.cli.run import run_text
+from ssilang.operators.drawing import curves, scenes
+
+BAR = """
+OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ; L = (0. 0.) DROI 2 (2. 0.) ; S = L TRAN 1 (0. 1.) ;
+MO = MODE S 'MECANIQUE' 'ELASTIQUE' ; T = TABL 'PASAPAS' ; T . 'MODELE' = MO ;
+T . 'CARACTERISTIQUES' = MATE MO 'YOUN' 10. 'NU' 0. ; P = S POIN 'PROC' (2. 0.) ;
+B = (BLOQ 'UX' (COTE 4 S)) ET (BLOQ 'UY' L) ; T . 'BLOCAGES_MECANIQUES' = B ;
+D = BLOQ 'UX' (COTE 2 S) ; T . 'BLOCAGES_MECANIQUES' = B ET D ;
+T . 'CHARGEMENT' = CHAR 'DIMP' (DEPI D 0.2) (EVOL 'MANU' (PROG 0. 2.) (PROG 0. 2.)) ;
+T . 'TEMPS_CALCULES' = PROG 0. 1. 2. ; PASAPAS T ; O = TABL ; O . 'EVOL' = TABL ; E = O . 'EVOL' ;
+"""
+
+
+@pytest.fixture
+def drawn(monkeypatch, tmp_path):
+    """Runs statements after BAR; what goes to DESS and TRAC."""
+
+    def explore(text):
+        found = []
+        for module, name in ((curves, "draw_curves"), (scenes, "draw_scene")):
+            real = getattr(module, name)
+
+            def seen(first, *rest, _real=real, **named):
+                found.append(first)
+                return _real(first, *rest, **named)
+
+            monkeypatch.setattr(module, name, seen)
+        result = run_text(BAR + text, tmp_path)
+        return result, found
+
+    return explore
+
+
+CURVES = [
+    ("E . 'TYPE' = MOT 'TEMP' ; E . 'COMP' = MOT 'UX' ; E . 'POIN' = P", "'DEPL'", [[0, 0.2, 0.4]]),
+    ("E . 'TYPE' = MOT 'TEMP' ; E . 'COMP' = MOT 'SMXX'", "'CONT'", [[0, 1, 2]]),
+    (
+        "E . 'TYPE' = MOT 'TEMP' ; E . 'COMP' = MOT 'SMXX' ; E . 'ELEM' = 2 ; E . 'PTG' = 4",
+        "'CONT'",
+        [[0, 1, 2]],
+    ),
+    (
+        "E . 'TYPE' = MOT 'ESPA' ; E . 'COMP' = MOT 'UX' ; E . 'LIGN' = L",
+        "'DEPL'",
+        [[0, 0, 0], [0, 0.1, 0.2], [0, 0.2, 0.4]],
+    ),
+    (
+        "E . 'TYPE' = MOT 'ESPA' ; E . 'COMP' = MOT 'SMXX' ; E . 'LIGN' = L",
+        "'CONT'",
+        [[0, 0, 0], [1, 1, 1], [2, 2, 2]],
+    ),
+]
+
+
+@pytest.mark.parametrize(("entries", "word", "truth"), CURVES)
+def test_curves_in_time_and_along_a_line_are_those_of_the_bar(drawn, entries, word, truth):
+    result, found = drawn(entries + f" ; EXPLORER T (MOTS {word} 'EVOL') O ;")
+    assert result.exit_code == 0, result.message
+    (evolution,) = found
+    ordinates = [c.ordinates for c in evolution.parts]
+    np.testing.assert_allclose(ordinates, truth, atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("words", "scale"),
+    [
+        ("", None),
+        ("(MOTS 'DEPL' 'CONT' 'SMXX') O", 3.0),
+        ("(MOTS 'DEPL' 'REAC') O", 3.0),
+        ("(MOTS 'CONT')", 0.0),
+        ("(MOTS 'DEPL' 'VAR') O", 3.0),
+    ],
+)
+def test_one_picture_is_drawn_for_each_time(drawn, words, scale):
+    result, found = drawn(f"O . 'AMPL' = 3. ; EXPLORER T {words} ;")
+    assert result.exit_code == 0, result.message
+    assert len(found) == 3
+    if scale is not None:
+        assert {max(layer.scale for layer in layers) for layers in found} == {scale}
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ("(MOTS 'SMXX')", "is neither DEPL REAC"),
+        ("(MOTS 'TEMP')", "no index TEMPERATURES"),
+        ("(MOTS 'EVOL') O", "name the field"),
+        ("(MOTS 'DEPL' 'EVOL') O", "no index TYPE"),
+    ],
+)
+def test_requests_that_lack_something_are_refused(drawn, words, said):
+    result, _ = drawn(f"EXPLORER T {words} ;")
+    assert result.exit_code == 1
+    assert said in result.message
