@@ -75,7 +75,7 @@ class Evaluator(OperandReader):
         self.statement_count = 0
         self._compiled: dict[tree.Statement | tree.Paren, Value | None] = {}
         self._cut_short: set[tree.Statement] = set()  # conditions warned of
-        self._held: Operand | None = None  # a value that ran as an operator and gave nothing
+        self._silent: Operand | None = None  # the word of an operator that gave nothing
         self._run_node: dict[type, Callable[[Any], None]] = {
             tree.Statement: self._tolerant,
             tree.If: self._if,
@@ -269,8 +269,8 @@ class Evaluator(OperandReader):
                     wanted=wanted,
                     name=target.span.text,
                 )
-                if (held := self._held) is not None:
-                    error.data["held_word"] = (str(held.value), held.span.text)
+                if self._silent is not None:
+                    _tell_held_word(error, self._silent)
                 raise error
             taken.append(left.pop(at))
             self.store(target, taken[-1].value)
@@ -331,7 +331,7 @@ class Evaluator(OperandReader):
             word = first.text.upper()[:4]
             if word in _RAW_ITEMS and self.session.frame.find(word) is None:
                 return [Operand(self._texte(items[1:]), span, result=True)]
-        self._held = None
+        self._silent = None
         call = Call(self.session, self.operands_of(items), span)
         self._reduce(call)
         if one_name and call.operands:
@@ -384,15 +384,13 @@ class Evaluator(OperandReader):
 
     def _operate(self, found: Operator, operand: Operand, call: Call) -> None:
         call.span, call.name, call.used = operand.span, found.full_name, []
-        held = None if operand.result or _is_spelled(operand) else operand
         try:
             results = self.guarded(lambda: run_operator(found, call), operand.span, found.full_name)
         except SsiError as error:
-            if held is not None:
-                error.data.setdefault("held_word", (str(held.value), held.span.text))
+            _tell_held_word(error, operand)
             raise
         span = operand.span
-        self._held = held if results is None else None
+        self._silent = operand if results is None else None
         if isinstance(results, tuple):
             self._push(call, list(results), span)
         elif results is not None:
@@ -442,9 +440,11 @@ class Evaluator(OperandReader):
             call.operands[:] = [Operand(point, span, result=True)]
 
 
-def _is_spelled(operand: Operand) -> bool:
-    """Whether the script writes the word itself, not something whose value it is."""
-    return operand.span.text.strip("'").upper()[:4] == str(operand.value).upper()[:4]
+def _tell_held_word(error: SsiError, operand: Operand) -> None:
+    """Add the word to an error of its operator if the script holds it and does not write it."""
+    written = operand.span.text
+    if not operand.result and written.strip("'").upper()[:4] != str(operand.value).upper()[:4]:
+        error.data.setdefault("held_word", (str(operand.value), written))
 
 
 def _words_of(item: tree.Quoted) -> list[tree.Item]:
