@@ -11,8 +11,6 @@ rounding errors.
 
 from __future__ import annotations
 
-import numpy as np
-
 from ssilang.kernel.compiled import compiled
 from ssilang.kernel.joints.columns import CLOSED_SHEAR, FROT, FU, HELD, OPEN_SHEAR, SHEAR
 from ssilang.kernel.joints.response import interface_response, interface_stiffness
@@ -164,7 +162,23 @@ def iterate_interface(
     K: FloatArray,
     A: FloatArray,
 ) -> tuple[int, float]:
-    """`solve_interface` with its working arrays: r, dy, delta (size,), K, A (size, size)."""
+    """Increment y of the jumps (start value on entry), tractions, new states, forces.
+
+    Parameters
+    ----------
+    r, dy, delta, K, A : arrays (size,), (size, size)
+        Room for the iteration.
+    h : array (size,)
+        On return `c (f - f0) - R y`, the load that corrects the linear solution:
+        `x = A^-1 r - A^-1 J^T h`.
+
+    Returns
+    -------
+    turns : int
+        Newton turns, negative if it did not converge, 0 if the interface lost its stiffness.
+    residual : float
+        Of the last turn, relative to the jumps.
+    """
     n = y.shape[0]
     for i in range(n):
         delta[i] = delta0[i] + y[i]
@@ -208,47 +222,3 @@ def iterate_interface(
             return turn, size / scale
     release_shear(state, new)
     return -MOST_TURNS, size / scale
-
-
-@compiled
-def solve_interface(
-    pairs: IntArray,
-    B: FloatArray,
-    weights: FloatArray,
-    codes: IntArray,
-    p: FloatArray,
-    S: FloatArray,
-    R: FloatArray,
-    c: float,
-    delta0: FloatArray,
-    f0: FloatArray,
-    state: FloatArray,
-    y0: FloatArray,
-    y: FloatArray,
-    w: FloatArray,
-    t: FloatArray,
-    new: FloatArray,
-    D: FloatArray,
-    f: FloatArray,
-    h: FloatArray,
-) -> tuple[int, float]:
-    """Increment y of the jumps (start value on entry), tractions, new states, forces.
-
-    Parameters
-    ----------
-    h : array (size,)
-        On return `c (f - f0) - R y`, the load that corrects the linear solution:
-        `x = A^-1 r - A^-1 J^T h`.
-
-    Returns
-    -------
-    turns : int
-        Newton turns, negative if it did not converge, 0 if the interface lost its stiffness.
-    residual : float
-        Of the last turn, relative to the jumps.
-    """
-    n = y.shape[0]
-    return iterate_interface(
-        pairs, B, weights, codes, p, S, R, c, delta0, f0, state, y0, y, w, t, new, D, f, h,
-        np.empty(n), np.empty(n), np.empty(n), np.empty((n, n)), np.empty((n, n)),
-    )  # fmt: skip

@@ -1,7 +1,7 @@
 """The interface iteration of `condensed`, that keeps its factors while the tangents stay equal.
 
 Between changes of contact the tangents of successive turns and steps are the same numbers: the
-matrix `1 + S (c K - R)` is then factorised once. The answer is that of `solve_interface`.
+matrix `1 + S (c K - R)` is then factorised once. The answer is that of `iterate_interface`.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ class Workspace(NamedTuple):
     ----------
     new, D, f, h : results
         States (n_points, N_STATE), tangents (n_points, d, d), forces (q,) and `h` of
-        `solve_interface`.
+        `iterate_interface`.
     r, dy, delta, K, A
         Room (q,) and (q, q); A holds factors.
     known, pivots

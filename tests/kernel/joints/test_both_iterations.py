@@ -3,19 +3,11 @@
 import numpy as np
 import pytest
 from references.assembled import Bench
+from references.iterations import solve_cached, solve_interface
 
 from ssilang.kernel.joints.columns import N_STATE
-from ssilang.kernel.joints.condensed import solve_interface
-from ssilang.kernel.joints.condensed_cached import iterate_cached, workspace
 from ssilang.kernel.joints.interface import interface_of
 from ssilang.kernel.matrices.assembly import numbering_of
-
-
-def solve_cached(*given):
-    """`solve_interface` by the iteration that keeps its factors."""
-    state, y, w = given[10], given[12], given[13]
-    room = workspace(len(y), w, state)
-    return iterate_cached(*given, *room[4:])
 
 
 @pytest.mark.parametrize("extra", [{}, {"FROT": 0.5}, {"FU": 1e4, "GF": 5.0, "FC": -1e3}])

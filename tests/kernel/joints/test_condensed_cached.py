@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
+from references.iterations import solve_interface
 from references.soil_block import FRICTION, soil_block
 
-from ssilang.kernel.joints.condensed import solve_interface
 from ssilang.kernel.joints.condensed_cached import iterate_cached
 from ssilang.kernel.solvers.dense import (
     factorise_dense,

@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
+from references.iterations import solve_cached, solve_interface
 
 from ssilang.kernel.joints.columns import HELD, N_STATE
-from ssilang.kernel.joints.condensed import HOLDING_TURN, solve_interface
-from ssilang.kernel.joints.condensed_cached import iterate_cached, workspace
+from ssilang.kernel.joints.condensed import HOLDING_TURN
 
 ONE_POINT = {
     "pairs": np.zeros((1, 1), dtype=np.int64),
@@ -15,13 +15,6 @@ ONE_POINT = {
     # KN, KS1, KS2, FU, GF, FC, FROT, SHEAR
     "p": np.array([[1.0, 1.0, 1.0, 0.0, 0.0, 0.0, -1.0, 0.0]]),
 }
-
-
-def solve_cached(*given):
-    """`solve_interface` by the iteration that keeps its factors."""
-    state, y, w = given[10], given[12], given[13]
-    room = workspace(len(y), w, state)
-    return iterate_cached(*given, *room[4:])
 
 
 def solve(solver, S, delta0, f0, state, y0):
