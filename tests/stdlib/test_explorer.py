@@ -98,3 +98,59 @@ def test_requests_that_lack_something_are_refused(drawn, words, said):
     result, _ = drawn(f"EXPLORER T {words} ;")
     assert result.exit_code == 1
     assert said in result.message
+
+
+LOADING = """
+OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ; L = (0. 0.) DROI 2 (2. 0.) ; S = L TRAN 1 (0. 1.) ;
+T = TABL ; T . 'MODELE' = MODE S 'MECANIQUE' 'ELASTIQUE' ; O = TABL ;
+E = EVOL 'MANU' (PROG 0. 1. 3.) (PROG 0. 2. 4.) ; TT = TABL ; TT . 0 = 0. ; TT . 1 = 5. ;
+W = NOMC 'T' (COOR 1 S) ; TC = TABL ; TC . 0 = W ; TC . 1 = 3. * W ;
+F = MANU 'CHPO' (2. 1.) 'FX' 1. 'FY' -10. 'NATURE' 'DISCRET' ;
+D = MANU 'CHML' (T . 'MODELE') 'EPXX' 1. 'EPYY' 2. 'TYPE' 'DEFORMATIONS' 'STRESSES' ;
+T . 'CHARGEMENT' = (CHAR 'MECA' F E) ET (CHAR 'T' TT TC) ET (CHAR 'DEFI' D) ;
+"""
+
+
+@pytest.fixture
+def loading_drawn(monkeypatch, tmp_path):
+    """Runs statements after LOADING; what goes to TRAC."""
+
+    def explore(text):
+        found = []
+        real = scenes.draw_scene
+        monkeypatch.setattr(
+            scenes, "draw_scene", lambda f, *r, **n: (found.append(f), real(f, *r, **n))[1]
+        )
+        return run_text(LOADING + text, tmp_path), found
+
+    return explore
+
+
+@pytest.mark.parametrize(
+    ("options", "count"),
+    [
+        ("", 3 + 2 + 1),
+        ("O . 'TYPE' = MOT 'T' ;", 2),
+        ("O . 'TYPE' = MOT 'MECA' ; O . 'COMP' = MOT 'FY' ;", 3),
+        ("O . 'COMP' = MOT 'EPYY' ;", 1),
+        ("O . 'COMP' = MOT 'UZ' ;", 0),
+    ],
+)
+def test_explorer_draws_each_part_of_a_loading_at_each_of_its_times(loading_drawn, options, count):
+    result, found = loading_drawn(options + " EXPLORER T 'CHAR' O ;")
+    assert result.exit_code == 0, result.message
+    assert len(found) == count
+    assert ("no field" in result.output) == (count == 0)
+
+
+def test_explorer_wants_a_loading_to_draw(loading_drawn):
+    result, found = loading_drawn("OUBL T 'CHARGEMENT' ; EXPLORER T 'CHAR' ;")
+    assert result.exit_code == 1
+    assert "CHARGEMENT" in result.message
+    assert not found
+
+
+def test_explorer_knows_one_word_alone(loading_drawn):
+    result, _ = loading_drawn("EXPLORER T 'DEPL' ;")
+    assert result.exit_code == 1
+    assert "LISTMOTS" in result.message
