@@ -145,3 +145,15 @@ def test_pure_tension_ends_at_the_tip_of_the_cone() -> None:
     found = law.respond(p, np.zeros((1, 6)), strain, np.zeros((1, 1)))
     tip = (10 / 6) / (4 / 6) / 3
     assert found.stress[0] == pytest.approx([tip, tip, tip, 0, 0, 0])
+
+
+@pytest.mark.parametrize("slope, limit, wanted", [(0, 3.0, 3.0), (0, 9.0, 4.1), (2.0, 3.0, 3.0)])
+def test_drucker_cone_ends_at_the_ultimate_one(slope: float, limit: float, wanted: float) -> None:
+    """Equal strain in a plane under zero stress across: s = strength / (2 alpha + beta)."""
+    given = {"ALFA": 0.4, "BETA": 1, "K": 4.1, "ETA": 0.4, "MU": 1, "KL": limit, "H": slope,
+             "GAMM": 0.4, "DELT": 1, "YOUN": 1e3, "NU": 0.2}  # fmt: skip
+    p = PointParameters({n: np.full(1, float(v)) for n, v in given.items()}, {})
+    strain = np.array([[0.1, 0.1, 0.0, 0.0, 0.0, 0.0]])
+    law = PLASTIC_LAWS["DRUCKER_PRAGER"]
+    found, _ = respond_held(law, p, np.zeros((1, 6)), strain, np.zeros((1, 1)), (2,))
+    assert found.stress[0, :2] == pytest.approx(wanted / 1.8, rel=1e-12)

@@ -29,7 +29,10 @@ def perfect(
 def hardening(
     parameters: PointParameters, stress: FloatArray, strain: FloatArray, variables: FloatArray
 ) -> Response:
-    """`ALFA tr(s) + BETA q <= K + H p`, at most the ultimate cone; flow by GAMM and DELT."""
+    """`ALFA tr(s) + BETA q <= K + H p`, up to the ultimate cone; flow by GAMM and DELT.
+
+    The ultimate strength bounds K from above, and a falling one (H < 0) from below.
+    """
     limit, slope = parameters["K"], parameters["H"]
     last = parameters["KL"] * parameters["BETA"] / parameters["MU"]
     falls = slope < 0
@@ -37,9 +40,8 @@ def hardening(
     def strength(rows: IntArray, p: FloatArray) -> tuple[FloatArray, FloatArray]:
         value = limit[rows] + slope[rows] * p
         end = last[rows]
-        ended = np.where(falls[rows], value <= end, value >= end) | (slope[rows] == 0)
-        stop = np.where(slope[rows] == 0, limit[rows], end)
-        return np.where(ended, stop, value), np.where(ended, 0.0, slope[rows])
+        ended = np.where(falls[rows], value <= end, value >= end)
+        return np.where(ended, end, value), np.where(ended, 0.0, slope[rows])
 
     zero = np.zeros(len(stress))
     names = ("ALFA", "BETA", "GAMM", "DELT")
