@@ -184,6 +184,12 @@ TEMPLATES: tuple[tuple[str, str], ...] = (
         "sur 16 ; avec des joints aussi raides que les corps à leurs noeuds il vaut {}",
     ),
     (
+        "{} nodes that conditions hold have no stiffness, but lie on nodes that have (one at {} "
+        "{} {}): they hold nothing",
+        "{} noeuds que des conditions tiennent n'ont pas de raideur, mais sont à la même place que "
+        "des noeuds qui en ont (l'un en {} {} {}) : ils ne tiennent rien",
+    ),
+    (
         "the joint law {} is not built: what its parameters BETA (unloading) and CPLG "
         "(coupling) do is published nowhere",
         "la loi de joint {} n'est pas construite : ce que font ses paramètres BETA "

@@ -22,6 +22,7 @@ from ssilang.operators.dynamics.motion_observers import TableObserver
 from ssilang.operators.dynamics.reports import (
     report,
     warn_resolution,
+    warn_supports,
 )
 from ssilang.operators.dynamics.scheme_entries import (
     CONTACT_ENTRIES,
@@ -73,6 +74,7 @@ def zdyn(call: Call) -> Table:
     times, saved = _times(entries)
     inputs = _with_bodies(entries, _inputs(entries, times))
     problem = make_problem(inputs)
+    warn_supports(entries, inputs)
     make_bodies = plastic_bodies(entries)
     bodies = None if make_bodies is None else make_bodies(problem, inputs)
     warn_resolution(entries, problem)

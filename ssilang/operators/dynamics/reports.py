@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ssilang.language.values import LazyTable, ListReel, Mot, promises
+from ssilang.operators.matrices.doubled import warn_doubled_supports
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
     from ssilang.kernel.dynamics.integrate import History
-    from ssilang.kernel.dynamics.problem import Problem
+    from ssilang.kernel.dynamics.problem import Inputs, Problem
 
 ENERGIES = ("CINETIQUE", "ELASTIQUE", "JOINTS", "DISSIPEE", "AMORTIE", "EXTERIEURE")
 
@@ -94,6 +95,13 @@ def warn_massless(entries: Entries, problem: Problem) -> None:
                 "its loads at once, and is lost where all its joints open",
                 "give its MASS",
             )
+
+
+def warn_supports(entries: Entries, inputs: Inputs) -> None:
+    """Warn of supports beside the body: lines made twice."""
+    warn_doubled_supports(
+        entries.call.session, entries.place, entries.procedure, inputs.stiffness, inputs.model
+    )
 
 
 def warn_contrast(entries: Entries, problem: Problem) -> None:

@@ -14,6 +14,7 @@ from ssilang.kernel.modal.modes import Mode, modes_between, modes_near
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
 from ssilang.language.values import Mot, Table
+from ssilang.operators.matrices.doubled import warn_doubled_supports
 from ssilang.operators.workspace import workspace
 
 _METHODS = ("PROCHE", "INTERVALLE", "SIMULTANE", "IRAM")
@@ -92,6 +93,7 @@ def _vibr(call: Call) -> Table:
         raise call.missing(("RIGIDITE",))
     signed = call.optional("LOGIQUE", default=True)
     stiffness, mass, damping = matrices_by_kind(matrices)
+    warn_doubled_supports(call.session, call.span, "VIBR", stiffness)
     if damping is not None or not (is_symmetric(stiffness) and is_symmetric(mass)):
         return _complex(call, asked, stiffness, mass, damping)
     if asked.method == "INTERVALLE":

@@ -14,6 +14,7 @@ from ssilang.kernel.statics.stability import free_motion_fields, negative_eigenv
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
 from ssilang.language.values import ListChpo, Table
+from ssilang.operators.matrices.doubled import warn_doubled_supports
 from ssilang.operators.matrices.supports import static_links
 from ssilang.operators.workspace import workspace
 
@@ -41,6 +42,7 @@ def _reso(call: Call) -> Any:
         return _with_motions(call, matrix, loads, options)
     if "SOUC" in flags:
         return _or_warning(call, matrix, loads, options)
+    warn_doubled_supports(call.session, call.span, "RESO", matrix)
     solutions = tuple(solve(matrix, loads, options))
     _warn_condition(call, matrix, options)
     return solutions

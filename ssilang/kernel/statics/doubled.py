@@ -1,0 +1,74 @@
+"""Supports that hold nothing: their nodes lie on nodes of the body instead of being them.
+
+A line made twice (once for the mesh, once more for its support) has nodes of its own at the same
+places; conditions on these leave the body free, and the solution is wrong without an error.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ssilang.kernel.matrices.matrix import Matrix
+from ssilang.kernel.mesh.nodes import IntArray
+
+NEAR = 1e-6
+"""Distance below which two nodes are at the same place, as a part of the body's extent."""
+
+
+@dataclass(frozen=True)
+class DoubledSupports:
+    """Held nodes without stiffness, and the nodes with stiffness at the same places.
+
+    Attributes
+    ----------
+    held, body : array (n,)
+        Node numbers, pairwise at the same place.
+    """
+
+    held: IntArray
+    body: IntArray
+
+
+def doubled_supports(matrix: Matrix, used: IntArray | None = None) -> DoubledSupports | None:
+    """Nodes that conditions of one term hold, without stiffness, on nodes that have some.
+
+    Parameters
+    ----------
+    used : array (n,) of node numbers, optional
+        Nodes that something else than the stiffness needs (joints with a law).
+
+    Returns
+    -------
+    DoubledSupports or None
+        None if there are no such nodes. A node that a condition of several terms names too (a
+        rigid base below unilateral relations) is meant, and left out.
+    """
+    bodies = [b.nodes.ravel() for b in matrix.blocks]
+    if not bodies or not matrix.relations:
+        return None
+    stiff = np.unique(np.concatenate(bodies))
+    loose = np.setdiff1d(_held_alone(matrix), stiff)
+    if used is not None:
+        loose = np.setdiff1d(loose, used)
+    if not len(loose):
+        return None
+    points = matrix.table.coordinates
+    near = NEAR * float(np.ptp(points[stiff], axis=0).max())
+    from scipy.spatial import KDTree
+
+    distance, at = KDTree(points[stiff]).query(points[loose])
+    found = distance <= near
+    return DoubledSupports(loose[found], stiff[at[found]]) if found.any() else None
+
+
+def _held_alone(matrix: Matrix) -> IntArray:
+    """Nodes in conditions of one term, and in no condition of several."""
+    alone, tied = [np.empty(0, dtype=np.int64)], [np.empty(0, dtype=np.int64)]
+    for relations in matrix.relations:
+        terms = np.diff(relations.row_start)
+        single = np.repeat(terms == 1, terms)
+        alone.append(relations.nodes[single])
+        tied.append(relations.nodes[~single])
+    return np.setdiff1d(np.concatenate(alone), np.concatenate(tied))

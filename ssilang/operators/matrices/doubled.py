@@ -1,0 +1,36 @@
+"""The warning that a support holds nodes beside the body: lines made twice."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ssilang.kernel.matrices.matrix import Matrix
+from ssilang.kernel.model import Model
+
+_KEY = "doubled supports"
+
+
+def warn_doubled_supports(
+    session: Any, span: Any, operator: str, matrix: Matrix, model: Model | None = None
+) -> None:
+    """Warn, once a matrix, of held nodes without stiffness that lie on nodes of the body.
+
+    Nodes of `model` (joints whose law stands beside the matrix) are used and not warned of.
+    """
+    from ssilang.kernel.statics.doubled import doubled_supports
+
+    if _KEY in matrix.cache:
+        return
+    used = None if model is None else model.mesh.node_ids
+    matrix.cache[_KEY] = found = doubled_supports(matrix, used)
+    if found is None:
+        return
+    x, y, z = matrix.table.coordinates[found.held[0]]
+    session.warn(
+        "bad-value", span, operator=operator,
+        message=f"{len(found.held)} nodes that conditions hold have no stiffness, but lie on nodes "
+        f"that have (one at {x:.4g} {y:.4g} {z:.4g}): they hold nothing",
+        hint="a line or face made twice has new nodes: name it once and use the name "
+        "(BAS = P1 D P2 ;), take a part of the mesh (POIN, COTE), or join both with ELIM",
+        severity="warning",
+    )  # fmt: skip
