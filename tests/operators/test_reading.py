@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from ssilang.cli.run import RunOptions, RunResult, run_file
+from ssilang.kernel.curve import Curve
 from ssilang.language.values import Table
 
 
@@ -112,3 +113,42 @@ def test_what_is_wrong_is_said(text: str, said: str, tmp_path: Path) -> None:
     result = run(text, tmp_path, v_txt="word 2\n")
     assert result.exit_code == 1
     assert said in result.message
+
+
+# ---- ground motions
+
+AT2 = """A DATABASE OF RECORDS
+SOMEWHERE, 1/2/1990, A STATION, 090
+ACCELERATION TIME SERIES IN UNITS OF G
+{sizes}
+   .1000000E-01  -.2000000E-01   .3000000E-01
+  -.4000000E-01-.5000000E-01 0.
+"""
+
+
+@pytest.mark.parametrize("sizes", ["NPTS=   6, DT=   .0050 SEC,", "    6    0.0050    NPTS, DT"])
+def test_a_record_of_peer_in_metres(tmp_path: Path, sizes: str) -> None:
+    result = run("E = LIRE 'PEER' 'a.AT2' 10. ;", tmp_path, a_AT2=AT2.format(sizes=sizes))
+    (curve,) = values(result, "E")
+    assert isinstance(curve, Curve)
+    (part,) = curve.parts
+    assert list(part.abscissas) == pytest.approx([0.0, 0.005, 0.01, 0.015, 0.02, 0.025])
+    assert list(part.ordinates) == pytest.approx([0.1, -0.2, 0.3, -0.4, -0.5, 0.0])
+    assert (part.abscissa_name, part.ordinate_name) == ("TEMP", "ACCE")
+
+
+@pytest.mark.parametrize(
+    ("content", "told"),
+    [
+        (AT2.format(sizes="NPTS= 7, DT= .005 SEC"), "line 4 says 7 values, the file holds 6"),
+        (AT2.format(sizes="six values"), "line 4 has no 'NPTS= ..., DT= ... SEC'"),
+        (AT2.format(sizes="NPTS= 6, DT= 0 SEC"), "line 4 has no"),
+        (AT2.format(sizes="NPTS= 6, DT= .005") + "end", "line 7: 'end' is no number"),
+        ("1. 2. 3.", "line 4 has no"),
+    ],
+)
+def test_a_broken_record_says_where(tmp_path: Path, content: str, told: str) -> None:
+    result = run("E = LIRE 'PEER' 'a.AT2' ;", tmp_path, a_AT2=content)
+    assert result.exit_code == 1
+    assert told in result.message
+    assert "Traceback" not in result.message

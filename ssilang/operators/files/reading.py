@@ -11,6 +11,8 @@ from ssilang.io.csv_tables import as_columns, read_csv
 from ssilang.io.mesh_files.avs import Structure, read_avs
 from ssilang.io.mesh_files.stl import read_stl
 from ssilang.io.mesh_files.unv import UnvMesh, read_unv
+from ssilang.io.peer_records import read_peer
+from ssilang.kernel.curve import Curve, CurvePart
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.combine import poi1
@@ -204,9 +206,26 @@ def _stl(call: Call, word: str) -> Mesh:
     return Mesh.of(nodes, "TRI3", ids.reshape(-1, 3))
 
 
+@LIRE.on(
+    "PEER",
+    syntax="EVO1 = LIRE 'PEER' FIC1 (FLOT1) ;",
+    en="PEER: a ground motion in the format of the PEER database (.AT2, .VT2, .DT2) as an "
+    "evolution in time, times FLOT1 (9.81 makes m/s2 of g).",
+    fr="PEER : un accélérogramme au format de la base PEER (.AT2, .VT2, .DT2), évolution dans le "
+    "temps, multipliée par FLOT1 (9.81 fait des m/s2 de g).",
+)
+def _peer(call: Call, word: str) -> Curve:
+    record = read_peer(_file(call, ".AT2"))
+    factor = call.optional("FLOTTANT", default=1.0)
+    part = CurvePart(
+        record.times, factor * record.values, "TEMP", record.quantity, record.event[:40]
+    )
+    return Curve((part,), record.event[:72])
+
+
 @LIRE.on("MED", "FEM", "NAS")
 def _refused(call: Call, word: str) -> Any:
     raise call.bad(
         f"LIRE '{word}' is not supported",
-        hint="formats that are read: CSV, AVS, UNV, STL, PROC",
+        hint="formats that are read: CSV, PEER, AVS, UNV, STL, PROC",
     )

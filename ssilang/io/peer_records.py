@@ -1,0 +1,81 @@
+"""Ground motions in the format of the PEER database (files .AT2, .VT2, .DT2)."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ssilang.io.errors import InputError
+from ssilang.kernel.mesh.nodes import FloatArray
+
+_HEADER = 4  # lines: source, event and station, quantity and unit, number of values and step
+_NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[EeDd][-+]?\d+)?")
+_SIZES = (  # the fourth line, as files of different years have it
+    re.compile(r"NPTS\s*=\s*(\d+)\s*,?\s*DT\s*=\s*([\d.EeDd+-]+)", re.IGNORECASE),
+    re.compile(r"^\s*(\d+)\s+([\d.EeDd+-]+)\s*(?:NPTS|$)", re.IGNORECASE),
+)
+_QUANTITIES = {"ACC": "ACCE", "VEL": "VITE", "DIS": "DEPL"}
+
+
+@dataclass(frozen=True)
+class PeerRecord:
+    """A record: values (n,) in the file's unit, step dt (s), event, quantity ACCE VITE or DEPL."""
+
+    values: FloatArray
+    dt: float
+    event: str
+    quantity: str
+
+    @property
+    def times(self) -> FloatArray:
+        """Times (n,), the first is 0."""
+        return np.asarray(self.dt * np.arange(len(self.values)), dtype=np.float64)
+
+
+def read_peer(path: Path) -> PeerRecord:
+    """Read a record; neighbouring values may touch (`-.12E-02-.34E-02`).
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, its fourth line has no number of values and step, or it holds
+        fewer values than it says.
+    """
+    try:
+        lines = path.read_text(encoding="latin-1").splitlines()
+    except OSError as error:
+        raise InputError(f"{path} cannot be read: {error.strerror}") from error
+    count, dt = _sizes(path, lines)
+    values = np.array([float(t.upper().replace("D", "E")) for t in _values(path, lines)])
+    if len(values) < count:
+        raise InputError(
+            f"{path.name}: line 4 says {count} values, the file holds {len(values)}",
+            "the file is cut: fetch it again",
+        )
+    quantity = next((w for k, w in _QUANTITIES.items() if k in lines[2].upper()), "ACCE")
+    return PeerRecord(values[:count], dt, lines[1].strip(), quantity)
+
+
+def _sizes(path: Path, lines: list[str]) -> tuple[int, float]:
+    if len(lines) >= _HEADER:
+        for pattern in _SIZES:
+            if (found := pattern.search(lines[_HEADER - 1])) is not None:
+                dt = float(found[2].rstrip(".").upper().replace("D", "E") or "nan")
+                if dt > 0.0:
+                    return int(found[1]), dt
+    raise InputError(
+        f"{path.name}: line 4 has no 'NPTS= ..., DT= ... SEC'",
+        "a PEER file has 4 lines of text before its values; LIRE 'CSV' reads plain columns",
+    )
+
+
+def _values(path: Path, lines: list[str]) -> list[str]:
+    found: list[str] = []
+    for number, line in enumerate(lines[_HEADER:], start=_HEADER + 1):
+        if (rest := _NUMBER.sub("", line).strip()) != "":
+            raise InputError(f"{path.name}, line {number}: '{rest[:20]}' is no number")
+        found += _NUMBER.findall(line)
+    return found
