@@ -54,9 +54,17 @@ class Zone:
 
 @dataclass(frozen=True, eq=False)
 class Model:
-    """Zones, in the order in which they were joined by ET."""
+    """Zones, in the order in which they were joined by ET.
+
+    Parameters
+    ----------
+    zones : tuple of Zone
+    ties : tuple of CellBlock
+        SURE cells of a mesh refined by parts: nodes that hang on coarser cells (read by RELA).
+    """
 
     zones: tuple[Zone, ...]
+    ties: tuple[CellBlock, ...] = ()
 
     @property
     def mesh(self) -> Mesh:

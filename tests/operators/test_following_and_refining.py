@@ -110,3 +110,30 @@ def test_refined_intervals_of_different_sizes_grade_into_each_other():
 def test_refining_wants_a_part_and_a_size():
     assert "one part at least" in refused("L = RAFF (PROG 0. 1.) 0 ;")
     assert "positive" in refused("L = RAFF (PROG 0. 1.) -0.5 ;")
+
+
+def test_raff_cuts_cells_and_ties_what_hangs():
+    text = (
+        "OPTI DIME 2 ELEM QUA4 MODE PLAN DEFO ; S = (DROI 2 (0. 0.) (2. 0.)) TRAN 1 (0. 1.) ; "
+        "T = RAFF S (0.6 + (COOR 1 S)) ; H = T ELEM 'SURE' ; "
+        "MO = MODE T 'MECANIQUE' 'ELASTIQUE' ; MESS (NBEL T) ' ' (NBEL H) ' ' (DIME (RELA MO)) "
+        "' ' (NBEL (EXTR MO 'MAIL')) ;"
+    )
+    result = run_text(text)
+    assert result.exit_code == 0, result.message
+    # mean sizes 1.1 and 2.1: nothing is cut but the first square when sizes are halved
+    assert result.output.split() == ["2", "0", "0", "2"]
+    result = run_text(text.replace("0.6 +", "0.3 +"))
+    assert result.exit_code == 0, result.message
+    assert result.output.split()[:2] == ["6", "1"]
+    assert result.output.split()[3] == "5"
+
+
+def test_raff_wants_a_size_everywhere_and_one_division():
+    start = "OPTI DIME 2 ELEM QUA4 ; L = DROI 2 (0. 0.) (2. 0.) ; S = L TRAN 1 (0. 1.) ; "
+    result = run_text(start + "T = RAFF S (COOR 1 L) ;")
+    assert result.exit_code == 1
+    assert "no size" in result.message
+    result = run_text(start + "T = RAFF S (0.3 + (COOR 1 S)) ; U = RAFF T (COOR 1 T) ;")
+    assert result.exit_code == 1
+    assert "refined before" in result.message

@@ -1,4 +1,4 @@
-"""RAFF: lists with more values between those given."""
+"""RAFF: lists with more values between those given, meshes with smaller cells."""
 
 from __future__ import annotations
 
@@ -6,11 +6,13 @@ import math
 
 import numpy as np
 
+from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.mesh.subdivision import subdivide
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
 from ssilang.language.values import ListReel
+from ssilang.operators.mesh.refining import refined
 
 
 @operator(
@@ -21,19 +23,38 @@ from ssilang.language.values import ListReel
         "A list with each interval cut: into N1 equal parts; into parts whose size is as near as "
         "can be to FLOT1; or with N1 negative into about -N1 parts whose sizes go geometrically "
         "from one interval to the next. Equal values that follow one another are repeated "
-        "likewise.",
+        "likewise.\n"
+        "A mesh (SEG2 TRI3 QUA4 TET4 CUB8 PRI6) with a field of sizes: cells are cut into 2, 4 or "
+        "8 until no edge is longer than the size wanted, neighbours differing by one cut at most. "
+        "Nodes that then hang in the middle of an edge or a face of a coarser cell are held by "
+        "SURE cells of the mesh (the node, then those that it follows; ELEM 'SURE' takes them); "
+        "RELA with a model of the mesh makes the relations that tie them.",
         "Une liste dont chaque intervalle est découpé : en N1 parts égales ; en parts de taille la "
         "plus proche possible de FLOT1 ; ou, si N1 est négatif, en environ -N1 parts dont les "
         "tailles vont géométriquement d'un intervalle au suivant. Les valeurs égales qui se "
         "suivent "
-        "sont répétées de même.",
-        "LREE2 = RAFF LREE1 N1 | FLOT1 ;",
-        ("LIST (RAFF (PROG 0. 1. 3.) 2) ; LIST (RAFF (PROG 0. 1. 3.) 0.5) ;",),
+        "sont répétées de même.\n"
+        "Un maillage (SEG2 TRI3 QUA4 TET4 CUB8 PRI6) et un champ de tailles : les éléments sont "
+        "coupés en 2, 4 ou 8 tant qu'une arête dépasse la taille voulue, deux voisins différant "
+        "d'une coupe au plus. Les noeuds alors pendants au milieu d'une arête ou d'une face d'un "
+        "élément plus gros sont portés par des éléments SURE du maillage (le noeud, puis ceux "
+        "qu'il suit ; ELEM 'SURE' les prend) ; RELA d'un modèle du maillage fait les relations "
+        "qui les attachent.",
+        "LREE2 = RAFF LREE1 N1 | FLOT1 ;\nGEO2 = RAFF GEO1 CHPO1 ;",
+        (
+            "LIST (RAFF (PROG 0. 1. 3.) 2) ; LIST (RAFF (PROG 0. 1. 3.) 0.5) ;",
+            "OPTI DIME 2 ELEM QUA4 MODE PLAN DEFO ; S = (DROI 4 (0. 0.) (4. 0.)) TRAN 4 (0. 4.) ;"
+            " T = RAFF S (0.3 + (COOR 1 S)) ; MO = MODE T MECANIQUE ELASTIQUE ; R = RELA MO ;"
+            " MESS (NBEL T) (NBEL (T ELEM 'SURE')) (MESU (DIFF T (T ELEM 'SURE'))) ;",
+        ),
     ),
     reads_itself=True,
 )
-def raff(call: Call) -> ListReel:
-    """Refine a list."""
+def raff(call: Call) -> ListReel | Mesh:
+    """Refine a list or a mesh."""
+    mesh = call.read("MAILLAGE")
+    if mesh is not None:
+        return refined(mesh.value, call.required("CHPOINT"))
     values = np.asarray(call.required("LISTREEL").values, dtype=float)
     count = call.read("ENTIER")
     if count is None:

@@ -14,6 +14,7 @@ from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
 from ssilang.language.values import Mot, Procedure
 from ssilang.operators.matrices.supports import as_matrix, nodes_of
+from ssilang.operators.mesh.refining import tie_relations
 from ssilang.operators.workspace import workspace
 
 _SENSE = {"MINI": 1, "MAXI": -1}
@@ -40,7 +41,7 @@ def _rela(call: Call) -> Matrix | None:
         return as_matrix(_weighted(call, field.value, sense))
     model = call.read("MMODEL")
     if model is not None:
-        return Matrix(workspace(call.session).nodes)
+        return tie_relations(model.value, workspace(call.session).nodes)
     return _sums(call, sense)
 
 

@@ -23,6 +23,7 @@ from ssilang.kernel.mesh.combine import (
     union,
     without_duplicates,
 )
+from ssilang.kernel.mesh.local_refinement import TIE, parted
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.mesh.paths import network_of_lines, shortest_line
@@ -106,7 +107,7 @@ def _part_of_line(mesh: Mesh, first: int, second: int) -> Mesh:
 def _by_type_and_colour(call: Call, mesh: Mesh) -> Any:
     chosen = mesh
     while True:
-        word = call.keyword((*CELL_TYPES, "POLY", "COUL", *COLOURS))
+        word = call.keyword((TIE, *CELL_TYPES, "POLY", "COUL", *COLOURS))
         if word is None:
             break
         if word == "COUL":
@@ -116,6 +117,8 @@ def _by_type_and_colour(call: Call, mesh: Mesh) -> Any:
                 _, first = np.unique(shades, return_index=True)
                 return ListMots([COLOURS[shades[k]] for k in np.sort(first)])
             chosen = _of_colour(chosen, max(number - 1, 0))
+        elif word == TIE:
+            chosen = Mesh(chosen.nodes, parted(chosen)[1])
         elif word in CELL_TYPES:
             chosen = of_type(chosen, word)
         elif word == "POLY":

@@ -20,6 +20,7 @@ from ssilang.kernel.materials.behaviours import (
     full_word,
     normalised,
 )
+from ssilang.kernel.mesh.local_refinement import parted
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
 from ssilang.kernel.modal import shape_models
 from ssilang.kernel.model import Mode, Model, Zone
@@ -133,6 +134,9 @@ def mode(call: Call) -> Model:
         raise call.bad("the mesh is empty", mesh)
     if not wish.formulation and not wish.laws:
         raise call.bad("the formulation is not said", mesh, "MODE mesh 'MECANIQUE' 'ELASTIQUE'")
+    mesh, ties = parted(mesh)
+    if not mesh.blocks:
+        raise call.bad("the mesh holds nothing but SURE cells, which tie hanging nodes")
     _check_elements(call, wish, mesh)
     if wish.formulation == "CONTACT":
         return contact_model(call, mesh, wish.options, ws)
@@ -140,7 +144,7 @@ def mode(call: Call) -> Model:
         return Model(tuple(_pressure_zone(block, wish, ws) for block in mesh.blocks))
     zones = tuple(_zone(block, wish, ws) for block in mesh.blocks)
     _check_rule(call, wish, zones)
-    return Model(zones)
+    return Model(zones, ties)
 
 
 def _check_elements(call: Call, wish: _Wish, mesh: Mesh) -> None:
@@ -265,4 +269,6 @@ def _element(block: CellBlock, wish: _Wish, mode: Mode) -> str:
 def join_models(first: Model, second: Model) -> Model:
     """Zones of both, each once."""
     known = {id(z) for z in first.zones}
-    return Model(first.zones + tuple(z for z in second.zones if id(z) not in known))
+    ties = {id(t): t for t in (*first.ties, *second.ties)}
+    zones = first.zones + tuple(z for z in second.zones if id(z) not in known)
+    return Model(zones, tuple(ties.values()))
