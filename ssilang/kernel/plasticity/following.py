@@ -1,0 +1,277 @@
+"""Load steps whose load is sought with the displacements: a control says how long a step is.
+
+`R(du) = r + x push` and `C du = d + x drag` with the load parameter x unknown; each iteration
+splits the correction in two, `dI` (what is out of balance) and `dII` (one unit of x), and the
+control finds the x that makes `du + dI + x dII` as long as it asks (Batoz and Dhatt 1979).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from ssilang.kernel.dynamics.compiled_loop import EXTERNAL, Motion
+from ssilang.kernel.dynamics.motion import snapshot_of
+from ssilang.kernel.dynamics.problem import Problem
+from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.plasticity.bulk import Bulk
+from ssilang.kernel.plasticity.newton import STALLED, TOLERANCE, TURNS, BulkSolver, _Trial
+from ssilang.kernel.plasticity.run import BulkRun
+from ssilang.kernel.plasticity.snapshot import BulkSnapshot
+from ssilang.kernel.solvers.backends import SingularFactorError, factorise
+from ssilang.kernel.sparse import sp
+
+SOFT = 1e7
+"""Displacement under a unit of load over that of the first state, beyond which it is a collapse."""
+SHIFT = 1e-9
+"""Share of the greatest diagonal term that a matrix of collapse is held by; iterations undo it."""
+
+BLURRED = 1e3
+"""Correction of what is out of balance over the step, beyond which one more iteration is made."""
+
+
+@dataclass(frozen=True, eq=False)
+class Split:
+    """A correction in its two parts.
+
+    Attributes
+    ----------
+    start : array (n,)
+        Displacement at the start of the step.
+    du : array (n,)
+        Increment so far.
+    rest, unit : array (n,)
+        Correction of what is out of balance, and for one unit of the load parameter.
+    x : float
+        Load parameter so far.
+    """
+
+    start: FloatArray
+    du: FloatArray
+    rest: FloatArray
+    unit: FloatArray
+    x: float = 0.0
+
+
+Control = Callable[[Split, float], list[float]]
+"""Load parameters x for which `du + rest + x unit` is as long as asked (a share of the step)."""
+
+
+@dataclass(frozen=True, eq=False)
+class Way:
+    """What one unit of the load parameter adds: forces (n,), imposed values (n_rows,)."""
+
+    push: FloatArray
+    drag: FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class Found:
+    """A step: increment, load parameter, iterations (0 or less: none found), residual."""
+
+    du: FloatArray
+    x: float
+    turns: int
+    residual: float
+    trial: _Trial | None = None
+
+
+class FollowingSolver(BulkSolver):
+    """Newton's method on displacements and load parameter.
+
+    Attributes
+    ----------
+    last : array (n,) or None
+        Increment of the step before, which says what going on means.
+    """
+
+    last: FloatArray | None = None
+    softest: float = 0.0
+    """Size of the first displacement under one unit of the load; far beyond it is a collapse."""
+
+    def follow(
+        self, motion: Motion, r: FloatArray, dd: FloatArray, way: Way, control: Control,
+        share: float = 1.0, most: float = np.inf,
+    ) -> Found:  # fmt: skip
+        """A step as long as the control asks; commits joints and bodies if it converges.
+
+        Started from the last increment, and from nothing where that leads nowhere. A step that
+        goes beyond the load parameter `most` ends there.
+        """
+        lost = Found(np.zeros(len(r)), 0.0, 0, np.inf)
+        starts = [np.zeros(len(r))] if self.last is None else [share * self.last, np.zeros(len(r))]
+        for start in starts:
+            lost = self._followed(motion, r, dd, way, control, share, start)
+            if lost.turns > 0:
+                break
+        if lost.turns > 0 and lost.x > most:
+            start = lost.du * (most / lost.x)
+            lost = self._followed(motion, r, dd, way, lambda s, _: [most - s.x], share, start)
+        if lost.turns > 0:
+            assert lost.trial is not None
+            self._commit(motion, lost.du, lost.trial.f, lost.trial.new)
+            answer = lost.trial.answer
+            self.state, self.force, self.work = answer.state, answer.force, answer.work
+        return lost
+
+    def _followed(
+        self, motion: Motion, r: FloatArray, dd: FloatArray, way: Way, control: Control,
+        share: float, start: FloatArray,
+    ) -> Found:  # fmt: skip
+        x, du = 0.0, start
+        now = self._trial(motion, r, du)
+        self.residuals = []
+        for turn in range(1, TURNS + 1):
+            missing = dd + x * way.drag - self.constraints.C @ du
+            split = self._split(motion, now, x, missing, way)
+            if split is None:
+                return Found(du, x, 0, now.residual)
+            found = self._chosen(motion, r, way, x, split, control(split, share))
+            if found is None:
+                return Found(du, x, -turn, now.residual)
+            step, now = found
+            x, du = x + step, now.du
+            self.residuals.append(now.residual)
+            if not np.isfinite(now.residual):
+                break
+            # a great part of the correction that the other one takes back leaves its rounding
+            blurred = np.linalg.norm(split.rest) > BLURRED * np.linalg.norm(du)
+            if (now.residual <= TOLERANCE and not blurred) or self._settled():
+                return Found(du, x, turn, now.residual, now)
+        return Found(du, x, -len(self.residuals), now.residual)
+
+    def _settled(self) -> bool:
+        return len(self.residuals) >= 3 and max(self.residuals[-3:]) <= STALLED and self._stalled()
+
+    def _split(
+        self, motion: Motion, now: _Trial, x: float, missing: FloatArray, way: Way
+    ) -> Split | None:
+        T, V = self.constraints.T, self.constraints.V
+        whole = self.A + now.K + self.share * now.answer.tangent
+        reduced = sp.csr_array(V.T @ whole @ T)
+        for shift in (0.0, SHIFT):
+            parts = self._parts(reduced, whole, shift, now.rest, missing, way)
+            if parts is None:
+                continue
+            size = float(np.linalg.norm(parts[1]))
+            self.softest = self.softest or size
+            if np.isfinite(size) and (shift or size <= SOFT * self.softest):
+                return Split(motion.u, now.du, parts[0], parts[1], x)
+        return None
+
+    def _parts(
+        self, reduced: sp.csr_array, whole: sp.csr_array, shift: float, rest: FloatArray,
+        missing: FloatArray, way: Way,
+    ) -> list[FloatArray] | None:  # fmt: skip
+        """Both parts of the correction; None where the matrix, so shifted, has no factor."""
+        T, V = self.constraints.T, self.constraints.V
+        if shift:
+            size = float(np.abs(reduced.diagonal()).max(initial=0.0))
+            reduced = sp.csr_array(reduced + shift * size * sp.eye_array(reduced.shape[0]))
+        try:
+            factor = factorise(reduced, False)
+        except SingularFactorError:
+            return None
+        parts = []
+        for force, imposed in ((rest, missing), (V.T @ way.push, way.drag)):
+            known = self.constraints.particular(imposed)
+            parts.append(known + T @ factor.solve(force - V.T @ (whole @ known)))
+        return parts
+
+    def _chosen(
+        self, motion: Motion, r: FloatArray, way: Way, x: float, split: Split, found: list[float]
+    ) -> tuple[float, _Trial] | None:
+        """The parameter that leaves the least out of balance; at first, the one that goes on."""
+        if len(found) > 1 and not split.du.any():
+            before = split.unit if self.last is None else self.last
+            along = [float(before @ (split.rest + s * split.unit)) for s in found]
+            found = [found[int(np.argmax(along))]]
+        trials = [
+            (s, self._trial(motion, r + (x + s) * way.push, split.du + split.rest + s * split.unit))
+            for s in found
+            if np.isfinite(s)
+        ]
+        return min(trials, key=lambda t: t[1].residual) if trials else None
+
+
+class PathRun:
+    """A calculation along its path: what stands at the end of the last accepted step."""
+
+    def __init__(self, run: BulkRun) -> None:
+        self.run = run
+        self.solver = FollowingSolver(run.problem, run.problem.K, 1.0, run.bulk, run.state)
+        self.count, self.iterations = 0, 0
+        self.energies = [run.motion.energies.copy()]
+        size = run.problem.numbering.size
+        self._first = self.solver._trial(run.motion, np.zeros(size), np.zeros(size))
+        self._elastic = np.zeros(size)
+
+    def head_for(self, change: FloatArray) -> None:
+        """Load parameters count this change of the load factors (k,) from now on."""
+        way, constraints = self.way(change), self.run.problem.constraints
+        split = self.solver._split(
+            self.run.motion, self._first, 0.0, np.zeros(len(constraints.C @ self._elastic)), way
+        )
+        self._elastic = np.zeros_like(self._elastic) if split is None else split.unit
+
+    def elastic(self) -> FloatArray:
+        """Displacement (n,) of the structure as it was at the start for one unit of the load."""
+        return self._elastic
+
+    def way(self, factors: FloatArray) -> Way:
+        """What a change of the load factors (k,) adds."""
+        loading = self.run.problem.loading
+        return Way(loading.forces @ factors, loading.imposed @ factors)
+
+    def settle(self, factors: FloatArray) -> None:
+        """Reactions of the state as it is."""
+        run = self.run
+        run.motion.reaction[:] = run.imbalance(self.solver.force, factors)
+
+    def step(
+        self, factors: FloatArray, change: FloatArray, control: Control, share: float, time: float,
+        most: float = np.inf,
+    ) -> float | None:  # fmt: skip
+        """One step: load parameter x of `factors + x change`; None if none is found."""
+        run, p, m = self.run, self.run.problem, self.run.motion
+        self.solver.time = time
+        r = -run.imbalance(self.solver.force, factors)
+        dd = p.loading.imposed @ factors - p.constraints.C @ m.u
+        stored, old = run.bulk.stored(run.state), m.reaction.copy()
+        found = self.solver.follow(m, r, dd, self.way(change), control, share, most)
+        if found.turns <= 0 or not np.isfinite(found.du).all():
+            return None
+        self.solver.last = found.du / share
+        m.u[:] += found.du
+        run.state = self.solver.state
+        end = factors + found.x * change
+        m.reaction[:] = run.imbalance(self.solver.force, end)
+        mean = factors + 0.5 * found.x * change
+        m.energies[EXTERNAL] += found.du @ (p.loading.forces @ mean)
+        moved = p.constraints.C @ found.du
+        if moved.any():
+            m.energies[EXTERNAL] += moved @ p.constraints.multipliers(0.5 * (old + m.reaction))
+        run.account(stored, self.solver.work)
+        self.energies.append(m.energies.copy())
+        self.iterations = max(self.iterations, found.turns)
+        return found.x
+
+    def save(self, time: float) -> None:
+        """Hand the state to all observers."""
+        run = self.run
+        s = snapshot_of(run.problem, run.motion, 0)
+        snapshot = BulkSnapshot(
+            s.problem, self.count, time, s.u, s.v, s.a, s.reaction, s.w, s.t, s.state, s.contact,
+            run.bulk, run.state,
+        )  # fmt: skip
+        for observer in run.observers:
+            if self.count > 0 or observer.wanted[0]:
+                observer.receive(snapshot)
+        self.count += 1
+
+
+def no_bodies(problem: Problem) -> Bulk:
+    """Bodies of a problem that has none beyond its matrices."""
+    return Bulk((), (), problem.numbering.size)
