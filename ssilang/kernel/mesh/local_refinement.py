@@ -292,7 +292,7 @@ def _torn(state: _State, cells: _Cells, top: int) -> NDArray[np.bool_]:
 
 def _halved(state: _State, pairs: IntArray) -> NDArray[np.bool_]:
     """Cells of which one of the pairs (n, m, 2) of existing nodes has a node between them."""
-    there: NDArray[np.bool_] = pairs.min(axis=-1) >= 0
+    there = np.asarray(pairs.min(axis=-1) >= 0)
     keys = np.where(there, _edge_keys(np.maximum(pairs, 0)), -1)
     found: NDArray[np.bool_] = ((state.edges.at(keys) >= 0) & there).any(axis=1)
     return found
