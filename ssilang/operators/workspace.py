@@ -52,6 +52,11 @@ class Workspace:
     options: dict[str, Any] = field(default_factory=dict)
     output: RunOutput | None = None
 
+    @property
+    def in_frequency(self) -> bool:
+        """Whether OPTI 'MODE' 'FREQ' is in force: PASAPAS sweeps frequencies."""
+        return bool(self.options.get("FREQ"))
+
     def point(self, coordinates: list[float]) -> Point:
         """A new point with the density in force."""
         ids = self.nodes.add(np.asarray([coordinates], dtype=float), self.density)

@@ -78,18 +78,23 @@ def stiffness(zone: Zone, material: CellField) -> ElementMatrices:
         For a missing or inadmissible parameter.
     """
     family, parameters = family_of(zone), zone_field(zone, material)
+    whole = family.whole_matrices(zone, parameters, "RIGIDITE")
+    if whole is not None:
+        return element_matrices(zone, whole[1], whole[0], "RIGIDITE")
     moduli = _moduli(zone, parameters, "RIGIDITE")
     values = family.stiffness_values(zone, moduli, parameters)
     return element_matrices(zone, family.layout(zone), values, "RIGIDITE")
 
 
 def viscosity(zone: Zone, material: CellField) -> ElementMatrices:
-    """Viscous damping of a zone: its stiffness with VISQ in the place of YOUN."""
-    given = zone_field(zone, material)
+    """Viscous damping of a zone: its stiffness with VISQ in the place of YOUN, or dashpots."""
+    family, given = family_of(zone), zone_field(zone, material)
+    whole = family.whole_matrices(zone, given, "AMORTISSEMENT")
+    if whole is not None:
+        return element_matrices(zone, whole[1], whole[0], "AMORTISSEMENT", keep_zone=False)
     if "VISQ" not in given:
         raise missing_parameter(zone, "VISQ", given.names)
     parameters = renamed(given, {"VISQ": "YOUN"})
-    family = family_of(zone)
     moduli = family.moduli(zone, parameters, "RIGIDITE")
     values = family.stiffness_values(zone, moduli, parameters)
     return element_matrices(zone, family.layout(zone), values, "AMORTISSEMENT", keep_zone=False)

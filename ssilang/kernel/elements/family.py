@@ -107,6 +107,15 @@ class ElementFamily(ABC):
     def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, Layout]:
         """Consistent mass matrices (n_cells, n_rows, n_rows) and their rows."""
 
+    def whole_matrices(
+        self, zone: Zone, parameters: ZoneField, kind: str
+    ) -> tuple[FloatArray, Layout] | None:
+        """Stiffness ('RIGIDITE') or damping ('AMORTISSEMENT') of elements that have no moduli.
+
+        None: they follow from the strains.
+        """
+        return None
+
     def stiffness_values(self, zone: Zone, moduli: FloatArray, parameters: ZoneField) -> FloatArray:
         """Stiffness matrices (n_cells, n_rows, n_rows)."""
         n, m = len(zone.cells), len(self.layout(zone).unknowns)

@@ -104,6 +104,11 @@ class ZoneField:
     def __contains__(self, name: str) -> bool:
         return any(name in block.components for block, _ in self.parts)
 
+    def own(self) -> ZoneField:
+        """Without what models of other elements on the same cells were given."""
+        parts = tuple(p for p in self.parts if p[0].element in ("", self.zone.element))
+        return ZoneField(self.zone, parts)
+
     def _pieces(self, name: str) -> Iterator[tuple[CellFieldBlock, IntArray | None]]:
         return ((b, rows) for b, rows in self.parts if name in b.components)
 

@@ -16,7 +16,8 @@ OTHER_FORMULATIONS = (
 _SHELLS = ("plate", "meridian", "mindlin")
 ELASTICITIES: dict[str, tuple[str, ...]] = {
     "ISOTROPE": (
-        *SOLID_FAMILIES, *_SHELLS, "thick", "bar", "beam", "timoshenko", "pipe", "joint",
+        *SOLID_FAMILIES, *_SHELLS, "thick", "bar", "beam", "timoshenko", "pipe",
+        "joint",
     ),
     "ORTHOTROPE": (*SOLID_FAMILIES, *_SHELLS, "joint"),
     "ANISOTROPE": SOLID_FAMILIES,
@@ -40,11 +41,14 @@ PLASTIC_FAMILIES = ("solid", "incompressible", "bar")
 
 OTHER_BEHAVIOURS = (
     "PLASTIQUE_ENDOM", "ENDOMMAGEMENT", "FLUAGE", "VISCOPLASTIQUE", "VISCO_EXTERNE",
-    "NON_LINEAIRE", "IMPEDANCE", "HOMOGENEISE", "SECTION", "ARMATURE",
+    "NON_LINEAIRE", "HOMOGENEISE", "SECTION", "ARMATURE",
     "CAOUTCHOUC", "CHABOCHE1", "CHABOCHE2", "CAM_CLAY", "HUJEUX", "UBIQUITOUS", "BETON",
     "MOHR_COULOMB", "MAZARS",
 )  # fmt: skip
 """Laws that Cast3M has and that are not built here: refused by name."""
+
+IMPEDANCE_LAWS = ("VOIGT", "REUSS", "COMPLEXE")
+"""Words that follow IMPEDANCE, beside ELASTIQUE."""
 
 UNDESCRIBED_LAWS = ("JOINT_SOFT", "JOINT_COAT")
 """Joint laws whose parameters BETA and CPLG no public text defines: refused with that reason."""
@@ -73,6 +77,8 @@ def normalised(words: list[str], family: str) -> tuple[str, ...]:
     MaterialError
         If the element's family does not have the elasticity or law named.
     """
+    if "IMPEDANCE" in words:
+        return _impedance_words(words, family)
     rest = [w for w in words if w != "ELASTIQUE"]
     kind = rest.pop(0) if rest and rest[0] in ELASTICITIES else ""
     if kind and family not in ELASTICITIES[kind]:
@@ -86,6 +92,25 @@ def normalised(words: list[str], family: str) -> tuple[str, ...]:
     if rest[1:2] and rest[0] == "PLASTIQUE" and rest[1] in PLASTIC_WORDS:
         raise MaterialError(f"the plastic law {rest[1]} is for bodies, not for joints")
     return ("ELASTIQUE", *([kind or "ISOTROPE"] if not rest or kind else []), *rest)
+
+
+def _impedance_words(words: list[str], family: str) -> tuple[str, ...]:
+    """ELASTIQUE, MODAL or STATIQUE if the point stands for a shape, IMPEDANCE and its law."""
+    if family != "impedance":
+        raise MaterialError(
+            f"elements of the family '{family}' have no law IMPEDANCE",
+            "it stands on points (POI1) or on lines of two points (SEG2)",
+        )
+    shape = [w for w in words if w in ("MODAL", "STATIQUE")]
+    law = [w for w in words if w in IMPEDANCE_LAWS]
+    known = ("ELASTIQUE", "IMPEDANCE", *shape, *law)
+    other = next((w for w in words if w not in known), None)
+    if other is not None or len(law) > 1 or len(shape) > 1:
+        raise MaterialError(
+            f"an impedance has no law {other or ' '.join(law + shape)}",
+            "IMPEDANCE is followed by ELASTIQUE, VOIGT, REUSS or COMPLEXE",
+        )
+    return ("ELASTIQUE", *shape, "IMPEDANCE", *(law or ["ELASTIQUE"]))
 
 
 def _plastic_words(words: list[str], elasticity: str, family: str) -> tuple[str, str]:

@@ -42,6 +42,13 @@ _ELASTIC: dict[str, Names] = {
     "MODAL": Names(("FREQ", "MASS", "DEFO"), ("AMOR", "CGRA", "MADE")),
     "STATIQUE": Names(("DEFO", "RIDE", "MADE"), ("AMOR",)),
 }
+_AT_POINTS = ("MASS", "AMOR", "CPLE", "INER", "AROT")
+_IMPEDANCE: dict[str, Names] = {
+    "ELASTIQUE": Names(("RAID",), (*_AT_POINTS, "ZNU", "ALPH")),
+    "VOIGT": Names(("RAID", "VISC"), _AT_POINTS),
+    "REUSS": Names(("RAID", "VISC"), _AT_POINTS),
+    "COMPLEXE": Names((), ("MOCO", "RAID", "VISC", *_AT_POINTS)),
+}
 _ORTHOTROPIC: dict[Mode, int] = {  # how many of ORTHOTROPIC are required
     Mode.PLANE_STRESS: 4, Mode.THREE_DIMENSIONAL: 9, Mode.FOURIER: 9,
 }  # fmt: skip
@@ -79,6 +86,8 @@ def material_names(zone: Zone) -> Names:
         law = law_of(zone.behaviour)
         taken = ("RHO", *law.optional, *JOINT_POINT, *JOINT_THERMAL, *AXES)
         return Names(law.required, tuple(n for n in dict.fromkeys(taken) if n not in law.required))
+    if "IMPEDANCE" in zone.behaviour:
+        return _IMPEDANCE[zone.behaviour[-1]]
     kind = zone.behaviour[1] if len(zone.behaviour) > 1 else "ISOTROPE"
     if kind == "ORTHOTROPE":
         shells = {"plate": 4, "meridian": 4, "mindlin": 4}

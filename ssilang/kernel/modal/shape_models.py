@@ -110,7 +110,7 @@ def shape_points(zones: tuple[Zone, ...], material: CellField) -> list[ShapePoin
     MaterialError
         For a missing parameter.
     """
-    return [_shape_point(z, zone_field(z, material)) for z in zones if is_shape(z)]
+    return [_shape_point(z, zone_field(z, material).own()) for z in zones if is_shape(z)]
 
 
 def _shape_point(zone: Zone, given: ZoneField) -> ShapePoint:
@@ -174,13 +174,11 @@ def shape_matrix(zones: tuple[Zone, ...], material: CellField, kind: str) -> Ele
     m = len(shapes)
     values = np.zeros((m, m))
     for j, b in enumerate(shapes):
-        # products with a mode's own K X are those of the other shape: modes stand first
+        # products with a mode's own K X are those of the other shape; of two static shapes the
+        # first gives K X, which tells if its RIDE leaves reactions out
         for i, a in enumerate(shapes):
-            if b.unknown == "BETA" or a.unknown == b.unknown:
-                values[i, j] = _TERMS[kind](a, b)
-                if a.unknown != b.unknown:
-                    values[j, i] = values[i, j]
-    values = 0.5 * (values + values.T)
+            if i == j or (b.unknown == "BETA" and (i > j or a.unknown == "ALFA")):
+                values[i, j] = values[j, i] = _TERMS[kind](a, b)
     unknowns = tuple(s.unknown for s in shapes)
     nodes = np.array([[s.node for s in shapes]])
     table = zones[0].cells.nodes

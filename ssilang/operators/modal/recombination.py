@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,6 +13,7 @@ from ssilang.kernel.dynamics.loading import terms_of
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
+from ssilang.kernel.matrices.matrix import imaginary
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.modal.basis import combined
 from ssilang.language.call import Call
@@ -110,13 +112,24 @@ def ratio(field: object, reference: NodeField) -> float | None:
 
 
 def recombined(weights: Any, shapes: list[Shape]) -> NodeField:
-    """Sum of shapes times the values ALFA and BETA of a field at their marks."""
-    return combined(contribution(weights, shapes), [s.field for s in shapes])
+    """Sum of shapes times the values ALFA and BETA of a field at their marks.
+
+    Imaginary parts (IALF, IBET: harmonic responses) give components IUX ... besides.
+    """
+    fields = [s.field for s in shapes]
+    real = combined(contribution(weights, shapes), fields)
+    if not any(imaginary(s.unknown) in weights.components for s in shapes):
+        return real
+    other = combined(contribution(weights, shapes, imaginary), fields)
+    parts = {imaginary(name): part for name, part in other.components.items()}
+    return NodeField(real.table, {**real.components, **parts}, real.nature)
 
 
-def contribution(weights: Any, shapes: list[Shape]) -> list[float]:
-    """Values ALFA or BETA of a field at the marks of the shapes."""
-    return [float(weights.values_at(s.unknown, np.array([s.mark.node]))[0]) for s in shapes]
+def contribution(
+    weights: Any, shapes: list[Shape], name: Callable[[str], str] = str
+) -> list[float]:
+    """Values ALFA or BETA of a field (or what `name` makes of these) at the marks of the shapes."""
+    return [float(weights.values_at(name(s.unknown), np.array([s.mark.node]))[0]) for s in shapes]
 
 
 def modal_history(call: Call, table: Table, quantity: str) -> tuple[list[Any], FloatArray]:

@@ -6,12 +6,14 @@ from dataclasses import dataclass, field
 
 from ssilang.kernel.elements.catalog import ELEMENTS, GENERIC_ELEMENTS, default_element
 from ssilang.kernel.elements.families import register_family
+from ssilang.kernel.elements.springs import ELEMENT as IMPEDANCE_ELEMENTS
 from ssilang.kernel.errors import MeshError
 from ssilang.kernel.joints.elements import JOINT_NAMES, is_joint, with_rule
 from ssilang.kernel.joints.family import JointFamily
 from ssilang.kernel.materials.behaviours import (
     ELASTICITIES,
     FORMULATIONS,
+    IMPEDANCE_LAWS,
     JOINT_WORDS,
     OTHER_BEHAVIOURS,
     OTHER_FORMULATIONS,
@@ -36,7 +38,9 @@ register_family("joint", JointFamily())
 LONG_NAMES = {"BARRE": "BARR", "POUTRE": "POUT", "TUYAU": "TUYA"}
 """Elements that scripts also write in full."""
 
-LAW_WORDS = ("ELASTIQUE", *ELASTICITIES, *JOINT_WORDS, *PLASTIC_WORDS)
+LAW_WORDS = (
+    "ELASTIQUE", *ELASTICITIES, *JOINT_WORDS, *PLASTIC_WORDS, "IMPEDANCE", *IMPEDANCE_LAWS,
+)  # fmt: skip
 
 
 @dataclass
@@ -62,9 +66,14 @@ class _Wish:
         "ORTHOTROPE, ANISOTROPE or UNIDIRECTIONNEL; joints also have JOINT_SDM. Continuous "
         "elements and bars may add PLASTIQUE and PARFAIT, ISOTROPE (default) or CINEMATIQUE (von "
         "Mises), DRUCKER_PARFAIT, DRUCKER_PRAGER or RH_COULOMB (rounded Mohr-Coulomb). MODAL and "
-        "STATIQUE make a point stand for a mode or a static shape. Without a name "
-        "of element, cells get the continuous element of their name; BARR, POUT, TIMO, TUYA, "
-        "DKT, COQ2, COQ4, COQ6, COQ8 and the joints are to be named (Q4RI, ICQ4, BBAR choose "
+        "STATIQUE make a point stand for a mode or a static shape. IMPEDANCE puts a spring and a "
+        "dashpot on a point (POI1) or between two (SEG2): ELASTIQUE (default), VOIGT (side by "
+        "side), REUSS (one behind the other), COMPLEXE (functions of the frequency), on all "
+        "translations (on rotations too with CPLE), on the unknowns of one or two lists of words, "
+        "or with MODAL or STATIQUE on the share of that shape. Without a name of element, cells "
+        "get the continuous element of their name; BARR, POUT, TIMO, TUYA, "
+        "DKT, COQ2, COQ4, COQ6, COQ8, SHB8 (shell of cubes) and the joints are to be named "
+        "(Q4RI, ICQ4, BBAR choose "
         "another integration; POLY takes the elements of a mesh of polygons). "
         "The hypothesis is that of OPTI MODE.\n"
         "The formulation CONTACT (UNILATERAL) keeps two sides, the second mesh given after it, "
@@ -86,9 +95,14 @@ class _Wish:
         "ORTHOTROPE, ANISOTROPE ou UNIDIRECTIONNEL ; les joints ont aussi JOINT_SDM. Les massifs "
         "et les barres ajoutent PLASTIQUE et PARFAIT, ISOTROPE (par défaut) ou CINEMATIQUE (von "
         "Mises), DRUCKER_PARFAIT, DRUCKER_PRAGER ou RH_COULOMB (Mohr-Coulomb arrondi). MODAL et "
-        "STATIQUE font d'un point un mode ou une déformée statique. Sans nom "
+        "STATIQUE font d'un point un mode ou une déformée statique. IMPEDANCE met un ressort et "
+        "un amortisseur en un point (POI1) ou entre deux (SEG2) : ELASTIQUE (par défaut), VOIGT "
+        "(en parallèle), REUSS (en série), COMPLEXE (fonctions de la fréquence), sur toutes les "
+        "translations (et les rotations si CPLE est donné), sur les inconnues d'une ou deux "
+        "listes de mots, ou avec MODAL ou STATIQUE sur la part de cette forme. Sans nom "
         "d'élément, les mailles reçoivent l'élément massif de leur nom ; BARR, POUT, TIMO, TUYA, "
-        "DKT, COQ2, COQ4, COQ6, COQ8 et les joints se nomment (Q4RI, ICQ4, BBAR choisissent une "
+        "DKT, COQ2, COQ4, COQ6, COQ8, SHB8 (coque de cubes) et les joints se nomment (Q4RI, "
+        "ICQ4, BBAR choisissent une "
         "autre intégration ; POLY prend les éléments d'un maillage de polygones). "
         "L'hypothèse est celle d'OPTI MODE.\n"
         "La formulation CONTACT (UNILATERAL) empêche deux bords, le second donné derrière elle, "
@@ -111,6 +125,8 @@ class _Wish:
         "('GAUSS' | 'LOBATTO') ;\n"
         "MODL1 = MODE GEO1 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' ('CISAILLEMENT_ELASTIQUE') "
         "('FROTTEMENT_SYMETRIQUE') (JOI1 ...) ;\n"
+        "MODL1 = MODE GEO1 'MECANIQUE' 'ELASTIQUE' ('MODAL' | 'STATIQUE') 'IMPEDANCE' "
+        "('ELASTIQUE' | 'VOIGT' | 'REUSS' | 'COMPLEXE') (LMOT1 (LMOT2)) ;\n"
         "MODL1 = MODE GEO1 'CONTACT' ('UNILATERAL') GEO2 ('MESC' | 'SYME' | 'FAIB' | 'MORT') ;\n"
         "MODL1 = MODE GEO1 'CHARGEMENT' 'PRESSION' (ELEM1 ...) ;",
         examples=(
@@ -127,6 +143,9 @@ def mode(call: Call) -> Model:
     wish = _Wish()
     while (word := call.peek_word()) is not None:
         _take(call, word, wish)
+    if "IMPEDANCE" in wish.laws:
+        names = [tuple(str(n).rstrip() for n in m.values) for m in call.all("LISTMOTS")]
+        wish.options["UNKNOWNS"] = (*names, (), ())[:2]
     mesh = first.value if first is not None else call.required("MAILLAGE", "POINT")
     if isinstance(mesh, Point):
         raise call.bad("no element of this version stands on a point", mesh)
@@ -207,16 +226,17 @@ def _unknown(call: Call, said: str) -> Exception:
             "(coupling) do is published nowhere",
             hint="JOINT_SDM softens in tension with FU and GF; JOINT_DILATANT and COULOMB slide",
         )
+    written = next((o.value for o in call.used[::-1] if str(o.value).upper() == said), None)
     for words, what in ((OTHER_FORMULATIONS, "formulation"), (OTHER_BEHAVIOURS, "behaviour")):
         if full_word(said, words):
             return call.bad(
                 f"the {what} {said} is not available",
-                next((o.value for o in call.used[::-1] if str(o.value).upper() == said), None),
+                written,
                 hint="'MECANIQUE' 'ELASTIQUE' is, with " + " ".join((*ELASTICITIES, *JOINT_WORDS)),
             )
     near = nearest(said, known, 0.5)
     hint = f"did you mean {near}?" if near else "known: " + " ".join(known)
-    return call.bad(f"MODE does not know the word {said}", hint=hint)
+    return call.bad(f"MODE does not know the word {said}", written, hint)
 
 
 def _zone(block: CellBlock, wish: _Wish, ws: Workspace) -> Zone:
@@ -250,6 +270,8 @@ def _pressure_zone(block: CellBlock, wish: _Wish, ws: Workspace) -> Zone:
 def _element(block: CellBlock, wish: _Wish, mode: Mode) -> str:
     """The named element that fits the cells, else the default one."""
     cell = block.cell_type
+    if "IMPEDANCE" in wish.laws and cell in IMPEDANCE_ELEMENTS:
+        return IMPEDANCE_ELEMENTS[cell]
     for name in wish.elements:
         if name in GENERIC_ELEMENTS:
             if cell in GENERIC_ELEMENTS[name]:

@@ -132,8 +132,9 @@ def _mode(call: Call, word: str) -> None:
     ws = workspace(call.session)
     said = _one_of(call, "MODE", ("PLAN", "AXIS", "FOURIER", "TRID", "UNID", "FREQ"))
     glued = str(call.used[-1].value).upper().rstrip()[4:8]  # PLANCONT, as VALE 'MODE' says it
-    if said == "FREQ":
-        raise call.bad("MODE FREQ is not supported", hint="work in time, or with TFR on curves")
+    ws.options["FREQ"] = said == "FREQ"
+    if said == "FREQ":  # the hypothesis on displacements stays
+        return
     if said == "PLAN":
         said = call.keyword(("CONT", "DEFO", "GENE")) or (glued if glued in _MODES else "DEFO")
     elif said == "FOURIER":
@@ -292,7 +293,7 @@ _CURRENT: dict[str, Callable[[Workspace], Any]] = {
     "ELEM": lambda ws: Mot(ws.element or "    "),
     "DENS": lambda ws: ws.density,
     "COUL": lambda ws: Mot(COLOURS[ws.colour]),
-    "MODE": lambda ws: Mot(ws.mode.value.replace(" ", "")),
+    "MODE": lambda ws: Mot("FREQ" if ws.in_frequency else ws.mode.value.replace(" ", "")),
 }
 
 

@@ -1,0 +1,290 @@
+"""Impedances: springs and dashpots on a point or between two points (models IMPEDANCE).
+
+With u the motion of the point (POI1), or that of the second point less that of the first (SEG2),
+the force is, on each unknown by itself,
+
+    ELASTIQUE   k u                         VOIGT      k u + c u'
+    REUSS       u' = f'/k + f/c             COMPLEXE   [k(f) + i w c(f)] u, at frequency f
+
+RAID k, VISC c, MASS (inertia of a point, AMOR per cent of the critical damping it then has) act
+on translations, on the shares ALFA BETA of modes and static shapes, and on the unknowns that the
+model names; where CPLE is given, CPLE, INER, AROT take their place on rotations.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ssilang.kernel.curve import Curve, CurvePart
+from ssilang.kernel.elements.catalog import ELEMENTS, ElementKind, register_element
+from ssilang.kernel.elements.families import register_family
+from ssilang.kernel.elements.family import ElementFamily, Layout, StrainOperator
+from ssilang.kernel.elements.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
+from ssilang.kernel.elements.zone_fields import ZoneField, missing_parameter
+from ssilang.kernel.errors import FieldError, MaterialError
+from ssilang.kernel.fields.cell_field import Support
+from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.model import Mode, Zone
+
+ComplexArray = NDArray[np.complex128]
+
+LAWS = ("ELASTIQUE", "VOIGT", "REUSS", "COMPLEXE")
+"""Words that follow IMPEDANCE."""
+
+ELEMENT = {"POI1": "IMP1", "SEG2": "IMP2"}
+"""Element of an impedance by the cells that it stands on."""
+
+for _cell, _name in ELEMENT.items():
+    register_element(
+        ElementKind(_name, _cell, "impedance", tuple(Mode), {"RIGIDITE": 1}, default=False)
+    )
+
+_ROTATIONS = frozenset(u for names in NODE_ROTATIONS.values() for u in names)
+_SHARES = {"MODAL": "ALFA", "STATIQUE": "BETA"}
+_TERMS = {  # of translations, of rotations
+    "RIGIDITE": ("RAID", "CPLE"), "MASSE": ("MASS", "INER"), "RATIO": ("AMOR", "AROT"),
+}  # fmt: skip
+
+
+def is_impedance(zone: Zone) -> bool:
+    """Whether a zone is made of springs and dashpots."""
+    return ELEMENTS[zone.element].family == "impedance"
+
+
+def law_of_impedance(zone: Zone) -> str:
+    """Which of `LAWS` a zone has."""
+    return zone.behaviour[-1] if zone.behaviour[-1] in LAWS else "ELASTIQUE"
+
+
+def unknowns_of(zone: Zone) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Unknowns at the first and at the second point, those that the model names if it does."""
+    named: Any = zone.options.get("UNKNOWNS", ((), ()))
+    first, second = named
+    if not first:
+        share = next((u for w, u in _SHARES.items() if w in zone.behaviour), None)
+        first = (share,) if share else (*NODE_TRANSLATIONS[zone.mode], *NODE_ROTATIONS[zone.mode])
+    second = second or first
+    if len(second) != len(first):
+        raise MaterialError(
+            f"an impedance joins {len(first)} unknowns ({' '.join(first)}) to {len(second)}",
+            "one name at the second point for each at the first",
+        )
+    return tuple(first), tuple(second)
+
+
+def impedance_layout(zone: Zone, parameters: ZoneField) -> Layout:
+    """Rows on the unknowns: rotations only if CPLE is given or the model names them."""
+    first, second = unknowns_of(zone)
+    named: Any = zone.options.get("UNKNOWNS", ((), ()))
+    whole = bool(named[0]) or "CPLE" in parameters
+    taken = [i for i, u in enumerate(first) if whole or u not in _ROTATIONS]
+    names = [first[i] for i in taken]
+    local = np.zeros(len(names), dtype=np.int64)
+    if zone.cells.cell_type == "SEG2":
+        names += [second[i] for i in taken]
+        local = np.concatenate([local, local + 1])
+    return Layout(zone.cells.nodes, zone.cells.raw, local, tuple(names))
+
+
+def _values(
+    zone: Zone, parameters: ZoneField, term: str, required: bool = False
+) -> tuple[FloatArray, FloatArray]:
+    """A term on translations and on rotations, each (n_cells,)."""
+    found = []
+    for name in _TERMS[term]:
+        if name not in parameters and required and name == "RAID":
+            raise missing_parameter(zone, name, parameters.names)
+        values = parameters.at(name, "RIGIDITE", 0.0)[:, 0]
+        if (values < 0.0).any():
+            raise MaterialError(f"{name} of an impedance is not negative: {values.min():g}")
+        found.append(np.broadcast_to(values, (len(zone.cells),)).astype(float))
+    return found[0], found[1] if "CPLE" in parameters else found[0]
+
+
+def spread(
+    zone: Zone, layout: Layout, values: tuple[FloatArray, FloatArray], relative: bool = True
+) -> FloatArray:
+    """Element matrices (n_cells, n_rows, n_rows) of one number a cell and kind of unknown.
+
+    `relative` terms act on the difference of the two points; others at each point, halved.
+    """
+    m = len(layout.unknowns)
+    out = np.zeros((len(zone.cells), m, m))
+    half = m // 2 if zone.cells.cell_type == "SEG2" else 0
+    for i in range(half or m):
+        value = values[int(layout.unknowns[i] in _ROTATIONS)]
+        if half and relative:
+            out[:, [i, i + half], [i, i + half]] = value[:, None]
+            out[:, [i, i + half], [i + half, i]] = -value[:, None]
+        elif half:
+            out[:, [i, i + half], [i, i + half]] = 0.5 * value[:, None]
+        else:
+            out[:, i, i] = value
+    return out
+
+
+def dashpots(zone: Zone, parameters: ZoneField) -> FloatArray:
+    """Damping matrices: VISC, and what AMOR (per cent of the critical one) makes of RAID, MASS.
+
+    Raises
+    ------
+    MaterialError
+        For REUSS, whose dashpot stands behind its spring, and for AMOR without MASS.
+    """
+    if law_of_impedance(zone) == "REUSS":
+        raise _only_in_frequency(zone)
+    viscous = parameters.at("VISC", "RIGIDITE", 0.0)[:, 0] if _is_number(parameters, "VISC") else 0
+    total = []
+    stiffness = _values(zone, parameters, "RIGIDITE")
+    for k, m, ratio in zip(
+        stiffness, _values(zone, parameters, "MASSE"), _values(zone, parameters, "RATIO"),
+        strict=True,
+    ):  # fmt: skip
+        if (ratio > 0.0).any() and not (m > 0.0).all():
+            raise MaterialError(
+                "the reduced damping AMOR of an impedance needs its mass MASS",
+                "a dashpot is given by VISC",
+            )
+        total.append(2.0 * ratio / 100.0 * np.sqrt(k * m))
+    layout = impedance_layout(zone, parameters)
+    turning = total[1] if "CPLE" in parameters else total[0] + viscous
+    return spread(zone, layout, (total[0] + viscous, turning))
+
+
+def dynamic_stiffness(
+    zone: Zone, parameters: ZoneField, frequency: float
+) -> tuple[ComplexArray, Layout] | None:
+    """Complex matrices (n_cells, n_rows, n_rows) that depend on the frequency itself.
+
+    None for a zone whose stiffness and damping are matrices: ELASTIQUE, VOIGT, and COMPLEXE with
+    numbers.
+    """
+    law, layout = law_of_impedance(zone), impedance_layout(zone, parameters)
+    pulsation = 2.0 * np.pi * frequency
+    if law == "REUSS":
+        k = _values(zone, parameters, "RIGIDITE", required=True)[0]
+        c = parameters.at("VISC", "RIGIDITE")[:, 0]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            share = 1j * pulsation * c / (k + 1j * pulsation * c)
+        series = np.where(k + pulsation * c > 0.0, k * share, 0.0)
+        return spread_complex(zone, layout, series, parameters), layout
+    if law == "COMPLEXE" and (curves := _curves(parameters)):
+        k_at, c_at = (
+            float(np.interp(frequency, curves[n].abscissas, curves[n].ordinates))
+            if n in curves else 0.0
+            for n in ("RAID", "VISC")
+        )  # fmt: skip
+        one = np.full(len(zone.cells), k_at + 1j * pulsation * c_at)
+        return spread_complex(zone, layout, one, parameters), layout
+    return None
+
+
+def spread_complex(
+    zone: Zone, layout: Layout, moving: ComplexArray, parameters: ZoneField
+) -> ComplexArray:
+    """`spread` of complex numbers; rotations have CPLE where it is given."""
+    turning = moving
+    if "CPLE" in parameters:
+        turning = _values(zone, parameters, "RIGIDITE")[1].astype(complex)
+    real = spread(zone, layout, (moving.real, turning.real))
+    return real + 1j * spread(zone, layout, (moving.imag, turning.imag))
+
+
+def counts_damping(zone: Zone, parameters: ZoneField) -> bool:
+    """Whether a zone has damping that only a matrix (AMOR) brings into a calculation."""
+    if law_of_impedance(zone) == "REUSS":
+        return False
+    return any(_is_number(parameters, n) for n in ("VISC", "AMOR", "AROT"))
+
+
+def _is_number(parameters: ZoneField, name: str) -> bool:
+    return name in parameters and parameters.raw(name)[0].dtype != object
+
+
+def _curves(parameters: ZoneField) -> dict[str, CurvePart]:
+    """Stiffness (RAID) and viscosity (VISC) over the frequency, from MOCO or from themselves."""
+    found: dict[str, CurvePart] = {}
+    for name in ("MOCO", "RAID", "VISC"):
+        if name not in parameters:
+            continue
+        values = parameters.raw(name)[0]
+        curve = values.ravel()[0] if values.dtype == object else None
+        if not isinstance(curve, Curve):
+            continue
+        if name != "MOCO":
+            found[name] = curve.parts[0]
+            continue
+        for part in curve.parts:
+            said = part.ordinate_name.strip().upper()
+            target = {"MOCO": "RAID", "RAID": "RAID", "VISC": "VISC"}.get(said)
+            if target is None:
+                raise MaterialError(
+                    f"a curve of MOCO is named '{said}'",
+                    "EVOL 'MANU' 'FREQ' LREEL1 'MOCO' LREEL2 (stiffness), ... 'VISC' LREEL3",
+                )
+            found[target] = part
+    return found
+
+
+def _only_in_frequency(zone: Zone) -> MaterialError:
+    return MaterialError(
+        f"an impedance {law_of_impedance(zone)} that changes with the frequency is no matrix",
+        "it works in a sweep of frequencies: OPTI 'MODE' 'FREQ', then PASAPAS",
+    )
+
+
+class _ImpedanceFamily(ElementFamily):
+    """Springs and dashpots: matrices, no strains."""
+
+    def layout(self, zone: Zone) -> Layout:
+        """Rows without rotations: `impedance_layout` knows the parameters."""
+        return impedance_layout(zone, ZoneField(zone, ()))
+
+    def strain_names(self, zone: Zone) -> tuple[str, ...]:
+        """None."""
+        return ()
+
+    def stress_names(self, zone: Zone) -> tuple[str, ...]:
+        """None."""
+        return ()
+
+    def strain_operator(
+        self, zone: Zone, parameters: ZoneField, support: Support, cells: slice
+    ) -> StrainOperator:
+        """Refused."""
+        raise _no_strains()
+
+    def moduli(self, zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
+        """Refused."""
+        raise _no_strains()
+
+    def whole_matrices(
+        self, zone: Zone, parameters: ZoneField, kind: str
+    ) -> tuple[FloatArray, Layout]:
+        """Springs or dashpots (n_cells, n_rows, n_rows)."""
+        given = parameters.own()
+        layout = impedance_layout(zone, given)
+        if kind == "AMORTISSEMENT":
+            return dashpots(zone, given), layout
+        if law_of_impedance(zone) == "REUSS" or _curves(given):
+            raise _only_in_frequency(zone)
+        return spread(zone, layout, _values(zone, given, "RIGIDITE", required=True)), layout
+
+    def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, Layout]:
+        """Masses at the points (half at each of two)."""
+        given = parameters.own()
+        layout = impedance_layout(zone, given)
+        return spread(zone, layout, _values(zone, given, "MASSE"), relative=False), layout
+
+
+register_family("impedance", _ImpedanceFamily())
+
+
+def _no_strains() -> FieldError:
+    return FieldError(
+        "models IMPEDANCE have no strains",
+        "their force is the stiffness (RIGI) times the displacement",
+    )

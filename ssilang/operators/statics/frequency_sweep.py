@@ -1,0 +1,149 @@
+"""PASAPAS under OPTI 'MODE' 'FREQ': harmonic responses over a sweep of frequencies."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ssilang.kernel.elements.families import mass, stiffness
+from ssilang.kernel.elements.springs import counts_damping, dynamic_stiffness, is_impedance
+from ssilang.kernel.elements.zone_fields import zone_field
+from ssilang.kernel.errors import KernelError
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.fields.node_field import NodeField, NodeValues
+from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
+from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.modal.shape_models import is_shape, shape_matrix
+from ssilang.kernel.model import Model, Zone
+from ssilang.kernel.plasticity.points import is_plastic
+from ssilang.kernel.statics.frequency import HarmonicInputs, default_frequencies, sweep
+from ssilang.language.call import Call
+from ssilang.language.registry import Help, operator
+from ssilang.language.values import Mot, Table
+from ssilang.operators.session.progress import ProgressLine
+from ssilang.operators.statics.pasapas_entries import KNOWN, REFUSED
+from ssilang.operators.tables.entries import Entries
+
+_RESULTS = ("TEMPS", "DEPLACEMENTS", "REACTIONS")
+
+
+@operator(
+    "ZFRE",
+    family="statics",
+    help=Help(
+        en="Sweep of frequencies of the table of PASAPAS, which is the procedure to call.",
+        fr="Balayage en fréquence de la table de PASAPAS, procédure à appeler.",
+        syntax="ZFRE TAB1 ;",
+    ),
+    reads_itself=True,
+)
+def zfre(call: Call) -> None:
+    """Fill TEMPS (frequencies in Hz), DEPLACEMENTS and REACTIONS, 0 being a state at rest."""
+    entries = Entries(call, call.required("TABLE"), "PASAPAS")
+    entries.refuse(REFUSED)
+    entries.warn_unknown(KNOWN)
+    inputs = _inputs(entries)
+    frequencies = _frequencies(entries, inputs)
+    tables = {word: Table() for word in _RESULTS}
+    for word, table in tables.items():
+        entries.table.set(Mot(word), table)
+    entries.table.set(Mot("CONV"), False)
+    line = ProgressLine("PASAPAS")
+    try:
+        for number, found in enumerate(sweep(inputs, frequencies), 1):
+            if number == 1:
+                for word, value in zip(
+                    _RESULTS, (0.0, _at_rest(found.displacement), _at_rest(found.reactions)),
+                    strict=True,
+                ):  # fmt: skip
+                    tables[word].set(0, value)
+            values: tuple[Any, ...] = (found.frequency, found.displacement, found.reactions)
+            for word, value in zip(_RESULTS, values, strict=True):
+                tables[word].set(number, value)
+    finally:
+        line.close()
+    entries.table.set(Mot("CONV"), True)
+    entries.table.set(Mot("ERREUR"), False)
+
+
+def _at_rest(field: NodeField) -> NodeField:
+    parts = {
+        name: NodeValues(p.nodes, np.zeros_like(p.values)) for name, p in field.components.items()
+    }
+    return NodeField(field.table, parts, field.nature)
+
+
+def _frequencies(entries: Entries, inputs: HarmonicInputs) -> FloatArray:
+    given = entries.get("TEMPS_CALCULES", "LISTREEL") or entries.get("TEMPS_SAUVES", "LISTREEL")
+    if given is None:
+        return default_frequencies(inputs)
+    values = np.asarray(given.values, dtype=float)
+    if not len(values) or (values < 0.0).any():
+        raise entries.bad("'TEMPS_CALCULES' holds the frequencies, at least one, none negative")
+    return values
+
+
+def _inputs(entries: Entries) -> HarmonicInputs:
+    model: Model | None = entries.get("MODELE", "MMODEL")
+    zones = () if model is None else model.zones
+    mechanical = tuple(z for z in zones if z.formulation == "MECANIQUE")
+    for zone in mechanical:
+        _check_linear(entries, zone)
+    none = CellField((), "CARACTERISTIQUES")
+    material: CellField = entries.needed("CARACTERISTIQUES", "MCHAML") if mechanical else none
+    blocks: dict[str, list[ElementMatrices]] = {"RIGIDITE": [], "MASSE": []}
+    springs = []
+    silent = False
+    for zone in (z for z in mechanical if not is_shape(z)):
+        if is_impedance(zone):
+            given = zone_field(zone, material).own()
+            silent = silent or counts_damping(zone, given)
+            blocks["MASSE"].append(mass(zone, material))
+            if dynamic_stiffness(zone, given, 1.0) is not None:
+                springs.append((zone, given))
+            else:
+                blocks["RIGIDITE"].append(stiffness(zone, material))
+        else:
+            blocks["RIGIDITE"].append(stiffness(zone, material))
+            blocks["MASSE"].append(mass(zone, material))
+    for kind, found in blocks.items():
+        shapes = shape_matrix(mechanical, material, kind)
+        found += [] if shapes is None else [shapes]
+    damping = entries.get("AMORTISSEMENT", "RIGIDITE")
+    if silent and damping is None:
+        entries.warn(
+            "dashpots of impedances given by numbers count by the matrix of damping only",
+            "TAB1 . 'AMORTISSEMENT' = AMOR MODELE CARACTERISTIQUES ;",
+        )
+    supports = entries.get("BLOCAGES_MECANIQUES", "RIGIDITE")
+    constant = entries.get("RIGIDITE_CONSTANTE", "RIGIDITE")
+    return HarmonicInputs(
+        _joined(entries, blocks["RIGIDITE"], (constant, supports), "RIGIDITE"),
+        _joined(entries, blocks["MASSE"], (entries.get("MASSE_CONSTANTE", "RIGIDITE"),), "MASSE"),
+        damping,
+        entries.get("CHARGEMENT", "CHARGEME"),
+        tuple(springs),
+    )
+
+
+def _check_linear(entries: Entries, zone: Zone) -> None:
+    from ssilang.kernel.joints.elements import is_joint
+    from ssilang.kernel.joints.law_table import law_of
+
+    if is_plastic(zone) or (is_joint(zone) and not law_of(zone.behaviour).linear):
+        raise KernelError(
+            f"a law {' '.join(zone.behaviour)} has no harmonic response",
+            "only linear models work in a sweep of frequencies",
+        )
+
+
+def _joined(
+    entries: Entries, blocks: list[ElementMatrices], parts: tuple[Matrix | None, ...], kind: str
+) -> Matrix:
+    given = [m for m in parts if m is not None]
+    if not blocks and not given:
+        return Matrix(entries.needed("MODELE", "MMODEL").mesh.nodes, (), (), kind)
+    table = blocks[0].table if blocks else given[0].table
+    all_blocks = (*blocks, *(b for m in given for b in m.blocks))
+    return Matrix(table, all_blocks, tuple(r for m in given for r in m.relations), kind)
