@@ -159,3 +159,62 @@ def test_joint_of_the_wrong_unit_scale_is_reported(tmp_path):
         result = run_text(text.replace("KN0", stiffness), output_directory=tmp_path)
         assert result.exit_code == 0, result.message
         assert any("units" in w.data["hint"] for w in result.session.warnings) is warned
+
+
+def test_user_procedure_sees_the_state_of_each_time_and_changes_the_load(tmp_path):
+    text = """
+    DEBP PERSO1 T*TABLE ;
+      E = T . 'ESTIMATION' ; T . 'VUS' = (T . 'VUS') ET (EXTR (E . 'DEPLACEMENTS') 'UX' P2) ;
+      SI ((E . 'TEMPS') EGA 0.5) ;
+        T . 'WTABLE' . 'CHARGEMENT' = (T . 'CHARGEMENT') ET (T . 'CHARGEMENT') ;
+      FINS ;
+    FINP ;
+    """
+    text += BAR + "T . 'VUS' = PROG ; T . 'PROCEDURE_PERSO1' = VRAI ; "
+    text += "T . 'TEMPS_SAUVES' = PROG 1. ; PASAPAS T ;"
+    T = run(text, tmp_path)("T")
+    times = np.array([0.25, 0.5, 0.75, 1.0])
+    wanted = 2e-3 * times * np.where(times > 0.5, 2, 1)  # sigma L / E of the bar of 2 m
+    assert T.get("VUS").values == pytest.approx(wanted, rel=1e-9)
+    assert [v for _, v in T.get("TEMPS").items()] == [0.0, 1.0]
+    stress = T.get("CONTRAINTES").get(1).blocks[0].components["SMXX"]
+    assert stress == pytest.approx(2000.0, rel=1e-9)
+    assert T.get("CONTINUATION").get("TEMPS") == 1.0
+
+
+def test_user_procedure_takes_a_part_of_the_model_away(tmp_path):
+    text = (
+        """
+    DEBP PERSO1 T*TABLE ;
+      SI ((T . 'ESTIMATION' . 'TEMPS') EGA 0.5) ; T . 'WTABLE' . 'MODELE' = MO1 ; FINS ;
+    FINP ;
+    """
+        + BAR.replace("TRAN 1 (0. 1.)", "TRAN 2 (0. 1.)")
+        + """
+    MO1 = REDU MO (S ELEM 'APPU' 'LARG' L) ; BD = BLOQ 'UX' R ;
+    T . 'BLOCAGES_MECANIQUES' = (T . 'BLOCAGES_MECANIQUES') ET BD ;
+    T . 'CHARGEMENT' = CHAR 'DIMP' (DEPI BD 2.E-3) EV ;
+    T . 'PROCEDURE_PERSO1' = VRAI ; PASAPAS T ; F = PROG ;
+    REPE B 4 ; F = F ET (MAXI (RESU (REDU (T . 'REACTIONS' . &B) R))) ; FIN B ;
+    N = NBEL (EXTR (T . 'CONTRAINTES' . 4) 'MAIL') ;
+    """
+    )
+    find = run(text, tmp_path)
+    assert find("F").values == pytest.approx([250.0, 500.0, 375.0, 500.0], rel=1e-9)
+    assert find("N") == 4
+
+
+def test_user_procedure_gives_other_times(tmp_path):
+    text = """
+    DEBP PERSO1 T*TABLE ;
+      SI ((T . 'ESTIMATION' . 'TEMPS') EGA 0.5) ; T . 'A_CALCULER' = PROG 0.6 0.8 ; FINS ;
+    FINP ;
+    """
+    T = run(text + BAR + "T . 'PROCEDURE_PERSO1' = VRAI ; PASAPAS T ;", tmp_path)("T")
+    assert [v for _, v in T.get("TEMPS").items()] == [0.0, 0.25, 0.5, 0.6, 0.8]
+
+
+def test_table_is_saved_during_the_calculation(tmp_path):
+    text = BAR + "OPTI SAUV 'k.sauv' ; T . 'TEMPS_SAUVEGARDES' = PROG 0.5 ; PASAPAS T ; "
+    text += "OUBL T ; OPTI REST 'k.sauv' ; REST ; N = DIME (T . 'TEMPS') ;"
+    assert run(text, tmp_path)("N") == 3

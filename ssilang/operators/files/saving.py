@@ -145,6 +145,12 @@ def sauv(call: Call) -> None:
             raise call.bad(f"there is no object '{value}' to save", value)
     if not operands:
         operands = [(n, frame.find(n)) for n in sorted(_own_names(frame))]
+    save(call, operands, label)
+
+
+def save(call: Call, operands: list[tuple[str, Any]], label: str = "") -> None:
+    """Add objects with their names to the file that OPTI SAUV names, and write it."""
+    frame = call.session.frame
     output = run_output(call.session)
     begun = output.opened.setdefault("SAUV", _Begun())
     assert isinstance(begun, _Begun)

@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
-import numpy as np
+from typing import Any
 
 from ssilang.language.call import Call, Operand
 from ssilang.language.procedures import call_procedure
-from ssilang.language.values import Procedure, Table
-
-if TYPE_CHECKING:
-    from ssilang.kernel.dynamics.snapshot import Snapshot
+from ssilang.language.values import Procedure
 
 
 class StopCalculation(Exception):
@@ -34,27 +29,3 @@ def call_user(call: Call, name: str, *values: Any) -> list[Any]:
         )
     operands = [Operand(v, call.span) for v in values]
     return call_procedure(session.evaluator, procedure, Call(session, operands, call.span))
-
-
-class AfterEachStep:
-    """Calls a procedure with the table after each computed time."""
-
-    def __init__(self, call: Call, name: str, table: Table, n_times: int) -> None:
-        self.call, self.name, self.table = call, name, table
-        self.wanted = np.ones(n_times, bool)
-        self.wanted[0] = False
-
-    def receive(self, snapshot: Snapshot) -> None:
-        """One computed time.
-
-        Raises
-        ------
-        StopCalculation
-            When the table's entry ARRET is VRAI.
-        """
-        call_user(self.call, self.name, self.table)
-        if self.table.get("ARRET") is True:
-            raise StopCalculation
-
-    def close(self) -> None:
-        """Nothing to do."""

@@ -12,7 +12,6 @@ from ssilang.kernel.curve import Load, LoadPart
 from ssilang.kernel.dynamics.plan import nearest
 from ssilang.kernel.elements.families import mass, stiffness
 from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.joints.elements import is_joint
 from ssilang.kernel.joints.law_table import law_of
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
@@ -24,20 +23,28 @@ from ssilang.kernel.statics.thermal_load import split_thermal
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
 from ssilang.language.values import Mot, Table
-from ssilang.operators.dynamics.reports import report, warn_contrast, warn_resolution
+from ssilang.operators.dynamics.reports import report, warn_contrast, warn_resolution, warn_supports
 from ssilang.operators.dynamics.scheme_entries import contact_options, scheme_of
-from ssilang.operators.models.contact import model_relations
 from ssilang.operators.session.progress import ProgressLine
-from ssilang.operators.session.user_procedures import AfterEachStep, StopCalculation
-from ssilang.operators.statics.bodies import finite_bodies, finite_zones, plastic_bodies
+from ssilang.operators.session.user_procedures import StopCalculation
+from ssilang.operators.statics.bodies import Bodies, finite_bodies, finite_zones, plastic_bodies
 from ssilang.operators.statics.initial_stress import offset_load, stress_offsets
+from ssilang.operators.statics.pasapas_contact import sides_of
 from ssilang.operators.statics.pasapas_entries import KNOWN, REFUSED, RESULTS
 from ssilang.operators.statics.pasapas_results import ResultTables, Stresses
+from ssilang.operators.statics.pasapas_steering import (
+    ChangedCalculation,
+    SavedTable,
+    Steering,
+    working_table,
+)
+from ssilang.operators.statics.path_following import control_asked, driven_parts, follow
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
-    from ssilang.kernel.dynamics.problem import Inputs
+    from ssilang.kernel.dynamics.problem import Inputs, Problem
     from ssilang.kernel.dynamics.snapshot import Observer
+    from ssilang.kernel.plasticity.run import BulkRun
 
 
 @operator(
@@ -52,66 +59,143 @@ if TYPE_CHECKING:
 )
 def zpas(call: Call) -> None:
     """Read the table, step through the times, fill the tables of results."""
-    from ssilang.kernel.dynamics.integrate import integrate
-    from ssilang.kernel.dynamics.problem import make_problem
-    from ssilang.kernel.plasticity.run import run_bulk
-    from ssilang.kernel.statics.stepping import step_statics
-
     entries = Entries(call, call.required("TABLE"), "PASAPAS")
     entries.refuse(REFUSED)
     entries.warn_unknown(KNOWN)
     start = start_of(entries)
     times, saved = _times(entries, start)
-    dynamic = entries.flag("DYNAMIQUE")
     entries.table.set(Mot("CONV"), False)
     entries.table.set(Mot("ERREUR"), True)
-    inputs, stresses = _inputs(entries, start, times, dynamic)
-    finite = finite_zones(entries)
-    bodies = finite_bodies(entries, finite, start) if finite else plastic_bodies(entries, start)
-    problem = make_problem(inputs)
-    results = ResultTables(entries.table, saved, stresses, dynamic, start.index)
-    observers: list[Observer] = [results]
+    work = entries
     if entries.flag("PROCEDURE_PERSO1"):
-        observers.append(AfterEachStep(call, "PERSO1", entries.table, len(times)))
-    line = ProgressLine("PASAPAS")
+        work = Entries(call, working_table(entries.table), "PASAPAS")
+        entries.table.set(Mot("WTABLE"), work.table)
+    number = start.index
     try:
-        (warn_resolution if dynamic else warn_contrast)(entries, problem)
-        if bodies is not None:
-            history = run_bulk(problem, *bodies(problem, inputs), observers, line, dynamic)
-        elif dynamic:
-            history = integrate(problem, observers, line, entries.flag("NEWTON_COMPLET"))
-        else:
-            history = step_statics(problem, observers, line)
-        report(entries, problem, history)
+        while len(times) > 1:
+            try:
+                number = _stretch(entries, work, start, times, saved, number)
+                break
+            except ChangedCalculation as change:
+                start, times, saved, number = _after(entries, work, times, saved, change)
     except StopCalculation:
-        pass
-    finally:
-        line.close()
-    _say_last(entries, results)
+        number = _last_number(entries)
+    _say_last(entries, number)
     entries.table.set(Mot("CONV"), True)
     entries.table.set(Mot("ERREUR"), False)
 
 
-def _say_last(entries: Entries, results: ResultTables) -> None:
+def _stretch(
+    entries: Entries,
+    work: Entries,
+    start: Start,
+    times: FloatArray,
+    saved: NDArray[np.bool_],
+    number: int,
+) -> int:
+    """Steps during which nothing of `work` changes; the number after the last result."""
+    from ssilang.kernel.dynamics.integrate import integrate
+    from ssilang.kernel.dynamics.problem import make_problem
+    from ssilang.kernel.plasticity.run import run_bulk
+    from ssilang.kernel.statics.stepping import step_statics
+
+    dynamic = work.flag("DYNAMIQUE")
+    inputs, stresses = _inputs(work, start, times, dynamic)
+    finite = finite_zones(work)
+    bodies = finite_bodies(work, finite, start) if finite else plastic_bodies(work, start)
+    problem = make_problem(inputs)
+    if bodies is None and not control_asked(work):
+        warn_supports(work, inputs)
+    results = ResultTables(entries.table, saved, stresses, dynamic, number)
+    observers: list[Observer] = [results]
+    kept = work.get("TEMPS_SAUVEGARDES", "LISTREEL")
+    if kept is not None:
+        observers.append(SavedTable(entries.call, entries.table, times, kept.values))
+    if work is not entries:
+        observers.append(Steering(entries.call, entries.table, work.table, results, len(times)))
+    line = ProgressLine("PASAPAS")
+    try:
+        (warn_resolution if dynamic else warn_contrast)(work, problem)
+        if control_asked(work):
+            history = follow(entries, _path_run(problem, inputs, bodies, observers))
+        elif bodies is not None:
+            history = run_bulk(problem, *bodies(problem, inputs), observers, line, dynamic)
+        elif dynamic:
+            history = integrate(problem, observers, line, work.flag("NEWTON_COMPLET"))
+        else:
+            history = step_statics(problem, observers, line)
+    finally:
+        line.close()
+    report(entries, problem, history)
+    return results.number
+
+
+def _after(
+    entries: Entries,
+    work: Entries,
+    times: FloatArray,
+    saved: NDArray[np.bool_],
+    change: ChangedCalculation,
+) -> tuple[Start, FloatArray, NDArray[np.bool_], int]:
+    """Where it goes on after the user's procedure changed something: start, times, number."""
+    rest, kept = times[change.step :], saved[change.step :].copy()
+    listed = entries.get("A_CALCULER", "LISTREEL")
+    if listed is not None:
+        rest = np.concatenate([rest[:1], listed.values[listed.values > rest[0]]])
+        entries.table.remove("A_CALCULER")
+        chosen = entries.get("TEMPS_SAUVES", "LISTREEL")
+        kept = np.ones(len(rest), bool)
+        if chosen is not None and len(rest) > 1:
+            later = (chosen.values > rest[0]) & (chosen.values <= rest[-1])
+            kept = nearest(rest, chosen.values[later])
+    kept[0] = False  # the state that it goes on from stands in the tables if it was to be kept
+    reached = Entries(entries.call, entries.get("ESTIMATION", "TABLE"), "PASAPAS, ESTIMATION")
+    number = _last_number(entries)
+    return Start(number, float(rest[0]), work, reached), rest, kept, number
+
+
+def _path_run(
+    problem: Problem, inputs: Inputs, bodies: Bodies | None, observers: list[Observer]
+) -> BulkRun:
+    """A calculation along a path, at its start."""
+    from ssilang.kernel.plasticity.following import no_bodies
+    from ssilang.kernel.plasticity.run import BulkRun
+
+    bulk, state = (no_bodies(problem), ()) if bodies is None else bodies(problem, inputs)
+    return BulkRun(problem, bulk, state, tuple(observers))
+
+
+def _last_number(entries: Entries) -> int:
+    """The number after the last result."""
+    return max(entries.numbers("TEMPS"), default=-1) + 1
+
+
+def _say_last(entries: Entries, number: int) -> None:
     """Table CONTINUATION: the last results, from which a further call goes on."""
     last = Table()
     for word in RESULTS:
         inner = entries.table.get(Mot(word))
-        if isinstance(inner, Table) and inner.has(results.number - 1):
-            last.set(Mot(word), inner.get(results.number - 1))
+        if isinstance(inner, Table) and inner.has(number - 1):
+            last.set(Mot(word), inner.get(number - 1))
     entries.table.set(Mot("CONTINUATION"), last)
 
 
 @dataclass(frozen=True)
 class Start:
-    """Where a calculation begins: number of the result it goes on from, time, initial state."""
+    """Where a calculation begins: number of the result it goes on from, time, initial state.
+
+    `reached`, where given, holds that state itself, by the words of the results.
+    """
 
     index: int
     time: float | None
     entries: Entries
+    reached: Entries | None = None
 
     def of(self, word: str, *types: str) -> Any:
         """The result of this number, None if there is none."""
+        if self.reached is not None:
+            return self.reached.get(word, *types)
         return self.entries.at(word, self.index, *types)
 
 
@@ -183,16 +267,18 @@ def _inputs(
     heavy = [mass(z, m) for z, m in solids] if dynamic else []
     if dynamic and material is not None:
         heavy += [mass(z, material) for z in plastic]
-    contact, gaps = _contact(model, material)
-    if gaps is not None:
-        load = Load((*(load.parts if load else ()), LoadPart("MECA", gaps)))
+    sides = sides_of(model, material, stresses.offsets)
+    more = [] if sides.gaps is None else [LoadPart("MECA", sides.gaps)]
+    more += driven_parts(entries)
+    if more:
+        load = Load((*(load.parts if load else ()), *more))
     constant = entries.get("RIGIDITE_CONSTANTE", "RIGIDITE")
     supports = entries.get("BLOCAGES_MECANIQUES", "RIGIDITE")
     masses: Matrix | None = None
     if dynamic:
         masses = _joined(entries, heavy, (entries.get("MASSE_CONSTANTE", "RIGIDITE"),), "MASSE")
     inputs = Inputs(
-        _joined(entries, blocks, (constant, supports, contact), "RIGIDITE"),
+        _joined(entries, blocks, (constant, supports, sides.matrix), "RIGIDITE"),
         times,
         masses,
         entries.get("AMORTISSEMENT", "RIGIDITE") if dynamic else None,
@@ -204,23 +290,9 @@ def _inputs(
         scheme_of(entries),
         contact_options(entries, dynamic),
         start.of("VARIABLES_INTERNES", "MCHAML"),
+        sides.friction,
     )
     return inputs, stresses
-
-
-def _contact(
-    model: Model | None, material: CellField | None
-) -> tuple[Matrix | None, NodeField | None]:
-    """Unilateral relations of the sides in contact, and the values that they stay above."""
-    found = [] if model is None else model_relations(model, material)
-    if not found or model is None:
-        return None, None
-    table = model.mesh.nodes
-    nodes = np.concatenate([c.relations.multipliers for c in found])
-    values = np.concatenate([c.distances for c in found])
-    order = np.argsort(nodes, kind="stable")
-    gaps = NodeField(table, {"FLX": NodeValues(nodes[order], values[order])}, "DISCRET")
-    return Matrix(table, (), tuple(c.relations for c in found)), gaps
 
 
 def _joined(

@@ -66,6 +66,7 @@ class ResultTables:
     stresses: Stresses
     dynamic: bool
     number: int = 0
+    _last: tuple[Snapshot, dict[str, Any]] | None = field(default=None, repr=False)
 
     def __post_init__(self) -> None:
         skipped = () if self.dynamic else ("VITESSES", "ACCELERATIONS")
@@ -75,6 +76,14 @@ class ResultTables:
 
     def receive(self, snapshot: Snapshot) -> None:
         """Add one time."""
+        for word, value in self.values(snapshot).items():
+            self._put(word, value, keep=snapshot.step == 0)
+        self.number += 1
+
+    def values(self, snapshot: Snapshot) -> dict[str, Any]:
+        """Results of one time, by their words."""
+        if self._last is not None and self._last[0] is snapshot:
+            return self._last[1]
         u = snapshot.displacement
         tractions = snapshot.tractions
         blocks = self.stresses.at(u, snapshot.time)
@@ -91,9 +100,8 @@ class ResultTables:
         values["DEFORMATIONS_INELASTIQUES"] = strains or CellField((), "DEFORMATIONS INELASTIQUES")
         if self.dynamic:
             values |= {"VITESSES": snapshot.velocity, "ACCELERATIONS": snapshot.acceleration}
-        for word, value in values.items():
-            self._put(word, value, keep=snapshot.step == 0)
-        self.number += 1
+        self._last = (snapshot, values)
+        return values
 
     def _put(self, word: str, value: Any, keep: bool) -> None:
         inner = self.table.get(word)
