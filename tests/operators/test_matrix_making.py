@@ -63,3 +63,41 @@ def test_field_on_the_diagonal_in_a_column_and_in_a_row():
     np.testing.assert_array_equal(dense(made), [[2.0, 3.0], [0.0, 0.0]])
     made = matrix(f"R = MANU 'RIGI' {field} 'COLO' 'SYME' P0 'UX' ;")
     np.testing.assert_array_equal(dense(made), [[2.0, 3.0], [3.0, 0.0]])
+
+
+COPIED = """
+OPTI DIME 2 MODE PLAN DEFO ; P = 0. 0. ; Q = 1. 0. ;
+K = (APPU 'UX' 4. (P ET Q)) ET (APPU 'UY' 8. (P ET Q)) ;
+R = RELA 'UX' P - 'UX' Q ;
+S = CHAN 'INCO' R (MOTS 'UX' 'LX') (MOTS 'FX' 'FLX') (MOTS 'UY' 'LX') (MOTS 'FY' 'FLX') 'DUPL' ;
+"""
+
+
+ORDERS = [
+    "(MOTS 'UX' 'LX') (MOTS 'FX' 'FLX') (MOTS 'UY' 'LX') (MOTS 'FY' 'FLX')",
+    "(MOTS 'UX' 'LX') (MOTS 'UY' 'LX') (MOTS 'FX' 'FLX') (MOTS 'FY' 'FLX')",
+]
+
+
+@pytest.mark.parametrize("order", ORDERS)
+def test_a_copied_condition_stands_beside_its_model(order):
+    """Lists of old and new names come by pairs or, as in the notice's example, old names first."""
+    result = run_text(
+        COPIED.replace(ORDERS[0], order) + "F = MANU 'CHPO' P 2 'FX' 8. 'FY' 32. 'NATURE' "
+        "'DISCRET' ; U = RESO (K ET R ET S) F ; "
+        "MESS (EXTR U 'UX' Q) ' ' (EXTR U 'UY' Q) ' ' (EXTR U 'UX' P) ;"
+    )
+    assert result.exit_code == 0, result.message
+    assert [float(v) for v in result.output.split()] == pytest.approx([1.0, 2.0, 1.0])
+
+
+def test_imaginary_names_of_a_matrix():
+    result = run_text(
+        COPIED.split("R =")[0] + "I = CHAN 'INCO' K 'COMP' 'SYME' ; LIST (EXTR I 'COMP') ;"
+        "LIST (EXTR I 'COMP' 'DUAL') ;"
+    )
+    assert result.exit_code == 0, result.message
+    assert {"IUX", "IUY", "IFX", "IFY"} <= set(result.output.split())
+    result = run_text(COPIED.split("S =")[0] + "I = CHAN 'INCO' (K ET R) 'COMP' ;")
+    assert result.exit_code == 1
+    assert "conditions" in result.message

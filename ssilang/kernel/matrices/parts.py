@@ -196,6 +196,18 @@ def renamed(
     return Matrix(matrix.table, blocks, relations, matrix.kind)
 
 
+def with_own_multipliers(matrix: Matrix) -> Matrix:
+    """The same conditions with multiplier nodes of their own, where the others' are."""
+
+    def moved(relations: Relations) -> Relations:
+        places = matrix.table.coordinates[relations.multipliers].copy()
+        made = matrix.table.add(places)
+        dual = relations.dual and replace(relations.dual, raw_multipliers=made)
+        return replace(relations, raw_multipliers=made, dual=dual)
+
+    return replace(matrix, relations=tuple(moved(r) for r in matrix.relations), cache={})
+
+
 def listed(matrix: Matrix, values: bool = True) -> list[str]:
     """Lines that describe the element matrices and the relations, with their first values."""
     lines = [f"RIGIDITE, {matrix.kind}: {len(matrix.blocks)} blocks of element matrices"]

@@ -12,7 +12,7 @@ from ssilang.kernel.errors import FieldError
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices import parts
 from ssilang.kernel.matrices.assembly import assemble, field_to_vector, numbering_of
-from ssilang.kernel.matrices.matrix import Matrix
+from ssilang.kernel.matrices.matrix import Matrix, dual_of, imaginary
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import IntArray
 from ssilang.kernel.statics.linear import product
@@ -196,23 +196,55 @@ def _dependent(call: Call, word: str) -> Matrix:
     "INCO",
     of=("RIGIDITE",),
     syntax="RIG2 = CHAN 'INCO' RIG1 LISTMOTS1 LISTMOTS2 LISTMOTS3 LISTMOTS4 | MOT1 MOT2 MOT3 MOT4 "
-    "('SYME' | 'ANTI' | 'QUEL') ;",
+    "| 'COMP' ('SYME' | 'ANTI' | 'QUEL') ('DUPL') ;",
     en="Gives the unknowns (first two lists: old, new names) and equations (last two) of a matrix "
-    "other names. The result counts as unsymmetric unless 'SYME' is said.",
+    "other names (or old names in the first two lists, new ones in the last two);"
+    " 'COMP' puts an I (imaginary part) before all of them, if there are no "
+    "conditions. The result counts as unsymmetric unless 'SYME' is said. 'DUPL' gives each "
+    "condition a multiplier of its own, so that it stands beside that from which it is made.",
     fr="Change les noms des inconnues (deux premières listes : anciens, nouveaux) et des équations "
-    "(deux dernières) d'une rigidité. Le résultat est quelconque sauf si 'SYME' est dit.",
+    "(deux dernières) d'une rigidité (ou anciens noms dans les deux premières listes, nouveaux "
+    "dans les deux dernières) ; 'COMP' met un I (partie imaginaire) devant tous, s'il n'y a "
+    "pas de condition. Le résultat est quelconque sauf si 'SYME' est dit. 'DUPL' donne à chaque "
+    "condition son propre multiplicateur, pour qu'elle s'ajoute à celle dont elle vient.",
 )
 def _other_names(call: Call, word: str) -> Matrix:
     matrix: Matrix = call.required("RIGIDITE")
+    primal, dual = _name_changes(call, matrix)
+    shape = own = None
+    while (said := call.keyword(("SYME", "ANTI", "QUEL", "DUPL"))) is not None:
+        shape, own = (shape, said) if said == "DUPL" else (said, own)
+    made = parts.renamed(matrix, primal, dual, shape == "SYME")
+    return parts.with_own_multipliers(made) if own else made
+
+
+def _name_changes(call: Call, matrix: Matrix) -> tuple[dict[str, str], dict[str, str]]:
+    """Old names of unknowns and of equations with the new ones."""
     lists = [[str(w).rstrip() for w in v.values] for v in call.all("LISTMOTS")]
+    if not lists and call.keyword(("COMP",)) is not None:
+        if matrix.relations:
+            raise call.bad(
+                "conditions are not made imaginary by CHAN",
+                matrix,
+                "change the matrix before ET joins it to its conditions",
+            )
+        return (
+            {u: imaginary(u) for b in matrix.blocks for u in b.unknowns},
+            {d: imaginary(d) for b in matrix.blocks for d in b.duals},
+        )
     if not lists:
         lists = [[w.upper().rstrip()] for w in (call.word() for _ in range(4)) if w]
-    shape = call.keyword(("SYME", "ANTI", "QUEL"))
     if len(lists) != 4 or len(lists[0]) != len(lists[1]) or len(lists[2]) != len(lists[3]):
         raise call.bad("CHAN 'INCO' of a matrix wants four lists, of equal lengths by pairs")
+    equations = {d for b in matrix.blocks for d in b.duals}
+    equations |= {dual_of(u) for r in matrix.relations for u in (*r.unknowns, "LX")}
+    if set(lists[1]) <= equations and len(lists[0]) == len(lists[2]):
+        # the notice's example: old unknowns, old equations, new unknowns, new equations
+        lists[1], lists[2] = lists[2], lists[1]
     primal = dict(zip(lists[0], lists[1], strict=True))
-    dual = dict(zip(lists[2], lists[3], strict=True))
-    return parts.renamed(matrix, primal, dual, shape == "SYME")
+    if primal.get("LX", "LX") != "LX":
+        raise call.bad("the multiplier of a condition is always called LX here")
+    return primal, dict(zip(lists[2], lists[3], strict=True))
 
 
 @listing("RIGIDITE")
