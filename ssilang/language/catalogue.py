@@ -212,6 +212,12 @@ MESSAGES: dict[str, Message] = {
         "{count} noms sont à gauche de =, la partie droite donne moins de résultats",
         number=37,
     ),
+    "unended-statement": Message(
+        "the ; that ends this statement is missing: {name} = on line {line} begins another",
+        "il manque le ; qui finit cette instruction : {name} = à la ligne {line} en commence une "
+        "autre",
+        number=37,
+    ),
     "target": Message(
         "a result can be given to a name, to TABLE . INDEX or to %ATTRIBUTE only",
         "un résultat se donne à un nom, à TABLE . INDICE ou à %ATTRIBUT seulement",
@@ -275,8 +281,8 @@ MESSAGES: dict[str, Message] = {
     "wrong-argument": Message(
         "{operator} wanted {types}, found {found_text}",
         "{operator} attendait {types}, trouvé {found_text}",
-        "{bare_hint}{keyword_hint}{syntax_hint}",
-        "{bare_hint}{keyword_hint}{syntax_hint}",
+        "{bare_hint}{point_hint}{keyword_hint}{syntax_hint}",
+        "{bare_hint}{point_hint}{keyword_hint}{syntax_hint}",
         number=37,
     ),
     "missing-keyword": Message(

@@ -186,6 +186,8 @@ def _derived(error: SsiError, language: str, names: Iterable[str]) -> dict[str, 
         made["before_text"] = before[language].format(data["before"])
     if data.get("bare") and error.code == "wrong-argument" and "held_word" not in data:
         made["bare_hint"] = _bare_hint(str(data["value"]), language, names)
+    if data.get("found") in ("ENTIER", "FLOTTANT") and "POINT" in _expected(data):
+        made["point_hint"] = _POINT_HINT[language]
     if data.get("quoted"):
         made["keyword_hint"] = _keyword_hint(data, language)
     made["near_hint"] = _near_hint(data, language, names)
@@ -226,6 +228,17 @@ _REASONS = {
     "out of range": ("the result is too large", "le résultat est trop grand"),
     "infinity": ("the result is too large", "le résultat est trop grand"),
 }
+
+
+_POINT_HINT = {
+    "en": "a point inside a phrase is written in parentheses: (0. 1.)\n",
+    "fr": "un point dans une phrase s'écrit entre parenthèses : (0. 1.)\n",
+}
+
+
+def _expected(data: dict[str, object]) -> list[str]:
+    expected = data.get("expected")
+    return expected if isinstance(expected, list) else []
 
 
 def _bare_hint(word: str, language: str, names: Iterable[str]) -> str:

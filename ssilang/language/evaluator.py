@@ -11,6 +11,7 @@ from ssilang.language.errors import SeveralErrors, SsiError
 from ssilang.language.fast import Slow, Value, compile_phrase
 from ssilang.language.leftovers import is_call, leftover_error
 from ssilang.language.operands import OperandReader
+from ssilang.language.phrase_errors import no_result, tell_held_word
 from ssilang.language.procedures import LeaveProcedure, call_procedure
 from ssilang.language.registry import Operator, find_operator
 from ssilang.language.source import Span
@@ -262,15 +263,9 @@ class Evaluator(OperandReader):
             if wanted:
                 at = next((i for i, o in enumerate(left) if type_of(o.value) == wanted), -1)
             if at < 0 or at >= len(left):
-                error = SsiError(
-                    "no-result",
-                    target.span,
-                    count=len(targets),
-                    wanted=wanted,
-                    name=target.span.text,
-                )
+                error = no_result(statement.targets, target, len(targets), wanted)
                 if self._silent is not None:
-                    _tell_held_word(error, self._silent)
+                    tell_held_word(error, self._silent)
                 raise error
             taken.append(left.pop(at))
             self.store(target, taken[-1].value)
@@ -387,7 +382,7 @@ class Evaluator(OperandReader):
         try:
             results = self.guarded(lambda: run_operator(found, call), operand.span, found.full_name)
         except SsiError as error:
-            _tell_held_word(error, operand)
+            tell_held_word(error, operand)
             raise
         span = operand.span
         self._silent = operand if results is None else None
@@ -438,13 +433,6 @@ class Evaluator(OperandReader):
         if len(numbers) == dimension:
             point = self.session.make_point([float(o.value) for o in numbers])
             call.operands[:] = [Operand(point, span, result=True)]
-
-
-def _tell_held_word(error: SsiError, operand: Operand) -> None:
-    """Add the word to an error of its operator if the script holds it and does not write it."""
-    written = operand.span.text
-    if not operand.result and written.strip("'").upper()[:4] != str(operand.value).upper()[:4]:
-        error.data.setdefault("held_word", (str(operand.value), written))
 
 
 def _words_of(item: tree.Quoted) -> list[tree.Item]:

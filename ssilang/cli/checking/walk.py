@@ -14,6 +14,7 @@ from ssilang.language import tree
 from ssilang.language.cast3m import cast3m_words
 from ssilang.language.errors import SsiError
 from ssilang.language.leftovers import is_call
+from ssilang.language.phrase_errors import no_result
 from ssilang.language.registry import OPERATORS, find_operator, keywords_of
 from ssilang.language.session import Session
 from ssilang.language.values import Mot, Procedure, known_types
@@ -218,7 +219,7 @@ class Checker:
         count = len(statement.targets)
         if len(left) < count:
             target = statement.targets[len(left)]
-            raise SsiError("no-result", target.span, count=count, name=target.span.text)
+            raise no_result(statement.targets, target, count)
         evaluator.refuse_leftovers(left[count:])
         return [o.value for o in left]
 
