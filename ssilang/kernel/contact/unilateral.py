@@ -7,6 +7,7 @@ other (the master), n the master's outer normal:
 
 The formulations differ by the points and weights: nodes one by one (MESC), both ways round
 (SYME), the mean over each slave cell (FAIB), means weighted by the nodes' shape functions (MORT).
+Slips, along which friction pushes, are the same sums across n.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ssilang.kernel.contact.facing import Projection, Side, project, side_of
+from ssilang.kernel.contact.friction import Friction
 from ssilang.kernel.elements.quadrature import quadrature
 from ssilang.kernel.matrices.matrix import Relations
 from ssilang.kernel.matrices.relations import joined, rows_from_table
@@ -29,10 +31,29 @@ NOTHING = 1e-13
 
 @dataclass(frozen=True, eq=False)
 class ContactRelations:
-    """Relations `>= distances`, one for each multiplier."""
+    """Relations `>= distances`, one for each multiplier, and their friction if there is any."""
 
     relations: Relations
     distances: FloatArray
+    friction: Friction | None = None
+
+
+@dataclass(frozen=True)
+class Rubbing:
+    """Coulomb's friction of two sides.
+
+    Attributes
+    ----------
+    coefficient : float
+    cohesion : float
+        A stress.
+    turned : bool
+        Whether the model turns about its axis: areas are those of rings.
+    """
+
+    coefficient: float
+    cohesion: float = 0.0
+    turned: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,6 +73,7 @@ def contact_relations(
     slave: Mesh,
     method: str,
     distance: float = 0.0,
+    rubbing: Rubbing | None = None,
 ) -> ContactRelations | None:
     """Relations of two sides as they lie now; None where no point faces the other side.
 
@@ -63,6 +85,8 @@ def contact_relations(
         'MESC', 'SYME', 'FAIB' or 'MORT'.
     distance : float
         Least distance to keep.
+    rubbing : Rubbing, optional
+        Friction; limits of cohesion are stresses times the areas that the relations stand for.
     """
     dimension = len(unknowns)
     a, b = side_of(master, dimension), side_of(slave, dimension)
@@ -71,8 +95,37 @@ def contact_relations(
     kept = [p for p in parts if p is not None]
     if not kept:
         return None
-    relations = [_as_relations(table, unknowns, nodes, values) for nodes, values, _ in kept]
-    return ContactRelations(joined(relations), np.concatenate([d for _, _, d in kept]))
+    relations = joined([_as_relations(table, unknowns, p.nodes, p.normals, 1) for p in kept])
+    least = np.concatenate([p.least for p in kept])
+    if rubbing is None:
+        return ContactRelations(relations, least)
+    return ContactRelations(relations, least, _friction(table, unknowns, kept, relations, rubbing))
+
+
+def _friction(
+    table: NodeTable,
+    unknowns: tuple[str, ...],
+    parts: list[Rows],
+    relations: Relations,
+    rubbing: Rubbing,
+) -> Friction:
+    """Slips of all relations, across their normals."""
+    slips, areas, width = [], [], len(unknowns) - 1
+    for p in parts:
+        n, nodes, d = p.normals.shape
+        rows = np.stack(p.slips, axis=1).reshape(n * width, nodes, d)
+        slips.append(_as_relations(table, unknowns, p.nodes, rows, 0))
+        areas.append(p.area * (2 * np.pi * p.radius if rubbing.turned else 1.0))
+    area = np.concatenate(areas)
+    return Friction(
+        joined(slips),
+        width,
+        np.full(len(area), rubbing.coefficient),
+        rubbing.cohesion * area,
+        relations.raw_multipliers,
+        None,
+        np.zeros(len(area)),
+    )
 
 
 def _node_points(master: Side, slave: Side) -> _Points:
@@ -136,7 +189,28 @@ _POINTS: dict[str, Callable[[Side, Side], _Points]] = {
 }
 METHODS = tuple(_POINTS)
 
-Rows = tuple[IntArray, FloatArray, FloatArray]
+
+@dataclass(frozen=True, eq=False)
+class Rows:
+    """Relations of two sides.
+
+    Attributes
+    ----------
+    nodes : array (k,)
+    normals : array (r, k, dim)
+        Coefficients of the gaps.
+    slips : tuple of array (r, k, dim)
+        Of the slips along dim - 1 directions across the mean normal of each row.
+    least, area, radius : arrays (r,)
+        Least values, area that each row stands for, its mean first coordinate.
+    """
+
+    nodes: IntArray
+    normals: FloatArray
+    slips: tuple[FloatArray, ...]
+    least: FloatArray
+    area: FloatArray
+    radius: FloatArray
 
 
 def _rows(master: Side, slave: Side, points: _Points, distance: float) -> Rows | None:
@@ -154,7 +228,11 @@ def _rows(master: Side, slave: Side, points: _Points, distance: float) -> Rows |
     rows, row = np.unique(points.row[seen], return_inverse=True)
     whole = np.bincount(row, weight, len(rows))
     weight = weight / whole[row]
-    return _gathered(master, slave, points, found, seen, row, weight, distance)
+    area: FloatArray = whole.astype(np.float64)
+    if points.weight[:1].tolist() == [-1.0]:
+        share = slave.sizes[points.cell] / slave.cells.shape[1]
+        area = np.bincount(points.row, share)[rows].astype(np.float64)
+    return _gathered(master, slave, points, found, seen, row, weight, distance, area)
 
 
 def _gathered(
@@ -166,27 +244,49 @@ def _gathered(
     row: IntArray,
     weight: FloatArray,
     distance: float,
+    area: FloatArray,
 ) -> Rows:
     """Sums over the points of each row."""
     normal = master.normals[found.cell[seen]]
     own, other = slave.cells[points.cell[seen]], master.cells[found.cell[seen]]
     nodes = np.concatenate([own, other], axis=1)
     shapes = np.concatenate([points.shapes[seen], -found.shapes[seen]], axis=1)
-    values = (weight[:, None] * shapes)[..., None] * normal[:, None, :]
     unique, place = np.unique(nodes, return_inverse=True)
     place = place.reshape(nodes.shape)
-    n, d = int(row.max()) + 1, values.shape[2]
-    table = np.zeros((n, len(unique), d))
-    np.add.at(table, (np.repeat(row, nodes.shape[1]), place.ravel()), values.reshape(-1, d))
-    least = np.bincount(row, weight * (distance - found.gap[seen]), n).astype(np.float64)
-    return unique, table, least
+    n, d = int(row.max()) + 1, normal.shape[1]
+
+    def gathered(directions: FloatArray) -> FloatArray:
+        values = (weight[:, None] * shapes)[..., None] * directions[:, None, :]
+        table = np.zeros((n, len(unique), d))
+        np.add.at(table, (np.repeat(row, nodes.shape[1]), place.ravel()), values.reshape(-1, d))
+        return table
+
+    def mean(values: FloatArray) -> FloatArray:
+        return np.bincount(row, weight * values, n).astype(np.float64)
+
+    middle = np.stack([mean(normal[:, i]) for i in range(d)], axis=1)
+    slips = tuple(gathered(t[row]) for t in _across(middle))
+    x = np.einsum("nk,nkd->nd", points.shapes[seen], slave.corners[points.cell[seen]])
+    least = mean(distance - found.gap[seen])
+    return Rows(unique, gathered(normal), slips, least, area, mean(x[:, 0]))
+
+
+def _across(normals: FloatArray) -> list[FloatArray]:
+    """Unit vectors across normals (n, dim): one in the plane, two in space."""
+    normals = normals / np.linalg.norm(normals, axis=1, keepdims=True)
+    if normals.shape[1] == 2:
+        return [np.stack([-normals[:, 1], normals[:, 0]], axis=1)]
+    side = np.eye(3)[np.abs(normals).argmin(axis=1)]
+    first = np.cross(normals, side)
+    first = first / np.linalg.norm(first, axis=1, keepdims=True)
+    return [first, np.cross(normals, first)]
 
 
 def _as_relations(
-    table: NodeTable, unknowns: tuple[str, ...], nodes: IntArray, values: FloatArray
+    table: NodeTable, unknowns: tuple[str, ...], nodes: IntArray, values: FloatArray, sense: int
 ) -> Relations:
-    """One relation `>= ...` a row; zero coefficients are left out."""
+    """One relation a row; zero coefficients are left out."""
     n, d = len(values), len(unknowns)
     flat = np.where(np.abs(values) > NOTHING, values, 0.0).reshape(n, -1)
     columns = np.broadcast_to(np.repeat(nodes, d), flat.shape)
-    return rows_from_table(table, columns, unknowns * len(nodes), flat, sense=1)
+    return rows_from_table(table, columns, unknowns * len(nodes), flat, sense)

@@ -1,4 +1,4 @@
-"""Steps halved, again and again, where a joint opens or closes within them.
+"""Steps halved, again and again, where a joint or relation opens or closes within them.
 
 The event is located to dt/2^DEEPEST; elsewhere the step asked for is kept. Loads are linear
 within a step.
@@ -7,10 +7,11 @@ within a step.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ssilang.kernel.dynamics.compiled_loop import N_ENERGIES, Motion, Saved
+from ssilang.kernel.dynamics.contact import BoolArray
 from ssilang.kernel.dynamics.effective import effective_matrix, effective_of
+from ssilang.kernel.dynamics.impact import ImpactRule
 from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.dynamics.sparse_loop import SparseLoop, StepSolver
 from ssilang.kernel.dynamics.step_solvers import step_solver
@@ -20,10 +21,14 @@ DEEPEST = 5
 
 
 class AdaptiveLoop:
-    """Steps of one dt, split at contact events."""
+    """Steps of one dt, split at contact events.
 
-    def __init__(self, problem: Problem, motion: Motion, dt: float) -> None:
-        self.problem, self.motion, self.dt = problem, motion, dt
+    `closed` (m,) are the unilateral relations that are closed at the start; kept up to date.
+    """
+
+    def __init__(self, problem: Problem, motion: Motion, dt: float, closed: BoolArray) -> None:
+        self.problem, self.motion, self.dt, self.closed = problem, motion, dt, closed
+        self._impacts: dict[int, ImpactRule] = {}
         self.loop = SparseLoop(problem, motion)
         self._solvers: dict[int, StepSolver] = {}
         self.solver = ""
@@ -51,19 +56,24 @@ class AdaptiveLoop:
             effective = effective_of(self.problem, effective_matrix(self.problem, dt), dt, share)
             self.solver = effective.inverse.factor.name
             self._solvers[level] = step_solver(self.problem, effective)
+            if self.problem.contact is not None:
+                rule = ImpactRule(self.problem, effective, self.problem.contact, self.closed)
+                self._impacts[level] = rule
         return self._solvers[level]
 
     def _step(self, level: int, start: FloatArray, end: FloatArray) -> tuple[int, float]:
         """One step between two rows of load factors, split if contact changes in it."""
-        before = [x.copy() for x in self.motion]
+        before, touching = [x.copy() for x in self.motion], self.closed.copy()
         closed = self._closed()
+        solver = self._solver(level)
         done, turns, residual = self.loop.march(
-            self._solver(level),
+            solver,
             self.dt / 2**level,
             np.stack([start, end]),
             np.full(1, -1),
             _nowhere(),
             np.zeros((1, N_ENERGIES)),
+            self._impacts.get(level),
         )
         fine = done == 1 and np.array_equal(closed, self._closed())
         if fine or (level == DEEPEST and done == 1):
@@ -72,6 +82,7 @@ class AdaptiveLoop:
             return min(turns, 0), residual
         for array, old in zip(self.motion, before, strict=True):
             array[...] = old
+        self.closed[:] = touching
         middle = 0.5 * (start + end)
         first, residual = self._step(level + 1, start, middle)
         if first <= 0:
@@ -79,9 +90,13 @@ class AdaptiveLoop:
         second, residual = self._step(level + 1, middle, end)
         return (second if second <= 0 else max(first, second)), residual
 
-    def _closed(self) -> NDArray[np.bool_]:
-        found: NDArray[np.bool_] = self.motion.t[:, -1] < 0.0
-        return found
+    def _closed(self) -> BoolArray:
+        """Joints, then relations, that push."""
+        joints = self.motion.t[:, -1] < 0.0
+        contact = self.problem.contact
+        if contact is None:
+            return joints
+        return np.concatenate([joints, contact.closed(self.motion.contact)])
 
 
 def _nowhere() -> Saved:

@@ -50,7 +50,7 @@ class AdaptiveEngine:
     def __init__(
         self, problem: Problem, motion: Motion, dt: float, full: bool, closed: BoolArray
     ) -> None:
-        self._loop = AdaptiveLoop(problem, motion, dt)
+        self._loop = AdaptiveLoop(problem, motion, dt, closed)
         self.solver = self._loop.solver
 
     def renew(self, problem: Problem) -> None:
@@ -121,12 +121,13 @@ class SparseEngine:
 
             self.solver, self.name = "SuperLU", "full Newton"
             self._step = FullNewtonSolver(problem, A, share)
-        else:
+        if not full or problem.contact is not None:
             effective = effective_of(problem, A, dt, share)
+        if not full:
             self.solver = effective.inverse.factor.name
             self._step = step_solver(problem, effective)
-            if problem.contact is not None:
-                self._impact = ImpactRule(problem, effective, problem.contact, closed)
+        if problem.contact is not None:
+            self._impact = ImpactRule(problem, effective, problem.contact, closed)
         self._loop, self._dt = SparseLoop(problem, motion), dt
 
     def renew(self, problem: Problem) -> None:
@@ -189,17 +190,19 @@ def kind_of(problem: Problem, full_newton: bool) -> type[Engine]:
     KernelError
         For combinations that do not exist.
     """
-    if problem.contact is not None and full_newton:
+    scheme, contact = problem.scheme, problem.contact
+    if scheme.adaptive and (scheme.conserving or full_newton):
         raise KernelError(
-            "unilateral relations do not go with full Newton", "leave 'NEWTON_COMPLET'"
+            "adapted steps are those of the condensed interface",
+            "leave the conserving step and full Newton",
         )
-    scheme = problem.scheme
-    if scheme.adaptive and (scheme.conserving or full_newton or problem.contact is not None):
+    plain = contact is None or (contact.friction is None and contact.associated)
+    if scheme.conserving and not plain:
         raise KernelError(
-            "steps are adapted to the contact of joints alone",
-            "leave the conserving step, full Newton and MINI/MAXI relations",
+            "the conserving step has no friction between meshes and no relations with a dual",
+            "leave 'CONSERVATIF'",
         )
-    if scheme.adaptive and problem.interface is not None:
+    if scheme.adaptive and not (problem.interface is None and contact is None):
         return AdaptiveEngine
     if scheme.conserving:
         return ConservingEngine

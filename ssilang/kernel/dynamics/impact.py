@@ -5,7 +5,7 @@ With C the rows that close in a step and v_L the velocity at its end, the correc
 the kinetic energy; (2) in that of the step's matrix, which spreads it over the neighbours. The
 acceleration stays that of equilibrium. Rows that were closed already are, if wished, projected:
 `C v = 0` with the smallest change in the norm of the mass. Velocities are relative to what the
-relations impose.
+relations impose. Where friction holds, slips have no velocity.
 """
 
 from __future__ import annotations
@@ -41,14 +41,17 @@ class ImpactRule:
         self.options = problem.contact_options
         self._by_mass: FloatArray | None = None
         if self.options.correction == "MASSE" or self.options.persistent:
-            self._by_mass = _mass_motions(problem, effective, contact)
+            self._by_mass = _mass_motions(problem, effective, contact.G)
+        self._slips: FloatArray | None = None
+        if contact.friction is not None:
+            self._slips = _mass_motions(problem, effective, contact.friction.H)
         self._by_step: FloatArray | None = None
         if self.options.correction == "RIGIDITE":
             self._by_step = effective.solve(contact.G.T.toarray())
 
     def correct(self, motion: Motion, rate: FloatArray) -> None:
         """Change `motion.v`; `rate` (m,) is the velocity of the imposed values."""
-        now = motion.contact > 0.0
+        now = self.contact.closed(motion.contact)
         closing, lasting = now & ~self.closed, now & self.closed
         self.closed[:] = now
         if self.options.correction != "FAUX" and closing.any():
@@ -58,6 +61,22 @@ class ImpactRule:
         if self.options.persistent and lasting.any():
             assert self._by_mass is not None
             self._move(motion, self._by_mass, lasting, -1.0, rate)
+        self._hold(motion)
+
+    def _hold(self, motion: Motion) -> None:
+        """What sticks has no velocity and no acceleration along its friction.
+
+        The average acceleration would turn a rest of velocity round at each step for ever.
+        """
+        friction = self.contact.friction
+        if friction is None or self._slips is None:
+            return
+        held = np.repeat(self.contact.sticking(motion.contact, motion.u), friction.width)
+        if not held.any():
+            return
+        H, X = friction.H[np.flatnonzero(held)], self._slips[:, held]
+        for rate in (motion.v, motion.a):
+            rate[:] -= X @ np.linalg.lstsq(H @ X, H @ rate, rcond=1e-12)[0]
 
     def _move(
         self,
@@ -73,10 +92,10 @@ class ImpactRule:
         motion.v[:] += X @ np.linalg.lstsq(G @ X, wanted, rcond=1e-12)[0]
 
 
-def _mass_motions(problem: Problem, effective: Effective, contact: ContactRows) -> FloatArray:
-    """`M^-1 G^T` on the admissible motions (n, m)."""
+def _mass_motions(problem: Problem, effective: Effective, rows: sp.csr_array) -> FloatArray:
+    """`M^-1 rows^T` on the admissible motions (n, m)."""
     T, V = problem.constraints.T, problem.constraints.V
     mass = problem.M + (MASSLESS * 0.25 * effective.dt**2) * effective.A
     inverse = invert(sp.csr_array(V.T @ mass @ T), problem.constraints.associated)
-    found: FloatArray = T @ inverse.solve(V.T @ contact.G.T.toarray())
+    found: FloatArray = T @ inverse.solve(V.T @ rows.T.toarray())
     return found

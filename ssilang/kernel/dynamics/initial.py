@@ -6,13 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ssilang.kernel.dynamics.contact import BoolArray
+from ssilang.kernel.dynamics.contact import BoolArray, ContactRows
 from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.errors import ConvergenceError, KernelError
 from ssilang.kernel.joints.laws import respond
 from ssilang.kernel.joints.response import interface_energies, interface_forces, local_jumps
-from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.solvers.complementarity import ContactProblem, solve_contact
+from ssilang.kernel.solvers.coulomb import CoulombProblem, solve_coulomb
 from ssilang.kernel.sparse import sp
 
 
@@ -77,7 +78,7 @@ def with_contact(
 
     They push where the bodies would accelerate through them: a body at rest on its support has
     no acceleration, and none rings on from step to step. Rows that open, rows of penalty and
-    rows without mass have no reaction yet.
+    rows without mass have no reaction yet. Friction brakes what slides, and holds what rests.
 
     Parameters
     ----------
@@ -86,15 +87,17 @@ def with_contact(
     touching : array (m,)
     """
     contact = problem.contact
-    none = np.zeros(0 if contact is None else len(contact))
+    none = np.zeros(0 if contact is None else contact.size)
     if contact is None or problem.contact_options.method == "PENALITE":
         return a, none
     factors = problem.loading.at(problem.times[:2])
     rate = contact.imposed @ (factors[1] - factors[0]) / (problem.times[1] - problem.times[0])
     speed = contact.G @ v - rate
     chosen = np.flatnonzero(touching & (speed <= 1e-12 * np.abs(v).max(initial=0.0)))
-    G = contact.G[chosen]
-    moved = accelerated(problem, G.T.toarray())
+    if contact.friction is not None:
+        return _with_friction(problem, contact, v, a, chosen)
+    G, D = contact.G[chosen], contact.pushing[chosen]
+    moved = accelerated(problem, D.T.toarray())
     W = G @ moved
     heavy = np.diag(W) > 1e-12 * np.diag(W).max(initial=0.0)
     chosen, moved, W = chosen[heavy], moved[:, heavy], W[np.ix_(heavy, heavy)]
@@ -111,6 +114,42 @@ def with_contact(
         return a, none
     none[chosen] = np.maximum(found.p, 0.0)
     return a + moved @ none[chosen], none
+
+
+def _with_friction(
+    problem: Problem, contact: ContactRows, v: FloatArray, a: FloatArray, chosen: IntArray
+) -> tuple[FloatArray, FloatArray]:
+    """As `with_contact` with friction at the chosen rows: slips of an instant decide its sense."""
+    friction, m = contact.friction, len(contact)
+    assert friction is not None
+    forces = np.zeros(contact.size)
+    row = np.full(m + 1, -1)  # the last one is that of places without a row
+    row[chosen] = np.arange(len(chosen))
+    places = np.flatnonzero((friction.normal < 0) | (row[friction.normal] >= 0))
+    slips = (places[:, None] * friction.width + np.arange(friction.width)).ravel()
+    pushing = contact.pushing[np.concatenate([chosen, m + slips])]
+    watched = friction.watched[places]
+    seen = sp.vstack([contact.G[chosen], friction.H[slips], watched]).tocsr()
+    moved = accelerated(problem, pushing.T.toarray())
+    instant = 1e-6 * float(problem.times[1] - problem.times[0])
+    q = seen @ a
+    q[len(chosen) : len(chosen) + len(slips)] += friction.H[slips] @ v / instant
+    q[len(chosen) + len(slips) :] = friction.offset[places] + watched @ problem.u
+    W = np.asarray(seen @ moved)
+    W[len(chosen) + len(slips) :] = 0.0
+    none = np.zeros((len(q), 0))
+    try:
+        found = solve_coulomb(
+            CoulombProblem(
+                W, q, none, none[: pushing.shape[0]], np.zeros(0), len(chosen), friction.width,
+                row[friction.normal[places]], friction.coefficient[places],
+                friction.constant[places],
+            )
+        )  # fmt: skip
+    except ConvergenceError:  # the first step finds its own way
+        return a, forces
+    forces[np.concatenate([chosen, m + slips])] = found.forces
+    return a + moved @ found.forces, forces
 
 
 def accelerated(problem: Problem, force: FloatArray) -> FloatArray:

@@ -6,10 +6,12 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from ssilang.kernel.contact.friction import Friction
 from ssilang.kernel.curve import Load
 from ssilang.kernel.dynamics.constraints import Constraints, check_values, constraints_of
-from ssilang.kernel.dynamics.contact import ContactRows, split_rows
+from ssilang.kernel.dynamics.contact import ContactRows, split_rows, with_friction
 from ssilang.kernel.dynamics.contact_options import ContactOptions
+from ssilang.kernel.dynamics.friction import friction_rows
 from ssilang.kernel.dynamics.loading import Loading, loading_of
 from ssilang.kernel.dynamics.modified_mass import without_contact_mass
 from ssilang.kernel.dynamics.scheme import Scheme
@@ -99,7 +101,7 @@ class Inputs:
 
     `model` and `characteristics` hold the joints whose law replaces their linear stiffness;
     other zones of the model are ignored (their matrices are in `stiffness`). `variables` are the
-    joints' internal variables at the start.
+    joints' internal variables at the start; `friction` that of unilateral relations and cables.
     """
 
     stiffness: Matrix
@@ -114,6 +116,7 @@ class Inputs:
     scheme: Scheme = field(default_factory=Scheme)
     contact_options: ContactOptions = field(default_factory=ContactOptions)
     variables: CellField | None = None
+    friction: tuple[Friction, ...] = ()
 
 
 def make_problem(inputs: Inputs) -> Problem:
@@ -137,6 +140,10 @@ def make_problem(inputs: Inputs) -> Problem:
     loading = loading_of(inputs.load, numbering, rows.multipliers)
     rows, imposed, contact = split_rows(rows, loading.imposed)
     loading = replace(loading, imposed=imposed)
+    multipliers = np.zeros(0, np.int64) if contact is None else contact.multipliers
+    contact = with_friction(contact, friction_rows(inputs.friction, numbering, multipliers))
+    if contact is not None and contact.imposed.shape[1] != imposed.shape[1]:
+        contact = replace(contact, imposed=np.zeros((len(contact), imposed.shape[1])))
     constraints = constraints_of(rows, numbering.size <= SMALL)
     check_values(constraints, loading.imposed, numbering)
     interface = interface_of(zones, inputs.characteristics, numbering) if zones else None

@@ -29,8 +29,8 @@ class Snapshot:
     w, t : arrays (n_points, d)
         Jumps and tractions of the joints.
     state : array (n_points, N_STATE)
-    contact : array (m,)
-        Reactions of the unilateral relations.
+    contact : array (size,)
+        Reactions of the unilateral relations, and frictions.
     """
 
     problem: Problem
@@ -50,7 +50,7 @@ class Snapshot:
         """Reactions of the equalities, D^T of which is what they push by."""
         rest = self.reaction
         if self.problem.contact is not None:
-            rest = rest - self.problem.contact.G.T @ self.contact
+            rest = rest - self.problem.contact.pushing.T @ self.contact
         return self.problem.constraints.multipliers(rest)
 
     @property
@@ -79,7 +79,7 @@ class Snapshot:
         rows = self.problem.constraints.D
         forces = rows.T @ self._multipliers
         if self.problem.contact is not None:
-            forces = forces + self.problem.contact.G.T @ self.contact
+            forces = forces + self.problem.contact.pushing.T @ self.contact
         return vector_to_field(forces, self.problem.numbering, dual=True)
 
     @property

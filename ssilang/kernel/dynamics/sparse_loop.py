@@ -109,14 +109,14 @@ def support_work(
     ----------
     reaction : array (n,)
         Mean force of all conditions on the body.
-    pushed : array (m,)
-        Mean reactions of the unilateral relations.
+    pushed : array (size,)
+        Mean reactions and frictions of the unilateral relations.
     du, dd, dc : increments of displacement, imposed values and load factors.
     """
     contact, rest, work = problem.contact, reaction, 0.0
     if contact is not None and len(pushed):
-        rest = reaction - contact.G.T @ pushed
-        work = float(pushed @ (contact.imposed @ dc))
+        rest = reaction - contact.pushing.T @ pushed
+        work = contact.work(pushed, du, dc)
     if not problem.constraints.associated:
         return work + float(rest @ du)
     return work + float(dd @ problem.constraints.multipliers(rest)) if dd.any() else work
@@ -179,6 +179,18 @@ class SparseLoop:
         p, m = self.problem, self.motion
         self._Ku, self._Mv, self._Ma = p.K @ m.u, p.M @ m.v, p.M @ m.a
         self._Cv = p.C @ m.v if self._damped else NOTHING
+        self._joints_lost = 0.0
+        if p.contact is not None and p.contact.friction is not None:
+            self._joints_lost = self._of_joints()[1]
+
+    def _of_joints(self) -> tuple[float, float]:
+        joints, m = self.problem.interface, self.motion
+        if joints is None:
+            return 0.0, 0.0
+        stored, lost = interface_energies(
+            joints.codes, joints.parameters, joints.weights, m.w, m.t, m.state
+        )
+        return float(stored), float(lost)
 
     def _right_side(self, load0: FloatArray, load1: FloatArray, dt: float) -> FloatArray:
         m, s = self.motion, self.problem.scheme
@@ -214,7 +226,7 @@ class SparseLoop:
     ) -> None:
         """Reactions and energies; `pushed` are the contact reactions at the step's start."""
         p, m = self.problem, self.motion
-        old = m.reaction.copy()
+        old, before = m.reaction.copy(), m.energies[LOST] - self._joints_lost
         Cv = self._Cv
         self._begin()
         m.reaction[:] = self._Ma + self._Ku - load1
@@ -232,11 +244,11 @@ class SparseLoop:
             m.energies[ELASTIC] += p.contact.penalty_energy(
                 self._gap(factors[1]), p.contact_options.coefficient
             )
-        joints = p.interface
-        if joints is not None:
-            m.energies[STORED], m.energies[LOST] = interface_energies(
-                joints.codes, joints.parameters, joints.weights, m.w, m.t, m.state
-            )
+        if p.interface is not None:
+            m.energies[STORED], m.energies[LOST] = self._of_joints()
+        if p.contact is not None and p.contact.friction is not None:
+            rubbed = p.contact.rubbed(0.5 * (pushed + m.contact), du)
+            m.energies[LOST] = self._joints_lost + before + rubbed
 
     def keep(self, saved: Saved, row: int) -> None:
         """Put the current state into a row of the saved ones."""

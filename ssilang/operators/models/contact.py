@@ -1,4 +1,4 @@
-"""MODE ... 'CONTACT': two sides that must not go into each other."""
+"""MODE ... 'CONTACT': two sides that must not go into each other, cables that slide in a body."""
 
 from __future__ import annotations
 
@@ -11,10 +11,12 @@ from ssilang.language.call import Call
 from ssilang.operators.workspace import Workspace
 
 if TYPE_CHECKING:
-    from ssilang.kernel.contact.unilateral import ContactRelations
+    from ssilang.kernel.contact.unilateral import ContactRelations, Rubbing
     from ssilang.kernel.fields.cell_field import CellField
 
 METHODS = ("MESC", "SYME", "FAIB", "MORT")
+COULOMB = ("FROTTANT", "COULOMB")
+FROCABLE = ("FROTTANT", "FROCABLE")
 ELEMENTS = {"SEG2": "COS2", "TRI3": "COT3", "QUA4": "COQU"}
 """Names under which fields in cells know the sides."""
 
@@ -27,11 +29,12 @@ for _cell, _name in ELEMENTS.items():
 
 def take_contact(call: Call, options: dict[str, Any]) -> bool:
     """Read one thing that stands behind CONTACT; False if none is next."""
-    if call.keyword(["FROTTANT", "COULOMB", "FROCABLE"]) is not None:
-        raise call.bad(
-            "contact with friction between two meshes is not available",
-            hint="joints (JOINT_SDM with FROT, COULOMB) rub; CONTACT UNILATERAL does not",
-        )
+    if call.keyword(["FROTTANT"]) is not None:
+        law = call.keyword(["COULOMB", "FROCABLE"])
+        if law is None:
+            raise call.bad("the law of friction is not said", hint="FROTTANT COULOMB or FROCABLE")
+        options["friction"] = law
+        return True
     if call.keyword(["UNILATERAL"]) is not None:
         return True
     method = call.keyword(METHODS)
@@ -42,7 +45,9 @@ def take_contact(call: Call, options: dict[str, Any]) -> bool:
 
 
 def contact_model(call: Call, master: Mesh, options: dict[str, Any], ws: Workspace) -> Model:
-    """A model of two sides, the first mesh read and the one that follows."""
+    """A model of two sides, the first mesh read and the one that follows; or of a cable."""
+    if options.get("friction") == "FROCABLE":
+        return cable_model(call, master, ws)
     slave: Mesh = call.required("MAILLAGE")
     while call.peek_word() is not None and take_contact(call, options):
         pass
@@ -54,10 +59,29 @@ def contact_model(call: Call, master: Mesh, options: dict[str, Any], ws: Workspa
             f"a side of contact is made of SEG2 (plane), TRI3 or QUA4 (space), not {bad}", master
         )
     whole = {"method": "MESC", **options, "master": master, "slave": slave}
+    behaviour = COULOMB if whole.pop("friction", None) else ("UNILATERAL",)
     return Model(
         tuple(
-            Zone(b, "CONTACT", ("UNILATERAL",), ELEMENTS[b.cell_type], ws.mode, "", dict(whole))
+            Zone(b, "CONTACT", behaviour, ELEMENTS[b.cell_type], ws.mode, "", dict(whole))
             for b in master.blocks
+        )
+    )
+
+
+def cable_model(call: Call, line: Mesh, ws: Workspace) -> Model:
+    """FROCABLE: a cable (its mechanical model may be named) and the body that it slides in."""
+    named = call.read("MMODEL")
+    body: Mesh = call.required("MAILLAGE")
+    if ws.mode.dimension < 2 or ws.mode.value in ("AXIS", "FOUR"):
+        raise call.bad("cables with friction need the plane or space", body)
+    bad = next((b.cell_type for b in line.blocks if b.cell_type != "SEG2"), None)
+    if bad is not None:
+        raise call.bad(f"a cable is a line of SEG2, not of {bad}", line)
+    whole = {"body": body, "cables": None if named is None else named.value}
+    return Model(
+        tuple(
+            Zone(b, "CONTACT", FROCABLE, ELEMENTS["SEG2"], ws.mode, "", dict(whole))
+            for b in line.blocks
         )
     )
 
@@ -80,22 +104,46 @@ def model_relations(model: Model, material: CellField | None) -> list[ContactRel
         names = NODE_TRANSLATIONS[zone.mode]
         made = contact_relations(
             zone.cells.nodes, names, master, slave, str(zone.options["method"]),
-            _distance(zone, material),
+            uniform(zone, material, "JEU", 0.0), _rubbing(zone, material),
         )  # fmt: skip
         if made is not None:
             found.append(made)
     return found
 
 
-def _distance(zone: Zone, material: CellField | None) -> float:
-    """JEU, the least distance to keep; one value for a pair of sides."""
-    from ssilang.kernel.elements.zone_fields import zone_field
+def _rubbing(zone: Zone, material: CellField | None) -> Rubbing | None:
+    """Coulomb's friction of a pair of sides, None where they are smooth."""
+    from ssilang.kernel.contact.unilateral import Rubbing
+    from ssilang.kernel.errors import MaterialError
+
+    if zone.behaviour != COULOMB:
+        return None
+    coefficient = uniform(zone, material, "MU", None)
+    cohesion = uniform(zone, material, "COHE", 0.0)
+    if coefficient < 0.0 or cohesion < 0.0:
+        raise MaterialError("MU and COHE of friction must not be negative")
+    return Rubbing(coefficient, cohesion, zone.mode is Mode.AXISYMMETRIC)
+
+
+def uniform(zone: Zone, material: CellField | None, name: str, default: float | None) -> float:
+    """The one value of a parameter for a pair of sides.
+
+    Raises
+    ------
+    MaterialError
+        If it varies, or is missing without a default.
+    """
+    from ssilang.kernel.elements.zone_fields import missing_parameter, zone_field
     from ssilang.kernel.errors import MaterialError
 
     given = zone_field(zone, material)
-    if "JEU" not in given:
-        return 0.0
-    values = given.raw("JEU")[0].astype(float)
+    if name not in given:
+        if default is None:
+            raise missing_parameter(zone, name, given.names)
+        return default
+    values = given.raw(name)[0].astype(float)
     if float(values.max() - values.min()) > 1e-12 * abs(float(values.max())):
-        raise MaterialError("JEU varies along a side of contact", "one value for a pair of sides")
+        raise MaterialError(
+            f"{name} varies along a side of contact", "one value for a pair of sides"
+        )
     return float(values.flat[0])

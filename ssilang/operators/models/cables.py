@@ -1,0 +1,150 @@
+"""PREC: tensions of prestressing cables. IMPF: kept for old scripts."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ssilang.kernel.elements.catalog import ELEMENTS
+from ssilang.kernel.elements.family import cell_block
+from ssilang.kernel.elements.zone_fields import n_points, zone_field
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+from ssilang.kernel.model import Model, Zone
+from ssilang.kernel.statics.prestress import NO_LOSSES, Cable, Losses, cables_of, tensions
+from ssilang.language.call import Call
+from ssilang.language.registry import Help, operator
+from ssilang.language.values import Mot, Table
+
+_ENTRIES = {
+    "FF": "angular",
+    "PHIF": "linear",
+    "GANC": "slip",
+    "RMU0": "threshold",
+    "FPRG": "strength",
+    "RH10": "relaxation",
+}
+
+
+@operator(
+    "PREC",
+    family="model",
+    full_name="PRECONTRAINTE",
+    help=Help(
+        en="Tensions EFFX of prestressing cables (bars BARR on SEG2, no branches) pulled by F1 at "
+        "one end: the last point of each cable, or the points given; pulled at both ends, a cable "
+        "has the larger tension. With a table, losses by friction (FF per radian, PHIF per metre: "
+        "exp(-FF alpha - PHIF s)), by slip of the anchorage (GANC) and by relaxation (RMU0, FPRG "
+        "in Pa, RH10 in per cent at 1 000 hours); defaults 0.18, 0.002, 0, 0.43, 1.7E9, 2.5.",
+        fr="Tensions EFFX de câbles de précontrainte (barres BARR sur SEG2, sans branchement) "
+        "tendus par F1 à une extrémité : le dernier point de chaque câble, ou les points donnés ; "
+        "tendu aux deux bouts, un câble a la plus grande tension. Avec une table, pertes par "
+        "frottement (FF par radian, PHIF par mètre : exp(-FF alpha - PHIF s)), par recul à "
+        "l'ancrage (GANC) et par relaxation (RMU0, FPRG en Pa, RH10 en % à 1 000 heures) ; par "
+        "défaut 0.18, 0.002, 0, 0.43, 1.7E9, 2.5.",
+        syntax="PRE1 = PREC MODL1 MAT1 F1 (TAB1) (MAIL1 | P1) ;",
+        examples=(
+            "OPTI DIME 2 ELEM SEG2 ; L = DROI 10 (0 0) (50 0) ; M = MODE L MECANIQUE ELASTIQUE "
+            "BARR ; A = MATE M 'YOUN' 1.9E11 'NU' 0.3 'SECT' 1.E-3 ; T = TABL ; "
+            "T . 'PHIF' = 0.003 ; LIST (MINI (PREC M A 1.E5 T)) ;",
+        ),
+    ),
+    reads_itself=True,
+)
+def prec(call: Call) -> CellField:
+    """Tensions of all cables of a model."""
+    model: Model = call.required("MMODEL")
+    material: CellField = call.required("MCHAML")
+    table = call.optional("TABLE")
+    force = float(call.required("FLOTTANT"))
+    table = table if table is not None else call.optional("TABLE")
+    ends = call.optional("MAILLAGE", "POINT")
+    if call.read("MCHAML") is not None:
+        raise call.bad(
+            "tensions before (PRE0) are not built",
+            hint="PREC for the cables pulled now, added to the field of the others",
+        )
+    losses = NO_LOSSES if table is None else _losses(call, table)
+    chosen = _nodes(ends)
+    return CellField(
+        tuple(_zone(call, z, material, force, losses, chosen) for z in model.zones), "CONTRAINTES"
+    )
+
+
+def _nodes(ends: Any) -> IntArray | None:
+    if ends is None:
+        return None
+    if isinstance(ends, Point):
+        return np.array([ends.node])
+    assert isinstance(ends, Mesh)
+    return ends.sorted_node_ids
+
+
+def _losses(call: Call, table: Table) -> Losses:
+    given = {}
+    for key, value in table.items():
+        name = str(key).rstrip() if isinstance(key, Mot | str) else ""
+        if name in _ENTRIES:
+            if isinstance(value, bool) or not isinstance(value, int | float):
+                raise call.bad(f"'{name}' of the losses is a number", table)
+            given[_ENTRIES[name]] = float(value)
+    return Losses(**given)
+
+
+def _zone(
+    call: Call,
+    zone: Zone,
+    material: CellField,
+    force: float,
+    losses: Losses,
+    ends: IntArray | None,
+) -> CellFieldBlock:
+    if ELEMENTS[zone.element].family != "bar" or zone.cells.cell_type != "SEG2":
+        raise call.bad(f"prestressing cables are bars (BARR on SEG2), not {zone.element}")
+    cells = zone.cells.connectivity
+    x = zone.cells.nodes.coordinates[:, : zone.mode.dimension]
+    seen = zone_field(zone, material)
+    section = np.broadcast_to(seen.at("SECT", "GRAVITE")[:, 0], len(cells))
+    stiffness = section * seen.at("YOUN", "GRAVITE")[:, 0]
+    found = np.zeros(len(cells))
+    for cable in cables_of(cells):
+        b = cable.bars
+        pulled = _pulled(call, cable, ends)
+        found[b] = tensions(cable, x, pulled, force, stiffness[b], section[b], losses)
+    points = n_points(zone.element, "STRESSES")
+    values: FloatArray = np.repeat(found[:, None, None], points, axis=2)
+    return cell_block(zone, ("EFFX",), values)
+
+
+def _pulled(call: Call, cable: Cable, ends: IntArray | None) -> tuple[bool, bool]:
+    if ends is None:
+        return False, True
+    found = (int(cable.nodes[0]) in ends, int(cable.nodes[-1]) in ends)
+    if not any(found):
+        raise call.bad(
+            f"no end of the cable from node {int(cable.nodes[0]) + 1} to node "
+            f"{int(cable.nodes[-1]) + 1} is among the points where it is pulled"
+        )
+    return found
+
+
+@operator(
+    "IMPF",
+    family="model",
+    full_name="IMPF",
+    help=Help(
+        en="The mesh itself: Cast3M gave this operator up, and friction needs it no more (MODE "
+        "'CONTACT' 'FROTTANT' does without).",
+        fr="Le maillage lui-même : Cast3M n'emploie plus cet opérateur, et le frottement s'en "
+        "passe (MODE 'CONTACT' 'FROTTANT').",
+        syntax="GEO1 = IMPF GEO2 ;",
+        examples=("OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0 0) (1 0) ; G = IMPF L ; LIST (NBEL G) ;",),
+    ),
+    reads_itself=True,
+)
+def impf(call: Call) -> Mesh:
+    """The mesh, unchanged."""
+    mesh: Mesh = call.required("MAILLAGE")
+    return mesh

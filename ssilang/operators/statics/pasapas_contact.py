@@ -1,0 +1,123 @@
+"""Contact, friction and sliding cables of PASAPAS's model: conditions, least values, limits."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from ssilang.kernel.contact.cable import Bars, CableRelations, cable_relations
+from ssilang.kernel.contact.friction import Friction
+from ssilang.kernel.elements.catalog import ELEMENTS
+from ssilang.kernel.elements.kinematics import NODE_TRANSLATIONS
+from ssilang.kernel.elements.zone_fields import cell_rows, zone_field
+from ssilang.kernel.errors import MaterialError
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.fields.node_field import NodeField, NodeValues
+from ssilang.kernel.matrices.matrix import Matrix
+from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+from ssilang.kernel.model import Model, Zone
+from ssilang.kernel.plasticity.points import is_plastic
+from ssilang.operators.models.contact import FROCABLE, model_relations
+
+
+@dataclass(frozen=True, eq=False)
+class Sides:
+    """Conditions of the sides in contact, the values that they stay above, their friction."""
+
+    matrix: Matrix | None = None
+    gaps: NodeField | None = None
+    friction: tuple[Friction, ...] = ()
+
+
+def sides_of(
+    model: Model | None, material: CellField | None, offsets: Mapping[int, CellFieldBlock]
+) -> Sides:
+    """What the zones CONTACT of a model ask for.
+
+    Parameters
+    ----------
+    offsets : dict
+        Stresses at zero displacement by identity of their zone: tensions of cables.
+    """
+    zones = () if model is None else model.zones
+    if model is None or all(z.formulation != "CONTACT" for z in zones):
+        return Sides()
+    found = model_relations(model, material)
+    cables = [_cable(z, model, material, offsets) for z in zones if z.behaviour == FROCABLE]
+    table = model.mesh.nodes
+    relations = (*(c.relations for c in found), *(c.ties for c in cables))
+    friction = (
+        *(c.friction for c in found if c.friction is not None),
+        *(c.friction for c in cables),
+    )
+    if len({f.width for f in friction}) > 1:
+        raise MaterialError(
+            "sides with friction in space and cables with friction do not go together yet",
+            "smooth sides (UNILATERAL) beside the cables",
+        )
+    gaps = None
+    if found:
+        nodes = np.concatenate([c.relations.multipliers for c in found])
+        values = np.concatenate([c.distances for c in found])
+        order = np.argsort(nodes, kind="stable")
+        gaps = NodeField(table, {"FLX": NodeValues(nodes[order], values[order])}, "DISCRET")
+    return Sides(Matrix(table, (), relations) if relations else None, gaps, friction)
+
+
+def _cable(
+    zone: Zone, model: Model, material: CellField | None, offsets: Mapping[int, CellFieldBlock]
+) -> CableRelations:
+    body = zone.options["body"]
+    assert isinstance(body, Mesh)
+    given = zone_field(zone, material)
+    n = len(zone.cells)
+    angular, linear = (
+        np.broadcast_to(given.at(name, "GRAVITE").mean(axis=1), n) for name in ("FF", "PHIF")
+    )
+    stiffness, tension = _of_bars(zone, model, material, offsets)
+    bars = Bars(zone.cells.connectivity, stiffness, tension, angular, linear)
+    line = Mesh(zone.cells.nodes, (zone.cells,))
+    return cable_relations(line, bars, body, NODE_TRANSLATIONS[zone.mode])
+
+
+def _of_bars(
+    zone: Zone, model: Model, material: CellField | None, offsets: Mapping[int, CellFieldBlock]
+) -> tuple[FloatArray, FloatArray]:
+    """E S / L of the bars on a cable's cells, and their tensions at zero displacement."""
+    named = zone.options.get("cables")
+    zones = named.zones if isinstance(named, Model) else model.zones
+    cells = zone.cells
+    x = cells.nodes.coordinates[cells.connectivity][..., : zone.mode.dimension]
+    length = np.linalg.norm(x[:, 1] - x[:, 0], axis=1)
+    stiffness, tension = np.zeros(len(cells)), np.zeros(len(cells))
+    known = np.zeros(len(cells), bool)
+    for bar in zones:
+        if bar.formulation != "MECANIQUE" or ELEMENTS[bar.element].family != "bar":
+            continue
+        rows = cell_rows(bar.cells, cells)
+        on = np.flatnonzero(rows >= 0)
+        if len(on) == 0:
+            continue
+        if is_plastic(bar):
+            raise MaterialError("cables with friction are elastic", "ELASTIQUE alone for the bars")
+        given = zone_field(bar, material)
+        section = given.at("YOUN", "GRAVITE") * given.at("SECT", "GRAVITE")
+        stiffness[on] = _by_cell(section, rows[on]) / length[on]
+        start = offsets.get(id(bar))
+        if start is not None:
+            tension[on] = _by_cell(np.asarray(start.components["EFFX"], dtype=float), rows[on])
+        known[on] = True
+    if not known.all():
+        raise MaterialError(
+            "a cable with friction (FROCABLE) has no bars on its cells",
+            "MODE cable 'MECANIQUE' 'ELASTIQUE' 'BARR', joined to the model",
+        )
+    return stiffness, tension
+
+
+def _by_cell(values: FloatArray, rows: IntArray) -> FloatArray:
+    mean = values.mean(axis=1)
+    return mean[rows] if len(mean) > 1 else np.full(len(rows), mean[0])
