@@ -220,3 +220,38 @@ def test_colours_tell_the_types_of_cells(found):
         "R", "B", "W", "N",
     )  # fmt: skip
     assert (red, blue, white, total) == (6, 4, 1, 11)
+
+
+FRAME = """OPTI DIME 2 ELEM SEG2 ; O = 0. 0. ; A = 4. 0. ; B = 4. 4. ; E = 0. 4. ;
+C = O D 4 A D 4 B D 4 E D 4 O ; M = C POIN 'PROC' (2. 0.) ; """
+INNER_LINES = {
+    "hanging": ("H = D 3 M (2. 2.5) ;", 16.0, 3),
+    "free": ("H = D 4 (1. 3.) (3. 3.3) ;", 16.0, 4),
+    "across": ("H = D 5 (C POIN 'PROC' (0. 2.)) (C POIN 'PROC' (4. 2.)) ;", 16.0, 5),
+    "hole and line": (
+        "P = 1. 1. ; H = (P D 2 (1.5 1.) D 2 (1.5 1.5) D 2 (1. 1.5) D 2 P) ET "
+        "(D 3 (3. 1.) (3. 3.)) ;",
+        15.75,
+        11,
+    ),
+    "loop on a stalk": (
+        "P = 2. 1. ; H = (M D 2 P) ET (P D 2 (3. 1.) D 2 (2.5 2.) D 2 P) ;",
+        15.5,
+        8,
+    ),
+}
+
+
+@pytest.mark.parametrize("kind", INNER_LINES)
+def test_lines_inside_a_contour_are_sides_of_its_triangles(kind) -> None:
+    made, area, sides = INNER_LINES[kind]
+    text = FRAME + made + " T = TRIA (C ET H) ; "
+    assert value(text + "X = MESU T ;") == pytest.approx(area)
+    assert value(text + "X = NBEL (INTE (CHAN 'LIGN' T) H) ;") == sides
+    assert value(text + "X = (NBNO T) - (NBNO (C ET H)) ;") == 0
+
+
+def test_crossing_lines_and_empty_contours_are_refused() -> None:
+    assert "cross" in message(FRAME + "H = D 1 (1. 1.) (3. 3.) ; G = D 1 (1. 3.) (3. 1.) ;"
+                              "T = TRIA (C ET H ET G) ;")  # fmt: skip
+    assert "enclose nothing" in message(FRAME + "T = TRIA ((D 2 O A) ET (D 3 (1. 1.) (3. 2.5))) ;")

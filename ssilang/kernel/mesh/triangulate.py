@@ -23,13 +23,13 @@ def triangulate_inside(points: FloatArray, segments: IntArray) -> IntArray:
     MeshError
         If points coincide or contours cross.
     """
-    triangles = recover_segments(points, _delaunay(points), segments)
+    triangles = recover_segments(points, delaunay_triangles(points), segments)
     centres = points[triangles].mean(axis=1)
     inside = crossing_inside(centres, points[segments[:, 0]], points[segments[:, 1]])
     return triangles[inside]
 
 
-def _delaunay(points: FloatArray) -> IntArray:
+def delaunay_triangles(points: FloatArray) -> IntArray:
     """Delaunay triangles, anticlockwise, of points inside a far larger square.
 
     The square's corners keep the convex hull away from the points, so that points in line on

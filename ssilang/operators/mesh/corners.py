@@ -8,6 +8,7 @@ from ssilang.kernel.errors import MeshError
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.boundary import contour
 from ssilang.kernel.mesh.charts import plane_chart
+from ssilang.kernel.mesh.constrained import is_closed, triangulated_with_lines
 from ssilang.kernel.mesh.fillet import fillet
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.refine import delaunay_mesh, refined_triangles
@@ -16,7 +17,7 @@ from ssilang.kernel.mesh.surface import contour_cells, contour_chart_data
 from ssilang.kernel.mesh.tetrahedralize import ray_inside
 from ssilang.kernel.mesh.triangulate import triangulate_inside
 from ssilang.language.call import Call
-from ssilang.language.registry import Help, arg, operator, opt
+from ssilang.language.registry import Help, arg, flag, operator, opt
 from ssilang.language.session import Session
 from ssilang.operators.workspace import workspace
 
@@ -58,27 +59,33 @@ def cong(call: Call) -> tuple[Mesh, Mesh, Mesh]:
 @operator(
     "TRIA",
     arg("mesh", "MAILLAGE"),
+    flag("convex", "CONV"),
     opt("limit", "ENTIER"),
     family="mesh",
     full_name="TRIANGULATION",
     help=Help(
         en="Triangles inside closed plane lines of SEG2, in any sense, without new points (RAFT "
-        "refines them); or the Delaunay triangulation of a mesh of points: TRI3 in 2D, TET4 in 3D.",
+        "refines them); lines that end inside, lie free there or cut the domain in parts are "
+        "kept as sides of triangles. Or the Delaunay triangulation of a mesh of "
+        "points: TRI3 in 2D, TET4 in 3D.",
         fr="Triangles intérieurs à des lignes planes fermées de SEG2, de sens quelconque, sans "
-        "nouveau point (RAFT les raffine) ; ou triangulation de Delaunay d'un maillage de points : "
-        "TRI3 en 2D, TET4 en 3D.",
-        syntax="SURF1 = TRIA LIG1 (N1) ; MAIL2 = TRIA MAIL1 ;",
+        "nouveau point (RAFT les raffine) ; les lignes qui finissent à l'intérieur, y sont libres "
+        "ou coupent le domaine restent des côtés de triangles. Ou triangulation de "
+        "Delaunay d'un maillage de points : TRI3 en 2D, TET4 en 3D.",
+        syntax="SURF1 = TRIA LIG1 (N1) ; MAIL2 = TRIA MAIL1 ('CONV') ;",
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; P = 0. 0. ; L = P D 3 (1. 0.) D 3 (0. 1.) D 3 P ;"
             " LIST (MESU (TRIA L)) ;",
         ),
     ),
 )
-def tria(session: Session, mesh: Mesh, limit: int | None) -> Mesh:
+def tria(session: Session, mesh: Mesh, convex: bool, limit: int | None) -> Mesh:
     """Triangulate a contour or points."""
     ws = workspace(session)
     if mesh.dimension == 0:
         return delaunay_mesh(mesh, ws.dimension, ws.colour)
+    if not is_closed(mesh):
+        return triangulated_with_lines(mesh, ws.dimension, ws.colour)
     boundary, segments = contour_chart_data(mesh)
     flat = plane_chart(boundary, segments)
     cells = contour_cells(mesh)
