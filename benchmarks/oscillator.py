@@ -105,10 +105,15 @@ def run(steps: int, dt: float, every: int, folder: Path, script: str = SCRIPT) -
 
 
 def steps_per_second(
-    steps: int, dt: float, folder: Path, script: str = SCRIPT
+    steps: int, dt: float, folder: Path, script: str = SCRIPT, repeats: int = 15
 ) -> tuple[float, float]:
-    """Steps per second of the loop (the script's fixed part taken off), and that part (s)."""
+    """Steps per second of the loop (the script's fixed part taken off), and that part (s).
+
+    Short and long runs in turn, the fastest of each: the fixed part is several times the loop's.
+    """
     run(100, dt, 100, folder, script)  # compiles
-    short = min(run(100, dt, 100, folder, script).seconds for _ in range(3))
-    long = min(run(100 + steps, dt, 100 + steps, folder, script).seconds for _ in range(3))
+    short, long = np.inf, np.inf
+    for _ in range(repeats):
+        short = min(short, run(100, dt, 100, folder, script).seconds)
+        long = min(long, run(100 + steps, dt, 100 + steps, folder, script).seconds)
     return steps / (long - short), short

@@ -51,6 +51,13 @@ class ListReel:
     def __init__(self, values: object = ()) -> None:
         self.values: NDArray[np.float64] = np.atleast_1d(np.array(values, dtype=float))
 
+    @classmethod
+    def of(cls, values: NDArray[np.float64]) -> ListReel:
+        """A list that is this array (n,), which nobody else holds."""
+        made = cls.__new__(cls)
+        made.values = values
+        return made
+
     def __len__(self) -> int:
         return len(self.values)
 

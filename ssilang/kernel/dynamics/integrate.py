@@ -30,6 +30,7 @@ from ssilang.kernel.mesh.nodes import FloatArray
 
 CHUNK_VALUES = 4_000_000  # saved values held at once
 CHUNK_SECONDS = 0.5  # wished duration of a chunk of steps: progress and interruption
+LONGEST_CHUNK = 1 << 16  # steps of a chunk at most: its arrays stay in the second cache
 FACTORS_KEPT = 4  # step sizes whose factors stay in memory
 
 Progress = Callable[[int, int], None]
@@ -158,7 +159,8 @@ class Integration:
             spent = time.perf_counter() - before
             done = run.last
             if spent < CHUNK_SECONDS / 2 and run.last - run.first == longest:
-                longest = min(2 * longest, 1 << 16)
+                faster = int(CHUNK_SECONDS / 2 / max(spent, 1e-4))
+                longest = min(max(2, faster) * longest, LONGEST_CHUNK)
             elif spent > 2 * CHUNK_SECONDS:
                 longest = max(longest // 2, 1)
             if self.progress is not None:
@@ -177,8 +179,10 @@ class Integration:
                 engine, factors = self._drive.engine(self.motion, run.dt, at, factors, self._closed)
             history.solver, history.loop = engine.solver, engine.name
             chosen = wanted[first + 1 : last + 1]
-            save = np.where(chosen, np.cumsum(chosen) - 1, -1).astype(np.int64)
-            saved = self._room(int(chosen.sum()))
+            places = np.flatnonzero(chosen)
+            save = np.full(len(chosen), -1, np.int64)
+            save[places] = np.arange(len(places))
+            saved = self._room(len(places))
             energies = history.kept[first + 1 : last + 1]
             if self.light and isinstance(engine, DenseEngine) and engine.light:
                 energies, history.again = energies[:0], self._energies
@@ -187,7 +191,7 @@ class Integration:
             history.worst = float(self._balance[1])
             if turns > 0:
                 history.iterations = max(history.iterations, turns)
-            steps = first + 1 + np.flatnonzero(chosen[:done])
+            steps = first + 1 + places[places < done]
             for row, step in enumerate(steps):
                 self._hand_over(self._kept(saved, row, int(step)))
             if done < last - first:
@@ -202,9 +206,10 @@ class Integration:
         if self._drive is not None:
             return first + 1
         room = max(CHUNK_VALUES // max(4 * len(self.motion.u), 1), 1)
-        counts = np.cumsum(wanted[first + 1 : last + 1])
-        over = np.flatnonzero(counts > room)
-        return last if len(over) == 0 else first + max(int(over[0]), 1)
+        if last - first <= room:
+            return last
+        saved = np.flatnonzero(wanted[first + 1 : last + 1])
+        return last if len(saved) <= room else first + max(int(saved[room]), 1)
 
     def _engine(self, dt: float) -> Engine:
         dt = next((known for known in self._engines if abs(known - dt) <= SAME * known), dt)

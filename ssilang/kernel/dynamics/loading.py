@@ -40,6 +40,8 @@ class Loading:
     def at(self, times: FloatArray) -> FloatArray:
         """Factors c at times (m,), shape (m, k)."""
         columns = [np.interp(times, x, y) for x, y in self.curves]
+        if len(columns) == 1:
+            return columns[0][:, None]
         return np.stack(columns, axis=1) if columns else np.zeros((len(times), 0))
 
 

@@ -32,8 +32,10 @@ def runs_of(times: FloatArray, longest: int) -> Iterator[Run]:
         dt = next((k for k in known if abs(k - steps[start]) <= SAME * k), float(steps[start]))
         if dt not in known:
             known.append(dt)
-        other = np.abs(steps[start : start + longest] - dt) > SAME * dt
-        stop = start + (int(np.argmax(other)) if other.any() else len(other))
+        part = steps[start : start + longest]
+        stop = start + len(part)
+        if not (part.max() - dt <= SAME * dt and dt - part.min() <= SAME * dt):
+            stop = start + int(np.argmax(np.abs(part - dt) > SAME * dt))
         yield Run(start, stop, dt)
         start = stop
 

@@ -16,6 +16,7 @@ from ssilang.kernel.dynamics.dense_loop import joints_of
 from ssilang.kernel.dynamics.effective import Effective
 from ssilang.kernel.dynamics.modal_loop import Modal, ModalRows, ModalStep, march_modal
 from ssilang.kernel.dynamics.normal_loop import march_normal
+from ssilang.kernel.dynamics.one_mode_loop import carry, march_mode
 from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.dynamics.reduced_loop import reactions, supports_are_still
 from ssilang.kernel.dynamics.scalar_loop import Line, LineRows, LineState, Spring, march_line
@@ -178,7 +179,7 @@ class SmallLoop:
         self, factors: FloatArray, save: IntArray, saved: Saved, history: FloatArray
     ) -> tuple[tuple[int, int, float], list[FloatArray]]:
         assert self._line is not None
-        line, spring, active = self._line
+        line, spring, active, idle = self._line
         m, rows = self.motion, len(saved.u)
         joint = np.zeros(3)
         if spring.weight > 0.0:
@@ -189,10 +190,12 @@ class SmallLoop:
         to = LineRows(few[0], few[1], few[2], np.zeros((rows, 3)))
         if not line.forces.shape[0]:
             factors = factors[:, :0]
-        outcome = march_line(
-            line, self._dt, np.ones(len(active)), spring, x, np.ascontiguousarray(factors), save,
-            to, history,
-        )  # fmt: skip
+        factors = np.ascontiguousarray(factors)
+        if len(active) == 1:
+            outcome = march_mode(line, self._dt, spring, x, factors, save, to, history)
+        else:
+            one = np.ones(len(active))
+            outcome = march_line(line, self._dt, one, spring, x, factors, save, to, history)
         self._z[:, active] = x.u, x.v, x.a
         if spring.weight > 0.0:
             self._put_joint(joint[None], m.w[None], m.t[None], m.state[None])
@@ -202,7 +205,22 @@ class SmallLoop:
         kept = [np.zeros((rows, self.modes.size)) for _ in range(3)]
         for whole, part in zip(kept, few, strict=True):
             whole[:, active] = part
+        if len(idle):
+            still, led = self._z[1:, idle].copy(), np.zeros((2, rows, len(idle)))
+            carry(self._unmoved(), save, still, led)
+            self._z[1:, idle] = still
+            kept[1][:, idle], kept[2][:, idle] = led
         return outcome, kept
+
+    def _unmoved(self) -> FloatArray:
+        """What a step makes of velocity and acceleration of a motion that does not move."""
+        beta, gamma, dt = self._scheme[2], self._scheme[3], self._dt
+        return np.array(
+            [
+                [1 - gamma / beta, dt * (1 - 0.5 * gamma / beta)],
+                [-1 / (beta * dt), 1 - 0.5 / beta],
+            ]
+        )
 
     def _put_joint(self, rows: FloatArray, w: FloatArray, t: FloatArray, state: FloatArray) -> None:
         """Jumps, tractions and states of instants from rows of (w, t, xi)."""
@@ -235,8 +253,12 @@ def only_pushes(joints: Joints, state: FloatArray) -> bool:
 
 def line_of(
     problem: Problem, motion: Motion, modes: Modes, joints: Joints, scheme: FloatArray
-) -> tuple[Line, Spring, IntArray] | None:
-    """The problem as a few modes and one spring, with the modes that move; None if it is not."""
+) -> tuple[Line, Spring, IntArray, IntArray] | None:
+    """The problem as a few modes and one spring; None if it is not.
+
+    The modes that move, and those that only have a velocity and an acceleration: without mass,
+    damping and load, they stay where they are.
+    """
     spring, b = Spring(0.0, 0.0, 0.0, 0.0, 0.0), np.zeros(modes.size)
     if problem.interface is not None:
         found = _spring_of(motion, modes, joints, 1 - scheme[1])
@@ -247,12 +269,15 @@ def line_of(
     moves = (z > NOTHING * z.max(axis=0)).any(axis=1)
     pulls = np.abs(b) > NOTHING * np.abs(b).max(initial=0.0)
     loaded = np.abs(modes.forces) > NOTHING * np.abs(modes.forces).max(axis=1, initial=0.0)[:, None]
-    active = np.flatnonzero(moves | pulls | loaded.any(axis=0))
+    away = z[:, 0] > NOTHING * z[:, 0].max(initial=0.0)
+    driven = pulls | loaded.any(axis=0) | (modes.m != 0.0) | (modes.c != 0.0) | away
+    active = np.flatnonzero(driven & (moves | pulls | loaded.any(axis=0)))
+    idle = np.flatnonzero(moves & ~driven)
     if not 0 < len(active) <= LINE_MODES:
         return None
     forces = modes.forces[:, active] if loaded.any() else np.zeros((0, len(active)))
     m, c, k, b = (np.ascontiguousarray(x[active]) for x in (modes.m, modes.c, modes.k, b))
-    return Line(m, c, k, b, np.ascontiguousarray(forces), scheme), spring, active
+    return Line(m, c, k, b, np.ascontiguousarray(forces), scheme), spring, active, idle
 
 
 def _spring_of(

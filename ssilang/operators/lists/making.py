@@ -50,7 +50,7 @@ def _extend(items: Items, more: list[Any] | FloatArray | IntArray) -> None:
     if isinstance(more, list):
         items.extend(more)
     elif isinstance(items, array):
-        items.frombytes(np.ascontiguousarray(more, dtype=float).tobytes())
+        items.frombytes(np.ascontiguousarray(more, dtype=float).data.cast("B"))
     else:
         items.extend(more.tolist())
 
@@ -117,7 +117,9 @@ def _progression(start: Any, step: Any, count: int, ratio: float | None) -> list
         return sums
     if isinstance(start, int) and isinstance(step, int):
         return [start + step * i for i in range(1, count + 1)]
-    values: FloatArray = start + step * np.arange(1.0, count + 1)
+    values: FloatArray = np.arange(1.0, count + 1)
+    values *= step
+    values += start
     return values
 
 
@@ -190,7 +192,7 @@ def prog(call: Call) -> ListReel:
     word = call.keyword(("SINU", "LINE", "EXPO", "LOGA"))
     if word is not None:
         return _function_of_list(call, word)
-    return ListReel(np.asarray(_read_items(call, _REAL), dtype=float))
+    return ListReel.of(np.asarray(_read_items(call, _REAL), dtype=float))
 
 
 def _function_of_list(call: Call, word: str) -> ListReel:
