@@ -21,6 +21,14 @@ TEMPLATES: tuple[tuple[str, str], ...] = (
         "give meshes of which no nodes are neighbours",
         "donner des maillages dont aucun noeud n'est voisin d'un autre",
     ),
+    (
+        "'SHB8' is for models of elements SHB8",
+        "'SHB8' vaut pour les modèles d'éléments SHB8",
+    ),
+    (
+        "elasticity {} is not available for SHB8",
+        "l'élasticité {} n'est pas disponible pour les SHB8",
+    ),
     ("a contour of SEG2 is needed", "il faut un contour de SEG2"),
     ("the contour is not one line", "le contour n'est pas une seule ligne"),
     ("put several contours one by one", "traiter plusieurs contours l'un après l'autre"),

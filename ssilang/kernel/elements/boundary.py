@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ssilang.kernel.elements.catalog import ELEMENTS, SOLID_FAMILIES
+from ssilang.kernel.elements.catalog import BODY_FAMILIES, ELEMENTS
 from ssilang.kernel.elements.geometry import SurfaceGeometry, surface_geometry
 from ssilang.kernel.elements.quadrature import Rule, quadrature
 from ssilang.kernel.elements.reference import REFERENCE_CELLS
@@ -119,4 +119,4 @@ def zones_of_faces(of: Parents, model: Model) -> list[tuple[Zone, IntArray]]:
 
 def is_solid(zone: Zone) -> bool:
     """True for continuous elements."""
-    return ELEMENTS[zone.element].family in SOLID_FAMILIES
+    return ELEMENTS[zone.element].family in BODY_FAMILIES

@@ -21,6 +21,8 @@ PLANE_MODES = (Mode.PLANE_STRAIN, Mode.PLANE_STRESS, Mode.GENERALISED_PLANE_STRA
 SECTION_MODES = (*PLANE_MODES, Mode.AXISYMMETRIC, Mode.FOURIER)
 SOLID_FAMILIES = ("solid", "incompressible", "one point")
 """Families of continuous elements."""
+BODY_FAMILIES = (*SOLID_FAMILIES, "solid shell")
+"""Families whose cells fill space, with translations only."""
 FRAME_MODES = (Mode.PLANE_STRAIN, Mode.PLANE_STRESS, Mode.THREE_DIMENSIONAL)
 
 
@@ -121,8 +123,14 @@ ELEMENTS: dict[str, ElementKind] = {
         ),
         ElementKind("TUYA", "SEG2", "pipe", _VOLUME, {"RIGIDITE": 2}, default=False),
         ElementKind("DKT", "TRI3", "plate", _VOLUME, {"RIGIDITE": 3}, default=False),
+        ElementKind(
+            "COQ3", "TRI3", "plate", _VOLUME, {"RIGIDITE": 3, "STRESSES": 1}, default=False
+        ),
         ElementKind("SEG2", "SEG2", "pressure", SECTION_MODES, {"RIGIDITE": 2}, default=False),
         ElementKind("SEG3", "SEG3", "pressure", SECTION_MODES, {"RIGIDITE": 2}, default=False),
+        ElementKind(
+            "SHB8", "CUB8", "solid shell", _VOLUME, {"RIGIDITE": 5, "MASSE": 8}, default=False
+        ),
         ElementKind("COQ4", "QUA4", "mindlin", _VOLUME, {"RIGIDITE": 4}, default=False),
         ElementKind(
             "COQ6", "TRI6", "thick", _VOLUME, {"RIGIDITE": 3, "MASSE": 7}, default=False, layers=2

@@ -23,6 +23,7 @@ from ssilang.kernel.elements.pipe import Pipe
 from ssilang.kernel.elements.plate import Plate
 from ssilang.kernel.elements.solid import Incompressible, Solid
 from ssilang.kernel.elements.solid_moduli import solid_compliance
+from ssilang.kernel.elements.solid_shell import SolidShell
 from ssilang.kernel.elements.thick_shell import ThickShell
 from ssilang.kernel.elements.zone_fields import ZoneField, missing_parameter, zone_field
 from ssilang.kernel.errors import FieldError
@@ -44,6 +45,7 @@ FAMILIES: dict[str, ElementFamily] = {
     "thick": ThickShell(),
     "plate": Plate(),
     "meridian": MeridianShell(),
+    "solid shell": SolidShell(),
 }
 
 

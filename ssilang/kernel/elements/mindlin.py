@@ -135,3 +135,17 @@ class Mindlin(ShellFamily):
             "cab,cij->caibj", scalar * (h**2 / 12)[:, None, None], tangent
         )
         return values.reshape(n, 24, 24), self.layout(zone)
+
+    def geometric_values(self, zone: Zone, stress: FloatArray, parameters: ZoneField) -> FloatArray:
+        """Effect of the membrane forces on bilinear translations."""
+        rule = support_rule(zone.element, "STRESSES")
+        frames, local = quadrangle_frames(zone)
+        reference, J = _jacobians(local, rule.points)
+        G = np.einsum("cpji,pki->cpjk", np.linalg.inv(J), reference)
+        w = np.abs(np.linalg.det(J)) * rule.weights
+        N = stress[:, [[0, 2], [2, 1]]]
+        scalar = np.einsum("cp,cpia,cijp,cpjb->cab", w, G, N, G, optimize=True)
+        values = np.zeros((len(frames), 4, 6, 4, 6))
+        for k in range(3):
+            values[:, :, k, :, k] = scalar
+        return values.reshape(-1, 24, 24)

@@ -1,9 +1,10 @@
-"""DKT: flat triangular thin shell, constant membrane and discrete Kirchhoff bending.
+"""DKT and COQ3: flat triangular thin shells with constant membrane strains.
 
-Batoz, Bathe, Ho, "A study of three-node triangular plate bending elements" (1980). Rotations of
-the normal are quadratic; along each side the deflection is cubic and Kirchhoff's condition holds
-at its ends and middle. The element's own frame has x along the side from node 1 to node 2 and z
-along the normal.
+DKT bends by the discrete Kirchhoff condition: Batoz, Bathe, Ho, "A study of three-node triangular
+plate bending elements" (1980). Rotations of the normal are quadratic; along each side the
+deflection is cubic and Kirchhoff's condition holds at its ends and middle. COQ3 bends by an
+incomplete cubic deflection (see `cubic_plate`). The element's own frame has x along the side from
+node 1 to node 2 and z along the normal.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ from __future__ import annotations
 import numpy as np
 
 from ssilang.kernel.elements.catalog import support_rule
+from ssilang.kernel.elements.cubic_plate import cubic_curvatures
 from ssilang.kernel.elements.family import (
     Layout,
     StrainOperator,
@@ -75,6 +77,16 @@ def _rotations(local: FloatArray) -> FloatArray:
     return T
 
 
+def _discrete_kirchhoff(local: FloatArray, points: FloatArray) -> FloatArray:
+    """Curvatures (n, 3, p, 9) from w, RX, RY at the corners (own frame)."""
+    slopes = np.einsum("cpik,ckjm->cpijm", _gradients(local, "TRI6", points), _rotations(local))
+    mixed = slopes[:, :, 1, 0] + slopes[:, :, 0, 1]
+    return np.stack([slopes[:, :, 0, 0], slopes[:, :, 1, 1], mixed], axis=1)
+
+
+_CURVATURES = {"DKT": _discrete_kirchhoff, "COQ3": cubic_curvatures}
+
+
 class Plate(ShellFamily):
     """Thin shell made of flat triangles."""
 
@@ -97,13 +109,8 @@ class Plate(ShellFamily):
         for node in range(3):
             B[:, 0, :, 6 * node] = B[:, 2, :, 6 * node + 1] = linear[:, :, 0, node]
             B[:, 1, :, 6 * node + 1] = B[:, 2, :, 6 * node] = linear[:, :, 1, node]
-        slopes = np.einsum(
-            "cpik,ckjm->cpijm", _gradients(local, "TRI6", rule.points), _rotations(local)
-        )
         columns = [6 * node + k for node in range(3) for k in (2, 3, 4)]
-        B[:, 3, :, columns] = np.moveaxis(slopes[:, :, 0, 0], -1, 0)
-        B[:, 4, :, columns] = np.moveaxis(slopes[:, :, 1, 1], -1, 0)
-        B[:, 5, :, columns] = np.moveaxis(slopes[:, :, 1, 0] + slopes[:, :, 0, 1], -1, 0)
+        B[:, 3:, :, columns] = _CURVATURES[zone.element](local, rule.points)
         double_area = local[:, 1, 0] * local[:, 2, 1]
         return StrainOperator(own_to_global(B, frames), double_area[:, None] * rule.weights)
 
@@ -136,7 +143,7 @@ class Plate(ShellFamily):
         frames, local = plate_frames(zone)
         n = len(frames)
         G = _gradients(local, "TRI3", rule.points)
-        w = local[:, 1, 0] * local[:, 2, 1][:, None] * rule.weights
+        w = (local[:, 1, 0] * local[:, 2, 1])[:, None] * rule.weights
         N = np.empty((n, len(rule), 2, 2))
         N[..., 0, 0], N[..., 1, 1] = stress[:, 0], stress[:, 1]
         N[..., 0, 1] = N[..., 1, 0] = stress[:, 2]

@@ -51,7 +51,11 @@ def _quadrangle(n: int) -> Rule:
 
 
 def _hexahedron(n: int) -> Rule:
-    return _product(_quadrangle(n), _line(n))
+    """A cube of points, or 5 on the line between the centres of the first and last faces."""
+    if n == 5:
+        return _product(_quadrangle(1), _line(5))
+    side = round(n ** (1 / 3))
+    return _product(_quadrangle(side), _line(side))
 
 
 def _triangle_symmetric(*orbits: tuple[float, float]) -> Rule:
@@ -159,7 +163,7 @@ _RULES: dict[str, Callable[[int], Rule]] = {
     "tetrahedron": _tetrahedron,
     "prism": _prism,
     "pyramid": lambda n: _pyramid(1 if n == 1 else round(n ** (1 / 3))),
-    "hexahedron": lambda n: _hexahedron(round(n ** (1 / 3))),
+    "hexahedron": _hexahedron,
 }
 
 

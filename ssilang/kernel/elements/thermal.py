@@ -50,6 +50,9 @@ def thermal_strain(zone: Zone, material: CellField, field: NodeField | CellField
     kind = ELEMENTS[zone.element].family
     if kind in SOLID_FAMILIES:
         return _solid(zone, parameters, rise, len(names))
+    if kind == "solid shell":
+        values[:, :6] = _solid(zone, parameters, rise, 6)
+        return values
     if kind == "joint":
         raise MaterialError("the thermal expansion of joints is not available")
     values[:, 0] = parameters.at("ALPH", "STRESSES", 0.0) * rise

@@ -14,6 +14,7 @@ from ssilang.kernel.elements.family import (
     Layout,
     StrainOperator,
 )
+from ssilang.kernel.elements.geometry import chunks
 from ssilang.kernel.elements.reference import (
     REFERENCE_CELLS,
     shape_functions,
@@ -69,10 +70,13 @@ class ThickShell(ShellFamily):
         """Plane stress with transverse shear."""
         return material_moduli(zone, parameters, support)
 
-    def strain_operator(
+    def _gradients(
         self, zone: Zone, parameters: ZoneField, support: Support, cells: slice
-    ) -> StrainOperator:
-        """Local strains at points on both sides of the middle surface."""
+    ) -> tuple[FloatArray, FloatArray]:
+        """Gradients (n, p, 3, 3, k, 6) of the displacements in local frames, and weights (n, p).
+
+        The first two axes after the points: component, direction of the derivative.
+        """
         rule = support_rule(zone.element, support)
         kind = zone.cells.cell_type
         N, dN = shape_functions(kind, rule.points), shape_gradients(kind, rule.points)
@@ -97,6 +101,15 @@ class ThickShell(ShellFamily):
         G[..., 3:] = np.einsum("cpjk,ckab->cpajkb", turned, _crossed(arm))
         frames = _local_frames(J)
         grad = np.einsum("cpia,cpjb,cpabkm->cpijkm", frames, frames, G, optimize=True)
+        weights = np.abs(np.linalg.det(J)) * rule.weights * 2
+        return grad, weights
+
+    def strain_operator(
+        self, zone: Zone, parameters: ZoneField, support: Support, cells: slice
+    ) -> StrainOperator:
+        """Local strains at points on both sides of the middle surface."""
+        grad, weights = self._gradients(zone, parameters, support, cells)
+        n, p, k = grad.shape[0], grad.shape[1], grad.shape[4]
         B = np.stack(
             [
                 grad[:, :, 0, 0],
@@ -107,14 +120,27 @@ class ThickShell(ShellFamily):
             ],
             axis=1,
         )
-        weights = np.abs(np.linalg.det(J)) * rule.weights * 2
-        return StrainOperator(B.reshape(n, 5, len(rule), 6 * k), weights)
+        return StrainOperator(B.reshape(n, 5, p, 6 * k), weights)
 
     def stiffness_values(self, zone: Zone, moduli: FloatArray, parameters: ZoneField) -> FloatArray:
         """The usual stiffness and a small one about the fibres, which the element lacks."""
         values = super().stiffness_values(zone, moduli, parameters)
         h = parameters.at("EPAI", "GRAVITE")[:, 0]
         return drilled(values, moduli[:, :, 0, 0].mean(axis=1) * h**3 / 12, fibres(zone))
+
+    def geometric_values(self, zone: Zone, stress: FloatArray, parameters: ZoneField) -> FloatArray:
+        """Effect of the stresses in the surface on the displacements' gradients along it."""
+        n, m = len(zone.cells), 6 * zone.cells.kind.n_nodes
+        values = np.empty((n, m, m))
+        for cells in chunks(n):
+            grad, weights = self._gradients(zone, parameters, "STRESSES", cells)
+            along = grad[:, :, :, :2].reshape(*grad.shape[:3], 2, m)
+            flux = np.einsum(
+                "cijp,cpajm,cp->cpaim", stress[cells][:, [[0, 2], [2, 1]]], along, weights
+            )
+            rows = -1, 6 * weights.shape[1], m
+            values[cells] = np.matmul(along.reshape(rows).transpose(0, 2, 1), flux.reshape(rows))
+        return values
 
     def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, Layout]:
         """RHO EPAI of the translations, RHO EPAI^3 / 12 of the rotations about the surface."""

@@ -47,6 +47,8 @@ def _fitting_basis(cell_type: str, source: FloatArray, target: FloatArray) -> li
     for name in (cell_type, _LINEAR_OF.get(cell_type, cell_type)):
         if len(REFERENCE_CELLS[name].nodes) <= len(source):
             return [shape_functions(name, points) for points in (source, target)]
+    if cell_type == "CUB8" and len(source) == 5:  # solid shells: the line between two faces
+        return [np.column_stack([np.ones(len(x)), x[:, 2]]) for x in (source, target)]
     return [np.ones((len(points), 1)) for points in (source, target)]
 
 

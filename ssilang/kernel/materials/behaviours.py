@@ -16,7 +16,7 @@ OTHER_FORMULATIONS = (
 _SHELLS = ("plate", "meridian", "mindlin")
 ELASTICITIES: dict[str, tuple[str, ...]] = {
     "ISOTROPE": (
-        *SOLID_FAMILIES, *_SHELLS, "thick", "bar", "beam", "timoshenko", "pipe",
+        *SOLID_FAMILIES, *_SHELLS, "thick", "solid shell", "bar", "beam", "timoshenko", "pipe",
         "joint",
     ),
     "ORTHOTROPE": (*SOLID_FAMILIES, *_SHELLS, "joint"),

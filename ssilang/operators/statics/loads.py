@@ -20,7 +20,7 @@ from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.matrix import dual_of
-from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
 from ssilang.kernel.model import Mode, Model
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
@@ -120,19 +120,22 @@ def mome(call: Call) -> NodeField:
         "positive. The pressure is a number on a mesh of sides, a nodal field with one component "
         "(on the outer sides of the model whose nodes all have a value), or a field in cells "
         "over sides. On shells ('COQU') it pushes along their normal ('NORM') or to the side that "
-        "a vector shows. In pipes ('TUYA') the parameter PRES pushes on closed ends. "
-        "With a model CHARGEMENT PRESSION: the field of pressure, whose forces BSIG gives along "
-        "the sides' own normals.",
+        "a vector shows. On shells of bricks ('SHB8') it pushes into the face of the first four "
+        "nodes ('INTERNE') or of the last four ('EXTERNE'). In pipes ('TUYA') the parameter PRES "
+        "pushes on closed ends. With a model CHARGEMENT PRESSION: the field of pressure, "
+        "whose forces BSIG gives along the sides' own normals.",
         fr="Forces nodales d'une pression sur des faces d'éléments massifs, dirigée vers "
         "l'intérieur quand elle est positive. La pression est un nombre sur un maillage de "
         "faces, un champ par points à une composante (sur les faces extérieures du modèle dont "
         "tous les noeuds ont une valeur), ou un champ par éléments sur des faces. Sur les coques "
-        "('COQU') elle pousse selon la normale ('NORM') ou du côté que montre un vecteur. Dans "
-        "les tuyaux ('TUYA') le paramètre PRES pousse sur les bouts fermés. Avec un modèle "
-        "CHARGEMENT PRESSION : le champ de pression, dont BSIG donne les forces selon les "
-        "normales propres des faces.",
+        "('COQU') elle pousse selon la normale ('NORM') ou du côté que montre un vecteur. Sur les "
+        "coques de cubes ('SHB8') elle pousse sur la face des quatre premiers noeuds ('INTERNE') "
+        "ou des quatre derniers ('EXTERNE'). Dans les tuyaux ('TUYA') le paramètre PRES pousse "
+        "sur les bouts fermés. Avec un modèle CHARGEMENT PRESSION : le champ de "
+        "pression, dont BSIG donne les forces selon les normales propres des faces.",
         syntax="FOR1 = PRES 'MASS' MODL1 | VAL1 GEO1 | CHPO1 | CHAM1 ;\n"
         "FOR1 = PRES 'COQU' MODL1 | VAL1 | CHPO1 | CHAM1 'NORM' | VEC1 ;\n"
+        "FOR1 = PRES 'SHB8' MODL1 | VAL1 | CHPO1 'INTERNE' | 'EXTERNE' ;\n"
         "FOR1 = PRES 'TUYA' MODL1 CAR1 ;\n"
         "CHAM2 = PRES MODL1 | MOT1 VAL1 (GEO1) | CHAM1 ;",
         examples=(
@@ -147,7 +150,7 @@ def pres(call: Call) -> NodeField | CellField:
     """Pressure on sides."""
     if (loaded := _of_loads(call)) is not None:
         return loaded
-    kind = _kind(call, ("FISS", "SHB8"))
+    kind = _kind(call, ("FISS",), ("SHB8",))
     model: Model = call.required("MMODEL")
     if kind == "TUYA":
         return pipe_pressure(model, joined((call.required("MCHAML"), *call.all("MCHAML"))))
@@ -160,7 +163,7 @@ def pres(call: Call) -> NodeField | CellField:
             raise call.bad("'POIN' is not available", hint="'NORM' or a vector")
         along = call.optional("POINT") if call.keyword(["NORM"]) is None else None
         return shell_load(model, value, None if along is None else along.coordinates)
-    faces = call.optional("MAILLAGE")
+    faces = _brick_faces(call, model) if kind == "SHB8" else call.optional("MAILLAGE")
     if isinstance(value, CellField):
         value = on_sides(model, value)
     if faces is None:
@@ -198,9 +201,21 @@ def _of_loads(call: Call) -> CellField | None:
     return CellField(tuple(blocks), "PRESSION")
 
 
-def _kind(call: Call, others: tuple[str, ...]) -> str:
+def _brick_faces(call: Call, model: Model) -> Mesh | None:
+    """The inner or outer face of shells of bricks: first or last four nodes."""
+    if any(z.element != "SHB8" for z in model.zones):
+        raise call.bad("'SHB8' is for models of elements SHB8", model)
+    side = call.keyword(["INTE", "EXTE"])
+    if side is None:
+        return None
+    nodes = slice(0, 4) if side == "INTE" else slice(4, 8)
+    blocks = [CellBlock.make(z.cells.nodes, "QUA4", z.cells.raw[:, nodes]) for z in model.zones]
+    return Mesh(model.mesh.nodes, tuple(blocks))
+
+
+def _kind(call: Call, others: tuple[str, ...], known: tuple[str, ...] = ()) -> str:
     """MASS, or a refusal of the elements that are not here."""
-    found = call.keyword(["MASS", "POUT", "COQU", "TUYA", *others])
+    found = call.keyword(["MASS", "POUT", "COQU", "TUYA", *known, *others])
     if found in others:
         raise call.bad(f"'{found}' loads are not available", hint="'MASS' is")
     return found or "MASS"

@@ -1,5 +1,7 @@
 """Shells against plate theory, cylinders and rings."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.sparse import csc_array
@@ -280,3 +282,60 @@ def test_skin_stresses_of_a_bent_and_pulled_plate():
     strains = {"EPSS": 1e-3, "EPTT": 0.0, "GAST": 2e-4, "RTSS": 1e-2, "RTTT": 0.0, "RTST": 0.0}
     bent = CellField((material(zone, **strains).blocks[0],))
     assert shell_skin(zone, bent, mat, "SUPE")[0]["EPXX"][0, 0] == pytest.approx(2e-3)
+
+
+def cubic_plate(n):
+    zone, x = plate(n, n, 1.0, 1.0)
+    return replace(zone, element="COQ3"), x
+
+
+def test_cubic_triangles_are_in_balance_when_bent_on_a_regular_mesh():
+    zone, x = cubic_plate(4)
+    kx, ky, kxy = 1e-3, -5e-4, 3e-4
+    u = field(
+        zone,
+        UZ=lambda x: -kx * x[:, 0] ** 2 / 2 - ky * x[:, 1] ** 2 / 2 - kxy * x[:, 0] * x[:, 1] / 2,
+        RX=lambda x: -ky * x[:, 1] - kxy * x[:, 0] / 2,
+        RY=lambda x: kx * x[:, 0] + kxy * x[:, 1] / 2,
+    )
+    strain = families.strain(zone, u)
+    assert strain.components["RTSS"].shape == (32, 1)  # one value, at the centre
+    np.testing.assert_allclose(strain.components["RTSS"][:16], kx, rtol=1e-9)
+    np.testing.assert_allclose(strain.components["RTST"][:16], kxy, rtol=1e-9)
+    block = families.stiffness(zone, material(zone, **PLATE))
+    layout = Layout(block.table, block.raw_nodes, block.local, block.unknowns)
+    forces = layout.scatter(np.einsum("cij,cj->ci", block.values, layout.gather(u)))
+    inside = np.flatnonzero((np.abs(x[:, :2] - 0.5) < 0.49).all(axis=1))
+    for name in ("FZ", "MX", "MY"):
+        all_of_them = np.abs(forces.values_at(name, np.arange(len(x)))).max()
+        assert np.abs(forces.values_at(name, inside)).max() < 1e-10 * all_of_them
+
+
+def _buckling(zone, stress):
+    """Smallest factor of the stresses at which a plate 1 x 1 on simple supports buckles."""
+    mat = material(zone, **PLATE)
+    K = Matrix(zone.cells.nodes, (families.stiffness(zone, mat),))
+    pressed = CellField((material(zone, **stress).blocks[0],))
+    G = Matrix(zone.cells.nodes, (families.geometric_stiffness(zone, pressed, mat),))
+    numbering = numbering_of(K, G)
+    x = zone.cells.nodes.coordinates[numbering.nodes][:, :2]
+    side = (np.abs(x - 0.5) > 0.5 - 1e-9).any(axis=1)
+    names = np.array([numbering.label(i)[:2] for i in range(numbering.size)])
+    free = ~(side & (names == "UZ")) & np.isin(names, ("UZ", "RX", "RY"))
+    k, g = (assemble(m, numbering).toarray()[np.ix_(free, free)] for m in (K, G))
+    return 1 / np.linalg.eigvals(np.linalg.solve(k, -g)).real.max()
+
+
+@pytest.mark.parametrize(
+    ("element", "n", "rtol"),
+    [("DKT", 8, 0.02), ("COQ3", 8, 0.02), ("COQ4", 8, 0.03), ("COQ8", 4, 0.03)],
+)
+def test_square_plate_pressed_on_all_sides_buckles_at_two_pi_squared_d(element, n, rtol):
+    if element in ("COQ4", "COQ8"):
+        zone = quadrangles(element, n, n, 1.0, 1.0)[0]
+        stress = {"SMSS": -1 / H, "SMTT": -1 / H} if element == "COQ8" else {"N11": -1, "N22": -1}
+    else:
+        zone = replace(plate(n, n, 1.0, 1.0)[0], element=element)
+        stress = {"N11": -1, "N22": -1}  # the own frames differ: the same on all sides
+    load = _buckling(zone, stress)
+    assert load == pytest.approx(2 * np.pi**2 * D, rel=rtol)

@@ -1,0 +1,76 @@
+"""Shells of bricks and cubic triangles as scripts use them."""
+
+import pytest
+
+from ssilang.cli.run import run_text
+
+STRIP = """OPTI DIME 3 ELEM CUB8 ;
+P1 = 0. 0. 0. ; P2 = 10. 0. 0. ;
+S1 = (P1 DROI 10 P2) TRAN 2 (0. 1. 0.) ;
+V1 = S1 VOLU 'TRAN' 1 (0. 0. 0.1) ;
+MO = MODE V1 MECANIQUE ELASTIQUE SHB8 ;
+MA = MATE MO YOUN 2.E11 NU 0. RHO 7800. ;
+PE = V1 POIN PLAN P1 (0. 1. 0.) (0. 0. 1.) 1.E-6 ;
+K = (RIGI MO MA) ET (BLOQ DEPL PE) ;
+"""
+
+
+def value(text, name, tmp_path):
+    result = run_text(text, output_directory=tmp_path)
+    assert result.exit_code == 0, result.message
+    return result.session.root.find(name)
+
+
+@pytest.mark.parametrize(("side", "sign"), [("EXTERNE", -1), ("INTERNE", 1)])
+def test_pressure_on_a_face_of_a_shell_of_bricks_bends_it(side, sign, tmp_path):
+    text = STRIP + f"U = RESO K (PRES 'SHB8' MO 1000. '{side}') ;\n"
+    text += "X = EXTR U UZ (V1 POIN PROC (10. 0. 0.)) ; "
+    theory = 1000.0 * 10**4 / (8 * 2e11 * 0.1**3 / 12)
+    assert value(text, "X", tmp_path) == pytest.approx(sign * theory, rel=5e-3)
+
+
+def test_shell_of_bricks_balances_its_load_and_gives_skin_stress_at_nodes(tmp_path):
+    text = STRIP + "F = PRES 'SHB8' MO 1000. 'EXTERNE' ; U = RESO K F ; S = SIGM MO MA U ;\n"
+    text += "R = REDU ((BSIG MO S) - F) (DIFF PE (CHAN POI1 V1)) ; X = MAXI ABS R ;\n"
+    text += "Y = MAXI (EXCO SMXX (CHAN 'CHPO' MO S)) ; "
+    result = run_text(text, output_directory=tmp_path)
+    assert result.exit_code == 0, result.message
+    assert result.session.root.find("X") < 1e-5  # of 1 000 a node
+    # moment at the middle of the first cell, to which the node's value is carried
+    skin = 1000.0 * 9.5**2 / 2 * 0.05 / (0.1**3 / 12)
+    assert result.session.root.find("Y") == pytest.approx(skin, rel=0.01)
+
+
+def test_pressure_on_bricks_is_refused_for_other_elements(tmp_path):
+    text = STRIP.replace("SHB8", "CUB8") + "F = PRES 'SHB8' MO 1. 'EXTERNE' ;"
+    result = run_text(text, output_directory=tmp_path)
+    assert result.exit_code != 0
+    assert "is for models of elements SHB8" in result.message
+
+
+def test_tube_of_cubic_triangles_buckles_under_pressure_that_follows(tmp_path):
+    text = """OPTI DIME 3 ELEM QUA4 ;
+    C = (0. 1. 0.) CERC 16 (0. 0. 0.) (0. 0. 1.) ;
+    S = C TRAN 1 (0.1 0. 0.) ; T = CHAN TRI3 S ;
+    E = S COTE 3 ;
+    MO = MODE T MECANIQUE ELASTIQUE ISOTROPE COQ3 ;
+    LO = MODE T CHARGEMENT PRESSION COQ3 ;
+    MA = MATE MO YOUN 2.E11 NU 0.3 EPAI 0.05 ;
+    P1 = C POIN 'INIT' ; P2 = C POIN 'FINA' ;
+    Q1 = E POIN PROC (0.1 1. 0.) ; Q2 = E POIN PROC (0.1 0. 1.) ;
+    CL = (BLOQ (C ET E) 'UX' 'RY' 'RZ') ET (BLOQ P1 'UZ' 'RX') ET (BLOQ Q1 'UZ' 'RX') ;
+    CL = CL ET (BLOQ P2 'UY' 'RX') ET (BLOQ Q2 'UY' 'RX') ;
+    K = (RIGI MO MA) ET CL ;
+    U = RESO K (BSIG LO (PRES LO 'PRES' -1.E6)) ;
+    KS = KSIG (SIGM MO MA U) MO MA FLAM ;
+    KP = KP LO (MANU 'CHPO' T 1 'SCAL' -1.E6) FLAM ;
+    M1 = VIBR PROC (PROG 0.4) K (KP ET (-1. * KS)) ;
+    M2 = VIBR PROC (PROG 0.4) K (-1. * KS) ;
+    X1 = (2. * PI * (M1 . 'MODES' . 1 . 'FREQUENCE')) ** 2 ;
+    X2 = (2. * PI * (M2 . 'MODES' . 1 . 'FREQUENCE')) ** 2 ; """
+    result = run_text(text, output_directory=tmp_path)
+    assert result.exit_code == 0, result.message
+    following, dead = (result.session.root.find(n) for n in ("X1", "X2"))
+    exact = 2e11 / (4 * (1 - 0.09)) * 0.05**3 / 1e6  # 3 D / R^3
+    assert following == pytest.approx(exact, rel=0.05)
+    assert dead / following == pytest.approx(4 / 3, rel=5e-3)
