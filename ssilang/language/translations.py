@@ -22,6 +22,14 @@ TEMPLATES: tuple[tuple[str, str], ...] = (
         "donner des maillages dont aucun noeud n'est voisin d'un autre",
     ),
     (
+        "the word {} is compared with a number: they differ",
+        "le mot {} est comparé à un nombre : ils diffèrent",
+    ),
+    (
+        "a name that was never assigned is a word",
+        "un nom jamais affecté est un mot",
+    ),
+    (
         "'SHB8' is for models of elements SHB8",
         "'SHB8' vaut pour les modèles d'éléments SHB8",
     ),
@@ -235,6 +243,62 @@ TEMPLATES: tuple[tuple[str, str], ...] = (
     (
         "a shape {} needs {}",
         "une déformée {} demande {}",
+    ),
+    (
+        "models IMPEDANCE have no strains",
+        "les modèles IMPEDANCE n'ont pas de déformations",
+    ),
+    (
+        "an impedance joins {} unknowns ({}) to {}",
+        "une impédance joint {} inconnues ({}) à {}",
+    ),
+    (
+        "{} of an impedance is not negative: {}",
+        "{} d'une impédance n'est pas négatif : {}",
+    ),
+    (
+        "the reduced damping AMOR of an impedance needs its mass MASS",
+        "l'amortissement réduit AMOR d'une impédance demande sa masse MASS",
+    ),
+    (
+        "a curve of MOCO is named '{}'",
+        "une courbe de MOCO s'appelle '{}'",
+    ),
+    (
+        "an impedance {} that changes with the frequency is no matrix",
+        "une impédance {} qui dépend de la fréquence n'est pas une matrice",
+    ),
+    (
+        "elements of the family '{}' have no law IMPEDANCE",
+        "les éléments de la famille '{}' n'ont pas de loi IMPEDANCE",
+    ),
+    (
+        "an impedance has no law {}",
+        "une impédance n'a pas de loi {}",
+    ),
+    (
+        "at {} Hz the system is singular",
+        "à {} Hz le système est singulier",
+    ),
+    (
+        "a unilateral condition has no harmonic response",
+        "une condition unilatérale n'a pas de réponse harmonique",
+    ),
+    (
+        "a law {} has no harmonic response",
+        "une loi {} n'a pas de réponse harmonique",
+    ),
+    (
+        "{} unknowns are too many to choose frequencies for",
+        "{} inconnues sont trop pour un choix des fréquences",
+    ),
+    (
+        "the system has no natural frequency to choose a sweep from",
+        "le système n'a pas de fréquence propre pour choisir un balayage",
+    ),
+    (
+        "the load ends at {} Hz, below the response, which begins at {} Hz",
+        "le chargement finit à {} Hz, sous la réponse, qui commence à {} Hz",
     ),
     (
         "a side of contact is made of {}, not {}",
