@@ -60,12 +60,12 @@ def _dyne(call: Call) -> Table:
         raise call.bad("DYNE wants a table BASE_MODALE or RAIDEUR_ET_MASSE")
     steps, h = call.required("ENTIER"), call.required("FLOTTANT")
     every = call.optional("ENTIER", default=1)
-    system = _system(call, tables["system"])
+    system = system_of(call, tables["system"])
     links = links_of(call, tables.get("links"), system.basis)
     start = _start(call, tables.get("start"), system, len(links))
     spaces, amplitudes = _forces(call, tables.get("loads"), system, start.time, h, steps)
     run = march(
-        system.M, _damping(call, tables.get("damping"), system), system.K, spaces, amplitudes,
+        system.M, damping_of(call, tables.get("damping"), system), system.K, spaces, amplitudes,
         link_arrays([r.link for r in links], len(system.M)), start, h, steps, every, scheme,
     )  # fmt: skip
     return _results(call, run, system, links, tables.get("output"))
@@ -88,7 +88,8 @@ def _by_role(call: Call, tables: list[Table]) -> dict[str, Table]:
 # --- what is given -----------------------------------------------------------------------------
 
 
-def _system(call: Call, table: Table) -> System:
+def system_of(call: Call, table: Table) -> System:
+    """Matrices of a basis or of a table RAIDEUR_ET_MASSE."""
     if table.subtype == "RAIDEUR_ET_MASSE":
         return _of_matrices(call, table)
     shapes = sorted(shapes_in(table), key=lambda s: s.mark.node)
@@ -143,7 +144,8 @@ def _kept(matrix: FloatArray, full: bool) -> FloatArray:
     return matrix if full else np.diag(np.diag(matrix))
 
 
-def _damping(call: Call, table: Table | None, system: System) -> FloatArray:
+def damping_of(call: Call, table: Table | None, system: System) -> FloatArray:
+    """Damping of the modes (n, n), zero without a table."""
     if table is None:
         return np.zeros_like(system.M)
     matrix = _matrix(call, table, "AMORTISSEMENT")

@@ -1,0 +1,142 @@
+"""Harmonic balance: a periodic motion as a Fourier series, nonlinear forces by way of time.
+
+`M q'' + C q' + K q = f(q, q') + F(w t)` with `q = Q_0 + sum_k Q_k cos k w t + P_k sin k w t`
+becomes `Z(w) Q - F_nl(Q) - F = 0`. Coefficients are arrays (2 H + 1, n): 0, cos 1, sin 1, cos 2 ...
+Nonlinear forces are sampled over one period (Cameron and Griffin 1989).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from ssilang.kernel.mesh.nodes import FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class Basis:
+    """H harmonics at N instants of one period.
+
+    Attributes
+    ----------
+    values, rates : array (N, 2 H + 1)
+        1, cos k theta, sin k theta and their derivatives in theta.
+    back : array (2 H + 1, N)
+        From samples to coefficients.
+    """
+
+    harmonics: int
+    values: FloatArray
+    rates: FloatArray
+    back: FloatArray
+
+    @property
+    def orders(self) -> FloatArray:
+        """k of each coefficient (2 H + 1,)."""
+        return orders(self.harmonics)
+
+
+def orders(harmonics: int) -> FloatArray:
+    """k of each coefficient: 0, 1, 1, 2, 2 ..."""
+    return np.concatenate([[0.0], np.repeat(np.arange(1.0, harmonics + 1), 2)])
+
+
+def basis_at(harmonics: int, angles: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Values and rates (N, 2 H + 1) at angles (N,)."""
+    values, rates = [np.ones_like(angles)], [np.zeros_like(angles)]
+    for k in range(1, harmonics + 1):
+        c, s = np.cos(k * angles), np.sin(k * angles)
+        values += [c, s]
+        rates += [-k * s, k * c]
+    return np.stack(values, axis=1), np.stack(rates, axis=1)
+
+
+def basis_of(harmonics: int, samples: int) -> Basis:
+    """The basis at equal instants of one period."""
+    values, rates = basis_at(harmonics, 2 * np.pi * np.arange(samples) / samples)
+    weights = np.full(2 * harmonics + 1, 2.0)
+    weights[0] = 1.0
+    return Basis(harmonics, values, rates, weights[:, None] * values.T / samples)
+
+
+class Forces(Protocol):
+    """Nonlinear forces at instants."""
+
+    def at(self, q: FloatArray, v: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """f (N, n), df/dq and df/dv (N, n, n) at motions q and velocities v (N, n)."""
+        ...
+
+
+def derivative_matrix(harmonics: int) -> FloatArray:
+    """D with `(D Q)` the coefficients of the derivative in theta (2 H + 1, 2 H + 1)."""
+    D = np.zeros((2 * harmonics + 1, 2 * harmonics + 1))
+    for k in range(1, harmonics + 1):
+        D[2 * k - 1, 2 * k], D[2 * k, 2 * k - 1] = k, -k
+    return D
+
+
+@dataclass(frozen=True, eq=False)
+class Oscillators:
+    """M, C, K (n, n) and the forces of `M q'' + C q' + K q = f(q, q') + F`.
+
+    Attributes
+    ----------
+    load : array (2 H + 1, n)
+        Coefficients of F; times w^2 where `unbalance`.
+    """
+
+    M: FloatArray
+    C: FloatArray
+    K: FloatArray
+    basis: Basis
+    forces: Forces
+    load: FloatArray
+    unbalance: bool = False
+
+    @property
+    def size(self) -> int:
+        """Coefficients in all."""
+        return int(self.load.size)
+
+    def linear(self, w: float) -> tuple[FloatArray, FloatArray]:
+        """Z(w) and dZ/dw on the coefficients in their order (size, size)."""
+        D = derivative_matrix(self.basis.harmonics)
+        one, square = np.eye(len(D)), D @ D
+        Z = np.kron(one, self.K) + w * np.kron(D, self.C) + w * w * np.kron(square, self.M)
+        return Z, np.kron(D, self.C) + 2 * w * np.kron(square, self.M)
+
+    def sampled(self, Q: FloatArray, w: float) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """f, df/dq, df/dv at the instants of the basis; Q (2 H + 1, n)."""
+        return self.forces.at(self.basis.values @ Q, w * (self.basis.rates @ Q))
+
+    def nonlinear(self, Q: FloatArray, w: float) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """F_nl (size,), dF_nl/dQ (size, size), dF_nl/dw (size,)."""
+        b = self.basis
+        f, fq, fv = self.sampled(Q, w)
+        tangent = np.einsum("at,tij,tb->aibj", b.back, fq, b.values, optimize=True)
+        tangent += w * np.einsum("at,tij,tb->aibj", b.back, fv, b.rates, optimize=True)
+        by_w = b.back @ np.einsum("tij,tj->ti", fv, b.rates @ Q)
+        n = Q.size
+        return (b.back @ f).ravel(), tangent.reshape(n, n), by_w.ravel()
+
+    def at(self, u: FloatArray, t: float) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Residual, its derivatives in the coefficients and in w = t."""
+        Z, Zw = self.linear(t)
+        F, J, Fw = self.nonlinear(u.reshape(self.load.shape), t)
+        load, by_w = self.load.ravel(), np.zeros(self.size)
+        if self.unbalance:
+            load, by_w = t * t * load, 2 * t * load
+        return Z @ u - F - load, Z - J, Zw @ u - Fw - by_w
+
+    def force(self, t: float) -> float:
+        """Size of the load."""
+        return float(np.linalg.norm(self.load)) * (t * t if self.unbalance else 1.0)
+
+    def exponents(self, Q: FloatArray, w: float) -> FloatArray:
+        """Floquet exponents (2 n,) of the motion."""
+        from ssilang.kernel.continuation.floquet import exponents
+
+        _, fq, fv = self.sampled(Q, w)
+        return exponents(self.M, self.C - fv, self.K - fq, w)

@@ -1,0 +1,287 @@
+"""DYNC: branches of periodic motions on modes by harmonic balance and continuation."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.matrices.assembly import field_to_vector
+from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.modal.links import link_arrays
+from ssilang.language.call import Call
+from ssilang.language.registry import Help, operator
+from ssilang.language.values import ListEnti, ListMots, ListReel, Mot, Table
+from ssilang.operators.modal.dyne import System, damping_of, system_of
+from ssilang.operators.modal.dyne_links import links_of
+
+if TYPE_CHECKING:
+    from ssilang.kernel.continuation.arc import Lengths
+    from ssilang.kernel.continuation.harmonics import Oscillators
+    from ssilang.kernel.continuation.response import Response
+
+_ROLES = {
+    **dict.fromkeys(("BASE_MODALE", "BASE_DE_MODES", "ENSEMBLE_DE_BASES"), "system"),
+    "CHARGEMENT": "loads", "LIAISON": "links", "AMORTISSEMENT": "damping", "INITIAL": "start",
+    "PARAMETRES_NUMERIQUES": "numbers",
+}  # fmt: skip
+_TYPES = ("FORC", "NNM")
+
+
+def _dync(call: Call) -> Table:
+    from ssilang.kernel.continuation.response import forced_response, normal_mode
+
+    tables = _by_role(call, call.all("TABLE"))
+    harmonics, samples = call.required("ENTIER"), call.required("ENTIER")
+    if harmonics < 1 or samples < 2 * (2 * harmonics + 1):
+        raise call.bad(
+            f"{harmonics} harmonics want {2 * (2 * harmonics + 1)} instants of a period or more, "
+            f"{samples} are given"
+        )
+    system = system_of(call, tables["system"])
+    numbers = Numbers(call, tables["numbers"])
+    kind = numbers.word("TYPE", "FORC")
+    if kind not in _TYPES:
+        raise call.bad(
+            f"'TYPE' is '{kind}'",
+            tables["numbers"],
+            hint="'FORC' (forced response) and 'NNM' (nonlinear normal modes) are built",
+        )
+    oscillators = _oscillators(call, tables, system, harmonics, samples, kind == "NNM")
+    lengths, most = _lengths(numbers), int(numbers.real("NBPAS", 1000.0))
+    start = Numbers(call, tables.get("start") or Table("INITIAL"))
+    end = numbers.real("VAL_FIN")
+    if kind == "NNM":
+        mode = int(start.real("MODE", 1.0)) - 1
+        if not 0 <= mode < len(system.M):
+            raise call.bad(f"'MODE' is between 1 and {len(system.M)}", tables["start"])
+        found = normal_mode(oscillators, mode, start.real("ENERGIE"), end, lengths, most)
+    else:
+        first, sense = start.real("FREQUENCE"), numbers.real("ISENS", 1.0)
+        guess = _guess(call, tables["start"], system, oscillators, first)
+        found = forced_response(oscillators, guess, first, end, sense, lengths, most)
+    return _results(call, found, system, kind == "NNM")
+
+
+class Numbers:
+    """Numbers and words of a table of parameters."""
+
+    def __init__(self, call: Call, table: Table) -> None:
+        self.call, self.table = call, table
+
+    def real(self, name: str, default: float | None = None) -> float:
+        """A number."""
+        value = self.table.get(Mot(name), default)
+        if isinstance(value, bool) or not isinstance(value, int | float):
+            raise self.call.bad(f"the table {self.table.subtype} has no number '{name}'")
+        return float(value)
+
+    def word(self, name: str, default: str) -> str:
+        """A word."""
+        return str(self.table.get(Mot(name), default)).rstrip()
+
+
+def _by_role(call: Call, tables: list[Table]) -> dict[str, Table]:
+    found: dict[str, Table] = {}
+    for table in tables:
+        role = _ROLES.get(str(table.subtype))
+        if role is None or role in found:
+            word = "two tables" if role else "DYNC knows no table"
+            raise call.bad(f"{word} '{table.subtype}'", table, hint="known: " + " ".join(_ROLES))
+        found[role] = table
+    for role, name in (("system", "BASE_MODALE"), ("numbers", "PARAMETRES_NUMERIQUES")):
+        if role not in found:
+            raise call.bad(f"DYNC wants a table '{name}'")
+    if "start" not in found:
+        raise call.bad("DYNC wants a table 'INITIAL'", hint="with 'FREQUENCE', or 'ENERGIE'")
+    return found
+
+
+def _oscillators(
+    call: Call, tables: dict[str, Table], system: System, harmonics: int, samples: int, free: bool
+) -> Oscillators:
+    from ssilang.kernel.continuation.harmonics import Oscillators, basis_of
+    from ssilang.kernel.continuation.link_samples import LinkForces
+
+    n = len(system.M)
+    read = links_of(call, tables.get("links"), system.basis)
+    forces = LinkForces(link_arrays([r.link for r in read], n))
+    load = np.zeros((2 * harmonics + 1, n))
+    table = tables.get("loads")
+    unbalance = False
+    if table is not None and not free:
+        load = _coefficients(call, table, system, harmonics, dual=True)
+        unbalance = bool(table.get(Mot("BALOURD"), 0))
+    damping = np.zeros((n, n)) if free else damping_of(call, tables.get("damping"), system)
+    basis = basis_of(harmonics, samples)
+    return Oscillators(system.M, damping, system.K, basis, forces, load, unbalance)
+
+
+def _coefficients(
+    call: Call, table: Table, system: System, harmonics: int, dual: bool
+) -> FloatArray:
+    """Fields at the indices 0, +j (cosine) and -j (sine) as coefficients (2 H + 1, n)."""
+    out = np.zeros((2 * harmonics + 1, len(system.M)))
+    for index, value in table.items():
+        if type(index) is not int:
+            continue
+        if abs(index) > harmonics:
+            raise call.bad(f"index {index} is beyond the {harmonics} harmonics", table)
+        if not isinstance(value, NodeField):
+            raise call.bad(f"index {index} of the table {table.subtype} is a CHPOINT", table)
+        place = 0 if index == 0 else 2 * abs(index) - (1 if index > 0 else 0)
+        out[place] = field_to_vector(value, system.numbering, dual=dual)
+    return out
+
+
+def _guess(
+    call: Call, table: Table, system: System, oscillators: Oscillators, w: float
+) -> FloatArray:
+    """What INITIAL says, or else the linear response."""
+    said = _coefficients(call, table, system, oscillators.basis.harmonics, dual=False)
+    if said.any():
+        return said
+    Z, _ = oscillators.linear(w)
+    load = oscillators.load * (w * w if oscillators.unbalance else 1.0)
+    return np.asarray(np.linalg.lstsq(Z, load.ravel(), rcond=None)[0].reshape(said.shape))
+
+
+def _lengths(numbers: Numbers) -> Lengths:
+    from ssilang.kernel.continuation.arc import Lengths
+
+    start = numbers.real("DS0", 0.01)
+    lengths = Lengths(start, numbers.real("DSMIN", 1e-3 * start), numbers.real("DSMAX", 10 * start))
+    if not 0.0 < lengths.least <= lengths.start <= lengths.most:
+        raise numbers.call.bad("0 < 'DSMIN' <= 'DS0' <= 'DSMAX' is wanted", numbers.table)
+    return replace(
+        lengths,
+        ideal=numbers.real("ITERMOY", 4.0),
+        turns=int(numbers.real("ITERMAX", 20.0)),
+        tolerance=numbers.real("TOLERANCE", 1e-8),
+        bend=float(np.radians(numbers.real("ANGLE_MAX", 180.0))),
+    )
+
+
+# --- results -----------------------------------------------------------------------------------
+
+
+def _results(call: Call, found: Response, system: System, free: bool) -> Table:
+    if found.ended == "no solution":
+        call.session.warn(
+            "bad-value", call.span, operator="DYNC", severity="warning",
+            message=f"the branch is lost at {found.frequencies[-1]:g}", hint="a smaller 'DSMIN'",
+        )  # fmt: skip
+    table = Table("RESULTAT_DYNC")
+    table.set(Mot("REPONSE"), _response(found, system, free))
+    table.set(Mot("BIFURCATION"), _bifurcations(found))
+    return table
+
+
+def _response(found: Response, system: System, free: bool) -> Table:
+    Q = np.array(found.coefficients)
+    exponents = np.array(found.exponents)
+    assert system.basis.shapes is not None
+    marks = [shape.mark for shape in system.basis.shapes]
+    by_order = Table()
+    for place in range(Q.shape[1]):
+        order = (place + 1) // 2 * (1 if place % 2 else -1)
+        by_point = Table()
+        for j, mark in enumerate(marks):
+            by_point.set(mark, ListReel(Q[:, place, j].copy()))
+        by_order.set(order, by_point)
+    entries: dict[str, Any] = {
+        "FREQUENCE": ListReel(np.array(found.frequencies)),
+        "COEFFICIENTS": by_order,
+        "NORME_DEPLACEMENT": ListReel(np.linalg.norm(Q.reshape(len(Q), -1), axis=1)),
+        "STABILITE": ListEnti(np.array([int(u) for u in found.unstable], dtype=np.int64)),
+        "EXPOSANT_REEL": _numbered(exponents.real),
+        "EXPOSANT_IMAGINAIRE": _numbered(exponents.imag),
+    }
+    if free:
+        entries["ENERGIE"] = ListReel(np.array(found.energies))
+    return _table(entries)
+
+
+def _table(entries: dict[str, Any]) -> Table:
+    table = Table()
+    for name, value in entries.items():
+        table.set(Mot(name), value)
+    return table
+
+
+def _numbered(columns: FloatArray) -> Table:
+    table = Table()
+    for i, column in enumerate(np.asarray(columns).T, start=1):
+        table.set(i, ListReel(column.copy()))
+    return table
+
+
+def _bifurcations(found: Response) -> Table:
+    all_found = found.bifurcations
+    norms = [float(np.linalg.norm(b.coefficients)) for b in all_found]
+    entries: dict[str, Any] = {
+        "TYPE": ListMots([b.kind for b in all_found]),
+        "NORME_DEPLACEMENT": ListReel(np.array(norms)),
+        "FREQUENCE": ListReel(np.array([b.frequency for b in all_found])),
+        "KAPPA": ListReel(np.array([b.new_frequency for b in all_found])),
+    }
+    vectors = {
+        "VECTEUR_REEL": [b.vector.real for b in all_found],
+        "VECTEUR_IMAGINAIRE": [b.vector.imag for b in all_found],
+        "COEFFICIENTS": [b.coefficients.ravel() for b in all_found],
+    }
+    for name, rows in vectors.items():
+        table = Table()
+        for i, row in enumerate(rows, start=1):
+            table.set(i, ListReel(np.array(row, dtype=float)))
+        entries[name] = table
+    return _table(entries)
+
+
+_DUFFING = (
+    "OPTI DIME 2 ELEM SEG2 ; P1 = 0. 0. ; A1 = 0. 0. ; TM = TABL 'BASE_MODALE' ; "
+    "TM . 'MODES' = TABL 'BASE_DE_MODES' ; TM . 'MODES' . 1 = TABL 'MODE' ; "
+    "T1 = TM . 'MODES' . 1 ; T1 . 'POINT_REPERE' = A1 ; T1 . 'NUMERO_MODE' = 1 ; "
+    "T1 . 'FREQUENCE' = 0.159154943 ; T1 . 'MASSE_GENERALISEE' = 1. ; "
+    "T1 . 'DEFORMEE_MODALE' = MANU 'CHPO' P1 1 'UX' 1. 'NATURE' 'DIFFUS' ; "
+    "L1 = TABL 'LIAISON_ELEMENTAIRE' ; L1 . 'TYPE_LIAISON' = MOT 'COUPLAGE_DEPLACEMENT' ; "
+    "L1 . 'SUPPORT' = A1 ; L1 . 'ORIGINE' = A1 ; L1 . 'COEFFICIENT' = -0.25 ; "
+    "L1 . 'EXPOSANT' = 3 ; TL = TABL 'LIAISON' ; TL . 'LIAISON_A' = TABL 'LIAISON_A' ; "
+    "TL . 'LIAISON_A' . 1 = L1 ; TC = TABL 'CHARGEMENT' ; "
+    "TC . 1 = MANU 'CHPO' A1 1 'FALF' 0.2 ; TA = TABL 'AMORTISSEMENT' ; "
+    "TA . 'AMORTISSEMENT' = AMOR TM (PROG 5.) ; TI = TABL 'INITIAL' ; "
+    "TI . 'FREQUENCE' = 0.5 ; TN = TABL 'PARAMETRES_NUMERIQUES' ; TN . 'TYPE' = MOT 'FORC' ; "
+    "TN . 'VAL_FIN' = 2. ; TN . 'DS0' = 0.02 ; TN . 'DSMAX' = 0.1 ; TN . 'DSMIN' = 1.E-4 ; "
+)
+operator(
+    "DYNC",
+    family="modal",
+    help=Help(
+        "Branches of periodic motions of modes with links, by harmonic balance and continuation "
+        "along the arc: the response to a harmonic load ('TYPE' 'FORC': loads at the indices 0, "
+        "+j for cos jwt, -j for sin jwt of the table CHARGEMENT, times w^2 if its 'BALOURD' is 1) "
+        "from the frequency of INITIAL to 'VAL_FIN', or nonlinear normal modes ('NNM') from a "
+        "small 'ENERGIE' on, without damping; the energy is that of motion, modes and links at "
+        "the first instant. Frequencies are in rad/s. Links are those of DYNE whose force follows "
+        "from the present motion. REPONSE has FREQUENCE, COEFFICIENTS . j . POINT, "
+        "NORME_DEPLACEMENT, STABILITE (1: unstable), Floquet exponents (by integration over one "
+        "period); BIFURCATION the points LP, BP, PD and NS, each sought to the last digits.",
+        "Branches de mouvements périodiques de modes avec liaisons, par équilibrage harmonique et "
+        "continuation le long de l'arc : réponse à une charge harmonique ('TYPE' 'FORC' : charges "
+        "aux indices 0, +j pour cos jwt, -j pour sin jwt de la table CHARGEMENT, fois w^2 si son "
+        "'BALOURD' vaut 1) de la fréquence d'INITIAL à 'VAL_FIN', ou modes non linéaires ('NNM') "
+        "à partir d'une petite 'ENERGIE', sans amortissement ; l'énergie est celle du mouvement, "
+        "des modes et des liaisons au premier instant. Les fréquences sont en rad/s. Les liaisons "
+        "sont celles de DYNE dont la force suit du mouvement présent. REPONSE contient FREQUENCE, "
+        "COEFFICIENTS . j . POINT, NORME_DEPLACEMENT, STABILITE (1 : instable), les exposants de "
+        "Floquet (par intégration sur une période) ; BIFURCATION les points LP, BP, PD et NS.",
+        "TAB1 = DYNC TMOD (TCHR) (TLIA) (TAMOR) TINI TNUM NHBM NFFT ;",
+        (
+            _DUFFING + "R = DYNC TM TC TL TA TI TN 3 64 ; LIST (R . 'BIFURCATION' . 'TYPE') ; "
+            "LIST (MAXI (R . 'REPONSE' . 'NORME_DEPLACEMENT')) ;",
+        ),
+    ),
+    reads_itself=True,
+)(_dync)
