@@ -15,7 +15,7 @@ from typing import Any, TextIO
 from ssilang.cli.colour import coloured
 from ssilang.cli.loop_progress import follow_loops
 from ssilang.language.diagnostics import render
-from ssilang.language.errors import SeveralErrors, SsiError
+from ssilang.language.errors import SeveralErrors, SsiError, interruption
 from ssilang.language.evaluator import StopRun
 from ssilang.language.session import Limits, Session
 from ssilang.language.source import Source
@@ -126,8 +126,8 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
         errors = several.errors
     except SsiError as error:
         errors = [error]
-    except KeyboardInterrupt:
-        errors = [SsiError("interrupted", session.evaluator.current_span)]
+    except KeyboardInterrupt as stop:
+        errors = [interruption(stop, session.evaluator.current_span)]
     _close_files(session, errors)
     names = session.frame.names() | session.library.standard_names
     message = "\n\n".join(render(e, session.language, names) for e in errors)

@@ -32,6 +32,19 @@ class SsiError(Exception):
         return f"{self.code}: {self.data}"
 
 
+class Interrupted(KeyboardInterrupt):
+    """Ctrl-C inside a procedure: `error` says where, with the chain of calls."""
+
+    def __init__(self, error: SsiError) -> None:
+        super().__init__()
+        self.error = error
+
+
+def interruption(stop: KeyboardInterrupt, span: Span | None) -> SsiError:
+    """The error of a Ctrl-C: that of the innermost procedure, or a new one at `span`."""
+    return stop.error if isinstance(stop, Interrupted) else SsiError("interrupted", span)
+
+
 class SeveralErrors(Exception):
     """All syntax errors of one script."""
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from ssilang.language.errors import SsiError
+from ssilang.language.errors import Interrupted, SsiError, interruption
 from ssilang.language.printer import heading
 from ssilang.language.scopes import Frame
 from ssilang.language.values import ANNULE, Objet, Procedure, Table, type_of
@@ -75,6 +75,10 @@ def call_procedure(evaluator: Evaluator, procedure: Procedure, call: Call) -> li
             error.span = evaluator.current_span
         error.calls.append((procedure.name, place))
         raise
+    except KeyboardInterrupt as stop:
+        where = interruption(stop, evaluator.current_span)
+        where.calls.append((procedure.name, place))
+        raise Interrupted(where) from None
     finally:
         session.frame = caller
 

@@ -93,6 +93,26 @@ def test_a_run_told_to_end_writes_its_files(tmp_path: Path) -> None:
     assert lines == [str(i + 1) for i in range(len(lines))]
 
 
+@pytest.mark.skipif(os.name != "posix", reason="signals of one system")
+def test_an_interruption_inside_procedures_names_the_line_of_the_script(tmp_path: Path) -> None:
+    script = (
+        "DEBP INNER ; REPE B ; SORT 'CHAI' &B ; FIN B ; FINP ;\n"
+        "DEBP OUTER ; INNER ; FINP ;\nOPTI SORT 'a.txt' ;\nOUTER ;\n"
+    )
+    (tmp_path / "deck.ssi").write_text(script)
+    command = [sys.executable, "-m", "ssilang.cli.main", "deck.ssi", "--out", "out"]
+    with subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE, text=True) as process:
+        while not (tmp_path / "out" / "a.txt").exists():
+            assert process.poll() is None
+            time.sleep(0.05)
+        process.send_signal(signal.SIGINT)
+        told = process.communicate(timeout=30)[1]
+    assert "error: interrupted" in told
+    assert "deck.ssi:1:" in told
+    assert "deck.ssi:2:" in told
+    assert "deck.ssi:4:" in told
+
+
 @pytest.mark.skipif(os.name != "posix", reason="imports are counted on one system")
 def test_heavy_libraries_are_not_loaded_before_they_are_used(tmp_path: Path) -> None:
     heavy = "matplotlib meshio pyvista PIL numba scipy.special scipy.interpolate scipy.linalg"
