@@ -218,3 +218,20 @@ def test_table_is_saved_during_the_calculation(tmp_path):
     text = BAR + "OPTI SAUV 'k.sauv' ; T . 'TEMPS_SAUVEGARDES' = PROG 0.5 ; PASAPAS T ; "
     text += "OUBL T ; OPTI REST 'k.sauv' ; REST ; N = DIME (T . 'TEMPS') ;"
     assert run(text, tmp_path)("N") == 3
+
+
+LOOSE = BAR.replace(
+    "MO = MODE S", "S2 = S PLUS (9. 0.) ; P3 = S2 POIN 'PROC' P2 ; MO = MODE (S ET S2)"
+)
+
+
+def test_body_without_support_or_load_stays_at_rest(tmp_path):
+    find = run(LOOSE + "PASAPAS T ; U = EXTR (T . 'DEPLACEMENTS' . 4) 'UX' P2 ;", tmp_path)
+    assert find("U") == pytest.approx(2e-3, rel=1e-12)
+
+
+def test_load_on_a_body_without_support_is_refused(tmp_path):
+    text = LOOSE.replace("F = FORC (1000. 0.) R", "F = FORC (0. 10.) (P2 ET P3)") + "PASAPAS T ;"
+    result = run_text(text, output_directory=tmp_path)
+    assert result.exit_code == 1
+    assert "free motion" in result.message

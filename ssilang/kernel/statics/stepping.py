@@ -16,12 +16,16 @@ from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.dynamics.snapshot import Observer
 from ssilang.kernel.dynamics.sparse_loop import NOTHING, StepOutcome, StepSolver, support_work
 from ssilang.kernel.dynamics.step_solvers import step_solver
-from ssilang.kernel.errors import ConvergenceError
+from ssilang.kernel.errors import ConvergenceError, SingularMatrixError
 from ssilang.kernel.joints.response import interface_energies
 from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.solvers.inverse import Inverse
+from ssilang.kernel.statics.linear_motion import describe_motions
 
 BALANCED = 1e-13
 """Imbalance over the loads taken for rounding."""
+DRIVEN = 1e-9
+"""Work of the loads on a free motion, over both norms, beyond which they drive it."""
 
 
 def step_statics(
@@ -43,13 +47,18 @@ def step_statics(
     history = History(times, np.zeros((len(times), N_ENERGIES)))
     history.energies[0] = motion.energies
     try:
-        effective = effective_of(problem, problem.K, 0.0, 1.0, problem.contact is not None)
+        effective = effective_of(problem, problem.K, 0.0, 1.0, free=True)
         history.solver, history.loop = effective.inverse.factor.name, "static"
         solver = step_solver(problem, effective)
         factors = problem.loading.at(times)
         _hand_over(observers, problem, motion, 0)
         for k in range(1, len(times)):
-            outcome = _step(problem, solver, motion, factors[k - 1 : k + 1])
+            _check_balanced(problem, effective.inverse, motion, factors[k])
+            try:
+                outcome = _step(problem, solver, motion, factors[k - 1 : k + 1])
+            except ConvergenceError as failure:
+                at = f"load step {k}, time {times[k]:g}"
+                raise ConvergenceError(f"{at}: {failure.message}", failure.hint) from None
             if outcome.turns <= 0:
                 raise _lost(problem, motion, k, outcome)
             history.iterations = max(history.iterations, outcome.turns)
@@ -72,7 +81,7 @@ def _initial_motion(problem: Problem) -> Motion:
     motion = Motion(
         problem.u.copy(), zero.copy(), zero.copy(), joints.delta, joints.f, joints.w, joints.t,
         joints.state, zero.copy(), energies,
-        np.zeros(0 if problem.contact is None else len(problem.contact)),
+        np.zeros(0 if problem.contact is None else problem.contact.size),
     )  # fmt: skip
     motion.reaction[:] = _imbalance(problem, motion, problem.loading.at(problem.times[:1])[0])
     return motion
@@ -92,7 +101,8 @@ def _step(problem: Problem, solver: StepSolver, motion: Motion, factors: FloatAr
     dd = problem.loading.imposed @ factors[1] - problem.constraints.C @ motion.u
     contact = problem.contact
     gap = NOTHING if contact is None else contact.gaps(motion.u, factors[1])
-    pushed = motion.contact.copy()
+    pushed, lost = motion.contact.copy(), motion.energies[LOST]
+    old_lost = _lost_in_joints(problem, motion)
     outcome = solver.solve(motion, r, dd, gap)
     if outcome.turns <= 0 or not np.isfinite(outcome.du).all():
         return outcome if outcome.turns <= 0 else StepOutcome(outcome.du, -1, np.inf)
@@ -116,7 +126,34 @@ def _step(problem: Problem, solver: StepSolver, motion: Motion, factors: FloatAr
         motion.energies[STORED], motion.energies[LOST] = interface_energies(
             joints.codes, joints.parameters, joints.weights, motion.w, motion.t, motion.state
         )
+    if contact is not None and contact.friction is not None:
+        rubbed = contact.rubbed(0.5 * (pushed + motion.contact), outcome.du)
+        motion.energies[LOST] = lost - old_lost + _lost_in_joints(problem, motion) + rubbed
     return outcome
+
+
+def _lost_in_joints(problem: Problem, motion: Motion) -> float:
+    joints = problem.interface
+    if joints is None:
+        return 0.0
+    return float(
+        interface_energies(
+            joints.codes, joints.parameters, joints.weights, motion.w, motion.t, motion.state
+        )[1]
+    )
+
+
+def _check_balanced(
+    problem: Problem, inverse: Inverse, motion: Motion, factors: FloatArray
+) -> None:
+    """Refuse loads that drive bodies which nothing holds; those without a load stay at rest."""
+    if not inverse.singular or problem.contact is not None:
+        return
+    work = inverse.work(-problem.constraints.V.T @ _imbalance(problem, motion, factors))
+    driven = inverse.kernel[:, np.abs(work) > DRIVEN]
+    if driven.shape[1]:
+        message, hint = describe_motions(problem.numbering, problem.constraints.T @ driven)
+        raise SingularMatrixError(message, hint)
 
 
 def _polish(problem: Problem, solver: StepSolver, motion: Motion, factors: FloatArray) -> None:

@@ -147,7 +147,9 @@ def test_pure_tension_ends_at_the_tip_of_the_cone() -> None:
     assert found.stress[0] == pytest.approx([tip, tip, tip, 0, 0, 0])
 
 
-@pytest.mark.parametrize("slope, limit, wanted", [(0, 3.0, 3.0), (0, 9.0, 4.1), (2.0, 3.0, 3.0)])
+@pytest.mark.parametrize(
+    ("slope", "limit", "wanted"), [(0, 3.0, 3.0), (0, 9.0, 4.1), (2.0, 3.0, 3.0)]
+)
 def test_drucker_cone_ends_at_the_ultimate_one(slope: float, limit: float, wanted: float) -> None:
     """Equal strain in a plane under zero stress across: s = strength / (2 alpha + beta)."""
     given = {"ALFA": 0.4, "BETA": 1, "K": 4.1, "ETA": 0.4, "MU": 1, "KL": limit, "H": slope,
