@@ -33,6 +33,11 @@ def test_comparisons(run, phrase, value):
     assert run(f"x = {phrase} ;")["x"] is value
 
 
+def test_a_word_is_no_number(run):
+    script = run("x = EGA never_assigned 0. ; y = NEG 2 'TWO' ; z = EGA 'A' 'A' ;")
+    assert (script["x"], script["y"], script["z"]) == (False, True, True)
+
+
 def test_ega_takes_a_tolerance(run):
     script = run("x = EGA 1. 1.001 0.01 ; y = EGA 1. 1.1 0.01 ;")
     assert script["x"] is True

@@ -118,7 +118,7 @@ class Plate(ShellFamily):
         """The usual stiffness and a small one about the normal, which the element lacks."""
         values = super().stiffness_values(zone, moduli, parameters)
         normals = np.repeat(plate_frames(zone)[0][:, None, 2], 3, axis=1)
-        return drilled(values, moduli[:, :, 3, 3].mean(axis=1), normals)
+        return drilled(zone, values, moduli[:, :, 3, 3].mean(axis=1), normals)
 
     def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, Layout]:
         """Linear interpolation: RHO EPAI of the translations, RHO EPAI^3 / 12 of the rotations."""

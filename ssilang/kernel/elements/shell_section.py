@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.elements.reference import REFERENCE_CELLS, shape_gradients
 from ssilang.kernel.elements.solid_moduli import symmetry_of
 from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.errors import MaterialError
@@ -104,8 +105,11 @@ def material_moduli(zone: Zone, parameters: ZoneField, support: Support) -> Floa
     return D
 
 
-def drilled(values: FloatArray, bending: FloatArray, normals: FloatArray) -> FloatArray:
-    """Stiffness matrices with a small term for the rotation about the normal of each node.
+def drilled(zone: Zone, values: FloatArray, bending: FloatArray, normals: FloatArray) -> FloatArray:
+    """Stiffness matrices with a small term for the rotation of each node about its normal.
+
+    The rotation counts relative to that of the middle of the cell, so that rigid motions cost
+    nothing.
 
     Parameters
     ----------
@@ -115,12 +119,29 @@ def drilled(values: FloatArray, bending: FloatArray, normals: FloatArray) -> Flo
     normals : array (n, k, 3)
     """
     n, k, _ = normals.shape
-    scale = DRILLING * np.broadcast_to(bending, (n,))
-    blocks = values.reshape(n, k, 6, k, 6)
+    scale = (DRILLING * np.broadcast_to(bending, (n,)))[:, None, None]
+    slopes, normal = _surface_slopes(zone)
+    share = normals - 0.5 * np.einsum("ckj,cj->ck", normals, normal)[..., None] * normal[:, None]
+    out = values.copy()
     for node in range(k):
-        v = normals[:, node]
-        blocks[:, node, 3:, node, 3:] += scale[:, None, None] * v[:, :, None] * v[:, None, :]
-    return blocks.reshape(n, 6 * k, 6 * k)
+        row = np.zeros((n, k, 6))
+        row[:, :, :3] = -np.cross(share[:, node, None], slopes)
+        row[:, node, 3:] = normals[:, node]
+        flat = row.reshape(n, 6 * k)
+        out += scale * flat[:, :, None] * flat[:, None, :]
+    return out
+
+
+def _surface_slopes(zone: Zone) -> tuple[FloatArray, FloatArray]:
+    """Gradients (n, k, 3) along the surface of the shapes, and normals (n, 3), at the middles."""
+    kind = zone.cells.cell_type
+    reference = shape_gradients(kind, REFERENCE_CELLS[kind].nodes.mean(axis=0, keepdims=True))[0]
+    tangents = np.einsum("ki,ckj->cij", reference, zone.cells.coordinates)
+    normal = np.cross(tangents[:, 0], tangents[:, 1])
+    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+    dual = np.linalg.inv(np.concatenate([tangents, normal[:, None]], axis=1))[:, :, :2]
+    slopes: FloatArray = np.einsum("cji,ki->ckj", dual, reference)
+    return slopes, normal
 
 
 def own_to_global(B: FloatArray, frames: FloatArray) -> FloatArray:

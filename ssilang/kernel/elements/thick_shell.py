@@ -126,7 +126,7 @@ class ThickShell(ShellFamily):
         """The usual stiffness and a small one about the fibres, which the element lacks."""
         values = super().stiffness_values(zone, moduli, parameters)
         h = parameters.at("EPAI", "GRAVITE")[:, 0]
-        return drilled(values, moduli[:, :, 0, 0].mean(axis=1) * h**3 / 12, fibres(zone))
+        return drilled(zone, values, moduli[:, :, 0, 0].mean(axis=1) * h**3 / 12, fibres(zone))
 
     def geometric_values(self, zone: Zone, stress: FloatArray, parameters: ZoneField) -> FloatArray:
         """Effect of the stresses in the surface on the displacements' gradients along it."""

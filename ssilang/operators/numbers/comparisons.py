@@ -66,6 +66,8 @@ def equal(call: Call, sign: str) -> bool:
     kinds = type_of(a), type_of(b)
     if isinstance(a, str) and isinstance(b, str):
         return a.rstrip() == b.rstrip()
+    if "MOT" in kinds and {*kinds} & {"ENTIER", "FLOTTANT"}:
+        return _word_and_number(call, sign, a if isinstance(a, str) else b)
     if kinds[0] != kinds[1] and {*kinds} != {"LISTENTI", "LISTREEL"}:
         span = left.span.to(right.span)
         raise SsiError("no-rule", span, operator=sign, left=kinds[0], right=kinds[1])
@@ -79,6 +81,19 @@ def equal(call: Call, sign: str) -> bool:
             return False
         return bool(np.all(np.abs(a.values - b.values) <= (tolerance or 0.0)))
     return bool(a == b) if isinstance(a, bool) else a is b
+
+
+def _word_and_number(call: Call, sign: str, word: str) -> bool:
+    """A word is no number: they differ, which is told since the word may be a name misspelt."""
+    call.session.warn(
+        "bad-value",
+        call.span,
+        operator=sign,
+        message=f"the word {word.rstrip()} is compared with a number: they differ",
+        hint="a name that was never assigned is a word",
+        severity="warning",
+    )
+    return False
 
 
 def _same_place(call: Call, a: Point, b: Point, tolerance: float | None) -> bool:
