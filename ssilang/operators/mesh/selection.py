@@ -39,6 +39,7 @@ from ssilang.language.call import Call
 from ssilang.language.registry import Help, arg, choice, flag, operator, opt
 from ssilang.language.values import ListEnti, ListMots
 from ssilang.operators.dispatch import DIFF, INTE, UNIQ, union_with_call, union_words
+from ssilang.operators.mesh.crossings import drawn_crossing, draws_a_curve
 from ssilang.operators.mesh.points import picked
 
 _EXTREMES = ("MAXI", "MINI", "SUPERIEUR", "EGSUPE", "EGALE", "EGINFE", "INFERIEUR", "DIFFERENT")
@@ -332,26 +333,41 @@ def difference_of_meshes(call: Call, first: Mesh) -> Mesh:
 
 @INTE.on(
     "MAILLAGE",
-    syntax="GEO3 = GEO1 INTE GEO2 ;\nGEO1B GEO2B LIG1 LIG2 = INTE 'GEOM' GEO1 GEO2 ('NOVERIF') ;",
+    syntax="GEO3 = GEO1 INTE GEO2 ;\nGEO1B GEO2B LIG1 LIG2 = INTE 'GEOM' GEO1 GEO2 ('NOVERIF') ;\n"
+    "LIG1 = POIN1 | LIG2 INTE (N1) ('DINI' D1) ('DFIN' D2) ('LONG' X1) 'PLAN' P1 | 'SPHE' C1 | "
+    "'CYLI' A1 A2 | 'CONI' S1 A1 | 'TORI' C1 A1 C2 (again) POIN2 ;",
     en="Of meshes: cells (same type, same nodes) that both hold. With 'GEOM', of two surfaces of "
     "TRI3 in space: both surfaces with their triangles cut where the surfaces cross, then the "
     "lines where they cross, by nodes of the first surface and by nodes of the second. Parts "
-    "where the surfaces lie in one plane give no line. 'NOVERIF' allows an empty result.",
+    "where the surfaces lie in one plane give no line. 'NOVERIF' allows an empty result. With two "
+    "simple surfaces: the curve along which they cross, the shortest way from POIN1 to POIN2. The "
+    "surfaces pass through POIN1: a plane (through POIN2 too), a sphere by its centre, a cylinder "
+    "by its axis, a cone by its apex and a point of its axis, a torus by its centre, a point of "
+    "its axis and the centre of a small circle. 'LONG' gives the length instead of the end, "
+    "towards POIN2.",
     fr="De maillages : éléments (mêmes type et noeuds) communs. Avec 'GEOM', de deux surfaces de "
     "TRI3 dans l'espace : les deux surfaces, leurs triangles coupés là où elles se croisent, puis "
     "les lignes où elles se croisent, par des noeuds de la première surface et par des noeuds de "
     "la seconde. Les parties situées dans un même plan ne donnent pas de ligne. 'NOVERIF' permet "
-    "un résultat vide.",
+    "un résultat vide. Avec deux surfaces simples : la courbe où elles se croisent, par le plus "
+    "court chemin de POIN1 à POIN2. Les surfaces passent par POIN1 : un plan (aussi par POIN2), "
+    "une sphère par son centre, un cylindre par son axe, un cône par son sommet et un point de son "
+    "axe, un tore par son centre, un point de son axe et le centre d'un petit cercle. 'LONG' "
+    "impose la longueur au lieu de l'extrémité, vers POIN2.",
     examples=(
         "OPTI DIME 2 ELEM SEG2 ; A = DROI 2 (0. 0.) (1. 0.) ; B = A ET (DROI 3 (0. 1.) (1. 1.)) ;"
         " LIST (NBEL (A INTE B)) ;",
         "OPTI DIME 3 ELEM TRI3 ; A = (DROI 2 (0. 0. 0.) (2. 0. 0.)) TRAN 2 (0. 2. 0.) ;"
         " B = (DROI 2 (-1. 1.1 -1.) (3. 1.1 -1.)) TRAN 2 (0. 0. 2.) ;"
         " C D L M = INTE 'GEOM' A B ; MESS (NBEL C) (NBEL D) (MESU L) ;",
+        "OPTI DIME 3 ELEM SEG2 ; A = 1. 0. 0. ; B = 0. 1. 0. ;"
+        " L = A INTE 16 'CYLI' (0. 0. -1.) (0. 0. 1.) 'PLAN' (-1. 0. 0.) B ; MESS (MESU L) ;",
     ),
 )
 def intersection_of_meshes(call: Call, first: Mesh) -> Mesh | tuple[Mesh, ...]:
     """Common cells of two meshes, or surfaces cut along their common lines."""
+    if draws_a_curve(call):
+        return drawn_crossing(call, first)
     geometric = call.keyword(("GEOM",)) is not None
     second = as_mesh(call.required("MAILLAGE", "POINT"))
     allowed = call.keyword(("NOVERIF",)) is not None
@@ -364,6 +380,11 @@ def intersection_of_meshes(call: Call, first: Mesh) -> Mesh | tuple[Mesh, ...]:
     if not made.blocks and not allowed:
         raise MeshError("the two meshes have no element in common", "'NOVE' allows that")
     return made
+
+
+@INTE.on("POINT")
+def _curve_between(call: Call, first: Point) -> Mesh:
+    return drawn_crossing(call, first)
 
 
 @UNIQ.on(
