@@ -212,13 +212,14 @@ def psrs(call: Call) -> Curve:
         y = response_spectrum(
             part.abscissas, part.ordinates, duration, periods, float(xi), kind, law
         )
-        parts.append(_spectrum_part(periods, y, abscissa, kind, float(xi), colour))
+        parts.append(spectrum_part(periods, y, abscissa, kind, float(xi), colour))
     return Curve(tuple(parts), curve.title)
 
 
-def _spectrum_part(
+def spectrum_part(
     periods: FloatArray, y: FloatArray, abscissa: str, kind: str, damping: float, colour: int
 ) -> CurvePart:
+    """One response spectrum as a curve, over periods or over frequencies."""
     legend = f"{100.0 * damping:g} %"
     if abscissa == "PERI":
         return CurvePart(periods, y, "PERIODE", f"RSPE-{kind}", legend, colour)
