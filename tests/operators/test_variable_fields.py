@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+from ssilang.cli.run import run_text
+
 PLATE = (
     "OPTI DIME 2 ELEM QUA4 ; P1 = 0. 0. ; P2 = 2. 0. ; L = DROI 2 P1 P2 ; S = TRAN 1 L (0. 1.) ; "
     "MO = MODE S 'MECANIQUE' 'ELASTIQUE' ; X Y = COOR S ; T = NOMC 'T' (X * 50.) ; "
@@ -36,3 +38,21 @@ def test_parameters_given_by_curves_become_numbers(found):
 def test_law_of_another_field_is_refused(refused):
     message = refused(PLATE + "C = VARI ((NOMC 'A' X) ET (NOMC 'B' Y)) E ;")
     assert "abscissa 'T'" in message
+
+
+def test_what_variable_components_depend_on_is_told():
+    text = (
+        "OPTI DIME 2 ELEM QUA4 MODE PLAN DEFO ; S = (DROI 2 (0. 0.) (2. 0.)) TRAN 1 (0. 1.) ; "
+        "MO = MODE S 'MECANIQUE' 'ELASTIQUE' ; "
+        "E = EVOL 'MANU' 'T' (PROG 0. 1.) 'YOUN' (PROG 1. 2.) ; "
+        "F = EVOL 'MANU' 'DOSE' (PROG 0. 1.) 'NU' (PROG 0.2 0.3) ; "
+        "N = NUAG 'COMP' 'P' 1. 2. 'COMP' 'NU' F F ; MA = MATE MO 'YOUN' E 'NU' N 'RHO' 3. ; "
+        "LIST (EXTR MA 'DEVA') ; LIST (EXTR MA 'COVA') ; "
+    )
+    result = run_text(text)
+    assert result.exit_code == 0, result.message
+    lines = result.output.split("\n")
+    assert lines[1].split() == ["T", "P", "DOSE"]
+    assert lines[3].split() == ["YOUN", "NU"]
+    result = run_text(text.replace("YOUN' E 'NU' N", "YOUN' 1. 'NU' 0."))
+    assert "0 mot" in result.output

@@ -7,6 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from ssilang.kernel.cloud import Cloud
+from ssilang.kernel.curve import Curve
 from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.gradients import gradient_names
@@ -127,6 +129,22 @@ def _varying(call: Call, field: CellField) -> ListMots:
     )
 
 
+def _depended_on(call: Call, field: CellField) -> ListMots:
+    """Names of the abscissas of curves, and of the columns of clouds but the last."""
+    held = [v for b in field.blocks for a in b.components.values() if a.dtype == object
+            for v in {id(x): x for x in a.ravel()}.values()]  # fmt: skip
+    return _unique([n for v in held for n in _variables(v)])
+
+
+def _variables(value: Any) -> list[str]:
+    if isinstance(value, Curve):
+        return [p.abscissa_name.rstrip() for p in value.parts]
+    if isinstance(value, Cloud):
+        *before, last = value.columns
+        return [*before, *(n for v in value.columns[last][:1] for n in _variables(v))]
+    return list(value.values) if isinstance(value, ListMots) else []
+
+
 _OF_FIELD: dict[str, Callable[[Call, CellField], Any]] = {
     "TITR": lambda call, field: ListMots([field.title]),
     "TYPE": lambda call, field: Mot(field.title),
@@ -136,6 +154,7 @@ _OF_FIELD: dict[str, Callable[[Call, CellField], Any]] = {
     ),
     "CONS": lambda call, field: ListMots([b.constituent for b in _restricted(call, field)]),
     "COVA": _varying,
+    "DEVA": _depended_on,
     "NBZO": lambda call, field: len({id(b.cells) for b in field.blocks}),
 }
 
@@ -143,11 +162,14 @@ _OF_FIELD: dict[str, Callable[[Call, CellField], Any]] = {
 @EXTR.on(
     "MCHAML",
     syntax="VAL1 = EXTR CHAM1 MOT1 N1 N2 N3 ;\n"
-    "OBJ1 = EXTR CHAM1 'TYPE' | 'MAIL' | 'COMP' (MODL1) | 'CONS' | 'NBZO' ;",
+    "OBJ1 = EXTR CHAM1 'TYPE' | 'MAIL' | 'COMP' (MODL1) | 'CONS' | 'COVA' | 'DEVA' | 'NBZO' ;",
     en="Of a field in cells: the value of a component in zone N1, cell N2, point N3; its type, "
-    "mesh, names of components or constituents, number of zones.",
+    "mesh, names of components or constituents, of the components that vary (COVA: curves, "
+    "clouds), of what they depend on (DEVA), number of zones.",
     fr="D'un champ par éléments : la valeur d'une composante en zone N1, élément N2, point N3 ; "
-    "son type, son maillage, les noms de ses composantes ou constituants, son nombre de zones.",
+    "son type, son maillage, les noms de ses composantes ou constituants, des composantes "
+    "variables (COVA : évolutions, nuages), de ce dont elles dépendent (DEVA), son nombre de "
+    "zones.",
     examples=(
         "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0 0) (1 0) ; M = MODE L MECANIQUE ELASTIQUE BARR ; "
         "A = MATE M 'YOUN' 2. 'NU' 0.3 'SECT' 1. ; LIST (EXTR A 'YOUN' 1 3 1) ;",
