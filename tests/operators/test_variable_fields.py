@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from ssilang.cli.run import run_text
+from ssilang.operators.fields.cell_parts import _variables
 
 PLATE = (
     "OPTI DIME 2 ELEM QUA4 ; P1 = 0. 0. ; P2 = 2. 0. ; L = DROI 2 P1 P2 ; S = TRAN 1 L (0. 1.) ; "
@@ -46,13 +47,22 @@ def test_what_variable_components_depend_on_is_told():
         "MO = MODE S 'MECANIQUE' 'ELASTIQUE' ; "
         "E = EVOL 'MANU' 'T' (PROG 0. 1.) 'YOUN' (PROG 1. 2.) ; "
         "F = EVOL 'MANU' 'DOSE' (PROG 0. 1.) 'NU' (PROG 0.2 0.3) ; "
-        "N = NUAG 'COMP' 'P' 1. 2. 'COMP' 'NU' F F ; MA = MATE MO 'YOUN' E 'NU' N 'RHO' 3. ; "
+        "MA = MATE MO 'YOUN' E 'NU' F 'RHO' 3. ; "
         "LIST (EXTR MA 'DEVA') ; LIST (EXTR MA 'COVA') ; "
     )
     result = run_text(text)
     assert result.exit_code == 0, result.message
     lines = result.output.split("\n")
-    assert lines[1].split() == ["T", "P", "DOSE"]
+    assert lines[1].split() == ["T", "DOSE"]
     assert lines[3].split() == ["YOUN", "NU"]
-    result = run_text(text.replace("YOUN' E 'NU' N", "YOUN' 1. 'NU' 0."))
+    result = run_text(text.replace("YOUN' E 'NU' F", "YOUN' 1. 'NU' 0."))
     assert "0 mot" in result.output
+
+
+def test_a_cloud_depends_on_its_columns_and_on_the_abscissas_of_its_curves():
+    result = run_text(
+        "F = EVOL 'MANU' 'DOSE' (PROG 0. 1.) 'NU' (PROG 0.2 0.3) ; "
+        "N = NUAG 'COMP' 'P' 1. 2. 'COMP' 'NU' F F ; "
+    )
+    assert result.exit_code == 0, result.message
+    assert _variables(result.session.root.find("N")) == ["P", "DOSE"]
