@@ -67,8 +67,10 @@ TEMPLATES: tuple[tuple[str, str], ...] = (
         "les grands déplacements ne sont pas programmés pour {} dans cette hypothèse",
     ),
     (
-        "continuous elements and bars have them; leave 'GRANDS_DEPLACEMENTS' for others",
-        "les massifs et les barres les ont ; ôter 'GRANDS_DEPLACEMENTS' pour les autres",
+        "continuous elements, bars and beams of the plane have them; leave "
+        "'GRANDS_DEPLACEMENTS' for others",
+        "les massifs, les barres et les poutres du plan les ont ; ôter "
+        "'GRANDS_DEPLACEMENTS' pour les autres",
     ),
     (
         "plastic bodies have small displacements only",

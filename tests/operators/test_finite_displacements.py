@@ -63,10 +63,11 @@ def test_released_string_swings_with_the_period_of_its_energy():
     assert root.find("Z") == pytest.approx(2.2)
 
 
-def test_beams_are_refused_by_name():
+def test_beams_of_space_are_refused_by_name():
     beam = STRING.replace("MECANIQUE BARR", "MECANIQUE POUT").replace(
-        "'SECT' 1.", "'SECT' 1. 'INRZ' 1."
+        "'SECT' 1.", "'SECT' 1. 'INRY' 1. 'INRZ' 1. 'TORS' 1."
     )
-    result = run_text(beam)
+    beam = beam.replace("DIME 2 MODE PLAN CONT", "DIME 3").replace("0. 0. ;", "0. 0. 0. ;")
+    result = run_text(beam.replace("2. 0. ;", "2. 0. 0. ;"))
     assert result.exit_code == 1
     assert "POUT" in result.message

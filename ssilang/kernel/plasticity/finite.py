@@ -1,4 +1,4 @@
-"""Elastic bodies in finite displacements: continuous elements and bars, total Lagrangian.
+"""Elastic bodies in finite displacements: continuous elements, bars (total Lagrangian), beams.
 
 Continuous elements: `E = (F^T F - 1)/2`, `S = S0 + D E` (second Piola-Kirchhoff), dead loads. Bars
 turn with their ends: force `N = N0 + ES (l/L - 1)` along the present direction. Stresses given and
@@ -27,6 +27,7 @@ from ssilang.kernel.matrices.assembly import Numbering, block_indices
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.model import Mode, Zone
 from ssilang.kernel.plasticity.bulk import Answer, Bulk, State, without_stiffness
+from ssilang.kernel.plasticity.finite_beam import finite_beam, is_plane_beam
 
 
 class FiniteZone(Protocol):
@@ -204,6 +205,8 @@ def finite_zone(zone: Zone, material: CellField) -> FiniteZone:
     """
     parameters = zone_field(zone, material)
     weights = integration_weights(zone, "STRESSES", material)
+    if is_plane_beam(zone):
+        return finite_beam(zone, material, weights.shape[1])
     moduli = _moduli(zone, parameters, "STRESSES")
     if zone.element == "BARR":
         d = len(set(family_of(zone).layout(zone).unknowns))
@@ -215,7 +218,8 @@ def finite_zone(zone: Zone, material: CellField) -> FiniteZone:
     if not is_solid(zone) or turning:
         raise FieldError(
             f"finite displacements are not built for {zone.element} in this hypothesis",
-            "continuous elements and bars have them; leave 'GRANDS_DEPLACEMENTS' for others",
+            "continuous elements, bars and beams of the plane have them; leave "
+            "'GRANDS_DEPLACEMENTS' for others",
         )
     slopes = _slopes(zone)
     count = moduli.shape[-1]
