@@ -4,6 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from ssilang.cli.run import run_text
 from ssilang.kernel.errors import KernelError
 from ssilang.operators.texts.fortran_format import formatted
 
@@ -154,3 +155,24 @@ def test_inherited_method_runs_on_the_heir(found):
         )
         == 2
     )
+
+
+def test_numbers_behind_list_choose_what_is_printed():
+    def printed(text):
+        result = run_text(text)
+        assert result.exit_code == 0, result.message
+        return result.output.rstrip("\n").split("\n")
+
+    assert [len(r.split()) for r in printed("LIST (PROG 1. PAS 1. 7.) 3 ;")[1:]] == [3, 3, 1]
+    assert [len(r.split()) for r in printed("LIST (LECT 1 PAS 1 25) 12 ;")[1:]] == [12, 12, 1]
+    deck = "DEBP P1 A*FLOTTANT ;\n  B = A * 2. ;\n  MESS B ;\nFINP B ;\n"
+    assert printed(deck + "LIST P1 2 ;")[1:] == ["    2    B = A * 2. ;"]
+    assert [r[4] for r in printed(deck + "LIST P1 2 3 ;")[1:]] == ["2", "3"]
+
+
+def test_tables_in_tables_are_printed_as_deep_as_said():
+    tables = "T = TABL ; T . 1 = TABL ; T . 1 . 2 = TABL ; T . 1 . 2 . 'DEEP' = 7 ; T . 3 = T ;\n"
+    found = [run_text(tables + f"LIST T{n} ;").output for n in ("", " 1", " 2", " 99")]
+    assert ["DEEP" in text for text in found] == [False, False, True, True]
+    assert found[1].count("Table de") == 2
+    assert found[2] == found[3]  # a table that holds itself ends there

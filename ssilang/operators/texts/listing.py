@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -211,8 +212,54 @@ def _load(value: Load, mode: str) -> str:
     return "\n".join(lines)
 
 
-def described(value: Any, mode: str = "") -> str:
-    """The lines that LIST prints of an object."""
+# --- with numbers behind the object ----------------------------------------------------------
+
+
+def _procedure_lines(value: Procedure, first: int, last: int) -> str:
+    lines = value.definition.span.text.split("\n")
+    chosen = list(enumerate(lines, start=1))[max(first - 1, 0) : max(last, 0)]
+    return "\n".join([_procedure(value, "RESU"), *(f"{i:5d}  {line}" for i, line in chosen)])
+
+
+def _reals_by(value: ListReel, per_line: int, _: int) -> str:
+    rows = _rows([f" {real(v)}" for v in value.values.tolist()], per_line)
+    return "\n".join([_reals(value, "RESU") + " :", *rows])
+
+
+def _integers_by(value: ListEnti, per_line: int, _: int) -> str:
+    rows = _rows([f" {v:7d}" for v in value.values.tolist()], per_line)
+    return "\n".join([_integers(value, "RESU") + " :", *rows])
+
+
+def _table_within(value: Table, depth: int, _: int) -> str:
+    return "\n".join(_nested(value, min(depth, _DEEPEST), (id(value),)))
+
+
+def _nested(value: Table, depth: int, above: tuple[int, ...]) -> list[str]:
+    """The table, and below each table that it holds that table's lines, moved in."""
+    head, *rows = _table(value, "").split("\n")
+    lines = [head, *rows[:1]]
+    for row, (_, held) in zip(rows[1:], value.items(), strict=True):
+        lines.append(row)
+        if depth > 0 and isinstance(held, Table) and id(held) not in above:
+            lines += ["    " + r for r in _nested(held, depth - 1, (*above, id(held)))]
+    return lines
+
+
+_DEEPEST = 10
+_NUMBERED: dict[str, Callable[[Any, int, int], str]] = {
+    "PROCEDUR": _procedure_lines,
+    "LISTREEL": _reals_by,
+    "LISTENTI": _integers_by,
+    "TABLE": _table_within,
+}
+
+
+def described(value: Any, mode: str = "", numbers: Sequence[int] = ()) -> str:
+    """The lines that LIST prints of an object, `numbers` being those that stand behind it."""
+    numbered = _NUMBERED.get(type_of(value))
+    if numbers and numbered is not None and min(numbers) > 0:
+        return numbered(value, numbers[0], numbers[-1])
     entry = LISTINGS.get(type_of(value))
     if entry is not None:
         return entry(value, mode)
@@ -238,11 +285,19 @@ def _all_names(call: Call, kind: str) -> str:
     terminal=True,
     help=Help(
         en="Prints what an object holds ('RESUME': less); without object, the names in use; "
-        "*TYPE, those of one type.",
+        "*TYPE, those of one type. A number behind a list of numbers: values in a line (10 reals, "
+        "20 integers); behind a table: how deep the tables that it holds are printed (10 at most); "
+        "behind a procedure: the line, or the first and the last line.",
         fr="Imprime le contenu d'un objet ('RESUME' : moins) ; sans objet, les noms connus ; "
-        "*TYPE, ceux d'un type.",
-        syntax="LIST ('RESU') OBJ1 ; LIST ; LIST *MOT1 ;",
-        examples=("LIST (PROG 1. 2. 3.) ;", "X = 3 ; LIST *ENTIER ;"),
+        "*TYPE, ceux d'un type. Un entier derrière une liste de nombres : valeurs par ligne (10 "
+        "réels, 20 entiers) ; derrière une table : profondeur d'impression de ses sous-tables (10 "
+        "au plus) ; derrière une procédure : la ligne, ou la première et la dernière ligne.",
+        syntax="LIST ('RESU') OBJ1 (N1 (N2)) ; LIST ; LIST *MOT1 ;",
+        examples=(
+            "LIST (PROG 1. 2. 3.) ;",
+            "X = 3 ; LIST *ENTIER ;",
+            "T = TABL ; T . 1 = TABL ; T . 1 . 'A' = 3. ; LIST T 1 ;",
+        ),
     ),
     reads_itself=True,
 )
@@ -262,5 +317,5 @@ def list_objects(call: Call) -> None:
     operand = call.read("*", "TEXTE")
     if operand is None:
         raise call.missing(("*",))
-    call.all("ENTIER")
-    call.session.print(described(operand.value, mode))
+    numbers = [int(n) for n in call.all("ENTIER")]
+    call.session.print(described(operand.value, mode, numbers))
