@@ -8,6 +8,7 @@ from ssilang.language import tree
 from ssilang.language.call import Operand
 from ssilang.language.errors import SsiError
 from ssilang.language.session import PREDEFINED
+from ssilang.language.source import Span
 
 
 def tell_held_word(error: SsiError, operand: Operand) -> None:
@@ -19,18 +20,27 @@ def tell_held_word(error: SsiError, operand: Operand) -> None:
         error.data.setdefault("held_word", (str(operand.value), written))
 
 
+def unended(targets: Sequence[tree.Item]) -> Span | None:
+    """The statement that lost its `;` before an assignment, None if there is none.
+
+    It is what stands left of =, where the last name alone is on a later line than the rest.
+    """
+    if len(targets) < 2:
+        return None
+    *before, last = (t.span for t in targets)
+    line = last.source.position(last.start)[0]
+    if last.source.position(before[-1].start)[0] == line:
+        return None
+    return before[0].to(before[-1])
+
+
 def no_result(
     targets: Sequence[tree.Item], target: tree.Item, count: int, wanted: str = ""
 ) -> SsiError:
-    """The error of a name on the left of = that gets nothing.
-
-    Where the last name stands alone on a later line than the others, the statement before it has
-    lost its `;`, and the error says so.
-    """
-    last = targets[-1].span
-    line = last.source.position(last.start)[0]
-    before = [t.span for t in targets if t.span.source.position(t.span.start)[0] < line]
-    if before and len(targets) == len(before) + 1:
-        whole = before[0].to(before[-1])
-        return SsiError("unended-statement", whole, name=last.text, line=line)
+    """The error of a name on the left of = that gets nothing."""
+    statement = unended(targets)
+    if statement is not None:
+        last = targets[-1].span
+        line = last.source.position(last.start)[0]
+        return SsiError("unended-statement", statement, name=last.text, line=line)
     return SsiError("no-result", target.span, count=count, wanted=wanted, name=target.span.text)

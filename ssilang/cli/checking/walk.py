@@ -14,7 +14,7 @@ from ssilang.language import tree
 from ssilang.language.cast3m import cast3m_words
 from ssilang.language.errors import SsiError
 from ssilang.language.leftovers import is_call
-from ssilang.language.phrase_errors import no_result
+from ssilang.language.phrase_errors import no_result, unended
 from ssilang.language.registry import OPERATORS, find_operator, keywords_of
 from ssilang.language.session import Session
 from ssilang.language.values import Mot, Procedure, known_types
@@ -191,8 +191,9 @@ class Checker:
                     scope.values.pop(item.text, None)
 
     def _targets(self, statement: tree.Statement, scope: Scope) -> None:
+        several = unended(statement.targets) is not None
         for item in statement.targets:
-            if isinstance(item, tree.Name):
+            if isinstance(item, tree.Name) and not several:
                 self._shadow(item.text, item.span)
             elif isinstance(item, tree.Path):
                 self.phrases._path(item, scope)
