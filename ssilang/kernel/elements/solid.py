@@ -20,6 +20,7 @@ from ssilang.kernel.elements.kinematics import (
     section_point,
     term_factor,
 )
+from ssilang.kernel.elements.polygons import SIDES
 from ssilang.kernel.elements.solid_moduli import solid_moduli
 from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.errors import MeshError
@@ -27,6 +28,8 @@ from ssilang.kernel.fields.cell_field import Support
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.model import Mode, Zone
 
+MANY_TERMS = 2_000_000
+"""Terms of element matrices from which a compiled sum pays for loading the compiler."""
 REVOLUTION = (Mode.AXISYMMETRIC, Mode.FOURIER)
 
 
@@ -114,6 +117,11 @@ class Solid(ElementFamily):
         matrix = strain_matrix(zone, geometry, cells)
         weights = integration_weights(zone, geometry, parameters, support, cells)
         return StrainOperator(matrix, weights)
+
+    def stiffness_values(self, zone: Zone, moduli: FloatArray, parameters: ZoneField) -> FloatArray:
+        """Stiffness matrices (n_cells, n_rows, n_rows)."""
+        found = uniform_stiffness(zone, moduli, parameters) if type(self) is Solid else None
+        return super().stiffness_values(zone, moduli, parameters) if found is None else found
 
     def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, Layout]:
         """Integral of RHO N N^T for each unknown."""
@@ -218,6 +226,30 @@ def _add_section_motion(
     columns[:, 2, :, 0] = 1.0
     columns[:, 2, :, 1] = y - origin[1]
     columns[:, 2, :, 2] = origin[0] - x
+
+
+def uniform_stiffness(zone: Zone, moduli: FloatArray, parameters: ZoneField) -> FloatArray | None:
+    """Stiffness matrices of many cells whose moduli are the same at all points of a cell.
+
+    None for few cells, for other cells and hypotheses, and for folded cells.
+    """
+    table, cells = kinematics(zone), zone.cells
+    size = len(cells) * (cells.kind.n_nodes * len(table.unknowns)) ** 2
+    if size < MANY_TERMS or moduli.shape[1] > 1 or cells.cell_type in SIDES:
+        return None
+    if zone.mode in REVOLUTION or zone.mode is Mode.GENERALISED_PLANE_STRAIN:
+        return None
+    if zone.mode is Mode.PLANE_STRESS and "DIM3" in parameters:
+        thickness = parameters.at("DIM3", "RIGIDITE")
+        if thickness.shape[1] > 1:
+            return None
+        moduli = moduli * thickness[..., None, None]
+    from ssilang.kernel.elements.solid_products import gradient_moduli, stiffness_of
+
+    return stiffness_of(
+        cells.cell_type, support_rule(zone.element, "RIGIDITE"), cells.nodes.coordinates,
+        cells.connectivity, gradient_moduli(table, moduli),
+    )  # fmt: skip
 
 
 class Incompressible(Solid):

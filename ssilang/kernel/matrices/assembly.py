@@ -71,6 +71,11 @@ class Numbering:
         if self.size == 0:
             return np.full(wanted.shape, -1, dtype=np.int64)
         keys = self.nodes * len(self.unknowns) + self.codes
+        if wanted.size >= self.size and keys[-1] < 4 * self.size:  # a list of places pays
+            places = np.full(keys[-1] + 2, -1, dtype=np.int64)
+            places[keys] = np.arange(self.size)
+            listed: IntArray = places[np.clip(wanted, -1, keys[-1] + 1)]
+            return listed
         place = np.minimum(np.searchsorted(keys, wanted), len(keys) - 1)
         found: IntArray = np.where(keys[place] == wanted, place, -1)
         return found
@@ -145,14 +150,16 @@ class _Kept:
 def _make_numbering(table: NodeTable, matrices: tuple[Matrix, ...]) -> Numbering:
     duals = _dual_names(matrices)
     names = {name: code for code, name in enumerate(duals)}
-    keys = [np.empty(0, dtype=np.int64)]
+    used = np.zeros((len(table), len(names)), bool)
     for block in (b for m in matrices for b in m.blocks):
-        codes = np.array([names[u] for u in block.unknowns], dtype=np.int64)
-        keys.append(np.unique(block.nodes[:, block.local] * len(names) + codes))
+        nodes = block.nodes
+        for unknown in names:
+            rows = [i for i, u in enumerate(block.unknowns) if u == unknown]
+            used[nodes[:, block.local[rows]], names[unknown]] = True
     for relation in (r for m in matrices for r in m.relations):
         for part in _with_dual(relation):
-            keys.append(part.nodes * len(names) + _codes(part.unknowns, names))
-    flat = np.unique(np.concatenate(keys))
+            used[part.nodes, _codes(part.unknowns, names)] = True
+    flat = np.flatnonzero(used)
     n = max(len(names), 1)
     return Numbering(table, tuple(duals), tuple(duals.values()), flat // n, flat % n, table.version)
 
