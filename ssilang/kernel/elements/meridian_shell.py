@@ -15,10 +15,10 @@ from ssilang.kernel.elements.family import (
 )
 from ssilang.kernel.elements.kinematics import harmonic
 from ssilang.kernel.elements.shell_family import ShellFamily
-from ssilang.kernel.elements.shell_section import section_moduli
+from ssilang.kernel.elements.shell_section import offset, section_moduli
 from ssilang.kernel.elements.solid import circumference
 from ssilang.kernel.elements.zone_fields import ZoneField
-from ssilang.kernel.errors import MeshError
+from ssilang.kernel.errors import MaterialError, MeshError
 from ssilang.kernel.fields.cell_field import Support
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.model import Mode, Zone
@@ -111,7 +111,15 @@ class MeridianShell(ShellFamily):
         return tuple(names[i] for i in _kept(zone))
 
     def moduli(self, zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
-        """Membrane and bending moduli; free of forces across in plane stress."""
+        """Membrane and bending moduli; free of forces across in plane stress.
+
+        Raises
+        ------
+        MaterialError
+            If the middle surface is off the mesh (EXCE).
+        """
+        if offset(zone, parameters) is not None:
+            raise MaterialError("shells off their mesh (EXCE) are not available for COQ2")
         D = section_moduli(zone, parameters, support)
         kept = list(_kept(zone))
         D = D[..., kept, :][..., kept].copy()

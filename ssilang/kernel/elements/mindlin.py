@@ -18,8 +18,10 @@ from ssilang.kernel.elements.reference import shape_functions, shape_gradients
 from ssilang.kernel.elements.shell_family import ShellFamily
 from ssilang.kernel.elements.shell_section import (
     drilled,
+    inertia_off_mesh,
     own_to_global,
     section_moduli,
+    strains_off_mesh,
     transverse_moduli,
 )
 from ssilang.kernel.elements.zone_fields import ZoneField
@@ -108,7 +110,8 @@ class Mindlin(ShellFamily):
         covariant = np.stack([along, across], axis=2)
         B[:, 6:] = np.einsum("cpji,cpim->cjpm", inverse, covariant)
         weights = np.abs(np.linalg.det(J)) * rule.weights
-        return StrainOperator(own_to_global(B, frames), weights)
+        operator = strains_off_mesh(own_to_global(B, frames), zone, parameters, cells)
+        return StrainOperator(operator, weights)
 
     def stiffness_values(self, zone: Zone, moduli: FloatArray, parameters: ZoneField) -> FloatArray:
         """The usual stiffness and a small one about the normal, which the element lacks."""
@@ -134,7 +137,9 @@ class Mindlin(ShellFamily):
         values[:, :, 3:, :, 3:] = np.einsum(
             "cab,cij->caibj", scalar * (h**2 / 12)[:, None, None], tangent
         )
-        return values.reshape(n, 24, 24), self.layout(zone)
+        normals = np.repeat(frames[:, None, 2], 4, axis=1)
+        whole = inertia_off_mesh(values.reshape(n, 24, 24), zone, parameters, normals)
+        return whole, self.layout(zone)
 
     def geometric_values(self, zone: Zone, stress: FloatArray, parameters: ZoneField) -> FloatArray:
         """Effect of the membrane forces on bilinear translations."""
@@ -148,4 +153,5 @@ class Mindlin(ShellFamily):
         values = np.zeros((len(frames), 4, 6, 4, 6))
         for k in range(3):
             values[:, :, k, :, k] = scalar
-        return values.reshape(-1, 24, 24)
+        normals = np.repeat(frames[:, None, 2], 4, axis=1)
+        return inertia_off_mesh(values.reshape(-1, 24, 24), zone, parameters, normals)

@@ -19,7 +19,13 @@ from ssilang.kernel.elements.family import (
 )
 from ssilang.kernel.elements.reference import shape_gradients
 from ssilang.kernel.elements.shell_family import ShellFamily
-from ssilang.kernel.elements.shell_section import drilled, own_to_global, section_moduli
+from ssilang.kernel.elements.shell_section import (
+    drilled,
+    inertia_off_mesh,
+    own_to_global,
+    section_moduli,
+    strains_off_mesh,
+)
 from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.errors import MeshError
 from ssilang.kernel.fields.cell_field import Support
@@ -112,7 +118,8 @@ class Plate(ShellFamily):
         columns = [6 * node + k for node in range(3) for k in (2, 3, 4)]
         B[:, 3:, :, columns] = _CURVATURES[zone.element](local, rule.points)
         double_area = local[:, 1, 0] * local[:, 2, 1]
-        return StrainOperator(own_to_global(B, frames), double_area[:, None] * rule.weights)
+        operator = strains_off_mesh(own_to_global(B, frames), zone, parameters, cells)
+        return StrainOperator(operator, double_area[:, None] * rule.weights)
 
     def stiffness_values(self, zone: Zone, moduli: FloatArray, parameters: ZoneField) -> FloatArray:
         """The usual stiffness and a small one about the normal, which the element lacks."""
@@ -135,7 +142,9 @@ class Plate(ShellFamily):
         for k in range(3):
             values[:, :, k, :, k] = scalar
         values[:, :, 3:, :, 3:] = inertia
-        return values.reshape(n, 18, 18), self.layout(zone)
+        normals = np.repeat(frames[:, None, 2], 3, axis=1)
+        whole = inertia_off_mesh(values.reshape(n, 18, 18), zone, parameters, normals)
+        return whole, self.layout(zone)
 
     def geometric_values(self, zone: Zone, stress: FloatArray, parameters: ZoneField) -> FloatArray:
         """Effect of the membrane forces on linear translations."""
@@ -151,4 +160,5 @@ class Plate(ShellFamily):
         values = np.zeros((n, 3, 6, 3, 6))
         for k in range(3):
             values[:, :, k, :, k] = scalar
-        return values.reshape(n, 18, 18)
+        normals = np.repeat(frames[:, None, 2], 3, axis=1)
+        return inertia_off_mesh(values.reshape(n, 18, 18), zone, parameters, normals)

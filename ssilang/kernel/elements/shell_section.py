@@ -55,13 +55,11 @@ def section_moduli(zone: Zone, parameters: ZoneField, support: Support) -> Float
     Raises
     ------
     MaterialError
-        If a parameter is missing, or the middle surface is off the mesh (EXCE).
+        If a parameter is missing.
     """
     kind = symmetry_of(zone)
     if kind not in _LAWS:
         raise MaterialError(f"elasticity {kind} is not available for shells ({zone.element})")
-    if "EXCE" in parameters and np.any(parameters.at("EXCE", support) != 0):
-        raise MaterialError("shells off their mesh (EXCE) are not available")
     Q = _LAWS[kind](parameters, support)
     h = parameters.at("EPAI", support)[..., None, None]
     shape = np.broadcast_shapes(Q.shape[:2], h.shape[:2])
@@ -142,6 +140,45 @@ def _surface_slopes(zone: Zone) -> tuple[FloatArray, FloatArray]:
     dual = np.linalg.inv(np.concatenate([tangents, normal[:, None]], axis=1))[:, :, :2]
     slopes: FloatArray = np.einsum("cji,ki->ckj", dual, reference)
     return slopes, normal
+
+
+def offset(zone: Zone, parameters: ZoneField) -> FloatArray | None:
+    """Distance (n,) of the middle surface from the mesh along the normals; None: it lies there."""
+    if "EXCE" not in parameters:
+        return None
+    e = parameters.at("EXCE", "GRAVITE")[:, 0]
+    return np.broadcast_to(e, (len(zone.cells),)) if e.any() else None
+
+
+def strains_off_mesh(B: FloatArray, zone: Zone, parameters: ZoneField, cells: slice) -> FloatArray:
+    """Operator with the membrane strains (first rows) of the middle surface, EXCE off the mesh."""
+    e = offset(zone, parameters)
+    if e is None:
+        return B
+    moved = B.copy()
+    moved[:, :3] += e[cells][:, None, None, None] * B[:, 3:6]
+    return moved
+
+
+def inertia_off_mesh(
+    values: FloatArray, zone: Zone, parameters: ZoneField, normals: FloatArray
+) -> FloatArray:
+    """Matrices (n, 6 k, 6 k) on the mesh from those on the middle surface, EXCE off it.
+
+    The middle surface moves by `u + EXCE theta x n`, the normals n being (n, k, 3).
+    """
+    e = offset(zone, parameters)
+    if e is None:
+        return values
+    v = normals * e[:, None, None]
+    n, k = v.shape[:2]
+    arm = np.broadcast_to(np.eye(6), (n, k, 6, 6)).copy()
+    for row, column, axis, sign in ((0, 4, 2, 1), (0, 5, 1, -1), (1, 5, 0, 1), (1, 3, 2, -1),
+                                    (2, 3, 1, 1), (2, 4, 0, -1)):  # fmt: skip
+        arm[..., row, column] = sign * v[..., axis]
+    blocks = values.reshape(n, k, 6, k, 6)
+    turned: FloatArray = np.einsum("cari,carbs,cbsj->caibj", arm, blocks, arm, optimize=True)
+    return turned.reshape(n, 6 * k, 6 * k)
 
 
 def own_to_global(B: FloatArray, frames: FloatArray) -> FloatArray:

@@ -21,7 +21,12 @@ from ssilang.kernel.elements.reference import (
     shape_gradients,
 )
 from ssilang.kernel.elements.shell_family import ShellFamily
-from ssilang.kernel.elements.shell_section import drilled, material_moduli
+from ssilang.kernel.elements.shell_section import (
+    drilled,
+    inertia_off_mesh,
+    material_moduli,
+    offset,
+)
 from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.errors import MeshError
 from ssilang.kernel.fields.cell_field import Support
@@ -87,7 +92,9 @@ class ThickShell(ShellFamily):
         h = parameters.at("EPAI", "GRAVITE")
         h = np.broadcast_to(h[:, 0], (len(zone.cells),))[cells]
         arm = fibres(zone, cells) * (h / 2)[:, None, None]
-        place = x[:, None] + zeta[:, None, None] * arm[:, None]
+        e = offset(zone, parameters)
+        height = zeta + (np.zeros((n, 1)) if e is None else (2 * e[cells] / h)[:, None])
+        place = x[:, None] + height[:, :, None, None] * arm[:, None]
         J = np.empty((n, len(rule), 3, 3))
         J[:, :, :2] = np.einsum("pki,cpkj->cpij", dN, place)
         J[:, :, 2] = np.einsum("pk,ckj->cpj", N, arm)
@@ -95,7 +102,7 @@ class ThickShell(ShellFamily):
         # d u_a / d x_j as an operator on (node, translation or rotation)
         G = np.zeros((n, len(rule), 3, 3, k, 6))
         flat = np.einsum("cpji,pki->cpjk", inverse[..., :2], dN)
-        turned = flat * zeta[:, None, None] + inverse[..., 2][..., None] * N[:, None, :]
+        turned = flat * height[:, :, None, None] + inverse[..., 2][..., None] * N[:, None, :]
         for a in range(3):
             G[:, :, a, :, :, a] = flat
         G[..., 3:] = np.einsum("cpjk,ckab->cpajkb", turned, _crossed(arm))
@@ -161,7 +168,8 @@ class ThickShell(ShellFamily):
         for i in range(3):
             values[:, :, i, :, i] = scalar
         values[:, :, 3:, :, 3:] = tangent * (h**2 / 12)[:, None, None, None, None]
-        return values.reshape(n, 6 * k, 6 * k), self.layout(zone)
+        whole = inertia_off_mesh(values.reshape(n, 6 * k, 6 * k), zone, parameters, v)
+        return whole, self.layout(zone)
 
 
 def _local_frames(J: FloatArray) -> FloatArray:

@@ -340,3 +340,71 @@ def test_square_plate_pressed_on_all_sides_buckles_at_two_pi_squared_d(element, 
         stress = {"N11": -1, "N22": -1}  # the own frames differ: the same on all sides
     load = _buckling(zone, stress)
     assert load == pytest.approx(2 * np.pi**2 * D, rel=rtol)
+
+
+def flat_zone(element, n, length, width):
+    """A strip along x and the places of its nodes."""
+    if element in ("COQ4", "COQ8"):
+        zone, x, used = quadrangles(element, n, 1, length, width)
+        return zone, x, used
+    zone, x = plate(n, 1, length, width)
+    return replace(zone, element=element), x, np.arange(len(x))
+
+
+@pytest.mark.parametrize("element", ["DKT", "COQ3", "COQ4", "COQ8"])
+def test_strip_off_its_mesh_bends_when_pulled_along_the_mesh(element):
+    L, b, e = 1.0, 0.1, 0.03
+    zone, x, used = flat_zone(element, 8, L, b)
+    mat = material(zone, YOUN=E, NU=0.0, EPAI=H, EXCE=e)
+    tip = used[x[used, 0] > L - 1e-9]
+    share = np.where(np.abs(x[tip, 1] - b / 2) < 1e-9, 4.0, 1.0) if len(tip) == 3 else np.ones(2)
+    load = NodeField.of(zone.cells.nodes, tip, {"FX": share / share.sum()}, "DISCRET")
+    held = used[x[used, 0] < 1e-9]
+    u = solved(zone, mat, lambda m: np.isin(m.nodes, held), load)
+    EI, EA = E * b * H**3 / 12, E * b * H
+    turn = -e * L / EI  # the middle surface lies above the pull
+    assert u.values_at("RY", tip).mean() == pytest.approx(turn, rel=2e-3)
+    assert u.values_at("UZ", tip).mean() == pytest.approx(-turn * L / 2, rel=1e-2)
+    assert u.values_at("UX", tip).mean() == pytest.approx(L / EA - turn * e, rel=2e-3)
+    stress = families.stress(zone, mat, u).components
+    if element != "COQ8":
+        aligned = slice(0, 8)  # cells whose own x is the strip's
+        np.testing.assert_allclose(stress["N11"][aligned].mean(), 1 / b, rtol=0.02)
+        np.testing.assert_allclose(np.abs(stress["M11"][aligned]).mean(), e / b, rtol=0.02)
+
+
+@pytest.mark.parametrize("element", ["DKT", "COQ4", "COQ8"])
+def test_mass_off_the_mesh_turns_about_it(element):
+    a, b, e = 1.0, 0.7, 0.2
+    zone, _, _ = flat_zone(element, 2, a, b)
+    block = families.mass(zone, material(zone, **PLATE, EXCE=e))
+    layout = Layout(block.table, block.raw_nodes, block.local, block.unknowns)
+    spin = field(zone, UX=lambda x: x[:, 2], UZ=lambda x: -x[:, 0], RY=lambda x: 1 + 0 * x[:, 0])
+    v = layout.gather(spin)
+    twice = np.einsum("ci,cij,cj->", v, block.values, v)
+    assert twice == pytest.approx(RHO * H * a * b * (a**2 / 3 + e**2 + H**2 / 12), rel=1e-9)
+
+
+def test_strip_off_its_mesh_buckles_as_if_it_lay_there_when_its_ends_may_not_turn():
+    free, off = (_buckling_between_walls(e) for e in (0.0, 0.02))
+    assert free == pytest.approx(4 * np.pi**2 * E * H**3 / 12, rel=0.02)
+    # linear membrane strains follow EXCE times linear curvatures in the mean of a cell only
+    assert off == pytest.approx(free, rel=0.025)
+
+
+def _buckling_between_walls(e):
+    zone, _, _ = flat_zone("DKT", 16, 1.0, 0.1)
+    mat = material(zone, YOUN=E, NU=0.0, EPAI=H, EXCE=e)
+    K = Matrix(zone.cells.nodes, (families.stiffness(zone, mat),))
+    # the frames of the two triangles of a cell differ: pressed along x in both
+    local = np.array([np.diff(t[:2], axis=0)[0, :2] for t in zone.cells.coordinates])
+    c, s = (local / np.linalg.norm(local, axis=1, keepdims=True)).T
+    stress = material(zone, N11=0.0, N22=0.0, N12=0.0)
+    for name, value in (("N11", -c * c), ("N22", -s * s), ("N12", c * s)):
+        stress.blocks[0].components[name][:, 0] = value
+    G = Matrix(zone.cells.nodes, (families.geometric_stiffness(zone, stress, mat),))
+    numbering = numbering_of(K, G)
+    at = zone.cells.nodes.coordinates[numbering.nodes][:, 0]
+    free = (at > 1e-9) & (at < 1 - 1e-9)
+    k, g = (assemble(m, numbering).toarray()[np.ix_(free, free)] for m in (K, G))
+    return 1 / np.linalg.eigvals(np.linalg.solve(k, -g)).real.max()
