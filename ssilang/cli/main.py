@@ -70,6 +70,13 @@ def _sweep_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--out", type=Path, help="output folder (default results/<case>_sweep)")
     parser.add_argument("--jobs", type=int, default=0, help="processes (default: one a core)")
+    parser.add_argument(
+        "--together",
+        type=int,
+        default=8,
+        metavar="N",
+        help="most runs of a process whose steps are taken together (default 8; 1: none)",
+    )
     parser.add_argument("--scheduler", default="", help="address of a Dask scheduler")
     parser.add_argument(
         "--allow", type=Path, action="append", default=[], help="further folder to read and write"
@@ -199,6 +206,7 @@ def _sweep(options: argparse.Namespace) -> int:
             options.scheduler,
             options.allow,
             options.lang,
+            options.together,
         ),
         sys.stdout,
         sys.stderr,

@@ -60,6 +60,7 @@ class RunOptions:
     summary: bool = False  # write summary.json into the output folder
     limits: Limits = field(default_factory=Limits)
     given: dict[str, Any] = field(default_factory=dict)  # name -> value, `--set`
+    integrate: Any = None  # replaces the kernel's time integration, see `sweeping.gathering`
 
 
 def make_session(source: Source, options: RunOptions, out: TextIO) -> Session:
@@ -78,6 +79,7 @@ def make_session(source: Source, options: RunOptions, out: TextIO) -> Session:
             language=options.language,
             limits=options.limits,
             given={k: _as_object(v) for k, v in options.given.items()},
+            integrate=options.integrate,
         )
     )
 

@@ -7,7 +7,7 @@ objects of the language by `register_type`.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -214,6 +214,67 @@ class LazyTable(Table):
     def items(self) -> list[tuple[object, object]]:
         """Pairs (index, value), in order of creation."""
         return [(index, self.get(index)) for index, _ in self._items.values()]
+
+
+class LazyRows(Table):
+    """TABLE whose entries 1, 2 ... are tables made of their rows when they are first asked for.
+
+    `make` turns a row into its table; `rows` holds those that nobody asked for, by index.
+    `stand_ins` gives their times and what serves instead of an entry's value that is not made
+    yet, for readers that know it (empty: nothing does).
+    """
+
+    __slots__ = ("_make", "_words", "rows", "stand_ins")
+
+    def __init__(
+        self,
+        make: Callable[[Any], Table],
+        words: dict[tuple[object, ...], tuple[object, object]],
+        stand_ins: Callable[[str], list[tuple[float, Any]]],
+    ) -> None:
+        super().__init__()
+        self._make, self._words, self.stand_ins = make, words, stand_ins
+        self.rows: dict[int, Any] = {}
+
+    def append(self, row: Any) -> None:
+        """One more entry."""
+        index = len(self._items) + 1
+        self._items["E", index] = (index, PENDING)
+        self.rows[index] = row
+
+    def promises(self, index: object) -> bool:
+        """Whether there are entries not made yet, that will hold the index."""
+        return bool(self.rows) and key_of(index) in self._words
+
+    def get(self, index: object, default: object = None) -> object:
+        """Value at an index, `default` if there is none."""
+        value = super().get(index, default)
+        return self._made(index) if value is PENDING else value
+
+    def set(self, index: object, value: object) -> None:
+        """Create or replace a value."""
+        self._forget(index)
+        super().set(index, value)
+
+    def remove(self, index: object) -> None:
+        """Forget an index; nothing happens if it does not exist."""
+        self._forget(index)
+        super().remove(index)
+
+    def items(self) -> list[tuple[object, object]]:
+        """Pairs (index, value), in order of creation."""
+        for index in list(self.rows):
+            self._made(index)
+        return super().items()
+
+    def _forget(self, index: object) -> None:
+        if type(index) is int:
+            self.rows.pop(index, None)
+
+    def _made(self, index: Any) -> Table:
+        made = self._make(self.rows.pop(index))
+        Table.set(self, index, made)
+        return made
 
 
 def promises(*words: str) -> dict[tuple[object, ...], tuple[object, object]]:

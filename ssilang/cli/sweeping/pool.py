@@ -5,17 +5,15 @@ from __future__ import annotations
 import importlib.util
 import os
 import threading
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from multiprocessing import get_context, parent_process
 from multiprocessing.connection import wait
 from typing import Any
 
-from ssilang.cli.sweeping.worker import Task, run_task
-
-Row = dict[str, Any]
-Work = Callable[[Task], Row]
+from ssilang.cli.sweeping.gathering import gathered, run_together
+from ssilang.cli.sweeping.worker import Row, Task, Work, lost_row, run_task
 
 ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
@@ -24,18 +22,6 @@ def one_thread() -> None:
     """Processes started from now on use one thread for linear algebra, if nothing else is asked."""
     for name in ONE_THREAD:
         os.environ.setdefault(name, "1")
-
-
-def lost_row(task: Task, reason: str) -> Row:
-    """The row of a run whose process died."""
-    return {
-        "run": task.number,
-        **task.values,
-        "exit_code": 1,
-        "seconds": None,
-        "error": f"the run was lost: {reason}",
-        "folder": task.folder.name,
-    }
 
 
 def _end_with_parent() -> None:
@@ -52,7 +38,11 @@ def _end_with_parent() -> None:
 
 
 def run_here(
-    tasks: Sequence[Task], jobs: int, work: Work = run_task, start: str = "spawn"
+    tasks: Sequence[Task],
+    jobs: int,
+    work: Work = run_task,
+    start: str = "spawn",
+    together: int = 1,
 ) -> Iterator[Row]:
     """Rows as they come, from `jobs` processes; a process that dies costs its own run alone.
 
@@ -60,32 +50,34 @@ def run_here(
     ----------
     start : str
         How processes begin: empty ('spawn') or with the memory of this one ('fork').
+    together : int
+        Most runs that go side by side in a process. Those of a process that dies are made again,
+        each alone.
     """
-    waiting, context = list(tasks), get_context(start)
+    waiting, context = gathered(tasks, jobs, together), get_context(start)
     while waiting:
         with ProcessPoolExecutor(jobs, context, _end_with_parent) as pool:
-            futures = {pool.submit(work, task): task for task in waiting}
-            broken: list[Task] = []
+            futures = {pool.submit(run_together, batch, work): batch for batch in waiting}
+            broken: list[tuple[Task, ...]] = []
             try:
                 for future in as_completed(futures):
-                    task = futures[future]
+                    batch = futures[future]
                     try:
-                        yield future.result()
+                        yield from future.result()
                     except BrokenProcessPool:
-                        broken.append(task)
+                        broken.append(batch)
                     except Exception as problem:
-                        yield lost_row(task, str(problem))
+                        yield from (lost_row(task, str(problem)) for task in batch)
             except (KeyboardInterrupt, GeneratorExit):
                 pool.shutdown(wait=False, cancel_futures=True)
                 raise
         if not broken:
             return
-        if len(broken) == 1 or jobs == 1:  # alone in its pool: this run is the one that dies
-            yield lost_row(broken[0], "its process was killed (memory?)")
-            waiting = broken[1:]
-        else:
-            jobs = 1
-            waiting = broken
+        if len(broken[0]) == 1 and (len(broken) == 1 or jobs == 1):
+            # alone in its pool: this run is the one that dies
+            yield lost_row(broken.pop(0)[0], "its process was killed (memory?)")
+        jobs = 1
+        waiting = [(task,) for batch in broken for task in batch]
 
 
 def dask_installed() -> bool:
@@ -93,13 +85,28 @@ def dask_installed() -> bool:
     return importlib.util.find_spec("distributed") is not None
 
 
-def run_on_cluster(tasks: Sequence[Task], address: str) -> Iterator[Row]:
-    """Rows as they come, from the workers of a Dask scheduler that see the same files."""
+def run_on_cluster(tasks: Sequence[Task], address: str, together: int = 1) -> Iterator[Row]:
+    """Rows as they come, from the workers of a Dask scheduler that see the same files.
+
+    Batches of `together` runs go side by side; those of a batch that is lost are made again, each
+    alone.
+    """
     import distributed
 
     cluster: Any = distributed
     with cluster.Client(address) as client:
-        futures = {client.submit(run_task, task, pure=False): task for task in tasks}
-        for future in cluster.as_completed(futures):
-            problem = future.exception()
-            yield lost_row(futures[future], str(problem)) if problem else future.result()
+        cores = sum(client.ncores().values())
+        batches = gathered(tasks, cores, together)
+        futures = {client.submit(run_together, b, pure=False): b for b in batches}
+        coming = cluster.as_completed(futures)
+        for future in coming:
+            batch, problem = futures[future], future.exception()
+            if problem is None:
+                yield from future.result()
+            elif len(batch) == 1:
+                yield lost_row(batch[0], str(problem))
+            else:
+                for task in batch:
+                    again = client.submit(run_together, (task,), pure=False)
+                    futures[again] = (task,)
+                    coming.add(again)

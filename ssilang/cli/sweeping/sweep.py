@@ -16,6 +16,8 @@ from ssilang.cli.sweeping.trunk import run_all
 from ssilang.cli.sweeping.worker import ROW, Task
 
 TABLE = "sweep.parquet"
+TOGETHER = 8
+"""Runs that go side by side in a process: more gain little and hold more memory."""
 
 
 @dataclass
@@ -30,6 +32,7 @@ class SweepOptions:
     scheduler: str = ""
     allowed: list[Path] = field(default_factory=list)
     language: str = "en"
+    together: int = TOGETHER
 
 
 def sweep(options: SweepOptions, out: TextIO, err: TextIO) -> int:
@@ -80,10 +83,10 @@ def _done(task: Task) -> dict[str, Any] | None:
 
 def _run(tasks: list[Task], options: SweepOptions) -> Iterator[dict[str, Any]]:
     if options.scheduler:
-        return run_on_cluster(tasks, options.scheduler)
+        return run_on_cluster(tasks, options.scheduler, options.together)
     jobs = options.jobs or os.cpu_count() or 1
     one_thread()
-    return run_all(tasks, max(min(jobs, len(tasks)), 1))
+    return run_all(tasks, max(min(jobs, len(tasks)), 1), together=options.together)
 
 
 def _progress(rows: Iterator[dict[str, Any]], total: int, err: TextIO) -> Iterator[dict[str, Any]]:

@@ -9,32 +9,40 @@ from __future__ import annotations
 
 import gc
 import os
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from multiprocessing import get_all_start_methods, get_context
 from multiprocessing.connection import Connection, wait
 
-from ssilang.cli.sweeping.pool import Row, Work, lost_row, run_here
-from ssilang.cli.sweeping.worker import Task, run_task
+from ssilang.cli.sweeping.gathering import run_together
+from ssilang.cli.sweeping.pool import run_here
+from ssilang.cli.sweeping.worker import Row, Task, Work, lost_row, run_task
 
 ROUNDS = 4
 """Runs for each job from which the others may wait for the first one."""
 
 
-def run_all(tasks: Sequence[Task], jobs: int, work: Work = run_task) -> Iterator[Row]:
-    """Rows as they come, the way that takes least: forks of the first run, or all at once."""
+def run_all(
+    tasks: Sequence[Task], jobs: int, work: Work = run_task, together: int = 1
+) -> Iterator[Row]:
+    """Rows as they come, the way that takes least: forks of the first run, or all at once.
+
+    `together`: see `run_here`.
+    """
     if len(tasks) < ROUNDS * jobs or "fork" not in get_all_start_methods():
-        return run_here(tasks, jobs, work)
-    return run_grown(tasks, jobs, work)
+        return run_here(tasks, jobs, work, together=together)
+    return run_grown(tasks, jobs, work, together)
 
 
-def run_grown(tasks: Sequence[Task], jobs: int, work: Work = run_task) -> Iterator[Row]:
+def run_grown(
+    tasks: Sequence[Task], jobs: int, work: Work = run_task, together: int = 1
+) -> Iterator[Row]:
     """Rows of the first run, then of the others from forks of its process.
 
     If the trunk dies in the first run, that run is lost and the others are made without it.
     """
     spawn = get_context("spawn")
     receiver, sender = spawn.Pipe(duplex=False)
-    trunk = spawn.Process(target=_grow, args=(list(tasks), jobs, work, sender))
+    trunk = spawn.Process(target=_grow, args=(list(tasks), jobs, work, sender, together))
     trunk.start()
     sender.close()
     waiting = {task.number: task for task in tasks}
@@ -50,7 +58,7 @@ def run_grown(tasks: Sequence[Task], jobs: int, work: Work = run_task) -> Iterat
     if len(rest) == len(tasks):
         yield lost_row(rest.pop(0), "its process was killed (memory?)")
     if rest:
-        yield from run_here(rest, jobs, work)
+        yield from run_here(rest, jobs, work, together=together)
 
 
 def _received(receiver: Connection, sentinel: int) -> Iterator[Row]:
@@ -65,20 +73,13 @@ def _received(receiver: Connection, sentinel: int) -> Iterator[Row]:
         yield row
 
 
-def _grow(tasks: list[Task], jobs: int, work: Work, sender: Connection) -> None:
+def _grow(tasks: list[Task], jobs: int, work: Work, sender: Connection, together: int) -> None:
     """The trunk: one run, then the others in forks."""
     try:
-        sender.send(_whole(work, tasks[0]))
+        sender.send(run_together(tasks[:1], work)[0])
         gc.freeze()  # collections in a fork would copy the memory that it shares
-        for row in run_here(tasks[1:], jobs, work, "fork"):
+        for row in run_here(tasks[1:], jobs, work, "fork", together):
             sender.send(row)
         sender.send(None)
     except (BrokenPipeError, KeyboardInterrupt):
         os._exit(1)
-
-
-def _whole(work: Callable[[Task], Row], task: Task) -> Row:
-    try:
-        return work(task)
-    except Exception as problem:
-        return lost_row(task, str(problem))

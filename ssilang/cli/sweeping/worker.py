@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import time
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -25,9 +26,15 @@ class Task:
     allowed: tuple[Path, ...] = ()
     language: str = "en"
     limits: dict[str, Any] = field(default_factory=dict)
+    meeting: Any = None
+    """Where its time integrations meet those of other runs; see `gathering`."""
 
 
-def run_task(task: Task) -> dict[str, Any]:
+Row = dict[str, Any]
+Work = Callable[[Task], Row]
+
+
+def run_task(task: Task) -> Row:
     """Run the deck with the task's values; returns its row of the table.
 
     The run's folder gets what the deck writes, its `summary.json`, `output.txt` (what it printed
@@ -49,11 +56,12 @@ def run_task(task: Task) -> dict[str, Any]:
         summary=True,
         limits=Limits(**task.limits),
         given=dict(task.values),
+        integrate=None if task.meeting is None else task.meeting.integrate,
     )
     started = time.perf_counter()
     result = run_file(task.deck, options)
     write_text(task.folder / "output.txt", result.output + result.message + "\n")
-    row = {
+    row: Row = {
         "run": task.number,
         **task.values,
         "exit_code": result.exit_code,
@@ -64,3 +72,15 @@ def run_task(task: Task) -> dict[str, Any]:
     }
     write_text(task.folder / ROW, json.dumps(row, ensure_ascii=False) + "\n")
     return row
+
+
+def lost_row(task: Task, reason: str) -> Row:
+    """The row of a run whose process died."""
+    return {
+        "run": task.number,
+        **task.values,
+        "exit_code": 1,
+        "seconds": None,
+        "error": f"the run was lost: {reason}",
+        "folder": task.folder.name,
+    }

@@ -10,11 +10,11 @@ import numpy as np
 
 from ssilang.kernel.dynamics.bodies import full_uplift
 from ssilang.kernel.dynamics.compiled_loop import N_ENERGIES, Motion, Saved
-from ssilang.kernel.dynamics.contact import TOUCHING, BoolArray
 from ssilang.kernel.dynamics.driven import Drive, Driver
 from ssilang.kernel.dynamics.engines import DenseEngine, Engine, kind_of
 from ssilang.kernel.dynamics.initial import (
     admissible_velocity,
+    closed_at_start,
     initial_acceleration,
     initial_energies,
     joint_state,
@@ -55,6 +55,8 @@ class History:
         Of runs on a reduced basis.
     again : callable or None
         Finds the energies of a run that did not keep them; `worst` is then its imbalance.
+    together : int
+        Motions that advanced side by side; `seconds` is the share of one.
     """
 
     times: FloatArray
@@ -66,6 +68,7 @@ class History:
     reduction: Reduction | None = None
     again: Callable[[], FloatArray] | None = None
     worst: float = 0.0
+    together: int = 1
 
     @property
     def energies(self) -> FloatArray:
@@ -107,7 +110,7 @@ class Integration:
             p = self._drive.start()
         joints = joint_state(p)
         v = admissible_velocity(p)
-        self._closed = _closed_at_start(p)
+        self._closed = closed_at_start(p)
         a, pushing = with_contact(p, v, initial_acceleration(p, v, joints), self._closed)
         load = p.loading.forces @ p.loading.at(p.times[:1])[0]
         reaction = p.M @ a + p.C @ v + p.K @ p.u - load
@@ -140,7 +143,7 @@ class Integration:
             wanted |= observer.wanted
         try:
             if wanted[0]:
-                self._hand_over(snapshot_of(self.problem, self.motion, 0))
+                self.hand_over(snapshot_of(self.problem, self.motion, 0))
             self._march(history, wanted)
         finally:
             for observer in self.observers:
@@ -182,7 +185,7 @@ class Integration:
             places = np.flatnonzero(chosen)
             save = np.full(len(chosen), -1, np.int64)
             save[places] = np.arange(len(places))
-            saved = self._room(len(places))
+            saved = self.room(len(places))
             energies = history.kept[first + 1 : last + 1]
             if self.light and isinstance(engine, DenseEngine) and engine.light:
                 energies, history.again = energies[:0], self._energies
@@ -193,9 +196,9 @@ class Integration:
                 history.iterations = max(history.iterations, turns)
             steps = first + 1 + places[places < done]
             for row, step in enumerate(steps):
-                self._hand_over(self._kept(saved, row, int(step)))
+                self.hand_over(self.kept(saved, row, int(step)))
             if done < last - first:
-                raise self._diverged(first + done + 1, turns, residual)
+                raise self.diverged(first + done + 1, turns, residual)
             first = last
 
     def _energies(self) -> FloatArray:
@@ -221,7 +224,7 @@ class Integration:
             self._engines[dt] = found
         return found
 
-    def _room(self, rows: int) -> Saved:
+    def room(self, rows: int) -> Saved:
         m = self.motion
         n = (rows, len(m.u))
         return Saved(
@@ -230,7 +233,7 @@ class Integration:
             np.zeros((rows, *m.state.shape)), np.zeros((rows, len(m.contact))),
         )  # fmt: skip
 
-    def _kept(self, s: Saved, row: int, step: int) -> Snapshot:
+    def kept(self, s: Saved, row: int, step: int) -> Snapshot:
         time_ = float(self.problem.times[step])
         problem = self.problem if self._drive is None else self._drive.problem
         return Snapshot(
@@ -238,12 +241,12 @@ class Integration:
             s.t[row], s.state[row], s.contact[row],
         )  # fmt: skip
 
-    def _hand_over(self, snapshot: Snapshot) -> None:
+    def hand_over(self, snapshot: Snapshot) -> None:
         for observer in self.observers:
             if observer.wanted[snapshot.step]:
                 observer.receive(snapshot)
 
-    def _diverged(self, step: int, turns: int, residual: float) -> ConvergenceError:
+    def diverged(self, step: int, turns: int, residual: float) -> ConvergenceError:
         at = f"step {step}, time {self.problem.times[step]:g}"
         if turns == 0:
             body = full_uplift(self.problem, self.motion.t)
@@ -263,17 +266,6 @@ class Integration:
             f"jump after {-turns} turns)",
             "a smaller step, or softer joints",
         )
-
-
-def _closed_at_start(problem: Problem) -> BoolArray:
-    """Unilateral rows that touch in the initial state."""
-    contact = problem.contact
-    if contact is None:
-        return np.zeros(0, bool)
-    gaps = contact.gaps(problem.u, problem.loading.at(problem.times[:1])[0])
-    size = np.abs(contact.G @ problem.u).max(initial=0.0) + np.abs(gaps).max(initial=0.0)
-    closed: BoolArray = gaps <= TOUCHING * size
-    return closed
 
 
 def integrate(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from copy import copy
 from dataclasses import dataclass
 
 import numpy as np
@@ -80,6 +81,16 @@ class InterleavedLoop:
         self._gram_diagonal = gram.diagonal()
         self._gram = None if gram.nnz == n else sp.csc_array(gram)
 
+    def alike(self, problem: Problem, motion: Motion) -> InterleavedLoop:
+        """The loop of another problem with the same model."""
+        other = copy(self)
+        other.problem, other.motion = problem, motion
+        other.forces = np.ascontiguousarray((self.T.T @ problem.loading.forces).T)
+        other.plan = self.plan._replace(forces=other.forces)
+        other.supports = MovingSupports(problem, self.plan.scheme[-1], self.T)
+        other.newton = workspace(len(motion.f), motion.w, motion.state)
+        return other
+
     def _reduced(self, A: sp.csr_array) -> sp.csr_array:
         return sp.csr_array(self.T.T @ A @ self.T)
 
@@ -93,21 +104,21 @@ class InterleavedLoop:
             rows, given = save[first:last], np.ascontiguousarray(factors[first : last + 1])
             chosen = np.flatnonzero(rows >= 0)
             places = np.where(rows >= 0, np.cumsum(rows >= 0) - 1, -1)
-            kept = self._room(len(chosen))
-            block = self._block(given)
+            kept = self.room(len(chosen))
+            block = self.block(given)
             done, turns, residual = march_interleaved(
                 block.plan, self.joints, block.flow, self.newton, block.factors, places, kept,
                 history[first:last], block.works,
             )  # fmt: skip
-            self._finish(block, given, history[first : first + done])
+            self.finish(block, given, history[first : first + done])
             for row, k in enumerate(chosen[chosen < done]):
-                self._keep(kept, row, block, int(k) + 1, given[k + 1], saved, int(rows[k]))
+                self.keep(kept, row, block, int(k) + 1, given[k + 1], saved, int(rows[k]))
             if turns <= 0:
                 return first + done, turns, residual
             worst = max(worst, turns)
         return steps, worst, 0.0
 
-    def _block(self, factors: FloatArray) -> _Block:
+    def block(self, factors: FloatArray) -> PreparedBlock:
         """The motion on the loop's unknowns, with the forces of equilibrium from scratch."""
         m, s = self.motion, self.problem.scheme
         columns, course = self.supports.begin(m, factors)
@@ -133,9 +144,9 @@ class InterleavedLoop:
         own = plan.forces[extra:]
         start = Start(np.array([own @ u, own @ v, own @ a]), m.f.copy())
         works = np.zeros((2, len(factors) - 1, whole.shape[1]))
-        return _Block(plan, flow, columns, course, whole, works, start)
+        return PreparedBlock(plan, flow, columns, course, whole, works, start)
 
-    def _finish(self, block: _Block, factors: FloatArray, history: FloatArray) -> None:
+    def finish(self, block: PreparedBlock, factors: FloatArray, history: FloatArray) -> None:
         """The motion and its energies after the steps that were done."""
         m, flow, done = self.motion, block.flow, len(history)
         extra = self.forces.shape[0]
@@ -147,7 +158,7 @@ class InterleavedLoop:
         m.reaction[:] = self._reaction(m.u, m.v, m.a, m.f, factors[done])
 
     def _unfolded(
-        self, block: _Block, u: FloatArray, v: FloatArray, a: FloatArray, k: int
+        self, block: PreparedBlock, u: FloatArray, v: FloatArray, a: FloatArray, k: int
     ) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Displacement, velocity and acceleration (n,) after k steps."""
         X, c = block.columns.X, block.course
@@ -179,7 +190,7 @@ class InterleavedLoop:
             r += p.interface.J.T @ f
         return r
 
-    def _room(self, rows: int) -> Kept:
+    def room(self, rows: int) -> Kept:
         m, n = self.motion, self.T.shape[1]
         return Kept(
             np.zeros((rows, n)), np.zeros((rows, n)), np.zeros((rows, n)),
@@ -187,11 +198,11 @@ class InterleavedLoop:
             np.zeros((rows, *m.t.shape)), np.zeros((rows, *m.state.shape)),
         )  # fmt: skip
 
-    def _keep(
+    def keep(
         self,
         kept: Kept,
         row: int,
-        block: _Block,
+        block: PreparedBlock,
         k: int,
         factors: FloatArray,
         saved: Saved,
@@ -204,7 +215,7 @@ class InterleavedLoop:
 
 
 @dataclass(frozen=True, eq=False)
-class _Block:
+class PreparedBlock:
     """Some steps: what `march_interleaved` takes, and the supports' part of the motion."""
 
     plan: Plan

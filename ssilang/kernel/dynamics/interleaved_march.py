@@ -191,7 +191,7 @@ def _strain_forces(
 
 
 @compiled_fast
-def _advance(
+def advance(
     plan: Plan, flow: Flow, du: FloatArray, begin: int, end: int, sums: FloatArray,
     rise: FloatArray, pull: FloatArray, Cx: FloatArray,
 ) -> None:  # fmt: skip
@@ -241,7 +241,7 @@ def _advance(
 
 
 @compiled_fast
-def _work(plan: Plan, du: FloatArray, begin: int, end: int, work: FloatArray) -> None:
+def add_work(plan: Plan, du: FloatArray, begin: int, end: int, work: FloatArray) -> None:
     """work += forces du on a range of unknowns."""
     for c in range(plan.forces.shape[0]):
         total = 0.0
@@ -270,12 +270,21 @@ def _interface(
     `rise` (k,) are the increments of the load factors; `pull` (n,) becomes `-J^T df`.
     """
     L, s = plan.L, plan.root
-    begin, end = L.first[s], L.first[s + 1]
-    for i in range(begin, end):
+    for i in range(L.first[s], L.first[s + 1]):
         b[i] += above[i]
         above[i] = 0.0
     forward(L, s, s + 1, b, L.first[0], above, local)
     backward(L, s, s + 1, b, du, local)
+    return settle_interface(plan, joints, flow, newton, du, rise, pull)
+
+
+@compiled
+def settle_interface(
+    plan: Plan, joints: Joints, flow: Flow, newton: Workspace, du: FloatArray, rise: FloatArray,
+    pull: FloatArray,
+) -> tuple[int, float]:  # fmt: skip
+    """As `_interface`, the root's unknowns in `du` being those under the joints' old forces."""
+    begin, end = plan.L.first[plan.root], plan.L.first[plan.root + 1]
     q = len(flow.f)
     y0, y, own = np.empty(q), np.empty(q), du[begin:end]
     for i in range(q):
@@ -303,7 +312,7 @@ def _interface(
 
 
 @compiled
-def _save(flow: Flow, kept: Kept, row: int) -> None:
+def keep(flow: Flow, kept: Kept, row: int) -> None:
     copy_state(flow.u, kept.u[row])
     copy_state(flow.v, kept.v[row])
     copy_state(flow.a, kept.a[row])
@@ -314,7 +323,7 @@ def _save(flow: Flow, kept: Kept, row: int) -> None:
 
 
 @compiled
-def _account(
+def account(
     plan: Plan, joints: Joints, flow: Flow, sums: FloatArray, work: FloatArray,
     factors: FloatArray, k: int, pulls: FloatArray,
 ) -> None:  # fmt: skip
@@ -385,8 +394,8 @@ def march_interleaved(
             s0, s1 = plan.branches[j]
             begin, end = L.first[s0], L.first[s1]
             backward(L, s0, s1, b, du, local)
-            _advance(plan, flow, du, begin, end, sums, rise, pull, room)
-            _work(plan, du, begin, end, work)
+            advance(plan, flow, du, begin, end, sums, rise, pull, room)
+            add_work(plan, du, begin, end, work)
             if k + 1 < steps:
                 right_side(plan, flow, coming, begin, end, b)
                 forward(L, s0, s1, b, end, above, local)
@@ -394,15 +403,15 @@ def march_interleaved(
             s = plan.trunk[j] if j < len(plan.trunk) else plan.root
             if s < len(L.first) - 1:
                 begin, end = L.first[s], L.first[s + 1]
-                _advance(plan, flow, du, begin, end, sums, rise, pull, room)
-                _work(plan, du, begin, end, work)
+                advance(plan, flow, du, begin, end, sums, rise, pull, room)
+                add_work(plan, du, begin, end, work)
                 right_side(plan, flow, coming, begin, end, b)
-        _account(plan, joints, flow, sums, work, factors, k, works[1, k])
+        account(plan, joints, flow, sums, work, factors, k, works[1, k])
         if not np.isfinite(sums[4]):
             return k, -1, np.inf
         copy_state(flow.energies, history[k])
         for c in range(len(rise)):
             rise[c] = coming[c]
         if save[k] >= 0:
-            _save(flow, kept, save[k])
+            keep(flow, kept, save[k])
     return steps, worst, 0.0

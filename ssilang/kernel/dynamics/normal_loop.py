@@ -83,7 +83,7 @@ def _exchange(E: FloatArray, i: int) -> None:
 
 
 @compiled_fast
-def _list_closed(contact: Contact) -> None:
+def list_closed(contact: Contact) -> None:
     n = 0
     for i in range(len(contact.k)):
         if contact.closed[i]:
@@ -93,7 +93,7 @@ def _list_closed(contact: Contact) -> None:
 
 
 @compiled_fast
-def _anew(contact: Contact) -> None:
+def anew(contact: Contact) -> None:
     """E from Q."""
     contact.E[:, :] = contact.Q
     for i in range(len(contact.k)):
@@ -129,7 +129,7 @@ def _solve(contact: Contact, g: FloatArray, out: FloatArray) -> None:
 
 
 @compiled_fast
-def _settle(contact: Contact, g: FloatArray, out: FloatArray) -> int:
+def settle(contact: Contact, g: FloatArray, out: FloatArray) -> int:
     """The springs' answer in `out` (see `_solve`) to the jumps g; its turns (< 0: none found)."""
     turn, largest = 0, 0.0
     for i in range(len(g)):
@@ -153,8 +153,8 @@ def _settle(contact: Contact, g: FloatArray, out: FloatArray) -> int:
         if turn == MOST_TURNS:
             return -turn
         if contact.tally[1] > EXCHANGES:
-            _anew(contact)
-        _list_closed(contact)
+            anew(contact)
+        list_closed(contact)
 
 
 @compiled_fast
@@ -278,14 +278,14 @@ def march_normal(
     for i in range(q):
         Q[i, i] += 1.0 / k[i]
         xi[i] = x.state[i, XI]
-    _anew(contact)
-    _list_closed(contact)
+    anew(contact)
+    list_closed(contact)
     _push(modal, step, contact, f, out, 0, n)  # the forces at the start, for alpha_f
     next_load(modal.forces, factors[0], out.load0, out.load1)
     next_load(modal.forces, factors[min(1, steps)], out.load0, out.load1)
     _release(modal, step, x, out, 0, n)
     for s in range(steps):
-        turns = _settle(contact, out.jumps, answer)
+        turns = settle(contact, out.jumps, answer)
         if turns < 0:
             wrong = 0.0
             for i in range(q):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -99,6 +100,10 @@ class Snapshot:
         """Internal variables of the joints, None without joints."""
         joints = self.problem.interface
         return None if joints is None else state_field(joints, self.state, self.w, self.t)
+
+
+Instants = Callable[[int, int], Snapshot]
+"""Gives a kept instant by its row among those of some steps and its step."""
 
 
 class Observer(Protocol):

@@ -16,7 +16,15 @@ from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
-from ssilang.language.values import LazyTable, ListChpo, ListEnti, ListMots, ListReel, Table
+from ssilang.language.values import (
+    LazyRows,
+    LazyTable,
+    ListChpo,
+    ListEnti,
+    ListMots,
+    ListReel,
+    Table,
+)
 from ssilang.operators.curves.instants import InstantField, components_in_time, value_in_time
 from ssilang.operators.curves.words import axis_name, read_colours
 from ssilang.operators.workspace import workspace
@@ -258,6 +266,8 @@ def history(call: Call, unmade: bool = False) -> tuple[list[Any], FloatArray, st
 
 def _holds(table: Table, index: str) -> bool:
     """Whether a table of results has the index, itself (PASAPAS) or in its steps (DYNAMIC)."""
+    if isinstance(table, LazyRows) and table.promises(index):
+        return True
     steps = (value for place, value in table.items() if type(place) is int)
     return table.has(index) or any(isinstance(s, Table) and s.has(index) for s in steps)
 
@@ -285,6 +295,10 @@ def results_in_time(table: Table, index: str, unmade: bool = False) -> tuple[lis
         steps = sorted(i for i, _ in held.items() if type(i) is int)
         return [held.get(i) for i in steps], reals([times.get(i) for i in steps])
     found = []
+    if unmade and isinstance(table, LazyRows):
+        ready = table.stand_ins(index)
+        if ready and len(ready) == len(table):  # in order of time as they came
+            return [f for _, f in ready], reals([t for t, _ in ready])
     for place, value in table.items():
         if type(place) is int and isinstance(value, Table):
             look = value.glance if unmade and isinstance(value, LazyTable) else value.get

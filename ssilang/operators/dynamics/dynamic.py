@@ -15,6 +15,7 @@ from ssilang.kernel.plasticity.bulk import without_stiffness
 from ssilang.kernel.plasticity.points import plastic_zones
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
+from ssilang.language.session import Session
 from ssilang.language.values import Mot, Table
 from ssilang.operators.dynamics.charmeca import AddedByProcedure
 from ssilang.operators.dynamics.motion_files import csv_observer, nodes_asked, vtk_observer
@@ -114,6 +115,8 @@ def _integrated(
             raise entries.bad("'REDUCTION' needs linear bodies", "MODELE has plastic ones")
         return run_bulk(problem, *bodies, observers, line, dynamic=True)
     driver = AddedByProcedure(entries) if entries.flag("CHARMECA") else None
+    if tolerance is None and not full and driver is None:
+        return integrated(entries.call.session, problem, observers, line)
     if tolerance is None:
         return integrate(problem, observers, line, full, driver)
     if driver is not None:
@@ -130,6 +133,16 @@ def _say_reduction(entries: Entries, history: History) -> None:
         entries.warn(
             f"no reduced model was used: {found.refused}", "the whole model was run, exactly"
         )
+
+
+def integrated(
+    session: Session, problem: Problem, observers: Sequence[Observer], line: ProgressLine
+) -> History:
+    """The history; in a sweep, of what other runs bring too, side by side."""
+    from ssilang.kernel.dynamics.integrate import integrate
+
+    found: History = (session.integrate or integrate)(problem, observers, line)
+    return found
 
 
 # ---- what is read ----------------------------------------------------------------------------

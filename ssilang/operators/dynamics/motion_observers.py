@@ -17,7 +17,7 @@ from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import IntArray
-from ssilang.language.values import LazyTable, ListReel, Mot, Table, promises
+from ssilang.language.values import LazyRows, LazyTable, ListReel, Mot, Table, promises
 from ssilang.operators.curves.instants import InstantField
 
 if TYPE_CHECKING:
@@ -64,6 +64,15 @@ def _stand_in(
     return InstantField(snapshot.problem.numbering, getattr(snapshot, VECTORS[word]), make)
 
 
+def _asked(table: LazyRows, place: int, index: str) -> NodeField:
+    """The field of an instant after all."""
+    entry = table.get(place)
+    assert isinstance(entry, Table)
+    made = entry.get(index)
+    assert isinstance(made, NodeField)
+    return made
+
+
 @dataclass
 class TableObserver:
     """Fills the table of results: 1, 2 ... with TEMP, DEPL, VITE and what joints give.
@@ -73,10 +82,38 @@ class TableObserver:
 
     wanted: Steps
     nodes: IntArray | None = None
-    table: Table = field(default_factory=Table)
+    table: LazyRows = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.table = LazyRows(self._entry, NODAL_WORDS, self._unmade)
 
     def receive(self, snapshot: Snapshot) -> None:
         """Add one instant."""
+        if self.nodes is not None and not snapshot.problem.small:
+            entry = self._entry(snapshot)
+            entry.items()  # lets go of the rest of a large model
+            self.table.set(len(self.table) + 1, entry)
+            return
+        self.table.append(snapshot)
+
+    def _unmade(self, index: str) -> list[tuple[float, InstantField]]:
+        """Times and stand-ins of the instants that nobody asked for yet, if all have them."""
+        if index not in VECTORS or self.nodes is not None:
+            return []
+        name, table = VECTORS[index], self.table
+        return [
+            (
+                snapshot.time,
+                InstantField(
+                    snapshot.problem.numbering,
+                    getattr(snapshot, name),
+                    partial(_asked, table, place, index),
+                ),
+            )
+            for place, snapshot in table.rows.items()
+        ]
+
+    def _entry(self, snapshot: Snapshot) -> LazyTable:
         words = ALL_WORDS
         if snapshot.problem.interface is None:
             words = BODY_WORDS if hasattr(snapshot, "body_stresses") else NODAL_WORDS
@@ -84,9 +121,7 @@ class TableObserver:
             partial(_found, snapshot, self.nodes), words, partial(_stand_in, snapshot, self.nodes)
         )
         entry.set(Mot("TEMP"), snapshot.time)
-        if self.nodes is not None and not snapshot.problem.small:
-            entry.items()  # lets go of the rest of a large model
-        self.table.set(len(self.table) + 1, entry)
+        return entry
 
     def close(self) -> None:
         """Nothing to do: the table is whole after each step."""

@@ -37,6 +37,7 @@ def report(entries: Entries, problem: Problem, history: History) -> None:
         "unknowns": problem.numbering.size,
         "interface_unknowns": problem.interface.size if problem.interface else 0,
         "steps": steps,
+        "together": history.together,
         "loop": history.loop,
         "solver": history.solver,
         "most_interface_iterations": history.iterations,

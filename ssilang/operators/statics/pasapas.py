@@ -23,6 +23,7 @@ from ssilang.kernel.statics.thermal_load import split_thermal
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
 from ssilang.language.values import Mot, Table
+from ssilang.operators.dynamics.dynamic import integrated
 from ssilang.operators.dynamics.reports import report, warn_contrast, warn_resolution, warn_supports
 from ssilang.operators.dynamics.scheme_entries import contact_options, scheme_of
 from ssilang.operators.session.progress import ProgressLine
@@ -121,7 +122,11 @@ def _stretch(
         elif bodies is not None:
             history = run_bulk(problem, *bodies(problem, inputs), observers, line, dynamic)
         elif dynamic:
-            history = integrate(problem, observers, line, work.flag("NEWTON_COMPLET"))
+            full = work.flag("NEWTON_COMPLET")
+            if full or work is not entries:  # a procedure of the script's steps in its own turn
+                history = integrate(problem, observers, line, full)
+            else:
+                history = integrated(entries.call.session, problem, observers, line)
         else:
             history = step_statics(problem, observers, line)
     finally:

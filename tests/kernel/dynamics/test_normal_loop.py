@@ -4,26 +4,23 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from references.assembled import Bench
 from references.recorder import Recorder
+from references.rocking_beam import COUNT, rocking
 from scipy.optimize import nnls
 
 from ssilang.kernel.dynamics import normal_loop
 from ssilang.kernel.dynamics.engines import DenseEngine
 from ssilang.kernel.dynamics.integrate import Integration, integrate
-from ssilang.kernel.dynamics.normal_loop import Contact, _anew, _list_closed, _settle
-from ssilang.kernel.dynamics.problem import Inputs, make_problem
+from ssilang.kernel.dynamics.normal_loop import Contact, anew, list_closed, settle
 from ssilang.kernel.dynamics.scheme import Scheme, hht
 from ssilang.kernel.joints.columns import XI
-
-COUNT = 14
 
 
 def contact_of(Q, k, closed):
     n = len(k)
     contact = Contact(Q, k, np.zeros((n, n)), closed, np.zeros(n, np.int64), np.zeros(2, np.int64))
-    _anew(contact)
-    _list_closed(contact)
+    anew(contact)
+    list_closed(contact)
     return contact
 
 
@@ -44,7 +41,7 @@ def test_forces_are_the_smallest_in_the_compliance(seed, at_once, monkeypatch):
     answer, L = np.zeros(COUNT), np.linalg.cholesky(Q)
     for _ in range(5):
         g = rng.normal(size=COUNT)
-        _settle.py_func(contact, g, answer)
+        settle.py_func(contact, g, answer)
         truth = -nnls(L.T, -np.linalg.solve(L, g))[0]
         assert truth.any()
         assert not truth.all()
@@ -60,42 +57,13 @@ def test_many_exchanges_do_not_gather_rounding():
     contact = contact_of(Q, k, np.zeros(COUNT, bool))
     answer = np.zeros(COUNT)
     for _ in range(3000):
-        _settle(contact, rng.normal(size=COUNT), answer)
+        settle(contact, rng.normal(size=COUNT), answer)
     g = rng.normal(size=COUNT)
-    _settle(contact, g, answer)
+    settle(contact, g, answer)
     f = forces_of(contact, answer)
     jumps = g - Q @ f
     np.testing.assert_allclose(f, np.minimum(k * (jumps + f / k), 0.0), atol=1e-9)
     np.testing.assert_allclose(jumps[contact.closed], 0.0, atol=1e-10)
-
-
-def rocking(scheme: Scheme, steps: int = 1500):
-    """A heavy beam on springs that only push, a mass above, shaken until its ends lift."""
-    bench, feet = Bench(), []
-    for x in np.linspace(-2.0, 2.0, COUNT):
-        ground, foot = bench.node(x, -1.0), bench.node(x, 0.0)
-        bench.fix(ground)
-        bench.fix(foot, "UX")
-        bench.mass(500.0, foot)
-        bench.joint("SEG2", [ground, foot], "JOI1", KN=2e6, KS=0.0)
-        bench.spring(1e4, foot, unknown="UY")
-        if feet:
-            bench.spring(5e7, feet[-1], foot, unknown="UY")
-        feet.append(foot)
-    weight = bench.field(*((n, "FY", -4905.0) for n in feet))
-    arm = bench.field(
-        *((n, "FY", 9e3 * x) for n, x in zip(feet, np.linspace(-1, 1, COUNT), strict=True))
-    )
-    times = 1e-3 * np.arange(steps + 1)
-    shake = bench.load(arm, times, np.sin(11.0 * times) * np.minimum(times / 0.3, 1.0))
-    load = bench.load(weight, times, np.ones(len(times)))
-    return make_problem(
-        Inputs(
-            bench.stiffness, times, bench.mass_matrix, bench.damping,
-            replace(load, parts=(*load.parts, *shake.parts)), model=bench.model,
-            characteristics=bench.characteristics, scheme=scheme,
-        )
-    )  # fmt: skip
 
 
 @pytest.mark.parametrize("scheme", [Scheme(), hht(0.1)])

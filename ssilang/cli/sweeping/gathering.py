@@ -1,0 +1,123 @@
+"""Runs of a sweep that go side by side in one process and meet at their time integrations.
+
+Each run has a thread, of which one alone is awake at any time: what a run does is what it does
+alone. A run that reaches a time integration waits there until all others wait too or are done;
+the problems that came together are then integrated at once, those of one model side by side.
+"""
+
+from __future__ import annotations
+
+import threading
+import warnings
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from ssilang.cli.sweeping.worker import Row, Task, Work, lost_row, run_task
+
+if TYPE_CHECKING:
+    from ssilang.kernel.dynamics.integrate import History, Progress
+    from ssilang.kernel.dynamics.problem import Problem
+    from ssilang.kernel.dynamics.snapshot import Observer
+
+STACK = 64 << 20  # bytes of a thread's stack: scripts may nest procedures as deep as in a process
+
+
+@dataclass(eq=False)
+class Request:
+    """A time integration that a run waits for."""
+
+    problem: Problem
+    observers: Sequence[Observer]
+    progress: Progress | None
+    found: History | Exception | None = None
+
+
+class Gathering:
+    """Where the runs of a process meet.
+
+    Parameters
+    ----------
+    runs : int
+        How many there are.
+    """
+
+    def __init__(self, runs: int) -> None:
+        self._awake, self._waiting = runs, list[Request]()
+        self._turn = threading.Condition()
+
+    def run(self, work: Callable[[], Row]) -> Row:
+        """Do a run's work, in a thread of its own, when it is its turn."""
+        with self._turn:
+            try:
+                return work()
+            finally:
+                self._awake -= 1
+                self._settle()
+
+    def integrate(
+        self, problem: Problem, observers: Sequence[Observer], progress: Progress | None
+    ) -> History:
+        """As the kernel's `integrate`, with what the other runs integrate."""
+        request = Request(problem, observers, progress)
+        self._waiting.append(request)
+        self._awake -= 1
+        self._settle()
+        self._turn.wait_for(lambda: request.found is not None)
+        if isinstance(request.found, Exception):
+            raise request.found
+        assert request.found is not None
+        return request.found
+
+    def _settle(self) -> None:
+        """Integrate what waits if no run is awake that could add to it."""
+        if self._awake or not self._waiting:
+            return
+        from ssilang.kernel.dynamics.together import integrate_together
+
+        requests, self._waiting = self._waiting, []
+        parts = [(r.problem, r.observers, r.progress) for r in requests]
+        found: Sequence[History | Exception]
+        try:
+            found = integrate_together(*(list(p) for p in zip(*parts, strict=True)))
+        except Exception as problem:
+            found = [problem] * len(requests)
+        for request, result in zip(requests, found, strict=True):
+            request.found = result
+        self._awake += len(requests)
+        self._turn.notify_all()
+
+
+def run_together(tasks: Sequence[Task], work: Work = run_task) -> list[Row]:
+    """Rows of tasks that go side by side; what one of them raises is its own row's error."""
+    if len(tasks) == 1:
+        return [_row(work, tasks[0])]
+    meeting = Gathering(len(tasks))
+    rows: list[Row | None] = [None] * len(tasks)
+
+    def run(place: int) -> None:
+        task = replace(tasks[place], meeting=meeting)
+        rows[place] = meeting.run(lambda: _row(work, task))
+
+    before = threading.stack_size(STACK)
+    with warnings.catch_warnings():  # runs set filters and put them back in any order
+        threads = [threading.Thread(target=run, args=(i,)) for i in range(len(tasks))]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+    threading.stack_size(before)
+    return [row or lost_row(task, "no end") for row, task in zip(rows, tasks, strict=True)]
+
+
+def _row(work: Work, task: Task) -> Row:
+    try:
+        return work(task)
+    except Exception as problem:
+        return lost_row(task, str(problem))
+
+
+def gathered(tasks: Sequence[Task], jobs: int, most: int) -> list[tuple[Task, ...]]:
+    """Tasks in batches of at most `most` that keep all jobs busy, neighbours together."""
+    size = max(min(most, -(-len(tasks) // max(jobs, 1))), 1)
+    return [tuple(tasks[i : i + size]) for i in range(0, len(tasks), size)]
