@@ -109,8 +109,8 @@ def test_mean_of_the_largest_values_of_simulated_signals(period):
     found = modulated_response_spectrum(
         signal, np.array([period]), 0.05, "DEPL", Resolution(40, 5, 5.0)
     )
-    # Vanmarcke's crossings are 3 % low here for the stationary signal, more for the passing one
-    assert found[0] == pytest.approx(largest.mean(), rel=0.12)
+    # for the stationary signal the same law is 3 % low here
+    assert found[0] == pytest.approx(largest.mean(), rel=0.1)
 
 
 def test_what_has_no_meaning_is_refused():

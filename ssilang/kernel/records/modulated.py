@@ -22,6 +22,7 @@ from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.records.power import EULER
 
 _GAUSS = np.polynomial.legendre.leggauss(4)
+_FRACTILES = (0.05, 0.95)
 ComplexArray = NDArray[np.complex128]
 
 
@@ -173,7 +174,10 @@ def _free_motion(w0: float, damping: float, step: float) -> FloatArray:
 
 
 def _below(level: float, times: FloatArray, moments: FloatArray) -> float:
-    """Probability that the absolute answer never passes a level."""
+    """Probability that the absolute answer never passes a level.
+
+    The envelope is below it at the worst instant, and the level is not crossed at others.
+    """
     m0, m1, m2 = moments.T
     alive = (m0 > 0.0) & (m2 > 0.0)
     m0, m1, m2 = (np.where(alive, m, 1.0) for m in (m0, m1, m2))
@@ -182,7 +186,8 @@ def _below(level: float, times: FloatArray, moments: FloatArray) -> float:
     clump = -np.expm1(-np.sqrt(np.pi / 2.0) * spread**1.2 * reduced)
     seldom = np.expm1(np.minimum(0.5 * reduced**2, 700.0))
     rate = np.where(alive, np.sqrt(m2 / m0) / np.pi * clump / np.maximum(seldom, 1e-300), 0.0)
-    return float(np.exp(-np.trapezoid(rate, times)))
+    start = -np.expm1(-0.5 * float(reduced[alive].min()) ** 2) if alive.any() else 1.0
+    return float(start * np.exp(-np.trapezoid(rate, times)))
 
 
 def _level(probability: float, law: Callable[[float], float], start: float, tol: float) -> float:
@@ -193,6 +198,27 @@ def _level(probability: float, law: Callable[[float], float], start: float, tol:
         middle = 0.5 * (low + high)
         low, high = (middle, high) if law(middle) < probability else (low, middle)
     return 0.5 * (low + high)
+
+
+def largest_value(times: FloatArray, moments: FloatArray, precision: float = 1e-3) -> float:
+    """Mean of the largest absolute value of a random motion of which moments are known.
+
+    Parameters
+    ----------
+    times : array (n,); moments : array (n, 3)
+        As `evolution` gives them.
+    precision : float
+        Relative, of the fractiles of 5 % and 95 % that Gumbel's law goes through.
+    """
+    size = float(np.sqrt(moments[:, 0].max()))
+    if size == 0.0:
+        return 0.0
+    low, high = (
+        _level(p, lambda x: _below(x, times, moments), size, precision) for p in _FRACTILES
+    )
+    rank_low, rank_high = (-np.log(-np.log(p)) for p in _FRACTILES)
+    scale = (high - low) / (rank_high - rank_low)
+    return float(low - scale * rank_low + EULER * scale)
 
 
 def modulated_response_spectrum(
@@ -216,16 +242,5 @@ def modulated_response_spectrum(
     found = []
     for period in periods:
         times, moments = evolution(signal, 1.0 / float(period), damping, kind, resolution)
-        size = float(np.sqrt(moments[:, 0].max()))
-        if size == 0.0:
-            found.append(0.0)
-            continue
-
-        def law(x: float, t: FloatArray = times, m: FloatArray = moments) -> float:
-            return _below(x, t, m)
-
-        low, high = (_level(p, law, size, resolution.precision) for p in (0.05, 0.95))
-        rank_low, rank_high = (-np.log(-np.log(p)) for p in (0.05, 0.95))
-        scale = (high - low) / (rank_high - rank_low)
-        found.append(low - scale * rank_low + EULER * scale)
+        found.append(largest_value(times, moments, resolution.precision))
     return np.array(found)
