@@ -163,3 +163,20 @@ def test_steps_are_those_of_pasapas():
     )
     assert found(script, "X") == pytest.approx(0.2, rel=1e-9)
     assert "has no MODELE" in refused("T = TABL ; @SOLVMEC T ;")
+
+
+def test_solvmec_follows_large_displacements():
+    """A bar pulled to 1.5 times its length, NU 0: S = E (1.5^2 - 1) / 2 and F = 1.5 S A."""
+    text = (
+        "OPTI DIME 2 ELEM QUA4 MODE PLAN CONT ; S = ((0. 0.) DROI 1 (1. 0.)) TRAN 1 (0. 1.) ; "
+        "MO = MODE S 'MECANIQUE' 'ELASTIQUE' ; D = BLOQ 'UX' (COTE 2 S) ; T = TABL ; "
+        "T . 'MODELE' = MO ; T . 'CARACTERISTIQUES' = MATE MO 'YOUN' 10. 'NU' 0. ; "
+        "T . 'BLOCAGES_MECANIQUES' = (BLOQ 'UX' (COTE 4 S)) ET (BLOQ 'UY' (COTE 1 S)) ET D ; "
+        "T . 'CHARGEMENT' = CHAR 'DIMP' (DEPI D 0.5) (EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.)) ; "
+        "T . 'TEMPS_CALCULES' = PROG 0. PAS 0.02 1. ; T . 'GRANDS_DEPLACEMENTS' = {} ; "
+        "@SOLVMEC T ; X = RESU (REDU (EXCO (T . 'REACTIONS' . 50) 'FX' 'FX') (COTE 2 S)) ; "
+        "F = MAXI X ;"
+    )
+    large, small = (found(text.format(word), "F") for word in ("VRAI", "FAUX"))
+    assert small == pytest.approx(5.0)
+    assert large == pytest.approx(1.5 * 10.0 * (1.5**2 - 1.0) / 2.0, rel=1e-6)
