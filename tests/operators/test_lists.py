@@ -226,3 +226,9 @@ def test_lists_of_objects_join_objects_of_their_type(found, refused):
 )
 def test_lists_that_would_fill_the_memory_are_refused_at_once(refused, phrase):
     assert "too long" in refused(phrase)
+
+
+def test_steps_at_the_head_of_a_list_start_from_a_zero_left_out(found):
+    reals, integers = found("A = PROG PAS 0.5 2. 7. ; B = LECT PAS 2 NPAS 3 ;", "A", "B")
+    assert list(reals.values) == [0.5, 1.0, 1.5, 2.0, 7.0]
+    assert list(integers.values) == [2, 4, 6]

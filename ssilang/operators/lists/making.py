@@ -59,8 +59,9 @@ def _read_items(call: Call, kinds: tuple[str, ...]) -> Items:
     """Numbers with repetitions and steps, in order; lists among them are taken whole."""
     items: Items = array("d") if "FLOTTANT" in kinds else []
     while True:
-        if items and call.at_word() and call.keyword(("PAS",)) is not None:
-            _extend(items, _steps(call, items[-1], kinds))
+        if call.at_word() and call.keyword(("PAS",)) is not None:
+            # steps that begin the list start from a zero that is not in it
+            _extend(items, _steps(call, items[-1] if items else 0, kinds))
             check_length(len(items))
             continue
         operand = call.read(*kinds, "LISTREEL", "LISTENTI")
