@@ -30,6 +30,19 @@ TEMPLATES: tuple[tuple[str, str], ...] = (
         "un nom jamais affecté est un mot",
     ),
     (
+        "a turning frame couples the two parts of a harmonic, which one model does not hold",
+        "un repère tournant couple les deux parties d'une harmonique, qu'un seul modèle ne porte "
+        "pas",
+    ),
+    (
+        "the centrifugal stiffness about the axis is available",
+        "la raideur centrifuge autour de l'axe existe",
+    ),
+    (
+        "shells off their mesh (EXCE) are not available for COQ2",
+        "les coques excentrées (EXCE) n'existent pas pour les COQ2",
+    ),
+    (
         "'SHB8' is for models of elements SHB8",
         "'SHB8' vaut pour les modèles d'éléments SHB8",
     ),

@@ -1,4 +1,4 @@
-"""KENT and GYRO against energies, whirling shafts and turning rods."""
+"""KENT, CORI and GYRO against energies, whirling shafts and turning rods."""
 
 import numpy as np
 import pytest
@@ -105,15 +105,12 @@ def test_block_in_a_turning_frame(found):
     np.testing.assert_allclose(K, expected, atol=1e-12)
 
 
-def test_shells_are_refused(refused):
+def test_a_turning_frame_that_couples_the_parts_of_a_harmonic_is_refused(refused):
     script = (
-        "OPTI DIME 3 MODE TRID ELEM QUA4 ; L = DROI 1 (1 0 0) (2 0 0) ; S = TRAN 1 L (0. 1. 0.) ; "
-        "M = MODE S MECANIQUE ELASTIQUE DKT ; A = MATE M 'YOUN' 1. 'NU' 0.3 'RHO' 3. 'EPAI' 0.1 ; "
+        "OPTI DIME 2 MODE FOUR 1 ELEM QUA4 ; L = DROI 1 (1. 0.) (1.5 0.) ; S = L TRAN 1 (0. 1.) ; "
+        "M = MODE S MECANIQUE ELASTIQUE ; A = MATE M 'YOUN' 1. 'NU' 0.3 'RHO' 5. ; "
     )
-    assert "no matrices of turning frames" in refused(
-        script.replace("QUA4", "TRI3") + "K = KENT 'CENTRIFUGE' M A (0. 0. 2.) ;"
-    )
-    assert "beams in space" in refused(script.replace("QUA4", "TRI3") + "K = GYRO M A ;")
+    assert "two parts of a harmonic" in refused(script + "C = CORI M A (0. 3.) ;")
 
 
 def test_damping_that_turns_resists_nothing_when_the_body_turns_with_it(found):
@@ -146,3 +143,61 @@ def test_torsion_mode_of_a_shaft_has_a_largest_rotation_of_one(found):
     assert f == pytest.approx(speed / 8, rel=0.01)  # a quarter of a wave over 2 m
     assert x == pytest.approx(1.0)
     assert g == pytest.approx(7800 * 4e-5 * 2 / 2, rel=0.02)
+
+
+PLATE = (
+    "OPTI DIME 3 MODE TRID ELEM {cell} ; L = DROI 2 (0. 0. 0.) (1. 0. 0.) ; "
+    "S = L TRAN 2 (0. 0.6 0.8) ; M = MODE S MECANIQUE ELASTIQUE {element} ; "
+    "A = MATE M 'YOUN' 2.E11 'NU' 0.3 'RHO' 7800. 'EPAI' 0.02 ; "
+)
+
+
+def rigid(matrix, direction):
+    """Translation by a vector, as a vector of the unknowns."""
+    numbering = numbering_of(matrix)
+    v = np.zeros(numbering.size)
+    for name, value in zip(("UX", "UY", "UZ"), direction, strict=True):
+        v[numbering.where(name)] = value
+    return v
+
+
+@pytest.mark.parametrize(
+    ("cell", "element"), [("TRI3", "DKT"), ("QUA4", "COQ4"), ("QUA8", "COQ8"), ("SEG2", "POUT")]
+)
+def test_coriolis_forces_of_a_rigid_velocity(found, cell, element):
+    if element == "POUT":
+        script, mass = shaft("POUT").replace("'OMEG' 50.", ""), 7800 * 0.01 * 2
+    else:
+        script, mass = PLATE.format(cell=cell, element=element), 7800 * 0.02
+    c, k = found(
+        script + "C = CORI M A (1. 2. 3.) ; K = KENT 'CENTRIFUGE' M A (1. 2. 3.) ;", "C", "K"
+    )
+    assert c.kind == "AMORTISSEMENT"
+    C = dense(c)
+    np.testing.assert_allclose(C, -C.T, atol=1e-9)
+    w, v, u = np.array([1.0, 2.0, 3.0]), np.array([0.4, -0.3, 0.2]), np.array([0.1, 0.5, -0.7])
+    assert rigid(c, u) @ C @ rigid(c, v) == pytest.approx(2 * mass * u @ np.cross(w, v), rel=1e-9)
+    pushed = mass * u @ np.cross(w, np.cross(w, v))
+    assert rigid(k, u) @ dense(k) @ rigid(k, v) == pytest.approx(pushed, rel=1e-9)
+
+
+def test_turning_ring_has_a_centrifugal_stiffness_about_its_axis(found):
+    script = (
+        "OPTI DIME 2 MODE AXIS ELEM QUA4 ; L = DROI 1 (1. 0.) (1.5 0.) ; S = L TRAN 1 (0. 1.) ; "
+        "M = MODE S MECANIQUE ELASTIQUE ; A = MATE M 'YOUN' 1. 'NU' 0.3 'RHO' 5. ; "
+        "K = KENT 'CENTRIFUGE' M A (0. 3.) ; J = KENT 'CENTRIFUGE' M A ;"
+    )
+    k, j = found(script, "K", "J")
+    numbering = numbering_of(k)
+    v = np.zeros(numbering.size)
+    v[numbering.where("UR")] = 1.0
+    mass = 5.0 * np.pi * (1.5**2 - 1.0)
+    assert v @ dense(k) @ v == pytest.approx(-9 * mass, rel=1e-9)
+    np.testing.assert_allclose(dense(k), 9 * dense(j))
+    v[:], v[numbering.where("UZ")] = 0.0, 1.0
+    assert v @ dense(k) @ v == 0.0
+
+
+def test_gyroscopic_coupling_is_refused_for_shells(refused):
+    script = PLATE.format(cell="TRI3", element="DKT")
+    assert "beams in space" in refused(script + "K = GYRO M A ;")

@@ -2,7 +2,8 @@
 
 In a frame that turns at w, `M a + C v + (K + K_w) u = f`: K_w = integral rho N^T W^2 N with W the
 matrix of the cross product by w (centrifugal forces that follow the displacement); a changing w
-adds the integral rho N^T dW/dt N (Euler).
+adds the integral rho N^T dW/dt N (Euler); C is the integral 2 rho N^T W N (Coriolis). Shells count
+by the translations of their middle surface.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ import numpy as np
 
 from ssilang.kernel.elements.beam import keep, to_global
 from ssilang.kernel.elements.beam_frame import beam_frame
-from ssilang.kernel.elements.catalog import ELEMENTS
+from ssilang.kernel.elements.catalog import BODY_FAMILIES, ELEMENTS
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.family import element_matrices
 from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
@@ -24,6 +25,11 @@ from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.model import Mode, Zone
 
 TRANSLATIONS = ("UX", "UY", "UZ")
+_OF_REVOLUTION = ("UR", "UT", "UZ")
+_SCALAR_MASS = (
+    *BODY_FAMILIES, "bar", "timoshenko", "plate", "mindlin", "thick",
+)  # fmt: skip
+"""Families whose mass couples each translation with itself only, all in the same way."""
 _LINE_FAMILIES = ("beam", "pipe", "timoshenko")
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(4)
 
@@ -34,34 +40,45 @@ def cross_matrix(w: FloatArray) -> FloatArray:
     return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
 
 
-def inertia_coupling(zone: Zone, material: CellField, coupling: FloatArray) -> ElementMatrices:
+def inertia_coupling(
+    zone: Zone, material: CellField, coupling: FloatArray, kind: str = "RIGIDITE"
+) -> ElementMatrices:
     """Integral of rho N^T A N for a matrix A (3, 3) between the translations.
 
     Parameters
     ----------
     coupling : array (3, 3)
-        W^2 for the centrifugal stiffness, dW/dt for Euler's.
+        W^2 for the centrifugal stiffness, dW/dt for Euler's, 2 W for Coriolis' damping; in bodies
+        of revolution along the radius, the circumference and the axis, and diagonal.
+    kind : str
+        Subtype of the matrix.
 
     Raises
     ------
     FieldError
-        For elements whose inertia is not made of translations, and hypotheses of revolution.
+        For elements whose inertia is not made of translations, and for what couples a harmonic
+        with its antisymmetric part in bodies of revolution.
     """
-    if zone.mode in (Mode.AXISYMMETRIC, Mode.FOURIER):
-        raise FieldError("matrices of turning frames are not built for bodies of revolution")
+    turning = zone.mode in (Mode.AXISYMMETRIC, Mode.FOURIER)
+    names = _OF_REVOLUTION if turning else TRANSLATIONS
+    if turning and np.any(coupling != np.diag(np.diag(coupling))):
+        raise FieldError(
+            "a turning frame couples the two parts of a harmonic, which one model does not hold",
+            "the centrifugal stiffness about the axis is available",
+        )
     parameters = zone_field(zone, material)
     name = ELEMENTS[zone.element].family
     if name in ("beam", "pipe"):
         values, layout = _cubic(zone, parameters, coupling), family_of(zone).layout(zone)
-    elif name in ("solid", "incompressible", "one point", "bar", "timoshenko"):
+    elif name in _SCALAR_MASS:
         mass, layout = family_of(zone).mass_values(zone, parameters)
         values = np.zeros_like(mass)
-        own = [i for i, u in enumerate(layout.unknowns) if u in TRANSLATIONS]
+        own = [i for i, u in enumerate(layout.unknowns) if u in names]
         nodes = layout.local
         for i in own:
-            a = TRANSLATIONS.index(layout.unknowns[i])
+            a = names.index(layout.unknowns[i])
             for j in own:
-                b = TRANSLATIONS.index(layout.unknowns[j])
+                b = names.index(layout.unknowns[j])
                 # the scalar mass between two nodes, read off one and the same unknown
                 same = [r for r in own if layout.unknowns[r] == layout.unknowns[i]]
                 column = next(r for r in same if nodes[r] == nodes[j])
@@ -69,7 +86,7 @@ def inertia_coupling(zone: Zone, material: CellField, coupling: FloatArray) -> E
     else:
         raise FieldError(f"element {zone.element} has no matrices of turning frames")
     symmetric = bool(np.array_equal(coupling, coupling.T))
-    block = element_matrices(zone, layout, values, "RIGIDITE", keep_zone=False)
+    block = element_matrices(zone, layout, values, kind, keep_zone=False)
     return replace(block, symmetric=symmetric)
 
 

@@ -1,4 +1,4 @@
-"""KENT GYRO: matrices of turning bodies."""
+"""KENT CORI GYRO: matrices of turning bodies."""
 
 from __future__ import annotations
 
@@ -7,6 +7,9 @@ import numpy as np
 from ssilang.kernel.elements.rotating import cross_matrix, gyroscopic, inertia_coupling
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.matrices.matrix import Matrix
+from ssilang.kernel.mesh.mesh import Point
+from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.model import Mode, Model
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
 from ssilang.operators.matrices.element import joined, present
@@ -28,12 +31,16 @@ def _fields(call: Call) -> CellField:
         en="Stiffness of a body in a turning frame, to be added to that of its elements: "
         "'CENTRIFUGE' for the rotation vector w (rho w x (w x u), negative across the axis), "
         "'EULER' for the rate of the vector (rho dw/dt x u, antisymmetric). Continuous elements, "
-        "bars, beams and pipes (whose mass stands on their line).",
+        "bars, beams and pipes (whose mass stands on their line), shells (on their surface). In "
+        "axisymmetry and Fourier: 'CENTRIFUGE' about the axis, by the vector's second component "
+        "(1 without a vector).",
         fr="Raideur d'un corps dans un repère tournant, à ajouter à celle de ses éléments : "
         "'CENTRIFUGE' pour le vecteur rotation w (rho w x (w x u), négative en travers de l'axe), "
         "'EULER' pour la dérivée du vecteur (rho dw/dt x u, antisymétrique). Massifs, barres, "
-        "poutres et tuyaux (dont la masse est sur la ligne).",
-        syntax="RIG1 = KENT 'CENTRIFUGE' | 'EULER' MODL1 MAT1 VEC1 ;",
+        "poutres et tuyaux (dont la masse est sur la ligne), coques (sur la surface). En "
+        "axisymétrie et Fourier : 'CENTRIFUGE' autour de l'axe, par la seconde composante du "
+        "vecteur (1 sans vecteur).",
+        syntax="RIG1 = KENT 'CENTRIFUGE' | 'EULER' MODL1 MAT1 (VEC1) ;",
         examples=(_SHAFT.format("") + "LIST (EXTR (KENT 'CENTRIFUGE' M A (0 0 3)) 'DIAG') ;",),
     ),
     reads_itself=True,
@@ -45,15 +52,50 @@ def kent(call: Call) -> Matrix:
         raise call.bad("which stiffness?", hint="'CENTRIFUGE' or 'EULER'")
     model = present(call, call.required("MMODEL"))
     material = _fields(call)
-    vector = np.zeros(3)
-    given = call.required("POINT").coordinates
-    if len(given) == 2:
-        raise call.bad("a rotation vector has three components", hint="OPTI DIME 3 ;")
-    vector[:] = given
-    W = cross_matrix(vector)
+    W = cross_matrix(_rotation(call, model))
     coupling = W @ W if word == "CENT" else W
     blocks = tuple(inertia_coupling(z, material, coupling) for z in model.zones)
     return Matrix(model.mesh.nodes, blocks, (), "RIGIDITE")
+
+
+def _rotation(call: Call, model: Model) -> FloatArray:
+    """Rotation vector (3,); in bodies of revolution along the radius, circumference and axis."""
+    turning = any(z.mode in (Mode.AXISYMMETRIC, Mode.FOURIER) for z in model.zones)
+    given: Point | None = call.optional("POINT") if turning else call.required("POINT")
+    if turning:
+        return np.array([0.0, 0.0, 1.0 if given is None else float(given.coordinates[1])])
+    if given is None or len(given.coordinates) == 2:
+        raise call.bad("a rotation vector has three components", hint="OPTI DIME 3 ;")
+    found: FloatArray = np.array(given.coordinates, dtype=float)
+    return found
+
+
+@operator(
+    "CORI",
+    family="matrix",
+    full_name="CORIOLIS",
+    help=Help(
+        en="Coriolis' forces in a frame that turns at the vector w, as an antisymmetric damping: "
+        "2 rho w x v. Beside it stands the centrifugal stiffness of KENT. Continuous elements, "
+        "bars, beams and pipes (whose mass stands on their line), shells (on their surface).",
+        fr="Forces de Coriolis dans un repère qui tourne au vecteur w, comme un amortissement "
+        "antisymétrique : 2 rho w x v. La raideur centrifuge de KENT l'accompagne. Massifs, "
+        "barres, poutres et tuyaux (dont la masse est sur la ligne), coques (sur la surface).",
+        syntax="RIG1 = CORI MODL1 MAT1 VEC1 ;",
+        examples=(_SHAFT.format("") + "LIST (TYPE (CORI M A (0 0 3))) ;",),
+    ),
+    reads_itself=True,
+)
+def cori(call: Call) -> Matrix:
+    """Coriolis' damping."""
+    model = present(call, call.required("MMODEL"))
+    material = _fields(call)
+    if call.keyword(("HARM",)):
+        raise call.bad("'HARM' is not available", hint="the impedance of a Fourier harmonic")
+    coupling = 2.0 * cross_matrix(_rotation(call, model))
+    kind = "AMORTISSEMENT"
+    blocks = tuple(inertia_coupling(z, material, coupling, kind) for z in model.zones)
+    return Matrix(model.mesh.nodes, blocks, (), kind)
 
 
 @operator(
