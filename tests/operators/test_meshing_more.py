@@ -255,3 +255,17 @@ def test_crossing_lines_and_empty_contours_are_refused() -> None:
     assert "cross" in message(FRAME + "H = D 1 (1. 1.) (3. 3.) ; G = D 1 (1. 3.) (3. 1.) ;"
                               "T = TRIA (C ET H ET G) ;")  # fmt: skip
     assert "enclose nothing" in message(FRAME + "T = TRIA ((D 2 O A) ET (D 3 (1. 1.) (3. 2.5))) ;")
+
+
+def test_junctions_are_a_mesh_even_if_there_is_one() -> None:
+    cross = FRAME + "J = (C ET (D 3 M (2. 2.5))) POIN 'JONC' ; "
+    assert value(cross + "X = NBEL J ;") == 1
+    assert value(cross + "X = COOR 1 (J POIN 1) ;") == pytest.approx(2.0)
+
+
+def test_nothing_found_in_a_field_is_an_empty_mesh_and_a_doubt() -> None:
+    field = FRAME + "U = COOR 1 C ; "
+    for none in ("U POIN 'SUPE' 9.", "U POIN 'MAXI' 'SANS' (MOTS 'SCAL')"):
+        assert value(field + f"V = {none} ; X = NBEL V ;") == 0
+        assert value(field + f"V = {none} ; X = SOUC ;") is True
+    assert value(field + "V = U POIN 'SUPE' 3. ; X = SOUC ;") is False

@@ -54,12 +54,14 @@ def tolerance_of(ws: Workspace, given: float | None, positions: FloatArray) -> f
         "cell, 'INIT' and 'FINA' of a line, 'JONC' (junctions), 'PROC' (nearest to a point), all "
         "on a line, plane, cylinder, cone, sphere or torus within a distance (a tenth of the "
         "density by default). From a field: where values are largest, smallest or compare with "
-        "given ones. From numbers or lists of coordinates: makes a point or a mesh of points.",
+        "given ones (none: an empty mesh, and SOUC is raised). "
+        "From numbers or lists of coordinates: makes a point or a mesh of points.",
         fr="Désigne des points. D'un maillage : par numéro (de point, ou d'élément SEG2), par "
         "numéro dans un élément, 'INIT' et 'FINA' d'une ligne, 'JONC' (jonctions), 'PROC' (le plus "
         "proche d'un point), tous ceux d'une droite, d'un plan, cylindre, cône, sphère ou tore à "
         "une distance près (le dixième de la densité par défaut). D'un champ : là où les valeurs "
-        "sont extrêmes ou vérifient une comparaison. De nombres ou listes : crée point ou points.",
+        "sont extrêmes ou vérifient une comparaison (aucune : un maillage vide, et SOUC est levé). "
+        "De nombres ou listes : crée point ou points.",
         syntax="POIN1 = GEO1 POIN N1 | I1 I2 | 'INIT' | 'FINA' | 'JONC' | 'PROC' P1 | "
         "'DROIT' P1 P2 (D1) | 'PLAN' P1 P2 P3 (D1) | 'CYLI' | 'CONE' | 'SPHE' | 'TORE' ... ;\n"
         "GEO1 = CHPO1 POIN 'MAXI'|'MINI'|'SUPE' X1|'COMP' X1 X2 ('ABS') ('AVEC'|'SANS' LMOTS1) ;\n"
@@ -77,9 +79,9 @@ def poin(call: Call) -> Any:
     """Pick or make points."""
     support = call.optional("MAILLAGE", "CHPOINT", "MCHAML")
     if isinstance(support, NodeField):
-        return _of_field(call, support)
+        return _doubted_if_empty(call, _of_field(call, support))
     if isinstance(support, CellField):
-        return _of_cell_field(call, support)
+        return _doubted_if_empty(call, _of_cell_field(call, support))
     ws = workspace(call.session)
     if support is None and call.peek_word() in (None, "DENS"):
         made = _from_coordinates(call, ws)
@@ -132,7 +134,7 @@ def _of_mesh(call: Call, ws: Workspace, mesh: Mesh | None) -> Any:
         ids = junctions(mesh)
         if len(ids) == 0:
             raise MeshError("no point of the mesh joins more than two elements")
-        return Point(ws.nodes, int(ids[0])) if len(ids) == 1 else poi1(ws.nodes, ids)
+        return poi1(ws.nodes, ids)
     if word is not None:
         return Point(ws.nodes, line_ends(mesh)[0 if word == "INITIAL" else 1])
     numbers = numbers or call.all("ENTIER")
@@ -195,6 +197,14 @@ def _read_search(call: Call, components: Sequence[str]) -> _Search:
     return _Search(word, limits, absolute, wanted)
 
 
+def _doubted_if_empty(call: Call, found: Mesh) -> Mesh:
+    """The points found; none raise the flag that SOUC reads."""
+    if not found.n_cells:
+        options = call.session.options
+        options["SOUC"] = max(int(options.get("SOUC", 0)), 1)
+    return found
+
+
 def _of_field(call: Call, field: NodeField) -> Mesh:
     """Nodes where values are extreme or compare."""
     search = _read_search(call, list(field.components))
@@ -243,6 +253,8 @@ def _support_points(block: CellFieldBlock) -> tuple[FloatArray, IntArray]:
 
 def picked(values: FloatArray, word: str, limits: Sequence[float]) -> NDArray[np.bool_]:
     """Which values (n,) are extreme, or compare with the limits as the word says."""
+    if not len(values):
+        return np.zeros(0, dtype=bool)
     if word in ("MAXI", "MINI"):
         extreme = values.max() if word == "MAXI" else values.min()
         hair = 1e-12 * float(np.abs(values).max())
