@@ -165,12 +165,12 @@ TEMPLATES: tuple[tuple[str, str], ...] = (
         "les relations laissent {} mouvements, leurs duales {}",
     ),
     (
-        "unilateral relations (MINI, MAXI) with a dual are solved by RESO only",
-        "les relations unilatérales (MINI, MAXI) avec une duale ne sont résolues que par RESO",
+        "the conserving step has no friction between meshes and no relations with a dual",
+        "le pas conservatif n'a ni frottement entre maillages ni relations avec une duale",
     ),
     (
-        "unilateral relations do not go with full Newton",
-        "les relations unilatérales ne vont pas avec NEWTON_COMPLET",
+        "adapted steps are those of the condensed interface",
+        "les pas adaptés sont ceux de l'interface condensée",
     ),
     (
         "a matrix added during the calculation has {} at node {}, which RIGI and MASS lack",
@@ -227,10 +227,6 @@ TEMPLATES: tuple[tuple[str, str], ...] = (
         "(décharge) et CPLG (couplage) n'est publié nulle part",
     ),
     # ---- plastic bodies, shapes, contact
-    (
-        "unilateral relations (MINI, MAXI) do not go with plastic bodies",
-        "les relations unilatérales (MINI, MAXI) ne vont pas avec des corps plastiques",
-    ),
     (
         "plastic bodies are stepped by Newmark, HHT or generalised alpha",
         "les corps plastiques avancent par Newmark, HHT ou alpha généralisé",
@@ -319,13 +315,28 @@ TEMPLATES: tuple[tuple[str, str], ...] = (
         "a side of contact is made of {}, not {}",
         "un bord de contact se fait de {}, pas de {}",
     ),
+    ("the law of friction is not said", "la loi de frottement n'est pas dite"),
     (
-        "contact with friction between two meshes is not available",
-        "le contact avec frottement entre deux maillages n'existe pas",
+        "contact with friction is no matrix: its forces depend on the way there",
+        "le contact frottant n'est pas une matrice : ses forces dépendent du chemin",
+    ),
+    ("MU and COHE of friction must not be negative", "MU et COHE ne peuvent être négatifs"),
+    ("{} varies along a side of contact", "{} varie le long d'un bord de contact"),
+    ("a cable is a line of SEG2, not of {}", "un câble est une ligne de SEG2, pas de {}"),
+    (
+        "a cable with friction (FROCABLE) has no bars on its cells",
+        "un câble frottant (FROCABLE) n'a pas de barres sur ses mailles",
+    ),
+    ("cables with friction are elastic", "les câbles frottants sont élastiques"),
+    ("the cable branches at node {}", "le câble a un branchement au noeud {}"),
+    ("no node of the cable lies in the body", "aucun noeud du câble n'est dans le volume"),
+    (
+        "prestressing cables are bars (BARR on SEG2), not {}",
+        "les câbles de précontrainte sont des barres (BARR sur SEG2), pas {}",
     ),
     (
-        "JEU varies along a side of contact",
-        "JEU varie le long d'un bord de contact",
+        "no state of contact and friction gives equilibrium",
+        "aucun état de contact et de frottement ne donne l'équilibre",
     ),
     (
         "SOMT sums a field of a single component",
@@ -659,6 +670,20 @@ TEMPLATES: tuple[tuple[str, str], ...] = (
     (
         "the elastic limit of an oscillator must be positive",
         "la limite élastique d'un oscillateur doit être positive",
+    ),
+    (
+        "the factor of {} unknowns takes {} of memory, {} is free",
+        "la factorisation de {} inconnues prend {} de mémoire, il en reste {}",
+    ),
+    (
+        "multigrid solves symmetric positive matrices only",
+        "le multigrille ne résout que des matrices symétriques positives",
+    ),
+    (
+        "multigrid did not converge within {} turns: a body is free to move, or stiffnesses "
+        "differ too much",
+        "le multigrille n'a pas convergé en {} tours : un corps est libre, ou les raideurs sont "
+        "trop différentes",
     ),
     ("a ductility is at least 1 ({})", "une ductilité vaut au moins 1 ({})"),
     (

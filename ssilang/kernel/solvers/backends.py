@@ -20,6 +20,7 @@ from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.sparse import sp
 
 DISSECTION = "nested dissection"
+MULTIGRID = "multigrid"
 DISSECTED = 8_000  # unknowns of a static problem from which nested dissection pays
 LARGE = 20_000  # unknowns from which a threaded solver pays for its start
 
@@ -44,17 +45,26 @@ class Ordering:
         Coordinates of the unknowns.
     last : array of int
         Unknowns to be eliminated last, together.
+    rigid : array (n, k) or None
+        Rigid motions of the unknowns, for multigrid.
     """
 
     points: FloatArray
     last: IntArray
+    rigid: FloatArray | None = None
 
     def of(self, kept: IntArray) -> Ordering:
         """The ordering of some of the unknowns (increasing)."""
         place = np.full(len(self.points), -1, np.int64)
         place[kept] = np.arange(len(kept))
         last = place[self.last]
-        return Ordering(self.points[kept], last[last >= 0])
+        rigid = None if self.rigid is None else self.rigid[kept]
+        return Ordering(self.points[kept], last[last >= 0], rigid)
+
+    def scaled(self, scale: FloatArray) -> Ordering:
+        """The ordering of the unknowns `u / scale`."""
+        rigid = None if self.rigid is None else self.rigid / scale[:, None]
+        return Ordering(self.points, self.last, rigid)
 
 
 class SingularFactorError(Exception):
@@ -151,6 +161,12 @@ class CholmodFactor:
         return np.array(x).reshape(b.shape)
 
 
+def _multigrid(A: sp.csr_array, positive: bool) -> Factor:
+    from ssilang.kernel.solvers.multigrid import MultigridFactor
+
+    return MultigridFactor(A, positive)
+
+
 @dataclass(frozen=True)
 class Backend:
     """A solver: what makes it, the package it needs, how to get that, when it is chosen."""
@@ -177,6 +193,7 @@ BACKENDS: dict[str, Backend] = {
         lambda n, positive: positive and n >= 2000,
     ),
     "SuperLU": Backend(SuperLUFactor, "scipy", "pip install scipy", lambda n, positive: True),
+    MULTIGRID: Backend(_multigrid, "pyamg", "pip install 'ssilang[amg]'", lambda n, p: False),
 }
 
 
@@ -236,7 +253,7 @@ def factorise(
     KernelError
         If the backend asked for is not installed.
     """
-    dissected = ordering is not None and positive and backend is None
+    dissected = ordering is not None and positive and backend in (None, DISSECTION)
     name = DISSECTION if dissected else backend or choose(A.shape[0], positive)
     if not dissected and name not in BACKENDS:
         raise KernelError(f"no solver is called {name}", f"known: {', '.join(BACKENDS)}")
@@ -249,6 +266,8 @@ def factorise(
     def make() -> Factor:
         if dissected and ordering is not None:
             return _dissected(A, ordering)
+        if name == MULTIGRID and positive and ordering is not None:
+            return _by_multigrid(A, ordering)
         return BACKENDS[name].make(A, positive)
 
     if not _keeping:
@@ -263,10 +282,26 @@ def factorise(
 
 
 def _dissected(A: sp.csr_array, ordering: Ordering) -> Factor:
+    from ssilang.kernel.memory import available_bytes, gigabytes
     from ssilang.kernel.solvers.dissected import DissectedFactor
-    from ssilang.kernel.solvers.multifrontal import NotPositiveError
+    from ssilang.kernel.solvers.multifrontal import NotPositiveError, TooLargeError
 
     try:
         return DissectedFactor(A, ordering.points, ordering.last)
     except NotPositiveError as error:
         raise SingularFactorError(str(error)) from None
+    except TooLargeError as error:
+        needed = error.n_bytes
+    if not BACKENDS[MULTIGRID].installed:
+        raise KernelError(
+            f"the factor of {A.shape[0]} unknowns takes {gigabytes(needed)} of memory, "
+            f"{gigabytes(available_bytes())} is free",
+            f"multigrid needs less: {BACKENDS[MULTIGRID].remedy}",
+        )
+    return _by_multigrid(A, ordering)
+
+
+def _by_multigrid(A: sp.csr_array, ordering: Ordering) -> Factor:
+    from ssilang.kernel.solvers.multigrid import MultigridFactor
+
+    return MultigridFactor(A, True, ordering.rigid)

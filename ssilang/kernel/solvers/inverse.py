@@ -106,6 +106,7 @@ def invert(
     if n == 0:
         return Inverse(_Empty(), np.empty(0), np.empty((0, 0)), nothing, nothing)
     scaled, scale = _unit_diagonal(A)
+    ordering = None if ordering is None else ordering.scaled(scale)
     factor = _try_factors(scaled, symmetric, backend, ordering)
     if factor is not None and _smallest_eigenvalue(factor, n) > SUSPECT:
         return Inverse(factor, scale, np.empty((n, 0)), nothing, np.arange(n))

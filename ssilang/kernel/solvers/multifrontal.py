@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ssilang.kernel.compiled import compiled, compiled_fast
+from ssilang.kernel.memory import fits
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.solvers.dense import subtract_from
 from ssilang.kernel.solvers.dissection import Tree
@@ -24,6 +25,14 @@ BLOCK = 128  # columns of a front whose update of the rest is one product
 
 class NotPositiveError(Exception):
     """A pivot is not positive."""
+
+
+class TooLargeError(Exception):
+    """Memory would not hold the factor."""
+
+    def __init__(self, n_bytes: float) -> None:
+        super().__init__(f"{n_bytes:g} bytes")
+        self.n_bytes = n_bytes
 
 
 class Panels(NamedTuple):
@@ -54,6 +63,8 @@ def factorise_panels(A: sp.csr_array, tree: Tree) -> Panels:
     ------
     NotPositiveError
         If a pivot is not positive.
+    TooLargeError
+        If memory would not hold the factor and what is needed to make it.
     """
     n = A.shape[0]
     lower = sp.csr_array(sp.triu(A[tree.order][:, tree.order]))  # its rows are columns of tril
@@ -62,6 +73,9 @@ def factorise_panels(A: sp.csr_array, tree: Tree) -> Panels:
     ptr, rows = _rows_below(n, indptr, indices, tree.first, above)
     at = _places(tree.first, ptr)
     waiting, front = _room(tree.first, ptr, above)
+    needed = 8.0 * (float(at[-1]) + waiting + front)
+    if not fits(needed):
+        raise TooLargeError(needed)
     values = np.zeros(at[-1])
     bad = _factorise(
         indptr, indices, lower.data, tree.first, ptr, rows, above, at, values, np.zeros(waiting),

@@ -29,6 +29,7 @@ from ssilang.kernel.matrices.assembly import (
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.solvers.backends import (
+    MULTIGRID,
     Ordering,
     SingularFactorError,
     SuperLUFactor,
@@ -38,7 +39,12 @@ from ssilang.kernel.solvers.complementarity import ContactProblem, solve_contact
 from ssilang.kernel.solvers.elimination import Elimination, eliminate
 from ssilang.kernel.solvers.inverse import Inverse, invert
 from ssilang.kernel.sparse import sp
-from ssilang.kernel.statics.linear_motion import bodies_of, describe_motions, named_motions
+from ssilang.kernel.statics.linear_motion import (
+    bodies_of,
+    describe_motions,
+    named_motions,
+    rigid_motions,
+)
 
 BoolArray = NDArray[np.bool_]
 BALANCED = 1e-7  # work of the loads on a free motion (of norms 1) taken for rounding
@@ -261,17 +267,22 @@ def _prepare(matrix: Matrix, numbering: Numbering, options: SolveOptions) -> Lin
     symmetric = is_symmetric(matrix)
     if options.stabilise:
         reduced = stabilised(reduced, len(elimination.masters))
-    order = _ordering(numbering, elimination) if symmetric and len(saddle) == 0 else None
+    order = None
+    if symmetric and len(saddle) == 0:
+        order = _ordering(numbering, elimination, options.backend)
     inverse = invert(reduced, symmetric, options.backend, order)
     return LinearSystem(numbering, K, rows, elimination, saddle, contact, inverse)
 
 
-def _ordering(numbering: Numbering, elimination: Elimination) -> Ordering | None:
-    """Places of the unknowns left, where nested dissection is the best solver there is."""
-    if not dissection_pays(len(elimination.masters)):
+def _ordering(
+    numbering: Numbering, elimination: Elimination, backend: str | None
+) -> Ordering | None:
+    """Places of the unknowns left, where a solver that goes by them is the best there is."""
+    if backend != MULTIGRID and not dissection_pays(len(elimination.masters)):
         return None
     nodes = numbering.nodes[elimination.masters]
-    return Ordering(numbering.table.coordinates[nodes], np.zeros(0, np.int64))
+    rigid = rigid_motions(numbering)[elimination.masters]
+    return Ordering(numbering.table.coordinates[nodes], np.zeros(0, np.int64), rigid)
 
 
 def _associated_rows(rows: ConstraintRows) -> BoolArray:

@@ -48,12 +48,20 @@ def _reso(call: Call) -> Any:
     return solutions
 
 
+def _report_solver(call: Call, matrix: Matrix, options: SolveOptions) -> None:
+    """A line of statistics for the summary, once a matrix."""
+    system = linear_system(matrix, options)
+    line = {"unknowns": system.numbering.size, "solver": system.inverse.factor.name}
+    call.session.statistics.setdefault("systems", []).append(line)
+
+
 def _warn_condition(call: Call, matrix: Matrix, options: SolveOptions) -> None:
     """Warn, once a matrix, of stiffnesses that differ so much that few digits are left."""
     from ssilang.kernel.statics.conditioning import FEW_DIGITS, system_extremes
 
     if "condition" in matrix.cache:
         return
+    _report_solver(call, matrix, options)
     found = system_extremes(linear_system(matrix, options), matrix)
     matrix.cache["condition"] = found
     if found is None or found.number <= FEW_DIGITS:

@@ -1,0 +1,145 @@
+"""Multigrid gives the answers of the direct solvers, where memory holds no factor or if asked."""
+
+import numpy as np
+import pytest
+
+from ssilang.kernel import elements, memory
+from ssilang.kernel.errors import KernelError
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.matrices.assembly import assemble, numbering_of
+from ssilang.kernel.matrices.matrix import Matrix
+from ssilang.kernel.mesh.mesh import CellBlock
+from ssilang.kernel.mesh.nodes import NodeTable
+from ssilang.kernel.model import Mode, Zone
+from ssilang.kernel.solvers import backends
+from ssilang.kernel.solvers.backends import MULTIGRID, Ordering, SingularFactorError, factorise
+from ssilang.kernel.solvers.inverse import invert
+from ssilang.kernel.solvers.multigrid import MultigridFactor
+from ssilang.kernel.sparse import sp
+from ssilang.kernel.statics.linear_motion import rigid_motions
+
+pytest.importorskip("pyamg")
+
+
+def bar(long=24, wide=4, held=True):
+    """Stiffness of a slender block of bricks, held at one end or free, points, rigid motions."""
+    table, n = NodeTable(), np.array([long, wide, wide])
+    axes = [np.linspace(0.0, k, k + 1) for k in n]
+    points = np.stack(np.meshgrid(*axes, indexing="ij"), -1).reshape(-1, 3)
+    ids = table.add(points).reshape(n + 1)
+
+    def corner(i, j, k):
+        return ids[i : long + i, j : wide + j, k : wide + k].ravel()
+
+    bottom = [corner(0, 0, 0), corner(1, 0, 0), corner(1, 1, 0), corner(0, 1, 0)]
+    top = [corner(0, 0, 1), corner(1, 0, 1), corner(1, 1, 1), corner(0, 1, 1)]
+    block = CellBlock.make(table, "CUB8", np.stack(bottom + top, axis=-1))
+    one = np.ones((len(block), 1))
+    field = CellField((CellFieldBlock(block, {"YOUN": 1e9 * one, "NU": 0.3 * one}, "STRESSES"),))
+    zone = Zone(block, "MECANIQUE", ("ELASTIQUE", "ISOTROPE"), "CUB8", Mode.THREE_DIMENSIONAL)
+    matrix = Matrix(table, (elements.stiffness(zone, field),))
+    numbering = numbering_of(matrix)
+    at = numbering.table.coordinates[numbering.nodes]
+    kept = np.flatnonzero(at[:, 0] > 0.0) if held else np.arange(numbering.size)
+    K = sp.csr_array(assemble(matrix, numbering)[kept][:, kept])
+    return K, Ordering(at[kept], np.zeros(0, np.int64), rigid_motions(numbering)[kept])
+
+
+@pytest.mark.parametrize("columns", [(), (3,)])
+def test_a_slender_cantilever_bends_as_by_a_direct_solver(columns):
+    K, order = bar()
+    b = np.random.default_rng(0).standard_normal((K.shape[0], *columns))
+    exact, found = invert(K, True, "SuperLU"), invert(K, True, MULTIGRID, order)
+    assert found.factor.name == MULTIGRID
+    x = exact.solve(b)
+    np.testing.assert_allclose(found.solve(b), x, atol=1e-8 * np.abs(x).max())
+
+
+def test_rigid_motions_make_it_fast(monkeypatch):
+    K, order = bar(long=40)
+    monkeypatch.setattr("ssilang.kernel.solvers.multigrid.MOST_TURNS", 40)
+    b = np.random.default_rng(0).standard_normal(K.shape[0])
+    MultigridFactor(K, True, order.rigid).solve(b)
+    with pytest.raises(KernelError, match="did not converge within 40 turns"):
+        MultigridFactor(K, True).solve(b)
+
+
+def test_a_factor_beyond_memory_gives_way_to_multigrid(monkeypatch):
+    K, order = bar(12)
+    b = np.random.default_rng(0).standard_normal(K.shape[0])
+    direct = invert(K, True, ordering=order)
+    monkeypatch.setattr(memory, "available_bytes", lambda: 1e5)
+    other = invert(K, True, ordering=order)
+    assert (direct.factor.name, other.factor.name) == (backends.DISSECTION, MULTIGRID)
+    x = direct.solve(b)
+    np.testing.assert_allclose(other.solve(b), x, atol=1e-8 * np.abs(x).max())
+
+
+def test_a_factor_beyond_memory_without_pyamg_says_what_to_install(monkeypatch):
+    K, order = bar(6)
+    monkeypatch.setattr(memory, "available_bytes", lambda: 1e5)
+    made, remedy = backends.BACKENDS[MULTIGRID].make, backends.BACKENDS[MULTIGRID].remedy
+    missing = backends.Backend(made, "no_such_package", remedy, lambda n, p: False)
+    monkeypatch.setitem(backends.BACKENDS, MULTIGRID, missing)
+    with pytest.raises(KernelError, match=r"takes .* GB of memory, 0.0001 GB is free") as caught:
+        invert(K, True, ordering=order)
+    assert "pip install 'ssilang[amg]'" in caught.value.hint
+
+
+def test_a_free_body_is_refused():
+    K, order = bar(8, held=False)
+    with pytest.raises(KernelError, match="multigrid did not converge"):
+        invert(K, True, MULTIGRID, order)
+
+
+def test_conditions_in_a_saddle_point_are_refused():
+    K, _ = bar(3)
+    row = sp.csr_array(np.eye(1, K.shape[0]))
+    saddle = sp.csr_array(sp.block_array([[K, row.T], [row, None]]))
+    with pytest.raises(KernelError, match="positive matrices only"):
+        invert(saddle, True, MULTIGRID)
+    with pytest.raises(KernelError, match="positive matrices only"):
+        factorise(K, False, MULTIGRID)
+    with pytest.raises(SingularFactorError):
+        factorise(saddle, True, MULTIGRID)
+
+
+def test_free_memory_is_known_here_or_unlimited(monkeypatch, tmp_path):
+    assert memory.available_bytes() > 1e6
+    (tmp_path / "memory.max").write_text("3000000\n")
+    (tmp_path / "memory.current").write_text("1000000\n")
+    monkeypatch.setattr(memory, "_GROUP", tmp_path)
+    assert memory.available_bytes() <= 2e6
+    (tmp_path / "memory.max").write_text("max\n")
+    monkeypatch.setattr(memory, "_MACHINE", tmp_path / "none")
+    assert memory.fits(1e18)
+
+
+SCRIPT = """
+OPTI DIME 3 MODE TRID ELEM CUB8 ;
+P1 = 0. 0. 0. ;
+V1 = ((DROI 10 P1 (5. 0. 0.)) TRAN 2 (0. 1. 0.)) VOLU 'TRAN' 2 (0. 0. 1.) ;
+MO1 = MODE V1 'MECANIQUE' 'ELASTIQUE' ;
+MA1 = MATE MO1 'YOUN' 1.E9 'NU' 0.3 ;
+FA1 = V1 POIN 'PLAN' P1 (0. 1. 0.) (0. 0. 1.) ;
+P2 = V1 POIN 'PROC' (5. 0. 0.) ;
+P3 = V1 POIN 'PROC' (5. 1. 1.) ;
+CL1 = (BLOQ 'DEPL' FA1) ET (RELA 'UZ' P2 - 'UZ' P3) ;
+U1 = RESO ((RIGI MO1 MA1) ET CL1) (FORC (0. 0. 1.E3) P2) ;
+X1 = EXTR U1 'UZ' P3 ;
+"""
+
+
+def test_reso_takes_it_with_its_conditions_eliminated_and_reports_it(monkeypatch, tmp_path):
+    from ssilang.cli.run import run_text
+
+    monkeypatch.setattr("ssilang.kernel.statics.linear.dissection_pays", lambda n: True)
+    found, names = [], []
+    for free in (1e12, 1e4):
+        monkeypatch.setattr(memory, "available_bytes", lambda free=free: free)
+        result = run_text(SCRIPT, output_directory=tmp_path)
+        assert result.exit_code == 0, result.message
+        found.append(result.session.root.find("X1"))
+        names.append(result.session.statistics["systems"][-1]["solver"])
+    assert names == [backends.DISSECTION, MULTIGRID]
+    assert found[1] == pytest.approx(found[0], rel=1e-9)
