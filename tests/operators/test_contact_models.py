@@ -106,8 +106,11 @@ def test_two_cubes_do_not_pull(found):
     assert size < 1e-9
 
 
-def test_friction_between_meshes_is_refused(refused):
-    refused(PLANE + "K = MODE C CONTACT FROTTANT COULOMB A ;")
+def test_matrix_of_contact_with_friction_is_refused(refused):
+    refused(
+        PLANE + "K = MODE C CONTACT FROTTANT COULOMB A ; "
+        "R = RIGI (M ET K) (G ET (MATE K MU .2)) ;"
+    )
 
 
 def test_contour_of_cells_of_both_senses_runs_one_way(found):

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ssilang.kernel.dynamics.contact import BoolArray, ContactRows
+from ssilang.kernel.dynamics.contact import TOUCHING, BoolArray, ContactRows
 from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.errors import ConvergenceError, KernelError
 from ssilang.kernel.joints.laws import respond
@@ -69,6 +69,17 @@ def initial_acceleration(problem: Problem, v: FloatArray, joints: JointState) ->
     if problem.interface is not None:
         rest = rest - problem.interface.J.T @ joints.f
     return accelerated(problem, rest)
+
+
+def closed_at_start(problem: Problem) -> BoolArray:
+    """Unilateral rows that touch in the initial state."""
+    contact = problem.contact
+    if contact is None:
+        return np.zeros(0, bool)
+    gaps = contact.gaps(problem.u, problem.loading.at(problem.times[:1])[0])
+    size = np.abs(contact.G @ problem.u).max(initial=0.0) + np.abs(gaps).max(initial=0.0)
+    closed: BoolArray = gaps <= TOUCHING * size
+    return closed
 
 
 def with_contact(

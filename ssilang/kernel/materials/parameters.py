@@ -49,6 +49,11 @@ _IMPEDANCE: dict[str, Names] = {
     "REUSS": Names(("RAID", "VISC"), _AT_POINTS),
     "COMPLEXE": Names((), ("MOCO", "RAID", "VISC", *_AT_POINTS)),
 }
+_CONTACT: dict[str, Names] = {
+    "UNILATERAL": Names((), ("JEU",)),
+    "COULOMB": Names(("MU",), ("JEU", "COHE")),
+    "FROCABLE": Names(("FF", "PHIF")),
+}
 _ORTHOTROPIC: dict[Mode, int] = {  # how many of ORTHOTROPIC are required
     Mode.PLANE_STRESS: 4, Mode.THREE_DIMENSIONAL: 9, Mode.FOURIER: 9,
 }  # fmt: skip
@@ -81,7 +86,7 @@ def family_name(zone: Zone) -> str:
 def material_names(zone: Zone) -> Names:
     """Parameters of the law of a zone."""
     if zone.formulation == "CONTACT":
-        return Names((), ("JEU",))
+        return _CONTACT[zone.behaviour[-1]]
     if is_joint(zone):
         law = law_of(zone.behaviour)
         taken = ("RHO", *law.optional, *JOINT_POINT, *JOINT_THERMAL, *AXES)

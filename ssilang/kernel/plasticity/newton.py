@@ -12,7 +12,7 @@ from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.dynamics.sparse_loop import StepOutcome
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.plasticity.bulk import Answer, Bulk, State
-from ssilang.kernel.solvers.backends import SingularFactorError, factorise
+from ssilang.kernel.solvers.backends import SingularFactorError
 from ssilang.kernel.sparse import sp
 
 TURNS = 30
@@ -20,6 +20,8 @@ TOLERANCE = 1e-10
 """Residual over the forces at play; Newton's last step leaves far less."""
 STALLED = 1e-7
 """Residual that is accepted where rounding (stiff on soft) keeps Newton from the tolerance."""
+RIGID = 1e-5
+"""Share of stiffness times displacement below which forces are those of a body that only moves."""
 SEARCHES = 4
 PATIENCE = 8
 """Turns after which the residual must have fallen below a tenth of what it was at their start."""
@@ -27,7 +29,10 @@ PATIENCE = 8
 
 @dataclass(frozen=True, eq=False)
 class _Trial:
-    """A displacement under trial: answers of bodies and joints, what is out of balance."""
+    """A displacement under trial: answers of bodies and joints, what is out of balance.
+
+    `free` (n,) is that without contact, `pushed` (size,) the reactions and frictions of contact.
+    """
 
     du: FloatArray
     answer: Answer
@@ -36,6 +41,8 @@ class _Trial:
     new: FloatArray
     rest: FloatArray
     residual: float
+    free: FloatArray
+    pushed: FloatArray
 
     @property
     def size(self) -> float:
@@ -74,26 +81,28 @@ class BulkSolver(FullNewtonSolver):
         """Newton's method; commits joints and bodies if it converges."""
         if self.guess is not None:
             start = self.guess + self.constraints.particular(dd - self.constraints.C @ self.guess)
-            outcome = self._newton(motion, r, start)
+            outcome = self._newton(motion, r, start, gap)
             if outcome.turns > 0:
                 return outcome
-        return self._newton(motion, r, self.constraints.particular(dd))
+        return self._newton(motion, r, self.constraints.particular(dd), gap)
 
-    def _newton(self, motion: Motion, r: FloatArray, start: FloatArray) -> StepOutcome:
-        T, V = self.constraints.T, self.constraints.V
-        now = self._trial(motion, r, start)
+    def _newton(
+        self, motion: Motion, r: FloatArray, start: FloatArray, gap: FloatArray
+    ) -> StepOutcome:
+        now = self._trial(motion, r, start, motion.contact.copy())
         self.residuals = [now.residual]
         for turn in range(1, TURNS + 1):
             whole = self.A + now.K + self.share * now.answer.tangent
             try:
-                factor = factorise(sp.csr_array(V.T @ whole @ T), False)
+                step, pushed = self._turn(motion, whole, now.free, now.du, gap, now.pushed)
             except SingularFactorError:
                 return StepOutcome(now.du, 0, now.residual)
-            now = self._searched(motion, r, now, T @ factor.solve(now.rest))
+            now = self._searched(motion, r, now, step, pushed)
             self.residuals.append(now.residual)
             if not np.isfinite(now.residual):
                 break
             if now.residual <= TOLERANCE or self._stalled():
+                motion.contact[:] = now.pushed
                 self._commit(motion, now.du, now.f, now.new)
                 answer = now.answer
                 self.state, self.force, self.work = answer.state, answer.force, answer.work
@@ -106,30 +115,36 @@ class BulkSolver(FullNewtonSolver):
                 break
         return StepOutcome(now.du, 1 - len(self.residuals), self.residuals[-1])
 
-    def _searched(self, motion: Motion, r: FloatArray, now: _Trial, step: FloatArray) -> _Trial:
+    def _searched(
+        self, motion: Motion, r: FloatArray, now: _Trial, step: FloatArray, pushed: FloatArray
+    ) -> _Trial:
         """The step, halved while what is out of balance would grow.
 
-        Finite displacements take whole steps: bending stretches at first, then falls at once.
+        Finite displacements take whole steps: bending stretches at first, then falls at once. So
+        does contact: parts of a step meet none of its conditions.
         """
-        length = 1.0
-        for _ in range(SEARCHES if self.bulk.searched else 1):
-            found = self._trial(motion, r, now.du + length * step)
+        length, halved = 1.0, self.bulk.searched and self.contact is None
+        for _ in range(SEARCHES if halved else 1):
+            found = self._trial(motion, r, now.du + length * step, pushed)
             if found.size < now.size or found.residual <= TOLERANCE:
                 break
             length = 0.5 * length
         return found
 
-    def _trial(self, motion: Motion, r: FloatArray, du: FloatArray) -> _Trial:
+    def _trial(self, motion: Motion, r: FloatArray, du: FloatArray, pushed: FloatArray) -> _Trial:
         f, new = np.zeros_like(motion.f), np.zeros_like(motion.state)
         answer = self.bulk.respond(self.state, du, self.time)
         K, force = self._joints(motion, du, f, new)
         linear = self.A @ du
-        rest = r - linear - force - self.share * (answer.force - self.force)
-        rest = self.constraints.V.T @ rest
-        parts = (r, linear, answer.force, self.force, force)
-        scale = max(sum(float(np.abs(x).max(initial=0.0)) for x in parts), 1e-300)
+        free = r - linear - force - self.share * (answer.force - self.force)
+        push = self._push(pushed)
+        rest = self.constraints.V.T @ (free + push)
+        parts = (r, linear, answer.force, self.force, force, np.asarray(push))
+        stiff = max(float(np.abs(M.data).max(initial=0.0)) for M in (self.A, answer.tangent))
+        floor = RIGID * stiff * float(np.abs(du).max(initial=0.0))
+        scale = max(sum(float(np.abs(x).max(initial=0.0)) for x in parts), floor, 1e-300)
         residual = float(np.abs(rest).max(initial=0.0)) / scale
-        return _Trial(du, answer, K, f, new, rest, residual)
+        return _Trial(du, answer, K, f, new, rest, residual, free, pushed)
 
     def _stalled(self) -> bool:
         last = self.residuals[-3:]

@@ -16,12 +16,18 @@ from ssilang.kernel.dynamics.compiled_loop import (
     STORED,
     Motion,
 )
-from ssilang.kernel.dynamics.effective import effective_matrix
-from ssilang.kernel.dynamics.initial import admissible_velocity, initial_energies, joint_state
+from ssilang.kernel.dynamics.effective import effective_matrix, effective_of
+from ssilang.kernel.dynamics.impact import ImpactRule
+from ssilang.kernel.dynamics.initial import (
+    admissible_velocity,
+    closed_at_start,
+    initial_energies,
+    joint_state,
+)
 from ssilang.kernel.dynamics.integrate import History, Progress
 from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.dynamics.snapshot import Observer
-from ssilang.kernel.dynamics.sparse_loop import SparseLoop, StepOutcome
+from ssilang.kernel.dynamics.sparse_loop import SparseLoop, StepOutcome, support_work
 from ssilang.kernel.errors import ConvergenceError, KernelError
 from ssilang.kernel.joints.response import interface_energies
 from ssilang.kernel.mesh.nodes import FloatArray
@@ -51,11 +57,6 @@ class BulkRun:
 
     def __post_init__(self) -> None:
         p = self.problem
-        if p.contact is not None:
-            raise KernelError(
-                "unilateral relations (MINI, MAXI) do not go with plastic bodies",
-                "describe contact by joints (JOINT_SDM)",
-            )
         if p.scheme.conserving or p.scheme.adaptive:
             raise KernelError(
                 "plastic bodies are stepped by Newmark, HHT or generalised alpha",
@@ -65,7 +66,8 @@ class BulkRun:
         n = p.numbering.size
         self.motion = Motion(
             p.u.copy(), np.zeros(n), np.zeros(n), joints.delta, joints.f, joints.w, joints.t,
-            joints.state, np.zeros(n), initial_energies(p, np.zeros(n), joints), NOTHING,
+            joints.state, np.zeros(n), initial_energies(p, np.zeros(n), joints),
+            NOTHING if p.contact is None else np.zeros(p.contact.size),
         )  # fmt: skip
         self.motion.energies[ELASTIC] += self.bulk.stored(self.state)
 
@@ -160,15 +162,19 @@ def _increment(
     stored, old = run.bulk.stored(run.state), m.reaction.copy()
     change = after - before
     solver.guess = _carried_on(run.last, change)
-    outcome = solver.solve(m, r, dd, NOTHING)
+    pushed = m.contact.copy()
+    gap = NOTHING if p.contact is None else p.contact.gaps(m.u, after)
+    outcome = solver.solve(m, r, dd, gap)
     if outcome.turns <= 0 or not np.isfinite(outcome.du).all():
         return outcome if outcome.turns <= 0 else StepOutcome(outcome.du, -1, np.inf)
     m.u[:] += outcome.du
     run.state = solver.state
     m.reaction[:] = run.imbalance(solver.force, after)
     m.energies[EXTERNAL] += outcome.du @ (p.loading.forces @ (0.5 * (before + after)))
-    if dd.any():
-        m.energies[EXTERNAL] += dd @ p.constraints.multipliers(0.5 * (old + m.reaction))
+    mean = 0.5 * (pushed + m.contact)
+    m.energies[EXTERNAL] += support_work(p, 0.5 * (old + m.reaction), mean, outcome.du, dd, change)
+    if p.contact is not None:
+        run.lost += p.contact.rubbed(mean, outcome.du)
     run.account(stored, solver.work)
     run.last = (outcome.du, change)
     return outcome
@@ -227,12 +233,12 @@ def integrate_bulk(run: BulkRun) -> History:
 
 def _start(run: BulkRun, factors: FloatArray) -> None:
     """Initial velocity, acceleration, reactions, kinetic energy."""
-    from ssilang.kernel.dynamics.initial import accelerated
+    from ssilang.kernel.dynamics.initial import accelerated, with_contact
 
     p, m = run.problem, run.motion
     m.v[:] = admissible_velocity(p)
     rest = run.imbalance(run.bulk.force(run.state), factors) + p.C @ m.v
-    m.a[:] = accelerated(p, -rest)
+    m.a[:], m.contact[:] = with_contact(p, m.v, accelerated(p, -rest), closed_at_start(p))
     m.reaction[:] = rest + p.M @ m.a
     m.energies[0] = 0.5 * m.v @ (p.M @ m.v)
 
@@ -243,36 +249,46 @@ class _BulkLoop(SparseLoop):
     def __init__(self, run: BulkRun) -> None:
         super().__init__(run.problem, run.motion)
         self.run = run
-        self._solvers: list[tuple[float, BulkSolver]] = []
+        self._solvers: list[tuple[float, BulkSolver, ImpactRule | None]] = []
+        self._closed = closed_at_start(run.problem)
         self._begin()
 
-    def _solver(self, dt: float) -> BulkSolver:
-        for known, solver in self._solvers:
+    def _solver(self, dt: float) -> tuple[BulkSolver, ImpactRule | None]:
+        for known, solver, impact in self._solvers:
             if abs(known - dt) <= SAME_STEP * dt:
-                return solver
+                return solver, impact
         share = 1 - self.problem.scheme.alpha_f
         A = effective_matrix(self.problem, dt)
         solver = BulkSolver(self.problem, A, share, self.run.bulk, self.run.state)
-        self._solvers = [*self._solvers[-3:], (dt, solver)]
-        return solver
+        impact = None
+        if self.problem.contact is not None:
+            effective = effective_of(self.problem, A, dt, share)
+            impact = ImpactRule(self.problem, effective, self.problem.contact, self._closed)
+        self._solvers = [*self._solvers[-3:], (dt, solver, impact)]
+        return solver, impact
 
     def step(self, start: float, end: float, factors: FloatArray) -> StepOutcome:
         """One step of time."""
         p, m, run, dt = self.problem, self.motion, self.run, end - start
-        solver = self._solver(dt)
+        solver, impact = self._solver(dt)
         solver.state, solver.time = run.state, end
         solver.force = old = run.bulk.force(run.state)
         load0, load1 = factors @ p.loading.forces.T
         r = self._right_side(load0 - old, load1 - old, dt)
         dd = p.loading.imposed @ factors[1] - p.constraints.C @ m.u
-        outcome = solver.solve(m, r, dd, NOTHING)
+        pushed = m.contact.copy()
+        outcome = solver.solve(m, r, dd, self._gap(factors[1]))
         if outcome.turns <= 0:
             return outcome
         stored = run.bulk.stored(run.state)
         run.state = solver.state
         self._advance(outcome.du, dt)
+        if impact is not None and p.contact is not None:
+            impact.correct(m, p.contact.imposed @ (factors[1] - factors[0]) / dt)
         # the bodies' forces are no loads: their part in the work of the loads is taken back
-        self._account(outcome.du, dd, load0 - old, load1 - solver.force, NOTHING, factors)
+        self._account(outcome.du, dd, load0 - old, load1 - solver.force, pushed, factors)
+        if p.contact is not None:
+            run.lost += p.contact.rubbed(0.5 * (pushed + m.contact), outcome.du)
         m.energies[EXTERNAL] += 0.5 * outcome.du @ (old + solver.force)
         run.account(stored, solver.work)
         return outcome

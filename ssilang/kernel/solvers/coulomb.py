@@ -31,6 +31,8 @@ TOLERANCE = 1e-11
 """What is wrong with an accepted solution, relative to its own size."""
 HUGE = 1e7
 """Motions, relative to gaps and loads, that no equilibrium has."""
+SOFT = 1e-12
+"""Share of its flexibility added to each row: redundant rows share their force evenly."""
 ROUNDING = 1e-8
 """The same where only rounding decides (redundant rows)."""
 
@@ -171,18 +173,19 @@ class _Solver:
         """Newton from x (or from rows that the loads close and places that stick)."""
         now = self.first() if fresh else self.judge(x)
         seen: set[bytes] = set()
+        last = np.inf
         for turn in range(1, TURNS + 1):
             x = self.solved(now)
             if not np.isfinite(x).all():
                 return None
             after = self.judge(x)
-            same = after.key == now.key
-            if self.wrong(after) <= TOLERANCE or (same and self.wrong(after) <= ROUNDING):
+            same, error = after.key == now.key, self.wrong(after)
+            if error <= TOLERANCE or (same and 0.5 * last < error <= ROUNDING):
                 return self.answer(after, turn)
             if self.p.width == 1 and not same and after.key in seen:
                 return None
             seen.add(after.key)
-            now = after
+            now, last = after, error
         return self.answer(now, TURNS) if self.wrong(now) <= ROUNDING else None
 
     def first(self) -> _Guess:
@@ -201,11 +204,14 @@ class _Solver:
         right = np.zeros(self.size)
         on, off = np.flatnonzero(g.closed), np.flatnonzero(~g.closed)
         self._rows_seen(A, right, on, on)
+        A[on, on] += SOFT / self.rn[on]
         A[off, off] = self.unit
         places = np.arange(p.n_places)
         for j in range(p.width):
             rows = m + places * p.width + j
-            self._rows_seen(A, right, rows[g.sticking], rows[g.sticking])
+            held = rows[g.sticking]
+            self._rows_seen(A, right, held, held)
+            A[held, held] += SOFT / self.rt[g.sticking]
             idle = rows[~g.sticking & ~g.sliding]
             A[idle, idle] = self.unit
         self._sliding_rows(A, right, g)

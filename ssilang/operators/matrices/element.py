@@ -121,6 +121,12 @@ def _contact(call: Call, model: Model) -> Matrix:
     """Stiffness of the bodies of a model and the unilateral relations of its sides."""
     fields = call.all("MCHAML")
     material = joined(tuple(fields)) if fields else None
+    rubbing = next((z for z in model.zones if z.behaviour[:1] == ("FROTTANT",)), None)
+    if rubbing is not None:
+        raise call.bad(
+            "contact with friction is no matrix: its forces depend on the way there",
+            hint="PASAPAS takes the model; RIGI takes CONTACT UNILATERAL",
+        )
     relations = tuple(c.relations for c in model_relations(model, material))
     zones = present(call, model).zones
     if zones and material is None:
