@@ -57,7 +57,9 @@ def combined(rule, scale, factor, n_modes=3):
     w, shapes = np.sqrt(squares[order]), shapes[:, order]
     f = w / (2 * np.pi)
     x = np.interp(f, [0, 10], [0.02, 0.1])
-    low, high = (np.interp(f, FREQUENCIES, s) for s in SPECTRA.values())
+    low, high = (  # curves are lines on logarithmic paper
+        np.exp(np.interp(np.log(f), np.log(FREQUENCIES), np.log(s))) for s in SPECTRA.values()
+    )
     spectrum = factor * (low + (high - low) * (x - 0.02) / 0.08)
     gamma = shapes.T @ MASS @ np.ones(3) / np.diag(shapes.T @ MASS @ shapes)
     acceleration = shapes * gamma * spectrum
@@ -165,7 +167,9 @@ def test_reactions_and_the_domain():
     )
     f = np.sqrt(squares) / (2 * np.pi)
     x = np.interp(f, [0, 10], [0.02, 0.1])
-    low, high = (np.interp(f, FREQUENCIES, s) for s in SPECTRA.values())
+    low, high = (  # curves are lines on logarithmic paper
+        np.exp(np.interp(np.log(f), np.log(FREQUENCIES), np.log(s))) for s in SPECTRA.values()
+    )
     spectrum = low + (high - low) * (x - 0.02) / 0.08
     mass = MASS[np.ix_(part, part)]
     gamma = shapes.T @ mass @ np.ones(2) / np.diag(shapes.T @ mass @ shapes)
@@ -187,3 +191,62 @@ def test_reactions_and_the_domain():
 )
 def test_what_is_missing_is_said(more, said):
     assert said in run_text(script("CQC", more) + "R = SISSIB T ;").message
+
+
+FRAME = """
+OPTI DIME 3 ELEM SEG2 ; A = 0. 0. 0. ; B = 0.3 0.2 4. ; L = DROI 4 A B ; CC = 0.1 0. 0. ;
+MO = MODE L MECANIQUE ELASTIQUE POUT ;
+MA = MATE MO YOUN 2.E10 NU 0.2 RHO 2500. SECT 0.1 INRY 2.E-3 INRZ 1.E-3 TORS 2.E-3 ;
+K = (RIGI MO MA) ET (BLOQ DEPL ROTA A) ; M = (MASS MO MA) ET (MASS DEPL 800. B) ;
+V = VIBR 'SIMU' 1. {modes} K M ; V = SIGS V MA MO ;
+T = TABL 'DONNEE' ; T . 'STRUCTURE' = V ; T . 'AMORTISSEMENT' = PROG {modes} * 0.05 ;
+T . 'RECOMBINAISON_MODES' = '{rule}' ; T . 'SORTIES' = TABL 'SORTIES' ;
+T . 'SORTIES' . 'CONTRAINTES' = VRAI ; T . 'EXCITATION' = TABL ;
+S = EVOL 'MANU' (PROG 0.1 5. 50.) (PROG 1. 8. 2.) ; N = MOTS X Y ;
+REPE D 2 ; E = TABL ; E . 'DIRECTION' = EXTR N &D ; E . 'SPECTRE' = S * (FLOT &D) ;
+  E . 'AMORTISSEMENT' = PROG 0.05 ; T . 'EXCITATION' . &D = E ; FIN D ;
+F = TABL ; F . 1 = TABL ; F . 1 . 'TYPE' = 'POTEAU' ; F . 1 . 'MODE' = MO ;
+R = SISSIB T F ; C = R . 'COVARIANCE' . 'POU1' ; Q = R . 'REPONSE_TOTALE' . 'CONTRAINTES' ;
+G = R . 'CONTRAINTES_POUTRE' . 'POU1' ;
+"""
+
+
+def components(field):
+    block = field.blocks[0]
+    return {name: np.asarray(values).ravel() for name, values in block.components.items()}
+
+
+@pytest.mark.parametrize("rule", ["SRSS", "CQC", "DIX_POUR_CENT"])
+def test_envelopes_of_frames_hold_the_largest_forces(rule):
+    result = run_text(FRAME.format(modes=4, rule=rule))
+    assert result.exit_code == 0, result.message
+    products = components(result.session.root.find("C"))
+    largest = components(result.session.root.find("Q"))
+    names = ["EFFX", "EFFY", "EFFZ", "MOMX", "MOMY", "MOMZ"]
+    assert len(products) == 21
+    for i, name in enumerate(names, 1):
+        size = largest[name].max()
+        np.testing.assert_allclose(
+            np.sqrt(np.abs(products[f"C{i}{i}"])), largest[name], atol=1e-7 * size
+        )
+        for j in range(i + 1, 7):
+            bound = np.sqrt(np.abs(products[f"C{i}{i}"] * products[f"C{j}{j}"]))
+            assert (np.abs(products[f"C{i}{j}"]) <= bound * (1.0 + 1e-9) + 1e-12).all()
+
+
+def test_products_of_two_forces_are_sums_over_modes_and_directions():
+    text = FRAME.format(modes=2, rule="SRSS") + (
+        "P = TABL ; REPE I 2 ; REPE J 2 ; X = G . &I . &J ;"
+        " Y = (EXCO 'MOMY' X 'C') * (EXCO 'EFFZ' X 'C') ;"
+        " SI ((&I + &J) EGA 2) ; W = Y ; SINON ; W = W + Y ; FINS ; FIN J ; FIN I ;"
+        "Z = EXCO 'C35' C 'C' ; D = MAXI (ABS (Z - W)) ; N = MAXI (ABS W) ;"
+    )
+    result = run_text(text)
+    assert result.exit_code == 0, result.message
+    assert result.session.root.find("D") < 1e-9 * result.session.root.find("N")
+
+
+def test_walls_are_refused_by_name():
+    result = run_text(FRAME.format(modes=2, rule="SRSS").replace("'POTEAU'", "'VOILE'"))
+    assert result.exit_code == 1
+    assert "VOILE" in result.message
