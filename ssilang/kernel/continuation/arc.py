@@ -16,6 +16,10 @@ from ssilang.kernel.errors import ConvergenceError
 from ssilang.kernel.mesh.nodes import FloatArray
 
 BISECTIONS = 40
+FAR = 0.5
+"""Correction over the step, beyond which the solution is taken for one of another branch."""
+BEYOND = 1e-3
+"""Length by which a step passes a limit point at most; its t stays beyond that before."""
 
 
 class System(Protocol):
@@ -133,29 +137,36 @@ class Tracer:
         u_ref, t_ref = self.lengths.u_ref, self.lengths.t_ref
         u = point.u + ds * point.tangent[:-1] * u_ref
         t = point.t + ds * float(point.tangent[-1]) * t_ref
+        start_u, start_t, close = u, t, False
         row = np.append(point.tangent[:-1] / u_ref, point.tangent[-1] / t_ref)
         for turn in range(1, self.lengths.turns + 1):
             R, J, Rt = self.system.at(u, t)
             if np.linalg.norm(R) <= self.lengths.tolerance * self._scale(u, t):
-                return self._point(u, t, point.tangent, 1.0, turn)
+                close = True
             bordered = np.block([[J, Rt[:, None]], [row[None, :]]])
             try:
                 change = np.linalg.solve(bordered, -np.append(R, 0.0))
             except np.linalg.LinAlgError:
                 return None
             u, t = u + change[:-1], t + float(change[-1])
+            if close:  # the last correction is made too: it is there
+                if np.linalg.norm(self._scaled(u - start_u, t - start_t)) > FAR * ds:
+                    return None  # another branch
+                return self._point(u, t, point.tangent, 1.0, turn)
             if not (np.isfinite(u).all() and np.isfinite(t)):
                 return None
         return None
 
     def follow(
         self, start: Point, most: int, inside: Callable[[float], bool],
-        seen: Callable[[Point, Point, float], bool] | None = None,
+        seen: Callable[[Point, Point, float], bool] | None = None, land: bool = False,
     ) -> Branch:  # fmt: skip
         """Steps from a point while `inside(t)`, `most` of them at most.
 
         Parameters
         ----------
+        land : bool
+            A step around a limit point in t ends just beyond it.
         seen : callable, optional
             Called with each pair of neighbours and the length between them; False ends the branch.
         """
@@ -172,6 +183,8 @@ class Tracer:
                 ds = max(0.5 * ds, lengths.least)
                 continue
             assert found is not None
+            if land and found.tangent[-1] * point.tangent[-1] < 0.0:
+                found = self._landed(point, ds, found)
             branch.points.append(found)
             if seen is not None and not seen(point, found, ds):
                 branch.ended = "asked"
@@ -184,6 +197,19 @@ class Tracer:
         else:
             branch.ended = "steps"
         return branch
+
+    def _landed(self, point: Point, ds: float, found: Point) -> Point:
+        way = float(np.sign(found.tangent[-1]))
+        nearer = self.located(point, ds, lambda p: bool(p.tangent[-1] * way > 0.0), 1e-6)
+        if nearer is None:
+            return found
+        over = BEYOND
+        while over > 1e-3 * BEYOND:
+            beyond = self.step(point, nearer[0] + over)
+            if beyond is not None and (beyond.t - point.t) * way < 0.0:
+                return beyond
+            over *= 0.5
+        return nearer[1]
 
     def located(
         self, point: Point, ds: float, beyond: Callable[[Point], bool], share: float = 1e-9

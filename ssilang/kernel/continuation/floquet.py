@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
 from ssilang.kernel.mesh.nodes import FloatArray
@@ -14,12 +16,16 @@ ONE = 1e-7
 
 def interpolated(samples: FloatArray, angles: FloatArray) -> FloatArray:
     """A periodic function (N, ...) given at equal instants, at angles (m,): trigonometric."""
-    count = len(samples)
-    spectrum = np.fft.rfft(samples, axis=0) / count
-    k = np.arange(len(spectrum))
-    weights = np.where((k == 0) | (2 * k == count), 1.0, 2.0)
-    waves = weights * np.exp(1j * np.outer(angles, k))
-    return np.asarray(np.real(np.tensordot(waves, spectrum, axes=(1, 0))))
+    return np.tensordot(interpolation(len(samples), tuple(angles)), samples, axes=(1, 0))
+
+
+@lru_cache(maxsize=16)
+def interpolation(count: int, angles: tuple[float, ...]) -> FloatArray:
+    """Weights (m, count) of equal samples of a period in their interpolation at angles (m,)."""
+    k = np.arange(count // 2 + 1)
+    weights = np.where((k == 0) | (2 * k == count), 1.0, 2.0) / count
+    phase = np.asarray(angles)[:, None] - 2 * np.pi * np.arange(count) / count
+    return np.asarray(np.cos(phase[..., None] * k) @ weights)
 
 
 def monodromy(M: FloatArray, C: FloatArray, K: FloatArray, w: float) -> FloatArray:

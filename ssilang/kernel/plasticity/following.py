@@ -15,6 +15,7 @@ import numpy as np
 from ssilang.kernel.dynamics.compiled_loop import EXTERNAL, Motion
 from ssilang.kernel.dynamics.motion import snapshot_of
 from ssilang.kernel.dynamics.problem import Problem
+from ssilang.kernel.errors import KernelError
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.plasticity.bulk import Bulk
 from ssilang.kernel.plasticity.newton import STALLED, TOLERANCE, TURNS, BulkSolver, _Trial
@@ -121,7 +122,7 @@ class FollowingSolver(BulkSolver):
         share: float, start: FloatArray,
     ) -> Found:  # fmt: skip
         x, du = 0.0, start
-        now = self._trial(motion, r, du)
+        now = self._trial(motion, r, du, motion.contact)
         self.residuals = []
         for turn in range(1, TURNS + 1):
             missing = dd + x * way.drag - self.constraints.C @ du
@@ -144,6 +145,17 @@ class FollowingSolver(BulkSolver):
 
     def _settled(self) -> bool:
         return len(self.residuals) >= 3 and max(self.residuals[-3:]) <= STALLED and self._stalled()
+
+    def standing(self, motion: Motion) -> _Trial:
+        """The state as it is."""
+        nothing = np.zeros(len(motion.u))
+        return self._trial(motion, nothing, nothing, motion.contact)
+
+    def _at(
+        self, motion: Motion, r: FloatArray, way: Way, x: float, s: float, split: Split
+    ) -> _Trial:
+        du = split.du + split.rest + s * split.unit
+        return self._trial(motion, r + (x + s) * way.push, du, motion.contact)
 
     def _split(
         self, motion: Motion, now: _Trial, x: float, missing: FloatArray, way: Way
@@ -188,11 +200,7 @@ class FollowingSolver(BulkSolver):
             before = split.unit if self.last is None else self.last
             along = [float(before @ (split.rest + s * split.unit)) for s in found]
             found = [found[int(np.argmax(along))]]
-        trials = [
-            (s, self._trial(motion, r + (x + s) * way.push, split.du + split.rest + s * split.unit))
-            for s in found
-            if np.isfinite(s)
-        ]
+        trials = [(s, self._at(motion, r, way, x, s, split)) for s in found if np.isfinite(s)]
         return min(trials, key=lambda t: t[1].residual) if trials else None
 
 
@@ -200,12 +208,17 @@ class PathRun:
     """A calculation along its path: what stands at the end of the last accepted step."""
 
     def __init__(self, run: BulkRun) -> None:
+        if run.problem.contact is not None:
+            raise KernelError(
+                "unilateral relations (MINI, MAXI) do not go with controlled loads",
+                "describe contact by joints (JOINT_SDM)",
+            )
         self.run = run
         self.solver = FollowingSolver(run.problem, run.problem.K, 1.0, run.bulk, run.state)
-        self.count, self.iterations = 0, 0
+        self.count, self.iterations, self.turns = 0, 0, 0
         self.energies = [run.motion.energies.copy()]
         size = run.problem.numbering.size
-        self._first = self.solver._trial(run.motion, np.zeros(size), np.zeros(size))
+        self._first = self.solver.standing(run.motion)
         self._elastic = np.zeros(size)
 
     def head_for(self, change: FloatArray) -> None:
@@ -255,6 +268,7 @@ class PathRun:
             m.energies[EXTERNAL] += moved @ p.constraints.multipliers(0.5 * (old + m.reaction))
         run.account(stored, self.solver.work)
         self.energies.append(m.energies.copy())
+        self.turns = found.turns
         self.iterations = max(self.iterations, found.turns)
         return found.x
 

@@ -156,6 +156,6 @@ def _numbering_of(fields: Sequence[NodeField]) -> Numbering:
     if not names:
         raise FieldError("the fields hold nothing")
     table = fields[0].table
-    return Numbering(
-        table, names, names, np.concatenate(nodes), np.concatenate(codes), table.version
-    )
+    numbers, places = np.concatenate(nodes), np.concatenate(codes)
+    order = np.lexsort((places, numbers))
+    return Numbering(table, names, names, numbers[order], places[order], table.version)

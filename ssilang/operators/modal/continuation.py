@@ -1,0 +1,433 @@
+"""ZCON: continuation along the arc of harmonic balance (procedure CONTINU, 'HBM' = VRAI)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ssilang.kernel.curve import Load
+from ssilang.kernel.fields.node_field import NodeField, NodeValues
+from ssilang.kernel.matrices.assembly import (
+    Numbering,
+    assemble,
+    constraint_matrix,
+    field_to_vector,
+    numbering_of,
+    vector_to_field,
+)
+from ssilang.kernel.matrices.matrix import Matrix
+from ssilang.kernel.mesh.mesh import Point
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+from ssilang.language.values import ListChpo, ListEnti, ListMots, ListReel, Mot, Table
+from ssilang.operators.modal.harmonic_tables import asked_results, curve, joined, longer, numbered
+from ssilang.operators.modal.hbm import known_names
+from ssilang.operators.session.user_procedures import call_user
+from ssilang.operators.tables.entries import Entries
+
+if TYPE_CHECKING:
+    from ssilang.kernel.continuation.arc import Branch, Lengths, Tracer
+    from ssilang.kernel.continuation.arc import Point as Solution
+    from ssilang.kernel.continuation.expansion import Names
+    from ssilang.kernel.continuation.frequency_problem import FrequencyProblem
+
+STABILITY = ("DIAG", "FLOQ", "HILL")
+BEND = np.radians(60.0)
+"""Angle between two steps beyond which the second one is cut."""
+
+
+def lengths_of(entries: Entries) -> Lengths:
+    """How far steps go: WTABLE . DS DSMIN DSMAX, NB_ITERATION, MAXITERATION, units."""
+    from ssilang.kernel.continuation.arc import Lengths
+
+    times = np.asarray(entries.needed("TEMPS_CALCULES", "LISTREEL").values)
+    if len(times) < 2 or not (np.diff(times) > 0).all():
+        raise entries.bad("'TEMPS_CALCULES' grows and has two values or more")
+    work = Entries(entries.call, entries.get("WTABLE", "TABLE") or Table(), "CONTINU, WTABLE")
+    start = work.get("DS", "FLOTTANT") or 1.0
+    least = work.get("DSMIN", "FLOTTANT") or 1e-3 * start
+    most = work.get("DSMAX", "FLOTTANT") or max(start, 1.0)
+    unit = entries.needed("MAXI_DEPLACEMENT", "FLOTTANT")
+    if unit <= 0.0 or not 0.0 < least <= start <= most:
+        raise entries.bad("'MAXI_DEPLACEMENT' > 0 and 0 < 'DSMIN' <= 'DS' <= 'DSMAX' are wanted")
+    return Lengths(
+        start, least, most,
+        float(entries.get("NB_ITERATION", "ENTIER", "FLOTTANT") or 6.0),
+        entries.get("MAXITERATION", "ENTIER") or 24,
+        unit, float(np.mean(np.diff(times))),
+        entries.get("PRECISION", "FLOTTANT") or 1e-6,
+        BEND,
+    )  # fmt: skip
+
+
+@dataclass(frozen=True, eq=False)
+class Begin:
+    """Where a branch starts: U (r,), t, way there (U, t) or None, number of the last result."""
+
+    u: FloatArray
+    t: float
+    way: tuple[FloatArray, float] | None
+    number: int
+
+
+def continue_harmonics(entries: Entries) -> None:
+    """Follow the branch and fill the tables."""
+    from ssilang.kernel.continuation.arc import Tracer
+
+    names = known_names(entries)
+    problem = _problem(entries, names)
+    times = np.asarray(entries.needed("TEMPS_CALCULES", "LISTREEL").values)
+    tracer = Tracer(problem, lengths_of(entries))
+    begin = _begin(entries, problem, float(times[0]))
+    if begin.way is None:
+        first = tracer.first(begin.u, begin.t)
+    else:
+        first = tracer.turned(tracer.first(begin.u, begin.t), *begin.way)
+    most = entries.get("MAXIPAS", "ENTIER") or 1000
+    low, high = float(times[0]), float(times[-1])
+    branch = tracer.follow(first, most, lambda t: low <= t <= high, land=True)
+    if branch.ended == "no solution":
+        entries.warn(f"the branch is lost at {branch.points[-1].t:g}", "a smaller 'DSMIN'")
+    _fill(entries, problem, tracer, branch, begin, names)
+
+
+# --- the problem -------------------------------------------------------------------------------
+
+
+def _problem(entries: Entries, names: Names) -> FrequencyProblem:
+    from ssilang.kernel.continuation.frequency_problem import FrequencyProblem
+    from ssilang.kernel.continuation.harmonics import basis_of
+    from ssilang.kernel.dynamics.constraints import constraints_of
+    from ssilang.kernel.dynamics.loading import loading_of
+
+    words = ("RIGIDITE_HBM", "AMORTISSEMENT_HBM", "MASSE_HBM")
+    K, C, M = (entries.needed(w, "RIGIDITE") for w in words)
+    supports = entries.get("BLOCAGES_HBM", "RIGIDITE") or Matrix(K.table)
+    whole = Matrix(K.table, (*K.blocks, *supports.blocks), (*K.relations, *supports.relations))
+    numbering = numbering_of(whole, C, M)
+    rows = constraint_matrix(whole, numbering)
+    load: Load | None = entries.get("CHARGEMENT", "CHARGEME")
+    loading = loading_of(load, numbering, rows.multipliers)
+    if loading.imposed.any():
+        raise entries.bad("imposed displacements do not go with harmonic balance", "load by forces")
+    constraints = constraints_of(rows, numbering.size <= 160)
+    law = entries.get("FREQUENCE", "EVOLUTION", "EVOLUTIO")
+    found, samples = nonlinear_unknowns(entries), None
+    order = entries.get("N_PT_TFR", "ENTIER")
+    least = int(np.ceil(np.log2(4 * names.places)))
+    count = 2 ** (order if order is not None else least)
+    if count < 2 * names.harmonics + 1:
+        raise entries.bad(f"'N_PT_TFR' = {order}: {count} instants for {names.harmonics} harmonics")
+    places = np.zeros((names.places, 0), dtype=np.int64)
+    if found is not None:
+        samples = Sampled(entries, *found)
+        places = _places(entries, numbering, names, *found)
+    return FrequencyProblem(
+        numbering, assemble(whole, numbering), assemble(C, numbering), assemble(M, numbering),
+        constraints.T, loading, float if law is None else law.at,
+        basis_of(names.harmonics, count), places, samples,
+    )  # fmt: skip
+
+
+def nonlinear_unknowns(entries: Entries) -> tuple[Point, list[str]] | None:
+    """POINT_FNL and COMP_FNL where PROCEDURE_CHARMECA and AFT are asked for."""
+    if not entries.flag("PROCEDURE_CHARMECA"):
+        return None
+    if str(entries.get("PROCEDURE_FREQUENCE_TEMPS", "MOT") or "").rstrip() != "AFT":
+        raise entries.bad(
+            "nonlinear forces are computed in time",
+            "TAB1 . 'PROCEDURE_FREQUENCE_TEMPS' = MOT 'AFT' ;",
+        )
+    names = entries.needed("COMP_FNL", "LISTMOTS").values
+    return entries.needed("POINT_FNL", "POINT"), [n.rstrip() for n in names]
+
+
+def _places(
+    entries: Entries, numbering: Numbering, names: Names, point: Point, unknowns: list[str]
+) -> IntArray:
+    wrong = [u for u in unknowns if u not in names.unknowns]
+    if wrong:
+        raise entries.bad(f"no matrix has the unknown {wrong[0]}", " ".join(names.unknowns))
+    found = [
+        [numbering.index_of(point.node, names.coefficient(u, p)) for u in unknowns]
+        for p in range(names.places)
+    ]
+    places = np.array(found, dtype=np.int64)
+    if (places < 0).any():
+        raise entries.bad("the matrices have no unknowns at 'POINT_FNL'")
+    return places
+
+
+class Sampled:
+    """Forces and stiffnesses by the procedure CHARMECA of the script (Cast3M's AFT).
+
+    TAB1 . 'DEP_NL' holds the motion at equal instants of a period, a LISTCHPO ('CALC_CHPO' =
+    VRAI) or one LISTREEL an unknown; the procedure sets 'FNL_T' alike and 'KNL_T' . i . j, the
+    LISTREEL of - dF_i/dx_j.
+    """
+
+    def __init__(self, entries: Entries, point: Point, names: list[str]) -> None:
+        self.entries, self.point, self.names = entries, point, names
+        self.fields = entries.flag("CALC_CHPO")
+
+    def __call__(self, motion: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """f (N, m) and -df/dx (N, m, m)."""
+        table, count = self.entries.table, motion.shape
+        table.set(Mot("DEP_NL"), self._given(motion))
+        call_user(self.entries.call, "CHARMECA", table)
+        force = self._forces(self.entries.needed("FNL_T", "LISTCHPO", "TABLE"), count)
+        stiffness = self.entries.needed("KNL_T", "TABLE")
+        k = np.zeros((*count, count[1]))
+        for i in range(count[1]):
+            for j in range(count[1]):
+                row = stiffness.get(i + 1)
+                value = row.get(j + 1) if isinstance(row, Table) else None
+                k[:, i, j] = self._list(value, count[0], f"KNL_T . {i + 1} . {j + 1}")
+        return force, k
+
+    def _given(self, motion: FloatArray) -> ListChpo | Table:
+        if not self.fields:
+            return numbered([ListReel(column.copy()) for column in motion.T])
+        node = np.array([self.point.node])
+        return ListChpo(
+            [
+                NodeField(
+                    self.point.nodes,
+                    {n: NodeValues(node, row[i : i + 1]) for i, n in enumerate(self.names)},
+                    "DIFFUS",
+                )
+                for row in motion.copy()
+            ]
+        )
+
+    def _forces(self, given: ListChpo | Table, count: tuple[int, ...]) -> FloatArray:
+        if isinstance(given, Table):
+            columns = [
+                self._list(given.get(i + 1), count[0], f"FNL_T . {i + 1}") for i in range(count[1])
+            ]
+            return np.stack(columns, axis=1)
+        if len(given) != count[0] or not all(isinstance(f, NodeField) for f in given.values):
+            raise self.entries.bad(f"CHARMECA must give {count[0]} CHPOINTs in 'FNL_T'")
+        node, out = np.array([self.point.node]), np.zeros(count)
+        for t, field in enumerate(given.values):
+            assert isinstance(field, NodeField)
+            for i, name in enumerate(self.names):
+                out[t, i] = sum(float(field.values_at(n, node)[0]) for n in _either(field, name))
+        return out
+
+    def _list(self, value: object, count: int, place: str) -> FloatArray:
+        if not isinstance(value, ListReel) or len(value.values) != count:
+            raise self.entries.bad(f"CHARMECA must give {count} reals in '{place}'")
+        return np.asarray(value.values, dtype=float)
+
+
+def _either(field: NodeField, name: str) -> list[str]:
+    """The component as the script named it: by the unknown or by its force."""
+    from ssilang.kernel.matrices.matrix import dual_of
+
+    return [n for n in dict.fromkeys((name, dual_of(name))) if n in field.components]
+
+
+# --- start and results -------------------------------------------------------------------------
+
+
+def _begin(entries: Entries, problem: FrequencyProblem, first: float) -> Begin:
+    """The last result, where there is one; else DEPLACEMENTS . 0 at the first time."""
+    number = max(entries.numbers("DEPLACEMENTS"), default=0)
+    known = entries.at("DEPLACEMENTS", number, "CHPOINT")
+    time = entries.at("TEMPS", number, "FLOTTANT", "ENTIER")
+    again = time is not None and entries.has("TEMPS_PROG")
+    work = Entries(entries.call, entries.get("WTABLE", "TABLE") or Table(), "CONTINU, WTABLE")
+    way = None
+    if work.has("DTIME0") and work.has("DDEP0"):
+        moved = _reduced(problem, work.needed("DDEP0", "CHPOINT"))
+        way = (moved, float(work.needed("DTIME0", "FLOTTANT")))
+    u = np.zeros(problem.T.shape[1]) if known is None else _reduced(problem, known)
+    if again:
+        return Begin(u, float(time), way, number)
+    return Begin(u, first, way, -1)
+
+
+def _reduced(problem: FrequencyProblem, field: NodeField) -> FloatArray:
+    """What is left of a field of coefficients by the supports, (r,)."""
+    from ssilang.kernel.sparse import sp
+
+    u = field_to_vector(field, problem.numbering, dual=False)
+    T = problem.T
+    gram = sp.csr_array(T.T @ T).toarray()
+    return np.asarray(np.linalg.solve(gram, T.T @ u))
+
+
+def _fill(
+    entries: Entries, problem: FrequencyProblem, tracer: Tracer, branch: Branch, begin: Begin,
+    names: Names,
+) -> None:  # fmt: skip
+    table, again = entries.table, begin.number >= 0
+    points = branch.points[1:] if again else branch.points
+    if again and not points:
+        return
+    all_times = longer(table, "TEMPS_PROG", np.array([p.t for p in points]))
+    every = entries.get("PAS_SAUVES", "ENTIER") or 1
+    for word in ("TEMPS", "DEPLACEMENTS"):
+        if not isinstance(table.get(word), Table):
+            table.set(Mot(word), Table())
+    times, fields = table.get("TEMPS"), table.get("DEPLACEMENTS")
+    assert isinstance(times, Table)
+    assert isinstance(fields, Table)
+    number = begin.number
+    for i, point in enumerate(points):
+        if i % every == 0 or i == len(points) - 1:
+            number += 1
+            times.set(number, float(point.t))
+            fields.set(number, _field(problem, point.u))
+    _say_way(table, problem, branch)
+    _curves(entries, problem, points, all_times)
+    _stability(entries, problem, tracer, points, again, names)
+
+
+def _field(problem: FrequencyProblem, u: FloatArray) -> NodeField:
+    return vector_to_field(problem.T @ u, problem.numbering)
+
+
+def _say_way(table: Table, problem: FrequencyProblem, branch: Branch) -> None:
+    """WTABLE . DTIME0 DDEP0: the last increment, from which a further call goes on."""
+    if len(branch.points) < 2:
+        return
+    work = table.get("WTABLE")
+    if not isinstance(work, Table):
+        work = Table()
+        table.set(Mot("WTABLE"), work)
+    before, last = branch.points[-2:]
+    work.set(Mot("DTIME0"), float(last.t - before.t))
+    work.set(Mot("DDEP0"), _field(problem, last.u - before.u))
+
+
+def _curves(
+    entries: Entries, problem: FrequencyProblem, points: list[Solution], times: FloatArray
+) -> None:
+    """Lists and curves of the results asked for."""
+    asked_all = asked_results(entries, "RESULTATS_HBM")
+    if not asked_all:
+        return
+    U = np.array([problem.T @ p.u for p in points])
+    curves = []
+    for asked in asked_all:
+        place = problem.numbering.index_of(asked.point.node, asked.component)
+        values = np.zeros(len(points)) if place < 0 else U[:, place]
+        whole = longer(asked.table, "RESULTATS", values)
+        drawn = curve(times, whole, ("t", asked.component), asked.title, asked.colour)
+        asked.table.set(Mot("RESULTATS_EVOL"), drawn)
+        curves.append(drawn)
+    inner = entries.needed("RESULTATS_HBM", "TABLE")
+    inner.set(Mot("RESULTATS_EVOL"), joined(curves))
+    inner.set(Mot("TITRE"), numbered([Mot(a.title) for a in asked_all]))
+
+
+def _stability(
+    entries: Entries, problem: FrequencyProblem, tracer: Tracer, points: list[Solution],
+    again: bool, names: Names,
+) -> None:  # fmt: skip
+    """RESULTATS_STABILITE at all points but the last, which a further call starts from."""
+    asked = entries.get("STABILITE", "LISTMOTS", "LOGIQUE")
+    words = [w.strip() for w in asked.values] if isinstance(asked, ListMots) else []
+    words = ["FLOQ"] if asked is True else words
+    wrong = [w for w in words if w not in STABILITY]
+    if wrong:
+        raise entries.bad(f"'STABILITE': '{wrong[0]}' is not known", " ".join(STABILITY))
+    if not words:
+        return
+    inner = entries.table.get("RESULTATS_STABILITE")
+    if not isinstance(inner, Table):
+        inner = Table()
+        entries.table.set(Mot("RESULTATS_STABILITE"), inner)
+    seen = points[:-1]
+    if again:  # the last point of the call before was left out
+        first = _begin_again(entries, problem, tracer, len(points))
+        seen = [first, *seen] if first is not None else seen
+    if "DIAG" in words:
+        counts = [float((np.linalg.eigvals(p.jacobian).real < 0).sum()) for p in seen]
+        longer(inner, "DIAG", np.array(counts))
+    if "FLOQ" in words or "HILL" in words:
+        _floquet(entries, problem, seen, inner, names)
+
+
+def _begin_again(
+    entries: Entries, problem: FrequencyProblem, tracer: Tracer, new: int
+) -> Solution | None:
+    times = np.asarray(entries.needed("TEMPS_PROG", "LISTREEL").values)
+    numbers = entries.numbers("DEPLACEMENTS")
+    at = float(times[len(times) - new - 1])
+    for number in sorted(numbers, reverse=True):
+        if entries.at("TEMPS", number, "FLOTTANT") == at:
+            return tracer.first(
+                _reduced(problem, entries.at("DEPLACEMENTS", number, "CHPOINT")), at
+            )
+    return None
+
+
+def _floquet(
+    entries: Entries, problem: FrequencyProblem, points: list[Solution], inner: Table, names: Names
+) -> None:
+    from ssilang.kernel.continuation.floquet import unstable
+
+    of = _exponents(entries, problem)
+    found = np.array([of(p) for p in points])
+    table = inner.get("FLOQ")
+    if not isinstance(table, Table):
+        table = Table()
+        inner.set(Mot("FLOQ"), table)
+    for word, values in (("EXPOSANT_REEL", found.real), ("EXPOSANT_IMAG", found.imag)):
+        lists = table.get(word)
+        if not isinstance(lists, Table):
+            lists = Table()
+            table.set(Mot(word), lists)
+        for i, column in enumerate(values.T, start=1):
+            known = lists.get(i) if lists.has(i) else None
+            before = known.values if isinstance(known, ListReel) else np.zeros(0)
+            lists.set(i, ListReel(np.concatenate([before, column])))
+    states = [
+        int(unstable(e, max(problem.frequency(p.t), 1e-12)))
+        for e, p in zip(found, points, strict=True)
+    ]
+    known = table.get("STABILITE")
+    past = list(known.values) if isinstance(known, ListEnti) else []
+    table.set(Mot("STABILITE"), ListEnti(np.array([*past, *states], dtype=np.int64)))
+
+
+def _exponents(entries: Entries, problem: FrequencyProblem) -> Callable[[Solution], FloatArray]:
+    """Floquet exponents of a solution, from the matrices of the motion itself."""
+    from ssilang.kernel.continuation.floquet import exponents
+    from ssilang.kernel.dynamics.constraints import constraints_of
+
+    words = ("RIGIDITE_CONSTANTE", "AMORTISSEMENT_CONSTANT", "MASSE_CONSTANTE")
+    K, C, M = (entries.get(w, "RIGIDITE") for w in words)
+    if K is None or M is None:
+        raise entries.bad("stability wants 'RIGIDITE_CONSTANTE' and 'MASSE_CONSTANTE'")
+    C = Matrix(K.table) if C is None else C
+    supports = entries.get("BLOCAGES_MECANIQUES", "RIGIDITE") or Matrix(K.table)
+    whole = Matrix(K.table, (*K.blocks, *supports.blocks), (*K.relations, *supports.relations))
+    numbering = numbering_of(whole, C, M)
+    rows = constraint_matrix(whole, numbering)
+    T = constraints_of(rows, numbering.size <= 160).T.toarray()
+    k, c, m = (T.T @ assemble(x, numbering).toarray() @ T for x in (whole, C, M))
+    if np.linalg.matrix_rank(m) < len(m):
+        raise entries.bad("Floquet exponents want a mass for each unknown")
+    found = nonlinear_unknowns(entries)
+    at = [] if found is None else [numbering.index_of(found[0].node, n) for n in found[1]]
+    rows_of = T[at]
+
+    def of(point: Solution) -> FloatArray:
+        stiffness = np.broadcast_to(k, (len(problem.basis.values), *k.shape))
+        if at:
+            stiffness = k + np.einsum(
+                "ia,tij,jb->tab", rows_of, problem.sampled(point.u)[1], rows_of
+            )
+        damping = np.broadcast_to(c, stiffness.shape)
+        w = problem.frequency(point.t)
+        if w <= 0.0:  # at rest: as if the period were that of one unit
+            damping, stiffness = damping[:1], stiffness.mean(axis=0, keepdims=True)
+        return exponents(m, damping, stiffness, w if w > 0.0 else 1.0)
+
+    return of

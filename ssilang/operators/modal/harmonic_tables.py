@@ -1,0 +1,91 @@
+"""Tables of HBM, CONTINU and HBM_POST: results asked for, curves, entries by number."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ssilang.io.plots.palette import NAMES, index_of
+from ssilang.kernel.curve import Curve, CurvePart
+from ssilang.kernel.mesh.mesh import Point
+from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.language.values import ListMots, ListReel, Mot, Table
+from ssilang.operators.tables.entries import Entries
+
+
+@dataclass(frozen=True, eq=False)
+class Asked:
+    """A result asked for: its table, the point, the component, title and colour."""
+
+    table: Table
+    point: Point
+    component: str
+    title: str
+    colour: int
+
+
+def asked_results(entries: Entries, index: str) -> list[Asked]:
+    """Results 1, 2 ... of the table at an index; none without it."""
+    inner = entries.get(index, "TABLE")
+    if inner is None:
+        return []
+    return [
+        _asked(entries, inner.get(i), f"{index} . {i}")
+        for i, _ in sorted((i, v) for i, v in inner.items() if type(i) is int)
+    ]
+
+
+def _asked(entries: Entries, table: object, place: str) -> Asked:
+    if not isinstance(table, Table):
+        raise entries.bad(f"'{place}' must be TABLE")
+    own = Entries(entries.call, table, f"{entries.procedure}, {place}")
+    point: Point = own.needed("POINT_MESURE", "POINT")
+    word = "COMPOSANTE" if own.has("COMPOSANTE") else "COMPOSANTES"
+    given = own.needed(word, "MOT", "LISTMOTS")
+    component = given.values[0] if isinstance(given, ListMots) else str(given)
+    title = own.get("TITRE", "MOT")
+    return Asked(
+        table, point, component.rstrip(), str(title or component).rstrip(),
+        colour_of(table.get("COULEUR")),
+    )  # fmt: skip
+
+
+def colour_of(word: object) -> int:
+    """Index of a colour word, 0 without one."""
+    name = str(word or "").strip().upper()[:4]
+    return index_of(name) if name in NAMES else 0
+
+
+def colours_of(words: object, count: int, default: int) -> list[int]:
+    """One colour a curve, from a LISTMOTS taken round and round."""
+    if not isinstance(words, ListMots) or not words.values:
+        return [default] * count
+    return [colour_of(words.values[i % len(words.values)]) for i in range(count)]
+
+
+def curve(x: FloatArray, y: FloatArray, names: tuple[str, str], title: str, colour: int) -> Curve:
+    """One curve."""
+    return Curve((CurvePart(x.copy(), y.copy(), names[0], names[1], title, colour),), title)
+
+
+def joined(curves: Sequence[Curve]) -> Curve:
+    """All curves as one object."""
+    return Curve(tuple(p for c in curves for p in c.parts))
+
+
+def numbered(values: Sequence[object]) -> Table:
+    """A table 1, 2 ..."""
+    table = Table()
+    for i, value in enumerate(values, start=1):
+        table.set(i, value)
+    return table
+
+
+def longer(table: Table, index: str, values: FloatArray) -> FloatArray:
+    """The list at an index with more values behind, also set there."""
+    known = table.get(index)
+    whole = np.concatenate([known.values, values]) if isinstance(known, ListReel) else values
+    table.set(Mot(index), ListReel(np.array(whole, dtype=float)))
+    return np.asarray(whole)

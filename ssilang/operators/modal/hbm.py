@@ -1,0 +1,229 @@
+"""ZHBM: matrices of harmonic balance (procedure HBM); ZHPO: results in time (HBM_POST)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ssilang.kernel.continuation import expansion
+from ssilang.kernel.continuation.expansion import Names, names_of
+from ssilang.kernel.continuation.harmonics import basis_at
+from ssilang.kernel.matrices.matrix import Matrix
+from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.language.call import Call
+from ssilang.language.registry import Help, operator
+from ssilang.language.values import ListEnti, ListMots, ListReel, Mot, Table
+from ssilang.operators.modal.harmonic_tables import (
+    Asked,
+    asked_results,
+    colours_of,
+    curve,
+    joined,
+    numbered,
+)
+from ssilang.operators.tables.entries import Entries
+
+REFUSED = {
+    "RIGIDITE_CENTRIFUGE": "the notice does not say how it enters Z",
+    "CORIOLIS_CONSTANT": "the notice does not say how it enters Z",
+}
+MATRICES = {
+    "RIGIDITE_HBM": ("RIGIDITE_CONSTANTE", expansion.stiffness_terms),
+    "AMORTISSEMENT_HBM": ("AMORTISSEMENT_CONSTANT", expansion.damping_terms),
+    "MASSE_HBM": ("MASSE_CONSTANTE", expansion.mass_terms),
+    "BLOCAGES_HBM": ("BLOCAGES_MECANIQUES", expansion.stiffness_terms),
+    # a perturbation that grows as exp(a t) meets Z + a (MASSE_HBM_1 w + AMORTISSEMENT_HBM_1)
+    # + a^2 MASSE_HBM_2
+    "MASSE_HBM_1": ("MASSE_CONSTANTE", lambda h: 2.0 * expansion.damping_terms(h)),
+    "MASSE_HBM_2": ("MASSE_CONSTANTE", expansion.stiffness_terms),
+    "AMORTISSEMENT_HBM_1": ("AMORTISSEMENT_CONSTANT", expansion.stiffness_terms),
+}
+
+
+def known_names(entries: Entries) -> Names:
+    """Unknowns and harmonics of a table given to HBM."""
+    harmonics = entries.needed("N_HARMONIQUE", "ENTIER")
+    if harmonics < 1:
+        raise entries.bad(f"'N_HARMONIQUE' is {harmonics}", "1 or more")
+    words = ("RIGIDITE_CONSTANTE", "AMORTISSEMENT_CONSTANT", "MASSE_CONSTANTE")
+    given = [m for m in (entries.get(w, "RIGIDITE") for w in words) if m is not None]
+    return names_of(given, harmonics)
+
+
+@operator(
+    "ZHBM",
+    family="modal",
+    help=Help(
+        en="Matrices of harmonic balance of the table of HBM, which is the procedure to call.",
+        fr="Matrices d'équilibrage harmonique de la table de HBM, procédure à appeler.",
+        syntax="ZHBM TAB1 ;",
+    ),
+    reads_itself=True,
+)
+def zhbm(call: Call) -> None:
+    """Read the matrices of the motion, add those of its coefficients."""
+    entries = Entries(call, call.required("TABLE"), "HBM")
+    entries.refuse(REFUSED)
+    names = known_names(entries)
+    entries.needed("RIGIDITE_CONSTANTE", "RIGIDITE")
+    entries.needed("MASSE_CONSTANTE", "RIGIDITE")
+    for index, (source, terms) in MATRICES.items():
+        given = entries.get(source, "RIGIDITE")
+        if given is None:
+            given = Matrix(entries.needed("MASSE_CONSTANTE", "RIGIDITE").table)
+        if index == "BLOCAGES_HBM":
+            given = Matrix(given.table, given.blocks, given.relations)
+        elif index not in ("RIGIDITE_HBM",):
+            given = Matrix(given.table, given.blocks, (), given.kind)
+        entries.table.set(Mot(index), expansion.expanded(given, names, terms(names.harmonics)))
+    entries.table.set(Mot("HBM"), True)
+    _components(entries, names)
+    _results(entries, names)
+
+
+def _components(entries: Entries, names: Names) -> None:
+    places = range(names.places)
+    primal = [[names.coefficient(u, p) for u in names.unknowns] for p in places]
+    dual = [[names.coefficient(u, p, True) for u in names.unknowns] for p in places]
+    table = Table()
+    table.set(Mot("DEPLACEMENT"), ListMots(list(names.unknowns)))
+    table.set(Mot("FORCE"), ListMots(list(names.duals)))
+    for word, found in (("DEPLACEMENT", primal), ("FORCE", dual)):
+        table.set(Mot(f"{word}_HBM"), ListMots([n for row in found for n in row]))
+        by_harmonic = Table()
+        for k in range(names.harmonics + 1):
+            rows = found[:1] if k == 0 else found[2 * k - 1 : 2 * k + 1]
+            by_harmonic.set(k, ListMots([n for row in rows for n in row]))
+        table.set(Mot(f"HARM_{word}"), by_harmonic)
+    entries.table.set(Mot("COMPOSANTES"), table)
+
+
+def _results(entries: Entries, names: Names) -> None:
+    """RESULTATS_HBM, one a coefficient of each result, and INDICES_HBM of the results."""
+    found, number, titles = Table(), 0, []
+    for asked in asked_results(entries, "RESULTATS"):
+        if asked.component not in names.unknowns:
+            raise entries.bad(
+                f"no matrix has the unknown {asked.component}", " ".join(names.unknowns)
+            )
+        given = asked.table.get("COULEUR_HBM")
+        colours = colours_of(given, names.places, asked.colour)
+        own = []
+        for place in range(names.places):
+            number += 1
+            own.append(number)
+            titles.append(_title(asked.title, place))
+            found.set(number, _coefficient(asked, names, place, titles[-1], given, colours))
+        asked.table.set(Mot("INDICES_HBM"), ListEnti(np.array(own, dtype=np.int64)))
+    if number:
+        found.set(Mot("TITRE"), numbered([Mot(t) for t in titles]))
+        entries.table.set(Mot("RESULTATS_HBM"), found)
+
+
+def _title(title: str, place: int) -> str:
+    return (
+        title
+        + (" 0" if place == 0 else f" {'sin' if place % 2 == 0 else 'cos'}")
+        + (f" {(place + 1) // 2}" if place else "")
+    )
+
+
+def _coefficient(
+    asked: Asked, names: Names, place: int, title: str, given: object, colours: list[int]
+) -> Table:
+    table = Table()
+    table.set(Mot("POINT_MESURE"), asked.point)
+    table.set(Mot("COMPOSANTES"), Mot(names.coefficient(asked.component, place)))
+    table.set(Mot("TITRE"), Mot(title))
+    words = given.values if isinstance(given, ListMots) and given.values else None
+    own = asked.table.get("COULEUR") if words is None else Mot(words[place % len(words)])
+    if own is not None:
+        table.set(Mot("COULEUR"), own)
+    return table
+
+
+# --- HBM_POST ----------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """Coefficients (n_points, 2 H + 1) of one result along a branch, t and w there."""
+
+    coefficients: FloatArray
+    times: FloatArray
+    frequencies: FloatArray
+
+
+@operator(
+    "ZHPO",
+    family="modal",
+    help=Help(
+        en="Results in time of the table of HBM_POST, which is the procedure to call.",
+        fr="Résultats temporels de la table de HBM_POST, procédure à appeler.",
+        syntax="ZHPO TAB1 LMOT1 ;",
+    ),
+    reads_itself=True,
+)
+def zhpo(call: Call) -> None:
+    """Maxima, motions and velocities from the coefficients."""
+    entries = Entries(call, call.required("TABLE"), "HBM_POST")
+    wanted = [w.strip().upper()[:4] for w in call.required("LISTMOTS").values]
+    wrong = [w for w in wanted if w not in ("MAXI", "TEMP", "VITE")]
+    if wrong:
+        raise entries.bad(f"'{wrong[0]}' is no result", "MAXI TEMP VITE")
+    harmonics = entries.needed("N_HARMONIQUE", "ENTIER")
+    count = entries.get("N_PT_POST", "ENTIER") or 2**7 * harmonics
+    shares = np.arange(count + 1) / count
+    values, rates = basis_at(harmonics, 2 * np.pi * shares)
+    every = entries.get("PAS_SAUVES", "ENTIER") or 1
+    curves, titles = [], []
+    for asked in asked_results(entries, "RESULTATS"):
+        motion = _motion(entries, asked)
+        if "MAXI" in wanted:
+            largest = np.abs(motion.coefficients @ values.T).max(axis=1)
+            curves.append(curve(motion.times, largest, ("t", "MAXI"), asked.title, asked.colour))
+            titles.append(Mot(asked.title))
+        if "TEMP" in wanted or "VITE" in wanted:
+            asked.table.set(
+                Mot("RESULTATS_TEMPORELS"),
+                _in_time(motion, asked, (shares, values, rates), wanted, every),
+            )
+    results = entries.table.get("RESULTATS")
+    if curves and isinstance(results, Table):
+        results.set(Mot("RESULTATS_EVOL"), joined(curves))
+        results.set(Mot("TITRE"), numbered(titles))
+
+
+def _motion(entries: Entries, asked: Asked) -> Motion:
+    own = Entries(entries.call, asked.table, "HBM_POST")
+    numbers = own.needed("INDICES_HBM", "LISTENTI").values
+    found = entries.needed("RESULTATS_HBM", "TABLE")
+    lists = []
+    for j in numbers:
+        inner = found.get(int(j))
+        values = inner.get("RESULTATS") if isinstance(inner, Table) else None
+        if not isinstance(values, ListReel):
+            raise entries.bad(f"'RESULTATS_HBM' . {j} has no 'RESULTATS'", "CONTINU gives them")
+        lists.append(np.asarray(values.values))
+    times = np.asarray(entries.needed("TEMPS_PROG", "LISTREEL").values)
+    law = entries.get("FREQUENCE", "EVOLUTION", "EVOLUTIO")
+    frequencies = times if law is None else np.array([law.at(float(t)) for t in times])
+    return Motion(np.stack(lists, axis=1), times, frequencies)
+
+
+def _in_time(
+    motion: Motion, asked: Asked, period: tuple[FloatArray, FloatArray, FloatArray],
+    wanted: list[str], every: int,
+) -> Table:  # fmt: skip
+    shares, values, rates = period
+    table = Table()
+    for i in range(0, len(motion.times), every):
+        row = motion.coefficients[i]
+        if "TEMP" in wanted:
+            y = values @ row
+            table.set(i + 1, curve(shares, y, ("t/T", "U"), asked.title, asked.colour))
+        if "VITE" in wanted:
+            y = motion.frequencies[i] * (rates @ row)
+            table.set(-i - 1, curve(shares, y, ("t/T", "V"), asked.title, asked.colour))
+    return table

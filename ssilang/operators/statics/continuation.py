@@ -1,0 +1,118 @@
+"""Loads on a structure followed along the arc length (procedure CONTINU)."""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.language.values import ListMots, ListReel, Mot, Table
+from ssilang.operators.dynamics.reports import report
+from ssilang.operators.modal.continuation import lengths_of
+from ssilang.operators.modal.harmonic_tables import asked_results, curve
+from ssilang.operators.statics.bodies import finite_bodies, finite_zones, plastic_bodies
+from ssilang.operators.statics.pasapas import _inputs, _path_run, start_of
+from ssilang.operators.statics.pasapas_results import ResultTables
+from ssilang.operators.tables.entries import Entries
+
+if TYPE_CHECKING:
+    from ssilang.kernel.dynamics.problem import Problem
+    from ssilang.kernel.dynamics.snapshot import Observer, Snapshot
+    from ssilang.kernel.plasticity.arc_length import ArcTrace
+
+REFUSED = {
+    "PROCEDURE_CHARMECA": "follower loads of a procedure are not built for structures",
+    "DYNAMIQUE": "the path of loads is static",
+}
+
+
+class Followed:
+    """Displacements of all solutions, for the results asked for."""
+
+    def __init__(self, count: int) -> None:
+        self.wanted = np.ones(count, bool)
+        self.fields: list[NodeField] = []
+        self.times: list[float] = []
+
+    def receive(self, snapshot: Snapshot) -> None:
+        """One solution."""
+        self.fields.append(snapshot.displacement)
+        self.times.append(snapshot.time)
+
+    def close(self) -> None:
+        """Nothing to do."""
+
+
+def continue_loads(entries: Entries) -> None:
+    """Follow the path of loads and fill the tables."""
+    from ssilang.kernel.dynamics.problem import make_problem
+    from ssilang.kernel.plasticity.arc_length import follow_arc
+    from ssilang.kernel.plasticity.driven_load import history_of
+
+    entries.refuse(REFUSED)
+    lengths, begun = lengths_of(entries), time.perf_counter()
+    times = np.asarray(entries.needed("TEMPS_CALCULES", "LISTREEL").values, dtype=float)
+    start = start_of(entries)
+    if start.time is not None and start.time > times[0]:
+        raise entries.bad(
+            "the path begins at the first time of 'TEMPS_CALCULES'", "a new table for a new path"
+        )
+    inputs, stresses = _inputs(entries, start, times, False)
+    finite = finite_zones(entries)
+    bodies = finite_bodies(entries, finite, start) if finite else plastic_bodies(entries, start)
+    problem = make_problem(inputs)
+    most, every = entries.get("MAXIPAS", "ENTIER") or 1000, entries.get("PAS_SAUVES", "ENTIER") or 1
+    results = ResultTables(entries.table, np.ones(len(times), bool), stresses, False, start.index)
+    followed = Followed(len(times))
+    observers: list[Observer] = [results, followed]
+    rate = _rate(entries, problem, times)
+    words = _stability(entries)
+    path, trace = follow_arc(
+        _path_run(problem, inputs, bodies, observers), rate, lengths,
+        lambda t: bool(t < times[-1]), most, every, "DIAG" in words,
+    )  # fmt: skip
+    report(entries, problem, history_of(path, trace, time.perf_counter() - begun))
+    _fill(entries, trace, followed)
+
+
+def _rate(entries: Entries, problem: Problem, times: FloatArray) -> FloatArray:
+    """Change of the load factors in a unit of time, the same all along."""
+    factors = problem.loading.at(times)
+    rate = (factors[-1] - factors[0]) / (times[-1] - times[0])
+    straight = factors[0] + np.outer(times - times[0], rate)
+    if np.abs(factors - straight).max(initial=0.0) > 1e-9 * np.abs(factors).max(initial=1e-300):
+        raise entries.bad(
+            "the load is not straight in time over 'TEMPS_CALCULES'",
+            "one line from the first time to the last: the load keeps its direction",
+        )
+    if not rate.any():
+        raise entries.bad("the load does not change in time")
+    return np.asarray(rate)
+
+
+def _stability(entries: Entries) -> list[str]:
+    given = entries.get("STABILITE", "LISTMOTS", "LOGIQUE")
+    words = [w.strip() for w in given.values] if isinstance(given, ListMots) else []
+    wrong = [w for w in words if w != "DIAG"]
+    if wrong:
+        raise entries.bad(f"'STABILITE': '{wrong[0]}' is for harmonic balance", "'DIAG'")
+    return ["DIAG"] if given is True else words
+
+
+def _fill(entries: Entries, trace: ArcTrace, followed: Followed) -> None:
+    table = entries.table
+    table.set(Mot("TEMPS_PROG"), ListReel(np.array(trace.times)))
+    if trace.negative:
+        inner = Table()
+        inner.set(Mot("DIAG"), ListReel(np.array(trace.negative)))
+        table.set(Mot("RESULTATS_STABILITE"), inner)
+    x = np.array(followed.times)
+    for asked in asked_results(entries, "RESULTATS"):
+        node = np.array([asked.point.node])
+        y = np.array([float(f.values_at(asked.component, node)[0]) for f in followed.fields])
+        asked.table.set(Mot("RESULTATS"), ListReel(y))
+        drawn = curve(x, y, ("t", asked.component), asked.title, asked.colour)
+        asked.table.set(Mot("RESULTATS_EVOL"), drawn)
