@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.frames import points_of
+from ssilang.kernel.elements.geometry import cell_geometry
+from ssilang.kernel.elements.quadrature import Rule, quadrature
+from ssilang.kernel.elements.reference import REFERENCE_CELLS
 from ssilang.kernel.errors import FieldError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.matrices.location import locate
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.model import Model
+from ssilang.kernel.model import Mode, Model
 
 
 def _interpolated(
@@ -64,5 +68,63 @@ def on_model(field: CellField, model: Model, support: Support, tolerance: float)
         if components:
             blocks.append(
                 CellFieldBlock(zone.cells, components, support, zone.element, zone.constituent)
+            )
+    return CellField(tuple(blocks), field.title)
+
+
+_SIMPLEX_POINTS = {"triangle": (1, 3, 7), "tetrahedron": (1, 4, 27), "prism": (1, 6, 21)}
+
+
+def _points_per_direction(shape: str, n: int) -> Rule:
+    """The rule with n points in each direction, or the one nearest to it that exists."""
+    if shape in _SIMPLEX_POINTS:
+        return quadrature(shape, _SIMPLEX_POINTS[shape][min(n, 3) - 1])
+    power = {"line": 1, "quadrangle": 2}.get(shape, 3)
+    return quadrature(shape, n**power)
+
+
+def by_least_squares(field: CellField, model: Model, n: int, tolerance: float) -> CellField:
+    """Nodal values in each cell of a model whose integrated squared distance to a field is least.
+
+    Parameters
+    ----------
+    field : CellField
+        At the nodes of its cells; zero outside them.
+    n : int
+        Integration points in each direction of a cell; at least one for each node is needed.
+
+    Raises
+    ------
+    FieldError
+        For cells that are no continuous elements, or too few points.
+    """
+    blocks = []
+    for zone in model.zones:
+        if not is_solid(zone):
+            raise FieldError(f"element {zone.element} does not fill its space: no projection on it")
+        kind = zone.cells.kind
+        rule = _points_per_direction(REFERENCE_CELLS[kind.name].shape, n)
+        if len(rule) < kind.n_nodes:
+            raise FieldError(
+                f"{len(rule)} integration points do not fix the {kind.n_nodes} values of a "
+                f"{kind.name} cell",
+                "give more points in each direction (3 by default)",
+            )
+        at = zone.cells.coordinates
+        geometry = cell_geometry(kind.name, at[..., : zone.mode.dimension], rule)
+        x = np.einsum("pk,ckd->cpd", geometry.shapes, at)
+        round_axis = zone.mode in (Mode.AXISYMMETRIC, Mode.FOURIER)
+        weights = geometry.volumes * x[..., 0] if round_axis else geometry.volumes
+        weighted = weights[:, :, None] * geometry.shapes
+        squares = np.einsum("cpk,pl->ckl", weighted, geometry.shapes)
+        components = {}
+        for name, (rows, values) in _interpolated(field, x.reshape(-1, 3), tolerance).items():
+            flat = np.zeros(x.shape[0] * x.shape[1])
+            flat[rows] = values
+            right = np.einsum("cpk,cp->ck", weighted, flat.reshape(x.shape[:2]))
+            components[name] = np.linalg.solve(squares, right[..., None])[..., 0]
+        if components:
+            blocks.append(
+                CellFieldBlock(zone.cells, components, "NOEUD", zone.element, zone.constituent)
             )
     return CellField(tuple(blocks), field.title)

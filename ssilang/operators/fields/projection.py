@@ -10,14 +10,15 @@ import numpy as np
 from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.gradients import gradient_names
-from ssilang.kernel.elements.projection import on_mesh, on_model
+from ssilang.kernel.elements.projection import by_least_squares, on_mesh, on_model
 from ssilang.kernel.elements.tensors import PRINCIPAL
 from ssilang.kernel.elements.zone_fields import n_points
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.parameters import geometric_names, material_names
+from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.model import Model, Zone
-from ssilang.language.call import Call
+from ssilang.language.call import Call, Operand
 from ssilang.language.registry import Help, operator
 from ssilang.operators.statics.stresses import on_zones
 
@@ -30,12 +31,16 @@ SUPPORTS = ("NOEUDS", "GRAVITE", "RIGIDITE", "MASSE", "STRESSES")
     help=Help(
         en="Projection of a field in cells, given at nodes, by its shape functions: on a mesh (a "
         "nodal field, where the nodes lie inside), or on a model (a field in cells at the nodes "
-        "or at the points of a support). The tolerance is relative to the cells (1.E-5).",
+        "or at the points of a support). 'MINI': nodal values in each cell of the model with the "
+        "least integral of squared differences, by N1 points in each direction (3). The tolerance "
+        "is relative to the cells (1.E-5).",
         fr="Projection d'un champ par éléments, donné aux noeuds, par ses fonctions de forme : sur "
         "un maillage (un champ par points, là où les noeuds sont à l'intérieur), ou sur un modèle "
-        "(un champ par éléments aux noeuds ou aux points d'un support). La tolérance est relative "
-        "aux éléments (1.E-5).",
-        syntax="CHPO1 = PROI GEO1 CHAM1 (TOL1) ;\nCHAM2 = PROI MODL1 CHAM1 (MOT1) (TOL1) ;",
+        "(un champ par éléments aux noeuds ou aux points d'un support). 'MINI' : valeurs nodales, "
+        "dans chaque élément du modèle, qui rendent minimale l'intégrale du carré de l'écart, par "
+        "N1 points par direction (3). La tolérance est relative aux éléments (1.E-5).",
+        syntax="CHPO1 = PROI GEO1 CHAM1 (TOL1) ;\nCHAM2 = PROI MODL1 CHAM1 (MOT1) (TOL1) ;\n"
+        "CHAM2 = PROI MODL1 CHAM1 'MINI' (N1) ;",
         examples=(
             "OPTI DIME 2 ELEM QUA4 ; L = DROI 2 (0. 0.) (2. 0.) ; S = TRAN 1 L (0. 1.) ; "
             "P = 0.3 0.4 ; C = CHAN 'CHAM' (NOMC 'SCAL' (COOR 1 S)) S ; "
@@ -51,17 +56,29 @@ def proi(call: Call) -> NodeField | CellField:
     place = call.read("MAILLAGE", "MMODEL")
     fields: list[CellField] = call.all("MCHAML")
     word = call.keyword((*SUPPORTS, "MINI"))
-    if word == "MINI":
-        raise call.bad("'MINI' (least squares) is not available")
+    count = call.read("ENTIER") if word == "MINI" else None
     place = call.read("MAILLAGE", "MMODEL") if place is None else place
     fields += call.all("MCHAML")
     tolerance = call.optional("FLOTTANT", default=1e-5)
     if place is None or not fields:
         raise call.missing(("MAILLAGE", "MMODEL") if place is None else ("MCHAML",))
+    if word == "MINI":
+        return _least_squares(call, fields[-1], place.value, count, tolerance)
     if isinstance(place.value, Model):
         support = cast(Support, "NOEUD" if word in (None, "NOEUDS") else word)
         return on_model(fields[-1], place.value, support, tolerance)
     return on_mesh(fields[-1], place.value, tolerance)
+
+
+def _least_squares(
+    call: Call, field: CellField, model: Model | Mesh, count: Operand | None, tolerance: float
+) -> CellField:
+    if not isinstance(model, Model):
+        raise call.bad("'MINI' projects on a model, not on a mesh", model)
+    points = 3 if count is None else int(count.value)
+    if points < 1:
+        raise call.bad(f"{points} integration points in each direction are none", points)
+    return by_least_squares(field, model, points, tolerance)
 
 
 def _scalar(support: Support) -> tuple[str, Support]:
