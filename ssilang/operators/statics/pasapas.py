@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -33,10 +33,12 @@ from ssilang.operators.statics.initial_stress import offset_load, stress_offsets
 from ssilang.operators.statics.pasapas_contact import sides_of
 from ssilang.operators.statics.pasapas_entries import KNOWN, REFUSED, RESULTS
 from ssilang.operators.statics.pasapas_results import ResultTables, Stresses
+from ssilang.operators.statics.pasapas_stages import Reached, Stage, entering, stage_of
 from ssilang.operators.statics.pasapas_steering import (
     ChangedCalculation,
     SavedTable,
     Steering,
+    state_table,
     working_table,
 )
 from ssilang.operators.statics.path_following import control_asked, driven_parts, follow
@@ -71,17 +73,27 @@ def zpas(call: Call) -> None:
     if entries.flag("PROCEDURE_PERSO1"):
         work = Entries(call, working_table(entries.table), "PASAPAS")
         entries.table.set(Mot("WTABLE"), work.table)
-    number = start.index
     try:
         while len(times) > 1:
+            stage = stage_of(work, times)
+            part = slice(0, stage.steps + 1)
+            number = start.index if start.reached is None else _last_number(entries)
             try:
-                number = _stretch(entries, work, start, times, saved, number)
-                break
+                ends = len(times) - 1 == stage.steps
+                state = _stretch(
+                    entries, work, _entering(start, stage), stage, times[part], saved[part], number
+                )
+                _say_model(entries, work, stage, number)
+                if ends:
+                    break
+                start, times, saved = _onward(entries, work, times, saved, stage.steps, state)
             except ChangedCalculation as change:
-                start, times, saved, number = _after(entries, work, times, saved, change)
+                state = entries.get("ESTIMATION", "TABLE")
+                start, times, saved = _onward(entries, work, times, saved, change.step, state)
+                times, saved = _other_times(entries, times, saved)
     except StopCalculation:
-        number = _last_number(entries)
-    _say_last(entries, number)
+        pass
+    _say_last(entries, _last_number(entries))
     entries.table.set(Mot("CONV"), True)
     entries.table.set(Mot("ERREUR"), False)
 
@@ -90,25 +102,27 @@ def _stretch(
     entries: Entries,
     work: Entries,
     start: Start,
+    stage: Stage,
     times: FloatArray,
     saved: NDArray[np.bool_],
     number: int,
-) -> int:
-    """Steps during which nothing of `work` changes; the number after the last result."""
+) -> Table:
+    """Steps of one stage; the state at their end."""
     from ssilang.kernel.dynamics.integrate import integrate
     from ssilang.kernel.dynamics.problem import make_problem
     from ssilang.kernel.plasticity.run import run_bulk
     from ssilang.kernel.statics.stepping import step_statics
 
-    dynamic = work.flag("DYNAMIQUE")
-    inputs, stresses = _inputs(work, start, times, dynamic)
-    finite = finite_zones(work)
-    bodies = finite_bodies(work, finite, start) if finite else plastic_bodies(work, start)
+    given, dynamic = stage.entries, work.flag("DYNAMIQUE")
+    inputs, stresses = _inputs(given, start, times, dynamic)
+    finite = finite_zones(given)
+    bodies = finite_bodies(given, finite, start) if finite else plastic_bodies(given, start)
     problem = make_problem(inputs)
     if bodies is None and not control_asked(work):
         warn_supports(work, inputs)
     results = ResultTables(entries.table, saved, stresses, dynamic, number)
-    observers: list[Observer] = [results]
+    reached = Reached(results, len(times))
+    observers: list[Observer] = [results, reached]
     kept = work.get("TEMPS_SAUVEGARDES", "LISTREEL")
     if kept is not None:
         observers.append(SavedTable(entries.call, entries.table, times, kept.values))
@@ -132,31 +146,49 @@ def _stretch(
     finally:
         line.close()
     report(entries, problem, history)
-    return results.number
+    return state_table(reached.values)
 
 
-def _after(
+def _entering(start: Start, stage: Stage) -> Start:
+    """The start of a stage, with what the cells that come bring."""
+    if start.reached is None:
+        return start
+    model: Model | None = stage.entries.get("MODELE", "MMODEL")
+    state = entering(start.reached.table, model)
+    return replace(start, reached=Entries(stage.entries.call, state, start.reached.procedure))
+
+
+def _onward(
     entries: Entries,
     work: Entries,
     times: FloatArray,
     saved: NDArray[np.bool_],
-    change: ChangedCalculation,
-) -> tuple[Start, FloatArray, NDArray[np.bool_], int]:
-    """Where it goes on after the user's procedure changed something: start, times, number."""
-    rest, kept = times[change.step :], saved[change.step :].copy()
+    step: int,
+    state: Table,
+) -> tuple[Start, FloatArray, NDArray[np.bool_]]:
+    """Where it goes on from a state reached at a step: start, times, which are saved."""
+    rest, kept = times[step:], saved[step:].copy()
+    kept[0] = False  # it stands in the tables already if it was to be kept
+    reached = Entries(entries.call, state, "PASAPAS")
+    return Start(_last_number(entries), float(rest[0]), work, reached), rest, kept
+
+
+def _other_times(
+    entries: Entries, times: FloatArray, saved: NDArray[np.bool_]
+) -> tuple[FloatArray, NDArray[np.bool_]]:
+    """The times that the user's procedure asks for, if it does."""
     listed = entries.get("A_CALCULER", "LISTREEL")
-    if listed is not None:
-        rest = np.concatenate([rest[:1], listed.values[listed.values > rest[0]]])
-        entries.table.remove("A_CALCULER")
-        chosen = entries.get("TEMPS_SAUVES", "LISTREEL")
-        kept = np.ones(len(rest), bool)
-        if chosen is not None and len(rest) > 1:
-            later = (chosen.values > rest[0]) & (chosen.values <= rest[-1])
-            kept = nearest(rest, chosen.values[later])
-    kept[0] = False  # the state that it goes on from stands in the tables if it was to be kept
-    reached = Entries(entries.call, entries.get("ESTIMATION", "TABLE"), "PASAPAS, ESTIMATION")
-    number = _last_number(entries)
-    return Start(number, float(rest[0]), work, reached), rest, kept, number
+    if listed is None:
+        return times, saved
+    times = np.concatenate([times[:1], listed.values[listed.values > times[0]]])
+    entries.table.remove("A_CALCULER")
+    chosen = entries.get("TEMPS_SAUVES", "LISTREEL")
+    saved = np.ones(len(times), bool)
+    if chosen is not None and len(times) > 1:
+        later = (chosen.values > times[0]) & (chosen.values <= times[-1])
+        saved = nearest(times, chosen.values[later])
+    saved[0] = False
+    return times, saved
 
 
 def _path_run(
@@ -173,6 +205,17 @@ def _path_run(
 def _last_number(entries: Entries) -> int:
     """The number after the last result."""
     return max(entries.numbers("TEMPS"), default=-1) + 1
+
+
+def _say_model(entries: Entries, work: Entries, stage: Stage, first: int) -> None:
+    """Table MODELES: the model of each result from number `first` on, where it changes."""
+    if stage.entries is work:
+        return
+    models = entries.table.get("MODELES")
+    models = models if isinstance(models, Table) else Table()
+    for number in range(first, _last_number(entries)):
+        models.set(number, stage.entries.get("MODELE", "MMODEL"))
+    entries.table.set(Mot("MODELES"), models)
 
 
 def _say_last(entries: Entries, number: int) -> None:

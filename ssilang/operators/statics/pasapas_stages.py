@@ -1,0 +1,180 @@
+"""Stages of PASAPAS: models, characteristics and supports that the load gives in time.
+
+A model that changes (CHAR 'MODE') builds and digs: cells that come are without stress where they
+come, cells that go take their forces away.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ssilang.kernel.curve import Load, LoadPart
+from ssilang.kernel.elements.families import family_of
+from ssilang.kernel.elements.zone_fields import cell_rows, n_points
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.matrices.matrix import Matrix
+from ssilang.kernel.mesh.mesh import CellBlock
+from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.model import Model, Zone
+from ssilang.language.values import Mot, Table
+from ssilang.operators.statics.loads_in_time import part_at
+from ssilang.operators.statics.pasapas_results import ResultTables
+from ssilang.operators.statics.pasapas_steering import working_table
+from ssilang.operators.tables.entries import Entries
+
+if TYPE_CHECKING:
+    from ssilang.kernel.dynamics.snapshot import Snapshot
+
+STAGED = {
+    "MODE": ("MODELE", "MMODEL"),
+    "MATE": ("CARACTERISTIQUES", "MCHAML"),
+    "BLOM": ("BLOCAGES_MECANIQUES", "RIGIDITE"),
+}
+"""Entry, and its type, that the parts of a load by these names stand for."""
+
+
+@dataclass(frozen=True)
+class Stage:
+    """Steps over which nothing changes.
+
+    Attributes
+    ----------
+    entries : Entries
+        With the model, characteristics and supports of these steps.
+    steps : int
+    """
+
+    entries: Entries
+    steps: int
+
+
+def stage_of(work: Entries, times: FloatArray) -> Stage:
+    """The first stage of times[1:], times[0] being where it starts."""
+    load: Load | None = work.get("CHARGEMENT", "CHARGEME")
+    parts = [] if load is None else [p for p in load.parts if p.name.strip() in STAGED]
+    if load is None or not parts:
+        return Stage(work, len(times) - 1)
+    first = _at(work, parts, float(times[1]))
+    steps = 1
+    while steps < len(times) - 1 and _same(first, _at(work, parts, float(times[steps + 1]))):
+        steps += 1
+    table = working_table(work.table)
+    for word, values in first.items():
+        table.set(Mot(STAGED[word][0]), _joined(work, word, values))
+    rest = [p for p in load.parts if p.name.strip() not in STAGED]
+    acting = tuple(p for p in rest if _acts(p, times[: steps + 1]))
+    table.set(Mot("CHARGEMENT"), Load(acting))
+    return Stage(Entries(work.call, table, work.procedure), steps)
+
+
+def _acts(part: LoadPart, times: FloatArray) -> bool:
+    """Whether a load is ever other than zero: if not, the cells that it waits for may lack."""
+    return part.time is None or any(part.time.at(float(t)) != 0.0 for t in times)
+
+
+def _at(work: Entries, parts: list[LoadPart], time: float) -> dict[str, list[Any]]:
+    """What the parts give at a time, by their name."""
+    found: dict[str, list[Any]] = {}
+    for part in parts:
+        word = part.name.strip()
+        kind = {"MODE": Model, "MATE": CellField, "BLOM": Matrix}[word]
+        value = part.space if part.time is None and not part.steps else None
+        if value is None and (part.steps or word == "MATE"):
+            value = part_at(part, time)
+        if not isinstance(value, kind):
+            raise work.bad(
+                f"the load {word} gives no {STAGED[word][1]} at time {time:g}",
+                f"CHAR '{word}' TABLE1 TABLE2 : times, and a {STAGED[word][1]} for each",
+            )
+        found.setdefault(word, []).append(value)
+    return found
+
+
+def _same(first: dict[str, list[Any]], second: dict[str, list[Any]]) -> bool:
+    return all(a is b for word in first for a, b in zip(first[word], second[word], strict=True))
+
+
+def _joined(work: Entries, word: str, values: list[Any]) -> Any:
+    """The parts together; supports join those that always hold."""
+    if word == "MODE":
+        return values[0] if len(values) == 1 else Model(tuple(z for m in values for z in m.zones))
+    if word == "MATE":
+        if len(values) == 1:
+            return values[0]
+        return CellField(tuple(b for f in values for b in f.blocks), values[0].title)
+    always = work.get("BLOCAGES_MECANIQUES", "RIGIDITE")
+    all_ = values if always is None else [always, *values]
+    blocks = tuple(b for m in all_ for b in m.blocks)
+    relations = tuple(r for m in all_ for r in m.relations)
+    return Matrix(all_[0].table, blocks, relations, all_[0].kind)
+
+
+@dataclass
+class Reached:
+    """Keeps the state at the end of a stage."""
+
+    results: ResultTables
+    n_times: int
+    values: dict[str, Any] = field(default_factory=dict)
+
+    @property
+    def wanted(self) -> NDArray[np.bool_]:
+        """The last time alone."""
+        last: NDArray[np.bool_] = np.arange(self.n_times) == self.n_times - 1
+        return last
+
+    def receive(self, snapshot: Snapshot) -> None:
+        """The last time."""
+        self.values = self.results.values(snapshot)
+
+    def close(self) -> None:
+        """Nothing to do."""
+
+
+def entering(state: Table, model: Model | None) -> Table:
+    """A state for a stage's model: cells that come have no stress and no history."""
+    made = Table()
+    for index, value in state.items():
+        if isinstance(value, CellField) and model is not None:
+            value = completed(value, model, str(index) == "CONTRAINTES")
+        made.set(index, value)
+    return made
+
+
+def completed(given: CellField, model: Model, whole: bool) -> CellField:
+    """A field with zeros on the cells of a model that it lacks.
+
+    Parameters
+    ----------
+    whole : bool
+        True fills zones of which no cell has a value too (stresses).
+    """
+    more: list[CellFieldBlock] = []
+    for zone in model.zones:
+        if zone.formulation == "MECANIQUE":
+            more += _missing(given, zone, whole)
+    return CellField((*given.blocks, *more), given.title) if more else given
+
+
+def _missing(given: CellField, zone: Zone, whole: bool) -> list[CellFieldBlock]:
+    lacking = np.ones(len(zone.cells), bool)
+    names: tuple[str, ...] = ()
+    for block in given.blocks:
+        if block.cells is zone.cells:
+            return []
+        if block.cells.cell_type == zone.cells.cell_type:
+            there = cell_rows(block.cells, zone.cells) >= 0
+            lacking &= ~there
+            names = tuple(block.components) if there.any() else names
+    if not lacking.any() or not (names or whole):
+        return []
+    names = names or family_of(zone).stress_names(zone)
+    cells = CellBlock.make(zone.cells.nodes, zone.cells.cell_type, zone.cells.connectivity[lacking])
+    zero = partial(np.zeros, (len(cells), n_points(zone.element, "STRESSES")))
+    components = {name: zero() for name in names}
+    return [CellFieldBlock(cells, components, "STRESSES", zone.element, zone.constituent)]

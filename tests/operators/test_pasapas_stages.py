@@ -1,0 +1,125 @@
+"""PASAPAS with models, supports and characteristics given in time: building and digging."""
+
+import numpy as np
+import pytest
+
+from ssilang.cli.run import run_text
+
+LAYERS = """
+OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ;
+L0 = DROI 1 (0. 0.) (1. 0.) ; S1 = L0 TRAN 1 (0. 1.) ; L1 = S1 COTE 3 ;
+S2 = L1 TRAN 1 (0. 1.) ; L2 = S2 COTE 3 ; S = S1 ET S2 ; P1 = L1 POIN 1 ; P2 = L2 POIN 1 ;
+M1 = MODE S1 'MECANIQUE' {law} ; M2 = MODE S2 'MECANIQUE' {law} ;
+MA = MATE (M1 ET M2) 'YOUN' 1.E6 'NU' 0. 'SIGY' 1.E9 ;
+T = TABL ; T . 'MODELE' = M1 ET M2 ; T . 'CARACTERISTIQUES' = MA ;
+T . 'BLOCAGES_MECANIQUES' = (BLOQ 'UX' S) ET (BLOQ 'UY' L0) ;
+TT = TABL ; TT . 0 = 0. ; TT . 1 = 2. ; TM = TABL ;
+E1 = EVOL 'MANU' (PROG 0. 1. 4.) (PROG 0. 1. 1.) ;
+E2 = EVOL 'MANU' (PROG 0. 1. 2. 3.) (PROG 0. 0. 0. 1.) ;
+F1 = FORC (0. -1000.) L1 ; F2 = FORC (0. -1000.) L2 ;
+T . 'TEMPS_CALCULES' = PROG 1. 1.5 2. 2.5 3. ;
+"""
+ELASTIC, PLASTIC = "'ELASTIQUE'", "'ELASTIQUE' 'PLASTIQUE' 'PARFAIT'"
+
+
+def run(text, tmp_path, law=ELASTIC):
+    if law == ELASTIC:
+        text = text.replace("'SIGY' 1.E9", "")
+    result = run_text(text.replace("{law}", law), output_directory=tmp_path)
+    assert result.exit_code == 0, result.message
+    return result.session.root.find
+
+
+def stress(table, number):
+    blocks = table.get("CONTRAINTES").get(number).blocks
+    return [b.components["SMYY"].mean() for b in blocks if "SMYY" in b.components]
+
+
+@pytest.mark.parametrize("law", [ELASTIC, PLASTIC])
+def test_a_layer_built_on_a_loaded_one_comes_without_stress(law, tmp_path):
+    text = (
+        LAYERS
+        + """
+    TM . 0 = M1 ; TM . 1 = M1 ET M2 ;
+    T . 'CHARGEMENT' = (CHAR 'MECA' F1 E1) ET (CHAR 'MECA' F2 E2) ET (CHAR 'MODE' TT TM) ;
+    PASAPAS T ; U1 = PROG ; U2 = PROG ;
+    REPE B 5 ; U1 = U1 ET (EXTR (T . 'DEPLACEMENTS' . &B) 'UY' P1) ; FIN B ;
+    REPE B 3 ; U2 = U2 ET (EXTR (T . 'DEPLACEMENTS' . (&B + 2)) 'UY' P2) ; FIN B ;
+    """
+    )
+    find = run(text, tmp_path, law)
+    table = find("T")
+    assert [v for _, v in table.get("TEMPS").items()] == [0.0, 1.0, 1.5, 2.0, 2.5, 3.0]
+    u = 1e-3 * np.array([-1, -1, -1, -1.5, -2])
+    assert find("U1").values == pytest.approx(u, rel=1e-9)
+    assert find("U2").values == pytest.approx([0.0, -1e-3, -2e-3], rel=1e-9, abs=1e-12)
+    assert [len(m.zones) for _, m in table.get("MODELES").items()] == [1, 1, 1, 2, 2, 2]
+    assert stress(table, 1) == pytest.approx([-1000.0])
+    assert stress(table, 3) == pytest.approx([-1000.0, 0.0], abs=1e-6)
+    assert stress(table, 5) == pytest.approx([-2000.0, -1000.0], rel=1e-9)
+
+
+def test_a_layer_dug_away_takes_its_load_path_with_it(tmp_path):
+    text = (
+        LAYERS
+        + """
+    TM . 0 = M1 ET M2 ; TM . 1 = M1 ; BH = BLOQ 'UY' L2 ;
+    T . 'BLOCAGES_MECANIQUES' = (T . 'BLOCAGES_MECANIQUES') ET BH ;
+    T . 'CHARGEMENT' = (CHAR 'MECA' F1 E1) ET (CHAR 'MODE' TT TM) ; PASAPAS T ;
+    """
+    )
+    table = run(text, tmp_path)("T")
+    assert stress(table, 2) == pytest.approx([-500.0, 500.0])
+    assert stress(table, 3) == pytest.approx([-1000.0])
+
+
+def test_cells_that_come_within_one_zone_have_no_stress(tmp_path):
+    layers = LAYERS.replace("M1 = MODE S1", "MT = MODE S").replace("M1 ET M2", "MT")
+    text = (
+        layers.replace("M2 = MODE S2 'MECANIQUE' {law} ;", "")
+        + """
+    TM . 0 = REDU MT S1 ; TM . 1 = MT ;
+    T . 'CHARGEMENT' = (CHAR 'MECA' F1 E1) ET (CHAR 'MODE' TT TM) ; PASAPAS T ;
+    """
+    )
+    table = run(text, tmp_path)("T")
+    assert stress(table, 2) == pytest.approx([-1000.0])
+    assert np.sort(table.get("CONTRAINTES").get(5).blocks[0].components["SMYY"].mean(axis=1)) == (
+        pytest.approx([-1000.0, 0.0], abs=1e-6)
+    )
+
+
+def test_supports_that_come_hold_what_has_moved(tmp_path):
+    text = (
+        LAYERS
+        + """
+    TM . 0 = BLOQ 'UX' P1 ; TM . 1 = BLOQ 'UY' L1 ;
+    T . 'CHARGEMENT' = (CHAR 'MECA' F1 E1) ET (CHAR 'MECA' F2 E2) ET
+      (CHAR 'DIMP' (DEPI (TM . 1) -1.E-3) (EVOL 'MANU' (PROG 0. 9.) (PROG 1. 1.))) ET
+      (CHAR 'BLOM' TT TM) ; PASAPAS T ;
+    """
+    )
+    table = run(text, tmp_path)("T")
+    assert stress(table, 5) == pytest.approx([-1000.0, -1000.0], rel=1e-9)
+
+
+def test_characteristics_in_time_act_on_what_is_added(tmp_path):
+    text = (
+        LAYERS
+        + """
+    TM . 0 = MA ; TM . 1 = MATE (M1 ET M2) 'YOUN' 2.E6 'NU' 0. ; OUBL T 'CARACTERISTIQUES' ;
+    TT . 1 = 2.000001 ; TT . 2 = 9. ; TM . 2 = TM . 1 ; TT . 1 = 1. ; TM . 1 = MA ;
+    TT . 2 = 1.5 ; TT . 3 = 9. ; TM . 3 = TM . 2 ;
+    T . 'CHARGEMENT' = (CHAR 'MECA' F1 E1) ET (CHAR 'MECA' F2 E2) ET (CHAR 'MATE' TT TM) ;
+    PASAPAS T ; U = EXTR (T . 'DEPLACEMENTS' . 5) 'UY' P1 ;
+    """
+    )
+    assert run(text, tmp_path)("U") == pytest.approx(-1.5e-3, rel=1e-9)
+
+
+def test_a_load_of_models_that_holds_fields_is_refused():
+    text = LAYERS.replace("{law}", ELASTIC).replace("'SIGY' 1.E9", "")
+    text += "T . 'CHARGEMENT' = CHAR 'MODE' F1 E1 ; PASAPAS T ;"
+    result = run_text(text)
+    assert result.exit_code == 1
+    assert "the load MODE gives no MMODEL" in result.message
