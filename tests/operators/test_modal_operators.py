@@ -55,12 +55,16 @@ def test_matrices_may_come_in_any_order_and_ends_of_an_interval_be_kept():
 def test_damped_structure_wants_iram_and_gives_complex_entries():
     damped = TWO_MASSES + "C1 = CHAN 'TYPE' (0.2 * M1) 'AMORTISS' ;"
     assert run_text(damped + "T = VIBR 'SIMU' 0. 1 K1 M1 C1 ;").exit_code == 1
-    table = objects(damped + "T = VIBR 'IRAM' 0.1 2 K1 M1 C1 ;", "T")
+    table = objects(damped + "T = VIBR 'IRAM' 0.4 2 K1 M1 C1 ;", "T")
     w, xi = 2.0 * np.pi * FREQUENCIES, 0.2 / (4.0 * np.pi * FREQUENCIES)
     real = [mode(table, i).get("FREQUENCE_REELLE") for i in (1, 2)]
     np.testing.assert_allclose(real, FREQUENCIES * np.sqrt(1.0 - xi**2))
     lost = [mode(table, i).get("FREQUENCE_IMAGINAIRE") for i in (1, 2)]
     np.testing.assert_allclose(lost, w * xi / (2.0 * np.pi))
+    # near zero the mirror images - conj (f) are as near: four modes, by real part
+    table = objects(damped + "T = VIBR 'IRAM' 0.01 4 K1 M1 C1 ;", "T")
+    mirrored = [mode(table, i).get("FREQUENCE_REELLE") for i in (1, 2, 3, 4)]
+    np.testing.assert_allclose(mirrored, [-real[1], -real[0], real[0], real[1]])
 
 
 def test_unit_shapes_by_largest_value_and_by_mass():

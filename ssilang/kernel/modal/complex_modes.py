@@ -1,7 +1,7 @@
 """Complex modes of damped or unsymmetric systems: `(K + i w C - w^2 M) x = 0`, w = 2 pi f.
 
 With mu = i w the problem is linear in (x, mu x); frequencies f are complex, a positive imaginary
-part means decay. Real matrices give pairs (f, - conj f): the one with a real part >= 0 is kept.
+part means decay. Real matrices give pairs (f, - conj f), both modes.
 """
 
 from __future__ import annotations
@@ -39,6 +39,8 @@ def complex_modes(
 ) -> list[ComplexMode]:
     """The `count` modes whose complex frequencies are nearest to `near`, by real part.
 
+    Near zero a mode and its mirror image (f, - conj f) both count.
+
     Raises
     ------
     KernelError
@@ -49,9 +51,7 @@ def complex_modes(
         raise KernelError("the conditions hold every unknown: there is no mode")
     values, shapes = _eigenpairs(problem, 2j * np.pi * near, count)
     frequencies = values / (2j * np.pi)
-    size = np.abs(frequencies).max(initial=1.0)
-    keep = np.flatnonzero(frequencies.real >= -1e-9 * size)
-    keep = keep[np.argsort(np.abs(frequencies[keep] - near), kind="stable")][:count]
+    keep = np.argsort(np.abs(frequencies - near), kind="stable")[:count]
     keep = keep[np.argsort(frequencies[keep].real, kind="stable")]
     return [_mode(problem, complex(frequencies[k]), shapes[:, k]) for k in keep]
 

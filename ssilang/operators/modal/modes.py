@@ -195,7 +195,7 @@ operator(
         "FREQUENCE (negative if unstable, unless FAUX is given), MASSE_GENERALISEE, "
         "DEFORMEE_MODALE (largest displacement 1), DEPLACEMENTS_GENERALISES . 1 to 3 and "
         "POINT_REPERE. Unilateral conditions count as equalities. A damping matrix or an "
-        "unsymmetric stiffness gives complex modes (IRAM).",
+        "unsymmetric stiffness gives complex modes (IRAM), mirror images (- conj f) included.",
         "Modes propres, [K - (2 pi f)^2 M] x = 0, de fréquences voisines de celles données "
         "(PROC : pour chaque fréquence d'une liste, tant ; SIMU, IRAM : tant autour d'une) ou "
         "dans un intervalle (INTE ; BASS ou HAUT en garde tant d'un côté). Table BASE_MODALE : "
@@ -203,7 +203,7 @@ operator(
         "MASSE_GENERALISEE, DEFORMEE_MODALE (plus grand déplacement 1), "
         "DEPLACEMENTS_GENERALISES . 1 à 3 et POINT_REPERE. Les conditions unilatérales comptent "
         "comme des égalités. Une matrice d'amortissement ou une raideur non symétrique donne "
-        "des modes complexes (IRAM).",
+        "des modes complexes (IRAM), images (- conj f) comprises.",
         "TAB1 = VIBR 'PROCHE' LREEL1 (LENTI1) RIG1 MASS1 (LOG1) ;\n"
         "TAB1 = VIBR 'INTERVALLE' F1 F2 ('BASSE' | 'HAUTE' N1) ('MULT') RIG1 MASS1 ;\n"
         "TAB1 = VIBR 'SIMULTANE' F1 N1 RIG1 MASS1 ;\n"
