@@ -74,7 +74,16 @@ TEMPLATES: tuple[tuple[str, str], ...] = (
         "no polygons of five sides or more in this mesh",
         "aucun polygone de cinq côtés ou plus dans ce maillage",
     ),
+    # ---- stages of PASAPAS
+    (
+        "the load {} gives no {} at time {}",
+        "le chargement {} ne donne aucun {} au temps {}",
+    ),
     # ---- finite displacements
+    (
+        "a beam is shrunk to nothing",
+        "une poutre est réduite à rien",
+    ),
     (
         "finite displacements are not built for {} in this hypothesis",
         "les grands déplacements ne sont pas programmés pour {} dans cette hypothèse",
