@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ssilang.kernel.compiled import compiled_fast
-from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.solvers.multifrontal import WIDTH, Panels
 from ssilang.kernel.solvers.triangular import backward, forward
 
@@ -76,36 +76,51 @@ def _subtract(values: FloatArray, pos: int, x: FloatArray, k0: int, k1: int, m: 
 
 
 @compiled_fast
+def _take_off(x: FloatArray, j: int, a: float, b: float, c: float, d: float) -> None:
+    x[j] -= a
+    x[j + 1] -= b
+    x[j + 2] -= c
+    x[j + 3] -= d
+
+
+@compiled_fast
 def _subtract_transposed(
     values: FloatArray, pos: int, x: FloatArray, k0: int, k1: int, m: int
 ) -> None:
     """x[k0:k1] -= P x[k1:m] for four vectors."""
     y0, y1, y2, y3 = x[0, k1:m], x[1, k1:m], x[2, k1:m], x[3, k1:m]
     n, j = m - k1, k0
-    while j + 1 < k1:
+    while j + 3 < k1:
         p0, p1 = values[pos : pos + n], values[pos + n : pos + 2 * n]
-        s0, s1, s2, s3, t0, t1, t2, t3 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+        p2, p3 = values[pos + 2 * n : pos + 3 * n], values[pos + 3 * n : pos + 4 * n]
+        a0, a1, a2, a3, b0, b1, b2, b3 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+        c0, c1, c2, c3, d0, d1, d2, d3 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
         for i in range(n):
-            e0, e1 = p0[i], p1[i]
-            s0 += e0 * y0[i]
-            s1 += e0 * y1[i]
-            s2 += e0 * y2[i]
-            s3 += e0 * y3[i]
-            t0 += e1 * y0[i]
-            t1 += e1 * y1[i]
-            t2 += e1 * y2[i]
-            t3 += e1 * y3[i]
-        x[0, j] -= s0
-        x[1, j] -= s1
-        x[2, j] -= s2
-        x[3, j] -= s3
-        x[0, j + 1] -= t0
-        x[1, j + 1] -= t1
-        x[2, j + 1] -= t2
-        x[3, j + 1] -= t3
-        pos += 2 * n
-        j += 2
-    if j < k1:
+            e0, e1, e2, e3 = p0[i], p1[i], p2[i], p3[i]
+            f0, f1, f2, f3 = y0[i], y1[i], y2[i], y3[i]
+            a0 += e0 * f0
+            a1 += e1 * f0
+            a2 += e2 * f0
+            a3 += e3 * f0
+            b0 += e0 * f1
+            b1 += e1 * f1
+            b2 += e2 * f1
+            b3 += e3 * f1
+            c0 += e0 * f2
+            c1 += e1 * f2
+            c2 += e2 * f2
+            c3 += e3 * f2
+            d0 += e0 * f3
+            d1 += e1 * f3
+            d2 += e2 * f3
+            d3 += e3 * f3
+        _take_off(x[0], j, a0, a1, a2, a3)
+        _take_off(x[1], j, b0, b1, b2, b3)
+        _take_off(x[2], j, c0, c1, c2, c3)
+        _take_off(x[3], j, d0, d1, d2, d3)
+        pos += 4 * n
+        j += 4
+    while j < k1:
         p0 = values[pos : pos + n]
         s0, s1, s2, s3 = 0.0, 0.0, 0.0, 0.0
         for i in range(n):
@@ -117,6 +132,8 @@ def _subtract_transposed(
         x[1, j] -= s1
         x[2, j] -= s2
         x[3, j] -= s3
+        pos += n
+        j += 1
 
 
 @compiled_fast
@@ -137,15 +154,37 @@ def _forward_four(
         _times_lower(L.values, pos, local, k0, k1)
         _subtract(L.values, pos + w * w, local, k0, k1, m)
         pos += w * (m - k0)
+    cut = low
+    while cut < L.ptr[s + 1] and L.rows[cut] < beyond:
+        cut += 1
     for v in range(FOUR):
         for i in range(k):
             x[v, c0 + i] = local[v, i]
-        for i in range(below):
-            row = L.rows[low + i]
-            if row < beyond:
-                x[v, row] += local[v, k + i]
-            else:
-                sums[v, row] += local[v, k + i]
+    _add_rows(L.rows[low:cut], local[:, k:m], x)
+    _add_rows(L.rows[cut : low + below], local[:, k + cut - low : m], sums)
+
+
+@compiled_fast
+def _add_rows(rows: IntArray, parts: FloatArray, x: FloatArray) -> None:
+    """x[rows] += parts for four vectors."""
+    x0, x1, x2, x3 = x[0], x[1], x[2], x[3]
+    p0, p1, p2, p3 = parts[0], parts[1], parts[2], parts[3]
+    for i in range(len(rows)):
+        row = rows[i]
+        x0[row] += p0[i]
+        x1[row] += p1[i]
+        x2[row] += p2[i]
+        x3[row] += p3[i]
+
+
+@compiled_fast
+def _take_rows(rows: IntArray, x: FloatArray, parts: FloatArray) -> None:
+    """parts = x[rows] of four vectors."""
+    x0, x1, x2, x3 = x[0], x[1], x[2], x[3]
+    p0, p1, p2, p3 = parts[0], parts[1], parts[2], parts[3]
+    for i in range(len(rows)):
+        row = rows[i]
+        p0[i], p1[i], p2[i], p3[i] = x0[row], x1[row], x2[row], x3[row]
 
 
 @compiled_fast
@@ -156,8 +195,7 @@ def _backward_four(L: Panels, s: int, z: FloatArray, x: FloatArray, local: Float
     for v in range(FOUR):
         for i in range(k):
             local[v, i] = z[v, c0 + i]
-        for i in range(below):
-            local[v, k + i] = x[v, L.rows[low + i]]
+    _take_rows(L.rows[low : low + below], x, local[:, k:m])
     k1 = k
     while k1 > 0:
         w = k1 % WIDTH
