@@ -105,7 +105,7 @@ def run(steps: int, dt: float, every: int, folder: Path, script: str = SCRIPT) -
 
 
 def steps_per_second(
-    steps: int, dt: float, folder: Path, script: str = SCRIPT, repeats: int = 15
+    steps: int, dt: float, folder: Path, script: str = SCRIPT, repeats: int = 60
 ) -> tuple[float, float]:
     """Steps per second of the loop (the script's fixed part taken off), and that part (s).
 
