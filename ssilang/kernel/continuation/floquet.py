@@ -81,15 +81,20 @@ def unstable(found: FloatArray, w: float) -> bool:
     return bool((found.real > ONE * w).any())
 
 
-def crossing(before: FloatArray, after: FloatArray, w: float) -> str:
-    """How exponents cross the imaginary axis: BP (at 0), PD (at w/2), NS (a pair); '' if none."""
-    counts = [int((e.real > ONE * w).sum()) for e in (before, after)]
-    if counts[0] == counts[1]:
+def crossing(before: FloatArray, after: FloatArray, w: tuple[float, float]) -> str:
+    """How exponents cross the imaginary axis: BP (at 0), PD (at w/2), NS (a pair); '' if none.
+
+    Parameters
+    ----------
+    before, after : array (2 n,)
+        Exponents of two neighbours, whose frequencies are `w`.
+    """
+    grown = [e[e.real > ONE * s] for e, s in zip((before, after), w, strict=True)]
+    if len(grown[0]) == len(grown[1]):
         return ""
-    many = before if counts[0] > counts[1] else after
-    found = many[many.real > ONE * w]
-    which = found[int(np.argmin(np.abs(found.real)))]
-    near = 1e-3 * w
-    if abs(which.imag) < near:
+    which = 0 if len(grown[0]) > len(grown[1]) else 1
+    found = grown[which][int(np.argmin(np.abs(grown[which].real)))]
+    near = 1e-3 * w[which]
+    if abs(found.imag) < near:
         return "BP"
-    return "PD" if abs(abs(which.imag) - 0.5 * w) < near else "NS"
+    return "PD" if abs(abs(found.imag) - 0.5 * w[which]) < near else "NS"

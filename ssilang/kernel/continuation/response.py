@@ -106,7 +106,9 @@ def _note_bifurcation(
         at = after if found is None else found[1]
         _note(system, response, "LP", at, np.zeros(()))
         return
-    kind = crossing(response.exponents[-2], response.exponents[-1], after.t)
+    kind = crossing(response.exponents[-2], response.exponents[-1], (before.t, after.t))
+    if kind == "BP" and _sense(system, before) == _sense(system, after):
+        kind = ""  # exponents of too few harmonics cross beside a limit point
     if not kind:
         return
     wanted = int((response.exponents[-1].real > 1e-7 * after.t).sum())
@@ -122,6 +124,13 @@ def _note_bifurcation(
     _note(system, response, kind, at, np.asarray(near))
 
 
+def _sense(system: Oscillators, at: Point) -> float:
+    """Sign of the determinant of equations and tangent, which changes at a branch point."""
+    _, J, by_w = system.at(at.u, at.t)
+    whole = np.block([[J, by_w[:, None]], [at.tangent[None, :]]])
+    return float(np.linalg.slogdet(whole)[0])
+
+
 def _note(
     system: Oscillators, response: Response, kind: str, at: Point, exponent: FloatArray
 ) -> None:
@@ -133,9 +142,13 @@ def _note(
 
 def _perturbation(system: Oscillators, at: Point, exponent: complex) -> FloatArray:
     """Coefficients of the perturbation `p(t) exp(exponent t)` that the motion leaves (Hill)."""
-    D = derivative_matrix(system.basis.harmonics)
+    b = system.basis
+    D = derivative_matrix(b.harmonics)
     one = np.eye(len(D))
     first = np.kron(one, system.C) + 2 * at.t * np.kron(D, system.M)
+    fv = system.sampled(at.u.reshape(system.load.shape), at.t)[2]
+    drag = np.einsum("at,tij,tb->aibj", b.back, fv, b.values, optimize=True)
+    first = first - drag.reshape(first.shape)
     hill = at.jacobian + exponent * first + exponent**2 * np.kron(one, system.M)
     vector = np.linalg.svd(hill)[2][-1].conj()
     return np.asarray(vector)
