@@ -280,3 +280,11 @@ def test_static_shapes_without_what_their_matrices_need_are_refused(last, said):
     result = run_text(BAND + last)
     assert result.exit_code == 1
     assert said in result.message
+
+
+def test_modes_are_sought_near_the_square_of_a_frequency():
+    near = 0.41  # nearer to the second frequency, but its square to the first one's
+    assert abs(FREQUENCIES[1] - near) < abs(FREQUENCIES[0] - near)
+    assert abs(FREQUENCIES[1] ** 2 - near**2) > abs(FREQUENCIES[0] ** 2 - near**2)
+    table = objects(TWO_MASSES + f"T = VIBR 'PROC' (PROG {near}) (LECT 1) K1 M1 ;", "T")
+    assert mode(table, 1).get("FREQUENCE") == pytest.approx(FREQUENCIES[0])

@@ -51,7 +51,9 @@ def frequency_of(value: float) -> float:
 
 
 def modes_near(stiffness: Matrix, mass: Matrix, wanted: Sequence[tuple[float, int]]) -> list[Mode]:
-    """For each (frequency, number): the modes whose frequencies are nearest; increasing.
+    """For each (frequency, number): the modes nearest by the square of frequency; increasing.
+
+    That is the order in which iterations on the inverse at the frequency find them.
 
     Raises
     ------
@@ -61,12 +63,9 @@ def modes_near(stiffness: Matrix, mass: Matrix, wanted: Sequence[tuple[float, in
     problem = reduced_problem(stiffness, mass)
     found: list[Mode] = []
     for frequency, count in wanted:
-        shift = eigenvalue(frequency)
-        # a few more: the nearest lambda are not quite the nearest frequencies
-        pairs = nearest(problem, shift, count + 3)
-        away = np.abs([frequency_of(v) - frequency for v in pairs.values])
-        keep = np.argsort(away, kind="stable")[:count]
-        found += _modes(problem, Pairs(pairs.values[keep], pairs.shapes[:, keep]))
+        # a few more, so that none is missed
+        pairs = nearest(problem, eigenvalue(frequency), count + 3)
+        found += _modes(problem, Pairs(pairs.values[:count], pairs.shapes[:, :count]))
     return sorted(found, key=lambda m: m.frequency)
 
 
