@@ -66,6 +66,8 @@ class BulkSolver(FullNewtonSolver):
         Increment to start from first; the elastic prediction is tried where it leads nowhere.
     residuals : list of float
         Of the iterations of the last step.
+    extent : float
+        Largest dimension of the bodies.
     """
 
     def __init__(
@@ -73,6 +75,9 @@ class BulkSolver(FullNewtonSolver):
     ) -> None:
         super().__init__(problem, A, share)
         self.bulk, self.state, self.force = bulk, state, bulk.force(state)
+        table = problem.numbering.table
+        ends = table.coordinates[problem.numbering.nodes]
+        self.extent = float(np.ptp(ends, axis=0).max(initial=0.0)) if len(ends) else 0.0
         self.work, self.time = 0.0, 0.0
         self.guess: FloatArray | None = None
         self.residuals: list[float] = []
@@ -141,7 +146,9 @@ class BulkSolver(FullNewtonSolver):
         rest = self.constraints.V.T @ (free + push)
         parts = (r, linear, answer.force, self.force, force, np.asarray(push))
         stiff = max(float(np.abs(M.data).max(initial=0.0)) for M in (self.A, answer.tangent))
-        floor = RIGID * stiff * float(np.abs(du).max(initial=0.0))
+        # at a limit load displacements grow without end: none beyond the size of the body counts
+        moved = min(float(np.abs(du).max(initial=0.0)), self.extent)
+        floor = RIGID * stiff * moved
         scale = max(sum(float(np.abs(x).max(initial=0.0)) for x in parts), floor, 1e-300)
         residual = float(np.abs(rest).max(initial=0.0)) / scale
         return _Trial(du, answer, K, f, new, rest, residual, free, pushed)
