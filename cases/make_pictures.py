@@ -40,6 +40,7 @@ PICTURES = {
     "basics/beam_frequencies": {1: "beam_frequencies"},
     "basics/bar_frequencies": {1: "bar_frequencies"},
     "impact/bar_bounce": {1: "bar_bounce"},
+    "seismic/tower_on_cones": {1: "tower_on_cones"},
     "seismic/tower_quake": {
         1: "quake_surface",
         2: "quake_lift",

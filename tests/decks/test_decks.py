@@ -37,6 +37,7 @@ SPOILT = [
     ("footing/macro_element.ssi", "'KS' 1.E8 'RAYO' R0", "'KS' 1.E8 'RAYO' (1.001 * R0)"),
     ("footing/onset_of_uplift.ssi", "'MZ' (N0 * B0 / 6.)", "'MZ' (1.01 * N0 * B0 / 6.)"),
     ("footing/strip_uplift.ssi", "'KN' K0 'KS'", "'KN' (1.02 * K0) 'KS'"),
+    ("seismic/tower_on_cones.ssi", "'RAID' KH0", "'RAID' (1.02 * KH0)"),
     ("seismic/tower_quake.ssi", ". 'YOUNG' = YOUS", ". 'YOUNG' = 1.02 * YOUS"),
 ]
 

@@ -212,3 +212,19 @@ def test_a_dashpot_by_number_without_its_matrix_is_said():
     )
     assert result.exit_code == 0
     assert "AMORTISSEMENT" in result.session.warnings[-1].data["hint"]
+
+
+TWO = """
+OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; G1 = MANU POI1 P1 ;
+MA = MODE G1 MECANIQUE ELASTIQUE IMPEDANCE (MOTS UX) {first} ; CA = MATE MA RAID 3. ;
+MB = MODE G1 MECANIQUE ELASTIQUE IMPEDANCE (MOTS UY) {second} ; CB = MATE MB RAID 7. ;
+K = RIGI (MA ET MB) (CA ET CB) ; U = RESO K (MANU 'CHPO' P1 2 FX 1. FY 1. 'NATURE' 'DISCRET') ;
+X = EXTR U UX P1 ; Y = EXTR U UY P1 ;
+"""
+
+
+@pytest.mark.parametrize(("first", "second"), [("", ""), ("CONS 'A'", "CONS 'B'")])
+def test_impedances_on_one_point_keep_their_own_parameters(found, first, second):
+    """Told apart by their unknowns, or by the constituents that a script names."""
+    x, y = found(TWO.format(first=first, second=second), "X", "Y")
+    assert (x, y) == pytest.approx((1.0 / 3.0, 1.0 / 7.0))

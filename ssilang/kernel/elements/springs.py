@@ -269,7 +269,8 @@ class _ImpedanceFamily(ElementFamily):
         layout = impedance_layout(zone, given)
         if kind == "AMORTISSEMENT":
             return dashpots(zone, given), layout
-        if law_of_impedance(zone) == "REUSS" or _curves(given):
+        law = law_of_impedance(zone)
+        if law == "REUSS" or (law == "COMPLEXE" and _curves(given)):
             raise _only_in_frequency(zone)
         return spread(zone, layout, _values(zone, given, "RIGIDITE", required=True)), layout
 

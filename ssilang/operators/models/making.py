@@ -261,7 +261,11 @@ def _zone(block: CellBlock, wish: _Wish, ws: Workspace) -> Zone:
     behaviour = normalised(wish.laws, kind.family)
     if wish.rule and kind.family == "joint":
         name = with_rule(name, wish.rule)
-    return Zone(block, "MECANIQUE", behaviour, name, ws.mode, wish.constituent, options)
+    constituent = wish.constituent
+    if kind.family == "impedance" and not constituent:  # several may stand on one point
+        said = [n for names in options["UNKNOWNS"] for n in names]  # type: ignore[attr-defined]
+        constituent = " ".join((*behaviour[1:], *said))
+    return Zone(block, "MECANIQUE", behaviour, name, ws.mode, constituent, options)
 
 
 def _pressure_zone(block: CellBlock, wish: _Wish, ws: Workspace) -> Zone:
