@@ -137,3 +137,19 @@ def test_raff_wants_a_size_everywhere_and_one_division():
     result = run_text(start + "T = RAFF S (0.3 + (COOR 1 S)) ; U = RAFF T (COOR 1 T) ;")
     assert result.exit_code == 1
     assert "refined before" in result.message
+
+
+def test_ties_are_named_kept_in_saves_and_left_out_of_pictures(tmp_path):
+    text = (
+        "OPTI DIME 2 ELEM QUA4 MODE PLAN DEFO ; S = (DROI 4 (0. 0.) (4. 0.)) TRAN 4 (0. 4.) ; "
+        "T = RAFF S (0.3 + (COOR 1 S)) ; MO = MODE T 'MECANIQUE' 'ELASTIQUE' ; N = DIME (RELA MO) ; "
+        "LIST (ELEM T 'TYPE') ; OPTI SAUV 'x' ; SAUV MO T ; OUBL MO ; OPTI REST 'x' ; REST ; "
+        "M = DIME (RELA MO) ; OPTI SORT 'v' ; SORT 'VTK' T ; OPTI SORT 'w' ; SORT 'AVS' T ;"
+    )
+    result = run_text(text, output_directory=tmp_path)
+    assert result.exit_code == 0, result.message
+    assert result.output.split()[-2:] == ["QUA4", "SURE"]
+    root = result.session.root
+    assert root.find("N") == root.find("M") > 0
+    assert (tmp_path / "v.vtu").exists()
+    assert len((tmp_path / "w.inp").read_text().split("\n")) > 20

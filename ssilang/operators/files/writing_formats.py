@@ -9,6 +9,7 @@ from ssilang.io.mesh_files.stl import stl_lines
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.combine import poi1
+from ssilang.kernel.mesh.local_refinement import parted
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.language.call import Call
 from ssilang.operators.files.outputs import run_output
@@ -59,7 +60,7 @@ def _avs(call: Call, word: str) -> None:
 
 def _support(call: Call, mesh: object, nodal: NodeField | None, cells: CellField | None) -> Mesh:
     if isinstance(mesh, Mesh):
-        return mesh
+        return parted(mesh)[0]
     if cells is not None and cells.blocks:
         blocks: dict[int, CellBlock] = {id(b.cells): b.cells for b in cells.blocks}
         return Mesh(cells.blocks[0].cells.nodes, tuple(blocks.values()))

@@ -13,6 +13,7 @@ from ssilang.io.vtk.series import Part, SeriesWriter, strip_extension
 from ssilang.io.vtk.vtu import Encoding
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.mesh.local_refinement import parted
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.language.call import Call
 from ssilang.language.values import Table
@@ -39,7 +40,7 @@ class _Said:
     def add(self, value: Any, name: str) -> None:
         """Add an object under its name, or under a usual one."""
         if isinstance(value, Mesh):
-            self.meshes[name or f"{len(self.meshes) + 1:04d}"] = value
+            self.meshes[name or f"{len(self.meshes) + 1:04d}"] = parted(value)[0]
         elif isinstance(value, NodeField):
             self.points[name or f"CHPO{len(self.points) + 1}"] = value
         elif isinstance(value, CellField):

@@ -23,7 +23,7 @@ from ssilang.kernel.mesh.combine import (
     union,
     without_duplicates,
 )
-from ssilang.kernel.mesh.local_refinement import TIE, parted
+from ssilang.kernel.mesh.local_refinement import TIE, is_tie, parted
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.mesh.paths import network_of_lines, shortest_line
@@ -91,7 +91,8 @@ def elem(call: Call) -> Any:
         first, second = call.required("POINT"), call.required("POINT")
         return _part_of_line(mesh, first.node, second.node)
     if way == "TYPE":
-        return ListMots([b.cell_type for b in mesh.blocks])
+        names = [TIE if is_tie(b.cell_type) else b.cell_type for b in mesh.blocks]
+        return ListMots(list(dict.fromkeys(names)))
     return _by_type_and_colour(call, mesh)
 
 
