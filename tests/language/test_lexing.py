@@ -211,3 +211,11 @@ def test_all_syntax_errors_are_reported_in_one_pass():
 
 def test_quoted_items_stay_strings():
     assert isinstance(items("'ABC' 3 ;")[0], Quoted)
+
+
+def test_a_dot_before_a_sign_of_product_separates_nothing(run):
+    script = run(
+        "a = (6. / 4.).*2. ; b = a.*2. ; c = a./2. ; t = TABL ; t.1 = 3. ; d = t.1*2. ;"
+        " e = t.1.*2. ; f = 2.*a ;"
+    )
+    assert [script[n] for n in "abcdef"] == [3.0, 6.0, 1.5, 6.0, 6.0, 6.0]
