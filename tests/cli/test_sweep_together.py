@@ -144,7 +144,9 @@ def test_a_run_that_raises_is_a_row(tmp_path):
 def test_batches_keep_all_jobs_busy():
     tasks = list(range(10))
     assert gathered(tasks, 2, 8) == [(0, 1, 2, 3, 4), (5, 6, 7, 8, 9)]
-    assert [len(b) for b in gathered(tasks, 1, 4)] == [4, 4, 2]
+    assert [len(b) for b in gathered(tasks, 1, 4)] == [3, 3, 4]
+    assert [len(b) for b in gathered(list(range(199)), 4, 8)].count(7) == 25
+    assert len(gathered(list(range(199)), 4, 8)) == 28
     assert [len(b) for b in gathered(tasks, 4, 1)] == [1] * 10
     assert gathered([], 4, 8) == []
 

@@ -7,6 +7,7 @@ the problems that came together are then integrated at once, those of one model 
 
 from __future__ import annotations
 
+import itertools
 import threading
 import warnings
 from collections.abc import Callable, Sequence
@@ -118,6 +119,11 @@ def _row(work: Work, task: Task) -> Row:
 
 
 def gathered(tasks: Sequence[Task], jobs: int, most: int) -> list[tuple[Task, ...]]:
-    """Tasks in batches of at most `most` that keep all jobs busy, neighbours together."""
-    size = max(min(most, -(-len(tasks) // max(jobs, 1))), 1)
-    return [tuple(tasks[i : i + size]) for i in range(0, len(tasks), size)]
+    """Neighbours in batches of at most `most`: as many for each job, of the same size but for one.
+
+    All jobs end at about the same time.
+    """
+    rounds = -(-len(tasks) // (max(most, 1) * max(jobs, 1)))
+    count = min(rounds * max(jobs, 1), len(tasks))
+    places = [len(tasks) * i // max(count, 1) for i in range(count + 1)]
+    return [tuple(tasks[a:b]) for a, b in itertools.pairwise(places)]
