@@ -144,7 +144,8 @@ def test_ties_are_named_kept_in_saves_and_left_out_of_pictures(tmp_path):
         "OPTI DIME 2 ELEM QUA4 MODE PLAN DEFO ; S = (DROI 4 (0. 0.) (4. 0.)) TRAN 4 (0. 4.) ; "
         "T = RAFF S (0.3 + (COOR 1 S)) ; MO = MODE T 'MECANIQUE' 'ELASTIQUE' ; "
         "N = DIME (RELA MO) ; LIST (ELEM T 'TYPE') ; OPTI SAUV 'x' ; SAUV MO T ; "
-        "OUBL MO ; OPTI REST 'x' ; REST ; M = DIME (RELA MO) ; OPTI SORT 'v' ; SORT 'VTK' T ; OPTI SORT 'w' ; SORT 'AVS' T ;"
+        "OUBL MO ; OPTI REST 'x' ; REST ; M = DIME (RELA MO) ; OPTI SORT 'v' ; SORT 'VTK' T ; "
+        "OPTI SORT 'w' ; SORT 'AVS' T ;"
     )
     result = run_text(text, output_directory=tmp_path)
     assert result.exit_code == 0, result.message
