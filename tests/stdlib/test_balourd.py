@@ -54,9 +54,14 @@ def test_answer_of_a_mass_on_bearings(way):
     np.testing.assert_allclose(found, u[:, 0], rtol=1e-8)
     np.testing.assert_allclose(ordinates("UZ"), np.abs(u[:, 1]), rtol=1e-8)
     t = np.linspace(0, 2 * np.pi, 20001)
-    radius = np.linalg.norm((u[:, :, None] * np.exp(1j * t)).real, axis=1)
+    path = (u[:, :, None] * np.exp(1j * t)).real
+    radius = np.linalg.norm(path, axis=1)
     np.testing.assert_allclose(ordinates("GAXE"), radius.max(axis=1), rtol=1e-6)
     np.testing.assert_allclose(ordinates("PAXE"), radius.min(axis=1), rtol=1e-5)
+    furthest = path[np.arange(len(u)), :, radius.argmax(axis=1)]
+    axis = np.degrees(np.arctan2(furthest[:, 1], furthest[:, 0]))
+    off = (ordinates("ANGLEGAXE") - axis + 90.0) % 180.0 - 90.0  # an axis has no sense
+    np.testing.assert_allclose(off, 0.0, atol=0.1)
     saved = result.session.root.find("T").get(Mot("SAUVDEFO")).get(2)
     assert saved.get(Mot("FREQROTA")) == 9.5
 
