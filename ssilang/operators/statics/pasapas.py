@@ -30,6 +30,7 @@ from ssilang.operators.session.progress import ProgressLine
 from ssilang.operators.session.user_procedures import StopCalculation
 from ssilang.operators.statics.bodies import Bodies, finite_bodies, finite_zones, plastic_bodies
 from ssilang.operators.statics.initial_stress import offset_load, stress_offsets
+from ssilang.operators.statics.linear_zones import linear_blocks
 from ssilang.operators.statics.pasapas_contact import sides_of
 from ssilang.operators.statics.pasapas_entries import KNOWN, REFUSED, RESULTS
 from ssilang.operators.statics.pasapas_results import ResultTables, Stresses
@@ -309,10 +310,10 @@ def _inputs(
         stresses.offsets = stress_offsets(solids, stresses, given, displacement, float(times[0]))
         parts = offset_load(stresses.offsets, solids)
         load = Load((*(load.parts if load else ()), *(LoadPart("MECA", f) for f in parts)))
-    blocks = [stiffness(z, m) for z, m in solids]
+    blocks = linear_blocks(solids, "RIGIDITE", stiffness)
     plastic = (*plastic_zones(model), *finite_zones(entries))
     blocks += [without_stiffness(z) for z in plastic]
-    heavy = [mass(z, m) for z, m in solids] if dynamic else []
+    heavy = linear_blocks(solids, "MASSE", mass) if dynamic else []
     if dynamic and material is not None:
         heavy += [mass(z, material) for z in plastic]
     sides = sides_of(model, material, stresses.offsets)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.elements.families import stress
+from ssilang.kernel.elements.families import family_of, stress
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.model import Zone
@@ -37,8 +37,9 @@ class Stresses:
     offsets: dict[int, CellFieldBlock] = field(default_factory=dict)
 
     def at(self, displacement: NodeField, time: float) -> list[CellFieldBlock]:
-        """Stresses of all zones at a displacement and a time."""
-        return [self._zone(z, m, displacement, time) for z, m in self.zones]
+        """Stresses of all zones that have any at a displacement and a time."""
+        strained = ((z, m) for z, m in self.zones if family_of(z).stress_names(z))
+        return [self._zone(z, m, displacement, time) for z, m in strained]
 
     def _zone(
         self, zone: Zone, material: CellField, displacement: NodeField, time: float
