@@ -12,7 +12,6 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from scipy.linalg import expm
 
 from ssilang.kernel.errors import FieldError
 from ssilang.kernel.mesh.nodes import FloatArray
@@ -89,6 +88,8 @@ def floor_evolution(
     natural : float
         Frequency of the oscillator (Hz).
     """
+    from scipy.linalg import expm
+
     A, b = _system(storey, natural, damping)
     f, weights = _points(power, storey, natural, damping)
     s = 2j * np.pi * f
