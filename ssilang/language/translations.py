@@ -74,6 +74,86 @@ TEMPLATES: tuple[tuple[str, str], ...] = (
         "no polygons of five sides or more in this mesh",
         "aucun polygone de cinq côtés ou plus dans ce maillage",
     ),
+    # ---- meshes refined by parts, crossings, projections
+    ("{} cells are not divided", "les éléments {} ne se divisent pas"),
+    ("{} are: CHAN LINE makes cells linear", "{} le font : CHAN LINE rend les éléments linéaires"),
+    ("the sizes wanted are positive", "les tailles voulues sont positives"),
+    ("about {} cells are needed", "il faudrait environ {} éléments"),
+    ("wish larger sizes", "demander de plus grandes tailles"),
+    (
+        "the field of sizes has {} components, one is needed",
+        "le champ de tailles a {} composantes, il en faut une",
+    ),
+    (
+        "the mesh has been refined before: its SURE cells tie nodes that a second division would "
+        "move",
+        "le maillage est déjà raffiné : ses éléments SURE attachent des noeuds qu'une seconde "
+        "division déplacerait",
+    ),
+    (
+        "refine the first mesh to the sizes wanted in the end",
+        "raffiner le premier maillage aux tailles voulues à la fin",
+    ),
+    ("no size is given at node {}", "aucune taille n'est donnée au noeud {}"),
+    ("give the field on the whole mesh", "donner le champ sur tout le maillage"),
+    (
+        "the mesh holds nothing but SURE cells, which tie hanging nodes",
+        "le maillage ne contient que des éléments SURE, qui attachent des noeuds pendants",
+    ),
+    (
+        "lines of SEG2 are needed to triangulate what they enclose",
+        "il faut des lignes de SEG2 pour trianguler ce qu'elles entourent",
+    ),
+    ("the lines enclose nothing", "les lignes n'entourent rien"),
+    (
+        "the lines are not plane: a point is {} away from their mean plane",
+        "les lignes ne sont pas planes : un point est à {} de leur plan moyen",
+    ),
+    (
+        "the {} point is {} away from one of the surfaces",
+        "le point {} est à {} de l'une des surfaces",
+    ),
+    ("both ends lie on both surfaces", "les deux extrémités sont sur les deux surfaces"),
+    (
+        "the two ends of the curve are the same point",
+        "les deux extrémités de la courbe sont le même point",
+    ),
+    (
+        "the crossing of the surfaces that starts at the first point does not come to the last",
+        "l'intersection des surfaces qui part du premier point n'arrive pas au dernier",
+    ),
+    (
+        "are both points on the same branch of it?",
+        "les deux points sont-ils sur la même branche ?",
+    ),
+    (
+        "the two surfaces touch without crossing at ({}): no curve is defined there",
+        "les deux surfaces se touchent sans se croiser en ({}) : aucune courbe n'y est définie",
+    ),
+    (
+        "a curve is the crossing of two surfaces, {} stand here",
+        "une courbe est l'intersection de deux surfaces, il y en a ici {}",
+    ),
+    (
+        "element {} does not fill its space: no projection on it",
+        "l'élément {} n'est pas massif : pas de projection sur lui",
+    ),
+    (
+        "{} integration points do not fix the {} values of a {} cell",
+        "{} points d'intégration ne fixent pas les {} valeurs d'un élément {}",
+    ),
+    (
+        "give more points in each direction (3 by default)",
+        "donner plus de points par direction (3 par défaut)",
+    ),
+    (
+        "conditions are not made imaginary by CHAN",
+        "CHAN ne rend pas imaginaires des conditions",
+    ),
+    (
+        "the multiplier of a condition is always called LX here",
+        "le multiplicateur d'une condition s'appelle toujours LX ici",
+    ),
     # ---- stages of PASAPAS
     (
         "the load {} gives no {} at time {}",
