@@ -2,6 +2,7 @@
 
 import math
 
+import numpy as np
 import pytest
 
 BLOCK = """
@@ -210,3 +211,48 @@ def test_tensions_of_a_prestressed_cable(found, sizes):
     assert far == pytest.approx(1e6 * math.exp(-f * angle - phi * length), rel=2e-3)
     assert pulled == pytest.approx(slip * 1.9e8, rel=2e-3, abs=1e-3)
     assert held_back == far
+
+
+MINDLIN = """
+OPTI DIME 2 ELEM QUA4 MODE PLAN DEFO ; R = 10. ; A = .08 ; NU = .3 ; B1 = -1. 0. ; B2 = 1. 0. ;
+C = (DROI B1 (-.15 0.) 'DINI' .1 'DFIN' .005) ET (DROI 60 (-.15 0.) (.15 0.)) ET
+  (DROI (.15 0.) B2 'DINI' .005 'DFIN' .1) ; ELIM 1.E-6 C ;
+Z = C TRAN (0. -1.) 'DINI' .005 'DFIN' .12 ; D1 = C PLUS (0. 0.) ;
+S = D1 TRAN (0. 1.) 'DINI' .005 'DFIN' .12 ; X = COOR 1 S ;
+DEPL S PLUS (NOMC (X * X / (2. * R) * (1. - (COOR 2 S))) 'UY' NATURE DISCRET) ;
+MS = MODE S MECANIQUE ELASTIQUE ; MZ = MODE Z MECANIQUE ELASTIQUE ;
+K = MODE (INVE C) CONTACT FROTTANT COULOMB D1 'MESC' ;
+P = A * A * PI * 1.E9 / (8. * R * (1. - (NU * NU))) ;
+TOP = S POIN DROI (-1. 1.) (1. 1.) 1.E-4 ; BAS = Z POIN DROI (-1. -1.) (1. -1.) 1.E-4 ;
+H = TOP POIN PROC (0. 1.) ; T = TABL ; T . 'MODELE' = MS ET MZ ET K ;
+T . 'CARACTERISTIQUES' = (MATE (MS ET MZ) YOUN 1.E9 'NU' NU) ET (MATE K MU .4) ;
+T . 'BLOCAGES_MECANIQUES' = (BLOQ DEPL BAS) ET (RELA ENSE UY TOP) ET (RELA ENSE UX TOP) ;
+T . 'CHARGEMENT' = (CHAR MECA (FORC (0. (-1. * P)) H)
+  (EVOL MANU (PROG 0. 1. 2.) (PROG 0. 1. 1.))) ET (CHAR MECA (FORC ((.64 * .4 * P) 0.) H)
+  (EVOL MANU (PROG 0. 1. 2.) (PROG 0. 0. 1.))) ;
+T . 'TEMPS_CALCULES' = PROG 0. 1. 1.5 2. ; PASAPAS T ;
+RE = REDU (T . 'REACTIONS' . 3) D1 ; FX = EXCO RE FX ; FY = EXCO RE FY ;
+LX = PROG ; LP = PROG ; LQ = PROG ;
+REPE B (NBNO D1) ; Q = D1 POIN &B ; LX = LX ET (COOR 1 Q) ;
+  LP = LP ET (EXTR FY 'SCAL' Q) ; LQ = LQ ET (EXTR FX 'SCAL' Q) ; FIN B ;
+"""
+
+
+def test_cylinder_pressed_and_pushed_sticks_in_the_middle_as_cattaneo_and_mindlin_say(found):
+    """Two like bodies, Q = 0.64 mu P: sticking over 0.6 of the half width of contact."""
+    x, p, q, load = (np.asarray(getattr(v, "values", v)) for v in found(
+        MINDLIN, "LX", "LP", "LQ", "P"
+    ))  # fmt: skip
+    a, mu, h = 0.08, 0.4, 0.005
+    most = 2 * load / (math.pi * a) * h
+    hertz = most * np.sqrt((1 - (x / a) ** 2).clip(0))
+    mindlin = mu * (hertz - 0.6 * most * np.sqrt((1 - (x / (0.6 * a)) ** 2).clip(0)))
+    inner = np.abs(x) < 0.95 * a  # the last node's share of the edge is a matter of the mesh
+    assert np.abs(p - hertz)[inner].max() < 0.02 * most
+    # the slope is without bound where sticking ends, between two nodes
+    assert np.abs(-q - mindlin)[inner].max() < 0.03 * mu * most
+    sliding = p > 0.01 * most
+    ratio = np.abs(q[sliding]) / (mu * p[sliding])
+    assert ratio.max() <= 1 + 1e-9
+    stuck = np.abs(x[sliding])[ratio < 1 - 1e-6]
+    assert 0.6 * a - h <= stuck.max() <= 0.6 * a + h

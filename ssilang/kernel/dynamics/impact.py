@@ -39,15 +39,16 @@ class ImpactRule:
     ) -> None:
         self.contact, self.closed = contact, closed
         self.options = problem.contact_options
+        own = contact.pushing[: len(contact)]
         self._by_mass: FloatArray | None = None
         if self.options.correction == "MASSE" or self.options.persistent:
-            self._by_mass = _mass_motions(problem, effective, contact.G)
+            self._by_mass = _mass_motions(problem, effective, own)
         self._slips: FloatArray | None = None
         if contact.friction is not None:
             self._slips = _mass_motions(problem, effective, contact.friction.H)
         self._by_step: FloatArray | None = None
         if self.options.correction == "RIGIDITE":
-            self._by_step = effective.solve(contact.G.T.toarray())
+            self._by_step = effective.solve(own.T.toarray())
 
     def correct(self, motion: Motion, rate: FloatArray) -> None:
         """Change `motion.v`; `rate` (m,) is the velocity of the imposed values."""

@@ -129,10 +129,35 @@ def test_every_scheme_keeps_the_relation(scheme):
         assert np.abs(history.imbalance).max() <= 1e-11 * history.energies[0].sum()
 
 
-def test_unilateral_relations_with_a_dual_are_refused():
-    bench, _one, _two = lever()
+def one_sided():
+    bench, one, two = lever()
     rows = bench.relations[-1]
     one_row = np.ones(1, np.int8)
     bench.relations[-1] = replace(rows, sense=one_row, dual=replace(rows.dual, sense=one_row))
-    with pytest.raises(KernelError, match="RESO only"):
-        problem_of(bench, np.array([0.0, 1.0]), None)
+    return bench, one, two
+
+
+def test_unilateral_relation_with_a_dual_holds_and_lets_go():
+    """u1 never goes below u2/2; where it leaves it nothing pulls on either mass."""
+    bench, one, two = one_sided()
+    times = np.arange(401) * 1e-3
+    field = bench.field((one, "UY", 1e-2), (two, "UY", 2e-2))
+    load = bench.load(bench.field((one, "FY", -40.0)))
+    problem = problem_of(bench, times, load, start=field)
+    recorder = Recorder(len(times))
+    integrate(problem, [recorder])
+    gap = recorder.of("u")[:, where(problem, one, two)] @ C
+    push = recorder.of("contact")[:, 0]
+    assert gap.min() >= -1e-15
+    assert (gap > 1e-4).any()
+    assert ((push > 0.1) & (gap < 1e-15)).any()
+    assert push[gap > 1e-12].max() == 0.0
+    forces = recorder.of("reaction")[:, where(problem, one, two)]
+    assert np.abs(forces - push[:, None] * D).max() <= 1e-9 * push.max()
+
+
+def test_conserving_step_refuses_a_unilateral_relation_with_a_dual():
+    bench, _one, _two = one_sided()
+    problem = problem_of(bench, np.array([0.0, 1.0]), None, Scheme(conserving=True))
+    with pytest.raises(KernelError, match="conserving step"):
+        integrate(problem, [])
