@@ -18,6 +18,8 @@ from ssilang.kernel.mesh.nodes import FloatArray
 BISECTIONS = 40
 FAR = 0.5
 """Correction over the step, beyond which the solution is taken for one of another branch."""
+CORNER = 5.0
+"""The same for the shortest step, which goes around corners of the branch."""
 BEYOND = 1e-3
 """Length by which a step passes a limit point at most; its t stays beyond that before."""
 
@@ -150,7 +152,8 @@ class Tracer:
                 return None
             u, t = u + change[:-1], t + float(change[-1])
             if close:  # the last correction is made too: it is there
-                if np.linalg.norm(self._scaled(u - start_u, t - start_t)) > FAR * ds:
+                far = np.linalg.norm(self._scaled(u - start_u, t - start_t))
+                if far > (FAR if ds > self.lengths.least else CORNER) * ds:
                     return None  # another branch
                 return self._point(u, t, point.tangent, 1.0, turn)
             if not (np.isfinite(u).all() and np.isfinite(t)):
