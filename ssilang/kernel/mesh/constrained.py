@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components, shortest_path
 
 from ssilang.kernel.errors import MeshError
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.mesh.triangulate import delaunay_triangles, recover_segments
+from ssilang.kernel.sparse import sp
 
 
 def is_closed(lines: Mesh) -> bool:
@@ -64,6 +63,8 @@ def _flat(at: FloatArray, dimension: int) -> FloatArray:
 
 def _enclosed(triangles: IntArray, segments: IntArray, n: int) -> NDArray[np.bool_]:
     """Triangles in parts that an odd number of lines, the fewest, divides from the outside."""
+    from scipy.sparse.csgraph import connected_components, shortest_path
+
     sides = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]], axis=2) @ [n, 1]
     walls = np.sort(segments, axis=1) @ [n, 1]
     owner = np.repeat(np.arange(len(triangles)), 3)
@@ -73,7 +74,7 @@ def _enclosed(triangles: IntArray, segments: IntArray, n: int) -> NDArray[np.boo
     first, second, key = owner[pair], owner[pair + 1], keys[pair]
     open_side = ~np.isin(key, walls)
     size = len(triangles)
-    links = coo_matrix(
+    links = sp.coo_matrix(
         (np.ones(open_side.sum()), (first[open_side], second[open_side])), shape=(size, size)
     )
     n_parts, part = connected_components(links, directed=False)
