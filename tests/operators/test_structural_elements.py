@@ -74,3 +74,19 @@ def test_tube_of_cubic_triangles_buckles_under_pressure_that_follows(tmp_path):
     exact = 2e11 / (4 * (1 - 0.09)) * 0.05**3 / 1e6  # 3 D / R^3
     assert following == pytest.approx(exact, rel=0.05)
     assert dead / following == pytest.approx(4 / 3, rel=5e-3)
+
+
+@pytest.mark.parametrize("aim", ["(0. 0. -1.)", "'POINT' (5. 0.5 -9.)"])
+def test_shells_of_bricks_are_turned_to_go_across_along_a_direction(aim, tmp_path):
+    text = STRIP + f"V2 = ORIE V1 {aim} ; F1 = FACE 1 V2 ; F2 = FACE 2 V2 ;\n"
+    text += "Z1 = MAXI (COOR 3 F1) ; Z2 = MAXI (COOR 3 F2) ; W1 = MESU V1 ; W2 = MESU V2 ;\n"
+    text += "M2 = MODE V2 MECANIQUE ELASTIQUE SHB8 ; A2 = MATE M2 YOUN 2.E11 NU 0. ;\n"
+    text += "K2 = (RIGI M2 A2) ET (BLOQ DEPL PE) ; P2 = POIN V2 PROC (10. 0. 0.) ;\n"
+    text += "X = EXTR (RESO K2 (PRES 'SHB8' M2 1000. 'INTERNE')) UZ P2 ; "
+    result = run_text(text, output_directory=tmp_path)
+    assert result.exit_code == 0, result.message
+    z1, z2, w1, w2, x = (result.session.root.find(n) for n in ("Z1", "Z2", "W1", "W2", "X"))
+    assert (z1, z2) == pytest.approx((0.1, 0.0))
+    assert w2 == pytest.approx(w1)
+    # the first face is now the upper one: the pressure pushes down
+    assert x == pytest.approx(-1000.0 * 10**4 / (8 * 2e11 * 0.1**3 / 12), rel=5e-3)

@@ -120,16 +120,48 @@ def _oriented(block: CellBlock, space_dimension: int) -> CellBlock:
 
 
 def orient_towards(mesh: Mesh, target: FloatArray, is_point: bool) -> Mesh:
-    """Surface cells turned so that their normals go along a vector, or towards a point (3,)."""
+    """Cells turned so that their normals go along a vector, or towards a point (3,).
+
+    Surface cells, and bricks of 8 nodes as shells have them: from the first face to the second,
+    which become the sides of a mesh of nothing else.
+    """
     blocks = []
     for block in mesh.blocks:
-        if block.kind.dimension != 2 or block.kind.joint:
+        brick = block.cell_type == "CUB8"
+        if (block.kind.dimension != 2 and not brick) or block.kind.joint:
             blocks.append(block)
             continue
         aim = target - block.coordinates.mean(axis=1) if is_point else target
+        if brick:
+            blocks.append(_bricks_across(block, aim))
+            continue
         sense = (surface_normals(block) * aim).sum(axis=1)
         blocks.append(flip(block, sense < 0))
-    return Mesh(mesh.nodes, tuple(blocks), mesh.sides)
+    bricks = blocks and all(b.cell_type == "CUB8" for b in blocks)
+    return Mesh(mesh.nodes, tuple(blocks), _skins(blocks) if bricks else mesh.sides)
+
+
+_OTHER_FACE = [4, 7, 6, 5, 0, 3, 2, 1]
+"""Nodes of a brick from its second face on, its Jacobian keeping its sign."""
+
+
+def _bricks_across(block: CellBlock, aim: FloatArray) -> CellBlock:
+    """Bricks that go from their first four nodes to their last four along `aim`."""
+    x = block.coordinates
+    through = x[:, 4:].mean(axis=1) - x[:, :4].mean(axis=1)
+    back = (through * aim).sum(axis=1) < 0
+    nodes = np.where(back[:, None], block.raw[:, _OTHER_FACE], block.raw)
+    return CellBlock(block.nodes, block.cell_type, nodes, block.colours)
+
+
+def _skins(blocks: list[CellBlock]) -> tuple[Mesh, Mesh]:
+    """First and second face of bricks of 8 nodes."""
+    nodes = blocks[0].nodes
+    first, second = (
+        Mesh(nodes, tuple(CellBlock.make(nodes, "QUA4", b.raw[:, part]) for b in blocks))
+        for part in (slice(0, 4), slice(4, 8))
+    )
+    return first, second
 
 
 def check_consistent(mesh: Mesh) -> Mesh:

@@ -147,10 +147,13 @@ def inverted(call: Call, mesh: Mesh) -> Mesh:
     help=Help(
         en="Cells described so that their Jacobian is positive (lines in 1D, surfaces in 2D, "
         "volumes in 3D); with a direction or towards a 'POINT', surface cells in space turned so "
-        "that their normals go that way.",
+        "that their normals go that way, and bricks of 8 nodes (shells SHB8) so that they go from "
+        "their first four nodes to their last four, FACE 1 and FACE 2 of the result.",
         fr="Eléments décrits de sorte que leur jacobien soit positif (lignes en 1D, surfaces en "
         "2D, volumes en 3D) ; avec une direction ou vers un 'POINT', éléments de surface dans "
-        "l'espace retournés pour que leurs normales aillent dans ce sens.",
+        "l'espace retournés pour que leurs normales aillent dans ce sens, et cubes à 8 noeuds "
+        "(coques SHB8) pour qu'ils aillent de leurs quatre premiers noeuds aux quatre derniers, "
+        "FACE 1 et FACE 2 du résultat.",
         syntax="GEO1 = ORIE GEO2 (('DIRE') VEC1 | 'POINT' POIN1) ;",
         examples=(
             "OPTI DIME 2 ELEM QUA4 ; S = ORIE ((DROI 4 (0. 0.) (1. 0.)) TRAN 3 (0. -1.)) ;"
