@@ -10,7 +10,8 @@ from ssilang.language.registry import OPERATORS
 from ssilang.operators.loader import load_operators
 
 load_operators()
-_WORKERS = ("ZDYN", "ZPAS")  # what procedures of the library call; not for users
+# what procedures of the library call; not for users
+_WORKERS = ("ZCON", "ZDYN", "ZFRE", "ZHBM", "ZHPO", "ZPAS", "ZPIL", "ZSPP")
 _NAMES = sorted({o.name for o in OPERATORS.values()}) + sorted(standard_procedures())
 
 
