@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -17,13 +17,15 @@ from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.modal.shape_models import is_shape, shape_matrix
 from ssilang.kernel.model import Model, Zone
 from ssilang.kernel.plasticity.points import is_plastic
-from ssilang.kernel.statics.frequency import HarmonicInputs, default_frequencies, sweep
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
 from ssilang.language.values import Mot, Table
 from ssilang.operators.session.progress import ProgressLine
 from ssilang.operators.statics.pasapas_entries import KNOWN, REFUSED
 from ssilang.operators.tables.entries import Entries
+
+if TYPE_CHECKING:
+    from ssilang.kernel.statics.frequency import HarmonicInputs
 
 _RESULTS = ("TEMPS", "DEPLACEMENTS", "REACTIONS")
 
@@ -40,6 +42,8 @@ _RESULTS = ("TEMPS", "DEPLACEMENTS", "REACTIONS")
 )
 def zfre(call: Call) -> None:
     """Fill TEMPS (frequencies in Hz), DEPLACEMENTS and REACTIONS, 0 being a state at rest."""
+    from ssilang.kernel.statics.frequency import sweep
+
     entries = Entries(call, call.required("TABLE"), "PASAPAS")
     entries.refuse(REFUSED)
     entries.warn_unknown(KNOWN)
@@ -75,6 +79,8 @@ def _at_rest(field: NodeField) -> NodeField:
 
 
 def _frequencies(entries: Entries, inputs: HarmonicInputs) -> FloatArray:
+    from ssilang.kernel.statics.frequency import default_frequencies
+
     given = entries.get("TEMPS_CALCULES", "LISTREEL") or entries.get("TEMPS_SAUVES", "LISTREEL")
     if given is None:
         return default_frequencies(inputs)
@@ -85,6 +91,8 @@ def _frequencies(entries: Entries, inputs: HarmonicInputs) -> FloatArray:
 
 
 def _inputs(entries: Entries) -> HarmonicInputs:
+    from ssilang.kernel.statics.frequency import HarmonicInputs
+
     model: Model | None = entries.get("MODELE", "MMODEL")
     zones = () if model is None else model.zones
     mechanical = tuple(z for z in zones if z.formulation == "MECANIQUE")
