@@ -123,3 +123,29 @@ def test_a_load_of_models_that_holds_fields_is_refused():
     result = run_text(text)
     assert result.exit_code == 1
     assert "the load MODE gives no MMODEL" in result.message
+
+
+def test_a_footing_built_on_settled_soil_stands_on_its_joint(tmp_path):
+    text = """
+    OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ;
+    L0 = DROI 1 (0. 0.) (1. 0.) ; S1 = L0 TRAN 1 (0. 1.) ; LA = INVE (S1 COTE 3) ;
+    LB = LA PLUS (0. 0.) ; S2 = LB TRAN 1 (0. 1.) ; L2 = S2 COTE 3 ;
+    OPTI ELEM RAC2 ; J = RACC 1.E-6 LB LA ;
+    M1 = MODE S1 'MECANIQUE' ; M2 = MODE S2 'MECANIQUE' ;
+    MJ = MODE J 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' JOI2 ; MT = M1 ET M2 ET MJ ;
+    T = TABL ; T . 'MODELE' = MT ; T . 'CARACTERISTIQUES' =
+      (MATE (M1 ET M2) 'YOUN' 1.E6 'NU' 0.) ET (MATE MJ 'KN' 1.E8 'KS' 1.E8) ;
+    T . 'BLOCAGES_MECANIQUES' = (BLOQ 'UX' (S1 ET S2)) ET (BLOQ 'UY' L0) ;
+    TT = TABL ; TT . 0 = 0. ; TT . 1 = 1.5 ; TM = TABL ; TM . 0 = M1 ; TM . 1 = MT ;
+    T . 'CHARGEMENT' = (CHAR 'MECA' (FORC (0. -1000.) LA) (EVOL 'MANU' (PROG 0. 9.) (PROG 1. 1.)))
+      ET (CHAR 'MECA' (FORC (0. -1000.) L2) (EVOL 'MANU' (PROG 0. 1. 2. 9.) (PROG 0. 0. 1. 1.)))
+      ET (CHAR 'MODE' TT TM) ;
+    T . 'TEMPS_CALCULES' = PROG 1. 1.5 2. ; PASAPAS T ; U = T . 'DEPLACEMENTS' . 3 ;
+    W = (EXTR U 'UY' (LB POIN 1)) - (EXTR U 'UY' (LA POIN 1)) ;
+    """
+    result = run_text(text, output_directory=tmp_path)
+    assert result.exit_code == 0, result.message
+    assert not result.session.warnings
+    find = result.session.root.find
+    assert stress(find("T"), 3) == pytest.approx([-2000.0, -1000.0], rel=1e-6)
+    assert find("W") == pytest.approx(-1000.0 / 1e8, rel=1e-6)  # traction over KN

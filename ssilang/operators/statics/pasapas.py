@@ -119,7 +119,7 @@ def _stretch(
     finite = finite_zones(given)
     bodies = finite_bodies(given, finite, start) if finite else plastic_bodies(given, start)
     problem = make_problem(inputs)
-    if bodies is None and not control_asked(work):
+    if bodies is None and not control_asked(work) and stage.entries is work:
         warn_supports(work, inputs)
     results = ResultTables(entries.table, saved, stresses, dynamic, number)
     reached = Reached(results, len(times))

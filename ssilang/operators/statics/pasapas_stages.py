@@ -17,6 +17,9 @@ from ssilang.kernel.curve import Load, LoadPart
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.zone_fields import cell_rows, n_points
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.fields.node_field import NodeField, NodeValues
+from ssilang.kernel.joints.elements import is_joint
+from ssilang.kernel.joints.kinematics import element_sides
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.mesh import CellBlock
 from ssilang.kernel.mesh.nodes import FloatArray
@@ -137,13 +140,32 @@ class Reached:
 
 
 def entering(state: Table, model: Model | None) -> Table:
-    """A state for a stage's model: cells that come have no stress and no history."""
+    """A state for a stage's model: cells that come have no stress, no history, no jump."""
     made = Table()
     for index, value in state.items():
         if isinstance(value, CellField) and model is not None:
             value = completed(value, model, str(index) == "CONTRAINTES")
+        if isinstance(value, NodeField) and model is not None and index == "DEPLACEMENTS":
+            value = laid_on(value, model)
         made.set(index, value)
     return made
+
+
+def laid_on(displacement: NodeField, model: Model) -> NodeField:
+    """A displacement in which new faces of joints lie where the faces before them have gone."""
+    components = dict(displacement.components)
+    for zone in (z for z in model.zones if is_joint(z)):
+        upper, lower = (displacement.table.resolve(side).ravel() for side in element_sides(zone))
+        for name, part in components.items():
+            for new, old in ((upper, lower), (lower, upper)):
+                comes = ~np.isin(new, part.nodes) & np.isin(old, part.nodes)
+                nodes, first = np.unique(new[comes], return_index=True)
+                values = part.at(old[comes][first])
+                every = np.concatenate([part.nodes, nodes])
+                order = np.argsort(every, kind="stable")
+                part = NodeValues(every[order], np.concatenate([part.values, values])[order])
+            components[name] = part
+    return NodeField(displacement.table, components, displacement.nature)
 
 
 def completed(given: CellField, model: Model, whole: bool) -> CellField:
