@@ -256,3 +256,48 @@ def test_cylinder_pressed_and_pushed_sticks_in_the_middle_as_cattaneo_and_mindli
     assert ratio.max() <= 1 + 1e-9
     stuck = np.abs(x[sliding])[ratio < 1 - 1e-6]
     assert 0.6 * a - h <= stuck.max() <= 0.6 * a + h
+
+
+def test_friction_above_a_joint(found):
+    """The pushed block on a table that stands on a joint: mu N again, the joint carries N."""
+    push, carried = found(
+        """OPTI DIME 2 ELEM QUA4 MODE PLAN CONT ;
+C = DROI 6 (-3. 0.) (3. 0.) ; Z = C TRAN 2 (0. -2.) ;
+A = DROI 4 (-1. 0.) (1. 0.) ; S = A TRAN 2 (0. 1.) ;
+BZ = INVE (COTE 3 Z) ; BB = BZ PLUS (0. 0.) ; MS = MODE S MECANIQUE ELASTIQUE ;
+MJ = MODE (RACC 1.E-3 BZ BB) MECANIQUE ELASTIQUE JOINT_SDM ;
+M = MODE (S ET Z) MECANIQUE ELASTIQUE ; K = MODE (INVE C) CONTACT FROTTANT COULOMB A FAIB ;
+T = TABL ; T . 'MODELE' = M ET K ET MJ ; D = BLOQ UX (COTE 2 S) ; B = BLOQ DEPL BB ;
+T . 'CARACTERISTIQUES' = (MATE M YOUN 1.E9 NU 0.) ET (MATE K MU .3) ET
+  (MATE MJ KN 1.E10 KS 1.E10) ; T . 'RIGIDITE_CONSTANTE' = APPU 'UY' 1. S ;
+T . 'BLOCAGES_MECANIQUES' = B ET D ; T . 'TEMPS_CALCULES' = PROG 0. .5 1. 2. ;
+T . 'CHARGEMENT' = (CHAR MECA (PRES MASS MS 1.E5 (COTE 3 S))
+  (EVOL MANU (PROG 0. 1. 2.) (PROG 0. 1. 1.))) ET (CHAR DIMP (DEPI D 1.E-2)
+  (EVOL MANU (PROG 0. 1. 2.) (PROG 0. 0. 1.))) ; PASAPAS T ; U = T . 'DEPLACEMENTS' . 3 ;
+F = MAXI (RESU (EXCO FX (REAC D U))) ; N = MAXI (RESU (EXCO FY (REAC B U))) ;""",
+        "F",
+        "N",
+    )
+    assert push == pytest.approx(6e4, rel=1e-6)
+    assert carried == pytest.approx(2e5, rel=1e-6)
+
+
+def test_cable_in_a_body_in_space(found):
+    """Straight, across the cells of a beam of bricks: the tensions of PREC."""
+    error, least = found(
+        """OPTI DIME 3 ELEM CUB8 MODE TRID ;
+S1 = (DROI 2 (0 -.5 0) (0 .5 0)) TRAN 2 (0 0 1) ; V = S1 VOLU TRAN 8 (10. 0 0) ;
+P1 = 0. .1 .3 ; P2 = 10. .1 .3 ; OPTI ELEM SEG2 ; C = DROI 20 P1 P2 ;
+MC = MODE C MECANIQUE ELASTIQUE BARR ; MV = MODE V MECANIQUE ELASTIQUE ;
+K = MODE C CONTACT FROTTANT FROCABLE MC V ; T = TABL ; T . 'MODELE' = MC ET MV ET K ;
+A = MATE MC YOUN 2.E11 NU .3 SECT 1.E-3 ;
+T . 'CARACTERISTIQUES' = A ET (MATE MV YOUN 3.E10 NU .2) ET (MATE K FF .2 PHIF .01) ;
+T . 'BLOCAGES_MECANIQUES' = (BLOQ DEPL S1) ET (BLOQ 'UX' P1) ; T . 'TEMPS_CALCULES' = PROG 0. 1. ;
+T . 'CHARGEMENT' = CHAR MECA (FORC (1.E5 0. 0.) P2) (EVOL MANU (PROG 0. 1.) (PROG 0. 1.)) ;
+PASAPAS T ; E = EXCO EFFX (REDU (T . 'CONTRAINTES' . 1) MC) ; TB = TABL ; TB . 'PHIF' = .01 ;
+X = MAXI ABS (E - (EXCO EFFX (PREC MC A TB 1.E5))) ; Y = MINI E ;""",
+        "X",
+        "Y",
+    )
+    assert error < 1.0
+    assert least == pytest.approx(1e5 * math.exp(-0.01 * 9.75), rel=1e-5)
