@@ -58,9 +58,9 @@ def doubled_supports(matrix: Matrix, used: IntArray | None = None) -> DoubledSup
     near = NEAR * float(np.ptp(points[stiff], axis=0).max())
     from scipy.spatial import KDTree
 
-    distance, at = KDTree(points[stiff]).query(points[loose])
-    found = distance <= near
-    return DoubledSupports(loose[found], stiff[at[found]]) if found.any() else None
+    distance, at = map(np.atleast_1d, KDTree(points[stiff]).query(points[loose]))
+    found = np.flatnonzero(distance <= near)
+    return DoubledSupports(loose[found], stiff[at[found]]) if len(found) else None
 
 
 def _held_alone(matrix: Matrix) -> IntArray:
