@@ -140,3 +140,26 @@ def test_unequal_lists_of_unknowns_are_refused(tmp_path: Path) -> None:
     result = run_text("OPTI INCO (MOTS 'A' 'B') (MOTS 'C') ;", tmp_path)
     assert result.exit_code == 1
     assert "2 primal" in result.message
+
+
+def test_results_of_dynamic_are_saved_with_all_their_instants(tmp_path):
+    result = run_text(
+        """OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ;
+        P1 = 0. 0. ; P2 = 4. 0. ; L = DROI 4 P1 P2 ;
+        MO = MODE L 'MECANIQUE' 'ELASTIQUE' 'POUT' ;
+        MA = MATE MO 'YOUN' 3.E10 'NU' 0.2 'RHO' 0. 'SECT' 1. 'INRY' 0.1 'INRZ' 0.1 ;
+        T1 = TABL ; T1 . 'RIGI' = (RIGI MO MA) ET (BLOQ 'UX' 'UY' 'RZ' P1) ;
+        T1 . 'MASS' = MASS 'DEPL' 2.E3 L ;
+        T1 . 'CHAR' = CHAR 'MECA' (MANU 'CHPO' P2 1 'FY' 1.E5) ;
+        T1 . 'TEMPS_CALCULES' = PROG 0. 'PAS' 1.E-3 'NPAS' 20 ; T1 . 'PAS_SAUVES' = 5 ;
+        T2 = DYNAMIC T1 ; BEFORE = EXTR (EVOL 'TEMP' T2 'DEPL' 'UY' P2) 'ORDO' ;
+        OPTI SAUV 'x.sauv' ; SAUV T2 P2 ; OPTI REST 'x.sauv' ; REST ;
+        AFTER = EXTR (EVOL 'TEMP' T2 'DEPL' 'UY' P2) 'ORDO' ; T3 = T2 . 3 ; TIME = T3 . 'TEMP' ;""",
+        output_directory=tmp_path,
+    )
+    assert result.exit_code == 0, result.message
+    before, after = (result.session.root.find(name).values for name in ("BEFORE", "AFTER"))
+    assert len(before) == 5
+    assert before.any()
+    assert before.tolist() == after.tolist()
+    assert result.session.root.find("TIME") == pytest.approx(0.01)

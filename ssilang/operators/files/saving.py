@@ -19,6 +19,8 @@ from ssilang.language.structure import parse
 from ssilang.language.tree import Definition
 from ssilang.language.values import (
     Annule,
+    LazyRows,
+    LazyTable,
     ListChpo,
     ListEnti,
     ListMots,
@@ -91,11 +93,14 @@ register_packing(Configuration, "Configuration", Packing(lambda c: c.coordinates
 register_packing(Annule, "Annule", Packing(lambda _: None, lambda _: Annule()))
 register_packing(Texte, "Texte", Packing(_text_of, _texte))
 register_packing(Procedure, "Procedure", Packing(_source_of, _procedure))
-register_packing(
-    Table,
-    "Table",
-    Packing(lambda t: [list(p) for p in t.items()], lambda _: Table(), _fill_table, mutable=True),
-)
+for _table in (Table, LazyTable, LazyRows):  # what is made later is made to be saved
+    register_packing(
+        _table,
+        "Table",
+        Packing(
+            lambda t: [list(p) for p in t.items()], lambda _: Table(), _fill_table, mutable=True
+        ),
+    )
 register_packing(Objet, "Objet", Packing(_pack_objet, lambda _: Objet(), _fill_objet, mutable=True))
 
 
