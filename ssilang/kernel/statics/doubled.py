@@ -58,8 +58,9 @@ def doubled_supports(matrix: Matrix, used: IntArray | None = None) -> DoubledSup
     near = NEAR * float(np.ptp(points[stiff], axis=0).max())
     from scipy.spatial import KDTree
 
-    distance, at = map(np.atleast_1d, KDTree(points[stiff]).query(points[loose]))
-    found = np.flatnonzero(distance <= near)
+    distance, nearest = KDTree(points[stiff]).query(points[loose])
+    at: IntArray = np.asarray(nearest)
+    found = np.flatnonzero(np.asarray(distance) <= near)
     return DoubledSupports(loose[found], stiff[at[found]]) if len(found) else None
 
 
