@@ -5,12 +5,9 @@ from __future__ import annotations
 import argparse
 import io
 import os
-import signal
 import sys
-import threading
 import warnings
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -109,29 +106,26 @@ def main(arguments: Sequence[str] | None = None) -> int:
             stream.reconfigure(errors="replace")
     if not getattr(options, "debug", False):
         warnings.simplefilter("ignore")  # of libraries; the language's own are messages
+    from ssilang.cli.signals import listening
+
     try:
-        with _ended_by_signal():
-            return _ACTIONS[options.command or "repl"](options)
-    except BrokenPipeError:  # the reader of our output left
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return OK
+        with listening():
+            code = _ACTIONS[options.command or "repl"](options)
+            sys.stdout.flush()
+            sys.stderr.flush()
+            return code
+    except BrokenPipeError:
+        return _leave_quietly()
 
 
-@contextmanager
-def _ended_by_signal() -> Iterator[None]:
-    """A run that is told to end (`timeout`, a queue's limit) still writes its files and summary."""
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-    before = signal.signal(signal.SIGTERM, _interrupt)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGTERM, before)
+def _leave_quietly() -> int:
+    """The reader of our output left (`ssilang case.ssi | head -1`): nothing more is written."""
+    from ssilang.cli.signals import ENDED_BY_CLOSED_PIPE
 
-
-def _interrupt(number: int, frame: object) -> None:
-    raise KeyboardInterrupt
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    for stream in (sys.stdout, sys.stderr):
+        os.dup2(nowhere, stream.fileno())
+    return ENDED_BY_CLOSED_PIPE
 
 
 def _run(options: argparse.Namespace) -> int:

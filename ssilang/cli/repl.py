@@ -115,6 +115,7 @@ class Repl:
     def _guarded(self, action: Callable[[], None], text: str = "") -> bool:
         """Do something that may fail: the session survives; False after FIN."""
         session = self.session
+        session.was_interrupted()  # Ctrl-C at the prompt is over
         try:
             action()
         except StopRun:

@@ -7,15 +7,16 @@ import sys
 import traceback
 import warnings
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TextIO
 
 from ssilang.cli.colour import coloured
 from ssilang.cli.loop_progress import follow_loops
+from ssilang.cli.signals import ENDED_BY_CLOSED_PIPE, take
 from ssilang.language.diagnostics import render
-from ssilang.language.errors import SeveralErrors, SsiError, interruption
+from ssilang.language.errors import ReaderLeft, SeveralErrors, SsiError, interruption
 from ssilang.language.evaluator import StopRun
 from ssilang.language.session import Limits, Session
 from ssilang.language.source import Source
@@ -80,6 +81,7 @@ def make_session(source: Source, options: RunOptions, out: TextIO) -> Session:
             limits=options.limits,
             given={k: _as_object(v) for k, v in options.given.items()},
             integrate=options.integrate,
+            was_interrupted=take,
         )
     )
 
@@ -121,6 +123,7 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
     session.on_warning = lambda w: err.write(coloured(render(w, session.language), err) + "\n")
     follow_loops(session, err)
     errors: list[SsiError] = []
+    take()  # an interruption before this run is none of its own
     try:
         with _libraries_quiet(options.debug):
             execute(session, source)
@@ -130,18 +133,29 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
         errors = [error]
     except KeyboardInterrupt as stop:
         errors = [interruption(stop, session.evaluator.current_span)]
+    except ReaderLeft:
+        errors = [SsiError("reader-left", session.evaluator.current_span)]
+    left = any(e.code == "reader-left" for e in errors)
     _close_files(session, errors)
     names = session.frame.names() | session.library.standard_names
     message = "\n\n".join(render(e, session.language, names) for e in errors)
-    if message:
-        err.write(coloured(message, err) + "\n")
-        if options.debug:
-            for e in errors:
-                traceback.print_exception(e, file=err)
-    result = RunResult(1 if errors else 0, session, errors=errors, message=message)
+    if not left:
+        _tell(errors, coloured(message, err), options.debug, err)
+    code = ENDED_BY_CLOSED_PIPE if left else 1 if errors else 0
+    result = RunResult(code, session, errors=errors, message=message)
     if options.summary:
         _summarise(result, source, err)
     return result
+
+
+def _tell(errors: list[SsiError], message: str, debug: bool, err: TextIO) -> None:
+    """Print what went wrong; a reader who left does not keep the summary from being written."""
+    if not errors:
+        return
+    with suppress(BrokenPipeError):
+        err.write(message + "\n")
+        for error in errors if debug else ():
+            traceback.print_exception(error, file=err)
 
 
 @contextmanager

@@ -317,6 +317,10 @@ MESSAGES: dict[str, Message] = {
         "aucune boucle ou procédure ouverte ne s'appelle {name}",
     ),
     "interrupted": Message("interrupted", "interrompu"),
+    "reader-left": Message(
+        "ended here: whoever read what the run prints left",
+        "arrêté ici : le lecteur de ce que le calcul affiche est parti",
+    ),
     # ---- found by checking, and warnings
     "undefined-name": Message(
         "{name} was never given a value before this line",

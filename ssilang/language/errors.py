@@ -45,6 +45,10 @@ def interruption(stop: KeyboardInterrupt, span: Span | None) -> SsiError:
     return stop.error if isinstance(stop, Interrupted) else SsiError("interrupted", span)
 
 
+class ReaderLeft(BrokenPipeError):
+    """Nobody reads any more what the run prints: it ends, without a message."""
+
+
 class SeveralErrors(Exception):
     """All syntax errors of one script."""
 

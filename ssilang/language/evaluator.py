@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from ssilang.language import tree
 from ssilang.language.call import Call, Operand, run_operator
-from ssilang.language.errors import SeveralErrors, SsiError
+from ssilang.language.errors import ReaderLeft, SeveralErrors, SsiError
 from ssilang.language.fast import Slow, Value, compile_phrase
 from ssilang.language.leftovers import is_call, leftover_error
 from ssilang.language.operands import OperandReader
@@ -394,14 +394,19 @@ class Evaluator(OperandReader):
     def guarded(self, action: Callable[[], Any], span: Span, name: str) -> Any:
         """Run what an operator does; whatever it raises becomes an error of the script."""
         try:
-            return action()
-        except (SsiError, StopRun, LeaveLoop, NextTurn, LeaveProcedure, KeyboardInterrupt):
+            result = action()
+        except KeyboardInterrupt:
+            self.session.was_interrupted()  # it is seen
+            raise
+        except (SsiError, StopRun, LeaveLoop, NextTurn, LeaveProcedure, ReaderLeft):
             raise
         except RecursionError:
             raise SsiError("recursion", span, limit=self.session.limits.recursion) from None
         except MemoryError:
             raise SsiError("memory", span, operator=name) from None
         except Exception as problem:
+            if self.session.was_interrupted():  # it fails over what it swallowed
+                raise KeyboardInterrupt from problem
             message = getattr(problem, "message", None)
             if message is None:
                 raise SsiError(
@@ -415,6 +420,9 @@ class Evaluator(OperandReader):
             raise SsiError(
                 "bad-value", span, operator=name, message=message, hint=hint
             ) from problem
+        if self.session.was_interrupted():
+            raise KeyboardInterrupt
+        return result
 
     @staticmethod
     def _push(call: Call, results: Sequence[Any], span: Span) -> None:

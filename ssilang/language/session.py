@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Protocol, TextIO
 
+from ssilang.language.errors import ReaderLeft, SsiError
 from ssilang.language.library import Library
 from ssilang.language.scopes import Frame
 from ssilang.language.values import Mot
@@ -97,21 +98,27 @@ class Session:
 
     def print(self, text: str = "") -> None:
         """Print a line of results."""
-        self.out.write(text + "\n")
+        try:
+            self.out.write(text + "\n")
+        except BrokenPipeError as closed:
+            raise ReaderLeft from closed
 
     def warn(self, code: str, span: Any = None, **data: object) -> None:
         """Report a warning: kept for the summary, shown by the renderer that listens."""
-        from ssilang.language.errors import SsiError
-
         self.report(SsiError(code, span or self.evaluator.current_span, **data))
 
     def report(self, warning: Any) -> None:
         """Keep a warning, or an error that does not stop the run, and show it."""
         self.warnings.append(warning)
-        if self.on_warning is not None:
+        if self.on_warning is None:
+            return
+        try:
             self.on_warning(warning)
+        except BrokenPipeError as closed:
+            raise ReaderLeft from closed
 
     on_warning: Callable[[Any], object] | None = None
+    was_interrupted: Callable[[], bool] = lambda: False  # a signal came that nobody has seen
     loops: LoopObserver | None = None
 
 

@@ -1,0 +1,54 @@
+"""Ctrl-C and the end that others ask for, also where a library swallows the interruption.
+
+Python delivers a signal as KeyboardInterrupt in whatever Python code runs next. Behind compiled
+code that may be a function which the compiled code calls back, and from there no exception gets
+out: it is printed as ignored, and the library fails later over what is missing, or goes on. The
+arrival of a signal is therefore kept until somebody has seen it.
+"""
+
+from __future__ import annotations
+
+import signal
+import sys
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from types import FrameType
+
+ENDED_BY_CLOSED_PIPE = 141  # what a shell gives for a tool that SIGPIPE ended: 128 + 13
+
+_arrived = threading.Event()  # signals belong to the process, not to a session
+
+
+def take() -> bool:
+    """Whether a signal came since the last call (which counts as having been seen)."""
+    seen = _arrived.is_set()
+    _arrived.clear()
+    return seen
+
+
+@contextmanager
+def listening() -> Iterator[None]:
+    """Turn SIGINT and SIGTERM into KeyboardInterrupt: a run told to end still writes its files."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    numbers = (signal.SIGINT, signal.SIGTERM)
+    before = [signal.signal(n, _interrupt) for n in numbers]
+    ignored, sys.unraisablehook = sys.unraisablehook, _quiet_about_interruptions
+    try:
+        yield
+    finally:
+        sys.unraisablehook = ignored
+        for number, handler in zip(numbers, before, strict=True):
+            signal.signal(number, handler)
+
+
+def _interrupt(number: int, frame: FrameType | None) -> None:
+    _arrived.set()
+    raise KeyboardInterrupt
+
+
+def _quiet_about_interruptions(lost: sys.UnraisableHookArgs) -> None:
+    if not issubclass(lost.exc_type, KeyboardInterrupt):  # that one is not lost: see `take`
+        sys.__unraisablehook__(lost)
