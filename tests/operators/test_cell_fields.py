@@ -59,6 +59,16 @@ def test_values_of_a_list_are_dealt_out_one_a_cell(found):
     assert field.blocks[0].support == "GRAVITE"
 
 
+def test_support_words_compare_on_their_eight_letters(found):
+    field = found(
+        LINE + "MO = MODE L 'MECANIQUE' 'ELASTIQUE' 'BARR' ; "
+        "D = manu chml MO fx 0. fy -9.81 rigidites type scalaire ;",
+        "D",
+    )
+    assert list(field.blocks[0].components) == ["FX", "FY"]
+    assert (field.blocks[0].support, field.title) == ("RIGIDITE", "SCALAIRE")
+
+
 def test_functions_masks_bounds_and_products(found):
     values = found(
         LINE + "X1 = MAXI (ABS (C * -1.)) ; X2 = MAXI (EXP (S * 0.)) ; "

@@ -155,7 +155,7 @@ def _cell_field(call: Call, word: str) -> CellField:
         elif key[:4] == "REPA":
             call.word()
             deal = True
-        elif key in _SUPPORTS or key[:4] in ("NOEU", "GRAV", "STRE"):
+        elif key[:8] in _SUPPORTS or key[:4] in ("NOEU", "GRAV", "STRE"):
             call.word()
             settings["POSI"] = next(s for s in _SUPPORTS if s[:4] == key[:4])
         else:
