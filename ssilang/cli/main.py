@@ -116,6 +116,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
             return code
     except BrokenPipeError:
         return _leave_quietly()
+    except KeyboardInterrupt:  # while the program starts, or a check or a sweep goes on
+        sys.stderr.write("error: interrupted\n")
+        return FAILED
 
 
 def _leave_quietly() -> int:

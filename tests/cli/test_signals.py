@@ -12,7 +12,7 @@ import sys
 
 import pytest
 
-from ssilang.cli import signals
+from ssilang.cli import main, signals
 from ssilang.cli.run import RunOptions, make_session
 from ssilang.language.source import Source
 
@@ -95,3 +95,13 @@ def test_help_whose_reader_left_ends_without_a_word(tmp_path):
     assert first
     assert told == b""
     assert code in (0, signals.ENDED_BY_CLOSED_PIPE)  # it may have been done already
+
+
+@pytest.mark.parametrize("command", ["run", "check", "help"])
+def test_an_interruption_while_the_program_starts_is_told_in_a_line(command, monkeypatch, capsys):
+    def interrupted(_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setitem(main._ACTIONS, command, interrupted)
+    assert main.main([command, "deck.ssi"]) == 1
+    assert capsys.readouterr().err == "error: interrupted\n"
