@@ -89,12 +89,35 @@ class BulkSolver(FullNewtonSolver):
             outcome = self._newton(motion, r, start, gap)
             if outcome.turns > 0:
                 return outcome
-        return self._newton(motion, r, self.constraints.particular(dd), gap)
+        held = self.constraints.particular(dd)
+        start, pushed = self._predicted(motion, r, held, gap) if held.any() else (held, None)
+        return self._newton(motion, r, start, gap, pushed)
+
+    def _predicted(
+        self, motion: Motion, r: FloatArray, held: FloatArray, gap: FloatArray
+    ) -> tuple[FloatArray, FloatArray | None]:
+        """Increment (n,) that moves the supports by `held` with the tangents of the start.
+
+        Support displacements on bodies that stay behind would strain what lies next to the
+        supports far beyond what equilibrium does, and Newton's method would set out from there.
+        """
+        now = self._trial(motion, r, np.zeros_like(held), motion.contact.copy())
+        whole = self.A + now.K + self.share * now.answer.tangent
+        try:
+            step, pushed = self._turn(motion, whole, now.free - whole @ held, held, gap, now.pushed)
+        except SingularFactorError:
+            return held, None
+        return held + step, pushed
 
     def _newton(
-        self, motion: Motion, r: FloatArray, start: FloatArray, gap: FloatArray
+        self,
+        motion: Motion,
+        r: FloatArray,
+        start: FloatArray,
+        gap: FloatArray,
+        pushed: FloatArray | None = None,
     ) -> StepOutcome:
-        now = self._trial(motion, r, start, motion.contact.copy())
+        now = self._trial(motion, r, start, motion.contact.copy() if pushed is None else pushed)
         self.residuals = [now.residual]
         for turn in range(1, TURNS + 1):
             whole = self.A + now.K + self.share * now.answer.tangent

@@ -223,3 +223,23 @@ def test_full_newton_with_joints_agrees_with_the_condensed_interface() -> None:
     result = run_text(JOINTS)
     assert result.exit_code == 0, result.message
     assert at(result, "E") < 1e-9
+
+
+def test_a_beam_pushed_at_one_node_reaches_its_plastic_moment_in_long_steps(tmp_path) -> None:
+    script = """
+    OPTI DIME 2 ELEM QUA8 MODE PLAN CONT ;
+    S = (DROI 20 (0. -0.1) (2. -0.1)) TRAN 4 (0. 0.2) ;
+    MO = MODE S 'MECANIQUE' 'ELASTIQUE' 'PLASTIQUE' 'PARFAIT' ;
+    MA = MATE MO 'YOUN' 2.E11 'NU' 0.3 'SIGY' 2.5E8 ;
+    TIP = (COTE 2 S) POIN 'PROC' (2. 0.) ; PUSH = BLOQ 'UY' TIP ;
+    T = TABL ; T . 'MODELE' = MO ; T . 'CARACTERISTIQUES' = MA ;
+    T . 'BLOCAGES_MECANIQUES' = (BLOQ 'DEPL' (COTE 4 S)) ET PUSH ;
+    T . 'CHARGEMENT' = CHAR 'DIMP' (DEPI PUSH -0.08) (EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.)) ;
+    T . 'TEMPS_CALCULES' = PROG 0. 'PAS' 0.2 1. ;
+    PASAPAS T ;
+    F = EXTR (REAC PUSH (T . 'DEPLACEMENTS' . 5)) 'FY' TIP ;
+    """
+    force = at(values(script, tmp_path), "F")
+    # M_p / L; the clamped edge is held across too: at most 2 / sqrt 3 more
+    plastic = 2.5e8 * 0.2**2 / 4 / 2.0
+    assert plastic < -force < 2 / 3**0.5 * plastic
