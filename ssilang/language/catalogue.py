@@ -360,6 +360,13 @@ MESSAGES: dict[str, Message] = {
         "il manque sans doute un ; entre la condition et {name}",
         warning=True,
     ),
+    "unread-object": Message(
+        "nothing in these parentheses reads {name}, a {found}: they stand for their result alone",
+        "rien dans ces parenthèses ne lit {name}, un {found} : elles valent leur seul résultat",
+        "an operator between two objects is missing before {name}, or {name} is too much",
+        "il manque un opérateur entre deux objets devant {name}, ou {name} est de trop",
+        warning=True,
+    ),
     "overrides-procedure": Message(
         "{name} replaces the procedure of that name in the standard library",
         "{name} remplace la procédure de ce nom de la bibliothèque",

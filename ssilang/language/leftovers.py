@@ -17,6 +17,11 @@ def is_call(left: Sequence[Operand]) -> bool:
     return len(left) > 1 and isinstance(first.value, Mot) and not first.result and not first.name
 
 
+def is_named_object(operand: Operand) -> bool:
+    """Whether an operand is an object that a name holds, neither a scalar nor a word."""
+    return bool(operand.name) and not isinstance(operand.value, bool | int | float | Mot)
+
+
 def leftover_error(
     left: Sequence[Operand], later: Mapping[str, Span], taken: Sequence[Operand] = ()
 ) -> SsiError | None:

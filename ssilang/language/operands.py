@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from ssilang.language import tree
 from ssilang.language.call import Operand
 from ssilang.language.errors import SsiError
-from ssilang.language.leftovers import is_call
+from ssilang.language.leftovers import is_call, is_named_object
 from ssilang.language.procedures import method_of
 from ssilang.language.source import Span
 from ssilang.language.values import ANNULE, Mot, Objet, Table, type_of
@@ -26,6 +26,7 @@ class OperandReader(ABC):
 
     def __init__(self, session: Session) -> None:
         self.session = session
+        self._with_unread: set[tree.Paren] = set()
         self._operand: dict[type, Callable[[Any], list[Operand]]] = {
             tree.Number: lambda i: [Operand(i.value, i.span)],
             tree.Quoted: lambda i: [Operand(Mot(i.text), i.span)],
@@ -82,10 +83,24 @@ class OperandReader(ABC):
             self.refuse_leftovers(results)
         if len(results) > 1:
             unread = [o for o in results[1:] if not o.result]
+            if results[0].result and unread and all(map(is_named_object, results[1:])):
+                self._warn_of_unread(unread[0], item)
+                return [Operand(results[0].value, item.span, results[0].name)]
             word = results[:1] if unread and isinstance(results[0].value, Mot) else []
             self.refuse_leftovers(word + (unread or results[1:]))
         value = results[0].value
         return [Operand(value, item.span, results[0].name)]
+
+    def _warn_of_unread(self, operand: Operand, item: tree.Paren) -> None:
+        """Warn, once for a place, of an object that a parenthesis with a result leaves unread.
+
+        Published decks have such parentheses, mostly unions with an ET too few, and Cast3M runs
+        them.
+        """
+        if item not in self._with_unread:
+            self._with_unread.add(item)
+            found = type_of(operand.value)
+            self.session.warn("unread-object", operand.span, name=operand.name, found=found)
 
     def single(self, item: tree.Item) -> Any:
         operands = self._operand[type(item)](item)

@@ -94,3 +94,20 @@ def test_a_misspelt_operator_is_named_with_the_nearest(tmp_path):
     result = run_text("x = PORG 1. 2. ;", output_directory=tmp_path)
     assert result.errors[0].code == "unknown-operator"
     assert "PROG" in result.message
+
+
+def test_an_object_that_a_parenthesis_leaves_unread_is_warned_of_once(run):
+    text = "l = PROG 1. ; m = PROG 2. ; n = PROG 3. ; REPE b 2 ; x = (l ET m n) ; FIN b ;"
+    script = run(text)
+    assert list(script["x"].values) == [1.0, 2.0]
+    (warning,) = script.result.session.warnings
+    assert (warning.code, warning.span.text) == ("unread-object", "n")
+
+
+@pytest.mark.parametrize("inside", ["l m", "DIME l 3", "3 + 1 -1", "DIME l word", "DIME l k"])
+def test_a_scalar_or_a_word_too_many_in_a_parenthesis_is_refused(fails, inside):
+    assert fails(f"k = 3 ; l = PROG 1. ; m = PROG 2. ; x = ({inside}) ;") in (
+        "excess",
+        "unknown-operator",
+        "glued-sign",
+    )
