@@ -32,11 +32,12 @@ def test_curve_is_zero_where_the_field_is_not_and_says_so():
     assert any("no value of SCAL at 3 of the 5" in str(w.data) for w in result.session.warnings)
 
 
-def test_model_is_dealt_out_zone_by_zone(found):
+@pytest.mark.parametrize("how", ["'ARLE' M 2", "2 M"])
+def test_model_is_dealt_out_zone_by_zone(found, how):
     script = (
         "OPTI DIME 2 ELEM QUA4 ; L = DROI 5 (0 0) (1 0) ; S = TRAN 1 L (0. 1.) ; "
         "M = (MODE S MECANIQUE ELASTIQUE) ET (MODE (CONT S) MECANIQUE ELASTIQUE BARR) ; "
-        "T = PART 'NESC' 'ARLE' M 2 ; A = T . 1 ; B = T . 2 ; "
+        f"T = PART 'NESC' {how} ; A = T . 1 ; B = T . 2 ; "
     )
     a, b = found(script, "A", "B")
     assert [len(z.cells) for z in a.zones] == [3, 6]

@@ -26,20 +26,21 @@ _CUT = "OPTI DIME 2 ELEM SEG2 ; L = (DROI 2 (0. 0.) (1. 0.)) ET (DROI 3 (2. 0.) 
         "('FACE', 'LIGN') sides of more than two cells, ('MAIL') sides within cells of a mesh, "
         "('ANGL') sides where normals or tangents turn by more than an angle (20 degrees); cells "
         "described in opposite senses are not taken as folded unless 'TELQ' is said. 'OPTI': as "
-        "many equal parts as said (a power of 2, by default 2). 'ARLE': cells (of a mesh or of a "
-        "model) dealt out in turn to that many parts. ETG joins the parts again.",
+        "many equal parts as said (a power of 2, by default 2). 'ARLE' (of a model also without "
+        "this word): cells dealt out in turn to that many parts. ETG joins the parts again.",
         fr="Table des zones 1, 2 ... d'un maillage, de sous-type 'ESCLAVE' sauf avec 'NESC'. "
         "'CONN' : parties jointes par des noeuds communs. 'SEPA' : parties jointes par des côtés "
         "communs, sauf ('FACE', 'LIGN') ceux de plus de deux éléments, ('MAIL') ceux compris dans "
         "des éléments d'un maillage, ('ANGL') ceux où normales ou tangentes tournent de plus d'un "
         "angle (20 degrés) ; des éléments de sens contraires ne sont pas pris pour repliés sauf "
         "avec 'TELQ'. 'OPTI' : autant de parties égales que dit (puissance de 2, par défaut 2). "
-        "'ARLE' : éléments (d'un maillage ou d'un modèle) distribués tour à tour à ce nombre de "
-        "parties. ETG les réunit.",
+        "'ARLE' (pour un modèle aussi sans ce mot) : éléments distribués tour à tour à ce nombre "
+        "de parties. ETG les réunit.",
         syntax="TAB1 = PART ('NESC') 'CONN' MAIL1 ;\n"
         "TAB1 = PART ('NESC') 'SEPA' MAIL1 ('FACE'|'LIGN') ('MAIL' MAIL2) "
         "('ANGL' (FLOT1) ('TELQ')) ;\n"
-        "TAB1 = PART ('NESC') 'OPTI' MAIL1 (N1) ; TAB1 = PART ('NESC') 'ARLE' MAIL1 | MODL1 N1 ;",
+        "TAB1 = PART ('NESC') 'OPTI' MAIL1 (N1) ; TAB1 = PART ('NESC') 'ARLE' MAIL1 N1 ;\n"
+        "TAB1 = PART ('NESC') ('ARLE') MODL1 N1 ;",
         examples=(_CUT + "T = PART 'NESC' 'CONN' L ; MESS (DIME T) ;",),
     ),
     reads_itself=True,
@@ -49,13 +50,14 @@ def part(call: Call) -> Table:
     slaves = call.keyword(("NESC",)) is None
     how = call.keyword(("CONN", "SEPA", "OPTI", "ARLE"))
     slaves = slaves and call.keyword(("NESC",)) is None
+    model = call.read("MMODEL") if how in ("ARLE", None) else None
+    if model is not None:
+        return _table(_models(call, model.value), "ESCLAVE" if slaves else "")
     if how is None:
         raise call.bad(
             "how the mesh is taken apart is not said",
             hint="say 'CONN' (common nodes), 'SEPA' with what separates, 'OPTI' or 'ARLE'",
         )
-    if how == "ARLE" and (operand := call.read("MMODEL")) is not None:
-        return _table(_models(call, operand.value), "ESCLAVE" if slaves else "")
     mesh: Mesh = call.required("MAILLAGE")
     return _table(_ZONES[how](call, mesh), "ESCLAVE" if slaves else "")
 
