@@ -12,6 +12,63 @@ import re
 from functools import lru_cache
 
 TEMPLATES: tuple[tuple[str, str], ...] = (
+    # ---- sections of fibres
+    (
+        "element {} describes the section of a beam and has no unknowns",
+        "l'élément {} décrit la section d'une poutre et n'a pas d'inconnues",
+    ),
+    (
+        "give its model to a beam TIMO: MATE MODL1 'MODS' model 'MATS' material",
+        "donner son modèle à une poutre TIMO : MATE MODL1 'MODS' modèle 'MATS' matériau",
+    ),
+    ("a section has no element {}", "une section n'a pas d'élément {}"),
+    ("it is made of POJS, TRIS and QUAS", "elle est faite de POJS, TRIS et QUAS"),
+    (
+        "the beams of one zone have different sections ({})",
+        "les poutres d'une même zone ont des sections différentes ({})",
+    ),
+    (
+        "give each section a model of its own, and join the models by ET",
+        "donner à chaque section son modèle, et réunir les modèles par ET",
+    ),
+    (
+        "a beam of fibres is ELASTIQUE SECTION PLASTIQUE SECTION, not {}",
+        "une poutre à fibres est ELASTIQUE SECTION PLASTIQUE SECTION, pas {}",
+    ),
+    (
+        "the laws of the fibres stand in the model of the section",
+        "les lois des fibres sont dans le modèle de la section",
+    ),
+    (
+        "elements of the family '{}' have no plastic law {}",
+        "les éléments de la famille '{}' n'ont pas la loi plastique {}",
+    ),
+    (
+        "fibres of sections (POJS TRIS QUAS) have {}",
+        "les fibres de section (POJS TRIS QUAS) ont {}",
+    ),
+    (
+        "beams with sections of fibres have no law between their forces and strains alone",
+        "les poutres à fibres n'ont pas de loi entre leurs seuls efforts et déformations",
+    ),
+    (
+        "PASAPAS and DYNAMIC take such models, MOCU gives moments from curvatures",
+        "PASAPAS et DYNAMIC prennent ces modèles, MOCU donne les moments des courbures",
+    ),
+    (
+        "the section does not find the normal force {} of value {}: {} is missing after {} "
+        "iterations",
+        "la section ne trouve pas l'effort normal {} de la valeur {} : il manque {} après {} "
+        "itérations",
+    ),
+    (
+        "is the force below the strength of the section?",
+        "l'effort est-il inférieur à la résistance de la section ?",
+    ),
+    (
+        "the fibres have no area or no YOUN: the section carries no normal force",
+        "les fibres n'ont ni aire ni YOUN : la section ne porte pas d'effort normal",
+    ),
     # ---- contours cut in two, sections, polygons, animations
     (
         "the nearest nodes, {} and {}, are neighbours on the contour",

@@ -121,6 +121,9 @@ ELEMENTS: dict[str, ElementKind] = {
         ElementKind(
             "TIMO", "SEG2", "timoshenko", FRAME_MODES, {"RIGIDITE": 1, "MASSE": 2}, default=False
         ),
+        ElementKind("POJS", "POI1", "fibre", FRAME_MODES, {"RIGIDITE": 1}, default=False),
+        ElementKind("TRIS", "TRI3", "fibre", FRAME_MODES, {"RIGIDITE": 3}, default=False),
+        ElementKind("QUAS", "QUA4", "fibre", FRAME_MODES, {"RIGIDITE": 4}, default=False),
         ElementKind("TUYA", "SEG2", "pipe", _VOLUME, {"RIGIDITE": 2}, default=False),
         ElementKind("DKT", "TRI3", "plate", _VOLUME, {"RIGIDITE": 3}, default=False),
         ElementKind(

@@ -15,6 +15,8 @@ from ssilang.kernel.elements.family import (
     cell_block,
     element_matrices,
 )
+from ssilang.kernel.elements.fibre_beam import FibreBeam
+from ssilang.kernel.elements.fibre_section import Fibre
 from ssilang.kernel.elements.hooke import inverted, moduli_from_field
 from ssilang.kernel.elements.meridian_shell import MeridianShell
 from ssilang.kernel.elements.mindlin import Mindlin
@@ -46,6 +48,8 @@ FAMILIES: dict[str, ElementFamily] = {
     "plate": Plate(),
     "meridian": MeridianShell(),
     "solid shell": SolidShell(),
+    "fibre": Fibre(),
+    "fibre beam": FibreBeam(),
 }
 
 
@@ -56,6 +60,8 @@ def register_family(name: str, family: ElementFamily) -> None:
 
 def family_of(zone: Zone) -> ElementFamily:
     """The family of a zone's element."""
+    if "SECTION" in zone.behaviour:
+        return FAMILIES["fibre beam"]
     return FAMILIES[ELEMENTS[zone.element].family]
 
 

@@ -17,8 +17,9 @@ _SHELLS = ("plate", "meridian", "mindlin")
 ELASTICITIES: dict[str, tuple[str, ...]] = {
     "ISOTROPE": (
         *SOLID_FAMILIES, *_SHELLS, "thick", "solid shell", "bar", "beam", "timoshenko", "pipe",
-        "joint",
+        "joint", "fibre",
     ),
+    "SECTION": ("timoshenko",),
     "ORTHOTROPE": (*SOLID_FAMILIES, *_SHELLS, "joint"),
     "ANISOTROPE": SOLID_FAMILIES,
     "UNIDIRECTIONNEL": SOLID_FAMILIES,
@@ -36,12 +37,15 @@ JOINT_WORDS = (
 PLASTIC_WORDS = tuple(w for w in PLASTIC_LAWS if w not in ELASTICITIES)
 """Words that follow PLASTIQUE in a model of bodies (beside ISOTROPE)."""
 
-PLASTIC_FAMILIES = ("solid", "incompressible", "bar")
+PLASTIC_FAMILIES = ("solid", "incompressible", "bar", "fibre")
 """Families of elements that have plastic laws."""
+
+FIBRE_LAWS = ("PARFAIT_UNI", "PARFAIT", "ISOTROPE", "CINEMATIQUE")
+"""Plastic laws of the fibres of sections; the first is theirs alone."""
 
 OTHER_BEHAVIOURS = (
     "PLASTIQUE_ENDOM", "ENDOMMAGEMENT", "FLUAGE", "VISCOPLASTIQUE", "VISCO_EXTERNE",
-    "NON_LINEAIRE", "HOMOGENEISE", "SECTION", "ARMATURE",
+    "NON_LINEAIRE", "HOMOGENEISE", "ARMATURE",
     "CAOUTCHOUC", "CHABOCHE1", "CHABOCHE2", "CAM_CLAY", "HUJEUX", "UBIQUITOUS", "BETON",
     "MOHR_COULOMB", "MAZARS",
 )  # fmt: skip
@@ -116,6 +120,20 @@ def _impedance_words(words: list[str], family: str) -> tuple[str, ...]:
 def _plastic_words(words: list[str], elasticity: str, family: str) -> tuple[str, str]:
     """PLASTIQUE and the law behind it, ISOTROPE where none is said."""
     law = words[1] if len(words) > 1 else "ISOTROPE"
+    if elasticity == "SECTION" or law == "SECTION":
+        if elasticity != law:
+            raise MaterialError(
+                f"a beam of fibres is ELASTIQUE SECTION PLASTIQUE SECTION, not {law}",
+                "the laws of the fibres stand in the model of the section",
+            )
+        return ("PLASTIQUE", law)
+    if (family == "fibre" and law not in FIBRE_LAWS) or (
+        family != "fibre" and law == "PARFAIT_UNI"
+    ):
+        raise MaterialError(
+            f"elements of the family '{family}' have no plastic law {law}",
+            f"fibres of sections (POJS TRIS QUAS) have {', '.join(FIBRE_LAWS)}",
+        )
     if family not in PLASTIC_FAMILIES:
         raise MaterialError(
             f"elements of the family '{family}' have no plastic law",

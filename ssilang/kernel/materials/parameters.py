@@ -39,6 +39,7 @@ _ELASTIC: dict[str, Names] = {
     "ISOTROPE": Names(("YOUN", "NU"), ("RHO", *THERMAL, "VISQ")),
     "ANISOTROPE": Names(ANISOTROPIC[:7], ("RHO", *ANISOTROPIC[7:], *ANISOTROPIC_THERMAL, *AXES)),
     "UNIDIRECTIONNEL": Names(("YOUN",), ("RHO", *THERMAL, *AXES)),
+    "SECTION": Names(("MODS", "MATS"), ("RHO",)),
     "MODAL": Names(("FREQ", "MASS", "DEFO"), ("AMOR", "CGRA", "MADE")),
     "STATIQUE": Names(("DEFO", "RIDE", "MADE"), ("AMOR",)),
 }
@@ -61,6 +62,7 @@ _ORTHOTROPIC: dict[Mode, int] = {  # how many of ORTHOTROPIC are required
 _GEOMETRY: dict[str, Names] = {
     **dict.fromkeys(SOLID_FAMILIES, Names((), ("DIM3",))),
     "bar": Names(("SECT",)),
+    "fibre": Names(("ALPY", "ALPZ"), ("SECT",)),
     "joint": Names((), ("DIM3", "EPAI")),
     "pipe": Names(
         ("EPAI", "RAYO"),
@@ -113,6 +115,8 @@ def material_names(zone: Zone) -> Names:
 def geometric_names(zone: Zone) -> Names:
     """Parameters of the section or thickness of a zone's elements."""
     family = family_name(zone)
+    if "SECTION" in zone.behaviour:
+        return Names((), ("VECT", "VX", "VY", "VZ", "OMEG"))
     if family in ("beam", "timoshenko"):
         return _BEAM_SPACE if zone.mode is Mode.THREE_DIMENSIONAL else _BEAM_PLANE
     return _GEOMETRY.get(family, Names())

@@ -9,8 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ssilang.kernel.elements.families import family_of
-from ssilang.kernel.elements.family import cell_block
-from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.matrices.assembly import (
     MANY_TERMS,
@@ -21,28 +19,11 @@ from ssilang.kernel.matrices.assembly import (
 from ssilang.kernel.matrices.matrix import ElementMatrices
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.model import Zone
-from ssilang.kernel.plasticity.points import PlasticPoints, plastic_points
+from ssilang.kernel.plasticity.points import PlasticPoints, PointState, plastic_points
 from ssilang.kernel.sparse import sp
 
 FreeStrain = Callable[[float], FloatArray]
 """Strain without stress (n_cells, n_strains, n_points) of a zone at a time."""
-
-
-@dataclass(eq=False)
-class PointState:
-    """State of one zone's points; never changed in place.
-
-    Attributes
-    ----------
-    stress, plastic, free : array (m, 6)
-        Stress, plastic strain, strain without stress (expansion) already taken up.
-    variables : array (m, k)
-    """
-
-    stress: FloatArray
-    plastic: FloatArray
-    free: FloatArray
-    variables: FloatArray
 
 
 State = tuple[PointState, ...]
@@ -60,12 +41,15 @@ class Answer:
     state : State
     work : float
         Work of the stresses over the step (average of both ends).
+    rate : array (n,) or None
+        Change of the forces with the time alone, where they have one.
     """
 
     force: FloatArray
     tangent: sp.csr_array
     state: State
     work: float
+    rate: FloatArray | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -161,6 +145,18 @@ class Bulk:
         """Stresses of the zones (forces in bars)."""
         return stress_blocks(self, state)
 
+    def variables(self, state: State) -> list[CellFieldBlock]:
+        """Internal variables of the zones."""
+        return variable_blocks(self, state) if self.zones else []
+
+    def plastic_strains(self, state: State) -> list[CellFieldBlock]:
+        """Plastic strains of the zones."""
+        return plastic_strain_blocks(self, state) if self.zones else []
+
+    def pushed(self, state: State) -> FloatArray:
+        """Loads (n,) among the forces: none."""
+        return np.zeros(self.size)
+
 
 def bulk_of(zones: tuple[Zone, ...], characteristics: CellField, numbering: Numbering) -> Bulk:
     """Plastic zones placed on a numbering."""
@@ -185,40 +181,19 @@ def without_stiffness(zone: Zone) -> ElementMatrices:
 
 
 def stress_blocks(bulk: Bulk, state: State) -> list[CellFieldBlock]:
-    """Stresses of the zones (forces in bars)."""
-    return [
-        cell_block(z.zone, family_of(z.zone).stress_names(z.zone), _in_section(z, s.stress))
-        for z, s in zip(bulk.zones, state, strict=True)
-    ]
-
-
-def _in_section(zone: PlasticPoints, stress: FloatArray) -> FloatArray:
-    values = zone.gathered(stress)
-    return values if zone.section is None else values * zone.section[:, None]
+    """Stresses of the zones (forces in bars and beams)."""
+    return [z.stress_block(s) for z, s in zip(bulk.zones, state, strict=True)]
 
 
 def variable_blocks(bulk: Bulk, state: State) -> list[CellFieldBlock]:
     """Internal variables of the zones."""
-    blocks = []
-    for z, s in zip(bulk.zones, state, strict=True):
-        n, p = z.weights.shape
-        values = s.variables.reshape(n, p, -1).transpose(0, 2, 1)
-        blocks.append(cell_block(z.zone, z.law.variables, values))
-    return blocks
-
-
-def plastic_strain_names(zone: Zone) -> tuple[str, ...]:
-    """EIXX EIYY EIZZ GIXY ..., EISS in bars."""
-    names = family_of(zone).strain_names(zone)
-    return tuple(n[0] + "I" + n[2:] for n in names)
+    return [z.variable_block(s) for z, s in zip(bulk.zones, state, strict=True)]
 
 
 def plastic_strain_blocks(bulk: Bulk, state: State) -> list[CellFieldBlock]:
-    """Plastic strains of the zones."""
-    return [
-        cell_block(z.zone, plastic_strain_names(z.zone), z.gathered(s.plastic))
-        for z, s in zip(bulk.zones, state, strict=True)
-    ]
+    """Plastic strains of the zones that have them."""
+    blocks = (z.plastic_block(s) for z, s in zip(bulk.zones, state, strict=True))
+    return [b for b in blocks if b is not None]
 
 
 def state_from_fields(
@@ -228,27 +203,8 @@ def state_from_fields(
     plastic: CellField | None,
 ) -> State | None:
     """The state that an earlier calculation left; None if no stress of the zones is given."""
-    found, known = [], False
-    for zone, blank in zip(bulk.zones, bulk.unloaded(), strict=True):
-        names = family_of(zone.zone).stress_names(zone.zone)
-        seen = zone_field(zone.zone, stress)
-        inner = zone_field(zone.zone, variables)
-        strains = zone_field(zone.zone, plastic)
-        state = blank
-        if any(n in seen for n in names):
-            known = True
-            values = seen.matrix(names, "STRESSES")
-            if zone.section is not None:
-                values = values / zone.section[:, None]
-            state = PointState(zone.spread(values), blank.plastic, blank.free, blank.variables)
-        if any(n in inner for n in zone.law.variables):
-            kept = inner.matrix(zone.law.variables, "STRESSES").transpose(0, 2, 1)
-            state = PointState(
-                state.stress, state.plastic, state.free, kept.reshape(zone.count, -1)
-            )
-        names = plastic_strain_names(zone.zone)
-        if any(n in strains for n in names):
-            held = zone.spread(strains.matrix(names, "STRESSES"))
-            state = PointState(state.stress, held, state.free, state.variables)
-        found.append(state)
-    return tuple(found) if known else None
+    pairs = [
+        zone.restored(blank, stress, variables, plastic)
+        for zone, blank in zip(bulk.zones, bulk.unloaded(), strict=True)
+    ]
+    return tuple(state for state, _ in pairs) if any(known for _, known in pairs) else None

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.families import family_of
-from ssilang.kernel.elements.family import Layout
+from ssilang.kernel.elements.family import Layout, cell_block
 from ssilang.kernel.elements.geometry import chunks
 from ssilang.kernel.elements.zone_fields import ZoneField, n_points, zone_field
 from ssilang.kernel.errors import KernelError, MaterialError
-from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.elasticity import check_isotropic
 from ssilang.kernel.materials.plastic.held_stress import respond_held
 from ssilang.kernel.materials.plastic.laws import PlasticLaw, check_parameters, plastic_law
@@ -30,6 +30,23 @@ COMPONENTS: dict[Mode, tuple[int, ...]] = {
     Mode.UNIDIMENSIONAL: (0, 1, 2),
 }
 """Components of the tensor XX YY ZZ XY XZ YZ that a hypothesis has (RR ZZ TT RZ likewise)."""
+
+
+@dataclass(eq=False)
+class PointState:
+    """State of one zone's points; never changed in place.
+
+    Attributes
+    ----------
+    stress, plastic, free : array (m, 6)
+        Stress, plastic strain, strain without stress (expansion) already taken up.
+    variables : array (m, k)
+    """
+
+    stress: FloatArray
+    plastic: FloatArray
+    free: FloatArray
+    variables: FloatArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,6 +126,55 @@ class PlasticPoints:
             values[cells] = np.matmul(left, np.matmul(D[cells], B).reshape(len(B), p * s, rows))
         return values
 
+    # ---- fields: what a state looks like from outside, and back
+
+    def stress_block(self, state: PointState) -> CellFieldBlock:
+        """Stresses (forces in bars)."""
+        values = self.gathered(state.stress)
+        values = values if self.section is None else values * self.section[:, None]
+        return cell_block(self.zone, family_of(self.zone).stress_names(self.zone), values)
+
+    def variable_block(self, state: PointState) -> CellFieldBlock:
+        """Internal variables."""
+        n, p = self.weights.shape
+        values = state.variables.reshape(n, p, -1).transpose(0, 2, 1)
+        return cell_block(self.zone, self.law.variables, values)
+
+    def plastic_block(self, state: PointState) -> CellFieldBlock | None:
+        """Plastic strains."""
+        return cell_block(self.zone, plastic_strain_names(self.zone), self.gathered(state.plastic))
+
+    def restored(
+        self,
+        blank: PointState,
+        stress: CellField | None,
+        variables: CellField | None,
+        plastic: CellField | None,
+    ) -> tuple[PointState, bool]:
+        """The state that fields hold (what they lack as in `blank`), and if stresses are known."""
+        names = family_of(self.zone).stress_names(self.zone)
+        seen, inner = zone_field(self.zone, stress), zone_field(self.zone, variables)
+        strains, state, known = zone_field(self.zone, plastic), blank, False
+        if any(n in seen for n in names):
+            known = True
+            values = seen.matrix(names, "STRESSES")
+            if self.section is not None:
+                values = values / self.section[:, None]
+            state = replace(state, stress=self.spread(values))
+        if any(n in inner for n in self.law.variables):
+            kept = inner.matrix(self.law.variables, "STRESSES").transpose(0, 2, 1)
+            state = replace(state, variables=kept.reshape(self.count, -1))
+        names = plastic_strain_names(self.zone)
+        if any(n in strains for n in names):
+            state = replace(state, plastic=self.spread(strains.matrix(names, "STRESSES")))
+        return state, known
+
+
+def plastic_strain_names(zone: Zone) -> tuple[str, ...]:
+    """EIXX EIYY EIZZ GIXY ..., EISS in bars."""
+    names = family_of(zone).strain_names(zone)
+    return tuple(n[0] + "I" + n[2:] for n in names)
+
 
 def is_plastic(zone: Zone) -> bool:
     """Whether a zone of bodies has a plastic law."""
@@ -132,6 +198,10 @@ def plastic_points(zone: Zone, characteristics: CellField) -> PlasticPoints:
     MaterialError
         For missing or inadmissible parameters.
     """
+    if "SECTION" in zone.behaviour:
+        from ssilang.kernel.plasticity.fibre_points import fibre_points
+
+        return fibre_points(zone, characteristics)
     law, family = plastic_law(zone.behaviour), family_of(zone)
     assert law is not None
     given = zone_field(zone, characteristics)
@@ -148,7 +218,7 @@ def plastic_points(zone: Zone, characteristics: CellField) -> PlasticPoints:
     if bar:
         section = np.broadcast_to(given.at("SECT", "STRESSES"), weights.shape)
         weights = weights * section
-    parameters = _parameters(zone, law, given)
+    parameters = law_parameters(zone, law, given)
     held: tuple[int, ...] = (1, 2, 3, 4, 5) if bar else ()
     if zone.mode is Mode.PLANE_STRESS and not bar:
         held = (2,)
@@ -158,7 +228,14 @@ def plastic_points(zone: Zone, characteristics: CellField) -> PlasticPoints:
     )
 
 
-def _parameters(zone: Zone, law: PlasticLaw, given: ZoneField) -> PointParameters:
+def law_parameters(zone: Zone, law: PlasticLaw, given: ZoneField) -> PointParameters:
+    """Parameters of a law at the points of 'STRESSES'.
+
+    Raises
+    ------
+    MaterialError
+        For missing or inadmissible ones.
+    """
     shape = (len(zone.cells), n_points(zone.element, "STRESSES"))
 
     def at_points(name: str) -> FloatArray:

@@ -15,6 +15,7 @@ from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.family import apply_moduli
 from ssilang.kernel.elements.hooke import moduli_from_field
 from ssilang.kernel.elements.zone_fields import ZoneField, n_points, zone_field
+from ssilang.kernel.errors import FieldError
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.joints.columns import N_STATE, OPENING, SLIP1, SLIP2, XI
 from ssilang.kernel.joints.elements import is_joint
@@ -25,8 +26,12 @@ from ssilang.kernel.joints.parameters import Parameter
 from ssilang.kernel.joints.table import joint_parameters
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.model import Zone
-from ssilang.kernel.plasticity.bulk import plastic_strain_names
-from ssilang.kernel.plasticity.points import PlasticPoints, is_plastic, plastic_points
+from ssilang.kernel.plasticity.points import (
+    PlasticPoints,
+    is_plastic,
+    plastic_points,
+    plastic_strain_names,
+)
 
 Variables = Mapping[str, FloatArray]
 
@@ -82,8 +87,18 @@ def respond(
     step : array (n_cells, n_strains, n_points)
         Increment of strain (of jump, for joints).
     """
+    _no_fibres(zone)
     law = _joint if is_joint(zone) else _plastic if is_plastic(zone) else _elastic
     return law(zone, material, stress, variables, step)
+
+
+def _no_fibres(zone: Zone) -> None:
+    """Refuse yielding beams of fibres: their strains say nothing of those of their fibres."""
+    if "SECTION" in zone.behaviour and is_plastic(zone):
+        raise FieldError(
+            "beams with sections of fibres have no law between their forces and strains alone",
+            "PASAPAS and DYNAMIC take such models, MOCU gives moments from curvatures",
+        )
 
 
 def probing_step(
@@ -94,6 +109,7 @@ def probing_step(
     It raises the stress by that share of itself (of a joint its shear, and its normal traction
     where that is a tension), elastically: the law's tangent over it is the one of the state.
     """
+    _no_fibres(zone)
     if is_joint(zone):
         return _joint_probe(zone, material, stress, precision)
     family, parameters = family_of(zone), zone_field(zone, material)

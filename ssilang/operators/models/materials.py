@@ -27,7 +27,7 @@ Value = tuple[NDArray[Any], Support]
 Values = dict[str, Value]
 Check = Callable[[Model, list[Values]], None]
 
-_VALUES = ("FLOTTANT", "EVOLUTIO", "MCHAML", "POINT", "CHPOINT")
+_VALUES = ("FLOTTANT", "EVOLUTIO", "MCHAML", "POINT", "CHPOINT", "MMODEL")
 SHAPES = ("DEFO", "RIDE", "MADE")
 """Parameters of models MODAL and STATIQUE that are fields at points."""
 _TURNS = ("PARALLELE", "PERPENDICULAIRE", "INCLINE")
@@ -45,7 +45,10 @@ _TURNS = ("PARALLELE", "PERPENDICULAIRE", "INCLINE")
         "for JOINT_SDM, FU GF FC FROT (KN <= FU**2/GF is refused, with the least KN). Plastic "
         "bodies besides: PARFAIT SIGY; ISOTROPE ECRO (curve of the strength over the plastic "
         "strain); CINEMATIQUE SIGY H; DRUCKER_PARFAIT LTR LCS; DRUCKER_PRAGER ALFA BETA K ETA MU "
-        "KL H GAMM DELT; RH_COULOMB COHE PHI. "
+        "KL H GAMM DELT; RH_COULOMB COHE PHI; PARFAIT_UNI SIGY H. Beams ELASTIQUE SECTION take the "
+        "model of their section, MODS, and its material, MATS; fibres take ALPY ALPZ, which "
+        "multiply their shear stresses (and points SECT): the section lies in x y, x along the "
+        "beam's local axis y. "
         "Geometric parameters (SECT INRY INRZ TORS SECY SECZ VECT "
         "DIM3 ...) may be given here too, or by CARA. A value is a number, a field in cells, a "
         "curve (parameter that depends on another field) or, for VECT, a point. IMPEDANCE takes "
@@ -60,7 +63,10 @@ _TURNS = ("PARALLELE", "PERPENDICULAIRE", "INCLINE")
         "pour JOINT_SDM, FU GF FC FROT (KN <= FU**2/GF est refusé, avec le plus petit "
         "KN). Corps plastiques, en plus : PARFAIT SIGY ; ISOTROPE ECRO (courbe de la limite en "
         "fonction de la déformation plastique) ; CINEMATIQUE SIGY H ; DRUCKER_PARFAIT LTR LCS ; "
-        "DRUCKER_PRAGER ALFA BETA K ETA MU KL H GAMM DELT ; RH_COULOMB COHE PHI. "
+        "DRUCKER_PRAGER ALFA BETA K ETA MU KL H GAMM DELT ; RH_COULOMB COHE PHI ; PARFAIT_UNI SIGY "
+        "H. Les poutres ELASTIQUE SECTION prennent le modèle de leur section, MODS, et son "
+        "matériau, MATS ; les fibres ALPY ALPZ, qui multiplient leurs cisaillements (et les points "
+        "SECT) : la section est dans x y, x le long de l'axe local y de la poutre. "
         "Les paramètres géométriques (SECT INRY INRZ TORS SECY "
         "SECZ VECT DIM3 ...) se donnent ici aussi, ou par CARA. Une valeur est un nombre, un "
         "champ par éléments, une évolution ou, pour VECT, un point. IMPEDANCE "
@@ -165,6 +171,11 @@ def _unknown(call: Call, name: str, model: Model, known: Known) -> Exception:
 def _values(call: Call, zone: Zone, name: str, value: Any) -> Value | None:
     """Values of a parameter on the cells of a zone; None if a field does not stand there."""
     n = len(zone.cells)
+    if name in ("MODS", "MATS"):
+        _check_section(call, name, value)
+        return _one_object(value, n)
+    if isinstance(value, Model):
+        raise call.bad(f"parameter {name} is no model", value)
     if isinstance(value, CellField):
         return _field_values(call, zone, name, value)
     if isinstance(value, NodeField) and name not in SHAPES:
@@ -172,12 +183,24 @@ def _values(call: Call, zone: Zone, name: str, value: Any) -> Value | None:
     if isinstance(value, Point | Curve | NodeField):
         if isinstance(value, Point) and name not in ("VECT", "CGRA"):
             raise call.bad(f"parameter {name} is a number, not a POINT", value)
-        one = np.empty((1, 1), dtype=object)
-        one[0, 0] = value
-        return np.broadcast_to(one, (n, 1)), "GRAVITE"
+        return _one_object(value, n)
     if name == "VECT":
         raise call.bad("VECT takes a vector", value, hint="a POINT such as (0. 1. 0.)")
     return np.full((n, 1), float(value)), "GRAVITE"
+
+
+def _one_object(value: Any, n: int) -> Value:
+    """The same object in n cells."""
+    one = np.empty((1, 1), dtype=object)
+    one[0, 0] = value
+    return np.broadcast_to(one, (n, 1)), "GRAVITE"
+
+
+def _check_section(call: Call, name: str, value: Any) -> None:
+    """Refuse what does not describe a section."""
+    wanted, words = (Model, "the model") if name == "MODS" else (CellField, "the material field")
+    if not isinstance(value, wanted):
+        raise call.bad(f"{name} takes {words} of a section of fibres", value)
 
 
 def _field_values(call: Call, zone: Zone, name: str, value: CellField) -> Value | None:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from ssilang.kernel.errors import MaterialError
-from ssilang.kernel.materials.plastic import drucker_prager, rounded_coulomb, von_mises
+from ssilang.kernel.materials.plastic import drucker_prager, rounded_coulomb, uniaxial, von_mises
 from ssilang.kernel.materials.plastic.response import PointParameters, Response
 from ssilang.kernel.mesh.nodes import FloatArray
 
@@ -33,6 +33,8 @@ class PlasticLaw:
         Refuses other inadmissible parameters.
     symmetric : bool
         Whether the tangent is symmetric.
+    uniaxial : bool
+        A law of fibres: its stresses across the fibre are zero by themselves.
     """
 
     respond: Respond
@@ -42,6 +44,7 @@ class PlasticLaw:
     curves: tuple[str, ...] = ()
     check: Callable[[PointParameters], None] | None = None
     symmetric: bool = True
+    uniaxial: bool = False
 
 
 _CENTRE = ("ALXX", "ALYY", "ALZZ", "ALXY", "ALXZ", "ALYZ")
@@ -60,6 +63,10 @@ PLASTIC_LAWS: dict[str, PlasticLaw] = {
         drucker_prager.hardening, _CONE, check=drucker_prager.check_hardening, symmetric=False
     ),
     "RH_COULOMB": PlasticLaw(rounded_coulomb.respond, ("COHE", "PHI"), check=rounded_coulomb.check),
+    "PARFAIT_UNI": PlasticLaw(
+        uniaxial.kinematic, ("SIGY", "H"), ("EPSE", "ALXX"), positive=("SIGY",), uniaxial=True
+    ),
+    "SECTION": PlasticLaw(uniaxial.elastic, ()),
 }
 """By the word after PLASTIQUE; ISOTROPE is meant where there is none."""
 

@@ -1,0 +1,47 @@
+"""Laws of fibres: one stress along the fibre; shear stays elastic."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ssilang.kernel.materials.plastic.response import PointParameters, Response
+from ssilang.kernel.mesh.nodes import FloatArray
+
+
+def _elastic_shear(p: PointParameters, stress: FloatArray, strain: FloatArray) -> FloatArray:
+    """Stresses (m, 6) at the end of a step, XX not yet."""
+    found = np.zeros_like(stress)
+    found[:, 3:5] = stress[:, 3:5] + p.shear[:, None] * strain[:, 3:5]
+    return found
+
+
+def _tangent(p: PointParameters, along: FloatArray) -> FloatArray:
+    D = np.zeros((len(along), 6, 6))
+    D[:, 0, 0] = along
+    D[:, 3, 3] = D[:, 4, 4] = p.shear
+    return D
+
+
+def elastic(
+    parameters: PointParameters, stress: FloatArray, strain: FloatArray, variables: FloatArray
+) -> Response:
+    """`s = YOUN e`."""
+    found = _elastic_shear(parameters, stress, strain)
+    found[:, 0] = stress[:, 0] + parameters["YOUN"] * strain[:, 0]
+    return Response(found, variables, _tangent(parameters, parameters["YOUN"]))
+
+
+def kinematic(
+    parameters: PointParameters, stress: FloatArray, strain: FloatArray, variables: FloatArray
+) -> Response:
+    """`|s - X| <= SIGY`, `dX = H dep`; variables EPSE (cumulated) and X."""
+    E, limit, H = (parameters[n] for n in ("YOUN", "SIGY", "H"))
+    found = _elastic_shear(parameters, stress, strain)
+    trial = stress[:, 0] + E * strain[:, 0]
+    over = trial - variables[:, 1]
+    slip = np.maximum(np.abs(over) - limit, 0.0) / (E + H)
+    sense = np.sign(over)
+    found[:, 0] = trial - E * slip * sense
+    after = np.column_stack([variables[:, 0] + slip, variables[:, 1] + H * slip * sense])
+    slope = np.where(slip > 0, E * H / (E + H), E)
+    return Response(found, after, _tangent(parameters, slope))

@@ -1,0 +1,114 @@
+"""Moments of a section of fibres that is bent under a normal force (MOCU)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from ssilang.kernel.elements.fibre_section import FibreSection
+from ssilang.kernel.errors import ConvergenceError, KernelError
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.plasticity.fibre_points import SectionLaw, fibre_groups, section_fields
+
+TURNS = 200
+
+
+@dataclass(frozen=True, eq=False)
+class BentSection:
+    """Answer of a section to n values of its curvatures and of its normal force.
+
+    Attributes
+    ----------
+    moments : array (n, 2)
+        MOMY and MOMZ.
+    strains : array (n,)
+        EPS, the strain of the line.
+    stresses, variables : list of CellField
+        On the section, at each value.
+    """
+
+    moments: FloatArray
+    strains: FloatArray
+    stresses: list[CellField]
+    variables: list[CellField]
+
+
+def bend(
+    section: FibreSection, curvatures: FloatArray, forces: FloatArray, tolerance: float
+) -> BentSection:
+    """Bend a section step by step from its virgin state.
+
+    Parameters
+    ----------
+    curvatures : array (n, 2)
+        CY and CZ at the end of each step.
+    forces : array (n,)
+        EFFX at the end of each step.
+    tolerance : float
+        Error of the normal force, relative to the sum of the fibres' forces without sign.
+
+    Raises
+    ------
+    ConvergenceError
+        If the section cannot carry the normal force.
+    """
+    groups = fibre_groups(section)
+    f = len(section.areas)
+    law = SectionLaw(groups, f)
+    y, z = section.places.T
+    stress, variables = np.zeros((f, 6)), np.zeros((f, law.width))
+    eps, bent = 0.0, np.zeros(2)
+    moments, strains, fields = np.zeros((len(forces), 2)), np.zeros(len(forces)), []
+    for i, (wanted, force) in enumerate(zip(curvatures, forces, strict=True)):
+        turn = z * (wanted[0] - bent[0]) - y * (wanted[1] - bent[1])
+
+        def answer(
+            step: float, turn: FloatArray = turn, s: FloatArray = stress, q: FloatArray = variables
+        ) -> tuple[FloatArray, FloatArray, FloatArray]:
+            strain = np.zeros((f, 6))
+            strain[:, 0] = step + turn
+            found = law(groups[0].parameters, s, strain, q)
+            return found.stress, found.variables, found.tangent[:, 0, 0]
+
+        step = _balanced(answer, section, float(force), tolerance, i)
+        stress, variables, _ = answer(step)
+        eps, bent = eps + step, wanted
+        along = section.areas * stress[:, 0]
+        moments[i], strains[i] = (along @ z, -along @ y), eps
+        fields.append(section_fields(groups, stress, variables))
+    return BentSection(moments, strains, [s for s, _ in fields], [v for _, v in fields])
+
+
+def _balanced(
+    answer: Callable[[float], tuple[FloatArray, FloatArray, FloatArray]],
+    section: FibreSection,
+    force: float,
+    tolerance: float,
+    row: int,
+) -> float:
+    """Step of the strain of the line that gives the normal force, by Newton inside a bracket."""
+    areas = section.areas
+    elastic = float(areas @ section.moduli[:, 0])
+    if elastic <= 0:
+        raise KernelError("the fibres have no area or no YOUN: the section carries no normal force")
+    low, high, step = -np.inf, np.inf, 0.0
+    for _ in range(TURNS):
+        stress, _, slope = answer(step)
+        rest = float(areas @ stress[:, 0]) - force
+        size = float(areas @ np.abs(stress[:, 0])) + abs(force)
+        if abs(rest) <= max(tolerance, 1e-14) * size:
+            return step
+        low, high = (low, step) if rest > 0 else (step, high)
+        tangent = float(areas @ slope)
+        newton = step - rest / (tangent if tangent > 1e-9 * elastic else elastic)
+        step = newton if low < newton < high else 0.5 * (low + high)
+        if np.isfinite(high - low) and high - low <= 1e-15 * max(abs(low), abs(high), 1e-12):
+            return step
+    raise ConvergenceError(
+        f"the section does not find the normal force {force:g} of value {row + 1}: "
+        f"{rest:+.3g} is missing after {TURNS} iterations",
+        "is the force below the strength of the section?",
+    )

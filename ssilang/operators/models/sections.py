@@ -1,0 +1,84 @@
+"""MOCU: moments and curvatures of sections of fibres."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ssilang.kernel.elements.fibre_section import fibre_section
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.model import Model
+from ssilang.language.call import Call
+from ssilang.language.registry import Help, operator
+from ssilang.language.values import ListReel, Mot, Table
+from ssilang.operators.workspace import workspace
+
+
+@operator(
+    "MOCU",
+    family="model",
+    help=Help(
+        en="Moments of a section of fibres (elements POJS, TRIS, QUAS) that is bent step by step "
+        "from its virgin state: curvatures about the local axis y (LREE4, in space only) and z "
+        "(LREE5), normal force LREE6 (positive in tension), each list with one value a step. "
+        "Gives the moments about y (in space only) and z, and the strain of the line of the beam. "
+        "FLOT1 is the error allowed on the normal force, relative to the sum of the forces of the "
+        "fibres without sign. 'VERIF' adds a table of tables with the fields of each step on the "
+        "section: CONTRAINTES, VARIABLES_INTERNES, DEFORMATION.",
+        fr="Moments d'une section de fibres (éléments POJS, TRIS, QUAS) que l'on courbe pas à pas "
+        "depuis l'état vierge : courbures autour de l'axe local y (LREE4, en 3D seulement) et z "
+        "(LREE5), effort normal LREE6 (positif en traction), chaque liste ayant une valeur par "
+        "pas. Donne les moments autour de y (en 3D seulement) et de z, et l'allongement de la "
+        "ligne de la poutre. FLOT1 est l'erreur admise sur l'effort normal, rapportée à la somme "
+        "des forces des fibres sans leur signe. 'VERIF' ajoute une table de tables avec les champs "
+        "de chaque pas sur la section : CONTRAINTES, VARIABLES_INTERNES, DEFORMATION.",
+        syntax="(LREE1) LREE2 LREE3 (TAB1) = MOCU (LREE4) LREE5 LREE6 MODL1 MAT1 FLOT1 ('VERIF') ;",
+        examples=(
+            "OPTI DIME 3 ELEM QUA4 ; S = (DROI 20 (-0.1 -0.05 0.) (0.1 -0.05 0.)) TRAN 1 "
+            "(0. 0.1 0.) ; M = MODE S MECANIQUE ELASTIQUE PLASTIQUE PARFAIT_UNI QUAS ; "
+            "A = MATE M 'YOUN' 2.E11 'NU' 0.3 'SIGY' 2.E8 'H' 0. 'ALPY' 0.83 'ALPZ' 0.83 ; "
+            "Z = PROG 0. 0. 0. ; C = PROG 0.01 0.02 0.1 ; "
+            "MY MZ E = MOCU Z C Z M A 1.E-6 ; LIST MZ ;",
+        ),
+    ),
+    reads_itself=True,
+)
+def mocu(call: Call) -> tuple[object, ...]:
+    """Bend a section."""
+    from ssilang.kernel.plasticity.moment_curvature import bend
+
+    checked = call.keyword(("VERIF",)) is not None
+    lists: list[ListReel] = list(call.all("LISTREEL"))
+    model: Model = call.required("MMODEL")
+    material: CellField = call.required("MCHAML")
+    tolerance = float(call.required("FLOTTANT"))
+    checked = checked or call.keyword(("VERIF",)) is not None
+    space = workspace(call.session).mode.dimension == 3
+    if len(lists) != (3 if space else 2):
+        raise call.bad(
+            f"{len(lists)} lists are given: "
+            + ("two curvatures and the normal force are needed in space" if space
+               else "the curvature and the normal force are needed in the plane"),
+            model,
+        )  # fmt: skip
+    if len({len(v.values) for v in lists}) > 1:
+        raise call.bad("the lists have different lengths", lists[-1], hint="one value a step")
+    curvatures = np.stack([v.values for v in lists[:-1]], axis=1)
+    if not space:
+        curvatures = np.column_stack([np.zeros(len(curvatures)), curvatures])
+    found = bend(fibre_section(model, material), curvatures, lists[-1].values, tolerance)
+    moments = [ListReel.of(found.moments[:, i].copy()) for i in ((0, 1) if space else (1,))]
+    results = (*moments, ListReel.of(found.strains))
+    if not checked:
+        return results
+    table = Table()
+    parts = (
+        ("CONTRAINTES", found.stresses),
+        ("VARIABLES_INTERNES", found.variables),
+        ("DEFORMATION", [float(e) for e in found.strains]),
+    )
+    for name, values in parts:
+        rows = Table()
+        for i, value in enumerate(values, start=1):
+            rows.set(i, value)
+        table.set(Mot(name), rows)
+    return (*results, table)

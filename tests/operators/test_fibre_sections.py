@@ -1,0 +1,225 @@
+"""Beams with sections of fibres, elastic and plastic, against closed forms and plain beams."""
+
+import numpy as np
+import pytest
+
+STEEL = "'YOUN' 2.E11 'NU' 0.3 'RHO' 7800. 'ALPY' 0.8333 'ALPZ' 0.8333"
+
+
+def section(law="", extra="", ny=4, nz=6, centre=0.0):
+    """A rectangle 0.1 (y) x 0.2 (z), its middle at `centre` along z."""
+    return (
+        f"OPTI DIME 3 ELEM QUA4 ; S = (DROI {ny} (-0.05 {centre - 0.1} 0.) "
+        f"(0.05 {centre - 0.1} 0.)) TRAN {nz} (0. 0.2 0.) ; "
+        f"MS = MODE S MECANIQUE ELASTIQUE {law} QUAS ; AS = MATE MS {STEEL} {extra} ; "
+        "OPTI ELEM SEG2 ; L = DROI 8 (0. 0. 0.) (2. 0.5 1.) ; "
+    )
+
+
+BEAM = "M = MODE L MECANIQUE ELASTIQUE {} TIMO ; A = MATE M 'VECT' (0. 1. 0.) {} ; "
+FIBRES = BEAM.format("SECTION", "'MODS' MS 'MATS' AS")
+AREA, IY, IZ = 0.02, 0.1 * 0.2**3 / 12, 0.2 * 0.1**3 / 12
+
+
+def test_elastic_section_is_the_plain_beam_of_its_rectangle(found):
+    torsion = 0.8333 * (IY + IZ)
+    plain = (
+        f"'YOUN' 2.E11 'NU' 0.3 'RHO' 7800. 'SECT' {AREA} 'INRY' {IY} 'INRZ' {IZ} "
+        f"'TORS' {torsion} 'SECY' {0.8333 * AREA} 'SECZ' {0.8333 * AREA}"
+    )
+    solve = (
+        "B = BLOQ (POIN 1 L) 'DEPL' 'ROTA' ; F = (FORC (1. 2. 3.) (POIN 9 L)) ET "
+        "(MOME (5. 6. 7.) (POIN 9 L)) ; U{0} = RESO ((RIGI M A) ET B) F ; "
+        "S{0} = SIGM M A U{0} ; V{0} = MASS M A ; W{0} = V{0} * U1 ; "
+    )
+    u1, u2, s1, s2, w1, w2 = found(
+        section() + FIBRES + solve.format(1) + BEAM.format("", plain) + solve.format(2),
+        "U1", "U2", "S1", "S2", "W1", "W2",
+    )  # fmt: skip
+    for first, second in ((u1, u2), (w1, w2)):
+        for name in (n for n in second.components if n[0] in "URFM" and n[:2] != "FL"):
+            ids = first.components[name].nodes
+            scale = np.abs(second.values_at(name, ids)).max()
+            np.testing.assert_allclose(
+                first.values_at(name, ids), second.values_at(name, ids), atol=1e-9 * scale
+            )
+    for name, values in s1.blocks[0].components.items():
+        np.testing.assert_allclose(values, s2.blocks[0].components[name], rtol=1e-7, atol=1e-9)
+
+
+def test_fibres_off_the_line_bend_a_pulled_beam(found):
+    e = 0.3
+    script = (
+        section(centre=e) + "L = DROI 8 (0. 0. 0.) (2. 0. 0.) ; " + FIBRES
+        + "U = RESO ((RIGI M A) ET (BLOQ (POIN 1 L) 'DEPL' 'ROTA')) (FORC (1.E5 0. 0.) (POIN 9 L)) "
+        "; RY = EXTR U 'RY' (POIN 9 L) ; UX = EXTR U 'UX' (POIN 9 L) ; "
+    )  # fmt: skip
+    ry, ux = found(script, "RY", "UX")
+    # moment of the force about the middle of the section: -N e, curvature EPS = k + z CY
+    curvature = -1e5 * e / (2e11 * IY)
+    assert ry == pytest.approx(curvature * 2.0, rel=1e-9)
+    assert ux == pytest.approx((1e5 / (2e11 * AREA) - e * curvature) * 2.0, rel=1e-9)
+
+
+def test_mass_of_fibres_off_the_line_has_the_energy_of_a_turning_body(found):
+    script = (
+        section(centre=0.3) + "L = DROI 8 (0. 0. 0.) (2. 0. 0.) ; " + FIBRES
+        + "R = MANU 'CHPO' L 1 'RX' 1. ; X = XTMX R (MASS M A) ; "
+    )  # fmt: skip
+    energy = found(script, "X")
+    polar = 7800.0 * (IY + IZ + AREA * 0.3**2) * 2.0
+    assert energy == pytest.approx(polar, rel=1e-9)
+
+
+def test_gyroscopic_coupling_of_fibres_is_that_of_the_plain_shaft(found):
+    plain = (
+        f"'YOUN' 2.E11 'NU' 0.3 'RHO' 7800. 'SECT' {AREA} 'INRY' {IY} 'INRZ' {IZ} "
+        f"'TORS' {IY} 'OMEG' 3."
+    )
+    script = (
+        section() + BEAM.format("SECTION", "'MODS' MS 'MATS' AS 'OMEG' 3.") + "G1 = GYRO M A ; "
+        + BEAM.format("", plain) + "G2 = GYRO M A ; "
+        "U = (MANU 'CHPO' L 2 'RY' 1. 'RZ' 2.) ; F1 = G1 * U ; F2 = G2 * U ; "
+    )  # fmt: skip
+    f1, f2 = found(script, "F1", "F2")
+    for name in ("MX", "MY", "MZ"):
+        ids = f2.components[name].nodes
+        assert f1.values_at(name, ids) == pytest.approx(f2.values_at(name, ids), abs=1e-9)
+
+
+def test_moment_curvature_of_a_perfectly_plastic_rectangle(found):
+    # fibres of height 0.2 / 200: M = Mp (1 - (1 - c/h...)): closed form with the elastic core
+    script = (
+        section("PLASTIQUE PARFAIT_UNI", "'SIGY' 2.E8 'H' 0.", 1, 200)
+        + "Z = PROG 4 * 0. ; C = PROG 0.005 0.01 0.02 0.1 ; MY MZ E = MOCU C Z Z MS AS 1.E-9 ; "
+    )
+    my, mz, e = found(script, "MY", "MZ", "E")
+    k = np.array([0.005, 0.01, 0.02, 0.1])
+    yield_k = 2e8 / (2e11 * 0.1)
+    exact = np.where(
+        k <= yield_k, 2e11 * IY * k, 2e8 * 0.1 * (0.1**2 - (0.1 * yield_k / k) ** 2 / 3)
+    )
+    np.testing.assert_allclose(my.values, exact, rtol=1e-4)
+    np.testing.assert_allclose(mz.values, 0.0, atol=1e-3)
+    np.testing.assert_allclose(e.values, 0.0, atol=1e-12)
+
+
+def test_moment_under_a_normal_force_reaches_the_plastic_interaction(found):
+    n = 0.5
+    script = (
+        section("PLASTIQUE PARFAIT_UNI", "'SIGY' 2.E8 'H' 0.", 1, 400)
+        + f"N = PROG 30 * {-n * 2e8 * AREA} ; Z = PROG 30 * 0. ; C = PROG 0.01 PAS 0.01 0.3 ; "
+        "MY MZ E T = MOCU C Z N MS AS 1.E-9 'VERIF' ; S = T . 'CONTRAINTES' . 30 ; "
+        "X = INTG MS (EXCO 'SMXX' S) ; "
+    )
+    my, x = found(script, "MY", "X")
+    assert my.values[-1] == pytest.approx(2e8 * 0.1 * 0.1**2 * (1 - n**2), rel=2e-3)
+    assert x == pytest.approx(-n * 2e8 * AREA, rel=1e-8)  # the normal force, from the fibres
+
+
+def test_kinematic_hardening_closes_a_cycle_of_the_moment(found):
+    script = (
+        section("PLASTIQUE PARFAIT_UNI", "'SIGY' 2.E8 'H' 2.E10", 1, 20)
+        + "C = PROG 0.03 -0.03 0.03 -0.03 0.03 ; Z = PROG 5 * 0. ; "
+        "MY MZ E = MOCU C Z Z MS AS 1.E-9 ; "
+    )
+    my = found(script, "MY").values
+    assert my[2] == pytest.approx(my[4], rel=1e-9)
+    assert my[1] == pytest.approx(-my[2], rel=1e-9)
+    assert my[0] < 0.6 * (2e11 * IY * 0.03)
+
+
+def test_points_are_bars_of_a_section_and_plane_sections_bend_about_z(found):
+    script = (
+        "OPTI DIME 2 ELEM SEG2 ; P = (-0.2 0.) ET (0.2 0.) ; "
+        "MS = MODE (CHAN POI1 P) MECANIQUE ELASTIQUE POJS ; "
+        "AS = MATE MS 'YOUN' 2.E11 'NU' 0. 'SECT' 1.E-3 'ALPY' 1. ; "
+        "C = PROG 1.E-3 ; N = PROG 4.E5 ; MZ E = MOCU C N MS AS 1.E-9 ; "
+        "L = DROI 4 (0. 0.) (1. 0.) ; M = MODE L MECANIQUE ELASTIQUE SECTION TIMO ; "
+        "A = MATE M 'MODS' MS 'MATS' AS ; "
+        "U = RESO ((RIGI M A) ET (BLOQ (POIN 1 L) 'UX' 'UY' 'RZ')) (MOME 'MZ' 8.E4 (POIN 5 L)) ; "
+        "R = EXTR U 'RZ' (POIN 5 L) ; "
+    )
+    mz, e, r = found(script, "MZ", "E", "R")
+    stiffness = 2 * 2e11 * 1e-3 * 0.2**2
+    assert mz.values == pytest.approx([stiffness * 1e-3])
+    assert e.values == pytest.approx([4e5 / (2 * 2e11 * 1e-3)])
+    assert r == pytest.approx(8e4 / stiffness)
+
+
+PUSH = """
+L = DROI 20 (0. 0. 0.) (2. 0. 0.) ;
+M = MODE L MECANIQUE ELASTIQUE SECTION PLASTIQUE SECTION TIMO ;
+A = MATE M 'MODS' MS 'MATS' AS 'VECT' (0. 1. 0.) ;
+CL = (BLOQ (POIN 1 L) 'DEPL' 'ROTA') ET (BLOQ L 'UX' 'UY' 'RZ' 'RX') ;
+B2 = BLOQ (POIN 21 L) 'UZ' ;
+T = TABL ; T . 'MODELE' = M ; T . 'CARACTERISTIQUES' = A ; T . 'BLOCAGES_MECANIQUES' = CL ET B2 ;
+T . 'CHARGEMENT' = CHAR 'DIMP' (DEPI B2 0.05) (EVOL 'MANU' (PROG 0. 1. 2.) (PROG 0. 1. 0.)) ;
+T . 'TEMPS_CALCULES' = PROG 0. PAS 0.1 {} ;
+PASAPAS T ; N = (DIME (T . 'TEMPS')) - 1 ;
+F = EXTR (T . 'REACTIONS' . N) (POIN 21 L) 'FZ' ;
+V = T . 'VARIABLES_INTERNES' . N ; W = EXTR V 'VONS' 1 1 1 ; X = MAXI (EXCO W 'SMXX') ;
+S = T . 'CONTRAINTES' . N ; MY = EXTR S 'MOMY' 1 1 1 ; MW = INTG MS ((EXCO W 'SMXX') * Z) ;
+"""
+
+
+def test_pushed_cantilever_of_fibres_reaches_its_plastic_moment(found):
+    plastic = section("PLASTIQUE PARFAIT_UNI", "'SIGY' 2.E8 'H' 0.", 1, 40)
+    depth = "Z = CHAN 'STRESSES' (CHAN 'CHAM' (EXCO 'SCAL' (COOR 2 S)) MS) MS ; "
+    force, x, my = found(plastic + depth + PUSH.format("1."), "F", "X", "MY")
+    # the point of the first beam is half of it away from its end
+    assert abs(force) * (2.0 - 0.05) == pytest.approx(2e8 * 0.1 * 0.1**2, rel=3e-3)
+    assert x == pytest.approx(2e8)
+    assert abs(my) == pytest.approx(abs(force) * 1.95, rel=1e-6)
+
+
+def test_section_law_of_beams_agrees_with_moment_curvature(found):
+    plastic = section("PLASTIQUE CINEMATIQUE", "'SIGY' 2.E8 'H' 1.E10", 1, 20)
+    depth = "Z = CHAN 'STRESSES' (CHAN 'CHAM' (EXCO 'SCAL' (COOR 2 S)) MS) MS ; "
+    script = plastic + depth + PUSH.format("2.") + (
+        "LM = PROG ; LC = PROG ; REPE B N ; I = &B ; "
+        "LM = LM ET (EXTR (T . 'CONTRAINTES' . I) 'MOMY' 1 1 1) ; "
+        "LC = LC ET (EXTR (EPSI M (T . 'DEPLACEMENTS' . I) A) 'CY' 1 1 1) ; FIN B ; "
+        "O = PROG N * 0. ; Y1 Z1 E1 = MOCU LC O O MS AS 1.E-9 ; "
+    )  # fmt: skip
+    beam, alone = found(script, "LM", "Y1")
+    # shear of the beam yields a little with it in von Mises' law
+    np.testing.assert_allclose(alone.values, beam.values, rtol=0.01, atol=500.0)
+
+
+def test_calculation_goes_on_from_the_fibres_of_an_earlier_one(found):
+    plastic = section("PLASTIQUE PARFAIT_UNI", "'SIGY' 2.E8 'H' 1.E10", 1, 20)
+    depth = "Z = CHAN 'STRESSES' (CHAN 'CHAM' (EXCO 'SCAL' (COOR 2 S)) MS) MS ; "
+    whole = found(plastic + depth + PUSH.format("2."), "F")
+    twice = PUSH.format("1.") + "T . 'TEMPS_CALCULES' = PROG 1.1 PAS 0.1 2. ; PASAPAS T ; " + (
+        "N = (DIME (T . 'TEMPS')) - 1 ; F = EXTR (T . 'REACTIONS' . N) (POIN 21 L) 'FZ' ; "
+    )  # fmt: skip
+    parts = found(plastic + depth + twice, "F")
+    assert abs(whole) > 1e3
+    assert parts == pytest.approx(whole, rel=1e-7)
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (("'MODS' MS 'MATS' AS", "'MATS' AS"), "MODS is missing"),
+        (("'MODS' MS", "'MODS' 3."), "takes the model"),
+        (("ELASTIQUE SECTION TIMO", "ELASTIQUE SECTION POUT"), "no elasticity SECTION"),
+        (("ELASTIQUE  QUAS", "ELASTIQUE  PLASTIQUE RH_COULOMB QUAS"), "have no plastic law"),
+        (("'ALPZ' 0.8333", ""), "ALPZ is missing"),
+    ],
+)
+def test_wrong_sections_are_refused(refused, change, said):
+    script = section() + FIBRES + "K = RIGI M A ; "
+    assert change[0] in script
+    assert said in refused(script.replace(*change))
+
+
+def test_section_that_cannot_carry_its_normal_force_is_refused(refused):
+    script = section("PLASTIQUE PARFAIT_UNI", "'SIGY' 2.E8 'H' 0.", 1, 4)
+    script += "C = PROG 0.01 ; N = PROG 1.E8 ; MY MZ E = MOCU C C N MS AS 1.E-6 ; "
+    assert "does not find the normal force" in refused(script)
+
+
+def test_fields_of_a_section_have_no_stiffness_of_their_own(refused):
+    assert "describes the section of a beam" in refused(section() + "K = RIGI MS AS ; ")
