@@ -1,43 +1,24 @@
-"""Running a script in a test and looking at what it made."""
+"""Running a script in a test, its files below the test's own folder."""
+
+from functools import partial
 
 import pytest
-
-from ssilang.cli.run import run_text
+import script_runs
 
 
 @pytest.fixture
-def found():
+def found(tmp_path):
     """Function `(script, *names)`: the objects of these names; the script must succeed."""
-
-    def run(script, *names):
-        result = run_text(script)
-        assert result.exit_code == 0, result.message
-        values = tuple(result.session.root.find(n) for n in names)
-        return values[0] if len(values) == 1 else values
-
-    return run
+    return partial(script_runs.found, folder=tmp_path)
 
 
 @pytest.fixture
-def printed():
+def printed(tmp_path):
     """Function `(script)`: the lines that a script prints; it must succeed."""
-
-    def run(script):
-        result = run_text(script)
-        assert result.exit_code == 0, result.message
-        return result.output.rstrip("\n").split("\n")
-
-    return run
+    return partial(script_runs.printed, folder=tmp_path)
 
 
 @pytest.fixture
-def refused():
+def refused(tmp_path):
     """Function `(script)`: the message of a script that must fail, without defects inside."""
-
-    def run(script):
-        result = run_text(script)
-        assert result.exit_code == 1
-        assert "defect of ssilang" not in result.message
-        return result.message
-
-    return run
+    return partial(script_runs.refused, folder=tmp_path)

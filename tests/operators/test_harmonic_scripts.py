@@ -3,8 +3,6 @@
 import numpy as np
 import pytest
 
-from ssilang.cli.run import run_text
-
 DAMPING, CUBIC, LOAD = 0.1, 0.25, 0.5
 DUFFING = f"""
 DEBP CHARMECA TAB1*TABLE ;
@@ -30,28 +28,6 @@ T . 'PRECISION' = 1.E-9 ; T . 'PROCEDURE_CHARMECA' = VRAI ;
 T . 'PROCEDURE_FREQUENCE_TEMPS' = MOT 'AFT' ; T . 'POINT_FNL' = P1 ; T . 'COMP_FNL' = MOTS 'UY' ;
 T . 'STABILITE' = MOTS 'DIAG' 'FLOQ' ;
 """
-
-
-@pytest.fixture
-def found(tmp_path):
-    def run(text, *names):
-        result = run_text(text, output_directory=tmp_path)
-        assert result.exit_code == 0, result.message
-        values = tuple(result.session.root.find(n) for n in names)
-        return values[0] if len(values) == 1 else values
-
-    return run
-
-
-@pytest.fixture
-def refused(tmp_path):
-    def run(text):
-        result = run_text(text, output_directory=tmp_path)
-        assert result.exit_code == 1
-        assert "defect of ssilang" not in result.message
-        return result.message
-
-    return run
 
 
 def reals(table, *path):

@@ -29,28 +29,6 @@ T1 . 'TEMPS_CALCULES' = PROG 0. 'PAS' 1.E-3 0.5 ;
 """
 
 
-@pytest.fixture
-def found(tmp_path):
-    def run(text, *names):
-        result = run_text(text, output_directory=tmp_path)
-        assert result.exit_code == 0, result.message
-        values = tuple(result.session.root.find(n) for n in names)
-        return values[0] if len(values) == 1 else values
-
-    return run
-
-
-@pytest.fixture
-def refused(tmp_path):
-    def run(text):
-        result = run_text(text, output_directory=tmp_path)
-        assert result.exit_code == 1
-        assert "defect of ssilang" not in result.message
-        return result.message
-
-    return run
-
-
 # --- integration --------------------------------------------------------------------------------
 
 

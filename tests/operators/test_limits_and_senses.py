@@ -1,21 +1,7 @@
 """PILE SENS: limits of strains, senses of contours, differences, by hand."""
 
 import pytest
-
-from ssilang.cli.run import run_text
-
-
-def found(script, *names):
-    result = run_text(script)
-    assert result.exit_code == 0, result.message
-    values = tuple(result.session.root.find(n) for n in names)
-    return values[0] if len(names) == 1 else values
-
-
-def refused(script):
-    result = run_text(script)
-    assert result.exit_code == 1
-    return result.message
+from script_runs import found, refused
 
 
 def test_strain_may_go_up_to_the_first_limit():

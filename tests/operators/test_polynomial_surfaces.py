@@ -4,27 +4,13 @@ import math
 
 import numpy as np
 import pytest
-
-from ssilang.cli.run import run_text
+from script_runs import found, refused
 
 TWISTED = (
     "OPTI DIME 3 ELEM {element} DENS 0.25 ; "
     "S = {word} 'POLY' 3 2 (1. 0. 0.) (2. 0. 0.) (0. 0. 1.) (0. 1. 0.) (0. 0. 1.) (0. 0.5 0.) "
     "{more} ; "
 )
-
-
-def found(script, *names):
-    result = run_text(script)
-    assert result.exit_code == 0, result.message
-    values = tuple(result.session.root.find(n) for n in names)
-    return values[0] if len(names) == 1 else values
-
-
-def refused(script):
-    result = run_text(script)
-    assert result.exit_code == 1
-    return result.message
 
 
 @pytest.mark.parametrize("word", ["DALL", "SURF"])

@@ -3,15 +3,9 @@
 import math
 
 import pytest
+from script_runs import found
 
 from ssilang.cli.run import run_text
-
-
-def found(script, *names):
-    result = run_text(script)
-    assert result.exit_code == 0, result.message
-    values = tuple(result.session.root.find(n) for n in names)
-    return values[0] if len(names) == 1 else values
 
 
 @pytest.mark.parametrize(

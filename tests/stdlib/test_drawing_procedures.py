@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from script_runs import found, refused
 
 from ssilang.cli.run import run_text
 
@@ -9,19 +10,6 @@ _BAND = (
     "OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ; S = ((0. 0.) DROI 4 (4. 0.)) TRAN 2 (0. 1.) ; "
     "U = (NOMC 'UX' (0. * (COOR 1 S))) ET (NOMC 'UY' (COOR 1 S)) ; "
 )
-
-
-def found(script, *names):
-    result = run_text(script)
-    assert result.exit_code == 0, result.message
-    values = tuple(result.session.root.find(n) for n in names)
-    return values[0] if len(names) == 1 else values
-
-
-def refused(script):
-    result = run_text(script)
-    assert result.exit_code == 1
-    return result.message
 
 
 def positions(part):

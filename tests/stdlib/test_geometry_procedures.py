@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from script_runs import refused
 
 from ssilang.cli.run import run_text
 
@@ -20,12 +21,6 @@ def found(script, *names):
     result = run_text(script)
     assert result.exit_code == 0, result.message
     return tuple(result.session.root.find(n) for n in names)
-
-
-def refused(script):
-    result = run_text(script)
-    assert result.exit_code == 1
-    return result.message
 
 
 def test_centre_of_a_triangle_is_the_mean_of_its_corners():

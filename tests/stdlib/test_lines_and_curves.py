@@ -5,21 +5,7 @@ import math
 import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
-
-from ssilang.cli.run import run_text
-
-
-def found(script, *names):
-    result = run_text(script)
-    assert result.exit_code == 0, result.message
-    values = tuple(result.session.root.find(n) for n in names)
-    return values[0] if len(names) == 1 else values
-
-
-def refused(script):
-    result = run_text(script)
-    assert result.exit_code == 1
-    return result.message
+from script_runs import found, refused
 
 
 def listed(values):

@@ -3,15 +3,9 @@
 import numpy as np
 import pytest
 from scipy.integrate import quad
+from script_runs import found
 
 from ssilang.cli.run import run_text
-
-
-def found(script, *names):
-    result = run_text(script)
-    assert result.exit_code == 0, result.message
-    values = tuple(result.session.root.find(n) for n in names)
-    return values[0] if len(values) == 1 else values
 
 
 def test_spread_force_keeps_its_resultant_and_its_parabola_of_moments():

@@ -4,15 +4,9 @@ import math
 
 import numpy as np
 import pytest
+from script_runs import found
 
 from ssilang.cli.run import run_text
-
-
-def found(script, *names):
-    result = run_text(script)
-    assert result.exit_code == 0, result.message
-    values = tuple(result.session.root.find(n) for n in names)
-    return values[0] if len(values) == 1 else values
 
 
 @pytest.mark.parametrize("a", [-7, -6, 0, 5, 8])

@@ -1,21 +1,9 @@
 """TABLO2D TABLO3D MONTAGNE @AFEVOZT FILC INT_COMP @SOLVMEC."""
 
 import pytest
+from script_runs import found, refused
 
 from ssilang.cli.run import run_text
-
-
-def found(script, *names):
-    result = run_text(script)
-    assert result.exit_code == 0, result.message
-    values = tuple(result.session.root.find(n) for n in names)
-    return values[0] if len(names) == 1 else values
-
-
-def refused(script):
-    result = run_text(script)
-    assert result.exit_code == 1
-    return result.message
 
 
 def drawn(script, folder):

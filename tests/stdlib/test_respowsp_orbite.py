@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from script_runs import found
 
 from ssilang.cli.run import run_text
 
@@ -11,13 +12,6 @@ NOISE = (
     "S0 = EVOL 'MANU' 'FREQ' LF 'DSP' ((LF * LF * 0.09 + 1.) / LD) ;"
     "LT = PROG 0.06 'PAS' 0.02 1.5 ; T = TABL ;"
 )
-
-
-def found(script, *names):
-    result = run_text(script)
-    assert result.exit_code == 0, result.message
-    values = tuple(result.session.root.find(n) for n in names)
-    return values[0] if len(values) == 1 else values
 
 
 @pytest.mark.parametrize(

@@ -4,16 +4,9 @@ import itertools
 
 import numpy as np
 import pytest
+from script_runs import found
 
 from ssilang.cli.run import run_text
-
-
-def found(script, *names):
-    result = run_text(script)
-    assert result.exit_code == 0, result.message
-    values = tuple(result.session.root.find(n) for n in names)
-    return values[0] if len(values) == 1 else values
-
 
 TWO_MASSES = (
     "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; P1 = 0. 0. ; P2 = 1. 0. ; P3 = 2. 0. ;"

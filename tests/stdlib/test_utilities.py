@@ -1,6 +1,7 @@
 """CONVT @PALETTE CHPR0 @EXCEL1 PECHE."""
 
 import pytest
+from script_runs import refused
 
 from ssilang.cli.run import run_text
 
@@ -9,12 +10,6 @@ def found(script, name):
     result = run_text(script)
     assert result.exit_code == 0, result.message
     return result.session.root.find(name)
-
-
-def refused(script):
-    result = run_text(script)
-    assert result.exit_code == 1
-    return result.message
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,31 @@
+"""Running a script in a test and looking at what it made."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from ssilang.cli.run import run_text
+
+
+def found(script: str, *names: str, folder: Path | None = None) -> Any:
+    """The objects of these names, one alone for one name; the script must succeed."""
+    result = run_text(script, output_directory=folder)
+    assert result.exit_code == 0, result.message
+    values = tuple(result.session.root.find(n) for n in names)
+    return values[0] if len(values) == 1 else values
+
+
+def printed(script: str, folder: Path | None = None) -> list[str]:
+    """The lines that a script prints; it must succeed."""
+    result = run_text(script, output_directory=folder)
+    assert result.exit_code == 0, result.message
+    return result.output.rstrip("\n").split("\n")
+
+
+def refused(script: str, folder: Path | None = None) -> str:
+    """The message of a script that must fail, without defects inside."""
+    result = run_text(script, output_directory=folder)
+    assert result.exit_code == 1
+    assert "defect of ssilang" not in result.message
+    return result.message
