@@ -227,4 +227,8 @@ def _arrays(
     found += [(c, DataArray(column(c, np.nan))) for c in left]
     if not name:
         return dict(found)
-    return {name if i == 0 else f"{name}_{label}": array for i, (label, array) in enumerate(found)}
+    bare = len(found) == 1 or (found and found[0][1].columns)
+    return {
+        name if bare and i == 0 else f"{name}_{label}": array
+        for i, (label, array) in enumerate(found)
+    }

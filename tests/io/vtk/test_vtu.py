@@ -12,6 +12,7 @@ import pytest
 from ssilang.io.errors import OutputError
 from ssilang.io.vtk import Encoding, grid_of, write_vtu
 from ssilang.io.vtk.cells import ORDERS
+from ssilang.io.vtk.grid import cell_arrays
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.mesh.cells import CELL_TYPES
@@ -118,6 +119,13 @@ def test_a_named_field_gives_its_name_to_the_first_vector(tmp_path: Path) -> Non
     mesh, field, _ = square_with_fields()
     write_vtu(tmp_path / "v.vtu", grid_of(mesh, {"velocity": field}))
     assert set(meshio.read(tmp_path / "v.vtu").point_data) == {"velocity", "velocity_TEMP"}
+
+
+def test_forces_of_a_shell_are_named_each_by_its_component() -> None:
+    mesh, _, _ = square_with_fields()
+    ones = {c: np.ones((6, 1)) for c in ("N11", "M11")}
+    forces = CellField((CellFieldBlock(mesh.blocks[0], ones, "STRESSES"),))
+    assert set(cell_arrays(forces, mesh, "F")) == {"F_N11", "F_M11"}
 
 
 def test_component_names_of_gibiane_stay_readable(tmp_path: Path) -> None:
