@@ -21,11 +21,11 @@ from numpy.typing import NDArray
 from ssilang.kernel.curve import Curve, CurvePart
 from ssilang.kernel.elements.catalog import ELEMENTS, ElementKind, register_element
 from ssilang.kernel.elements.families import register_family
-from ssilang.kernel.elements.family import ElementFamily, Layout, StrainOperator
+from ssilang.kernel.elements.family import Layout
 from ssilang.kernel.elements.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
+from ssilang.kernel.elements.strainless import StrainlessFamily
 from ssilang.kernel.elements.zone_fields import ZoneField, missing_parameter
-from ssilang.kernel.errors import FieldError, MaterialError
-from ssilang.kernel.fields.cell_field import Support
+from ssilang.kernel.errors import MaterialError
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.model import Mode, Zone
 
@@ -236,30 +236,17 @@ def _only_in_frequency(zone: Zone) -> MaterialError:
     )
 
 
-class _ImpedanceFamily(ElementFamily):
+class _ImpedanceFamily(StrainlessFamily):
     """Springs and dashpots: matrices, no strains."""
+
+    refusal = (
+        "models IMPEDANCE have no strains",
+        "their force is the stiffness (RIGI) times the displacement",
+    )
 
     def layout(self, zone: Zone) -> Layout:
         """Rows without rotations: `impedance_layout` knows the parameters."""
         return impedance_layout(zone, ZoneField(zone, ()))
-
-    def strain_names(self, zone: Zone) -> tuple[str, ...]:
-        """None."""
-        return ()
-
-    def stress_names(self, zone: Zone) -> tuple[str, ...]:
-        """None."""
-        return ()
-
-    def strain_operator(
-        self, zone: Zone, parameters: ZoneField, support: Support, cells: slice
-    ) -> StrainOperator:
-        """Refused."""
-        raise _no_strains()
-
-    def moduli(self, zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
-        """Refused."""
-        raise _no_strains()
 
     def whole_matrices(
         self, zone: Zone, parameters: ZoneField, kind: str
@@ -282,10 +269,3 @@ class _ImpedanceFamily(ElementFamily):
 
 
 register_family("impedance", _ImpedanceFamily())
-
-
-def _no_strains() -> FieldError:
-    return FieldError(
-        "models IMPEDANCE have no strains",
-        "their force is the stiffness (RIGI) times the displacement",
-    )

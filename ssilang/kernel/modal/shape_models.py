@@ -13,10 +13,11 @@ import numpy as np
 
 from ssilang.kernel.elements.catalog import ElementKind, register_element
 from ssilang.kernel.elements.families import register_family
-from ssilang.kernel.elements.family import ElementFamily, Layout, StrainOperator
+from ssilang.kernel.elements.family import Layout
+from ssilang.kernel.elements.strainless import StrainlessFamily
 from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
-from ssilang.kernel.errors import FieldError, MaterialError
-from ssilang.kernel.fields.cell_field import CellField, Support
+from ssilang.kernel.errors import MaterialError
+from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.matrix import ElementMatrices, dual_of
 from ssilang.kernel.mesh.nodes import FloatArray
@@ -33,44 +34,24 @@ for _name in UNKNOWN:
     )
 
 
-class _ShapeFamily(ElementFamily):
+class _ShapeFamily(StrainlessFamily):
     """Points that stand for shapes: they have no strains."""
+
+    refusal = (
+        "models MODAL and STATIQUE have no strains of their own",
+        "recombine the displacement with RECO, then use the model of the body",
+    )
 
     def layout(self, zone: Zone) -> Layout:
         """ALFA or BETA."""
         return Layout(zone.cells.nodes, zone.cells.raw, np.array([0]), (UNKNOWN[zone.element],))
 
-    def strain_names(self, zone: Zone) -> tuple[str, ...]:
-        """None."""
-        return ()
-
-    def stress_names(self, zone: Zone) -> tuple[str, ...]:
-        """None."""
-        return ()
-
-    def strain_operator(
-        self, zone: Zone, parameters: ZoneField, support: Support, cells: slice
-    ) -> StrainOperator:
-        """Refused."""
-        raise _no_strains()
-
-    def moduli(self, zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
-        """Refused."""
-        raise _no_strains()
-
     def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, Layout]:
         """Refused: `shape_matrix` makes the mass of all shapes together."""
-        raise _no_strains()
+        raise self.no_strains()
 
 
 register_family("shape", _ShapeFamily())
-
-
-def _no_strains() -> FieldError:
-    return FieldError(
-        "models MODAL and STATIQUE have no strains of their own",
-        "recombine the displacement with RECO, then use the model of the body",
-    )
 
 
 def is_shape(zone: Zone) -> bool:
