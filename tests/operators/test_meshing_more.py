@@ -127,6 +127,16 @@ def test_cell_fields_tell_their_points() -> None:
     assert value(gauss + "X = NBEL (Y ELEM 'SUPE' 0.5) ;") == 4
 
 
+def test_points_of_cells_come_in_the_order_of_the_cells() -> None:
+    script = (
+        "OPTI DIME 2 ELEM QUA4 ; S = TRAN 2 (DROI 3 (0. 0.) (3. 0.)) (0. 2.) ; "
+        "M = MODE S MECANIQUE ELASTIQUE ; U = MANU 'CHML' M 'SCAL' 1. 'GRAVITE' ; "
+        "P = U POIN 'SUPERIEUR' 0. ; X1 = CHAN 'GRAVITE' M (CHAN 'CHAM' (COOR 1 S) M 'NOEUD') ; "
+        "X2 = MANU 'CHML' M 'REPA' 'SCAL' (EXTR (COOR 1 P) 'VALE') 'GRAVITE' ; "
+    )
+    assert value(script + "X = MAXI 'ABS' (X1 - X2) ;") == pytest.approx(0.0, abs=1e-12)
+
+
 def test_models_and_fields_are_copied_together() -> None:
     script = STRIP + "M = MODE S MECANIQUE ELASTIQUE ; U = MANU 'CHML' M 'SMXX' 1. 'SMYY' 0. ; "
     script += "M2 U2 = M U TOUR 90. O ; "

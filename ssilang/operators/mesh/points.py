@@ -236,8 +236,9 @@ def _of_cell_field(call: Call, field: CellField) -> Mesh:
     numbers = np.concatenate(ids)[chosen]
     fresh = numbers < 0
     if fresh.any():
-        at = np.unique(np.concatenate(places)[chosen][fresh], axis=0)
-        return poi1(nodes, nodes.add(at, workspace(call.session).density))
+        at = np.concatenate(places)[chosen][fresh]  # in the order of the cells
+        first = np.sort(np.unique(at, axis=0, return_index=True)[1])
+        return poi1(nodes, nodes.add(at[first], workspace(call.session).density))
     return poi1(nodes, _once(numbers))
 
 
