@@ -99,6 +99,8 @@ MESSAGES: dict[str, Message] = {
     "missing-semicolon": Message(
         "the last statement does not end with ;",
         "la dernière instruction ne finit pas par ;",
+        "{comment_hint}",
+        "{comment_hint}",
     ),
     "second-equal": Message(
         "a second = in one statement",
@@ -133,6 +135,12 @@ MESSAGES: dict[str, Message] = {
     "second-sinon": Message(
         "a second SINON for the SI of line {line}",
         "un second SINON pour le SI de la ligne {line}",
+        "there is no else-if: write SI ... ; ... FINSI ; inside of the SINON",
+        "il n'y a pas de sinon-si : écrivez SI ... ; ... FINSI ; dans le SINON",
+    ),
+    "sinon-condition": Message(
+        "SINON takes no condition",
+        "SINON ne prend pas de condition",
         "there is no else-if: write SI ... ; ... FINSI ; inside of the SINON",
         "il n'y a pas de sinon-si : écrivez SI ... ; ... FINSI ; dans le SINON",
     ),
@@ -201,15 +209,15 @@ MESSAGES: dict[str, Message] = {
     "excess": Message(
         "nothing reads this {found}{named}",
         "rien ne lit cet objet {found}{named}",
-        "a phrase runs from left to right: put parentheses around what belongs together",
-        "une phrase va de gauche à droite : mettez entre parenthèses ce qui va ensemble",
+        "{excess_hint}",
+        "{excess_hint}",
         number=11,
     ),
     "no-result": Message(
         "there is no result{wanted_text} for the name {name}",
         "il n'y a pas de résultat{wanted_text} pour le nom {name}",
-        "{count} names stand on the left of =, the right side gives fewer results",
-        "{count} noms sont à gauche de =, la partie droite donne moins de résultats",
+        "{no_result_hint}",
+        "{no_result_hint}",
         number=37,
     ),
     "unended-statement": Message(
@@ -221,6 +229,8 @@ MESSAGES: dict[str, Message] = {
     "target": Message(
         "a result can be given to a name, to TABLE . INDEX or to %ATTRIBUTE only",
         "un résultat se donne à un nom, à TABLE . INDICE ou à %ATTRIBUT seulement",
+        "{comment_hint}",
+        "{comment_hint}",
     ),
     "condition": Message(
         "SI needs one LOGIQUE, found {found}",
@@ -238,8 +248,8 @@ MESSAGES: dict[str, Message] = {
     "not-a-table": Message(
         "{name} is {a_found}, not a TABLE",
         "{name} est de type {found}, pas TABLE",
-        "only a TABLE (made by TABL) and an OBJET have indices; was {name} given another value?",
-        "seuls une TABLE (créée par TABL) et un OBJET ont des indices ; {name} a-t-il changé ?",
+        "{not_a_table_hint}",
+        "{not_a_table_hint}",
     ),
     "no-inner-table": Message(
         "the table has no index {index!r} yet",
@@ -281,8 +291,8 @@ MESSAGES: dict[str, Message] = {
     "wrong-argument": Message(
         "{operator} wanted {types}, found {found_text}",
         "{operator} attendait {types}, trouvé {found_text}",
-        "{bare_hint}{point_hint}{keyword_hint}{syntax_hint}",
-        "{bare_hint}{point_hint}{keyword_hint}{syntax_hint}",
+        "{bare_hint}{point_hint}{word_hint}{keyword_hint}{syntax_hint}",
+        "{bare_hint}{point_hint}{word_hint}{keyword_hint}{syntax_hint}",
         number=37,
     ),
     "missing-keyword": Message(

@@ -6,6 +6,7 @@ import difflib
 from collections.abc import Iterable
 from typing import Any
 
+from ssilang.language import hints
 from ssilang.language.cast3m import IN_SCOPE, SUBJECTS, find_cast3m_word
 from ssilang.language.catalogue import MESSAGES
 from ssilang.language.errors import SsiError
@@ -23,6 +24,7 @@ _LETTERS = 4  # that an operator goes by
 _LIKE, _VERY_LIKE = 0.7, 0.8  # ratio of letters that two words share in order
 _LINE_SHOWN = 160  # characters of a source line
 _CALLS_SHOWN = 4  # at each end of the chain
+_INDICES_SHOWN = 20
 _KINDS = {
     False: {"en": "error", "fr": "erreur"},
     True: {"en": "warning", "fr": "avertissement"},
@@ -173,6 +175,8 @@ def _derived(error: SsiError, language: str, names: Iterable[str]) -> dict[str, 
         made["found_text"] = _found(data, language)
     if error.code == "not-a-table":
         made["a_found"] = _article(str(data["found"]), language)
+        named = data["name"] or (error.span.text.split(".")[0].strip() if error.span else "it")
+        made["not_a_table_hint"] = hints.not_a_table_hint({**data, "name": named}, language)
     if error.code == "excess" and data.get("name"):
         made["named"] = f" ({data['name']})"
     if data.get("found") == "nothing":
@@ -190,11 +194,21 @@ def _derived(error: SsiError, language: str, names: Iterable[str]) -> dict[str, 
         made["point_hint"] = _POINT_HINT[language]
     if data.get("quoted"):
         made["keyword_hint"] = _keyword_hint(data, language)
+    if _expected(data) == ["MOT"] and data.get("name") and error.code == "wrong-argument":
+        made["word_hint"] = hints.word_hint(str(data["name"]), language)
     made["near_hint"] = _near_hint(data, language, names)
+    made["excess_hint"] = hints.excess_hint(data, language)
+    made["no_result_hint"] = hints.no_result_hint(data, language)
+    made["comment_hint"] = hints.comment_hint(_text_from(error.span), language)
     made["syntax_hint"] = _syntax_hint(data)
     made["known_hint"] = _known_hint(data, language)
     made["inside_text"] = _inside(data, language)
     return made
+
+
+def _text_from(span: Span | None) -> str:
+    """The source from a place on."""
+    return span.source.text[span.start : span.start + 80] if span else ""
 
 
 def _types_text(types: list[str], language: str) -> str:
@@ -278,6 +292,9 @@ def _near_hint(data: dict[str, object], language: str, names: Iterable[str]) -> 
     if "name" not in data:
         return ""
     word = str(data["name"])
+    foreign = hints.foreign_hint(word, language)
+    if foreign:
+        return foreign
     known = elsewhere(word, language)
     candidates = {*OPERATORS, *(o.full_name for o in OPERATORS.values()), *names}
     # a misspelt long name may begin as an operator of another subject does
@@ -324,8 +341,8 @@ def _known_hint(data: dict[str, object], language: str) -> str:
     near = nearest(str(data.get("index")), [k for k in known if isinstance(k, str)])
     if near:
         return {"en": f"did you mean '{near}'?", "fr": f"vouliez-vous dire '{near}' ?"}[language]
-    shown = ", ".join(repr(k) if isinstance(k, str) else str(k) for k in known[:8])
-    more = " ..." if len(known) > 8 else ""
+    shown = ", ".join(repr(k) if isinstance(k, str) else str(k) for k in known[:_INDICES_SHOWN])
+    more = f" ... {known[-1]!r}" if len(known) > _INDICES_SHOWN else ""
     text = {"en": "its indices are: ", "fr": "ses indices sont : "}[language]
     empty = {"en": "it is empty", "fr": "elle est vide"}[language]
     return text + shown + more if known else empty

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 
 from ssilang.language.call import Operand
@@ -50,7 +51,7 @@ def leftover_error(
         )
     if words:
         return _unknown_word(words[0], later)
-    return _excess(left[0])
+    return _excess(left[0], every)
 
 
 def _quoted(operand: Operand) -> bool:
@@ -80,8 +81,38 @@ def _unknown_word(operand: Operand, later: Mapping[str, Span]) -> SsiError:
     return SsiError("unknown-operator", operand.span, name=name)
 
 
-def _excess(operand: Operand) -> SsiError:
+def _excess(operand: Operand, every: Sequence[Operand]) -> SsiError:
     text = operand.span.text
     if isinstance(operand.value, int | float) and text[:1] in ("-", "+"):
         return SsiError("glued-sign", operand.span, number=text, sign=text[0], rest=text[1:])
-    return SsiError("excess", operand.span, found=type_of(operand.value), name=operand.name)
+    caller = _called_with_parentheses(operand.span)
+    bare = all(type(o.value) in (int, float) and not o.name for o in every)
+    kind = "parentheses" if caller else "numbers" if bare and len(every) > 1 else "order"
+    return SsiError(
+        "excess",
+        operand.span,
+        found=type_of(operand.value),
+        name=operand.name,
+        kind=kind,
+        caller=caller,
+        begins=_first_word(operand.span),
+    )
+
+
+def _called_with_parentheses(place: Span) -> str:
+    """The operator whose operands a parenthesis glued to it holds, `DROI(4 P1 P2)`, '' if none."""
+    depth, code = 0, place.source.code[: place.start]
+    for i in range(len(code) - 1, -1, -1):
+        depth += {")": 1, "(": -1}.get(code[i], 0)
+        if depth < 0:
+            found = re.search(r"\w+$", code[:i])
+            known = found is not None and find_operator(found[0].upper()) is not None
+            return found[0].upper() if found and known else ""
+        if code[i] == ";":
+            break
+    return ""
+
+
+def _first_word(span: Span) -> str:
+    """The first word of the statement that a place is in."""
+    return next(iter(span.source.code[: span.start].rpartition(";")[2].split()), "")

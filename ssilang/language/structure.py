@@ -16,6 +16,7 @@ from ssilang.language.tree import (
     Node,
     Number,
     Parameter,
+    Paren,
     Quoted,
     Script,
     Statement,
@@ -126,6 +127,8 @@ def _si(stack: list[_Open], statement: Statement) -> None:
 
 def _sinon(stack: list[_Open], statement: Statement) -> None:
     top = stack[-1]
+    if any(isinstance(item, Paren) for item in statement.items):
+        raise SsiError("sinon-condition", statement.span)
     if top.kind == "SINO" and top.statement is not None:
         line = top.statement.span.source.position(top.statement.span.start)[0]
         raise SsiError("second-sinon", statement.span, line=line)

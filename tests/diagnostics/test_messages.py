@@ -28,7 +28,9 @@ FRENCH = frozenset(
         "joint_without_its_stiffness", "dynamic_entry_misspelt", "dynamic_without_its_mass",
         "load_on_nodes_out_of_the_model", "four_errors_of_different_kinds_in_one_pass",
         "operator_hidden_by_a_variable", "error_in_a_procedure_of_a_table",
-        "word_held_by_a_table_is_an_operator",
+        "word_held_by_a_table_is_an_operator", "word_hidden_by_a_variable",
+        "point_without_a_dimension", "else_if", "loop_of_another_language",
+        "operands_in_parentheses", "item_in_brackets", "procedure_without_a_result",
     }
 )  # fmt: skip
 _CASES = [(p.stem, "en") for p in sorted(_SCRIPTS.glob("*.ssi"))] + [
