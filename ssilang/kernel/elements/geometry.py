@@ -60,6 +60,13 @@ def _inverse(jacobians: FloatArray) -> tuple[FloatArray, FloatArray]:
         return det, cofactors / det
 
 
+def _jacobians(reference: FloatArray, coordinates: FloatArray) -> FloatArray:
+    """Derivatives (n_cells, p, d, d) of the position, from those (p, k, d) of the shapes."""
+    p, k, d = reference.shape
+    flat = np.moveaxis(reference, 1, 2).reshape(p * d, k)
+    return (flat @ coordinates).reshape(-1, p, d, d)
+
+
 def _check_jacobians(det: FloatArray) -> None:
     """Cells may be numbered either way round, but must not be folded."""
     scale = np.abs(det).max(axis=1, keepdims=True)
@@ -91,10 +98,8 @@ def cell_geometry(cell_type: str, coordinates: FloatArray, rule: Rule) -> CellGe
     """
     reference = shape_gradients(cell_type, rule.points)
     p, k, d = reference.shape
-    flat = np.moveaxis(reference, 1, 2).reshape(p * d, k)
     # jacobians[c, p, i, j] = dx_j / dxi_i, inverse[c, p, j, i] = dxi_i / dx_j
-    jacobians = (flat @ coordinates).reshape(-1, p, d, d)
-    det, inverse = _inverse(jacobians)
+    det, inverse = _inverse(_jacobians(reference, coordinates))
     _check_jacobians(det)
     gradients = np.zeros((len(coordinates), p, d, k))
     for j in range(d):
@@ -105,6 +110,18 @@ def cell_geometry(cell_type: str, coordinates: FloatArray, rule: Rule) -> CellGe
     if cell_type in SIDES and p > 1:
         gradients, volumes = consistent(gradients, volumes, coordinates)
     return CellGeometry(shapes, gradients, volumes)
+
+
+def cell_volumes(cell_type: str, coordinates: FloatArray, rule: Rule) -> FloatArray:
+    """The volumes of `cell_geometry`, without its gradients where they are not needed."""
+    if cell_type in SIDES:
+        return cell_geometry(cell_type, coordinates, rule).volumes
+    J = _jacobians(shape_gradients(cell_type, rule.points), coordinates)
+    det = J[..., 0, 0] * J[..., 1, 1] - J[..., 0, 1] * J[..., 1, 0] if J.shape[-1] == 2 else None
+    det = np.linalg.det(J) if det is None else det
+    _check_jacobians(det)
+    volumes: FloatArray = rule.weights * np.abs(det)
+    return volumes
 
 
 @dataclass(frozen=True, eq=False)

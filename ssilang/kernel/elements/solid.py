@@ -12,7 +12,12 @@ from ssilang.kernel.elements.family import (
     node_major_layout,
     per_cell,
 )
-from ssilang.kernel.elements.geometry import CellGeometry, cell_geometry, chunks
+from ssilang.kernel.elements.geometry import (
+    CellGeometry,
+    cell_geometry,
+    cell_volumes,
+    chunks,
+)
 from ssilang.kernel.elements.kinematics import (
     SOLID_KINEMATICS,
     SolidKinematics,
@@ -21,6 +26,7 @@ from ssilang.kernel.elements.kinematics import (
     term_factor,
 )
 from ssilang.kernel.elements.polygons import SIDES
+from ssilang.kernel.elements.reference import shape_functions
 from ssilang.kernel.elements.solid_moduli import solid_moduli
 from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.errors import MeshError
@@ -76,11 +82,22 @@ def integration_weights(
     zone: Zone, geometry: CellGeometry, parameters: ZoneField, support: Support, cells: slice
 ) -> FloatArray:
     """Volumes times thickness (plane stress, DIM3) or times the circumference."""
+    return _thickened(zone, geometry.volumes, geometry.shapes, parameters, support, cells)
+
+
+def _thickened(
+    zone: Zone,
+    volumes: FloatArray,
+    shapes: FloatArray,
+    parameters: ZoneField,
+    support: Support,
+    cells: slice,
+) -> FloatArray:
     if zone.mode in REVOLUTION:
-        return geometry.volumes * circumference(zone) * radius(zone, geometry.shapes, cells)
+        return volumes * circumference(zone) * radius(zone, shapes, cells)
     if zone.mode is Mode.PLANE_STRESS and "DIM3" in parameters:
-        return geometry.volumes * per_cell(parameters.at("DIM3", support), cells)
-    return geometry.volumes
+        return volumes * per_cell(parameters.at("DIM3", support), cells)
+    return volumes
 
 
 class Solid(ElementFamily):
@@ -117,6 +134,16 @@ class Solid(ElementFamily):
         matrix = strain_matrix(zone, geometry, cells)
         weights = integration_weights(zone, geometry, parameters, support, cells)
         return StrainOperator(matrix, weights)
+
+    def weights(self, zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
+        """Integration weights (n_cells, n_points) of a support (INTG)."""
+        if type(self) is not Solid:
+            return super().weights(zone, parameters, support)
+        rule = support_rule(zone.element, support)
+        every = slice(0, len(zone.cells))
+        volumes = cell_volumes(zone.cells.cell_type, coordinates(zone, every), rule)
+        shapes = shape_functions(zone.cells.cell_type, rule.points)
+        return _thickened(zone, volumes, shapes, parameters, support, every)
 
     def stiffness_values(self, zone: Zone, moduli: FloatArray, parameters: ZoneField) -> FloatArray:
         """Stiffness matrices (n_cells, n_rows, n_rows)."""

@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 
 from ssilang.kernel.elements import families
+from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.family import Layout
+from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.errors import MaterialError, MeshError
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.model import Mode
@@ -61,6 +63,18 @@ def test_a_linear_displacement_in_space_gives_the_exact_constant_strain(element)
     expected = [G[0, 0], G[1, 1], G[2, 2], S[0, 1], S[0, 2], S[1, 2]]
     for name, value in zip(block.components, expected, strict=True):
         np.testing.assert_allclose(block.components[name], value, rtol=1e-10)
+
+
+@pytest.mark.parametrize("element", [*PLANE, *SPACE])
+def test_weights_are_those_of_the_strain_operator(element):
+    mode = Mode.PLANE_STRESS if element in PLANE else Mode.THREE_DIMENSIONAL
+    zone = cell_zone(element, mode)
+    values = {"DIM3": 0.25} if element in PLANE else {"RHO": 2.0}
+    parameters = zone_field(zone, material(zone, YOUN=E, NU=NU, **values))
+    weights = family_of(zone).weights(zone, parameters, "RIGIDITE")
+    whole = slice(0, len(zone.cells))
+    expected = family_of(zone).strain_operator(zone, parameters, "RIGIDITE", whole).weights
+    np.testing.assert_allclose(weights, expected, rtol=1e-13)
 
 
 @pytest.mark.parametrize("element", [*PLANE, *SPACE])
