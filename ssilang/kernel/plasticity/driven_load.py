@@ -110,7 +110,7 @@ def follow_time(
     path.save(float(times[0]))
     for k in range(1, len(times)):
         change = factors[k] - factors[k - 1]
-        path.head_for(change)
+        path.head_for(change, float(times[k] - times[k - 1]))
         s = 0.0
         for number in range(1, most + 1):
             s = _towards(path, factors[k - 1], change, control, s, times[k - 1 : k + 1])

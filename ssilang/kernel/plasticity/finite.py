@@ -28,6 +28,8 @@ from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.model import Mode, Zone
 from ssilang.kernel.plasticity.bulk import Answer, Bulk, State, without_stiffness
 from ssilang.kernel.plasticity.finite_beam import finite_beam, is_plane_beam
+from ssilang.kernel.plasticity.finite_meridian import finite_plane_shell, is_plane_shell
+from ssilang.kernel.plasticity.finite_space_beam import finite_space_beam, is_space_beam
 
 
 class FiniteZone(Protocol):
@@ -207,6 +209,10 @@ def finite_zone(zone: Zone, material: CellField) -> FiniteZone:
     weights = integration_weights(zone, "STRESSES", material)
     if is_plane_beam(zone):
         return finite_beam(zone, material, weights.shape[1])
+    if is_space_beam(zone):
+        return finite_space_beam(zone, material, weights.shape[1])
+    if is_plane_shell(zone):
+        return finite_plane_shell(zone, material, weights.shape[1])
     moduli = _moduli(zone, parameters, "STRESSES")
     if zone.element == "BARR":
         d = len(set(family_of(zone).layout(zone).unknowns))
@@ -218,7 +224,7 @@ def finite_zone(zone: Zone, material: CellField) -> FiniteZone:
     if not is_solid(zone) or turning:
         raise FieldError(
             f"finite displacements are not built for {zone.element} in this hypothesis",
-            "continuous elements, bars and beams of the plane have them; leave "
+            "continuous elements, bars, beams (POUT, TIMO) and plane COQ2 have them; leave "
             "'GRANDS_DEPLACEMENTS' for others",
         )
     slopes = _slopes(zone)

@@ -22,8 +22,8 @@ from ssilang.kernel.model import Mode, Zone
 
 _BEAMS = ("beam", "timoshenko")
 # displacements of both nodes, in the axes of the chord, for one unit of lengthening and end turns
-_CARRIED = np.zeros((6, 3))
-_CARRIED[3, 0] = _CARRIED[2, 1] = _CARRIED[5, 2] = 1.0
+CARRIED = np.zeros((6, 3))
+CARRIED[3, 0] = CARRIED[2, 1] = CARRIED[5, 2] = 1.0
 
 
 def is_plane_beam(zone: Zone) -> bool:
@@ -66,6 +66,10 @@ class FiniteBeam:
         turn += 2 * np.pi * np.round((0.5 * (u[:, 2] + u[:, 5]) - turn) / (2 * np.pi))
         small = np.stack([length - rest, u[:, 2] - turn, u[:, 5] - turn], axis=1)
         return small, length, now / length[:, None]
+
+    def small(self, u: FloatArray) -> FloatArray:
+        """Lengthening and turns of both ends against the chord (n, 3)."""
+        return self._present(u)[0]
 
     def _inner(self, u: FloatArray) -> FloatArray:
         """Normal force and moments at both ends (n, 3)."""
@@ -133,5 +137,5 @@ def finite_beam(zone: Zone, material: CellField, points: int) -> FiniteBeam:
     local = T @ stiffness(zone, material).values @ np.swapaxes(T, 1, 2)
     ends = zone.cells.coordinates
     span = (ends[:, -1] - ends[:, 0])[:, :2]
-    inner = _CARRIED.T @ local @ _CARRIED
+    inner = CARRIED.T @ local @ CARRIED
     return FiniteBeam(zone, span, inner, np.zeros((len(span), 3)), points)

@@ -89,6 +89,9 @@ class FollowingSolver(BulkSolver):
     """
 
     last: FloatArray | None = None
+    pace: float = 0.0
+    """Change of the time for one unit of the load parameter, from `since` on."""
+    since: float = 0.0
     softest: float = 0.0
     """Size of the first displacement under one unit of the load; far beyond it is a collapse."""
 
@@ -107,6 +110,9 @@ class FollowingSolver(BulkSolver):
             lost = self._followed(motion, r, dd, way, control, share, start)
             if lost.turns > 0:
                 break
+        if lost.turns <= 0 and np.isfinite(most):
+            # far beyond the end there may be nothing where the first iteration looks
+            lost = self._followed(motion, r, dd, way, _within(control, most), share, starts[-1])
         if lost.turns > 0 and lost.x > most:
             start = lost.du * (most / lost.x)
             lost = self._followed(motion, r, dd, way, lambda s, _: [most - s.x], share, start)
@@ -122,6 +128,7 @@ class FollowingSolver(BulkSolver):
         share: float, start: FloatArray,
     ) -> Found:  # fmt: skip
         x, du = 0.0, start
+        self.time = self.since
         now = self._trial(motion, r, du, motion.contact)
         self.residuals = []
         for turn in range(1, TURNS + 1):
@@ -155,6 +162,7 @@ class FollowingSolver(BulkSolver):
         self, motion: Motion, r: FloatArray, way: Way, x: float, s: float, split: Split
     ) -> _Trial:
         du = split.du + split.rest + s * split.unit
+        self.time = self.since + self.pace * (x + s)
         return self._trial(motion, r + (x + s) * way.push, du, motion.contact)
 
     def _split(
@@ -163,6 +171,8 @@ class FollowingSolver(BulkSolver):
         T, V = self.constraints.T, self.constraints.V
         whole = self.A + now.K + self.share * now.answer.tangent
         reduced = sp.csr_array(V.T @ whole @ T)
+        if now.answer.rate is not None and self.pace:
+            way = Way(way.push - self.pace * now.answer.rate, way.drag)
         for shift in (0.0, SHIFT):
             parts = self._parts(reduced, whole, shift, now.rest, missing, way)
             if parts is None:
@@ -204,6 +214,11 @@ class FollowingSolver(BulkSolver):
         return min(trials, key=lambda t: t[1].residual) if trials else None
 
 
+def _within(control: Control, most: float) -> Control:
+    """The control that does not go beyond a load parameter."""
+    return lambda split, share: [min(x, most - split.x) for x in control(split, share)]
+
+
 class PathRun:
     """A calculation along its path: what stands at the end of the last accepted step."""
 
@@ -221,8 +236,9 @@ class PathRun:
         self._first = self.solver.standing(run.motion)
         self._elastic = np.zeros(size)
 
-    def head_for(self, change: FloatArray) -> None:
-        """Load parameters count this change of the load factors (k,) from now on."""
+    def head_for(self, change: FloatArray, pace: float = 0.0) -> None:
+        """Load parameters count this change of load factors (k,) and of time from now on."""
+        self.solver.pace = pace
         way, constraints = self.way(change), self.run.problem.constraints
         split = self.solver._split(
             self.run.motion, self._first, 0.0, np.zeros(len(constraints.C @ self._elastic)), way
@@ -249,10 +265,11 @@ class PathRun:
     ) -> float | None:  # fmt: skip
         """One step: load parameter x of `factors + x change`; None if none is found."""
         run, p, m = self.run, self.run.problem, self.run.motion
-        self.solver.time = time
+        self.solver.since = time
         r = -run.imbalance(self.solver.force, factors)
         dd = p.loading.imposed @ factors - p.constraints.C @ m.u
         stored, old = run.bulk.stored(run.state), m.reaction.copy()
+        driven = run.bulk.pushed(run.state)
         found = self.solver.follow(m, r, dd, self.way(change), control, share, most)
         if found.turns <= 0 or not np.isfinite(found.du).all():
             return None
@@ -262,7 +279,8 @@ class PathRun:
         end = factors + found.x * change
         m.reaction[:] = run.imbalance(self.solver.force, end)
         mean = factors + 0.5 * found.x * change
-        m.energies[EXTERNAL] += found.du @ (p.loading.forces @ mean)
+        driven = 0.5 * (driven + run.bulk.pushed(run.state))
+        m.energies[EXTERNAL] += found.du @ (p.loading.forces @ mean + driven)
         moved = p.constraints.C @ found.du
         if moved.any():
             m.energies[EXTERNAL] += moved @ p.constraints.multipliers(0.5 * (old + m.reaction))

@@ -160,6 +160,7 @@ def _increment(
     r = -run.imbalance(solver.force, after)
     dd = p.loading.imposed @ after - p.constraints.C @ m.u
     stored, old = run.bulk.stored(run.state), m.reaction.copy()
+    driven = run.bulk.pushed(run.state)
     change = after - before
     solver.guess = _carried_on(run.last, change)
     pushed = m.contact.copy()
@@ -170,7 +171,8 @@ def _increment(
     m.u[:] += outcome.du
     run.state = solver.state
     m.reaction[:] = run.imbalance(solver.force, after)
-    m.energies[EXTERNAL] += outcome.du @ (p.loading.forces @ (0.5 * (before + after)))
+    driven = 0.5 * (driven + run.bulk.pushed(run.state))
+    m.energies[EXTERNAL] += outcome.du @ (p.loading.forces @ (0.5 * (before + after)) + driven)
     mean = 0.5 * (pushed + m.contact)
     m.energies[EXTERNAL] += support_work(p, 0.5 * (old + m.reaction), mean, outcome.du, dd, change)
     if p.contact is not None:
@@ -280,8 +282,9 @@ class _BulkLoop(SparseLoop):
         outcome = solver.solve(m, r, dd, self._gap(factors[1]))
         if outcome.turns <= 0:
             return outcome
-        stored = run.bulk.stored(run.state)
+        stored, driven = run.bulk.stored(run.state), run.bulk.pushed(run.state)
         run.state = solver.state
+        driven = driven + run.bulk.pushed(run.state)
         self._advance(outcome.du, dt)
         if impact is not None and p.contact is not None:
             impact.correct(m, p.contact.imposed @ (factors[1] - factors[0]) / dt)
@@ -289,7 +292,7 @@ class _BulkLoop(SparseLoop):
         self._account(outcome.du, dd, load0 - old, load1 - solver.force, pushed, factors)
         if p.contact is not None:
             run.lost += p.contact.rubbed(0.5 * (pushed + m.contact), outcome.du)
-        m.energies[EXTERNAL] += 0.5 * outcome.du @ (old + solver.force)
+        m.energies[EXTERNAL] += 0.5 * outcome.du @ (old + solver.force + driven)
         run.account(stored, solver.work)
         return outcome
 

@@ -11,12 +11,7 @@ from ssilang.kernel.dynamics.motion import snapshot_of
 from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.dynamics.snapshot import Observer, Snapshot
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
-from ssilang.kernel.plasticity.bulk import (
-    Bulk,
-    State,
-    plastic_strain_blocks,
-    variable_blocks,
-)
+from ssilang.kernel.plasticity.bulk import Bulk, State
 
 NOTHING = np.zeros(0)
 
@@ -47,7 +42,7 @@ class BulkSnapshot(Snapshot):
     @property
     def variables(self) -> CellField | None:
         """Internal variables of bodies and joints."""
-        blocks = variable_blocks(self.bulk, self.bulk_state) if self.bulk.zones else []
+        blocks = self.bulk.variables(self.bulk_state)
         if not blocks and super().variables is None:
             return None
         return CellField((*blocks, *_blocks(super().variables)), "VARIABLES INTERNES")
@@ -55,7 +50,7 @@ class BulkSnapshot(Snapshot):
     @property
     def plastic_strains(self) -> CellField:
         """Plastic strains of the bodies."""
-        blocks = plastic_strain_blocks(self.bulk, self.bulk_state) if self.bulk.zones else []
+        blocks = self.bulk.plastic_strains(self.bulk_state)
         return CellField(tuple(blocks), "DEFORMATIONS INELASTIQUES")
 
 

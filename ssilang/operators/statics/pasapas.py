@@ -31,6 +31,7 @@ from ssilang.operators.session.user_procedures import StopCalculation
 from ssilang.operators.statics.bodies import Bodies, finite_bodies, finite_zones, plastic_bodies
 from ssilang.operators.statics.initial_stress import offset_load, stress_offsets
 from ssilang.operators.statics.linear_zones import linear_blocks
+from ssilang.operators.statics.pasapas_charmeca import loaded_bodies
 from ssilang.operators.statics.pasapas_contact import sides_of
 from ssilang.operators.statics.pasapas_entries import KNOWN, REFUSED, RESULTS
 from ssilang.operators.statics.pasapas_results import ResultTables, Stresses
@@ -118,6 +119,8 @@ def _stretch(
     inputs, stresses = _inputs(given, start, times, dynamic)
     finite = finite_zones(given)
     bodies = finite_bodies(given, finite, start) if finite else plastic_bodies(given, start)
+    if work.flag("PROCEDURE_CHARMECA"):
+        bodies = loaded_bodies(work, bodies)
     problem = make_problem(inputs)
     if bodies is None and not control_asked(work) and stage.entries is work:
         warn_supports(work, inputs)

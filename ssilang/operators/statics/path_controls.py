@@ -16,6 +16,7 @@ from ssilang.kernel.matrices.assembly import Numbering, vector_to_field
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.model import Model, Zone
+from ssilang.language.errors import SsiError
 from ssilang.language.values import Procedure
 from ssilang.operators.session.user_procedures import call_user
 from ssilang.operators.tables.entries import Entries
@@ -74,7 +75,7 @@ def strain_points(entries: Entries, numbering: Numbering) -> StrainPoints:
             continue
         kept: NDArray[np.bool_] = np.ones(len(zone.cells.connectivity), bool)
         if region is not None:
-            nodes = np.concatenate([c.connectivity.ravel() for c in region.blocks])
+            nodes = region.node_ids
             inside: NDArray[np.bool_] = np.isin(zone.cells.connectivity, nodes)
             kept = inside.min(axis=1)
         if kept.any():
@@ -180,8 +181,14 @@ class AutomaticControl:
         def norm(x: float, of: FloatArray = known) -> float:
             return self._norm(of + x * split.unit, (split.x + x) * unit_elastic)
 
-        nothing = np.zeros_like(known)
-        ahead, back = norm(1.0, nothing), norm(-1.0, nothing)
+        try:
+            nothing = np.zeros_like(known)
+            ahead, back = norm(1.0, nothing), norm(-1.0, nothing)
+        except SsiError:
+            # a norm that the load's own part of the step does not have (0/0): with the other part
+            if not known.any():
+                raise
+            ahead, back = norm(1.0), norm(-1.0)
         if ahead == 0.0 or not np.isfinite(ahead):
             raise self.entries.bad("AUTOPILO gives no norm to the step that the load causes")
         if ahead * back < 0.0:

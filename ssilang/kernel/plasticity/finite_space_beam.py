@@ -1,0 +1,235 @@
+"""Beams in space in finite displacements: frames that turn with the cells, small strains in them.
+
+The first axis of a cell's present frame is its chord, the others follow the mean of the turned
+second axes of both ends (Rankin and Nour-Omid 1988; Battini 2002). The rotations RX RY RZ of a node
+are the components of one rotation vector, from the mesh at rest; moments are what works on it,
+which is a moment about the axes as long as a node turns about one axis.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ssilang.kernel.elements.beam_frame import beam_frame
+from ssilang.kernel.elements.catalog import ELEMENTS
+from ssilang.kernel.elements.families import stiffness
+from ssilang.kernel.elements.zone_fields import zone_field
+from ssilang.kernel.errors import FieldError
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.model import Mode, Zone
+
+Array = NDArray[Any]
+"""Real, or complex where it is differentiated by a step along the imaginary axis."""
+
+STEP = 1e-30
+SMALL = 1e-3
+"""Squared angle below which functions of an angle are their series."""
+# displacements of both nodes in the cell's axes for one unit of lengthening and end turns
+_CARRIED = np.zeros((12, 7))
+_CARRIED[6, 0] = 1.0
+for _k in range(3):
+    _CARRIED[3 + _k, 1 + _k] = _CARRIED[9 + _k, 4 + _k] = 1.0
+
+
+def is_space_beam(zone: Zone) -> bool:
+    """Whether a zone is one of beams in space."""
+    family = ELEMENTS[zone.element].family
+    straight = family in ("beam", "timoshenko") and "SECTION" not in zone.behaviour
+    return straight and zone.mode is Mode.THREE_DIMENSIONAL
+
+
+# --- rotations: arrays (n, 3) and (n, 3, 3), analytic in their entries ---------------------------
+
+
+def _skew(v: Array) -> Array:
+    out = np.zeros((*v.shape, 3), dtype=v.dtype)
+    out[:, 0, 1], out[:, 0, 2], out[:, 1, 2] = -v[:, 2], v[:, 1], -v[:, 0]
+    return out - np.swapaxes(out, 1, 2)
+
+
+def _shares(v: Array) -> tuple[Array, Array, Array]:
+    """sin(a)/a, (1 - cos a)/a^2, (a - sin a)/a^3 of the angles a."""
+    s = (v * v).sum(axis=1)
+    near = np.abs(s) < SMALL
+    safe = np.where(near, 1.0, s)
+    a = np.sqrt(safe)
+    first = np.where(near, 1 - s / 6 * (1 - s / 20 * (1 - s / 42)), np.sin(a) / a)
+    second = np.where(near, 0.5 - s / 24 * (1 - s / 30 * (1 - s / 56)), (1 - np.cos(a)) / safe)
+    third = np.where(
+        near, 1 / 6 - s / 120 * (1 - s / 42 * (1 - s / 72)), (a - np.sin(a)) / (safe * a)
+    )
+    return first[:, None, None], second[:, None, None], third[:, None, None]
+
+
+def rotation(v: Array) -> Array:
+    """Rotation matrices of rotation vectors."""
+    first, second, _ = _shares(v)
+    S = _skew(v)
+    return np.asarray(np.eye(3) + first * S + second * (S @ S))
+
+
+def spin_of(v: Array) -> Array:
+    """What a change of the rotation vector is as a turn about the fixed axes."""
+    _, second, third = _shares(v)
+    S = _skew(v)
+    return np.asarray(np.eye(3) + second * S + third * (S @ S))
+
+
+def _vector_of(R: Array) -> Array:
+    """Rotation vectors of rotations by less than a quarter turn."""
+    axial = 0.5 * np.stack(
+        [R[:, 2, 1] - R[:, 1, 2], R[:, 0, 2] - R[:, 2, 0], R[:, 1, 0] - R[:, 0, 1]], axis=1
+    )
+    s = (axial * axial).sum(axis=1)
+    near = np.abs(s) < SMALL
+    sine = np.sqrt(np.where(near, 0.25, s))
+    series = 1 + s / 6 + 3 * s**2 / 40 + 15 * s**3 / 336 + 105 * s**4 / 3456
+    return axial * np.where(near, series, np.arcsin(sine) / sine)[:, None]
+
+
+# --- the cells -----------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, eq=False)
+class FiniteSpaceBeam:
+    """Beams in space.
+
+    Attributes
+    ----------
+    span : array (n, 3)
+        From end to end at rest.
+    axes : array (n, 3, 3)
+        Axes at rest, as rows.
+    stiffness : array (n, 7, 7)
+        Of the normal force and the moments at both ends over lengthening and turns of the ends.
+    initial : array (n, 7)
+        The same forces without displacement.
+    points : int
+        Where section forces are shown: 1, the middle, or 2, the ends.
+    """
+
+    zone: Zone
+    span: FloatArray
+    axes: FloatArray
+    stiffness: FloatArray
+    initial: FloatArray
+    points: int
+
+    def _measured(self, u: Array) -> tuple[Array, Array]:
+        """Lengthening and turns of the ends (n, 7), and (n, 7, 12) for one unit of each unknown."""
+        now = self.span + u[:, 6:9] - u[:, :3]
+        rest = np.linalg.norm(self.span, axis=1)
+        # l - L without the rounding of their difference
+        length = np.sqrt((now * now).sum(axis=1))
+        if (np.abs(length) == 0.0).any():
+            raise FieldError("a beam is shrunk to nothing")
+        stretch = ((now - self.span) * (now + self.span)).sum(axis=1) / (length + rest)
+        turns = [rotation(u[:, k : k + 3]) for k in (3, 9)]
+        seconds = [np.einsum("cij,cj->ci", R, self.axes[:, 1]) for R in turns]
+        mean = 0.5 * (seconds[0] + seconds[1])
+        x = now / length[:, None]
+        z = np.cross(x, mean)
+        z = z / np.sqrt((z * z).sum(axis=1))[:, None]
+        frame = np.stack([x, np.cross(z, x), z], axis=1)
+        own = [frame @ R @ np.swapaxes(self.axes, 1, 2) for R in turns]
+        small = [_vector_of(R) for R in own]
+        d = np.concatenate([stretch[:, None], *small], axis=1)
+        return d, self._variations(u, frame, length, seconds, mean, small)
+
+    def _variations(
+        self, u: Array, frame: Array, length: Array, seconds: list[Array], mean: Array,
+        small: list[Array],
+    ) -> Array:  # fmt: skip
+        n = len(u)
+        T = np.zeros((n, 12, 12), dtype=frame.dtype)
+        for i in range(4):
+            T[:, 3 * i : 3 * i + 3, 3 * i : 3 * i + 3] = frame
+        for k in (3, 9):
+            T[:, k : k + 3, k : k + 3] = frame @ spin_of(u[:, k : k + 3])
+        q = np.einsum("cij,cj->ci", frame, mean)
+        G = np.zeros((n, 3, 12), dtype=frame.dtype)
+        slant = q[:, 0] / q[:, 1]
+        G[:, 0, 2], G[:, 0, 8] = slant / length, -slant / length
+        for k, second in zip((3, 9), seconds, strict=True):
+            own = np.einsum("cij,cj->ci", frame, second)
+            G[:, 0, k], G[:, 0, k + 1] = own[:, 1] / (2 * q[:, 1]), -own[:, 0] / (2 * q[:, 1])
+        G[:, 1, 2], G[:, 1, 8] = 1 / length, -1 / length
+        G[:, 2, 1], G[:, 2, 7] = -1 / length, 1 / length
+        B = np.zeros((n, 7, 12), dtype=frame.dtype)
+        B[:, 0, 0], B[:, 0, 6] = -1.0, 1.0
+        for row, k, v in zip((1, 4), (3, 9), small, strict=True):
+            spin = -G
+            spin[:, :, k : k + 3] = spin[:, :, k : k + 3] + np.eye(3)
+            B[:, row : row + 3] = np.linalg.solve(spin_of(v), spin)
+        return B @ T
+
+    def _balanced(self, u: Array) -> Array:
+        d, B = self._measured(u)
+        inner = self.initial + np.einsum("cij,cj->ci", self.stiffness, d)
+        return np.asarray(np.einsum("cij,ci->cj", B, inner))
+
+    def small(self, u: FloatArray) -> FloatArray:
+        """Lengthening and turns of both ends against the cell's frame (n, 7)."""
+        return np.asarray(self._measured(u)[0], dtype=float)
+
+    def _inner(self, u: FloatArray) -> FloatArray:
+        elastic = np.einsum("cij,cj->ci", self.stiffness, self.small(u))
+        return np.asarray(self.initial + elastic)
+
+    def forces(self, u: FloatArray) -> FloatArray:
+        """Internal forces."""
+        return np.asarray(self._balanced(u), dtype=float)
+
+    def tangent(self, u: FloatArray) -> FloatArray:
+        """Their derivative, exact to rounding: a step along the imaginary axis."""
+        K = np.empty((len(u), 12, 12))
+        for k in range(12):
+            moved = u.astype(complex)
+            moved[:, k] += 1j * STEP
+            K[:, :, k] = self._balanced(moved).imag / STEP
+        return 0.5 * (K + np.swapaxes(K, 1, 2))
+
+    def stored(self, u: FloatArray) -> float:
+        """Elastic energy."""
+        mean = 0.5 * (self.initial + self._inner(u))
+        return float(np.einsum("ci,ci->", mean, self.small(u)))
+
+    def shown(self, u: FloatArray) -> FloatArray:
+        """Section forces in the axes of the present frame."""
+        inner, L = self._inner(u), np.linalg.norm(self.span, axis=1)
+        N, first, second = inner[:, 0], inner[:, 1:4], inner[:, 4:7]
+        both = (first + second) / L[:, None]
+        forces = np.stack([N, -both[:, 2], both[:, 1]], axis=1)
+        ends = [np.concatenate([forces, m], axis=1) for m in (-first, second)]
+        found = np.stack(ends, axis=-1)
+        return found.mean(axis=-1, keepdims=True) if self.points == 1 else found
+
+    def stressed(self, given: FloatArray, u: FloatArray) -> FiniteSpaceBeam:
+        """Initial forces from present ones."""
+        first, second = -given[:, 3:6, 0], given[:, 3:6, -1]
+        if self.points == 1:
+            L = np.linalg.norm(self.span, axis=1)
+            half = 0.5 * L[:, None] * given[:, (1, 2), 0] * np.array([-1.0, 1.0])
+            for m in (first, second):
+                m[:, 2] += half[:, 0]
+                m[:, 1] += half[:, 1]
+        wanted = np.concatenate([given[:, 0].mean(axis=1)[:, None], first, second], axis=1)
+        zero = replace(self, initial=np.zeros_like(self.initial))
+        return replace(self, initial=wanted - zero._inner(u))
+
+
+def finite_space_beam(zone: Zone, material: CellField, points: int) -> FiniteSpaceBeam:
+    """A zone of beams without stress."""
+    frame = beam_frame(zone, zone_field(zone, material))
+    T = frame.rotation(zone)
+    local = T @ stiffness(zone, material).values @ np.swapaxes(T, 1, 2)
+    ends = zone.cells.coordinates
+    inner = _CARRIED.T @ local @ _CARRIED
+    return FiniteSpaceBeam(
+        zone, ends[:, -1] - ends[:, 0], frame.axes, inner, np.zeros((len(ends), 7)), points
+    )

@@ -1,0 +1,128 @@
+"""CHARMECA in PASAPAS: loads that a procedure of the script finds where the bodies are."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ssilang.kernel.fields.deformed import displacements
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.matrices.assembly import assemble, field_to_vector, outside, vector_to_field
+from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.plasticity.added_load import SHIFT, Added, loaded_bulk
+from ssilang.kernel.plasticity.bulk import Bulk, State
+from ssilang.kernel.sparse import sp
+from ssilang.language.values import Mot, Table
+from ssilang.operators.session.user_procedures import call_user
+from ssilang.operators.statics.bodies import Bodies
+from ssilang.operators.tables.entries import Entries
+
+if TYPE_CHECKING:
+    from ssilang.kernel.dynamics.problem import Inputs, Problem
+
+KNOWN = ("ADDI_SECOND", "ADDI_MATRICE")
+
+
+class LoadByProcedure:
+    """Calls `TAB2 = CHARMECA TAB1 TIME` and reads its load.
+
+    Meanwhile TAB1 . 'ESTIMATION' holds TEMPS and DEPLACEMENTS of the state under trial, and in
+    finite displacements the nodes stand where the bodies are.
+    """
+
+    def __init__(self, entries: Entries, problem: Problem, moves: bool) -> None:
+        self.entries, self.problem, self.moves = entries, problem, moves
+
+    def __call__(self, time: float, u: FloatArray) -> Added:
+        """The load at a time, for a displacement."""
+        numbering, table = self.problem.numbering, self.entries.table
+        field = vector_to_field(u, numbering)
+        kept = table.get("ESTIMATION") if table.has("ESTIMATION") else None
+        state = Table()
+        state.set(Mot("TEMPS"), time)
+        state.set(Mot("DEPLACEMENTS"), field)
+        table.set(Mot("ESTIMATION"), state)
+        try:
+            with _moved(field, self.moves):
+                results = call_user(self.entries.call, "CHARMECA", table, time)
+                return self._read(results)
+        finally:
+            table.remove("ESTIMATION")
+            if kept is not None:
+                table.set(Mot("ESTIMATION"), kept)
+
+    def _read(self, results: list[object]) -> Added:
+        if len(results) != 1 or not isinstance(results[0], Table):
+            raise self.entries.bad(
+                "the procedure CHARMECA must give one TABLE",
+                "TAB2 = TABL ; TAB2 . 'ADDI_SECOND' = ... ; FINP TAB2 ;",
+            )
+        found = Entries(self.entries.call, results[0], "CHARMECA")
+        found.warn_unknown(KNOWN)
+        numbering = self.problem.numbering
+        load: NodeField | None = found.get("ADDI_SECOND", "CHPOINT")
+        matrix = found.get("ADDI_MATRICE", "RIGIDITE")
+        if load is None:
+            return Added(np.zeros(numbering.size))
+        lost = outside(load, numbering)
+        if lost:
+            raise found.bad(f"'ADDI_SECOND' acts where there are no unknowns: {lost[0]}")
+        stiffness = None if matrix is None else assemble(matrix, numbering)
+        return Added(field_to_vector(load, numbering), stiffness)
+
+
+@contextmanager
+def _moved(field: NodeField, moves: bool) -> Iterator[None]:
+    """Nodes where the field takes them, for a while."""
+    if not moves:
+        yield
+        return
+    nodes = field.table
+    kept = nodes.coordinates.copy()
+    nodes.coordinates[:] += displacements(nodes, field)
+    try:
+        yield
+    finally:
+        nodes.coordinates[: len(kept)] = kept
+
+
+def loaded_bodies(entries: Entries, bodies: Bodies | None) -> Bodies:
+    """Bodies, if there are any, under the load of CHARMECA."""
+
+    def make(problem: Problem, inputs: Inputs) -> tuple[Bulk, State]:
+        from ssilang.kernel.plasticity.following import no_bodies
+
+        start: tuple[Bulk, State] = (no_bodies(problem), ())
+        bulk, state = start if bodies is None else bodies(problem, inputs)
+        law = LoadByProcedure(entries, problem, entries.flag("GRANDS_DEPLACEMENTS"))
+        first = float(problem.times[0])
+        still = bulk.respond(state, np.zeros(bulk.size), first).tangent
+        pattern = _by_nodes(problem, abs(problem.K) + abs(still))
+        span = float(np.ptp(problem.times))
+        loaded = loaded_bulk(bulk, law, _shifts(problem), SHIFT * span, pattern)
+        return loaded, loaded.begin(state, problem.u, first)
+
+    return make
+
+
+def _by_nodes(problem: Problem, matrix: sp.csr_array) -> sp.csr_array:
+    """Where unknowns meet: all those of two nodes that the matrix ties, or of one."""
+    numbering = problem.numbering
+    _, places = np.unique(numbering.nodes, return_inverse=True)
+    n = numbering.size
+    ones = np.ones(n)
+    standing = sp.csr_array((ones, (places, np.arange(n))), shape=(int(places.max()) + 1, n))
+    tied = standing @ (matrix + sp.eye_array(n)) @ standing.T
+    return sp.csr_array((standing.T @ tied @ standing) > 0)
+
+
+def _shifts(problem: Problem) -> FloatArray:
+    """Small differences of the unknowns: lengths, and turns."""
+    numbering = problem.numbering
+    ends = numbering.table.coordinates[numbering.nodes]
+    extent = float(np.ptp(ends, axis=0).max(initial=0.0)) or 1.0
+    turns = np.array([name.startswith("R") for name in numbering.unknowns])
+    return np.where(turns[numbering.codes], SHIFT, SHIFT * extent)
