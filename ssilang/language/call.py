@@ -293,7 +293,13 @@ class Call:
                 bare=isinstance(wrong.value, str) and wrong.span.text[:1] not in ("'", "("),
                 quoted=[o.span.text[1:-1] for o in every if o.span.text[:1] == "'"],
             )
-        return SsiError("missing-argument", self.span, operator=self.name, expected=list(types))
+        return SsiError(
+            "missing-argument",
+            self.span,
+            operator=self.name,
+            expected=list(types),
+            quoted=[o.span.text[1:-1] for o in self.used if o.span.text[:1] == "'"],
+        )
 
     def error(self, code: str, value: object = None, **data: object) -> SsiError:
         """An error placed at the operand that holds `value`, else at the operator."""

@@ -331,7 +331,11 @@ def _syntax_hint(data: dict[str, object]) -> str:
     found = find_operator(str(data.get("operator", "")))
     if found is None or not found.help.syntax:
         return ""
-    return found.help.syntax.split("\n")[0]
+    lines = found.help.syntax.split("\n")
+    given = data.get("quoted")
+    quoted = [w for w in given if len(w) > 1] if isinstance(given, list) else []
+    # of several forms, the one that a keyword of the phrase belongs to
+    return next((line for line in lines for w in quoted if f"'{w[:4]}" in line), lines[0])
 
 
 def _known_hint(data: dict[str, object], language: str) -> str:

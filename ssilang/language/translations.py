@@ -278,7 +278,28 @@ TEMPLATES: tuple[tuple[str, str], ...] = (
         "DYNE veut une table BASE_MODALE ou RAIDEUR_ET_MASSE",
     ),
     ("DYNE knows no table '{}'", "DYNE ne connaît pas la table '{}'"),
-    ("links '{}' are not built", "les liaisons '{}' ne sont pas programmées"),
+    (
+        "'TYPE_LIAISON' is {}: such links are not built",
+        "'TYPE_LIAISON' est {} : de telles liaisons ne sont pas programmées",
+    ),
+    ("'{}' of a table LIAISON must be a TABLE of links", "'{}' d'une table LIAISON est une TABLE"),
+    ("'{}' . {} must be a table of a link", "'{}' . {} est la table d'une liaison"),
+    ("'{}' of a mode must be a number", "'{}' d'un mode est un nombre"),
+    (
+        "'MASSE_GENERALISEE' of a mode is {}, not above zero",
+        "'MASSE_GENERALISEE' d'un mode vaut {}, qui n'est pas positif",
+    ),
+    ("'{}' is {}, not above zero", "'{}' vaut {}, qui n'est pas positif"),
+    ("'BALOURD' is 0 or 1", "'BALOURD' vaut 0 ou 1"),
+    ("give the 'POINT_REPERE' of a mode", "donner le 'POINT_REPERE' d'un mode"),
+    (
+        "the tangent of the branch at {} is not made of finite numbers",
+        "la tangente à la branche en {} n'est pas faite de nombres finis",
+    ),
+    (
+        "forces and their derivatives that are finite for all displacements",
+        "forces et dérivées doivent être finies pour tout déplacement",
+    ),
     ("the link has no '{}'", "la liaison n'a pas de '{}'"),
     ("'{}' of a link is a number", "'{}' d'une liaison est un nombre"),
     ("'{}' of a link is a point", "'{}' d'une liaison est un point"),
@@ -287,7 +308,10 @@ TEMPLATES: tuple[tuple[str, str], ...] = (
         "links of base B need the shapes: give the table 'BASE_MODALE'",
         "les liaisons en base B veulent les déformées : donner la table 'BASE_MODALE'",
     ),
-    ("the point marks no mode of the basis", "le point ne repère aucun mode de la base"),
+    (
+        "'{}' of a link marks no mode of the basis",
+        "'{}' d'une liaison ne repère aucun mode de la base",
+    ),
     (
         "the matrices of DYNE are on ALFA and BETA: project them with PJBA",
         "les matrices de DYNE portent sur ALFA et BETA : les projeter par PJBA",
@@ -580,12 +604,47 @@ TEMPLATES: tuple[tuple[str, str], ...] = (
         "la matrice n'a pas d'inconnue pour la force {}",
     ),
     (
+        "node {} lies on node {} of the matrix: coordinates that are written again make a new "
+        "node, the mesh's own is MAIL1 POIN 'PROC' P1",
+        "le noeud {} est sur le noeud {} de la matrice : des coordonnées écrites de nouveau font "
+        "un nouveau noeud, celui du maillage est MAIL1 POIN 'PROC' P1",
+    ),
+    (
+        "not held: {}; hold it with BLOQ or RELA; {} nodes lie on nodes of another body (ELIM)",
+        "non tenu : {} ; bloquez-le par BLOQ ou RELA ; {} noeuds sont sur ceux d'un autre corps "
+        "(ELIM)",
+    ),
+    (
         "take it out of the second member, or say 'NOID'",
         "ôtez-la du second membre, ou dites 'NOID'",
     ),
     # ---- tables of procedures
     ("{}: the entry '{}' is missing", "{} : l'entrée '{}' manque"),
     ("{}: '{}' must be {}, found {}", "{} : '{}' doit être {}, trouvé {}"),
+    ("{}: '{}' is {}, which no matrix has", "{} : '{}' est {}, qu'aucune matrice n'a"),
+    ("{}: '{}' names no component", "{} : '{}' ne nomme aucune composante"),
+    (
+        "{}: 'INST' holds instants that increase from 'DEBU' on",
+        "{} : 'INST' contient des instants croissants à partir de 'DEBU'",
+    ),
+    ("{}: 'FREQ' is {}: more than {} steps", "{} : 'FREQ' vaut {} : plus de {} pas"),
+    (
+        "{}: 'MASSE_CONSTANTE' is not regular: Floquet exponents want a mass for each unknown",
+        "{} : 'MASSE_CONSTANTE' n'est pas régulière : les exposants de Floquet demandent une masse "
+        "pour chaque inconnue",
+    ),
+    ("{}: '{}' holds no curve", "{} : '{}' ne contient aucune courbe"),
+    (
+        "{}: '{}' has values that are not finite numbers",
+        "{} : '{}' a des valeurs qui ne sont pas des nombres finis",
+    ),
+    ("{}: '{}' has {} instants", "{} : '{}' a {} instants"),
+    ("two instants or more", "deux instants ou plus"),
+    (
+        "{}: '{}' does not increase: {} follows {} (values {} and {})",
+        "{} : '{}' ne croît pas : {} suit {} (valeurs {} et {})",
+    ),
+    ("each instant after the one before it", "chaque instant après celui d'avant"),
     (
         "the times of a calculation must be at least two and strictly increase",
         "les instants d'un calcul sont deux au moins et croissent strictement",
@@ -600,7 +659,12 @@ TEMPLATES: tuple[tuple[str, str], ...] = (
         "parameter {} is missing for element {} ({})",
         "le paramètre {} manque pour l'élément {} ({})",
     ),
-    ("give it with MATE or CARA; given: none", "donnez-le par MATE ou CARA ; rien n'est donné"),
+    (
+        "the field of properties holds nothing on these cells: make it with MATE of this model "
+        "(ET joins the fields of several)",
+        "le champ de caractéristiques n'a rien sur ces éléments : faites-le par MATE de ce "
+        "modèle (ET réunit les champs de plusieurs)",
+    ),
     ("give it with MATE or CARA; given: {}", "donnez-le par MATE ou CARA ; sont donnés : {}"),
     (
         "parameter {} is a curve: it depends on a field",
@@ -609,6 +673,10 @@ TEMPLATES: tuple[tuple[str, str], ...] = (
     (
         "Poisson's ratio NU = {} is outside ]-1, 0.5[",
         "le coefficient de Poisson NU = {} est hors de ]-1, 0.5[",
+    ),
+    (
+        "it is a ratio without unit: 0.3 for steel, 0.2 for concrete",
+        "c'est un rapport sans unité : 0.3 pour l'acier, 0.2 pour le béton",
     ),
     (
         "use a value such as 0.49 with an incompressible element (ICQ4, BBAR) near 0.5",
@@ -868,6 +936,9 @@ PARTS: tuple[tuple[str, str], ...] = (
 )
 """Words inside of what a `{}` stands for (regular expressions)."""
 
+_REFUSED = re.compile(r"([^:]+): '(\w+)' is refused: (.+)", re.DOTALL)
+"""What an entry of a table is refused for is a sentence of its own."""
+
 
 @lru_cache(maxsize=1)
 def _patterns() -> list[tuple[re.Pattern[str], str]]:
@@ -880,6 +951,10 @@ def _patterns() -> list[tuple[re.Pattern[str], str]]:
 
 def in_french(sentence: str) -> str:
     """A sentence in French, unchanged if there is no template for it."""
+    refused = _REFUSED.fullmatch(sentence)
+    if refused is not None:
+        procedure, index, reason = refused.groups()
+        return f"{procedure} : '{index}' est refusé : {in_french(reason)}"
     for pattern, french in _patterns():
         found = pattern.fullmatch(sentence)
         if found is not None:

@@ -69,9 +69,13 @@ def require_parents(faces: CellBlock, model: Model) -> Parents:
     found = parents(faces, model)
     lost = int((found.zone < 0).sum())
     if lost:
+        inside = any(zone.cells.cell_type == faces.cell_type for zone in model.zones)
         raise MeshError(
             f"{lost} of {len(faces)} {faces.cell_type} cells are no side of a cell of the model",
-            "the surface and the model's mesh must share their nodes (ELIM)",
+            "give sides of the model's cells: lines of a surface (CONT, COTE), faces of a volume "
+            "(ENVE, FACE)"
+            if inside
+            else "the surface and the model's mesh must share their nodes (ELIM)",
         )
     return found
 

@@ -178,7 +178,10 @@ def missing_parameter(zone: Zone, name: str, given: tuple[str, ...]) -> Material
     law = " ".join(zone.behaviour)
     return MaterialError(
         f"parameter {name} is missing for element {zone.element} ({law})",
-        f"give it with MATE or CARA; given: {', '.join(given) or 'none'}",
+        f"give it with MATE or CARA; given: {', '.join(given)}"
+        if given
+        else "the field of properties holds nothing on these cells: make it with MATE of this "
+        "model (ET joins the fields of several)",
     )
 
 

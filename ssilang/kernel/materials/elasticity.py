@@ -36,7 +36,9 @@ def check_isotropic(young: FloatArray, poisson: FloatArray) -> None:
         raise MaterialError(
             f"Poisson's ratio NU = {float(np.asarray(poisson)[bad].flat[0]):g} "
             "is outside ]-1, 0.5[",
-            "use a value such as 0.49 with an incompressible element (ICQ4, BBAR) near 0.5",
+            "use a value such as 0.49 with an incompressible element (ICQ4, BBAR) near 0.5"
+            if (np.abs(poisson - 0.5) < 0.01).any()
+            else "it is a ratio without unit: 0.3 for steel, 0.2 for concrete",
         )
     if not np.isfinite(young).all():
         raise MaterialError("Young's modulus YOUN is not a finite number")

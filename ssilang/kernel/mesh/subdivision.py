@@ -77,7 +77,8 @@ def subdivide(
     if start_size <= 0.0 or end_size <= 0.0:
         raise MeshError(
             f"mesh sizes must be positive, got {start_size:g} and {end_size:g}",
-            "give the number of elements, or set sizes with DENS, DINI and DFIN",
+            "give the number of elements (an ENTIER: 10, not 10.), or set sizes with DENS, DINI "
+            "and DFIN",
         )
     if length <= 0.0:
         raise MeshError("a path of zero length cannot be cut by mesh sizes")

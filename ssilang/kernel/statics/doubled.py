@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ssilang.kernel.matrices.matrix import Matrix
-from ssilang.kernel.mesh.nodes import IntArray
+from ssilang.kernel.mesh.nodes import IntArray, NodeTable
 
 NEAR = 1e-6
 """Distance below which two nodes are at the same place, as a part of the body's extent."""
@@ -54,14 +54,22 @@ def doubled_supports(matrix: Matrix, used: IntArray | None = None) -> DoubledSup
         loose = np.setdiff1d(loose, used)
     if not len(loose):
         return None
-    points = matrix.table.coordinates
-    near = NEAR * float(np.ptp(points[stiff], axis=0).max())
+    above, below = lying_on(matrix.table, loose, stiff)
+    return DoubledSupports(above, below) if len(above) else None
+
+
+def lying_on(table: NodeTable, nodes: IntArray, others: IntArray) -> tuple[IntArray, IntArray]:
+    """The `nodes` at the place of one of `others`, and these (n,), pairwise."""
+    if not len(nodes) or not len(others):
+        return nodes[:0], others[:0]
     from scipy.spatial import KDTree
 
-    distance, nearest = KDTree(points[stiff]).query(points[loose])
+    points = table.coordinates
+    near = NEAR * float(np.ptp(points[others], axis=0).max())
+    distance, nearest = KDTree(points[others]).query(points[nodes])
     at: IntArray = np.asarray(nearest)
     found = np.flatnonzero(np.asarray(distance) <= near)
-    return DoubledSupports(loose[found], stiff[at[found]]) if len(found) else None
+    return nodes[found], others[at[found]]
 
 
 def _held_alone(matrix: Matrix) -> IntArray:

@@ -39,6 +39,7 @@ from ssilang.kernel.solvers.complementarity import ContactProblem, solve_contact
 from ssilang.kernel.solvers.elimination import Elimination, eliminate
 from ssilang.kernel.solvers.inverse import Inverse, invert
 from ssilang.kernel.sparse import sp
+from ssilang.kernel.statics.doubled import lying_on
 from ssilang.kernel.statics.linear_motion import (
     bodies_of,
     describe_motions,
@@ -354,9 +355,14 @@ def _taken(load: NodeField, numbering: Numbering) -> None:
     lost = outside(load, numbering)
     if lost:
         more = f" and {len(lost) - 4} more" if len(lost) > 4 else ""
+        strange = np.setdiff1d(load.node_ids, numbering.nodes)
+        above, below = lying_on(load.table, strange, np.unique(numbering.nodes))
         raise KernelError(
             f"the matrix has no unknown for the force {', '.join(lost[:4])}{more}",
-            "take it out of the second member, or say 'NOID'",
+            f"node {above[0] + 1} lies on node {below[0] + 1} of the matrix: coordinates that are "
+            "written again make a new node, the mesh's own is MAIL1 POIN 'PROC' P1"
+            if len(above)
+            else "take it out of the second member, or say 'NOID'",
         )
 
 

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from ssilang.kernel.matrices.assembly import Numbering
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.sparse import sp
+from ssilang.kernel.statics.doubled import lying_on
 
 BoolArray = NDArray[np.bool_]
 
@@ -68,8 +69,22 @@ def describe_motions(
     message = f"the matrix is singular, with {count} {what} that the loads drive"
     if named:
         message += f" ({named})"
-    free = _most_moved(numbering, np.linalg.qr(motions)[0])
-    return message, f"not held: {free}; hold it with BLOQ or RELA"
+    span = np.linalg.qr(motions)[0]
+    free = _most_moved(numbering, span)
+    hint = f"not held: {free}; hold it with BLOQ or RELA"
+    apart = 0 if bodies is None else _nodes_on_other_bodies(numbering, span, bodies)
+    return message, (
+        f"{hint}; {apart} nodes lie on nodes of another body (ELIM)" if apart else hint
+    )
+
+
+def _nodes_on_other_bodies(numbering: Numbering, span: FloatArray, bodies: IntArray) -> int:
+    """Nodes of the bodies that move at the place of a node of another body."""
+    share = np.zeros(bodies.max(initial=0) + 1)
+    np.add.at(share, bodies, (span**2).sum(axis=1))
+    first = int(np.argmax(share))
+    own = np.unique(numbering.nodes[bodies == first])
+    return len(lying_on(numbering.table, own, np.setdiff1d(numbering.nodes, own))[0])
 
 
 def named_motions(numbering: Numbering, motions: FloatArray, bodies: IntArray | None = None) -> str:
