@@ -112,7 +112,7 @@ class MovingSupports:
             if np.abs(left).max(initial=0.0) > ALLOWED * np.abs(x).max(initial=0.0):
                 extra.append((i, p.constraints.particular(left)))
         if not extra:
-            return self._own, self._course(factors[:, self.chosen], start[1], start[2])
+            return self._own, self.course(factors[:, self.chosen], start[1], start[2])
         columns = self._columns(np.column_stack([self._own.X, *(x for _, x in extra)]))
         first = np.zeros((3, m + len(extra)))
         first[:, :m] = start
@@ -120,9 +120,9 @@ class MovingSupports:
             first[i, m + j] = 1.0
         c = np.zeros((len(factors), m + len(extra)))
         c[:, :m], c[0] = factors[:, self.chosen], first[0]
-        return columns, self._course(c, first[1], first[2])
+        return columns, self.course(c, first[1], first[2])
 
-    def _course(self, c: FloatArray, v0: FloatArray, a0: FloatArray) -> Course:
+    def course(self, c: FloatArray, v0: FloatArray, a0: FloatArray) -> Course:
         """The scheme's velocities and accelerations of c, from those at the start."""
         s, dt = self.problem.scheme, self.dt
         v, a, ratio = np.zeros_like(c), np.zeros_like(c), s.gamma / s.beta
@@ -152,7 +152,7 @@ class MovingSupports:
         c, v, a = course.c[: steps + 1], course.v[: steps + 1], course.a[: steps + 1]
         rises = works[0, :steps]
         u = start.work[0] + np.vstack([np.zeros(3 * m), np.cumsum(rises, axis=0)])
-        motion = self._course(u, start.work[1], start.work[2])
+        motion = self.course(u, start.work[1], start.work[2])
         inertia, damping, strain = (slice(i * m, (i + 1) * m) for i in range(3))
         pulls = np.vstack([columns.lift.T @ start.joints, works[1, :steps, strain]])
         loads = factors[: steps + 1] @ self.problem.loading.forces.T @ columns.X

@@ -53,9 +53,9 @@ class Pair:
     rich: ReducedModel
 
     def grow(self) -> None:
-        """The richer model becomes the poorer of the next pair."""
-        self.poor = self.rich
-        self.rich = _grown(self.basis, GROWTH * self.poor.size)
+        """The richer model becomes the poorer of the next pair; nothing changes if it cannot."""
+        richer = _grown(self.basis, GROWTH * self.rich.size)
+        self.poor, self.rich = self.rich, richer
 
 
 def _grown(basis: Basis, wanted: float) -> ReducedModel:
@@ -95,6 +95,9 @@ def _name_of(problem: Problem) -> str:
     p, digest = problem, hashlib.sha256()
     sparse = [p.K, p.M, p.C, p.constraints.T]
     dense = [p.loading.forces, p.u, p.v, p.state, p.loading.at(p.times[:1]), p.times[:1]]
+    if p.loading.imposed.any():
+        sparse.append(p.constraints.C)
+        dense += [p.loading.imposed, p.loading.at(p.times[:2])]
     if p.interface is not None:
         sparse.append(p.interface.J)
         dense += [p.interface.parameters, p.interface.weights, p.interface.B]
@@ -209,6 +212,9 @@ def expanded(
     p, x = problem, chunk.rows
     u, v, a = (model.expand(part[rows].T) for part in (x.u, x.v, x.a))
     steps = chunk.steps[rows]
+    if chunk.course is not None:
+        X, c, now = model.supports.columns.X, chunk.course, steps - chunk.run.first
+        u, v, a = u + X @ c.c[now].T, v + X @ c.v[now].T, a + X @ c.a[now].T
     rest = p.M @ a + p.C @ v + p.K @ u - p.loading.forces @ p.loading.at(p.times[steps]).T
     joints = p.interface
     if joints is not None:
@@ -241,13 +247,13 @@ def integrate_reduced(
     -------
     History
         `reduction` says the number of vectors and the estimated error, or why the whole model
-        was run: the damping is not proportional, or more than half the unknowns would be needed.
+        was run: the damping is not symmetric, the motion starts off its supports, or more than half
+        the unknowns would be needed.
 
     Raises
     ------
     KernelError
-        For a tolerance out of range, unilateral relations, moving supports, adaptive or
-        conserving steps.
+        For a tolerance out of range, unilateral relations, adaptive or conserving steps.
     ConvergenceError, SingularMatrixError
         See `integrate`.
     """

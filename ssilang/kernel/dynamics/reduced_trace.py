@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -14,8 +14,10 @@ from ssilang.kernel.dynamics.initial import (
     joint_state,
 )
 from ssilang.kernel.dynamics.modal_loop import Modal, ModalRows, ModalStep, march_modal
+from ssilang.kernel.dynamics.moving_supports import Course
 from ssilang.kernel.dynamics.plan import SAME, Run, runs_of
 from ssilang.kernel.dynamics.problem import Problem
+from ssilang.kernel.dynamics.reduced_damped import DampedTrace, Given
 from ssilang.kernel.dynamics.reduction import ReducedModel
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
@@ -40,6 +42,8 @@ class Chunk:
     rows: ModalRows
     steps: IntArray
     """Steps of the rows."""
+    course: Course | None = None
+    """Of the supports, at all times of the run."""
 
 
 @dataclass(eq=False)
@@ -68,9 +72,13 @@ class Trace:
         scheme = np.array([s.alpha_m, s.alpha_f, s.beta, s.gamma])
         m = self.model
         Jt = np.ascontiguousarray(m.J.T)
-        self._modal = Modal(m.m, m.c, m.k, m.J, Jt, np.ascontiguousarray(m.forces.T), scheme)
         self._joints = _joints(p)
         self._steps: dict[float, ModalStep] = {}
+        self._damped: DampedTrace | None = None
+        if not m.diagonal:
+            self._damped = DampedTrace(p, m, scheme)
+            return
+        self._modal = Modal(m.m, m.c, m.k, m.J, Jt, np.ascontiguousarray(m.forces.T), scheme)
 
     def advance(self, run: Run) -> Chunk | None:
         """The steps of a run; None if one of them did not converge."""
@@ -79,13 +87,20 @@ class Trace:
         rows = self._room(run.last - run.first, int(chosen.sum()))
         factors = self.problem.loading.at(self.problem.times[run.first : run.last + 1])
         history = self.energies[run.first + 1 : run.last + 1]
-        done, turns, _ = march_modal(
-            self._modal, self._step(run.dt), self._joints, self.motion, factors, save, rows, history
-        )
+        course = None
+        if self._damped is not None:
+            dt = self._like(run.dt, self._damped.steps)
+            given = Given(dt, self._joints, self.motion, factors, save)
+            done, turns, course = self._damped.advance(given, rows, history)
+        else:
+            done, turns, _ = march_modal(
+                self._modal, self._step(run.dt), self._joints, self.motion, factors, save, rows,
+                history,
+            )  # fmt: skip
         if done < run.last - run.first:
             return None
         self.iterations = max(self.iterations, turns)
-        return Chunk(run, rows, run.first + 1 + np.flatnonzero(chosen))
+        return Chunk(run, rows, run.first + 1 + np.flatnonzero(chosen), course)
 
     def _room(self, steps: int, rows: int) -> ModalRows:
         m, r = self.motion, self.model.size
@@ -95,8 +110,13 @@ class Trace:
             np.zeros((steps, *m.w.shape)), u, v, a, w, t, np.zeros((rows, *m.state.shape))
         )
 
+    @staticmethod
+    def _like(dt: float, steps: Iterable[float]) -> float:
+        """dt, or the length of a step known that is the same but for rounding."""
+        return next((known for known in steps if abs(known - dt) <= SAME * dt), dt)
+
     def _step(self, dt: float) -> ModalStep:
-        dt = next((known for known in self._steps if abs(known - dt) <= SAME * dt), dt)
+        dt = self._like(dt, self._steps)
         if dt not in self._steps:
             s, m = self.problem.scheme, self.model
             A = (1 - s.alpha_m) / (s.beta * dt**2) * m.m + (1 - s.alpha_f) * m.k

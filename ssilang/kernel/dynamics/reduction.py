@@ -2,9 +2,9 @@
 
 The vectors are those of a block rational Krylov space: initial displacement, velocity and
 acceleration; static answers to the loads and to the interface's forces; answers of the step's own
-matrix; then powers of `(K + sigma M)^-1 M` applied to the same loads and forces. In the space, M, K
-and a Rayleigh damping become diagonal together (Galerkin), so a step costs a few products with
-the interface's rows.
+matrix; then powers of `(K + sigma M)^-1 M` applied to the same loads and forces, or of the damped
+operator (see `reduced_damping`). In the space, M, K and a Rayleigh damping become diagonal together
+(Galerkin), so a step costs a few products with the interface's rows, and with those of dashpots.
 
 References: A. Ruhe (1984), rational Krylov; R. W. Freund (2004), structure-preserving projection;
 block orthogonalisation by two passes of Gram-Schmidt.
@@ -23,6 +23,8 @@ from ssilang.kernel.dynamics.initial import (
     joint_state,
 )
 from ssilang.kernel.dynamics.problem import Problem
+from ssilang.kernel.dynamics.reduced_damping import States, split
+from ssilang.kernel.dynamics.reduced_supports import ReducedSupports, reduced_supports
 from ssilang.kernel.errors import KernelError
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.solvers.inverse import Inverse, invert
@@ -30,7 +32,6 @@ from ssilang.kernel.sparse import sp
 
 DEPENDENT = 1e-12
 """Squared length, of one, below which what is left of a vector is rounding: it is dropped."""
-PROPORTIONAL = 1e-10  # damping that differs less than this from a Rayleigh one is one
 SHIFT = 4.0  # times the lowest frequency: the shift sqrt(sigma) of the Krylov space, 1/s
 HIGHEST_SHIFT = 0.25  # of 2/dt
 
@@ -51,9 +52,13 @@ class ReducedModel:
         Diagonals of mass, damping and stiffness.
     J : array (n_interface, r)
         Jumps of the interface.
-    forces : array (r, n_loads)
+    forces : array (r, n_loads + 3 m)
+        Last, those of m moving supports.
     start : array (r, 3)
         Displacement, velocity and acceleration at the start.
+    B, sense : arrays (d, r), (d,)
+        Dashpots: what of the damping is not in c is `B^T sense B`.
+    supports : ReducedSupports
     """
 
     T: sp.csr_array
@@ -65,6 +70,14 @@ class ReducedModel:
     J: FloatArray
     forces: FloatArray
     start: FloatArray
+    B: FloatArray
+    sense: FloatArray
+    supports: ReducedSupports
+
+    @property
+    def diagonal(self) -> bool:
+        """Whether damping is diagonal and supports rest."""
+        return len(self.sense) == 0 and self.supports.count == 0
 
     @property
     def size(self) -> int:
@@ -118,7 +131,7 @@ def refuse_reduction(problem: Problem) -> None:
     Raises
     ------
     KernelError
-        For unilateral relations, supports that move, adaptive or conserving steps.
+        For unilateral and non-associated relations, adaptive or conserving steps.
     """
     hint = "leave 'REDUCTION'"
     if problem.contact is not None:
@@ -128,45 +141,8 @@ def refuse_reduction(problem: Problem) -> None:
         )
     if not problem.constraints.associated:
         raise KernelError("'REDUCTION' does not take non-associated relations (DUAL)", hint)
-    if problem.loading.imposed.any() or np.any(problem.constraints.C @ problem.u):
-        raise KernelError(
-            "'REDUCTION' does not take imposed displacements (DIMP): supports must stay still",
-            hint + ", or shake the model by inertia forces in the frame of its base",
-        )
     if problem.scheme.conserving or problem.scheme.adaptive:
         raise KernelError("'REDUCTION' goes with neither 'CONSERVATIF' nor 'PAS_ADAPTE'", hint)
-
-
-def rayleigh(problem: Problem) -> tuple[float, float]:
-    """alpha, beta of `C = alpha M + beta K`.
-
-    Raises
-    ------
-    NoReduction
-        If the damping is no such sum (dashpots, different materials).
-    """
-    if problem.C.nnz == 0 or not problem.C.data.any():
-        return 0.0, 0.0
-    A = [
-        sp.csr_array(problem.constraints.T.T @ X @ problem.constraints.T)
-        for X in _matrices(problem)
-    ]
-    K, M, C = A
-    size = [float(np.sqrt((X.multiply(X)).sum())) or 1.0 for X in A]
-    km = float(K.multiply(M).sum()) / (size[0] * size[1])
-    right = [float(C.multiply(M).sum()) / size[1], float(C.multiply(K).sum()) / size[0]]
-    gram = np.array([[1.0 if M.nnz else 0.0, km], [km, 1.0]])
-    found = np.linalg.lstsq(gram, np.array(right), rcond=None)[0]
-    alpha, beta = float(found[0] / size[1]), float(found[1] / size[0])
-    rest = sp.csr_array(C - alpha * M - beta * K)
-    largest = float(abs(C).max())
-    if float(abs(rest).max()) > PROPORTIONAL * largest:
-        raise NoReduction("the damping is not alpha M + beta K")
-    return alpha, beta
-
-
-def _matrices(problem: Problem) -> tuple[sp.csr_array, sp.csr_array, sp.csr_array]:
-    return problem.K, problem.M, problem.C
 
 
 class Basis:
@@ -178,11 +154,21 @@ class Basis:
     def __init__(self, problem: Problem, dt: float, largest: int) -> None:
         T = problem.constraints.T
         self.problem, self.T = problem, T
-        self.alpha, self.beta = rayleigh(problem)
-        self.K, self.M = (sp.csr_array(T.T @ X @ T) for X in (problem.K, problem.M))
+        self.K, self.M, C = (sp.csr_array(T.T @ X @ T) for X in (problem.K, problem.M, problem.C))
+        damping = split(C, self.M, self.K, largest)
+        if damping is None:
+            raise NoReduction("the damping is not symmetric")
+        self.damping = damping
         joints = problem.interface
         ports = sp.csr_array((0, T.shape[1])) if joints is None else sp.csr_array(joints.J @ T)
-        self.J, self.F = ports, np.asarray(T.T @ problem.loading.forces)
+        v = admissible_velocity(problem)
+        a = initial_acceleration(problem, v, joint_state(problem))
+        supports = reduced_supports(problem, T, problem.u, v, a)
+        if isinstance(supports, str):
+            raise NoReduction(supports)
+        self.supports = supports
+        forces = T.T @ problem.loading.forces
+        self.J, self.F = ports, np.hstack([forces, supports.columns.forces.T])
         self.inputs = np.column_stack([ports.T.toarray(), self.F])
         self._store = np.zeros((largest, T.shape[1]))  # one vector a row
         self._KV = np.zeros((largest, largest))
@@ -192,7 +178,8 @@ class Basis:
         self.N = sp.csr_array(self.M + self.K / s**2)
         self._inverse = self._inverted(s**2)
         self._last = np.zeros((T.shape[1], 0))
-        self._start = self._initial()
+        self._start = self._initial(np.column_stack([problem.u, v, a]))
+        self._states: States | None = None
         self._first_vectors(static, 2.0 / dt)
 
     @property
@@ -200,18 +187,19 @@ class Basis:
         """The basis, one vector a row."""
         return self._store[: self.size]
 
-    def _inverted(self, sigma: float) -> Inverse:
-        inverse = invert(sp.csr_array(self.K + sigma * self.M), True)
+    def _inverted(self, sigma: float, damped: float = 0.0) -> Inverse:
+        """Inverse of `K + sigma M`, and `damped` times the damping that is no sum of these."""
+        A = self.K + sigma * self.M
+        if damped and self.damping.rest.nnz:
+            A = A + damped * self.damping.C
+        inverse = invert(sp.csr_array(A), True)
         if inverse.singular:
             raise NoReduction("a body without mass is held by joints alone")
         return inverse
 
-    def _initial(self) -> FloatArray:
-        """Displacement, velocity, acceleration at the start on the motions y, (n_y, 3)."""
-        p = self.problem
-        v = admissible_velocity(p)
-        a = initial_acceleration(p, v, joint_state(p))
-        fields = np.column_stack([p.u, v, a])
+    def _initial(self, fields: FloatArray) -> FloatArray:
+        """Displacement, velocity, acceleration at the start (n, 3) on the motions y, (n_y, 3)."""
+        fields = fields - self.supports.columns.X @ self.supports.start.T
         gram = invert(sp.csr_array(self.T.T @ self.T), True)
         found: FloatArray = gram.solve(self.T.T @ fields)
         return found
@@ -243,12 +231,33 @@ class Basis:
         self._add(self._start[:, self._start.any(axis=0)])
         if not static.singular:
             self._add(static.solve(self.inputs))
-        self._add(self._inverted(rate**2).solve(self.inputs))
+        self._add(self._inverted(rate**2, rate).solve(self.inputs))
         self._fixed = self.size
+        if self.damping.rest.nnz:
+            self._states = States(self.shift)
+            self._inverse = self._inverted(self.shift**2, self.shift)
+            self._enter(self._states, self._inverse.solve(self.inputs), None)
+            return
         self._last = self._add(self._inverse.solve(self.inputs))
+
+    def _enter(self, states: States, u: FloatArray, old: FloatArray | None) -> None:
+        """States with displacements u (n_y, b) made from those of coefficients `old`."""
+        self._add(u)
+        states.add(self.vectors @ (self.N @ u), old)
+
+    def _grow_damped(self, states: States) -> None:
+        s, V, (u, w) = self.shift, self.vectors, states.last
+        if u.shape[1] == 0:
+            return
+        U, W = (V[: len(u)].T @ x for x in (u, w))
+        r = self.damping.C @ U + s * (self.M @ (U + W))
+        self._enter(states, self._inverse.solve(r), u)
 
     def grow(self) -> None:
         """One more power of the Krylov space."""
+        if self._states is not None:
+            self._grow_damped(self._states)
+            return
         if self._last.shape[1] == 0:
             return
         self._last = self._add(self._inverse.solve(self.M @ self._last))
@@ -257,11 +266,12 @@ class Basis:
         """Orthonormalise W (n_y, b) against the basis and itself, append; the new vectors.
 
         A first pass takes off what exact arithmetic leaves: the parts along the first vectors and
-        the last two blocks (the Krylov operator is symmetric in N); a second one takes off the
-        rounding along all.
+        the last two blocks (the Krylov operator is symmetric in N, but for the damped one); a
+        second one takes off the rounding along all.
         """
         W = W / np.sqrt(np.maximum(np.einsum("ij,ij->j", W, self.N @ W), 1e-300))
         V, late = self.vectors, max(self.size - 2 * W.shape[1], self._fixed)
+        late = self._fixed if self._states is not None else late
         NW = self.N @ W
         for part in (V[: self._fixed], V[late:]):
             W = W - part.T @ (part @ NW)
@@ -287,9 +297,11 @@ class Basis:
         k = np.maximum(values, 0.0)
         m = np.maximum(1.0 - k / self.shift**2, 0.0)  # m + k / s**2 = 1: the vectors' length
         J, F, start = self.J @ V.T, V @ self.F, V @ (self.N @ self._start)
+        d = self.damping
+        B, sense = d.on(V)
         return ReducedModel(
-            self.T, V, X, m, self.alpha * m + self.beta * k, k, np.ascontiguousarray(J @ X),
-            X.T @ F, X.T @ start,
+            self.T, V, X, m, d.alpha * m + d.beta * k, k, np.ascontiguousarray(J @ X),
+            X.T @ F, X.T @ start, B @ X, sense, self.supports,
         )  # fmt: skip
 
 
