@@ -18,7 +18,7 @@ from ssilang.cli.run import RunOptions, execute, make_session
 from ssilang.language import tree
 from ssilang.language.diagnostics import render
 from ssilang.language.errors import SeveralErrors, SsiError
-from ssilang.language.evaluator import StopRun
+from ssilang.language.jumps import StopRun
 from ssilang.language.reference import find_page, page_text
 from ssilang.language.session import Session
 from ssilang.language.source import Source

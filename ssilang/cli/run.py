@@ -17,7 +17,7 @@ from ssilang.cli.loop_progress import follow_loops
 from ssilang.cli.signals import ENDED_BY_CLOSED_PIPE, take
 from ssilang.language.diagnostics import render
 from ssilang.language.errors import ReaderLeft, SeveralErrors, SsiError, interruption
-from ssilang.language.evaluator import StopRun
+from ssilang.language.jumps import StopRun
 from ssilang.language.session import Limits, Session
 from ssilang.language.source import Source
 from ssilang.language.structure import parse

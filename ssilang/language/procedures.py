@@ -5,22 +5,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from ssilang.language.errors import Interrupted, SsiError, interruption
+from ssilang.language.jumps import LeaveProcedure
 from ssilang.language.printer import heading
 from ssilang.language.scopes import Frame
 from ssilang.language.values import ANNULE, Objet, Procedure, Table, type_of
 
 if TYPE_CHECKING:
     from ssilang.language.call import Call
-    from ssilang.language.evaluator import Evaluator
+    from ssilang.language.phrases import PhraseRunner
     from ssilang.language.tree import Parameter
-
-
-class LeaveProcedure(Exception):
-    """QUIT procedure: control goes to FINP, whose results are returned."""
-
-    def __init__(self, name: str) -> None:
-        super().__init__(name)
-        self.name = name
 
 
 class BoundMethod(Procedure):
@@ -39,7 +32,7 @@ def method_of(holder: Objet, name: str) -> BoundMethod | None:
     return None if found is None else BoundMethod(found, holder)
 
 
-def call_procedure(evaluator: Evaluator, procedure: Procedure, call: Call) -> list[Any]:
+def call_procedure(evaluator: PhraseRunner, procedure: Procedure, call: Call) -> list[Any]:
     """Run a procedure on the operands of a phrase; returns its results in order.
 
     Raises

@@ -6,8 +6,7 @@ from typing import Any, NoReturn
 
 from ssilang.language.call import Call, Operand
 from ssilang.language.errors import SsiError
-from ssilang.language.evaluator import LeaveLoop, NextTurn, StopRun
-from ssilang.language.procedures import LeaveProcedure
+from ssilang.language.jumps import LeaveLoop, LeaveProcedure, NextTurn, StopRun
 from ssilang.language.registry import Help, operator
 from ssilang.language.values import ANNULE, Mot, Procedure
 
