@@ -21,6 +21,7 @@ TEMPLATES: tuple[tuple[str, str], ...] = (
         "give its model to a beam TIMO: MATE MODL1 'MODS' model 'MATS' material",
         "donner son modèle à une poutre TIMO : MATE MODL1 'MODS' modèle 'MATS' matériau",
     ),
+    ("FC = 0: concrete needs a strength", "FC = 0 : le béton veut une résistance"),
     ("a section has no element {}", "une section n'a pas d'élément {}"),
     ("it is made of POJS, TRIS and QUAS", "elle est faite de POJS, TRIS et QUAS"),
     (

@@ -182,6 +182,23 @@ def test_criterion_of_von_mises(found):
     np.testing.assert_allclose(component(c, "SCAL"), component(v, "SCAL") - 3.0)
 
 
+def test_criterion_of_rounded_coulomb_is_the_law_s_own(found):
+    law = "ELASTIQUE PLASTIQUE RH_COULOMB ; A = MATE M 'YOUN' 1.E7 'NU' 0.3 'COHE' 1.E4 'PHI' 0.5 ;"
+    script = (
+        "OPTI DIME 3 ELEM CUB8 ; V = (DROI 1 (0. 0. 0.) (1. 0. 0.)) TRAN 1 (0. 1. 0.) ; "
+        f"V = V VOLU 1 'TRAN' (0. 0. 1.) ; M = MODE V MECANIQUE {law} "
+        "Z = MANU 'CHML' M 'SMXX' 0. 'STRESSES' ; V0 = ZERO M 'VARINTER' ; "
+        "P = MANU 'CHML' M 'SMXX' -1.E5 'SMYY' -1.E5 'SMZZ' -1.E5 'STRESSES' ; "
+        "C0 = CRIT M P V0 A ; X Y W = COOR V ; U = NOMC 'UX' (0.02 * X) 'NATU' 'DIFFUS' ; "
+        "S0 = ZERO M 'CONTRAIN' ; S1 V1 D1 = ECOU M S0 V0 (EPSI M U) A ; C1 = CRIT M S1 V1 A ; "
+    )
+    pressed, yielded = found(script, "C0", "C1")
+    # all-round pressure: sin(PHI) I1/3 + (0.05 - 1) COHE cos(PHI)
+    exact = -1e5 * np.sin(0.5) - 0.95 * 1e4 * np.cos(0.5)
+    np.testing.assert_allclose(component(pressed, "SCAL"), exact, rtol=1e-9)
+    np.testing.assert_allclose(component(yielded, "SCAL"), 0.0, atol=1e-4)
+
+
 def test_tangent_moduli(found):
     script = (
         BAR

@@ -223,3 +223,102 @@ def test_section_that_cannot_carry_its_normal_force_is_refused(refused):
 
 def test_fields_of_a_section_have_no_stiffness_of_their_own(refused):
     assert "describes the section of a beam" in refused(section() + "K = RIGI MS AS ; ")
+
+
+# ---- concrete -------------------------------------------------------------------------------
+
+CONCRETE = section("PLASTIQUE BETON_BAEL", "'FC' 30.E6", 1, 400).replace("2.E11", "3.E10")
+"""A rectangle 0.1 x 0.2."""
+
+
+def test_crushed_concrete_section_is_the_integral_of_its_parabola(found):
+    e = np.array([-0.5e-3, -1e-3, -2e-3, -3e-3])
+    x = np.minimum(-e / 2e-3, 1.0)
+    forces = -30e6 * x * (2 - x) * AREA
+    # forces of the rising part only: the plateau leaves the strain free
+    listed = " ".join(repr(float(n)) for n in forces[:2])
+    script = CONCRETE + (
+        f"N = PROG {listed} ; Z = PROG 2 * 0. ; MY MZ E = MOCU Z Z N MS AS 1.E-10 ; "
+    )
+    np.testing.assert_allclose(found(script, "E").values, e[:2], rtol=1e-6)
+
+
+def test_concrete_without_tension_bends_about_its_open_side(found):
+    # half of the section open: N = 0 has no moment, N < 0 on a section rotating about its edge
+    k, h = 1e-3 / 0.2, 0.2
+    u = 1e-3 / 2e-3  # largest x of the parabola
+    force = 30e6 * 0.1 * h * (u - u**2 / 3)
+    moment_edge = 30e6 * 0.1 * h**2 * (2 * u / 3 - u**2 / 4)
+    script = CONCRETE + (
+        f"C = PROG {k} ; N = PROG {-force} ; Z = PROG 0. ; MY MZ E T = MOCU C Z N MS AS 1.E-10 "
+        "'VERIF' ; HI = MAXI (EXCO 'SMXX' (T . 'CONTRAINTES' . 1)) ; "
+    )
+    my, e, high = found(script, "MY", "E", "HI")
+    assert e.values[0] == pytest.approx(-k * 0.1, rel=1e-5)  # zero strain at the upper edge
+    assert my.values[0] == pytest.approx(moment_edge - force * 0.1, rel=1e-4)
+    assert high <= 0.0
+
+
+def test_unloaded_concrete_goes_down_its_line_and_opens(found):
+    def force(e):
+        return -30e6 * (2 * e - e**2) * AREA
+
+    n = force(0.5)  # strain -1e-3
+    back = 0.5 * n
+    script = CONCRETE + (
+        f"N = PROG {n} {back} {n} ; Z = PROG 3 * 0. ; MY MZ E = MOCU Z Z N MS AS 1.E-10 ; "
+    )
+    e = found(script, "E").values
+    assert e[1] == pytest.approx(-1e-3 - (n - back) / (3e10 * AREA), rel=1e-6)
+    assert e[2] == pytest.approx(e[0], rel=1e-6)
+
+
+def test_reinforced_section_reaches_the_moment_of_its_steel(found):
+    # steel at z = -0.08 pulls with all its strength on a block of concrete under full stress
+    area = 2e-4
+    script = CONCRETE + (
+        "MP = MODE (MANU 'POI1' (0. -0.08 0.)) MECANIQUE ELASTIQUE PLASTIQUE PARFAIT_UNI POJS ; "
+        f"AP = MATE MP 'YOUN' 2.E11 'NU' 0.3 'SIGY' 5.E8 'H' 0. 'SECT' {area} 'ALPY' 0. "
+        "'ALPZ' 0. ; C = PROG -0.05 -0.1 -0.2 ; Z = PROG 3 * 0. ; "
+        "MY MZ E = MOCU C Z Z (MS ET MP) (AS ET AP) 1.E-9 ; "
+    )
+    my = found(script, "MY").values
+    pull = 5e8 * area
+    depth = pull / (30e6 * 0.1)
+    exact = -pull * (0.1 + 0.08 - depth / 2)
+    assert my[-1] == pytest.approx(exact, rel=0.01)
+    # the parabola's share of the block moves its resultant: a closed form at each curvature
+    k = np.array([0.05, 0.1, 0.2])
+    c = depth + 2e-3 / k / 3  # depth of the neutral axis: block c, parabola over 2e-3 / k
+    first = 2e-3 / k
+    moment = (c - first) ** 2 / 2 + 2 / 3 * first * (c - 5 / 8 * first)
+    lever = 30e6 * 0.1 * moment / pull
+    np.testing.assert_allclose(my, -pull * (0.18 - lever), rtol=2e-3)
+
+
+SHAKEN = (
+    "L = DROI 4 (0. 0. 0.) (0. 0. 3.) ; M = MODE L MECANIQUE ELASTIQUE SECTION {} TIMO ; "
+    "A = MATE M 'MODS' MS 'MATS' AS 'VECT' (0. 1. 0.) ; T = TABL ; "
+    "T . 'RIGI' = (RIGI M A) ET (BLOQ (POIN 1 L) 'DEPL' 'ROTA') ; T . 'MASS' = MASS M A ; {} "
+    "T . 'CHAR' = CHAR 'MECA' (FORC (3.E4 1.E4 0.) (POIN 5 L)) (EVOL 'MANU' (PROG 0. 0.02 0.04 1.) "
+    "(PROG 0. 1. 0. 0.)) ; T . 'TEMPS_CALCULES' = PROG 0. PAS 2.E-3 0.1 ; "
+    "T . 'PAS_SAUVES' = 'TOUS' ; R = DYNAMIC T ; X = PROG ; REPE B 51 ; "
+    "X = X ET (EXTR (R . &B . 'DEPL') (POIN 5 L) 'UX') ; FIN B ; "
+    "E = T . 'ENERGIES' ; "
+)
+_FIBRES_IN_TIME = "T . 'MODELE' = M ; T . 'CARACTERISTIQUES' = A ; "
+
+
+def test_fibres_that_do_not_yield_move_in_time_as_the_elastic_beam(found):
+    plain = found(section(ny=2, nz=4) + SHAKEN.format("", ""), "X").values
+    law = section("PLASTIQUE PARFAIT_UNI", "'SIGY' 1.E12 'H' 0.", 2, 4)
+    fibres = found(law + SHAKEN.format("PLASTIQUE SECTION", _FIBRES_IN_TIME), "X").values
+    assert np.abs(plain).max() > 1e-3
+    np.testing.assert_allclose(fibres, plain, atol=1e-9 * np.abs(plain).max())
+
+
+def test_yielding_fibres_leave_a_beam_bent_in_time(found):
+    law = section("PLASTIQUE PARFAIT_UNI", "'SIGY' 1.E8 'H' 0.", 2, 8)
+    fibres = found(law + SHAKEN.format("PLASTIQUE SECTION", _FIBRES_IN_TIME), "X").values
+    plain = found(section(ny=2, nz=8) + SHAKEN.format("", ""), "X").values
+    assert np.abs(fibres - plain).max() > 0.05 * np.abs(plain).max()

@@ -81,7 +81,7 @@ def test_stresses_of_layers_are_those_of_one_bent_and_pulled_section():
     # at the node in the middle of the length; equal nodal forces are not quite a uniform load
     n, m = 1e5, 2e4 * 1.0
     for stress, z in ((top, 0.15), (middle, -0.1), (bottom, -0.15)):
-        assert abs(stress - n / 0.3) == pytest.approx(abs(m * z / (0.3**3 / 12)), rel=3e-3)
+        assert abs(stress - n / 0.3) == pytest.approx(abs(m * z / (0.3**3 / 12)), rel=1e-2)
         assert (stress - n / 0.3) * z < 0  # lifting the end pulls the lower side
 
 

@@ -37,11 +37,16 @@ JOINT_WORDS = (
 PLASTIC_WORDS = tuple(w for w in PLASTIC_LAWS if w not in ELASTICITIES)
 """Words that follow PLASTIQUE in a model of bodies (beside ISOTROPE)."""
 
-PLASTIC_FAMILIES = ("solid", "incompressible", "bar", "fibre")
+PLASTIC_FAMILIES = ("solid", "incompressible", "bar", "fibre", "plate")
 """Families of elements that have plastic laws."""
 
-FIBRE_LAWS = ("PARFAIT_UNI", "PARFAIT", "ISOTROPE", "CINEMATIQUE")
-"""Plastic laws of the fibres of sections; the first is theirs alone."""
+UNIAXIAL_LAWS = ("PARFAIT_UNI", "BETON_BAEL")
+"""Plastic laws that fibres of sections alone have."""
+FIBRE_LAWS = (*UNIAXIAL_LAWS, "PARFAIT", "ISOTROPE", "CINEMATIQUE")
+"""Plastic laws of the fibres of sections."""
+
+LAYER_LAWS = ("PARFAIT", "ISOTROPE", "CINEMATIQUE")
+"""Plastic laws of thin shells with points across the thickness."""
 
 OTHER_BEHAVIOURS = (
     "PLASTIQUE_ENDOM", "ENDOMMAGEMENT", "FLUAGE", "VISCOPLASTIQUE", "VISCO_EXTERNE",
@@ -128,7 +133,7 @@ def _plastic_words(words: list[str], elasticity: str, family: str) -> tuple[str,
             )
         return ("PLASTIQUE", law)
     if (family == "fibre" and law not in FIBRE_LAWS) or (
-        family != "fibre" and law == "PARFAIT_UNI"
+        family != "fibre" and law in UNIAXIAL_LAWS
     ):
         raise MaterialError(
             f"elements of the family '{family}' have no plastic law {law}",
@@ -137,7 +142,11 @@ def _plastic_words(words: list[str], elasticity: str, family: str) -> tuple[str,
     if family not in PLASTIC_FAMILIES:
         raise MaterialError(
             f"elements of the family '{family}' have no plastic law",
-            "continuous elements (TRI3 ... CU20, ICQ4 ...) and bars have",
+            "continuous elements (TRI3 ... CU20, ICQ4 ...), bars, DKT and COQ3 have",
+        )
+    if family == "plate" and law not in LAYER_LAWS:
+        raise MaterialError(
+            f"thin shells have no plastic law {law}", "they have " + ", ".join(LAYER_LAWS)
         )
     if elasticity not in ("", "ISOTROPE"):
         raise MaterialError(f"plastic laws go with elasticity ISOTROPE, not with {elasticity}")

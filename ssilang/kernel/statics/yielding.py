@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
 from ssilang.kernel.errors import FieldError
 from ssilang.kernel.fields.cell_field import CellField
@@ -13,6 +14,7 @@ from ssilang.kernel.joints.columns import XI
 from ssilang.kernel.joints.elements import is_joint
 from ssilang.kernel.joints.law_table import MOHR, SDM, law_of
 from ssilang.kernel.joints.parameters import Parameter
+from ssilang.kernel.materials.plastic import rounded_coulomb
 from ssilang.kernel.materials.plastic.response import PointParameters, mises
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.model import Zone
@@ -54,12 +56,17 @@ def _hardening_cone(p: PointParameters, s: FloatArray, v: FloatArray) -> FloatAr
     return np.asarray(p["ALFA"] * _trace(s) + p["BETA"] * mises(s)[0] - strength)
 
 
+def _rounded_coulomb(p: PointParameters, s: FloatArray, v: FloatArray) -> FloatArray:
+    return rounded_coulomb.criterion(p, s)
+
+
 CRITERIA: dict[str, Criterion] = {
     "PARFAIT": _perfect,
     "ISOTROPE": _isotropic,
     "CINEMATIQUE": _kinematic,
     "DRUCKER_PARFAIT": _cone_of_strengths,
     "DRUCKER_PRAGER": _hardening_cone,
+    "RH_COULOMB": _rounded_coulomb,
 }
 """By the word after PLASTIQUE."""
 
@@ -78,7 +85,7 @@ def criterion(
         return _of_joint(zone, material, stress, variables)
     words = zone.behaviour
     name = words[words.index("PLASTIQUE") + 1] if is_plastic(zone) else ""
-    if name not in CRITERIA:
+    if name not in CRITERIA or ELEMENTS[zone.element].family == "plate":
         raise FieldError(
             f"the law {' '.join(words)} of element {zone.element} has no criterion here",
             "there are " + ", ".join(CRITERIA) + " and the joints' laws",

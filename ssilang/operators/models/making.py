@@ -68,7 +68,7 @@ class _Wish:
         "Mises), DRUCKER_PARFAIT, DRUCKER_PRAGER or RH_COULOMB (rounded Mohr-Coulomb). Beams TIMO "
         "are ELASTIQUE SECTION where their section is a model of fibres (POJS on points, TRIS, "
         "QUAS) given by MATE, and add PLASTIQUE SECTION where fibres yield (PARFAIT_UNI: along the "
-        "fibre; or von Mises). MODAL and "
+        "fibre; BETON_BAEL: concrete without tension; or von Mises). MODAL and "
         "STATIQUE make a point stand for a mode or a static shape. IMPEDANCE puts a spring and a "
         "dashpot on a point (POI1) or between two (SEG2): ELASTIQUE (default), VOIGT (side by "
         "side), REUSS (one behind the other), COMPLEXE (functions of the frequency), on all "
@@ -103,7 +103,8 @@ class _Wish:
         "Mises), DRUCKER_PARFAIT, DRUCKER_PRAGER ou RH_COULOMB (Mohr-Coulomb arrondi). Les poutres "
         "TIMO sont ELASTIQUE SECTION quand leur section est un modèle de fibres (POJS sur des "
         "points, TRIS, QUAS) donné par MATE, avec PLASTIQUE SECTION si des fibres plastifient "
-        "(PLASTIQUE PARFAIT_UNI : le long de la fibre ; ou von Mises). MODAL et "
+        "(PARFAIT_UNI : le long de la fibre ; BETON_BAEL : béton sans traction ; ou von "
+        "Mises). MODAL et "
         "STATIQUE font d'un point un mode ou une déformée statique. IMPEDANCE met un ressort et "
         "un amortisseur en un point (POI1) ou entre deux (SEG2) : ELASTIQUE (par défaut), VOIGT "
         "(en parallèle), REUSS (en série), COMPLEXE (fonctions de la fréquence), sur toutes les "
@@ -177,6 +178,7 @@ def mode(call: Call) -> Model:
         return Model(tuple(_pressure_zone(block, wish, ws) for block in mesh.blocks))
     zones = tuple(_zone(block, wish, ws) for block in mesh.blocks)
     _check_rule(call, wish, zones)
+    _check_layers(call, wish, zones)
     return Model(zones, ties)
 
 
@@ -198,6 +200,21 @@ def _check_rule(call: Call, wish: _Wish, zones: tuple[Zone, ...]) -> None:
             f"{wish.rule} chooses the integration of joints: the mesh has none",
             hint="other elements have their own (Q4RI, Q8RI ... by name)",
         )
+
+
+def _check_layers(call: Call, wish: _Wish, zones: tuple[Zone, ...]) -> None:
+    """Plastic thin shells need points across the thickness, 2 to 15 of them."""
+    plastic = [z for z in zones if "PLASTIQUE" in z.behaviour]
+    if not any(ELEMENTS[z.element].family == "plate" for z in plastic):
+        return
+    count = wish.options.get("INTEGRE")
+    if not isinstance(count, int):
+        raise call.bad(
+            "plastic laws on the forces and moments of shells are not built",
+            hint="points across the thickness: MODE ... DKT 'INTEGRE' 7 ;",
+        )
+    if not 2 <= count <= 15:
+        raise call.bad(f"'INTEGRE' {count}: 2 to 15 points across the thickness")
 
 
 def _take(call: Call, word: str, wish: _Wish) -> None:

@@ -66,6 +66,9 @@ PLASTIC_LAWS: dict[str, PlasticLaw] = {
     "PARFAIT_UNI": PlasticLaw(
         uniaxial.kinematic, ("SIGY", "H"), ("EPSE", "ALXX"), positive=("SIGY",), uniaxial=True
     ),
+    "BETON_BAEL": PlasticLaw(
+        uniaxial.concrete, ("FC",), ("EPSE", "EPSO"), check=uniaxial.check_concrete, uniaxial=True
+    ),
     "SECTION": PlasticLaw(uniaxial.elastic, ()),
 }
 """By the word after PLASTIQUE; ISOTROPE is meant where there is none."""

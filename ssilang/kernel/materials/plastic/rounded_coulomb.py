@@ -53,6 +53,11 @@ def respond(
     return Response(found, p[:, None], tangent)
 
 
+def criterion(parameters: PointParameters, stress: FloatArray) -> FloatArray:
+    """The function f (m,) of stresses (m, 6): negative inside."""
+    return _surface(parameters, stress)[0]
+
+
 def _closest_point(
     parameters: PointParameters, compliance: FloatArray, trial: FloatArray
 ) -> tuple[FloatArray, FloatArray]:

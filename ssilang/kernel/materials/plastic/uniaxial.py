@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.errors import MaterialError
 from ssilang.kernel.materials.plastic.response import PointParameters, Response
 from ssilang.kernel.mesh.nodes import FloatArray
 
@@ -45,3 +46,41 @@ def kinematic(
     after = np.column_stack([variables[:, 0] + slip, variables[:, 1] + H * slip * sense])
     slope = np.where(slip > 0, E * H / (E + H), E)
     return Response(found, after, _tangent(parameters, slope))
+
+
+BAEL_PEAK = 2e-3
+"""Strain at which BAEL's parabola reaches the strength."""
+
+
+def concrete(
+    parameters: PointParameters, stress: FloatArray, strain: FloatArray, variables: FloatArray
+) -> Response:
+    """Concrete of the French rules BAEL: parabola and plateau in compression, no tension.
+
+    The parabola `s = FC x (2 - x)`, x = -e / 0.002, ends in the plateau FC, without crushing.
+    Unloading has the slope YOUN down to no stress; variables EPSE (plastic strain) and EPSO
+    (strain).
+    """
+    E, strength = parameters["YOUN"], np.abs(parameters["FC"])
+    found = _elastic_shear(parameters, stress, strain)
+    plastic, e = variables[:, 0], variables[:, 1] + strain[:, 0]
+    x = np.clip(-e / BAEL_PEAK, 0.0, 1.0)
+    curve, rise = -strength * x * (2 - x), 2 * strength * (1 - x) / BAEL_PEAK
+    line = np.minimum(E * (e - plastic), 0.0)
+    yields = line < curve
+    found[:, 0] = np.where(yields, curve, line)
+    slope = np.where(yields, rise, np.where(line < 0, E, 0.0))
+    after = np.column_stack([np.where(yields, e - curve / E, plastic), e])
+    return Response(found, after, _tangent(parameters, slope))
+
+
+def check_concrete(parameters: PointParameters) -> None:
+    """Refuse concrete without strength.
+
+    Raises
+    ------
+    MaterialError
+        If FC = 0.
+    """
+    if (parameters["FC"] == 0).any():
+        raise MaterialError("FC = 0: concrete needs a strength")
