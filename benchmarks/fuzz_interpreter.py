@@ -18,6 +18,7 @@ from collections import Counter
 from pathlib import Path
 
 from ssilang.cli.run import RunOptions, run_source
+from ssilang.cli.signals import interrupt
 from ssilang.language.registry import OPERATORS
 from ssilang.language.session import Limits
 from ssilang.language.source import Source
@@ -72,7 +73,7 @@ def main() -> int:
     pool = examples()
     outcomes: Counter[str] = Counter()
     defects: dict[str, str] = {}
-    signal.signal(signal.SIGALRM, _interrupt)
+    signal.signal(signal.SIGALRM, interrupt)
     with tempfile.TemporaryDirectory() as folder:
         for _ in range(count):
             text = mutated(rng.choice(pool), pool, rng)
@@ -97,10 +98,6 @@ def main() -> int:
     for name, text in sorted(defects.items()):
         print(f"DEFECT {name}\n    {text}")
     return 1 if defects else 0
-
-
-def _interrupt(*_: object) -> None:
-    raise KeyboardInterrupt
 
 
 def _keep(defects: dict[str, str], name: str, text: str) -> None:

@@ -22,8 +22,9 @@ from collections import Counter
 from pathlib import Path
 
 from ssilang.cli.run import RunOptions, execute, make_session
+from ssilang.cli.signals import interrupt
 from ssilang.language.errors import SeveralErrors, SsiError
-from ssilang.language.evaluator import StopRun
+from ssilang.language.jumps import StopRun
 from ssilang.language.registry import OPERATORS, Operator, keywords_of
 from ssilang.language.session import Limits, Session
 from ssilang.language.source import Source
@@ -220,7 +221,7 @@ def main() -> int:
     count = int(sys.argv[1]) if len(sys.argv) > 1 else 5000
     rng = random.Random(int(sys.argv[2]) if len(sys.argv) > 2 else 1)
     resource.setrlimit(resource.RLIMIT_DATA, (_MEMORY, _MEMORY))
-    signal.signal(signal.SIGALRM, _interrupt)
+    signal.signal(signal.SIGALRM, interrupt)
     load_operators()
     operators = [o for o in OPERATORS.values() if o.name.strip() not in _LEFT_OUT]
     outcomes: Counter[str] = Counter()
@@ -243,10 +244,6 @@ def main() -> int:
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
     print(dict(outcomes), f"slowest {slowest[0]:.1f} s: {slowest[1]}", f"peak {peak:.0f} MB")
     return 1 if defects else 0
-
-
-def _interrupt(*_: object) -> None:
-    raise KeyboardInterrupt
 
 
 if __name__ == "__main__":

@@ -34,7 +34,7 @@ def listening() -> Iterator[None]:
         yield
         return
     numbers = (signal.SIGINT, signal.SIGTERM)
-    before = [signal.signal(n, _interrupt) for n in numbers]
+    before = [signal.signal(n, interrupt) for n in numbers]
     ignored, sys.unraisablehook = sys.unraisablehook, _quiet_about_interruptions
     try:
         yield
@@ -44,7 +44,8 @@ def listening() -> Iterator[None]:
             signal.signal(number, handler)
 
 
-def _interrupt(number: int, frame: FrameType | None) -> None:
+def interrupt(number: int, frame: FrameType | None) -> None:
+    """A signal's handler."""
     _arrived.set()
     raise KeyboardInterrupt
 

@@ -278,6 +278,21 @@ TEMPLATES: tuple[tuple[str, str], ...] = (
         "DYNE wants a table BASE_MODALE or RAIDEUR_ET_MASSE",
         "DYNE veut une table BASE_MODALE ou RAIDEUR_ET_MASSE",
     ),
+    (
+        "plastic laws on the forces and moments of shells are not built",
+        "les lois plastiques sur les efforts et moments des coques ne sont pas programmées",
+    ),
+    ("'INTEGRE' {}: 2 to 15 points across", "'INTEGRE' {} : 2 à 15 points dans l'épaisseur"),
+    ("COQ3 has no plastic law", "COQ3 n'a pas de loi plastique"),
+    ("thin shells have no plastic law {}", "les coques minces n'ont pas la loi plastique {}"),
+    (
+        "plastic shells have no law between their forces and strains alone",
+        "les coques plastiques n'ont pas de loi entre leurs seuls efforts et déformations",
+    ),
+    (
+        "'ADDI_SECOND' acts where there are no unknowns: {}",
+        "'ADDI_SECOND' agit là où il n'y a pas d'inconnues : {}",
+    ),
     ("DYNE knows no table '{}'", "DYNE ne connaît pas la table '{}'"),
     (
         "'TYPE_LIAISON' is {}: such links are not built",
@@ -603,6 +618,19 @@ TEMPLATES: tuple[tuple[str, str], ...] = (
     (
         "the matrix has no unknown for the force {}",
         "la matrice n'a pas d'inconnue pour la force {}",
+    ),
+    (
+        "{}: no equilibrium, full uplift: {} of {} joint points are open and nothing else holds "
+        "the body at node {}",
+        "{} : pas d'équilibre, décollement total : {} des {} points de joint sont ouverts et rien "
+        "d'autre ne tient le corps au noeud {}",
+    ),
+    (
+        "less eccentric loads, a support, or a dynamic calculation; if the loads press, the "
+        "joint's sides are swapped: RACC and LIAI take the structure's first",
+        "un chargement moins excentré, un appui, ou un calcul dynamique ; si le chargement "
+        "presse, les côtés du joint sont inversés : RACC et LIAI prennent d'abord celui de la "
+        "structure",
     ),
     (
         "node {} lies on node {} of the matrix: coordinates that are written again make a new "

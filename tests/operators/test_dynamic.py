@@ -154,7 +154,7 @@ def test_unresolved_contact_warns_with_the_step_to_use(tmp_path):
         ("T1 . 'RIGI' = 3 ;", ["RIGI", "RIGIDITE", "ENTIER"]),
         ("T1 . 'PAS_SAUVES' = 'PARFOIS' ;", ["PARFOIS", "TOUS"]),
         ("T1 . 'TEMPS_SAUVES' = PROG 3. ;", ["3", "outside"]),
-        ("T1 . 'TEMPS_CALCULES' = PROG 0. 1. 0.5 ;", ["strictly increase"]),
+        ("T1 . 'TEMPS_CALCULES' = PROG 0. 1. 0.5 ;", ["TEMPS_CALCULES", "0.5 follows 1"]),
         ("OUBL T1 'RIGI' ;", ["RIGI", "missing"]),
         ("T1 . 'CONTACT' = 'PENALITE' ;", ["COEFFICIENT"]),
         ("T1 . 'PAS_SAUVES_VTK' = 1 ;", ["MAILLAGE_VTK", "missing"]),

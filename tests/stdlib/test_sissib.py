@@ -186,7 +186,7 @@ def test_reactions_and_the_domain():
         ("T . 'AMORTISSEMENT' = PROG 0.05 ;", "1 dampings"),
         ("T . 'SORTIES' . 'CONTRAINTES' = VRAI ;", "CONTRAINTE_MODALE"),
         ("T . 'TRONCATURE' = VRAI ;", "PSEUDO_MODES"),
-        ("T . 'EXCITATION' . 1 . 'AMORTISSEMENT' = PROG 0.05 ;", "2 spectra"),
+        ("T . 'EXCITATION' . 1 . 'AMORTISSEMENT' = PROG 0.05 ;", "SPECTRE has 2 curves"),
     ],
 )
 def test_what_is_missing_is_said(more, said):

@@ -103,6 +103,8 @@ class Tracer:
         for turn in range(self.lengths.turns + 1):
             R, J, _ = self.system.at(u, t)
             size = float(np.linalg.norm(R))
+            if not (np.isfinite(size) and np.isfinite(J).all()):
+                break
             if size <= self.lengths.tolerance * self._scale(u, t):
                 return self._point(u, t, None, sense, turn)
             u = u - np.linalg.lstsq(J, R, rcond=None)[0]
@@ -124,6 +126,11 @@ class Tracer:
     ) -> Point:
         _, J, Rt = self.system.at(u, t)
         scaled = np.column_stack([J * self.lengths.u_ref, Rt * self.lengths.t_ref])
+        if not np.isfinite(scaled).all():
+            raise ConvergenceError(
+                f"the tangent of the branch at {t:g} is not made of finite numbers",
+                "forces and their derivatives that are finite for all displacements",
+            )
         tangent = np.linalg.svd(scaled)[2][-1] if towards is None else _across(scaled, towards)
         ahead = float(tangent[-1] * sense) if towards is None else float(tangent @ towards)
         return Point(u, t, -tangent if ahead < 0.0 else tangent, J, turns)

@@ -47,8 +47,9 @@ class Storey:
             raise FieldError("each mode has a frequency, a damping and a participation")
         if (self.frequencies <= 0.0).any():
             raise FieldError("the frequencies of modes are positive")
-        if (self.dampings <= 0.0).any() or (self.dampings >= 1.0).any():
-            raise FieldError(f"damping is between 0 and 1, not {self.dampings}")
+        wrong = self.dampings[(self.dampings <= 0.0) | (self.dampings >= 1.0)]
+        if len(wrong):
+            raise FieldError(f"damping is between 0 and 1, not {wrong[0]:g}")
 
 
 def _system(storey: Storey, natural: float, damping: float) -> tuple[FloatArray, FloatArray]:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ssilang.kernel.dynamics.plan import every
 from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.plasticity.bulk import without_stiffness
+from ssilang.kernel.plasticity.bulk import stiffness_beside
 from ssilang.kernel.plasticity.points import plastic_zones
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
@@ -39,6 +39,9 @@ if TYPE_CHECKING:
     from ssilang.kernel.dynamics.problem import Inputs, Problem
     from ssilang.kernel.dynamics.snapshot import Observer
     from ssilang.kernel.plasticity.bulk import Bulk, State
+
+MOST_STEPS = 1e9
+"""Steps beyond which a list of times is a slip of the pen."""
 
 KNOWN = (
     "DEPL", "VITE", "CHAR", "RIGI", "MASS", "AMOR", "MODELE", "CARACTERISTIQUES",
@@ -123,6 +126,8 @@ def _integrated(
         raise entries.bad("'REDUCTION' and 'CHARMECA' exclude each other", "leave one")
     if full:
         raise entries.bad("'REDUCTION' and 'NEWTON_COMPLET' choose two methods", "give one")
+    if not 0.0 < tolerance < 1.0:
+        raise entries.bad(f"'REDUCTION' is {tolerance:g}", "a relative error, such as 1.E-6")
     return integrate_reduced(problem, float(tolerance), observers, line)
 
 
@@ -150,10 +155,9 @@ def integrated(
 
 def _times(entries: Entries) -> tuple[FloatArray, NDArray[np.bool_]]:
     """Times of the calculation and which of them the table keeps."""
-    given = entries.get("TEMPS_CALCULES", "LISTREEL")
-    if given is None:
+    times = entries.times("TEMPS_CALCULES")
+    if times is None:
         return _older_times(entries)
-    times = given.values
     return times, entries.saved_steps("", times, lambda: every(times, 4))
 
 
@@ -170,10 +174,16 @@ def _older_times(entries: Entries) -> tuple[FloatArray, NDArray[np.bool_]]:
     if begin is None:
         begin = min(0.0, float(wanted[0])) if len(wanted) else 0.0
     stops = wanted if len(wanted) and wanted[0] <= begin else np.concatenate([[begin], wanted])
-    if frequency is None or len(stops) < 2:
+    if len(stops) < 2 or not (np.diff(stops) > 0.0).all():
+        raise entries.bad("'INST' holds instants that increase from 'DEBU' on", "one or more")
+    if frequency is None:
         return stops, np.isin(stops, wanted)
     if frequency <= 0:
         raise entries.bad(f"'FREQ' is {frequency:g}", "a cut-off frequency > 0 (Hz)")
+    if float(stops[-1] - stops[0]) * 4 * frequency > MOST_STEPS:
+        raise entries.bad(
+            f"'FREQ' is {frequency:g}: more than {MOST_STEPS:g} steps", "dt = 1/(4 FREQ)"
+        )
     counts = np.maximum(np.ceil(np.diff(stops) * 4 * frequency * (1 - 1e-9)), 1).astype(int)
     pieces = [
         np.linspace(a, b, n, endpoint=False)
@@ -218,7 +228,7 @@ def _with_bodies(entries: Entries, inputs: Inputs) -> Inputs:
     zones = plastic_zones(inputs.model)
     if not zones:
         return inputs
-    entries.needed("CARACTERISTIQUES", "MCHAML")
+    material = entries.needed("CARACTERISTIQUES", "MCHAML")
     stiffness = without_zones(inputs.stiffness, zones)
-    blocks = (*stiffness.blocks, *(without_stiffness(z) for z in zones))
+    blocks = (*stiffness.blocks, *(stiffness_beside(z, material) for z in zones))
     return replace(inputs, stiffness=replace(stiffness, blocks=blocks, cache={}))

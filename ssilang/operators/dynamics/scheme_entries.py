@@ -103,4 +103,5 @@ def _basic_scheme(entries: Entries) -> Scheme:
         "BETA": lambda beta: newmark(beta, values[-1] if len(values) == 2 else 0.5),
         "GAMMA": lambda gamma: newmark((gamma + 0.5) ** 2 / 4, gamma),
     }
-    return makers[given[0]](values[0])
+    with entries.about(given[0]):
+        return makers[given[0]](values[0])

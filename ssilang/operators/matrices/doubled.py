@@ -21,7 +21,7 @@ def warn_doubled_supports(
 
     if _KEY in matrix.cache:
         return
-    used = None if model is None else model.mesh.node_ids
+    used = None if model is None or not model.zones else model.mesh.node_ids
     matrix.cache[_KEY] = found = doubled_supports(matrix, used)
     if found is None:
         return

@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from ssilang.kernel.continuation.frequency_problem import FrequencyProblem
 
 STABILITY = ("DIAG", "FLOQ", "HILL")
+MOST_ORDER = 20
 BEND = np.radians(60.0)
 """Angle between two steps beyond which the second one is cut."""
 
@@ -43,8 +44,7 @@ def lengths_of(entries: Entries) -> Lengths:
     from ssilang.kernel.continuation.arc import Lengths
 
     times = np.asarray(entries.needed("TEMPS_CALCULES", "LISTREEL").values)
-    if len(times) < 2 or not (np.diff(times) > 0).all():
-        raise entries.bad("'TEMPS_CALCULES' grows and has two values or more")
+    entries.times("TEMPS_CALCULES")  # refuses what does not increase
     work = Entries(entries.call, entries.get("WTABLE", "TABLE") or Table(), "CONTINU, WTABLE")
     start = work.get("DS", "FLOTTANT") or 1.0
     least = work.get("DSMIN", "FLOTTANT") or 1e-3 * start
@@ -54,12 +54,19 @@ def lengths_of(entries: Entries) -> Lengths:
         raise entries.bad("'MAXI_DEPLACEMENT' > 0 and 0 < 'DSMIN' <= 'DS' <= 'DSMAX' are wanted")
     return Lengths(
         start, least, most,
-        float(entries.get("NB_ITERATION", "ENTIER", "FLOTTANT") or 6.0),
-        entries.get("MAXITERATION", "ENTIER") or 24,
+        _positive(entries, "NB_ITERATION", 6.0), round(_positive(entries, "MAXITERATION", 24)),
         unit, float(np.mean(np.diff(times))),
-        entries.get("PRECISION", "FLOTTANT") or 1e-6,
+        _positive(entries, "PRECISION", 1e-6),
         BEND,
     )  # fmt: skip
+
+
+def _positive(entries: Entries, index: str, default: float) -> float:
+    """A number above zero; zero stands for the default, as if it were not given."""
+    value = float(entries.get(index, "FLOTTANT", "ENTIER") or default)
+    if value <= 0.0:
+        raise entries.bad(f"'{index}' is {value:g}", "a number above zero")
+    return value
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,6 +123,8 @@ def _problem(entries: Entries, names: Names) -> FrequencyProblem:
     law = entries.get("FREQUENCE", "EVOLUTION", "EVOLUTIO")
     found, samples = nonlinear_unknowns(entries), None
     order = entries.get("N_PT_TFR", "ENTIER")
+    if order is not None and not 0 <= order <= MOST_ORDER:
+        raise entries.bad(f"'N_PT_TFR' is {order}", f"2**N_PT_TFR instants, {MOST_ORDER} at most")
     least = int(np.ceil(np.log2(4 * names.places)))
     count = 2 ** (order if order is not None else least)
     if count < 2 * names.harmonics + 1:
@@ -136,7 +145,10 @@ def _places(
 ) -> IntArray:
     wrong = [u for u in unknowns if u not in names.unknowns]
     if wrong:
-        raise entries.bad(f"no matrix has the unknown {wrong[0]}", " ".join(names.unknowns))
+        raise entries.bad(
+            f"'COMP_FNL' is {wrong[0]}, which no matrix has",
+            "unknowns: " + " ".join(names.unknowns),
+        )
     found = [
         [numbering.index_of(point.node, names.coefficient(u, p)) for u in unknowns]
         for p in range(names.places)
@@ -330,7 +342,9 @@ def _exponents(entries: Entries, problem: FrequencyProblem) -> Callable[[Solutio
     T = constraints_of(rows, numbering.size <= 160).T.toarray()
     k, c, m = (T.T @ assemble(x, numbering).toarray() @ T for x in (whole, C, M))
     if np.linalg.matrix_rank(m) < len(m):
-        raise entries.bad("Floquet exponents want a mass for each unknown")
+        raise entries.bad(
+            "'MASSE_CONSTANTE' is not regular: Floquet exponents want a mass for each unknown"
+        )
     found = nonlinear_unknowns(entries)
     at = [] if found is None else [numbering.index_of(found[0].node, n) for n in found[1]]
     rows_of = T[at]

@@ -50,7 +50,7 @@ def _dync(call: Call) -> Table:
             hint="'FORC' (forced response) and 'NNM' (nonlinear normal modes) are built",
         )
     oscillators = _oscillators(call, tables, system, harmonics, samples, kind == "NNM")
-    lengths, most = _lengths(numbers), int(numbers.real("NBPAS", 1000.0))
+    lengths, most = _lengths(numbers), int(numbers.positive("NBPAS", 1000.0))
     start = Numbers(call, tables.get("start") or Table("INITIAL"))
     end = numbers.real("VAL_FIN")
     if kind == "NNM":
@@ -59,7 +59,7 @@ def _dync(call: Call) -> Table:
             raise call.bad(f"'MODE' is between 1 and {len(system.M)}", tables["start"])
         found = normal_mode(oscillators, mode, start.real("ENERGIE"), end, lengths, most)
     else:
-        first, sense = start.real("FREQUENCE"), numbers.real("ISENS", 1.0)
+        first, sense = start.positive("FREQUENCE"), numbers.real("ISENS", 1.0)
         guess = _guess(call, tables["start"], system, oscillators, first)
         found = forced_response(oscillators, guess, first, end, sense, lengths, most)
     return _results(call, found, system, kind == "NNM")
@@ -74,9 +74,16 @@ class Numbers:
     def real(self, name: str, default: float | None = None) -> float:
         """A number."""
         value = self.table.get(Mot(name), default)
-        if isinstance(value, bool) or not isinstance(value, int | float):
+        if isinstance(value, bool) or not isinstance(value, int | float) or not np.isfinite(value):
             raise self.call.bad(f"the table {self.table.subtype} has no number '{name}'")
         return float(value)
+
+    def positive(self, name: str, default: float | None = None) -> float:
+        """A number above zero."""
+        value = self.real(name, default)
+        if value <= 0.0:
+            raise self.call.bad(f"'{name}' is {value:g}, not above zero", self.table)
+        return value
 
     def word(self, name: str, default: str) -> str:
         """A word."""
@@ -113,7 +120,10 @@ def _oscillators(
     unbalance = False
     if table is not None and not free:
         load = _coefficients(call, table, system, harmonics, dual=True)
-        unbalance = bool(table.get(Mot("BALOURD"), 0))
+        given = table.get(Mot("BALOURD"), 0)
+        if not isinstance(given, bool | int):
+            raise call.bad("'BALOURD' is 0 or 1", table)
+        unbalance = bool(given)
     damping = np.zeros((n, n)) if free else damping_of(call, tables.get("damping"), system)
     basis = basis_of(harmonics, samples)
     return Oscillators(system.M, damping, system.K, basis, forces, load, unbalance)
@@ -157,10 +167,10 @@ def _lengths(numbers: Numbers) -> Lengths:
         raise numbers.call.bad("0 < 'DSMIN' <= 'DS0' <= 'DSMAX' is wanted", numbers.table)
     return replace(
         lengths,
-        ideal=numbers.real("ITERMOY", 4.0),
-        turns=int(numbers.real("ITERMAX", 20.0)),
-        tolerance=numbers.real("TOLERANCE", 1e-8),
-        bend=float(np.radians(numbers.real("ANGLE_MAX", 180.0))),
+        ideal=numbers.positive("ITERMOY", 4.0),
+        turns=round(max(numbers.positive("ITERMAX", 20.0), 1.0)),
+        tolerance=numbers.positive("TOLERANCE", 1e-8),
+        bend=float(np.radians(numbers.positive("ANGLE_MAX", 180.0))),
     )
 
 

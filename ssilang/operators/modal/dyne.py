@@ -94,15 +94,30 @@ def system_of(call: Call, table: Table) -> System:
         return _of_matrices(call, table)
     shapes = sorted(shapes_in(table), key=lambda s: s.mark.node)
     if not shapes or any(s.unknown != "ALFA" for s in shapes):
-        raise call.bad("the table holds no mode", table)
+        raise call.bad(
+            "the table holds no mode",
+            table,
+            hint="MODES . 1 ... each with 'DEFORMEE_MODALE' (CHPOINT), 'POINT_REPERE' (POINT), "
+            "'FREQUENCE' and 'MASSE_GENERALISEE'",
+        )
     nodes = workspace(call.session).nodes
     marks = np.array([s.mark.node for s in shapes])
     codes = np.zeros(len(marks), dtype=np.int64)
     numbering = Numbering(nodes, ("ALFA",), ("FALF",), marks, codes, nodes.version)
-    masses = np.array([float(str(s.entry.get("MASSE_GENERALISEE"))) for s in shapes])
-    squares = np.array([eigenvalue(float(str(s.entry.get("FREQUENCE")))) for s in shapes])
+    masses = np.array([_of_mode(call, s.entry, "MASSE_GENERALISEE") for s in shapes])
+    if (masses <= 0.0).any():
+        raise call.bad(f"'MASSE_GENERALISEE' of a mode is {masses.min():g}, not above zero", table)
+    squares = np.array([eigenvalue(_of_mode(call, s.entry, "FREQUENCE")) for s in shapes])
     basis = Basis(tuple(int(m) for m in marks), ("ALFA",) * len(marks), tuple(shapes))
     return System(basis, numbering, np.diag(masses * squares), np.diag(masses))
+
+
+def _of_mode(call: Call, entry: Table, name: str) -> float:
+    """A number of the table of a mode."""
+    value = entry.get(Mot(name))
+    if isinstance(value, bool) or not isinstance(value, int | float) or not np.isfinite(value):
+        raise call.bad(f"'{name}' of a mode must be a number", entry)
+    return float(value)
 
 
 def _of_matrices(call: Call, table: Table) -> System:
@@ -181,7 +196,7 @@ def _start(call: Call, table: Table | None, system: System, links: int) -> Modal
     if state is None or len(state) != links:
         raise call.bad(f"the table REPRISE does not hold the state of {links} links", again)
     return replace(
-        start, time=float(str(again.get("TEMPS"))), links=state,
+        start, time=_of_mode(call, again, "TEMPS"), links=state,
         before=_values(call, again, "ACCELERATION_1/2", system),
         q_before=_values(call, again, "DEPLACEMENT_1/2", system),
     )  # fmt: skip

@@ -40,10 +40,14 @@ class Basis:
         rows = [[float(s.field.values_at(c, node)[0]) for s in self.shapes] for c in names]
         return np.array(rows)
 
-    def unit(self, call: Call, point: object) -> FloatArray:
-        """Row (3, n) that picks the unknown of a mode by its point."""
-        if not isinstance(point, Point) or point.node not in self.marks:
-            raise call.bad("the point marks no mode of the basis", point)
+    def unit(self, call: Call, point: Point, name: str) -> FloatArray:
+        """Row (3, n) that picks the unknown of a mode by its point, given at the index `name`."""
+        if point.node not in self.marks:
+            raise call.bad(
+                f"'{name}' of a link marks no mode of the basis",
+                point,
+                hint="give the 'POINT_REPERE' of a mode",
+            )
         rows = np.zeros((3, len(self.marks)))
         rows[0, self.marks.index(point.node)] = 1.0
         return rows
@@ -74,7 +78,7 @@ class LinkTable:
     def real(self, name: str, default: float | None = None) -> float:
         """A number."""
         value = self.need(name) if default is None else self.table.get(Mot(name), default)
-        if isinstance(value, bool) or not isinstance(value, int | float):
+        if isinstance(value, bool) or not isinstance(value, int | float) or not np.isfinite(value):
             raise self.call.bad(f"'{name}' of a link is a number", self.table)
         return float(value)
 
@@ -176,7 +180,7 @@ def _plane(t: LinkTable, basis: Basis) -> ReadLink:
     numbers |= _friction(t)
     gap = t.real("JEU", 0.0)
     if not t.table.has(Mot("NORMALE")):
-        rows = basis.unit(t.call, support)
+        rows = basis.unit(t.call, support, "SUPPORT")
         numbers |= {law.NX: 1.0 if gap >= 0.0 else -1.0, law.GAP: abs(gap)}
         named = [("DEPLACEMENT", 0, rows), *_push_names(t, False)]
         return ReadLink(t.table, Link(law.PLANE, rows, rows, numbers, points), tuple(named))
@@ -242,7 +246,7 @@ def _circle(t: LinkTable, basis: Basis) -> ReadLink:
 
 def _coupling(t: LinkTable, basis: Basis) -> ReadLink:
     """COUPLAGE_DEPLACEMENT and COUPLAGE_VITESSE: a force on a mode from the motion of another."""
-    to, of = (basis.unit(t.call, t.need(p)) for p in ("SUPPORT", "ORIGINE"))
+    to, of = (basis.unit(t.call, t.point(p), p) for p in ("SUPPORT", "ORIGINE"))
     numbers = {law.FACTOR: t.real("COEFFICIENT"), law.EXPONENT: t.real("EXPOSANT", 1.0)}
     named: list[Named] = [("DEPLACEMENT", 0, of)]
     if t.kind.endswith("_VITESSE"):
@@ -285,21 +289,29 @@ def links_of(call: Call, table: Table | None, basis: Basis) -> list[ReadLink]:
     found: list[ReadLink] = []
     for name in ("LIAISON_A", "LIAISON_B"):
         inner = None if table is None else table.get(Mot(name))
+        if inner is not None and not isinstance(inner, Table):
+            raise call.bad(f"'{name}' of a table LIAISON must be a TABLE of links", table)
         if isinstance(inner, Table):
-            found += _with_conditions([_read(call, e, basis) for e in _numbered(inner)], len(found))
+            read = [_read(call, e, basis) for e in _numbered(call, inner, name)]
+            found += _with_conditions(read, len(found))
     return found
 
 
-def _numbered(table: Table) -> list[Table]:
-    entries = [(i, e) for i, e in table.items() if type(i) is int and isinstance(e, Table)]
-    return [e for _, e in sorted(entries, key=lambda pair: pair[0])]
+def _numbered(call: Call, table: Table, name: str) -> list[Table]:
+    entries = sorted(((i, e) for i, e in table.items() if type(i) is int), key=lambda pair: pair[0])
+    for i, entry in entries:
+        if not isinstance(entry, Table):
+            raise call.bad(f"'{name}' . {i} must be a table of a link", table)
+    return [e for _, e in entries if isinstance(e, Table)]
 
 
 def _read(call: Call, table: Table, basis: Basis) -> ReadLink:
     values = LinkTable(call, table)
     if values.kind not in _READERS:
         raise call.bad(
-            f"links '{values.kind}' are not built", table, hint="built: " + " ".join(_READERS)
+            f"'TYPE_LIAISON' is {values.kind}: such links are not built",
+            table,
+            hint="built: " + " ".join(_READERS),
         )
     return _READERS[values.kind](values, basis)
 

@@ -44,7 +44,10 @@ def _asked(entries: Entries, table: object, place: str) -> Asked:
     point: Point = own.needed("POINT_MESURE", "POINT")
     word = "COMPOSANTE" if own.has("COMPOSANTE") else "COMPOSANTES"
     given = own.needed(word, "MOT", "LISTMOTS")
-    component = given.values[0] if isinstance(given, ListMots) else str(given)
+    words = given.values if isinstance(given, ListMots) else [str(given)]
+    if not words or not words[0].strip():
+        raise own.bad(f"'{word}' names no component", f"TAB1 . {place} . '{word}' = MOT 'UX' ;")
+    component = words[0]
     title = own.get("TITRE", "MOT")
     return Asked(
         table, point, component.rstrip(), str(title or component).rstrip(),

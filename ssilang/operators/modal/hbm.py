@@ -105,7 +105,8 @@ def _results(entries: Entries, names: Names) -> None:
     for asked in asked_results(entries, "RESULTATS"):
         if asked.component not in names.unknowns:
             raise entries.bad(
-                f"no matrix has the unknown {asked.component}", " ".join(names.unknowns)
+                f"'COMPOSANTES' is {asked.component}, which no matrix has",
+                "unknowns: " + " ".join(names.unknowns),
             )
         given = asked.table.get("COULEUR_HBM")
         colours = colours_of(given, names.places, asked.colour)

@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
+from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ssilang.kernel.curve import Curve, Load
 from ssilang.kernel.dynamics.plan import every, nearest
+from ssilang.kernel.errors import KernelError
+from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.language.call import Call
 from ssilang.language.diagnostics import nearest as nearest_word
 from ssilang.language.errors import SsiError
 from ssilang.language.source import Span
-from ssilang.language.values import Annule, Table, type_of
+from ssilang.language.values import Annule, ListReel, Table, type_of
 
 
 class Entries:
@@ -29,29 +33,67 @@ class Entries:
     def __init__(self, call: Call, table: Table, procedure: str) -> None:
         self.call, self.table, self.procedure = call, table, procedure
 
-    def has(self, index: str) -> bool:
+    def has(self, index: str | int) -> bool:
         """Whether the entry is given (and not ANNULE)."""
         return self.table.has(index) and not isinstance(self.table.get(index), Annule)
 
-    def get(self, index: str, *types: str) -> Any:
+    def get(self, index: str | int, *types: str) -> Any:
         """The value at an index, None if there is none.
 
         Raises
         ------
         SsiError
-            If it is of none of the types.
+            If it is of none of the types, or holds values that are not finite numbers.
         """
         if not self.has(index):
             return None
         value = self.table.get(index)
         found = type_of(value)
         if found in types:
+            self._sound(index, value)
             return value
         if found == "ENTIER" and "FLOTTANT" in types:
             return float(value)  # type: ignore[arg-type]
         raise self.bad(f"'{index}' must be {' or '.join(types)}, found {found}")
 
-    def needed(self, index: str, *types: str) -> Any:
+    def _sound(self, index: str | int, value: object) -> None:
+        """Refuse values that no calculation can use."""
+        if isinstance(value, Curve) and not value.parts:
+            raise self.bad(f"'{index}' holds no curve")
+        if not all(np.isfinite(v).all() for v in _numbers_in(value)):
+            raise self.bad(f"'{index}' has values that are not finite numbers")
+
+    def times(self, index: str) -> FloatArray | None:
+        """Instants (n,) that increase, two at least; None if the entry is not given."""
+        given = self.get(index, "LISTREEL")
+        if given is None:
+            return None
+        values = np.asarray(given.values, dtype=float)
+        if len(values) < 2:
+            raise self.bad(f"'{index}' has {len(values)} instants", "two instants or more")
+        self.increasing(index, values)
+        return values
+
+    def increasing(self, index: str, values: FloatArray) -> None:
+        """Refuse instants (n,) of an entry that do not increase."""
+        wrong = np.flatnonzero(np.diff(values) <= 0.0)
+        if len(wrong):
+            i = int(wrong[0])
+            raise self.bad(
+                f"'{index}' does not increase: {values[i + 1]:g} follows {values[i]:g} "
+                f"(values {i + 1} and {i + 2})",
+                "each instant after the one before it",
+            )
+
+    @contextmanager
+    def about(self, index: str) -> Iterator[None]:
+        """What is wrong inside is wrong with an entry: the message names it."""
+        try:
+            yield
+        except KernelError as problem:
+            raise self.bad(f"'{index}' is refused: {problem.message}", problem.hint) from problem
+
+    def needed(self, index: str | int, *types: str) -> Any:
         """The value at an index that must be there."""
         value = self.get(index, *types)
         if value is None:
@@ -117,12 +159,14 @@ class Entries:
         """Steps asked for by PAS_SAUVES(suffix) or TEMPS_SAUVES(suffix), shape (n_times,)."""
         wanted = self.get("TEMPS_SAUVES" + suffix, "LISTREEL")
         if wanted is not None:
-            return nearest(times, wanted.values)
+            with self.about("TEMPS_SAUVES" + suffix):
+                return nearest(times, wanted.values)
         cadence = self.get("PAS_SAUVES" + suffix, "ENTIER", "MOT")
         if cadence is None:
             return default()
         if isinstance(cadence, int):
-            return every(times, cadence)
+            with self.about("PAS_SAUVES" + suffix):
+                return every(times, cadence)
         word = str(cadence).upper().rstrip()
         if word == "TOUS":
             return np.ones(len(times), bool)
@@ -155,3 +199,19 @@ class Entries:
             "bad-value", self.place, operator=self.procedure, message=message, hint=hint,
             severity="warning",
         )  # fmt: skip
+
+
+def _numbers_in(value: object) -> list[Any]:
+    """The numbers that an object holds, as arrays."""
+    if isinstance(value, float):
+        return [value]
+    if isinstance(value, ListReel):
+        return [np.asarray(value.values, dtype=float)]
+    if isinstance(value, NodeField):
+        return [p.values for p in value.components.values()]
+    if isinstance(value, Curve):
+        return [a for p in value.parts for a in (p.abscissas, p.ordinates)]
+    if isinstance(value, Load):
+        held = [h for p in value.parts for h in (p.space, p.time, *(f for _, f in p.steps))]
+        return [n for h in held for n in _numbers_in(h)]
+    return []
