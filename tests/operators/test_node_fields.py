@@ -165,7 +165,7 @@ def test_values_come_in_the_order_of_the_points_asked_for(found):
 def test_list_of_values_on_points(found):
     a, b = found(
         LINE + "M = CHAN 'POI1' L ; N = NBNO M ; C = MANU 'CHPO' M 'T' (PROG 1. 2. 3. 4. 5.) ; "
-        "A = MAXI C ; B = MAXI (RESU C) ;",
+        "A = MAXI C ; P = POIN (EXTR C 'MAIL') 1 ; B = EXTR (RESU C) 'T' P ;",
         "A", "B",
     )  # fmt: skip
     assert (a, b) == (5.0, 15.0)

@@ -142,7 +142,7 @@ def _plastic_words(words: list[str], elasticity: str, family: str) -> tuple[str,
     if family not in PLASTIC_FAMILIES:
         raise MaterialError(
             f"elements of the family '{family}' have no plastic law",
-            "continuous elements (TRI3 ... CU20, ICQ4 ...), bars, DKT and COQ3 have",
+            "continuous elements (TRI3 ... CU20, ICQ4 ...), bars and DKT have",
         )
     if family == "plate" and law not in LAYER_LAWS:
         raise MaterialError(

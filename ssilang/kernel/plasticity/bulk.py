@@ -167,6 +167,14 @@ def bulk_of(zones: tuple[Zone, ...], characteristics: CellField, numbering: Numb
     return Bulk(points, places, numbering.size)
 
 
+def stiffness_beside(zone: Zone, characteristics: CellField) -> ElementMatrices:
+    """What of a plastic zone's stiffness is not its law's: that about the normals of shells."""
+    from ssilang.kernel.plasticity.layered_points import drilling_stiffness, is_layered
+
+    layered = is_layered(zone)
+    return drilling_stiffness(zone, characteristics) if layered else without_stiffness(zone)
+
+
 def without_stiffness(zone: Zone) -> ElementMatrices:
     """A block of zeros that has the unknowns of a zone."""
     layout = family_of(zone).layout(zone)

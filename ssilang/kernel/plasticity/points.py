@@ -202,6 +202,10 @@ def plastic_points(zone: Zone, characteristics: CellField) -> PlasticPoints:
         from ssilang.kernel.plasticity.fibre_points import fibre_points
 
         return fibre_points(zone, characteristics)
+    if ELEMENTS[zone.element].family == "plate":
+        from ssilang.kernel.plasticity.layered_points import layered_points
+
+        return layered_points(zone, characteristics)
     law, family = plastic_law(zone.behaviour), family_of(zone)
     assert law is not None
     given = zone_field(zone, characteristics)

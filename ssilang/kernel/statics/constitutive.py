@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.family import apply_moduli
 from ssilang.kernel.elements.hooke import moduli_from_field
@@ -98,6 +99,11 @@ def _no_fibres(zone: Zone) -> None:
         raise FieldError(
             "beams with sections of fibres have no law between their forces and strains alone",
             "PASAPAS and DYNAMIC take such models, MOCU gives moments from curvatures",
+        )
+    if ELEMENTS[zone.element].family == "plate" and is_plastic(zone):
+        raise FieldError(
+            "plastic shells have no law between their forces and strains alone",
+            "PASAPAS and DYNAMIC take such models",
         )
 
 

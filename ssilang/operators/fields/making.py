@@ -233,10 +233,10 @@ def _cell_values(value: Any, n: int, deal: bool, taken: int) -> Any:
     family="fields",
     full_name="RESULT",
     help=Help(
-        en="Resultant of a field at nodes: one point with the sum of each component. The sum of a "
-        "list is SOMM's.",
-        fr="Résultante d'un champ par points : un point avec la somme de chaque composante. La "
-        "somme d'une liste est l'affaire de SOMM.",
+        en="Resultant of a field at nodes: its first point with the sum of each component. "
+        "The sum of a list is SOMM's.",
+        fr="Résultante d'un champ par points : son premier point avec les sommes des "
+        "composantes. La somme d'une liste est l'affaire de SOMM.",
         syntax="CHPO2 = RESU CHPO1 ;",
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; LIST (MAXI (RESU (COOR 1 L))) ;",
@@ -252,7 +252,7 @@ def resu(call: Call) -> Any:
     nodes = value.node_ids
     if not len(nodes):
         raise call.bad("the field is empty", value)
-    here = value.table.add(value.table.coordinates[nodes].mean(axis=0)[None])
+    here = nodes[:1]
     made = {k: NodeValues(here, np.asarray([v.values.sum()])) for k, v in value.components.items()}
     return NodeField(value.table, made, "DISCRET")
 

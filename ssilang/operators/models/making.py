@@ -204,8 +204,10 @@ def _check_rule(call: Call, wish: _Wish, zones: tuple[Zone, ...]) -> None:
 
 def _check_layers(call: Call, wish: _Wish, zones: tuple[Zone, ...]) -> None:
     """Plastic thin shells need points across the thickness, 2 to 15 of them."""
-    plastic = [z for z in zones if "PLASTIQUE" in z.behaviour]
-    if not any(ELEMENTS[z.element].family == "plate" for z in plastic):
+    plastic = [z.element for z in zones if "PLASTIQUE" in z.behaviour]
+    if "COQ3" in plastic:
+        raise call.bad("COQ3 has no plastic law", hint="DKT has: MODE ... DKT 'INTEGRE' 7 ;")
+    if "DKT" not in plastic:
         return
     count = wish.options.get("INTEGRE")
     if not isinstance(count, int):
@@ -214,7 +216,7 @@ def _check_layers(call: Call, wish: _Wish, zones: tuple[Zone, ...]) -> None:
             hint="points across the thickness: MODE ... DKT 'INTEGRE' 7 ;",
         )
     if not 2 <= count <= 15:
-        raise call.bad(f"'INTEGRE' {count}: 2 to 15 points across the thickness")
+        raise call.bad(f"'INTEGRE' {count}: 2 to 15 points across")
 
 
 def _take(call: Call, word: str, wish: _Wish) -> None:

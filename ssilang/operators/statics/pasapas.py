@@ -17,7 +17,7 @@ from ssilang.kernel.joints.law_table import law_of
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.model import Model, Zone
-from ssilang.kernel.plasticity.bulk import without_stiffness
+from ssilang.kernel.plasticity.bulk import stiffness_beside, without_stiffness
 from ssilang.kernel.plasticity.points import is_plastic, plastic_zones
 from ssilang.kernel.statics.thermal_load import split_thermal
 from ssilang.language.call import Call
@@ -315,7 +315,9 @@ def _inputs(
         load = Load((*(load.parts if load else ()), *(LoadPart("MECA", f) for f in parts)))
     blocks = linear_blocks(solids, "RIGIDITE", stiffness)
     plastic = (*plastic_zones(model), *finite_zones(entries))
-    blocks += [without_stiffness(z) for z in plastic]
+    blocks += [without_stiffness(z) for z in finite_zones(entries)]
+    if material is not None:
+        blocks += [stiffness_beside(z, material) for z in plastic_zones(model)]
     heavy = linear_blocks(solids, "MASSE", mass) if dynamic else []
     if dynamic and material is not None:
         heavy += [mass(z, material) for z in plastic]
