@@ -13,6 +13,11 @@ from ssilang.kernel.elements.gradients import gradient_names, gradient_values, s
 from ssilang.kernel.elements.integrals import integrals
 from ssilang.kernel.elements.skin import is_shell, shell_equivalent, shell_tensor
 from ssilang.kernel.elements.solid import coordinates, zone_geometry
+from ssilang.kernel.elements.structural_gradients import (
+    is_structural,
+    structural_gradient,
+    structural_names,
+)
 from ssilang.kernel.elements.tensors import (
     PRINCIPAL,
     components_at_home,
@@ -22,6 +27,7 @@ from ssilang.kernel.elements.tensors import (
     tresca,
     von_mises,
 )
+from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.errors import FieldError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.mesh.nodes import FloatArray
@@ -29,6 +35,7 @@ from ssilang.kernel.model import Model, Zone
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
 from ssilang.operators.dispatch import INTG
+from ssilang.operators.matrices.element import joined
 from ssilang.operators.statics.stresses import Reading, on_zones
 
 _SQUARE = (
@@ -216,9 +223,12 @@ def _holding(zone: Zone, fields: tuple[CellField, ...], names: tuple[str, ...]) 
     full_name="GRADIENT",
     help=Help(
         en="Gradient of a displacement field, components UX,X UX,Y ..., or of a scalar field such "
-        "as a temperature T, components T,X T,Y (T,Z).",
+        "as a temperature T, components T,X T,Y (T,Z). Bars and beams have UX,X UY,X (UZ,X), flat "
+        "shells UX,X UX,Y ... UZ,Y, in their own frame as their stresses (VECT in CAR1).",
         fr="Gradient d'un champ de déplacements, composantes UX,X UX,Y ..., ou d'un champ "
-        "scalaire comme une température T, composantes T,X T,Y (T,Z).",
+        "scalaire comme une température T, composantes T,X T,Y (T,Z). Les barres et poutres ont "
+        "UX,X UY,X (UZ,X), les coques planes UX,X UX,Y ... UZ,Y, dans leur repère propre comme "
+        "leurs contraintes (VECT dans CAR1).",
         syntax="GRAD1 = GRAD MODL1 CHPO1 (CAR1) ;",
         examples=(_SQUARE + "LIST (MAXI (EXCO 'UX,X' (GRAD M U))) ;",),
     ),
@@ -231,6 +241,9 @@ def grad(call: Call) -> CellField:
     names = tuple(u.components)
 
     def make(zone: Zone) -> CellFieldBlock:
+        if is_structural(zone):
+            given = zone_field(zone, joined(said.cells) if said.cells else None)
+            return cell_block(zone, structural_names(zone), structural_gradient(zone, u, given))
         if not is_solid(zone):
             raise FieldError(f"GRAD is for continuous elements, not {zone.element}")
         if any(n in names for n in families.family_of(zone).layout(zone).unknowns):

@@ -16,6 +16,12 @@ from ssilang.kernel.elements.finite_motion import (
 )
 from ssilang.kernel.elements.gradients import gradient_names
 from ssilang.kernel.elements.loads import total
+from ssilang.kernel.elements.structural_gradients import (
+    is_structural,
+    structural_forces,
+    structural_names,
+    structural_work,
+)
 from ssilang.kernel.elements.tensors import components_at_home
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.errors import FieldError
@@ -143,9 +149,11 @@ def capi(call: Call) -> CellField:
     family="stress",
     help=Help(
         en="Trace of the product of a field of stresses and a field of gradients, in continuous "
-        "elements.",
+        "elements; in bars, beams and flat shells that of the forces along the line or surface "
+        "(EFFX; N11 N22 N12), per length or surface.",
         fr="Trace du produit d'un champ de contraintes et d'un champ de gradients, dans les "
-        "éléments massifs.",
+        "éléments massifs ; dans les barres, poutres et coques planes celle des efforts le long de "
+        "la ligne ou de la surface (EFFX ; N11 N22 N12), par unité de longueur ou de surface.",
         syntax="WORK1 = WORK MODL1 SIG1 GRAD1 ;",
         examples=(_SQUARE + "LIST (INTG M (WORK M (SIGM M A U) (GRAD M U))) ;",),
     ),
@@ -157,6 +165,8 @@ def work_of(call: Call) -> CellField:
     stress, gradient = _stress_and_gradient(said)
 
     def make(zone: Zone) -> CellFieldBlock:
+        if is_structural(zone):
+            return cell_block(zone, ("SCAL",), structural_work(zone, stress, gradient)[:, None])
         _solid(zone, "WORK")
         values, support = work(zone, stress, gradient)
         return CellFieldBlock(zone.cells, {"SCAL": values}, support, zone.element, zone.constituent)
@@ -167,9 +177,10 @@ def work_of(call: Call) -> CellField:
 def _stress_and_gradient(said: Reading) -> tuple[CellField, CellField]:
     if len(said.cells) < 2:
         raise said.call.missing(("MCHAML",))
-    zones = [z for z in said.model.zones if is_solid(z)]
+    names = {z: gradient_names(z) for z in said.model.zones if is_solid(z)}
+    names |= {z: structural_names(z) for z in said.model.zones if is_structural(z)}
     gradient = next(
-        (f for f in said.cells if any(_stands(z, f, gradient_names(z)) for z in zones)), None
+        (f for f in said.cells if any(_stands(z, f, n) for z, n in names.items())), None
     )
     if gradient is None:
         raise said.call.bad("no field of gradients is given", hint="GRAD makes one")
@@ -184,10 +195,12 @@ def _stress_and_gradient(said: Reading) -> tuple[CellField, CellField]:
     help=Help(
         en="Nodal forces of stresses S on the gradients of a displacement u: their work in v is "
         "the integral of S_ij du_k/dx_i dv_k/dx_j, as BSIG for the part of the strain of second "
-        "order.",
+        "order. In bars, beams and flat shells S are the forces along the line or surface (EFFX; "
+        "N11 N22 N12).",
         fr="Forces nodales de contraintes S sur les gradients d'un déplacement u : leur travail "
         "dans v est l'intégrale de S_ij du_k/dx_i dv_k/dx_j, comme BSIG pour la partie quadratique "
-        "de la déformation.",
+        "de la déformation. Dans les barres, poutres et coques planes S sont les efforts le long "
+        "de la ligne ou de la surface (EFFX ; N11 N22 N12).",
         syntax="FORC1 = FOFI MODL1 SIG1 GRDEP1 (CAR1) ;",
         examples=(_SQUARE + "LIST (MAXI (FOFI M (SIGM M A U) (GRAD M U))) ;",),
     ),
@@ -200,8 +213,11 @@ def fofi(call: Call) -> NodeField:
     rest = tuple(f for f in said.cells if f is not stress and f is not gradient)
     forces = []
     for zone in said.model.zones:
-        _solid(zone, "FOFI")
         parameters = zone_field(zone, joined(rest) if rest else None)
+        if is_structural(zone):
+            forces.append(structural_forces(zone, stress, gradient, parameters))
+            continue
+        _solid(zone, "FOFI")
         forces.append(gradient_forces(zone, stress, gradient, parameters))
     return total(forces[0].table, forces)
 
