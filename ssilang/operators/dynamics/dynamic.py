@@ -40,6 +40,9 @@ if TYPE_CHECKING:
     from ssilang.kernel.dynamics.snapshot import Observer
     from ssilang.kernel.plasticity.bulk import Bulk, State
 
+MOST_STEPS = 1e9
+"""Steps beyond which a list of times is a slip of the pen."""
+
 KNOWN = (
     "DEPL", "VITE", "CHAR", "RIGI", "MASS", "AMOR", "MODELE", "CARACTERISTIQUES",
     "TEMPS_CALCULES", "INST", "FREQ", "DEBU",
@@ -123,6 +126,8 @@ def _integrated(
         raise entries.bad("'REDUCTION' and 'CHARMECA' exclude each other", "leave one")
     if full:
         raise entries.bad("'REDUCTION' and 'NEWTON_COMPLET' choose two methods", "give one")
+    if not 0.0 < tolerance < 1.0:
+        raise entries.bad(f"'REDUCTION' is {tolerance:g}", "a relative error, such as 1.E-6")
     return integrate_reduced(problem, float(tolerance), observers, line)
 
 
@@ -150,10 +155,9 @@ def integrated(
 
 def _times(entries: Entries) -> tuple[FloatArray, NDArray[np.bool_]]:
     """Times of the calculation and which of them the table keeps."""
-    given = entries.get("TEMPS_CALCULES", "LISTREEL")
-    if given is None:
+    times = entries.times("TEMPS_CALCULES")
+    if times is None:
         return _older_times(entries)
-    times = given.values
     return times, entries.saved_steps("", times, lambda: every(times, 4))
 
 
@@ -170,10 +174,16 @@ def _older_times(entries: Entries) -> tuple[FloatArray, NDArray[np.bool_]]:
     if begin is None:
         begin = min(0.0, float(wanted[0])) if len(wanted) else 0.0
     stops = wanted if len(wanted) and wanted[0] <= begin else np.concatenate([[begin], wanted])
-    if frequency is None or len(stops) < 2:
+    if len(stops) < 2 or not (np.diff(stops) > 0.0).all():
+        raise entries.bad("'INST' holds instants that increase from 'DEBU' on", "one or more")
+    if frequency is None:
         return stops, np.isin(stops, wanted)
     if frequency <= 0:
         raise entries.bad(f"'FREQ' is {frequency:g}", "a cut-off frequency > 0 (Hz)")
+    if float(stops[-1] - stops[0]) * 4 * frequency > MOST_STEPS:
+        raise entries.bad(
+            f"'FREQ' is {frequency:g}: more than {MOST_STEPS:g} steps", "dt = 1/(4 FREQ)"
+        )
     counts = np.maximum(np.ceil(np.diff(stops) * 4 * frequency * (1 - 1e-9)), 1).astype(int)
     pieces = [
         np.linspace(a, b, n, endpoint=False)

@@ -277,16 +277,18 @@ def start_of(entries: Entries) -> Start:
 
 def _times(entries: Entries, start: Start) -> tuple[FloatArray, NDArray[np.bool_]]:
     """Times with the initial one first, and which are saved (the initial one always)."""
-    given = entries.get("TEMPS_CALCULES", "LISTREEL")
-    if given is None:
-        given = entries.needed("TEMPS_SAUVES", "LISTREEL")
+    if not entries.has("TEMPS_SAUVES"):
+        entries.needed("TEMPS_CALCULES", "LISTREEL")
+    index = "TEMPS_CALCULES" if entries.has("TEMPS_CALCULES") else "TEMPS_SAUVES"
+    given = entries.needed(index, "LISTREEL")
     wanted = np.asarray(given.values, dtype=float)
     first = start.time
     if first is None:
         first = min(0.0, float(wanted[0])) if len(wanted) else 0.0
     times = np.concatenate([[float(first)], wanted[wanted > first]])
     if len(times) < 2:
-        raise entries.bad(f"no time of 'TEMPS_CALCULES' comes after the initial one, {first:g}")
+        raise entries.bad(f"no time of '{index}' comes after the initial one, {first:g}")
+    entries.increasing(index, times)
     chosen = entries.get("TEMPS_SAUVES", "LISTREEL")
     if chosen is None:
         return times, np.ones(len(times), bool)
