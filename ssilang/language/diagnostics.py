@@ -13,6 +13,7 @@ from ssilang.language.errors import SsiError
 from ssilang.language.registry import ANY, OPERATORS, find_operator, keywords_of
 from ssilang.language.source import Span
 from ssilang.language.translations import in_french
+from ssilang.language.values import type_of
 from ssilang.resources import resource
 
 _OR = {"en": " or ", "fr": " ou "}
@@ -202,6 +203,8 @@ def _derived(error: SsiError, language: str, names: Iterable[str]) -> dict[str, 
     made["comment_hint"] = hints.comment_hint(_text_from(error.span), language)
     made["syntax_hint"] = _syntax_hint(data)
     made["known_hint"] = _known_hint(data, language)
+    if "index" in data:
+        made["index"] = _shown_index(data["index"])
     made["inside_text"] = _inside(data, language)
     return made
 
@@ -345,11 +348,18 @@ def _known_hint(data: dict[str, object], language: str) -> str:
     near = nearest(str(data.get("index")), [k for k in known if isinstance(k, str)])
     if near:
         return {"en": f"did you mean '{near}'?", "fr": f"vouliez-vous dire '{near}' ?"}[language]
-    shown = ", ".join(repr(k) if isinstance(k, str) else str(k) for k in known[:_INDICES_SHOWN])
-    more = f" ... {known[-1]!r}" if len(known) > _INDICES_SHOWN else ""
+    shown = ", ".join(_shown_index(k) for k in known[:_INDICES_SHOWN])
+    more = f" ... {_shown_index(known[-1])}" if len(known) > _INDICES_SHOWN else ""
     text = {"en": "its indices are: ", "fr": "ses indices sont : "}[language]
     empty = {"en": "it is empty", "fr": "elle est vide"}[language]
     return text + shown + more if known else empty
+
+
+def _shown_index(index: object) -> str:
+    """An index of a table as a script would write it; of other objects the type."""
+    if isinstance(index, str | int | float):
+        return repr(index)
+    return type_of(index)
 
 
 def _inside(data: dict[str, object], language: str) -> str:

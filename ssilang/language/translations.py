@@ -12,6 +12,22 @@ import re
 from functools import lru_cache
 
 TEMPLATES: tuple[tuple[str, str], ...] = (
+    # ---- Voronoi partitions
+    ("a germ lies outside of the contour", "un germe est hors du contour"),
+    ("INCL takes the points inside", "INCL prend les points intérieurs"),
+    ("two germs lie at the same place", "deux germes sont au même endroit"),
+    ("merge them with ELIM", "confondez-les par ELIM"),
+    (
+        "two weights differ by too much: a germ would lie outside of its cell",
+        "deux poids diffèrent trop : un germe serait hors de sa cellule",
+    ),
+    (
+        "squares of weights differ by the square of the germs' distance at most",
+        "les carrés des poids diffèrent au plus du carré de la distance des germes",
+    ),
+    ("VORO works in the plane only", "VORO ne travaille que dans le plan"),
+    ("the germs are a mesh of points (POI1)", "les germes sont un maillage de points (POI1)"),
+    ("the contour is a closed line of SEG2", "le contour est une ligne fermée de SEG2"),
     # ---- sections of fibres
     (
         "element {} describes the section of a beam and has no unknowns",
@@ -620,9 +636,9 @@ TEMPLATES: tuple[tuple[str, str], ...] = (
         "la matrice n'a pas d'inconnue pour la force {}",
     ),
     (
-        "{}: no equilibrium, full uplift: {} of {} joint points are open and nothing else holds "
-        "the body at node {}",
-        "{} : pas d'équilibre, décollement total : {} des {} points de joint sont ouverts et rien "
+        "load step {}, time {}: no equilibrium, full uplift: {} of {} joint points are open and "
+        "nothing else holds the body at node {}",
+        "pas de charge {}, temps {} : pas d'équilibre, décollement total : {} des {} points de joint sont ouverts et rien "
         "d'autre ne tient le corps au noeud {}",
     ),
     (

@@ -23,6 +23,11 @@ class Point:
     number: int
 
     @property
+    def identity(self) -> int:
+        """What tells points apart where they serve as indices: two points of one node are one."""
+        return self.number
+
+    @property
     def node(self) -> int:
         """Node number (0-based) after merges."""
         return int(self.nodes.resolve(np.asarray([self.number]))[0])

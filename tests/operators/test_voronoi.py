@@ -1,0 +1,63 @@
+"""VORO, and points as indices of tables."""
+
+import pytest
+
+DOMAIN = (
+    "OPTI DIME 2 ELEM SEG2 ; A = 0. 0. ; "
+    "L = A D 3 (2. 0.) D 2 (2. 1.) D 3 (0. 1.) D 2 A ; "
+    "P = 0.5 0.5 ; Q = 1.5 0.5 ; R = 1. 0.1 ; G = P ET Q ET R ; "
+)
+
+
+def test_cells_fill_the_domain_and_share_their_edges(found):
+    whole, shared, beside, edges = found(
+        DOMAIN + "T = VORO G L ; C = T . 'CELL' ; OPTI ELEM TRI3 ; "
+        "D = (SURF (C . P . 'VISU')) ET (SURF (C . Q . 'VISU')) ET (SURF (C . R . 'VISU')) ; "
+        "X1 = MESU D ; "
+        "X2 = NBEL ((C . P . 'VISU') INTE (C . R . 'VISU')) ; "
+        "X3 = NBEL (C . R . 'VOIS') ; X4 = NBEL (T . 'VISU') ;",
+        "X1", "X2", "X3", "X4",
+    )  # fmt: skip
+    assert whole == pytest.approx(2.0, rel=1e-10)
+    assert shared == 1
+    assert beside == 2
+    assert edges == 16  # 13 pieces of the contour, three edges that meet in a point
+
+
+def test_numbers_of_a_cell_are_those_of_the_edges(found):
+    one, other = found(
+        DOMAIN + "T = VORO G L ; N = T . 'CELL' . R . 'ARTS' ; X1 = 0. ; "
+        "REPE B (DIME N) ; X1 = X1 + (MESU (T . 'ARTS' . (EXTR N &B))) ; FIN B ; "
+        "X2 = MESU (T . 'CELL' . R . 'VISU') ;",
+        "X1", "X2",
+    )  # fmt: skip
+    assert one == pytest.approx(other)
+
+
+def test_weights_of_a_field_are_taken_and_told(found):
+    place, told = found(
+        DOMAIN + "G = P ET Q ; W = MANU 'CHPO' G 1 'SCAL' (PROG 0.5 0.1) ; "
+        "T = VORO G L W ; X1 = MAXI (COOR 1 (T . 'CELL' . P . 'VISU')) ; X2 = MAXI (T . 'POND') ;",
+        "X1", "X2",
+    )  # fmt: skip
+    assert place == pytest.approx(1.0 + (0.5**2 - 0.1**2) / 2)
+    assert told == 0.5
+
+
+def test_space_and_other_contours_are_refused(refused):
+    assert "plane only" in refused(DOMAIN + "OPTI DIME 3 ; T = VORO G L ;")
+    assert "mesh of points" in refused(DOMAIN + "T = VORO L L ;")
+
+
+def test_a_point_is_the_same_index_however_it_was_got(found):
+    script = (
+        "OPTI DIME 2 ELEM SEG2 ; P = 0. 0. ; Q = 1. 0. ; L = DROI 1 P Q ; "
+        "T = TABL ; T . P = 3 ; T . Q = 4 ; X = T . (L POIN 'INIT') ; Y = T . (L POIN 'FINA') ;"
+    )
+    assert found(script, "X", "Y") == (3, 4)
+
+
+def test_an_index_that_is_missing_is_told_by_its_type(refused):
+    told = refused("OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; T = TABL ; T . P = 3 ; X = T . Q ;")
+    assert "the table has no index POINT" in told
+    assert "object at" not in told
