@@ -31,7 +31,8 @@ FRENCH = frozenset(
         "word_held_by_a_table_is_an_operator", "word_hidden_by_a_variable",
         "point_without_a_dimension", "else_if", "loop_of_another_language",
         "operands_in_parentheses", "item_in_brackets", "procedure_without_a_result",
-        "load_on_a_point_written_again", "meshes_not_joined", "properties_of_another_zone",
+        "joint_sides_swapped", "load_on_a_point_written_again", "meshes_not_joined",
+        "properties_of_another_zone",
     }
 )  # fmt: skip
 _CASES = [(p.stem, "en") for p in sorted(_SCRIPTS.glob("*.ssi"))] + [

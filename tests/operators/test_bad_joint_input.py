@@ -159,3 +159,31 @@ def test_contradictory_supports_are_named_in_time_too(outcome):
     )
     assert result.exit_code == 1
     assert "one on UX at node 1 cannot take the value" in result.message
+
+
+BLOCK = """
+OPTI DIME 2 ELEM QUA4 MODE PLAN DEFO ;
+C = DROI 4 (0. 0.) (1. 0.) ; SOL = C TRAN 2 (0. -1.) ;
+A = DROI 4 (0. 0.) (1. 0.) ; BLOC = A TRAN 2 (0. 1.) ;
+J = RACC 0.01 {sides} ;
+MJ = MODE J 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' ; AJ = MATE MJ 'KN' 1.E9 'KS' 1.E9 ;
+M = MODE (SOL ET BLOC) 'MECANIQUE' 'ELASTIQUE' ; MA = MATE M 'YOUN' 1.E9 'NU' {nu} 'RHO' 2000. ;
+T = TABL ; T . 'MODELE' = M ET MJ ; T . 'CARACTERISTIQUES' = MA ET AJ ;
+T . 'BLOCAGES_MECANIQUES' = BLOQ 'DEPL' (COTE 3 SOL) ;
+T . 'CHARGEMENT' = CHAR 'MECA' ((MASS M MA) * (MANU 'CHPO' BLOC 1 'UY' {g})) ;
+T . 'TEMPS_CALCULES' = PROG 0. 1. ;
+"""
+
+
+@pytest.mark.parametrize("loop", ["", "T . 'NEWTON_COMPLET' = VRAI ;"])
+@pytest.mark.parametrize("nu", ["0.", "0.3"])
+@pytest.mark.parametrize(("sides", "g"), [("A C", "9.81"), ("C A", "-9.81")])
+def test_a_block_that_its_joint_does_not_hold_is_no_equilibrium(outcome, sides, g, nu, loop):
+    result = outcome(BLOCK.format(sides=sides, g=g, nu=nu) + loop + "PASAPAS T ;")
+    assert result.exit_code == 1
+    assert "full uplift" in result.message
+
+
+def test_the_same_block_stands_where_it_is_pressed(outcome):
+    result = outcome(BLOCK.format(sides="A C", g="-9.81", nu="0.") + "PASAPAS T ;")
+    assert result.exit_code == 0

@@ -87,6 +87,7 @@ _LOCAL = (
     _Family("traction", ("SMN", "SMS1", "SMS2"), 0.0, "SMS1"),
     _Family("opening", ("DRN", "DRSN", "DRS2"), 0.0, "DRSN"),
     _Family("opening", ("DRN", "DRS1", "DRS2"), 0.0, "DRS1"),
+    _Family("opening", ("EXX", "GXY", "GXZ"), 0.0, "EXX"),  # of two points
     _Family("section_force", ("EFFX", "EFFY", "EFFZ"), 0.0),
     _Family("section_moment", ("MOMX", "MOMY", "MOMZ"), 0.0),
 )

@@ -24,6 +24,10 @@ from ssilang.kernel.statics.linear_motion import describe_motions
 
 BALANCED = 1e-13
 """Imbalance over the loads taken for rounding."""
+UNHELD = 1e-5
+"""Imbalance over the forces, beyond which a step with joints is no equilibrium."""
+FLOWN = 1e12
+"""Traction that jumps would mean in closed joints, over the forces, beyond which nothing holds."""
 DRIVEN = 1e-9
 """Work of the loads on a free motion, over both norms, beyond which they drive it."""
 
@@ -106,9 +110,13 @@ def _step(problem: Problem, solver: StepSolver, motion: Motion, factors: FloatAr
     outcome = solver.solve(motion, r, dd, gap)
     if outcome.turns <= 0 or not np.isfinite(outcome.du).all():
         return outcome if outcome.turns <= 0 else StepOutcome(outcome.du, -1, np.inf)
+    if _flies_off(problem, outcome.du, factors[1]):
+        return StepOutcome(outcome.du, 0, np.inf)
     old = motion.reaction.copy()
     motion.u[:] += outcome.du
     _polish(problem, solver, motion, factors[1])
+    if contact is None and problem.interface is not None and _unheld(problem, motion, factors[1]):
+        return StepOutcome(outcome.du, 0, np.inf)
     motion.reaction[:] = _imbalance(problem, motion, factors[1])
     mean = 0.5 * (factors[0] + factors[1])
     motion.energies[EXTERNAL] += outcome.du @ (problem.loading.forces @ mean)
@@ -130,6 +138,31 @@ def _step(problem: Problem, solver: StepSolver, motion: Motion, factors: FloatAr
         rubbed = contact.rubbed(0.5 * (pushed + motion.contact), outcome.du)
         motion.energies[LOST] = lost - old_lost + _lost_in_joints(problem, motion) + rubbed
     return outcome
+
+
+def _flies_off(problem: Problem, du: FloatArray, factors: FloatArray) -> bool:
+    """Whether joints open as far as only rounding errors of their stiffness would hold them."""
+    joints = problem.interface
+    if joints is None:
+        return False
+    points = problem.numbering.table.coordinates[problem.numbering.nodes]
+    jumps = joints.J @ du
+    if np.abs(jumps).max(initial=0.0) <= np.ptp(points, axis=0).max(initial=0.0):
+        return False
+    closed = joints.closed_stiffness() @ jumps
+    loads = problem.loading.forces @ factors
+    size = np.abs(loads).max(initial=0.0) + np.abs(problem.K @ du + loads).max(initial=0.0)
+    return bool(np.abs(closed).max(initial=0.0) > FLOWN * size)
+
+
+def _unheld(problem: Problem, motion: Motion, factors: FloatArray) -> bool:
+    """Whether forces are out of balance: open joints, and a solution of rounding errors."""
+    rest = _imbalance(problem, motion, factors)
+    inner = np.abs(problem.constraints.V.T @ rest).max(initial=0.0)
+    joints = problem.interface
+    pulls = np.abs(joints.J.T @ motion.f).max(initial=0.0) if joints is not None else 0.0
+    loads = np.abs(problem.loading.forces @ factors).max(initial=0.0)
+    return bool(inner > UNHELD * (loads + pulls + np.abs(rest).max(initial=0.0)))
 
 
 def _lost_in_joints(problem: Problem, motion: Motion) -> float:
@@ -192,7 +225,8 @@ def _lost(problem: Problem, motion: Motion, step: int, outcome: StepOutcome) -> 
         return ConvergenceError(
             f"{at}: no equilibrium, full uplift: {open_points} of {joints.n_points} joint points "
             f"are open and nothing else holds the body at node {node + 1}",
-            "less eccentric loads, a support, or a dynamic calculation",
+            "less eccentric loads, a support, or a dynamic calculation; if the loads press, the "
+            "joint's sides are swapped: RACC and LIAI take the structure's first",
         )
     return ConvergenceError(
         f"{at}: no equilibrium found (residual {outcome.residual:.1e} of the jump after "
