@@ -42,6 +42,13 @@ def session(tmp_path_factory):
         ("DEPL L1 'DEDU' MZ MZ", "one at least"),
         ("X = FORC 'FX' 1. MZ", "empty"),
         ("X = DEDU MZ U1", "empty"),
+        ("X = MZ MZ 'VOLU' 3", "empty"),
+        ("X = LECT (T1 * 1.E30)", "64 bits"),
+        ("X = LECT ((PROG 0.) / (PROG 0.))", "64 bits"),
+        ("X = RAFF (PROG 0. 1. 1.E9) 0.5", "too long"),
+        ("X = RAFF (PROG 0. 1.) 1000000000", "too long"),
+        ("X = RAFF ((PROG 0.) / (PROG 0.)) 0.5", "finite"),
+        ("X = MANU 'RIGI' MZ K1 P0", "empty"),
     ],
 )
 def test_senseless_operands_are_refused_in_words(session, statement, says):
@@ -49,6 +56,17 @@ def test_senseless_operands_are_refused_in_words(session, statement, says):
         execute(session, Source("statement", statement + " ;"))
     assert caught.value.code == "bad-value"
     assert says in str(caught.value.data["message"])
+
+
+def test_crossing_of_a_very_long_surface_ends(session):
+    """Its triangles are flat to rounding: the walk around a hole may come back to itself."""
+    surfaces = (
+        "OPTI ELEM TRI3 ; LA = DROI 2 (0. 0. 0.) (1.E9 0. 0.) ; SA = LA TRAN 2 (0. 2. 0.) ; "
+        "LB = DROI 2 (-1. 1.1 -1.) (3. 1.1 -1.) ; SB = LB TRAN 2 (0. 0. 2.) ; OPTI ELEM CUB8 ; "
+    )
+    with pytest.raises(SsiError) as caught:
+        execute(session, Source("statement", surfaces + "C D L M = INTE 'GEOM' SA SB ;"))
+    assert caught.value.code == "bad-value"
 
 
 def test_sum_of_squares_joins_fields_of_one_kind(session):

@@ -122,18 +122,20 @@ def _cavity(hole: IntArray, a: int, b: int) -> tuple[list[int], list[int]]:
     sides = np.vstack([hole[:, [0, 1]], hole[:, [1, 2]], hole[:, [2, 0]]]).tolist()
     inner = {(q, p) for p, q in sides}
     following = {p: q for p, q in sides if (p, q) not in inner}
-    try:
-        right = [a]
-        while right[-1] != b:
-            right.append(following[right[-1]])
-        left = [b]
-        while left[-1] != a:
-            left.append(following[left[-1]])
-    except KeyError as error:
-        raise MeshError("the contour crosses itself") from error
+    right, left = _along(following, a, b), _along(following, b, a)
     if len(left) + len(right) != len(following) + 2:
         raise MeshError("the contour crosses itself")
     return left, right
+
+
+def _along(following: dict[int, int], start: int, end: int) -> list[int]:
+    """The chain from one point to another."""
+    chain = [start]
+    while chain[-1] != end:
+        if chain[-1] not in following or len(chain) > len(following):  # a loop apart
+            raise MeshError("the contour crosses itself")
+        chain.append(following[chain[-1]])
+    return chain
 
 
 def _fill_polygon(points: FloatArray, chain: list[int]) -> list[tuple[int, int, int]]:

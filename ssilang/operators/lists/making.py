@@ -231,6 +231,8 @@ def _function_of_list(call: Call, word: str) -> ListReel:
 def lect(call: Call) -> ListEnti:
     """Read integers."""
     items = _read_items(call, ("ENTIER",))
+    if not all(abs(i) < 2**63 for i in items):
+        raise call.bad("LECT takes integers that 64 bits hold", hint="PROG makes lists of reals")
     if any(isinstance(i, float) and i != math.floor(i) for i in items):
         raise call.bad("LECT takes integers only", hint="PROG makes lists of reals")
     return ListEnti(np.asarray(items, dtype=np.int64))

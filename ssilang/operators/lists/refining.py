@@ -12,6 +12,7 @@ from ssilang.kernel.mesh.subdivision import subdivide
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
 from ssilang.language.values import ListReel
+from ssilang.operators.lists.making import check_length
 from ssilang.operators.mesh.refining import refined
 
 
@@ -56,18 +57,23 @@ def raff(call: Call) -> ListReel | Mesh:
     if mesh is not None:
         return refined(mesh.value, call.required("CHPOINT"))
     values = np.asarray(call.required("LISTREEL").values, dtype=float)
+    if not np.isfinite(values).all():
+        raise call.bad("RAFF refines lists of finite numbers")
+    lengths = np.abs(np.diff(values))
     count = call.read("ENTIER")
     if count is None:
         size = call.required("FLOTTANT")
         if size <= 0.0:
             raise call.bad(f"the size of the intervals is positive, not {size:g}", size)
-        return ListReel(_joined(values, [_even(_nearest(abs(d), size)) for d in np.diff(values)]))
+        check_length(float(np.sum(lengths / size)))
+        return ListReel(_joined(values, [_even(_nearest(d, size)) for d in lengths]))
     number = int(count.value)
     if number == 0:
         raise call.bad("an interval is cut into one part at least", number)
+    check_length(abs(float(number)) * len(lengths))
     if number > 0:
         return ListReel(_joined(values, [_even(number)] * (len(values) - 1)))
-    return ListReel(_joined(values, _graded(np.abs(np.diff(values)), -number)))
+    return ListReel(_joined(values, _graded(lengths, -number)))
 
 
 def _joined(values: FloatArray, cuts: list[FloatArray]) -> FloatArray:

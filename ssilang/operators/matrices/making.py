@@ -95,6 +95,8 @@ def _repeated(call: Call, kind: str) -> Matrix:
         raise call.missing(("LISTMOTS",))
     rows = [r.values for r in (call.required("LISTREEL"), *call.all("LISTREEL"))]
     kind = _kind(call, kind)
+    if not mesh.blocks:
+        raise call.bad("the mesh of the matrix is empty", support, hint="give cells or points")
     nodes = CELL_TYPES[mesh.blocks[0].cell_type].n_nodes if len(primal) == 1 else 1
     size = sum(len(n) for n in primal) * nodes
     return repeated_matrix(mesh, primal, dual, square(rows, size, sign), kind, sign == 1.0)
