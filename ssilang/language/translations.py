@@ -12,6 +12,11 @@ import re
 from functools import lru_cache
 
 TEMPLATES: tuple[tuple[str, str], ...] = (
+    (
+        "element {} carries fields and pressures, it has no stiffness",
+        "l'élément {} porte des champs et des pressions, il n'a pas de rigidité",
+    ),
+    ("name another in MODE: {}", "nommez-en un autre dans MODE : {}"),
     # ---- Voronoi partitions
     ("a germ lies outside of the contour", "un germe est hors du contour"),
     ("INCL takes the points inside", "INCL prend les points intérieurs"),

@@ -203,3 +203,14 @@ def test_vibr_takes_a_mass_of_both_signs_for_a_buckling_load(run):
         "T = VIBR 'PROC' (PROG 0.) K G ; X = (2. * PI * (T . 'MODES' . 1 . 'FREQUENCE')) ** 2 ;"
     )
     assert value(run, text) == pytest.approx(4.0)
+
+
+@pytest.mark.parametrize("asked", ["RIGI M A", "MASS M A", "EPSI M U", "INTG M C"])
+def test_an_element_for_pressures_has_no_stiffness(refused, asked):
+    told = refused(
+        "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; M = MODE L MECANIQUE ELASTIQUE SEG2 ;"
+        "C = CHAN 'CHAM' (COOR 1 L) M 'STRESSES' ; A = MATE M YOUN 1. NU 0. RHO 1. ; "
+        f"U = MANU 'CHPO' L 2 'UX' 1. 'UY' 0. ; X = {asked} ;"
+    )
+    assert "element SEG2 carries fields and pressures, it has no stiffness" in told
+    assert "BARR, POUT" in told

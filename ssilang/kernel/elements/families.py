@@ -28,7 +28,7 @@ from ssilang.kernel.elements.solid_moduli import solid_compliance
 from ssilang.kernel.elements.solid_shell import SolidShell
 from ssilang.kernel.elements.thick_shell import ThickShell
 from ssilang.kernel.elements.zone_fields import ZoneField, missing_parameter, zone_field
-from ssilang.kernel.errors import FieldError
+from ssilang.kernel.errors import FieldError, MeshError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.matrix import ElementMatrices
@@ -59,10 +59,24 @@ def register_family(name: str, family: ElementFamily) -> None:
 
 
 def family_of(zone: Zone) -> ElementFamily:
-    """The family of a zone's element."""
+    """The family of a zone's element.
+
+    Raises
+    ------
+    MeshError
+        If the element only carries fields and pressures.
+    """
     if "SECTION" in zone.behaviour:
         return FAMILIES["fibre beam"]
-    return FAMILIES[ELEMENTS[zone.element].family]
+    family = FAMILIES.get(ELEMENTS[zone.element].family)
+    if family is None:
+        same = (k.name for k in ELEMENTS.values() if k.cell_type == zone.cells.cell_type)
+        others = [name for name in same if ELEMENTS[name].family in FAMILIES]
+        raise MeshError(
+            f"element {zone.element} carries fields and pressures, it has no stiffness",
+            f"name another in MODE: {', '.join(others)}",
+        )
+    return family
 
 
 def _moduli(zone: Zone, material: ZoneField, support: Support) -> FloatArray:
