@@ -213,4 +213,5 @@ def test_an_element_for_pressures_has_no_stiffness(refused, asked):
         f"U = MANU 'CHPO' L 2 'UX' 1. 'UY' 0. ; X = {asked} ;"
     )
     assert "element SEG2 carries fields and pressures, it has no stiffness" in told
-    assert "BARR, POUT" in told
+    assert "BARR, POUT, TIMO" in told
+    assert "M1D2" not in told

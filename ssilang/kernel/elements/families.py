@@ -70,8 +70,8 @@ def family_of(zone: Zone) -> ElementFamily:
         return FAMILIES["fibre beam"]
     family = FAMILIES.get(ELEMENTS[zone.element].family)
     if family is None:
-        same = (k.name for k in ELEMENTS.values() if k.cell_type == zone.cells.cell_type)
-        others = [name for name in same if ELEMENTS[name].family in FAMILIES]
+        alike = [k for k in ELEMENTS.values() if k.cell_type == zone.cells.cell_type]
+        others = [k.name for k in alike if k.family in FAMILIES and zone.mode in k.modes]
         raise MeshError(
             f"element {zone.element} carries fields and pressures, it has no stiffness",
             f"name another in MODE: {', '.join(others)}",
