@@ -103,3 +103,13 @@ def test_vector_product_of_fields_turns_in_2d(found):
         "X", "Y",
     )  # fmt: skip
     assert (x, y) == (-5.0, 2.0)
+
+
+def test_zero_hooke_matrices_make_no_stiffness(found):
+    block = found(
+        "OPTI DIME 2 ELEM QUA4 ; S = (DROI 2 (0. 0.) (2. 0.)) TRAN 1 (0. 1.) ; "
+        "M = MODE S MECANIQUE ELASTIQUE ; K = RIGI M (ZERO M 'HOTANGEN') ; ",
+        "K",
+    ).blocks[0]  # fmt: skip
+    assert block.values.shape == (2, 8, 8)
+    assert not block.values.any()

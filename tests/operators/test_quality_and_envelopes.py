@@ -104,3 +104,35 @@ def test_stresses_of_modes(found):
     assert size > 0
     assert difference < 1e-12 * size
     assert old is False
+
+
+def test_quality_in_a_metric_counts_shape_and_size(found):
+    height = 3**0.5 / 2
+    best, half, long, flat, right = found(
+        f"{TRI} T = MANU 'TRI3' (0. 0.) (2. 0.) (1. {2 * height!r}) ; "
+        "A = EXTR (INDI 'TOPO' T 2. 'LISTREEL') 1 ; B = MAXI (INDI 'TOPO' T 4.) ; "
+        "C = MAXI (INDI 'TOPO' T 0.5) ; D = MAXI (INDI 'TOPO' (MANU 'TRI3' (0. 0.) (2. 0.) "
+        "(1. 0.))) ; E = MAXI (INDI 'TOPO' (MANU 'TRI3' (0. 0.) (1. 0.) (0. 1.))) ;",
+        "A", "B", "C", "D", "E",
+    )  # fmt: skip
+    assert (best, half, long) == pytest.approx((1.0, 0.5, 0.25))
+    assert flat == pytest.approx(0.0, abs=1e-12)
+    assert right == pytest.approx(4 * 3**0.5 * 0.5 / 4)  # 4 sqrt(3) area over squares of edges
+
+
+def test_stretched_cell_is_the_best_in_its_metric(found):
+    # (x, y) = (3 x', y'): equilateral of edge 1 in x', y'
+    height = 3**0.5 / 2
+    x, y = found(
+        f"{TRI} T = MANU 'TRI3' (0. 0.) (3. 0.) (1.5 {height!r}) ; "
+        f"G = MANU 'CHPO' T 3 'G11' {1 / 9!r} 'G21' 0. 'G22' 1. ; X = MAXI (INDI 'TOPO' T G) ; "
+        "OPTI DIME 3 ; V = MANU 'TET4' (1. 1. 1.) (1. -1. -1.) (-1. 1. -1.) (-1. -1. 1.) ; "
+        "Y = MAXI (INDI 'TOPO' V (MANU 'CHPO' V 1 'G' 0.125)) ; ",
+        "X", "Y",
+    )  # fmt: skip
+    assert (x, y) == pytest.approx((1.0, 1.0))
+
+
+def test_quality_in_a_metric_is_for_simplices(refused):
+    script = "OPTI DIME 2 ELEM QUA4 ; S = (DROI 1 (0. 0.) (1. 0.)) TRAN 1 (0. 1.) ; "
+    assert "TRI3 or of TET4" in refused(script + "I = INDI 'TOPO' S ;")

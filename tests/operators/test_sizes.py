@@ -46,10 +46,35 @@ def test_size_is_given_cell_by_cell():
 
 def test_other_elements_and_directions_are_refused():
     line = "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (2. 0.) ; "
-    line += "M = MODE L MECANIQUE ELASTIQUE BARR ; "
+    line += "M = MODE L MECANIQUE ELASTIQUE JOI1 ; "
     result = run_text(line + "A = TAIL 'DIAMETRE_MIN' M ;")
     assert result.exit_code == 1
-    assert "not solid" in result.message
+    assert "no smallest length" in result.message
+    line = line.replace("JOI1", "BARR")
     result = run_text(line + "A = TAIL 'DIRECTION' M ;")
     assert result.exit_code == 1
     assert "only 'DIAMETRE_MIN'" in result.message
+
+
+def test_shells_and_beams_have_the_length_of_bending_waves():
+    x, y, z = found(
+        "OPTI DIME 3 ELEM QUA4 ; S = ((0. 0. 0.) DROI 1 (2. 0. 0.)) TRAN 1 (0. 0.5 0.) ; "
+        "M = MODE S MECANIQUE ELASTIQUE COQ4 ; A = CARA M 'EPAI' 0.1 ; "
+        "X = MAXI (EXCO 'L2H' (TAIL 'DIAMETRE_MIN' M A)) ; OPTI ELEM SEG2 ; "
+        "L = DROI 2 (0. 0. 0.) (2. 0. 0.) ; N = MODE L MECANIQUE ELASTIQUE POUT ; "
+        f"B = CARA N 'SECT' 0.06 'INRY' {0.2 * 0.3**3 / 12!r} 'INRZ' {0.3 * 0.2**3 / 12!r} "
+        "'TORS' 1. ; C = TAIL 'DIAMETRE_MIN' N B ; "
+        "Y = MAXI (EXCO 'L2H' C) ; Z = MINI (EXCO 'L' C) ;",
+        "X", "Y", "Z",
+    )  # fmt: skip
+    assert x == pytest.approx(0.25 / 0.1)
+    assert y == pytest.approx(1.0 / 0.3)
+    assert z == pytest.approx(1.0)
+
+
+def test_bending_lengths_want_the_thickness():
+    result = run_text(
+        "OPTI DIME 3 ELEM QUA4 ; S = ((0. 0. 0.) DROI 1 (2. 0. 0.)) TRAN 1 (0. 0.5 0.) ; "
+        "A = TAIL 'DIAMETRE_MIN' (MODE S MECANIQUE ELASTIQUE COQ4) ;"
+    )
+    assert "thickness or section is needed" in result.message

@@ -12,7 +12,7 @@ from ssilang.kernel.mesh.nodes import FloatArray
 
 
 def smallest_lengths(block: CellBlock) -> FloatArray:
-    """Smallest length (n_cells,) of each cell, surface or volume.
+    """Smallest length (n_cells,) of each cell: line, surface or volume.
 
     The least of the distances between two nodes, and from a node to the line or plane of a side
     that does not hold it (the mean plane of a side of four corners).
@@ -20,7 +20,7 @@ def smallest_lengths(block: CellBlock) -> FloatArray:
     x = block.coordinates
     pairs = itertools.combinations(range(x.shape[1]), 2)
     found = [np.linalg.norm(x[:, a] - x[:, b], axis=-1) for a, b in pairs]
-    for name, local in block.kind.faces:
+    for name, local in block.kind.faces if block.kind.dimension > 1 else ():
         corners = [local[k] for k in CELL_TYPES[name].corners]
         others = [k for k in range(x.shape[1]) if k not in local]
         if block.kind.dimension == 2:

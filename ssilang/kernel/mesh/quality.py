@@ -61,3 +61,33 @@ def flatness(corners: FloatArray) -> FloatArray:
     size = np.linalg.norm(one, axis=1) * np.linalg.norm(two, axis=1)
     cosine = np.einsum("nd,nd->n", one, two) / np.maximum(size, TINY)
     return np.asarray(100.0 * (1.0 - np.arccos(np.clip(cosine, -1.0, 1.0)) / np.pi))
+
+
+def quality_in_metric(corners: FloatArray, metric: FloatArray | None) -> FloatArray:
+    """Quality (n,) of simplices from 0 (no measure) to 1 (equilateral, edges of the length 1).
+
+    The shape counts by the mean ratio (measure to the power 2 / d over the mean square of the
+    edges, 1 for an equilateral cell: Liu and Joe, BIT 34, 1994), its size s (root of the mean
+    square of the edges) by the smaller of s and 1 / s; without metric the size does not count.
+
+    Parameters
+    ----------
+    corners : array (n, d + 1, dim)
+    metric : array (n, dim, dim) or None
+        Edges e have the length sqrt(e M e).
+    """
+    d = corners.shape[1] - 1
+    M = np.eye(corners.shape[2]) if metric is None else metric
+    sides = corners[:, 1:] - corners[:, :1]
+    gram = sides @ M @ np.swapaxes(sides, 1, 2)
+    measure = np.sqrt(np.maximum(np.linalg.det(gram), 0.0)) / factorial(d)
+    edges = np.stack(
+        [corners[:, j] - corners[:, i] for i, j in combinations(range(d + 1), 2)], axis=1
+    )
+    square = ((edges @ M) * edges).sum(axis=2).mean(axis=1)
+    unit = np.sqrt(d + 1.0) / (factorial(d) * np.sqrt(2.0) ** d)  # equilateral of edge 1
+    shape = (measure / unit) ** (2.0 / d) / np.maximum(square, TINY)
+    if metric is None:
+        return np.asarray(shape)
+    size = np.sqrt(square)
+    return np.asarray(shape * np.minimum(size, 1.0 / np.maximum(size, TINY)))

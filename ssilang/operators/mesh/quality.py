@@ -7,12 +7,14 @@ from collections.abc import Callable
 import numpy as np
 
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.mesh.quality import aspect_ratio, flatness, skewness
+from ssilang.kernel.mesh.quality import aspect_ratio, flatness, quality_in_metric, skewness
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
-from ssilang.language.values import ListMots
+from ssilang.language.values import ListMots, ListReel
+from ssilang.operators.workspace import workspace
 
 _MEASURES: dict[str, tuple[tuple[str, ...], Callable[[FloatArray], FloatArray]]] = {
     "PLAN": (("QUA4",), flatness),
@@ -30,13 +32,22 @@ _MEASURES: dict[str, tuple[tuple[str, ...], Callable[[FloatArray], FloatArray]]]
         "one, less by the angle between its two normals (0 at 180 degrees). 'ASPE' of TRI3 and "
         "TET4: longest edge over shortest height, 1 for an equilateral cell. 'SKEW' of TRI3 and "
         "TET4: share of the measure of the equilateral cell in the same circumscribed sphere that "
-        "is lacking, 0 to 1.",
+        "is lacking, 0 to 1. 'TOPO': quality of TRI3 or TET4, 0 for a cell without measure to 1 "
+        "for an equilateral one, of edges of the length wanted where METR1 gives it: a number (the "
+        "length), or a field at nodes of metric tensors (G, or G11 G21 G22 (G31 G32 G33), in "
+        "length^-2): the mean ratio of the cell times the smaller of s and 1/s, s being the root "
+        "of the mean square of the edges over the length wanted. 'LISTREEL' gives a list.",
         fr="Champ par éléments d'indicateurs de leur forme. 'PLAN' des quadrangles : 100 pour un "
         "élément plan, moins selon l'angle de ses deux normales (0 à 180 degrés). 'ASPE' des TRI3 "
         "et TET4 : plus grande arête sur plus petite hauteur, 1 pour un élément équilatéral. "
         "'SKEW' des TRI3 et TET4 : part manquante de la mesure de l'élément équilatéral de même "
-        "sphère circonscrite, de 0 à 1.",
-        syntax="CHAM1 = INDI GEO1 'PLAN' | 'ASPE' | 'SKEW' ... ;",
+        "sphère circonscrite, de 0 à 1. 'TOPO' : qualité des TRI3 ou TET4, de 0 (sans mesure) à 1 "
+        "(équilatéral, d'arêtes de la longueur voulue si METR1 la donne : un nombre, la longueur, "
+        "ou un champ aux noeuds de métriques G, ou G11 G21 G22 (G31 G32 G33), en longueur^-2) : "
+        "rapport moyen de l'élément fois le plus petit de s et 1/s, s étant la moyenne quadratique "
+        "des arêtes sur la longueur voulue. 'LISTREEL' donne une liste.",
+        syntax="CHAM1 = INDI GEO1 'PLAN' | 'ASPE' | 'SKEW' ... ;\n"
+        "CHAM1 = INDI 'TOPO' GEO1 (METR1) ('LISTREEL') ;",
         examples=(
             "OPTI DIME 2 ELEM TRI3 ; T = MANU 'TRI3' (0. 0.) (1. 0.) (0. 1.) ; "
             "LIST (MAXI (INDI T 'ASPE')) ;",
@@ -44,12 +55,12 @@ _MEASURES: dict[str, tuple[tuple[str, ...], Callable[[FloatArray], FloatArray]]]
     ),
     reads_itself=True,
 )
-def indi(call: Call) -> CellField:
+def indi(call: Call) -> CellField | ListReel:
     """Shape of cells."""
     words: list[str] = []
     first = call.keyword(("TOPO", *_MEASURES))
     if first == "TOPO":
-        raise call.bad("'TOPO' is not available in INDI", hint="'ASPE' and 'SKEW' are")
+        return _in_metric(call)
     words += [first] if first else []
     mesh: Mesh = call.required("MAILLAGE")
     while (word := call.keyword(tuple(_MEASURES))) is not None:
@@ -58,6 +69,48 @@ def indi(call: Call) -> CellField:
         raise call.bad("which indicator?", hint="'PLAN' 'ASPE' 'SKEW'")
     blocks = tuple(_block(call, b, words) for b in mesh.blocks)
     return CellField(blocks, "SCALAIRE")
+
+
+def _in_metric(call: Call) -> CellField | ListReel:
+    """INDI 'TOPO'."""
+    mesh: Mesh = call.required("MAILLAGE")
+    listed = call.keyword(("LISTREEL",)) is not None
+    size, field = call.optional("FLOTTANT"), call.optional("CHPOINT")
+    listed = listed or call.keyword(("LISTREEL",)) is not None
+    kinds = {b.cell_type for b in mesh.blocks}
+    if len(mesh.blocks) != 1 or not kinds <= {"TRI3", "TET4"}:
+        raise call.bad("'TOPO' is for a mesh of TRI3 or of TET4 alone", mesh)
+    cells = mesh.blocks[0]
+    metric: FloatArray | None = None
+    if size is not None:
+        if size <= 0:
+            raise call.bad("the length wanted must be > 0", size)
+        metric = np.broadcast_to(np.eye(3) / size**2, (len(cells), 3, 3))
+    elif field is not None:
+        metric = _metric(call, cells, field, workspace(call.session).mode.dimension)
+    values = quality_in_metric(cells.coordinates, metric)
+    if listed:
+        return ListReel(values)
+    block = CellFieldBlock(cells, {"SCAL": values[:, None]}, "GRAVITE")
+    return CellField((block,), "SCALAIRE")
+
+
+def _metric(call: Call, cells: CellBlock, field: NodeField, dimension: int) -> FloatArray:
+    """Mean over the nodes of each cell of the metric (n, 3, 3)."""
+    names = {(i, j): f"G{i + 1}{j + 1}" for i in range(dimension) for j in range(i + 1)}
+    if "G" in field.components:
+        names = {(i, i): "G" for i in range(dimension)}
+    missing = [n for n in names.values() if n not in field.components]
+    if missing:
+        raise call.bad(
+            f"the metric lacks {' '.join(missing)}", field, hint="G, or G11 G21 G22 (G31 G32 G33)"
+        )
+    nodes = cells.connectivity
+    M = np.zeros((len(nodes), 3, 3))
+    for (i, j), name in names.items():
+        values = field.values_at(name, nodes.ravel()).reshape(nodes.shape).mean(axis=1)
+        M[:, i, j] = M[:, j, i] = values
+    return M
 
 
 def _block(call: Call, cells: CellBlock, words: list[str]) -> CellFieldBlock:

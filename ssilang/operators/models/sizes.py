@@ -2,12 +2,31 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from ssilang.kernel.elements.catalog import ELEMENTS, SOLID_FAMILIES
+from ssilang.kernel.elements.pipe import pipe_parameters
+from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.mesh.heights import smallest_lengths
-from ssilang.kernel.model import Model
+from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.model import Model, Zone
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
+
+_SHELLS = ("plate", "mindlin", "thick", "meridian")
+_BEAMS = ("beam", "timoshenko", "pipe")
+
+
+def _depth(zone: Zone, given: ZoneField, family: str) -> FloatArray:
+    """Thickness (n or 1, 1) of shells, that of the rectangle of the same gyration of beams."""
+    if family in _SHELLS:
+        return given.at("EPAI", "GRAVITE")
+    if family == "pipe":
+        given = pipe_parameters(zone, given)
+    names = [n for n in ("INRY", "INRZ") if n in given] or ["INRZ"]
+    inertia = np.max(np.broadcast_arrays(*(given.at(n, "GRAVITE") for n in names)), axis=0)
+    return np.asarray(np.sqrt(12.0 * inertia / given.at("SECT", "GRAVITE")))
 
 
 @operator(
@@ -15,13 +34,17 @@ from ssilang.language.registry import Help, operator
     family="models",
     full_name="TAILLE",
     help=Help(
-        "'DIAMETRE_MIN': the smallest length of each solid element, at its middle, component L: "
+        "'DIAMETRE_MIN': the smallest length of each element, at its middle, component L: "
         "between two nodes, or from a node to a side that does not hold it. It limits the time "
         "step "
-        "of explicit schemes.",
-        "'DIAMETRE_MIN' : la plus petite longueur de chaque élément massif, en son centre, "
+        "of explicit schemes. Shells and beams have a second component L2H = L^2 / h, to which the "
+        "time of bending waves is in proportion, h being the thickness of CARA1 or that of the "
+        "rectangle that has the larger radius of gyration of the section.",
+        "'DIAMETRE_MIN' : la plus petite longueur de chaque élément, en son centre, "
         "composante L : entre deux noeuds, ou d'un noeud à un côté qui ne le contient pas. Elle "
-        "borne le pas de temps des schémas explicites.",
+        "borne le pas de temps des schémas explicites. Les coques et poutres ont une seconde "
+        "composante L2H = L^2 / h, à laquelle le temps des ondes de flexion est proportionnel, h "
+        "étant l'épaisseur de CARA1 ou celle du rectangle de même plus grand rayon de giration.",
         "MCHAML1 = TAIL 'DIAMETRE_MIN' MODL1 (MCHAML2) ;",
         (
             "OPTI DIME 2 ELEM QUA4 ; S = (DROI 2 (0. 0.) (2. 0.)) TRAN 1 (0. 0.3) ; "
@@ -31,16 +54,26 @@ from ssilang.language.registry import Help, operator
     reads_itself=True,
 )
 def tail(call: Call) -> CellField:
-    """Smallest lengths of solid elements."""
+    """Smallest lengths of elements."""
     word = call.keyword(("DIAM", "DIRE"))
     model: Model = call.required("MMODEL")
-    call.optional("MCHAML")
+    given = call.optional("MCHAML")
     if word != "DIAM":
         raise call.bad("only 'DIAMETRE_MIN' is built", model)
     blocks = []
     for zone in model.zones:
-        if ELEMENTS[zone.element].family not in SOLID_FAMILIES:
-            raise call.bad(f"elements {zone.element} are not solid", model)
-        values = smallest_lengths(zone.cells)[:, None]
-        blocks.append(CellFieldBlock(zone.cells, {"L": values}, "GRAVITE", zone.element))
+        family = ELEMENTS[zone.element].family
+        if family not in (*SOLID_FAMILIES, *_SHELLS, *_BEAMS, "bar"):
+            raise call.bad(f"elements {zone.element} have no smallest length", model)
+        values = {"L": smallest_lengths(zone.cells)[:, None]}
+        if family in (*_SHELLS, *_BEAMS):
+            if given is None:
+                raise call.bad(
+                    f"elements {zone.element} bend: their thickness or section is needed",
+                    model,
+                    hint="TAIL 'DIAMETRE_MIN' MODL1 CAR1",
+                )
+            depth = _depth(zone, zone_field(zone, given), family)
+            values["L2H"] = values["L"] ** 2 / depth
+        blocks.append(CellFieldBlock(zone.cells, values, "GRAVITE", zone.element))
     return CellField(tuple(blocks), "CARACTERISTIQUES")
