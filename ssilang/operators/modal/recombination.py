@@ -22,8 +22,11 @@ from ssilang.language.values import ListChpo, ListReel, Mot, Table
 from ssilang.operators.curves.making import results_in_time
 from ssilang.operators.modal.basis import Shape, read_basis, shapes_in
 
-QUANTITIES = ("DEPL", "VITE", "ACCE", "CONT")
-_INDEX = {"DEPL": "DEPLACEMENT", "VITE": "VITESSE", "ACCE": "ACCELERATION", "CONT": "DEPLACEMENT"}
+QUANTITIES = ("DEPL", "VITE", "ACCE", "CONT", "REAC")
+_INDEX = {
+    "DEPL": "DEPLACEMENT", "VITE": "VITESSE", "ACCE": "ACCELERATION", "CONT": "DEPLACEMENT",
+    "REAC": "DEPLACEMENT",
+}  # fmt: skip
 _AXES = ("UX", "UY", "UZ")
 
 
@@ -165,9 +168,7 @@ def at_time(call: Call, fields: list[Any], times: FloatArray, time: float) -> No
 
 
 def _reco(call: Call) -> Any:
-    quantity = call.keyword((*QUANTITIES, "REAC")) or "DEPL"
-    if quantity == "REAC":
-        raise call.bad("reactions of modes are not kept: recombine the displacement, then REAC")
+    quantity = call.keyword(QUANTITIES) or "DEPL"
     first = call.required("CHPOINT", "LISTCHPO", "TABLE")
     basis = next((o.value for o in call.operands if isinstance(o.value, Table)), None)
     shapes = read_basis(call)
@@ -183,12 +184,14 @@ def _reco(call: Call) -> Any:
     elif time is not None and load is None:  # a number of shapes to take
         shapes = shapes[: _count(call, time)]
     pseudo: list[PseudoShape] = []
-    if load is not None and quantity in ("DEPL", "CONT"):
+    if load is not None and quantity in ("DEPL", "CONT", "REAC"):
         if time is None or basis is None:
             raise call.bad("pseudo-modes want a table of the basis and the time", load)
         pseudo = pseudo_shapes(call, basis, load)
     if quantity == "CONT":
         return _stresses(call, first, shapes, pseudo, time)
+    if quantity == "REAC":
+        return _reactions(call, first, shapes, pseudo, time)
     field = recombined(first, shapes)
     if pseudo:
         amplitudes = [float(p.at(np.array([time]))[0]) for p in pseudo]
@@ -211,11 +214,8 @@ def _stresses(
     call: Call, weights: Any, shapes: list[Shape], pseudo: list[PseudoShape], time: float | None
 ) -> CellField:
     """Sum of the stresses of shapes (CONTRAINTE_MODALE, CONTRAINTE), as SIGS gives them."""
-    factors = contribution(weights, shapes)
-    entries = [(f, s.entry) for f, s in zip(factors, shapes, strict=True)]
-    entries += [(float(p.at(np.array([time]))[0]), p.entry) for p in pseudo]
     total: CellField | None = None
-    for factor, entry in entries:
+    for factor, entry in _weighted(weights, shapes, pseudo, time):
         stress = entry.get(Mot("CONTRAINTE_MODALE"), entry.get(Mot("CONTRAINTE")))
         if not isinstance(stress, CellField):
             raise call.bad("a shape has no stresses", entry, hint="SIGS gives them to the table")
@@ -225,21 +225,46 @@ def _stresses(
     return total
 
 
+def _weighted(
+    weights: Any, shapes: list[Shape], pseudo: list[PseudoShape], time: float | None
+) -> list[tuple[float, Table]]:
+    """Tables of shapes and pseudo-modes, and how much of each there is."""
+    factors = contribution(weights, shapes)
+    entries = [(f, s.entry) for f, s in zip(factors, shapes, strict=True)]
+    return entries + [(float(p.at(np.array([time]))[0]), p.entry) for p in pseudo]
+
+
+def _reactions(
+    call: Call, weights: Any, shapes: list[Shape], pseudo: list[PseudoShape], time: float | None
+) -> NodeField:
+    """Sum of the reactions of shapes (REACTION_MODALE, REACTION), as REAC gives them."""
+    entries = _weighted(weights, shapes, pseudo, time)
+    fields = []
+    for _, entry in entries:
+        field = entry.get(Mot("REACTION_MODALE"), entry.get(Mot("REACTION")))
+        if not isinstance(field, NodeField):
+            raise call.bad("a shape has no reactions", entry, hint="REAC gives them to the table")
+        fields.append(field)
+    return combined([f for f, _ in entries], fields)
+
+
 operator(
     "RECO",
     family="modal",
     help=Help(
         "Field u = sum of the shapes of a basis times the contributions ALFA (and BETA) that a "
         "field holds at the points that mark them; of results in time (DYNE, PASAPAS) at an "
-        "instant: 'DEPL', 'VITE', 'ACCE', or 'CONT' for stresses (SIGS gives those of the shapes). "
+        "instant: 'DEPL', 'VITE', 'ACCE', 'CONT' for stresses (SIGS gives those of the shapes) or "
+        "'REAC' for reactions (REAC gives those of the shapes). "
         "With a load, the pseudo-modes of the basis that its forces drive are added.",
         "Champ u = somme des déformées d'une base multipliées par les contributions ALFA (et BETA) "
         "que porte un champ à leurs points repères ; de résultats en temps (DYNE, PASAPAS) à un "
-        "instant : 'DEPL', 'VITE', 'ACCE', ou 'CONT' pour les contraintes (SIGS donne celles des "
-        "déformées). Avec un chargement, on ajoute les pseudo-modes que ses forces excitent.",
+        "instant : 'DEPL', 'VITE', 'ACCE', 'CONT' pour les contraintes (SIGS donne celles des "
+        "déformées) ou 'REAC' pour les réactions (REAC les donne). Avec un chargement, on ajoute les "
+        "pseudo-modes que ses forces excitent.",
         "CHPO2 = RECO CHPO1 TAB1 (TAB2 ...) | MODL1 MAT1 ;\n"
         "OBJ2 = RECO TDYNE | TPASA TAB1 | MODL1 MAT1 FLOT1 (CHAR1) ('DEPL' | 'VITE' | 'ACCE' | "
-        "'CONT') ;\nLCHP2 = RECO LCHP1 TAB1 (N1) ;",
+        "'CONT' | 'REAC') ;\nLCHP2 = RECO LCHP1 TAB1 (N1) ;",
         (
             "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = APPU 'UX' 400. P1 ;"
             " T1 = VIBR 'SIMU' 1. 1 K1 (MASS 'UX' 4. P1) ;"
