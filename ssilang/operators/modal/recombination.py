@@ -260,8 +260,8 @@ operator(
         "Champ u = somme des déformées d'une base multipliées par les contributions ALFA (et BETA) "
         "que porte un champ à leurs points repères ; de résultats en temps (DYNE, PASAPAS) à un "
         "instant : 'DEPL', 'VITE', 'ACCE', 'CONT' pour les contraintes (SIGS donne celles des "
-        "déformées) ou 'REAC' pour les réactions (REAC les donne). Avec un chargement, on ajoute les "
-        "pseudo-modes que ses forces excitent.",
+        "déformées) ou 'REAC' pour les réactions (REAC les donne). Avec un chargement, on ajoute "
+        "les pseudo-modes que ses forces excitent.",
         "CHPO2 = RECO CHPO1 TAB1 (TAB2 ...) | MODL1 MAT1 ;\n"
         "OBJ2 = RECO TDYNE | TPASA TAB1 | MODL1 MAT1 FLOT1 (CHAR1) ('DEPL' | 'VITE' | 'ACCE' | "
         "'CONT' | 'REAC') ;\nLCHP2 = RECO LCHP1 TAB1 (N1) ;",
