@@ -17,6 +17,26 @@ TEMPLATES: tuple[tuple[str, str], ...] = (
         "l'élément {} porte des champs et des pressions, il n'a pas de rigidité",
     ),
     ("name another in MODE: {}", "nommez-en un autre dans MODE : {}"),
+    # ---- tension curves
+    (
+        "TRAC begins at zero stress and strain, then comes the elastic limit",
+        "TRAC part de contrainte et déformation nulles, puis vient la limite élastique",
+    ),
+    ("the first slope of TRAC is {}, YOUN is {}", "la première pente de TRAC est {}, YOUN vaut {}"),
+    (
+        "the second point of TRAC is the elastic limit",
+        "le second point de TRAC est la limite élastique",
+    ),
+    (
+        "TRAC rises by more than YOUN behind the elastic limit",
+        "TRAC monte de plus que YOUN après la limite élastique",
+    ),
+    (
+        "the hardening is given twice, by TRAC and by ECRO",
+        "l'écrouissage est donné deux fois, par TRAC et par ECRO",
+    ),
+    ("TRAC needs YOUN as one number", "TRAC demande pour YOUN un seul nombre"),
+    ("give ECRO instead", "donnez plutôt ECRO"),
     # ---- Voronoi partitions
     ("a germ lies outside of the contour", "un germe est hors du contour"),
     ("INCL takes the points inside", "INCL prend les points intérieurs"),

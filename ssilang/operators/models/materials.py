@@ -15,12 +15,13 @@ from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.joints.elements import is_joint
 from ssilang.kernel.joints.table import check_given
 from ssilang.kernel.materials.axes import Directions, axis_parameters
-from ssilang.kernel.materials.parameters import geometric_names, known_names
+from ssilang.kernel.materials.parameters import geometric_names
 from ssilang.kernel.mesh.mesh import Point
 from ssilang.kernel.model import Model, Zone
 from ssilang.language.call import Call
 from ssilang.language.diagnostics import nearest
 from ssilang.language.registry import Help, operator
+from ssilang.operators.models.tension import material_names, tension_to_hardening
 
 Known = Callable[[Zone], tuple[str, ...]]
 Value = tuple[NDArray[Any], Support]
@@ -44,7 +45,8 @@ _TURNS = ("PARALLELE", "PERPENDICULAIRE", "INCLINE")
         "YG2 YG3 NU12 NU23 NU13 G12 G23 G13 RHO ALP1 ALP2 ALP3; joints: KN KS (KS1 KS2) RHO and, "
         "for JOINT_SDM, FU GF FC FROT (KN <= FU**2/GF is refused, with the least KN). Plastic "
         "bodies besides: PARFAIT SIGY; ISOTROPE ECRO (curve of the strength over the plastic "
-        "strain); CINEMATIQUE SIGY H; DRUCKER_PARFAIT LTR LCS; DRUCKER_PRAGER ALFA BETA K ETA MU "
+        "strain) or TRAC (of the stress over the whole strain, from zero); CINEMATIQUE SIGY H; "
+        "DRUCKER_PARFAIT LTR LCS; DRUCKER_PRAGER ALFA BETA K ETA MU "
         "KL H GAMM DELT; RH_COULOMB COHE PHI; PARFAIT_UNI SIGY H; BETON_BAEL FC. "
         "Beams ELASTIQUE SECTION take the model of their section, MODS, and its material, MATS; "
         "fibres take ALPY ALPZ, which multiply their shear stresses (and points SECT): the section "
@@ -62,7 +64,8 @@ _TURNS = ("PARALLELE", "PERPENDICULAIRE", "INCLINE")
         "YG3 NU12 NU23 NU13 G12 G23 G13 RHO ALP1 ALP2 ALP3 ; joints : KN KS (KS1 KS2) RHO et, "
         "pour JOINT_SDM, FU GF FC FROT (KN <= FU**2/GF est refusé, avec le plus petit "
         "KN). Corps plastiques, en plus : PARFAIT SIGY ; ISOTROPE ECRO (courbe de la limite en "
-        "fonction de la déformation plastique) ; CINEMATIQUE SIGY H ; DRUCKER_PARFAIT LTR LCS ; "
+        "fonction de la déformation plastique) ou TRAC (de la contrainte en fonction de la "
+        "déformation totale, depuis zéro) ; CINEMATIQUE SIGY H ; DRUCKER_PARFAIT LTR LCS ; "
         "DRUCKER_PRAGER ALFA BETA K ETA MU KL H GAMM DELT ; RH_COULOMB COHE PHI ; PARFAIT_UNI SIGY "
         "H ; BETON_BAEL FC. Les poutres ELASTIQUE SECTION prennent le modèle de leur section, "
         "MODS, et son matériau, MATS ; les fibres ALPY ALPZ, qui multiplient leurs cisaillements "
@@ -89,7 +92,7 @@ _TURNS = ("PARALLELE", "PERPENDICULAIRE", "INCLINE")
 )
 def mate(call: Call) -> CellField:
     """Parameters of law and section; those of joints are checked by their law."""
-    return _parameters(call, known_names, check_joints)
+    return _parameters(call, material_names, check_joints)
 
 
 def check_joints(model: Model, given: list[Values]) -> None:
@@ -131,6 +134,8 @@ def _parameters(call: Call, known: Known, check: Check | None = None) -> CellFie
             _read_axes(call, word, model, given, known)
         else:
             _read_value(call, word, model, given, known)
+    for values in given:
+        tension_to_hardening(values)
     blocks = [b for z, v in zip(model.zones, given, strict=True) for b in _blocks(z, v)]
     if not blocks:
         raise call.bad("no parameter is given", model, hint="NAME VALUE, such as 'YOUN' 2.E11")
