@@ -37,6 +37,7 @@ PICTURES = {
     "basics/patch_joint": {1: "patch_joint"},
     "basics/cantilever": {1: "cantilever"},
     "basics/lifted_beam": {1: "lifted_beam"},
+    "basics/fibre_column": {1: "fibre_column"},
     "basics/rubbing_cylinder": {1: "rubbing_cylinder"},
     "basics/beam_frequencies": {1: "beam_frequencies"},
     "basics/bar_frequencies": {1: "bar_frequencies"},

@@ -16,6 +16,7 @@ SPOILT = [
     ("basics/patch_joint.ssi", "((1. / KN0) +", "((1.001 / KN0) +"),
     ("basics/cantilever.ssi", "'INRZ' INE0", "'INRZ' (1.001 * INE0)"),
     ("basics/lifted_beam.ssi", "'INRZ' INE0", "'INRZ' (1.05 * INE0)"),
+    ("basics/fibre_column.ssi", "'SIGY' SY0", "'SIGY' (1.01 * SY0)"),
     ("basics/rubbing_cylinder.ssi", "'MU' MU0)", "'MU' (1.1 * MU0))"),
     (
         "basics/beam_frequencies.ssi",
