@@ -703,6 +703,18 @@ TEMPLATES: tuple[tuple[str, str], ...] = (
         "{} : 'MASSE_CONSTANTE' n'est pas régulière : les exposants de Floquet demandent une masse "
         "pour chaque inconnue",
     ),
+    (
+        "a smaller increment of the control, or another control; supports (BLOCAGES_MECANIQUES) "
+        "that hold the structure",
+        "un incrément de pilotage plus petit, ou un autre pilotage ; des appuis "
+        "(BLOCAGES_MECANIQUES) qui tiennent la structure",
+    ),
+    (
+        "a smaller 'AUTOCRIT', or a control that grows along the path; supports "
+        "(BLOCAGES_MECANIQUES) that hold the structure",
+        "un 'AUTOCRIT' plus petit, ou un pilotage qui croît le long du chemin ; des appuis "
+        "(BLOCAGES_MECANIQUES) qui tiennent la structure",
+    ),
     ("{}: '{}' holds no curve", "{} : '{}' ne contient aucune courbe"),
     (
         "{}: '{}' has values that are not finite numbers",

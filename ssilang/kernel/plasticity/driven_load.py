@@ -75,7 +75,8 @@ def follow_directions(
                     raise ConvergenceError(
                         f"step {k}, time {times[k]:g}: no point of the path found, step cut "
                         f"{HALVINGS} times",
-                        "a smaller increment of the control, or another control",
+                        "a smaller increment of the control, or another control; supports "
+                        "(BLOCAGES_MECANIQUES) that hold the structure",
                     )
                 continue
             eta, done, length = eta + step, end, min(2 * length, 1.0)
@@ -143,5 +144,6 @@ def _towards(
         share *= 0.5
     raise ConvergenceError(
         f"time {now:g}: no point of the path found, step cut {HALVINGS} times",
-        "a smaller 'AUTOCRIT', or a control that grows along the path",
+        "a smaller 'AUTOCRIT', or a control that grows along the path; supports "
+        "(BLOCAGES_MECANIQUES) that hold the structure",
     )
