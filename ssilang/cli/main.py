@@ -30,7 +30,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"ssilang {__version__}")
     commands = parser.add_subparsers(dest="command", metavar="{run,check,help,sweep,repl}")
     run = commands.add_parser("run", help="run a script (- for standard input)")
-    run.add_argument("file")
+    run.add_argument("file", nargs="?")
     _run_arguments(run)
     run.add_argument(
         "--set",
@@ -96,11 +96,13 @@ def _run_arguments(parser: argparse.ArgumentParser) -> None:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Entry point; returns the exit code (0 fine, 1 the script failed, 2 wrong usage)."""
     words = list(sys.argv[1:] if arguments is None else arguments)
-    if words and words[0] not in (*_COMMANDS, "-h", "--help", "--version"):
-        words.insert(0, "run")  # also for options before the file
-    if not words:
-        words = ["repl"] if sys.stdin.isatty() else ["run", "-"]
-    options = _parser().parse_args(words)
+    named = bool(words) and words[0] in (*_COMMANDS, "-h", "--help", "--version")
+    parser = _parser()
+    options = parser.parse_args(words if named else ["run", *words])
+    if options.command == "run" and options.file is None:
+        if named:
+            parser.error("run needs a file, or - for standard input")
+        options.command, options.file = ("repl" if sys.stdin.isatty() else "run"), "-"
     for stream in (sys.stdout, sys.stderr):  # a terminal without accents must not stop a run
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")

@@ -152,6 +152,12 @@ def test_options_may_stand_before_the_file(tmp_path, capsys):
     assert "erreur" in capsys.readouterr().err
 
 
+def test_options_without_a_file_leave_standard_input_to_run(process):
+    done = process("--lang", "fr", stdin="A = PRGO 1. ;\n")
+    assert done.code == 1
+    assert "erreur" in done.err
+
+
 def test_deep_blocks_run_in_a_fresh_process(process, tmp_path):
     text = "A = 1 ; " + "SI VRAI ; " * 1000 + "A = 2 ; " + "FINSI ; " * 1000 + "MESS A ;"
     (tmp_path / "deep.ssi").write_text(text)
