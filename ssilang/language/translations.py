@@ -11,7 +11,10 @@ from __future__ import annotations
 import re
 from functools import lru_cache
 
+from ssilang.language.french_meshes import MESHES
+
 TEMPLATES: tuple[tuple[str, str], ...] = (
+    *MESHES,
     (
         "element {} carries fields and pressures, it has no stiffness",
         "l'élément {} porte des champs et des pressions, il n'a pas de rigidité",
@@ -63,6 +66,14 @@ TEMPLATES: tuple[tuple[str, str], ...] = (
         "donner son modèle à une poutre TIMO : MATE MODL1 'MODS' modèle 'MATS' matériau",
     ),
     ("FC = 0: concrete needs a strength", "FC = 0 : le béton veut une résistance"),
+    (
+        "the thermal expansion of sections of fibres is not available",
+        "la dilatation thermique des sections de fibres n'existe pas",
+    ),
+    (
+        "leave ALPH out of the material of the fibres",
+        "ôter ALPH du matériau des fibres",
+    ),
     ("a section has no element {}", "une section n'a pas d'élément {}"),
     ("it is made of POJS, TRIS and QUAS", "elle est faite de POJS, TRIS et QUAS"),
     (
@@ -663,8 +674,8 @@ TEMPLATES: tuple[tuple[str, str], ...] = (
     (
         "load step {}, time {}: no equilibrium, full uplift: {} of {} joint points are open and "
         "nothing else holds the body at node {}",
-        "pas de charge {}, temps {} : pas d'équilibre, décollement total : {} des {} points de joint sont ouverts et rien "
-        "d'autre ne tient le corps au noeud {}",
+        "pas de charge {}, temps {} : pas d'équilibre, décollement total : {} des {} points de "
+        "joint sont ouverts et rien d'autre ne tient le corps au noeud {}",
     ),
     (
         "less eccentric loads, a support, or a dynamic calculation; if the loads press, the "
@@ -715,6 +726,207 @@ TEMPLATES: tuple[tuple[str, str], ...] = (
         "un 'AUTOCRIT' plus petit, ou un pilotage qui croît le long du chemin ; des appuis "
         "(BLOCAGES_MECANIQUES) qui tiennent la structure",
     ),
+    # ---- procedures: entries, harmonic balance, sweeps, paths
+    ("there is no field to decompose", "il n'y a aucun champ à décomposer"),
+    ("no component is left to decompose", "il ne reste aucune composante à décomposer"),
+    ("{}: '{}' and '{}' choose two schemes", "{} : '{}' et '{}' choisissent deux schémas"),
+    ("{}: '{}' is {}", "{} : '{}' vaut {}"),
+    ("{}: '{}' is for static calculations", "{} : '{}' est pour les calculs statiques"),
+    ("{}: '{}' must be TABLE", "{} : '{}' doit être TABLE"),
+    ("{}: '{}' is no result", "{} : '{}' n'est pas un résultat"),
+    (
+        "{}: 'AUTOCRIT', 'AUTOPAS' and 'AUTORESU' are positive",
+        "{} : 'AUTOCRIT', 'AUTOPAS' et 'AUTORESU' sont positifs",
+    ),
+    (
+        "{}: 'CONTACT' = 'PENALITE' needs 'COEFFICIENT'",
+        "{} : 'CONTACT' = 'PENALITE' demande 'COEFFICIENT'",
+    ),
+    (
+        "{}: 'CONTACT_PERSISTANT' takes energy, 'CONSERVATIF' keeps it: they exclude each other",
+        "{} : 'CONTACT_PERSISTANT' ôte de l'énergie, 'CONSERVATIF' la garde : ils s'excluent",
+    ),
+    (
+        "{}: 'MAXI_DEPLACEMENT' > 0 and 0 < 'DSMIN' <= 'DS' <= 'DSMAX' are wanted",
+        "{} : il faut 'MAXI_DEPLACEMENT' > 0 et 0 < 'DSMIN' <= 'DS' <= 'DSMAX'",
+    ),
+    (
+        "{}: 'N_PT_TFR' = {}: {} instants for {} harmonics",
+        "{} : 'N_PT_TFR' = {} : {} instants pour {} harmoniques",
+    ),
+    (
+        "{}: 'PARAMETRE_DE_PILOTAGE' does not change over step {}",
+        "{} : 'PARAMETRE_DE_PILOTAGE' ne varie pas sur le pas {}",
+    ),
+    (
+        "{}: 'PILOTAGE_INDIRECT' and 'AUTOMATIQUE' exclude one another",
+        "{} : 'PILOTAGE_INDIRECT' et 'AUTOMATIQUE' s'excluent",
+    ),
+    (
+        "{}: 'REDUCTION' and 'CHARMECA' exclude each other",
+        "{} : 'REDUCTION' et 'CHARMECA' s'excluent",
+    ),
+    (
+        "{}: 'REDUCTION' and 'NEWTON_COMPLET' choose two methods",
+        "{} : 'REDUCTION' et 'NEWTON_COMPLET' choisissent deux méthodes",
+    ),
+    ("{}: 'REDUCTION' needs linear bodies", "{} : 'REDUCTION' demande des corps linéaires"),
+    ("MODELE has plastic ones", "MODELE en a de plastiques"),
+    (
+        "{}: 'REPRISE' needs the results of an earlier calculation",
+        "{} : 'REPRISE' demande les résultats d'un calcul précédent",
+    ),
+    (
+        "{}: 'STABILITE': '{}' is for harmonic balance",
+        "{} : 'STABILITE' : '{}' est pour l'équilibrage harmonique",
+    ),
+    ("{}: 'STABILITE': '{}' is not known", "{} : 'STABILITE' : '{}' n'est pas connu"),
+    (
+        "{}: 'TEMPS_CALCULES' holds the frequencies, at least one, none negative",
+        "{} : 'TEMPS_CALCULES' contient les fréquences, une au moins, aucune négative",
+    ),
+    (
+        "{}: 'VITEUNIL' corrects velocities of the average acceleration only",
+        "{} : 'VITEUNIL' ne corrige que les vitesses de l'accélération moyenne",
+    ),
+    (
+        "{}: imposed displacements do not go with harmonic balance",
+        "{} : les déplacements imposés ne vont pas avec l'équilibrage harmonique",
+    ),
+    ("load by forces", "charger par des forces"),
+    (
+        "{}: no element has strains to control the load by",
+        "{} : aucun élément n'a de déformations pour piloter la charge",
+    ),
+    (
+        "{}: no result stands at the time of 'REPRISE', {}",
+        "{} : aucun résultat n'est au temps de 'REPRISE', {}",
+    ),
+    ("the nearest is at {}", "le plus proche est à {}"),
+    (
+        "{}: no time of '{}' comes after the initial one, {}",
+        "{} : aucun temps de '{}' ne suit le temps initial, {}",
+    ),
+    (
+        "{}: stability wants 'RIGIDITE_CONSTANTE' and 'MASSE_CONSTANTE'",
+        "{} : la stabilité demande 'RIGIDITE_CONSTANTE' et 'MASSE_CONSTANTE'",
+    ),
+    (
+        "{}: the displacement of the controlled load causes no strain",
+        "{} : le déplacement de la charge pilotée ne déforme rien",
+    ),
+    ("{}: the load does not change in time", "{} : la charge ne varie pas dans le temps"),
+    (
+        "{}: the load is not straight in time over 'TEMPS_CALCULES'",
+        "{} : la charge n'est pas linéaire en temps sur 'TEMPS_CALCULES'",
+    ),
+    (
+        "one line from the first time to the last: the load keeps its direction",
+        "une droite du premier temps au dernier : la charge garde sa direction",
+    ),
+    (
+        "{}: the matrices have no unknowns at 'POINT_FNL'",
+        "{} : les matrices n'ont pas d'inconnues en 'POINT_FNL'",
+    ),
+    (
+        "{}: the path begins at the first time of 'TEMPS_CALCULES'",
+        "{} : le chemin commence au premier temps de 'TEMPS_CALCULES'",
+    ),
+    ("a new table for a new path", "une nouvelle table pour un nouveau chemin"),
+    ("{}: the procedure {} must give one FLOTTANT", "{} : la procédure {} doit rendre un FLOTTANT"),
+    ("{}: which load is controlled?", "{} : quelle charge est pilotée ?"),
+    (
+        "AUTOPILO gives no norm to the step that the load causes",
+        "AUTOPILO ne donne pas de norme au pas que la charge cause",
+    ),
+    (
+        "{} harmonics want {} instants of a period or more, {} are given",
+        "{} harmoniques demandent {} instants par période ou plus, {} sont donnés",
+    ),
+    ("DYNC wants a table '{}'", "DYNC veut une table '{}'"),
+    ("the table {} has no number '{}'", "la table {} n'a pas de nombre '{}'"),
+    ("the table {} has no matrix '{}'", "la table {} n'a pas de matrice '{}'"),
+    ("0 < 'DSMIN' <= 'DS0' <= 'DSMAX' is wanted", "il faut 0 < 'DSMIN' <= 'DS0' <= 'DSMAX'"),
+    ("index {} is beyond the {} harmonics", "l'indice {} dépasse les {} harmoniques"),
+    ("index {} of the table {} is a CHPOINT", "l'indice {} de la table {} est un CHPOINT"),
+    ("'{}' of the table {} is a CHPOINT", "'{}' de la table {} est un CHPOINT"),
+    (
+        "link {} changes in time by a frequency of its own: harmonic balance wants forces of "
+        "the motion alone",
+        "la liaison {} varie dans le temps par une fréquence propre : l'équilibrage "
+        "harmonique veut des forces du seul mouvement",
+    ),
+    (
+        "link {} remembers its past (plastic, or sticking by springs): harmonic balance "
+        "wants forces of the present motion",
+        "la liaison {} se souvient du passé (plastique, ou adhérente par ressorts) : "
+        "l'équilibrage harmonique veut des forces du mouvement présent",
+    ),
+    (
+        "no first solution found at {} (residual {})",
+        "aucune première solution trouvée en {} (résidu {})",
+    ),
+    (
+        "another first value of the parameter, or a guess nearer to the solution",
+        "une autre première valeur du paramètre, ou un départ plus proche de la solution",
+    ),
+    ("damping is between 0 and 1, not {}", "un amortissement est entre 0 et 1, pas {}"),
+    (
+        "each mode has a frequency, a damping and a participation",
+        "chaque mode a une fréquence, un amortissement et une participation",
+    ),
+    ("the frequencies of modes are positive", "les fréquences des modes sont positives"),
+    (
+        "the frequencies of a spectrum and the duration are positive",
+        "les fréquences d'un spectre et la durée sont positives",
+    ),
+    (
+        "an initial field has values that are not finite numbers",
+        "un champ initial a des valeurs qui ne sont pas des nombres finis",
+    ),
+    (
+        "a load curve has values that are not finite numbers",
+        "une courbe de charge a des valeurs qui ne sont pas des nombres finis",
+    ),
+    (
+        "the matrix {} has values that are not finite numbers",
+        "la matrice {} a des valeurs qui ne sont pas des nombres finis",
+    ),
+    ("joints need their parameters", "les joints demandent leurs paramètres"),
+    ("give CARACTERISTIQUES with MODELE", "donner CARACTERISTIQUES avec MODELE"),
+    (
+        "the load {} has {}, which the matrices lack",
+        "la charge {} a {}, que les matrices n'ont pas",
+    ),
+    (
+        "undamped resonance, or a free motion at 0 Hz: leave this frequency out or add damping",
+        "résonance sans amortissement, ou mouvement libre à 0 Hz : ôter cette fréquence ou amortir",
+    ),
+    (
+        "only linear models work in a sweep of frequencies",
+        "seuls les modèles linéaires vont dans un balayage en fréquence",
+    ),
+    ("the matrices have no unknowns", "les matrices n'ont pas d'inconnues"),
+    ("a dashpot is given by VISC", "un amortisseur se donne par VISC"),
+    ("the table holds no mode", "la table ne contient aucun mode"),
+    (
+        "the matrices have modes that 'BASE_MODALE' lacks",
+        "les matrices ont des modes que 'BASE_MODALE' n'a pas",
+    ),
+    (
+        "a body held by friction alone slides away when the loads exceed it: hold it, give "
+        "it mass in a dynamic calculation, or take smaller steps",
+        "un corps tenu par le seul frottement glisse quand les charges le dépassent : le "
+        "tenir, lui donner une masse en dynamique, ou prendre des pas plus petits",
+    ),
+    (
+        "hold with equalities (BLOQ, RELA without MINI or MAXI), or work in time",
+        "tenir par des égalités (BLOQ, RELA sans MINI ni MAXI), ou calculer en temps",
+    ),
+    ("a number above zero", "un nombre positif"),
+    ("leave one", "ôter l'un des deux"),
+    ("give one", "n'en donner qu'un"),
+    ("two tables '{}'", "deux tables '{}'"),
     ("{}: '{}' holds no curve", "{} : '{}' ne contient aucune courbe"),
     (
         "{}: '{}' has values that are not finite numbers",
