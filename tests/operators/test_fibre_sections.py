@@ -322,3 +322,30 @@ def test_yielding_fibres_leave_a_beam_bent_in_time(found):
     fibres = found(law + SHAKEN.format("PLASTIQUE SECTION", _FIBRES_IN_TIME), "X").values
     plain = found(section(ny=2, nz=8) + SHAKEN.format("", ""), "X").values
     assert np.abs(fibres - plain).max() > 0.05 * np.abs(plain).max()
+
+
+def test_expansion_of_fibres_is_refused_and_none_without_their_alpha(found, refused):
+    heat = FIBRES + "E = EPTH M A (MANU 'CHPO' L 1 'T' 10.) ; X = MAXI (EXCO 'EPS' E) 'ABS' ; "
+    assert found(section() + heat, "X") == 0.0
+    assert "expansion of sections of fibres" in refused(section(extra="'ALPH' 1.E-5") + heat)
+
+
+def test_a_warm_body_beside_yielding_fibres_expands_alone(found):
+    law = section("PLASTIQUE PARFAIT_UNI", "'SIGY' 2.E8 'H' 0.", 1, 4)
+    script = law + (
+        "L = DROI 2 (0. 0. 0.) (2. 0. 0.) ; "
+        "M1 = MODE L MECANIQUE ELASTIQUE SECTION PLASTIQUE SECTION TIMO ; "
+        "D = DROI 2 (0. 5. 0.) (2. 5. 0.) ; "
+        "M2 = MODE D MECANIQUE ELASTIQUE PLASTIQUE PARFAIT BARR ; "
+        "A = (MATE M1 'MODS' MS 'MATS' AS) ET "
+        "(MATE M2 'YOUN' 1.E9 'NU' 0. 'SIGY' 1.E9 'SECT' 1. 'ALPH' 1.E-5) ; "
+        "T = TABL ; T . 'MODELE' = M1 ET M2 ; T . 'CARACTERISTIQUES' = A ; "
+        "T . 'BLOCAGES_MECANIQUES' = (BLOQ (POIN 1 L) 'DEPL' 'ROTA') ET (BLOQ D 'UY' 'UZ') "
+        "ET (BLOQ (POIN 1 D) 'UX') ; "
+        "T . 'CHARGEMENT' = CHAR 'T' (MANU 'CHPO' (L ET D) 1 'T' 50.) (EVOL 'MANU' (PROG 0. 1.) "
+        "(PROG 0. 1.)) ; T . 'TEMPS_CALCULES' = PROG 0. 1. ; PASAPAS T ; "
+        "U = T . 'DEPLACEMENTS' . 1 ; X = EXTR U (POIN 3 D) 'UX' ; Y = EXTR U (POIN 3 L) 'UX' ; "
+    )
+    x, y = found(script, "X", "Y")
+    assert x == pytest.approx(50 * 1e-5 * 2.0, rel=1e-9)
+    assert y == pytest.approx(0.0, abs=1e-12)

@@ -6,6 +6,7 @@ import numpy as np
 
 from ssilang.kernel.elements.catalog import ELEMENTS, SOLID_FAMILIES, support_rule
 from ssilang.kernel.elements.families import family_of
+from ssilang.kernel.elements.fibre_section import section_of_beam
 from ssilang.kernel.elements.reference import shape_functions
 from ssilang.kernel.elements.solid_moduli import material_axes, symmetry_of
 from ssilang.kernel.elements.tensors import as_components
@@ -52,6 +53,13 @@ def thermal_strain(zone: Zone, material: CellField, field: NodeField | CellField
         return _solid(zone, parameters, rise, len(names))
     if kind == "solid shell":
         values[:, :6] = _solid(zone, parameters, rise, 6)
+        return values
+    if "SECTION" in zone.behaviour:
+        if any("ALPH" in part.parameters for part in section_of_beam(parameters).zones):
+            raise MaterialError(
+                "the thermal expansion of sections of fibres is not available",
+                "leave ALPH out of the material of the fibres",
+            )
         return values
     if kind == "joint":
         raise MaterialError("the thermal expansion of joints is not available")

@@ -24,10 +24,12 @@ def free_strains(
     parts = [] if load is None else [p for p in load.parts if p.name.strip() == "T"]
     if not parts:
         return {}
-    return {
+    found = {
         i: _free_strain(zone, material, [t for p in parts for t in terms_of(p)])
         for i, zone in enumerate(zones)
     }
+    # beams of fibres have none, or are refused above
+    return {i: strain for i, strain in found.items() if "SECTION" not in zones[i].behaviour}
 
 
 def _free_strain(
