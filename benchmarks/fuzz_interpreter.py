@@ -1,7 +1,8 @@
 """Mutates the examples of the help word by word and runs them: only messages, never a traceback.
 
-    python benchmarks/fuzz_interpreter.py [COUNT] [SEED]
+    python benchmarks/fuzz_interpreter.py [COUNT] [SEED] [NAME ...]
 
+Examples are those of all operators and procedures, or of the names given.
 Prints how many runs succeeded, failed with a message, and each defect (an operator that let
 something of Python through) once, with the shortest script that shows it; exits 1 if any.
 """
@@ -19,6 +20,8 @@ from pathlib import Path
 
 from ssilang.cli.run import RunOptions, run_source
 from ssilang.cli.signals import interrupt
+from ssilang.language.library import standard_procedures
+from ssilang.language.reference import procedure_page
 from ssilang.language.registry import OPERATORS
 from ssilang.language.session import Limits
 from ssilang.language.source import Source
@@ -35,10 +38,13 @@ _STATEMENTS = 2000
 _SECONDS = 20
 
 
-def examples() -> list[list[str]]:
-    """Examples of all operators, cut to words."""
+def examples(names: list[str]) -> list[list[str]]:
+    """Examples of operators and procedures (all without names), cut to words."""
     load_operators()
-    texts = {e for o in OPERATORS.values() for e in o.help.examples}
+    helps = {o.full_name: o.help for o in OPERATORS.values()}
+    helps |= {n: procedure_page(p).help for n, p in standard_procedures().items()}
+    wanted = [h for n, h in helps.items() if not names or n in names or n[:4] in names]
+    texts = {e for h in wanted for e in h.examples}
     return [_TOKEN.findall(t) for t in sorted(texts) if "TRAC" not in t and "DESS" not in t]
 
 
@@ -70,7 +76,7 @@ def main() -> int:
     """Run the campaign."""
     count = int(sys.argv[1]) if len(sys.argv) > 1 else 2000
     rng = random.Random(int(sys.argv[2]) if len(sys.argv) > 2 else 1)
-    pool = examples()
+    pool = examples([n.upper() for n in sys.argv[3:]])
     outcomes: Counter[str] = Counter()
     defects: dict[str, str] = {}
     signal.signal(signal.SIGALRM, interrupt)

@@ -335,6 +335,17 @@ TEMPLATES: tuple[tuple[str, str], ...] = (
         "les lois plastiques sur les efforts et moments des coques ne sont pas programmées",
     ),
     ("'INTEGRE' {}: 2 to 15 points across", "'INTEGRE' {} : 2 à 15 points dans l'épaisseur"),
+    ("elements of the family '{}' do not creep", "les éléments de la famille '{}' ne fluent pas"),
+    ("which law of creep?", "quelle loi de fluage ?"),
+    (
+        "creep goes with elasticity ISOTROPE, not with {}",
+        "le fluage va avec l'élasticité ISOTROPE, pas avec {}",
+    ),
+    (
+        "the answer of a law of creep depends on the duration of the step",
+        "la réponse d'une loi de fluage dépend de la durée du pas",
+    ),
+    ("NORTON has {} = {}", "NORTON a {} = {}"),
     ("COQ3 has no plastic law", "COQ3 n'a pas de loi plastique"),
     ("thin shells have no plastic law {}", "les coques minces n'ont pas la loi plastique {}"),
     (
@@ -927,6 +938,22 @@ TEMPLATES: tuple[tuple[str, str], ...] = (
     ("leave one", "ôter l'un des deux"),
     ("give one", "n'en donner qu'un"),
     ("two tables '{}'", "deux tables '{}'"),
+    (
+        "the matrix is singular, with {} free motion",
+        "la matrice est singulière : {} mouvement libre",
+    ),
+    (
+        "the matrix is singular, with {} free motions",
+        "la matrice est singulière : {} mouvements libres",
+    ),
+    (
+        "the matrix is singular, with {} free motion ({})",
+        "la matrice est singulière : {} mouvement libre ({})",
+    ),
+    (
+        "the matrix is singular, with {} free motions ({})",
+        "la matrice est singulière : {} mouvements libres ({})",
+    ),
     ("{}: '{}' holds no curve", "{} : '{}' ne contient aucune courbe"),
     (
         "{}: '{}' has values that are not finite numbers",

@@ -52,6 +52,12 @@ def test_both_languages_carry_the_same_figures(english, french):
     assert in_french(english.format(*figures)) == french.format(*figures)
 
 
+def test_a_refused_entry_is_told_in_french_with_its_reason():
+    reason = "the matrix is singular, with 1 free motion"
+    told = in_french(f"DYNAMIC: 'TEMPS_SAUVES' is refused: {reason}")
+    assert told.startswith("DYNAMIC : 'TEMPS_SAUVES' est refusé : la matrice est singulière")
+
+
 def test_a_sentence_without_template_stays():
     assert in_french("something else went wrong") == "something else went wrong"
 

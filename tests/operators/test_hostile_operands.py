@@ -42,6 +42,7 @@ def session(tmp_path_factory):
         ("DEPL L1 'DEDU' MZ MZ", "one at least"),
         ("X = FORC 'FX' 1. MZ", "empty"),
         ("X = DEDU MZ U1", "empty"),
+        ("X = POD (VIDE 'LISTCHPO') 'CLASSIQUE' 2", "no field"),
         ("X = MZ MZ 'VOLU' 3", "empty"),
         ("X = LECT (T1 * 1.E30)", "64 bits"),
         ("X = LECT ((PROG 0.) / (PROG 0.))", "64 bits"),

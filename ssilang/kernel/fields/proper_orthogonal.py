@@ -27,6 +27,8 @@ def stacked(
 
     Multipliers (LX) never count.
     """
+    if not fields:
+        raise FieldError("there is no field to decompose")
     known = [n for n in fields[0].components if n not in ("LX", "FLX")]
     if names is not None:
         known = [n for n in known if n in names]
