@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ssilang.kernel.elements.catalog import SOLID_FAMILIES
 from ssilang.kernel.errors import MaterialError
-from ssilang.kernel.materials.plastic.laws import PLASTIC_LAWS, plastic_law
+from ssilang.kernel.materials.plastic.laws import CREEP_LAWS, PLASTIC_LAWS, plastic_law
 
 FORMULATIONS = ("MECANIQUE", "CHARGEMENT", "CONTACT")
 OTHER_FORMULATIONS = (
@@ -42,6 +42,11 @@ PLASTIC_FAMILIES = ("solid", "incompressible", "bar", "fibre", "plate")
 
 UNIAXIAL_LAWS = ("PARFAIT_UNI", "BETON_BAEL")
 """Plastic laws that fibres of sections alone have."""
+CREEP_FAMILIES = ("solid", "incompressible", "bar")
+"""Families of elements that creep."""
+
+CREEP_WORDS = ("FLUAGE", *CREEP_LAWS)
+
 FIBRE_LAWS = (*UNIAXIAL_LAWS, "PARFAIT", "ISOTROPE", "CINEMATIQUE")
 """Plastic laws of the fibres of sections."""
 
@@ -49,7 +54,7 @@ LAYER_LAWS = ("PARFAIT", "ISOTROPE", "CINEMATIQUE")
 """Plastic laws of thin shells with points across the thickness."""
 
 OTHER_BEHAVIOURS = (
-    "PLASTIQUE_ENDOM", "ENDOMMAGEMENT", "FLUAGE", "VISCOPLASTIQUE", "VISCO_EXTERNE",
+    "PLASTIQUE_ENDOM", "ENDOMMAGEMENT", "VISCOPLASTIQUE", "VISCO_EXTERNE",
     "NON_LINEAIRE", "HOMOGENEISE", "ARMATURE",
     "CAOUTCHOUC", "CHABOCHE1", "CHABOCHE2", "CAM_CLAY", "HUJEUX", "UBIQUITOUS", "BETON",
     "MOHR_COULOMB", "MAZARS",
@@ -94,6 +99,8 @@ def normalised(words: list[str], family: str) -> tuple[str, ...]:
         raise MaterialError(f"elements of the family '{family}' have no elasticity {kind}")
     if rest and rest[0] == "PLASTIQUE" and family != "joint":
         return ("ELASTIQUE", kind or "ISOTROPE", *_plastic_words(rest, kind, family))
+    if rest and rest[0] == "FLUAGE":
+        return ("ELASTIQUE", kind or "ISOTROPE", *_creep_words(rest, kind, family))
     if rest and family != "joint":
         raise MaterialError(
             f"behaviour {rest[0]} is for joints only", "give it to joint elements (JOI1 ... JOI8)"
@@ -120,6 +127,22 @@ def _impedance_words(words: list[str], family: str) -> tuple[str, ...]:
             "IMPEDANCE is followed by ELASTIQUE, VOIGT, REUSS or COMPLEXE",
         )
     return ("ELASTIQUE", *shape, "IMPEDANCE", *(law or ["ELASTIQUE"]))
+
+
+def _creep_words(words: list[str], elasticity: str, family: str) -> tuple[str, str]:
+    """FLUAGE and the law behind it."""
+    if family not in CREEP_FAMILIES:
+        raise MaterialError(
+            f"elements of the family '{family}' do not creep",
+            "continuous elements (TRI3 ... CU20, ICQ4 ...) and bars do",
+        )
+    if len(words) != 2 or words[1] not in CREEP_LAWS:
+        raise MaterialError(
+            "which law of creep?", "there is FLUAGE " + ", FLUAGE ".join(CREEP_LAWS)
+        )
+    if elasticity not in ("", "ISOTROPE"):
+        raise MaterialError(f"creep goes with elasticity ISOTROPE, not with {elasticity}")
+    return ("FLUAGE", words[1])
 
 
 def _plastic_words(words: list[str], elasticity: str, family: str) -> tuple[str, str]:

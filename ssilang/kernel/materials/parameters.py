@@ -108,7 +108,8 @@ def material_names(zone: Zone) -> Names:
     plastic = plastic_law(zone.behaviour)
     if plastic is not None:
         elastic = _ELASTIC[kind]
-        return Names((*elastic.required, *plastic.required), elastic.optional)
+        optional = (*elastic.optional, *plastic.optional)
+        return Names((*elastic.required, *plastic.required), optional)
     return _ELASTIC[kind]
 
 

@@ -108,13 +108,13 @@ class Bulk:
             if i in self.free:
                 free = zone.spread(self.free[i](time))
                 strain = strain - (free - old.free)
-            found, whole = zone.respond(old.stress, strain, old.variables)
+            found, whole = zone.respond(old.stress, strain, old.variables, time - old.time)
             vectors = zone.forces(found.stress)
             force += np.bincount(places.ravel(), vectors.ravel(), self.size)
             values.append(zone.stiffness(found.tangent))
             elastic = np.einsum("mij,mj->mi", zone.parameters.compliance, found.stress - old.stress)
             plastic = old.plastic + whole - elastic
-            after.append(PointState(found.stress, plastic, free, found.variables))
+            after.append(PointState(found.stress, plastic, free, found.variables, time))
             density = np.einsum("mi,mi->m", 0.5 * (old.stress + found.stress), strain)
             work += float(density @ zone.weights.ravel())
         return Answer(force, self._assembled(values), tuple(after), work)

@@ -14,6 +14,7 @@ from ssilang.kernel.elements.zone_fields import ZoneField, n_points, zone_field
 from ssilang.kernel.errors import KernelError, MaterialError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.elasticity import check_isotropic
+from ssilang.kernel.materials.plastic.creep import DURATION
 from ssilang.kernel.materials.plastic.held_stress import respond_held
 from ssilang.kernel.materials.plastic.laws import PlasticLaw, check_parameters, plastic_law
 from ssilang.kernel.materials.plastic.response import PointParameters, Response
@@ -41,12 +42,14 @@ class PointState:
     stress, plastic, free : array (m, 6)
         Stress, plastic strain, strain without stress (expansion) already taken up.
     variables : array (m, k)
+    time : float
     """
 
     stress: FloatArray
     plastic: FloatArray
     free: FloatArray
     variables: FloatArray
+    time: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,10 +104,14 @@ class PlasticPoints:
         return np.stack([full[:, c].reshape(n, p) for c in self.components], axis=1)
 
     def respond(
-        self, stress: FloatArray, strain: FloatArray, variables: FloatArray
+        self, stress: FloatArray, strain: FloatArray, variables: FloatArray, duration: float = 0.0
     ) -> tuple[Response, FloatArray]:
         """The law at the points, and the strains with those across held stresses."""
-        return respond_held(self.law, self.parameters, stress, strain, variables, self.held)
+        given = self.parameters
+        if self.law.timed:
+            steps = np.full(self.count, max(duration, 0.0))
+            given = PointParameters({**given.values, DURATION: steps}, given.curves)
+        return respond_held(self.law, given, stress, strain, variables, self.held)
 
     def forces(self, stress: FloatArray) -> FloatArray:
         """Element vectors (n_cells, n_rows) in balance with stresses (m, 6)."""

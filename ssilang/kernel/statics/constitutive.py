@@ -100,6 +100,11 @@ def _no_fibres(zone: Zone) -> None:
             "beams with sections of fibres have no law between their forces and strains alone",
             "PASAPAS and DYNAMIC take such models, MOCU gives moments from curvatures",
         )
+    if "FLUAGE" in zone.behaviour:
+        raise FieldError(
+            "the answer of a law of creep depends on the duration of the step",
+            "PASAPAS and DYNAMIC take such models",
+        )
     if ELEMENTS[zone.element].family == "plate" and is_plastic(zone):
         raise FieldError(
             "plastic shells have no law between their forces and strains alone",

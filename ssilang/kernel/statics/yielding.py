@@ -71,6 +71,11 @@ CRITERIA: dict[str, Criterion] = {
 """By the word after PLASTIQUE."""
 
 
+def _law(zone: Zone) -> str:
+    words = zone.behaviour
+    return words[words.index("PLASTIQUE") + 1] if "PLASTIQUE" in words else words[-1]
+
+
 def criterion(
     zone: Zone, material: CellField, stress: FloatArray, variables: ZoneField
 ) -> FloatArray:
@@ -84,7 +89,7 @@ def criterion(
     if is_joint(zone):
         return _of_joint(zone, material, stress, variables)
     words = zone.behaviour
-    name = words[words.index("PLASTIQUE") + 1] if is_plastic(zone) else ""
+    name = _law(zone) if is_plastic(zone) else ""
     if name not in CRITERIA or ELEMENTS[zone.element].family == "plate":
         raise FieldError(
             f"the law {' '.join(words)} of element {zone.element} has no criterion here",
@@ -130,10 +135,9 @@ def tangent_modulus(
     parameters = zone_field(zone, material)
     shape = (len(zone.cells), stress.shape[2])
     elastic = np.broadcast_to(parameters.at("YOUN", "STRESSES"), shape)
-    words = zone.behaviour
     if is_joint(zone) or not is_plastic(zone):
         return elastic.copy()
-    name = words[words.index("PLASTIQUE") + 1]
+    name = _law(zone)
     if name not in ("PARFAIT", "ISOTROPE", "CINEMATIQUE"):
         raise FieldError(f"MOTA knows von Mises laws, not {name}")
     points = plastic_points(zone, material)

@@ -11,6 +11,7 @@ from ssilang.kernel.errors import MeshError
 from ssilang.kernel.joints.elements import JOINT_NAMES, is_joint, with_rule
 from ssilang.kernel.joints.family import JointFamily
 from ssilang.kernel.materials.behaviours import (
+    CREEP_WORDS,
     ELASTICITIES,
     FORMULATIONS,
     IMPEDANCE_LAWS,
@@ -39,7 +40,8 @@ LONG_NAMES = {"BARRE": "BARR", "POUTRE": "POUT", "TUYAU": "TUYA"}
 """Elements that scripts also write in full."""
 
 LAW_WORDS = (
-    "ELASTIQUE", *ELASTICITIES, *JOINT_WORDS, *PLASTIC_WORDS, "IMPEDANCE", *IMPEDANCE_LAWS,
+    "ELASTIQUE", *ELASTICITIES, *JOINT_WORDS, *PLASTIC_WORDS, *CREEP_WORDS, "IMPEDANCE",
+    *IMPEDANCE_LAWS,
 )  # fmt: skip
 
 
@@ -65,7 +67,9 @@ class _Wish:
         "The formulation is MECANIQUE; the law is ELASTIQUE, followed by ISOTROPE (default), "
         "ORTHOTROPE, ANISOTROPE or UNIDIRECTIONNEL; joints also have JOINT_SDM. Continuous "
         "elements and bars may add PLASTIQUE and PARFAIT, ISOTROPE (default) or CINEMATIQUE (von "
-        "Mises), DRUCKER_PARFAIT, DRUCKER_PRAGER or RH_COULOMB (rounded Mohr-Coulomb). Beams TIMO "
+        "Mises), DRUCKER_PARFAIT, DRUCKER_PRAGER or RH_COULOMB (rounded Mohr-Coulomb), or FLUAGE "
+        "NORTON (creep); shells DKT the laws of von Mises with INTEGRE N1, points across their "
+        "thickness. Beams TIMO "
         "are ELASTIQUE SECTION where their section is a model of fibres (POJS on points, TRIS, "
         "QUAS) given by MATE, and add PLASTIQUE SECTION where fibres yield (PARFAIT_UNI: along the "
         "fibre; BETON_BAEL: concrete without tension; or von Mises). MODAL and "
@@ -100,7 +104,9 @@ class _Wish:
         "La formulation est MECANIQUE ; la loi est ELASTIQUE, suivie d'ISOTROPE (par défaut), "
         "ORTHOTROPE, ANISOTROPE ou UNIDIRECTIONNEL ; les joints ont aussi JOINT_SDM. Les massifs "
         "et les barres ajoutent PLASTIQUE et PARFAIT, ISOTROPE (par défaut) ou CINEMATIQUE (von "
-        "Mises), DRUCKER_PARFAIT, DRUCKER_PRAGER ou RH_COULOMB (Mohr-Coulomb arrondi). Les poutres "
+        "Mises), DRUCKER_PARFAIT, DRUCKER_PRAGER ou RH_COULOMB (Mohr-Coulomb arrondi), ou FLUAGE "
+        "NORTON ; les coques DKT ont les lois de von Mises avec INTEGRE N1, points dans "
+        "l'épaisseur. Les poutres "
         "TIMO sont ELASTIQUE SECTION quand leur section est un modèle de fibres (POJS sur des "
         "points, TRIS, QUAS) donné par MATE, avec PLASTIQUE SECTION si des fibres plastifient "
         "(PARFAIT_UNI : le long de la fibre ; BETON_BAEL : béton sans traction ; ou von "
@@ -133,8 +139,8 @@ class _Wish:
         "en plus d'itérations. Autres lois des joints : JOINT_DILATANT, COULOMB et, en un "
         "point, MACRO_SEMELLE, MACRO_DISQUE, MACRO_RESSORTS.",
         syntax="MODL1 = MODE GEO1 'MECANIQUE' 'ELASTIQUE' ('ISOTROPE') "
-        "('PLASTIQUE' (LOI1)) (ELEM1 ...) "
-        "('CONS' MOT1) ('DPGE' P1) ('LIBRE' | 'LIE') "
+        "('PLASTIQUE' (LOI1) | 'FLUAGE' 'NORTON') (ELEM1 ...) "
+        "('INTEGRE' N1) ('CONS' MOT1) ('DPGE' P1) ('LIBRE' | 'LIE') "
         "('GAUSS' | 'LOBATTO') ;\n"
         "MODL1 = MODE GEO1 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' ('CISAILLEMENT_ELASTIQUE') "
         "('FROTTEMENT_SYMETRIQUE') (JOI1 ...) ;\n"

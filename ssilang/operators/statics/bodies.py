@@ -39,14 +39,15 @@ def plastic_bodies(entries: Entries, start: Any = None) -> Bodies | None:
         bulk = bulk_of(zones, material, problem.numbering)
         load = entries.get("CHARGEMENT", "CHARGEME") or entries.get("CHAR", "CHARGEME")
         bulk = replace(bulk, free=free_strains(load, zones, material))
+        first = float(problem.times[0])
         given = None if start is None else _given(bulk, start)
         if given is not None:
-            return bulk, given
-        blank = bulk.unloaded()
+            return bulk, tuple(replace(s, time=first) for s in given)
+        blank = tuple(replace(s, time=first) for s in bulk.unloaded())
         if inputs.displacement is None:
             return bulk, blank
         # a displacement without stresses: those of a step from nothing to it
-        return bulk, replace(bulk, free={}).respond(blank, problem.u, 0.0).state
+        return bulk, replace(bulk, free={}).respond(blank, problem.u, first).state
 
     return make
 

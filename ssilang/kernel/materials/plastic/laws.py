@@ -6,7 +6,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from ssilang.kernel.errors import MaterialError
-from ssilang.kernel.materials.plastic import drucker_prager, rounded_coulomb, uniaxial, von_mises
+from ssilang.kernel.materials.plastic import (
+    creep,
+    drucker_prager,
+    rounded_coulomb,
+    uniaxial,
+    von_mises,
+)
 from ssilang.kernel.materials.plastic.response import PointParameters, Response
 from ssilang.kernel.mesh.nodes import FloatArray
 
@@ -35,6 +41,10 @@ class PlasticLaw:
         Whether the tangent is symmetric.
     uniaxial : bool
         A law of fibres: its stresses across the fibre are zero by themselves.
+    optional : tuple of str
+        Parameters that are taken and count for nothing here.
+    timed : bool
+        The duration of a step counts (parameter DT).
     """
 
     respond: Respond
@@ -45,6 +55,8 @@ class PlasticLaw:
     check: Callable[[PointParameters], None] | None = None
     symmetric: bool = True
     uniaxial: bool = False
+    optional: tuple[str, ...] = ()
+    timed: bool = False
 
 
 _CENTRE = ("ALXX", "ALYY", "ALZZ", "ALXY", "ALXZ", "ALYZ")
@@ -74,14 +86,24 @@ PLASTIC_LAWS: dict[str, PlasticLaw] = {
 """By the word after PLASTIQUE; ISOTROPE is meant where there is none."""
 
 
+CREEP_LAWS: dict[str, PlasticLaw] = {
+    "NORTON": PlasticLaw(
+        creep.norton, ("AF1", "AF2", "AF3"), check=creep.check, optional=("SMAX",), timed=True
+    ),
+}
+"""By the word after FLUAGE."""
+
+
 def plastic_law(behaviour: tuple[str, ...]) -> PlasticLaw | None:
-    """The plastic law in the words of a zone's behaviour, None for an elastic one.
+    """The plastic (or creep) law in the words of a zone's behaviour, None for an elastic one.
 
     Raises
     ------
     MaterialError
         If the word after PLASTIQUE names no law.
     """
+    if "FLUAGE" in behaviour:
+        return CREEP_LAWS[behaviour[-1]]
     if "PLASTIQUE" not in behaviour:
         return None
     after = behaviour[behaviour.index("PLASTIQUE") + 1 :] or ("ISOTROPE",)
