@@ -25,6 +25,7 @@ from ssilang.kernel.dynamics.springs_march import Ends
 from ssilang.kernel.joints.arrays import copy_state
 from ssilang.kernel.joints.condensed_cached import Workspace
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+from ssilang.kernel.solvers.multifrontal import Panels
 from ssilang.kernel.solvers.triangular_together import FOUR, backward_many, forward_many
 
 
@@ -51,9 +52,9 @@ def _rows(x: Kept, j: int) -> Kept:
 
 
 @compiled
-def _add_above(plan: Plan, s: int, b: FloatArray, above: FloatArray) -> None:
+def _add_above(L: Panels, s: int, b: FloatArray, above: FloatArray) -> None:
     for j in range(len(b)):
-        for i in range(plan.L.first[s], plan.L.first[s + 1]):
+        for i in range(L.first[s], L.first[s + 1]):
             b[j, i] += above[j, i]
             above[j, i] = 0.0
 
@@ -66,7 +67,7 @@ def _root(
 ) -> None:  # fmt: skip
     """The interfaces of all motions at the end of step k; motions without an answer end."""
     L, s = plan.L, plan.root
-    _add_above(plan, s, b, above)
+    _add_above(L, s, b, above)
     forward_many(L, s, s + 1, b, L.first[0], above, local)
     backward_many(L, s, s + 1, b, du, local)
     for j in range(len(b)):
@@ -121,7 +122,7 @@ def march_many(
         forward_many(L, s0, s1, b, L.first[s1], above, local)
     for k in range(steps):
         for s in plan.trunk:
-            _add_above(plan, s, b, above)
+            _add_above(L, s, b, above)
             forward_many(L, s, s + 1, b, L.first[0], above, local)
         if flows.f.shape[1]:
             _root(
@@ -144,7 +145,7 @@ def march_many(
             for j in range(count):
                 flow, work = _flow(flows, j), works[j, 0, k]
                 advance(plan, flow, du[j], begin, end, sums[j], rise[j], pull[j], room)
-                add_work(plan, du[j], begin, end, work)
+                add_work(plan.forces, du[j], begin, end, work)
                 right_side(plan, flow, coming[j], begin, end, b[j])
             if k + 1 < steps:
                 forward_many(L, s0, s1, b, end, above, local)
@@ -155,7 +156,7 @@ def march_many(
                 for j in range(count):
                     flow, work = _flow(flows, j), works[j, 0, k]
                     advance(plan, flow, du[j], begin, end, sums[j], rise[j], pull[j], room)
-                    add_work(plan, du[j], begin, end, work)
+                    add_work(plan.forces, du[j], begin, end, work)
                     right_side(plan, flow, coming[j], begin, end, b[j])
         for j in range(count):
             if ends.steps[j] == steps:

@@ -28,6 +28,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ssilang.kernel.apart import apart
 from ssilang.kernel.compiled import compiled, compiled_fast
 from ssilang.kernel.dynamics.compiled_loop import (
     DAMPED,
@@ -155,6 +156,7 @@ def _row(A: Sparse, i: int, x: FloatArray) -> float:
     return total
 
 
+@apart
 @compiled_fast
 def right_side(
     plan: Plan, flow: Flow, rise: FloatArray, begin: int, end: int, b: FloatArray
@@ -177,9 +179,8 @@ def right_side(
 
 @compiled_fast
 def _strain_forces(
-    plan: Plan, flow: Flow, rise: FloatArray, begin: int, end: int, pull: FloatArray,
-    out: FloatArray,
-) -> None:  # fmt: skip
+    forces: FloatArray, rise: FloatArray, begin: int, end: int, pull: FloatArray, out: FloatArray
+) -> None:
     """out = dF - J^T df on a range of unknowns; `pull` holds the last term and becomes zero."""
     for i in range(begin, end):
         out[i] = pull[i]
@@ -187,9 +188,10 @@ def _strain_forces(
     for c in range(len(rise)):
         if rise[c] != 0.0:
             for i in range(begin, end):
-                out[i] += rise[c] * plan.forces[c, i]
+                out[i] += rise[c] * forces[c, i]
 
 
+@apart
 @compiled_fast
 def advance(
     plan: Plan, flow: Flow, du: FloatArray, begin: int, end: int, sums: FloatArray,
@@ -207,7 +209,7 @@ def advance(
     g_g, g_1, g_0 = -af / (1 - af), -(1 - am) / (1 - af), -am / (1 - af)
     kinetic, static, size = 0.0, 0.0, 0.0
     if plan.damped:
-        _strain_forces(plan, flow, rise, begin, end, pull, Cx)
+        _strain_forces(plan.forces, rise, begin, end, pull, Cx)
     for i in range(begin, end):
         x, v0, a0, Ma0 = du[i], flow.v[i], flow.a[i], flow.Ma[i]
         flow.u[i] += x
@@ -241,25 +243,28 @@ def advance(
 
 
 @compiled_fast
-def add_work(plan: Plan, du: FloatArray, begin: int, end: int, work: FloatArray) -> None:
+def add_work(forces: FloatArray, du: FloatArray, begin: int, end: int, work: FloatArray) -> None:
     """work += forces du on a range of unknowns."""
-    for c in range(plan.forces.shape[0]):
+    for c in range(forces.shape[0]):
         total = 0.0
         for i in range(begin, end):
-            total += plan.forces[c, i] * du[i]
+            total += forces[c, i] * du[i]
         work[c] += total
 
 
 @compiled
-def _trunk_forward(plan: Plan, b: FloatArray, above: FloatArray, local: FloatArray) -> None:
+def _trunk_forward(
+    L: Panels, trunk: IntArray, b: FloatArray, above: FloatArray, local: FloatArray
+) -> None:
     """Forward solve of the trunk, with what the branches added to its rows."""
-    for s in plan.trunk:
-        for i in range(plan.L.first[s], plan.L.first[s + 1]):
+    for s in trunk:
+        for i in range(L.first[s], L.first[s + 1]):
             b[i] += above[i]
             above[i] = 0.0
-        forward(plan.L, s, s + 1, b, plan.L.first[0], above, local)
+        forward(L, s, s + 1, b, L.first[0], above, local)
 
 
+@apart
 @compiled
 def _interface(
     plan: Plan, joints: Joints, flow: Flow, newton: Workspace, b: FloatArray, above: FloatArray,
@@ -278,6 +283,7 @@ def _interface(
     return settle_interface(plan, joints, flow, newton, du, rise, pull)
 
 
+@apart
 @compiled
 def settle_interface(
     plan: Plan, joints: Joints, flow: Flow, newton: Workspace, du: FloatArray, rise: FloatArray,
@@ -311,6 +317,7 @@ def settle_interface(
     return turns, residual
 
 
+@apart
 @compiled
 def keep(flow: Flow, kept: Kept, row: int) -> None:
     copy_state(flow.u, kept.u[row])
@@ -322,6 +329,7 @@ def keep(flow: Flow, kept: Kept, row: int) -> None:
     copy_rows(flow.state, kept.state[row])
 
 
+@apart
 @compiled
 def account(
     plan: Plan, joints: Joints, flow: Flow, sums: FloatArray, work: FloatArray,
@@ -372,7 +380,7 @@ def march_interleaved(
         s0, s1 = plan.branches[j]
         forward(L, s0, s1, b, L.first[s1], above, local)
     for k in range(steps):
-        _trunk_forward(plan, b, above, local)
+        _trunk_forward(L, plan.trunk, b, above, local)
         if len(flow.f):
             turns, residual = _interface(
                 plan, joints, flow, newton, b, above, du, local, rise, pull
@@ -395,7 +403,7 @@ def march_interleaved(
             begin, end = L.first[s0], L.first[s1]
             backward(L, s0, s1, b, du, local)
             advance(plan, flow, du, begin, end, sums, rise, pull, room)
-            add_work(plan, du, begin, end, work)
+            add_work(plan.forces, du, begin, end, work)
             if k + 1 < steps:
                 right_side(plan, flow, coming, begin, end, b)
                 forward(L, s0, s1, b, end, above, local)
@@ -404,7 +412,7 @@ def march_interleaved(
             if s < len(L.first) - 1:
                 begin, end = L.first[s], L.first[s + 1]
                 advance(plan, flow, du, begin, end, sums, rise, pull, room)
-                add_work(plan, du, begin, end, work)
+                add_work(plan.forces, du, begin, end, work)
                 right_side(plan, flow, coming, begin, end, b)
         account(plan, joints, flow, sums, work, factors, k, works[1, k])
         if not np.isfinite(sums[4]):

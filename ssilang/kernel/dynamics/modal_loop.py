@@ -21,6 +21,7 @@ from ssilang.kernel.dynamics.compiled_loop import (
     Joints,
     Motion,
 )
+from ssilang.kernel.joints.arrays import copy_rows, copy_state
 from ssilang.kernel.joints.condensed_cached import iterate_cached, solve_known
 from ssilang.kernel.joints.response import interface_energies
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
@@ -204,6 +205,16 @@ def _turn(
 
 
 @compiled_fast
+def _keep(x: Motion, rows: ModalRows, row: int) -> None:
+    copy_state(x.u, rows.u[row])
+    copy_state(x.v, rows.v[row])
+    copy_state(x.a, rows.a[row])
+    copy_rows(x.w, rows.w[row])
+    copy_rows(x.t, rows.t[row])
+    copy_rows(x.state, rows.state[row])
+
+
+@compiled_fast
 def march_modal(
     modal: Modal,
     step: ModalStep,
@@ -247,9 +258,9 @@ def march_modal(
             for i in range(q):
                 x.delta[i] += y[i]
                 x.f[i] = f1[i]
-            x.state[:, :] = new
+            copy_rows(new, x.state)
             if len(rows.jumps):
-                rows.jumps[k] = x.w
+                copy_rows(x.w, rows.jumps[k])
         size = _turn(modal, step, x, f1, factors[min(k + 2, steps)], sweep, k + 1 < steps)
         if not np.isfinite(size):
             return k, -1, np.inf
@@ -258,9 +269,7 @@ def march_modal(
                 joints.codes, joints.p, joints.weights, x.w, x.t, x.state
             )
             x.energies[STORED], x.energies[LOST] = stored, lost
-        history[k] = x.energies
+        copy_state(x.energies, history[k])
         if save[k] >= 0:
-            row = save[k]
-            rows.u[row], rows.v[row], rows.a[row] = x.u, x.v, x.a
-            rows.w[row], rows.t[row], rows.state[row] = x.w, x.t, x.state
+            _keep(x, rows, save[k])
     return steps, worst, 0.0

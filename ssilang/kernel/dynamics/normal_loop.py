@@ -30,7 +30,9 @@ from ssilang.kernel.dynamics.compiled_loop import (
     Motion,
 )
 from ssilang.kernel.dynamics.modal_loop import Modal, ModalRows, ModalStep, add_jumps, next_load
+from ssilang.kernel.joints.arrays import copy_rows, copy_state
 from ssilang.kernel.joints.columns import XI
+from ssilang.kernel.joints.condensed import largest
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 BLOCK = 64  # coordinates whose rows of J and Jt stay in the nearest cache
@@ -95,7 +97,7 @@ def list_closed(contact: Contact) -> None:
 @compiled_fast
 def anew(contact: Contact) -> None:
     """E from Q."""
-    contact.E[:, :] = contact.Q
+    copy_rows(contact.Q, contact.E)
     for i in range(len(contact.k)):
         if contact.closed[i]:
             _exchange(contact.E, i)
@@ -131,10 +133,10 @@ def _solve(contact: Contact, g: FloatArray, out: FloatArray) -> None:
 @compiled_fast
 def settle(contact: Contact, g: FloatArray, out: FloatArray) -> int:
     """The springs' answer in `out` (see `_solve`) to the jumps g; its turns (< 0: none found)."""
-    turn, largest = 0, 0.0
+    turn, most = 0, 0.0
     for i in range(len(g)):
-        largest = max(largest, abs(g[i]))
-    if not np.isfinite(largest):
+        most = max(most, abs(g[i]))
+    if not np.isfinite(most):
         return 1
     while True:
         turn += 1
@@ -142,7 +144,7 @@ def settle(contact: Contact, g: FloatArray, out: FloatArray) -> int:
         changed = False
         for i in range(len(g)):
             closed = contact.closed[i]
-            limit = WRONG * largest * (contact.k[i] if closed else 1.0)
+            limit = WRONG * most * (contact.k[i] if closed else 1.0)
             if (closed and out[i] > limit) or (not closed and out[i] < -limit):
                 _change(contact, i)
                 changed = True
@@ -248,8 +250,10 @@ def _account(x: Motion, contact: Contact, f: FloatArray, dt: float, sums: FloatA
 def _save(
     x: Motion, weights: FloatArray, f: FloatArray, xi: FloatArray, rows: ModalRows, row: int
 ) -> None:
-    rows.u[row], rows.v[row], rows.a[row] = x.u, x.v, x.a
-    rows.state[row] = x.state
+    copy_state(x.u, rows.u[row])
+    copy_state(x.v, rows.v[row])
+    copy_state(x.a, rows.a[row])
+    copy_rows(x.state, rows.state[row])
     for i in range(len(f)):
         rows.w[row, i, 0], rows.t[row, i, 0] = x.delta[i], f[i] / weights[i]
         rows.state[row, i, XI] = xi[i]
@@ -273,9 +277,12 @@ def march_normal(
     """
     n, q, steps, worst, share = len(x.u), len(k), len(save), 1, 1 - modal.scheme[1]
     out = Released(np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(q))
-    Q, answer, f, xi, sums = share * step.S, np.zeros(q), x.f.copy(), np.zeros(q), np.zeros(5)
+    Q, answer, f, xi, sums = np.zeros((q, q)), np.zeros(q), np.zeros(q), np.zeros(q), np.zeros(5)
+    copy_state(x.f, f)
     contact = Contact(Q, k, np.zeros((q, q)), f < 0.0, np.zeros(q, np.int64), np.zeros(2, np.int64))
     for i in range(q):
+        for j in range(q):
+            Q[i, j] = share * step.S[i, j]
         Q[i, i] += 1.0 / k[i]
         xi[i] = x.state[i, XI]
     anew(contact)
@@ -290,7 +297,7 @@ def march_normal(
             wrong = 0.0
             for i in range(q):
                 wrong = max(wrong, answer[i] / k[i] if contact.closed[i] else -answer[i])
-            return s, turns, wrong / np.abs(out.jumps).max()
+            return s, turns, wrong / largest(out.jumps)
         worst = max(worst, turns)
         for i in range(q):
             closed = contact.closed[i]
@@ -298,7 +305,8 @@ def march_normal(
             x.delta[i] = f[i] / k[i] if closed else answer[i]
             xi[i] = max(xi[i], x.delta[i])
             out.jumps[i] = 0.0
-        sums[:] = 0.0
+        for i in range(5):
+            sums[i] = 0.0
         for first in range(0, n, BLOCK):
             last = min(first + BLOCK, n)
             _push(modal, step, contact, f, out, first, last)
@@ -310,7 +318,7 @@ def march_normal(
         if not np.isfinite(sums[4]):
             return s, -1, np.inf
         _account(x, contact, f, step.dt, sums)
-        history[s] = x.energies
+        copy_state(x.energies, history[s])
         if save[s] >= 0:
             _save(x, weights, f, xi, rows, save[s])
     for i in range(q):

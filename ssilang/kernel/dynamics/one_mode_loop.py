@@ -33,6 +33,7 @@ from ssilang.kernel.dynamics.scalar_loop import (
     Spring,
     closed_form,
 )
+from ssilang.kernel.joints.arrays import copy_rows
 from ssilang.kernel.joints.sdm_law import normal_energy, opening_loss
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
@@ -243,7 +244,7 @@ def carry(map: FloatArray, save: IntArray, x: FloatArray, rows: FloatArray) -> N
             _lead(map, step + 1 - done, x)
             done = step + 1
             if save[step] >= 0:
-                rows[0, save[step]], rows[1, save[step]] = x[0], x[1]
+                copy_rows(x, rows[:, save[step]])
 
 
 @compiled

@@ -11,6 +11,7 @@ rounding errors.
 
 from __future__ import annotations
 
+from ssilang.kernel.apart import apart
 from ssilang.kernel.compiled import compiled
 from ssilang.kernel.joints.columns import CLOSED_SHEAR, FROT, FU, HELD, OPEN_SHEAR, SHEAR
 from ssilang.kernel.joints.response import interface_response, interface_stiffness
@@ -135,6 +136,7 @@ def hold_shear(codes: IntArray, p: FloatArray, t: FloatArray, state: FloatArray)
     return found
 
 
+@apart
 @compiled
 def iterate_interface(
     pairs: IntArray,

@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ssilang.kernel.apart import apart
 from ssilang.kernel.compiled import compiled
 from ssilang.kernel.joints.arrays import copy_rows
 from ssilang.kernel.joints.condensed import (
@@ -136,6 +137,7 @@ def _times_stiffness(S: FloatArray, K: FloatArray, A: FloatArray) -> None:
         A[i, i] += 1.0
 
 
+@apart
 @compiled
 def _factorise(
     pairs: IntArray, B: FloatArray, weights: FloatArray, S: FloatArray, R: FloatArray, c: float,
@@ -258,6 +260,23 @@ def _solve_changed(
     return True
 
 
+@apart
+@compiled
+def _changed_step(
+    pairs: IntArray, B: FloatArray, weights: FloatArray, S: FloatArray, c: float, D: FloatArray,
+    K: FloatArray, A: FloatArray, known: FloatArray, pivots: IntArray, x: FloatArray,
+) -> int:  # fmt: skip
+    """`_newton_step` by changed factors: 1 if done, 0 without answer, -1 if too much changed."""
+    n = len(x)
+    place, count = _changed(pairs, D, known, n)
+    if count > n // MOST_CHANGED or not _answers(S, place, K, A, pivots):
+        return -1
+    change = _stiffness_change(pairs, B, weights, c, D, known, place, count)
+    solve_factors(A, pivots, x)
+    return 1 if _solve_changed(place, change, K, pivots, x) else 0
+
+
+@apart
 @compiled
 def _kept_answer(
     pairs: IntArray, B: FloatArray, weights: FloatArray, S: FloatArray, R: FloatArray, c: float,
@@ -300,6 +319,7 @@ def solve_known(
         solve_factors(A, pivots, x)
 
 
+@apart
 @compiled
 def _newton_step(
     pairs: IntArray, B: FloatArray, weights: FloatArray, S: FloatArray, R: FloatArray, c: float,
@@ -310,25 +330,25 @@ def _newton_step(
 
     Few jumps keep `(1 + S (c K - R))^-1 S` in A instead.
     """
-    n, room = len(x), np.empty(len(x))
+    n = len(x)
     if is_few(n):
+        room = np.empty(n)
         if not _kept_answer(pairs, B, weights, S, R, c, D, K, A, known, pivots):
             return False
         solve_known(pairs, B, weights, R, c, A, known, pivots, room, x)
         return True
     same = _same(D, known, n - n, len(D))
     if not same and len(pivots) > n and known[0, 0, 0] == known[0, 0, 0]:
-        place, count = _changed(pairs, D, known, n)
-        if count <= n // MOST_CHANGED and _answers(S, place, K, A, pivots):
-            change = _stiffness_change(pairs, B, weights, c, D, known, place, count)
-            solve_factors(A, pivots, x)
-            return _solve_changed(place, change, K, pivots, x)
+        solved = _changed_step(pairs, B, weights, S, c, D, K, A, known, pivots, x)
+        if solved >= 0:
+            return solved > 0
     if not same and not _factorise(pairs, B, weights, S, R, c, D, K, A, known, pivots):
         return False
     solve_factors(A, pivots, x)
     return True
 
 
+@apart
 @compiled
 def iterate_cached(
     pairs: IntArray,

@@ -15,6 +15,7 @@ import math
 
 import numpy as np
 
+from ssilang.kernel.apart import apart
 from ssilang.kernel.compiled import compiled
 from ssilang.kernel.joints.arrays import clear, copy_state
 from ssilang.kernel.joints.columns import KN, LARG, LONG, RAYO
@@ -104,6 +105,7 @@ def rectangle_contact(
         out[5] += cross * (y1 * y1 + y1 * y2 + y2 * y2) / 12.0
 
 
+@apart
 @compiled
 def macro_point(
     code: int,

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 
+from ssilang.kernel.apart import apart
 from ssilang.kernel.compiled import compiled
 from ssilang.kernel.joints.arrays import clear, copy_state
 from ssilang.kernel.joints.columns import (
@@ -59,6 +60,7 @@ def mohr_energy(w: FloatArray, t: FloatArray, state: FloatArray, p: FloatArray) 
     return stored
 
 
+@apart
 @compiled
 def mohr_point(
     w: FloatArray, state: FloatArray, p: FloatArray, t: FloatArray, new: FloatArray, D: FloatArray

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from ssilang.kernel.apart import apart
 from ssilang.kernel.compiled import compiled
-from ssilang.kernel.joints.laws import point_energies, point_response
+from ssilang.kernel.joints.laws import point_energies, respond
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 
@@ -68,6 +69,7 @@ def _add_product(
                         K[row, pairs[b] * d + j] += part * right[b * d + j]
 
 
+@apart
 @compiled
 def interface_response(
     pairs: IntArray,
@@ -85,8 +87,7 @@ def interface_response(
 ) -> None:
     """Jumps, tractions, new states, tangents and forces at the pair jumps delta, in place."""
     local_jumps(pairs, B, delta, w)
-    for i in range(w.shape[0]):
-        point_response(codes[i], w[i], state[i], p[i], t[i], new[i], D[i])
+    respond(codes, w, state, p, t, new, D)
     interface_forces(pairs, B, weights, t, f)
 
 

@@ -13,7 +13,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.apart import apart
 from ssilang.kernel.compiled import compiled_fast
+from ssilang.kernel.joints.arrays import clear, copy_rows
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 FEW = 160  # jumps up to which Y is kept
@@ -31,7 +33,7 @@ def is_few(q: int) -> bool:
 def _rows_of(pairs: IntArray, B: FloatArray, Y: FloatArray, rows: FloatArray) -> None:
     """rows (d, q) = B Y of one point."""
     d = len(B)
-    rows[:, :] = 0.0
+    clear(rows)
     for a in range(d):
         row = rows[a]
         for pair in range(len(pairs)):
@@ -47,7 +49,7 @@ def _rows_of(pairs: IntArray, B: FloatArray, Y: FloatArray, rows: FloatArray) ->
 def _columns_of(pairs: IntArray, B: FloatArray, Y: FloatArray, columns: FloatArray) -> None:
     """columns (d, q) = (Y B^T)^T of one point."""
     d = len(B)
-    columns[:, :] = 0.0
+    clear(columns)
     for a in range(d):
         column = columns[a]
         for pair in range(len(pairs)):
@@ -125,11 +127,12 @@ def update_point(
     return True
 
 
+@apart
 @compiled_fast
 def invert(A: FloatArray, pivots: IntArray, S: FloatArray, Y: FloatArray) -> None:
     """Y = A^-1 S with the factors of A, all columns at once."""
     n = len(A)
-    Y[:, :] = S
+    copy_rows(S, Y)
     for k in range(n):
         p = pivots[k]
         if p != k:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.apart import apart
 from ssilang.kernel.compiled import compiled, compiled_fast
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
@@ -55,6 +56,7 @@ def _factorise_columns(A: FloatArray, k0: int, k1: int, top: float, pivots: IntA
     return True
 
 
+@apart
 @compiled_fast
 def factorise_dense(A: FloatArray, pivots: IntArray) -> bool:
     """LU with row exchanges in place, by blocks of columns; False if a pivot vanishes."""

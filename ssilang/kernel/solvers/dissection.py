@@ -142,19 +142,20 @@ def _best_cut(
 ) -> tuple[int, float]:  # fmt: skip
     """Axis and position of the cut with the fewest separating points, axis -1 if none cuts."""
     size, d = hi - lo, points.shape[1]
-    spans = np.empty(d)
+    spans, widest = np.empty(d), 0.0
     for a in range(d):
         low, high = points[order[lo], a], points[order[lo], a]
         for i in range(lo, hi):
             low, high = min(low, points[order[i], a]), max(high, points[order[i], a])
         spans[a] = high - low
+        widest = max(widest, spans[a])
     best, axis, position = -1, -1, 0.0
     for a in range(d):
-        if spans[a] == 0.0 or spans[a] < THIN * spans.max():
+        if spans[a] == 0.0 or spans[a] < THIN * widest:
             continue
         for i in range(lo, hi):
             keys[i - lo] = points[order[i], a]
-        cut = _middle(keys, size) - 1e-9 * spans.max()
+        cut = _middle(keys, size) - 1e-9 * widest
         for i in range(lo, hi):
             keys[i - lo] = points[order[i], a]
         below, above_touching, below_touching = _sides(
@@ -234,4 +235,4 @@ def _dissect(
         stack[depth, 0], stack[depth, 1], stack[depth, 2] = lo, a, above
         stack[depth + 1, 0], stack[depth + 1, 1], stack[depth + 1, 2] = a, hi - c, above
         depth += 2
-    return order, start[:count].copy(), parent[:count].copy()
+    return order, start[:count], parent[:count]

@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ssilang.kernel.apart import apart
 from ssilang.kernel.compiled import compiled, compiled_fast
 from ssilang.kernel.memory import fits
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
@@ -71,7 +72,7 @@ def factorise_panels(A: sp.csr_array, tree: Tree) -> Panels:
     indptr, indices = lower.indptr.astype(np.int64), lower.indices.astype(np.int64)
     above = np.full(len(tree.first) - 1, -1, np.int64)
     ptr, rows = _rows_below(n, indptr, indices, tree.first, above)
-    at = _places(tree.first, ptr)
+    rows, at = rows.astype(np.int32), _places(tree.first, ptr)
     waiting, front = _room(tree.first, ptr, above)
     needed = 8.0 * (float(at[-1]) + waiting + front)
     if not fits(needed):
@@ -95,6 +96,22 @@ def _longer(rows: IntArray, size: int) -> IntArray:
 
 
 @compiled
+def _sort(rows: IntArray, start: int, end: int) -> None:
+    """Sort a part in place (Shell's method; NumPy's takes numba seconds to compile)."""
+    gap = 1
+    while gap < (end - start) // 3:
+        gap = 3 * gap + 1
+    while gap > 0:
+        for i in range(start + gap, end):
+            row, j = rows[i], i
+            while j >= start + gap and rows[j - gap] > row:
+                rows[j] = rows[j - gap]
+                j -= gap
+            rows[j] = row
+        gap //= 3
+
+
+@compiled
 def _rows_below(
     n: int, indptr: IntArray, indices: IntArray, first: IntArray, above: IntArray
 ) -> tuple[IntArray, IntArray]:
@@ -102,7 +119,8 @@ def _rows_below(
     count = len(first) - 1
     owner, seen = np.empty(n, np.int64), np.full(n, -1, np.int64)
     for s in range(count):
-        owner[first[s] : first[s + 1]] = s
+        for i in range(first[s], first[s + 1]):
+            owner[i] = s
     ptr, rows = np.zeros(count + 1, np.int64), np.empty(max(len(indices), 16), np.int64)
     child, sibling = np.full(count, -1, np.int64), np.full(count, -1, np.int64)
     size = 0
@@ -127,13 +145,13 @@ def _rows_below(
                     rows[size] = i
                     size += 1
             c = sibling[c]
-        rows[start:size].sort()
+        _sort(rows, start, size)
         ptr[s + 1] = size
         if size > start:
             above[s] = owner[rows[start]]
             sibling[s] = child[above[s]]
             child[above[s]] = s
-    return ptr, rows[:size].astype(np.int32)
+    return ptr, rows[:size]
 
 
 @compiled
@@ -232,6 +250,7 @@ def _diagonal_block(F: FloatArray, k0: int, k1: int, inverse: FloatArray) -> int
     return -1
 
 
+@apart
 @compiled_fast
 def _panel(F: FloatArray, k0: int, k1: int, inverse: FloatArray, P: FloatArray) -> None:
     """Rows below a factorised block: P = inverse F[k0:k1, k1:]."""
@@ -252,6 +271,7 @@ def _panel(F: FloatArray, k0: int, k1: int, inverse: FloatArray, P: FloatArray) 
                 p[i] += t * f[i]
 
 
+@apart
 @compiled_fast
 def _update(F: FloatArray, k0: int, k1: int, limit: int) -> None:
     """F[j, i] -= sum_k F[k, j] F[k, i], k from k0 to k1, columns j to limit, rows i >= j."""
@@ -284,6 +304,7 @@ def _update(F: FloatArray, k0: int, k1: int, limit: int) -> None:
             k += 1
 
 
+@apart
 @compiled
 def _columns(F: FloatArray, k: int, pos: int, values: FloatArray) -> int:
     """Factorise the first k columns of a front, put their panels; a bad pivot or -1."""

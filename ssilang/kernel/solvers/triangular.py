@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.apart import apart
 from ssilang.kernel.compiled import compiled, compiled_fast
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.solvers.multifrontal import WIDTH, Panels
@@ -81,6 +82,7 @@ def _subtract_transposed(values: FloatArray, pos: int, y: FloatArray, b: FloatAr
         j += 1
 
 
+@apart
 @compiled_fast
 def forward(
     L: Panels, begin: int, end: int, x: FloatArray, beyond: int, sums: FloatArray,
@@ -114,6 +116,7 @@ def forward(
                 sums[row] += local[k + i]
 
 
+@apart
 @compiled_fast
 def backward(
     L: Panels, begin: int, end: int, z: FloatArray, x: FloatArray, local: FloatArray
