@@ -26,8 +26,7 @@ from typing import Any, TypeVar, cast
 import llvmlite.binding as llvm
 from llvmlite import ir
 from numba.core import cgutils, imputils, types
-from numba.core.typing import signature
-from numba.core.typing.templates import infer, infer_global, make_intrinsic_template
+from numba.core.typing.templates import infer, infer_global, make_intrinsic_template, signature
 
 from ssilang.kernel.compiled import compiled
 
@@ -51,6 +50,7 @@ class Apart:
 
     def __init__(self, dispatcher: Any) -> None:
         functools.update_wrapper(self, dispatcher)
+        self.name: str = dispatcher.py_func.__qualname__
         self.dispatcher = dispatcher
         self.py_func = dispatcher.py_func
         self.result = RESULTS[self.py_func.__annotations__["return"]]
@@ -66,7 +66,7 @@ class Apart:
         return self
 
     def __reduce__(self) -> str:
-        return self.__qualname__
+        return self.name
 
     def address(self, args: tuple[types.Type, ...]) -> int:
         """Address of the code for these types, compiled now if it is not yet.
@@ -80,14 +80,14 @@ class Apart:
         made = self.dispatcher.overloads[args]
         if made.signature.return_type != self.result:
             found = made.signature.return_type
-            raise TypeError(f"{self.__qualname__} returns {found}, not {self.result}")
+            raise TypeError(f"{self.name} returns {found}, not {self.result}")
         return int(made.library.get_pointer_to_function(made.fndesc.llvm_func_name))
 
 
 def apart(function: Function) -> Function:
     """Keep a compiled function out of the code of its callers; written above `@compiled`."""
     made = Apart(function)
-    template = make_intrinsic_template(made, _typing_of(made), made.__qualname__)
+    template = make_intrinsic_template(made, _typing_of(made), made.name)
     infer(template)
     infer_global(made, types.Function(template))
     return cast(Function, made)
@@ -121,8 +121,8 @@ def _typing_of(function: Apart) -> Callable[..., Any]:
 def _call(function: Apart, context: Any, builder: Any, sig: Any, args: Any) -> Any:
     """Code of a call: the address from its place, or from `_resolve`, then the call."""
     conv, int64 = context.call_conv, ir.IntType(64)
-    name = f"{function.__module__}.{function.__qualname__}"
-    wanted = pickle.dumps((function.__module__, function.__qualname__, sig.args))
+    name = f"{function.__module__}.{function.name}"
+    wanted = pickle.dumps((function.__module__, function.name, sig.args))
     place = cgutils.add_global_variable(builder.module, int64, f"address of {name}{sig.args}")
     place.linkage, place.initializer = "internal", int64(0)
     with cgutils.if_unlikely(builder, cgutils.is_null(builder, builder.load(place))):
