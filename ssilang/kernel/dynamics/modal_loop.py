@@ -235,10 +235,11 @@ def march_modal(
     known = np.full((x.w.shape[0], d, d), np.nan)
     rq, dyq, deltaq, pivots = np.zeros(q), np.zeros(q), np.zeros(q), np.zeros(q, np.int64)
     Kq, Aq, none = np.zeros((q, q)), np.zeros((q, q)), np.zeros((0, 0))
-    _correct(modal, step, x.f, sweep, 0, n)
+    start = n - n  # not a literal: that is a type, and code, of its own
+    _correct(modal, step, x.f, sweep, start, n)
     next_load(modal.forces, factors[0], sweep.load0, sweep.load1)
     next_load(modal.forces, factors[min(1, steps)], sweep.load0, sweep.load1)
-    _predict(modal, step, x, sweep, 0, n)
+    _predict(modal, step, x, sweep, start, n)
     for k in range(steps):
         if q:
             for i in range(q):

@@ -287,10 +287,11 @@ def march_normal(
         xi[i] = x.state[i, XI]
     anew(contact)
     list_closed(contact)
-    _push(modal, step, contact, f, out, 0, n)  # the forces at the start, for alpha_f
+    start = n - n  # not a literal: that is a type, and code, of its own
+    _push(modal, step, contact, f, out, start, n)  # the forces at the start, for alpha_f
     next_load(modal.forces, factors[0], out.load0, out.load1)
     next_load(modal.forces, factors[min(1, steps)], out.load0, out.load1)
-    _release(modal, step, x, out, 0, n)
+    _release(modal, step, x, out, start, n)
     for s in range(steps):
         turns = settle(contact, out.jumps, answer)
         if turns < 0:

@@ -95,6 +95,7 @@ def _longer(rows: IntArray, size: int) -> IntArray:
     return more
 
 
+@apart
 @compiled
 def _sort(rows: IntArray, start: int, end: int) -> None:
     """Sort a part in place (Shell's method; NumPy's takes numba seconds to compile)."""

@@ -1,0 +1,60 @@
+"""First use: what compiling costs a machine that has no compiled code yet.
+
+    OMP_NUM_THREADS=1 python benchmarks/first_use.py [case ...]
+
+Cases: `oscillator` (the deck club_b_sdm), `frame` (rocking_frame.py), `block` (1 964 unknowns of
+uplift_openseespy.py). Each runs twice, each time in a process of its own, with a folder for
+compiled code that is empty the first time. The difference is printed, in seconds of a clock and of
+a processor: on a busy machine the first says little.
+"""
+
+from __future__ import annotations
+
+import os
+import resource
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+HERE = Path(__file__).parent
+DECK = HERE.parent / "cases" / "club_cast3m_2014" / "club_b_sdm.ssi"
+CASES = {
+    "oscillator": f"import sys; sys.argv = ['ssilang', {str(DECK)!r}, '--out', '.']; "
+    "from ssilang.cli.main import main; main()",
+    "frame": "import pathlib, rocking_frame as r; r.ours(2000, 2000, pathlib.Path('.'))",
+    "block": "import uplift_openseespy as u; u.run_ssilang(u.make_case(2000, 50))",
+}
+
+
+def times(program: str, folder: str) -> tuple[float, float]:
+    """Seconds by the clock and of a processor that a Python program takes; it must succeed."""
+    paths = os.pathsep.join([str(HERE), str(HERE.parent), os.environ.get("PYTHONPATH", "")])
+    given = {k: v for k, v in os.environ.items() if k != "NUMBA_CACHE_DIR"}
+    given |= {"XDG_CACHE_HOME": folder, "PYTHONPATH": paths}
+    before, start = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
+    subprocess.run(
+        [sys.executable, "-c", program], check=True, capture_output=True, env=given, cwd=folder
+    )
+    after, clock = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter() - start
+    return clock, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
+def main(names: list[str]) -> None:
+    """Print one line a case."""
+    for name in names or list(CASES):
+        with tempfile.TemporaryDirectory() as folder:
+            first, second = times(CASES[name], folder), times(CASES[name], folder)
+            n = sum(1 for _ in Path(folder).rglob("*.nbi"))
+        print(
+            f"{name:12s} {n:4d} functions kept; first run {first[0]:6.1f} s "
+            f"({first[1]:.1f} of a processor), next {second[0]:.1f} s ({second[1]:.1f}), "
+            f"compiling {first[0] - second[0]:.1f} s ({first[1] - second[1]:.1f}), "
+            f"load {os.getloadavg()[0]:.0f}",
+            flush=True,
+        )
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
