@@ -235,3 +235,25 @@ def test_load_on_a_body_without_support_is_refused(tmp_path):
     result = run_text(text, output_directory=tmp_path)
     assert result.exit_code == 1
     assert "free motion" in result.message
+
+
+def test_fields_in_cells_come_in_the_order_of_the_models_zones(found):
+    script = (
+        "OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ; A = 0. 0. ; B = 1. 0. ; L = DROI 1 A B ; "
+        "S = L TRAN 1 (0. 1.) ; SB = S COTE 2 ; SG = S COTE 4 ; "
+        "M1 = MODE S MECANIQUE ELASTIQUE PLASTIQUE PARFAIT CONS 'C1' ; "
+        "M2 = MODE S MECANIQUE ELASTIQUE CONS 'C2' ; M = M1 ET M2 ; "
+        "MA = (MATE M1 YOUN 1000. NU 0. SIGY 1.) ET (MATE M2 YOUN 100. NU 0.) ; "
+        "K1 = BLOQ 'UX' SG ; K2 = BLOQ 'UX' SB ; K3 = BLOQ 'UY' L ; "
+        "CH = CHAR 'DIMP' (DEPI K2 0.01) (EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.)) ; "
+        "T = TABL ; T . 'MODELE' = M ; T . 'CARACTERISTIQUES' = MA ; "
+        "T . 'BLOCAGES_MECANIQUES' = K1 ET K2 ET K3 ; T . 'CHARGEMENT' = CH ; "
+        "T . 'TEMPS_CALCULES' = PROG 0. 'PAS' 0.25 1. ; PASAPAS T ; "
+        "X = T . 'CONTRAINTES' . 4 ; Y = EXTR X 'SMXX' 1 1 1 ; "
+    )
+    field, stress = found(script, "X", "Y")
+    assert [b.constituent for b in field.blocks] == ["C1", "C2"]
+    assert 1.0 < stress < 2 / 3**0.5  # yields between a free and a plane extension
+    field, stress = found(script.replace("M = M1 ET M2", "M = M2 ET M1"), "X", "Y")
+    assert [b.constituent for b in field.blocks] == ["C2", "C1"]
+    assert stress == pytest.approx(100 * 0.01)

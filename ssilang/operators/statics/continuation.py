@@ -9,6 +9,7 @@ import numpy as np
 
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.model import Model
 from ssilang.language.values import ListMots, ListReel, Mot, Table
 from ssilang.operators.dynamics.reports import report
 from ssilang.operators.modal.continuation import lengths_of
@@ -65,7 +66,10 @@ def continue_loads(entries: Entries) -> None:
     bodies = finite_bodies(entries, finite, start) if finite else plastic_bodies(entries, start)
     problem = make_problem(inputs)
     most, every = entries.get("MAXIPAS", "ENTIER") or 1000, entries.get("PAS_SAUVES", "ENTIER") or 1
-    results = ResultTables(entries.table, np.ones(len(times), bool), stresses, False, start.index)
+    model: Model | None = entries.get("MODELE", "MMODEL")
+    zones = () if model is None else model.zones
+    saved = np.ones(len(times), bool)
+    results = ResultTables(entries.table, saved, stresses, False, start.index, zones)
     followed = Followed(len(times))
     observers: list[Observer] = [results, followed]
     rate = _rate(entries, problem, times)

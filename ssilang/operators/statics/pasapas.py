@@ -124,7 +124,9 @@ def _stretch(
     problem = make_problem(inputs)
     if bodies is None and not control_asked(work) and stage.entries is work:
         warn_supports(work, inputs)
-    results = ResultTables(entries.table, saved, stresses, dynamic, number)
+    model: Model | None = given.get("MODELE", "MMODEL")
+    zones = () if model is None else model.zones
+    results = ResultTables(entries.table, saved, stresses, dynamic, number, zones)
     reached = Reached(results, len(times))
     observers: list[Observer] = [results, reached]
     kept = work.get("TEMPS_SAUVEGARDES", "LISTREEL")

@@ -59,7 +59,8 @@ class Stresses:
 class ResultTables:
     """Fills TEMPS, DEPLACEMENTS, CONTRAINTES ... of the table at each saved time.
 
-    `number` is that of the initial state; what the table already holds there is kept.
+    `number` is that of the initial state; what the table already holds there is kept. Fields in
+    cells come in the order of `zones`, the model's, which a script's EXTR counts.
     """
 
     table: Table
@@ -67,6 +68,7 @@ class ResultTables:
     stresses: Stresses
     dynamic: bool
     number: int = 0
+    zones: tuple[Zone, ...] = ()
     _last: tuple[Snapshot, dict[str, Any]] | None = field(default=None, repr=False)
 
     def __post_init__(self) -> None:
@@ -87,22 +89,33 @@ class ResultTables:
             return self._last[1]
         u = snapshot.displacement
         tractions = snapshot.tractions
-        blocks = self.stresses.at(u, snapshot.time)
+        blocks = (*self.stresses.at(u, snapshot.time), *(tractions.blocks if tractions else ()))
         values = {
             "TEMPS": snapshot.time,
             "DEPLACEMENTS": u,
             "REACTIONS": snapshot.reactions,
-            "CONTRAINTES": CellField(
-                (*blocks, *(tractions.blocks if tractions else ())), "CONTRAINTES"
+            "CONTRAINTES": self._in_order(CellField(blocks, "CONTRAINTES")),
+            "VARIABLES_INTERNES": self._in_order(
+                snapshot.variables or CellField((), "VARIABLES INTERNES")
             ),
-            "VARIABLES_INTERNES": snapshot.variables or CellField((), "VARIABLES INTERNES"),
         }
         strains = getattr(snapshot, "plastic_strains", None)
-        values["DEFORMATIONS_INELASTIQUES"] = strains or CellField((), "DEFORMATIONS INELASTIQUES")
+        values["DEFORMATIONS_INELASTIQUES"] = self._in_order(
+            strains or CellField((), "DEFORMATIONS INELASTIQUES")
+        )
         if self.dynamic:
             values |= {"VITESSES": snapshot.velocity, "ACCELERATIONS": snapshot.acceleration}
         self._last = (snapshot, values)
         return values
+
+    def _in_order(self, found: CellField) -> CellField:
+        """A field whose blocks come in the order of the zones that they lie on."""
+        places = {(id(z.cells), z.constituent): i for i, z in enumerate(self.zones)}
+        where = [places.get((id(b.cells), b.constituent), -1) for b in found.blocks]
+        if -1 in where or where == sorted(where):
+            return found
+        order = sorted(range(len(where)), key=where.__getitem__)
+        return CellField(tuple(found.blocks[i] for i in order), found.title)
 
     def _put(self, word: str, value: Any, keep: bool) -> None:
         inner = self.table.get(word)

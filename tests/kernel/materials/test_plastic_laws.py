@@ -148,7 +148,8 @@ def test_pure_tension_ends_at_the_tip_of_the_cone() -> None:
 
 
 @pytest.mark.parametrize(
-    ("slope", "limit", "wanted"), [(0, 3.0, 3.0), (0, 9.0, 4.1), (2.0, 3.0, 3.0)]
+    ("slope", "limit", "wanted"),
+    [(0, 3.0, 3.0), (0, 9.0, 4.1), (2.0, 3.0, 3.0), (-90.0, 3.0, 3.0), (-90.0, 4.1, 0.0)],
 )
 def test_drucker_cone_ends_at_the_ultimate_one(slope: float, limit: float, wanted: float) -> None:
     """Equal strain in a plane under zero stress across: s = strength / (2 alpha + beta)."""

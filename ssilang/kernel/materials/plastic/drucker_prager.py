@@ -31,11 +31,13 @@ def hardening(
 ) -> Response:
     """`ALFA tr(s) + BETA q <= K + H p`, up to the ultimate cone; flow by GAMM and DELT.
 
-    The ultimate strength bounds K from above, and a falling one (H < 0) from below.
+    The ultimate strength bounds K from above. One that falls (H < 0) ends at an ultimate strength
+    below the first, else at zero.
     """
     limit, slope = parameters["K"], parameters["H"]
     last = parameters["KL"] * parameters["BETA"] / parameters["MU"]
     falls = slope < 0
+    last = np.where(falls & (last >= limit), 0.0, last)
 
     def strength(rows: IntArray, p: FloatArray) -> tuple[FloatArray, FloatArray]:
         value = limit[rows] + slope[rows] * p
