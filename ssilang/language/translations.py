@@ -671,14 +671,6 @@ TEMPLATES: tuple[tuple[str, str], ...] = (
         "non tenu : {} ; bloquez-le par BLOQ ou RELA, ou donnez-lui une masse (MASS)",
     ),
     (
-        "the matrix is singular, with {} free motion ({})",
-        "la matrice est singulière : {} mouvement libre ({})",
-    ),
-    (
-        "the matrix is singular, with {} free motions ({})",
-        "la matrice est singulière : {} mouvements libres ({})",
-    ),
-    (
         "the matrix has no unknown for the force {}",
         "la matrice n'a pas d'inconnue pour la force {}",
     ),
@@ -694,6 +686,15 @@ TEMPLATES: tuple[tuple[str, str], ...] = (
         "un chargement moins excentré, un appui, ou un calcul dynamique ; si le chargement "
         "presse, les côtés du joint sont inversés : RACC et LIAI prennent d'abord celui de la "
         "structure",
+    ),
+    (
+        "the joint around {} {} {} opens where its bodies come together: its sides are swapped",
+        "le joint autour de {} {} {} s'ouvre quand ses corps se rapprochent : ses côtés sont "
+        "inversés",
+    ),
+    (
+        "RACC and LIAI take the structure's side first",
+        "RACC et LIAI prennent d'abord le côté de la structure",
     ),
     (
         "node {} lies on node {} of the matrix: coordinates that are written again make a new "
