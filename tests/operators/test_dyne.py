@@ -127,3 +127,64 @@ def test_faulty_links_are_named(change, sentence, tmp_path):
     result = run_text(script, output_directory=tmp_path)
     assert result.exit_code != 0
     assert sentence in result.message
+
+
+# a disc of mass 2 and radius 0.3 that turns at 6 rad/s is laid on a plane and pressed by 20
+WHEEL = """
+OPTI DIME 2 ; A = 0. 0. ;
+T = TABL 'BASE_MODALE' ; T . 'MODES' = TABL ;
+REPE B 3 ;
+  M = TABL 'MODE' ; M . 'NUMERO_MODE' = &B ; M . 'FREQUENCE' = 0. ;
+  M . 'POINT_REPERE' = (FLOT &B) 9. ;
+  M . 'MASSE_GENERALISEE' = EXTR (PROG 2. 2. 0.09) &B ;
+  M . 'DEFORMEE_MODALE' = MANU 'CHPO' A 1 (EXTR (MOTS 'UX' 'UY' 'RZ') &B) 1. ;
+  T . 'MODES' . &B = M ;
+FIN B ;
+L1 = TABL 'LIAISON_ELEMENTAIRE' ; L1 . 'TYPE_LIAISON' = MOT 'CERCLE_PLAN_FROTTEMENT' ;
+L1 . 'SUPPORT' = A ; L1 . 'RAYON_SUPPORT' = 0.3 ; L1 . 'NORMALE' = 0. -1. ; L1 . 'RAIDEUR' = 1.E5 ;
+L1 . 'JEU' = 0. ; L1 . 'COEFFICIENT_GLISSEMENT' = 0.2 ; L1 . 'COEFFICIENT_ADHERENCE' = 0.2 ;
+L1 . 'RAIDEUR_TANGENTIELLE' = -1.E5 ; L1 . 'AMORTISSEMENT_TANGENTIEL' = 1.E-3 ;
+TL = TABL 'LIAISON' ; TL . 'LIAISON_B' = TABL 'LIAISON_B' ; TL . 'LIAISON_B' . 1 = L1 ;
+TS = TABL 'SORTIE' ; TS . 'LIAISON_B' = TABL 'LIAISON_B' ; TS . 'LIAISON_B' . L1 = VRAI ;
+C = TABL 'CHARGEMENT' ;
+C . 'BASE_A' = CHAR (MANU 'CHPO' (T . 'MODES' . 2 . 'POINT_REPERE') 1 'FALF' -20.
+  'NATURE' 'DISCRET') (EVOL 'MANU' (PROG 0. 10.) (PROG 1. 1.)) ;
+TI = TABL 'INITIAL' ;
+TI . 'VITESSE' = MANU 'CHPO' (T . 'MODES' . 3 . 'POINT_REPERE') 1 'ALFA' 6. ;
+TI . 'DEPLACEMENT' = MANU 'CHPO' (T . 'MODES' . 2 . 'POINT_REPERE') 1 'ALFA' -2.E-4 ;
+"""
+
+
+def test_turning_disc_laid_on_a_plane_ends_up_rolling(tmp_path):
+    script = (
+        WHEEL
+        + """
+    R = DYNE 'DE_VOGELAERE' T TL C TI TS 4000 2.E-4 4000 ;
+    X = EXTR (R . 2 . 'VITESSE') 'ALFA' (T . 'MODES' . 1 . 'POINT_REPERE') ;
+    W = EXTR (R . 2 . 'VITESSE') 'ALFA' (T . 'MODES' . 3 . 'POINT_REPERE') ;
+    """
+    )
+    root = run(script, tmp_path)
+    # momentum and moment of momentum: a third of the speed of turning stays, and it rolls
+    x, w = root.find("X"), root.find("W")
+    assert 0.09 * (6.0 - w) == pytest.approx(-2.0 * x * 0.3, rel=1e-9)
+    assert w == pytest.approx(2.0, rel=1e-3)  # regularised friction fades as it comes near
+    assert x == pytest.approx(-2.0 * 0.3, rel=1e-3)
+
+
+def test_sliding_disc_slows_down_by_its_friction(tmp_path):
+    root = run(WHEEL + "R = DYNE 'DE_VOGELAERE' T TL C TI TS 500 2.E-4 50 ;", tmp_path)
+    link = root.find("R").get(root.find("L1"))
+    times = 0.01 * np.arange(11)
+    turned = link.get("RZ_POINT_FIBRE_NEUTRE").values
+    # 0.2 x 20 N at the radius 0.3 over the inertia 0.09
+    np.testing.assert_allclose(turned, 6 * times - 0.5 * 4 * 0.3 / 0.09 * times**2, rtol=1e-6)
+    np.testing.assert_allclose(np.abs(link.get("FORCE_DE_CHOC_NORMALE").values), 20.0, rtol=1e-9)
+
+
+@pytest.mark.parametrize("change", ["L1 . 'RAYON_SUPPORT' = 0. ;", "OUBL L1 'RAYON_SUPPORT' ;"])
+def test_disc_on_a_plane_wants_its_radius(change, tmp_path):
+    script = WHEEL + change + "R = DYNE 'DE_VOGELAERE' T TL C TI TS 3 1.E-4 ;"
+    result = run_text(script, output_directory=tmp_path)
+    assert result.exit_code != 0
+    assert "RAYON_SUPPORT" in result.message

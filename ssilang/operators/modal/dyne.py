@@ -294,8 +294,9 @@ operator(
         "acceleration or Fox-Goodwin, from rest, from initial values or going on from a run "
         "(INITIAL); loads on the modes (CHARGEMENT, index 'BASE_A', made by PJBA or SEIS), "
         "damping, and links (LIAISON): POINT_PLAN, POINT_POINT, POINT_CERCLE with friction or "
-        "without, POINT_CERCLE_MOBILE, plastic springs and hinges between points, "
-        "COUPLAGE_DEPLACEMENT and COUPLAGE_VITESSE. Contacts push against the normal, which points "
+        "without, POINT_CERCLE_MOBILE, CERCLE_PLAN_FROTTEMENT, plastic springs and hinges "
+        "between points, COUPLAGE_DEPLACEMENT and COUPLAGE_VITESSE. Contacts push "
+        "against the normal, which points "
         "into the obstacle, where the motion along it is beyond the gap. The table of results has "
         "one entry a saved step (DEPLACEMENT, VITESSE ... on ALFA), TEMPS_DE_SORTIE, lists of the "
         "links asked for, and REPRISE to go on. A step too long for the scheme is refused.",
@@ -303,8 +304,9 @@ operator(
         "accélération moyenne ou Fox-Goodwin, depuis le repos, des valeurs initiales ou la suite "
         "d'un calcul (INITIAL) ; chargements sur les modes (CHARGEMENT, indice 'BASE_A', faits par "
         "PJBA ou SEIS), amortissement, et liaisons (LIAISON) : POINT_PLAN, POINT_POINT, "
-        "POINT_CERCLE avec ou sans frottement, POINT_CERCLE_MOBILE, ressorts et rotules plastiques "
-        "entre points, COUPLAGE_DEPLACEMENT et COUPLAGE_VITESSE. Les contacts poussent contre la "
+        "POINT_CERCLE avec ou sans frottement, POINT_CERCLE_MOBILE, CERCLE_PLAN_FROTTEMENT, "
+        "ressorts et rotules plastiques entre points, COUPLAGE_DEPLACEMENT et COUPLAGE_VITESSE. "
+        "Les contacts poussent contre la "
         "normale, dirigée vers l'obstacle, là où le mouvement dépasse le jeu. La table résultat a "
         "une entrée par pas sauvé (DEPLACEMENT, VITESSE ... sur ALFA), TEMPS_DE_SORTIE, les listes "
         "des liaisons demandées, et REPRISE pour continuer. Un pas trop long est refusé.",

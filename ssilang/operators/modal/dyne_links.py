@@ -192,6 +192,25 @@ def _plane(t: LinkTable, basis: Basis) -> ReadLink:
     return ReadLink(t.table, Link(law.PLANE, rows, rows, numbers, points), tuple(named))
 
 
+def _circle_on_plane(t: LinkTable, basis: Basis) -> ReadLink:
+    """CERCLE_PLAN_FROTTEMENT: the point of a circle about SUPPORT that is nearest to a plane.
+
+    It moves by `u + theta x R n`: friction turns the circle.
+    """
+    support, normal = t.point("SUPPORT"), t.direction("NORMALE")
+    centre, turns = basis.rows(t.call, support), basis.rows(t.call, support, TURNS)
+    radius = t.real("RAYON_SUPPORT")
+    if radius <= 0.0:
+        raise t.call.bad("'RAYON_SUPPORT' of a link must be > 0", t.table)
+    rows = centre + np.cross(turns.T, radius * normal).T
+    numbers, points = _spring(t)
+    numbers |= _friction(t) | _vector(law.NX, normal) | {law.GAP: t.real("JEU", 0.0)}
+    named = _of_point(centre, MOVES, "_POINT_FIBRE_NEUTRE")
+    named += _of_point(turns, TURNS, "_POINT_FIBRE_NEUTRE")
+    named += [n for n in _push_names(t, True) if n[0] != "VITESSE_TANGENTIELLE"]
+    return ReadLink(t.table, Link(law.PLANE, rows, rows, numbers, points), tuple(named))
+
+
 def _two_points(t: LinkTable, basis: Basis) -> ReadLink:
     """POINT_POINT and its variants with friction and plasticity (of displacements, rotations)."""
     turning = "ROTATION" in t.kind
@@ -272,6 +291,7 @@ def _coupling(t: LinkTable, basis: Basis) -> ReadLink:
 _READERS = {
     "POINT_PLAN": _plane,
     "POINT_PLAN_FROTTEMENT": _plane,
+    "CERCLE_PLAN_FROTTEMENT": _circle_on_plane,
     "POINT_POINT": _two_points,
     "POINT_POINT_FROTTEMENT": _two_points,
     "POINT_POINT_DEPLACEMENT_PLASTIQUE": _two_points,
