@@ -8,6 +8,7 @@ from ssilang.kernel.dynamics.adaptive import AdaptiveLoop
 from ssilang.kernel.dynamics.compiled_loop import Motion, Saved, march
 from ssilang.kernel.dynamics.conserving import ConservingLoop
 from ssilang.kernel.dynamics.contact import BoolArray
+from ssilang.kernel.dynamics.contact_loop import ContactLoop, contact_loop, takes
 from ssilang.kernel.dynamics.dense_loop import joints_of, operators_of, system_of
 from ssilang.kernel.dynamics.effective import effective_matrix, effective_of
 from ssilang.kernel.dynamics.impact import ImpactRule
@@ -169,7 +170,32 @@ class InterleavedEngine:
         return self._plain.march(self._step, self._dt, factors, save, saved, history)
 
 
-Engine = DenseEngine | SparseEngine | ConservingEngine | AdaptiveEngine | InterleavedEngine
+class ContactEngine:
+    """The compiled loop of small problems with relations; the sparse one for what it cannot do."""
+
+    name = "compiled"
+
+    def __init__(
+        self, problem: Problem, motion: Motion, dt: float, full: bool, closed: BoolArray
+    ) -> None:
+        share = 1 - problem.scheme.alpha_f
+        effective = effective_of(problem, effective_matrix(problem, dt), dt, share)
+        found = contact_loop(problem, motion, effective, closed)
+        self._loop: ContactLoop | SparseEngine
+        self._loop = found or SparseEngine(problem, motion, dt, full, closed)
+        self.name = self.name if found else SparseEngine.name
+        self.solver = effective.inverse.factor.name
+
+    def march(
+        self, factors: FloatArray, save: IntArray, saved: Saved, history: FloatArray
+    ) -> tuple[int, int, float]:
+        return self._loop.march(factors, save, saved, history)
+
+
+Engine = (
+    DenseEngine | SparseEngine | ConservingEngine | AdaptiveEngine | InterleavedEngine
+    | ContactEngine
+)  # fmt: skip
 
 
 RenewableEngine = SparseEngine | ConservingEngine | AdaptiveEngine
@@ -178,7 +204,7 @@ RenewableEngine = SparseEngine | ConservingEngine | AdaptiveEngine
 def renewable_kind(problem: Problem, full_newton: bool) -> type[RenewableEngine]:
     """As `kind_of`, for steps whose matrices and loads are made as the motion goes."""
     kind = kind_of(problem, full_newton)
-    loads_fixed = kind in (DenseEngine, InterleavedEngine)
+    loads_fixed = kind in (DenseEngine, InterleavedEngine, ContactEngine)
     return SparseEngine if loads_fixed else cast("type[RenewableEngine]", kind)
 
 
@@ -206,6 +232,8 @@ def kind_of(problem: Problem, full_newton: bool) -> type[Engine]:
         return AdaptiveEngine
     if scheme.conserving:
         return ConservingEngine
+    if problem.contact is not None and not full_newton and takes(problem):
+        return ContactEngine
     if full_newton or problem.contact is not None:
         return SparseEngine
     few = problem.numbering.size <= SMALL or (problem.small and supports_are_still(problem))
