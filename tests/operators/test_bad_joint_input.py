@@ -184,6 +184,30 @@ def test_a_block_that_its_joint_does_not_hold_is_no_equilibrium(outcome, sides, 
     assert "full uplift" in result.message
 
 
+@pytest.mark.parametrize(("sides", "swapped"), [("A C", False), ("C A", True)])
+def test_swapped_sides_are_warned_of(outcome, sides, swapped):
+    result = outcome(BLOCK.format(sides=sides, g="-9.81", nu="0.") + "PASAPAS T ;")
+    assert any("its sides are swapped" in w for w in messages(result)) is swapped
+
+
+@pytest.mark.parametrize(("sides", "swapped"), [("A C", False), ("C A", True)])
+def test_swapped_sides_of_faces_are_warned_of_too(outcome, sides, swapped):
+    text = f"""
+    OPTI DIME 3 ELEM CUB8 ;
+    C = (DROI 2 (0. 0. 0.) (1. 0. 0.)) TRAN 2 (0. 1. 0.) ; SOL = C VOLU 'TRAN' 1 (0. 0. -1.) ;
+    V = C VOLU 'TRAN' 1 (0. 0. 1.) ; BLOC A = PLUS V C (0. 0. 0.) ; J = LIAI {sides} ;
+    MJ = MODE J 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' ; AJ = MATE MJ 'KN' 1.E9 'KS' 1.E9 ;
+    M = MODE (SOL ET BLOC) 'MECANIQUE' 'ELASTIQUE' ; MA = MATE M 'YOUN' 1.E9 'NU' 0. 'RHO' 1. ;
+    T = TABL ; T . 'MODELE' = M ET MJ ; T . 'CARACTERISTIQUES' = MA ET AJ ;
+    T . 'BLOCAGES_MECANIQUES' = BLOQ 'DEPL' (FACE 2 SOL) ;
+    T . 'CHARGEMENT' = CHAR 'MECA' ((MASS M MA) * (MANU 'CHPO' BLOC 1 'UZ' -9.81)) ;
+    T . 'TEMPS_CALCULES' = PROG 0. 1. ; PASAPAS T ;
+    """
+    result = outcome(text)
+    assert any("its sides are swapped" in w for w in messages(result)) is swapped
+    assert result.exit_code == int(swapped)
+
+
 def test_the_same_block_stands_where_it_is_pressed(outcome):
     result = outcome(BLOCK.format(sides="A C", g="-9.81", nu="0.") + "PASAPAS T ;")
     assert result.exit_code == 0

@@ -99,10 +99,18 @@ def warn_massless(entries: Entries, problem: Problem) -> None:
 
 
 def warn_supports(entries: Entries, inputs: Inputs) -> None:
-    """Warn of supports beside the body: lines made twice."""
+    """Warn of supports beside the body (lines made twice) and of joints the wrong way round."""
+    from ssilang.kernel.statics.sides import swapped_joints
+
     warn_doubled_supports(
         entries.call.session, entries.place, entries.procedure, inputs.stiffness, inputs.model
     )
+    for x, y, z in swapped_joints(inputs.stiffness, inputs.model, inputs.characteristics):
+        entries.warn(
+            f"the joint around {x:.4g} {y:.4g} {z:.4g} opens where its bodies come together: its "
+            "sides are swapped",
+            "RACC and LIAI take the structure's side first",
+        )
 
 
 def warn_contrast(entries: Entries, problem: Problem) -> None:

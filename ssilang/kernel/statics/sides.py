@@ -1,0 +1,90 @@
+"""Joints whose two sides are swapped: they open where the bodies beside them come together.
+
+A joint of zero thickness between two lines or faces at the same place has its normal from the order
+of its nodes alone. Which body stands on which side is seen from the cells that share its nodes.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ssilang.kernel.elements.zone_fields import zone_field
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.joints.interface import is_macro, joint_zones
+from ssilang.kernel.joints.kinematics import JointCells, joint_cells
+from ssilang.kernel.matrices.matrix import Matrix
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+from ssilang.kernel.model import Model
+from ssilang.kernel.sparse import sp
+
+AGAINST = -0.1
+"""Cosine of the normal with the way from lower to upper body, below which sides are swapped."""
+
+
+def swapped_joints(
+    stiffness: Matrix, model: Model | None, characteristics: CellField | None
+) -> tuple[FloatArray, ...]:
+    """Middle (3,) of each zone of joints all of whose cells have their bodies the wrong way round.
+
+    Bodies are cells of `stiffness` that hold all nodes of a side; joints with no such cells, or
+    with cells along their own plane (a footing of beams), are left alone.
+    """
+    if model is None:
+        return ()
+    found = []
+    for zone in joint_zones(model):
+        joints = joint_cells(zone, zone_field(zone, characteristics))
+        if is_macro(joints):
+            continue
+        cosine, middle = _cosines(joints, stiffness)
+        if len(cosine) and (cosine < AGAINST).all():
+            found.append(middle)
+    return tuple(found)
+
+
+def _cosines(joints: JointCells, stiffness: Matrix) -> tuple[FloatArray, FloatArray]:
+    """Cosine of each joint that has bodies beside it, and the middle (3,) of all joints."""
+    resolve, points = joints.zone.cells.nodes.resolve, stiffness.table.coordinates
+    upper, lower = resolve(joints.upper), resolve(joints.lower)
+    d = joints.frames.shape[-1]
+    way = np.zeros((len(upper), 3))
+    for side, sign in ((upper, 1.0), (lower, -1.0)):
+        centre = points[side].mean(axis=1)
+        there, mean = _beside(side, upper, lower, stiffness)
+        way[there] += sign * (mean - centre)[there]
+    size = np.linalg.norm(way, axis=1)
+    normal = joints.frames[:, :, -1, :].mean(axis=1)
+    some = size > 0
+    cosine = (way[some, :d] * normal[some]).sum(axis=1) / size[some]
+    middle: FloatArray = points[upper].mean(axis=(0, 1))
+    return cosine, middle
+
+
+def _beside(
+    side: IntArray, upper: IntArray, lower: IntArray, stiffness: Matrix
+) -> tuple[NDArray[np.bool_], FloatArray]:
+    """Whether cells hold all nodes of a side, not those of both, and their mean centre (n, 3)."""
+    points = stiffness.table.coordinates
+    n, m = side.shape
+    count, total = np.zeros(n), np.zeros((n, 3))
+    for block in stiffness.blocks:
+        cells = block.nodes
+        held = _incidence(side, len(points)) @ _incidence(cells, len(points)).T
+        both = _incidence(np.hstack([upper, lower]), len(points)) @ _incidence(cells, len(points)).T
+        whole = sp.csr_array(held.multiply(held == m))
+        whole = sp.csr_array(whole - whole.multiply(both == 2 * m))
+        whole.data[:] = np.minimum(whole.data, 1.0)
+        count += np.asarray(whole.sum(axis=1)).ravel()
+        total += whole @ points[cells].mean(axis=1)
+    there = count > 0
+    mean = np.zeros((n, 3))
+    mean[there] = total[there] / count[there, None]
+    return there, mean
+
+
+def _incidence(rows: IntArray, n_nodes: int) -> sp.csr_array:
+    """One where a row names a node, (n_rows, n_nodes)."""
+    n, m = rows.shape
+    shape = (n, n_nodes)
+    return sp.csr_array((np.ones(n * m), (np.repeat(np.arange(n), m), rows.ravel())), shape=shape)
