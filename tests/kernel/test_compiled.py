@@ -42,8 +42,16 @@ def wrong(x: np.ndarray) -> int:
     return 0.5 * x[0]
 
 
+@apart
+@compiled
+def late(x: np.ndarray) -> float:
+    return 7.0
+
+
 @compiled
 def caller(x: np.ndarray, times: int) -> float:
+    if times > 6:
+        return late(x)
     if times > 5:
         never(x)
     if times > 4:
@@ -53,6 +61,10 @@ def caller(x: np.ndarray, times: int) -> float:
 """
 
 RUN = """
+import os
+import signal
+import time
+
 import numpy as np
 import program
 
@@ -63,6 +75,20 @@ for times in (-1, 5, 6):
         program.caller(x, times)
     except Exception as error:
         print(type(error).__name__, error)
+
+
+def interrupted(args):
+    os.kill(os.getpid(), signal.SIGINT)
+    time.sleep(10.0)
+
+
+program.late.address, address = interrupted, program.late.address
+try:
+    program.caller(x, 7)
+except KeyboardInterrupt:
+    print("stopped")
+program.late.address = address
+print(program.caller(x, 7))
 print(sum(program.caller.stats.cache_hits.values()))
 """
 
@@ -100,7 +126,7 @@ def test_state_changes_with_what_a_module_imports_and_nothing_else(tree, edited,
     assert (state_of("ssilang.kernel.loop", again) != before) == changes
 
 
-def test_functions_apart_are_kept_compiled_when_called_and_say_what_fails(tmp_path):
+def test_functions_apart_are_kept_compiled_when_called_and_can_fail_or_stop(tmp_path):
     (tmp_path / "program.py").write_text(PROGRAM)
     (tmp_path / "run.py").write_text(RUN)
     given = {k: v for k, v in os.environ.items() if k != "NUMBA_CACHE_DIR"}
@@ -121,6 +147,8 @@ def test_functions_apart_are_kept_compiled_when_called_and_say_what_fails(tmp_pa
         "ValueError times",
         "RuntimeError program.wrong could not be compiled",
         "RuntimeError program.never could not be compiled",
+        "stopped",
+        "7.0",
     ]
     assert shown[1][:-1] == shown[0][:-1]
     assert (shown[0][-1], shown[1][-1]) == ("0", "1")
