@@ -321,3 +321,23 @@ def test_an_axisymmetric_joint_reaches_the_axis_under_either_rule(found, rule):
         "F",
     )
     assert force == pytest.approx(1e7 * 1e-3 * 4 * 3.141592653589793, rel=1e-12)
+
+
+def test_a_joint_between_points_of_one_place_follows_its_supports(found):
+    # no free unknown, no load, no size: nothing can fly off
+    script = (
+        "OPTI DIME 3 ELEM SEG2 ; P1 = 0. 0. 0. ; P2 = 0. 0. 0. ; J = DROI 1 P1 P2 ; "
+        "MO = MODE J MECANIQUE ELASTIQUE ORTHOTROPE PLASTIQUE COULOMB JOI1 ; "
+        "MA = MATE MO 'DIRECTION' (1. 0. 0.) (0. 1. 0.) 'KN' 100. 'KS1' 50. 'KS2' 50. 'QN' 40. "
+        "'QS1' 20. 'QS2' 30. 'TYPE' 1. 'FRIC' 45. 'QT' 10. 'FNE' 1.E6 'COHE' 0. ; "
+        "B1 = (BLOQ 'DEPL' P1) ET (BLOQ 'ROTA' J) ET (BLOQ 'UY' 'UZ' P2) ; B2 = BLOQ 'UX' P2 ; "
+        "T = TABL ; T . 'MODELE' = MO ; T . 'CARACTERISTIQUES' = MA ; "
+        "T . 'BLOCAGES_MECANIQUES' = B1 ET B2 ; T . 'CHARGEMENT' = CHAR 'DIMP' (DEPI B2 0.1) "
+        "(EVOL 'MANU' (PROG 0. 1. 2.) (PROG 0. -1. 1.)) ; "
+        "T . 'TEMPS_CALCULES' = PROG 0. 1. 2. ; PASAPAS T ; "
+        "F1 = EXTR (T . 'CONTRAINTES' . 1) 'EFFX' 1 1 1 ; "
+        "F2 = EXTR (T . 'CONTRAINTES' . 2) 'EFFX' 1 1 1 ; "
+    )
+    closed, opened = found(script, "F1", "F2")
+    assert abs(closed + 10.0) < 1e-9
+    assert opened == 0.0

@@ -110,7 +110,8 @@ def _step(problem: Problem, solver: StepSolver, motion: Motion, factors: FloatAr
     outcome = solver.solve(motion, r, dd, gap)
     if outcome.turns <= 0 or not np.isfinite(outcome.du).all():
         return outcome if outcome.turns <= 0 else StepOutcome(outcome.du, -1, np.inf)
-    if _flies_off(problem, outcome.du, factors[1]):
+    # what supports impose is no flight
+    if _flies_off(problem, outcome.du - problem.constraints.particular(dd), factors[1]):
         return StepOutcome(outcome.du, 0, np.inf)
     old = motion.reaction.copy()
     motion.u[:] += outcome.du
@@ -141,7 +142,10 @@ def _step(problem: Problem, solver: StepSolver, motion: Motion, factors: FloatAr
 
 
 def _flies_off(problem: Problem, du: FloatArray, factors: FloatArray) -> bool:
-    """Whether joints open as far as only rounding errors of their stiffness would hold them."""
+    """Whether joints open as far as only rounding errors of their stiffness would hold them.
+
+    `du` is the step less what supports impose.
+    """
     joints = problem.interface
     if joints is None:
         return False
