@@ -349,3 +349,21 @@ def test_a_warm_body_beside_yielding_fibres_expands_alone(found):
     x, y = found(script, "X", "Y")
     assert x == pytest.approx(50 * 1e-5 * 2.0, rel=1e-9)
     assert y == pytest.approx(0.0, abs=1e-12)
+
+
+def test_fibres_above_the_line_of_a_plane_beam_turn_its_end_up(found):
+    # two bars at y = 0.3 +- 0.1: pulled below them the beam bends upwards, by N e L / (E I)
+    script = (
+        "OPTI DIME 2 ELEM SEG2 ; MS = MODE (CHAN POI1 ((0.2 0.) ET (0.4 0.))) MECANIQUE ELASTIQUE "
+        "POJS ; AS = MATE MS 'YOUN' 2.E11 'NU' 0. 'SECT' 1.E-3 'ALPY' 1. ; "
+        "L = DROI 4 (0. 0.) (2. 0.) ; M = MODE L MECANIQUE ELASTIQUE SECTION TIMO ; "
+        "A = MATE M 'MODS' MS 'MATS' AS ; "
+        "U = RESO ((RIGI M A) ET (BLOQ (POIN 1 L) 'UX' 'UY' 'RZ')) (FORC (1.E5 0.) (POIN 5 L)) ; "
+        "R = EXTR U 'RZ' (POIN 5 L) ; X = EXTR U 'UX' (POIN 5 L) ; "
+        "C = PROG 1.E-3 ; N = PROG 0. ; MZ E = MOCU C N MS AS 1.E-9 ; "
+    )
+    r, x, e = found(script, "R", "X", "E")
+    inertia = 2 * 1e-3 * 0.1**2
+    assert r == pytest.approx(1e5 * 0.3 * 2.0 / (2e11 * inertia), rel=1e-9)
+    assert x == pytest.approx(1e5 * 2.0 / (2e11 * 2e-3) + 0.3 * r, rel=1e-9)
+    assert e.values[0] == pytest.approx(0.3e-3)  # bent about its middle, the line lengthens
