@@ -229,6 +229,23 @@ MESHES: tuple[tuple[str, str], ...] = (
         "donnez des côtés des éléments du modèle : lignes d'une surface (CONT, COTE), faces d'un "
         "volume (ENVE, FACE)",
     ),
+    # ---- joints, supports
+    (
+        "the step {} s does not resolve contact, whose half period is {} s with the mass attached "
+        "to the joints",
+        "le pas {} s ne résout pas le contact, dont la demi-période est {} s avec la masse liée "
+        "aux joints",
+    ),
+    (
+        "a line or face made twice has new nodes: name it once and use the name (BAS = P1 D P2 ;), "
+        "take a part of the mesh (POIN, COTE), or join both with ELIM",
+        "une ligne ou une face faite deux fois a de nouveaux noeuds : nommez-la une fois "
+        "(BAS = P1 D P2 ;), prenez une partie du maillage (POIN, COTE), ou réunissez par ELIM",
+    ),
+    (
+        "dt <= T_c/30 = {} s keeps energy; or CONSERVATIF, a softer joint",
+        "dt <= T_c/30 = {} s conserve l'énergie ; ou CONSERVATIF, un joint plus souple",
+    ),
     # ---- models and fields
     ("no zone of the model takes a parameter {}", "aucune zone du modèle ne prend le paramètre {}"),
     ("known: {}", "connus : {}"),
