@@ -17,6 +17,10 @@ from ssilang.operators.tables.entries import Entries
         "les messages, puis chaque indice et son type, ou des types séparés par /, précédés de ? "
         "si l'entrée est facultative.",
         syntax="ZENT TAB1 MOT1 (INDICE1 MOT2 INDICE3 MOT4 ...) ;",
+        examples=(
+            "T1 = TABL ; T1 . 'DUREE' = 3. ; "
+            "ZENT T1 'SPPLANC' 'DUREE' 'FLOTTANT' 'ENVE' '?MOT' ; LIST (T1 . 'DUREE') ;",
+        ),
     ),
     reads_itself=True,
 )
