@@ -367,3 +367,57 @@ def test_fibres_above_the_line_of_a_plane_beam_turn_its_end_up(found):
     assert r == pytest.approx(1e5 * 0.3 * 2.0 / (2e11 * inertia), rel=1e-9)
     assert x == pytest.approx(1e5 * 2.0 / (2e11 * 2e-3) + 0.3 * r, rel=1e-9)
     assert e.values[0] == pytest.approx(0.3e-3)  # bent about its middle, the line lengthens
+
+
+OFFSET = (
+    "OPTI DIME 3 ELEM QUA4 ; S = (DROI 2 (-0.05 -0.1 0.) (0.05 -0.1 0.)) TRAN 3 (0. 0.2 0.) ; "
+    "S1 = S PLUS (0.3 0.4 0.) ; "
+    f"MS = MODE S MECANIQUE ELASTIQUE QUAS ; AS = MATE MS {STEEL} ; "
+    f"MT = MODE S1 MECANIQUE ELASTIQUE QUAS ; AT = MATE MT {STEEL} ; OPTI ELEM SEG2 ; "
+    "L1 = DROI 4 (0. 0. 0.) (2. 0. 0.) ; L2 = L1 PLUS (0. 0.3 0.4) ; "
+    "M1 = MODE L1 MECANIQUE ELASTIQUE SECTION TIMO ; "
+    "M2 = MODE L2 MECANIQUE ELASTIQUE SECTION TIMO ; "
+    "A1 = MATE M1 'MODS' MT 'MATS' AT 'VECT' (0. 1. 0.) ; "
+    "A2 = MATE M2 'MODS' MS 'MATS' AS 'VECT' (0. 1. 0.) ; "
+)
+ARM = np.array([0.0, 0.3, 0.4])
+
+
+def vector(field, names, node):
+    return np.array([field.values_at(n, np.array([node]))[0] for n in names])
+
+
+@pytest.mark.parametrize("force", [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)])
+def test_fibres_off_the_line_are_a_beam_on_a_line_beside(found, force):
+    moment = np.cross(-ARM, force)
+    script = OFFSET + (
+        "U1 = RESO ((RIGI M1 A1) ET (BLOQ (POIN 1 L1) 'DEPL' 'ROTA')) "
+        "(FORC ({} {} {}) (POIN 5 L1)) ; ".format(*force)
+        + "U2 = RESO ((RIGI M2 A2) ET (BLOQ (POIN 1 L2) 'DEPL' 'ROTA')) "
+        "((FORC ({} {} {}) (POIN 5 L2)) ET (MOME ({} {} {}) (POIN 5 L2))) ; ".format(
+            *force, *(float(v) for v in moment)
+        )
+    )
+    u1, u2, l1, l2 = found(script, "U1", "U2", "L1", "L2")
+    ends = [line.blocks[0].connectivity[-1, -1] for line in (l1, l2)]
+    turn1, turn2 = (vector(u, ("RX", "RY", "RZ"), e) for u, e in zip((u1, u2), ends, strict=True))
+    move1, move2 = (vector(u, ("UX", "UY", "UZ"), e) for u, e in zip((u1, u2), ends, strict=True))
+    np.testing.assert_allclose(turn1, turn2, atol=1e-9 * np.abs(turn2).max())
+    moved = move2 - np.cross(turn2, ARM)
+    np.testing.assert_allclose(move1, moved, atol=1e-9 * np.abs(moved).max())
+
+
+def test_mass_of_fibres_off_the_line_is_that_of_a_beam_beside(found):
+    move, turn = np.array([0.7, -0.4, 0.5]), np.array([0.3, 0.8, -0.6])
+    beside = move + np.cross(turn, ARM)
+
+    def motion(line, u):
+        parts = zip(("UX", "UY", "UZ", "RX", "RY", "RZ"), (*u, *turn), strict=True)
+        return f"MANU 'CHPO' {line} 6 " + " ".join(f"'{n}' {float(v)!r}" for n, v in parts)
+
+    script = OFFSET + (
+        f"X = XTMX ({motion('L1', move)}) (MASS M1 A1) ; "
+        f"Y = XTMX ({motion('L2', beside)}) (MASS M2 A2) ; "
+    )
+    x, y = found(script, "X", "Y")
+    assert x == pytest.approx(y, rel=1e-9)

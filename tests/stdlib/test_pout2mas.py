@@ -46,7 +46,7 @@ def test_stress_on_the_skin_is_that_of_bending_and_pulling(element):
         "HI = MAXI (EXCO 'SMXX' S) ; LO = MINI (EXCO 'SMXX' S) ; D = T . 'DEFORMEE' . 7 ; "
         "W = T . 'DEPLACEMENTS_3D' . 7 ; "
     )
-    high, low, w, u, mesh, line = found(script, "HI", "LO", "W", "U", "V", "L")
+    high, low, w, u, mesh, line, stress = found(script, "HI", "LO", "W", "U", "V", "L", "S")
     bent = 3e4 * 0.1 / 2e-4 + 2e4 * 0.15 / 4.5e-4
     assert high == pytest.approx(1e5 / 0.06 + bent)
     assert low == pytest.approx(1e5 / 0.06 - bent)
@@ -57,6 +57,9 @@ def test_stress_on_the_skin_is_that_of_bending_and_pulling(element):
     end = line.blocks[0].connectivity[-1, -1]
     rx, rz, uy = (u.values_at(n, np.array([end]))[0] for n in ("RX", "RZ", "UY"))
     assert w.values_at("UY", np.array([corner]))[0] == pytest.approx(uy + rz * 0.15 - rx * 0.1)
+    # the moment about X presses the upper side, that about Z pulls the side of X
+    sigma = 1e5 / 0.06 + 2e4 * 0.15 / 4.5e-4 - 3e4 * 0.1 / 2e-4
+    assert stress.values_at("SMXX", np.array([corner]))[0] == pytest.approx(sigma)
 
 
 def test_relations_hold_the_sections_on_the_beam():
