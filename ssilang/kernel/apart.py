@@ -24,6 +24,7 @@ from collections.abc import Callable
 from typing import Any, TypeVar, cast
 
 import llvmlite.binding as llvm
+import numba
 from llvmlite import ir
 from numba.core import cgutils, imputils, types
 from numba.core.typing.templates import infer, infer_global, make_intrinsic_template, signature
@@ -85,7 +86,12 @@ class Apart:
 
 
 def apart(function: Function) -> Function:
-    """Keep a compiled function out of the code of its callers; written above `@compiled`."""
+    """Keep a compiled function out of the code of its callers; written above `@compiled`.
+
+    Without compilation (NUMBA_DISABLE_JIT=1) the function stays what it is.
+    """
+    if numba.config.DISABLE_JIT:  # type: ignore[attr-defined]
+        return function
     made = Apart(function)
     template = make_intrinsic_template(made, _typing_of(made), made.name)
     infer(template)

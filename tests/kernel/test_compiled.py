@@ -152,3 +152,33 @@ def test_functions_apart_are_kept_compiled_when_called_and_can_fail_or_stop(tmp_
     ]
     assert shown[1][:-1] == shown[0][:-1]
     assert (shown[0][-1], shown[1][-1]) == ("0", "1")
+
+
+ROCKING = """
+OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;
+T = MAILLER 'SOL' 12. 4. 'SEMELLE' 4. 1. 'TAILLE' 1. 2. ;
+MO = MODE (T . 'TOTAL') 'MECANIQUE' 'ELASTIQUE' ; MA = MATE MO 'YOUN' 5.E8 'NU' 0.3 'RHO' 2000. ;
+MJ = MODE (T . 'JOINT') 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' ;
+AJ = MATE MJ 'KN' 2.E8 'KS' 2.E8 'FROT' 0.7 ;
+RI = (RIGI MO MA) ET (RIGI MJ AJ) ET (BLOQ 'DEPL' (T . 'BASE')) ; MS = MASS MO MA ;
+FG = MS * (MANU 'CHPO' (T . 'SEMELLE') 1 'UY' -9.81) ;
+T1 = TABL ; T1 . 'MODELE' = MO ET MJ ; T1 . 'CARACTERISTIQUES' = MA ET AJ ;
+T1 . 'RIGI' = RI ; T1 . 'MASS' = MS ; T1 . 'CHAR' = CHAR 'MECA' FG ;
+T1 . 'DEPL' = RESO RI FG ; T1 . 'VITE' = MANU 'CHPO' (T . 'SEMELLE') 1 'UX' 1. ;
+T1 . 'TEMPS_CALCULES' = PROG 0. 'PAS' 3.E-4 0.012 ;
+T2 = DYNAMIC T1 ; LIST (MAXI (EXTR (EVOL 'TEMP' T2 'DEPL' 'UX' (T . 'BORD_GAUCHE')) 'ORDO')) ;
+"""
+
+
+def test_a_run_without_compilation_gives_the_same(tmp_path):
+    (tmp_path / "rocking.ssi").write_text(ROCKING)
+    command = [sys.executable, "-m", "ssilang.cli.main", "rocking.ssi", "--out", "out"]
+    found = []
+    for extra in ({}, {"NUMBA_DISABLE_JIT": "1"}):
+        run = subprocess.run(
+            command, cwd=tmp_path, env=os.environ | extra, capture_output=True, text=True,
+            check=False,
+        )  # fmt: skip
+        assert run.returncode == 0, run.stderr
+        found.append(float(run.stdout.split()[-1]))
+    assert found[0] == pytest.approx(found[1], rel=1e-10)
