@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
+import numpy as np
 import pytest
 
 from ssilang.cli.run import run_text
@@ -279,3 +280,20 @@ def test_nothing_found_in_a_field_is_an_empty_mesh_and_a_doubt() -> None:
         assert value(field + f"V = {none} ; X = NBEL V ;") == 0
         assert value(field + f"V = {none} ; X = SOUC ;") is True
     assert value(field + "V = U POIN 'SUPE' 3. ; X = SOUC ;") is False
+
+
+@pytest.mark.parametrize(
+    ("length", "option", "inwards"),
+    [("1.", "", True), ("-1.", "", False), ("1.", "'ORIE'", True), ("-1.", "'ORIE'", True)],
+)
+def test_skin_of_cells_in_the_direct_sense_faces_inwards(length, option, inwards) -> None:
+    script = (
+        "OPTI DIME 3 ELEM CUB8 ; S = (DROI 2 (0. 0. 0.) (1. 0. 0.)) TRAN 2 (0. 1. 0.) ; "
+        f"V = S VOLU 2 'TRAN' (0. 0. {length}) ; X = ENVE V {option} ; "
+    )
+    skin = value(script)
+    faces = np.concatenate([b.coordinates for b in skin.blocks])
+    middle = faces.mean(axis=(0, 1))
+    normals = np.cross(faces[:, 1] - faces[:, 0], faces[:, 2] - faces[:, 0])
+    sides = (normals * (faces.mean(axis=1) - middle)).sum(axis=1)
+    assert ((sides < 0) == inwards).all()

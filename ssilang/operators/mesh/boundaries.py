@@ -86,10 +86,11 @@ def cont(call: Call) -> Mesh:
     family="mesh",
     full_name="ENVELOPPE",
     help=Help(
-        en="Skin of a volume: the faces of one cell only, described outwards ('ORIE': inwards). "
-        "'NOID' allows an empty result.",
-        fr="Enveloppe d'un volume : les faces d'un seul élément, décrites vers l'extérieur ('ORIE' "
-        ": vers l'intérieur). 'NOID' permet un résultat vide.",
+        en="Skin of a volume: the faces of one cell only, described inwards where the volume's "
+        "cells are in the direct sense ('ORIE': in any case). 'NOID' allows an empty result.",
+        fr="Enveloppe d'un volume : les faces d'un seul élément, décrites vers l'intérieur là "
+        "où les éléments du volume sont de sens direct ('ORIE' : toujours). 'NOID' permet un "
+        "résultat vide.",
         syntax="SURF1 = ENVE VOLU1 ('ORIE') ('NOID') ;",
         examples=(
             "OPTI DIME 3 ELEM CUB8 ; S = (DROI 2 (0. 0. 0.) (1. 0. 0.)) TRAN 2 (0. 1. 0.) ;"
@@ -102,7 +103,7 @@ def enve(mesh: Mesh, inwards: bool, allowed: bool) -> Mesh:
     skin = envelope(orient(mesh, 3) if inwards else mesh)
     if not skin.blocks and not allowed:
         raise MeshError("the mesh has no envelope", "it holds no volume cells; 'NOID' allows that")
-    return Mesh(skin.nodes, tuple(flip(b) for b in skin.blocks)) if inwards else skin
+    return Mesh(skin.nodes, tuple(flip(b) for b in skin.blocks))
 
 
 @operator(
