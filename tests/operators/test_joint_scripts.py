@@ -280,7 +280,9 @@ def test_body_at_rest_on_a_relation_has_no_acceleration(found):
     T2 = DYNAMIC T1 ; A = EXTR (EVOL 'TEMP' T2 'ACCE' 'UY' P1) 'ORDO' ;
     """
     )
-    assert np.abs(found(text, "A").values).max() < 1e-9
+    # beside the other mass, which swings with 10 m/s2: the step adds up what rounding leaves of
+    # the velocities of the modes
+    assert np.abs(found(text, "A").values).max() < 1e-7 * 10.0
 
 
 def test_mesh_split_along_a_surface_opens_there_alone(found):
