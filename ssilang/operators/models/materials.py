@@ -47,8 +47,9 @@ _TURNS = ("PARALLELE", "PERPENDICULAIRE", "INCLINE")
         "bodies besides: PARFAIT SIGY; ISOTROPE ECRO (curve of the strength over the plastic "
         "strain) or TRAC (of the stress over the whole strain, from zero); CINEMATIQUE SIGY H; "
         "DRUCKER_PARFAIT LTR LCS; DRUCKER_PRAGER ALFA BETA K ETA MU "
-        "KL H GAMM DELT; RH_COULOMB COHE PHI; PARFAIT_UNI SIGY H; BETON_BAEL FC; FLUAGE NORTON "
-        "AF1 AF2 AF3 (creep strain AF1 q**AF2 t**AF3 under a constant stress). "
+        "KL H GAMM DELT; RH_COULOMB COHE PHI (radians); PARFAIT_UNI SIGY H; "
+        "BETON_BAEL FC; FLUAGE NORTON AF1 AF2 AF3 (creep strain "
+        "AF1 q**AF2 t**AF3 under a constant stress). "
         "Beams ELASTIQUE SECTION take the model of their section, MODS, and its material, MATS; "
         "fibres take ALPY ALPZ, which multiply their shear stresses (and points SECT): the section "
         "lies in x y, x along the beam's local axis y. "
@@ -67,8 +68,9 @@ _TURNS = ("PARALLELE", "PERPENDICULAIRE", "INCLINE")
         "KN). Corps plastiques, en plus : PARFAIT SIGY ; ISOTROPE ECRO (courbe de la limite en "
         "fonction de la déformation plastique) ou TRAC (de la contrainte en fonction de la "
         "déformation totale, depuis zéro) ; CINEMATIQUE SIGY H ; DRUCKER_PARFAIT LTR LCS ; "
-        "DRUCKER_PRAGER ALFA BETA K ETA MU KL H GAMM DELT ; RH_COULOMB COHE PHI ; PARFAIT_UNI SIGY "
-        "H ; BETON_BAEL FC ; FLUAGE NORTON AF1 AF2 AF3 (déformation de fluage AF1 q**AF2 t**AF3 "
+        "DRUCKER_PRAGER ALFA BETA K ETA MU KL H GAMM DELT ; RH_COULOMB COHE PHI (radians) ; "
+        "PARFAIT_UNI SIGY H ; BETON_BAEL FC ; FLUAGE NORTON AF1 AF2 AF3 (déformation de fluage "
+        "AF1 q**AF2 t**AF3 "
         "sous contrainte constante). Les poutres ELASTIQUE SECTION prennent le modèle de leur "
         "section, MODS, et son matériau, MATS ; les fibres ALPY ALPZ, qui multiplient leurs "
         "cisaillements (et les points SECT) : la section est dans x y, x le long de l'axe local "
@@ -88,7 +90,7 @@ _TURNS = ("PARALLELE", "PERPENDICULAIRE", "INCLINE")
             "; A = MATE M 'YOUN' 2.E11 'NU' 0.3 'SECT' 0.01 ; LIST (TYPE A) ;",
             "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; S = TRAN 1 (DROI 1 (0 0) (1 0)) (0. 1.) ; "
             "M = MODE S MECANIQUE ELASTIQUE PLASTIQUE RH_COULOMB ; "
-            "A = MATE M 'YOUN' 5.E7 'NU' 0.3 'COHE' 1.E4 'PHI' 30. ; LIST (TYPE A) ;",
+            "A = MATE M 'YOUN' 5.E7 'NU' 0.3 'COHE' 1.E4 'PHI' 0.52 ; LIST (TYPE A) ;",
         ),
     ),
     reads_itself=True,
