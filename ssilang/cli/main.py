@@ -170,23 +170,25 @@ def _run_options(options: argparse.Namespace) -> RunOptions:
         language=options.lang,
         debug=options.debug,
         limits=Limits(options.max_recursion, options.max_statements),
-        given=_given(getattr(options, "set", [])),
+        given=_given(getattr(options, "set", []), options.lang),
     )
 
 
-def _given(settings: list[str]) -> dict[str, object]:
+def _given(settings: list[str], language: str) -> dict[str, object]:
     """Values of `--set`, one each."""
     from ssilang.cli.sweeping.given import GivenError, parse_setting
+    from ssilang.language.diagnostics import placeless
 
     given: dict[str, object] = {}
     for text in settings:
         try:
             name, values = parse_setting(text)
         except GivenError as problem:
-            sys.stderr.write(f"error: {problem}\n")
+            sys.stderr.write(placeless(str(problem), language) + "\n")
             raise SystemExit(USAGE) from None
         if len(values) != 1:
-            sys.stderr.write(f"error: {text} gives {name} several values: that is a sweep\n")
+            several = f"{text} gives {name} several values: that is a sweep"
+            sys.stderr.write(placeless(several, language) + "\n")
             raise SystemExit(USAGE)
         given[name] = values[0]
     return given

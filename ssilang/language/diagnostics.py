@@ -113,6 +113,11 @@ def sentence(error: SsiError, language: str, names: Iterable[str] = ()) -> tuple
     return text.format_map(data), "\n".join(h for h in (_held_hint(data, language), found) if h)
 
 
+def placeless(sentence: str, language: str) -> str:
+    """A line that says what is wrong outside of any script."""
+    return f"erreur: {in_french(sentence)}" if language == "fr" else f"error: {sentence}"
+
+
 def _held_hint(data: dict[str, Any], language: str) -> str:
     """Says that an operator ran because the value of a name or an entry is its name."""
     if "held_word" not in data:
@@ -235,7 +240,7 @@ def _reason(reason: str, language: str) -> str:
     for sign, (english, french) in _REASONS.items():
         if sign in reason:
             return english if language == "en" else french
-    return reason
+    return in_french(reason) if language == "fr" else reason
 
 
 _REASONS = {

@@ -14,6 +14,7 @@ from ssilang.cli.sweeping.pool import dask_installed, one_thread, run_on_cluster
 from ssilang.cli.sweeping.table import can_write, draw_figures, write_table
 from ssilang.cli.sweeping.trunk import run_all
 from ssilang.cli.sweeping.worker import ROW, Task
+from ssilang.language.diagnostics import placeless
 
 TABLE = "sweep.parquet"
 TOGETHER = 8
@@ -44,7 +45,7 @@ def sweep(options: SweepOptions, out: TextIO, err: TextIO) -> int:
         cases = _checked_cases(options)
         text = options.deck.read_text(encoding="utf-8", errors="replace")
     except (GivenError, OSError) as problem:
-        err.write(f"error: {problem}\n")
+        err.write(placeless(str(problem), options.language) + "\n")
         return 2
     folder = (options.out or Path("results") / f"{options.deck.stem}_sweep").resolve()
     tasks = [_task(case, options, folder / "runs" / case.key(text)) for case in cases]
