@@ -6,7 +6,7 @@ import sys
 import time
 from typing import TextIO
 
-COMPILING = "compiling the time loop, once on this machine (10 to 20 s)"
+COMPILING = "compiling the time loop, once on this machine (5 to 40 s)"
 PATIENCE = 2.0  # seconds before anything shows
 REFRESH = 0.2
 WIDTH = 30
