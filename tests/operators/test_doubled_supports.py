@@ -68,3 +68,14 @@ def test_a_grounded_joint_is_meant() -> None:
         "T . 'TEMPS_CALCULES' = PROG 0. 'PAS' 1.E-4 1.E-3 ; R = DYNAMIC T ;"
     )
     assert not [w for w in warnings(deck) if "hold nothing" in w]
+
+
+@pytest.mark.parametrize(("place", "lost"), [("(2. 1.)", 1), ("P3", 0)])
+def test_a_velocity_beside_the_body_is_told(place: str, lost: int) -> None:
+    deck = ONCE + (
+        "T = TABL ; T . 'RIGI' = RI ET (BLOQ 'DEPL' BAS) ; T . 'MASS' = MASS MO MA ;"
+        f"T . 'VITE' = MANU 'CHPO' {place} 1 'UX' 1. ; T . 'DEPL' = T . 'VITE' * 0. ;"
+        "T . 'TEMPS_CALCULES' = PROG 0. 0.01 ; R = DYNAMIC T ;"
+    )
+    told = [w for w in warnings(deck) if "1 nodes of 'VITE' belong to no matrix" in w]
+    assert len(told) == lost

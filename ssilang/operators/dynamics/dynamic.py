@@ -22,6 +22,7 @@ from ssilang.operators.dynamics.motion_files import csv_observer, nodes_asked, v
 from ssilang.operators.dynamics.motion_observers import TableObserver
 from ssilang.operators.dynamics.reports import (
     report,
+    warn_motion_elsewhere,
     warn_resolution,
     warn_supports,
 )
@@ -79,6 +80,7 @@ def zdyn(call: Call) -> Table:
     inputs = _with_bodies(entries, _inputs(entries, times))
     problem = make_problem(inputs)
     warn_supports(entries, inputs)
+    warn_motion_elsewhere(entries, inputs)
     make_bodies = plastic_bodies(entries)
     bodies = None if make_bodies is None else make_bodies(problem, inputs)
     warn_resolution(entries, problem)

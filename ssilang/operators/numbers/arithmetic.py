@@ -119,7 +119,8 @@ def _list_rule(sign: str) -> Rule:
             raise ValueError(f"the lists have {len(x)} and {len(y)} items")
         if all(isinstance(v, int) or getattr(v, "dtype", None) == np.int64 for v in (x, y)):
             return ListEnti(_integer_arrays(sign, np.asarray(x), np.asarray(y)))
-        return ListReel(compute(np.asarray(x, dtype=float), np.asarray(y, dtype=float)))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return ListReel(compute(np.asarray(x, dtype=float), np.asarray(y, dtype=float)))
 
     return run
 
