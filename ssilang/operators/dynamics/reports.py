@@ -118,7 +118,7 @@ def warn_motion_elsewhere(entries: Entries, inputs: Inputs) -> None:
     matrices = [m for m in (inputs.stiffness, inputs.mass, inputs.damping) if m is not None]
     used = [b.nodes.ravel() for m in matrices for b in m.blocks]
     used += [r.nodes for m in matrices for r in m.relations]
-    used += [inputs.model.mesh.node_ids] if inputs.model is not None else []
+    used += [z.cells.connectivity.ravel() for z in (inputs.model.zones if inputs.model else ())]
     known = np.unique(np.concatenate(used)) if used else np.empty(0, dtype=np.int64)
     for index, field in (("DEPL", inputs.displacement), ("VITE", inputs.velocity)):
         parts = field.components.items() if field is not None else ()
