@@ -12,7 +12,24 @@ YOUNG, INERTIA, HEIGHT, FREQUENCY, SOIL, RELEASE = 20.0e9, 0.2, 10.0, 10.0, 7.38
 STIFFNESS = 3.0 * YOUNG * INERTIA / HEIGHT**3
 MASS = STIFFNESS / (2.0 * np.pi * FREQUENCY) ** 2
 
-SCRIPT = """
+STEPS = """
+TAB1 . 'RIGI' = RIG ;
+TAB1 . 'MASS' = MASS 'DEPL' {mass} PTOP ;
+TAB1 . 'MODELE' = MOJ ;
+TAB1 . 'CARACTERISTIQUES' = MAJ ;
+TAB1 . 'TEMPS_CALCULES' = PROG 0. 'PAS' {dt} 'NPAS' {steps} ;
+TAB1 . 'PAS_SAUVES' = {every} ;
+TAB1 . 'VITEUNIL' = FAUX ;
+TAB2 = DYNAMIC TAB1 ;
+EVU = EVOL 'TEMP' TAB2 'DEPL' 'UX' PTOP ;
+LT = EXTR EVU 'ABSC' ;
+LU = EXTR EVU 'ORDO' ;
+FIN ;
+"""
+"""What both scripts end with."""
+
+SCRIPT = (
+    """
 OPTI ECHO 0 ;
 OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ;
 PBAS = 0. 0. ; PTOP = 0. {height} ; PSOL = -1. {height} ;
@@ -28,21 +45,12 @@ TAB1 = TABL ;
 TAB1 . 'DEPL' = RESO RIG (FORC ({push} 0.) PTOP) ;
 TAB1 . 'VITE' = 0. * (TAB1 . 'DEPL') ;
 TAB1 . 'CHAR' = CHAR 'MECA' (FORC (0. 0.) PTOP) ;
-TAB1 . 'RIGI' = RIG ;
-TAB1 . 'MASS' = MASS 'DEPL' {mass} PTOP ;
-TAB1 . 'MODELE' = MOJ ;
-TAB1 . 'CARACTERISTIQUES' = MAJ ;
-TAB1 . 'TEMPS_CALCULES' = PROG 0. 'PAS' {dt} 'NPAS' {steps} ;
-TAB1 . 'PAS_SAUVES' = {every} ;
-TAB1 . 'VITEUNIL' = FAUX ;
-TAB2 = DYNAMIC TAB1 ;
-EVU = EVOL 'TEMP' TAB2 'DEPL' 'UX' PTOP ;
-LT = EXTR EVU 'ABSC' ;
-LU = EXTR EVU 'ORDO' ;
-FIN ;
 """
+    + STEPS
+)
 
-POINT = """
+POINT = (
+    """
 OPTI ECHO 0 ;
 OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ;
 PTOP = 0. {height} ; PSOL = -1. {height} ;
@@ -53,19 +61,9 @@ SPR = APPU 'UX' {stiffness} PTOP ;
 RIG = SPR ET (BLOQ 'UX' 'UY' PSOL) ET (BLOQ 'UY' PTOP) ;
 TAB1 = TABL ;
 TAB1 . 'DEPL' = MANU 'CHPO' PTOP 1 'UX' {release} ;
-TAB1 . 'RIGI' = RIG ;
-TAB1 . 'MASS' = MASS 'DEPL' {mass} PTOP ;
-TAB1 . 'MODELE' = MOJ ;
-TAB1 . 'CARACTERISTIQUES' = MAJ ;
-TAB1 . 'TEMPS_CALCULES' = PROG 0. 'PAS' {dt} 'NPAS' {steps} ;
-TAB1 . 'PAS_SAUVES' = {every} ;
-TAB1 . 'VITEUNIL' = FAUX ;
-TAB2 = DYNAMIC TAB1 ;
-EVU = EVOL 'TEMP' TAB2 'DEPL' 'UX' PTOP ;
-LT = EXTR EVU 'ABSC' ;
-LU = EXTR EVU 'ORDO' ;
-FIN ;
 """
+    + STEPS
+)
 """The same as a mass on a spring and a joint."""
 
 

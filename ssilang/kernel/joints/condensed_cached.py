@@ -24,7 +24,7 @@ from ssilang.kernel.joints.condensed import (
     release_shear,
 )
 from ssilang.kernel.joints.response import interface_response, interface_stiffness
-from ssilang.kernel.joints.updated import UPDATES, apply_inverse, invert, is_few, update_point
+from ssilang.kernel.joints.updated import UPDATES, apply_inverse, is_few, update_point
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.solvers.dense import (
     factorise_dense,
@@ -302,7 +302,8 @@ def _kept_answer(
     factors = np.empty((n, n))
     if not _factorise(pairs, B, weights, S, R, c, D, K, factors, known, pivots):
         return False
-    invert(factors, pivots, S, Y)
+    copy_rows(S, Y)
+    solve_factors_together(factors, pivots, Y)
     pivots[0] = 0
     return True
 

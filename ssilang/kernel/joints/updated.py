@@ -13,9 +13,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.apart import apart
 from ssilang.kernel.compiled import compiled_fast
-from ssilang.kernel.joints.arrays import clear, copy_rows
+from ssilang.kernel.joints.arrays import clear
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 FEW = 160  # jumps up to which Y is kept
@@ -125,33 +124,6 @@ def update_point(
                     for at in range(len(right)):
                         line[at] -= factor * right[at]
     return True
-
-
-@apart
-@compiled_fast
-def invert(A: FloatArray, pivots: IntArray, S: FloatArray, Y: FloatArray) -> None:
-    """Y = A^-1 S with the factors of A, all columns at once."""
-    n = len(A)
-    copy_rows(S, Y)
-    for k in range(n):
-        p = pivots[k]
-        if p != k:
-            for j in range(n):
-                Y[k, j], Y[p, j] = Y[p, j], Y[k, j]
-    for i in range(n):
-        row = Y[i]
-        for k in range(i):
-            factor, line = A[i, k], Y[k]
-            for j in range(n):
-                row[j] -= factor * line[j]
-    for i in range(n - 1, -1, -1):
-        row, inverse = Y[i], 1.0 / A[i, i]
-        for k in range(i + 1, n):
-            factor, line = A[i, k], Y[k]
-            for j in range(n):
-                row[j] -= factor * line[j]
-        for j in range(n):
-            row[j] *= inverse
 
 
 @compiled_fast

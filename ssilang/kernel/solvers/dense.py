@@ -99,6 +99,7 @@ def solve_factors(A: FloatArray, pivots: IntArray, b: FloatArray) -> None:
         b[k] = total / A[k, k]
 
 
+@apart
 @compiled_fast
 def solve_factors_together(A: FloatArray, pivots: IntArray, X: FloatArray) -> None:
     """As `solve_factors` for the columns of X (n, k); the factors are read once."""

@@ -45,16 +45,18 @@ def doubled_supports(matrix: Matrix, used: IntArray | None = None) -> DoubledSup
         None if there are no such nodes. A node that a condition of several terms names too (a
         rigid base below unilateral relations) is meant, and left out.
     """
-    bodies = [b.nodes.ravel() for b in matrix.blocks]
-    if not bodies or not matrix.relations:
+    if not matrix.blocks or not matrix.relations:
         return None
-    stiff = np.unique(np.concatenate(bodies))
-    loose = np.setdiff1d(_held_alone(matrix), stiff)
+    stiff = np.zeros(len(matrix.table), dtype=bool)  # flags: no sorting of a body's nodes
+    for block in matrix.blocks:
+        stiff[block.nodes] = True
+    loose = _held_alone(matrix)
+    loose = loose[~stiff[loose]]
     if used is not None:
         loose = np.setdiff1d(loose, used)
     if not len(loose):
         return None
-    above, below = lying_on(matrix.table, loose, stiff)
+    above, below = lying_on(matrix.table, loose, np.flatnonzero(stiff))
     return DoubledSupports(above, below) if len(above) else None
 
 

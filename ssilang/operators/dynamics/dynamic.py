@@ -80,7 +80,7 @@ def zdyn(call: Call) -> Table:
     inputs = _with_bodies(entries, _inputs(entries, times))
     problem = make_problem(inputs)
     warn_supports(entries, inputs)
-    warn_motion_elsewhere(entries, inputs)
+    warn_motion_elsewhere(entries, problem, inputs)
     make_bodies = plastic_bodies(entries)
     bodies = None if make_bodies is None else make_bodies(problem, inputs)
     warn_resolution(entries, problem)

@@ -113,20 +113,16 @@ def warn_supports(entries: Entries, inputs: Inputs) -> None:
         )
 
 
-def warn_motion_elsewhere(entries: Entries, inputs: Inputs) -> None:
+def warn_motion_elsewhere(entries: Entries, problem: Problem, inputs: Inputs) -> None:
     """Warn of initial displacements and velocities of nodes that no matrix has."""
-    matrices = [m for m in (inputs.stiffness, inputs.mass, inputs.damping) if m is not None]
-    used = [b.nodes.ravel() for m in matrices for b in m.blocks]
-    used += [r.nodes for m in matrices for r in m.relations]
-    used += [z.cells.connectivity.ravel() for z in (inputs.model.zones if inputs.model else ())]
-    known = np.unique(np.concatenate(used)) if used else np.empty(0, dtype=np.int64)
     for index, field in (("DEPL", inputs.displacement), ("VITE", inputs.velocity)):
         parts = field.components.items() if field is not None else ()
         moved = [part.nodes[part.values != 0.0] for name, part in parts if name != "LX"]
-        lost = np.setdiff1d(np.concatenate(moved), known) if moved else known[:0]
-        if len(lost):
+        nodes = np.unique(np.concatenate(moved)) if moved else np.empty(0, dtype=np.int64)
+        lost = int(np.isin(nodes, problem.numbering.nodes, invert=True).sum())
+        if lost:
             entries.warn(
-                f"{len(lost)} nodes of '{index}' belong to no matrix: what moves there is not seen",
+                f"{lost} nodes of '{index}' belong to no matrix: what moves there is not seen",
                 "a point written again is a new node: use the names of the mesh",
             )
 
