@@ -93,7 +93,8 @@ def _arguments(page: Page) -> list[str]:
     lines = ["## Arguments", ""]
     for number, form in enumerate(forms, 1):
         lines += [f"Form {number}:", ""] if len(forms) > 1 else []
-        lines += [f"- `{' '.join(describe(entry).split())}`" for entry in form] + [""]
+        said = [line for entry in form for line in describe(entry)]
+        lines += [f"- `{' '.join(line.split())}`" for line in said] + [""]
     return lines
 
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from ssilang.language.errors import SsiError
-from ssilang.language.registry import ANY, Argument, Entry, Form, Keyword, Operator
+from ssilang.language.registry import ANY
 from ssilang.language.values import Mot, Procedure, Texte, type_of
 
 if TYPE_CHECKING:
@@ -51,6 +51,8 @@ def _as_read(operand: Operand, types: Sequence[str]) -> Operand:
     return operand
 
 
+_A_WORD = Mot("")
+_BESIDE_WORDS = ("MOT", "LISTENTI")  # types that may also stand beside the main operand
 _MAX_EXPANSIONS = 10_000  # TEXTE objects put into one phrase
 
 
@@ -77,15 +79,15 @@ class Call:
 
     # ---- reading ---------------------------------------------------------------------------
 
-    def read(self, *types: str, after: int = -1) -> Operand | None:
+    def read(self, *types: str, after: int = -1, only: bool = False) -> Operand | None:
         """Consume and return the first readable operand of one of the types, else None.
 
         `after` is an offset in the source: operands that stand behind it are preferred (the
-        value of a keyword), the others are taken if there is none.
+        value of a keyword), the others are taken if there is none, unless `only` those count.
         """
         if after >= 0:
             found = self._read(types, after)
-            if found is not None:
+            if found is not None or only:
                 return found
         return self._read(types, -1)
 
@@ -196,85 +198,48 @@ class Call:
             i += 1
         return None
 
-    # ---- declared forms --------------------------------------------------------------------
+    def readable(self, *types: str) -> list[int]:
+        """Indices of the operands of the types that reading would reach, in order."""
+        found: list[int] = []
+        i, words = 0, accepts(types, _A_WORD)
+        while i < len(self.operands):
+            value = self.operands[i].value
+            if isinstance(value, Texte) and "TEXTE" not in types:
+                self._expand(i)
+                continue
+            if accepts(types, value):
+                found.append(i)
+            elif isinstance(value, Mot | Procedure) and not words:
+                break
+            i += 1
+        return found
 
-    def bind(self, form: Form) -> dict[str, Any]:
-        """Read the entries of a declared form; returns the function's arguments.
+    def take(self, index: int, *types: str) -> Operand:
+        """Consume the operand at an index of the unread ones, as one of the types."""
+        operand = self.operands.pop(index)
+        self.used.append(operand)
+        return _as_read(operand, types)
 
-        Raises
-        ------
-        SsiError
-            When a mandatory entry cannot be read; operands are then put back.
+    def stands(self, *types: str) -> bool:
+        """Whether an unread operand of one of the types stands in the phrase."""
+        return any(accepts(types, o.value) for o in self.operands)
+
+    def main_operand(self, *types: str) -> int | None:
+        """Index of the operand whose type decides the form: the first of the types.
+
+        One or two words may stand before it (`MAXI 'ABS' L`); a word may be it, with integers
+        behind it (`EXTR 'abc' 2`).
         """
-        assert form.entries is not None
-        saved = list(self.operands)
-        used = len(self.used)
-        try:
-            return self._bind(form.entries)
-        except SsiError:
-            self.operands[:] = saved
-            del self.used[used:]
-            raise
-
-    def _bind(self, entries: Sequence[Entry]) -> dict[str, Any]:
-        keywords = [e for e in entries if isinstance(e, Keyword)]
-        values: dict[str, Any] = {e.name: [] if e.repeated else e.default for e in keywords}
-        seen: set[str] = set()
-        self._keywords(keywords, values, seen)
-        for entry in entries:
-            if isinstance(entry, Argument):
-                values[entry.name] = self._argument(entry)
-                self._keywords(keywords, values, seen)
-        for k in keywords:
-            if not k.optional and k.name not in seen:
-                raise SsiError(
-                    "missing-keyword", self.span, operator=self.name, words=list(k.words)
-                )
-        return values
-
-    def _keywords(
-        self, keywords: Sequence[Keyword], values: dict[str, Any], seen: set[str]
-    ) -> None:
-        again = bool(keywords)
-        while again:
-            again = False
-            for k in keywords:
-                if k.name in seen and not k.repeated:
-                    continue
-                word = self.keyword(k.words, k.length)
-                if word is None:
-                    continue
-                value = self._keyword_value(k, word)
-                if k.repeated:
-                    values[k.name].append(value)
-                else:
-                    values[k.name] = value
-                seen.add(k.name)
-                again = True
-
-    def _keyword_value(self, k: Keyword, word: str) -> Any:
-        if not k.arguments:
-            return True if len(k.words) == 1 else word
-        place = self._after
-        parts = [self._argument(a, place) for a in k.arguments]
-        if len(k.words) > 1:
-            return (word, *parts)
-        return parts[0] if len(parts) == 1 else tuple(parts)
-
-    def _argument(self, a: Argument, after: int = -1) -> Any:
-        if a.repeated:
-            found = []
-            while (operand := self.read(*a.types, after=after)) is not None:
-                found.append(operand.value)
-            if not found and not a.optional:
-                raise self.missing(a.types)
-            return tuple(found)
-        operand = self.read(*a.types, after=after)
-        if operand is not None:
-            return operand.value
-        if a.optional:
-            return a.default
-        raise self.missing(a.types)
+        words = 0
+        for i, operand in enumerate(self.operands):
+            kind = type_of(operand.value)
+            beside = 2 if words and "MOT" in types else 1
+            if kind in types and kind not in _BESIDE_WORDS[:beside]:
+                return i
+            words += isinstance(operand.value, Mot)
+            if words > 2:
+                break
+        return next(iter(self.readable(*types)), None)
 
     # ---- errors ----------------------------------------------------------------------------
 
@@ -314,22 +279,3 @@ class Call:
 def _is_operand(held: object, value: object) -> bool:
     """Whether an operand's value is the one meant; words are also known by what they say."""
     return held is value or (isinstance(held, Mot) and isinstance(value, str) and held == value)
-
-
-def run_operator(found: Operator, call: Call) -> Any:
-    """Choose the form that the operands fit and run it; returns what the function returned."""
-    first: SsiError | None = None
-    for form in found.forms:
-        if form.entries is None:
-            return form.function(call)
-        try:
-            values = call.bind(form)
-        except SsiError as problem:
-            if first is None:
-                first = problem
-            continue
-        for name in form.injected:
-            values[name] = call.session if name == "session" else call
-        return form.function(**values)
-    assert first is not None
-    raise first

@@ -301,6 +301,12 @@ MESSAGES: dict[str, Message] = {
         "{syntax_hint}",
         "{syntax_hint}",
     ),
+    "form-condition": Message(
+        "{operator} is written so {en} only",
+        "{operator} ne s'écrit ainsi que {fr}",
+        "{syntax_hint}",
+        "{syntax_hint}",
+    ),
     "missing-parameter": Message(
         "{procedure} wanted its argument {parameter} ({expected}), found {found}",
         "{procedure} attendait son argument {parameter} ({expected}), trouvé {found}",

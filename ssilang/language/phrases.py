@@ -7,7 +7,8 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ssilang.language import tree
-from ssilang.language.call import Call, Operand, run_operator
+from ssilang.language.binding import run_operator
+from ssilang.language.call import Call, Operand
 from ssilang.language.errors import ReaderLeft, SeveralErrors, SsiError
 from ssilang.language.jumps import LeaveLoop, LeaveProcedure, NextTurn, StopRun
 from ssilang.language.operands import OperandReader

@@ -12,9 +12,13 @@ from ssilang.language.registry import (
     ANY,
     OPERATORS,
     Argument,
+    Either,
     Entry,
+    Group,
     Help,
+    Keyword,
     Operator,
+    Select,
     find_operator,
     operators_by_family,
 )
@@ -171,18 +175,57 @@ def _arguments(page: Page, language: str) -> list[str]:
     for number, form in enumerate(forms, 1):
         if len(forms) > 1:
             lines.append(f"  {number}.")
-        lines += [f"    {describe(entry, language)}" for entry in form]
+        lines += [f"    {line}" for entry in form for line in describe(entry, language)]
     return lines
 
 
-def describe(entry: Entry, language: str = "en") -> str:
-    """One line about an entry of a form: name, types, whether it may be left out."""
-    if isinstance(entry, Argument):
-        note = _note(entry.optional and not entry.repeated, entry.repeated, language)
-        return f"{entry.name:<14} {_types(entry, language)}{note}"
-    words = _WORDS["or"][language].join(f"'{w.strip()}'" for w in entry.words)
-    values = "".join(f" {a.name}: {_types(a, language)}" for a in entry.arguments)
-    return f"{words}{values}{_note(entry.optional, entry.repeated, language)}"
+def describe(entry: Entry, language: str = "en") -> list[str]:
+    """Lines about an entry of a form: name or words, types, meaning, unit, default, inner ones."""
+    match entry:
+        case Argument():
+            note = _note(entry.optional and not entry.repeated, entry.repeated, language)
+            return [f"{entry.name:<14} {_types(entry, language)}{_said(entry, language)}{note}"]
+        case Keyword():
+            words = _WORDS["or"][language].join(f"'{w.strip()}'" for w in entry.words)
+            values = "".join(
+                f" {a.name}: {_types(a, language)}{_said(a, language)}" for a in entry.arguments
+            )
+            note = _note(entry.optional, entry.repeated, language)
+            return [f"{words}{values}{_meaning(entry, language)}{note}"]
+        case Select():
+            lines = [_meaning(entry, language).lstrip(": ")] if entry.en else []
+            for word, inner in entry.cases.items():
+                lines.append(f"'{word.strip()}'{_note(entry.optional, entry.repeated, language)}")
+                lines += _indented(inner, language)
+            return lines
+        case Group():
+            note = _note(entry.optional and not entry.repeated, entry.repeated, language)
+            inner = _indented(entry.entries, language)
+            return [f"{entry.name}{_meaning(entry, language)}{note}", *inner]
+        case Either():
+            lines = [
+                f"{entry.name}{_meaning(entry, language)}{_note(entry.optional, False, language)}"
+            ]
+            for n, inner in enumerate(entry.groups):
+                lines += [f"  {_WORDS['or'][language].strip()}"] if n else []
+                lines += _indented(inner.entries, language)
+            return lines
+
+
+def _indented(entries: Iterable[Entry], language: str) -> list[str]:
+    return [f"  {line}" for entry in entries for line in describe(entry, language)]
+
+
+def _meaning(entry: Entry, language: str) -> str:
+    text = entry.en if language == "en" else entry.fr
+    return f": {text}" if text else ""
+
+
+def _said(a: Argument, language: str) -> str:
+    """Meaning, unit and default of an operand."""
+    unit = f" [{a.unit}]" if a.unit else ""
+    default = f" (= {a.default})" if a.optional and a.default not in (None, ()) else ""
+    return f"{_meaning(a, language)}{unit}{default}"
 
 
 def _types(a: Argument, language: str) -> str:

@@ -179,7 +179,9 @@ class Checker:
         if word in _OPENING or (word == "OPTI" and "DONN" in words):
             scope.open = True
             scope.dimension = None
-            scope.forget(i.text for i in statement.items[1:] if isinstance(i, tree.Name))
+            named = [i.text for i in statement.items[1:] if isinstance(i, tree.Name)]
+            # without names all that was saved comes back, under any name
+            scope.forget(named if named or word != "REST" else tuple(scope.values))
         if word == "OPTI" and "DIME" in words:
             at = words.index("DIME") + 1
             item = statement.items[at] if at < len(words) else None
