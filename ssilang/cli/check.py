@@ -10,11 +10,11 @@ from ssilang.cli.checking.scope import assigned_names
 from ssilang.cli.checking.walk import Checker
 from ssilang.cli.colour import coloured
 from ssilang.cli.run import RunOptions, make_session
-from ssilang.language.diagnostics import is_warning, render
-from ssilang.language.errors import SeveralErrors, SsiError
-from ssilang.language.source import Source
-from ssilang.language.structure import parse
-from ssilang.language.tree import Script
+from ssilang.language.say.diagnostics import is_warning, render
+from ssilang.language.say.errors import SeveralErrors, SsiError
+from ssilang.language.text.source import Source
+from ssilang.language.text.structure import parse
+from ssilang.language.text.tree import Script
 
 
 def check_file(path: Path, syntax_only: bool, language: str, out: TextIO) -> bool:

@@ -8,10 +8,10 @@ from typing import Any, cast
 import numpy as np
 
 from ssilang.io.run_output import RunOutput
+from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.mesh.mesh import Point
 from ssilang.kernel.mesh.nodes import NodeTable
-from ssilang.kernel.model import Mode
-from ssilang.language.session import Session
+from ssilang.language.run.session import Session
 
 
 @dataclass

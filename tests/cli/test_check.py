@@ -9,9 +9,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ssilang.cli.check import check_source
-from ssilang.language.diagnostics import is_warning, render
 from ssilang.language.registry import OPERATORS
-from ssilang.language.source import Source
+from ssilang.language.say.diagnostics import is_warning, render
+from ssilang.language.text.source import Source
 from ssilang.operators.loader import load_operators
 
 _ROOT = Path(__file__).resolve().parents[2]

@@ -17,7 +17,7 @@ from ssilang.io.plots.line import Line
 from ssilang.io.plots.line_style import DASHES, LineStyle
 from ssilang.io.plots.markup import to_mathtext
 from ssilang.io.plots.palette import CYCLE, index_of, shade
-from ssilang.kernel.curve import Curve, CurvePart
+from ssilang.kernel.curves.curve import Curve, CurvePart
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.contact.friction import Friction
-from ssilang.kernel.errors import MeshError
 from ssilang.kernel.matrices.location import locate
 from ssilang.kernel.matrices.matrix import Relations
 from ssilang.kernel.matrices.relations import joined, rows_from_table

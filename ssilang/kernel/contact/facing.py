@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ssilang.kernel.errors import MeshError
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 

@@ -19,7 +19,7 @@ import numpy as np
 
 from ssilang.kernel.contact.facing import Projection, Side, project, side_of
 from ssilang.kernel.contact.friction import Friction
-from ssilang.kernel.elements.quadrature import quadrature
+from ssilang.kernel.elements.shapes.quadrature import quadrature
 from ssilang.kernel.matrices.matrix import Relations
 from ssilang.kernel.matrices.relations import joined, rows_from_table
 from ssilang.kernel.mesh.mesh import Mesh

@@ -12,7 +12,7 @@ from typing import Protocol
 
 import numpy as np
 
-from ssilang.kernel.errors import ConvergenceError
+from ssilang.kernel.base.errors import ConvergenceError
 from ssilang.kernel.mesh.nodes import FloatArray
 
 BISECTIONS = 40

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ssilang.kernel.compiled import compiled
+from ssilang.kernel.base.compiled.cache import compiled
 from ssilang.kernel.joints.condensed import iterate_interface
 from ssilang.kernel.joints.response import interface_energies
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray

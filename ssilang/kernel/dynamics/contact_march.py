@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ssilang.kernel.compiled import compiled_fast, compiled_fused
+from ssilang.kernel.base.compiled.cache import compiled_fast, compiled_fused
 from ssilang.kernel.dynamics.compiled_loop import DAMPED, ELASTIC, EXTERNAL, KINETIC
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.compiled import compiled
+from ssilang.kernel.base.compiled.cache import compiled
 from ssilang.kernel.dynamics.compiled_loop import Joints
 from ssilang.kernel.dynamics.interleaved_march import (
     Flow,

@@ -28,8 +28,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ssilang.kernel.apart import apart
-from ssilang.kernel.compiled import compiled, compiled_fast
+from ssilang.kernel.base.compiled.apart import apart
+from ssilang.kernel.base.compiled.cache import compiled, compiled_fast
 from ssilang.kernel.dynamics.compiled_loop import (
     DAMPED,
     ELASTIC,

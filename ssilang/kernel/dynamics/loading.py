@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ssilang.kernel.curve import Load, LoadPart
-from ssilang.kernel.errors import FieldError
+from ssilang.kernel.base.errors import FieldError
+from ssilang.kernel.curves.curve import Load, LoadPart
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import (
     Numbering,

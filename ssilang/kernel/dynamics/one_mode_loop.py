@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ssilang.kernel.compiled import compiled, compiled_fused
+from ssilang.kernel.base.compiled.cache import compiled, compiled_fused
 from ssilang.kernel.dynamics.compiled_loop import (
     DAMPED,
     ELASTIC,

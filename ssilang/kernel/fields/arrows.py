@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.errors import FieldError
+from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.deformed import ArrowPart, Arrows
 from ssilang.kernel.fields.node_field import NodeField

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.errors import FieldError
+from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.fields.node_field import Nature, NodeField, NodeValues
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 

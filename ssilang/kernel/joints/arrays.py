@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ssilang.kernel.compiled import compiled
+from ssilang.kernel.base.compiled.cache import compiled
 from ssilang.kernel.mesh.nodes import FloatArray
 
 

@@ -10,8 +10,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ssilang.kernel.apart import apart
-from ssilang.kernel.compiled import compiled
+from ssilang.kernel.base.compiled.apart import apart
+from ssilang.kernel.base.compiled.cache import compiled
 from ssilang.kernel.joints.arrays import copy_rows
 from ssilang.kernel.joints.condensed import (
     ACCEPTED,

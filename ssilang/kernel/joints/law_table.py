@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ssilang.kernel.errors import MaterialError
+from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.joints.columns import CUMULATED, DAMAGE, OPENING, SLIP1, SLIP2, STATUS, XI
 from ssilang.kernel.joints.parameters import (
     Parameter,

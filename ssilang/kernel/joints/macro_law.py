@@ -15,8 +15,8 @@ import math
 
 import numpy as np
 
-from ssilang.kernel.apart import apart
-from ssilang.kernel.compiled import compiled
+from ssilang.kernel.base.compiled.apart import apart
+from ssilang.kernel.base.compiled.cache import compiled
 from ssilang.kernel.joints.arrays import clear, copy_state
 from ssilang.kernel.joints.columns import KN, LARG, LONG, RAYO
 from ssilang.kernel.mesh.nodes import FloatArray

@@ -8,7 +8,7 @@ both ends; what that leaves over stored energy counts as lost in shear.
 
 from __future__ import annotations
 
-from ssilang.kernel.compiled import compiled
+from ssilang.kernel.base.compiled.cache import compiled
 from ssilang.kernel.joints.columns import FC, FU, GF, KN, SHEAR_ENERGY, SHEAR_LOSS, XI
 from ssilang.kernel.joints.laws import point_response
 from ssilang.kernel.joints.response import interface_forces, local_jumps

@@ -6,7 +6,7 @@ from enum import IntEnum
 
 import numpy as np
 
-from ssilang.kernel.errors import MaterialError
+from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.mesh.nodes import FloatArray
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.compiled import compiled
+from ssilang.kernel.base.compiled.cache import compiled
 from ssilang.kernel.joints.columns import FC, FU, GF, KN, STATUS, XI
 from ssilang.kernel.joints.law_table import MOHR, SDM, elastic_tangent
 from ssilang.kernel.joints.laws import point_energies

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ssilang.kernel.apart import apart
-from ssilang.kernel.compiled import compiled
+from ssilang.kernel.base.compiled.apart import apart
+from ssilang.kernel.base.compiled.cache import compiled
 from ssilang.kernel.joints.laws import point_energies, respond
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 

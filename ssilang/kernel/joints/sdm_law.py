@@ -20,7 +20,7 @@ from __future__ import annotations
 
 import math
 
-from ssilang.kernel.compiled import compiled
+from ssilang.kernel.base.compiled.cache import compiled
 from ssilang.kernel.joints.arrays import clear, copy_state
 from ssilang.kernel.joints.columns import (
     CLOSED_SHEAR,

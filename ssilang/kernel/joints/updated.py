@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.compiled import compiled_fast
+from ssilang.kernel.base.compiled.cache import compiled_fast
 from ssilang.kernel.joints.arrays import clear
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.errors import FieldError
+from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, dual_of
 from ssilang.kernel.mesh.cells import CELL_TYPES

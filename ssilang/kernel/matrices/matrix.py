@@ -7,8 +7,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray, NodeTable
-from ssilang.kernel.model import Zone
 
 
 @dataclass(frozen=True, eq=False)

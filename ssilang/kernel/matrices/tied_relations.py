@@ -7,7 +7,7 @@ from itertools import combinations
 
 import numpy as np
 
-from ssilang.kernel.errors import MeshError
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.matrices.matrix import Relations
 from ssilang.kernel.matrices.relations import Term, joined, relation_rows, rows_from_table
 from ssilang.kernel.mesh.mesh import Mesh

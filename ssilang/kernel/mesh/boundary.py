@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from ssilang.kernel.errors import MeshError
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.nodes import IntArray
 

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.errors import MeshError
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.cells import POLYGON_SIDES
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
 from ssilang.kernel.mesh.nodes import IntArray, NodeTable

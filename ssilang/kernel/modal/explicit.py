@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ssilang.kernel.errors import KernelError
+from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.modal.links import RECORDS, STATES, LinkArrays
 

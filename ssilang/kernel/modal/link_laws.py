@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.compiled import compiled
+from ssilang.kernel.base.compiled.cache import compiled
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.modal.links import (
     A0,

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ssilang.kernel.errors import KernelError
+from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 PLANE, CIRCLE, POWER, SINE, COSINE, COSINE_OF_TIME, SINE_OF_TIME, VELOCITY = range(8)

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ssilang.kernel.errors import KernelError
+from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.mesh.nodes import FloatArray
 
 SAME_STEP = 1e-12  # of the last time: the rounding of equally spaced times

@@ -6,7 +6,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ssilang.kernel.errors import KernelError
+from ssilang.kernel.base.errors import KernelError
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.matrices.assembly import (
     Numbering,
     assemble,
@@ -17,7 +18,6 @@ from ssilang.kernel.matrices.assembly import (
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.solvers.elimination import Elimination, eliminate
-from ssilang.kernel.sparse import sp
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,8 +8,10 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.matrices.assembly import (
     MANY_TERMS,
     Numbering,
@@ -18,9 +20,7 @@ from ssilang.kernel.matrices.assembly import (
 )
 from ssilang.kernel.matrices.matrix import ElementMatrices
 from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.model import Zone
 from ssilang.kernel.plasticity.points import PlasticPoints, PointState, plastic_points
-from ssilang.kernel.sparse import sp
 
 FreeStrain = Callable[[float], FloatArray]
 """Strain without stress (n_cells, n_strains, n_points) of a zone at a time."""

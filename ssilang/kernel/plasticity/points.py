@@ -6,20 +6,20 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ssilang.kernel.base.errors import KernelError, MaterialError
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.family import Layout, cell_block
-from ssilang.kernel.elements.geometry import chunks
+from ssilang.kernel.elements.shapes.geometry import chunks
 from ssilang.kernel.elements.zone_fields import ZoneField, n_points, zone_field
-from ssilang.kernel.errors import KernelError, MaterialError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.elasticity import check_isotropic
+from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.materials.plastic.creep import DURATION
 from ssilang.kernel.materials.plastic.held_stress import respond_held
 from ssilang.kernel.materials.plastic.laws import PlasticLaw, check_parameters, plastic_law
 from ssilang.kernel.materials.plastic.response import PointParameters, Response
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.model import Mode, Model, Zone
 
 _PLANE, _SPACE = (0, 1, 2, 3), (0, 1, 2, 3, 4, 5)
 COMPONENTS: dict[Mode, tuple[int, ...]] = {
@@ -265,7 +265,7 @@ def law_parameters(zone: Zone, law: PlasticLaw, given: ZoneField) -> PointParame
 
 def _curves(given: ZoneField, name: str, shape: tuple[int, int]) -> tuple[list, IntArray]:  # type: ignore[type-arg]
     """The different curves of a parameter, and which each point has."""
-    from ssilang.kernel.curve import Curve
+    from ssilang.kernel.curves.curve import Curve
     from ssilang.kernel.elements.zone_fields import missing_parameter
 
     if name not in given:

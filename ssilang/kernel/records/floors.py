@@ -13,7 +13,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from ssilang.kernel.errors import FieldError
+from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.records.modulated import largest_value
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.compiled import compiled
-from ssilang.kernel.errors import KernelError
+from ssilang.kernel.base.compiled.cache import compiled
+from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.mesh.nodes import FloatArray
 
 LAWS = ("CINE", "ISOT", "ELAS")

@@ -17,7 +17,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.errors import FieldError
+from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.records.power import EULER
 

@@ -15,9 +15,9 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from ssilang.kernel.errors import KernelError
+from ssilang.kernel.base.errors import KernelError
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.sparse import sp
 
 DISSECTION = "nested dissection"
 MULTIGRID = "multigrid"
@@ -282,7 +282,7 @@ def factorise(
 
 
 def _dissected(A: sp.csr_array, ordering: Ordering) -> Factor:
-    from ssilang.kernel.memory import available_bytes, gigabytes
+    from ssilang.kernel.base.memory import available_bytes, gigabytes
     from ssilang.kernel.solvers.dissected import DissectedFactor
     from ssilang.kernel.solvers.multifrontal import NotPositiveError, TooLargeError
 

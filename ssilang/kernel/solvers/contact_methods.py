@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.errors import ConvergenceError, KernelError
+from ssilang.kernel.base.errors import ConvergenceError, KernelError
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.solvers.complementarity import ContactProblem, solve_contact
 

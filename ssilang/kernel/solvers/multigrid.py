@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.errors import KernelError
+from ssilang.kernel.base.errors import KernelError
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.sparse import sp
 
 RESIDUAL = 1e-12  # of the second member: what a direct solver leaves, or little more
 MOST_TURNS = 500

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.apart import apart
-from ssilang.kernel.compiled import compiled, compiled_fast
+from ssilang.kernel.base.compiled.apart import apart
+from ssilang.kernel.base.compiled.cache import compiled, compiled_fast
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.solvers.multifrontal import WIDTH, Panels
 

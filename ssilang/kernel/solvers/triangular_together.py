@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ssilang.kernel.compiled import compiled_fast
+from ssilang.kernel.base.compiled.cache import compiled_fast
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.solvers.multifrontal import WIDTH, Panels
 from ssilang.kernel.solvers.triangular import backward, forward

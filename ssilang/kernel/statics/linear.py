@@ -12,7 +12,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.errors import ConvergenceError, KernelError, SingularMatrixError
+from ssilang.kernel.base.errors import ConvergenceError, KernelError, SingularMatrixError
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import (
     ConstraintRows,
@@ -38,7 +39,6 @@ from ssilang.kernel.solvers.backends import (
 from ssilang.kernel.solvers.complementarity import ContactProblem, solve_contact
 from ssilang.kernel.solvers.elimination import Elimination, eliminate
 from ssilang.kernel.solvers.inverse import Inverse, invert
-from ssilang.kernel.sparse import sp
 from ssilang.kernel.statics.doubled import lying_on
 from ssilang.kernel.statics.linear_motion import (
     bodies_of,

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.errors import MeshError
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 

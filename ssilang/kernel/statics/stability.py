@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ssilang.kernel.errors import KernelError
+from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import is_symmetric, vector_to_field
 from ssilang.kernel.matrices.matrix import Matrix

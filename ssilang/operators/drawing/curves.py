@@ -7,9 +7,9 @@ from typing import Any
 
 from ssilang.io.plots.curves import CurveOptions, draw_curves
 from ssilang.io.plots.line_style import DASHES, LineStyle, parse_style
-from ssilang.kernel.curve import Curve
-from ssilang.language.call import Call
+from ssilang.kernel.curves.curve import Curve
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import Table
 from ssilang.operators.drawing.pictures import (
     picture_formats,

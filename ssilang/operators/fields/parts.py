@@ -11,8 +11,8 @@ from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.nodes import IntArray
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots, ListReel, Mot
 from ssilang.operators.dispatch import CHAN, COPI, ENLE, EXTR, REDU
 from ssilang.operators.fields.signs import names_of, nature_word, read_nature

@@ -7,7 +7,7 @@ import numpy as np
 from ssilang.kernel.fields import node_algebra
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.matrices.assembly import numbering_of
-from ssilang.kernel.matrices.derived import (
+from ssilang.kernel.matrices.condensation import (
     cable_stiffness,
     condensed_by_relations,
     condensed_on_multipliers,
@@ -18,8 +18,8 @@ from ssilang.kernel.matrices.outer import sum_of_outer_products
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.modal.basis import work
 from ssilang.kernel.statics.linear import linear_system, product
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, arg, operator, opt
+from ssilang.language.run.call import Call
 from ssilang.operators.numbers.numbers import session_generator
 from ssilang.operators.workspace import workspace
 

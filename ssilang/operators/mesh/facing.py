@@ -7,8 +7,8 @@ import numpy as np
 from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import IntArray, NodeTable
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, arg, operator, opt
+from ssilang.language.run.call import Call
 from ssilang.operators.workspace import workspace
 
 _NONE = np.empty(0, dtype=np.int64)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ssilang.kernel.curve import Load
+from ssilang.kernel.curves.curve import Load
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import (
     Numbering,
@@ -181,7 +181,7 @@ def _begin(entries: Entries, problem: FrequencyProblem, first: float) -> Begin:
 
 def _reduced(problem: FrequencyProblem, field: NodeField) -> FloatArray:
     """What is left of a field of coefficients by the supports, (r,)."""
-    from ssilang.kernel.sparse import sp
+    from ssilang.kernel.base.sparse import sp
 
     u = field_to_vector(field, problem.numbering, dual=False)
     T = problem.T

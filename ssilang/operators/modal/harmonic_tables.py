@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ssilang.io.plots.palette import NAMES, index_of
-from ssilang.kernel.curve import Curve, CurvePart
+from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.mesh.mesh import Point
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.language.values import ListMots, ListReel, Mot, Table

@@ -11,8 +11,8 @@ from ssilang.kernel.continuation.expansion import Names, names_of
 from ssilang.kernel.continuation.harmonics import basis_at
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots, ListReel, Mot, Table
 from ssilang.operators.modal.harmonic_tables import (
     Asked,

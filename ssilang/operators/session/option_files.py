@@ -6,9 +6,9 @@ import io
 from collections.abc import Callable
 from typing import Any, TextIO
 
-from ssilang.language.call import Call
-from ssilang.language.source import Source
-from ssilang.language.structure import parse
+from ssilang.language.run.call import Call
+from ssilang.language.text.source import Source
+from ssilang.language.text.structure import parse
 from ssilang.language.values import Mot
 from ssilang.operators.files.outputs import input_path, output_path, run_output
 from ssilang.operators.workspace import workspace

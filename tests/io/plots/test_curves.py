@@ -15,7 +15,7 @@ from ssilang.io.plots.figure import Pictures, slug
 from ssilang.io.plots.line_style import parse_style
 from ssilang.io.plots.markup import to_mathtext
 from ssilang.io.plots.palette import shade
-from ssilang.kernel.curve import Curve, CurvePart
+from ssilang.kernel.curves.curve import Curve, CurvePart
 
 
 def curve(*colours: int) -> Curve:

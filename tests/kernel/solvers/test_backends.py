@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 
-from ssilang.kernel.errors import KernelError
+from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.solvers import backends
 from ssilang.kernel.solvers.backends import BACKENDS, SingularFactorError, factorise
 

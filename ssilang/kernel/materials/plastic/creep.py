@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.errors import MaterialError
+from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.materials.plastic.response import (
     DEVIATOR,
     UNIT,

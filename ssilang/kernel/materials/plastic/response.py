@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ssilang.kernel.curve import Curve
+from ssilang.kernel.curves.curve import Curve
 from ssilang.kernel.materials.elasticity import isotropic_compliance, isotropic_moduli
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.errors import MaterialError
+from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.materials.plastic.response import PointParameters, Response
 from ssilang.kernel.mesh.nodes import FloatArray
 

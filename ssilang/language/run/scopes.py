@@ -1,0 +1,66 @@
+"""Names and what they stand for, procedure by procedure."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from ssilang.language.values import ANNULE
+
+if TYPE_CHECKING:
+    from ssilang.language.run.call import Call
+    from ssilang.language.values import Objet
+
+_MISSING = object()
+
+
+class Frame:
+    """Variables of a running procedure (or of the script), over those of its caller.
+
+    Scope is dynamic: a procedure sees the caller's names as they are when it is called; what it
+    assigns stays its own. Names that begin with `!` are never inherited.
+    """
+
+    __slots__ = ("caller", "depth", "object", "pending", "procedure", "results", "variables")
+
+    def __init__(
+        self, caller: Frame | None = None, procedure: str = "", pending: Call | None = None
+    ) -> None:
+        self.variables: dict[str, Any] = {}
+        self.caller = caller
+        self.procedure = procedure
+        self.pending = pending  # operands of the caller not read yet (ARGU)
+        self.results: list[Any] = []  # RESP
+        self.object: Objet | None = caller.object if caller is not None else None
+        self.depth: int = caller.depth + 1 if caller is not None else 0
+
+    def find(self, name: str) -> Any:
+        """Value of a name, None if it was never assigned."""
+        frame: Frame | None = self
+        while frame is not None:
+            value = frame.variables.get(name, _MISSING)
+            if value is not _MISSING:
+                return value
+            if name[:1] == "!":
+                return None
+            frame = frame.caller
+        return None
+
+    def assign(self, name: str, value: Any) -> None:
+        """Bind a name here."""
+        self.variables[name] = value
+
+    def forget(self, name: str) -> None:
+        """Make a name ANNULE here (OUBL); at the top it is as if never assigned."""
+        if self.caller is None:
+            self.variables.pop(name, None)
+        else:
+            self.variables[name] = ANNULE
+
+    def names(self) -> set[str]:
+        """All visible names."""
+        found: set[str] = set()
+        frame: Frame | None = self
+        while frame is not None:
+            found.update(frame.variables)
+            frame = frame.caller
+        return found

@@ -1,0 +1,131 @@
+"""A session: everything that one run of scripts shares. There is no other global state."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Protocol, TextIO
+
+from ssilang.language.run.library import Library
+from ssilang.language.run.scopes import Frame
+from ssilang.language.say.errors import ReaderLeft, SsiError
+from ssilang.language.values import Mot
+
+
+@dataclass
+class Limits:
+    """What a run may use up; None means no limit."""
+
+    recursion: int = 200
+    statements: int | None = None
+
+
+class LoopObserver(Protocol):
+    """Is told of the REPE loops of a run."""
+
+    def enter(self, name: str, limit: int | None) -> None:
+        """A loop begins; `limit` is its number of turns, if it has one."""
+
+    def turn(self, number: int) -> None:
+        """The innermost loop begins a turn."""
+
+    def leave(self) -> None:
+        """The innermost loop ends."""
+
+
+@dataclass
+class Check:
+    """A value that a script reports, compared with a reference or not (shown in the summary)."""
+
+    name: str
+    value: float
+    expected: float | None = None
+    tolerance: float | None = None
+
+
+@dataclass
+class Session:
+    """State of a run.
+
+    Parameters
+    ----------
+    script_directory : Path
+        Folder of the script: files are read below it.
+    output_directory : Path
+        Files are written below it.
+    allowed : list of Path
+        Further folders that may be read and written (`--allow`).
+    out : text stream
+        Where MESS and LIST print.
+    workspace : object
+        State of the operators (nodes, OPTI's options); made by the operators' package.
+    make_point : function
+        Turns numbers into a POINT, set by the operators' package.
+    dimension : function
+        Number of coordinates a point has (OPTI DIME), 0 before it is set.
+    """
+
+    script_directory: Path = field(default_factory=Path.cwd)
+    output_directory: Path = field(default_factory=lambda: Path("results"))
+    allowed: list[Path] = field(default_factory=list)
+    out: TextIO = field(default_factory=lambda: sys.stdout)
+    language: str = "en"
+    options: dict[str, Any] = field(default_factory=dict)
+    limits: Limits = field(default_factory=Limits)
+    workspace: Any = None
+    make_point: Callable[[list[float]], Any] | None = None
+    dimension: Callable[[], int] = lambda: 0
+    warnings: list[Any] = field(default_factory=list)
+    assignments: dict[str, Any] = field(default_factory=dict)  # name -> span of its first target
+    checks: list[Check] = field(default_factory=list)
+    statistics: dict[str, Any] = field(default_factory=dict)
+    integrate: Any = None  # integrates in time instead of the kernel, for runs that go together
+    given: dict[str, Any] = field(default_factory=dict)  # replaces a name's first assignment
+    started: float = field(default_factory=time.perf_counter)
+
+    def __post_init__(self) -> None:
+        from ssilang.language.run.evaluator import Evaluator
+
+        self.root = Frame()
+        for name, value in PREDEFINED.items():
+            self.root.assign(name, value)
+        self.frame = self.root
+        self.library = Library(self)
+        self.evaluator = Evaluator(self)
+
+    def print(self, text: str = "") -> None:
+        """Print a line of results."""
+        try:
+            self.out.write(text + "\n")
+        except BrokenPipeError as closed:
+            raise ReaderLeft from closed
+
+    def warn(self, code: str, span: Any = None, **data: object) -> None:
+        """Report a warning: kept for the summary, shown by the renderer that listens."""
+        self.report(SsiError(code, span or self.evaluator.current_span, **data))
+
+    def report(self, warning: Any) -> None:
+        """Keep a warning, or an error that does not stop the run, and show it."""
+        self.warnings.append(warning)
+        if self.on_warning is None:
+            return
+        try:
+            self.on_warning(warning)
+        except BrokenPipeError as closed:
+            raise ReaderLeft from closed
+
+    on_warning: Callable[[Any], object] | None = None
+    was_interrupted: Callable[[], bool] = lambda: False  # a signal came that nobody has seen
+    loops: LoopObserver | None = None
+
+
+PREDEFINED: dict[str, Any] = {
+    "VRAI": True,
+    "FAUX": False,
+    "PI": 3.141592653589793,
+    "D": Mot("DROI"),
+    "C": Mot("CERC"),
+}
