@@ -38,3 +38,7 @@ class SingularMatrixError(KernelError):
 
 class ConvergenceError(KernelError):
     """An iteration did not converge; the message says at which time and with which residual."""
+
+
+class SingularFactorError(Exception):
+    """A backend met an exactly zero pivot; `inverse.py` turns it into a message."""

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.curves.curve import Curve, CurvePart
-from ssilang.kernel.mesh.nodes import FloatArray
 
 _COMPLEX = {"PREE": "PIMA", "MODU": "PHAS"}
 

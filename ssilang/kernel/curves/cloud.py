@@ -7,8 +7,8 @@ from itertools import product
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
-from ssilang.kernel.mesh.nodes import FloatArray
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,10 +10,10 @@ from typing import Protocol
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.matrices.assembly import ConstraintRows, Numbering
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.solvers.elimination import eliminate
 
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.dynamics.compiled_loop import Motion
@@ -31,7 +32,6 @@ from ssilang.kernel.matrices.assembly import (
     outside,
 )
 from ssilang.kernel.matrices.matrix import Matrix
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 
 @dataclass(frozen=True, eq=False)

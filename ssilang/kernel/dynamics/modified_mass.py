@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import SingularMatrixError
 from ssilang.kernel.base.sparse import sp
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.solvers.inverse import invert
 
 

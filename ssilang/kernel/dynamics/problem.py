@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import FieldError, KernelError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.contact.friction import Friction
@@ -39,7 +40,6 @@ from ssilang.kernel.matrices.assembly import (
     numbering_of,
 )
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 SMALL = 160
 """Motions that supports leave, up to which dense matrices and the compiled loop are used."""

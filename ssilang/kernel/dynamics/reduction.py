@@ -17,6 +17,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.dynamics.initial import (
@@ -27,7 +28,6 @@ from ssilang.kernel.dynamics.initial import (
 from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.dynamics.reduced_damping import States, split
 from ssilang.kernel.dynamics.reduced_supports import ReducedSupports, reduced_supports
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.solvers.inverse import Inverse, invert
 
 DEPENDENT = 1e-12

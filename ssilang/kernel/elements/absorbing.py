@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.elements.boundary import (
     face_geometry,
     require_parents,
@@ -15,7 +16,6 @@ from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, dual_of
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 
 def absorbing_boundary(model: Model, boundary: Mesh, material: CellField) -> Matrix:

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError, MeshError
 from ssilang.kernel.elements.beams.bar import Bar
 from ssilang.kernel.elements.beams.beam import Beam, Timoshenko
@@ -33,7 +34,6 @@ from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices
-from ssilang.kernel.mesh.nodes import FloatArray
 
 FAMILIES: dict[str, ElementFamily] = {
     "solid": Solid(),

@@ -10,6 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.elements.catalog import support_rule
 from ssilang.kernel.elements.families import register_family
 from ssilang.kernel.elements.family import (
@@ -28,7 +29,6 @@ from ssilang.kernel.joints.law_table import elastic_tangent, law_of, rocking_sti
 from ssilang.kernel.joints.table import joint_parameters
 from ssilang.kernel.materials.model import Mode, Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices
-from ssilang.kernel.mesh.nodes import FloatArray
 
 _SPRINGS = {2: (("QS",),), 3: (("QN",), ("QS1", "QS"), ("QS2", "QS"))}
 _CURVATURES = {2: ("CXZ",), 3: ("CXX", "CXY", "CXZ")}

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import FieldError, MaterialError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.elements.zone_fields import zone_field
@@ -26,7 +27,6 @@ from ssilang.kernel.joints.table import joint_parameters
 from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.matrices.assembly import Numbering
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 
 @dataclass(frozen=True, eq=False)

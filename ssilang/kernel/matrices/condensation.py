@@ -1,10 +1,10 @@
-"""Matrices made from others or from fields: condensation on relations, filters, cables."""
+"""Matrices condensed on relations, by their multipliers or by the unknowns left free."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.base.errors import FieldError, MeshError
+from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import (
@@ -16,10 +16,8 @@ from ssilang.kernel.matrices.assembly import (
     numbering_of,
 )
 from ssilang.kernel.matrices.from_sparse import matrix_from_sparse
-from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
+from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.matrices.submatrices import together
-from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.kernel.mesh.nodes import FloatArray
 
 
 def condensed_on_multipliers(relations: Matrix, inverse_mass: NodeField) -> Matrix:
@@ -91,72 +89,3 @@ def condensed_by_relations(matrix: Matrix, relations: Matrix) -> Matrix:
         numbering.version,
     )
     return matrix_from_sparse(A, masters, matrix.kind, is_symmetric(matrix))
-
-
-def filter_weights(
-    weights: NodeField, radius: float, power: float, least: float, unknown: str, dual: str
-) -> Matrix:
-    """Matrix whose product with a field is its weighted mean over the neighbours of each node.
-
-    Row i has `(1 - d_ij / radius)^power w_j` over their sum, for nodes nearer than the radius;
-    terms not above `least` are dropped (after the division).
-    """
-    from scipy.spatial import cKDTree
-
-    names = list(weights.components)
-    if len(names) != 1:
-        raise FieldError(
-            f"one component of weights is needed, here are {' '.join(names) or 'none'}"
-        )
-    part = weights.components[names[0]]
-    n = len(part.nodes)
-    if radius > 0.0:
-        points = weights.table.coordinates[part.nodes]
-        tree = cKDTree(points)
-        near = tree.sparse_distance_matrix(tree, radius, output_type="coo_matrix")
-        i = np.concatenate([near.row, np.arange(n)]).astype(np.int64)
-        j = np.concatenate([near.col, np.arange(n)]).astype(np.int64)
-        d = np.concatenate([near.data, np.zeros(n)])
-        own = (near.row == near.col).nonzero()[0]
-        kept = np.ones(len(i), bool)
-        kept[own] = False
-        i, j, d = i[kept], j[kept], d[kept]
-        values = np.maximum(1.0 - d / radius, 0.0) ** power * part.values[j]
-        shares = sp.coo_array((values, (i, j)), shape=(n, n)).tocsr()
-    else:
-        shares = sp.csr_array(sp.diags_array(part.values.copy()))
-    total: FloatArray = np.asarray(shares.sum(axis=1)).ravel()
-    if (total == 0.0).any():
-        raise FieldError("the weights around a node are all zero")
-    W = sp.csr_array(sp.diags_array(1.0 / total) @ shares)
-    W.data[W.data <= least] = 0.0
-    codes = np.zeros(n, dtype=np.int64)
-    numbering = Numbering(weights.table, (unknown,), (dual,), part.nodes, codes, 0)
-    return matrix_from_sparse(W, numbering, "RIGIDITE", False)
-
-
-def cable_stiffness(mesh: Mesh, dimension: int, force: float, percent: float) -> Matrix:
-    """Stiffness of straight cables whose force is `force` at a lengthening of `percent`.
-
-    Raises
-    ------
-    MeshError
-        If a cell is not a segment of two nodes, or has no length.
-    """
-    if {b.cell_type for b in mesh.blocks} != {"SEG2"}:
-        raise MeshError("a cable is made of segments of two nodes (SEG2)")
-    rigidity = 100.0 * force / percent
-    blocks = []
-    for b in mesh.blocks:
-        d = dimension
-        along = (b.coordinates[:, 1] - b.coordinates[:, 0])[:, :d]
-        length = np.linalg.norm(along, axis=1)
-        if (length == 0.0).any():
-            raise MeshError("a segment of the cable has no length")
-        row = np.concatenate([-along, along], axis=1) / length[:, None]
-        values = (rigidity / length)[:, None, None] * row[:, :, None] * row[:, None, :]
-        names = ("UX", "UY", "UZ")[:d] * 2
-        duals = ("FX", "FY", "FZ")[:d] * 2
-        local = np.repeat([0, 1], d)
-        blocks.append(ElementMatrices(b.nodes, b.raw, local, names, duals, values, "RIGIDITE"))
-    return Matrix(mesh.nodes, tuple(blocks), (), "RIGIDITE")

@@ -6,11 +6,11 @@ from dataclasses import replace
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import IntArray
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.matrices.assembly import assemble, constraint_matrix, numbering_of
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, Relations
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
-from ssilang.kernel.mesh.nodes import IntArray
 
 
 def together(*matrices: Matrix) -> Matrix:

@@ -13,11 +13,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ssilang.kernel.base.errors import KernelError
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import KernelError, SingularFactorError
 from ssilang.kernel.base.sparse import sp
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.modal.reduced import ReducedProblem
-from ssilang.kernel.solvers.backends import SingularFactorError, factorise
+from ssilang.kernel.solvers.backends import factorise
 from ssilang.kernel.solvers.inverse import invert
 
 DENSE = 400  # unknowns up to which all eigenvalues are computed

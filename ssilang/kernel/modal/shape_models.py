@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.elements.catalog import ElementKind, register_element
 from ssilang.kernel.elements.families import register_family
@@ -21,7 +22,6 @@ from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Mode, Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices, dual_of
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.modal.basis import work
 from ssilang.kernel.modal.modes import eigenvalue
 

@@ -13,9 +13,9 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.fields.cell_field import CellFieldBlock
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.plasticity.bulk import Answer, Bulk, State
 
 SHIFT = 1e-6

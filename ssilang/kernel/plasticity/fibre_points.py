@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.elements.beams.beam_frame import beam_frame, kept_rows
 from ssilang.kernel.elements.beams.fibre_section import (
     STRESSES,
@@ -22,7 +23,6 @@ from ssilang.kernel.materials.plastic import uniaxial
 from ssilang.kernel.materials.plastic.held_stress import respond_held
 from ssilang.kernel.materials.plastic.laws import PlasticLaw, plastic_law
 from ssilang.kernel.materials.plastic.response import PointParameters, Response
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.plasticity.points import PlasticPoints, PointState, law_parameters
 
 COMPONENTS = (0, 3, 4)

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.elements.beams.beam_frame import beam_frame
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.families import _moduli, family_of
@@ -13,7 +14,6 @@ from ssilang.kernel.elements.family import per_cell
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.materials.model import Mode, Zone
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.plasticity.finite_beam import CARRIED, FiniteBeam, finite_beam
 
 

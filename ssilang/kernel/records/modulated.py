@@ -17,8 +17,8 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.records.power import EULER
 
 _GAUSS = np.polynomial.legendre.leggauss(4)

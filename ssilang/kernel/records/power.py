@@ -10,8 +10,8 @@ from collections.abc import Callable
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.records.signals import fourier
 
 EULER = 0.5772156649015329

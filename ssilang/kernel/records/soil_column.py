@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MaterialError
-from ssilang.kernel.mesh.nodes import FloatArray
 
 ComplexArray = NDArray[np.complex128]
 

@@ -15,9 +15,9 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from ssilang.kernel.base.errors import KernelError
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import KernelError, SingularFactorError
 from ssilang.kernel.base.sparse import sp
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 DISSECTION = "nested dissection"
 MULTIGRID = "multigrid"
@@ -65,10 +65,6 @@ class Ordering:
         """The ordering of the unknowns `u / scale`."""
         rigid = None if self.rigid is None else self.rigid / scale[:, None]
         return Ordering(self.points, self.last, rigid)
-
-
-class SingularFactorError(Exception):
-    """A backend met an exactly zero pivot; `inverse.py` turns it into a message."""
 
 
 class SuperLUFactor:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.sparse import sp
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.solvers.dissection import Tree, dissection
 from ssilang.kernel.solvers.multifrontal import factorise_panels
 from ssilang.kernel.solvers.triangular import longest, solve_column, solve_columns

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.errors import SingularFactorError
 from ssilang.kernel.base.sparse import sp
-from ssilang.kernel.solvers.backends import SingularFactorError, SuperLUFactor
+from ssilang.kernel.solvers.backends import SuperLUFactor
 
 DENSE = 1500  # unknowns up to which eigenvalues are computed where the pivots say nothing
 NUDGE = 1e-10  # relative shift tried when a pivot vanishes

@@ -11,11 +11,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.apart import apart
-from ssilang.kernel.base.compiled.cache import compiled, compiled_fast
+from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
 from ssilang.kernel.base.memory import fits
 from ssilang.kernel.base.sparse import sp
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.solvers.dense import subtract_from
 from ssilang.kernel.solvers.dissection import Tree
 

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.families import family_of
@@ -26,13 +27,8 @@ from ssilang.kernel.joints.law_table import MOHR, SDM, law_of
 from ssilang.kernel.joints.parameters import Parameter
 from ssilang.kernel.joints.table import joint_parameters
 from ssilang.kernel.materials.model import Zone
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.plasticity.points import (
-    PlasticPoints,
-    is_plastic,
-    plastic_points,
-    plastic_strain_names,
-)
+from ssilang.kernel.plasticity.points import PlasticPoints, is_plastic, plastic_strain_names
+from ssilang.kernel.plasticity.zone_points import plastic_points
 
 Variables = Mapping[str, FloatArray]
 

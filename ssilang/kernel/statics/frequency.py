@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 import scipy.sparse as sp
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError, KernelError, SingularMatrixError
 from ssilang.kernel.curves.curve import Load
 from ssilang.kernel.dynamics.loading import MECHANICAL, terms_of
@@ -34,7 +35,6 @@ from ssilang.kernel.matrices.assembly import (
     vector_to_field,
 )
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, imaginary
-from ssilang.kernel.mesh.nodes import FloatArray
 
 _DENSE = 300
 """Up to this many unknowns full matrices are faster than sparse ones."""

@@ -12,7 +12,13 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.base.errors import ConvergenceError, KernelError, SingularMatrixError
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import (
+    ConvergenceError,
+    KernelError,
+    SingularFactorError,
+    SingularMatrixError,
+)
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import (
@@ -28,14 +34,7 @@ from ssilang.kernel.matrices.assembly import (
     vector_to_field,
 )
 from ssilang.kernel.matrices.matrix import Matrix
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.solvers.backends import (
-    MULTIGRID,
-    Ordering,
-    SingularFactorError,
-    SuperLUFactor,
-    dissection_pays,
-)
+from ssilang.kernel.solvers.backends import MULTIGRID, Ordering, SuperLUFactor, dissection_pays
 from ssilang.kernel.solvers.complementarity import ContactProblem, solve_contact
 from ssilang.kernel.solvers.elimination import Elimination, eliminate
 from ssilang.kernel.solvers.inverse import Inverse, invert

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.matrices.assembly import Numbering
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.statics.doubled import lying_on
 
 BoolArray = NDArray[np.bool_]

@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
@@ -17,8 +18,8 @@ from ssilang.kernel.joints.parameters import Parameter
 from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.materials.plastic import rounded_coulomb
 from ssilang.kernel.materials.plastic.response import PointParameters, mises
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.plasticity.points import is_plastic, plastic_points
+from ssilang.kernel.plasticity.points import is_plastic
+from ssilang.kernel.plasticity.zone_points import plastic_points
 from ssilang.kernel.statics.constitutive import joint_points, joint_state, section_stress
 
 Criterion = Callable[[PointParameters, FloatArray, FloatArray], FloatArray]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ssilang.language.run.call import Operand
-from ssilang.language.run.session import PREDEFINED
+from ssilang.language.run.scopes import PREDEFINED
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text import tree
 from ssilang.language.text.source import Span

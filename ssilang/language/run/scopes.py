@@ -4,11 +4,20 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from ssilang.language.values import ANNULE
+from ssilang.language.values import ANNULE, Mot
 
 if TYPE_CHECKING:
     from ssilang.language.run.call import Call
     from ssilang.language.values import Objet
+
+PREDEFINED: dict[str, Any] = {
+    "VRAI": True,
+    "FAUX": False,
+    "PI": 3.141592653589793,
+    "D": Mot("DROI"),
+    "C": Mot("CERC"),
+}
+"""Names that a run begins with."""
 
 _MISSING = object()
 

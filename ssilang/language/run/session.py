@@ -10,9 +10,8 @@ from pathlib import Path
 from typing import Any, Protocol, TextIO
 
 from ssilang.language.run.library import Library
-from ssilang.language.run.scopes import Frame
+from ssilang.language.run.scopes import PREDEFINED, Frame
 from ssilang.language.say.errors import ReaderLeft, SsiError
-from ssilang.language.values import Mot
 
 
 @dataclass
@@ -120,12 +119,3 @@ class Session:
     on_warning: Callable[[Any], object] | None = None
     was_interrupted: Callable[[], bool] = lambda: False  # a signal came that nobody has seen
     loops: LoopObserver | None = None
-
-
-PREDEFINED: dict[str, Any] = {
-    "VRAI": True,
-    "FAUX": False,
-    "PI": 3.141592653589793,
-    "D": Mot("DROI"),
-    "C": Mot("CERC"),
-}

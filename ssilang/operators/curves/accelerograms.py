@@ -7,8 +7,8 @@ import dataclasses
 import numpy as np
 
 from ssilang.io.plots.palette import index_of
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.curves.curve import Curve, CurvePart
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.records.integration import brought_to_rest, integrated
 from ssilang.kernel.records.power import power_density, response_spectrum
 from ssilang.kernel.records.signals import constant_step

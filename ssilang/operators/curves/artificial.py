@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.curves.curve import Curve, CurvePart
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.records.artificial import Band, motion, perturbed, sines
 from ssilang.language.registry import Help, operator
 from ssilang.language.run.call import Call

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.curves.algebra import (
     crossings,
     integral,
@@ -20,7 +21,6 @@ from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.mesh import Point
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.language.registry import Help, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel, Table

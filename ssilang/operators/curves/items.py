@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 
 from ssilang.io.plots.palette import NAMES
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.curves.algebra import combined, is_complex
 from ssilang.kernel.curves.curve import Curve, CurvePart
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots, ListReel, Mot
 from ssilang.operators.curves.words import read_colour

@@ -6,8 +6,8 @@ import dataclasses
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.curves.curve import Curve, CurvePart
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.records.envelope import energy_envelope, inverse_laplace, mean_shock
 from ssilang.kernel.records.signals import constant_step
 from ssilang.language.registry import Help, arg, key, operator

@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.records.signals import constant_step
 from ssilang.kernel.records.wavelets import (
     ComplexArray,

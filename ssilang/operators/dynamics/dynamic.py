@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.dynamics.plan import every
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.plasticity.bulk import stiffness_beside
 from ssilang.kernel.plasticity.points import plastic_zones
 from ssilang.language.registry import Help, operator

@@ -13,7 +13,7 @@ from ssilang.language.values import ListReel, Table
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
-    from ssilang.kernel.mesh.nodes import FloatArray
+    from ssilang.kernel.base.arrays import FloatArray
     from ssilang.kernel.records.soil_column import FreeField
 
 _LAYERS = ("EPAISSEUR", "MASSE_VOLUMIQUE", "MODULE", "AMORTISSEMENT")

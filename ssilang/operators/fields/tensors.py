@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.boundary import is_solid
@@ -35,7 +36,6 @@ from ssilang.kernel.elements.solids.solid import coordinates, zone_geometry
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.materials.model import Model, Zone
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.language.registry import Help, operator
 from ssilang.language.run.call import Call
 from ssilang.operators.dispatch import INTG

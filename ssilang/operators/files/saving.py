@@ -12,8 +12,7 @@ from ssilang.io.errors import InputError
 from ssilang.kernel.materials.model import Mode
 from ssilang.language.registry import Help, operator
 from ssilang.language.run.call import Call
-from ssilang.language.run.scopes import Frame
-from ssilang.language.run.session import PREDEFINED
+from ssilang.language.run.scopes import PREDEFINED, Frame
 from ssilang.language.text.source import Source
 from ssilang.language.text.structure import parse
 from ssilang.language.text.tree import Definition

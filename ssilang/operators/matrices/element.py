@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.absorbing import absorbing_boundary
@@ -20,7 +21,6 @@ from ssilang.kernel.matrices.build import nodal_diagonal
 from ssilang.kernel.matrices.lumping import lumped_matrix
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.kernel.mesh.nodes import IntArray
 from ssilang.kernel.modal.shape_models import is_shape, shape_matrix
 from ssilang.language.registry import Help, operator
 from ssilang.language.run.call import Call

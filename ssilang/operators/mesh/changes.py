@@ -8,6 +8,7 @@ import numpy as np
 
 from ssilang.io.plots.palette import NAMES as COLOURS
 from ssilang.io.plots.palette import index_of
+from ssilang.kernel.base.arrays import IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.boundary import edges, faces
 from ssilang.kernel.mesh.cells import CELL_TYPES
@@ -18,7 +19,6 @@ from ssilang.kernel.mesh.changes.merge import regenerate, repeated_nodes
 from ssilang.kernel.mesh.changes.split import split_quadrangles, tetrahedra
 from ssilang.kernel.mesh.combine import poi1, recolour, union
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
-from ssilang.kernel.mesh.nodes import IntArray
 from ssilang.language.registry import Help, arg, flag, operator
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.mesh.lines.crossing_curve import crossing_curve
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.mesh.surfaces.analytic import (
     Shape,
     cone_shape,

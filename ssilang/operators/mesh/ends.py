@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.combine import union
 from ssilang.kernel.mesh.families import Family, family_of
@@ -18,7 +19,6 @@ from ssilang.kernel.mesh.lines.lines import (
 )
 from ssilang.kernel.mesh.lines.subdivision import subdivide
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.language.run.call import Call
 from ssilang.language.values import type_of
 from ssilang.operators.workspace import Workspace, workspace

@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.mesh.changes.transform import (
     PointMap,
     affinity,
@@ -15,7 +16,6 @@ from ssilang.kernel.mesh.changes.transform import (
     scaling,
     turn,
 )
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.mesh.surfaces.analytic import (
     Shape,
     cone_shape,

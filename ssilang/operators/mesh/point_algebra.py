@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.mesh.mesh import Point
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.language.registry import Help, arg, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session

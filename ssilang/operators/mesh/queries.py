@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ssilang.io.plots.palette import NAMES as COLOURS
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements.zone_fields import carry
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
@@ -16,7 +17,7 @@ from ssilang.kernel.materials.model import Model
 from ssilang.kernel.mesh.boundary import chained
 from ssilang.kernel.mesh.lines.lines import line_chain
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.kernel.mesh.nodes import FloatArray, NodeTable
+from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.mesh.queries.measure import (
     enclosed_area,
     enclosed_volume,

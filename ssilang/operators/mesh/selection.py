@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ssilang.io.plots.palette import NAMES as COLOURS
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.mesh.boundary import chained, contour
@@ -26,7 +27,6 @@ from ssilang.kernel.mesh.combine import (
 )
 from ssilang.kernel.mesh.lines.paths import network_of_lines, shortest_line
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.mesh.queries.select import (
     containing,
     inside_contour,

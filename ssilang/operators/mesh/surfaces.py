@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.changes.split import split_quadrangles
 from ssilang.kernel.mesh.combine import union
 from ssilang.kernel.mesh.generators.stitch import cone, stitch
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.mesh.surfaces.charts import (
     Chart,
     cone_chart,

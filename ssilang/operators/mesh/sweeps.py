@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.combine import union
 from ssilang.kernel.mesh.generators.sweep import (
@@ -20,7 +21,6 @@ from ssilang.kernel.mesh.generators.sweep import (
 from ssilang.kernel.mesh.lines.lines import line_chain
 from ssilang.kernel.mesh.lines.subdivision import Subdivision
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.mesh.orientation import reversed_line
 from ssilang.language.registry import Help, operator
 from ssilang.language.run.call import Call

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.combine import union
@@ -21,7 +22,6 @@ from ssilang.kernel.mesh.generators.sweep import (
 )
 from ssilang.kernel.mesh.lines.subdivision import Subdivision
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.mesh.orientation import surface_normals
 from ssilang.kernel.mesh.volumes.block import fill_block
 from ssilang.kernel.mesh.volumes.volume import fill_volume

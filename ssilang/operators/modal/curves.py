@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.modal.basis import work
 from ssilang.kernel.statics.linear import product
 from ssilang.language.run.call import Call

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import field_to_vector
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.modal.links import link_arrays
 from ssilang.language.registry import Help, operator
 from ssilang.language.run.call import Call

@@ -6,10 +6,10 @@ from collections.abc import Callable
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.build import nodal_diagonal
 from ssilang.kernel.matrices.matrix import Matrix, dual_of
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.modal.basis import MULTIPLIERS, on_marks, projected_matrix, work
 from ssilang.kernel.modal.modes import eigenvalue
 from ssilang.language.registry import Argument, Function, Operator, arg, opt

@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.family import cell_block
@@ -25,7 +26,6 @@ from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.mesh.mesh import Point
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.language.registry import Help, operator
 from ssilang.language.run.call import Call
 from ssilang.operators.fields.turned import turned_node_field

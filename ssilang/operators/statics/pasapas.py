@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.curves.curve import Load, LoadPart
 from ssilang.kernel.dynamics.plan import nearest
 from ssilang.kernel.elements.families import mass, stiffness
@@ -16,7 +17,6 @@ from ssilang.kernel.joints.elements import is_joint
 from ssilang.kernel.joints.law_table import law_of
 from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.plasticity.bulk import stiffness_beside, without_stiffness
 from ssilang.kernel.plasticity.points import is_plastic, plastic_zones
 from ssilang.kernel.statics.thermal_load import split_thermal

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.fields.deformed import displacements
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import assemble, field_to_vector, outside, vector_to_field
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.plasticity.added_load import SHIFT, Added, loaded_bulk
 from ssilang.kernel.plasticity.bulk import Bulk, State
 from ssilang.language.values import Mot, Table

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.dynamics.plan import nearest
 from ssilang.kernel.materials.model import Model
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel, Mot, Table
 from ssilang.operators.files.saving import save

@@ -29,7 +29,8 @@ from llvmlite import ir
 from numba.core import cgutils, imputils, types
 from numba.core.typing.templates import infer, infer_global, make_intrinsic_template, signature
 
-from ssilang.kernel.base.compiled.cache import compiled
+from ssilang.kernel.base.compiled import PLAIN
+from ssilang.kernel.base.compiled.compiler import compiled
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -88,9 +89,9 @@ class Apart:
 def apart(function: Function) -> Function:
     """Keep a compiled function out of the code of its callers; written above `@compiled`.
 
-    Without compilation (NUMBA_DISABLE_JIT=1) the function stays what it is.
+    Without compilation (NUMBA_DISABLE_JIT=1), or by plain numba alone, it stays what it is.
     """
-    if numba.config.DISABLE_JIT:  # type: ignore[attr-defined]
+    if PLAIN or numba.config.DISABLE_JIT:  # type: ignore[attr-defined]
         return function
     made = Apart(function)
     template = make_intrinsic_template(made, _typing_of(made), made.name)

@@ -1,4 +1,4 @@
-"""The decorator for compiled inner loops, with types that mypy can follow.
+"""Where compiled code is kept.
 
 Numba keeps compiled code beside each module and looks at that module's file alone to tell whether
 it is still good: a function keeps the old code of what it calls. The code of a module compiled here
@@ -15,42 +15,14 @@ import re
 import shutil
 import tempfile
 import time
-from collections.abc import Callable
 from functools import cache
 from pathlib import Path
-from typing import Any, TypeVar, cast
 
-import numba
-
-Function = TypeVar("Function", bound=Callable[..., Any])
+from ssilang.kernel.base.compiled import PLAIN
 
 KEPT_SECONDS = 30 * 86400.0  # code of older states of a module is removed after this
-IMPORTED = re.compile(r"^from (ssilang\.kernel[\w.]*) import (.*)$", re.MULTILINE)
+IMPORTED = re.compile(r"^from (ssilang\.kernel[\w.]*) import (\([^)]*\)|.*)$", re.MULTILINE)
 PACKAGE = Path(__file__).parents[3]  # ssilang
-
-# no entry for C, that nothing uses: it takes time to compile
-_OPTIONS: dict[str, Any] = {"cache": True, "error_model": "numpy", "no_cfunc_wrapper": True}
-
-
-def compiled(function: Function) -> Function:
-    """Compile with numba (no Python objects, result kept on disk for the next start)."""
-    return _made(function, False)
-
-
-def compiled_fast(function: Function) -> Function:
-    """As `compiled`, sums in any order (vectors); NaN and infinity keep their meaning."""
-    return _made(function, {"reassoc", "contract", "nsz", "arcp"})
-
-
-def compiled_fused(function: Function) -> Function:
-    """As `compiled`, products fused with sums; no other order of sums, so what cancels does."""
-    return _made(function, {"contract"})
-
-
-def _made(function: Function, freedom: set[str] | bool) -> Function:
-    if not os.environ.get("NUMBA_CACHE_DIR"):
-        numba.config.CACHE_DIR = str(_folder(function.__module__))  # type: ignore[attr-defined]
-    return cast(Function, numba.njit(fastmath=freedom, **_OPTIONS)(function))
 
 
 def is_compiled(package: str) -> bool:
@@ -58,9 +30,11 @@ def is_compiled(package: str) -> bool:
     given = os.environ.get("NUMBA_CACHE_DIR")
     if given:
         return any(Path(given).glob(f"{package}_*/*.nbi"))
-    names = (
-        f"ssilang.kernel.{package}.{p.stem}" for p in (PACKAGE / "kernel" / package).glob("*.py")
-    )
+    if PLAIN:
+        return False
+    kernel = PACKAGE / "kernel"
+    paths = (p.relative_to(kernel).with_suffix("") for p in (kernel / package).rglob("*.py"))
+    names = (".".join(("ssilang.kernel", *p.parts)) for p in paths)
     folders = (_base() / f"{name}-{state_of(name)}" for name in names)
     return any(any(folder.glob("*/*.nbi")) for folder in folders)
 
@@ -120,7 +94,7 @@ def _base() -> Path:
 
 
 @cache
-def _folder(module: str) -> Path:
+def folder_of(module: str) -> Path:
     """Where the code of a module in its present state is kept; it counts as used now."""
     folder = _base() / f"{module}-{state_of(module)}"
     try:

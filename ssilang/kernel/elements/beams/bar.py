@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.elements.catalog import support_rule
 from ssilang.kernel.elements.family import (
     ElementFamily,
@@ -19,7 +20,6 @@ from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.fields.cell_field import Support
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Zone
-from ssilang.kernel.mesh.nodes import FloatArray
 
 
 def _geometry(

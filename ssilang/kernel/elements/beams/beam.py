@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.elements.beams.beam_frame import (
     BeamFrame,
     Section,
@@ -27,7 +28,6 @@ from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.fields.cell_field import Support
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Zone
-from ssilang.kernel.mesh.nodes import FloatArray
 
 STRAINS = ("EPS", "GXY", "GXZ", "CX", "CY", "CZ")
 FORCES = ("EFFX", "EFFY", "EFFZ", "MOMX", "MOMY", "MOMZ")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.elements.beams.beam import Timoshenko, keep, to_global
 from ssilang.kernel.elements.beams.beam_frame import Section, beam_frame, kept_rows
 from ssilang.kernel.elements.beams.fibre_section import section_of_beam
@@ -11,7 +12,6 @@ from ssilang.kernel.elements.family import Layout
 from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.fields.cell_field import Support
 from ssilang.kernel.materials.model import Zone
-from ssilang.kernel.mesh.nodes import FloatArray
 
 
 class FibreBeam(Timoshenko):

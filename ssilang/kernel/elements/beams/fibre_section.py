@@ -15,6 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError, MaterialError
 from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
 from ssilang.kernel.elements.family import ElementFamily, Layout, StrainOperator
@@ -23,7 +24,6 @@ from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
 from ssilang.kernel.fields.cell_field import CellField, Support
 from ssilang.kernel.materials.elasticity import check_isotropic
 from ssilang.kernel.materials.model import Model, Zone
-from ssilang.kernel.mesh.nodes import FloatArray
 
 STRESSES = ("SMXX", "SMXY", "SMXZ")
 STRAINS = ("EPXX", "GAXY", "GAXZ")

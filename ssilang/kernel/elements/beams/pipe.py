@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.elements.beams.beam import Beam
 from ssilang.kernel.elements.beams.beam_frame import Section, beam_frame
 from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.fields.cell_field import CellFieldBlock
 from ssilang.kernel.materials.model import Zone
-from ssilang.kernel.mesh.nodes import FloatArray
 
 
 def pipe_parameters(zone: Zone, parameters: ZoneField) -> ZoneField:

@@ -12,6 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.beams.beam import keep, to_global
 from ssilang.kernel.elements.beams.beam_frame import beam_frame
@@ -22,7 +23,6 @@ from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.materials.model import Mode, Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices
-from ssilang.kernel.mesh.nodes import FloatArray
 
 TRANSLATIONS = ("UX", "UY", "UZ")
 _OF_REVOLUTION = ("UR", "UT", "UZ")

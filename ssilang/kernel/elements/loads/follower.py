@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements.boundary import face_rule
 from ssilang.kernel.elements.shapes.reference import shape_functions, shape_gradients
@@ -18,7 +19,6 @@ from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Mode, Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices, dual_of
-from ssilang.kernel.mesh.nodes import FloatArray
 
 REVOLUTION = (Mode.AXISYMMETRIC, Mode.FOURIER)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements.beams.beam_frame import beam_frame
 from ssilang.kernel.elements.catalog import ELEMENTS
@@ -14,7 +15,6 @@ from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.matrices.matrix import dual_of
-from ssilang.kernel.mesh.nodes import FloatArray
 
 LINES = ("beam", "timoshenko", "bar")
 

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import FieldError, MeshError
 from ssilang.kernel.elements.beams.pipe import pressure_forces
 from ssilang.kernel.elements.boundary import (
@@ -29,7 +30,7 @@ from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.mesh.boundary import contour, envelope
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray, NodeTable
+from ssilang.kernel.mesh.nodes import NodeTable
 
 
 def total(table: NodeTable, fields: Iterable[NodeField]) -> NodeField:

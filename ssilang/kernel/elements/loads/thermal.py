@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError, MaterialError
 from ssilang.kernel.elements.beams.fibre_section import section_of_beam
 from ssilang.kernel.elements.catalog import ELEMENTS, SOLID_FAMILIES, support_rule
@@ -15,7 +16,6 @@ from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Zone
-from ssilang.kernel.mesh.nodes import FloatArray
 
 
 def temperature(zone: Zone, field: NodeField | CellField, name: str = "T") -> FloatArray:

@@ -11,7 +11,7 @@ from ssilang.kernel.elements.results.tensors import components_at_home
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.fields.cell_field import CellField, Support
-from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.materials.model import Zone
 
 # force, distance that makes a stress of it, section constant

@@ -14,7 +14,7 @@ from ssilang.kernel.elements.results.tensors import as_components, tensor
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
-from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.materials.model import Zone
 
 

@@ -24,7 +24,7 @@ from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.materials.model import Mode, Zone
 
 LINES = ("beam", "timoshenko", "pipe", "bar")

@@ -13,7 +13,8 @@ from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray, NodeTable
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.materials.model import Model, Zone
 
 

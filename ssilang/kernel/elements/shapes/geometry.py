@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements.shapes.polygons import SIDES, consistent
 from ssilang.kernel.elements.shapes.quadrature import Rule
 from ssilang.kernel.elements.shapes.reference import shape_functions, shape_gradients
-from ssilang.kernel.mesh.nodes import FloatArray
 
 CHUNK = 512
 """Cells treated at once: the working arrays of a chunk then stay in the cache."""

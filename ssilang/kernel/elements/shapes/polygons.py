@@ -12,8 +12,8 @@ from functools import cache
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.mesh.cells import POLYGON_SIDES
-from ssilang.kernel.mesh.nodes import FloatArray
 
 SIDES = POLYGON_SIDES
 

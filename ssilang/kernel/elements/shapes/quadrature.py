@@ -8,7 +8,7 @@ from functools import cache
 
 import numpy as np
 
-from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.base.arrays import FloatArray
 
 
 @dataclass(frozen=True, eq=False)

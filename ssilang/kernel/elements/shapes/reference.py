@@ -12,13 +12,13 @@ from functools import cache
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.elements.shapes.polygons import (
     SIDES,
     polygon_functions,
     polygon_gradients,
     regular_polygon,
 )
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,8 +10,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.elements.shapes.reference import shape_gradients
-from ssilang.kernel.mesh.nodes import FloatArray
 
 
 def _second(L: FloatArray, powers: tuple[int, int, int]) -> FloatArray:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MaterialError, MeshError
 from ssilang.kernel.elements.catalog import support_rule
 from ssilang.kernel.elements.family import (
@@ -21,7 +22,6 @@ from ssilang.kernel.elements.solids.solid import circumference
 from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.fields.cell_field import Support
 from ssilang.kernel.materials.model import Mode, Zone
-from ssilang.kernel.mesh.nodes import FloatArray
 
 REVOLUTION = (Mode.AXISYMMETRIC, Mode.FOURIER)
 _ROWS = {"plane": (0, 1, 3, 4), Mode.AXISYMMETRIC: (0, 1, 3, 4), Mode.FOURIER: tuple(range(6))}

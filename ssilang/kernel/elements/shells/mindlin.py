@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements.catalog import support_rule
 from ssilang.kernel.elements.family import (
@@ -28,7 +29,6 @@ from ssilang.kernel.elements.shells.shell_section import (
 from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.fields.cell_field import Support
 from ssilang.kernel.materials.model import Zone
-from ssilang.kernel.mesh.nodes import FloatArray
 
 
 def quadrangle_frames(zone: Zone, cells: slice = slice(None)) -> tuple[FloatArray, FloatArray]:

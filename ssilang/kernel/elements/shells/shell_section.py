@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS, shape_gradients
 from ssilang.kernel.elements.solids.solid_moduli import symmetry_of
@@ -11,7 +12,6 @@ from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.fields.cell_field import Support
 from ssilang.kernel.materials.elasticity import check_isotropic
 from ssilang.kernel.materials.model import Zone
-from ssilang.kernel.mesh.nodes import FloatArray
 
 DRILLING = 1e-5
 """Stiffness of the rotation about the normal, relative to the bending stiffness of the section."""

@@ -24,6 +24,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.elements.catalog import support_rule
 from ssilang.kernel.elements.family import (
@@ -42,7 +43,6 @@ from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.fields.cell_field import Support
 from ssilang.kernel.materials.elasticity import check_isotropic, rotated_moduli
 from ssilang.kernel.materials.model import Mode, Zone
-from ssilang.kernel.mesh.nodes import FloatArray
 
 _KINEMATICS = SOLID_KINEMATICS[Mode.THREE_DIMENSIONAL]
 _HELD = 7

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.family import node_major_layout
 from ssilang.kernel.elements.results.tensors import as_components, as_tensor, components_at_home
@@ -30,7 +31,6 @@ from ssilang.kernel.elements.zone_fields import ZoneField, n_points, zone_field
 from ssilang.kernel.fields.cell_field import CellField, Support
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Mode, Zone
-from ssilang.kernel.mesh.nodes import FloatArray
 
 
 def transformation(zone: Zone, flat: FloatArray, of_displacement: bool) -> FloatArray:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.family import node_major_layout
 from ssilang.kernel.elements.shapes.geometry import chunks
@@ -11,7 +12,6 @@ from ssilang.kernel.elements.solids.kinematics import harmonic
 from ssilang.kernel.elements.solids.solid import REVOLUTION, kinematics, radius, zone_geometry
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Mode, Zone
-from ssilang.kernel.mesh.nodes import FloatArray
 
 
 def gradient_names(zone: Zone) -> tuple[str, ...]:

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.elements.family import per_cell
 from ssilang.kernel.elements.shapes.geometry import chunks
 from ssilang.kernel.elements.solids.solid import Solid, coordinates, kinematics, zone_geometry
 from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.materials.model import Zone
-from ssilang.kernel.mesh.nodes import FloatArray
 
 HOURGLASS = 0.05
 """Share of the usual stiffness that hourglass motions keep."""

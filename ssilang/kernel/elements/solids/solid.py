@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements.catalog import support_rule
 from ssilang.kernel.elements.family import (
@@ -32,7 +33,6 @@ from ssilang.kernel.elements.solids.solid_moduli import solid_moduli
 from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.fields.cell_field import Support
 from ssilang.kernel.materials.model import Mode, Zone
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 MANY_TERMS = 2_000_000
 """Terms of element matrices from which a compiled sum pays for loading the compiler."""

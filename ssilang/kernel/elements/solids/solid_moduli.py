@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.fields.cell_field import Support
@@ -20,7 +21,6 @@ from ssilang.kernel.materials.elasticity import (
     strain_rotation,
 )
 from ssilang.kernel.materials.model import Mode, Zone
-from ssilang.kernel.mesh.nodes import FloatArray
 
 
 def _isotropic(parameters: ZoneField, support: Support) -> tuple[FloatArray, FloatArray]:

@@ -11,11 +11,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.base.compiled.cache import compiled_fast
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.compiled.compiler import compiled_fast
 from ssilang.kernel.elements.shapes.quadrature import Rule
 from ssilang.kernel.elements.shapes.reference import shape_gradients
 from ssilang.kernel.elements.solids.kinematics import SolidKinematics
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 
 def gradient_moduli(kinematics: SolidKinematics, moduli: FloatArray) -> FloatArray:

@@ -6,12 +6,13 @@ from collections.abc import Callable
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.cells import CELL_TYPES, CellType
 from ssilang.kernel.mesh.changes.degree import quadratic
 from ssilang.kernel.mesh.combine import union
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
-from ssilang.kernel.mesh.nodes import IntArray, NodeTable
+from ssilang.kernel.mesh.nodes import NodeTable
 
 COMPLETE = {
     "TRI6": "TRI7",

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
-from ssilang.kernel.mesh.nodes import IntArray
 
 
 def cut_open(surface: Mesh, line: Mesh) -> tuple[Mesh, Mesh]:

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.kernel.mesh.combine import union
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
-from ssilang.kernel.mesh.nodes import IntArray
 
 QUADRATIC = {
     "SEG2": "SEG3",

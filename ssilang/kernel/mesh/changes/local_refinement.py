@@ -14,10 +14,11 @@ from itertools import pairwise, product
 import numpy as np
 from numpy.typing import NDArray
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.cells import CELL_TYPES, many_noded
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray, NodeTable
+from ssilang.kernel.mesh.nodes import NodeTable
 
 TIE = "SURE"
 """Cells of this family hold a hanging node, then the nodes that it follows."""

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.kernel.mesh.changes.degree import middle_places
 from ssilang.kernel.mesh.combine import take, union
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
-from ssilang.kernel.mesh.nodes import IntArray, NodeTable
+from ssilang.kernel.mesh.nodes import NodeTable
 
 
 def merge_close(nodes: NodeTable, ids: IntArray, tolerance: float) -> int:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import IntArray
 from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
-from ssilang.kernel.mesh.nodes import IntArray
 
 # the two ways of cutting a quadrangle: along corners 1-3 and along corners 2-4
 _LINEAR = (((0, 1, 2), (0, 2, 3)), ((0, 1, 3), (1, 2, 3)))

@@ -8,10 +8,11 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.generators.sweep import corresponding_nodes, rotate
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray, NodeTable
+from ssilang.kernel.mesh.nodes import NodeTable
 
 # positions (m, 3) -> positions (m, 3)
 PointMap = Callable[[FloatArray], FloatArray]

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.changes.degree import linear, quadratic
 from ssilang.kernel.mesh.combine import take, union
 from ssilang.kernel.mesh.lines.lines import line_chain
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 _CONES = {"POI1": "SEG2", "SEG2": "TRI3", "TRI3": "TET4", "QUA4": "PYR5"}
 

@@ -9,13 +9,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.boundary import contour
 from ssilang.kernel.mesh.changes.split import split_quadrangles
 from ssilang.kernel.mesh.combine import union
 from ssilang.kernel.mesh.lines.subdivision import Subdivision, subdivide
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray, NodeTable
+from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.mesh.orientation import reversed_line
 
 BoolArray = NDArray[np.bool_]

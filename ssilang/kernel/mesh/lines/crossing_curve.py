@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MeshError
-from ssilang.kernel.mesh.nodes import FloatArray
 
 Gap = Callable[[FloatArray], FloatArray]
 """Positions (m, 3) -> signed distances (m,) to a surface."""

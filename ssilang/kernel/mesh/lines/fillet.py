@@ -6,12 +6,12 @@ import math
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.lines.curves import Arc
 from ssilang.kernel.mesh.lines.lines import chain_mesh, line_chain, mesh_curve
 from ssilang.kernel.mesh.lines.subdivision import subdivide
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 
 def fillet(

@@ -6,9 +6,9 @@ import itertools
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.kernel.mesh.mesh import CellBlock
-from ssilang.kernel.mesh.nodes import FloatArray
 
 
 def smallest_lengths(block: CellBlock) -> FloatArray:

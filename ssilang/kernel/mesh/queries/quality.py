@@ -7,7 +7,7 @@ from math import factorial
 
 import numpy as np
 
-from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.base.arrays import FloatArray
 
 TINY = 1e-300
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import IntArray
 from ssilang.kernel.mesh.changes.degree import middle_places
 from ssilang.kernel.mesh.combine import cell_keys, poi1, take
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
-from ssilang.kernel.mesh.nodes import IntArray
 
 
 def repeated_cells(mesh: Mesh) -> Mesh:

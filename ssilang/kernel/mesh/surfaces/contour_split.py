@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.boundary import chained
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.kernel.mesh.nodes import IntArray
 
 
 def split_contour(contour: Mesh, first: Mesh, second: Mesh) -> tuple[Mesh, Mesh, Mesh]:

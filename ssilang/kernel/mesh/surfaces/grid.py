@@ -6,10 +6,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.lines.lines import line_chain
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.mesh.orientation import reversed_line
 from ssilang.kernel.mesh.surfaces.charts import Chart
 

@@ -6,7 +6,7 @@ from collections import deque
 
 import numpy as np
 
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 
 MOST_SIDES = 12
 FLATTEST = 0.05

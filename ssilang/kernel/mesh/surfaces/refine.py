@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.boundary import contour
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.mesh.surfaces.charts import plane_chart
 from ssilang.kernel.mesh.surfaces.fill import SizeField, fill_contour
 from ssilang.kernel.mesh.surfaces.surface import contour_cells, contour_chart_data

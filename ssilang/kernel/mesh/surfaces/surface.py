@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.boundary import chained, in_one_sense
 from ssilang.kernel.mesh.cells import POLYGON_SIDES
 from ssilang.kernel.mesh.changes.degree import quadratic
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.mesh.surfaces.charts import Chart
 from ssilang.kernel.mesh.surfaces.fill import (
     SizeField,

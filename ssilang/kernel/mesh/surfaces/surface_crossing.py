@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.mesh.queries.select import segment_distance
 from ssilang.kernel.mesh.surfaces.triangle_crossing import crossing_segments
 from ssilang.kernel.mesh.surfaces.triangulate import recover_segments

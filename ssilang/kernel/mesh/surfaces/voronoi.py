@@ -13,8 +13,8 @@ from itertools import combinations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.mesh.queries.select import crossing_inside, segment_distance
 
 OUTSIDE = -1

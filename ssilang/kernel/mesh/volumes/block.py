@@ -6,10 +6,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.changes.degree import linear, quadratic
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 
 def fill_block(faces: Sequence[Mesh], colour: int = 0) -> Mesh:

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 _CLEARANCE = 0.003  # wanted height over a face's plane in the lifted space, in squared sizes
 _LEAST = 1e-6  # clearance below which rounding could undo the result

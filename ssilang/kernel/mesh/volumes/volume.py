@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.changes.degree import quadratic
 from ssilang.kernel.mesh.combine import union
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.mesh.volumes.tetrahedralize import ray_inside, tetrahedralize
 
 _HEIGHTS = (0.35, 0.2, 0.1)  # of the pyramids, in sides of their base, tried in turn

@@ -17,7 +17,7 @@ import sys
 import numpy as np
 
 from ssilang.kernel.base.compiled.apart import apart
-from ssilang.kernel.base.compiled.cache import compiled
+from ssilang.kernel.base.compiled.compiler import compiled
 
 
 @apart

@@ -7,9 +7,10 @@ import itertools
 import numpy as np
 import pytest
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.kernel.mesh.nodes import FloatArray, NodeTable
+from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.mesh.surfaces.surface_crossing import crossed
 from ssilang.kernel.mesh.surfaces.triangle_crossing import crossing_segments
 
