@@ -138,12 +138,13 @@ def _run(options: argparse.Namespace) -> int:
     from ssilang.language.say.diagnostics import render
     from ssilang.language.say.errors import SsiError
     from ssilang.language.text.source import Source
+    from ssilang.language.text.source_files import read_source
 
     try:
         if options.file == "-":
             source = Source.decode("standard input", sys.stdin.buffer.read())
         else:
-            source = Source.read(Path(options.file))
+            source = read_source(Path(options.file))
     except SsiError as error:
         sys.stderr.write(render(error, options.lang) + "\n")
         return USAGE

@@ -22,6 +22,7 @@ from ssilang.language.say.errors import SeveralErrors, SsiError
 from ssilang.language.say.reference import find_page, page_text
 from ssilang.language.text import tree
 from ssilang.language.text.source import Source
+from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
 from ssilang.language.values import Mot, type_of
 from ssilang.operators.dispatch import LISTINGS
@@ -196,7 +197,7 @@ class Repl:
         if not path:
             self._say("file", name="%run")
             return True
-        return self._guarded(lambda: execute(self.session, Source.read(Path(path))))
+        return self._guarded(lambda: execute(self.session, read_source(Path(path))))
 
 
 def start(options: RunOptions) -> int:

@@ -69,10 +69,12 @@ def workspace(session: Session) -> Workspace:
 
 
 def open_session(session: Session) -> Session:
-    """Give a session its workspace and load all operators."""
+    """Give a session its evaluator and its workspace, and load all operators."""
+    from ssilang.language.run.evaluator import Evaluator
     from ssilang.operators.loader import load_operators
 
     load_operators()
+    Evaluator(session)
     made = Workspace()
     session.workspace = made
     session.make_point = made.point

@@ -42,10 +42,11 @@ def _behind_condition(items: Sequence[tree.Item]) -> tree.Item | None:
 
 
 class Evaluator(PhraseRunner):
-    """Executes the nodes of parsed scripts in a session."""
+    """Executes the nodes of parsed scripts in a session, whose evaluator it is from now on."""
 
     def __init__(self, session: Session) -> None:
         super().__init__(session)
+        session.evaluator = self
         self.statement_count = 0
         self._compiled: dict[tree.Statement | tree.Paren, Value | None] = {}
         self._cut_short: set[tree.Statement] = set()  # conditions warned of

@@ -3,16 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-from ssilang.language.text.source import Source
+from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
 from ssilang.language.text.tree import Definition
 from ssilang.language.values import Procedure
 from ssilang.resources import resource
-
-if TYPE_CHECKING:
-    from ssilang.language.run.session import Session
 
 _SUFFIXES = (".ssi", ".procedur", ".dgibi")
 
@@ -23,10 +19,16 @@ def standard_procedures() -> dict[str, Path]:
 
 
 class Library:
-    """Finds and loads procedures on first mention of their name."""
+    """Finds and loads procedures on first mention of their name.
 
-    def __init__(self, session: Session) -> None:
-        self._session = session
+    Parameters
+    ----------
+    folder : Path
+        Folder of the script, searched for names that begin with @.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
         self._loaded: dict[str, Procedure | None] = {}
         self._standard = standard_procedures()
 
@@ -54,13 +56,13 @@ class Library:
         if name.startswith("@"):
             for suffix in _SUFFIXES:
                 for stem in (name, name.lower()):
-                    path = self._session.script_directory / (stem + suffix)
+                    path = self._folder / (stem + suffix)
                     if path.is_file():
                         return path
         return self._standard.get(name)
 
     def _load(self, path: Path) -> None:
         origin = "stdlib" if path in self._standard.values() else str(path)
-        for node in parse(Source.read(path)).body:
+        for node in parse(read_source(path)).body:
             if isinstance(node, Definition):
                 self._loaded[node.name] = Procedure(node.name, node, origin)

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from ssilang.language.run.call import Call
 from ssilang.language.run.jumps import LeaveProcedure
 from ssilang.language.run.scopes import Frame
+from ssilang.language.run.session import Runner
 from ssilang.language.say.errors import Interrupted, SsiError, interruption
 from ssilang.language.text.printer import heading
+from ssilang.language.text.tree import Parameter
 from ssilang.language.values import ANNULE, Objet, Procedure, Table, type_of
-
-if TYPE_CHECKING:
-    from ssilang.language.run.call import Call
-    from ssilang.language.run.phrases import PhraseRunner
-    from ssilang.language.text.tree import Parameter
 
 
 class BoundMethod(Procedure):
@@ -32,7 +30,7 @@ def method_of(holder: Objet, name: str) -> BoundMethod | None:
     return None if found is None else BoundMethod(found, holder)
 
 
-def call_procedure(evaluator: PhraseRunner, procedure: Procedure, call: Call) -> list[Any]:
+def call_procedure(evaluator: Runner, procedure: Procedure, call: Call) -> list[Any]:
     """Run a procedure on the operands of a phrase; returns its results in order.
 
     Raises
@@ -41,7 +39,7 @@ def call_procedure(evaluator: PhraseRunner, procedure: Procedure, call: Call) ->
         'missing-argument' for a mandatory argument, 'recursion' past the limit, or whatever its
         statements raise, with the chain of calls.
     """
-    session = evaluator.session
+    session = call.session
     caller = session.frame
     limit = session.limits.recursion
     if caller.depth >= limit:

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
-from ssilang.language.values import ANNULE, Mot
-
-if TYPE_CHECKING:
-    from ssilang.language.run.call import Call
-    from ssilang.language.values import Objet
+from ssilang.language.text.source import Span
+from ssilang.language.values import ANNULE, Mot, Objet
 
 PREDEFINED: dict[str, Any] = {
     "VRAI": True,
@@ -22,6 +19,16 @@ PREDEFINED: dict[str, Any] = {
 _MISSING = object()
 
 
+class Unread(Protocol):
+    """Operands of a running phrase that nothing has read yet (a `Call`)."""
+
+    operands: list[Any]
+    span: Span
+
+    def read(self, *types: str, after: int = -1) -> Any:
+        """Take the first operand of one of the types, None if there is none."""
+
+
 class Frame:
     """Variables of a running procedure (or of the script), over those of its caller.
 
@@ -32,7 +39,7 @@ class Frame:
     __slots__ = ("caller", "depth", "object", "pending", "procedure", "results", "variables")
 
     def __init__(
-        self, caller: Frame | None = None, procedure: str = "", pending: Call | None = None
+        self, caller: Frame | None = None, procedure: str = "", pending: Unread | None = None
     ) -> None:
         self.variables: dict[str, Any] = {}
         self.caller = caller

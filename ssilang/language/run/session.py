@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Protocol, TextIO
@@ -12,6 +12,8 @@ from typing import Any, Protocol, TextIO
 from ssilang.language.run.library import Library
 from ssilang.language.run.scopes import PREDEFINED, Frame
 from ssilang.language.say.errors import ReaderLeft, SsiError
+from ssilang.language.text import tree
+from ssilang.language.text.source import Span
 
 
 @dataclass
@@ -33,6 +35,31 @@ class LoopObserver(Protocol):
 
     def leave(self) -> None:
         """The innermost loop ends."""
+
+
+class Runner(Protocol):
+    """What runs the statements of a session: its `Evaluator`."""
+
+    current_span: Span | None
+    statement_count: int
+
+    def run(self, nodes: Sequence[tree.Node]) -> None:
+        """Run nodes in order."""
+
+    def run_top(self, nodes: Sequence[tree.Node]) -> None:
+        """Run nodes that stand outside of any procedure."""
+
+    def values_of(self, statement: tree.Statement) -> list[Any]:
+        """Results of a statement without names on its left, or the object it names."""
+
+    def operands_of(self, items: Sequence[tree.Item]) -> list[Any]:
+        """Operands of items: names replaced by their objects, parentheses run."""
+
+    def refuse_leftovers(self, left: Sequence[Any], taken: Sequence[Any] = ()) -> None:
+        """Raise the error for operands that nothing read, if there are any."""
+
+    def guarded(self, action: Callable[[], Any], span: Span, name: str) -> Any:
+        """Run what an operator does; whatever it raises becomes an error of the script."""
 
 
 @dataclass
@@ -84,16 +111,14 @@ class Session:
     integrate: Any = None  # integrates in time instead of the kernel, for runs that go together
     given: dict[str, Any] = field(default_factory=dict)  # replaces a name's first assignment
     started: float = field(default_factory=time.perf_counter)
+    evaluator: Runner = field(init=False)  # puts itself here
 
     def __post_init__(self) -> None:
-        from ssilang.language.run.evaluator import Evaluator
-
         self.root = Frame()
         for name, value in PREDEFINED.items():
             self.root.assign(name, value)
         self.frame = self.root
-        self.library = Library(self)
-        self.evaluator = Evaluator(self)
+        self.library = Library(self.script_directory)
 
     def print(self, text: str = "") -> None:
         """Print a line of results."""

@@ -18,7 +18,7 @@ from ssilang.language.registry import (
     find_operator,
     operators_by_family,
 )
-from ssilang.language.text.source import Source
+from ssilang.language.text.source_files import read_source
 
 WIDTH = 88
 
@@ -64,7 +64,7 @@ def procedure_page(path: Path) -> Page:
     The head has a first line `* NAME : title`, indented lines of syntax, a paragraph that begins
     with `EN`, one with `FR`, and `Example :` followed by statements.
     """
-    head = _head(Source.read(path).text)
+    head = _head(read_source(path).text)
     title = head[0].split(":", 1)[1].strip() if head and ":" in head[0] else ""
     title = re.sub(r"\s*\(see also.*", "", title)
     parts: dict[str, list[str]] = {"syntax": [], "EN": [], "FR": [], "example": []}

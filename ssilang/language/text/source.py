@@ -8,8 +8,6 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 
-from ssilang.language.say.errors import SsiError
-
 # strings, so that what stands in them is passed over, and the ends of statements
 STATEMENT_END = re.compile(r"'(?:[^']|'')*'|;", re.DOTALL)
 # comment lines, and the lines that separate the procedures of a library file
@@ -23,21 +21,6 @@ class Source:
     name: str
     text: str
     path: Path | None = None
-
-    @classmethod
-    def read(cls, path: Path) -> Source:
-        """Read a file, UTF-8 or else Latin-1.
-
-        Raises
-        ------
-        SsiError
-            'missing-file' if it cannot be read.
-        """
-        try:
-            data = path.read_bytes()
-        except OSError as error:
-            raise SsiError("missing-file", None, path=str(path), reason=error.strerror) from None
-        return cls.decode(str(path), data, path)
 
     @classmethod
     def decode(cls, name: str, data: bytes, path: Path | None = None) -> Source:

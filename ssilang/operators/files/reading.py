@@ -18,7 +18,7 @@ from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.language.run.call import Call
-from ssilang.language.text.source import Source
+from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
 from ssilang.language.text.tree import Definition
 from ssilang.language.values import ListReel, Mot, Procedure, Table
@@ -87,7 +87,7 @@ def _proc(call: Call, word: str) -> None:
     name = call.required("MOT", after=call.keyword_end)
     path = input_path(call, name)
     wanted = (call.word() or "").strip().upper()
-    script = parse(Source.read(path))
+    script = parse(read_source(path))
     frame = call.session.frame
     found = {n.name: n for n in script.body if isinstance(n, Definition)}
     if not found and wanted:

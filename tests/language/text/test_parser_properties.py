@@ -11,6 +11,7 @@ from ssilang.language.say.diagnostics import render
 from ssilang.language.say.errors import SeveralErrors
 from ssilang.language.text.printer import print_script, same_tree
 from ssilang.language.text.source import Source
+from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
 
 _SECONDS = 2.0  # for a text of a few hundred characters; a loop without end would pass it
@@ -62,7 +63,7 @@ def test_any_text_parses_or_is_explained(text):
 def test_any_bytes_are_read(tmp_path_factory, data):
     path = tmp_path_factory.mktemp("bytes") / "deck.dgibi"
     path.write_bytes(data)
-    parse_or_explain(Source.read(path).text)
+    parse_or_explain(read_source(path).text)
 
 
 # ---- scripts that are right, printed and parsed again ------------------------------------------

@@ -12,6 +12,7 @@ from ssilang.language.text.by_grammar import parse_by_grammar, words_of_grammar
 from ssilang.language.text.parser import quick_reader
 from ssilang.language.text.reader import Unsound
 from ssilang.language.text.source import Source, Span
+from ssilang.language.text.source_files import read_source
 from ssilang.language.text.words import grammar_words
 
 _ROOT = Path(__file__).resolve().parents[3]
@@ -43,7 +44,7 @@ def quick(source):
 
 @pytest.mark.parametrize("path", _FILES, ids=lambda p: p.name)
 def test_decks_give_the_grammars_tree(path):
-    source = Source.read(path)
+    source = read_source(path)
     text = source.code
     if not text.rstrip().endswith(";"):
         source = Source(source.name, source.text + "\n;")
