@@ -16,9 +16,8 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.arrays import ComplexArray, FloatArray
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.elements.catalog import ELEMENTS, ElementKind, register_element
@@ -28,8 +27,6 @@ from ssilang.kernel.elements.solids.kinematics import NODE_ROTATIONS, NODE_TRANS
 from ssilang.kernel.elements.strainless import StrainlessFamily
 from ssilang.kernel.elements.zone_fields import ZoneField, missing_parameter
 from ssilang.kernel.materials.model import Mode, Zone
-
-ComplexArray = NDArray[np.complex128]
 
 LAWS = ("ELASTIQUE", "VOIGT", "REUSS", "COMPLEXE")
 """Words that follow IMPEDANCE."""

@@ -9,8 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ssilang.kernel.base.arrays import ComplexArray
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.fields.node_field import NodeField
@@ -19,7 +19,6 @@ from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.modal.modes import unit_translations
 from ssilang.kernel.modal.reduced import ReducedProblem, reduced_problem
 
-ComplexArray = NDArray[np.complex128]
 DENSE = 300  # unknowns up to which all eigenvalues are computed
 
 

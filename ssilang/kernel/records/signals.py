@@ -5,10 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.arrays import ComplexArray, FloatArray
 from ssilang.kernel.base.errors import FieldError
-
-ComplexArray = NDArray[np.complex128]
 
 
 def constant_step(x: FloatArray) -> float:

@@ -5,12 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.arrays import ComplexArray, FloatArray
 from ssilang.kernel.base.errors import MaterialError
-
-ComplexArray = NDArray[np.complex128]
 
 #: steps a period of the cut-off frequency, in the refined times
 STEPS_A_PERIOD = 40

@@ -10,9 +10,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import (
     ConvergenceError,
     KernelError,
@@ -46,7 +45,6 @@ from ssilang.kernel.statics.linear_motion import (
     rigid_motions,
 )
 
-BoolArray = NDArray[np.bool_]
 BALANCED = 1e-7  # work of the loads on a free motion (of norms 1) taken for rounding
 MET = 1e-7  # mismatch of a redundant condition, relative to the largest displacement
 

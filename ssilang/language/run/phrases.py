@@ -83,7 +83,9 @@ class PhraseRunner(OperandReader):
             if isinstance(operand.value, Procedure):
                 del call.operands[i]
                 call.span = operand.span
-                self._push(call, call_procedure(self.session.evaluator, operand.value, call), operand.span)
+                self._push(
+                    call, call_procedure(self.session.evaluator, operand.value, call), operand.span
+                )
                 continue
             found = None
             if not operand.result or len(call.operands) > 1:

@@ -7,9 +7,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.boundary import contour
 from ssilang.kernel.mesh.changes.split import split_quadrangles
@@ -19,7 +18,6 @@ from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.mesh.orientation import reversed_line
 
-BoolArray = NDArray[np.bool_]
 # base positions (m, 3) and one fraction of the way -> moved positions (m, 3)
 Motion = Callable[[FloatArray, float], FloatArray]
 

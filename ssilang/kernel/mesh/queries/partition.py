@@ -5,13 +5,11 @@ from __future__ import annotations
 from itertools import combinations
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 
-BoolArray = NDArray[np.bool_]
 _WIDTH = 4  # corners of the largest side of a cell
 
 

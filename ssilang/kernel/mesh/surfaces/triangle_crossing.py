@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
-
-BoolArray = NDArray[np.bool_]
+from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 
 FLAT = 1e-10
 """Distances below this share of the largest triangle's size count as none (rounding of 1e-16
