@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.cells import CELL_TYPES, POLYGON_SIDES
-from ssilang.kernel.mesh.combine import BoolArray
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 
 

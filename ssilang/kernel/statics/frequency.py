@@ -13,12 +13,12 @@ from typing import Any
 import numpy as np
 import scipy.sparse as sp
 
-from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.arrays import ComplexArray, FloatArray
 from ssilang.kernel.base.errors import FieldError, KernelError, SingularMatrixError
 from ssilang.kernel.curves.curve import Load
 from ssilang.kernel.dynamics.loading import MECHANICAL, terms_of
 from ssilang.kernel.elements.family import element_matrices
-from ssilang.kernel.elements.springs import ComplexArray, dynamic_stiffness
+from ssilang.kernel.elements.springs import dynamic_stiffness
 from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Zone

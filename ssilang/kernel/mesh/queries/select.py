@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.changes.split import tetrahedra
-from ssilang.kernel.mesh.combine import BoolArray, take
+from ssilang.kernel.mesh.combine import take
 from ssilang.kernel.mesh.lines.lines import line_chain
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ssilang.io.errors import OutputError
-from ssilang.io.plots.bars import draw_bars
 from ssilang.io.plots.figure import drawing, head
-from ssilang.io.plots.line import Line
-from ssilang.io.plots.line_style import DASHES, LineStyle
+from ssilang.io.plots.graphs.bars import draw_bars
+from ssilang.io.plots.graphs.line import Line
+from ssilang.io.plots.graphs.line_style import DASHES, LineStyle
 from ssilang.io.plots.markup import to_mathtext
 from ssilang.io.plots.palette import CYCLE, index_of, shade
 from ssilang.kernel.curves.curve import Curve, CurvePart

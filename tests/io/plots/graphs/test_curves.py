@@ -10,9 +10,9 @@ import pytest
 from matplotlib.colors import to_hex
 
 from ssilang.io.errors import OutputError
-from ssilang.io.plots.curves import CurveOptions, draw_curves
 from ssilang.io.plots.figure import Pictures, slug
-from ssilang.io.plots.line_style import parse_style
+from ssilang.io.plots.graphs.curves import CurveOptions, draw_curves
+from ssilang.io.plots.graphs.line_style import parse_style
 from ssilang.io.plots.markup import to_mathtext
 from ssilang.io.plots.palette import shade
 from ssilang.kernel.curves.curve import Curve, CurvePart

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.io.plots.line_style import LineStyle
+from ssilang.io.plots.graphs.line_style import LineStyle
 
 
 @dataclass(frozen=True)
