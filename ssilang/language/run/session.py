@@ -1,4 +1,8 @@
-"""A session: everything that one run of scripts shares. There is no other global state."""
+"""A session: everything that one run of scripts shares.
+
+There is no other global state that a run changes, but for factors of matrices that a process may
+keep from run to run (`kernel.solvers.backends.keep_factors`) and that change no answer.
+"""
 
 from __future__ import annotations
 

@@ -154,6 +154,55 @@ def test_functions_apart_are_kept_compiled_when_called_and_can_fail_or_stop(tmp_
     assert (shown[0][-1], shown[1][-1]) == ("0", "1")
 
 
+PLAIN = """
+import numpy as np
+import program
+
+from ssilang.kernel.base.compiled import PLAIN
+from ssilang.kernel.base.compiled.apart import Apart
+from ssilang.kernel.base.compiled.compiler import compiled
+from ssilang.kernel.solvers.dense import factorise_dense, solve_factors_together
+
+assert isinstance(factorise_dense, Apart) is not PLAIN
+assert isinstance(program.halve, Apart) is not PLAIN
+
+
+@compiled
+def solved(A, pivots, X):
+    # elimination of 40 unknowns, then two right sides: functions apart called by a compiled one
+    if not factorise_dense(A, pivots):
+        raise ValueError("singular")
+    solve_factors_together(A, pivots, X)
+
+
+random = np.random.default_rng(5)
+A, X = random.normal(size=(40, 40)), random.normal(size=(40, 2))
+solved(A.copy(), np.zeros(40, np.int64), found := X.copy())
+assert np.allclose(A @ found, X)
+print([float(x).hex() for x in found.ravel()])
+print(program.halve(np.array([8.0, 16.0]), 2))
+"""
+
+
+def test_plain_numba_gives_the_same_without_functions_apart_and_kept_code(tmp_path):
+    (tmp_path / "program.py").write_text(PROGRAM)
+    (tmp_path / "run.py").write_text(PLAIN)
+    given = {k: v for k, v in os.environ.items() if k != "NUMBA_CACHE_DIR"}
+    given |= {"PYTHONPATH": os.pathsep.join(sys.path)}
+    shown = {}
+    for plain in ("0", "1"):
+        folder = {"XDG_CACHE_HOME": str(tmp_path / plain), "SSILANG_PLAIN_NUMBA": plain}
+        made = subprocess.run(
+            [sys.executable, "run.py"], capture_output=True, text=True, cwd=tmp_path,
+            env=given | folder, check=False,
+        )  # fmt: skip
+        assert made.returncode == 0, made.stderr
+        shown[plain] = made.stdout.splitlines()
+    assert shown["0"] == shown["1"]
+    assert (tmp_path / "0").exists()
+    assert not (tmp_path / "1").exists()
+
+
 ROCKING = """
 OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;
 T = MAILLER 'SOL' 12. 4. 'SEMELLE' 4. 1. 'TAILLE' 1. 2. ;
