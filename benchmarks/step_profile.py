@@ -16,7 +16,7 @@ from collections.abc import Callable
 import numpy as np
 from uplift_openseespy import DT, inputs_of, make_case
 
-from ssilang.kernel.compiled import compiled_fast
+from ssilang.kernel.base.compiled.compiler import compiled_fast
 from ssilang.kernel.dynamics.effective import effective_matrix, effective_of
 from ssilang.kernel.dynamics.integrate import Integration
 from ssilang.kernel.dynamics.interleaved_loop import InterleavedLoop

@@ -15,13 +15,14 @@ from typing import Any, TextIO
 from ssilang.cli.colour import coloured
 from ssilang.cli.loop_progress import follow_loops
 from ssilang.cli.signals import ENDED_BY_CLOSED_PIPE, take
-from ssilang.language.diagnostics import render
-from ssilang.language.errors import ReaderLeft, SeveralErrors, SsiError, interruption
-from ssilang.language.jumps import StopRun
-from ssilang.language.session import Limits, Session
-from ssilang.language.source import Source
-from ssilang.language.structure import parse
-from ssilang.language.tree import first_assignments
+from ssilang.language.run.jumps import StopRun
+from ssilang.language.run.session import Limits, Session
+from ssilang.language.say.diagnostics import render
+from ssilang.language.say.errors import ReaderLeft, SeveralErrors, SsiError, interruption
+from ssilang.language.text.source import Source
+from ssilang.language.text.source_files import read_source
+from ssilang.language.text.structure import parse
+from ssilang.language.text.tree import first_assignments
 from ssilang.language.values import Mot
 
 
@@ -199,7 +200,7 @@ def run_file(path: Path | str, options: RunOptions | None = None) -> RunResult:
     """Run a script file, keeping what it prints in the result."""
     out = io.StringIO()
     try:
-        source = Source.read(Path(path))
+        source = read_source(Path(path))
     except SsiError as error:
         text = render(error)
         return RunResult(1, Session(), errors=[error], message=text)

@@ -9,9 +9,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ssilang.cli.check import check_source
-from ssilang.language.diagnostics import is_warning, render
 from ssilang.language.registry import OPERATORS
-from ssilang.language.source import Source
+from ssilang.language.say.diagnostics import is_warning, render
+from ssilang.language.text.source import Source
+from ssilang.language.text.source_files import read_source
 from ssilang.operators.loader import load_operators
 
 _ROOT = Path(__file__).resolve().parents[2]
@@ -139,7 +140,7 @@ def test_raises_no_false_alarm(text):
     ids=lambda p: p.name,
 )
 def test_sound_decks_pass(path):
-    assert errors(Source.read(path)) == []
+    assert errors(read_source(path)) == []
 
 
 _WORDS = "PROG DIME DROI A B T P1 'X' ( ) ; = . % + - * EGA ET SI FINSI REPE FIN QUIT 1 2. VRAI"

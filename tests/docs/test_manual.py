@@ -11,10 +11,10 @@ import pytest
 from ssilang.cli.check import check_source
 from ssilang.cli.run import run_text
 from ssilang.language.cast3m import IN_SCOPE, cast3m_words, find_cast3m_word
-from ssilang.language.diagnostics import is_warning
-from ssilang.language.library import standard_procedures
 from ssilang.language.registry import OPERATORS
-from ssilang.language.source import Source
+from ssilang.language.run.library import standard_procedures
+from ssilang.language.say.diagnostics import is_warning
+from ssilang.language.text.source import Source
 
 _DOCS = Path(__file__).resolve().parents[2] / "docs"
 

@@ -5,8 +5,8 @@ import io
 import pytest
 
 from ssilang.cli.run import RunOptions, execute, make_session
-from ssilang.language.errors import SsiError
-from ssilang.language.source import Source
+from ssilang.language.say.errors import SsiError
+from ssilang.language.text.source import Source
 
 OBJECTS = """
 OPTI 'DIME' 3 'ELEM' 'CUB8' 'MODE' 'TRID' ; DENS 0.5 ;

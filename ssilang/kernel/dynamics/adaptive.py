@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.dynamics.compiled_loop import N_ENERGIES, Motion, Saved
 from ssilang.kernel.dynamics.contact import BoolArray
 from ssilang.kernel.dynamics.effective import effective_matrix, effective_of
@@ -15,7 +16,6 @@ from ssilang.kernel.dynamics.impact import ImpactRule
 from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.dynamics.sparse_loop import SparseLoop, StepSolver
 from ssilang.kernel.dynamics.step_solvers import step_solver
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 DEEPEST = 5
 

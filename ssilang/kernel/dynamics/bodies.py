@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse.csgraph import connected_components
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.joints.family import displacement_names
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.sparse import sp
 
 ROUNDING = 1e-9  # stiffness against a translation, relative to the diagonal
 FREE = 1e-12  # share of the free motions in an unknown that is not fixed; less is rounding

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.dynamics.compiled_loop import (
     DAMPED,
     ELASTIC,
@@ -32,7 +33,6 @@ from ssilang.kernel.joints.response import (
     interface_forces,
     interface_stiffness,
 )
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 TOLERANCE = 1e-14
 ACCEPTED = 1e-11

@@ -19,10 +19,10 @@ from typing import Protocol
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.dynamics.contact import BoolArray, ContactRows
 from ssilang.kernel.dynamics.contact_options import ContactOptions
 from ssilang.kernel.dynamics.effective import Effective
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.solvers.contact_methods import METHODS
 
 TOLERANCE = 1e-14

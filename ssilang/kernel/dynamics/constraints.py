@@ -10,11 +10,11 @@ from typing import Protocol
 
 import numpy as np
 
-from ssilang.kernel.errors import KernelError
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import KernelError
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.matrices.assembly import ConstraintRows, Numbering
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.solvers.elimination import eliminate
-from ssilang.kernel.sparse import sp
 
 
 class Constraints(Protocol):

@@ -13,10 +13,10 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.dynamics.friction import FrictionRows
 from ssilang.kernel.matrices.assembly import ConstraintRows
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.sparse import sp
 
 BoolArray = NDArray[np.bool_]
 TOUCHING = 1e-12  # of the largest gap or displacement: closed at the start

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.dynamics.compiled_loop import Motion, Saved
 from ssilang.kernel.dynamics.contact import BoolArray, ContactRows
 from ssilang.kernel.dynamics.contact_march import (
@@ -20,7 +21,6 @@ from ssilang.kernel.dynamics.impact import MASSLESS
 from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.dynamics.reduced_loop import reactions, supports_are_still
 from ssilang.kernel.dynamics.small_loop import Modes, modes_of
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 MOST = 400
 """Motions that supports leave, up to which all modes are made and steps are compiled."""

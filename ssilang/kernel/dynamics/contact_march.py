@@ -17,9 +17,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ssilang.kernel.compiled import compiled_fast, compiled_fused
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.compiled.compiler import compiled_fast, compiled_fused
 from ssilang.kernel.dynamics.compiled_loop import DAMPED, ELASTIC, EXTERNAL, KINETIC
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 ALL_AT_ONCE = 20  # turns that may change several rows; later ones change a single row
 ROUNDING = 1e-12  # of the largest reaction or gap

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.dynamics.compiled_loop import Motion
 from ssilang.kernel.dynamics.contact import BoolArray, ContactRows
 from ssilang.kernel.dynamics.contact_options import ContactOptions
@@ -21,7 +22,6 @@ from ssilang.kernel.dynamics.effective import Effective
 from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.dynamics.sparse_loop import StepOutcome
 from ssilang.kernel.joints.response import interface_response, interface_stiffness
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.solvers.complementarity import ContactProblem, solve_contact
 from ssilang.kernel.solvers.contact_methods import METHODS
 from ssilang.kernel.solvers.coulomb import CoulombProblem, solve_coulomb

@@ -12,13 +12,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import KernelError
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.dynamics.compiled_loop import Motion
 from ssilang.kernel.dynamics.constraints import constraints_of
 from ssilang.kernel.dynamics.contact import BoolArray
 from ssilang.kernel.dynamics.engines import RenewableEngine, renewable_kind
 from ssilang.kernel.dynamics.loading import Loading
 from ssilang.kernel.dynamics.problem import Problem
-from ssilang.kernel.errors import KernelError
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import (
     ConstraintRows,
@@ -30,8 +32,6 @@ from ssilang.kernel.matrices.assembly import (
     outside,
 )
 from ssilang.kernel.matrices.matrix import Matrix
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.sparse import sp
 
 
 @dataclass(frozen=True, eq=False)

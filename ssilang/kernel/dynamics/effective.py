@@ -16,13 +16,13 @@ from functools import cached_property
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import SingularMatrixError
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.dynamics.constraints import Constraints
 from ssilang.kernel.dynamics.problem import SMALL, Problem
-from ssilang.kernel.errors import SingularMatrixError
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.solvers.backends import DISSECTION, Ordering
 from ssilang.kernel.solvers.inverse import Inverse, invert
-from ssilang.kernel.sparse import sp
 from ssilang.kernel.statics.linear_motion import describe_motions
 
 COLUMNS = 64  # right-hand sides solved together

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import cast
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.dynamics.adaptive import AdaptiveLoop
 from ssilang.kernel.dynamics.compiled_loop import Motion, Saved, march
 from ssilang.kernel.dynamics.conserving import ConservingLoop
@@ -17,8 +19,6 @@ from ssilang.kernel.dynamics.reduced_loop import ReducedLoop, supports_are_still
 from ssilang.kernel.dynamics.small_loop import SmallLoop, modes_of
 from ssilang.kernel.dynamics.sparse_loop import SparseLoop, StepSolver
 from ssilang.kernel.dynamics.step_solvers import step_solver
-from ssilang.kernel.errors import KernelError
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 
 class ConservingEngine:

@@ -12,11 +12,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.contact.friction import Friction
 from ssilang.kernel.matrices.assembly import Numbering, constraint_matrix
 from ssilang.kernel.matrices.matrix import Matrix
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.sparse import sp
 
 BoolArray = NDArray[np.bool_]
 STICKING = 1e-9

@@ -12,13 +12,13 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.dynamics.compiled_loop import Motion
 from ssilang.kernel.dynamics.contact import BoolArray, ContactRows
 from ssilang.kernel.dynamics.effective import Effective
 from ssilang.kernel.dynamics.problem import Problem
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.solvers.inverse import invert
-from ssilang.kernel.sparse import sp
 
 CORRECTIONS = ("FAUX", "MASSE", "RIGIDITE")
 MASSLESS = 1e-10

@@ -6,15 +6,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import ConvergenceError, KernelError
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.dynamics.contact import TOUCHING, BoolArray, ContactRows
 from ssilang.kernel.dynamics.problem import Problem
-from ssilang.kernel.errors import ConvergenceError, KernelError
 from ssilang.kernel.joints.laws import respond
 from ssilang.kernel.joints.response import interface_energies, interface_forces, local_jumps
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.solvers.complementarity import ContactProblem, solve_contact
 from ssilang.kernel.solvers.coulomb import CoulombProblem, solve_coulomb
-from ssilang.kernel.sparse import sp
 
 
 @dataclass(eq=False)

@@ -8,6 +8,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import ConvergenceError
 from ssilang.kernel.dynamics.bodies import full_uplift
 from ssilang.kernel.dynamics.compiled_loop import N_ENERGIES, Motion, Saved
 from ssilang.kernel.dynamics.driven import Drive, Driver
@@ -25,8 +27,6 @@ from ssilang.kernel.dynamics.plan import SAME, Run, runs_of
 from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.dynamics.reduction import Reduction
 from ssilang.kernel.dynamics.snapshot import Observer, Snapshot
-from ssilang.kernel.errors import ConvergenceError
-from ssilang.kernel.mesh.nodes import FloatArray
 
 CHUNK_VALUES = 4_000_000  # saved values held at once
 CHUNK_SECONDS = 0.5  # wished duration of a chunk of steps: progress and interruption

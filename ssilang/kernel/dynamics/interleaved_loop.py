@@ -7,6 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.dynamics.compiled_loop import Joints, Motion, Saved
 from ssilang.kernel.dynamics.dense_loop import joints_of
 from ssilang.kernel.dynamics.effective import Effective, RootResponse
@@ -22,10 +24,8 @@ from ssilang.kernel.dynamics.moving_supports import MOST, Columns, Course, Movin
 from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.dynamics.rayleigh import split_damping
 from ssilang.kernel.joints.condensed_cached import workspace
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.solvers.dissected import DissectedFactor
 from ssilang.kernel.solvers.triangular import longest
-from ssilang.kernel.sparse import sp
 
 BRANCH = 64_000  # numbers of a branch of the factor: half of a megabyte, the cache of a core
 BLOCK = 64  # steps between two evaluations of the equilibrium from the displacements

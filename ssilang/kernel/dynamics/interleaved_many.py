@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.compiled import compiled
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.dynamics.compiled_loop import Joints
 from ssilang.kernel.dynamics.interleaved_march import (
     Flow,
@@ -24,7 +25,6 @@ from ssilang.kernel.dynamics.interleaved_march import (
 from ssilang.kernel.dynamics.springs_march import Ends
 from ssilang.kernel.joints.arrays import copy_state
 from ssilang.kernel.joints.condensed_cached import Workspace
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.solvers.multifrontal import Panels
 from ssilang.kernel.solvers.triangular_together import FOUR, backward_many, forward_many
 

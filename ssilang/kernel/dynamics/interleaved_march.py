@@ -28,8 +28,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ssilang.kernel.apart import apart
-from ssilang.kernel.compiled import compiled, compiled_fast
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.compiled.apart import apart
+from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
 from ssilang.kernel.dynamics.compiled_loop import (
     DAMPED,
     ELASTIC,
@@ -42,7 +43,6 @@ from ssilang.kernel.dynamics.compiled_loop import (
 from ssilang.kernel.joints.arrays import copy_rows, copy_state
 from ssilang.kernel.joints.condensed_cached import Workspace, iterate_cached
 from ssilang.kernel.joints.response import interface_energies
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.solvers.multifrontal import Panels
 from ssilang.kernel.solvers.triangular import backward, forward
 

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.dynamics.compiled_loop import Motion, Saved
 from ssilang.kernel.dynamics.effective import Effective
 from ssilang.kernel.dynamics.interleaved_loop import BLOCK, InterleavedLoop, PreparedBlock, fits
@@ -18,7 +19,6 @@ from ssilang.kernel.dynamics.sharing import LoadBasis
 from ssilang.kernel.dynamics.snapshot import Instants
 from ssilang.kernel.dynamics.springs_march import Ends
 from ssilang.kernel.joints.condensed_cached import Workspace
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 Outcome = tuple[int, int, float]
 Rooms = Sequence[Callable[[int], tuple[Saved, Instants]]]

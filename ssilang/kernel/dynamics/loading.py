@@ -6,8 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ssilang.kernel.curve import Load, LoadPart
-from ssilang.kernel.errors import FieldError
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import FieldError
+from ssilang.kernel.curves.curve import Load, LoadPart
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import (
     Numbering,
@@ -15,7 +16,6 @@ from ssilang.kernel.matrices.assembly import (
     imposed_values,
     outside,
 )
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 MECHANICAL = ("", "MECA", "FORC", "DIMP")
 

@@ -10,7 +10,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ssilang.kernel.compiled import compiled_fast
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.compiled.compiler import compiled_fast
 from ssilang.kernel.dynamics.compiled_loop import (
     DAMPED,
     ELASTIC,
@@ -24,7 +25,6 @@ from ssilang.kernel.dynamics.compiled_loop import (
 from ssilang.kernel.joints.arrays import copy_rows, copy_state
 from ssilang.kernel.joints.condensed_cached import iterate_cached, solve_known
 from ssilang.kernel.joints.response import interface_energies
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 BLOCK = 128  # coordinates whose rows of Jt stay in the nearest cache
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.errors import SingularMatrixError
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import SingularMatrixError
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.solvers.inverse import invert
-from ssilang.kernel.sparse import sp
 
 
 def without_contact_mass(M: sp.csr_array, K: sp.csr_array, G: sp.csr_array) -> sp.csr_array:

@@ -16,10 +16,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.dynamics.compiled_loop import DAMPED, ELASTIC, EXTERNAL, KINETIC, Motion
 from ssilang.kernel.dynamics.problem import Problem
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.sparse import sp
 
 MOST = 24  # curves of imposed values: each is three loads more
 ALLOWED = 1e-12  # rounding errors of a motion that the supports allow

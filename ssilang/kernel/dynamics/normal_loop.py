@@ -20,7 +20,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ssilang.kernel.compiled import compiled_fast
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.compiled.compiler import compiled_fast
 from ssilang.kernel.dynamics.compiled_loop import (
     DAMPED,
     ELASTIC,
@@ -33,7 +34,6 @@ from ssilang.kernel.dynamics.modal_loop import Modal, ModalRows, ModalStep, add_
 from ssilang.kernel.joints.arrays import copy_rows, copy_state
 from ssilang.kernel.joints.columns import XI
 from ssilang.kernel.joints.condensed import largest
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 BLOCK = 64  # coordinates whose rows of J and Jt stay in the nearest cache
 ALL_AT_ONCE = 20  # turns of a step that change all springs with the wrong sign

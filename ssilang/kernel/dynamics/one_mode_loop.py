@@ -16,7 +16,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ssilang.kernel.compiled import compiled, compiled_fused
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.compiled.compiler import compiled, compiled_fused
 from ssilang.kernel.dynamics.compiled_loop import (
     DAMPED,
     ELASTIC,
@@ -35,7 +36,6 @@ from ssilang.kernel.dynamics.scalar_loop import (
 )
 from ssilang.kernel.joints.arrays import copy_rows
 from ssilang.kernel.joints.sdm_law import normal_energy, opening_loss
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 STIFFEST = 10.0  # angle (rad) of a step beyond which rounding shows in the acceleration's form
 

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.errors import KernelError
-from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import KernelError
 
 SAME = 1e-9  # relative difference of steps that share a factor: rounding of a list of times
 

@@ -6,8 +6,11 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import FieldError, KernelError
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.contact.friction import Friction
-from ssilang.kernel.curve import Load
+from ssilang.kernel.curves.curve import Load
 from ssilang.kernel.dynamics.constraints import Constraints, check_values, constraints_of
 from ssilang.kernel.dynamics.contact import ContactRows, split_rows, with_friction
 from ssilang.kernel.dynamics.contact_options import ContactOptions
@@ -16,7 +19,6 @@ from ssilang.kernel.dynamics.loading import Loading, loading_of
 from ssilang.kernel.dynamics.modified_mass import without_contact_mass
 from ssilang.kernel.dynamics.scheme import Scheme
 from ssilang.kernel.elements.families import stiffness as zone_stiffness
-from ssilang.kernel.errors import FieldError, KernelError
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.joints.family import JointFamily, rotational_stiffness
@@ -29,6 +31,7 @@ from ssilang.kernel.joints.interface import (
     without_zones,
 )
 from ssilang.kernel.joints.law_table import law_of
+from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.matrices.assembly import (
     Numbering,
     assemble,
@@ -37,9 +40,6 @@ from ssilang.kernel.matrices.assembly import (
     numbering_of,
 )
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.model import Model, Zone
-from ssilang.kernel.sparse import sp
 
 SMALL = 160
 """Motions that supports leave, up to which dense matrices and the compiled loop are used."""

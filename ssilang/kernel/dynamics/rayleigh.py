@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.sparse import sp
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.sparse import sp
 
 TURNS = 30
 ROUNDING = 1e-13  # of the size of a term: what is left below it is none

@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.dynamics.compiled_loop import Joints, Motion
 from ssilang.kernel.dynamics.modal_loop import ModalRows
 from ssilang.kernel.dynamics.moving_supports import Course, Start
@@ -18,7 +19,6 @@ from ssilang.kernel.dynamics.reduced_march import (
     reduced_step,
 )
 from ssilang.kernel.dynamics.reduction import ReducedModel
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 
 class Given(NamedTuple):

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.dynamics.compiled_loop import (
     Joints,
     Motion,
@@ -19,7 +20,6 @@ from ssilang.kernel.dynamics.compiled_loop import (
 from ssilang.kernel.dynamics.dense_loop import joints_of
 from ssilang.kernel.dynamics.effective import Effective
 from ssilang.kernel.dynamics.problem import Problem
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 
 def supports_are_still(problem: Problem) -> bool:

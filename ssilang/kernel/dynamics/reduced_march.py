@@ -17,7 +17,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ssilang.kernel.compiled import compiled_fast
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.compiled.compiler import compiled_fast
 from ssilang.kernel.dynamics.compiled_loop import (
     DAMPED,
     ELASTIC,
@@ -31,7 +32,6 @@ from ssilang.kernel.dynamics.compiled_loop import (
 from ssilang.kernel.dynamics.modal_loop import BLOCK, ModalRows, add_jumps, next_load
 from ssilang.kernel.joints.condensed_cached import iterate_cached, solve_known
 from ssilang.kernel.joints.response import interface_energies
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 
 class Reduced(NamedTuple):

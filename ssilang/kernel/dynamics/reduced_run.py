@@ -19,6 +19,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import IntArray
+from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.dynamics.integrate import History, Integration, Progress, integrate
 from ssilang.kernel.dynamics.motion import snapshot_of
 from ssilang.kernel.dynamics.problem import Problem
@@ -31,9 +33,7 @@ from ssilang.kernel.dynamics.reduction import (
     refuse_reduction,
 )
 from ssilang.kernel.dynamics.snapshot import Observer, Snapshot
-from ssilang.kernel.errors import KernelError
 from ssilang.kernel.joints.response import interface_forces
-from ssilang.kernel.mesh.nodes import IntArray
 
 INSTANTS = 64  # at which whole fields are compared
 GROWTH = 1.2  # a basis is compared with one that is this much smaller, or more

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.dynamics.compiled_loop import Motion
 from ssilang.kernel.dynamics.moving_supports import MOST, Columns, MovingSupports
 from ssilang.kernel.dynamics.problem import Problem
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.sparse import sp
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.dynamics.compiled_loop import N_ENERGIES, Joints, Motion
 from ssilang.kernel.dynamics.initial import (
     admissible_velocity,
@@ -19,7 +20,6 @@ from ssilang.kernel.dynamics.plan import SAME, Run, runs_of
 from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.dynamics.reduced_damped import DampedTrace, Given
 from ssilang.kernel.dynamics.reduction import ReducedModel
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 SPARSER = 8  # velocities and accelerations at one of so many of them
 CHUNK, LONGEST = 256, 4096  # steps to the first comparison, between the last ones

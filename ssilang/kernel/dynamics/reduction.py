@@ -17,6 +17,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import KernelError
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.dynamics.initial import (
     admissible_velocity,
     initial_acceleration,
@@ -25,10 +28,7 @@ from ssilang.kernel.dynamics.initial import (
 from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.dynamics.reduced_damping import States, split
 from ssilang.kernel.dynamics.reduced_supports import ReducedSupports, reduced_supports
-from ssilang.kernel.errors import KernelError
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.solvers.inverse import Inverse, invert
-from ssilang.kernel.sparse import sp
 
 DEPENDENT = 1e-12
 """Squared length, of one, below which what is left of a vector is rounding: it is dropped."""

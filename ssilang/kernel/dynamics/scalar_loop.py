@@ -16,7 +16,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ssilang.kernel.compiled import compiled_fast
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.compiled.compiler import compiled_fast
 from ssilang.kernel.dynamics.compiled_loop import (
     DAMPED,
     ELASTIC,
@@ -26,7 +27,6 @@ from ssilang.kernel.dynamics.compiled_loop import (
     STORED,
 )
 from ssilang.kernel.joints.sdm_law import normal_energy, normal_law, opening_loss
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 MOST_TURNS = 60
 CLOSE = 1e-15  # of the jump: last change of the iteration on softening

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ssilang.kernel.errors import KernelError
+from ssilang.kernel.base.errors import KernelError
 
 
 @dataclass(frozen=True)

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.joints.interface import Interface
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.sparse import sp
 
 
 def share_model(a: Problem, b: Problem) -> bool:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.dynamics.compiled_loop import Joints, Motion, Saved
 from ssilang.kernel.dynamics.dense_loop import joints_of
 from ssilang.kernel.dynamics.effective import Effective
@@ -23,7 +24,6 @@ from ssilang.kernel.dynamics.scalar_loop import Line, LineRows, LineState, Sprin
 from ssilang.kernel.joints.columns import DAMAGE, FC, FU, GF, KN, KS1, KS2, XI
 from ssilang.kernel.joints.law_table import SDM
 from ssilang.kernel.joints.response import interface_forces
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 DIAGONAL = 1e-13  # of the step's matrix: damping off the diagonal that rounding leaves
 NOTHING = 1e-14  # of the largest: a part of a mode that is rounding

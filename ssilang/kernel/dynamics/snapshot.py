@@ -9,12 +9,12 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.joints.interface import interface_field, state_field
 from ssilang.kernel.matrices.assembly import vector_to_field
-from ssilang.kernel.mesh.nodes import FloatArray
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,6 +10,8 @@ from typing import Protocol
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.dynamics.compiled_loop import (
     DAMPED,
     ELASTIC,
@@ -26,8 +28,6 @@ from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.joints.condensed_cached import Workspace, iterate_cached, workspace
 from ssilang.kernel.joints.interface import Interface
 from ssilang.kernel.joints.response import interface_energies
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.sparse import sp
 
 NOTHING = np.zeros(0)
 

@@ -10,7 +10,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ssilang.kernel.compiled import compiled_fast
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.compiled.compiler import compiled_fast
 from ssilang.kernel.dynamics.compiled_loop import (
     DAMPED,
     ELASTIC,
@@ -20,7 +21,6 @@ from ssilang.kernel.dynamics.compiled_loop import (
 )
 from ssilang.kernel.dynamics.modal_loop import Modal, ModalStep, next_load
 from ssilang.kernel.dynamics.normal_loop import Contact, anew, list_closed, settle
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 
 class SpringMotions(NamedTuple):

@@ -8,6 +8,7 @@ from functools import cached_property, partial
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.dynamics.compiled_loop import N_ENERGIES, Joints, Motion
 from ssilang.kernel.dynamics.dense_loop import joints_of
 from ssilang.kernel.dynamics.effective import Effective
@@ -20,7 +21,6 @@ from ssilang.kernel.dynamics.snapshot import Instants, Snapshot
 from ssilang.kernel.dynamics.springs_march import Ends, SpringMotions, SpringRows, march_springs
 from ssilang.kernel.joints.columns import KN, XI
 from ssilang.kernel.joints.response import interface_forces
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 Outcome = tuple[int, int, float]
 

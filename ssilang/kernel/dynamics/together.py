@@ -16,6 +16,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.dynamics.compiled_loop import N_ENERGIES, Saved
 from ssilang.kernel.dynamics.effective import effective_matrix, effective_of
 from ssilang.kernel.dynamics.engines import DenseEngine, InterleavedEngine, kind_of
@@ -33,7 +34,6 @@ from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.dynamics.sharing import grouped
 from ssilang.kernel.dynamics.snapshot import Instants, Observer, Snapshot
 from ssilang.kernel.dynamics.springs_together import springs_together
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 
 class Engine(Protocol):

@@ -6,14 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements.catalog import BODY_FAMILIES, ELEMENTS
-from ssilang.kernel.elements.geometry import SurfaceGeometry, surface_geometry
-from ssilang.kernel.elements.quadrature import Rule, quadrature
-from ssilang.kernel.elements.reference import REFERENCE_CELLS
-from ssilang.kernel.errors import MeshError
+from ssilang.kernel.elements.shapes.geometry import SurfaceGeometry, surface_geometry
+from ssilang.kernel.elements.shapes.quadrature import Rule, quadrature
+from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS
+from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.mesh.mesh import CellBlock
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.model import Mode, Model, Zone
 
 # points that integrate two shape functions of the face times a linear field
 _POINTS = {"POI1": 1, "SEG2": 2, "SEG3": 3, "TRI3": 7, "TRI6": 7, "QUA4": 4, "QUA8": 9}

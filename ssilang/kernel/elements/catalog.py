@@ -10,12 +10,12 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ssilang.kernel.elements.polygons import SIDES
-from ssilang.kernel.elements.quadrature import Rule, quadrature
-from ssilang.kernel.elements.reference import REFERENCE_CELLS, ReferenceCell
-from ssilang.kernel.errors import MeshError
+from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.elements.shapes.polygons import SIDES
+from ssilang.kernel.elements.shapes.quadrature import Rule, quadrature
+from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS, ReferenceCell
 from ssilang.kernel.fields.cell_field import Support
-from ssilang.kernel.model import Mode
+from ssilang.kernel.materials.model import Mode
 
 PLANE_MODES = (Mode.PLANE_STRAIN, Mode.PLANE_STRESS, Mode.GENERALISED_PLANE_STRAIN)
 SECTION_MODES = (*PLANE_MODES, Mode.AXISYMMETRIC, Mode.FOURIER)

@@ -16,20 +16,17 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ssilang.kernel.curve import Curve, CurvePart
+from ssilang.kernel.base.arrays import ComplexArray, FloatArray
+from ssilang.kernel.base.errors import MaterialError
+from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.elements.catalog import ELEMENTS, ElementKind, register_element
 from ssilang.kernel.elements.families import register_family
 from ssilang.kernel.elements.family import Layout
-from ssilang.kernel.elements.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
+from ssilang.kernel.elements.solids.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
 from ssilang.kernel.elements.strainless import StrainlessFamily
 from ssilang.kernel.elements.zone_fields import ZoneField, missing_parameter
-from ssilang.kernel.errors import MaterialError
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.model import Mode, Zone
-
-ComplexArray = NDArray[np.complex128]
+from ssilang.kernel.materials.model import Mode, Zone
 
 LAWS = ("ELASTIQUE", "VOIGT", "REUSS", "COMPLEXE")
 """Words that follow IMPEDANCE."""

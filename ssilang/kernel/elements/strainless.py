@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.family import ElementFamily, StrainOperator
 from ssilang.kernel.elements.zone_fields import ZoneField
-from ssilang.kernel.errors import FieldError
 from ssilang.kernel.fields.cell_field import Support
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.model import Zone
+from ssilang.kernel.materials.model import Zone
 
 
 class StrainlessFamily(ElementFamily):

@@ -10,13 +10,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import FieldError, MaterialError
 from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
-from ssilang.kernel.elements.reference import REFERENCE_CELLS, shape_functions
-from ssilang.kernel.errors import FieldError, MaterialError
+from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS, shape_functions
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
+from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.mesh.mesh import CellBlock
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.model import Zone
 
 
 def cell_keys(cells: CellBlock) -> NDArray[np.void]:

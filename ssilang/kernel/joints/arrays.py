@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ssilang.kernel.compiled import compiled
-from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.compiled.compiler import compiled
 
 
 @compiled

@@ -11,11 +11,11 @@ rounding errors.
 
 from __future__ import annotations
 
-from ssilang.kernel.apart import apart
-from ssilang.kernel.compiled import compiled
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.compiled.apart import apart
+from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.joints.columns import CLOSED_SHEAR, FROT, FU, HELD, OPEN_SHEAR, SHEAR
 from ssilang.kernel.joints.response import interface_response, interface_stiffness
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 TOLERANCE = 1e-12  # of the largest jump or increment: what double precision leaves
 PLAIN_TURNS = 12  # turns without line search

@@ -10,8 +10,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ssilang.kernel.apart import apart
-from ssilang.kernel.compiled import compiled
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.compiled.apart import apart
+from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.joints.arrays import copy_rows
 from ssilang.kernel.joints.condensed import (
     ACCEPTED,
@@ -25,7 +26,6 @@ from ssilang.kernel.joints.condensed import (
 )
 from ssilang.kernel.joints.response import interface_response, interface_stiffness
 from ssilang.kernel.joints.updated import UPDATES, apply_inverse, is_few, update_point
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.solvers.dense import (
     factorise_dense,
     solve_factors,

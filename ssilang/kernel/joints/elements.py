@@ -9,16 +9,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements.catalog import (
     FRAME_MODES,
     PLANE_MODES,
     ElementKind,
     register_element,
 )
-from ssilang.kernel.errors import MeshError
 from ssilang.kernel.fields.cell_field import Support
 from ssilang.kernel.joints.integration import GAUSS, NODAL_WEIGHTS
-from ssilang.kernel.model import Mode, Zone
+from ssilang.kernel.materials.model import Mode, Zone
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.elements.catalog import support_rule
 from ssilang.kernel.elements.families import register_family
 from ssilang.kernel.elements.family import (
@@ -19,16 +20,15 @@ from ssilang.kernel.elements.family import (
     element_matrices,
     node_major_layout,
 )
-from ssilang.kernel.elements.reference import shape_functions
+from ssilang.kernel.elements.shapes.reference import shape_functions
 from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
 from ssilang.kernel.fields.cell_field import CellField, Support
 from ssilang.kernel.joints.elements import joint_element
 from ssilang.kernel.joints.kinematics import JointCells, joint_cells, point_values
 from ssilang.kernel.joints.law_table import elastic_tangent, law_of, rocking_stiffness
 from ssilang.kernel.joints.table import joint_parameters
+from ssilang.kernel.materials.model import Mode, Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.model import Mode, Zone
 
 _SPRINGS = {2: (("QS",),), 3: (("QN",), ("QS1", "QS"), ("QS2", "QS"))}
 _CURVATURES = {2: ("CXZ",), 3: ("CXX", "CXY", "CXZ")}

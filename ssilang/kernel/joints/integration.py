@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.elements.quadrature import Rule, quadrature
-from ssilang.kernel.elements.reference import REFERENCE_CELLS
-from ssilang.kernel.errors import MaterialError
+from ssilang.kernel.base.errors import MaterialError
+from ssilang.kernel.elements.shapes.quadrature import Rule, quadrature
+from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS
 
 GAUSS = {"SEG2": 2, "SEG3": 3, "TRI3": 3, "TRI6": 7, "QUA4": 4, "QUA8": 9}
 """Points by face: no jump is without stiffness."""

@@ -11,8 +11,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import FieldError, MaterialError
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.elements.zone_fields import zone_field
-from ssilang.kernel.errors import FieldError, MaterialError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.joints.columns import N_STATE, OPENING, SLIP2, XI
 from ssilang.kernel.joints.elements import is_joint
@@ -22,11 +24,9 @@ from ssilang.kernel.joints.law_table import elastic_tangent, law_of, rocking_sti
 from ssilang.kernel.joints.parameters import Parameter
 from ssilang.kernel.joints.point_state import energies_of_points, point_states
 from ssilang.kernel.joints.table import joint_parameters
+from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.matrices.assembly import Numbering
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.model import Model, Zone
-from ssilang.kernel.sparse import sp
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,13 +14,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.elements.reference import shape_functions, shape_gradients
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import MaterialError, MeshError
+from ssilang.kernel.elements.shapes.reference import shape_functions, shape_gradients
 from ssilang.kernel.elements.zone_fields import ZoneField
-from ssilang.kernel.errors import MaterialError, MeshError
 from ssilang.kernel.joints.elements import JointElement, joint_element
 from ssilang.kernel.joints.integration import face_rule
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.model import Mode, Zone
+from ssilang.kernel.materials.model import Mode, Zone
 
 
 @dataclass(frozen=True, eq=False)

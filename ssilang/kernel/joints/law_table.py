@@ -7,7 +7,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ssilang.kernel.errors import MaterialError
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.joints.columns import CUMULATED, DAMAGE, OPENING, SLIP1, SLIP2, STATUS, XI
 from ssilang.kernel.joints.parameters import (
     Parameter,
@@ -15,7 +16,6 @@ from ssilang.kernel.joints.parameters import (
     check_mohr_parameters,
     check_sdm_parameters,
 )
-from ssilang.kernel.mesh.nodes import FloatArray
 
 ELASTIC, SDM, MOHR = 0, 1, 2
 

@@ -9,14 +9,14 @@ To add a law: write it, give it a code in `law_table.LAWS` and a line in `point_
 
 from __future__ import annotations
 
-from ssilang.kernel.apart import apart
-from ssilang.kernel.compiled import compiled
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.compiled.apart import apart
+from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.joints.arrays import clear, copy_state
 from ssilang.kernel.joints.columns import FC, FU, GF, KN, KS1, SHEAR_ENERGY, SHEAR_LOSS, XI
 from ssilang.kernel.joints.macro_law import macro_point
 from ssilang.kernel.joints.mohr_law import mohr_energy, mohr_point
 from ssilang.kernel.joints.sdm_law import normal_energy, opening_loss, sdm_point
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 
 @compiled

@@ -15,11 +15,11 @@ import math
 
 import numpy as np
 
-from ssilang.kernel.apart import apart
-from ssilang.kernel.compiled import compiled
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.compiled.apart import apart
+from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.joints.arrays import clear, copy_state
 from ssilang.kernel.joints.columns import KN, LARG, LONG, RAYO
-from ssilang.kernel.mesh.nodes import FloatArray
 
 STRIP_CODE, DISC_CODE, SPRINGS_CODE = 3, 4, 5
 

@@ -8,12 +8,12 @@ both ends; what that leaves over stored energy counts as lost in shear.
 
 from __future__ import annotations
 
-from ssilang.kernel.compiled import compiled
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.joints.columns import FC, FU, GF, KN, SHEAR_ENERGY, SHEAR_LOSS, XI
 from ssilang.kernel.joints.laws import point_response
 from ssilang.kernel.joints.response import interface_forces, local_jumps
 from ssilang.kernel.joints.sdm_law import normal_energy, opening_loss
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 TINY = 1e-6  # step (as a share of the tractions) below which the mean of both ends is as good
 

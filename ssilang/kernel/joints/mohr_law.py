@@ -11,8 +11,9 @@ from __future__ import annotations
 
 import math
 
-from ssilang.kernel.apart import apart
-from ssilang.kernel.compiled import compiled
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.compiled.apart import apart
+from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.joints.arrays import clear, copy_state
 from ssilang.kernel.joints.columns import (
     COHE,
@@ -33,7 +34,6 @@ from ssilang.kernel.joints.columns import (
     TPSI,
     XI,
 )
-from ssilang.kernel.mesh.nodes import FloatArray
 
 
 @compiled

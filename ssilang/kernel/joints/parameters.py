@@ -6,8 +6,8 @@ from enum import IntEnum
 
 import numpy as np
 
-from ssilang.kernel.errors import MaterialError
-from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import MaterialError
 
 
 class Parameter(IntEnum):

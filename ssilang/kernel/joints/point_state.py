@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.compiled import compiled
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.joints.columns import FC, FU, GF, KN, STATUS, XI
 from ssilang.kernel.joints.law_table import MOHR, SDM, elastic_tangent
 from ssilang.kernel.joints.laws import point_energies
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 CLOSED, CLOSING, OPEN, OPENING = 1.0, 2.0, 3.0, 4.0
 """Codes of the state of a point."""

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from ssilang.kernel.apart import apart
-from ssilang.kernel.compiled import compiled
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.compiled.apart import apart
+from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.joints.laws import point_energies, respond
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 
 @compiled

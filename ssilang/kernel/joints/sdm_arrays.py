@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.base.arrays import FloatArray
 
 
 def normal_arrays(

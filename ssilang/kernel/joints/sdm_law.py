@@ -20,7 +20,8 @@ from __future__ import annotations
 
 import math
 
-from ssilang.kernel.compiled import compiled
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.joints.arrays import clear, copy_state
 from ssilang.kernel.joints.columns import (
     CLOSED_SHEAR,
@@ -40,7 +41,6 @@ from ssilang.kernel.joints.columns import (
     SYMMETRIC,
     XI,
 )
-from ssilang.kernel.mesh.nodes import FloatArray
 
 
 @compiled

@@ -7,13 +7,13 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.elements.zone_fields import ZoneField, missing_parameter
-from ssilang.kernel.errors import MaterialError
 from ssilang.kernel.joints.kinematics import JointCells, point_values
 from ssilang.kernel.joints.law_table import law_of
 from ssilang.kernel.joints.parameters import DEFAULTS, N_PARAMETERS, Parameter
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.model import Zone
+from ssilang.kernel.materials.model import Zone
 
 ELASTIC_SHEAR = "CISAILLEMENT_ELASTIQUE"
 """Word of the model for a shear that stays elastic when the joint is open (comparison only)."""

@@ -13,9 +13,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.compiled import compiled_fast
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.compiled.compiler import compiled_fast
 from ssilang.kernel.joints.arrays import clear
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 FEW = 160  # jumps up to which Y is kept
 UPDATES = 64  # between two times that Y is made anew: rounding does not grow

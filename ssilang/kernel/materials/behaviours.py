@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.elements.catalog import SOLID_FAMILIES
-from ssilang.kernel.errors import MaterialError
 from ssilang.kernel.materials.plastic.laws import CREEP_LAWS, PLASTIC_LAWS, plastic_law
 
 FORMULATIONS = ("MECANIQUE", "CHARGEMENT", "CONTACT")

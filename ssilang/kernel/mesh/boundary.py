@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 
-from ssilang.kernel.errors import MeshError
+from ssilang.kernel.base.arrays import IntArray
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
-from ssilang.kernel.mesh.nodes import IntArray
 
 
 def faces_of(mesh: Mesh, dimension: int) -> dict[str, tuple[IntArray, IntArray]]:

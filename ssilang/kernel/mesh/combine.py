@@ -7,12 +7,11 @@ from collections.abc import Callable, Iterable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.errors import MeshError
+from ssilang.kernel.base.arrays import BoolArray, IntArray
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.cells import POLYGON_SIDES
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
-from ssilang.kernel.mesh.nodes import IntArray, NodeTable
-
-BoolArray = NDArray[np.bool_]
+from ssilang.kernel.mesh.nodes import NodeTable
 
 
 def join_blocks(blocks: Sequence[CellBlock]) -> CellBlock:

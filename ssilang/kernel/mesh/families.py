@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ssilang.kernel.errors import MeshError
+from ssilang.kernel.base.errors import MeshError
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,9 +7,10 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.errors import MeshError
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.cells import CELL_TYPES, CellType
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray, NodeTable
+from ssilang.kernel.mesh.nodes import NodeTable
 
 
 @dataclass(frozen=True, eq=False)

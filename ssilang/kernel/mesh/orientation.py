@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.errors import MeshError
+from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.cells import CELL_TYPES, POLYGON_SIDES
-from ssilang.kernel.mesh.combine import BoolArray
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 
 def _polygon_flip(n: int) -> tuple[int, ...]:

@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import ConvergenceError
 from ssilang.kernel.dynamics.integrate import History
-from ssilang.kernel.errors import ConvergenceError
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.plasticity.following import Control, PathRun
 from ssilang.kernel.plasticity.run import HALVINGS, BulkRun
 

@@ -8,6 +8,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import ConvergenceError, KernelError
 from ssilang.kernel.dynamics.compiled_loop import (
     ELASTIC,
     EXTERNAL,
@@ -28,9 +30,7 @@ from ssilang.kernel.dynamics.integrate import History, Progress
 from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.dynamics.snapshot import Observer
 from ssilang.kernel.dynamics.sparse_loop import SparseLoop, StepOutcome, support_work
-from ssilang.kernel.errors import ConvergenceError, KernelError
 from ssilang.kernel.joints.response import interface_energies
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.plasticity.bulk import Bulk, State
 from ssilang.kernel.plasticity.newton import BulkSolver
 from ssilang.kernel.plasticity.snapshot import NOTHING, hand_over

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.errors import ConvergenceError
-from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import ConvergenceError
 
 BoolArray = NDArray[np.bool_]
 PENALTY = (100.0, 1e7)  # least and largest, of equilibrium against energy, in scaled unknowns

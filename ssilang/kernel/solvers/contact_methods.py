@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.errors import ConvergenceError, KernelError
-from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import ConvergenceError, KernelError
 from ssilang.kernel.solvers.complementarity import ContactProblem, solve_contact
 
 BoolArray = NDArray[np.bool_]

@@ -19,8 +19,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.errors import ConvergenceError
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import ConvergenceError
 from ssilang.kernel.solvers.complementarity import _least_squares
 
 BoolArray = NDArray[np.bool_]

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.solvers.dissection import Tree, dissection
 from ssilang.kernel.solvers.multifrontal import factorise_panels
 from ssilang.kernel.solvers.triangular import longest, solve_column, solve_columns
-from ssilang.kernel.sparse import sp
 
 MANY = 8  # right-hand sides from which BLAS solves them together
 

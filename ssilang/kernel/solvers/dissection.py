@@ -11,9 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ssilang.kernel.compiled import compiled
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.sparse import sp
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.compiled.compiler import compiled
+from ssilang.kernel.base.sparse import sp
 
 LEAF = 10  # points below which a part is not cut: more fill-in, fewer and larger supernodes
 THIN = 0.3  # axes along which a part is shorter than this of its longest are not cut

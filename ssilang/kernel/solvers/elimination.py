@@ -19,8 +19,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.sparse import sp
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.sparse import sp
 
 BoolArray = NDArray[np.bool_]
 

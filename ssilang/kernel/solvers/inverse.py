@@ -11,15 +11,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ssilang.kernel.errors import KernelError
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.solvers.backends import (
-    Factor,
-    Ordering,
-    SingularFactorError,
-    factorise,
-)
-from ssilang.kernel.sparse import sp
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import KernelError, SingularFactorError
+from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.solvers.backends import Factor, Ordering, factorise
 
 SUSPECT = 1e-9  # smallest eigenvalue (unit diagonal) below which free motions are looked for
 FREE = 1e-14  # energy below which a motion is free: some tens of rounding errors

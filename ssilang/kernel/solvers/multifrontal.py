@@ -11,13 +11,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ssilang.kernel.apart import apart
-from ssilang.kernel.compiled import compiled, compiled_fast
-from ssilang.kernel.memory import fits
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.compiled.apart import apart
+from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
+from ssilang.kernel.base.memory import fits
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.solvers.dense import subtract_from
 from ssilang.kernel.solvers.dissection import Tree
-from ssilang.kernel.sparse import sp
 
 WIDTH = 32
 BLAS_ROWS = 192  # rows of a front from which BLAS is called

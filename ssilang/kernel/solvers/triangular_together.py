@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ssilang.kernel.compiled import compiled_fast
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.compiled.compiler import compiled_fast
 from ssilang.kernel.solvers.multifrontal import WIDTH, Panels
 from ssilang.kernel.solvers.triangular import backward, forward
 

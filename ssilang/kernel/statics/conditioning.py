@@ -13,13 +13,13 @@ from typing import Any
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.dynamics.contrast import stiffness_contrast
 from ssilang.kernel.dynamics.effective import effective_matrix
 from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.joints.columns import KN
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.sparse import sp
 from ssilang.kernel.statics.linear import LinearSystem
 
 LARGEST = 20_000  # unknowns for which a factorisation of its own costs little

@@ -7,6 +7,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import ConvergenceError, SingularMatrixError
 from ssilang.kernel.dynamics.compiled_loop import ELASTIC, EXTERNAL, LOST, N_ENERGIES, STORED
 from ssilang.kernel.dynamics.effective import effective_of
 from ssilang.kernel.dynamics.initial import initial_energies, joint_state
@@ -16,9 +18,7 @@ from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.dynamics.snapshot import Observer
 from ssilang.kernel.dynamics.sparse_loop import NOTHING, StepOutcome, StepSolver, support_work
 from ssilang.kernel.dynamics.step_solvers import step_solver
-from ssilang.kernel.errors import ConvergenceError, SingularMatrixError
 from ssilang.kernel.joints.response import interface_energies
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.solvers.inverse import Inverse
 from ssilang.kernel.statics.linear_motion import describe_motions
 

@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.dynamics.plan import every
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.plasticity.bulk import stiffness_beside
 from ssilang.kernel.plasticity.points import plastic_zones
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
-from ssilang.language.session import Session
+from ssilang.language.run.call import Call
+from ssilang.language.run.session import Session
 from ssilang.language.values import Mot, Table
 from ssilang.operators.dynamics.charmeca import AddedByProcedure
 from ssilang.operators.dynamics.motion_files import csv_observer, nodes_asked, vtk_observer
@@ -71,7 +71,7 @@ KNOWN = (
 )
 def zdyn(call: Call) -> Table:
     """Read the table, integrate, hand back the saved instants."""
-    from ssilang.kernel.compiled import is_compiled
+    from ssilang.kernel.base.compiled.cache import is_compiled
     from ssilang.kernel.dynamics.problem import make_problem
 
     entries = Entries(call, call.required("TABLE"), "DYNAMIC")

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ssilang.kernel.errors import KernelError
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.language.call import Call
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import KernelError
 from ssilang.language.registry import Help, many, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListEnti, ListMots, ListObje, ListReel, type_of
 
 _REAL = ("ENTIER", "FLOTTANT")

@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
-from ssilang.language.call import Call
-from ssilang.language.library import standard_procedures
-from ssilang.language.reference import find_page, operator_page, overview, page_text, procedure_page
 from ssilang.language.registry import OPERATORS, Help, operator
+from ssilang.language.run.call import Call
+from ssilang.language.run.library import standard_procedures
+from ssilang.language.say.reference import (
+    find_page,
+    operator_page,
+    overview,
+    page_text,
+    procedure_page,
+)
 from ssilang.language.values import ListMots
 
 

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.model import Model
+from ssilang.kernel.materials.model import Model
 from ssilang.language.values import ListMots, ListReel, Mot, Table
 from ssilang.operators.dynamics.reports import report
 from ssilang.operators.modal.continuation import lengths_of

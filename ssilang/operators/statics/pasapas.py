@@ -8,20 +8,20 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.curve import Load, LoadPart
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.curves.curve import Load, LoadPart
 from ssilang.kernel.dynamics.plan import nearest
 from ssilang.kernel.elements.families import mass, stiffness
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.joints.elements import is_joint
 from ssilang.kernel.joints.law_table import law_of
+from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.model import Model, Zone
 from ssilang.kernel.plasticity.bulk import stiffness_beside, without_stiffness
 from ssilang.kernel.plasticity.points import is_plastic, plastic_zones
 from ssilang.kernel.statics.thermal_load import split_thermal
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
 from ssilang.operators.dynamics.dynamic import integrated
 from ssilang.operators.dynamics.reports import report, warn_contrast, warn_resolution, warn_supports

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.dynamics.plan import nearest
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.model import Model
-from ssilang.language.call import Call
+from ssilang.kernel.materials.model import Model
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel, Mot, Table
 from ssilang.operators.files.saving import save
 from ssilang.operators.session.user_procedures import StopCalculation, call_user

@@ -9,15 +9,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.curve import Curve, Load
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import KernelError
+from ssilang.kernel.curves.curve import Curve, Load
 from ssilang.kernel.dynamics.plan import every, nearest
-from ssilang.kernel.errors import KernelError
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.language.call import Call
-from ssilang.language.diagnostics import nearest as nearest_word
-from ssilang.language.errors import SsiError
-from ssilang.language.source import Span
+from ssilang.language.run.call import Call
+from ssilang.language.say.diagnostics import nearest as nearest_word
+from ssilang.language.say.errors import SsiError
+from ssilang.language.text.source import Span
 from ssilang.language.values import Annule, ListReel, Table, type_of
 
 

@@ -5,7 +5,7 @@ import pytest
 from references.assembled import Bench
 from references.recorder import Recorder
 
-from ssilang.kernel.curve import Load
+from ssilang.kernel.curves.curve import Load
 from ssilang.kernel.dynamics.contact_loop import takes
 from ssilang.kernel.dynamics.contact_march import Held, react
 from ssilang.kernel.dynamics.contact_options import ContactOptions

@@ -7,10 +7,10 @@ import pytest
 from references.assembled import Bench
 from references.recorder import Recorder
 
+from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.dynamics.integrate import integrate
 from ssilang.kernel.dynamics.problem import Inputs, make_problem
 from ssilang.kernel.dynamics.scheme import Scheme, hht
-from ssilang.kernel.errors import KernelError
 from ssilang.kernel.matrices.relations import Term, relation_rows
 from ssilang.kernel.statics.stepping import step_statics
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.dynamics.plan import every, nearest, runs_of
-from ssilang.kernel.errors import KernelError
 
 
 def test_runs_share_a_step_and_are_cut_at_the_longest():

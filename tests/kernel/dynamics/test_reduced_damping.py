@@ -7,13 +7,13 @@ import pytest
 from references.recorder import Recorder
 from references.soil_block import soil_block
 
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.dynamics.integrate import integrate
 from ssilang.kernel.dynamics.reduced_damping import split, square_roots
 from ssilang.kernel.dynamics.reduced_march import Reduced, reduced_step
 from ssilang.kernel.dynamics.reduced_run import _PAIRS, integrate_reduced
 from ssilang.kernel.dynamics.reduction import Basis
 from ssilang.kernel.dynamics.scheme import Scheme, generalised_alpha, hht
-from ssilang.kernel.sparse import sp
 
 RHO, YOUNG = 1900.0, 8e7  # of the soil of `soil_block`, Poisson's ratio 0.3
 VS = np.sqrt(YOUNG / 2.6 / RHO)

@@ -7,12 +7,12 @@ import pytest
 from references.recorder import Recorder
 from references.soil_block import soil_block
 
+from ssilang.kernel.base.errors import KernelError
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.dynamics.integrate import integrate
 from ssilang.kernel.dynamics.reduced_run import _PAIRS, integrate_reduced
 from ssilang.kernel.dynamics.reduction import Basis
 from ssilang.kernel.dynamics.scheme import generalised_alpha, hht
-from ssilang.kernel.errors import KernelError
-from ssilang.kernel.sparse import sp
 
 
 @pytest.fixture(autouse=True)

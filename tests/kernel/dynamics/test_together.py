@@ -8,11 +8,11 @@ from references.recorder import Recorder
 from references.rocking_beam import rocking
 from references.soil_block import FRICTION, soil_block
 
+from ssilang.kernel.base.errors import ConvergenceError
 from ssilang.kernel.dynamics import interleaved_together, together
 from ssilang.kernel.dynamics.integrate import integrate
 from ssilang.kernel.dynamics.loading import Loading
 from ssilang.kernel.dynamics.scheme import Scheme, generalised_alpha, hht
-from ssilang.kernel.errors import ConvergenceError
 
 SIZE = (16, 8, 4)
 ROUNDING = 1e-11  # sums in another order, over the steps

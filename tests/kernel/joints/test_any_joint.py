@@ -7,11 +7,11 @@ from references.assembled import Bench
 from scipy.spatial.transform import Rotation
 
 from ssilang.kernel.elements.families import stiffness
-from ssilang.kernel.elements.reference import REFERENCE_CELLS
+from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS
 from ssilang.kernel.joints.columns import N_STATE, XI
 from ssilang.kernel.joints.laws import respond
 from ssilang.kernel.joints.parameters import N_PARAMETERS, Parameter
-from ssilang.kernel.model import Mode
+from ssilang.kernel.materials.model import Mode
 
 FACES = {
     "JOI2": ("RAC2", "SEG2"),

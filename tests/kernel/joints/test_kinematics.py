@@ -5,15 +5,15 @@ import pytest
 from references.assembled import Bench
 from scipy.spatial.transform import Rotation
 
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements.families import stiffness
-from ssilang.kernel.elements.reference import REFERENCE_CELLS
+from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS
 from ssilang.kernel.elements.zone_fields import zone_field
-from ssilang.kernel.errors import MeshError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.joints.family import JointFamily
 from ssilang.kernel.joints.kinematics import joint_cells
+from ssilang.kernel.materials.model import Mode, Zone
 from ssilang.kernel.mesh.mesh import CellBlock
-from ssilang.kernel.model import Mode, Zone
 
 FACES = {
     "JOI2": ("RAC2", "SEG2", Mode.PLANE_STRAIN),

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from ssilang.kernel.errors import MaterialError
+from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.joints.columns import N_STATE, OPENING, SHEAR_LOSS, SLIP1, STATUS, XI
 from ssilang.kernel.joints.laws import point_energies, respond
 from ssilang.kernel.joints.parameters import N_PARAMETERS, Parameter, check_mohr_parameters

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ssilang.kernel.errors import ConvergenceError
+from ssilang.kernel.base.errors import ConvergenceError
 from ssilang.kernel.solvers.complementarity import ContactProblem, solve_contact
 
 

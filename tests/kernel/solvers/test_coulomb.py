@@ -5,7 +5,7 @@ from itertools import product
 import numpy as np
 import pytest
 
-from ssilang.kernel.errors import ConvergenceError
+from ssilang.kernel.base.errors import ConvergenceError
 from ssilang.kernel.solvers.coulomb import CoulombProblem, solve_coulomb
 
 

@@ -5,7 +5,8 @@ import pytest
 import scipy.sparse as sp
 import scipy.sparse.linalg as spla
 
-from ssilang.kernel.solvers.backends import Ordering, SingularFactorError, factorise
+from ssilang.kernel.base.errors import SingularFactorError
+from ssilang.kernel.solvers.backends import Ordering, factorise
 from ssilang.kernel.solvers.dissected import DissectedFactor
 from ssilang.kernel.solvers.dissection import dissection
 from ssilang.kernel.solvers.inverse import invert

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from references.assembled import Bench
 
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.dynamics.problem import Inputs, make_problem
-from ssilang.kernel.sparse import sp
 from ssilang.kernel.statics.conditioning import (
     condition_number,
     joint_conditioning,

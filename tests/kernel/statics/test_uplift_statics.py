@@ -8,9 +8,9 @@ from references.assembled import Bench
 from references.footing import Strip
 from references.recorder import Recorder
 
-from ssilang.kernel.curve import Curve, CurvePart, Load, LoadPart
+from ssilang.kernel.base.errors import ConvergenceError
+from ssilang.kernel.curves.curve import Curve, CurvePart, Load, LoadPart
 from ssilang.kernel.dynamics.problem import Inputs, make_problem
-from ssilang.kernel.errors import ConvergenceError
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.statics.stepping import step_statics
 
