@@ -19,7 +19,7 @@ from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.sparse import sp
 
 BoolArray = NDArray[np.bool_]
-TOUCHING = 1e-12  # of the largest gap or displacement: closed at the start
+TOUCHING = 1e-11  # of the largest gap or displacement, which solvers leave: closed at the start
 
 
 @dataclass(frozen=True, eq=False)
