@@ -19,7 +19,7 @@ from ssilang.kernel.dynamics.friction import FrictionRows
 from ssilang.kernel.matrices.assembly import ConstraintRows
 
 BoolArray = NDArray[np.bool_]
-TOUCHING = 1e-12  # of the largest gap or displacement: closed at the start
+TOUCHING = 1e-11  # of the largest gap or displacement, which solvers leave: closed at the start
 
 
 @dataclass(frozen=True, eq=False)

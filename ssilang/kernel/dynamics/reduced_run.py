@@ -53,9 +53,22 @@ class Pair:
     rich: ReducedModel
 
     def grow(self) -> None:
-        """The richer model becomes the poorer of the next pair; nothing changes if it cannot."""
-        richer = _grown(self.basis, GROWTH * self.rich.size)
-        self.poor, self.rich = self.rich, richer
+        """The richer model becomes the poorer of the next pair.
+
+        The last pair is what room is left for, and the first vectors of it.
+
+        Raises
+        ------
+        NoReduction
+            If there is none; nothing changes.
+        """
+        basis = self.basis
+        try:
+            self.poor, self.rich = self.rich, _grown(basis, GROWTH * self.rich.size)
+        except NoReduction:
+            if basis.size == self.rich.size:
+                raise
+            self.poor, self.rich = basis.model(int(basis.size / GROWTH)), basis.model()
 
 
 def _grown(basis: Basis, wanted: float) -> ReducedModel:

@@ -288,11 +288,12 @@ class Basis:
         self.size = r + b
         return W
 
-    def model(self) -> ReducedModel:
-        """The problem on the space of the basis, in diagonal coordinates."""
+    def model(self, size: int | None = None) -> ReducedModel:
+        """The problem on the first vectors of the basis (all), in diagonal coordinates."""
         import scipy.linalg as la
 
-        r, V = self.size, self.vectors
+        r = self.size if size is None else size
+        V = self.vectors[:r]
         values, X = la.eigh(self._KV[:r, :r])
         k = np.maximum(values, 0.0)
         m = np.maximum(1.0 - k / self.shift**2, 0.0)  # m + k / s**2 = 1: the vectors' length

@@ -21,7 +21,6 @@ from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import ConvergenceError
-from ssilang.kernel.solvers.complementarity import _least_squares
 
 BoolArray = NDArray[np.bool_]
 TURNS = 60
@@ -31,8 +30,8 @@ TOLERANCE = 1e-11
 """What is wrong with an accepted solution, relative to its own size."""
 HUGE = 1e7
 """Motions, relative to gaps and loads, that no equilibrium has."""
-SOFT = 1e-12
-"""Share of its flexibility added to each row: redundant rows share their force evenly."""
+RANK = 1e-12
+"""Reciprocal condition below which rows are redundant, and their share of it rounding."""
 ROUNDING = 1e-8
 """The same where only rounding decides (redundant rows)."""
 
@@ -204,14 +203,12 @@ class _Solver:
         right = np.zeros(self.size)
         on, off = np.flatnonzero(g.closed), np.flatnonzero(~g.closed)
         self._rows_seen(A, right, on, on)
-        A[on, on] += SOFT / self.rn[on]
         A[off, off] = self.unit
         places = np.arange(p.n_places)
         for j in range(p.width):
             rows = m + places * p.width + j
             held = rows[g.sticking]
             self._rows_seen(A, right, held, held)
-            A[held, held] += SOFT / self.rt[g.sticking]
             idle = rows[~g.sticking & ~g.sliding]
             A[idle, idle] = self.unit
         self._sliding_rows(A, right, g)
@@ -247,14 +244,19 @@ class _Solver:
                 right[rows] += self.unit * p.q[n + i] * way
 
     def _balanced(self, A: FloatArray, right: FloatArray) -> FloatArray:
-        """Solution with rows made of one size; forces and free motions have their own units."""
-        n = self.p.n_forces
-        columns = np.full(self.size, self.unit)
-        columns[n:] = 1.0
+        """Solution with rows of one size; forces and free motions have their own units.
+
+        Redundant rows share their force in the measure of their stiffness: the forces are
+        counted by the root of it, and the solution is the least.
+        """
+        n, m, width = self.p.n_forces, self.p.n_normal, self.p.width
+        columns = np.ones(self.size)
+        columns[:m], columns[m:n] = np.sqrt(self.rn), np.repeat(np.sqrt(self.rt), width)
+        columns[:n] *= np.sqrt(self.unit)
         scaled = A * columns
         sizes = np.abs(scaled).max(axis=1)
         sizes[sizes == 0.0] = 1.0
-        return columns * _least_squares(scaled / sizes[:, None], right / sizes)
+        return columns * _least(scaled / sizes[:, None], right / sizes)
 
     # --- what is wrong with a trial
 
@@ -324,6 +326,23 @@ class _Solver:
             trial = lam[rows] - (q[rows] + W[rows] @ lam) / max(W[rows, rows].trace(), 1e-300) * d
             size = float(np.linalg.norm(trial))
             lam[rows] = trial * min(1.0, max(limit, 0.0) / size) if size > 0.0 else 0.0
+
+
+def _least(A: FloatArray, b: FloatArray) -> FloatArray:
+    """Solution of A x = b; of rank below its size, the least x with the least left over.
+
+    A small residual does not tell that the rank is full, and a little added to the diagonal
+    (1e-12 of it) would multiply the rounding of b (1e-16) by its inverse in what is shared.
+    """
+    import scipy.linalg as la
+
+    if len(b) == 0:
+        return b
+    factors, pivots, info = la.lapack.dgetrf(A)
+    if info == 0 and la.lapack.dgecon(factors, np.abs(A).sum(axis=0).max())[0] > RANK:
+        return np.asarray(la.lapack.dgetrs(factors, pivots, b)[0], dtype=np.float64)
+    least: FloatArray = la.lstsq(A, b, cond=RANK)[0]
+    return least
 
 
 def _size(values: FloatArray, scale: float) -> float:

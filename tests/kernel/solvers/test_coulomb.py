@@ -1,5 +1,6 @@
 """Contact with friction on random flexibilities: all conditions hold; small ones by trial."""
 
+from dataclasses import replace
 from itertools import product
 
 import numpy as np
@@ -51,6 +52,41 @@ def test_conditions_hold_for_random_bodies(width, mu):
         for _ in range(5):
             problem = held(m, width, mu, rng)
             check(problem, solve_coulomb(problem))
+
+
+def all_sticking(forces, width, rng):
+    """Four places that rub on three motions alone, held by forces that are shared at will."""
+    m, n = 4, len(forces)
+    rows = np.zeros((n, m + 3))
+    rows[:m, :m] = np.eye(m)
+    rows[m:, m:] = rng.normal(size=(n - m, 3))
+    W = np.vstack([rows @ flexibility(m + 3, rng) @ rows.T, np.zeros((m, n))])
+    none, full = np.zeros((n + m, 0)), np.ones(m)
+    return CoulombProblem(
+        W, -W @ forces, none, none[:n], np.zeros(0), m, width, np.arange(m), full, 0 * full
+    )
+
+
+@pytest.mark.parametrize("width", [1, 2])
+def test_redundant_frictions_do_not_follow_rounding(width):
+    """Places outnumber what the body can do: what they share stays when rounding changes.
+
+    The rows that count have a condition below 1e5: 1e-15 of the motions is 1e-10 of the forces.
+    """
+    rng = np.random.default_rng(3)
+    for _ in range(10):
+        given = np.concatenate([10.0 + rng.random(4), 0.3 * rng.normal(size=4 * width)])
+        problem = all_sticking(given, width, rng)
+        found = solve_coulomb(problem)
+        check(problem, found)
+        assert found.sticking.all()
+        kept = np.linalg.svd(problem.W)[1]
+        assert kept[-1] < 1e-12 < 1e-5 < kept[6] / kept[0]
+        for _ in range(3):
+            other = replace(problem, q=problem.q * (1 + 1e-15 * rng.normal(size=len(problem.q))))
+            np.testing.assert_allclose(
+                solve_coulomb(other).forces, found.forces, rtol=0, atol=1e-9 * given.max()
+            )
 
 
 def test_states_found_by_trying_all_of_them():
