@@ -188,7 +188,8 @@ def _summarise(result: RunResult, source: Source, err: TextIO) -> None:
     try:
         write_summary(result.session, source, output, result.errors, result.exit_code)
     except OutputError as problem:
-        err.write(render(SsiError(problem.code, None, **problem.data), result.session.language) + "\n")
+        told = SsiError(problem.code, None, **problem.data)
+        err.write(render(told, result.session.language) + "\n")
         result.exit_code = 1
         return
     if err.isatty() and output.files:

@@ -83,7 +83,7 @@ def _sites() -> Iterator[Site]:
             called = node.func.id if isinstance(node.func, ast.Name) else called
             for first in node.args[:2]:
                 code = first.value if isinstance(first, ast.Constant) else None
-                if not isinstance(code, str):
+                if not isinstance(code, str) or " " in code:
                     continue
                 room = code.rpartition(".")[0]
                 if room in rooms or (first is node.args[0] and called in _OF_LANGUAGE):
@@ -137,12 +137,12 @@ def test_every_message_is_told(code, language):
 def _fitting(name: str, value: object, template: str) -> object:
     """A value that the formats of a name take."""
     specs = re.findall(rf"{{{name}(?:!\w)?:([^?|{{}}]*)}}", template)
-    joints = [s.split(" ")[-1] if " " in s else s for s in specs]
-    if any(re.search(r"[deEfgGn,%]$", s) and s not in ("and", "or", "words") for s in joints):
+    several = any(s.split(" ")[0] in ("and", "or", "words") for s in specs)
+    figures = [s for s in specs if re.search(r"[deEfgG%]$", s) and s not in ("and", "words")]
+    if figures:
         number = value if isinstance(value, int) else 3
-        integral = any(s.endswith("d") and s != "and" for s in joints)
-        return number if integral else float(number)
-    return value
+        value = number if any(s.endswith("d") for s in figures) else float(number)
+    return (value,) if several and not isinstance(value, tuple) else value
 
 
 def test_every_code_that_is_raised_has_a_sentence():
