@@ -10,7 +10,7 @@ from ssilang.cli.checking.scope import assigned_names
 from ssilang.cli.checking.walk import Checker
 from ssilang.cli.colour import coloured
 from ssilang.cli.run import RunOptions, make_session
-from ssilang.language.say.diagnostics import is_warning, render
+from ssilang.language.say.diagnostics import render
 from ssilang.language.say.errors import SeveralErrors, SsiError
 from ssilang.language.text.source import Source
 from ssilang.language.text.source_files import read_source
@@ -34,7 +34,7 @@ def check_file(path: Path, syntax_only: bool, language: str, out: TextIO) -> boo
         problems, names = check_source(source, syntax_only)
     for problem in problems:
         out.write(coloured(render(problem, language, names), out) + "\n\n")
-    return any(not is_warning(p) for p in problems)
+    return any(p.severity == "error" for p in problems)
 
 
 def check_source(source: Source, syntax_only: bool = False) -> tuple[list[SsiError], set[str]]:

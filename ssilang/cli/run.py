@@ -176,7 +176,7 @@ def _close_files(session: Session, errors: list[SsiError]) -> None:
     try:
         run_output(session).close()
     except OutputError as problem:
-        errors.append(SsiError("bad-value", None, message=problem.message, hint=problem.hint))
+        errors.append(SsiError(problem.code, None, **problem.data))
 
 
 def _summarise(result: RunResult, source: Source, err: TextIO) -> None:
@@ -189,7 +189,8 @@ def _summarise(result: RunResult, source: Source, err: TextIO) -> None:
     try:
         write_summary(result.session, source, output, result.errors, result.exit_code)
     except OutputError as problem:
-        err.write(f"error: {problem.message}\n  = {problem.hint}\n")
+        told = SsiError(problem.code, None, **problem.data)
+        err.write(render(told, result.session.language) + "\n")
         result.exit_code = 1
         return
     if err.isatty() and output.files:

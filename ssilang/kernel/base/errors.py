@@ -1,6 +1,8 @@
-"""Errors raised by the kernel: data first, one sentence made from it last."""
+"""Errors raised by the kernel: a code and data; `ssilang.messages` has the sentences."""
 
 from __future__ import annotations
+
+from ssilang.messages.message import hint, sentence
 
 
 class KernelError(Exception):
@@ -8,16 +10,26 @@ class KernelError(Exception):
 
     Parameters
     ----------
-    message : str
-        What is wrong, in one sentence, with the figures that show it.
-    hint : str, optional
-        What to change to get further.
+    code : str
+        Key of a message, such as 'kernel.mesh.no-area'.
+    **data
+        What fills its sentence and its hint. An error that led to this one is data too.
     """
 
-    def __init__(self, message: str, hint: str = "") -> None:
-        super().__init__(message)
-        self.message = message
-        self.hint = hint
+    def __init__(self, code: str, hint: str = "", /, **data: object) -> None:
+        if " " in code:  # a sentence of its own, not yet in a catalogue
+            code, data = "bad-value", {"message": code, "hint": hint}
+        super().__init__(code)
+        self.code, self.data = code, data
+
+    def __str__(self) -> str:
+        """The sentence in English."""
+        return sentence(self.code, self.data)
+
+    @property
+    def hint(self) -> str:
+        """What to change to get further, in English, '' if nothing is known."""
+        return hint(self.code, self.data)
 
 
 class MeshError(KernelError):

@@ -171,9 +171,12 @@ def default_element(cell_type: str, mode: Mode) -> str:
     for kind in fitting:
         if kind.default:
             return kind.name
-    names = ", ".join(k.name for k in fitting)
-    hint = f"name one of {names}" if names else f"cells that exist in mode {mode.value}"
-    raise MeshError(f"{cell_type} cells have no default element in mode {mode.value}", hint)
+    raise MeshError(
+        "kernel.elements.cells-no-default-element",
+        cell_type=cell_type,
+        mode=mode.value,
+        names=[k.name for k in fitting],
+    )
 
 
 def support_rule(element: str, support: Support) -> Rule:

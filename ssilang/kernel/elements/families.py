@@ -73,8 +73,7 @@ def family_of(zone: Zone) -> ElementFamily:
         alike = [k for k in ELEMENTS.values() if k.cell_type == zone.cells.cell_type]
         others = [k.name for k in alike if k.family in FAMILIES and zone.mode in k.modes]
         raise MeshError(
-            f"element {zone.element} carries fields and pressures, it has no stiffness",
-            f"name another in MODE: {', '.join(others)}",
+            "kernel.elements.element-carries-fields-pressures", element=zone.element, others=others
         )
     return family
 
@@ -244,8 +243,10 @@ def _components(zone: Zone, field: CellField, names: tuple[str, ...]) -> FloatAr
     seen = zone_field(zone, field)
     if not any(name in seen for name in names):
         raise FieldError(
-            f"the field has none of {', '.join(names)} on the cells of element {zone.element}",
-            f"it has: {', '.join(seen.names) or 'nothing there'}",
+            "kernel.elements.field-none-cells-element",
+            names=names,
+            element=zone.element,
+            present=seen.names,
         )
     return seen.matrix(names, "STRESSES")
 

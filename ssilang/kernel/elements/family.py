@@ -166,7 +166,7 @@ class ElementFamily(ABC):
 
     def geometric_values(self, zone: Zone, stress: FloatArray, parameters: ZoneField) -> FloatArray:
         """Geometric stiffness matrices (n_cells, n_rows, n_rows) of a stress field (KSIG)."""
-        raise FieldError(f"element {zone.element} has no geometric stiffness")
+        raise FieldError("kernel.elements.element-no-geometric-stiffness", element=zone.element)
 
 
 def per_cell(array: FloatArray, cells: slice) -> FloatArray:

@@ -15,11 +15,11 @@ class StrainlessFamily(ElementFamily):
 
     Attributes
     ----------
-    refusal : tuple of str
-        What is said, and what helps, where strains are asked for.
+    refusal : str
+        Code of the error where strains are asked for.
     """
 
-    refusal: tuple[str, str]
+    refusal: str
 
     def strain_names(self, zone: Zone) -> tuple[str, ...]:
         """None."""
@@ -41,4 +41,4 @@ class StrainlessFamily(ElementFamily):
 
     def no_strains(self) -> FieldError:
         """The error of a request for strains."""
-        return FieldError(*self.refusal)
+        return FieldError(self.refusal)

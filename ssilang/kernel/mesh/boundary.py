@@ -180,7 +180,7 @@ def sharp_edges(mesh: Mesh, angle: float = 20.0) -> Mesh:
     own = tuple(b for b in mesh.blocks if b.kind.dimension == 2 and not b.kind.joint)
     skin = Mesh(mesh.nodes, skin.blocks + own)
     if not skin.blocks:
-        raise MeshError("edges are sought on volumes or surfaces, this mesh has none")
+        raise MeshError("kernel.mesh.edges-sought-volumes-surfaces")
     rows, normals, middles = _skin_edges(skin)
     _, group = sharing(rows)
     total = np.zeros((group.max() + 1, 3))

@@ -138,7 +138,7 @@ def polygons(mesh: Mesh) -> Mesh:
     """
     found = tuple(b for b in mesh.blocks if b.cell_type in POLYGON_SIDES)
     if not found:
-        raise MeshError("no polygons of five sides or more in this mesh")
+        raise MeshError("kernel.mesh.no-polygons-five-sides")
     return Mesh(mesh.nodes, found)
 
 
@@ -153,7 +153,7 @@ def of_type(mesh: Mesh, cell_type: str) -> Mesh:
     found = tuple(b for b in mesh.blocks if b.cell_type == cell_type)
     if not found:
         kinds = ", ".join(b.cell_type for b in mesh.blocks) or "nothing"
-        raise MeshError(f"no {cell_type} in this mesh, which holds {kinds}")
+        raise MeshError("kernel.mesh.no-mesh-holds", cell_type=cell_type, kinds=kinds)
     return Mesh(mesh.nodes, found)
 
 

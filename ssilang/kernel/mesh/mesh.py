@@ -168,5 +168,5 @@ class Mesh:
         """
         if len(self.blocks) != 1:
             kinds = ", ".join(b.cell_type for b in self.blocks) or "nothing"
-            raise MeshError(f"a mesh of one cell type is needed, this one holds {kinds}")
+            raise MeshError("kernel.mesh.mesh-cell-type-needed", kinds=kinds)
         return self.blocks[0]

@@ -175,10 +175,7 @@ def check_consistent(mesh: Mesh) -> Mesh:
         clash = _opposed(mesh, dimension)
         if len(clash):
             where = ", ".join(str(int(n) + 1) for n in clash[:4])
-            raise MeshError(
-                f"adjacent cells are described in opposite senses, at node(s) {where}",
-                "turn one of the parts with INVE, or use ORIE",
-            )
+            raise MeshError("kernel.mesh.adjacent-cells-described-opposite", where=where)
     return mesh
 
 

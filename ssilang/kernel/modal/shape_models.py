@@ -37,10 +37,7 @@ for _name in UNKNOWN:
 class _ShapeFamily(StrainlessFamily):
     """Points that stand for shapes: they have no strains."""
 
-    refusal = (
-        "models MODAL and STATIQUE have no strains of their own",
-        "recombine the displacement with RECO, then use the model of the body",
-    )
+    refusal = "kernel.modal.shapes-no-strains"
 
     def layout(self, zone: Zone) -> Layout:
         """ALFA or BETA."""

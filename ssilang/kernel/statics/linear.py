@@ -211,7 +211,7 @@ class LinearSystem:
         bodies = bodies_of(self.numbering, self.K, self.rows.C[self.saddle])
         named = named_motions(self.numbering, self.free_motions, bodies)
         return ConvergenceError(
-            f"{failure.message}; held by them alone: {named or 'a mechanism'}", failure.hint
+            f"{failure}; held by them alone: {named or 'a mechanism'}", failure.hint
         )
 
     def _contact_flexibility(self, C: FloatArray, D: FloatArray) -> FloatArray:

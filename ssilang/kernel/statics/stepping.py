@@ -62,7 +62,7 @@ def step_statics(
                 outcome = _step(problem, solver, motion, factors[k - 1 : k + 1])
             except ConvergenceError as failure:
                 at = f"load step {k}, time {times[k]:g}"
-                raise ConvergenceError(f"{at}: {failure.message}", failure.hint) from None
+                raise ConvergenceError(f"{at}: {failure}", failure.hint) from None
             if outcome.turns <= 0:
                 raise _lost(problem, motion, k, outcome)
             history.iterations = max(history.iterations, outcome.turns)

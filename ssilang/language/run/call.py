@@ -266,10 +266,14 @@ class Call:
             quoted=[o.span.text[1:-1] for o in self.used if o.span.text[:1] == "'"],
         )
 
-    def error(self, code: str, value: object = None, **data: object) -> SsiError:
+    def error(self, code: str, value: object = None, /, **data: object) -> SsiError:
         """An error placed at the operand that holds `value`, else at the operator."""
         span = next((o.span for o in self.used if _is_operand(o.value, value)), self.span)
-        return SsiError(code, span, operator=self.name, **data)
+        return SsiError(code, span, **{"operator": self.name, **data})
+
+    def warn(self, code: str, /, **data: object) -> None:
+        """A warning placed at the operator."""
+        self.session.warn(code, self.span, **{"operator": self.name, **data})
 
     def bad(self, message: str, value: object = None, hint: str = "") -> SsiError:
         """An error in words of its own, placed like `error`."""

@@ -17,6 +17,7 @@ from ssilang.language.say.errors import ReaderLeft, SeveralErrors, SsiError
 from ssilang.language.text import tree
 from ssilang.language.text.source import Span
 from ssilang.language.values import Mot, Procedure, Texte, normalised
+from ssilang.messages.message import Said
 
 if TYPE_CHECKING:
     from ssilang.language.run.session import Session
@@ -128,8 +129,7 @@ class PhraseRunner(OperandReader):
         except Exception as problem:
             if self.session.was_interrupted():  # it fails over what it swallowed
                 raise KeyboardInterrupt from problem
-            message = getattr(problem, "message", None)
-            if message is None:
+            if not isinstance(problem, Said):
                 raise SsiError(
                     "internal",
                     span,
@@ -137,10 +137,7 @@ class PhraseRunner(OperandReader):
                     kind=type(problem).__name__,
                     reason=str(problem),
                 ) from problem
-            hint = getattr(problem, "hint", "")
-            raise SsiError(
-                "bad-value", span, operator=name, message=message, hint=hint
-            ) from problem
+            raise SsiError(problem.code, span, **{"operator": name, **problem.data}) from problem
         if self.session.was_interrupted():
             raise KeyboardInterrupt
         return result

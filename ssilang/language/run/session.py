@@ -131,9 +131,11 @@ class Session:
         except BrokenPipeError as closed:
             raise ReaderLeft from closed
 
-    def warn(self, code: str, span: Any = None, **data: object) -> None:
+    def warn(self, code: str, span: Any = None, /, **data: object) -> None:
         """Report a warning: kept for the summary, shown by the renderer that listens."""
-        self.report(SsiError(code, span or self.evaluator.current_span, **data))
+        warning = SsiError(code, span or self.evaluator.current_span, **data)
+        warning.warns = True
+        self.report(warning)
 
     def report(self, warning: Any) -> None:
         """Keep a warning, or an error that does not stop the run, and show it."""

@@ -9,12 +9,14 @@ from typing import Any
 from ssilang.language.cast3m import IN_SCOPE, SUBJECTS, find_cast3m_word
 from ssilang.language.registry import ANY, OPERATORS, find_operator, keywords_of
 from ssilang.language.say import hints
-from ssilang.language.say.catalogue import MESSAGES
 from ssilang.language.say.errors import SsiError
 from ssilang.language.say.translations import in_french
 from ssilang.language.text.source import Span
 from ssilang.language.values import type_of
+from ssilang.messages import message
 from ssilang.resources import resource
+
+message.TRANSLATORS[:] = [in_french]
 
 _OR = {"en": " or ", "fr": " ou "}
 _ANY = {"en": "an object", "fr": "un objet"}
@@ -27,14 +29,9 @@ _LINE_SHOWN = 160  # characters of a source line
 _CALLS_SHOWN = 4  # at each end of the chain
 _INDICES_SHOWN = 20
 _KINDS = {
-    False: {"en": "error", "fr": "erreur"},
-    True: {"en": "warning", "fr": "avertissement"},
+    "error": {"en": "error", "fr": "erreur"},
+    "warning": {"en": "warning", "fr": "avertissement"},
 }
-
-
-def is_warning(error: SsiError) -> bool:
-    """Whether it only asks for attention."""
-    return MESSAGES[error.code].warning
 
 
 class _Data(dict[str, Any]):
@@ -100,17 +97,14 @@ def _calls(calls: list[tuple[str, Span]], language: str) -> list[str]:
 
 def sentence(error: SsiError, language: str, names: Iterable[str] = ()) -> tuple[str, str]:
     """What is wrong, and the hint ('' if there is none)."""
-    message = MESSAGES[error.code]
     data = _Data(error.data)
-    data.update(_derived(error, language, names))
+    if "." not in error.code:  # the language's own sentences have parts that are computed
+        data.update(_derived(error, language, names))
     if error.code == "not-a-table" and not data["name"]:
         data["name"] = error.span.text.split(".")[0].strip() if error.span else "it"
-    if language == "fr":
-        data.update({k: in_french(str(data[k])) for k in ("message", "hint") if k in data})
-    text = message.en if language == "en" else message.fr
-    hint = message.hint_en if language == "en" else message.hint_fr
-    found = hint.format_map(data).strip()
-    return text.format_map(data), "\n".join(h for h in (_held_hint(data, language), found) if h)
+    text = message.sentence(error.code, data, language)
+    hint = message.hint(error.code, data, language).strip()
+    return text, "\n".join(h for h in (_held_hint(data, language), hint) if h)
 
 
 def placeless(sentence: str, language: str) -> str:
@@ -132,8 +126,10 @@ def _held_hint(data: dict[str, Any], language: str) -> str:
 
 
 def _label(error: SsiError, language: str) -> str:
-    number = MESSAGES[error.code].number or int(str(error.data.get("number", 0)) or 0)
-    kind = str(error.data.get("severity", "")) or _KINDS[is_warning(error)][language]
+    number = message.find(error.code).number
+    if error.code == "erre":  # the script's own number
+        number = int(str(error.data.get("number", 0)))
+    kind = _KINDS[error.severity][language]
     return f"{kind} {number}" if number else kind
 
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ssilang.messages.message import Severity, find
+
 if TYPE_CHECKING:
     from ssilang.language.text.source import Span
 
@@ -21,12 +23,18 @@ class SsiError(Exception):
         What the message needs: expected, found, name, near, ...
     """
 
-    def __init__(self, code: str, span: Span | None, **data: object) -> None:
+    def __init__(self, code: str, span: Span | None, /, **data: object) -> None:
         super().__init__(code)
         self.code = code
         self.span = span
         self.data = data
+        self.warns = False  # told as a warning, whatever the catalogue says of its code
         self.calls: list[tuple[str, Span]] = []  # procedures that led here, innermost first
+
+    @property
+    def severity(self) -> Severity:
+        """'warning' if it only asks for attention, else 'error'."""
+        return "warning" if self.warns else find(self.code).severity
 
     def __str__(self) -> str:
         return f"{self.code}: {self.data}"

@@ -109,7 +109,7 @@ def _steps(call: Call, start: Any, kinds: tuple[str, ...]) -> list[Any] | FloatA
             return [*real_steps(float(start), float(step), float(end), ratio), *more]
         return [*integer_steps(start, step, end), *more]
     except KernelError as problem:
-        raise call.bad(problem.message, end, problem.hint) from None
+        raise call.bad(str(problem), end, problem.hint) from None
 
 
 def _progression(start: Any, step: Any, count: int, ratio: float | None) -> list[Any] | FloatArray:

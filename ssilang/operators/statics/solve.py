@@ -99,8 +99,7 @@ def _or_warning(
     try:
         return tuple(solve(matrix, loads, replace(options, project=False)))
     except KernelError as problem:
-        call.session.warn("bad-value", call.span, operator="RESO", message=problem.message,
-                          hint=problem.hint)  # fmt: skip
+        call.warn(problem.code, **problem.data)
     return tuple(solve(matrix, loads, options))
 
 

@@ -83,14 +83,14 @@ def beam_frame(zone: Zone, parameters: ZoneField) -> BeamFrame:
         delta = delta * [1.0, 1.0, 0.0]
     lengths = np.linalg.norm(delta, axis=1)
     if (lengths <= 0).any():
-        raise MeshError("a beam cell has zero length", "remove it or merge its nodes (ELIM, DEDU)")
+        raise MeshError("kernel.elements.beam-cell-zero-length")
     x = delta / lengths[:, None]
     given = _given_side(zone, parameters)
     side = _default_side(x) if given is None else given
     z = np.cross(x, side)
     norms = np.linalg.norm(z, axis=1, keepdims=True)
     if (norms <= 1e-9 * np.linalg.norm(side, axis=1, keepdims=True)).any():
-        raise MaterialError("VECT is along the beam: it must show the side of the local axis y")
+        raise MaterialError("kernel.elements.vect-along-beam-must")
     z = z / norms
     return BeamFrame(lengths, np.stack([x, np.cross(z, x), z], axis=1))
 

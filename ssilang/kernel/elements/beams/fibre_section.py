@@ -49,10 +49,7 @@ class Fibre(ElementFamily):
 
     def layout(self, zone: Zone) -> Layout:
         """There is none."""
-        raise FieldError(
-            f"element {zone.element} describes the section of a beam and has no unknowns",
-            "give its model to a beam TIMO: MATE MODL1 'MODS' model 'MATS' material",
-        )
+        raise FieldError("kernel.elements.element-describes-section-beam", element=zone.element)
 
     def strain_names(self, zone: Zone) -> tuple[str, ...]:
         """Along the beam, and the two shears."""
@@ -182,9 +179,7 @@ def fibre_section(model: Model, material: CellField) -> FibreSection:
     places, areas, moduli, zones, start = [], [], [], [], 0
     for zone in model.zones:
         if ELEMENTS[zone.element].family != "fibre":
-            raise MaterialError(
-                f"a section has no element {zone.element}", "it is made of POJS, TRIS and QUAS"
-            )
+            raise MaterialError("kernel.elements.section-no-element", element=zone.element)
         given = zone_field(zone, material)
         at, own = fibre_places(zone, "STRESSES")[0], fibre_areas(zone, given, "STRESSES")
         each = [np.broadcast_to(m, own.shape).ravel() for m in fibre_moduli(given, "STRESSES")]
@@ -214,9 +209,6 @@ def section_of_beam(parameters: ZoneField) -> FibreSection:
             raise missing_parameter(parameters.zone, name, parameters.names)
         values = parameters.raw(name)[0].ravel()
         if any(v is not values[0] for v in values):
-            raise MaterialError(
-                f"the beams of one zone have different sections ({name})",
-                "give each section a model of its own, and join the models by ET",
-            )
+            raise MaterialError("kernel.elements.beams-zone-different-sections", name=name)
         found.append(values[0])
     return fibre_section(*found)

@@ -62,10 +62,7 @@ def inertia_coupling(
     turning = zone.mode in (Mode.AXISYMMETRIC, Mode.FOURIER)
     names = _OF_REVOLUTION if turning else TRANSLATIONS
     if turning and np.any(coupling != np.diag(np.diag(coupling))):
-        raise FieldError(
-            "a turning frame couples the two parts of a harmonic, which one model does not hold",
-            "the centrifugal stiffness about the axis is available",
-        )
+        raise FieldError("kernel.elements.turning-frame-couples-two")
     parameters = zone_field(zone, material)
     name = ELEMENTS[zone.element].family
     if name in ("beam", "pipe"):
@@ -84,7 +81,7 @@ def inertia_coupling(
                 column = next(r for r in same if nodes[r] == nodes[j])
                 values[:, i, j] = coupling[a, b] * mass[:, i, column]
     else:
-        raise FieldError(f"element {zone.element} has no matrices of turning frames")
+        raise FieldError("kernel.elements.element-no-matrices-turning", element=zone.element)
     symmetric = bool(np.array_equal(coupling, coupling.T))
     block = element_matrices(zone, layout, values, kind, keep_zone=False)
     return replace(block, symmetric=symmetric)
@@ -141,7 +138,7 @@ def corotational(zone: Zone, damping: ElementMatrices, material: CellField) -> E
     if ELEMENTS[zone.element].family not in _LINE_FAMILIES or (
         zone.mode is not Mode.THREE_DIMENSIONAL
     ):
-        raise FieldError(f"corotational damping is for beams in space, not {zone.element}")
+        raise FieldError("kernel.elements.corotational-damping-beams-space", element=zone.element)
     parameters = zone_field(zone, material)
     axes = beam_frame(zone, parameters).axes
     speed = np.broadcast_to(parameters.at("OMEG", "GRAVITE")[:, 0], (len(axes),))
@@ -168,7 +165,7 @@ def gyroscopic(zone: Zone, material: CellField) -> ElementMatrices:
     """
     name = ELEMENTS[zone.element].family
     if name not in _LINE_FAMILIES or zone.mode is not Mode.THREE_DIMENSIONAL:
-        raise FieldError(f"gyroscopic coupling is for beams in space, not {zone.element}")
+        raise FieldError("kernel.elements.gyroscopic-coupling-beams-space", element=zone.element)
     family, parameters = family_of(zone), zone_field(zone, material)
     frame = beam_frame(zone, parameters)
     _, moments = family.linear_mass(zone, parameters)  # type: ignore[attr-defined]

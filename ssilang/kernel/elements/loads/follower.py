@@ -40,7 +40,7 @@ def pressure_stiffness(
     """
     dim = 3 if zone.mode is Mode.THREE_DIMENSIONAL else zone.mode.dimension
     if zone.cells.kind.dimension != dim - 1 or zone.cells.kind.joint:
-        raise MeshError(f"{zone.cells.cell_type} cells carry no pressure in this space")
+        raise MeshError("kernel.elements.cells-carry-no-pressure", cell_type=zone.cells.cell_type)
     p = _at_points(zone, pressure)
     build = _in_space if dim == 3 else _of_revolution if zone.mode in REVOLUTION else _in_plane
     values = build(zone, p)

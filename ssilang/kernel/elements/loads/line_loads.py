@@ -63,7 +63,7 @@ def _on_zone(
 ) -> NodeField:
     family = ELEMENTS[zone.element].family
     if family not in LINES or zone.cells.kind.n_nodes != 2:
-        raise MeshError(f"a load along lines is for beams and bars, not {zone.element}")
+        raise MeshError("kernel.elements.load-along-lines-beams", element=zone.element)
     frame = beam_frame(zone, zone_field(zone, None))
     translations = NODE_TRANSLATIONS[zone.mode]
     rotations = NODE_ROTATIONS[zone.mode] if family != "bar" else ()

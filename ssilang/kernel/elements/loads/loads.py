@@ -92,10 +92,7 @@ def _face_values(
 
 def _only(names: tuple[str, ...]) -> str:
     if len(names) != 1:
-        raise FieldError(
-            f"a pressure has one component, this field has {', '.join(names) or 'none'}",
-            "take one with EXCO",
-        )
+        raise FieldError("kernel.elements.pressure-component-field", names=names)
     return names[0]
 
 
@@ -130,11 +127,7 @@ def _to_face_points(
     if values.shape[1] == 1:
         return np.broadcast_to(values, (len(values), len(geometry.shapes)))
     if values.shape[1] != k:
-        raise FieldError(
-            f"a pressure in cells stands at nodes or is constant, this one has "
-            f"{values.shape[1]} values a cell",
-            "CHAN 'NOEUD'",
-        )
+        raise FieldError("kernel.elements.pressure-cells-stands-nodes", n_values=values.shape[1])
     theirs = np.argsort(source.connectivity[rows], axis=1)
     mine = np.argsort(np.argsort(part.connectivity[found], axis=1), axis=1)
     sorted_values = np.take_along_axis(values, theirs, axis=1)
@@ -218,7 +211,7 @@ def loaded_faces(model: Model, field: NodeField | CellField) -> Mesh:
         if inside.any():
             blocks.append(CellBlock.make(table, block.cell_type, block.raw[inside]))
     if not blocks:
-        raise MeshError("the field has values on no outer side of the model")
+        raise MeshError("kernel.elements.field-values-no-outer")
     return Mesh(table, tuple(blocks))
 
 
@@ -230,7 +223,7 @@ def pipe_pressure(model: Model, material: CellField) -> NodeField:
     out = []
     for zone in model.zones:
         if ELEMENTS[zone.element].family != "pipe":
-            raise MeshError(f"a pressure in pipes is not for element {zone.element}")
+            raise MeshError("kernel.elements.pressure-pipes-not-element", element=zone.element)
         layout = family_of(zone).layout(zone)
         out.append(layout.scatter(pressure_forces(zone, zone_field(zone, material))))
     return total(model.mesh.nodes, out)
@@ -250,7 +243,7 @@ def shell_load(
     out = []
     for zone in model.zones:
         if ELEMENTS[zone.element].family not in SHELLS:
-            raise MeshError(f"a load on shells is not for element {zone.element}")
+            raise MeshError("kernel.elements.load-shells-not-element", element=zone.element)
         geometry = face_geometry(zone.cells, zone.mode, harmonic(zone))
         out.append(_scatter(zone, zone.cells, _shell_forces(zone, geometry, value, along)))
     return total(model.mesh.nodes, out)
@@ -318,9 +311,9 @@ def body_force(
     given = [n for block in blocks for n in block.components]
     if not wanted.intersection(given):
         raise FieldError(
-            f"a volume force has components {' '.join(sorted(wanted))}, this field has "
-            f"{' '.join(dict.fromkeys(given)) or 'none'}",
-            "change their names with NOMC or EXCO",
+            "kernel.elements.volume-force-components-field",
+            wanted=sorted(wanted),
+            given=tuple(dict.fromkeys(given)),
         )
     out = [_body_force(zone, density, material) for zone in model.zones]
     return total(model.mesh.nodes, out)
@@ -330,10 +323,7 @@ def _body_force(
     zone: Zone, density: NodeField | CellField, material: CellField | None
 ) -> NodeField:
     if not is_solid(zone):
-        raise MeshError(
-            f"volume forces are for continuous elements, not {zone.element}",
-            "multiply the mass matrix by the acceleration",
-        )
+        raise MeshError("kernel.elements.volume-forces-continuous-elements", element=zone.element)
     names = force_names(zone)
     forces = np.zeros((len(zone.cells), zone.cells.kind.n_nodes, len(names)))
     parameters = zone_field(zone, material)

@@ -28,8 +28,7 @@ def temperature(zone: Zone, field: NodeField | CellField, name: str = "T") -> Fl
         return np.broadcast_to(values, (len(zone.cells), len(rule)))
     if name not in field.components:
         raise FieldError(
-            f"the field has no component {name}: it has {', '.join(field.components) or 'none'}",
-            "give the temperature the component T (NOMC)",
+            "kernel.elements.field-no-component", name=name, components=field.components
         )
     kind = ELEMENTS[zone.element]
     nodes = zone.cells.connectivity
@@ -56,13 +55,10 @@ def thermal_strain(zone: Zone, material: CellField, field: NodeField | CellField
         return values
     if "SECTION" in zone.behaviour:
         if any("ALPH" in part.parameters for part in section_of_beam(parameters).zones):
-            raise MaterialError(
-                "the thermal expansion of sections of fibres is not available",
-                "leave ALPH out of the material of the fibres",
-            )
+            raise MaterialError("kernel.elements.thermal-expansion-sections-fibres")
         return values
     if kind == "joint":
-        raise MaterialError("the thermal expansion of joints is not available")
+        raise MaterialError("kernel.elements.thermal-expansion-joints-not")
     values[:, 0] = parameters.at("ALPH", "STRESSES", 0.0) * rise
     return values
 

@@ -33,7 +33,7 @@ def equivalent_of_lines(
     if ELEMENTS[zone.element].family == "pipe":
         return _of_pipes(zone, field, material)
     if ELEMENTS[zone.element].family not in ("bar", "beam", "timoshenko"):
-        raise FieldError(f"element {zone.element} has no equivalent stress")
+        raise FieldError("kernel.elements.element-no-equivalent-stress", element=zone.element)
     names = family_of(zone).stress_names(zone)
     forces, support = components_at_home(zone, field, names)
     parameters = zone_field(zone, material)

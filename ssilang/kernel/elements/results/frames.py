@@ -28,7 +28,7 @@ def unit(v: FloatArray) -> FloatArray:
     """
     size = np.linalg.norm(v, axis=-1, keepdims=True)
     if (size <= 0).any():
-        raise FieldError("a vector or radius that gives a frame is zero")
+        raise FieldError("kernel.elements.vector-radius-frame-zero")
     found: FloatArray = v / size
     return found
 

@@ -29,9 +29,7 @@ def _interpolated(
         cells, shapes = found
         for name, values in block.components.items():
             if values.shape[1] not in (1, block.cells.kind.n_nodes):
-                raise FieldError(
-                    "the field to project must stand at nodes", "CHAN 'NOEUD' model field"
-                )
+                raise FieldError("kernel.elements.field-project-must-stand")
             fresh = (cells >= 0) & ~seen.get(name, np.zeros(len(x), bool))
             rows = np.flatnonzero(fresh)
             full = np.broadcast_to(values, (len(block.cells), values.shape[1]))[cells[rows]]
@@ -101,14 +99,15 @@ def by_least_squares(field: CellField, model: Model, n: int, tolerance: float) -
     blocks = []
     for zone in model.zones:
         if not is_solid(zone):
-            raise FieldError(f"element {zone.element} does not fill its space: no projection on it")
+            raise FieldError("kernel.elements.element-not-fill-space", element=zone.element)
         kind = zone.cells.kind
         rule = _points_per_direction(REFERENCE_CELLS[kind.name].shape, n)
         if len(rule) < kind.n_nodes:
             raise FieldError(
-                f"{len(rule)} integration points do not fix the {kind.n_nodes} values of a "
-                f"{kind.name} cell",
-                "give more points in each direction (3 by default)",
+                "kernel.elements.integration-points-not-fix",
+                n_rule=len(rule),
+                n_nodes=kind.n_nodes,
+                name=kind.name,
             )
         at = zone.cells.coordinates
         geometry = cell_geometry(kind.name, at[..., : zone.mode.dimension], rule)

@@ -32,7 +32,7 @@ def model_on_mesh(model: Model, mesh: Mesh) -> Model:
             cells = zone.cells if same else _picked(zone.cells, kept)
             zones.append(replace(zone, cells=cells))
     if not zones:
-        raise FieldError("no cell of the mesh belongs to the model")
+        raise FieldError("kernel.elements.no-cell-mesh-belongs")
     return Model(tuple(zones))
 
 
@@ -58,7 +58,7 @@ def field_on_mesh(field: CellField, mesh: Mesh) -> CellField:
                 CellFieldBlock(cells, full, block.support, block.element, block.constituent)
             )
     if not blocks:
-        raise FieldError("no cell of the mesh belongs to the field's support")
+        raise FieldError("kernel.elements.no-cell-mesh-belongs-2")
     return CellField(tuple(blocks), field.title)
 
 
@@ -77,5 +77,5 @@ def field_on_model(field: CellField, model: Model) -> CellField:
             for support, components in by_support.items()
         ]
     if not blocks:
-        raise FieldError("the field has no value on the cells of the model")
+        raise FieldError("kernel.elements.field-no-value-cells")
     return CellField(tuple(blocks), field.title)

@@ -26,7 +26,7 @@ def green_strain(
     elif ELEMENTS[zone.element].family == "bar":
         values = values + 0.5 * bar_stretch(zone, displacement)[:, None] ** 2
     else:
-        raise FieldError(f"element {zone.element} has no strains of second order")
+        raise FieldError("kernel.elements.element-no-strains-second", element=zone.element)
     return cell_block(zone, family.strain_names(zone), values)
 
 

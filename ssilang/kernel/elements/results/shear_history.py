@@ -38,7 +38,7 @@ def largest_shear_strain(zone: Zone, motion: Iterable[NodeField]) -> CellFieldBl
     family = families.family_of(zone)
     names = family.strain_names(zone)
     if names[:3] not in (("EPXX", "EPYY", "EPZZ"), ("EPRR", "EPZZ", "EPTT")):
-        raise MeshError(f"{zone.element} elements have no shear strain of their own")
+        raise MeshError("kernel.elements.elements-no-shear-strain", element=zone.element)
     everything = slice(0, len(zone.cells))
     operator = family.strain_operator(zone, zone_field(zone, None), "GRAVITE", everything)
     matrix = operator.matrix[:, :, 0, :]

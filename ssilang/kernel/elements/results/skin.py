@@ -97,7 +97,7 @@ def skin_stress(zone: Zone, field: CellField, material: CellField) -> CellFieldB
         For elements that are not beams.
     """
     if ELEMENTS[zone.element].family not in ("beam", "timoshenko"):
-        raise FieldError(f"element {zone.element} has no skin")
+        raise FieldError("kernel.elements.element-no-skin", element=zone.element)
     names = family_of(zone).stress_names(zone)
     forces, support = components_at_home(zone, field, names)
     parameters = zone_field(zone, material)

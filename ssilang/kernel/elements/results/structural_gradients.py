@@ -95,8 +95,10 @@ def _forces(zone: Zone, stress: CellField) -> FloatArray:
     names = ("N11", "N22", "N12") if ELEMENTS[zone.element].family in SHELLS else ("EFFX",)
     if not any(name in seen for name in names):
         raise FieldError(
-            f"the field has none of {', '.join(names)} on the cells of element {zone.element}",
-            f"it has: {', '.join(seen.names) or 'nothing there'}",
+            "kernel.elements.field-none-cells-element",
+            names=names,
+            element=zone.element,
+            present=seen.names,
         )
     N = seen.matrix(names, "STRESSES")
     return N[:, _SHELL_FORCES] if len(names) == 3 else N[:, None]

@@ -22,7 +22,7 @@ def moved(model: Model, field: CellField, target: Support, title: str | None = N
     """The field at the points of another support, on the zones of a model where it stands."""
     blocks = [b for z in model.zones for b in _moved_zone(z, field, target)]
     if not blocks:
-        raise FieldError("the field has no value on the cells of the model")
+        raise FieldError("kernel.elements.field-no-value-cells")
     return CellField(tuple(blocks), field.title if title is None else title)
 
 
@@ -60,7 +60,7 @@ def nodal_of_field(field: CellField, rule: Literal["MOYE", "SOMM"] = "MOYE") -> 
             at = np.broadcast_to(values, nodes.shape)
             parts.setdefault(name, []).append((nodes.ravel(), at.ravel()))
     if table is None:
-        raise FieldError("the field is empty")
+        raise FieldError("kernel.elements.field-empty")
     made = {n: _gathered(p, rule) for n, p in parts.items()}
     return NodeField(table, made, "DIFFUS")
 
@@ -150,7 +150,7 @@ def values_at_points(field: CellField) -> NodeField:
             flat = np.broadcast_to(values, (n, p)).astype(float).ravel()
             parts.setdefault(name, []).append(NodeValues(nodes, flat))
     if not parts:
-        raise FieldError("the field is empty")
+        raise FieldError("kernel.elements.field-empty")
     made = {
         name: NodeValues(
             np.concatenate([v.nodes for v in values]), np.concatenate([v.values for v in values])

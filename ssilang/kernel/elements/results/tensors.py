@@ -25,8 +25,10 @@ def components_at_home(
     present = [n for n in names if n in seen]
     if not present:
         raise FieldError(
-            f"the field has none of {', '.join(names)} on the cells of element {zone.element}",
-            f"it has: {', '.join(seen.names) or 'nothing there'}",
+            "kernel.elements.field-none-cells-element",
+            names=names,
+            element=zone.element,
+            present=seen.names,
         )
     raws = {n: seen.raw(n) for n in present}
     support = next((s for v, s in raws.values() if v.shape[1] > 1), raws[present[0]][1])

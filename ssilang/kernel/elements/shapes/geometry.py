@@ -76,9 +76,9 @@ def _check_jacobians(det: FloatArray) -> None:
     if folded.any():
         first = int(np.argmax(folded))
         raise MeshError(
-            f"the Jacobian vanishes or changes sign inside {int(folded.sum())} cell(s), "
-            f"the first being number {first + 1} of its block",
-            "look for flat or folded cells in the mesh",
+            "kernel.elements.jacobian-vanishes-changes-sign",
+            n_folded=int(folded.sum()),
+            first=first + 1,
         )
 
 
@@ -180,7 +180,7 @@ def line_geometry(
     tangents = np.einsum("pk,ckj->cpj", reference, coordinates)
     speed = np.linalg.norm(tangents, axis=-1)
     if (speed <= 0).any():
-        raise MeshError("a line cell has zero length", "remove it or merge its nodes (ELIM, DEDU)")
+        raise MeshError("kernel.elements.line-cell-zero-length")
     directions = tangents / speed[..., None] ** 2
     gradients = directions[..., None] * reference[None, :, None, :]
     return shape_functions(cell_type, rule.points), gradients, rule.weights * speed

@@ -43,7 +43,7 @@ class _Meridian:
         side = x[:, 1] - x[:, 0]
         self.length = np.linalg.norm(side, axis=1)
         if (self.length <= 0).any():
-            raise MeshError("a shell cell has zero length", "remove it or merge its nodes (ELIM)")
+            raise MeshError("kernel.elements.shell-cell-zero-length")
         self.t = side / self.length[:, None]
         self.n = np.stack([-self.t[:, 1], self.t[:, 0]], axis=1)
         self.xi = (1 + rule.points[:, 0]) / 2
@@ -119,7 +119,7 @@ class MeridianShell(ShellFamily):
             If the middle surface is off the mesh (EXCE).
         """
         if offset(zone, parameters) is not None:
-            raise MaterialError("shells off their mesh (EXCE) are not available for COQ2")
+            raise MaterialError("kernel.elements.shells-off-mesh-exce")
         D = section_moduli(zone, parameters, support)
         kept = list(_kept(zone))
         D = D[..., kept, :][..., kept].copy()
@@ -146,7 +146,7 @@ class MeridianShell(ShellFamily):
     def _around(B: FloatArray, m: _Meridian, k: int) -> None:
         """Rows of the circumference, for harmonic k."""
         if (m.r <= 0).any():
-            raise MeshError("a shell cell reaches across the axis of revolution")
+            raise MeshError("kernel.elements.shell-cell-reaches-across")
         r, tr, nr = m.r[..., None], m.t[:, 0, None, None], m.n[:, 0, None, None]
         turn = m.slope_around(k)
         B[:, 1] = (tr * m.u + nr * m.w + k * m.v) / r

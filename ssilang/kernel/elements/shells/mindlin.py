@@ -43,7 +43,7 @@ def quadrangle_frames(zone: Zone, cells: slice = slice(None)) -> tuple[FloatArra
     normal = np.cross(x[:, 2] - x[:, 0], x[:, 3] - x[:, 1])
     size = np.linalg.norm(normal, axis=1, keepdims=True)
     if (size <= 0).any():
-        raise MeshError("a quadrangle of a shell has no area", "remove it or merge its nodes")
+        raise MeshError("kernel.elements.quadrangle-shell-no-area")
     e3 = normal / size
     side = x[:, 1] - x[:, 0]
     e1 = side - np.einsum("ci,ci->c", side, e3)[:, None] * e3

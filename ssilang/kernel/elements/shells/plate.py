@@ -46,7 +46,7 @@ def plate_frames(zone: Zone, cells: slice = slice(None)) -> tuple[FloatArray, Fl
     normal = np.cross(first, second)
     sizes = [np.linalg.norm(v, axis=1, keepdims=True) for v in (first, normal)]
     if (sizes[1] <= 1e-14 * sizes[0] ** 2).any():
-        raise MeshError("a triangle of a shell has no area", "remove it or merge its nodes")
+        raise MeshError("kernel.elements.triangle-shell-no-area")
     e1, e3 = first / sizes[0], normal / sizes[1]
     frames = np.stack([e1, np.cross(e3, e1), e3], axis=1)
     local = np.einsum("cij,ckj->cki", frames[:, :2], x - x[:, :1])

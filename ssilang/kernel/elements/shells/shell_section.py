@@ -59,7 +59,9 @@ def section_moduli(zone: Zone, parameters: ZoneField, support: Support) -> Float
     """
     kind = symmetry_of(zone)
     if kind not in _LAWS:
-        raise MaterialError(f"elasticity {kind} is not available for shells ({zone.element})")
+        raise MaterialError(
+            "kernel.elements.elasticity-not-available-shells", kind=kind, element=zone.element
+        )
     Q = _LAWS[kind](parameters, support)
     h = parameters.at("EPAI", support)[..., None, None]
     shape = np.broadcast_shapes(Q.shape[:2], h.shape[:2])
@@ -96,7 +98,9 @@ def material_moduli(zone: Zone, parameters: ZoneField, support: Support) -> Floa
     """Moduli (n_cells or 1, n_points or 1, 5, 5) of plane stress and transverse shear."""
     kind = symmetry_of(zone)
     if kind not in _LAWS:
-        raise MaterialError(f"elasticity {kind} is not available for shells ({zone.element})")
+        raise MaterialError(
+            "kernel.elements.elasticity-not-available-shells", kind=kind, element=zone.element
+        )
     Q, G = _LAWS[kind](parameters, support), _shear(zone, parameters, support)
     D = np.zeros((*np.broadcast_shapes(Q.shape[:2], G.shape[:2]), 5, 5))
     D[..., :3, :3], D[..., 3:, 3:] = Q, SHEAR_FACTOR * G

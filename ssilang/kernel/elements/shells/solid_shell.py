@@ -211,7 +211,9 @@ class SolidShell(ElementFamily):
             If the material is not isotropic.
         """
         if symmetry_of(zone) != "ISOTROPE":
-            raise MaterialError(f"elasticity {symmetry_of(zone)} is not available for SHB8")
+            raise MaterialError(
+                "kernel.elements.elasticity-not-available-shb8", symmetry_of=symmetry_of(zone)
+            )
         young, poisson = (parameters.at(name, support) for name in ("YOUN", "NU"))
         check_isotropic(young, poisson)
         E, nu = np.broadcast_arrays(young, poisson)

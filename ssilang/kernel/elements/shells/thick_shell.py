@@ -50,7 +50,7 @@ def fibres(zone: Zone, cells: slice = slice(None)) -> FloatArray:
     normal = np.cross(tangents[:, :, 0], tangents[:, :, 1])
     size = np.linalg.norm(normal, axis=2, keepdims=True)
     if (size <= 0).any():
-        raise MeshError("the middle surface of a shell folds at a node")
+        raise MeshError("kernel.elements.middle-surface-shell-folds")
     found: FloatArray = normal / size
     return found
 

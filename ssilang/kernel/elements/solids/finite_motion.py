@@ -39,7 +39,7 @@ def transformation(zone: Zone, flat: FloatArray, of_displacement: bool) -> Float
     Directions that the hypothesis has no gradient for are not stretched.
     """
     if zone.mode in REVOLUTION and harmonic(zone):
-        raise FieldError("finite motions do not exist for a Fourier harmonic")
+        raise FieldError("kernel.elements.finite-motions-not-exist")
     F = gradient_tensor(zone, flat)
     if of_displacement:
         return F + np.eye(3)
@@ -67,10 +67,7 @@ def polar(F: FloatArray) -> tuple[FloatArray, FloatArray]:
         If F turns a volume inside out.
     """
     if (np.linalg.det(F) <= 0.0).any():
-        raise FieldError(
-            "the gradient of the motion has a determinant that is not positive",
-            "matter cannot be turned inside out: is the field F, or F - 1 ('DEPL')?",
-        )
+        raise FieldError("kernel.elements.gradient-motion-determinant-not")
     left, stretch, right = np.linalg.svd(F)
     U = np.swapaxes(right, -1, -2) @ (stretch[..., None] * right)
     return left @ right, U
@@ -81,7 +78,7 @@ def motion_of(zone: Zone, displacement: NodeField, support: Support) -> FloatArr
     if support != "STRESSES" and n_points(zone.element, support) != n_points(
         zone.element, "STRESSES"
     ):
-        raise FieldError(f"the field stands at '{support}', it is wanted at 'STRESSES'")
+        raise FieldError("kernel.elements.field-stands-wanted-stresses", support=support)
     return transformation(zone, gradient_values(zone, displacement), True)
 
 
@@ -128,10 +125,10 @@ def work(zone: Zone, stress: CellField, gradient: CellField) -> tuple[FloatArray
     sigma, support = components_at_home(zone, stress, kinematics(zone).stresses)
     G, other = components_at_home(zone, gradient, gradient_names(zone))
     if sigma.shape[2] != G.shape[2] and 1 not in (sigma.shape[2], G.shape[2]):
-        raise FieldError(f"the stresses stand at '{support}', the gradients at '{other}'")
+        raise FieldError("kernel.elements.stresses-stand-gradients", support=support, other=other)
     H = gradient_tensor(zone, G)
     if zone.mode is Mode.FOURIER:
-        raise FieldError("WORK has no gradients of Fourier harmonics")
+        raise FieldError("kernel.elements.work-no-gradients-fourier")
     return np.einsum("npij,npij->np", as_tensor(sigma, False), H), support
 
 

@@ -69,7 +69,7 @@ PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
 def second_order_strain(zone: Zone, displacement: NodeField) -> FloatArray:
     """Quadratic terms of the Green-Lagrange strain, (n_cells, n_strains, n_points)."""
     if zone.mode in REVOLUTION and harmonic(zone):
-        raise FieldError("second-order strains do not exist for a Fourier harmonic")
+        raise FieldError("kernel.elements.second-order-strains-not")
     H = gradient_tensor(zone, gradient_values(zone, displacement))
     Q = 0.5 * np.einsum("cpki,cpkj->cpij", H, H)
     rows = [Q[..., i, j] * (1.0 if i == j else 2.0) for i, j in PAIRS]

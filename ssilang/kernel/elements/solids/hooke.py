@@ -43,7 +43,9 @@ def moduli_from_field(zone: Zone, material: ZoneField, support: Support) -> Floa
         return None
     values, found = material.raw(HOOKE_COMPONENT)
     if values.shape[1] > 1 and found != support and {found, support} != {"RIGIDITE", "STRESSES"}:
-        raise FieldError(f"the Hooke matrices stand at '{found}', they are needed at '{support}'")
+        raise FieldError(
+            "kernel.elements.hooke-matrices-stand-needed", found=found, support=support
+        )
     first = values[0, 0]
     if all(v is first for v in values.ravel()):
         return np.asarray(first, dtype=float)[None, None]
@@ -63,6 +65,5 @@ def inverted(zone: Zone, moduli: FloatArray) -> FloatArray:
         return np.linalg.inv(moduli).astype(np.float64)
     except np.linalg.LinAlgError:
         raise MaterialError(
-            f"the elastic matrix of element {zone.element} cannot be inverted",
-            "give the sheared sections SECY and SECZ to MATE or CARA",
+            "kernel.elements.elastic-matrix-element-cannot", element=zone.element
         ) from None

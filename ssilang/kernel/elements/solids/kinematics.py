@@ -134,10 +134,7 @@ def section_point(zone: Zone) -> Point:
     """
     point = zone.options.get("DPGE")
     if not isinstance(point, Point):
-        raise MeshError(
-            "generalised plane strain needs the point that carries the section's motion",
-            "give it to MODE after the word DPGE",
-        )
+        raise MeshError("kernel.elements.generalised-plane-strain-needs")
     return point
 
 

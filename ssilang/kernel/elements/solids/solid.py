@@ -66,10 +66,7 @@ def radius(zone: Zone, shapes: FloatArray, cells: slice) -> FloatArray:
     """
     r = coordinates(zone, cells)[..., 0] @ shapes.T
     if (r <= 0).any():
-        raise MeshError(
-            "a cell of an axisymmetric model reaches across the axis",
-            "the first coordinate is the radius: it must not be negative",
-        )
+        raise MeshError("kernel.elements.cell-axisymmetric-model-reaches")
     return r
 
 

@@ -35,10 +35,7 @@ def material_axes(parameters: ZoneField, support: Support) -> FloatArray:
     Built from the parameters V1X V1Y (V1Z) and V2X V2Y V2Z that MATE made from DIRECTION.
     """
     if "V1X" not in parameters:
-        raise MaterialError(
-            "an orthotropic material needs its axes",
-            "give DIRECTION and one vector (two in space) to MATE",
-        )
+        raise MaterialError("kernel.elements.orthotropic-material-needs-axes")
     flat = parameters.zone.mode is not Mode.THREE_DIMENSIONAL
     first = np.stack(
         np.broadcast_arrays(*(parameters.at(f"V1{a}", support, 0.0) for a in "XYZ")), axis=-1
@@ -52,7 +49,7 @@ def material_axes(parameters: ZoneField, support: Support) -> FloatArray:
     third = np.cross(first, second)
     norms = [np.linalg.norm(v, axis=-1, keepdims=True) for v in (first, third)]
     if min(float(n.min()) for n in norms) <= 0:
-        raise MaterialError("the vectors that give the axes of orthotropy are zero or parallel")
+        raise MaterialError("kernel.elements.vectors-axes-orthotropy-zero")
     first, third = first / norms[0], third / norms[1]
     return np.stack([first, np.cross(third, first), third], axis=-2)
 
@@ -146,7 +143,9 @@ def symmetry_of(zone: Zone) -> str:
 def _law(zone: Zone) -> Pair:
     name = symmetry_of(zone)
     if name not in SOLID_LAWS:
-        raise MaterialError(f"elasticity {name} is not available for element {zone.element}")
+        raise MaterialError(
+            "kernel.elements.elasticity-not-available-element", name=name, element=zone.element
+        )
     return SOLID_LAWS[name]
 
 

@@ -86,7 +86,7 @@ def taken_apart(block: CellBlock, target: str) -> Mesh:
     rule = _RULES.get((target, kind.dimension))
     places = rule(kind) if rule is not None else []
     if not places:
-        raise MeshError(f"cells of type {kind.name} cannot be changed into {target}")
+        raise MeshError("kernel.mesh.cells-type-cannot-changed", name=kind.name, target=target)
     table = block.connectivity[:, places].reshape(-1, len(places[0]))
     name = CELL_TYPES[target].name if kind.dimension == 3 else _FLAT[target]
     return Mesh.of(block.nodes, name, table, np.repeat(block.colours, len(places)))

@@ -23,17 +23,17 @@ def cut_open(surface: Mesh, line: Mesh) -> tuple[Mesh, Mesh]:
     """
     block = line.single_block()
     if block.cell_type not in ("SEG2", "SEG3"):
-        raise MeshError("a line of SEG2 or SEG3 is needed to cut a surface open")
+        raise MeshError("kernel.mesh.line-seg2-seg3-needed")
     ends, times = np.unique(block.connectivity[:, [0, -1]], return_counts=True)
     if (times > 2).any():
-        raise MeshError(f"the line branches at node {int(ends[times > 2][0]) + 1}")
+        raise MeshError("kernel.mesh.line-branches-node", ends=int(ends[times > 2][0]) + 1)
     right = _right_cells(surface, block)
     nodes = surface.nodes
     on_line = np.unique(block.connectivity)
     image = np.arange(len(nodes), dtype=np.int64)
     opened = [n for n in on_line.tolist() if n in right]
     if not opened:
-        raise MeshError("the line does not separate any cells of the surface")
+        raise MeshError("kernel.mesh.line-not-separate-cells")
     old = np.array(opened, dtype=np.int64)
     image[old] = nodes.add(nodes.coordinates[old].copy(), nodes.density[old].copy())
     blocks = []
@@ -65,7 +65,7 @@ def _right_cells(surface: Mesh, line: CellBlock) -> dict[int, set[tuple[int, int
                 edge_cells.setdefault((min(a, b), max(a, b)), []).append((k, row))
     cut = {(min(a, b), max(a, b)): (a, b) for a, b in line.connectivity[:, [0, -1]].tolist()}
     if any(edge not in edge_cells for edge in cut):
-        raise MeshError("the line is not made of edges of the surface")
+        raise MeshError("kernel.mesh.line-not-made-edges")
     seeds = _seeds(surface, line, cut, edge_cells)
     found: dict[int, set[tuple[int, int]]] = {}
     for node, cells in around.items():

@@ -45,7 +45,7 @@ def quadratic(mesh: Mesh, lines: Mesh | None = None) -> Mesh:
     todo = [b for b in mesh.blocks if b.kind.degree == 1 and b.kind.dimension > 0]
     for block in todo:
         if block.cell_type not in QUADRATIC:
-            raise MeshError(f"cells of type {block.cell_type} have no quadratic counterpart here")
+            raise MeshError("kernel.mesh.cells-type-no-quadratic", cell_type=block.cell_type)
     if not todo:
         return mesh
     pairs = np.concatenate([_edge_pairs(b).reshape(-1, 2) for b in todo])

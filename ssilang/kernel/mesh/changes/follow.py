@@ -36,12 +36,12 @@ def followed(
     nodes = mesh.sorted_node_ids
     xyz = mesh.nodes.coordinates[nodes]
     if not len(nodes):
-        raise MeshError("the mesh is empty: it has no nodes to move")
+        raise MeshError("kernel.mesh.mesh-empty-no-nodes")
     place = np.searchsorted(nodes, masters)
     here = nodes[np.minimum(place, len(nodes) - 1)] == masters
     held, target = place[here], places[here]
     if not len(held):
-        raise MeshError("none of the master nodes belongs to the mesh")
+        raise MeshError("kernel.mesh.none-master-nodes-belongs")
     fixed = np.zeros(len(nodes), bool)
     fixed[held] = True
     motion = np.zeros((len(nodes), 3))
@@ -66,7 +66,7 @@ def _solved(A: sp.csr_array, values: FloatArray, fixed: np.ndarray) -> FloatArra
     known = np.flatnonzero(fixed)
     count, part = connected_components(A, directed=False)
     if len(np.unique(part[known])) < count:
-        raise MeshError("a part of the mesh has no master node", "give masters in each part")
+        raise MeshError("kernel.mesh.part-mesh-no-master")
     found = splu(sp.csc_array(A[free][:, free])).solve(-(A[free][:, known] @ values[known]))
     result = values.copy()
     result[free] = found
@@ -78,10 +78,7 @@ def _stiffness(mesh: Mesh, nodes: IntArray) -> sp.csr_array:
     rows, columns, terms = [], [], []
     for block in mesh.blocks:
         if block.kind.dimension < 2 or block.kind.joint or block.kind.degree > 1:
-            raise MeshError(
-                f"cells of type {block.cell_type} cannot follow",
-                "linear surfaces and volumes do: CHAN 'LINEAIRE'",
-            )
+            raise MeshError("kernel.mesh.cells-type-cannot-follow", cell_type=block.cell_type)
         for local in simplices(block):
             table = block.connectivity[:, list(local)]
             local_terms = _simplex_terms(block, table)
@@ -103,7 +100,9 @@ def _simplex_terms(block: CellBlock, table: IntArray) -> FloatArray:
     size = np.sqrt(np.maximum(np.linalg.det(gram), 0.0))
     flat = size <= 1e-14 * np.linalg.norm(edges, axis=-1).prod(axis=-1)
     if flat.any():
-        raise MeshError(f"{int(flat.sum())} cells of type {block.cell_type} are flat")
+        raise MeshError(
+            "kernel.mesh.cells-type-flat", n_flat=int(flat.sum()), cell_type=block.cell_type
+        )
     inner = np.linalg.inv(gram)
     whole = np.zeros((len(table), table.shape[1], table.shape[1]))
     whole[:, 1:, 1:] = inner

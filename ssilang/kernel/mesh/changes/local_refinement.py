@@ -81,8 +81,7 @@ def _division(cell_type: str) -> _Division:
     if cell_type in _REFERENCE:
         return _brick(cell_type)
     raise MeshError(
-        f"{cell_type} cells are not divided",
-        f"{' '.join((*_PLANE, *_REFERENCE, 'PRI6'))} are: CHAN LINE makes cells linear",
+        "kernel.mesh.cells-not-divided", cell_type=cell_type, value=(*_PLANE, *_REFERENCE, "PRI6")
     )
 
 
@@ -235,7 +234,7 @@ def divided_to_sizes(mesh: Mesh, sizes: FloatArray) -> Mesh:
         For cells of other kinds, sizes that are not positive or too many cells.
     """
     if not (sizes > 0.0).all():
-        raise MeshError("the sizes wanted are positive", f"the least is {sizes.min():g}")
+        raise MeshError("kernel.mesh.sizes-wanted-positive", sizes_min=sizes.min())
     wanted = np.full(len(mesh.nodes), np.inf)
     wanted[mesh.node_ids] = sizes
     state = _State(mesh.nodes, wanted)
@@ -270,7 +269,7 @@ def _check_number(state: _State, active: list[_Cells]) -> None:
         times = np.ceil(np.log2(np.maximum(_excess(state, cells), 1.0)))
         total += float((growth**times).sum())
     if total > _MOST_CELLS:
-        raise MeshError(f"about {total:.1e} cells are needed", "wish larger sizes")
+        raise MeshError("kernel.mesh.about-cells-needed", total=total)
 
 
 def _torn(state: _State, cells: _Cells, top: int) -> NDArray[np.bool_]:

@@ -71,10 +71,7 @@ def merge_between(nodes: NodeTable, first: IntArray, second: IntArray, tolerance
 
 def _check(tolerance: float) -> None:
     if tolerance <= 0.0:
-        raise MeshError(
-            "nodes are merged within a positive distance",
-            "give the distance, or set the density (DENS) whose tenth is taken",
-        )
+        raise MeshError("kernel.mesh.nodes-merged-within-positive")
 
 
 def _merge_groups(nodes: NodeTable, ids: IntArray, pairs: IntArray) -> int:

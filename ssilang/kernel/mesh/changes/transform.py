@@ -31,7 +31,7 @@ def turn(angle: float, origin: FloatArray, axis: FloatArray) -> PointMap:
     MeshError
         If the axis has no length.
     """
-    unit = _unit(axis, "the two points of the axis of rotation coincide")
+    unit = _unit(axis, "kernel.mesh.two-points-axis-rotation")
     return lambda x: rotate(x, math.radians(angle), origin, unit)
 
 
@@ -42,7 +42,7 @@ def mirror_point(centre: FloatArray) -> PointMap:
 
 def mirror_line(a: FloatArray, b: FloatArray) -> PointMap:
     """Symmetry about the line through two points (3,)."""
-    unit = _unit(b - a, "the two points of the line coincide")
+    unit = _unit(b - a, "kernel.mesh.two-points-line-coincide")
 
     def image(x: FloatArray) -> FloatArray:
         foot = a + ((x - a) @ unit)[:, None] * unit
@@ -53,7 +53,7 @@ def mirror_line(a: FloatArray, b: FloatArray) -> PointMap:
 
 def mirror_plane(a: FloatArray, b: FloatArray, c: FloatArray) -> PointMap:
     """Symmetry about the plane through three points (3,)."""
-    unit = _unit(np.cross(b - a, c - a), "the three points of the plane are in line")
+    unit = _unit(np.cross(b - a, c - a), "kernel.mesh.three-points-plane-line")
     return lambda x: x - 2.0 * ((x - a) @ unit)[:, None] * unit
 
 
@@ -64,14 +64,14 @@ def scaling(ratio: float, centre: FloatArray) -> PointMap:
 
 def affinity(ratio: float, origin: FloatArray, towards: FloatArray) -> PointMap:
     """Stretching by `ratio` along the direction origin -> towards; `origin` (3,) stays."""
-    unit = _unit(towards - origin, "the two points that give the direction coincide")
+    unit = _unit(towards - origin, "kernel.mesh.two-points-direction-coincide")
     return lambda x: x + (ratio - 1.0) * ((x - origin) @ unit)[:, None] * unit
 
 
-def _unit(vector: FloatArray, message: str) -> FloatArray:
+def _unit(vector: FloatArray, code: str) -> FloatArray:
     size = float(np.linalg.norm(vector))
     if size == 0.0:
-        raise MeshError(message)
+        raise MeshError(code)
     unit: FloatArray = vector / size
     return unit
 
@@ -142,9 +142,7 @@ def mapping_between(first: Mesh, second: Mesh) -> NodeCopier:
     pairs = dict(zip(first.node_ids.tolist(), target.tolist(), strict=True))
 
     def refuse(ids: IntArray) -> FloatArray:
-        raise MeshError(
-            f"node {int(ids[0]) + 1} does not belong to the mesh that gives the transformation"
-        )
+        raise MeshError("kernel.mesh.node-not-belong-mesh", ids=int(ids[0]) + 1)
 
     return NodeCopier(first.nodes, by_node=refuse, copies=pairs)
 
@@ -167,16 +165,16 @@ def affine_through(old: FloatArray, new: FloatArray, dimension: int) -> PointMap
         With too many points or points that are affinely dependent.
     """
     if len(old) != len(new) or len(old) == 0:
-        raise MeshError(
-            f"the map takes as many points as it gives, one at least: got {len(old)} and {len(new)}"
-        )
+        raise MeshError("kernel.mesh.map-takes-many-points", n_old=len(old), n_new=len(new))
     if len(old) > dimension + 1:
-        raise MeshError(f"at most {dimension + 1} points define the map, got {len(old)}")
+        raise MeshError(
+            "kernel.mesh.most-points-define-map", dimension=dimension + 1, n_old=len(old)
+        )
     before, after = (old[1:] - old[0]).T, (new[1:] - new[0]).T
     linear = np.eye(3)
     if before.size:
         if np.linalg.matrix_rank(before) < before.shape[1]:
-            raise MeshError("the points that define the map are in line or coincide")
+            raise MeshError("kernel.mesh.points-define-map-line")
         inverse = np.linalg.pinv(before)
         linear = after @ inverse + np.eye(3) - before @ inverse
     return lambda x: new[0] + (x - old[0]) @ linear.T
@@ -204,8 +202,8 @@ def to_cylindrical(origin: FloatArray, axis: FloatArray, zero: FloatArray) -> Po
     zero : array (3,)
         A vector that gives theta = 0 (its part along the axis is dropped).
     """
-    up = _unit(axis, "the axis of the cylindrical coordinates has no length")
-    first = _unit(zero - (zero @ up) * up, "the point that gives theta = 0 lies on the axis")
+    up = _unit(axis, "kernel.mesh.axis-cylindrical-coordinates-no")
+    first = _unit(zero - (zero @ up) * up, "kernel.mesh.point-theta-lies-axis")
     second = np.cross(up, first)
 
     def image(x: FloatArray) -> FloatArray:

@@ -41,25 +41,19 @@ def joint_mesh(first: Mesh, second: Mesh, tolerance: float) -> Mesh:
         one is close enough to a cell of the other.
     """
     if tolerance <= 0.0:
-        raise MeshError(
-            "facing cells are paired within a positive distance",
-            "give the distance, or set the density (DENS) whose tenth is taken",
-        )
+        raise MeshError("kernel.mesh.facing-cells-paired-within")
     made = []
     for block in first.blocks:
         joint = _JOINTS.get(block.cell_type)
         if joint is None:
-            raise MeshError(f"no joint cell can be made on cells of type {block.cell_type}")
+            raise MeshError("kernel.mesh.no-joint-cell-made", cell_type=block.cell_type)
         for other in second.blocks:
             if other.cell_type == block.cell_type:
                 rows, partner = _paired(block, other, tolerance)
                 if len(rows):
                     made.append(_oriented(block, joint, rows, partner))
     if not made:
-        raise MeshError(
-            f"no cell of the first mesh faces a cell of the second within {tolerance:g}",
-            "check that the two meshes correspond, or give a larger distance",
-        )
+        raise MeshError("kernel.mesh.no-cell-first-mesh", tolerance=tolerance)
     return union(*(Mesh(first.nodes, (b,)) for b in made), as_given=True)
 
 
@@ -143,10 +137,7 @@ def joints_inside(mesh: Mesh, tolerance: float) -> Mesh:
         if len(rows):
             made.append(_oriented(block, _JOINTS[block.cell_type], rows, partner))
     if not made:
-        raise MeshError(
-            f"no two boundaries inside the mesh face each other within {tolerance:g}",
-            "the parts must touch without sharing nodes",
-        )
+        raise MeshError("kernel.mesh.no-two-boundaries-inside", tolerance=tolerance)
     return union(*(Mesh(mesh.nodes, (b,)) for b in made), as_given=True)
 
 

@@ -25,7 +25,7 @@ def stitch(first: Mesh, second: Mesh, colour: int = 0) -> Mesh:
     ids = np.concatenate([a, b])[table]
     ids = ids[(ids != np.roll(ids, 1, axis=1)).all(axis=1)]  # the lines may share their ends
     if not len(ids):
-        raise MeshError("the two lines are the same: there is nothing between them")
+        raise MeshError("kernel.mesh.two-lines-same-nothing")
     made = Mesh.of(nodes, "TRI3", ids, colour)
     lines = union(first, second, as_given=True)
     return quadratic(made, lines) if first.single_block().cell_type == "SEG3" else made
@@ -63,10 +63,10 @@ def cone(mesh: Mesh, apex: int) -> Mesh:
     for block in away.blocks:
         name = _CONES.get(block.cell_type)
         if name is None:
-            raise MeshError(f"cells of type {block.cell_type} cannot be joined to a point")
+            raise MeshError("kernel.mesh.cells-type-cannot-joined", cell_type=block.cell_type)
         tip = np.full((len(block), 1), apex)
         table = np.hstack([block.connectivity, tip])
         parts.append(Mesh.of(mesh.nodes, name, table, block.colours))
     if not parts:
-        raise MeshError("no cell of the mesh is away from the point")
+        raise MeshError("kernel.mesh.no-cell-mesh-away")
     return union(*parts, as_given=True)

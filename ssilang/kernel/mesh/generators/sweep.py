@@ -55,7 +55,7 @@ def rotation(mesh: Mesh, angle: float, origin: FloatArray, axis: FloatArray) -> 
     """
     size = float(np.linalg.norm(axis))
     if size == 0.0:
-        raise MeshError("the two points of the axis of rotation coincide")
+        raise MeshError("kernel.mesh.two-points-axis-rotation")
     unit = axis / size
     arm = mean_position(mesh) - origin
     radius = float(np.linalg.norm(arm - arm @ unit * unit))
@@ -101,9 +101,7 @@ def corresponding_nodes(first: Mesh, second: Mesh) -> IntArray:
     theirs = {b.cell_type: b.connectivity for b in second.blocks}
     if {k: v.shape for k, v in ours.items()} != {k: v.shape for k, v in theirs.items()}:
         raise MeshError(
-            f"the two meshes do not have the same structure: {_summary(first)} and "
-            f"{_summary(second)}",
-            "they need the same cells in the same order",
+            "kernel.mesh.two-meshes-not-same", summary=_summary(first), summary_2=_summary(second)
         )
     if not first.blocks:
         return np.empty(0, dtype=np.int64)
@@ -132,7 +130,7 @@ def sweep_line(
     """
     block = line.single_block()
     if block.cell_type not in ("SEG2", "SEG3"):
-        raise MeshError(f"a line is needed to sweep a surface, this mesh holds {block.cell_type}")
+        raise MeshError("kernel.mesh.line-needed-sweep-surface", cell_type=block.cell_type)
     quadratic = block.cell_type == "SEG3"
     layers = _Layers.build(line, path, cuts, quadratic)
     local = layers.local(block.connectivity)
@@ -189,7 +187,7 @@ def listed_cuts(values: FloatArray, length: float) -> Subdivision:
         With fewer than two positions, or first equal to last.
     """
     if len(values) < 2 or values[0] == values[-1]:
-        raise MeshError("a list of layer positions needs two or more values, the ends different")
+        raise MeshError("kernel.mesh.list-layer-positions-needs")
     step = length / (len(values) - 1)
     return Subdivision((values - values[0]) / (values[-1] - values[0]), step, step)
 
@@ -206,7 +204,7 @@ def mean_position(mesh: Mesh) -> FloatArray:
 
 def _cell_nodes(mesh: Mesh) -> IntArray:
     if not mesh.n_cells:
-        raise MeshError("the mesh is empty")
+        raise MeshError("kernel.mesh.mesh-empty")
     return np.concatenate([b.connectivity.ravel() for b in mesh.blocks])
 
 
@@ -322,7 +320,7 @@ _VOLUMES = {"TRI3": "PRI6", "QUA4": "CUB8", "TRI6": "PR15", "QUA8": "CU20"}
 def _volume_block(layers: _Layers, block: CellBlock, cuts: Subdivision) -> CellBlock:
     cell_type = _VOLUMES.get(block.cell_type)
     if cell_type is None:
-        raise MeshError(f"no volume can be swept by cells of type {block.cell_type}")
+        raise MeshError("kernel.mesh.no-volume-swept-cells", cell_type=block.cell_type)
     local = layers.local(block.connectivity)
     corners = local[:, list(block.kind.corners)]
     parts = []

@@ -67,24 +67,18 @@ def crossing_curve(
     """
     reach = float(np.linalg.norm(end - start))
     if reach == 0.0:
-        raise MeshError("the two ends of the curve are the same point")
+        raise MeshError("kernel.mesh.two-ends-curve-same")
     for name, x in (("first", start), ("last", end)):
         off = max(abs(float(gap(x[None])[0])) for gap in gaps)
         if off > 1e-4 * reach:
-            raise MeshError(
-                f"the {name} point is {off:.3g} away from one of the surfaces",
-                "both ends lie on both surfaces",
-            )
+            raise MeshError("kernel.mesh.point-away-surfaces", name=name, off=off)
     found = [
         path
         for sense in (1.0, -1.0)
         if (path := _followed(gaps, start, end, sense * reach / _STEPS)) is not None
     ]
     if not found:
-        raise MeshError(
-            "the crossing of the surfaces that starts at the first point does not come to the last",
-            "are both points on the same branch of it?",
-        )
+        raise MeshError("kernel.mesh.crossing-surfaces-starts-first")
     shortest = min(found, key=lambda path: path.length)
     return shortest if length is None else _to_length(shortest, length)
 
@@ -161,9 +155,6 @@ def _tangent(gaps: tuple[Gap, Gap], x: FloatArray, size: float) -> FloatArray:
     along = np.cross(one, two)
     sine = float(np.linalg.norm(along))
     if sine < 1e-5:
-        raise MeshError(
-            "the two surfaces touch without crossing at "
-            f"({', '.join(f'{v:g}' for v in x)}): no curve is defined there"
-        )
+        raise MeshError("kernel.mesh.two-surfaces-touch-without", x=x)
     unit: FloatArray = along / sine
     return unit

@@ -52,23 +52,17 @@ def arc_about_centre(start: FloatArray, centre: FloatArray, end: FloatArray) -> 
     chord = end - start
     size = float(np.linalg.norm(chord))
     if size == 0.0:
-        raise MeshError("the two ends of the arc coincide")
+        raise MeshError("kernel.mesh.two-ends-arc-coincide")
     chord = chord / size
     middle = centre + ((start + end) / 2 - centre) @ chord * chord
     r1, r2 = np.linalg.norm(start - centre), np.linalg.norm(end - centre)
     first, last = start - middle, end - middle
     if not 0.99 < r1 / max(float(r2), 1e-300) < 1.01:
-        raise MeshError(
-            f"the ends are not at the same distance of the centre: {r1:g} and {r2:g}",
-            "move the centre or one end",
-        )
+        raise MeshError("kernel.mesh.ends-not-same-distance", r1=r1, r2=r2)
     normal = np.cross(first, last)
     sine = float(np.linalg.norm(normal))
     if sine <= 1e-10 * float(first @ first):
-        raise MeshError(
-            "the centre and the two ends are in line: there is no shorter arc",
-            "make a half circle with CERC 'ROTA' or in two arcs",
-        )
+        raise MeshError("kernel.mesh.centre-two-ends-line")
     angle = math.atan2(sine, float(first @ last))
     return Arc(middle, first, np.cross(normal / sine, first), angle)
 
@@ -85,7 +79,7 @@ def arc_through(start: FloatArray, between: FloatArray, end: FloatArray) -> Arc:
     normal = np.cross(a, end - between)
     square = float(normal @ normal)
     if square <= 1e-20 * float(a @ a) * float(b @ b):
-        raise MeshError("the three points are in line: no circle goes through them")
+        raise MeshError("kernel.mesh.three-points-line-no")
     centre = start + np.cross(a @ a * b - b @ b * a, np.cross(a, b)) / (2.0 * square)
     axis = normal / math.sqrt(square)
     first, last = start - centre, end - centre
@@ -103,12 +97,12 @@ def arc_about_axis(start: FloatArray, origin: FloatArray, axis: FloatArray, angl
     """
     size = float(np.linalg.norm(axis))
     if size == 0.0:
-        raise MeshError("the two points of the axis coincide")
+        raise MeshError("kernel.mesh.two-points-axis-coincide")
     unit = axis / size
     centre = origin + (start - origin) @ unit * unit
     first = start - centre
     if float(np.linalg.norm(first)) == 0.0:
-        raise MeshError("the point to turn lies on the axis")
+        raise MeshError("kernel.mesh.point-turn-lies-axis")
     return Arc(centre, first, np.cross(unit, first), angle)
 
 
@@ -237,7 +231,7 @@ class ParabolicArc:
         """
         half = 0.5 * self.arc.angle * np.diff(self.fractions)
         if (np.abs(half) >= 0.5 * math.pi).any():
-            raise MeshError("a parabola covers a half turn or more", "ask for more elements")
+            raise MeshError("kernel.mesh.parabola-covers-half-turn")
         centred = self.arc(0.5 * (self.fractions[:-1] + self.fractions[1:])) - self.arc.centre
         reach = 0.5 * (np.cos(half) + 1.0 / np.cos(half))
         middle: FloatArray = self.arc.centre + reach[:, None] * centred

@@ -69,13 +69,13 @@ def _corner(a: FloatArray, u: FloatArray, b: FloatArray, v: FloatArray) -> tuple
     normal = np.cross(u, v)
     sine = float(np.linalg.norm(normal))
     if sine < 1e-9:
-        raise MeshError("the two lines are parallel: no arc rounds their corner")
+        raise MeshError("kernel.mesh.two-lines-parallel-no")
     gap = b - a
     along = float(np.cross(gap, v) @ normal) / sine**2
     meeting: FloatArray = a + along * u
     off = abs(float(gap @ normal)) / sine
     if off > 1e-6 * (1.0 + float(np.linalg.norm(gap))):
-        raise MeshError(f"the two lines do not meet: they pass {off:g} from one another")
+        raise MeshError("kernel.mesh.two-lines-not-meet", off=off)
     return meeting, math.atan2(sine, float(u @ v))
 
 
@@ -86,7 +86,7 @@ def _trimmed(
     left = (end - x) @ way
     step = float(np.linalg.norm(x[-1] - x[-2]))
     if left[0] <= 0.0:
-        raise MeshError("the radius is too large for the lines", "give a smaller radius")
+        raise MeshError("kernel.mesh.radius-too-large-lines")
     keep = left > 0.3 * step
     keep[0] = True
     return chain[keep]

@@ -38,11 +38,11 @@ def frenet_frames(line: Mesh) -> tuple[IntArray, FloatArray]:
 def _neighbours(line: Mesh) -> tuple[IntArray, IntArray]:
     """Node before and node after each node of the table, -1 where there is none."""
     if not line.n_cells:
-        raise MeshError("the mesh is empty: there is no line")
+        raise MeshError("kernel.mesh.mesh-empty-no-line")
     pairs = []
     for block in line.blocks:
         if block.cell_type not in ("SEG2", "SEG3"):
-            raise MeshError(f"a line is needed, this mesh holds {block.cell_type}")
+            raise MeshError("kernel.mesh.line-needed-mesh-holds", cell_type=block.cell_type)
         table = block.connectivity
         pairs += [table[:, k : k + 2] for k in range(table.shape[1] - 1)]
     table = np.concatenate(pairs)
@@ -50,7 +50,7 @@ def _neighbours(line: Mesh) -> tuple[IntArray, IntArray]:
         ids, times = np.unique(table[:, column], return_counts=True)
         if (times > 1).any():
             node = int(ids[times > 1][0]) + 1
-            raise MeshError(f"several cells {where} at node {node}: the line branches there")
+            raise MeshError("kernel.mesh.several-cells-node-line", where=where, node=node)
     before = np.full(len(line.nodes), -1, dtype=np.int64)
     after = before.copy()
     after[table[:, 0]], before[table[:, 1]] = table[:, 1], table[:, 0]

@@ -52,8 +52,9 @@ def chain_mesh(nodes: NodeTable, chain: IntArray, quadratic: bool, colour: int =
         With fewer than two nodes, or an even number of them for SEG3.
     """
     if len(chain) < 2 or (quadratic and len(chain) % 2 == 0):
-        need = "an odd number of" if quadratic else "two or more"
-        raise MeshError(f"a line needs {need} points, got {len(chain)}")
+        raise MeshError(
+            "kernel.mesh.line-needs-points-got", quadratic=quadratic, n_chain=len(chain)
+        )
     step = 2 if quadratic else 1
     columns = [chain[k : len(chain) - step + k : step] for k in range(step + 1)]
     return Mesh.of(nodes, "SEG3" if quadratic else "SEG2", np.column_stack(columns), colour)
@@ -103,9 +104,7 @@ def different_nodes(nodes: NodeTable, start: int, end: int) -> None:
     MeshError
     """
     if start == end:
-        raise MeshError(
-            f"the line starts and ends at the same node {start + 1}", "give another end point"
-        )
+        raise MeshError("kernel.mesh.line-starts-ends-same", start=start + 1)
 
 
 def polyline(
@@ -127,7 +126,7 @@ def line_chain(line: Mesh) -> IntArray:
     """
     if any(b.cell_type not in ("SEG2", "SEG3") for b in line.blocks) or not line.blocks:
         kinds = ", ".join(b.cell_type for b in line.blocks) or "nothing"
-        raise MeshError(f"a line of SEG2 or SEG3 is needed, this mesh holds {kinds}")
+        raise MeshError("kernel.mesh.line-seg2-seg3-needed-2", kinds=kinds)
     table = line.single_block().connectivity
     if not np.array_equal(table[1:, 0], table[:-1, -1]):
         table = _in_order(table)
@@ -145,10 +144,7 @@ def _in_order(table: IntArray) -> IntArray:
             rows.append(leaving[at])
             at = int(table[rows[-1], -1])
     if len(rows) != len(table):
-        raise MeshError(
-            "the line's cells do not follow one another",
-            "join its parts with ET, and turn the reversed ones with INVE",
-        )
+        raise MeshError("kernel.mesh.line-cells-not-follow")
     return table[rows]
 
 
@@ -161,7 +157,7 @@ def line_ends(line: Mesh) -> tuple[int, int]:
         If the mesh holds other cells than SEG2, SEG3 or POI1.
     """
     if not line.blocks or any(b.kind.dimension > 1 or b.kind.joint for b in line.blocks):
-        raise MeshError("a line or a set of points is needed to have a first and a last point")
+        raise MeshError("kernel.mesh.line-set-points-needed")
     first, last = line.blocks[0].connectivity, line.blocks[-1].connectivity
     return int(first[0, 0]), int(last[-1, -1])
 

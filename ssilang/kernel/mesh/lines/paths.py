@@ -31,14 +31,14 @@ def shortest_line(network: Mesh, start: int, end: int) -> Mesh:
 
     block = network.single_block()
     if block.cell_type not in ("SEG2", "SEG3"):
-        raise MeshError(f"a line of SEG2 or SEG3 is needed, this mesh holds {block.cell_type}")
+        raise MeshError("kernel.mesh.line-seg2-seg3-needed-2", kinds=block.cell_type)
     table = block.connectivity
     nodes, places = np.unique(table[:, [0, -1]], return_inverse=True)
     pairs = places.reshape(-1, 2)
     wanted = network.nodes.resolve(np.array([start, end]))
     ends = np.searchsorted(nodes, wanted)
     if (ends >= len(nodes)).any() or ends[0] == ends[1] or (nodes[ends] != wanted).any():
-        raise MeshError("the two points are not ends of cells of the line")
+        raise MeshError("kernel.mesh.two-points-not-ends")
     gaps = np.diff(network.nodes.coordinates[nodes[pairs]], axis=1)[:, 0]
     lengths = np.maximum(np.linalg.norm(gaps, axis=1), np.finfo(float).tiny)
     graph = coo_array((lengths, pairs.T), shape=(len(nodes), len(nodes))).tocsr()
@@ -51,7 +51,7 @@ def shortest_line(network: Mesh, start: int, end: int) -> Mesh:
     while at != ends[0]:
         previous = int(before[at])
         if previous < 0:
-            raise MeshError("no way leads along the line from one point to the other")
+            raise MeshError("kernel.mesh.no-way-leads-along")
         row = cells[frozenset((previous, at))]
         rows.append(row)
         turned.append(bool(pairs[row, 0] != previous))

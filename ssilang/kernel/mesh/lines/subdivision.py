@@ -76,12 +76,10 @@ def subdivide(
         return Subdivision(np.linspace(0.0, 1.0, count + 1), step, step)
     if start_size <= 0.0 or end_size <= 0.0:
         raise MeshError(
-            f"mesh sizes must be positive, got {start_size:g} and {end_size:g}",
-            "give the number of elements (an ENTIER: 10, not 10.), or set sizes with DENS, DINI "
-            "and DFIN",
+            "kernel.mesh.mesh-sizes-must-positive", start_size=start_size, end_size=end_size
         )
     if length <= 0.0:
-        raise MeshError("a path of zero length cannot be cut by mesh sizes")
+        raise MeshError("kernel.mesh.path-zero-length-cannot")
     d1, d2 = start_size / length, end_size / length
     ratio = _ratio(d1, d2)
     graded = abs(ratio - 1.0) > _UNIFORM
@@ -105,6 +103,6 @@ def _ratio(d1: float, d2: float) -> float:
 
 def _nearest(wanted: float) -> int:
     if wanted > 1e7:
-        raise MeshError(f"the mesh sizes ask for {wanted:.3g} elements on one line")
+        raise MeshError("kernel.mesh.mesh-sizes-ask-elements", wanted=wanted)
     n = max(1, int(wanted))
     return n + 1 if wanted * wanted > n * (n + 1) else n

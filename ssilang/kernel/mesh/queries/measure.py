@@ -64,7 +64,7 @@ def _area_vector(line: Mesh) -> FloatArray:
     total = np.zeros(3)
     for block in line.blocks:
         if block.kind.dimension != 1 or block.kind.joint:
-            raise MeshError("the area inside a line is asked of a mesh that is not a line")
+            raise MeshError("kernel.mesh.area-inside-line-asked")
         x = block.coordinates
         if block.cell_type == "SEG2":
             total += 0.5 * np.cross(x[:, 0], x[:, 1]).sum(axis=0)
@@ -83,7 +83,7 @@ def enclosed_volume(surface: Mesh) -> float:
     total = 0.0
     for block in surface.blocks:
         if block.kind.dimension != 2 or block.kind.joint:
-            raise MeshError("the volume inside a surface is asked of a mesh that is not a surface")
+            raise MeshError("kernel.mesh.volume-inside-surface-asked")
         x = block.coordinates
         centre = x[:, list(block.kind.corners)].mean(axis=1)
         following = np.roll(x, -1, axis=1)
@@ -103,7 +103,7 @@ def node_sizes(mesh: Mesh) -> tuple[IntArray, FloatArray]:
             starts.append(table[:, k])
             ends.append(table[:, k + 1])
     if not starts:
-        raise MeshError("mesh sizes are measured on edges, this mesh has none")
+        raise MeshError("kernel.mesh.mesh-sizes-measured-edges")
     a, b = np.concatenate(starts), np.concatenate(ends)
     length = np.linalg.norm(mesh.nodes.coordinates[b] - mesh.nodes.coordinates[a], axis=1)
     ids, where = np.unique(np.concatenate([a, b]), return_inverse=True)

@@ -81,7 +81,7 @@ def balanced(mesh: Mesh, count: int) -> list[Mesh]:
         If the number of parts is not a power of two.
     """
     if count < 1 or count & (count - 1):
-        raise MeshError(f"a mesh is not halved into {count} parts", "say 2, 4, 8 ...")
+        raise MeshError("kernel.mesh.mesh-not-halved-parts", count=count)
     centres = np.concatenate([b.coordinates.mean(axis=1) for b in mesh.blocks])
     parts = [np.arange(mesh.n_cells)]
     while len(parts) < count:
@@ -192,7 +192,7 @@ def _directions(mesh: Mesh) -> FloatArray:
     for block in mesh.blocks:
         xyz = block.coordinates[:, list(block.kind.corners)]
         if block.kind.dimension == 3:
-            raise MeshError("angles are those of lines and surfaces, the mesh holds volumes")
+            raise MeshError("kernel.mesh.angles-lines-surfaces-mesh")
         if block.kind.dimension == 1:
             along = xyz[:, -1] - xyz[:, 0]
         else:

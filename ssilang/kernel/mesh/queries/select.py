@@ -98,7 +98,7 @@ def stretch(line: Mesh, start: int, end: int) -> Mesh:
     i, j = (_stop(stops[:-1] if closed else stops, node) for node in (start, end))
     n = len(block)
     if i == j:
-        raise MeshError("the two points of the line's part are the same")
+        raise MeshError("kernel.mesh.two-points-line-part")
     if closed or i < j:
         cells = np.arange(i, j if j > i else j + n) % n
         table, colours = block.connectivity[cells], block.colours[cells]
@@ -111,7 +111,7 @@ def stretch(line: Mesh, start: int, end: int) -> Mesh:
 def _stop(stops: IntArray, node: int) -> int:
     found = np.flatnonzero(stops == node)
     if not len(found):
-        raise MeshError(f"node {node + 1} is no end of a cell of the line")
+        raise MeshError("kernel.mesh.node-no-end-cell", node=node + 1)
     return int(found[0])
 
 
@@ -125,7 +125,7 @@ def nearest_node(mesh: Mesh, position: FloatArray) -> int:
     """
     ids = mesh.node_ids
     if not len(ids):
-        raise MeshError("the mesh is empty: it has no nearest point")
+        raise MeshError("kernel.mesh.mesh-empty-no-nearest")
     return int(ids[np.linalg.norm(mesh.nodes.coordinates[ids] - position, axis=1).argmin()])
 
 
@@ -135,7 +135,7 @@ def nearest_nodes(mesh: Mesh, positions: FloatArray) -> IntArray:
 
     ids = mesh.node_ids
     if not len(ids):
-        raise MeshError("the mesh is empty: it has no nearest point")
+        raise MeshError("kernel.mesh.mesh-empty-no-nearest")
     _, where = cKDTree(mesh.nodes.coordinates[ids]).query(positions)
     return ids[np.asarray(where)]
 
@@ -163,7 +163,7 @@ def inside_contour(positions: FloatArray, contour: Mesh, strict: bool) -> BoolAr
     normal = np.cross(starts - origin, ends - origin).sum(axis=0)
     size = float(np.linalg.norm(normal))
     if size == 0.0:
-        raise MeshError("the contour encloses no area")
+        raise MeshError("kernel.mesh.contour-encloses-no-area-2")
     first, second = plane_axes(normal / size)
     p = np.column_stack([(positions - origin) @ first, (positions - origin) @ second])
     a = np.column_stack([(starts - origin) @ first, (starts - origin) @ second])
@@ -196,7 +196,7 @@ def _segments(line: Mesh) -> tuple[FloatArray, FloatArray]:
             starts.append(x[:, k])
             ends.append(x[:, k + 1])
     if not starts:
-        raise MeshError("a contour made of lines is needed")
+        raise MeshError("kernel.mesh.contour-made-lines-needed")
     return np.concatenate(starts), np.concatenate(ends)
 
 
@@ -238,7 +238,7 @@ def inside_volume(positions: FloatArray, volume: Mesh, margin: float) -> BoolArr
     xyz = volume.nodes.coordinates
     tables = [tetrahedra(b) for b in volume.blocks if b.kind.dimension == 3]
     if not tables:
-        raise MeshError("a mesh with volume cells is needed")
+        raise MeshError("kernel.mesh.mesh-volume-cells-needed")
     corners = xyz[np.concatenate(tables)]
     centres = corners.mean(axis=1)
     reach = np.linalg.norm(corners - centres[:, None], axis=2).max(axis=1) * (1 + abs(margin) * 4)

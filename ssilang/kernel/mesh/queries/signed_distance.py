@@ -30,10 +30,13 @@ def facets(mesh: Mesh, dimension: int) -> IntArray:
         else:
             wanted = "segments SEG2" if dimension == 2 else "triangles TRI3 or quadrangles QUA4"
             raise MeshError(
-                f"distances are taken to {wanted} in {dimension}D, not to {block.cell_type}"
+                "kernel.mesh.distances-taken-not",
+                wanted=wanted,
+                dimension=dimension,
+                cell_type=block.cell_type,
             )
     if not parts:
-        raise MeshError("the mesh that distances are taken to is empty")
+        raise MeshError("kernel.mesh.mesh-distances-taken-empty")
     return np.concatenate(parts)
 
 
@@ -118,9 +121,7 @@ def beyond_tip(points: FloatArray, mesh: Mesh, tips: tuple[int, ...]) -> FloatAr
     for tip in tips:
         touching = cells[(cells == tip).any(axis=1)]
         if len(touching) != 1:
-            raise MeshError(
-                f"the point is an end of {len(touching)} segments of the line, not of 1"
-            )
+            raise MeshError("kernel.mesh.point-end-segments-line", n_touching=len(touching))
         other = int(touching[0][touching[0] != tip][0])
         out = xy[tip] - xy[other]
         found.append((points[:, :2] - xy[tip]) @ (out / np.linalg.norm(out)))
@@ -155,7 +156,7 @@ def _outward(xyz: FloatArray, cells: IntArray, edge: IntArray) -> FloatArray:
     """Unit vector in a surface, across one of its edges, away from it."""
     owner = cells[np.isin(cells, edge).sum(axis=1) == 2]
     if not len(owner):
-        raise MeshError("the front is not made of sides of the surface")
+        raise MeshError("kernel.mesh.front-not-made-sides")
     third = int(owner[0][~np.isin(owner[0], edge)][0])
     along = xyz[edge[1]] - xyz[edge[0]]
     inward = xyz[third] - xyz[edge[0]]

@@ -33,7 +33,7 @@ class Shape:
 
 def line_shape(a: FloatArray, b: FloatArray) -> Shape:
     """The line through two points (3,); projections are for plane (2D) problems."""
-    unit = _unit(b - a, "the two points of the line coincide")
+    unit = _unit(b - a, "kernel.mesh.two-points-line-coincide")
     normal = np.array([-unit[1], unit[0], 0.0])
 
     def distance(x: FloatArray) -> FloatArray:
@@ -46,7 +46,7 @@ def line_shape(a: FloatArray, b: FloatArray) -> Shape:
 
 def plane_shape(a: FloatArray, b: FloatArray, c: FloatArray) -> Shape:
     """The plane through three points (3,)."""
-    normal = _unit(np.cross(b - a, c - a), "the three points of the plane are in line")
+    normal = _unit(np.cross(b - a, c - a), "kernel.mesh.three-points-plane-line")
     return Shape(lambda x: (x - a) @ normal, lambda x, d: _plane_hit(x, d, a, normal))
 
 
@@ -64,7 +64,7 @@ def sphere_shape(centre: FloatArray, on: FloatArray) -> Shape:
 
 def cylinder_shape(a: FloatArray, b: FloatArray, on: FloatArray) -> Shape:
     """The cylinder of axis a-b through a point (3,)."""
-    unit = _unit(b - a, "the two points of the axis coincide")
+    unit = _unit(b - a, "kernel.mesh.two-points-axis-coincide")
     radius = float(np.linalg.norm(_across((on - a)[None], unit)))
 
     def hit(x: FloatArray, d: FloatArray) -> FloatArray:
@@ -82,12 +82,12 @@ def cylinder_shape(a: FloatArray, b: FloatArray, on: FloatArray) -> Shape:
 
 def cone_shape(apex: FloatArray, axis_point: FloatArray, on: FloatArray) -> Shape:
     """The (double) cone of an apex and an axis through a point (3,)."""
-    unit = _unit(axis_point - apex, "the apex and the axis point coincide")
+    unit = _unit(axis_point - apex, "kernel.mesh.apex-axis-point-coincide")
     along = float((on - apex) @ unit)
     away = float(np.linalg.norm(_across((on - apex)[None], unit)))
     size = float(np.hypot(along, away))
     if size == 0.0 or along == 0.0:
-        raise MeshError("the point that opens the cone lies in the plane of its apex")
+        raise MeshError("kernel.mesh.point-opens-cone-lies")
     cosine, sine = abs(along) / size, away / size
     tangent2 = (away / along) ** 2
 
@@ -113,7 +113,7 @@ def torus_shape(
     centre: FloatArray, axis_point: FloatArray, small_centre: FloatArray, on: FloatArray
 ) -> Shape:
     """The torus of a centre and an axis, with a small circle's centre, through a point (3,)."""
-    unit = _unit(axis_point - centre, "the two points of the torus's axis coincide")
+    unit = _unit(axis_point - centre, "kernel.mesh.two-points-torus-axis")
     large = float(np.linalg.norm(_across((small_centre - centre)[None], unit)))
 
     def to_ring(x: FloatArray) -> FloatArray:
@@ -135,10 +135,10 @@ def _across(vectors: FloatArray, unit: FloatArray) -> FloatArray:
     return part
 
 
-def _unit(vector: FloatArray, message: str) -> FloatArray:
+def _unit(vector: FloatArray, code: str) -> FloatArray:
     size = float(np.linalg.norm(vector))
     if size == 0.0:
-        raise MeshError(message)
+        raise MeshError(code)
     unit: FloatArray = vector / size
     return unit
 
@@ -190,20 +190,16 @@ def project(
         If the direction has no length, a point is the apex, or a ray misses the shape.
     """
     if direction is not None:
-        rays = np.broadcast_to(_unit(direction, "the direction of projection is zero"), x.shape)
+        rays = np.broadcast_to(_unit(direction, "kernel.mesh.direction-projection-zero"), x.shape)
     else:
         assert apex is not None
         arm = x - apex
         size = np.linalg.norm(arm, axis=1)
         if (size == 0.0).any():
-            raise MeshError("a point to project is the apex of the projection")
+            raise MeshError("kernel.mesh.point-project-apex-projection")
         rays = arm / size[:, None]
     image = shape.project_along(x, rays)
     lost = np.flatnonzero(np.isnan(image).any(axis=1))
     if len(lost):
-        raise MeshError(
-            f"{len(lost)} point(s) have no projection on the surface, the first at "
-            f"({', '.join(f'{v:g}' for v in x[lost[0]])})",
-            "check the direction or the apex of the projection",
-        )
+        raise MeshError("kernel.mesh.point-no-projection-surface", n_lost=len(lost), x=x[lost[0]])
     return image

@@ -50,16 +50,11 @@ def plane_chart(boundary: FloatArray, loops: FloatArray, tolerance: float = 1e-3
     size = float(np.linalg.norm(area))
     extent = float(np.ptp(boundary, axis=0).max())
     if size <= 1e-12 * extent**2:
-        raise MeshError(
-            "the contour encloses no area", "check that its lines form closed loops, in one sense"
-        )
+        raise MeshError("kernel.mesh.contour-encloses-no-area")
     normal = area / size
     off = float(np.abs((boundary - origin) @ normal).max())
     if off > tolerance * extent:
-        raise MeshError(
-            f"the contour is not plane: a point is {off:g} away from its mean plane",
-            "use another kind of surface, or correct the points",
-        )
+        raise MeshError("kernel.mesh.contour-not-plane-point", off=off)
     first, second = plane_axes(normal)
     frame = np.column_stack([first, second])
     return Chart(lambda x: (x - origin) @ frame, lambda p: origin + p @ frame.T)
@@ -71,19 +66,16 @@ def _frame(
     """Unit axis and two radial unit vectors, the first towards the middle of the boundary."""
     size = float(np.linalg.norm(axis))
     if size == 0.0:
-        raise MeshError("the points of the surface's axis coincide")
+        raise MeshError("kernel.mesh.points-surface-axis-coincide")
     up = axis / size
     arm = boundary - origin
     across = arm - (arm @ up)[:, None] * up
     radii = np.linalg.norm(across, axis=1)
     if (radii <= 1e-12 * max(1.0, float(np.abs(boundary).max()))).any():
-        raise MeshError("the contour goes through the axis of the surface")
+        raise MeshError("kernel.mesh.contour-goes-through-axis")
     towards = (across / radii[:, None]).mean(axis=0)
     if float(np.linalg.norm(towards)) < 1e-6:
-        raise MeshError(
-            "the contour goes all round the axis: the surface cannot be laid flat",
-            "make it in two parts",
-        )
+        raise MeshError("kernel.mesh.contour-goes-round-axis")
     first = towards / np.linalg.norm(towards)
     return up, first, np.cross(up, first)
 
@@ -112,7 +104,7 @@ def cone_chart(boundary: FloatArray, apex: FloatArray, axis_point: FloatArray) -
     arm = boundary - apex
     height = arm @ up
     if (height <= 0).any() and (height >= 0).any():
-        raise MeshError("the contour is on both sides of the apex of the cone")
+        raise MeshError("kernel.mesh.contour-both-sides-apex")
     up = up if height[0] > 0 else -up
     second = np.cross(up, first)
     slant = np.linalg.norm(arm, axis=1)
@@ -141,7 +133,7 @@ def sphere_chart(boundary: FloatArray, centre: FloatArray) -> Chart:
     radius = float(radii.mean())
     towards = (arm / radii[:, None]).mean(axis=0)
     if float(np.linalg.norm(towards)) < 1e-6:
-        raise MeshError("the contour goes right round the sphere", "make the surface in two parts")
+        raise MeshError("kernel.mesh.contour-goes-right-round")
     up = towards / np.linalg.norm(towards)
     first, second = plane_axes(up)
 

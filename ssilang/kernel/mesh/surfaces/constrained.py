@@ -36,7 +36,7 @@ def triangulated_with_lines(lines: Mesh, dimension: int, colour: int = 0) -> Mes
         If nothing is enclosed, the nodes are not in one plane or lines cross.
     """
     if any(b.cell_type != "SEG2" for b in lines.blocks):
-        raise MeshError("lines of SEG2 are needed to triangulate what they enclose")
+        raise MeshError("kernel.mesh.lines-seg2-needed-triangulate")
     cells = np.concatenate([b.connectivity for b in lines.blocks])
     ids, local = np.unique(cells, return_inverse=True)
     segments = local.reshape(cells.shape).astype(np.int64)
@@ -44,7 +44,7 @@ def triangulated_with_lines(lines: Mesh, dimension: int, colour: int = 0) -> Mes
     triangles = recover_segments(points, delaunay_triangles(points), segments)
     inside = _enclosed(triangles, segments, len(ids))
     if not inside.any():
-        raise MeshError("the lines enclose nothing", "a closed contour of SEG2 is needed around")
+        raise MeshError("kernel.mesh.lines-enclose-nothing")
     return Mesh.of(lines.nodes, "TRI3", ids[triangles[inside]], colour)
 
 
@@ -56,7 +56,7 @@ def _flat(at: FloatArray, dimension: int) -> FloatArray:
     extent = float(np.ptp(at, axis=0).max())
     off = float(np.abs(centred @ axes[2]).max())
     if off > 1e-3 * extent:
-        raise MeshError(f"the lines are not plane: a point is {off:g} away from their mean plane")
+        raise MeshError("kernel.mesh.lines-not-plane-point", off=off)
     flat: FloatArray = centred @ axes[:2].T
     return flat
 

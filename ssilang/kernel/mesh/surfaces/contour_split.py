@@ -29,10 +29,7 @@ def split_contour(contour: Mesh, first: Mesh, second: Mesh) -> tuple[Mesh, Mesh,
     a, b = _nearest(nodes.coordinates, _on(chain, first, "second"), _on(chain, second, "third"))
     i, j = int(np.flatnonzero(chain == a)[0]), int(np.flatnonzero(chain == b)[0])
     if abs(i - j) == 1 or (closed and abs(i - j) == len(chain) - 1):
-        raise MeshError(
-            f"the nearest nodes, {a + 1} and {b + 1}, are neighbours on the contour",
-            "give meshes of which no nodes are neighbours",
-        )
+        raise MeshError("kernel.mesh.nearest-nodes-neighbours-contour", a=a + 1, b=b + 1)
     if closed:
         chain = np.roll(chain, -i)
         j = (j - i) % len(chain)
@@ -56,17 +53,17 @@ def _line(chain: IntArray) -> IntArray:
 def _in_order(contour: Mesh) -> IntArray:
     """Nodes along the line, the first again at the end of a closed one."""
     if any(b.cell_type != "SEG2" for b in contour.blocks) or not contour.n_cells:
-        raise MeshError("a contour of SEG2 is needed")
+        raise MeshError("kernel.mesh.contour-seg2-needed")
     cells = chained(contour).single_block().connectivity
     if not np.array_equal(cells[1:, 0], cells[:-1, 1]):
-        raise MeshError("the contour is not one line", "put several contours one by one")
+        raise MeshError("kernel.mesh.contour-not-line")
     return np.append(cells[:, 0], cells[-1, 1])
 
 
 def _on(chain: IntArray, mesh: Mesh, which: str) -> IntArray:
     found = np.intersect1d(chain, mesh.sorted_node_ids)
     if not len(found):
-        raise MeshError(f"the {which} mesh has no node on the contour")
+        raise MeshError("kernel.mesh.mesh-no-node-contour", which=which)
     return found
 
 
@@ -75,6 +72,6 @@ def _nearest(x: np.ndarray, first: IntArray, second: IntArray) -> tuple[int, int
     away = np.linalg.norm(x[first][:, None] - x[second][None], axis=2)
     away[first[:, None] == second[None]] = np.inf
     if not np.isfinite(away).any():
-        raise MeshError("the two meshes have one and the same node on the contour")
+        raise MeshError("kernel.mesh.two-meshes-same-node")
     i, j = np.unravel_index(int(away.argmin()), away.shape)
     return int(first[i]), int(second[j])

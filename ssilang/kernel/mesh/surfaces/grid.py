@@ -37,10 +37,7 @@ def sides_in_order(sides: Sequence[Mesh]) -> tuple[Mesh, Mesh, Mesh, Mesh]:
                 break
         if len(made) == 4 and line_chain(made[3])[-1] == line_chain(made[0])[0]:
             return made[0], made[1], made[2], made[3]
-    raise MeshError(
-        "the four sides do not form a closed contour, one after the other",
-        "merge their common points with ELIM, or change their order",
-    )
+    raise MeshError("kernel.mesh.four-sides-not-form")
 
 
 def matching_sides(sides: Sequence[Mesh]) -> bool:
@@ -60,7 +57,7 @@ def grid_surface(sides: Sequence[Mesh], chart: Chart | None, colour: int = 0) ->
     """
     kinds = {s.single_block().cell_type for s in sides}
     if len(kinds) > 1:
-        raise MeshError("the four sides must be of the same type, all SEG2 or all SEG3")
+        raise MeshError("kernel.mesh.four-sides-must-same")
     step = 2 if "SEG3" in kinds else 1
     nodes = sides[0].nodes
     bottom, right, top, left = (line_chain(s) for s in sides)
@@ -98,7 +95,7 @@ def _along(line: FloatArray) -> FloatArray:
     """Fractions of the length at the nodes (m, d) of a line."""
     length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))])
     if length[-1] == 0.0:
-        raise MeshError("a side of the surface has no length")
+        raise MeshError("kernel.mesh.side-surface-no-length")
     fraction: FloatArray = length / length[-1]
     return fraction
 

@@ -78,7 +78,7 @@ def mesh_polynomial_surface(
         If the size is not positive, or a side has no length.
     """
     if size <= 0.0:
-        raise MeshError("the mesh size is not set", "say OPTI 'DENS' X before")
+        raise MeshError("kernel.mesh.mesh-size-not-set")
     quadratic = cell_type in ("QUA8", "TRI6")
     flat = [surface.along_u(v, regular) for v in surface.v]
     upright = [surface.along_v(u, regular) for u in surface.u]
@@ -114,7 +114,7 @@ def _cuts(pair: list[Polynomial], size: float) -> int:
     """Number of cells along two opposite sides: that of the longer one."""
     length = max(curve.length for curve in pair)
     if length == 0.0:
-        raise MeshError("two opposite sides of the surface have no length")
+        raise MeshError("kernel.mesh.two-opposite-sides-surface")
     return subdivide(length, size, size).count
 
 

@@ -50,12 +50,12 @@ def delaunay_mesh(mesh: Mesh, dimension: int, colour: int = 0) -> Mesh:
 
     ids = mesh.node_ids
     if not len(ids):
-        raise MeshError("the mesh is empty: there is nothing to triangulate")
+        raise MeshError("kernel.mesh.mesh-empty-nothing-triangulate")
     at = mesh.nodes.coordinates[ids, :dimension]
     try:
         cells = Delaunay(at).simplices.astype(np.int64)
     except QhullError as error:
-        raise MeshError("the points are too few, or all in one line or plane") from error
+        raise MeshError("kernel.mesh.points-too-few-line") from error
     arms = at[cells[:, 1:]] - at[cells[:, :1]]
     negative = np.linalg.det(arms) < 0
     cells[negative, :2] = cells[negative, 1::-1]

@@ -34,7 +34,7 @@ def contour_cells(contour: Mesh) -> IntArray:
     lines = [b for b in contour.blocks if b.cell_type in ("SEG2", "SEG3")]
     if not lines or len({b.cell_type for b in lines}) > 1:
         kinds = ", ".join(b.cell_type for b in contour.blocks) or "nothing"
-        raise MeshError(f"a contour of SEG2 or of SEG3 is needed, this mesh holds {kinds}")
+        raise MeshError("kernel.mesh.contour-seg2-seg3-needed", kinds=kinds)
     cells = np.concatenate([b.connectivity for b in lines])
     leaving, arriving = np.sort(cells[:, 0]), np.sort(cells[:, -1])
     if not np.array_equal(leaving, arriving):
@@ -42,14 +42,9 @@ def contour_cells(contour: Mesh) -> IntArray:
         open_ends = ends[times % 2 == 1]
         if len(open_ends):
             where = ", ".join(str(int(n) + 1) for n in open_ends[:4])
-            raise MeshError(
-                f"the contour is not closed: a line ends at node(s) {where}",
-                "close it, or merge coincident points with ELIM",
-            )
+            raise MeshError("kernel.mesh.contour-not-closed-line", where=where)
         if (times != 2).any():
-            raise MeshError(
-                "the lines of the contour do not all run in the same sense", "turn some with INVE"
-            )
+            raise MeshError("kernel.mesh.lines-contour-not-run")
         return in_one_sense(cells)
     return cells
 
@@ -84,10 +79,7 @@ def fill_surface(
     nodes = contour.nodes
     cells = contour_cells(contour)
     if surface == "POLY" and cells.shape[1] > 2:
-        raise MeshError(
-            "polygons have straight sides, the contour is of SEG3",
-            "CHAN 'LINEAIRE' makes it straight",
-        )
+        raise MeshError("kernel.mesh.polygons-straight-sides-contour")
     if surface.startswith("QUA") and sizes is None:
         regular = _as_grid(contour, chart, colour)
         if regular is not None:

@@ -46,10 +46,7 @@ def _triangles(surface: Mesh) -> IntArray:
     kinds = {b.cell_type for b in surface.blocks}
     if kinds != {"TRI3"}:
         held = ", ".join(sorted(kinds)) or "nothing"
-        raise MeshError(
-            f"surfaces of TRI3 are needed to cross, this mesh holds {held}",
-            "CHAN 'TRI3' cuts quadrangles into triangles",
-        )
+        raise MeshError("kernel.mesh.surfaces-tri3-needed-cross", held=held)
     return np.vstack([b.connectivity for b in surface.blocks])
 
 
@@ -211,7 +208,7 @@ def _cut(
         areas = (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]
         if (areas > 0).all():
             return [[every[k] for k in row] for row in table.tolist()]
-    raise MeshError("a triangle that the other surface cuts cannot be meshed", "refine the meshes")
+    raise MeshError("kernel.mesh.triangle-surface-cuts-cannot")
 
 
 def _turns(ring: list[int]) -> list[tuple[int, int]]:

@@ -43,7 +43,7 @@ def delaunay_triangles(points: FloatArray) -> IntArray:
     try:
         table = Delaunay(np.vstack([points, far]) - middle).simplices.astype(np.int64)
     except QhullError as error:
-        raise MeshError("the points of the contour cannot be triangulated") from error
+        raise MeshError("kernel.mesh.points-contour-cannot-triangulated") from error
     table = table[(table < len(points)).all(axis=1)]
     areas = doubled_areas(points, table)
     table[areas < 0] = table[areas < 0][:, ::-1]
@@ -79,9 +79,7 @@ def recover_segments(points: FloatArray, triangles: IntArray, segments: IntArray
         fresh = [*_fill_polygon(points, left), *_fill_polygon(points, right)]
         triangles = np.vstack([triangles[~crossed], np.array(fresh, dtype=np.int64)])
     if _missing(triangles, segments):
-        raise MeshError(
-            "the contour crosses itself, or two of its lines cross", "look at it with TRAC"
-        )
+        raise MeshError("kernel.mesh.contour-crosses-itself-two")
     return triangles
 
 
@@ -110,10 +108,7 @@ def _crossed(points: FloatArray, triangles: IntArray, a: int, b: int) -> np.ndar
     through = np.flatnonzero(np.abs(side) <= tiny)
     along = ((points[through] - points[a]) @ way) / float(way @ way)
     if ((along > 1e-9) & (along < 1 - 1e-9)).any() or not hit.any():
-        raise MeshError(
-            "a side of the contour passes through another point or side of it",
-            "look for crossing lines or coincident points (ELIM)",
-        )
+        raise MeshError("kernel.mesh.side-contour-passes-through")
     return hit
 
 
@@ -124,7 +119,7 @@ def _cavity(hole: IntArray, a: int, b: int) -> tuple[list[int], list[int]]:
     following = {p: q for p, q in sides if (p, q) not in inner}
     right, left = _along(following, a, b), _along(following, b, a)
     if len(left) + len(right) != len(following) + 2:
-        raise MeshError("the contour crosses itself")
+        raise MeshError("kernel.mesh.contour-crosses-itself")
     return left, right
 
 
@@ -133,7 +128,7 @@ def _along(following: dict[int, int], start: int, end: int) -> list[int]:
     chain = [start]
     while chain[-1] != end:
         if chain[-1] not in following or len(chain) > len(following):  # a loop apart
-            raise MeshError("the contour crosses itself")
+            raise MeshError("kernel.mesh.contour-crosses-itself")
         chain.append(following[chain[-1]])
     return chain
 

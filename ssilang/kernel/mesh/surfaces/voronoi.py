@@ -96,16 +96,13 @@ def _check(
     germs: FloatArray, weights: FloatArray, a: FloatArray, b: FloatArray, close: float
 ) -> None:
     if not crossing_inside(germs, a, b).all():
-        raise MeshError("a germ lies outside of the contour", "INCL takes the points inside")
+        raise MeshError("kernel.mesh.germ-lies-outside-contour")
     i, j = np.triu_indices(len(germs), 1)
     squares = ((germs[i] - germs[j]) ** 2).sum(axis=1)
     if (squares <= close**2).any():
-        raise MeshError("two germs lie at the same place", "merge them with ELIM")
+        raise MeshError("kernel.mesh.two-germs-lie-same")
     if (np.abs(weights[i] ** 2 - weights[j] ** 2) > squares * (1 + 1e-12)).any():
-        raise MeshError(
-            "two weights differ by too much: a germ would lie outside of its cell",
-            "squares of weights differ by the square of the germs' distance at most",
-        )
+        raise MeshError("kernel.mesh.two-weights-differ-too")
 
 
 def _pairs(powers: _Powers) -> list[tuple[int, int]]:

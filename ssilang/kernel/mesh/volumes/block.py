@@ -23,9 +23,7 @@ def fill_block(faces: Sequence[Mesh], colour: int = 0) -> Mesh:
     """
     kinds = {b.cell_type for f in faces for b in f.blocks}
     if kinds not in ({"QUA4"}, {"QUA8"}):
-        raise MeshError(
-            f"six faces of QUA4, or of QUA8, are needed; these hold {', '.join(sorted(kinds))}"
-        )
+        raise MeshError("kernel.mesh.six-faces-qua4-qua8", kinds=sorted(kinds))
     flat = [linear(f).single_block().connectivity for f in faces]
     bottom = _grid(flat[0])
     sides = [_grid(t) for t in flat[2:]]
@@ -49,7 +47,7 @@ def _grid(quads: IntArray) -> IntArray:
     ids, times = np.unique(quads, return_counts=True)
     corners = ids[times == 1]
     if len(corners) != 4:
-        raise MeshError(f"a face is no grid of quadrangles: it has {len(corners)} corners, not 4")
+        raise MeshError("kernel.mesh.face-no-grid-quadrangles", n_corners=len(corners))
     owner: dict[tuple[int, int], list[tuple[int, list[int]]]] = {}
     for row, cell in enumerate(quads.tolist()):
         for k in range(4):
@@ -69,7 +67,7 @@ def _grid(quads: IntArray) -> IntArray:
         rows.append(_strip(a, b, owner, used))
     table = [[p[0] for p in rows[0]], *([p[1] for p in row] for row in rows)]
     if len({len(r) for r in table}) > 1 or len(used) != len(quads):
-        raise MeshError("a face is no grid of quadrangles")
+        raise MeshError("kernel.mesh.face-no-grid-quadrangles-2")
     return np.array(table, dtype=np.int64)
 
 
@@ -120,10 +118,7 @@ def _rim_layers(bottom: IntArray, sides: Sequence[IntArray], top: set[int]) -> l
         for node in layers[-1]:
             free = up.get(node, set()) - seen
             if len(free) != 1:
-                raise MeshError(
-                    "the four side faces do not lead from the first face to the second",
-                    "give opposite faces one after the other, and merge common nodes with ELIM",
-                )
+                raise MeshError("kernel.mesh.four-side-faces-not")
             following.append(free.pop())
         layers.append(following)
         seen |= set(following)
@@ -143,7 +138,7 @@ def _filled(bottom: IntArray, top: IntArray, layers: list[list[int]]) -> IntArra
         if grid.shape == (n, m) and _rim(grid) == layers[-1]:
             ids[-1] = grid
             return ids
-    raise MeshError("the first two faces do not have the same numbers of cells")
+    raise MeshError("kernel.mesh.first-two-faces-not")
 
 
 def _place_sides(ids: IntArray, sides: Sequence[IntArray]) -> None:
@@ -151,7 +146,7 @@ def _place_sides(ids: IntArray, sides: Sequence[IntArray]) -> None:
     known = set(ids[ids >= 0].tolist())
     for grid in sides:
         if not set(grid.ravel().tolist()) <= known:
-            raise MeshError("a side face has other numbers of cells than the rest of the block")
+            raise MeshError("kernel.mesh.side-face-numbers-cells")
 
 
 def _transfinite(x: FloatArray) -> FloatArray:

@@ -72,7 +72,7 @@ def lift_faces(points: FloatArray, triangles: IntArray, reach: FloatArray) -> Li
         return LiftedFaces(np.zeros(len(points)), centres, radii)
     clearance, weights, slopes = _programme(points, triangles, frame, face, other)
     if clearance < _LEAST:
-        raise MeshError("no weights keep the triangles of the surface")
+        raise MeshError("kernel.mesh.no-weights-keep-triangles")
     centres, radii = _orthospheres(points, triangles, frame, weights, slopes)
     return LiftedFaces(weights, centres, radii)
 

@@ -60,10 +60,7 @@ def tetrahedralize(points: FloatArray, triangles: IntArray) -> tuple[FloatArray,
             kept = _inside_cells(every, cells, unit, triangles)
             return _compact(every * scale + (low + high) / 2, kept, len(points))
         reach[lost] *= 1.4
-    raise MeshError(
-        f"{int(lost.sum())} triangles of the surface cannot be kept in the volume's mesh",
-        "make the surface's mesh finer or more regular where it is thin, or sweep the volume",
-    )
+    raise MeshError("kernel.mesh.triangles-surface-cannot-kept", n_lost=int(lost.sum()))
 
 
 def _compact(points: FloatArray, cells: IntArray, fixed: int) -> tuple[FloatArray, IntArray]:
@@ -81,11 +78,7 @@ def _check_closed(points: FloatArray, triangles: IntArray) -> None:
     if not len(triangles) or (times % 2 == 1).any():
         lone = int((times % 2 == 1).sum())
         where = points[edges[times % 2 == 1][0, 0]] if lone else np.zeros(3)
-        raise MeshError(
-            f"the surface is not closed: {lone} sides belong to one face only, one near "
-            f"({', '.join(f'{v:g}' for v in where)})",
-            "merge coincident points with ELIM, and check that no face is missing",
-        )
+        raise MeshError("kernel.mesh.surface-not-closed-sides", lone=lone, where=where)
 
 
 def _outside_spheres(
@@ -142,7 +135,7 @@ def _lattice(low: FloatArray, high: FloatArray, edge: float) -> FloatArray:
     """Body-centred cubic lattice of a box, nearest neighbours 0.87 `edge` apart."""
     count = (high - low) / edge
     if float(np.prod(np.maximum(count, 1.0))) > 5e6:
-        raise MeshError("the surface asks for more than ten million points inside")
+        raise MeshError("kernel.mesh.surface-asks-more-ten")
     starts = low + 0.5 * edge * (count % 1.0)
     axes = [np.arange(a, b, edge) for a, b in zip(starts, high, strict=True)]
     corners = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
@@ -191,7 +184,7 @@ def _regular_triangulation(points: FloatArray, weights: FloatArray) -> IntArray:
     try:
         hull = ConvexHull(np.column_stack([every, lift]), qhull_options="Qt Q12")
     except QhullError as error:
-        raise MeshError("the points of the surface cannot be triangulated") from error
+        raise MeshError("kernel.mesh.points-surface-cannot-triangulated") from error
     cells: IntArray = hull.simplices[hull.equations[:, 3] < -1e-12].astype(np.int64)
     return cells
 

@@ -26,11 +26,7 @@ def fill_volume(skin: Mesh, colour: int = 0) -> Mesh:
     """
     kinds = {b.cell_type for b in skin.blocks}
     if not kinds or not (kinds <= {"TRI3", "QUA4"} or kinds <= {"TRI6"}):
-        raise MeshError(
-            f"a volume is filled from TRI3 and QUA4, or from TRI6; this surface holds "
-            f"{', '.join(sorted(kinds)) or 'nothing'}",
-            "change its cells first: CHAN 'TRI3' or CHAN 'TRI6'",
-        )
+        raise MeshError("kernel.mesh.volume-filled-tri3-qua4", kinds=sorted(kinds))
     triangles = _corners(skin, ("TRI3", "TRI6"))
     quads = _corners(skin, ("QUA4",))
     if not len(quads):

@@ -1,25 +1,6 @@
-"""The sentences of errors and warnings, in English and French, by code.
+"""What the language refuses and warns of."""
 
-Templates are filled with the data of the error; `near` is the nearest known name, `types` the
-expected types as a readable list.
-"""
-
-from __future__ import annotations
-
-from dataclasses import dataclass
-
-
-@dataclass(frozen=True, slots=True)
-class Message:
-    """Sentence and hint of one code, in two languages; `number` is Cast3M's, 0 if it has none."""
-
-    en: str
-    fr: str
-    hint_en: str = ""
-    hint_fr: str = ""
-    number: int = 0
-    warning: bool = False
-
+from ssilang.messages.message import Message
 
 MESSAGES: dict[str, Message] = {
     # ---- files and limits
@@ -32,7 +13,7 @@ MESSAGES: dict[str, Message] = {
         "{path} est lu : un cas précédent l'a laissé dans son dossier de sortie",
         "copy the file beside the script if it belongs to it",
         "copiez le fichier à côté du jeu de données s'il lui appartient",
-        warning=True,
+        severity="warning",
     ),
     "forbidden-path": Message(
         "the file {path} is outside the script's folder and the output folder",
@@ -353,49 +334,48 @@ MESSAGES: dict[str, Message] = {
     "unused-name": Message(
         "{name} gets a value that nothing reads",
         "{name} reçoit une valeur que rien ne lit",
-        warning=True,
+        severity="warning",
     ),
     "perhaps-misspelt": Message(
         "{name} has no value and is read as a word; {like} has one",
         "{name} n'a pas de valeur et se lit comme un mot ; {like} en a une",
         "if the word is meant, write it between quotes: '{name}'",
         "si c'est bien le mot, écrivez-le entre apostrophes : '{name}'",
-        warning=True,
+        severity="warning",
     ),
     "shadowed-operator": Message(
         "{name} is also an operator, which this name hides from here on",
         "{name} est aussi un opérateur, que ce nom cache à partir d'ici",
         "choose another name, or write the operator between quotes: '{name}'",
         "choisissez un autre nom, ou écrivez l'opérateur entre apostrophes : '{name}'",
-        warning=True,
+        severity="warning",
     ),
     "behind-condition": Message(
         "{name} stands behind the condition of SI, in the same statement: it is not run",
         "{name} suit la condition de SI dans la même instruction : il n'est pas exécuté",
         "a ; is probably missing between the condition and {name}",
         "il manque sans doute un ; entre la condition et {name}",
-        warning=True,
+        severity="warning",
     ),
     "unread-object": Message(
         "nothing in these parentheses reads {name}, a {found}: they stand for their result alone",
         "rien dans ces parenthèses ne lit {name}, un {found} : elles valent leur seul résultat",
         "an operator between two objects is missing before {name}, or {name} is too much",
         "il manque un opérateur entre deux objets devant {name}, ou {name} est de trop",
-        warning=True,
+        severity="warning",
     ),
     "overrides-procedure": Message(
         "{name} replaces the procedure of that name in the standard library",
         "{name} remplace la procédure de ce nom de la bibliothèque",
-        warning=True,
+        severity="warning",
     ),
     "integer-division": Message(
         "{left} / {right} is {value}: a quotient of integers is cut to an integer",
         "{left} / {right} vaut {value} : le quotient de deux entiers est tronqué",
         "write {left}. / {right} for {exact:g}",
         "écrivez {left}. / {right} pour {exact:g}",
-        warning=True,
+        severity="warning",
     ),
     # ---- ERRE
     "erre": Message("{message}", "{message}"),
 }
-"""Every code that is raised; a test checks that none is missing."""
