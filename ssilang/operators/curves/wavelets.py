@@ -6,19 +6,12 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.arrays import ComplexArray, FloatArray
 from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.records.signals import constant_step
-from ssilang.kernel.records.wavelets import (
-    ComplexArray,
-    modulus_ridge,
-    phase_ridge,
-    scales,
-    settled,
-    transform,
-)
+from ssilang.kernel.records.wavelets import modulus_ridge, phase_ridge, scales, settled, transform
 from ssilang.language.registry import Help, operator
 from ssilang.language.run.call import Call
 from ssilang.operators.curves.accelerograms import one_curve
