@@ -25,7 +25,7 @@ from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.mesh import CellBlock
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.solvers.backends import DISSECTION, MULTIGRID, Ordering
-from ssilang.kernel.solvers.inverse import invert
+from ssilang.kernel.solvers.cholesky.inverse import invert
 from ssilang.kernel.statics.linear_motion import rigid_motions
 
 

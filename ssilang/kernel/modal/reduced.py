@@ -17,7 +17,7 @@ from ssilang.kernel.matrices.assembly import (
     numbering_of,
 )
 from ssilang.kernel.matrices.matrix import Matrix
-from ssilang.kernel.solvers.elimination import Elimination, eliminate
+from ssilang.kernel.solvers.cholesky.elimination import Elimination, eliminate
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,7 +16,6 @@ import scipy.sparse as sp
 from ssilang.kernel.base.arrays import ComplexArray, FloatArray
 from ssilang.kernel.base.errors import FieldError, KernelError, SingularMatrixError
 from ssilang.kernel.curves.curve import Load
-from ssilang.kernel.dynamics.loading import MECHANICAL, terms_of
 from ssilang.kernel.elements.family import element_matrices
 from ssilang.kernel.elements.springs import dynamic_stiffness
 from ssilang.kernel.elements.zone_fields import ZoneField
@@ -35,6 +34,7 @@ from ssilang.kernel.matrices.assembly import (
     vector_to_field,
 )
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, imaginary
+from ssilang.kernel.stepping.problem.loading import MECHANICAL, terms_of
 
 _DENSE = 300
 """Up to this many unknowns full matrices are faster than sparse ones."""

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.curves.curve import Curve, Load
-from ssilang.kernel.dynamics.plan import every, nearest
 from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.stepping.times import every, nearest
 from ssilang.language.run.call import Call
 from ssilang.language.say.diagnostics import nearest as nearest_word
 from ssilang.language.say.errors import SsiError
