@@ -24,7 +24,7 @@ from ssilang.kernel.mesh.mesh import CellBlock
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.model import Mode, Zone
 from ssilang.kernel.solvers.backends import DISSECTION, MULTIGRID, Ordering
-from ssilang.kernel.solvers.inverse import invert
+from ssilang.kernel.solvers.cholesky.inverse import invert
 from ssilang.kernel.sparse import sp
 from ssilang.kernel.statics.linear_motion import rigid_motions
 

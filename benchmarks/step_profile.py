@@ -21,7 +21,7 @@ from ssilang.kernel.dynamics.effective import effective_matrix, effective_of
 from ssilang.kernel.dynamics.integrate import Integration
 from ssilang.kernel.dynamics.interleaved_loop import InterleavedLoop
 from ssilang.kernel.dynamics.problem import make_problem
-from ssilang.kernel.solvers.dissected import DissectedFactor
+from ssilang.kernel.solvers.cholesky.dissected import DissectedFactor
 
 STEPS = 64
 

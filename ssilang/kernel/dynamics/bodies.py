@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.sparse.csgraph import connected_components
 
 from ssilang.kernel.dynamics.problem import Problem
-from ssilang.kernel.joints.family import displacement_names
+from ssilang.kernel.interface.family import displacement_names
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.sparse import sp
 

@@ -7,8 +7,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ssilang.kernel.compiled import compiled
-from ssilang.kernel.joints.condensed import iterate_interface
-from ssilang.kernel.joints.response import interface_energies
+from ssilang.kernel.interface.newton import iterate_interface
+from ssilang.kernel.interface.response import interface_energies
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 N_ENERGIES = 6

@@ -25,9 +25,9 @@ from ssilang.kernel.dynamics.conserving_contact import ConservingContact
 from ssilang.kernel.dynamics.effective import Effective
 from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.dynamics.sparse_loop import support_work
-from ssilang.kernel.joints.interface import Interface
-from ssilang.kernel.joints.mean_traction import mean_response
-from ssilang.kernel.joints.response import (
+from ssilang.kernel.interface.interface import Interface
+from ssilang.kernel.interface.mean_traction import mean_response
+from ssilang.kernel.interface.response import (
     interface_energies,
     interface_forces,
     interface_stiffness,

@@ -23,7 +23,7 @@ from ssilang.kernel.dynamics.contact import BoolArray, ContactRows
 from ssilang.kernel.dynamics.contact_options import ContactOptions
 from ssilang.kernel.dynamics.effective import Effective
 from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.solvers.contact_methods import METHODS
+from ssilang.kernel.solvers.active_set.contact_methods import METHODS
 
 TOLERANCE = 1e-14
 ACCEPTED = 1e-11

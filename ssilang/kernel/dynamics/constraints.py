@@ -13,7 +13,7 @@ import numpy as np
 from ssilang.kernel.errors import KernelError
 from ssilang.kernel.matrices.assembly import ConstraintRows, Numbering
 from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.solvers.elimination import eliminate
+from ssilang.kernel.solvers.cholesky.elimination import eliminate
 from ssilang.kernel.sparse import sp
 
 

@@ -20,11 +20,11 @@ from ssilang.kernel.dynamics.contact_options import ContactOptions
 from ssilang.kernel.dynamics.effective import Effective
 from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.dynamics.sparse_loop import StepOutcome
-from ssilang.kernel.joints.response import interface_response, interface_stiffness
+from ssilang.kernel.interface.response import interface_response, interface_stiffness
 from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.solvers.complementarity import ContactProblem, solve_contact
-from ssilang.kernel.solvers.contact_methods import METHODS
-from ssilang.kernel.solvers.coulomb import CoulombProblem, solve_coulomb
+from ssilang.kernel.solvers.active_set.complementarity import ContactProblem, solve_contact
+from ssilang.kernel.solvers.active_set.contact_methods import METHODS
+from ssilang.kernel.solvers.active_set.coulomb import CoulombProblem, solve_coulomb
 
 MOST_TURNS = 40
 TOLERANCE = 1e-12

@@ -7,7 +7,7 @@ import numpy as np
 from ssilang.kernel.dynamics.compiled_loop import Joints, StepOperators, System
 from ssilang.kernel.dynamics.effective import Effective
 from ssilang.kernel.dynamics.problem import Problem
-from ssilang.kernel.joints.columns import N_STATE
+from ssilang.kernel.interface.laws.columns import N_STATE
 
 
 def system_of(problem: Problem) -> System:

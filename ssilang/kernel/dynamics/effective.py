@@ -21,7 +21,7 @@ from ssilang.kernel.dynamics.problem import SMALL, Problem
 from ssilang.kernel.errors import SingularMatrixError
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.solvers.backends import DISSECTION, Ordering
-from ssilang.kernel.solvers.inverse import Inverse, invert
+from ssilang.kernel.solvers.cholesky.inverse import Inverse, invert
 from ssilang.kernel.sparse import sp
 from ssilang.kernel.statics.linear_motion import describe_motions
 
@@ -172,8 +172,8 @@ def root_response(inverse: Inverse, right: sp.csc_array) -> RootResponse | None:
     factor = inverse.factor
     if factor.name != DISSECTION or inverse.singular or right.shape[1] == 0:
         return None
-    from ssilang.kernel.solvers.dissected import DissectedFactor
-    from ssilang.kernel.solvers.triangular import solve_columns
+    from ssilang.kernel.solvers.cholesky.dissected import DissectedFactor
+    from ssilang.kernel.solvers.cholesky.triangular import solve_columns
 
     assert isinstance(factor, DissectedFactor)
     begin = int(factor.panels.first[-2])

@@ -8,10 +8,10 @@ from ssilang.kernel.dynamics.compiled_loop import Motion
 from ssilang.kernel.dynamics.contact_solver import ContactForces, stopped_motions
 from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.dynamics.sparse_loop import StepOutcome
-from ssilang.kernel.joints.response import interface_response, interface_stiffness
+from ssilang.kernel.interface.response import interface_response, interface_stiffness
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.solvers.backends import SingularFactorError, factorise
-from ssilang.kernel.solvers.inverse import invert
+from ssilang.kernel.solvers.cholesky.inverse import invert
 from ssilang.kernel.sparse import sp
 
 MOST_TURNS = 40

@@ -17,7 +17,7 @@ from ssilang.kernel.dynamics.contact import BoolArray, ContactRows
 from ssilang.kernel.dynamics.effective import Effective
 from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.solvers.inverse import invert
+from ssilang.kernel.solvers.cholesky.inverse import invert
 from ssilang.kernel.sparse import sp
 
 CORRECTIONS = ("FAUX", "MASSE", "RIGIDITE")

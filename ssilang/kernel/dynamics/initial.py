@@ -9,11 +9,11 @@ import numpy as np
 from ssilang.kernel.dynamics.contact import TOUCHING, BoolArray, ContactRows
 from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.errors import ConvergenceError, KernelError
-from ssilang.kernel.joints.laws import respond
-from ssilang.kernel.joints.response import interface_energies, interface_forces, local_jumps
+from ssilang.kernel.interface.laws.point_laws import respond
+from ssilang.kernel.interface.response import interface_energies, interface_forces, local_jumps
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.solvers.complementarity import ContactProblem, solve_contact
-from ssilang.kernel.solvers.coulomb import CoulombProblem, solve_coulomb
+from ssilang.kernel.solvers.active_set.complementarity import ContactProblem, solve_contact
+from ssilang.kernel.solvers.active_set.coulomb import CoulombProblem, solve_coulomb
 from ssilang.kernel.sparse import sp
 
 

@@ -21,10 +21,10 @@ from ssilang.kernel.dynamics.interleaved_march import (
 from ssilang.kernel.dynamics.moving_supports import MOST, Columns, Course, MovingSupports, Start
 from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.dynamics.rayleigh import split_damping
-from ssilang.kernel.joints.condensed_cached import workspace
+from ssilang.kernel.interface.factors import workspace
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.solvers.dissected import DissectedFactor
-from ssilang.kernel.solvers.triangular import longest
+from ssilang.kernel.solvers.cholesky.dissected import DissectedFactor
+from ssilang.kernel.solvers.cholesky.triangular import longest
 from ssilang.kernel.sparse import sp
 
 BRANCH = 64_000  # numbers of a branch of the factor: half of a megabyte, the cache of a core

@@ -22,11 +22,11 @@ from ssilang.kernel.dynamics.interleaved_march import (
     settle_interface,
 )
 from ssilang.kernel.dynamics.springs_march import Ends
-from ssilang.kernel.joints.arrays import copy_state
-from ssilang.kernel.joints.condensed_cached import Workspace
+from ssilang.kernel.interface.copies import copy_state
+from ssilang.kernel.interface.factors import Workspace
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.solvers.multifrontal import Panels
-from ssilang.kernel.solvers.triangular_together import FOUR, backward_many, forward_many
+from ssilang.kernel.solvers.cholesky.multifrontal import Panels
+from ssilang.kernel.solvers.cholesky.triangular_together import FOUR, backward_many, forward_many
 
 
 @compiled

@@ -39,12 +39,12 @@ from ssilang.kernel.dynamics.compiled_loop import (
     STORED,
     Joints,
 )
-from ssilang.kernel.joints.arrays import copy_rows, copy_state
-from ssilang.kernel.joints.condensed_cached import Workspace, iterate_cached
-from ssilang.kernel.joints.response import interface_energies
+from ssilang.kernel.interface.copies import copy_rows, copy_state
+from ssilang.kernel.interface.factors import Workspace, iterate_cached
+from ssilang.kernel.interface.response import interface_energies
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.solvers.multifrontal import Panels
-from ssilang.kernel.solvers.triangular import backward, forward
+from ssilang.kernel.solvers.cholesky.multifrontal import Panels
+from ssilang.kernel.solvers.cholesky.triangular import backward, forward
 
 
 class Sparse(NamedTuple):

@@ -17,7 +17,7 @@ from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.dynamics.sharing import LoadBasis
 from ssilang.kernel.dynamics.snapshot import Instants
 from ssilang.kernel.dynamics.springs_march import Ends
-from ssilang.kernel.joints.condensed_cached import Workspace
+from ssilang.kernel.interface.factors import Workspace
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 Outcome = tuple[int, int, float]

@@ -21,9 +21,9 @@ from ssilang.kernel.dynamics.compiled_loop import (
     Joints,
     Motion,
 )
-from ssilang.kernel.joints.arrays import copy_rows, copy_state
-from ssilang.kernel.joints.condensed_cached import iterate_cached, solve_known
-from ssilang.kernel.joints.response import interface_energies
+from ssilang.kernel.interface.copies import copy_rows, copy_state
+from ssilang.kernel.interface.factors import iterate_cached, solve_known
+from ssilang.kernel.interface.response import interface_energies
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 BLOCK = 128  # coordinates whose rows of Jt stay in the nearest cache

@@ -6,7 +6,7 @@ import numpy as np
 
 from ssilang.kernel.errors import SingularMatrixError
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.solvers.inverse import invert
+from ssilang.kernel.solvers.cholesky.inverse import invert
 from ssilang.kernel.sparse import sp
 
 

@@ -30,9 +30,9 @@ from ssilang.kernel.dynamics.compiled_loop import (
     Motion,
 )
 from ssilang.kernel.dynamics.modal_loop import Modal, ModalRows, ModalStep, add_jumps, next_load
-from ssilang.kernel.joints.arrays import copy_rows, copy_state
-from ssilang.kernel.joints.columns import XI
-from ssilang.kernel.joints.condensed import largest
+from ssilang.kernel.interface.copies import copy_rows, copy_state
+from ssilang.kernel.interface.laws.columns import XI
+from ssilang.kernel.interface.newton import largest
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 BLOCK = 64  # coordinates whose rows of J and Jt stay in the nearest cache

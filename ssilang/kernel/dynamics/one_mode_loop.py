@@ -33,8 +33,8 @@ from ssilang.kernel.dynamics.scalar_loop import (
     Spring,
     closed_form,
 )
-from ssilang.kernel.joints.arrays import copy_rows
-from ssilang.kernel.joints.sdm_law import normal_energy, opening_loss
+from ssilang.kernel.interface.copies import copy_rows
+from ssilang.kernel.interface.laws.sdm_law import normal_energy, opening_loss
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 STIFFEST = 10.0  # angle (rad) of a step beyond which rounding shows in the acceleration's form

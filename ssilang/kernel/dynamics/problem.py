@@ -19,8 +19,8 @@ from ssilang.kernel.elements.families import stiffness as zone_stiffness
 from ssilang.kernel.errors import FieldError, KernelError
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.joints.family import JointFamily, rotational_stiffness
-from ssilang.kernel.joints.interface import (
+from ssilang.kernel.interface.family import JointFamily, rotational_stiffness
+from ssilang.kernel.interface.interface import (
     Interface,
     interface_of,
     joint_zones,
@@ -28,7 +28,7 @@ from ssilang.kernel.joints.interface import (
     state_from_field,
     without_zones,
 )
-from ssilang.kernel.joints.law_table import law_of
+from ssilang.kernel.interface.laws.law_table import law_of
 from ssilang.kernel.matrices.assembly import (
     Numbering,
     assemble,

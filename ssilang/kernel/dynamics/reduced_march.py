@@ -29,8 +29,8 @@ from ssilang.kernel.dynamics.compiled_loop import (
     Motion,
 )
 from ssilang.kernel.dynamics.modal_loop import BLOCK, ModalRows, add_jumps, next_load
-from ssilang.kernel.joints.condensed_cached import iterate_cached, solve_known
-from ssilang.kernel.joints.response import interface_energies
+from ssilang.kernel.interface.factors import iterate_cached, solve_known
+from ssilang.kernel.interface.response import interface_energies
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 

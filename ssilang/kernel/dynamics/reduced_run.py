@@ -32,7 +32,7 @@ from ssilang.kernel.dynamics.reduction import (
 )
 from ssilang.kernel.dynamics.snapshot import Observer, Snapshot
 from ssilang.kernel.errors import KernelError
-from ssilang.kernel.joints.response import interface_forces
+from ssilang.kernel.interface.response import interface_forces
 from ssilang.kernel.mesh.nodes import IntArray
 
 INSTANTS = 64  # at which whole fields are compared

@@ -27,7 +27,7 @@ from ssilang.kernel.dynamics.reduced_damping import States, split
 from ssilang.kernel.dynamics.reduced_supports import ReducedSupports, reduced_supports
 from ssilang.kernel.errors import KernelError
 from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.solvers.inverse import Inverse, invert
+from ssilang.kernel.solvers.cholesky.inverse import Inverse, invert
 from ssilang.kernel.sparse import sp
 
 DEPENDENT = 1e-12

@@ -25,7 +25,7 @@ from ssilang.kernel.dynamics.compiled_loop import (
     LOST,
     STORED,
 )
-from ssilang.kernel.joints.sdm_law import normal_energy, normal_law, opening_loss
+from ssilang.kernel.interface.laws.sdm_law import normal_energy, normal_law, opening_loss
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 MOST_TURNS = 60

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ssilang.kernel.dynamics.problem import Problem
-from ssilang.kernel.joints.interface import Interface
+from ssilang.kernel.interface.interface import Interface
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.sparse import sp
 

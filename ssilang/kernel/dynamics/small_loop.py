@@ -20,9 +20,9 @@ from ssilang.kernel.dynamics.one_mode_loop import carry, march_mode
 from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.dynamics.reduced_loop import reactions, supports_are_still
 from ssilang.kernel.dynamics.scalar_loop import Line, LineRows, LineState, Spring, march_line
-from ssilang.kernel.joints.columns import DAMAGE, FC, FU, GF, KN, KS1, KS2, XI
-from ssilang.kernel.joints.law_table import SDM
-from ssilang.kernel.joints.response import interface_forces
+from ssilang.kernel.interface.laws.columns import DAMAGE, FC, FU, GF, KN, KS1, KS2, XI
+from ssilang.kernel.interface.laws.law_table import SDM
+from ssilang.kernel.interface.response import interface_forces
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 DIAGONAL = 1e-13  # of the step's matrix: damping off the diagonal that rounding leaves

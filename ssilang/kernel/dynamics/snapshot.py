@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.joints.interface import interface_field, state_field
+from ssilang.kernel.interface.interface import interface_field, state_field
 from ssilang.kernel.matrices.assembly import vector_to_field
 from ssilang.kernel.mesh.nodes import FloatArray
 

@@ -23,9 +23,9 @@ from ssilang.kernel.dynamics.compiled_loop import (
 from ssilang.kernel.dynamics.effective import Effective
 from ssilang.kernel.dynamics.impact import ImpactRule
 from ssilang.kernel.dynamics.problem import Problem
-from ssilang.kernel.joints.condensed_cached import Workspace, iterate_cached, workspace
-from ssilang.kernel.joints.interface import Interface
-from ssilang.kernel.joints.response import interface_energies
+from ssilang.kernel.interface.factors import Workspace, iterate_cached, workspace
+from ssilang.kernel.interface.interface import Interface
+from ssilang.kernel.interface.response import interface_energies
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.sparse import sp
 

@@ -18,8 +18,8 @@ from ssilang.kernel.dynamics.sharing import LoadBasis
 from ssilang.kernel.dynamics.small_loop import Modes, modes_of, only_pushes, shearless
 from ssilang.kernel.dynamics.snapshot import Instants, Snapshot
 from ssilang.kernel.dynamics.springs_march import Ends, SpringMotions, SpringRows, march_springs
-from ssilang.kernel.joints.columns import KN, XI
-from ssilang.kernel.joints.response import interface_forces
+from ssilang.kernel.interface.laws.columns import KN, XI
+from ssilang.kernel.interface.response import interface_forces
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 Outcome = tuple[int, int, float]

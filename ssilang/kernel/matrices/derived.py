@@ -70,7 +70,7 @@ def condensed_by_relations(matrix: Matrix, relations: Matrix) -> Matrix:
     FieldError
         If the relations cannot be eliminated.
     """
-    from ssilang.kernel.solvers.elimination import eliminate
+    from ssilang.kernel.solvers.cholesky.elimination import eliminate
 
     rows_only = Matrix(relations.table, (), relations.relations, relations.kind)
     whole = together(Matrix(matrix.table, matrix.blocks, (), matrix.kind), rows_only)

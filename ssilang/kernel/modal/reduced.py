@@ -16,7 +16,7 @@ from ssilang.kernel.matrices.assembly import (
 )
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.solvers.elimination import Elimination, eliminate
+from ssilang.kernel.solvers.cholesky.elimination import Elimination, eliminate
 from ssilang.kernel.sparse import sp
 
 

@@ -29,7 +29,7 @@ from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.dynamics.snapshot import Observer
 from ssilang.kernel.dynamics.sparse_loop import SparseLoop, StepOutcome, support_work
 from ssilang.kernel.errors import ConvergenceError, KernelError
-from ssilang.kernel.joints.response import interface_energies
+from ssilang.kernel.interface.response import interface_energies
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.plasticity.bulk import Bulk, State
 from ssilang.kernel.plasticity.newton import BulkSolver

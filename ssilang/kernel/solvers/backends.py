@@ -283,8 +283,8 @@ def factorise(
 
 def _dissected(A: sp.csr_array, ordering: Ordering) -> Factor:
     from ssilang.kernel.memory import available_bytes, gigabytes
-    from ssilang.kernel.solvers.dissected import DissectedFactor
-    from ssilang.kernel.solvers.multifrontal import NotPositiveError, TooLargeError
+    from ssilang.kernel.solvers.cholesky.dissected import DissectedFactor
+    from ssilang.kernel.solvers.cholesky.multifrontal import NotPositiveError, TooLargeError
 
     try:
         return DissectedFactor(A, ordering.points, ordering.last)

@@ -16,7 +16,7 @@ import numpy as np
 from ssilang.kernel.dynamics.contrast import stiffness_contrast
 from ssilang.kernel.dynamics.effective import effective_matrix
 from ssilang.kernel.dynamics.problem import Problem
-from ssilang.kernel.joints.columns import KN
+from ssilang.kernel.interface.laws.columns import KN
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.sparse import sp

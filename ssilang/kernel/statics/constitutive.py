@@ -18,13 +18,13 @@ from ssilang.kernel.elements.hooke import moduli_from_field
 from ssilang.kernel.elements.zone_fields import ZoneField, n_points, zone_field
 from ssilang.kernel.errors import FieldError
 from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.joints.columns import N_STATE, OPENING, SLIP1, SLIP2, XI
-from ssilang.kernel.joints.elements import is_joint
-from ssilang.kernel.joints.family import component_order, has_rotations
-from ssilang.kernel.joints.kinematics import joint_cells
-from ssilang.kernel.joints.law_table import MOHR, SDM, law_of
-from ssilang.kernel.joints.parameters import Parameter
-from ssilang.kernel.joints.table import joint_parameters
+from ssilang.kernel.interface.elements import is_joint
+from ssilang.kernel.interface.family import component_order, has_rotations
+from ssilang.kernel.interface.kinematics import joint_cells
+from ssilang.kernel.interface.laws.columns import N_STATE, OPENING, SLIP1, SLIP2, XI
+from ssilang.kernel.interface.laws.law_table import MOHR, SDM, law_of
+from ssilang.kernel.interface.laws.parameter_table import joint_parameters
+from ssilang.kernel.interface.laws.parameters import Parameter
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.model import Zone
 from ssilang.kernel.plasticity.points import (
@@ -276,7 +276,7 @@ def _joint_probe(
 def _joint(
     zone: Zone, material: CellField, stress: FloatArray, variables: ZoneField, step: FloatArray
 ) -> Answer:
-    from ssilang.kernel.joints.laws import respond as compiled_respond
+    from ssilang.kernel.interface.laws.point_laws import respond as compiled_respond
 
     law, d = law_of(zone.behaviour), None
     if law.linear or law.macro:

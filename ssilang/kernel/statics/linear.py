@@ -28,6 +28,7 @@ from ssilang.kernel.matrices.assembly import (
 )
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+from ssilang.kernel.solvers.active_set.complementarity import ContactProblem, solve_contact
 from ssilang.kernel.solvers.backends import (
     MULTIGRID,
     Ordering,
@@ -35,9 +36,8 @@ from ssilang.kernel.solvers.backends import (
     SuperLUFactor,
     dissection_pays,
 )
-from ssilang.kernel.solvers.complementarity import ContactProblem, solve_contact
-from ssilang.kernel.solvers.elimination import Elimination, eliminate
-from ssilang.kernel.solvers.inverse import Inverse, invert
+from ssilang.kernel.solvers.cholesky.elimination import Elimination, eliminate
+from ssilang.kernel.solvers.cholesky.inverse import Inverse, invert
 from ssilang.kernel.sparse import sp
 from ssilang.kernel.statics.doubled import lying_on
 from ssilang.kernel.statics.linear_motion import (

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.joints.interface import is_macro, joint_zones
-from ssilang.kernel.joints.kinematics import JointCells, joint_cells
+from ssilang.kernel.interface.interface import is_macro, joint_zones
+from ssilang.kernel.interface.kinematics import JointCells, joint_cells
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.model import Model

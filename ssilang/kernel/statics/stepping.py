@@ -17,9 +17,9 @@ from ssilang.kernel.dynamics.snapshot import Observer
 from ssilang.kernel.dynamics.sparse_loop import NOTHING, StepOutcome, StepSolver, support_work
 from ssilang.kernel.dynamics.step_solvers import step_solver
 from ssilang.kernel.errors import ConvergenceError, SingularMatrixError
-from ssilang.kernel.joints.response import interface_energies
+from ssilang.kernel.interface.response import interface_energies
 from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.solvers.inverse import Inverse
+from ssilang.kernel.solvers.cholesky.inverse import Inverse
 from ssilang.kernel.statics.linear_motion import describe_motions
 
 BALANCED = 1e-13

@@ -10,10 +10,10 @@ from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
 from ssilang.kernel.errors import FieldError
 from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.joints.columns import XI
-from ssilang.kernel.joints.elements import is_joint
-from ssilang.kernel.joints.law_table import MOHR, SDM, law_of
-from ssilang.kernel.joints.parameters import Parameter
+from ssilang.kernel.interface.elements import is_joint
+from ssilang.kernel.interface.laws.columns import XI
+from ssilang.kernel.interface.laws.law_table import MOHR, SDM, law_of
+from ssilang.kernel.interface.laws.parameters import Parameter
 from ssilang.kernel.materials.plastic import rounded_coulomb
 from ssilang.kernel.materials.plastic.response import PointParameters, mises
 from ssilang.kernel.mesh.nodes import FloatArray

@@ -225,7 +225,7 @@ def _inputs(entries: Entries, times: FloatArray) -> Inputs:
 
 def _with_bodies(entries: Entries, inputs: Inputs) -> Inputs:
     """The stiffness without that of plastic bodies: their law replaces it."""
-    from ssilang.kernel.joints.interface import without_zones
+    from ssilang.kernel.interface.interface import without_zones
 
     zones = plastic_zones(inputs.model)
     if not zones:

@@ -10,7 +10,7 @@ import numpy as np
 from ssilang.kernel.elements.families import stress
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.joints.elements import is_joint
+from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.model import Model

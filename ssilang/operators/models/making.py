@@ -8,8 +8,8 @@ from ssilang.kernel.elements.catalog import ELEMENTS, GENERIC_ELEMENTS, default_
 from ssilang.kernel.elements.families import register_family
 from ssilang.kernel.elements.springs import ELEMENT as IMPEDANCE_ELEMENTS
 from ssilang.kernel.errors import MeshError
-from ssilang.kernel.joints.elements import JOINT_NAMES, is_joint, with_rule
-from ssilang.kernel.joints.family import JointFamily
+from ssilang.kernel.interface.elements import JOINT_NAMES, is_joint, with_rule
+from ssilang.kernel.interface.family import JointFamily
 from ssilang.kernel.materials.behaviours import (
     CREEP_WORDS,
     ELASTICITIES,

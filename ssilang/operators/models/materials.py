@@ -12,8 +12,8 @@ from ssilang.kernel.curve import Curve
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.joints.elements import is_joint
-from ssilang.kernel.joints.table import check_given
+from ssilang.kernel.interface.elements import is_joint
+from ssilang.kernel.interface.laws.parameter_table import check_given
 from ssilang.kernel.materials.axes import Directions, axis_parameters
 from ssilang.kernel.materials.parameters import geometric_names
 from ssilang.kernel.mesh.mesh import Point

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.joints.elements import is_joint
+from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.model import Model, Zone
 from ssilang.kernel.plasticity.bulk import Bulk, State, bulk_of, state_from_fields
 from ssilang.kernel.plasticity.points import plastic_zones

@@ -136,8 +136,8 @@ def _inputs(entries: Entries) -> HarmonicInputs:
 
 
 def _check_linear(entries: Entries, zone: Zone) -> None:
-    from ssilang.kernel.joints.elements import is_joint
-    from ssilang.kernel.joints.law_table import law_of
+    from ssilang.kernel.interface.elements import is_joint
+    from ssilang.kernel.interface.laws.law_table import law_of
 
     if is_plastic(zone) or (is_joint(zone) and not law_of(zone.behaviour).linear):
         raise KernelError(

@@ -12,8 +12,8 @@ from ssilang.kernel.curve import Load, LoadPart
 from ssilang.kernel.dynamics.plan import nearest
 from ssilang.kernel.elements.families import mass, stiffness
 from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.joints.elements import is_joint
-from ssilang.kernel.joints.law_table import law_of
+from ssilang.kernel.interface.elements import is_joint
+from ssilang.kernel.interface.laws.law_table import law_of
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.model import Model, Zone

@@ -18,8 +18,8 @@ from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.zone_fields import cell_rows, n_points
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
-from ssilang.kernel.joints.elements import is_joint
-from ssilang.kernel.joints.kinematics import element_sides
+from ssilang.kernel.interface.elements import is_joint
+from ssilang.kernel.interface.kinematics import element_sides
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.mesh import CellBlock
 from ssilang.kernel.mesh.nodes import FloatArray

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ssilang.kernel.elements.families import family_of, strain
 from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.joints.elements import is_joint
+from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.matrices.assembly import Numbering, vector_to_field
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import FloatArray

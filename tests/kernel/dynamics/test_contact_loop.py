@@ -15,7 +15,7 @@ from ssilang.kernel.dynamics.problem import Inputs, Problem, make_problem
 from ssilang.kernel.dynamics.scheme import Scheme, generalised_alpha, hht
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.matrix import Matrix
-from ssilang.kernel.solvers.complementarity import ContactProblem, solve_contact
+from ssilang.kernel.solvers.active_set.complementarity import ContactProblem, solve_contact
 
 FEET, K, M = 6, 4e5, 20.0
 

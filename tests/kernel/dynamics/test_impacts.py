@@ -9,7 +9,7 @@ from references.recorder import Recorder
 from ssilang.kernel.dynamics.contact_options import ContactOptions
 from ssilang.kernel.dynamics.integrate import integrate
 from ssilang.kernel.dynamics.problem import Inputs, make_problem
-from ssilang.kernel.solvers.contact_methods import METHODS
+from ssilang.kernel.solvers.active_set.contact_methods import METHODS
 
 
 def club_a(steps: int, options: ContactOptions, duration: float = 0.4, **joint):

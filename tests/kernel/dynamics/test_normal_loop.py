@@ -13,7 +13,7 @@ from ssilang.kernel.dynamics.engines import DenseEngine
 from ssilang.kernel.dynamics.integrate import Integration, integrate
 from ssilang.kernel.dynamics.normal_loop import Contact, anew, list_closed, settle
 from ssilang.kernel.dynamics.scheme import Scheme, hht
-from ssilang.kernel.joints.columns import XI
+from ssilang.kernel.interface.laws.columns import XI
 
 
 def contact_of(Q, k, closed):
