@@ -43,14 +43,14 @@ settled = frame.peer_model
 
 def sparse_seconds(steps: int, folder: Path) -> float:
     """Seconds of the loop on sparse matrices."""
-    from ssilang.kernel.dynamics import engines, integrate
+    from ssilang.kernel.stepping import choose, run
 
-    kept = integrate.kind_of
-    integrate.kind_of = lambda problem, full: engines.SparseEngine
+    kept = run.kind_of
+    run.kind_of = lambda problem, full: choose.SparseEngine
     try:
         return frame.ours(steps, steps, folder)[1]
     finally:
-        integrate.kind_of = kept
+        run.kind_of = kept
 
 
 def main(steps: int = 5000) -> None:

@@ -54,15 +54,15 @@ def _made(function: Function, freedom: set[str] | bool) -> Function:
 
 
 def is_compiled(package: str) -> bool:
-    """Whether functions of a package of the kernel ('dynamics') were compiled before."""
+    """Whether functions of a package of the kernel ('stepping') were compiled before."""
+    root = PACKAGE / "kernel" / package
     given = os.environ.get("NUMBA_CACHE_DIR")
     if given:
-        return any(Path(given).glob(f"{package}_*/*.nbi"))
-    names = (
-        f"ssilang.kernel.{package}.{p.stem}" for p in (PACKAGE / "kernel" / package).glob("*.py")
-    )
-    folders = (_base() / f"{name}-{state_of(name)}" for name in names)
-    return any(any(folder.glob("*/*.nbi")) for folder in folders)
+        folders = [root, *(p for p in root.rglob("*") if p.is_dir())]
+        return any(any(Path(given).glob(f"{p.name}_*/*.nbi")) for p in folders)
+    paths = (p.relative_to(PACKAGE.parent).with_suffix("") for p in root.rglob("*.py"))
+    kept = (_base() / f"{name}-{state_of(name)}" for name in (".".join(p.parts) for p in paths))
+    return any(any(folder.glob("*/*.nbi")) for folder in kept)
 
 
 def state_of(module: str, package: Path = PACKAGE) -> str:

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 import numpy as np
 
 from ssilang.kernel.curve import Load
-from ssilang.kernel.dynamics.loading import TimeCurve, terms_of
 from ssilang.kernel.elements.thermal import thermal_strain
 from ssilang.kernel.errors import FieldError
 from ssilang.kernel.fields.cell_field import CellField
@@ -15,6 +14,7 @@ from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.model import Zone
 from ssilang.kernel.plasticity.bulk import FreeStrain
+from ssilang.kernel.stepping.problem.loading import TimeCurve, terms_of
 
 
 def free_strains(

@@ -14,7 +14,6 @@ import numpy as np
 import scipy.sparse as sp
 
 from ssilang.kernel.curve import Load
-from ssilang.kernel.dynamics.loading import MECHANICAL, terms_of
 from ssilang.kernel.elements.family import element_matrices
 from ssilang.kernel.elements.springs import ComplexArray, dynamic_stiffness
 from ssilang.kernel.elements.zone_fields import ZoneField
@@ -35,6 +34,7 @@ from ssilang.kernel.matrices.assembly import (
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, imaginary
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.model import Zone
+from ssilang.kernel.stepping.problem.loading import MECHANICAL, terms_of
 
 _DENSE = 300
 """Up to this many unknowns full matrices are faster than sparse ones."""

@@ -106,8 +106,8 @@ def continue_harmonics(entries: Entries) -> None:
 def _problem(entries: Entries, names: Names) -> FrequencyProblem:
     from ssilang.kernel.continuation.frequency_problem import FrequencyProblem
     from ssilang.kernel.continuation.harmonics import basis_of
-    from ssilang.kernel.dynamics.constraints import constraints_of
-    from ssilang.kernel.dynamics.loading import loading_of
+    from ssilang.kernel.stepping.problem.constraints import constraints_of
+    from ssilang.kernel.stepping.problem.loading import loading_of
 
     words = ("RIGIDITE_HBM", "AMORTISSEMENT_HBM", "MASSE_HBM")
     K, C, M = (entries.needed(w, "RIGIDITE") for w in words)
@@ -328,7 +328,7 @@ def _floquet(
 def _exponents(entries: Entries, problem: FrequencyProblem) -> Callable[[Solution], FloatArray]:
     """Floquet exponents of a solution, from the matrices of the motion itself."""
     from ssilang.kernel.continuation.floquet import exponents
-    from ssilang.kernel.dynamics.constraints import constraints_of
+    from ssilang.kernel.stepping.problem.constraints import constraints_of
 
     words = ("RIGIDITE_CONSTANTE", "AMORTISSEMENT_CONSTANT", "MASSE_CONSTANTE")
     K, C, M = (entries.get(w, "RIGIDITE") for w in words)

@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 
 from ssilang.kernel.curve import Load
-from ssilang.kernel.dynamics.loading import loading_of
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.matrices.assembly import Numbering, assemble, field_to_vector, numbering_of
 from ssilang.kernel.matrices.matrix import Matrix
@@ -16,6 +15,7 @@ from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.modal.explicit import SCHEMES, VARIABLES, ModalRun, ModalState, march
 from ssilang.kernel.modal.links import STATES, link_arrays
 from ssilang.kernel.modal.modes import eigenvalue
+from ssilang.kernel.stepping.problem.loading import loading_of
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
 from ssilang.language.values import ListReel, Mot, Table

@@ -14,7 +14,7 @@ from ssilang.kernel.plasticity.points import plastic_zones
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
-    from ssilang.kernel.dynamics.problem import Inputs, Problem
+    from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 
 Bodies = Callable[["Problem", "Inputs"], tuple[Bulk, State]]
 

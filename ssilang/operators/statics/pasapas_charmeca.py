@@ -21,7 +21,7 @@ from ssilang.operators.statics.bodies import Bodies
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
-    from ssilang.kernel.dynamics.problem import Inputs, Problem
+    from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 
 KNOWN = ("ADDI_SECOND", "ADDI_MATRICE")
 

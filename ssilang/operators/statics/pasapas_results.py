@@ -17,7 +17,7 @@ from ssilang.language.values import Mot, Table
 from ssilang.operators.statics.pasapas_entries import RESULTS
 
 if TYPE_CHECKING:
-    from ssilang.kernel.dynamics.snapshot import Snapshot
+    from ssilang.kernel.stepping.snapshot import Snapshot
 
 
 @dataclass

@@ -31,7 +31,7 @@ from ssilang.operators.statics.pasapas_steering import working_table
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
-    from ssilang.kernel.dynamics.snapshot import Snapshot
+    from ssilang.kernel.stepping.snapshot import Snapshot
 
 STAGED = {
     "MODE": ("MODELE", "MMODEL"),

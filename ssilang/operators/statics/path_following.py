@@ -25,10 +25,10 @@ from ssilang.operators.statics.path_controls import (
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
-    from ssilang.kernel.dynamics.integrate import History
     from ssilang.kernel.plasticity.driven_load import Trace
     from ssilang.kernel.plasticity.following import Control, PathRun
     from ssilang.kernel.plasticity.run import BulkRun
+    from ssilang.kernel.stepping.run import History
 
 DRIVEN = ("DEPLACEMENTS_PILOTES", "FORCES_PILOTEES")
 DEFAULT_CRITERION = 1e-3

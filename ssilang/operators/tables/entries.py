@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ssilang.kernel.curve import Curve, Load
-from ssilang.kernel.dynamics.plan import every, nearest
 from ssilang.kernel.errors import KernelError
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.stepping.times import every, nearest
 from ssilang.language.call import Call
 from ssilang.language.diagnostics import nearest as nearest_word
 from ssilang.language.errors import SsiError

@@ -8,8 +8,6 @@ from references.recorder import Recorder
 from references.rocking import macro_element_period
 
 from ssilang.kernel.curve import Curve, CurvePart, Load, LoadPart
-from ssilang.kernel.dynamics.integrate import integrate
-from ssilang.kernel.dynamics.problem import Inputs, make_problem
 from ssilang.kernel.errors import MaterialError
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.joints.columns import N_STATE
@@ -17,6 +15,8 @@ from ssilang.kernel.joints.laws import point_energies, respond
 from ssilang.kernel.joints.parameters import N_PARAMETERS, Parameter
 from ssilang.kernel.model import Mode
 from ssilang.kernel.statics.stepping import step_statics
+from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
+from ssilang.kernel.stepping.run import integrate
 
 STRIP, DISC, SPRINGS = 3, 4, 5
 KN = 1e6
