@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import TextIO
 
 from ssilang.cli.paging import show
-from ssilang.language.diagnostics import elsewhere, nearest
+from ssilang.language.diagnostics import elsewhere
 from ssilang.language.library import standard_procedures
+from ssilang.language.near import nearest
 from ssilang.language.reference import find_page, overview, page_names, page_text
 from ssilang.operators.loader import load_operators
 

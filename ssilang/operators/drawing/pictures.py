@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ssilang.language.call import Call
-from ssilang.language.diagnostics import nearest
+from ssilang.language.near import nearest
 from ssilang.language.session import Session
 from ssilang.language.values import type_of
 from ssilang.operators.files.outputs import run_output

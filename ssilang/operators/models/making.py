@@ -28,7 +28,7 @@ from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
 from ssilang.kernel.modal import shape_models
 from ssilang.kernel.model import Mode, Model, Zone
 from ssilang.language.call import Call
-from ssilang.language.diagnostics import nearest
+from ssilang.language.near import nearest
 from ssilang.language.registry import Help, operator
 from ssilang.operators.dispatch import union
 from ssilang.operators.models.contact import contact_model, take_contact

@@ -19,7 +19,7 @@ from ssilang.kernel.materials.parameters import geometric_names
 from ssilang.kernel.mesh.mesh import Point
 from ssilang.kernel.model import Model, Zone
 from ssilang.language.call import Call
-from ssilang.language.diagnostics import nearest
+from ssilang.language.near import nearest
 from ssilang.language.registry import Help, operator
 from ssilang.operators.models.tension import material_names, tension_to_hardening
 

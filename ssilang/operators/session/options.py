@@ -12,8 +12,8 @@ from ssilang.kernel.matrices.matrix import PRIMAL_TO_DUAL
 from ssilang.kernel.mesh.cells import CELL_TYPES, POLYGON_SIDES
 from ssilang.kernel.model import Mode
 from ssilang.language.call import Call
-from ssilang.language.diagnostics import nearest
 from ssilang.language.errors import SsiError
+from ssilang.language.near import nearest
 from ssilang.language.registry import Help, arg, operator
 from ssilang.language.session import Session
 from ssilang.language.values import ListMots, Mot

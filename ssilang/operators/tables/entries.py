@@ -15,8 +15,8 @@ from ssilang.kernel.errors import KernelError
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.language.call import Call
-from ssilang.language.diagnostics import nearest as nearest_word
 from ssilang.language.errors import SsiError
+from ssilang.language.near import nearest as nearest_word
 from ssilang.language.source import Span
 from ssilang.language.values import Annule, ListReel, Table, type_of
 
