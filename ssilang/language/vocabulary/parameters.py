@@ -38,19 +38,24 @@ _ONE_POINT = ("JOI1", *_MACRO)
 _SHELLS = ("plate", "meridian", "mindlin", "thick")
 _STIFF = between(1e4, 1e13)  # moduli of soft clay to diamond
 _AXES = {"1": ("first", "premier"), "2": ("second", "deuxième"), "3": ("third", "troisième")}
-_SHARE = Range(-1.0, 0.5, open_low=True)
+_POISSON = (
+    "Poisson's ratio, about 0.3 for soils and steel, 0.2 for concrete",
+    "Coefficient de Poisson, environ 0.3 pour les sols et l'acier, 0.2 pour le béton",
+)
 
 
 def _unused(name: str, unit: str | None, en: str, fr: str, of: tuple[str, ...] = ()) -> Quantity:
     """A parameter that scripts may give and that nothing reads here."""
-    return _p(name, unit, f"{en} (taken, without effect)", f"{fr} (lu, sans effet)", of)
+    en, fr = f"{en} (taken, without effect)", f"{fr} (lu, sans effet)"
+    return Quantity(name, en, fr, of, "unused", unit)
 
 
 _ELASTIC = (
     _p(
         "YOUN", "Pa", "Young's modulus", "Module d'Young", range=NOT_NEGATIVE, usual=_STIFF
     ),
-    _p("NU", "", "Poisson's ratio", "Coefficient de Poisson", range=_SHARE),
+    # of bodies the kernel refuses 0.5 itself, with what to do about it
+    _p("NU", "", *_POISSON, range=Range(-1.0, 0.5, open_low=True)),
     _p(
         "RHO", "kg/m3", "Density", "Masse volumique", range=NOT_NEGATIVE, usual=between(1.0, 2.5e4)
     ),
