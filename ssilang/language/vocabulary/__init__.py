@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import importlib
 from collections.abc import Iterable
+from dataclasses import replace
 from functools import cache
 
 from ssilang.language.near import LIKE, nearest_names
@@ -80,8 +81,14 @@ def find(kind: str, word: str, of: Iterable[str] = ()) -> Word | None:
 
 
 def all_meanings(word: str) -> list[tuple[str, Word]]:
-    """Every meaning of a word: list and word."""
-    return [(kind, found) for kind in KINDS for found in meanings(kind, word)]
+    """Every meaning of a word: list and word; values of options come under 'value'."""
+    found = [(kind, meaning) for kind in KINDS for meaning in meanings(kind, word)]
+    said = word.upper().strip()
+    for option in words("option"):
+        values = option.values if isinstance(option, Option) else ()
+        chosen = [v for v in values if said in (v.name, v.name[:SHORT])]
+        found += [("value", replace(v, of=(option.name,))) for v in chosen]
+    return found
 
 
 def near(kind: str, word: str, among: Iterable[str] = (), least: float = LIKE) -> list[str]:
