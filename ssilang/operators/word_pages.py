@@ -22,7 +22,7 @@ from ssilang.language.reference import (
     page_text,
     procedure_page,
 )
-from ssilang.language.registry import OPERATORS
+from ssilang.language.registry import OPERATORS, keywords_of
 from ssilang.language.search import Item, search
 from ssilang.language.vocabulary.examples import example
 from ssilang.language.vocabulary.terms import Option, Quantity, Word
@@ -66,6 +66,7 @@ _TEXTS: Mapping[str, tuple[str, str]] = {
     "component principal": ("principal value", "valeur principale"),
     "component variable": ("internal variable", "variable interne"),
     "component scalar": ("component", "composante"),
+    "keyword": ("keyword of", "mot-clé de"),
     "operator": ("operator", "opérateur"),
     "procedure": ("procedure", "procédure"),
     "elements": ("Elements", "Éléments"),
@@ -77,6 +78,7 @@ _TEXTS: Mapping[str, tuple[str, str]] = {
     "laws": ("Laws", "Lois"),
     "parameters": ("Parameters", "Paramètres"),
     "required": ("required", "obligatoire"),
+    "axes": ("Set by DIRECTION, RADIAL", "Donnés par DIRECTION, RADIAL"),
     "unused": ("Taken without effect", "Lus sans effet"),
     "unit": ("Unit", "Unité"),
     "default": ("Default", "Défaut"),
@@ -110,7 +112,8 @@ def vocabulary_text(kind: str, word: Word, language: str) -> str:
         lines += ["", *part] if isinstance(part, list) else [part]
     shown = example(kind, word)
     if kind == "parameter":
-        shown = next((e for o, _ in _owners(word) if (e := example(_kind_of(o), o))), "")
+        examples = (example(_kind_of(owner), owner) for owner, _ in _owners(word))
+        shown = next((e for e in examples if f"'{word.name}'" in e), "")
     if shown:
         lines += ["", _text("example", language)]
         lines += ["    " + line for line in shown.split("\n")]
@@ -161,7 +164,7 @@ def _element(element: Word, language: str) -> Iterator[str | list[str]]:
 
 def _table(rows: Sequence[words.Row], language: str) -> list[str]:
     """Name, unit, default, range and meaning of parameters."""
-    used = [r for r in rows if r.word.kind != words.UNUSED]
+    used = [r for r in rows if not r.word.kind]
     lines = [_text("parameters", language)] if used else []
     for row in used:
         default = _text("required", language) if row.required else _number(row.default)
@@ -170,8 +173,10 @@ def _table(rows: Sequence[words.Row], language: str) -> list[str]:
         lines += textwrap.wrap(
             head + row.word.meaning(language), 100, subsequent_indent=" " * len(head)
         )
-    unused = [r.word.name for r in rows if r.word.kind == words.UNUSED]
-    return lines + ([f"    {_text('unused', language)} : {' '.join(unused)}"] if unused else [])
+    for kind in (words.AXES, words.UNUSED):
+        names = [r.word.name for r in rows if r.word.kind == kind]
+        lines += [f"    {_text(kind, language)} : {' '.join(names)}"] if names else []
+    return lines
 
 
 def _number(value: float | None) -> str:
@@ -294,14 +299,25 @@ def items(language: str) -> Iterator[Item]:
 
 
 def exact_pages(word: str, language: str) -> list[str]:
-    """The pages of an operator or procedure and of all words that are named so."""
+    """The pages of an operator or procedure and of all words that are named so.
+
+    A word of the everyday language ('contact') is searched besides.
+    """
     said = word.upper().strip()
     page = find_page(said, standard_procedures())
-    meanings = vocabulary.all_meanings(said)
     pages = []
     if page is not None and (said in _names(page) or page.full_name.startswith(said)):
         pages.append(page_text(page, language))
-    return pages + [vocabulary_text(kind, found, language) for kind, found in meanings]
+    for kind, found in vocabulary.all_meanings(said):
+        if found.name.startswith(said):
+            pages.append(vocabulary_text(kind, found, language))
+    known = [o for name, o in sorted(OPERATORS.items()) if o.name == name]
+    readers = [o.name for o in known if said in keywords_of(o)]
+    if readers:
+        pages.append("\n".join(_filled(f"{said} : {_text('keyword', language)} ", readers)))
+    if pages and len(said) > vocabulary.SHORT and said.isalpha():
+        pages.append(found_text(word, language))
+    return [p for p in pages if p]
 
 
 def _names(page: Page) -> tuple[str, ...]:
@@ -311,18 +327,16 @@ def _names(page: Page) -> tuple[str, ...]:
 
 def found_text(query: str, language: str) -> str:
     """A line for each thing that a search finds, '' if there is none."""
-    found = search(query, items(language))
-    if not found:
+    lines: dict[tuple[str, str], str] = {}
+    for item in search(query, items(language)):
+        kind = f"[{item.label}] " if item.label else ""
+        text = textwrap.shorten(kind + item.summary, 80, placeholder=" ...")
+        lines.setdefault((item.name, item.label), f"  {item.name:<17} {text}")
+    if not lines:
         return ""
-    lines = dict.fromkeys(
-        textwrap.shorten(f"{i.name} {i.label and f'[{i.label}] '}{i.summary}", 100, placeholder=" ...")
-        .replace(i.name, f"  {i.name:<17}", 1)
-        for i in found
-    )  # fmt: skip
-    head, shown = _text("found", language).format(query.strip()), list(lines)[:_SHOWN]
-    more = (
-        [f"  {_text('more', language).format(len(lines) - _SHOWN)}"] if len(lines) > _SHOWN else []
-    )
+    head, shown = _text("found", language).format(query.strip()), list(lines.values())[:_SHOWN]
+    left = len(lines) - len(shown)
+    more = [f"  {_text('more', language).format(left)}"] if left else []
     return "\n".join([head, *shown, *more])
 
 

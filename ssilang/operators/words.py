@@ -38,8 +38,8 @@ from ssilang.kernel.model import Mode, Zone
 from ssilang.language import vocabulary
 from ssilang.language.vocabulary.terms import Option, Quantity, Word
 
-UNUSED = "unused"
-"""Kind of parameters that are taken without effect."""
+UNUSED, AXES = "unused", "axes"
+"""Kinds of parameters that are taken without effect, and that DIRECTION and RADIAL set."""
 _LINES = 12  # of meanings in a hint
 
 
@@ -156,12 +156,15 @@ def owners(name: str) -> tuple[tuple[Word, Quantity], ...]:
     """The laws and elements that take a parameter, each with what it means there."""
     found = []
     for law in vocabulary.words("law"):
-        zone = sample_of_law(law)
-        if zone is not None and name in law_names(zone).all:
-            found.append((law, parameter(name, zone)))
+        zones = [sample_of_law(law)]
+        if zones[0] is not None and zones[0].element == "JOI2":
+            zones.append(sample("JOI1", zones[0].mode, zones[0].behaviour))
+        meant = [parameter(name, z) for z in zones if z is not None and name in law_names(z).all]
+        found += [(law, word) for word in dict.fromkeys(meant)]
     for element in vocabulary.words("element"):
         for zone in samples_of_element(element.name) if element.name in ELEMENTS else ():
-            if name in geometric_names(zone).all:
+            own = ELEMENTS[element.name].family == "joint"  # its laws have many parameters alike
+            if name in (*geometric_names(zone).all, *(law_names(zone).all if own else ())):
                 found.append((element, parameter(name, zone)))
                 break
     return tuple((owner, word) for owner, word in found if word is not None)
@@ -297,7 +300,7 @@ def told_parameters(zone: Zone, names: Iterable[str], language: str) -> list[str
     """Lines that say what some parameters of a zone mean, those that it needs first."""
     chosen = set(names)
     rows = [r for r in parameter_rows(zone, section=True) if r.word.name in chosen]
-    rows = [r for r in rows if r.word.kind != UNUSED]
+    rows = [r for r in rows if not r.word.kind]
     return [f"{r.word.name}: {described(r.word, language)}" for r in rows[:_LINES]]
 
 

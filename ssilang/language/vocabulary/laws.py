@@ -31,8 +31,8 @@ WORDS = (
     ),
     _law(
         "elasticity", "ANISOTROPE",
-        "General elasticity by the matrix of Hooke, D11 D21 D22 ...",
-        "Élasticité générale par la matrice de Hooke, D11 D21 D22 ...",
+        "General elasticity by the terms of the matrix of Hooke (D11 D21 D22 and so on)",
+        "Élasticité générale par les termes de la matrice de Hooke (D11 D21 D22, etc.)",
     ),
     _law(
         "elasticity", "UNIDIRECTIONNEL",

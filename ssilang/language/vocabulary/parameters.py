@@ -112,8 +112,8 @@ _ORTHOTROPIC = (
         for j in range(1, i + 1)
     ),
     *(
-        _p(f"V{i}{c}", "", f"Component {c} of the {en} axis of the material (set by DIRECTION)",
-           f"Composante {c} du {fr} axe du matériau (donnée par DIRECTION)")
+        Quantity(f"V{i}{c}", f"Component {c} of the {en} axis of the material (set by DIRECTION)",
+                 f"Composante {c} du {fr} axe du matériau (donnée par DIRECTION)", kind="axes")
         for i, (en, fr) in (("1", _AXES["1"]), ("2", _AXES["2"]))
         for c in "XYZ"
     ),
@@ -148,6 +148,9 @@ _JOINTS = (
     _p("GF", "J", "Energy spent to open a joint of two points fully",
        "Énergie dépensée à l'ouverture complète d'un joint de deux points", _ONE_POINT,
        range=NOT_NEGATIVE),
+    _p("FC", "N", "Force at which an opened joint of two points is closed again, a compression",
+       "Force à laquelle un joint ouvert de deux points est refermé, une compression", ("JOI1",),
+       range=NOT_POSITIVE),
     _p("FC", "Pa", "Traction at which an opened joint is closed again, a compression (<= 0)",
        "Traction à laquelle un joint ouvert est refermé, une compression (<= 0)", ("JOINT_SDM",),
        range=NOT_POSITIVE),
@@ -161,6 +164,14 @@ _JOINTS = (
     _p("FTRC", "Pa", "Tensile strength of a Mohr-Coulomb joint; 0: it opens and closes freely",
        "Résistance en traction d'un joint de Mohr-Coulomb ; 0 : il s'ouvre et se ferme librement",
        range=NOT_NEGATIVE),
+    _p("FTRC", "N", "Tensile strength of a Mohr-Coulomb joint of two points",
+       "Résistance en traction d'un joint de Mohr-Coulomb de deux points", ("JOI1",),
+       range=NOT_NEGATIVE),
+    _p("EF", "N/m", "Normal stiffness of a joint of two points beyond the closing ECN",
+       "Raideur normale d'un joint de deux points au-delà de la fermeture ECN", ("JOI1",),
+       range=NOT_NEGATIVE),
+    _p("COHE", "N", "Cohesion of a joint of two points", "Cohésion d'un joint de deux points",
+       ("JOI1",), range=NOT_NEGATIVE),
     _p("EF", "Pa/m", "Normal stiffness beyond the closing ECN",
        "Raideur normale au-delà de la fermeture ECN", range=NOT_NEGATIVE),
     _p("ECN", "m", "Closing beyond which the normal stiffness is EF; 0: never",
