@@ -7,7 +7,7 @@ import unicodedata
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-_WORD = re.compile(r"\w+")
+_WORD = re.compile(r"[^\W_]+")
 _SHORTEST = 4  # letters of a beginning that two forms of a word share
 
 # points of a match: the name, a word of it, of the summary, of the text
@@ -60,7 +60,7 @@ def _best(words: Iterable[str], said: str) -> float:
 def score(item: Item, said: str) -> float:
     """How well an item fits one folded word, 0 if it does not."""
     name = fold(item.name)
-    points = _NAME if name == said else _NAME_PART * _best(re.split(r"[_\W]+", name), said)
+    points = _NAME if name == said else _NAME_PART * _best(_WORD.findall(name), said)
     points += _SUMMARY * _best(_WORD.findall(fold(item.summary)), said)
     found = [m for w in _WORD.findall(fold(item.text)) if (m := _match(w, said))]
     if found:

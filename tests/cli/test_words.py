@@ -6,8 +6,13 @@ import pytest
 
 
 @pytest.mark.parametrize(
-    "arguments", [("--lang", "fr", "help", "KN"), ("--lang=fr", "help", "KN"), ("help", "KN", "--lang", "fr")]
-)  # fmt: skip
+    "arguments",
+    [
+        ("--lang", "fr", "help", "KN"),
+        ("--lang=fr", "help", "KN"),
+        ("help", "KN", "--lang", "fr"),
+    ],
+)
 def test_the_language_may_stand_before_the_command(ssilang, arguments):
     done = ssilang(*arguments)
     assert done.code == 0

@@ -117,7 +117,8 @@ def test_every_law_and_element_has_an_example(kind):
 
 @pytest.mark.parametrize(
     ("kind", "said", "name"),
-    [("law", "JOINT_SDM", "JOINT_SDM"), ("law", "joint_s", "JOINT_SDM"), ("law", "ELAS", "ELASTIQUE"),
+    [("law", "JOINT_SDM", "JOINT_SDM"), ("law", "joint_s", "JOINT_SDM"),
+     ("law", "ELAS", "ELASTIQUE"),
      ("law", "ELA", ""), ("element", "POUTRE", "POUT"), ("option", "DIMENSION", "DIME"),
      ("parameter", "YOUNG", ""), ("component", "UX", "UX"), ("component", "UXX", "")],
 )  # fmt: skip
@@ -149,10 +150,7 @@ def test_ranges_are_told_as_inequalities(low, text):
     [
         ("JOINT_SDM", ("law of joints", "JOI2", "FROT", "Pa/m", "required", "JOINT_DILATANT")),
         ("KN", ("Pa/m", "N/m", "MACRO_SEMELLE", "JOI1", "KN >= 0")),
-        (
-            "POUT",
-            ("SEG2", "UX UY UZ RX RY RZ", "EFFX", "SECT", "Area of the section (", "TRID")[:4],
-        ),
+        ("POUT", ("SEG2", "TRID", "UX UY UZ RX RY RZ", "EFFX", "Area of the section")),
         ("UX", ("Displacement along x", "Dual", "FX", "QUA4")),
         ("PLAN", ("value of OPTI MODE", "keyword of")),
         ("MASS", ("operator", "Modal mass", "kg")),
@@ -166,14 +164,18 @@ def test_help_of_a_word(word, parts):
 
 
 def test_a_word_with_several_meanings_lists_them_all():
-    assert len(exact_pages("MASS", "en")) == 3  # operator, at a point, of a mode
-    assert len(exact_pages("PHI", "en")) == 2  # radians of a body, degrees of a joint
+    mass = [page.partition("\n")[0] for page in exact_pages("MASS", "en")]
+    assert mass[0] == "MASS (MASSE) : operator [matrix]"
+    assert mass[1:3] == ["MASS : parameter of MATE or CARA"] * 2  # at a point, of a mode
+    phi = help_text("PHI", "en")
+    assert "rad" in phi
+    assert "deg" in phi
 
 
 @pytest.mark.parametrize(
     ("query", "name"),
     [("uplift", "JOINT_SDM"), ("décollement", "JOINT_SDM"), ("damping", "AMOR"),
-     ("amortissement", "VISQ"), ("contact", "FROTTANT"), ("modes", "VIBR")],
+     ("amortissement", "AMOR"), ("contact", "FROTTANT"), ("modes", "VIBR")],
 )  # fmt: skip
 @pytest.mark.parametrize("language", ["en", "fr"])
 def test_help_searches_both_languages(query, name, language):
