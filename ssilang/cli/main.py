@@ -44,8 +44,8 @@ def _parser() -> argparse.ArgumentParser:
     check.add_argument("files", nargs="+")
     check.add_argument("--syntax-only", action="store_true", help="structure alone")
     check.add_argument("--lang", choices=("en", "fr"), default="en", help="language of messages")
-    helper = commands.add_parser("help", help="help of an operator or procedure")
-    helper.add_argument("word", nargs="?", default="")
+    helper = commands.add_parser("help", help="help of a word, or what is known about it")
+    helper.add_argument("word", nargs="*")
     helper.add_argument("--lang", choices=("en", "fr"), default="en")
     _sweep_arguments(commands.add_parser("sweep", help="run a script over parameters and motions"))
     repl = commands.add_parser("repl", help="interactive session")
@@ -95,7 +95,7 @@ def _run_arguments(parser: argparse.ArgumentParser) -> None:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Entry point; returns the exit code (0 fine, 1 the script failed, 2 wrong usage)."""
-    words = list(sys.argv[1:] if arguments is None else arguments)
+    words = _command_first(list(sys.argv[1:] if arguments is None else arguments))
     named = bool(words) and words[0] in (*_COMMANDS, "-h", "--help", "--version")
     parser = _parser()
     options = parser.parse_args(words if named else ["run", *words])
@@ -121,6 +121,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:  # while the program starts, or a check or a sweep goes on
         sys.stderr.write("error: interrupted\n")
         return FAILED
+
+
+def _command_first(words: list[str]) -> list[str]:
+    """The arguments with the command in front of a --lang that is written before it."""
+    length = 1 if words[:1] and words[0].startswith("--lang=") else 2
+    leads = bool(words) and words[0].partition("=")[0] == "--lang"
+    if not leads or words[length : length + 1] == [] or words[length] not in _COMMANDS:
+        return words
+    return [words[length], *words[:length], *words[length + 1 :]]
 
 
 def _leave_quietly() -> int:
@@ -227,7 +236,7 @@ def _check(options: argparse.Namespace) -> int:
 def _help(options: argparse.Namespace) -> int:
     from ssilang.cli.helping import show_help
 
-    return show_help(options.word, options.lang, sys.stdout)
+    return show_help(" ".join(options.word), options.lang, sys.stdout)
 
 
 def _repl(options: argparse.Namespace) -> int:
