@@ -38,16 +38,13 @@ def condensed_on_multipliers(relations: Matrix, inverse_mass: NodeField) -> Matr
     numbering = numbering_of(relations)
     rows = constraint_matrix(relations, numbering)
     if not rows.C.shape[0]:
-        raise FieldError("the matrix has no relation", "BLOQ and RELA make them")
+        raise FieldError("kernel.matrices.matrix-no-relation")
     given = [field_to_vector(inverse_mass, numbering, dual) for dual in (False, True)]
     weights = np.where(given[0] != 0.0, given[0], given[1])
     used = np.unique(rows.C.indices)
     if (weights[used] == 0.0).any():
         bad = int(used[weights[used] == 0.0][0])
-        raise FieldError(
-            f"the diagonal field has no value for {numbering.label(bad)}",
-            "it is the inverse of a diagonal mass, with components UX UY ...",
-        )
+        raise FieldError("kernel.matrices.diagonal-field-no-value", label=numbering.label(bad))
     S = sp.csr_array(rows.C @ sp.diags_array(weights) @ rows.D.T)
     order = np.argsort(rows.multipliers, kind="stable")
     S = sp.csr_array(S[order][:, order])
@@ -79,7 +76,7 @@ def condensed_by_relations(matrix: Matrix, relations: Matrix) -> Matrix:
     rows = constraint_matrix(rows_only, numbering)
     found = eliminate(rows.C)
     if not found.eliminated.all():
-        raise FieldError("some of the relations cannot be eliminated: they are too full")
+        raise FieldError("kernel.matrices.some-relations-cannot-eliminated")
     A = sp.csr_array(found.T.T @ K @ found.T)
     kept = found.masters
     masters = Numbering(
@@ -105,9 +102,7 @@ def filter_weights(
 
     names = list(weights.components)
     if len(names) != 1:
-        raise FieldError(
-            f"one component of weights is needed, here are {' '.join(names) or 'none'}"
-        )
+        raise FieldError("kernel.matrices.component-weights-needed", names=names)
     part = weights.components[names[0]]
     n = len(part.nodes)
     if radius > 0.0:
@@ -127,7 +122,7 @@ def filter_weights(
         shares = sp.csr_array(sp.diags_array(part.values.copy()))
     total: FloatArray = np.asarray(shares.sum(axis=1)).ravel()
     if (total == 0.0).any():
-        raise FieldError("the weights around a node are all zero")
+        raise FieldError("kernel.matrices.weights-around-node-zero")
     W = sp.csr_array(sp.diags_array(1.0 / total) @ shares)
     W.data[W.data <= least] = 0.0
     codes = np.zeros(n, dtype=np.int64)
@@ -144,7 +139,7 @@ def cable_stiffness(mesh: Mesh, dimension: int, force: float, percent: float) ->
         If a cell is not a segment of two nodes, or has no length.
     """
     if {b.cell_type for b in mesh.blocks} != {"SEG2"}:
-        raise MeshError("a cable is made of segments of two nodes (SEG2)")
+        raise MeshError("kernel.matrices.cable-made-segments-two")
     rigidity = 100.0 * force / percent
     blocks = []
     for b in mesh.blocks:
@@ -152,7 +147,7 @@ def cable_stiffness(mesh: Mesh, dimension: int, force: float, percent: float) ->
         along = (b.coordinates[:, 1] - b.coordinates[:, 0])[:, :d]
         length = np.linalg.norm(along, axis=1)
         if (length == 0.0).any():
-            raise MeshError("a segment of the cable has no length")
+            raise MeshError("kernel.matrices.segment-cable-no-length")
         row = np.concatenate([-along, along], axis=1) / length[:, None]
         values = (rigidity / length)[:, None, None] * row[:, :, None] * row[:, None, :]
         names = ("UX", "UY", "UZ")[:d] * 2
