@@ -20,8 +20,9 @@ from ssilang.kernel.dynamics.constraints import Constraints
 from ssilang.kernel.dynamics.problem import SMALL, Problem
 from ssilang.kernel.errors import SingularMatrixError
 from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.solvers.backends import DISSECTION, Ordering
+from ssilang.kernel.solvers.backends import DISSECTION
 from ssilang.kernel.solvers.cholesky.inverse import Inverse, invert
+from ssilang.kernel.solvers.factor import Ordering
 from ssilang.kernel.sparse import sp
 from ssilang.kernel.statics.linear_motion import describe_motions
 

@@ -18,6 +18,7 @@ from ssilang.kernel.dynamics.small_loop import SmallLoop, modes_of
 from ssilang.kernel.dynamics.sparse_loop import SparseLoop, StepSolver
 from ssilang.kernel.dynamics.step_solvers import step_solver
 from ssilang.kernel.errors import KernelError
+from ssilang.kernel.interface.newton import workspace
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 
@@ -89,6 +90,7 @@ class DenseEngine:
         self._operators = operators_of(problem, effective)
         self._joints = joints_of(problem)
         self._motion = motion
+        self._newton = workspace(motion.w.shape, len(motion.f))
 
     def watch(self, balance: FloatArray) -> None:
         """Keep the sum of energies at the start and the largest departure from it in `balance`."""
@@ -101,7 +103,15 @@ class DenseEngine:
         if self._reduced is not None:
             return self._reduced.march(factors, save, saved, history)
         return march(
-            self._system, self._operators, self._joints, self._motion, factors, save, saved, history
+            self._system,
+            self._operators,
+            self._joints,
+            self._motion,
+            self._newton,
+            factors,
+            save,
+            saved,
+            history,
         )
 
 

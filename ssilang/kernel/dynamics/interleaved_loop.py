@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ssilang.kernel.dynamics.compiled_loop import Joints, Motion, Saved
+from ssilang.kernel.dynamics.compiled_loop import Motion, Saved
 from ssilang.kernel.dynamics.dense_loop import joints_of
 from ssilang.kernel.dynamics.effective import Effective, RootResponse
 from ssilang.kernel.dynamics.interleaved_march import (
@@ -21,7 +21,7 @@ from ssilang.kernel.dynamics.interleaved_march import (
 from ssilang.kernel.dynamics.moving_supports import MOST, Columns, Course, MovingSupports, Start
 from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.dynamics.rayleigh import split_damping
-from ssilang.kernel.interface.factors import workspace
+from ssilang.kernel.interface.newton import workspace
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.solvers.cholesky.dissected import DissectedFactor
 from ssilang.kernel.solvers.cholesky.triangular import longest
@@ -73,10 +73,9 @@ class InterleavedLoop:
             (s.alpha_m, s.alpha_f, s.beta, s.gamma, effective.dt), longest(factor.panels),
         )  # fmt: skip
         self.supports = MovingSupports(problem, effective.dt, self.T)
-        joints = joints_of(problem) if problem.interface is None else None
-        self.joints = joints or _joints_without_rows(problem)
+        self.joints = joints_of(problem)
         self.J = sp.csr_array((0, n)) if problem.interface is None else problem.interface.J @ self.T
-        self.newton = workspace(q, motion.w, motion.state)
+        self.newton = workspace(motion.w.shape, q)
         gram = sp.csr_array(self.T.T @ self.T)
         self._gram_diagonal = gram.diagonal()
         self._gram = None if gram.nnz == n else sp.csc_array(gram)
@@ -88,7 +87,7 @@ class InterleavedLoop:
         other.forces = np.ascontiguousarray((self.T.T @ problem.loading.forces).T)
         other.plan = self.plan._replace(forces=other.forces)
         other.supports = MovingSupports(problem, self.plan.scheme[-1], self.T)
-        other.newton = workspace(len(motion.f), motion.w, motion.state)
+        other.newton = workspace(motion.w.shape, len(motion.f))
         return other
 
     def _reduced(self, A: sp.csr_array) -> sp.csr_array:
@@ -225,16 +224,6 @@ class PreparedBlock:
     factors: FloatArray
     works: FloatArray
     start: Start
-
-
-def _joints_without_rows(problem: Problem) -> Joints:
-    """Interface arrays without the dense J, that large problems never need."""
-    joints = problem.interface
-    assert joints is not None
-    return Joints(
-        np.zeros((0, 0)), joints.pairs, joints.B, joints.weights, joints.codes,
-        np.ascontiguousarray(joints.parameters),
-    )  # fmt: skip
 
 
 def _rows(A: sp.csr_array) -> Sparse:

@@ -9,7 +9,6 @@ from __future__ import annotations
 import numpy as np
 
 from ssilang.kernel.compiled import compiled
-from ssilang.kernel.dynamics.compiled_loop import Joints
 from ssilang.kernel.dynamics.interleaved_march import (
     Flow,
     Kept,
@@ -23,7 +22,8 @@ from ssilang.kernel.dynamics.interleaved_march import (
 )
 from ssilang.kernel.dynamics.springs_march import Ends
 from ssilang.kernel.interface.copies import copy_state
-from ssilang.kernel.interface.factors import Workspace
+from ssilang.kernel.interface.newton import Workspace, workspace_at
+from ssilang.kernel.interface.response import Joints
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.solvers.cholesky.multifrontal import Panels
 from ssilang.kernel.solvers.cholesky.triangular_together import FOUR, backward_many, forward_many
@@ -35,14 +35,6 @@ def _flow(x: Flow, j: int) -> Flow:
     return Flow(
         x.u[j], x.v[j], x.a[j], x.g[j], x.Mv[j], x.Ma[j], x.Cv[j], x.Ca[j], x.loads[j],
         x.delta[j], x.f[j], x.w[j], x.t[j], x.state[j], x.energies[j],
-    )  # fmt: skip
-
-
-@compiled
-def _newton(x: Workspace, j: int) -> Workspace:
-    return Workspace(
-        x.new[j], x.D[j], x.f[j], x.h[j], x.r[j], x.dy[j], x.delta[j], x.K[j], x.A[j], x.known[j],
-        x.pivots[j],
     )  # fmt: skip
 
 
@@ -73,7 +65,7 @@ def _root(
     for j in range(len(b)):
         if ends.steps[j] == steps:
             turns, residual = settle_interface(
-                plan, joints, _flow(flows, j), _newton(newtons, j), du[j], rise[j], pull[j]
+                plan, joints, _flow(flows, j), workspace_at(newtons, j), du[j], rise[j], pull[j]
             )
             if turns <= 0:
                 ends.steps[j], ends.turns[j], ends.residual[j] = k, turns, residual

@@ -30,9 +30,8 @@ from ssilang.kernel.dynamics.compiled_loop import (
     Motion,
 )
 from ssilang.kernel.dynamics.modal_loop import Modal, ModalRows, ModalStep, add_jumps, next_load
-from ssilang.kernel.interface.copies import copy_rows, copy_state
-from ssilang.kernel.interface.laws.columns import XI
-from ssilang.kernel.interface.newton import largest
+from ssilang.kernel.interface.copies import copy_rows, copy_state, largest
+from ssilang.kernel.interface.laws.columns import Variable
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 BLOCK = 64  # coordinates whose rows of J and Jt stay in the nearest cache
@@ -256,7 +255,7 @@ def _save(
     copy_rows(x.state, rows.state[row])
     for i in range(len(f)):
         rows.w[row, i, 0], rows.t[row, i, 0] = x.delta[i], f[i] / weights[i]
-        rows.state[row, i, XI] = xi[i]
+        rows.state[row, i, Variable.XI] = xi[i]
 
 
 @compiled_fast
@@ -284,7 +283,7 @@ def march_normal(
         for j in range(q):
             Q[i, j] = share * step.S[i, j]
         Q[i, i] += 1.0 / k[i]
-        xi[i] = x.state[i, XI]
+        xi[i] = x.state[i, Variable.XI]
     anew(contact)
     list_closed(contact)
     start = n - n  # not a literal: that is a type, and code, of its own
@@ -324,5 +323,5 @@ def march_normal(
             _save(x, weights, f, xi, rows, save[s])
     for i in range(q):
         x.f[i], x.w[i, 0], x.t[i, 0] = f[i], x.delta[i], f[i] / weights[i]
-        x.state[i, XI] = xi[i]
+        x.state[i, Variable.XI] = xi[i]
     return steps, worst, 0.0

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ssilang.kernel.dynamics.compiled_loop import Joints, Motion
+from ssilang.kernel.dynamics.compiled_loop import Motion
 from ssilang.kernel.dynamics.modal_loop import ModalRows
 from ssilang.kernel.dynamics.moving_supports import Course, Start
 from ssilang.kernel.dynamics.problem import Problem
@@ -18,6 +18,8 @@ from ssilang.kernel.dynamics.reduced_march import (
     reduced_step,
 )
 from ssilang.kernel.dynamics.reduction import ReducedModel
+from ssilang.kernel.interface.newton import Workspace
+from ssilang.kernel.interface.response import Joints
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 
@@ -27,6 +29,7 @@ class Given(NamedTuple):
     dt: float
     joints: Joints
     motion: Motion
+    newton: Workspace
     factors: FloatArray
     save: IntArray
 
@@ -66,8 +69,8 @@ class DampedTrace:
         start = Start(work, motion.f.copy())
         pull = Pull(self.model.B @ motion.v, self.model.B @ motion.a)
         done, turns, _ = march_reduced(
-            self.reduced, self.steps[given.dt], given.joints, motion, pull, whole, given.save, rows,
-            history, works,
+            self.reduced, self.steps[given.dt], given.joints, motion, pull, given.newton, whole,
+            given.save, rows, history, works,
         )  # fmt: skip
         if not moves:
             return done, turns, None

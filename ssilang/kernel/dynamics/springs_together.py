@@ -8,7 +8,7 @@ from functools import cached_property, partial
 
 import numpy as np
 
-from ssilang.kernel.dynamics.compiled_loop import N_ENERGIES, Joints, Motion
+from ssilang.kernel.dynamics.compiled_loop import N_ENERGIES, Motion
 from ssilang.kernel.dynamics.dense_loop import joints_of
 from ssilang.kernel.dynamics.effective import Effective
 from ssilang.kernel.dynamics.modal_loop import Modal, ModalStep
@@ -18,8 +18,8 @@ from ssilang.kernel.dynamics.sharing import LoadBasis
 from ssilang.kernel.dynamics.small_loop import Modes, modes_of, only_pushes, shearless
 from ssilang.kernel.dynamics.snapshot import Instants, Snapshot
 from ssilang.kernel.dynamics.springs_march import Ends, SpringMotions, SpringRows, march_springs
-from ssilang.kernel.interface.laws.columns import KN, XI
-from ssilang.kernel.interface.response import interface_forces
+from ssilang.kernel.interface.laws.columns import Parameter, Variable
+from ssilang.kernel.interface.response import Joints, interface_forces
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 Outcome = tuple[int, int, float]
@@ -75,7 +75,7 @@ class KeptInstants:
     def state(self) -> FloatArray:
         """States (n_rows, n_points, N_STATE)."""
         found = np.repeat(self.past[None], len(self.xi), axis=0)
-        found[..., XI] = self.xi
+        found[..., Variable.XI] = self.xi
         return found
 
     @cached_property
@@ -112,12 +112,12 @@ class SpringsTogether:
 
     def __init__(
         self, problems: Sequence[Problem], motions: Sequence[Motion], effective: Effective,
-        modes: Modes, normal: Joints,
+        modes: Modes, normal: Joints, J: FloatArray,
     ) -> None:  # fmt: skip
         self.problems, self.motions, self.modes, self.normal = problems, motions, modes, normal
         self.solver = effective.inverse.factor.name
         self.joints = joints_of(problems[0])
-        s, J = problems[0].scheme, normal.J
+        s = problems[0].scheme
         Jt = np.ascontiguousarray(J.T)
         self._loads = LoadBasis([p.loading.forces.T @ modes.X for p in problems])
         scheme = np.array([s.alpha_m, s.alpha_f, s.beta, s.gamma])
@@ -130,7 +130,7 @@ class SpringsTogether:
         times: FloatArray,
     ) -> tuple[list[Outcome], list[Instants]]:  # fmt: skip
         """Steps of all problems; see `together.Engine`."""
-        x, k = self._state(), self.normal.weights * self.normal.p[:, KN]
+        x, k = self._state(), self.normal.weights * self.normal.p[:, Parameter.KN]
         count, rows = len(self.problems), max(int((s >= 0).sum()) for s in save)
         kept = SpringRows(
             *(np.zeros((count, rows, self.modes.size)) for _ in range(3)),
@@ -165,7 +165,10 @@ class SpringsTogether:
         w, t, xi, energies = (
             np.stack(parts)
             for parts in zip(
-                *((m.w[:, -1], m.t[:, -1], m.state[:, XI], m.energies) for m in self.motions),
+                *(
+                    (m.w[:, -1], m.t[:, -1], m.state[:, Variable.XI], m.energies)
+                    for m in self.motions
+                ),
                 strict=True,
             )
         )
@@ -182,8 +185,8 @@ class SpringsTogether:
         motion.w[:] = np.einsum("pij,pj->pi", joints.B, jumps)
         motion.w[:, -1], motion.t[:, :-1] = x.delta[j], 0.0
         motion.t[:, -1] = x.f[j] / joints.weights
-        motion.state[:, XI], motion.energies[:] = x.xi[j], x.energies[j]
-        interface_forces(joints.pairs, joints.B, joints.weights, motion.t, motion.f)
+        motion.state[:, Variable.XI], motion.energies[:] = x.xi[j], x.energies[j]
+        interface_forces(joints, motion.t, motion.f)
 
 
 def _instant(kept: KeptInstants, times: FloatArray, row: int, step: int) -> Snapshot:
@@ -198,12 +201,12 @@ def springs_together(
     if modes is None or any(not _still(p) for p in problems):
         return None
     joints = joints_of(problems[0])
-    normal = shearless(joints, modes)
+    normal, J = shearless(joints, modes)
     if normal is None or len(joints.weights) < 2:
         return None  # a single spring has a loop of its own, that no other can be faster than
     if not all(only_pushes(normal, m.state) for m in motions):
         return None
-    return SpringsTogether(problems, motions, effective, modes, normal)
+    return SpringsTogether(problems, motions, effective, modes, normal, J)
 
 
 def _still(problem: Problem) -> bool:

@@ -16,8 +16,9 @@ import numpy as np
 from ssilang.kernel.errors import KernelError
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.modal.reduced import ReducedProblem
-from ssilang.kernel.solvers.backends import SingularFactorError, factorise
+from ssilang.kernel.solvers.backends import factorise
 from ssilang.kernel.solvers.cholesky.inverse import invert
+from ssilang.kernel.solvers.factor import SingularFactorError
 from ssilang.kernel.sparse import sp
 
 DENSE = 400  # unknowns up to which all eigenvalues are computed

@@ -21,7 +21,8 @@ from ssilang.kernel.plasticity.bulk import Bulk
 from ssilang.kernel.plasticity.newton import STALLED, TOLERANCE, TURNS, BulkSolver, _Trial
 from ssilang.kernel.plasticity.run import BulkRun
 from ssilang.kernel.plasticity.snapshot import BulkSnapshot
-from ssilang.kernel.solvers.backends import SingularFactorError, factorise
+from ssilang.kernel.solvers.backends import factorise
+from ssilang.kernel.solvers.factor import SingularFactorError
 from ssilang.kernel.sparse import sp
 
 SOFT = 1e7
@@ -118,7 +119,7 @@ class FollowingSolver(BulkSolver):
             lost = self._followed(motion, r, dd, way, lambda s, _: [most - s.x], share, start)
         if lost.turns > 0:
             assert lost.trial is not None
-            self._commit(motion, lost.du, lost.trial.f, lost.trial.new)
+            self._commit(motion, lost.trial.joints)
             answer = lost.trial.answer
             self.state, self.force, self.work = answer.state, answer.force, answer.work
         return lost

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.solvers.backends import SingularFactorError, SuperLUFactor
+from ssilang.kernel.solvers.backends import SuperLUFactor
+from ssilang.kernel.solvers.factor import SingularFactorError
 from ssilang.kernel.sparse import sp
 
 DENSE = 1500  # unknowns up to which eigenvalues are computed where the pivots say nothing

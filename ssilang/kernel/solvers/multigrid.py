@@ -10,6 +10,7 @@ import numpy as np
 
 from ssilang.kernel.errors import KernelError
 from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.solvers.factor import SingularFactorError
 from ssilang.kernel.sparse import sp
 
 RESIDUAL = 1e-12  # of the second member: what a direct solver leaves, or little more
@@ -37,8 +38,6 @@ class MultigridFactor:
 
     def __init__(self, A: sp.csr_array, positive: bool, rigid: FloatArray | None = None) -> None:
         from pyamg import smoothed_aggregation_solver
-
-        from ssilang.kernel.solvers.backends import SingularFactorError
 
         if not positive:
             raise KernelError(

@@ -16,7 +16,7 @@ import numpy as np
 from ssilang.kernel.dynamics.contrast import stiffness_contrast
 from ssilang.kernel.dynamics.effective import effective_matrix
 from ssilang.kernel.dynamics.problem import Problem
-from ssilang.kernel.interface.laws.columns import KN
+from ssilang.kernel.interface.laws.columns import Parameter
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.sparse import sp
@@ -120,7 +120,9 @@ def joint_conditioning(problem: Problem) -> JointConditioning | None:
     balanced = number
     if number > STRANGE_JOINTS:
         balanced = condition_number(sp.csr_array(V.T @ (A + closed / contrast) @ T))
-    return JointConditioning(number, balanced, contrast, float(np.median(joints.parameters[:, KN])))
+    return JointConditioning(
+        number, balanced, contrast, float(np.median(joints.parameters[:, Parameter.KN]))
+    )
 
 
 @dataclass(frozen=True)

@@ -29,15 +29,10 @@ from ssilang.kernel.matrices.assembly import (
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.solvers.active_set.complementarity import ContactProblem, solve_contact
-from ssilang.kernel.solvers.backends import (
-    MULTIGRID,
-    Ordering,
-    SingularFactorError,
-    SuperLUFactor,
-    dissection_pays,
-)
+from ssilang.kernel.solvers.backends import MULTIGRID, SuperLUFactor, dissection_pays
 from ssilang.kernel.solvers.cholesky.elimination import Elimination, eliminate
 from ssilang.kernel.solvers.cholesky.inverse import Inverse, invert
+from ssilang.kernel.solvers.factor import Ordering, SingularFactorError
 from ssilang.kernel.sparse import sp
 from ssilang.kernel.statics.doubled import lying_on
 from ssilang.kernel.statics.linear_motion import (

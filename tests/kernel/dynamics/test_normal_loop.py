@@ -13,7 +13,7 @@ from ssilang.kernel.dynamics.engines import DenseEngine
 from ssilang.kernel.dynamics.integrate import Integration, integrate
 from ssilang.kernel.dynamics.normal_loop import Contact, anew, list_closed, settle
 from ssilang.kernel.dynamics.scheme import Scheme, hht
-from ssilang.kernel.interface.laws.columns import XI
+from ssilang.kernel.interface.laws.columns import Variable
 
 
 def contact_of(Q, k, closed):
@@ -86,8 +86,8 @@ def test_rocking_beam_steps_as_the_full_newton(scheme):
 def test_springs_with_a_past_keep_their_largest_opening():
     problem = rocking(Scheme(), 400)
     state = problem.state.copy()
-    state[:, XI] = 1.0
+    state[:, Variable.XI] = 1.0
     few = Recorder(len(problem.times))
     integrate(replace(problem, state=state), [few])
-    assert (few.of("state")[..., XI] == 1.0).all()
+    assert (few.of("state")[..., Variable.XI] == 1.0).all()
     assert (few.of("t")[..., -1] == 0.0).any()

@@ -6,7 +6,8 @@ import scipy.sparse as sp
 
 from ssilang.kernel.errors import KernelError
 from ssilang.kernel.solvers import backends
-from ssilang.kernel.solvers.backends import BACKENDS, SingularFactorError, factorise
+from ssilang.kernel.solvers.backends import BACKENDS, factorise
+from ssilang.kernel.solvers.factor import SingularFactorError
 
 INSTALLED = [name for name, backend in BACKENDS.items() if backend.installed]
 

@@ -12,8 +12,9 @@ from ssilang.kernel.mesh.mesh import CellBlock
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.model import Mode, Zone
 from ssilang.kernel.solvers import backends
-from ssilang.kernel.solvers.backends import MULTIGRID, Ordering, SingularFactorError, factorise
+from ssilang.kernel.solvers.backends import MULTIGRID, factorise
 from ssilang.kernel.solvers.cholesky.inverse import invert
+from ssilang.kernel.solvers.factor import Ordering, SingularFactorError
 from ssilang.kernel.solvers.multigrid import MultigridFactor
 from ssilang.kernel.sparse import sp
 from ssilang.kernel.statics.linear_motion import rigid_motions

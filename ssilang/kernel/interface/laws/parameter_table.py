@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 from ssilang.kernel.elements.zone_fields import ZoneField, missing_parameter
 from ssilang.kernel.errors import MaterialError
 from ssilang.kernel.interface.kinematics import JointCells, point_values
+from ssilang.kernel.interface.laws.columns import N_PARAMETERS, Parameter
 from ssilang.kernel.interface.laws.law_table import law_of
-from ssilang.kernel.interface.laws.parameters import DEFAULTS, N_PARAMETERS, Parameter
+from ssilang.kernel.interface.laws.parameters import DEFAULTS
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.model import Zone
 

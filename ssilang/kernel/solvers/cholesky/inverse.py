@@ -13,12 +13,8 @@ import numpy as np
 
 from ssilang.kernel.errors import KernelError
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.solvers.backends import (
-    Factor,
-    Ordering,
-    SingularFactorError,
-    factorise,
-)
+from ssilang.kernel.solvers.backends import factorise
+from ssilang.kernel.solvers.factor import Factor, Ordering, SingularFactorError
 from ssilang.kernel.sparse import sp
 
 SUSPECT = 1e-9  # smallest eigenvalue (unit diagonal) below which free motions are looked for

@@ -12,8 +12,7 @@ from ssilang.kernel.dynamics.integrate import integrate
 from ssilang.kernel.dynamics.problem import Inputs, make_problem
 from ssilang.kernel.errors import MaterialError
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.interface.laws.columns import N_STATE
-from ssilang.kernel.interface.laws.parameters import N_PARAMETERS, Parameter
+from ssilang.kernel.interface.laws.columns import N_PARAMETERS, N_STATE, Parameter
 from ssilang.kernel.interface.laws.point_laws import point_energies, respond
 from ssilang.kernel.model import Mode
 from ssilang.kernel.statics.stepping import step_statics
