@@ -9,6 +9,7 @@ from ssilang.language.jumps import LeaveProcedure
 from ssilang.language.printer import heading
 from ssilang.language.scopes import Frame
 from ssilang.language.values import ANNULE, Objet, Procedure, Table, type_of
+from ssilang.language.vocabulary.entry_checks import check_tables
 
 if TYPE_CHECKING:
     from ssilang.language.call import Call
@@ -51,6 +52,8 @@ def call_procedure(evaluator: PhraseRunner, procedure: Procedure, call: Call) ->
     frame = Frame(caller, procedure.name, call)
     for parameter in procedure.definition.parameters:
         frame.assign(parameter.name, _argument(parameter, call, procedure))
+    if procedure.origin == "stdlib":
+        check_tables(session, procedure.name, frame, call.span)
     if isinstance(procedure, BoundMethod):
         frame.object = procedure.target
     place = call.span

@@ -71,10 +71,12 @@ def workspace(session: Session) -> Workspace:
 def open_session(session: Session) -> Session:
     """Give a session its workspace and load all operators."""
     from ssilang.operators.loader import load_operators
+    from ssilang.operators.tables.soundness import flaw_of
 
     load_operators()
     made = Workspace()
     session.workspace = made
     session.make_point = made.point
     session.dimension = lambda: made.dimension
+    session.flaw_of = flaw_of
     return session

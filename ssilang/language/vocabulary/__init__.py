@@ -1,0 +1,1 @@
+"""What words mean: data, declared once and read by evaluation, check, help and completion."""
