@@ -29,6 +29,8 @@ from ssilang.language.reference import (
     procedure_page,
 )
 from ssilang.language.registry import OPERATORS, operators_by_family
+from ssilang.language.vocabulary.entries import read_declaration
+from ssilang.language.vocabulary.entries_table import entries_markdown
 from ssilang.operators.loader import load_operators
 
 _HERE = Path(__file__).resolve().parent
@@ -80,9 +82,12 @@ def page_markdown(page: Page, examples: Iterable[Ran]) -> str:
         syntax = [line.rstrip() for line in page.help.syntax.split("\n")]
         lines += ["## Syntax", "", "```", *syntax, "```", ""]
     lines += _arguments(page)
+    declared = read_declaration(page.name)
+    lines += [] if declared is None else entries_markdown(declared, "en")
     for ran in examples:
         lines += _example(ran)
     lines += ["## En français", "", page.help.fr.replace("\n", "\n\n"), ""]
+    lines += [] if declared is None else entries_markdown(declared, "fr")
     return "\n".join(lines)
 
 
