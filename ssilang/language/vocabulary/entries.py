@@ -167,7 +167,7 @@ class Declaration:
             return known[index.rstrip()]
         if type(index) is int and NUMBER in known:
             return known[NUMBER]
-        return known.get(ANYTHING)
+        return None if index == "SOUSTYPE" else known.get(ANYTHING)
 
     def of(self, argument: str) -> Iterator[TableEntry]:
         """Entries of one argument, those of nested tables behind the table."""

@@ -35,10 +35,9 @@ def near_word(word: str, known: Iterable[str]) -> str:
     found: list[tuple[int, str]] = []
     for other in known:
         short, long = sorted((said, other.upper()), key=len)
-        if len(short) >= _BEGINNING and long.startswith(short):
-            found.append((1, other))
-            continue
         distance = edit_distance(said, other.upper())
-        if distance <= max(len(short) // 4, 1 if len(short) >= _BEGINNING else 0):
+        if distance <= len(short) // 4:
             found.append((distance, other))
+        elif len(short) >= _BEGINNING and long.startswith(short):
+            found.append((len(long), other))
     return min(found, default=(0, ""))[1]
