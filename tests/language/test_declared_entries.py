@@ -48,7 +48,7 @@ def all_code_of(name: str) -> str:
 
 
 def stands_in(index: str, quoted: set[str]) -> bool:
-    """Whether an index is quoted, or put together (CHAI) of two that are, or of one and a number."""
+    """Whether an index is quoted, or put together (CHAI) of two that are, or of one and digits."""
     parts = [(index[:i], index[i:]) for i in range(2, len(index))]
     return index in quoted or any(a in quoted and (b in quoted or b.isdigit()) for a, b in parts)
 

@@ -57,7 +57,7 @@ def test_an_entry_that_nobody_reads_is_a_warning_that_names_the_right_one(deck, 
         "T1 . 'CHARGEMENT' = C1 ; T1 . 'CHAR' = C1 ; MESS (TYPE (T1 . 'CHAR')) ;",
         "T1 . 'MON_SEUIL' = 1.E-3 ; SI (EXIS T1 'MON_SEUIL') ; FINSI ;",
         "T1 . 'MOVA' = 'UX' ;",
-        "T1 . 'PROCEDURE_PERSO1' = FAUX ; T1 . 'MAXI_DEPLACEMENT' = 1. ; SI FAUX ; CONTINU T1 ; FINSI ;",
+        "T1 . 'MAXI_DEPLACEMENT' = 1. ; SI FAUX ; CONTINU T1 ; FINSI ;",
     ],
 )
 def test_what_the_script_reads_and_what_is_known_is_no_warning(more):

@@ -95,9 +95,7 @@ def _row(group: Sequence[TableEntry], language: str) -> Row:
     deep = len(entry.path) - 2
     before = "  " * deep + (". " if deep else "")
     names = [_index(e.index, language) for e in group]
-    index = (
-        " ".join(names) if len(names) > _LISTED else "\n".join(before + name for name in names)
-    )
+    index = " ".join(names) if len(names) > _LISTED else "\n".join(before + name for name in names)
     meaning = entry.said(language)
     if entry.values:
         meaning += "\n" + _WORDS["allowed"][language].format(_allowed(entry))

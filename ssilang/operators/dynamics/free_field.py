@@ -50,9 +50,7 @@ def zcol(call: Call) -> Table:
     from ssilang.kernel.soil_column import SoilColumn, free_field
 
     entries = Entries(call, call.required("TABLE"), "ZCOL")
-    thickness, density, modulus, damping = (
-        entries.needed(name).values for name in _LAYERS
-    )
+    thickness, density, modulus, damping = (entries.needed(name).values for name in _LAYERS)
     f1, f2, cutoff = (entries.needed(name) for name in ("F1", "F2", "FC"))
     depths = entries.needed("PROFONDEURS").values
     signal = entries.needed("GAMMAO").parts[0]

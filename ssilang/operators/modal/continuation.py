@@ -296,9 +296,7 @@ def _begin_again(
     at = float(times[len(times) - new - 1])
     for number in sorted(numbers, reverse=True):
         if entries.at("TEMPS", number) == at:
-            return tracer.first(
-                _reduced(problem, entries.at("DEPLACEMENTS", number)), at
-            )
+            return tracer.first(_reduced(problem, entries.at("DEPLACEMENTS", number)), at)
     return None
 
 

@@ -83,8 +83,8 @@ def tables_by_role(call: Call, roles: Mapping[str, str]) -> dict[str, Table]:
     for table in call.all("TABLE"):
         argument = by_subtype.get(table.subtype)
         if argument is None:
-            known = " ".join(by_subtype)
-            raise call.bad(f"{call.name} knows no table '{table.subtype}'", table, f"known: {known}")
+            hint = "known: " + " ".join(by_subtype)
+            raise call.bad(f"{call.name} knows no table '{table.subtype}'", table, hint)
         if roles[argument] in found:
             raise call.bad(f"two tables '{table.subtype}'", table)
         Entries(call, table, call.name, argument).check()
@@ -218,9 +218,7 @@ def _values(call: Call, table: Table, name: str, system: System) -> FloatArray |
 # --- what is given back ------------------------------------------------------------------------
 
 
-def _results(
-    run: ModalRun, system: System, links: list[ReadLink], output: Table | None
-) -> Table:
+def _results(run: ModalRun, system: System, links: list[ReadLink], output: Table | None) -> Table:
     table = Table("RESULTAT_DYNE")
     table.set(Mot("TEMPS_DE_SORTIE"), ListReel(run.times))
     variables = None if output is None else output.get("VARIABLE")

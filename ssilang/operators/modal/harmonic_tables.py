@@ -47,7 +47,9 @@ def _asked(entries: Entries, table: object, index: str, number: int) -> Asked:
     given = own.needed(word)
     words = given.values if isinstance(given, ListMots) else [str(given)]
     if not words or not words[0].strip():
-        raise entries.bad(f"'{place} . {word}' names no component", f"TAB1 . {place} . '{word}' = MOT 'UX' ;")
+        raise entries.bad(
+            f"'{place} . {word}' names no component", f"TAB1 . {place} . '{word}' = MOT 'UX' ;"
+        )
     component = words[0]
     title = own.get("TITRE")
     return Asked(

@@ -23,6 +23,7 @@ from ssilang.operators.tables.entries import Entries
 if TYPE_CHECKING:
     from ssilang.kernel.dynamics.problem import Inputs, Problem
 
+
 class LoadByProcedure:
     """Calls `TAB2 = CHARMECA TAB1 TIME` and reads its load.
 

@@ -199,4 +199,3 @@ class Entries:
             "bad-value", self.place, operator=self.procedure, message=message, hint=hint,
             severity="warning",
         )  # fmt: skip
-
