@@ -29,8 +29,8 @@ from ssilang.language.call import Call
 from ssilang.language.registry import Help, many, operator
 from ssilang.language.session import Session
 from ssilang.language.values import ListReel
-from ssilang.operators.mesh.ends import Cuts, count_and_number, read_count, read_sizes
-from ssilang.operators.mesh.sweeps import generator_path, read_rotation
+from ssilang.operators.mesh.lines.ends import Cuts, count_and_number, read_count, read_sizes
+from ssilang.operators.mesh.surfaces.sweeps import generator_path, read_rotation
 from ssilang.operators.workspace import workspace
 
 

@@ -14,7 +14,7 @@ from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.mesh.sweep import corresponding_nodes
 from ssilang.kernel.mesh.transform import NodeCopier
 from ssilang.language.call import Call
-from ssilang.operators.mesh.moves import displacements
+from ssilang.operators.mesh.copies.moves import displacements
 
 
 def following(call: Call, objects: Sequence[Any]) -> tuple[Mesh, NodeCopier] | NodeField:

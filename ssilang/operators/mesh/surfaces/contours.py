@@ -27,7 +27,7 @@ from ssilang.kernel.mesh.surface import contour_chart_data, fill_surface
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, arg, operator, opt
 from ssilang.language.session import Session
-from ssilang.operators.mesh.ends import chosen_family
+from ssilang.operators.mesh.lines.ends import chosen_family
 from ssilang.operators.workspace import workspace
 
 _POLYNOMIAL_EN = (

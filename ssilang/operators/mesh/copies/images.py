@@ -25,8 +25,8 @@ from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
 from ssilang.language.values import Table
 from ssilang.operators.fields.turned import turned_cell_field, turned_node_field
-from ssilang.operators.mesh.following import following
-from ssilang.operators.mesh.maps import (
+from ssilang.operators.mesh.copies.following import following
+from ssilang.operators.mesh.copies.maps import (
     read_affinity,
     read_projection,
     read_scaling,
@@ -34,7 +34,7 @@ from ssilang.operators.mesh.maps import (
     read_turn,
     rotation_matrix,
 )
-from ssilang.operators.mesh.moves import displacements
+from ssilang.operators.mesh.copies.moves import displacements
 from ssilang.operators.workspace import Workspace, workspace
 
 GEOMETRIC = ("POINT", "MAILLAGE", "CHPOINT", "MCHAML", "MMODEL", "TABLE")

@@ -22,7 +22,7 @@ from ssilang.language.call import Call
 from ssilang.language.registry import Help, arg, flag, operator
 from ssilang.language.session import Session
 from ssilang.language.values import ListReel
-from ssilang.operators.mesh.maps import SHAPES, read_shape
+from ssilang.operators.mesh.copies.maps import SHAPES, read_shape
 from ssilang.operators.workspace import Workspace, workspace
 
 _COMPARISONS: dict[str, Callable[[FloatArray, float], NDArray[np.bool_]]] = {

@@ -11,7 +11,7 @@ from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.subdivision import subdivide
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
-from ssilang.operators.mesh.ends import SIZES_EN, SIZES_FR, cuts_and_items, ends_of, positions
+from ssilang.operators.mesh.lines.ends import SIZES_EN, SIZES_FR, cuts_and_items, ends_of, positions
 from ssilang.operators.workspace import workspace
 
 

@@ -22,7 +22,7 @@ from ssilang.kernel.mesh.transform import (
 )
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
-from ssilang.operators.mesh.maps import (
+from ssilang.operators.mesh.copies.maps import (
     read_affinity,
     read_axis,
     read_points,

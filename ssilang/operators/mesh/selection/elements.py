@@ -39,8 +39,8 @@ from ssilang.language.call import Call
 from ssilang.language.registry import Help, arg, choice, flag, operator, opt
 from ssilang.language.values import ListEnti, ListMots
 from ssilang.operators.dispatch import DIFF, INTE, UNIQ, union_with_call, union_words
-from ssilang.operators.mesh.crossings import drawn_crossing, draws_a_curve
-from ssilang.operators.mesh.points import picked
+from ssilang.operators.mesh.lines.crossings import drawn_crossing, draws_a_curve
+from ssilang.operators.mesh.points.picking import picked
 
 _EXTREMES = ("MAXI", "MINI", "SUPERIEUR", "EGSUPE", "EGALE", "EGINFE", "INFERIEUR", "DIFFERENT")
 

@@ -14,7 +14,7 @@ from ssilang.kernel.mesh.crossing_curve import crossing_curve
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.language.call import Call
-from ssilang.operators.mesh.ends import (
+from ssilang.operators.mesh.lines.ends import (
     Cuts,
     Ends,
     drawn,

@@ -11,7 +11,7 @@ from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.nodes import IntArray
 from ssilang.language.registry import Help, arg, flag, many, operator, opt
 from ssilang.language.session import Session
-from ssilang.operators.mesh.points import tolerance_of
+from ssilang.operators.mesh.points.picking import tolerance_of
 from ssilang.operators.workspace import workspace
 
 

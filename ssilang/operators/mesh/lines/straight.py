@@ -23,7 +23,7 @@ from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.mesh.subdivision import subdivide
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
-from ssilang.operators.mesh.ends import (
+from ssilang.operators.mesh.lines.ends import (
     SIZES_EN,
     SIZES_FR,
     Cuts,

@@ -24,7 +24,7 @@ from ssilang.kernel.mesh.sweep import (
 )
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
-from ssilang.operators.mesh.ends import (
+from ssilang.operators.mesh.lines.ends import (
     Cuts,
     chosen_family,
     count_and_number,

@@ -13,7 +13,7 @@ from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
-from ssilang.operators.mesh.ends import (
+from ssilang.operators.mesh.lines.ends import (
     SIZES_EN,
     SIZES_FR,
     Cuts,
