@@ -1,4 +1,4 @@
-"""Moved copies of objects: PLUS MOIN TOUR SYME HOMO AFFI PROJ DEDU."""
+"""Moved copies of objects: PLUS MOIN TOUR SYME HOMO AFFI PROJ."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.errors import MeshError
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
@@ -17,26 +16,37 @@ from ssilang.kernel.mesh.sweep import corresponding_nodes
 from ssilang.kernel.mesh.transform import (
     NodeCopier,
     PointMap,
-    mapping_between,
+    affinity,
+    mirror_line,
+    mirror_plane,
+    mirror_point,
+    scaling,
     shift,
+    turn,
 )
 from ssilang.kernel.model import Mode, Model
 from ssilang.language.call import Call
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import Argument, Chosen, Help, Like, When, arg, many, operator, said
+from ssilang.language.session import Session
 from ssilang.language.values import Table
 from ssilang.operators.fields.turned import turned_cell_field, turned_node_field
-from ssilang.operators.mesh.copies.following import following
 from ssilang.operators.mesh.copies.maps import (
-    read_affinity,
-    read_projection,
-    read_scaling,
-    read_symmetry,
-    read_turn,
+    ANGLE,
+    DIRECTION,
+    FIXED,
+    MIRRORS,
+    RATIO,
+    RAYS,
+    VECTOR,
+    positions,
+    projection_of,
     rotation_matrix,
 )
 from ssilang.operators.mesh.copies.moves import displacements
 from ssilang.operators.workspace import Workspace, workspace
 
+IN_PLANE = When(lambda s: workspace(s).dimension < 3, "in the plane", "dans le plan")
+IN_SPACE = When(lambda s: workspace(s).dimension == 3, "in space", "en dimension 3")
 GEOMETRIC = ("POINT", "MAILLAGE", "CHPOINT", "MCHAML", "MMODEL", "TABLE")
 
 
@@ -111,43 +121,59 @@ _COPIES: dict[type, Any] = {
 
 def copies(
     call: Call, objects: Sequence[Any], image: PointMap, rotation: FloatArray | None = None
-) -> Any:
-    """Copies of all objects through one map: one result, or a tuple."""
+) -> tuple[Any, ...]:
+    """Copies of all objects through one map."""
     if not objects:
         raise call.missing(GEOMETRIC)
     copier = Copier(NodeCopier(workspace(call.session).nodes, image), rotation)
-    made = tuple(copier(v) for v in objects)
-    return made if len(made) > 1 else made[0]
+    return tuple(copier(v) for v in objects)
 
 
-def _displaced(call: Call, objects: Sequence[Any], field: NodeField, sign: float) -> Any:
-    """Copies whose nodes move by a field of displacements."""
-    ws = workspace(call.session)
+def _shifted(
+    call: Call, objects: Sequence[Any], by: Point | NodeField, sign: float
+) -> tuple[Any, ...]:
+    """Copies moved by a vector, or whose nodes move by a field of displacements."""
+    if isinstance(by, Point):
+        return copies(call, objects, shift(sign * by.coordinates.copy()))
+    if not objects:
+        raise call.missing(GEOMETRIC)
+    nodes, field = workspace(call.session).nodes, by
 
     def moved(ids: IntArray) -> FloatArray:
-        return ws.nodes.coordinates[ids] + sign * displacements(field, ids)
+        return nodes.coordinates[ids] + sign * displacements(field, ids)
 
-    copier = Copier(NodeCopier(ws.nodes, by_node=moved))
-    made = tuple(copier(v) for v in objects)
-    return made if len(made) > 1 else made[0]
+    copier = Copier(NodeCopier(nodes, by_node=moved))
+    return tuple(copier(v) for v in objects)
 
 
-def _shifted(call: Call, sign: float) -> Any:
-    operands = call.all(*GEOMETRIC)
-    if len(operands) < 2:
-        raise call.missing(("POINT", "CHPOINT"))
-    *objects, last = operands
-    if not isinstance(last, Point | NodeField):
-        if not isinstance(objects[0], Point | NodeField):
-            raise call.bad("the last operand is the vector (POINT) or the displacements", last)
-        last, *objects = operands
-    if isinstance(last, NodeField):
-        return _displaced(call, objects, last, sign)
-    return copies(call, objects, shift(sign * last.coordinates.copy()))
+def _objects(leaving: int, *left: str) -> Argument:
+    return many(
+        "objects",
+        *GEOMETRIC,
+        leaving=leaving,
+        left=left,
+        en="objects to copy",
+        fr="objets à copier",
+    )
+
+
+_SHIFTED = (
+    _objects(1, "POINT", "CHPOINT"),
+    arg(
+        "by",
+        "POINT",
+        "CHPOINT",
+        en="vector, or displacements",
+        fr="vecteur, ou déplacements",
+        unit="m",
+    ),
+)
 
 
 @operator(
     "PLUS",
+    *_SHIFTED,
+    gives=Like("objects"),
     family="mesh",
     help=Help(
         en="Copies of objects moved by a vector or by a field of displacements (UX UY UZ or UR "
@@ -157,15 +183,16 @@ def _shifted(call: Call, sign: float) -> Any:
         syntax="OBJ2 ... = OBJ1 ... PLUS VEC1|CHPO1 ;",
         examples=("OPTI DIME 2 ; P = 1. 0. ; Q = P PLUS (0. 2.) ; LIST (COOR 2 Q) ;",),
     ),
-    reads_itself=True,
 )
-def plus(call: Call) -> Any:
+def plus(call: Call, objects: Sequence[Any], by: Point | NodeField) -> tuple[Any, ...]:
     """Copy and move."""
-    return _shifted(call, 1.0)
+    return _shifted(call, objects, by, 1.0)
 
 
 @operator(
     "MOIN",
+    *_SHIFTED,
+    gives=Like("objects"),
     family="mesh",
     full_name="MOINS",
     help=Help(
@@ -178,26 +205,35 @@ def plus(call: Call) -> Any:
         syntax="OBJ2 ... = OBJ1 ... MOIN VEC1|CHPO1 ;\nCHPO1 = GEO2 MOIN GEO1 ;",
         examples=("OPTI DIME 2 ; P = 1. 0. ; Q = P MOIN (0. 2.) ; LIST (COOR 2 Q) ;",),
     ),
-    reads_itself=True,
 )
-def moin(call: Call) -> Any:
-    """Copy and move backwards, or find the motion between two meshes."""
-    operands = [o.value for o in call.operands]
-    if len(operands) == 2 and all(isinstance(v, Mesh) for v in operands):
-        after, before = call.required("MAILLAGE"), call.required("MAILLAGE")
-        target = corresponding_nodes(before, after)
-        ids = before.node_ids
-        xyz = before.nodes.coordinates
-        gap = xyz[target] - xyz[ids]
-        names = displacement_names(workspace(call.session))
-        return NodeField.of(
-            before.nodes, ids, {name: gap[:, k] for k, name in enumerate(names)}, "DIFFUS"
-        )
-    return _shifted(call, -1.0)
+def moin(call: Call, objects: Sequence[Any], by: Point | NodeField) -> tuple[Any, ...]:
+    """Copy and move backwards."""
+    return _shifted(call, objects, by, -1.0)
+
+
+@moin.form(
+    arg("after", "MAILLAGE", en="mesh after the motion", fr="maillage après le mouvement"),
+    arg("before", "MAILLAGE", en="mesh before it", fr="maillage avant lui"),
+)
+def motion(session: Session, after: Mesh, before: Mesh) -> NodeField:
+    """The displacements between two meshes."""
+    target = corresponding_nodes(before, after)
+    ids = before.node_ids
+    xyz = before.nodes.coordinates
+    gap = xyz[target] - xyz[ids]
+    names = displacement_names(workspace(session))
+    return NodeField.of(
+        before.nodes, ids, {name: gap[:, k] for k, name in enumerate(names)}, "DIFFUS"
+    )
 
 
 @operator(
     "TOUR",
+    _objects(1, "POINT"),
+    ANGLE,
+    arg("centre", "POINT", en="centre", fr="centre"),
+    gives=Like("objects"),
+    when=IN_PLANE,
     family="mesh",
     full_name="TOURNER",
     help=Help(
@@ -208,34 +244,40 @@ def moin(call: Call) -> Any:
         syntax="OBJ2 ... = OBJ1 ... TOUR FLOT1 POIN1 (POIN2) ;",
         examples=("OPTI DIME 2 ; P = 1. 0. ; Q = P TOUR 90. (0. 0.) ; LIST (COOR 2 Q) ;",),
     ),
-    reads_itself=True,
 )
-def tour(call: Call) -> Any:
-    """Copy and turn."""
-    points = 1 if workspace(call.session).dimension < 3 else 2
-    objects = _before(call, points)
-    image, matrix = read_turn(call)
-    return copies(call, objects, image, matrix)
+def tour(call: Call, objects: Sequence[Any], angle: float, centre: Point) -> tuple[Any, ...]:
+    """Copy and turn about a point."""
+    return _turned(call, objects, angle, centre.coordinates.copy(), np.array([0.0, 0.0, 1.0]))
 
 
-def _before(call: Call, points: int) -> list[Any]:
-    """Consume the objects to copy, leaving the last `points` points for the map."""
-    found = []
-    for operand in call.operands:
-        if isinstance(operand.value, str):
-            break
-        if isinstance(operand.value, tuple(_COPIES)):
-            found.append(operand)
-    kept = [o for o in found if isinstance(o.value, Point)][-points:] if points else []
-    taken = [o for o in found if not any(o is k for k in kept)]
-    for operand in taken:
-        call.operands.remove(operand)
-        call.used.append(operand)
-    return [o.value for o in taken]
+@tour.form(
+    _objects(2, "POINT"),
+    ANGLE,
+    arg("first", "POINT", en="point of the axis", fr="point de l'axe"),
+    arg("second", "POINT", en="other point of the axis", fr="autre point de l'axe"),
+    gives=Like("objects"),
+    when=IN_SPACE,
+)
+def turned_about_axis(
+    call: Call, objects: Sequence[Any], angle: float, first: Point, second: Point
+) -> tuple[Any, ...]:
+    """Copy and turn about an axis."""
+    origin = first.coordinates.copy()
+    return _turned(call, objects, angle, origin, second.coordinates - origin)
+
+
+def _turned(
+    call: Call, objects: Sequence[Any], angle: float, origin: FloatArray, axis: FloatArray
+) -> tuple[Any, ...]:
+    return copies(call, objects, turn(angle, origin, axis), rotation_matrix(angle, axis))
 
 
 @operator(
     "SYME",
+    said("POINT"),
+    _objects(1, "POINT"),
+    *MIRRORS["POINT"],
+    gives=Like("objects"),
     family="mesh",
     full_name="SYMETRIE",
     help=Help(
@@ -247,21 +289,34 @@ def _before(call: Call, points: int) -> list[Any]:
             "OPTI DIME 2 ; P = 1. 2. ; Q = P SYME 'DROIT' (0. 0.) (1. 0.) ; LIST (COOR 2 Q) ;",
         ),
     ),
-    reads_itself=True,
 )
-def syme(call: Call) -> Any:
-    """Copy and mirror."""
-    objects = call.all(*GEOMETRIC)
-    word = call.keyword(("POINT", "DROIT", "PLAN"))
-    if word is None:
-        raise call.bad("what is mirrored about is not said", hint="'POINT', 'DROIT' or 'PLAN'")
-    needed = {"POINT": 1, "DROIT": 2, "PLAN": 3}[word]
-    objects += _before(call, needed)
-    return copies(call, objects, read_symmetry(call, word))
+def syme(call: Call, objects: Sequence[Any], centre: Point) -> tuple[Any, ...]:
+    """Copy and mirror about a point."""
+    return copies(call, objects, mirror_point(*positions((centre,))))
+
+
+@syme.form(said("DROIT"), _objects(2, "POINT"), *MIRRORS["DROIT"], gives=Like("objects"))
+def mirrored_about_line(
+    call: Call, objects: Sequence[Any], point: Point, second: Point
+) -> tuple[Any, ...]:
+    """Copy and mirror about a line."""
+    return copies(call, objects, mirror_line(*positions((point, second))))
+
+
+@syme.form(said("PLAN"), _objects(3, "POINT"), *MIRRORS["PLAN"], gives=Like("objects"))
+def mirrored_about_plane(
+    call: Call, objects: Sequence[Any], point: Point, second: Point, third: Point
+) -> tuple[Any, ...]:
+    """Copy and mirror about a plane."""
+    return copies(call, objects, mirror_plane(*positions((point, second, third))))
 
 
 @operator(
     "HOMO",
+    _objects(1, "POINT"),
+    RATIO,
+    FIXED,
+    gives=Like("objects"),
     family="mesh",
     full_name="HOMOTHETIE",
     help=Help(
@@ -270,16 +325,19 @@ def syme(call: Call) -> Any:
         syntax="GEO1 ... = GEO2 ... HOMO RAPP1 POIN1 ;",
         examples=("OPTI DIME 2 ; P = 1. 2. ; Q = P HOMO 3. (0. 0.) ; LIST (COOR 2 Q) ;",),
     ),
-    reads_itself=True,
 )
-def homo(call: Call) -> Any:
+def homo(call: Call, objects: Sequence[Any], ratio: float, fixed: Point) -> tuple[Any, ...]:
     """Copy and scale."""
-    objects = _before(call, 1)
-    return copies(call, objects, read_scaling(call))
+    return copies(call, objects, scaling(ratio, fixed.coordinates.copy()))
 
 
 @operator(
     "AFFI",
+    _objects(2, "POINT"),
+    RATIO,
+    FIXED,
+    DIRECTION,
+    gives=Like("objects"),
     family="mesh",
     full_name="AFFINITE",
     help=Help(
@@ -290,16 +348,19 @@ def homo(call: Call) -> Any:
         syntax="GEO2 ... = GEO1 ... AFFI FLOT1 POIN1 POIN2 ;",
         examples=("OPTI DIME 2 ; P = 1. 2. ; Q = P AFFI 3. (0. 0.) (0. 1.) ; LIST (COOR 2 Q) ;",),
     ),
-    reads_itself=True,
 )
-def affi(call: Call) -> Any:
+def affi(
+    call: Call, objects: Sequence[Any], ratio: float, fixed: Point, towards: Point
+) -> tuple[Any, ...]:
     """Copy and stretch."""
-    objects = _before(call, 2)
-    return copies(call, objects, read_affinity(call))
+    return copies(call, objects, affinity(ratio, *positions((fixed, towards))))
 
 
 @operator(
     "PROJ",
+    *RAYS,
+    _objects(0),
+    gives=Like("objects"),
     family="mesh",
     full_name="PROJETER",
     help=Help(
@@ -316,66 +377,17 @@ def affi(call: Call) -> Any:
             " LIST (COOR 2 Q) ;",
         ),
     ),
-    reads_itself=True,
 )
-def proj(call: Call) -> Any:
-    """Copy and project."""
-    words = sum(isinstance(o.value, str) for o in call.operands)
-    objects = _before(call, 0 if words > 1 else 1)  # two words: the first is 'CYLI' or 'CONI'
-    return copies(call, objects, read_projection(call))
+def proj(
+    call: Call, rays: tuple[str, Point], surface: Chosen, objects: Sequence[Any]
+) -> tuple[Any, ...]:
+    """Copy and project, as it is said how the rays go."""
+    return copies(call, objects, projection_of(*rays, surface))
 
 
-@operator(
-    "DEDU",
-    family="mesh",
-    full_name="DEDUIRE",
-    help=Help(
-        en="Copy of a mesh of linear surfaces or volumes whose master nodes GEO2 have become those "
-        "of GEO3, of the same structure; the others follow harmonically. 'REGU': then each inner "
-        "node goes to the mean of its neighbours. A displacement of some nodes is carried to all "
-        "in the same way. 'TRAN': copies of objects through the transformation that takes one mesh "
-        "to another of the same structure; 'ROTA': the same, vectors and tensors of fields turning "
-        "by the angle.",
-        fr="Copie d'un maillage de surfaces ou volumes linéaires dont les noeuds maîtres GEO2 sont "
-        "devenus ceux de GEO3, de même structure ; les autres suivent harmoniquement. 'REGU' : "
-        "puis chaque noeud intérieur va au milieu de ses voisins. Un déplacement de certains "
-        "noeuds est étendu à tous de même. 'TRAN' : copies d'objets par la transformation qui mène "
-        "d'un maillage à un autre de même structure ; 'ROTA' : de même, vecteurs et tenseurs des "
-        "champs tournant de l'angle.",
-        syntax="GEO4 = DEDU GEO1 GEO2 GEO3 ('REGU') ;\nCHPO2 = DEDU GEO1 CHPO1 ;\n"
-        "OBJ2 ... = OBJ1 ... DEDU 'TRAN' GEO1 GEO2 ;\n"
-        "OBJ2 ... = OBJ1 ... DEDU 'ROTA' FLOT1 POIN1 (POIN2) GEO1 GEO2 ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; M = DROI 4 (0. 1.) (2. 1.) ;"
-            " P = L POIN 'FINAL' ; Q = P DEDU 'TRAN' L M ; LIST (COOR 1 Q) ;",
-        ),
-    ),
-    reads_itself=True,
-)
-def dedu(call: Call) -> Any:
-    """Copy through the map between two meshes."""
-    objects = call.all(*GEOMETRIC)
-    angle = call.optional("FLOTTANT")
-    word = call.keyword(("TRAN", "ROTA"))
-    if word is None:
-        made = following(call, objects)
-        return made if isinstance(made, NodeField) else Copier(made[1]).mesh(made[0])
-    if word == "ROTA" and angle is None:
-        angle = call.required("FLOTTANT")
-    later = objects + call.all(*GEOMETRIC)
-    if len(later) < 3 or not all(isinstance(m, Mesh) for m in later[-2:]):
-        raise call.missing(("MAILLAGE",))
-    objects, rotation = later[:-2], None
-    if word == "ROTA":
-        count = 1 if workspace(call.session).dimension < 3 else 2
-        points = [v for v in objects if isinstance(v, Point)][-count:]
-        if len(points) < count:
-            raise call.missing(("POINT",))
-        objects = [v for v in objects if not any(v is p for p in points)]
-        axis = points[1].coordinates - points[0].coordinates if count == 2 else np.eye(3)[2]
-        rotation = rotation_matrix(float(angle), axis)
-    copier = Copier(mapping_between(later[-2], later[-1]), rotation)
-    made = tuple(copier(v) for v in objects)
-    if not made:
-        raise MeshError("nothing is given to transform")
-    return made if len(made) > 1 else made[0]
+@proj.form(VECTOR[0], _objects(1, "POINT"), VECTOR[1], gives=Like("objects"))
+def projected_along(
+    call: Call, surface: Chosen, objects: Sequence[Any], vector: Point
+) -> tuple[Any, ...]:
+    """Copy and project along a vector."""
+    return copies(call, objects, projection_of("CYLI", vector, surface))

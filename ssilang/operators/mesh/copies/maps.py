@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
@@ -16,101 +16,113 @@ from ssilang.kernel.mesh.analytic import (
     sphere_shape,
     torus_shape,
 )
+from ssilang.kernel.mesh.mesh import Point
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.mesh.transform import (
     PointMap,
-    affinity,
-    mirror_line,
-    mirror_plane,
-    mirror_point,
-    scaling,
     turn,
 )
-from ssilang.language.call import Call
-from ssilang.operators.workspace import workspace
+from ssilang.language.registry import Argument, Chosen, arg, group, key, select
 
-# word -> number of points, shape through them
-SHAPES: dict[str, tuple[int, Callable[..., Shape]]] = {
-    "DROIT": (2, line_shape),
-    "PLAN": (3, plane_shape),
-    "SPHERE": (2, sphere_shape),
-    "CYLINDRE": (3, cylinder_shape),
-    "CONE": (3, cone_shape),
-    "CONI": (3, cone_shape),
-    "TORE": (4, torus_shape),
-    "TORI": (4, torus_shape),
-    "CERC": (2, sphere_shape),
+RATIO = arg("ratio", "FLOTTANT", en="ratio", fr="rapport")
+FIXED = arg("fixed", "POINT", en="point that stays", fr="point fixe")
+DIRECTION = arg(
+    "towards",
+    "POINT",
+    en="other point of the direction",
+    fr="autre point de la direction",
+)
+ANGLE = arg("angle", "FLOTTANT", en="angle", fr="angle", unit="degree")
+
+_POINT = arg("point", "POINT", en="point there", fr="point de cet objet")
+_SECOND = arg("second", "POINT", en="second point", fr="deuxième point")
+_THIRD = arg("third", "POINT", en="third point", fr="troisième point")
+_CENTRE = arg("centre", "POINT", en="centre", fr="centre")
+_AXIS = arg("axis", "POINT", en="point of the axis", fr="point de l'axe")
+_OTHER = arg("other", "POINT", en="other point of the axis", fr="autre point de l'axe")
+_APEX = arg("apex", "POINT", en="apex", fr="sommet")
+_SMALL = arg("small", "POINT", en="centre of a small circle", fr="centre d'un petit cercle")
+
+SHAPES: Mapping[str, tuple[Argument, ...]] = {
+    "DROIT": (_POINT, _SECOND),
+    "PLAN": (_POINT, _SECOND, _THIRD),
+    "SPHERE": (_CENTRE, _POINT),
+    "CYLINDRE": (_AXIS, _OTHER, _POINT),
+    "CONE": (_APEX, _AXIS, _POINT),
+    "CONI": (_APEX, _AXIS, _POINT),
+    "TORE": (_CENTRE, _AXIS, _SMALL, _POINT),
+    "TORI": (_CENTRE, _AXIS, _SMALL, _POINT),
+    "CERC": (_CENTRE, _POINT),
 }
-_MIRRORS: dict[str, tuple[int, Callable[..., PointMap]]] = {
-    "POINT": (1, mirror_point),
-    "DROIT": (2, mirror_line),
-    "PLAN": (3, mirror_plane),
+"""Lines and surfaces by word, with the points behind it."""
+
+_SHAPES: Mapping[str, Callable[..., Shape]] = {
+    "DROIT": line_shape,
+    "PLAN": plane_shape,
+    "SPHERE": sphere_shape,
+    "CYLINDRE": cylinder_shape,
+    "CONE": cone_shape,
+    "CONI": cone_shape,
+    "TORE": torus_shape,
+    "TORI": torus_shape,
+    "CERC": sphere_shape,
 }
 
+MIRRORS: Mapping[str, tuple[Argument, ...]] = {
+    "POINT": (_CENTRE,),
+    "DROIT": SHAPES["DROIT"],
+    "PLAN": SHAPES["PLAN"],
+}
+"""What is mirrored about by word, with the points behind it."""
 
-def read_points(call: Call, count: int, after: int = -1) -> list[FloatArray]:
-    """Positions of the next points."""
-    return [call.required("POINT", after=after).coordinates.copy() for _ in range(count)]
+_SURFACE = group(
+    "surface",
+    select(
+        "shape",
+        SHAPES,
+        optional=False,
+        en="line or surface on which it goes",
+        fr="ligne ou surface d'arrivée",
+    ),
+)
+RAYS = (
+    group(
+        "rays",
+        key(
+            "way",
+            ("CYLI", "CONI"),
+            arg("point", "POINT"),
+            optional=False,
+            en="along a vector, or from a point",
+            fr="suivant un vecteur, ou depuis un point",
+        ),
+    ),
+    _SURFACE,
+)
+"""A projection that says how its rays go."""
+
+VECTOR = (_SURFACE, arg("vector", "POINT", en="direction", fr="direction"))
+"""A projection along a vector."""
 
 
-def read_turn(call: Call) -> tuple[PointMap, FloatArray]:
-    """A rotation: angle in degrees, then its centre (2D) or axis (3D); and its matrix (3, 3)."""
-    angle = call.required("FLOTTANT")
-    origin, axis = read_axis(call)
-    return turn(angle, origin, axis), rotation_matrix(angle, axis)
+def positions(points: Sequence[Point]) -> list[FloatArray]:
+    """Copies of the positions of points."""
+    return [p.coordinates.copy() for p in points]
+
+
+def shape_of(chosen: Chosen) -> Shape:
+    """The line or the surface of `SHAPES` that was read."""
+    return _SHAPES[chosen.word](*positions(list(chosen.values.values())))
+
+
+def projection_of(way: str, point: Point, surface: Chosen) -> PointMap:
+    """The projection along a vector ('CYLI') or from a point ('CONI')."""
+    shape, at = shape_of(surface), point.coordinates.copy()
+    if way == "CONI":
+        return lambda x: project(shape, x, None, at)
+    return lambda x: project(shape, x, at, None)
 
 
 def rotation_matrix(angle: float, axis: FloatArray) -> FloatArray:
     """Matrix (3, 3) that turns vectors by an angle in degrees about an axis."""
     return turn(angle, np.zeros(3), axis)(np.eye(3)).T
-
-
-def read_axis(call: Call) -> tuple[FloatArray, FloatArray]:
-    """Origin and direction: a point and the normal of the plane (2D), or two points (3D)."""
-    if workspace(call.session).dimension < 3:
-        return read_points(call, 1)[0], np.array([0.0, 0.0, 1.0])
-    origin, second = read_points(call, 2)
-    return origin, second - origin
-
-
-def read_symmetry(call: Call, word: str) -> PointMap:
-    """The symmetry that a word names."""
-    count, make = _MIRRORS[word]
-    return make(*read_points(call, count, call.keyword_end))
-
-
-def read_scaling(call: Call) -> PointMap:
-    """A ratio and a centre."""
-    ratio = call.required("FLOTTANT")
-    return scaling(ratio, *read_points(call, 1))
-
-
-def read_affinity(call: Call) -> PointMap:
-    """A ratio and two points."""
-    ratio = call.required("FLOTTANT")
-    return affinity(ratio, *read_points(call, 2))
-
-
-def read_shape(call: Call, words: tuple[str, ...]) -> tuple[str, Shape] | None:
-    """A word that names a surface or a line, and its points; None if no such word stands next."""
-    word = call.keyword(words)
-    if word is None:
-        return None
-    count, make = SHAPES[word]
-    return word, make(*read_points(call, count, call.keyword_end))
-
-
-def read_projection(call: Call) -> PointMap:
-    """('CYLI') vector or 'CONI' apex, then the surface (a line or a circle in 2D)."""
-    words = sum(isinstance(o.value, str) for o in call.operands)
-    way = call.keyword(("CYLI", "CONI")) if words > 1 else None
-    first = read_points(call, 1, call.keyword_end if way else -1)[0]
-    found = read_shape(call, tuple(SHAPES))
-    if found is None:
-        raise call.bad(
-            "what is projected on is not said", hint="'PLAN', 'SPHE', 'CYLI', 'CONI', 'DROI' ..."
-        )
-    shape = found[1]
-    if way == "CONI":
-        return lambda x: project(shape, x, None, first)
-    return lambda x: project(shape, x, first, None)

@@ -2,49 +2,59 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
 from ssilang.kernel.errors import MeshError
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray, NodeTable
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.mesh.sweep import rotate
 from ssilang.kernel.mesh.transform import (
     PointMap,
     affine_through,
+    affinity,
     from_cylindrical,
+    mirror_line,
+    mirror_plane,
+    mirror_point,
     move,
+    scaling,
     shift,
     straighten_middles,
     to_cylindrical,
+    turn,
 )
 from ssilang.language.call import Call
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import Chosen, Help, arg, choice, many, operator, opt, said
 from ssilang.operators.mesh.copies.maps import (
-    read_affinity,
-    read_axis,
-    read_points,
-    read_projection,
-    read_scaling,
-    read_symmetry,
-    read_turn,
+    DIRECTION,
+    FIXED,
+    MIRRORS,
+    RATIO,
+    RAYS,
+    VECTOR,
+    positions,
+    projection_of,
 )
+from ssilang.operators.mesh.lines.ends import AXIS, axis_of
 from ssilang.operators.workspace import workspace
 
-Move = Callable[[Call, Mesh | Point], None]
+_MIRRORS: Mapping[str, Callable[..., PointMap]] = {
+    "POINT": mirror_point,
+    "DROIT": mirror_line,
+    "PLAN": mirror_plane,
+}
+_MOVED = arg("moved", "MAILLAGE", "POINT", en="what is moved", fr="ce qui est déplacé")
 
 
 def _ids(moved: Mesh | Point) -> IntArray:
     return np.array([moved.node]) if isinstance(moved, Point) else moved.node_ids
 
 
-def _by_map(read: Callable[[Call], PointMap]) -> Move:
-    def run(call: Call, moved: Mesh | Point) -> None:
-        move(moved.nodes, _ids(moved), read(call))
-
-    return run
+def _move(moved: Mesh | Point, image: PointMap) -> None:
+    move(moved.nodes, _ids(moved), image)
 
 
 def displacements(field: NodeField, ids: IntArray) -> FloatArray:
@@ -56,97 +66,18 @@ def displacements(field: NodeField, ids: IntArray) -> FloatArray:
     return step
 
 
-def _translate(sign: float) -> Move:
-    def run(call: Call, moved: Mesh | Point) -> None:
-        by = call.required("POINT", "CHPOINT", after=call.keyword_end)
-        if isinstance(by, Point):
-            move(moved.nodes, _ids(moved), shift(sign * by.coordinates.copy()))
-            return
-        ids = np.unique(_ids(moved))
-        moved.nodes.coordinates[ids] += sign * displacements(by, ids)
-
-    return run
-
-
-def _turn(call: Call, moved: Mesh | Point) -> None:
-    angles: NodeField | None = call.optional("CHPOINT")
-    if angles is None:
-        image, _ = read_turn(call)
-        move(moved.nodes, _ids(moved), image)
-        return
-    origin, axis = read_axis(call)
-    size = float(np.linalg.norm(axis))
-    if size == 0.0:
-        raise MeshError("the two points of the axis of rotation coincide")
-    ids = np.unique(_ids(moved))
-    degrees = angles.values_at(next(iter(angles.components)), ids)
-    place = moved.nodes.coordinates
-    for angle in np.unique(degrees):
-        rows = ids[degrees == angle]
-        place[rows] = rotate(place[rows].copy(), float(np.radians(angle)), origin, axis / size)
-
-
-def _mirror(call: Call, moved: Mesh | Point) -> None:
-    word = call.keyword(("POINT", "DROIT", "PLAN"))
-    if word is None:
-        raise call.bad("what is mirrored about is not said", hint="'POIN', 'DROIT' or 'PLAN'")
-    move(moved.nodes, _ids(moved), read_symmetry(call, word))
-
-
-def _coordinates(call: Call, moved: Mesh | Point) -> None:
-    word = call.keyword(("CYLI", "CART"))
-    if word is None:
-        raise call.bad("the coordinates are not said", hint="'CYLI' or 'CART'")
-    if word == "CART":
-        move(moved.nodes, _ids(moved), from_cylindrical)
-        return
-    if workspace(call.session).dimension < 3:
-        origin, second = read_points(call, 2)
-        axis, zero = np.array([0.0, 0.0, 1.0]), second - origin
-    else:
-        origin, second, third = read_points(call, 3)
-        axis, zero = second - origin, third - origin
-    move(moved.nodes, _ids(moved), to_cylindrical(origin, axis, zero))
-
-
-def _middles(call: Call, moved: Mesh | Point) -> None:
-    if isinstance(moved, Mesh):
-        straighten_middles(moved)
-
-
-def _deduce(call: Call, moved: Mesh | Point) -> None:
-    by = call.required("MAILLAGE", "CHPOINT", "POINT", after=call.keyword_end)
-    if isinstance(by, NodeField):
-        ids = by.node_ids
-        old = by.table.coordinates[ids].copy()
-        new = old + displacements(by, ids)
-    else:
-        goal = call.required("MAILLAGE", "POINT")
-        old, new = (_positions(m.nodes, _ids(m)) for m in (by, goal))
-    image = affine_through(old, new, workspace(call.session).dimension)
-    move(moved.nodes, _ids(moved), image)
-
-
-def _positions(nodes: NodeTable, ids: IntArray) -> FloatArray:
-    return nodes.coordinates[ids].copy()
-
-
-_MOVES: dict[str, Move] = {
-    "PLUS": _translate(1.0),
-    "MOINS": _translate(-1.0),
-    "TOUR": _turn,
-    "HOMO": _by_map(read_scaling),
-    "AFFI": _by_map(read_affinity),
-    "SYME": _mirror,
-    "PROJ": _by_map(read_projection),
-    "COOR": _coordinates,
-    "MILI": _middles,
-    "DEDU": _deduce,
-}
-
-
 @operator(
     "DEPL",
+    said("PLUS", "MOINS"),
+    _MOVED,
+    arg(
+        "by",
+        "POINT",
+        "CHPOINT",
+        en="vector, or displacements",
+        fr="vecteur, ou déplacements",
+        unit="m",
+    ),
     family="mesh",
     full_name="DEPLACER",
     help=Help(
@@ -171,15 +102,166 @@ _MOVES: dict[str, Move] = {
         "DEPL GEO1 'DEDU' GEO2 GEO3 | CHP1 ;",
         examples=("OPTI DIME 2 ; P = 1. 0. ; DEPL P 'PLUS' (0. 2.) ; LIST (COOR 2 P) ;",),
     ),
-    reads_itself=True,
 )
-def depl(call: Call) -> None:
-    """Move nodes."""
-    # points behind the keyword belong to the motion, the object comes before it
-    moved = call.optional("MAILLAGE", "POINT")
-    word = call.keyword(tuple(_MOVES))
-    if word is None:
-        raise call.bad("the motion is not said", hint=" ".join(_MOVES))
-    if moved is None:
-        moved = call.required("MAILLAGE", "POINT", after=call.keyword_end)
-    _MOVES[word](call, moved)
+def depl(word: str, moved: Mesh | Point, by: Point | NodeField) -> None:
+    """Move nodes by a vector or by displacements."""
+    sign = 1.0 if word == "PLUS" else -1.0
+    if isinstance(by, Point):
+        _move(moved, shift(sign * by.coordinates.copy()))
+        return
+    ids = np.unique(_ids(moved))
+    moved.nodes.coordinates[ids] += sign * displacements(by, ids)
+
+
+@depl.form(
+    said("TOUR"),
+    _MOVED,
+    arg(
+        "angle",
+        "CHPOINT",
+        "FLOTTANT",
+        en="angle, or one for each node",
+        fr="angle, ou un par noeud",
+        unit="degree",
+    ),
+    AXIS,
+)
+def turned(
+    call: Call, moved: Mesh | Point, angle: NodeField | float, axis: Sequence[Point]
+) -> None:
+    """Turn nodes."""
+    origin, direction = axis_of(call, axis)
+    if not isinstance(angle, NodeField):
+        _move(moved, turn(angle, origin, direction))
+        return
+    size = float(np.linalg.norm(direction))
+    if size == 0.0:
+        raise MeshError("the two points of the axis of rotation coincide")
+    ids = np.unique(_ids(moved))
+    degrees = angle.values_at(next(iter(angle.components)), ids)
+    place = moved.nodes.coordinates
+    for value in np.unique(degrees):
+        rows = ids[degrees == value]
+        place[rows] = rotate(place[rows].copy(), float(np.radians(value)), origin, direction / size)
+
+
+@depl.form(said("HOMO"), _MOVED, RATIO, FIXED)
+def scaled(moved: Mesh | Point, ratio: float, fixed: Point) -> None:
+    """Scale about a point."""
+    _move(moved, scaling(ratio, fixed.coordinates.copy()))
+
+
+@depl.form(said("AFFI"), _MOVED, RATIO, FIXED, DIRECTION)
+def stretched(moved: Mesh | Point, ratio: float, fixed: Point, towards: Point) -> None:
+    """Stretch along a direction."""
+    _move(moved, affinity(ratio, *positions((fixed, towards))))
+
+
+@depl.form(
+    said("SYME"),
+    choice(
+        "about",
+        tuple(MIRRORS),
+        optional=False,
+        en="what is mirrored about",
+        fr="ce par rapport à quoi on prend le symétrique",
+    ),
+    _MOVED,
+    many("points", "POINT", at_least=1, en="its points", fr="ses points"),
+)
+def mirrored(call: Call, about: str, moved: Mesh | Point, points: Sequence[Point]) -> None:
+    """Mirror about a point, a line or a plane."""
+    _move(moved, _MIRRORS[about](*_exactly(call, points, len(MIRRORS[about]))))
+
+
+def _exactly(call: Call, points: Sequence[Point], count: int) -> list[FloatArray]:
+    """Positions of points, as many as are needed."""
+    if len(points) < count:
+        raise call.missing(("POINT",))
+    if len(points) > count:
+        raise call.bad(f"{count} point(s) are needed here, {len(points)} are given", points[-1])
+    return positions(points)
+
+
+@depl.form(said("PROJ"), _MOVED, *RAYS)
+def projected(moved: Mesh | Point, rays: tuple[str, Point], surface: Chosen) -> None:
+    """Project, as it is said how the rays go."""
+    _move(moved, projection_of(*rays, surface))
+
+
+@depl.form(said("PROJ"), _MOVED, *VECTOR)
+def projected_along(moved: Mesh | Point, surface: Chosen, vector: Point) -> None:
+    """Project along a vector."""
+    _move(moved, projection_of("CYLI", vector, surface))
+
+
+@depl.form(
+    said("COOR"),
+    choice(
+        "coordinates",
+        ("CYLI", "CART"),
+        optional=False,
+        en="to cylindrical coordinates, or back",
+        fr="vers des coordonnées cylindriques, ou retour",
+    ),
+    _MOVED,
+    many(
+        "points",
+        "POINT",
+        en="origin (in space another point of the axis) and a point of angle 0, with 'CYLI'",
+        fr="origine (en dimension 3 un autre point de l'axe) et un point d'angle 0, avec 'CYLI'",
+    ),
+)
+def changed_coordinates(
+    call: Call, coordinates: str, moved: Mesh | Point, points: Sequence[Point]
+) -> None:
+    """Take cylindrical coordinates for cartesian ones, or the reverse."""
+    if coordinates == "CART":
+        _exactly(call, points, 0)
+        _move(moved, from_cylindrical)
+        return
+    if workspace(call.session).dimension < 3:
+        origin, second = _exactly(call, points, 2)
+        axis, zero = np.array([0.0, 0.0, 1.0]), second - origin
+    else:
+        origin, second, third = _exactly(call, points, 3)
+        axis, zero = second - origin, third - origin
+    _move(moved, to_cylindrical(origin, axis, zero))
+
+
+@depl.form(said("MILI"), _MOVED)
+def straightened(moved: Mesh | Point) -> None:
+    """Put middle nodes onto the mediator planes of their edges."""
+    if isinstance(moved, Mesh):
+        straighten_middles(moved)
+
+
+@depl.form(
+    said("DEDU"),
+    _MOVED,
+    arg(
+        "by",
+        "MAILLAGE",
+        "CHPOINT",
+        "POINT",
+        en="points before, or displacements of some",
+        fr="points avant, ou déplacements de certains",
+    ),
+    opt("goal", "MAILLAGE", "POINT", en="points after", fr="points après"),
+)
+def deduced(
+    call: Call,
+    moved: Mesh | Point,
+    by: Mesh | NodeField | Point,
+    goal: Mesh | Point | None,
+) -> None:
+    """Move by the affine map between two sets of points."""
+    if isinstance(by, NodeField):
+        ids = by.node_ids
+        old = by.table.coordinates[ids].copy()
+        new = old + displacements(by, ids)
+    else:
+        if goal is None:
+            raise call.missing(("MAILLAGE", "POINT"))
+        old, new = (m.nodes.coordinates[_ids(m)].copy() for m in (by, goal))
+    _move(moved, affine_through(old, new, workspace(call.session).dimension))

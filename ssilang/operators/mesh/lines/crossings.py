@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping, Sequence
+
 from ssilang.kernel.mesh.analytic import (
     Shape,
     cone_shape,
@@ -14,72 +16,109 @@ from ssilang.kernel.mesh.crossing_curve import crossing_curve
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.language.call import Call
+from ssilang.language.registry import Chosen, arg, key, select
+from ssilang.operators.dispatch import INTE
 from ssilang.operators.mesh.lines.ends import (
-    Cuts,
+    COUNT,
+    END,
+    SIZES,
+    START,
     Ends,
+    Sizes,
+    cuts_of,
     drawn,
     ends_of,
     positions,
-    read_count,
-    read_sizes,
 )
 from ssilang.operators.workspace import workspace
 
-SURFACES = {"PLAN": 1, "SPHE": 1, "CYLI": 2, "CONI": 2, "TORI": 3}
-"""Words of surfaces and the number of points that stand behind them."""
+_CENTRE = arg("centre", "POINT", en="centre", fr="centre")
+_AXIS = arg("axis", "POINT", en="point of the axis", fr="point de l'axe")
+_SMALL_CIRCLE = arg("circle", "POINT", en="centre of a small circle", fr="centre d'un petit cercle")
+
+# word -> surface through the start of the curve (a plane through both its ends)
+_SURFACES: Mapping[str, Callable[[Sequence[FloatArray], FloatArray, FloatArray], Shape]] = {
+    "PLAN": lambda p, start, end: plane_shape(start, end, p[0]),
+    "SPHE": lambda p, start, end: sphere_shape(p[0], start),
+    "CYLI": lambda p, start, end: cylinder_shape(p[0], p[1], start),
+    "CONI": lambda p, start, end: cone_shape(p[0], p[1], start),
+    "TORI": lambda p, start, end: torus_shape(p[0], p[1], p[2], start),
+}
 
 
-def draws_a_curve(call: Call) -> bool:
-    """True if a word of a surface stands in the call."""
-    words = (o.value for o in call.operands if isinstance(o.value, str))
-    return any(w[:4].upper() in SURFACES for w in words)
-
-
-def drawn_crossing(call: Call, first: Point | Mesh) -> Mesh:
+@INTE.form(
+    select(
+        "surfaces",
+        {
+            "PLAN": [arg("point", "POINT", en="point of the plane", fr="point du plan")],
+            "SPHE": [_CENTRE],
+            "CYLI": [arg("first", "POINT", en=_AXIS.en, fr=_AXIS.fr), _AXIS],
+            "CONI": [arg("apex", "POINT", en="apex", fr="sommet"), _AXIS],
+            "TORI": [
+                _CENTRE,
+                _AXIS,
+                _SMALL_CIRCLE,
+            ],
+        },
+        optional=False,
+        repeated=True,
+        en="the two surfaces that cross, both through the start",
+        fr="les deux surfaces qui se croisent, passant par le départ",
+    ),
+    START,
+    COUNT,
+    SIZES,
+    key(
+        "length",
+        "LONG",
+        arg("length", "FLOTTANT", unit="m"),
+        en="length of the curve, then the end only shows the way",
+        fr="longueur de la courbe, l'arrivée ne montrant alors que le sens",
+    ),
+    END,
+    syntax="LIG1 = POIN1 | LIG2 INTE (N1) ('DINI' D1) ('DFIN' D2) ('LONG' X1) 'PLAN' P1 | "
+    "'SPHE' C1 | 'CYLI' A1 A2 | 'CONI' S1 A1 | 'TORI' C1 A1 C2 (again) POIN2 ;",
+    en="With two simple surfaces: the curve along which they cross, the shortest way from POIN1 to "
+    "POIN2. The surfaces pass through POIN1: a plane (through POIN2 too), a sphere by its centre, "
+    "a cylinder by its axis, a cone by its apex and a point of its axis, a torus by its centre, a "
+    "point of its axis and the centre of a small circle. 'LONG' gives the length instead of the "
+    "end, towards POIN2.",
+    fr="Avec deux surfaces simples : la courbe où elles se croisent, par le plus court chemin de "
+    "POIN1 à POIN2. Les surfaces passent par POIN1 : un plan (aussi par POIN2), une sphère par son "
+    "centre, un cylindre par son axe, un cône par son sommet et un point de son axe, un tore par "
+    "son centre, un point de son axe et le centre d'un petit cercle. 'LONG' impose la longueur au "
+    "lieu de l'extrémité, vers POIN2.",
+    examples=(
+        "OPTI DIME 3 ELEM SEG2 ; A = 1. 0. 0. ; B = 0. 1. 0. ;"
+        " L = A INTE 16 'CYLI' (0. 0. -1.) (0. 0. 1.) 'PLAN' (-1. 0. 0.) B ; MESS (MESU L) ;",
+    ),
+)
+def crossing(
+    call: Call,
+    surfaces: Sequence[Chosen],
+    start: Point | Mesh,
+    count: int | None,
+    sizes: Sizes,
+    length: float | None,
+    end: Point | Mesh | None,
+) -> Mesh:
     """The line along which two surfaces cross, from a point or a line to another."""
-    cuts, length = Cuts(), None
-    items: list[Point | Mesh] = [first]
-    named: list[tuple[str, list[FloatArray]]] = []
-    before = -1
-    while before != len(call.operands):
-        before = len(call.operands)
-        read_sizes(call, cuts)
-        if call.keyword(("LONG",)) is not None:
-            length = float(call.required("FLOTTANT", after=call.keyword_end))
-            if length <= 0.0:
-                raise call.bad(f"the length of the curve is positive, not {length:g}", length)
-        if not cuts.count:
-            read_count(call, cuts)
-        word = call.keyword(tuple(SURFACES))
-        if word is not None:
-            points = [call.required("POINT", after=call.keyword_end) for _ in range(SURFACES[word])]
-            named.append((word, [p.coordinates.copy() for p in points]))
-        elif len(named) >= 2 and len(items) == 1:
-            last = call.read("POINT", "MAILLAGE")
-            items += [last.value] if last is not None else []
-    if len(named) != 2:
+    cuts = cuts_of(call, count, sizes)
+    if length is not None and length <= 0.0:
+        raise call.bad(f"the length of the curve is positive, not {length:g}", length)
+    if len(surfaces) != 2:
         raise call.bad(
-            f"a curve is the crossing of two surfaces, {len(named)} stand here",
+            f"a curve is the crossing of two surfaces, {len(surfaces)} stand here",
             hint="'PLAN' P1, 'SPHE' C1, 'CYLI' A1 A2, 'CONI' S1 A1 or 'TORI' C1 A1 C2, twice",
         )
-    ends = ends_of(call, items)
+    ends = ends_of(call, start, end)
     ws = workspace(call.session)
-    start, end = positions(ws, ends.start, ends.end)
-    gaps = [_surface(word, points, start, end).distance for word, points in named]
-    curve = crossing_curve((gaps[0], gaps[1]), start, end, length)
+    first, last = positions(ws, ends.start, ends.end)
+    gaps = [
+        _SURFACES[s.word]([p.coordinates.copy() for p in s.values.values()], first, last).distance
+        for s in surfaces
+    ]
+    curve = crossing_curve((gaps[0], gaps[1]), first, last, length)
     if length is not None:
         ends = Ends(ends.start, int(ws.nodes.add(curve.points[-1:], cuts.last)[0]), ends.before)
     return drawn(call, ends, curve, curve.length, cuts)
-
-
-def _surface(word: str, points: list[FloatArray], start: FloatArray, end: FloatArray) -> Shape:
-    """A surface through the start of the curve (a plane through both its ends)."""
-    if word == "PLAN":
-        return plane_shape(start, end, points[0])
-    if word == "SPHE":
-        return sphere_shape(points[0], start)
-    if word == "CYLI":
-        return cylinder_shape(points[0], points[1], start)
-    if word == "CONI":
-        return cone_shape(points[0], points[1], start)
-    return torus_shape(points[0], points[1], points[2], start)

@@ -1,20 +1,22 @@
-"""How operators that draw lines read their ends, numbers of elements and mesh sizes."""
+"""What operators that draw lines read: ends, numbers of elements, mesh sizes."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+
+import numpy as np
 
 from ssilang.kernel.errors import MeshError
 from ssilang.kernel.mesh.combine import union
+from ssilang.kernel.mesh.curves import Arc, Polynomial
 from ssilang.kernel.mesh.families import Family, family_of
 from ssilang.kernel.mesh.lines import CurveMap, different_nodes, end_sizes, line_ends, mesh_curve
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.mesh.subdivision import subdivide
 from ssilang.language.call import Call
-from ssilang.language.values import type_of
+from ssilang.language.registry import arg, key, many, opt
 from ssilang.operators.workspace import Workspace, workspace
 
 SIZES_EN = (
@@ -29,9 +31,45 @@ SIZES_FR = (
 )
 
 
-@dataclass
+COUNT = opt(
+    "count",
+    "ENTIER",
+    en="number of elements, graded by the mesh sizes if negative; without it these decide",
+    fr="nombre d'éléments, gradués selon les densités s'il est négatif ; sans lui elles décident",
+)
+ANGLE = opt("angle", "FLOTTANT", en="angle", fr="angle", unit="degree")
+SIZES = key(
+    "sizes",
+    ("DINI", "DFIN"),
+    arg("size", "FLOTTANT", unit="m"),
+    repeated=True,
+    en="mesh size at the start, at the end, in place of the one there",
+    fr="densité au départ, à l'arrivée, à la place de celle qui y est",
+)
+Sizes = Sequence[tuple[str, float]]
+START = arg(
+    "start", "POINT", "MAILLAGE", en="start, or a line to go on", fr="départ, ou ligne à prolonger"
+)
+END = opt(
+    "end",
+    "POINT",
+    "MAILLAGE",
+    en="end, or a line to reach; without it the line START is closed",
+    fr="arrivée, ou ligne à rejoindre ; sans elle la ligne START est fermée",
+)
+
+AXIS = many(
+    "axis",
+    "POINT",
+    at_least=1,
+    en="centre, or in space two points of the axis",
+    fr="centre, ou en dimension 3 deux points de l'axe",
+)
+
+
+@dataclass(frozen=True)
 class Cuts:
-    """Number of elements and sizes that stand in a call: N1, 'DINI' D1, 'DFIN' D2; 0 if absent."""
+    """Number of elements and mesh sizes at both ends; 0 if not given."""
 
     count: int = 0
     first: float = 0.0
@@ -42,48 +80,35 @@ class Cuts:
         return self.first or densities[0], self.last or densities[1]
 
 
-def read_sizes(call: Call, cuts: Cuts) -> None:
-    """Consume 'DINI' and 'DFIN' with their values where they stand next."""
-    while (word := call.keyword(("DINI", "DFIN"))) is not None:
-        size = call.required("FLOTTANT", after=call.keyword_end)
+def cuts_of(call: Call, count: int | None, sizes: Sizes) -> Cuts:
+    """What `COUNT` and `SIZES` have read."""
+    for _, size in sizes:
         if size <= 0.0:
             raise call.bad(f"a mesh size is positive, this one is {size:g}", size)
-        if word == "DINI":
-            cuts.first = size
-        else:
-            cuts.last = size
+    said = dict(sizes)
+    return Cuts(count or 0, said.get("DINI", 0.0), said.get("DFIN", 0.0))
 
 
-def read_count(call: Call, cuts: Cuts) -> None:
-    """Consume a number of elements if one stands there; 0 counts as none."""
-    operand = call.read("ENTIER")
-    if operand is not None:
-        cuts.count = int(operand.value)
+def count_and_angle(call: Call, count: int | None, angle: float | None) -> tuple[int, float]:
+    """What `COUNT` and `ANGLE` have read: an integer alone is the angle."""
+    if angle is not None:
+        return count or 0, angle
+    if count is None:
+        raise call.missing(("FLOTTANT",))
+    return 0, float(count)
 
 
-def take_number(call: Call, word: str) -> float | None:
-    """Consume the first operand of exactly this type before the next word, else None."""
-    for i, operand in enumerate(call.operands):
-        if type_of(operand.value) == word:
-            call.used.append(operand)
-            del call.operands[i]
-            return float(operand.value)
-        if type_of(operand.value) in ("MOT", "PROCEDUR"):
-            break
-    return None
-
-
-def count_and_number(call: Call) -> tuple[int, float | None]:
-    """An optional number of elements and a real that may be written as an integer.
-
-    With two integers the first is the number of elements; one integer alone is the real.
-    """
-    real = take_number(call, "FLOTTANT")
-    first = take_number(call, "ENTIER")
-    second = take_number(call, "ENTIER") if real is None else real
-    if second is None:
-        return 0, first
-    return int(first or 0), second
+def axis_of(call: Call, points: Sequence[Point]) -> tuple[FloatArray, FloatArray]:
+    """Origin and direction that `AXIS` has read: in the plane the direction is its normal."""
+    needed = 2 if workspace(call.session).dimension == 3 else 1
+    if len(points) < needed:
+        raise call.missing(("POINT",))
+    if len(points) > needed:
+        raise call.bad(f"{needed} point(s) say where it turns, {len(points)} are given", points[-1])
+    origin = points[0].coordinates.copy()
+    if needed == 1:
+        return origin, np.array([0.0, 0.0, 1.0])
+    return origin, points[1].coordinates - origin
 
 
 def chosen_family(ws: Workspace) -> Family:
@@ -109,17 +134,13 @@ class Ends:
     after: Mesh | None = None
 
 
-def ends_of(call: Call, items: Sequence[Point | Mesh]) -> Ends:
+def ends_of(call: Call, first: Point | Mesh, second: Point | Mesh | None) -> Ends:
     """Ends from one or two points or lines; a line alone is closed from its end to its start."""
-    if not items:
-        raise call.missing(("POINT", "MAILLAGE"))
-    first = items[0]
-    if len(items) == 1:
+    if second is None:
         if isinstance(first, Point):
             raise call.missing(("POINT",))
         start, end = line_ends(first)
         return Ends(end, start, first)
-    second = items[1]
     start = first.node if isinstance(first, Point) else line_ends(first)[1]
     end = second.node if isinstance(second, Point) else line_ends(second)[0]
     before = first if isinstance(first, Mesh) else None
@@ -142,15 +163,48 @@ def drawn(call: Call, ends: Ends, curve: CurveMap, length: float, cuts: Cuts) ->
     return union(*pieces, as_given=True)
 
 
-def cuts_and_items(call: Call) -> tuple[Cuts, list[Any]]:
-    """Number of elements, sizes and points or lines, in whatever order they stand."""
-    cuts = Cuts()
-    items: list[Any] = []
-    before = -1
-    while before != len(call.operands):
-        before = len(call.operands)
-        read_sizes(call, cuts)
-        if not cuts.count:
-            read_count(call, cuts)
-        items += call.all("POINT", "MAILLAGE")
-    return cuts, items
+def drawn_by_middle(
+    call: Call,
+    curve: Callable[[FloatArray, FloatArray, FloatArray], Arc | Polynomial],
+    points: tuple[Point | Mesh, Point, Point | Mesh | None],
+    cuts: Cuts,
+) -> Mesh:
+    """The line that a start, a point and an end say."""
+    start, middle, end = points
+    ends = ends_of(call, start, end)
+    a, b = positions(workspace(call.session), ends.start, ends.end)
+    shape = curve(a, middle.coordinates.copy(), b)
+    return drawn(call, ends, shape, shape.length, cuts)
+
+
+def drawn_from(
+    call: Call,
+    start: Point | Mesh,
+    way: Callable[[FloatArray], tuple[CurveMap, float]],
+    cuts: Cuts,
+    last_size: float | None = None,
+    closed: bool = False,
+) -> Mesh:
+    """The line from a point, or from the end of a line, which it goes on.
+
+    Parameters
+    ----------
+    way : callable
+        The curve and its length from the position (3,) of its start.
+    last_size : float, optional
+        Mesh size at the end; by default that of the start.
+    closed : bool
+        Whether the line comes back to its first node.
+    """
+    ws = workspace(call.session)
+    before = start if isinstance(start, Mesh) else None
+    first = start.node if isinstance(start, Point) else line_ends(start)[1]
+    curve, length = way(positions(ws, first)[0])
+    size = float(ws.nodes.density[first])
+    sizes = cuts.sizes((size, size if last_size is None else last_size))
+    parts = subdivide(length, *sizes, cuts.count)
+    quadratic = chosen_family(ws).quadratic
+    line = mesh_curve(
+        ws.nodes, curve, first, first if closed else None, parts, quadratic, ws.colour
+    )
+    return line if before is None else union(before, line, as_given=True)

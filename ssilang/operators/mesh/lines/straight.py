@@ -1,47 +1,45 @@
-"""Lines: DROI, CERC, CER3, PARA, CUBP, CUBT, COUR, QUEL."""
+"""Straight and broken lines: DROI LIGN QUEL."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Sequence
 
 import numpy as np
 
-from ssilang.kernel.mesh.combine import union
-from ssilang.kernel.mesh.curves import (
-    Arc,
-    Polynomial,
-    arc_about_axis,
-    arc_about_centre,
-    arc_through,
-    parabola,
-)
-from ssilang.kernel.mesh.lines import chain_mesh, end_sizes, line_ends, mesh_curve, polyline
+from ssilang.kernel.mesh.curves import Arc, arc_about_axis
+from ssilang.kernel.mesh.lines import CurveMap, chain_mesh, polyline
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.mesh.subdivision import subdivide
+from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.language.call import Call
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import Help, arg, choice, many, operator, opt, said
+from ssilang.language.values import ListReel
 from ssilang.operators.mesh.lines.ends import (
+    ANGLE,
+    COUNT,
+    END,
+    SIZES,
     SIZES_EN,
     SIZES_FR,
-    Cuts,
-    Ends,
+    START,
+    Sizes,
     chosen_family,
-    count_and_number,
-    cuts_and_items,
+    count_and_angle,
+    cuts_of,
     drawn,
+    drawn_from,
     ends_of,
     positions,
-    read_count,
-    read_sizes,
 )
 from ssilang.operators.workspace import workspace
 
 
 @operator(
     "DROI",
+    COUNT,
+    START,
+    END,
+    SIZES,
     family="mesh",
     full_name="DROIT",
     aliases=("D",),
@@ -54,145 +52,35 @@ from ssilang.operators.workspace import workspace
             "OPTI DIME 2 ELEM SEG3 DENS 0.25 ; P = 0. 0. ; L = P DROI (1. 0.) 'DFIN' 0.1 ;",
         ),
     ),
-    reads_itself=True,
 )
-def droi(call: Call) -> Mesh:
+def droi(
+    call: Call,
+    count: int | None,
+    start: Point | Mesh,
+    end: Point | Mesh | None,
+    sizes: Sizes,
+) -> Mesh:
     """Draw a straight line."""
-    cuts, items = cuts_and_items(call)
-    ends = ends_of(call, items[:2])
+    cuts = cuts_of(call, count, sizes)
+    ends = ends_of(call, start, end)
     a, b = positions(workspace(call.session), ends.start, ends.end)
     return drawn(call, ends, lambda s: a + s[:, None] * (b - a), float(np.linalg.norm(b - a)), cuts)
 
 
-def _three(call: Call, items: list[Any]) -> tuple[Ends, FloatArray]:
-    """Ends, and the position of the point that stands between them."""
-    if len(items) < 2 or not isinstance(items[1], Point):
-        raise call.missing(("POINT",))
-    ends = ends_of(call, [items[0], *items[2:3]])
-    return ends, items[1].coordinates.copy()
-
-
-def _by_middle(
-    call: Call, curve: Callable[[FloatArray, FloatArray, FloatArray], Arc | Polynomial]
-) -> Mesh:
-    cuts, items = cuts_and_items(call)
-    ends, middle = _three(call, items)
-    a, b = positions(workspace(call.session), ends.start, ends.end)
-    shape = curve(a, middle, b)
-    return drawn(call, ends, shape, shape.length, cuts)
-
-
-@operator(
-    "CERC",
-    family="mesh",
-    full_name="CERCLE",
-    aliases=("C",),
-    help=Help(
-        en="Circular arc: around a centre (the shorter arc, the default), through three points "
-        "('PASS'), or by turning a point by an angle in degrees about a point (2D) or an axis (3D) "
-        "('ROTA'; 'ELIM' closes a turn of 360 degrees on its first point). " + SIZES_EN,
-        fr="Arc de cercle : de centre donné (l'arc le plus court, par défaut), par trois points "
-        "('PASS'), ou par rotation d'un point d'un angle en degrés autour d'un point (2D) ou d'un "
-        "axe (3D) ('ROTA' ; 'ELIM' ferme un tour complet sur son premier point). " + SIZES_FR,
-        syntax="LIG1 = CERC (N1) ('CENTR') POIN1 CENTR2 POIN3 ('DINI' DENS1) ('DFIN' DENS2) ;\n"
-        "LIG1 = CERC (N1) 'PASS' POIN1 POIN2 POIN3 ('DINI' DENS1) ('DFIN' DENS2) ;\n"
-        "LIG1 = CERC (N1) 'ROTA' FLOT1 POIN1 POIN2 (POIN3) ('ELIM') ('DINI' D1) ('DFIN' D2) ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; L = CERC 8 (1. 0.) (0. 0.) (0. 1.) ;",
-            "OPTI DIME 2 ELEM SEG2 ; L = CERC 8 'ROTA' 180. (1. 0.) (0. 0.) ;",
-            "OPTI DIME 2 ELEM SEG3 ; L = CERC 8 'PASS' (1. 0.) (0. 1.) (-1. 0.) ;",
-        ),
-    ),
-    reads_itself=True,
-)
-def cerc(call: Call) -> Mesh:
-    """Draw a circular arc."""
-    cuts = Cuts()
-    read_sizes(call, cuts)
-    word = call.keyword(("CENTR", "PASS", "ROTA"))
-    if word is None:
-        read_count(call, cuts)
-        read_sizes(call, cuts)
-        word = call.keyword(("CENTR", "PASS", "ROTA"))
-    if word == "ROTA":
-        return _turned(call, cuts)
-    more, items = cuts_and_items(call)
-    ends, middle = _three(call, items)
-    cuts = Cuts(cuts.count or more.count, cuts.first or more.first, cuts.last or more.last)
-    a, b = positions(workspace(call.session), ends.start, ends.end)
-    shape = (arc_through if word == "PASS" else arc_about_centre)(a, middle, b)
-    return drawn(call, ends, shape, shape.length, cuts)
-
-
-def _turned(call: Call, cuts: Cuts) -> Mesh:
-    """The arc that a point describes in a rotation."""
-    ws = workspace(call.session)
-    read_sizes(call, cuts)
-    count, angle = (0, None) if cuts.count else count_and_number(call)
-    if cuts.count:
-        angle = call.required("FLOTTANT")
-    if angle is None:
-        raise call.missing(("FLOTTANT",))
-    cuts.count = cuts.count or count
-    items = call.all("POINT", "MAILLAGE")
-    closing = call.keyword(("ELIM",)) is not None
-    read_sizes(call, cuts)
-    closing = closing or call.keyword(("ELIM",)) is not None
-    need = 2 if ws.dimension < 3 else 3
-    if len(items) < need or not all(isinstance(p, Point) for p in items[1:need]):
-        raise call.missing(("POINT",))
-    origin = items[1].coordinates.copy()
-    axis = items[2].coordinates - origin if need == 3 else np.array([0.0, 0.0, 1.0])
-    before = items[0] if isinstance(items[0], Mesh) else None
-    start = line_ends(before)[1] if before is not None else items[0].node
-    arc = arc_about_axis(positions(ws, start)[0], origin, axis, math.radians(angle))
-    sizes = cuts.sizes(end_sizes(ws.nodes, start, start))
-    parts = subdivide(arc.length, *sizes, cuts.count)
-    if closing and abs(abs(angle) - 360.0) > 1e-6:
-        raise call.bad(f"ELIM closes a turn of 360 degrees, the angle is {angle:g}")
-    quadratic = chosen_family(ws).quadratic
-    end = start if closing else None
-    line = mesh_curve(ws.nodes, arc, start, end, parts, quadratic, ws.colour)
-    return line if before is None else union(before, line, as_given=True)
-
-
-@operator(
-    "CER3",
-    family="mesh",
-    help=Help(
-        en="Circular arc through three points. " + SIZES_EN,
-        fr="Arc de cercle passant par trois points. " + SIZES_FR,
-        syntax="LIG1 = CER3 (N1) POIN1 POIN2 POIN3 ('DINI' DENS1) ('DFIN' DENS2) ;",
-        examples=("OPTI DIME 2 ELEM SEG2 ; L = CER3 8 (1. 0.) (0. 1.) (-1. 0.) ;",),
-    ),
-    reads_itself=True,
-)
-def cer3(call: Call) -> Mesh:
-    """Draw the arc through three points."""
-    return _by_middle(call, arc_through)
-
-
-@operator(
-    "PARA",
-    family="mesh",
-    full_name="PARABOLE",
-    help=Help(
-        en="Arc of parabola between two points, the middle point being where the end tangents "
-        "meet. " + SIZES_EN,
-        fr="Arc de parabole entre deux points, le point du milieu étant l'intersection des "
-        "tangentes aux extrémités. " + SIZES_FR,
-        syntax="LIG1 = PARA (N1) POIN1 POIN3 POIN2 ('DINI' DENS1) ('DFIN' DENS2) ;",
-        examples=("OPTI DIME 2 ELEM SEG2 ; L = PARA 8 (0. 0.) (1. 2.) (2. 0.) ;",),
-    ),
-    reads_itself=True,
-)
-def para(call: Call) -> Mesh:
-    """Draw an arc of parabola."""
-    return _by_middle(call, parabola)
-
-
 @operator(
     "LIGN",
+    said("ROTA"),
+    COUNT,
+    ANGLE,
+    arg("centre", "POINT", en="centre", fr="centre"),
+    START,
+    opt(
+        "normal",
+        "POINT",
+        en="normal to the plane of the arc, in space",
+        fr="normale au plan de l'arc, en dimension 3",
+    ),
+    SIZES,
     family="mesh",
     full_name="LIGNE",
     help=Help(
@@ -209,53 +97,78 @@ def para(call: Call) -> Mesh:
             " M = LIGN 'TRAN' 4 (0. 0.) (1. 1.) ;",
         ),
     ),
-    reads_itself=True,
 )
-def lign(call: Call) -> Mesh:
-    """Draw an arc or a segment from a point."""
-    ws = workspace(call.session)
-    word = call.keyword(("ROTA", "TRAN"))
-    cuts = Cuts()
-    read_sizes(call, cuts)
-    angle = None
-    if any(isinstance(o.value, float) for o in call.operands):
-        cuts.count, angle = count_and_number(call)
-    else:
-        read_count(call, cuts)
-    items = call.all("POINT", "MAILLAGE")
-    read_sizes(call, cuts)
-    word = word or call.keyword(("ROTA", "TRAN"))
-    if word is None:
-        raise call.bad("what the line is is not said", hint="'ROTA' or 'TRAN'")
-    if word == "ROTA" and angle is None:
-        angle = call.required("FLOTTANT")
-    if word == "TRAN" and angle is not None:
-        raise call.bad("a straight line has no angle", angle, hint="'ROTA' draws arcs")
-    base = 1 if word == "ROTA" else 0
-    others = [items[i] for i in range(len(items)) if i != base]
-    if any(isinstance(other, Mesh) for other in others):
-        raise call.bad("only the beginning of the line may be a mesh", hint="give points")
-    if len(items) < 2 or (word == "ROTA" and ws.dimension == 3 and len(items) < 3):
-        raise call.missing(("POINT",))
-    before = items[base] if isinstance(items[base], Mesh) else None
-    start = items[base].node if before is None else line_ends(before)[1]
-    at = positions(ws, start)[0]
-    curve: Callable[[FloatArray], FloatArray]
-    if angle is not None:
-        normal = items[2].coordinates.copy() if ws.dimension == 3 else np.array([0.0, 0.0, 1.0])
-        arc = arc_about_axis(at, items[0].coordinates.copy(), normal, math.radians(angle))
-        curve, length, size = arc, arc.length, float(ws.nodes.density[start])
-    else:
-        step, size = items[1].coordinates.copy(), items[1].density
-        curve, length = (lambda s: at + s[:, None] * step), float(np.linalg.norm(step))
-    sizes = cuts.sizes((float(ws.nodes.density[start]), size))
-    parts = subdivide(length, *sizes, cuts.count)
-    line = mesh_curve(ws.nodes, curve, start, None, parts, chosen_family(ws).quadratic, ws.colour)
-    return line if before is None else union(before, line, as_given=True)
+def lign(
+    call: Call,
+    count: int | None,
+    angle: float | None,
+    centre: Point,
+    start: Point | Mesh,
+    normal: Point | None,
+    sizes: Sizes,
+) -> Mesh:
+    """Draw an arc from a point."""
+    count, degrees = count_and_angle(call, count, angle)
+    cuts = cuts_of(call, count, sizes)
+    axis = np.array([0.0, 0.0, 1.0])
+    if workspace(call.session).dimension == 3:
+        if normal is None:
+            raise call.missing(("POINT",))
+        axis = normal.coordinates.copy()
+    origin = centre.coordinates.copy()
+
+    def way(at: FloatArray) -> tuple[Arc, float]:
+        arc = arc_about_axis(at, origin, axis, math.radians(degrees))
+        return arc, arc.length
+
+    return drawn_from(call, start, way, cuts)
+
+
+@lign.form(
+    said("TRAN"),
+    COUNT,
+    START,
+    arg("vector", "POINT", en="vector to the end", fr="vecteur vers l'arrivée"),
+    SIZES,
+)
+def segment(
+    call: Call,
+    count: int | None,
+    start: Point | Mesh,
+    vector: Point,
+    sizes: Sizes,
+) -> Mesh:
+    """Draw a segment from a point along a vector."""
+    step = vector.coordinates.copy()
+
+    def way(at: FloatArray) -> tuple[CurveMap, float]:
+        return lambda s: at + s[:, None] * step, float(np.linalg.norm(step))
+
+    return drawn_from(call, start, way, cuts_of(call, count, sizes), vector.density)
 
 
 @operator(
     "QUEL",
+    choice(
+        "cell_type",
+        ("SEG2", "SEG3"),
+        en="type of the cells, that of OPTI ELEM by default",
+        fr="type des éléments, par défaut celui d'OPTI ELEM",
+    ),
+    many(
+        "lists",
+        "LISTREEL",
+        en="first coordinates, second ones ...",
+        fr="premières coordonnées, deuxièmes ...",
+        unit="m",
+    ),
+    many(
+        "points",
+        "POINT",
+        "MAILLAGE",
+        en="points, or meshes whose points follow one another",
+        fr="points, ou maillages dont les points se suivent",
+    ),
     family="mesh",
     full_name="QUELCONQUE",
     help=Help(
@@ -269,34 +182,33 @@ def lign(call: Call) -> Mesh:
             "OPTI DIME 2 ; L = QUEL 'SEG2' (PROG 0. 1. 2.) (PROG 0. 1. 0.) ;",
         ),
     ),
-    reads_itself=True,
 )
-def quel(call: Call) -> Mesh:
+def quel(
+    call: Call, cell_type: str | None, lists: Sequence[ListReel], points: Sequence[Point | Mesh]
+) -> Mesh:
     """Draw a broken line."""
     ws = workspace(call.session)
-    word = call.keyword(("SEG2", "SEG3"))
-    lists = call.all("LISTREEL")
-    if lists:
-        if len({len(v) for v in lists}) > 1:
-            raise call.bad("the lists of coordinates have different lengths", lists[1])
-        table = np.column_stack([v.values for v in lists[: max(ws.dimension, 1)]])
-        chain = ws.nodes.add(table, ws.density)
-    else:
-        chain = _given_nodes(call)
-    word = word or call.keyword(("SEG2", "SEG3"))
-    quadratic = word == "SEG3" if word else chosen_family(ws).quadratic
-    if lists:
-        return chain_mesh(ws.nodes, chain, quadratic, ws.colour)
-    return polyline(ws.nodes, chain, quadratic, ws.colour)
+    quadratic = cell_type == "SEG3" if cell_type else chosen_family(ws).quadratic
+    if not lists:
+        return polyline(ws.nodes, _given_nodes(call, points), quadratic, ws.colour)
+    if points:
+        raise call.bad("a line goes through points or through lists of coordinates", points[0])
+    if len({len(v) for v in lists}) > 1:
+        raise call.bad("the lists of coordinates have different lengths", lists[1])
+    table = np.column_stack([v.values for v in lists[: max(ws.dimension, 1)]])
+    return chain_mesh(ws.nodes, ws.nodes.add(table, ws.density), quadratic, ws.colour)
 
 
-def _given_nodes(call: Call) -> Any:
-    parts: list[Any] = []
-    for item in call.all("POINT", "MAILLAGE"):
-        if isinstance(item, Point):
-            parts.append([item.node])
-        else:
-            parts += [b.connectivity.ravel() for b in item.blocks]
-    if not parts:
+def _given_nodes(call: Call, points: Sequence[Point | Mesh]) -> IntArray:
+    if not points:
         raise call.missing(("POINT", "MAILLAGE", "LISTREEL"))
+    parts = [
+        p
+        for item in points
+        for p in (
+            [np.array([item.node])]
+            if isinstance(item, Point)
+            else [b.connectivity.ravel() for b in item.blocks]
+        )
+    ]
     return np.concatenate(parts).astype(np.int64)

@@ -1,10 +1,8 @@
-"""Points picked from meshes and fields, or made from coordinates: POIN, NOEU, CONF, BARY."""
+"""POIN: points picked from meshes and fields, or made from coordinates."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Callable, Iterable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,10 +17,22 @@ from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.mesh.select import junctions, nearest_node
 from ssilang.language.call import Call
-from ssilang.language.registry import Help, arg, flag, operator
+from ssilang.language.registry import (
+    Chosen,
+    Help,
+    arg,
+    flag,
+    key,
+    main,
+    many,
+    operator,
+    opt,
+    said,
+    select,
+)
 from ssilang.language.session import Session
-from ssilang.language.values import ListReel
-from ssilang.operators.mesh.copies.maps import SHAPES, read_shape
+from ssilang.language.values import ListMots, ListReel
+from ssilang.operators.mesh.copies.maps import SHAPES, shape_of
 from ssilang.operators.workspace import Workspace, workspace
 
 _COMPARISONS: dict[str, Callable[[FloatArray, float], NDArray[np.bool_]]] = {
@@ -33,7 +43,41 @@ _COMPARISONS: dict[str, Callable[[FloatArray, float], NDArray[np.bool_]]] = {
     "INFERIEUR": np.less,
     "DIFFERENT": lambda v, x: ~np.isclose(v, x, rtol=1e-12, atol=0.0),
 }
-_SELECTORS = ("MAXI", "MINI", *_COMPARISONS, "COMPRIS")
+_LIMIT = arg("limit", "FLOTTANT", en="value", fr="valeur")
+EXTREMES = select(
+    "what",
+    {
+        "MAXI": (),
+        "MINI": (),
+        **dict.fromkeys(_COMPARISONS, (_LIMIT,)),
+        "COMPRIS": (
+            arg("low", "FLOTTANT", en="one limit", fr="une limite"),
+            arg("high", "FLOTTANT", en="other limit", fr="autre limite"),
+        ),
+    },
+    optional=False,
+    en="largest or smallest values, or how they compare",
+    fr="valeurs extrêmes, ou ce qu'elles vérifient",
+)
+ABSOLUTE = flag("absolute", "ABS", en="of absolute values", fr="en valeur absolue")
+NAMED = key(
+    "named",
+    ("AVEC", "SANS"),
+    arg("names", "LISTMOTS", kind="component"),
+    repeated=True,
+    en="only these components, or all but these",
+    fr="ces composantes seulement, ou toutes sauf elles",
+)
+Named = Sequence[tuple[str, ListMots]]
+
+
+def chosen_components(names: Iterable[str], named: Named) -> list[str]:
+    """The names that `NAMED` leaves."""
+    left = list(names)
+    for word, listed in named:
+        said = {str(n).rstrip() for n in listed.values}
+        left = [n for n in left if (n in said) == (word == "AVEC")]
+    return left
 
 
 def tolerance_of(ws: Workspace, given: float | None, positions: FloatArray) -> float:
@@ -45,8 +89,19 @@ def tolerance_of(ws: Workspace, given: float | None, positions: FloatArray) -> f
     return 1e-9 * float(np.ptp(positions, axis=0).max(initial=0.0))
 
 
+_MESH = main("mesh", "MAILLAGE", en="mesh to pick from", fr="maillage où choisir")
+
+
 @operator(
     "POIN",
+    _MESH,
+    arg(
+        "number",
+        "ENTIER",
+        en="number of a point, or in the cell",
+        fr="numéro d'un point, ou dans l'élément",
+    ),
+    opt("cell", "ENTIER", en="number of the cell", fr="numéro de l'élément"),
     family="mesh",
     full_name="POINT",
     help=Help(
@@ -73,86 +128,22 @@ def tolerance_of(ws: Workspace, given: float | None, positions: FloatArray) -> f
             " Q = S POIN 'DROI' (0. 0.) (0. 1.) 1E-3 ; LIST (NBNO Q) ;",
         ),
     ),
-    reads_itself=True,
 )
-def poin(call: Call) -> Any:
-    """Pick or make points."""
-    support = call.optional("MAILLAGE", "CHPOINT", "MCHAML")
-    if isinstance(support, NodeField):
-        return _doubted_if_empty(call, _of_field(call, support))
-    if isinstance(support, CellField):
-        return _doubted_if_empty(call, _of_cell_field(call, support))
-    ws = workspace(call.session)
-    if support is None and call.peek_word() in (None, "DENS"):
-        made = _from_coordinates(call, ws)
-        if made is not None:
-            return made
-    return _of_mesh(call, ws, support)
+def poin(session: Session, call: Call, mesh: Mesh, number: int, cell: int | None) -> Point:
+    """Pick a point by number."""
+    nodes = workspace(session).nodes
+    if cell is None:
+        return Point(nodes, _numbered(call, mesh, number))
+    place = cell
+    for block in mesh.blocks:
+        if 1 <= place <= len(block) and 1 <= number <= block.kind.n_nodes:
+            return Point(nodes, int(block.connectivity[place - 1, number - 1]))
+        place -= len(block)
+    raise call.bad(f"the mesh has no node {number} of element {cell}", number)
 
 
-def _from_coordinates(call: Call, ws: Workspace) -> Any:
-    if any(isinstance(o.value, Mesh) for o in call.operands):
-        return None
-    lists: list[ListReel] = call.all("LISTREEL")
-    size = None
-    numbers = [] if lists else call.all("FLOTTANT")
-    if call.keyword(("DENS",)) is not None:
-        size = call.required("FLOTTANT", "LISTREEL", after=call.keyword_end)
-    size = ws.density if size is None else size
-    if lists:
-        if len({len(v) for v in lists}) > 1:
-            raise call.bad("the lists of coordinates have different lengths", lists[-1])
-        table = np.column_stack([v.values for v in lists])
-        ids = ws.nodes.add(table, size.values if isinstance(size, ListReel) else size)
-        return poi1(ws.nodes, ids, ws.colour)
-    if not numbers:
-        return None
-    return Point(ws.nodes, int(ws.nodes.add(np.array([numbers]), size)[0]))
-
-
-def _of_mesh(call: Call, ws: Workspace, mesh: Mesh | None) -> Any:
-    shape = read_shape(call, tuple(w for w in SHAPES if w not in ("CERC", "CONI", "TORI")))
-    if shape is not None:
-        mesh = mesh or call.required("MAILLAGE")
-        given = call.optional("FLOTTANT")
-        ids = mesh.node_ids
-        at = ws.nodes.coordinates[ids]
-        near = np.abs(shape[1].distance(at)) <= tolerance_of(ws, given, at)
-        if not near.any():
-            raise MeshError(
-                f"no point of the mesh lies there ({shape[0]})", "give a larger distance"
-            )
-        return poi1(ws.nodes, ids[near])
-    word = call.keyword(("INITIAL", "FINAL", "JONC", "PROC"))
-    if word == "PROC":
-        target = call.required("POINT", after=call.keyword_end)
-        mesh = mesh or call.required("MAILLAGE")
-        return Point(ws.nodes, nearest_node(mesh, target.coordinates))
-    numbers = [] if word else call.all("ENTIER")
-    mesh = mesh or call.required("MAILLAGE")
-    if word == "JONC":
-        ids = junctions(mesh)
-        if len(ids) == 0:
-            raise MeshError("no point of the mesh joins more than two elements")
-        return poi1(ws.nodes, ids)
-    if word is not None:
-        return Point(ws.nodes, line_ends(mesh)[0 if word == "INITIAL" else 1])
-    numbers = numbers or call.all("ENTIER")
-    if not numbers:
-        raise call.missing(("ENTIER", "MOT"))
-    return Point(ws.nodes, _numbered(call, mesh, numbers))
-
-
-def _numbered(call: Call, mesh: Mesh, numbers: Sequence[int]) -> int:
-    """Node by number in a mesh of points or SEG2, or by numbers in a cell and of the cell."""
-    if len(numbers) > 1:
-        local, cell = numbers[0], numbers[1]
-        for block in mesh.blocks:
-            if 1 <= cell <= len(block) and 1 <= local <= block.kind.n_nodes:
-                return int(block.connectivity[cell - 1, local - 1])
-            cell -= len(block)
-        raise call.bad(f"the mesh has no node {local} of element {numbers[1]}", numbers[0])
-    number = numbers[0]
+def _numbered(call: Call, mesh: Mesh, number: int) -> int:
+    """Node by number in a mesh of points or SEG2."""
     if any(b.kind.dimension > 1 for b in mesh.blocks):
         ids = mesh.node_ids
     else:
@@ -166,80 +157,172 @@ def _numbered(call: Call, mesh: Mesh, numbers: Sequence[int]) -> int:
     return int(ids[number - 1])
 
 
-@dataclass
-class _Search:
-    """What is sought in a field: a word, its limits, absolute values, components."""
-
-    word: str
-    limits: list[float]
-    absolute: bool
-    wanted: list[str]
-
-    def picks(self, values: FloatArray) -> NDArray[np.bool_]:
-        """Which values (n,) fit."""
-        return picked(np.abs(values) if self.absolute else values, self.word, self.limits)
+@poin.form(said("INITIAL", "FINAL"), _MESH)
+def end_of_line(session: Session, word: str, mesh: Mesh) -> Point:
+    """The first or the last point of a line."""
+    return Point(workspace(session).nodes, line_ends(mesh)[0 if word == "INITIAL" else 1])
 
 
-def _read_search(call: Call, components: Sequence[str]) -> _Search:
-    word = call.keyword(_SELECTORS)
-    if word is None:
-        raise call.bad("what is sought in the field is not said", hint=" ".join(_SELECTORS))
-    limits = []
-    for _ in range({"MAXI": 0, "MINI": 0, "COMPRIS": 2}.get(word, 1)):
-        limits.append(call.required("FLOTTANT", after=call.keyword_end))
-    absolute, wanted = False, list(components)
-    while (option := call.keyword(("ABS", "AVEC", "SANS"))) is not None:
-        if option == "ABS":
-            absolute = True
-            continue
-        names = {str(n).rstrip() for n in call.required("LISTMOTS", after=call.keyword_end).values}
-        wanted = [n for n in wanted if (n in names) == (option == "AVEC")]
-    return _Search(word, limits, absolute, wanted)
+@poin.form(said("JONC"), _MESH)
+def junctions_of(session: Session, mesh: Mesh) -> Mesh:
+    """Points that join more than two cells."""
+    ids = junctions(mesh)
+    if len(ids) == 0:
+        raise MeshError("no point of the mesh joins more than two elements")
+    return poi1(workspace(session).nodes, ids)
 
 
-def _doubted_if_empty(call: Call, found: Mesh) -> Mesh:
-    """The points found; none raise the flag that SOUC reads."""
-    if not found.n_cells:
-        options = call.session.options
-        options["SOUC"] = max(int(options.get("SOUC", 0)), 1)
-    return found
+@poin.form(
+    select(
+        "near",
+        {"PROC": [arg("point", "POINT", en="point", fr="point")]},
+        optional=False,
+        en="the nearest to a point",
+        fr="le plus proche d'un point",
+    ),
+    _MESH,
+)
+def nearest(session: Session, near: Chosen, mesh: Mesh) -> Point:
+    """The point of a mesh that is nearest to another one."""
+    return Point(workspace(session).nodes, nearest_node(mesh, near["point"].coordinates))
 
 
-def _of_field(call: Call, field: NodeField) -> Mesh:
+@poin.form(
+    select(
+        "shape",
+        {w: points for w, points in SHAPES.items() if w not in ("CERC", "CONI", "TORI")},
+        optional=False,
+        en="points on a line or a surface",
+        fr="points d'une droite ou d'une surface",
+    ),
+    _MESH,
+    opt(
+        "distance",
+        "FLOTTANT",
+        en="how far off they may lie, a tenth of the density by default",
+        fr="écart admis, par défaut le dixième de la densité",
+        unit="m",
+    ),
+)
+def on_shape(session: Session, shape: Chosen, mesh: Mesh, distance: float | None) -> Mesh:
+    """The points of a mesh on a line or a surface."""
+    ws = workspace(session)
+    ids = mesh.node_ids
+    at = ws.nodes.coordinates[ids]
+    near = np.abs(shape_of(shape).distance(at)) <= tolerance_of(ws, distance, at)
+    if not near.any():
+        raise MeshError(f"no point of the mesh lies there ({shape.word})", "give a larger distance")
+    return poi1(ws.nodes, ids[near])
+
+
+@poin.form(
+    main("field", "CHPOINT", en="field at nodes", fr="champ par points"), EXTREMES, ABSOLUTE, NAMED
+)
+def of_field(
+    session: Session, field: NodeField, what: Chosen, absolute: bool, named: Named
+) -> Mesh:
     """Nodes where values are extreme or compare."""
-    search = _read_search(call, list(field.components))
-    parts = [field.components[n] for n in search.wanted]
+    parts = [field.components[n] for n in chosen_components(field.components, named)]
     if not parts:
-        return Mesh(field.table, ())
+        return _doubted_if_empty(session, Mesh(field.table, ()))
     nodes = np.concatenate([p.nodes for p in parts])
     values = np.concatenate([p.values for p in parts])
-    return poi1(field.table, _once(nodes[search.picks(values)]))
+    found = nodes[_fitting(values, what, absolute)]
+    return _doubted_if_empty(session, poi1(field.table, _once(found)))
 
 
-def _of_cell_field(call: Call, field: CellField) -> Mesh:
+@poin.form(
+    main("field", "MCHAML", en="field in cells", fr="champ par éléments"),
+    EXTREMES,
+    ABSOLUTE,
+    NAMED,
+)
+def of_cell_field(
+    session: Session, field: CellField, what: Chosen, absolute: bool, named: Named
+) -> Mesh:
     """Nodes, or new points at integration points, where values are extreme or compare."""
-    names = list(dict.fromkeys(n for b in field.blocks for n in b.components))
-    search = _read_search(call, names)
+    names = dict.fromkeys(n for b in field.blocks for n in b.components)
+    wanted = chosen_components(names, named)
     nodes = field.blocks[0].cells.nodes
     values, places, ids = [], [], []
     for block in field.blocks:
         x, numbers = _support_points(block)
-        for name in search.wanted:
+        for name in wanted:
             if name in block.components:
                 part = np.asarray(block.components[name], dtype=float)
                 values.append(np.broadcast_to(part, numbers.shape).ravel())
                 places.append(x.reshape(-1, 3))
                 ids.append(numbers.ravel())
     if not values:
-        return Mesh(nodes, ())
-    chosen = search.picks(np.concatenate(values))
+        return _doubted_if_empty(session, Mesh(nodes, ()))
+    chosen = _fitting(np.concatenate(values), what, absolute)
     numbers = np.concatenate(ids)[chosen]
     fresh = numbers < 0
     if fresh.any():
         at = np.concatenate(places)[chosen][fresh]  # in the order of the cells
         first = np.sort(np.unique(at, axis=0, return_index=True)[1])
-        return poi1(nodes, nodes.add(at[first], workspace(call.session).density))
-    return poi1(nodes, _once(numbers))
+        return poi1(nodes, nodes.add(at[first], workspace(session).density))
+    return _doubted_if_empty(session, poi1(nodes, _once(numbers)))
+
+
+@poin.form(
+    many("coordinates", "FLOTTANT", at_least=1, en="coordinates", fr="coordonnées", unit="m"),
+    key(
+        "density",
+        "DENS",
+        arg("density", "FLOTTANT", unit="m"),
+        en="mesh size there, that of OPTI DENS by default",
+        fr="taille de maille en ce point, par défaut celle d'OPTI DENS",
+    ),
+)
+def made(session: Session, coordinates: Sequence[float], density: float | None) -> Point:
+    """Make a point."""
+    ws = workspace(session)
+    size = ws.density if density is None else density
+    return Point(ws.nodes, int(ws.nodes.add(np.array([coordinates]), size)[0]))
+
+
+@poin.form(
+    many(
+        "lists",
+        "LISTREEL",
+        at_least=1,
+        en="first coordinates, second ones ...",
+        fr="premières coordonnées, deuxièmes ...",
+        unit="m",
+    ),
+    key(
+        "density",
+        "DENS",
+        arg("density", "FLOTTANT", "LISTREEL", unit="m"),
+        en="mesh size there, that of OPTI DENS by default",
+        fr="taille de maille en ces points, par défaut celle d'OPTI DENS",
+    ),
+)
+def made_of_lists(
+    session: Session, call: Call, lists: Sequence[ListReel], density: float | ListReel | None
+) -> Mesh:
+    """Make a mesh of points."""
+    ws = workspace(session)
+    if len({len(v) for v in lists}) > 1:
+        raise call.bad("the lists of coordinates have different lengths", lists[-1])
+    size = ws.density if density is None else density
+    table = np.column_stack([v.values for v in lists])
+    ids = ws.nodes.add(table, size.values if isinstance(size, ListReel) else size)
+    return poi1(ws.nodes, ids, ws.colour)
+
+
+def _doubted_if_empty(session: Session, found: Mesh) -> Mesh:
+    """The points found; none raise the flag that SOUC reads."""
+    if not found.n_cells:
+        options = session.options
+        options["SOUC"] = max(int(options.get("SOUC", 0)), 1)
+    return found
+
+
+def _fitting(values: FloatArray, what: Chosen, absolute: bool) -> NDArray[np.bool_]:
+    """Which values (n,) are sought."""
+    return picked(np.abs(values) if absolute else values, what.word, list(what.values.values()))
 
 
 def _support_points(block: CellFieldBlock) -> tuple[FloatArray, IntArray]:
@@ -269,72 +352,3 @@ def picked(values: FloatArray, word: str, limits: Sequence[float]) -> NDArray[np
 def _once(ids: IntArray) -> IntArray:
     first = np.sort(np.unique(ids, return_index=True)[1])
     return ids[first]
-
-
-@operator(
-    "NOEU",
-    arg("which", "ENTIER", "POINT"),
-    family="mesh",
-    full_name="NOEUD",
-    help=Help(
-        en="The point with a node number, or the node number of a point.",
-        fr="Le point d'un numéro de noeud, ou le numéro de noeud d'un point.",
-        syntax="POIN1 = NOEU N1 ; N1 = NOEU POIN1 ;",
-        examples=("OPTI DIME 2 ; P = 1. 0. ; Q = NOEU (NOEU P) ; LIST (COOR 1 Q) ;",),
-    ),
-)
-def noeu(session: Session, call: Call, which: Any) -> Any:
-    """Node number and point."""
-    ws = workspace(session)
-    if isinstance(which, Point):
-        return which.node + 1
-    if not 1 <= which <= len(ws.nodes):
-        raise call.bad(f"there is no node {which}, numbers go from 1 to {len(ws.nodes)}", which)
-    return Point(ws.nodes, which - 1)
-
-
-@operator(
-    "CONF",
-    arg("first", "POINT"),
-    arg("second", "POINT"),
-    family="mesh",
-    full_name="CONFONDRE",
-    help=Help(
-        en="Makes the first point the same node as the second, wherever it is.",
-        fr="Confond le premier point avec le second, où qu'il soit.",
-        syntax="CONF POIN1 POIN2 ;",
-        examples=("OPTI DIME 2 ; P = 1. 0. ; Q = 2. 0. ; CONF P Q ; LIST (COOR 1 P) ;",),
-    ),
-)
-def conf(first: Point, second: Point) -> None:
-    """Merge two points."""
-    if first.node != second.node:
-        first.nodes.merge(np.array([second.node]), np.array([first.node]))
-
-
-@operator(
-    "BARY",
-    arg("mesh", "MAILLAGE", "POINT"),
-    flag("each", "ELEM"),
-    family="mesh",
-    full_name="BARYCENTRE",
-    help=Help(
-        en="Mean position of a mesh's nodes, or with 'ELEM' of each cell's nodes.",
-        fr="Position moyenne des noeuds d'un maillage ou, avec 'ELEM', des noeuds de chaque "
-        "élément.",
-        syntax="POIN1 = BARY GEO1 ('ELEM') ;",
-        examples=("OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; LIST (COOR 1 (BARY L)) ;",),
-    ),
-)
-def bary(session: Session, mesh: Mesh | Point, each: bool) -> Any:
-    """Mean positions."""
-    ws = workspace(session)
-    if isinstance(mesh, Point):
-        return mesh
-    if not mesh.n_cells:
-        raise MeshError("the mesh is empty: it has no barycentre")
-    if each:
-        centres = np.concatenate([b.coordinates.mean(axis=1) for b in mesh.blocks])
-        return poi1(ws.nodes, ws.nodes.add(centres, ws.density), ws.colour)
-    centre = ws.nodes.coordinates[mesh.node_ids].mean(axis=0)
-    return Point(ws.nodes, int(ws.nodes.add(centre[None], ws.density)[0]))

@@ -1,9 +1,8 @@
-"""Surfaces inside contours and between lines: DALL, SURF, COUT; sides: COTE."""
+"""Surfaces inside contours: SURF DALL."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -22,10 +21,20 @@ from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.mesh.polynomial_surface import PolynomialSurface, mesh_polynomial_surface
 from ssilang.kernel.mesh.split import split_quadrangles
-from ssilang.kernel.mesh.stitch import cone, stitch
 from ssilang.kernel.mesh.surface import contour_chart_data, fill_surface
 from ssilang.language.call import Call
-from ssilang.language.registry import Help, arg, operator, opt
+from ssilang.language.registry import (
+    Chosen,
+    Help,
+    arg,
+    flag,
+    key,
+    many,
+    operator,
+    opt,
+    said,
+    select,
+)
 from ssilang.language.session import Session
 from ssilang.operators.mesh.lines.ends import chosen_family
 from ssilang.operators.workspace import workspace
@@ -45,83 +54,86 @@ _POLYNOMIAL_FR = (
 _POLYNOMIAL_SYNTAX = (
     "SURF1 = {} 'POLY' N1 N2 P1 P2 (P3 ...) P11 P12 (P13 ...) (...) ('PARA' U1 U2 V1 V2) ('REGU') ;"
 )
-_SHAPES = ("PLANE", "SPHERIQUE", "CYLINDRIQUE", "CONIQUE", "TORIQUE")
-# word -> number of points that follow, chart of the contour's positions and those points
-_CHARTS: dict[str, tuple[int, Callable[..., Chart]]] = {
-    "SPHERIQUE": (1, sphere_chart),
-    "CYLINDRIQUE": (2, cylinder_chart),
-    "CONIQUE": (2, cone_chart),
-    "TORIQUE": (3, torus_chart),
+_CENTRE = arg("centre", "POINT", en="centre", fr="centre")
+_APEX = arg("apex", "POINT", en="apex", fr="sommet")
+_FIRST = arg("first", "POINT", en="point of the axis", fr="point de l'axe")
+_AXIS = arg("axis", "POINT", en="other point of the axis", fr="autre point de l'axe")
+_CIRCLE = arg("circle", "POINT", en="centre of a small circle", fr="centre d'un petit cercle")
+_SHAPES = {
+    "PLANE": (),
+    "SPHERIQUE": (_CENTRE,),
+    "CYLINDRIQUE": (_FIRST, _AXIS),
+    "CONIQUE": (_APEX, _AXIS),
+    "TORIQUE": (_CENTRE, _AXIS, _CIRCLE),
+}
+_SHAPE_EN, _SHAPE_FR = "what the surface lies on", "ce sur quoi la surface s'appuie"
+# chart of the contour's positions and the points behind the word
+_CHARTS: dict[str, Callable[..., Chart]] = {
+    "SPHERIQUE": sphere_chart,
+    "CYLINDRIQUE": cylinder_chart,
+    "CONIQUE": cone_chart,
+    "TORIQUE": torus_chart,
 }
 
 
-def _polynomial(call: Call) -> Mesh:
-    """Behind 'POLYNOME': numbers of columns and rows, the points row by row, the limits."""
-    ws = workspace(call.session)
-    columns, rows = (int(call.required("ENTIER")) for _ in range(2))
-    if columns < 1 or rows < 1 or columns * rows < 2:
-        raise call.bad(f"{columns} columns and {rows} rows make no surface", columns)
-    points = [call.required("POINT") for _ in range(columns * rows)]
-    limits, regular = [0.0, 1.0, 0.0, 1.0], False
-    while (word := call.keyword(("PARAMETRE", "REGULIER"))) is not None:
-        regular = regular or word == "REGULIER"
-        if word == "PARAMETRE":
-            place = call.keyword_end
-            limits = [call.required("FLOTTANT", after=place) for _ in range(4)]
-    table = np.array([p.coordinates for p in points]).reshape(rows, columns, 3)
-    shape = PolynomialSurface(table, (limits[0], limits[1]), (limits[2], limits[3]))
-    surface = chosen_family(ws).need_surface()
-    return mesh_polynomial_surface(ws.nodes, shape, ws.density, surface, regular, ws.colour)
-
-
-def _curved_chart(call: Call, word: str, boundary: FloatArray) -> Chart:
-    count, make = _CHARTS[word]
-    place = call.keyword_end
-    points = [call.required("POINT", after=place).coordinates.copy() for _ in range(count)]
-    return make(boundary, *points)
+def _curved_chart(shape: Chosen, boundary: FloatArray) -> Chart:
+    points = [p.coordinates.copy() for p in shape.values.values()]
+    return _CHARTS[shape.word](boundary, *points)
 
 
 @operator(
     "SURF",
+    opt(
+        "sizes",
+        "CHPOINT",
+        en="mesh sizes to respect, one component",
+        fr="tailles de maille à respecter, une composante",
+        unit="m",
+    ),
+    arg("contour", "MAILLAGE", en="closed lines", fr="lignes fermées"),
+    select("shape", _SHAPES, en=_SHAPE_EN, fr=_SHAPE_FR),
+    opt(
+        "criterion",
+        "FLOTTANT",
+        en="how far the lines may leave their plane, a share of their extent, 1E-3 by default",
+        fr="écart des lignes à leur plan, rapporté à leur étendue, 1E-3 par défaut",
+    ),
     family="mesh",
     full_name="SURFACE",
     help=Help(
         en="Mesh inside closed lines (holes run the other way): in their plane (the default), on a "
         "sphere, cylinder, cone or torus. OPTI ELEM decides between triangles, quadrangles with "
         "some triangles, and (POLY) polygons with some triangles. A nodal "
-        "field of one component gives the mesh sizes to respect. " + _POLYNOMIAL_EN,
+        "field of one component gives the mesh sizes to respect.",
         fr="Maillage intérieur à des lignes fermées (les trous tournent en sens inverse) : dans "
         "leur plan (par défaut), sur une sphère, un cylindre, un cône ou un tore. OPTI ELEM "
         "choisit triangles, quadrangles avec quelques triangles, ou (POLY) polygones avec quelques "
         "triangles. Un champ par points à une "
-        "composante donne les tailles de maille à respecter. " + _POLYNOMIAL_FR,
+        "composante donne les tailles de maille à respecter.",
         syntax="SURF1 = SURF (CHPO1) LIG1 'PLANE' (CRIT) | 'SPHE' CENTR1 | 'CYLI' AXE1 AXE2 | "
-        "'CONI' SOMM1 AXE1 | 'TORI' CENTR1 AXE1 CENTR2 ;\n" + _POLYNOMIAL_SYNTAX.format("SURF"),
+        "'CONI' SOMM1 AXE1 | 'TORI' CENTR1 AXE1 CENTR2 ;",
         examples=(
             "OPTI DIME 2 ELEM TRI3 ; A = 0. 0. ; B = 1. 0. ; C = 0. 1. ;"
             " L = A DROI 5 B DROI 5 C DROI 5 A ; S = SURF L 'PLANE' ;",
         ),
     ),
-    reads_itself=True,
 )
-def surf(call: Call) -> Mesh:
+def surf(
+    session: Session,
+    sizes: NodeField | None,
+    contour: Mesh,
+    shape: Chosen | None,
+    criterion: float | None,
+) -> Mesh:
     """Mesh the inside of a contour."""
-    if call.keyword(("POLYNOME",)) is not None:
-        return _polynomial(call)
-    field: NodeField | None = call.optional("CHPOINT")
-    contour: Mesh | None = call.optional("MAILLAGE")
-    field = field or call.optional("CHPOINT")
-    word = call.keyword(_SHAPES)
-    contour = contour or call.required("MAILLAGE")
     boundary, segments = contour_chart_data(contour)
-    if word is None or word == "PLANE":
-        criterion = call.optional("FLOTTANT")
+    if shape is None or shape.word == "PLANE":
         chart = plane_chart(boundary, segments, 1e-3 if criterion is None else abs(criterion))
     else:
-        chart = _curved_chart(call, word, boundary)
-    ws = workspace(call.session)
+        chart = _curved_chart(shape, boundary)
+    ws = workspace(session)
     surface = chosen_family(ws).need_surface()
-    return fill_surface(contour, chart, surface, ws.colour, _wanted_sizes(field))
+    return fill_surface(contour, chart, surface, ws.colour, _wanted_sizes(sizes))
 
 
 def _wanted_sizes(field: NodeField | None) -> tuple[FloatArray, FloatArray] | None:
@@ -133,40 +145,39 @@ def _wanted_sizes(field: NodeField | None) -> tuple[FloatArray, FloatArray] | No
 
 @operator(
     "DALL",
+    arg("side1", "MAILLAGE", en="first side", fr="premier côté"),
+    arg("side2", "MAILLAGE", en="second side", fr="deuxième côté"),
+    arg("side3", "MAILLAGE", en="third side", fr="troisième côté"),
+    arg("side4", "MAILLAGE", en="fourth side", fr="quatrième côté"),
+    select("shape", {**_SHAPES, "QUELCONQUE": ()}, en=_SHAPE_EN, fr=_SHAPE_FR),
     family="mesh",
     full_name="DALLER",
     help=Help(
         en="Surface on four lines that form a contour: a grid when opposite sides have the same "
         "number of cells. 'PLAN', 'SPHE', 'CYLI', 'CONI', 'TORI' say on what it lies; 'QUEL' "
-        "interpolates between the sides. Cells turn as the contour does. COTE gives the sides. "
-        + _POLYNOMIAL_EN,
+        "interpolates between the sides. Cells turn as the contour does. COTE gives the sides. ",
         fr="Surface sur quatre lignes formant un contour : une grille si les côtés opposés ont le "
         "même nombre d'éléments. 'PLAN', 'SPHE', 'CYLI', 'CONI', 'TORI' disent sur quoi elle "
-        "s'appuie ; 'QUEL' interpole entre les côtés. COTE rend les côtés. " + _POLYNOMIAL_FR,
+        "s'appuie ; 'QUEL' interpole entre les côtés. COTE rend les côtés.",
         syntax="SURF1 = DALL COTE1 COTE2 COTE3 COTE4 'PLAN' | 'SPHE' CENTR1 | 'CYLI' POIN1 POIN2 | "
-        "'CONI' POIN1 POIN2 | 'TORI' CENTR1 POIN1 CENTR2 | 'QUELCONQUE' ;\n"
-        + _POLYNOMIAL_SYNTAX.format("DALL"),
+        "'CONI' POIN1 POIN2 | 'TORI' CENTR1 POIN1 CENTR2 | 'QUELCONQUE' ;",
         examples=(
             "OPTI DIME 2 ELEM QUA4 ; A = 0. 0. ; B = 1. 0. ; C = 1. 1. ; D0 = 0. 1. ;"
             " S = DALL (DROI 3 A B) (DROI 2 B C) (DROI 3 C D0) (DROI 2 D0 A) 'PLAN' ;"
             " LIST (NBEL S) ;",
         ),
     ),
-    reads_itself=True,
 )
-def dall(call: Call) -> Mesh:
+def dall(
+    session: Session, side1: Mesh, side2: Mesh, side3: Mesh, side4: Mesh, shape: Chosen | None
+) -> Mesh:
     """Make a grid on four sides."""
-    if call.keyword(("POLYNOME",)) is not None:
-        return _polynomial(call)
-    ws = workspace(call.session)
-    sides: list[Mesh] = call.all("MAILLAGE")
-    word = call.keyword((*_SHAPES, "QUELCONQUE"))
-    sides += [call.required("MAILLAGE") for _ in range(4 - len(sides))]
-    ordered = sides_in_order(sides)
+    ws = workspace(session)
+    ordered = sides_in_order([side1, side2, side3, side4])
     chart = None
-    if word in _CHARTS:
+    if shape is not None and shape.word in _CHARTS:
         boundary, _ = contour_chart_data(union(*ordered, as_given=True))
-        chart = _curved_chart(call, word, boundary)
+        chart = _curved_chart(shape, boundary)
     surface = chosen_family(ws).need_surface()
     if matching_sides(ordered):
         made = grid_surface(ordered, chart, ws.colour)
@@ -178,82 +189,57 @@ def dall(call: Call) -> Mesh:
     return Mesh(made.nodes, made.blocks, ordered)
 
 
-@operator(
-    "COUT",
-    arg("first", "MAILLAGE"),
-    arg("second", "MAILLAGE", "POINT"),
-    family="mesh",
-    full_name="COUTURE",
-    help=Help(
-        en="Triangles between two lines described in the same sense, whatever their numbers of "
-        "cells; or the cells of a mesh joined to a point (POI1 give SEG2, SEG2 TRI3, TRI3 TET4, "
-        "QUA4 PYR5), those that hold the point being left out.",
-        fr="Triangles entre deux lignes décrites dans le même sens, quels que soient leurs nombres "
-        "d'éléments ; ou éléments d'un maillage joints à un point (POI1 donnent SEG2, SEG2 TRI3, "
-        "TRI3 TET4, QUA4 PYR5), sauf ceux qui touchent le point.",
-        syntax="SURF1 = COUT LIG1 LIG2 ;\nMAIL2 = COUT MAIL1 POIN1 ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; M = DROI 2 (0. 1.) (1. 1.) ;"
-            " LIST (NBEL (COUT L M)) ;",
-        ),
+_POLYNOMIAL = (
+    said("POLYNOME"),
+    arg("columns", "ENTIER", en="number of columns of points", fr="nombre de colonnes de points"),
+    arg("rows", "ENTIER", en="number of rows of points", fr="nombre de lignes de points"),
+    many("points", "POINT", en="P1 P2 P3 ..., row by row", fr="P1 P2 P3 ..., ligne par ligne"),
+    key(
+        "limits",
+        "PARAMETRE",
+        arg("u1", "FLOTTANT"),
+        arg("u2", "FLOTTANT"),
+        arg("v1", "FLOTTANT"),
+        arg("v2", "FLOTTANT"),
+        default=(0.0, 1.0, 0.0, 1.0),
+        en="where U and V begin and end",
+        fr="bornes de U et de V",
+    ),
+    flag(
+        "regular",
+        "REGULIER",
+        en="nodes even along the sides",
+        fr="noeuds réguliers le long des côtés",
     ),
 )
-def cout(session: Session, first: Mesh, second: Mesh | Point) -> Mesh:
-    """Stitch lines together, or join cells to a point."""
-    if isinstance(second, Point):
-        return cone(first, second.node)
-    return stitch(first, second, workspace(session).colour)
 
 
-@operator(
-    "COTE",
-    opt("number", "ENTIER"),
-    arg("mesh", "MAILLAGE"),
-    family="mesh",
-    help=Help(
-        en="Side of a surface kept from its making: 1 initial, 2 right, 3 final, 4 left; all of "
-        "them without a number. They run round the surface in the sense of side 1.",
-        fr="Côté d'une surface gardé de sa construction : 1 initial, 2 droit, 3 final, 4 gauche ; "
-        "tous sans numéro. Ils tournent autour de la surface dans le sens du côté 1.",
-        syntax="GEO1 = COTE (I1) GEO2 ;",
-        examples=(
-            "OPTI DIME 2 ELEM QUA4 ; L = DROI 4 (0. 0.) (1. 0.) ; S = L TRAN 3 (0. 1.) ;"
-            " LIST (NBEL (COTE 2 S)) ;",
-        ),
-    ),
+@dall.form(
+    *_POLYNOMIAL, syntax=_POLYNOMIAL_SYNTAX.format("DALL"), en=_POLYNOMIAL_EN, fr=_POLYNOMIAL_FR
 )
-def cote(call: Call, number: int | None, mesh: Mesh) -> Any:
-    """Give back sides."""
-    return _reference(call, number, mesh, "side")
-
-
-@operator(
-    "FACE",
-    opt("number", "ENTIER"),
-    arg("mesh", "MAILLAGE"),
-    family="mesh",
-    help=Help(
-        en="Face of a volume kept from its making: 1 start, 2 end, 3 around; all of them without a "
-        "number.",
-        fr="Face d'un volume gardée de sa construction : 1 initiale, 2 finale, 3 latérale ; toutes "
-        "sans numéro.",
-        syntax="GEO1 = FACE (N1) GEO2 ;",
-        examples=(
-            "OPTI DIME 3 ELEM CUB8 ; L = DROI 2 (0. 0. 0.) (1. 0. 0.) ; S = L TRAN 2 (0. 1. 0.) ;"
-            " V = S VOLU 2 'TRAN' (0. 0. 1.) ; LIST (NBEL (FACE 3 V)) ;",
-        ),
-    ),
+@surf.form(
+    *_POLYNOMIAL, syntax=_POLYNOMIAL_SYNTAX.format("SURF"), en=_POLYNOMIAL_EN, fr=_POLYNOMIAL_FR
 )
-def face(call: Call, number: int | None, mesh: Mesh) -> Any:
-    """Give back faces."""
-    return _reference(call, number, mesh, "face")
-
-
-def _reference(call: Call, number: int | None, mesh: Mesh, word: str) -> Any:
-    if not mesh.sides:
-        raise call.bad(f"this mesh keeps no {word}", mesh, hint="pick its cells with ELEM")
-    if number is None:
-        return mesh.sides if len(mesh.sides) > 1 else mesh.sides[0]
-    if not 1 <= number <= len(mesh.sides):
-        raise call.bad(f"{word} {number} is asked of a mesh that has {len(mesh.sides)}", number)
-    return mesh.sides[number - 1]
+def polynomial_surface(
+    call: Call,
+    columns: int,
+    rows: int,
+    points: Sequence[Point],
+    limits: tuple[float, float, float, float],
+    regular: bool,
+) -> Mesh:
+    """The surface of a polynomial in U and V."""
+    ws = workspace(call.session)
+    if columns < 1 or rows < 1 or columns * rows < 2:
+        raise call.bad(f"{columns} columns and {rows} rows make no surface", columns)
+    if len(points) < columns * rows:
+        raise call.missing(("POINT",))
+    if len(points) > columns * rows:
+        raise call.bad(
+            f"{columns} columns and {rows} rows are {columns * rows} points, not {len(points)}",
+            points[-1],
+        )
+    table = np.array([p.coordinates for p in points]).reshape(rows, columns, 3)
+    shape = PolynomialSurface(table, limits[:2], limits[2:])
+    surface = chosen_family(ws).need_surface()
+    return mesh_polynomial_surface(ws.nodes, shape, ws.density, surface, regular, ws.colour)

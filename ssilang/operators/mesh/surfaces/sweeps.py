@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -23,13 +23,18 @@ from ssilang.kernel.mesh.sweep import (
     translation,
 )
 from ssilang.language.call import Call
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import Help, arg, operator, opt
+from ssilang.language.session import Session
 from ssilang.operators.mesh.lines.ends import (
+    ANGLE,
+    AXIS,
+    SIZES,
     Cuts,
+    Sizes,
+    axis_of,
     chosen_family,
-    count_and_number,
-    read_count,
-    read_sizes,
+    count_and_angle,
+    cuts_of,
 )
 from ssilang.operators.workspace import workspace
 
@@ -42,6 +47,20 @@ _LAYERS_FR = (
     "N1 > 0 : N1 couches égales ; N1 < 0 : N1 couches gradées selon les densités ; sans N1 les "
     "densités décident ; DINI et DFIN les remplacent. Si le premier maillage est une surface, son "
     "côté 3 est balayé et le résultat est la surface augmentée. COTE rend les côtés."
+)
+
+
+LAYERS = opt(
+    "count",
+    "ENTIER",
+    en="number of layers, graded by the mesh sizes if negative; without it these decide",
+    fr="nombre de couches, graduées selon les densités s'il est négatif ; sans lui elles décident",
+)
+_SWEPT = arg(
+    "swept",
+    "MAILLAGE",
+    en="line, or surface whose side 3 is swept",
+    fr="ligne, ou surface dont le côté 3 est balayé",
 )
 
 
@@ -81,6 +100,10 @@ def _swept(
 
 @operator(
     "TRAN",
+    _SWEPT,
+    LAYERS,
+    SIZES,
+    arg("vector", "POINT", en="vector", fr="vecteur", unit="m"),
     family="mesh",
     full_name="TRANSLATION",
     help=Help(
@@ -92,26 +115,21 @@ def _swept(
             " LIST (NBEL S) ;",
         ),
     ),
-    reads_itself=True,
 )
-def tran(call: Call) -> Mesh:
+def tran(call: Call, swept: Mesh, count: int | None, sizes: Sizes, vector: Point) -> Mesh:
     """Sweep a line along a vector."""
-    cuts = Cuts()
-    mesh = call.required("MAILLAGE")
-    read_count(call, cuts)
-    read_sizes(call, cuts)
-    if not cuts.count:
-        read_count(call, cuts)
-    vector: Point = call.required("POINT")
-    if not cuts.count:
-        read_count(call, cuts)
-    read_sizes(call, cuts)
     shift = vector.coordinates.copy()
-    return _swept(call, mesh, lambda line: translation(shift), vector.density, cuts)
+    cuts = cuts_of(call, count, sizes)
+    return _swept(call, swept, lambda line: translation(shift), vector.density, cuts)
 
 
 @operator(
     "ROTA",
+    _SWEPT,
+    LAYERS,
+    ANGLE,
+    SIZES,
+    AXIS,
     family="mesh",
     full_name="ROTATION",
     help=Help(
@@ -124,37 +142,41 @@ def tran(call: Call) -> Mesh:
             "OPTI DIME 2 ELEM QUA4 ; L = DROI 2 (1. 0.) (2. 0.) ; S = L ROTA 8 90. (0. 0.) ;",
         ),
     ),
-    reads_itself=True,
 )
-def rota(call: Call) -> Mesh:
+def rota(
+    call: Call,
+    swept: Mesh,
+    count: int | None,
+    angle: float | None,
+    sizes: Sizes,
+    axis: Sequence[Point],
+) -> Mesh:
     """Sweep a line about a centre or an axis."""
-    cuts = Cuts()
-    mesh = call.required("MAILLAGE")
-    read_sizes(call, cuts)
-    cuts.count, angle = count_and_number(call)
-    if angle is None:
-        raise call.missing(("FLOTTANT",))
-    turn, size = read_rotation(call, angle, cuts)
-    return _swept(call, mesh, turn, size, cuts)
+    count, degrees = count_and_angle(call, count, angle)
+    turn, size = turning(call, degrees, axis)
+    return _swept(call, swept, turn, size, cuts_of(call, count, sizes))
 
 
-def read_rotation(call: Call, angle: float, cuts: Cuts) -> tuple[Callable[[Mesh], Path], float]:
-    """Consume the centre or the axis; the rotation and the mesh size at its end."""
-    read_sizes(call, cuts)
-    centre: Point = call.required("POINT")
-    origin = centre.coordinates.copy()
-    axis = np.array([0.0, 0.0, 1.0])
-    size = centre.density
-    if workspace(call.session).dimension == 3:
-        second: Point = call.required("POINT")
-        axis = second.coordinates - origin
-        size = 0.5 * (size + second.density)
-    read_sizes(call, cuts)
-    return (lambda mesh: rotation(mesh, angle, origin, axis)), size
+def turning(
+    call: Call, degrees: float, axis: Sequence[Point]
+) -> tuple[Callable[[Mesh], Path], float]:
+    """The rotation about what `AXIS` has read, and the mesh size at its end."""
+    origin, direction = axis_of(call, axis)
+    size = sum(p.density for p in axis) / len(axis)
+    return (lambda mesh: rotation(mesh, degrees, origin, direction)), size
 
 
 @operator(
     "REGL",
+    _SWEPT,
+    LAYERS,
+    SIZES,
+    arg(
+        "goal",
+        "MAILLAGE",
+        en="line to reach, or surface whose side 1 is reached",
+        fr="ligne à atteindre, ou surface dont le côté 1 est atteint",
+    ),
     family="mesh",
     full_name="REGLER",
     help=Help(
@@ -170,32 +192,24 @@ def read_rotation(call: Call, angle: float, cuts: Cuts) -> tuple[Callable[[Mesh]
             " S = L REGL 3 M ;",
         ),
     ),
-    reads_itself=True,
 )
-def regl(call: Call) -> Mesh:
+def regl(call: Call, swept: Mesh, count: int | None, sizes: Sizes, goal: Mesh) -> Mesh:
     """Sweep a line to another one."""
-    cuts = Cuts()
-    first = call.required("MAILLAGE")
-    read_count(call, cuts)
-    read_sizes(call, cuts)
-    second = call.required("MAILLAGE")
-    if not cuts.count:
-        read_count(call, cuts)
-    read_sizes(call, cuts)
-    goal = second
-    if second.dimension > 1:
-        if not second.sides:
-            raise call.bad("this surface has no side 1 to reach", second)
-        goal = second.sides[0]
-    made = _swept(call, first, lambda line: ruling(line, goal), mean_density(goal), cuts)
-    if goal is second:
+    reached = goal
+    if goal.dimension > 1:
+        if not goal.sides:
+            raise call.bad("this surface has no side 1 to reach", goal)
+        reached = goal.sides[0]
+    cuts = cuts_of(call, count, sizes)
+    made = _swept(call, swept, lambda line: ruling(line, reached), mean_density(reached), cuts)
+    if reached is goal:
         return made
-    whole = union(made, second, as_given=True)
-    if len(second.sides) < 4:
+    whole = union(made, goal, as_given=True)
+    if len(goal.sides) < 4:
         return whole
-    right = union(made.sides[1], second.sides[1], as_given=True)
-    left = union(second.sides[3], made.sides[3], as_given=True)
-    return Mesh(whole.nodes, whole.blocks, (made.sides[0], right, second.sides[2], left))
+    right = union(made.sides[1], goal.sides[1], as_given=True)
+    left = union(goal.sides[3], made.sides[3], as_given=True)
+    return Mesh(whole.nodes, whole.blocks, (made.sides[0], right, goal.sides[2], left))
 
 
 def generator_path(generator: Mesh) -> tuple[Path, Subdivision]:
@@ -219,6 +233,8 @@ def generator_path(generator: Mesh) -> tuple[Path, Subdivision]:
 
 @operator(
     "GENE",
+    arg("line", "MAILLAGE", en="line that is swept", fr="ligne balayée"),
+    arg("way", "MAILLAGE", en="line along which it goes", fr="ligne qu'elle suit"),
     family="mesh",
     full_name="GENERATRICE",
     help=Help(
@@ -232,11 +248,9 @@ def generator_path(generator: Mesh) -> tuple[Path, Subdivision]:
             " M = QUEL SEG2 (0. 0.) (0. 1.) (1. 2.) ; S = L GENE M ;",
         ),
     ),
-    reads_itself=True,
 )
-def gene(call: Call) -> Mesh:
+def gene(session: Session, line: Mesh, way: Mesh) -> Mesh:
     """Sweep a line along another line."""
-    line = call.required("MAILLAGE")
-    path, layers = generator_path(call.required("MAILLAGE"))
-    surface = chosen_family(workspace(call.session)).need_surface()
+    path, layers = generator_path(way)
+    surface = chosen_family(workspace(session)).need_surface()
     return sweep_line(line, path, layers, surface)
