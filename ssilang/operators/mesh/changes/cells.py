@@ -1,29 +1,25 @@
-"""Meshes made of other cells, by hand, or coloured: CHAN, MANU, COUL on meshes; REGE, DEDO."""
+"""Meshes of other cells, or given node by node: CHAN MANU."""
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Sequence
 
 import numpy as np
 
 from ssilang.io.plots.palette import NAMES as COLOURS
-from ssilang.io.plots.palette import index_of
 from ssilang.kernel.errors import MeshError
 from ssilang.kernel.mesh.boundary import edges, faces
 from ssilang.kernel.mesh.cells import CELL_TYPES
-from ssilang.kernel.mesh.combine import poi1, recolour, union
+from ssilang.kernel.mesh.combine import poi1, union
 from ssilang.kernel.mesh.complete import COMPLETE, complete, taken_apart
-from ssilang.kernel.mesh.cut_open import cut_open
 from ssilang.kernel.mesh.degree import LINEAR, linear, quadratic
-from ssilang.kernel.mesh.merge import regenerate, repeated_nodes
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
 from ssilang.kernel.mesh.nodes import IntArray
 from ssilang.kernel.mesh.split import split_quadrangles, tetrahedra
-from ssilang.language.call import Call
-from ssilang.language.registry import Help, arg, flag, operator
+from ssilang.language.registry import arg, choice, main, many, opt, said
 from ssilang.language.session import Session
 from ssilang.language.values import ListEnti
-from ssilang.operators.dispatch import CHAN, COUL, MANU
+from ssilang.operators.dispatch import CHAN, MANU
 from ssilang.operators.workspace import workspace
 
 _SIMPLEX = {"TRI3": "QUA4", "TRI6": "QUA8"}
@@ -89,8 +85,18 @@ def _by_hand(mesh: Mesh, target: str, order: IntArray) -> Mesh:
     return Mesh.of(mesh.nodes, target, ids[order - 1].reshape(-1, size))
 
 
-@CHAN.on(
-    *CELL_TYPES,
+_NUMBERS = opt(
+    "numbers",
+    "LISTENTI",
+    en="numbers of the points of each cell, in a mesh of points",
+    fr="numéros des points de chaque élément, dans un maillage de points",
+)
+
+
+@CHAN.form(
+    said(*CELL_TYPES),
+    arg("mesh", "MAILLAGE", en="mesh", fr="maillage"),
+    _NUMBERS,
     syntax="GEO2 = CHAN (TYPE) GEO1 (LENTI1) ;",
     en="A cell type: the mesh made of such cells (the type of OPTI ELEM when none is said). From "
     "points, a list of numbers gives the connectivity.",
@@ -101,20 +107,17 @@ def _by_hand(mesh: Mesh, target: str, order: IntArray) -> Mesh:
         " LIST (NBEL (CHAN 'POI1' S)) ; LIST (NBEL (CHAN 'TRI3' S)) ;",
     ),
 )
-def change_type(call: Call, word: str) -> Mesh:
+def change_type(word: str, mesh: Mesh, numbers: ListEnti | None) -> Mesh:
     """Mesh of another cell type."""
-    mesh: Mesh = call.required("MAILLAGE")
-    numbers: ListEnti | None = call.optional("LISTENTI")
     return changed(mesh, word) if numbers is None else _by_hand(mesh, word, numbers.values)
 
 
-@CHAN.on_type("MAILLAGE")
-def change_to_current(call: Call, mesh: Mesh) -> Mesh:
+@CHAN.form(main("mesh", "MAILLAGE", en="mesh", fr="maillage"), _NUMBERS)
+def change_to_current(session: Session, mesh: Mesh, numbers: ListEnti | None) -> Mesh:
     """Mesh of the cell type of OPTI ELEM."""
-    target = workspace(call.session).element
+    target = workspace(session).element
     if not target:
         raise MeshError("no element type is chosen yet", "set it: OPTI ELEM, or name the type")
-    numbers: ListEnti | None = call.optional("LISTENTI")
     return changed(mesh, target) if numbers is None else _by_hand(mesh, target, numbers.values)
 
 
@@ -127,8 +130,9 @@ _WHOLE = {
 }
 
 
-@CHAN.on(
-    *_WHOLE,
+@CHAN.form(
+    said(*_WHOLE),
+    arg("mesh", "MAILLAGE", en="mesh", fr="maillage"),
     syntax="GEO2 = CHAN 'LIGNE'|'SURFACE'|'LINEAIRE'|'QUADRATIQUE'|'QUAF' GEO1 ;",
     en="'LIGN': all edges of the cells, each once; 'SURF': all faces; 'LINE', 'QUAD': linear or "
     "quadratic cells in place of the others; 'QUAF': complete ones, with nodes in the middle of "
@@ -143,99 +147,38 @@ _WHOLE = {
         " LIST (NBNO (CHAN 'QUAD' S)) ; LIST (NBEL (CHAN 'LIGN' S)) ;",
     ),
 )
-def change_whole(call: Call, word: str) -> Mesh:
+def change_whole(word: str, mesh: Mesh) -> Mesh:
     """Edges, faces, linear or quadratic cells."""
-    return _WHOLE[word](call.required("MAILLAGE"))
+    return _WHOLE[word](mesh)
 
 
-@MANU.on(
-    *CELL_TYPES,
+@MANU.form(
+    said(*CELL_TYPES),
+    many(
+        "given",
+        "POINT",
+        "MAILLAGE",
+        at_least=1,
+        en="points, cell after cell",
+        fr="points, élément après élément",
+    ),
+    choice(
+        "colour",
+        COLOURS,
+        en="colour, that of OPTI COUL by default",
+        fr="couleur, par défaut celle d'OPTI COUL",
+    ),
     syntax="GEO1 = MANU TYPE POIN1 POIN2 ...|GEO2 (COUL1) ;",
     en="A cell type: cells of that type on points, or on the points of a mesh.",
     fr="Un type d'élément : éléments de ce type sur des points, ou sur ceux d'un maillage.",
     examples=("OPTI DIME 2 ; T = MANU 'TRI3' (0. 0.) (1. 0.) (0. 1.) ROUG ; LIST (MESU T) ;",),
 )
-def by_hand(call: Call, word: str) -> Mesh:
+def by_hand(session: Session, word: str, given: Sequence[Point | Mesh], colour: str | None) -> Mesh:
     """Cells given node by node."""
-    ws = workspace(call.session)
-    colour = call.keyword(COLOURS)
-    given: list[Any] = call.all("POINT", "MAILLAGE")
-    colour = colour or call.keyword(COLOURS)
-    given += call.all("POINT", "MAILLAGE")
-    if not given:
-        raise call.missing(("POINT", "MAILLAGE"))
+    ws = workspace(session)
     ids = np.concatenate([[g.node] if isinstance(g, Point) else g.node_ids for g in given])
     size = CELL_TYPES[word].n_nodes
     if len(ids) % size:
         raise MeshError(f"a cell {word} needs {size} points, {len(ids)} are given")
     shade = ws.colour if colour is None else COLOURS.index(colour)
     return Mesh.of(ws.nodes, word, ids.astype(np.int64).reshape(-1, size), shade)
-
-
-@COUL.on(
-    "MAILLAGE",
-    syntax="OBJ2 = OBJ1 COUL (MOT1|ENT1) ;",
-    en="Of a mesh: the same cells in another colour, by name or number (that of OPTI COUL when "
-    "none is said).",
-    fr="D'un maillage : les mêmes éléments dans une autre couleur, par nom ou numéro (celle "
-    "d'OPTI COUL par défaut).",
-    examples=("OPTI DIME 2 ELEM SEG2 ; L = (DROI 2 (0. 0.) (1. 0.)) COUL ROUG ;",),
-)
-def coloured(call: Call, mesh: Mesh) -> Mesh:
-    """Mesh in another colour."""
-    number = call.optional("ENTIER")
-    if number is not None:
-        return recolour(mesh, min(max(number - 1, 0), len(COLOURS) - 1))
-    word = call.word()
-    return recolour(mesh, workspace(call.session).colour if word is None else index_of(word))
-
-
-@operator(
-    "REGE",
-    arg("mesh", "MAILLAGE"),
-    flag("check", "VERI"),
-    family="mesh",
-    full_name="REGENERER",
-    help=Help(
-        en="Cells in which nodes coincide after ELIM replaced by simpler ones: QUA4 by TRI3, CUB8 "
-        "by PRI6 ... 'VERI' warns when some are left.",
-        fr="Eléments dont des noeuds sont confondus après ELIM remplacés par de plus simples : "
-        "QUA4 par TRI3, CUB8 par PRI6 ... 'VERI' avertit s'il en reste.",
-        syntax="GEO1 = REGE GEO2 ('VERI') ;",
-        examples=(
-            "OPTI DIME 2 ELEM QUA4 ; S = (DROI 2 (0. 0.) (1. 0.)) ROTA 4 90. (1E-4 0.) ;"
-            " ELIM S 0.01 ; T = REGE S ; LIST (NBEL (T ELEM TRI3)) ;",
-        ),
-    ),
-)
-def rege(session: Session, mesh: Mesh, check: bool) -> Mesh:
-    """Replace degenerate cells."""
-    made = regenerate(mesh)
-    left = repeated_nodes(made) if check else 0
-    if left:
-        session.print(f"REGENERER : {left} element(s) ont encore un noeud double")
-    return made
-
-
-@operator(
-    "DEDO",
-    arg("surface", "MAILLAGE"),
-    arg("line", "MAILLAGE"),
-    family="mesh",
-    full_name="DEDOUBLER",
-    help=Help(
-        en="Opens a surface along a line of its edges: the nodes of the line are doubled, except a "
-        "tip inside the surface. Gives the new surface and the line on the new nodes.",
-        fr="Ouvre une surface le long d'une ligne de ses arêtes : les noeuds de la ligne sont "
-        "dédoublés, sauf une pointe intérieure. Rend la nouvelle surface et la ligne sur les "
-        "nouveaux noeuds.",
-        syntax="GEO3 GEO4 = DEDO GEO1 GEO2 ;",
-        examples=(
-            "OPTI DIME 2 ELEM QUA4 ; L = DROI 2 (0. 0.) (1. 0.) ;"
-            " S = (L TRAN 1 (0. 1.)) ET (L TRAN 1 (0. -1.)) ; T M = DEDO S L ; LIST (NBNO T) ;",
-        ),
-    ),
-)
-def dedo(surface: Mesh, line: Mesh) -> tuple[Mesh, Mesh]:
-    """Double the nodes of a line."""
-    return cut_open(surface, line)

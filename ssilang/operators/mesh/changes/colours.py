@@ -1,4 +1,4 @@
-"""AFCO: a mesh whose colours tell the types of its cells."""
+"""Colours of meshes: COUL AFCO."""
 
 from __future__ import annotations
 
@@ -6,9 +6,14 @@ from dataclasses import replace
 
 import numpy as np
 
+from ssilang.io.plots.palette import NAMES as COLOURS
 from ssilang.io.plots.palette import index_of
+from ssilang.kernel.mesh.combine import recolour
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.language.registry import Help, arg, operator
+from ssilang.language.registry import Chosen, Help, arg, either, group, main, operator
+from ssilang.language.session import Session
+from ssilang.operators.dispatch import COUL
+from ssilang.operators.workspace import workspace
 
 # other cells are white
 _COLOURS = {
@@ -20,7 +25,7 @@ _COLOUR_OF = {cell: colour for colour, cells in _COLOURS.items() for cell in cel
 
 @operator(
     "AFCO",
-    arg("mesh", "MAILLAGE"),
+    arg("mesh", "MAILLAGE", en="mesh", fr="maillage"),
     family="mesh",
     help=Help(
         en="The same mesh, coloured by type of cell: blue the linear SEG2 TRI3 CUB8 TET4, red QUA4 "
@@ -44,3 +49,29 @@ def afco(mesh: Mesh) -> Mesh:
         for b, shade in zip(mesh.blocks, shades, strict=True)
     )
     return replace(mesh, blocks=blocks)
+
+
+@COUL.form(
+    main("mesh", "MAILLAGE", en="mesh", fr="maillage"),
+    either(
+        "colour",
+        group("number", arg("number", "ENTIER", en="its number", fr="son numéro")),
+        group("name", arg("name", "MOT", en="its name", fr="son nom", kind="colour")),
+        optional=True,
+        en="colour, that of OPTI COUL by default",
+        fr="couleur, par défaut celle d'OPTI COUL",
+    ),
+    syntax="OBJ2 = OBJ1 COUL (MOT1|ENT1) ;",
+    en="Of a mesh: the same cells in another colour, by name or number (that of OPTI COUL when "
+    "none is said).",
+    fr="D'un maillage : les mêmes éléments dans une autre couleur, par nom ou numéro (celle "
+    "d'OPTI COUL par défaut).",
+    examples=("OPTI DIME 2 ELEM SEG2 ; L = (DROI 2 (0. 0.) (1. 0.)) COUL ROUG ;",),
+)
+def coloured(session: Session, mesh: Mesh, colour: Chosen | None) -> Mesh:
+    """Mesh in another colour."""
+    if colour is None:
+        return recolour(mesh, workspace(session).colour)
+    if colour.word == "number":
+        return recolour(mesh, min(max(colour["number"] - 1, 0), len(COLOURS) - 1))
+    return recolour(mesh, index_of(colour["name"]))

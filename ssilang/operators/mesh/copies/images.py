@@ -26,7 +26,7 @@ from ssilang.kernel.mesh.transform import (
 )
 from ssilang.kernel.model import Mode, Model
 from ssilang.language.call import Call
-from ssilang.language.registry import Argument, Chosen, Help, Like, When, arg, many, operator, said
+from ssilang.language.registry import Argument, Chosen, Help, Like, arg, many, operator, said
 from ssilang.language.session import Session
 from ssilang.language.values import Table
 from ssilang.operators.fields.turned import turned_cell_field, turned_node_field
@@ -43,10 +43,9 @@ from ssilang.operators.mesh.copies.maps import (
     rotation_matrix,
 )
 from ssilang.operators.mesh.copies.moves import displacements
+from ssilang.operators.mesh.dimensions import IN_PLANE, IN_SPACE
 from ssilang.operators.workspace import Workspace, workspace
 
-IN_PLANE = When(lambda s: workspace(s).dimension < 3, "in the plane", "dans le plan")
-IN_SPACE = When(lambda s: workspace(s).dimension == 3, "in space", "en dimension 3")
 GEOMETRIC = ("POINT", "MAILLAGE", "CHPOINT", "MCHAML", "MMODEL", "TABLE")
 
 

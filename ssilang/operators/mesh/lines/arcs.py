@@ -187,8 +187,8 @@ def parc(
     different_nodes(ws.nodes, ends.start, ends.end)
     a, b = positions(ws, ends.start, ends.end)
     arc = arc_about_centre(a, centre.coordinates.copy(), b)
-    sizes = cuts.sizes(end_sizes(ws.nodes, ends.start, ends.end))
-    pieces = subdivide(arc.length, *sizes, cuts.count)
+    tips = cuts.sizes(end_sizes(ws.nodes, ends.start, ends.end))
+    pieces = subdivide(arc.length, *tips, cuts.count)
     middles = ParabolicArc(arc, pieces.fractions).middles()
     inner = pieces.fractions[1:-1]
     corners = ws.nodes.add(arc(inner), pieces.density(inner)) if len(inner) else inner.astype(int)

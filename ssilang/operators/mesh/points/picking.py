@@ -33,7 +33,8 @@ from ssilang.language.registry import (
 from ssilang.language.session import Session
 from ssilang.language.values import ListMots, ListReel
 from ssilang.operators.mesh.copies.maps import SHAPES, shape_of
-from ssilang.operators.workspace import Workspace, workspace
+from ssilang.operators.mesh.tolerance import DISTANCE, tolerance_of
+from ssilang.operators.workspace import workspace
 
 _COMPARISONS: dict[str, Callable[[FloatArray, float], NDArray[np.bool_]]] = {
     "SUPERIEUR": np.greater,
@@ -78,15 +79,6 @@ def chosen_components(names: Iterable[str], named: Named) -> list[str]:
         said = {str(n).rstrip() for n in listed.values}
         left = [n for n in left if (n in said) == (word == "AVEC")]
     return left
-
-
-def tolerance_of(ws: Workspace, given: float | None, positions: FloatArray) -> float:
-    """The given distance, else a tenth of the density, else a hair of the extent."""
-    if given is not None:
-        return abs(given)
-    if ws.density > 0.0:
-        return 0.1 * ws.density
-    return 1e-9 * float(np.ptp(positions, axis=0).max(initial=0.0))
 
 
 _MESH = main("mesh", "MAILLAGE", en="mesh to pick from", fr="maillage où choisir")
@@ -196,13 +188,7 @@ def nearest(session: Session, near: Chosen, mesh: Mesh) -> Point:
         fr="points d'une droite ou d'une surface",
     ),
     _MESH,
-    opt(
-        "distance",
-        "FLOTTANT",
-        en="how far off they may lie, a tenth of the density by default",
-        fr="écart admis, par défaut le dixième de la densité",
-        unit="m",
-    ),
+    DISTANCE,
 )
 def on_shape(session: Session, shape: Chosen, mesh: Mesh, distance: float | None) -> Mesh:
     """The points of a mesh on a line or a surface."""

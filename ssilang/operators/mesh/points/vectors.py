@@ -9,9 +9,10 @@ import numpy as np
 from ssilang.kernel.mesh.mesh import Point
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.language.call import Call
-from ssilang.language.registry import Help, arg, operator, opt
+from ssilang.language.registry import Help, arg, main, operator, opt
 from ssilang.language.session import Session
 from ssilang.operators.dispatch import PSCA, PVEC
+from ssilang.operators.mesh.dimensions import IN_PLANE, IN_SPACE
 from ssilang.operators.numbers.arithmetic import rule
 from ssilang.operators.workspace import workspace
 
@@ -36,39 +37,44 @@ for _number in ("ENTIER", "FLOTTANT"):
     rule("*", _number, "POINT")(_scale)
 
 
-@PSCA.on(
-    "POINT",
+@PSCA.form(
+    main("first", "POINT", en="vector", fr="vecteur"),
+    arg("second", "POINT", en="vector", fr="vecteur"),
     syntax="FLOT1 = VEC1 PSCA VEC2 ;",
     en="Of two points: their scalar product as vectors.",
     fr="De deux points : leur produit scalaire en tant que vecteurs.",
     examples=("OPTI DIME 2 ; X = (1. 2.) PSCA (3. 4.) ; LIST X ;",),
 )
-def scalar_product(call: Call, first: Point) -> float:
+def scalar_product(first: Point, second: Point) -> float:
     """Scalar product of two points."""
-    second: Point = call.required("POINT")
     return float(first.coordinates @ second.coordinates)
 
 
-@PVEC.on(
-    "POINT",
+@PVEC.form(
+    main("first", "POINT", en="vector", fr="vecteur"),
+    arg("second", "POINT", en="vector", fr="vecteur"),
     syntax="VEC3 = VEC1 PVEC (VEC2) ;",
     en="Of points: the vector product in 3D; in 2D the vector turned by a quarter turn.",
     fr="De points : le produit vectoriel en 3D ; en 2D le vecteur tourné d'un quart de tour.",
     examples=("OPTI DIME 2 ; V = PVEC (1. 2.) ; LIST (COOR 1 V) ;",),
+    when=IN_SPACE,
 )
-def vector_product(call: Call, first: Point) -> Point:
-    """Vector product of two points, or quarter turn of one."""
-    if workspace(call.session).dimension < 3:
-        return _made(first, np.cross([0.0, 0.0, 1.0], first.coordinates))
-    second: Point = call.required("POINT")
+def vector_product(first: Point, second: Point) -> Point:
+    """Vector product of two points."""
     return _made(first, np.cross(first.coordinates, second.coordinates))
+
+
+@PVEC.form(main("first", "POINT", en="vector", fr="vecteur"), when=IN_PLANE)
+def quarter_turn(first: Point) -> Point:
+    """A vector turned by a quarter turn."""
+    return _made(first, np.cross([0.0, 0.0, 1.0], first.coordinates))
 
 
 @operator(
     "PMIX",
-    arg("first", "POINT"),
-    arg("second", "POINT"),
-    opt("third", "POINT"),
+    arg("first", "POINT", en="vector", fr="vecteur"),
+    arg("second", "POINT", en="vector", fr="vecteur"),
+    opt("third", "POINT", en="vector, in space", fr="vecteur, en dimension 3"),
     family="mesh",
     full_name="PMIXTE",
     help=Help(
@@ -90,7 +96,7 @@ def pmix(session: Session, call: Call, first: Point, second: Point, third: Point
 
 @operator(
     "NORM",
-    arg("vector", "POINT"),
+    arg("vector", "POINT", en="vector", fr="vecteur"),
     family="mesh",
     help=Help(
         en="Length of a point as a vector.",

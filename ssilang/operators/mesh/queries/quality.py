@@ -1,4 +1,4 @@
-"""INDI REFE: shape of cells, named meshes within another one."""
+"""INDI: shape of cells."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.mesh.quality import aspect_ratio, flatness, quality_in_metric, skewness
 from ssilang.language.call import Call
-from ssilang.language.registry import Help, operator
-from ssilang.language.values import ListMots, ListReel
+from ssilang.language.registry import Help, arg, flag, key, operator, opt, said
+from ssilang.language.values import ListReel
 from ssilang.operators.workspace import workspace
 
 _MEASURES: dict[str, tuple[tuple[str, ...], Callable[[FloatArray], FloatArray]]] = {
@@ -25,6 +25,15 @@ _MEASURES: dict[str, tuple[tuple[str, ...], Callable[[FloatArray], FloatArray]]]
 
 @operator(
     "INDI",
+    key(
+        "measures",
+        tuple(_MEASURES),
+        optional=False,
+        repeated=True,
+        en="flatness of QUA4, aspect ratio, skewness of TRI3 and TET4",
+        fr="planéité des QUA4, rapport de forme, dissymétrie des TRI3 et TET4",
+    ),
+    arg("mesh", "MAILLAGE", en="cells", fr="éléments"),
     family="mesh",
     full_name="INDICATEUR",
     help=Help(
@@ -53,42 +62,41 @@ _MEASURES: dict[str, tuple[tuple[str, ...], Callable[[FloatArray], FloatArray]]]
             "LIST (MAXI (INDI T 'ASPE')) ;",
         ),
     ),
-    reads_itself=True,
 )
-def indi(call: Call) -> CellField | ListReel:
+def indi(call: Call, measures: list[str], mesh: Mesh) -> CellField:
     """Shape of cells."""
-    words: list[str] = []
-    first = call.keyword(("TOPO", *_MEASURES))
-    if first == "TOPO":
-        return _in_metric(call)
-    words += [first] if first else []
-    mesh: Mesh = call.required("MAILLAGE")
-    while (word := call.keyword(tuple(_MEASURES))) is not None:
-        words.append(word)
-    if not words:
-        raise call.bad("which indicator?", hint="'PLAN' 'ASPE' 'SKEW'")
-    blocks = tuple(_block(call, b, words) for b in mesh.blocks)
+    blocks = tuple(_block(call, b, measures) for b in mesh.blocks)
     return CellField(blocks, "SCALAIRE")
 
 
-def _in_metric(call: Call) -> CellField | ListReel:
-    """INDI 'TOPO'."""
-    mesh: Mesh = call.required("MAILLAGE")
-    listed = call.keyword(("LISTREEL",)) is not None
-    size, field = call.optional("FLOTTANT"), call.optional("CHPOINT")
-    listed = listed or call.keyword(("LISTREEL",)) is not None
+@indi.form(
+    said("TOPO"),
+    arg("mesh", "MAILLAGE", en="triangles or tetrahedra", fr="triangles ou tétraèdres"),
+    opt(
+        "metric",
+        "FLOTTANT",
+        "CHPOINT",
+        en="length wanted, or metric G (G11 G21 G22 ...) in length^-2",
+        fr="longueur voulue, ou métrique G (G11 G21 G22 ...) en longueur^-2",
+    ),
+    flag("listed", "LISTREEL", en="a list is given", fr="une liste est rendue"),
+)
+def topological(
+    call: Call, mesh: Mesh, metric: float | NodeField | None, listed: bool
+) -> CellField | ListReel:
+    """Quality of cells, in a metric."""
     kinds = {b.cell_type for b in mesh.blocks}
     if len(mesh.blocks) != 1 or not kinds <= {"TRI3", "TET4"}:
         raise call.bad("'TOPO' is for a mesh of TRI3 or of TET4 alone", mesh)
     cells = mesh.blocks[0]
-    metric: FloatArray | None = None
-    if size is not None:
-        if size <= 0:
-            raise call.bad("the length wanted must be > 0", size)
-        metric = np.broadcast_to(np.eye(3) / size**2, (len(cells), 3, 3))
-    elif field is not None:
-        metric = _metric(call, cells, field, workspace(call.session).mode.dimension)
-    values = quality_in_metric(cells.coordinates, metric)
+    wanted: FloatArray | None = None
+    if isinstance(metric, NodeField):
+        wanted = _metric(call, cells, metric, workspace(call.session).mode.dimension)
+    elif metric is not None:
+        if metric <= 0:
+            raise call.bad("the length wanted must be > 0", metric)
+        wanted = np.broadcast_to(np.eye(3) / metric**2, (len(cells), 3, 3))
+    values = quality_in_metric(cells.coordinates, wanted)
     if listed:
         return ListReel(values)
     block = CellFieldBlock(cells, {"SCAL": values[:, None]}, "GRAVITE")
@@ -121,38 +129,3 @@ def _block(call: Call, cells: CellBlock, words: list[str]) -> CellFieldBlock:
             raise call.bad(f"'{word}' is for {' '.join(kinds)}, not for {cells.cell_type}")
         made[word] = measure(cells.coordinates)[:, None]
     return CellFieldBlock(cells, made, "GRAVITE")
-
-
-@operator(
-    "REFE",
-    family="mesh",
-    help=Help(
-        en="Names of the meshes whose nodes all belong to a mesh; or, with two meshes, whether all "
-        "nodes of the first belong to the second.",
-        fr="Noms des maillages dont tous les noeuds sont dans un maillage ; ou, avec deux "
-        "maillages, si tous les noeuds du premier sont dans le second.",
-        syntax="LMOT1 = REFE MAIL2 ; LOG1 = MAIL1 REFE MAIL2 ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; A = 0. 0. ; L1 = DROI 2 A (1. 0.) ; L2 = DROI 2 A (0. 1.) ; "
-            "L3 = L1 ET L2 ; LIST (REFE L3) ; LIST (L1 REFE L2) ;",
-        ),
-    ),
-    reads_itself=True,
-)
-def refe(call: Call) -> bool | ListMots:
-    """Meshes within a mesh."""
-    first: Mesh = call.required("MAILLAGE")
-    second = call.optional("MAILLAGE")
-    if second is not None:
-        return _inside(first, second)
-    frame = call.session.frame
-    names = []
-    for name in sorted(frame.names()):
-        value = frame.find(name)
-        if isinstance(value, Mesh) and value is not first and _inside(value, first):
-            names.append(name)
-    return ListMots(names)
-
-
-def _inside(small: Mesh, large: Mesh) -> bool:
-    return bool(np.isin(small.sorted_node_ids, large.sorted_node_ids).all())

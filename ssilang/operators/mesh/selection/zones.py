@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -10,14 +10,39 @@ from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.partition import balanced, connected, scattered, separated
 from ssilang.kernel.model import Model, Zone
 from ssilang.language.call import Call
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import (
+    Chosen,
+    Help,
+    arg,
+    choice,
+    flag,
+    key,
+    main,
+    operator,
+    opt,
+    said,
+    select,
+)
 from ssilang.language.values import Mot, Table
 
 _CUT = "OPTI DIME 2 ELEM SEG2 ; L = (DROI 2 (0. 0.) (1. 0.)) ET (DROI 3 (2. 0.) (3. 0.)) ; "
 
 
+_FREE = flag(
+    "free",
+    "NESC",
+    en="the table has no sub-type",
+    fr="la table n'a pas de sous-type",
+)
+_MESH = main("mesh", "MAILLAGE", en="mesh", fr="maillage")
+_COUNT = arg("count", "ENTIER", en="number of parts", fr="nombre de parties")
+
+
 @operator(
     "PART",
+    said("CONN"),
+    _MESH,
+    _FREE,
     family="mesh",
     full_name="PARTITION",
     help=Help(
@@ -43,72 +68,124 @@ _CUT = "OPTI DIME 2 ELEM SEG2 ; L = (DROI 2 (0. 0.) (1. 0.)) ET (DROI 3 (2. 0.) 
         "TAB1 = PART ('NESC') ('ARLE') MODL1 N1 ;",
         examples=(_CUT + "T = PART 'NESC' 'CONN' L ; MESS (DIME T) ;",),
     ),
-    reads_itself=True,
 )
-def part(call: Call) -> Table:
-    """Zones of a mesh."""
-    slaves = call.keyword(("NESC",)) is None
-    how = call.keyword(("CONN", "SEPA", "OPTI", "ARLE"))
-    slaves = slaves and call.keyword(("NESC",)) is None
-    model = call.read("MMODEL") if how in ("ARLE", None) else None
-    if model is not None:
-        return _table(_models(call, model.value), "ESCLAVE" if slaves else "")
-    if how is None:
-        raise call.bad(
-            "how the mesh is taken apart is not said",
-            hint="say 'CONN' (common nodes), 'SEPA' with what separates, 'OPTI' or 'ARLE'",
-        )
-    mesh: Mesh = call.required("MAILLAGE")
-    return _table(_ZONES[how](call, mesh), "ESCLAVE" if slaves else "")
+def part(mesh: Mesh, free: bool) -> Table:
+    """Parts joined by common nodes."""
+    return _table(connected(mesh), free)
 
 
-def _count(call: Call) -> int:
-    count: int = call.required("ENTIER")
+@part.form(
+    said("SEPA"),
+    _MESH,
+    key(
+        "branching",
+        ("FACE", "LIGN"),
+        repeated=True,
+        en="sides of more than two cells separate",
+        fr="les côtés de plus de deux éléments séparent",
+    ),
+    key(
+        "separator",
+        "MAIL",
+        arg("mesh", "MAILLAGE"),
+        en="sides within these cells separate",
+        fr="les côtés compris dans ces éléments séparent",
+    ),
+    select(
+        "turn",
+        {
+            "ANGL": (
+                opt(
+                    "angle",
+                    "FLOTTANT",
+                    default=20.0,
+                    en="least angle",
+                    fr="angle minimal",
+                    unit="degree",
+                ),
+            )
+        },
+        en="sides where normals or tangents turn separate",
+        fr="les côtés où normales ou tangentes tournent séparent",
+    ),
+    flag(
+        "folded",
+        "TELQ",
+        en="cells of opposite senses are taken as folded",
+        fr="des éléments de sens contraires sont pris pour repliés",
+    ),
+    _FREE,
+)
+def separated_parts(
+    call: Call,
+    mesh: Mesh,
+    branching: list[str],
+    separator: Mesh | None,
+    turn: Chosen | None,
+    folded: bool,
+    free: bool,
+) -> Table:
+    """Parts joined by common sides, but those that separate."""
+    said: dict[str, Any] = {"by_branching": True} if branching else {}
+    if separator is not None:
+        said["separator"] = separator
+    if turn is not None:
+        said |= {"angle": turn["angle"], "folded": folded}
+    if not said:
+        raise call.bad("nothing separates", hint="say 'FACE', 'LIGN', 'MAIL' MAIL2 or 'ANGL'")
+    return _table(separated(mesh, **said), free)
+
+
+@part.form(
+    said("OPTI"),
+    _MESH,
+    opt(
+        "count",
+        "ENTIER",
+        default=2,
+        en="number of parts, a power of 2",
+        fr="nombre de parties, puissance de 2",
+    ),
+    _FREE,
+)
+def equal_parts(mesh: Mesh, count: int, free: bool) -> Table:
+    """Parts of equal size."""
+    return _table(balanced(mesh, count), free)
+
+
+@part.form(said("ARLE"), _MESH, _COUNT, _FREE, of=("MAILLAGE",))
+def dealt_out(call: Call, mesh: Mesh, count: int, free: bool) -> Table:
+    """Cells dealt out in turn."""
+    return _table(scattered(mesh, _positive(call, count)), free)
+
+
+@part.form(
+    main("model", "MMODEL", en="model", fr="modèle"),
+    _COUNT,
+    _FREE,
+)
+@part.form(
+    said("ARLE"), arg("model", "MMODEL", en="model", fr="modèle"), _COUNT, _FREE, of=("MMODEL",)
+)
+def dealt_out_model(call: Call, model: Model, count: int, free: bool) -> Table:
+    """Models whose cells are dealt out in turn, zone by zone."""
+    made: list[list[Zone]] = [[] for _ in range(_positive(call, count))]
+    for zone in model.zones:
+        for place, mesh in enumerate(scattered(Mesh(zone.cells.nodes, (zone.cells,)), len(made))):
+            made[place] += [replace(zone, cells=cells) for cells in mesh.blocks]
+    return _table([Model(tuple(zones)) for zones in made if zones], free)
+
+
+def _positive(call: Call, count: int) -> int:
     if count < 1:
         raise call.bad(f"a mesh is not taken apart into {count} parts", count)
     return count
 
 
-def _dealt_out(call: Call, mesh: Mesh) -> list[Mesh]:
-    return scattered(mesh, _count(call))
-
-
-def _models(call: Call, model: Model) -> list[Model]:
-    """Models whose cells are dealt out in turn, zone by zone."""
-    made: list[list[Zone]] = [[] for _ in range(_count(call))]
-    for zone in model.zones:
-        for place, mesh in enumerate(scattered(Mesh(zone.cells.nodes, (zone.cells,)), len(made))):
-            made[place] += [replace(zone, cells=cells) for cells in mesh.blocks]
-    return [Model(tuple(zones)) for zones in made if zones]
-
-
-_ZONES: dict[str, Callable[[Call, Mesh], list[Mesh]]] = {
-    "CONN": lambda call, mesh: connected(mesh),
-    "SEPA": lambda call, mesh: separated(mesh, **_separators(call)),
-    "OPTI": lambda call, mesh: balanced(mesh, call.optional("ENTIER", default=2)),
-    "ARLE": _dealt_out,
-}
-
-
-def _separators(call: Call) -> dict[str, Any]:
-    said: dict[str, Any] = {}
-    while (word := call.keyword(("FACE", "LIGN", "MAIL", "ANGL"))) is not None:
-        if word == "MAIL":
-            said["separator"] = call.required("MAILLAGE", after=call.keyword_end)
-        elif word == "ANGL":
-            said["angle"] = float(call.optional("FLOTTANT", default=20.0))
-            said["folded"] = call.keyword(("TELQ",)) is not None
-        else:
-            said["by_branching"] = True
-    if not said:
-        raise call.bad("nothing separates", hint="say 'FACE', 'LIGN', 'MAIL' MAIL2 or 'ANGL'")
-    return said
-
-
-def _table(zones: list[Mesh] | list[Model], kind: str) -> Table:
+def _table(zones: Sequence[Mesh | Model], free: bool) -> Table:
     table = Table()
-    if kind:
-        table.set(Mot("SOUSTYPE"), Mot(kind))
+    if not free:
+        table.set(Mot("SOUSTYPE"), Mot("ESCLAVE"))
     for number, zone in enumerate(zones, 1):
         table.set(number, zone)
     return table
@@ -116,6 +193,13 @@ def _table(zones: list[Mesh] | list[Model], kind: str) -> Table:
 
 @operator(
     "CCON",
+    arg("mesh", "MAILLAGE", en="mesh", fr="maillage"),
+    choice(
+        "strict",
+        ("STR1", "STR2"),
+        en="points of more than two lines, edges of more than two cells separate",
+        fr="les points de plus de deux lignes, les arêtes de plus de deux éléments séparent",
+    ),
     family="mesh",
     help=Help(
         en="Table of the connected parts 1, 2 ... of a mesh. With 'STR1' points of more than two "
@@ -127,11 +211,7 @@ def _table(zones: list[Mesh] | list[Model], kind: str) -> Table:
         syntax="TAB1 = CCON ('STR1'|'STR2') MAIL1 ;",
         examples=(_CUT + "T = CCON L ; MESS (NBEL (T . 2)) ;",),
     ),
-    reads_itself=True,
 )
-def ccon(call: Call) -> Table:
+def ccon(mesh: Mesh, strict: str | None) -> Table:
     """Connected parts."""
-    strict = call.keyword(("STR1", "STR2"))
-    mesh: Mesh = call.required("MAILLAGE")
-    strict = strict or call.keyword(("STR1", "STR2"))
-    return _table(separated(mesh, by_branching=True) if strict else connected(mesh), "")
+    return _table(separated(mesh, by_branching=True) if strict else connected(mesh), True)

@@ -1,57 +1,14 @@
-"""Meshes joined and set apart: ELIM, RACC, LIAI."""
+"""Joint cells between meshes: RACC LIAI GENJ; TASS."""
 
 from __future__ import annotations
 
-import numpy as np
-
 from ssilang.kernel.errors import MeshError
 from ssilang.kernel.mesh.interfaces import joint_mesh, joints_inside
-from ssilang.kernel.mesh.merge import merge_between, merge_close
-from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.kernel.mesh.nodes import IntArray
-from ssilang.language.registry import Help, arg, flag, many, operator, opt
+from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.language.registry import Help, arg, flag, many, operator
 from ssilang.language.session import Session
-from ssilang.operators.mesh.points.picking import tolerance_of
+from ssilang.operators.mesh.tolerance import DISTANCE, tolerance_of
 from ssilang.operators.workspace import workspace
-
-
-def _ids(item: Mesh | Point) -> IntArray:
-    return np.array([item.node]) if isinstance(item, Point) else item.node_ids
-
-
-@operator(
-    "ELIM",
-    arg("first", "MAILLAGE", "POINT"),
-    opt("second", "MAILLAGE", "POINT"),
-    opt("distance", "FLOTTANT"),
-    family="mesh",
-    full_name="ELIMINATION",
-    help=Help(
-        en="Merges the nodes of a mesh that are closer than a distance (a tenth of the density by "
-        "default), in all objects that hold them; with two meshes, only nodes of one with nodes of "
-        "the other.",
-        fr="Fusionne les noeuds d'un maillage plus proches qu'une distance (le dixième de la "
-        "densité par défaut), dans tous les objets qui les portent ; avec deux maillages, "
-        "seulement des noeuds de l'un avec des noeuds de l'autre.",
-        syntax="(GEO1 =) ELIM GEO1 (GEO2) (FLOT1) ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; L = (DROI 2 (0. 0.) (1. 0.)) ET (DROI 2 (1. 0.) (2. 0.)) ;"
-            " ELIM L 1E-3 ; LIST (NBNO L) ;",
-        ),
-    ),
-)
-def elim(
-    session: Session, first: Mesh | Point, second: Mesh | Point | None, distance: float | None
-) -> Mesh | Point:
-    """Merge close nodes; gives the first object back."""
-    ws = workspace(session)
-    ids = _ids(first)
-    near = max(tolerance_of(ws, distance, ws.nodes.coordinates[ids]), 1e-300)
-    if second is None:
-        merge_close(ws.nodes, ids, near)
-    else:
-        merge_between(ws.nodes, ids, _ids(second), near)
-    return first
 
 
 def _joint(session: Session, first: Mesh, second: Mesh, distance: float | None) -> Mesh:
@@ -73,9 +30,9 @@ _FR = (
 
 @operator(
     "RACC",
-    opt("distance", "FLOTTANT"),
-    arg("first", "MAILLAGE"),
-    arg("second", "MAILLAGE"),
+    DISTANCE,
+    arg("first", "MAILLAGE", en="line", fr="ligne"),
+    arg("second", "MAILLAGE", en="line that faces it", fr="ligne en face"),
     family="mesh",
     full_name="RACCORD",
     help=Help(
@@ -99,9 +56,9 @@ def racc(session: Session, distance: float | None, first: Mesh, second: Mesh) ->
 
 @operator(
     "LIAI",
-    opt("distance", "FLOTTANT"),
-    arg("first", "MAILLAGE"),
-    arg("second", "MAILLAGE"),
+    DISTANCE,
+    arg("first", "MAILLAGE", en="surface", fr="surface"),
+    arg("second", "MAILLAGE", en="surface that faces it", fr="surface en face"),
     family="mesh",
     full_name="LIAISON",
     help=Help(
@@ -127,8 +84,8 @@ def liai(session: Session, distance: float | None, first: Mesh, second: Mesh) ->
 
 @operator(
     "GENJ",
-    arg("mesh", "MAILLAGE"),
-    opt("distance", "FLOTTANT"),
+    arg("mesh", "MAILLAGE", en="surfaces or volumes", fr="surfaces ou volumes"),
+    DISTANCE,
     family="mesh",
     help=Help(
         en="Joint cells between the parts of a mesh that touch without sharing nodes: on each pair "
@@ -152,8 +109,8 @@ def genj(session: Session, mesh: Mesh, distance: float | None) -> Mesh:
 
 @operator(
     "TASS",
-    many("meshes", "MAILLAGE"),
-    flag("keep", "NOOP"),
+    many("meshes", "MAILLAGE", en="meshes", fr="maillages"),
+    flag("keep", "NOOP", en="accepted, without effect", fr="accepté, sans effet"),
     family="mesh",
     full_name="TASSER",
     help=Help(
