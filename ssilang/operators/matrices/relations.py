@@ -14,7 +14,7 @@ from ssilang.language.registry import Help, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Procedure
 from ssilang.operators.matrices.supports import as_matrix, nodes_of
-from ssilang.operators.mesh.refining import tie_relations
+from ssilang.operators.mesh.changes.refining import tie_relations
 from ssilang.operators.workspace import workspace
 
 _SENSE = {"MINI": 1, "MAXI": -1}
