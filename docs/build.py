@@ -19,8 +19,9 @@ from pathlib import Path
 
 from ssilang.cli.run import RunOptions, run_text
 from ssilang.language.cast3m import IN_SCOPE, SUBJECTS, Cast3mWord, cast3m_words
-from ssilang.language.library import standard_procedures
-from ssilang.language.reference import (
+from ssilang.language.registry import OPERATORS, operators_by_family
+from ssilang.language.run.library import standard_procedures
+from ssilang.language.say.reference import (
     Page,
     describe,
     example_lines,
@@ -28,7 +29,6 @@ from ssilang.language.reference import (
     operator_page,
     procedure_page,
 )
-from ssilang.language.registry import OPERATORS, operators_by_family
 from ssilang.operators.loader import load_operators
 
 _HERE = Path(__file__).resolve().parent
@@ -93,7 +93,8 @@ def _arguments(page: Page) -> list[str]:
     lines = ["## Arguments", ""]
     for number, form in enumerate(forms, 1):
         lines += [f"Form {number}:", ""] if len(forms) > 1 else []
-        lines += [f"- `{' '.join(describe(entry).split())}`" for entry in form] + [""]
+        said = [line for entry in form for line in describe(entry)]
+        lines += [f"- `{' '.join(line.split())}`" for line in said] + [""]
     return lines
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from ssilang.language.registry import find_operator, keywords_of, operators_by_family
-from ssilang.language.session import Session
+from ssilang.language.run.session import Session
 from ssilang.language.values import Table
 from ssilang.language.vocabulary import names
 

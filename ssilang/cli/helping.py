@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import TextIO
 
 from ssilang.cli.paging import show
-from ssilang.language.diagnostics import elsewhere
-from ssilang.language.library import standard_procedures
-from ssilang.language.reference import overview
+from ssilang.language.run.library import standard_procedures
+from ssilang.language.say.diagnostics import elsewhere
+from ssilang.language.say.reference import overview
 from ssilang.operators.loader import load_operators
 
 OK, UNKNOWN = 0, 1

@@ -144,15 +144,16 @@ def _leave_quietly() -> int:
 
 def _run(options: argparse.Namespace) -> int:
     from ssilang.cli.run import run_source
-    from ssilang.language.diagnostics import render
-    from ssilang.language.errors import SsiError
-    from ssilang.language.source import Source
+    from ssilang.language.say.diagnostics import render
+    from ssilang.language.say.errors import SsiError
+    from ssilang.language.text.source import Source
+    from ssilang.language.text.source_files import read_source
 
     try:
         if options.file == "-":
             source = Source.decode("standard input", sys.stdin.buffer.read())
         else:
-            source = Source.read(Path(options.file))
+            source = read_source(Path(options.file))
     except SsiError as error:
         sys.stderr.write(render(error, options.lang) + "\n")
         return USAGE
@@ -169,7 +170,7 @@ def _run(options: argparse.Namespace) -> int:
 def _run_options(options: argparse.Namespace) -> RunOptions:
     from ssilang.cli.memory import limit_memory
     from ssilang.cli.run import RunOptions
-    from ssilang.language.session import Limits
+    from ssilang.language.run.session import Limits
 
     if options.max_memory is not None:
         limit_memory(options.max_memory)
@@ -186,7 +187,7 @@ def _run_options(options: argparse.Namespace) -> RunOptions:
 def _given(settings: list[str], language: str) -> dict[str, object]:
     """Values of `--set`, one each."""
     from ssilang.cli.sweeping.given import GivenError, parse_setting
-    from ssilang.language.diagnostics import placeless
+    from ssilang.language.say.diagnostics import placeless
 
     given: dict[str, object] = {}
     for text in settings:

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ssilang.io.errors import InputError
-from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.base.arrays import FloatArray
 
 _TITLE_WIDTH = 12
 _GAP = 3  # blank lines between two groups of columns

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from ssilang.io.errors import InputError
-from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.base.arrays import FloatArray
 
 _HEADER = 4  # lines: source, event and station, quantity and unit, number of values and step
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[EeDd][-+]?\d+)?")

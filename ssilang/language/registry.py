@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import inspect
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
@@ -22,7 +22,11 @@ class Argument:
     """An operand read by type.
 
     `types` are type words, or (`ANY`,). FLOTTANT accepts ENTIER. A missing optional argument is
-    passed as `default`; a `repeated` one is passed as a tuple.
+    passed as `default`; a `repeated` one is passed as a tuple. `en`, `fr`, `unit` say what it
+    means; `kind` is the kind of words of the vocabulary that a MOT is one of ('component',
+    'parameter' ...). The `main` operand decides which form of an operator runs: it is the first
+    of the types that the operator knows as main ones, one or two words may stand before it.
+    A repeated one leaves the last `leaving` operands of the types `left` for what follows.
     """
 
     name: str
@@ -30,6 +34,13 @@ class Argument:
     optional: bool = False
     repeated: bool = False
     default: Any = None
+    en: str = ""
+    fr: str = ""
+    unit: str = ""
+    kind: str = ""
+    main: bool = False
+    leaving: int = 0
+    left: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,24 +58,131 @@ class Keyword:
     repeated: bool = False
     default: Any = None
     length: int = 4  # characters compared
+    en: str = ""
+    fr: str = ""
 
 
-Entry = Argument | Keyword
+@dataclass(frozen=True, slots=True)
+class Select:
+    """A keyword that decides what is read behind it: entries by word.
+
+    Passed to the function as `name`: a `Chosen`, or `default` where no word of it stands.
+    """
+
+    name: str
+    cases: Mapping[str, tuple[Entry, ...]]
+    optional: bool = True
+    repeated: bool = False
+    default: Any = None
+    length: int = 4
+    en: str = ""
+    fr: str = ""
+
+    @property
+    def words(self) -> tuple[str, ...]:
+        """The words that choose."""
+        return tuple(self.cases)
 
 
-def arg(name: str, *types: str) -> Argument:
+@dataclass(frozen=True, slots=True)
+class Group:
+    """Entries read one after the other, as often as they stand there if `repeated`.
+
+    Passed as `name`: a tuple of the values (the value itself if the group has one entry), or a
+    list of these where repeated. Behind a word that a group begins with, values are looked for
+    behind that word first.
+    """
+
+    name: str
+    entries: tuple[Entry, ...]
+    optional: bool = False
+    repeated: bool = False
+    at_least: int = 0
+    en: str = ""
+    fr: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Either:
+    """One of several groups: the first that can be read, passed as a `Chosen` by its name."""
+
+    name: str
+    groups: tuple[Group, ...]
+    optional: bool = False
+    en: str = ""
+    fr: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Chosen:
+    """What a `Select` or an `Either` has read: the word (or the group's name) and its values."""
+
+    word: str
+    values: Mapping[str, Any]
+
+    def __getitem__(self, name: str) -> Any:
+        return self.values[name]
+
+
+Entry = Argument | Keyword | Select | Group | Either
+
+
+def arg(
+    name: str, *types: str, en: str = "", fr: str = "", unit: str = "", kind: str = ""
+) -> Argument:
     """A mandatory operand of one of the types (none: any type)."""
-    return Argument(name, types or (ANY,))
+    return Argument(name, types or (ANY,), en=en, fr=fr, unit=unit, kind=kind)
 
 
-def opt(name: str, *types: str, default: Any = None) -> Argument:
+def main(name: str, *types: str, en: str = "", fr: str = "") -> Argument:
+    """The operand whose type decides which form of an operator runs."""
+    return Argument(name, types, en=en, fr=fr, main=True)
+
+
+def opt(
+    name: str,
+    *types: str,
+    default: Any = None,
+    en: str = "",
+    fr: str = "",
+    unit: str = "",
+    kind: str = "",
+) -> Argument:
     """An optional operand."""
-    return Argument(name, types or (ANY,), optional=True, default=default)
+    return Argument(
+        name, types or (ANY,), optional=True, default=default, en=en, fr=fr, unit=unit, kind=kind
+    )
 
 
-def many(name: str, *types: str, at_least: Literal[0, 1] = 0) -> Argument:
-    """All operands of one of the types that can be read, as a tuple."""
-    return Argument(name, types or (ANY,), optional=at_least == 0, repeated=True, default=())
+def many(
+    name: str,
+    *types: str,
+    at_least: Literal[0, 1] = 0,
+    leaving: int = 0,
+    left: Sequence[str] = (),
+    en: str = "",
+    fr: str = "",
+    unit: str = "",
+    kind: str = "",
+) -> Argument:
+    """All operands of one of the types that can be read, as a tuple.
+
+    With `leaving`, the last ones (of the types `left`, or of any that is read) stay for what
+    follows: objects to turn, then the points of the axis.
+    """
+    return Argument(
+        name,
+        types or (ANY,),
+        optional=at_least == 0,
+        repeated=True,
+        default=(),
+        en=en,
+        fr=fr,
+        unit=unit,
+        kind=kind,
+        leaving=leaving,
+        left=tuple(left),
+    )
 
 
 def key(
@@ -75,31 +193,87 @@ def key(
     repeated: bool = False,
     default: Any = None,
     length: int = 4,
+    en: str = "",
+    fr: str = "",
 ) -> Keyword:
     """A keyword with what follows it; `repeated` collects a list."""
     words = (word,) if isinstance(word, str) else tuple(word)
-    return Keyword(name, words, arguments, optional, repeated, default, length)
+    return Keyword(name, words, arguments, optional, repeated, default, length, en, fr)
 
 
-def flag(name: str, word: str, length: int = 4) -> Keyword:
+def flag(name: str, word: str, length: int = 4, en: str = "", fr: str = "") -> Keyword:
     """A keyword alone: True when it stands there, else False."""
-    return Keyword(name, (word,), default=False, length=length)
+    return Keyword(name, (word,), default=False, length=length, en=en, fr=fr)
+
+
+def said(word: str, *others: str, length: int = 4) -> Keyword:
+    """Words of which one must stand there: they say which form of an operator is meant."""
+    return Keyword("word", (word, *others), optional=False, length=length)
 
 
 def choice(
-    name: str, words: Sequence[str], default: str | None = None, optional: bool = True
+    name: str,
+    words: Sequence[str],
+    default: str | None = None,
+    optional: bool = True,
+    en: str = "",
+    fr: str = "",
+    length: int = 4,
 ) -> Keyword:
     """One of several words; the function gets the full word as declared here."""
-    return Keyword(name, tuple(words), optional=optional, default=default)
+    return Keyword(
+        name, tuple(words), optional=optional, default=default, length=length, en=en, fr=fr
+    )
+
+
+def select(
+    name: str,
+    cases: Mapping[str, Sequence[Entry]],
+    optional: bool = True,
+    repeated: bool = False,
+    length: int = 4,
+    en: str = "",
+    fr: str = "",
+) -> Select:
+    """A keyword that decides what is read behind it; `repeated` collects a list."""
+    made = {word: tuple(entries) for word, entries in cases.items()}
+    return Select(name, made, optional, repeated, None, length, en, fr)
+
+
+def group(name: str, *entries: Entry, en: str = "", fr: str = "") -> Group:
+    """Entries read one after the other."""
+    return Group(name, entries, en=en, fr=fr)
+
+
+def each(name: str, *entries: Entry, at_least: int = 0, en: str = "", fr: str = "") -> Group:
+    """A group read as often as it stands there: pairs of a word and its value ..."""
+    return Group(name, entries, at_least == 0, True, at_least, en, fr)
+
+
+def either(name: str, *groups: Group, optional: bool = False, en: str = "", fr: str = "") -> Either:
+    """The first of several groups that can be read."""
+    return Either(name, groups, optional, en, fr)
 
 
 @dataclass(frozen=True, slots=True)
-class Form:
-    """One way to write an operator: what it reads, in reading order, and what then runs."""
+class Like:
+    """Results of the types, and as many, as the operands of the entry `name`."""
 
-    entries: tuple[Entry, ...] | None  # None: the function reads for itself, from its Call
-    function: Function
-    injected: tuple[str, ...] = ()  # parameters that get the session or the call
+    name: str
+
+
+Gives = tuple[str, ...] | Like | None
+"""Types of results: type words, 'A|B' where it may be one or the other, `ANY` where only the run
+can tell; () for a directive; None where the annotation of the function says it."""
+
+
+@dataclass(frozen=True, slots=True)
+class When:
+    """A condition of the session under which a form is meant: `en`, `fr` name it in the help."""
+
+    test: Callable[[Any], bool]
+    en: str
+    fr: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,26 +286,124 @@ class Help:
     examples: tuple[str, ...] = ()  # scripts that run by themselves
 
 
+NO_HELP = Help("", "")
+
+
+@dataclass(frozen=True, slots=True)
+class Form:
+    """One way to write an operator: what it reads, in reading order, what then runs, what it gives.
+
+    `by_hand` is the reason why the function reads for itself, from its call; what such a form
+    declares is for help and checks.
+    """
+
+    entries: tuple[Entry, ...] | None  # None: nothing is declared
+    function: Function
+    injected: tuple[str, ...] = ()  # parameters that get the session or the call
+    gives: Gives = None
+    help: Help = NO_HELP
+    by_hand: str = ""
+    when: When | None = None
+    of: tuple[str, ...] = ()  # an operand of one of these types stands in the phrase
+
+    @property
+    def said(self) -> Keyword | None:
+        """The words of which one says that this form is meant."""
+        first = self.entries[0] if self.entries else None
+        fixed = isinstance(first, Keyword) and first.name == "word" and not first.arguments
+        return first if fixed and isinstance(first, Keyword) else None
+
+    @property
+    def main(self) -> Argument | None:
+        """The operand that decides that this form runs."""
+        for entry in self.entries or ():
+            if isinstance(entry, Argument) and entry.main:
+                return entry
+        return None
+
+
 @dataclass(slots=True)
 class Operator:
     """An operator: name of at most 4 letters (or a sign), family, forms, help."""
 
     name: str
     family: str
-    help: Help
+    about: Help  # what is said of the operator as a whole
     forms: list[Form] = field(default_factory=list)
     aliases: tuple[str, ...] = ()
     terminal: bool = False  # its result is not looked at as an operator's name
     full_name: str = ""  # as usually written: 'MODELISER', 'RIGIDITE'
 
-    def form(self, *entries: Entry) -> Callable[[Function], Function]:
-        """Decorator that adds a form; forms are tried in order of declaration."""
+    @property
+    def help(self) -> Help:
+        """What is said of the operator and of each form, one after the other."""
+        helps = (self.about, *(f.help for f in self.forms))
+        return Help(
+            "\n".join(h.en for h in helps if h.en),
+            "\n".join(h.fr for h in helps if h.fr),
+            "\n".join(h.syntax for h in helps if h.syntax),
+            tuple(e for h in helps for e in h.examples),
+        )
+
+    def form(
+        self,
+        *entries: Entry,
+        gives: str | Sequence[str] | Like | None = None,
+        syntax: str = "",
+        en: str = "",
+        fr: str = "",
+        examples: Sequence[str] = (),
+        by_hand: str = "",
+        when: When | None = None,
+        of: Sequence[str] = (),
+    ) -> Callable[[Function], Function]:
+        """Decorator that adds a form; forms are tried in order of declaration.
+
+        The first whose mandatory entries can be read runs. Where the first unread word is one
+        that forms `said`, these alone are tried; else, where forms have a `main` operand and the
+        phrase has one of such a type, those of that type.
+
+        Parameters
+        ----------
+        *entries : Entry
+            What the form reads, in reading order. Keywords are looked for before and after each
+            operand is read.
+        gives : str, sequence of str, or Like, optional
+            Types of the results; by default what the function's annotation says.
+        syntax, en, fr, examples
+            Help of this form.
+        by_hand : str
+            Why the function reads for itself: it takes the call, and behind it the main operand
+            or the word that chose the form if there is one.
+        when : When
+            Condition of the session; the form is passed over where it is not met.
+        of : sequence of str
+            The form is meant only where an operand of one of these types stands in the phrase.
+        """
 
         def add(function: Function) -> Function:
-            self.forms.append(Form(tuple(entries), function, _injected(function)))
+            help = Help(en, fr, syntax, tuple(examples))
+            self.forms.append(
+                Form(
+                    tuple(entries) if entries or not by_hand else None,
+                    function,
+                    _injected(function),
+                    _gives(gives),
+                    help,
+                    by_hand,
+                    when,
+                    tuple(of),
+                )
+            )
             return function
 
         return add
+
+
+def _gives(given: str | Sequence[str] | Like | None) -> Gives:
+    if given is None or isinstance(given, Like):
+        return given
+    return (given,) if isinstance(given, str) else tuple(given)
 
 
 OPERATORS: dict[str, Operator] = {}
@@ -149,7 +421,9 @@ def operator(
     aliases: Sequence[str] = (),
     terminal: bool = False,
     full_name: str = "",
-    reads_itself: bool = False,
+    gives: str | Sequence[str] | Like | None = None,
+    reads_itself: bool | str = False,
+    when: When | None = None,
 ) -> Callable[[Function], Operator]:
     """Decorator that registers an operator with its first form.
 
@@ -157,13 +431,15 @@ def operator(
     ----------
     name : str
         First four letters, such as 'DROI', or a sign.
-    *entries : Argument or Keyword
+    *entries : Entry
         What the form reads, in reading order. Keywords are looked for before and after each
         operand is read.
     family : str
         Page of the manual: 'mesh', 'field', 'model', 'list', ...
-    reads_itself : bool
-        The function takes the `call` and reads from it (operators with a free syntax).
+    gives : str, sequence of str, or Like, optional
+        Types of the results; by default what the function's annotation says.
+    reads_itself : str
+        Why the function takes the `call` and reads from it; `entries` are then for help and checks.
 
     Notes
     -----
@@ -173,19 +449,33 @@ def operator(
     """
 
     def add(function: Function) -> Operator:
-        declared = None if reads_itself else tuple(entries)
-        made = Operator(name, family, help, [], tuple(aliases), terminal, full_name or name)
-        made.forms.append(Form(declared, function, _injected(function)))
-        for word in (name, *aliases):
-            OPERATORS[word] = made
+        made = shared(name, family, help, aliases=aliases, terminal=terminal, full_name=full_name)
+        by_hand = reads_itself if isinstance(reads_itself, str) else "?" * reads_itself
+        made.form(*entries, gives=gives, by_hand=by_hand, when=when)(function)
         return made
 
     return add
 
 
+def shared(
+    name: str,
+    family: str,
+    help: Help,
+    *,
+    aliases: Sequence[str] = (),
+    terminal: bool = False,
+    full_name: str = "",
+) -> Operator:
+    """Register an operator whose forms stand in several families."""
+    made = Operator(name, family, help, [], tuple(aliases), terminal, full_name or name)
+    for word in (name, *aliases):
+        OPERATORS[word] = made
+    return made
+
+
 def _injected(function: Function) -> tuple[str, ...]:
     names = inspect.signature(function).parameters
-    return tuple(n for n in ("session", "call") if n in names)
+    return tuple(n for n in ("session", "call", "word") if n in names)
 
 
 def find_operator(word: str) -> Operator | None:
@@ -207,10 +497,43 @@ def operators_by_family() -> Mapping[str, list[Operator]]:
 
 
 def keywords_of(found: Operator) -> list[str]:
-    """Keywords that an operator declares or that its syntax lines quote."""
-    words = set(re.findall(r"'([A-Z][A-Z0-9_]*) *'", found.help.syntax))
+    """Keywords that an operator's forms declare, or that the syntax of undeclared ones quotes."""
+    words: set[str] = set()
     for form in found.forms:
-        for entry in form.entries or ():
-            if isinstance(entry, Keyword):
-                words.update(w.strip() for w in entry.words)
+        if form.entries is None:
+            words.update(re.findall(r"'([A-Z][A-Z0-9_]*) *'", found.help.syntax))
+        words.update(w.strip() for w in words_in(form.entries or ()))
     return sorted(words)
+
+
+def words_in(entries: Iterable[Entry]) -> Iterator[str]:
+    """All keywords of entries, inner ones too."""
+    for entry in entries:
+        match entry:
+            case Keyword():
+                yield from entry.words
+            case Select():
+                yield from entry.words
+                for inner in entry.cases.values():
+                    yield from words_in(inner)
+            case Group():
+                yield from words_in(entry.entries)
+            case Either():
+                yield from words_in(entry.groups)
+
+
+def arguments_in(entries: Iterable[Entry]) -> Iterator[Argument]:
+    """All operands of entries, inner ones too."""
+    for entry in entries:
+        match entry:
+            case Argument():
+                yield entry
+            case Keyword():
+                yield from entry.arguments
+            case Select():
+                for inner in entry.cases.values():
+                    yield from arguments_in(inner)
+            case Group():
+                yield from arguments_in(entry.entries)
+            case Either():
+                yield from arguments_in(entry.groups)

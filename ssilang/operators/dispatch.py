@@ -8,22 +8,25 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from ssilang.language.call import Call, Operand
-from ssilang.language.errors import SsiError
-from ssilang.language.registry import OPERATORS, Help, Operator, operator
+from ssilang.language.registry import OPERATORS, Help, main, operator, said, shared
+from ssilang.language.run.call import Call
+from ssilang.language.say.errors import SsiError
 from ssilang.language.values import Mot, type_of
 
 if TYPE_CHECKING:
-    from ssilang.language.source import Span
+    from ssilang.language.text.source import Span
 
 Entry = Callable[[Call, Any], Any]
+
+UNDECLARED = "?"
+"""Reason of a form that nobody has declared yet."""
 
 
 def extend_help(name: str, syntax: str, en: str, fr: str, examples: tuple[str, ...]) -> None:
     """Add a paragraph, syntax lines and examples to an operator's help."""
-    made: Operator = OPERATORS[name]
-    old = made.help
-    made.help = Help(
+    made = OPERATORS[name]
+    old = made.about
+    made.about = Help(
         "\n".join(t for t in (old.en, en) if t),
         "\n".join(t for t in (old.fr, fr) if t),
         "\n".join(t for t in (old.syntax, syntax) if t),
@@ -31,32 +34,8 @@ def extend_help(name: str, syntax: str, en: str, fr: str, examples: tuple[str, .
     )
 
 
-def _adder(
-    name: str,
-    table: dict[str, Entry],
-    keys: tuple[str, ...],
-    texts: tuple[str, str, str],
-    examples: tuple[str, ...],
-) -> Callable[[Entry], Entry]:
-    """A decorator that enters a function under the keys and adds to the operator's help."""
-
-    def add(entry: Entry) -> Entry:
-        table.update(dict.fromkeys(keys, entry))
-        extend_help(name, *texts, examples)
-        return entry
-
-    return add
-
-
-_BESIDE_WORDS = ("MOT", "LISTENTI")
-
-
-class ByType:
-    """An operator whose work depends on the type of its main operand.
-
-    The first readable operand whose type has an entry is the main one; words written before it
-    (`MAXI 'ABS' L`) are left for the entry to read.
-    """
+class Shared:
+    """An operator whose forms stand in several families; `form` adds one (see `Operator.form`)."""
 
     def __init__(
         self,
@@ -66,40 +45,16 @@ class ByType:
         fr: str,
         full_name: str = "",
         terminal: bool = False,
+        length: int = 4,
     ) -> None:
         self.name = name
-        self.entries: dict[str, Entry] = {}
-        operator(
-            name,
-            family=family,
-            help=Help(en, fr),
-            full_name=full_name,
-            terminal=terminal,
-            reads_itself=True,
-        )(self._run)
+        self.length = length
+        self.operator = shared(name, family, Help(en, fr), full_name=full_name, terminal=terminal)
+        self.form = self.operator.form
 
-    def _run(self, call: Call) -> Any:
-        operand = self._behind_words(call) or call.read(*self.entries)
-        if operand is None:
-            raise call.missing(tuple(self.entries))
-        return self.entries[type_of(operand.value)](call, operand.value)
 
-    def _behind_words(self, call: Call) -> Operand | None:
-        """Consume the main operand that stands behind one or two words.
-
-        A word may be the main operand itself, with integers behind it (`EXTR 'abc' 2`).
-        """
-        words = 0
-        for i, operand in enumerate(call.operands):
-            kind = type_of(operand.value)
-            beside = 2 if words and "MOT" in self.entries else 1
-            if kind in self.entries and kind not in _BESIDE_WORDS[:beside]:
-                call.used.append(operand)
-                return call.operands.pop(i)
-            words += isinstance(operand.value, Mot)
-            if words > 2:
-                break
-        return None
+class ByType(Shared):
+    """One whose work depends on the type of its main operand."""
 
     def on(
         self,
@@ -109,58 +64,15 @@ class ByType:
         fr: str = "",
         examples: tuple[str, ...] = (),
     ) -> Callable[[Entry], Entry]:
-        """Decorator: a function `(call, value)` for main operands of the types."""
+        """Decorator: `(call, value)`, read by hand, for main operands of the types."""
+        return self.form(
+            main("value", *types), syntax=syntax, en=en, fr=fr, examples=examples,
+            by_hand=UNDECLARED,
+        )  # fmt: skip
 
-        return _adder(self.name, self.entries, types, (syntax, en, fr), examples)
 
-
-class ByWord:
-    """An operator whose work depends on the keyword that follows it.
-
-    Without a known keyword the entry registered for '' runs, or for the type of an operand
-    (`on_type`).
-    """
-
-    def __init__(
-        self, name: str, family: str, en: str, fr: str, full_name: str = "", length: int = 4
-    ) -> None:
-        self.name = name
-        self.length = length
-        self.entries: dict[str, Entry] = {}
-        self.by_type: dict[str, Entry] = {}
-        self.typed: dict[tuple[str, str], Entry] = {}
-        operator(name, family=family, help=Help(en, fr), full_name=full_name, reads_itself=True)(
-            self._run
-        )
-
-    def _run(self, call: Call) -> Any:
-        known = dict.fromkeys((*(w for w in self.entries if w), *(w for w, _ in self.typed)))
-        word = call.keyword(list(known), self.length)
-        if word is not None:
-            return self._entry(call, word)(call, word)
-        operand = call.read(*self.by_type) if self.by_type else None
-        if operand is not None:
-            return self.by_type[type_of(operand.value)](call, operand.value)
-        if "" in self.entries:
-            return self.entries[""](call, "")
-        raise SsiError(
-            "missing-keyword",
-            call.span,
-            operator=self.name,
-            words=sorted(self.entries),
-            found=call.peek_word() or "",
-        )
-
-    def _entry(self, call: Call, word: str) -> Entry:
-        """The entry of a word: that of the first operand's type which has one, else the plain."""
-        for operand in call.operands:
-            found = self.typed.get((word, type_of(operand.value)))
-            if found is not None:
-                return found
-        plain = self.entries.get(word)
-        if plain is None:
-            raise call.missing([t for w, t in self.typed if w == word])
-        return plain
+class ByWord(Shared):
+    """One whose work depends on the keyword that follows it."""
 
     def on(
         self,
@@ -171,17 +83,14 @@ class ByWord:
         fr: str = "",
         examples: tuple[str, ...] = (),
     ) -> Callable[[Entry], Entry]:
-        """Decorator: a function `(call, word)` for keywords (capitals, in full).
+        """Decorator: a function `(call, word)` that reads by hand, for keywords (in full).
 
         With `of`, for operands of these types only: several families may share a keyword.
         """
-        add_help = _adder(self.name, {} if of else self.entries, words, (syntax, en, fr), examples)
-
-        def add(entry: Entry) -> Entry:
-            self.typed.update({(w, kind): entry for w in words for kind in of})
-            return add_help(entry)
-
-        return add
+        entries = (said(*words, length=self.length),) if words != ("",) else ()
+        return self.form(
+            *entries, of=of, syntax=syntax, en=en, fr=fr, examples=examples, by_hand=UNDECLARED
+        )
 
     def on_type(
         self,
@@ -191,9 +100,11 @@ class ByWord:
         fr: str = "",
         examples: tuple[str, ...] = (),
     ) -> Callable[[Entry], Entry]:
-        """Decorator: a function `(call, value)` when no keyword of the table is there."""
-
-        return _adder(self.name, self.by_type, types, (syntax, en, fr), examples)
+        """Decorator: a function `(call, value)` that reads by hand, without a keyword."""
+        return self.form(
+            main("value", *types), syntax=syntax, en=en, fr=fr, examples=examples,
+            by_hand=UNDECLARED,
+        )  # fmt: skip
 
 
 EXTR = ByType(

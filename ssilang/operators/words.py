@@ -13,13 +13,13 @@ from functools import cache
 
 import numpy as np
 
+from ssilang.kernel.base.errors import FieldError, MeshError
 from ssilang.kernel.elements import springs
 from ssilang.kernel.elements.catalog import ELEMENTS, GENERIC_ELEMENTS
 from ssilang.kernel.elements.families import FAMILIES, family_of
-from ssilang.kernel.errors import FieldError, MeshError
-from ssilang.kernel.joints.law_table import LAWS as JOINT_LAWS
-from ssilang.kernel.joints.law_table import law_of
-from ssilang.kernel.joints.parameters import DEFAULTS
+from ssilang.kernel.interface.laws.law_table import LAWS as JOINT_LAWS
+from ssilang.kernel.interface.laws.law_table import law_of
+from ssilang.kernel.interface.laws.parameters import DEFAULTS
 from ssilang.kernel.materials.behaviours import (
     CREEP_FAMILIES,
     ELASTICITIES,
@@ -28,13 +28,13 @@ from ssilang.kernel.materials.behaviours import (
     PLASTIC_FAMILIES,
     UNIAXIAL_LAWS,
 )
+from ssilang.kernel.materials.model import Mode, Zone
 from ssilang.kernel.materials.parameters import Names, geometric_names, material_names
 from ssilang.kernel.materials.plastic.laws import CREEP_LAWS, PLASTIC_LAWS
 from ssilang.kernel.matrices.matrix import PRIMAL_TO_DUAL
 from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.kernel.mesh.mesh import CellBlock, Point
 from ssilang.kernel.mesh.nodes import NodeTable
-from ssilang.kernel.model import Mode, Zone
 from ssilang.language import vocabulary
 from ssilang.language.vocabulary.terms import Option, Quantity, Word
 
@@ -218,10 +218,10 @@ def _components(zone: Zone) -> tuple[tuple[str, ...], tuple[str, ...], tuple[str
 @cache
 def known_components() -> tuple[str, ...]:
     """Every component that an element or a law gives, with the duals of unknowns."""
-    from ssilang.kernel.elements.hooke import HOOKE_COMPONENT
-    from ssilang.kernel.elements.tensors import PRINCIPAL
+    from ssilang.kernel.elements.results.tensors import PRINCIPAL
+    from ssilang.kernel.elements.solids.hooke import HOOKE_COMPONENT
     from ssilang.kernel.fields.node_algebra import SCALAR
-    from ssilang.kernel.joints.interface import COMMON_VARIABLES
+    from ssilang.kernel.interface.interface import COMMON_VARIABLES
 
     names = [*PRIMAL_TO_DUAL, *PRIMAL_TO_DUAL.values()]
     names += [HOOKE_COMPONENT, SCALAR, *PRINCIPAL, *COMMON_VARIABLES]

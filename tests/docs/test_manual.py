@@ -11,10 +11,9 @@ import pytest
 from ssilang.cli.check import check_source
 from ssilang.cli.run import run_text
 from ssilang.language.cast3m import IN_SCOPE, cast3m_words, find_cast3m_word
-from ssilang.language.diagnostics import is_warning
-from ssilang.language.library import standard_procedures
 from ssilang.language.registry import OPERATORS
-from ssilang.language.source import Source
+from ssilang.language.run.library import standard_procedures
+from ssilang.language.text.source import Source
 
 _DOCS = Path(__file__).resolve().parents[2] / "docs"
 
@@ -91,7 +90,7 @@ def test_scripts_in_the_guides_run(name, tmp_path):
         result = run_text(script, output_directory=tmp_path)
         assert result.exit_code == 0, script + result.message
         problems, _ = check_source(Source(name, script))
-        assert not [p for p in problems if not is_warning(p)], script
+        assert not [p for p in problems if p.severity == "error"], script
 
 
 def test_outputs_in_the_guides_are_those_of_their_scripts(tmp_path):

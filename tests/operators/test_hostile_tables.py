@@ -110,4 +110,4 @@ def test_an_entry_that_cannot_be_used_is_named(name, path, value, says, tmp_path
 )
 def test_objects_without_content_end_in_words(name, path, value, tmp_path):
     result = run_text(FUZZ.spoiled(FUZZ.DECKS[name], path, value), tmp_path)
-    assert all(e.code == "bad-value" for e in result.errors), result.message
+    assert all(e.code != "internal" for e in result.errors), result.message

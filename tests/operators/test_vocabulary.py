@@ -8,9 +8,9 @@ import pytest
 
 from ssilang.cli.run import run_text
 from ssilang.kernel.elements.catalog import ELEMENTS, GENERIC_ELEMENTS
-from ssilang.kernel.joints.parameters import DEFAULTS
+from ssilang.kernel.interface.laws.parameters import DEFAULTS
 from ssilang.kernel.materials.behaviours import FORMULATIONS
-from ssilang.kernel.model import Mode
+from ssilang.kernel.materials.model import Mode
 from ssilang.language import vocabulary
 from ssilang.language.vocabulary.examples import EXAMPLES, example
 from ssilang.language.vocabulary.terms import UNITS, Option, Quantity, Range

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.joints.condensed import iterate_interface
-from ssilang.kernel.joints.condensed_cached import iterate_cached, workspace
+from ssilang.kernel.interface.factors import iterate_cached, workspace
+from ssilang.kernel.interface.newton import iterate_interface
 
 
 def solve_interface(*given):

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import typing
 from functools import cache
 from typing import Any
 
-from ssilang.language.registry import Form
-from ssilang.language.values import Mot, known_classes
+from ssilang.language.registry import ANY
+from ssilang.language.values import Mot
 
 
 class Ambiguous(Exception):
@@ -72,24 +71,6 @@ def kind_word(value: Any) -> str:
     return "" if value is UNKNOWN or value is SOMETHING else type_of(value)
 
 
-NOTHING = "nothing"
-
-
-def result_type(form: Form) -> str:
-    """Type word of what a form gives, from its function's annotation.
-
-    Returns
-    -------
-    str
-        A type word, `NOTHING` for a directive, '' when the annotation does not say.
-    """
-    note = form.function.__annotations__.get("return", "")
-    if note is None or note == "None":
-        return NOTHING
-    name = note if isinstance(note, str) else getattr(note, "__name__", "")
-    return _type_words().get(name.split(".")[-1], "")
-
-
-@cache
-def _type_words() -> typing.Mapping[str, str]:
-    return {cls.__name__: word for cls, word in known_classes().items()}
+def one_of(word: str) -> Any:
+    """A stand-in for a result of type `word`, unknown where it may be of several types."""
+    return UNKNOWN if word == ANY or "|" in word else typed(word)

@@ -7,24 +7,25 @@ from typing import Any
 
 from ssilang.cli.checking.kinds import (
     ANY_WORD,
-    NOTHING,
     SOMETHING,
     UNKNOWN,
     Ambiguous,
     AnyWord,
     kind_word,
-    result_type,
+    one_of,
     typed,
 )
 from ssilang.cli.checking.scope import Scope
-from ssilang.language import tree
-from ssilang.language.call import Call, Operand, accepts
-from ssilang.language.errors import SsiError
-from ssilang.language.leftovers import is_call
-from ssilang.language.printer import heading
 from ssilang.language.registry import SCALAR_RULES, Operator, find_operator
-from ssilang.language.session import Session
-from ssilang.language.source import Span
+from ssilang.language.run.binding import bind_operator
+from ssilang.language.run.call import Call, Operand, accepts
+from ssilang.language.run.leftovers import is_call
+from ssilang.language.run.results import Results, results_of
+from ssilang.language.run.session import Session
+from ssilang.language.say.errors import SsiError
+from ssilang.language.text import tree
+from ssilang.language.text.printer import heading
+from ssilang.language.text.source import Span
 from ssilang.language.values import Mot, Procedure, Texte
 from ssilang.operators.numbers.arithmetic import RULES, SIGNS
 
@@ -52,6 +53,22 @@ class AbstractCall(Call):
             ):
                 break
         return super()._read(types, after)
+
+    def readable(self, *types: str) -> list[int]:
+        self._all_known()
+        return super().readable(*types)
+
+    def stands(self, *types: str) -> bool:
+        self._all_known()
+        return super().stands(*types)
+
+    def main_operand(self, *types: str) -> int | None:
+        self._all_known()
+        return super().main_operand(*types)
+
+    def _all_known(self) -> None:
+        if any(o.value is UNKNOWN or o.value is SOMETHING for o in self.operands):
+            raise Ambiguous
 
     def _word_index(self) -> int | None:
         for i, operand in enumerate(self.operands):
@@ -111,40 +128,33 @@ class PhraseReader:
         if found.name in SIGNS.split() or found.name in _COMPARISONS:
             self._sign(found.name, operand, call)
             return
-        problem: SsiError | None = None
-        for form in found.forms:
-            if form.entries is None:
-                self._free(found, operand, call)
-                return
-            try:
-                call.bind(form)
-            except SsiError as error:
-                problem = problem or error
-                continue
-            self._push(result_type(form), operand.span, call)
-            return
-        if problem is not None:
-            raise problem
+        bound = bind_operator(found, call)
+        results = results_of(bound.form, bound.values)
+        if bound.form.by_hand:
+            self._free(results, operand, call)
+        else:
+            self._push(results, operand.span, call)
 
-    def _free(self, found: Operator, operand: Operand, call: AbstractCall) -> None:
+    def _free(self, results: Results | None, operand: Operand, call: AbstractCall) -> None:
         """An operator that reads for itself: only when nothing follows is its result known."""
         for other in call.operands:
             if other.value is UNKNOWN or isinstance(other.value, Texte | Procedure | AnyWord):
                 raise Ambiguous
             if isinstance(other.value, Mot) and find_operator(str(other.value)) is not None:
                 raise Ambiguous
-        kind = result_type(found.forms[0])
-        if not kind or kind == NOTHING:
+        if not results:
             raise Ambiguous  # what it leaves unread is not known
         call.operands.clear()
-        self._push(kind, operand.span, call)
+        self._push(results, operand.span, call)
 
     @staticmethod
-    def _push(kind: str, span: Span, call: AbstractCall) -> None:
-        if not kind:
+    def _push(results: Results | None, span: Span, call: AbstractCall) -> None:
+        """Put stand-ins for the results in front; () where there are none."""
+        if results is None:
             call.operands.insert(0, Operand(SOMETHING, span, result=True))
-        elif kind != NOTHING:
-            call.operands.insert(0, Operand(typed(kind), span, result=True))
+            return
+        made = [Operand(one_of(word), span, result=True) for word in results]
+        call.operands[:0] = made
 
     def _sign(self, sign: str, word: Operand, call: AbstractCall) -> None:
         pair = [o for o in call.operands[:2] if not isinstance(o.value, Mot | Procedure)]

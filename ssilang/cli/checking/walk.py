@@ -10,13 +10,13 @@ from ssilang.cli.checking.kinds import UNKNOWN, kind_word, typed
 from ssilang.cli.checking.phrases import PhraseReader
 from ssilang.cli.checking.scope import Scope, assigned_names
 from ssilang.cli.checking.usage import misspelt_names, unused_names
-from ssilang.language import tree
 from ssilang.language.cast3m import cast3m_words
-from ssilang.language.errors import SsiError
-from ssilang.language.leftovers import is_call
-from ssilang.language.phrase_errors import no_result, unended
 from ssilang.language.registry import OPERATORS, find_operator, keywords_of
-from ssilang.language.session import Session
+from ssilang.language.run.leftovers import is_call
+from ssilang.language.run.phrase_errors import no_result, unended
+from ssilang.language.run.session import Session
+from ssilang.language.say.errors import SsiError
+from ssilang.language.text import tree
 from ssilang.language.values import Mot, Procedure, known_types
 
 # statements that may bring names the text does not show
@@ -179,7 +179,9 @@ class Checker:
         if word in _OPENING or (word == "OPTI" and "DONN" in words):
             scope.open = True
             scope.dimension = None
-            scope.forget(i.text for i in statement.items[1:] if isinstance(i, tree.Name))
+            named = [i.text for i in statement.items[1:] if isinstance(i, tree.Name)]
+            # without names all that was saved comes back, under any name
+            scope.forget(named if named or word != "REST" else tuple(scope.values))
         if word == "OPTI" and "DIME" in words:
             at = words.index("DIME") + 1
             item = statement.items[at] if at < len(words) else None
@@ -248,7 +250,7 @@ def _until_fin(nodes: tuple[tree.Node, ...]) -> tuple[tree.Node, ...]:
 
 def _head(span: Any) -> Any:
     """The first line of a span."""
-    from ssilang.language.source import Span
+    from ssilang.language.text.source import Span
 
     end = span.start + len(span.text.split("\n")[0].split(";")[0].rstrip())
     return Span(span.source, span.start, min(span.end, end))

@@ -14,7 +14,7 @@ from ssilang.cli.sweeping.pool import dask_installed, one_thread, run_on_cluster
 from ssilang.cli.sweeping.table import can_write, draw_figures, write_table
 from ssilang.cli.sweeping.trunk import run_all
 from ssilang.cli.sweeping.worker import ROW, Task
-from ssilang.language.diagnostics import placeless
+from ssilang.language.say.diagnostics import placeless
 
 TABLE = "sweep.parquet"
 TOGETHER = 8

@@ -10,7 +10,7 @@ import numpy as np
 from ssilang.io.archive.classes import NODE_FIELDS, class_named, packing_named, saved_fields
 from ssilang.io.archive.container import Archive
 from ssilang.io.errors import InputError
-from ssilang.kernel.errors import KernelError
+from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.mesh.nodes import NodeTable
 
 

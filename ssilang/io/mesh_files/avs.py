@@ -17,10 +17,10 @@ import numpy as np
 from ssilang.io.errors import InputError, OutputError
 from ssilang.io.vtk.cells import ORDERS
 from ssilang.io.vtk.grid import cell_means
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 _KINDS = {
     "POI1": "pt", "SEG2": "line", "SEG3": "line", "TRI3": "tri", "TRI6": "tri", "QUA4": "quad",

@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from ssilang.io.errors import InputError, OutputError
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.kernel.mesh.nodes import FloatArray
 
 
 def stl_lines(mesh: Mesh, name: str = "surface") -> list[str]:

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from ssilang.io.errors import InputError
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 
 # I-DEAS element number -> cell type; orders along the contour, as Cast3M's
 _CELLS: dict[int, str] = {

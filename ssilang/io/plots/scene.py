@@ -26,8 +26,8 @@ from ssilang.io.plots.painter import Painter
 from ssilang.io.plots.palette import shade
 from ssilang.io.plots.patches import Faces, visible_faces
 from ssilang.io.plots.view import Plane, View, plane_view
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.fields.deformed import Arrows
-from ssilang.kernel.mesh.nodes import FloatArray
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

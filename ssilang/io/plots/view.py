@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ssilang.io.errors import OutputError
-from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.base.arrays import FloatArray
 
 # from the front right, slightly above: three faces of a box are seen
 DEFAULT_DIRECTION = np.array([1.0, -2.0, 0.9])

@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 from ssilang.io.errors import OutputError
 from ssilang.io.vtk.cells import ORDERS
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 
 @dataclass(frozen=True)

@@ -12,14 +12,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.contact.friction import Friction
-from ssilang.kernel.errors import MeshError
 from ssilang.kernel.matrices.location import locate
 from ssilang.kernel.matrices.matrix import Relations
 from ssilang.kernel.matrices.relations import joined, rows_from_table
 from ssilang.kernel.matrices.tied_relations import sliding
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 
 @dataclass(frozen=True, eq=False)

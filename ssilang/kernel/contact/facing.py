@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ssilang.kernel.errors import MeshError
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 OUTSIDE = 1e-6
 """How far out of a cell, in its own coordinates, a point still projects onto it."""

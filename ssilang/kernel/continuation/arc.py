@@ -12,8 +12,8 @@ from typing import Protocol
 
 import numpy as np
 
-from ssilang.kernel.errors import ConvergenceError
-from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import ConvergenceError
 
 BISECTIONS = 40
 FAR = 0.5

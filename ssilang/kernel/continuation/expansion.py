@@ -11,10 +11,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.continuation.harmonics import derivative_matrix
-from ssilang.kernel.errors import KernelError
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, Relations
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 MOST = 6
 ORDER = ("UX", "UY", "UZ", "UR", "UT", "RX", "RY", "RZ", "RT")

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ssilang.kernel.compiled import compiled
-from ssilang.kernel.errors import KernelError
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.compiled.compiler import compiled
+from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.modal.link_laws import link_forces
 from ssilang.kernel.modal.links import (
     COSINE_OF_TIME,

@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.errors import FieldError
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.deformed import ArrowPart, Arrows
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.mesh.nodes import FloatArray
 
 Columns = tuple[str, str, str]
 _PRINCIPAL = ("SI11", "SI22", "SI33")

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.curve import Curve
-from ssilang.kernel.curve_algebra import combined
-from ssilang.kernel.errors import FieldError
+from ssilang.kernel.base.errors import FieldError
+from ssilang.kernel.curves.algebra import combined
+from ssilang.kernel.curves.curve import Curve
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.mesh.mesh import CellBlock
 

@@ -8,12 +8,13 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.errors import MeshError
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.mesh.changes.split import split_quadrangles, tetrahedra
 from ssilang.kernel.mesh.combine import cell_keys, union, without_duplicates
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray, NodeTable
-from ssilang.kernel.mesh.split import split_quadrangles, tetrahedra
+from ssilang.kernel.mesh.nodes import NodeTable
 
 _SIMPLICES = ("POI1", "SEG2", "TRI3", "TET4")  # by number of nodes - 1
 _TO_TETRAHEDRA = ("CUB8", "PRI6", "PYR5")

@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.errors import FieldError
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.fields.node_field import Nature, NodeField, NodeValues
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 Function = Callable[[Any], Any]
 SCALAR = "SCAL"

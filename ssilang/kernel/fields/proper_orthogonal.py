@@ -12,10 +12,10 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.errors import FieldError
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import FieldError
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.sparse import sp
 
 Places = tuple[tuple[str, NDArray[np.int64]], ...]
 

@@ -6,13 +6,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
-from ssilang.kernel.elements.frames import SHELL_FRAMES
-from ssilang.kernel.elements.reference import shape_functions
-from ssilang.kernel.errors import MaterialError
+from ssilang.kernel.elements.results.frames import SHELL_FRAMES
+from ssilang.kernel.elements.shapes.reference import shape_functions
 from ssilang.kernel.fields.cell_field import Support
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.model import Mode, Zone
+from ssilang.kernel.materials.model import Mode, Zone
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.elements.catalog import SOLID_FAMILIES
-from ssilang.kernel.errors import MaterialError
 from ssilang.kernel.materials.plastic.laws import CREEP_LAWS, PLASTIC_LAWS, plastic_law
 
 FORMULATIONS = ("MECANIQUE", "CHARGEMENT", "CONTACT")
@@ -32,7 +32,7 @@ JOINT_WORDS = (
     "JOINT_SDM", "CISAILLEMENT_ELASTIQUE", "FROTTEMENT_SYMETRIQUE", "PLASTIQUE", "JOINT_DILATANT",
     "COULOMB", "MACRO_SEMELLE", "MACRO_DISQUE", "MACRO_RESSORTS",
 )  # fmt: skip
-"""Further words of joints; `ssilang.kernel.joints.laws` says what they mean."""
+"""Further words of joints; `ssilang.kernel.interface.laws.point_laws` says what they mean."""
 
 PLASTIC_WORDS = tuple(w for w in PLASTIC_LAWS if w not in ELASTICITIES)
 """Words that follow PLASTIQUE in a model of bodies (beside ISOTROPE)."""

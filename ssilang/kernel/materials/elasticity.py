@@ -7,9 +7,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.errors import MaterialError
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.model import Mode
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import MaterialError
+from ssilang.kernel.materials.model import Mode
 
 # components of the full tensor that each hypothesis keeps
 KEPT: dict[Mode, tuple[int, ...]] = {

@@ -21,11 +21,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.errors import FieldError
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import FieldError
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.fields.node_field import Nature, NodeField, NodeValues
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, Relations, dual_of
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray, NodeTable
-from ssilang.kernel.sparse import sp
+from ssilang.kernel.mesh.nodes import NodeTable
 
 MULTIPLIER = "LX"
 IMPOSED = "FLX"

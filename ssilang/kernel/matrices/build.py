@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.errors import FieldError
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, dual_of
 from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray, NodeTable
+from ssilang.kernel.mesh.nodes import NodeTable
 
 PRIMAL_OF = {
     "FX": "UX", "FY": "UY", "FZ": "UZ", "MX": "RX", "MY": "RY", "MZ": "RZ", "FR": "UR",

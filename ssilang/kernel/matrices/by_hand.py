@@ -6,11 +6,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ssilang.kernel.errors import FieldError
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.build import PRIMAL_OF
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, dual_of
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray, NodeTable
+from ssilang.kernel.mesh.nodes import NodeTable
 
 
 def square(rows: Sequence[FloatArray], size: int, sign: float | None) -> FloatArray:

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ssilang.kernel.errors import KernelError
+from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, Relations, imaginary
 
 Factors = tuple[float, float, float, float]

@@ -6,11 +6,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ssilang.kernel.errors import FieldError
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.build import PRIMAL_OF
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, dual_of
-from ssilang.kernel.mesh.nodes import FloatArray
 
 _LARGEST = 20_000
 """Rows of a dense matrix that still fits a usual memory (3.2 GB)."""

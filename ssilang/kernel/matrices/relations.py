@@ -11,8 +11,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ssilang.kernel.errors import FieldError, MeshError
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import FieldError, MeshError
 from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.matrices.matrix import (
     PRIMAL_TO_DUAL,
     ElementMatrices,
@@ -20,8 +22,7 @@ from ssilang.kernel.matrices.matrix import (
     Relations,
     dual_of,
 )
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray, NodeTable
-from ssilang.kernel.model import Mode
+from ssilang.kernel.mesh.nodes import NodeTable
 
 _PLANE: tuple[tuple[str, ...], tuple[str, ...]] = (("UX", "UY"), ("RZ",))
 _UNKNOWNS: dict[Mode, tuple[tuple[str, ...], tuple[str, ...]]] = {

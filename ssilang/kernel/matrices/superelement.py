@@ -12,7 +12,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ssilang.kernel.errors import KernelError, SingularMatrixError
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import KernelError, SingularMatrixError
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.matrices.assembly import (
     ConstraintRows,
@@ -27,10 +29,8 @@ from ssilang.kernel.matrices.assembly import (
     vector_to_field,
 )
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.solvers.elimination import Elimination, eliminate
-from ssilang.kernel.solvers.inverse import Inverse, invert
-from ssilang.kernel.sparse import sp
+from ssilang.kernel.solvers.cholesky.elimination import Elimination, eliminate
+from ssilang.kernel.solvers.cholesky.inverse import Inverse, invert
 from ssilang.kernel.statics.linear_motion import bodies_of, describe_motions
 
 LARGEST = 6000  # masters; the condensed matrix is full

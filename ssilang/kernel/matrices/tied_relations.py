@@ -7,11 +7,12 @@ from itertools import combinations
 
 import numpy as np
 
-from ssilang.kernel.errors import MeshError
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.matrices.matrix import Relations
 from ssilang.kernel.matrices.relations import Term, joined, relation_rows, rows_from_table
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray, NodeTable
+from ssilang.kernel.mesh.nodes import NodeTable
 
 
 def same_value(table: NodeTable, nodes: IntArray, unknown: str) -> Relations:

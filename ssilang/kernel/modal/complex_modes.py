@@ -9,17 +9,16 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ssilang.kernel.errors import KernelError
+from ssilang.kernel.base.arrays import ComplexArray
+from ssilang.kernel.base.errors import KernelError
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import vector_to_field
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.modal.modes import unit_translations
 from ssilang.kernel.modal.reduced import ReducedProblem, reduced_problem
-from ssilang.kernel.sparse import sp
 
-ComplexArray = NDArray[np.complex128]
 DENSE = 300  # unknowns up to which all eigenvalues are computed
 
 

@@ -13,12 +13,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ssilang.kernel.errors import KernelError
-from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import KernelError, SingularFactorError
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.modal.reduced import ReducedProblem
-from ssilang.kernel.solvers.backends import SingularFactorError, factorise
-from ssilang.kernel.solvers.inverse import invert
-from ssilang.kernel.sparse import sp
+from ssilang.kernel.solvers.backends import factorise
+from ssilang.kernel.solvers.cholesky.inverse import invert
 
 DENSE = 400  # unknowns up to which all eigenvalues are computed
 MASSLESS = 1e-13  # theta (relative to the largest) taken for zero

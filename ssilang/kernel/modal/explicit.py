@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ssilang.kernel.errors import KernelError
-from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.modal.links import RECORDS, STATES, LinkArrays
 
 SCHEMES = ("DE_VOGELAERE", "DIFFERENCES_CENTREES", "ACCELERATION_MOYENNE", "FOX_GOODWIN")

@@ -11,8 +11,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ssilang.kernel.errors import KernelError
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import KernelError
 
 PLANE, CIRCLE, POWER, SINE, COSINE, COSINE_OF_TIME, SINE_OF_TIME, VELOCITY = range(8)
 CONTACTS = (PLANE, CIRCLE)

@@ -10,8 +10,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ssilang.kernel.errors import KernelError
-from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import KernelError
 
 SAME_STEP = 1e-12  # of the last time: the rounding of equally spaced times
 CRITICAL = 1e-9  # a damping this near to 1 is moved off it (the step would divide by zero)

@@ -6,7 +6,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ssilang.kernel.errors import KernelError
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import KernelError
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.matrices.assembly import (
     Numbering,
     assemble,
@@ -15,9 +17,7 @@ from ssilang.kernel.matrices.assembly import (
     numbering_of,
 )
 from ssilang.kernel.matrices.matrix import Matrix
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.solvers.elimination import Elimination, eliminate
-from ssilang.kernel.sparse import sp
+from ssilang.kernel.solvers.cholesky.elimination import Elimination, eliminate
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,14 +7,14 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import ConvergenceError
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.continuation.arc import Lengths
-from ssilang.kernel.errors import ConvergenceError
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.plasticity.driven_load import Trace
 from ssilang.kernel.plasticity.following import PathRun, Split
 from ssilang.kernel.plasticity.run import BulkRun
 from ssilang.kernel.solvers.inertia import count_negative
-from ssilang.kernel.sparse import sp
 
 
 @dataclass

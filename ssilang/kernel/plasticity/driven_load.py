@@ -7,11 +7,11 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ssilang.kernel.dynamics.integrate import History
-from ssilang.kernel.errors import ConvergenceError
-from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import ConvergenceError
 from ssilang.kernel.plasticity.following import Control, PathRun
 from ssilang.kernel.plasticity.run import HALVINGS, BulkRun
+from ssilang.kernel.stepping.run import History
 
 END = 1e-9
 """Share of an interval of time taken for its end."""

@@ -14,18 +14,18 @@ from typing import Any, Protocol, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.families import _moduli, family_of, integration_weights
 from ssilang.kernel.elements.family import cell_block
-from ssilang.kernel.elements.kinematics import harmonic
-from ssilang.kernel.elements.solid import REVOLUTION, kinematics, radius, zone_geometry
-from ssilang.kernel.elements.tensors import as_components, as_tensor
+from ssilang.kernel.elements.results.tensors import as_components, as_tensor
+from ssilang.kernel.elements.solids.kinematics import harmonic
+from ssilang.kernel.elements.solids.solid import REVOLUTION, kinematics, radius, zone_geometry
 from ssilang.kernel.elements.zone_fields import zone_field
-from ssilang.kernel.errors import FieldError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.materials.model import Mode, Zone
 from ssilang.kernel.matrices.assembly import Numbering, block_indices
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.model import Mode, Zone
 from ssilang.kernel.plasticity.bulk import Answer, Bulk, State, without_stiffness
 from ssilang.kernel.plasticity.finite_beam import finite_beam, is_plane_beam
 from ssilang.kernel.plasticity.finite_meridian import finite_plane_shell, is_plane_shell

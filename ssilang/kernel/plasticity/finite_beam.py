@@ -11,14 +11,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ssilang.kernel.elements.beam_frame import beam_frame
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import FieldError
+from ssilang.kernel.elements.beams.beam_frame import beam_frame
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.families import stiffness
 from ssilang.kernel.elements.zone_fields import zone_field
-from ssilang.kernel.errors import FieldError
 from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.model import Mode, Zone
+from ssilang.kernel.materials.model import Mode, Zone
 
 _BEAMS = ("beam", "timoshenko")
 # displacements of both nodes, in the axes of the chord, for one unit of lengthening and end turns

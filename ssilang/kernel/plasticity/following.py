@@ -12,17 +12,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ssilang.kernel.dynamics.compiled_loop import EXTERNAL, Motion
-from ssilang.kernel.dynamics.motion import snapshot_of
-from ssilang.kernel.dynamics.problem import Problem
-from ssilang.kernel.errors import KernelError
-from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import KernelError, SingularFactorError
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.plasticity.bulk import Bulk
 from ssilang.kernel.plasticity.newton import STALLED, TOLERANCE, TURNS, BulkSolver, _Trial
 from ssilang.kernel.plasticity.run import BulkRun
 from ssilang.kernel.plasticity.snapshot import BulkSnapshot
-from ssilang.kernel.solvers.backends import SingularFactorError, factorise
-from ssilang.kernel.sparse import sp
+from ssilang.kernel.solvers.backends import factorise
+from ssilang.kernel.stepping.problem.problem import Problem
+from ssilang.kernel.stepping.rests.dense.loop import EXTERNAL, Motion
+from ssilang.kernel.stepping.state import snapshot_of
 
 SOFT = 1e7
 """Displacement under a unit of load over that of the first state, beyond which it is a collapse."""

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ssilang.kernel.elements.fibre_section import FibreSection
-from ssilang.kernel.errors import ConvergenceError, KernelError
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import ConvergenceError, KernelError
+from ssilang.kernel.elements.beams.fibre_section import FibreSection
 from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.plasticity.fibre_points import SectionLaw, fibre_groups, section_fields
 
 TURNS = 200

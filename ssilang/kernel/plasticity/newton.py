@@ -6,14 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ssilang.kernel.dynamics.compiled_loop import Motion
-from ssilang.kernel.dynamics.full_newton import FullNewtonSolver
-from ssilang.kernel.dynamics.problem import Problem
-from ssilang.kernel.dynamics.sparse_loop import StepOutcome
-from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import SingularFactorError
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.plasticity.bulk import Answer, Bulk, State
-from ssilang.kernel.solvers.backends import SingularFactorError
-from ssilang.kernel.sparse import sp
+from ssilang.kernel.stepping.problem.problem import Problem
+from ssilang.kernel.stepping.rests.dense.loop import Motion
+from ssilang.kernel.stepping.rests.sparse.full_newton import FullNewtonSolver
+from ssilang.kernel.stepping.rests.sparse.loop import StepOutcome
 
 TURNS = 30
 TOLERANCE = 1e-10

@@ -8,7 +8,22 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ssilang.kernel.dynamics.compiled_loop import (
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import ConvergenceError, KernelError
+from ssilang.kernel.contact.impact import ImpactRule
+from ssilang.kernel.interface.response import interface_energies
+from ssilang.kernel.plasticity.bulk import Bulk, State
+from ssilang.kernel.plasticity.newton import BulkSolver
+from ssilang.kernel.plasticity.snapshot import NOTHING, hand_over
+from ssilang.kernel.stepping.effective import effective_matrix, effective_of
+from ssilang.kernel.stepping.problem.initial import (
+    admissible_velocity,
+    closed_at_start,
+    initial_energies,
+    joint_state,
+)
+from ssilang.kernel.stepping.problem.problem import Problem
+from ssilang.kernel.stepping.rests.dense.loop import (
     ELASTIC,
     EXTERNAL,
     LOST,
@@ -16,24 +31,9 @@ from ssilang.kernel.dynamics.compiled_loop import (
     STORED,
     Motion,
 )
-from ssilang.kernel.dynamics.effective import effective_matrix, effective_of
-from ssilang.kernel.dynamics.impact import ImpactRule
-from ssilang.kernel.dynamics.initial import (
-    admissible_velocity,
-    closed_at_start,
-    initial_energies,
-    joint_state,
-)
-from ssilang.kernel.dynamics.integrate import History, Progress
-from ssilang.kernel.dynamics.problem import Problem
-from ssilang.kernel.dynamics.snapshot import Observer
-from ssilang.kernel.dynamics.sparse_loop import SparseLoop, StepOutcome, support_work
-from ssilang.kernel.errors import ConvergenceError, KernelError
-from ssilang.kernel.joints.response import interface_energies
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.plasticity.bulk import Bulk, State
-from ssilang.kernel.plasticity.newton import BulkSolver
-from ssilang.kernel.plasticity.snapshot import NOTHING, hand_over
+from ssilang.kernel.stepping.rests.sparse.loop import SparseLoop, StepOutcome, support_work
+from ssilang.kernel.stepping.run import History, Progress
+from ssilang.kernel.stepping.snapshot import Observer
 
 HALVINGS = 7
 """How often a step that does not converge is cut in two."""
@@ -235,7 +235,7 @@ def integrate_bulk(run: BulkRun) -> History:
 
 def _start(run: BulkRun, factors: FloatArray) -> None:
     """Initial velocity, acceleration, reactions, kinetic energy."""
-    from ssilang.kernel.dynamics.initial import accelerated, with_contact
+    from ssilang.kernel.stepping.problem.initial import accelerated, with_contact
 
     p, m = run.problem, run.motion
     m.v[:] = admissible_velocity(p)

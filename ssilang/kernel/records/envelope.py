@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.errors import FieldError
-from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import FieldError
 
 
 def energy_envelope(x: FloatArray, y: FloatArray, intervals: int) -> tuple[FloatArray, FloatArray]:

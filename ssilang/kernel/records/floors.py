@@ -13,8 +13,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from ssilang.kernel.errors import FieldError
-from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.records.modulated import largest_value
 
 _GAUSS = np.polynomial.legendre.leggauss(4)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.compiled import compiled
-from ssilang.kernel.errors import KernelError
-from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.compiled.compiler import compiled
+from ssilang.kernel.base.errors import KernelError
 
 LAWS = ("CINE", "ISOT", "ELAS")
 """Kinematic hardening, isotropic hardening, non-linear elastic; all bilinear when pushed once."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.errors import FieldError
+from ssilang.kernel.base.errors import FieldError
 
 
 def _trapezoids(values: NDArray[np.float64], step: float) -> NDArray[np.float64]:

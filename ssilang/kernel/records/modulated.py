@@ -15,15 +15,13 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ssilang.kernel.errors import FieldError
-from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.base.arrays import ComplexArray, FloatArray
+from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.records.power import EULER
 
 _GAUSS = np.polynomial.legendre.leggauss(4)
 _FRACTILES = (0.05, 0.95)
-ComplexArray = NDArray[np.complex128]
 
 
 @dataclass(frozen=True, eq=False)

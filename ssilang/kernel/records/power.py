@@ -10,9 +10,9 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ssilang.kernel.errors import FieldError
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.signals import fourier
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import FieldError
+from ssilang.kernel.records.signals import fourier
 
 EULER = 0.5772156649015329
 _GAUSS = np.polynomial.legendre.leggauss(8)

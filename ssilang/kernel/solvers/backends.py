@@ -15,9 +15,9 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from ssilang.kernel.errors import KernelError
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.sparse import sp
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import KernelError, SingularFactorError
+from ssilang.kernel.base.sparse import sp
 
 DISSECTION = "nested dissection"
 MULTIGRID = "multigrid"
@@ -65,10 +65,6 @@ class Ordering:
         """The ordering of the unknowns `u / scale`."""
         rigid = None if self.rigid is None else self.rigid / scale[:, None]
         return Ordering(self.points, self.last, rigid)
-
-
-class SingularFactorError(Exception):
-    """A backend met an exactly zero pivot; `inverse.py` turns it into a message."""
 
 
 class SuperLUFactor:
@@ -282,9 +278,9 @@ def factorise(
 
 
 def _dissected(A: sp.csr_array, ordering: Ordering) -> Factor:
-    from ssilang.kernel.memory import available_bytes, gigabytes
-    from ssilang.kernel.solvers.dissected import DissectedFactor
-    from ssilang.kernel.solvers.multifrontal import NotPositiveError, TooLargeError
+    from ssilang.kernel.base.memory import available_bytes, gigabytes
+    from ssilang.kernel.solvers.cholesky.dissected import DissectedFactor
+    from ssilang.kernel.solvers.cholesky.multifrontal import NotPositiveError, TooLargeError
 
     try:
         return DissectedFactor(A, ordering.points, ordering.last)

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.errors import KernelError
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.sparse import sp
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import KernelError, SingularFactorError
+from ssilang.kernel.base.sparse import sp
 
 RESIDUAL = 1e-12  # of the second member: what a direct solver leaves, or little more
 MOST_TURNS = 500
@@ -37,8 +37,6 @@ class MultigridFactor:
 
     def __init__(self, A: sp.csr_array, positive: bool, rigid: FloatArray | None = None) -> None:
         from pyamg import smoothed_aggregation_solver
-
-        from ssilang.kernel.solvers.backends import SingularFactorError
 
         if not positive:
             raise KernelError(

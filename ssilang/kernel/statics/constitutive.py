@@ -11,28 +11,24 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.family import apply_moduli
-from ssilang.kernel.elements.hooke import moduli_from_field
+from ssilang.kernel.elements.solids.hooke import moduli_from_field
 from ssilang.kernel.elements.zone_fields import ZoneField, n_points, zone_field
-from ssilang.kernel.errors import FieldError
 from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.joints.columns import N_STATE, OPENING, SLIP1, SLIP2, XI
-from ssilang.kernel.joints.elements import is_joint
-from ssilang.kernel.joints.family import component_order, has_rotations
-from ssilang.kernel.joints.kinematics import joint_cells
-from ssilang.kernel.joints.law_table import MOHR, SDM, law_of
-from ssilang.kernel.joints.parameters import Parameter
-from ssilang.kernel.joints.table import joint_parameters
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.model import Zone
-from ssilang.kernel.plasticity.points import (
-    PlasticPoints,
-    is_plastic,
-    plastic_points,
-    plastic_strain_names,
-)
+from ssilang.kernel.interface.elements import is_joint
+from ssilang.kernel.interface.family import component_order, has_rotations
+from ssilang.kernel.interface.kinematics import joint_cells
+from ssilang.kernel.interface.laws.columns import N_STATE, OPENING, SLIP1, SLIP2, XI
+from ssilang.kernel.interface.laws.law_table import MOHR, SDM, law_of
+from ssilang.kernel.interface.laws.parameter_table import joint_parameters
+from ssilang.kernel.interface.laws.parameters import Parameter
+from ssilang.kernel.materials.model import Zone
+from ssilang.kernel.plasticity.points import PlasticPoints, is_plastic, plastic_strain_names
+from ssilang.kernel.plasticity.zone_points import plastic_points
 
 Variables = Mapping[str, FloatArray]
 
@@ -276,7 +272,7 @@ def _joint_probe(
 def _joint(
     zone: Zone, material: CellField, stress: FloatArray, variables: ZoneField, step: FloatArray
 ) -> Answer:
-    from ssilang.kernel.joints.laws import respond as compiled_respond
+    from ssilang.kernel.interface.laws.point_laws import respond as compiled_respond
 
     law, d = law_of(zone.behaviour), None
     if law.linear or law.macro:

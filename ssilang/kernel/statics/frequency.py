@@ -13,13 +13,14 @@ from typing import Any
 import numpy as np
 import scipy.sparse as sp
 
-from ssilang.kernel.curve import Load
-from ssilang.kernel.dynamics.loading import MECHANICAL, terms_of
+from ssilang.kernel.base.arrays import ComplexArray, FloatArray
+from ssilang.kernel.base.errors import FieldError, KernelError, SingularMatrixError
+from ssilang.kernel.curves.curve import Load
 from ssilang.kernel.elements.family import element_matrices
-from ssilang.kernel.elements.springs import ComplexArray, dynamic_stiffness
+from ssilang.kernel.elements.springs import dynamic_stiffness
 from ssilang.kernel.elements.zone_fields import ZoneField
-from ssilang.kernel.errors import FieldError, KernelError, SingularMatrixError
 from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.matrices.assembly import (
     ConstraintRows,
     Numbering,
@@ -33,8 +34,7 @@ from ssilang.kernel.matrices.assembly import (
     vector_to_field,
 )
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, imaginary
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.model import Zone
+from ssilang.kernel.stepping.problem.loading import MECHANICAL, terms_of
 
 _DENSE = 300
 """Up to this many unknowns full matrices are faster than sparse ones."""

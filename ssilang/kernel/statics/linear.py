@@ -10,9 +10,15 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ssilang.kernel.errors import ConvergenceError, KernelError, SingularMatrixError
+from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
+from ssilang.kernel.base.errors import (
+    ConvergenceError,
+    KernelError,
+    SingularFactorError,
+    SingularMatrixError,
+)
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import (
     ConstraintRows,
@@ -27,18 +33,10 @@ from ssilang.kernel.matrices.assembly import (
     vector_to_field,
 )
 from ssilang.kernel.matrices.matrix import Matrix
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.solvers.backends import (
-    MULTIGRID,
-    Ordering,
-    SingularFactorError,
-    SuperLUFactor,
-    dissection_pays,
-)
-from ssilang.kernel.solvers.complementarity import ContactProblem, solve_contact
-from ssilang.kernel.solvers.elimination import Elimination, eliminate
-from ssilang.kernel.solvers.inverse import Inverse, invert
-from ssilang.kernel.sparse import sp
+from ssilang.kernel.solvers.active_set.complementarity import ContactProblem, solve_contact
+from ssilang.kernel.solvers.backends import MULTIGRID, Ordering, SuperLUFactor, dissection_pays
+from ssilang.kernel.solvers.cholesky.elimination import Elimination, eliminate
+from ssilang.kernel.solvers.cholesky.inverse import Inverse, invert
 from ssilang.kernel.statics.doubled import lying_on
 from ssilang.kernel.statics.linear_motion import (
     bodies_of,
@@ -47,7 +45,6 @@ from ssilang.kernel.statics.linear_motion import (
     rigid_motions,
 )
 
-BoolArray = NDArray[np.bool_]
 BALANCED = 1e-7  # work of the loads on a free motion (of norms 1) taken for rounding
 MET = 1e-7  # mismatch of a redundant condition, relative to the largest displacement
 
@@ -214,7 +211,7 @@ class LinearSystem:
         bodies = bodies_of(self.numbering, self.K, self.rows.C[self.saddle])
         named = named_motions(self.numbering, self.free_motions, bodies)
         return ConvergenceError(
-            f"{failure.message}; held by them alone: {named or 'a mechanism'}", failure.hint
+            f"{failure}; held by them alone: {named or 'a mechanism'}", failure.hint
         )
 
     def _contact_flexibility(self, C: FloatArray, D: FloatArray) -> FloatArray:

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.matrices.assembly import Numbering
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.sparse import sp
 from ssilang.kernel.statics.doubled import lying_on
-
-BoolArray = NDArray[np.bool_]
 
 _TRANSLATIONS = {"UX": 0, "UY": 1, "UZ": 2, "UR": 0}
 _ROTATIONS = {"RX": 0, "RY": 1, "RZ": 2}

@@ -7,20 +7,20 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ssilang.kernel.dynamics.compiled_loop import ELASTIC, EXTERNAL, LOST, N_ENERGIES, STORED
-from ssilang.kernel.dynamics.effective import effective_of
-from ssilang.kernel.dynamics.initial import initial_energies, joint_state
-from ssilang.kernel.dynamics.integrate import History, Progress
-from ssilang.kernel.dynamics.motion import Motion, snapshot_of
-from ssilang.kernel.dynamics.problem import Problem
-from ssilang.kernel.dynamics.snapshot import Observer
-from ssilang.kernel.dynamics.sparse_loop import NOTHING, StepOutcome, StepSolver, support_work
-from ssilang.kernel.dynamics.step_solvers import step_solver
-from ssilang.kernel.errors import ConvergenceError, SingularMatrixError
-from ssilang.kernel.joints.response import interface_energies
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.solvers.inverse import Inverse
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import ConvergenceError, SingularMatrixError
+from ssilang.kernel.interface.response import interface_energies
+from ssilang.kernel.solvers.cholesky.inverse import Inverse
 from ssilang.kernel.statics.linear_motion import describe_motions
+from ssilang.kernel.stepping.effective import effective_of
+from ssilang.kernel.stepping.problem.initial import initial_energies, joint_state
+from ssilang.kernel.stepping.problem.problem import Problem
+from ssilang.kernel.stepping.rests.dense.loop import ELASTIC, EXTERNAL, LOST, N_ENERGIES, STORED
+from ssilang.kernel.stepping.rests.sparse.loop import NOTHING, StepOutcome, StepSolver, support_work
+from ssilang.kernel.stepping.run import History, Progress
+from ssilang.kernel.stepping.snapshot import Observer
+from ssilang.kernel.stepping.state import Motion, snapshot_of
+from ssilang.kernel.stepping.step_solvers import step_solver
 
 BALANCED = 1e-13
 """Imbalance over the loads taken for rounding."""
@@ -62,7 +62,7 @@ def step_statics(
                 outcome = _step(problem, solver, motion, factors[k - 1 : k + 1])
             except ConvergenceError as failure:
                 at = f"load step {k}, time {times[k]:g}"
-                raise ConvergenceError(f"{at}: {failure.message}", failure.hint) from None
+                raise ConvergenceError(f"{at}: {failure}", failure.hint) from None
             if outcome.turns <= 0:
                 raise _lost(problem, motion, k, outcome)
             history.iterations = max(history.iterations, outcome.turns)

@@ -6,19 +6,20 @@ from collections.abc import Callable
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
-from ssilang.kernel.errors import FieldError
 from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.joints.columns import XI
-from ssilang.kernel.joints.elements import is_joint
-from ssilang.kernel.joints.law_table import MOHR, SDM, law_of
-from ssilang.kernel.joints.parameters import Parameter
+from ssilang.kernel.interface.elements import is_joint
+from ssilang.kernel.interface.laws.columns import XI
+from ssilang.kernel.interface.laws.law_table import MOHR, SDM, law_of
+from ssilang.kernel.interface.laws.parameters import Parameter
+from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.materials.plastic import rounded_coulomb
 from ssilang.kernel.materials.plastic.response import PointParameters, mises
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.model import Zone
-from ssilang.kernel.plasticity.points import is_plastic, plastic_points
+from ssilang.kernel.plasticity.points import is_plastic
+from ssilang.kernel.plasticity.zone_points import plastic_points
 from ssilang.kernel.statics.constitutive import joint_points, joint_state, section_stress
 
 Criterion = Callable[[PointParameters, FloatArray, FloatArray], FloatArray]

@@ -10,8 +10,8 @@ from ssilang.operators.session.user_procedures import call_user
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
-    from ssilang.kernel.dynamics.driven import Additions, State
-    from ssilang.kernel.dynamics.problem import Problem
+    from ssilang.kernel.stepping.driven import Additions, State
+    from ssilang.kernel.stepping.problem.problem import Problem
 
 TERMS = {
     "ADDI_KNL": ("stiffness", "RIGIDITE"),
@@ -33,7 +33,7 @@ class AddedByProcedure:
 
     def __call__(self, time: float, state: State, problem: Problem) -> Additions:
         """Additions at `time`."""
-        from ssilang.kernel.dynamics.driven import Additions
+        from ssilang.kernel.stepping.driven import Additions
 
         self.entries.table.set(Mot("ETAT"), _table_of(state, problem))
         results = call_user(self.entries.call, "CHARMECA", self.entries.table, time)

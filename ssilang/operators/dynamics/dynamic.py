@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.dynamics.plan import every
-from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.plasticity.bulk import stiffness_beside
 from ssilang.kernel.plasticity.points import plastic_zones
-from ssilang.language.call import Call
+from ssilang.kernel.stepping.times import every
 from ssilang.language.registry import Help, operator
-from ssilang.language.session import Session
+from ssilang.language.run.call import Call
+from ssilang.language.run.session import Session
 from ssilang.language.values import Mot, Table
 from ssilang.operators.dynamics.charmeca import AddedByProcedure
 from ssilang.operators.dynamics.motion_files import csv_observer, nodes_asked, vtk_observer
@@ -36,10 +36,10 @@ from ssilang.operators.statics.bodies import plastic_bodies
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
-    from ssilang.kernel.dynamics.integrate import History
-    from ssilang.kernel.dynamics.problem import Inputs, Problem
-    from ssilang.kernel.dynamics.snapshot import Observer
     from ssilang.kernel.plasticity.bulk import Bulk, State
+    from ssilang.kernel.stepping.problem.problem import Inputs, Problem
+    from ssilang.kernel.stepping.run import History
+    from ssilang.kernel.stepping.snapshot import Observer
 
 MOST_STEPS = 1e9
 """Steps beyond which a list of times is a slip of the pen."""
@@ -71,8 +71,8 @@ KNOWN = (
 )
 def zdyn(call: Call) -> Table:
     """Read the table, integrate, hand back the saved instants."""
-    from ssilang.kernel.compiled import is_compiled
-    from ssilang.kernel.dynamics.problem import make_problem
+    from ssilang.kernel.base.compiled.cache import is_compiled
+    from ssilang.kernel.stepping.problem.problem import make_problem
 
     entries = Entries(call, call.required("TABLE"), "DYNAMIC")
     entries.warn_unknown(KNOWN)
@@ -109,9 +109,9 @@ def _integrated(
     bodies: tuple[Bulk, State] | None = None,
 ) -> History:
     """The history, on a reduced basis if REDUCTION gives a tolerance."""
-    from ssilang.kernel.dynamics.integrate import integrate
-    from ssilang.kernel.dynamics.reduced_run import integrate_reduced
     from ssilang.kernel.plasticity.run import run_bulk
+    from ssilang.kernel.stepping.rests.reduced.run import integrate_reduced
+    from ssilang.kernel.stepping.run import integrate
 
     tolerance = entries.get("REDUCTION", "FLOTTANT")
     full = entries.flag("NEWTON_COMPLET")
@@ -146,7 +146,7 @@ def integrated(
     session: Session, problem: Problem, observers: Sequence[Observer], line: ProgressLine
 ) -> History:
     """The history; in a sweep, of what other runs bring too, side by side."""
-    from ssilang.kernel.dynamics.integrate import integrate
+    from ssilang.kernel.stepping.run import integrate
 
     found: History = (session.integrate or integrate)(problem, observers, line)
     return found
@@ -196,7 +196,7 @@ def _older_times(entries: Entries) -> tuple[FloatArray, NDArray[np.bool_]]:
 
 
 def _inputs(entries: Entries, times: FloatArray) -> Inputs:
-    from ssilang.kernel.dynamics.problem import Inputs
+    from ssilang.kernel.stepping.problem.problem import Inputs
 
     if entries.flag("ECON"):
         entries.warn(
@@ -225,7 +225,7 @@ def _inputs(entries: Entries, times: FloatArray) -> Inputs:
 
 def _with_bodies(entries: Entries, inputs: Inputs) -> Inputs:
     """The stiffness without that of plastic bodies: their law replaces it."""
-    from ssilang.kernel.joints.interface import without_zones
+    from ssilang.kernel.interface.interface import without_zones
 
     zones = plastic_zones(inputs.model)
     if not zones:

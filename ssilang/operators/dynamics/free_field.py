@@ -6,15 +6,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ssilang.kernel.curve import Curve, CurvePart
-from ssilang.language.call import Call
+from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel, Table
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
-    from ssilang.kernel.mesh.nodes import FloatArray
-    from ssilang.kernel.soil_column import FreeField
+    from ssilang.kernel.base.arrays import FloatArray
+    from ssilang.kernel.records.soil_column import FreeField
 
 _LAYERS = ("EPAISSEUR", "MASSE_VOLUMIQUE", "MODULE", "AMORTISSEMENT")
 
@@ -47,7 +47,7 @@ _LAYERS = ("EPAISSEUR", "MASSE_VOLUMIQUE", "MODULE", "AMORTISSEMENT")
 )
 def zcol(call: Call) -> Table:
     """Read the table, compute, hand back curves."""
-    from ssilang.kernel.soil_column import SoilColumn, free_field
+    from ssilang.kernel.records.soil_column import SoilColumn, free_field
 
     entries = Entries(call, call.required("TABLE"), "ZCOL")
     thickness, density, modulus, damping = (

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.elements.families import stress
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.joints.elements import is_joint
+from ssilang.kernel.interface.elements import is_joint
+from ssilang.kernel.materials.model import Model
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.model import Model
 from ssilang.kernel.plasticity.points import is_plastic
 from ssilang.language.values import ListMots, Table
 from ssilang.operators.dynamics.motion_observers import CsvObserver, VtkObserver

@@ -6,8 +6,8 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from ssilang.kernel.dynamics.contact_options import ContactOptions
-from ssilang.kernel.dynamics.scheme import Scheme, generalised_alpha, hht, newmark
+from ssilang.kernel.contact.options import ContactOptions
+from ssilang.kernel.stepping.scheme import Scheme, generalised_alpha, hht, newmark
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:

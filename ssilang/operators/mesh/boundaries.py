@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.errors import MeshError
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.boundary import (
     chained,
     contour,
@@ -21,8 +21,8 @@ from ssilang.kernel.mesh.orientation import (
     orient_towards,
     reversed_line,
 )
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, arg, flag, operator
+from ssilang.language.run.call import Call
 from ssilang.operators.dispatch import INVE, ORDO
 from ssilang.operators.workspace import workspace
 

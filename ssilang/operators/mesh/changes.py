@@ -8,20 +8,20 @@ import numpy as np
 
 from ssilang.io.plots.palette import NAMES as COLOURS
 from ssilang.io.plots.palette import index_of
-from ssilang.kernel.errors import MeshError
+from ssilang.kernel.base.arrays import IntArray
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.boundary import edges, faces
 from ssilang.kernel.mesh.cells import CELL_TYPES
+from ssilang.kernel.mesh.changes.complete import COMPLETE, complete, taken_apart
+from ssilang.kernel.mesh.changes.cut_open import cut_open
+from ssilang.kernel.mesh.changes.degree import LINEAR, linear, quadratic
+from ssilang.kernel.mesh.changes.merge import regenerate, repeated_nodes
+from ssilang.kernel.mesh.changes.split import split_quadrangles, tetrahedra
 from ssilang.kernel.mesh.combine import poi1, recolour, union
-from ssilang.kernel.mesh.complete import COMPLETE, complete, taken_apart
-from ssilang.kernel.mesh.cut_open import cut_open
-from ssilang.kernel.mesh.degree import LINEAR, linear, quadratic
-from ssilang.kernel.mesh.merge import regenerate, repeated_nodes
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
-from ssilang.kernel.mesh.nodes import IntArray
-from ssilang.kernel.mesh.split import split_quadrangles, tetrahedra
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, arg, flag, operator
-from ssilang.language.session import Session
+from ssilang.language.run.call import Call
+from ssilang.language.run.session import Session
 from ssilang.language.values import ListEnti
 from ssilang.operators.dispatch import CHAN, COUL, MANU
 from ssilang.operators.workspace import workspace

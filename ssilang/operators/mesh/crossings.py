@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from ssilang.kernel.mesh.analytic import (
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.mesh.lines.crossing_curve import crossing_curve
+from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.kernel.mesh.surfaces.analytic import (
     Shape,
     cone_shape,
     cylinder_shape,
@@ -10,10 +13,7 @@ from ssilang.kernel.mesh.analytic import (
     sphere_shape,
     torus_shape,
 )
-from ssilang.kernel.mesh.crossing_curve import crossing_curve
-from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.language.call import Call
+from ssilang.language.run.call import Call
 from ssilang.operators.mesh.ends import (
     Cuts,
     Ends,

@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.mesh.curves import Polynomial, cubic_tangents, cubic_through
-from ssilang.kernel.mesh.lines import line_ends
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.mesh.lines.curves import Polynomial, cubic_tangents, cubic_through
+from ssilang.kernel.mesh.lines.lines import line_ends
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.operators.mesh.ends import (
     SIZES_EN,
     SIZES_FR,

@@ -6,14 +6,20 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from ssilang.kernel.errors import MeshError
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.combine import union
 from ssilang.kernel.mesh.families import Family, family_of
-from ssilang.kernel.mesh.lines import CurveMap, different_nodes, end_sizes, line_ends, mesh_curve
+from ssilang.kernel.mesh.lines.lines import (
+    CurveMap,
+    different_nodes,
+    end_sizes,
+    line_ends,
+    mesh_curve,
+)
+from ssilang.kernel.mesh.lines.subdivision import subdivide
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.mesh.subdivision import subdivide
-from ssilang.language.call import Call
+from ssilang.language.run.call import Call
 from ssilang.language.values import type_of
 from ssilang.operators.workspace import Workspace, workspace
 

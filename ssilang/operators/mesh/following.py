@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.mesh.follow import followed
+from ssilang.kernel.mesh.changes.follow import followed
+from ssilang.kernel.mesh.changes.transform import NodeCopier
+from ssilang.kernel.mesh.generators.sweep import corresponding_nodes
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.mesh.sweep import corresponding_nodes
-from ssilang.kernel.mesh.transform import NodeCopier
-from ssilang.language.call import Call
+from ssilang.language.run.call import Call
 from ssilang.operators.mesh.moves import displacements
 
 

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.errors import MeshError
-from ssilang.kernel.mesh.interfaces import joint_mesh, joints_inside
-from ssilang.kernel.mesh.merge import merge_between, merge_close
+from ssilang.kernel.base.arrays import IntArray
+from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.mesh.changes.merge import merge_between, merge_close
+from ssilang.kernel.mesh.generators.interfaces import joint_mesh, joints_inside
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.kernel.mesh.nodes import IntArray
 from ssilang.language.registry import Help, arg, flag, many, operator, opt
-from ssilang.language.session import Session
+from ssilang.language.run.session import Session
 from ssilang.operators.mesh.points import tolerance_of
 from ssilang.operators.workspace import workspace
 

@@ -8,8 +8,9 @@ from typing import Any
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.mesh.combine import union
-from ssilang.kernel.mesh.curves import (
+from ssilang.kernel.mesh.lines.curves import (
     Arc,
     Polynomial,
     arc_about_axis,
@@ -17,12 +18,11 @@ from ssilang.kernel.mesh.curves import (
     arc_through,
     parabola,
 )
-from ssilang.kernel.mesh.lines import chain_mesh, end_sizes, line_ends, mesh_curve, polyline
+from ssilang.kernel.mesh.lines.lines import chain_mesh, end_sizes, line_ends, mesh_curve, polyline
+from ssilang.kernel.mesh.lines.subdivision import subdivide
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.mesh.subdivision import subdivide
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.operators.mesh.ends import (
     SIZES_EN,
     SIZES_FR,

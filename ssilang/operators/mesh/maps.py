@@ -6,7 +6,17 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ssilang.kernel.mesh.analytic import (
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.mesh.changes.transform import (
+    PointMap,
+    affinity,
+    mirror_line,
+    mirror_plane,
+    mirror_point,
+    scaling,
+    turn,
+)
+from ssilang.kernel.mesh.surfaces.analytic import (
     Shape,
     cone_shape,
     cylinder_shape,
@@ -16,17 +26,7 @@ from ssilang.kernel.mesh.analytic import (
     sphere_shape,
     torus_shape,
 )
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.mesh.transform import (
-    PointMap,
-    affinity,
-    mirror_line,
-    mirror_plane,
-    mirror_point,
-    scaling,
-    turn,
-)
-from ssilang.language.call import Call
+from ssilang.language.run.call import Call
 from ssilang.operators.workspace import workspace
 
 # word -> number of points, shape through them

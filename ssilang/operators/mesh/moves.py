@@ -6,12 +6,10 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ssilang.kernel.errors import MeshError
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray, NodeTable
-from ssilang.kernel.mesh.sweep import rotate
-from ssilang.kernel.mesh.transform import (
+from ssilang.kernel.mesh.changes.transform import (
     PointMap,
     affine_through,
     from_cylindrical,
@@ -20,8 +18,11 @@ from ssilang.kernel.mesh.transform import (
     straighten_middles,
     to_cylindrical,
 )
-from ssilang.language.call import Call
+from ssilang.kernel.mesh.generators.sweep import rotate
+from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.operators.mesh.maps import (
     read_affinity,
     read_axis,

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from ssilang.kernel.mesh.combine import union
-from ssilang.kernel.mesh.curves import ParabolicArc, arc_about_centre
-from ssilang.kernel.mesh.lines import chain_mesh, different_nodes, end_sizes
+from ssilang.kernel.mesh.lines.curves import ParabolicArc, arc_about_centre
+from ssilang.kernel.mesh.lines.lines import chain_mesh, different_nodes, end_sizes
+from ssilang.kernel.mesh.lines.subdivision import subdivide
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.kernel.mesh.subdivision import subdivide
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.operators.mesh.ends import SIZES_EN, SIZES_FR, cuts_and_items, ends_of, positions
 from ssilang.operators.workspace import workspace
 

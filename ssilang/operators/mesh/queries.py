@@ -8,23 +8,24 @@ from typing import Any
 import numpy as np
 
 from ssilang.io.plots.palette import NAMES as COLOURS
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements.zone_fields import carry
-from ssilang.kernel.errors import MeshError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.materials.model import Model
 from ssilang.kernel.mesh.boundary import chained
-from ssilang.kernel.mesh.lines import line_chain
-from ssilang.kernel.mesh.measure import (
+from ssilang.kernel.mesh.lines.lines import line_chain
+from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.kernel.mesh.nodes import NodeTable
+from ssilang.kernel.mesh.queries.measure import (
     enclosed_area,
     enclosed_volume,
     node_sizes,
     total_measure,
 )
-from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.kernel.mesh.nodes import FloatArray, NodeTable
-from ssilang.kernel.model import Model
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, arg, choice, operator, opt
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots
 from ssilang.operators.dispatch import COOR, listing
 from ssilang.operators.workspace import workspace

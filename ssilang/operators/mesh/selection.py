@@ -9,10 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ssilang.io.plots.palette import NAMES as COLOURS
-from ssilang.kernel.errors import MeshError
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.mesh.boundary import chained, contour
 from ssilang.kernel.mesh.cells import CELL_TYPES
+from ssilang.kernel.mesh.changes.local_refinement import TIE, is_tie, parted
 from ssilang.kernel.mesh.combine import (
     intersection,
     of_type,
@@ -23,20 +25,18 @@ from ssilang.kernel.mesh.combine import (
     union,
     without_duplicates,
 )
-from ssilang.kernel.mesh.local_refinement import TIE, is_tie, parted
+from ssilang.kernel.mesh.lines.paths import network_of_lines, shortest_line
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.mesh.paths import network_of_lines, shortest_line
-from ssilang.kernel.mesh.select import (
+from ssilang.kernel.mesh.queries.select import (
     containing,
     inside_contour,
     inside_volume,
     resting_on,
     stretch,
 )
-from ssilang.kernel.mesh.surface_crossing import crossed
-from ssilang.language.call import Call
+from ssilang.kernel.mesh.surfaces.surface_crossing import crossed
 from ssilang.language.registry import Help, arg, choice, flag, operator, opt
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots
 from ssilang.operators.dispatch import DIFF, INTE, UNIQ, union_with_call, union_words
 from ssilang.operators.mesh.crossings import drawn_crossing, draws_a_curve

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ssilang.kernel.curve import Load
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.curves.curve import Load
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import (
     Numbering,
@@ -20,7 +21,6 @@ from ssilang.kernel.matrices.assembly import (
 )
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.mesh import Point
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.language.values import ListEnti, ListMots, ListReel, Mot, Table
 from ssilang.operators.modal.harmonic_tables import asked_results, curve, joined, longer, numbered
 from ssilang.operators.modal.hbm import known_names
@@ -106,8 +106,8 @@ def continue_harmonics(entries: Entries) -> None:
 def _problem(entries: Entries, names: Names) -> FrequencyProblem:
     from ssilang.kernel.continuation.frequency_problem import FrequencyProblem
     from ssilang.kernel.continuation.harmonics import basis_of
-    from ssilang.kernel.dynamics.constraints import constraints_of
-    from ssilang.kernel.dynamics.loading import loading_of
+    from ssilang.kernel.stepping.problem.constraints import constraints_of
+    from ssilang.kernel.stepping.problem.loading import loading_of
 
     words = ("RIGIDITE_HBM", "AMORTISSEMENT_HBM", "MASSE_HBM")
     K, C, M = (entries.needed(w, "RIGIDITE") for w in words)
@@ -181,7 +181,7 @@ def _begin(entries: Entries, problem: FrequencyProblem, first: float) -> Begin:
 
 def _reduced(problem: FrequencyProblem, field: NodeField) -> FloatArray:
     """What is left of a field of coefficients by the supports, (r,)."""
-    from ssilang.kernel.sparse import sp
+    from ssilang.kernel.base.sparse import sp
 
     u = field_to_vector(field, problem.numbering, dual=False)
     T = problem.T
@@ -328,7 +328,7 @@ def _floquet(
 def _exponents(entries: Entries, problem: FrequencyProblem) -> Callable[[Solution], FloatArray]:
     """Floquet exponents of a solution, from the matrices of the motion itself."""
     from ssilang.kernel.continuation.floquet import exponents
-    from ssilang.kernel.dynamics.constraints import constraints_of
+    from ssilang.kernel.stepping.problem.constraints import constraints_of
 
     words = ("RIGIDITE_CONSTANTE", "AMORTISSEMENT_CONSTANT", "MASSE_CONSTANTE")
     K, C, M = (entries.get(w, "RIGIDITE") for w in words)

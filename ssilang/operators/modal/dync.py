@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import field_to_vector
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.modal.links import link_arrays
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots, ListReel, Mot, Table
 from ssilang.operators.modal.dyne import System, damping_of, system_of
 from ssilang.operators.modal.dyne_links import links_of

@@ -7,17 +7,17 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.curve import Load
-from ssilang.kernel.dynamics.loading import loading_of
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.curves.curve import Load
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.matrices.assembly import Numbering, assemble, field_to_vector, numbering_of
 from ssilang.kernel.matrices.matrix import Matrix
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.modal.explicit import SCHEMES, VARIABLES, ModalRun, ModalState, march
 from ssilang.kernel.modal.links import STATES, link_arrays
 from ssilang.kernel.modal.modes import eigenvalue
-from ssilang.language.call import Call
+from ssilang.kernel.stepping.problem.loading import loading_of
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel, Mot, Table
 from ssilang.operators.modal.basis import shapes_in
 from ssilang.operators.modal.dyne_links import Basis, ReadLink, link_results, links_of

@@ -7,12 +7,12 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ssilang.kernel.curve import Curve
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.curves.curve import Curve
 from ssilang.kernel.mesh.mesh import Point
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.modal import links as law
 from ssilang.kernel.modal.links import Link
-from ssilang.language.call import Call
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel, Mot, Table
 from ssilang.operators.modal.basis import Shape
 

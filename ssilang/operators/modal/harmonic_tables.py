@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ssilang.io.plots.palette import NAMES, index_of
-from ssilang.kernel.curve import Curve, CurvePart
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.mesh.mesh import Point
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.language.values import ListMots, ListReel, Mot, Table
 from ssilang.operators.tables.entries import Entries
 

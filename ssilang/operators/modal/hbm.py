@@ -6,13 +6,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.continuation import expansion
 from ssilang.kernel.continuation.expansion import Names, names_of
 from ssilang.kernel.continuation.harmonics import basis_at
 from ssilang.kernel.matrices.matrix import Matrix
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots, ListReel, Mot, Table
 from ssilang.operators.modal.harmonic_tables import (
     Asked,

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.matrices.matrix import dual_of
 from ssilang.kernel.mesh.mesh import Point
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.language.values import ListChpo, ListReel, Mot, Table
 from ssilang.operators.modal.harmonic_tables import numbered
 from ssilang.operators.session.user_procedures import call_user

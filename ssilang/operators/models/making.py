@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements.catalog import ELEMENTS, GENERIC_ELEMENTS, default_element
 from ssilang.kernel.elements.families import register_family
 from ssilang.kernel.elements.springs import ELEMENT as IMPEDANCE_ELEMENTS
-from ssilang.kernel.errors import MeshError
-from ssilang.kernel.joints.elements import JOINT_NAMES, is_joint, with_rule
-from ssilang.kernel.joints.family import JointFamily
+from ssilang.kernel.interface.elements import JOINT_NAMES, is_joint, with_rule
+from ssilang.kernel.interface.family import JointFamily
 from ssilang.kernel.materials.behaviours import (
     CREEP_WORDS,
     ELASTICITIES,
@@ -23,13 +23,13 @@ from ssilang.kernel.materials.behaviours import (
     full_word,
     normalised,
 )
-from ssilang.kernel.mesh.local_refinement import parted
+from ssilang.kernel.materials.model import Mode, Model, Zone
+from ssilang.kernel.mesh.changes.local_refinement import parted
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
 from ssilang.kernel.modal import shape_models
-from ssilang.kernel.model import Mode, Model, Zone
-from ssilang.language.call import Call
-from ssilang.language.near import nearest
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
+from ssilang.language.say.near import nearest
 from ssilang.operators import words
 from ssilang.operators.dispatch import union
 from ssilang.operators.models.contact import contact_model, take_contact

@@ -8,19 +8,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.curve import Curve
+from ssilang.kernel.curves.curve import Curve
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.joints.elements import is_joint
-from ssilang.kernel.joints.table import check_given
+from ssilang.kernel.interface.elements import is_joint
+from ssilang.kernel.interface.laws.parameter_table import check_given
 from ssilang.kernel.materials.axes import Directions, axis_parameters
+from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.materials.parameters import geometric_names
 from ssilang.kernel.mesh.mesh import Point
-from ssilang.kernel.model import Model, Zone
-from ssilang.language.call import Call
-from ssilang.language.near import nearest_names
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
+from ssilang.language.say.near import nearest_names
 from ssilang.operators import words
 from ssilang.operators.models.tension import material_names, tension_to_hardening
 

@@ -7,14 +7,14 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.joints.elements import is_joint
-from ssilang.kernel.model import Model, Zone
+from ssilang.kernel.interface.elements import is_joint
+from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.plasticity.bulk import Bulk, State, bulk_of, state_from_fields
 from ssilang.kernel.plasticity.points import plastic_zones
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
-    from ssilang.kernel.dynamics.problem import Inputs, Problem
+    from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 
 Bodies = Callable[["Problem", "Inputs"], tuple[Bulk, State]]
 

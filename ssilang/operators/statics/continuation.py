@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.model import Model
+from ssilang.kernel.materials.model import Model
 from ssilang.language.values import ListMots, ListReel, Mot, Table
 from ssilang.operators.dynamics.reports import report
 from ssilang.operators.modal.continuation import lengths_of
@@ -20,9 +20,9 @@ from ssilang.operators.statics.pasapas_results import ResultTables
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
-    from ssilang.kernel.dynamics.problem import Problem
-    from ssilang.kernel.dynamics.snapshot import Observer, Snapshot
     from ssilang.kernel.plasticity.arc_length import ArcTrace
+    from ssilang.kernel.stepping.problem.problem import Problem
+    from ssilang.kernel.stepping.snapshot import Observer, Snapshot
 
 REFUSED = {
     "PROCEDURE_CHARMECA": "follower loads of a procedure are not built for structures",
@@ -49,9 +49,9 @@ class Followed:
 
 def continue_loads(entries: Entries) -> None:
     """Follow the path of loads and fill the tables."""
-    from ssilang.kernel.dynamics.problem import make_problem
     from ssilang.kernel.plasticity.arc_length import follow_arc
     from ssilang.kernel.plasticity.driven_load import history_of
+    from ssilang.kernel.stepping.problem.problem import make_problem
 
     entries.refuse(REFUSED)
     lengths, begun = lengths_of(entries), time.perf_counter()

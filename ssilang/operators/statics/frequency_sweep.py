@@ -6,19 +6,19 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.elements.families import mass, stiffness
 from ssilang.kernel.elements.springs import counts_damping, dynamic_stiffness, is_impedance
 from ssilang.kernel.elements.zone_fields import zone_field
-from ssilang.kernel.errors import KernelError
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
+from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.modal.shape_models import is_shape, shape_matrix
-from ssilang.kernel.model import Model, Zone
 from ssilang.kernel.plasticity.points import is_plastic
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
 from ssilang.operators.session.progress import ProgressLine
 from ssilang.operators.statics.pasapas_entries import KNOWN, REFUSED
@@ -136,8 +136,8 @@ def _inputs(entries: Entries) -> HarmonicInputs:
 
 
 def _check_linear(entries: Entries, zone: Zone) -> None:
-    from ssilang.kernel.joints.elements import is_joint
-    from ssilang.kernel.joints.law_table import law_of
+    from ssilang.kernel.interface.elements import is_joint
+    from ssilang.kernel.interface.laws.law_table import law_of
 
     if is_plastic(zone) or (is_joint(zone) and not law_of(zone.behaviour).linear):
         raise KernelError(

@@ -8,20 +8,20 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.curve import Load, LoadPart
-from ssilang.kernel.dynamics.plan import nearest
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.curves.curve import Load, LoadPart
 from ssilang.kernel.elements.families import mass, stiffness
 from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.joints.elements import is_joint
-from ssilang.kernel.joints.law_table import law_of
+from ssilang.kernel.interface.elements import is_joint
+from ssilang.kernel.interface.laws.law_table import law_of
+from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.model import Model, Zone
 from ssilang.kernel.plasticity.bulk import stiffness_beside, without_stiffness
 from ssilang.kernel.plasticity.points import is_plastic, plastic_zones
 from ssilang.kernel.statics.thermal_load import split_thermal
-from ssilang.language.call import Call
+from ssilang.kernel.stepping.times import nearest
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
 from ssilang.operators.dynamics.dynamic import integrated
 from ssilang.operators.dynamics.reports import report, warn_contrast, warn_resolution, warn_supports
@@ -47,9 +47,9 @@ from ssilang.operators.statics.path_following import control_asked, driven_parts
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
-    from ssilang.kernel.dynamics.problem import Inputs, Problem
-    from ssilang.kernel.dynamics.snapshot import Observer
     from ssilang.kernel.plasticity.run import BulkRun
+    from ssilang.kernel.stepping.problem.problem import Inputs, Problem
+    from ssilang.kernel.stepping.snapshot import Observer
 
 
 @operator(
@@ -110,10 +110,10 @@ def _stretch(
     number: int,
 ) -> Table:
     """Steps of one stage; the state at their end."""
-    from ssilang.kernel.dynamics.integrate import integrate
-    from ssilang.kernel.dynamics.problem import make_problem
     from ssilang.kernel.plasticity.run import run_bulk
     from ssilang.kernel.statics.stepping import step_statics
+    from ssilang.kernel.stepping.problem.problem import make_problem
+    from ssilang.kernel.stepping.run import integrate
 
     given, dynamic = stage.entries, work.flag("DYNAMIQUE")
     inputs, stresses = _inputs(given, start, times, dynamic)
@@ -303,7 +303,7 @@ def _times(entries: Entries, start: Start) -> tuple[FloatArray, NDArray[np.bool_
 def _inputs(
     entries: Entries, start: Start, times: FloatArray, dynamic: bool
 ) -> tuple[Inputs, Stresses]:
-    from ssilang.kernel.dynamics.problem import Inputs
+    from ssilang.kernel.stepping.problem.problem import Inputs
 
     material: CellField | None = entries.get("CARACTERISTIQUES", "MCHAML")
     model: Model | None = entries.get("MODELE", "MMODEL")

@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.elements.families import family_of, strain
 from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.joints.elements import is_joint
+from ssilang.kernel.interface.elements import is_joint
+from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.matrices.assembly import Numbering, vector_to_field
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.model import Model, Zone
-from ssilang.language.errors import SsiError
+from ssilang.language.say.errors import SsiError
 from ssilang.language.values import Procedure
 from ssilang.operators.session.user_procedures import call_user
 from ssilang.operators.tables.entries import Entries

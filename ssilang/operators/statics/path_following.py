@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ssilang.kernel.curve import LoadPart
-from ssilang.kernel.errors import FieldError
+from ssilang.kernel.base.errors import FieldError
+from ssilang.kernel.curves.curve import LoadPart
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import Numbering, field_to_vector
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel, Mot
 from ssilang.operators.statics.path_controls import (
     AutomaticControl,
@@ -25,10 +25,10 @@ from ssilang.operators.statics.path_controls import (
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
-    from ssilang.kernel.dynamics.integrate import History
     from ssilang.kernel.plasticity.driven_load import Trace
     from ssilang.kernel.plasticity.following import Control, PathRun
     from ssilang.kernel.plasticity.run import BulkRun
+    from ssilang.kernel.stepping.run import History
 
 DRIVEN = ("DEPLACEMENTS_PILOTES", "FORCES_PILOTEES")
 DEFAULT_CRITERION = 1e-3

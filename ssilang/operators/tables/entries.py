@@ -9,15 +9,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.curve import Curve, Load
-from ssilang.kernel.dynamics.plan import every, nearest
-from ssilang.kernel.errors import KernelError
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import KernelError
+from ssilang.kernel.curves.curve import Curve, Load
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.language.call import Call
-from ssilang.language.errors import SsiError
-from ssilang.language.near import nearest as nearest_word
-from ssilang.language.source import Span
+from ssilang.kernel.stepping.times import every, nearest
+from ssilang.language.run.call import Call
+from ssilang.language.say.errors import SsiError
+from ssilang.language.say.near import nearest as nearest_word
+from ssilang.language.text.source import Span
 from ssilang.language.values import Annule, ListReel, Table, type_of
 
 
@@ -91,7 +91,7 @@ class Entries:
         try:
             yield
         except KernelError as problem:
-            raise self.bad(f"'{index}' is refused: {problem.message}", problem.hint) from problem
+            raise self.bad(f"'{index}' is refused: {problem}", problem.hint) from problem
 
     def needed(self, index: str | int, *types: str) -> Any:
         """The value at an index that must be there."""
@@ -178,8 +178,12 @@ class Entries:
             f"'PAS_SAUVES{suffix}' is '{cadence}'", "an ENTIER (one step in N), 'TOUS' or 'FINAL'"
         )
 
-    def bad(self, message: str, hint: str = "") -> SsiError:
+    def error(self, code: str, /, **data: object) -> SsiError:
         """An error of the procedure."""
+        return self.call.error(code, None, **{"speaker": self.procedure, **data})
+
+    def bad(self, message: str, hint: str = "") -> SsiError:
+        """An error of the procedure, in a sentence that stands in no catalogue yet."""
         return self.call.bad(f"{self.procedure}: {message}", hint=hint)
 
     @property
@@ -193,12 +197,11 @@ class Entries:
             frame = frame.caller
         return place
 
-    def warn(self, message: str, hint: str = "") -> None:
+    def warn(self, code: str, hint: str = "", /, **data: object) -> None:
         """A warning of the procedure."""
-        self.call.session.warn(
-            "bad-value", self.place, operator=self.procedure, message=message, hint=hint,
-            severity="warning",
-        )  # fmt: skip
+        if " " in code:  # a sentence of its own, not yet in a catalogue
+            code, data = "bad-value", {"message": code, "hint": hint}
+        self.call.session.warn(code, self.place, **{"operator": self.procedure, **data})
 
 
 def _numbers_in(value: object) -> list[Any]:

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.errors import MaterialError
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.materials.plastic.response import (
     DEVIATOR,
     UNIT,
@@ -17,7 +18,6 @@ from ssilang.kernel.materials.plastic.response import (
     Response,
     mises,
 )
-from ssilang.kernel.mesh.nodes import FloatArray
 
 DURATION = "DT"
 """Duration of the step among the parameters of a point."""

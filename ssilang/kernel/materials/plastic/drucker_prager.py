@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.errors import MaterialError
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.materials.plastic.cone import Cone, cone_return
 from ssilang.kernel.materials.plastic.response import PointParameters, Response
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 
 def perfect(

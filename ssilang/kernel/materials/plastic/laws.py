@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from ssilang.kernel.errors import MaterialError
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.materials.plastic import (
     creep,
     drucker_prager,
@@ -14,7 +15,6 @@ from ssilang.kernel.materials.plastic import (
     von_mises,
 )
 from ssilang.kernel.materials.plastic.response import PointParameters, Response
-from ssilang.kernel.mesh.nodes import FloatArray
 
 Respond = Callable[[PointParameters, FloatArray, FloatArray, FloatArray], Response]
 """Response from parameters, stress (m, 6), step of strain (m, 6), variables (m, k)."""

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.curve import Curve, CurvePart
-from ssilang.kernel.errors import MaterialError
+from ssilang.kernel.base.errors import MaterialError
+from ssilang.kernel.curves.curve import Curve, CurvePart
 
 _LIKE = 0.01
 """By how much the slope of the first stretch may differ from YOUN, rounded figures of a test."""

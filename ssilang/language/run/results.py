@@ -1,0 +1,80 @@
+"""What an operator gives, before it runs: types of results by form."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from functools import cache
+from typing import Any
+
+from ssilang.language.registry import ANY, Form, Like
+from ssilang.language.values import known_classes, type_of
+
+Results = tuple[str, ...]
+"""A result each: a type word, 'A|B' for one or the other, `ANY` where only the run can tell."""
+
+
+def results_of(form: Form, values: Mapping[str, Any] | None = None) -> Results | None:
+    """Types of the results of a form.
+
+    Parameters
+    ----------
+    values : mapping, optional
+        Arguments that were bound, for forms that give what they were given.
+
+    Returns
+    -------
+    tuple of str or None
+        () for a directive; None where neither declaration nor annotation tells.
+    """
+    given = form.gives
+    if isinstance(given, Like):
+        held = (values or {}).get(given.name)
+        if held is None:
+            return None
+        return (
+            tuple(type_of(v) for v in held) if isinstance(held, tuple | list) else (type_of(held),)
+        )
+    if given is not None:
+        return given
+    return _annotated(form.function)
+
+
+@cache
+def _annotated(function: Callable[..., Any]) -> Results | None:
+    note = function.__annotations__.get("return", "")
+    if note is None:
+        return ()
+    text = note if isinstance(note, str) else getattr(note, "__name__", str(note))
+    found = re.fullmatch(r"tuple\[(.+)\]", text)
+    parts = [p.strip() for p in found.group(1).split(",")] if found else [text]
+    if "..." in parts:
+        return None
+    words = [_words(part) for part in parts]
+    if words == [("",)]:
+        return ()
+    return None if any(w is None for w in words) else tuple("|".join(w) for w in words if w)
+
+
+def _words(note: str) -> tuple[str, ...] | None:
+    """Type words of an annotation such as 'Mesh | Point'; None if one is no class known."""
+    found: list[str] = []
+    for name in (n.strip() for n in note.split("|")):
+        if name == "None":
+            found.append("")
+            continue
+        word = _type_words().get(name.split(".")[-1].split("[")[0])
+        if word is None:
+            return None
+        found.append(word)
+    return tuple(dict.fromkeys(found))
+
+
+@cache
+def _type_words() -> Mapping[str, str]:
+    return {cls.__name__: word for cls, word in known_classes().items()}
+
+
+def is_open(results: Results | None) -> bool:
+    """Whether something of the results is not known before the run."""
+    return results is None or any(ANY in r or "|" in r for r in results)
