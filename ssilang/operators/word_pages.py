@@ -10,9 +10,9 @@ from functools import cache
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.matrices.matrix import PRIMAL_TO_DUAL
 from ssilang.language import vocabulary
+from ssilang.language.near import nearest
 from ssilang.language.registry import OPERATORS, keywords_of
 from ssilang.language.run.library import standard_procedures
-from ssilang.language.say.near import nearest
 from ssilang.language.say.reference import (
     WIDTH,
     Page,
@@ -23,7 +23,7 @@ from ssilang.language.say.reference import (
     page_text,
     procedure_page,
 )
-from ssilang.language.say.search import Item, search
+from ssilang.language.search import Item, search
 from ssilang.language.vocabulary.examples import example
 from ssilang.language.vocabulary.terms import Option, Quantity, Word
 from ssilang.operators import words

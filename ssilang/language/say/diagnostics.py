@@ -6,10 +6,10 @@ from collections.abc import Iterable
 from typing import Any
 
 from ssilang.language.cast3m import IN_SCOPE, SUBJECTS, find_cast3m_word
+from ssilang.language.near import LIKE, VERY_LIKE, nearest
 from ssilang.language.registry import ANY, OPERATORS, find_operator, keywords_of
 from ssilang.language.say import hints
 from ssilang.language.say.errors import SsiError
-from ssilang.language.say.near import LIKE, VERY_LIKE, nearest
 from ssilang.language.say.translations import in_french
 from ssilang.language.text.source import Span
 from ssilang.language.values import type_of

@@ -200,15 +200,15 @@ def describe(entry: Entry, language: str = "en") -> list[str]:
             return lines
         case Group():
             note = _note(entry.optional and not entry.repeated, entry.repeated, language)
-            inner = _indented(entry.entries, language)
-            return [f"{entry.name}{_meaning(entry, language)}{note}", *inner]
+            head = f"{entry.name}{_meaning(entry, language)}{note}"
+            return [head, *_indented(entry.entries, language)]
         case Either():
             lines = [
                 f"{entry.name}{_meaning(entry, language)}{_note(entry.optional, False, language)}"
             ]
-            for n, inner in enumerate(entry.groups):
+            for n, one in enumerate(entry.groups):
                 lines += [f"  {_WORDS['or'][language].strip()}"] if n else []
-                lines += _indented(inner.entries, language)
+                lines += _indented(one.entries, language)
             return lines
 
 

@@ -12,7 +12,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 from functools import cache
 
-from ssilang.language.say.near import LIKE, nearest_names
+from ssilang.language.near import LIKE, nearest_names
 from ssilang.language.vocabulary.terms import Option, Quantity, Unit, Word
 
 __all__ = [

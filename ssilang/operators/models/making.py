@@ -27,9 +27,9 @@ from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.mesh.changes.local_refinement import parted
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
 from ssilang.kernel.modal import shape_models
+from ssilang.language.near import nearest
 from ssilang.language.registry import Help, operator
 from ssilang.language.run.call import Call
-from ssilang.language.say.near import nearest
 from ssilang.operators import words
 from ssilang.operators.dispatch import union
 from ssilang.operators.models.contact import contact_model, take_contact

@@ -18,9 +18,9 @@ from ssilang.kernel.materials.axes import Directions, axis_parameters
 from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.materials.parameters import geometric_names
 from ssilang.kernel.mesh.mesh import Point
+from ssilang.language.near import nearest_names
 from ssilang.language.registry import Help, operator
 from ssilang.language.run.call import Call
-from ssilang.language.say.near import nearest_names
 from ssilang.operators import words
 from ssilang.operators.models.tension import material_names, tension_to_hardening
 

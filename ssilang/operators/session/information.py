@@ -5,7 +5,11 @@ from __future__ import annotations
 from ssilang.language.registry import OPERATORS, Help, operator
 from ssilang.language.run.call import Call
 from ssilang.language.run.library import standard_procedures
-from ssilang.language.say.reference import operator_page, overview, procedure_page
+from ssilang.language.say.reference import (
+    operator_page,
+    overview,
+    procedure_page,
+)
 from ssilang.language.values import ListMots
 from ssilang.operators.word_pages import help_text, near_name
 

@@ -11,11 +11,11 @@ from ssilang.io.plots.palette import index_of
 from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.matrices.matrix import PRIMAL_TO_DUAL
 from ssilang.kernel.mesh.cells import CELL_TYPES, POLYGON_SIDES
+from ssilang.language.near import nearest, nearest_names
 from ssilang.language.registry import Help, arg, operator
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SsiError
-from ssilang.language.say.near import nearest, nearest_names
 from ssilang.language.values import ListMots, Mot
 from ssilang.operators.session.option_files import include, read_file_option
 from ssilang.operators.words import told_options, told_values

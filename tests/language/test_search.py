@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ssilang.language.say.search import Item, fold, search
+from ssilang.language.search import Item, fold, search
 
 _ITEMS = [
     Item("VIBR", "operator", "Modes of vibration", "Modes of vibration; modes propres"),
