@@ -119,7 +119,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except BrokenPipeError:
         return _leave_quietly()
     except KeyboardInterrupt:  # while the program starts, or a check or a sweep goes on
-        sys.stderr.write("error: interrupted\n")
+        from ssilang.language.say.diagnostics import render
+        from ssilang.language.say.errors import SsiError
+
+        told = render(SsiError("interrupted", None), getattr(options, "lang", "en"))
+        sys.stderr.write(told + "\n")
         return FAILED
 
 
@@ -187,18 +191,19 @@ def _run_options(options: argparse.Namespace) -> RunOptions:
 def _given(settings: list[str], language: str) -> dict[str, object]:
     """Values of `--set`, one each."""
     from ssilang.cli.sweeping.given import GivenError, parse_setting
-    from ssilang.language.say.diagnostics import placeless
+    from ssilang.language.say.diagnostics import render
+    from ssilang.language.say.errors import SsiError
 
     given: dict[str, object] = {}
     for text in settings:
         try:
             name, values = parse_setting(text)
         except GivenError as problem:
-            sys.stderr.write(placeless(str(problem), language) + "\n")
+            sys.stderr.write(render(SsiError.of(problem, None), language) + "\n")
             raise SystemExit(USAGE) from None
         if len(values) != 1:
-            several = f"{text} gives {name} several values: that is a sweep"
-            sys.stderr.write(placeless(several, language) + "\n")
+            several = SsiError("cli.several-values", None, text=text, name=name)
+            sys.stderr.write(render(several, language) + "\n")
             raise SystemExit(USAGE)
         given[name] = values[0]
     return given

@@ -229,9 +229,9 @@ def known_components() -> tuple[str, ...]:
         for part in components_of(element):
             names += [*part.unknowns, *part.strains, *part.stresses]
     for law in (*PLASTIC_LAWS.values(), *CREEP_LAWS.values()):
-        names += law.variables
+        names += [*law.variables]
     for joint in JOINT_LAWS.values():
-        names += joint.variables
+        names += [*joint.variables]
     return tuple(dict.fromkeys(names))
 
 

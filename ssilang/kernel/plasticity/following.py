@@ -118,7 +118,7 @@ class FollowingSolver(BulkSolver):
             lost = self._followed(motion, r, dd, way, lambda s, _: [most - s.x], share, start)
         if lost.turns > 0:
             assert lost.trial is not None
-            self._commit(motion, lost.du, lost.trial.f, lost.trial.new)
+            self._commit(motion, lost.trial.joints)
             answer = lost.trial.answer
             self.state, self.force, self.work = answer.state, answer.force, answer.work
         return lost
@@ -224,10 +224,7 @@ class PathRun:
 
     def __init__(self, run: BulkRun) -> None:
         if run.problem.contact is not None:
-            raise KernelError(
-                "unilateral relations (MINI, MAXI) do not go with controlled loads",
-                "describe contact by joints (JOINT_SDM)",
-            )
+            raise KernelError("kernel.plasticity.unilateral-relations-mini-maxi")
         self.run = run
         self.solver = FollowingSolver(run.problem, run.problem.K, 1.0, run.bulk, run.state)
         self.count, self.iterations, self.turns = 0, 0, 0

@@ -101,11 +101,6 @@ def sentence(error: SsiError, language: str, names: Iterable[str] = ()) -> tuple
     return text, "\n".join(h for h in (_held_hint(data, language), hint) if h)
 
 
-def placeless(sentence: str, language: str) -> str:
-    """A line that says what is wrong outside of any script."""
-    return f"erreur: {in_french(sentence)}" if language == "fr" else f"error: {sentence}"
-
-
 def _held_hint(data: dict[str, Any], language: str) -> str:
     """Says that an operator ran because the value of a name or an entry is its name."""
     if "held_word" not in data:

@@ -11,8 +11,9 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.elements.zone_fields import ZoneField, missing_parameter
 from ssilang.kernel.interface.kinematics import JointCells, point_values
+from ssilang.kernel.interface.laws.columns import N_PARAMETERS, Parameter
 from ssilang.kernel.interface.laws.law_table import law_of
-from ssilang.kernel.interface.laws.parameters import DEFAULTS, N_PARAMETERS, Parameter
+from ssilang.kernel.interface.laws.parameters import DEFAULTS
 from ssilang.kernel.materials.model import Zone
 
 ELASTIC_SHEAR = "CISAILLEMENT_ELASTIQUE"

@@ -1,48 +1,19 @@
-"""Parameters of the joint laws: columns, defaults, admissibility."""
+"""Parameters of the joint laws: defaults, admissibility."""
 
 from __future__ import annotations
-
-from enum import IntEnum
 
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MaterialError
-
-
-class Parameter(IntEnum):
-    """Columns of the parameter table of joint points (all laws read the same table)."""
-
-    KN = 0  # normal stiffness, Pa/m (N/m for a joint of two points)
-    KS1 = 1  # shear stiffness along t1
-    KS2 = 2  # shear stiffness along t2 (unused in 2D)
-    FU = 3  # tensile strength, Pa
-    GF = 4  # energy spent to open fully, N/m
-    FC = 5  # closing traction, Pa, <= 0
-    FROT = 6  # Coulomb coefficient, < 0: no bound on the shear of a closed point
-    SHEAR = 7  # 0 lost when open, 1 literally elastic at any opening
-    TPHI = 8  # tangent of the friction angle
-    TPSI = 9  # tangent of the dilatancy angle
-    COHE = 10  # cohesion
-    FTRC = 11  # tensile strength of a Mohr-Coulomb joint
-    EF = 12  # normal stiffness beyond the closing ECN
-    ECN = 13
-    FNE = 14  # compression from which a joint of two points yields, 0: never
-    QT = 15  # its tangent stiffness then
-    LARG = 16  # width of a footing (macro-elements), along t1 in 3D
-    LONG = 17  # its other width
-    RAYO = 18  # its radius
-    SYMMETRIC = 19  # 1: tangent of friction without its unsymmetric part
-
-
-N_PARAMETERS = len(Parameter)
+from ssilang.kernel.interface.laws.columns import Parameter
 
 DEFAULTS: dict[str, float] = {"FROT": -1.0}
 """What laws take for the parameters that are not given, if not 0: a joint without tension."""
 
 
 def check_sdm_parameters(parameters: FloatArray) -> None:
-    """Refuse parameters for which the SDM law has no or several answers.
+    """Refuse parameters for which the SDM law has no traction or several.
 
     Parameters
     ----------

@@ -52,7 +52,7 @@ def penalty(
         Without a positive coefficient.
     """
     if coefficient is None or not coefficient > 0.0:
-        raise KernelError("penalty needs a coefficient > 0", "a stiffness, N/m")
+        raise KernelError("kernel.solvers.penalty-needs-coefficient")
     return lagrange(W + np.eye(len(q)) / coefficient, q, None, start)
 
 
@@ -61,31 +61,17 @@ def augmented(
 ) -> Reactions:
     """Augmented Lagrangian, all unknowns at once: rows with `p - c g > 0` are closed.
 
-    Newton's method on `p = max(0, p - c g)`; the solution does not depend on c. Where the sets
-    come back to one seen before, the plain active set goes on from it.
+    Newton's method on `p = max(0, p - c g)` is the active set of `lagrange` whatever c: g is zero
+    on closed rows and p on open ones (Hintermueller, Ito and Kunisch 2002).
+
+    Raises
+    ------
+    KernelError
+        If the coefficient is not positive.
     """
-    c = coefficient if coefficient is not None else 1.0 / _largest_eigenvalue(W)
-    if not c > 0.0:
-        raise KernelError(f"the augmentation {c:g} must be > 0")
-    m = len(q)
-    p = np.zeros(m)
-    active: BoolArray = q < 0.0 if start is None else start.copy()
-    seen: set[bytes] = set()
-    for turn in range(1, 50 + 2 * m):
-        p[:] = 0.0
-        on = np.flatnonzero(active)
-        if len(on):
-            p[on] = np.linalg.lstsq(W[np.ix_(on, on)], -q[on], rcond=1e-14)[0]
-        gap = q + W @ p
-        gap[on] = 0.0
-        closed: BoolArray = p - c * gap > 0.0
-        if np.array_equal(closed, active):
-            return Reactions(_exact(W, q, p, active), active, turn)
-        if closed.tobytes() in seen:
-            break
-        seen.add(closed.tobytes())
-        active = closed
-    return lagrange(W, q, None, active)
+    if coefficient is not None and not coefficient > 0.0:
+        raise KernelError("kernel.solvers.augmentation-must", c=coefficient)
+    return lagrange(W, q, None, start)
 
 
 def uzawa(
@@ -104,7 +90,7 @@ def uzawa(
     c = coefficient if coefficient is not None else 1.0 / largest
     if not 0.0 < c < 2.0 / largest:
         raise KernelError(
-            f"Uzawa's coefficient {c:g} does not converge", f"between 0 and {2.0 / largest:g}"
+            "kernel.solvers.uzawa-coefficient-not-converge", c=c, largest=2.0 / largest
         )
     p = np.zeros(len(q))
     for sweep in range(1, MOST_SWEEPS + 1):
@@ -114,8 +100,10 @@ def uzawa(
         if change <= TOLERANCE * p.max(initial=0.0):
             return Reactions(_exact(W, q, p, p > 0.0), p > 0.0, sweep)
     raise ConvergenceError(
-        f"Uzawa's sweeps did not converge in {MOST_SWEEPS} (last change {change:.1e})",
-        f"a coefficient near {1.8 / largest:g}, or another method",
+        "kernel.solvers.uzawa-sweeps-did-not",
+        most_sweeps=MOST_SWEEPS,
+        change=change,
+        largest=1.8 / largest,
     )
 
 

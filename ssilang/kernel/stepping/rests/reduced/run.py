@@ -233,7 +233,7 @@ def expanded(
     if joints is not None:
         f = np.zeros((len(rows), joints.size))
         for i, row in enumerate(rows):
-            interface_forces(joints.pairs, joints.B, joints.weights, x.t[row], f[i])
+            interface_forces(joints.points, x.t[row], f[i])
         rest = rest + joints.J.T @ f.T
     for i, (row, step) in enumerate(zip(rows, steps.tolist(), strict=True)):
         yield Snapshot(
