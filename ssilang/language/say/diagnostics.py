@@ -97,7 +97,7 @@ def sentence(error: SsiError, language: str, names: Iterable[str] = ()) -> tuple
     if error.code == "not-a-table" and not data["name"]:
         data["name"] = error.span.text.split(".")[0].strip() if error.span else "it"
     text = message.sentence(error.code, data, language)
-    hint = message.hint(error.code, data, language).strip()
+    hint = message.hint(error.code, data, language, script=True).strip()
     return text, "\n".join(h for h in (_held_hint(data, language), hint) if h)
 
 
