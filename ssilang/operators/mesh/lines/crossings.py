@@ -16,7 +16,7 @@ from ssilang.kernel.mesh.crossing_curve import crossing_curve
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.language.call import Call
-from ssilang.language.registry import Chosen, arg, key, select
+from ssilang.language.registry import Chosen, arg, key, main, select
 from ssilang.operators.dispatch import INTE
 from ssilang.operators.mesh.lines.ends import (
     COUNT,
@@ -65,7 +65,7 @@ _SURFACES: Mapping[str, Callable[[Sequence[FloatArray], FloatArray, FloatArray],
         en="the two surfaces that cross, both through the start",
         fr="les deux surfaces qui se croisent, passant par le départ",
     ),
-    START,
+    main("start", "POINT", "MAILLAGE", en=START.en, fr=START.fr),
     COUNT,
     SIZES,
     key(
