@@ -20,11 +20,11 @@ from pathlib import Path
 
 from ssilang.cli.run import RunOptions, run_source
 from ssilang.cli.signals import interrupt
-from ssilang.language.library import standard_procedures
-from ssilang.language.reference import procedure_page
 from ssilang.language.registry import OPERATORS
-from ssilang.language.session import Limits
-from ssilang.language.source import Source
+from ssilang.language.run.library import standard_procedures
+from ssilang.language.run.session import Limits
+from ssilang.language.say.reference import procedure_page
+from ssilang.language.text.source import Source
 from ssilang.operators.loader import load_operators
 
 _TOKEN = re.compile(

@@ -23,12 +23,12 @@ from pathlib import Path
 
 from ssilang.cli.run import RunOptions, execute, make_session
 from ssilang.cli.signals import interrupt
-from ssilang.language.errors import SeveralErrors, SsiError
-from ssilang.language.jumps import StopRun
 from ssilang.language.registry import OPERATORS, Operator, keywords_of
-from ssilang.language.session import Limits, Session
-from ssilang.language.source import Source
-from ssilang.language.structure import parse
+from ssilang.language.run.jumps import StopRun
+from ssilang.language.run.session import Limits, Session
+from ssilang.language.say.errors import SeveralErrors, SsiError
+from ssilang.language.text.source import Source
+from ssilang.language.text.structure import parse
 from ssilang.operators.loader import load_operators
 
 _FLAT = """

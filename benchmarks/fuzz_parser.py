@@ -14,10 +14,10 @@ import sys
 import time
 from pathlib import Path
 
-from ssilang.language.diagnostics import render
-from ssilang.language.errors import SeveralErrors
-from ssilang.language.source import Source
-from ssilang.language.structure import parse
+from ssilang.language.say.diagnostics import render
+from ssilang.language.say.errors import SeveralErrors
+from ssilang.language.text.source import Source
+from ssilang.language.text.structure import parse
 
 _ROOT = Path(__file__).resolve().parents[1]
 _WORDS = [

@@ -23,8 +23,8 @@ from pathlib import Path
 
 from ssilang.cli.run import RunOptions, RunResult, execute, make_session, run_source
 from ssilang.cli.signals import interrupt
-from ssilang.language.session import Limits
-from ssilang.language.source import Source
+from ssilang.language.run.session import Limits
+from ssilang.language.text.source import Source
 from ssilang.language.values import Table
 
 _SECONDS = 10

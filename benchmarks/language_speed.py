@@ -18,8 +18,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 from ssilang.cli.run import run_text
-from ssilang.language.source import Source
-from ssilang.language.structure import parse
+from ssilang.language.text.source import Source
+from ssilang.language.text.structure import parse
 
 _ROOT = Path(__file__).resolve().parents[1]
 _SCRIPTS = {

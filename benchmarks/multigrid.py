@@ -17,15 +17,16 @@ from pathlib import Path
 import numpy as np
 
 from ssilang.kernel import elements
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.materials.model import Mode, Zone
 from ssilang.kernel.matrices.assembly import assemble, numbering_of
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.mesh import CellBlock
 from ssilang.kernel.mesh.nodes import NodeTable
-from ssilang.kernel.model import Mode, Zone
-from ssilang.kernel.solvers.backends import DISSECTION, MULTIGRID, Ordering
-from ssilang.kernel.solvers.inverse import invert
-from ssilang.kernel.sparse import sp
+from ssilang.kernel.solvers.backends import DISSECTION, MULTIGRID
+from ssilang.kernel.solvers.cholesky.inverse import invert
+from ssilang.kernel.solvers.factor import Ordering
 from ssilang.kernel.statics.linear_motion import rigid_motions
 
 

@@ -10,11 +10,12 @@ from ssilang.cli.checking.scope import assigned_names
 from ssilang.cli.checking.walk import Checker
 from ssilang.cli.colour import coloured
 from ssilang.cli.run import RunOptions, make_session
-from ssilang.language.diagnostics import is_warning, render
-from ssilang.language.errors import SeveralErrors, SsiError
-from ssilang.language.source import Source
-from ssilang.language.structure import parse
-from ssilang.language.tree import Script
+from ssilang.language.say.diagnostics import render
+from ssilang.language.say.errors import SeveralErrors, SsiError
+from ssilang.language.text.source import Source
+from ssilang.language.text.source_files import read_source
+from ssilang.language.text.structure import parse
+from ssilang.language.text.tree import Script
 
 
 def check_file(path: Path, syntax_only: bool, language: str, out: TextIO) -> bool:
@@ -26,14 +27,14 @@ def check_file(path: Path, syntax_only: bool, language: str, out: TextIO) -> boo
         Look at the structure alone: statements, parentheses, quotes, blocks.
     """
     try:
-        source = Source.read(path)
+        source = read_source(path)
     except SsiError as error:
         problems, names = [error], set[str]()
     else:
         problems, names = check_source(source, syntax_only)
     for problem in problems:
         out.write(coloured(render(problem, language, names), out) + "\n\n")
-    return any(not is_warning(p) for p in problems)
+    return any(p.severity == "error" for p in problems)
 
 
 def check_source(source: Source, syntax_only: bool = False) -> tuple[list[SsiError], set[str]]:

@@ -9,7 +9,7 @@ import time
 from dataclasses import dataclass, field
 from typing import TextIO, cast
 
-from ssilang.language.session import Session
+from ssilang.language.run.session import Session
 
 PATIENCE = 2.0  # seconds that a loop may run before anything shows
 REFRESH = 0.2

@@ -15,14 +15,15 @@ from ssilang.cli.loop_progress import follow_loops
 from ssilang.cli.paging import show
 from ssilang.cli.repl_texts import TEXTS
 from ssilang.cli.run import RunOptions, execute, make_session
-from ssilang.language import tree
-from ssilang.language.diagnostics import render
-from ssilang.language.errors import SeveralErrors, SsiError
-from ssilang.language.jumps import StopRun
-from ssilang.language.reference import find_page, page_text
-from ssilang.language.session import Session
-from ssilang.language.source import Source
-from ssilang.language.structure import parse
+from ssilang.language.run.jumps import StopRun
+from ssilang.language.run.session import Session
+from ssilang.language.say.diagnostics import render
+from ssilang.language.say.errors import SeveralErrors, SsiError
+from ssilang.language.say.reference import find_page, page_text
+from ssilang.language.text import tree
+from ssilang.language.text.source import Source
+from ssilang.language.text.source_files import read_source
+from ssilang.language.text.structure import parse
 from ssilang.language.values import Mot, type_of
 from ssilang.operators.dispatch import LISTINGS
 
@@ -196,7 +197,7 @@ class Repl:
         if not path:
             self._say("file", name="%run")
             return True
-        return self._guarded(lambda: execute(self.session, Source.read(Path(path))))
+        return self._guarded(lambda: execute(self.session, read_source(Path(path))))
 
 
 def start(options: RunOptions) -> int:

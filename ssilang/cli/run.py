@@ -15,13 +15,14 @@ from typing import Any, TextIO
 from ssilang.cli.colour import coloured
 from ssilang.cli.loop_progress import follow_loops
 from ssilang.cli.signals import ENDED_BY_CLOSED_PIPE, take
-from ssilang.language.diagnostics import render
-from ssilang.language.errors import ReaderLeft, SeveralErrors, SsiError, interruption
-from ssilang.language.jumps import StopRun
-from ssilang.language.session import Limits, Session
-from ssilang.language.source import Source
-from ssilang.language.structure import parse
-from ssilang.language.tree import first_assignments
+from ssilang.language.run.jumps import StopRun
+from ssilang.language.run.session import Limits, Session
+from ssilang.language.say.diagnostics import render
+from ssilang.language.say.errors import ReaderLeft, SeveralErrors, SsiError, interruption
+from ssilang.language.text.source import Source
+from ssilang.language.text.source_files import read_source
+from ssilang.language.text.structure import parse
+from ssilang.language.text.tree import first_assignments
 from ssilang.language.values import Mot
 
 
@@ -175,7 +176,7 @@ def _close_files(session: Session, errors: list[SsiError]) -> None:
     try:
         run_output(session).close()
     except OutputError as problem:
-        errors.append(SsiError("bad-value", None, message=problem.message, hint=problem.hint))
+        errors.append(SsiError.of(problem, None))
 
 
 def _summarise(result: RunResult, source: Source, err: TextIO) -> None:
@@ -188,7 +189,7 @@ def _summarise(result: RunResult, source: Source, err: TextIO) -> None:
     try:
         write_summary(result.session, source, output, result.errors, result.exit_code)
     except OutputError as problem:
-        err.write(f"error: {problem.message}\n  = {problem.hint}\n")
+        err.write(render(SsiError.of(problem, None), result.session.language) + "\n")
         result.exit_code = 1
         return
     if err.isatty() and output.files:
@@ -199,7 +200,7 @@ def run_file(path: Path | str, options: RunOptions | None = None) -> RunResult:
     """Run a script file, keeping what it prints in the result."""
     out = io.StringIO()
     try:
-        source = Source.read(Path(path))
+        source = read_source(Path(path))
     except SsiError as error:
         text = render(error)
         return RunResult(1, Session(), errors=[error], message=text)

@@ -19,10 +19,10 @@ from typing import Any
 from ssilang import __version__
 from ssilang.io.atomic import write_text
 from ssilang.io.run_output import RunOutput
-from ssilang.language.diagnostics import sentence
-from ssilang.language.errors import SsiError
-from ssilang.language.session import Check, Session
-from ssilang.language.source import Source
+from ssilang.language.run.session import Check, Session
+from ssilang.language.say.diagnostics import sentence
+from ssilang.language.say.errors import SsiError
+from ssilang.language.text.source import Source
 
 NAME = "summary.json"
 

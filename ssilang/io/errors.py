@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ssilang.kernel.errors import KernelError
+from ssilang.kernel.base.errors import KernelError
 
 
 class OutputError(KernelError):

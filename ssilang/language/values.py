@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
-    from ssilang.language.tree import Definition, Item
+    from ssilang.language.text.tree import Definition, Item
 
 
 class Mot(str):

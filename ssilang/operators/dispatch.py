@@ -8,13 +8,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from ssilang.language.call import Call
-from ssilang.language.errors import SsiError
 from ssilang.language.registry import OPERATORS, Help, main, operator, said, shared
+from ssilang.language.run.call import Call
+from ssilang.language.say.errors import SsiError
 from ssilang.language.values import Mot, type_of
 
 if TYPE_CHECKING:
-    from ssilang.language.source import Span
+    from ssilang.language.text.source import Span
 
 Entry = Callable[[Call, Any], Any]
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from ssilang.kernel.curve import Curve, Load
+from ssilang.kernel.curves.curve import Curve, Load
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.materials.model import Model
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.kernel.model import Model
 from ssilang.language.values import register_type
 
 for _cls, _word in (

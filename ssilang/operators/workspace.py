@@ -8,10 +8,10 @@ from typing import Any, cast
 import numpy as np
 
 from ssilang.io.run_output import RunOutput
+from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.mesh.mesh import Point
 from ssilang.kernel.mesh.nodes import NodeTable
-from ssilang.kernel.model import Mode
-from ssilang.language.session import Session
+from ssilang.language.run.session import Session
 
 
 @dataclass
@@ -69,12 +69,16 @@ def workspace(session: Session) -> Workspace:
 
 
 def open_session(session: Session) -> Session:
-    """Give a session its workspace and load all operators."""
+    """Give a session its evaluator and its workspace, and load all operators."""
+    from ssilang.language.run.evaluator import Evaluator
     from ssilang.operators.loader import load_operators
+    from ssilang.operators.tables.soundness import flaw_of
 
     load_operators()
+    Evaluator(session)
     made = Workspace()
     session.workspace = made
     session.make_point = made.point
     session.dimension = lambda: made.dimension
+    session.flaw_of = flaw_of
     return session

@@ -9,9 +9,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ssilang.cli.check import check_source
-from ssilang.language.diagnostics import is_warning, render
 from ssilang.language.registry import OPERATORS
-from ssilang.language.source import Source
+from ssilang.language.say.diagnostics import render
+from ssilang.language.text.source import Source
+from ssilang.language.text.source_files import read_source
 from ssilang.operators.loader import load_operators
 
 _ROOT = Path(__file__).resolve().parents[2]
@@ -39,7 +40,7 @@ def codes(text: str) -> list[str]:
 
 def errors(source: Source) -> list[str]:
     problems, names = check_source(source)
-    return [render(p, "en", names) for p in problems if not is_warning(p)]
+    return [render(p, "en", names) for p in problems if p.severity == "error"]
 
 
 @pytest.mark.parametrize(
@@ -92,7 +93,7 @@ def test_finds(text, code):
 def test_warns(text, code):
     problems, _ = check_source(Source("test", text))
     assert [p.code for p in problems] == [code]
-    assert is_warning(problems[0])
+    assert problems[0].severity == "warning"
 
 
 def test_several_errors_in_one_pass():
@@ -139,7 +140,7 @@ def test_raises_no_false_alarm(text):
     ids=lambda p: p.name,
 )
 def test_sound_decks_pass(path):
-    assert errors(Source.read(path)) == []
+    assert errors(read_source(path)) == []
 
 
 _WORDS = "PROG DIME DROI A B T P1 'X' ( ) ; = . % + - * EGA ET SI FINSI REPE FIN QUIT 1 2. VRAI"

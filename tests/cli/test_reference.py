@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from ssilang.language.library import standard_procedures
-from ssilang.language.reference import example_lines, find_page, overview, page_text
 from ssilang.language.registry import OPERATORS
+from ssilang.language.run.library import standard_procedures
+from ssilang.language.say.reference import example_lines, find_page, overview, page_text
 from ssilang.operators.loader import load_operators
 
 load_operators()

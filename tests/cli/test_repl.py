@@ -8,7 +8,7 @@ import pytest
 
 from ssilang.cli.repl import Repl
 from ssilang.cli.run import RunOptions, make_session
-from ssilang.language.source import Source
+from ssilang.language.text.source import Source
 
 
 class Typed:

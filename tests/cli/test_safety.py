@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from ssilang.cli.run import RunOptions, run_source
-from ssilang.language.source import Source
+from ssilang.language.text.source import Source
 
 _MESH = "OPTI DIME 2 ELEM QUA4 ; S = (DROI 2 (0. 0.) (1. 0.)) TRAN 2 (0. 1.) ; L = PROG 1. 2. ;"
 _WRITERS = [

@@ -14,7 +14,7 @@ import pytest
 
 from ssilang.cli import main, signals
 from ssilang.cli.run import RunOptions, make_session
-from ssilang.language.source import Source
+from ssilang.language.text.source import Source
 
 posix = pytest.mark.skipif(os.name != "posix", reason="signals of one system")
 

@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from ssilang.cli.run import RunOptions, run_source
-from ssilang.language.source import Source
+from ssilang.language.text.source import Source
 
 _SCRIPTS = Path(__file__).with_name("scripts")
 _UPDATE = bool(os.environ.get("SSILANG_UPDATE"))

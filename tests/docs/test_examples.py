@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 
 from ssilang.cli.run import run_text
-from ssilang.language.library import standard_procedures
-from ssilang.language.reference import operator_page, procedure_page
 from ssilang.language.registry import OPERATORS
+from ssilang.language.run.library import standard_procedures
+from ssilang.language.say.reference import operator_page, procedure_page
 from ssilang.operators.loader import load_operators
 
 load_operators()

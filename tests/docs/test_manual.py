@@ -11,10 +11,9 @@ import pytest
 from ssilang.cli.check import check_source
 from ssilang.cli.run import run_text
 from ssilang.language.cast3m import IN_SCOPE, cast3m_words, find_cast3m_word
-from ssilang.language.diagnostics import is_warning
-from ssilang.language.library import standard_procedures
 from ssilang.language.registry import OPERATORS
-from ssilang.language.source import Source
+from ssilang.language.run.library import standard_procedures
+from ssilang.language.text.source import Source
 
 _DOCS = Path(__file__).resolve().parents[2] / "docs"
 
@@ -37,6 +36,14 @@ def test_a_page_shows_syntax_help_and_what_the_example_printed(build, tmp_path):
     assert "## Syntax" in text
     assert "MESS (DIME (PROG 1. 2.)) ;" in text
     assert "\nprints\n\n```\n2\n```" in text
+
+
+def test_every_page_can_be_made(build):
+    for page in build.all_pages():
+        text = build.page_markdown(page, [build.Ran(e) for e in page.help.examples])
+        assert text.startswith(f"# {page.name}")
+        assert all(line.strip() in text for line in page.help.syntax.split("\n"))
+        assert text.count("## Example") == len(page.help.examples)
 
 
 def test_every_operator_is_in_the_index_and_has_a_file_name_of_its_own(build):
@@ -91,7 +98,7 @@ def test_scripts_in_the_guides_run(name, tmp_path):
         result = run_text(script, output_directory=tmp_path)
         assert result.exit_code == 0, script + result.message
         problems, _ = check_source(Source(name, script))
-        assert not [p for p in problems if not is_warning(p)], script
+        assert not [p for p in problems if p.severity == "error"], script
 
 
 def test_outputs_in_the_guides_are_those_of_their_scripts(tmp_path):

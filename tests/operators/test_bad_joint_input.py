@@ -3,6 +3,7 @@
 import pytest
 
 from ssilang.cli.run import run_text
+from ssilang.language.say.diagnostics import sentence
 
 BODY = """
 OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ;
@@ -49,7 +50,7 @@ def test_missing_mass_is_warned_of(outcome):
 
 
 def messages(result):
-    return [f"{w.data['message']} {w.data['hint']}" for w in result.session.warnings]
+    return [" ".join(sentence(w, "en")) for w in result.session.warnings]
 
 
 def test_wrong_unit_of_a_stiffness_is_warned_of(outcome):
@@ -91,7 +92,7 @@ def test_a_matrix_of_two_unit_systems_is_warned_of_by_its_condition_number(outco
 @pytest.mark.parametrize(
     ("change", "said"),
     [
-        ("C = MATE M 'KN' 1. 'KS' 1. 'DIM3' -1. ;", "has a negative area"),
+        ("C = MATE M 'KN' 1. 'KS' 1. 'DIM3' -1. ;", "parameter DIM3 = -1 is out of its range"),
         ("C = MATE M 'KN' 1. 'KS' 1. ;", ""),
     ],
 )

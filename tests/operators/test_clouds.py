@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from ssilang.kernel.cloud import inverse_distance, moving_plane, on_grid
+from ssilang.kernel.curves.cloud import inverse_distance, moving_plane, on_grid
 
 CLOUD = "N = NUAG 'COMP' 'X' 0. 1. 2. 'COMP' 'Y' 5. 9. 6. ; "
 GRID = (

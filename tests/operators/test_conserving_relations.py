@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from ssilang.cli.run import run_text
+from ssilang.language.say.diagnostics import sentence
 
 # a rigid block on two stops, tilted, its weight pulling it back: rocks for ever
 BLOCK = """
@@ -39,7 +40,7 @@ def test_a_velocity_correction_beside_it_has_no_effect_and_is_warned_of(entry, w
     )
     result = run_text(text + END)
     assert result.exit_code == 0, result.message
-    said = " ".join(w.data["message"] for w in result.session.warnings)
+    said = " ".join(sentence(w, "en")[0] for w in result.session.warnings)
     assert ("'VITEUNIL' has no effect" in said) is warned
 
 

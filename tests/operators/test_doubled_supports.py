@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from ssilang.cli.run import run_text
+from ssilang.language.say.diagnostics import sentence
 
 HEAD = """OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; DENS 0.5 ;
 P1 = 0. 0. ; P2 = 2. 0. ; P3 = 2. 1. ; P4 = 0. 1. ;
@@ -20,7 +21,7 @@ SOLVE = "U = RESO (RI ET (BLOQ 'DEPL' BAS)) (FORC 'FX' 1. P3) ;"
 def warnings(text: str) -> list[str]:
     result = run_text(text)
     assert result.exit_code == 0, result.message
-    return [w.data["message"] for w in result.session.warnings if "message" in w.data]
+    return [sentence(w, "en")[0] for w in result.session.warnings]
 
 
 def test_a_line_made_twice_is_told() -> None:

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from ssilang.cli.run import run_text
+from ssilang.language.say.diagnostics import sentence
 
 OSCILLATOR = """
 OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ;
@@ -139,7 +140,7 @@ def test_unresolved_contact_warns_with_the_step_to_use(tmp_path):
     result = run(text, tmp_path)
     warning = result.session.warnings[0]
     wanted = np.pi * np.sqrt(1.0 / 1e7) / 30
-    assert f"{wanted:.3g}" in warning.data["hint"]
+    assert f"{wanted:.3g}" in sentence(warning, "en")[1]
     assert not run(HOPPER + "T2 = DYNAMIC T1 ;", tmp_path).session.warnings
 
 
@@ -168,7 +169,7 @@ def test_wrong_entries_are_named(entry, words, tmp_path):
 
 def test_misspelt_entry_is_reported(tmp_path):
     result = run(OSCILLATOR + "T1 . 'PAS_SAUVE' = 1 ; T2 = DYNAMIC T1 ;", tmp_path)
-    assert "PAS_SAUVES" in result.session.warnings[0].data["hint"]
+    assert result.session.warnings[0].data["near"] == "PAS_SAUVES"
 
 
 def test_schemes_agree_on_a_smooth_motion(tmp_path):
@@ -249,6 +250,6 @@ def test_reduction_goes_with_one_method(tmp_path):
 
 def test_a_warning_of_the_library_stands_at_the_scripts_own_line(tmp_path):
     result = run(OSCILLATOR + "T1 . 'ECON' = VRAI ;\nT2 = DYNAMIC T1 ;", tmp_path)
-    warning = next(w for w in result.session.warnings if "'ECON'" in w.data["message"])
+    warning = next(w for w in result.session.warnings if "'ECON'" in sentence(w, "en")[0])
     assert warning.span.source.name == "script"
     assert warning.span.text == "DYNAMIC"

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from ssilang.cli.run import run_text
+from ssilang.language.say.diagnostics import sentence
 
 POINT = """
 OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; G1 = MANU POI1 P1 ;
@@ -211,7 +212,7 @@ def test_a_dashpot_by_number_without_its_matrix_is_said():
         )
     )
     assert result.exit_code == 0
-    assert "AMORTISSEMENT" in result.session.warnings[-1].data["hint"]
+    assert "AMORTISSEMENT" in sentence(result.session.warnings[-1], "en")[1]
 
 
 TWO = """

@@ -104,6 +104,18 @@ def test_block_slides_down_with_its_constant_acceleration(found):
     assert lost == pytest.approx(0.5 * weight * x, rel=0.015)
 
 
+def test_block_above_a_rough_ground_falls_freely(found):
+    """Nothing touches at the start: there is gravity alone."""
+    lifted = BLOCK.replace("(-1. 0.) (1. 0.)", "(-1. .1) (1. .1)")
+    speed = found(
+        SLOPE.replace(BLOCK, lifted).format(angle=0.0)
+        + "T.DYNAMIQUE = VRAI ; T.TEMPS_CALCULES = PROG 0. PAS .01 .1 ; PASAPAS T ; "
+        "V = MINI (EXCO UY (T.VITESSES . 10)) ;",
+        "V",
+    )
+    assert speed == pytest.approx(-0.981, rel=1e-9)
+
+
 def test_rubbing_oscillator_loses_the_same_stretch_in_each_half_period_and_sticks(found):
     """`2 mu N/k` a half period, until the spring is weaker than friction."""
     swing, rest, speed = found(

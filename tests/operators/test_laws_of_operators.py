@@ -10,7 +10,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from ssilang.cli.run import RunOptions, execute, make_session
-from ssilang.language.source import Source
+from ssilang.language.text.source import Source
 
 FEW = settings(max_examples=15, deadline=None, suppress_health_check=list(HealthCheck))
 number = st.floats(-50.0, 50.0).map(lambda x: round(x, 3))

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from ssilang.cli.run import run_text
-from ssilang.kernel.mesh.lines import line_chain
+from ssilang.kernel.mesh.lines.lines import line_chain
 from ssilang.kernel.mesh.mesh import Mesh
 
 PLANE = "OPTI DIME 2 ELEM QUA4 ; O = 0. 0. ; A = 1. 0. ; B = 1. 1. ; "

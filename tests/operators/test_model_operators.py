@@ -5,7 +5,7 @@ import io
 import pytest
 
 from ssilang.cli.run import RunOptions, run_source
-from ssilang.language.source import Source
+from ssilang.language.text.source import Source
 
 SQUARE = (
     "OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ; P1 = 0. 0. ; P2 = 2. 0. ; L = DROI 2 P1 P2 ; "

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from ssilang.cli.run import run_text
+from ssilang.language.say.diagnostics import sentence
 
 BAR = """
 OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ;
@@ -158,7 +159,7 @@ def test_joint_of_the_wrong_unit_scale_is_reported(tmp_path):
     for stiffness, warned in (("1.E19", True), ("1.E10", False)):
         result = run_text(text.replace("KN0", stiffness), output_directory=tmp_path)
         assert result.exit_code == 0, result.message
-        assert any("units" in w.data["hint"] for w in result.session.warnings) is warned
+        assert any("units" in sentence(w, "en")[1] for w in result.session.warnings) is warned
 
 
 def test_user_procedure_sees_the_state_of_each_time_and_changes_the_load(tmp_path):

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from ssilang.cli.run import RunOptions, RunResult, run_file
-from ssilang.kernel.curve import Curve
+from ssilang.kernel.curves.curve import Curve
 from ssilang.language.values import Table
 
 

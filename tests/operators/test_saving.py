@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from ssilang.cli.run import RunOptions, run_file, run_text
-from ssilang.language.scopes import Frame
+from ssilang.language.run.scopes import Frame
 from ssilang.language.values import type_of
 
 FIRST = """

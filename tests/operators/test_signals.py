@@ -3,8 +3,14 @@
 import numpy as np
 import pytest
 
-from ssilang.kernel.errors import FieldError
-from ssilang.kernel.signals import constant_step, fourier, inverse_fourier, shocks, time_above
+from ssilang.kernel.base.errors import FieldError
+from ssilang.kernel.records.signals import (
+    constant_step,
+    fourier,
+    inverse_fourier,
+    shocks,
+    time_above,
+)
 
 
 def test_transform_of_a_gaussian_is_a_gaussian():

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.curve import Curve, CurvePart, Load, LoadPart
+from ssilang.kernel.curves.curve import Curve, CurvePart, Load, LoadPart
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, dual_of
 from ssilang.kernel.matrices.relations import Term, relation_rows
 from ssilang.kernel.mesh.mesh import CellBlock
 from ssilang.kernel.mesh.nodes import NodeTable
-from ssilang.kernel.model import Mode, Model, Zone
 
 
 class Bench:

@@ -16,16 +16,16 @@ from ssilang.cli.checking.kinds import (
     typed,
 )
 from ssilang.cli.checking.scope import Scope
-from ssilang.language import tree
-from ssilang.language.binding import bind_operator
-from ssilang.language.call import Call, Operand, accepts
-from ssilang.language.errors import SsiError
-from ssilang.language.leftovers import is_call
-from ssilang.language.printer import heading
 from ssilang.language.registry import SCALAR_RULES, Operator, find_operator
-from ssilang.language.results import Results, results_of
-from ssilang.language.session import Session
-from ssilang.language.source import Span
+from ssilang.language.run.binding import bind_operator
+from ssilang.language.run.call import Call, Operand, accepts
+from ssilang.language.run.leftovers import is_call
+from ssilang.language.run.results import Results, results_of
+from ssilang.language.run.session import Session
+from ssilang.language.say.errors import SsiError
+from ssilang.language.text import tree
+from ssilang.language.text.printer import heading
+from ssilang.language.text.source import Span
 from ssilang.language.values import Mot, Procedure, Texte
 from ssilang.operators.numbers.arithmetic import RULES, SIGNS
 

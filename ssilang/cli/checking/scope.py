@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ssilang.cli.checking.kinds import UNKNOWN, same
-from ssilang.language import tree
+from ssilang.language.text import tree
 
 
 @dataclass

@@ -10,13 +10,13 @@ from ssilang.cli.checking.kinds import UNKNOWN, kind_word, typed
 from ssilang.cli.checking.phrases import PhraseReader
 from ssilang.cli.checking.scope import Scope, assigned_names
 from ssilang.cli.checking.usage import misspelt_names, unused_names
-from ssilang.language import tree
 from ssilang.language.cast3m import cast3m_words
-from ssilang.language.errors import SsiError
-from ssilang.language.leftovers import is_call
-from ssilang.language.phrase_errors import no_result, unended
 from ssilang.language.registry import OPERATORS, find_operator, keywords_of
-from ssilang.language.session import Session
+from ssilang.language.run.leftovers import is_call
+from ssilang.language.run.phrase_errors import no_result, unended
+from ssilang.language.run.session import Session
+from ssilang.language.say.errors import SsiError
+from ssilang.language.text import tree
 from ssilang.language.values import Mot, Procedure, known_types
 
 # statements that may bring names the text does not show
@@ -250,7 +250,7 @@ def _until_fin(nodes: tuple[tree.Node, ...]) -> tuple[tree.Node, ...]:
 
 def _head(span: Any) -> Any:
     """The first line of a span."""
-    from ssilang.language.source import Span
+    from ssilang.language.text.source import Span
 
     end = span.start + len(span.text.split("\n")[0].split(";")[0].rstrip())
     return Span(span.source, span.start, min(span.end, end))

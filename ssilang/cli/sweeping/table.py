@@ -61,9 +61,9 @@ def _numbers(rows: Sequence[Row], name: str) -> bool:
 def _draw(rows: Sequence[Row], axis: str, swept: Sequence[str], figure: str, folder: Path) -> Path:
     import numpy as np
 
-    from ssilang.io.plots.curves import CurveOptions, draw_curves
     from ssilang.io.plots.figure import save_figure, slug
-    from ssilang.kernel.curve import Curve, CurvePart
+    from ssilang.io.plots.graphs.curves import CurveOptions, draw_curves
+    from ssilang.kernel.curves.curve import Curve, CurvePart
 
     groups: dict[str, list[tuple[float, float]]] = {}
     others = [n for n in swept if n != axis]

@@ -43,7 +43,7 @@ def run_task(task: Task) -> Row:
     from ssilang.cli.run import RunOptions, run_file
     from ssilang.io.atomic import write_text
     from ssilang.kernel.solvers.backends import keep_factors
-    from ssilang.language.session import Limits
+    from ssilang.language.run.session import Limits
 
     keep_factors(4)
     allowed = [*task.allowed]

@@ -11,8 +11,8 @@ from ssilang.io.plots.palette import shade
 from ssilang.io.plots.patches import Faces
 from ssilang.io.plots.values import values_on
 from ssilang.io.plots.view import View
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.fields.deformed import ArrowPart, Arrows, round_down
-from ssilang.kernel.mesh.nodes import FloatArray
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

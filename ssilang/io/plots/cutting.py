@@ -7,12 +7,12 @@ import numpy as np
 from ssilang.io.plots.patches import Faces
 from ssilang.io.plots.values import values_on
 from ssilang.io.plots.view import Plane, View
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.mesh.changes.split import tetrahedra
 from ssilang.kernel.mesh.combine import take
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.mesh.split import tetrahedra
 
 
 def behind(mesh: Mesh, plane: Plane, view: View, positions: FloatArray) -> Mesh:

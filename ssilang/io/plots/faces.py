@@ -14,7 +14,7 @@ from ssilang.io.plots.palette import shade
 from ssilang.io.plots.patches import Faces, all_faces, pieces
 from ssilang.io.plots.values import values_on
 from ssilang.io.plots.view import Plane
-from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.base.arrays import FloatArray
 
 if TYPE_CHECKING:
     from ssilang.io.plots.layers import Layer, PictureOptions

@@ -6,11 +6,11 @@ from dataclasses import dataclass, field
 
 from ssilang.io.plots.labels import Annotation
 from ssilang.io.plots.view import Plane
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.deformed import Arrows, displacements
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.kernel.mesh.nodes import FloatArray
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.base.arrays import FloatArray
 
 _WANTED = 14
 

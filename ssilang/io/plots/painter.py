@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ssilang.io.plots.view import View
-from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.base.arrays import FloatArray
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -9,11 +9,11 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.elements.polygons import regular_polygon
-from ssilang.kernel.elements.reference import shape_functions
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.elements.shapes.polygons import regular_polygon
+from ssilang.kernel.elements.shapes.reference import shape_functions
 from ssilang.kernel.mesh.cells import CELL_TYPES, POLYGON_SIDES, CellType
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 
 @dataclass(frozen=True, eq=False)

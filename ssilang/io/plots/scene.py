@@ -26,8 +26,8 @@ from ssilang.io.plots.painter import Painter
 from ssilang.io.plots.palette import shade
 from ssilang.io.plots.patches import Faces, visible_faces
 from ssilang.io.plots.view import Plane, View, plane_view
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.fields.deformed import Arrows
-from ssilang.kernel.mesh.nodes import FloatArray
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -52,7 +52,7 @@ def draw_scene(
     views = views or (plane_view(),)
     panels = [(v, c) for v in views for c in (components or ("",))]
     if not any(layer.mesh.n_cells for layer in layers) and arrows is None:
-        raise OutputError("there is nothing to draw: the mesh is empty")
+        raise OutputError("io.nothing-draw-mesh-empty")
     box = [sheet_bounds(layers, arrows, view, options) for view, _ in panels]
     width, height, rows, columns = _sheet(box[0], len(panels))
     with drawing(width, height) as figure:

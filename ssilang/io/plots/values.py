@@ -9,11 +9,11 @@ import numpy as np
 from ssilang.io.errors import OutputError
 from ssilang.io.plots.patches import Faces
 from ssilang.io.vtk.grid import matching_cells
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.cells import CELL_TYPES
-from ssilang.kernel.mesh.nodes import FloatArray
 
 VON_MISES = "von Mises"
 
@@ -133,4 +133,4 @@ def check_component(field: NodeField | CellField, component: str) -> None:
     """
     names = component_names(field)
     if component not in names:
-        raise OutputError(f"the field has no component '{component}', it has {', '.join(names)}")
+        raise OutputError("io.field-no-component", component=component, names=names)

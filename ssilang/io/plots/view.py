@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ssilang.io.errors import OutputError
-from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.base.arrays import FloatArray
 
 # from the front right, slightly above: three faces of a box are seen
 DEFAULT_DIRECTION = np.array([1.0, -2.0, 0.9])
@@ -32,7 +32,7 @@ class Plane:
         normal = np.cross(b - a, c - a)
         length = float(np.linalg.norm(normal))
         if length <= 1e-12 * float(np.linalg.norm(b - a) * np.linalg.norm(c - a)):
-            raise OutputError("the three points of the plane lie on a line")
+            raise OutputError("io.three-points-plane-lie")
         return cls(a, normal / length)
 
     def height(self, points: FloatArray) -> FloatArray:

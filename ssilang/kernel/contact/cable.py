@@ -12,14 +12,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.contact.friction import Friction
-from ssilang.kernel.errors import MeshError
 from ssilang.kernel.matrices.location import locate
 from ssilang.kernel.matrices.matrix import Relations
 from ssilang.kernel.matrices.relations import joined, rows_from_table
 from ssilang.kernel.matrices.tied_relations import sliding
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,7 +87,7 @@ def _ends(x: FloatArray, cells: IntArray) -> _Ends:
     counts = np.bincount(node)
     if (counts > 2).any():
         at = int(np.argmax(counts)) + 1
-        raise MeshError(f"the cable branches at node {at}", "a model for each cable")
+        raise MeshError("kernel.contact.cable-branches-node", at=at)
     along = x[cells[:, 1]] - x[cells[:, 0]]
     length = np.linalg.norm(along, axis=1)
     tangent = np.tile(along / length[:, None], (2, 1))
@@ -123,7 +123,7 @@ def _slips(
         rows.append(rows_from_table(line.nodes, np.tile(table, (1, len(unknowns))), names, values))
         nodes.append(own[inside])
     if not rows:
-        raise MeshError("no node of the cable lies in the body")
+        raise MeshError("kernel.contact.no-node-cable-lies")
     return joined(rows), np.concatenate(nodes)
 
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.matrices.matrix import Relations
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 
 @dataclass(frozen=True, eq=False)

@@ -17,13 +17,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.contact.facing import Projection, Side, project, side_of
 from ssilang.kernel.contact.friction import Friction
-from ssilang.kernel.elements.quadrature import quadrature
+from ssilang.kernel.elements.shapes.quadrature import quadrature
 from ssilang.kernel.matrices.matrix import Relations
 from ssilang.kernel.matrices.relations import joined, rows_from_table
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray, NodeTable
+from ssilang.kernel.mesh.nodes import NodeTable
 
 NOTHING = 1e-13
 """Coefficients (of a mean: at most 1) that are rounding."""

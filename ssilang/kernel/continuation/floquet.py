@@ -6,7 +6,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.base.arrays import FloatArray
 
 FINE = 128
 """Intervals of a period at least."""

@@ -12,7 +12,7 @@ from typing import Protocol
 
 import numpy as np
 
-from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.base.arrays import FloatArray
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ssilang.kernel.compiled import compiled
-from ssilang.kernel.errors import KernelError
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.compiled.compiler import compiled
+from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.modal.link_laws import link_forces
 from ssilang.kernel.modal.links import (
     COSINE_OF_TIME,
@@ -36,15 +36,14 @@ class LinkForces:
         past = (table[:, PLASTIC] != 0.0) | ((table[:, FRICTION] != 0.0) & (table[:, TANGENT] >= 0))
         if past.any():
             raise KernelError(
-                f"link {int(np.flatnonzero(past)[0]) + 1} remembers its past (plastic, or sticking "
-                "by springs): harmonic balance wants forces of the present motion",
-                "friction that slides alone: 'RAIDEUR_TANGENTIELLE' negative",
+                "kernel.continuation.link-remembers-past-plastic",
+                past=int(np.flatnonzero(past)[0]) + 1,
             )
         timed = np.isin(self.links.kinds, (COSINE_OF_TIME, SINE_OF_TIME))
         if timed.any():
             raise KernelError(
-                f"link {int(np.flatnonzero(timed)[0]) + 1} changes in time by a frequency of its "
-                "own: harmonic balance wants forces of the motion alone"
+                "kernel.continuation.link-changes-time-frequency",
+                timed=int(np.flatnonzero(timed)[0]) + 1,
             )
 
     def at(self, q: FloatArray, v: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.continuation.harmonics import Oscillators, derivative_matrix
-from ssilang.kernel.mesh.nodes import FloatArray
 
 GAUSS = 12
 

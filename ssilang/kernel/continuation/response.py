@@ -6,11 +6,11 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.continuation.arc import Branch, Lengths, Point, Tracer
 from ssilang.kernel.continuation.floquet import crossing, unstable
 from ssilang.kernel.continuation.harmonics import Oscillators, derivative_matrix
 from ssilang.kernel.continuation.normal_modes import FreeMotion
-from ssilang.kernel.mesh.nodes import FloatArray
 
 
 @dataclass(frozen=True, eq=False)

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.elements.boundary import (
     face_geometry,
     require_parents,
     zones_of_faces,
 )
-from ssilang.kernel.elements.kinematics import NODE_TRANSLATIONS, harmonic
+from ssilang.kernel.elements.solids.kinematics import NODE_TRANSLATIONS, harmonic
 from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
 from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, dual_of
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.model import Model, Zone
 
 
 def absorbing_boundary(model: Model, boundary: Mesh, material: CellField) -> Matrix:

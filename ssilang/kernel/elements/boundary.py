@@ -6,14 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements.catalog import BODY_FAMILIES, ELEMENTS
-from ssilang.kernel.elements.geometry import SurfaceGeometry, surface_geometry
-from ssilang.kernel.elements.quadrature import Rule, quadrature
-from ssilang.kernel.elements.reference import REFERENCE_CELLS
-from ssilang.kernel.errors import MeshError
+from ssilang.kernel.elements.shapes.geometry import SurfaceGeometry, surface_geometry
+from ssilang.kernel.elements.shapes.quadrature import Rule, quadrature
+from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS
+from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.mesh.mesh import CellBlock
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.model import Mode, Model, Zone
 
 # points that integrate two shape functions of the face times a linear field
 _POINTS = {"POI1": 1, "SEG2": 2, "SEG3": 3, "TRI3": 7, "TRI6": 7, "QUA4": 4, "QUA8": 9}
@@ -30,7 +30,7 @@ class Parents:
 def face_rule(cell_type: str) -> Rule:
     """Quadrature of a face."""
     if cell_type not in _POINTS:
-        raise MeshError(f"{cell_type} cells cannot carry a surface load")
+        raise MeshError("kernel.elements.cells-cannot-carry-surface", cell_type=cell_type)
     return quadrature(REFERENCE_CELLS[cell_type].shape, _POINTS[cell_type])
 
 
@@ -71,11 +71,11 @@ def require_parents(faces: CellBlock, model: Model) -> Parents:
     if lost:
         inside = any(zone.cells.cell_type == faces.cell_type for zone in model.zones)
         raise MeshError(
-            f"{lost} of {len(faces)} {faces.cell_type} cells are no side of a cell of the model",
-            "give sides of the model's cells: lines of a surface (CONT, COTE), faces of a volume "
-            "(ENVE, FACE)"
-            if inside
-            else "the surface and the model's mesh must share their nodes (ELIM)",
+            "kernel.elements.cells-no-side-cell",
+            lost=lost,
+            n_faces=len(faces),
+            cell_type=faces.cell_type,
+            inside=inside,
         )
     return found
 

@@ -10,12 +10,12 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ssilang.kernel.elements.polygons import SIDES
-from ssilang.kernel.elements.quadrature import Rule, quadrature
-from ssilang.kernel.elements.reference import REFERENCE_CELLS, ReferenceCell
-from ssilang.kernel.errors import MeshError
+from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.elements.shapes.polygons import SIDES
+from ssilang.kernel.elements.shapes.quadrature import Rule, quadrature
+from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS, ReferenceCell
 from ssilang.kernel.fields.cell_field import Support
-from ssilang.kernel.model import Mode
+from ssilang.kernel.materials.model import Mode
 
 PLANE_MODES = (Mode.PLANE_STRAIN, Mode.PLANE_STRESS, Mode.GENERALISED_PLANE_STRAIN)
 SECTION_MODES = (*PLANE_MODES, Mode.AXISYMMETRIC, Mode.FOURIER)
@@ -171,9 +171,12 @@ def default_element(cell_type: str, mode: Mode) -> str:
     for kind in fitting:
         if kind.default:
             return kind.name
-    names = ", ".join(k.name for k in fitting)
-    hint = f"name one of {names}" if names else f"cells that exist in mode {mode.value}"
-    raise MeshError(f"{cell_type} cells have no default element in mode {mode.value}", hint)
+    raise MeshError(
+        "kernel.elements.cells-no-default-element",
+        cell_type=cell_type,
+        mode=mode.value,
+        names=[k.name for k in fitting],
+    )
 
 
 def support_rule(element: str, support: Support) -> Rule:

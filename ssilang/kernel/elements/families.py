@@ -6,8 +6,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from ssilang.kernel.elements.bar import Bar
-from ssilang.kernel.elements.beam import Beam, Timoshenko
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import FieldError, MeshError
+from ssilang.kernel.elements.beams.bar import Bar
+from ssilang.kernel.elements.beams.beam import Beam, Timoshenko
+from ssilang.kernel.elements.beams.fibre_beam import FibreBeam
+from ssilang.kernel.elements.beams.fibre_section import Fibre
+from ssilang.kernel.elements.beams.pipe import Pipe
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.family import (
     ElementFamily,
@@ -15,25 +20,20 @@ from ssilang.kernel.elements.family import (
     cell_block,
     element_matrices,
 )
-from ssilang.kernel.elements.fibre_beam import FibreBeam
-from ssilang.kernel.elements.fibre_section import Fibre
-from ssilang.kernel.elements.hooke import inverted, moduli_from_field
-from ssilang.kernel.elements.meridian_shell import MeridianShell
-from ssilang.kernel.elements.mindlin import Mindlin
-from ssilang.kernel.elements.one_point import OnePoint
-from ssilang.kernel.elements.pipe import Pipe
-from ssilang.kernel.elements.plate import Plate
-from ssilang.kernel.elements.solid import Incompressible, Solid
-from ssilang.kernel.elements.solid_moduli import solid_compliance
-from ssilang.kernel.elements.solid_shell import SolidShell
-from ssilang.kernel.elements.thick_shell import ThickShell
+from ssilang.kernel.elements.shells.meridian_shell import MeridianShell
+from ssilang.kernel.elements.shells.mindlin import Mindlin
+from ssilang.kernel.elements.shells.plate import Plate
+from ssilang.kernel.elements.shells.solid_shell import SolidShell
+from ssilang.kernel.elements.shells.thick_shell import ThickShell
+from ssilang.kernel.elements.solids.hooke import inverted, moduli_from_field
+from ssilang.kernel.elements.solids.one_point import OnePoint
+from ssilang.kernel.elements.solids.solid import Incompressible, Solid
+from ssilang.kernel.elements.solids.solid_moduli import solid_compliance
 from ssilang.kernel.elements.zone_fields import ZoneField, missing_parameter, zone_field
-from ssilang.kernel.errors import FieldError, MeshError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.model import Zone
 
 FAMILIES: dict[str, ElementFamily] = {
     "solid": Solid(),
@@ -73,8 +73,7 @@ def family_of(zone: Zone) -> ElementFamily:
         alike = [k for k in ELEMENTS.values() if k.cell_type == zone.cells.cell_type]
         others = [k.name for k in alike if k.family in FAMILIES and zone.mode in k.modes]
         raise MeshError(
-            f"element {zone.element} carries fields and pressures, it has no stiffness",
-            f"name another in MODE: {', '.join(others)}",
+            "kernel.elements.element-carries-fields-pressures", element=zone.element, others=others
         )
     return family
 
@@ -244,8 +243,10 @@ def _components(zone: Zone, field: CellField, names: tuple[str, ...]) -> FloatAr
     seen = zone_field(zone, field)
     if not any(name in seen for name in names):
         raise FieldError(
-            f"the field has none of {', '.join(names)} on the cells of element {zone.element}",
-            f"it has: {', '.join(seen.names) or 'nothing there'}",
+            "kernel.elements.field-none-cells-element",
+            names=names,
+            element=zone.element,
+            present=seen.names,
         )
     return seen.matrix(names, "STRESSES")
 

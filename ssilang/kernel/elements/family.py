@@ -13,14 +13,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.elements.geometry import chunks
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import FieldError
+from ssilang.kernel.elements.shapes.geometry import chunks
 from ssilang.kernel.elements.zone_fields import ZoneField, n_points
-from ssilang.kernel.errors import FieldError
 from ssilang.kernel.fields.cell_field import CellFieldBlock, Support
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
+from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices, dual_of
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray, NodeTable
-from ssilang.kernel.model import Zone
+from ssilang.kernel.mesh.nodes import NodeTable
 
 
 @dataclass(frozen=True, eq=False)
@@ -165,7 +166,7 @@ class ElementFamily(ABC):
 
     def geometric_values(self, zone: Zone, stress: FloatArray, parameters: ZoneField) -> FloatArray:
         """Geometric stiffness matrices (n_cells, n_rows, n_rows) of a stress field (KSIG)."""
-        raise FieldError(f"element {zone.element} has no geometric stiffness")
+        raise FieldError("kernel.elements.element-no-geometric-stiffness", element=zone.element)
 
 
 def per_cell(array: FloatArray, cells: slice) -> FloatArray:

@@ -16,20 +16,17 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ssilang.kernel.curve import Curve, CurvePart
+from ssilang.kernel.base.arrays import ComplexArray, FloatArray
+from ssilang.kernel.base.errors import MaterialError
+from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.elements.catalog import ELEMENTS, ElementKind, register_element
 from ssilang.kernel.elements.families import register_family
 from ssilang.kernel.elements.family import Layout
-from ssilang.kernel.elements.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
+from ssilang.kernel.elements.solids.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
 from ssilang.kernel.elements.strainless import StrainlessFamily
 from ssilang.kernel.elements.zone_fields import ZoneField, missing_parameter
-from ssilang.kernel.errors import MaterialError
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.model import Mode, Zone
-
-ComplexArray = NDArray[np.complex128]
+from ssilang.kernel.materials.model import Mode, Zone
 
 LAWS = ("ELASTIQUE", "VOIGT", "REUSS", "COMPLEXE")
 """Words that follow IMPEDANCE."""
@@ -69,8 +66,10 @@ def unknowns_of(zone: Zone) -> tuple[tuple[str, ...], tuple[str, ...]]:
     second = second or first
     if len(second) != len(first):
         raise MaterialError(
-            f"an impedance joins {len(first)} unknowns ({' '.join(first)}) to {len(second)}",
-            "one name at the second point for each at the first",
+            "kernel.elements.impedance-joins-unknowns",
+            n_first=len(first),
+            first=first,
+            n_second=len(second),
         )
     return tuple(first), tuple(second)
 
@@ -99,7 +98,9 @@ def _values(
             raise missing_parameter(zone, name, parameters.names)
         values = parameters.at(name, "RIGIDITE", 0.0)[:, 0]
         if (values < 0.0).any():
-            raise MaterialError(f"{name} of an impedance is not negative: {values.min():g}")
+            raise MaterialError(
+                "kernel.elements.impedance-not-negative", name=name, values_min=values.min()
+            )
         found.append(np.broadcast_to(values, (len(zone.cells),)).astype(float))
     return found[0], found[1] if "CPLE" in parameters else found[0]
 
@@ -144,10 +145,7 @@ def dashpots(zone: Zone, parameters: ZoneField) -> FloatArray:
         strict=True,
     ):  # fmt: skip
         if (ratio > 0.0).any() and not (m > 0.0).all():
-            raise MaterialError(
-                "the reduced damping AMOR of an impedance needs its mass MASS",
-                "a dashpot is given by VISC",
-            )
+            raise MaterialError("kernel.elements.reduced-damping-amor-impedance")
         total.append(2.0 * ratio / 100.0 * np.sqrt(k * m))
     layout = impedance_layout(zone, parameters)
     turning = total[1] if "CPLE" in parameters else total[0] + viscous
@@ -221,28 +219,21 @@ def _curves(parameters: ZoneField) -> dict[str, CurvePart]:
             said = part.ordinate_name.strip().upper()
             target = {"MOCO": "RAID", "RAID": "RAID", "VISC": "VISC"}.get(said)
             if target is None:
-                raise MaterialError(
-                    f"a curve of MOCO is named '{said}'",
-                    "EVOL 'MANU' 'FREQ' LREEL1 'MOCO' LREEL2 (stiffness), ... 'VISC' LREEL3",
-                )
+                raise MaterialError("kernel.elements.curve-moco-named", said=said)
             found[target] = part
     return found
 
 
 def _only_in_frequency(zone: Zone) -> MaterialError:
     return MaterialError(
-        f"an impedance {law_of_impedance(zone)} that changes with the frequency is no matrix",
-        "it works in a sweep of frequencies: OPTI 'MODE' 'FREQ', then PASAPAS",
+        "kernel.elements.impedance-changes-frequency-no", law_of_impedance=law_of_impedance(zone)
     )
 
 
 class _ImpedanceFamily(StrainlessFamily):
     """Springs and dashpots: matrices, no strains."""
 
-    refusal = (
-        "models IMPEDANCE have no strains",
-        "their force is the stiffness (RIGI) times the displacement",
-    )
+    refusal = "kernel.elements.impedance-no-strains"
 
     def layout(self, zone: Zone) -> Layout:
         """Rows without rotations: `impedance_layout` knows the parameters."""

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.family import ElementFamily, StrainOperator
 from ssilang.kernel.elements.zone_fields import ZoneField
-from ssilang.kernel.errors import FieldError
 from ssilang.kernel.fields.cell_field import Support
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.model import Zone
+from ssilang.kernel.materials.model import Zone
 
 
 class StrainlessFamily(ElementFamily):
@@ -15,11 +15,11 @@ class StrainlessFamily(ElementFamily):
 
     Attributes
     ----------
-    refusal : tuple of str
-        What is said, and what helps, where strains are asked for.
+    refusal : str
+        Code of the error where strains are asked for.
     """
 
-    refusal: tuple[str, str]
+    refusal: str
 
     def strain_names(self, zone: Zone) -> tuple[str, ...]:
         """None."""
@@ -41,4 +41,4 @@ class StrainlessFamily(ElementFamily):
 
     def no_strains(self) -> FieldError:
         """The error of a request for strains."""
-        return FieldError(*self.refusal)
+        return FieldError(self.refusal)

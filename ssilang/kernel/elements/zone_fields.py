@@ -10,13 +10,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import FieldError, MaterialError
 from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
-from ssilang.kernel.elements.reference import REFERENCE_CELLS, shape_functions
-from ssilang.kernel.errors import FieldError, MaterialError
+from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS, shape_functions
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
+from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.mesh.mesh import CellBlock
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.model import Zone
 
 
 def cell_keys(cells: CellBlock) -> NDArray[np.void]:
@@ -74,15 +74,15 @@ def carry(values: NDArray[Any], element: str, source: Support, target: Support) 
     if values.shape[1] == 1 or source == target:
         return values
     if values.dtype == object:
-        raise FieldError(
-            "curves or points that vary inside a cell cannot be moved to other points",
-            "give them constant in each cell",
-        )
+        raise FieldError("kernel.elements.curves-points-vary-inside")
     matrix = transfer_matrix(element, source, target)
     if matrix.shape[1] != values.shape[1]:
         raise FieldError(
-            f"a field at '{source}' has {values.shape[1]} values a cell, "
-            f"element {element} has {matrix.shape[1]} points there"
+            "kernel.elements.field-values-cell-element",
+            source=source,
+            n_values=values.shape[1],
+            element=element,
+            n_matrix=matrix.shape[1],
         )
     return values @ matrix.T
 
@@ -140,7 +140,7 @@ class ZoneField:
                 result[found] = np.broadcast_to(picked, result.shape)[found]
             known |= found
         if result is None or not known.all():
-            raise FieldError(f"component {name} is not defined on all cells of the model's zone")
+            raise FieldError("kernel.elements.component-not-defined-cells", name=name)
         return result, support
 
     def at(self, name: str, support: Support, default: float | None = None) -> FloatArray:
@@ -157,10 +157,7 @@ class ZoneField:
             return np.full((1, 1), float(default))
         values, source = self.raw(name)
         if values.dtype == object:
-            raise MaterialError(
-                f"parameter {name} is a curve: it depends on a field",
-                "evaluate it first at the state wanted (VARI)",
-            )
+            raise MaterialError("kernel.elements.parameter-curve-depends-field", name=name)
         found = carry(values.astype(float, copy=False), self.zone.element, source, support)
         uniform = len(found) > 1 and found.shape[1] == 1 and (found == found[0, 0]).all()
         return found[:1] if uniform else found
@@ -177,11 +174,11 @@ def missing_parameter(zone: Zone, name: str, given: tuple[str, ...]) -> Material
     """The error for a parameter that a zone needs and does not have."""
     law = " ".join(zone.behaviour)
     return MaterialError(
-        f"parameter {name} is missing for element {zone.element} ({law})",
-        f"give it with MATE or CARA; given: {', '.join(given)}"
-        if given
-        else "the field of properties holds nothing on these cells: make it with MATE of this "
-        "model (ET joins the fields of several)",
+        "kernel.elements.parameter-missing-element",
+        name=name,
+        element=zone.element,
+        law=law,
+        given=given,
     )
 
 

@@ -8,7 +8,8 @@ from typing import Literal
 
 import numpy as np
 
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray, NodeTable
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.mesh.nodes import NodeTable
 
 Nature = Literal["", "DIFFUS", "DISCRET"]
 

@@ -11,9 +11,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.compiled import compiled
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.sparse import sp
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.compiled.compiler import compiled
+from ssilang.kernel.base.sparse import sp
 
 Index = NDArray[np.int32]
 

@@ -6,10 +6,14 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ssilang.kernel.elements.polygons import SIDES, polygon_excess
-from ssilang.kernel.elements.reference import REFERENCE_CELLS, shape_functions, shape_gradients
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.elements.shapes.polygons import SIDES, polygon_excess
+from ssilang.kernel.elements.shapes.reference import (
+    REFERENCE_CELLS,
+    shape_functions,
+    shape_gradients,
+)
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 Found = tuple[IntArray, FloatArray]
 

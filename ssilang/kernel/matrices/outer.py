@@ -6,11 +6,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ssilang.kernel.errors import FieldError
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.build import PRIMAL_OF
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, dual_of
-from ssilang.kernel.mesh.nodes import FloatArray
 
 _LARGEST = 20_000
 """Rows of a dense matrix that still fits a usual memory (3.2 GB)."""
@@ -36,7 +36,9 @@ def sum_of_outer_products(
         If there are no vectors, not as many factors, or too many unknowns for a dense matrix.
     """
     if not fields or len(fields) != len(factors):
-        raise FieldError(f"{len(fields)} vectors with {len(factors)} factors")
+        raise FieldError(
+            "kernel.matrices.vectors-factors", n_fields=len(fields), n_factors=len(factors)
+        )
     table = fields[0].table
     places = sorted(
         {
@@ -47,10 +49,7 @@ def sum_of_outer_products(
         }
     )
     if len(places) > _LARGEST:
-        raise FieldError(
-            f"a full matrix of {len(places)} rows is too large",
-            hint="damping proportional to mass and stiffness is sparse",
-        )
+        raise FieldError("kernel.matrices.full-matrix-rows-too", n_places=len(places))
     rows = {place: i for i, place in enumerate(places)}
     vectors = np.zeros((len(fields), len(places)))
     for vector, field in zip(vectors, fields, strict=True):

@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 
-from ssilang.kernel.errors import MeshError
+from ssilang.kernel.base.arrays import IntArray
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
-from ssilang.kernel.mesh.nodes import IntArray
 
 
 def faces_of(mesh: Mesh, dimension: int) -> dict[str, tuple[IntArray, IntArray]]:
@@ -180,7 +180,7 @@ def sharp_edges(mesh: Mesh, angle: float = 20.0) -> Mesh:
     own = tuple(b for b in mesh.blocks if b.kind.dimension == 2 and not b.kind.joint)
     skin = Mesh(mesh.nodes, skin.blocks + own)
     if not skin.blocks:
-        raise MeshError("edges are sought on volumes or surfaces, this mesh has none")
+        raise MeshError("kernel.mesh.edges-sought-volumes-surfaces")
     rows, normals, middles = _skin_edges(skin)
     _, group = sharing(rows)
     total = np.zeros((group.max() + 1, 3))

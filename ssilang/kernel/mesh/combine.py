@@ -7,12 +7,11 @@ from collections.abc import Callable, Iterable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.errors import MeshError
+from ssilang.kernel.base.arrays import BoolArray, IntArray
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.cells import POLYGON_SIDES
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
-from ssilang.kernel.mesh.nodes import IntArray, NodeTable
-
-BoolArray = NDArray[np.bool_]
+from ssilang.kernel.mesh.nodes import NodeTable
 
 
 def join_blocks(blocks: Sequence[CellBlock]) -> CellBlock:
@@ -139,7 +138,7 @@ def polygons(mesh: Mesh) -> Mesh:
     """
     found = tuple(b for b in mesh.blocks if b.cell_type in POLYGON_SIDES)
     if not found:
-        raise MeshError("no polygons of five sides or more in this mesh")
+        raise MeshError("kernel.mesh.no-polygons-five-sides")
     return Mesh(mesh.nodes, found)
 
 
@@ -153,8 +152,8 @@ def of_type(mesh: Mesh, cell_type: str) -> Mesh:
     """
     found = tuple(b for b in mesh.blocks if b.cell_type == cell_type)
     if not found:
-        kinds = ", ".join(b.cell_type for b in mesh.blocks) or "nothing"
-        raise MeshError(f"no {cell_type} in this mesh, which holds {kinds}")
+        kinds = [b.cell_type for b in mesh.blocks]
+        raise MeshError("kernel.mesh.no-mesh-holds", cell_type=cell_type, kinds=kinds)
     return Mesh(mesh.nodes, found)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ssilang.kernel.errors import MeshError
+from ssilang.kernel.base.errors import MeshError
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,10 +39,7 @@ class Family:
             If the choice was a line element.
         """
         if not self.surface:
-            raise MeshError(
-                f"no surface can be made of {self.line} elements",
-                "choose a surface element first: OPTI ELEM QUA4 (or TRI3, QUA8, TRI6)",
-            )
+            raise MeshError("kernel.mesh.no-surface-made-elements", line=self.line)
         return self.surface
 
 
@@ -81,5 +78,5 @@ def family_of(element: str) -> Family:
     """
     found = FAMILIES.get(element)
     if found is None:
-        raise MeshError(f"no mesh can be made of {element} elements", "see OPTI ELEM")
+        raise MeshError("kernel.mesh.no-mesh-made-elements", element=element)
     return found

@@ -7,9 +7,10 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.errors import MeshError
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.cells import CELL_TYPES, CellType
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray, NodeTable
+from ssilang.kernel.mesh.nodes import NodeTable
 
 
 @dataclass(frozen=True, eq=False)
@@ -166,6 +167,6 @@ class Mesh:
             If the mesh has none or several.
         """
         if len(self.blocks) != 1:
-            kinds = ", ".join(b.cell_type for b in self.blocks) or "nothing"
-            raise MeshError(f"a mesh of one cell type is needed, this one holds {kinds}")
+            kinds = [b.cell_type for b in self.blocks]
+            raise MeshError("kernel.mesh.mesh-cell-type-needed", kinds=kinds)
         return self.blocks[0]

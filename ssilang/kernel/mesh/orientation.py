@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.errors import MeshError
+from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.cells import CELL_TYPES, POLYGON_SIDES
-from ssilang.kernel.mesh.combine import BoolArray
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 
 def _polygon_flip(n: int) -> tuple[int, ...]:
@@ -175,11 +174,7 @@ def check_consistent(mesh: Mesh) -> Mesh:
     for dimension in (1, 2):
         clash = _opposed(mesh, dimension)
         if len(clash):
-            where = ", ".join(str(int(n) + 1) for n in clash[:4])
-            raise MeshError(
-                f"adjacent cells are described in opposite senses, at node(s) {where}",
-                "turn one of the parts with INVE, or use ORIE",
-            )
+            raise MeshError("kernel.mesh.adjacent-cells-described-opposite", nodes=clash[:4] + 1)
     return mesh
 
 

@@ -9,17 +9,16 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ssilang.kernel.errors import KernelError
+from ssilang.kernel.base.arrays import ComplexArray
+from ssilang.kernel.base.errors import KernelError
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import vector_to_field
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.modal.modes import unit_translations
 from ssilang.kernel.modal.reduced import ReducedProblem, reduced_problem
-from ssilang.kernel.sparse import sp
 
-ComplexArray = NDArray[np.complex128]
 DENSE = 300  # unknowns up to which all eigenvalues are computed
 
 
@@ -48,7 +47,7 @@ def complex_modes(
     """
     problem = reduced_problem(stiffness, mass, damping)
     if problem.size == 0:
-        raise KernelError("the conditions hold every unknown: there is no mode")
+        raise KernelError("kernel.modal.conditions-hold-every-unknown")
     values, shapes = _eigenpairs(problem, 2j * np.pi * near, count)
     frequencies = values / (2j * np.pi)
     keep = np.argsort(np.abs(frequencies - near), kind="stable")[:count]
@@ -65,7 +64,7 @@ def conjugate_modes(
     """
     problem = reduced_problem(stiffness, mass, damping)
     if problem.size == 0:
-        raise KernelError("the conditions hold every unknown: there is no mode")
+        raise KernelError("kernel.modal.conditions-hold-every-unknown")
     values, shapes = _eigenpairs(problem, 0.0, problem.size)
     frequencies = values / (2j * np.pi)
     modulus = np.round(np.abs(frequencies) / np.abs(frequencies).max(initial=1e-300), 9)
@@ -93,7 +92,9 @@ def _eigenpairs(
     try:
         values, vectors = eigs(A.astype(complex), wanted, M=B.astype(complex), sigma=moved)
     except (ArpackError, RuntimeError) as problem_found:
-        raise KernelError(f"the search for modes does not converge: {problem_found}") from None
+        raise KernelError(
+            "kernel.modal.search-modes-not-converge", problem_found=problem_found
+        ) from None
     return values, vectors[:r]
 
 

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import Numbering, vector_to_field
 from ssilang.kernel.matrices.matrix import Matrix
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.modal.eigen import Pairs, between, nearest
 from ssilang.kernel.modal.reduced import ReducedProblem, reduced_problem
 

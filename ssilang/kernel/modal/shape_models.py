@@ -11,19 +11,19 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.elements.catalog import ElementKind, register_element
 from ssilang.kernel.elements.families import register_family
 from ssilang.kernel.elements.family import Layout
 from ssilang.kernel.elements.strainless import StrainlessFamily
 from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
-from ssilang.kernel.errors import MaterialError
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.materials.model import Mode, Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices, dual_of
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.modal.basis import work
 from ssilang.kernel.modal.modes import eigenvalue
-from ssilang.kernel.model import Mode, Zone
 
 UNKNOWN = {"MODAL": "ALFA", "STATIQUE": "BETA"}
 """Unknown of each kind of point."""
@@ -37,10 +37,7 @@ for _name in UNKNOWN:
 class _ShapeFamily(StrainlessFamily):
     """Points that stand for shapes: they have no strains."""
 
-    refusal = (
-        "models MODAL and STATIQUE have no strains of their own",
-        "recombine the displacement with RECO, then use the model of the body",
-    )
+    refusal = "kernel.modal.shapes-no-strains"
 
     def layout(self, zone: Zone) -> Layout:
         """ALFA or BETA."""
@@ -97,14 +94,17 @@ def shape_points(zones: tuple[Zone, ...], material: CellField) -> list[ShapePoin
 def _shape_point(zone: Zone, given: ZoneField) -> ShapePoint:
     if len(zone.cells) != 1:
         raise MaterialError(
-            f"a model {zone.behaviour[-1]} stands on one point, not {len(zone.cells)}",
-            "one model for each shape, joined with ET",
+            "kernel.modal.model-stands-point-not",
+            behaviour=zone.behaviour[-1],
+            n_cells=len(zone.cells),
         )
     modal = zone.element == "MODAL"
     needed = ("FREQ", "MASS", "DEFO") if modal else ("DEFO", "RIDE", "MADE")
     missing = [n for n in needed if n not in given]
     if missing:
-        raise MaterialError(f"a shape {zone.behaviour[-1]} needs {' '.join(missing)}")
+        raise MaterialError(
+            "kernel.modal.shape-needs", behaviour=zone.behaviour[-1], missing=missing
+        )
 
     def number(name: str) -> float:
         return float(given.raw(name)[0][0, 0]) if name in given else 0.0

@@ -13,10 +13,10 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.fields.cell_field import CellFieldBlock
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.plasticity.bulk import Answer, Bulk, State
-from ssilang.kernel.sparse import sp
 
 SHIFT = 1e-6
 """Small displacement over the size of the bodies, small turn, small time over that of the run."""

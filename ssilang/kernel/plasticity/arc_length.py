@@ -7,14 +7,14 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import ConvergenceError
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.continuation.arc import Lengths
-from ssilang.kernel.errors import ConvergenceError
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.plasticity.driven_load import Trace
 from ssilang.kernel.plasticity.following import PathRun, Split
 from ssilang.kernel.plasticity.run import BulkRun
 from ssilang.kernel.solvers.inertia import count_negative
-from ssilang.kernel.sparse import sp
 
 
 @dataclass
@@ -92,9 +92,7 @@ def follow_arc(
             step = path.step(start + (t - began) * rate, rate, control, 1.0, t)
             if step is None:
                 if control.ds <= lengths.least:
-                    raise ConvergenceError(
-                        f"time {t:g}: no solution found at the shortest step", "a smaller 'DSMIN'"
-                    )
+                    raise ConvergenceError("kernel.plasticity.time-no-solution-found", t=t)
                 control.ds = max(0.5 * control.ds, lengths.least)
         t += step
         control.way = (run.motion.u - before, step)

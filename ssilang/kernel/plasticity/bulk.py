@@ -8,8 +8,11 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.matrices.assembly import (
     MANY_TERMS,
     Numbering,
@@ -17,10 +20,8 @@ from ssilang.kernel.matrices.assembly import (
     block_indices,
 )
 from ssilang.kernel.matrices.matrix import ElementMatrices
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.model import Zone
-from ssilang.kernel.plasticity.points import PlasticPoints, PointState, plastic_points
-from ssilang.kernel.sparse import sp
+from ssilang.kernel.plasticity.points import PlasticPoints, PointState
+from ssilang.kernel.plasticity.zone_points import plastic_points
 
 FreeStrain = Callable[[float], FloatArray]
 """Strain without stress (n_cells, n_strains, n_points) of a zone at a time."""

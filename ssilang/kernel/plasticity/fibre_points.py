@@ -6,23 +6,23 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ssilang.kernel.elements.beam_frame import beam_frame, kept_rows
-from ssilang.kernel.elements.families import family_of
-from ssilang.kernel.elements.family import cell_block
-from ssilang.kernel.elements.fibre_section import (
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.elements.beams.beam_frame import beam_frame, kept_rows
+from ssilang.kernel.elements.beams.fibre_section import (
     STRESSES,
     FibreSection,
     SectionZone,
     section_of_beam,
 )
+from ssilang.kernel.elements.families import family_of
+from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.materials.plastic import uniaxial
 from ssilang.kernel.materials.plastic.held_stress import respond_held
 from ssilang.kernel.materials.plastic.laws import PlasticLaw, plastic_law
 from ssilang.kernel.materials.plastic.response import PointParameters, Response
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.model import Zone
 from ssilang.kernel.plasticity.points import PlasticPoints, PointState, law_parameters
 
 COMPONENTS = (0, 3, 4)

@@ -14,18 +14,18 @@ from typing import Any, Protocol, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.families import _moduli, family_of, integration_weights
 from ssilang.kernel.elements.family import cell_block
-from ssilang.kernel.elements.kinematics import harmonic
-from ssilang.kernel.elements.solid import REVOLUTION, kinematics, radius, zone_geometry
-from ssilang.kernel.elements.tensors import as_components, as_tensor
+from ssilang.kernel.elements.results.tensors import as_components, as_tensor
+from ssilang.kernel.elements.solids.kinematics import harmonic
+from ssilang.kernel.elements.solids.solid import REVOLUTION, kinematics, radius, zone_geometry
 from ssilang.kernel.elements.zone_fields import zone_field
-from ssilang.kernel.errors import FieldError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.materials.model import Mode, Zone
 from ssilang.kernel.matrices.assembly import Numbering, block_indices
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.model import Mode, Zone
 from ssilang.kernel.plasticity.bulk import Answer, Bulk, State, without_stiffness
 from ssilang.kernel.plasticity.finite_beam import finite_beam, is_plane_beam
 from ssilang.kernel.plasticity.finite_meridian import finite_plane_shell, is_plane_shell
@@ -160,7 +160,7 @@ class FiniteBar:
         now = self.span + u[:, d:] - u[:, :d]
         length = np.linalg.norm(now, axis=1)
         if (length == 0.0).any():
-            raise FieldError("a bar is shrunk to nothing")
+            raise FieldError("kernel.plasticity.bar-shrunk-nothing")
         return np.linalg.norm(self.span, axis=1), length, now / length[:, None]
 
     def _force(self, u: FloatArray) -> FloatArray:
@@ -222,11 +222,7 @@ def finite_zone(zone: Zone, material: CellField) -> FiniteZone:
         return FiniteBar(zone, span, stiffness, np.zeros(len(ends)), weights.shape[1])
     turning = zone.mode is Mode.FOURIER or (zone.mode in REVOLUTION and harmonic(zone))
     if not is_solid(zone) or turning:
-        raise FieldError(
-            f"finite displacements are not built for {zone.element} in this hypothesis",
-            "continuous elements, bars, beams (POUT, TIMO) and plane COQ2 have them; leave "
-            "'GRANDS_DEPLACEMENTS' for others",
-        )
+        raise FieldError("kernel.plasticity.finite-displacements-not-built", element=zone.element)
     slopes = _slopes(zone)
     count = moduli.shape[-1]
     D = np.broadcast_to(moduli, (*weights.shape, count, count)).copy()

@@ -11,14 +11,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ssilang.kernel.elements.beam_frame import beam_frame
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import FieldError
+from ssilang.kernel.elements.beams.beam_frame import beam_frame
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.families import stiffness
 from ssilang.kernel.elements.zone_fields import zone_field
-from ssilang.kernel.errors import FieldError
 from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.model import Mode, Zone
+from ssilang.kernel.materials.model import Mode, Zone
 
 _BEAMS = ("beam", "timoshenko")
 # displacements of both nodes, in the axes of the chord, for one unit of lengthening and end turns
@@ -59,7 +59,7 @@ class FiniteBeam:
         now = self.span + u[:, 3:5] - u[:, :2]
         rest, length = np.linalg.norm(self.span, axis=1), np.linalg.norm(now, axis=1)
         if (length == 0.0).any():
-            raise FieldError("a beam is shrunk to nothing")
+            raise FieldError("kernel.plasticity.beam-shrunk-nothing")
         across = self.span[:, 0] * now[:, 1] - self.span[:, 1] * now[:, 0]
         turn = np.arctan2(across, np.einsum("ni,ni->n", self.span, now))
         # of the angles that differ by whole turns, the one nearest to the ends'

@@ -6,14 +6,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ssilang.kernel.elements.beam_frame import beam_frame
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.elements.beams.beam_frame import beam_frame
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.families import _moduli, family_of
 from ssilang.kernel.elements.family import per_cell
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.model import Mode, Zone
+from ssilang.kernel.materials.model import Mode, Zone
 from ssilang.kernel.plasticity.finite_beam import CARRIED, FiniteBeam, finite_beam
 
 

@@ -14,14 +14,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.elements.beam_frame import beam_frame
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import FieldError
+from ssilang.kernel.elements.beams.beam_frame import beam_frame
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.families import stiffness
 from ssilang.kernel.elements.zone_fields import zone_field
-from ssilang.kernel.errors import FieldError
 from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.model import Mode, Zone
+from ssilang.kernel.materials.model import Mode, Zone
 
 Array = NDArray[Any]
 """Real, or complex where it is differentiated by a step along the imaginary axis."""
@@ -127,7 +127,7 @@ class FiniteSpaceBeam:
         # l - L without the rounding of their difference
         length = np.sqrt((now * now).sum(axis=1))
         if (np.abs(length) == 0.0).any():
-            raise FieldError("a beam is shrunk to nothing")
+            raise FieldError("kernel.plasticity.beam-shrunk-nothing")
         stretch = ((now - self.span) * (now + self.span)).sum(axis=1) / (length + rest)
         turns = [rotation(u[:, k : k + 3]) for k in (3, 9)]
         seconds = [np.einsum("cij,cj->ci", R, self.axes[:, 1]) for R in turns]

@@ -10,17 +10,17 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.family import cell_block, element_matrices
-from ssilang.kernel.elements.plate import plate_frames
-from ssilang.kernel.elements.shell_section import drilled, section_moduli
+from ssilang.kernel.elements.shells.plate import plate_frames
+from ssilang.kernel.elements.shells.shell_section import drilled, section_moduli
 from ssilang.kernel.elements.zone_fields import zone_field
-from ssilang.kernel.errors import MaterialError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.materials.plastic.laws import plastic_law
 from ssilang.kernel.matrices.matrix import ElementMatrices
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.model import Zone
 from ssilang.kernel.plasticity.points import PlasticPoints, PointState, law_parameters
 
 OPTION = "INTEGRE"
@@ -114,7 +114,7 @@ def layered_points(zone: Zone, characteristics: CellField) -> LayeredPoints:
     x, w = np.polynomial.legendre.leggauss(count)
     h = np.broadcast_to(given.at("EPAI", "STRESSES"), (n, p))[..., None]
     if (h <= 0).any():
-        raise MaterialError(f"EPAI = {h.min():g}: it must be > 0")
+        raise MaterialError("kernel.plasticity.epai-must", h_min=h.min())
     heights, shares = (0.5 * h * x).reshape(n, -1), (0.5 * h * w).reshape(n, -1)
     repeated = np.repeat(operator.matrix, count, axis=2)
     B = repeated[:, :3] + heights[:, None, :, None] * repeated[:, 3:]

@@ -6,20 +6,26 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import MaterialError
+from ssilang.kernel.curves.curve import Curve
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.family import Layout, cell_block
-from ssilang.kernel.elements.geometry import chunks
-from ssilang.kernel.elements.zone_fields import ZoneField, n_points, zone_field
-from ssilang.kernel.errors import KernelError, MaterialError
+from ssilang.kernel.elements.shapes.geometry import chunks
+from ssilang.kernel.elements.zone_fields import (
+    ZoneField,
+    missing_parameter,
+    n_points,
+    zone_field,
+)
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.elasticity import check_isotropic
+from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.materials.plastic.creep import DURATION
 from ssilang.kernel.materials.plastic.held_stress import respond_held
 from ssilang.kernel.materials.plastic.laws import PlasticLaw, check_parameters, plastic_law
 from ssilang.kernel.materials.plastic.response import PointParameters, Response
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.model import Mode, Model, Zone
 
 _PLANE, _SPACE = (0, 1, 2, 3), (0, 1, 2, 3, 4, 5)
 COMPONENTS: dict[Mode, tuple[int, ...]] = {
@@ -195,50 +201,6 @@ def plastic_zones(model: Model | None) -> tuple[Zone, ...]:
     return tuple(z for z in zones if z.formulation == "MECANIQUE" and is_plastic(z))
 
 
-def plastic_points(zone: Zone, characteristics: CellField) -> PlasticPoints:
-    """Everything that does not change during a calculation.
-
-    Raises
-    ------
-    KernelError
-        In hypotheses without plastic laws.
-    MaterialError
-        For missing or inadmissible parameters.
-    """
-    if "SECTION" in zone.behaviour:
-        from ssilang.kernel.plasticity.fibre_points import fibre_points
-
-        return fibre_points(zone, characteristics)
-    if ELEMENTS[zone.element].family == "plate":
-        from ssilang.kernel.plasticity.layered_points import layered_points
-
-        return layered_points(zone, characteristics)
-    law, family = plastic_law(zone.behaviour), family_of(zone)
-    assert law is not None
-    given = zone_field(zone, characteristics)
-    bar = ELEMENTS[zone.element].family == "bar"
-    if not bar and zone.mode not in COMPONENTS:
-        raise KernelError(f"plastic laws do not exist in mode {zone.mode.value}")
-    parts = [
-        family.strain_operator(zone, given, "STRESSES", cells) for cells in chunks(len(zone.cells))
-    ]
-    B = np.concatenate([part.matrix for part in parts])
-    weights = np.concatenate([np.broadcast_to(p.weights, (len(p.matrix), p.matrix.shape[2]))
-                              for p in parts])  # fmt: skip
-    section: FloatArray | None = None
-    if bar:
-        section = np.broadcast_to(given.at("SECT", "STRESSES"), weights.shape)
-        weights = weights * section
-    parameters = law_parameters(zone, law, given)
-    held: tuple[int, ...] = (1, 2, 3, 4, 5) if bar else ()
-    if zone.mode is Mode.PLANE_STRESS and not bar:
-        held = (2,)
-    components = (0,) if bar else COMPONENTS[zone.mode]
-    return PlasticPoints(
-        zone, law, family.layout(zone), B, weights, section, components, held, parameters
-    )
-
-
 def law_parameters(zone: Zone, law: PlasticLaw, given: ZoneField) -> PointParameters:
     """Parameters of a law at the points of 'STRESSES'.
 
@@ -256,7 +218,9 @@ def law_parameters(zone: Zone, law: PlasticLaw, given: ZoneField) -> PointParame
     values = {name: at_points(name) for name in names}
     check_isotropic(values["YOUN"], values["NU"])
     if (values["YOUN"] <= 0).any():
-        raise MaterialError(f"YOUN = {values['YOUN'].min():g}: a plastic law needs YOUN > 0")
+        raise MaterialError(
+            "kernel.plasticity.youn-plastic-law-needs", youn_min=values["YOUN"].min()
+        )
     curves = {name: _curves(given, name, shape) for name in law.curves}
     found = PointParameters(values, curves)
     check_parameters(law, found)
@@ -265,16 +229,13 @@ def law_parameters(zone: Zone, law: PlasticLaw, given: ZoneField) -> PointParame
 
 def _curves(given: ZoneField, name: str, shape: tuple[int, int]) -> tuple[list, IntArray]:  # type: ignore[type-arg]
     """The different curves of a parameter, and which each point has."""
-    from ssilang.kernel.curve import Curve
-    from ssilang.kernel.elements.zone_fields import missing_parameter
-
     if name not in given:
         raise missing_parameter(given.zone, name, given.names)
     values = np.broadcast_to(given.raw(name)[0], shape).ravel()
     different = list({id(v): v for v in values}.values())
     wrong = next((v for v in different if not isinstance(v, Curve)), None)
     if wrong is not None:
-        raise MaterialError(f"parameter {name} is a curve", "EVOL 'MANU' strains stresses")
+        raise MaterialError("kernel.plasticity.parameter-curve", name=name)
     place = {id(v): i for i, v in enumerate(different)}
     which: IntArray = np.array([place[id(v)] for v in values], dtype=np.int64)
     return different, which

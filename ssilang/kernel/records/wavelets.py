@@ -10,9 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.mesh.nodes import FloatArray
-
-ComplexArray = NDArray[np.complex128]
+from ssilang.kernel.base.arrays import ComplexArray, FloatArray
 
 
 def scales(low: float, high: float, count: int, pulsation: float) -> FloatArray:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.apart import apart
-from ssilang.kernel.compiled import compiled, compiled_fast
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.compiled.apart import apart
+from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
 
 BLOCK = 32  # columns factorised together
 WIDE = 96  # of large matrices: the rest is read as many times less

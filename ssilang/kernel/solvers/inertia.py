@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.solvers.backends import SingularFactorError, SuperLUFactor
-from ssilang.kernel.sparse import sp
+from ssilang.kernel.base.errors import SingularFactorError
+from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.solvers.backends import SuperLUFactor
 
 DENSE = 1500  # unknowns up to which eigenvalues are computed where the pivots say nothing
 NUDGE = 1e-10  # relative shift tried when a pivot vanishes
@@ -31,9 +32,9 @@ def count_negative(A: sp.csr_array) -> int:
             continue
     if n <= DENSE:
         return _by_eigenvalues(A, size)
-    from ssilang.kernel.errors import KernelError
+    from ssilang.kernel.base.errors import KernelError
 
-    raise KernelError("the number of negative eigenvalues cannot be found without row exchanges")
+    raise KernelError("kernel.solvers.number-negative-eigenvalues-cannot")
 
 
 def _by_eigenvalues(A: sp.csr_array, size: float) -> int:

@@ -10,8 +10,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import IntArray
 from ssilang.kernel.matrices.matrix import Matrix
-from ssilang.kernel.mesh.nodes import IntArray, NodeTable
+from ssilang.kernel.mesh.nodes import NodeTable
 
 NEAR = 1e-6
 """Distance below which two nodes are at the same place, as a part of the body's extent."""

@@ -9,14 +9,14 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.joints.interface import is_macro, joint_zones
-from ssilang.kernel.joints.kinematics import JointCells, joint_cells
+from ssilang.kernel.interface.interface import is_macro, joint_zones
+from ssilang.kernel.interface.kinematics import JointCells, joint_cells
+from ssilang.kernel.materials.model import Model
 from ssilang.kernel.matrices.matrix import Matrix
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.model import Model
-from ssilang.kernel.sparse import sp
 
 AGAINST = -0.1
 """Cosine of the normal with the way from lower to upper body, below which sides are swapped."""

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from ssilang.kernel.errors import KernelError
+from ssilang.kernel.base.arrays import IntArray
+from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import is_symmetric, vector_to_field
 from ssilang.kernel.matrices.matrix import Matrix
-from ssilang.kernel.mesh.nodes import IntArray
 from ssilang.kernel.modal.reduced import reduced_problem
 from ssilang.kernel.solvers.inertia import count_negative
 from ssilang.kernel.statics.linear import SolveOptions, linear_system
@@ -40,6 +40,6 @@ def negative_eigenvalues(matrix: Matrix) -> int:
         If the matrix is not symmetric.
     """
     if not is_symmetric(matrix):
-        raise KernelError("the matrix is not symmetric: its eigenvalues need not be real")
+        raise KernelError("kernel.statics.matrix-not-symmetric-eigenvalues")
     problem = reduced_problem(matrix, matrix)
     return count_negative(problem.bordered(problem.K)) - problem.S.shape[0]

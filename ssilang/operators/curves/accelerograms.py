@@ -7,13 +7,13 @@ import dataclasses
 import numpy as np
 
 from ssilang.io.plots.palette import index_of
-from ssilang.kernel.curve import Curve, CurvePart
-from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.records.integration import brought_to_rest, integrated
 from ssilang.kernel.records.power import power_density, response_spectrum
-from ssilang.kernel.signals import constant_step
-from ssilang.language.call import Call
+from ssilang.kernel.records.signals import constant_step
 from ssilang.language.registry import Help, arg, key, operator
+from ssilang.language.run.call import Call
 from ssilang.operators.curves.words import read_colour
 
 _KINDS = ("DEPL", "VITE", "ACCE")

@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.curve import Curve, CurvePart
-from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.records.artificial import Band, motion, perturbed, sines
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
 from ssilang.operators.curves.accelerograms import one_curve
 from ssilang.operators.numbers.numbers import session_generator

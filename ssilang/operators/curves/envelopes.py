@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.curve import Curve, CurvePart
-from ssilang.language.call import Call
+from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.language.registry import arg
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel, Mot, Table
 from ssilang.operators.dispatch import extend_help
 from ssilang.operators.mesh.selection.boundaries import enve

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.curve import Curve
+from ssilang.kernel.curves.curve import Curve
 from ssilang.kernel.records.floors import Storey, floor_spectrum
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
 
 

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 
 from ssilang.io.plots.palette import index_of
-from ssilang.kernel.curve import Curve, CurvePart
-from ssilang.language.call import Call
+from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 
 _LAWS = ("CINE", "ISOT", "ELAS")
 _POWER = {"DEPL": 0, "VITE": 1, "ACCE": 2}

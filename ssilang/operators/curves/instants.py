@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import Numbering
-from ssilang.kernel.mesh.nodes import FloatArray
 
 
 @dataclass(frozen=True, slots=True, eq=False)

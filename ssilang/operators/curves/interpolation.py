@@ -7,9 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.cloud import Cloud
-from ssilang.kernel.curve import Curve, CurvePart
-from ssilang.kernel.curve_algebra import (
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.curves.algebra import (
     crossings,
     integral,
     integral_along,
@@ -17,12 +16,13 @@ from ssilang.kernel.curve_algebra import (
     primitive,
     spline,
 )
+from ssilang.kernel.curves.cloud import Cloud
+from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.mesh import Point
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel, Table
 from ssilang.operators.curves.items import numbered
 from ssilang.operators.dispatch import INTG

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 
 from ssilang.io.plots.palette import NAMES
-from ssilang.kernel.curve import Curve, CurvePart
-from ssilang.kernel.curve_algebra import combined, is_complex
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.language.call import Call
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.curves.algebra import combined, is_complex
+from ssilang.kernel.curves.curve import Curve, CurvePart
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots, ListReel, Mot
 from ssilang.operators.curves.words import read_colour
 from ssilang.operators.dispatch import CHAN, COPI, DIME, EXTR, MAXI, MINI, ORDO, union

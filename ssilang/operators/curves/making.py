@@ -6,16 +6,16 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.curve import Curve, CurvePart
-from ssilang.kernel.errors import KernelError
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import KernelError
+from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_algebra import component
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.mesh.lines import line_chain
+from ssilang.kernel.mesh.lines.lines import line_chain
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import (
     LazyRows,
     LazyTable,

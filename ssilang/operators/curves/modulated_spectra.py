@@ -6,14 +6,14 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.curve import Curve
+from ssilang.kernel.curves.curve import Curve
 from ssilang.kernel.records.modulated import (
     ModulatedSignal,
     Resolution,
     modulated_response_spectrum,
 )
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.operators.curves.accelerograms import one_curve, spectrum_part
 from ssilang.operators.curves.words import read_colour
 

@@ -6,12 +6,12 @@ import dataclasses
 
 import numpy as np
 
-from ssilang.kernel.curve import Curve, CurvePart
-from ssilang.kernel.mesh.nodes import FloatArray
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.records.envelope import energy_envelope, inverse_laplace, mean_shock
-from ssilang.kernel.signals import constant_step
-from ssilang.language.call import Call
+from ssilang.kernel.records.signals import constant_step
 from ssilang.language.registry import Help, arg, key, operator
+from ssilang.language.run.call import Call
 from ssilang.operators.curves.words import read_colour
 
 _LINE = "E = EVOL 'MANU' 'X' (PROG 0. 1. 2.) 'Y' (PROG 0. 1. 4.) ; "

@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.curve import Curve, CurvePart
-from ssilang.kernel.curve_algebra import complex_values, is_complex
+from ssilang.kernel.curves.algebra import complex_values, is_complex
+from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
-from ssilang.kernel.signals import (
+from ssilang.kernel.records.signals import (
     constant_step,
     fourier,
     inverse_fourier,
@@ -18,8 +18,8 @@ from ssilang.kernel.signals import (
     smoothed,
     time_above,
 )
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListEnti, ListReel
 from ssilang.operators.curves.words import read_colour
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from ssilang.io.plots.palette import index_of
-from ssilang.kernel.curve import Curve, CurvePart
+from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.modal.oscillator import default_frequencies, response, spectrum
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, arg, choice, key, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
 
 

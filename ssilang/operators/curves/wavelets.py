@@ -6,21 +6,14 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.curve import Curve, CurvePart
+from ssilang.kernel.base.arrays import ComplexArray, FloatArray
+from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.records.wavelets import (
-    ComplexArray,
-    modulus_ridge,
-    phase_ridge,
-    scales,
-    settled,
-    transform,
-)
-from ssilang.kernel.signals import constant_step
-from ssilang.language.call import Call
+from ssilang.kernel.records.signals import constant_step
+from ssilang.kernel.records.wavelets import modulus_ridge, phase_ridge, scales, settled, transform
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.operators.curves.accelerograms import one_curve
 from ssilang.operators.curves.words import read_colour
 from ssilang.operators.workspace import workspace

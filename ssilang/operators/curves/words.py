@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ssilang.io.plots.palette import NAMES, index_of
-from ssilang.language.call import Call
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ssilang.io.plots.labels import PLACES, Annotation, Category, Tag
 from ssilang.io.plots.palette import index_of
-from ssilang.language.call import Call
+from ssilang.language.run.call import Call
 from ssilang.language.values import register_type
 from ssilang.operators.dispatch import ByWord, union
 from ssilang.operators.drawing.objects import is_colour

@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 from ssilang.io.plots.palette import NAMES, index_of
-from ssilang.language.call import Call
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots
 from ssilang.operators.dispatch import COUL
 from ssilang.operators.workspace import workspace

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from ssilang.io.plots.curves import CurveOptions, draw_curves
-from ssilang.io.plots.line_style import DASHES, LineStyle, parse_style
-from ssilang.kernel.curve import Curve
-from ssilang.language.call import Call
+from ssilang.io.plots.graphs.curves import CurveOptions, draw_curves
+from ssilang.io.plots.graphs.line_style import DASHES, LineStyle, parse_style
+from ssilang.kernel.curves.curve import Curve
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import Table
 from ssilang.operators.drawing.pictures import (
     picture_formats,

@@ -14,8 +14,8 @@ from ssilang.kernel.fields.arrows import (
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.deformed import Arrows, Deformed, DeformedPart
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots, Mot, register_type
 from ssilang.operators.dispatch import union
 from ssilang.operators.workspace import workspace

@@ -17,13 +17,13 @@ from ssilang.io.plots.palette import index_of
 from ssilang.io.plots.scene import draw_scene
 from ssilang.io.plots.view import DEFAULT_DIRECTION, Plane, View, plane_view, view_along
 from ssilang.kernel.fields.deformed import Arrows, Deformed
+from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.matrices.support import support_mesh
 from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.kernel.model import Mode
-from ssilang.language.call import Call, Operand
 from ssilang.language.registry import Help, operator
-from ssilang.language.session import Session
+from ssilang.language.run.call import Call, Operand
+from ssilang.language.run.session import Session
 from ssilang.language.values import type_of
 from ssilang.operators.drawing.pictures import (
     picture_formats,

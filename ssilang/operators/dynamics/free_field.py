@@ -6,15 +6,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ssilang.kernel.curve import Curve, CurvePart
-from ssilang.language.call import Call
+from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel, Table
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
-    from ssilang.kernel.mesh.nodes import FloatArray
-    from ssilang.kernel.soil_column import FreeField
+    from ssilang.kernel.base.arrays import FloatArray
+    from ssilang.kernel.records.soil_column import FreeField
 
 _LAYERS = ("EPAISSEUR", "MASSE_VOLUMIQUE", "MODULE", "AMORTISSEMENT")
 
@@ -47,16 +47,14 @@ _LAYERS = ("EPAISSEUR", "MASSE_VOLUMIQUE", "MODULE", "AMORTISSEMENT")
 )
 def zcol(call: Call) -> Table:
     """Read the table, compute, hand back curves."""
-    from ssilang.kernel.soil_column import SoilColumn, free_field
+    from ssilang.kernel.records.soil_column import SoilColumn, free_field
 
     entries = Entries(call, call.required("TABLE"), "ZCOL")
-    thickness, density, modulus, damping = (
-        entries.needed(name, "LISTREEL").values for name in _LAYERS
-    )
-    f1, f2, cutoff = (entries.needed(name, "FLOTTANT") for name in ("F1", "F2", "FC"))
-    depths = entries.needed("PROFONDEURS", "LISTREEL").values
-    signal = entries.needed("GAMMAO", "EVOLUTIO").parts[0]
-    control = entries.get("CONTROLE", "FLOTTANT") or 0.0
+    thickness, density, modulus, damping = (entries.needed(name).values for name in _LAYERS)
+    f1, f2, cutoff = (entries.needed(name) for name in ("F1", "F2", "FC"))
+    depths = entries.needed("PROFONDEURS").values
+    signal = entries.needed("GAMMAO").parts[0]
+    control = entries.get("CONTROLE") or 0.0
     steps = np.diff(signal.abscissas)
     if len(steps) == 0 or np.ptp(steps) > 1e-3 * abs(steps.mean()):
         raise entries.bad("the acceleration GAMMAO needs equal steps of time", "IPOL it first")

@@ -13,15 +13,15 @@ from numpy.typing import NDArray
 
 from ssilang.io.atomic import write_text
 from ssilang.io.vtk.series import Part, SeriesWriter
+from ssilang.kernel.base.arrays import IntArray
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.kernel.mesh.nodes import IntArray
 from ssilang.language.values import LazyRows, LazyTable, ListReel, Mot, Table, promises
 from ssilang.operators.curves.instants import InstantField
 
 if TYPE_CHECKING:
-    from ssilang.kernel.dynamics.snapshot import Snapshot
+    from ssilang.kernel.stepping.snapshot import Snapshot
 
 Steps = NDArray[np.bool_]
 

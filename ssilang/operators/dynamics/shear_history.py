@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import cast
 
-from ssilang.kernel.elements.shear_history import largest_shear_strain
+from ssilang.kernel.elements.results.shear_history import largest_shear_strain
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.model import Model
+from ssilang.kernel.materials.model import Model
 from ssilang.language.registry import Help, arg, operator
 from ssilang.language.values import ListChpo
 

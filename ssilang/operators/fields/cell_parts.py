@@ -7,17 +7,17 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.cloud import Cloud
-from ssilang.kernel.curve import Curve
+from ssilang.kernel.curves.cloud import Cloud
+from ssilang.kernel.curves.curve import Curve
 from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.families import family_of
-from ssilang.kernel.elements.gradients import gradient_names
-from ssilang.kernel.elements.tensors import PRINCIPAL
+from ssilang.kernel.elements.results.tensors import PRINCIPAL
+from ssilang.kernel.elements.solids.gradients import gradient_names
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.materials.parameters import geometric_names, material_names
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.kernel.model import Model, Zone
-from ssilang.language.call import Call
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots, Mot, Table
 from ssilang.operators.dispatch import EXTR, UNIONS, listing, union
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any, cast
 
-from ssilang.kernel.elements.reduction import field_on_mesh, field_on_model, model_on_mesh
-from ssilang.kernel.elements.supports import (
+from ssilang.kernel.elements.results.reduction import field_on_mesh, field_on_model, model_on_mesh
+from ssilang.kernel.elements.results.supports import (
     cells_of_mesh,
     cells_of_nodal,
     moved,
@@ -16,9 +16,9 @@ from ssilang.kernel.elements.supports import (
 )
 from ssilang.kernel.fields.cell_field import CellField, Support
 from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.materials.model import Model
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.kernel.model import Model
-from ssilang.language.call import Call
+from ssilang.language.run.call import Call
 from ssilang.operators.dispatch import CHAN, COOR, REDU
 from ssilang.operators.workspace import workspace
 

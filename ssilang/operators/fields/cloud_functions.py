@@ -6,13 +6,13 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.cloud import Cloud, inverse_distance, moving_plane, on_grid
-from ssilang.kernel.errors import FieldError
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import FieldError
+from ssilang.kernel.curves.cloud import Cloud, inverse_distance, moving_plane, on_grid
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.language.call import Call
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
 
 

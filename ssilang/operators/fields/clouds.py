@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.cloud import Cloud
+from ssilang.kernel.curves.cloud import Cloud
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots, register_type, type_of
 from ssilang.operators.dispatch import DIME, EXTR, REDU, listing
 

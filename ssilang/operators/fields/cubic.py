@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, arg, operator
+from ssilang.language.run.call import Call
 
 
 @operator(

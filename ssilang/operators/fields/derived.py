@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.fields import node_algebra
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
@@ -14,10 +15,9 @@ from ssilang.kernel.fields.proper_orthogonal import as_fields, modes, stacked
 from ssilang.kernel.matrices.assembly import assemble, numbering_of
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.kernel.mesh.signed_distance import beyond_front, beyond_tip, signed_distance
-from ssilang.kernel.sparse import sp
-from ssilang.language.call import Call
+from ssilang.kernel.mesh.queries.signed_distance import beyond_front, beyond_tip, signed_distance
 from ssilang.language.registry import Help, arg, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListReel, Mot, Table
 from ssilang.operators.workspace import workspace
 

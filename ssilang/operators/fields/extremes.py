@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.errors import KernelError
+from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.language.call import Call
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListReel
 from ssilang.operators.dispatch import MAXI, MINI
 

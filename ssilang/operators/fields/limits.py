@@ -8,10 +8,10 @@ import numpy as np
 
 from ssilang.kernel.fields.cell_algebra import added, component_names
 from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.mesh.measure import signed_area
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.language.call import Call
+from ssilang.kernel.mesh.queries.measure import signed_area
 from ssilang.language.registry import Help, arg, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import Table
 
 

@@ -9,21 +9,21 @@ import numpy as np
 
 from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.families import family_of
-from ssilang.kernel.elements.gradients import gradient_names
-from ssilang.kernel.elements.hooke import hooke_block
-from ssilang.kernel.elements.projection import by_least_squares, on_mesh, on_model
-from ssilang.kernel.elements.structural_gradients import is_structural, structural_names
-from ssilang.kernel.elements.tensors import PRINCIPAL
+from ssilang.kernel.elements.results.projection import by_least_squares, on_mesh, on_model
+from ssilang.kernel.elements.results.structural_gradients import is_structural, structural_names
+from ssilang.kernel.elements.results.tensors import PRINCIPAL
+from ssilang.kernel.elements.solids.gradients import gradient_names
+from ssilang.kernel.elements.solids.hooke import hooke_block
 from ssilang.kernel.elements.zone_fields import n_points
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.materials.parameters import geometric_names, material_names
 from ssilang.kernel.materials.plastic.laws import plastic_law
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.kernel.model import Model, Zone
 from ssilang.kernel.plasticity.points import is_plastic
-from ssilang.language.call import Call, Operand
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call, Operand
 from ssilang.operators.statics.stresses import on_zones
 
 SUPPORTS = ("NOEUDS", "GRAVITE", "RIGIDITE", "MASSE", "STRESSES")

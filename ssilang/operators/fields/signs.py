@@ -6,12 +6,12 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.errors import FieldError
+from ssilang.kernel.base.errors import FieldError
+from ssilang.kernel.base.powers import real_power
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import Nature, NodeField
-from ssilang.kernel.powers import real_power
-from ssilang.language.call import Call
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots
 from ssilang.operators.dispatch import PSCA, PVEC, union_with_call, union_words
 from ssilang.operators.numbers.arithmetic import _ARRAY, SIGNS, rule, rule_with_call

@@ -4,21 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.catalog import support_rule
-from ssilang.kernel.elements.equivalent import equivalent_of_lines
 from ssilang.kernel.elements.family import cell_block
-from ssilang.kernel.elements.gradients import gradient_names, gradient_values, scalar_gradient
-from ssilang.kernel.elements.integrals import integrals
-from ssilang.kernel.elements.skin import is_shell, shell_equivalent, shell_tensor
-from ssilang.kernel.elements.solid import coordinates, zone_geometry
-from ssilang.kernel.elements.structural_gradients import (
+from ssilang.kernel.elements.results.equivalent import equivalent_of_lines
+from ssilang.kernel.elements.results.integrals import integrals
+from ssilang.kernel.elements.results.skin import is_shell, shell_equivalent, shell_tensor
+from ssilang.kernel.elements.results.structural_gradients import (
     is_structural,
     structural_gradient,
     structural_names,
 )
-from ssilang.kernel.elements.tensors import (
+from ssilang.kernel.elements.results.tensors import (
     PRINCIPAL,
     components_at_home,
     invariants,
@@ -27,13 +27,17 @@ from ssilang.kernel.elements.tensors import (
     tresca,
     von_mises,
 )
+from ssilang.kernel.elements.solids.gradients import (
+    gradient_names,
+    gradient_values,
+    scalar_gradient,
+)
+from ssilang.kernel.elements.solids.solid import coordinates, zone_geometry
 from ssilang.kernel.elements.zone_fields import zone_field
-from ssilang.kernel.errors import FieldError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.model import Model, Zone
-from ssilang.language.call import Call
+from ssilang.kernel.materials.model import Model, Zone
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.operators.dispatch import INTG
 from ssilang.operators.matrices.element import joined
 from ssilang.operators.statics.stresses import Reading, on_zones

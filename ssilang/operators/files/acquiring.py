@@ -9,8 +9,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ssilang.io.errors import InputError
-from ssilang.language.call import Call, Operand
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call, Operand
 from ssilang.language.values import ListEnti, ListReel, Mot
 from ssilang.operators.files.outputs import input_path, option_name, run_output
 

@@ -6,9 +6,9 @@ from pathlib import Path
 from typing import Any
 
 from ssilang.io.run_output import RunOutput
-from ssilang.language.call import Call
-from ssilang.language.errors import SsiError
-from ssilang.language.session import Session
+from ssilang.language.run.call import Call
+from ssilang.language.run.session import Session
+from ssilang.language.say.errors import SsiError
 from ssilang.operators.workspace import workspace
 
 

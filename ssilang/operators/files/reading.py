@@ -12,15 +12,15 @@ from ssilang.io.mesh_files.avs import Structure, read_avs
 from ssilang.io.mesh_files.stl import read_stl
 from ssilang.io.mesh_files.unv import UnvMesh, read_unv
 from ssilang.io.peer_records import read_peer
-from ssilang.kernel.curve import Curve, CurvePart
+from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
-from ssilang.language.call import Call
-from ssilang.language.source import Source
-from ssilang.language.structure import parse
-from ssilang.language.tree import Definition
+from ssilang.language.run.call import Call
+from ssilang.language.text.source_files import read_source
+from ssilang.language.text.structure import parse
+from ssilang.language.text.tree import Definition
 from ssilang.language.values import ListReel, Mot, Procedure, Table
 from ssilang.operators.dispatch import ByWord
 from ssilang.operators.files.outputs import input_path, option_name, run_output
@@ -87,7 +87,7 @@ def _proc(call: Call, word: str) -> None:
     name = call.required("MOT", after=call.keyword_end)
     path = input_path(call, name)
     wanted = (call.word() or "").strip().upper()
-    script = parse(Source.read(path))
+    script = parse(read_source(path))
     frame = call.session.frame
     found = {n.name: n for n in script.body if isinstance(n, Definition)}
     if not found and wanted:

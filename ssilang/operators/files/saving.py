@@ -9,14 +9,13 @@ from typing import Any
 from ssilang.io.archive import Archive, Decoder, Encoder, Record, read_archive, write_archive
 from ssilang.io.archive.classes import Packing, register_packing
 from ssilang.io.errors import InputError
-from ssilang.kernel.model import Mode
-from ssilang.language.call import Call
+from ssilang.kernel.materials.model import Mode
 from ssilang.language.registry import Help, operator
-from ssilang.language.scopes import Frame
-from ssilang.language.session import PREDEFINED
-from ssilang.language.source import Source
-from ssilang.language.structure import parse
-from ssilang.language.tree import Definition
+from ssilang.language.run.call import Call
+from ssilang.language.run.scopes import PREDEFINED, Frame
+from ssilang.language.text.source import Source
+from ssilang.language.text.structure import parse
+from ssilang.language.text.tree import Definition
 from ssilang.language.values import (
     Annule,
     LazyRows,
@@ -76,7 +75,7 @@ def _procedure(parts: Any) -> Procedure:
 
 
 def _texte(text: str) -> Texte:
-    from ssilang.language.parser import parse_statements
+    from ssilang.language.text.parser import parse_statements
 
     statements = parse_statements(Source("saved text", text + ";")) if text.strip() else []
     return Texte(tuple(item for s in statements for item in s.items))

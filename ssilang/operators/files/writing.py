@@ -6,9 +6,9 @@ from pathlib import Path
 from typing import Any
 
 from ssilang.io.csv_tables import Column, csv_lines
-from ssilang.kernel.curve import Curve
-from ssilang.language.call import Call
-from ssilang.language.session import Check
+from ssilang.kernel.curves.curve import Curve
+from ssilang.language.run.call import Call
+from ssilang.language.run.session import Check
 from ssilang.language.values import ListEnti, ListMots, ListReel, Table
 from ssilang.operators.dispatch import ByWord
 from ssilang.operators.files.outputs import option_name, output_path, run_output

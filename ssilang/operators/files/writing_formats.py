@@ -8,10 +8,10 @@ from ssilang.io.mesh_files.avs import avs_lines, structure_of
 from ssilang.io.mesh_files.stl import stl_lines
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.mesh.changes.local_refinement import parted
 from ssilang.kernel.mesh.combine import poi1
-from ssilang.kernel.mesh.local_refinement import parted
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
-from ssilang.language.call import Call
+from ssilang.language.run.call import Call
 from ssilang.operators.files.outputs import run_output
 from ssilang.operators.files.writing import SORT, target_path
 

@@ -10,7 +10,7 @@ import numpy as np
 from ssilang.io.archive import Archive, Decoder, Encoder, Record, read_archive, write_archive
 from ssilang.io.errors import InputError
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.call import Call
+from ssilang.language.run.call import Call
 from ssilang.operators.files.outputs import input_path, option_name, run_output
 from ssilang.operators.files.reading import LIRE
 from ssilang.operators.files.writing import SORT, target_path

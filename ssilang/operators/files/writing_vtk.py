@@ -13,9 +13,9 @@ from ssilang.io.vtk.series import Part, SeriesWriter, strip_extension
 from ssilang.io.vtk.vtu import Encoding
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.mesh.local_refinement import parted
+from ssilang.kernel.mesh.changes.local_refinement import parted
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.language.call import Call
+from ssilang.language.run.call import Call
 from ssilang.language.values import Table
 from ssilang.operators.files.outputs import run_output
 from ssilang.operators.files.writing import SORT, target_path

@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.errors import KernelError
-from ssilang.language.call import Call
+from ssilang.kernel.base.errors import KernelError
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import (
     ListChpo,
     ListEnti,

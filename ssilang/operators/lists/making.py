@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ssilang.kernel.errors import KernelError
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.language.call import Call
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import KernelError
 from ssilang.language.registry import Help, many, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListEnti, ListMots, ListObje, ListReel, type_of
 
 _REAL = ("ENTIER", "FLOTTANT")
@@ -109,7 +109,7 @@ def _steps(call: Call, start: Any, kinds: tuple[str, ...]) -> list[Any] | FloatA
             return [*real_steps(float(start), float(step), float(end), ratio), *more]
         return [*integer_steps(start, step, end), *more]
     except KernelError as problem:
-        raise call.bad(problem.message, end, problem.hint) from None
+        raise call.bad(str(problem), end, problem.hint) from None
 
 
 def _progression(start: Any, step: Any, count: int, ratio: float | None) -> list[Any] | FloatArray:

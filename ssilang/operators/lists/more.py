@@ -6,13 +6,13 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.errors import KernelError
+from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.mesh import Point
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, arg, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListReel, Mot, Table
 from ssilang.operators.dispatch import INTE
 from ssilang.operators.lists.items import taken

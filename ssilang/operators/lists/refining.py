@@ -6,11 +6,11 @@ import math
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.mesh.lines.subdivision import subdivide
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.mesh.subdivision import subdivide
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
 from ssilang.operators.lists.making import check_length
 from ssilang.operators.mesh.changes.refining import refined

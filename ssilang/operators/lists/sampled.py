@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, arg, operator, opt
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
 
 

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots, ListReel, Table
 from ssilang.operators.dispatch import ORDO, UNIQ
 from ssilang.operators.lists.items import taken

@@ -8,16 +8,16 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.errors import FieldError
+from ssilang.kernel.base.arrays import IntArray
+from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.matrices import parts
+from ssilang.kernel.matrices import submatrices as parts
 from ssilang.kernel.matrices.assembly import assemble, field_to_vector, numbering_of
 from ssilang.kernel.matrices.matrix import Matrix, dual_of, imaginary
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.kernel.mesh.nodes import IntArray
 from ssilang.kernel.statics.linear import product
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, arg, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots
 from ssilang.operators.dispatch import CHAN, EXTR, REDU, listing, union
 from ssilang.operators.numbers.arithmetic import rule

@@ -7,19 +7,16 @@ import numpy as np
 from ssilang.kernel.fields import node_algebra
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.matrices.assembly import numbering_of
-from ssilang.kernel.matrices.derived import (
-    cable_stiffness,
-    condensed_by_relations,
-    condensed_on_multipliers,
-    filter_weights,
-)
+from ssilang.kernel.matrices.cables import cable_stiffness
+from ssilang.kernel.matrices.condensation import condensed_by_relations, condensed_on_multipliers
+from ssilang.kernel.matrices.filtering import filter_weights
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.matrices.outer import sum_of_outer_products
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.modal.basis import work
 from ssilang.kernel.statics.linear import linear_system, product
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, arg, operator, opt
+from ssilang.language.run.call import Call
 from ssilang.operators.numbers.numbers import session_generator
 from ssilang.operators.workspace import workspace
 

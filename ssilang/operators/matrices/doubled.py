@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from ssilang.kernel.materials.model import Model
 from ssilang.kernel.matrices.matrix import Matrix
-from ssilang.kernel.model import Model
 
 _KEY = "doubled supports"
 

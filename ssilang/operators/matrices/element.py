@@ -6,24 +6,24 @@ from dataclasses import replace
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import IntArray
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.absorbing import absorbing_boundary
-from ssilang.kernel.elements.follower import pressure_stiffness
-from ssilang.kernel.elements.hooke import hooke_block
-from ssilang.kernel.elements.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
-from ssilang.kernel.elements.rotating import corotational
+from ssilang.kernel.elements.beams.rotating import corotational
+from ssilang.kernel.elements.loads.follower import pressure_stiffness
+from ssilang.kernel.elements.solids.hooke import hooke_block
+from ssilang.kernel.elements.solids.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
 from ssilang.kernel.elements.zone_fields import zone_field
-from ssilang.kernel.errors import MeshError
 from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.materials.model import Mode, Model
 from ssilang.kernel.matrices.build import nodal_diagonal
 from ssilang.kernel.matrices.lumping import lumped_matrix
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.kernel.mesh.nodes import IntArray
 from ssilang.kernel.modal.shape_models import is_shape, shape_matrix
-from ssilang.kernel.model import Mode, Model
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.operators.models.contact import model_relations
 from ssilang.operators.workspace import workspace
 

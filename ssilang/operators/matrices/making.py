@@ -10,7 +10,7 @@ from ssilang.kernel.matrices.by_hand import column, from_columns, square
 from ssilang.kernel.matrices.matrix import Matrix, dual_of
 from ssilang.kernel.mesh.cells import CELL_TYPES, many_noded
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.call import Call
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListMots
 from ssilang.operators.dispatch import MANU
 from ssilang.operators.matrices.supports import nodes_of

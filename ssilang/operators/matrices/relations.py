@@ -10,8 +10,8 @@ from ssilang.kernel.matrices import tied_relations as tied
 from ssilang.kernel.matrices.matrix import Matrix, Relations
 from ssilang.kernel.matrices.relations import Term
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Procedure
 from ssilang.operators.matrices.supports import as_matrix, nodes_of
 from ssilang.operators.mesh.changes.refining import tie_relations

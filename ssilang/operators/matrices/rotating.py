@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.elements.rotating import cross_matrix, gyroscopic, inertia_coupling
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.elements.beams.rotating import cross_matrix, gyroscopic, inertia_coupling
 from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.materials.model import Mode, Model
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.mesh import Point
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.model import Mode, Model
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.operators.matrices.element import joined, present
 
 _SHAFT = (

@@ -9,7 +9,7 @@ import numpy as np
 
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.matrix import Matrix
-from ssilang.kernel.matrices.parts import support_mesh
+from ssilang.kernel.matrices.submatrices import support_mesh
 from ssilang.kernel.matrices.superelement import (
     SuperElement,
     condense,
@@ -19,8 +19,8 @@ from ssilang.kernel.matrices.superelement import (
     shape_fields,
 )
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, register_type
 from ssilang.operators.dispatch import EXTR, listing
 

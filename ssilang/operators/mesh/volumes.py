@@ -6,15 +6,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ssilang.kernel.errors import MeshError
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.mesh.block import fill_block
 from ssilang.kernel.mesh.combine import union
-from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.mesh.orientation import surface_normals
-from ssilang.kernel.mesh.subdivision import Subdivision
-from ssilang.kernel.mesh.sweep import (
+from ssilang.kernel.mesh.generators.sweep import (
     Path,
     layer_cuts,
     listed_cuts,
@@ -23,8 +19,11 @@ from ssilang.kernel.mesh.sweep import (
     sweep_surface,
     translation,
 )
-from ssilang.kernel.mesh.volume import fill_volume
-from ssilang.language.call import Call
+from ssilang.kernel.mesh.lines.subdivision import Subdivision
+from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.kernel.mesh.orientation import surface_normals
+from ssilang.kernel.mesh.volumes.block import fill_block
+from ssilang.kernel.mesh.volumes.volume import fill_volume
 from ssilang.language.registry import (
     Chosen,
     Help,
@@ -37,7 +36,8 @@ from ssilang.language.registry import (
     said,
     select,
 )
-from ssilang.language.session import Session
+from ssilang.language.run.call import Call
+from ssilang.language.run.session import Session
 from ssilang.language.values import ListReel
 from ssilang.operators.mesh.lines.ends import (
     ANGLE,

@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.curve import Load
-from ssilang.kernel.errors import KernelError
+from ssilang.kernel.base.errors import KernelError
+from ssilang.kernel.curves.curve import Load
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.matrices.matrix import Matrix
-from ssilang.kernel.matrices.parts import together
+from ssilang.kernel.matrices.submatrices import together
 from ssilang.kernel.mesh.mesh import Point
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.modal.basis import (
@@ -23,8 +23,8 @@ from ssilang.kernel.modal.basis import (
 from ssilang.kernel.modal.modes import eigenvalue
 from ssilang.kernel.modal.shape_models import shape_points
 from ssilang.kernel.statics.linear import product, solve
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, Mot, Table
 from ssilang.operators.dispatch import union
 from ssilang.operators.matrices.element import joined

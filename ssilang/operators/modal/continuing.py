@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.operators.modal.continuation import continue_harmonics
 from ssilang.operators.tables.entries import Entries
 

@@ -6,12 +6,12 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.curve import Curve, CurvePart
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.modal.basis import work
 from ssilang.kernel.statics.linear import product
-from ssilang.language.call import Call
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListEnti, ListReel, Table
 from ssilang.operators.curves.making import KINDS, history, names_in_time, nodes_named
 from ssilang.operators.dispatch import extend_help

@@ -8,8 +8,8 @@ from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.impedance import factors, impedance
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.modal.complex_modes import ComplexMode, conjugate_modes
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import Table
 from ssilang.operators.modal.basis import Shape, shapes_of
 from ssilang.operators.modal.modes import matrices_by_kind, modal_table

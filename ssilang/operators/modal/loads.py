@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.curve import Curve, Load, LoadPart
+from ssilang.kernel.curves.curve import Curve, Load, LoadPart
 from ssilang.kernel.elements import families
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
-from ssilang.kernel.model import Model
-from ssilang.language.call import Call
+from ssilang.kernel.materials.model import Model
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
 from ssilang.operators.matrices.element import joined, present
 from ssilang.operators.modal.basis import shapes_in

@@ -6,14 +6,14 @@ from collections.abc import Callable
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.build import nodal_diagonal
 from ssilang.kernel.matrices.matrix import Matrix, dual_of
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 from ssilang.kernel.modal.basis import MULTIPLIERS, on_marks, projected_matrix, work
 from ssilang.kernel.modal.modes import eigenvalue
-from ssilang.language.call import Call
 from ssilang.language.registry import Argument, Function, Operator, arg, opt
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel, Table
 from ssilang.operators.dispatch import extend_help
 from ssilang.operators.matrices.element import amor, mass, rigi

@@ -7,12 +7,12 @@ from typing import Any
 
 from ssilang.kernel.matrices.assembly import is_symmetric
 from ssilang.kernel.matrices.matrix import Matrix
-from ssilang.kernel.matrices.parts import support_mesh
+from ssilang.kernel.matrices.submatrices import support_mesh
 from ssilang.kernel.mesh.mesh import Point
 from ssilang.kernel.modal.complex_modes import ComplexMode, complex_modes
 from ssilang.kernel.modal.modes import Mode, modes_between, modes_near
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
 from ssilang.operators.matrices.doubled import warn_doubled_supports
 from ssilang.operators.workspace import workspace

@@ -7,14 +7,14 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.errors import KernelError
+from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import assemble, field_to_vector, numbering_of
 from ssilang.kernel.matrices.imposed import geometric_gaps
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.statics.linear import product
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, arg, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
 from ssilang.operators.modal.basis import Shape, shapes_in
 from ssilang.operators.modal.modes import filled

@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from ssilang.kernel.elements.catalog import ElementKind, register_element
+from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.kernel.model import Mode, Model, Zone
-from ssilang.language.call import Call
+from ssilang.language.run.call import Call
 from ssilang.operators.workspace import Workspace
 
 if TYPE_CHECKING:
@@ -89,7 +89,7 @@ def cable_model(call: Call, line: Mesh, ws: Workspace) -> Model:
 def model_relations(model: Model, material: CellField | None) -> list[ContactRelations]:
     """Relations of all pairs of sides of a model, each pair once."""
     from ssilang.kernel.contact.unilateral import contact_relations
-    from ssilang.kernel.elements.kinematics import NODE_TRANSLATIONS
+    from ssilang.kernel.elements.solids.kinematics import NODE_TRANSLATIONS
 
     found, seen = [], set()
     for zone in model.zones:
@@ -113,8 +113,8 @@ def model_relations(model: Model, material: CellField | None) -> list[ContactRel
 
 def _rubbing(zone: Zone, material: CellField | None) -> Rubbing | None:
     """Coulomb's friction of a pair of sides, None where they are smooth."""
+    from ssilang.kernel.base.errors import MaterialError
     from ssilang.kernel.contact.unilateral import Rubbing
-    from ssilang.kernel.errors import MaterialError
 
     if zone.behaviour != COULOMB:
         return None
@@ -133,8 +133,8 @@ def uniform(zone: Zone, material: CellField | None, name: str, default: float | 
     MaterialError
         If it varies, or is missing without a default.
     """
+    from ssilang.kernel.base.errors import MaterialError
     from ssilang.kernel.elements.zone_fields import missing_parameter, zone_field
-    from ssilang.kernel.errors import MaterialError
 
     given = zone_field(zone, material)
     if name not in given:

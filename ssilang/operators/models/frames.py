@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.mesh.frenet import frenet_frames
+from ssilang.kernel.mesh.lines.frenet import frenet_frames
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.language.registry import Help, arg, operator
-from ssilang.language.session import Session
+from ssilang.language.run.session import Session
 from ssilang.operators.workspace import workspace
 
 

@@ -6,9 +6,11 @@ from collections.abc import Callable
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.family import cell_block
-from ssilang.kernel.elements.frames import (
+from ssilang.kernel.elements.results.frames import (
     cylindrical_frames,
     fixed_frame,
     material_frames,
@@ -17,17 +19,15 @@ from ssilang.kernel.elements.frames import (
     seen_in,
     spherical_frames,
 )
-from ssilang.kernel.elements.skin import SIDES, is_shell, shell_skin, skin_stress
-from ssilang.kernel.elements.tensors import tensor
+from ssilang.kernel.elements.results.skin import SIDES, is_shell, shell_skin, skin_stress
+from ssilang.kernel.elements.results.tensors import tensor
 from ssilang.kernel.elements.zone_fields import n_points
-from ssilang.kernel.errors import FieldError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.mesh.mesh import Point
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.model import Mode, Model, Zone
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.operators.fields.turned import turned_node_field
 from ssilang.operators.statics.stresses import Reading, on_zones
 

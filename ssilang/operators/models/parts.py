@@ -9,10 +9,10 @@ import numpy as np
 
 from ssilang.kernel.elements.zone_fields import n_points
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
+from ssilang.kernel.materials.model import Model
 from ssilang.kernel.matrices.assembly import numbering_of
 from ssilang.kernel.matrices.matrix import Matrix
-from ssilang.kernel.model import Model
-from ssilang.language.call import Call
+from ssilang.language.run.call import Call
 from ssilang.operators.dispatch import CHAN, DIME, ENLE, MANU
 
 _EXAMPLE = (

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.elements.fibre_section import fibre_section
+from ssilang.kernel.elements.beams.fibre_section import fibre_section
 from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.model import Model
-from ssilang.language.call import Call
+from ssilang.kernel.materials.model import Model
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel, Mot, Table
 from ssilang.operators.workspace import workspace
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.errors import MeshError
+from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.mesh.combine import cell_keys
-from ssilang.kernel.model import Model, Zone
-from ssilang.language.call import Call
+from ssilang.language.run.call import Call
 from ssilang.operators.dispatch import DIFF, INTE
 
 

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.elements.beams.pipe import pipe_parameters
 from ssilang.kernel.elements.catalog import ELEMENTS, SOLID_FAMILIES
-from ssilang.kernel.elements.pipe import pipe_parameters
 from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
-from ssilang.kernel.mesh.heights import smallest_lengths
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.model import Model, Zone
-from ssilang.language.call import Call
+from ssilang.kernel.materials.model import Model, Zone
+from ssilang.kernel.mesh.queries.heights import smallest_lengths
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 
 _SHELLS = ("plate", "mindlin", "thick", "meridian")
 _BEAMS = ("beam", "timoshenko", "pipe")

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
-from ssilang.kernel.elements.reference import shape_gradients
+from ssilang.kernel.elements.shapes.reference import shape_gradients
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.model import Mode, Model, Zone
+from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.language.registry import Help, arg, flag, operator
 
 _SHELLS = ("plate", "mindlin", "thick", "meridian")

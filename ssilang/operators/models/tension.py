@@ -7,12 +7,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.curve import Curve
-from ssilang.kernel.errors import MaterialError
+from ssilang.kernel.base.errors import MaterialError
+from ssilang.kernel.curves.curve import Curve
 from ssilang.kernel.fields.cell_field import Support
+from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.materials.parameters import known_names
 from ssilang.kernel.materials.plastic.tension_curve import hardening_of
-from ssilang.kernel.model import Zone
 
 
 def material_names(zone: Zone) -> tuple[str, ...]:

@@ -9,10 +9,10 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from ssilang.kernel.powers import real_power
-from ssilang.language.call import Call
-from ssilang.language.errors import SsiError
+from ssilang.kernel.base.powers import real_power
 from ssilang.language.registry import SCALAR_RULES, Help, operator
+from ssilang.language.run.call import Call
+from ssilang.language.say.errors import SsiError
 from ssilang.language.values import ListEnti, ListReel, Table, type_of
 
 Rule = Callable[[Any, Any], Any]

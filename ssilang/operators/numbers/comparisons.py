@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 from ssilang.kernel.mesh.mesh import Point
-from ssilang.language.call import Call
-from ssilang.language.errors import SsiError
 from ssilang.language.registry import SCALAR_RULES, Help, operator
+from ssilang.language.run.call import Call
+from ssilang.language.say.errors import SsiError
 from ssilang.language.values import ListEnti, ListMots, ListReel, type_of
 from ssilang.operators.workspace import workspace
 

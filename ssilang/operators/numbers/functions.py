@@ -8,13 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.curve import Curve
-from ssilang.kernel.errors import KernelError
+from ssilang.kernel.base.errors import KernelError
+from ssilang.kernel.curves.curve import Curve
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListReel
 
 Function = Callable[[Any], Any]

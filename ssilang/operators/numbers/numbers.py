@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.curve import Curve, CurvePart
+from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots, ListReel
 from ssilang.operators.numbers.functions import mapped
 from ssilang.operators.workspace import workspace
@@ -172,7 +172,7 @@ def _tested(value: Any, other: Any, test: Callable[[Any, Any], Any]) -> Any:
         gap = cell_algebra.added(value, other, -1.0)
         return cell_algebra.applied(gap, lambda x: test(x, 0.0).astype(float))
     if len(value) != len(other):
-        from ssilang.kernel.errors import KernelError
+        from ssilang.kernel.base.errors import KernelError
 
         raise KernelError(f"the lists have {len(value)} and {len(other)} items")
     return type(value)(test(value.values, other.values))

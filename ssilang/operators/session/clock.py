@@ -6,9 +6,9 @@ import time
 from datetime import datetime
 from typing import Any
 
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, choice, flag, operator, opt
-from ssilang.language.session import Session
+from ssilang.language.run.call import Call
+from ssilang.language.run.session import Session
 from ssilang.language.values import Mot, Table
 
 _MONTHS = (

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.fields.deformed import displacements
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import register_type
 from ssilang.operators.workspace import workspace
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any, NoReturn
 
-from ssilang.language.call import Call, Operand
-from ssilang.language.errors import SsiError
-from ssilang.language.jumps import LeaveLoop, LeaveProcedure, NextTurn, StopRun
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call, Operand
+from ssilang.language.run.jumps import LeaveLoop, LeaveProcedure, NextTurn, StopRun
+from ssilang.language.say.errors import SsiError
 from ssilang.language.values import ANNULE, Mot, Procedure
 
 

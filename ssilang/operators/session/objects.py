@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.curve import Load
+from ssilang.kernel.curves.curve import Load
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.model import Model
-from ssilang.language.call import Call
-from ssilang.language.procedures import BoundMethod, call_procedure
+from ssilang.kernel.materials.model import Model
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
+from ssilang.language.run.procedures import BoundMethod, call_procedure
 from ssilang.language.values import (
     ANNULE,
     ListEnti,

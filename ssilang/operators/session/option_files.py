@@ -6,9 +6,9 @@ import io
 from collections.abc import Callable
 from typing import Any, TextIO
 
-from ssilang.language.call import Call
-from ssilang.language.source import Source
-from ssilang.language.structure import parse
+from ssilang.language.run.call import Call
+from ssilang.language.text.source_files import read_source
+from ssilang.language.text.structure import parse
 from ssilang.language.values import Mot
 from ssilang.operators.files.outputs import input_path, output_path, run_output
 from ssilang.operators.workspace import workspace
@@ -70,5 +70,5 @@ def _formats(call: Call, formats: list[str]) -> None:
 
 def include(call: Call, name: str) -> None:
     """Run the statements of another file as if they stood here."""
-    source = Source.read(input_path(call, name))
+    source = read_source(input_path(call, name))
     call.session.evaluator.run(parse(source).body)

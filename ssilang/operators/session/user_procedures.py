@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from ssilang.language.call import Call, Operand
-from ssilang.language.procedures import call_procedure
+from ssilang.language.run.call import Call, Operand
+from ssilang.language.run.procedures import call_procedure
 from ssilang.language.values import Procedure
 
 

@@ -6,20 +6,20 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import FieldError, MeshError
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.family import cell_block, contract, element_matrices
-from ssilang.kernel.elements.geometry import chunks
-from ssilang.kernel.elements.hooke import hooke_block
+from ssilang.kernel.elements.shapes.geometry import chunks
+from ssilang.kernel.elements.solids.hooke import hooke_block
 from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
-from ssilang.kernel.errors import FieldError, MeshError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.model import Model, Zone
 from ssilang.kernel.statics.constitutive import Answer, has_law, probing_step, respond
 from ssilang.kernel.statics.yielding import criterion, tangent_modulus
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
 from ssilang.operators.matrices.element import joined, present
 

@@ -4,9 +4,18 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.family import cell_block
-from ssilang.kernel.elements.finite_motion import (
+from ssilang.kernel.elements.loads.loads import total
+from ssilang.kernel.elements.results.structural_gradients import (
+    is_structural,
+    structural_forces,
+    structural_names,
+    structural_work,
+)
+from ssilang.kernel.elements.results.tensors import components_at_home
+from ssilang.kernel.elements.solids.finite_motion import (
     carried,
     gradient_components,
     gradient_forces,
@@ -14,22 +23,13 @@ from ssilang.kernel.elements.finite_motion import (
     transformation,
     work,
 )
-from ssilang.kernel.elements.gradients import gradient_names
-from ssilang.kernel.elements.loads import total
-from ssilang.kernel.elements.structural_gradients import (
-    is_structural,
-    structural_forces,
-    structural_names,
-    structural_work,
-)
-from ssilang.kernel.elements.tensors import components_at_home
+from ssilang.kernel.elements.solids.gradients import gradient_names
 from ssilang.kernel.elements.zone_fields import zone_field
-from ssilang.kernel.errors import FieldError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.model import Zone
-from ssilang.language.call import Call
+from ssilang.kernel.materials.model import Zone
 from ssilang.language.registry import Help, arg, operator
+from ssilang.language.run.call import Call
 from ssilang.operators.matrices.element import joined
 from ssilang.operators.statics.stresses import Reading, on_zones
 

@@ -8,7 +8,7 @@ from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.model import Zone
+from ssilang.kernel.materials.model import Zone
 from ssilang.operators.statics.pasapas_results import Stresses
 
 NEGLIGIBLE = 1e-12  # of the largest stress: rounding of a calculation that goes on

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices
 from ssilang.kernel.modal.shape_models import is_shape, shape_matrix
-from ssilang.kernel.model import Zone
 
 
 def linear_blocks(

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.elements.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
-from ssilang.kernel.elements.line_loads import line_load
-from ssilang.kernel.elements.loads import (
+from ssilang.kernel.elements.loads.line_loads import line_load
+from ssilang.kernel.elements.loads.loads import (
     body_force,
     loaded_faces,
     on_sides,
@@ -15,15 +14,16 @@ from ssilang.kernel.elements.loads import (
     shell_load,
     traction,
 )
-from ssilang.kernel.elements.reduction import model_on_mesh
+from ssilang.kernel.elements.results.reduction import model_on_mesh
+from ssilang.kernel.elements.solids.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.materials.model import Mode, Model
 from ssilang.kernel.matrices.matrix import dual_of
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
-from ssilang.kernel.model import Mode, Model
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import Table
 from ssilang.operators.matrices.element import joined, nodes_of
 from ssilang.operators.matrices.supports import static_links

@@ -6,13 +6,13 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.curve import Curve, Load, LoadPart
-from ssilang.kernel.curve_algebra import check_increasing
+from ssilang.kernel.curves.algebra import check_increasing
+from ssilang.kernel.curves.curve import Curve, Load, LoadPart
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots, Mot, Table, type_of
 from ssilang.operators.dispatch import CHAN, DIME, ENLE, EXTR, union
 

@@ -8,22 +8,20 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.fields.deformed import displacements
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import assemble, field_to_vector, outside, vector_to_field
-from ssilang.kernel.mesh.nodes import FloatArray
 from ssilang.kernel.plasticity.added_load import SHIFT, Added, loaded_bulk
 from ssilang.kernel.plasticity.bulk import Bulk, State
-from ssilang.kernel.sparse import sp
 from ssilang.language.values import Mot, Table
 from ssilang.operators.session.user_procedures import call_user
 from ssilang.operators.statics.bodies import Bodies
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
-    from ssilang.kernel.dynamics.problem import Inputs, Problem
-
-KNOWN = ("ADDI_SECOND", "ADDI_MATRICE")
+    from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 
 
 class LoadByProcedure:
@@ -60,11 +58,11 @@ class LoadByProcedure:
                 "the procedure CHARMECA must give one TABLE",
                 "TAB2 = TABL ; TAB2 . 'ADDI_SECOND' = ... ; FINP TAB2 ;",
             )
-        found = Entries(self.entries.call, results[0], "CHARMECA")
-        found.warn_unknown(KNOWN)
+        found = Entries(self.entries.call, results[0], "PASAPAS", "TCHAR")
+        found.check()
         numbering = self.problem.numbering
-        load: NodeField | None = found.get("ADDI_SECOND", "CHPOINT")
-        matrix = found.get("ADDI_MATRICE", "RIGIDITE")
+        load: NodeField | None = found.get("ADDI_SECOND")
+        matrix = found.get("ADDI_MATRICE")
         if load is None:
             return Added(np.zeros(numbering.size))
         lost = outside(load, numbering)

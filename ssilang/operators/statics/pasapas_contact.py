@@ -7,18 +7,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.contact.cable import Bars, CableRelations, cable_relations
 from ssilang.kernel.contact.friction import Friction
 from ssilang.kernel.elements.catalog import ELEMENTS
-from ssilang.kernel.elements.kinematics import NODE_TRANSLATIONS
+from ssilang.kernel.elements.solids.kinematics import NODE_TRANSLATIONS
 from ssilang.kernel.elements.zone_fields import cell_rows, zone_field
-from ssilang.kernel.errors import MaterialError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
+from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.model import Model, Zone
 from ssilang.kernel.plasticity.points import is_plastic
 from ssilang.operators.models.contact import FROCABLE, model_relations
 

@@ -11,13 +11,19 @@ from numpy.typing import NDArray
 from ssilang.kernel.elements.families import family_of, stress
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.model import Zone
+from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.statics.thermal_load import ThermalStress
 from ssilang.language.values import Mot, Table
-from ssilang.operators.statics.pasapas_entries import RESULTS
 
 if TYPE_CHECKING:
-    from ssilang.kernel.dynamics.snapshot import Snapshot
+    from ssilang.kernel.stepping.snapshot import Snapshot
+
+
+RESULTS = (
+    "TEMPS", "DEPLACEMENTS", "CONTRAINTES", "VARIABLES_INTERNES", "REACTIONS", "VITESSES",
+    "ACCELERATIONS", "DEFORMATIONS_INELASTIQUES",
+)  # fmt: skip
+"""Tables of results, by number of the saved time."""
 
 
 @dataclass

@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from ssilang.kernel.errors import KernelError
+from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.statics.linear import SolveOptions, linear_system, reactions, solve
 from ssilang.kernel.statics.stability import free_motion_fields, negative_eigenvalues
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, Table
 from ssilang.operators.matrices.doubled import warn_doubled_supports
 from ssilang.operators.matrices.supports import static_links
@@ -99,8 +99,7 @@ def _or_warning(
     try:
         return tuple(solve(matrix, loads, replace(options, project=False)))
     except KernelError as problem:
-        call.session.warn("bad-value", call.span, operator="RESO", message=problem.message,
-                          hint=problem.hint)  # fmt: skip
+        call.warn(problem.code, **problem.data)
     return tuple(solve(matrix, loads, options))
 
 

@@ -4,19 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.family import cell_block
-from ssilang.kernel.elements.gradients import gradient_names, logarithmic_strain
-from ssilang.kernel.elements.loads import pressure_vectors, total
-from ssilang.kernel.elements.second_order import green_strain, green_stress
-from ssilang.kernel.elements.thermal import thermal_strain
+from ssilang.kernel.elements.loads.loads import pressure_vectors, total
+from ssilang.kernel.elements.loads.thermal import thermal_strain
+from ssilang.kernel.elements.results.second_order import green_strain, green_stress
+from ssilang.kernel.elements.solids.gradients import gradient_names, logarithmic_strain
 from ssilang.kernel.elements.zone_fields import zone_field
-from ssilang.kernel.errors import FieldError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.model import Model, Zone
-from ssilang.language.call import Call
+from ssilang.kernel.materials.model import Model, Zone
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.operators.matrices.element import joined, present
 
 _BAR = (

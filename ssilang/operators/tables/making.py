@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table, known_types, type_of
 from ssilang.operators.dispatch import COPI, DIME, ENLE
 from ssilang.operators.numbers.arithmetic import rule

@@ -6,8 +6,8 @@ from typing import Any
 
 from ssilang.kernel.mesh.combine import gathered
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import Table
 from ssilang.operators.dispatch import united
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 
-from ssilang.kernel.errors import KernelError
+from ssilang.kernel.base.errors import KernelError
 
 DEFAULT_FORMAT = "(1PE12.5)"
 

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 
 from ssilang.io.plots.palette import NAMES as COLOURS
-from ssilang.kernel.curve import Curve, Load
+from ssilang.kernel.curves.curve import Curve, Load
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import (
     ANNULE,
     ListChpo,

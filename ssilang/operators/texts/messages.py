@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from ssilang.language.call import Call
-from ssilang.language.errors import SsiError
 from ssilang.language.registry import Help, choice, operator, opt
-from ssilang.language.session import Session
+from ssilang.language.run.call import Call
+from ssilang.language.run.session import Session
+from ssilang.language.say.errors import SsiError
 from ssilang.language.values import ListEnti, ListMots, ListReel
 from ssilang.operators.texts.words import read_text, written
 from ssilang.operators.workspace import workspace

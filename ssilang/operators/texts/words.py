@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, operator
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots, Mot, Table
 from ssilang.operators.dispatch import CHAN, DIME, EXTR, union
 from ssilang.operators.lists.making import check_length

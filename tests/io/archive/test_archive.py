@@ -14,9 +14,9 @@ from ssilang.io.archive import Decoder, Encoder, Record, read_archive, write_arc
 from ssilang.io.errors import InputError, OutputError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.nodes import NodeTable
-from ssilang.kernel.model import Mode, Model, Zone
 
 
 def saved(path: Path, **values: Any) -> None:
@@ -86,7 +86,7 @@ def test_parameters_that_are_objects(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "name", ["os:system", "ssilang.cli.main:main", "ssilang.kernel.model:Mode.x"]
+    "name", ["os:system", "ssilang.cli.main:main", "ssilang.kernel.materials.model:Mode.x"]
 )
 def test_classes_outside_the_kernel_are_never_built(name: str, tmp_path: Path) -> None:
     write_archive(tmp_path / "s", [[name, {}]], [], [Record("", {"X": ["o", 0]})], {})

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from ssilang.kernel.base.errors import ConvergenceError
 from ssilang.kernel.continuation.arc import Lengths, Tracer
 from ssilang.kernel.continuation.floquet import exponents, monodromy
 from ssilang.kernel.continuation.harmonics import Oscillators, basis_of, derivative_matrix
 from ssilang.kernel.continuation.response import forced_response, normal_mode
-from ssilang.kernel.errors import ConvergenceError
 
 DAMPING, CUBIC, LOAD = 0.1, 0.25, 0.5
 

@@ -3,13 +3,13 @@
 import numpy as np
 
 from ssilang.kernel.elements.catalog import ELEMENTS
-from ssilang.kernel.elements.reference import REFERENCE_CELLS
+from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.kernel.mesh.mesh import CellBlock
 from ssilang.kernel.mesh.nodes import NodeTable
-from ssilang.kernel.model import Mode, Model, Zone
 
 ELASTIC = ("ELASTIQUE", "ISOTROPE")
 SOLIDS = [
@@ -28,7 +28,7 @@ def _corners_only(cell_type):
 
 def cell_zone(element, mode, seed=1, offset=3.0, constituent=""):
     """One straight-sided distorted cell away from the axis, as a zone."""
-    from ssilang.kernel.elements.reference import shape_functions
+    from ssilang.kernel.elements.shapes.reference import shape_functions
 
     kind = ELEMENTS[element]
     reference = REFERENCE_CELLS[kind.cell_type]

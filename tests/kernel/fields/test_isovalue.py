@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from ssilang.kernel.errors import MeshError
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.isovalue import isovalue
-from ssilang.kernel.mesh.measure import total_measure
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
+from ssilang.kernel.mesh.queries.measure import total_measure
 
 
 def field_on(mesh: Mesh, values: np.ndarray) -> CellField:

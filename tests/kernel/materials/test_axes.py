@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from ssilang.kernel.errors import MaterialError
+from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.materials.axes import Directions, axis_parameters
+from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.materials.parameters import geometric_names, known_names, material_names
-from ssilang.kernel.model import Mode
 from tests.kernel.elements.samples import cell_zone, line_zone
 
 X, Y = np.array([2.0, 0, 0]), np.array([0, 3.0, 0])

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from ssilang.kernel.errors import MaterialError
+from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.materials.elasticity import (
     isotropic_compliance,
     isotropic_moduli,
@@ -11,7 +11,7 @@ from ssilang.kernel.materials.elasticity import (
     reduced_moduli,
     rotated_moduli,
 )
-from ssilang.kernel.model import Mode
+from ssilang.kernel.materials.model import Mode
 
 E, NU = np.array(3.0e10), np.array(0.2)
 WOOD = {

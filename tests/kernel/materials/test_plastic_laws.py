@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from ssilang.kernel.curve import Curve, CurvePart
+from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.materials.plastic.held_stress import respond_held
 from ssilang.kernel.materials.plastic.laws import PLASTIC_LAWS
 from ssilang.kernel.materials.plastic.response import PointParameters, mises

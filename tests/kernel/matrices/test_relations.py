@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from ssilang.kernel.errors import FieldError, MeshError
+from ssilang.kernel.base.errors import FieldError, MeshError
 from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.matrices import imposed
 from ssilang.kernel.matrices import relations as make
 from ssilang.kernel.matrices import tied_relations as tied
@@ -12,7 +13,6 @@ from ssilang.kernel.matrices.assembly import assemble, constraint_matrix, number
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
-from ssilang.kernel.model import Mode
 from ssilang.kernel.statics.linear_motion import rigid_motions
 
 PLANE, SPACE = make.translations(Mode.PLANE_STRAIN), make.translations(Mode.THREE_DIMENSIONAL)

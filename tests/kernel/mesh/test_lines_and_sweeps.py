@@ -7,16 +7,22 @@ import math
 import numpy as np
 import pytest
 
-from ssilang.kernel.errors import MeshError
-from ssilang.kernel.mesh.curves import arc_about_axis, arc_through, cubic_through, parabola
-from ssilang.kernel.mesh.grid import grid_surface, sides_in_order
-from ssilang.kernel.mesh.lines import line_chain, mesh_curve, straight_line
-from ssilang.kernel.mesh.measure import total_measure
+from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.mesh.generators.sweep import (
+    rotation,
+    ruling,
+    sweep_line,
+    sweep_surface,
+    translation,
+)
+from ssilang.kernel.mesh.lines.curves import arc_about_axis, arc_through, cubic_through, parabola
+from ssilang.kernel.mesh.lines.lines import line_chain, mesh_curve, straight_line
+from ssilang.kernel.mesh.lines.subdivision import subdivide
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.mesh.orientation import reversed_line, signed_volumes, surface_normals
-from ssilang.kernel.mesh.subdivision import subdivide
-from ssilang.kernel.mesh.sweep import rotation, ruling, sweep_line, sweep_surface, translation
+from ssilang.kernel.mesh.queries.measure import total_measure
+from ssilang.kernel.mesh.surfaces.grid import grid_surface, sides_in_order
 
 
 def line_between(nodes: NodeTable, a: list[float], b: list[float], n: int, q: bool = False) -> Mesh:

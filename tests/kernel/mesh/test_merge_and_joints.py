@@ -5,18 +5,18 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from ssilang.kernel.errors import MeshError
+from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.mesh.changes.cut_open import cut_open
+from ssilang.kernel.mesh.changes.merge import merge_between, merge_close, regenerate, repeated_nodes
 from ssilang.kernel.mesh.combine import poi1, union
-from ssilang.kernel.mesh.cut_open import cut_open
-from ssilang.kernel.mesh.interfaces import joint_mesh
-from ssilang.kernel.mesh.lines import straight_line
-from ssilang.kernel.mesh.measure import total_measure
-from ssilang.kernel.mesh.merge import merge_between, merge_close, regenerate, repeated_nodes
+from ssilang.kernel.mesh.generators.interfaces import joint_mesh
+from ssilang.kernel.mesh.generators.sweep import rotation, sweep_line, sweep_surface, translation
+from ssilang.kernel.mesh.lines.lines import straight_line
+from ssilang.kernel.mesh.lines.subdivision import subdivide
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.mesh.orientation import reversed_line, signed_volumes
-from ssilang.kernel.mesh.subdivision import subdivide
-from ssilang.kernel.mesh.sweep import rotation, sweep_line, sweep_surface, translation
+from ssilang.kernel.mesh.queries.measure import total_measure
 
 UP, DOWN = np.array([0.0, 1, 0]), np.array([0.0, -1, 0])
 

@@ -7,25 +7,25 @@ import math
 import numpy as np
 import pytest
 
-from ssilang.kernel.errors import MeshError
-from ssilang.kernel.mesh.block import fill_block
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.boundary import contour, envelope
+from ssilang.kernel.mesh.changes.merge import merge_close
+from ssilang.kernel.mesh.changes.split import split_quadrangles
+from ssilang.kernel.mesh.changes.transform import NodeCopier, shift
 from ssilang.kernel.mesh.combine import union
-from ssilang.kernel.mesh.curves import arc_about_axis
-from ssilang.kernel.mesh.fillet import fillet
-from ssilang.kernel.mesh.frenet import frenet_frames
-from ssilang.kernel.mesh.interfaces import joints_inside
-from ssilang.kernel.mesh.lines import line_chain, mesh_curve, polyline, straight_line
-from ssilang.kernel.mesh.measure import total_measure
-from ssilang.kernel.mesh.merge import merge_close
+from ssilang.kernel.mesh.generators.interfaces import joints_inside
+from ssilang.kernel.mesh.generators.sweep import sweep_line, translation
+from ssilang.kernel.mesh.lines.curves import arc_about_axis
+from ssilang.kernel.mesh.lines.fillet import fillet
+from ssilang.kernel.mesh.lines.frenet import frenet_frames
+from ssilang.kernel.mesh.lines.lines import line_chain, mesh_curve, polyline, straight_line
+from ssilang.kernel.mesh.lines.subdivision import subdivide
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.mesh.orientation import reversed_line, signed_volumes
-from ssilang.kernel.mesh.refine import delaunay_mesh, refined_triangles
-from ssilang.kernel.mesh.split import split_quadrangles
-from ssilang.kernel.mesh.subdivision import subdivide
-from ssilang.kernel.mesh.sweep import sweep_line, translation
-from ssilang.kernel.mesh.transform import NodeCopier, shift
+from ssilang.kernel.mesh.queries.measure import total_measure
+from ssilang.kernel.mesh.surfaces.refine import delaunay_mesh, refined_triangles
+from ssilang.kernel.mesh.volumes.block import fill_block
 
 X, Y, Z = np.eye(3)
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from ssilang.kernel.errors import KernelError
+from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.modal import links as law
 from ssilang.kernel.modal.explicit import SCHEMES, ModalState, march
 from ssilang.kernel.modal.link_laws import plastic_force

@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ssilang.kernel.errors import KernelError
+from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
-from ssilang.kernel.matrices.parts import together
 from ssilang.kernel.matrices.relations import Term, blocked, relation_rows
+from ssilang.kernel.matrices.submatrices import together
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.modal import eigen
 from ssilang.kernel.modal.complex_modes import complex_modes

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from ssilang.kernel.errors import KernelError
+from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.modal.oscillator import (
     Oscillators,
     default_frequencies,

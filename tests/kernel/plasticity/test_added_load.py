@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from ssilang.cli.run import run_text
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.plasticity.added_load import Added, loaded_bulk
 from ssilang.kernel.plasticity.bulk import Bulk
-from ssilang.kernel.sparse import sp
 
 
 @pytest.mark.parametrize("n", [20, 200])

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 
-from ssilang.kernel.errors import KernelError
+from ssilang.kernel.base.errors import KernelError, SingularFactorError
 from ssilang.kernel.solvers import backends
-from ssilang.kernel.solvers.backends import BACKENDS, SingularFactorError, factorise
+from ssilang.kernel.solvers.backends import BACKENDS, factorise
 
 INSTALLED = [name for name, backend in BACKENDS.items() if backend.installed]
 

@@ -3,19 +3,21 @@
 import numpy as np
 import pytest
 
-from ssilang.kernel import elements, memory
-from ssilang.kernel.errors import KernelError
+from ssilang.kernel import elements
+from ssilang.kernel.base import memory
+from ssilang.kernel.base.errors import KernelError, SingularFactorError
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.materials.model import Mode, Zone
 from ssilang.kernel.matrices.assembly import assemble, numbering_of
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.mesh import CellBlock
 from ssilang.kernel.mesh.nodes import NodeTable
-from ssilang.kernel.model import Mode, Zone
 from ssilang.kernel.solvers import backends
-from ssilang.kernel.solvers.backends import MULTIGRID, Ordering, SingularFactorError, factorise
-from ssilang.kernel.solvers.inverse import invert
+from ssilang.kernel.solvers.backends import MULTIGRID, factorise
+from ssilang.kernel.solvers.cholesky.inverse import invert
+from ssilang.kernel.solvers.factor import Ordering
 from ssilang.kernel.solvers.multigrid import MultigridFactor
-from ssilang.kernel.sparse import sp
 from ssilang.kernel.statics.linear_motion import rigid_motions
 
 pytest.importorskip("pyamg")

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ssilang.kernel.errors import ConvergenceError, KernelError, SingularMatrixError
+from ssilang.kernel.base.errors import ConvergenceError, KernelError, SingularMatrixError
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import (
     assemble,

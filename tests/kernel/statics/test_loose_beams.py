@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from ssilang.kernel.errors import ConvergenceError
+from ssilang.kernel.base.errors import ConvergenceError
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.matrices.relations import blocked

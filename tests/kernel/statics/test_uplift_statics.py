@@ -8,11 +8,11 @@ from references.assembled import Bench
 from references.footing import Strip
 from references.recorder import Recorder
 
-from ssilang.kernel.curve import Curve, CurvePart, Load, LoadPart
-from ssilang.kernel.dynamics.problem import Inputs, make_problem
-from ssilang.kernel.errors import ConvergenceError
+from ssilang.kernel.base.errors import ConvergenceError
+from ssilang.kernel.curves.curve import Curve, CurvePart, Load, LoadPart
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.statics.stepping import step_statics
+from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
 
 STRIP = Strip(4.0, 1.0, 2e7, 6e5)
 

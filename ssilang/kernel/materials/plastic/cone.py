@@ -13,13 +13,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.materials.plastic.response import (
     DEVIATOR,
     UNIT,
     PointParameters,
     mises,
 )
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 Hardening = Callable[[IntArray, FloatArray], tuple[FloatArray, FloatArray]]
 """Strength K and its slope at some points (rows) for cumulated strains p."""

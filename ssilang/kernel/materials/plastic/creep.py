@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.errors import MaterialError
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.materials.plastic.response import (
     DEVIATOR,
     UNIT,
@@ -17,7 +18,6 @@ from ssilang.kernel.materials.plastic.response import (
     Response,
     mises,
 )
-from ssilang.kernel.mesh.nodes import FloatArray
 
 DURATION = "DT"
 """Duration of the step among the parameters of a point."""
@@ -77,6 +77,5 @@ def check(parameters: PointParameters) -> None:
         wrong = (parameters[name] < low) | (parameters[name] > high)
         if wrong.any():
             raise MaterialError(
-                f"NORTON has {name} = {parameters[name][wrong][0]:g}",
-                "AF1 >= 0, AF2 >= 1 and 0 < AF3 <= 1",
+                "kernel.materials.norton", name=name, parameters=parameters[name][wrong][0]
             )

@@ -11,9 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ssilang.kernel.curve import Curve
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.curves.curve import Curve
 from ssilang.kernel.materials.elasticity import isotropic_compliance, isotropic_moduli
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 UNIT = np.array([1.0, 1.0, 1.0, 0.0, 0.0, 0.0])
 """The unit tensor."""

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.errors import MaterialError
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.materials.plastic.response import PointParameters, Response
-from ssilang.kernel.mesh.nodes import FloatArray
 
 
 def _elastic_shear(p: PointParameters, stress: FloatArray, strain: FloatArray) -> FloatArray:
@@ -83,4 +83,4 @@ def check_concrete(parameters: PointParameters) -> None:
         If FC = 0.
     """
     if (parameters["FC"] == 0).any():
-        raise MaterialError("FC = 0: concrete needs a strength")
+        raise MaterialError("kernel.materials.fc-concrete-needs-strength")

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.materials.plastic.cone import Cone, Hardening, cone_return
 from ssilang.kernel.materials.plastic.response import PointParameters, Response, mises
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
 
 
 def _cylinder(m: int, hardening: Hardening, kinematic: FloatArray | None = None) -> Cone:

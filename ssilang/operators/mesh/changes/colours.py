@@ -11,7 +11,7 @@ from ssilang.io.plots.palette import index_of
 from ssilang.kernel.mesh.combine import recolour
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.language.registry import Chosen, Help, arg, either, group, main, operator
-from ssilang.language.session import Session
+from ssilang.language.run.session import Session
 from ssilang.operators.dispatch import COUL
 from ssilang.operators.workspace import workspace
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.mesh.cut_open import cut_open
-from ssilang.kernel.mesh.merge import merge_between, merge_close, regenerate, repeated_nodes
+from ssilang.kernel.base.arrays import IntArray
+from ssilang.kernel.mesh.changes.cut_open import cut_open
+from ssilang.kernel.mesh.changes.merge import merge_between, merge_close, regenerate, repeated_nodes
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.kernel.mesh.nodes import IntArray
 from ssilang.language.registry import Help, arg, flag, operator, opt
-from ssilang.language.session import Session
+from ssilang.language.run.session import Session
 from ssilang.operators.mesh.tolerance import DISTANCE, tolerance_of
 from ssilang.operators.workspace import workspace
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from ssilang.kernel.errors import MeshError
-from ssilang.kernel.mesh.interfaces import joint_mesh, joints_inside
+from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.mesh.generators.interfaces import joint_mesh, joints_inside
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.language.registry import Help, arg, flag, many, operator
-from ssilang.language.session import Session
+from ssilang.language.run.session import Session
 from ssilang.operators.mesh.tolerance import DISTANCE, tolerance_of
 from ssilang.operators.workspace import workspace
 

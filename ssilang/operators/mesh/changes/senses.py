@@ -15,8 +15,8 @@ from ssilang.kernel.mesh.orientation import (
     orient_towards,
     reversed_line,
 )
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, arg, choice, main, operator, opt
+from ssilang.language.run.call import Call
 from ssilang.operators.dispatch import INVE, ORDO
 from ssilang.operators.workspace import workspace
 

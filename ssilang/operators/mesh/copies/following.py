@@ -7,15 +7,15 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.errors import MeshError
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.mesh.follow import followed
+from ssilang.kernel.mesh.changes.follow import followed
+from ssilang.kernel.mesh.changes.transform import NodeCopier, mapping_between
+from ssilang.kernel.mesh.generators.sweep import corresponding_nodes
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.mesh.sweep import corresponding_nodes
-from ssilang.kernel.mesh.transform import NodeCopier, mapping_between
-from ssilang.language.call import Call
 from ssilang.language.registry import ANY, Help, Like, arg, flag, many, operator, said
+from ssilang.language.run.call import Call
 from ssilang.operators.mesh.copies.images import GEOMETRIC, Copier
 from ssilang.operators.mesh.copies.maps import rotation_matrix
 from ssilang.operators.mesh.copies.moves import displacements

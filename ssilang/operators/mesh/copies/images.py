@@ -8,12 +8,11 @@ from typing import Any
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.mesh.sweep import corresponding_nodes
-from ssilang.kernel.mesh.transform import (
+from ssilang.kernel.materials.model import Mode, Model
+from ssilang.kernel.mesh.changes.transform import (
     NodeCopier,
     PointMap,
     affinity,
@@ -24,10 +23,11 @@ from ssilang.kernel.mesh.transform import (
     shift,
     turn,
 )
-from ssilang.kernel.model import Mode, Model
-from ssilang.language.call import Call
+from ssilang.kernel.mesh.generators.sweep import corresponding_nodes
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
 from ssilang.language.registry import Argument, Chosen, Help, Like, arg, many, operator, said
-from ssilang.language.session import Session
+from ssilang.language.run.call import Call
+from ssilang.language.run.session import Session
 from ssilang.language.values import Table
 from ssilang.operators.fields.turned import turned_cell_field, turned_node_field
 from ssilang.operators.mesh.copies.maps import (

@@ -6,7 +6,10 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
-from ssilang.kernel.mesh.analytic import (
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.mesh.changes.transform import PointMap, turn
+from ssilang.kernel.mesh.mesh import Point
+from ssilang.kernel.mesh.surfaces.analytic import (
     Shape,
     cone_shape,
     cylinder_shape,
@@ -15,12 +18,6 @@ from ssilang.kernel.mesh.analytic import (
     project,
     sphere_shape,
     torus_shape,
-)
-from ssilang.kernel.mesh.mesh import Point
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.mesh.transform import (
-    PointMap,
-    turn,
 )
 from ssilang.language.registry import Argument, Chosen, arg, group, key, select
 

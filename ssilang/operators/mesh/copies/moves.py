@@ -6,12 +6,10 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
-from ssilang.kernel.errors import MeshError
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.mesh.sweep import rotate
-from ssilang.kernel.mesh.transform import (
+from ssilang.kernel.mesh.changes.transform import (
     PointMap,
     affine_through,
     affinity,
@@ -26,8 +24,10 @@ from ssilang.kernel.mesh.transform import (
     to_cylindrical,
     turn,
 )
-from ssilang.language.call import Call
+from ssilang.kernel.mesh.generators.sweep import rotate
+from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.language.registry import Chosen, Help, arg, choice, many, operator, opt, said
+from ssilang.language.run.call import Call
 from ssilang.operators.mesh.copies.maps import (
     DIRECTION,
     FIXED,

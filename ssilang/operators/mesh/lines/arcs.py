@@ -7,20 +7,20 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.mesh.combine import union
-from ssilang.kernel.mesh.curves import (
+from ssilang.kernel.mesh.lines.curves import (
     Arc,
     ParabolicArc,
     arc_about_axis,
     arc_about_centre,
     arc_through,
 )
-from ssilang.kernel.mesh.lines import chain_mesh, different_nodes, end_sizes
+from ssilang.kernel.mesh.lines.lines import chain_mesh, different_nodes, end_sizes
+from ssilang.kernel.mesh.lines.subdivision import subdivide
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.mesh.subdivision import subdivide
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, arg, choice, flag, operator, said
+from ssilang.language.run.call import Call
 from ssilang.operators.mesh.lines.ends import (
     ANGLE,
     AXIS,

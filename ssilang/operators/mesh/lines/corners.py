@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from ssilang.kernel.mesh.fillet import fillet
+from ssilang.kernel.mesh.lines.fillet import fillet
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, arg, flag, operator, opt
+from ssilang.language.run.call import Call
 from ssilang.operators.workspace import workspace
 
 

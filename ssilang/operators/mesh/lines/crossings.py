@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 
-from ssilang.kernel.mesh.analytic import (
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.mesh.lines.crossing_curve import crossing_curve
+from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.kernel.mesh.surfaces.analytic import (
     Shape,
     cone_shape,
     cylinder_shape,
@@ -12,11 +15,8 @@ from ssilang.kernel.mesh.analytic import (
     sphere_shape,
     torus_shape,
 )
-from ssilang.kernel.mesh.crossing_curve import crossing_curve
-from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.language.call import Call
 from ssilang.language.registry import Chosen, arg, key, main, select
+from ssilang.language.run.call import Call
 from ssilang.operators.dispatch import INTE
 from ssilang.operators.mesh.lines.ends import (
     COUNT,

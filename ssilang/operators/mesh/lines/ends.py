@@ -7,16 +7,22 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ssilang.kernel.errors import MeshError
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.combine import union
-from ssilang.kernel.mesh.curves import Arc, Polynomial
 from ssilang.kernel.mesh.families import Family, family_of
-from ssilang.kernel.mesh.lines import CurveMap, different_nodes, end_sizes, line_ends, mesh_curve
+from ssilang.kernel.mesh.lines.curves import Arc, Polynomial
+from ssilang.kernel.mesh.lines.lines import (
+    CurveMap,
+    different_nodes,
+    end_sizes,
+    line_ends,
+    mesh_curve,
+)
+from ssilang.kernel.mesh.lines.subdivision import subdivide
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.mesh.subdivision import subdivide
-from ssilang.language.call import Call
 from ssilang.language.registry import arg, key, many, opt
+from ssilang.language.run.call import Call
 from ssilang.operators.workspace import Workspace, workspace
 
 SIZES_EN = (

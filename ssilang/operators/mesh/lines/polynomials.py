@@ -6,11 +6,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ssilang.kernel.mesh.curves import Polynomial, cubic_tangents, cubic_through, parabola
-from ssilang.kernel.mesh.lines import line_ends
+from ssilang.kernel.mesh.lines.curves import Polynomial, cubic_tangents, cubic_through, parabola
+from ssilang.kernel.mesh.lines.lines import line_ends
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, arg, flag, key, many, operator
+from ssilang.language.run.call import Call
 from ssilang.operators.mesh.lines.ends import (
     COUNT,
     END,

@@ -7,12 +7,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ssilang.kernel.mesh.curves import Arc, arc_about_axis
-from ssilang.kernel.mesh.lines import CurveMap, chain_mesh, polyline
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.mesh.lines.curves import Arc, arc_about_axis
+from ssilang.kernel.mesh.lines.lines import CurveMap, chain_mesh, polyline
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, arg, choice, many, operator, opt, said
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
 from ssilang.operators.mesh.lines.ends import (
     ANGLE,

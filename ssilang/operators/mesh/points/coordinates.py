@@ -6,17 +6,18 @@ from dataclasses import replace
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.elements.zone_fields import carry
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.materials.model import Model
 from ssilang.kernel.mesh.boundary import chained
-from ssilang.kernel.mesh.lines import line_chain
+from ssilang.kernel.mesh.lines.lines import line_chain
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.kernel.mesh.nodes import FloatArray, NodeTable
-from ssilang.kernel.model import Model
-from ssilang.language.call import Call
+from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.language.registry import ANY, arg, main, opt, said
-from ssilang.language.session import Session
+from ssilang.language.run.call import Call
+from ssilang.language.run.session import Session
 from ssilang.operators.dispatch import COOR
 from ssilang.operators.workspace import workspace
 

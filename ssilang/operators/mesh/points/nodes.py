@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.errors import MeshError
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, arg, operator, said
-from ssilang.language.session import Session
+from ssilang.language.run.call import Call
+from ssilang.language.run.session import Session
 from ssilang.operators.workspace import workspace
 
 

@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.mesh.mesh import Point
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.language.call import Call
 from ssilang.language.registry import Help, arg, main, operator, opt
-from ssilang.language.session import Session
+from ssilang.language.run.call import Call
+from ssilang.language.run.session import Session
 from ssilang.operators.dispatch import PSCA, PVEC
 from ssilang.operators.mesh.dimensions import IN_PLANE, IN_SPACE
 from ssilang.operators.numbers.arithmetic import rule

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.kernel.mesh.soundness import repeated_cells, unfit_faces, unmatched_middles
+from ssilang.kernel.mesh.queries.soundness import repeated_cells, unfit_faces, unmatched_middles
 from ssilang.language.registry import Help, arg, operator
-from ssilang.language.session import Session
+from ssilang.language.run.session import Session
 
 _CHECKS = (
     ("MESH", repeated_cells, "cells stand on the nodes of another one"),

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from ssilang.kernel.errors import MeshError
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.mesh.measure import (
+from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.kernel.mesh.queries.measure import (
     enclosed_area,
     enclosed_volume,
     node_sizes,
     total_measure,
 )
-from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.language.registry import Help, arg, choice, operator, said
 from ssilang.language.values import ListEnti, ListMots
 

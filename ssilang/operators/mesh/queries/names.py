@@ -6,7 +6,7 @@ import numpy as np
 
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.language.registry import Help, arg, operator
-from ssilang.language.session import Session
+from ssilang.language.run.session import Session
 from ssilang.language.values import ListMots
 
 

@@ -6,13 +6,13 @@ from collections.abc import Callable
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.mesh.quality import aspect_ratio, flatness, quality_in_metric, skewness
-from ssilang.language.call import Call
+from ssilang.kernel.mesh.queries.quality import aspect_ratio, flatness, quality_in_metric, skewness
 from ssilang.language.registry import Help, arg, flag, key, operator, opt, said
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
 from ssilang.operators.workspace import workspace
 

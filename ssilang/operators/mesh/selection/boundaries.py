@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ssilang.kernel.errors import MeshError
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.boundary import (
     chained,
     contour,

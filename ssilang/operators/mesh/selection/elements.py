@@ -8,26 +8,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ssilang.io.plots.palette import NAMES as COLOURS
-from ssilang.kernel.errors import MeshError
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.mesh.boundary import chained
 from ssilang.kernel.mesh.cells import CELL_TYPES
+from ssilang.kernel.mesh.changes.local_refinement import TIE, is_tie, parted
 from ssilang.kernel.mesh.combine import (
     of_type,
     polygons,
     take,
     union,
 )
-from ssilang.kernel.mesh.local_refinement import TIE, is_tie, parted
+from ssilang.kernel.mesh.lines.paths import network_of_lines, shortest_line
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.mesh.paths import network_of_lines, shortest_line
-from ssilang.kernel.mesh.select import (
-    containing,
-    resting_on,
-    stretch,
-)
-from ssilang.language.call import Call
+from ssilang.kernel.mesh.queries.select import containing, resting_on, stretch
 from ssilang.language.registry import (
     Chosen,
     Help,
@@ -43,6 +38,7 @@ from ssilang.language.registry import (
     said,
     select,
 )
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots
 from ssilang.operators.mesh.points.picking import (
     ABSOLUTE,

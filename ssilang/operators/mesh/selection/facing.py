@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import IntArray
 from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.kernel.mesh.nodes import IntArray, NodeTable
-from ssilang.language.call import Call
+from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.language.registry import Help, arg, operator, opt
+from ssilang.language.run.call import Call
 from ssilang.operators.workspace import workspace
 
 _NONE = np.empty(0, dtype=np.int64)

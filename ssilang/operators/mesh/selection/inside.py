@@ -5,20 +5,17 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.errors import MeshError
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.boundary import contour
 from ssilang.kernel.mesh.combine import (
     take,
 )
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.mesh.select import (
-    inside_contour,
-    inside_volume,
-)
-from ssilang.kernel.mesh.tetrahedralize import ray_inside
+from ssilang.kernel.mesh.queries.select import inside_contour, inside_volume
+from ssilang.kernel.mesh.volumes.tetrahedralize import ray_inside
 from ssilang.language.registry import Help, arg, choice, flag, operator, opt
-from ssilang.language.session import Session
+from ssilang.language.run.session import Session
 from ssilang.operators.workspace import workspace
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ssilang.kernel.errors import MeshError
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.combine import (
     intersection,
     points_mesh,
@@ -11,9 +11,9 @@ from ssilang.kernel.mesh.combine import (
     without_duplicates,
 )
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.kernel.mesh.surface_crossing import crossed
-from ssilang.language.call import Call
+from ssilang.kernel.mesh.surfaces.surface_crossing import crossed
 from ssilang.language.registry import arg, flag, main, said
+from ssilang.language.run.call import Call
 from ssilang.operators.dispatch import DIFF, INTE, UNIQ, union_with_call, union_words
 
 _SECOND = arg("second", "MAILLAGE", "POINT", en="mesh, or point", fr="maillage, ou point")

@@ -6,10 +6,9 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
+from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.kernel.mesh.partition import balanced, connected, scattered, separated
-from ssilang.kernel.model import Model, Zone
-from ssilang.language.call import Call
+from ssilang.kernel.mesh.queries.partition import balanced, connected, scattered, separated
 from ssilang.language.registry import (
     Chosen,
     Help,
@@ -23,6 +22,7 @@ from ssilang.language.registry import (
     said,
     select,
 )
+from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
 
 _CUT = "OPTI DIME 2 ELEM SEG2 ; L = (DROI 2 (0. 0.) (1. 0.)) ET (DROI 3 (2. 0.) (3. 0.)) ; "

@@ -6,8 +6,12 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.mesh.charts import (
+from ssilang.kernel.mesh.changes.split import split_quadrangles
+from ssilang.kernel.mesh.combine import union
+from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.kernel.mesh.surfaces.charts import (
     Chart,
     cone_chart,
     cylinder_chart,
@@ -15,14 +19,12 @@ from ssilang.kernel.mesh.charts import (
     sphere_chart,
     torus_chart,
 )
-from ssilang.kernel.mesh.combine import union
-from ssilang.kernel.mesh.grid import grid_surface, matching_sides, sides_in_order
-from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.mesh.polynomial_surface import PolynomialSurface, mesh_polynomial_surface
-from ssilang.kernel.mesh.split import split_quadrangles
-from ssilang.kernel.mesh.surface import contour_chart_data, fill_surface
-from ssilang.language.call import Call
+from ssilang.kernel.mesh.surfaces.grid import grid_surface, matching_sides, sides_in_order
+from ssilang.kernel.mesh.surfaces.polynomial_surface import (
+    PolynomialSurface,
+    mesh_polynomial_surface,
+)
+from ssilang.kernel.mesh.surfaces.surface import contour_chart_data, fill_surface
 from ssilang.language.registry import (
     Chosen,
     Help,
@@ -35,7 +37,8 @@ from ssilang.language.registry import (
     said,
     select,
 )
-from ssilang.language.session import Session
+from ssilang.language.run.call import Call
+from ssilang.language.run.session import Session
 from ssilang.operators.mesh.lines.ends import chosen_family
 from ssilang.operators.workspace import workspace
 

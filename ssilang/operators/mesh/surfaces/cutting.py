@@ -6,11 +6,11 @@ import numpy as np
 
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.isovalue import isovalue
-from ssilang.kernel.mesh.contour_split import split_contour
-from ssilang.kernel.mesh.degree import linear
+from ssilang.kernel.mesh.changes.degree import linear
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.call import Call
+from ssilang.kernel.mesh.surfaces.contour_split import split_contour
 from ssilang.language.registry import Help, arg, operator
+from ssilang.language.run.call import Call
 
 
 @operator(

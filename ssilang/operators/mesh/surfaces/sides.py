@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.language.call import Call
 from ssilang.language.registry import ANY, Help, arg, operator
+from ssilang.language.run.call import Call
 
 
 @operator(

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from ssilang.kernel.mesh.generators.stitch import cone, stitch
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.kernel.mesh.stitch import cone, stitch
 from ssilang.language.registry import Help, arg, operator
-from ssilang.language.session import Session
+from ssilang.language.run.session import Session
 from ssilang.operators.workspace import workspace
 
 

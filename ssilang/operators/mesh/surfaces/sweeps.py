@@ -6,14 +6,10 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from ssilang.kernel.errors import MeshError
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.combine import union
-from ssilang.kernel.mesh.lines import line_chain
-from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.kernel.mesh.nodes import FloatArray
-from ssilang.kernel.mesh.orientation import reversed_line
-from ssilang.kernel.mesh.subdivision import Subdivision
-from ssilang.kernel.mesh.sweep import (
+from ssilang.kernel.mesh.generators.sweep import (
     Path,
     layer_cuts,
     mean_density,
@@ -22,9 +18,13 @@ from ssilang.kernel.mesh.sweep import (
     sweep_line,
     translation,
 )
-from ssilang.language.call import Call
+from ssilang.kernel.mesh.lines.lines import line_chain
+from ssilang.kernel.mesh.lines.subdivision import Subdivision
+from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.kernel.mesh.orientation import reversed_line
 from ssilang.language.registry import Help, arg, operator, opt
-from ssilang.language.session import Session
+from ssilang.language.run.call import Call
+from ssilang.language.run.session import Session
 from ssilang.operators.mesh.lines.ends import (
     ANGLE,
     AXIS,

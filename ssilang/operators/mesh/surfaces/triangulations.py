@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.errors import MeshError
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.mesh.charts import plane_chart
-from ssilang.kernel.mesh.constrained import is_closed, triangulated_with_lines
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.kernel.mesh.refine import delaunay_mesh, refined_triangles
-from ssilang.kernel.mesh.surface import contour_cells, contour_chart_data
-from ssilang.kernel.mesh.triangulate import triangulate_inside
+from ssilang.kernel.mesh.surfaces.charts import plane_chart
+from ssilang.kernel.mesh.surfaces.constrained import is_closed, triangulated_with_lines
+from ssilang.kernel.mesh.surfaces.refine import delaunay_mesh, refined_triangles
+from ssilang.kernel.mesh.surfaces.surface import contour_cells, contour_chart_data
+from ssilang.kernel.mesh.surfaces.triangulate import triangulate_inside
 from ssilang.language.registry import Help, arg, flag, operator, opt
-from ssilang.language.session import Session
+from ssilang.language.run.session import Session
 from ssilang.operators.workspace import workspace
 
 

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.kernel.mesh.nodes import FloatArray, IntArray
-from ssilang.kernel.mesh.surface import contour_cells
-from ssilang.kernel.mesh.voronoi import OUTSIDE, VoronoiPartition, voronoi_partition
-from ssilang.language.call import Call
+from ssilang.kernel.mesh.surfaces.surface import contour_cells
+from ssilang.kernel.mesh.surfaces.voronoi import OUTSIDE, VoronoiPartition, voronoi_partition
 from ssilang.language.registry import Help, arg, operator, opt
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, Mot, Table
 from ssilang.operators.workspace import workspace
 

@@ -1,0 +1,1 @@
+"""Graphs: curves, bars, how a line is drawn."""

@@ -1,0 +1,347 @@
+"""Pictures of curves (DESS)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from datetime import datetime
+from itertools import cycle
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ssilang.io.errors import OutputError
+from ssilang.io.plots.figure import drawing, head
+from ssilang.io.plots.graphs.bars import draw_bars
+from ssilang.io.plots.graphs.line import Line
+from ssilang.io.plots.graphs.line_style import DASHES, LineStyle
+from ssilang.io.plots.markup import to_mathtext
+from ssilang.io.plots.palette import CYCLE, index_of, shade
+from ssilang.kernel.curves.curve import Curve, CurvePart
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+_WIDTH = 1.6
+_WIDTHS = (2.4, 1.3)  # of the first and the last curve: those that coincide are all seen
+NO_LEGEND = "PAS DE LEGENDE"
+_CORNERS: dict[str, Any] = {
+    "NO": "upper left",
+    "NE": "upper right",
+    "SO": "lower left",
+    "SE": "lower right",
+}
+
+
+@dataclass(frozen=True)
+class CurveOptions:
+    """Options of a drawing of curves; what is None is chosen from the data.
+
+    Attributes
+    ----------
+    legend : None, 'NO', 'NE', 'SO', 'SE', 'EXT', 'XY' or ''
+        None: a legend appears when several curves have names; '' stands for 'EXT'.
+    legend_at : (float, float), optional
+        Upper left corner of the legend in axis units, for 'XY'.
+    x_format, y_format : str, optional
+        Fortran format of the axis numbers, such as '(F5.1)' or '(I4)'.
+    styles, names : mapping of int to LineStyle, str
+        By curve number from 1; a name replaces the curve's own.
+    spans : mapping of int to (int or None, int or None)
+        First and last point drawn, from 1.
+    dash_codes : mapping of int to sequence of int
+        Dash of each segment: 0 full, 1 to 5 as TIRR TIRC TIRL TIRM POIN.
+    """
+
+    log_x: bool = False
+    log_y: bool = False
+    grid: str | None = None
+    grey_grid: bool = False
+    square: bool = False
+    x_limits: tuple[float, float] | None = None
+    y_limits: tuple[float, float] | None = None
+    x_step: float | None = None
+    y_step: float | None = None
+    extremes: bool = False
+    date: bool = False
+    separate: bool = False
+    chosen: tuple[int, ...] = ()
+    title: str | None = None
+    x_title: str | None = None
+    y_title: str | None = None
+    x_title_at_end: bool = False
+    y_title_at_end: bool = False
+    x_format: str | None = None
+    y_format: str | None = None
+    axes: bool = False
+    legend: str | None = None
+    legend_at: tuple[float, float] | None = None
+    styles: Mapping[int, LineStyle] = field(default_factory=dict)
+    names: Mapping[int, str] = field(default_factory=dict)
+    spans: Mapping[int, tuple[int | None, int | None]] = field(default_factory=dict)
+    dash_codes: Mapping[int, Any] = field(default_factory=dict)
+
+
+def draw_curves(curve: Curve, options: CurveOptions | None = None) -> Figure:
+    """A figure of all curves.
+
+    Raises
+    ------
+    OutputError
+        If there is no curve, or a chosen number does not exist.
+    """
+    options = options or CurveOptions()
+    lines = _lines(curve, options)
+    rows = len(lines) if options.separate else 1
+    shape = (5.6, 5.6) if options.square else (7.2, 4.4)
+    with drawing(shape[0], shape[1] * (1 if rows == 1 else 0.45 * rows + 0.2)) as figure:
+        panels = figure.subplots(rows, 1, sharex=True, squeeze=False)[:, 0]
+        for i, panel in enumerate(panels):
+            _draw_panel(panel, lines[i : i + 1] if options.separate else lines, curve, options)
+        for panel in panels[:-1]:
+            panel.set_xlabel("")
+        title = curve.title if options.title is None else options.title
+        head(figure, title)
+        if options.date:
+            stamp = datetime.now().strftime("%Y-%m-%d %H:%M")
+            figure.text(0.995, 0.005, stamp, ha="right", va="bottom", fontsize=7, color="#777777")
+    return figure
+
+
+def _lines(curve: Curve, options: CurveOptions) -> list[Line]:
+    count = len(curve.parts)
+    numbers = options.chosen or tuple(range(1, count + 1))
+    bad = [n for n in numbers if not 1 <= n <= count]
+    if bad:
+        raise OutputError("io.curve-asked-evolution", bad=bad[0], count=count)
+    colours = _colours([curve.parts[n - 1].colour for n in numbers])
+    widths = np.linspace(*_WIDTHS, len(numbers)) if len(numbers) > 1 else [_WIDTH]
+    return [
+        _line(curve.parts[n - 1], n, colour, float(width), options)
+        for n, colour, width in zip(numbers, colours, widths, strict=True)
+    ]
+
+
+def _colours(given: list[int]) -> list[str]:
+    """Shades of curves: their own; those without one get, if several, colours not yet used."""
+    if given.count(0) < 2:
+        return [shade(c) for c in given]
+    free = [c for c in CYCLE if index_of(c) not in given] or list(CYCLE)
+    turns = cycle(free)
+    return [shade(c) if c else shade(next(turns)) for c in given]
+
+
+def _line(part: CurvePart, number: int, colour: str, width: float, options: CurveOptions) -> Line:
+    first, last = options.spans.get(number, (None, None))
+    cut = slice(None if first is None else first - 1, last)
+    return Line(
+        number,
+        np.asarray(part.abscissas, dtype=float)[cut],
+        np.asarray(part.ordinates, dtype=float)[cut],
+        colour,
+        options.names.get(number, part.legend).strip(),
+        options.styles.get(number, LineStyle()),
+        width,
+        options.dash_codes.get(number),
+        part.kind,
+    )
+
+
+def _draw_panel(panel: Axes, lines: list[Line], curve: Curve, options: CurveOptions) -> None:
+    if options.log_x:
+        panel.set_xscale("log", nonpositive="mask")
+    if options.log_y:
+        panel.set_yscale("log", nonpositive="mask")
+    for line in lines:
+        bars = "HIST" in (line.kind, curve.kind)
+        draw_bars(panel, line) if bars else _draw_line(panel, line)
+    _frame(panel, options)
+    _titles(panel, curve.parts[lines[0].number - 1] if lines else None, options)
+    if options.extremes:
+        _extremes(panel, lines)
+    _legend(panel, lines, options)
+
+
+def _draw_line(panel: Axes, line: Line) -> None:
+    style = line.style
+    ink = line.colour
+    if style.fill:
+        paint = "white" if style.fill_white else line.colour
+        opacity = 1.0 if style.fill_white else 0.25
+        order = 2.0 - 1e-3 * line.number if not style.fill_white else 2.0 + 1e-2 * line.number
+        _fill(panel, line, facecolor=paint, alpha=opacity, lw=0, zorder=order)
+    drawn: dict[str, Any] = {
+        "color": ink,
+        "linewidth": line.width,
+        "marker": style.marker,
+        "markersize": style.marker_size,
+        "markerfacecolor": ink if style.solid else "white",
+        "markeredgewidth": 1.2,
+        "label": line.name,
+        "zorder": 2.0 + 1e-2 * line.number + 5e-3,
+    }
+    if style.marker is not None and style.few_markers:
+        drawn["markevery"] = np.unique(np.linspace(0, max(len(line.x) - 1, 0), 6).astype(int))
+    if line.codes is not None:
+        _draw_segments(panel, line)
+        drawn["linestyle"] = "none"
+    else:
+        drawn["linestyle"] = style.dash if style.line else "none"
+    if len(line.x) == 1 and style.marker is None:
+        drawn |= {"marker": "o", "markerfacecolor": ink}
+    panel.plot(line.x, line.y, **drawn)
+    if style.label and len(line.x):
+        _label_points(panel, line)
+
+
+def _fill(panel: Axes, line: Line, **style: Any) -> None:
+    """Fill down to zero, or to the lower end of a logarithmic axis."""
+    from matplotlib.collections import PolyCollection
+
+    base = 1e-300 if panel.get_yscale() == "log" else 0.0
+    known = np.isfinite(line.x) & np.isfinite(line.y)
+    x, y = line.x[known], np.maximum(line.y[known], base) if base else line.y[known]
+    if len(x) < 2:
+        return
+    around = np.column_stack([[x[0], *x, x[-1]], [base, *y, base]])
+    panel.add_collection(PolyCollection([around], **style), autolim=base == 0.0)
+
+
+def _draw_segments(panel: Axes, line: Line) -> None:
+    from matplotlib.collections import LineCollection
+
+    codes = np.asarray(line.codes, dtype=int)[: max(len(line.x) - 1, 0)]
+    dashes = list(DASHES.values())
+    # runs of equal code are drawn in one piece, so that the dashes do not start anew
+    starts = np.flatnonzero(np.diff(codes, prepend=-1))
+    ends = np.append(starts[1:], len(codes))
+    points = np.column_stack([line.x, line.y])
+    panel.add_collection(
+        LineCollection(
+            [points[a : b + 1] for a, b in zip(starts, ends, strict=True)],
+            colors=line.colour,
+            linewidths=line.width,
+            linestyles=[dashes[codes[a] % len(dashes)] for a in starts],
+            zorder=2.0 + 1e-2 * line.number,
+        )
+    )
+
+
+def _label_points(panel: Axes, line: Line) -> None:
+    few = line.style.few_markers and len(line.x) > 6
+    rows = np.linspace(0, len(line.x) - 1, 6).astype(int) if few else range(len(line.x))
+    for i in rows:
+        panel.annotate(
+            to_mathtext(line.style.label),
+            (line.x[i], line.y[i]),
+            textcoords="offset points",
+            xytext=(3, 3),
+            fontsize=8,
+            color=line.colour,
+        )
+
+
+def _frame(panel: Axes, options: CurveOptions) -> None:
+    if options.x_limits:
+        panel.set_xlim(*sorted(options.x_limits))
+    if options.y_limits:
+        panel.set_ylim(*sorted(options.y_limits))
+    for axis, step, form, log in (
+        (panel.xaxis, options.x_step, options.x_format, options.log_x),
+        (panel.yaxis, options.y_step, options.y_format, options.log_y),
+    ):
+        _graduate(axis, step, form, log)
+    if options.grid is not None:
+        colour = "#c9ced4" if options.grey_grid else "#5b616a"
+        dash: Any = DASHES.get(options.grid, "-")
+        panel.grid(True, color=colour, linestyle=dash, linewidth=0.6)
+    else:
+        panel.grid(True)
+    panel.set_axisbelow(True)
+    if options.axes:
+        for line in (panel.axhline, panel.axvline):
+            line(0.0, color="#4a4f57", lw=0.9, zorder=1.5)
+    if options.square:
+        panel.set_box_aspect(1)
+    for side in ("top", "right"):
+        panel.spines[side].set_visible(False)
+
+
+def _graduate(axis: Any, step: float | None, form: str | None, log: bool) -> None:
+    from matplotlib.ticker import FuncFormatter, MultipleLocator
+
+    from ssilang.io.plots.fortran import formatted
+
+    if log:
+        return
+    if step:
+        low, high = sorted(axis.get_view_interval())
+        if (high - low) / abs(step) > 200:
+            raise OutputError("io.graduations-every-axis-too", step=step, low=low, high=high)
+        axis.set_major_locator(MultipleLocator(abs(step)))
+    if form:
+        axis.set_major_formatter(FuncFormatter(lambda value, _: formatted(form, value)))
+
+
+def _titles(panel: Axes, first: CurvePart | None, options: CurveOptions) -> None:
+    x = options.x_title if options.x_title is not None else (first.abscissa_name if first else "")
+    y = options.y_title if options.y_title is not None else (first.ordinate_name if first else "")
+    panel.set_xlabel(to_mathtext(x.strip()), loc="right" if options.x_title_at_end else "center")
+    panel.set_ylabel(to_mathtext(y.strip()), loc="top" if options.y_title_at_end else "center")
+    if first is not None and first.abscissa_words:
+        panel.set_xticks(first.abscissas, [w.strip() for w in first.abscissa_words])
+
+
+def _extremes(panel: Axes, lines: list[Line]) -> None:
+    y = np.concatenate([line.y[np.isfinite(line.y)] for line in lines] or [np.empty(0)])
+    if len(y) == 0:
+        return
+    panel.set_title(
+        f"min {y.min():.5g}    max {y.max():.5g}", loc="right", fontsize=9, fontweight="normal"
+    )
+
+
+def _legend(panel: Axes, lines: list[Line], options: CurveOptions) -> None:
+    named = [line for line in lines if line.name and line.name.upper() != NO_LEGEND]
+    usual = len(lines) > 1 and not all(line.kind == "HIST" for line in lines)
+    if not named or (options.legend is None and not usual and not options.separate):
+        return
+    handles = [_handle(line) for line in named]
+    texts = [to_mathtext(line.name) for line in named]
+    place = options.legend
+    if place is None and options.separate:
+        panel.set_title(texts[0], loc="left", fontsize=9, fontweight="normal")
+    elif place is None and len(named) <= 9:
+        # beside the curves: inside, it would hide a part of them
+        rows: dict[str, Any] = {"loc": "lower center", "ncols": min(len(named), 3)}
+        panel.legend(handles, texts, bbox_to_anchor=(0.5, 1.0), frameon=False, **rows)
+    elif place in _CORNERS:
+        panel.legend(handles, texts, loc=_CORNERS[place])
+    elif place == "XY" and options.legend_at is not None:
+        panel.legend(
+            handles,
+            texts,
+            loc="upper left",
+            bbox_to_anchor=options.legend_at,
+            bbox_transform=panel.transData,
+        )
+    else:
+        panel.legend(handles, texts, loc="upper left", bbox_to_anchor=(1.01, 1.0))
+
+
+def _handle(line: Line) -> Any:
+    from matplotlib.lines import Line2D
+
+    style: Any = line.style
+    return Line2D(
+        [],
+        [],
+        color=line.colour,
+        linewidth=line.width,
+        linestyle=style.dash if style.line else "none",
+        marker=style.marker,
+        markersize=style.marker_size,
+        markerfacecolor=line.colour if style.solid else "white",
+        markeredgewidth=1.2,
+    )

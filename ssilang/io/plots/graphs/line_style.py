@@ -1,0 +1,97 @@
+"""How one curve is drawn, from the words of DESS's table ('TIRR MARQ S PLEIN ROND REGU')."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ssilang.io.errors import OutputError
+
+# dash patterns in points, by Cast3M's word; the position is the code in 'LIGNE_VARIABLE'
+DASHES: dict[str, object] = {
+    "LIGN": "-",
+    "TIRR": (0, (5, 2.5)),
+    "TIRC": (0, (2.5, 1.8)),
+    "TIRL": (0, (9, 3)),
+    "TIRM": (0, (8, 2.5, 2.5, 2.5)),
+    "POIN": (0, (1, 1.6)),
+}
+MARKERS = {
+    "CROI": "x",
+    "PLUS": "+",
+    "MOIN": "_",
+    "BARR": "|",
+    "ETOI": (8, 2, 0),
+    "CARR": "s",
+    "LOSA": "D",
+    "ROND": "o",
+    "TRID": "v",
+    "TRIU": "^",
+    "TRIL": "<",
+    "TRIR": ">",
+}
+_SIZES = {"SS": 2.5, "S": 4.0, "M": 5.5, "L": 8.0, "XL": 11.0}
+
+
+@dataclass(frozen=True)
+class LineStyle:
+    """Style of one curve: dash, marker, fill, label."""
+
+    line: bool = True
+    dash: object = "-"
+    marker: object = None
+    marker_size: float = 5.5
+    solid: bool = False  # marker filled
+    few_markers: bool = False  # six markers, evenly spaced
+    fill: bool = False
+    fill_white: bool = False
+    label: str = ""
+
+
+def parse_style(text: str) -> LineStyle:
+    """The style that a string of DESS's table describes.
+
+    Raises
+    ------
+    OutputError
+        For a word that is no option.
+    """
+    words = text.split()
+    chosen: dict[str, object] = {}
+    while words:
+        word = words.pop(0).upper()
+        if word in _SIMPLE:
+            chosen |= _SIMPLE[word]
+        elif word in DASHES:
+            chosen["dash"] = DASHES[word]
+        elif word == "LABEL" or word == "LABE":
+            chosen["label"] = words.pop(0) if words else ""
+        elif word == "MARQ":
+            chosen |= _marker(words)
+        else:
+            options = " ".join([*_SIMPLE, *DASHES, "LABEL", "MARQ"])
+            raise OutputError("io.no-line-option", word=word, options=options)
+    return LineStyle(**chosen)  # type: ignore[arg-type]
+
+
+_SIMPLE: dict[str, dict[str, object]] = {
+    "NOLI": {"line": False},
+    "REMP": {"fill": True},
+    "BLAN": {"fill_white": True},
+    "REGU": {"few_markers": True},
+}
+
+
+def _marker(words: list[str]) -> dict[str, object]:
+    chosen: dict[str, object] = {}
+    while words:
+        word = words.pop(0).upper()
+        if word in _SIZES:
+            chosen["marker_size"] = _SIZES[word]
+        elif word[:4] == "PLEI":
+            chosen["solid"] = True
+        elif word[:4] in MARKERS:
+            chosen["marker"] = MARKERS[word[:4]]
+            return chosen
+        else:
+            raise OutputError("io.no-marker", word=word, markers=MARKERS)
+    raise OutputError("io.marq-no-marker", markers=MARKERS)

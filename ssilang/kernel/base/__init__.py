@@ -1,0 +1,1 @@
+"""What all of the kernel stands on: types, errors, memory, sparse; it imports nothing of ours."""

@@ -1,0 +1,113 @@
+"""Where compiled code is kept.
+
+Numba keeps compiled code beside each module and looks at that module's file alone to tell whether
+it is still good: a function keeps the old code of what it calls. The code of a module compiled here
+is therefore kept in a folder named after its text and that of all modules of the kernel that it
+imports, directly or not: an edit costs the code that it may change, and no other.
+"""
+
+from __future__ import annotations
+
+import getpass
+import hashlib
+import os
+import re
+import shutil
+import tempfile
+import time
+from functools import cache
+from pathlib import Path
+
+from ssilang.kernel.base.compiled import PLAIN
+
+KEPT_SECONDS = 30 * 86400.0  # code of older states of a module is removed after this
+IMPORTED = re.compile(r"^from (ssilang\.kernel[\w.]*) import (\([^)]*\)|.*)$", re.MULTILINE)
+PACKAGE = Path(__file__).parents[3]  # ssilang
+
+
+def is_compiled(package: str) -> bool:
+    """Whether functions of a package of the kernel ('dynamics') were compiled before."""
+    given = os.environ.get("NUMBA_CACHE_DIR")
+    if given:
+        return any(Path(given).glob(f"{package}_*/*.nbi"))
+    if PLAIN:
+        return False
+    kernel = PACKAGE / "kernel"
+    paths = (p.relative_to(kernel).with_suffix("") for p in (kernel / package).rglob("*.py"))
+    names = (".".join(("ssilang.kernel", *p.parts)) for p in paths)
+    folders = (_base() / f"{name}-{state_of(name)}" for name in names)
+    return any(any(folder.glob("*/*.nbi")) for folder in folders)
+
+
+def state_of(module: str, package: Path = PACKAGE) -> str:
+    """A name for the text of a module and of those that it imports from the kernel.
+
+    Parameters
+    ----------
+    package : Path
+        Folder of ssilang.
+    """
+    known, waiting = {}, [module]
+    while waiting:
+        name = waiting.pop()
+        if name not in known:
+            known[name], imported = _read(name, package)
+            waiting += imported
+    digest = hashlib.sha256("".join(known[name] for name in sorted(known)).encode())
+    return digest.hexdigest()[:16]
+
+
+@cache
+def _read(module: str, package: Path) -> tuple[str, tuple[str, ...]]:
+    """Digest of a module's name and text, and the modules that it imports from the kernel."""
+    path = package.joinpath(*module.split(".")[1:])
+    path = path / "__init__.py" if path.is_dir() else path.with_suffix(".py")
+    try:
+        text = path.read_text(encoding="utf-8")
+    except OSError:  # a name that is imported and no module
+        return "", ()
+    names = [
+        (m, [f"{m}.{word}" for word in re.findall(r"\w+", rest)])
+        for m, rest in IMPORTED.findall(text)
+    ]
+    found = [n for m, inside in names for n in (m, *(inside if _is_package(m, package) else ()))]
+    return hashlib.sha256(f"{module}\n{text}".encode()).hexdigest(), tuple(found)
+
+
+def _is_package(module: str, package: Path) -> bool:
+    return package.joinpath(*module.split(".")[1:]).is_dir()
+
+
+@cache
+def _base() -> Path:
+    """Folder of the user, or a temporary one, that can be written to."""
+    home = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
+    for base in (Path(home), Path(tempfile.gettempdir()) / f"cache-{getpass.getuser()}"):
+        folder = base / "ssilang"
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+        except OSError:
+            continue
+        if os.access(folder, os.W_OK):
+            return folder
+    return Path(tempfile.mkdtemp(prefix="ssilang-"))
+
+
+@cache
+def folder_of(module: str) -> Path:
+    """Where the code of a module in its present state is kept; it counts as used now."""
+    folder = _base() / f"{module}-{state_of(module)}"
+    try:
+        folder.mkdir(exist_ok=True)
+        os.utime(folder)
+        _remove_old(module, folder)
+    except OSError:  # another process removes the same folders, or the disk is full
+        pass
+    return folder
+
+
+def _remove_old(module: str, kept: Path) -> None:
+    limit = time.time() - KEPT_SECONDS
+    for folder in kept.parent.glob(f"{module}-*"):
+        if folder != kept and folder.stat().st_mtime < limit:
+            shutil.rmtree(folder, ignore_errors=True)

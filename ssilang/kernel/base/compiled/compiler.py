@@ -1,0 +1,40 @@
+"""The decorators for compiled inner loops, with types that mypy can follow."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from typing import Any, TypeVar, cast
+
+import numba
+
+from ssilang.kernel.base.compiled import PLAIN
+from ssilang.kernel.base.compiled.cache import folder_of
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+# no entry for C, that nothing uses: it takes time to compile
+_OPTIONS: dict[str, Any] = {"error_model": "numpy", "no_cfunc_wrapper": True}
+
+
+def compiled(function: Function) -> Function:
+    """Compile with numba (no Python objects, result kept on disk for the next start)."""
+    return _made(function, False)
+
+
+def compiled_fast(function: Function) -> Function:
+    """As `compiled`, sums in any order (vectors); NaN and infinity keep their meaning."""
+    return _made(function, {"reassoc", "contract", "nsz", "arcp"})
+
+
+def compiled_fused(function: Function) -> Function:
+    """As `compiled`, products fused with sums; no other order of sums, so what cancels does."""
+    return _made(function, {"contract"})
+
+
+def _made(function: Function, freedom: set[str] | bool) -> Function:
+    given = bool(os.environ.get("NUMBA_CACHE_DIR"))
+    if not given and not PLAIN:
+        numba.config.CACHE_DIR = str(folder_of(function.__module__))  # type: ignore[attr-defined]
+    kept = given or not PLAIN
+    return cast(Function, numba.njit(fastmath=freedom, cache=kept, **_OPTIONS)(function))

@@ -1,0 +1,38 @@
+"""Errors raised by the kernel: a code and data; `ssilang.messages` has the sentences."""
+
+from __future__ import annotations
+
+from ssilang.messages.message import Refusal
+
+
+class KernelError(Refusal):
+    """An input or a state that the kernel cannot work with."""
+
+    def __init__(self, code: str, hint: str = "", /, **data: object) -> None:
+        if " " in code:  # a sentence of its own, not yet in a catalogue
+            code, data = "bad-value", {"message": code, "hint": hint}
+        super().__init__(code, **data)
+
+
+class MeshError(KernelError):
+    """A mesh operation that has no meaning for the meshes given."""
+
+
+class FieldError(KernelError):
+    """Fields whose supports or components do not fit the operation."""
+
+
+class MaterialError(KernelError):
+    """A missing, unknown or inadmissible material parameter."""
+
+
+class SingularMatrixError(KernelError):
+    """The system has a free rigid-body motion or mechanism; `hint` names its unknowns."""
+
+
+class ConvergenceError(KernelError):
+    """An iteration did not converge; the message says at which time and with which residual."""
+
+
+class SingularFactorError(Exception):
+    """A backend met an exactly zero pivot; `inverse.py` turns it into a message."""

@@ -1,0 +1,1 @@
+"""Curves, their algebra, and clouds of named values."""

@@ -1,0 +1,121 @@
+"""Clouds (NUAGE): rows of named values, and functions that pass through them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import FieldError
+
+
+@dataclass(frozen=True, eq=False)
+class Cloud:
+    """Columns of equal length: numbers, or objects of one type a column.
+
+    Parameters
+    ----------
+    columns : dict of str to tuple
+        In order of definition.
+    """
+
+    columns: dict[str, tuple[object, ...]]
+
+    def __len__(self) -> int:
+        return max((len(c) for c in self.columns.values()), default=0)
+
+    def numbers(self, name: str) -> FloatArray:
+        """A column of numbers, shape (n_rows,).
+
+        Raises
+        ------
+        FieldError
+            If there is no such column, or it holds objects.
+        """
+        if name not in self.columns:
+            raise FieldError("kernel.base.cloud-no-component", name=name, columns=self.columns)
+        held = self.columns[name]
+        if not all(isinstance(v, int | float) for v in held):
+            raise FieldError("kernel.base.component-cloud-holds-objects", name=name)
+        return np.asarray(held, dtype=float)
+
+    def rows(self, places: list[int]) -> Cloud:
+        """The cloud of some rows (0-based)."""
+        return Cloud({k: tuple(v[i] for i in places) for k, v in self.columns.items()})
+
+
+def inverse_distance(
+    points: FloatArray, values: FloatArray, at: FloatArray, power: float, near: float
+) -> FloatArray:
+    """Shepard's mean of values (n, p), weights `distance ** -power`, at points (m, d).
+
+    Within the distance `near` of a point of the cloud its own values are returned.
+    """
+    distance = np.linalg.norm(at[:, None, :] - points[None, :, :], axis=2)
+    close = np.argmin(distance, axis=1)
+    exact = distance[np.arange(len(at)), close] <= near
+    with np.errstate(divide="ignore"):
+        weights = np.where(distance > 0, distance, 1.0) ** -power
+    weights = np.where(exact[:, None], 0.0, weights)
+    weights[exact, close[exact]] = 1.0
+    found: FloatArray = weights @ values / weights.sum(axis=1, keepdims=True)
+    return found
+
+
+def moving_plane(
+    points: FloatArray, values: FloatArray, at: FloatArray, gaussian: bool
+) -> FloatArray:
+    """Value at points (m, d) of the plane that fits values (n, p) best around each.
+
+    Least squares weighted by exp(-x**2) or 1 / (1 + x), x being the distance over the mean
+    distance between the points of the cloud.
+    """
+    spread = np.linalg.norm(points[:, None] - points[None], axis=2)
+    scale = float(spread.sum() / max(len(points) * (len(points) - 1), 1)) or 1.0
+    found = np.empty((len(at), values.shape[1]))
+    for i, x in enumerate(at):
+        gap = points - x
+        r = np.linalg.norm(gap, axis=1) / scale
+        weight = np.sqrt(np.exp(-(r**2)) if gaussian else 1.0 / (1.0 + r))
+        basis = np.hstack((np.ones((len(points), 1)), gap))
+        solution, *_ = np.linalg.lstsq(
+            basis * weight[:, None], values * weight[:, None], rcond=None
+        )
+        found[i] = solution[0]
+    return found
+
+
+def on_grid(axes: list[FloatArray], values: FloatArray, at: FloatArray) -> FloatArray:
+    """Multilinear interpolation at points (m, d) of values on a grid, first axis fastest.
+
+    Points outside of the grid take the value at its border.
+    """
+    sizes = [len(a) for a in axes]
+    if int(np.prod(sizes)) != len(values):
+        raise FieldError(
+            "kernel.base.grid-nodes-needs-values",
+            grid=" x ".join(map(str, sizes)),
+            wanted=np.prod(sizes),
+            n_values=len(values),
+        )
+    if any(np.any(np.diff(a) <= 0) for a in axes):
+        raise FieldError("kernel.base.coordinates-grid-must-increase")
+    table = values.reshape(sizes, order="F")
+    low, share = [], []
+    for a, x in zip(axes, at.T, strict=True):
+        inside = np.clip(x, a[0], a[-1])
+        k = np.clip(np.searchsorted(a, inside, side="right") - 1, 0, max(len(a) - 2, 0))
+        width = a[np.minimum(k + 1, len(a) - 1)] - a[k]
+        low.append(k)
+        share.append((inside - a[k]) / np.where(width > 0, width, 1.0))
+    total = np.zeros(len(at))
+    for corner in product((0, 1), repeat=len(axes)):
+        weight = np.ones(len(at))
+        index = []
+        for side, k, s, n in zip(corner, low, share, sizes, strict=True):
+            weight = weight * (s if side else 1.0 - s)
+            index.append(np.minimum(k + side, n - 1))
+        total += weight * table[tuple(index)]
+    return total

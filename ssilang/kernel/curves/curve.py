@@ -1,0 +1,68 @@
+"""Curves and loads: functions of one abscissa (EVOLUTION), fields in time (CHARGEMENT)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.fields.node_field import NodeField
+
+
+@dataclass(frozen=True, eq=False)
+class CurvePart:
+    """One curve: abscissas and ordinates (n,), names of the axes, legend, colour index."""
+
+    abscissas: FloatArray
+    ordinates: FloatArray
+    abscissa_name: str = ""
+    ordinate_name: str = ""
+    legend: str = ""
+    colour: int = 0
+    words: tuple[str, ...] = ()  # ordinates given as words (LISTMOTS), empty otherwise
+    kind: str = ""  # PREE PIMA (parts of a complex curve), MODU PHAS, HIST ENTI MOTS; '' for reals
+    abscissa_words: tuple[str, ...] = ()  # abscissas given as words, standing at 1, 2, 3 ...
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """One or several curves (EVOLUTION)."""
+
+    parts: tuple[CurvePart, ...]
+    title: str = ""
+    kind: str = "REEL"
+
+    def at(self, x: float) -> float:
+        """Value of the first curve at `x`, linear between its points, constant outside."""
+        part = self.parts[0]
+        return float(np.interp(x, part.abscissas, part.ordinates))
+
+
+@dataclass(frozen=True, eq=False)
+class LoadPart:
+    """One loading: a field in space times a curve in time, or a field at each listed time.
+
+    Parameters
+    ----------
+    name : str
+        Cast3M's name: 'MECA' (forces), 'DIMP' (imposed displacements), 'T', 'Q', ...
+    space : NodeField or CellField, or None
+        Multiplied by `time` (None with `steps`).
+    time : Curve or None
+    steps : tuple of (float, field)
+        A field at given times, linear between.
+    """
+
+    name: str
+    space: NodeField | CellField | None = None
+    time: Curve | None = None
+    steps: tuple[tuple[float, NodeField | CellField], ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class Load:
+    """Sum of elementary loadings (CHARGEMENT)."""
+
+    parts: tuple[LoadPart, ...] = field(default_factory=tuple)

@@ -1,0 +1,1 @@
+"""Bars, beams, pipes, and beams with sections of fibres."""

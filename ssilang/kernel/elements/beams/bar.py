@@ -1,0 +1,98 @@
+"""Bars: lines that resist only lengthening."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.elements.catalog import support_rule
+from ssilang.kernel.elements.family import (
+    ElementFamily,
+    Layout,
+    StrainOperator,
+    node_major_layout,
+    per_cell,
+)
+from ssilang.kernel.elements.shapes.geometry import line_geometry
+from ssilang.kernel.elements.shapes.reference import shape_gradients
+from ssilang.kernel.elements.solids.kinematics import NODE_TRANSLATIONS
+from ssilang.kernel.elements.zone_fields import ZoneField
+from ssilang.kernel.fields.cell_field import Support
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.materials.model import Zone
+
+
+def _geometry(
+    zone: Zone, support: Support, cells: slice = slice(None)
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    dim = zone.mode.dimension
+    xyz = zone.cells.nodes.coordinates[zone.cells.connectivity[cells]][..., :dim]
+    return line_geometry(zone.cells.cell_type, xyz, support_rule(zone.element, support))
+
+
+class Bar(ElementFamily):
+    """Normal force EFFX = YOUN SECT EPSS along the line."""
+
+    def layout(self, zone: Zone) -> Layout:
+        """Translations, node by node."""
+        return node_major_layout(zone, NODE_TRANSLATIONS[zone.mode])
+
+    def strain_names(self, zone: Zone) -> tuple[str, ...]:
+        """EPSS."""
+        return ("EPSS",)
+
+    def stress_names(self, zone: Zone) -> tuple[str, ...]:
+        """EFFX, a force."""
+        return ("EFFX",)
+
+    def moduli(self, zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
+        """YOUN SECT."""
+        value = parameters.at("YOUN", support) * parameters.at("SECT", support)
+        return value[..., None, None]
+
+    def strain_operator(
+        self, zone: Zone, parameters: ZoneField, support: Support, cells: slice
+    ) -> StrainOperator:
+        """Derivative of the displacement along the line, projected on the line."""
+        _, gradients, lengths = _geometry(zone, support, cells)
+        n, p, d, k = gradients.shape
+        matrix = gradients.transpose(0, 1, 3, 2).reshape(n, 1, p, k * d)
+        return StrainOperator(matrix, lengths)
+
+    def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, Layout]:
+        """Integral of RHO SECT N N^T in every direction."""
+        shapes, _, lengths = _geometry(zone, "MASSE")
+        cells = slice(None)
+        density = parameters.at("RHO", "MASSE") * parameters.at("SECT", "MASSE")
+        w = lengths * per_cell(density, cells)
+        scalar = np.einsum("cp,pi,pj->cij", w, shapes, shapes)
+        return spread(scalar, zone.mode.dimension), self.layout(zone)
+
+    def geometric_values(self, zone: Zone, stress: FloatArray, parameters: ZoneField) -> FloatArray:
+        """Integral of EFFX N' N'^T in every direction (second-order strain of a line)."""
+        _, gradients, lengths = _geometry(zone, "STRESSES")
+        scalar = np.einsum("cp,cpdi,cpdj->cij", lengths * stress[:, 0], gradients, gradients)
+        return spread(scalar, zone.mode.dimension)
+
+
+def spread(scalar: FloatArray, n_unknowns: int) -> FloatArray:
+    """Matrices (n, k, k) of one unknown repeated for each of several unknowns of a node."""
+    n, k, _ = scalar.shape
+    values = np.zeros((n, k * n_unknowns, k * n_unknowns))
+    for i in range(n_unknowns):
+        values[:, i::n_unknowns, i::n_unknowns] = scalar
+    return values
+
+
+def bar_stretch(zone: Zone, displacement: NodeField) -> FloatArray:
+    """Length of the derivative of the displacement along the line, (n_cells, n_points)."""
+    rule = support_rule(zone.element, "STRESSES")
+    reference = shape_gradients(zone.cells.cell_type, rule.points)[:, :, 0]
+    d = zone.mode.dimension
+    x = zone.cells.coordinates[..., :d]
+    speed = np.linalg.norm(np.einsum("pk,ckd->cpd", reference, x), axis=-1)
+    layout = node_major_layout(zone, NODE_TRANSLATIONS[zone.mode])
+    u = layout.gather(displacement).reshape(len(zone.cells), -1, d)
+    slopes = np.einsum("pk,ckd->cpd", reference, u) / speed[..., None]
+    found: FloatArray = np.linalg.norm(slopes, axis=-1)
+    return found

@@ -1,0 +1,1 @@
+"""Nodal forces of pressures, tractions, body forces and changes of temperature."""

@@ -1,0 +1,355 @@
+"""Nodal forces of pressures, surface tractions and body forces."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import FieldError, MeshError
+from ssilang.kernel.elements.beams.pipe import pressure_forces
+from ssilang.kernel.elements.boundary import (
+    Parents,
+    face_geometry,
+    is_solid,
+    outward,
+    require_parents,
+    zones_of_faces,
+)
+from ssilang.kernel.elements.catalog import ELEMENTS
+from ssilang.kernel.elements.families import family_of
+from ssilang.kernel.elements.family import Layout
+from ssilang.kernel.elements.results.supports import nodal_of_cells
+from ssilang.kernel.elements.shapes.geometry import SurfaceGeometry, chunks
+from ssilang.kernel.elements.solids.kinematics import NODE_TRANSLATIONS, harmonic
+from ssilang.kernel.elements.solids.solid import integration_weights, zone_geometry
+from ssilang.kernel.elements.zone_fields import cell_rows, zone_field
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.fields.node_field import NodeField, NodeValues
+from ssilang.kernel.materials.model import Mode, Model, Zone
+from ssilang.kernel.mesh.boundary import contour, envelope
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh
+from ssilang.kernel.mesh.nodes import NodeTable
+
+
+def total(table: NodeTable, fields: Iterable[NodeField]) -> NodeField:
+    """Sum of force fields (DISCRET)."""
+    parts: dict[str, list[NodeValues]] = {}
+    for field in fields:
+        for name, part in field.components.items():
+            parts.setdefault(name, []).append(part)
+    return NodeField(table, {n: _summed(p) for n, p in parts.items()}, "DISCRET")
+
+
+def _summed(parts: list[NodeValues]) -> NodeValues:
+    if len(parts) == 1:
+        return parts[0]
+    nodes, place = np.unique(np.concatenate([p.nodes for p in parts]), return_inverse=True)
+    values = np.concatenate([p.values for p in parts])
+    return NodeValues(nodes, np.bincount(place.ravel(), values, len(nodes)).astype(np.float64))
+
+
+def pressure(model: Model, faces: Mesh, value: float | NodeField | CellField) -> NodeField:
+    """Forces of a pressure on sides of continuous elements, pushing into them.
+
+    Parameters
+    ----------
+    value : number, field at nodes with one component, or field in cells over the faces
+        Absent values count as zero.
+    """
+    out = []
+    for block in faces.blocks:
+        of = require_parents(block, model)
+        for zone, rows in zones_of_faces(of, model):
+            part, geometry, vectors = _oriented(block, rows, of, model, zone)
+            p = _face_values(part, geometry, value)
+            forces = -np.einsum("cp,cpd,pk->ckd", p, vectors, geometry.shapes)
+            out.append(_scatter(zone, part, forces))
+    return total(faces.nodes, out)
+
+
+def _oriented(
+    block: CellBlock, rows: IntArray, of: Parents, model: Model, zone: Zone
+) -> tuple[CellBlock, SurfaceGeometry, FloatArray]:
+    part = CellBlock.make(block.nodes, block.cell_type, block.raw[rows])
+    geometry = face_geometry(part, zone.mode, harmonic(zone))
+    mine = Parents(of.zone[rows], of.cell[rows])
+    return part, geometry, outward(part, geometry, model, mine)
+
+
+def _face_values(
+    part: CellBlock, geometry: SurfaceGeometry, value: float | NodeField | CellField
+) -> FloatArray:
+    """Values (n, points) of a scalar on faces."""
+    shape = (len(part), len(geometry.shapes))
+    if isinstance(value, NodeField):
+        return _at_nodes(part, value, _only(tuple(value.components))) @ geometry.shapes.T
+    if isinstance(value, CellField):
+        return _cell_values(part, geometry, value)
+    return np.full(shape, float(value))
+
+
+def _only(names: tuple[str, ...]) -> str:
+    if len(names) != 1:
+        raise FieldError("kernel.elements.pressure-component-field", names=names)
+    return names[0]
+
+
+def _at_nodes(part: CellBlock, field: NodeField, name: str) -> FloatArray:
+    nodes = part.connectivity
+    return field.values_at(name, nodes.ravel()).reshape(nodes.shape)
+
+
+def _cell_values(part: CellBlock, geometry: SurfaceGeometry, field: CellField) -> FloatArray:
+    out = np.zeros((len(part), len(geometry.shapes)))
+    for block in field.blocks:
+        rows = cell_rows(block.cells, part)
+        found = rows >= 0
+        if not found.any():
+            continue
+        values = np.asarray(block.components[_only(tuple(block.components))], dtype=float)
+        values = np.broadcast_to(values, (len(block.cells), values.shape[1]))[rows[found]]
+        out[found] = _to_face_points(part, block.cells, rows[found], values, found, geometry)
+    return out
+
+
+def _to_face_points(
+    part: CellBlock,
+    source: CellBlock,
+    rows: IntArray,
+    values: FloatArray,
+    found: np.ndarray,
+    geometry: SurfaceGeometry,
+) -> FloatArray:
+    """Values given at the source cells' nodes, the same nodes perhaps in another order."""
+    k = part.kind.n_nodes
+    if values.shape[1] == 1:
+        return np.broadcast_to(values, (len(values), len(geometry.shapes)))
+    if values.shape[1] != k:
+        raise FieldError("kernel.elements.pressure-cells-stands-nodes", n_values=values.shape[1])
+    theirs = np.argsort(source.connectivity[rows], axis=1)
+    mine = np.argsort(np.argsort(part.connectivity[found], axis=1), axis=1)
+    sorted_values = np.take_along_axis(values, theirs, axis=1)
+    return np.take_along_axis(sorted_values, mine, axis=1) @ geometry.shapes.T
+
+
+def traction(
+    model: Model,
+    faces: Mesh,
+    value: FloatArray | NodeField,
+    material: CellField | None = None,
+) -> NodeField:
+    """Forces of a surface traction on sides of continuous elements.
+
+    Parameters
+    ----------
+    value : array (3,) or NodeField
+        Force per area; a field has components FX FY ... (or UX UY ...).
+    material : CellField, optional
+        Gives the thickness DIM3 in plane stress.
+    """
+    out = []
+    for block in faces.blocks:
+        of = require_parents(block, model)
+        for zone, rows in zones_of_faces(of, model):
+            part = CellBlock.make(block.nodes, block.cell_type, block.raw[rows])
+            geometry = face_geometry(part, zone.mode, harmonic(zone))
+            w = geometry.measures * _thickness(zone, of.cell[rows], material)
+            forces = np.einsum(
+                "cp,cpd,pk->ckd", w, _vector_values(part, geometry, zone, value), geometry.shapes
+            )
+            out.append(_scatter(zone, part, forces))
+    return total(faces.nodes, out)
+
+
+def _thickness(zone: Zone, cells: IntArray, material: CellField | None) -> FloatArray:
+    if zone.mode is not Mode.PLANE_STRESS or material is None:
+        return np.ones((1, 1))
+    values = zone_field(zone, material).at("DIM3", "GRAVITE", 1.0)
+    return np.broadcast_to(values.mean(axis=1, keepdims=True), (len(zone.cells), 1))[cells]
+
+
+def force_names(zone: Zone) -> tuple[str, ...]:
+    """Names of the forces at a node of a zone: FX FY ..., FR FZ in axisymmetry."""
+    return tuple("F" + u[1:] for u in NODE_TRANSLATIONS[zone.mode])
+
+
+def _vector_values(
+    part: CellBlock, geometry: SurfaceGeometry, zone: Zone, value: FloatArray | NodeField
+) -> FloatArray:
+    """Vectors (n, points, d)."""
+    names = force_names(zone)
+    shape = (len(part), len(geometry.shapes), len(names))
+    if not isinstance(value, NodeField):
+        return np.broadcast_to(value[: len(names)], shape)
+    columns = []
+    for name, unknown in zip(names, NODE_TRANSLATIONS[zone.mode], strict=True):
+        given = name if name in value.components else unknown
+        columns.append(_at_nodes(part, value, given) @ geometry.shapes.T)
+    return np.stack(columns, axis=-1)
+
+
+def _scatter(zone: Zone, part: CellBlock, forces: FloatArray) -> NodeField:
+    """Sum element vectors (n, k, d) at nodes."""
+    n, k, d = forces.shape
+    names = NODE_TRANSLATIONS[zone.mode][:d]
+    layout = Layout(part.nodes, part.raw, np.repeat(np.arange(k), d), names * k)
+    return layout.scatter(forces.reshape(n, k * d))
+
+
+def loaded_faces(model: Model, field: NodeField | CellField) -> Mesh:
+    """Outer sides of a model whose nodes all have a value, or the cells of a field in cells."""
+    table = model.mesh.nodes
+    if isinstance(field, CellField):
+        return Mesh(table, tuple({id(b.cells): b.cells for b in field.blocks}.values()))
+    solid = Mesh(table, tuple(z.cells for z in model.zones if is_solid(z)))
+    skin = envelope(solid) if solid.dimension == 3 else contour(solid)
+    blocks = []
+    for block in skin.blocks:
+        inside = np.isin(block.connectivity, field.node_ids).all(axis=1)
+        if inside.any():
+            blocks.append(CellBlock.make(table, block.cell_type, block.raw[inside]))
+    if not blocks:
+        raise MeshError("kernel.elements.field-values-no-outer")
+    return Mesh(table, tuple(blocks))
+
+
+SHELLS = ("plate", "meridian", "mindlin", "thick")
+
+
+def pipe_pressure(model: Model, material: CellField) -> NodeField:
+    """Forces of the inner pressure PRES of pipes on their closed ends."""
+    out = []
+    for zone in model.zones:
+        if ELEMENTS[zone.element].family != "pipe":
+            raise MeshError("kernel.elements.pressure-pipes-not-element", element=zone.element)
+        layout = family_of(zone).layout(zone)
+        out.append(layout.scatter(pressure_forces(zone, zone_field(zone, material))))
+    return total(model.mesh.nodes, out)
+
+
+def shell_load(
+    model: Model, value: float | FloatArray | NodeField | CellField, along: FloatArray | None = None
+) -> NodeField:
+    """Forces on shells: a pressure, or a force per area.
+
+    Parameters
+    ----------
+    value : number or field with one component (pressure), array (3,) or field FX FY FZ (force)
+    along : array (3,), optional
+        The side to which a pressure pushes; the shells' own normals without.
+    """
+    out = []
+    for zone in model.zones:
+        if ELEMENTS[zone.element].family not in SHELLS:
+            raise MeshError("kernel.elements.load-shells-not-element", element=zone.element)
+        geometry = face_geometry(zone.cells, zone.mode, harmonic(zone))
+        out.append(_scatter(zone, zone.cells, _shell_forces(zone, geometry, value, along)))
+    return total(model.mesh.nodes, out)
+
+
+def _shell_forces(
+    zone: Zone,
+    geometry: SurfaceGeometry,
+    value: float | FloatArray | NodeField | CellField,
+    along: FloatArray | None,
+) -> FloatArray:
+    force = isinstance(value, np.ndarray) or (
+        isinstance(value, NodeField) and any(n in value.components for n in force_names(zone))
+    )
+    if force:
+        density = _vector_values(zone.cells, geometry, zone, value)  # type: ignore[arg-type]
+        w = geometry.measures
+        forces: FloatArray = np.einsum("cp,cpd,pk->ckd", w, density, geometry.shapes)
+        return forces
+    p = _face_values(zone.cells, geometry, value)  # type: ignore[arg-type]
+    normals = geometry.normals
+    if normals.shape[-1] == 2:  # a quarter turn from the line, not the other way
+        normals = -normals
+    if along is not None:
+        side = np.sign(np.einsum("cpd,d->c", normals, along[: normals.shape[-1]]))
+        normals = normals * side[:, None, None]
+    pushed: FloatArray = np.einsum("cp,cpd,pk->ckd", p, normals, geometry.shapes)
+    return pushed
+
+
+def on_sides(model: Model, field: CellField) -> NodeField | CellField:
+    """A pressure in cells as it serves sides: as it is when it stands on sides, else its nodes.
+
+    A field in the cells of the model itself loads the sides where it is not zero.
+    """
+    inside = {z.cells.kind.dimension for z in model.zones}
+    if not any(b.cells.kind.dimension in inside for b in field.blocks):
+        return field
+    nodal = nodal_of_cells(model, field)
+    kept = {}
+    for name, part in nodal.components.items():
+        loaded = part.values != 0
+        kept[name] = NodeValues(part.nodes[loaded], part.values[loaded])
+    return NodeField(nodal.table, kept, "DIFFUS")
+
+
+def pressure_vectors(zone: Zone, field: CellField) -> NodeField:
+    """Forces of the pressure field on a zone of pressure loads, along the sides' own normals."""
+    geometry = face_geometry(zone.cells, zone.mode, harmonic(zone))
+    return _scatter(zone, zone.cells, _shell_forces(zone, geometry, field, None))
+
+
+def body_force(
+    model: Model, density: NodeField | CellField, material: CellField | None = None
+) -> NodeField:
+    """Forces of a volume density with components FX FY ... (CNEQ).
+
+    Raises
+    ------
+    MeshError
+        If the model holds elements that are not continuous.
+    """
+    wanted = {n for zone in model.zones for n in force_names(zone)}
+    blocks = [density] if isinstance(density, NodeField) else density.blocks
+    given = [n for block in blocks for n in block.components]
+    if not wanted.intersection(given):
+        raise FieldError(
+            "kernel.elements.volume-force-components-field",
+            wanted=sorted(wanted),
+            given=tuple(dict.fromkeys(given)),
+        )
+    out = [_body_force(zone, density, material) for zone in model.zones]
+    return total(model.mesh.nodes, out)
+
+
+def _body_force(
+    zone: Zone, density: NodeField | CellField, material: CellField | None
+) -> NodeField:
+    if not is_solid(zone):
+        raise MeshError("kernel.elements.volume-forces-continuous-elements", element=zone.element)
+    names = force_names(zone)
+    forces = np.zeros((len(zone.cells), zone.cells.kind.n_nodes, len(names)))
+    parameters = zone_field(zone, material)
+    for cells in chunks(len(zone.cells)):
+        geometry = zone_geometry(zone, "MASSE", cells)
+        w = integration_weights(zone, geometry, parameters, "MASSE", cells)
+        values = _density_values(zone, density, names, geometry.shapes, cells)
+        forces[cells] = np.einsum("cp,cpd,pk->ckd", w, values, geometry.shapes)
+    return _scatter(zone, zone.cells, forces)
+
+
+def _density_values(
+    zone: Zone,
+    density: NodeField | CellField,
+    names: tuple[str, ...],
+    shapes: FloatArray,
+    cells: slice,
+) -> FloatArray:
+    """Volume forces (n, points, d) at the points of 'MASSE'."""
+    if isinstance(density, NodeField):
+        nodes = zone.cells.connectivity[cells]
+        columns = [
+            density.values_at(n, nodes.ravel()).reshape(nodes.shape) @ shapes.T for n in names
+        ]
+        return np.stack(columns, axis=-1)
+    seen = zone_field(zone, density)
+    if not any(n in seen for n in names):
+        return np.zeros((cells.stop - cells.start, len(shapes), len(names)))
+    return np.moveaxis(seen.matrix(names, "MASSE")[cells], 1, 2)

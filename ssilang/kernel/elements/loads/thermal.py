@@ -1,0 +1,77 @@
+"""Strains that a change of temperature causes."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import FieldError, MaterialError
+from ssilang.kernel.elements.beams.fibre_section import section_of_beam
+from ssilang.kernel.elements.catalog import ELEMENTS, SOLID_FAMILIES, support_rule
+from ssilang.kernel.elements.families import family_of
+from ssilang.kernel.elements.results.tensors import as_components
+from ssilang.kernel.elements.shapes.reference import shape_functions
+from ssilang.kernel.elements.solids.solid_moduli import material_axes, symmetry_of
+from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.materials.model import Zone
+
+
+def temperature(zone: Zone, field: NodeField | CellField, name: str = "T") -> FloatArray:
+    """Temperature (n_cells, n_points) at the points of 'STRESSES'."""
+    rule = support_rule(zone.element, "STRESSES")
+    if isinstance(field, CellField):
+        seen = zone_field(zone, field)
+        chosen = name if name in seen.names else (seen.names or (name,))[0]
+        values = seen.at(chosen, "STRESSES")
+        return np.broadcast_to(values, (len(zone.cells), len(rule)))
+    if name not in field.components:
+        raise FieldError(
+            "kernel.elements.field-no-component", name=name, components=field.components
+        )
+    kind = ELEMENTS[zone.element]
+    nodes = zone.cells.connectivity
+    values = field.values_at(name, nodes.ravel()).reshape(nodes.shape)
+    found: FloatArray = values @ shape_functions(kind.reference or kind.cell_type, rule.points).T
+    return found
+
+
+def thermal_strain(zone: Zone, material: CellField, field: NodeField | CellField) -> FloatArray:
+    """Strains ALPH (T - TALP), (n_cells, n_strains, n_points); zero where ALPH is not given.
+
+    Orthotropic continuous elements expand by ALP1 ALP2 ALP3 along their axes.
+    """
+    family = family_of(zone)
+    parameters = zone_field(zone, material)
+    rise = temperature(zone, field) - parameters.at("TALP", "STRESSES", 0.0)
+    names = family.strain_names(zone)
+    values = np.zeros((len(zone.cells), len(names), rise.shape[1]))
+    kind = ELEMENTS[zone.element].family
+    if kind in SOLID_FAMILIES:
+        return _solid(zone, parameters, rise, len(names))
+    if kind == "solid shell":
+        values[:, :6] = _solid(zone, parameters, rise, 6)
+        return values
+    if "SECTION" in zone.behaviour:
+        if any("ALPH" in part.parameters for part in section_of_beam(parameters).zones):
+            raise MaterialError("kernel.elements.thermal-expansion-sections-fibres")
+        return values
+    if kind == "joint":
+        raise MaterialError("kernel.elements.thermal-expansion-joints-not")
+    values[:, 0] = parameters.at("ALPH", "STRESSES", 0.0) * rise
+    return values
+
+
+def _solid(zone: Zone, parameters: ZoneField, rise: FloatArray, n_strains: int) -> FloatArray:
+    if symmetry_of(zone) == "ISOTROPE":
+        alpha = parameters.at("ALPH", "STRESSES", 0.0) * rise
+        T = alpha[..., None, None] * np.eye(3)
+    else:
+        axes = material_axes(parameters, "STRESSES")
+        along = np.stack(
+            [parameters.at(f"ALP{i}", "STRESSES", 0.0) * rise for i in (1, 2, 3)], axis=-1
+        )
+        axes = np.broadcast_to(axes, (*rise.shape, 3, 3))
+        T = np.einsum("cpki,cpk,cpkj->cpij", axes, along, axes)
+    return as_components(T, n_strains, strains=True)

@@ -1,0 +1,37 @@
+"""Integrals of fields in cells, cell by cell."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ssilang.kernel.elements.catalog import ELEMENTS
+from ssilang.kernel.elements.families import family_of
+from ssilang.kernel.elements.zone_fields import carry, zone_field
+from ssilang.kernel.fields.cell_field import CellField, Support
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.materials.model import Zone
+
+
+def integrals(
+    zone: Zone, field: CellField, name: str, material: CellField | None = None
+) -> FloatArray | None:
+    """Integral of a component over each cell (n_cells,), None where it is not defined.
+
+    Parameters
+    ----------
+    material : CellField, optional
+        With it beams and bars are integrated over their volume (SECT), plane stress over its
+        thickness (DIM3); without it over their line or surface.
+    """
+    seen = zone_field(zone, field)
+    if name not in seen:
+        return None
+    values, source = seen.raw(name)
+    target: Support = source if source in ("RIGIDITE", "STRESSES", "MASSE") else "RIGIDITE"
+    values = carry(values.astype(float), zone.element, source, target)
+    parameters = zone_field(zone, material)
+    weights = family_of(zone).weights(zone, parameters, target)
+    total: FloatArray = (np.broadcast_to(values, weights.shape) * weights).sum(axis=1)
+    if material is not None and ELEMENTS[zone.element].family in ("bar", "beam", "timoshenko"):
+        total = total * np.broadcast_to(parameters.at("SECT", "GRAVITE")[:, 0], total.shape)
+    return total

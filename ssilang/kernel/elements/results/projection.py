@@ -1,0 +1,129 @@
+"""Fields in cells interpolated on other meshes and models."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ssilang.kernel.elements.boundary import is_solid
+from ssilang.kernel.elements.results.frames import points_of
+from ssilang.kernel.elements.shapes.geometry import cell_geometry
+from ssilang.kernel.elements.shapes.quadrature import Rule, quadrature
+from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS
+from ssilang.kernel.base.errors import FieldError
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
+from ssilang.kernel.fields.node_field import NodeField, NodeValues
+from ssilang.kernel.matrices.location import locate
+from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.materials.model import Mode, Model
+
+
+def _interpolated(
+    field: CellField, x: FloatArray, tolerance: float
+) -> dict[str, tuple[IntArray, FloatArray]]:
+    """For each component the points (m,) inside the field's cells and its values there."""
+    out: dict[str, tuple[IntArray, FloatArray]] = {}
+    seen: dict[str, np.ndarray] = {}
+    for block in field.blocks:
+        found = locate(Mesh(block.cells.nodes, (block.cells,)), x, tolerance)[0]
+        cells, shapes = found
+        for name, values in block.components.items():
+            if values.shape[1] not in (1, block.cells.kind.n_nodes):
+                raise FieldError("kernel.elements.field-project-must-stand")
+            fresh = (cells >= 0) & ~seen.get(name, np.zeros(len(x), bool))
+            rows = np.flatnonzero(fresh)
+            full = np.broadcast_to(values, (len(block.cells), values.shape[1]))[cells[rows]]
+            here = full[:, 0] if values.shape[1] == 1 else np.einsum("nk,nk->n", full, shapes[rows])
+            old_rows, old_values = out.get(name, (np.empty(0, np.int64), np.empty(0)))
+            out[name] = (np.concatenate([old_rows, rows]), np.concatenate([old_values, here]))
+            seen[name] = seen.get(name, np.zeros(len(x), bool)) | fresh
+    return out
+
+
+def on_mesh(field: CellField, mesh: Mesh, tolerance: float) -> NodeField:
+    """Values of a field, given at nodes of its cells, at the nodes of a mesh inside them."""
+    nodes = mesh.sorted_node_ids
+    parts = {}
+    for name, (rows, values) in _interpolated(
+        field, mesh.nodes.coordinates[nodes], tolerance
+    ).items():
+        order = np.argsort(rows)
+        parts[name] = NodeValues(nodes[rows[order]], values[order])
+    return NodeField(mesh.nodes, parts, "DIFFUS")
+
+
+def on_model(field: CellField, model: Model, support: Support, tolerance: float) -> CellField:
+    """Values of a field at the points of a support of a model, zero outside the field's cells."""
+    blocks = []
+    for zone in model.zones:
+        x = points_of(zone, support)
+        n, p, _ = x.shape
+        components = {}
+        for name, (rows, values) in _interpolated(field, x.reshape(-1, 3), tolerance).items():
+            flat = np.zeros(n * p)
+            flat[rows] = values
+            components[name] = flat.reshape(n, p)
+        if components:
+            blocks.append(
+                CellFieldBlock(zone.cells, components, support, zone.element, zone.constituent)
+            )
+    return CellField(tuple(blocks), field.title)
+
+
+_SIMPLEX_POINTS = {"triangle": (1, 3, 7), "tetrahedron": (1, 4, 27), "prism": (1, 6, 21)}
+
+
+def _points_per_direction(shape: str, n: int) -> Rule:
+    """The rule with n points in each direction, or the one nearest to it that exists."""
+    if shape in _SIMPLEX_POINTS:
+        return quadrature(shape, _SIMPLEX_POINTS[shape][min(n, 3) - 1])
+    power = {"line": 1, "quadrangle": 2}.get(shape, 3)
+    return quadrature(shape, n**power)
+
+
+def by_least_squares(field: CellField, model: Model, n: int, tolerance: float) -> CellField:
+    """Nodal values in each cell of a model whose integrated squared distance to a field is least.
+
+    Parameters
+    ----------
+    field : CellField
+        At the nodes of its cells; zero outside them.
+    n : int
+        Integration points in each direction of a cell; at least one for each node is needed.
+
+    Raises
+    ------
+    FieldError
+        For cells that are no continuous elements, or too few points.
+    """
+    blocks = []
+    for zone in model.zones:
+        if not is_solid(zone):
+            raise FieldError("kernel.elements.element-not-fill-space", element=zone.element)
+        kind = zone.cells.kind
+        rule = _points_per_direction(REFERENCE_CELLS[kind.name].shape, n)
+        if len(rule) < kind.n_nodes:
+            raise FieldError(
+                "kernel.elements.integration-points-not-fix",
+                n_rule=len(rule),
+                n_nodes=kind.n_nodes,
+                name=kind.name,
+            )
+        at = zone.cells.coordinates
+        geometry = cell_geometry(kind.name, at[..., : zone.mode.dimension], rule)
+        x = np.einsum("pk,ckd->cpd", geometry.shapes, at)
+        round_axis = zone.mode in (Mode.AXISYMMETRIC, Mode.FOURIER)
+        weights = geometry.volumes * x[..., 0] if round_axis else geometry.volumes
+        weighted = weights[:, :, None] * geometry.shapes
+        squares = np.einsum("cpk,pl->ckl", weighted, geometry.shapes)
+        components = {}
+        for name, (rows, values) in _interpolated(field, x.reshape(-1, 3), tolerance).items():
+            flat = np.zeros(x.shape[0] * x.shape[1])
+            flat[rows] = values
+            right = np.einsum("cpk,cp->ck", weighted, flat.reshape(x.shape[:2]))
+            components[name] = np.linalg.solve(squares, right[..., None])[..., 0]
+        if components:
+            blocks.append(
+                CellFieldBlock(zone.cells, components, "NOEUD", zone.element, zone.constituent)
+            )
+    return CellField(tuple(blocks), field.title)

@@ -1,0 +1,116 @@
+"""Stresses in the section of beams and shells, from their section forces."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ssilang.kernel.elements.beams.beam_frame import kept_rows
+from ssilang.kernel.elements.catalog import ELEMENTS
+from ssilang.kernel.elements.families import family_of
+from ssilang.kernel.elements.results.tensors import components_at_home
+from ssilang.kernel.elements.zone_fields import zone_field
+from ssilang.kernel.base.errors import FieldError
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.materials.model import Zone
+
+SIDES = {"SUPE": 1.0, "MOYE": 0.0, "INFE": -1.0}
+"""Side of a shell: towards its normal, in the middle, away from it."""
+_SKIN_NAMES = {
+    "N11": "SMXX", "N22": "SMYY", "N12": "SMXY", "NZZ": "SMZZ",
+    "EPSS": "EPXX", "EPTT": "EPYY", "GAST": "GAXY",
+}  # fmt: skip
+"""Components of a solid, x and y being the axes of the shell's own frame."""
+
+
+def is_shell(zone: Zone) -> bool:
+    """True for shells described by section forces."""
+    return ELEMENTS[zone.element].family in ("plate", "meridian", "mindlin")
+
+
+def shell_skin(
+    zone: Zone, field: CellField, material: CellField, side: str
+) -> tuple[dict[str, FloatArray], Support]:
+    """Stresses N / h + 6 M / h^2 or strains e + k h / 2 at one side, in the shell's own frame.
+
+    Returns
+    -------
+    components : SMXX SMYY SMXY, or EPXX EPYY GAXY
+    support : where they stand
+    """
+    family, parameters = family_of(zone), zone_field(zone, material)
+    seen = zone_field(zone, field)
+    strains = any(n in seen for n in family.strain_names(zone))
+    names = family.strain_names(zone) if strains else family.stress_names(zone)
+    values, support = components_at_home(zone, field, names)
+    half = sum(n[0] == ("R" if strains else "M") for n in names)
+    membrane, bending = values[:, :half], values[:, half : 2 * half]
+    h = parameters.at("EPAI", support)[:, None]
+    lever = SIDES[side] * (h / 2 if strains else 6 / h**2)
+    skin = (membrane if strains else membrane / h) + lever * bending
+    return {_SKIN_NAMES.get(n, n): skin[:, i] for i, n in enumerate(names[:half])}, support
+
+
+def shell_tensor(
+    zone: Zone, field: CellField, material: CellField, side: str
+) -> tuple[FloatArray, Support]:
+    """Stress or strain tensors (n_cells, n_points, 3, 3) at one side of a shell."""
+    parts, support = shell_skin(zone, field, material, side)
+    rows = list(parts.values())
+    T = np.zeros((*rows[0].shape, 3, 3))
+    T[..., 0, 0], T[..., 1, 1] = rows[0], rows[1]
+    if len(rows) > 2:
+        shear = rows[2] / 2 if "GAXY" in parts else rows[2]
+        T[..., 0, 1] = T[..., 1, 0] = shear
+    return T, support
+
+
+def shell_equivalent(
+    zone: Zone, field: CellField, material: CellField
+) -> tuple[FloatArray, Support]:
+    """Von Mises of the membrane forces and, weighed by ALFA (2/3), of the moments."""
+    family, parameters = family_of(zone), zone_field(zone, material)
+    names = family.stress_names(zone)
+    values, support = components_at_home(zone, field, names)
+    h = parameters.at("EPAI", support)
+    alpha = parameters.at("ALFA", support, 2 / 3)
+    half = sum(n[0] == "M" for n in names)
+    N, M = (_plane_mises(values[:, start : start + half]) for start in (0, half))
+    return np.sqrt((N / h) ** 2 + (6 * alpha * M / h**2) ** 2), support
+
+
+def _plane_mises(rows: FloatArray) -> FloatArray:
+    a, b = rows[:, 0], rows[:, 1]
+    shear = rows[:, 2] if rows.shape[1] > 2 else 0.0
+    found: FloatArray = np.sqrt(a**2 + b**2 - a * b + 3 * shear**2)
+    return found
+
+
+def skin_stress(zone: Zone, field: CellField, material: CellField) -> CellFieldBlock:
+    """Normal stress SMXX at the point (DY, DZ) of the section, local axes.
+
+    EFFX / SECT + MOMY DZ / INRY - MOMZ DY / INRZ.
+
+    Raises
+    ------
+    FieldError
+        For elements that are not beams.
+    """
+    if ELEMENTS[zone.element].family not in ("beam", "timoshenko"):
+        raise FieldError("kernel.elements.element-no-skin", element=zone.element)
+    names = family_of(zone).stress_names(zone)
+    forces, support = components_at_home(zone, field, names)
+    parameters = zone_field(zone, material)
+
+    def term(force: str, lever: str, constant: str) -> np.ndarray | float:
+        if force not in names:
+            return 0.0
+        ratio = parameters.at(lever, support, 0.0) / parameters.at(constant, support)
+        found: np.ndarray = forces[:, names.index(force)] * ratio
+        return found
+
+    stress = forces[:, 0] / parameters.at("SECT", support)
+    stress = stress - term("MOMZ", "DY", "INRZ")
+    if len(kept_rows(zone)) == 6:
+        stress = stress + term("MOMY", "DZ", "INRY")
+    return CellFieldBlock(zone.cells, {"SMXX": stress}, support, zone.element, zone.constituent)

@@ -1,0 +1,160 @@
+"""Fields in cells carried from one support to another, and to and from nodes."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import numpy as np
+
+from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
+from ssilang.kernel.elements.shapes.reference import shape_functions
+from ssilang.kernel.elements.zone_fields import carry, zone_field
+from ssilang.kernel.base.errors import FieldError
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
+from ssilang.kernel.fields.node_field import NodeField, NodeValues
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.mesh.nodes import NodeTable
+from ssilang.kernel.materials.model import Model, Zone
+
+
+def moved(model: Model, field: CellField, target: Support, title: str | None = None) -> CellField:
+    """The field at the points of another support, on the zones of a model where it stands."""
+    blocks = [b for z in model.zones for b in _moved_zone(z, field, target)]
+    if not blocks:
+        raise FieldError("kernel.elements.field-no-value-cells")
+    return CellField(tuple(blocks), field.title if title is None else title)
+
+
+def _moved_zone(zone: Zone, field: CellField, target: Support) -> list[CellFieldBlock]:
+    seen = zone_field(zone, field)
+    components = {}
+    p = len(support_rule(zone.element, target))
+    for name in seen.names:
+        values, source = seen.raw(name)
+        found = carry(values, zone.element, source, target)
+        width = 1 if found.dtype == object else p
+        components[name] = np.broadcast_to(found, (len(zone.cells), max(width, found.shape[1])))
+    if not components:
+        return []
+    return [CellFieldBlock(zone.cells, components, target, zone.element, zone.constituent)]
+
+
+def nodal_of_cells(
+    model: Model, field: CellField, rule: Literal["MOYE", "SOMM"] = "MOYE"
+) -> NodeField:
+    """A nodal field: mean (or sum) of the values that the cells around a node have there."""
+    return nodal_of_field(moved(model, field, "NOEUD"), rule)
+
+
+def nodal_of_field(field: CellField, rule: Literal["MOYE", "SOMM"] = "MOYE") -> NodeField:
+    """The same for a field that stands at nodes."""
+    parts: dict[str, list[tuple[IntArray, FloatArray]]] = {}
+    table: NodeTable | None = None
+    for block in field.blocks:
+        table = block.cells.nodes
+        nodes = block.cells.connectivity
+        for name, values in block.components.items():
+            if values.dtype == object:
+                continue
+            at = np.broadcast_to(values, nodes.shape)
+            parts.setdefault(name, []).append((nodes.ravel(), at.ravel()))
+    if table is None:
+        raise FieldError("kernel.elements.field-empty")
+    made = {n: _gathered(p, rule) for n, p in parts.items()}
+    return NodeField(table, made, "DIFFUS")
+
+
+def _gathered(
+    parts: list[tuple[IntArray, FloatArray]], rule: Literal["MOYE", "SOMM"]
+) -> NodeValues:
+    nodes, place = np.unique(np.concatenate([n for n, _ in parts]), return_inverse=True)
+    flat = place.ravel()
+    weights = np.concatenate([v for _, v in parts])
+    sums = np.bincount(flat, weights, len(nodes)).astype(np.float64)
+    if rule == "MOYE":
+        sums = sums / np.bincount(flat, minlength=len(nodes))
+    return NodeValues(nodes, sums)
+
+
+def cells_of_nodal(
+    model: Model, field: NodeField, target: Support = "NOEUD", title: str = ""
+) -> CellField:
+    """A field in cells interpolated from a nodal field; components absent on a zone are left out.
+
+    Absent values count as zero in cells where the component is defined at some node.
+    """
+    blocks = []
+    for zone in model.zones:
+        kind = ELEMENTS[zone.element]
+        points = support_rule(zone.element, target).points
+        shapes = shape_functions(kind.reference or kind.cell_type, points)
+        components = {}
+        for name, values in _at_cell_nodes(zone.cells, field).items():
+            half = shapes.shape[1]
+            if values.shape[1] == 2 * half:  # joints: mean of both sides
+                values = (values[:, :half] + values[:, half:]) / 2
+            components[name] = values @ shapes.T
+        if components:
+            blocks.append(
+                CellFieldBlock(zone.cells, components, target, zone.element, zone.constituent)
+            )
+    return CellField(tuple(blocks), title)
+
+
+def cells_of_mesh(mesh: Mesh, field: NodeField) -> CellField:
+    """A field at the nodes of the cells of a mesh."""
+    blocks = []
+    for cells in mesh.blocks:
+        components = _at_cell_nodes(cells, field)
+        if components:
+            blocks.append(CellFieldBlock(cells, components, "NOEUD"))
+    return CellField(tuple(blocks), "")
+
+
+def _at_cell_nodes(cells: CellBlock, field: NodeField) -> dict[str, FloatArray]:
+    """Values (n_cells, n_nodes) of the components defined at some node of the cells."""
+    nodes = cells.connectivity
+    out = {}
+    for name, part in field.components.items():
+        if np.isin(nodes, part.nodes).any():
+            out[name] = part.at(nodes.ravel()).reshape(nodes.shape)
+    return out
+
+
+def point_coordinates(field: CellField) -> list[tuple[CellFieldBlock, FloatArray]]:
+    """Coordinates (n_cells, n_points, 3) of the points on which each block stands."""
+    out = []
+    for block in field.blocks:
+        if block.support == "NOEUD" or not block.element:
+            out.append((block, block.cells.coordinates))
+            continue
+        kind = ELEMENTS[block.element]
+        points = support_rule(block.element, block.support).points
+        shapes = shape_functions(kind.reference or kind.cell_type, points)
+        corners = block.cells.coordinates
+        half = shapes.shape[1]
+        if corners.shape[1] == 2 * half:
+            corners = (corners[:, :half] + corners[:, half:]) / 2
+        out.append((block, np.einsum("pk,ckd->cpd", shapes, corners)))
+    return out
+
+
+def values_at_points(field: CellField) -> NodeField:
+    """A nodal field on new nodes, one at each point that carries the field."""
+    parts: dict[str, list[NodeValues]] = {}
+    for block, x in point_coordinates(field):
+        n, p, _ = x.shape
+        nodes = block.cells.nodes.add(x.reshape(-1, 3))
+        for name, values in block.components.items():
+            flat = np.broadcast_to(values, (n, p)).astype(float).ravel()
+            parts.setdefault(name, []).append(NodeValues(nodes, flat))
+    if not parts:
+        raise FieldError("kernel.elements.field-empty")
+    made = {
+        name: NodeValues(
+            np.concatenate([v.nodes for v in values]), np.concatenate([v.values for v in values])
+        )
+        for name, values in parts.items()
+    }
+    return NodeField(field.blocks[0].cells.nodes, made, "DIFFUS")

@@ -1,0 +1,107 @@
+"""Stress and strain fields of continuous elements as tensors: principal values, invariants."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ssilang.kernel.elements.solids.gradients import PAIRS
+from ssilang.kernel.elements.solids.solid import kinematics
+from ssilang.kernel.elements.zone_fields import carry, zone_field
+from ssilang.kernel.base.errors import FieldError
+from ssilang.kernel.fields.cell_field import CellField, Support
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.materials.model import Mode, Zone
+
+PRINCIPAL = tuple(f"SI{i}{i}" for i in (1, 2, 3)) + tuple(
+    f"CO{axis}{i}" for i in (1, 2, 3) for axis in "XYZ"
+)
+
+
+def components_at_home(
+    zone: Zone, field: CellField, names: tuple[str, ...]
+) -> tuple[FloatArray, Support]:
+    """Components (n_cells, n_names, n_points), zero where absent, at the points they stand on."""
+    seen = zone_field(zone, field)
+    present = [n for n in names if n in seen]
+    if not present:
+        raise FieldError(
+            "kernel.elements.field-none-cells-element",
+            names=names,
+            element=zone.element,
+            present=seen.names,
+        )
+    raws = {n: seen.raw(n) for n in present}
+    support = next((s for v, s in raws.values() if v.shape[1] > 1), raws[present[0]][1])
+    moved = {n: carry(v.astype(float), zone.element, s, support) for n, (v, s) in raws.items()}
+    shape = (len(zone.cells), max(v.shape[1] for v in moved.values()))
+    columns = [np.broadcast_to(moved.get(n, np.zeros((1, 1))), shape) for n in names]
+    return np.stack(columns, axis=1), support
+
+
+def tensor(zone: Zone, field: CellField) -> tuple[FloatArray, Support, bool]:
+    """Tensors (n_cells, n_points, 3, 3), their support, and whether they are strains."""
+    table = kinematics(zone)
+    seen = zone_field(zone, field)
+    strains = any(n in seen for n in table.strains)
+    values, support = components_at_home(zone, field, table.strains if strains else table.stresses)
+    return as_tensor(values, strains), support, strains
+
+
+def as_tensor(values: FloatArray, strains: bool) -> FloatArray:
+    """Tensors (n, p, 3, 3) from components (n, 4 or 6, p); shear strains are halved."""
+    n, m, p = values.shape
+    T = np.zeros((n, p, 3, 3))
+    for row, (i, j) in enumerate(PAIRS[:m]):
+        factor = 0.5 if strains and i != j else 1.0
+        T[..., i, j] = T[..., j, i] = factor * values[:, row]
+    return T
+
+
+def as_components(T: FloatArray, n_components: int, strains: bool) -> FloatArray:
+    """Components (n, n_components, p) of tensors (n, p, 3, 3)."""
+    rows = [T[..., i, j] * (2.0 if strains and i != j else 1.0) for i, j in PAIRS[:n_components]]
+    return np.stack(rows, axis=1)
+
+
+def principal(zone: Zone, T: FloatArray, ordered: bool) -> FloatArray:
+    """Principal values then directions, (n, 12, p) in the order of `PRINCIPAL`.
+
+    In space and with `ordered` values decrease; else the third is the one out of the plane.
+    """
+    values, vectors = np.linalg.eigh(T)
+    values, vectors = values[..., ::-1], vectors[..., ::-1]
+    space = zone.mode in (Mode.THREE_DIMENSIONAL, Mode.FOURIER)
+    if not (ordered or space):
+        values, vectors = _out_of_plane_last(values, vectors)
+    directions = np.moveaxis(vectors, -1, -2).reshape(*values.shape[:2], 9)
+    return np.moveaxis(np.concatenate([values, directions], axis=-1), 2, 1)
+
+
+def _out_of_plane_last(values: FloatArray, vectors: FloatArray) -> tuple[FloatArray, FloatArray]:
+    normal = np.argmax(np.abs(vectors[..., 2, :]), axis=-1)
+    order = np.stack([np.where(normal == 0, 1, 0), np.where(normal == 2, 1, 2), normal], axis=-1)
+    return (
+        np.take_along_axis(values, order, axis=-1),
+        np.take_along_axis(vectors, order[..., None, :], axis=-1),
+    )
+
+
+def von_mises(T: FloatArray) -> FloatArray:
+    """Square root of 3/2 s:s, (n, p)."""
+    deviator = T - np.trace(T, axis1=-2, axis2=-1)[..., None, None] / 3 * np.eye(3)
+    found: FloatArray = np.sqrt(1.5 * np.einsum("npij,npij->np", deviator, deviator))
+    return found
+
+
+def tresca(T: FloatArray) -> FloatArray:
+    """Largest difference of principal values, (n, p)."""
+    values = np.linalg.eigvalsh(T)
+    found: FloatArray = values[..., 2] - values[..., 0]
+    return found
+
+
+def invariants(T: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Trace, sum of the principal minors of order two, determinant, each (n, p)."""
+    first = np.trace(T, axis1=-2, axis2=-1)
+    second = 0.5 * (first**2 - np.einsum("npij,npji->np", T, T))
+    return first, second, np.linalg.det(T)

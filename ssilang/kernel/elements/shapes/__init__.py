@@ -1,0 +1,1 @@
+"""Reference cells: shape functions, quadrature, geometry at quadrature points."""

@@ -1,0 +1,1 @@
+"""Shells and plates, thin and thick."""

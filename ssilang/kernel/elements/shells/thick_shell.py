@@ -1,0 +1,180 @@
+"""COQ6 and COQ8: curved shells with transverse shear, degenerated from solids.
+
+Ahmad, Irons, Zienkiewicz (1970), with reduced integration: fibres along the normals of the middle
+surface turn with the nodes; no stress acts across the thickness. Two points across. Clamped COQ8
+become too stiff when the thickness falls below some hundredth of the cells' size.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.elements.catalog import support_rule
+from ssilang.kernel.elements.family import (
+    Layout,
+    StrainOperator,
+)
+from ssilang.kernel.elements.shapes.geometry import chunks
+from ssilang.kernel.elements.shapes.reference import (
+    REFERENCE_CELLS,
+    shape_functions,
+    shape_gradients,
+)
+from ssilang.kernel.elements.shells.shell_family import ShellFamily
+from ssilang.kernel.elements.shells.shell_section import (
+    drilled,
+    inertia_off_mesh,
+    material_moduli,
+    offset,
+)
+from ssilang.kernel.elements.zone_fields import ZoneField
+from ssilang.kernel.fields.cell_field import Support
+from ssilang.kernel.materials.model import Zone
+
+_ACROSS = 1 / np.sqrt(3.0)
+
+
+def fibres(zone: Zone, cells: slice = slice(None)) -> FloatArray:
+    """Unit normals (n, k, 3) of the middle surface at the nodes.
+
+    Raises
+    ------
+    MeshError
+        If the surface folds at a node.
+    """
+    x = zone.cells.nodes.coordinates[zone.cells.connectivity[cells]]
+    reference = shape_gradients(zone.cells.cell_type, REFERENCE_CELLS[zone.cells.cell_type].nodes)
+    tangents = np.einsum("aki,ckj->caij", reference, x)
+    normal = np.cross(tangents[:, :, 0], tangents[:, :, 1])
+    size = np.linalg.norm(normal, axis=2, keepdims=True)
+    if (size <= 0).any():
+        raise MeshError("kernel.elements.middle-surface-shell-folds")
+    found: FloatArray = normal / size
+    return found
+
+
+def _crossed(v: FloatArray) -> FloatArray:
+    """Matrices (..., 3, 3) of theta -> theta x v."""
+    out = np.zeros((*v.shape, 3))
+    x, y, z = np.moveaxis(v, -1, 0)
+    out[..., 0, 1], out[..., 0, 2] = z, -y
+    out[..., 1, 0], out[..., 1, 2] = -z, x
+    out[..., 2, 0], out[..., 2, 1] = y, -x
+    return out
+
+
+class ThickShell(ShellFamily):
+    """Curved shell with transverse shear."""
+
+    strains = ("EPSS", "EPTT", "GAST", "GASN", "GATN")
+    stresses = ("SMSS", "SMTT", "SMST", "SMSN", "SMTN")
+
+    def moduli(self, zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
+        """Plane stress with transverse shear."""
+        return material_moduli(zone, parameters, support)
+
+    def _gradients(
+        self, zone: Zone, parameters: ZoneField, support: Support, cells: slice
+    ) -> tuple[FloatArray, FloatArray]:
+        """Gradients (n, p, 3, 3, k, 6) of the displacements in local frames, and weights (n, p).
+
+        The first two axes after the points: component, direction of the derivative.
+        """
+        rule = support_rule(zone.element, support)
+        kind = zone.cells.cell_type
+        N, dN = shape_functions(kind, rule.points), shape_gradients(kind, rule.points)
+        half = len(rule) // 2
+        zeta = np.where(np.arange(len(rule)) < half, -_ACROSS, _ACROSS)
+        x = zone.cells.nodes.coordinates[zone.cells.connectivity[cells]]
+        n, k = x.shape[:2]
+        h = parameters.at("EPAI", "GRAVITE")
+        h = np.broadcast_to(h[:, 0], (len(zone.cells),))[cells]
+        arm = fibres(zone, cells) * (h / 2)[:, None, None]
+        e = offset(zone, parameters)
+        height = zeta + (np.zeros((n, 1)) if e is None else (2 * e[cells] / h)[:, None])
+        place = x[:, None] + height[:, :, None, None] * arm[:, None]
+        J = np.empty((n, len(rule), 3, 3))
+        J[:, :, :2] = np.einsum("pki,cpkj->cpij", dN, place)
+        J[:, :, 2] = np.einsum("pk,ckj->cpj", N, arm)
+        inverse = np.linalg.inv(J)
+        # d u_a / d x_j as an operator on (node, translation or rotation)
+        G = np.zeros((n, len(rule), 3, 3, k, 6))
+        flat = np.einsum("cpji,pki->cpjk", inverse[..., :2], dN)
+        turned = flat * height[:, :, None, None] + inverse[..., 2][..., None] * N[:, None, :]
+        for a in range(3):
+            G[:, :, a, :, :, a] = flat
+        G[..., 3:] = np.einsum("cpjk,ckab->cpajkb", turned, _crossed(arm))
+        frames = _local_frames(J)
+        grad = np.einsum("cpia,cpjb,cpabkm->cpijkm", frames, frames, G, optimize=True)
+        weights = np.abs(np.linalg.det(J)) * rule.weights * 2
+        return grad, weights
+
+    def strain_operator(
+        self, zone: Zone, parameters: ZoneField, support: Support, cells: slice
+    ) -> StrainOperator:
+        """Local strains at points on both sides of the middle surface."""
+        grad, weights = self._gradients(zone, parameters, support, cells)
+        n, p, k = grad.shape[0], grad.shape[1], grad.shape[4]
+        B = np.stack(
+            [
+                grad[:, :, 0, 0],
+                grad[:, :, 1, 1],
+                grad[:, :, 0, 1] + grad[:, :, 1, 0],
+                grad[:, :, 0, 2] + grad[:, :, 2, 0],
+                grad[:, :, 1, 2] + grad[:, :, 2, 1],
+            ],
+            axis=1,
+        )
+        return StrainOperator(B.reshape(n, 5, p, 6 * k), weights)
+
+    def stiffness_values(self, zone: Zone, moduli: FloatArray, parameters: ZoneField) -> FloatArray:
+        """The usual stiffness and a small one about the fibres, which the element lacks."""
+        values = super().stiffness_values(zone, moduli, parameters)
+        h = parameters.at("EPAI", "GRAVITE")[:, 0]
+        return drilled(zone, values, moduli[:, :, 0, 0].mean(axis=1) * h**3 / 12, fibres(zone))
+
+    def geometric_values(self, zone: Zone, stress: FloatArray, parameters: ZoneField) -> FloatArray:
+        """Effect of the stresses in the surface on the displacements' gradients along it."""
+        n, m = len(zone.cells), 6 * zone.cells.kind.n_nodes
+        values = np.empty((n, m, m))
+        for cells in chunks(n):
+            grad, weights = self._gradients(zone, parameters, "STRESSES", cells)
+            along = grad[:, :, :, :2].reshape(*grad.shape[:3], 2, m)
+            flux = np.einsum(
+                "cijp,cpajm,cp->cpaim", stress[cells][:, [[0, 2], [2, 1]]], along, weights
+            )
+            rows = -1, 6 * weights.shape[1], m
+            values[cells] = np.matmul(along.reshape(rows).transpose(0, 2, 1), flux.reshape(rows))
+        return values
+
+    def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, Layout]:
+        """RHO EPAI of the translations, RHO EPAI^3 / 12 of the rotations about the surface."""
+        rule = support_rule(zone.element, "MASSE")
+        kind = zone.cells.cell_type
+        N, dN = shape_functions(kind, rule.points), shape_gradients(kind, rule.points)
+        x = zone.cells.coordinates
+        n, k = x.shape[:2]
+        t = np.einsum("pki,ckj->cpij", dN, x)
+        area = np.linalg.norm(np.cross(t[:, :, 0], t[:, :, 1]), axis=2) * rule.weights
+        rho = np.broadcast_to(parameters.at("RHO", "GRAVITE")[:, 0], (n,))
+        h = np.broadcast_to(parameters.at("EPAI", "GRAVITE")[:, 0], (n,))
+        scalar = np.einsum("cp,pa,pb->cab", area * (rho * h)[:, None], N, N)
+        v = fibres(zone)
+        tangent = np.einsum("cab,ij->caibj", scalar, np.eye(3))
+        tangent -= np.einsum("cab,cai,cbj->caibj", scalar, v, v)
+        values = np.zeros((n, k, 6, k, 6))
+        for i in range(3):
+            values[:, :, i, :, i] = scalar
+        values[:, :, 3:, :, 3:] = tangent * (h**2 / 12)[:, None, None, None, None]
+        whole = inertia_off_mesh(values.reshape(n, 6 * k, 6 * k), zone, parameters, v)
+        return whole, self.layout(zone)
+
+
+def _local_frames(J: FloatArray) -> FloatArray:
+    """Frames (n, p, 3, 3): along the first reference axis, in the surface, normal."""
+    e1 = J[:, :, 0] / np.linalg.norm(J[:, :, 0], axis=-1, keepdims=True)
+    normal = np.cross(J[:, :, 0], J[:, :, 1])
+    e3 = normal / np.linalg.norm(normal, axis=-1, keepdims=True)
+    return np.stack([e1, np.cross(e3, e1), e3], axis=2)

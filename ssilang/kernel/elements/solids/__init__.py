@@ -1,0 +1,1 @@
+"""Continuous elements: plane, axisymmetric, Fourier, three-dimensional."""

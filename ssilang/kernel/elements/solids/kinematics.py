@@ -1,0 +1,143 @@
+"""Names and strain-displacement tables of continuous elements, one entry a hypothesis.
+
+Orders are Cast3M's: in-plane XX YY ZZ XY, axisymmetric RR ZZ TT RZ, Fourier RR ZZ TT RZ RT ZT,
+space XX YY ZZ XY XZ YZ. Shear strains are engineering strains (GAXY = 2 EPXY).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.materials.model import Mode, Zone
+from ssilang.kernel.mesh.mesh import Point
+
+# strain row, unknown, derivative along axis 0, 1, 2 or the value over the radius, factor
+Term = tuple[
+    int, int, int | Literal["over_radius"], Literal["one", "harmonic", "-harmonic", "-one"]
+]
+
+
+@dataclass(frozen=True, slots=True)
+class SolidKinematics:
+    """How displacements of a continuous element make strains under one hypothesis.
+
+    Attributes
+    ----------
+    unknowns : tuple of str
+        At each node.
+    strains, stresses : tuple of str
+    gradient : tuple of str
+        Names of the displacement gradient's components (GRAD), row by row.
+    terms : tuple of Term
+    """
+
+    unknowns: tuple[str, ...]
+    strains: tuple[str, ...]
+    stresses: tuple[str, ...]
+    gradient: tuple[str, ...]
+    terms: tuple[Term, ...]
+
+    @property
+    def dimension(self) -> int:
+        """Number of coordinates that matter."""
+        return 1 + max(axis for _, _, axis, _ in self.terms if isinstance(axis, int))
+
+
+_PLANE_TERMS: tuple[Term, ...] = (
+    (0, 0, 0, "one"), (1, 1, 1, "one"), (3, 0, 1, "one"), (3, 1, 0, "one"),
+)  # fmt: skip
+_AXISYMMETRIC_TERMS: tuple[Term, ...] = (*_PLANE_TERMS, (2, 0, "over_radius", "one"))
+_FOURIER_TERMS: tuple[Term, ...] = (
+    *_AXISYMMETRIC_TERMS,
+    (2, 2, "over_radius", "harmonic"),
+    (4, 0, "over_radius", "-harmonic"),
+    (4, 2, 0, "one"),
+    (4, 2, "over_radius", "-one"),
+    (5, 1, "over_radius", "-harmonic"),
+    (5, 2, 1, "one"),
+)
+_SPACE_TERMS: tuple[Term, ...] = (
+    (0, 0, 0, "one"), (1, 1, 1, "one"), (2, 2, 2, "one"),
+    (3, 0, 1, "one"), (3, 1, 0, "one"),
+    (4, 0, 2, "one"), (4, 2, 0, "one"),
+    (5, 1, 2, "one"), (5, 2, 1, "one"),
+)  # fmt: skip
+
+
+def _names(prefix: tuple[str, str], axes: tuple[str, ...], normal: int) -> tuple[str, ...]:
+    return tuple(prefix[0 if i < normal else 1] + a for i, a in enumerate(axes))
+
+
+def _entry(
+    unknowns: tuple[str, ...],
+    components: tuple[str, ...],
+    gradient_axes: tuple[str, ...],
+    terms: tuple[Term, ...],
+) -> SolidKinematics:
+    return SolidKinematics(
+        unknowns,
+        _names(("EP", "GA"), components, 3),
+        _names(("SM", "SM"), components, 3),
+        tuple(f"{u},{a}" for u in unknowns for a in gradient_axes),
+        terms,
+    )
+
+
+_PLANE = _entry(("UX", "UY"), ("XX", "YY", "ZZ", "XY"), ("X", "Y"), _PLANE_TERMS)
+
+SOLID_KINEMATICS: dict[Mode, SolidKinematics] = {
+    Mode.PLANE_STRAIN: _PLANE,
+    Mode.PLANE_STRESS: _PLANE,
+    Mode.GENERALISED_PLANE_STRAIN: _PLANE,
+    Mode.AXISYMMETRIC: _entry(
+        ("UR", "UZ"), ("RR", "ZZ", "TT", "RZ"), ("R", "Z"), _AXISYMMETRIC_TERMS
+    ),
+    Mode.FOURIER: _entry(
+        ("UR", "UZ", "UT"), ("RR", "ZZ", "TT", "RZ", "RT", "ZT"), ("R", "Z"), _FOURIER_TERMS
+    ),
+    Mode.THREE_DIMENSIONAL: _entry(
+        ("UX", "UY", "UZ"), ("XX", "YY", "ZZ", "XY", "XZ", "YZ"), ("X", "Y", "Z"), _SPACE_TERMS
+    ),
+    Mode.UNIDIMENSIONAL: _entry(("UX",), ("XX", "YY", "ZZ"), ("X",), ((0, 0, 0, "one"),)),
+}
+
+# translations, rotations of a node with both, per hypothesis
+NODE_TRANSLATIONS: dict[Mode, tuple[str, ...]] = {
+    mode: k.unknowns for mode, k in SOLID_KINEMATICS.items()
+}
+NODE_ROTATIONS: dict[Mode, tuple[str, ...]] = {
+    Mode.PLANE_STRAIN: ("RZ",),
+    Mode.PLANE_STRESS: ("RZ",),
+    Mode.GENERALISED_PLANE_STRAIN: ("RZ",),
+    Mode.AXISYMMETRIC: ("RT",),
+    Mode.FOURIER: ("RT",),
+    Mode.THREE_DIMENSIONAL: ("RX", "RY", "RZ"),
+    Mode.UNIDIMENSIONAL: (),
+}
+
+
+def harmonic(zone: Zone) -> int:
+    """Fourier harmonic of a zone (0 where the model did not say)."""
+    value = zone.options.get("harmonic", 0)
+    return value if isinstance(value, int) else 0
+
+
+def section_point(zone: Zone) -> Point:
+    """Node that carries the section's own motion in generalised plane strain (DPGE).
+
+    Raises
+    ------
+    MeshError
+        If the model was made without it.
+    """
+    point = zone.options.get("DPGE")
+    if not isinstance(point, Point):
+        raise MeshError("kernel.elements.generalised-plane-strain-needs")
+    return point
+
+
+def term_factor(word: str, n: int) -> float:
+    """Value of a term's factor for harmonic n."""
+    return {"one": 1.0, "-one": -1.0, "harmonic": float(n), "-harmonic": -float(n)}[word]

@@ -1,0 +1,159 @@
+"""Elastic moduli of the continuous elements of a zone, from its material parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import MaterialError
+from ssilang.kernel.elements.zone_fields import ZoneField
+from ssilang.kernel.fields.cell_field import Support
+from ssilang.kernel.materials.elasticity import (
+    check_isotropic,
+    isotropic_compliance,
+    isotropic_moduli,
+    orthotropic_compliance,
+    reduced_compliance,
+    reduced_moduli,
+    rotated_moduli,
+    strain_rotation,
+)
+from ssilang.kernel.materials.model import Mode, Zone
+
+
+def _isotropic(parameters: ZoneField, support: Support) -> tuple[FloatArray, FloatArray]:
+    young, poisson = (parameters.at(name, support) for name in ("YOUN", "NU"))
+    check_isotropic(young, poisson)
+    return young, poisson
+
+
+def material_axes(parameters: ZoneField, support: Support) -> FloatArray:
+    """Axes of orthotropy (n_cells or 1, n_points or 1, 3, 3), unit vectors as rows.
+
+    Built from the parameters V1X V1Y (V1Z) and V2X V2Y V2Z that MATE made from DIRECTION.
+    """
+    if "V1X" not in parameters:
+        raise MaterialError("kernel.elements.orthotropic-material-needs-axes")
+    flat = parameters.zone.mode is not Mode.THREE_DIMENSIONAL
+    first = np.stack(
+        np.broadcast_arrays(*(parameters.at(f"V1{a}", support, 0.0) for a in "XYZ")), axis=-1
+    )
+    if flat:
+        second = np.stack([-first[..., 1], first[..., 0], 0 * first[..., 0]], axis=-1)
+    else:
+        second = np.stack(
+            np.broadcast_arrays(*(parameters.at(f"V2{a}", support, 0.0) for a in "XYZ")), axis=-1
+        )
+    third = np.cross(first, second)
+    norms = [np.linalg.norm(v, axis=-1, keepdims=True) for v in (first, third)]
+    if min(float(n.min()) for n in norms) <= 0:
+        raise MaterialError("kernel.elements.vectors-axes-orthotropy-zero")
+    first, third = first / norms[0], third / norms[1]
+    return np.stack([first, np.cross(third, first), third], axis=-2)
+
+
+_PLANE_DEFAULTS = {"G23": "G12", "G13": "G12"}
+
+
+def _orthotropic_constants(
+    zone: Zone, parameters: ZoneField, support: Support
+) -> dict[str, FloatArray]:
+    """The nine constants; those that a hypothesis does not use get harmless values."""
+    out = {name: parameters.at(name, support) for name in ("YG1", "YG2", "NU12", "G12")}
+    plane_stress = zone.mode is Mode.PLANE_STRESS
+    for name, default in (("YG3", out["YG2"]), ("NU23", 0.0), ("NU13", 0.0)):
+        given = name in parameters or not plane_stress
+        out[name] = parameters.at(name, support) if given else np.broadcast_to(default, (1, 1))
+    needs_shear = zone.mode in (Mode.THREE_DIMENSIONAL, Mode.FOURIER)
+    for name, default_name in _PLANE_DEFAULTS.items():
+        given = name in parameters or needs_shear
+        out[name] = parameters.at(name, support) if given else out[default_name]
+    return out
+
+
+def _isotropic_pair(
+    zone: Zone, parameters: ZoneField, support: Support
+) -> tuple[FloatArray, FloatArray]:
+    constants = _isotropic(parameters, support)
+    return isotropic_moduli(*constants), isotropic_compliance(*constants)
+
+
+def _orthotropic_pair(
+    zone: Zone, parameters: ZoneField, support: Support
+) -> tuple[FloatArray, FloatArray]:
+    local = orthotropic_compliance(_orthotropic_constants(zone, parameters, support))
+    axes = material_axes(parameters, support)
+    moduli = rotated_moduli(np.linalg.inv(local).astype(np.float64), axes)
+    T = strain_rotation(axes)
+    back = np.linalg.inv(T)
+    return moduli, back @ local @ np.swapaxes(back, -1, -2)
+
+
+def _axes_or_global(parameters: ZoneField, support: Support) -> FloatArray:
+    return material_axes(parameters, support) if "V1X" in parameters else np.eye(3)[None, None]
+
+
+def _with_compliance(moduli: FloatArray) -> tuple[FloatArray, FloatArray]:
+    return moduli, np.linalg.pinv(moduli).astype(np.float64)
+
+
+def _anisotropic_pair(
+    zone: Zone, parameters: ZoneField, support: Support
+) -> tuple[FloatArray, FloatArray]:
+    """The 21 terms D11 D21 D22 ... in the axes given, the global ones without."""
+    terms = {
+        (i, j): parameters.at(f"D{i + 1}{j + 1}", support, 0.0)
+        for i in range(6)
+        for j in range(i + 1)
+    }
+    shape = np.broadcast_shapes(*(t.shape for t in terms.values()))
+    D = np.zeros((*shape, 6, 6))
+    for (i, j), value in terms.items():
+        D[..., i, j] = D[..., j, i] = value
+    return _with_compliance(rotated_moduli(D, _axes_or_global(parameters, support)))
+
+
+def _unidirectional_pair(
+    zone: Zone, parameters: ZoneField, support: Support
+) -> tuple[FloatArray, FloatArray]:
+    """Stiffness along the first axis only."""
+    young = parameters.at("YOUN", support)
+    D = np.zeros((*young.shape, 6, 6))
+    D[..., 0, 0] = young
+    return _with_compliance(rotated_moduli(D, material_axes(parameters, support)))
+
+
+Pair = Callable[[Zone, ZoneField, Support], tuple[FloatArray, FloatArray]]
+SOLID_LAWS: dict[str, Pair] = {
+    "ISOTROPE": _isotropic_pair,
+    "ORTHOTROPE": _orthotropic_pair,
+    "ANISOTROPE": _anisotropic_pair,
+    "UNIDIRECTIONNEL": _unidirectional_pair,
+}
+
+
+def symmetry_of(zone: Zone) -> str:
+    """'ISOTROPE', 'ORTHOTROPE' ...: the kind of elasticity of a zone."""
+    after = zone.behaviour[1:2] if zone.behaviour[:1] == ("ELASTIQUE",) else ()
+    return after[0] if after else "ISOTROPE"
+
+
+def _law(zone: Zone) -> Pair:
+    name = symmetry_of(zone)
+    if name not in SOLID_LAWS:
+        raise MaterialError(
+            "kernel.elements.elasticity-not-available-element", name=name, element=zone.element
+        )
+    return SOLID_LAWS[name]
+
+
+def solid_moduli(zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
+    """Moduli (n_cells or 1, n_points or 1, n_strains, n_strains) of a zone's hypothesis."""
+    return reduced_moduli(_law(zone)(zone, parameters, support)[0], zone.mode)
+
+
+def solid_compliance(zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
+    """Compliance with the same shape; in plane stress EPZZ follows from the stresses."""
+    return reduced_compliance(_law(zone)(zone, parameters, support)[1], zone.mode)

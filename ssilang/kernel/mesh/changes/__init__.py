@@ -1,0 +1,1 @@
+"""Meshes made of others: moved, merged, split, refined, of another degree."""

@@ -1,0 +1,104 @@
+"""Cells cut into simpler ones: quadrangles into triangles, bricks into tetrahedra."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import IntArray
+from ssilang.kernel.mesh.cells import CELL_TYPES
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh
+
+# the two ways of cutting a quadrangle: along corners 1-3 and along corners 2-4
+_LINEAR = (((0, 1, 2), (0, 2, 3)), ((0, 1, 3), (1, 2, 3)))
+# the same for QUA8, node 8 being the new middle of the diagonal
+_QUADRATIC = (
+    ((0, 1, 2, 3, 4, 8), (4, 5, 6, 7, 0, 8)),
+    ((0, 1, 2, 8, 6, 7), (2, 3, 4, 5, 6, 8)),
+)
+
+
+def split_quadrangles(mesh: Mesh) -> Mesh:
+    """Each quadrangle cut into two triangles, the diagonal alternating from cell to cell.
+
+    QUA8 get a new node in the middle. Other cells are kept.
+    """
+    blocks = [_split_block(b) if b.cell_type in ("QUA4", "QUA8") else b for b in mesh.blocks]
+    merged: dict[str, CellBlock] = {}
+    for block in blocks:
+        mine = merged.get(block.cell_type)
+        merged[block.cell_type] = block if mine is None else _joined(mine, block)
+    return Mesh(mesh.nodes, tuple(merged.values()), mesh.sides)
+
+
+def _joined(a: CellBlock, b: CellBlock) -> CellBlock:
+    return CellBlock.make(
+        a.nodes,
+        a.cell_type,
+        np.concatenate([a.connectivity, b.connectivity]),
+        np.concatenate([a.colours, b.colours]),
+    )
+
+
+def _split_block(block: CellBlock) -> CellBlock:
+    table = block.connectivity
+    if block.cell_type == "QUA8":
+        xyz = block.nodes.coordinates
+        size = block.nodes.density
+        pairs = table[:, [1, 5]]
+        made = block.nodes.add(xyz[pairs].mean(axis=1), size[pairs].mean(axis=1))
+        table = np.column_stack([table, made])
+    ways = _QUADRATIC if block.cell_type == "QUA8" else _LINEAR
+    other = np.arange(len(table)) % 2 == 1
+    width = len(ways[0][0])
+    cells = np.empty((len(table), 2, width), dtype=np.int64)
+    for way, rows in zip(ways, (~other, other), strict=True):
+        for k in range(2):
+            cells[rows, k] = table[np.ix_(rows, way[k])]
+    return CellBlock.make(
+        block.nodes,
+        "TRI6" if width == 6 else "TRI3",
+        cells.reshape(-1, width),
+        np.repeat(block.colours, 2),
+    )
+
+
+def tetrahedra(block: CellBlock) -> IntArray:
+    """Tetrahedra (m, 4) on the corners of 3D cells, adjacent cells agreeing on face diagonals.
+
+    Each cell is the union of the cones from its smallest node over the faces that do not hold it,
+    quadrangular faces being cut along the diagonal from their own smallest node: a face is then
+    cut in the same way from both of its sides.
+    """
+    kind = CELL_TYPES[_CORNER_CELL[block.cell_type]]
+    corners = block.connectivity[:, list(block.kind.corners)]
+    apex = corners.argmin(axis=1)
+    parts = []
+    for local in range(kind.n_nodes):
+        rows = corners[apex == local]
+        for _, face in kind.faces:
+            if local in face or not len(rows):
+                continue
+            triangles = _face_triangles(rows[:, list(face)])
+            tip = np.repeat(rows[:, local], len(triangles) // len(rows))
+            parts.append(np.column_stack([triangles[:, [0, 2, 1]], tip]))
+    return np.concatenate(parts)
+
+
+_CORNER_CELL = {
+    "TET4": "TET4",
+    "TE10": "TET4",
+    "PYR5": "PYR5",
+    "PRI6": "PRI6",
+    "PR15": "PRI6",
+    "CUB8": "CUB8",
+    "CU20": "CUB8",
+}
+
+
+def _face_triangles(face: IntArray) -> IntArray:
+    """Triangles of faces (n, 3 or 4), the two of one quadrangle next to each other."""
+    if face.shape[1] == 3:
+        return face
+    turned = (face.argmin(axis=1)[:, None] + np.arange(4)) % 4
+    quad = np.take_along_axis(face, turned, axis=1)
+    return quad[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)

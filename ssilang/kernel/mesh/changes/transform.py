@@ -1,0 +1,220 @@
+"""Moved copies of meshes, and nodes moved in place."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.mesh.generators.sweep import corresponding_nodes, rotate
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
+from ssilang.kernel.mesh.nodes import NodeTable
+
+# positions (m, 3) -> positions (m, 3)
+PointMap = Callable[[FloatArray], FloatArray]
+
+
+def shift(vector: FloatArray) -> PointMap:
+    """Translation by `vector` (3,)."""
+    return lambda x: x + vector
+
+
+def turn(angle: float, origin: FloatArray, axis: FloatArray) -> PointMap:
+    """Rotation by `angle` degrees about the axis through `origin`.
+
+    Raises
+    ------
+    MeshError
+        If the axis has no length.
+    """
+    unit = _unit(axis, "kernel.mesh.two-points-axis-rotation")
+    return lambda x: rotate(x, math.radians(angle), origin, unit)
+
+
+def mirror_point(centre: FloatArray) -> PointMap:
+    """Symmetry about a point (3,)."""
+    return lambda x: 2.0 * centre - x
+
+
+def mirror_line(a: FloatArray, b: FloatArray) -> PointMap:
+    """Symmetry about the line through two points (3,)."""
+    unit = _unit(b - a, "kernel.mesh.two-points-line-coincide")
+
+    def image(x: FloatArray) -> FloatArray:
+        foot = a + ((x - a) @ unit)[:, None] * unit
+        return 2.0 * foot - x
+
+    return image
+
+
+def mirror_plane(a: FloatArray, b: FloatArray, c: FloatArray) -> PointMap:
+    """Symmetry about the plane through three points (3,)."""
+    unit = _unit(np.cross(b - a, c - a), "kernel.mesh.three-points-plane-line")
+    return lambda x: x - 2.0 * ((x - a) @ unit)[:, None] * unit
+
+
+def scaling(ratio: float, centre: FloatArray) -> PointMap:
+    """Homothety of `ratio` about `centre` (3,)."""
+    return lambda x: centre + ratio * (x - centre)
+
+
+def affinity(ratio: float, origin: FloatArray, towards: FloatArray) -> PointMap:
+    """Stretching by `ratio` along the direction origin -> towards; `origin` (3,) stays."""
+    unit = _unit(towards - origin, "kernel.mesh.two-points-direction-coincide")
+    return lambda x: x + (ratio - 1.0) * ((x - origin) @ unit)[:, None] * unit
+
+
+def _unit(vector: FloatArray, code: str) -> FloatArray:
+    size = float(np.linalg.norm(vector))
+    if size == 0.0:
+        raise MeshError(code)
+    unit: FloatArray = vector / size
+    return unit
+
+
+@dataclass
+class NodeCopier:
+    """Copies nodes through a map, each node once however many meshes hold it.
+
+    Attributes
+    ----------
+    nodes : NodeTable
+    image : PointMap
+        From the positions (m, 3) of the originals to those of the copies.
+    by_node : function of array (m,) to array (m, 3) or None
+        Replaces `image` where copies depend on the node, not only on its position.
+    copies : dict
+        Original node -> copy, filled on the way.
+    """
+
+    nodes: NodeTable
+    image: PointMap | None = None
+    by_node: Callable[[IntArray], FloatArray] | None = None
+    copies: dict[int, int] = field(default_factory=dict)
+
+    def of_nodes(self, ids: IntArray) -> IntArray:
+        """Copies of node numbers (any shape), made where they do not exist yet."""
+        resolved = self.nodes.resolve(ids)
+        flat, first = np.unique(resolved, return_index=True)
+        flat = flat[np.argsort(first)]
+        fresh = np.array([n for n in flat.tolist() if n not in self.copies], dtype=np.int64)
+        if len(fresh):
+            if self.by_node is not None:
+                moved = self.by_node(fresh)
+            else:
+                assert self.image is not None
+                moved = self.image(self.nodes.coordinates[fresh].copy())
+            made = self.nodes.add(moved, self.nodes.density[fresh].copy())
+            self.copies.update(zip(fresh.tolist(), made.tolist(), strict=True))
+        table = np.array([self.copies[n] for n in flat.tolist()], dtype=np.int64)
+        order = np.argsort(flat)
+        return table[order][np.searchsorted(flat[order], resolved)]
+
+    def point(self, point: Point) -> Point:
+        """Copy of a point."""
+        return Point(self.nodes, int(self.of_nodes(np.array([point.node]))[0]))
+
+    def block(self, block: CellBlock) -> CellBlock:
+        """Copy of a block."""
+        return CellBlock.make(
+            block.nodes, block.cell_type, self.of_nodes(block.connectivity), block.colours
+        )
+
+    def mesh(self, mesh: Mesh) -> Mesh:
+        """Copy of a mesh with its sides."""
+        blocks = tuple(self.block(b) for b in mesh.blocks)
+        return Mesh(mesh.nodes, blocks, tuple(self.mesh(s) for s in mesh.sides))
+
+
+def mapping_between(first: Mesh, second: Mesh) -> NodeCopier:
+    """The copier that takes the nodes of one mesh to those of a mesh of the same structure.
+
+    Raises
+    ------
+    MeshError
+        When it is later asked for a node that `first` does not hold.
+    """
+    target = corresponding_nodes(first, second)
+    pairs = dict(zip(first.node_ids.tolist(), target.tolist(), strict=True))
+
+    def refuse(ids: IntArray) -> FloatArray:
+        raise MeshError("kernel.mesh.node-not-belong-mesh", ids=int(ids[0]) + 1)
+
+    return NodeCopier(first.nodes, by_node=refuse, copies=pairs)
+
+
+def move(nodes: NodeTable, ids: IntArray, image: PointMap) -> None:
+    """Move nodes (m,) in place."""
+    ids = np.unique(nodes.resolve(ids))
+    nodes.coordinates[ids] = image(nodes.coordinates[ids].copy())
+
+
+def affine_through(old: FloatArray, new: FloatArray, dimension: int) -> PointMap:
+    """The affine map that takes points `old` (n, 3) to `new` (n, 3), n <= dimension + 1.
+
+    With fewer points than an affine map needs, the rest is the identity on the directions
+    orthogonal to those given.
+
+    Raises
+    ------
+    MeshError
+        With too many points or points that are affinely dependent.
+    """
+    if len(old) != len(new) or len(old) == 0:
+        raise MeshError("kernel.mesh.map-takes-many-points", n_old=len(old), n_new=len(new))
+    if len(old) > dimension + 1:
+        raise MeshError(
+            "kernel.mesh.most-points-define-map", dimension=dimension + 1, n_old=len(old)
+        )
+    before, after = (old[1:] - old[0]).T, (new[1:] - new[0]).T
+    linear = np.eye(3)
+    if before.size:
+        if np.linalg.matrix_rank(before) < before.shape[1]:
+            raise MeshError("kernel.mesh.points-define-map-line")
+        inverse = np.linalg.pinv(before)
+        linear = after @ inverse + np.eye(3) - before @ inverse
+    return lambda x: new[0] + (x - old[0]) @ linear.T
+
+
+def straighten_middles(mesh: Mesh) -> None:
+    """Move the middle nodes of quadratic edges onto the mediator planes of their ends, in place."""
+    from ssilang.kernel.mesh.boundary import edges
+
+    for block in edges(mesh).blocks:
+        if block.cell_type != "SEG3":
+            continue
+        a, m, b = np.moveaxis(block.coordinates, 1, 0)
+        chord = b - a
+        square = np.maximum((chord * chord).sum(axis=1, keepdims=True), 1e-300)
+        off = ((m - 0.5 * (a + b)) * chord).sum(axis=1, keepdims=True) / square
+        mesh.nodes.coordinates[block.connectivity[:, 1]] = m - off * chord
+
+
+def to_cylindrical(origin: FloatArray, axis: FloatArray, zero: FloatArray) -> PointMap:
+    """Map to (r, theta in degrees within -180..180, z) about an axis.
+
+    Parameters
+    ----------
+    zero : array (3,)
+        A vector that gives theta = 0 (its part along the axis is dropped).
+    """
+    up = _unit(axis, "kernel.mesh.axis-cylindrical-coordinates-no")
+    first = _unit(zero - (zero @ up) * up, "kernel.mesh.point-theta-lies-axis")
+    second = np.cross(up, first)
+
+    def image(x: FloatArray) -> FloatArray:
+        arm = x - origin
+        a, b = arm @ first, arm @ second
+        return np.column_stack([np.hypot(a, b), np.degrees(np.arctan2(b, a)), arm @ up])
+
+    return image
+
+
+def from_cylindrical(x: FloatArray) -> FloatArray:
+    """Map (r, theta in degrees, z) (m, 3) back to cartesian coordinates, same origin and z."""
+    angle = np.radians(x[:, 1])
+    return np.column_stack([x[:, 0] * np.cos(angle), x[:, 0] * np.sin(angle), x[:, 2]])

@@ -1,0 +1,1 @@
+"""Meshes made between or along others: sweeps, stitches, joints."""

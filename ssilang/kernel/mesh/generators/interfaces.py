@@ -1,0 +1,171 @@
+"""Joint meshes between two facing meshes: pairs of segments (RACC) or of facets (LIAI)."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.mesh.boundary import contour, envelope
+from ssilang.kernel.mesh.combine import union
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh
+from ssilang.kernel.mesh.orientation import surface_normals
+
+_JOINTS = {
+    "SEG2": "RAC2",
+    "SEG3": "RAC3",
+    "TRI3": "LIA3",
+    "QUA4": "LIA4",
+    "TRI6": "LIA6",
+    "QUA8": "LIA8",
+}
+_NORMAL_TO_FACE = 1e-6  # gaps smaller than this part of the cell size count as closed
+
+
+def joint_mesh(first: Mesh, second: Mesh, tolerance: float) -> Mesh:
+    """Joint cells between the cells of two meshes that face each other.
+
+    A joint is made for every cell of `first` that has a cell of `second` of the same type whose
+    nodes lie, one by one, within `tolerance`. Its first half is the cell of `first`, its second
+    half the nodes of the other cell in the corresponding order, whatever their own order was.
+
+    The order of the first half fixes the normal: to the left of the line's direction in the
+    plane, by the right-hand rule on a facet. Where the two sides are apart (a gap), the first
+    half is turned if need be so that the normal points from `second` to `first`; where they
+    coincide the direction of `first` is taken as given.
+
+    Raises
+    ------
+    MeshError
+        If the tolerance is not positive, the meshes are not of lines or facets, or no cell of
+        one is close enough to a cell of the other.
+    """
+    if tolerance <= 0.0:
+        raise MeshError("kernel.mesh.facing-cells-paired-within")
+    made = []
+    for block in first.blocks:
+        joint = _JOINTS.get(block.cell_type)
+        if joint is None:
+            raise MeshError("kernel.mesh.no-joint-cell-made", cell_type=block.cell_type)
+        for other in second.blocks:
+            if other.cell_type == block.cell_type:
+                rows, partner = _paired(block, other, tolerance)
+                if len(rows):
+                    made.append(_oriented(block, joint, rows, partner))
+    if not made:
+        raise MeshError("kernel.mesh.no-cell-first-mesh", tolerance=tolerance)
+    return union(*(Mesh(first.nodes, (b,)) for b in made), as_given=True)
+
+
+def _paired(block: CellBlock, other: CellBlock, tolerance: float) -> tuple[IntArray, IntArray]:
+    """Cells of `block` that have a partner (m,), and the partner's nodes (m, k) in their order."""
+    from scipy.spatial import cKDTree
+
+    tree = cKDTree(other.coordinates.mean(axis=1))
+    centres = block.coordinates.mean(axis=1)
+    near = tree.query_ball_point(centres, tolerance)
+    rows = np.repeat(np.arange(len(block)), [len(c) for c in near])
+    candidates = np.concatenate([np.asarray(c, dtype=np.int64) for c in near])
+    if not len(rows):
+        return rows, np.empty((0, block.kind.n_nodes), dtype=np.int64)
+    ours = block.coordinates[rows]
+    theirs = other.coordinates[candidates]
+    order, worst = _best_order(ours, theirs, block)
+    good = worst <= tolerance
+    best = np.lexsort((worst, rows))
+    best = best[good[best]]
+    best = best[np.sort(np.unique(rows[best], return_index=True)[1])]
+    partner = np.take_along_axis(other.connectivity[candidates[best]], order[best], axis=1)
+    return rows[best], partner
+
+
+def _renumberings(n_nodes: int, degree: int, dimension: int) -> list[list[int]]:
+    """Orders in which the nodes of the same cell may stand: turned round, and reversed."""
+    if dimension == 1:
+        return [list(range(n_nodes)), list(range(n_nodes - 1, -1, -1))]
+    turns = [[(start + k) % n_nodes for k in range(n_nodes)] for start in range(0, n_nodes, degree)]
+    return turns + [[t[-k % n_nodes] for k in range(n_nodes)] for t in turns]
+
+
+def _oriented(block: CellBlock, joint: str, rows: IntArray, partner: IntArray) -> CellBlock:
+    upper = block.connectivity[rows]
+    xyz = block.nodes.coordinates
+    gap = (xyz[upper] - xyz[partner]).mean(axis=1)
+    normal, size = _normals(block, rows)
+    away = (gap * normal).sum(axis=1)
+    against = away < -_NORMAL_TO_FACE * size
+    flipped = _flip_order(block)
+    upper = np.where(against[:, None], upper[:, flipped], upper)
+    partner = np.where(against[:, None], partner[:, flipped], partner)
+    return CellBlock.make(block.nodes, joint, np.hstack([upper, partner]), block.colours[rows])
+
+
+def _normals(block: CellBlock, rows: IntArray) -> tuple[FloatArray, FloatArray]:
+    """Unit normals (m, 3) and sizes (m,) of the first faces."""
+    if block.kind.dimension == 1:
+        x = block.coordinates[rows]
+        chord = x[:, -1] - x[:, 0]
+        size = np.linalg.norm(chord, axis=1)
+        normal = np.column_stack([-chord[:, 1], chord[:, 0], 0.0 * size])
+    else:
+        normal = surface_normals(block)[rows]
+        size = np.sqrt(np.linalg.norm(normal, axis=1))
+    length = np.linalg.norm(normal, axis=1, keepdims=True)
+    return normal / np.where(length > 0.0, length, 1.0), size
+
+
+def _flip_order(block: CellBlock) -> list[int]:
+    n = block.kind.n_nodes
+    return list(range(n - 1, -1, -1)) if block.kind.dimension == 1 else [-k % n for k in range(n)]
+
+
+def joints_inside(mesh: Mesh, tolerance: float) -> Mesh:
+    """Joint cells between the boundary cells of a mesh that face one another.
+
+    For parts that touch without sharing nodes: each pair of coincident edges (2D) or faces (3D)
+    of different cells gives one joint.
+
+    Raises
+    ------
+    MeshError
+        If no two boundary cells face each other within the tolerance.
+    """
+    skin = envelope(mesh) if mesh.dimension == 3 else contour(mesh)
+    made = []
+    for block in skin.blocks:
+        rows, partner = _facing_pairs(block, tolerance)
+        if len(rows):
+            made.append(_oriented(block, _JOINTS[block.cell_type], rows, partner))
+    if not made:
+        raise MeshError("kernel.mesh.no-two-boundaries-inside", tolerance=tolerance)
+    return union(*(Mesh(mesh.nodes, (b,)) for b in made), as_given=True)
+
+
+def _facing_pairs(block: CellBlock, tolerance: float) -> tuple[IntArray, IntArray]:
+    """Cells of a block that face a later one (m,), and the nodes of that one in their order."""
+    from scipy.spatial import cKDTree
+
+    pairs = cKDTree(block.coordinates.mean(axis=1)).query_pairs(tolerance, output_type="ndarray")
+    if not len(pairs):
+        return np.empty(0, dtype=np.int64), np.empty((0, block.kind.n_nodes), dtype=np.int64)
+    pairs = pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))]
+    order, worst = _best_order(
+        block.coordinates[pairs[:, 0]], block.coordinates[pairs[:, 1]], block
+    )
+    good = worst <= tolerance
+    partner = np.take_along_axis(block.connectivity[pairs[good, 1]], order[good], axis=1)
+    return pairs[good, 0].astype(np.int64), partner
+
+
+def _best_order(
+    ours: FloatArray, theirs: FloatArray, block: CellBlock
+) -> tuple[IntArray, FloatArray]:
+    """For pairs of cells: the node order of the second closest to the first, and its gap."""
+    worst = np.full(len(ours), np.inf)
+    order = np.zeros((len(ours), block.kind.n_nodes), dtype=np.int64)
+    for turn in _renumberings(block.kind.n_nodes, block.kind.degree, block.kind.dimension):
+        gap = np.linalg.norm(ours - theirs[:, turn], axis=2).max(axis=1)
+        better = gap < worst
+        worst[better] = gap[better]
+        order[better] = turn
+    return order, worst

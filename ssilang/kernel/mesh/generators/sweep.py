@@ -1,0 +1,356 @@
+"""Surfaces swept by lines and volumes swept by surfaces, layer by layer."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
+from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.mesh.boundary import contour
+from ssilang.kernel.mesh.changes.split import split_quadrangles
+from ssilang.kernel.mesh.combine import union
+from ssilang.kernel.mesh.lines.subdivision import Subdivision, subdivide
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh
+from ssilang.kernel.mesh.nodes import NodeTable
+from ssilang.kernel.mesh.orientation import reversed_line
+
+# base positions (m, 3) and one fraction of the way -> moved positions (m, 3)
+Motion = Callable[[FloatArray, float], FloatArray]
+
+
+@dataclass(frozen=True)
+class Path:
+    """How a mesh moves to sweep out a larger one.
+
+    Attributes
+    ----------
+    motion : Motion
+    length : float
+        Mean length of the nodes' paths, against which mesh sizes count.
+    last : array (m,) or None
+        Existing nodes at the end, in the order of the base's `node_ids`; None creates them.
+    """
+
+    motion: Motion
+    length: float
+    last: IntArray | None = None
+
+
+def translation(vector: FloatArray) -> Path:
+    """A straight motion by `vector` (3,)."""
+    return Path(lambda x, s: x + s * vector, float(np.linalg.norm(vector)))
+
+
+def rotation(mesh: Mesh, angle: float, origin: FloatArray, axis: FloatArray) -> Path:
+    """A turn by `angle` (degrees) about an axis through `origin`.
+
+    Raises
+    ------
+    MeshError
+        If the axis has no length.
+    """
+    size = float(np.linalg.norm(axis))
+    if size == 0.0:
+        raise MeshError("kernel.mesh.two-points-axis-rotation")
+    unit = axis / size
+    arm = mean_position(mesh) - origin
+    radius = float(np.linalg.norm(arm - arm @ unit * unit))
+
+    def turn(x: FloatArray, s: float) -> FloatArray:
+        return rotate(x, s * math.radians(angle), origin, unit)
+
+    return Path(turn, radius * abs(math.radians(angle)))
+
+
+def rotate(x: FloatArray, angle: float, origin: FloatArray, unit: FloatArray) -> FloatArray:
+    """Positions (m, 3) turned by `angle` (radians) about the unit axis through `origin`."""
+    arm = x - origin
+    along = (arm @ unit)[:, None] * unit
+    return origin + along + math.cos(angle) * (arm - along) + math.sin(angle) * np.cross(unit, arm)
+
+
+def ruling(first: Mesh, second: Mesh) -> Path:
+    """Straight lines between the corresponding nodes of two meshes of the same structure.
+
+    Raises
+    ------
+    MeshError
+        If cell types or numbers differ, or the nodes do not correspond one to one.
+    """
+    last = corresponding_nodes(first, second)
+    goal = first.nodes.coordinates[last].copy()
+    start = first.nodes.coordinates[first.node_ids]
+    gap = np.linalg.norm(_cell_nodes_mean(second) - _cell_nodes_mean(first))
+    length = float(np.linalg.norm(goal - start, axis=1).mean()) if first.dimension == 1 else gap
+    return Path(lambda x, s: (1.0 - s) * x + s * goal, float(length), last)
+
+
+def corresponding_nodes(first: Mesh, second: Mesh) -> IntArray:
+    """Nodes of `second` in the order of `first.node_ids`, matched through the cells.
+
+    Raises
+    ------
+    MeshError
+        If the two meshes do not have the same structure.
+    """
+    ours = {b.cell_type: b.connectivity for b in first.blocks}
+    theirs = {b.cell_type: b.connectivity for b in second.blocks}
+    if {k: v.shape for k, v in ours.items()} != {k: v.shape for k, v in theirs.items()}:
+        raise MeshError(
+            "kernel.mesh.two-meshes-not-same", first=_summary(first), second=_summary(second)
+        )
+    if not first.blocks:
+        return np.empty(0, dtype=np.int64)
+    flat = np.concatenate([ours[b.cell_type].ravel() for b in first.blocks])
+    image = np.concatenate([theirs[b.cell_type].ravel() for b in first.blocks])
+    ids = first.node_ids
+    target = np.zeros(int(flat.max()) + 1, dtype=np.int64)
+    target[flat[::-1]] = image[::-1]
+    return target[ids]
+
+
+def sweep_line(
+    line: Mesh,
+    path: Path,
+    cuts: Subdivision,
+    surface: str,
+) -> Mesh:
+    """The surface that a line sweeps, with its four sides.
+
+    Parameters
+    ----------
+    line : Mesh
+        One block of SEG2 or SEG3.
+    surface : str
+        'QUA4', 'QUA8', 'TRI3' or 'TRI6'; a line of SEG2 gives linear cells in any case.
+    """
+    block = line.single_block()
+    if block.cell_type not in ("SEG2", "SEG3"):
+        raise MeshError("kernel.mesh.line-needed-sweep-surface", cell_type=block.cell_type)
+    quadratic = block.cell_type == "SEG3"
+    layers = _Layers.build(line, path, cuts, quadratic)
+    local = layers.local(block.connectivity)
+    a, b = local[:, 0], local[:, -1]
+    cells = np.concatenate(
+        [
+            _quadrangle(layers, k, a, b, local[:, 1] if quadratic else None)
+            for k in range(cuts.count)
+        ]
+    )
+    colours = np.tile(block.colours, cuts.count)
+    mesh = Mesh.of(line.nodes, "QUA8" if quadratic else "QUA4", cells, colours)
+    if surface.startswith("TRI"):
+        mesh = split_quadrangles(mesh)
+    return Mesh(mesh.nodes, mesh.blocks, _sides(layers, line, block, local))
+
+
+def sweep_surface(surface: Mesh, path: Path, cuts: Subdivision) -> Mesh:
+    """The volume that a surface sweeps; sides: start face, end face, the faces around.
+
+    Cells keep the order of the surface's nodes, start face first: where the motion goes against
+    the surface's normal the volume cells are turned inside out, as they are in Cast3M.
+    """
+    quadratic = any(b.kind.degree == 2 for b in surface.blocks)
+    layers = _Layers.build(surface, path, cuts, quadratic)
+    blocks = tuple(_volume_block(layers, b, cuts) for b in surface.blocks)
+    end = _moved_blocks(layers, surface, cuts.count)
+    border = contour(surface)
+    around: tuple[Mesh, ...] = ()
+    if border.n_cells:
+        around = (_lateral(layers, border, cuts),)
+    return Mesh(surface.nodes, blocks, (Mesh(surface.nodes, surface.blocks), end, *around))
+
+
+def layer_cuts(
+    mesh: Mesh, path: Path, end_size: float, count: int, sizes: tuple[float, float] = (0.0, 0.0)
+) -> Subdivision:
+    """Layers of a sweep: by number, by the mean density of `mesh` and `end_size`, or both.
+
+    Parameters
+    ----------
+    sizes : (float, float)
+        Sizes that replace the first and the second where they are positive (DINI, DFIN).
+    """
+    return subdivide(path.length, sizes[0] or mean_density(mesh), sizes[1] or end_size, count)
+
+
+def listed_cuts(values: FloatArray, length: float) -> Subdivision:
+    """Layers at given positions (n,), scaled from their first and last to 0 and 1.
+
+    Raises
+    ------
+    MeshError
+        With fewer than two positions, or first equal to last.
+    """
+    if len(values) < 2 or values[0] == values[-1]:
+        raise MeshError("kernel.mesh.list-layer-positions-needs")
+    step = length / (len(values) - 1)
+    return Subdivision((values - values[0]) / (values[-1] - values[0]), step, step)
+
+
+def mean_density(mesh: Mesh) -> float:
+    """Mean mesh size over the nodes of all cells (shared nodes count for each cell)."""
+    return float(mesh.nodes.density[_cell_nodes(mesh)].mean())
+
+
+def mean_position(mesh: Mesh) -> FloatArray:
+    """Mean position over the nodes of all cells, shape (3,)."""
+    return _cell_nodes_mean(mesh)
+
+
+def _cell_nodes(mesh: Mesh) -> IntArray:
+    if not mesh.n_cells:
+        raise MeshError("kernel.mesh.mesh-empty")
+    return np.concatenate([b.connectivity.ravel() for b in mesh.blocks])
+
+
+def _cell_nodes_mean(mesh: Mesh) -> FloatArray:
+    mean: FloatArray = mesh.nodes.coordinates[_cell_nodes(mesh)].mean(axis=0)
+    return mean
+
+
+def _summary(mesh: Mesh) -> list[str]:
+    return [f"{len(b)} {b.cell_type}" for b in mesh.blocks]
+
+
+@dataclass(frozen=True)
+class _Layers:
+    """Node numbers of all layers: `full[k, i]` at the ends of layer k, `half[k, i]` in between."""
+
+    nodes: NodeTable
+    ids: IntArray
+    full: IntArray
+    half: IntArray
+
+    @classmethod
+    def build(cls, base: Mesh, path: Path, cuts: Subdivision, quadratic: bool) -> _Layers:
+        nodes, ids = base.nodes, base.node_ids
+        start = nodes.coordinates[ids].copy()
+        n, m = cuts.count, len(ids)
+        full = np.empty((n + 1, m), dtype=np.int64)
+        half = np.full((n, m), -1, dtype=np.int64)
+        full[0] = ids
+        corner = _corner_mask(base, ids)
+        slots = _slots(base, ids, corner if quadratic else None, n)
+        if path.last is not None:
+            full[n] = path.last
+            slots = [s for s in slots if (s[0], s[1]) != ("full", n)]
+        for kind, k, columns in slots:
+            cut = float(cuts.middles[k] if kind == "half" else cuts.fractions[k])
+            moved = path.motion(start, cut)[columns]
+            made = nodes.add(moved, float(cuts.density(np.array(cut))))
+            (half if kind == "half" else full)[k, columns] = made
+        return cls(nodes, ids, full, half)
+
+    def local(self, connectivity: IntArray) -> IntArray:
+        """Column numbers of node numbers."""
+        order = np.argsort(self.ids)
+        return order[np.searchsorted(self.ids[order], connectivity)]
+
+
+def _slots(
+    base: Mesh, ids: IntArray, corner: BoolArray | None, n: int
+) -> list[tuple[str, int, BoolArray]]:
+    """Where nodes are made, in the order of their numbers: ('full' or 'half', level, columns).
+
+    A surface over a line numbers its far side first, then the two lines beside it, then the
+    inside, as Cast3M does; a volume goes layer by layer.
+    """
+    everything = np.ones(len(ids), bool)
+    groups = [everything]
+    slots: list[tuple[str, int, BoolArray]] = []
+    levels = range(1, n + 1)
+    if base.dimension == 1:
+        used = np.bincount(
+            np.concatenate([b.connectivity[:, [0, -1]].ravel() for b in base.blocks]),
+            minlength=int(ids.max()) + 1,
+        )
+        ends = [ids == i for i in ids[used[ids] == 1]]
+        groups = [*ends, ~np.isin(ids, ids[used[ids] == 1])]
+        slots.append(("full", n, everything))
+        levels = range(1, n)
+    for group in groups:
+        for k in range(1, n + 1):
+            if corner is not None and (group & corner).any():
+                slots.append(("half", k - 1, group & corner))
+            if k in levels and group.any():
+                slots.append(("full", k, group))
+    return slots
+
+
+def _corner_mask(mesh: Mesh, ids: IntArray) -> BoolArray:
+    corners = [b.connectivity[:, list(b.kind.corners)].ravel() for b in mesh.blocks]
+    return np.isin(ids, np.concatenate(corners))
+
+
+def _quadrangle(
+    layers: _Layers, k: int, a: IntArray, b: IntArray, middle: IntArray | None
+) -> IntArray:
+    """Connectivity of the quadrangles of layer k on the segments a-b."""
+    low, high, half = layers.full[k], layers.full[k + 1], layers.half[k]
+    if middle is None:
+        return np.column_stack([low[a], low[b], high[b], high[a]])
+    return np.column_stack(
+        [low[a], low[middle], low[b], half[b], high[b], high[middle], high[a], half[a]]
+    )
+
+
+def _sides(
+    layers: _Layers, line: Mesh, block: CellBlock, local: IntArray
+) -> tuple[Mesh, Mesh, Mesh, Mesh]:
+    end = Mesh.of(line.nodes, block.cell_type, layers.full[-1][local], block.colours)
+    right = _upright(layers, int(local[-1, -1]), block.cell_type)
+    left = _upright(layers, int(local[0, 0]), block.cell_type)
+    return line, right, reversed_line(end), reversed_line(left)
+
+
+def _upright(layers: _Layers, column: int, cell_type: str) -> Mesh:
+    full, half = layers.full[:, column], layers.half[:, column]
+    columns = [full[:-1], half, full[1:]] if cell_type == "SEG3" else [full[:-1], full[1:]]
+    return Mesh.of(layers.nodes, cell_type, np.column_stack(columns))
+
+
+_VOLUMES = {"TRI3": "PRI6", "QUA4": "CUB8", "TRI6": "PR15", "QUA8": "CU20"}
+
+
+def _volume_block(layers: _Layers, block: CellBlock, cuts: Subdivision) -> CellBlock:
+    cell_type = _VOLUMES.get(block.cell_type)
+    if cell_type is None:
+        raise MeshError("kernel.mesh.no-volume-swept-cells", cell_type=block.cell_type)
+    local = layers.local(block.connectivity)
+    corners = local[:, list(block.kind.corners)]
+    parts = []
+    for k in range(cuts.count):
+        between = [layers.half[k][corners]] if block.kind.degree == 2 else []
+        parts.append(np.hstack([layers.full[k][local], *between, layers.full[k + 1][local]]))
+    return CellBlock.make(
+        block.nodes, cell_type, np.concatenate(parts), np.tile(block.colours, cuts.count)
+    )
+
+
+def _moved_blocks(layers: _Layers, surface: Mesh, k: int) -> Mesh:
+    blocks = tuple(
+        CellBlock.make(
+            b.nodes, b.cell_type, layers.full[k][layers.local(b.connectivity)], b.colours
+        )
+        for b in surface.blocks
+    )
+    return Mesh(surface.nodes, blocks)
+
+
+def _lateral(layers: _Layers, border: Mesh, cuts: Subdivision) -> Mesh:
+    faces = []
+    for block in border.blocks:
+        local = layers.local(block.connectivity)
+        middle = local[:, 1] if block.cell_type == "SEG3" else None
+        cells = [
+            _quadrangle(layers, k, local[:, 0], local[:, -1], middle) for k in range(cuts.count)
+        ]
+        kind = "QUA8" if block.cell_type == "SEG3" else "QUA4"
+        colours = np.tile(block.colours, cuts.count)
+        faces.append(Mesh.of(border.nodes, kind, np.concatenate(cells), colours))
+    return union(*faces)

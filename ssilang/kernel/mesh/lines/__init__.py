@@ -1,0 +1,1 @@
+"""Meshes of lines: shapes of curves, cuts, corners, frames, ways along them."""

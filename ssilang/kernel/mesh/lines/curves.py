@@ -1,0 +1,238 @@
+"""Shapes of curves: circular arcs, parabolas, polynomial curves, cubics."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import MeshError
+
+_GAUSS_X, _GAUSS_W = np.polynomial.legendre.leggauss(16)
+
+
+@dataclass(frozen=True, slots=True)
+class Arc:
+    """A circular arc.
+
+    Attributes
+    ----------
+    centre, first, second : array (3,)
+        Centre, radius vector of the start, and the vector of the same length a quarter turn on.
+    angle : float
+        Opening in radians.
+    """
+
+    centre: FloatArray
+    first: FloatArray
+    second: FloatArray
+    angle: float
+
+    @property
+    def length(self) -> float:
+        """Length of the arc."""
+        return abs(self.angle) * float(np.linalg.norm(self.first))
+
+    def __call__(self, s: FloatArray) -> FloatArray:
+        turn = self.angle * s[:, None]
+        return self.centre + np.cos(turn) * self.first + np.sin(turn) * self.second
+
+
+def arc_about_centre(start: FloatArray, centre: FloatArray, end: FloatArray) -> Arc:
+    """The shorter arc from `start` to `end` around `centre` (3,), which is moved onto the
+    mediator of the two points when it is slightly off.
+
+    Raises
+    ------
+    MeshError
+        If the radii differ by more than 1 %, or the three points are in line.
+    """
+    chord = end - start
+    size = float(np.linalg.norm(chord))
+    if size == 0.0:
+        raise MeshError("kernel.mesh.two-ends-arc-coincide")
+    chord = chord / size
+    middle = centre + ((start + end) / 2 - centre) @ chord * chord
+    r1, r2 = np.linalg.norm(start - centre), np.linalg.norm(end - centre)
+    first, last = start - middle, end - middle
+    if not 0.99 < r1 / max(float(r2), 1e-300) < 1.01:
+        raise MeshError("kernel.mesh.ends-not-same-distance", r1=r1, r2=r2)
+    normal = np.cross(first, last)
+    sine = float(np.linalg.norm(normal))
+    if sine <= 1e-10 * float(first @ first):
+        raise MeshError("kernel.mesh.centre-two-ends-line")
+    angle = math.atan2(sine, float(first @ last))
+    return Arc(middle, first, np.cross(normal / sine, first), angle)
+
+
+def arc_through(start: FloatArray, between: FloatArray, end: FloatArray) -> Arc:
+    """The arc from `start` through `between` to `end` (3,).
+
+    Raises
+    ------
+    MeshError
+        If the points are in line.
+    """
+    a, b = between - start, end - start
+    normal = np.cross(a, end - between)
+    square = float(normal @ normal)
+    if square <= 1e-20 * float(a @ a) * float(b @ b):
+        raise MeshError("kernel.mesh.three-points-line-no")
+    centre = start + np.cross(a @ a * b - b @ b * a, np.cross(a, b)) / (2.0 * square)
+    axis = normal / math.sqrt(square)
+    first, last = start - centre, end - centre
+    angle = math.atan2(float(np.cross(first, last) @ axis), float(first @ last))
+    return Arc(centre, first, np.cross(axis, first), angle if angle > 0 else angle + 2 * math.pi)
+
+
+def arc_about_axis(start: FloatArray, origin: FloatArray, axis: FloatArray, angle: float) -> Arc:
+    """The arc that `start` describes in a rotation by `angle` (radians) about an axis.
+
+    Raises
+    ------
+    MeshError
+        If the axis has no length or goes through the point.
+    """
+    size = float(np.linalg.norm(axis))
+    if size == 0.0:
+        raise MeshError("kernel.mesh.two-points-axis-coincide")
+    unit = axis / size
+    centre = origin + (start - origin) @ unit * unit
+    first = start - centre
+    if float(np.linalg.norm(first)) == 0.0:
+        raise MeshError("kernel.mesh.point-turn-lies-axis")
+    return Arc(centre, first, np.cross(unit, first), angle)
+
+
+@dataclass(frozen=True, slots=True)
+class Polynomial:
+    """A polynomial curve `P(u) = sum c_i u^i`, u from `begin` to `finish`.
+
+    Attributes
+    ----------
+    coefficients : array (n, 3)
+    regular : bool
+        True: fractions are of the length; False: of the parameter.
+    """
+
+    coefficients: FloatArray
+    begin: float = 0.0
+    finish: float = 1.0
+    regular: bool = False
+
+    def at(self, u: FloatArray) -> FloatArray:
+        """Positions (m, 3) at parameters (m,)."""
+        powers = u[:, None] ** np.arange(len(self.coefficients))
+        position: FloatArray = powers @ self.coefficients
+        return position
+
+    @property
+    def length(self) -> float:
+        """Length of the curve."""
+        return float(self._lengths(np.linspace(self.begin, self.finish, 65))[-1])
+
+    def __call__(self, s: FloatArray) -> FloatArray:
+        return self.at(self.parameter(s))
+
+    def parameter(self, s: FloatArray) -> FloatArray:
+        """Parameters at fractions (m,) of the way."""
+        if not self.regular:
+            return self.begin + (self.finish - self.begin) * s
+        return self._parameter(s)
+
+    def _speed(self, u: FloatArray) -> FloatArray:
+        order = np.arange(1, len(self.coefficients))
+        slope = (u[..., None] ** (order - 1)) @ (order[:, None] * self.coefficients[1:])
+        speed: FloatArray = np.linalg.norm(slope, axis=-1)
+        return speed
+
+    def _lengths(self, u: FloatArray) -> FloatArray:
+        """Length from the first to each of the parameters (m,), by Gauss in each interval."""
+        half = 0.5 * np.diff(u)
+        inner = u[:-1, None] + half[:, None] * (1.0 + _GAUSS_X)
+        pieces = np.abs(half) * (self._speed(inner) @ _GAUSS_W)
+        return np.concatenate([[0.0], np.cumsum(pieces)])
+
+    def _parameter(self, s: FloatArray) -> FloatArray:
+        """Parameters at fractions `s` (m,) of the length: table, then Newton on each."""
+        grid = np.linspace(self.begin, self.finish, 257)
+        along = self._lengths(grid)
+        target = s * along[-1]
+        u: FloatArray = np.interp(target, along, grid)
+        sign = 1.0 if self.finish >= self.begin else -1.0
+        for _ in range(8):
+            cell = np.clip(np.searchsorted(along, target, side="right") - 1, 0, len(grid) - 2)
+            base = grid[cell]
+            half = 0.5 * (u - base)
+            inner = base[:, None] + half[:, None] * (1.0 + _GAUSS_X)
+            reached = along[cell] + sign * half * (self._speed(inner) @ _GAUSS_W)
+            u += sign * (target - reached) / np.maximum(self._speed(u), 1e-300)
+        return u
+
+
+def parabola(
+    start: FloatArray, corner: FloatArray, end: FloatArray, regular: bool = True
+) -> Polynomial:
+    """The parabola from `start` to `end` whose end tangents meet at `corner` (3,)."""
+    return Polynomial(
+        np.array([start, 2.0 * (corner - start), start - 2.0 * corner + end]), regular=regular
+    )
+
+
+def cubic_through(
+    start: FloatArray, second: FloatArray, third: FloatArray, end: FloatArray, regular: bool
+) -> Polynomial:
+    """The cubic through four points at parameters 0, 1/3, 2/3, 1."""
+    u = np.array([0.0, 1 / 3, 2 / 3, 1.0])
+    points = np.array([start, second, third, end])
+    return Polynomial(np.linalg.solve(u[:, None] ** np.arange(4), points), regular=regular)
+
+
+def cubic_tangents(
+    start: FloatArray, tangent: FloatArray, last_tangent: FloatArray, end: FloatArray
+) -> Polynomial:
+    """The cubic with given ends and end derivatives (Hermite)."""
+    gap = end - start
+    return Polynomial(
+        np.array(
+            [
+                start,
+                tangent,
+                3 * gap - 2 * tangent - last_tangent,
+                -2 * gap + tangent + last_tangent,
+            ]
+        )
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class ParabolicArc:
+    """An arc of circle cut into parabolas that touch it at their ends, tangentially.
+
+    Attributes
+    ----------
+    arc : Arc
+    fractions : array (n + 1,)
+        Ends of the parabolas, as parts of the arc.
+    """
+
+    arc: Arc
+    fractions: FloatArray
+
+    def middles(self) -> FloatArray:
+        """Positions (n, 3) of the parabolas' middles.
+
+        Raises
+        ------
+        MeshError
+            If one of them opens by a half turn or more: its end tangents do not meet.
+        """
+        half = 0.5 * self.arc.angle * np.diff(self.fractions)
+        if (np.abs(half) >= 0.5 * math.pi).any():
+            raise MeshError("kernel.mesh.parabola-covers-half-turn")
+        centred = self.arc(0.5 * (self.fractions[:-1] + self.fractions[1:])) - self.arc.centre
+        reach = 0.5 * (np.cos(half) + 1.0 / np.cos(half))
+        middle: FloatArray = self.arc.centre + reach[:, None] * centred
+        return middle

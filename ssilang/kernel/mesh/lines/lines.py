@@ -1,0 +1,169 @@
+"""Meshes of curves: straight lines, polylines and any parametrised curve."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.mesh.lines.subdivision import Subdivision, subdivide
+from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.kernel.mesh.nodes import NodeTable
+
+# fractions (m,) of the way along the curve -> positions (m, 3)
+CurveMap = Callable[[FloatArray], FloatArray]
+
+
+def mesh_curve(
+    nodes: NodeTable,
+    curve: CurveMap,
+    start: int,
+    end: int | None,
+    cuts: Subdivision,
+    quadratic: bool = False,
+    colour: int = 0,
+) -> Mesh:
+    """A line of SEG2 or SEG3 along a curve, between existing nodes.
+
+    Parameters
+    ----------
+    curve : function of array (m,) to array (m, 3)
+        Position at a fraction of the way.
+    start : int
+        Node at fraction 0.
+    end : int or None
+        Node at fraction 1; None creates it.
+    """
+    steps = _with_middles(cuts) if quadratic else cuts.fractions
+    inner = steps[1:] if end is None else steps[1:-1]
+    made = nodes.add(curve(inner), cuts.density(inner)) if len(inner) else np.empty(0, np.int64)
+    chain = np.concatenate([[start], made, [] if end is None else [end]]).astype(np.int64)
+    return chain_mesh(nodes, chain, quadratic, colour)
+
+
+def chain_mesh(nodes: NodeTable, chain: IntArray, quadratic: bool, colour: int = 0) -> Mesh:
+    """A line through the nodes `chain` (m,), middles included when quadratic.
+
+    Raises
+    ------
+    MeshError
+        With fewer than two nodes, or an even number of them for SEG3.
+    """
+    if len(chain) < 2 or (quadratic and len(chain) % 2 == 0):
+        raise MeshError(
+            "kernel.mesh.line-needs-points-got", quadratic=quadratic, n_chain=len(chain)
+        )
+    step = 2 if quadratic else 1
+    columns = [chain[k : len(chain) - step + k : step] for k in range(step + 1)]
+    return Mesh.of(nodes, "SEG3" if quadratic else "SEG2", np.column_stack(columns), colour)
+
+
+def straight_line(
+    nodes: NodeTable,
+    start: int,
+    end: int,
+    count: int = 0,
+    sizes: tuple[float, float] | None = None,
+    quadratic: bool = False,
+    colour: int = 0,
+) -> Mesh:
+    """A straight line between two nodes.
+
+    Parameters
+    ----------
+    count, sizes
+        See `subdivide`; `sizes` default to the densities of the two nodes.
+
+    Raises
+    ------
+    MeshError
+        If the nodes are the same, or coincide without `count`.
+    """
+    different_nodes(nodes, start, end)
+    a, b = nodes.coordinates[start].copy(), nodes.coordinates[end].copy()
+    length = float(np.linalg.norm(b - a))
+    first, last = sizes or end_sizes(nodes, start, end)
+    cuts = subdivide(length, first, last, count)
+    return mesh_curve(
+        nodes, lambda s: a + s[:, None] * (b - a), start, end, cuts, quadratic, colour
+    )
+
+
+def end_sizes(nodes: NodeTable, start: int, end: int) -> tuple[float, float]:
+    """The densities that two nodes carry."""
+    return float(nodes.density[start]), float(nodes.density[end])
+
+
+def different_nodes(nodes: NodeTable, start: int, end: int) -> None:
+    """Refuse a line from a node to itself.
+
+    Raises
+    ------
+    MeshError
+    """
+    if start == end:
+        raise MeshError("kernel.mesh.line-starts-ends-same", start=start + 1)
+
+
+def polyline(
+    nodes: NodeTable, points: Sequence[int] | IntArray, quadratic: bool, colour: int = 0
+) -> Mesh:
+    """A broken line through existing nodes (m,), as SEG2, or as SEG3 (every other is a middle)."""
+    return chain_mesh(nodes, np.asarray(points, dtype=np.int64), quadratic, colour)
+
+
+def line_chain(line: Mesh) -> IntArray:
+    """Nodes of a line in the order of its cells, middles included, shape (m,).
+
+    A closed line repeats its first node at the end.
+
+    Raises
+    ------
+    MeshError
+        If the mesh is not one connected line whose cells all run the same way.
+    """
+    if any(b.cell_type not in ("SEG2", "SEG3") for b in line.blocks) or not line.blocks:
+        kinds = [b.cell_type for b in line.blocks]
+        raise MeshError("kernel.mesh.line-seg2-seg3-needed-2", kinds=kinds)
+    table = line.single_block().connectivity
+    if not np.array_equal(table[1:, 0], table[:-1, -1]):
+        table = _in_order(table)
+    return np.concatenate([table[:, :-1].ravel(), table[-1:, -1]])
+
+
+def _in_order(table: IntArray) -> IntArray:
+    """Cells (n, 2 or 3) of one line that all run in its sense, one behind the other."""
+    leaving = {int(first): i for i, first in enumerate(table[:, 0])}
+    starts = np.setdiff1d(table[:, 0], table[:, -1])
+    rows: list[int] = []
+    if len(leaving) == len(table) and len(starts) <= 1:
+        at = int(starts[0] if len(starts) else table[0, 0])
+        while at in leaving and len(rows) < len(table):
+            rows.append(leaving[at])
+            at = int(table[rows[-1], -1])
+    if len(rows) != len(table):
+        raise MeshError("kernel.mesh.line-cells-not-follow")
+    return table[rows]
+
+
+def line_ends(line: Mesh) -> tuple[int, int]:
+    """First node of the first cell and last node of the last cell.
+
+    Raises
+    ------
+    MeshError
+        If the mesh holds other cells than SEG2, SEG3 or POI1.
+    """
+    if not line.blocks or any(b.kind.dimension > 1 or b.kind.joint for b in line.blocks):
+        raise MeshError("kernel.mesh.line-set-points-needed")
+    first, last = line.blocks[0].connectivity, line.blocks[-1].connectivity
+    return int(first[0, 0]), int(last[-1, -1])
+
+
+def _with_middles(cuts: Subdivision) -> FloatArray:
+    steps = np.empty(2 * cuts.count + 1)
+    steps[::2] = cuts.fractions
+    steps[1::2] = cuts.middles
+    return steps

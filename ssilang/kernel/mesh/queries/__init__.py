@@ -1,0 +1,1 @@
+"""What is asked of meshes: cells and nodes chosen, sizes, quality, distances."""

@@ -1,0 +1,135 @@
+"""Lengths, areas, volumes and mesh sizes."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.elements.shapes.quadrature import quadrature
+from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS, shape_gradients
+from ssilang.kernel.mesh.boundary import edges
+from ssilang.kernel.mesh.cells import POLYGON_SIDES
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh
+
+_GAUSS3 = (np.array([-np.sqrt(0.6), 0.0, np.sqrt(0.6)]), np.array([5.0, 8.0, 5.0]) / 9.0)
+
+
+def cell_measures(block: CellBlock) -> FloatArray:
+    """Length, area or volume of each cell (n,), curved quadratic cells included; 0 for points.
+
+    Volumes and plane areas of straight cells are exact; lengths and areas of curved cells in
+    space are those of the quadrature rule.
+    """
+    if block.kind.joint or block.kind.dimension == 0:
+        return np.zeros(len(block))
+    x = block.coordinates
+    return _jacobian_sum(block.cell_type, x)
+
+
+def total_measure(mesh: Mesh) -> float:
+    """Measure of the cells of the highest dimension in the mesh."""
+    top = mesh.dimension
+    return float(sum(cell_measures(b).sum() for b in mesh.blocks if b.kind.dimension == top))
+
+
+def enclosed_area(line: Mesh) -> float:
+    """Area inside closed lines: the modulus of the area vector (projection on the mean plane).
+
+    Quadratic cells are counted with their curvature.
+    """
+    return float(np.linalg.norm(_area_vector(line)))
+
+
+def signed_area(contour: Mesh) -> float:
+    """Area inside a contour in the plane, positive if it runs anticlockwise.
+
+    A contour that is open is closed by a straight segment from its last node to its first.
+
+    Raises
+    ------
+    MeshError
+        If the mesh is not a line.
+    """
+    total = _area_vector(contour)[2]
+    table = np.concatenate([b.connectivity[:, [0, -1]] for b in contour.blocks])
+    first, last = np.setdiff1d(table[:, 0], table[:, 1]), np.setdiff1d(table[:, 1], table[:, 0])
+    xyz = contour.nodes.coordinates
+    if len(first) == len(last) == 1:
+        total += 0.5 * np.cross(xyz[last[0]], xyz[first[0]])[2]
+    return float(total)
+
+
+def _area_vector(line: Mesh) -> FloatArray:
+    total = np.zeros(3)
+    for block in line.blocks:
+        if block.kind.dimension != 1 or block.kind.joint:
+            raise MeshError("kernel.mesh.area-inside-line-asked")
+        x = block.coordinates
+        if block.cell_type == "SEG2":
+            total += 0.5 * np.cross(x[:, 0], x[:, 1]).sum(axis=0)
+        else:
+            for xi, weight in zip(*_GAUSS3, strict=True):
+                n = np.array([xi * (xi - 1) / 2, 1 - xi**2, xi * (xi + 1) / 2])
+                dn = np.array([xi - 0.5, -2 * xi, xi + 0.5])
+                at = np.einsum("i,nij->nj", n, x)
+                slope = np.einsum("i,nij->nj", dn, x)
+                total += 0.5 * weight * np.cross(at, slope).sum(axis=0)
+    return total
+
+
+def enclosed_volume(surface: Mesh) -> float:
+    """Volume inside a closed surface, by the divergence theorem on its triangulated cells."""
+    total = 0.0
+    for block in surface.blocks:
+        if block.kind.dimension != 2 or block.kind.joint:
+            raise MeshError("kernel.mesh.volume-inside-surface-asked")
+        x = block.coordinates
+        centre = x[:, list(block.kind.corners)].mean(axis=1)
+        following = np.roll(x, -1, axis=1)
+        total += np.einsum("ni,nki->", centre, np.cross(x, following)) / 6.0
+    return abs(float(total))
+
+
+def node_sizes(mesh: Mesh) -> tuple[IntArray, FloatArray]:
+    """Mean length of the edges at each node: node numbers (n,) and sizes (n,).
+
+    The middle of a quadratic edge gets the mean over its own two halves.
+    """
+    starts, ends = [], []
+    for block in edges(mesh).blocks:
+        table = block.connectivity
+        for k in range(table.shape[1] - 1):
+            starts.append(table[:, k])
+            ends.append(table[:, k + 1])
+    if not starts:
+        raise MeshError("kernel.mesh.mesh-sizes-measured-edges")
+    a, b = np.concatenate(starts), np.concatenate(ends)
+    length = np.linalg.norm(mesh.nodes.coordinates[b] - mesh.nodes.coordinates[a], axis=1)
+    ids, where = np.unique(np.concatenate([a, b]), return_inverse=True)
+    total = np.bincount(where, np.concatenate([length, length]))
+    return ids, total / np.bincount(where)
+
+
+# points of the rule that integrates each type's Jacobian
+_POINTS = {
+    "SEG2": 1, "SEG3": 5, "TRI3": 1, "TRI6": 7, "QUA4": 9, "QUA8": 25,
+    "TET4": 1, "TE10": 27, "PRI6": 6, "PR15": 21, "PYR5": 27, "CUB8": 8, "CU20": 27,
+    **{name: 7 * n for name, n in POLYGON_SIDES.items()},
+}  # fmt: skip
+
+
+def _jacobian_sum(cell_type: str, x: FloatArray) -> FloatArray:
+    """Sum of the Jacobian's measure over the quadrature points, for cells (n, n_nodes, 3)."""
+    rule = quadrature(REFERENCE_CELLS[cell_type].shape, _POINTS[cell_type])
+    frames = np.einsum("gkd,nkj->ngdj", shape_gradients(cell_type, rule.points), x)
+    dimension = frames.shape[2]
+    if dimension == 3:
+        volumes: FloatArray = np.abs(np.linalg.det(frames) @ rule.weights)
+        return volumes
+    if dimension == 2:
+        size = np.linalg.norm(np.cross(frames[:, :, 0], frames[:, :, 1]), axis=-1)
+    else:
+        size = np.linalg.norm(frames[:, :, 0], axis=-1)
+    total: FloatArray = size @ rule.weights
+    return total

@@ -1,0 +1,202 @@
+"""Meshes taken apart into zones of cells that hang together."""
+
+from __future__ import annotations
+
+from itertools import combinations
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
+from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh
+
+_WIDTH = 4  # corners of the largest side of a cell
+
+
+def connected(mesh: Mesh) -> list[Mesh]:
+    """Parts of a mesh whose cells are joined by common nodes, in the order of their first cell."""
+    if not mesh.n_cells:
+        return []
+    rows = [np.repeat(np.arange(len(b)), b.kind.n_nodes) for b in mesh.blocks]
+    starts = _starts(mesh)
+    cells = np.concatenate([r + s for r, s in zip(rows, starts, strict=True)])
+    nodes = np.concatenate([b.connectivity.ravel() for b in mesh.blocks])
+    return _zones(mesh, np.column_stack([cells, nodes + mesh.n_cells]))
+
+
+def separated(
+    mesh: Mesh,
+    by_branching: bool = False,
+    separator: Mesh | None = None,
+    angle: float | None = None,
+    folded: bool = False,
+) -> list[Mesh]:
+    """Parts of a mesh whose cells are joined by common sides (nodes of lines, edges, faces).
+
+    Parameters
+    ----------
+    by_branching : bool
+        Sides that belong to more than two cells do not join.
+    separator : Mesh, optional
+        Sides whose corners all belong to one cell of it do not join.
+    angle : float, optional
+        Degrees; lines and surfaces whose tangents, normals turn by more do not join.
+    folded : bool
+        With an angle: cells folded back on each other (180 degrees) do not join either.
+
+    Raises
+    ------
+    MeshError
+        If an angle is asked for in volumes.
+    """
+    if not mesh.n_cells:
+        return []
+    cells, sides = _sides(mesh)
+    names, which, counts = np.unique(sides, axis=0, return_inverse=True, return_counts=True)
+    which = which.ravel()
+    joins = np.ones(len(names), dtype=bool)
+    if by_branching:
+        joins &= counts <= 2
+    if separator is not None:
+        joins &= ~_within(names, separator)
+    pairs = [_pairs(cells, which, counts, n) for n in np.unique(counts[joins]) if n > 1]
+    found = [p[joins[side]] for p, side in pairs]
+    links = np.concatenate([*found, np.empty((0, 2), dtype=np.int64)])
+    if angle is not None:
+        links = links[_smooth(mesh, links, angle, folded)]
+    return _zones(mesh, links)
+
+
+def scattered(mesh: Mesh, count: int) -> list[Mesh]:
+    """Cells dealt out in turn to `count` parts (fewer if the mesh has fewer cells)."""
+    return _by_label(mesh, np.arange(mesh.n_cells) % count)
+
+
+def balanced(mesh: Mesh, count: int) -> list[Mesh]:
+    """`count` parts (a power of two) of equal numbers of cells, halved across their longest way.
+
+    Raises
+    ------
+    MeshError
+        If the number of parts is not a power of two.
+    """
+    if count < 1 or count & (count - 1):
+        raise MeshError("kernel.mesh.mesh-not-halved-parts", count=count)
+    centres = np.concatenate([b.coordinates.mean(axis=1) for b in mesh.blocks])
+    parts = [np.arange(mesh.n_cells)]
+    while len(parts) < count:
+        parts = [half for part in parts for half in _halves(part, centres)]
+    label = np.empty(mesh.n_cells, dtype=np.int64)
+    for number, part in enumerate(parts):
+        label[part] = number
+    return _by_label(mesh, label)
+
+
+def _halves(cells: IntArray, centres: FloatArray) -> tuple[IntArray, IntArray]:
+    if not len(cells):
+        return cells, cells
+    axis = int(np.ptp(centres[cells], axis=0).argmax())
+    order = cells[np.argsort(centres[cells, axis], kind="stable")]
+    middle = (len(cells) + 1) // 2
+    return order[:middle], order[middle:]
+
+
+def _starts(mesh: Mesh) -> IntArray:
+    return np.cumsum([0, *(len(b) for b in mesh.blocks)])[:-1]
+
+
+def _zones(mesh: Mesh, links: IntArray) -> list[Mesh]:
+    """Meshes of the cells linked with each other; `links` (m, 2) may pass by other numbers."""
+    from scipy.sparse import coo_matrix
+    from scipy.sparse.csgraph import connected_components
+
+    size = int(max(links.max(initial=-1) + 1, mesh.n_cells))
+    graph = coo_matrix((np.ones(len(links), dtype=bool), links.T), shape=(size, size))
+    label = connected_components(graph, directed=False)[1][: mesh.n_cells]
+    return _by_label(mesh, label.astype(np.int64))
+
+
+def _by_label(mesh: Mesh, label: IntArray) -> list[Mesh]:
+    """Meshes of the cells of each label, in the order in which the labels appear."""
+    names, first, label = np.unique(label, return_index=True, return_inverse=True)
+    parts: list[list[CellBlock]] = [[] for _ in names]
+    for block, start in zip(mesh.blocks, _starts(mesh), strict=True):
+        mine = label[start : start + len(block)]
+        order = np.argsort(mine, kind="stable")
+        ends = np.searchsorted(mine[order], np.arange(len(names) + 1))
+        table, colours = block.connectivity[order], block.colours[order]
+        for number in np.unique(mine):
+            rows = slice(ends[number], ends[number + 1])
+            parts[number].append(
+                CellBlock.make(mesh.nodes, block.cell_type, table[rows], colours[rows])
+            )
+    return [Mesh(mesh.nodes, tuple(parts[number])) for number in np.argsort(first)]
+
+
+def _sides(mesh: Mesh) -> tuple[IntArray, IntArray]:
+    """Cells (m,) and sorted corners (m, 4), filled with -1, of all their sides."""
+    owners, corners = [], []
+    for block, start in zip(mesh.blocks, _starts(mesh), strict=True):
+        for kind, local in block.kind.faces:
+            places = local[:: 2 if kind in _MIDDLED else 1][:_WIDTH]
+            table = np.full((len(block), _WIDTH), -1, dtype=np.int64)
+            table[:, : len(places)] = block.connectivity[:, list(places)]
+            corners.append(np.sort(table, axis=1))
+            owners.append(np.arange(len(block)) + start)
+    if not owners:
+        return np.empty(0, dtype=np.int64), np.empty((0, _WIDTH), dtype=np.int64)
+    return np.concatenate(owners), np.concatenate(corners)
+
+
+_MIDDLED = ("SEG3", "TRI6", "QUA8")
+
+
+def _within(sides: IntArray, separator: Mesh) -> BoolArray:
+    """Sides all corners of which belong to one cell of the separator."""
+    wanted = sides.max(axis=0, initial=0).max(initial=0)
+    found = np.zeros(len(sides), dtype=bool)
+    known = {tuple(side[side >= 0]): k for k, side in enumerate(sides)}
+    sizes = {len(side) for side in known}
+    for block in separator.blocks:
+        table = np.sort(block.connectivity, axis=1)
+        for row in table[table[:, 0] <= wanted].tolist():
+            for size in sizes:
+                for part in combinations(row, size):
+                    if part in known:
+                        found[known[part]] = True
+    return found
+
+
+def _pairs(cells: IntArray, which: IntArray, counts: IntArray, n: int) -> tuple[IntArray, IntArray]:
+    """Every two cells of each side that `n` cells share, with the number of the side."""
+    order = np.argsort(which, kind="stable")
+    mine = order[counts[which[order]] == n].reshape(-1, n)
+    first, second = np.triu_indices(n, 1)
+    links = np.stack([cells[mine[:, first]], cells[mine[:, second]]], axis=-1)
+    return links.reshape(-1, 2), np.repeat(which[mine[:, 0]], len(first))
+
+
+def _smooth(mesh: Mesh, links: IntArray, angle: float, folded: bool) -> BoolArray:
+    along = _directions(mesh)
+    cosine = np.clip(np.einsum("ij,ij->i", along[links[:, 0]], along[links[:, 1]]), -1, 1)
+    turn = np.degrees(np.arccos(cosine))
+    if not folded:  # cells described in opposite senses are not folded
+        turn = np.minimum(turn, np.where(turn > 180 - 1e-6, 0.0, turn))
+    smooth: BoolArray = turn <= angle
+    return smooth
+
+
+def _directions(mesh: Mesh) -> FloatArray:
+    """Unit tangents of lines, normals of surfaces, shape (n_cells, 3)."""
+    parts = [np.empty((0, 3))]
+    for block in mesh.blocks:
+        xyz = block.coordinates[:, list(block.kind.corners)]
+        if block.kind.dimension == 3:
+            raise MeshError("kernel.mesh.angles-lines-surfaces-mesh")
+        if block.kind.dimension == 1:
+            along = xyz[:, -1] - xyz[:, 0]
+        else:
+            along = np.cross(xyz[:, 1] - xyz[:, 0], xyz[:, -1] - xyz[:, 0])
+        size = np.linalg.norm(along, axis=1, keepdims=True)
+        parts.append(along / np.where(size > 0, size, 1.0))
+    return np.concatenate(parts)

@@ -1,0 +1,93 @@
+"""Indicators of the shape of cells from the coordinates (n_cells, n_nodes, dim) of their nodes."""
+
+from __future__ import annotations
+
+from itertools import combinations
+from math import factorial
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray
+
+TINY = 1e-300
+
+
+def _simplex_measure(corners: FloatArray) -> FloatArray:
+    """Length, area or volume (n,) of simplices (n, k + 1, dim), by the Gram determinant."""
+    edges = corners[:, 1:] - corners[:, :1]
+    gram = np.linalg.det(edges @ np.swapaxes(edges, 1, 2))
+    return np.asarray(np.sqrt(np.maximum(gram, 0.0)) / factorial(edges.shape[1]))
+
+
+def _edges(corners: FloatArray) -> FloatArray:
+    pairs = combinations(range(corners.shape[1]), 2)
+    return np.stack([np.linalg.norm(corners[:, i] - corners[:, j], axis=1) for i, j in pairs], 1)
+
+
+def aspect_ratio(corners: FloatArray) -> FloatArray:
+    """Longest edge over shortest height, 1 for an equilateral simplex; infinite without measure."""
+    k = corners.shape[1] - 1
+    measure = _simplex_measure(corners)
+    sides = [np.delete(corners, i, axis=1) for i in range(k + 1)]
+    base = np.max([_simplex_measure(s) for s in sides], axis=0)
+    height = k * measure / np.maximum(base, TINY)
+    regular = np.sqrt((k + 1) / (2.0 * k))  # height of the regular simplex of edge one
+    with np.errstate(divide="ignore"):
+        return np.asarray(regular * _edges(corners).max(axis=1) / height)
+
+
+def skewness(corners: FloatArray) -> FloatArray:
+    """Lacking share of the measure of the regular simplex of the same circumscribed sphere."""
+    k = corners.shape[1] - 1
+    edges = corners[:, 1:] - corners[:, :1]
+    gram = edges @ np.swapaxes(edges, 1, 2)
+    flat = np.linalg.det(gram) <= 1e-24 * np.abs(gram).max(axis=(1, 2)) ** k
+    safe = np.where(flat[:, None, None], np.eye(k), gram)
+    # the centre c = sum s_i e_i has 2 c . e_j = |e_j|^2
+    share = np.linalg.solve(2.0 * safe, np.einsum("nii->ni", safe)[..., None])[..., 0]
+    radius2 = np.einsum("ni,nij,nj->n", share, safe, share)
+    side2 = radius2 * 2.0 * (k + 1) / k  # edge of the regular simplex in that sphere
+    regular = np.sqrt((k + 1) / 2.0**k) / factorial(k)
+    best = regular * side2 ** (k / 2.0)
+    return np.where(flat, 1.0, np.clip((best - _simplex_measure(corners)) / best, 0.0, 1.0))
+
+
+def flatness(corners: FloatArray) -> FloatArray:
+    """100 for a plane quadrangle, less in proportion to the angle of its normals at two corners."""
+    x = np.zeros((*corners.shape[:2], 3))
+    x[..., : corners.shape[2]] = corners
+    one = np.cross(x[:, 1] - x[:, 0], x[:, 3] - x[:, 0])
+    two = np.cross(x[:, 3] - x[:, 2], x[:, 1] - x[:, 2])
+    size = np.linalg.norm(one, axis=1) * np.linalg.norm(two, axis=1)
+    cosine = np.einsum("nd,nd->n", one, two) / np.maximum(size, TINY)
+    return np.asarray(100.0 * (1.0 - np.arccos(np.clip(cosine, -1.0, 1.0)) / np.pi))
+
+
+def quality_in_metric(corners: FloatArray, metric: FloatArray | None) -> FloatArray:
+    """Quality (n,) of simplices from 0 (no measure) to 1 (equilateral, edges of the length 1).
+
+    The shape counts by the mean ratio (measure to the power 2 / d over the mean square of the
+    edges, 1 for an equilateral cell: Liu and Joe, BIT 34, 1994), its size s (root of the mean
+    square of the edges) by the smaller of s and 1 / s; without metric the size does not count.
+
+    Parameters
+    ----------
+    corners : array (n, d + 1, dim)
+    metric : array (n, dim, dim) or None
+        Edges e have the length sqrt(e M e).
+    """
+    d = corners.shape[1] - 1
+    M = np.eye(corners.shape[2]) if metric is None else metric
+    sides = corners[:, 1:] - corners[:, :1]
+    gram = sides @ M @ np.swapaxes(sides, 1, 2)
+    measure = np.sqrt(np.maximum(np.linalg.det(gram), 0.0)) / factorial(d)
+    edges = np.stack(
+        [corners[:, j] - corners[:, i] for i, j in combinations(range(d + 1), 2)], axis=1
+    )
+    square = ((edges @ M) * edges).sum(axis=2).mean(axis=1)
+    unit = np.sqrt(d + 1.0) / (factorial(d) * np.sqrt(2.0) ** d)  # equilateral of edge 1
+    shape = (measure / unit) ** (2.0 / d) / np.maximum(square, TINY)
+    if metric is None:
+        return np.asarray(shape)
+    size = np.sqrt(square)
+    return np.asarray(shape * np.minimum(size, 1.0 / np.maximum(size, TINY)))

@@ -1,0 +1,1 @@
+"""Meshes of surfaces: grids, triangulations, cuts and crossings."""

@@ -1,0 +1,205 @@
+"""Simple surfaces and lines given by points: distance to them and projection on them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import MeshError
+
+# positions (m, 3) -> signed or unsigned distances (m,)
+Level = Callable[[FloatArray], FloatArray]
+
+
+@dataclass(frozen=True)
+class Shape:
+    """A surface (or a line) known by a function that vanishes on it.
+
+    Attributes
+    ----------
+    distance : function
+        Distance of positions (m, 3); signed where a projection needs it.
+    project_along : function
+        (positions (m, 3), unit directions (m, 3)) -> positions on the shape, the nearest along
+        the direction, NaN where the direction misses it.
+    """
+
+    distance: Level
+    project_along: Callable[[FloatArray, FloatArray], FloatArray]
+
+
+def line_shape(a: FloatArray, b: FloatArray) -> Shape:
+    """The line through two points (3,); projections are for plane (2D) problems."""
+    unit = _unit(b - a, "kernel.mesh.two-points-line-coincide")
+    normal = np.array([-unit[1], unit[0], 0.0])
+
+    def distance(x: FloatArray) -> FloatArray:
+        arm = x - a
+        away: FloatArray = np.linalg.norm(arm - (arm @ unit)[:, None] * unit, axis=1)
+        return away
+
+    return Shape(distance, lambda x, d: _plane_hit(x, d, a, normal))
+
+
+def plane_shape(a: FloatArray, b: FloatArray, c: FloatArray) -> Shape:
+    """The plane through three points (3,)."""
+    normal = _unit(np.cross(b - a, c - a), "kernel.mesh.three-points-plane-line")
+    return Shape(lambda x: (x - a) @ normal, lambda x, d: _plane_hit(x, d, a, normal))
+
+
+def sphere_shape(centre: FloatArray, on: FloatArray) -> Shape:
+    """The sphere (circle in 2D) of a centre through a point (3,)."""
+    radius = float(np.linalg.norm(on - centre))
+
+    def hit(x: FloatArray, d: FloatArray) -> FloatArray:
+        arm = x - centre
+        b = (arm * d).sum(axis=1)
+        return _quadratic_hit(x, d, np.ones(len(x)), b, (arm * arm).sum(axis=1) - radius**2)
+
+    return Shape(lambda x: np.linalg.norm(x - centre, axis=1) - radius, hit)
+
+
+def cylinder_shape(a: FloatArray, b: FloatArray, on: FloatArray) -> Shape:
+    """The cylinder of axis a-b through a point (3,)."""
+    unit = _unit(b - a, "kernel.mesh.two-points-axis-coincide")
+    radius = float(np.linalg.norm(_across((on - a)[None], unit)))
+
+    def hit(x: FloatArray, d: FloatArray) -> FloatArray:
+        arm, way = _across(x - a, unit), _across(d, unit)
+        return _quadratic_hit(
+            x,
+            d,
+            (way * way).sum(axis=1),
+            (arm * way).sum(axis=1),
+            (arm * arm).sum(axis=1) - radius**2,
+        )
+
+    return Shape(lambda x: np.linalg.norm(_across(x - a, unit), axis=1) - radius, hit)
+
+
+def cone_shape(apex: FloatArray, axis_point: FloatArray, on: FloatArray) -> Shape:
+    """The (double) cone of an apex and an axis through a point (3,)."""
+    unit = _unit(axis_point - apex, "kernel.mesh.apex-axis-point-coincide")
+    along = float((on - apex) @ unit)
+    away = float(np.linalg.norm(_across((on - apex)[None], unit)))
+    size = float(np.hypot(along, away))
+    if size == 0.0 or along == 0.0:
+        raise MeshError("kernel.mesh.point-opens-cone-lies")
+    cosine, sine = abs(along) / size, away / size
+    tangent2 = (away / along) ** 2
+
+    def distance(x: FloatArray) -> FloatArray:
+        arm = x - apex
+        radial = np.linalg.norm(_across(arm, unit), axis=1)
+        off: FloatArray = radial * cosine - np.abs(arm @ unit) * sine
+        return off
+
+    def hit(x: FloatArray, d: FloatArray) -> FloatArray:
+        arm, way = x - apex, d
+        r, w = _across(arm, unit), _across(way, unit)
+        h, g = arm @ unit, way @ unit
+        a = (w * w).sum(axis=1) - tangent2 * g * g
+        b = (r * w).sum(axis=1) - tangent2 * h * g
+        c = (r * r).sum(axis=1) - tangent2 * h * h
+        return _quadratic_hit(x, d, a, b, c)
+
+    return Shape(distance, hit)
+
+
+def torus_shape(
+    centre: FloatArray, axis_point: FloatArray, small_centre: FloatArray, on: FloatArray
+) -> Shape:
+    """The torus of a centre and an axis, with a small circle's centre, through a point (3,)."""
+    unit = _unit(axis_point - centre, "kernel.mesh.two-points-torus-axis")
+    large = float(np.linalg.norm(_across((small_centre - centre)[None], unit)))
+
+    def to_ring(x: FloatArray) -> FloatArray:
+        arm = x - centre
+        ring: FloatArray = np.hypot(np.linalg.norm(_across(arm, unit), axis=1) - large, arm @ unit)
+        return ring
+
+    small = float(to_ring(on[None])[0])
+
+    def distance(x: FloatArray) -> FloatArray:
+        return to_ring(x) - small
+
+    return Shape(distance, lambda x, d: _march(x, d, distance))
+
+
+def _across(vectors: FloatArray, unit: FloatArray) -> FloatArray:
+    """Parts of vectors (m, 3) orthogonal to a unit vector."""
+    part: FloatArray = vectors - (vectors @ unit)[:, None] * unit
+    return part
+
+
+def _unit(vector: FloatArray, code: str) -> FloatArray:
+    size = float(np.linalg.norm(vector))
+    if size == 0.0:
+        raise MeshError(code)
+    unit: FloatArray = vector / size
+    return unit
+
+
+def _plane_hit(x: FloatArray, d: FloatArray, a: FloatArray, normal: FloatArray) -> FloatArray:
+    slope = d @ normal
+    with np.errstate(divide="ignore", invalid="ignore"):
+        t = np.where(np.abs(slope) > 1e-12, ((a - x) @ normal) / slope, np.nan)
+    return x + t[:, None] * d
+
+
+def _quadratic_hit(
+    x: FloatArray, d: FloatArray, a: FloatArray, b: FloatArray, c: FloatArray
+) -> FloatArray:
+    """x + t d with a t^2 + 2 b t + c = 0, the root nearest to zero; NaN when there is none."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        root = np.sqrt(b * b - a * c)
+        far = -(b + np.copysign(root, b))
+        one = far / a
+        two = np.where(far == 0.0, 0.0, c / far)
+    one = np.where(np.abs(a) < 1e-14, np.inf, one)
+    t = np.where(np.abs(one) < np.abs(two), one, two)
+    t = np.where(np.isfinite(t), t, np.nan)
+    return x + t[:, None] * d
+
+
+def _march(x: FloatArray, d: FloatArray, distance: Level) -> FloatArray:
+    """First zero of a distance function along +-d: sphere tracing both ways, the nearer kept."""
+    best = np.full(len(x), np.nan)
+    inside = np.sign(distance(x))
+    for sense in (1.0, -1.0):
+        t = np.zeros(len(x))
+        for _ in range(400):
+            t += inside * distance(x + sense * t[:, None] * d)
+        hit = np.abs(distance(x + sense * t[:, None] * d)) < 1e-9 * (1.0 + np.abs(t))
+        closer = hit & ~(np.abs(t) >= np.abs(best))
+        best = np.where(closer, sense * t, best)
+    return x + best[:, None] * d
+
+
+def project(
+    shape: Shape, x: FloatArray, direction: FloatArray | None, apex: FloatArray | None
+) -> FloatArray:
+    """Positions (m, 3) projected on a shape along a direction, or from an apex (3,).
+
+    Raises
+    ------
+    MeshError
+        If the direction has no length, a point is the apex, or a ray misses the shape.
+    """
+    if direction is not None:
+        rays = np.broadcast_to(_unit(direction, "kernel.mesh.direction-projection-zero"), x.shape)
+    else:
+        assert apex is not None
+        arm = x - apex
+        size = np.linalg.norm(arm, axis=1)
+        if (size == 0.0).any():
+            raise MeshError("kernel.mesh.point-project-apex-projection")
+        rays = arm / size[:, None]
+    image = shape.project_along(x, rays)
+    lost = np.flatnonzero(np.isnan(image).any(axis=1))
+    if len(lost):
+        raise MeshError("kernel.mesh.point-no-projection-surface", n_lost=len(lost), x=x[lost[0]])
+    return image

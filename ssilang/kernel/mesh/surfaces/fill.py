@@ -1,0 +1,207 @@
+"""Points put inside a plane contour so that its triangulation has a wanted size."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.mesh.queries.select import crossing_inside, segment_distance
+from ssilang.kernel.mesh.surfaces.triangulate import triangulate_inside
+
+_ROUNDS = 400
+
+
+class SizeField:
+    """Wanted size inside a contour: linear between the sizes at its points."""
+
+    def __init__(self, points: FloatArray, sizes: FloatArray) -> None:
+        # corners of a larger square with the mean size make the interpolation total
+        from scipy.interpolate import LinearNDInterpolator
+
+        low, high = points.min(axis=0), points.max(axis=0)
+        middle, reach = (low + high) / 2, 3.0 * float((high - low).max())
+        far = middle + reach * np.array([[-1.0, -1.1], [1.1, -1.0], [1.0, 1.1], [-1.1, 1.0]])
+        values = np.concatenate([sizes, np.full(4, sizes.mean())])
+        self._inside = LinearNDInterpolator(np.vstack([points, far]), values)
+        self._least = float(sizes.min())
+
+    def __call__(self, p: FloatArray) -> FloatArray:
+        """Sizes (m,) at positions (m, 2)."""
+        sizes: FloatArray = np.maximum(self._inside(p), self._least)
+        return sizes
+
+
+def boundary_sizes(points: FloatArray, segments: IntArray) -> FloatArray:
+    """Mean length of the two sides at each point (m,)."""
+    length = np.linalg.norm(points[segments[:, 1]] - points[segments[:, 0]], axis=1)
+    total = np.bincount(segments.ravel(), np.repeat(length, 2), len(points))
+    times = np.bincount(segments.ravel(), minlength=len(points))
+    return total / np.maximum(times, 1)
+
+
+def fill_contour(
+    points: FloatArray, segments: IntArray, size: SizeField, squares: bool
+) -> tuple[FloatArray, IntArray]:
+    """Points added inside the contours by an advancing front, and the triangles.
+
+    Parameters
+    ----------
+    points : array (m, 2)
+        Of the contours; they come first in the result.
+    segments : array (n, 2)
+    squares : bool
+        Place points so that triangles pair up into squares; else nearly equilateral triangles.
+
+    Returns
+    -------
+    points : array (m + k, 2)
+    triangles : array (t, 3)
+
+    Notes
+    -----
+    In each round every triangle that is too large and touches the contour or a good triangle
+    by a side proposes a point over that side (Rebay 1993 for the triangles); proposals too close
+    to one another, to a point or to the contour are dropped. Then all is triangulated anew.
+    """
+    triangles = triangulate_inside(points, segments)
+    a, b = points[segments[:, 0]], points[segments[:, 1]]
+    for _ in range(_ROUNDS):
+        proposals = _proposals(points, triangles, size, squares)
+        fresh = _accepted(proposals, points, a, b, size)
+        if not len(fresh):  # the front is done: what is still too large gets its centre
+            fresh = _accepted(_large_centres(points, triangles, size, squares), points, a, b, size)
+        if not len(fresh):
+            break
+        points = np.vstack([points, fresh])
+        triangles = triangulate_inside(points, segments)
+    return points, triangles
+
+
+def _circumscribed(points: FloatArray, triangles: IntArray) -> tuple[FloatArray, FloatArray]:
+    """Circumcentres (t, 2) and circumradii (t,)."""
+    a = points[triangles[:, 0]]
+    u, v = points[triangles[:, 1]] - a, points[triangles[:, 2]] - a
+    twice = 2.0 * (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0])
+    uu, vv = (u * u).sum(axis=1), (v * v).sum(axis=1)
+    arm = np.column_stack([v[:, 1] * uu - u[:, 1] * vv, u[:, 0] * vv - v[:, 0] * uu])
+    arm /= np.where(twice == 0.0, 1e-300, twice)[:, None]
+    return a + arm, np.linalg.norm(arm, axis=1)
+
+
+def _proposals(
+    points: FloatArray, triangles: IntArray, size: SizeField, squares: bool
+) -> FloatArray:
+    """New positions (k, 2), best first."""
+    centres, radii = _circumscribed(points, triangles)
+    wanted = size(points[triangles].mean(axis=1))
+    ideal = wanted / (2.0**0.5 if squares else 3.0**0.5)
+    large = radii > 1.3 * ideal
+    edge, owner = _front_sides(triangles, large)
+    if not len(edge):
+        return np.empty((0, 2))
+    p, q = points[edge[:, 0]], points[edge[:, 1]]
+    middle, half = (p + q) / 2, np.linalg.norm(q - p, axis=1) / 2
+    normal = np.column_stack([-(q - p)[:, 1], (q - p)[:, 0]]) / (2 * half)[:, None]
+    h = size(middle)
+    order = np.argsort(half)
+    if squares:
+        made = np.stack([p + h[:, None] * normal, q + h[:, None] * normal], axis=1)
+        return np.vstack([made[order].reshape(-1, 2), _far_centres(centres, radii, ideal, large)])
+    reach = np.linalg.norm(centres[owner] - middle, axis=1)
+    radius = np.maximum(h / 3.0**0.5, half)
+    radius = np.minimum(radius, (half**2 + reach**2) / np.maximum(2 * reach, 1e-300))
+    rise = radius + np.sqrt(np.maximum(radius**2 - half**2, 0.0))
+    made = middle + rise[:, None] * normal
+    return np.vstack([made[order], _far_centres(centres, radii, ideal, large)])
+
+
+def _large_centres(
+    points: FloatArray, triangles: IntArray, size: SizeField, squares: bool
+) -> FloatArray:
+    """Circumcentres of triangles that are too large, the largest first."""
+    centres, radii = _circumscribed(points, triangles)
+    excess = radii / size(points[triangles].mean(axis=1)) * (2.0 if squares else 3.0) ** 0.5
+    pick = np.flatnonzero((excess > 1.4) & (excess < 8.0))
+    return centres[pick[np.argsort(-excess[pick])]]
+
+
+def _far_centres(
+    centres: FloatArray, radii: FloatArray, ideal: FloatArray, large: np.ndarray
+) -> FloatArray:
+    """Circumcentres of triangles that are still more than twice too large, the largest first.
+
+    They come behind the front's own proposals and fill what the front leaves.
+    """
+    excess = radii / ideal
+    pick = np.flatnonzero(large & (excess > 1.9) & (excess < 4.0))
+    return centres[pick[np.argsort(-excess[pick])]]
+
+
+def _front_sides(triangles: IntArray, large: np.ndarray) -> tuple[IntArray, IntArray]:
+    """Sides (k, 2), in the sense of their large triangle, whose other neighbour is good or none."""
+    sides = np.vstack([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+    owner = np.tile(np.arange(len(triangles)), 3)
+    n = int(triangles.max()) + 1
+    code, reverse = sides @ [n, 1], sides @ [1, n]
+    order = np.argsort(code)
+    place = np.minimum(np.searchsorted(code[order], reverse), len(code) - 1)
+    twin = order[place]
+    paired = code[twin] == reverse
+    other_large = paired & large[owner[twin]]
+    front = large[owner] & ~other_large
+    return sides[front], owner[front]
+
+
+def _accepted(
+    proposals: FloatArray, points: FloatArray, a: FloatArray, b: FloatArray, size: SizeField
+) -> FloatArray:
+    """Proposals that are inside and far enough from points, from the contour and one another."""
+    from scipy.spatial import cKDTree
+
+    if not len(proposals):
+        return proposals
+    inside = crossing_inside(proposals, a, b)
+    proposals = proposals[inside]
+    if not len(proposals):
+        return proposals
+    h = size(proposals)
+    far, _ = cKDTree(points).query(proposals)
+    good = (far > 0.62 * h) & (segment_distance(proposals, a, b) > 0.5 * h)
+    proposals, h = proposals[good], h[good]
+    if not len(proposals):
+        return proposals
+    free = np.ones(len(proposals), dtype=bool)
+    near = cKDTree(proposals).query_ball_point(proposals, 0.72 * h)
+    for i, rows in enumerate(near):
+        if free[i]:
+            free[rows] = False
+            free[i] = True
+    return proposals[free]
+
+
+def smooth(
+    points: FloatArray, links: IntArray, fixed: int, rounds: int = 4, weight: float = 0.7
+) -> FloatArray:
+    """Points after the first `fixed` drawn towards the mean of their neighbours.
+
+    Parameters
+    ----------
+    links : array (n, 2)
+        Sides of the mesh, each once.
+    """
+    points = points.copy()
+    m = len(points)
+    ends = np.concatenate([links[:, 0], links[:, 1]])
+    others = np.concatenate([links[:, 1], links[:, 0]])
+    times = np.maximum(np.bincount(ends, minlength=m), 1)
+    for _ in range(rounds):
+        mean = np.column_stack([np.bincount(ends, points[others, k], m) / times for k in (0, 1)])
+        points[fixed:] += weight * (mean[fixed:] - points[fixed:])
+    return points
+
+
+def sides_of(cells: IntArray) -> IntArray:
+    """Sides (n, 2) of polygons (c, k), each once."""
+    k = cells.shape[1]
+    table = np.vstack([cells[:, [i, (i + 1) % k]] for i in range(k)])
+    return np.unique(np.sort(table, axis=1), axis=0)

@@ -1,0 +1,182 @@
+"""Surfaces inside closed contours, on a plane or on a surface that can be laid flat."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.mesh.boundary import chained, in_one_sense
+from ssilang.kernel.mesh.cells import POLYGON_SIDES
+from ssilang.kernel.mesh.changes.degree import quadratic
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh
+from ssilang.kernel.mesh.surfaces.charts import Chart
+from ssilang.kernel.mesh.surfaces.fill import (
+    SizeField,
+    boundary_sizes,
+    fill_contour,
+    sides_of,
+    smooth,
+)
+from ssilang.kernel.mesh.surfaces.grid import grid_surface
+from ssilang.kernel.mesh.surfaces.polygons import join_triangles
+from ssilang.kernel.mesh.surfaces.recombine import pair_triangles, squareness
+
+
+def contour_cells(contour: Mesh) -> IntArray:
+    """Cells (n, 2 or 3) of a closed contour, ends first and last.
+
+    Raises
+    ------
+    MeshError
+        If it holds other cells than lines of one degree, or is not closed.
+    """
+    lines = [b for b in contour.blocks if b.cell_type in ("SEG2", "SEG3")]
+    if not lines or len({b.cell_type for b in lines}) > 1:
+        kinds = [b.cell_type for b in contour.blocks]
+        raise MeshError("kernel.mesh.contour-seg2-seg3-needed", kinds=kinds)
+    cells = np.concatenate([b.connectivity for b in lines])
+    leaving, arriving = np.sort(cells[:, 0]), np.sort(cells[:, -1])
+    if not np.array_equal(leaving, arriving):
+        ends, times = np.unique(cells[:, [0, -1]], return_counts=True)
+        open_ends = ends[times % 2 == 1]
+        if len(open_ends):
+            raise MeshError("kernel.mesh.contour-not-closed-line", nodes=open_ends[:4] + 1)
+        if (times != 2).any():
+            raise MeshError("kernel.mesh.lines-contour-not-run")
+        return in_one_sense(cells)
+    return cells
+
+
+def contour_chart_data(contour: Mesh) -> tuple[FloatArray, FloatArray]:
+    """Positions (m, 3) of a contour's nodes and its directed straight segments (n, 2, 3)."""
+    cells = contour_cells(contour)
+    xyz = contour.nodes.coordinates
+    pairs = np.vstack([cells[:, k : k + 2] for k in range(cells.shape[1] - 1)])
+    return xyz[np.unique(cells)].copy(), xyz[pairs].copy()
+
+
+def fill_surface(
+    contour: Mesh,
+    chart: Chart,
+    surface: str,
+    colour: int = 0,
+    sizes: tuple[FloatArray, FloatArray] | None = None,
+) -> Mesh:
+    """The mesh inside a contour, described in the contour's sense.
+
+    Parameters
+    ----------
+    chart : Chart
+        Lays the surface flat; the outer contour turns anticlockwise in it.
+    surface : str
+        'TRI3', 'TRI6', 'QUA4', 'QUA8' or 'POLY'; quadrangles and polygons leave some
+        triangles. A contour of SEG3 gives quadratic cells, one of SEG2 linear cells in any case.
+    sizes : (array (m, 3), array (m,)) or None
+        Positions and wanted sizes there; None takes the lengths of the contour's sides.
+    """
+    nodes = contour.nodes
+    cells = contour_cells(contour)
+    if surface == "POLY" and cells.shape[1] > 2:
+        raise MeshError("kernel.mesh.polygons-straight-sides-contour")
+    if surface.startswith("QUA") and sizes is None:
+        regular = _as_grid(contour, chart, colour)
+        if regular is not None:
+            return Mesh(nodes, regular.blocks, (contour,))
+    ids, local = np.unique(cells[:, [0, -1]], return_inverse=True)
+    segments = local.reshape(-1, 2).astype(np.int64)
+    flat = chart.flatten(nodes.coordinates[ids].copy())
+    turned = _signed_area(flat, segments) < 0
+    if turned:
+        flat = flat * [1.0, -1.0]
+    at, wanted = (flat, boundary_sizes(flat, segments))
+    if sizes is not None:
+        at, wanted = chart.flatten(sizes[0]), sizes[1]
+        at = at * [1.0, -1.0] if turned else at
+    squares = surface.startswith("QUA")
+    points, triangles = fill_contour(flat, segments, SizeField(at, wanted), squares)
+    points = smooth(points, sides_of(triangles), len(flat))
+    if surface == "POLY":
+        polygons = [*join_triangles(points, triangles, len(flat)).values()]
+        points, polygons = _without_unused(points, polygons, len(flat))
+    else:
+        polygons = [triangles]
+    if squares:
+        quads, rest = pair_triangles(points, triangles)
+        polygons = [quads, rest]
+        links = np.unique(np.vstack([sides_of(p) for p in polygons if len(p)]), axis=0)
+        points = smooth(points, links, len(flat))
+    new = points[len(flat) :] * ([1.0, -1.0] if turned else [1.0, 1.0])
+    made = nodes.add(chart.lift(new), _sizes_at(points, polygons, len(flat)))
+    table = np.concatenate([ids, made])
+    tables = [_from_smallest(table[p]) for p in polygons if len(p)]
+    names = {3: "TRI3", 4: "QUA4"} | {n: name for name, n in POLYGON_SIDES.items()}
+    blocks = tuple(CellBlock.make(nodes, names[t.shape[1]], t, colour) for t in tables)
+    mesh = Mesh(nodes, blocks)
+    if cells.shape[1] == 3:
+        before = len(nodes)
+        mesh = quadratic(mesh, contour)
+        fresh = nodes.coordinates[before:]
+        fresh[:] = chart.lift(chart.flatten(fresh.copy()))
+    return Mesh(nodes, mesh.blocks, (contour,))
+
+
+def _without_unused(
+    points: FloatArray, polygons: list[IntArray], fixed: int
+) -> tuple[FloatArray, list[IntArray]]:
+    """The points that polygons use, the first `fixed` in any case, and the polygons on them."""
+    kept = np.zeros(len(points), dtype=bool)
+    kept[:fixed] = True
+    for table in polygons:
+        kept[table] = True
+    fresh = np.cumsum(kept) - 1
+    return points[kept], [fresh[table] for table in polygons]
+
+
+def _from_smallest(polygons: IntArray) -> IntArray:
+    """Polygons (n, k) turned so that each starts with its oldest node."""
+    k = polygons.shape[1]
+    start = np.asarray(polygons.argmin(axis=1), dtype=np.int64)
+    return np.take_along_axis(polygons, (start[:, None] + np.arange(k)) % k, axis=1)
+
+
+def _as_grid(contour: Mesh, chart: Chart, colour: int) -> Mesh | None:
+    """A grid, when the contour is one loop of four corners whose opposite sides match."""
+    cells = contour_cells(contour)
+    name = "SEG2" if cells.shape[1] == 2 else "SEG3"
+    block = chained(Mesh.of(contour.nodes, name, cells)).single_block()
+    table = block.connectivity
+    if not np.array_equal(table[:, -1], np.roll(table[:, 0], -1)):
+        return None
+    way = chart.flatten(contour.nodes.coordinates[table[:, -1]].copy())
+    way -= chart.flatten(contour.nodes.coordinates[table[:, 0]].copy())
+    before = np.roll(way, 1, axis=0)
+    turn = np.arctan2(
+        before[:, 0] * way[:, 1] - before[:, 1] * way[:, 0], (before * way).sum(axis=1)
+    )
+    corners = np.flatnonzero(np.abs(turn) > np.pi / 4)
+    counts = np.diff(np.append(corners, corners[:1] + len(table)))
+    if len(corners) != 4 or not np.array_equal(counts[:2], counts[2:]):
+        return None
+    sides = []
+    for start, count in zip(corners, counts, strict=True):
+        rows = np.arange(int(start), int(start) + int(count)) % len(table)
+        sides.append(Mesh.of(contour.nodes, block.cell_type, table[rows]))
+    made = grid_surface(sides, chart, colour)
+    quads = made.single_block().connectivity[:, :: 1 if block.cell_type == "SEG2" else 2]
+    ids, local = np.unique(quads, return_inverse=True)
+    flat = chart.flatten(contour.nodes.coordinates[ids].copy())
+    sense = float(np.sign(turn[corners].sum()))
+    shape = squareness(flat * [1.0, sense], local.reshape(quads.shape).astype(np.int64))
+    return made if shape.min() > 0.4 else None
+
+
+def _signed_area(points: FloatArray, segments: IntArray) -> float:
+    a, b = points[segments[:, 0]], points[segments[:, 1]]
+    return float((a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum())
+
+
+def _sizes_at(points: FloatArray, polygons: list[IntArray], fixed: int) -> FloatArray:
+    """Mean length of the sides at each point after the first `fixed`."""
+    links = np.unique(np.vstack([sides_of(p) for p in polygons if len(p)]), axis=0)
+    return boundary_sizes(points, links)[fixed:]

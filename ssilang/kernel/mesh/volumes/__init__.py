@@ -1,0 +1,1 @@
+"""Meshes of volumes: bricks and tetrahedra inside closed surfaces."""

@@ -1,0 +1,183 @@
+"""Bricks inside six faces meshed as grids (transfinite interpolation)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.mesh.changes.degree import linear, quadratic
+from ssilang.kernel.mesh.mesh import Mesh
+
+
+def fill_block(faces: Sequence[Mesh], colour: int = 0) -> Mesh:
+    """CUB8 (faces of QUA4) or CU20 (faces of QUA8) inside six faces, opposite ones in pairs.
+
+    Raises
+    ------
+    MeshError
+        If a face is no grid of quadrangles, or the faces do not close a block with the same
+        numbers of cells on opposite sides.
+    """
+    kinds = {b.cell_type for f in faces for b in f.blocks}
+    if kinds not in ({"QUA4"}, {"QUA8"}):
+        raise MeshError("kernel.mesh.six-faces-qua4-qua8", kinds=sorted(kinds))
+    flat = [linear(f).single_block().connectivity for f in faces]
+    bottom = _grid(flat[0])
+    sides = [_grid(t) for t in flat[2:]]
+    layers = _rim_layers(bottom, sides, set(flat[1].ravel().tolist()))
+    ids = _filled(bottom, _grid(flat[1]), layers)
+    nodes = faces[0].nodes
+    _place_sides(ids, sides)
+    inner = ids < 0
+    position = _transfinite(nodes.coordinates[np.where(inner, 0, ids)].copy())
+    sizes = float(nodes.density[ids[~inner]].mean())
+    ids[inner] = nodes.add(position[inner], sizes)
+    made = Mesh.of(nodes, "CUB8", _bricks(ids), colour, tuple(faces))
+    if kinds == {"QUA8"}:
+        skin = Mesh(nodes, tuple(b for f in faces for b in f.blocks))
+        made = Mesh(nodes, quadratic(made, skin).blocks, tuple(faces))
+    return made
+
+
+def _grid(quads: IntArray) -> IntArray:
+    """Node numbers (n, m) of a grid of quadrangles in any order."""
+    ids, times = np.unique(quads, return_counts=True)
+    corners = ids[times == 1]
+    if len(corners) != 4:
+        raise MeshError("kernel.mesh.face-no-grid-quadrangles", n_corners=len(corners))
+    owner: dict[tuple[int, int], list[tuple[int, list[int]]]] = {}
+    for row, cell in enumerate(quads.tolist()):
+        for k in range(4):
+            owner.setdefault((cell[k], cell[(k + 1) % 4]), []).append((row, cell))
+            owner.setdefault((cell[(k + 1) % 4], cell[k]), []).append((row, cell))
+    start = next(r for r, c in enumerate(quads.tolist()) if corners[0] in c)
+    cell = quads[start].tolist()
+    k = cell.index(int(corners[0]))
+    ring = [cell[(k + i) % 4] for i in range(4)]
+    used: set[int] = set()
+    rows = [_strip(ring[0], ring[1], owner, used)]
+    while True:
+        a, b = rows[-1][0][1], rows[-1][1][1]
+        free = [o for o in owner.get((a, b), []) if o[0] not in used]
+        if not free:
+            break
+        rows.append(_strip(a, b, owner, used))
+    table = [[p[0] for p in rows[0]], *([p[1] for p in row] for row in rows)]
+    if len({len(r) for r in table}) > 1 or len(used) != len(quads):
+        raise MeshError("kernel.mesh.face-no-grid-quadrangles-2")
+    return np.array(table, dtype=np.int64)
+
+
+def _strip(
+    a: int, b: int, owner: dict[tuple[int, int], list[tuple[int, list[int]]]], used: set[int]
+) -> list[tuple[int, int]]:
+    """Pairs (lower, upper) of nodes along a strip of cells that starts on the edge a-b."""
+    pairs: list[tuple[int, int]] = []
+    while True:
+        free = [o for o in owner.get((a, b), []) if o[0] not in used]
+        if not free:
+            return pairs
+        row, cell = free[0]
+        used.add(row)
+        k = cell.index(a)
+        step = 1 if cell[(k + 1) % 4] == b else -1
+        c, d = cell[(k + 2 * step) % 4], cell[(k + 3 * step) % 4]
+        if not pairs:
+            pairs.append((a, d))
+        pairs.append((b, c))
+        # the next cell of the strip shares the edge b-c; turn so that its lower edge starts at b
+        following = [o for o in owner.get((b, c), []) if o[0] not in used]
+        if not following:
+            return pairs
+        other = following[0][1]
+        j = other.index(b)
+        e = other[(j + 1) % 4] if other[(j + 1) % 4] != c else other[(j - 1) % 4]
+        a, b = b, e
+
+
+def _rim(grid: IntArray) -> list[int]:
+    """Nodes round a grid, each once."""
+    return [*grid[0, :-1], *grid[:-1, -1], *grid[-1, :0:-1], *grid[:0:-1, 0]]
+
+
+def _rim_layers(bottom: IntArray, sides: Sequence[IntArray], top: set[int]) -> list[list[int]]:
+    """Rims of all layers from the bottom to the top, node over node."""
+    up: dict[int, set[int]] = {}
+    for grid in sides:
+        for first, second in ((grid[:-1], grid[1:]), (grid[:, :-1], grid[:, 1:])):
+            for a, b in zip(first.ravel().tolist(), second.ravel().tolist(), strict=True):
+                up.setdefault(a, set()).add(b)
+                up.setdefault(b, set()).add(a)
+    layers = [_rim(bottom)]
+    seen = set(layers[0])
+    while not set(layers[-1]) <= top:
+        following = []
+        for node in layers[-1]:
+            free = up.get(node, set()) - seen
+            if len(free) != 1:
+                raise MeshError("kernel.mesh.four-side-faces-not")
+            following.append(free.pop())
+        layers.append(following)
+        seen |= set(following)
+    return layers
+
+
+def _filled(bottom: IntArray, top: IntArray, layers: list[list[int]]) -> IntArray:
+    """Node numbers (k, n, m), -1 where there is none yet: bottom, rims and top."""
+    n, m = bottom.shape
+    ids = np.full((len(layers), n, m), -1, dtype=np.int64)
+    rows, columns = np.divmod(np.array(_rim(np.arange(n * m).reshape(n, m))), m)
+    for k, rim in enumerate(layers):
+        ids[k, rows, columns] = rim
+    ids[0] = bottom
+    ways = (top, top[::-1], top[:, ::-1], top[::-1, ::-1])
+    for grid in (*ways, *(w.T for w in ways)):
+        if grid.shape == (n, m) and _rim(grid) == layers[-1]:
+            ids[-1] = grid
+            return ids
+    raise MeshError("kernel.mesh.first-two-faces-not")
+
+
+def _place_sides(ids: IntArray, sides: Sequence[IntArray]) -> None:
+    """Check that all nodes of the side faces have found their place."""
+    known = set(ids[ids >= 0].tolist())
+    for grid in sides:
+        if not set(grid.ravel().tolist()) <= known:
+            raise MeshError("kernel.mesh.side-face-numbers-cells")
+
+
+def _transfinite(x: FloatArray) -> FloatArray:
+    """Positions (k, n, m, 3) inside from those of the six faces."""
+    shares = [
+        _fractions(np.moveaxis(x, axis, 0)).reshape([-1 if a == axis else 1 for a in range(4)])
+        for axis in range(3)
+    ]
+
+    def along(value: FloatArray, axis: int) -> FloatArray:
+        t = shares[axis]
+        mixed: FloatArray = (1 - t) * np.take(value, [0], axis) + t * np.take(value, [-1], axis)
+        return mixed
+
+    one = along(x, 0) + along(x, 1) + along(x, 2)
+    two = along(along(x, 0), 1) + along(along(x, 0), 2) + along(along(x, 1), 2)
+    return one - two + along(along(along(x, 0), 1), 2)
+
+
+def _fractions(x: FloatArray) -> FloatArray:
+    """Mean fractions of the length along the four edges of the first axis."""
+    edges = x[:, [0, 0, -1, -1], [0, -1, 0, -1]]
+    steps = np.linalg.norm(np.diff(edges, axis=0), axis=2)
+    length = np.vstack([np.zeros(4), np.cumsum(steps, axis=0)])
+    mean: FloatArray = (length / length[-1]).mean(axis=1)
+    return mean
+
+
+def _bricks(ids: IntArray) -> IntArray:
+    low, high = ids[:-1], ids[1:]
+    corners = []
+    for layer in (low, high):
+        corners += [layer[:, :-1, :-1], layer[:, :-1, 1:], layer[:, 1:, 1:], layer[:, 1:, :-1]]
+    return np.stack(corners, axis=-1).reshape(-1, 8)

@@ -1,0 +1,239 @@
+"""Volumes inside closed surfaces, filled with tetrahedra by a weighted Delaunay triangulation."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
+from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.mesh.volumes.regular_weights import lift_faces, small_spheres
+
+_ROUNDS = 10
+
+
+def tetrahedralize(points: FloatArray, triangles: IntArray) -> tuple[FloatArray, IntArray]:
+    """Tetrahedra inside a closed surface, whose triangles they keep.
+
+    Parameters
+    ----------
+    points : array (m, 3)
+        Of the surface; they come first in the result.
+    triangles : array (t, 3)
+        In any sense; every side belongs to an even number of them.
+
+    Returns
+    -------
+    points : array (m + k, 3)
+        With the points added inside, about as far apart as those of the surface nearby.
+    tetrahedra : array (n, 4)
+        With positive volume.
+
+    Raises
+    ------
+    MeshError
+        If the surface is not closed, or some of its triangles are not found in the
+        triangulation (thin parts, very unequal neighbours).
+
+    Notes
+    -----
+    The triangulation is regular (weighted Delaunay), computed as the lower convex hull of the
+    lifted points; the weights are those for which the surface's triangles are faces of it
+    (`lift_faces`). A lattice of points is put inside, out of the spheres of the triangles.
+    """
+    _check_closed(points, triangles)
+    low, high = points.min(axis=0), points.max(axis=0)
+    scale = float((high - low).max())
+    unit = (points - (low + high) / 2) / scale
+    lattice = _inner_points(unit, triangles)
+    reach = np.full(len(triangles), 1.02)
+    # far smaller than the clearance of the faces: four points of a plane on one circle, which
+    # would give a cell without volume, are told apart
+    disorder = np.random.default_rng(2).uniform(-1.0, 1.0, len(unit))
+    disorder *= 1e-4 * _sizes(unit, triangles) ** 2
+    for _ in range(_ROUNDS):
+        lifted = lift_faces(unit, triangles, reach)
+        inner = _outside_spheres(lattice, lifted.centres, lifted.radii, 1.02)
+        every = np.vstack([unit, inner])
+        cells = _regular_triangulation(every, lifted.weights + disorder)
+        lost = _missing_triangles(cells, triangles)
+        if not lost.any():
+            kept = _inside_cells(every, cells, unit, triangles)
+            return _compact(every * scale + (low + high) / 2, kept, len(points))
+        reach[lost] *= 1.4
+    raise MeshError("kernel.mesh.triangles-surface-cannot-kept", n_lost=int(lost.sum()))
+
+
+def _compact(points: FloatArray, cells: IntArray, fixed: int) -> tuple[FloatArray, IntArray]:
+    """Points that no cell uses dropped, after the first `fixed`."""
+    used = np.zeros(len(points), dtype=bool)
+    used[:fixed] = True
+    used[cells] = True
+    number = np.cumsum(used) - 1
+    return points[used], number[cells].astype(np.int64)
+
+
+def _check_closed(points: FloatArray, triangles: IntArray) -> None:
+    sides = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    edges, times = np.unique(sides, axis=0, return_counts=True)
+    if not len(triangles) or (times % 2 == 1).any():
+        lone = int((times % 2 == 1).sum())
+        where = points[edges[times % 2 == 1][0, 0]] if lone else np.zeros(3)
+        raise MeshError("kernel.mesh.surface-not-closed-sides", lone=lone, where=where)
+
+
+def _outside_spheres(
+    positions: FloatArray, centres: FloatArray, radii: FloatArray, factor: float
+) -> FloatArray:
+    """Positions that lie in none of the spheres enlarged by a factor."""
+    from scipy.spatial import cKDTree
+
+    if not len(positions):
+        return positions
+    hit = cKDTree(positions).query_ball_point(centres, factor * radii)
+    free = np.ones(len(positions), dtype=bool)
+    free[np.unique(np.concatenate([np.asarray(h, dtype=np.int64) for h in hit]))] = False
+    return positions[free]
+
+
+def _sizes(points: FloatArray, triangles: IntArray) -> FloatArray:
+    """Mean length of the sides at each point, shape (m,)."""
+    sides = triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+    length = np.linalg.norm(points[sides[:, 1]] - points[sides[:, 0]], axis=1)
+    total = np.bincount(sides.ravel(), np.repeat(length, 2), len(points))
+    return total / np.maximum(np.bincount(sides.ravel(), minlength=len(points)), 1)
+
+
+def _inner_points(points: FloatArray, triangles: IntArray) -> FloatArray:
+    """Lattice points inside, their spacing following the sizes of the surface nearby."""
+    from scipy.spatial import cKDTree
+
+    used = np.unique(triangles)
+    sizes = _sizes(points, triangles)[used]
+    tree = cKDTree(points[used])
+    least, largest = float(sizes.min()), float(sizes.max())
+    chosen = np.empty((0, 3))
+    for level in range(int(np.log2(largest / least) + 1e-9), -1, -1):
+        step = least * 2.0**level
+        lattice = _lattice(points.min(axis=0), points.max(axis=0), step * 1.25)
+        found = tree.query(lattice, k=min(6, len(used)))
+        reach, near = np.asarray(found[0]), np.asarray(found[1])
+        weight = 1.0 / np.maximum(reach, 1e-12) ** 2
+        wanted = (weight * sizes[near]).sum(axis=1) / weight.sum(axis=1)
+        upper = np.inf if step * 2 > largest else 2.0 * step
+        fit = (wanted >= (step if level else 0.0)) & (wanted < upper) & (reach[:, 0] > 0.6 * wanted)
+        lattice, wanted = lattice[fit], wanted[fit]
+        if len(chosen) and len(lattice):
+            apart, _ = cKDTree(chosen).query(lattice)
+            lattice = lattice[apart > 0.8 * wanted]
+        lattice = _outside_spheres(lattice, *small_spheres(points, triangles), 1.02)
+        lattice = lattice[ray_inside(lattice, points, triangles)]
+        chosen = np.vstack([chosen, lattice])
+    return chosen
+
+
+def _lattice(low: FloatArray, high: FloatArray, edge: float) -> FloatArray:
+    """Body-centred cubic lattice of a box, nearest neighbours 0.87 `edge` apart."""
+    count = (high - low) / edge
+    if float(np.prod(np.maximum(count, 1.0))) > 5e6:
+        raise MeshError("kernel.mesh.surface-asks-more-ten")
+    starts = low + 0.5 * edge * (count % 1.0)
+    axes = [np.arange(a, b, edge) for a, b in zip(starts, high, strict=True)]
+    corners = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
+    lattice = np.vstack([corners, corners + 0.5 * edge])
+    # a little disorder: points of a plane on one circle would give cells without volume
+    return lattice + np.random.default_rng(1).uniform(-0.03, 0.03, lattice.shape) * edge
+
+
+def ray_inside(positions: FloatArray, points: FloatArray, triangles: IntArray) -> BoolArray:
+    """Which positions (n, 3) a closed surface holds: parity of crossings of a ray."""
+    way = np.array([0.26856, 0.53242, 0.80248])  # along no axis or diagonal
+    way /= np.linalg.norm(way)
+    first = np.cross(way, [1.0, 0.0, 0.0])
+    first /= np.linalg.norm(first)
+    frame = np.column_stack([first, np.cross(way, first), way])
+    corners, at = (points @ frame)[triangles], positions @ frame
+    a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
+    twice = _turn(b - a, c - a)
+    inside = np.zeros(len(at), dtype=bool)
+    for rows in np.array_split(np.arange(len(at)), max(1, len(at) * len(triangles) // 2_000_000)):
+        p = at[rows, None]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            s, t = _turn(p - a, c - a) / twice, _turn(b - a, p - a) / twice
+        height = a[:, 2] + s * (b - a)[:, 2] + t * (c - a)[:, 2]
+        hit = (s >= 0) & (t >= 0) & (s + t <= 1) & (height > p[..., 2])
+        inside[rows] = hit.sum(axis=1) % 2 == 1
+    return inside
+
+
+def _turn(u: FloatArray, v: FloatArray) -> FloatArray:
+    return u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0]
+
+
+def _regular_triangulation(points: FloatArray, weights: FloatArray) -> IntArray:
+    """Cells (n, 4) of the weighted Delaunay triangulation; missing weights are zero.
+
+    Eight far points, numbered last, surround the others.
+    """
+    from scipy.spatial import ConvexHull, QhullError
+
+    signs = np.array(np.meshgrid([-1, 1], [-1, 1], [-1, 1])).reshape(3, -1).T
+    far = signs * [[3.0, 3.1, 2.9]] + 0.01 * np.arange(8)[:, None]
+    every = np.vstack([points, far])
+    lift = (every**2).sum(axis=1)
+    lift[: len(weights)] -= weights
+    try:
+        hull = ConvexHull(np.column_stack([every, lift]), qhull_options="Qt Q12")
+    except QhullError as error:
+        raise MeshError("kernel.mesh.points-surface-cannot-triangulated") from error
+    cells: IntArray = hull.simplices[hull.equations[:, 3] < -1e-12].astype(np.int64)
+    return cells
+
+
+def _faces(cells: IntArray) -> IntArray:
+    """Faces (4 n, 3) of cells, nodes increasing."""
+    return np.sort(cells[:, [[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]]].reshape(-1, 3), axis=1)
+
+
+def _codes(faces: IntArray, size: int) -> IntArray:
+    """One number a face."""
+    codes: IntArray = (faces[:, 0] * size + faces[:, 1]) * size + faces[:, 2]
+    return codes
+
+
+def _missing_triangles(cells: IntArray, triangles: IntArray) -> BoolArray:
+    size = int(max(cells.max(), triangles.max())) + 1
+    have = _codes(_faces(cells), size)
+    return np.asarray(~np.isin(_codes(np.sort(triangles, axis=1), size), have))
+
+
+def _inside_cells(
+    points: FloatArray, cells: IntArray, surface: FloatArray, triangles: IntArray
+) -> IntArray:
+    """Cells inside the surface, turned to positive volume."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    size = int(cells.max()) + 1
+    codes = _codes(_faces(cells), size)
+    walls = np.isin(codes, _codes(np.sort(triangles, axis=1), size))
+    owner = np.repeat(np.arange(len(cells)), 4)
+    order = np.argsort(codes, kind="stable")
+    pair = np.flatnonzero((codes[order][1:] == codes[order][:-1]) & ~walls[order][1:])
+    one, two = owner[order][pair], owner[order][pair + 1]
+    graph = coo_array((np.ones(len(one)), (one, two)), shape=(len(cells), len(cells)))
+    count, label = connected_components(graph, directed=False)
+    outer = np.unique(label[(cells >= len(points)).any(axis=1)])
+    x = points[np.where(cells < len(points), cells, 0)]
+    arms = x[:, 1:] - x[:, :1]
+    volume = np.einsum("ni,ni->n", np.cross(arms[:, 0], arms[:, 1]), arms[:, 2])
+    keep = np.zeros(count, dtype=bool)
+    for part in np.setdiff1d(np.arange(count), outer):
+        rows = np.flatnonzero(label == part)
+        largest = rows[np.abs(volume[rows]).argmax()]
+        if np.abs(volume[largest]) > 1e-12:
+            keep[part] = ray_inside(x[largest].mean(axis=0)[None], surface, triangles)[0]
+    kept = keep[label]
+    made: IntArray = cells[kept]
+    negative = volume[kept] < 0
+    made[negative] = made[negative][:, [0, 2, 1, 3]]
+    return made

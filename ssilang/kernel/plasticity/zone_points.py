@@ -1,0 +1,60 @@
+"""The plastic points of a zone, by its kind: bodies and bars, beams of fibres, layered shells."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import KernelError
+from ssilang.kernel.elements.catalog import ELEMENTS
+from ssilang.kernel.elements.families import family_of
+from ssilang.kernel.elements.shapes.geometry import chunks
+from ssilang.kernel.elements.zone_fields import (
+    zone_field,
+)
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.materials.model import Mode, Zone
+from ssilang.kernel.materials.plastic.laws import plastic_law
+from ssilang.kernel.plasticity.fibre_points import fibre_points
+from ssilang.kernel.plasticity.layered_points import layered_points
+from ssilang.kernel.plasticity.points import COMPONENTS, PlasticPoints, law_parameters
+
+
+def plastic_points(zone: Zone, characteristics: CellField) -> PlasticPoints:
+    """Everything that does not change during a calculation.
+
+    Raises
+    ------
+    KernelError
+        In hypotheses without plastic laws.
+    MaterialError
+        For missing or inadmissible parameters.
+    """
+    if "SECTION" in zone.behaviour:
+        return fibre_points(zone, characteristics)
+    if ELEMENTS[zone.element].family == "plate":
+        return layered_points(zone, characteristics)
+    law, family = plastic_law(zone.behaviour), family_of(zone)
+    assert law is not None
+    given = zone_field(zone, characteristics)
+    bar = ELEMENTS[zone.element].family == "bar"
+    if not bar and zone.mode not in COMPONENTS:
+        raise KernelError("kernel.plasticity.plastic-laws-not-exist", value=zone.mode.value)
+    parts = [
+        family.strain_operator(zone, given, "STRESSES", cells) for cells in chunks(len(zone.cells))
+    ]
+    B = np.concatenate([part.matrix for part in parts])
+    weights = np.concatenate([np.broadcast_to(p.weights, (len(p.matrix), p.matrix.shape[2]))
+                              for p in parts])  # fmt: skip
+    section: FloatArray | None = None
+    if bar:
+        section = np.broadcast_to(given.at("SECT", "STRESSES"), weights.shape)
+        weights = weights * section
+    parameters = law_parameters(zone, law, given)
+    held: tuple[int, ...] = (1, 2, 3, 4, 5) if bar else ()
+    if zone.mode is Mode.PLANE_STRESS and not bar:
+        held = (2,)
+    components = (0,) if bar else COMPONENTS[zone.mode]
+    return PlasticPoints(
+        zone, law, family.layout(zone), B, weights, section, components, held, parameters
+    )

@@ -1,0 +1,90 @@
+"""Fourier transforms, filters and shocks of sampled signals."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ssilang.kernel.base.arrays import ComplexArray, FloatArray
+from ssilang.kernel.base.errors import FieldError
+
+
+def constant_step(x: FloatArray) -> float:
+    """Step of regularly spaced abscissas.
+
+    Raises
+    ------
+    FieldError
+        With fewer than two points, or when a step differs by more than 1e-4 from the mean.
+    """
+    if len(x) < 2:
+        raise FieldError("kernel.base.signal-needs-two-points", n_x=len(x))
+    step = float(x[-1] - x[0]) / (len(x) - 1)
+    worst = float(np.max(np.abs(np.diff(x) - step)))
+    if step <= 0 or worst > 1e-4 * step:
+        raise FieldError("kernel.base.abscissas-not-regularly-spaced", worst=worst, step=step)
+    return step
+
+
+def fourier(values: NDArray[np.float64], step: float, n: int) -> tuple[FloatArray, ComplexArray]:
+    """Frequencies and Fourier transform of real signals along the first axis.
+
+    `F(f) = step * sum x_k exp(-2 i pi f k step)` on `n` samples (cut, or filled with zeros): the
+    integral that the continuous transform is, so that F has the unit of x times that of time.
+    Returns the `n // 2 + 1` frequencies from 0 to `1 / (2 step)`.
+    """
+    found = np.fft.rfft(values[:n], n, axis=0) * step
+    return np.arange(n // 2 + 1) / (n * step), found
+
+
+def inverse_fourier(frequencies: FloatArray, values: ComplexArray) -> tuple[FloatArray, FloatArray]:
+    """Times and real signal whose transform is given from 0 to the highest frequency."""
+    spacing = constant_step(frequencies)
+    n = 2 * (len(frequencies) - 1)
+    step = 1.0 / (n * spacing)
+    signal: FloatArray = np.fft.irfft(values, n) / step
+    times: FloatArray = step * np.arange(n, dtype=float)
+    return times, signal
+
+
+def smoothed(values: FloatArray, passes: int) -> FloatArray:
+    """Hanning's mean (1/4, 1/2, 1/4) applied `passes` times; ends by (1/2, 1/2)."""
+    y = np.array(values, dtype=float)
+    for _ in range(passes):
+        if len(y) < 2:
+            break
+        inner = 0.25 * y[:-2] + 0.5 * y[1:-1] + 0.25 * y[2:]
+        y = np.concatenate(([0.5 * (y[0] + y[1])], inner, [0.5 * (y[-2] + y[-1])]))
+    return y
+
+
+def shocks(
+    values: FloatArray, percent: float
+) -> tuple[FloatArray, NDArray[np.int64], NDArray[np.int64]]:
+    """Peaks of the stretches above a threshold, and the places (from 1) where they begin and end.
+
+    The threshold is `percent` of the largest absolute value. A stretch begins at i when value i
+    is below and i + 1 above, and ends at i when value i is above and i + 1 below.
+    """
+    size = np.abs(values)
+    above = size > percent / 100.0 * (size.max() if len(size) else 0.0)
+    begins = np.flatnonzero(~above[:-1] & above[1:]) + 1
+    ends = np.flatnonzero(above[:-1] & ~above[1:]) + 1
+    peaks = []
+    for i in begins:
+        after = ends[ends > i]
+        stop = int(after[0]) if len(after) else len(values)
+        part = values[i:stop]
+        peaks.append(part[np.argmax(np.abs(part))])
+    return np.asarray(peaks, dtype=float), begins, ends
+
+
+def time_above(x: FloatArray, y: FloatArray, level: float) -> float:
+    """Length of the abscissas where a curve linear between its points is above a level."""
+    a, b = y[:-1] - level, y[1:] - level
+    steps = np.diff(x)
+    share = np.where((a > 0) & (b > 0), 1.0, 0.0)
+    crossing = (a > 0) != (b > 0)
+    span = np.abs(b - a)
+    part = np.maximum(a, b) / np.where(span > 0, span, 1.0)
+    return float(np.sum(steps * np.where(crossing, part, share)))

@@ -1,0 +1,1 @@
+"""Statements run: session, evaluator, phrases, operands, calls, procedures."""

@@ -1,0 +1,384 @@
+"""From the unread operands of a phrase to the arguments of an operator, by its declared forms."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from typing import Any
+
+from ssilang.language.registry import (
+    ANY,
+    Argument,
+    Chosen,
+    Either,
+    Entry,
+    Form,
+    Group,
+    Keyword,
+    Operator,
+    Select,
+    find_operator,
+    words_in,
+)
+from ssilang.language.run.call import Call, accepts
+from ssilang.language.say.errors import SsiError
+from ssilang.language.values import Mot, type_of
+
+
+@dataclass(slots=True)
+class _Level:
+    """Keywords that may stand among the operands being read, and what they gave."""
+
+    keywords: tuple[Keyword | Select, ...]
+    values: dict[str, Any] = field(default_factory=dict)
+    seen: set[str] = field(default_factory=set)
+
+
+class Binder:
+    """Reads the entries of one form from a call; inner entries see the outer keywords too."""
+
+    def __init__(self, call: Call) -> None:
+        self.call = call
+        self._levels: list[_Level] = []
+
+    def bind(self, entries: Sequence[Entry], after: int = -1) -> dict[str, Any]:
+        """Values of entries by name.
+
+        Parameters
+        ----------
+        after : int
+            Offset in the source behind which values are looked for first.
+
+        Raises
+        ------
+        SsiError
+            When a mandatory entry cannot be read.
+        """
+        keywords = tuple(e for e in entries if isinstance(e, Keyword | Select))
+        level = _Level(keywords, {k.name: [] if k.repeated else k.default for k in keywords})
+        self._levels.append(level)
+        try:
+            self._keywords()
+            for entry in entries:
+                reader = _READERS.get(type(entry))
+                if reader is not None:
+                    level.values[entry.name] = reader(self, entry, after)
+                    self._keywords()
+        finally:
+            self._levels.pop()
+        for k in keywords:
+            if not k.optional and k.name not in level.seen:
+                raise missing_keyword(self.call, k.words)
+        return level.values
+
+    # ---- keywords ------------------------------------------------------------------------------
+
+    def _keywords(self) -> None:
+        while any(self._keyword(level) for level in reversed(self._levels)):
+            pass
+
+    def _keyword(self, level: _Level) -> bool:
+        for k in level.keywords:
+            if k.name in level.seen and not k.repeated:
+                continue
+            word = self.call.keyword(k.words, k.length)
+            if word is None:
+                continue
+            level.seen.add(k.name)
+            value = self._behind(k, word)
+            if k.repeated:
+                level.values[k.name].append(value)
+            else:
+                level.values[k.name] = value
+            return True
+        return False
+
+    def _behind(self, k: Keyword | Select, word: str) -> Any:
+        """What a keyword brings: the word, True, the values behind it, or the case it chose."""
+        place = self.call.keyword_end
+        if isinstance(k, Select):
+            return Chosen(word, self.bind(k.cases[word], place))
+        if not k.arguments:
+            return True if len(k.words) == 1 else word
+        parts = [self._argument(a, place) for a in k.arguments]
+        if len(k.words) > 1:
+            return (word, *parts)
+        return parts[0] if len(parts) == 1 else tuple(parts)
+
+    # ---- operands ------------------------------------------------------------------------------
+
+    def _argument(self, a: Argument, after: int = -1) -> Any:
+        if a.repeated:
+            return self._several(a, after)
+        operand = self.call.read(*a.types, after=after)
+        if operand is not None:
+            return operand.value
+        if a.optional:
+            return a.default
+        raise self.call.missing(a.types)
+
+    def _several(self, a: Argument, after: int) -> tuple[Any, ...]:
+        call = self.call
+        if a.leaving:
+            found = call.readable(*a.types)
+            left = [i for i in found if accepts(a.left or a.types, call.operands[i].value)]
+            kept = set(left[-a.leaving :])
+            # indices shift as operands are taken
+            values = [
+                call.take(i - n, *a.types).value
+                for n, i in enumerate(i for i in found if i not in kept)
+            ]
+        else:
+            values = []
+            words = accepts(a.types, Mot(""))
+            only = a.behind
+            while (operand := call.read(*a.types, after=after, only=only)) is not None:
+                only = True
+                values.append(operand.value)
+                if words:
+                    self._keywords()
+        if not values and not a.optional:
+            raise call.missing(a.types)
+        return tuple(values)
+
+    def _group(self, g: Group, after: int) -> Any:
+        if not g.repeated:
+            if not g.optional:
+                return self._one(g, after)
+            with self._kept() as put_back:
+                try:
+                    return self._one(g, after)
+                except SsiError:
+                    put_back()
+                    return None
+        found: list[Any] = []
+        while self.call.operands:
+            with self._kept() as put_back:
+                before = len(self.call.used)
+                try:
+                    value = self._one(g, after)
+                except SsiError:
+                    if self._stands_in_the_middle(before):
+                        raise
+                    put_back()
+                    break
+            if len(self.call.used) == before:
+                break
+            found.append(value)
+        if len(found) < g.at_least:
+            self._one(g, after)  # says what is missing
+        return found
+
+    def _one(self, g: Group, after: int) -> Any:
+        first = len(self.call.used)
+        head, rest = g.entries[:1], g.entries[1:]
+        values = self.bind(head, after)
+        used = self.call.used[first:]
+        if used and isinstance(used[0].value, Mot):
+            after = used[0].span.end
+        values |= self.bind(rest, after) if rest else {}
+        ordered = tuple(values[e.name] for e in g.entries)
+        return ordered[0] if len(ordered) == 1 else ordered
+
+    def _stands_in_the_middle(self, before: int) -> bool:
+        """Whether something was read of a group, and what it begins with is no operator."""
+        used = self.call.used[before:]
+        if not used:
+            return False
+        first = used[0].value
+        return not (isinstance(first, Mot) and find_operator(str(first).rstrip()) is not None)
+
+    def _either(self, e: Either, after: int) -> Chosen | None:
+        worst: tuple[int, SsiError] | None = None
+        for g in e.groups:
+            with self._kept() as put_back:
+                before = len(self.call.used)
+                try:
+                    return Chosen(g.name, self.bind(g.entries, after))
+                except SsiError as problem:
+                    depth = len(self.call.used) - before
+                    if worst is None or depth > worst[0]:
+                        worst = depth, problem
+                    put_back()
+        if e.optional or worst is None:
+            return None
+        raise worst[1]
+
+    @contextmanager
+    def _kept(self) -> Iterator[Callable[[], None]]:
+        """Gives a function that puts the operands back as they stood."""
+        operands, used = list(self.call.operands), len(self.call.used)
+        levels = [(v, dict(v.values), set(v.seen)) for v in self._levels]
+
+        def put_back() -> None:
+            self.call.operands[:] = operands
+            del self.call.used[used:]
+            for level, values, seen in levels:
+                level.values.clear()
+                level.values.update(values)
+                level.seen.clear()
+                level.seen.update(seen)
+
+        yield put_back
+
+
+_READERS: Mapping[type, Callable[[Binder, Any, int], Any]] = {
+    Argument: Binder._argument,
+    Group: Binder._group,
+    Either: Binder._either,
+}
+
+
+def missing_keyword(call: Call, words: Sequence[str]) -> SsiError:
+    """The error for a keyword that must stand there."""
+    return SsiError(
+        "missing-keyword",
+        call.span,
+        operator=call.name,
+        words=list(words),
+        found=call.peek_word() or "",
+    )
+
+
+@dataclass(slots=True)
+class Bound:
+    """A form that the operands fit, with its arguments."""
+
+    form: Form
+    values: dict[str, Any]
+    choice: Any = None  # the main operand, or the word, that chose a form read by hand
+
+
+def bind_operator(found: Operator, call: Call) -> Bound:
+    """Choose the form that the operands fit and read its arguments.
+
+    Raises
+    ------
+    SsiError
+        That of the form which got furthest, operands put back.
+    """
+    worst: tuple[int, SsiError] | None = None
+    for form, main in _candidates(found, call):
+        operands, used = list(call.operands), len(call.used)
+        try:
+            return _bound(form, call, main)
+        except SsiError as problem:
+            depth = len(call.used) - used
+            if worst is None or depth > worst[0]:
+                worst = depth, problem
+            call.operands[:] = operands
+            del call.used[used:]
+    if worst is None:
+        raise _no_form(found, call)
+    raise worst[1]
+
+
+def _bound(form: Form, call: Call, main: int | None) -> Bound:
+    entries = form.entries or ()
+    values: dict[str, Any] = {}
+    choice: Any = None
+    if main is not None and form.main is not None:
+        choice = values[form.main.name] = call.take(main, *form.main.types).value
+        entries = tuple(e for e in entries if e is not form.main)
+    elif form.by_hand and form.said is not None:
+        choice = call.keyword(form.said.words, form.said.length)
+    if form.by_hand:
+        return Bound(form, {}, choice)
+    values |= Binder(call).bind(entries)
+    if form.said is not None and "word" not in form.injected:
+        values.pop("word", None)
+    return Bound(form, values)
+
+
+def _candidates(found: Operator, call: Call) -> Iterator[tuple[Form, int | None]]:
+    """Forms to try, in order, with the index of the main operand where it chose the form."""
+    forms = [f for f in found.forms if _is_meant(f, call)]
+    if len(forms) == 1 and forms[0].main is None:
+        yield forms[0], None
+        return
+    words = call.words() if any(f.said for f in forms) else []
+    if words:
+        spoken = [f for f in found.forms if _is_said(f, words)]
+        meant = sorted((f for f in spoken if f in forms), key=lambda f: not f.of)
+        if spoken and not meant:
+            raise call.missing(tuple(dict.fromkeys(t for f in spoken for t in f.of)) or (ANY,))
+        if meant:
+            yield from ((f, None) for f in meant)
+            return
+    known = dict.fromkeys(t for f in forms if f.main is not None for t in f.main.types)
+    main = call.main_operand(*known) if known else None
+    if main is not None:
+        kind = type_of(call.operands[main].value)
+        chosen = [f for f in forms if f.main is not None and accepts_kind(f.main.types, kind)]
+        silent = [f for f in chosen if f.said is None]
+        if chosen and not silent:
+            raise missing_keyword(call, _words_said(chosen))
+        yield from ((f, main) for f in silent)
+        return
+    yield from ((f, None) for f in forms if f.main is None and f.said is None)
+
+
+def _is_meant(form: Form, call: Call) -> bool:
+    if form.when is not None and not form.when.test(call.session):
+        return False
+    return not form.of or call.stands(*form.of)
+
+
+def accepts_kind(types: Sequence[str], kind: str) -> bool:
+    """Whether an object of type `kind` may be read as one of the types."""
+    return ANY in types or kind in types or (kind == "ENTIER" and "FLOTTANT" in types)
+
+
+def _is_said(form: Form, words: Sequence[str]) -> bool:
+    """Whether a word of the form's stands first among the unread ones, or behind its keywords."""
+    if form.said is None:
+        return False
+    others = () if form.by_hand else tuple(words_in((form.entries or ())[1:]))
+    for word in words:
+        if _is_among(word, form.said.words, form.said.length):
+            return True
+        if not _is_among(word, others, 4):
+            break
+    return False
+
+
+def _words_said(forms: Iterable[Form]) -> list[str]:
+    """The words of forms, each once."""
+    return list(dict.fromkeys(w for f in forms if f.said is not None for w in f.said.words))
+
+
+def _is_among(word: str, words: Sequence[str], length: int) -> bool:
+    wanted = word.upper().rstrip()[:length]
+    return any(w[:length].rstrip() == wanted for w in words)
+
+
+def _no_form(found: Operator, call: Call) -> SsiError:
+    """The error where no form of an operator fits the words and types that stand there."""
+    unmet = [f.when for f in found.forms if f.when is not None and not f.when.test(call.session)]
+    words = _words_said(found.forms)
+    known = dict.fromkeys(t for f in found.forms if f.main is not None for t in f.main.types)
+    wanted = dict.fromkeys(t for f in found.forms for t in f.of)
+    if known and not (words and call.peek_word()):
+        return call.missing(tuple(known))
+    if words:
+        return missing_keyword(call, sorted(words))
+    if unmet:
+        return SsiError(
+            "form-condition", call.span, operator=call.name, en=unmet[0].en, fr=unmet[0].fr
+        )
+    return call.missing(tuple(wanted) or (ANY,))
+
+
+def run_operator(found: Operator, call: Call) -> Any:
+    """Choose the form that the operands fit and run it; returns what the function returned."""
+    bound = bind_operator(found, call)
+    form, values = bound.form, bound.values
+    if form.by_hand:
+        chooses = form.main is not None or form.said is not None
+        return form.function(call, bound.choice) if chooses else form.function(call)
+    if "session" in form.injected:
+        values["session"] = call.session
+    if "call" in form.injected:
+        values["call"] = call
+    return form.function(**values)

@@ -1,0 +1,293 @@
+"""Operands of a phrase and how operators read them.
+
+A phrase keeps its unread operands in order. Reading by type walks them from the front, steps
+over operands of other types and never passes an unread word; results are put back in front.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from ssilang.language.registry import ANY
+from ssilang.language.say.errors import SsiError
+from ssilang.language.values import Mot, Procedure, Texte, type_of
+
+if TYPE_CHECKING:
+    from ssilang.language.run.session import Session
+    from ssilang.language.text.source import Span
+
+
+@dataclass(slots=True)
+class Operand:
+    """A value waiting to be read, and where it stands in the source."""
+
+    value: Any
+    span: Span
+    name: str = ""  # the variable it was read from
+    result: bool = False  # came out of an operator
+
+
+def accepts(types: Sequence[str], value: object) -> bool:
+    """Whether a value may be read as one of the types."""
+    if ANY in types:
+        return True
+    found = type_of(value)
+    if found in types:
+        return True
+    return (found == "ENTIER" and "FLOTTANT" in types) or (found == "PROCEDUR" and "MOT" in types)
+
+
+def _as_read(operand: Operand, types: Sequence[str]) -> Operand:
+    """The operand in the type asked for: ENTIER to FLOTTANT, PROCEDUR to its name."""
+    value = operand.value
+    if ANY in types:
+        return operand
+    if type(value) is int and "ENTIER" not in types:
+        return Operand(float(value), operand.span, operand.name)
+    if isinstance(value, Procedure) and "PROCEDUR" not in types:
+        return Operand(Mot(value.name), operand.span, operand.name)
+    return operand
+
+
+_A_WORD = Mot("")
+_BESIDE_WORDS = ("MOT", "LISTENTI")  # types that may also stand beside the main operand
+_MAX_EXPANSIONS = 10_000  # TEXTE objects put into one phrase
+
+
+class Call:
+    """The unread operands of a phrase, with the operator that reads them.
+
+    Parameters
+    ----------
+    session : Session
+    operands : list of Operand
+        Unread ones, in order; consumed operands are removed.
+    """
+
+    __slots__ = ("_after", "_expansions", "name", "operands", "session", "span", "used")
+
+    def __init__(self, session: Session, operands: list[Operand], span: Span) -> None:
+        self.session = session
+        self.operands = operands
+        self.span = span  # of the operator's word
+        self.name = ""
+        self.used: list[Operand] = []  # consumed since the operator began
+        self._after: int = -1
+        self._expansions = 0
+
+    # ---- reading ---------------------------------------------------------------------------
+
+    def read(self, *types: str, after: int = -1, only: bool = False) -> Operand | None:
+        """Consume and return the first readable operand of one of the types, else None.
+
+        `after` is an offset in the source: operands that stand behind it are preferred (the
+        value of a keyword), the others are taken if there is none, unless `only` those count.
+        """
+        if after >= 0:
+            found = self._read(types, after)
+            if found is not None or only:
+                return found
+        return self._read(types, -1)
+
+    def _read(self, types: Sequence[str], after: int) -> Operand | None:
+        i = 0
+        wants_text = "TEXTE" in types
+        operands = self.operands
+        while i < len(operands):
+            operand = operands[i]
+            value = operand.value
+            if isinstance(value, Texte) and not wants_text:
+                self._expand(i)
+                continue
+            late_enough = after < 0 or operand.span.start >= after
+            if late_enough and accepts(types, value):
+                del operands[i]
+                self.used.append(operand)
+                return _as_read(operand, types)
+            if isinstance(value, Mot | Procedure):
+                return None
+            i += 1
+        return None
+
+    def _expand(self, i: int) -> None:
+        operand = self.operands[i]
+        self._expansions += 1
+        if self._expansions > _MAX_EXPANSIONS:
+            raise SsiError("endless-text", operand.span, name=operand.name or operand.span.text)
+        inserted = self.session.evaluator.operands_of(operand.value.items)
+        self.operands[i : i + 1] = inserted
+
+    def optional(self, *types: str, default: Any = None) -> Any:
+        """Value of the next operand of one of the types, or `default`."""
+        operand = self.read(*types)
+        return default if operand is None else operand.value
+
+    def required(self, *types: str, after: int = -1) -> Any:
+        """Value of the next operand of one of the types.
+
+        Raises
+        ------
+        SsiError
+            'wrong-argument' when something else stands there, 'missing-argument' when nothing.
+        """
+        operand = self.read(*types, after=after)
+        if operand is None:
+            raise self.missing(types)
+        return operand.value
+
+    def all(self, *types: str) -> list[Any]:
+        """Values of all readable operands of the types, up to a word (unless MOT is wanted)."""
+        values = []
+        while (operand := self.read(*types)) is not None:
+            values.append(operand.value)
+        return values
+
+    def word(self) -> str | None:
+        """Consume the first unread word, whatever it says; None if there is none."""
+        operand = self.read("MOT")
+        return None if operand is None else str(operand.value)
+
+    def peek_word(self) -> str | None:
+        """The first unread word, in capitals, left unread."""
+        i = self.word_index()
+        if i is None:
+            return None
+        value = self.operands[i].value
+        return value.name if isinstance(value, Procedure) else str(value).upper()
+
+    def words(self) -> list[str]:
+        """All unread words, in capitals, left unread."""
+        if self.word_index() is None:
+            return []
+        values = [o.value for o in self.operands]
+        named = (v.name if isinstance(v, Procedure) else v for v in values)
+        return [str(v).upper() for v in named if isinstance(v, str)]
+
+    def at_word(self) -> bool:
+        """Whether a word is the very next operand."""
+        return self.word_index() == 0
+
+    def keyword(self, words: Sequence[str], length: int = 4) -> str | None:
+        """Consume the first unread word if it is one of `words`; returns that entry of `words`.
+
+        Words compare on their first `length` characters, in capitals as the language's tables.
+        """
+        i = self.word_index()
+        if i is None:
+            return None
+        value = self.operands[i].value
+        text = value.name if isinstance(value, Procedure) else str(value)
+        wanted = text.upper().rstrip()[:length]
+        for word in words:
+            if word[:length].rstrip() == wanted:
+                operand = self.operands.pop(i)
+                self.used.append(operand)
+                self._after = operand.span.end
+                return word
+        return None
+
+    @property
+    def keyword_end(self) -> int:
+        """Offset behind the keyword read last: pass it as `after` to read its value."""
+        return self._after
+
+    def word_index(self) -> int | None:
+        """Index of the first unread word or procedure."""
+        i = 0
+        while i < len(self.operands):
+            value = self.operands[i].value
+            if isinstance(value, Texte):
+                self._expand(i)
+                continue
+            if isinstance(value, Mot | Procedure):
+                return i
+            i += 1
+        return None
+
+    def readable(self, *types: str) -> list[int]:
+        """Indices of the operands of the types that reading would reach, in order."""
+        found: list[int] = []
+        i, words = 0, accepts(types, _A_WORD)
+        while i < len(self.operands):
+            value = self.operands[i].value
+            if isinstance(value, Texte) and "TEXTE" not in types:
+                self._expand(i)
+                continue
+            if accepts(types, value):
+                found.append(i)
+            elif isinstance(value, Mot | Procedure) and not words:
+                break
+            i += 1
+        return found
+
+    def take(self, index: int, *types: str) -> Operand:
+        """Consume the operand at an index of the unread ones, as one of the types."""
+        operand = self.operands.pop(index)
+        self.used.append(operand)
+        return _as_read(operand, types)
+
+    def stands(self, *types: str) -> bool:
+        """Whether an unread operand of one of the types stands in the phrase."""
+        return any(accepts(types, o.value) for o in self.operands)
+
+    def main_operand(self, *types: str) -> int | None:
+        """Index of the operand whose type decides the form: the first of the types.
+
+        One or two words may stand before it (`MAXI 'ABS' L`); a word may be it, with integers
+        behind it (`EXTR 'abc' 2`).
+        """
+        words = 0
+        for i, operand in enumerate(self.operands):
+            kind = type_of(operand.value)
+            beside = 2 if words and "MOT" in types else 1
+            if kind in types and kind not in _BESIDE_WORDS[:beside]:
+                return i
+            words += isinstance(operand.value, Mot)
+            if words > 2:
+                break
+        return next(iter(self.readable(*types)), None)
+
+    # ---- errors ----------------------------------------------------------------------------
+
+    def missing(self, types: Sequence[str]) -> SsiError:
+        """The error for an operand that is not there, pointing at what stands instead."""
+        if self.operands:
+            wrong, every = self.operands[0], (*self.used, *self.operands)
+            return SsiError(
+                "wrong-argument",
+                wrong.span,
+                operator=self.name,
+                expected=list(types),
+                found=type_of(wrong.value),
+                name=wrong.name,
+                value=str(wrong.value) if isinstance(wrong.value, str) else "",
+                bare=isinstance(wrong.value, str) and wrong.span.text[:1] not in ("'", "("),
+                quoted=[o.span.text[1:-1] for o in every if o.span.text[:1] == "'"],
+            )
+        return SsiError(
+            "missing-argument",
+            self.span,
+            operator=self.name,
+            expected=list(types),
+            quoted=[o.span.text[1:-1] for o in self.used if o.span.text[:1] == "'"],
+        )
+
+    def error(self, code: str, value: object = None, /, **data: object) -> SsiError:
+        """An error placed at the operand that holds `value`, else at the operator."""
+        span = next((o.span for o in self.used if _is_operand(o.value, value)), self.span)
+        return SsiError(code, span, **{"operator": self.name, **data})
+
+    def warn(self, code: str, /, **data: object) -> None:
+        """A warning placed at the operator."""
+        self.session.warn(code, self.span, **{"operator": self.name, **data})
+
+    def bad(self, message: str, value: object = None, hint: str = "") -> SsiError:
+        """An error in words of its own, placed like `error`."""
+        return self.error("bad-value", value, message=message, hint=hint)
+
+
+def _is_operand(held: object, value: object) -> bool:
+    """Whether an operand's value is the one meant; words are also known by what they say."""
+    return held is value or (isinstance(held, Mot) and isinstance(value, str) and held == value)

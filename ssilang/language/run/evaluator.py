@@ -1,0 +1,290 @@
+"""Runs statements and blocks: assignments, conditions, loops, definitions."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any
+
+from ssilang.language.run.call import Operand
+from ssilang.language.run.fast import Slow, Value, compile_phrase
+from ssilang.language.run.jumps import LeaveLoop, LeaveProcedure, NextTurn
+from ssilang.language.run.leftovers import is_call, leftover_error
+from ssilang.language.run.phrase_errors import no_result, tell_held_word
+from ssilang.language.run.phrases import PhraseRunner
+from ssilang.language.say.errors import SsiError
+from ssilang.language.text import tree
+from ssilang.language.text.source import Span
+from ssilang.language.values import (
+    Mot,
+    Procedure,
+    Table,
+    Texte,
+    type_of,
+)
+
+if TYPE_CHECKING:
+    from ssilang.language.run.session import LoopObserver, Session
+
+
+DIRECTIVES = frozenset(
+    ["QUIT", "ITER", "MESS", "ERRE", "LIST", "TRAC", "DESS", "OPTI", "MENA", "SAUT", "RESP", "TITR"]
+)
+"""Operators that give nothing, so that none of them can be a part of a condition."""
+
+
+def _behind_condition(items: Sequence[tree.Item]) -> tree.Item | None:
+    """The directive that follows a parenthesised condition, if one does."""
+    if len(items) < 2 or not isinstance(items[0], tree.Paren):
+        return None
+    word = items[1]
+    said = isinstance(word, tree.Name | tree.Quoted) and word.text[:4] in DIRECTIVES
+    return word if said else None
+
+
+class Evaluator(PhraseRunner):
+    """Executes the nodes of parsed scripts in a session, whose evaluator it is from now on."""
+
+    def __init__(self, session: Session) -> None:
+        super().__init__(session)
+        session.evaluator = self
+        self.statement_count = 0
+        self._compiled: dict[tree.Statement | tree.Paren, Value | None] = {}
+        self._cut_short: set[tree.Statement] = set()  # conditions warned of
+        self._run_node: dict[type, Callable[[Any], None]] = {
+            tree.Statement: self._tolerant,
+            tree.If: self._if,
+            tree.Loop: self._loop,
+            tree.Definition: self._define,
+        }
+
+    # ---- blocks ----------------------------------------------------------------------------
+
+    def run(self, nodes: Sequence[tree.Node]) -> None:
+        """Run nodes in order."""
+        run_node = self._run_node
+        for node in nodes:
+            run_node[type(node)](node)
+
+    def _if(self, node: tree.If) -> None:
+        statement = node.condition
+        self._begin(statement.span)
+        value = self.scalar(statement)
+        if type(value) is bool:
+            self.run(node.then if value else node.otherwise)
+            return
+        items = statement.items
+        if unread := _behind_condition(items):
+            # SI ends its statement: what stands there for want of a ; is not run
+            items = items[:1]
+            if statement not in self._cut_short:
+                self._cut_short.add(statement)
+                self.session.warn("behind-condition", unread.span, name=unread.span.text)
+        results = self.phrase(items, statement.span)
+        if len(results) != 1 or not isinstance(results[0].value, bool):
+            raise self._unfit("condition", results, statement.span)
+        self.run(node.then if results[0].value else node.otherwise)
+
+    def _loop(self, node: tree.Loop) -> None:
+        limit = self._count(node)
+        observer = self.session.loops
+        if observer is None:
+            self._turns(node, limit, None)
+            return
+        observer.enter(node.name, limit)
+        try:
+            self._turns(node, limit, observer)
+        finally:
+            observer.leave()
+
+    def _turns(self, node: tree.Loop, limit: int | None, observer: LoopObserver | None) -> None:
+        counter = ("&" + node.name)[:24]
+        frame = self.session.frame
+        turn = 1
+        while limit is None or turn <= limit:
+            frame.variables[counter] = turn
+            if observer is not None:
+                observer.turn(turn)
+            self._begin(node.span)
+            try:
+                self.run(node.body)
+            except NextTurn as jump:
+                if jump.name != node.name:
+                    raise
+            except LeaveLoop as jump:
+                if jump.name != node.name:
+                    raise
+                return
+            turn += 1
+        frame.variables[counter] = turn
+
+    def _count(self, node: tree.Loop) -> int | None:
+        if not node.count:
+            return None
+        self.current_span = node.span
+        results = self.phrase(node.count, node.span)
+        value = results[0].value if len(results) == 1 else None
+        if isinstance(value, float) and value.is_integer():
+            value = int(value)
+        if not isinstance(value, int) or isinstance(value, bool):
+            raise self._unfit("loop-count", results, node.count[0].span)
+        return None if value < 0 else value
+
+    def _unfit(self, code: str, results: Sequence[Operand], span: Span) -> SsiError:
+        """The error for a condition or a count of another type than it must have."""
+        if not results:
+            return SsiError(code, span, found="nothing")
+        words = [o for o in results if isinstance(o.value, Mot) and not o.name and not o.result]
+        if words:
+            error = leftover_error(words, self.session.assignments)
+            if error is not None:
+                return error
+        return SsiError(code, results[0].span, found=type_of(results[0].value))
+
+    def _define(self, node: tree.Definition) -> None:
+        if node.name in self.session.library.standard_names:
+            place = Span(node.span.source, node.span.start, node.span.start + len("DEBP"))
+            self.session.warn("overrides-procedure", place, name=node.name)
+        self.session.frame.assign(node.name, Procedure(node.name, node))
+
+    # ---- statements ------------------------------------------------------------------------
+
+    def _tolerant(self, statement: tree.Statement) -> None:
+        """Run a statement; with OPTI ERRE IGNORE its errors are shown and the run goes on."""
+        try:
+            self._statement(statement)
+        except SsiError as error:
+            if self.session.options.get("ERRE") != "IGNORE":
+                raise
+            if error.span is None:
+                error.span = statement.span
+            self.session.report(error)
+
+    def _begin(self, span: Span) -> None:
+        """Note the place and count what is run, conditions and turns of loops included."""
+        self.current_span = span
+        self.statement_count += 1
+        limit = self.session.limits.statements
+        if limit is not None and self.statement_count > limit:
+            raise SsiError("statement-limit", span, limit=limit)
+
+    def _statement(self, statement: tree.Statement) -> None:
+        self._begin(statement.span)
+        if len(statement.targets) == 1:
+            value = self.scalar(statement)
+            if value is not None:
+                self.store(statement.targets[0], value)
+                return
+        if not statement.targets:
+            self._unnamed(statement)
+            return
+        one = len(statement.targets) == 1
+        path = statement.targets[0]
+        deep = isinstance(path, tree.Path) and len(path.indices) > 1
+        left = self.phrase(statement.items, statement.span, one_name=one and not deep)
+        self._assign(statement, left)
+
+    def _unnamed(self, statement: tree.Statement) -> list[Operand]:
+        """Run a statement without names; the results that nobody takes are dropped."""
+        left = self.phrase(statement.items, statement.span, one_name=True)
+        self.refuse_leftovers([o for o in left if not o.result])
+        return left
+
+    def values_of(self, statement: tree.Statement) -> list[Any]:
+        """Results of a statement without names on its left, or the object it names."""
+        self.current_span = statement.span
+        items = statement.items
+        if len(items) == 1 and isinstance(items[0], tree.Name | tree.Path | tree.Number):
+            operands = self.operands_of(items)
+            if not isinstance(operands[0].value, Mot | Texte | Procedure):
+                return [o.value for o in operands]
+        return [o.value for o in self._unnamed(statement)]
+
+    def run_top(self, nodes: Sequence[tree.Node]) -> None:
+        """Run nodes that stand outside of any procedure.
+
+        Raises
+        ------
+        SsiError
+            'no-such-loop' for a QUIT or ITER that names nothing open, besides what nodes raise.
+        """
+        try:
+            self.run(nodes)
+        except (LeaveLoop, NextTurn, LeaveProcedure) as jump:
+            raise SsiError("no-such-loop", self.current_span, name=jump.name) from None
+        except RecursionError:
+            raise SsiError("nesting", self.current_span) from None
+
+    def scalar(self, statement: tree.Statement | tree.Paren) -> Any:
+        """Value of a phrase of scalars by the short way, None if it is not one."""
+        try:
+            compiled = self._compiled[statement]
+        except KeyError:
+            compiled = self._compiled[statement] = compile_phrase(statement.items)
+        if compiled is None:
+            return None
+        try:
+            return compiled(self.session.frame)
+        except Slow:
+            return None
+
+    def _assign(self, statement: tree.Statement, left: list[Operand]) -> None:
+        targets = self._typed_targets(statement.targets)
+        self.refuse_leftovers(left[:1] if left and is_call(left) else [])
+        taken = []
+        for target, wanted in targets:
+            at = 0
+            if wanted:
+                at = next((i for i, o in enumerate(left) if type_of(o.value) == wanted), -1)
+            if at < 0 or at >= len(left):
+                error = no_result(statement.targets, target, len(targets), wanted)
+                if self._silent is not None:
+                    tell_held_word(error, self._silent)
+                raise error
+            taken.append(left.pop(at))
+            self.store(target, taken[-1].value)
+        if left:
+            self.refuse_leftovers(left, taken)
+
+    @staticmethod
+    def _typed_targets(items: Sequence[tree.Item]) -> list[tuple[tree.Item, str]]:
+        targets: list[tuple[tree.Item, str]] = []
+        i = 0
+        while i < len(items):
+            wanted = ""
+            if i + 2 < len(items) and isinstance(sign := items[i + 1], tree.Symbol):
+                kind = items[i + 2]
+                if sign.text == "*" and isinstance(kind, tree.Name | tree.Quoted):
+                    targets.append((items[i], kind.text.upper().rstrip()))
+                    i += 3
+                    continue
+            targets.append((items[i], wanted))
+            i += 1
+        return targets
+
+    def store(self, target: tree.Item, value: Any) -> None:
+        """Give a value to a target: name, table access or attribute."""
+        if isinstance(target, tree.Name):
+            given = self.session.given
+            if given and self.session.frame is self.session.root:
+                value = given.pop(target.text, value)
+            self.session.frame.variables[target.text] = value
+        elif isinstance(target, tree.Path):
+            self._store_in_table(target, value)
+        elif isinstance(target, tree.Attribute):
+            self.object_of(target).attributes[target.name] = value
+        else:
+            raise SsiError("target", target.span)
+
+    def _store_in_table(self, target: tree.Path, value: Any) -> None:
+        holder = self.single(target.base)
+        for index in target.indices[:-1]:
+            holder = self.element(holder, index, target, "no-inner-table")
+        if not isinstance(holder, Table):
+            raise self.no_table(holder, target)
+        holder.set(self.single(target.indices[-1]), value)
+
+    def refuse_leftovers(self, left: Sequence[Operand], taken: Sequence[Operand] = ()) -> None:
+        """Raise the error for operands that nothing read, behind those taken, if there are any."""
+        error = leftover_error(left, self.session.assignments, taken)
+        if error is not None:
+            raise error

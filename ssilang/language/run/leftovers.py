@@ -1,0 +1,118 @@
+"""What is wrong with a phrase that leaves operands which nothing reads."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+
+from ssilang.language.registry import find_operator
+from ssilang.language.run.call import Operand
+from ssilang.language.say.errors import SsiError
+from ssilang.language.text.source import Span
+from ssilang.language.values import ANNULE, Mot, type_of
+
+
+def is_call(left: Sequence[Operand]) -> bool:
+    """Whether leftovers begin with a bare unknown word before others: a misspelt call."""
+    first = left[0]
+    return len(left) > 1 and isinstance(first.value, Mot) and not first.result and not first.name
+
+
+def is_named_object(operand: Operand) -> bool:
+    """Whether an operand is an object that a name holds, neither a scalar nor a word."""
+    return bool(operand.name) and not isinstance(operand.value, bool | int | float | Mot)
+
+
+def leftover_error(
+    left: Sequence[Operand], later: Mapping[str, Span], taken: Sequence[Operand] = ()
+) -> SsiError | None:
+    """The error for operands that nothing read, None if there are none.
+
+    Parameters
+    ----------
+    left : sequence of Operand
+    taken : sequence of Operand
+        Those before them, which names on the left of = have taken.
+    later : mapping
+        Names that the script gives a value to somewhere, with the place where it does.
+    """
+    left = [o for o in left if o.value is not ANNULE]
+    if not left:
+        return None
+    words = [o for o in left if isinstance(o.value, Mot) and not o.name and not o.result]
+    unread = next((o for o in words if find_operator(str(o.value)) is not None), None)
+    if unread is not None and not (_quoted(unread) and not _quoted(words[0])):
+        return _unread_operator(unread, left)
+    every = (*taken, *left)
+    hidden = next((o for o in every if o.name and find_operator(o.name) is not None), None)
+    if hidden is not None and len(every) > 1:
+        return SsiError(
+            "hidden-operator", hidden.span, name=hidden.name, found=type_of(hidden.value)
+        )
+    if words:
+        return _unknown_word(words[0], later)
+    return _excess(left[0], every)
+
+
+def _quoted(operand: Operand) -> bool:
+    """Whether a word stands in quotes: behind a bare one that nobody knows it is its keyword."""
+    return operand.span.text[:1] == "'"
+
+
+def _unread_operator(operand: Operand, left: Sequence[Operand]) -> SsiError:
+    before = next((o for o in left if isinstance(o.value, Mot)), operand)
+    name = "" if before is operand else before.span.text
+    return SsiError("unread-operator", operand.span, name=str(operand.value), before=name)
+
+
+def _unknown_word(operand: Operand, later: Mapping[str, Span]) -> SsiError:
+    name = str(operand.value)
+    holder, sign, _ = operand.span.text.rpartition("%")
+    if sign:
+        return SsiError("no-attribute", operand.span, name=name, holder=holder.strip() or "%")
+    place = later.get(name.upper())
+    if (
+        place is not None
+        and place.start > operand.span.start
+        and place.source is operand.span.source
+    ):
+        line = place.source.position(place.start)[0]
+        return SsiError("set-later", operand.span, name=name, line=line)
+    return SsiError("unknown-operator", operand.span, name=name)
+
+
+def _excess(operand: Operand, every: Sequence[Operand]) -> SsiError:
+    text = operand.span.text
+    if isinstance(operand.value, int | float) and text[:1] in ("-", "+"):
+        return SsiError("glued-sign", operand.span, number=text, sign=text[0], rest=text[1:])
+    caller = _called_with_parentheses(operand.span)
+    bare = all(type(o.value) in (int, float) and not o.name for o in every)
+    kind = "parentheses" if caller else "numbers" if bare and len(every) > 1 else "order"
+    return SsiError(
+        "excess",
+        operand.span,
+        found=type_of(operand.value),
+        name=operand.name,
+        kind=kind,
+        caller=caller,
+        begins=_first_word(operand.span),
+    )
+
+
+def _called_with_parentheses(place: Span) -> str:
+    """The operator whose operands a parenthesis glued to it holds, `DROI(4 P1 P2)`, '' if none."""
+    depth, code = 0, place.source.code[: place.start]
+    for i in range(len(code) - 1, -1, -1):
+        depth += {")": 1, "(": -1}.get(code[i], 0)
+        if depth < 0:
+            found = re.search(r"\w+$", code[:i])
+            known = found is not None and find_operator(found[0].upper()) is not None
+            return found[0].upper() if found and known else ""
+        if code[i] == ";":
+            break
+    return ""
+
+
+def _first_word(span: Span) -> str:
+    """The first word of the statement that a place is in."""
+    return next(iter(span.source.code[: span.start].rpartition(";")[2].split()), "")

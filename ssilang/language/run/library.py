@@ -1,0 +1,78 @@
+"""Procedures that come from files: the deck's folder, then the standard library."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from ssilang.language.text.source_files import read_source
+from ssilang.language.text.structure import parse
+from ssilang.language.text.tree import Definition
+from ssilang.language.values import Procedure
+from ssilang.language.vocabulary.entries import Declaration, declared_names, read_declaration
+from ssilang.resources import resource
+
+_SUFFIXES = (".ssi", ".procedur", ".dgibi")
+
+
+def standard_procedures() -> dict[str, Path]:
+    """Name to file of the standard library's procedures."""
+    return {p.stem.upper(): p for p in sorted(resource("stdlib").glob("*.ssi"))}
+
+
+class Library:
+    """Finds and loads procedures on first mention of their name.
+
+    Parameters
+    ----------
+    folder : Path
+        Folder of the script, searched for names that begin with @.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._loaded: dict[str, Procedure | None] = {}
+        self._standard = standard_procedures()
+        self._declared: dict[str, Declaration | None] = {}
+        self.declared_names = declared_names()
+
+    @property
+    def standard_names(self) -> frozenset[str]:
+        """Names of the standard library's procedures."""
+        return frozenset(self._standard)
+
+    @property
+    def standard_files(self) -> dict[str, Path]:
+        """Files of the standard library's procedures by name."""
+        return self._standard
+
+    def declared(self, name: str) -> Declaration | None:
+        """What is declared of the tables of a procedure or operator, None if nothing is."""
+        if name not in self._declared:
+            known = name in self.declared_names
+            self._declared[name] = read_declaration(name) if known else None
+        return self._declared[name]
+
+    def find(self, name: str) -> Procedure | None:
+        """The procedure of that name, loaded if it is not yet, None if there is none."""
+        if name in self._loaded:
+            return self._loaded[name]
+        self._loaded[name] = None
+        path = self._path(name)
+        if path is not None:
+            self._load(path)
+        return self._loaded[name]
+
+    def _path(self, name: str) -> Path | None:
+        if name.startswith("@"):
+            for suffix in _SUFFIXES:
+                for stem in (name, name.lower()):
+                    path = self._folder / (stem + suffix)
+                    if path.is_file():
+                        return path
+        return self._standard.get(name)
+
+    def _load(self, path: Path) -> None:
+        origin = "stdlib" if path in self._standard.values() else str(path)
+        for node in parse(read_source(path)).body:
+            if isinstance(node, Definition):
+                self._loaded[node.name] = Procedure(node.name, node, origin)

@@ -1,0 +1,46 @@
+"""Errors of phrases that run and give the wrong thing: held words, names without a result."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ssilang.language.run.call import Operand
+from ssilang.language.run.scopes import PREDEFINED
+from ssilang.language.say.errors import SsiError
+from ssilang.language.text import tree
+from ssilang.language.text.source import Span
+
+
+def tell_held_word(error: SsiError, operand: Operand) -> None:
+    """Add the word to an error of its operator if the script holds it and does not write it."""
+    written = operand.span.text
+    if PREDEFINED.get(written.upper()) == operand.value:
+        return
+    if not operand.result and written.strip("'").upper()[:4] != str(operand.value).upper()[:4]:
+        error.data.setdefault("held_word", (str(operand.value), written))
+
+
+def unended(targets: Sequence[tree.Item]) -> Span | None:
+    """The statement that lost its `;` before an assignment, None if there is none.
+
+    It is what stands left of =, where the last name alone is on a later line than the rest.
+    """
+    if len(targets) < 2:
+        return None
+    *before, last = (t.span for t in targets)
+    line = last.source.position(last.start)[0]
+    if last.source.position(before[-1].start)[0] == line:
+        return None
+    return before[0].to(before[-1])
+
+
+def no_result(
+    targets: Sequence[tree.Item], target: tree.Item, count: int, wanted: str = ""
+) -> SsiError:
+    """The error of a name on the left of = that gets nothing."""
+    statement = unended(targets)
+    if statement is not None:
+        last = targets[-1].span
+        line = last.source.position(last.start)[0]
+        return SsiError("unended-statement", statement, name=last.text, line=line)
+    return SsiError("no-result", target.span, count=count, wanted=wanted, name=target.span.text)

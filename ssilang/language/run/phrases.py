@@ -1,0 +1,179 @@
+"""Phrases: operands in a pile, the first unread word tried as an operator or a procedure."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any
+
+from ssilang.language.registry import Operator, find_operator
+from ssilang.language.run.binding import run_operator
+from ssilang.language.run.call import Call, Operand
+from ssilang.language.run.jumps import LeaveLoop, LeaveProcedure, NextTurn, StopRun
+from ssilang.language.run.operands import OperandReader
+from ssilang.language.run.phrase_errors import tell_held_word
+from ssilang.language.run.procedures import call_procedure
+from ssilang.language.say.errors import ReaderLeft, SeveralErrors, SsiError
+from ssilang.language.text import tree
+from ssilang.language.text.source import Span
+from ssilang.language.values import Mot, Procedure, Texte, normalised
+from ssilang.messages.message import Said
+
+if TYPE_CHECKING:
+    from ssilang.language.run.session import Session
+
+# operators whose operands must stay as written
+_RAW_ITEMS = frozenset({"TEXT"})
+
+
+class PhraseRunner(OperandReader):
+    """The part of the evaluator that runs phrases; the rest runs statements and blocks."""
+
+    def __init__(self, session: Session) -> None:
+        super().__init__(session)
+        self.current_span: Span | None = None
+        self._silent: Operand | None = None  # the word of an operator that gave nothing
+
+    @abstractmethod
+    def run(self, nodes: Sequence[tree.Node]) -> None:
+        """Run the statements of a procedure."""
+
+    def phrase(
+        self, items: Sequence[tree.Item], span: Span, one_name: bool = True
+    ) -> list[Operand]:
+        """Run a phrase; returns the operands that are left: results first."""
+        if items and isinstance(first := items[0], tree.Name | tree.Quoted):
+            word = first.text.upper()[:4]
+            if word in _RAW_ITEMS and self.session.frame.find(word) is None:
+                return [Operand(self._texte(items[1:]), span, result=True)]
+        self._silent = None
+        call = Call(self.session, self.operands_of(items), span)
+        self._reduce(call)
+        if one_name and call.operands:
+            self._implicit_point(call)
+        return call.operands
+
+    def _texte(self, items: Sequence[tree.Item]) -> Texte:
+        parts: list[tree.Item] = []
+        for item in items:
+            value = self._spelled(item)
+            if isinstance(value, Mot):
+                parts.extend(_words_of(tree.Quoted(str(value), item.span)))
+            elif value is not None:
+                parts.append(tree.Number(value, item.span))
+            else:
+                parts.append(item)
+        return Texte(tuple(parts))
+
+    def _spelled(self, item: tree.Item) -> Any:
+        """What a part of a TEXTE says now: a quoted word, the value of a word or a number."""
+        if isinstance(item, tree.Quoted):
+            return Mot(item.text)
+        if isinstance(item, tree.Name | tree.Path):
+            operands = self._operand[type(item)](item)
+            value = operands[0].value if len(operands) == 1 else None
+            unnamed = (
+                isinstance(value, Mot) and isinstance(item, tree.Name) and not operands[0].name
+            )
+            if type(value) in (int, float) or (isinstance(value, Mot) and not unnamed):
+                return value
+        return None
+
+    def _reduce(self, call: Call) -> None:
+        while (i := call.word_index()) is not None:
+            operand = call.operands[i]
+            if isinstance(operand.value, Procedure):
+                del call.operands[i]
+                call.span = operand.span
+                self._push(
+                    call, call_procedure(self.session.evaluator, operand.value, call), operand.span
+                )
+                continue
+            found = None
+            if not operand.result or len(call.operands) > 1:
+                found = find_operator(operand.value.rstrip())
+            if found is None:
+                return
+            del call.operands[i]
+            self._operate(found, operand, call)
+            if found.terminal:
+                return
+
+    def _operate(self, found: Operator, operand: Operand, call: Call) -> None:
+        call.span, call.name, call.used = operand.span, found.full_name, []
+        try:
+            results = self.guarded(lambda: run_operator(found, call), operand.span, found.full_name)
+        except SsiError as error:
+            tell_held_word(error, operand)
+            raise
+        span = operand.span
+        self._silent = operand if results is None else None
+        if isinstance(results, tuple):
+            self._push(call, list(results), span)
+        elif results is not None:
+            self._push(call, [results], span)
+
+    def guarded(self, action: Callable[[], Any], span: Span, name: str) -> Any:
+        """Run what an operator does; whatever it raises becomes an error of the script."""
+        try:
+            result = action()
+        except KeyboardInterrupt:
+            self.session.was_interrupted()  # it is seen
+            raise
+        except (SsiError, StopRun, LeaveLoop, NextTurn, LeaveProcedure, ReaderLeft):
+            raise
+        except RecursionError:
+            raise SsiError("recursion", span, limit=self.session.limits.recursion) from None
+        except MemoryError:
+            raise SsiError("memory", span, operator=name) from None
+        except Exception as problem:
+            if self.session.was_interrupted():  # it fails over what it swallowed
+                raise KeyboardInterrupt from problem
+            if not isinstance(problem, Said):
+                raise SsiError(
+                    "internal",
+                    span,
+                    operator=name,
+                    kind=type(problem).__name__,
+                    reason=str(problem),
+                ) from problem
+            raise SsiError.of(problem, span, operator=name) from problem
+        if self.session.was_interrupted():
+            raise KeyboardInterrupt
+        return result
+
+    @staticmethod
+    def _push(call: Call, results: Sequence[Any], span: Span) -> None:
+        call.operands[:0] = [Operand(normalised(r), span, result=True) for r in results]
+
+    def _implicit_point(self, call: Call) -> None:
+        numbers = [o for o in call.operands if type(o.value) in (int, float)]
+        if len(numbers) < 2 or len(numbers) != len(call.operands):
+            return
+        dimension = self.session.dimension()
+        if dimension not in (2, 3) or self.session.make_point is None:
+            return
+        span = numbers[0].span.to(numbers[-1].span)
+        if len(numbers) < dimension:
+            raise SsiError("third-coordinate", span)
+        if len(numbers) == dimension:
+            point = self.session.make_point([float(o.value) for o in numbers])
+            call.operands[:] = [Operand(point, span, result=True)]
+
+
+def _words_of(item: tree.Quoted) -> list[tree.Item]:
+    """Items of the text of a quoted part of a TEXTE."""
+    from ssilang.language.text.parser import parse_statements
+    from ssilang.language.text.source import Source
+
+    if not item.text.strip():
+        return []
+    # behind a blank: a sign * in the first column would begin a comment
+    source = Source(item.span.source.name, " " + item.text + ";")
+    try:
+        statements = parse_statements(source)
+    except SeveralErrors as several:
+        for error in several.errors:
+            error.span = item.span
+        raise
+    return [tree.placed(i, item.span) for s in statements for i in s.items]

@@ -1,0 +1,82 @@
+"""Names and what they stand for, procedure by procedure."""
+
+from __future__ import annotations
+
+from typing import Any, Protocol
+
+from ssilang.language.text.source import Span
+from ssilang.language.values import ANNULE, Mot, Objet
+
+PREDEFINED: dict[str, Any] = {
+    "VRAI": True,
+    "FAUX": False,
+    "PI": 3.141592653589793,
+    "D": Mot("DROI"),
+    "C": Mot("CERC"),
+}
+"""Names that a run begins with."""
+
+_MISSING = object()
+
+
+class Unread(Protocol):
+    """Operands of a running phrase that nothing has read yet (a `Call`)."""
+
+    operands: list[Any]
+    span: Span
+
+    def read(self, *types: str, after: int = -1) -> Any:
+        """Take the first operand of one of the types, None if there is none."""
+
+
+class Frame:
+    """Variables of a running procedure (or of the script), over those of its caller.
+
+    Scope is dynamic: a procedure sees the caller's names as they are when it is called; what it
+    assigns stays its own. Names that begin with `!` are never inherited.
+    """
+
+    __slots__ = ("caller", "depth", "object", "pending", "procedure", "results", "variables")
+
+    def __init__(
+        self, caller: Frame | None = None, procedure: str = "", pending: Unread | None = None
+    ) -> None:
+        self.variables: dict[str, Any] = {}
+        self.caller = caller
+        self.procedure = procedure
+        self.pending = pending  # operands of the caller not read yet (ARGU)
+        self.results: list[Any] = []  # RESP
+        self.object: Objet | None = caller.object if caller is not None else None
+        self.depth: int = caller.depth + 1 if caller is not None else 0
+
+    def find(self, name: str) -> Any:
+        """Value of a name, None if it was never assigned."""
+        frame: Frame | None = self
+        while frame is not None:
+            value = frame.variables.get(name, _MISSING)
+            if value is not _MISSING:
+                return value
+            if name[:1] == "!":
+                return None
+            frame = frame.caller
+        return None
+
+    def assign(self, name: str, value: Any) -> None:
+        """Bind a name here."""
+        self.variables[name] = value
+
+    def forget(self, name: str) -> None:
+        """Make a name ANNULE here (OUBL); at the top it is as if never assigned."""
+        if self.caller is None:
+            self.variables.pop(name, None)
+        else:
+            self.variables[name] = ANNULE
+
+    def names(self) -> set[str]:
+        """All visible names."""
+        found: set[str] = set()
+        frame: Frame | None = self
+        while frame is not None:
+            found.update(frame.variables)
+            frame = frame.caller
+        return found

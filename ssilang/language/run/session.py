@@ -1,0 +1,156 @@
+"""A session: everything that one run of scripts shares.
+
+There is no other global state that a run changes, but for factors of matrices that a process may
+keep from run to run (`kernel.solvers.backends.keep_factors`) and that change no answer.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Protocol, TextIO
+
+from ssilang.language.run.library import Library
+from ssilang.language.run.scopes import PREDEFINED, Frame
+from ssilang.language.say.errors import ReaderLeft, SsiError
+from ssilang.language.text import tree
+from ssilang.language.text.source import Span
+
+
+@dataclass
+class Limits:
+    """What a run may use up; None means no limit."""
+
+    recursion: int = 200
+    statements: int | None = None
+
+
+class LoopObserver(Protocol):
+    """Is told of the REPE loops of a run."""
+
+    def enter(self, name: str, limit: int | None) -> None:
+        """A loop begins; `limit` is its number of turns, if it has one."""
+
+    def turn(self, number: int) -> None:
+        """The innermost loop begins a turn."""
+
+    def leave(self) -> None:
+        """The innermost loop ends."""
+
+
+class Runner(Protocol):
+    """What runs the statements of a session: its `Evaluator`."""
+
+    current_span: Span | None
+    statement_count: int
+
+    def run(self, nodes: Sequence[tree.Node]) -> None:
+        """Run nodes in order."""
+
+    def run_top(self, nodes: Sequence[tree.Node]) -> None:
+        """Run nodes that stand outside of any procedure."""
+
+    def values_of(self, statement: tree.Statement) -> list[Any]:
+        """Results of a statement without names on its left, or the object it names."""
+
+    def operands_of(self, items: Sequence[tree.Item]) -> list[Any]:
+        """Operands of items: names replaced by their objects, parentheses run."""
+
+    def refuse_leftovers(self, left: Sequence[Any], taken: Sequence[Any] = ()) -> None:
+        """Raise the error for operands that nothing read, if there are any."""
+
+    def guarded(self, action: Callable[[], Any], span: Span, name: str) -> Any:
+        """Run what an operator does; whatever it raises becomes an error of the script."""
+
+
+@dataclass
+class Check:
+    """A value that a script reports, compared with a reference or not (shown in the summary)."""
+
+    name: str
+    value: float
+    expected: float | None = None
+    tolerance: float | None = None
+
+
+@dataclass
+class Session:
+    """State of a run.
+
+    Parameters
+    ----------
+    script_directory : Path
+        Folder of the script: files are read below it.
+    output_directory : Path
+        Files are written below it.
+    allowed : list of Path
+        Further folders that may be read and written (`--allow`).
+    out : text stream
+        Where MESS and LIST print.
+    workspace : object
+        State of the operators (nodes, OPTI's options); made by the operators' package.
+    make_point : function
+        Turns numbers into a POINT, set by the operators' package.
+    dimension : function
+        Number of coordinates a point has (OPTI DIME), 0 before it is set.
+    flaw_of : function
+        Code of the refusal of a value that no calculation can use, '' if there is none; set by
+        the operators' package.
+    """
+
+    script_directory: Path = field(default_factory=Path.cwd)
+    output_directory: Path = field(default_factory=lambda: Path("results"))
+    allowed: list[Path] = field(default_factory=list)
+    out: TextIO = field(default_factory=lambda: sys.stdout)
+    language: str = "en"
+    options: dict[str, Any] = field(default_factory=dict)
+    limits: Limits = field(default_factory=Limits)
+    workspace: Any = None
+    make_point: Callable[[list[float]], Any] | None = None
+    dimension: Callable[[], int] = lambda: 0
+    flaw_of: Callable[[Any], str] = lambda value: ""
+    warnings: list[Any] = field(default_factory=list)
+    assignments: dict[str, Any] = field(default_factory=dict)  # name -> span of its first target
+    checks: list[Check] = field(default_factory=list)
+    statistics: dict[str, Any] = field(default_factory=dict)
+    integrate: Any = None  # integrates in time instead of the kernel, for runs that go together
+    given: dict[str, Any] = field(default_factory=dict)  # replaces a name's first assignment
+    started: float = field(default_factory=time.perf_counter)
+    evaluator: Runner = field(init=False)  # puts itself here
+
+    def __post_init__(self) -> None:
+        self.root = Frame()
+        for name, value in PREDEFINED.items():
+            self.root.assign(name, value)
+        self.frame = self.root
+        self.library = Library(self.script_directory)
+
+    def print(self, text: str = "") -> None:
+        """Print a line of results."""
+        try:
+            self.out.write(text + "\n")
+        except BrokenPipeError as closed:
+            raise ReaderLeft from closed
+
+    def warn(self, code: str, span: Any = None, /, **data: object) -> None:
+        """Report a warning: kept for the summary, shown by the renderer that listens."""
+        warning = SsiError(code, span or self.evaluator.current_span, **data)
+        warning.warns = True
+        self.report(warning)
+
+    def report(self, warning: Any) -> None:
+        """Keep a warning, or an error that does not stop the run, and show it."""
+        self.warnings.append(warning)
+        if self.on_warning is None:
+            return
+        try:
+            self.on_warning(warning)
+        except BrokenPipeError as closed:
+            raise ReaderLeft from closed
+
+    on_warning: Callable[[Any], object] | None = None
+    was_interrupted: Callable[[], bool] = lambda: False  # a signal came that nobody has seen
+    loops: LoopObserver | None = None

@@ -1,0 +1,1 @@
+"""What is said to the reader: errors, catalogue, hints, translations, reference."""

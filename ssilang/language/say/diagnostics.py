@@ -1,0 +1,361 @@
+"""From an error to the text that its reader sees: place, source line, caret, hint, calls."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+from ssilang.language.cast3m import IN_SCOPE, SUBJECTS, find_cast3m_word
+from ssilang.language.near import LIKE, VERY_LIKE, nearest
+from ssilang.language.registry import ANY, OPERATORS, find_operator, keywords_of
+from ssilang.language.say import hints
+from ssilang.language.say.errors import SsiError
+from ssilang.language.say.translations import in_french
+from ssilang.language.text.source import Span
+from ssilang.language.values import type_of
+from ssilang.messages import message
+from ssilang.resources import resource
+
+message.TRANSLATORS[:] = [in_french]
+
+_OR = {"en": " or ", "fr": " ou "}
+_ANY = {"en": "an object", "fr": "un objet"}
+
+
+_CALLED = {"en": "called by {name} at", "fr": "appelé par {name},"}
+_LETTERS = 4  # that an operator goes by
+_LINE_SHOWN = 160  # characters of a source line
+_CALLS_SHOWN = 4  # at each end of the chain
+_INDICES_SHOWN = 20
+_KINDS = {
+    "error": {"en": "error", "fr": "erreur"},
+    "warning": {"en": "warning", "fr": "avertissement"},
+}
+
+
+class _Data(dict[str, Any]):
+    def __missing__(self, name: str) -> str:
+        return ""
+
+
+def render(error: SsiError, language: str = "en", names: Iterable[str] = ()) -> str:
+    """The whole message of an error, several lines, without colours.
+
+    Parameters
+    ----------
+    error : SsiError
+    language : 'en' or 'fr'
+    names : iterable of str
+        Known variables and procedures, for the suggestion of a near name.
+    """
+    head, hint = sentence(error, language, names)
+    lines = [f"{_label(error, language)}: {head}"]
+    place, calls = _seen(error)
+    if place is not None:
+        lines += _place(place, "-->")
+    lines += [f"  = {part}" for part in hint.split("\n") if part]
+    return "\n".join(lines + _calls(calls, language))
+
+
+def _seen(error: SsiError) -> tuple[Span | None, list[tuple[str, Span]]]:
+    """Where the reader's own script is wrong, and the chain of calls outside of it.
+
+    What a procedure of the standard library reports is shown at the call in the script.
+    """
+    place, calls = error.span, list(error.calls)
+    while place is not None and calls and _is_standard(place):
+        place = calls.pop(0)[1]
+    return (
+        (error.span, list(error.calls)) if place is None or _is_standard(place) else (place, calls)
+    )
+
+
+def _is_standard(span: Span) -> bool:
+    path = span.source.path
+    return path is not None and path.parent == resource("stdlib")
+
+
+def _calls(calls: list[tuple[str, Span]], language: str) -> list[str]:
+    """The chain of procedures, innermost first; the middle of a long one is left out."""
+    lines = []
+    for name, span in calls:
+        line, column = span.source.position(span.start)
+        lines.append(f"  {_CALLED[language].format(name=name)} {span.source.name}:{line}:{column}")
+    if len(lines) <= 2 * _CALLS_SHOWN:
+        return lines
+    count = len(lines) - 2 * _CALLS_SHOWN
+    return [*lines[:_CALLS_SHOWN], f"  ... {count} ...", *lines[-_CALLS_SHOWN:]]
+
+
+def sentence(error: SsiError, language: str, names: Iterable[str] = ()) -> tuple[str, str]:
+    """What is wrong, and the hint ('' if there is none)."""
+    data = _Data(error.data)
+    if "." not in error.code:  # the language's own sentences have parts that are computed
+        data.update(_derived(error, language, names))
+    if error.code == "not-a-table" and not data["name"]:
+        data["name"] = error.span.text.split(".")[0].strip() if error.span else "it"
+    text = message.sentence(error.code, data, language)
+    hint = message.hint(error.code, data, language).strip()
+    return text, "\n".join(h for h in (_held_hint(data, language), hint) if h)
+
+
+def _held_hint(data: dict[str, Any], language: str) -> str:
+    """Says that an operator ran because the value of a name or an entry is its name."""
+    if "held_word" not in data:
+        return ""
+    text = {
+        "en": "'{0}', the value of {1}, names an operator, which ran: MOT {1} takes it as a word, "
+        "EGA {1} 'OTHER' compares it",
+        "fr": "'{0}', la valeur de {1}, nomme un opérateur, exécuté : MOT {1} le prend comme mot, "
+        "EGA {1} 'AUTRE' le compare",
+    }
+    return text[language].format(*data["held_word"])
+
+
+def _label(error: SsiError, language: str) -> str:
+    number = message.find(error.code).number
+    if error.code == "erre":  # the script's own number
+        number = int(str(error.data.get("number", 0)))
+    kind = _KINDS[error.severity][language]
+    return f"{kind} {number}" if number else kind
+
+
+def _place(span: Span, arrow: str) -> list[str]:
+    line, column = span.source.position(span.start)
+    text = span.source.line(line).replace("\t", " ").rstrip()
+    width = max(1, min(span.end, span.start + len(text) - column + 1) - span.start)
+    margin = " " * len(str(line))
+    text, before, width = _window(text, column - 1, width)
+    caret = " " * before + "^" * width
+    return [
+        f"{margin} {arrow} {span.source.name}:{line}:{column}",
+        f"{margin} |",
+        f"{line} | {text}",
+        f"{margin} | {caret}",
+    ]
+
+
+def _window(text: str, before: int, width: int) -> tuple[str, int, int]:
+    """The part of a very long line around the caret, and where the caret stands in it."""
+    if len(text) <= _LINE_SHOWN:
+        return text, before, width
+    first = max(0, min(before - _LINE_SHOWN // 3, len(text) - _LINE_SHOWN))
+    shown = text[first : first + _LINE_SHOWN]
+    if first:
+        shown = "..." + shown[3:]
+    if first + _LINE_SHOWN < len(text):
+        shown = shown[:-3] + "..."
+    before -= first
+    return shown, before, max(1, min(width, _LINE_SHOWN - before))
+
+
+def _derived(error: SsiError, language: str, names: Iterable[str]) -> dict[str, str]:
+    """Parts of sentences computed from the data of the error."""
+    data = error.data
+    made: dict[str, str] = {}
+    join = _OR[language]
+    if "expected" in data and isinstance(data["expected"], list):
+        made["types"] = _types_text(data["expected"], language)
+    if "words" in data and isinstance(data["words"], list):
+        made["words_text"] = join.join(f"'{w}'" for w in data["words"][:12])
+    if data.get("found") and error.code == "missing-keyword":
+        made["found_word"] = {"en": ", found ", "fr": ", trouvé "}[language] + str(data["found"])
+    if error.code == "wrong-argument":
+        made["found_text"] = _found(data, language)
+    if error.code == "not-a-table":
+        made["a_found"] = _article(str(data["found"]), language)
+        named = data["name"] or (error.span.text.split(".")[0].strip() if error.span else "it")
+        made["not_a_table_hint"] = hints.not_a_table_hint({**data, "name": named}, language)
+    if error.code == "excess" and data.get("name"):
+        made["named"] = f" ({data['name']})"
+    if data.get("found") == "nothing":
+        made["found"] = {"en": "nothing", "fr": "rien"}[language]
+    if data.get("wanted"):
+        made["wanted_text"] = {"en": " of type ", "fr": " de type "}[language] + str(data["wanted"])
+    if error.code == "arithmetic":
+        made["reason_text"] = _reason(str(data.get("reason")), language)
+    if data.get("before"):
+        before = {"en": "; it ends behind a word, here {}", "fr": " ; un mot l'arrête, ici {}"}
+        made["before_text"] = before[language].format(data["before"])
+    if data.get("bare") and error.code == "wrong-argument" and "held_word" not in data:
+        made["bare_hint"] = _bare_hint(str(data["value"]), language, names)
+    if data.get("found") in ("ENTIER", "FLOTTANT") and "POINT" in _expected(data):
+        made["point_hint"] = _POINT_HINT[language]
+    if data.get("quoted"):
+        made["keyword_hint"] = _keyword_hint(data, language)
+    if _expected(data) == ["MOT"] and data.get("name") and error.code == "wrong-argument":
+        made["word_hint"] = hints.word_hint(str(data["name"]), language)
+    made["near_hint"] = _near_hint(data, language, names)
+    made["excess_hint"] = hints.excess_hint(data, language)
+    made["no_result_hint"] = hints.no_result_hint(data, language)
+    made["comment_hint"] = hints.comment_hint(_text_from(error.span), language)
+    made["syntax_hint"] = _syntax_hint(data)
+    made["known_hint"] = _known_hint(data, language)
+    if "index" in data:
+        made["index"] = _shown_index(data["index"])
+    made["inside_text"] = _inside(data, language)
+    return made
+
+
+def _text_from(span: Span | None) -> str:
+    """The source from a place on."""
+    return span.source.text[span.start : span.start + 80] if span else ""
+
+
+def _types_text(types: list[str], language: str) -> str:
+    """Expected types as a phrase: 'a RIGIDITE', 'an ENTIER or a FLOTTANT', 'one of A, B or C'."""
+    if types == [ANY]:
+        return _ANY[language]
+    if len(types) <= 2:
+        return _OR[language].join(_article(t, language) for t in types)
+    head = {"en": "one of ", "fr": "l'un des types "}[language]
+    return head + ", ".join(types[:-1]) + _OR[language] + types[-1]
+
+
+def _article(kind: str, language: str) -> str:
+    if language == "fr":
+        return f"un {kind}"
+    return f"an {kind}" if kind[0] in "AEIO" else f"a {kind}"
+
+
+def _reason(reason: str, language: str) -> str:
+    """Python's reasons of failed arithmetic in a user's words."""
+    for sign, (english, french) in _REASONS.items():
+        if sign in reason:
+            return english if language == "en" else french
+    return in_french(reason) if language == "fr" else reason
+
+
+_REASONS = {
+    "by zero": ("division by zero", "division par zéro"),
+    "negative power": ("division by zero", "division par zéro"),
+    "too large": ("the result is too large", "le résultat est trop grand"),
+    "out of range": ("the result is too large", "le résultat est trop grand"),
+    "infinity": ("the result is too large", "le résultat est trop grand"),
+}
+
+
+_POINT_HINT = {
+    "en": "a point inside a phrase is written in parentheses: (0. 1.)\n",
+    "fr": "un point dans une phrase s'écrit entre parenthèses : (0. 1.)\n",
+}
+
+
+def _expected(data: dict[str, object]) -> list[str]:
+    expected = data.get("expected")
+    return expected if isinstance(expected, list) else []
+
+
+def _bare_hint(word: str, language: str, names: Iterable[str]) -> str:
+    near = nearest(word, names)
+    question = {"en": " (did you mean {}?)", "fr": " (vouliez-vous dire {} ?)"}[language]
+    ask = question.format(near) if near else ""
+    text = {"en": "{} was never given a value{}\n", "fr": "{} n'a jamais reçu de valeur{}\n"}
+    return text[language].format(word, ask)
+
+
+def _keyword_hint(data: dict[str, object], language: str) -> str:
+    """A quoted word of the phrase that is nearly a keyword of its operator."""
+    found = find_operator(str(data.get("operator", "")))
+    quoted = data.get("quoted")
+    if found is None or not isinstance(quoted, list):
+        return ""
+    keywords = [w.rstrip() for w in keywords_of(found)]
+    beginnings = {w[:4] for w in keywords}
+    for word in quoted:
+        near = "" if word.upper()[:4] in beginnings else nearest(word, keywords)
+        if near:
+            text = {
+                "en": "'{}' is no keyword of {}: did you mean '{}'?\n",
+                "fr": "'{}' n'est pas un mot-clé de {} : vouliez-vous dire '{}' ?\n",
+            }[language]
+            return text.format(word, found.name.strip(), near)
+    return ""
+
+
+def _found(data: dict[str, object], language: str) -> str:
+    kind = _article(str(data["found"]), language)
+    detail = str(data.get("name") or "") or (f"'{data['value']}'" if data.get("value") else "")
+    return f"{kind} ({detail})" if detail else kind
+
+
+def _near_hint(data: dict[str, object], language: str, names: Iterable[str]) -> str:
+    if "name" not in data:
+        return ""
+    word = str(data["name"])
+    foreign = hints.foreign_hint(word, language)
+    if foreign:
+        return foreign
+    known = elsewhere(word, language)
+    candidates = {*OPERATORS, *(o.full_name for o in OPERATORS.values()), *names}
+    # a misspelt long name may begin as an operator of another subject does
+    near = nearest(word, candidates, VERY_LIKE if known else LIKE)
+    if known and not (near and len(word) > _LETTERS):
+        return known
+    if near:
+        return {"en": f"did you mean {near}?", "fr": f"vouliez-vous dire {near} ?"}[language]
+    return {
+        "en": f"give it a value first ({word} = ... ;), or see the operators with `ssilang help`",
+        "fr": f"donnez-lui d'abord une valeur ({word} = ... ;), ou voyez `ssilang help`",
+    }[language]
+
+
+def elsewhere(word: str, language: str) -> str:
+    """What to say of a word of Cast3M that is not built here, '' if it is none."""
+    found = find_cast3m_word(word)
+    if found is None or find_operator(found.name) is not None:
+        return ""
+    english, french = SUBJECTS[found.subject]
+    kind = {"operator": "opérateur", "procedure": "procédure"}[found.kind]
+    if found.subject == IN_SCOPE:
+        return {
+            "en": f"{found.name} is a Cast3M {found.kind} that ssilang does not have",
+            "fr": f"{found.name} est un mot de Cast3M ({kind}) que ssilang n'a pas",
+        }[language]
+    return {
+        "en": f"{found.name} is a Cast3M {found.kind} ({english}), out of ssilang's scope",
+        "fr": f"{found.name} est un mot de Cast3M ({kind}, {french}), hors du champ de ssilang",
+    }[language]
+
+
+def _syntax_hint(data: dict[str, object]) -> str:
+    found = find_operator(str(data.get("operator", "")))
+    if found is None or not found.help.syntax:
+        return ""
+    lines = found.help.syntax.split("\n")
+    given = data.get("quoted")
+    quoted = [w for w in given if len(w) > 1] if isinstance(given, list) else []
+    # of several forms, the one that a keyword of the phrase belongs to
+    return next((line for line in lines for w in quoted if f"'{w[:4]}" in line), lines[0])
+
+
+def _known_hint(data: dict[str, object], language: str) -> str:
+    known = data.get("known")
+    if not isinstance(known, list):
+        return ""
+    near = nearest(str(data.get("index")), [k for k in known if isinstance(k, str)])
+    if near:
+        return {"en": f"did you mean '{near}'?", "fr": f"vouliez-vous dire '{near}' ?"}[language]
+    shown = ", ".join(_shown_index(k) for k in known[:_INDICES_SHOWN])
+    more = f" ... {_shown_index(known[-1])}" if len(known) > _INDICES_SHOWN else ""
+    text = {"en": "its indices are: ", "fr": "ses indices sont : "}[language]
+    empty = {"en": "it is empty", "fr": "elle est vide"}[language]
+    return text + shown + more if known else empty
+
+
+def _shown_index(index: object) -> str:
+    """An index of a table as a script would write it; of other objects the type."""
+    if isinstance(index, str | int | float):
+        return repr(index)
+    return type_of(index)
+
+
+def _inside(data: dict[str, object], language: str) -> str:
+    if not data.get("inside"):
+        return ""
+    where = f"{data['inside']} {data.get('inside_name', '')}".strip()
+    line = data.get("line")
+    return {
+        "en": f"; the innermost open block is {where} of line {line}",
+        "fr": f" ; le bloc ouvert le plus intérieur est {where}, ligne {line}",
+    }[language]

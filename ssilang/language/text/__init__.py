@@ -1,0 +1,1 @@
+"""From text to statements and back: sources, reader, grammar, tree."""

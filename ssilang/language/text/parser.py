@@ -1,0 +1,76 @@
+"""Text to statements: sound scripts by the quick reader, all others by the grammar."""
+
+from __future__ import annotations
+
+import re
+from functools import lru_cache
+
+from ssilang.language.say.errors import SsiError
+from ssilang.language.text import tree
+from ssilang.language.text.reader import Reader, Unsound
+from ssilang.language.text.source import STATEMENT_END, Source
+from ssilang.language.text.words import grammar_words
+
+
+@lru_cache(maxsize=1)
+def quick_reader() -> Reader:
+    """The reader of sound scripts."""
+    return Reader(grammar_words())
+
+
+def parse_statements(source: Source, end: int | None = None) -> list[tree.Statement]:
+    """Cut a source into statements, up to the offset `end` if it is given.
+
+    Raises
+    ------
+    SeveralErrors
+        All syntax errors found, at most `by_grammar.MAX_ERRORS`.
+    """
+    reader = quick_reader()
+    text = source.code[:end]
+    if not text.rstrip().endswith(";") and text.strip():
+        text = _closed(text)
+    try:
+        return reader.read(source, text)
+    except (Unsound, SsiError):
+        from ssilang.language.text.by_grammar import parse_by_grammar  # Lark takes time to start
+
+        return parse_by_grammar(source, text)
+
+
+_FIRST_WORD = re.compile(r"\s*'?(\w+)'?")
+_LAST_STATEMENT = re.compile(r"\s*(?:FIN|'FIN')\s*;", re.IGNORECASE)
+_DEEPER = frozenset({"SI", "REPE", "DEBP", "DEBM"})
+_HIGHER = frozenset({"FINS", "FIN", "FINP", "FINM"})
+
+
+def end_of_run(source: Source) -> int | None:
+    """Offset behind the first `FIN ;` outside of all blocks, None if there is none.
+
+    What stands behind is never run: decks keep remarks there that are no statements.
+    """
+    text = source.code
+    start = depth = 0
+    for m in STATEMENT_END.finditer(text):
+        if m.group() != ";":
+            continue
+        statement, start = text[start : m.end()], m.end()
+        if _LAST_STATEMENT.fullmatch(statement):
+            if depth == 0:
+                return m.end()
+            continue
+        found = _FIRST_WORD.match(statement)
+        word = found.group(1).upper()[:4] if found else ""
+        depth += (word in _DEEPER) - (word in _HIGHER)
+    return None
+
+
+def _closed(text: str) -> str:
+    """The text with the last statement ended, when all that misses is its semicolon."""
+    last = 0
+    for m in STATEMENT_END.finditer(text):
+        if m.group() == ";":
+            last = m.end()
+    tail = text[last:]
+    # `FIN` without semicolon at the end of the file is common; anything else is an error
+    return text + ";" if re.fullmatch(r"\s*FIN\s*", tail, re.IGNORECASE) else text

@@ -1,0 +1,142 @@
+"""From a parsed script back to its text; parsing that text gives the same tree again.
+
+Comments and layout are not kept. Names are printed in capitals, one statement a line, blocks
+indented by two blanks.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Iterable
+from dataclasses import fields
+from typing import Any
+
+from ssilang.language.text import tree
+
+_PLAIN_WORD = re.compile(r"[^\W\d]\w*\Z|[@&!#$]\w+\Z")
+_IGNORED_FIELDS = frozenset({"span", "spelling", "cache"})
+
+
+def print_script(script: tree.Script) -> str:
+    """The whole script, ending with a line end."""
+    return "".join(line + "\n" for line in _block(script.body, 0))
+
+
+def _block(nodes: Iterable[tree.Node], depth: int) -> list[str]:
+    lines: list[str] = []
+    for node in nodes:
+        lines += _NODES[type(node)](node, depth)
+    return lines
+
+
+def _line(text: str, depth: int) -> str:
+    # a star or a library mark in the first column would be a comment
+    shift = " " if depth == 0 and text.startswith(("*", "$$$$")) else "  " * depth
+    return shift + text
+
+
+def _statement(node: tree.Statement, depth: int) -> list[str]:
+    text = print_items(node.items)
+    if node.assigns:
+        text = f"{print_items(node.targets)} = {text}"
+    return [_line(f"{text} ;", depth)]
+
+
+def _if(node: tree.If, depth: int) -> list[str]:
+    head = f"SI {print_items(node.condition.items)} ;"
+    lines = [_line(head, depth), *_block(node.then, depth + 1)]
+    if node.otherwise:
+        lines += [_line("SINON ;", depth), *_block(node.otherwise, depth + 1)]
+    return [*lines, _line("FINSI ;", depth)]
+
+
+def _loop(node: tree.Loop, depth: int) -> list[str]:
+    name = _word(node.name)
+    head = " ".join(p for p in ("REPE", name, print_items(node.count)) if p)
+    return [_line(f"{head} ;", depth), *_block(node.body, depth + 1), _line(f"FIN {name} ;", depth)]
+
+
+def _definition(node: tree.Definition, depth: int) -> list[str]:
+    first, last = ("DEBM", "FINM") if node.method else ("DEBP", "FINP")
+    head = f"{first} {heading(node)}"
+    end = " ".join(p for p in (last, print_items(node.results)) if p)
+    return [_line(f"{head} ;", depth), *_block(node.body, depth + 1), _line(f"{end} ;", depth)]
+
+
+def heading(node: tree.Definition) -> str:
+    """Name and arguments of a procedure, as they are declared."""
+    return " ".join([_word(node.name), *(_parameter(p) for p in node.parameters)])
+
+
+def _parameter(p: tree.Parameter) -> str:
+    text = _word(p.name)
+    if p.type or p.optional:
+        text += ("/" if p.optional else "*") + _word(p.type)
+    return f"{text}*{_word(p.subtype)}" if p.subtype else text
+
+
+_NODES: dict[type, Callable[[Any, int], list[str]]] = {
+    tree.Statement: _statement,
+    tree.If: _if,
+    tree.Loop: _loop,
+    tree.Definition: _definition,
+}
+
+
+# ---- items -----------------------------------------------------------------------------------
+
+
+def print_items(items: Iterable[tree.Item]) -> str:
+    """Items separated by blanks."""
+    return " ".join(_item(i) for i in items)
+
+
+def _item(item: tree.Item) -> str:
+    return _ITEMS[type(item)](item)
+
+
+def _number(item: tree.Number) -> str:
+    value = item.value
+    if isinstance(value, float) and math.isinf(value):
+        return "1E999" if value > 0 else "-1E999"
+    return repr(value)
+
+
+def _quoted(text: str) -> str:
+    return "'" + text.replace("'", "''") + "'"
+
+
+def _word(text: str) -> str:
+    return text if _PLAIN_WORD.match(text) and text == text.upper() else _quoted(text)
+
+
+def _path(item: tree.Path) -> str:
+    return " . ".join([_item(item.base), *(_item(i) for i in item.indices)])
+
+
+def _attribute(item: tree.Attribute) -> str:
+    return f"{_item(item.base)}%{item.name}" if item.base is not None else f"%{item.name}"
+
+
+_ITEMS: dict[type, Callable[[Any], str]] = {
+    tree.Number: _number,
+    tree.Name: lambda item: item.text,
+    tree.Quoted: lambda item: _quoted(item.text),
+    tree.Symbol: lambda item: item.text,
+    tree.Paren: lambda item: f"({print_items(item.items)})",
+    tree.Path: _path,
+    tree.Attribute: _attribute,
+}
+
+
+def same_tree(a: Any, b: Any) -> bool:
+    """Whether two trees (or parts of trees) say the same, wherever they stand in their texts."""
+    if type(a) is not type(b):
+        return False
+    if isinstance(a, tuple):
+        return len(a) == len(b) and all(same_tree(x, y) for x, y in zip(a, b, strict=True))
+    if not hasattr(a, "__dataclass_fields__"):
+        return bool(a == b)
+    names = [f.name for f in fields(a) if f.name not in _IGNORED_FIELDS]
+    return all(same_tree(getattr(a, n), getattr(b, n)) for n in names)

@@ -1,0 +1,70 @@
+"""Source texts and places in them."""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_right
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+
+# strings, so that what stands in them is passed over, and the ends of statements
+STATEMENT_END = re.compile(r"'(?:[^']|'')*'|;", re.DOTALL)
+# comment lines, and the lines that separate the procedures of a library file
+_COMMENT_LINE = re.compile(r"^(?:\*|\$\$\$\$).*$", re.MULTILINE)
+
+
+@dataclass(frozen=True, eq=False)
+class Source:
+    """A script's text; `name` is the path shown in messages."""
+
+    name: str
+    text: str
+    path: Path | None = None
+
+    @classmethod
+    def decode(cls, name: str, data: bytes, path: Path | None = None) -> Source:
+        """A source from bytes, UTF-8 or else Latin-1, with any kind of line ends."""
+        try:
+            text = data.decode("utf-8-sig")
+        except UnicodeDecodeError:
+            text = data.decode("latin-1")
+        return cls(name, text.replace("\r\n", "\n").replace("\r", "\n"), path)
+
+    @cached_property
+    def code(self) -> str:
+        """The text with comment lines blanked: same length, same offsets."""
+        return _COMMENT_LINE.sub(lambda m: " " * len(m.group()), self.text)
+
+    @cached_property
+    def _line_starts(self) -> list[int]:
+        return [0, *(m.end() for m in re.finditer("\n", self.text))]
+
+    def position(self, offset: int) -> tuple[int, int]:
+        """1-based line and column of an offset."""
+        line = bisect_right(self._line_starts, offset)
+        return line, offset - self._line_starts[line - 1] + 1
+
+    def line(self, number: int) -> str:
+        """Text of a 1-based line, without its end."""
+        start = self._line_starts[number - 1]
+        end = self.text.find("\n", start)
+        return self.text[start:] if end < 0 else self.text[start:end]
+
+
+@dataclass(frozen=True, slots=True)
+class Span:
+    """Characters start:end of a source."""
+
+    source: Source = field(repr=False)
+    start: int
+    end: int
+
+    def to(self, other: Span) -> Span:
+        """From the start of this span to the end of another."""
+        return Span(self.source, self.start, max(self.end, other.end))
+
+    @property
+    def text(self) -> str:
+        """The characters themselves."""
+        return self.source.text[self.start : self.end]

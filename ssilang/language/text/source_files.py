@@ -1,0 +1,23 @@
+"""Source texts from files."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from ssilang.language.say.errors import SsiError
+from ssilang.language.text.source import Source
+
+
+def read_source(path: Path) -> Source:
+    """Read a file, UTF-8 or else Latin-1.
+
+    Raises
+    ------
+    SsiError
+        'missing-file' if it cannot be read.
+    """
+    try:
+        data = path.read_bytes()
+    except OSError as error:
+        raise SsiError("missing-file", None, path=str(path), reason=error.strerror) from None
+    return Source.decode(str(path), data, path)

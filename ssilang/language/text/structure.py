@@ -1,0 +1,286 @@
+"""Nesting of statements into blocks, by their first word, as the language skips branches."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from ssilang.language.say.errors import SeveralErrors, SsiError
+from ssilang.language.text.parser import end_of_run, parse_statements
+from ssilang.language.text.source import Source, Span
+from ssilang.language.text.tree import (
+    Definition,
+    If,
+    Item,
+    Loop,
+    Name,
+    Node,
+    Number,
+    Parameter,
+    Paren,
+    Quoted,
+    Script,
+    Statement,
+    Symbol,
+)
+
+_CONTROL = {
+    "SI": "SI", "SINO": "SINO", "FINS": "FINS", "REPE": "REPE", "FIN": "FIN", "DEBP": "DEBP",
+    "FINP": "FINP", "DEBM": "DEBM", "FINM": "FINM",
+}  # fmt: skip
+_OPENS = {"SI": "FINSI", "SINO": "FINSI", "REPE": "FIN", "DEBP": "FINP", "DEBM": "FINM"}
+
+
+def control_word(statement: Statement) -> str:
+    """The control word that a statement begins with, '' if none."""
+    return _CONTROL.get(statement.first_word[:4].rstrip(), "")
+
+
+@dataclass
+class _Open:
+    """A block under construction."""
+
+    kind: str
+    statement: Statement | None
+    body: list[Node] = field(default_factory=list)
+    name: str = ""
+    then: tuple[Node, ...] = ()
+    unnamed: bool = False  # its name is missing: any end fits
+
+
+def parse(source: Source) -> Script:
+    """Parse and structure a script.
+
+    Raises
+    ------
+    SeveralErrors
+        With all syntax errors, then all errors of nesting.
+    """
+    try:
+        return structure(parse_statements(source), source)
+    except SeveralErrors:
+        end = end_of_run(source)
+        if end is None or not source.code[end:].strip():
+            raise
+    return structure(parse_statements(source, end), source)
+
+
+def structure(statements: list[Statement], source: Source) -> Script:
+    """Nest a flat list of statements; see `parse`."""
+    errors: list[SsiError] = []
+    stack = [_Open("", None)]
+    crossed: set[str] = set()  # openers that were taken as closed: their late ends are forgiven
+    for statement in map(_without_strays, statements):
+        word = control_word(statement)
+        if word == "FIN" and len(statement.items) == 1:
+            word = ""  # FIN alone stops the run
+        try:
+            _STEPS.get(word, _plain)(stack, statement)
+        except SsiError as error:
+            if error.code == "crossed-blocks":
+                crossed.add(str(error.data["missing"]))
+            late = error.code == "stray-block-end" and str(error.data["word"])[:4] in {
+                c[:4] for c in crossed
+            }
+            if not late:
+                errors.append(error)
+    for left in reversed(stack[1:]):
+        assert left.statement is not None
+        if left.unnamed:
+            continue
+        errors.append(_unclosed(left))
+    if errors:
+        raise SeveralErrors(errors)
+    return Script(tuple(stack[0].body), Span(source, 0, len(source.text)))
+
+
+def _unclosed(left: _Open) -> SsiError:
+    assert left.statement is not None
+    return SsiError(
+        "unclosed-block",
+        left.statement.span,
+        word=left.statement.first_word,
+        missing=_OPENS[left.kind] + (f" {left.name}" if left.kind == "REPE" else ""),
+    )
+
+
+def _without_strays(statement: Statement) -> Statement:
+    """`3 SINON ;` is SINON: numbers in front of the word are operands that nothing reads."""
+    items = statement.items
+    if len(items) < 2 or statement.assigns or not isinstance(items[0], Number):
+        return statement
+    at = next((i for i, item in enumerate(items) if not isinstance(item, Number)), 0)
+    rest = Statement((), items[at:], statement.span)
+    return rest if at and control_word(rest) in ("SINO", "FINS") else statement
+
+
+def _plain(stack: list[_Open], statement: Statement) -> None:
+    stack[-1].body.append(statement)
+
+
+def _rest(statement: Statement) -> Statement:
+    return Statement((), statement.items[1:], statement.span)
+
+
+def _si(stack: list[_Open], statement: Statement) -> None:
+    stack.append(_Open("SI", statement))
+
+
+def _sinon(stack: list[_Open], statement: Statement) -> None:
+    top = stack[-1]
+    if any(isinstance(item, Paren) for item in statement.items):
+        raise SsiError("sinon-condition", statement.span)
+    if top.kind == "SINO" and top.statement is not None:
+        line = top.statement.span.source.position(top.statement.span.start)[0]
+        raise SsiError("second-sinon", statement.span, line=line)
+    if top.kind != "SI":
+        raise _stray(stack, statement, "SI")
+    top.then, top.body, top.kind = tuple(top.body), [], "SINO"
+
+
+def _finsi(stack: list[_Open], statement: Statement) -> None:
+    top = stack[-1]
+    if top.kind not in ("SI", "SINO") or top.statement is None:
+        raise _stray(stack, statement, "SI")
+    stack.pop()
+    body = tuple(top.body)
+    then, otherwise = (body, ()) if top.kind == "SI" else (top.then, body)
+    span = top.statement.span.to(statement.span)
+    stack[-1].body.append(If(_rest(top.statement), then, otherwise, span))
+
+
+def _repe(stack: list[_Open], statement: Statement) -> None:
+    rest = list(statement.items[1:])
+    at = next((i for i, item in enumerate(rest) if isinstance(item, Name | Quoted)), None)
+    if at is None:
+        stack.append(_Open("REPE", statement, unnamed=True))
+        raise SsiError("loop-name", statement.span)
+    item = rest.pop(at)
+    assert isinstance(item, Name | Quoted)
+    opened = _Open("REPE", Statement((), (statement.items[0], *rest), statement.span))
+    opened.name = item.text.upper()
+    stack.append(opened)
+
+
+def _fin(stack: list[_Open], statement: Statement) -> None:
+    item = statement.items[1]
+    name = item.text.upper() if isinstance(item, Name | Quoted) else ""
+    top = stack[-1]
+    if top.kind != "REPE" or top.statement is None:
+        raise _crossed(stack, statement, name) or _stray(stack, statement, "REPE")
+    stack.pop()
+    if name != top.name and not top.unnamed:
+        stack[-1].body.append(_loop(top, statement))
+        raise SsiError("wrong-loop-name", item.span, expected=top.name, found=name)
+    stack[-1].body.append(_loop(top, statement))
+
+
+def _crossed(stack: list[_Open], statement: Statement, name: str) -> SsiError | None:
+    """FIN of a loop inside of which other blocks are open: these are taken as closed."""
+    at = next((i for i, o in enumerate(stack) if o.kind == "REPE" and o.name == name), 0)
+    if not at:
+        return None
+    inner, top = stack[-1], stack[at]
+    assert inner.statement is not None
+    del stack[at:]
+    stack[-1].body.append(_loop(top, statement))
+    return SsiError(
+        "crossed-blocks",
+        statement.span,
+        name=name,
+        inside=inner.statement.first_word,
+        line=inner.statement.span.source.position(inner.statement.span.start)[0],
+        missing=_OPENS[inner.kind],
+    )
+
+
+def _loop(top: _Open, end: Statement) -> Loop:
+    assert top.statement is not None
+    count = top.statement.items[1:]
+    return Loop(top.name, count, tuple(top.body), top.statement.span.to(end.span))
+
+
+def _debp(stack: list[_Open], statement: Statement) -> None:
+    kind = control_word(statement)
+    if len(statement.items) < 2 or not isinstance(statement.items[1], Name | Quoted):
+        stack.append(_Open(kind, statement))
+        raise SsiError("procedure-name", statement.span)
+    opened = _Open(kind, statement)
+    opened.name = statement.items[1].text.upper()
+    stack.append(opened)
+
+
+def _finp(stack: list[_Open], statement: Statement) -> None:
+    kind = "DEBP" if control_word(statement) == "FINP" else "DEBM"
+    at = next((i for i in reversed(range(len(stack))) if stack[i].kind == kind), 0)
+    top = stack[at]
+    if top.statement is None:
+        raise _stray(stack, statement, kind)
+    inner = stack[at + 1 :]  # what the procedure's end finds open was never closed
+    del stack[at:]
+    stack[-1].body.append(
+        Definition(
+            top.name,
+            _parameters(top.statement.items[2:]),
+            tuple(top.body),
+            statement.items[1:],
+            kind == "DEBM",
+            top.statement.span.to(statement.span),
+        )
+    )
+    if inner and not inner[0].unnamed:
+        raise _unclosed(inner[0])
+
+
+def _parameters(items: tuple[Item, ...]) -> tuple[Parameter, ...]:
+    found: list[Parameter] = []
+    i = 0
+    while i < len(items):
+        item = items[i]
+        if not isinstance(item, Name | Quoted):
+            raise SsiError("parameter", item.span)
+        name, span, optional, types = item.text.upper(), item.span, False, []
+        i += 1
+        while i + 1 < len(items) and isinstance(sign := items[i], Symbol) and sign.text in "*/":
+            kind = items[i + 1]
+            if not isinstance(kind, Name | Quoted):
+                raise SsiError("parameter", kind.span)
+            optional = optional or sign.text == "/"
+            types.append(kind.text.upper()[:8].rstrip())  # type words have 8 letters
+            span = span.to(kind.span)
+            i += 2
+        if i < len(items) and isinstance(items[i], Number | Symbol):
+            raise SsiError("parameter", items[i].span)
+        found.append(
+            Parameter(
+                name, types[0] if types else "", optional, types[1] if len(types) > 1 else "", span
+            )
+        )
+    return tuple(found)
+
+
+def _stray(stack: list[_Open], statement: Statement, opener: str) -> SsiError:
+    top = stack[-1]
+    return SsiError(
+        "stray-block-end",
+        statement.span,
+        word=statement.first_word,
+        opener=opener,
+        inside=top.statement.first_word if top.statement else "",
+        inside_name=top.name,
+        line=top.statement.span.source.position(top.statement.span.start)[0]
+        if top.statement
+        else 0,
+    )
+
+
+_STEPS = {
+    "SI": _si,
+    "SINO": _sinon,
+    "FINS": _finsi,
+    "REPE": _repe,
+    "FIN": _fin,
+    "DEBP": _debp,
+    "DEBM": _debp,
+    "FINP": _finp,
+    "FINM": _finp,
+}

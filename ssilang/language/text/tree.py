@@ -1,0 +1,172 @@
+"""The parsed script: items, statements, blocks, each with its place in the source."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+from ssilang.language.text.source import Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Number:
+    """A literal ENTIER or FLOTTANT."""
+
+    value: int | float
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Name:
+    """A bare word, upper case in `text`; `spelling` as written."""
+
+    text: str
+    spelling: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Quoted:
+    """A string between quotes."""
+
+    text: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Symbol:
+    """`+ - * / ** < > <EG >EG`: an operator written with signs."""
+
+    text: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Paren:
+    """A parenthesised phrase."""
+
+    items: tuple[Item, ...]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Path:
+    """`base . index . index`."""
+
+    base: Item
+    indices: tuple[Item, ...]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Attribute:
+    """`base % name`; base None stands for the object that runs the method."""
+
+    base: Item | None
+    name: str
+    span: Span
+
+
+Item = Number | Name | Quoted | Symbol | Paren | Path | Attribute
+
+
+def placed(item: Item, span: Span) -> Item:
+    """The same item, said to stand at `span` (items that were parsed from a text)."""
+    if isinstance(item, Paren):
+        return Paren(tuple(placed(i, span) for i in item.items), span)
+    if isinstance(item, Path):
+        return Path(placed(item.base, span), tuple(placed(i, span) for i in item.indices), span)
+    if isinstance(item, Attribute):
+        return Attribute(None if item.base is None else placed(item.base, span), item.name, span)
+    return replace(item, span=span)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Statement:
+    """`targets = items ;` (targets empty without `=`)."""
+
+    targets: tuple[Item, ...]
+    items: tuple[Item, ...]
+    span: Span
+    assigns: bool = False
+
+    @property
+    def first_word(self) -> str:
+        """Upper-case text of the first item when it is a word and nothing is assigned."""
+        if self.assigns or not self.items:
+            return ""
+        item = self.items[0]
+        if isinstance(item, Name):
+            return item.text
+        return item.text if isinstance(item, Quoted) else ""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class If:
+    """SI ... SINON ... FINSI."""
+
+    condition: Statement
+    then: tuple[Node, ...]
+    otherwise: tuple[Node, ...]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Loop:
+    """REPE name count ... FIN name."""
+
+    name: str
+    count: tuple[Item, ...]
+    body: tuple[Node, ...]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Parameter:
+    """An argument of a procedure: `name*TYPE*SUBTYPE` (mandatory) or `name/TYPE` (optional)."""
+
+    name: str
+    type: str
+    optional: bool
+    subtype: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Definition:
+    """DEBP ... FINP, or DEBM ... FINM when `method`."""
+
+    name: str
+    parameters: tuple[Parameter, ...]
+    body: tuple[Node, ...]
+    results: tuple[Item, ...]
+    method: bool
+    span: Span
+    cache: dict[str, object] = field(default_factory=dict)
+
+
+Node = Statement | If | Loop | Definition
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Script:
+    """A parsed and structured source."""
+
+    body: tuple[Node, ...]
+    span: Span
+
+
+def first_assignments(nodes: tuple[Node, ...]) -> dict[str, Span]:
+    """Where each name of a script first gets a value, or is defined; procedures' own left out."""
+    found: dict[str, Span] = {}
+    for node in nodes:
+        if isinstance(node, Statement):
+            inner = {t.text: t.span for t in node.targets if isinstance(t, Name)}
+        elif isinstance(node, If):
+            inner = first_assignments(node.then + node.otherwise)
+        elif isinstance(node, Loop):
+            inner = first_assignments(node.body)
+        else:
+            inner = {node.name: node.span}
+        for name, span in inner.items():
+            found.setdefault(name, span)
+    return found

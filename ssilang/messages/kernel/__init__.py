@@ -1,0 +1,1 @@
+"""What the kernel refuses, one module a room."""

@@ -1,0 +1,436 @@
+"""What the language refuses and warns of."""
+
+from ssilang.messages.message import Message
+
+MESSAGES: dict[str, Message] = {
+    # ---- files and limits
+    "missing-file": Message(
+        "the file {path} cannot be read: {reason}",
+        "le fichier {path} ne peut pas être lu : {reason}",
+    ),
+    "other-case": Message(
+        "{path} is read: an earlier case left it in its own output folder",
+        "{path} est lu : un cas précédent l'a laissé dans son dossier de sortie",
+        "copy the file beside the script if it belongs to it",
+        "copiez le fichier à côté du jeu de données s'il lui appartient",
+        severity="warning",
+    ),
+    "forbidden-path": Message(
+        "the file {path} is outside the script's folder and the output folder",
+        "le fichier {path} est hors du dossier du jeu de données et du dossier de sortie",
+        "run with --allow {folder} to permit it",
+        "lancez avec --allow {folder} pour l'autoriser",
+    ),
+    "statement-limit": Message(
+        "more than {limit} statements were run", "plus de {limit} instructions exécutées"
+    ),
+    "recursion": Message(
+        "procedures call each other more than {limit} levels deep",
+        "les procédures s'appellent sur plus de {limit} niveaux",
+        "look for a recursive call whose end test is never met",
+        "cherchez un appel récursif dont le test d'arrêt n'est jamais vrai",
+    ),
+    "memory": Message(
+        "{operator} needs more memory than there is", "{operator} : mémoire insuffisante"
+    ),
+    "internal": Message(
+        "{operator} failed in a way it should not ({kind}: {reason})",
+        "{operator} a échoué de façon inattendue ({kind} : {reason})",
+        "this is a defect of ssilang; run again with --debug and report what it prints",
+        "c'est un défaut de ssilang ; relancez avec --debug et signalez le résultat",
+    ),
+    "nesting": Message(
+        "parentheses, blocks or procedures are nested too deep",
+        "parenthèses, blocs ou procédures trop profondément emboîtés",
+        "cut the statement in several, with names for the parts",
+        "coupez l'instruction en plusieurs, en nommant les parties",
+    ),
+    "endless-text": Message(
+        "the TEXTE {name} leads back to itself",
+        "le TEXTE {name} renvoie à lui-même",
+    ),
+    "long-integer": Message(
+        "an ENTIER of {digits} digits is too large",
+        "un ENTIER de {digits} chiffres est trop grand",
+        "write it as a FLOTTANT, with a dot or an exponent",
+        "écrivez-le comme un FLOTTANT, avec un point ou un exposant",
+    ),
+    # ---- syntax
+    "syntax": Message("unexpected {found!r}", "{found!r} inattendu"),
+    "unclosed-string": Message(
+        "this quote is never closed",
+        "cette apostrophe n'est jamais fermée",
+        "a quote inside a string is written twice: 'l''axe'",
+        "une apostrophe dans un texte se double : 'l''axe'",
+    ),
+    "early-quote": Message(
+        "this apostrophe ends the text {text} and what follows is no text any more",
+        "cette apostrophe ferme le texte {text} et la suite n'est plus du texte",
+        "an apostrophe inside a text is written twice: 'l''axe'",
+        "une apostrophe dans un texte se double : 'l''axe'",
+    ),
+    "unclosed-paren": Message(
+        "this parenthesis is never closed", "cette parenthèse n'est jamais fermée", number=1
+    ),
+    "extra-paren": Message(
+        "this closing parenthesis has no opening one",
+        "cette parenthèse fermante n'a pas d'ouvrante",
+        number=2,
+    ),
+    "missing-semicolon": Message(
+        "the last statement does not end with ;",
+        "la dernière instruction ne finit pas par ;",
+        "{comment_hint}",
+        "{comment_hint}",
+    ),
+    "second-equal": Message(
+        "a second = in one statement",
+        "un second = dans une instruction",
+        "is the ; of the statement before missing? A comparison is written EGA",
+        "manque-t-il le ; de l'instruction précédente ? Une comparaison s'écrit EGA",
+    ),
+    "no-target": Message(
+        "there is no name in front of =",
+        "il n'y a pas de nom devant =",
+        "write NAME = ... ;",
+        "écrivez NOM = ... ;",
+    ),
+    "equal-comparison": Message(
+        "= gives a value to a name, it does not compare",
+        "= donne une valeur à un nom, il ne compare pas",
+        "comparisons are written A EGA B, A NEG B, A > B, A < B, A >EG B, A <EG B",
+        "une comparaison s'écrit A EGA B, A NEG B, A > B, A < B, A >EG B, A <EG B",
+    ),
+    "nothing-behind": Message(
+        "something is missing behind {sign}",
+        "il manque quelque chose derrière {sign}",
+        "a table is read by TABLE . INDEX, an attribute by OBJECT%NAME",
+        "une table se lit par TABLE . INDICE, un attribut par OBJET%NOM",
+    ),
+    "crossed-blocks": Message(
+        "FIN {name} comes while {inside} of line {line} is still open",
+        "FIN {name} arrive alors que {inside} de la ligne {line} est encore ouvert",
+        "blocks nest: write its {missing} before this FIN",
+        "les blocs s'emboîtent : écrivez son {missing} avant ce FIN",
+    ),
+    "second-sinon": Message(
+        "a second SINON for the SI of line {line}",
+        "un second SINON pour le SI de la ligne {line}",
+        "there is no else-if: write SI ... ; ... FINSI ; inside of the SINON",
+        "il n'y a pas de sinon-si : écrivez SI ... ; ... FINSI ; dans le SINON",
+    ),
+    "sinon-condition": Message(
+        "SINON takes no condition",
+        "SINON ne prend pas de condition",
+        "there is no else-if: write SI ... ; ... FINSI ; inside of the SINON",
+        "il n'y a pas de sinon-si : écrivez SI ... ; ... FINSI ; dans le SINON",
+    ),
+    "unclosed-block": Message(
+        "{word} opens a block that is never closed: {missing} is missing",
+        "{word} ouvre un bloc qui n'est jamais fermé : il manque {missing}",
+    ),
+    "stray-block-end": Message(
+        "{word} has no open {opener} to close{inside_text}",
+        "{word} ne ferme aucun {opener} ouvert{inside_text}",
+    ),
+    "wrong-loop-name": Message(
+        "FIN closes {found}, but the innermost open loop is {expected}",
+        "FIN ferme {found}, mais la boucle ouverte la plus intérieure est {expected}",
+        number=154,
+    ),
+    "loop-name": Message(
+        "REPE needs a name for its loop",
+        "REPE demande un nom de boucle",
+        "write REPE BOUCLE 10 ; ... FIN BOUCLE ;",
+        "écrivez REPE BOUCLE 10 ; ... FIN BOUCLE ;",
+    ),
+    "procedure-name": Message(
+        "DEBPROC needs a name",
+        "DEBPROC demande un nom",
+        "write DEBP MYPROC A*ENTIER B/FLOTTANT ; ... FINP C ;",
+        "écrivez DEBP MAPROC A*ENTIER B/FLOTTANT ; ... FINP C ;",
+    ),
+    "parameter": Message(
+        "a procedure's argument is written NAME*TYPE (mandatory) or NAME/TYPE (optional)",
+        "un argument de procédure s'écrit NOM*TYPE (obligatoire) ou NOM/TYPE (facultatif)",
+    ),
+    # ---- phrases
+    "unknown-operator": Message(
+        "{name} is neither an operator, nor a procedure, nor an object that has a value",
+        "{name} n'est ni un opérateur, ni une procédure, ni un objet qui a une valeur",
+        "{near_hint}",
+        "{near_hint}",
+    ),
+    "set-later": Message(
+        "{name} has no value here: line {line} gives it one",
+        "{name} n'a pas de valeur ici : c'est la ligne {line} qui lui en donne une",
+        "statements run from top to bottom: move that line before this one",
+        "les instructions s'exécutent de haut en bas : mettez cette ligne avant celle-ci",
+    ),
+    "unread-operator": Message(
+        "the phrase ends before {name}, which is not run{before_text}",
+        "la phrase finit avant {name}, qui n'est pas exécuté{before_text}",
+        "put what stands before it in parentheses, or write {name} in front of its operands",
+        "mettez ce qui précède entre parenthèses, ou écrivez {name} devant ses opérandes",
+    ),
+    "hidden-operator": Message(
+        "{name} is an object of yours here (of type {found}), which hides the operator {name}",
+        "{name} est ici un de vos objets (de type {found}), qui cache l'opérateur {name}",
+        "give the object another name, or write the operator between quotes: '{name}'",
+        "donnez un autre nom à l'objet, ou écrivez l'opérateur entre apostrophes : '{name}'",
+    ),
+    "glued-sign": Message(
+        "{number} is a number of its own here, not a sum",
+        "{number} est ici un nombre à part, pas une somme",
+        "a sign glued to its number and behind a blank belongs to the number: write {sign} {rest}",
+        "un signe collé à son nombre et après un blanc fait partie du nombre : "
+        "écrivez {sign} {rest}",
+        number=11,
+    ),
+    "excess": Message(
+        "nothing reads this {found}{named}",
+        "rien ne lit cet objet {found}{named}",
+        "{excess_hint}",
+        "{excess_hint}",
+        number=11,
+    ),
+    "no-result": Message(
+        "there is no result{wanted_text} for the name {name}",
+        "il n'y a pas de résultat{wanted_text} pour le nom {name}",
+        "{no_result_hint}",
+        "{no_result_hint}",
+        number=37,
+    ),
+    "unended-statement": Message(
+        "the ; that ends this statement is missing: {name} = on line {line} begins another",
+        "il manque le ; qui finit cette instruction : {name} = à la ligne {line} en commence une "
+        "autre",
+        number=37,
+    ),
+    "target": Message(
+        "a result can be given to a name, to TABLE . INDEX or to %ATTRIBUTE only",
+        "un résultat se donne à un nom, à TABLE . INDICE ou à %ATTRIBUT seulement",
+        "{comment_hint}",
+        "{comment_hint}",
+    ),
+    "condition": Message(
+        "SI needs one LOGIQUE, found {found}",
+        "SI demande un LOGIQUE, trouvé {found}",
+        "comparisons are written > < >EG <EG EGA NEG, and phrases run from left to right",
+        "les comparaisons s'écrivent > < >EG <EG EGA NEG, et les phrases vont de gauche à droite",
+    ),
+    "loop-count": Message(
+        "REPE needs an ENTIER as its number of turns, found {found}",
+        "REPE demande un ENTIER comme nombre de tours, trouvé {found}",
+    ),
+    "index": Message(
+        "the index of a table must be one object", "l'indice d'une table doit être un objet"
+    ),
+    "not-a-table": Message(
+        "{name} is {a_found}, not a TABLE",
+        "{name} est de type {found}, pas TABLE",
+        "{not_a_table_hint}",
+        "{not_a_table_hint}",
+    ),
+    "no-inner-table": Message(
+        "the table has no index {index} yet",
+        "la table n'a pas encore d'indice {index}",
+        "make the inner table first: {path} = TABL ;",
+        "créez d'abord la table intérieure : {path} = TABL ;",
+        number=171,
+    ),
+    "no-index": Message(
+        "the table has no index {index}",
+        "la table n'a pas d'indice {index}",
+        "{known_hint}",
+        "{known_hint}",
+        number=171,
+    ),
+    "not-an-object": Message(
+        "% needs an OBJET on its left, found {found}",
+        "% demande un OBJET à sa gauche, trouvé {found}",
+    ),
+    "no-attribute": Message(
+        "the object {holder} has neither an attribute nor a method called {name}",
+        "l'objet {holder} n'a ni attribut ni méthode de nom {name}",
+        "its constructor gives it methods: %METHODE {name} PROCEDURE ;",
+        "son constructeur lui donne des méthodes : %METHODE {name} PROCEDURE ;",
+    ),
+    "third-coordinate": Message(
+        "a point needs three coordinates here (OPTI DIME 3), found two",
+        "un point demande trois coordonnées ici (OPTI DIME 3), trouvé deux",
+        number=37,
+    ),
+    # ---- operands
+    "missing-argument": Message(
+        "{operator} wanted {types}, found nothing",
+        "{operator} attendait {types}, rien trouvé",
+        "{syntax_hint}",
+        "{syntax_hint}",
+        number=37,
+    ),
+    "wrong-argument": Message(
+        "{operator} wanted {types}, found {found_text}",
+        "{operator} attendait {types}, trouvé {found_text}",
+        "{bare_hint}{point_hint}{word_hint}{keyword_hint}{syntax_hint}",
+        "{bare_hint}{point_hint}{word_hint}{keyword_hint}{syntax_hint}",
+        number=37,
+    ),
+    "missing-keyword": Message(
+        "{operator} wanted one of the words {words_text}{found_word}",
+        "{operator} attendait l'un des mots {words_text}{found_word}",
+        "{syntax_hint}",
+        "{syntax_hint}",
+    ),
+    "form-condition": Message(
+        "{operator} is written so {en} only",
+        "{operator} ne s'écrit ainsi que {fr}",
+        "{syntax_hint}",
+        "{syntax_hint}",
+    ),
+    "missing-parameter": Message(
+        "{procedure} wanted its argument {parameter} ({expected}), found {found}",
+        "{procedure} attendait son argument {parameter} ({expected}), trouvé {found}",
+        "it is declared as {heading}",
+        "elle est déclarée {heading}",
+        number=37,
+    ),
+    "two-operands": Message(
+        "{operator} needs two operands",
+        "{operator} demande deux opérandes",
+        "there is no unary minus: write -1. * X",
+        "il n'y a pas de moins unaire : écrivez -1. * X",
+    ),
+    "no-rule": Message(
+        "{operator} does not go with {left} and {right}",
+        "{operator} ne s'applique pas à {left} et {right}",
+        "phrases run from left to right without precedence; put parentheses where you mean them",
+        "les phrases vont de gauche à droite sans priorité ; mettez des parenthèses",
+    ),
+    "arithmetic": Message("{reason_text}", "{reason_text}"),
+    "bad-value": Message("{message}", "{message}", "{hint}", "{hint}"),
+    # ---- entries of the tables of procedures
+    "entry-missing": Message(
+        "{procedure}: the entry {where} is missing",
+        "{procedure} : l'indice {where} manque",
+        "TAB1 . {where} = ... ;",
+        "TAB1 . {where} = ... ;",
+    ),
+    "entry-type": Message(
+        "{procedure}: {where} must be {kinds}, found {found}",
+        "{procedure} : {where} doit être {kinds}, trouvé {found}",
+    ),
+    "entry-value": Message(
+        "{procedure}: {where} is '{given}'",
+        "{procedure} : {where} vaut '{given}'",
+        "it may be {allowed}",
+        "valeurs possibles : {allowed}",
+    ),
+    "entry-value-near": Message(
+        "{procedure}: {where} is '{given}'",
+        "{procedure} : {where} vaut '{given}'",
+        "did you mean '{near}'? It may be {allowed}",
+        "vouliez-vous dire '{near}' ? Valeurs possibles : {allowed}",
+    ),
+    "entry-not-finite": Message(
+        "{procedure}: {where} has values that are not finite numbers",
+        "{procedure} : {where} a des valeurs qui ne sont pas des nombres finis",
+    ),
+    "entry-no-curve": Message(
+        "{procedure}: {where} holds no curve", "{procedure} : {where} ne contient aucune évolution"
+    ),
+    "entry-refused": Message(
+        "{procedure}: the entry {where} is not available: {en}",
+        "{procedure} : l'indice {where} n'est pas disponible : {fr}",
+    ),
+    "entry-unknown": Message(
+        "{where} is no entry of {procedure} and has no effect",
+        "{where} n'est pas un indice de {procedure} et n'a aucun effet",
+        "did you mean '{near}'?",
+        "vouliez-vous dire '{near}' ?",
+        severity="warning",
+    ),
+    "entry-of-another": Message(
+        "{where} is no entry of {procedure} and has no effect",
+        "{where} n'est pas un indice de {procedure} et n'a aucun effet",
+        "it is one of {owners}",
+        "c'en est un de {owners}",
+        severity="warning",
+    ),
+    "entry-unread": Message(
+        "{where} is no entry of {procedure} and nothing in the script reads it",
+        "{where} n'est pas un indice de {procedure} et rien dans le script ne le lit",
+        "`ssilang help {procedure}` lists its entries",
+        "`ssilang help {procedure} --lang fr` en donne la liste",
+        severity="warning",
+    ),
+    "no-such-loop": Message(
+        "no open loop or procedure is called {name}",
+        "aucune boucle ou procédure ouverte ne s'appelle {name}",
+    ),
+    "interrupted": Message("interrupted", "interrompu"),
+    "reader-left": Message(
+        "ended here: whoever read what the run prints left",
+        "arrêté ici : le lecteur de ce que le calcul affiche est parti",
+    ),
+    # ---- found by checking, and warnings
+    "undefined-name": Message(
+        "{name} was never given a value before this line",
+        "{name} n'a pas reçu de valeur avant cette ligne",
+        "{near_name}",
+        "{near_name}",
+    ),
+    "undefined-table": Message(
+        "{name} is used as a TABLE but was never given a value before this line",
+        "{name} est utilisé comme TABLE mais n'a pas reçu de valeur avant cette ligne",
+        "make the table first: {name} = TABL ;",
+        "créez d'abord la table : {name} = TABL ;",
+    ),
+    "unused-name": Message(
+        "{name} gets a value that nothing reads",
+        "{name} reçoit une valeur que rien ne lit",
+        severity="warning",
+    ),
+    "perhaps-misspelt": Message(
+        "{name} has no value and is read as a word; {like} has one",
+        "{name} n'a pas de valeur et se lit comme un mot ; {like} en a une",
+        "if the word is meant, write it between quotes: '{name}'",
+        "si c'est bien le mot, écrivez-le entre apostrophes : '{name}'",
+        severity="warning",
+    ),
+    "shadowed-operator": Message(
+        "{name} is also an operator, which this name hides from here on",
+        "{name} est aussi un opérateur, que ce nom cache à partir d'ici",
+        "choose another name, or write the operator between quotes: '{name}'",
+        "choisissez un autre nom, ou écrivez l'opérateur entre apostrophes : '{name}'",
+        severity="warning",
+    ),
+    "behind-condition": Message(
+        "{name} stands behind the condition of SI, in the same statement: it is not run",
+        "{name} suit la condition de SI dans la même instruction : il n'est pas exécuté",
+        "a ; is probably missing between the condition and {name}",
+        "il manque sans doute un ; entre la condition et {name}",
+        severity="warning",
+    ),
+    "unread-object": Message(
+        "nothing in these parentheses reads {name}, a {found}: they stand for their result alone",
+        "rien dans ces parenthèses ne lit {name}, un {found} : elles valent leur seul résultat",
+        "an operator between two objects is missing before {name}, or {name} is too much",
+        "il manque un opérateur entre deux objets devant {name}, ou {name} est de trop",
+        severity="warning",
+    ),
+    "overrides-procedure": Message(
+        "{name} replaces the procedure of that name in the standard library",
+        "{name} remplace la procédure de ce nom de la bibliothèque",
+        severity="warning",
+    ),
+    "integer-division": Message(
+        "{left} / {right} is {value}: a quotient of integers is cut to an integer",
+        "{left} / {right} vaut {value} : le quotient de deux entiers est tronqué",
+        "write {left}. / {right} for {exact:g}",
+        "écrivez {left}. / {right} pour {exact:g}",
+        severity="warning",
+    ),
+    # ---- ERRE
+    "erre": Message("{message}", "{message}"),
+}

@@ -1,0 +1,211 @@
+"""From a code and its data to a sentence, in one language, at the very end.
+
+A code is `room.name`: the room is a module of this package (`kernel.mesh`, `operators.modal`),
+loaded when one of its sentences is first told; a code without a room is the language's own. Data
+fill the templates:
+
+===============================  ==================================================================
+`{size:.3g}`                     as in str.format
+`{names}`                        a collection: `a, b, c`; `{values:.3g}` shows each in that way
+`{names:and}` `{names:or}`       `a, b and c`, in French `a, b et c`
+`{names:words}` `{parts:;}`      `a b c`, `a; b; c`
+`{count:node|nodes}`             singular or plural, by a number or the size of a collection
+`{near:?did you mean {near}?}`   a part that stands only where `near` says something;
+                                 `{near:?there is {near}|nothing}` has another one for else
+`{problem}` `{problem!h}`        the sentence, and the hint, of another error or `Sentence`
+===============================  ==================================================================
+
+One is singular in English; in French nought is, too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass
+from functools import cache
+from importlib import import_module
+from string import Formatter
+from typing import Any, Literal, Protocol, TypeGuard, runtime_checkable
+
+Severity = Literal["error", "warning"]
+
+_LAST = {"and": {"en": " and ", "fr": " et "}, "or": {"en": " or ", "fr": " ou "}}
+_SINGULAR = {"en": (1,), "fr": (0, 1)}
+_BETWEEN = {
+    "": {"en": ", ", "fr": ", "},
+    "words": {"en": " ", "fr": " "},
+    ";": {"en": "; ", "fr": " ; "},
+}
+_COLON = {"en": ": ", "fr": " : "}
+
+
+@dataclass(frozen=True, slots=True)
+class Message:
+    """Sentence and hint of one code, in two languages; `number` is Cast3M's, 0 if it has none."""
+
+    en: str
+    fr: str
+    hint_en: str = ""
+    hint_fr: str = ""
+    number: int = 0
+    severity: Severity = "error"
+
+
+@runtime_checkable
+class Said(Protocol):
+    """What has a sentence: errors, and parts of other sentences."""
+
+    @property
+    def code(self) -> str:
+        """Where its sentence stands."""
+
+    @property
+    def data(self) -> Mapping[str, Any]:
+        """What fills it."""
+
+
+class Sentence:
+    """A part of a sentence, or a hint, that stands in the catalogue under a code of its own."""
+
+    __slots__ = ("code", "data")
+
+    def __init__(self, code: str, /, **data: object) -> None:
+        self.code, self.data = code, data
+
+    def __str__(self) -> str:
+        """In English."""
+        return sentence(self.code, self.data)
+
+
+class Refusal(Exception):
+    """What is refused, and why: a code and data, from which a sentence is made at the very end.
+
+    Parameters
+    ----------
+    code : str
+        Key of a message, such as 'kernel.mesh.no-area'.
+    **data
+        What fills its sentence and its hint. An error that led to this one is data too.
+    """
+
+    def __init__(self, code: str, /, **data: object) -> None:
+        super().__init__(code)
+        self.code, self.data = code, data
+
+    def __str__(self) -> str:
+        """The sentence in English."""
+        return sentence(self.code, self.data)
+
+    @property
+    def hint(self) -> str:
+        """What to change to get further, in English, '' if nothing is known."""
+        return hint(self.code, self.data)
+
+
+def find(code: str) -> Message:
+    """The message of a code.
+
+    Raises
+    ------
+    LookupError
+        If no catalogue has it: a defect of the program.
+    """
+    room, _, name = code.rpartition(".")
+    try:
+        return _room(room or "language")[name]
+    except (ModuleNotFoundError, KeyError):
+        raise LookupError(f"no message has the code '{code}'") from None
+
+
+@cache
+def _room(name: str) -> dict[str, Message]:
+    found: dict[str, Message] = import_module(f"ssilang.messages.{name}").MESSAGES
+    return found
+
+
+TRANSLATORS: list[Callable[[str], str]] = []
+"""Makes French of sentences that stand in no catalogue yet (code 'bad-value')."""
+
+
+def _translated(code: str, data: Mapping[str, Any], language: str) -> Mapping[str, Any]:
+    if code != "bad-value" or language == "en":
+        return data
+    told = {k: v for k, v in data.items() if k in ("message", "hint")}
+    for translate in TRANSLATORS:
+        told = {k: translate(str(v)) for k, v in told.items()}
+    return {**data, **told}
+
+
+def sentence(code: str, data: Mapping[str, Any], language: str = "en") -> str:
+    """What is wrong, in 'en' or 'fr'; `speaker` among the data is named first."""
+    message, data = find(code), _translated(code, data, language)
+    text = filled(message.en if language == "en" else message.fr, data, language)
+    return f"{data['speaker']}{_COLON[language]}{text}" if "speaker" in data else text
+
+
+def hint(code: str, data: Mapping[str, Any], language: str = "en") -> str:
+    """What to do about it, '' if nothing is known."""
+    message, data = find(code), _translated(code, data, language)
+    return filled(message.hint_en if language == "en" else message.hint_fr, data, language)
+
+
+def filled(template: str, data: Mapping[str, Any], language: str) -> str:
+    """A template with its data put in."""
+    made = []
+    for literal, name, spec, conversion in Formatter().parse(template):
+        made.append(literal)
+        if name is not None:
+            made.append(_field(data[name], spec or "", conversion, data, language))
+    return "".join(made)
+
+
+def _field(
+    value: object, spec: str, conversion: str | None, data: Mapping[str, Any], language: str
+) -> str:
+    if spec[:1] == "?":
+        there, absent = [*_branches(spec[1:]), ""][:2]
+        return filled(there if _says(value) else absent, data, language)
+    if "|" in spec:
+        one, several = _branches(spec)
+        count = len(value) if _is_several(value) else value
+        return filled(one if count in _SINGULAR[language] else several, data, language)
+    if conversion == "h" and isinstance(value, Said):
+        return hint(value.code, value.data, language)
+    if conversion == "r":
+        return repr(value)
+    return _shown(value, spec, language)
+
+
+def _branches(spec: str) -> list[str]:
+    """The spec cut at the signs | that stand outside of inner fields."""
+    parts, depth = [""], 0
+    for sign in spec:
+        depth += (sign == "{") - (sign == "}")
+        if sign == "|" and not depth:
+            parts.append("")
+        else:
+            parts[-1] += sign
+    return parts
+
+
+def _says(value: object) -> bool:
+    return bool(len(value)) if _is_several(value) else bool(value)
+
+
+def _is_several(value: object) -> TypeGuard[Collection[object]]:
+    several = isinstance(value, Collection) and not isinstance(value, str)
+    return several and getattr(value, "ndim", 1) > 0
+
+
+def _shown(value: object, spec: str, language: str) -> str:
+    if isinstance(value, Said):
+        return sentence(value.code, value.data, language)
+    if not _is_several(value):
+        return format(value, spec)
+    joint, _, form = spec.partition(" ")
+    if joint not in _LAST and joint not in _BETWEEN:
+        joint, form = "", spec
+    words = [_shown(v, form, language) for v in value]
+    if joint in _LAST and len(words) > 1:
+        return ", ".join(words[:-1]) + _LAST[joint][language] + words[-1]
+    return _BETWEEN.get(joint, _BETWEEN[""])[language].join(words)

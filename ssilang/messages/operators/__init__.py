@@ -1,0 +1,1 @@
+"""What operators refuse and warn of, one module a family."""

@@ -1,0 +1,208 @@
+"""Bars and beams against beam theory."""
+
+import numpy as np
+import pytest
+
+from ssilang.kernel.base.errors import MaterialError
+from ssilang.kernel.elements import families
+from ssilang.kernel.elements.family import Layout
+from ssilang.kernel.elements.loads.line_loads import line_load
+from ssilang.kernel.elements.results.second_order import green_strain
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.materials.model import Mode, Model
+from ssilang.kernel.matrices.assembly import (
+    assemble,
+    field_to_vector,
+    numbering_of,
+    vector_to_field,
+)
+from ssilang.kernel.matrices.matrix import Matrix
+from tests.kernel.elements.samples import field, line_zone, material
+
+E, NU, A, IY, IZ, J, L = 2.0e11, 0.25, 0.02, 3e-5, 5e-5, 6e-5, 3.0
+SECTION = {"YOUN": E, "NU": NU, "RHO": 7800.0, "SECT": A, "INRY": IY, "INRZ": IZ, "TORS": J}
+AXIS = np.array([2.0, 1.0, 2.0]) / 3.0
+
+
+def _clamped(zone, mat, load, clamped=0):
+    """Displacements under nodal forces, the first node being fixed."""
+    K = Matrix(zone.cells.nodes, (families.stiffness(zone, mat),))
+    numbering = numbering_of(K)
+    free = numbering.nodes != clamped
+    u = np.zeros(numbering.size)
+    dense = assemble(K, numbering).toarray()
+    u[free] = np.linalg.solve(dense[np.ix_(free, free)], field_to_vector(load, numbering)[free])
+    return vector_to_field(u, numbering)
+
+
+def _force(zone, node, **values):
+    return NodeField.of(
+        zone.cells.nodes, np.array([node]), {k: np.array([v]) for k, v in values.items()}, "DISCRET"
+    )
+
+
+def test_bar_in_space_stretches_like_a_spring():
+    zone = line_zone("BARR", [0 * AXIS, L * AXIS], Mode.THREE_DIMENSIONAL)
+    mat = material(zone, **SECTION)
+    pull = dict(zip(("FX", "FY", "FZ"), 1e4 * AXIS, strict=True))
+    u = field(
+        zone,
+        **{
+            n: (lambda x, a=a: 1e4 * L / (E * A) * a * x[:, 0] / (L * AXIS[0]))
+            for n, a in zip(("UX", "UY", "UZ"), AXIS, strict=True)
+        },
+    )
+    stress = families.stress(zone, mat, u)
+    np.testing.assert_allclose(stress.components["EFFX"], 1e4, rtol=1e-12)
+    forces = families.internal_forces(zone, CellField((stress,)), mat)
+    for name, value in pull.items():
+        np.testing.assert_allclose(forces.components[name].values, [-value, value], rtol=1e-12)
+
+
+def test_beam_in_the_plane_bends_exactly_with_one_element():
+    zone = line_zone("POUT", [(0, 0), (L * 0.6, L * 0.8)], Mode.PLANE_STRESS)
+    mat = material(zone, YOUN=E, NU=NU, SECT=A, INRZ=IZ)
+    P = 1e3
+    u = _clamped(zone, mat, _force(zone, 1, FX=-0.8 * P, FY=0.6 * P))
+    tip = np.array([1])
+    across = -0.8 * u.values_at("UX", tip) + 0.6 * u.values_at("UY", tip)
+    np.testing.assert_allclose(across, P * L**3 / (3 * E * IZ), rtol=1e-12)
+    np.testing.assert_allclose(u.values_at("RZ", tip), P * L**2 / (2 * E * IZ), rtol=1e-12)
+    stress = families.stress(zone, mat, u)
+    np.testing.assert_allclose(stress.components["MOMZ"], [[P * L, 0.0]], atol=1e-8 * P)
+    np.testing.assert_allclose(stress.components["EFFY"], P, rtol=1e-9)
+
+
+def test_beam_in_space_bends_about_the_axis_that_vect_shows():
+    zone = line_zone("POUT", [(0, 0, 0), (0, 0, L)], Mode.THREE_DIMENSIONAL)
+    mat = material(zone, **SECTION, VX=1.0, VY=0.0, VZ=0.0)  # local y is the global x
+    u = _clamped(zone, mat, _force(zone, 1, FX=1e3, FY=1e3, MZ=50.0))
+    tip = np.array([1])
+    np.testing.assert_allclose(u.values_at("UX", tip), 1e3 * L**3 / (3 * E * IZ), rtol=1e-12)
+    np.testing.assert_allclose(u.values_at("UY", tip), 1e3 * L**3 / (3 * E * IY), rtol=1e-12)
+    np.testing.assert_allclose(
+        u.values_at("RZ", tip), 50.0 * L / (E / (2 * (1 + NU)) * J), rtol=1e-12
+    )
+
+
+def test_sheared_section_adds_its_deflection():
+    zone = line_zone("POUT", [(0, 0), (L, 0)], Mode.PLANE_STRESS)
+    mat = material(zone, YOUN=E, NU=NU, SECT=A, INRZ=IZ, SECY=A / 1.2)
+    u = _clamped(zone, mat, _force(zone, 1, FY=1e3))
+    G = E / (2 * (1 + NU))
+    expected = 1e3 * L**3 / (3 * E * IZ) + 1e3 * L / (G * A / 1.2)
+    np.testing.assert_allclose(u.values_at("UY", np.array([1])), expected, rtol=1e-12)
+
+
+def test_timoshenko_elements_converge_at_second_order():
+    errors = []
+    for n in (8, 16):
+        zone = line_zone("TIMO", [(x, 0) for x in np.linspace(0, L, n + 1)], Mode.PLANE_STRESS)
+        mat = material(zone, YOUN=E, NU=NU, SECT=A, INRZ=IZ)
+        u = _clamped(zone, mat, _force(zone, n, FY=1e3))
+        exact = 1e3 * L**3 / (3 * E * IZ) + 1e3 * L / (E / (2 * (1 + NU)) * A)
+        errors.append(abs(u.values_at("UY", np.array([n]))[0] / exact - 1))
+    assert errors[1] < 0.27 * errors[0] < 0.27 * 0.01
+
+
+@pytest.mark.parametrize("element", ["POUT", "TIMO"])
+def test_rigid_motions_of_a_beam_cost_no_force(element):
+    zone = line_zone(element, [0 * AXIS, L * AXIS], Mode.THREE_DIMENSIONAL)
+    block = families.stiffness(zone, material(zone, **SECTION))
+    layout = Layout(block.table, block.raw_nodes, block.local, block.unknowns)
+    w = np.array([0.3, -0.2, 0.5])
+    turn = {
+        **{n: (lambda x, i=i: np.cross(w, x)[:, i]) for i, n in enumerate(("UX", "UY", "UZ"))},
+        **{n: (lambda x, i=i: w[i]) for i, n in enumerate(("RX", "RY", "RZ"))},
+    }
+    v = layout.gather(field(zone, **turn))[0]
+    assert np.abs(block.values[0] @ v).max() < 1e-12 * np.abs(block.values).max()
+
+
+def test_uniform_load_on_a_beam_gives_the_exact_tip_deflection():
+    zone = line_zone("POUT", [(0, 0), (0.4 * L, 0), (L, 0)], Mode.PLANE_STRESS)
+    mat = material(zone, YOUN=E, NU=NU, SECT=A, INRZ=IZ)
+    load = line_load(Model((zone,)), np.array([0.0, -500.0, 0.0]))
+    u = _clamped(zone, mat, load)
+    tip = np.array([2])
+    np.testing.assert_allclose(u.values_at("UY", tip), -500.0 * L**4 / (8 * E * IZ), rtol=1e-11)
+    np.testing.assert_allclose(u.values_at("RZ", tip), -500.0 * L**3 / (6 * E * IZ), rtol=1e-11)
+    assert load.components["FY"].values.sum() == pytest.approx(-500.0 * L)
+
+
+def test_projected_load_counts_the_projected_length():
+    zone = line_zone("POUT", [(0, 0), (3, 4)], Mode.PLANE_STRESS)
+    load = line_load(Model((zone,)), np.array([0.0, -1.0, 0.0]), np.array([0.0, 1.0, 0.0]))
+    assert load.components["FY"].values.sum() == pytest.approx(-3.0)
+
+
+def test_beam_mass_gives_the_cantilever_frequency():
+    n = 6
+    zone = line_zone("POUT", [(x, 0) for x in np.linspace(0, L, n + 1)], Mode.PLANE_STRESS)
+    slender = SECTION | {"SECT": 1e4 * A}  # no rotary inertia to speak of
+    mat = material(zone, **slender)
+    K = Matrix(zone.cells.nodes, (families.stiffness(zone, mat),))
+    M = Matrix(zone.cells.nodes, (families.mass(zone, mat),))
+    numbering = numbering_of(K, M)
+    free = numbering.nodes != 0
+    k, m = (assemble(a, numbering).toarray()[np.ix_(free, free)] for a in (K, M))
+    omega = np.sqrt(np.sort(np.linalg.eigvals(np.linalg.solve(m, k)).real)[:2])
+    beta = np.array([1.875104, 4.694091])
+    np.testing.assert_allclose(omega, (beta / L) ** 2 * np.sqrt(E * IZ / (7800e4 * A)), rtol=5e-4)
+
+
+def test_sections_of_a_beam_turn_with_its_slope():
+    # simply supported Rayleigh beam: w^2 = E I k^4 / (rho A (1 + r^2 k^2))
+    n = 12
+    zone = line_zone("POUT", [(x, 0) for x in np.linspace(0, L, n + 1)], Mode.PLANE_STRESS)
+    thick = SECTION | {"INRZ": A * (L / 20) ** 2}
+    mat = material(zone, **thick)
+    K = Matrix(zone.cells.nodes, (families.stiffness(zone, mat),))
+    M = Matrix(zone.cells.nodes, (families.mass(zone, mat),))
+    numbering = numbering_of(K, M)
+    names = np.array([numbering.unknowns[c] for c in numbering.codes])
+    ends = np.isin(numbering.nodes, (0, n))
+    free = (names != "UX") & ~(ends & (names == "UY"))
+    k, m = (assemble(a, numbering).toarray()[np.ix_(free, free)] for a in (K, M))
+    omega = np.sqrt(np.sort(np.linalg.eigvals(np.linalg.solve(m, k)).real)[:2])
+    wave = np.array([1.0, 2.0]) * np.pi / L
+    rayleigh = E * (L / 20) ** 2 * wave**4 / (7800 * (1 + (L / 20) ** 2 * wave**2))
+    np.testing.assert_allclose(omega, np.sqrt(rayleigh), rtol=2e-4)
+
+
+def test_normal_force_works_on_the_turning_of_timoshenko_sections():
+    zone = line_zone("TIMO", [(0, 0), (0.5, 0)], Mode.PLANE_STRESS)
+    mat = material(zone, **SECTION)
+    pull = CellField((material(zone, EFFX=3.0).blocks[0],), "CONTRAINTES")
+    block = families.geometric_stiffness(zone, pull, mat)
+    turned = np.array([0, 0, 0, 0, 0, 0.2])  # UX UY RZ at each end: only the second turns
+    work = turned @ block.values[0] @ turned
+    assert work == pytest.approx(3.0 * IZ / A * (0.2 / 0.5) ** 2 * 0.5)
+
+
+def test_euler_buckling_load_from_the_geometric_stiffness():
+    n = 8
+    zone = line_zone("POUT", [(x, 0) for x in np.linspace(0, L, n + 1)], Mode.PLANE_STRESS)
+    mat = material(zone, **SECTION)
+    compression = CellField((material(zone, EFFX=-1.0).blocks[0],), "CONTRAINTES")
+    K = Matrix(zone.cells.nodes, (families.stiffness(zone, mat),))
+    G = Matrix(zone.cells.nodes, (families.geometric_stiffness(zone, compression, mat),))
+    numbering = numbering_of(K, G)
+    free = numbering.nodes != 0
+    k, g = (assemble(a, numbering).toarray()[np.ix_(free, free)] for a in (K, G))
+    factors = 1 / np.linalg.eigvals(np.linalg.solve(k, -g)).real.max()
+    assert factors == pytest.approx(np.pi**2 * E * IZ / (4 * L**2), rel=1e-4)
+
+
+def test_second_order_strain_of_a_turned_bar_vanishes():
+    zone = line_zone("BARR", [(0, 0), (1, 2)], Mode.PLANE_STRESS)
+    c, s = np.cos(0.7) - 1, np.sin(0.7)
+    u = field(zone, UX=lambda x: c * x[:, 0] - s * x[:, 1], UY=lambda x: s * x[:, 0] + c * x[:, 1])
+    assert np.abs(green_strain(zone, u).components["EPSS"]).max() < 1e-14
+
+
+def test_a_beam_without_its_inertia_is_refused():
+    zone = line_zone("POUT", [(0, 0), (1, 0)], Mode.PLANE_STRESS)
+    with pytest.raises(MaterialError, match="INRZ"):
+        families.stiffness(zone, material(zone, YOUN=E, NU=NU, SECT=A))

@@ -1,0 +1,140 @@
+"""Pipes against rings and pressure vessels; follower pressures against finite differences."""
+
+import numpy as np
+import pytest
+
+from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.elements import families
+from ssilang.kernel.elements.family import Layout
+from ssilang.kernel.elements.loads.follower import pressure_stiffness
+from ssilang.kernel.elements.loads.loads import pipe_pressure, pressure_vectors, shell_load
+from ssilang.kernel.elements.results.equivalent import equivalent_of_lines
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.materials.model import Mode, Model, Zone
+from ssilang.kernel.matrices.assembly import assemble, numbering_of
+from ssilang.kernel.matrices.matrix import Matrix
+from ssilang.kernel.mesh.mesh import CellBlock
+from ssilang.kernel.mesh.nodes import NodeTable
+from tests.kernel.elements.samples import ELASTIC, cell_zone, field, line_zone, material
+
+E, NU, RE, H = 2.1e11, 0.3, 0.2, 0.02
+RI = RE - H
+AREA, INERTIA = np.pi * (RE**2 - RI**2), np.pi / 4 * (RE**4 - RI**4)
+PIPE = {"YOUN": E, "NU": NU, "RHO": 7800.0, "EPAI": H, "RAYO": RE}
+
+
+def _pipe(**more):
+    zone = line_zone("TUYA", [(0, 0, 0), (0, 3.0, 0)], Mode.THREE_DIMENSIONAL)
+    return zone, material(zone, **PIPE, **more)
+
+
+def test_pipe_has_the_rigidities_and_mass_of_its_ring():
+    zone, mat = _pipe()
+    beam = Zone(zone.cells, "MECANIQUE", ELASTIC, "POUT", zone.mode)
+    ring = {"SECT": AREA, "INRY": INERTIA, "INRZ": INERTIA, "TORS": 2 * INERTIA}
+    same = material(beam, YOUN=E, NU=NU, RHO=7800.0, **ring)
+    for compute in (families.stiffness, families.mass):
+        np.testing.assert_allclose(
+            compute(zone, mat).values, compute(beam, same).values, rtol=1e-12, atol=1e-6
+        )
+
+
+def test_elbow_bends_more_easily_by_von_karmans_factor():
+    zone, mat = _pipe(RACO=0.5)
+    straight = families.stiffness(*_pipe()).values[0]
+    bent = families.stiffness(zone, mat).values[0]
+    factor = 1.65 / (H * 0.5 / (RE - H / 2) ** 2)
+    assert straight[0, 0] / bent[0, 0] == pytest.approx(factor)
+    assert straight[1, 1] == pytest.approx(bent[1, 1])  # lengthening does not change
+
+
+def test_closed_ends_pull_on_a_pipe_under_pressure():
+    zone, mat = _pipe(PRES=15e6)
+    forces = pipe_pressure(Model((zone,)), mat)
+    push = 15e6 * np.pi * RI**2
+    np.testing.assert_allclose(forces.components["FY"].values, [-push, push])
+    u = field(zone, UY=lambda x: push * x[:, 1] / (E * AREA))
+    stress = families.stress(zone, mat, u)
+    np.testing.assert_allclose(stress.components["EFFX"], push)
+    values, _ = equivalent_of_lines(zone, CellField((stress,)), mat)
+    np.testing.assert_allclose(values, push / AREA)
+
+
+def _quadrangle():
+    table = NodeTable()
+    ids = table.add(np.array([[0, 0, 0], [1.1, 0.1, 0.2], [1.2, 0.9, -0.1], [0.1, 1.0, 0.3]]))
+    block = CellBlock.make(table, "QUA4", ids[None])
+    return Zone(block, "CHARGEMENT", ("PRESSION",), "QUA4", Mode.THREE_DIMENSIONAL)
+
+
+SIDES = [
+    ("space", _quadrangle, ("UX", "UY", "UZ")),
+    (
+        "plane",
+        lambda: line_zone("COQ2", [(1.0, 0.2), (1.5, 0.9)], Mode.PLANE_STRAIN),
+        ("UX", "UY"),
+    ),
+    (
+        "ring",
+        lambda: line_zone("COQ2", [(1.0, 0.2), (1.5, 0.9)], Mode.AXISYMMETRIC),
+        ("UR", "UZ"),
+    ),
+]
+
+
+@pytest.mark.parametrize(("make", "names"), [s[1:] for s in SIDES], ids=[s[0] for s in SIDES])
+def test_follower_matrix_is_the_derivative_of_the_forces(make, names):
+    zone = make()
+    table = zone.cells.nodes
+    values = np.ones((1, zone.cells.kind.n_nodes))
+    p = CellField((CellFieldBlock(zone.cells, {"P": values}, "NOEUD", zone.element),))
+    block = pressure_stiffness(zone, p, unsymmetric=True)
+    layout = Layout(block.table, block.raw_nodes, block.local, block.unknowns)
+    step, rng = 1e-6, np.random.default_rng(5)
+    move = rng.normal(size=(len(table), len(names)))
+    start = table.coordinates.copy()
+
+    def forces(sign):
+        table.coordinates[:, : len(names)] = start[:, : len(names)] + sign * step * move
+        found = pressure_vectors(zone, p)
+        return np.stack([found.components["F" + n[1]].values for n in names], axis=1)
+
+    change = (forces(1) - forces(-1)) / (2 * step)
+    table.coordinates[:] = start
+    motion = field(zone, **{n: (lambda x, i=i: move[:, i]) for i, n in enumerate(names)})
+    product = block.values[0] @ layout.gather(motion)[0]
+    expected = change[zone.cells.connectivity[0]].ravel()
+    np.testing.assert_allclose(product, expected, atol=1e-8)
+
+
+def test_ring_buckles_at_the_classical_load_when_the_pressure_follows():
+    radius, n, young = 1000.0, 2, 20000.0
+    z = np.linspace(0, 100, 5)
+    zone = line_zone("COQ2", np.column_stack([radius + 0 * z, z]), Mode.FOURIER)
+    zone.options["harmonic"] = n
+    table = zone.cells.nodes
+    mat = material(zone, YOUN=young, NU=0.0, EPAI=1.0)
+    hoop = CellField((material(zone, N22=radius).blocks[0],))  # opposite of the inward load's
+    K = Matrix(table, (families.stiffness(zone, mat),))
+    G = Matrix(
+        table,
+        (
+            families.geometric_stiffness(zone, hoop),
+            pressure_stiffness(zone, field(zone, P=lambda x: 1.0)),
+        ),
+    )
+    numbering = numbering_of(K, G)
+    ends = np.isin(numbering.nodes, [0, 4])
+    axial = np.array([numbering.label(i)[:2] in ("UZ", "RT") for i in range(numbering.size)])
+    free = ~(ends & axial)
+    k, g = (assemble(m, numbering).toarray()[np.ix_(free, free)] for m in (K, G))
+    load = 1 / np.linalg.eigvals(np.linalg.solve(k, g)).real.max()
+    assert load == pytest.approx((n**2 - 1) * young / 12 / radius**3, rel=1e-6)
+
+
+def test_pressures_on_volumes_and_shell_loads_on_solids_are_refused():
+    solid = cell_zone("QUA4", Mode.PLANE_STRAIN)
+    with pytest.raises(MeshError, match="no pressure"):
+        pressure_stiffness(solid, field(solid, P=lambda x: 1.0))
+    with pytest.raises(MeshError, match="not for element"):
+        shell_load(Model((solid,)), 1.0)

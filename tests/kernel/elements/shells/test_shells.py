@@ -1,0 +1,410 @@
+"""Shells against plate theory, cylinders and rings."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.sparse import csc_array
+from scipy.sparse.linalg import spsolve
+
+from ssilang.kernel.elements import families
+from ssilang.kernel.elements.family import Layout
+from ssilang.kernel.elements.loads.loads import shell_load
+from ssilang.kernel.elements.results.skin import shell_equivalent, shell_skin, shell_tensor
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.materials.model import Mode, Model, Zone
+from ssilang.kernel.matrices.assembly import (
+    assemble,
+    field_to_vector,
+    numbering_of,
+    vector_to_field,
+)
+from ssilang.kernel.matrices.matrix import Matrix
+from ssilang.kernel.mesh.mesh import CellBlock
+from ssilang.kernel.mesh.nodes import NodeTable
+from tests.kernel.elements.samples import ELASTIC, field, line_zone, material
+
+E, NU, H, RHO = 2.0e11, 0.3, 0.01, 7800.0
+PLATE = {"YOUN": E, "NU": NU, "EPAI": H, "RHO": RHO}
+D = E * H**3 / 12 / (1 - NU**2)
+
+
+def plate(nx, ny, a, b, turn=None, behaviour=ELASTIC):
+    """Triangles on a rectangle a x b, rotated by `turn` (3, 3)."""
+    table = NodeTable()
+    X, Y = np.meshgrid(np.linspace(0, a, nx + 1), np.linspace(0, b, ny + 1), indexing="ij")
+    x = np.column_stack([X.ravel(), Y.ravel(), 0 * X.ravel()])
+    ids = table.add(x if turn is None else x @ turn.T).reshape(nx + 1, ny + 1)
+    p, q, r, s = (part.ravel() for part in (ids[:-1, :-1], ids[1:, :-1], ids[1:, 1:], ids[:-1, 1:]))
+    cells = np.concatenate([np.column_stack([p, q, r]), np.column_stack([p, r, s])])
+    block = CellBlock.make(table, "TRI3", cells)
+    return Zone(block, "MECANIQUE", behaviour, "DKT", Mode.THREE_DIMENSIONAL), x
+
+
+def quadrangles(element, nx, ny, a, b, bend=None):
+    """Cells COQ4 or COQ8 on a rectangle a x b, mapped by `bend`."""
+    degree = 2 if element == "COQ8" else 1
+    table = NodeTable()
+    X, Y = np.meshgrid(
+        np.linspace(0, a, degree * nx + 1), np.linspace(0, b, degree * ny + 1), indexing="ij"
+    )
+    x = np.column_stack([X.ravel(), Y.ravel(), 0 * X.ravel()])
+    ids = table.add(x if bend is None else bend(x)).reshape(X.shape)
+    d = degree
+    steps = {
+        1: [(0, 0), (1, 0), (1, 1), (0, 1)],
+        2: [(0, 0), (1, 0), (2, 0), (2, 1), (2, 2), (1, 2), (0, 2), (0, 1)],
+    }[d]
+    cells = np.column_stack([ids[i : i + d * nx : d, j : j + d * ny : d].ravel() for i, j in steps])
+    kind = "QUA8" if d == 2 else "QUA4"
+    block = CellBlock.make(table, kind, cells)
+    zone = Zone(block, "MECANIQUE", ELASTIC, element, Mode.THREE_DIMENSIONAL)
+    used = np.unique(cells)
+    return zone, x, used
+
+
+def rotation():
+    """A rotation of space."""
+    q, _ = np.linalg.qr(np.random.default_rng(3).normal(size=(3, 3)))
+    return q * np.sign(np.linalg.det(q))
+
+
+def solved(zone, mat, fixed, load):
+    K = Matrix(zone.cells.nodes, (families.stiffness(zone, mat),))
+    numbering = numbering_of(K)
+    free = ~fixed(numbering)
+    A = csc_array(assemble(K, numbering))[free][:, free]
+    u = np.zeros(numbering.size)
+    u[free] = spsolve(A, field_to_vector(load, numbering)[free])
+    return vector_to_field(u, numbering)
+
+
+def test_plate_bent_to_a_quadratic_surface_has_the_exact_moments():
+    zone, _ = plate(2, 2, 1.0, 0.7)
+    kx, ky, kxy = 1e-3, -5e-4, 3e-4
+    u = field(
+        zone,
+        UZ=lambda x: -kx * x[:, 0] ** 2 / 2 - ky * x[:, 1] ** 2 / 2 - kxy * x[:, 0] * x[:, 1] / 2,
+        RX=lambda x: -ky * x[:, 1] - kxy * x[:, 0] / 2,
+        RY=lambda x: kx * x[:, 0] + kxy * x[:, 1] / 2,
+    )
+    lower = slice(0, 4)  # first triangles: the own x is the global x
+    strain = families.strain(zone, u)
+    for name, value in {"RTSS": kx, "RTTT": ky, "RTST": kxy}.items():
+        np.testing.assert_allclose(strain.components[name][lower], value, rtol=1e-9)
+    stress = families.stress(zone, material(zone, **PLATE), u)
+    np.testing.assert_allclose(stress.components["M11"][lower], D * (kx + NU * ky), rtol=1e-9)
+
+
+def test_rigid_motions_of_a_shell_cost_no_energy():
+    zone, _ = plate(1, 1, 1.0, 0.7, rotation())
+    block = families.stiffness(zone, material(zone, **PLATE))
+    layout = Layout(block.table, block.raw_nodes, block.local, block.unknowns)
+    w = np.array([0.3, -0.2, 0.5])
+    turn = {
+        **{n: (lambda x, i=i: np.cross(w, x)[:, i]) for i, n in enumerate(("UX", "UY", "UZ"))},
+        **{n: (lambda x, i=i: w[i]) for i, n in enumerate(("RX", "RY", "RZ"))},
+    }
+    v = layout.gather(field(zone, **turn))
+    energy = np.einsum("ci,cij,cj->c", v, block.values, v)
+    assert energy.max() < 1e-9 * D
+    forces = np.einsum("cij,cj->ci", block.values, v)
+    assert np.abs(forces).max() < 1e-12 * np.abs(block.values).max()
+    assert np.linalg.eigvalsh(block.values[0])[6] > 1e-6 * D  # and nothing else is free
+
+
+def test_clamped_square_plate_deflects_as_timoshenko_says():
+    n, a = 12, 1.0
+    zone, x = plate(n, n, a, a)
+    edge = np.flatnonzero((np.abs(x[:, :2] - a / 2) > a / 2 - 1e-9).any(axis=1))
+    centre = int(np.argmin(np.linalg.norm(x - [a / 2, a / 2, 0], axis=1)))
+    load = NodeField.of(zone.cells.nodes, np.array([centre]), {"FZ": np.array([1.0])}, "DISCRET")
+    u = solved(zone, material(zone, **PLATE), lambda m: np.isin(m.nodes, edge), load)
+    deflection = u.values_at("UZ", np.array([centre]))[0]
+    assert deflection == pytest.approx(0.00560 * a**2 / D, rel=0.03)
+
+
+def test_orthotropic_plate_is_stiff_along_its_first_axis():
+    orthotropic = ("ELASTIQUE", "ORTHOTROPE")
+    ends = []
+    for c, s in ((1.0, 0.0), (0.0, 1.0)):
+        zone, x = plate(8, 1, 1.0, 0.1, behaviour=orthotropic)
+        # the own frame of the second triangles of a cell starts along the diagonal
+        frames = np.array([np.diff(t[:2], axis=0)[0, :2] for t in zone.cells.coordinates])
+        e = frames / np.linalg.norm(frames, axis=1, keepdims=True)
+        mat = material(zone, YG1=E, YG2=E / 10, NU12=0.0, G12=E / 4, EPAI=H, V1X=0, V1Y=0)
+        mat.blocks[0].components["V1X"][:, 0] = c * e[:, 0] + s * e[:, 1]
+        mat.blocks[0].components["V1Y"][:, 0] = -c * e[:, 1] + s * e[:, 0]
+        tip = np.flatnonzero(x[:, 0] > 1 - 1e-9)
+        load = NodeField.of(zone.cells.nodes, tip, {"FZ": np.full(2, 0.5)}, "DISCRET")
+        u = solved(zone, mat, lambda m, x=x: np.isin(m.nodes, np.flatnonzero(x[:, 0] < 1e-9)), load)
+        ends.append(u.values_at("UZ", tip).mean())
+    assert ends[0] == pytest.approx(1 / (3 * E * 0.1 * H**3 / 12), rel=0.02)
+    assert ends[1] == pytest.approx(10 * ends[0], rel=0.02)
+
+
+def test_shell_mass_is_its_matter():
+    zone, _ = plate(2, 3, 1.0, 0.7, rotation())
+    block = families.mass(zone, material(zone, **PLATE))
+    rows = [i for i, u in enumerate(block.unknowns) if u == "UY"]
+    assert block.values[:, rows][:, :, rows].sum() == pytest.approx(RHO * H * 0.7)
+
+
+def test_long_cylinder_under_pressure_and_clamped_at_one_end():
+    R, L, p = 1.0, 2.0, 1e5
+    z = np.linspace(0, L, 81)
+    zone = line_zone("COQ2", np.column_stack([R + 0 * z, z]), Mode.AXISYMMETRIC)
+    mat = material(zone, **PLATE)
+    nodes = np.arange(81)
+    length = np.full(81, L / 80)
+    length[[0, -1]] /= 2
+    load = NodeField.of(zone.cells.nodes, nodes, {"FR": 2 * np.pi * R * p * length}, "DISCRET")
+    u = solved(zone, mat, lambda m: m.nodes == 0, load)
+    free = p * R**2 / (E * H)
+    assert u.values_at("UR", nodes[60:61])[0] == pytest.approx(free, rel=1e-4)
+    beta = (3 * (1 - NU**2)) ** 0.25 / np.sqrt(R * H)
+    stress = families.stress(zone, mat, u)
+    clamped = stress.components["M11"][0, 0]
+    at = (1 - np.sqrt(3 / 5)) / 2 * L / 80
+    moment = -np.exp(-beta * at) * (np.cos(beta * at) - np.sin(beta * at)) * p / (2 * beta**2)
+    assert abs(clamped) == pytest.approx(abs(moment), rel=0.02)
+    np.testing.assert_allclose(stress.components["N22"][60], p * R, rtol=1e-3)
+
+
+def test_ring_buckles_at_n_squared_d_over_r_cubed_under_dead_pressure():
+    R, n, young = 1000.0, 2, 20000.0
+    z = np.linspace(0, 100, 5)
+    zone = line_zone("COQ2", np.column_stack([R + 0 * z, z]), Mode.FOURIER)
+    zone.options["harmonic"] = n
+    mat = material(zone, YOUN=young, NU=0.0, EPAI=1.0)
+    K = Matrix(zone.cells.nodes, (families.stiffness(zone, mat),))
+    hoop = CellField((material(zone, N22=R).blocks[0],))
+    G = Matrix(zone.cells.nodes, (families.geometric_stiffness(zone, hoop),))
+    numbering = numbering_of(K, G)
+    ends = np.isin(numbering.nodes, [0, 4])
+    axial = np.array([numbering.label(i)[:2] in ("UZ", "RT") for i in range(numbering.size)])
+    free = ~(ends & axial)
+    k, g = (assemble(m, numbering).toarray()[np.ix_(free, free)] for m in (K, G))
+    load = 1 / np.linalg.eigvals(np.linalg.solve(k, g)).real.max()
+    assert load == pytest.approx(n**2 * young / 12 / R**3, rel=1e-5)
+
+
+def test_strip_in_plane_stress_is_a_beam():
+    zone = line_zone("COQ2", [(0, 0), (0.6, 0.8)], Mode.PLANE_STRESS)
+    mat = material(zone, YOUN=E, NU=NU, EPAI=H, DIM3=0.2)
+    load = NodeField.of(
+        zone.cells.nodes,
+        np.array([1]),
+        {"FX": np.array([-0.8]), "FY": np.array([0.6])},
+        "DISCRET",
+    )
+    u = solved(zone, mat, lambda m: m.nodes == 0, load)
+    tip = np.array([1])
+    across = -0.8 * u.values_at("UX", tip) + 0.6 * u.values_at("UY", tip)
+    assert across[0] == pytest.approx(1 / (3 * E * 0.2 * H**3 / 12), rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("element", "thickness"), [("COQ4", 1e-2), ("COQ4", 1e-4), ("COQ8", 1e-2), ("COQ8", 2e-3)]
+)
+def test_clamped_square_plate_with_shear_does_not_lock(element, thickness):
+    n, a = (16, 1.0) if element == "COQ4" else (12, 1.0)
+    zone, x, _ = quadrangles(element, n, n, a, a)
+    edge = np.flatnonzero((np.abs(x[:, :2] - a / 2) > a / 2 - 1e-9).any(axis=1))
+    centre = int(np.argmin(np.linalg.norm(x - [a / 2, a / 2, 0], axis=1)))
+    mat = material(zone, YOUN=E, NU=NU, EPAI=thickness)
+    load = NodeField.of(zone.cells.nodes, np.array([centre]), {"FZ": np.array([1.0])}, "DISCRET")
+    u = solved(zone, mat, lambda m: np.isin(m.nodes, edge), load)
+    rigidity = E * thickness**3 / 12 / (1 - NU**2)
+    deflection = u.values_at("UZ", np.array([centre]))[0]
+    assert deflection == pytest.approx(0.00560 * a**2 / rigidity, rel=0.02)
+
+
+@pytest.mark.parametrize("element", ["COQ4", "COQ8"])
+def test_ring_of_shell_cells_under_pressure_grows_evenly(element):
+    radius, p, quarter = 1.0, 1e5, np.pi / 2
+    zone, x, used = quadrangles(
+        element,
+        12,
+        1,
+        quarter,
+        0.1,
+        lambda x: np.column_stack([radius * np.cos(x[:, 0]), radius * np.sin(x[:, 0]), x[:, 1]]),
+    )
+    mat = material(zone, YOUN=E, NU=0.0, EPAI=H)
+    load = shell_load(Model((zone,)), p)
+    start, end = (np.isin(np.arange(len(x)), used) & np.isclose(x[:, 0], s) for s in (0, quarter))
+
+    def fixed(m):
+        names = np.array([m.label(i)[:2] for i in range(m.size)])
+        at = [np.isin(m.nodes, np.flatnonzero(part)) for part in (start, end)]
+        first = at[0] & np.isin(names, ["UY", "RX", "RZ"])
+        last = at[1] & np.isin(names, ["UX", "RY", "RZ"])
+        return first | last | np.isin(names, ["UZ"])
+
+    u = solved(zone, mat, fixed, load)
+    grown = np.abs(u.values_at("UX", np.flatnonzero(start)))
+    assert grown.mean() == pytest.approx(p * radius**2 / (E * H), rel=0.01)
+
+
+@pytest.mark.parametrize("element", ["COQ4", "COQ8"])
+def test_rigid_motions_of_a_thick_shell_cost_no_energy(element):
+    turn = rotation()
+    zone, _, _ = quadrangles(element, 1, 1, 1.0, 0.7, lambda x: x @ turn.T)
+    block = families.stiffness(zone, material(zone, **PLATE))
+    layout = Layout(block.table, block.raw_nodes, block.local, block.unknowns)
+    w = np.array([0.3, -0.2, 0.5])
+    spin = {
+        **{n: (lambda x, i=i: np.cross(w, x)[:, i]) for i, n in enumerate(("UX", "UY", "UZ"))},
+        **{n: (lambda x, i=i: w[i]) for i, n in enumerate(("RX", "RY", "RZ"))},
+    }
+    v = layout.gather(field(zone, **spin))
+    assert np.einsum("ci,cij,cj->c", v, block.values, v).max() < 1e-9 * D
+    rows = [i for i, u in enumerate(block.unknowns) if u == "UX"]
+    mass = families.mass(zone, material(zone, **PLATE)).values
+    assert mass[:, rows][:, :, rows].sum() == pytest.approx(RHO * H * 0.7)
+
+
+def test_skin_stresses_of_a_bent_and_pulled_plate():
+    zone, _ = plate(1, 1, 1.0, 1.0)
+    forces = {"N11": 3.0, "N22": 1.0, "N12": 0.5, "M11": 2.0, "M22": -1.0, "M12": 0.25}
+    stress = CellField((material(zone, **forces).blocks[0],))
+    mat = material(zone, EPAI=0.2)
+    for side, sign in (("SUPE", 1), ("MOYE", 0), ("INFE", -1)):
+        parts, _ = shell_skin(zone, stress, mat, side)
+        assert parts["SMXX"][0, 0] == pytest.approx(3 / 0.2 + sign * 6 * 2 / 0.04)
+        assert parts["SMXY"][0, 0] == pytest.approx(0.5 / 0.2 + sign * 6 * 0.25 / 0.04)
+        T, _ = shell_tensor(zone, stress, mat, side)
+        assert T[0, 0, 1, 1] == pytest.approx(1 / 0.2 - sign * 6 / 0.04)
+    equivalent, _ = shell_equivalent(zone, stress, mat)
+    N, M = np.sqrt(9 + 1 - 3 + 0.75), np.sqrt(4 + 1 + 2 + 3 / 16)
+    assert equivalent[0, 0] == pytest.approx(np.hypot(N / 0.2, 4 * M / 0.04))
+    strains = {"EPSS": 1e-3, "EPTT": 0.0, "GAST": 2e-4, "RTSS": 1e-2, "RTTT": 0.0, "RTST": 0.0}
+    bent = CellField((material(zone, **strains).blocks[0],))
+    assert shell_skin(zone, bent, mat, "SUPE")[0]["EPXX"][0, 0] == pytest.approx(2e-3)
+
+
+def cubic_plate(n):
+    zone, x = plate(n, n, 1.0, 1.0)
+    return replace(zone, element="COQ3"), x
+
+
+def test_cubic_triangles_are_in_balance_when_bent_on_a_regular_mesh():
+    zone, x = cubic_plate(4)
+    kx, ky, kxy = 1e-3, -5e-4, 3e-4
+    u = field(
+        zone,
+        UZ=lambda x: -kx * x[:, 0] ** 2 / 2 - ky * x[:, 1] ** 2 / 2 - kxy * x[:, 0] * x[:, 1] / 2,
+        RX=lambda x: -ky * x[:, 1] - kxy * x[:, 0] / 2,
+        RY=lambda x: kx * x[:, 0] + kxy * x[:, 1] / 2,
+    )
+    strain = families.strain(zone, u)
+    assert strain.components["RTSS"].shape == (32, 1)  # one value, at the centre
+    np.testing.assert_allclose(strain.components["RTSS"][:16], kx, rtol=1e-9)
+    np.testing.assert_allclose(strain.components["RTST"][:16], kxy, rtol=1e-9)
+    block = families.stiffness(zone, material(zone, **PLATE))
+    layout = Layout(block.table, block.raw_nodes, block.local, block.unknowns)
+    forces = layout.scatter(np.einsum("cij,cj->ci", block.values, layout.gather(u)))
+    inside = np.flatnonzero((np.abs(x[:, :2] - 0.5) < 0.49).all(axis=1))
+    for name in ("FZ", "MX", "MY"):
+        all_of_them = np.abs(forces.values_at(name, np.arange(len(x)))).max()
+        assert np.abs(forces.values_at(name, inside)).max() < 1e-10 * all_of_them
+
+
+def _buckling(zone, stress):
+    """Smallest factor of the stresses at which a plate 1 x 1 on simple supports buckles."""
+    mat = material(zone, **PLATE)
+    K = Matrix(zone.cells.nodes, (families.stiffness(zone, mat),))
+    pressed = CellField((material(zone, **stress).blocks[0],))
+    G = Matrix(zone.cells.nodes, (families.geometric_stiffness(zone, pressed, mat),))
+    numbering = numbering_of(K, G)
+    x = zone.cells.nodes.coordinates[numbering.nodes][:, :2]
+    side = (np.abs(x - 0.5) > 0.5 - 1e-9).any(axis=1)
+    names = np.array([numbering.label(i)[:2] for i in range(numbering.size)])
+    free = ~(side & (names == "UZ")) & np.isin(names, ("UZ", "RX", "RY"))
+    k, g = (assemble(m, numbering).toarray()[np.ix_(free, free)] for m in (K, G))
+    return 1 / np.linalg.eigvals(np.linalg.solve(k, -g)).real.max()
+
+
+@pytest.mark.parametrize(
+    ("element", "n", "rtol"),
+    [("DKT", 8, 0.02), ("COQ3", 8, 0.02), ("COQ4", 8, 0.03), ("COQ8", 4, 0.03)],
+)
+def test_square_plate_pressed_on_all_sides_buckles_at_two_pi_squared_d(element, n, rtol):
+    if element in ("COQ4", "COQ8"):
+        zone = quadrangles(element, n, n, 1.0, 1.0)[0]
+        stress = {"SMSS": -1 / H, "SMTT": -1 / H} if element == "COQ8" else {"N11": -1, "N22": -1}
+    else:
+        zone = replace(plate(n, n, 1.0, 1.0)[0], element=element)
+        stress = {"N11": -1, "N22": -1}  # the own frames differ: the same on all sides
+    load = _buckling(zone, stress)
+    assert load == pytest.approx(2 * np.pi**2 * D, rel=rtol)
+
+
+def flat_zone(element, n, length, width):
+    """A strip along x and the places of its nodes."""
+    if element in ("COQ4", "COQ8"):
+        zone, x, used = quadrangles(element, n, 1, length, width)
+        return zone, x, used
+    zone, x = plate(n, 1, length, width)
+    return replace(zone, element=element), x, np.arange(len(x))
+
+
+@pytest.mark.parametrize("element", ["DKT", "COQ3", "COQ4", "COQ8"])
+def test_strip_off_its_mesh_bends_when_pulled_along_the_mesh(element):
+    L, b, e = 1.0, 0.1, 0.03
+    zone, x, used = flat_zone(element, 8, L, b)
+    mat = material(zone, YOUN=E, NU=0.0, EPAI=H, EXCE=e)
+    tip = used[x[used, 0] > L - 1e-9]
+    share = np.where(np.abs(x[tip, 1] - b / 2) < 1e-9, 4.0, 1.0) if len(tip) == 3 else np.ones(2)
+    load = NodeField.of(zone.cells.nodes, tip, {"FX": share / share.sum()}, "DISCRET")
+    held = used[x[used, 0] < 1e-9]
+    u = solved(zone, mat, lambda m: np.isin(m.nodes, held), load)
+    EI, EA = E * b * H**3 / 12, E * b * H
+    turn = -e * L / EI  # the middle surface lies above the pull
+    assert u.values_at("RY", tip).mean() == pytest.approx(turn, rel=2e-3)
+    assert u.values_at("UZ", tip).mean() == pytest.approx(-turn * L / 2, rel=1e-2)
+    assert u.values_at("UX", tip).mean() == pytest.approx(L / EA - turn * e, rel=2e-3)
+    stress = families.stress(zone, mat, u).components
+    if element != "COQ8":
+        aligned = slice(0, 8)  # cells whose own x is the strip's
+        np.testing.assert_allclose(stress["N11"][aligned].mean(), 1 / b, rtol=0.02)
+        np.testing.assert_allclose(np.abs(stress["M11"][aligned]).mean(), e / b, rtol=0.02)
+
+
+@pytest.mark.parametrize("element", ["DKT", "COQ4", "COQ8"])
+def test_mass_off_the_mesh_turns_about_it(element):
+    a, b, e = 1.0, 0.7, 0.2
+    zone, _, _ = flat_zone(element, 2, a, b)
+    block = families.mass(zone, material(zone, **PLATE, EXCE=e))
+    layout = Layout(block.table, block.raw_nodes, block.local, block.unknowns)
+    spin = field(zone, UX=lambda x: x[:, 2], UZ=lambda x: -x[:, 0], RY=lambda x: 1 + 0 * x[:, 0])
+    v = layout.gather(spin)
+    twice = np.einsum("ci,cij,cj->", v, block.values, v)
+    assert twice == pytest.approx(RHO * H * a * b * (a**2 / 3 + e**2 + H**2 / 12), rel=1e-9)
+
+
+def test_strip_off_its_mesh_buckles_as_if_it_lay_there_when_its_ends_may_not_turn():
+    free, off = (_buckling_between_walls(e) for e in (0.0, 0.02))
+    assert free == pytest.approx(4 * np.pi**2 * E * H**3 / 12, rel=0.02)
+    # linear membrane strains follow EXCE times linear curvatures in the mean of a cell only
+    assert off == pytest.approx(free, rel=0.025)
+
+
+def _buckling_between_walls(e):
+    zone, _, _ = flat_zone("DKT", 16, 1.0, 0.1)
+    mat = material(zone, YOUN=E, NU=0.0, EPAI=H, EXCE=e)
+    K = Matrix(zone.cells.nodes, (families.stiffness(zone, mat),))
+    # the frames of the two triangles of a cell differ: pressed along x in both
+    local = np.array([np.diff(t[:2], axis=0)[0, :2] for t in zone.cells.coordinates])
+    c, s = (local / np.linalg.norm(local, axis=1, keepdims=True)).T
+    stress = material(zone, N11=0.0, N22=0.0, N12=0.0)
+    for name, value in (("N11", -c * c), ("N22", -s * s), ("N12", c * s)):
+        stress.blocks[0].components[name][:, 0] = value
+    G = Matrix(zone.cells.nodes, (families.geometric_stiffness(zone, stress, mat),))
+    numbering = numbering_of(K, G)
+    at = zone.cells.nodes.coordinates[numbering.nodes][:, 0]
+    free = (at > 1e-9) & (at < 1 - 1e-9)
+    k, g = (assemble(m, numbering).toarray()[np.ix_(free, free)] for m in (K, G))
+    return 1 / np.linalg.eigvals(np.linalg.solve(k, -g)).real.max()

@@ -1,0 +1,170 @@
+"""Continuous elements against what holds for any of them: linear fields, rigid motions, mass."""
+
+import numpy as np
+import pytest
+
+from ssilang.kernel.base.errors import MaterialError, MeshError
+from ssilang.kernel.elements import families
+from ssilang.kernel.elements.families import family_of
+from ssilang.kernel.elements.family import Layout
+from ssilang.kernel.elements.zone_fields import zone_field
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.materials.model import Mode
+from tests.kernel.elements.samples import PLANE, SPACE, cell_zone, field, material
+
+E, NU = 2.0e5, 0.3
+
+
+def _vector(block, nodal):
+    return Layout(block.table, block.raw_nodes, block.local, block.unknowns).gather(nodal)[0]
+
+
+def _plane_stresses(mode, exx, eyy, gxy):
+    shear = E / (2 * (1 + NU)) * gxy
+    if mode is Mode.PLANE_STRESS:
+        k = E / (1 - NU**2)
+        return [k * (exx + NU * eyy), k * (eyy + NU * exx), 0.0, shear]
+    k = E / ((1 + NU) * (1 - 2 * NU))
+    sx, sy = k * ((1 - NU) * exx + NU * eyy), k * ((1 - NU) * eyy + NU * exx)
+    return [sx, sy, NU * (sx + sy), shear]
+
+
+@pytest.mark.parametrize("element", PLANE)
+@pytest.mark.parametrize("mode", [Mode.PLANE_STRAIN, Mode.PLANE_STRESS])
+def test_a_linear_displacement_gives_the_exact_constant_stress(element, mode):
+    zone = cell_zone(element, mode)
+    mat = material(zone, YOUN=E, NU=NU)
+    u = field(
+        zone,
+        UX=lambda x: 1e-3 * x[:, 0] + 4e-4 * x[:, 1],
+        UY=lambda x: -2e-4 * x[:, 0] + 5e-4 * x[:, 1],
+    )
+    block = families.stress(zone, mat, u)
+    expected = _plane_stresses(mode, 1e-3, 5e-4, 2e-4)
+    for name, value in zip(("SMXX", "SMYY", "SMZZ", "SMXY"), expected, strict=True):
+        np.testing.assert_allclose(block.components[name], value, rtol=1e-11, atol=1e-9)
+    forces = families.internal_forces(zone, CellField((block,)), mat)
+    stiffness = families.stiffness(zone, mat)
+    product = stiffness.values[0] @ _vector(stiffness, u)
+    nodes = zone.cells.connectivity[0]
+    np.testing.assert_allclose(product[0::2], forces.values_at("FX", nodes), atol=1e-8)
+    np.testing.assert_allclose(product[1::2], forces.values_at("FY", nodes), atol=1e-8)
+
+
+@pytest.mark.parametrize("element", SPACE)
+def test_a_linear_displacement_in_space_gives_the_exact_constant_strain(element):
+    zone = cell_zone(element, Mode.THREE_DIMENSIONAL)
+    G = np.array([[1.0, 2.0, -3.0], [0.5, -1.0, 4.0], [2.5, 0.7, 0.3]]) * 1e-3
+    u = field(
+        zone, **{n: (lambda x, r=r: x @ r) for n, r in zip(("UX", "UY", "UZ"), G, strict=True)}
+    )
+    block = families.strain(zone, u)
+    S = G + G.T
+    expected = [G[0, 0], G[1, 1], G[2, 2], S[0, 1], S[0, 2], S[1, 2]]
+    for name, value in zip(block.components, expected, strict=True):
+        np.testing.assert_allclose(block.components[name], value, rtol=1e-10)
+
+
+@pytest.mark.parametrize("element", [*PLANE, *SPACE])
+def test_weights_are_those_of_the_strain_operator(element):
+    mode = Mode.PLANE_STRESS if element in PLANE else Mode.THREE_DIMENSIONAL
+    zone = cell_zone(element, mode)
+    values = {"DIM3": 0.25} if element in PLANE else {"RHO": 2.0}
+    parameters = zone_field(zone, material(zone, YOUN=E, NU=NU, **values))
+    weights = family_of(zone).weights(zone, parameters, "RIGIDITE")
+    whole = slice(0, len(zone.cells))
+    expected = family_of(zone).strain_operator(zone, parameters, "RIGIDITE", whole).weights
+    np.testing.assert_allclose(weights, expected, rtol=1e-13)
+
+
+@pytest.mark.parametrize("element", [*PLANE, *SPACE])
+def test_rigid_motions_cost_no_force(element):
+    mode = Mode.PLANE_STRAIN if element in PLANE else Mode.THREE_DIMENSIONAL
+    zone = cell_zone(element, mode)
+    stiffness = families.stiffness(zone, material(zone, YOUN=E, NU=NU))
+    names = ("UX", "UY", "UZ")[: mode.dimension]
+    fixed = {n: (lambda x: 0.0 * x[:, 0]) for n in names}
+    motions = [field(zone, **{**fixed, n: lambda x: 1.0 + 0 * x[:, 0]}) for n in names]
+    turn = {**fixed, "UX": lambda x: -x[:, 1], "UY": lambda x: x[:, 0]}
+    for motion in (*motions, field(zone, **turn)):
+        force = stiffness.values[0] @ _vector(stiffness, motion)
+        assert np.abs(force).max() < 1e-9 * np.abs(stiffness.values).max()
+
+
+@pytest.mark.parametrize("element", [n for n in (*PLANE, *SPACE) if n != "Q8RI"])
+def test_only_rigid_motions_cost_no_energy(element):
+    mode = Mode.PLANE_STRAIN if element in PLANE else Mode.THREE_DIMENSIONAL
+    zone = cell_zone(element, mode)
+    K = families.stiffness(zone, material(zone, YOUN=E, NU=NU)).values[0]
+    values = np.linalg.eigvalsh(K)
+    free = (values < 1e-9 * values[-1]).sum()
+    # spurious modes of a single cell: unknowns less the strains sampled at few points
+    hidden = {"C20R": 6, "P15R": 3}.get(element, 0)
+    assert free == (3 if element in PLANE else 6) + hidden
+    np.testing.assert_allclose(K, K.T, atol=1e-9 * values[-1])
+
+
+def test_axisymmetric_pressure_vessel_strain_has_the_hoop_component():
+    zone = cell_zone("QUA8", Mode.AXISYMMETRIC)
+    u = field(zone, UR=lambda x: 2e-3 * x[:, 0], UZ=lambda x: -1e-3 * x[:, 1])
+    block = families.strain(zone, u)
+    for name, value in {"EPRR": 2e-3, "EPZZ": -1e-3, "EPTT": 2e-3, "GARZ": 0.0}.items():
+        np.testing.assert_allclose(block.components[name], value, atol=1e-14)
+
+
+@pytest.mark.parametrize("element", [*PLANE, *SPACE])
+def test_mass_matrix_holds_the_mass_in_every_direction(element):
+    mode = Mode.PLANE_STRAIN if element in PLANE else Mode.THREE_DIMENSIONAL
+    zone = cell_zone(element, mode)
+    mat = material(zone, YOUN=E, NU=NU, RHO=7.0)
+    volume = families.integration_weights(zone, "RIGIDITE").sum()
+    for lumped in (False, True):
+        block = families.mass(zone, mat, lumped)
+        for name in dict.fromkeys(block.unknowns):
+            rows = [i for i, u in enumerate(block.unknowns) if u == name]
+            total = block.values[0][np.ix_(rows, rows)].sum()
+            assert total == pytest.approx(7.0 * volume, rel=1e-10)
+    assert np.count_nonzero(block.values[0] - np.diag(np.diag(block.values[0]))) == 0
+
+
+def test_mass_of_a_ring_counts_the_circumference():
+    zone = cell_zone("QUA8", Mode.AXISYMMETRIC)
+    block = families.mass(zone, material(zone, RHO=2.0))
+    rows = [i for i, u in enumerate(block.unknowns) if u == "UZ"]
+    weights = families.integration_weights(zone, "RIGIDITE").sum()
+    assert block.values[0][np.ix_(rows, rows)].sum() == pytest.approx(2.0 * weights, rel=1e-12)
+
+
+def test_thickness_scales_plane_stress_only():
+    flat = cell_zone("QUA4", Mode.PLANE_STRESS)
+    thin = families.stiffness(flat, material(flat, YOUN=E, NU=NU, DIM3=0.1)).values
+    unit = families.stiffness(flat, material(flat, YOUN=E, NU=NU)).values
+    np.testing.assert_allclose(thin, 0.1 * unit)
+
+
+def test_incompressible_element_does_not_lock_in_volume():
+    zone = cell_zone("ICQ4", Mode.PLANE_STRAIN)
+    usual = cell_zone("QUA4", Mode.PLANE_STRAIN)
+    bend = {"UX": lambda x: (x[:, 0] - 3) * x[:, 1], "UY": lambda x: 0.0 * x[:, 0]}
+    energies = []
+    for z in (zone, usual):
+        block = families.stiffness(z, material(z, YOUN=1.0, NU=0.49999))
+        v = _vector(block, field(z, **bend))
+        energies.append(v @ block.values[0] @ v)
+    assert energies[0] < 1e-2 * energies[1]
+
+
+def test_missing_and_inadmissible_parameters_are_named():
+    zone = cell_zone("QUA4", Mode.PLANE_STRAIN)
+    with pytest.raises(MaterialError, match="NU is missing"):
+        families.stiffness(zone, material(zone, YOUN=E))
+    with pytest.raises(MaterialError, match=r"0\.5"):
+        families.stiffness(zone, material(zone, YOUN=E, NU=0.5))
+
+
+def test_folded_cell_is_refused():
+    zone = cell_zone("QUA4", Mode.PLANE_STRAIN)
+    nodes = zone.cells.connectivity[0]
+    zone.cells.nodes.coordinates[nodes[2]] = zone.cells.nodes.coordinates[nodes[0]] - [1, 1, 0]
+    with pytest.raises(MeshError, match="Jacobian"):
+        families.stiffness(zone, material(zone, YOUN=E, NU=NU))

@@ -1,0 +1,85 @@
+"""The compiled sum of products of gradients against the strain operator, cell by cell."""
+
+import numpy as np
+import pytest
+
+from ssilang.kernel import elements
+from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.elements.solids import solid
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.materials.model import Mode, Zone
+from ssilang.kernel.mesh.mesh import CellBlock
+from ssilang.kernel.mesh.nodes import NodeTable
+
+SPACE, PLANE = Mode.THREE_DIMENSIONAL, Mode.PLANE_STRAIN
+CORNERS = {
+    "TRI3": [(0, 0), (1, 0), (0, 1)],
+    "QUA4": [(0, 0), (1, 0), (1, 1), (0, 1)],
+    "TET4": [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)],
+    "CUB8": [
+        (0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)
+    ],
+}  # fmt: skip
+
+
+def zone_of(cell_type, mode, folded=False, n=5, axes="ISOTROPE"):
+    """Crooked cells that share nothing, one of them folded if asked."""
+    random, table = np.random.default_rng(0), NodeTable()
+    corners = np.array(CORNERS[cell_type], dtype=float)
+    points = corners + 0.15 * random.standard_normal((n, *corners.shape))
+    points[1] = points[1, [1, 0, *range(2, len(corners))]] if folded else points[1]
+    cells = table.add(points.reshape(-1, corners.shape[1])).reshape(n, -1)
+    block = CellBlock.make(table, cell_type, cells)
+    return Zone(block, "MECANIQUE", ("ELASTIQUE", axes), cell_type, mode)
+
+
+def matrices(zone, parameters, monkeypatch):
+    """Element matrices by the compiled sum if it takes them, and without it."""
+    field = CellField((CellFieldBlock(zone.cells, parameters, "STRESSES", zone.element),))
+    seen, made = [], solid.uniform_stiffness
+
+    def watched(*given):
+        seen.append(made(*given))
+        return seen[-1]
+
+    monkeypatch.setattr(solid, "MANY_TERMS", 0)
+    monkeypatch.setattr(solid, "uniform_stiffness", watched)
+    found = elements.stiffness(zone, field).values
+    monkeypatch.setattr(solid, "uniform_stiffness", lambda *given: None)
+    return found, elements.stiffness(zone, field).values, seen[0] is not None
+
+
+STRESS = Mode.PLANE_STRESS
+
+
+@pytest.mark.parametrize(
+    ("cell_type", "mode"),
+    [("CUB8", SPACE), ("TET4", SPACE), ("QUA4", PLANE), ("TRI3", PLANE), ("QUA4", STRESS)],
+)
+@pytest.mark.parametrize("uniform", [True, False])
+def test_crooked_cells_have_the_same_matrices(cell_type, mode, uniform, monkeypatch):
+    zone = zone_of(cell_type, mode)
+    young = 1e9 * np.ones((5, 1)) if uniform else 1e9 * np.arange(1.0, 6.0)[:, None]
+    parameters = {"YOUN": young, "NU": np.full((5, 1), 0.3)}
+    if mode is Mode.PLANE_STRESS:
+        parameters["DIM3"] = np.linspace(0.1, 0.4, 5)[:, None]
+    found, expected, compiled = matrices(zone, parameters, monkeypatch)
+    assert compiled
+    np.testing.assert_allclose(found, expected, atol=1e-13 * np.abs(expected).max())
+
+
+def test_moduli_that_change_inside_a_cell_are_summed_at_points(monkeypatch):
+    zone = zone_of("QUA4", PLANE)
+    young = 1e9 * np.random.default_rng(1).uniform(1.0, 2.0, (5, 4))
+    found, expected, compiled = matrices(
+        zone, {"YOUN": young, "NU": np.full((5, 1), 0.3)}, monkeypatch
+    )
+    assert not compiled
+    assert (found == expected).all()
+
+
+@pytest.mark.parametrize(("cell_type", "mode"), [("CUB8", SPACE), ("QUA4", PLANE)])
+def test_folded_cells_are_named(cell_type, mode, monkeypatch):
+    parameters = {"YOUN": np.full((5, 1), 1e9), "NU": np.full((5, 1), 0.3)}
+    with pytest.raises(MeshError, match="being number 2"):
+        matrices(zone_of(cell_type, mode, folded=True), parameters, monkeypatch)

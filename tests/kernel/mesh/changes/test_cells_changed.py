@@ -1,0 +1,213 @@
+"""Degrees, splitting, copies, selections, boundaries."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.mesh.boundary import chained, contour, edges, envelope, faces, sharp_edges
+from ssilang.kernel.mesh.changes.degree import QUADRATIC, linear, middle_places, quadratic
+from ssilang.kernel.mesh.changes.split import split_quadrangles, tetrahedra
+from ssilang.kernel.mesh.changes.transform import (
+    NodeCopier,
+    affine_through,
+    affinity,
+    mirror_plane,
+    turn,
+)
+from ssilang.kernel.mesh.combine import cell_keys, difference, intersection, union
+from ssilang.kernel.mesh.generators.stitch import cone, stitch
+from ssilang.kernel.mesh.generators.sweep import sweep_line, sweep_surface, translation
+from ssilang.kernel.mesh.lines.lines import line_chain, straight_line
+from ssilang.kernel.mesh.lines.subdivision import subdivide
+from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.kernel.mesh.nodes import NodeTable
+from ssilang.kernel.mesh.orientation import check_consistent, flip, orient, signed_volumes
+from ssilang.kernel.mesh.queries.measure import enclosed_area, enclosed_volume, total_measure
+from ssilang.kernel.mesh.queries.select import containing, inside_contour, inside_volume, stretch
+
+
+def line(nodes: NodeTable, a: list[float], b: list[float], n: int) -> Mesh:
+    ids = nodes.add(np.array([a, b], dtype=float))
+    return straight_line(nodes, int(ids[0]), int(ids[1]), n)
+
+
+def box(surface: str = "QUA4") -> Mesh:
+    """A box of sides 1, 2 and 3 in 2 x 3 x 2 bricks (or twice as many prisms)."""
+    base = line(NodeTable(), [0, 0, 0], [1, 0, 0], 2)
+    y, z = np.array([0.0, 2, 0]), np.array([0.0, 0, 3])
+    floor = sweep_line(base, translation(y), subdivide(2.0, count=3), surface)
+    return sweep_surface(floor, translation(z), subdivide(3.0, count=2))
+
+
+@pytest.mark.parametrize("name", sorted(QUADRATIC.values()))
+def test_each_middle_stands_between_two_corners(name: str) -> None:
+    places = middle_places(name)
+    expected = {"SEG3": 1, "TRI6": 3, "QUA8": 4, "TE10": 6, "PY13": 8, "PR15": 9, "CU20": 12}
+    assert len(places) == expected[name]
+
+
+@pytest.mark.parametrize(("surface", "cell"), [("QUA4", "CU20"), ("TRI3", "PR15")])
+def test_quadratic_cells_have_their_middles_in_the_middle(surface: str, cell: str) -> None:
+    volume = box(surface)
+    made = quadratic(volume)
+    block = made.single_block()
+    assert block.cell_type == cell
+    for middle, a, b in middle_places(cell):
+        x = block.coordinates
+        assert x[:, middle] == pytest.approx((x[:, a] + x[:, b]) / 2)
+    # one middle an edge
+    assert len(made.node_ids) == len(volume.node_ids) + edges(volume).n_cells
+    back = linear(made).single_block()
+    assert (back.connectivity == volume.single_block().connectivity).all()
+
+
+@pytest.mark.parametrize("surface", ["QUA4", "TRI3"])
+def test_bricks_and_prisms_split_into_conforming_tetrahedra(surface: str) -> None:
+    volume = box(surface)
+    made = Mesh.of(volume.nodes, "TET4", tetrahedra(volume.single_block()))
+    assert (signed_volumes(made.single_block()) > 0).all()
+    assert total_measure(made) == pytest.approx(6.0)
+    skin = envelope(made)
+    assert total_measure(skin) == pytest.approx(total_measure(envelope(volume)))
+
+
+def test_envelope_faces_outwards_and_closes() -> None:
+    skin = envelope(box())
+    assert enclosed_volume(skin) == pytest.approx(6.0)
+    assert total_measure(skin) == pytest.approx(2 * (2 + 3 + 6))
+    assert contour(skin).n_cells == 0
+    check_consistent(skin)
+
+
+def test_sharp_edges_of_a_box_are_its_twelve_edges() -> None:
+    assert total_measure(sharp_edges(box())) == pytest.approx(4 * (1 + 2 + 3))
+
+
+def test_counts_of_edges_and_faces_of_a_grid_of_bricks() -> None:
+    volume = box()
+    assert edges(volume).n_cells == 2 * 4 * 3 + 3 * 3 * 3 + 3 * 4 * 2
+    assert faces(volume).n_cells == 3 * 3 * 2 + 2 * 4 * 2 + 2 * 3 * 3
+
+
+def test_contour_is_put_end_to_end() -> None:
+    base = line(NodeTable(), [0, 0], [1, 0], 3)
+    plate = sweep_line(base, translation(np.array([0.0, 2, 0])), subdivide(2.0, count=4), "QUA4")
+    chain = line_chain(chained(contour(plate)))
+    assert chain[0] == chain[-1]
+    assert len(chain) == 2 * (3 + 4) + 1
+    assert enclosed_area(contour(plate)) == pytest.approx(2.0)
+
+
+def test_part_of_a_closed_line_follows_its_sense() -> None:
+    base = line(NodeTable(), [0, 0], [1, 0], 3)
+    plate = sweep_line(base, translation(np.array([0.0, 2, 0])), subdivide(2.0, count=4), "QUA4")
+    loop = chained(contour(plate))
+    chain = line_chain(loop)
+    part = line_chain(stretch(loop, int(chain[5]), int(chain[1])))
+    assert part.tolist() == [*chain[5:].tolist(), int(chain[1])]
+
+
+def test_orientation_repairs_cells_turned_inside_out() -> None:
+    volume = box()
+    block = volume.single_block()
+    some = np.arange(len(block)) % 3 == 0
+    spoilt = Mesh(volume.nodes, (flip(block, some),))
+    assert ((signed_volumes(spoilt.single_block()) < 0) == some).all()
+    assert (signed_volumes(orient(spoilt, 3).single_block()) > 0).all()
+
+
+def test_opposed_neighbours_are_found() -> None:
+    base = line(NodeTable(), [0, 0], [1, 0], 2)
+    plate = sweep_line(base, translation(np.array([0.0, 2, 0])), subdivide(2.0, count=1), "QUA4")
+    check_consistent(plate)
+    block = plate.single_block()
+    with pytest.raises(MeshError, match="opposite senses"):
+        check_consistent(Mesh(plate.nodes, (flip(block, np.array([True, False])),)))
+
+
+def test_sets_of_cells_do_not_see_the_order_of_nodes() -> None:
+    volume = box()
+    block = volume.single_block()
+    some = Mesh(volume.nodes, (flip(block, np.ones(len(block), dtype=bool)),))
+    part = Mesh.of(volume.nodes, "CUB8", some.single_block().connectivity[:4])
+    assert intersection(volume, part).n_cells == 4
+    assert difference(volume, part).n_cells == 8
+    assert len(np.unique(cell_keys(block))) == 12
+
+
+def test_copies_share_the_nodes_that_originals_share() -> None:
+    nodes = NodeTable()
+    first = line(nodes, [0, 0], [1, 0], 2)
+    last = int(line_chain(first)[-1])
+    second = straight_line(nodes, last, int(nodes.add(np.array([[2.0, 0]]))[0]), 2)
+    copier = NodeCopier(nodes, turn(90.0, np.zeros(3), np.array([0.0, 0, 1])))
+    one, two = copier.mesh(first), copier.mesh(second)
+    assert line_chain(one)[-1] == line_chain(two)[0]
+    assert nodes.coordinates[line_chain(two)[-1]] == pytest.approx([0, 2, 0], abs=1e-12)
+
+
+def test_affine_map_is_found_from_its_points() -> None:
+    rng = np.random.default_rng(3)
+    old, matrix, shift = rng.normal(size=(4, 3)), rng.normal(size=(3, 3)), rng.normal(size=3)
+    image = affine_through(old, old @ matrix.T + shift, 3)
+    x = rng.normal(size=(5, 3))
+    assert image(x) == pytest.approx(x @ matrix.T + shift)
+
+
+def test_mirror_and_affinity_about_a_tilted_plane() -> None:
+    a, b, c = np.array([[0.0, 0, 0], [1, 1, 0], [0, 0, 1]])
+    x = np.array([[1.0, 0, 5]])
+    assert mirror_plane(a, b, c)(x) == pytest.approx(np.array([[0, 1, 5]]))
+    assert affinity(2.0, a, np.array([1.0, 0, 0]))(x) == pytest.approx(np.array([[2, 0, 5]]))
+
+
+def test_points_are_located() -> None:
+    volume = box()
+    assert containing(volume, np.array([0.3, 0.2, 0.1])).n_cells == 1
+    assert containing(volume, np.array([0.5, 0.2, 0.1]), every=True).n_cells == 2
+    assert containing(volume, np.array([1.3, 0.2, 0.1])).n_cells == 0
+    at = np.array([[0.5, 1.0, 1.5], [1.2, 1, 1], [0.99, 1.99, 2.99]])
+    assert inside_volume(at, volume, 1e-6).tolist() == [True, False, True]
+    floor = contour(volume.sides[0])
+    flat = np.array([[0.5, 1.0, 0], [1.0, 1, 0], [1.1, 1, 0]])
+    assert inside_contour(flat, floor, strict=False).tolist() == [True, True, False]
+    assert inside_contour(flat, floor, strict=True).tolist() == [True, False, False]
+
+
+def test_stitched_lines_of_unequal_cuts_leave_no_hole() -> None:
+    nodes = NodeTable()
+    made = stitch(line(nodes, [0, 0], [1, 0], 5), line(nodes, [0, 1], [1, 1], 2))
+    assert made.n_cells == 7
+    assert total_measure(made) == pytest.approx(1.0)
+
+
+def test_cone_on_a_skin_fills_the_box() -> None:
+    volume = box()
+    skin = envelope(volume)
+    tip = int(volume.nodes.add(np.array([[0.4, 0.9, 1.1]]))[0])
+    made = cone(skin, tip)
+    assert total_measure(made) == pytest.approx(6.0)
+    corner = int(skin.single_block().connectivity[0, 0])
+    assert total_measure(cone(skin, corner)) == pytest.approx(6.0)
+
+
+def test_split_squares_alternate_their_diagonals() -> None:
+    base = line(NodeTable(), [0, 0], [1, 0], 2)
+    plate = sweep_line(base, translation(np.array([0.0, 1, 0])), subdivide(1.0, count=1), "QUA4")
+    made = split_quadrangles(plate)
+    shared = difference(edges(made), edges(plate)).single_block().coordinates
+    slopes = np.sign(shared[:, 1] - shared[:, 0])
+    assert (slopes[0, :2].prod(), slopes[1, :2].prod()) in ((1, -1), (-1, 1))
+
+
+def test_lines_join_in_the_order_in_which_they_continue() -> None:
+    nodes = NodeTable()
+    first = line(nodes, [0, 0], [1, 0], 2)
+    second = straight_line(
+        nodes, int(line_chain(first)[-1]), int(nodes.add(np.array([[2.0, 0]]))[0]), 2
+    )
+    assert (line_chain(union(second, first)) == line_chain(union(first, second))).all()
+    raw = union(second, first, as_given=True).single_block()
+    assert raw.connectivity[0, 0] == line_chain(second)[0]

@@ -1,0 +1,111 @@
+"""Surfaces inside contours: area, conformity, holes, degree, curved charts, sizes."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.mesh.boundary import contour
+from ssilang.kernel.mesh.combine import cell_keys, union
+from ssilang.kernel.mesh.lines.curves import arc_about_axis
+from ssilang.kernel.mesh.lines.lines import mesh_curve, straight_line
+from ssilang.kernel.mesh.lines.subdivision import subdivide
+from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.kernel.mesh.nodes import NodeTable
+from ssilang.kernel.mesh.orientation import reversed_line, surface_normals
+from ssilang.kernel.mesh.queries.measure import total_measure
+from ssilang.kernel.mesh.surfaces.charts import plane_chart, sphere_chart
+from ssilang.kernel.mesh.surfaces.surface import contour_chart_data, fill_surface
+
+
+def square(nodes: NodeTable, side: float, cuts: int, quadratic: bool = False) -> Mesh:
+    """Contour of a square, anticlockwise from the origin."""
+    corners = nodes.add(np.array([[0.0, 0], [side, 0], [side, side], [0, side]]))
+    pairs = zip(corners, np.roll(corners, -1), strict=True)
+    lines = [straight_line(nodes, int(a), int(b), cuts, quadratic=quadratic) for a, b in pairs]
+    return union(*lines, as_given=True)
+
+
+def circle(nodes: NodeTable, centre: tuple[float, float, float], radius: float, cuts: int) -> Mesh:
+    """Closed circle of SEG2 in the plane z of its centre, anticlockwise."""
+    middle = np.array(centre)
+    start = int(nodes.add((middle + np.array([radius, 0, 0]))[None])[0])
+    arc = arc_about_axis(nodes.coordinates[start].copy(), middle, np.array([0.0, 0, 1]), 2 * np.pi)
+    return mesh_curve(nodes, arc, start, start, subdivide(arc.length, count=cuts))
+
+
+def filled(line: Mesh, surface: str) -> Mesh:
+    return fill_surface(line, plane_chart(*contour_chart_data(line)), surface)
+
+
+@pytest.mark.parametrize("surface", ["TRI3", "QUA4"])
+def test_square_is_filled_and_keeps_its_contour(surface: str) -> None:
+    line = square(NodeTable(), 2.0, 7)
+    made = filled(line, surface)
+    assert total_measure(made) == pytest.approx(4.0, rel=1e-12)
+    assert all((surface_normals(b)[:, 2] > 0).all() for b in made.blocks)
+    found, given = contour(made).single_block(), line.single_block()
+    assert sorted(cell_keys(found).tolist()) == sorted(cell_keys(given).tolist())
+
+
+def test_clockwise_contour_gives_clockwise_cells() -> None:
+    made = filled(reversed_line(square(NodeTable(), 1.0, 4)), "TRI3")
+    assert all((surface_normals(b)[:, 2] < 0).all() for b in made.blocks)
+
+
+def test_hole_stays_empty() -> None:
+    nodes = NodeTable()
+    outer = square(nodes, 2.0, 8)
+    hole = reversed_line(circle(nodes, (1.0, 1.0, 0.0), 0.5, 16))
+    made = filled(union(outer, hole, as_given=True), "TRI3")
+    polygon = 0.5 * 16 * 0.25 * math.sin(2 * math.pi / 16)
+    assert total_measure(made) == pytest.approx(4.0 - polygon, rel=1e-12)
+
+
+@pytest.mark.parametrize(("surface", "cell"), [("TRI6", "TRI6"), ("QUA8", "QUA8")])
+def test_quadratic_cells_share_their_middles(surface: str, cell: str) -> None:
+    line = square(NodeTable(), 1.0, 4, quadratic=True)
+    made = filled(line, surface)
+    assert cell in {b.cell_type for b in made.blocks}
+    assert total_measure(made) == pytest.approx(1.0, rel=1e-12)
+    found, given = contour(made).single_block(), line.single_block()
+    assert sorted(cell_keys(found).tolist()) == sorted(cell_keys(given).tolist())
+
+
+def test_cells_follow_the_wanted_sizes() -> None:
+    line = square(NodeTable(), 1.0, 10)
+    chart = plane_chart(*contour_chart_data(line))
+    usual = fill_surface(line, chart, "TRI3")
+    at = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
+    coarse = fill_surface(line, chart, "TRI3", sizes=(at, np.full(4, 0.3)))
+    assert coarse.n_cells < 0.8 * usual.n_cells
+
+
+def test_cap_of_a_sphere_has_its_area() -> None:
+    # circle at height 0.6 on the unit sphere: cap of area 2 pi (1 - 0.6), less facets' defect
+    nodes = NodeTable()
+    line = circle(nodes, (0.0, 0.0, 0.6), 0.8, 48)
+    boundary, _ = contour_chart_data(line)
+    made = fill_surface(line, sphere_chart(boundary, np.zeros(3)), "TRI3")
+    assert total_measure(made) == pytest.approx(0.8 * math.pi, rel=5e-3)
+    ids = made.node_ids
+    assert np.linalg.norm(nodes.coordinates[ids], axis=1) == pytest.approx(1.0, abs=1e-12)
+
+
+def test_open_contour_is_refused() -> None:
+    nodes = NodeTable()
+    ids = nodes.add(np.array([[0.0, 0], [1.0, 0], [1.0, 1.0]]))
+    line = union(*(straight_line(nodes, int(ids[k]), int(ids[k + 1]), 3) for k in (0, 1)))
+    with pytest.raises(MeshError, match="not closed"):
+        filled(line, "TRI3")
+
+
+def test_contour_out_of_plane_is_refused() -> None:
+    nodes = NodeTable()
+    line = square(nodes, 1.0, 3)
+    nodes.coordinates[0, 2] = 0.3
+    with pytest.raises(MeshError, match="not plane"):
+        filled(line, "TRI3")

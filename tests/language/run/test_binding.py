@@ -1,0 +1,238 @@
+"""Declared forms: what entries read, which form runs, what is said where none fits."""
+
+from __future__ import annotations
+
+import io
+
+import pytest
+
+from ssilang.cli.run import RunOptions, run_source
+from ssilang.language.registry import (
+    OPERATORS,
+    Form,
+    Help,
+    Like,
+    When,
+    arg,
+    choice,
+    each,
+    either,
+    flag,
+    group,
+    key,
+    main,
+    many,
+    opt,
+    said,
+    select,
+    shared,
+)
+from ssilang.language.run.results import results_of
+from ssilang.language.text.source import Source
+from ssilang.language.values import ListEnti, ListMots, ListReel
+
+
+@pytest.fixture
+def declare():
+    """Makes an operator ZZZZ for one test; what its forms were given is printed."""
+    made = shared("ZZZZ", "test", Help("", ""))
+
+    def add(*entries, **options):
+        def show(**values):
+            found.append(values)
+            return len(found)
+
+        made.form(*entries, gives="ENTIER", **options)(show)
+
+    found: list[dict] = []
+    add.found = found
+    yield add
+    del OPERATORS["ZZZZ"]
+
+
+def run(text):
+    out, err = io.StringIO(), io.StringIO()
+    result = run_source(Source("script", text), RunOptions(), out, err)
+    return result.exit_code, err.getvalue()
+
+
+def test_a_repeated_group_reads_pairs_until_they_end(declare):
+    declare(
+        each("pairs", arg("name", "MOT"), arg("value", "FLOTTANT"), at_least=1), flag("all", "TOUT")
+    )
+    assert run("A = ZZZZ 'UX' 1. 'UY' 2 'TOUT' ;")[0] == 0
+    assert declare.found == [{"pairs": [("UX", 1.0), ("UY", 2.0)], "all": True}]
+
+
+def test_a_keyword_stands_between_the_pairs_too(declare):
+    declare(
+        each("pairs", arg("name", "MOT"), arg("value", "FLOTTANT")),
+        key("title", "TITR", arg("t", "MOT")),
+    )
+    assert run("A = ZZZZ 'UX' 1. 'TITRE' 'abc' 'UY' 2. ;")[0] == 0
+    assert declare.found == [{"pairs": [("UX", 1.0), ("UY", 2.0)], "title": "abc"}]
+
+
+def test_a_word_without_its_value_is_told(declare):
+    declare(each("pairs", arg("name", "MOT"), arg("value", "FLOTTANT")))
+    code, output = run("A = ZZZZ 'UX' 1. 'UY' ;")
+    assert code == 1
+    assert "FLOTTANT" in output
+
+
+def test_a_group_leaves_an_operator_that_follows(declare):
+    declare(each("pairs", arg("name", "MOT"), arg("value", "FLOTTANT")))
+    assert run("A = ZZZZ 'UX' 1. ENTI ;")[0] == 0
+
+
+def test_a_select_reads_what_its_word_says(declare):
+    declare(
+        arg("n", "ENTIER"),
+        select(
+            "way", {"CERC": [arg("r", "FLOTTANT")], "RIEN": [], "LIST": [many("all", "ENTIER")]}
+        ),
+    )
+    assert (
+        run("A = ZZZZ 3 'CERC' 2. ; A = ZZZZ 'RIEN' 3 ; A = ZZZZ 1 'LIST' 2 3 ; A = ZZZZ 4 ;")[0]
+        == 0
+    )
+    ways = [v["way"] for v in declare.found]
+    assert [w and (w.word, dict(w.values)) for w in ways] == [
+        ("CERC", {"r": 2.0}),
+        ("RIEN", {}),
+        ("LIST", {"all": (2, 3)}),
+        None,
+    ]
+
+
+def test_either_takes_the_first_group_that_fits(declare):
+    declare(
+        either(
+            "place",
+            group("two", arg("a", "ENTIER"), arg("b", "MOT")),
+            group("one", arg("a", "ENTIER")),
+        )
+    )
+    assert run("A = ZZZZ 3 'x' ; A = ZZZZ 4 ;")[0] == 0
+    assert [(v["place"].word, dict(v["place"].values)) for v in declare.found] == [
+        ("two", {"a": 3, "b": "x"}),
+        ("one", {"a": 4}),
+    ]
+
+
+def test_many_leave_the_last_for_what_follows(declare):
+    declare(
+        many("objects", "ENTIER", "LOGIQUE", leaving=2, left=("ENTIER",)),
+        arg("p", "ENTIER"),
+        arg("q", "ENTIER"),
+    )
+    assert run("A = ZZZZ 1 VRAI 2 3 FAUX ;")[0] == 0
+    assert declare.found == [{"objects": (1, True, False), "p": 2, "q": 3}]
+
+
+def test_repeated_words_end_at_a_keyword(declare):
+    declare(many("names", "MOT"), choice("how", ("SANS", "AVEC")))
+    assert run("A = ZZZZ 'UX' 'UY' 'AVEC' 'UZ' ;")[0] == 0
+    assert declare.found == [{"names": ("UX", "UY", "UZ"), "how": "AVEC"}]
+
+
+def test_the_type_of_the_main_operand_chooses_behind_a_word(declare):
+    declare(main("value", "LISTREEL"), flag("absolute", "ABS"))
+    declare(main("value", "ENTIER"), opt("b", "FLOTTANT"))
+    assert run("A = ZZZZ 'ABS' (PROG 1.) ; A = ZZZZ 3 4. ;")[0] == 0
+    assert declare.found[0]["absolute"] is True
+    assert declare.found[1] == {"value": 3, "b": 4.0}
+    code, output = run("A = ZZZZ VRAI ;")
+    assert code == 1
+    assert "LISTREEL" in output
+    assert "ENTIER" in output
+
+
+def test_a_word_chooses_the_form_before_any_type(declare):
+    declare(main("value", "ENTIER"))
+    declare(said("CUBE", "CARRE"), arg("x", "ENTIER"))
+    assert run("A = ZZZZ 'CUBE' 3 ; A = ZZZZ 3 ;")[0] == 0
+    assert declare.found == [{"x": 3}, {"value": 3}]
+
+
+def test_a_keyword_of_the_form_may_stand_before_the_word_that_chooses_it(declare):
+    declare(arg("x", "ENTIER"))
+    declare(said("CUBE"), arg("x", "ENTIER"), key("step", "PAS", arg("v", "FLOTTANT")))
+    assert run("A = ZZZZ 'PAS' 0.5 3 'CUBE' ;")[0] == 0
+    assert declare.found == [{"x": 3, "step": 0.5}]
+
+
+def test_a_mandatory_select_chooses_its_form(declare):
+    declare(
+        select("on", {"PLAN": [arg("p", "ENTIER")], "AXE": []}, optional=False), opt("n", "MOT")
+    )
+    declare(arg("x", "FLOTTANT"), arg("y", "FLOTTANT"))
+    assert run("A = ZZZZ 1. 'PLAN' 3 ; A = ZZZZ 1 2 ;")[0] == 1
+    assert run("A = ZZZZ 'PLAN' 3 ; A = ZZZZ 1 2 ;")[0] == 0
+    assert declare.found[-2]["on"].word == "PLAN"
+    assert declare.found[-1] == {"x": 1.0, "y": 2.0}
+
+
+def test_a_keyword_may_take_only_what_stands_behind_it(declare):
+    declare(
+        select("on", {"SUR": [many("those", "ENTIER", behind=True)]}),
+        arg("x", "ENTIER"),
+        many("more", "ENTIER"),
+    )
+    assert run("A = 1 2 ZZZZ 'SUR' ; B = 1 ZZZZ 'SUR' 2 3 ;")[0] == 0
+    assert [(v["on"]["those"], v["x"], v["more"]) for v in declare.found] == [
+        ((), 1, (2,)),
+        ((2, 3), 1, ()),
+    ]
+
+
+def test_the_words_of_all_forms_of_a_type_are_told(declare):
+    declare(said("CUBE"), main("x", "ENTIER"))
+    declare(said("CARRE"), main("x", "ENTIER"))
+    code, output = run("A = ZZZZ 3 ;")
+    assert code == 1
+    assert "CUBE" in output
+    assert "CARRE" in output
+
+
+def test_a_form_may_want_a_state_of_the_session(declare):
+    declare(arg("x", "ENTIER"), when=When(lambda session: False, "in space", "en dimension 3"))
+    code, output = run("A = ZZZZ 3 ;")
+    assert code == 1
+    assert "in space" in output
+
+
+def test_the_error_is_that_of_the_form_which_got_furthest(declare):
+    declare(arg("a", "MAILLAGE"))
+    declare(arg("a", "ENTIER"), arg("b", "LISTREEL"))
+    output = run("A = ZZZZ 3 VRAI ;")[1]
+    assert "LISTREEL" in output
+    assert "MAILLAGE" not in output
+
+
+def test_operands_stand_as_they_stood_for_the_next_form(declare):
+    declare(arg("a", "ENTIER"), key("k", "PAS", arg("v", "LISTREEL"), optional=False))
+    declare(arg("a", "ENTIER"), key("k", "PAS", arg("v", "ENTIER"), optional=False))
+    assert run("A = ZZZZ 3 'PAS' 4 ;")[0] == 0
+    assert declare.found == [{"a": 3, "k": 4}]
+
+
+def test_results_like_operands_have_their_types():
+    form = Form((), lambda: None, gives=Like("objects"))
+    assert results_of(form, {"objects": (1, True)}) == ("ENTIER", "LOGIQUE")
+    assert results_of(form) is None
+
+
+def several(call) -> tuple[ListReel, ListMots | None]: ...
+
+
+def nothing(call) -> None: ...
+
+
+def some(call) -> ListReel | ListEnti: ...
+
+
+def test_annotations_say_results():
+    assert results_of(Form((), several)) == ("LISTREEL", "LISTMOTS|")
+    assert results_of(Form((), nothing)) == ()
+    assert results_of(Form((), some)) == ("LISTREEL|LISTENTI",)

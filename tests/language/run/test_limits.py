@@ -1,0 +1,85 @@
+"""No input breaks the interpreter: limits, and errors with a place instead of tracebacks."""
+
+from __future__ import annotations
+
+import pytest
+
+from ssilang.cli.run import RunOptions, run_text
+from ssilang.language.run.session import Limits
+from ssilang.language.say.errors import SeveralErrors
+from ssilang.language.text.source import Source
+from ssilang.language.text.structure import parse
+
+
+def test_statement_limit_stops_an_endless_loop(tmp_path):
+    options = RunOptions(output_directory=tmp_path, limits=Limits(statements=1000))
+    result = run_text("REPE b ; x = &b ; FIN b ;", options=options)
+    assert result.errors[0].code == "statement-limit"
+
+
+@pytest.mark.parametrize("body", ["", "SI FAUX ; FINSI ;", "ITER b ;"])
+def test_the_limit_counts_turns_and_conditions(tmp_path, body):
+    options = RunOptions(output_directory=tmp_path, limits=Limits(statements=1000))
+    result = run_text(f"REPE b ; {body} FIN b ;", options=options)
+    assert result.errors[0].code == "statement-limit"
+
+
+def test_recursion_limit_is_an_option(tmp_path):
+    text = "DEBP P n*ENTIER ; SI (n > 0) ; P (n - 1) ; FINSI ; FINP ; P 50 ;"
+    deep = RunOptions(output_directory=tmp_path, limits=Limits(recursion=60))
+    shallow = RunOptions(output_directory=tmp_path, limits=Limits(recursion=20))
+    assert run_text(text, options=deep).exit_code == 0
+    assert run_text(text, options=shallow).errors[0].code == "recursion"
+
+
+@pytest.mark.parametrize(
+    ("text", "code"),
+    [
+        ("x = " + "(" * 20000 + "1" + ")" * 20000 + " ;", "nesting"),
+        ("x = " + "9" * 6000 + " ;", "long-integer"),
+        ("x = 10 ; REPE b 40 ; x = x * x ; FIN b ;", "arithmetic"),
+        ("x = 7 ** 100000000 ;", "arithmetic"),
+        ("t = TEXT 'u' ; u = TEXT 't' ; x = t 3 ;", "endless-text"),
+        ("t = TEXT '(' ; x = t 3 ;", "unclosed-paren"),
+        ("x = 1E400 ; REPE b x ; QUIT b ; FIN b ;", "loop-count"),
+        ("\x00 = 3 ;", "syntax"),
+    ],
+    ids=lambda v: v[:24],
+)
+def test_extreme_scripts_end_in_a_message(fails, text, code):
+    assert fails(text) == code
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "SI VRAI ; " * 1000 + "FINSI ; " * 1000,
+        "x = " + "1 + " * 5000 + "1 ;",
+        "t = TABL ; t . 1 = t ; u = t . 1 . 1 . 1 ;",
+    ],
+    ids=["nested SI", "long sum", "table in itself"],
+)
+def test_large_scripts_run(run, text):
+    run(text)
+
+
+def test_a_very_long_line_is_shown_around_its_error(tmp_path):
+    result = run_text("x = " + "1 + " * 2000 + "FOO 3 ;", output_directory=tmp_path)
+    assert max(len(line) for line in result.message.split("\n")) < 200
+    assert "FOO" in result.message
+
+
+def test_zeros_in_front_do_not_make_an_integer_long(run):
+    assert run("X = 00000000000000000000007 ;")["X"] == 7
+
+
+def test_a_long_integer_does_not_hide_the_errors_behind_it():
+    with pytest.raises(SeveralErrors) as caught:
+        parse(Source("deck", "X = 99999999999999999999 ; Y = 3.) ; Z = 88888888888888888888 ;"))
+    codes = sorted(e.code for e in caught.value.errors)
+    assert codes == ["extra-paren", "long-integer", "long-integer"]
+
+
+def test_the_largest_integer_is_that_of_64_bits(run, fails):
+    assert run("X = 9223372036854775807 ;")["X"] == 2**63 - 1
+    assert fails("X = 9223372036854775808 ;") == "long-integer"

@@ -1,0 +1,96 @@
+"""The quick reader gives what the grammar gives, and gives up on what the grammar refuses."""
+
+import dataclasses
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from ssilang.language.say.errors import SeveralErrors
+from ssilang.language.text.by_grammar import parse_by_grammar, words_of_grammar
+from ssilang.language.text.parser import quick_reader
+from ssilang.language.text.reader import Unsound
+from ssilang.language.text.source import Source, Span
+from ssilang.language.text.source_files import read_source
+from ssilang.language.text.words import grammar_words
+
+_ROOT = Path(__file__).resolve().parents[3]
+_FILES = sorted([*_ROOT.glob("cases/*/*.ssi"), *_ROOT.glob("stdlib/*.ssi")])
+_PIECES = st.sampled_from(
+    [
+        *"AB;;;()()=.%'*+-/<> \n,1",
+        *("T . 1", "A%B", " %B", "**", "<EG", "'a''b'", "1.5", "-2", "1.D-3", ".5", "1E7", "&I"),
+        *(" X = ", " (A B) ", " . 'U' ", " . (1 + 1) ", "4A", "2 . 3", "@P", "()", "FIN ;"),
+    ]
+)
+
+
+def tree(node):
+    """A parsed object as nested tuples, places too."""
+    if isinstance(node, Span):
+        return node.start, node.end
+    if dataclasses.is_dataclass(node):
+        parts = [getattr(node, f.name) for f in dataclasses.fields(node)]
+        return (type(node).__name__, *(tree(p) for p in parts))
+    if isinstance(node, (list, tuple)):
+        return tuple(tree(n) for n in node)
+    return node
+
+
+def quick(source):
+    return quick_reader().read(source, source.code)
+
+
+@pytest.mark.parametrize("path", _FILES, ids=lambda p: p.name)
+def test_decks_give_the_grammars_tree(path):
+    source = read_source(path)
+    text = source.code
+    if not text.rstrip().endswith(";"):
+        source = Source(source.name, source.text + "\n;")
+    assert tree(quick(source)) == tree(parse_by_grammar(source, source.code))
+
+
+@settings(max_examples=400, deadline=None)
+@given(st.lists(_PIECES, max_size=25))
+def test_any_text_is_read_or_refused_as_by_the_grammar(pieces):
+    source = Source("any", "".join(pieces))
+    try:
+        expected = parse_by_grammar(source, source.code)
+    except SeveralErrors:
+        with pytest.raises(Unsound):
+            quick(source)
+        return
+    assert tree(quick(source)) == tree(expected)
+
+
+@pytest.mark.parametrize("read", [quick, lambda s: parse_by_grammar(s, s.code)])
+def test_an_empty_parenthesis_has_its_place(read):
+    (statement,) = read(Source("x", "A = PROG () ;"))
+    assert statement.items[1].span.text == "()"
+
+
+def test_kept_words_are_those_of_the_grammar(tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    for _ in range(2):  # made, then read
+        assert grammar_words() == words_of_grammar()
+    assert len(list((tmp_path / "ssilang").iterdir())) == 1
+
+
+@pytest.mark.parametrize("damage", ["", "{", "[1, 2]", '{"sum": 1, "words": 3}', "cut", "changed"])
+def test_damaged_words_are_made_again(tmp_path, monkeypatch, damage):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    grammar_words()
+    (path,) = (tmp_path / "ssilang").iterdir()
+    good = path.read_text()
+    texts = {"cut": good[:-20], "changed": good.replace("OWN", "OWM")}
+    path.write_text(texts.get(damage, damage))
+    assert grammar_words() == words_of_grammar()
+    assert path.read_text() == good
+
+
+def test_words_need_no_folder(tmp_path, monkeypatch):
+    blocked = tmp_path / "file"
+    blocked.write_text("")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(blocked))
+    assert grammar_words() == words_of_grammar()

@@ -1,0 +1,167 @@
+"""Every code has its sentences in both languages, every sentence its code."""
+
+from __future__ import annotations
+
+import ast
+import importlib
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from string import Formatter
+
+import pytest
+
+import ssilang
+from ssilang.messages.message import Message, Sentence, hint, sentence
+
+_ROOT = Path(ssilang.__file__).parent
+_MESSAGES = _ROOT / "messages"
+_ADDED = {"operator", "speaker"}
+"""What calls add to the data by themselves."""
+_OF_LANGUAGE = {"SsiError", "error", "warn", "Sentence", "_unfit"}
+
+
+@dataclass(frozen=True)
+class Site:
+    """A place of the program that names a code."""
+
+    place: str
+    code: str
+    names: frozenset[str]
+    open: bool  # further data come in as **data
+
+
+@cache
+def catalogue() -> dict[str, Message]:
+    """All messages by their whole code."""
+    found = {}
+    for path in sorted(_MESSAGES.rglob("*.py")):
+        room = ".".join(path.relative_to(_MESSAGES).with_suffix("").parts)
+        if path.stem in ("__init__", "message"):
+            continue
+        module = importlib.import_module(f"ssilang.messages.{room}")
+        for name, message in module.MESSAGES.items():
+            found[name if room == "language" else f"{room}.{name}"] = message
+    return found
+
+
+@cache
+def constants() -> frozenset[str]:
+    """All texts of the program outside of the catalogues."""
+    return frozenset(
+        node.value
+        for _, tree in _trees()
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Constant) and isinstance(node.value, str)
+    )
+
+
+@cache
+def _trees() -> tuple[tuple[Path, ast.Module], ...]:
+    return tuple(
+        (path, ast.parse(path.read_text(encoding="utf-8")))
+        for path in sorted(_ROOT.rglob("*.py"))
+        if not path.is_relative_to(_MESSAGES)
+    )
+
+
+@cache
+def sites() -> tuple[Site, ...]:
+    """Calls that hand a code on with its data."""
+    return tuple(_sites())
+
+
+def _sites() -> Iterator[Site]:
+    rooms = {c.rpartition(".")[0] for c in catalogue()} - {""}
+    for path, tree in _trees():
+        for node in ast.walk(tree):
+            if not isinstance(node, ast.Call):
+                continue
+            called = node.func.attr if isinstance(node.func, ast.Attribute) else None
+            called = node.func.id if isinstance(node.func, ast.Name) else called
+            for first in node.args[:2]:
+                code = first.value if isinstance(first, ast.Constant) else None
+                if not isinstance(code, str) or " " in code:
+                    continue
+                room = code.rpartition(".")[0]
+                if room in rooms or (first is node.args[0] and called in _OF_LANGUAGE):
+                    names = frozenset(k.arg for k in node.keywords if k.arg)
+                    more = any(k.arg is None for k in node.keywords)
+                    place = f"{path.relative_to(_ROOT)}:{node.lineno}"
+                    yield Site(place, code, names, more)
+
+
+def names_of(template: str) -> set[str]:
+    """Names of the data that a template tells, those inside of choices too."""
+    found = set()
+    for _, name, spec, _ in Formatter().parse(template):
+        if name is not None:
+            found |= {name} | names_of(spec or "")
+    return found
+
+
+def texts(message: Message) -> tuple[str, str, str, str]:
+    return message.en, message.fr, message.hint_en, message.hint_fr
+
+
+def _own(code: str) -> bool:
+    """Whether all its data come from the site: of the language's own, parts are computed."""
+    return "." in code
+
+
+@pytest.mark.parametrize("code", sorted(catalogue()))
+def test_both_languages_tell_the_same_data(code):
+    message = catalogue()[code]
+    assert message.en
+    assert message.fr
+    assert not any("À TRADUIRE" in t for t in texts(message)), "French is to be written"
+    if _own(code):
+        assert names_of(message.en) == names_of(message.fr)
+        assert names_of(message.hint_en) == names_of(message.hint_fr)
+        assert bool(message.hint_en) == bool(message.hint_fr)
+
+
+@pytest.mark.parametrize("language", ["en", "fr"])
+@pytest.mark.parametrize("code", sorted(c for c in catalogue() if _own(c)))
+def test_every_message_is_told(code, language):
+    message = catalogue()[code]
+    for value in (1, 2, "name", ("a", "b"), (), Sentence("interrupted")):
+        data = {n: _fitting(n, value, "".join(texts(message))) for t in texts(message)
+                for n in names_of(t)}  # fmt: skip
+        assert sentence(code, data, language)
+        hint(code, data, language)
+
+
+def _fitting(name: str, value: object, template: str) -> object:
+    """A value that the formats of a name take."""
+    specs = re.findall(rf"{{{name}(?:!\w)?:([^?|{{}}]*)}}", template)
+    several = any(s.split(" ")[0] in ("and", "or", "words") for s in specs)
+    figures = [s for s in specs if re.search(r"[deEfgG%]$", s) and s not in ("and", "words")]
+    if figures:
+        number = value if isinstance(value, int) else 3
+        value = number if any(s.endswith("d") for s in figures) else float(number)
+    return (value,) if several and not isinstance(value, tuple) else value
+
+
+def test_every_code_that_is_raised_has_a_sentence():
+    lost = [f"{s.place} {s.code}" for s in sites() if s.code not in catalogue()]
+    assert not lost
+
+
+def test_every_site_gives_what_its_sentence_tells():
+    lost = []
+    for site in sites():
+        if not _own(site.code) or site.code not in catalogue():
+            continue
+        told = set().union(*map(names_of, texts(catalogue()[site.code]))) - _ADDED
+        missing, idle = told - site.names, site.names - told - _ADDED - {"number"}
+        if (missing and not site.open) or idle:
+            lost.append(f"{site.place} {site.code}: lacks {missing}, tells nothing of {idle}")
+    assert not lost
+
+
+def test_every_sentence_has_a_site():
+    lost = [code for code in catalogue() if code not in constants()]
+    assert not lost

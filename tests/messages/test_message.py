@@ -1,0 +1,56 @@
+"""How templates are filled."""
+
+import pickle
+
+import numpy as np
+import pytest
+
+from ssilang.kernel.base.errors import MeshError
+from ssilang.messages.message import Sentence, filled, find, sentence
+
+
+@pytest.mark.parametrize(
+    ("template", "data", "language", "told"),
+    [
+        ("{x:.3g} of {name!r}", {"x": 2.0, "name": "A"}, "en", "2 of 'A'"),
+        ("{n} {n:node|nodes}", {"n": 1}, "en", "1 node"),
+        ("{n} {n:node|nodes}", {"n": 0}, "en", "0 nodes"),
+        ("{n} {n:noeud|noeuds}", {"n": 0}, "fr", "0 noeud"),
+        ("{n} {n:noeud|noeuds}", {"n": np.int64(2)}, "fr", "2 noeuds"),
+        ("{names:it has|they have} {names}", {"names": ("A", "B")}, "en", "they have A, B"),
+        ("{names:and}", {"names": ["A", "B", "C"]}, "fr", "A, B et C"),
+        ("{names:or}", {"names": ["A"]}, "en", "A"),
+        ("{names:words}", {"names": {"A": 1, "B": 2}}, "en", "A B"),
+        ("{values:and .2g}", {"values": np.array([1.0, 0.12345])}, "en", "1 and 0.12"),
+        ("x{near:? like {near}}", {"near": "Y"}, "en", "x like Y"),
+        ("x{near:? like {near}}", {"near": ""}, "en", "x"),
+        ("{known:?there {known:is|are} {known}|none}", {"known": ["A"]}, "en", "there is A"),
+        ("{known:?there is {known}|none}", {"known": ()}, "en", "none"),
+        ("{{{x}}}", {"x": 1}, "en", "{1}"),
+    ],
+)
+def test_templates(template, data, language, told):
+    assert filled(template, data, language) == told
+
+
+def test_an_error_inside_of_another_is_told_in_the_language_asked_for():
+    inner = Sentence("recursion", limit=3)
+    assert filled("at 2: {problem}", {"problem": inner}, "en").startswith("at 2: procedures call")
+    assert filled("à 2 : {problem}", {"problem": inner}, "fr").startswith("à 2 : les procédures")
+    assert filled("{problem!h}", {"problem": inner}, "fr").startswith("cherchez")
+
+
+def test_the_speaker_is_named_first():
+    assert sentence("interrupted", {"speaker": "DYNAMIC"}, "en") == "DYNAMIC: interrupted"
+    assert sentence("interrupted", {"speaker": "DYNAMIC"}, "fr") == "DYNAMIC : interrompu"
+
+
+def test_an_unknown_code_is_a_defect():
+    with pytest.raises(LookupError, match=r"no message has the code 'kernel\.mesh\.nothing'"):
+        find("kernel.mesh.nothing")
+
+
+def test_errors_keep_code_and_data_between_processes():
+    error = pickle.loads(pickle.dumps(MeshError("recursion", limit=3)))
+    assert (error.code, error.data) == ("recursion", {"limit": 3})
+    assert "3 levels" in str(error)
