@@ -132,10 +132,10 @@ def _shifted(
     call: Call, objects: Sequence[Any], by: Point | NodeField, sign: float
 ) -> tuple[Any, ...]:
     """Copies moved by a vector, or whose nodes move by a field of displacements."""
+    if not objects:
+        raise call.missing(("POINT", "CHPOINT"))
     if isinstance(by, Point):
         return copies(call, objects, shift(sign * by.coordinates.copy()))
-    if not objects:
-        raise call.missing(GEOMETRIC)
     nodes, field = workspace(call.session).nodes, by
 
     def moved(ids: IntArray) -> FloatArray:
@@ -384,9 +384,9 @@ def proj(
     return copies(call, objects, projection_of(*rays, surface))
 
 
-@proj.form(VECTOR[0], _objects(1, "POINT"), VECTOR[1], gives=Like("objects"))
+@proj.form(_objects(1, "POINT"), *VECTOR, gives=Like("objects"))
 def projected_along(
-    call: Call, surface: Chosen, objects: Sequence[Any], vector: Point
+    call: Call, objects: Sequence[Any], vector: Point, surface: Chosen
 ) -> tuple[Any, ...]:
     """Copy and project along a vector."""
     return copies(call, objects, projection_of("CYLI", vector, surface))

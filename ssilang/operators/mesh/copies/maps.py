@@ -98,7 +98,7 @@ RAYS = (
 )
 """A projection that says how its rays go."""
 
-VECTOR = (_SURFACE, arg("vector", "POINT", en="direction", fr="direction"))
+VECTOR = (arg("vector", "POINT", en="direction", fr="direction"), _SURFACE)
 """A projection along a vector."""
 
 

@@ -167,7 +167,7 @@ def stretched(moved: Mesh | Point, ratio: float, fixed: Point, towards: Point) -
         fr="ce par rapport à quoi on prend le symétrique",
     ),
     _MOVED,
-    many("points", "POINT", at_least=1, en="its points", fr="ses points"),
+    many("points", "POINT", en="its points", fr="ses points"),
 )
 def mirrored(call: Call, about: str, moved: Mesh | Point, points: Sequence[Point]) -> None:
     """Mirror about a point, a line or a plane."""
@@ -190,7 +190,7 @@ def projected(moved: Mesh | Point, rays: tuple[str, Point], surface: Chosen) -> 
 
 
 @depl.form(said("PROJ"), _MOVED, *VECTOR)
-def projected_along(moved: Mesh | Point, surface: Chosen, vector: Point) -> None:
+def projected_along(moved: Mesh | Point, vector: Point, surface: Chosen) -> None:
     """Project along a vector."""
     _move(moved, projection_of("CYLI", vector, surface))
 

@@ -15,7 +15,7 @@ from ssilang.kernel.mesh.surfaces.analytic import (
     sphere_shape,
     torus_shape,
 )
-from ssilang.language.registry import Chosen, arg, key, select
+from ssilang.language.registry import Chosen, arg, key, main, select
 from ssilang.language.run.call import Call
 from ssilang.operators.dispatch import INTE
 from ssilang.operators.mesh.lines.ends import (
@@ -65,7 +65,7 @@ _SURFACES: Mapping[str, Callable[[Sequence[FloatArray], FloatArray, FloatArray],
         en="the two surfaces that cross, both through the start",
         fr="les deux surfaces qui se croisent, passant par le départ",
     ),
-    START,
+    main("start", "POINT", "MAILLAGE", en=START.en, fr=START.fr),
     COUNT,
     SIZES,
     key(

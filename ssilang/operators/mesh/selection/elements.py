@@ -195,7 +195,7 @@ def holding_point(holding: Chosen, mesh: Mesh, every: bool, allowed: bool) -> Me
                     fr="par tous les noeuds, par défaut, ou par un au moins",
                 ),
                 _ALLOWED,
-                many("support", "MAILLAGE", "POINT", en="points", fr="points"),
+                many("support", "MAILLAGE", "POINT", behind=True, en="points", fr="points"),
             ]
         },
         optional=False,
@@ -211,10 +211,10 @@ def resting_on_points(
 ) -> Mesh:
     """Pick the cells that rest on points; the mesh stands first, or last behind the word."""
     support = [*resting["support"], *more]
-    if mesh is None and support:
-        mesh = support.pop(0 if more else -1)
-    if not isinstance(mesh, Mesh):
+    last = support.pop() if mesh is None and support else mesh
+    if not isinstance(last, Mesh):
         raise call.missing(("MAILLAGE",))
+    mesh = last
     if not support:
         raise call.missing(("MAILLAGE", "POINT"))
     ids = np.concatenate(
