@@ -53,7 +53,7 @@ def _chosen(attribute: str) -> Callable[[Call, Model], Model]:
         words = [w.rstrip() for w in iter(call.word, None) if w is not None]
         kept = tuple(z for z in model.zones if getattr(z, attribute) in words)
         if not kept:
-            raise call.bad(f"no zone of the model has {' '.join(words)}", model)
+            raise call.error("operators.fields.no-zone-has", model, words=words)
         return Model(kept)
 
     return choose
@@ -64,7 +64,7 @@ def _behaving(call: Call, model: Model) -> Model:
     words = [w.rstrip().upper() for w in iter(call.word, None) if w is not None]
     kept = tuple(z for z in model.zones if all(w in z.behaviour for w in words))
     if not kept:
-        raise call.bad(f"no zone of the model behaves as {' '.join(words)}", model)
+        raise call.error("operators.fields.no-zone-behaves", model, words=words)
     return Model(kept)
 
 
@@ -103,7 +103,7 @@ def extr_model(call: Call, model: Model) -> Any:
     """A part of a model."""
     word = call.keyword((*_OF_MODEL, *_NAMES))
     if word is None:
-        raise call.bad(f"EXTR takes {' '.join((*_OF_MODEL, *_NAMES))} out of a model", model)
+        raise call.error("operators.fields.extr-words-of-model", model, words=(*_OF_MODEL, *_NAMES))
     if word in _OF_MODEL:
         return _OF_MODEL[word](call, model)
     return _unique([n for z in model.zones for n in _NAMES[word](z)])
@@ -185,7 +185,9 @@ def extr_cells(call: Call, field: CellField) -> Any:
             return _OF_FIELD[word](call, field)
     name = (call.word() or "").rstrip()
     if name not in names:
-        raise call.bad(f"the field has no component {name}", field, " ".join(dict.fromkeys(names)))
+        raise call.error(
+            "operators.fields.field-no-component", field, name=name, names=dict.fromkeys(names)
+        )
     return _value(call, field, name)
 
 
@@ -193,18 +195,22 @@ def _value(call: Call, field: CellField, name: str) -> Any:
     zone, cell, point = (call.required("ENTIER") for _ in range(3))
     cells = list({id(b.cells): b.cells for b in field.blocks}.values())
     if not 1 <= zone <= len(cells):
-        raise call.bad(f"the field has {len(cells)} zones, not {zone}", zone)
+        raise call.error("operators.fields.no-such-zone", zone, n_zones=len(cells), zone=zone)
     block = next(
         (b for b in field.blocks if b.cells is cells[zone - 1] and name in b.components), None
     )
     if block is None:
-        raise call.bad(f"component {name} is not defined in zone {zone}", zone)
+        raise call.error("operators.fields.component-not-in-zone", zone, name=name, zone=zone)
     values = block.components[name]
     if not 1 <= cell <= len(block.cells):
-        raise call.bad(f"zone {zone} has {len(block.cells)} cells, not {cell}", cell)
+        raise call.error(
+            "operators.fields.no-such-cell", cell, zone=zone, n_cells=len(block.cells), cell=cell
+        )
     values = np.broadcast_to(values, (len(block.cells), values.shape[1]))
     if values.shape[1] > 1 and not 1 <= point <= values.shape[1]:
-        raise call.bad(f"the cells have {values.shape[1]} points, not {point}", point)
+        raise call.error(
+            "operators.fields.no-such-point", point, n_points=values.shape[1], point=point
+        )
     return values[cell - 1, 0 if values.shape[1] == 1 else point - 1]
 
 

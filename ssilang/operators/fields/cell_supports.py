@@ -157,7 +157,7 @@ def coor_cells(call: Call, field: CellField) -> Any:
     wanted = call.optional("ENTIER")
     dimension = workspace(call.session).dimension
     if wanted is not None and not 1 <= wanted <= dimension:
-        raise call.bad(f"there is no coordinate {wanted}", wanted)
+        raise call.error("operators.fields.no-coordinate", wanted, wanted=wanted)
     where = point_coordinates(field)
     axes = range(dimension) if wanted is None else (wanted - 1,)
     made = tuple(

@@ -70,7 +70,7 @@ def _by_columns(call: Call) -> Cloud:
     sizes = {len(v) for v in columns.values()}
     if len(sizes) != 1 or 0 in sizes:
         counts = " ".join(f"{k}: {len(v)}" for k, v in columns.items())
-        raise call.bad(f"the components have different numbers of values ({counts})")
+        raise call.error("operators.fields.cloud-columns-differ", counts=counts)
     return Cloud(columns)
 
 
@@ -79,7 +79,7 @@ def _by_rows(call: Call) -> Cloud:
     while call.at_word():
         name = str(call.required("MOT")).rstrip()
         if not call.operands or call.operands[0].span.text != "*":
-            raise call.bad(f"the type of component {name} is missing", hint="NAME*TYPE")
+            raise call.error("operators.fields.component-type-missing", name=name)
         call.operands.pop(0)
         kinds[name] = str(call.required("MOT")).rstrip().upper()
     if not kinds:
@@ -110,9 +110,11 @@ def _extract(call: Call, cloud: Cloud) -> Any:
     name = str(call.required("MOT")).rstrip()
     if word is None:
         if name not in cloud.columns:
-            raise call.bad(f"the cloud has no component {name}", hint=" ".join(cloud.columns))
+            raise call.error(
+                "operators.fields.cloud-lacks-component", name=name, columns=cloud.columns
+            )
         if len(cloud) != 1:
-            raise call.bad(f"the cloud has {len(cloud)} rows: take one first", cloud)
+            raise call.error("operators.fields.cloud-has-several-rows", cloud, n_rows=len(cloud))
         return cloud.columns[name][0]
     values = cloud.numbers(name)
     if word in ("MAXI", "MINI"):
@@ -124,8 +126,8 @@ def _extract(call: Call, cloud: Cloud) -> Any:
         return cloud.rows([int(i) for i in np.flatnonzero((values >= low) & (values <= high))])
     side = values <= low if word == "INFE" else values >= low
     if not np.any(side):
-        raise call.bad(
-            f"no value of {name} is {'below' if word == 'INFE' else 'above'} {low:g}", low
+        raise call.error(
+            "operators.fields.no-row-beyond", low, name=name, below=word == "INFE", low=low
         )
     inside = np.where(side, values, -np.inf if word == "INFE" else np.inf)
     place = np.argmax(inside) if word == "INFE" else np.argmin(inside)
@@ -152,7 +154,7 @@ def _reduce(call: Call, cloud: Cloud) -> Cloud:
     names = [str(w).rstrip() for w in call.all("MOT")]
     missing = [n for n in names if n not in cloud.columns]
     if missing or not names:
-        raise call.bad(f"the cloud has no component {' '.join(missing)}", cloud)
+        raise call.error("operators.fields.cloud-lacks-components", cloud, missing=missing)
     return Cloud({n: cloud.columns[n] for n in names})
 
 

@@ -27,7 +27,7 @@ from ssilang.language.run.call import Call
 def deg3(call: Call, a0: float, a1: float, a2: float, a3: float) -> tuple[float, ...]:
     """Roots as eigenvalues of the companion matrix."""
     if a3 == 0.0 or not np.isfinite([a0, a1, a2, a3]).all():
-        raise call.bad("the polynomial is not of the third degree: A3 is 0", hint="RACP takes any")
+        raise call.error("operators.fields.not-third-degree")
     roots = np.roots([a3, a2, a1, a0])
     small = 1e-12 * np.abs(roots).max(initial=0.0)
     pairs = [(float(r.real), float(r.imag) if abs(r.imag) > small else 0.0) for r in roots]

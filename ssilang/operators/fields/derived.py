@@ -50,7 +50,7 @@ def max1(call: Call) -> NodeField:
     every = np.concatenate(values) if values else np.zeros(0)
     largest = float(every[np.argmax(np.abs(every))]) if len(every) else 0.0
     if largest == 0.0:
-        raise call.bad("the field has no value that is not zero", field)
+        raise call.error("operators.fields.field-is-zero", field)
     return node_algebra.applied(field, lambda v: v / largest)
 
 
@@ -155,10 +155,10 @@ def _near(points: Any, mesh: Mesh, reach: float) -> Any:
 def _ahead(call: Call, word: str, points: Any, mesh: Mesh, ends: list[Any]) -> dict[str, Any]:
     if workspace(call.session).dimension == 2:
         if word == "TROI" or not ends or not all(isinstance(e, Point) for e in ends):
-            raise call.bad("in 2D 'DEUX' wants one end of the line, or both, as points")
+            raise call.error("operators.fields.ends-are-points")
         return {"PSI": beyond_tip(points, mesh, tuple(e.node for e in ends))}
     if len(ends) != 1 or not isinstance(ends[0], Mesh):
-        raise call.bad(f"in 3D '{word}' wants the front, a mesh of SEG2")
+        raise call.error("operators.fields.front-is-a-line-mesh", word=word)
     ahead, along = beyond_front(points, mesh, ends[0])
     return {"PSI": ahead} | ({"TAU": along} if word == "TROI" else {})
 
@@ -200,11 +200,11 @@ def pod(call: Call) -> Any:
         said.append(word)
     support = call.optional("MAILLAGE")
     if count < 1 or not {"SNAP", "CLAS"} & set(said):
-        raise call.bad("POD wants 'SNAPSHOTS' or 'CLASSIQUE' and a number of modes")
+        raise call.error("operators.fields.pod-method-and-count")
     if chosen is not None:
         missing = [int(i) for i in chosen.values if int(i) not in fields]
         if missing:
-            raise call.bad(f"there is no field of number {missing[0]}", chosen)
+            raise call.error("operators.fields.no-field-number", chosen, number=missing[0])
         fields = {int(i): fields[int(i)] for i in chosen.values}
     wanted = None if names is None else [str(n).rstrip() for n in names.values]
     held = list(fields.values())
@@ -229,7 +229,7 @@ def _series(call: Call, keys: tuple[str, ...]) -> dict[int, NodeField]:
         named = None if call.peek_word() is None or call.keyword(keys) else call.word()
         pairs = _of_table(call, held, named)
     if not pairs:
-        raise call.bad("there is no field to decompose", held)
+        raise call.error("operators.fields.no-field-to-decompose", held)
     return pairs
 
 
@@ -246,7 +246,7 @@ def _of_table(call: Call, table: Table, named: str | None) -> dict[int, NodeFiel
         if type(index) is int and isinstance(item, NodeField):
             found[index] = item
     if not found:
-        raise call.bad(f"the table has no fields {names[0]}", table)
+        raise call.error("operators.fields.table-has-no-fields", table, name=names[0])
     return dict(sorted(found.items()))
 
 

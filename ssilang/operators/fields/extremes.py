@@ -39,10 +39,12 @@ def _of_lists(call: Call, first: Any, largest: bool) -> Any:
     arrays = [np.abs(v.values) if absolute else v.values for v in lists]
     if len(arrays) == 1:
         if not len(arrays[0]):
-            raise call.bad("the list is empty", first)
+            raise call.error("operators.fields.list-empty", first)
         return (arrays[0].max() if largest else arrays[0].min()).item()
     if len({len(a) for a in arrays}) > 1:
-        raise call.bad(f"the lists have {' '.join(str(len(a)) for a in arrays)} items")
+        raise call.error(
+            "operators.fields.list-lengths-differ", lengths=[str(len(a)) for a in arrays]
+        )
     best = (np.maximum if largest else np.minimum).reduce(arrays)
     return ListEnti(best) if all(isinstance(v, ListEnti) for v in lists) else ListReel(best)
 
@@ -62,14 +64,14 @@ def _components(call: Call, known: list[str]) -> tuple[bool, list[str]]:
         words = {str(w).rstrip() for w in listed}
         names = [n for n in known if (n in words) == (said == "AVEC")]
         if not names:
-            raise call.bad("no component is left to look at", value, "known: " + " ".join(known))
+            raise call.error("operators.fields.no-component-left", value, known=known)
     return absolute, names
 
 
 def _of_arrays(call: Call, arrays: list[Any], absolute: bool, largest: bool) -> float:
     arrays = [a for a in arrays if a.size]
     if not arrays:
-        raise call.bad("the field is empty")
+        raise call.error("operators.fields.field-empty")
     values = [np.abs(a) if absolute else a for a in arrays]
     return float(max(v.max() for v in values) if largest else min(v.min() for v in values))
 
@@ -79,7 +81,7 @@ def _of_node_fields(call: Call, first: NodeField, largest: bool) -> Any:
     others = call.all("CHPOINT")
     if not others:
         if not names:
-            raise call.bad("the field is empty", first)
+            raise call.error("operators.fields.field-empty", first)
         arrays = [first.components[n].values for n in names]
         return _of_arrays(call, arrays, absolute or _absolute(call), largest)
     absolute = _absolute(call) or absolute
@@ -95,10 +97,7 @@ def _pairwise(a: NodeField, b: NodeField, run: Any) -> NodeField:
     for name, part in a.components.items():
         other = b.components.get(name)
         if other is None or not np.array_equal(other.nodes, part.nodes):
-            raise KernelError(
-                "fields compared value by value must have the same components and nodes",
-                "reduce them to the same mesh by REDU",
-            )
+            raise KernelError("operators.fields.fields-do-not-match")
         made[name] = type(part)(part.nodes, run(part.values, other.values))
     return node_algebra.rebuilt(a, made)
 

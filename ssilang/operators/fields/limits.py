@@ -37,9 +37,9 @@ from ssilang.language.values import Table
 def pile(call: Call, first: CellField, second: CellField, limit: float) -> float:
     """Largest factor before a component passes the limit."""
     if limit <= 0.0:
-        raise call.bad(f"the limit is positive, not {limit:g}", limit)
+        raise call.error("operators.fields.limit-not-positive", limit, limit=limit)
     if component_names(first) != component_names(second) or len(first.blocks) != len(second.blocks):
-        raise call.bad("the two fields do not have the same components and zones", second)
+        raise call.error("operators.fields.fields-of-other-zones", second)
     best = np.inf
     for a, b in zip(first.blocks, second.blocks, strict=True):
         for name, values in b.components.items():
@@ -48,7 +48,7 @@ def pile(call: Call, first: CellField, second: CellField, limit: float) -> float
             room = (np.sign(step[moving]) * limit - start[moving]) / step[moving]
             best = min(best, float(room.min(initial=np.inf)))
     if not np.isfinite(best):
-        raise call.bad("the second field is zero: nothing limits it", second)
+        raise call.error("operators.fields.second-field-is-zero", second)
     return best
 
 
@@ -83,10 +83,10 @@ def sens(call: Call) -> Table:
         if not isinstance(number, int):
             continue
         if not isinstance(contour, Mesh):
-            raise call.bad(f"entry {number} is not a contour", found)
+            raise call.error("operators.fields.not-a-contour", found, number=number)
         area = signed_area(contour)
         if area == 0.0:
-            raise call.bad(f"contour {number} encloses no area", found)
+            raise call.error("operators.fields.contour-without-area", found, number=number)
         made.set(number, 1 if area > 0.0 else -1)
     return made
 
@@ -94,7 +94,7 @@ def sens(call: Call) -> Table:
 def _differences(call: Call, first: CellField, second: CellField) -> Table:
     names = component_names(first)
     if len(names) != 1 or component_names(second) != names:
-        raise call.bad("fields of one component, the same in both, are compared", second)
+        raise call.error("operators.fields.one-component-compared", second)
     made, start = Table(), 1
     for block in added(first, second, -1.0).blocks:
         values = np.broadcast_to(

@@ -96,10 +96,8 @@ def _on_nodes(
     for name, value in pairs:
         listed = isinstance(value, ListReel)
         if listed and len(value) != len(nodes):
-            raise call.bad(
-                f"{len(value)} values for {len(nodes)} points",
-                value,
-                "a list needs a mesh of points (CHAN 'POI1') and one value a point",
+            raise call.error(
+                "operators.fields.values-per-point", value, n_values=len(value), n_nodes=len(nodes)
             )
         values = value.values if listed else np.full(len(nodes), float(value))
         part = _merged(call, name, nodes, values, nature)
@@ -117,7 +115,7 @@ def _merged(
     if nature == "DISCRET":
         return NodeValues(ids, np.bincount(place, weights=values).astype(float))
     if nature == "DIFFUS" and np.any(values != values[first][place]):
-        raise call.bad(f"a node stands twice in the mesh with different values of {name}")
+        raise call.error("operators.fields.node-twice-with-other-values", name=name)
     return NodeValues(ids, values[first])
 
 
@@ -177,16 +175,20 @@ def _at_one_point(
 ) -> CellField:
     """Zero but at one point: numbers of cell, point (and zone), then the value."""
     if not isinstance(model, Model) or len(numbers) not in (3, 4):
-        raise call.bad("a field that is zero but at one point needs a model, cell, point, value")
+        raise call.error("operators.fields.one-point-field-needs")
     cell, point = int(numbers[0]), int(numbers[1])
     zone_number = int(numbers[2]) if len(numbers) == 4 else 1
     if not 1 <= zone_number <= len(model.zones):
-        raise call.bad(f"the model has {len(model.zones)} zones, not {zone_number}")
+        raise call.error(
+            "operators.fields.model-has-no-such-zone", n_zones=len(model.zones), zone=zone_number
+        )
     zone = model.zones[zone_number - 1]
     place: Any = settings.get("POSI", "NOEUD")
     shape = (len(zone.cells), n_points(zone.element, place))
     if not (1 <= cell <= shape[0] and 1 <= point <= shape[1]):
-        raise call.bad(f"the zone has {shape[0]} cells of {shape[1]} points there")
+        raise call.error(
+            "operators.fields.zone-has-no-such-point", n_cells=shape[0], n_points=shape[1]
+        )
     values = np.zeros(shape)
     values[cell - 1, point - 1] = float(numbers[-1])
     block = CellFieldBlock(zone.cells, {name: values}, place, zone.element, zone.constituent)
@@ -251,7 +253,7 @@ def resu(call: Call) -> Any:
         return value.values.sum()
     nodes = value.node_ids
     if not len(nodes):
-        raise call.bad("the field is empty", value)
+        raise call.error("operators.fields.field-empty", value)
     here = nodes[:1]
     made = {k: NodeValues(here, np.asarray([v.values.sum()])) for k, v in value.components.items()}
     return NodeField(value.table, made, "DISCRET")
@@ -279,11 +281,15 @@ def xty(call: Call) -> Any:
     second = call.required("LISTCHPO" if isinstance(first, ListChpo) else "CHPOINT")
     left, right = (names_of(call.required("LISTMOTS")) for _ in range(2))
     if len(left) != len(right):
-        raise call.bad(f"the lists have {len(left)} and {len(right)} words")
+        raise call.error(
+            "operators.fields.word-counts-differ", n_left=len(left), n_right=len(right)
+        )
     if isinstance(first, NodeField):
         return float(node_algebra.scalar_product(first, second, left, right).values.sum())
     if len(first) != len(second):
-        raise call.bad(f"the lists have {len(first)} and {len(second)} fields", second)
+        raise call.error(
+            "operators.fields.field-counts-differ", second, n_first=len(first), n_second=len(second)
+        )
     pairs: Any = zip(first.values, second.values, strict=True)
     return ListReel(
         [float(node_algebra.scalar_product(a, b, left, right).values.sum()) for a, b in pairs]
@@ -338,7 +344,7 @@ def comb(call: Call) -> NodeField:
     weights: NodeField = call.required("CHPOINT")
     table: Table = call.required("TABLE")
     if len(weights.components) != 1:
-        raise call.bad("the field of coefficients has one component", weights)
+        raise call.error("operators.fields.coefficients-have-one-component", weights)
     (part,) = weights.components.values()
     total: NodeField | None = None
     for index, field in table.items():
@@ -347,5 +353,5 @@ def comb(call: Call) -> NodeField:
             empty = node_algebra.rebuilt(field, {})
             total = node_algebra.added(empty if total is None else total, field, factor)
     if total is None:
-        raise call.bad("the table holds no field at a point", table)
+        raise call.error("operators.fields.table-without-point-fields", table)
     return total

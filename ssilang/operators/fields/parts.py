@@ -60,7 +60,12 @@ def exco(call: Call) -> Any:
         single = isinstance(wanted.value, str) and isinstance(field, NodeField)
         names = ["SCAL"] if single else old
     if len(names) != len(old):
-        raise call.bad(f"{len(old)} components, {len(names)} new names", new.value if new else None)
+        raise call.error(
+            "operators.fields.new-name-count",
+            new.value if new else None,
+            n_old=len(old),
+            n_new=len(names),
+        )
     if isinstance(field, CellField):
         return cell_algebra.extracted(field, old, names, not lenient)
     nature = read_nature(call) if nature is None else nature
@@ -83,13 +88,13 @@ def _rename(call: Call) -> Any:
     if isinstance(first.value, ListMots):
         old, new = names_of(first.value), names_of(call.required("LISTMOTS"))
         if len(old) != len(new):
-            raise call.bad(f"{len(old)} names to change into {len(new)}", first.value)
+            raise call.error(
+                "operators.fields.renamed-name-count", first.value, n_old=len(old), n_new=len(new)
+            )
     else:
         if len(known) > 1:
-            raise call.bad(
-                f"the field has {len(known)} components, one name is not enough",
-                first.value,
-                "give two lists of words: old names, new names",
+            raise call.error(
+                "operators.fields.one-name-not-enough", first.value, n_known=len(known)
             )
         old, new = known, [str(first.value).rstrip()] * len(known)
     if node:

@@ -56,7 +56,7 @@ SUPPORTS = ("NOEUDS", "GRAVITE", "RIGIDITE", "MASSE", "STRESSES")
 def proi(call: Call) -> NodeField | CellField:
     """Projection."""
     if call.keyword(["POLY"]):
-        raise call.bad("'POLY' is not available", hint="give a field in cells")
+        raise call.error("operators.fields.poly-not-available")
     place = call.read("MAILLAGE", "MMODEL")
     fields: list[CellField] = call.all("MCHAML")
     word = call.keyword((*SUPPORTS, "MINI"))
@@ -78,10 +78,10 @@ def _least_squares(
     call: Call, field: CellField, model: Model | Mesh, count: Operand | None, tolerance: float
 ) -> CellField:
     if not isinstance(model, Model):
-        raise call.bad("'MINI' projects on a model, not on a mesh", model)
+        raise call.error("operators.fields.mini-needs-a-model", model)
     points = 3 if count is None else int(count.value)
     if points < 1:
-        raise call.bad(f"{points} integration points in each direction are none", points)
+        raise call.error("operators.fields.integration-points-none", points, points=points)
     return by_least_squares(field, model, points, tolerance)
 
 
@@ -166,7 +166,7 @@ def zero(call: Call) -> CellField:
     model: Model = call.required("MMODEL")
     word = call.keyword(tuple(_TITLES), length=8)
     if word is None:
-        raise call.bad(f"which zeros? one of {' '.join(_TITLES)}")
+        raise call.error("operators.fields.which-zeros", titles=_TITLES)
     title, support = _TITLES[word]
 
     def make(zone: Zone) -> CellFieldBlock:

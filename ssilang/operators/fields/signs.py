@@ -31,7 +31,7 @@ def read_nature(call: Call) -> Nature | None:
         return None
     word = call.keyword(tuple(_NATURES))
     if word is None:
-        raise call.bad("the nature is INDETERMINE, DIFFUS or DISCRET")
+        raise call.error("operators.fields.nature-unknown")
     return _NATURES[word]
 
 
@@ -48,7 +48,9 @@ def _lists(call: Call) -> tuple[list[str], list[str], list[str]] | None:
     lists = [first.value, call.required("LISTMOTS"), call.required("LISTMOTS")]
     names = [names_of(v) for v in lists]
     if len({len(n) for n in names}) > 1:
-        raise call.bad(f"the three lists have {', '.join(str(len(n)) for n in names)} words")
+        raise call.error(
+            "operators.fields.three-word-counts-differ", counts=[str(len(n)) for n in names]
+        )
     return names[0], names[1], names[2]
 
 
@@ -74,16 +76,16 @@ def _multiply(call: Call, sign: str, a: NodeField, b: NodeField) -> NodeField:
 
 def _power(x: Any, exponent: float) -> Any:
     if exponent < 0 and np.any(np.asarray(x) == 0):
-        raise FieldError(f"zero has no power {exponent:g}")
+        raise FieldError("operators.fields.zero-no-power", exponent=exponent)
     try:
         return real_power(x, exponent)
     except ValueError as error:
-        raise FieldError(f"a negative value has no power {exponent:g}") from error
+        raise FieldError("operators.fields.negative-value-no-power", exponent=exponent) from error
 
 
 def _raised(number: float, x: Any) -> Any:
     if number < 0 or (number == 0 and np.any(np.asarray(x) < 0)):
-        raise FieldError(f"{number:g} cannot be raised to the powers of a field")
+        raise FieldError("operators.fields.number-has-no-field-power", number=number)
     return np.power(number, np.asarray(x, dtype=float))
 
 
@@ -91,7 +93,7 @@ def _with_number(sign: str, x: Any, number: float, left: bool) -> Any:
     if sign == "**":
         return _raised(number, x) if left else _power(x, number)
     if sign == "/" and (np.any(x == 0) if left else number == 0):
-        raise FieldError("division by zero")
+        raise FieldError("operators.fields.division-by-zero")
     return _ARRAY[sign](number, x) if left else _ARRAY[sign](x, number)
 
 
@@ -164,7 +166,9 @@ def _scalar_product(call: Call, first: Any) -> Any:
     second = call.required("CHPOINT" if isinstance(first, NodeField) else "MCHAML")
     names = [names_of(call.required("LISTMOTS")) for _ in range(2)]
     if len(names[0]) != len(names[1]):
-        raise call.bad(f"the lists have {len(names[0])} and {len(names[1])} words")
+        raise call.error(
+            "operators.fields.word-counts-differ", n_left=len(names[0]), n_right=len(names[1])
+        )
     if isinstance(first, NodeField):
         part = node_algebra.scalar_product(first, second, names[0], names[1])
         return node_algebra.rebuilt(first, {"SCAL": part})
@@ -176,7 +180,7 @@ def _read_names(call: Call, count: int) -> list[list[str]]:
     names = [names_of(call.required("LISTMOTS")) for _ in range(count)]
     dimension = call.session.dimension() or 3
     if any(len(n) != dimension for n in names):
-        raise call.bad(f"in dimension {dimension} each list names {dimension} components")
+        raise call.error("operators.fields.components-per-list", dimension=dimension)
     return names
 
 

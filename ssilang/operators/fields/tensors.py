@@ -65,7 +65,9 @@ def _equivalent(said: Reading, compute: Callable[[FloatArray], FloatArray], what
             return _scalar(zone, compute(T), support)
         if what == "VMIS":
             return _scalar(zone, *equivalent_of_lines(zone, field, material))
-        raise FieldError(f"{what} is for continuous elements, not {zone.element}")
+        raise FieldError(
+            "operators.fields.continuous-elements-only", what=what, element=zone.element
+        )
 
     return on_zones(said.model, "SCALAIRE", make)
 
@@ -77,10 +79,7 @@ def _tensor(
     if is_solid(zone):
         return tensor(zone, field)[:2]
     if not is_shell(zone) or material is None:
-        raise FieldError(
-            f"element {zone.element} has no stress tensor here",
-            "continuous elements have; shells with their parameters (EPAI)",
-        )
+        raise FieldError("operators.fields.no-stress-tensor", element=zone.element)
     side = next((w for w in said.words if w in _SKINS), "MOYE")
     return shell_tensor(zone, field, material, side)
 
@@ -207,7 +206,9 @@ def ener(call: Call) -> CellField:
         s, support = components_at_home(zone, pair[0], stress)
         e, other = components_at_home(zone, pair[1], strain)
         if s.shape[2] != e.shape[2] and 1 not in (s.shape[2], e.shape[2]):
-            raise FieldError(f"the stresses stand at '{support}', the strains at '{other}'")
+            raise FieldError(
+                "operators.fields.stresses-and-strains-apart", support=support, other=other
+            )
         return _scalar(zone, (s * e).sum(axis=1), support)
 
     return on_zones(said.model, "SCALAIRE", make)
@@ -218,7 +219,7 @@ def _holding(zone: Zone, fields: tuple[CellField, ...], names: tuple[str, ...]) 
     for field in fields:
         if any(wanted.intersection(b.components) for b in field.blocks):
             return field
-    raise FieldError(f"no field has components {' '.join(names)} for element {zone.element}")
+    raise FieldError("operators.fields.no-field-for-element", names=names, element=zone.element)
 
 
 @operator(
@@ -249,11 +250,11 @@ def grad(call: Call) -> CellField:
             given = zone_field(zone, joined(said.cells) if said.cells else None)
             return cell_block(zone, structural_names(zone), structural_gradient(zone, u, given))
         if not is_solid(zone):
-            raise FieldError(f"GRAD is for continuous elements, not {zone.element}")
+            raise FieldError("operators.fields.grad-of-solids-only", element=zone.element)
         if any(n in names for n in families.family_of(zone).layout(zone).unknowns):
             return cell_block(zone, gradient_names(zone), gradient_values(zone, u))
         if len(names) != 1:
-            raise FieldError(f"GRAD takes displacements or one scalar, not {' '.join(names)}")
+            raise FieldError("operators.fields.grad-of-displacements-or-scalar", names=names)
         axes = "RZ" if "R" in gradient_names(zone)[0] else "XYZ"
         labels = tuple(f"{names[0].rstrip()},{a}" for a in axes[: coordinates(zone).shape[-1]])
         return cell_block(zone, labels, scalar_gradient(zone, u, names[0]))
@@ -286,7 +287,7 @@ def intg(call: Call, model: Model) -> float | CellField:
     material = cells[1] if len(cells) > 1 else None
     parts = [integrals(z, cells[0], wanted, material) for z in model.zones]
     if all(p is None for p in parts):
-        raise call.bad(f"the field has no component {wanted} on the model", cells[0])
+        raise call.error("operators.fields.component-not-on-model", cells[0], wanted=wanted)
     if not by_cell:
         return float(sum(p.sum() for p in parts if p is not None))
     blocks = [
@@ -300,7 +301,7 @@ def intg(call: Call, model: Model) -> float | CellField:
 def _only(call: Call, field: CellField) -> str:
     names = tuple(dict.fromkeys(n for b in field.blocks for n in b.components))
     if len(names) != 1:
-        raise call.bad(f"which component? the field has {' '.join(names)}", field)
+        raise call.error("operators.fields.which-component", field, names=names)
     return names[0]
 
 
@@ -322,7 +323,7 @@ def jaco(call: Call) -> CellField:
 
     def make(zone: Zone) -> CellFieldBlock:
         if not is_solid(zone):
-            raise FieldError(f"JACO is for continuous elements, not {zone.element}")
+            raise FieldError("operators.fields.jaco-of-solids-only", element=zone.element)
         geometry = zone_geometry(zone, "RIGIDITE", slice(0, len(zone.cells)))
         weights = support_rule(zone.element, "RIGIDITE").weights
         return _scalar(zone, geometry.volumes / weights, "RIGIDITE")

@@ -34,10 +34,7 @@ def argument_name(names: list[str], part: CurvePart) -> str:
         return wanted
     if len(names) == 1:
         return names[0]
-    raise FieldError(
-        f"none of the components {' '.join(names)} is the abscissa '{wanted}' of the law",
-        "name the abscissa of the curve as the component",
-    )
+    raise FieldError("operators.fields.no-component-is-abscissa", names=names, wanted=wanted)
 
 
 @operator(
@@ -72,7 +69,7 @@ def vari(call: Call) -> Any:
         raise call.missing(("CHPOINT", "MCHAML"))
     curve: Curve = call.required("EVOLUTIO")
     if len(curve.parts) != 1:
-        raise call.bad(f"a law is one curve, this object has {len(curve.parts)}", curve)
+        raise call.error("operators.fields.law-is-one-curve", curve, n_parts=len(curve.parts))
     part, field = curve.parts[0], operand.value
     if model is None:
         if not isinstance(field, NodeField):
@@ -122,7 +119,7 @@ def _evaluated(block: CellFieldBlock, fields: CellField, support: Support) -> Ce
         return block
     given = next((b for b in fields.blocks if cell_algebra.same_cells(b.cells, block.cells)), None)
     if given is None:
-        raise FieldError("the parameters and the fields they depend on stand on different cells")
+        raise FieldError("operators.fields.parameters-and-fields-apart")
     made: dict[str, NDArray[Any]] = {}
     for name, values in block.components.items():
         made[name] = _numbers(name, values, given) if values.dtype == object else values

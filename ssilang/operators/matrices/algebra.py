@@ -46,7 +46,7 @@ def _power(_sign: str, matrix: Matrix, power: float) -> Matrix:
         v = block.values
         if power != int(power) and (v < 0).any():
             raise FieldError(
-                f"the matrix has negative terms ({v.min():g}): they have no power {power:g}"
+                "operators.matrices.negative-terms-have-no-power", smallest=v.min(), power=power
             )
         raised = np.where(v == 0.0, 0.0, np.where(v == 0.0, 1.0, v) ** float(power))
         made.append(replace(block, values=raised, zone=None))
@@ -101,7 +101,7 @@ def _mesh_of(call: Call, matrix: Matrix) -> Mesh:
 def _rigi_of(call: Call, matrix: Matrix) -> Matrix:
     word = call.keyword(("NOMU", "MULT", "UNIL"))
     if word is None:
-        raise call.bad("EXTR RIG1 'RIGI' wants 'NOMU', 'MULT' or 'UNIL'")
+        raise call.error("operators.matrices.extr-rigi-wants-word")
     if word == "NOMU":
         return Matrix(matrix.table, matrix.blocks, (), matrix.kind)
     if word == "MULT":
@@ -145,11 +145,7 @@ def _extract(call: Call, matrix: Matrix) -> Any:
     lists = call.all("LISTMOTS")
     names = lists if len(lists) == 2 else [ListMots([w]) for w in (call.word(), call.word()) if w]
     if len(names) != 2:
-        raise call.bad(
-            "EXTR of a RIGIDITE wants a keyword or two names",
-            matrix,
-            "one of " + " ".join(_EXTRACTED),
-        )
+        raise call.error("operators.matrices.extr-wants-word-or-names", matrix, words=_EXTRACTED)
     primal, dual = ({str(w).upper().rstrip() for w in n.values} for n in names)
     return parts.named_part(matrix, primal, dual)
 
@@ -223,11 +219,7 @@ def _name_changes(call: Call, matrix: Matrix) -> tuple[dict[str, str], dict[str,
     lists = [[str(w).rstrip() for w in v.values] for v in call.all("LISTMOTS")]
     if not lists and call.keyword(("COMP",)) is not None:
         if matrix.relations:
-            raise call.bad(
-                "conditions are not made imaginary by CHAN",
-                matrix,
-                "change the matrix before ET joins it to its conditions",
-            )
+            raise call.error("operators.matrices.conditions-not-imaginary", matrix)
         return (
             {u: imaginary(u) for b in matrix.blocks for u in b.unknowns},
             {d: imaginary(d) for b in matrix.blocks for d in b.duals},
@@ -235,7 +227,7 @@ def _name_changes(call: Call, matrix: Matrix) -> tuple[dict[str, str], dict[str,
     if not lists:
         lists = [[w.upper().rstrip()] for w in (call.word() for _ in range(4)) if w]
     if len(lists) != 4 or len(lists[0]) != len(lists[1]) or len(lists[2]) != len(lists[3]):
-        raise call.bad("CHAN 'INCO' of a matrix wants four lists, of equal lengths by pairs")
+        raise call.error("operators.matrices.inco-wants-four-lists")
     equations = {d for b in matrix.blocks for d in b.duals}
     equations |= {dual_of(u) for r in matrix.relations for u in (*r.unknowns, "LX")}
     if set(lists[1]) <= equations and len(lists[0]) == len(lists[2]):
@@ -243,7 +235,7 @@ def _name_changes(call: Call, matrix: Matrix) -> tuple[dict[str, str], dict[str,
         lists[1], lists[2] = lists[2], lists[1]
     primal = dict(zip(lists[0], lists[1], strict=True))
     if primal.get("LX", "LX") != "LX":
-        raise call.bad("the multiplier of a condition is always called LX here")
+        raise call.error("operators.matrices.multiplier-keeps-its-name")
     return primal, dict(zip(lists[2], lists[3], strict=True))
 
 

@@ -41,7 +41,7 @@ def chpo(call: Call) -> NodeField:
     """Field on the unknowns of a matrix."""
     word = call.keyword(("ALEA", "UNIF"))
     if word is None:
-        raise call.bad("which values?", hint="'ALEATOIRE', or 'UNIFORME' and a number")
+        raise call.error("operators.matrices.which-values")
     value = call.required("FLOTTANT", after=call.keyword_end) if word == "UNIF" else 0.0
     numbering = numbering_of(call.required("RIGIDITE"))
     generator = session_generator(call, None)
@@ -125,7 +125,7 @@ def cmct_of_matrix(matrix: Matrix, relations: Matrix) -> Matrix:
 def cabl(call: Call, mesh: Mesh, force: float, percent: float) -> Matrix:
     """Cables."""
     if percent == 0.0:
-        raise call.bad("a force at no lengthening gives no stiffness")
+        raise call.error("operators.matrices.force-without-lengthening")
     return cable_stiffness(mesh, workspace(call.session).dimension, force, percent)
 
 
@@ -165,7 +165,7 @@ def mfil(
 ) -> Matrix:
     """Weights of a filter."""
     if radius < 0.0:
-        raise call.bad(f"the radius of a filter is not negative, this one is {radius:g}", radius)
+        raise call.error("operators.matrices.filter-radius-negative", radius, radius=radius)
     name = "SCAL" if unknown is None else unknown.rstrip()
     return filter_weights(
         weights, radius, power, least, name, name if dual is None else dual.rstrip()
@@ -226,11 +226,14 @@ def orth(call: Call) -> NodeField:
     call.keyword(("SEMB",))
     forces = [product(matrix, u) for u in shapes] if loaded is None else loaded.values
     if not len(shapes) == len(norms) == len(forces):
-        raise call.bad(
-            f"{len(shapes)} fields, {len(norms)} products and {len(forces)} forces do not match"
+        raise call.error(
+            "operators.matrices.products-do-not-match",
+            n_shapes=len(shapes),
+            n_norms=len(norms),
+            n_forces=len(forces),
         )
     if (norms == 0.0).any():
-        raise call.bad("a field whose product U K U is zero cannot be orthogonalised to")
+        raise call.error("operators.matrices.product-is-zero")
     for turn in range(max(passes, 1)):
         worst = 0.0
         for u, k, f in zip(shapes, norms, forces, strict=True):

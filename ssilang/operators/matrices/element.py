@@ -55,7 +55,7 @@ def present(call: Call, model: Model, pressures: bool = False) -> Model:
 
 def _assembled(model: Model, blocks: list[ElementMatrices], kind: str) -> Matrix:
     if not blocks:
-        raise MeshError("the model has no mechanical zone", "CHARGEMENT zones only carry loads")
+        raise MeshError("operators.matrices.no-mechanical-zone")
     return Matrix(model.mesh.nodes, tuple(blocks), (), kind)
 
 
@@ -123,10 +123,7 @@ def _contact(call: Call, model: Model) -> Matrix:
     material = joined(tuple(fields)) if fields else None
     rubbing = next((z for z in model.zones if z.behaviour[:1] == ("FROTTANT",)), None)
     if rubbing is not None:
-        raise call.bad(
-            "contact with friction is no matrix: its forces depend on the way there",
-            hint="PASAPAS takes the model; RIGI takes CONTACT UNILATERAL",
-        )
+        raise call.error("operators.matrices.friction-is-no-matrix")
     relations = tuple(c.relations for c in model_relations(model, material))
     zones = present(call, model).zones
     if zones and material is None:

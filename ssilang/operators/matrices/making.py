@@ -68,7 +68,7 @@ def _one_cell(call: Call, word: str) -> Mesh:
     places = [call.required("POINT", "MAILLAGE"), *call.all("POINT", "MAILLAGE")]
     nodes = np.concatenate([nodes_of(p) for p in places])
     if len(np.unique(nodes)) != len(nodes):
-        raise call.bad("a point stands twice in the cell")
+        raise call.error("operators.matrices.point-twice-in-cell")
     return Mesh.of(places[0].nodes, many_noded(word, len(nodes)), nodes[None, :])
 
 
@@ -96,7 +96,7 @@ def _repeated(call: Call, kind: str) -> Matrix:
     rows = [r.values for r in (call.required("LISTREEL"), *call.all("LISTREEL"))]
     kind = _kind(call, kind)
     if not mesh.blocks:
-        raise call.bad("the mesh of the matrix is empty", support, hint="give cells or points")
+        raise call.error("operators.matrices.matrix-mesh-empty", support)
     nodes = CELL_TYPES[mesh.blocks[0].cell_type].n_nodes if len(primal) == 1 else 1
     size = sum(len(n) for n in primal) * nodes
     return repeated_matrix(mesh, primal, dual, square(rows, size, sign), kind, sign == 1.0)

@@ -54,7 +54,7 @@ def _sums(call: Call, sense: int) -> Matrix:
     lists = [_spelled(call, t) for t in terms]
     count = max(len(rows) for rows in lists)
     if any(len(rows) not in (1, count) for rows in lists):
-        raise call.bad("terms on all displacements do not add to terms on a single one")
+        raise call.error("operators.matrices.terms-do-not-add")
     parts = []
     for i in range(count):
         row = [term for rows in lists for term in rows[i if len(rows) > 1 else 0]]
@@ -65,7 +65,7 @@ def _sums(call: Call, sense: int) -> Matrix:
 def _spelled(call: Call, term: _Sum) -> list[list[Term]]:
     """The term by unknowns: one list of terms for each relation that it makes."""
     if term.support is None:
-        raise call.bad("a term of the relation has no mesh", hint="(number) 'UX' mesh + ...")
+        raise call.error("operators.matrices.term-without-mesh")
     mode = workspace(call.session).mode
     nodes = nodes_of(term.support)
     groups = {"DEPL": made.in_space(mode), "ROTA": made.rotations(mode)}
@@ -76,7 +76,7 @@ def _spelled(call: Call, term: _Sum) -> list[list[Term]]:
     vector = whole[2:] if len(names) == 1 else whole[: len(names)]
     length = float((vector @ vector) ** 0.5)
     if length == 0.0:
-        raise call.bad("the direction of a relation has no length", term.direction)
+        raise call.error("operators.matrices.direction-without-length", term.direction)
     return [
         [
             Term(term.factor * float(v) / length, name, nodes)
@@ -185,7 +185,7 @@ def _hooked(call: Call) -> Matrix:
 def _sliding(call: Call) -> Matrix:
     guest, host, names, tolerance = _two_meshes(call)
     if not isinstance(guest, Mesh):
-        raise call.bad("a line slides in a mesh, not a single point", guest)
+        raise call.error("operators.matrices.line-slides-not-point", guest)
     return as_matrix(tied.sliding(guest, host, names, tolerance))
 
 

@@ -49,7 +49,7 @@ def kent(call: Call) -> Matrix:
     """Turning frame."""
     word = call.keyword(("CENT", "EULE"))
     if word is None:
-        raise call.bad("which stiffness?", hint="'CENTRIFUGE' or 'EULER'")
+        raise call.error("operators.matrices.which-stiffness")
     model = present(call, call.required("MMODEL"))
     material = _fields(call)
     W = cross_matrix(_rotation(call, model))
@@ -65,7 +65,7 @@ def _rotation(call: Call, model: Model) -> FloatArray:
     if turning:
         return np.array([0.0, 0.0, 1.0 if given is None else float(given.coordinates[1])])
     if given is None or len(given.coordinates) == 2:
-        raise call.bad("a rotation vector has three components", hint="OPTI DIME 3 ;")
+        raise call.error("operators.matrices.rotation-vector-in-space")
     found: FloatArray = np.array(given.coordinates, dtype=float)
     return found
 
@@ -91,7 +91,7 @@ def cori(call: Call) -> Matrix:
     model = present(call, call.required("MMODEL"))
     material = _fields(call)
     if call.keyword(("HARM",)):
-        raise call.bad("'HARM' is not available", hint="the impedance of a Fourier harmonic")
+        raise call.error("operators.matrices.harm-not-available")
     coupling = 2.0 * cross_matrix(_rotation(call, model))
     kind = "AMORTISSEMENT"
     blocks = tuple(inertia_coupling(z, material, coupling, kind) for z in model.zones)

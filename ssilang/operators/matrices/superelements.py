@@ -71,7 +71,7 @@ def supe(call: Call) -> Any:
     """Dispatch on the keyword."""
     word = call.keyword(tuple(_FORMS))
     if word is None:
-        raise call.bad("SUPE wants a keyword", hint="'RIGIDITE', 'CHARGE', 'DEPLA' or 'MASSE'")
+        raise call.error("operators.matrices.supe-wants-word")
     return _FORMS[word](call)
 
 
@@ -131,7 +131,7 @@ _PARTS: dict[str, Callable[[SuperElement], Matrix | Mesh]] = {
 def _extract(call: Call, element: SuperElement) -> Matrix | Mesh:
     word = call.keyword(tuple(_PARTS))
     if word is None:
-        raise call.bad("EXTR of a SUPERELE wants a keyword", element, "one of " + " ".join(_PARTS))
+        raise call.error("operators.matrices.extr-of-superele-wants-word", element, words=_PARTS)
     return _PARTS[word](element)
 
 

@@ -79,9 +79,7 @@ class _Held:
         if "ROTA" in self.groups:
             names += made.rotations(self.ws.mode)
         if not names:
-            raise self.call.bad(
-                "no unknown is named", hint="say 'UX' 'UY' ..., 'DEPL', 'ROTA', 'DIRE' or 'RADI'"
-            )
+            raise self.call.error("operators.matrices.no-unknown")
         return tuple(names)
 
     def directed(self) -> bool:
@@ -135,7 +133,7 @@ def _bloq(call: Call) -> Matrix:
 
 def _some(nodes: IntArray) -> None:
     if len(nodes) == 0:
-        raise MeshError("the mesh is empty: there is nothing to hold")
+        raise MeshError("operators.matrices.nothing-to-hold")
 
 
 def static_links(table: Table) -> list[tuple[Table, Point, str]]:
@@ -154,12 +152,12 @@ def _bloq_table(call: Call, table: Table) -> Matrix:
     parts: list[Relations] = []
     for entry, point, unknown in static_links(table):
         if not isinstance(point, Point) or not unknown:
-            raise call.bad("each entry wants POINT_LIAISON (POINT) and DDL_LIAISON (MOT)", table)
+            raise call.error("operators.matrices.link-wants-point-and-unknown", table)
         single = as_matrix(made.blocked(ws.nodes, nodes_of(point), (unknown,)))
         entry.set("BLOCAGE", single)
         parts += single.relations
     if not parts:
-        raise call.bad("the table has no entry numbered 1, 2 ...", table)
+        raise call.error("operators.matrices.table-without-entries", table)
     return Matrix(ws.nodes, (), tuple(parts))
 
 
@@ -202,7 +200,7 @@ def _depi(call: Call) -> NodeField | None:
     mixed = call.keyword(("RELA",)) is not None
     matrix: Matrix = call.required("RIGIDITE")
     if not matrix.relations:
-        raise call.bad("this matrix holds no condition", matrix, "give what BLOQ or RELA made")
+        raise call.error("operators.matrices.matrix-without-condition", matrix)
     value = call.required("FLOTTANT", "CHPOINT")
     if not isinstance(value, NodeField):
         return imposed.imposed_uniform(matrix.relations, float(value))
@@ -214,7 +212,7 @@ def _depi_table(call: Call, table: Table) -> None:
     for entry, _, _ in static_links(table):
         block = entry.get("BLOCAGE")
         if not isinstance(block, Matrix):
-            raise call.bad("an entry has no BLOCAGE", table, "call BLOQ on this table first")
+            raise call.error("operators.matrices.link-without-blocage", table)
         entry.set("FORCE", imposed.imposed_uniform(block.relations, 1.0))
 
 
@@ -248,18 +246,15 @@ def _mirror(call: Call, mirrored: bool) -> Matrix:
     while (word := call.keyword(("DEPL", "ROTA"))) is not None:
         groups.add(word)
     if not groups:
-        raise call.bad("say 'DEPL', 'ROTA' or both")
+        raise call.error("operators.matrices.say-depl-or-rota")
     dim = ws.mode.dimension
     if dim == 1:
-        raise call.bad("a plane of symmetry wants 2 or 3 dimensions", hint="use BLOQ")
+        raise call.error("operators.matrices.symmetry-wants-dimensions")
     points = np.stack([call.required("POINT").coordinates for _ in range(dim)])
     mesh = call.required("MAILLAGE", "POINT")
     tolerance = call.optional("FLOTTANT", default=ws.density / 10.0)
     if tolerance <= 0.0:
-        raise call.bad(
-            "no distance says which nodes are on the symmetry",
-            hint="give it as the last argument, or set OPTI DENS: a tenth of it is used",
-        )
+        raise call.error("operators.matrices.symmetry-distance-missing")
     near, normal = made.on_plane(ws.nodes, nodes_of(mesh), points, tolerance)
     names = made.in_space(ws.mode) if "DEPL" in groups else ()
     turns = made.rotations(ws.mode) if "ROTA" in groups else ()
@@ -309,7 +304,7 @@ operator(
 def _appu(call: Call) -> Matrix:
     held = _Held(call)
     if held.sense:
-        raise call.bad("a spring works both ways", hint="BLOQ has 'MINI' and 'MAXI'")
+        raise call.error("operators.matrices.spring-works-both-ways")
     stiffness = call.required("FLOTTANT")
     nodes = nodes_of(call.required("MAILLAGE", "POINT"))
     _some(nodes)

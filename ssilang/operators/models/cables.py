@@ -62,10 +62,7 @@ def prec(call: Call) -> CellField:
     table = table if table is not None else call.optional("TABLE")
     ends = call.optional("MAILLAGE", "POINT")
     if call.read("MCHAML") is not None:
-        raise call.bad(
-            "tensions before (PRE0) are not built",
-            hint="PREC for the cables pulled now, added to the field of the others",
-        )
+        raise call.error("operators.models.tensions-before-not-built")
     losses = NO_LOSSES if table is None else _losses(call, table)
     chosen = _nodes(ends)
     return CellField(
@@ -88,7 +85,7 @@ def _losses(call: Call, table: Table) -> Losses:
         name = str(key).rstrip() if isinstance(key, Mot | str) else ""
         if name in _ENTRIES:
             if isinstance(value, bool) or not isinstance(value, int | float):
-                raise call.bad(f"'{name}' of the losses is a number", table)
+                raise call.error("operators.models.loss-is-a-number", table, name=name)
             given[_ENTRIES[name]] = float(value)
     return Losses(**given)
 
@@ -102,7 +99,7 @@ def _zone(
     ends: IntArray | None,
 ) -> CellFieldBlock:
     if ELEMENTS[zone.element].family != "bar" or zone.cells.cell_type != "SEG2":
-        raise call.bad(f"prestressing cables are bars (BARR on SEG2), not {zone.element}")
+        raise call.error("operators.models.cables-are-bars", element=zone.element)
     cells = zone.cells.connectivity
     x = zone.cells.nodes.coordinates[:, : zone.mode.dimension]
     seen = zone_field(zone, material)
@@ -123,9 +120,10 @@ def _pulled(call: Call, cable: Cable, ends: IntArray | None) -> tuple[bool, bool
         return False, True
     found = (int(cable.nodes[0]) in ends, int(cable.nodes[-1]) in ends)
     if not any(found):
-        raise call.bad(
-            f"no end of the cable from node {int(cable.nodes[0]) + 1} to node "
-            f"{int(cable.nodes[-1]) + 1} is among the points where it is pulled"
+        raise call.error(
+            "operators.models.cable-end-not-pulled",
+            first=int(cable.nodes[0]) + 1,
+            last=int(cable.nodes[-1]) + 1,
         )
     return found
 

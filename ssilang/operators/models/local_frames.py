@@ -78,7 +78,7 @@ def rten(call: Call) -> CellField | NodeField:
 
     def make(zone: Zone) -> CellFieldBlock:
         if not is_solid(zone):
-            raise FieldError(f"RTEN is for continuous elements, not {zone.element}")
+            raise FieldError("operators.models.rten-of-solids-only", element=zone.element)
         support = tensor(zone, field)[1]
         return seen_in(zone, field, frames(zone, support))
 
@@ -94,7 +94,7 @@ def _fixed(call: Call) -> FloatArray:
 def _frames(call: Call, material: CellField | None) -> Frames:
     word = call.keyword(["POLA", "CYLI", "SPHE", "TORI"])
     if word == "TORI":
-        raise call.bad("'TORI' is not available", hint="'POLA', 'CYLI' and 'SPHE' are")
+        raise call.error("operators.models.tori-not-available")
     if (
         word is None
         and material is not None

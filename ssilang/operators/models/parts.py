@@ -34,7 +34,7 @@ _SUPPORTS = ("NOEUD", "GRAVITE", "RIGIDITE", "MASSE", "STRESSES")
 def _without(call: Call, model: Model) -> Model:
     word = call.keyword(("FORM", "COMP"))
     if word is None:
-        raise call.bad("what is to be removed?", model, "'FORM' or 'COMP', and a word")
+        raise call.error("operators.models.what-to-remove", model)
     said = str(call.required("MOT", after=call.keyword_end)).rstrip().upper()
     kept = tuple(
         z
@@ -56,7 +56,7 @@ def _constituent(call: Call, word: str) -> Model:
     model: Model = call.required("MMODEL")
     name = str(call.required("MOT")).rstrip()
     if len({z.constituent for z in model.zones}) > 1:
-        raise call.bad("the zones of the model have several constituents", model)
+        raise call.error("operators.models.several-constituents", model)
     return Model(tuple(replace(z, constituent=name) for z in model.zones))
 
 
@@ -85,18 +85,22 @@ def _single_value(call: Call, word: str) -> CellField:
         value = str(call.required("MOT", after=call.keyword_end)).rstrip()
         title, support = (value, support) if said == "TYPE" else (title, value)
     if support not in _SUPPORTS:
-        raise call.bad(f"'{support}' is no support", hint=" ".join(_SUPPORTS))
+        raise call.error("operators.models.no-support", support=support, supports=_SUPPORTS)
     name = str(call.required("MOT")).rstrip()
     cell, point = call.required("ENTIER"), call.required("ENTIER")
     place = call.optional("ENTIER", default=1)
     value = call.required("FLOTTANT")
     if not 1 <= place <= len(model.zones):
-        raise call.bad(f"the model has {len(model.zones)} zones, none of number {place}", place)
+        raise call.error(
+            "operators.models.no-such-zone", place, n_zones=len(model.zones), place=place
+        )
     zone = model.zones[place - 1]
     at = cast(Support, support)
     count = zone.cells.kind.n_nodes if at == "NOEUD" else n_points(zone.element, at)
     if not 1 <= cell <= len(zone.cells) or not 1 <= point <= count:
-        raise call.bad(f"the zone has {len(zone.cells)} cells of {count} points", cell)
+        raise call.error(
+            "operators.models.no-such-point", cell, n_cells=len(zone.cells), count=count
+        )
     values = np.zeros((len(zone.cells), count))
     values[cell - 1, point - 1] = value
     element = "" if at == "NOEUD" else zone.element

@@ -54,14 +54,11 @@ def mocu(call: Call) -> tuple[object, ...]:
     checked = checked or call.keyword(("VERIF",)) is not None
     space = workspace(call.session).mode.dimension == 3
     if len(lists) != (3 if space else 2):
-        raise call.bad(
-            f"{len(lists)} lists are given: "
-            + ("two curvatures and the normal force are needed in space" if space
-               else "the curvature and the normal force are needed in the plane"),
-            model,
-        )  # fmt: skip
+        raise call.error(
+            "operators.models.section-list-count", model, n_lists=len(lists), space=space
+        )
     if len({len(v.values) for v in lists}) > 1:
-        raise call.bad("the lists have different lengths", lists[-1], hint="one value a step")
+        raise call.error("operators.models.lists-different-lengths", lists[-1])
     curvatures = np.stack([v.values for v in lists[:-1]], axis=1)
     if not space:
         curvatures = np.column_stack([np.zeros(len(curvatures)), curvatures])

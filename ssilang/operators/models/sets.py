@@ -57,5 +57,5 @@ def intersection_of_models(call: Call, first: Model) -> Model:
     second: Model = call.required("MMODEL")
     common = tuple(z for z in first.zones if _found_in(z, second))
     if not common:
-        raise MeshError("the two models have no zone in common")
+        raise MeshError("operators.models.no-common-zone")
     return Model(common)

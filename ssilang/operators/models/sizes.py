@@ -59,19 +59,17 @@ def tail(call: Call) -> CellField:
     model: Model = call.required("MMODEL")
     given = call.optional("MCHAML")
     if word != "DIAM":
-        raise call.bad("only 'DIAMETRE_MIN' is built", model)
+        raise call.error("operators.models.only-diametre-min-built", model)
     blocks = []
     for zone in model.zones:
         family = ELEMENTS[zone.element].family
         if family not in (*SOLID_FAMILIES, *_SHELLS, *_BEAMS, "bar"):
-            raise call.bad(f"elements {zone.element} have no smallest length", model)
+            raise call.error("operators.models.no-smallest-length", model, element=zone.element)
         values = {"L": smallest_lengths(zone.cells)[:, None]}
         if family in (*_SHELLS, *_BEAMS):
             if given is None:
-                raise call.bad(
-                    f"elements {zone.element} bend: their thickness or section is needed",
-                    model,
-                    hint="TAIL 'DIAMETRE_MIN' MODL1 CAR1",
+                raise call.error(
+                    "operators.models.bending-elements-need-section", model, element=zone.element
                 )
             depth = _depth(zone, zone_field(zone, given), family)
             values["L2H"] = values["L"] ** 2 / depth
