@@ -307,11 +307,14 @@ class Form:
     of: tuple[str, ...] = ()  # an operand of one of these types stands in the phrase
 
     @property
-    def said(self) -> Keyword | None:
-        """The words of which one says that this form is meant."""
-        first = self.entries[0] if self.entries else None
-        fixed = isinstance(first, Keyword) and first.name == "word" and not first.arguments
-        return first if fixed and isinstance(first, Keyword) else None
+    def said(self) -> Keyword | Select | None:
+        """The words of which one says that this form is meant: `said`, or a mandatory `select`."""
+        match self.entries[:1] if self.entries else ():
+            case (Keyword(name="word", arguments=()) as first,):
+                return first
+            case (Select(optional=False) as first,):
+                return first
+        return None
 
     @property
     def main(self) -> Argument | None:

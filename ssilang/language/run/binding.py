@@ -19,6 +19,7 @@ from ssilang.language.registry import (
     Operator,
     Select,
     find_operator,
+    words_in,
 )
 from ssilang.language.run.call import Call, accepts
 from ssilang.language.say.errors import SsiError
@@ -294,9 +295,9 @@ def _candidates(found: Operator, call: Call) -> Iterator[tuple[Form, int | None]
     if len(forms) == 1 and forms[0].main is None:
         yield forms[0], None
         return
-    word = call.peek_word() if any(f.said for f in forms) else None
-    if word is not None:
-        spoken = [f for f in found.forms if f.said is not None and _matches(f.said, word)]
+    words = call.words() if any(f.said for f in forms) else []
+    if words:
+        spoken = [f for f in found.forms if _is_said(f, words)]
         meant = sorted((f for f in spoken if f in forms), key=lambda f: not f.of)
         if spoken and not meant:
             raise call.missing(tuple(dict.fromkeys(t for f in spoken for t in f.of)) or (ANY,))
@@ -308,7 +309,10 @@ def _candidates(found: Operator, call: Call) -> Iterator[tuple[Form, int | None]
     if main is not None:
         kind = type_of(call.operands[main].value)
         chosen = [f for f in forms if f.main is not None and accepts_kind(f.main.types, kind)]
-        yield from ((f, main) for f in chosen)
+        silent = [f for f in chosen if f.said is None]
+        if chosen and not silent:
+            raise missing_keyword(call, [w for f in chosen if f.said for w in f.said.words])
+        yield from ((f, main) for f in silent)
         return
     yield from ((f, None) for f in forms if f.main is None and f.said is None)
 
@@ -324,9 +328,22 @@ def accepts_kind(types: Sequence[str], kind: str) -> bool:
     return ANY in types or kind in types or (kind == "ENTIER" and "FLOTTANT" in types)
 
 
-def _matches(k: Keyword, word: str) -> bool:
-    wanted = word.upper().rstrip()[: k.length]
-    return any(w[: k.length].rstrip() == wanted for w in k.words)
+def _is_said(form: Form, words: Sequence[str]) -> bool:
+    """Whether a word of the form's stands first among the unread ones, or behind its keywords."""
+    if form.said is None:
+        return False
+    others = () if form.by_hand else tuple(words_in((form.entries or ())[1:]))
+    for word in words:
+        if _is_among(word, form.said.words, form.said.length):
+            return True
+        if not _is_among(word, others, 4):
+            break
+    return False
+
+
+def _is_among(word: str, words: Sequence[str], length: int) -> bool:
+    wanted = word.upper().rstrip()[:length]
+    return any(w[:length].rstrip() == wanted for w in words)
 
 
 def _no_form(found: Operator, call: Call) -> SsiError:
