@@ -2,7 +2,8 @@
 
     python docs/build.py [FOLDER]        (default docs/reference)
 
-One page an operator and a procedure: syntax, arguments, help, each example with what it printed
+The pages are made, not kept: the repository has what they are made from. One page an operator and a
+procedure: syntax, arguments, help, each example with what it printed
 when it ran here, and the pictures it drew. `index.md` lists them by family, `coverage.md` says of
 every word of Cast3M whether it is built.
 """

@@ -7,8 +7,15 @@ import re
 from ssilang.language.registry import find_operator, keywords_of, operators_by_family
 from ssilang.language.run.session import Session
 from ssilang.language.values import Table
+from ssilang.language.vocabulary import names
 
 _CONTROL = ("SI", "SINON", "FINSI", "REPETER", "FIN", "QUITTER", "ITERER", "DEBPROC", "FINPROC")
+_KINDS = {
+    "MODE": ("formulation", "law", "element"), "MATE": ("parameter",), "CARA": ("parameter",),
+    "OPTI": ("option",), "VALE": ("option",), "EXCO": ("component",), "BLOQ": ("component",),
+    "FORC": ("component",),
+}  # fmt: skip
+"""Words of the vocabulary that operators take besides their keywords."""
 _WORD = re.compile(r"[@&!#%]?\w*$")
 _TABLE_PATH = re.compile(r"([@&!]?\w+(?:\s*\.\s*(?:'[^']*'|\w+))*)\s*\.\s*('?)([^'.()]*)$")
 _ANY_WORD = re.compile(r"[@&!]?[^\W\d]\w*|\*\*|[-+*/]")
@@ -66,7 +73,8 @@ def _keywords(text: str) -> list[str]:
     for word in reversed(_ANY_WORD.findall(re.sub(r"'[^']*'?", " ", _statement(text)))):
         found = find_operator(word.upper())
         if found is not None and word[0].isalpha():
-            return keywords_of(found)
+            kinds = _KINDS.get(found.name, ())
+            return [*keywords_of(found), *(name for kind in kinds for name in names(kind))]
     return []
 
 

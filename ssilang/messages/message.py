@@ -7,7 +7,8 @@ fill the templates:
 ===============================  ==================================================================
 `{size:.3g}`                     as in str.format
 `{names}`                        a collection: `a, b, c`; `{values:.3g}` shows each in that way
-`{names:and}` `{names:or}`       `a, b and c`, in French `a, b et c`; `{names:words}`: blanks
+`{names:and}` `{names:or}`       `a, b and c`, in French `a, b et c`
+`{names:words}` `{parts:;}`      `a b c`, `a; b; c`
 `{count:node|nodes}`             singular or plural, by a number or the size of a collection
 `{near:?did you mean {near}?}`   a part that stands only where `near` says something;
                                  `{near:?there is {near}|nothing}` has another one for else
@@ -30,7 +31,11 @@ Severity = Literal["error", "warning"]
 
 _LAST = {"and": {"en": " and ", "fr": " et "}, "or": {"en": " or ", "fr": " ou "}}
 _SINGULAR = {"en": (1,), "fr": (0, 1)}
-_JOINTS = {*_LAST, "words"}
+_BETWEEN = {
+    "": {"en": ", ", "fr": ", "},
+    "words": {"en": " ", "fr": " "},
+    ";": {"en": "; ", "fr": " ; "},
+}
 _COLON = {"en": ": ", "fr": " : "}
 
 
@@ -66,6 +71,35 @@ class Sentence:
 
     def __init__(self, code: str, /, **data: object) -> None:
         self.code, self.data = code, data
+
+    def __str__(self) -> str:
+        """In English."""
+        return sentence(self.code, self.data)
+
+
+class Refusal(Exception):
+    """What is refused, and why: a code and data, from which a sentence is made at the very end.
+
+    Parameters
+    ----------
+    code : str
+        Key of a message, such as 'kernel.mesh.no-area'.
+    **data
+        What fills its sentence and its hint. An error that led to this one is data too.
+    """
+
+    def __init__(self, code: str, /, **data: object) -> None:
+        super().__init__(code)
+        self.code, self.data = code, data
+
+    def __str__(self) -> str:
+        """The sentence in English."""
+        return sentence(self.code, self.data)
+
+    @property
+    def hint(self) -> str:
+        """What to change to get further, in English, '' if nothing is known."""
+        return hint(self.code, self.data)
 
 
 def find(code: str) -> Message:
@@ -168,8 +202,10 @@ def _shown(value: object, spec: str, language: str) -> str:
         return sentence(value.code, value.data, language)
     if not _is_several(value):
         return format(value, spec)
-    joint, _, form = spec.partition(" ") if spec.split(" ")[0] in _JOINTS else ("", "", spec)
+    joint, _, form = spec.partition(" ")
+    if joint not in _LAST and joint not in _BETWEEN:
+        joint, form = "", spec
     words = [_shown(v, form, language) for v in value]
     if joint in _LAST and len(words) > 1:
         return ", ".join(words[:-1]) + _LAST[joint][language] + words[-1]
-    return (" " if joint == "words" else ", ").join(words)
+    return _BETWEEN.get(joint, _BETWEEN[""])[language].join(words)

@@ -41,7 +41,7 @@ def _free_strain(
     changes: list[tuple[FloatArray, TimeCurve]] = []
     for field, curve in terms:
         if not isinstance(field, NodeField | CellField):
-            raise FieldError("the load T needs a field of temperatures")
+            raise FieldError("kernel.plasticity.load-needs-field-temperatures")
         changes.append((thermal_strain(zone, material, field) - reference, curve))
 
     def at(time: float) -> FloatArray:

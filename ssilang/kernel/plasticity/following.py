@@ -224,10 +224,7 @@ class PathRun:
 
     def __init__(self, run: BulkRun) -> None:
         if run.problem.contact is not None:
-            raise KernelError(
-                "unilateral relations (MINI, MAXI) do not go with controlled loads",
-                "describe contact by joints (JOINT_SDM)",
-            )
+            raise KernelError("kernel.plasticity.unilateral-relations-mini-maxi")
         self.run = run
         self.solver = FollowingSolver(run.problem, run.problem.K, 1.0, run.bulk, run.state)
         self.count, self.iterations, self.turns = 0, 0, 0

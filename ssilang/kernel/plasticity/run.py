@@ -58,10 +58,7 @@ class BulkRun:
     def __post_init__(self) -> None:
         p = self.problem
         if p.scheme.conserving or p.scheme.adaptive:
-            raise KernelError(
-                "plastic bodies are stepped by Newmark, HHT or generalised alpha",
-                "leave CONSERVATIF and PAS_ADAPTE",
-            )
+            raise KernelError("kernel.plasticity.plastic-bodies-stepped-newmark")
         joints = joint_state(p)
         n = p.numbering.size
         self.motion = Motion(
@@ -146,10 +143,12 @@ def _static_step(
         length = 0.5 * length
         if length < 0.5**HALVINGS:
             raise ConvergenceError(
-                f"load step {k}, time {solver.time:g}: no equilibrium found (residual "
-                f"{outcome.residual:.1e} after {len(solver.residuals)} iterations, step cut "
-                f"{HALVINGS} times)",
-                "the load may exceed what the bodies can carry: impose displacements to go on",
+                "kernel.plasticity.load-step-time-no",
+                k=k,
+                time=solver.time,
+                residual=outcome.residual,
+                n_residuals=len(solver.residuals),
+                halvings=HALVINGS,
             )
 
 
@@ -217,9 +216,11 @@ def integrate_bulk(run: BulkRun) -> History:
             outcome = loop.step(float(times[k - 1]), float(times[k]), factors[k - 1 : k + 1])
             if outcome.turns <= 0 or not np.isfinite(run.motion.u).all():
                 raise ConvergenceError(
-                    f"step {k}, time {times[k]:g}: no equilibrium found (residual "
-                    f"{outcome.residual:.1e} after {-outcome.turns} iterations)",
-                    "smaller steps",
+                    "kernel.plasticity.step-time-no-equilibrium",
+                    k=k,
+                    times=times[k],
+                    residual=outcome.residual,
+                    turns=-outcome.turns,
                 )
             history.iterations = max(history.iterations, outcome.turns)
             history.energies[k] = run.motion.energies

@@ -252,11 +252,13 @@ def factorise(
     dissected = ordering is not None and positive and backend in (None, DISSECTION)
     name = DISSECTION if dissected else backend or choose(A.shape[0], positive)
     if not dissected and name not in BACKENDS:
-        raise KernelError(f"no solver is called {name}", f"known: {', '.join(BACKENDS)}")
+        raise KernelError("kernel.solvers.no-solver-called", name=name, backends=BACKENDS)
     if not dissected and not BACKENDS[name].installed:
         raise KernelError(
-            f"solver {name} needs the package {BACKENDS[name].package}, which is not installed",
-            BACKENDS[name].remedy,
+            "kernel.solvers.not-installed",
+            name=name,
+            package=BACKENDS[name].package,
+            remedy=BACKENDS[name].remedy,
         )
 
     def make() -> Factor:
@@ -290,9 +292,11 @@ def _dissected(A: sp.csr_array, ordering: Ordering) -> Factor:
         needed = error.n_bytes
     if not BACKENDS[MULTIGRID].installed:
         raise KernelError(
-            f"the factor of {A.shape[0]} unknowns takes {gigabytes(needed)} of memory, "
-            f"{gigabytes(available_bytes())} is free",
-            f"multigrid needs less: {BACKENDS[MULTIGRID].remedy}",
+            "kernel.solvers.factor-unknowns-takes-memory",
+            n_a=A.shape[0],
+            gigabytes=gigabytes(needed),
+            gigabytes_2=gigabytes(available_bytes()),
+            remedy=BACKENDS[MULTIGRID].remedy,
         )
     return _by_multigrid(A, ordering)
 

@@ -92,20 +92,11 @@ def respond(
 def _no_fibres(zone: Zone) -> None:
     """Refuse yielding beams of fibres: their strains say nothing of those of their fibres."""
     if "SECTION" in zone.behaviour and is_plastic(zone):
-        raise FieldError(
-            "beams with sections of fibres have no law between their forces and strains alone",
-            "PASAPAS and DYNAMIC take such models, MOCU gives moments from curvatures",
-        )
+        raise FieldError("kernel.statics.beams-sections-fibres-no")
     if "FLUAGE" in zone.behaviour:
-        raise FieldError(
-            "the answer of a law of creep depends on the duration of the step",
-            "PASAPAS and DYNAMIC take such models",
-        )
+        raise FieldError("kernel.statics.answer-law-creep-depends")
     if ELEMENTS[zone.element].family == "plate" and is_plastic(zone):
-        raise FieldError(
-            "plastic shells have no law between their forces and strains alone",
-            "PASAPAS and DYNAMIC take such models",
-        )
+        raise FieldError("kernel.statics.plastic-shells-no-law")
 
 
 def probing_step(

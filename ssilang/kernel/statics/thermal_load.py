@@ -53,7 +53,7 @@ def split_thermal(
         for part in (p for p in load.parts if p.name.strip() == "T"):
             for field, curve in terms_of(part):
                 if not isinstance(field, NodeField | CellField):
-                    raise FieldError("the load T needs a field of temperatures")
+                    raise FieldError("kernel.statics.load-needs-field-temperatures")
                 whole = _restrained(zone, material, field)
                 change = {k: v - reference.components[k] for k, v in whole.components.items()}
                 block = CellFieldBlock(

@@ -93,8 +93,10 @@ def criterion(
     name = _law(zone) if is_plastic(zone) else ""
     if name not in CRITERIA or ELEMENTS[zone.element].family == "plate":
         raise FieldError(
-            f"the law {' '.join(words)} of element {zone.element} has no criterion here",
-            "there are " + ", ".join(CRITERIA) + " and the joints' laws",
+            "kernel.statics.law-element-no-criterion",
+            words=words,
+            element=zone.element,
+            criteria=CRITERIA,
         )
     points = plastic_points(zone, material)
     kept = variables.matrix(points.law.variables, "STRESSES").transpose(0, 2, 1)
@@ -108,7 +110,7 @@ def _of_joint(
 ) -> FloatArray:
     law = law_of(zone.behaviour)
     if law.code not in (SDM, MOHR):
-        raise FieldError(f"joints {zone.element} with this law have no criterion")
+        raise FieldError("kernel.statics.joints-law-no-criterion", element=zone.element)
     points = joint_points(zone, material)
     t, p = points.local(stress), points.table
     shear, normal = np.linalg.norm(t[:, :-1], axis=1), t[:, -1]
@@ -140,7 +142,7 @@ def tangent_modulus(
         return elastic.copy()
     name = _law(zone)
     if name not in ("PARFAIT", "ISOTROPE", "CINEMATIQUE"):
-        raise FieldError(f"MOTA knows von Mises laws, not {name}")
+        raise FieldError("kernel.statics.mota-knows-von-mises", name=name)
     points = plastic_points(zone, material)
     p = points.parameters
     cumulated = np.broadcast_to(variables.at("EPSE", "STRESSES", 0.0), shape).ravel()

@@ -17,11 +17,10 @@ from functools import cached_property
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.base.errors import SingularMatrixError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.solvers.backends import DISSECTION, Ordering
 from ssilang.kernel.solvers.cholesky.inverse import Inverse, invert
-from ssilang.kernel.statics.linear_motion import describe_motions
+from ssilang.kernel.statics.linear_motion import singular
 from ssilang.kernel.stepping.problem.constraints import Constraints
 from ssilang.kernel.stepping.problem.problem import SMALL, Problem
 
@@ -113,11 +112,8 @@ def effective_of(
         A = sp.csr_array(A + joints.J.T @ sp.csr_array(R) @ joints.J)
         inverse = invert(sp.csr_array(V.T @ A @ T), symmetric, ordering=order)
     if inverse.singular and not (free and joints is None):
-        message, hint = describe_motions(problem.numbering, T @ inverse.kernel)
-        raise SingularMatrixError(
-            message.replace(" that the loads drive", ""),
-            hint + ", or give it mass (MASS)",
-        )
+        motions = T @ inverse.kernel
+        raise singular("kernel.statics.motions-without-mass", problem.numbering, motions)
     S, root = R, None
     if joints is not None:
         root = root_response(inverse, right)

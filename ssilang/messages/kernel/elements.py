@@ -17,16 +17,6 @@ MESSAGES: dict[str, Message] = {
         "{cell_type} cells cannot carry a surface load",
         "les éléments {cell_type} ne peuvent porter de charge de surface",
     ),
-    "cells-no-side-cell": Message(
-        "{lost} of {n_faces} {cell_type} cells are no side of a cell of the model",
-        "{lost} éléments sur {n_faces} {cell_type} ne sont le côté d'aucun élément du modèle",
-        "{inside:?give sides of the model's cells: lines of a surface (CONT, COTE), faces of "
-        "a volume (ENVE, FACE)|the surface and the model's mesh must share their nodes "
-        "(ELIM)}",
-        "{inside:?donnez des côtés des éléments du modèle : lignes d'une surface (CONT, "
-        "COTE), faces d'un volume (ENVE, FACE)|la surface et le maillage du modèle doivent "
-        "avoir les mêmes noeuds (ELIM)}",
-    ),
     "element-no-equivalent-stress": Message(
         "element {element} has no equivalent stress",
         "l'élément {element} n'a pas de contrainte équivalente",
@@ -95,14 +85,6 @@ MESSAGES: dict[str, Message] = {
         "a vector or radius that gives a frame is zero",
         "un vecteur ou un rayon qui donne un repère est nul",
     ),
-    "jacobian-vanishes-changes-sign": Message(
-        "the Jacobian vanishes or changes sign inside {n_folded} cell(s), the first being "
-        "number {first} of its block",
-        "le jacobien s'annule ou change de signe dans {n_folded} élément(s), dont le premier "
-        "porte le numéro {first} de sa zone",
-        "look for flat or folded cells in the mesh",
-        "cherchez des éléments plats ou repliés dans le maillage",
-    ),
     "line-cell-zero-length": Message(
         "a line cell has zero length",
         "un élément de ligne est de longueur nulle",
@@ -139,13 +121,6 @@ MESSAGES: dict[str, Message] = {
         "une pression a une composante, ce champ {names:?a {names}|n'en a aucune}",
         "take one with EXCO",
         "prenez-en une par EXCO",
-    ),
-    "pressure-cells-stands-nodes": Message(
-        "a pressure in cells stands at nodes or is constant, this one has {n_values} values a cell",
-        "une pression par élément est aux noeuds ou constante, celle-ci a {n_values} valeurs "
-        "par élément",
-        "CHAN 'NOEUD'",
-        "CHAN 'NOEUD'",
     ),
     "field-values-no-outer": Message(
         "the field has values on no outer side of the model",
@@ -201,12 +176,6 @@ MESSAGES: dict[str, Message] = {
     "element-not-fill-space": Message(
         "element {element} does not fill its space: no projection on it",
         "l'élément {element} n'est pas massif : pas de projection sur lui",
-    ),
-    "integration-points-not-fix": Message(
-        "{n_rule} integration points do not fix the {n_nodes} values of a {name} cell",
-        "{n_rule} points d'intégration ne fixent pas les {n_nodes} valeurs d'un élément {name}",
-        "give more points in each direction (3 by default)",
-        "donner plus de points par direction (3 par défaut)",
     ),
     "field-project-must-stand": Message(
         "the field to project must stand at nodes",
@@ -354,12 +323,6 @@ MESSAGES: dict[str, Message] = {
         "give them constant in each cell",
         "donnez-les constants par élément",
     ),
-    "field-values-cell-element": Message(
-        "a field at '{source}' has {n_values} values a cell, element {element} has "
-        "{n_matrix} points there",
-        "un champ en '{source}' a {n_values} valeurs par élément, l'élément {element} y a "
-        "{n_matrix} points",
-    ),
     "component-not-defined-cells": Message(
         "component {name} is not defined on all cells of the model's zone",
         "la composante {name} n'est pas définie sur tous les éléments de la zone du modèle",
@@ -381,5 +344,47 @@ MESSAGES: dict[str, Message] = {
         "les modèles IMPEDANCE n'ont pas de déformations",
         "their force is the stiffness (RIGI) times the displacement",
         "leur force est la raideur (RIGI) fois le déplacement",
+    ),
+    "pressure-cells-stands-nodes": Message(
+        "a pressure in cells stands at nodes or is constant, this one has {n_values} "
+        "{n_values:value|values} a cell",
+        "une pression par élément est aux noeuds ou constante, celle-ci a {n_values} "
+        "{n_values:valeur|valeurs} par élément",
+        "CHAN 'NOEUD'",
+        "CHAN 'NOEUD'",
+    ),
+    "integration-points-not-fix": Message(
+        "{n_rule} integration points do not fix the {n_nodes} {n_nodes:value|values} of a "
+        "{name} cell",
+        "{n_rule} {n_rule:point|points} d'intégration ne fixent pas les {n_nodes} "
+        "{n_nodes:valeur|valeurs} d'un élément {name}",
+        "give more points in each direction (3 by default)",
+        "donner plus de points par direction (3 par défaut)",
+    ),
+    "field-values-cell-element": Message(
+        "a field at '{source}' has {n_values} {n_values:value|values} a cell, element "
+        "{element} has {n_matrix} {n_matrix:point|points} there",
+        "un champ en '{source}' a {n_values} {n_values:valeur|valeurs} par élément, "
+        "l'élément {element} y a {n_matrix} {n_matrix:point|points}",
+    ),
+    "jacobian-vanishes-changes-sign": Message(
+        "the Jacobian vanishes or changes sign inside {n_folded} {n_folded:cell|cells}, the "
+        "first being number {first} of its block",
+        "le jacobien s'annule ou change de signe dans {n_folded} "
+        "{n_folded:élément|éléments}, dont le premier porte le numéro {first} de sa zone",
+        "look for flat or folded cells in the mesh",
+        "cherchez des éléments plats ou repliés dans le maillage",
+    ),
+    "cells-no-side-cell": Message(
+        "{lost} of {n_faces} {cell_type} {n_faces:cell|cells} {lost:is|are} no side of a "
+        "cell of the model",
+        "{lost} des {n_faces} éléments {cell_type} {lost:n'est|ne sont} le côté d'aucun "
+        "élément du modèle",
+        "{inside:?give sides of the model's cells: lines of a surface (CONT, COTE), faces of "
+        "a volume (ENVE, FACE)|the surface and the model's mesh must share their nodes "
+        "(ELIM)}",
+        "{inside:?donnez des côtés des éléments du modèle : lignes d'une surface (CONT, "
+        "COTE), faces d'un volume (ENVE, FACE)|la surface et le maillage du modèle doivent "
+        "avoir les mêmes noeuds (ELIM)}",
     ),
 }

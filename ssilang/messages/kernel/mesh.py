@@ -7,12 +7,6 @@ MESSAGES: dict[str, Message] = {
         "the point that opens the cone lies in the plane of its apex",
         "le point qui donne l'ouverture du cône est dans le plan de son sommet",
     ),
-    "point-no-projection-surface": Message(
-        "{n_lost} point(s) have no projection on the surface, the first at ({x:g})",
-        "{n_lost} point(s) n'ont pas de projection sur la surface, le premier en ({x:g})",
-        "check the direction or the apex of the projection",
-        "vérifiez la direction ou le sommet de la projection",
-    ),
     "point-project-apex-projection": Message(
         "a point to project is the apex of the projection",
         "un point à projeter est le sommet de la projection",
@@ -24,10 +18,6 @@ MESSAGES: dict[str, Message] = {
     "six-faces-qua4-qua8": Message(
         "six faces of QUA4, or of QUA8, are needed; these hold {kinds}",
         "il faut six faces de QUA4, ou de QUA8 ; celles-ci contiennent {kinds}",
-    ),
-    "face-no-grid-quadrangles": Message(
-        "a face is no grid of quadrangles: it has {n_corners} corners, not 4",
-        "une face n'est pas une grille de quadrangles : elle a {n_corners} coins, pas 4",
     ),
     "face-no-grid-quadrangles-2": Message(
         "a face is no grid of quadrangles",
@@ -86,10 +76,6 @@ MESSAGES: dict[str, Message] = {
     "no-polygons-five-sides": Message(
         "no polygons of five sides or more in this mesh",
         "aucun polygone de cinq côtés ou plus dans ce maillage",
-    ),
-    "no-mesh-holds": Message(
-        "no {cell_type} in this mesh, which holds {kinds}",
-        "pas de {cell_type} dans ce maillage, qui contient {kinds}",
     ),
     "cells-type-cannot-changed": Message(
         "cells of type {name} cannot be changed into {target}",
@@ -247,10 +233,6 @@ MESSAGES: dict[str, Message] = {
         "give masters in each part",
         "donnez des maîtres dans chaque partie",
     ),
-    "cells-type-flat": Message(
-        "{n_flat} cells of type {cell_type} are flat",
-        "{n_flat} éléments {cell_type} sont plats",
-    ),
     "cells-type-cannot-follow": Message(
         "cells of type {cell_type} cannot follow",
         "les éléments de type {cell_type} ne peuvent pas suivre",
@@ -264,11 +246,6 @@ MESSAGES: dict[str, Message] = {
     "line-needed-mesh-holds": Message(
         "a line is needed, this mesh holds {cell_type}",
         "il faut une ligne, ce maillage contient {cell_type}",
-    ),
-    "several-cells-node-line": Message(
-        "several cells {where} at node {node}: the line branches there",
-        "plusieurs éléments ont la même extrémité ({where}), le noeud {node} : la ligne y a "
-        "un branchement",
     ),
     "four-sides-not-form": Message(
         "the four sides do not form a closed contour, one after the other",
@@ -318,10 +295,6 @@ MESSAGES: dict[str, Message] = {
         "give another end point",
         "donnez un autre point d'arrivée",
     ),
-    "line-seg2-seg3-needed-2": Message(
-        "a line of SEG2 or SEG3 is needed, this mesh holds {kinds}",
-        "il faut une ligne de SEG2 ou de SEG3, ce maillage contient {kinds}",
-    ),
     "line-cells-not-follow": Message(
         "the line's cells do not follow one another",
         "les éléments de la ligne ne se suivent pas",
@@ -367,22 +340,6 @@ MESSAGES: dict[str, Message] = {
         "les noeuds se confondent à une distance positive",
         "give the distance, or set the density (DENS) whose tenth is taken",
         "donnez la distance, ou une densité (DENS) dont le dixième est pris",
-    ),
-    "mesh-cell-type-needed": Message(
-        "a mesh of one cell type is needed, this one holds {kinds}",
-        "il faut un maillage d'un seul type d'élément, celui-ci contient {kinds}",
-    ),
-    "adjacent-cells-described-opposite": Message(
-        "adjacent cells are described in opposite senses, at node(s) {where}",
-        "des éléments voisins sont décrits en sens opposés, à : noeud(s) {where}",
-        "turn one of the parts with INVE, or use ORIE",
-        "retournez une partie par INVE, ou ORIE",
-    ),
-    "mesh-not-halved-parts": Message(
-        "a mesh is not halved into {count} parts",
-        "un maillage ne se coupe pas en {count} parties par moitiés",
-        "say 2, 4, 8 ...",
-        "dites 2, 4, 8 ...",
     ),
     "angles-lines-surfaces-mesh": Message(
         "angles are those of lines and surfaces, the mesh holds volumes",
@@ -450,14 +407,6 @@ MESSAGES: dict[str, Message] = {
         "the front is not made of sides of the surface",
         "le front n'est pas fait de côtés de la surface",
     ),
-    "point-end-segments-line": Message(
-        "the point is an end of {n_touching} segments of the line, not of 1",
-        "le point est l'extrémité de {n_touching} segments de la ligne, pas d'un seul",
-    ),
-    "distances-taken-not": Message(
-        "distances are taken to {wanted} in {dimension}D, not to {cell_type}",
-        "les distances se prennent à {wanted} en {dimension}D, pas à {cell_type}",
-    ),
     "two-lines-same-nothing": Message(
         "the two lines are the same: there is nothing between them",
         "les deux lignes sont la même : il n'y a rien entre elles",
@@ -486,21 +435,11 @@ MESSAGES: dict[str, Message] = {
         "the mesh sizes ask for {wanted:.3g} elements on one line",
         "les tailles de maille demandent {wanted:.3g} éléments sur une ligne",
     ),
-    "contour-seg2-seg3-needed": Message(
-        "a contour of SEG2 or of SEG3 is needed, this mesh holds {kinds}",
-        "il faut un contour de SEG2 ou de SEG3, ce maillage contient {kinds}",
-    ),
     "polygons-straight-sides-contour": Message(
         "polygons have straight sides, the contour is of SEG3",
         "les polygones ont des côtés droits, le contour est en SEG3",
         "CHAN 'LINEAIRE' makes it straight",
         "CHAN 'LINEAIRE' le rend droit",
-    ),
-    "contour-not-closed-line": Message(
-        "the contour is not closed: a line ends at node(s) {where}",
-        "le contour n'est pas fermé : une ligne s'arrête à : noeud(s) {where}",
-        "close it, or merge coincident points with ELIM",
-        "fermez-le, ou confondez par ELIM les points au même endroit",
     ),
     "lines-contour-not-run": Message(
         "the lines of the contour do not all run in the same sense",
@@ -514,21 +453,9 @@ MESSAGES: dict[str, Message] = {
         "refine the meshes",
         "raffinez les maillages",
     ),
-    "surfaces-tri3-needed-cross": Message(
-        "surfaces of TRI3 are needed to cross, this mesh holds {held}",
-        "il faut des surfaces de TRI3 à croiser, ce maillage contient {held}",
-        "CHAN 'TRI3' cuts quadrangles into triangles",
-        "CHAN 'TRI3' coupe les quadrangles en triangles",
-    ),
     "two-points-axis-rotation": Message(
         "the two points of the axis of rotation coincide",
         "les deux points de l'axe de rotation sont confondus",
-    ),
-    "two-meshes-not-same": Message(
-        "the two meshes do not have the same structure: {summary} and {summary_2}",
-        "les deux maillages n'ont pas la même structure : {summary} et {summary_2}",
-        "they need the same cells in the same order",
-        "il leur faut les mêmes éléments dans le même ordre",
     ),
     "line-needed-sweep-surface": Message(
         "a line is needed to sweep a surface, this mesh holds {cell_type}",
@@ -552,12 +479,6 @@ MESSAGES: dict[str, Message] = {
         "make the surface's mesh finer or more regular where it is thin, or sweep the volume",
         "affinez le maillage de la surface ou rendez-le plus régulier là où le volume est "
         "mince, ou engendrez le volume par déplacement",
-    ),
-    "surface-not-closed-sides": Message(
-        "the surface is not closed: {lone} sides belong to one face only, one near ({where:g})",
-        "la surface n'est pas fermée : {lone} côtés n'ont qu'une face, l'un près de ({where:g})",
-        "merge coincident points with ELIM, and check that no face is missing",
-        "confondez par ELIM les points au même endroit, et vérifiez qu'aucune face ne manque",
     ),
     "surface-asks-more-ten": Message(
         "the surface asks for more than ten million points inside",
@@ -661,5 +582,94 @@ MESSAGES: dict[str, Message] = {
     "point-theta-lies-axis": Message(
         "the point that gives theta = 0 lies on the axis",
         "le point qui donne theta = 0 est sur l'axe",
+    ),
+    "face-no-grid-quadrangles": Message(
+        "a face is no grid of quadrangles: it has {n_corners} {n_corners:corner|corners}, not 4",
+        "une face n'est pas une grille de quadrangles : elle a {n_corners} "
+        "{n_corners:coin|coins}, pas 4",
+    ),
+    "mesh-not-halved-parts": Message(
+        "a mesh is not halved into {count} parts",
+        "un maillage ne se coupe pas en {count} {count:partie|parties} par moitiés",
+        "say 2, 4, 8 ...",
+        "dites 2, 4, 8 ...",
+    ),
+    "point-end-segments-line": Message(
+        "the point is an end of {n_touching} {n_touching:segment|segments} of the line, not of 1",
+        "le point est l'extrémité de {n_touching} {n_touching:segment|segments} de la ligne, "
+        "pas d'un seul",
+    ),
+    "mesh-cell-type-needed": Message(
+        "a mesh of one cell type is needed, this one holds {kinds:?{kinds}|nothing}",
+        "il faut un maillage d'un seul type d'élément, celui-ci {kinds:?contient {kinds}|est vide}",
+    ),
+    "line-seg2-seg3-needed-2": Message(
+        "a line of SEG2 or SEG3 is needed, this mesh holds {kinds:?{kinds}|nothing}",
+        "il faut une ligne de SEG2 ou de SEG3, ce maillage {kinds:?contient {kinds}|est vide}",
+    ),
+    "contour-seg2-seg3-needed": Message(
+        "a contour of SEG2 or of SEG3 is needed, this mesh holds {kinds:?{kinds}|nothing}",
+        "il faut un contour de SEG2 ou de SEG3, ce maillage {kinds:?contient {kinds}|est vide}",
+    ),
+    "no-mesh-holds": Message(
+        "no {cell_type} in this mesh, which holds {kinds:?{kinds}|nothing}",
+        "pas de {cell_type} dans ce maillage, qui {kinds:?contient {kinds}|est vide}",
+    ),
+    "surfaces-tri3-needed-cross": Message(
+        "surfaces of TRI3 are needed to cross, this mesh holds {kinds:?{kinds}|nothing}",
+        "il faut des surfaces de TRI3 à croiser, ce maillage {kinds:?contient {kinds}|est vide}",
+        "CHAN 'TRI3' cuts quadrangles into triangles",
+        "CHAN 'TRI3' coupe les quadrangles en triangles",
+    ),
+    "adjacent-cells-described-opposite": Message(
+        "adjacent cells are described in opposite senses, at {nodes:node|nodes} {nodes}",
+        "des éléments voisins sont décrits en sens opposés, {nodes:au noeud|aux noeuds} {nodes}",
+        "turn one of the parts with INVE, or use ORIE",
+        "retournez une partie par INVE, ou ORIE",
+    ),
+    "contour-not-closed-line": Message(
+        "the contour is not closed: a line ends at {nodes:node|nodes} {nodes}",
+        "le contour n'est pas fermé : une ligne s'arrête {nodes:au noeud|aux noeuds} {nodes}",
+        "close it, or merge coincident points with ELIM",
+        "fermez-le, ou confondez par ELIM les points au même endroit",
+    ),
+    "two-meshes-not-same": Message(
+        "the two meshes do not have the same structure: {first:?{first}|nothing} and "
+        "{second:?{second}|nothing}",
+        "les deux maillages n'ont pas la même structure : {first:?{first}|rien} et "
+        "{second:?{second}|rien}",
+        "they need the same cells in the same order",
+        "il leur faut les mêmes éléments dans le même ordre",
+    ),
+    "distances-taken-not": Message(
+        "distances are taken to {plane:?segments SEG2 in 2D|triangles TRI3 or quadrangles "
+        "QUA4 in 3D}, not to {cell_type}",
+        "les distances se prennent à {plane:?des segments SEG2 en 2D|des triangles TRI3 ou "
+        "des quadrangles QUA4 en 3D}, pas à {cell_type}",
+    ),
+    "several-cells-node-line": Message(
+        "several cells {ending:?end|start} at node {node}: the line branches there",
+        "plusieurs éléments {ending:?finissent|commencent} au noeud {node} : la ligne y a un "
+        "branchement",
+    ),
+    "surface-not-closed-sides": Message(
+        "the surface is not closed: {lone} {lone:side belongs|sides belong} to one face "
+        "only, one near ({where:g})",
+        "la surface n'est pas fermée : {lone} {lone:côté n'a|côtés n'ont} qu'une face, l'un "
+        "près de ({where:g})",
+        "merge coincident points with ELIM, and check that no face is missing",
+        "confondez par ELIM les points au même endroit, et vérifiez qu'aucune face ne manque",
+    ),
+    "cells-type-flat": Message(
+        "{n_flat} {n_flat:cell|cells} of type {cell_type} {n_flat:is|are} flat",
+        "{n_flat} {n_flat:élément|éléments} de type {cell_type} {n_flat:est plat|sont plats}",
+    ),
+    "point-no-projection-surface": Message(
+        "{n_lost} {n_lost:point has|points have} no projection on the surface, the first at "
+        "({x:g})",
+        "{n_lost} {n_lost:point n'a|points n'ont} pas de projection sur la surface, le "
+        "premier en ({x:g})",
+        "check the direction or the apex of the projection",
+        "vérifiez la direction ou le sommet de la projection",
     ),
 }

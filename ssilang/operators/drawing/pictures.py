@@ -6,9 +6,9 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ssilang.language.near import nearest
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
-from ssilang.language.say.diagnostics import nearest
 from ssilang.language.values import type_of
 from ssilang.operators.files.outputs import run_output
 from ssilang.operators.workspace import workspace

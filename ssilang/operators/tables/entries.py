@@ -14,8 +14,8 @@ from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.curves.curve import Curve, Load
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.stepping.times import every, nearest
+from ssilang.language.near import nearest as nearest_word
 from ssilang.language.run.call import Call
-from ssilang.language.say.diagnostics import nearest as nearest_word
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text.source import Span
 from ssilang.language.values import Annule, ListReel, Table, type_of

@@ -66,19 +66,12 @@ def solve_contact(problem: ContactProblem, start: BoolArray | None = None) -> Co
     limit = 50 + 20 * m
     found = _iterate(problem, active, limit)
     if found is None and (np.diag(problem.W) < 0.0).any():
-        raise ConvergenceError(
-            "no set of active unilateral conditions gives equilibrium: the reaction of one drives "
-            "what it acts on further through it",
-            "turn the field of 'DUAL' round, or take MINI for MAXI",
-        )
+        raise ConvergenceError("kernel.solvers.no-set-active-unilateral")
     if found is None and _symmetric(problem):
         guess = _least_energy(problem)
         found = _iterate(problem, guess, limit, one_by_one=True) or _accepted(problem, guess)
     if found is None:
-        raise ConvergenceError(
-            "no set of active unilateral conditions gives equilibrium",
-            "a body held by MINI/MAXI conditions alone must be pressed against them by its loads",
-        )
+        raise ConvergenceError("kernel.solvers.no-set-active-unilateral-2")
     return found
 
 

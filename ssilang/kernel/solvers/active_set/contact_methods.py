@@ -52,7 +52,7 @@ def penalty(
         Without a positive coefficient.
     """
     if coefficient is None or not coefficient > 0.0:
-        raise KernelError("penalty needs a coefficient > 0", "a stiffness, N/m")
+        raise KernelError("kernel.solvers.penalty-needs-coefficient")
     return lagrange(W + np.eye(len(q)) / coefficient, q, None, start)
 
 
@@ -66,7 +66,7 @@ def augmented(
     """
     c = coefficient if coefficient is not None else 1.0 / _largest_eigenvalue(W)
     if not c > 0.0:
-        raise KernelError(f"the augmentation {c:g} must be > 0")
+        raise KernelError("kernel.solvers.augmentation-must", c=c)
     m = len(q)
     p = np.zeros(m)
     active: BoolArray = q < 0.0 if start is None else start.copy()
@@ -104,7 +104,7 @@ def uzawa(
     c = coefficient if coefficient is not None else 1.0 / largest
     if not 0.0 < c < 2.0 / largest:
         raise KernelError(
-            f"Uzawa's coefficient {c:g} does not converge", f"between 0 and {2.0 / largest:g}"
+            "kernel.solvers.uzawa-coefficient-not-converge", c=c, largest=2.0 / largest
         )
     p = np.zeros(len(q))
     for sweep in range(1, MOST_SWEEPS + 1):
@@ -114,8 +114,10 @@ def uzawa(
         if change <= TOLERANCE * p.max(initial=0.0):
             return Reactions(_exact(W, q, p, p > 0.0), p > 0.0, sweep)
     raise ConvergenceError(
-        f"Uzawa's sweeps did not converge in {MOST_SWEEPS} (last change {change:.1e})",
-        f"a coefficient near {1.8 / largest:g}, or another method",
+        "kernel.solvers.uzawa-sweeps-did-not",
+        most_sweeps=MOST_SWEEPS,
+        change=change,
+        largest=1.8 / largest,
     )
 
 

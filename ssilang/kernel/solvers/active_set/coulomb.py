@@ -112,11 +112,7 @@ def solve_coulomb(problem: CoulombProblem, start: FloatArray | None = None) -> C
     if found is None:
         found = solver.newton(solver.sweep(first))
     if found is None:
-        raise ConvergenceError(
-            "no state of contact and friction gives equilibrium",
-            "a body held by friction alone slides away when the loads exceed it: hold it, give it "
-            "mass in a dynamic calculation, or take smaller steps",
-        )
+        raise ConvergenceError("kernel.solvers.no-state-contact-friction")
     return found
 
 

@@ -95,7 +95,7 @@ def invert(
     import scipy.linalg as la
 
     if not np.isfinite(A.data).all():
-        raise KernelError("the matrix holds values that are not finite numbers")
+        raise KernelError("kernel.solvers.matrix-holds-values-not")
     n = A.shape[0]
     nothing = np.empty(0, dtype=np.int64)
     if n == 0:
@@ -113,7 +113,7 @@ def invert(
     part = None if ordering is None else ordering.of(kept.astype(np.int64))
     held = _try_factors(sp.csr_array(scaled[kept][:, kept]), symmetric, backend, part)
     if held is None:
-        raise KernelError("the matrix stays singular when its free motions are held")
+        raise KernelError("kernel.solvers.matrix-stays-singular-free")
     motions = (motions.T * scale).T
     return Inverse(held, scale, motions, pinned.astype(np.int64), kept.astype(np.int64))
 

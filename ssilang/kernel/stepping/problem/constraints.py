@@ -145,7 +145,9 @@ def check_values(constraints: Constraints, imposed: FloatArray, numbering: Numbe
         wrong = np.flatnonzero(gap > 1e-9 * np.abs(d).max(initial=0.0))
         if len(wrong):
             worst = int(np.argmax(gap))
-            names = ", ".join(numbering.label(int(i)) for i in constraints.C[[worst]].indices[:6])
+            names = ", ".join(
+                str(numbering.label(int(i))) for i in constraints.C[[worst]].indices[:6]
+            )
             raise KernelError(
                 f"conditions contradict each other: one on {names} cannot take the value "
                 f"{d[worst]:.6g}",
