@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import inspect
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
@@ -66,7 +66,9 @@ class Keyword:
 class Select:
     """A keyword that decides what is read behind it: entries by word.
 
-    Passed to the function as `name`: a `Chosen`, or `default` where no word of it stands.
+    Passed to the function as `name`: a `Chosen`, or `default` where no word of it stands. A word
+    that is among the names `unless(value)` of the main operand is not meant here: a component of
+    a field may be called as what can be taken out of it.
     """
 
     name: str
@@ -77,6 +79,7 @@ class Select:
     length: int = 4
     en: str = ""
     fr: str = ""
+    unless: Callable[[Any], Collection[str]] | None = None
 
     @property
     def words(self) -> tuple[str, ...]:
@@ -90,7 +93,7 @@ class Group:
 
     Passed as `name`: a tuple of the values (the value itself if the group has one entry), or a
     list of these where repeated. Behind a word that a group begins with, values are looked for
-    behind that word first.
+    behind that word first. The entry `times`, read before, says how often at most, if it stands.
     """
 
     name: str
@@ -100,6 +103,7 @@ class Group:
     at_least: int = 0
     en: str = ""
     fr: str = ""
+    times: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -234,10 +238,11 @@ def select(
     length: int = 4,
     en: str = "",
     fr: str = "",
+    unless: Callable[[Any], Collection[str]] | None = None,
 ) -> Select:
     """A keyword that decides what is read behind it; `repeated` collects a list."""
     made = {word: tuple(entries) for word, entries in cases.items()}
-    return Select(name, made, optional, repeated, None, length, en, fr)
+    return Select(name, made, optional, repeated, None, length, en, fr, unless)
 
 
 def group(name: str, *entries: Entry, en: str = "", fr: str = "") -> Group:
@@ -245,9 +250,11 @@ def group(name: str, *entries: Entry, en: str = "", fr: str = "") -> Group:
     return Group(name, entries, en=en, fr=fr)
 
 
-def each(name: str, *entries: Entry, at_least: int = 0, en: str = "", fr: str = "") -> Group:
+def each(
+    name: str, *entries: Entry, at_least: int = 0, times: str = "", en: str = "", fr: str = ""
+) -> Group:
     """A group read as often as it stands there: pairs of a word and its value ..."""
-    return Group(name, entries, at_least == 0, True, at_least, en, fr)
+    return Group(name, entries, at_least == 0, True, at_least, en, fr, times)
 
 
 def either(name: str, *groups: Group, optional: bool = False, en: str = "", fr: str = "") -> Either:
@@ -262,7 +269,29 @@ class Like:
     name: str
 
 
-Gives = tuple[str, ...] | Like | None
+@dataclass(frozen=True, slots=True)
+class By:
+    """Results by what the entry `name` says: its word, or True or False for a flag."""
+
+    name: str
+    results: Mapping[object, tuple[str, ...]]
+    default: tuple[str, ...] = ()
+
+    def of(self, value: object) -> tuple[str, ...]:
+        """Results where the entry has the value."""
+        key = value.word if isinstance(value, Chosen) else value
+        return self.results.get(key, self.default)
+
+
+def by(
+    name: str, results: Mapping[Any, str | Sequence[str]], default: str | Sequence[str] = ()
+) -> By:
+    """Results by the word of a `select` or a `choice`, or by a `flag`."""
+    made = {k: _as_words(v) for k, v in results.items()}
+    return By(name, made, _as_words(default))
+
+
+Gives = tuple[str, ...] | Like | By | None
 """Types of results: type words, 'A|B' where it may be one or the other, `ANY` where only the run
 can tell; () for a directive; None where the annotation of the function says it."""
 
@@ -351,7 +380,7 @@ class Operator:
     def form(
         self,
         *entries: Entry,
-        gives: str | Sequence[str] | Like | None = None,
+        gives: str | Sequence[str] | Like | By | None = None,
         syntax: str = "",
         en: str = "",
         fr: str = "",
@@ -371,7 +400,7 @@ class Operator:
         *entries : Entry
             What the form reads, in reading order. Keywords are looked for before and after each
             operand is read.
-        gives : str, sequence of str, or Like, optional
+        gives : str, sequence of str, Like, or By, optional
             Types of the results; by default what the function's annotation says.
         syntax, en, fr, examples
             Help of this form.
@@ -403,9 +432,11 @@ class Operator:
         return add
 
 
-def _gives(given: str | Sequence[str] | Like | None) -> Gives:
-    if given is None or isinstance(given, Like):
-        return given
+def _gives(given: str | Sequence[str] | Like | By | None) -> Gives:
+    return given if given is None or isinstance(given, Like | By) else _as_words(given)
+
+
+def _as_words(given: str | Sequence[str]) -> tuple[str, ...]:
     return (given,) if isinstance(given, str) else tuple(given)
 
 
@@ -424,7 +455,7 @@ def operator(
     aliases: Sequence[str] = (),
     terminal: bool = False,
     full_name: str = "",
-    gives: str | Sequence[str] | Like | None = None,
+    gives: str | Sequence[str] | Like | By | None = None,
     reads_itself: bool | str = False,
     when: When | None = None,
 ) -> Callable[[Function], Operator]:
@@ -439,7 +470,7 @@ def operator(
         operand is read.
     family : str
         Page of the manual: 'mesh', 'field', 'model', 'list', ...
-    gives : str, sequence of str, or Like, optional
+    gives : str, sequence of str, Like, or By, optional
         Types of the results; by default what the function's annotation says.
     reads_itself : str
         Why the function takes the `call` and reads from it; `entries` are then for help and checks.

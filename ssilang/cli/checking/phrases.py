@@ -16,7 +16,7 @@ from ssilang.cli.checking.kinds import (
     typed,
 )
 from ssilang.cli.checking.scope import Scope
-from ssilang.language.registry import SCALAR_RULES, Operator, find_operator
+from ssilang.language.registry import SCALAR_RULES, Operator, When, find_operator
 from ssilang.language.run.binding import bind_operator
 from ssilang.language.run.call import Call, Operand, accepts
 from ssilang.language.run.leftovers import is_call
@@ -61,6 +61,9 @@ class AbstractCall(Call):
     def stands(self, *types: str) -> bool:
         self._all_known()
         return super().stands(*types)
+
+    def meets(self, when: When) -> bool:
+        raise Ambiguous  # what the run sets is not known
 
     def main_operand(self, *types: str) -> int | None:
         self._all_known()

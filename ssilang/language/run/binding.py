@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
@@ -38,8 +38,9 @@ class _Level:
 class Binder:
     """Reads the entries of one form from a call; inner entries see the outer keywords too."""
 
-    def __init__(self, call: Call) -> None:
+    def __init__(self, call: Call, main: Any = None) -> None:
         self.call = call
+        self.main = main  # the operand that chose the form
         self._levels: list[_Level] = []
 
     def bind(self, entries: Sequence[Entry], after: int = -1) -> dict[str, Any]:
@@ -82,6 +83,8 @@ class Binder:
         for k in level.keywords:
             if k.name in level.seen and not k.repeated:
                 continue
+            if isinstance(k, Select) and k.unless is not None and self._is_a_name(k.unless):
+                continue
             word = self.call.keyword(k.words, k.length)
             if word is None:
                 continue
@@ -93,6 +96,11 @@ class Binder:
                 level.values[k.name] = value
             return True
         return False
+
+    def _is_a_name(self, names: Callable[[Any], Collection[str]]) -> bool:
+        """Whether the first unread word is one of the main operand's names."""
+        word = self.call.peek_word()
+        return word is not None and word.rstrip() in names(self.main)
 
     def _behind(self, k: Keyword | Select, word: str) -> Any:
         """What a keyword brings: the word, True, the values behind it, or the case it chose."""
@@ -151,7 +159,8 @@ class Binder:
                     put_back()
                     return None
         found: list[Any] = []
-        while self.call.operands:
+        most = self._value(g.times) if g.times else None
+        while self.call.operands and (most is None or len(found) < most):
             with self._kept() as put_back:
                 before = len(self.call.used)
                 try:
@@ -167,6 +176,10 @@ class Binder:
         if len(found) < g.at_least:
             self._one(g, after)  # says what is missing
         return found
+
+    def _value(self, name: str) -> Any:
+        """What an entry read before gave, None if nothing."""
+        return next((v.values[name] for v in reversed(self._levels) if name in v.values), None)
 
     def _one(self, g: Group, after: int) -> Any:
         first = len(self.call.used)
@@ -265,11 +278,20 @@ def bind_operator(found: Operator, call: Call) -> Bound:
             depth = len(call.used) - used
             if worst is None or depth > worst[0]:
                 worst = depth, problem
+            elif depth == worst[0]:
+                _expects_too(worst[1], problem)
             call.operands[:] = operands
             del call.used[used:]
     if worst is None:
         raise _no_form(found, call)
     raise worst[1]
+
+
+def _expects_too(first: SsiError, other: SsiError) -> None:
+    """Let the error of one form tell what another, that got as far, expects at that place."""
+    wanted, more = first.data.get("expected"), other.data.get("expected")
+    if first.code == other.code and isinstance(wanted, list) and isinstance(more, list):
+        wanted += [t for t in more if t not in wanted]
 
 
 def _bound(form: Form, call: Call, main: int | None) -> Bound:
@@ -283,7 +305,7 @@ def _bound(form: Form, call: Call, main: int | None) -> Bound:
         choice = call.keyword(form.said.words, form.said.length)
     if form.by_hand:
         return Bound(form, {}, choice)
-    values |= Binder(call).bind(entries)
+    values |= Binder(call, choice).bind(entries)
     if form.said is not None and "word" not in form.injected:
         values.pop("word", None)
     return Bound(form, values)
@@ -318,7 +340,7 @@ def _candidates(found: Operator, call: Call) -> Iterator[tuple[Form, int | None]
 
 
 def _is_meant(form: Form, call: Call) -> bool:
-    if form.when is not None and not form.when.test(call.session):
+    if form.when is not None and not call.meets(form.when):
         return False
     return not form.of or call.stands(*form.of)
 
@@ -348,7 +370,7 @@ def _is_among(word: str, words: Sequence[str], length: int) -> bool:
 
 def _no_form(found: Operator, call: Call) -> SsiError:
     """The error where no form of an operator fits the words and types that stand there."""
-    unmet = [f.when for f in found.forms if f.when is not None and not f.when.test(call.session)]
+    unmet = [f.when for f in found.forms if f.when is not None and not call.meets(f.when)]
     words = [w for f in found.forms if f.said is not None for w in f.said.words]
     known = dict.fromkeys(t for f in found.forms if f.main is not None for t in f.main.types)
     wanted = dict.fromkeys(t for f in found.forms for t in f.of)

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from ssilang.language.registry import ANY
+from ssilang.language.registry import ANY, When
 from ssilang.language.say.errors import SsiError
 from ssilang.language.values import Mot, Procedure, Texte, type_of
 
@@ -231,6 +231,10 @@ class Call:
     def stands(self, *types: str) -> bool:
         """Whether an unread operand of one of the types stands in the phrase."""
         return any(accepts(types, o.value) for o in self.operands)
+
+    def meets(self, when: When) -> bool:
+        """Whether the session is as a form wants it."""
+        return when.test(self.session)
 
     def main_operand(self, *types: str) -> int | None:
         """Index of the operand whose type decides the form: the first of the types.

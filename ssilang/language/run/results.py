@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from functools import cache
 from typing import Any
 
-from ssilang.language.registry import ANY, Form, Like
+from ssilang.language.registry import ANY, By, Form, Like
 from ssilang.language.values import known_classes, type_of
 
 Results = tuple[str, ...]
@@ -35,6 +35,8 @@ def results_of(form: Form, values: Mapping[str, Any] | None = None) -> Results |
         return (
             tuple(type_of(v) for v in held) if isinstance(held, tuple | list) else (type_of(held),)
         )
+    if isinstance(given, By):
+        return given.of((values or {}).get(given.name))
     if given is not None:
         return given
     return _annotated(form.function)

@@ -9,11 +9,13 @@ import pytest
 from ssilang.cli.run import RunOptions, run_source
 from ssilang.language.registry import (
     OPERATORS,
+    Chosen,
     Form,
     Help,
     Like,
     When,
     arg,
+    by,
     choice,
     each,
     either,
@@ -223,3 +225,43 @@ def test_annotations_say_results():
     assert results_of(Form((), several)) == ("LISTREEL", "LISTMOTS|")
     assert results_of(Form((), nothing)) == ()
     assert results_of(Form((), some)) == ("LISTREEL|LISTENTI",)
+
+
+def test_a_number_read_before_says_how_often_a_group_is_read(declare):
+    declare(
+        opt("n", "ENTIER"),
+        each("pairs", arg("name", "MOT"), arg("value", "FLOTTANT"), times="n"),
+    )
+    assert run("A = ZZZZ 1 'UX' 1. + 2 ; A = ZZZZ 'UX' 1. 'UY' 2. ;")[0] == 0
+    assert declare.found == [
+        {"n": 1, "pairs": [("UX", 1.0)]},
+        {"n": None, "pairs": [("UX", 1.0), ("UY", 2.0)]},
+    ]
+
+
+def test_a_name_of_the_main_operand_is_no_word_that_selects(declare):
+    declare(
+        main("names", "LISTMOTS"),
+        select("what", {"TYPE": [], "TOUT": []}, optional=False, unless=lambda names: names.values),
+    )
+    declare(main("names", "LISTMOTS"), arg("name", "MOT"))
+    assert run("L = MOTS 'TYPE' ; A = ZZZZ L 'TOUT' ; A = ZZZZ L 'TYPE' ;")[0] == 0
+    assert declare.found[0]["what"].word == "TOUT"
+    assert declare.found[1]["name"] == "TYPE"
+
+
+def test_forms_that_get_equally_far_tell_together_what_they_expect(declare):
+    declare(arg("a", "MAILLAGE"))
+    declare(arg("a", "LISTREEL"))
+    output = run("A = ZZZZ 3 ;")[1]
+    assert "MAILLAGE" in output
+    assert "LISTREEL" in output
+
+
+def test_results_by_a_word():
+    form = Form((), lambda: None, gives=by("what", {"MAIL": "MAILLAGE", "PAIR": ("MOT", "MOT")}))
+    assert results_of(form, {"what": Chosen("MAIL", {})}) == ("MAILLAGE",)
+    assert results_of(form, {"what": "PAIR"}) == ("MOT", "MOT")
+    flagged = Form((), lambda: None, gives=by("all", {True: "TABLE"}, "LISTREEL"))
+    assert results_of(flagged, {"all": True}) == ("TABLE",)
+    assert results_of(flagged, {"all": False}) == ("LISTREEL",)
