@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ssilang.cli.checking.usage import statements_of
-from ssilang.language import tree
-from ssilang.language.errors import SsiError
-from ssilang.language.library import Library
+from ssilang.language.run.library import Library
+from ssilang.language.say.errors import SsiError
+from ssilang.language.text import tree
 from ssilang.language.vocabulary.entries import Declaration
 from ssilang.language.vocabulary.unread_entries import reads, unread
 

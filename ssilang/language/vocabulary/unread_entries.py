@@ -10,7 +10,7 @@ from ssilang.language.vocabulary.entries import BOTH, READ, REFUSED, WRITTEN, De
 from ssilang.language.vocabulary.spelling import near_word
 
 if TYPE_CHECKING:
-    from ssilang.language.library import Library
+    from ssilang.language.run.library import Library
 
 _COUNTS = (READ, WRITTEN, BOTH)
 
