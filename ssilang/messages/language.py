@@ -303,6 +303,12 @@ MESSAGES: dict[str, Message] = {
     ),
     "arithmetic": Message("{reason_text}", "{reason_text}"),
     "bad-value": Message("{message}", "{message}", "{hint}", "{hint}"),
+    "refused-entry": Message(
+        "{index} is refused: {problem}",
+        "{index} est refusé : {problem}",
+        "{problem!h}",
+        "{problem!h}",
+    ),
     "no-such-loop": Message(
         "no open loop or procedure is called {name}",
         "aucune boucle ou procédure ouverte ne s'appelle {name}",
