@@ -30,6 +30,17 @@ def mess(call: Call) -> None:
     call.session.print(read_text(call))
 
 
+_OF_LIBRARY = "stdlib."
+_STOPPED = 308  # Cast3M's number of an error that a script reports in its own words
+
+
+def _of_library(call: Call, code: str) -> SsiError:
+    """What a procedure of the library refuses: a code, then what fills its sentence, in order."""
+    values = call.all("MOT", "ENTIER", "FLOTTANT", "LOGIQUE")
+    data = {str(i): written(value).strip() for i, value in enumerate(values, start=1)}
+    return SsiError(code, call.span, **data, number=_STOPPED)
+
+
 # what the numbers most used in decks mean, in words of our own: English, French
 _SENTENCES: dict[int, tuple[str, str]] = {
     5: ("the deck found a result out of tolerance", "le jeu de données a trouvé un écart"),
@@ -72,8 +83,10 @@ def erre(call: Call) -> None:
     """Raise the error 'erre'."""
     number = call.read("ENTIER")
     if number is None:
-        text = call.required("MOT")
-        raise SsiError("erre", call.span, message=str(text), number=308)
+        text = str(call.required("MOT"))
+        if text.startswith(_OF_LIBRARY):
+            raise _of_library(call, text)
+        raise SsiError("erre", call.span, message=text, number=_STOPPED)
     if number.value == 0:
         return
     values: list[Any] = []
