@@ -46,8 +46,8 @@ def measure(kind: str, size: int) -> dict[str, float]:
     """One row of the table."""
     from block_3d_openseespy import peak_memory
 
-    from ssilang.kernel.dynamics.integrate import integrate
-    from ssilang.kernel.dynamics.problem import make_problem
+    from ssilang.kernel.stepping.problem.problem import make_problem
+    from ssilang.kernel.stepping.run import integrate
 
     warm, small = case_of(kind, SMALL[kind])
     integrate(make_problem(warm.inputs_of(small)[0]))  # compiles

@@ -36,17 +36,17 @@ from uplift_openseespy import (
 
 from ssilang.kernel import elements
 from ssilang.kernel.curves.curve import Curve, CurvePart, Load, LoadPart
-from ssilang.kernel.dynamics.integrate import integrate
-from ssilang.kernel.dynamics.plan import every
-from ssilang.kernel.dynamics.problem import Inputs, Problem, make_problem
-from ssilang.kernel.dynamics.reduced_run import _pair_of, integrate_reduced
-from ssilang.kernel.dynamics.reduced_trace import Trace, comparing
-from ssilang.kernel.dynamics.snapshot import Snapshot
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.matrices.assembly import assemble, numbering_of, vector_to_field
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.mesh import CellBlock
+from ssilang.kernel.stepping.problem.problem import Inputs, Problem, make_problem
+from ssilang.kernel.stepping.rests.reduced.run import _pair_of, integrate_reduced
+from ssilang.kernel.stepping.rests.reduced.trace import Trace, comparing
+from ssilang.kernel.stepping.run import integrate
+from ssilang.kernel.stepping.snapshot import Snapshot
+from ssilang.kernel.stepping.times import every
 
 TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6)
 ALPHA, BETA = 0.3, 1e-3  # of Rayleigh's damping, 1/s and s

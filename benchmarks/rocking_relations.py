@@ -43,7 +43,8 @@ settled = frame.peer_model
 
 def sparse_seconds(steps: int, folder: Path) -> float:
     """Seconds of the loop on sparse matrices."""
-    from ssilang.kernel.dynamics import engines, integrate
+    from ssilang.kernel.stepping import choose as engines
+    from ssilang.kernel.stepping import run as integrate
 
     kept = integrate.kind_of
     integrate.kind_of = lambda problem, full: engines.SparseEngine

@@ -18,11 +18,11 @@ from dataclasses import replace
 import numpy as np
 from uplift_openseespy import Case, Top, inputs_of, make_case
 
-from ssilang.kernel.dynamics.integrate import History, integrate
-from ssilang.kernel.dynamics.loading import Loading
-from ssilang.kernel.dynamics.problem import Problem, make_problem
-from ssilang.kernel.dynamics.together import integrate_together
 from ssilang.kernel.solvers.backends import keep_factors
+from ssilang.kernel.stepping.problem.loading import Loading
+from ssilang.kernel.stepping.problem.problem import Problem, make_problem
+from ssilang.kernel.stepping.run import History, integrate
+from ssilang.kernel.stepping.run_many import integrate_together
 
 STEPS, TURNS, AGREEMENT = 200, 3, 1e-11
 COUNTS = (1, 4, 8, 16)

@@ -17,11 +17,11 @@ import numpy as np
 from uplift_openseespy import DT, inputs_of, make_case
 
 from ssilang.kernel.base.compiled.compiler import compiled_fast
-from ssilang.kernel.dynamics.effective import effective_matrix, effective_of
-from ssilang.kernel.dynamics.integrate import Integration
-from ssilang.kernel.dynamics.interleaved_loop import InterleavedLoop
-from ssilang.kernel.dynamics.problem import make_problem
-from ssilang.kernel.solvers.dissected import DissectedFactor
+from ssilang.kernel.solvers.cholesky.dissected import DissectedFactor
+from ssilang.kernel.stepping.effective import effective_matrix, effective_of
+from ssilang.kernel.stepping.problem.problem import make_problem
+from ssilang.kernel.stepping.rests.sparse.interleaved import InterleavedLoop
+from ssilang.kernel.stepping.run import Integration
 
 STEPS = 64
 

@@ -23,15 +23,15 @@ import numpy as np
 
 from ssilang.kernel import elements
 from ssilang.kernel.curves.curve import Curve, CurvePart, Load, LoadPart
-from ssilang.kernel.dynamics.integrate import integrate
-from ssilang.kernel.dynamics.problem import Inputs, make_problem
-from ssilang.kernel.dynamics.snapshot import Snapshot
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.matrices.assembly import assemble, numbering_of, vector_to_field
 from ssilang.kernel.matrices.matrix import Matrix, Relations
 from ssilang.kernel.mesh.mesh import CellBlock
 from ssilang.kernel.mesh.nodes import NodeTable
+from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
+from ssilang.kernel.stepping.run import integrate
+from ssilang.kernel.stepping.snapshot import Snapshot
 
 DT, SIZE, GRAVITY = 5e-3, 0.5, 9.81
 SOIL, BLOCK = (5e7, 0.3, 1900.0), (2e9, 0.25, 1200.0)  # Young's modulus, Poisson's ratio, density

@@ -2,7 +2,8 @@
 
     python docs/build.py [FOLDER]        (default docs/reference)
 
-One page an operator and a procedure: syntax, arguments, help, each example with what it printed
+The pages are made, not kept: the repository has what they are made from. One page an operator and a
+procedure: syntax, arguments, help, each example with what it printed
 when it ran here, and the pictures it drew. `index.md` lists them by family, `coverage.md` says of
 every word of Cast3M whether it is built.
 """
@@ -29,6 +30,8 @@ from ssilang.language.say.reference import (
     operator_page,
     procedure_page,
 )
+from ssilang.language.vocabulary.entries import read_declaration
+from ssilang.language.vocabulary.entries_table import entries_markdown
 from ssilang.operators.loader import load_operators
 
 _HERE = Path(__file__).resolve().parent
@@ -80,9 +83,12 @@ def page_markdown(page: Page, examples: Iterable[Ran]) -> str:
         syntax = [line.rstrip() for line in page.help.syntax.split("\n")]
         lines += ["## Syntax", "", "```", *syntax, "```", ""]
     lines += _arguments(page)
+    declared = read_declaration(page.name)
+    lines += [] if declared is None else entries_markdown(declared, "en")
     for ran in examples:
         lines += _example(ran)
     lines += ["## En français", "", page.help.fr.replace("\n", "\n\n"), ""]
+    lines += [] if declared is None else entries_markdown(declared, "fr")
     return "\n".join(lines)
 
 

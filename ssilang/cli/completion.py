@@ -7,6 +7,7 @@ import re
 from ssilang.language.registry import find_operator, keywords_of, operators_by_family
 from ssilang.language.run.session import Session
 from ssilang.language.values import Table
+from ssilang.language.vocabulary import words_of
 
 _CONTROL = ("SI", "SINON", "FINSI", "REPETER", "FIN", "QUITTER", "ITERER", "DEBPROC", "FINPROC")
 _WORD = re.compile(r"[@&!#%]?\w*$")
@@ -66,7 +67,7 @@ def _keywords(text: str) -> list[str]:
     for word in reversed(_ANY_WORD.findall(re.sub(r"'[^']*'?", " ", _statement(text)))):
         found = find_operator(word.upper())
         if found is not None and word[0].isalpha():
-            return keywords_of(found)
+            return [*keywords_of(found), *words_of(found.name)]
     return []
 
 

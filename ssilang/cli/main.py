@@ -44,8 +44,8 @@ def _parser() -> argparse.ArgumentParser:
     check.add_argument("files", nargs="+")
     check.add_argument("--syntax-only", action="store_true", help="structure alone")
     check.add_argument("--lang", choices=("en", "fr"), default="en", help="language of messages")
-    helper = commands.add_parser("help", help="help of an operator or procedure")
-    helper.add_argument("word", nargs="?", default="")
+    helper = commands.add_parser("help", help="help of a word, or what is known about it")
+    helper.add_argument("word", nargs="*")
     helper.add_argument("--lang", choices=("en", "fr"), default="en")
     _sweep_arguments(commands.add_parser("sweep", help="run a script over parameters and motions"))
     repl = commands.add_parser("repl", help="interactive session")
@@ -95,7 +95,7 @@ def _run_arguments(parser: argparse.ArgumentParser) -> None:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Entry point; returns the exit code (0 fine, 1 the script failed, 2 wrong usage)."""
-    words = list(sys.argv[1:] if arguments is None else arguments)
+    words = _command_first(list(sys.argv[1:] if arguments is None else arguments))
     named = bool(words) and words[0] in (*_COMMANDS, "-h", "--help", "--version")
     parser = _parser()
     options = parser.parse_args(words if named else ["run", *words])
@@ -119,8 +119,21 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except BrokenPipeError:
         return _leave_quietly()
     except KeyboardInterrupt:  # while the program starts, or a check or a sweep goes on
-        sys.stderr.write("error: interrupted\n")
+        from ssilang.language.say.diagnostics import render
+        from ssilang.language.say.errors import SsiError
+
+        told = render(SsiError("interrupted", None), getattr(options, "lang", "en"))
+        sys.stderr.write(told + "\n")
         return FAILED
+
+
+def _command_first(words: list[str]) -> list[str]:
+    """The arguments with the command in front of a --lang that is written before it."""
+    length = 1 if words[:1] and words[0].startswith("--lang=") else 2
+    leads = bool(words) and words[0].partition("=")[0] == "--lang"
+    if not leads or words[length : length + 1] == [] or words[length] not in _COMMANDS:
+        return words
+    return [words[length], *words[:length], *words[length + 1 :]]
 
 
 def _leave_quietly() -> int:
@@ -178,18 +191,19 @@ def _run_options(options: argparse.Namespace) -> RunOptions:
 def _given(settings: list[str], language: str) -> dict[str, object]:
     """Values of `--set`, one each."""
     from ssilang.cli.sweeping.given import GivenError, parse_setting
-    from ssilang.language.say.diagnostics import placeless
+    from ssilang.language.say.diagnostics import render
+    from ssilang.language.say.errors import SsiError
 
     given: dict[str, object] = {}
     for text in settings:
         try:
             name, values = parse_setting(text)
         except GivenError as problem:
-            sys.stderr.write(placeless(str(problem), language) + "\n")
+            sys.stderr.write(render(SsiError.of(problem, None), language) + "\n")
             raise SystemExit(USAGE) from None
         if len(values) != 1:
-            several = f"{text} gives {name} several values: that is a sweep"
-            sys.stderr.write(placeless(several, language) + "\n")
+            several = SsiError("cli.several-values", None, text=text, name=name)
+            sys.stderr.write(render(several, language) + "\n")
             raise SystemExit(USAGE)
         given[name] = values[0]
     return given
@@ -227,7 +241,7 @@ def _check(options: argparse.Namespace) -> int:
 def _help(options: argparse.Namespace) -> int:
     from ssilang.cli.helping import show_help
 
-    return show_help(options.word, options.lang, sys.stdout)
+    return show_help(" ".join(options.word), options.lang, sys.stdout)
 
 
 def _repl(options: argparse.Namespace) -> int:

@@ -176,7 +176,7 @@ def _close_files(session: Session, errors: list[SsiError]) -> None:
     try:
         run_output(session).close()
     except OutputError as problem:
-        errors.append(SsiError(problem.code, None, **problem.data))
+        errors.append(SsiError.of(problem, None))
 
 
 def _summarise(result: RunResult, source: Source, err: TextIO) -> None:
@@ -189,8 +189,7 @@ def _summarise(result: RunResult, source: Source, err: TextIO) -> None:
     try:
         write_summary(result.session, source, output, result.errors, result.exit_code)
     except OutputError as problem:
-        told = SsiError(problem.code, None, **problem.data)
-        err.write(render(told, result.session.language) + "\n")
+        err.write(render(SsiError.of(problem, None), result.session.language) + "\n")
         result.exit_code = 1
         return
     if err.isatty() and output.files:

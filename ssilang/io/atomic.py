@@ -55,7 +55,4 @@ def _umask() -> int:
 
 
 def _unwritable(path: Path, error: OSError) -> OutputError:
-    return OutputError(
-        f"{path} cannot be written: {error.strerror or error}",
-        "check the directory given by --out, its rights and the space left on the disk",
-    )
+    return OutputError("io.cannot-written", path=path, strerror=error.strerror or error)

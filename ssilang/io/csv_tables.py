@@ -81,7 +81,7 @@ def read_csv(path: Path, separator: str = ";", first_line: int = 1) -> Rows:
     try:
         text = path.read_text(encoding="utf-8", errors="replace")
     except OSError as error:
-        raise InputError(f"{path} cannot be read: {error.strerror}") from error
+        raise InputError("io.cannot-read", path=path, strerror=error.strerror) from error
     regular = _regular(text, separator, first_line)
     if regular is not None:
         return regular
@@ -114,15 +114,9 @@ def _number(cell: str, path: Path, line: int) -> float:
     try:
         value = float(text.replace("D", "E").replace("d", "e"))
     except ValueError:
-        raise InputError(
-            f"{path.name}, line {line}: '{text}' is no number",
-            "begin behind the titles with 'DEBU', or name another separator with 'SEPA'",
-        ) from None
+        raise InputError("io.line-no-number", name=path.name, line=line, text=text) from None
     if not math.isfinite(value):
-        raise InputError(
-            f"{path.name}, line {line}: '{text}' is no finite number",
-            "a gap in a record: fill it before, or leave the line out",
-        )
+        raise InputError("io.line-no-finite-number", name=path.name, line=line, text=text)
     return value
 
 

@@ -47,13 +47,12 @@ def read_peer(path: Path) -> PeerRecord:
     try:
         lines = path.read_text(encoding="latin-1").splitlines()
     except OSError as error:
-        raise InputError(f"{path} cannot be read: {error.strerror}") from error
+        raise InputError("io.cannot-read", path=path, strerror=error.strerror) from error
     count, dt = _sizes(path, lines)
     values = np.array([float(t.upper().replace("D", "E")) for t in _values(path, lines)])
     if len(values) < count:
         raise InputError(
-            f"{path.name}: line 4 says {count} values, the file holds {len(values)}",
-            "the file is cut: fetch it again",
+            "io.line-says-values-file", name=path.name, count=count, n_values=len(values)
         )
     quantity = next((w for k, w in _QUANTITIES.items() if k in lines[2].upper()), "ACCE")
     return PeerRecord(values[:count], dt, lines[1].strip(), quantity)
@@ -66,16 +65,13 @@ def _sizes(path: Path, lines: list[str]) -> tuple[int, float]:
                 dt = float(found[2].rstrip(".").upper().replace("D", "E") or "nan")
                 if dt > 0.0:
                     return int(found[1]), dt
-    raise InputError(
-        f"{path.name}: line 4 has no 'NPTS= ..., DT= ... SEC'",
-        "a PEER file has 4 lines of text before its values; LIRE 'CSV' reads plain columns",
-    )
+    raise InputError("io.line-no-npts-dt", name=path.name)
 
 
 def _values(path: Path, lines: list[str]) -> list[str]:
     found: list[str] = []
     for number, line in enumerate(lines[_HEADER:], start=_HEADER + 1):
         if (rest := _NUMBER.sub("", line).strip()) != "":
-            raise InputError(f"{path.name}, line {number}: '{rest[:20]}' is no number")
+            raise InputError("io.line-no-number-2", name=path.name, number=number, rest=rest[:20])
         found += _NUMBER.findall(line)
     return found

@@ -26,7 +26,8 @@ class Argument:
     means; `kind` is the kind of words of the vocabulary that a MOT is one of ('component',
     'parameter' ...). The `main` operand decides which form of an operator runs: it is the first
     of the types that the operator knows as main ones, one or two words may stand before it.
-    A repeated one leaves the last `leaving` operands of the types `left` for what follows.
+    A repeated one leaves the last `leaving` operands of the types `left` for what follows; of a
+    keyword's it may take only those `behind` the word.
     """
 
     name: str
@@ -41,6 +42,7 @@ class Argument:
     main: bool = False
     leaving: int = 0
     left: tuple[str, ...] = ()
+    behind: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -164,6 +166,7 @@ def many(
     at_least: Literal[0, 1] = 0,
     leaving: int = 0,
     left: Sequence[str] = (),
+    behind: bool = False,
     en: str = "",
     fr: str = "",
     unit: str = "",
@@ -172,7 +175,8 @@ def many(
     """All operands of one of the types that can be read, as a tuple.
 
     With `leaving`, the last ones (of the types `left`, or of any that is read) stay for what
-    follows: objects to turn, then the points of the axis.
+    follows: objects to turn, then the points of the axis. With `behind`, a keyword takes only
+    those that stand behind it.
     """
     return Argument(
         name,
@@ -186,6 +190,7 @@ def many(
         kind=kind,
         leaving=leaving,
         left=tuple(left),
+        behind=behind,
     )
 
 
@@ -336,11 +341,14 @@ class Form:
     of: tuple[str, ...] = ()  # an operand of one of these types stands in the phrase
 
     @property
-    def said(self) -> Keyword | None:
-        """The words of which one says that this form is meant."""
-        first = self.entries[0] if self.entries else None
-        fixed = isinstance(first, Keyword) and first.name == "word" and not first.arguments
-        return first if fixed and isinstance(first, Keyword) else None
+    def said(self) -> Keyword | Select | None:
+        """The words of which one says that this form is meant: `said`, or a mandatory `select`."""
+        match self.entries[:1] if self.entries else ():
+            case (Keyword(name="word", arguments=()) as first,):
+                return first
+            case (Select(optional=False) as first,):
+                return first
+        return None
 
     @property
     def main(self) -> Argument | None:

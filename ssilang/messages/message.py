@@ -7,7 +7,8 @@ fill the templates:
 ===============================  ==================================================================
 `{size:.3g}`                     as in str.format
 `{names}`                        a collection: `a, b, c`; `{values:.3g}` shows each in that way
-`{names:and}` `{names:or}`       `a, b and c`, in French `a, b et c`; `{names:words}`: blanks
+`{names:and}` `{names:or}`       `a, b and c`, in French `a, b et c`
+`{names:words}` `{parts:;}`      `a b c`, `a; b; c`
 `{count:node|nodes}`             singular or plural, by a number or the size of a collection
 `{near:?did you mean {near}?}`   a part that stands only where `near` says something;
                                  `{near:?there is {near}|nothing}` has another one for else
@@ -30,7 +31,11 @@ Severity = Literal["error", "warning"]
 
 _LAST = {"and": {"en": " and ", "fr": " et "}, "or": {"en": " or ", "fr": " ou "}}
 _SINGULAR = {"en": (1,), "fr": (0, 1)}
-_JOINTS = {*_LAST, "words"}
+_BETWEEN = {
+    "": {"en": ", ", "fr": ", "},
+    "words": {"en": " ", "fr": " "},
+    ";": {"en": "; ", "fr": " ; "},
+}
 _COLON = {"en": ": ", "fr": " : "}
 
 
@@ -66,6 +71,35 @@ class Sentence:
 
     def __init__(self, code: str, /, **data: object) -> None:
         self.code, self.data = code, data
+
+    def __str__(self) -> str:
+        """In English."""
+        return sentence(self.code, self.data)
+
+
+class Refusal(Exception):
+    """What is refused, and why: a code and data, from which a sentence is made at the very end.
+
+    Parameters
+    ----------
+    code : str
+        Key of a message, such as 'kernel.mesh.no-area'.
+    **data
+        What fills its sentence and its hint. An error that led to this one is data too.
+    """
+
+    def __init__(self, code: str, /, **data: object) -> None:
+        super().__init__(code)
+        self.code, self.data = code, data
+
+    def __str__(self) -> str:
+        """The sentence in English."""
+        return sentence(self.code, self.data)
+
+    @property
+    def hint(self) -> str:
+        """What to change to get further, in English, '' if nothing is known."""
+        return hint(self.code, self.data)
 
 
 def find(code: str) -> Message:
@@ -109,37 +143,42 @@ def sentence(code: str, data: Mapping[str, Any], language: str = "en") -> str:
     return f"{data['speaker']}{_COLON[language]}{text}" if "speaker" in data else text
 
 
-def hint(code: str, data: Mapping[str, Any], language: str = "en") -> str:
-    """What to do about it, '' if nothing is known."""
+def hint(code: str, data: Mapping[str, Any], language: str = "en", script: bool = False) -> str:
+    """What to do about it, '' if nothing is known; `script`: in the words of scripts."""
     message, data = find(code), _translated(code, data, language)
-    return filled(message.hint_en if language == "en" else message.hint_fr, data, language)
+    hints = (message.hint_en, message.hint_fr)
+    if script and code.startswith("kernel."):
+        from ssilang.messages.script import HINTS
+
+        hints = HINTS.get(code, hints)
+    return filled(hints[0] if language == "en" else hints[1], data, language, script)
 
 
-def filled(template: str, data: Mapping[str, Any], language: str) -> str:
+def filled(template: str, data: Mapping[str, Any], language: str, script: bool = False) -> str:
     """A template with its data put in."""
+
+    def told(part: str) -> str:
+        return filled(part, data, language, script)
+
     made = []
     for literal, name, spec, conversion in Formatter().parse(template):
         made.append(literal)
         if name is not None:
-            made.append(_field(data[name], spec or "", conversion, data, language))
+            value, spec = data[name], spec or ""
+            if spec[:1] == "?":
+                there, absent = [*_branches(spec[1:]), ""][:2]
+                made.append(told(there if _says(value) else absent))
+            elif "|" in spec:
+                made.append(told(_branches(spec)[not _is_one(value, language)]))
+            elif conversion == "h" and isinstance(value, Said):
+                made.append(hint(value.code, value.data, language, script))
+            else:
+                made.append(repr(value) if conversion == "r" else _shown(value, spec, language))
     return "".join(made)
 
 
-def _field(
-    value: object, spec: str, conversion: str | None, data: Mapping[str, Any], language: str
-) -> str:
-    if spec[:1] == "?":
-        there, absent = [*_branches(spec[1:]), ""][:2]
-        return filled(there if _says(value) else absent, data, language)
-    if "|" in spec:
-        one, several = _branches(spec)
-        count = len(value) if _is_several(value) else value
-        return filled(one if count in _SINGULAR[language] else several, data, language)
-    if conversion == "h" and isinstance(value, Said):
-        return hint(value.code, value.data, language)
-    if conversion == "r":
-        return repr(value)
-    return _shown(value, spec, language)
+def _is_one(value: object, language: str) -> bool:
+    return (len(value) if _is_several(value) else value) in _SINGULAR[language]
 
 
 def _branches(spec: str) -> list[str]:
@@ -168,8 +207,10 @@ def _shown(value: object, spec: str, language: str) -> str:
         return sentence(value.code, value.data, language)
     if not _is_several(value):
         return format(value, spec)
-    joint, _, form = spec.partition(" ") if spec.split(" ")[0] in _JOINTS else ("", "", spec)
+    joint, _, form = spec.partition(" ")
+    if joint not in _LAST and joint not in _BETWEEN:
+        joint, form = "", spec
     words = [_shown(v, form, language) for v in value]
     if joint in _LAST and len(words) > 1:
         return ", ".join(words[:-1]) + _LAST[joint][language] + words[-1]
-    return (" " if joint == "words" else ", ").join(words)
+    return _BETWEEN.get(joint, _BETWEEN[""])[language].join(words)

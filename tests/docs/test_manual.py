@@ -38,6 +38,14 @@ def test_a_page_shows_syntax_help_and_what_the_example_printed(build, tmp_path):
     assert "\nprints\n\n```\n2\n```" in text
 
 
+def test_every_page_can_be_made(build):
+    for page in build.all_pages():
+        text = build.page_markdown(page, [build.Ran(e) for e in page.help.examples])
+        assert text.startswith(f"# {page.name}")
+        assert all(line.strip() in text for line in page.help.syntax.split("\n"))
+        assert text.count("## Example") == len(page.help.examples)
+
+
 def test_every_operator_is_in_the_index_and_has_a_file_name_of_its_own(build):
     pages = build.all_pages()
     names = [build.file_name(p.name) for p in pages]

@@ -92,7 +92,7 @@ def test_a_matrix_of_two_unit_systems_is_warned_of_by_its_condition_number(outco
 @pytest.mark.parametrize(
     ("change", "said"),
     [
-        ("C = MATE M 'KN' 1. 'KS' 1. 'DIM3' -1. ;", "has a negative area"),
+        ("C = MATE M 'KN' 1. 'KS' 1. 'DIM3' -1. ;", "parameter DIM3 = -1 is out of its range"),
         ("C = MATE M 'KN' 1. 'KS' 1. ;", ""),
     ],
 )

@@ -6,14 +6,14 @@ import numpy as np
 
 from ssilang.kernel import elements
 from ssilang.kernel.curves.curve import Curve, CurvePart, Load, LoadPart
-from ssilang.kernel.dynamics.problem import Inputs, Problem, make_problem
-from ssilang.kernel.dynamics.scheme import Scheme
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.matrices.assembly import assemble, numbering_of, vector_to_field
 from ssilang.kernel.matrices.matrix import Matrix, Relations
 from ssilang.kernel.mesh.mesh import CellBlock
 from ssilang.kernel.mesh.nodes import NodeTable
+from ssilang.kernel.stepping.problem.problem import Inputs, Problem, make_problem
+from ssilang.kernel.stepping.scheme import Scheme
 
 FRICTION = {"KN": 2e8, "KS": 1e8, "FROT": 0.6}
 RAYLEIGH = (0.5, 2e-3)

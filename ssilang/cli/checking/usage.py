@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import difflib
 import re
 from collections.abc import Iterable, Iterator
 
+from ssilang.language.near import VERY_LIKE, nearest
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text import tree
 
 _NAME = re.compile(r"[@&!]?[^\W\d]\w*")
 _SHORTEST = 4  # letters of a word that may be a misspelt name
-_LIKENESS = 0.8
 _WHOLE_SESSION = frozenset({"SAUV", "LIST", "REST", "NOMM"})  # may read any name
 
 
@@ -63,12 +62,12 @@ def misspelt_names(
         for item in _bare_names(statement.items[1:] if not statement.assigns else statement.items):
             if len(item.text) < _SHORTEST or item.text in names or item.text[:4] in words:
                 continue
-            near = difflib.get_close_matches(item.text, long_names, 1, _LIKENESS)
+            near = nearest(item.text, long_names, VERY_LIKE)
             # a word with a letter in front or behind is a name made from a keyword
-            made = bool(near) and (near[0] in item.text or item.text in near[0])
+            made = near in item.text or item.text in near
             if near and not made and item.text not in found:
                 found[item.text] = SsiError(
-                    "perhaps-misspelt", item.span, name=item.text, like=near[0]
+                    "perhaps-misspelt", item.span, name=item.text, like=near
                 )
     return list(found.values())
 

@@ -17,9 +17,9 @@ from typing import TYPE_CHECKING
 from ssilang.cli.sweeping.worker import Row, Task, Work, lost_row, run_task
 
 if TYPE_CHECKING:
-    from ssilang.kernel.dynamics.integrate import History, Progress
-    from ssilang.kernel.dynamics.problem import Problem
-    from ssilang.kernel.dynamics.snapshot import Observer
+    from ssilang.kernel.stepping.problem.problem import Problem
+    from ssilang.kernel.stepping.run import History, Progress
+    from ssilang.kernel.stepping.snapshot import Observer
 
 STACK = 64 << 20  # bytes of a thread's stack: scripts may nest procedures as deep as in a process
 
@@ -74,7 +74,7 @@ class Gathering:
         """Integrate what waits if no run is awake that could add to it."""
         if self._awake or not self._waiting:
             return
-        from ssilang.kernel.dynamics.together import integrate_together
+        from ssilang.kernel.stepping.run_many import integrate_together
 
         requests, self._waiting = self._waiting, []
         parts = [(r.problem, r.observers, r.progress) for r in requests]

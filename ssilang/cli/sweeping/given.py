@@ -9,6 +9,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from ssilang.messages.message import Refusal
+
 Value = int | float | bool | str
 
 MOTION = "MOTION"
@@ -19,7 +21,7 @@ _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([EeDd][+-]?\d+)?")
 MOST_VALUES = 1_000_000
 
 
-class GivenError(Exception):
+class GivenError(Refusal):
     """A value of the command line that cannot be read."""
 
 
@@ -51,10 +53,10 @@ def parse_values(text: str) -> list[Value]:
     assert isinstance(last, int | float)
     assert isinstance(step, int | float)
     if step == 0 or (last - first) / step < 0:
-        raise GivenError(f"the range {text} has no values: it is first:last:step")
+        raise GivenError("cli.range-no-values-first", text=text)
     count = int((last - first) / step + 1e-9) + 1
     if count > MOST_VALUES:
-        raise GivenError(f"the range {text} has {count} values")
+        raise GivenError("cli.range-values", text=text, count=count)
     if all(isinstance(v, int) for v in (first, last, step)):
         return [first + i * step for i in range(count)]
     return [float(f"{first + i * step:.12g}") for i in range(count)]
@@ -71,7 +73,7 @@ def parse_setting(text: str) -> tuple[str, list[Value]]:
     name, sign, values = text.partition("=")
     name = name.strip().upper()
     if not sign or not _NAME.fullmatch(name) or not values.strip():
-        raise GivenError(f"'{text}' is not NAME=VALUE, such as AG=0.3 or AG=0.1:1.0:0.1")
+        raise GivenError("cli.not-name-value-ag", text=text)
     return name, parse_values(values)
 
 
@@ -104,20 +106,20 @@ def cases_of(settings: Sequence[str], motions: Path | None) -> list[Case]:
     for text in settings:
         name, values = parse_setting(text)
         if name in axes:
-            raise GivenError(f"{name} is set twice")
+            raise GivenError("cli.set-twice", name=name)
         axes[name] = values
     if motions is not None:
         axes[MOTION] = [*_files_of(motions)]
     if not axes:
-        raise GivenError("nothing to sweep: give --set NAME=VALUES or --motions DIR")
+        raise GivenError("cli.nothing-sweep-set-name")
     rows = itertools.product(*axes.values())
     return [Case(i, dict(zip(axes, row, strict=True))) for i, row in enumerate(rows, start=1)]
 
 
 def _files_of(folder: Path) -> list[str]:
     if not folder.is_dir():
-        raise GivenError(f"{folder} is not a folder of ground motions")
+        raise GivenError("cli.not-folder-ground-motions", folder=folder)
     files = sorted(p for p in folder.iterdir() if p.is_file() and not p.name.startswith("."))
     if not files:
-        raise GivenError(f"there is no file in {folder}")
+        raise GivenError("cli.no-file", folder=folder)
     return [str(p.resolve()) for p in files]

@@ -14,7 +14,8 @@ from ssilang.cli.sweeping.pool import dask_installed, one_thread, run_on_cluster
 from ssilang.cli.sweeping.table import can_write, draw_figures, write_table
 from ssilang.cli.sweeping.trunk import run_all
 from ssilang.cli.sweeping.worker import ROW, Task
-from ssilang.language.say.diagnostics import placeless
+from ssilang.language.say.diagnostics import render
+from ssilang.language.say.errors import SsiError
 
 TABLE = "sweep.parquet"
 TOGETHER = 8
@@ -44,8 +45,12 @@ def sweep(options: SweepOptions, out: TextIO, err: TextIO) -> int:
     try:
         cases = _checked_cases(options)
         text = options.deck.read_text(encoding="utf-8", errors="replace")
-    except (GivenError, OSError) as problem:
-        err.write(placeless(str(problem), options.language) + "\n")
+    except GivenError as problem:
+        err.write(render(SsiError.of(problem, None), options.language) + "\n")
+        return 2
+    except OSError as problem:
+        lost = SsiError("missing-file", None, path=options.deck, reason=problem.strerror)
+        err.write(render(lost, options.language) + "\n")
         return 2
     folder = (options.out or Path("results") / f"{options.deck.stem}_sweep").resolve()
     tasks = [_task(case, options, folder / "runs" / case.key(text)) for case in cases]
@@ -62,9 +67,9 @@ def sweep(options: SweepOptions, out: TextIO, err: TextIO) -> int:
 
 def _checked_cases(options: SweepOptions) -> list[Case]:
     if not can_write():
-        raise GivenError("a sweep writes Parquet: pip install 'ssilang[sweep]'")
+        raise GivenError("cli.sweep-writes-parquet-pip")
     if options.scheduler and not dask_installed():
-        raise GivenError("a cluster needs dask.distributed: pip install 'ssilang[cluster]'")
+        raise GivenError("cli.cluster-needs-dask-distributed")
     return cases_of(options.settings, options.motions)
 
 

@@ -55,7 +55,7 @@ def packing_of(cls: type) -> tuple[str, Packing] | None:
 def packing_named(tag: str) -> Packing:
     """The packing registered under a tag."""
     if tag not in _PACKINGS:
-        raise InputError(f"the save file holds an object of unknown kind '{tag}'")
+        raise InputError("io.save-file-holds-object", tag=tag)
     return _PACKINGS[tag]
 
 
@@ -69,7 +69,7 @@ def class_name(cls: type) -> str:
     """
     name = f"{cls.__module__}:{cls.__qualname__}"
     if not name.startswith(_TRUSTED) or not (is_dataclass(cls) or issubclass(cls, Enum)):
-        raise OutputError(f"an object of class {cls.__name__} cannot be saved")
+        raise OutputError("io.object-class-cannot-saved", name=cls.__name__)
     return name
 
 
@@ -83,13 +83,13 @@ def class_named(name: str) -> type:
     """
     module, _, qualname = name.partition(":")
     if not name.startswith(_TRUSTED) or "." in qualname:
-        raise InputError(f"the save file asks for '{name}', which is no saved object's class")
+        raise InputError("io.save-file-asks-no", name=name)
     try:
         found = getattr(importlib.import_module(module), qualname)
     except (ImportError, AttributeError):
-        raise InputError(f"the save file asks for '{name}', which does not exist here") from None
+        raise InputError("io.save-file-asks-not", name=name) from None
     if not (isinstance(found, type) and (is_dataclass(found) or issubclass(found, Enum))):
-        raise InputError(f"the save file asks for '{name}', which is no saved object's class")
+        raise InputError("io.save-file-asks-no", name=name)
     return found
 
 

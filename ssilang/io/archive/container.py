@@ -97,12 +97,9 @@ def read_archive(path: Path) -> Archive:
     except (OSError, KeyError, ValueError, TypeError, zipfile.BadZipFile) as error:
         raise _unreadable(path, error) from error
     if version > VERSION:
-        raise InputError(f"{path.name} was written by a later version of ssilang")
+        raise InputError("io.written-later-version-ssilang", name=path.name)
     return Archive(path, objects, records, settings, file)
 
 
 def _unreadable(path: Path, error: Exception) -> InputError:
-    return InputError(
-        f"{path.name} is no file that SAUV of ssilang wrote: {error}",
-        "files of Cast3M itself cannot be restored",
-    )
+    return InputError("io.no-file-sauv-ssilang", name=path.name, error=error)

@@ -49,7 +49,7 @@ class Decoder:
         except KernelError:
             raise
         except (IndexError, KeyError, TypeError, ValueError, AttributeError) as error:
-            raise InputError(f"{self._archive.path.name} is damaged: {error}") from error
+            raise InputError("io.damaged", name=self._archive.path.name, error=error) from error
 
     def _decoded(self, code: list[Any]) -> Any:
         kind, what = code[0], code[1]
@@ -71,7 +71,7 @@ class Decoder:
             made = np.empty(int(np.prod(what)), dtype=object)
             made[:] = [self.decode(v) for v in code[2]]
             return made.reshape(what)
-        raise InputError(f"{self._archive.path.name} holds an unknown kind of data '{kind}'")
+        raise InputError("io.holds-unknown-kind-data", name=self._archive.path.name, kind=kind)
 
     def _object(self, number: int) -> Any:
         if number in self._made:

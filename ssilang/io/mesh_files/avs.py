@@ -69,14 +69,14 @@ def structure_of(
     cells = []
     for number, block in enumerate(mesh.blocks, start=1):
         if block.cell_type not in _KINDS:
-            raise OutputError(f"cells {block.cell_type} have no AVS counterpart")
+            raise OutputError("io.cells-no-avs-counterpart", cell_type=block.cell_type)
         cells.append((block.cell_type, number, np.searchsorted(ids, block.connectivity)))
     nodal = {}
     if node_field is not None:
         nodal = {c: node_field.values_at(c, ids) for c in node_field.components}
     means = cell_means(cell_field, mesh) if cell_field is not None else {}
     if any(np.isnan(v).any() for v in means.values()):
-        raise OutputError("the field in cells does not cover the mesh")
+        raise OutputError("io.field-cells-not-cover")
     values = {} if time is None else {"time": time}
     return Structure(mesh.nodes.coordinates[ids], cells, nodal, means, values)
 
@@ -120,7 +120,7 @@ def read_avs(path: Path, skip: int = 0) -> Structure | None:
     try:
         text = path.read_text(encoding="latin-1")
     except OSError as error:
-        raise InputError(f"{path} cannot be read: {error.strerror}") from error
+        raise InputError("io.cannot-read", path=path, strerror=error.strerror) from error
     lines = iter([t for t in text.splitlines() if t.strip() and not t.startswith("#")])
     try:
         for _ in range(skip):
@@ -128,7 +128,7 @@ def read_avs(path: Path, skip: int = 0) -> Structure | None:
                 return None
         return _structure(lines)
     except (ValueError, IndexError, StopIteration, KeyError, RuntimeError) as error:
-        raise InputError(f"{path.name} is no readable AVS file: {error}") from error
+        raise InputError("io.no-readable-avs-file", name=path.name, error=error) from error
 
 
 def _structure(lines: Iterator[str]) -> Structure | None:

@@ -22,7 +22,7 @@ def stl_lines(mesh: Mesh, name: str = "surface") -> list[str]:
     """
     others = {b.cell_type for b in mesh.blocks} - {"TRI3"}
     if others or not mesh.blocks:
-        raise OutputError(f"STL holds TRI3 only, the mesh has {', '.join(others) or 'no cells'}")
+        raise OutputError("io.stl-holds-tri3-only", others=others)
     lines = [f"solid {name}"]
     for block in mesh.blocks:
         corners = block.coordinates
@@ -49,7 +49,7 @@ def read_stl(path: Path) -> FloatArray:
     try:
         raw = path.read_bytes()
     except OSError as error:
-        raise InputError(f"{path} cannot be read: {error.strerror}") from error
+        raise InputError("io.cannot-read", path=path, strerror=error.strerror) from error
     if len(raw) >= 84:
         (count,) = struct.unpack_from("<I", raw, 80)
         if len(raw) == 84 + 50 * count:
@@ -61,7 +61,7 @@ def read_stl(path: Path) -> FloatArray:
     try:
         corners = np.array(rows, dtype=float).reshape(-1, 3, 3)
     except ValueError as error:
-        raise InputError(f"{path.name} is no readable STL file: {error}") from error
+        raise InputError("io.no-readable-stl-file", name=path.name, error=error) from error
     if len(corners) == 0:
-        raise InputError(f"{path.name} holds no triangles")
+        raise InputError("io.holds-no-triangles", name=path.name)
     return corners

@@ -54,7 +54,7 @@ def read_unv(path: Path) -> UnvMesh:
     try:
         lines = path.read_text(encoding="latin-1").splitlines()
     except OSError as error:
-        raise InputError(f"{path} cannot be read: {error.strerror}") from error
+        raise InputError("io.cannot-read", path=path, strerror=error.strerror) from error
     labels: list[int] = []
     points: list[list[float]] = []
     rows: list[tuple[int, str, list[int]]] = []
@@ -68,9 +68,9 @@ def read_unv(path: Path) -> UnvMesh:
             elif number in (2467, 2470, 2477, 2435, 2452):
                 groups += _read_groups(body)
     except (ValueError, IndexError, KeyError) as error:
-        raise InputError(f"{path.name} is no readable UNV file: {error}") from error
+        raise InputError("io.no-readable-unv-file", name=path.name, error=error) from error
     if not points:
-        raise InputError(f"{path.name} holds no nodes (dataset 2411)")
+        raise InputError("io.holds-no-nodes-dataset", name=path.name)
     return _gathered(labels, points, rows, groups)
 
 

@@ -19,7 +19,7 @@ def formatted(descriptor: str, value: float) -> str:
     """
     match = _DESCRIPTOR.match(descriptor.strip())
     if match is None:
-        raise OutputError(f"'{descriptor}' is no number format", "write '(F6.2)' or '(I4)'")
+        raise OutputError("io.no-number-format", descriptor=descriptor)
     kind = match.group(1).upper()
     digits = int(match.group(3) or 0)
     if kind == "I":

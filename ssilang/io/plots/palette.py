@@ -58,7 +58,7 @@ def shade(colour: int | str) -> str:
     if isinstance(colour, str):
         colour = index_of(colour)
     if not 0 <= colour < len(NAMES):
-        raise OutputError(f"colour number {colour} is not in 0..{len(NAMES) - 1}")
+        raise OutputError("io.colour-number-not", colour=colour, n_names=len(NAMES) - 1)
     return _SHADES[NAMES[colour]]
 
 
@@ -72,5 +72,5 @@ def index_of(name: str) -> int:
     """
     key = name.strip().upper()[:4]
     if key not in _SHADES:
-        raise OutputError(f"'{name}' is no colour", "colours are " + " ".join(NAMES))
+        raise OutputError("io.no-colour", name=name, names=NAMES)
     return NAMES.index(key)

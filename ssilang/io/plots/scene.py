@@ -52,7 +52,7 @@ def draw_scene(
     views = views or (plane_view(),)
     panels = [(v, c) for v in views for c in (components or ("",))]
     if not any(layer.mesh.n_cells for layer in layers) and arrows is None:
-        raise OutputError("there is nothing to draw: the mesh is empty")
+        raise OutputError("io.nothing-draw-mesh-empty")
     box = [sheet_bounds(layers, arrows, view, options) for view, _ in panels]
     width, height, rows, columns = _sheet(box[0], len(panels))
     with drawing(width, height) as figure:

@@ -133,4 +133,4 @@ def check_component(field: NodeField | CellField, component: str) -> None:
     """
     names = component_names(field)
     if component not in names:
-        raise OutputError(f"the field has no component '{component}', it has {', '.join(names)}")
+        raise OutputError("io.field-no-component", component=component, names=names)

@@ -32,7 +32,7 @@ class Plane:
         normal = np.cross(b - a, c - a)
         length = float(np.linalg.norm(normal))
         if length <= 1e-12 * float(np.linalg.norm(b - a) * np.linalg.norm(c - a)):
-            raise OutputError("the three points of the plane lie on a line")
+            raise OutputError("io.three-points-plane-lie")
         return cls(a, normal / length)
 
     def height(self, points: FloatArray) -> FloatArray:

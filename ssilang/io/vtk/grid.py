@@ -117,7 +117,7 @@ def grid_of(
     rows, types, sizes = [], [], []
     for block in mesh.blocks:
         if block.cell_type not in ORDERS:
-            raise OutputError(f"cells {block.cell_type} have no VTK counterpart")
+            raise OutputError("io.cells-no-vtk-counterpart", cell_type=block.cell_type)
         number, order = ORDERS[block.cell_type]
         rows.append(np.searchsorted(nodes, block.connectivity[:, list(order)]).ravel())
         types.append(np.full(len(block), number, dtype=np.uint8))

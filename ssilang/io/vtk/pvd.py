@@ -52,4 +52,4 @@ def read_pvd(path: Path) -> list[Entry]:
             for e in root.iter("DataSet")
         ]
     except (OSError, ElementTree.ParseError, KeyError, ValueError) as error:
-        raise InputError(f"{path} is not a readable .pvd collection: {error}") from error
+        raise InputError("io.not-readable-pvd-collection", path=path, error=error) from error

@@ -110,10 +110,10 @@ class SeriesWriter:
     def write_parts(self, time: float, parts: Mapping[str, Part]) -> None:
         """Write a step of several named parts."""
         if self.last_time is not None and time <= self.last_time:
-            raise OutputError(f"step at time {time:g} comes after the one at {self.last_time:g}")
+            raise OutputError("io.step-time-comes-after", time=time, last_time=self.last_time)
         if self._entries and self.part_names != tuple(parts):
             old, new = ", ".join(self.part_names), ", ".join(parts)
-            raise OutputError(f"the series has the parts ({old}), the step brings ({new})")
+            raise OutputError("io.series-parts-step-brings", old=old, new=new)
         number = len({e.time for e in self._entries}) + 1
         made = [self._write_part(time, number, name, part) for name, part in parts.items()]
         self._entries += made

@@ -2,34 +2,16 @@
 
 from __future__ import annotations
 
-from ssilang.messages.message import hint, sentence
+from ssilang.messages.message import Refusal
 
 
-class KernelError(Exception):
-    """An input or a state that the kernel cannot work with.
-
-    Parameters
-    ----------
-    code : str
-        Key of a message, such as 'kernel.mesh.no-area'.
-    **data
-        What fills its sentence and its hint. An error that led to this one is data too.
-    """
+class KernelError(Refusal):
+    """An input or a state that the kernel cannot work with."""
 
     def __init__(self, code: str, hint: str = "", /, **data: object) -> None:
         if " " in code:  # a sentence of its own, not yet in a catalogue
             code, data = "bad-value", {"message": code, "hint": hint}
-        super().__init__(code)
-        self.code, self.data = code, data
-
-    def __str__(self) -> str:
-        """The sentence in English."""
-        return sentence(self.code, self.data)
-
-    @property
-    def hint(self) -> str:
-        """What to change to get further, in English, '' if nothing is known."""
-        return hint(self.code, self.data)
+        super().__init__(code, **data)
 
 
 class MeshError(KernelError):

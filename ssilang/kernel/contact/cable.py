@@ -87,7 +87,7 @@ def _ends(x: FloatArray, cells: IntArray) -> _Ends:
     counts = np.bincount(node)
     if (counts > 2).any():
         at = int(np.argmax(counts)) + 1
-        raise MeshError(f"the cable branches at node {at}", "a model for each cable")
+        raise MeshError("kernel.contact.cable-branches-node", at=at)
     along = x[cells[:, 1]] - x[cells[:, 0]]
     length = np.linalg.norm(along, axis=1)
     tangent = np.tile(along / length[:, None], (2, 1))
@@ -123,7 +123,7 @@ def _slips(
         rows.append(rows_from_table(line.nodes, np.tile(table, (1, len(unknowns))), names, values))
         nodes.append(own[inside])
     if not rows:
-        raise MeshError("no node of the cable lies in the body")
+        raise MeshError("kernel.contact.no-node-cable-lies")
     return joined(rows), np.concatenate(nodes)
 
 

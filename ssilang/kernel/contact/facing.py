@@ -52,8 +52,7 @@ def side_of(mesh: Mesh, dimension: int) -> Side:
     for block in mesh.blocks:
         if block.cell_type not in wanted:
             raise MeshError(
-                f"a side of contact is made of {' or '.join(wanted)}, not {block.cell_type}",
-                "CONT, COTE, ENVE give such meshes",
+                "kernel.contact.side-contact-made-not", wanted=wanted, cell_type=block.cell_type
             )
         c = block.connectivity
         parts += [c] if block.cell_type != "QUA4" else [c[:, [0, 1, 2]], c[:, [0, 2, 3]]]
@@ -67,7 +66,7 @@ def side_of(mesh: Mesh, dimension: int) -> Side:
         normals = np.cross(along[:, 0], along[:, 1])
         sizes = 0.5 * np.linalg.norm(normals, axis=1)
     if (sizes <= 0).any():
-        raise MeshError("a side of contact has a cell without size")
+        raise MeshError("kernel.contact.side-contact-cell-without")
     return Side(cells, corners, normals / np.linalg.norm(normals, axis=1, keepdims=True), sizes)
 
 

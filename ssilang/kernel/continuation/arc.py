@@ -110,10 +110,7 @@ class Tracer:
             u = u - np.linalg.lstsq(J, R, rcond=None)[0]
             if not np.isfinite(u).all():
                 break
-        raise ConvergenceError(
-            f"no first solution found at {t:g} (residual {size:.1e})",
-            "another first value of the parameter, or a guess nearer to the solution",
-        )
+        raise ConvergenceError("kernel.continuation.no-first-solution-found", t=t, size=size)
 
     def _scale(self, u: FloatArray, t: float) -> float:
         return max(self.system.force(t), 1e-300)
@@ -127,10 +124,7 @@ class Tracer:
         _, J, Rt = self.system.at(u, t)
         scaled = np.column_stack([J * self.lengths.u_ref, Rt * self.lengths.t_ref])
         if not np.isfinite(scaled).all():
-            raise ConvergenceError(
-                f"the tangent of the branch at {t:g} is not made of finite numbers",
-                "forces and their derivatives that are finite for all displacements",
-            )
+            raise ConvergenceError("kernel.continuation.tangent-branch-not-made", t=t)
         tangent = np.linalg.svd(scaled)[2][-1] if towards is None else _across(scaled, towards)
         ahead = float(tangent[-1] * sense) if towards is None else float(tangent @ towards)
         return Point(u, t, -tangent if ahead < 0.0 else tangent, J, turns)

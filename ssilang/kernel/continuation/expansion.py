@@ -54,9 +54,11 @@ def names_of(matrices: Sequence[Matrix], harmonics: int) -> Names:
         for block in matrix.blocks:
             pairs |= dict(zip(block.unknowns, block.duals, strict=True))
     if not pairs:
-        raise KernelError("the matrices have no unknowns")
+        raise KernelError("kernel.continuation.matrices-no-unknowns")
     if len(pairs) > MOST:
-        raise KernelError(f"harmonic balance takes {MOST} unknowns a node, found {' '.join(pairs)}")
+        raise KernelError(
+            "kernel.continuation.harmonic-balance-takes-unknowns", most=MOST, pairs=pairs
+        )
     order = sorted(pairs, key=lambda u: (ORDER.index(u) if u in ORDER else len(ORDER), u))
     return Names(tuple(order), tuple(pairs[u] for u in order), harmonics)
 
@@ -98,10 +100,7 @@ def _coupled(
 
 def _renamed(rows: Relations, names: Names, place: int) -> Relations:
     if rows.sense.any() or rows.dual is not None:
-        raise KernelError(
-            "harmonic balance takes plain supports and relations",
-            "unilateral ones are nonlinear forces: write them in CHARMECA",
-        )
+        raise KernelError("kernel.continuation.harmonic-balance-takes-plain")
     nodes: IntArray = rows.table.add(rows.table.coordinates[rows.multipliers].copy())
     unknowns = tuple(names.coefficient(u, place) for u in rows.unknowns)
     return replace(rows, unknowns=unknowns, raw_multipliers=nodes)

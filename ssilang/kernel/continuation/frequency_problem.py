@@ -10,8 +10,8 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.continuation.harmonics import Basis
-from ssilang.kernel.dynamics.loading import Loading
 from ssilang.kernel.matrices.assembly import Numbering
+from ssilang.kernel.stepping.problem.loading import Loading
 
 Samples = Callable[[FloatArray], tuple[FloatArray, FloatArray]]
 """Forces (N, m) and the derivatives of -f (N, m, m) at motions (N, m) of a few unknowns."""

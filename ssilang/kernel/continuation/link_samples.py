@@ -36,15 +36,14 @@ class LinkForces:
         past = (table[:, PLASTIC] != 0.0) | ((table[:, FRICTION] != 0.0) & (table[:, TANGENT] >= 0))
         if past.any():
             raise KernelError(
-                f"link {int(np.flatnonzero(past)[0]) + 1} remembers its past (plastic, or sticking "
-                "by springs): harmonic balance wants forces of the present motion",
-                "friction that slides alone: 'RAIDEUR_TANGENTIELLE' negative",
+                "kernel.continuation.link-remembers-past-plastic",
+                past=int(np.flatnonzero(past)[0]) + 1,
             )
         timed = np.isin(self.links.kinds, (COSINE_OF_TIME, SINE_OF_TIME))
         if timed.any():
             raise KernelError(
-                f"link {int(np.flatnonzero(timed)[0]) + 1} changes in time by a frequency of its "
-                "own: harmonic balance wants forces of the motion alone"
+                "kernel.continuation.link-changes-time-frequency",
+                timed=int(np.flatnonzero(timed)[0]) + 1,
             )
 
     def at(self, q: FloatArray, v: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:

@@ -35,12 +35,10 @@ class Cloud:
             If there is no such column, or it holds objects.
         """
         if name not in self.columns:
-            raise FieldError(
-                f"the cloud has no component {name}", "it has " + " ".join(self.columns)
-            )
+            raise FieldError("kernel.curves.cloud-no-component", name=name, columns=self.columns)
         held = self.columns[name]
         if not all(isinstance(v, int | float) for v in held):
-            raise FieldError(f"component {name} of the cloud holds objects, not numbers")
+            raise FieldError("kernel.curves.component-cloud-holds-objects", name=name)
         return np.asarray(held, dtype=float)
 
     def rows(self, places: list[int]) -> Cloud:
@@ -96,12 +94,14 @@ def on_grid(axes: list[FloatArray], values: FloatArray, at: FloatArray) -> Float
     """
     sizes = [len(a) for a in axes]
     if int(np.prod(sizes)) != len(values):
-        wanted = " x ".join(str(s) for s in sizes)
         raise FieldError(
-            f"a grid of {wanted} nodes needs {np.prod(sizes)} values, not {len(values)}"
+            "kernel.curves.grid-nodes-needs-values",
+            grid=" x ".join(map(str, sizes)),
+            wanted=np.prod(sizes),
+            n_values=len(values),
         )
     if any(np.any(np.diff(a) <= 0) for a in axes):
-        raise FieldError("the coordinates of a grid must increase")
+        raise FieldError("kernel.curves.coordinates-grid-must-increase")
     table = values.reshape(sizes, order="F")
     low, share = [], []
     for a, x in zip(axes, at.T, strict=True):

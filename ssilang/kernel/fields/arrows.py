@@ -47,7 +47,7 @@ def arrows_in_cells(
         name = " ".join(c for c in columns if c)
         parts.append(ArrowPart(_centres(block), vectors, None, scale, colour, name))
     if not parts:
-        raise FieldError(f"the field has none of the components {' '.join(columns)}")
+        raise FieldError("kernel.fields.field-none-components", columns=columns)
     return Arrows(tuple(parts))
 
 
@@ -93,10 +93,7 @@ def principal_strokes(
                     ArrowPart(_centres(block), vectors, None, scale, shade[name], name, False)
                 )
     if not parts:
-        raise FieldError(
-            "the field holds no principal stresses",
-            "give the result of PRIN, or a LISTMOTS of the vector's components",
-        )
+        raise FieldError("kernel.fields.field-holds-no-principal")
     return Arrows(tuple(parts))
 
 

@@ -39,7 +39,7 @@ def _same_zone(a: CellFieldBlock, b: CellFieldBlock) -> bool:
 def numeric(name: str, values: Values) -> Values:
     """The values of a component, refused when they are objects."""
     if values.dtype == object:
-        raise FieldError(f"component {name} holds objects, not numbers")
+        raise FieldError("kernel.fields.component-holds-objects-not", name=name)
     return values
 
 
@@ -62,8 +62,10 @@ def _fitted(name: str, a: CellFieldBlock, b: CellFieldBlock) -> None:
     x, y = a.components[name], b.components[name]
     if a.support != b.support and 1 not in (x.shape[1], y.shape[1]):
         raise FieldError(
-            f"component {name} stands at {a.support} in one field and at {b.support} in the other",
-            "bring them to the same points by CHAN",
+            "kernel.fields.component-stands-field",
+            name=name,
+            support=a.support,
+            support_2=b.support,
         )
 
 
@@ -122,8 +124,10 @@ def _added_object(name: str, a: object, b: object, factor: float) -> object:
     if isinstance(a, Curve) and isinstance(b, Curve):
         return combined(a, b, "+", lambda u, v: u + factor * v)
     raise FieldError(
-        f"component {name} holds objects of types {type(a).__name__} and {type(b).__name__}",
-        "only numbers and curves add up",
+        "kernel.fields.component-holds-objects-types",
+        name=name,
+        name_2=type(a).__name__,
+        name_3=type(b).__name__,
     )
 
 
@@ -144,10 +148,7 @@ def united(a: CellField, b: CellField) -> CellField:
         made = dict(blocks[place].components)
         for name, values in block.components.items():
             if name in made and not _agree(made[name], values):
-                raise FieldError(
-                    f"component {name} differs between the two fields on the same cells",
-                    "write + to add them",
-                )
+                raise FieldError("kernel.fields.component-differs-between-two", name=name)
             made.setdefault(name, values)
         blocks[place] = rebuilt(_support(blocks[place], block, made), made)
     return CellField(tuple(blocks), a.title or b.title)
@@ -172,9 +173,9 @@ def multiplied(a: CellField, b: CellField, divide: bool = False) -> CellField:
         other = next((o for o in b.blocks if same_cells(mine.cells, o.cells)), None)
         if other is None:
             raise FieldError(
-                f"a zone of {len(mine.cells)} {mine.cells.cell_type} of the first field is not a "
-                "zone of the second",
-                "reduce both to the same model by REDU",
+                "kernel.fields.zone-first-field-not",
+                n_cells=len(mine.cells),
+                cell_type=mine.cells.cell_type,
             )
         blocks.append(_multiplied_block(mine, other, divide))
     return CellField(tuple(blocks), a.title)
@@ -195,16 +196,16 @@ def _multiplied_block(a: CellFieldBlock, b: CellFieldBlock, divide: bool) -> Cel
         made = {k: run(numeric(k, v), b.components[k]) for k, v in a.components.items()}
     else:
         raise FieldError(
-            f"a field ({' '.join(a.components)}) by a field ({' '.join(b.components)}) is not "
-            "defined",
-            "one of them has one component, or three lists of words say what goes with what",
+            "kernel.fields.field-field-not-defined-2",
+            components=a.components,
+            components_2=b.components,
         )
     return rebuilt(_support(a, b, made), made)
 
 
 def _quotient(a: Values, b: Values) -> Values:
     if np.any(b == 0):
-        raise FieldError("the field to divide by has a zero", "see MASQ and BORN")
+        raise FieldError("kernel.fields.field-divide-zero")
     return np.asarray(a / b)
 
 
@@ -250,9 +251,7 @@ def extracted(
     known = component_names(field)
     for name, _ in pairs:
         if check and name not in known:
-            raise FieldError(
-                f"the field has no component {name}", "its components are: " + " ".join(known)
-            )
+            raise FieldError("kernel.fields.field-no-component-2", name=name, known=known)
     blocks = []
     for block in field.blocks:
         made = {n: block.components[o] for o, n in pairs if o in block.components}

@@ -53,7 +53,7 @@ def isovalue(field: CellField, value: float, side: int = 0) -> Mesh:
         If the field has several components, does not stand at nodes, or has quadratic cells.
     """
     if not field.blocks:
-        raise MeshError("the field is empty")
+        raise MeshError("kernel.fields.field-empty")
     nodes = field.blocks[0].cells.nodes
     meshes: list[Mesh] = []
     whole = [_simplices(block, value) for block in field.blocks]
@@ -67,12 +67,9 @@ def isovalue(field: CellField, value: float, side: int = 0) -> Mesh:
 
 def _simplices(block: CellFieldBlock, value: float) -> _Pieces:
     if len(block.components) != 1:
-        raise MeshError(
-            f"the field has the components {' '.join(block.components)}",
-            "give a field of one component: EXCO takes it out",
-        )
+        raise MeshError("kernel.fields.field-components", components=block.components)
     if block.support != "NOEUD":
-        raise MeshError("the field does not stand at nodes", "CHAN 'NOEUD' brings it there")
+        raise MeshError("kernel.fields.field-not-stand-nodes")
     (data,) = block.components.values()
     cells = block.cells
     values = np.broadcast_to(np.asarray(data, dtype=float), cells.connectivity.shape)
@@ -94,8 +91,9 @@ def _of_simplices(cells: CellBlock, values: FloatArray) -> _Pieces:
         colours = np.zeros(len(table), dtype=np.int8)
     else:
         raise MeshError(
-            f"no value is looked for in cells of type {cells.cell_type}",
-            f"those that can be cut are {' '.join((*_SIMPLICES, 'QUA4', *_TO_TETRAHEDRA))}",
+            "kernel.fields.no-value-looked-cells",
+            cell_type=cells.cell_type,
+            value=(*_SIMPLICES, "QUA4", *_TO_TETRAHEDRA),
         )
     at_node = np.zeros(len(cells.nodes))
     at_node[cells.connectivity] = values

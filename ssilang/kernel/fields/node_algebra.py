@@ -80,9 +80,9 @@ def united(a: NodeField, b: NodeField, check: bool = True) -> NodeField:
     a, b = a.after_merges(), b.after_merges()
     if a.components and b.components and a.nature != b.nature:
         raise FieldError(
-            f"fields of natures {a.nature or 'INDETERMINE'} and {b.nature or 'INDETERMINE'} "
-            "cannot be joined",
-            "give them the same nature by CHAN 'ATTRIBUT', or write + to add them",
+            "kernel.fields.fields-natures-cannot-joined",
+            nature=a.nature or "INDETERMINE",
+            nature_2=b.nature or "INDETERMINE",
         )
     if a.nature == "DISCRET" or not a.components or not b.components:
         return added(a, b)
@@ -101,9 +101,11 @@ def _merged(name: str, a: NodeValues, b: NodeValues, check: bool) -> NodeValues:
     if check and len(wrong):
         k = wrong[0]
         raise FieldError(
-            f"component {name} is {a.values[ia[k]]:g} in one field and {b.values[ib[k]]:g} in the "
-            f"other at node {both[k] + 1}",
-            "diffuse fields must agree where both are defined; NOER keeps the first",
+            "kernel.fields.component-field-node",
+            name=name,
+            values=a.values[ia[k]],
+            values_2=b.values[ib[k]],
+            both=both[k] + 1,
         )
     nodes = np.union1d(a.nodes, b.nodes)
     values = np.zeros(len(nodes))
@@ -131,7 +133,7 @@ def multiplied(a: NodeField, b: NodeField, divide: bool = False) -> NodeField:
     """
     a, b = a.after_merges(), b.after_merges()
     if divide and any(np.any(v.values == 0) for v in b.components.values()):
-        raise FieldError("the field to divide by has a zero", "see MASQ and BORN")
+        raise FieldError("kernel.fields.field-divide-zero")
     run = np.divide if divide else np.multiply
     nature = common_nature(a.nature, b.nature)
     if list(b.components) == [SCALAR]:
@@ -143,14 +145,7 @@ def multiplied(a: NodeField, b: NodeField, divide: bool = False) -> NodeField:
     if set(a.components) == set(b.components):
         made = {k: _combined(v, b.components[k], run) for k, v in a.components.items()}
         return rebuilt(a, made, nature)
-    raise FieldError(
-        f"a field {_names(a)} by a field {_names(b)} is not defined",
-        "one of them has the only component SCAL, or three lists of words say what goes with what",
-    )
-
-
-def _names(field: NodeField) -> str:
-    return "(" + " ".join(field.components) + ")"
+    raise FieldError("kernel.fields.field-field-not-defined", a=a.components, b=b.components)
 
 
 def multiplied_by_names(
@@ -184,8 +179,8 @@ def component(field: NodeField, name: str) -> NodeValues:
     """
     found = field.components.get(name)
     if found is None:
-        known = " ".join(field.components) or "none"
-        raise FieldError(f"the field has no component {name}", f"its components are: {known}")
+        known = field.components
+        raise FieldError("kernel.fields.field-no-component", name=name, known=known)
     return found
 
 

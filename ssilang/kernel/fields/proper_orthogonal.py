@@ -28,12 +28,12 @@ def stacked(
     Multipliers (LX) never count.
     """
     if not fields:
-        raise FieldError("there is no field to decompose")
+        raise FieldError("kernel.fields.no-field-decompose")
     known = [n for n in fields[0].components if n not in ("LX", "FLX")]
     if names is not None:
         known = [n for n in known if n in names]
     if not known:
-        raise FieldError("no component is left to decompose")
+        raise FieldError("kernel.fields.no-component-left-decompose")
     places = tuple((n, fields[0].components[n].nodes) for n in known)
     rows = [np.concatenate([f.values_at(n, nodes) for n, nodes in places]) for f in fields]
     return np.array(rows), places
@@ -66,7 +66,7 @@ def modes(
     kept = values > 1e-12 * max(float(values[0]), 0.0)
     values, found = values[kept][:count], found[kept][:count]
     if not len(values):
-        raise FieldError("the fields have no energy: there is no mode")
+        raise FieldError("kernel.fields.fields-no-energy-no")
     peak = found[np.arange(len(found)), np.abs(found).argmax(axis=1)]
     return found / peak[:, None], values
 

@@ -72,7 +72,7 @@ def _on_shell(zone: Zone, given: Directions) -> dict[str, FloatArray]:
     inside = np.einsum("cij,cj->ci", frames[:, :2], vector)
     size = np.linalg.norm(inside, axis=1)
     if (size <= 1e-9 * np.linalg.norm(vector, axis=1)).any():
-        raise MaterialError("the direction of orthotropy is normal to the shell somewhere")
+        raise MaterialError("kernel.materials.direction-orthotropy-normal-shell")
     angle = np.arctan2(inside[:, 1], inside[:, 0])
     sign = np.ones(len(frames))
     if given.outside is not None:
@@ -98,7 +98,7 @@ def _second(given: Directions, flat: bool, first: FloatArray) -> FloatArray:
     if given.second is not None:
         return np.broadcast_to(given.second, first.shape)
     if not flat:
-        raise MaterialError("in space two vectors show the axes", "DIRECTION V1 V2")
+        raise MaterialError("kernel.materials.space-two-vectors-show")
     return np.stack([-first[..., 1], first[..., 0], np.zeros_like(first[..., 0])], axis=-1)
 
 
@@ -118,7 +118,7 @@ def _radial(zone: Zone, given: Directions, flat: bool) -> tuple[FloatArray, Floa
         first = given.first - x
         return first, np.stack([-first[..., 1], first[..., 0], 0 * first[..., 0]], axis=-1)
     if given.second is None:
-        raise MaterialError("in space RADIAL needs two points of the axis", "RADIAL P1 P2")
+        raise MaterialError("kernel.materials.space-radial-needs-two")
     axis = given.second - given.first
     along = axis / max(float(np.linalg.norm(axis)), 1e-300)
     out = x - given.first
@@ -130,7 +130,7 @@ def _frame(first: FloatArray, second: FloatArray) -> tuple[FloatArray, FloatArra
     third = np.cross(first, second)
     norms = [np.linalg.norm(v, axis=-1, keepdims=True) for v in (first, third)]
     if min(float(n.min()) for n in norms) <= 0:
-        raise MaterialError("the vectors that give the axes are zero or parallel")
+        raise MaterialError("kernel.materials.vectors-axes-zero-parallel")
     v1, v3 = first / norms[0], third / norms[1]
     return v1, np.cross(v3, v1)
 

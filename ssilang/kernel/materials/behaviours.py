@@ -32,7 +32,7 @@ JOINT_WORDS = (
     "JOINT_SDM", "CISAILLEMENT_ELASTIQUE", "FROTTEMENT_SYMETRIQUE", "PLASTIQUE", "JOINT_DILATANT",
     "COULOMB", "MACRO_SEMELLE", "MACRO_DISQUE", "MACRO_RESSORTS",
 )  # fmt: skip
-"""Further words of joints; `ssilang.kernel.joints.laws` says what they mean."""
+"""Further words of joints; `ssilang.kernel.interface.laws.point_laws` says what they mean."""
 
 PLASTIC_WORDS = tuple(w for w in PLASTIC_LAWS if w not in ELASTICITIES)
 """Words that follow PLASTIQUE in a model of bodies (beside ISOTROPE)."""
@@ -96,35 +96,31 @@ def normalised(words: list[str], family: str) -> tuple[str, ...]:
     rest = [w for w in words if w != "ELASTIQUE"]
     kind = rest.pop(0) if rest and rest[0] in ELASTICITIES else ""
     if kind and family not in ELASTICITIES[kind]:
-        raise MaterialError(f"elements of the family '{family}' have no elasticity {kind}")
+        raise MaterialError(
+            "kernel.materials.elements-family-no-elasticity", family=family, kind=kind
+        )
     if rest and rest[0] == "PLASTIQUE" and family != "joint":
         return ("ELASTIQUE", kind or "ISOTROPE", *_plastic_words(rest, kind, family))
     if rest and rest[0] == "FLUAGE":
         return ("ELASTIQUE", kind or "ISOTROPE", *_creep_words(rest, kind, family))
     if rest and family != "joint":
-        raise MaterialError(
-            f"behaviour {rest[0]} is for joints only", "give it to joint elements (JOI1 ... JOI8)"
-        )
+        raise MaterialError("kernel.materials.behaviour-joints-only", rest=rest[0])
     if rest[1:2] and rest[0] == "PLASTIQUE" and rest[1] in PLASTIC_WORDS:
-        raise MaterialError(f"the plastic law {rest[1]} is for bodies, not for joints")
+        raise MaterialError("kernel.materials.plastic-law-bodies-not", rest=rest[1])
     return ("ELASTIQUE", *([kind or "ISOTROPE"] if not rest or kind else []), *rest)
 
 
 def _impedance_words(words: list[str], family: str) -> tuple[str, ...]:
     """ELASTIQUE, MODAL or STATIQUE if the point stands for a shape, IMPEDANCE and its law."""
     if family != "impedance":
-        raise MaterialError(
-            f"elements of the family '{family}' have no law IMPEDANCE",
-            "it stands on points (POI1) or on lines of two points (SEG2)",
-        )
+        raise MaterialError("kernel.materials.elements-family-no-law", family=family)
     shape = [w for w in words if w in ("MODAL", "STATIQUE")]
     law = [w for w in words if w in IMPEDANCE_LAWS]
     known = ("ELASTIQUE", "IMPEDANCE", *shape, *law)
     other = next((w for w in words if w not in known), None)
     if other is not None or len(law) > 1 or len(shape) > 1:
         raise MaterialError(
-            f"an impedance has no law {other or ' '.join(law + shape)}",
-            "IMPEDANCE is followed by ELASTIQUE, VOIGT, REUSS or COMPLEXE",
+            "kernel.materials.impedance-no-law", other=other or " ".join(law + shape)
         )
     return ("ELASTIQUE", *shape, "IMPEDANCE", *(law or ["ELASTIQUE"]))
 
@@ -132,16 +128,13 @@ def _impedance_words(words: list[str], family: str) -> tuple[str, ...]:
 def _creep_words(words: list[str], elasticity: str, family: str) -> tuple[str, str]:
     """FLUAGE and the law behind it."""
     if family not in CREEP_FAMILIES:
-        raise MaterialError(
-            f"elements of the family '{family}' do not creep",
-            "continuous elements (TRI3 ... CU20, ICQ4 ...) and bars do",
-        )
+        raise MaterialError("kernel.materials.elements-family-not-creep", family=family)
     if len(words) != 2 or words[1] not in CREEP_LAWS:
-        raise MaterialError(
-            "which law of creep?", "there is FLUAGE " + ", FLUAGE ".join(CREEP_LAWS)
-        )
+        raise MaterialError("kernel.materials.law-creep", join=", FLUAGE ".join(CREEP_LAWS))
     if elasticity not in ("", "ISOTROPE"):
-        raise MaterialError(f"creep goes with elasticity ISOTROPE, not with {elasticity}")
+        raise MaterialError(
+            "kernel.materials.creep-goes-elasticity-isotrope", elasticity=elasticity
+        )
     return ("FLUAGE", words[1])
 
 
@@ -150,28 +143,24 @@ def _plastic_words(words: list[str], elasticity: str, family: str) -> tuple[str,
     law = words[1] if len(words) > 1 else "ISOTROPE"
     if elasticity == "SECTION" or law == "SECTION":
         if elasticity != law:
-            raise MaterialError(
-                f"a beam of fibres is ELASTIQUE SECTION PLASTIQUE SECTION, not {law}",
-                "the laws of the fibres stand in the model of the section",
-            )
+            raise MaterialError("kernel.materials.beam-fibres-elastique-section", law=law)
         return ("PLASTIQUE", law)
     if (family == "fibre" and law not in FIBRE_LAWS) or (
         family != "fibre" and law in UNIAXIAL_LAWS
     ):
         raise MaterialError(
-            f"elements of the family '{family}' have no plastic law {law}",
-            f"fibres of sections (POJS TRIS QUAS) have {', '.join(FIBRE_LAWS)}",
+            "kernel.materials.elements-family-no-plastic",
+            family=family,
+            law=law,
+            fibre_laws=FIBRE_LAWS,
         )
     if family not in PLASTIC_FAMILIES:
-        raise MaterialError(
-            f"elements of the family '{family}' have no plastic law",
-            "continuous elements (TRI3 ... CU20, ICQ4 ...), bars and DKT have",
-        )
+        raise MaterialError("kernel.materials.elements-family-no-plastic-2", family=family)
     if family == "plate" and law not in LAYER_LAWS:
         raise MaterialError(
-            f"thin shells have no plastic law {law}", "they have " + ", ".join(LAYER_LAWS)
+            "kernel.materials.thin-shells-no-plastic", law=law, layer_laws=LAYER_LAWS
         )
     if elasticity not in ("", "ISOTROPE"):
-        raise MaterialError(f"plastic laws go with elasticity ISOTROPE, not with {elasticity}")
+        raise MaterialError("kernel.materials.plastic-laws-go-elasticity", elasticity=elasticity)
     plastic_law(("PLASTIQUE", law))
     return ("PLASTIQUE", law)

@@ -34,14 +34,12 @@ def check_isotropic(young: FloatArray, poisson: FloatArray) -> None:
     bad = (poisson <= -1) | (poisson >= 0.5)
     if bad.any():
         raise MaterialError(
-            f"Poisson's ratio NU = {float(np.asarray(poisson)[bad].flat[0]):g} "
-            "is outside ]-1, 0.5[",
-            "use a value such as 0.49 with an incompressible element (ICQ4, BBAR) near 0.5"
-            if (np.abs(poisson - 0.5) < 0.01).any()
-            else "it is a ratio without unit: 0.3 for steel, 0.2 for concrete",
+            "kernel.materials.poisson-ratio-nu-outside",
+            poisson=float(np.asarray(poisson)[bad].flat[0]),
+            poisson_so_any=(np.abs(poisson - 0.5) < 0.01).any(),
         )
     if not np.isfinite(young).all():
-        raise MaterialError("Young's modulus YOUN is not a finite number")
+        raise MaterialError("kernel.materials.young-modulus-youn-not")
 
 
 def isotropic_compliance(young: FloatArray, poisson: FloatArray) -> FloatArray:
@@ -87,10 +85,7 @@ def orthotropic_compliance(constants: dict[str, FloatArray]) -> FloatArray:
     for i, G in ((3, G12), (4, G13), (5, G23)):
         S[..., i, i] = 1 / G
     if np.linalg.eigvalsh(S).min() <= 0:
-        raise MaterialError(
-            "the orthotropic constants are not those of a stable material",
-            "moduli must be positive and NU12 < (YG1 / YG2) ** 0.5, and so on",
-        )
+        raise MaterialError("kernel.materials.orthotropic-constants-not-stable")
     return S
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ssilang.kernel.elements.catalog import ELEMENTS, SOLID_FAMILIES
-from ssilang.kernel.joints.elements import is_joint
-from ssilang.kernel.joints.law_table import law_of
+from ssilang.kernel.interface.elements import is_joint
+from ssilang.kernel.interface.laws.law_table import law_of
 from ssilang.kernel.materials.model import Mode, Zone
 from ssilang.kernel.materials.plastic.laws import plastic_law
 

@@ -27,6 +27,7 @@ from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.fields.node_field import Nature, NodeField, NodeValues
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, Relations, dual_of
 from ssilang.kernel.mesh.nodes import NodeTable
+from ssilang.messages.message import Sentence
 
 MULTIPLIER = "LX"
 IMPOSED = "FLX"
@@ -89,9 +90,18 @@ class Numbering:
         """Indices of all unknowns called `name`, by increasing node."""
         return np.flatnonzero(self.codes == self.code(name))
 
-    def label(self, index: int) -> str:
+    def name(self, index: int) -> str:
+        """Name of one unknown: 'UX'."""
+        return self.unknowns[self.codes[index]]
+
+    def label(self, index: int) -> Sentence:
         """'UX at node 12' (node counted from 1, as scripts see it)."""
-        return f"{self.unknowns[self.codes[index]]} at node {self.nodes[index] + 1}"
+        return unknown_label(self.name(index), self.nodes[index])
+
+
+def unknown_label(name: str, node: int) -> Sentence:
+    """'UX at node 12' for node 11."""
+    return Sentence("kernel.matrices.unknown-at-node", name=name, node=int(node) + 1)
 
 
 class ConstraintRows(NamedTuple):
@@ -131,7 +141,7 @@ def numbering_of(*matrices: Matrix) -> Numbering:
         If no matrix is given.
     """
     if not matrices:
-        raise FieldError("a numbering needs at least one matrix")
+        raise FieldError("kernel.matrices.numbering-needs-least-matrix")
     first = matrices[0]
     key = "numbering:" + ",".join(str(id(m)) for m in matrices)
     kept = first.cache.get(key)
@@ -249,7 +259,7 @@ def assemble_triplets(
 def _places(block: ElementMatrices, numbering: Numbering) -> NDArray[np.int32]:
     places = block_indices(block, numbering).astype(np.int32)
     if places.size and places.min() < 0:
-        raise FieldError("the matrix has unknowns that the numbering lacks")
+        raise FieldError("kernel.matrices.matrix-unknowns-numbering-lacks")
     return places
 
 
@@ -300,7 +310,7 @@ def _stack(parts: tuple[Relations, ...], numbering: Numbering) -> sp.csr_array:
         start += len(part)
     places = _joined(columns)
     if places.size and places.min() < 0:
-        raise FieldError("a relation has unknowns that the numbering lacks")
+        raise FieldError("kernel.matrices.relation-unknowns-numbering-lacks")
     shape = (start, numbering.size)
     stacked = sp.coo_array((np.concatenate(values), (_joined(rows), places)), shape=shape).tocsr()
     stacked.sum_duplicates()
@@ -333,17 +343,17 @@ def field_to_vector(field: NodeField, numbering: Numbering, dual: bool = True) -
     return vector
 
 
-def outside(field: NodeField, numbering: Numbering, dual: bool = True) -> list[str]:
+def outside(field: NodeField, numbering: Numbering, dual: bool = True) -> list[Sentence]:
     """Labels ('FX at node 3') of non-zero values that no unknown of the numbering takes."""
     names = numbering.duals if dual else numbering.unknowns
     special = (IMPOSED, MULTIPLIER)
-    lost: list[str] = []
+    lost: list[Sentence] = []
     for name, part in field.components.items():
         if name in special and name not in names:
             continue
         code = names.index(name) if name in names else -1
         missing = (numbering.index(part.nodes, code) < 0) & (part.values != 0.0)
-        lost += [f"{name} at node {node + 1}" for node in part.nodes[missing]]
+        lost += [unknown_label(name, node) for node in part.nodes[missing]]
     return lost
 
 

@@ -77,7 +77,9 @@ def repeated_matrix(
         k = CELL_TYPES[block.cell_type].n_nodes
         at_nodes = unknowns * k if len(unknowns) == 1 else unknowns
         if len(at_nodes) != k:
-            raise FieldError(f"{len(at_nodes)} lists of names for cells of {k} nodes")
+            raise FieldError(
+                "kernel.matrices.lists-names-cells-nodes", n_at_nodes=len(at_nodes), k=k
+            )
         names = tuple(n for node in at_nodes for n in node)
         forces = tuple(dual_of(n) for n in names)
         if duals is not None:
@@ -86,8 +88,12 @@ def repeated_matrix(
         m = len(names)
         if matrix.shape != (m, m) or len(forces) != m:
             raise FieldError(
-                f"a cell {block.cell_type} with these names has {m} rows, "
-                f"the matrix is {matrix.shape[0]} x {matrix.shape[1]}, {len(forces)} dual names"
+                "kernel.matrices.cell-names-rows-matrix",
+                cell_type=block.cell_type,
+                m=m,
+                n_matrix=matrix.shape[0],
+                n_matrix_2=matrix.shape[1],
+                n_forces=len(forces),
             )
         local = np.repeat(np.arange(k), [len(node) for node in at_nodes])
         values = np.broadcast_to(matrix, (len(block), m, m)).copy()

@@ -37,8 +37,10 @@ def square(rows: Sequence[FloatArray], size: int, sign: float | None) -> FloatAr
         return terms.reshape(size, size)
     triangle = len(rows) == 1 or lengths == list(range(1, size + 1))
     if sign is None or not triangle or len(terms) != size * (size + 1) // 2:
-        wanted = f"{size * size}" + ("" if sign is None else f" or {size * (size + 1) // 2}")
-        raise FieldError(f"a matrix of {size} rows wants {wanted} terms, {len(terms)} are given")
+        wanted = [size * size] if sign is None else [size * size, size * (size + 1) // 2]
+        raise FieldError(
+            "kernel.matrices.matrix-rows-wants-terms", size=size, wanted=wanted, n_terms=len(terms)
+        )
     made = np.zeros((size, size))
     made[np.tril_indices(size)] = terms
     return made + sign * np.tril(made, -1).T
@@ -107,7 +109,9 @@ def from_columns(
         If the number of fields is not that of the nodes.
     """
     if len(columns) != len(nodes):
-        raise FieldError(f"{len(columns)} columns are given for {len(nodes)} points")
+        raise FieldError(
+            "kernel.matrices.columns-points", n_columns=len(columns), n_nodes=len(nodes)
+        )
     values = np.stack([c.values_at("ALFA", nodes) for c in columns], axis=1)
     n = len(nodes)
     block = ElementMatrices(

@@ -18,7 +18,7 @@ def cable_stiffness(mesh: Mesh, dimension: int, force: float, percent: float) ->
         If a cell is not a segment of two nodes, or has no length.
     """
     if {b.cell_type for b in mesh.blocks} != {"SEG2"}:
-        raise MeshError("a cable is made of segments of two nodes (SEG2)")
+        raise MeshError("kernel.matrices.cable-made-segments-two")
     rigidity = 100.0 * force / percent
     blocks = []
     for b in mesh.blocks:
@@ -26,7 +26,7 @@ def cable_stiffness(mesh: Mesh, dimension: int, force: float, percent: float) ->
         along = (b.coordinates[:, 1] - b.coordinates[:, 0])[:, :d]
         length = np.linalg.norm(along, axis=1)
         if (length == 0.0).any():
-            raise MeshError("a segment of the cable has no length")
+            raise MeshError("kernel.matrices.segment-cable-no-length")
         row = np.concatenate([-along, along], axis=1) / length[:, None]
         values = (rigidity / length)[:, None, None] * row[:, :, None] * row[:, None, :]
         names = ("UX", "UY", "UZ")[:d] * 2

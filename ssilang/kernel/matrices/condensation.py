@@ -36,16 +36,13 @@ def condensed_on_multipliers(relations: Matrix, inverse_mass: NodeField) -> Matr
     numbering = numbering_of(relations)
     rows = constraint_matrix(relations, numbering)
     if not rows.C.shape[0]:
-        raise FieldError("the matrix has no relation", "BLOQ and RELA make them")
+        raise FieldError("kernel.matrices.matrix-no-relation")
     given = [field_to_vector(inverse_mass, numbering, dual) for dual in (False, True)]
     weights = np.where(given[0] != 0.0, given[0], given[1])
     used = np.unique(rows.C.indices)
     if (weights[used] == 0.0).any():
         bad = int(used[weights[used] == 0.0][0])
-        raise FieldError(
-            f"the diagonal field has no value for {numbering.label(bad)}",
-            "it is the inverse of a diagonal mass, with components UX UY ...",
-        )
+        raise FieldError("kernel.matrices.diagonal-field-no-value", label=numbering.label(bad))
     S = sp.csr_array(rows.C @ sp.diags_array(weights) @ rows.D.T)
     order = np.argsort(rows.multipliers, kind="stable")
     S = sp.csr_array(S[order][:, order])
@@ -68,7 +65,7 @@ def condensed_by_relations(matrix: Matrix, relations: Matrix) -> Matrix:
     FieldError
         If the relations cannot be eliminated.
     """
-    from ssilang.kernel.solvers.elimination import eliminate
+    from ssilang.kernel.solvers.cholesky.elimination import eliminate
 
     rows_only = Matrix(relations.table, (), relations.relations, relations.kind)
     whole = together(Matrix(matrix.table, matrix.blocks, (), matrix.kind), rows_only)
@@ -77,7 +74,7 @@ def condensed_by_relations(matrix: Matrix, relations: Matrix) -> Matrix:
     rows = constraint_matrix(rows_only, numbering)
     found = eliminate(rows.C)
     if not found.eliminated.all():
-        raise FieldError("some of the relations cannot be eliminated: they are too full")
+        raise FieldError("kernel.matrices.some-relations-cannot-eliminated")
     A = sp.csr_array(found.T.T @ K @ found.T)
     kept = found.masters
     masters = Numbering(

@@ -27,9 +27,7 @@ def filter_weights(
 
     names = list(weights.components)
     if len(names) != 1:
-        raise FieldError(
-            f"one component of weights is needed, here are {' '.join(names) or 'none'}"
-        )
+        raise FieldError("kernel.matrices.component-weights-needed", names=names)
     part = weights.components[names[0]]
     n = len(part.nodes)
     if radius > 0.0:
@@ -49,7 +47,7 @@ def filter_weights(
         shares = sp.csr_array(sp.diags_array(part.values.copy()))
     total: FloatArray = np.asarray(shares.sum(axis=1)).ravel()
     if (total == 0.0).any():
-        raise FieldError("the weights around a node are all zero")
+        raise FieldError("kernel.matrices.weights-around-node-zero")
     W = sp.csr_array(sp.diags_array(1.0 / total) @ shares)
     W.data[W.data <= least] = 0.0
     codes = np.zeros(n, dtype=np.int64)

@@ -41,7 +41,7 @@ def impedance(matrix: Matrix, by: Factors, kind: str, other: Matrix | None = Non
     second = other or matrix
     a, b, c, d = by
     if (matrix.relations or second.relations) and by != (1.0, 0.0, 0.0, 1.0):
-        raise KernelError("conditions can only be doubled with 'RAIDEUR'")
+        raise KernelError("kernel.matrices.conditions-only-doubled-raideur")
     blocks = [_doubled(e, ((a, b), (0.0, 0.0))) for e in matrix.blocks if a or b]
     blocks += [_doubled(e, ((0.0, 0.0), (c, d))) for e in second.blocks if c or d]
     relations = [*matrix.relations, *(_imaginary_rows(r) for r in second.relations)]

@@ -30,10 +30,7 @@ def imposed_from_field(relations: Sequence[Relations], values: NodeField) -> Nod
     nodes, imposed = [], []
     for part in relations:
         if (np.diff(part.row_start) != 1).any():
-            raise FieldError(
-                "a field of values fits conditions on a single unknown only",
-                "give relations a number, or 'RELA' and a field of component SCAL",
-            )
+            raise FieldError("kernel.matrices.field-values-fits-conditions")
         names = np.array(part.unknowns)
         for name in dict.fromkeys(part.unknowns):
             own = names == name
@@ -46,10 +43,9 @@ def imposed_from_field(relations: Sequence[Relations], values: NodeField) -> Nod
             imposed.append(found[there])
     where = np.concatenate(nodes)
     if len(where) == 0:
-        held = ", ".join(dict.fromkeys(u for r in relations for u in r.unknowns))
+        held = tuple(dict.fromkeys(u for r in relations for u in r.unknowns))
         raise FieldError(
-            f"the field gives no value where something is held ({held})",
-            f"it has the components {', '.join(values.components) or 'none'}",
+            "kernel.matrices.field-no-value-something", held=held, components=values.components
         )
     return NodeField.of(values.table, where, {"FLX": np.concatenate(imposed)}, "DISCRET")
 
@@ -81,12 +77,12 @@ def imposed_by_node(relations: Sequence[Relations], values: NodeField) -> NodeFi
         If a row has terms on several nodes or the field has another component than SCAL.
     """
     if list(values.components) != ["SCAL"]:
-        raise FieldError("'RELA' wants a field of one component, SCAL")
+        raise FieldError("kernel.matrices.rela-wants-field-component")
     nodes, imposed = [], []
     for part in relations:
         first = part.nodes[part.row_start[:-1]]
         if (part.nodes != np.repeat(first, np.diff(part.row_start))).any():
-            raise FieldError("'RELA' fits relations between unknowns of one node only")
+            raise FieldError("kernel.matrices.rela-fits-relations-between")
         nodes.append(part.multipliers)
         imposed.append(values.values_at("SCAL", first))
     return NodeField.of(

@@ -36,7 +36,9 @@ def sum_of_outer_products(
         If there are no vectors, not as many factors, or too many unknowns for a dense matrix.
     """
     if not fields or len(fields) != len(factors):
-        raise FieldError(f"{len(fields)} vectors with {len(factors)} factors")
+        raise FieldError(
+            "kernel.matrices.vectors-factors", n_fields=len(fields), n_factors=len(factors)
+        )
     table = fields[0].table
     places = sorted(
         {
@@ -47,10 +49,7 @@ def sum_of_outer_products(
         }
     )
     if len(places) > _LARGEST:
-        raise FieldError(
-            f"a full matrix of {len(places)} rows is too large",
-            hint="damping proportional to mass and stiffness is sparse",
-        )
+        raise FieldError("kernel.matrices.full-matrix-rows-too", n_places=len(places))
     rows = {place: i for i, place in enumerate(places)}
     vectors = np.zeros((len(fields), len(places)))
     for vector, field in zip(vectors, fields, strict=True):

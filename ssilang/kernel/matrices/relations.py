@@ -75,10 +75,7 @@ def relation_rows(table: NodeTable, terms: Sequence[Term], sense: int = 0) -> Re
     """
     sizes = sorted({len(t.nodes) for t in terms} - {1}) or [1]
     if len(sizes) > 1 or not terms:
-        raise MeshError(
-            f"the meshes of a relation have {' and '.join(map(str, sizes))} nodes",
-            "give meshes of the same number of nodes, or of a single node",
-        )
+        raise MeshError("kernel.matrices.meshes-relation-nodes", sizes=sizes)
     n = sizes[0]
     coefficients = np.stack([np.broadcast_to(t.coefficients, n) for t in terms], axis=1)
     nodes = np.stack([np.broadcast_to(t.nodes, n) for t in terms], axis=1)
@@ -103,7 +100,7 @@ def rows_from_table(
     counts = kept.sum(axis=1)
     if (counts == 0).any():
         node = int(nodes[np.argmin(counts), 0]) + 1
-        raise FieldError(f"a relation at node {node} has no coefficient other than zero")
+        raise FieldError("kernel.matrices.relation-node-no-coefficient", node=node)
     names = np.array(unknowns, dtype=object)
     where = np.broadcast_to(np.arange(len(unknowns)), kept.shape)[kept]
     return Relations(
@@ -160,7 +157,7 @@ def blocked_along(
     length = np.linalg.norm(d, axis=1, keepdims=True)
     if (length == 0.0).any():
         node = int(nodes[int(np.argmin(length))]) + 1
-        raise FieldError(f"the direction at node {node} has no length")
+        raise FieldError("kernel.matrices.direction-node-no-length", node=node)
     d = d / length
     d[np.abs(d) < 1e-15] = 0.0
     table_of_nodes = np.repeat(nodes[:, None], len(unknowns), axis=1)
@@ -184,7 +181,7 @@ def radial_directions(
     distance = np.linalg.norm(away, axis=1)
     if (distance <= 1e-12 * max(distance.max(initial=0.0), 1e-300)).any():
         node = int(nodes[int(np.argmin(distance))]) + 1
-        raise MeshError(f"node {node} lies on the axis: it has no radial direction")
+        raise MeshError("kernel.matrices.node-lies-axis-no", node=node)
     return away
 
 
@@ -206,7 +203,7 @@ def from_field(field: NodeField, sense: int = 0, multiplier: IntArray | None = N
              for name, p in field.components.items()]  # fmt: skip
     nodes = np.concatenate([n for _, n, _ in parts] or [np.empty(0, np.int64)])
     if len(nodes) == 0:
-        raise FieldError("the field of a relation has no coefficient other than zero")
+        raise FieldError("kernel.matrices.field-relation-no-coefficient")
     own = _multiplier_nodes(field.table, nodes[:1]) if multiplier is None else multiplier
     return Relations(
         field.table,
@@ -247,15 +244,15 @@ def on_plane(
     normal = np.cross(second, other)
     length = float(np.linalg.norm(normal))
     if length <= 1e-12 * np.linalg.norm(second) * np.linalg.norm(other):
-        raise MeshError("the points that define the symmetry are on one line or coincide")
+        raise MeshError("kernel.matrices.points-define-symmetry-line")
     normal = normal / length
     distance = np.abs((table.coordinates[nodes] - first) @ normal)
     near = nodes[distance <= tolerance]
     if len(near) == 0:
-        nearest = f"the nearest is at {distance.min():g}" if len(distance) else "the mesh is empty"
+        if len(distance) == 0:
+            raise MeshError("kernel.matrices.no-node-to-mirror")
         raise MeshError(
-            f"no node within {tolerance:g} of the symmetry; {nearest}",
-            "raise the tolerance, or check the points",
+            "kernel.matrices.no-node-within-symmetry", tolerance=tolerance, nearest=distance.min()
         )
     return near, normal
 
@@ -287,7 +284,7 @@ def mirror_rows(
     elif len(rotation) == 1 and mirrored:
         rows.append(blocked(table, nodes, rotation))
     if not rows:
-        raise FieldError("antisymmetry leaves the rotations of a plane model free")
+        raise FieldError("kernel.matrices.antisymmetry-leaves-rotations-plane")
     return joined(rows)
 
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.base.errors import KernelError, SingularMatrixError
+from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.matrices.assembly import (
@@ -29,9 +29,9 @@ from ssilang.kernel.matrices.assembly import (
     vector_to_field,
 )
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
-from ssilang.kernel.solvers.elimination import Elimination, eliminate
-from ssilang.kernel.solvers.inverse import Inverse, invert
-from ssilang.kernel.statics.linear_motion import bodies_of, describe_motions
+from ssilang.kernel.solvers.cholesky.elimination import Elimination, eliminate
+from ssilang.kernel.solvers.cholesky.inverse import Inverse, invert
+from ssilang.kernel.statics.linear_motion import bodies_of, singular
 
 LARGEST = 6000  # masters; the condensed matrix is full
 
@@ -97,21 +97,16 @@ def condense(
     kept = np.zeros(numbering.size, bool)
     kept[_chosen_unknowns(numbering, chosen)] = True
     if not kept.any():
-        raise KernelError(
-            "none of the master unknowns is an unknown of the stiffness",
-            "give nodes of the body, or fields of its unknowns (UX, UY ...)",
-        )
+        raise KernelError("kernel.matrices.none-master-unknowns-unknown")
     if not inside:
         for part in (conditions.C, conditions.D):
             kept[np.unique(part.indices)] = True
     elif (conditions.sense != 0).any() or not conditions.associated:
-        raise KernelError(
-            "unilateral and non-associated conditions cannot be condensed", "leave out 'NOMU'"
-        )
+        raise KernelError("kernel.matrices.unilateral-non-associated-conditions")
     masters = np.flatnonzero(kept)
     if len(masters) > LARGEST:
         raise KernelError(
-            f"{len(masters)} master unknowns make too large a full matrix (at most {LARGEST})"
+            "kernel.matrices.master-unknowns-make-too", n_masters=len(masters), largest=LARGEST
         )
     return _made(matrix, numbering, masters, conditions if inside else None)
 
@@ -148,9 +143,8 @@ def _made(
     inverse = invert(reduced, is_symmetric(matrix))
     if inverse.singular:
         motions = T @ inverse.kernel[: len(elimination.masters)]
-        raise SingularMatrixError(
-            *describe_motions(numbering, motions, bodies_of(numbering, K, rows.C))
-        )
+        bodies = bodies_of(numbering, K, rows.C)
+        raise singular("kernel.statics.loads-drive-motions", numbering, motions, bodies)
     values = np.zeros((inner + m, m))
     values[inner:] = np.eye(m)
     draft = SuperElement(
@@ -178,10 +172,7 @@ def _free_masters(element: SuperElement, shapes: FloatArray) -> None:
     worst = int(np.argmax(error))
     if error[worst] > 1e-6:
         label = element.numbering.label(int(element.masters[worst]))
-        raise KernelError(
-            f"the conditions of the matrix hold the master unknown {label}",
-            "leave out 'NOMU', or choose other masters",
-        )
+        raise KernelError("kernel.matrices.conditions-matrix-hold-master", label=label)
 
 
 def _responses(
@@ -227,7 +218,7 @@ def _inner_values(element: SuperElement, load: NodeField) -> FloatArray:
 def _forces(element: SuperElement, load: NodeField) -> FloatArray:
     lost = outside(load, element.numbering)
     if lost:
-        raise KernelError(f"the super-element has no unknown for the force {', '.join(lost[:4])}")
+        raise KernelError("kernel.matrices.super-element-no-unknown", lost=lost[:4])
     return field_to_vector(load, element.numbering)
 
 

@@ -24,7 +24,7 @@ def same_value(table: NodeTable, nodes: IntArray, unknown: str) -> Relations:
         If there is only one node.
     """
     if len(nodes) < 2:
-        raise MeshError("a common motion needs at least two nodes")
+        raise MeshError("kernel.matrices.common-motion-needs-least")
     return relation_rows(table, [Term(1.0, unknown, nodes[1:]), Term(-1.0, unknown, nodes[:1])])
 
 
@@ -43,7 +43,7 @@ def rigid_with_rotations(
     master = turning[:1]
     others = np.concatenate([turning[1:], np.setdiff1d(following, turning)])
     if len(turning) == 0 or len(others) == 0:
-        raise MeshError("a rigid body needs at least two nodes")
+        raise MeshError("kernel.matrices.rigid-body-needs-least")
     arm = table.coordinates[others] - table.coordinates[master]
     rows = [
         relation_rows(
@@ -85,13 +85,12 @@ def rigid_by_distances(
         If `check` and the nodes do not span the space.
     """
     if len(nodes) < 2:
-        raise MeshError("a rigid body needs at least two nodes")
+        raise MeshError("kernel.matrices.rigid-body-needs-least")
     dim = len(displacement)
     x = table.coordinates[nodes][:, :dim]
     base = _spread_base(x, dim)
     if len(base) < dim + 1 and check:
-        need = "three nodes not on a line" if dim == 2 else "four nodes not in a plane"
-        raise MeshError(f"a rigid body by distances needs {need}", "or say 'NOVERIF'")
+        raise MeshError("kernel.matrices.rigid-body-distances-needs", plane=dim == 2)
     pairs = [np.array(list(combinations(base, 2)), dtype=np.int64).reshape(-1, 2)]
     others = np.setdiff1d(np.arange(len(nodes)), base)
     pairs.append(_best_ties(x, others, base, dim))
@@ -150,7 +149,7 @@ def middle_nodes(mesh: Mesh, unknowns: Sequence[str]) -> Relations:
             edges.append(block.connectivity[:, corners])
     triples = np.concatenate(edges)
     if len(triples) == 0:
-        raise MeshError("there is no middle node: the mesh has no quadratic cell")
+        raise MeshError("kernel.matrices.no-middle-node-mesh")
     _, first = np.unique(triples[:, 1], return_index=True)
     a, middle, b = triples[np.sort(first)].T
     return joined(
@@ -203,7 +202,7 @@ def hooked(
             rows_from_table(mesh.nodes, table, (u,) * table.shape[1], values) for u in unknowns
         ]
     if not rows:
-        raise MeshError("no node of the first mesh lies in the second one")
+        raise MeshError("kernel.matrices.no-node-first-mesh")
     return joined(rows)
 
 
@@ -237,7 +236,7 @@ def sliding(line: Mesh, mesh: Mesh, unknowns: Sequence[str], tolerance: float = 
             names = tuple(u for u in unknowns for _ in range(nodes.shape[1]))
             rows.append(rows_from_table(mesh.nodes, np.tile(nodes, (1, dim)), names, values))
     if not rows:
-        raise MeshError("no node of the line lies in the second mesh")
+        raise MeshError("kernel.matrices.no-node-line-lies")
     return joined(rows)
 
 
@@ -246,7 +245,9 @@ def _line_tangents(line: Mesh) -> FloatArray:
     total = np.zeros((len(line.nodes), 3))
     for block in line.blocks:
         if block.kind.dimension != 1 or block.kind.joint:
-            raise MeshError(f"a sliding relation wants a line, the mesh holds {block.cell_type}")
+            raise MeshError(
+                "kernel.matrices.sliding-relation-wants-line", cell_type=block.cell_type
+            )
         x = block.coordinates
         along = x[:, -1] - x[:, 0]
         along = along / np.linalg.norm(along, axis=1, keepdims=True)

@@ -152,7 +152,7 @@ def of_type(mesh: Mesh, cell_type: str) -> Mesh:
     """
     found = tuple(b for b in mesh.blocks if b.cell_type == cell_type)
     if not found:
-        kinds = ", ".join(b.cell_type for b in mesh.blocks) or "nothing"
+        kinds = [b.cell_type for b in mesh.blocks]
         raise MeshError("kernel.mesh.no-mesh-holds", cell_type=cell_type, kinds=kinds)
     return Mesh(mesh.nodes, found)
 

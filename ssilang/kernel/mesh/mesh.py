@@ -167,6 +167,6 @@ class Mesh:
             If the mesh has none or several.
         """
         if len(self.blocks) != 1:
-            kinds = ", ".join(b.cell_type for b in self.blocks) or "nothing"
+            kinds = [b.cell_type for b in self.blocks]
             raise MeshError("kernel.mesh.mesh-cell-type-needed", kinds=kinds)
         return self.blocks[0]

@@ -174,8 +174,7 @@ def check_consistent(mesh: Mesh) -> Mesh:
     for dimension in (1, 2):
         clash = _opposed(mesh, dimension)
         if len(clash):
-            where = ", ".join(str(int(n) + 1) for n in clash[:4])
-            raise MeshError("kernel.mesh.adjacent-cells-described-opposite", where=where)
+            raise MeshError("kernel.mesh.adjacent-cells-described-opposite", nodes=clash[:4] + 1)
     return mesh
 
 

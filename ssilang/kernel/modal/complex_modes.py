@@ -47,7 +47,7 @@ def complex_modes(
     """
     problem = reduced_problem(stiffness, mass, damping)
     if problem.size == 0:
-        raise KernelError("the conditions hold every unknown: there is no mode")
+        raise KernelError("kernel.modal.conditions-hold-every-unknown")
     values, shapes = _eigenpairs(problem, 2j * np.pi * near, count)
     frequencies = values / (2j * np.pi)
     keep = np.argsort(np.abs(frequencies - near), kind="stable")[:count]
@@ -64,7 +64,7 @@ def conjugate_modes(
     """
     problem = reduced_problem(stiffness, mass, damping)
     if problem.size == 0:
-        raise KernelError("the conditions hold every unknown: there is no mode")
+        raise KernelError("kernel.modal.conditions-hold-every-unknown")
     values, shapes = _eigenpairs(problem, 0.0, problem.size)
     frequencies = values / (2j * np.pi)
     modulus = np.round(np.abs(frequencies) / np.abs(frequencies).max(initial=1e-300), 9)
@@ -92,7 +92,9 @@ def _eigenpairs(
     try:
         values, vectors = eigs(A.astype(complex), wanted, M=B.astype(complex), sigma=moved)
     except (ArpackError, RuntimeError) as problem_found:
-        raise KernelError(f"the search for modes does not converge: {problem_found}") from None
+        raise KernelError(
+            "kernel.modal.search-modes-not-converge", problem_found=problem_found
+        ) from None
     return values, vectors[:r]
 
 

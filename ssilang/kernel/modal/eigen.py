@@ -18,7 +18,7 @@ from ssilang.kernel.base.errors import KernelError, SingularFactorError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.modal.reduced import ReducedProblem
 from ssilang.kernel.solvers.backends import factorise
-from ssilang.kernel.solvers.inverse import invert
+from ssilang.kernel.solvers.cholesky.inverse import invert
 
 DENSE = 400  # unknowns up to which all eigenvalues are computed
 MASSLESS = 1e-13  # theta (relative to the largest) taken for zero
@@ -61,13 +61,11 @@ def nearest(problem: ReducedProblem, shift: float, count: int) -> Pairs:
 def check(problem: ReducedProblem) -> None:
     """Refuse unsymmetric matrices and systems without mass."""
     if not problem.symmetric:
-        raise KernelError(
-            "the matrices are not symmetric: the modes are complex", "use VIBR 'IRAM'"
-        )
+        raise KernelError("kernel.modal.matrices-not-symmetric-modes")
     if problem.size == 0:
-        raise KernelError("the conditions hold every unknown: there is no mode")
+        raise KernelError("kernel.modal.conditions-hold-every-unknown")
     if problem.M.nnz == 0 or not np.any(problem.M.data):
-        raise KernelError("no unknown that may move has a mass", "give RHO, or add masses")
+        raise KernelError("kernel.modal.no-unknown-may-move")
 
 
 def largest_value(problem: ReducedProblem) -> float:
@@ -88,7 +86,7 @@ def _without_idle(problem: ReducedProblem, shift: float, count: int) -> Pairs:
     inverse = invert(problem.bordered(sp.csr_array(problem.K + size * problem.M)), True)
     pinned = inverse.pinned[inverse.pinned < problem.size]
     if len(pinned) == 0:
-        raise KernelError("the matrix is singular whatever the frequency")
+        raise KernelError("kernel.modal.matrix-singular-whatever-frequency")
     kept = np.setdiff1d(np.arange(problem.size), pinned)
     part = nearest(problem.restricted(kept), shift, count)
     shapes = np.zeros((problem.size, len(part.values)))
@@ -164,9 +162,7 @@ def _indefinite(problem: ReducedProblem, solve: Solve) -> tuple[FloatArray, Floa
     try:
         lower = la.cholesky(0.5 * (flexibility + flexibility.T), lower=True)
     except la.LinAlgError:
-        raise KernelError(
-            "the mass matrix has negative eigenvalues and the stiffness is not positive"
-        ) from None
+        raise KernelError("kernel.modal.mass-matrix-negative-eigenvalues") from None
     theta, y = la.eigh(lower.T @ problem.M.toarray() @ lower)
     return theta, _normal(problem, lower @ y)
 
@@ -185,7 +181,9 @@ def _some(problem: ReducedProblem, solve: Solve, count: int) -> tuple[FloatArray
             ncv=min(n, max(2 * wanted + 10, 30)), maxiter=1000,
         )  # fmt: skip
     except ArpackError as problem_found:
-        raise KernelError(f"the search for modes does not converge: {problem_found}") from None
+        raise KernelError(
+            "kernel.modal.search-modes-not-converge", problem_found=problem_found
+        ) from None
     return 1.0 / values, _normal(problem, shapes)
 
 

@@ -75,7 +75,7 @@ def march(
     from ssilang.kernel.modal.explicit_loops import de_vogelaere, newmark
 
     if h <= 0.0 or steps < 1 or every < 1:
-        raise KernelError("the step and the numbers of steps must be positive")
+        raise KernelError("kernel.modal.step-numbers-steps-must")
     _check_mass(M)
     _check_step(M, K, h, scheme)
     n = len(M)
@@ -100,9 +100,7 @@ def march(
         system = _inverse(M + 0.5 * h * C + beta * h * h * K)
         newmark(_inverse(M), system, C, K, beta, *given)
     if not np.isfinite(values).all():
-        raise KernelError(
-            "the run diverges", "shorten the step: the links are stiffer than it can follow"
-        )
+        raise KernelError("kernel.modal.run-diverges")
     times = start.time + h * every * np.arange(saved, dtype=np.float64)
     end = ModalState(start.time + h * steps, q, v, before, q_before, state)
     return ModalRun(times, values, records, end)
@@ -114,9 +112,7 @@ def _inverse(A: FloatArray) -> FloatArray:
 
 def _check_mass(M: FloatArray) -> None:
     if not np.isfinite(M).all() or np.linalg.matrix_rank(M) < len(M):
-        raise KernelError(
-            "the mass of the modes is singular", "each mode and static shape needs a mass"
-        )
+        raise KernelError("kernel.modal.mass-modes-singular")
 
 
 def _check_step(M: FloatArray, K: FloatArray, h: float, scheme: str) -> None:
@@ -129,6 +125,5 @@ def _check_step(M: FloatArray, K: FloatArray, h: float, scheme: str) -> None:
     largest = float(np.sqrt(max(squares.max(initial=0.0), 0.0)))
     if h * largest > limit:
         raise KernelError(
-            f"the step {h:.4g} s is too long for {scheme}: {limit / largest:.4g} s at most",
-            "shorten the step, or leave out the highest modes",
+            "kernel.modal.step-too-long-most", h=h, scheme=scheme, limit=limit / largest
         )

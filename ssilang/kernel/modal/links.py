@@ -114,16 +114,11 @@ def _check(place: int, link: Link) -> None:
     if link.kind not in CONTACTS:
         return
     if link.law is None and link.numbers.get(STIFF, 0.0) <= 0.0:
-        raise KernelError(f"link {place + 1} has no positive stiffness")
+        raise KernelError("kernel.modal.link-no-positive-stiffness", place=place + 1)
     law = link.law
     if law is not None and (len(law) < 2 or (np.diff(law[:, 0]) <= 0.0).any()):
-        raise KernelError(
-            f"the law of link {place + 1} wants two points or more, abscissas growing"
-        )
+        raise KernelError("kernel.modal.law-link-wants-two", place=place + 1)
     if law is not None and link.numbers.get(PLASTIC):
         slopes = np.diff(law[:, 1]) / np.diff(law[:, 0])
         if slopes[0] <= 0.0 or (slopes[1:] < 0.0).any() or (slopes[1:] >= slopes[0]).any():
-            raise KernelError(
-                f"the law of link {place + 1} is not elastic, then plastic with hardening",
-                "its first line is the steepest; those behind it do not descend",
-            )
+            raise KernelError("kernel.modal.law-link-not-elastic", place=place + 1)

@@ -30,9 +30,9 @@ class Oscillators:
 
     def __init__(self, frequencies: FloatArray, damping: float) -> None:
         if (frequencies <= 0.0).any():
-            raise KernelError("the frequency of an oscillator must be positive")
+            raise KernelError("kernel.modal.frequency-oscillator-must-positive")
         if damping < 0.0:
-            raise KernelError(f"the damping of an oscillator cannot be negative ({damping:g})")
+            raise KernelError("kernel.modal.damping-oscillator-cannot-negative", damping=damping)
         self.w = 2.0 * np.pi * frequencies
         self.xi = damping if abs(damping - 1.0) > CRITICAL else 1.0 - CRITICAL
         self.turning = self.w * np.sqrt(complex(1.0 - self.xi**2))
@@ -122,7 +122,7 @@ def sampled(
         If the times do not increase or there are less than two.
     """
     if len(times) < 2 or (np.diff(times) <= 0.0).any():
-        raise KernelError("the signal's times must increase")
+        raise KernelError("kernel.modal.signal-times-must-increase")
     if wanted is None:
         return times, signal
     every = np.union1d(times, wanted)
@@ -163,7 +163,7 @@ def spectrum(
         Times at which to look (default those of the signal, then half a period of rest).
     """
     if not len(frequencies):
-        raise KernelError("a spectrum needs one frequency at least")
+        raise KernelError("kernel.modal.spectrum-needs-frequency-least")
     oscillators = Oscillators(frequencies, damping)
     sampled(times, signal)
     if wanted is None:
@@ -197,5 +197,5 @@ def default_frequencies(times: FloatArray, damping: float) -> FloatArray:
     while found[-1] < top:
         found.append(found[-1] + max(low, damping * found[-1]))
         if len(found) > 20_000:
-            raise KernelError("the default list of frequencies is too long; give 'FREQ'")
+            raise KernelError("kernel.modal.default-list-frequencies-too")
     return np.array([f for f in found if f <= top * (1.0 + 1e-12)])

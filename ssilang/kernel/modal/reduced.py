@@ -17,7 +17,7 @@ from ssilang.kernel.matrices.assembly import (
     numbering_of,
 )
 from ssilang.kernel.matrices.matrix import Matrix
-from ssilang.kernel.solvers.elimination import Elimination, eliminate
+from ssilang.kernel.solvers.cholesky.elimination import Elimination, eliminate
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,11 +89,11 @@ def reduced_problem(
     parts = [stiffness, mass] if damping is None else [stiffness, mass, damping]
     held = {id(r): r for m in parts for r in m.relations}
     if any(r.dual is not None for r in held.values()):
-        raise KernelError("modes with non-associated relations ('DUAL') have no meaning here")
+        raise KernelError("kernel.modal.modes-non-associated-relations")
     all_rows = Matrix(stiffness.table, (), tuple(held.values()))
     numbering = numbering_of(*parts)
     if numbering.size == 0:
-        raise KernelError("the matrix is empty: there is nothing to solve")
+        raise KernelError("kernel.modal.matrix-empty-nothing-solve")
     rows = constraint_matrix(all_rows, numbering)
     elimination = eliminate(rows.C)
     T = elimination.T

@@ -94,14 +94,17 @@ def shape_points(zones: tuple[Zone, ...], material: CellField) -> list[ShapePoin
 def _shape_point(zone: Zone, given: ZoneField) -> ShapePoint:
     if len(zone.cells) != 1:
         raise MaterialError(
-            f"a model {zone.behaviour[-1]} stands on one point, not {len(zone.cells)}",
-            "one model for each shape, joined with ET",
+            "kernel.modal.model-stands-point-not",
+            behaviour=zone.behaviour[-1],
+            n_cells=len(zone.cells),
         )
     modal = zone.element == "MODAL"
     needed = ("FREQ", "MASS", "DEFO") if modal else ("DEFO", "RIDE", "MADE")
     missing = [n for n in needed if n not in given]
     if missing:
-        raise MaterialError(f"a shape {zone.behaviour[-1]} needs {' '.join(missing)}")
+        raise MaterialError(
+            "kernel.modal.shape-needs", behaviour=zone.behaviour[-1], missing=missing
+        )
 
     def number(name: str) -> float:
         return float(given.raw(name)[0][0, 0]) if name in given else 0.0

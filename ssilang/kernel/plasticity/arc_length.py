@@ -92,9 +92,7 @@ def follow_arc(
             step = path.step(start + (t - began) * rate, rate, control, 1.0, t)
             if step is None:
                 if control.ds <= lengths.least:
-                    raise ConvergenceError(
-                        f"time {t:g}: no solution found at the shortest step", "a smaller 'DSMIN'"
-                    )
+                    raise ConvergenceError("kernel.plasticity.time-no-solution-found", t=t)
                 control.ds = max(0.5 * control.ds, lengths.least)
         t += step
         control.way = (run.motion.u - before, step)

@@ -9,9 +9,9 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import ConvergenceError
-from ssilang.kernel.dynamics.integrate import History
 from ssilang.kernel.plasticity.following import Control, PathRun
 from ssilang.kernel.plasticity.run import HALVINGS, BulkRun
+from ssilang.kernel.stepping.run import History
 
 END = 1e-9
 """Share of an interval of time taken for its end."""
@@ -73,10 +73,10 @@ def follow_directions(
                 length *= 0.5
                 if length < 0.5**HALVINGS:
                     raise ConvergenceError(
-                        f"step {k}, time {times[k]:g}: no point of the path found, step cut "
-                        f"{HALVINGS} times",
-                        "a smaller increment of the control, or another control; supports "
-                        "(BLOCAGES_MECANIQUES) that hold the structure",
+                        "kernel.plasticity.step-time-no-point",
+                        k=k,
+                        times=times[k],
+                        halvings=HALVINGS,
                     )
                 continue
             eta, done, length = eta + step, end, min(2 * length, 1.0)
@@ -142,8 +142,4 @@ def _towards(
         if step is not None:
             return s + step
         share *= 0.5
-    raise ConvergenceError(
-        f"time {now:g}: no point of the path found, step cut {HALVINGS} times",
-        "a smaller 'AUTOCRIT', or a control that grows along the path; supports "
-        "(BLOCAGES_MECANIQUES) that hold the structure",
-    )
+    raise ConvergenceError("kernel.plasticity.time-no-point-path", now=now, halvings=HALVINGS)

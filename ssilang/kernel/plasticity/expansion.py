@@ -9,12 +9,12 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.curves.curve import Load
-from ssilang.kernel.dynamics.loading import TimeCurve, terms_of
 from ssilang.kernel.elements.loads.thermal import thermal_strain
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.plasticity.bulk import FreeStrain
+from ssilang.kernel.stepping.problem.loading import TimeCurve, terms_of
 
 
 def free_strains(
@@ -41,7 +41,7 @@ def _free_strain(
     changes: list[tuple[FloatArray, TimeCurve]] = []
     for field, curve in terms:
         if not isinstance(field, NodeField | CellField):
-            raise FieldError("the load T needs a field of temperatures")
+            raise FieldError("kernel.plasticity.load-needs-field-temperatures")
         changes.append((thermal_strain(zone, material, field) - reference, curve))
 
     def at(time: float) -> FloatArray:

@@ -160,7 +160,7 @@ class FiniteBar:
         now = self.span + u[:, d:] - u[:, :d]
         length = np.linalg.norm(now, axis=1)
         if (length == 0.0).any():
-            raise FieldError("a bar is shrunk to nothing")
+            raise FieldError("kernel.plasticity.bar-shrunk-nothing")
         return np.linalg.norm(self.span, axis=1), length, now / length[:, None]
 
     def _force(self, u: FloatArray) -> FloatArray:
@@ -222,11 +222,7 @@ def finite_zone(zone: Zone, material: CellField) -> FiniteZone:
         return FiniteBar(zone, span, stiffness, np.zeros(len(ends)), weights.shape[1])
     turning = zone.mode is Mode.FOURIER or (zone.mode in REVOLUTION and harmonic(zone))
     if not is_solid(zone) or turning:
-        raise FieldError(
-            f"finite displacements are not built for {zone.element} in this hypothesis",
-            "continuous elements, bars, beams (POUT, TIMO) and plane COQ2 have them; leave "
-            "'GRANDS_DEPLACEMENTS' for others",
-        )
+        raise FieldError("kernel.plasticity.finite-displacements-not-built", element=zone.element)
     slopes = _slopes(zone)
     count = moduli.shape[-1]
     D = np.broadcast_to(moduli, (*weights.shape, count, count)).copy()

@@ -59,7 +59,7 @@ class FiniteBeam:
         now = self.span + u[:, 3:5] - u[:, :2]
         rest, length = np.linalg.norm(self.span, axis=1), np.linalg.norm(now, axis=1)
         if (length == 0.0).any():
-            raise FieldError("a beam is shrunk to nothing")
+            raise FieldError("kernel.plasticity.beam-shrunk-nothing")
         across = self.span[:, 0] * now[:, 1] - self.span[:, 1] * now[:, 0]
         turn = np.arctan2(across, np.einsum("ni,ni->n", self.span, now))
         # of the angles that differ by whole turns, the one nearest to the ends'

@@ -127,7 +127,7 @@ class FiniteSpaceBeam:
         # l - L without the rounding of their difference
         length = np.sqrt((now * now).sum(axis=1))
         if (np.abs(length) == 0.0).any():
-            raise FieldError("a beam is shrunk to nothing")
+            raise FieldError("kernel.plasticity.beam-shrunk-nothing")
         stretch = ((now - self.span) * (now + self.span)).sum(axis=1) / (length + rest)
         turns = [rotation(u[:, k : k + 3]) for k in (3, 9)]
         seconds = [np.einsum("cij,cj->ci", R, self.axes[:, 1]) for R in turns]

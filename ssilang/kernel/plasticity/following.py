@@ -15,14 +15,14 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import KernelError, SingularFactorError
 from ssilang.kernel.base.sparse import sp
-from ssilang.kernel.dynamics.compiled_loop import EXTERNAL, Motion
-from ssilang.kernel.dynamics.motion import snapshot_of
-from ssilang.kernel.dynamics.problem import Problem
 from ssilang.kernel.plasticity.bulk import Bulk
 from ssilang.kernel.plasticity.newton import STALLED, TOLERANCE, TURNS, BulkSolver, _Trial
 from ssilang.kernel.plasticity.run import BulkRun
 from ssilang.kernel.plasticity.snapshot import BulkSnapshot
 from ssilang.kernel.solvers.backends import factorise
+from ssilang.kernel.stepping.problem.problem import Problem
+from ssilang.kernel.stepping.rests.dense.loop import EXTERNAL, Motion
+from ssilang.kernel.stepping.state import snapshot_of
 
 SOFT = 1e7
 """Displacement under a unit of load over that of the first state, beyond which it is a collapse."""
@@ -118,7 +118,7 @@ class FollowingSolver(BulkSolver):
             lost = self._followed(motion, r, dd, way, lambda s, _: [most - s.x], share, start)
         if lost.turns > 0:
             assert lost.trial is not None
-            self._commit(motion, lost.du, lost.trial.f, lost.trial.new)
+            self._commit(motion, lost.trial.joints)
             answer = lost.trial.answer
             self.state, self.force, self.work = answer.state, answer.force, answer.work
         return lost
@@ -224,10 +224,7 @@ class PathRun:
 
     def __init__(self, run: BulkRun) -> None:
         if run.problem.contact is not None:
-            raise KernelError(
-                "unilateral relations (MINI, MAXI) do not go with controlled loads",
-                "describe contact by joints (JOINT_SDM)",
-            )
+            raise KernelError("kernel.plasticity.unilateral-relations-mini-maxi")
         self.run = run
         self.solver = FollowingSolver(run.problem, run.problem.K, 1.0, run.bulk, run.state)
         self.count, self.iterations, self.turns = 0, 0, 0

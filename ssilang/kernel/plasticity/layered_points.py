@@ -114,7 +114,7 @@ def layered_points(zone: Zone, characteristics: CellField) -> LayeredPoints:
     x, w = np.polynomial.legendre.leggauss(count)
     h = np.broadcast_to(given.at("EPAI", "STRESSES"), (n, p))[..., None]
     if (h <= 0).any():
-        raise MaterialError(f"EPAI = {h.min():g}: it must be > 0")
+        raise MaterialError("kernel.plasticity.epai-must", h_min=h.min())
     heights, shares = (0.5 * h * x).reshape(n, -1), (0.5 * h * w).reshape(n, -1)
     repeated = np.repeat(operator.matrix, count, axis=2)
     B = repeated[:, :3] + heights[:, None, :, None] * repeated[:, 3:]

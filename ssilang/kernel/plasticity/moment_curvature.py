@@ -93,7 +93,7 @@ def _balanced(
     areas = section.areas
     elastic = float(areas @ section.moduli[:, 0])
     if elastic <= 0:
-        raise KernelError("the fibres have no area or no YOUN: the section carries no normal force")
+        raise KernelError("kernel.plasticity.fibres-no-area-no")
     low, high, step = -np.inf, np.inf, 0.0
     for _ in range(TURNS):
         stress, _, slope = answer(step)
@@ -108,7 +108,9 @@ def _balanced(
         if np.isfinite(high - low) and high - low <= 1e-15 * max(abs(low), abs(high), 1e-12):
             return step
     raise ConvergenceError(
-        f"the section does not find the normal force {force:g} of value {row + 1}: "
-        f"{rest:+.3g} is missing after {TURNS} iterations",
-        "is the force below the strength of the section?",
+        "kernel.plasticity.section-not-find-normal",
+        force=force,
+        row=row + 1,
+        rest=rest,
+        turns=TURNS,
     )

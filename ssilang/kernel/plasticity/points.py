@@ -218,7 +218,9 @@ def law_parameters(zone: Zone, law: PlasticLaw, given: ZoneField) -> PointParame
     values = {name: at_points(name) for name in names}
     check_isotropic(values["YOUN"], values["NU"])
     if (values["YOUN"] <= 0).any():
-        raise MaterialError(f"YOUN = {values['YOUN'].min():g}: a plastic law needs YOUN > 0")
+        raise MaterialError(
+            "kernel.plasticity.youn-plastic-law-needs", youn_min=values["YOUN"].min()
+        )
     curves = {name: _curves(given, name, shape) for name in law.curves}
     found = PointParameters(values, curves)
     check_parameters(law, found)
@@ -233,7 +235,7 @@ def _curves(given: ZoneField, name: str, shape: tuple[int, int]) -> tuple[list, 
     different = list({id(v): v for v in values}.values())
     wrong = next((v for v in different if not isinstance(v, Curve)), None)
     if wrong is not None:
-        raise MaterialError(f"parameter {name} is a curve", "EVOL 'MANU' strains stresses")
+        raise MaterialError("kernel.plasticity.parameter-curve", name=name)
     place = {id(v): i for i, v in enumerate(different)}
     which: IntArray = np.array([place[id(v)] for v in values], dtype=np.int64)
     return different, which

@@ -10,7 +10,20 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import ConvergenceError, KernelError
-from ssilang.kernel.dynamics.compiled_loop import (
+from ssilang.kernel.contact.impact import ImpactRule
+from ssilang.kernel.interface.response import interface_energies
+from ssilang.kernel.plasticity.bulk import Bulk, State
+from ssilang.kernel.plasticity.newton import BulkSolver
+from ssilang.kernel.plasticity.snapshot import NOTHING, hand_over
+from ssilang.kernel.stepping.effective import effective_matrix, effective_of
+from ssilang.kernel.stepping.problem.initial import (
+    admissible_velocity,
+    closed_at_start,
+    initial_energies,
+    joint_state,
+)
+from ssilang.kernel.stepping.problem.problem import Problem
+from ssilang.kernel.stepping.rests.dense.loop import (
     ELASTIC,
     EXTERNAL,
     LOST,
@@ -18,22 +31,9 @@ from ssilang.kernel.dynamics.compiled_loop import (
     STORED,
     Motion,
 )
-from ssilang.kernel.dynamics.effective import effective_matrix, effective_of
-from ssilang.kernel.dynamics.impact import ImpactRule
-from ssilang.kernel.dynamics.initial import (
-    admissible_velocity,
-    closed_at_start,
-    initial_energies,
-    joint_state,
-)
-from ssilang.kernel.dynamics.integrate import History, Progress
-from ssilang.kernel.dynamics.problem import Problem
-from ssilang.kernel.dynamics.snapshot import Observer
-from ssilang.kernel.dynamics.sparse_loop import SparseLoop, StepOutcome, support_work
-from ssilang.kernel.joints.response import interface_energies
-from ssilang.kernel.plasticity.bulk import Bulk, State
-from ssilang.kernel.plasticity.newton import BulkSolver
-from ssilang.kernel.plasticity.snapshot import NOTHING, hand_over
+from ssilang.kernel.stepping.rests.sparse.loop import SparseLoop, StepOutcome, support_work
+from ssilang.kernel.stepping.run import History, Progress
+from ssilang.kernel.stepping.snapshot import Observer
 
 HALVINGS = 7
 """How often a step that does not converge is cut in two."""
@@ -58,10 +58,7 @@ class BulkRun:
     def __post_init__(self) -> None:
         p = self.problem
         if p.scheme.conserving or p.scheme.adaptive:
-            raise KernelError(
-                "plastic bodies are stepped by Newmark, HHT or generalised alpha",
-                "leave CONSERVATIF and PAS_ADAPTE",
-            )
+            raise KernelError("kernel.plasticity.plastic-bodies-stepped-newmark")
         joints = joint_state(p)
         n = p.numbering.size
         self.motion = Motion(
@@ -87,7 +84,7 @@ class BulkRun:
         m.energies[LOST] = 0.0
         if joints is not None:
             m.energies[STORED], m.energies[LOST] = interface_energies(
-                joints.codes, joints.parameters, joints.weights, m.w, m.t, m.state
+                joints.points, m.w, m.t, m.state
             )
         m.energies[LOST] += self.lost
 
@@ -146,10 +143,12 @@ def _static_step(
         length = 0.5 * length
         if length < 0.5**HALVINGS:
             raise ConvergenceError(
-                f"load step {k}, time {solver.time:g}: no equilibrium found (residual "
-                f"{outcome.residual:.1e} after {len(solver.residuals)} iterations, step cut "
-                f"{HALVINGS} times)",
-                "the load may exceed what the bodies can carry: impose displacements to go on",
+                "kernel.plasticity.load-step-time-no",
+                k=k,
+                time=solver.time,
+                residual=outcome.residual,
+                n_residuals=len(solver.residuals),
+                halvings=HALVINGS,
             )
 
 
@@ -217,9 +216,11 @@ def integrate_bulk(run: BulkRun) -> History:
             outcome = loop.step(float(times[k - 1]), float(times[k]), factors[k - 1 : k + 1])
             if outcome.turns <= 0 or not np.isfinite(run.motion.u).all():
                 raise ConvergenceError(
-                    f"step {k}, time {times[k]:g}: no equilibrium found (residual "
-                    f"{outcome.residual:.1e} after {-outcome.turns} iterations)",
-                    "smaller steps",
+                    "kernel.plasticity.step-time-no-equilibrium",
+                    k=k,
+                    times=times[k],
+                    residual=outcome.residual,
+                    turns=-outcome.turns,
                 )
             history.iterations = max(history.iterations, outcome.turns)
             history.energies[k] = run.motion.energies
@@ -235,7 +236,7 @@ def integrate_bulk(run: BulkRun) -> History:
 
 def _start(run: BulkRun, factors: FloatArray) -> None:
     """Initial velocity, acceleration, reactions, kinetic energy."""
-    from ssilang.kernel.dynamics.initial import accelerated, with_contact
+    from ssilang.kernel.stepping.problem.initial import accelerated, with_contact
 
     p, m = run.problem, run.motion
     m.v[:] = admissible_velocity(p)

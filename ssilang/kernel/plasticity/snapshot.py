@@ -6,12 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ssilang.kernel.dynamics.compiled_loop import Motion
-from ssilang.kernel.dynamics.motion import snapshot_of
-from ssilang.kernel.dynamics.problem import Problem
-from ssilang.kernel.dynamics.snapshot import Observer, Snapshot
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.plasticity.bulk import Bulk, State
+from ssilang.kernel.stepping.problem.problem import Problem
+from ssilang.kernel.stepping.rests.dense.loop import Motion
+from ssilang.kernel.stepping.snapshot import Observer, Snapshot
+from ssilang.kernel.stepping.state import snapshot_of
 
 NOTHING = np.zeros(0)
 

@@ -39,7 +39,7 @@ def plastic_points(zone: Zone, characteristics: CellField) -> PlasticPoints:
     given = zone_field(zone, characteristics)
     bar = ELEMENTS[zone.element].family == "bar"
     if not bar and zone.mode not in COMPONENTS:
-        raise KernelError(f"plastic laws do not exist in mode {zone.mode.value}")
+        raise KernelError("kernel.plasticity.plastic-laws-not-exist", value=zone.mode.value)
     parts = [
         family.strain_operator(zone, given, "STRESSES", cells) for cells in chunks(len(zone.cells))
     ]

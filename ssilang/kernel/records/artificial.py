@@ -37,7 +37,7 @@ def sines(f: FloatArray, density: FloatArray, count: int) -> tuple[FloatArray, F
     middle = f[0] + width * (np.arange(count) + 0.5)
     level = np.interp(middle, f, density)
     if (level < 0.0).any():
-        raise FieldError("a power spectrum is not negative")
+        raise FieldError("kernel.records.power-spectrum-not-negative")
     return middle, np.sqrt(2.0 * level * width)
 
 

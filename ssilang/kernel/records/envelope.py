@@ -75,7 +75,7 @@ def mean_shock(
     """
     step = float(x[-1] - x[0]) / max(len(x) - 1, 1)
     if duration <= 0.0 or step <= 0.0:
-        raise FieldError("the recording time of a shock must be positive")
+        raise FieldError("kernel.records.recording-time-shock-must")
     length = round(duration / step)
     size = np.abs(y)
     above = size > percent / 100.0 * (size.max() if len(size) else 0.0)
@@ -92,7 +92,7 @@ def mean_shock(
         while i < len(y) and above[i]:
             i += 1  # the same shock, longer than its recording
     if not taken:
-        raise FieldError("the record has no whole shock", "a lower 'DECL' or a shorter 'ACQU'")
+        raise FieldError("kernel.records.record-no-whole-shock")
     return step * np.arange(length + 1.0), np.asarray(np.mean(taken, axis=0))
 
 
@@ -110,12 +110,16 @@ def inverse_laplace(
         If omega does not start at 0 with a constant step, or the sizes do not fit.
     """
     if len(omega) < 2 or len(values) != len(omega):
-        raise FieldError(f"{len(omega)} frequencies for {len(values)} values of the function")
+        raise FieldError(
+            "kernel.records.frequencies-values-function", n_omega=len(omega), n_values=len(values)
+        )
     steps = np.diff(omega)
     if abs(omega[0]) > 1e-9 * omega[-1] or np.ptp(steps) > 1e-4 * steps[0]:
-        raise FieldError("the frequencies begin at 0 and have a constant step")
+        raise FieldError("kernel.records.frequencies-begin-constant-step")
     if group < 1 or len(omega) % group:
-        raise FieldError(f"{len(omega)} frequencies do not split into groups of {group}")
+        raise FieldError(
+            "kernel.records.frequencies-not-split-groups", n_omega=len(omega), group=group
+        )
     n = len(omega) // group
     period = 2.0 * np.pi / steps[0]
     times = period / n * np.arange(n)

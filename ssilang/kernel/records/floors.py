@@ -44,12 +44,12 @@ class Storey:
     def __post_init__(self) -> None:
         """Refuse what has no meaning."""
         if not len(self.frequencies) == len(self.dampings) == len(self.participations):
-            raise FieldError("each mode has a frequency, a damping and a participation")
+            raise FieldError("kernel.records.mode-frequency-damping-participation")
         if (self.frequencies <= 0.0).any():
-            raise FieldError("the frequencies of modes are positive")
+            raise FieldError("kernel.records.frequencies-modes-positive")
         wrong = self.dampings[(self.dampings <= 0.0) | (self.dampings >= 1.0)]
         if len(wrong):
-            raise FieldError(f"damping is between 0 and 1, not {wrong[0]:g}")
+            raise FieldError("kernel.records.damping-between-not", damping=wrong[0])
 
 
 def _system(storey: Storey, natural: float, damping: float) -> tuple[FloatArray, FloatArray]:
@@ -132,7 +132,7 @@ def _points(
     """Frequencies and weights times density: finer near each resonance."""
     f, density = power
     if (density < 0.0).any() or not (density > 0.0).any() or (np.diff(f) <= 0.0).any():
-        raise FieldError("a power spectrum is positive, over increasing frequencies")
+        raise FieldError("kernel.records.power-spectrum-positive-over")
     spread = np.sinh(np.linspace(-6.0, 6.0, 41))
     near = [natural * (1.0 + damping * spread)]
     near += [
@@ -164,9 +164,9 @@ def floor_spectrum(
         For dampings, frequencies or an envelope out of their range.
     """
     if not 0.0 < damping < 1.0:
-        raise FieldError(f"damping is between 0 and 1, not {damping:g}")
+        raise FieldError("kernel.records.damping-between-not", damping=damping)
     if (frequencies <= 0.0).any() or envelope[0][-1] <= envelope[0][0]:
-        raise FieldError("the frequencies of a spectrum and the duration are positive")
+        raise FieldError("kernel.records.frequencies-spectrum-duration-positive")
     deviations, factors = [], []
     for natural in frequencies:
         times, moments = floor_evolution(storey, power, envelope, float(natural), damping)

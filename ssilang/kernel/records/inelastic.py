@@ -47,7 +47,7 @@ def yielding_peaks(
     """
     _check(times, frequencies, damping, hardening)
     if (limits <= 0.0).any():
-        raise KernelError("the elastic limit of an oscillator must be positive")
+        raise KernelError("kernel.records.elastic-limit-oscillator-must")
     dt = float(times[-1] - times[0]) / (len(times) - 1)
     return np.array(
         [
@@ -79,7 +79,7 @@ def limits_for_ductility(
     """
     _check(times, frequencies, damping, hardening)
     if ductility < 1.0:
-        raise KernelError(f"a ductility is at least 1 ({ductility:g})")
+        raise KernelError("kernel.records.ductility-least", ductility=ductility)
     dt = float(times[-1] - times[0]) / (len(times) - 1)
     found = np.empty(len(frequencies))
     for k, f in enumerate(frequencies):
@@ -90,13 +90,13 @@ def limits_for_ductility(
 
 def _check(times: FloatArray, frequencies: FloatArray, damping: float, hardening: float) -> None:
     if len(times) < 2 or np.ptp(np.diff(times)) > 1e-4 * abs(float(times[1] - times[0])):
-        raise KernelError("the signal's times must go by equal steps")
+        raise KernelError("kernel.records.signal-times-must-go")
     if (frequencies <= 0.0).any():
-        raise KernelError("the frequency of an oscillator must be positive")
+        raise KernelError("kernel.records.frequency-oscillator-must-positive")
     if damping < 0.0:
-        raise KernelError(f"the damping of an oscillator cannot be negative ({damping:g})")
+        raise KernelError("kernel.records.damping-oscillator-cannot-negative", damping=damping)
     if not 0.0 <= hardening < 1.0:
-        raise KernelError(f"the hardening ratio lies from 0 to 1, 1 left out ({hardening:g})")
+        raise KernelError("kernel.records.hardening-ratio-lies-left", hardening=hardening)
 
 
 class _Peak:

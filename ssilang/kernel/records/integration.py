@@ -89,7 +89,7 @@ def brought_to_rest(
     """
     n = len(acceleration)
     if n < 4:
-        raise FieldError(f"a record to correct needs four points at least, found {n}")
+        raise FieldError("kernel.records.record-correct-needs-four", n=n)
     rows = end_rows(n, step, linear)
     basis, _ = np.linalg.qr((rows / np.linalg.norm(rows, axis=1)[:, None]).T)
     return np.asarray(acceleration - basis @ (basis.T @ acceleration))

@@ -48,15 +48,17 @@ class ModulatedSignal:
         """Refuse what has no meaning."""
         f, y = self.frequencies, self.density
         if (y < 0.0).any() or not (y > 0.0).any() or (np.diff(f) <= 0.0).any():
-            raise FieldError("a power spectrum is positive, over increasing frequencies")
+            raise FieldError("kernel.records.power-spectrum-positive-over")
         if len(self.bands) != len(self.times) + 1 or (np.diff(self.bands) <= 0.0).any():
             raise FieldError(
-                f"{len(self.times)} modulations need {len(self.times) + 1} increasing limits of "
-                f"bands, not {len(self.bands)}"
+                "kernel.records.modulations-need-increasing-limits",
+                n_times=len(self.times),
+                n_times_2=len(self.times) + 1,
+                n_bands=len(self.bands),
             )
         ends = np.array([[t[0], t[-1]] for t in self.times])
         if np.ptp(ends, axis=0).max() > 1e-6 * max(self.duration, 1e-300) or self.duration <= 0.0:
-            raise FieldError("the modulations do not go from one instant to another, all alike")
+            raise FieldError("kernel.records.modulations-not-go-instant")
 
     @property
     def duration(self) -> float:
@@ -232,11 +234,11 @@ def modulated_response_spectrum(
         If damping, periods, or the numbers of processes and instants are out of their range.
     """
     if not 0.0 < damping < 1.0:
-        raise FieldError(f"damping is between 0 and 1, not {damping:g}")
+        raise FieldError("kernel.records.damping-between-not", damping=damping)
     if (periods <= 0.0).any():
-        raise FieldError("the duration and the periods must be positive")
+        raise FieldError("kernel.records.duration-periods-must-positive")
     if resolution.processes < 1 or resolution.instants < 1 or resolution.precision <= 0.0:
-        raise FieldError("at least one process and one instant are needed, and a precision above 0")
+        raise FieldError("kernel.records.least-process-instant-needed")
     found = []
     for period in periods:
         times, moments = evolution(signal, 1.0 / float(period), damping, kind, resolution)

@@ -92,7 +92,7 @@ def _level(probability: float, law: Callable[[float], float]) -> float:
     while law(high) < probability:
         high *= 2.0
         if high > 1e3:
-            raise FieldError("the largest response of this spectrum has no finite fractile")
+            raise FieldError("kernel.records.largest-response-spectrum-no")
     for _ in range(80):
         middle = 0.5 * (low + high)
         low, high = (middle, high) if law(middle) < probability else (low, middle)
@@ -123,11 +123,11 @@ def response_spectrum(
         positive.
     """
     if not 0.0 < damping < 1.0:
-        raise FieldError(f"damping is between 0 and 1, not {damping:g}")
+        raise FieldError("kernel.records.damping-between-not", damping=damping)
     if duration <= 0.0 or (periods <= 0.0).any():
-        raise FieldError("the duration and the periods must be positive")
+        raise FieldError("kernel.records.duration-periods-must-positive")
     if (density < 0.0).any() or not (density > 0.0).any() or (np.diff(f) <= 0.0).any():
-        raise FieldError("a power spectrum is positive, over increasing frequencies")
+        raise FieldError("kernel.records.power-spectrum-positive-over")
     peak = PEAKS[law]
     found = [response_moments(f, density, 1.0 / t, damping, kind) for t in periods]
     return np.array([peak(m, duration) for m in found])

@@ -34,7 +34,7 @@ def count_negative(A: sp.csr_array) -> int:
         return _by_eigenvalues(A, size)
     from ssilang.kernel.base.errors import KernelError
 
-    raise KernelError("the number of negative eigenvalues cannot be found without row exchanges")
+    raise KernelError("kernel.solvers.number-negative-eigenvalues-cannot")
 
 
 def _by_eigenvalues(A: sp.csr_array, size: float) -> int:

@@ -39,10 +39,7 @@ class MultigridFactor:
         from pyamg import smoothed_aggregation_solver
 
         if not positive:
-            raise KernelError(
-                "multigrid solves symmetric positive matrices only",
-                "without ELIM 0, STAB and relations with a dual; a direct solver takes the others",
-            )
+            raise KernelError("kernel.solvers.multigrid-solves-symmetric-positive")
         if not (A.diagonal() > 0.0).all():
             raise SingularFactorError("a diagonal term is not positive")
         matrix = sp.csr_matrix(A)
@@ -71,12 +68,7 @@ class MultigridFactor:
             self._matrix, b, rtol=RESIDUAL, atol=0.0, maxiter=MOST_TURNS, M=self._coarser
         )
         if left or not np.isfinite(x).all():
-            raise KernelError(
-                f"multigrid did not converge within {MOST_TURNS} turns: a body is free to move, "
-                "or stiffnesses differ too much",
-                "hold every body (BLOQ); with more memory a direct solver says which motion is "
-                "free",
-            )
+            raise KernelError("kernel.solvers.multigrid-did-not-converge", most_turns=MOST_TURNS)
         return np.asarray(x, dtype=float)
 
 

@@ -15,12 +15,12 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.sparse import sp
-from ssilang.kernel.dynamics.contrast import stiffness_contrast
-from ssilang.kernel.dynamics.effective import effective_matrix
-from ssilang.kernel.dynamics.problem import Problem
-from ssilang.kernel.joints.columns import KN
+from ssilang.kernel.interface.laws.columns import Parameter
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.statics.linear import LinearSystem
+from ssilang.kernel.stepping.effective import effective_matrix
+from ssilang.kernel.stepping.problem.contrast import stiffness_contrast
+from ssilang.kernel.stepping.problem.problem import Problem
 
 LARGEST = 20_000  # unknowns for which a factorisation of its own costs little
 FEW_DIGITS = 1e12  # condition number that leaves four digits of sixteen
@@ -120,7 +120,9 @@ def joint_conditioning(problem: Problem) -> JointConditioning | None:
     balanced = number
     if number > STRANGE_JOINTS:
         balanced = condition_number(sp.csr_array(V.T @ (A + closed / contrast) @ T))
-    return JointConditioning(number, balanced, contrast, float(np.median(joints.parameters[:, KN])))
+    return JointConditioning(
+        number, balanced, contrast, float(np.median(joints.parameters[:, Parameter.KN]))
+    )
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,6 @@ import scipy.sparse as sp
 from ssilang.kernel.base.arrays import ComplexArray, FloatArray
 from ssilang.kernel.base.errors import FieldError, KernelError, SingularMatrixError
 from ssilang.kernel.curves.curve import Load
-from ssilang.kernel.dynamics.loading import MECHANICAL, terms_of
 from ssilang.kernel.elements.family import element_matrices
 from ssilang.kernel.elements.springs import dynamic_stiffness
 from ssilang.kernel.elements.zone_fields import ZoneField
@@ -35,6 +34,7 @@ from ssilang.kernel.matrices.assembly import (
     vector_to_field,
 )
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, imaginary
+from ssilang.kernel.stepping.problem.loading import MECHANICAL, terms_of
 
 _DENSE = 300
 """Up to this many unknowns full matrices are faster than sparse ones."""
@@ -100,10 +100,7 @@ class _System:
         self.numbering = numbering_of(*matrices, here)
         self.rows: ConstraintRows = constraint_matrix(inputs.stiffness, self.numbering)
         if self.rows.sense.any():
-            raise KernelError(
-                "a unilateral condition has no harmonic response",
-                "hold with equalities (BLOQ, RELA without MINI or MAXI), or work in time",
-            )
+            raise KernelError("kernel.statics.unilateral-condition-no-harmonic")
         self.K, self.M, self.C = (
             sp.csr_array((self.numbering.size,) * 2) if m is None else assemble(m, self.numbering)
             for m in (inputs.stiffness, inputs.mass, inputs.damping)
@@ -178,10 +175,7 @@ def _solved(A: sp.csc_array, b: ComplexArray, frequency: float) -> ComplexArray:
     size = float(np.abs(b).max()) if len(b) else 0.0
     rest = np.asarray(A @ x) - b
     if not np.isfinite(x).all() or np.abs(rest).max() > 1e-6 * size:
-        raise SingularMatrixError(
-            f"at {frequency:g} Hz the system is singular",
-            "undamped resonance, or a free motion at 0 Hz: leave this frequency out or add damping",
-        )
+        raise SingularMatrixError("kernel.statics.hz-system-singular", frequency=frequency)
     return np.asarray(x, dtype=np.complex128)
 
 
@@ -191,19 +185,14 @@ def _loads(
     """Complex forces, imposed values and functions of the frequency of the parts of a load."""
     for part in load.parts if load is not None else ():
         if part.name.strip() not in MECHANICAL:
-            raise FieldError(
-                f"the load {part.name} is not mechanical", "MECA (or FORC) and DIMP are taken here"
-            )
+            raise FieldError("kernel.statics.load-not-mechanical", name=part.name)
         for field, curve in terms_of(part):
             if not isinstance(field, NodeField):
-                raise FieldError("a mechanical load is made of nodal fields (CHPOINT)")
+                raise FieldError("kernel.statics.mechanical-load-made-nodal")
             real, other = split(field, numbering)
             lost = outside(real, numbering) + outside(other, numbering)
             if lost:
-                raise FieldError(
-                    f"the load {part.name} has {lost[0]}, which the matrices lack",
-                    "forces act on nodes and unknowns of the model",
-                )
+                raise FieldError("kernel.statics.load-matrices-lack", name=part.name, lost=lost[0])
             forces = [field_to_vector(g, numbering) for g in (real, other)]
             imposed = [imposed_values(g, rows.multipliers) for g in (real, other)]
             yield forces[0] + 1j * forces[1], imposed[0] + 1j * imposed[1], curve
@@ -233,25 +222,16 @@ def default_frequencies(inputs: HarmonicInputs) -> FloatArray:
     """
     system = _System(inputs)
     if system.numbering.size > _LARGEST_GUESS:
-        raise KernelError(
-            f"{system.numbering.size} unknowns are too many to choose frequencies for",
-            "say which: TAB1 . 'TEMPS_CALCULES' = PROG ... ;",
-        )
+        raise KernelError("kernel.statics.unknowns-too-many-choose", size=system.numbering.size)
     natural = natural_frequencies(system)
     if not len(natural):
-        raise KernelError(
-            "the system has no natural frequency to choose a sweep from",
-            "say which: TAB1 . 'TEMPS_CALCULES' = PROG ... ;",
-        )
+        raise KernelError("kernel.statics.system-no-natural-frequency")
     low, high = natural[0] / 20.0, 2.0 * natural[-1]
     spans = [(x[0], x[-1]) for _, _, (x, _) in system.loads if len(x) > 1]
     if spans:
         low, high = max(low, min(a for a, _ in spans)), min(high, max(b for _, b in spans))
     if not low < high:
-        raise KernelError(
-            f"the load ends at {high:g} Hz, below the response, which begins at {low:g} Hz",
-            "say the frequencies: TAB1 . 'TEMPS_CALCULES' = PROG ... ;",
-        )
+        raise KernelError("kernel.statics.load-ends-hz-below", high=high, low=low)
     return _closer_near(natural, low, high)
 
 

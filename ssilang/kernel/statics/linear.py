@@ -16,7 +16,6 @@ from ssilang.kernel.base.errors import (
     ConvergenceError,
     KernelError,
     SingularFactorError,
-    SingularMatrixError,
 )
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.fields.node_field import NodeField
@@ -33,16 +32,17 @@ from ssilang.kernel.matrices.assembly import (
     vector_to_field,
 )
 from ssilang.kernel.matrices.matrix import Matrix
-from ssilang.kernel.solvers.backends import MULTIGRID, Ordering, SuperLUFactor, dissection_pays
-from ssilang.kernel.solvers.complementarity import ContactProblem, solve_contact
-from ssilang.kernel.solvers.elimination import Elimination, eliminate
-from ssilang.kernel.solvers.inverse import Inverse, invert
+from ssilang.kernel.solvers.active_set.complementarity import ContactProblem, solve_contact
+from ssilang.kernel.solvers.backends import MULTIGRID, SuperLUFactor, dissection_pays
+from ssilang.kernel.solvers.cholesky.elimination import Elimination, eliminate
+from ssilang.kernel.solvers.cholesky.inverse import Inverse, invert
+from ssilang.kernel.solvers.factor import Ordering
 from ssilang.kernel.statics.doubled import lying_on
 from ssilang.kernel.statics.linear_motion import (
     bodies_of,
-    describe_motions,
     named_motions,
     rigid_motions,
+    singular,
 )
 
 BALANCED = 1e-7  # work of the loads on a free motion (of norms 1) taken for rounding
@@ -172,7 +172,7 @@ class LinearSystem:
         if excited.any():
             motions = self.free_motions[:, excited]
             bodies = bodies_of(self.numbering, self.K, self.rows.C)
-            raise SingularMatrixError(*describe_motions(self.numbering, motions, bodies))
+            raise singular("kernel.statics.loads-drive-motions", self.numbering, motions, bodies)
         return b
 
     def _solve_contact(
@@ -211,7 +211,7 @@ class LinearSystem:
         bodies = bodies_of(self.numbering, self.K, self.rows.C[self.saddle])
         named = named_motions(self.numbering, self.free_motions, bodies)
         return ConvergenceError(
-            f"{failure}; held by them alone: {named or 'a mechanism'}", failure.hint
+            "kernel.statics.held-by-contact-alone", failure=failure, motions=named
         )
 
     def _contact_flexibility(self, C: FloatArray, D: FloatArray) -> FloatArray:
@@ -225,11 +225,9 @@ class LinearSystem:
         if mismatch.max(initial=0.0) > MET * size:
             worst = int(np.argmax(mismatch))
             terms = self.rows.C[[worst]]
-            names = ", ".join(self.numbering.label(i) for i in terms.indices[:6])
+            names = [self.numbering.label(i) for i in terms.indices[:6]]
             raise KernelError(
-                f"conditions contradict each other: one on {names} cannot take the value "
-                f"{d[worst]:.6g}",
-                "the same unknown is imposed twice with different values",
+                "kernel.statics.conditions-contradict-cannot-take", names=names, d=d[worst]
             )
 
 
@@ -253,7 +251,7 @@ def linear_system(matrix: Matrix, options: SolveOptions = SolveOptions()) -> Lin
 
 def _prepare(matrix: Matrix, numbering: Numbering, options: SolveOptions) -> LinearSystem:
     if numbering.size == 0:
-        raise KernelError("the matrix is empty: there is nothing to solve")
+        raise KernelError("kernel.statics.matrix-empty-nothing-solve")
     K = assemble(matrix, numbering)
     rows = constraint_matrix(matrix, numbering)
     equality = (rows.sense == 0) | (not options.unilateral)
@@ -351,15 +349,15 @@ def _taken(load: NodeField, numbering: Numbering) -> None:
     """Refuse forces that no unknown of the matrix takes."""
     lost = outside(load, numbering)
     if lost:
-        more = f" and {len(lost) - 4} more" if len(lost) > 4 else ""
         strange = np.setdiff1d(load.node_ids, numbering.nodes)
         above, below = lying_on(load.table, strange, np.unique(numbering.nodes))
         raise KernelError(
-            f"the matrix has no unknown for the force {', '.join(lost[:4])}{more}",
-            f"node {above[0] + 1} lies on node {below[0] + 1} of the matrix: coordinates that are "
-            "written again make a new node, the mesh's own is MAIL1 POIN 'PROC' P1"
-            if len(above)
-            else "take it out of the second member, or say 'NOID'",
+            "kernel.statics.matrix-no-unknown-force",
+            lost=lost[:4],
+            more=max(len(lost) - 4, 0),
+            above=above[0] + 1 if len(above) else None,
+            below=below[0] + 1 if len(above) else None,
+            n_above=len(above),
         )
 
 

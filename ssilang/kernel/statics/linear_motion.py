@@ -1,13 +1,15 @@
-"""Words for motions that meet no stiffness: rigid-body motions, and what is free in them."""
+"""Names for motions that meet no stiffness: rigid-body motions, and what is free in them."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
+from ssilang.kernel.base.errors import SingularMatrixError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.matrices.assembly import Numbering
 from ssilang.kernel.statics.doubled import lying_on
+from ssilang.messages.message import Sentence
 
 _TRANSLATIONS = {"UX": 0, "UY": 1, "UZ": 2, "UR": 0}
 _ROTATIONS = {"RX": 0, "RY": 1, "RZ": 2}
@@ -52,26 +54,23 @@ def bodies_of(numbering: Numbering, *couplings: sp.csr_array) -> IntArray:
     return labels
 
 
-def describe_motions(
-    numbering: Numbering, motions: FloatArray, bodies: IntArray | None = None
-) -> tuple[str, str]:
-    """Message and hint for free motions (n, p) of a system.
+def singular(
+    code: str, numbering: Numbering, motions: FloatArray, bodies: IntArray | None = None
+) -> SingularMatrixError:
+    """The error `code` for free motions (n, p) of a system.
 
     Each body that moves is named by its place (if there are several), with the rigid motions
-    that are free; the hint names the unknowns that move most.
+    that are free, and the unknowns that move most.
     """
-    named = named_motions(numbering, motions, bodies)
-    count = motions.shape[1]
-    what = "free motion" if count == 1 else "free motions"
-    message = f"the matrix is singular, with {count} {what} that the loads drive"
-    if named:
-        message += f" ({named})"
     span = np.linalg.qr(motions)[0]
     free = _most_moved(numbering, span)
-    hint = f"not held: {free}; hold it with BLOQ or RELA"
-    apart = 0 if bodies is None else _nodes_on_other_bodies(numbering, span, bodies)
-    return message, (
-        f"{hint}; {apart} nodes lie on nodes of another body (ELIM)" if apart else hint
+    return SingularMatrixError(
+        code,
+        count=motions.shape[1],
+        motions=named_motions(numbering, motions, bodies),
+        free=free,
+        more=motions.shape[1] - len(free),
+        apart=0 if bodies is None else _nodes_on_other_bodies(numbering, span, bodies),
     )
 
 
@@ -84,8 +83,10 @@ def _nodes_on_other_bodies(numbering: Numbering, span: FloatArray, bodies: IntAr
     return len(lying_on(numbering.table, own, np.setdiff1d(numbering.nodes, own))[0])
 
 
-def named_motions(numbering: Numbering, motions: FloatArray, bodies: IntArray | None = None) -> str:
-    """The bodies that free motions (n, p) move and the rigid motions among these, in words."""
+def named_motions(
+    numbering: Numbering, motions: FloatArray, bodies: IntArray | None = None
+) -> list[Sentence]:
+    """The bodies that free motions (n, p) move and the rigid motions among these."""
     span = np.linalg.qr(motions)[0]
     labels = np.zeros(numbering.size, np.int64) if bodies is None else bodies
     several = len(np.unique(labels)) > 1
@@ -94,12 +95,14 @@ def named_motions(numbering: Numbering, motions: FloatArray, bodies: IntArray | 
     moving = np.flatnonzero(share > 1e-9)
     parts = [_describe_body(numbering, span, labels == b, several) for b in moving[:3]]
     if len(moving) > 3:
-        parts.append(f"{len(moving) - 3} more bodies")
-    return "; ".join(p for p in parts if p)
+        parts.append(Sentence("kernel.statics.more-bodies", count=len(moving) - 3))
+    return [p for p in parts if p is not None]
 
 
-def _describe_body(numbering: Numbering, span: FloatArray, own: BoolArray, several: bool) -> str:
-    """The free rigid motions of one body and where it is, '' if there is nothing to say."""
+def _describe_body(
+    numbering: Numbering, span: FloatArray, own: BoolArray, several: bool
+) -> Sentence | None:
+    """The free rigid motions of one body and where it is, None if there is nothing to say."""
     nodes = np.unique(numbering.nodes[own])
     points = numbering.table.coordinates[nodes]
     centre, extent = points.mean(axis=0), float(np.abs(points).max())
@@ -111,10 +114,14 @@ def _describe_body(numbering: Numbering, span: FloatArray, own: BoolArray, sever
     names = [_motion_name(k) for k in pure]
     if len(pure) < local.shape[1]:
         names += _turns(rigid, local, pure, centre, extent)
-    where = f"the body of {len(nodes)} nodes around {_place(centre, extent)}"
     if not several:
-        return ", ".join(names)
-    return f"{where}: {', '.join(names) or 'a mechanism'}"
+        return Sentence("kernel.statics.motions", motions=names) if names else None
+    return Sentence(
+        "kernel.statics.motions-of-body",
+        n_nodes=len(nodes),
+        place=_place(centre, extent),
+        motions=names,
+    )
 
 
 def _inside(vector: FloatArray, basis: FloatArray) -> bool:
@@ -122,13 +129,14 @@ def _inside(vector: FloatArray, basis: FloatArray) -> bool:
     return bool(size > 0.0 and np.linalg.norm(vector - basis @ (basis.T @ vector)) < 1e-6 * size)
 
 
-def _motion_name(k: int) -> str:
-    return f"{'translation along' if k < 3 else 'rotation about'} {_NAMES[k % 3]}"
+def _motion_name(k: int) -> Sentence:
+    code = "kernel.statics.translation" if k < 3 else "kernel.statics.rotation"
+    return Sentence(code, axis=_NAMES[k % 3])
 
 
 def _turns(
     rigid: FloatArray, local: FloatArray, pure: list[int], centre: FloatArray, extent: float
-) -> list[str]:
+) -> list[Sentence]:
     """Names of free rotations about other points than the body's centre."""
     found = []
     for axis in range(3):
@@ -146,16 +154,17 @@ def _turns(
         slide = np.zeros(3)
         slide[shifts] = by
         fixed = centre + np.cross(np.eye(3)[axis], slide)
-        found.append(f"rotation about {_NAMES[axis]} around {_place(fixed, extent)}")
+        place = _place(fixed, extent)
+        found.append(Sentence("kernel.statics.rotation-around", axis=_NAMES[axis], place=place))
     return found
 
 
-def _place(point: FloatArray, extent: float) -> str:
-    clean = np.where(np.abs(point) < 1e-8 * extent, 0.0, point)
-    return "(" + ", ".join(f"{x:.4g}" for x in clean) + ")"
+def _place(point: FloatArray, extent: float) -> FloatArray:
+    clean: FloatArray = np.where(np.abs(point) < 1e-8 * extent, 0.0, point)
+    return clean
 
 
-def _most_moved(numbering: Numbering, span: FloatArray, limit: int = 6) -> str:
+def _most_moved(numbering: Numbering, span: FloatArray, limit: int = 6) -> list[Sentence]:
     """Labels of the unknowns that move most, one for each motion, at most `limit`."""
     rest = span.copy()
     labels = []
@@ -165,5 +174,4 @@ def _most_moved(numbering: Numbering, span: FloatArray, limit: int = 6) -> str:
         labels.append(numbering.label(row))
         direction = rest[row] / (np.linalg.norm(rest[row]) or 1.0)
         rest = rest - np.outer(rest @ direction, direction)
-    more = span.shape[1] - len(labels)
-    return ", ".join(labels) + (f" and {more} more" if more > 0 else "")
+    return labels

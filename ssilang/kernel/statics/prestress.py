@@ -76,7 +76,7 @@ def cables_of(cells: IntArray) -> list[Cable]:
     """
     count = np.bincount(cells.ravel())
     if (count > 2).any():
-        raise MeshError(f"the cable branches at node {int(np.argmax(count)) + 1}")
+        raise MeshError("kernel.statics.cable-branches-node", count=int(np.argmax(count)) + 1)
     touching: dict[int, list[int]] = {}
     for bar, ends in enumerate(cells.tolist()):
         for node in ends:
@@ -98,7 +98,7 @@ def cables_of(cells: IntArray) -> list[Cable]:
         cables.append(Cable(np.array(bars), np.array(nodes)))
     if left.any():
         node = int(cells[np.argmax(left), 0]) + 1
-        raise MeshError(f"the cable at node {node} is a ring: it has no end to be pulled at")
+        raise MeshError("kernel.statics.cable-node-ring-no", node=node)
     return cables
 
 

@@ -13,8 +13,8 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.joints.interface import is_macro, joint_zones
-from ssilang.kernel.joints.kinematics import JointCells, joint_cells
+from ssilang.kernel.interface.interface import is_macro, joint_zones
+from ssilang.kernel.interface.kinematics import JointCells, joint_cells
 from ssilang.kernel.materials.model import Model
 from ssilang.kernel.matrices.matrix import Matrix
 

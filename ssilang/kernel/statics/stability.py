@@ -40,6 +40,6 @@ def negative_eigenvalues(matrix: Matrix) -> int:
         If the matrix is not symmetric.
     """
     if not is_symmetric(matrix):
-        raise KernelError("the matrix is not symmetric: its eigenvalues need not be real")
+        raise KernelError("kernel.statics.matrix-not-symmetric-eigenvalues")
     problem = reduced_problem(matrix, matrix)
     return count_negative(problem.bordered(problem.K)) - problem.S.shape[0]

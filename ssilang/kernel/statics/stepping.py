@@ -8,19 +8,19 @@ from collections.abc import Sequence
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.base.errors import ConvergenceError, SingularMatrixError
-from ssilang.kernel.dynamics.compiled_loop import ELASTIC, EXTERNAL, LOST, N_ENERGIES, STORED
-from ssilang.kernel.dynamics.effective import effective_of
-from ssilang.kernel.dynamics.initial import initial_energies, joint_state
-from ssilang.kernel.dynamics.integrate import History, Progress
-from ssilang.kernel.dynamics.motion import Motion, snapshot_of
-from ssilang.kernel.dynamics.problem import Problem
-from ssilang.kernel.dynamics.snapshot import Observer
-from ssilang.kernel.dynamics.sparse_loop import NOTHING, StepOutcome, StepSolver, support_work
-from ssilang.kernel.dynamics.step_solvers import step_solver
-from ssilang.kernel.joints.response import interface_energies
-from ssilang.kernel.solvers.inverse import Inverse
-from ssilang.kernel.statics.linear_motion import describe_motions
+from ssilang.kernel.base.errors import ConvergenceError
+from ssilang.kernel.interface.response import interface_energies
+from ssilang.kernel.solvers.cholesky.inverse import Inverse
+from ssilang.kernel.statics.linear_motion import singular
+from ssilang.kernel.stepping.effective import effective_of
+from ssilang.kernel.stepping.problem.initial import initial_energies, joint_state
+from ssilang.kernel.stepping.problem.problem import Problem
+from ssilang.kernel.stepping.rests.dense.loop import ELASTIC, EXTERNAL, LOST, N_ENERGIES, STORED
+from ssilang.kernel.stepping.rests.sparse.loop import NOTHING, StepOutcome, StepSolver, support_work
+from ssilang.kernel.stepping.run import History, Progress
+from ssilang.kernel.stepping.snapshot import Observer
+from ssilang.kernel.stepping.state import Motion, snapshot_of
+from ssilang.kernel.stepping.step_solvers import step_solver
 
 BALANCED = 1e-13
 """Imbalance over the loads taken for rounding."""
@@ -61,8 +61,9 @@ def step_statics(
             try:
                 outcome = _step(problem, solver, motion, factors[k - 1 : k + 1])
             except ConvergenceError as failure:
-                at = f"load step {k}, time {times[k]:g}"
-                raise ConvergenceError(f"{at}: {failure}", failure.hint) from None
+                raise ConvergenceError(
+                    "kernel.statics.at-load-step", step=k, time=times[k], failure=failure
+                ) from None
             if outcome.turns <= 0:
                 raise _lost(problem, motion, k, outcome)
             history.iterations = max(history.iterations, outcome.turns)
@@ -133,7 +134,7 @@ def _step(problem: Problem, solver: StepSolver, motion: Motion, factors: FloatAr
     joints = problem.interface
     if joints is not None:
         motion.energies[STORED], motion.energies[LOST] = interface_energies(
-            joints.codes, joints.parameters, joints.weights, motion.w, motion.t, motion.state
+            joints.points, motion.w, motion.t, motion.state
         )
     if contact is not None and contact.friction is not None:
         rubbed = contact.rubbed(0.5 * (pushed + motion.contact), outcome.du)
@@ -173,11 +174,7 @@ def _lost_in_joints(problem: Problem, motion: Motion) -> float:
     joints = problem.interface
     if joints is None:
         return 0.0
-    return float(
-        interface_energies(
-            joints.codes, joints.parameters, joints.weights, motion.w, motion.t, motion.state
-        )[1]
-    )
+    return float(interface_energies(joints.points, motion.w, motion.t, motion.state)[1])
 
 
 def _check_balanced(
@@ -189,8 +186,8 @@ def _check_balanced(
     work = inverse.work(-problem.constraints.V.T @ _imbalance(problem, motion, factors))
     driven = inverse.kernel[:, np.abs(work) > DRIVEN]
     if driven.shape[1]:
-        message, hint = describe_motions(problem.numbering, problem.constraints.T @ driven)
-        raise SingularMatrixError(message, hint)
+        motions = problem.constraints.T @ driven
+        raise singular("kernel.statics.loads-drive-motions", problem.numbering, motions)
 
 
 def _polish(problem: Problem, solver: StepSolver, motion: Motion, factors: FloatArray) -> None:
@@ -221,19 +218,22 @@ def _hand_over(observers: Sequence[Observer], problem: Problem, motion: Motion, 
 
 
 def _lost(problem: Problem, motion: Motion, step: int, outcome: StepOutcome) -> ConvergenceError:
-    at = f"load step {step}, time {problem.times[step]:g}"
     joints = problem.interface
     if joints is not None and (outcome.turns == 0 or not (motion.t[:, -1] < 0).any()):
         node = int(joints.joints[0].zone.cells.nodes.resolve(joints.joints[0].upper).ravel()[0])
         open_points = int((motion.w[:, -1] > 0).sum())
         return ConvergenceError(
-            f"{at}: no equilibrium, full uplift: {open_points} of {joints.n_points} joint points "
-            f"are open and nothing else holds the body at node {node + 1}",
-            "less eccentric loads, a support, or a dynamic calculation; if the loads press, the "
-            "joint's sides are swapped: RACC and LIAI take the structure's first",
+            "kernel.statics.no-equilibrium-full-uplift",
+            step=step,
+            time=problem.times[step],
+            open_points=open_points,
+            n_points=joints.n_points,
+            node=node + 1,
         )
     return ConvergenceError(
-        f"{at}: no equilibrium found (residual {outcome.residual:.1e} of the jump after "
-        f"{-outcome.turns} iterations)",
-        "smaller load steps",
+        "kernel.statics.no-equilibrium-found-residual",
+        step=step,
+        time=problem.times[step],
+        residual=outcome.residual,
+        turns=-outcome.turns,
     )

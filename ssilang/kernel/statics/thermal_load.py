@@ -8,7 +8,6 @@ import numpy as np
 
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.curves.curve import Curve, CurvePart, Load, LoadPart
-from ssilang.kernel.dynamics.loading import TimeCurve, terms_of
 from ssilang.kernel.elements.families import elastic_stress, family_of
 from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.loads.thermal import thermal_strain
@@ -16,6 +15,7 @@ from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.materials.model import Zone
+from ssilang.kernel.stepping.problem.loading import TimeCurve, terms_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,7 +53,7 @@ def split_thermal(
         for part in (p for p in load.parts if p.name.strip() == "T"):
             for field, curve in terms_of(part):
                 if not isinstance(field, NodeField | CellField):
-                    raise FieldError("the load T needs a field of temperatures")
+                    raise FieldError("kernel.statics.load-needs-field-temperatures")
                 whole = _restrained(zone, material, field)
                 change = {k: v - reference.components[k] for k, v in whole.components.items()}
                 block = CellFieldBlock(

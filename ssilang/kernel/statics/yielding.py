@@ -11,10 +11,9 @@ from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
 from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.joints.columns import XI
-from ssilang.kernel.joints.elements import is_joint
-from ssilang.kernel.joints.law_table import MOHR, SDM, law_of
-from ssilang.kernel.joints.parameters import Parameter
+from ssilang.kernel.interface.elements import is_joint
+from ssilang.kernel.interface.laws.columns import LawCode, Parameter, Variable
+from ssilang.kernel.interface.laws.law_table import law_of
 from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.materials.plastic import rounded_coulomb
 from ssilang.kernel.materials.plastic.response import PointParameters, mises
@@ -93,8 +92,10 @@ def criterion(
     name = _law(zone) if is_plastic(zone) else ""
     if name not in CRITERIA or ELEMENTS[zone.element].family == "plate":
         raise FieldError(
-            f"the law {' '.join(words)} of element {zone.element} has no criterion here",
-            "there are " + ", ".join(CRITERIA) + " and the joints' laws",
+            "kernel.statics.law-element-no-criterion",
+            words=words,
+            element=zone.element,
+            criteria=CRITERIA,
         )
     points = plastic_points(zone, material)
     kept = variables.matrix(points.law.variables, "STRESSES").transpose(0, 2, 1)
@@ -107,16 +108,16 @@ def _of_joint(
     zone: Zone, material: CellField, stress: FloatArray, variables: ZoneField
 ) -> FloatArray:
     law = law_of(zone.behaviour)
-    if law.code not in (SDM, MOHR):
-        raise FieldError(f"joints {zone.element} with this law have no criterion")
+    if law.code not in (LawCode.SDM, LawCode.MOHR):
+        raise FieldError("kernel.statics.joints-law-no-criterion", element=zone.element)
     points = joint_points(zone, material)
     t, p = points.local(stress), points.table
     shear, normal = np.linalg.norm(t[:, :-1], axis=1), t[:, -1]
-    if law.code == MOHR:
+    if law.code == LawCode.MOHR:
         sliding = shear + normal * p[:, Parameter.TPHI] - p[:, Parameter.COHE]
         opening = normal - p[:, Parameter.FTRC]
         return np.asarray(np.maximum(sliding, opening).reshape(points.shape))
-    xi, fu = joint_state(points, variables)[:, XI], p[:, Parameter.FU]
+    xi, fu = joint_state(points, variables)[:, Variable.XI], p[:, Parameter.FU]
     rate = np.divide(fu, p[:, Parameter.GF], out=np.zeros_like(fu), where=fu > 0)
     opening = normal - fu * np.exp(-rate * xi)
     rough = p[:, Parameter.FROT]
@@ -140,7 +141,7 @@ def tangent_modulus(
         return elastic.copy()
     name = _law(zone)
     if name not in ("PARFAIT", "ISOTROPE", "CINEMATIQUE"):
-        raise FieldError(f"MOTA knows von Mises laws, not {name}")
+        raise FieldError("kernel.statics.mota-knows-von-mises", name=name)
     points = plastic_points(zone, material)
     p = points.parameters
     cumulated = np.broadcast_to(variables.at("EPSE", "STRESSES", 0.0), shape).ravel()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
@@ -19,6 +19,7 @@ from ssilang.language.registry import (
     Operator,
     Select,
     find_operator,
+    words_in,
 )
 from ssilang.language.run.call import Call, accepts
 from ssilang.language.say.errors import SsiError
@@ -139,7 +140,9 @@ class Binder:
         else:
             values = []
             words = accepts(a.types, Mot(""))
-            while (operand := call.read(*a.types, after=after, only=bool(values))) is not None:
+            only = a.behind
+            while (operand := call.read(*a.types, after=after, only=only)) is not None:
+                only = True
                 values.append(operand.value)
                 if words:
                     self._keywords()
@@ -316,9 +319,9 @@ def _candidates(found: Operator, call: Call) -> Iterator[tuple[Form, int | None]
     if len(forms) == 1 and forms[0].main is None:
         yield forms[0], None
         return
-    word = call.peek_word() if any(f.said for f in forms) else None
-    if word is not None:
-        spoken = [f for f in found.forms if f.said is not None and _matches(f.said, word)]
+    words = call.words() if any(f.said for f in forms) else []
+    if words:
+        spoken = [f for f in found.forms if _is_said(f, words)]
         meant = sorted((f for f in spoken if f in forms), key=lambda f: not f.of)
         if spoken and not meant:
             raise call.missing(tuple(dict.fromkeys(t for f in spoken for t in f.of)) or (ANY,))
@@ -330,7 +333,10 @@ def _candidates(found: Operator, call: Call) -> Iterator[tuple[Form, int | None]
     if main is not None:
         kind = type_of(call.operands[main].value)
         chosen = [f for f in forms if f.main is not None and accepts_kind(f.main.types, kind)]
-        yield from ((f, main) for f in chosen)
+        silent = [f for f in chosen if f.said is None]
+        if chosen and not silent:
+            raise missing_keyword(call, _words_said(chosen))
+        yield from ((f, main) for f in silent)
         return
     yield from ((f, None) for f in forms if f.main is None and f.said is None)
 
@@ -346,15 +352,33 @@ def accepts_kind(types: Sequence[str], kind: str) -> bool:
     return ANY in types or kind in types or (kind == "ENTIER" and "FLOTTANT" in types)
 
 
-def _matches(k: Keyword, word: str) -> bool:
-    wanted = word.upper().rstrip()[: k.length]
-    return any(w[: k.length].rstrip() == wanted for w in k.words)
+def _is_said(form: Form, words: Sequence[str]) -> bool:
+    """Whether a word of the form's stands first among the unread ones, or behind its keywords."""
+    if form.said is None:
+        return False
+    others = () if form.by_hand else tuple(words_in((form.entries or ())[1:]))
+    for word in words:
+        if _is_among(word, form.said.words, form.said.length):
+            return True
+        if not _is_among(word, others, 4):
+            break
+    return False
+
+
+def _words_said(forms: Iterable[Form]) -> list[str]:
+    """The words of forms, each once."""
+    return list(dict.fromkeys(w for f in forms if f.said is not None for w in f.said.words))
+
+
+def _is_among(word: str, words: Sequence[str], length: int) -> bool:
+    wanted = word.upper().rstrip()[:length]
+    return any(w[:length].rstrip() == wanted for w in words)
 
 
 def _no_form(found: Operator, call: Call) -> SsiError:
     """The error where no form of an operator fits the words and types that stand there."""
     unmet = [f.when for f in found.forms if f.when is not None and not call.meets(f.when)]
-    words = [w for f in found.forms if f.said is not None for w in f.said.words]
+    words = _words_said(found.forms)
     known = dict.fromkeys(t for f in found.forms if f.main is not None for t in f.main.types)
     wanted = dict.fromkeys(t for f in found.forms for t in f.of)
     if known and not (words and call.peek_word()):

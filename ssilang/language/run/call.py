@@ -157,6 +157,14 @@ class Call:
         value = self.operands[i].value
         return value.name if isinstance(value, Procedure) else str(value).upper()
 
+    def words(self) -> list[str]:
+        """All unread words, in capitals, left unread."""
+        if self.word_index() is None:
+            return []
+        values = [o.value for o in self.operands]
+        named = (v.name if isinstance(v, Procedure) else v for v in values)
+        return [str(v).upper() for v in named if isinstance(v, str)]
+
     def at_word(self) -> bool:
         """Whether a word is the very next operand."""
         return self.word_index() == 0

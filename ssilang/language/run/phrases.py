@@ -137,7 +137,7 @@ class PhraseRunner(OperandReader):
                     kind=type(problem).__name__,
                     reason=str(problem),
                 ) from problem
-            raise SsiError(problem.code, span, **{"operator": name, **problem.data}) from problem
+            raise SsiError.of(problem, span, operator=name) from problem
         if self.session.was_interrupted():
             raise KeyboardInterrupt
         return result

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Iterable
 from typing import Any
 
 from ssilang.language.cast3m import IN_SCOPE, SUBJECTS, find_cast3m_word
+from ssilang.language.near import LIKE, VERY_LIKE, nearest
 from ssilang.language.registry import ANY, OPERATORS, find_operator, keywords_of
 from ssilang.language.say import hints
 from ssilang.language.say.errors import SsiError
 from ssilang.language.say.translations import in_french
 from ssilang.language.text.source import Span
 from ssilang.language.values import type_of
+from ssilang.language.vocabulary import words_of
 from ssilang.messages import message
 from ssilang.resources import resource
 
@@ -23,8 +24,8 @@ _ANY = {"en": "an object", "fr": "un objet"}
 
 
 _CALLED = {"en": "called by {name} at", "fr": "appelé par {name},"}
+_SHORT_LIKE = 0.6  # names of components have two letters: one slip is a third
 _LETTERS = 4  # that an operator goes by
-_LIKE, _VERY_LIKE = 0.7, 0.8  # ratio of letters that two words share in order
 _LINE_SHOWN = 160  # characters of a source line
 _CALLS_SHOWN = 4  # at each end of the chain
 _INDICES_SHOWN = 20
@@ -37,13 +38,6 @@ _KINDS = {
 class _Data(dict[str, Any]):
     def __missing__(self, name: str) -> str:
         return ""
-
-
-def nearest(word: str, known: Iterable[str], least: float = _LIKE) -> str:
-    """The known name that looks most like `word`, '' if none is as like as `least`."""
-    found = difflib.get_close_matches(word.upper(), list(known), 8, least)
-    likeness = {w: difflib.SequenceMatcher(None, w, word.upper()).ratio() for w in found}
-    return min(found, key=lambda w: (-likeness[w], w), default="")
 
 
 def render(error: SsiError, language: str = "en", names: Iterable[str] = ()) -> str:
@@ -103,13 +97,8 @@ def sentence(error: SsiError, language: str, names: Iterable[str] = ()) -> tuple
     if error.code == "not-a-table" and not data["name"]:
         data["name"] = error.span.text.split(".")[0].strip() if error.span else "it"
     text = message.sentence(error.code, data, language)
-    hint = message.hint(error.code, data, language).strip()
+    hint = message.hint(error.code, data, language, script=True).strip()
     return text, "\n".join(h for h in (_held_hint(data, language), hint) if h)
-
-
-def placeless(sentence: str, language: str) -> str:
-    """A line that says what is wrong outside of any script."""
-    return f"erreur: {in_french(sentence)}" if language == "fr" else f"error: {sentence}"
 
 
 def _held_hint(data: dict[str, Any], language: str) -> str:
@@ -274,9 +263,12 @@ def _keyword_hint(data: dict[str, object], language: str) -> str:
     if found is None or not isinstance(quoted, list):
         return ""
     keywords = [w.rstrip() for w in keywords_of(found)]
-    beginnings = {w[:4] for w in keywords}
+    others = words_of(found.name)
+    beginnings = {w[:_LETTERS] for w in (*keywords, *others)}
     for word in quoted:
-        near = "" if word.upper()[:4] in beginnings else nearest(word, keywords)
+        if word.upper()[:_LETTERS] in beginnings:
+            continue
+        near = nearest(word, keywords) or nearest(word, others, _SHORT_LIKE)
         if near:
             text = {
                 "en": "'{}' is no keyword of {}: did you mean '{}'?\n",
@@ -302,7 +294,7 @@ def _near_hint(data: dict[str, object], language: str, names: Iterable[str]) -> 
     known = elsewhere(word, language)
     candidates = {*OPERATORS, *(o.full_name for o in OPERATORS.values()), *names}
     # a misspelt long name may begin as an operator of another subject does
-    near = nearest(word, candidates, _VERY_LIKE if known else _LIKE)
+    near = nearest(word, candidates, VERY_LIKE if known else LIKE)
     if known and not (near and len(word) > _LETTERS):
         return known
     if near:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ssilang.messages.message import Severity, find
+from ssilang.messages.message import Said, Severity, find
 
 if TYPE_CHECKING:
     from ssilang.language.text.source import Span
@@ -30,6 +30,11 @@ class SsiError(Exception):
         self.data = data
         self.warns = False  # told as a warning, whatever the catalogue says of its code
         self.calls: list[tuple[str, Span]] = []  # procedures that led here, innermost first
+
+    @classmethod
+    def of(cls, problem: Said, span: Span | None, **more: object) -> SsiError:
+        """The error of a script for what something below it refused."""
+        return cls(problem.code, span, **{**more, **problem.data})
 
     @property
     def severity(self) -> Severity:

@@ -50,7 +50,11 @@ def _patterns() -> list[tuple[re.Pattern[str], str]]:
 
 
 def in_french(sentence: str) -> str:
-    """A sentence in French, unchanged if there is no template for it."""
+    """A sentence in French, unchanged if there is no template for it; lines are told apart."""
+    lines = sentence.split("\n")
+    told = [in_french(line) for line in lines] if len(lines) > 1 else lines
+    if told != lines:
+        return "\n".join(told)
     refused = _REFUSED.fullmatch(sentence)
     if refused is not None:
         procedure, index, reason = refused.groups()

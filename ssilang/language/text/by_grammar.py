@@ -60,8 +60,8 @@ class _Builder(Transformer[Token, Any]):
         end = text.find(")", span.end)
         return tree.Paren(items, Span(self.source, start, end + 1))
 
-    def empty_paren(self, c: list[Any]) -> tree.Paren:
-        return tree.Paren((), Span(self.source, 0, 0))
+    def empty_paren(self, c: list[Token]) -> tree.Paren:
+        return tree.Paren((), self._span(c[0], c[1]))
 
     def path(self, c: list[Any]) -> tree.Path:
         return tree.Path(c[0], tuple(c[1:]), self._span(c[0], c[-1]))

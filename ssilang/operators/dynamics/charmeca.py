@@ -10,15 +10,15 @@ from ssilang.operators.session.user_procedures import call_user
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
-    from ssilang.kernel.dynamics.driven import Additions, State
-    from ssilang.kernel.dynamics.problem import Problem
+    from ssilang.kernel.stepping.driven import Additions, State
+    from ssilang.kernel.stepping.problem.problem import Problem
 
 TERMS = {
-    "ADDI_KNL": ("stiffness", "RIGIDITE"),
-    "ADDI_CNL": ("damping", "RIGIDITE"),
-    "ADDI_MATRICE": ("operator", "RIGIDITE"),
-    "ADDI_FNL": ("force", "CHPOINT"),
-    "ADDI_SECOND": ("imposed", "CHPOINT"),
+    "ADDI_KNL": "stiffness",
+    "ADDI_CNL": "damping",
+    "ADDI_MATRICE": "operator",
+    "ADDI_FNL": "force",
+    "ADDI_SECOND": "imposed",
 }
 
 
@@ -33,7 +33,7 @@ class AddedByProcedure:
 
     def __call__(self, time: float, state: State, problem: Problem) -> Additions:
         """Additions at `time`."""
-        from ssilang.kernel.dynamics.driven import Additions
+        from ssilang.kernel.stepping.driven import Additions
 
         self.entries.table.set(Mot("ETAT"), _table_of(state, problem))
         results = call_user(self.entries.call, "CHARMECA", self.entries.table, time)
@@ -42,11 +42,9 @@ class AddedByProcedure:
                 "the procedure CHARMECA must give one TABLE",
                 "TCHAR = TABL ; TCHAR . 'ADDI_FNL' = ... ; FINP TCHAR ;",
             )
-        found = Entries(self.entries.call, results[0], "CHARMECA")
-        found.warn_unknown(tuple(TERMS))
-        given: dict[str, Any] = {
-            name: found.get(word, type_) for word, (name, type_) in TERMS.items()
-        }
+        found = Entries(self.entries.call, results[0], self.entries.procedure, "TCHAR")
+        found.check()
+        given: dict[str, Any] = {name: found.get(word) for word, name in TERMS.items()}
         return Additions(**given)
 
 

@@ -21,7 +21,7 @@ from ssilang.language.values import LazyRows, LazyTable, ListReel, Mot, Table, p
 from ssilang.operators.curves.instants import InstantField
 
 if TYPE_CHECKING:
-    from ssilang.kernel.dynamics.snapshot import Snapshot
+    from ssilang.kernel.stepping.snapshot import Snapshot
 
 Steps = NDArray[np.bool_]
 

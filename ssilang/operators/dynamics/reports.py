@@ -12,8 +12,8 @@ from ssilang.operators.matrices.doubled import warn_doubled_supports
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
-    from ssilang.kernel.dynamics.integrate import History
-    from ssilang.kernel.dynamics.problem import Inputs, Problem
+    from ssilang.kernel.stepping.problem.problem import Inputs, Problem
+    from ssilang.kernel.stepping.run import History
 
 ENERGIES = ("CINETIQUE", "ELASTIQUE", "JOINTS", "DISSIPEE", "AMORTIE", "EXTERIEURE")
 
@@ -52,7 +52,7 @@ def report(entries: Entries, problem: Problem, history: History) -> None:
             "estimated_error": none_if_nan(history.reduction.estimate),
             "estimated_error_of_velocities": none_if_nan(history.reduction.velocity),
             "estimated_error_of_accelerations": none_if_nan(history.reduction.acceleration),
-            "not_reduced_because": history.reduction.refused,
+            "not_reduced_because": str(history.reduction.refused or ""),
             "seconds_preparing_the_basis": history.reduction.prepared,
         }
     entries.call.session.statistics.setdefault("calculations", []).append(line)
@@ -65,7 +65,7 @@ def none_if_nan(value: float) -> float | None:
 
 def warn_resolution(entries: Entries, problem: Problem) -> None:
     """Warn when the step does not resolve contact, saying the step to use."""
-    from ssilang.kernel.dynamics.resolution import contact_resolution
+    from ssilang.kernel.stepping.problem.resolution import contact_resolution
 
     warn_contrast(entries, problem)
     warn_massless(entries, problem)
@@ -84,7 +84,7 @@ def warn_resolution(entries: Entries, problem: Problem) -> None:
 
 def warn_massless(entries: Entries, problem: Problem) -> None:
     """Warn of bodies without mass that only joints hold: MASS was forgotten, most often."""
-    from ssilang.kernel.dynamics.bodies import loose_bodies
+    from ssilang.kernel.stepping.problem.bodies import loose_bodies
 
     joints = problem.interface
     if joints is None:
@@ -129,8 +129,8 @@ def warn_motion_elsewhere(entries: Entries, problem: Problem, inputs: Inputs) ->
 
 def warn_contrast(entries: Entries, problem: Problem) -> None:
     """Warn when joints are out of all proportion to the bodies: units, most often."""
-    from ssilang.kernel.dynamics.contrast import STRANGE, stiffness_contrast
     from ssilang.kernel.statics.conditioning import joint_conditioning
+    from ssilang.kernel.stepping.problem.contrast import STRANGE, stiffness_contrast
 
     found = joint_conditioning(problem)
     if found is not None and found.joints_are_to_blame:

@@ -34,7 +34,7 @@ def _places(call: Call, size: int, places: Any) -> list[int]:
     wanted = places.values.tolist() if isinstance(places, ListEnti) else [int(places)]
     for i in wanted:
         if not 1 <= i <= size:
-            raise call.bad(f"the list has {size} items, there is none at place {i}", places)
+            raise call.error("operators.lists.no-such-place", places, size=size, place=i)
     return [i - 1 for i in wanted]
 
 
@@ -84,7 +84,7 @@ def _values_at(call: Call, value: ListChpo) -> ListReel:
     else:
         wanted = list(dict.fromkeys(n for f in fields for n in f.components))
         if any(set(f.components) != set(wanted) for f in fields):
-            raise call.bad("the fields have not the same components", hint="name the one wanted")
+            raise call.error("operators.lists.components-differ")
     return ListReel([float(f.values_at(str(n).rstrip(), node)[0]) for n in wanted for f in fields])
 
 
@@ -134,7 +134,9 @@ def inse(call: Call) -> Any:
     place = call.required("ENTIER")
     item = call.required(*_ITEM[kind])
     if not 1 <= place <= len(value) + 1:
-        raise call.bad(f"the list has {len(value)} items, nothing goes to place {place}", place)
+        raise call.error(
+            "operators.lists.no-place-to-insert", place, n_value=len(value), place=place
+        )
     if isinstance(value, ListReel | ListEnti):
         return type(value)(np.insert(value.values, place - 1, item))
     items = list(value.values)
@@ -177,7 +179,9 @@ def remp(call: Call) -> Mot | None:
         raise call.missing((*_ITEM[kind], kind))
     items = list(new.value.values) if type_of(new.value) == kind else [new.value] * len(places)
     if len(items) != len(places):
-        raise call.bad(f"{len(places)} places for {len(items)} items", new.value)
+        raise call.error(
+            "operators.lists.places-and-items", new.value, n_places=len(places), n_items=len(items)
+        )
     for i, item in zip(places, items, strict=True):
         value.values[i] = item
     return None
@@ -189,10 +193,12 @@ def _replace_in_word(call: Call, word: str) -> Mot:
     olds = list(old.values) if isinstance(old, ListMots) else [old]
     news = list(new.values) if isinstance(new, ListMots) else [new]
     if len(olds) != len(news):
-        raise call.bad(f"{len(olds)} words to replace by {len(news)}", new)
+        raise call.error(
+            "operators.lists.words-to-replace", new, n_olds=len(olds), n_news=len(news)
+        )
     for a, b in zip(olds, news, strict=True):
         if not a:
-            raise call.bad("an empty word cannot be replaced", old)
+            raise call.error("operators.lists.empty-word", old)
         word = word.replace(a, b)
     return Mot(word)
 
@@ -294,5 +300,5 @@ def _join_objects(a: Any, b: Any) -> ListObje:
     made.values = [*_objects(a), *_objects(b)]
     kinds = dict.fromkeys(type_of(v) for v in made.values)
     if len(kinds) > 1:
-        raise KernelError(f"the objects of a list are of one type, here {' and '.join(kinds)}")
+        raise KernelError("operators.lists.objects-of-one-type", kinds=kinds)
     return made

@@ -28,10 +28,7 @@ def check_length(count: float) -> None:
         If there are more than `LONGEST`.
     """
     if not count <= LONGEST:
-        raise KernelError(
-            f"a list or word of {count:.4g} items is too long, the limit is {LONGEST}",
-            "look for a step that is too small or a count that is too large",
-        )
+        raise KernelError("operators.lists.too-long", count=count, longest=LONGEST)
 
 
 def _star(call: Call) -> bool:
@@ -79,7 +76,7 @@ def _read_items(call: Call, kinds: tuple[str, ...]) -> Items:
 
 def _repeated(call: Call, count: Any, kinds: tuple[str, ...]) -> list[Any]:
     if count != int(count) or count < 0:
-        raise call.bad(f"an item is repeated a whole number of times, not {count}", count)
+        raise call.error("operators.lists.repetition-count", count, count=count)
     check_length(count)
     return [call.required(*kinds)] * int(count)
 
@@ -92,7 +89,7 @@ def _steps(call: Call, start: Any, kinds: tuple[str, ...]) -> list[Any] | FloatA
     if call.keyword(("NPAS",)) is not None:
         count = call.required("ENTIER", after=call.keyword_end)
         if count < 0:
-            raise call.bad(f"NPAS is not negative, found {count}", count)
+            raise call.error("operators.lists.negative-step-count", count, count=count)
         check_length(count)
         return _progression(start, step, count, ratio)
     end = call.required(*kinds)
@@ -100,7 +97,7 @@ def _steps(call: Call, start: Any, kinds: tuple[str, ...]) -> list[Any] | FloatA
     if _star(call):
         more = _repeated(call, end, kinds)
         if not more:
-            raise call.bad("steps need an end: it is repeated at least once, not 0 times")
+            raise call.error("operators.lists.steps-without-end")
         end, more = more[0], more[1:]
     if step and (end - start) / step > 0:
         check_length(0 if ratio else (end - start) / step)
@@ -109,7 +106,7 @@ def _steps(call: Call, start: Any, kinds: tuple[str, ...]) -> list[Any] | FloatA
             return [*real_steps(float(start), float(step), float(end), ratio), *more]
         return [*integer_steps(start, step, end), *more]
     except KernelError as problem:
-        raise call.bad(str(problem), end, problem.hint) from None
+        raise call.error(problem.code, end, **problem.data) from None
 
 
 def _progression(start: Any, step: Any, count: int, ratio: float | None) -> list[Any] | FloatArray:
@@ -129,10 +126,7 @@ def integer_steps(start: int, step: int, end: int) -> list[int]:
     if start == end:
         return []
     if step == 0 or (end - start) % step or (end - start) // step < 0:
-        raise KernelError(
-            f"steps of {step} do not lead from {start} to {end}",
-            "LECT wants a step that divides the distance",
-        )
+        raise KernelError("operators.lists.steps-miss-end", step=step, start=start, end=end)
     return list(range(start + step, end + (1 if step > 0 else -1), step))
 
 
@@ -209,7 +203,7 @@ def _function_of_list(call: Call, word: str) -> ListReel:
         return ListReel(settings["AMPL"] * np.sin(angle))
     line = settings["A"] * x + settings["B"]
     if word == "LOGA" and np.any(line <= 0):
-        raise call.bad("a logarithm needs positive values", hint=f"smallest is {line.min():g}")
+        raise call.error("operators.lists.logarithm", smallest=line.min())
     if word == "LINE":
         return ListReel(line)
     return ListReel(np.exp(line) if word == "EXPO" else np.log(line))
@@ -232,9 +226,9 @@ def lect(call: Call) -> ListEnti:
     """Read integers."""
     items = _read_items(call, ("ENTIER",))
     if not all(abs(i) < 2**63 for i in items):
-        raise call.bad("LECT takes integers that 64 bits hold", hint="PROG makes lists of reals")
+        raise call.error("operators.lists.integer-too-large")
     if any(isinstance(i, float) and i != math.floor(i) for i in items):
-        raise call.bad("LECT takes integers only", hint="PROG makes lists of reals")
+        raise call.error("operators.lists.integers-only")
     return ListEnti(np.asarray(items, dtype=np.int64))
 
 
@@ -257,7 +251,7 @@ def mots(call: Call) -> ListMots:
         if operand is not None and type(operand.value) is int:
             count = call.required("ENTIER")
             if not _star(call):
-                raise call.bad("a number in MOTS is a repetition: N * MOT", count)
+                raise call.error("operators.lists.number-among-words", count)
             check_length(len(words) + max(count, 0))
             words += [str(call.required("MOT"))] * count
             continue
@@ -305,9 +299,10 @@ def enum(call: Call) -> ListObje:
         value = operand.value
         values += value.values if isinstance(value, ListObje) else [value]
         if type_of(values[-1]) != type_of(values[0]):
-            raise call.bad(
-                f"the objects of a list are of one type: {type_of(values[0])} first, "
-                f"{type_of(values[-1])} here",
+            raise call.error(
+                "operators.lists.object-of-other-type",
                 value,
+                first=type_of(values[0]),
+                found=type_of(values[-1]),
             )
     return ListObje(values)

@@ -112,7 +112,7 @@ def sauf(call: Call) -> Any:
     kinds = ("LISTREEL", "LISTENTI", "LISTMOTS")
     first, second = call.required(*kinds), call.required(*kinds)
     if type(first) is not type(second):
-        raise call.bad("both lists must be of the same type", second)
+        raise call.error("operators.lists.lists-of-one-type", second)
     tolerance = call.optional("FLOTTANT")
     fold = call.keyword(("NOCA",)) is not None
     gone = np.zeros(len(first), dtype=bool)
@@ -151,17 +151,16 @@ def coli(call: Call) -> Any:
         else:
             objects = [value.get(i) for i in range(1, len(factors) + 1)]
     if not objects or len(objects) != len(factors):
-        raise call.bad(f"{len(objects)} objects for {len(factors)} coefficients")
+        raise call.error(
+            "operators.lists.coefficient-count", n_objects=len(objects), n_factors=len(factors)
+        )
     if all(isinstance(o, ListReel) for o in objects):
         if len({len(o) for o in objects}) > 1:
-            raise call.bad("the lists have not the same length")
+            raise call.error("operators.lists.lengths-differ")
         return ListReel(sum(f * o.values for f, o in zip(factors, objects, strict=True)))
     kinds = {type(o) for o in objects}
     if len(kinds) > 1 or not kinds <= {NodeField, CellField}:
-        raise call.bad(
-            "the objects are not fields or lists of one type",
-            hint="a TABLE holds them at 1, 2, 3 ...",
-        )
+        raise call.error("operators.lists.nothing-to-combine")
     algebra: Any = node_algebra if isinstance(objects[0], NodeField) else cell_algebra
     total = algebra.applied(objects[0], lambda v: v * factors[0])
     for factor, field in zip(factors[1:], objects[1:], strict=True):
@@ -203,7 +202,7 @@ def veri(value: Any) -> bool:
 def somt(field: NodeField) -> float:
     """Sum values."""
     if len(field.components) != 1:
-        raise KernelError("SOMT sums a field of a single component", "see EXCO and RESU")
+        raise KernelError("operators.lists.single-component")
     return float(next(iter(field.components.values())).values.sum())
 
 
@@ -237,7 +236,7 @@ def racp(call: Call) -> Any:
     coefficients = listed.value.values if listed is not None else np.asarray(numbers)
     trimmed = np.trim_zeros(np.asarray(coefficients, dtype=float), "b")
     if len(trimmed) < 2:
-        raise call.bad("the polynomial is constant: it has no roots, or all numbers")
+        raise call.error("operators.lists.constant-polynomial")
     roots = np.roots(trimmed[::-1])
     roots = roots[np.lexsort((roots.imag, roots.real))]
     if "IMAG" in words:
@@ -248,7 +247,7 @@ def racp(call: Call) -> Any:
     if "INTE" not in words:
         return ListReel(real)
     if len(bounds) != 2:
-        raise call.bad("'INTE' needs the two ends of the interval", hint="RACP 'INTE' X1 X2 LREE1")
+        raise call.error("operators.lists.interval-ends")
     low, high = sorted(bounds)
     inside = real[(real >= low) & (real <= high)]
     return float(inside[0]) if len(inside) else Mot("VIDE")

@@ -13,7 +13,7 @@ from ssilang.language.registry import Help, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
 from ssilang.operators.lists.making import check_length
-from ssilang.operators.mesh.refining import refined
+from ssilang.operators.mesh.changes.refining import refined
 
 
 @operator(
@@ -58,18 +58,18 @@ def raff(call: Call) -> ListReel | Mesh:
         return refined(mesh.value, call.required("CHPOINT"))
     values = np.asarray(call.required("LISTREEL").values, dtype=float)
     if not np.isfinite(values).all():
-        raise call.bad("RAFF refines lists of finite numbers")
+        raise call.error("operators.lists.finite-numbers")
     lengths = np.abs(np.diff(values))
     count = call.read("ENTIER")
     if count is None:
         size = call.required("FLOTTANT")
         if size <= 0.0:
-            raise call.bad(f"the size of the intervals is positive, not {size:g}", size)
+            raise call.error("operators.lists.interval-size", size, size=size)
         check_length(float(np.sum(lengths / size)))
         return ListReel(_joined(values, [_even(_nearest(d, size)) for d in lengths]))
     number = int(count.value)
     if number == 0:
-        raise call.bad("an interval is cut into one part at least", number)
+        raise call.error("operators.lists.no-parts", number)
     check_length(abs(float(number)) * len(lengths))
     if number > 0:
         return ListReel(_joined(values, [_even(number)] * (len(values) - 1)))

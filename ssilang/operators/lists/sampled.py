@@ -60,7 +60,7 @@ def ltl(call: Call, first: ListReel, second: ListReel | None, a: float, b: float
     """Dot product."""
     other = first if second is None else second
     if len(first) != len(other):
-        raise call.bad(f"lists of {len(first)} and {len(other)} values have no dot product")
+        raise call.error("operators.lists.dot-product", n_first=len(first), n_other=len(other))
     return float(a * b * (first.values @ other.values))
 
 
@@ -95,12 +95,14 @@ def cvol(call: Call) -> ListReel:
         response = np.concatenate([response[:0:-1], response])
     after = len(response) - 1 - before
     if len(response) == 0 or before < 0 or after < 0:
-        raise call.bad(f"a response of {len(response)} values cannot have {before} before 0")
+        raise call.error(
+            "operators.lists.response-too-short", n_response=len(response), before=before
+        )
     if mirrored and max(before, after) > len(signal) - 1:
-        raise call.bad(
-            f"a signal of {len(signal)} values is too short to be mirrored over "
-            f"{max(before, after)}",
-            hint="'PADD' fills with zeros",
+        raise call.error(
+            "operators.lists.signal-too-short",
+            n_signal=len(signal),
+            before=max(before, after),
         )
     # value k needs the signal from k - after to k + before
     padded = np.pad(signal, (after, before), "reflect" if mirrored else "constant")
@@ -148,17 +150,17 @@ def fonc(call: Call) -> Any:
     """Special functions."""
     kind = call.keyword(tuple(_FUNCTIONS))
     if kind is None:
-        raise call.bad("which function?", hint="'BESSEL' 'FRESNEL' 'GAMMA'")
+        raise call.error("operators.lists.which-function")
     names = _FUNCTIONS[kind]
     name = call.keyword(names) if names else ""
     if name is None:
-        raise call.bad("which function?", hint=" ".join(f"'{n}'" for n in names))
+        raise call.error("operators.lists.which-special-function", names=[f"'{n}'" for n in names])
     x = call.required("LISTREEL").values
     bad = {"FRES": x < 0.0, "GAMM": (x <= 0.0) & (x == np.round(x))}.get(kind, np.zeros(0, bool))
     if name in ("Y0", "Y1"):
         bad = x <= 0.0
     if bad.any():
-        raise call.bad(f"the function is not defined at {x[bad][0]:g}")
+        raise call.error("operators.lists.function-undefined", x=x[bad][0])
     return ListReel(_special(kind, name, x))
 
 
@@ -178,7 +180,7 @@ def fonc(call: Call) -> Any:
 def zleg(call: Call, degree: int) -> tuple[ListReel, ListReel]:
     """Lobatto's quadrature."""
     if not 1 <= degree <= 500:
-        raise call.bad(f"the degree is between 1 and 500, not {degree}", degree)
+        raise call.error("operators.lists.degree", degree, degree=degree)
     legendre = np.polynomial.legendre.Legendre.basis(degree)
     inner = np.sort(legendre.deriv().roots().real) if degree > 1 else np.zeros(0)
     x = np.concatenate([[-1.0], inner, [1.0]])

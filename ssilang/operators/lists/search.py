@@ -55,7 +55,7 @@ def posi(call: Call) -> Any:
     if item is None:
         raise call.missing(("*",))
     if call.keyword(("DANS",)) is None:
-        raise call.bad("the list is named by 'DANS'", hint="POSI item 'DANS' list ;")
+        raise call.error("operators.lists.list-not-named")
     place = call.keyword_end
     kinds = ("LISTREEL", "LISTENTI", "LISTMOTS", "MOT", "MAILLAGE")
     operand = call.read(*kinds, after=place)
@@ -86,13 +86,13 @@ def _comparable(call: Call, item: Any, where: Any) -> tuple[Any, Any]:
             return where.values, item.values
         fits = isinstance(item, str) if isinstance(where, ListMots) else type(item) in (int, float)
         if not fits:
-            raise call.bad("the item is not of the type of the list", item)
+            raise call.error("operators.lists.item-of-other-type", item)
         return where.values, item
     nodes = where.single_block().connectivity[:, 0]
     if hasattr(item, "node"):
         return nodes, item.node
     if not hasattr(item, "single_block"):
-        raise call.bad("a POINT or a MAILLAGE is looked for in a mesh", item)
+        raise call.error("operators.lists.point-or-mesh", item)
     return nodes, item.single_block().connectivity[:, 0]
 
 
@@ -173,7 +173,7 @@ def _sort_lists(call: Call, first: Sortable) -> Any:
     tolerance, cost = tolerance or tolerance_more, cost if cost is not None else cost_more
     if len({len(v) for v in lists}) > 1:
         sizes = " ".join(str(len(v)) for v in lists)
-        raise call.bad(f"lists sorted together have the same length, these have {sizes}")
+        raise call.error("operators.lists.sorted-lengths", sizes=sizes)
     if cost is not None:
         total, order = _cheapest(call, cost, len(first))
         return (total, *(taken(v, order) for v in lists))
@@ -181,7 +181,7 @@ def _sort_lists(call: Call, first: Sortable) -> Any:
     order = sorting(first.values, "DECR" in words, "ABSO" in words, fold)
     if "UNIQ" in words:
         if len(lists) > 1:
-            raise call.bad("'UNIQ' sorts one list only")
+            raise call.error("operators.lists.one-list-without-doubles")
         order = distinct(first.values, order, tolerance, fold)
     return tuple(taken(v, order) for v in lists)
 
@@ -204,7 +204,7 @@ def _cheapest(call: Call, cost: Any, n: int) -> tuple[float | int, list[int]]:
     from scipy.optimize import linear_sum_assignment
 
     if len(cost) != n * n:
-        raise call.bad(f"'COUT' needs {n * n} costs for {n} items, found {len(cost)}", cost)
+        raise call.error("operators.lists.cost-count", cost, needed=n * n, n=n, found=len(cost))
     costs = cost.values.reshape(n, n)
     rows, order = linear_sum_assignment(costs.astype(float))
     return costs[rows, order].sum().item(), [int(i) for i in order]
@@ -219,11 +219,11 @@ def _cheapest(call: Call, cost: Any, n: int) -> tuple[float | int, list[int]]:
 def _sort_table(call: Call, table: Table) -> Table:
     index = call.read("*")
     if index is None or not table.has(index.value):
-        raise call.bad("the list to sort by is not in the table", index.value if index else None)
+        raise call.error("operators.lists.no-list-to-sort-by", index.value if index else None)
     words, _, _ = _sort_words(call)
     lead: Any = table.get(index.value)
     if not isinstance(lead, ListReel | ListEnti | ListMots):
-        raise call.bad("the index does not hold a list of numbers or words", index.value)
+        raise call.error("operators.lists.index-holds-no-list", index.value)
     order = sorting(lead.values, "DECR" in words, "ABSO" in words, "NOCA" in words)
     made = Table()
     for key, value in table.items():

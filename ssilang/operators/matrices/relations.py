@@ -15,7 +15,7 @@ from ssilang.language.registry import Help, arg, choice, each, flag, key, operat
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots, Mot, Procedure
 from ssilang.operators.matrices.supports import as_matrix, nodes_of
-from ssilang.operators.mesh.refining import tie_relations
+from ssilang.operators.mesh.changes.refining import tie_relations
 from ssilang.operators.workspace import workspace
 
 _SENSE = {"MINI": 1, "MAXI": -1}

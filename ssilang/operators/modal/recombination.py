@@ -10,12 +10,12 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.curves.curve import Load
-from ssilang.kernel.dynamics.loading import terms_of
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.matrices.matrix import imaginary
 from ssilang.kernel.modal.basis import combined
+from ssilang.kernel.stepping.problem.loading import terms_of
 from ssilang.language.registry import Help, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListReel, Mot, Table

@@ -8,8 +8,8 @@ from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements.catalog import ELEMENTS, GENERIC_ELEMENTS, default_element
 from ssilang.kernel.elements.families import register_family
 from ssilang.kernel.elements.springs import ELEMENT as IMPEDANCE_ELEMENTS
-from ssilang.kernel.joints.elements import JOINT_NAMES, is_joint, with_rule
-from ssilang.kernel.joints.family import JointFamily
+from ssilang.kernel.interface.elements import JOINT_NAMES, is_joint, with_rule
+from ssilang.kernel.interface.family import JointFamily
 from ssilang.kernel.materials.behaviours import (
     CREEP_WORDS,
     ELASTICITIES,
@@ -27,9 +27,10 @@ from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.mesh.changes.local_refinement import parted
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
 from ssilang.kernel.modal import shape_models
+from ssilang.language.near import nearest
 from ssilang.language.registry import Help, operator
 from ssilang.language.run.call import Call
-from ssilang.language.say.diagnostics import nearest
+from ssilang.operators import words
 from ssilang.operators.dispatch import union
 from ssilang.operators.models.contact import contact_model, take_contact
 from ssilang.operators.workspace import Workspace, workspace
@@ -195,7 +196,8 @@ def _check_elements(call: Call, wish: _Wish, mesh: Mesh) -> None:
     if wish.elements and not fitting:
         raise call.bad(
             f"element {wish.elements[0]} does not stand on {' '.join(dict.fromkeys(kinds))} cells",
-            hint=f"{wish.elements[0]} needs {ELEMENTS[wish.elements[0]].cell_type} cells",
+            hint=f"{wish.elements[0]} needs {ELEMENTS[wish.elements[0]].cell_type} cells"
+            + _fitting(call, mesh),
         )
 
 
@@ -257,8 +259,15 @@ def _name(call: Call, word: str, wish: _Wish) -> None:
         raise _unknown(call, said)
 
 
+def _fitting(call: Call, mesh: Mesh) -> str:
+    """A line of a hint: the elements that stand on the cells of a mesh."""
+    mode, kinds = workspace(call.session).mode, {b.cell_type for b in mesh.blocks}
+    names = words.elements_on(kinds, mode)
+    return f"\n{' '.join(sorted(kinds))} cells take {' '.join(names)}" if names else ""
+
+
 def _unknown(call: Call, said: str) -> Exception:
-    known = (*FORMULATIONS, *LAW_WORDS, *ELEMENTS)
+    known = (*FORMULATIONS, *LAW_WORDS, *ELEMENTS, *GENERIC_ELEMENTS)
     if said in UNDESCRIBED_LAWS:
         return call.bad(
             f"the joint law {said} is not built: what its parameters BETA (unloading) and CPLG "
@@ -266,8 +275,8 @@ def _unknown(call: Call, said: str) -> Exception:
             hint="JOINT_SDM softens in tension with FU and GF; JOINT_DILATANT and COULOMB slide",
         )
     written = next((o.value for o in call.used[::-1] if str(o.value).upper() == said), None)
-    for words, what in ((OTHER_FORMULATIONS, "formulation"), (OTHER_BEHAVIOURS, "behaviour")):
-        if full_word(said, words):
+    for known_words, what in ((OTHER_FORMULATIONS, "formulation"), (OTHER_BEHAVIOURS, "behaviour")):
+        if full_word(said, known_words):
             return call.bad(
                 f"the {what} {said} is not available",
                 written,
@@ -275,6 +284,9 @@ def _unknown(call: Call, said: str) -> Exception:
             )
     near = nearest(said, known, 0.5)
     hint = f"did you mean {near}?" if near else "known: " + " ".join(known)
+    mesh = next((o.value for o in call.used if isinstance(o.value, Mesh)), None)
+    if mesh is not None and near not in (*FORMULATIONS, *LAW_WORDS):
+        hint += _fitting(call, mesh)
     return call.bad(f"MODE does not know the word {said}", written, hint)
 
 

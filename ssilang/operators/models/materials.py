@@ -12,15 +12,16 @@ from ssilang.kernel.curves.curve import Curve
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.joints.elements import is_joint
-from ssilang.kernel.joints.table import check_given
+from ssilang.kernel.interface.elements import is_joint
+from ssilang.kernel.interface.laws.parameter_table import check_given
 from ssilang.kernel.materials.axes import Directions, axis_parameters
 from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.materials.parameters import geometric_names
 from ssilang.kernel.mesh.mesh import Point
+from ssilang.language.near import nearest_names
 from ssilang.language.registry import Help, operator
 from ssilang.language.run.call import Call
-from ssilang.language.say.diagnostics import nearest
+from ssilang.operators import words
 from ssilang.operators.models.tension import material_names, tension_to_hardening
 
 Known = Callable[[Zone], tuple[str, ...]]
@@ -134,11 +135,13 @@ def cara(call: Call) -> CellField:
 def _parameters(call: Call, known: Known, check: Check | None = None) -> CellField:
     model: Model = call.required("MMODEL")
     given: list[Values] = [{} for _ in model.zones]
+    said: dict[str, Any] = {}
     while (word := call.peek_word()) is not None:
         if call.keyword(["DIRECTION", "RADIAL"]):
             _read_axes(call, word, model, given, known)
         else:
-            _read_value(call, word, model, given, known)
+            name, value = _read_value(call, word, model, given, known)
+            said[name] = value
     for values in given:
         tension_to_hardening(values)
     blocks = [b for z, v in zip(model.zones, given, strict=True) for b in _blocks(z, v)]
@@ -146,10 +149,31 @@ def _parameters(call: Call, known: Known, check: Check | None = None) -> CellFie
         raise call.bad("no parameter is given", model, hint="NAME VALUE, such as 'YOUN' 2.E11")
     if check is not None:
         check(model, given)
+    for zone, values in zip(model.zones, given, strict=True):
+        _refuse_outside(call, zone, values, said)
     return CellField(tuple(blocks), "CARACTERISTIQUES")
 
 
-def _read_value(call: Call, word: str, model: Model, given: list[Values], known: Known) -> None:
+def _refuse_outside(call: Call, zone: Zone, values: Values, said: dict[str, Any]) -> None:
+    """Refuse numbers outside of the range that the vocabulary gives for a parameter."""
+    for name in said:
+        array = values[name][0] if name in values else np.empty(0)
+        found = words.parameter(name, zone) if array.size and array.dtype == float else None
+        if found is None:
+            continue
+        wrong = [v for v in (float(array.min()), float(array.max())) if v not in found.range]
+        if wrong:
+            raise call.bad(
+                f"parameter {name} = {wrong[0]:g} is out of its range",
+                said[name],
+                f"{found.range.text(name)}: {words.described(found, call.session.language)}",
+            )
+
+
+def _read_value(
+    call: Call, word: str, model: Model, given: list[Values], known: Known
+) -> tuple[str, Any]:
+    """Read the value of a parameter into its zones; its name and the value as written."""
     said = word.rstrip()
     name = said if any(said in known(z) for z in model.zones) else said[:4]
     taking = [i for i, z in enumerate(model.zones) if name in known(z)]
@@ -165,16 +189,20 @@ def _read_value(call: Call, word: str, model: Model, given: list[Values], known:
             found += 1
     if not found:
         raise call.bad(f"the field given for {name} is not defined on the model", value)
+    return name, value
 
 
 def _unknown(call: Call, name: str, model: Model, known: Known) -> Exception:
     names = tuple(dict.fromkeys(n for z in model.zones for n in known(z)))
-    near = nearest(name, names, 0.5)
-    hint = f"did you mean {near}? " if near else ""
+    near = nearest_names(name, names, 0.5)
+    hint = f"did you mean {near[0]}? " if near else ""
+    hint += "known: " + " ".join(names)
+    zone = next(z for z in model.zones if not near or near[0] in known(z))
     call.word()
     word = call.used[-1].value
+    told = words.told_parameters(zone, near or known(zone), call.session.language)
     return call.bad(
-        f"no zone of the model takes a parameter {name}", word, hint + "known: " + " ".join(names)
+        f"no zone of the model takes a parameter {name}", word, "\n".join([hint, *told])
     )
 
 

@@ -86,12 +86,10 @@ def equal(call: Call, sign: str) -> bool:
 def _word_and_number(call: Call, sign: str, word: str) -> bool:
     """A word is no number: they differ, which is told since the word may be a name misspelt."""
     call.session.warn(
-        "bad-value",
+        "operators.numbers.word-and-number",
         call.span,
         operator=sign,
-        message=f"the word {word.rstrip()} is compared with a number: they differ",
-        hint="a name that was never assigned is a word",
-        severity="warning",
+        word=word.rstrip(),
     )
     return False
 

@@ -52,12 +52,20 @@ def _within(name: str, function: Function, low: float, high: float, strict: bool
         bad = bad | (x > high + slack) | np.isnan(x)
         if np.any(bad):
             worst = np.atleast_1d(x)[np.atleast_1d(bad)][0]
-            limits = f"above {low:g}" if strict else f"between {low:g} and {high:g}"
-            limits = f"at least {low:g}" if not strict and high == np.inf else limits
-            raise KernelError(f"{name} of {worst:g}: the argument must be {limits}")
+            raise _outside(name, worst, low, high, strict)
         return function(np.clip(x, low, high) if not strict else x)
 
     return run
+
+
+def _outside(name: str, worst: float, low: float, high: float, strict: bool) -> KernelError:
+    if strict:
+        return KernelError("operators.numbers.argument-above", name=name, worst=worst, low=low)
+    if high == np.inf:
+        return KernelError("operators.numbers.argument-at-least", name=name, worst=worst, low=low)
+    return KernelError(
+        "operators.numbers.argument-between", name=name, worst=worst, low=low, high=high
+    )
 
 
 def _degrees(function: Function) -> Function:
@@ -70,7 +78,7 @@ def _of_degrees(function: Function) -> Function:
 
 def _exponential(x: Any) -> Any:
     if np.any(np.asarray(x) > 709.7):
-        raise KernelError(f"EXP of {np.max(x):g} is larger than any number that can be held")
+        raise KernelError("operators.numbers.exp-too-large", x=np.max(x))
     return np.exp(x)
 
 
@@ -170,13 +178,15 @@ def atg(call: Call) -> Any:
         return float(np.degrees(np.arctan2(first, second)))
     if isinstance(first, ListReel | ListEnti) and isinstance(second, ListReel | ListEnti):
         if len(first) != len(second):
-            raise call.bad(f"the lists have {len(first)} and {len(second)} items", second)
+            raise call.error(
+                "operators.numbers.list-lengths", second, n_first=len(first), n_second=len(second)
+            )
         return ListReel(np.degrees(np.arctan2(first.values, second.values)))
     if isinstance(first, NodeField) and isinstance(second, NodeField):
         return _angle_of_fields(first, second)
     if isinstance(first, CellField) and isinstance(second, CellField):
         return _angle_of_cells(call, first, second)
-    raise call.bad("ATG of two objects needs two of the same kind", second)
+    raise call.error("operators.numbers.two-of-one-kind", second)
 
 
 def _angle_of_fields(first: NodeField, second: NodeField) -> NodeField:
@@ -194,7 +204,7 @@ def _angle_of_cells(call: Call, first: CellField, second: CellField) -> CellFiel
             (b for b in first.blocks if cell_algebra.same_cells(b.cells, block.cells)), None
         )
         if other is None:
-            raise call.bad("the two fields do not stand on the same cells", second)
+            raise call.error("operators.numbers.fields-on-other-cells", second)
         made = {
             k: np.degrees(np.arctan2(_part(other, k), cell_algebra.numeric(k, v)))
             for k, v in block.components.items()

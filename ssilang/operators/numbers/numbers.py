@@ -33,12 +33,12 @@ def number_in(call: Call, word: str) -> float:
     try:
         return float(str(word).strip().upper().replace("D", "E"))
     except ValueError:
-        raise call.bad(f"'{word}' is not a number", word) from None
+        raise call.error("operators.numbers.not-number", word, word=word) from None
 
 
 def _whole(call: Call, values: Any) -> Any:
     if np.any(~np.isfinite(values)) or np.any(np.abs(values) >= 2.0**63):
-        raise call.bad("a value is too large for an integer")
+        raise call.error("operators.numbers.integer-too-large")
     return values.astype(np.int64)
 
 
@@ -131,7 +131,7 @@ def masq(call: Call) -> Any:
     value = call.required(*_FIELDS)
     word = call.keyword((*_TESTS, "COMP", "EXIS"))
     if word is None:
-        raise call.bad("what is the test?", hint="SUPERIEUR EGSUPE EGALE EGINFE INFERIEUR ...")
+        raise call.error("operators.numbers.which-test")
     if word == "EXIS":
         return _existing(call, value)
     counted = call.keyword(("SOMM",)) is not None
@@ -174,7 +174,7 @@ def _tested(value: Any, other: Any, test: Callable[[Any, Any], Any]) -> Any:
     if len(value) != len(other):
         from ssilang.kernel.base.errors import KernelError
 
-        raise KernelError(f"the lists have {len(value)} and {len(other)} items")
+        raise KernelError("operators.numbers.list-lengths", n_first=len(value), n_second=len(other))
     return type(value)(test(value.values, other.values))
 
 
@@ -196,7 +196,7 @@ def _count(made: Any) -> int:
 
 def _existing(call: Call, value: Any) -> CellField:
     if not isinstance(value, CellField):
-        raise call.bad("'EXISTE' is for fields in cells", value)
+        raise call.error("operators.numbers.existence-of-cells", value)
     operand = call.read("MOT")
     name = None if operand is None else str(operand.value).rstrip()
     blocks = []
@@ -254,7 +254,7 @@ def _bounds(call: Call, named: bool, numbered: bool) -> tuple[Any, float, float]
         who = str(call.required("MOT")).rstrip()
         word = call.keyword(known)
     if word is None:
-        raise call.bad("which bound?", hint="'MAXIMUM' X2, 'MINIMUM' X1 or 'COMPRIS' X1 X2")
+        raise call.error("operators.numbers.which-bound")
     first = call.required("ENTIER", "FLOTTANT", after=call.keyword_end)
     if word == "COMP":
         return who, first, call.required("ENTIER", "FLOTTANT")
@@ -266,7 +266,9 @@ def _clipped_curve(call: Call, value: Curve, wanted: list[tuple[Any, float, floa
     for who, low, high in wanted:
         place = 1 if who is None else who
         if not 1 <= place <= len(value.parts):
-            raise call.bad(f"there are {len(value.parts)} curves, none of number {place}")
+            raise call.error(
+                "operators.numbers.no-such-curve", n_parts=len(value.parts), place=place
+            )
         part = value.parts[place - 1]
         parts.append(
             CurvePart(
@@ -287,7 +289,7 @@ def _clipped_field(call: Call, value: Any, wanted: list[tuple[Any, float, float]
     made = None
     for who, low, high in wanted:
         if who is None and len(names) != 1:
-            raise call.bad("which component?", hint="components are " + " ".join(names))
+            raise call.error("operators.numbers.which-component", names=names)
         name = names[0] if who is None else who
 
         def clip(x: Any, low: float = low, high: float = high) -> Any:
@@ -313,7 +315,7 @@ def session_generator(call: Call, skip: int | None) -> np.random.Generator:
     if found is None or skip is not None:
         found = np.random.default_rng(1)
         if skip is not None and skip < 0:
-            raise call.bad(f"the generator skips a number of terms, found {skip}", skip)
+            raise call.error("operators.numbers.negative-skip", skip, skip=skip)
         if skip:
             found.random(skip)
         options["RANDOM GENERATOR"] = found
@@ -341,18 +343,18 @@ def session_generator(call: Call, skip: int | None) -> np.random.Generator:
 def brui(call: Call) -> Any:
     """Draw values."""
     if call.keyword(("BLAN",)) is None:
-        raise call.bad("only white noise is made", hint="BRUI 'BLAN' 'GAUS' 0. 1. 100 ;")
+        raise call.error("operators.numbers.white-noise-only")
     law = call.keyword(("GAUS", "UNIF", "EXPO", "POIS"))
     if law is None:
-        raise call.bad("which law?", hint="'GAUS' 'UNIF' 'EXPO' 'POIS'")
+        raise call.error("operators.numbers.which-law")
     if law == "POIS":
         mean, count = call.required("ENTIER"), call.required("ENTIER")
         if mean < 0 or count < 0:
-            raise call.bad("the mean and the number of values are not negative")
+            raise call.error("operators.numbers.negative-mean-or-count")
         return ListEnti(session_generator(call, call.optional("ENTIER")).poisson(mean, count))
     mean, width = call.required("FLOTTANT"), call.required("FLOTTANT")
     if width < 0:
-        raise call.bad(f"the width of a law is not negative, this one is {width:g}", width)
+        raise call.error("operators.numbers.negative-width", width, width=width)
     support = call.read("ENTIER", "LISTREEL", "MAILLAGE")
     if support is None:
         raise call.missing(("ENTIER", "LISTREEL", "MAILLAGE"))
@@ -362,7 +364,7 @@ def brui(call: Call) -> Any:
     generator = session_generator(call, call.optional("ENTIER"))
     where = support.value
     if isinstance(where, int) and where < 0:
-        raise call.bad(f"the number of values is not negative, this one is {where}", where)
+        raise call.error("operators.numbers.negative-count", where, where=where)
     nodes = where.sorted_node_ids if hasattr(where, "sorted_node_ids") else None
     count = where if isinstance(where, int) else len(where if nodes is None else nodes)
     values = {

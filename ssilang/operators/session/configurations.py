@@ -48,9 +48,7 @@ def form(call: Call) -> Configuration:
     field = call.optional("CHPOINT")
     start = call.optional("CONFIGUR") if start is None else start
     if call.read("MMODEL", "MCHAML") is not None:
-        raise call.bad(
-            "the local axes of characteristics are not updated", hint="give new ones with MATE"
-        )
+        raise call.error("operators.session.local-axes-kept")
     if start is not None:
         nodes.coordinates[: len(start.coordinates)] = start.coordinates
     if field is not None:

@@ -140,7 +140,7 @@ def argu(call: Call) -> None:
     frame = call.session.frame
     wanted = _argument_marks(call)
     if frame.pending is None:
-        raise call.bad("ARGU reads the arguments of a procedure, none is running")
+        raise call.error("operators.session.no-procedure-runs")
     for name, mandatory, kind, span in wanted:
         operand = frame.pending.read(kind or "*")
         if operand is None and mandatory and kind:

@@ -66,7 +66,9 @@ def _group(call: Call) -> list[Any] | None:
         return None
     kind = str(said.value).strip().upper()[:8]
     if kind not in _MAKERS:
-        raise call.bad(f"no empty '{kind}' can be made", said.value, " ".join(_MAKERS))
+        raise call.error(
+            "operators.session.nothing-empty-of-type", said.value, kind=kind, makers=_MAKERS
+        )
     sub, count = "", 1
     while call.operands and call.operands[0].span.text in ("/", "*"):
         mark = call.operands.pop(0).span.text
@@ -75,7 +77,7 @@ def _group(call: Call) -> list[Any] | None:
         else:
             sub = str(call.required("MOT")).strip()
     if kind == "MAILLAGE" and sub and sub.upper() not in CELL_TYPES:
-        raise call.bad(f"'{sub}' is no type of cell", hint=" ".join(CELL_TYPES))
+        raise call.error("operators.session.no-such-cell", sub=sub, cell_types=CELL_TYPES)
     ws = workspace(call.session)
     return [_MAKERS[kind](ws, sub) for _ in range(count)]
 
@@ -99,7 +101,9 @@ def vide(call: Call) -> Any:
         tested = call.read("*")
         assert tested is not None
         if type_of(tested.value) not in (*_MAKERS, "DEFORME", "VECTEUR"):
-            raise call.bad(f"a {type_of(tested.value)} is never empty", tested.value)
+            raise call.error(
+                "operators.session.never-empty", tested.value, found=type_of(tested.value)
+            )
         return is_empty(tested.value)
     tabulated = call.keyword(("TABU",)) is not None
     places = call.read("LISTENTI", "LISTREEL", "LISTMOTS") if tabulated else None

@@ -6,13 +6,12 @@ from ssilang.language.registry import OPERATORS, Help, operator
 from ssilang.language.run.call import Call
 from ssilang.language.run.library import standard_procedures
 from ssilang.language.say.reference import (
-    find_page,
     operator_page,
     overview,
-    page_text,
     procedure_page,
 )
 from ssilang.language.values import ListMots
+from ssilang.operators.word_pages import help_text, near_name
 
 
 @operator(
@@ -20,10 +19,13 @@ from ssilang.language.values import ListMots
     family="session",
     full_name="INFORMATION",
     help=Help(
-        en="Prints the help of an operator or of a procedure of the standard library.",
-        fr="Affiche l'aide d'un opérateur ou d'une procédure de la bibliothèque.",
+        en="Prints the help of an operator, of a procedure of the standard library, of a law, an "
+        "element, a parameter, a component or an option; of another word, what help knows of it.",
+        fr="Affiche l'aide d'un opérateur, d'une procédure de la bibliothèque, d'une loi, d'un "
+        "élément, d'un paramètre, d'une composante ou d'une option ; d'un autre mot, ce que l'aide "
+        "en sait.",
         syntax="INFO NAME1 ;",
-        examples=("INFO DENS ;",),
+        examples=("INFO DENS ;", "INFO JOINT_SDM ;", "INFO 'uplift' ;"),
     ),
     reads_itself=True,
 )
@@ -32,12 +34,12 @@ def info(call: Call) -> None:
     said = call.word()
     if said is None:
         raise call.missing(("MOT",))
-    page = find_page(said, standard_procedures())
-    if page is None:
-        raise call.bad(
-            f"there is no help about {said.upper()}", said, "`ssilang help` lists what there is"
-        )
-    call.session.print(page_text(page, call.session.language))
+    text = help_text(said, call.session.language)
+    if not text:
+        near = near_name(said)
+        hint = f"did you mean {near}?" if near else "`ssilang help` lists what there is"
+        raise call.bad(f"there is no help about {said.upper()}", said, hint)
+    call.session.print(text)
 
 
 @operator(

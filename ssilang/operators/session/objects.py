@@ -141,7 +141,7 @@ def _in_load(call: Call, load: Load) -> bool:
 def _in_model(call: Call, model: Model) -> bool:
     what = call.keyword(("FORM", "CONS", "ELEM", "MATE"))
     if what is None:
-        raise call.bad("what is looked for in the model?", hint="FORM CONS ELEM MATE")
+        raise call.error("operators.session.what-of-the-model")
     words = [str(w).strip() for w in call.all("MOT")]
     for zone in model.zones:
         holders = {
@@ -236,15 +236,15 @@ def mena(call: Call) -> None:
 def nomm(call: Call) -> None:
     """Assign to a computed name."""
     if len(call.operands) < 2:
-        raise call.bad("a name and an object are needed", hint="NOMM NOM1 OBJ1 ;")
+        raise call.error("operators.session.name-and-object")
     first = call.operands.pop(0)
     call.used.append(first)
     if not isinstance(first.value, Mot):
-        raise call.bad("a name is a word, or a variable that holds one", first.value)
+        raise call.error("operators.session.name-is-a-word", first.value)
     name = str(first.value).strip().upper()
     operand = call.operands.pop(0)
     if not name:
-        raise call.bad("the name is empty", first.value)
+        raise call.error("operators.session.empty-name", first.value)
     call.session.frame.assign(name[:24], operand.value)
 
 
@@ -281,7 +281,7 @@ def _target(call: Call) -> Objet:
             return operand.value
     found = call.session.frame.object
     if found is None:
-        raise call.bad("no object is there", hint="OBJ1%METHODE NOM1 METH1 ;")
+        raise call.error("operators.session.no-object")
     return found
 
 
@@ -330,6 +330,6 @@ def heri(call: Call) -> None:
     others = [o for o in call.operands if isinstance(o.value, Objet)]
     holder = others[0].value if len(others) > 1 else call.session.frame.object
     if not others or holder is None:
-        raise call.bad("the object to inherit from is missing", hint="OBJ1%HERITE OBJ2 ;")
+        raise call.error("operators.session.nothing-to-inherit")
     call.operands[:] = [o for o in call.operands if o not in others]
     holder.methods.update(others[-1].value.methods)

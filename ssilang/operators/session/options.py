@@ -11,13 +11,14 @@ from ssilang.io.plots.palette import index_of
 from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.matrices.matrix import PRIMAL_TO_DUAL
 from ssilang.kernel.mesh.cells import CELL_TYPES, POLYGON_SIDES
+from ssilang.language.near import nearest, nearest_names
 from ssilang.language.registry import Help, arg, operator
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
-from ssilang.language.say.diagnostics import nearest
 from ssilang.language.say.errors import SsiError
 from ssilang.language.values import ListMots, Mot
 from ssilang.operators.session.option_files import include, read_file_option
+from ssilang.operators.words import told_options, told_values
 from ssilang.operators.workspace import Workspace, workspace
 
 Reader = Callable[[Call, str], None]
@@ -86,12 +87,13 @@ def _one_of(call: Call, option: str, words: tuple[str, ...]) -> str:
             return word
     near = nearest(said, words, 0.3)
     hint = f"did you mean {near}? " if near else ""
+    told = told_values(option, words, call.session.language)
     raise SsiError(
         "bad-value",
         call.used[-1].span,
         operator="OPTION",
         message=f"'{said}' is no value of {option}",
-        hint=f"{hint}it takes {' '.join(words)}",
+        hint="\n".join([f"{hint}it takes {' '.join(words)}", *told]),
     )
 
 
@@ -274,8 +276,9 @@ def opti(call: Call) -> None:
 
 def _unknown_option(call: Call, said: str) -> SsiError:
     word = call.word()
-    near = nearest(said.strip()[:4], sorted(READERS), 0.4)
-    hint = f"did you mean {near}?" if near else "options are " + " ".join(sorted(READERS))
+    near = nearest_names(said.strip()[:4], sorted(READERS), 0.5)
+    hint = f"did you mean {near[0]}?" if near else "options are " + " ".join(sorted(READERS))
+    hint = "\n".join([hint, *told_options(near, call.session.language)])
     span = call.used[-1].span if call.used else call.span
     return SsiError(
         "bad-value", span, operator="OPTION", message=f"'{word}' is no option", hint=hint

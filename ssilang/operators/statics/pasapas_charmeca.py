@@ -21,9 +21,7 @@ from ssilang.operators.statics.bodies import Bodies
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
-    from ssilang.kernel.dynamics.problem import Inputs, Problem
-
-KNOWN = ("ADDI_SECOND", "ADDI_MATRICE")
+    from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 
 
 class LoadByProcedure:
@@ -60,11 +58,11 @@ class LoadByProcedure:
                 "the procedure CHARMECA must give one TABLE",
                 "TAB2 = TABL ; TAB2 . 'ADDI_SECOND' = ... ; FINP TAB2 ;",
             )
-        found = Entries(self.entries.call, results[0], "CHARMECA")
-        found.warn_unknown(KNOWN)
+        found = Entries(self.entries.call, results[0], "PASAPAS", "TCHAR")
+        found.check()
         numbering = self.problem.numbering
-        load: NodeField | None = found.get("ADDI_SECOND", "CHPOINT")
-        matrix = found.get("ADDI_MATRICE", "RIGIDITE")
+        load: NodeField | None = found.get("ADDI_SECOND")
+        matrix = found.get("ADDI_MATRICE")
         if load is None:
             return Added(np.zeros(numbering.size))
         lost = outside(load, numbering)

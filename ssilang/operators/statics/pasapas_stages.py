@@ -19,8 +19,8 @@ from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.zone_fields import cell_rows, n_points
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
-from ssilang.kernel.joints.elements import is_joint
-from ssilang.kernel.joints.kinematics import element_sides
+from ssilang.kernel.interface.elements import is_joint
+from ssilang.kernel.interface.kinematics import element_sides
 from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.mesh import CellBlock
@@ -31,7 +31,7 @@ from ssilang.operators.statics.pasapas_steering import working_table
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
-    from ssilang.kernel.dynamics.snapshot import Snapshot
+    from ssilang.kernel.stepping.snapshot import Snapshot
 
 STAGED = {
     "MODE": ("MODELE", "MMODEL"),
@@ -58,7 +58,7 @@ class Stage:
 
 def stage_of(work: Entries, times: FloatArray) -> Stage:
     """The first stage of times[1:], times[0] being where it starts."""
-    load: Load | None = work.get("CHARGEMENT", "CHARGEME")
+    load: Load | None = work.get("CHARGEMENT")
     parts = [] if load is None else [p for p in load.parts if p.name.strip() in STAGED]
     if load is None or not parts:
         return Stage(work, len(times) - 1)
@@ -110,7 +110,7 @@ def _joined(work: Entries, word: str, values: list[Any]) -> Any:
         if len(values) == 1:
             return values[0]
         return CellField(tuple(b for f in values for b in f.blocks), values[0].title)
-    always = work.get("BLOCAGES_MECANIQUES", "RIGIDITE")
+    always = work.get("BLOCAGES_MECANIQUES")
     all_ = values if always is None else [always, *values]
     blocks = tuple(b for m in all_ for b in m.blocks)
     relations = tuple(r for m in all_ for r in m.relations)

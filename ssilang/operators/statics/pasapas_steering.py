@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.dynamics.plan import nearest
 from ssilang.kernel.materials.model import Model
+from ssilang.kernel.stepping.times import nearest
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel, Mot, Table
 from ssilang.operators.files.saving import save
@@ -16,7 +16,7 @@ from ssilang.operators.session.user_procedures import StopCalculation, call_user
 from ssilang.operators.statics.pasapas_results import ResultTables
 
 if TYPE_CHECKING:
-    from ssilang.kernel.dynamics.snapshot import Snapshot
+    from ssilang.kernel.stepping.snapshot import Snapshot
 
 CHANGEABLE = (
     "MODELE", "CARACTERISTIQUES", "BLOCAGES_MECANIQUES", "CHARGEMENT", "RIGIDITE_CONSTANTE",

@@ -60,7 +60,9 @@ def inde(call: Call) -> Table:
     call.operands[:] = [o for o in call.operands if o.span.text != "*"]
     kind = str(call.required("MOT")).strip().lstrip("*").upper()[:8]
     if kind not in known_types():
-        raise call.bad(f"'{kind}' is no type", hint="types are " + " ".join(sorted(known_types())))
+        raise call.error(
+            "operators.tables.unknown-type", kind=kind, known_types=sorted(known_types())
+        )
     frame = call.session.frame
     for name in sorted(frame.names()):
         value = frame.find(name)

@@ -32,12 +32,10 @@ def etg(call: Call) -> Any:
     """Union of a table's objects."""
     table: Table = call.required("TABLE")
     if table.subtype != "ESCLAVE":
-        raise call.bad(
-            f"the table is of sub-type '{table.subtype}'", table, hint="TABL 'ESCLAVE', PART"
-        )
+        raise call.error("operators.tables.wrong-subtype", table, subtype=table.subtype)
     values = [v for index, v in table.items() if type(index) is int]
     if not values:
-        raise call.bad("the table holds nothing at integer indices", table)
+        raise call.error("operators.tables.empty-table", table)
     if all(isinstance(v, Mesh) for v in values):
         return gathered([v for v in values if isinstance(v, Mesh)])
     total = values[0]

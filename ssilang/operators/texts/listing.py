@@ -309,7 +309,9 @@ def list_objects(call: Call) -> None:
     if call.operands[0].span.text == "*" and len(call.operands) > 1:
         kind = name_of(call.operands[1])[:8]
         if kind not in known_types():
-            raise call.bad(f"'{kind}' is no type", hint=" ".join(sorted(known_types())))
+            raise call.error(
+                "operators.texts.unknown-type", kind=kind, known_types=sorted(known_types())
+            )
         call.operands.clear()
         call.session.print(_all_names(call, kind))
         return

@@ -157,16 +157,20 @@ def _extract_word(call: Call, word: str) -> Any:
         return _named(call, word)
     last = call.optional("ENTIER", default=len(word))
     if not 1 <= first.value <= max(len(word), 1) or not first.value <= last <= len(word):
-        raise call.bad(
-            f"'{word}' has {len(word)} characters, {first.value} to {last} are not in it",
+        raise call.error(
+            "operators.texts.characters-beyond-end",
             first.value,
+            word=word,
+            size=len(word),
+            first=first.value,
+            last=last,
         )
     return Mot(word[first.value - 1 : last])
 
 
 def _letter(call: Call, word: str, i: int) -> str:
     if not 1 <= i <= len(word):
-        raise call.bad(f"'{word}' has {len(word)} characters, none at place {i}")
+        raise call.error("operators.texts.no-such-character", word=word, size=len(word), place=i)
     return word[i - 1]
 
 
@@ -175,7 +179,9 @@ def _named(call: Call, kind: str) -> Table:
 
     wanted = kind.strip().lstrip("*").upper()
     if wanted not in known_types():
-        raise call.bad(f"'{kind}' is no type", hint="types are " + " ".join(sorted(known_types())))
+        raise call.error(
+            "operators.texts.unknown-type-named", kind=kind, known_types=sorted(known_types())
+        )
     frame, found = call.session.frame, Table()
     for name in sorted(frame.names()):
         value = frame.find(name)

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from ssilang.cli.run import run_text
-from ssilang.kernel.dynamics.problem import Inputs, make_problem
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.plasticity.bulk import bulk_of, without_stiffness
 from ssilang.kernel.plasticity.points import plastic_zones
 from ssilang.kernel.plasticity.run import BulkRun, step_bulk_statics
+from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
 
 TUBE = """
 OPTI DIME 2 ELEM QUA8 MODE AXIS ;

@@ -5,13 +5,13 @@ import pytest
 from references.assembled import Bench
 
 from ssilang.kernel.base.sparse import sp
-from ssilang.kernel.dynamics.problem import Inputs, make_problem
 from ssilang.kernel.statics.conditioning import (
     condition_number,
     joint_conditioning,
     system_extremes,
 )
 from ssilang.kernel.statics.linear import linear_system
+from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
 
 
 def chain(n, k):

@@ -157,6 +157,46 @@ def test_a_word_chooses_the_form_before_any_type(declare):
     assert declare.found == [{"x": 3}, {"value": 3}]
 
 
+def test_a_keyword_of_the_form_may_stand_before_the_word_that_chooses_it(declare):
+    declare(arg("x", "ENTIER"))
+    declare(said("CUBE"), arg("x", "ENTIER"), key("step", "PAS", arg("v", "FLOTTANT")))
+    assert run("A = ZZZZ 'PAS' 0.5 3 'CUBE' ;")[0] == 0
+    assert declare.found == [{"x": 3, "step": 0.5}]
+
+
+def test_a_mandatory_select_chooses_its_form(declare):
+    declare(
+        select("on", {"PLAN": [arg("p", "ENTIER")], "AXE": []}, optional=False), opt("n", "MOT")
+    )
+    declare(arg("x", "FLOTTANT"), arg("y", "FLOTTANT"))
+    assert run("A = ZZZZ 1. 'PLAN' 3 ; A = ZZZZ 1 2 ;")[0] == 1
+    assert run("A = ZZZZ 'PLAN' 3 ; A = ZZZZ 1 2 ;")[0] == 0
+    assert declare.found[-2]["on"].word == "PLAN"
+    assert declare.found[-1] == {"x": 1.0, "y": 2.0}
+
+
+def test_a_keyword_may_take_only_what_stands_behind_it(declare):
+    declare(
+        select("on", {"SUR": [many("those", "ENTIER", behind=True)]}),
+        arg("x", "ENTIER"),
+        many("more", "ENTIER"),
+    )
+    assert run("A = 1 2 ZZZZ 'SUR' ; B = 1 ZZZZ 'SUR' 2 3 ;")[0] == 0
+    assert [(v["on"]["those"], v["x"], v["more"]) for v in declare.found] == [
+        ((), 1, (2,)),
+        ((2, 3), 1, ()),
+    ]
+
+
+def test_the_words_of_all_forms_of_a_type_are_told(declare):
+    declare(said("CUBE"), main("x", "ENTIER"))
+    declare(said("CARRE"), main("x", "ENTIER"))
+    code, output = run("A = ZZZZ 3 ;")
+    assert code == 1
+    assert "CUBE" in output
+    assert "CARRE" in output
+
+
 def test_a_form_may_want_a_state_of_the_session(declare):
     declare(arg("x", "ENTIER"), when=When(lambda session: False, "in space", "en dimension 3"))
     code, output = run("A = ZZZZ 3 ;")

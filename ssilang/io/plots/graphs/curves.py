@@ -114,7 +114,7 @@ def _lines(curve: Curve, options: CurveOptions) -> list[Line]:
     numbers = options.chosen or tuple(range(1, count + 1))
     bad = [n for n in numbers if not 1 <= n <= count]
     if bad:
-        raise OutputError(f"curve {bad[0]} is asked for, the evolution has {count}")
+        raise OutputError("io.curve-asked-evolution", bad=bad[0], count=count)
     colours = _colours([curve.parts[n - 1].colour for n in numbers])
     widths = np.linspace(*_WIDTHS, len(numbers)) if len(numbers) > 1 else [_WIDTH]
     return [
@@ -278,9 +278,7 @@ def _graduate(axis: Any, step: float | None, form: str | None, log: bool) -> Non
     if step:
         low, high = sorted(axis.get_view_interval())
         if (high - low) / abs(step) > 200:
-            raise OutputError(
-                f"graduations every {step:g} on an axis from {low:g} to {high:g} are too many"
-            )
+            raise OutputError("io.graduations-every-axis-too", step=step, low=low, high=high)
         axis.set_major_locator(MultipleLocator(abs(step)))
     if form:
         axis.set_major_formatter(FuncFormatter(lambda value, _: formatted(form, value)))

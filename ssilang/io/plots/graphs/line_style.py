@@ -69,7 +69,7 @@ def parse_style(text: str) -> LineStyle:
             chosen |= _marker(words)
         else:
             options = " ".join([*_SIMPLE, *DASHES, "LABEL", "MARQ"])
-            raise OutputError(f"'{word}' is no line option", f"options are {options}")
+            raise OutputError("io.no-line-option", word=word, options=options)
     return LineStyle(**chosen)  # type: ignore[arg-type]
 
 
@@ -93,5 +93,5 @@ def _marker(words: list[str]) -> dict[str, object]:
             chosen["marker"] = MARKERS[word[:4]]
             return chosen
         else:
-            raise OutputError(f"'{word}' is no marker", "markers are " + " ".join(MARKERS))
-    raise OutputError("MARQ has no marker", "markers are " + " ".join(MARKERS))
+            raise OutputError("io.no-marker", word=word, markers=MARKERS)
+    raise OutputError("io.marq-no-marker", markers=MARKERS)

@@ -77,6 +77,5 @@ def check(parameters: PointParameters) -> None:
         wrong = (parameters[name] < low) | (parameters[name] > high)
         if wrong.any():
             raise MaterialError(
-                f"NORTON has {name} = {parameters[name][wrong][0]:g}",
-                "AF1 >= 0, AF2 >= 1 and 0 < AF3 <= 1",
+                "kernel.materials.norton", name=name, parameters=parameters[name][wrong][0]
             )

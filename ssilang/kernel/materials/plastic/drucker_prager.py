@@ -75,8 +75,9 @@ def check_perfect(parameters: PointParameters) -> None:
     tension, compression = parameters["LTR"], np.abs(parameters["LCS"])
     if (tension <= 0).any() or (compression < tension).any():
         raise MaterialError(
-            f"DRUCKER_PARFAIT has LTR = {tension.min():g} and LCS = {compression.min():g}",
-            "0 < LTR <= LCS (strengths in simple tension and compression)",
+            "kernel.materials.drucker-parfait-ltr-lcs",
+            tension_min=tension.min(),
+            compression_min=compression.min(),
         )
 
 
@@ -90,10 +91,10 @@ def check_hardening(parameters: PointParameters) -> None:
     """
     alpha, beta, eta, mu = (parameters[n] for n in ("ALFA", "BETA", "ETA", "MU"))
     if (beta <= 0).any() or (mu <= 0).any() or (parameters["DELT"] < 0).any():
-        raise MaterialError("DRUCKER_PRAGER needs BETA > 0, MU > 0 and DELT >= 0")
+        raise MaterialError("kernel.materials.drucker-prager-needs-beta")
     if (np.abs(eta * beta - alpha * mu) > 1e-9 * np.abs(alpha * mu) + 1e-30).any():
         raise MaterialError(
-            "the ultimate cone of DRUCKER_PRAGER has another slope than the first "
-            f"(ETA/MU = {(eta / mu).flat[0]:g}, ALFA/BETA = {(alpha / beta).flat[0]:g})",
-            "ETA/MU = ALFA/BETA",
+            "kernel.materials.ultimate-cone-drucker-prager",
+            eta=(eta / mu).flat[0],
+            alpha=(alpha / beta).flat[0],
         )

@@ -109,7 +109,7 @@ def plastic_law(behaviour: tuple[str, ...]) -> PlasticLaw | None:
     after = behaviour[behaviour.index("PLASTIQUE") + 1 :] or ("ISOTROPE",)
     if after[0] not in PLASTIC_LAWS:
         raise MaterialError(
-            f"no plastic law of bodies is called {after[0]}", "there are " + ", ".join(PLASTIC_LAWS)
+            "kernel.materials.no-plastic-law-bodies", after=after[0], plastic_laws=PLASTIC_LAWS
         )
     return PLASTIC_LAWS[after[0]]
 
@@ -124,13 +124,12 @@ def check_parameters(law: PlasticLaw, parameters: PointParameters) -> None:
     """
     for name in law.positive:
         if (parameters[name] <= 0).any():
-            raise MaterialError(f"{name} = {parameters[name].min():g}: it must be > 0")
+            raise MaterialError(
+                "kernel.materials.must", name=name, parameters_min=parameters[name].min()
+            )
     for name in law.curves:
         for curve in parameters.curves[name][0]:
             if (curve.parts[0].ordinates <= 0).any():
-                raise MaterialError(
-                    f"the curve {name} has strengths that are not > 0",
-                    "abscissas are plastic strains from 0, ordinates stresses",
-                )
+                raise MaterialError("kernel.materials.curve-strengths-not", name=name)
     if law.check is not None:
         law.check(parameters)

@@ -206,9 +206,7 @@ def check(parameters: PointParameters) -> None:
         Unless COHE > 0 and 0 < PHI < pi/2.
     """
     if (parameters["COHE"] <= 0).any():
-        raise MaterialError("RH_COULOMB needs a cohesion COHE > 0", "a small one for sand")
+        raise MaterialError("kernel.materials.rh-coulomb-needs-cohesion")
     phi = parameters["PHI"]
     if (phi <= 0).any() or (phi >= np.pi / 2).any():
-        raise MaterialError(
-            f"RH_COULOMB has PHI = {phi.flat[0]:g}", "an angle in radians between 0 and pi/2"
-        )
+        raise MaterialError("kernel.materials.rh-coulomb-phi", phi=phi.flat[0])

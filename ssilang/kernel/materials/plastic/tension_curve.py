@@ -29,18 +29,12 @@ def hardening_of(tension: Curve, young: float) -> Curve:
     part = tension.parts[0]
     strain, stress = np.asarray(part.abscissas, float), np.asarray(part.ordinates, float)
     if len(strain) < 2 or strain[0] != 0.0 or stress[0] != 0.0 or strain[1] <= 0.0:
-        raise MaterialError(
-            "TRAC begins at zero stress and strain, then comes the elastic limit",
-            "EVOL 'MANU' (PROG 0. 1.E-3 0.1) (PROG 0. 200.E6 300.E6), or ECRO",
-        )
+        raise MaterialError("kernel.materials.trac-begins-zero-stress")
     slope = stress[1] / strain[1]
     if abs(slope - young) > _LIKE * young:
-        raise MaterialError(
-            f"the first slope of TRAC is {slope:g}, YOUN is {young:g}",
-            "the second point of TRAC is the elastic limit",
-        )
+        raise MaterialError("kernel.materials.first-slope-trac-youn", slope=slope, young=young)
     plastic = (strain[1:] - strain[1]) - (stress[1:] - stress[1]) / young
     if (np.diff(plastic) < -1e-9 * strain[1]).any():
-        raise MaterialError("TRAC rises by more than YOUN behind the elastic limit")
+        raise MaterialError("kernel.materials.trac-rises-more-youn")
     plastic = np.maximum.accumulate(plastic)
     return Curve((CurvePart(plastic, stress[1:], "EPSE", "SIGM"),), tension.title)

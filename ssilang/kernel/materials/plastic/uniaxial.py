@@ -83,4 +83,4 @@ def check_concrete(parameters: PointParameters) -> None:
         If FC = 0.
     """
     if (parameters["FC"] == 0).any():
-        raise MaterialError("FC = 0: concrete needs a strength")
+        raise MaterialError("kernel.materials.fc-concrete-needs-strength")

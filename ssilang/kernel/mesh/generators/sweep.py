@@ -101,7 +101,7 @@ def corresponding_nodes(first: Mesh, second: Mesh) -> IntArray:
     theirs = {b.cell_type: b.connectivity for b in second.blocks}
     if {k: v.shape for k, v in ours.items()} != {k: v.shape for k, v in theirs.items()}:
         raise MeshError(
-            "kernel.mesh.two-meshes-not-same", summary=_summary(first), summary_2=_summary(second)
+            "kernel.mesh.two-meshes-not-same", first=_summary(first), second=_summary(second)
         )
     if not first.blocks:
         return np.empty(0, dtype=np.int64)
@@ -213,8 +213,8 @@ def _cell_nodes_mean(mesh: Mesh) -> FloatArray:
     return mean
 
 
-def _summary(mesh: Mesh) -> str:
-    return ", ".join(f"{len(b)} {b.cell_type}" for b in mesh.blocks) or "nothing"
+def _summary(mesh: Mesh) -> list[str]:
+    return [f"{len(b)} {b.cell_type}" for b in mesh.blocks]
 
 
 @dataclass(frozen=True)

@@ -46,11 +46,11 @@ def _neighbours(line: Mesh) -> tuple[IntArray, IntArray]:
         table = block.connectivity
         pairs += [table[:, k : k + 2] for k in range(table.shape[1] - 1)]
     table = np.concatenate(pairs)
-    for column, where in ((0, "start"), (1, "end")):
+    for column, ending in ((0, False), (1, True)):
         ids, times = np.unique(table[:, column], return_counts=True)
         if (times > 1).any():
             node = int(ids[times > 1][0]) + 1
-            raise MeshError("kernel.mesh.several-cells-node-line", where=where, node=node)
+            raise MeshError("kernel.mesh.several-cells-node-line", ending=ending, node=node)
     before = np.full(len(line.nodes), -1, dtype=np.int64)
     after = before.copy()
     after[table[:, 0]], before[table[:, 1]] = table[:, 1], table[:, 0]

@@ -125,7 +125,7 @@ def line_chain(line: Mesh) -> IntArray:
         If the mesh is not one connected line whose cells all run the same way.
     """
     if any(b.cell_type not in ("SEG2", "SEG3") for b in line.blocks) or not line.blocks:
-        kinds = ", ".join(b.cell_type for b in line.blocks) or "nothing"
+        kinds = [b.cell_type for b in line.blocks]
         raise MeshError("kernel.mesh.line-seg2-seg3-needed-2", kinds=kinds)
     table = line.single_block().connectivity
     if not np.array_equal(table[1:, 0], table[:-1, -1]):

@@ -28,11 +28,9 @@ def facets(mesh: Mesh, dimension: int) -> IntArray:
         elif dimension == 3 and block.cell_type == "QUA4":
             parts.append(np.concatenate([c[:, [0, 1, 2]], c[:, [0, 2, 3]]]))
         else:
-            wanted = "segments SEG2" if dimension == 2 else "triangles TRI3 or quadrangles QUA4"
             raise MeshError(
                 "kernel.mesh.distances-taken-not",
-                wanted=wanted,
-                dimension=dimension,
+                plane=dimension == 2,
                 cell_type=block.cell_type,
             )
     if not parts:

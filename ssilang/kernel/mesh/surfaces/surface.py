@@ -33,7 +33,7 @@ def contour_cells(contour: Mesh) -> IntArray:
     """
     lines = [b for b in contour.blocks if b.cell_type in ("SEG2", "SEG3")]
     if not lines or len({b.cell_type for b in lines}) > 1:
-        kinds = ", ".join(b.cell_type for b in contour.blocks) or "nothing"
+        kinds = [b.cell_type for b in contour.blocks]
         raise MeshError("kernel.mesh.contour-seg2-seg3-needed", kinds=kinds)
     cells = np.concatenate([b.connectivity for b in lines])
     leaving, arriving = np.sort(cells[:, 0]), np.sort(cells[:, -1])
@@ -41,8 +41,7 @@ def contour_cells(contour: Mesh) -> IntArray:
         ends, times = np.unique(cells[:, [0, -1]], return_counts=True)
         open_ends = ends[times % 2 == 1]
         if len(open_ends):
-            where = ", ".join(str(int(n) + 1) for n in open_ends[:4])
-            raise MeshError("kernel.mesh.contour-not-closed-line", where=where)
+            raise MeshError("kernel.mesh.contour-not-closed-line", nodes=open_ends[:4] + 1)
         if (times != 2).any():
             raise MeshError("kernel.mesh.lines-contour-not-run")
         return in_one_sense(cells)

@@ -45,8 +45,7 @@ def crossed(first: Mesh, second: Mesh) -> tuple[Mesh, Mesh, Mesh, Mesh]:
 def _triangles(surface: Mesh) -> IntArray:
     kinds = {b.cell_type for b in surface.blocks}
     if kinds != {"TRI3"}:
-        held = ", ".join(sorted(kinds)) or "nothing"
-        raise MeshError("kernel.mesh.surfaces-tri3-needed-cross", held=held)
+        raise MeshError("kernel.mesh.surfaces-tri3-needed-cross", kinds=sorted(kinds))
     return np.vstack([b.connectivity for b in surface.blocks])
 
 

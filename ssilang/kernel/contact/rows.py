@@ -1,0 +1,164 @@
+"""Unilateral relations (MINI, MAXI) of a time-stepping problem.
+
+All rows are written `gap = G u - d >= 0` with a reaction p >= 0 that pushes by `G^T p` (by other
+rows, `D^T p`, for relations with a dual); rows of sense -1 (MAXI) are turned round. Places with
+friction push by their slips besides.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.contact.friction_rows import FrictionRows
+from ssilang.kernel.matrices.assembly import ConstraintRows
+
+BoolArray = NDArray[np.bool_]
+TOUCHING = 1e-11  # of the largest gap or displacement, which solvers leave: closed at the start
+
+
+@dataclass(frozen=True, eq=False)
+class ContactRows:
+    """Unilateral conditions on one numbering.
+
+    Attributes
+    ----------
+    G : csr array (m, n)
+        Rows times their sense.
+    sense : array (m,)
+        +1 MINI, -1 MAXI.
+    multipliers : array (m,)
+        Multiplier nodes.
+    imposed : array (m, k)
+        Imposed values times the sense, by load curve.
+    dual : csr array (m, n) or None
+        Rows that the reactions push by, times the sense; None: those of G.
+    friction : FrictionRows or None
+        Places that rub. Forces are then the reactions p (m,) and the frictions behind them.
+    """
+
+    G: sp.csr_array
+    sense: FloatArray
+    multipliers: IntArray
+    imposed: FloatArray
+    dual: sp.csr_array | None = None
+    friction: FrictionRows | None = None
+
+    def __len__(self) -> int:
+        return len(self.sense)
+
+    @cached_property
+    def pushing(self) -> sp.csr_array:
+        """Rows (size, n) that all forces push by."""
+        own = self.G if self.dual is None else self.dual
+        return own if self.friction is None else _stacked(own, self.friction.H)
+
+    @cached_property
+    def seen(self) -> sp.csr_array:
+        """Rows of gaps, slips and watched tensions."""
+        if self.friction is None:
+            return self.G
+        return _stacked(self.G, self.friction.H, self.friction.watched)
+
+    @property
+    def size(self) -> int:
+        """Number of reactions and frictions."""
+        return self.pushing.shape[0]
+
+    @property
+    def associated(self) -> bool:
+        """Whether reactions push by the rows of the gaps."""
+        return self.dual is None
+
+    def at_rest(self, u: FloatArray, gaps: FloatArray) -> FloatArray:
+        """What `seen` has of its own in a step from u (n,) with gaps (m,) before it moves."""
+        if self.friction is None:
+            return gaps
+        f = self.friction
+        return np.concatenate([gaps, np.zeros(f.H.shape[0]), f.offset + f.watched @ u])
+
+    def gaps(self, u: FloatArray, factors: FloatArray) -> FloatArray:
+        """Gaps (m,) at displacement u (n,) and load factors (k,)."""
+        found: FloatArray = self.G @ u - self.imposed @ factors
+        return found
+
+    def closed(self, forces: FloatArray) -> BoolArray:
+        """Rows (m,) that push."""
+        found: BoolArray = forces[: len(self)] > 0.0
+        return found
+
+    def work(self, forces: FloatArray, du: FloatArray, dc: FloatArray) -> float:
+        """Work of moving stops and of dual rows for mean forces in a step (frictions: see rubbed).
+
+        `du` (n,) and `dc` are the increments of displacement and load factors.
+        """
+        p = forces[: len(self)]
+        found = float(p @ (self.imposed @ dc))
+        return found if self.dual is None else found + float(p @ (self.dual @ du - self.G @ du))
+
+    def rubbed(self, forces: FloatArray, du: FloatArray) -> float:
+        """Energy lost by friction in a step of mean forces (size,)."""
+        if self.friction is None:
+            return 0.0
+        return -float(forces[len(self) :] @ (self.friction.H @ du))
+
+    def sticking(self, forces: FloatArray, u: FloatArray) -> BoolArray:
+        """Places that hold by friction; none without friction."""
+        if self.friction is None:
+            return np.zeros(0, bool)
+        return self.friction.sticking(forces[: len(self)], forces[len(self) :], u)
+
+    def penalty_energy(self, gaps: FloatArray, coefficient: float | None) -> float:
+        """Energy stored in the springs of a penalty at gaps (m,)."""
+        return 0.5 * (coefficient or 0.0) * float(np.sum(np.minimum(gaps, 0.0) ** 2))
+
+    def lagrange(self, forces: FloatArray) -> FloatArray:
+        """Multipliers LX (m,) of the rows as solutions carry them: K u + C^T LX = F."""
+        return -self.sense * forces[: len(self)]
+
+
+def _stacked(*parts: sp.csr_array) -> sp.csr_array:
+    return sp.csr_array(sp.vstack(parts))
+
+
+def split_rows(
+    rows: ConstraintRows, imposed: FloatArray
+) -> tuple[ConstraintRows, FloatArray, ContactRows | None]:
+    """Equalities with their imposed values (n_rows, k), and unilateral rows if there are any."""
+    unilateral = rows.sense != 0
+    if not unilateral.any():
+        return rows, imposed, None
+    keep, turn = np.flatnonzero(~unilateral), np.flatnonzero(unilateral)
+    C = sp.csr_array(rows.C[keep])
+    D = C if rows.associated or _same(C, rows.D[keep]) else sp.csr_array(rows.D[keep])
+    equalities = ConstraintRows(C, rows.multipliers[keep], rows.sense[keep], D)
+    sense = rows.sense[turn].astype(float)
+    turned = sp.diags_array(sense)
+    own = rows.associated or _same(rows.C[turn], rows.D[turn])
+    contact = ContactRows(
+        sp.csr_array(turned @ rows.C[turn]),
+        sense,
+        rows.multipliers[turn],
+        sense[:, None] * imposed[turn],
+        None if own else sp.csr_array(turned @ rows.D[turn]),
+    )
+    return equalities, imposed[keep], contact
+
+
+def with_friction(contact: ContactRows | None, friction: FrictionRows | None) -> ContactRows | None:
+    """The rows with friction beside them; rows of no relation where only friction is."""
+    if friction is None:
+        return contact
+    if contact is None:
+        none, n = np.zeros(0), friction.H.shape[1]
+        contact = ContactRows(sp.csr_array((0, n)), none, none.astype(np.int64), np.zeros((0, 0)))
+    return replace(contact, friction=friction)
+
+
+def _same(C: sp.csr_array, D: sp.csr_array) -> bool:
+    return bool(abs(C - D).sum() == 0.0)

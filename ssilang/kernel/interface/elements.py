@@ -1,0 +1,129 @@
+"""The joint elements by name, as data, and their place in the catalogue of elements.
+
+Sides: a surface joint (RACC, LIAI) has its first half of nodes on the upper side U (structure),
+its second half on the lower side L (soil); a joint of two points has L first, then U, so that
+its normal goes from the first node to the second. The jump is always u_U - u_L.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.elements.catalog import (
+    FRAME_MODES,
+    PLANE_MODES,
+    ElementKind,
+    register_element,
+)
+from ssilang.kernel.fields.cell_field import Support
+from ssilang.kernel.interface.integration import GAUSS, NODAL_WEIGHTS
+from ssilang.kernel.materials.model import Mode, Zone
+
+
+@dataclass(frozen=True)
+class JointElement:
+    """One joint element.
+
+    Attributes
+    ----------
+    cell_type : str
+    face : str
+        Cell type of one side ('POI1' for two points).
+    dimension : int
+        Of space; the jump has as many components.
+    strains, stresses : tuple of str
+        Names of the jump's and the traction's components, shear first, normal last.
+    rule : str
+        'GAUSS', or 'LOBATTO': integration at the nodes.
+    """
+
+    name: str
+    cell_type: str
+    face: str
+    dimension: int
+    strains: tuple[str, ...]
+    stresses: tuple[str, ...]
+    rule: str = "GAUSS"
+
+
+_LINE = (("DRSN", "DRN"), ("SMSN", "SMN"))
+_SURFACE = (("DRS1", "DRS2", "DRN"), ("SMS1", "SMS2", "SMN"))
+_POINTS = {
+    2: (("GXY", "EXX"), ("EFFY", "EFFX")),
+    3: (("GXY", "GXZ", "EXX"), ("EFFY", "EFFZ", "EFFX")),
+}
+
+_SURFACES: dict[str, JointElement] = {
+    e.name: e
+    for e in (
+        JointElement("JOI2", "RAC2", "SEG2", 2, *_LINE),
+        JointElement("JOI3", "RAC3", "SEG3", 2, *_LINE),
+        JointElement("JOT3", "LIA3", "TRI3", 3, *_SURFACE),
+        JointElement("JOI4", "LIA4", "QUA4", 3, *_SURFACE),
+        JointElement("JOT6", "LIA6", "TRI6", 3, *_SURFACE),
+        JointElement("JOI8", "LIA8", "QUA8", 3, *_SURFACE),
+        JointElement("JNO2", "RAC2", "SEG2", 2, *_LINE, "LOBATTO"),
+        JointElement("JNO3", "RAC3", "SEG3", 2, *_LINE, "LOBATTO"),
+        JointElement("JNT3", "LIA3", "TRI3", 3, *_SURFACE, "LOBATTO"),
+        JointElement("JNO4", "LIA4", "QUA4", 3, *_SURFACE, "LOBATTO"),
+    )
+}
+JOINT_NAMES = ("JOI1", *_SURFACES)
+
+
+def with_rule(element: str, rule: str) -> str:
+    """The joint element on the same cells that is integrated by a rule.
+
+    Parameters
+    ----------
+    rule : 'GAUSS' or 'LOBATTO'
+
+    Raises
+    ------
+    MeshError
+        If the faces have no such rule: nodal weights of 8-node faces are negative, those of
+        6-node triangles zero at the corners.
+    """
+    if element == "JOI1":  # one pair of points: both rules are the same
+        return element
+    here = _SURFACES[element]
+    for other in _SURFACES.values():
+        if other.cell_type == here.cell_type and other.rule == rule:
+            return other.name
+    raise MeshError(
+        "kernel.interface.joint-cannot-integrated-nodes",
+        element=element,
+        nodal_weights=NODAL_WEIGHTS,
+    )
+
+
+def joint_element(zone: Zone) -> JointElement:
+    """The joint element of a zone (JOI1 exists in 2D and 3D)."""
+    if zone.element == "JOI1":
+        return JointElement(
+            "JOI1", "SEG2", "POI1", zone.mode.dimension, *_POINTS[zone.mode.dimension]
+        )
+    return _SURFACES[zone.element]
+
+
+def is_joint(zone: Zone) -> bool:
+    """True if the zone holds joints."""
+    return zone.element in JOINT_NAMES
+
+
+def register_joints() -> None:
+    """Put the joints in the catalogue of elements."""
+    one: dict[Support, int] = {"RIGIDITE": 1}
+    register_element(ElementKind("JOI1", "SEG2", "joint", FRAME_MODES, one, False, "POI1"))
+    plane = (*PLANE_MODES, Mode.AXISYMMETRIC)
+    for e in _SURFACES.values():
+        modes = plane if e.dimension == 2 else (Mode.THREE_DIMENSIONAL,)
+        nodal = NODAL_WEIGHTS[e.face] if e.rule == "LOBATTO" else ()
+        points: dict[Support, int] = {"RIGIDITE": len(nodal) or GAUSS[e.face]}
+        register_element(
+            ElementKind(e.name, e.cell_type, "joint", modes, points, False, e.face, nodal=nodal)
+        )
+
+
+register_joints()

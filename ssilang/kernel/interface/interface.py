@@ -1,0 +1,366 @@
+"""The interface: all joints of a problem seen from its few unknowns, the jumps of facing nodes.
+
+Equilibrium is `A u + J^T f(J u) = r` with J the jumps of the pairs of facing nodes (global axes)
+and `f(delta) = sum_points weight B^T t(B delta)`. Everything that depends on the law lives on
+delta, whose size is that of the interface and not of the model.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import FieldError, MaterialError
+from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.elements.zone_fields import zone_field
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.interface.elements import is_joint
+from ssilang.kernel.interface.family import component_order, displacement_names
+from ssilang.kernel.interface.kinematics import JointCells, joint_cells
+from ssilang.kernel.interface.laws.columns import N_STATE, Parameter, Variable
+from ssilang.kernel.interface.laws.law_table import Law, elastic_tangent, law_of
+from ssilang.kernel.interface.laws.parameter_table import joint_parameters
+from ssilang.kernel.interface.point_state import energies_of_points, point_states
+from ssilang.kernel.interface.response import Joints
+from ssilang.kernel.materials.model import Model, Zone
+from ssilang.kernel.matrices.assembly import Numbering
+from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
+
+
+@dataclass(frozen=True, eq=False)
+class Interface:
+    """Joints of a problem, ready for compiled code.
+
+    Attributes
+    ----------
+    joints : tuple of JointCells
+        Zones, in order; their points follow one another.
+    dimension : int
+        d, components of a jump.
+    J : csr array (d n_pairs, n_unknowns)
+        Jumps of the pairs from the unknowns.
+    pairs : array (n_points, m)
+        Pairs that each point interpolates (padded with pair 0).
+    B : array (n_points, d, m d)
+        Local jump of a point from its pairs' jumps (padded with zeros).
+    weights : array (n_points,)
+    codes : array (n_points,)
+        Law of each point.
+    parameters : array (n_points, N_PARAMETERS)
+    """
+
+    joints: tuple[JointCells, ...]
+    dimension: int
+    J: sp.csr_array
+    pairs: IntArray
+    B: FloatArray
+    weights: FloatArray
+    codes: IntArray
+    parameters: FloatArray
+
+    @cached_property
+    def points(self) -> Joints:
+        """The points as compiled code takes them."""
+        p = np.ascontiguousarray(self.parameters)
+        return Joints(self.pairs, self.B, self.weights, self.codes, p)
+
+    @property
+    def size(self) -> int:
+        """Number of interface unknowns."""
+        return int(self.J.shape[0])
+
+    @property
+    def n_points(self) -> int:
+        """Number of integration points."""
+        return len(self.weights)
+
+    def initial_state(self) -> FloatArray:
+        """State of joints never loaded, shape (n_points, N_STATE)."""
+        return np.zeros((self.n_points, N_STATE))
+
+    def closed_stiffness(self) -> FloatArray:
+        """Stiffness of the closed joints on the jumps, dense (size, size)."""
+        D = elastic_tangent(self.parameters, self.dimension) * self.weights[:, None, None]
+        blocks = np.einsum("pia,pij,pjb->pab", self.B, D, self.B, optimize=True)
+        d = self.dimension
+        places = (self.pairs[:, :, None] * d + np.arange(d)).reshape(self.n_points, -1)
+        found = np.zeros((self.size, self.size))
+        np.add.at(found, (places[:, :, None], places[:, None, :]), blocks)
+        return found
+
+
+def joint_zones(model: Model) -> tuple[Zone, ...]:
+    """Zones of joints of a model."""
+    return tuple(z for z in model.zones if is_joint(z))
+
+
+def interface_of(
+    zones: tuple[Zone, ...], characteristics: CellField | None, numbering: Numbering
+) -> Interface:
+    """The interface made by zones of joints; macro-elements come after the others.
+
+    Raises
+    ------
+    FieldError
+        If the problem lacks a displacement of a joint's node.
+    MeshError, MaterialError
+        For joints without area, reversed, or with inadmissible parameters.
+    """
+    joints, tables, codes = [], [], []
+    ordered = sorted(zones, key=lambda z: law_of(z.behaviour).macro)
+    for zone in ordered:
+        given, law = zone_field(zone, characteristics), law_of(zone.behaviour)
+        cells = joint_cells(zone, given)
+        table = joint_parameters(cells, given)
+        if law.rocking is not None:
+            _refuse_unfit_macro(zone, law, table)
+            table[:, Parameter.KS1], table[:, Parameter.KS2] = law.rocking(table)
+        joints.append(cells)
+        tables.append(table)
+        codes.append(np.full(cells.weights.size, law.code, dtype=np.int64))
+    d = joints[0].element.dimension
+    J, places, B = _jumps(joints, numbering)
+    return Interface(
+        tuple(joints),
+        d,
+        J,
+        places,
+        B,
+        np.concatenate([j.weights.ravel() for j in joints]),
+        np.concatenate(codes),
+        np.concatenate(tables),
+    )
+
+
+def _refuse_unfit_macro(zone: Zone, law: Law, table: FloatArray) -> None:
+    if zone.mode.dimension != 3:
+        return
+    if law.in_space is None:
+        raise MaterialError("kernel.interface.macro-ressorts-exists-two")
+    if any(not (table[:, Parameter[name]] > 0).all() for name in law.in_space):
+        raise MaterialError("kernel.interface.macro-semelle-needs-long")
+
+
+def is_macro(joints: JointCells) -> bool:
+    """Whether the zone's law is that of a whole footing."""
+    return law_of(joints.zone.behaviour).macro
+
+
+def _jumps(
+    joints: list[JointCells], numbering: Numbering
+) -> tuple[sp.csr_array, IntArray, FloatArray]:
+    """Jump matrix, pairs of each point, operators of the points."""
+    plain = [j for j in joints if not is_macro(j)]
+    macro = [j for j in joints if is_macro(j)]
+    d = joints[0].element.dimension
+    rows: list[sp.csr_array] = []
+    places, B = np.zeros((0, 1), dtype=np.int64), np.zeros((0, d, d))
+    if plain:
+        keys, places = _pairs(plain)
+        rows.append(_jump_matrix(keys, displacement_names(plain[0].zone), numbering))
+        B = _padded_operators(plain, places.shape[1])
+    if macro:
+        rows += [macro_jumps(j, numbering) for j in macro]
+        n, width = sum(len(j.upper) for j in macro), places.shape[1]
+        first = sum(r.shape[0] for r in rows[: len(rows) - len(macro)]) // d
+        own = np.zeros((n, width), dtype=np.int64)
+        own[:, 0] = first + np.arange(n)
+        unit = np.zeros((n, d, width * d))
+        unit[:, :, :d] = np.eye(d)
+        places, B = np.concatenate([places, own]), np.concatenate([B, unit])
+    return sp.csr_array(sp.vstack(rows, format="csr")), places, np.ascontiguousarray(B)
+
+
+def macro_jumps(joints: JointCells, numbering: Numbering) -> sp.csr_array:
+    """Rotations about t1 (and t2) and opening of macro-elements, d rows a cell."""
+    d, frames = joints.element.dimension, joints.frames[:, 0]
+    resolve = joints.zone.cells.nodes.resolve
+    turning = ("RZ",) if d == 2 else ("RX", "RY", "RZ")
+    moving = displacement_names(joints.zone)
+    matrix = sp.lil_array((len(frames) * d, numbering.size))
+    for side, sign in ((joints.upper, 1.0), (joints.lower, -1.0)):
+        for cell, node in enumerate(resolve(side).ravel()):
+            turn = _places(numbering, int(node), turning)
+            move = _places(numbering, int(node), moving)
+            axes = np.ones((1, 1)) if d == 2 else frames[cell, : d - 1]
+            for row in range(d - 1):
+                matrix[cell * d + row, turn] += sign * axes[row]
+            matrix[cell * d + d - 1, move] += sign * frames[cell, -1]
+    return sp.csr_array(matrix)
+
+
+def _places(numbering: Numbering, node: int, names: tuple[str, ...]) -> list[int]:
+    found = [numbering.index_of(node, name) for name in names]
+    if min(found) < 0:
+        missing = names[found.index(min(found))]
+        raise FieldError(
+            "kernel.interface.joint-needs-node-matrices", missing=missing, node=node + 1
+        )
+    return found
+
+
+def _pairs(joints: list[JointCells]) -> tuple[IntArray, IntArray]:
+    """Distinct pairs (n_pairs, 2) of (upper, lower) nodes; pairs of each point, padded."""
+    resolve = joints[0].zone.cells.nodes.resolve
+    sides = [np.stack([resolve(j.upper).ravel(), resolve(j.lower).ravel()], axis=1) for j in joints]
+    keys, inverse = np.unique(np.concatenate(sides), axis=0, return_inverse=True)
+    width = max(j.upper.shape[1] for j in joints)
+    rows, start = [], 0
+    for j in joints:
+        n, m = j.upper.shape
+        here = inverse.ravel()[start : start + n * m].reshape(n, m)
+        start += n * m
+        padded = np.pad(here, ((0, 0), (0, width - m)))
+        rows.append(np.repeat(padded, j.weights.shape[1], axis=0))
+    return keys.astype(np.int64), np.concatenate(rows).astype(np.int64)
+
+
+def _padded_operators(joints: list[JointCells], width: int) -> FloatArray:
+    parts = []
+    for j in joints:
+        G = j.operator
+        n, g, d, k = G.shape
+        parts.append(np.pad(G.reshape(n * g, d, k), ((0, 0), (0, 0), (0, width * d - k))))
+    return np.ascontiguousarray(np.concatenate(parts))
+
+
+def _jump_matrix(keys: IntArray, names: tuple[str, ...], numbering: Numbering) -> sp.csr_array:
+    n_pairs, d = len(keys), len(names)
+    codes = np.array([numbering.code(name) for name in names])
+    columns = numbering.index(keys[:, :, None], codes[None, None, :])  # (pairs, side, d)
+    if columns.size and columns.min() < 0:
+        pair, side, i = np.argwhere(columns < 0)[0]
+        raise FieldError(
+            "kernel.interface.joint-needs-node-matrices",
+            missing=names[i],
+            node=keys[pair, side] + 1,
+        )
+    rows = np.broadcast_to(np.arange(n_pairs * d).reshape(n_pairs, 1, d), columns.shape)
+    signs = np.broadcast_to(np.array([1.0, -1.0])[None, :, None], columns.shape)
+    shape = (n_pairs * d, numbering.size)
+    entries = (signs.ravel(), (rows.ravel(), columns.ravel()))
+    return sp.csr_array(sp.coo_array(entries, shape=shape))
+
+
+# --- joints in matrices ----------------------------------------------------------------------
+
+
+def same_zone(a: Zone | None, b: Zone) -> bool:
+    """Whether two zones are the same joints (the same element on the same cells)."""
+    if a is None or a.element != b.element:
+        return a is b
+    return a.cells is b.cells or (
+        a.cells.cell_type == b.cells.cell_type
+        and np.array_equal(a.cells.connectivity, b.cells.connectivity)
+    )
+
+
+def without_zones(matrix: Matrix, zones: tuple[Zone, ...]) -> Matrix:
+    """The matrix without the blocks made from these zones (their law replaces them)."""
+    kept = tuple(b for b in matrix.blocks if not any(same_zone(b.zone, z) for z in zones))
+    if len(kept) == len(matrix.blocks):
+        return matrix
+    return Matrix(matrix.table, kept, matrix.relations, matrix.kind)
+
+
+def nonlinear_blocks(matrix: Matrix) -> tuple[ElementMatrices, ...]:
+    """Blocks made from joints whose law is not linear."""
+    return tuple(
+        b
+        for b in matrix.blocks
+        if b.zone is not None and is_joint(b.zone) and not law_of(b.zone.behaviour).linear
+    )
+
+
+# --- results ---------------------------------------------------------------------------------
+
+
+COMMON_VARIABLES = ("ETAT", "ESTO", "EPER")
+"""Results at the points of all joints: state, energy stored, energy lost."""
+
+MACRO_NAMES = {
+    "jump": {2: ("CXZ", "EXX"), 3: ("CXY", "CXZ", "EXX")},
+    "traction": {2: ("MOMZ", "EFFX"), 3: ("MOMY", "MOMZ", "EFFX")},
+}
+"""Components of macro-elements: rotations and moments about t1 (t2), opening and force."""
+
+
+def interface_field(interface: Interface, values: FloatArray, kind: str) -> CellField:
+    """Values (n_points, d) at the points of all joints as a field.
+
+    Parameters
+    ----------
+    kind : 'jump' or 'traction'
+        Which names the components get.
+    """
+    blocks, start = [], 0
+    for j in interface.joints:
+        n, g = j.weights.shape
+        local = values[start : start + n * g].reshape(n, g, -1)
+        start += n * g
+        names = j.element.strains if kind == "jump" else j.element.stresses
+        if is_macro(j):
+            names = MACRO_NAMES[kind][interface.dimension]
+        components = {
+            names[i]: np.ascontiguousarray(local[..., i]) for i in component_order(j.zone)
+        }
+        blocks.append(_block(j, components))
+    title = "DEFORMATIONS" if kind == "jump" else "CONTRAINTES"
+    return CellField(tuple(blocks), title)
+
+
+def state_field(interface: Interface, state: FloatArray, w: FloatArray, t: FloatArray) -> CellField:
+    """Internal variables of the joints, by the names of their law, with state and energies.
+
+    All joints: ETAT (1 closed, 2 closing, 3 open, 4 opening, see `point_states`), ESTO and EPER,
+    energy stored and lost so far at the point (J/m2; J for a joint of two points).
+
+    JOINT_SDM: SAUT (largest irreversible opening), GLI1, GLI2 (slip). Mohr-Coulomb joints: EPSE
+    (cumulated plastic jump), STAT (1 open, 2 in contact), EPOU (opening), LAM1 (plastic
+    compression), PLA1, PLA2 (slip), PLA3 (plastic and open normal jump).
+    """
+    blocks, start = [], 0
+    arrays = (interface.codes, w, t, state, interface.parameters)
+    common = np.vstack([point_states(*arrays)[None], energies_of_points(*arrays)])
+    for j in interface.joints:
+        n, g = j.weights.shape
+        local = state[start : start + n * g].reshape(n, g, -1)
+        of_all = common[:, start : start + n * g].reshape(-1, n, g)
+        start += n * g
+        shown = law_of(j.zone.behaviour).variables
+        if interface.dimension == 2:
+            shown = {k: v for k, v in shown.items() if v != Variable.SLIP2}
+        fields = {name: local[..., column].copy() for name, column in shown.items()}
+        if "PLA3" in fields:
+            fields["PLA3"] += local[..., Variable.OPENING]
+        fields |= {name: of_all[i].copy() for i, name in enumerate(COMMON_VARIABLES)}
+        blocks.append(_block(j, fields))
+    return CellField(tuple(blocks), "VARIABLES INTERNES")
+
+
+def state_from_field(interface: Interface, field: CellField) -> FloatArray:
+    """State (n_points, N_STATE) from internal variables as `state_field` gives them.
+
+    Variables that the field lacks are zero.
+    """
+    state, start = interface.initial_state(), 0
+    for j in interface.joints:
+        n, g = j.weights.shape
+        local = state[start : start + n * g]
+        start += n * g
+        given = zone_field(j.zone, field)
+        for name, column in law_of(j.zone.behaviour).variables.items():
+            if name in given:
+                values = np.broadcast_to(given.at(name, "STRESSES"), (n, g))
+                local[:, column] = values.ravel()
+        if "PLA3" in given:
+            local[:, Variable.XI] -= local[:, Variable.OPENING]
+    return state
+
+
+def _block(joints: JointCells, components: dict[str, FloatArray]) -> CellFieldBlock:
+    zone = joints.zone
+    return CellFieldBlock(zone.cells, components, "STRESSES", zone.element, zone.constituent)

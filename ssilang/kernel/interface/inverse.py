@@ -1,0 +1,207 @@
+"""The condensed interface of few jumps: `Y = (1 + S (c K - R))^-1 S`, kept while points change.
+
+K is the stiffness of the tangents that Y belongs to. A point whose tangent changes by dD changes K
+by `w B^T dD B`, of the rank of dD at most, and Y by
+
+    Y - Y B^T (1 + M N)^-1 M B Y ,   M = c w dD ,   N = B Y B^T
+
+which costs two products of q^2 numbers for each row of dD, where new factors cost q^3. Newton's
+direction is `-(1 + S (c K - R))^-1 r = Y (c K - R) r - r`.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.compiled.apart import apart
+from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
+from ssilang.kernel.interface.condensed import Condensed
+from ssilang.kernel.interface.copies import clear, copy_rows, is_equal
+from ssilang.kernel.interface.lu import LU, factorise
+from ssilang.kernel.interface.response import Joints
+from ssilang.kernel.solvers.dense import solve_factors_together
+
+UPDATES = 64  # between two times that Y is made anew: rounding does not grow
+VANISHING = 1e-10  # of the largest number of `1 + M N`: a pivot from which Y is made anew
+
+
+class Inverse(NamedTuple):
+    """Y (q, q), room (q,), and how many points were changed (1,) since Y was made."""
+
+    Y: FloatArray
+    room: FloatArray
+    updates: IntArray
+
+
+@compiled_fast
+def _rows_of(pairs: IntArray, B: FloatArray, Y: FloatArray, rows: FloatArray) -> None:
+    """rows (d, q) = B Y of one point."""
+    d = len(B)
+    clear(rows)
+    for a in range(d):
+        row = rows[a]
+        for pair in range(len(pairs)):
+            for j in range(d):
+                value = B[a, pair * d + j]
+                if value != 0.0:
+                    line = Y[pairs[pair] * d + j]
+                    for k in range(len(line)):
+                        row[k] += value * line[k]
+
+
+@compiled_fast
+def _columns_of(pairs: IntArray, B: FloatArray, Y: FloatArray, columns: FloatArray) -> None:
+    """columns (d, q) = (Y B^T)^T of one point."""
+    d = len(B)
+    clear(columns)
+    for a in range(d):
+        column = columns[a]
+        for pair in range(len(pairs)):
+            for j in range(d):
+                value, at = B[a, pair * d + j], pairs[pair] * d + j
+                if value != 0.0:
+                    for k in range(len(column)):
+                        column[k] += value * Y[k, at]
+
+
+@compiled_fast
+def _solve_small(A: FloatArray, X: FloatArray) -> bool:
+    """A X = X in place, by elimination with row exchanges; False if a pivot nearly vanishes."""
+    n, top = len(A), 1.0
+    for i in range(n):
+        for j in range(n):
+            top = max(top, abs(A[i, j]))
+    for k in range(n):
+        pivot = k
+        for i in range(k + 1, n):
+            if abs(A[i, k]) > abs(A[pivot, k]):
+                pivot = i
+        if not abs(A[pivot, k]) > VANISHING * top:
+            return False
+        for j in range(n):
+            A[k, j], A[pivot, j] = A[pivot, j], A[k, j]
+            X[k, j], X[pivot, j] = X[pivot, j], X[k, j]
+        for i in range(n):
+            if i != k:
+                factor = A[i, k] / A[k, k]
+                for j in range(n):
+                    A[i, j] -= factor * A[k, j]
+                    X[i, j] -= factor * X[k, j]
+    for i in range(n):
+        for j in range(n):
+            X[i, j] /= A[i, i]
+    return True
+
+
+@compiled_fast
+def update_point(
+    pairs: IntArray, B: FloatArray, weight: float, D: FloatArray, known: FloatArray, Y: FloatArray,
+    room: FloatArray,
+) -> bool:  # fmt: skip
+    """Y after the tangent of a point went from `known` to D; `weight` holds c.
+
+    `room` is (2, d, q). False, and Y as it was, if the update is not safe.
+    """
+    d, rows, columns = len(B), room[0], room[1]
+    E, T = np.zeros((d, d)), np.zeros((d, d))
+    for i in range(d):
+        for j in range(d):
+            E[i, j] = weight * (D[i, j] - known[i, j])
+    _rows_of(pairs, B, Y, rows)
+    _columns_of(pairs, B, Y, columns)
+    for i in range(d):
+        for j in range(d):
+            T[i, j] = 1.0 if i == j else 0.0
+            for k in range(d):  # M (B Y) B^T
+                product = 0.0
+                for pair in range(len(pairs)):
+                    for at in range(d):
+                        product += rows[k, pairs[pair] * d + at] * B[j, pair * d + at]
+                T[i, j] += E[i, k] * product
+    if not _solve_small(T, E):
+        return False
+    for i in range(d):
+        for j in range(d):
+            if E[i, j] != 0.0:
+                left, right = columns[i], rows[j]
+                for k in range(len(Y)):
+                    factor, line = E[i, j] * left[k], Y[k]
+                    for at in range(len(right)):
+                        line[at] -= factor * right[at]
+    return True
+
+
+@apart
+@compiled
+def update_inverse(
+    joints: Joints, condensed: Condensed, D: FloatArray, known: FloatArray, inverse: Inverse
+) -> bool:
+    """Y, that belongs to the tangents `known`, becomes that of D, as do these; False if none is."""
+    n, d, changed, Y = len(condensed.S), D.shape[1], 0, inverse.Y
+    for p in range(D.shape[0]):
+        if not is_equal(D[p], known[p]):
+            changed += 1
+    if changed == 0:
+        return True
+    # point by point, as long as that is cheaper and safe
+    if known[0, 0, 0] == known[0, 0, 0] and 3 * d * changed <= 2 * n:
+        room, good = np.empty((2, d, n)), inverse.updates[0] + changed <= UPDATES
+        for p in range(D.shape[0]):
+            if good and not is_equal(D[p], known[p]):
+                weight = condensed.c * joints.weights[p]
+                good = update_point(joints.pairs[p], joints.B[p], weight, D[p], known[p], Y, room)
+                if good:
+                    inverse.updates[0] += 1
+                    copy_rows(D[p], known[p])
+        if good:
+            return True
+    # else anew
+    lu = LU(np.empty((n, n)), np.empty(n, np.int64))
+    good = factorise(joints, condensed, D, lu)
+    for p in range(D.shape[0]):
+        if good:
+            copy_rows(D[p], known[p])
+        else:
+            known[p, 0, 0] = np.nan
+    if good:
+        copy_rows(condensed.S, Y)
+        solve_factors_together(lu.A, lu.exchanges, Y)
+        inverse.updates[0] = 0
+    return good
+
+
+@compiled_fast
+def apply_inverse(
+    joints: Joints, condensed: Condensed, D: FloatArray, inverse: Inverse, x: FloatArray
+) -> None:
+    """`x := (1 + S (c K - R))^-1 x = x - Y (c K - R) x`, K of the tangents D that Y belongs to."""
+    pairs, B, R, Y, g = joints.pairs, joints.B, condensed.R, inverse.Y, inverse.room
+    n, d, _ = B.shape
+    # g = (c K - R) x, point by point
+    for i in range(len(x)):
+        g[i] = 0.0
+        for j in range(len(R)):
+            g[i] -= R[i, j] * x[j]
+    for p in range(n):
+        for i in range(d):
+            force = 0.0
+            for k in range(d):
+                if D[p, i, k] != 0.0:
+                    jump = 0.0
+                    for pair in range(pairs.shape[1]):
+                        for j in range(d):
+                            jump += B[p, k, pair * d + j] * x[pairs[p, pair] * d + j]
+                    force += D[p, i, k] * jump
+            if force != 0.0:
+                force *= condensed.c * joints.weights[p]
+                for pair in range(pairs.shape[1]):
+                    for j in range(d):
+                        g[pairs[p, pair] * d + j] += force * B[p, i, pair * d + j]
+    for i in range(len(x)):
+        total, row = 0.0, Y[i]
+        for j in range(len(g)):
+            total += row[j] * g[j]
+        x[i] -= total

@@ -1,0 +1,179 @@
+"""Macro-elements of footings that lift off: a whole no-tension Winkler bed at one point, compiled.
+
+Jumps are the rotations and the opening v of the footing's centre, forces the moments and the
+vertical force. With A, S, Q the area, first and second moments of the part in contact,
+
+    F = k (v A + theta S) ,  M = k (v S + theta Q) ,  tangent k [[A, S], [S, Q]]
+
+in closed form: a strip or rectangle, a disc, two springs. Nonlinear elastic, no memory. In 2D the
+point at s along the base opens by `v + theta s`; in 3D by `v + theta_1 s_2 - theta_2 s_1`.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.compiled.apart import apart
+from ssilang.kernel.base.compiled.compiler import compiled
+from ssilang.kernel.interface.copies import clear, copy_state
+from ssilang.kernel.interface.laws.columns import LawCode
+from ssilang.kernel.interface.laws.columns import Parameter as Par
+
+
+@compiled
+def _segment(start: float, end: float) -> tuple[float, float, float]:
+    """Length, first and second moments of an interval."""
+    return end - start, 0.5 * (end**2 - start**2), (end**3 - start**3) / 3.0
+
+
+@compiled
+def strip_contact(v: float, theta: float, width: float) -> tuple[float, float, float]:
+    """Contact of a unit-length strip: opening v + theta s < 0, |s| <= width/2."""
+    half = 0.5 * width
+    if v + abs(theta) * half <= 0.0:
+        return _segment(-half, half)
+    if v - abs(theta) * half >= 0.0:
+        return 0.0, 0.0, 0.0
+    lift = -v / theta
+    return _segment(-half, lift) if theta > 0.0 else _segment(lift, half)
+
+
+@compiled
+def disc_contact(v: float, theta: float, r: float) -> tuple[float, float, float]:
+    """Contact of a disc that turns by theta > 0, s along the side that lifts."""
+    if v + theta * r <= 0.0:
+        return math.pi * r**2, 0.0, 0.25 * math.pi * r**4
+    if v - theta * r >= 0.0:
+        return 0.0, 0.0, 0.0
+    c = v / (theta * r)
+    phi, s = math.acos(c), math.sqrt(max(1.0 - c * c, 0.0))
+    area = phi - s * c
+    return r**2 * area, -2.0 / 3.0 * r**3 * s**3, 0.25 * r**4 * (area + 2.0 * s**3 * c)
+
+
+@compiled
+def springs_contact(v: float, theta: float, width: float) -> tuple[float, float, float]:
+    """Contact of two unit springs at +-width/2."""
+    half = 0.5 * width
+    count, first, second = 0.0, 0.0, 0.0
+    for side in (-half, half):
+        if v + theta * side < 0.0:
+            count += 1.0
+            first += side
+            second += side * side
+    return count, first, second
+
+
+@compiled
+def rectangle_contact(
+    v: float, a1: float, a2: float, width: float, length: float, out: FloatArray
+) -> None:
+    """Contact of a rectangle, opening v + a1 s1 + a2 s2 < 0: A, S1, S2, I11, I12, I22 in out.
+
+    The rectangle is cut by the line of zero opening; moments by triangles from the origin.
+    """
+    corners = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
+    points = np.zeros((8, 2))
+    n = 0
+    for i in range(4):
+        x1, y1 = 0.5 * width * corners[i, 0], 0.5 * length * corners[i, 1]
+        j = (i + 1) % 4
+        x2, y2 = 0.5 * width * corners[j, 0], 0.5 * length * corners[j, 1]
+        g1, g2 = v + a1 * x1 + a2 * y1, v + a1 * x2 + a2 * y2
+        if g1 < 0.0:
+            points[n, 0], points[n, 1] = x1, y1
+            n += 1
+        if (g1 < 0.0) != (g2 < 0.0):
+            at = g1 / (g1 - g2)
+            points[n, 0], points[n, 1] = x1 + at * (x2 - x1), y1 + at * (y2 - y1)
+            n += 1
+    for i in range(6):
+        out[i] = 0.0
+    for i in range(n):
+        j = (i + 1) % n
+        x1, y1, x2, y2 = points[i, 0], points[i, 1], points[j, 0], points[j, 1]
+        cross = x1 * y2 - x2 * y1
+        out[0] += cross / 2.0
+        out[1] += cross * (x1 + x2) / 6.0
+        out[2] += cross * (y1 + y2) / 6.0
+        out[3] += cross * (x1 * x1 + x1 * x2 + x2 * x2) / 12.0
+        out[4] += cross * (2 * x1 * y1 + x1 * y2 + x2 * y1 + 2 * x2 * y2) / 24.0
+        out[5] += cross * (y1 * y1 + y1 * y2 + y2 * y2) / 12.0
+
+
+@apart
+@compiled
+def macro_point(
+    code: int,
+    w: FloatArray,
+    state: FloatArray,
+    p: FloatArray,
+    t: FloatArray,
+    new: FloatArray,
+    D: FloatArray,
+) -> None:
+    """Moments and force t, tangent D, written in place."""
+    copy_state(state, new)
+    if w.shape[0] == 2:
+        _plane(code, w, p, t, D)
+    elif code == LawCode.DISC:
+        _disc(w, p, t, D)
+    else:
+        _rectangle(w, p, t, D)
+
+
+@compiled
+def _plane(code: int, w: FloatArray, p: FloatArray, t: FloatArray, D: FloatArray) -> None:
+    theta, v = w[0], w[1]
+    if code == LawCode.DISC:
+        k = p[Par.KN] / (math.pi * p[Par.RAYO] ** 2)
+        A, S, Q = disc_contact(v, abs(theta), p[Par.RAYO])
+        if theta < 0.0:
+            S = -S
+    elif code == LawCode.STRIP:
+        k = p[Par.KN] / p[Par.LARG]
+        A, S, Q = strip_contact(v, theta, p[Par.LARG])
+    else:
+        k = 0.5 * p[Par.KN]
+        A, S, Q = springs_contact(v, theta, p[Par.LARG])
+    t[0], t[1] = k * (v * S + theta * Q), k * (v * A + theta * S)
+    D[0, 0], D[0, 1], D[1, 0], D[1, 1] = k * Q, k * S, k * S, k * A
+
+
+@compiled
+def _disc(w: FloatArray, p: FloatArray, t: FloatArray, D: FloatArray) -> None:
+    """w = (theta_1, theta_2, v); the opening grows along a = (-theta_2, theta_1)."""
+    k, v = p[Par.KN] / (math.pi * p[Par.RAYO] ** 2), w[2]
+    theta = math.sqrt(w[0] ** 2 + w[1] ** 2)
+    A, S, Q = disc_contact(v, theta, p[Par.RAYO])
+    t[0], t[1], t[2] = 0.0, 0.0, k * (v * A + theta * S)
+    clear(D)
+    D[2, 2] = k * A
+    if theta == 0.0:
+        D[0, 0] = D[1, 1] = k * Q
+        return
+    moment = k * (v * S + theta * Q)
+    for i in range(2):
+        e_i = w[i] / theta
+        t[i] = moment * e_i
+        D[i, 2] = D[2, i] = k * S * e_i
+        for j in range(2):
+            e_j = w[j] / theta
+            D[i, j] = k * Q * e_i * e_j + moment / theta * ((1.0 if i == j else 0.0) - e_i * e_j)
+
+
+@compiled
+def _rectangle(w: FloatArray, p: FloatArray, t: FloatArray, D: FloatArray) -> None:
+    """w = (theta_1, theta_2, v); the opening is v + theta_1 s_2 - theta_2 s_1."""
+    k = p[Par.KN] / (p[Par.LARG] * p[Par.LONG])
+    m = np.zeros(6)
+    rectangle_contact(w[2], -w[1], w[0], p[Par.LARG], p[Par.LONG], m)
+    D[0, 0], D[1, 1], D[2, 2] = k * m[5], k * m[3], k * m[0]
+    D[0, 1] = D[1, 0] = -k * m[4]
+    D[0, 2] = D[2, 0] = k * m[2]
+    D[1, 2] = D[2, 1] = -k * m[1]
+    for i in range(3):
+        t[i] = D[i, 0] * w[0] + D[i, 1] * w[1] + D[i, 2] * w[2]

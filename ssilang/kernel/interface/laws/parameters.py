@@ -1,0 +1,95 @@
+"""Parameters of the joint laws: defaults, admissibility."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import MaterialError
+from ssilang.kernel.interface.laws.columns import Parameter
+
+DEFAULTS: dict[str, float] = {"FROT": -1.0}
+"""What laws take for the parameters that are not given, if not 0: a joint without tension."""
+
+
+def check_sdm_parameters(parameters: FloatArray) -> None:
+    """Refuse parameters for which the SDM law has no traction or several.
+
+    Parameters
+    ----------
+    parameters : array (n, N_PARAMETERS)
+
+    Raises
+    ------
+    MaterialError
+        If KN <= 0, KS < 0, FU < 0, GF < 0, FC > 0, a perfectly brittle point (FU > 0 with
+        GF = 0), or KN <= FU^2 / GF: softening would be steeper than the elastic unloading, so
+        that one opening would have several tractions. The message names the least admissible KN
+        and the largest admissible FU.
+    """
+    columns = {p.name: parameters[:, p] for p in Parameter}
+    _refuse(columns["KN"] <= 0, columns["KN"], "KN", "> 0")
+    for name in ("KS1", "KS2", "FU", "GF"):
+        _refuse(columns[name] < 0, columns[name], name, ">= 0")
+    _refuse(columns["FC"] > 0, columns["FC"], "FC", "<= 0 (it is a compression)")
+    if not np.isfinite(parameters).all():
+        raise MaterialError("kernel.interface.joint-parameter-not-finite")
+    brittle = (columns["FU"] > 0) & (columns["GF"] == 0)
+    if brittle.any():
+        fu, kn = columns["FU"][brittle].max(), columns["KN"][brittle].min()
+        raise MaterialError("kernel.interface.joint-fu-gf-perfectly", fu=fu, fu_2=fu * fu / kn)
+    _check_snap_back(columns["KN"], columns["FU"], columns["GF"])
+
+
+def check_mohr_parameters(parameters: FloatArray) -> None:
+    """Refuse parameters of a Mohr-Coulomb joint that have no meaning.
+
+    Raises
+    ------
+    MaterialError
+        If KN <= 0, or a shear stiffness, angle, cohesion or strength is negative, or the
+        hardening in compression is not below the elastic stiffness.
+    """
+    columns = {p.name: parameters[:, p] for p in Parameter}
+    if not np.isfinite(parameters).all():
+        raise MaterialError("kernel.interface.joint-parameter-not-finite-2")
+    _refuse(columns["KN"] <= 0, columns["KN"], "KN", "> 0")
+    for name in ("KS1", "KS2", "TPHI", "TPSI", "COHE", "FTRC", "EF", "ECN", "FNE", "QT"):
+        _refuse(columns[name] < 0, columns[name], name, ">= 0")
+    _refuse((columns["FNE"] > 0) & (columns["QT"] >= columns["KN"]), columns["QT"], "QT", "< KN")
+
+
+def check_macro_parameters(parameters: FloatArray) -> None:
+    """Refuse a macro-element without stiffness or size.
+
+    Raises
+    ------
+    MaterialError
+        Naming the parameter.
+    """
+    if not np.isfinite(parameters).all():
+        raise MaterialError("kernel.interface.joint-parameter-not-finite")
+    columns = {p.name: parameters[:, p] for p in Parameter}
+    _refuse(columns["KN"] <= 0, columns["KN"], "KN", "> 0")
+    for name in ("LARG", "LONG", "RAYO"):
+        _refuse(columns[name] < 0, columns[name], name, "> 0")
+
+
+def _refuse(wrong: np.ndarray, values: FloatArray, name: str, wanted: str) -> None:
+    if wrong.any():
+        raise MaterialError(
+            "kernel.interface.joint-parameter-must",
+            name=name,
+            values=values[wrong][0],
+            wanted=wanted,
+        )
+
+
+def _check_snap_back(kn: FloatArray, fu: FloatArray, gf: FloatArray) -> None:
+    steep = (fu > 0) & (kn * gf <= fu * fu)
+    if steep.any():
+        at = int(np.flatnonzero(steep)[0])
+        least, largest = fu[at] ** 2 / gf[at], np.sqrt(kn[at] * gf[at])
+        raise MaterialError(
+            "kernel.interface.kn-must-exceed-fu", kn=kn[at], least=least, largest=largest
+        )

@@ -1,0 +1,185 @@
+"""The Strong Discontinuity law of a joint, for one point, compiled.
+
+Traction t as a function of the jump w = u_U - u_L in the local frame (t1, [t2,] n), normal last;
+t > 0 in tension, w_n > 0 open. `xi` is the largest irreversible opening. Normal law
+(potential `eta k w`, softening `F_u exp(-F_u xi/G_f)`, closure `eta`)::
+
+    open     w > xi            t = k (w - xi) while <= Y(xi) = FU exp(-FU xi/GF), else xi grows
+                               such that k (w - xi) = Y(xi)
+    closing  FC/k < w <= xi    t = k |FC|/(|FC| + k xi) (w - xi)
+    closed   w <= FC/k         t = k w
+
+With FU = FC = 0 this is `t = k min(w, 0)`. Shear: `k_t (w_t - s)` while t_n < 0, bounded by
+`FROT |t_n|` if FROT >= 0, lost (s := w_t) while t_n >= 0 (no slip without k_t); in cohesive
+tension k_t is scaled by Y(xi)/FU. Source: Strong Discontinuity Method, CLUB CAST3M 2014, and its
+closed form.
+`sdm_arrays` has the same law on arrays, with Lambert's function in place of the iteration.
+"""
+
+from __future__ import annotations
+
+import math
+
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.compiled.compiler import compiled
+from ssilang.kernel.interface.copies import clear, copy_state
+from ssilang.kernel.interface.laws.columns import (
+    CLOSED_SHEAR,
+    OPEN_SHEAR,
+)
+from ssilang.kernel.interface.laws.columns import Parameter as Par
+from ssilang.kernel.interface.laws.columns import Variable as Var
+
+
+@compiled
+def normal_law(
+    w: float, xi_n: float, k: float, fu: float, gf: float, fc: float
+) -> tuple[float, float, float]:
+    """Traction, new xi and dt/dw of the normal law (parameters already checked)."""
+    if w > xi_n:
+        if fu == 0.0:
+            return 0.0, w, 0.0
+        a = fu / gf
+        trial = k * (w - xi_n)
+        if trial <= fu * math.exp(-a * xi_n):
+            return trial, xi_n, k
+        xi = xi_n
+        for _ in range(100):  # monotone: the residual is convex and decreasing, 5-8 turns
+            y = fu * math.exp(-a * xi)
+            step = (k * (w - xi) - y) / (k - a * y)
+            xi += step
+            if abs(step) <= 1e-15 * abs(xi) + 1e-18:
+                break
+        y = fu * math.exp(-a * xi)
+        return y, xi, -k * a * y / (k - a * y)
+    if k * w <= fc:
+        return k * w, xi_n, k
+    closing = -k * fc / (-fc + k * xi_n) if fc < 0.0 else 0.0
+    return closing * (w - xi_n), xi_n, closing
+
+
+@compiled
+def normal_energy(w: float, t: float, xi: float, k: float, fc: float) -> float:
+    """Stored energy of the normal law at (w, t, xi), per unit area."""
+    if w > xi or k * w <= fc:
+        closed = -0.5 * fc * xi if w <= xi else 0.0
+        return 0.5 * t * t / k + closed
+    return 0.5 * t * (w - xi)
+
+
+@compiled
+def opening_loss(xi: float, fu: float, gf: float) -> float:
+    """Energy spent on opening up to xi, per unit area: GF (1 - exp(-FU xi/GF))."""
+    return -gf * math.expm1(-fu * xi / gf) if fu > 0.0 else 0.0
+
+
+@compiled
+def sdm_point(
+    w: FloatArray,
+    state: FloatArray,
+    p: FloatArray,
+    t: FloatArray,
+    new: FloatArray,
+    D: FloatArray,
+) -> None:
+    """Traction `t`, new state `new` and tangent `D` of one point, written in place.
+
+    Parameters
+    ----------
+    w : array (d,)
+        Jump, shear first, normal last.
+    state, new : array (N_STATE,)
+        Last converged and new state: xi, slip s1, s2, share of the shear stiffness lost, stored
+        shear energy, energy lost in shear (friction, and shear given up at opening).
+    p : array (8,)
+        Parameters in the order of `Parameter`.
+    """
+    n = w.shape[0] - 1
+    tn, xi, dtn = normal_law(w[n], state[Var.XI], p[Par.KN], p[Par.FU], p[Par.GF], p[Par.FC])
+    clear(D)
+    copy_state(state, new)
+    new[Var.XI] = xi
+    t[n] = tn
+    D[n, n] = dtn
+    if p[Par.SHEAR] == 1.0:
+        for i in range(n):
+            t[i] = p[Par.KS1 + i] * w[i]
+            D[i, i] = p[Par.KS1 + i]
+    elif (tn < 0.0 and state[Var.HELD] != OPEN_SHEAR) or state[Var.HELD] == CLOSED_SHEAR:
+        new[Var.DAMAGE] = 0.0
+        _closed_shear(w, p, t, new, D, tn, dtn)
+    elif p[Par.FU] > 0.0:
+        left = math.exp(-p[Par.FU] / p[Par.GF] * xi)
+        new[Var.DAMAGE] = 1.0 - left
+        softening = dtn / p[Par.FU] if dtn < 0.0 else 0.0
+        for i in range(n):
+            elastic = p[Par.KS1 + i] * (w[i] - state[Var.SLIP1 + i])
+            t[i] = left * elastic
+            D[i, i] = left * p[Par.KS1 + i]
+            D[i, n] = softening * elastic
+    else:
+        for i in range(n):
+            t[i] = 0.0
+            if p[Par.KS1 + i] > 0.0:
+                new[Var.SLIP1 + i] = w[i]
+    _shear_energies(w, state, p, t, new, tn)
+
+
+@compiled
+def _shear_energies(
+    w: FloatArray, state: FloatArray, p: FloatArray, t: FloatArray, new: FloatArray, tn: float
+) -> None:
+    """Stored energy of the shear and the energy that it has lost, into `new`."""
+    stored, lost = 0.0, 0.0
+    for i in range(w.shape[0] - 1):
+        elastic = w[i] - (0.0 if p[Par.SHEAR] == 1.0 else new[Var.SLIP1 + i])
+        stored += 0.5 * t[i] * elastic
+        lost += t[i] * (new[Var.SLIP1 + i] - state[Var.SLIP1 + i])
+        lost += 0.5 * p[Par.KS1 + i] * elastic**2 * (new[Var.DAMAGE] - state[Var.DAMAGE])
+    opened = (tn >= 0.0 and state[Var.HELD] != CLOSED_SHEAR) or state[Var.HELD] == OPEN_SHEAR
+    if opened and p[Par.FU] == 0.0 and p[Par.SHEAR] != 1.0:  # the stored shear is given up
+        lost = state[Var.SHEAR_ENERGY]
+    new[Var.SHEAR_ENERGY] = stored
+    new[Var.SHEAR_LOSS] = state[Var.SHEAR_LOSS] + lost
+
+
+@compiled
+def _closed_shear(
+    w: FloatArray,
+    p: FloatArray,
+    t: FloatArray,
+    new: FloatArray,
+    D: FloatArray,
+    tn: float,
+    dtn: float,
+) -> None:
+    """Shear of a point in compression: elastic, returned to Coulomb's cone if FROT >= 0.
+
+    The tangent is the consistent one, which is not symmetric (the bound depends on the normal
+    traction); with SYMMETRIC the bound counts as constant in it and the rest is made symmetric.
+    """
+    n = w.shape[0] - 1
+    size = 0.0
+    for i in range(n):
+        t[i] = p[Par.KS1 + i] * (w[i] - new[Var.SLIP1 + i])
+        D[i, i] = p[Par.KS1 + i]
+        size += t[i] * t[i]
+    size = math.sqrt(size)
+    bound = -p[Par.FROT] * tn
+    if p[Par.FROT] < 0.0 or size <= bound:
+        return
+    ratio = bound / size
+    for i in range(n):
+        direction = t[i] / size
+        for j in range(n):
+            cross = direction * t[j] / size
+            stiffness = p[Par.KS1 + j]
+            if p[Par.SYMMETRIC] == 1.0:
+                stiffness = 0.5 * (p[Par.KS1 + i] + p[Par.KS1 + j])
+            D[i, j] = ratio * stiffness * ((1.0 if i == j else 0.0) - cross)
+        if p[Par.SYMMETRIC] != 1.0:
+            D[i, n] = -p[Par.FROT] * dtn * direction
+    for i in range(n):
+        if p[Par.KS1 + i] > 0.0:
+            new[Var.SLIP1 + i] += (1.0 - ratio) * (w[i] - new[Var.SLIP1 + i])
+        t[i] *= ratio

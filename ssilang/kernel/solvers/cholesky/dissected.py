@@ -1,0 +1,54 @@
+"""Sparse Cholesky of this house: nested dissection, fronts, panels; symmetric positive matrices."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.solvers.cholesky.dissection import Tree, dissection
+from ssilang.kernel.solvers.cholesky.multifrontal import factorise_panels
+from ssilang.kernel.solvers.cholesky.triangular import longest, solve_column, solve_columns
+
+MANY = 8  # right-hand sides from which BLAS solves them together
+
+
+class DissectedFactor:
+    """Factor of a symmetric positive matrix.
+
+    Parameters
+    ----------
+    points : array (n, d)
+        Coordinates of the unknowns, by which they are ordered.
+    last : array of int
+        Unknowns eliminated last, together: the root of the tree.
+
+    Raises
+    ------
+    NotPositiveError
+        If the matrix is not positive.
+    """
+
+    name = "nested dissection"
+
+    def __init__(self, A: sp.csr_array, points: FloatArray, last: IntArray | None = None) -> None:
+        nothing = np.zeros(0, np.int64)
+        self.tree: Tree = dissection(A, points, nothing if last is None else last)
+        self.panels = factorise_panels(A, self.tree)
+        self._local = np.empty(longest(self.panels))
+
+    def solve(self, b: FloatArray) -> FloatArray:
+        """Solution of A x = b, b (n,) or (n, k)."""
+        x = np.empty(b.shape)
+        y = np.ascontiguousarray(b[self.tree.order], dtype=float)
+        if y.ndim == 1:
+            solve_column(self.panels, y, self._local)
+        elif y.shape[1] >= MANY:
+            solve_columns(self.panels, y, 0, len(self.panels.first) - 1)
+        else:
+            for j in range(y.shape[1]):
+                column = y[:, j].copy()
+                solve_column(self.panels, column, self._local)
+                y[:, j] = column
+        x[self.tree.order] = y
+        return x

@@ -1,0 +1,392 @@
+"""Cholesky factors of a sparse matrix by fronts, on a tree of supernodes (Duff and Reid 1983).
+
+The columns of a supernode have the same rows below it. They are kept in panels of `WIDTH`
+columns: the inverse of the diagonal block, then the rows below it, column after column, so that
+a solve reads the factor once, from one end to the other, without an index an entry.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.compiled.apart import apart
+from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
+from ssilang.kernel.base.memory import fits
+from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.solvers.cholesky.dissection import Tree
+from ssilang.kernel.solvers.dense import subtract_from
+
+WIDTH = 32
+BLAS_ROWS = 192  # rows of a front from which BLAS is called
+BLOCK = 128  # columns of a front whose update of the rest is one product
+
+
+class NotPositiveError(Exception):
+    """A pivot is not positive."""
+
+
+class TooLargeError(Exception):
+    """Memory would not hold the factor."""
+
+    def __init__(self, n_bytes: float) -> None:
+        super().__init__(f"{n_bytes:g} bytes")
+        self.n_bytes = n_bytes
+
+
+class Panels(NamedTuple):
+    """A factor L of A[order][:, order] = L L^T.
+
+    Attributes
+    ----------
+    first : array (n_supernodes + 1,)
+        First column of each.
+    ptr, rows : arrays (n_supernodes + 1,), (ptr[-1],)
+        Rows below each supernode, increasing.
+    at : array (n_supernodes + 1,)
+        Where the values of each start.
+    values : array (at[-1],)
+    """
+
+    first: IntArray
+    ptr: IntArray
+    rows: IntArray
+    at: IntArray
+    values: FloatArray
+
+
+class Columns(NamedTuple):
+    """The lower triangle of a matrix, column after column."""
+
+    indptr: IntArray
+    indices: IntArray
+    data: FloatArray
+
+
+def factorise_panels(A: sp.csr_array, tree: Tree) -> Panels:
+    """Factors of a symmetric positive A (n, n) in the order of a tree.
+
+    Raises
+    ------
+    NotPositiveError
+        If a pivot is not positive.
+    TooLargeError
+        If memory would not hold the factor and what is needed to make it.
+    """
+    n = A.shape[0]
+    lower = sp.csr_array(sp.triu(A[tree.order][:, tree.order]))  # its rows are columns of tril
+    indptr, indices = lower.indptr.astype(np.int64), lower.indices.astype(np.int64)
+    above = np.full(len(tree.first) - 1, -1, np.int64)
+    ptr, rows = _rows_below(n, indptr, indices, tree.first, above)
+    rows, at = rows.astype(np.int32), _places(tree.first, ptr)
+    waiting, front = _room(tree.first, ptr, above)
+    needed = 8.0 * (float(at[-1]) + waiting + front)
+    if not fits(needed):
+        raise TooLargeError(needed)
+    panels = Panels(tree.first, ptr, rows, at, np.zeros(at[-1]))
+    columns = Columns(indptr, indices, lower.data)
+    bad = _factorise(columns, panels, above, np.zeros(waiting), np.zeros(front))
+    if bad >= 0 or not np.isfinite(panels.values[-1:]).all():
+        raise NotPositiveError(f"pivot {bad} is not positive")
+    return panels
+
+
+@compiled
+def _longer(rows: IntArray, size: int) -> IntArray:
+    more = np.empty(2 * size, np.int64)
+    for i in range(size):
+        more[i] = rows[i]
+    return more
+
+
+@apart
+@compiled
+def _sort(rows: IntArray, start: int, end: int) -> None:
+    """Sort a part in place (Shell's method; NumPy's takes numba seconds to compile)."""
+    gap = 1
+    while gap < (end - start) // 3:
+        gap = 3 * gap + 1
+    while gap > 0:
+        for i in range(start + gap, end):
+            row, j = rows[i], i
+            while j >= start + gap and rows[j - gap] > row:
+                rows[j] = rows[j - gap]
+                j -= gap
+            rows[j] = row
+        gap //= 3
+
+
+@compiled
+def _rows_below(
+    n: int, indptr: IntArray, indices: IntArray, first: IntArray, above: IntArray
+) -> tuple[IntArray, IntArray]:
+    """`ptr` and `rows` of the panels; `above` becomes the supernode of each one's first row."""
+    count = len(first) - 1
+    owner, seen = np.empty(n, np.int64), np.full(n, -1, np.int64)
+    for s in range(count):
+        for i in range(first[s], first[s + 1]):
+            owner[i] = s
+    ptr, rows = np.zeros(count + 1, np.int64), np.empty(max(len(indices), 16), np.int64)
+    child, sibling = np.full(count, -1, np.int64), np.full(count, -1, np.int64)
+    size = 0
+    for s in range(count):
+        end, start = first[s + 1], size
+        for k in range(indptr[first[s]], indptr[end]):
+            i = indices[k]
+            if i >= end and seen[i] != s:
+                seen[i] = s
+                if size == len(rows):
+                    rows = _longer(rows, size)
+                rows[size] = i
+                size += 1
+        c = child[s]
+        while c >= 0:
+            for k in range(ptr[c], ptr[c + 1]):
+                i = rows[k]
+                if i >= end and seen[i] != s:
+                    seen[i] = s
+                    if size == len(rows):
+                        rows = _longer(rows, size)
+                    rows[size] = i
+                    size += 1
+            c = sibling[c]
+        _sort(rows, start, size)
+        ptr[s + 1] = size
+        if size > start:
+            above[s] = owner[rows[start]]
+            sibling[s] = child[above[s]]
+            child[above[s]] = s
+    return ptr, rows[:size]
+
+
+@compiled
+def _places(first: IntArray, ptr: IntArray) -> IntArray:
+    """`at` of the panels."""
+    at = np.zeros(len(first), np.int64)
+    for s in range(len(first) - 1):
+        k = first[s + 1] - first[s]
+        m = k + ptr[s + 1] - ptr[s]
+        at[s + 1] = at[s]
+        for j in range(0, k, WIDTH):
+            w = min(WIDTH, k - j)
+            at[s + 1] += w * (m - j)
+    return at
+
+
+@compiled
+def _free(alive: int, live: IntArray, used: np.ndarray) -> int:
+    """Number of updates left on the stack when the used ones on its top are gone."""
+    while alive > 0 and used[live[alive - 1]]:
+        alive -= 1
+    return alive
+
+
+@compiled
+def _room(first: IntArray, ptr: IntArray, above: IntArray) -> tuple[int, int]:
+    """Numbers that wait on the stack of updates at most, and of the largest front."""
+    count = len(first) - 1
+    live, used = np.empty(count, np.int64), np.zeros(count, np.bool_)
+    spot = np.zeros(count + 1, np.int64)
+    child, sibling = np.full(count, -1, np.int64), np.full(count, -1, np.int64)
+    alive, most, front = 0, 0, 0
+    for s in range(count):
+        below = ptr[s + 1] - ptr[s]
+        front = max(front, (first[s + 1] - first[s] + below) ** 2)
+        c = child[s]
+        while c >= 0:
+            used[c] = True
+            c = sibling[c]
+        alive = _free(alive, live, used)
+        if below > 0:
+            live[alive] = s
+            spot[alive + 1] = spot[alive] + below * below
+            alive += 1
+            most = max(most, spot[alive])
+            sibling[s] = child[above[s]]
+            child[above[s]] = s
+    return most, front
+
+
+@compiled
+def _gather(A: Columns, c0: int, c1: int, where: IntArray, F: FloatArray) -> None:
+    """The matrix's own columns into a front; F[j, i] is row i of column j."""
+    indptr, indices, data = A.indptr, A.indices, A.data
+    for j in range(c0, c1):
+        for q in range(indptr[j], indptr[j + 1]):
+            F[j - c0, where[indices[q]]] = data[q]
+
+
+@compiled
+def _extend_add(U: FloatArray, rows: IntArray, where: IntArray, F: FloatArray) -> None:
+    """Add the update of a child."""
+    n = len(rows)
+    local = np.empty(n, np.int64)
+    for i in range(n):
+        local[i] = where[rows[i]]
+    for j in range(n):
+        f = F[local[j]]
+        for i in range(j, n):
+            f[local[i]] += U[j, i]
+
+
+@compiled
+def _diagonal_block(F: FloatArray, k0: int, k1: int, inverse: FloatArray) -> int:
+    """Factor a block in place, put the inverse of its factor; index of a bad pivot or -1."""
+    for j in range(k0, k1):
+        if not F[j, j] > 0.0:
+            return j
+        pivot = np.sqrt(F[j, j])
+        F[j, j] = pivot
+        for i in range(j + 1, k1):
+            F[j, i] /= pivot
+        for e in range(j + 1, k1):
+            for i in range(e, k1):
+                F[e, i] -= F[j, e] * F[j, i]
+    w = k1 - k0
+    for j in range(w):
+        inverse[j, j] = 1.0 / F[k0 + j, k0 + j]
+        for i in range(j + 1, w):
+            total = 0.0
+            for e in range(j, i):
+                total += F[k0 + e, k0 + i] * inverse[e, j]
+            inverse[i, j] = -total / F[k0 + i, k0 + i]
+    return -1
+
+
+@apart
+@compiled_fast
+def _panel(F: FloatArray, k0: int, k1: int, inverse: FloatArray, P: FloatArray) -> None:
+    """Rows below a factorised block: P = inverse F[k0:k1, k1:]."""
+    w, m = P.shape
+    if w * m > 4096:
+        right = np.empty((w, m))
+        for a in range(w):
+            for i in range(m):
+                right[a, i] = F[k0 + a, k1 + i]
+        np.dot(inverse, right, P)
+        return
+    for a in range(w):
+        p = P[a]
+        for e in range(a + 1):
+            t = inverse[a, e]
+            f = F[k0 + e, k1:]
+            for i in range(m):
+                p[i] += t * f[i]
+
+
+@apart
+@compiled_fast
+def _update(F: FloatArray, k0: int, k1: int, limit: int) -> None:
+    """F[j, i] -= sum_k F[k, j] F[k, i], k from k0 to k1, columns j to limit, rows i >= j."""
+    m = F.shape[0]
+    if m - k1 > BLAS_ROWS:
+        for j0 in range(k1, limit, BLOCK):
+            left = np.empty((min(BLOCK, limit - j0), k1 - k0))
+            right = np.empty((k1 - k0, m - j0))
+            for k in range(k0, k1):
+                for i in range(j0, m):
+                    right[k - k0, i - j0] = F[k, i]
+                for i in range(left.shape[0]):
+                    left[i, k - k0] = F[k, j0 + i]
+            subtract_from(F, np.dot(left, right), j0, j0)
+        return
+    for j in range(k1, limit):
+        f = F[j, j:]
+        k = k0
+        while k + 3 < k1:
+            a0, a1, a2, a3 = F[k, j], F[k + 1, j], F[k + 2, j], F[k + 3, j]
+            p0, p1, p2, p3 = F[k, j:], F[k + 1, j:], F[k + 2, j:], F[k + 3, j:]
+            for i in range(m - j):
+                f[i] -= a0 * p0[i] + a1 * p1[i] + a2 * p2[i] + a3 * p3[i]
+            k += 4
+        while k < k1:
+            a0 = F[k, j]
+            p0 = F[k, j:]
+            for i in range(m - j):
+                f[i] -= a0 * p0[i]
+            k += 1
+
+
+@apart
+@compiled
+def _columns(F: FloatArray, k: int, pos: int, values: FloatArray) -> int:
+    """Factorise the first k columns of a front, put their panels; a bad pivot or -1."""
+    m = F.shape[0]
+    for block in range(0, k, BLOCK):
+        end = min(block + BLOCK, k)
+        for k0 in range(block, end, WIDTH):
+            k1 = min(k0 + WIDTH, k)
+            w = k1 - k0
+            inverse = values[pos : pos + w * w].reshape((w, w))
+            bad = _diagonal_block(F, k0, k1, inverse)
+            if bad >= 0:
+                return bad
+            pos += w * w
+            P = values[pos : pos + w * (m - k1)].reshape((w, m - k1))
+            if m > k1:
+                _panel(F, k0, k1, inverse, P)
+                for a in range(w):
+                    for i in range(m - k1):
+                        F[k0 + a, k1 + i] = P[a, i]
+                _update(F, k0, k1, end)
+            pos += w * (m - k1)
+        _update(F, block, end, m)
+    return -1
+
+
+@compiled
+def _factorise(
+    A: Columns, panels: Panels, above: IntArray, stack: FloatArray, work: FloatArray
+) -> int:
+    """Fill the panels; the column of a bad pivot or -1.
+
+    `above` is the supernode of each one's first row below it; `stack` holds updates of supernodes
+    until those above take them, `work` one front.
+    """
+    first, ptr, rows = panels.first, panels.ptr, panels.rows
+    count = len(first) - 1
+    where = np.zeros(first[-1], np.int64)
+    live, used = np.empty(count, np.int64), np.zeros(count, np.bool_)
+    spot, mine = np.zeros(count + 1, np.int64), np.zeros(count, np.int64)
+    child, sibling = np.full(count, -1, np.int64), np.full(count, -1, np.int64)
+    alive = 0
+    for s in range(count):
+        # a front of the supernode's columns and the rows below them; `where` is a row's place in it
+        c0, k, below = first[s], first[s + 1] - first[s], ptr[s + 1] - ptr[s]
+        m = k + below
+        F = work[: m * m].reshape((m, m))
+        for j in range(m):
+            for i in range(j, m):
+                F[j, i] = 0.0
+        for j in range(k):
+            where[c0 + j] = j
+        for i in range(below):
+            where[rows[ptr[s] + i]] = k + i
+        # filled by the matrix and by the updates of the supernodes below, which are then free
+        _gather(A, c0, c0 + k, where, F)
+        c = child[s]
+        while c >= 0:
+            size = ptr[c + 1] - ptr[c]
+            U = stack[mine[c] : mine[c] + size * size].reshape((size, size))
+            _extend_add(U, rows[ptr[c] : ptr[c + 1]], where, F)
+            used[c] = True
+            c = sibling[c]
+        alive = _free(alive, live, used)
+        bad = _columns(F, k, panels.at[s], panels.values)
+        if bad >= 0:
+            return int(c0 + bad)
+        # what is left of the front waits on the stack
+        if below > 0:
+            mine[s] = spot[alive]
+            U = stack[mine[s] : mine[s] + below * below].reshape((below, below))
+            for j in range(below):
+                for i in range(j, below):
+                    U[j, i] = F[k + j, k + i]
+            live[alive] = s
+            spot[alive + 1] = mine[s] + below * below
+            alive += 1
+            sibling[s] = child[above[s]]
+            child[above[s]] = s
+    return -1

@@ -1,0 +1,197 @@
+"""Solves with the panels of `multifrontal`: forward and backward over a range of supernodes."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.compiled.apart import apart
+from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
+from ssilang.kernel.solvers.cholesky.multifrontal import WIDTH, Panels
+
+
+@compiled_fast
+def _times_lower(values: FloatArray, pos: int, b: FloatArray) -> None:
+    """b = I b with the lower triangle of a block of values."""
+    w = len(b)
+    for i in range(w - 1, -1, -1):
+        total = 0.0
+        row = values[pos + i * w : pos + i * w + i + 1]
+        for e in range(i + 1):
+            total += row[e] * b[e]
+        b[i] = total
+
+
+@compiled_fast
+def _times_upper(values: FloatArray, pos: int, b: FloatArray) -> None:
+    """b = I^T b with the lower triangle I of a block of values."""
+    w = len(b)
+    for i in range(w):
+        t = b[i]
+        row = values[pos + i * w : pos + i * w + i + 1]
+        b[i] = 0.0
+        for e in range(i + 1):
+            b[e] += row[e] * t
+
+
+@compiled_fast
+def _subtract(values: FloatArray, pos: int, b: FloatArray, y: FloatArray) -> None:
+    """y -= P^T b."""
+    w, m, j = len(b), len(y), 0
+    while j + 3 < w:
+        a0, a1 = values[pos : pos + m], values[pos + m : pos + 2 * m]
+        a2, a3 = values[pos + 2 * m : pos + 3 * m], values[pos + 3 * m : pos + 4 * m]
+        b0, b1, b2, b3 = b[j], b[j + 1], b[j + 2], b[j + 3]
+        for i in range(m):
+            y[i] -= a0[i] * b0 + a1[i] * b1 + a2[i] * b2 + a3[i] * b3
+        pos += 4 * m
+        j += 4
+    while j < w:
+        a0, b0 = values[pos : pos + m], b[j]
+        for i in range(m):
+            y[i] -= a0[i] * b0
+        pos += m
+        j += 1
+
+
+@compiled_fast
+def _subtract_transposed(values: FloatArray, pos: int, y: FloatArray, b: FloatArray) -> None:
+    """b -= P y."""
+    w, m, j = len(b), len(y), 0
+    while j + 3 < w:
+        a0, a1 = values[pos : pos + m], values[pos + m : pos + 2 * m]
+        a2, a3 = values[pos + 2 * m : pos + 3 * m], values[pos + 3 * m : pos + 4 * m]
+        t0, t1, t2, t3 = 0.0, 0.0, 0.0, 0.0
+        for i in range(m):
+            t0 += a0[i] * y[i]
+            t1 += a1[i] * y[i]
+            t2 += a2[i] * y[i]
+            t3 += a3[i] * y[i]
+        b[j] -= t0
+        b[j + 1] -= t1
+        b[j + 2] -= t2
+        b[j + 3] -= t3
+        pos += 4 * m
+        j += 4
+    while j < w:
+        a0, t0 = values[pos : pos + m], 0.0
+        for i in range(m):
+            t0 += a0[i] * y[i]
+        b[j] -= t0
+        pos += m
+        j += 1
+
+
+@apart
+@compiled_fast
+def forward(
+    L: Panels, begin: int, end: int, x: FloatArray, beyond: int, sums: FloatArray,
+    local: FloatArray,
+) -> None:  # fmt: skip
+    """x = L^-1 x on the supernodes begin to end; rows from `beyond` on are added to `sums`.
+
+    `local` is room for the rows of one supernode.
+    """
+    for s in range(begin, end):
+        c0, k, low = L.first[s], L.first[s + 1] - L.first[s], L.ptr[s]
+        below = L.ptr[s + 1] - low
+        m, pos = k + below, L.at[s]
+        for i in range(k):
+            local[i] = x[c0 + i]
+        for i in range(k, m):
+            local[i] = 0.0
+        for k0 in range(0, k, WIDTH):
+            k1 = min(k0 + WIDTH, k)
+            w = k1 - k0
+            _times_lower(L.values, pos, local[k0:k1])
+            _subtract(L.values, pos + w * w, local[k0:k1], local[k1:m])
+            pos += w * (m - k0)
+        for i in range(k):
+            x[c0 + i] = local[i]
+        for i in range(below):
+            row = L.rows[low + i]
+            if row < beyond:
+                x[row] += local[k + i]
+            else:
+                sums[row] += local[k + i]
+
+
+@apart
+@compiled_fast
+def backward(
+    L: Panels, begin: int, end: int, z: FloatArray, x: FloatArray, local: FloatArray
+) -> None:
+    """x = L^-T z on the supernodes begin to end, x being known on the rows below them."""
+    for s in range(end - 1, begin - 1, -1):
+        c0, k, low = L.first[s], L.first[s + 1] - L.first[s], L.ptr[s]
+        below = L.ptr[s + 1] - low
+        m, pos = k + below, L.at[s + 1]
+        for i in range(k):
+            local[i] = z[c0 + i]
+        for i in range(below):
+            local[k + i] = x[L.rows[low + i]]
+        k1 = k
+        while k1 > 0:
+            w = k1 % WIDTH
+            if w == 0:
+                w = WIDTH
+            k0 = k1 - w
+            pos -= w * (m - k0)
+            _subtract_transposed(L.values, pos + w * w, local[k1:m], local[k0:k1])
+            _times_upper(L.values, pos, local[k0:k1])
+            k1 = k0
+        for i in range(k):
+            x[c0 + i] = local[i]
+
+
+@compiled
+def solve_column(L: Panels, b: FloatArray, local: FloatArray) -> None:
+    """b = (L L^T)^-1 b."""
+    count, n, start = len(L.first) - 1, len(b), L.first[0]  # not 0: a literal is a type of its own
+    forward(L, start, count, b, n, b, local)
+    backward(L, start, count, b, b, local)
+
+
+def solve_columns(L: Panels, b: FloatArray, begin: int, end: int, missing: int = 0) -> None:
+    """b = (L L^T)^-1 b for many columns b, on the supernodes begin to end, by BLAS.
+
+    `b` (n - missing, k) lacks its first rows, those before the supernode `begin`.
+    """
+    for s in range(begin, end):
+        for block, P, k0, k1, rows in _blocks(L, s, missing):
+            b[k0:k1] = block @ b[k0:k1]
+            if P.shape[1]:
+                b[rows] -= P.T @ b[k0:k1]
+    for s in range(end - 1, begin - 1, -1):
+        for block, P, k0, k1, rows in reversed(_blocks(L, s, missing)):
+            if P.shape[1]:
+                b[k0:k1] -= P @ b[rows]
+            b[k0:k1] = block.T @ b[k0:k1]
+
+
+def _blocks(
+    L: Panels, s: int, missing: int
+) -> list[tuple[FloatArray, FloatArray, int, int, IntArray | slice]]:
+    """Of each panel: inverse of its block (w, w), rows (w, m), its columns, its rows' places.
+
+    Places count from `missing`; a slice, that no copy is made of, where they follow one another.
+    """
+    c0, c1, pos = int(L.first[s]), int(L.first[s + 1]), int(L.at[s])
+    below = L.rows[L.ptr[s] : L.ptr[s + 1]]
+    found: list[tuple[FloatArray, FloatArray, int, int, IntArray | slice]] = []
+    for k0 in range(c0, c1, WIDTH):
+        k1 = min(k0 + WIDTH, c1)
+        w, m = k1 - k0, c1 - k1 + len(below)
+        block = L.values[pos : pos + w * w].reshape(w, w)
+        P = L.values[pos + w * w : pos + w * (w + m)].reshape(w, m)
+        places: IntArray | slice = slice(k1 - missing, c1 - missing)
+        if len(below):
+            places = np.concatenate([np.arange(k1, c1), below]) - missing
+        found.append((block, P, k0 - missing, k1 - missing, places))
+        pos += w * (w + m)
+    return found
+
+
+def longest(L: Panels) -> int:
+    """Rows and columns of the largest supernode: the room that solves need."""
+    return int((np.diff(L.first) + np.diff(L.ptr)).max(initial=1))

@@ -1,0 +1,185 @@
+"""The linear system of one step, factorised once for each dt, and the interface's compliance.
+
+`A du + c J^T (f_1 - f_0) = r` with
+
+    A = (1 - alpha_m)/(beta dt^2) M + (1 - alpha_f) gamma/(beta dt) C + (1 - alpha_f) K
+
+on the motions `du = T q + particular(dd)` that the conditions leave. Where A alone is singular
+(bodies without mass held by joints alone) the closed joints' stiffness R is added to it, and
+`iterate_interface` takes it back exactly.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.solvers.backends import DISSECTION
+from ssilang.kernel.solvers.cholesky.inverse import Inverse, invert
+from ssilang.kernel.solvers.factor import Ordering
+from ssilang.kernel.statics.linear_motion import singular
+from ssilang.kernel.stepping.problem.constraints import Constraints
+from ssilang.kernel.stepping.problem.problem import SMALL, Problem
+
+COLUMNS = 64  # right-hand sides solved together
+
+
+@dataclass(frozen=True, eq=False)
+class Effective:
+    """A step's linear system.
+
+    Attributes
+    ----------
+    dt : float
+    A : csr array (n, n)
+        With the closed joints' stiffness if R is not zero.
+    inverse : Inverse
+        Of `V^T A T` (V is T but for non-associated relations).
+    right : csc array (r, q)
+        `V^T J^T`, q interface unknowns.
+    S : array (q, q)
+        Compliance `J Y`, `Y = A^-1 J^T` on the admissible motions.
+    R : array (q, q)
+        Stiffness of the joints that A holds.
+    root : RootResponse or None
+        The interface as the root of a dissected factor, if it is that.
+    """
+
+    dt: float
+    A: sp.csr_array
+    constraints: Constraints
+    inverse: Inverse
+    right: sp.csc_array
+    S: FloatArray
+    R: FloatArray
+    root: RootResponse | None = None
+
+    @cached_property
+    def Y(self) -> FloatArray:  # noqa: N802
+        """Motions (n, q) under forces on the interface's jumps."""
+        return _responses(self.constraints, self.inverse, self.right)
+
+    def solve(self, r: FloatArray) -> FloatArray:
+        """Admissible motion (n,) or (n, k) under r, for `C du = 0`."""
+        c = self.constraints
+        found: FloatArray = c.T @ self.inverse.solve(c.V.T @ r)
+        return found
+
+    def imposed(self, dd: FloatArray) -> FloatArray:
+        """Motion (n,) for `C du = dd` and no force."""
+        start = self.constraints.particular(dd)
+        return start - self.solve(self.A @ start)
+
+
+def effective_matrix(problem: Problem, dt: float) -> sp.csr_array:
+    """A without the joints, for a step dt; the stiffness alone for a static problem."""
+    s = problem.scheme
+    mass = (1 - s.alpha_m) / (s.beta * dt**2)
+    damping = (1 - s.alpha_f) * s.gamma / (s.beta * dt)
+    A = mass * problem.M + damping * problem.C + (1 - s.alpha_f) * problem.K
+    return sp.csr_array(A)
+
+
+def effective_of(
+    problem: Problem, A: sp.csr_array, dt: float, share: float, free: bool = False
+) -> Effective:
+    """Factorise A (n, n) and condense it on the interface.
+
+    Parameters
+    ----------
+    share : float
+        c in `c J^T f`: the stiffness of closed joints enters with it.
+    free : bool
+        True leaves motions free that unilateral relations may hold (statics).
+
+    Raises
+    ------
+    SingularMatrixError
+        If bodies stay free with all joints closed; it names the motions.
+    """
+    T, V, joints = problem.constraints.T, problem.constraints.V, problem.interface
+    symmetric = problem.constraints.associated
+    q = joints.size if joints else 0
+    R = np.zeros((q, q))
+    right = sp.csc_array((T.shape[1], 0)) if joints is None else sp.csc_array(V.T @ joints.J.T)
+    order = _ordering(problem, right)
+    inverse = invert(sp.csr_array(V.T @ A @ T), symmetric, ordering=order)
+    if inverse.singular and joints is not None:
+        R = share * joints.closed_stiffness()
+        A = sp.csr_array(A + joints.J.T @ sp.csr_array(R) @ joints.J)
+        inverse = invert(sp.csr_array(V.T @ A @ T), symmetric, ordering=order)
+    if inverse.singular and not (free and joints is None):
+        motions = T @ inverse.kernel
+        raise singular("kernel.stepping.motions-without-mass", problem.numbering, motions)
+    S, root = R, None
+    if joints is not None:
+        root = root_response(inverse, right)
+        S = _compliance(problem, inverse, right) if root is None else np.asarray(root.J @ root.Y)
+    return Effective(dt, A, problem.constraints, inverse, right, np.ascontiguousarray(S), R, root)
+
+
+def _responses(constraints: Constraints, inverse: Inverse, right: sp.csc_array) -> FloatArray:
+    """`T A^-1 right`, some columns at a time."""
+    q = right.shape[1]
+    Y = np.zeros((constraints.T.shape[0], q))
+    for start in range(0, q, COLUMNS):
+        part = right[:, start : start + COLUMNS].toarray()
+        Y[:, start : start + COLUMNS] = constraints.T @ inverse.solve(part)
+    return Y
+
+
+def _compliance(problem: Problem, inverse: Inverse, right: sp.csc_array) -> FloatArray:
+    assert problem.interface is not None
+    S: FloatArray = problem.interface.J @ _responses(problem.constraints, inverse, right)
+    return S
+
+
+def _ordering(problem: Problem, right: sp.csc_array) -> Ordering | None:
+    """Places of the unknowns of a large symmetric problem, its interface last."""
+    if problem.numbering.size <= SMALL or not problem.constraints.associated:
+        return None
+    T = problem.constraints.T
+    own = np.asarray(abs(T).argmax(axis=0)).ravel()
+    points = problem.numbering.table.coordinates[problem.numbering.nodes[own]]
+    return Ordering(points, np.unique(right.indices).astype(np.int64))
+
+
+@dataclass(frozen=True, eq=False)
+class RootResponse:
+    """The interface seen from the root of the elimination tree, r unknowns.
+
+    Attributes
+    ----------
+    J : csr array (q, r)
+        Jumps of the root's scaled unknowns.
+    Y : array (r, q)
+        Scaled motions under forces on the jumps.
+    """
+
+    J: sp.csr_array
+    Y: FloatArray
+
+
+def root_response(inverse: Inverse, right: sp.csc_array) -> RootResponse | None:
+    """Response of the interface, None if it is not the root of a dissected factor."""
+    factor = inverse.factor
+    if factor.name != DISSECTION or inverse.singular or right.shape[1] == 0:
+        return None
+    from ssilang.kernel.solvers.cholesky.dissected import DissectedFactor
+    from ssilang.kernel.solvers.cholesky.triangular import solve_columns
+
+    assert isinstance(factor, DissectedFactor)
+    begin = int(factor.panels.first[-2])
+    order = factor.tree.order
+    loads = sp.csr_array(sp.diags_array(inverse.scale[order]) @ sp.csr_array(right)[order])
+    if loads[:begin].count_nonzero():
+        return None
+    own = sp.csr_array(loads[begin:])
+    Y = own.toarray()
+    count = len(factor.panels.first) - 1
+    solve_columns(factor.panels, Y, count - 1, count, begin)
+    return RootResponse(sp.csr_array(own.T), np.ascontiguousarray(Y))

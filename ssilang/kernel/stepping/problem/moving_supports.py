@@ -1,0 +1,179 @@
+"""Moving supports as loads on the motions that they leave.
+
+With `u = T q + X c(t)` and `C X` the imposed values of each curve, the unknowns q obey
+
+    T^T (M T q'' + C T q' + K T q + J^T f) = T^T (F - M X c'' - C X c' - K X c)
+
+c' and c'' being what the scheme makes of c, as it makes velocity and acceleration of all unknowns.
+An initial motion that the supports do not allow is a further column, whose c ends with the first
+step. Energies of q alone are completed by products of the columns with the motion, that follow
+from the work of these loads.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.stepping.problem.problem import Problem
+from ssilang.kernel.stepping.rests.dense.loop import DAMPED, ELASTIC, EXTERNAL, KINETIC, Motion
+
+MOST = 24  # curves of imposed values: each is three loads more
+ALLOWED = 1e-12  # rounding errors of a motion that the supports allow
+
+
+@dataclass(frozen=True, eq=False)
+class Columns:
+    """Motions X (n, m) of the supports with their products, on all unknowns and on q.
+
+    Attributes
+    ----------
+    MX, CX, KX : arrays (n, m)
+    forces : array (3 m, r)
+        `-T^T` times these.
+    lift : array (q, m)
+        Jumps.
+    """
+
+    X: FloatArray
+    MX: FloatArray
+    CX: FloatArray
+    KX: FloatArray
+    forces: FloatArray
+    lift: FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class Course:
+    """c, c', c'' at the times of some steps, each (n_steps + 1, m)."""
+
+    c: FloatArray
+    v: FloatArray
+    a: FloatArray
+
+    def factors(self, alpha_m: float, alpha_f: float) -> FloatArray:
+        """Factors (n_steps + 1, 3 m) of the loads on q.
+
+        Those of the inertia are such that a mean by alpha_f is that of c'' by alpha_m.
+        """
+        inertia = self.a.copy()
+        for k in range(len(inertia) - 1):
+            mean = (1 - alpha_m) * self.a[k + 1] + alpha_m * self.a[k]
+            inertia[k + 1] = (mean - alpha_f * inertia[k]) / (1 - alpha_f)
+        return np.hstack([inertia, self.v, self.c])
+
+
+@dataclass(frozen=True, eq=False)
+class Start:
+    """The motion at the start of some steps as the columns see it.
+
+    Attributes
+    ----------
+    work : array (3, 3 m)
+        Of the columns' loads on q, q' and q''.
+    joints : array (q,)
+        Forces on the jumps.
+    """
+
+    work: FloatArray
+    joints: FloatArray
+
+
+class MovingSupports:
+    """The imposed values of a problem, for steps of one length."""
+
+    def __init__(self, problem: Problem, dt: float, T: sp.csr_array) -> None:
+        self.problem, self.dt, self._T = problem, dt, T
+        imposed = problem.loading.imposed
+        self.chosen = np.flatnonzero(np.abs(imposed).max(axis=0, initial=0.0))
+        X = [problem.constraints.particular(imposed[:, j]) for j in self.chosen]
+        n = problem.numbering.size
+        self._own = self._columns(np.array(X).reshape(-1, n).T)
+
+    def _columns(self, X: FloatArray) -> Columns:
+        p = self.problem
+        MX, CX, KX = p.M @ X, p.C @ X, p.K @ X
+        forces = np.ascontiguousarray(-(self._T.T @ np.hstack([MX, CX, KX])).T)
+        lift = np.zeros((0, X.shape[1])) if p.interface is None else p.interface.J @ X
+        return Columns(X, MX, CX, KX, forces, lift)
+
+    def begin(self, motion: Motion, factors: FloatArray) -> tuple[Columns, Course]:
+        """Columns, and their course over the times of `factors` (n_steps + 1, k)."""
+        p, m = self.problem, len(self.chosen)
+        rows, imposed = p.constraints.C, p.loading.imposed[:, self.chosen]
+        start, extra = [factors[0, self.chosen]], []
+        for x in (motion.v, motion.a):
+            start.append(np.linalg.lstsq(imposed, rows @ x, rcond=None)[0])
+        for i, x in enumerate((motion.u, motion.v, motion.a)):
+            left = rows @ x - imposed @ start[i]
+            if np.abs(left).max(initial=0.0) > ALLOWED * np.abs(x).max(initial=0.0):
+                extra.append((i, p.constraints.particular(left)))
+        if not extra:
+            return self._own, self.course(factors[:, self.chosen], start[1], start[2])
+        columns = self._columns(np.column_stack([self._own.X, *(x for _, x in extra)]))
+        first = np.zeros((3, m + len(extra)))
+        first[:, :m] = start
+        for j, (i, _) in enumerate(extra):
+            first[i, m + j] = 1.0
+        c = np.zeros((len(factors), m + len(extra)))
+        c[:, :m], c[0] = factors[:, self.chosen], first[0]
+        return columns, self.course(c, first[1], first[2])
+
+    def course(self, c: FloatArray, v0: FloatArray, a0: FloatArray) -> Course:
+        """The scheme's velocities and accelerations of c, from those at the start."""
+        s, dt = self.problem.scheme, self.dt
+        v, a, ratio = np.zeros_like(c), np.zeros_like(c), s.gamma / s.beta
+        v[0], a[0] = v0, a0
+        for k in range(len(c) - 1):
+            rise = c[k + 1] - c[k]
+            v[k + 1] = ratio / dt * rise + (1 - ratio) * v[k] + dt * (1 - 0.5 * ratio) * a[k]
+            a[k + 1] = (rise / dt - v[k]) / (s.beta * dt) - (0.5 / s.beta - 1) * a[k]
+        return Course(c, v, a)
+
+    def complete(
+        self, columns: Columns, course: Course, start: Start, works: FloatArray,
+        factors: FloatArray, history: FloatArray,
+    ) -> None:  # fmt: skip
+        """Add to the energies (n_steps, N_ENERGIES) of q what the columns bring.
+
+        Parameters
+        ----------
+        works : array (2, n_steps, 3 m)
+            See `march_interleaved`.
+        factors : array (n_steps + 1, k)
+            Of the loads of the problem.
+        """
+        steps, m = len(history), columns.X.shape[1]
+        if steps == 0:
+            return
+        c, v, a = course.c[: steps + 1], course.v[: steps + 1], course.a[: steps + 1]
+        rises = works[0, :steps]
+        u = start.work[0] + np.vstack([np.zeros(3 * m), np.cumsum(rises, axis=0)])
+        motion = self.course(u, start.work[1], start.work[2])
+        inertia, damping, strain = (slice(i * m, (i + 1) * m) for i in range(3))
+        pulls = np.vstack([columns.lift.T @ start.joints, works[1, :steps, strain]])
+        loads = factors[: steps + 1] @ self.problem.loading.forces.T @ columns.X
+        X = columns.X
+        MXX, CXX, KXX = X.T @ columns.MX, X.T @ columns.CX, X.T @ columns.KX
+        reaction = (
+            a @ MXX + v @ CXX + c @ KXX + pulls - loads
+            - motion.a[:, inertia] - motion.v[:, damping] - u[:, strain]
+        )  # fmt: skip
+        whole = course.factors(self.problem.scheme.alpha_m, self.problem.scheme.alpha_f)
+        dc, before = np.diff(c, axis=0), slice(0, steps)
+        external = -0.5 * np.sum((whole[:steps] + whole[1 : steps + 1]) * rises, axis=1)
+        external += 0.5 * np.sum(
+            (loads[1:] + loads[before] + reaction[1:] + reaction[before]) * dc, axis=1
+        )
+        lost = -np.sum((v[1:] + v[before]) * rises[:, damping], axis=1)
+        lost -= np.sum((motion.v[1:, damping] + motion.v[before, damping]) * dc, axis=1)
+        lost += np.sum(((v[1:] + v[before]) @ CXX) * dc, axis=1)
+        history[:, EXTERNAL] += np.cumsum(external)
+        history[:, DAMPED] += 0.5 * np.cumsum(lost)
+        kinetic = -motion.v[1:, inertia] + 0.5 * v[1:] @ MXX
+        elastic = -u[1:, strain] + 0.5 * c[1:] @ KXX
+        history[:, KINETIC] += np.sum(kinetic * v[1:], axis=1)
+        history[:, ELASTIC] += np.sum(elastic * c[1:], axis=1)

@@ -1,0 +1,250 @@
+"""A time-stepping problem: linear matrices, conditions, loads, joints, initial state, times."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import FieldError, KernelError
+from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.contact.friction import Friction
+from ssilang.kernel.contact.friction_rows import friction_rows
+from ssilang.kernel.contact.modified_mass import without_contact_mass
+from ssilang.kernel.contact.options import ContactOptions
+from ssilang.kernel.contact.rows import ContactRows, split_rows, with_friction
+from ssilang.kernel.curves.curve import Load
+from ssilang.kernel.elements.families import stiffness as zone_stiffness
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.interface.family import JointFamily, rotational_stiffness
+from ssilang.kernel.interface.interface import (
+    Interface,
+    interface_of,
+    joint_zones,
+    nonlinear_blocks,
+    state_from_field,
+    without_zones,
+)
+from ssilang.kernel.interface.laws.law_table import law_of
+from ssilang.kernel.materials.model import Model, Zone
+from ssilang.kernel.matrices.assembly import (
+    Numbering,
+    assemble,
+    constraint_matrix,
+    field_to_vector,
+    numbering_of,
+)
+from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
+from ssilang.kernel.stepping.problem.constraints import Constraints, check_values, constraints_of
+from ssilang.kernel.stepping.problem.loading import Loading, loading_of
+from ssilang.kernel.stepping.scheme import Scheme
+
+SMALL = 160
+"""Motions that supports leave, up to which dense matrices and the compiled loop are used."""
+MOST_SMALL = 1000
+"""Unknowns in all, held ones too, of such a problem."""
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """What a time integration needs, all on one numbering.
+
+    Attributes
+    ----------
+    numbering : Numbering
+    K, M, C : csr arrays (n, n)
+        Stiffness without the joints that a law replaces, mass, damping.
+    constraints : Constraints
+    multipliers : array (n_rows,)
+        Multiplier nodes of the conditions.
+    loading : Loading
+    interface : Interface or None
+    u, v : arrays (n,)
+        Initial displacement and velocity.
+    state : array (n_points, N_STATE)
+        Initial state of the joints.
+    times : array (n_steps + 1,)
+        Strictly increasing, the initial time first.
+    contact : ContactRows or None
+        Unilateral relations.
+    contact_options : ContactOptions
+    """
+
+    numbering: Numbering
+    K: sp.csr_array
+    M: sp.csr_array
+    C: sp.csr_array
+    constraints: Constraints
+    multipliers: IntArray
+    loading: Loading
+    interface: Interface | None
+    u: FloatArray
+    v: FloatArray
+    state: FloatArray
+    times: FloatArray
+    scheme: Scheme = field(default_factory=Scheme)
+    contact: ContactRows | None = None
+    contact_options: ContactOptions = field(default_factory=ContactOptions)
+
+    @property
+    def small(self) -> bool:
+        """Whether the compiled loop on dense matrices serves."""
+        few = self.numbering.size <= MOST_SMALL and self.constraints.T.shape[1] <= SMALL
+        return few and self.contact is None and self.constraints.associated
+
+
+@dataclass(frozen=True, eq=False)
+class Inputs:
+    """A problem as a script gives it.
+
+    `model` and `characteristics` hold the joints whose law replaces their linear stiffness;
+    other zones of the model are ignored (their matrices are in `stiffness`). `variables` are the
+    joints' internal variables at the start; `friction` that of unilateral relations and cables.
+    """
+
+    stiffness: Matrix
+    times: FloatArray
+    mass: Matrix | None = None
+    damping: Matrix | None = None
+    load: Load | None = None
+    displacement: NodeField | None = None
+    velocity: NodeField | None = None
+    model: Model | None = None
+    characteristics: CellField | None = None
+    scheme: Scheme = field(default_factory=Scheme)
+    contact_options: ContactOptions = field(default_factory=ContactOptions)
+    variables: CellField | None = None
+    friction: tuple[Friction, ...] = ()
+
+
+def make_problem(inputs: Inputs) -> Problem:
+    """Number, assemble and check a problem.
+
+    Raises
+    ------
+    KernelError
+        If times do not increase, joints with a law stand in the stiffness alone, or values are
+        not finite.
+    """
+    times = _checked_times(inputs.times)
+    given_zones = () if inputs.model is None else joint_zones(inputs.model)
+    zones = tuple(z for z in given_zones if not law_of(z.behaviour).linear)
+    matrices = _matrices(inputs, given_zones, zones)
+    stiffness = matrices["K"]
+    given = tuple(m for m in matrices.values() if m is not None)
+    assert stiffness is not None
+    numbering = numbering_of(*given)
+    rows = constraint_matrix(_with_relations_of(stiffness, given), numbering)
+    loading = loading_of(inputs.load, numbering, rows.multipliers)
+    rows, imposed, contact = split_rows(rows, loading.imposed)
+    loading = replace(loading, imposed=imposed)
+    multipliers = np.zeros(0, np.int64) if contact is None else contact.multipliers
+    contact = with_friction(contact, friction_rows(inputs.friction, numbering, multipliers))
+    if contact is not None and contact.imposed.shape[1] != imposed.shape[1]:
+        contact = replace(contact, imposed=np.zeros((len(contact), imposed.shape[1])))
+    constraints = constraints_of(rows, numbering.size <= SMALL)
+    check_values(constraints, loading.imposed, numbering)
+    interface = interface_of(zones, inputs.characteristics, numbering) if zones else None
+    assembled = {k: _assembled(m, numbering) for k, m in matrices.items()}
+    _refuse_not_finite(assembled, loading)
+    if contact is not None and inputs.contact_options.modified_mass:
+        assembled["M"] = without_contact_mass(assembled["M"], assembled["K"], contact.G)
+    return Problem(
+        numbering,
+        assembled["K"],
+        assembled["M"],
+        assembled["C"],
+        constraints,
+        rows.multipliers,
+        loading,
+        interface,
+        _start(inputs.displacement, numbering),
+        _start(inputs.velocity, numbering),
+        _joint_states(interface, inputs.variables),
+        times,
+        inputs.scheme,
+        contact,
+        inputs.contact_options,
+    )
+
+
+def _joint_states(interface: Interface | None, given: CellField | None) -> FloatArray:
+    """Initial state of the joints: never loaded, or from internal variables."""
+    if interface is None:
+        return np.zeros((0, 0))
+    return interface.initial_state() if given is None else state_from_field(interface, given)
+
+
+def _checked_times(times: FloatArray) -> FloatArray:
+    times = np.asarray(times, dtype=float)
+    if len(times) < 2 or not np.isfinite(times).all() or not (np.diff(times) > 0).all():
+        raise KernelError("kernel.stepping.times-calculation-must-least")
+    return times
+
+
+def _matrices(
+    inputs: Inputs, joints_given: tuple[Zone, ...], zones: tuple[Zone, ...]
+) -> dict[str, Matrix | None]:
+    """K without the joints of `zones`, M, C, and the joints' unknowns under 'joints'.
+
+    Joints whose law is linear stand in K, from their characteristics.
+    """
+    if joints_given and inputs.characteristics is None:
+        raise KernelError("kernel.stepping.joints-need-parameters")
+    stiffness = without_zones(inputs.stiffness, joints_given)
+    linear = tuple(z for z in joints_given if z not in zones)
+    if joints_given and inputs.characteristics is not None:
+        turning = (rotational_stiffness(z, inputs.characteristics) for z in zones)
+        blocks = tuple(zone_stiffness(z, inputs.characteristics) for z in linear)
+        blocks += tuple(b for b in turning if b is not None)
+        stiffness = replace(stiffness, blocks=(*stiffness.blocks, *blocks), cache={})
+    if nonlinear_blocks(stiffness):
+        raise KernelError("kernel.stepping.stiffness-holds-joints-whose")
+    damping = None if inputs.damping is None else without_zones(inputs.damping, zones)
+    joints = _unknowns_of(zones, stiffness) if zones else None
+    return {"K": stiffness, "M": inputs.mass, "C": damping, "joints": joints}
+
+
+def _unknowns_of(zones: tuple[Zone, ...], like: Matrix) -> Matrix:
+    """A matrix of zeros that has the joints' unknowns."""
+    blocks = []
+    for zone in zones:
+        layout = JointFamily().layout(zone)
+        k = len(layout.unknowns)
+        zeros = np.zeros((len(layout.raw_nodes), k, k))
+        blocks.append(
+            ElementMatrices(
+                layout.table, layout.raw_nodes, layout.local, layout.unknowns, layout.duals, zeros
+            )
+        )
+    return Matrix(like.table, tuple(blocks))
+
+
+def _with_relations_of(stiffness: Matrix, matrices: tuple[Matrix, ...]) -> Matrix:
+    relations = tuple(r for m in matrices for r in m.relations)
+    return Matrix(stiffness.table, (), relations)
+
+
+def _assembled(matrix: Matrix | None, numbering: Numbering) -> sp.csr_array:
+    n = numbering.size
+    return sp.csr_array((n, n)) if matrix is None else assemble(matrix, numbering)
+
+
+def _refuse_not_finite(matrices: dict[str, sp.csr_array], loading: Loading) -> None:
+    for name, matrix in matrices.items():
+        if not np.isfinite(matrix.data).all():
+            raise KernelError("kernel.stepping.matrix-values-not-finite", name=name)
+    for _, ordinates in loading.curves:
+        if not np.isfinite(ordinates).all():
+            raise FieldError("kernel.stepping.load-curve-values-not")
+
+
+def _start(given: NodeField | None, numbering: Numbering) -> FloatArray:
+    if given is None:
+        return np.zeros(numbering.size)
+    values = field_to_vector(given, numbering, dual=False)
+    if not np.isfinite(values).all():
+        raise FieldError("kernel.stepping.initial-field-values-not")
+    return values

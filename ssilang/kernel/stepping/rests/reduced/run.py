@@ -1,0 +1,295 @@
+"""Time integration of a reduced model whose error is estimated and held below a tolerance.
+
+Two nested bases run the same motion. Their difference, largest over jumps of all steps and over
+the whole field at instants spread over the motion, relative to the largest jump and displacement,
+is the estimate; while it exceeds the tolerance the basis grows. The richer basis gives the
+results. The estimate is that of the poorer basis and holds as long as the richer one is nearer to
+the whole model (which is the assumption; it is no strict bound). Between the instants compared
+the field's error may be somewhat larger (a factor of 2 has been seen).
+"""
+
+from __future__ import annotations
+
+import hashlib
+import math
+import time
+from collections import OrderedDict
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import IntArray
+from ssilang.kernel.base.errors import KernelError
+from ssilang.kernel.interface.response import interface_forces
+from ssilang.kernel.stepping.problem.problem import Problem
+from ssilang.kernel.stepping.rests.reduced.basis import (
+    Basis,
+    NoReduction,
+    ReducedModel,
+    Reduction,
+    refuse_reduction,
+)
+from ssilang.kernel.stepping.rests.reduced.trace import Chunk, Difference, Trace, comparing
+from ssilang.kernel.stepping.run import History, Integration, Progress, integrate
+from ssilang.kernel.stepping.snapshot import Observer, Snapshot
+from ssilang.kernel.stepping.state import snapshot_of
+
+INSTANTS = 64  # at which whole fields are compared
+GROWTH = 1.2  # a basis is compared with one that is this much smaller, or more
+MOST_VECTORS = 0.5  # of the unknowns: more do not pay
+MOST = 4000  # vectors, for memory
+MOST_VALUES = 30_000_000  # reduced states kept until the estimate is known
+BATCH = 64  # instants expanded together
+PAIRS_KEPT = 2  # models whose bases stay in memory
+
+
+@dataclass(eq=False)
+class Pair:
+    """Two nested models on a basis that may grow."""
+
+    basis: Basis
+    poor: ReducedModel
+    rich: ReducedModel
+
+    def grow(self) -> None:
+        """The richer model becomes the poorer of the next pair.
+
+        The last pair is what room is left for, and the first vectors of it.
+
+        Raises
+        ------
+        NoReduction
+            If there is none; nothing changes.
+        """
+        basis = self.basis
+        try:
+            self.poor, self.rich = self.rich, _grown(basis, GROWTH * self.rich.size)
+        except NoReduction:
+            if basis.size == self.rich.size:
+                raise
+            self.poor, self.rich = basis.model(int(basis.size / GROWTH)), basis.model()
+
+
+def _grown(basis: Basis, wanted: float) -> ReducedModel:
+    while basis.size < wanted:
+        before = basis.size
+        basis.grow()
+        if basis.size == before:
+            raise NoReduction("kernel.stepping.krylov-exhausted")
+    return basis.model()
+
+
+_PAIRS: OrderedDict[str, Pair] = OrderedDict()
+
+
+def _pair_of(problem: Problem, tolerance: float) -> Pair:
+    """The pair of a problem, kept for the next motion on the same model."""
+    key = f"{_name_of(problem)} {tolerance:g}"
+    if key in _PAIRS:
+        _PAIRS.move_to_end(key)
+        return _PAIRS[key]
+    largest = min(int(MOST_VECTORS * problem.constraints.T.shape[1]), MOST)
+    basis = Basis(problem, _step_of(problem), largest)
+    poor = _grown(basis, basis.size)
+    pair = Pair(basis, poor, _grown(basis, GROWTH * poor.size))
+    _PAIRS[key] = pair
+    while len(_PAIRS) > PAIRS_KEPT:
+        _PAIRS.popitem(last=False)
+    return pair
+
+
+def _step_of(problem: Problem) -> float:
+    return float(np.median(np.diff(problem.times)))
+
+
+def _name_of(problem: Problem) -> str:
+    """A digest of all that the basis is made of."""
+    p, digest = problem, hashlib.sha256()
+    sparse = [p.K, p.M, p.C, p.constraints.T]
+    dense = [p.loading.forces, p.u, p.v, p.state, p.loading.at(p.times[:1]), p.times[:1]]
+    if p.loading.imposed.any():
+        sparse.append(p.constraints.C)
+        dense += [p.loading.imposed, p.loading.at(p.times[:2])]
+    if p.interface is not None:
+        sparse.append(p.interface.J)
+        dense += [p.interface.parameters, p.interface.weights, p.interface.B]
+    for A in sparse:
+        for part in (A.indptr, A.indices, A.data):
+            digest.update(np.ascontiguousarray(part).tobytes())
+    for x in dense:
+        digest.update(np.ascontiguousarray(x).tobytes())
+    return f"{digest.hexdigest()} {_step_of(p):.9g}"
+
+
+@dataclass(eq=False)
+class ReducedIntegration:
+    """A reduced run under way: the pair grows until the estimate is below the tolerance."""
+
+    problem: Problem
+    observers: Sequence[Observer]
+    progress: Progress | None
+    tolerance: float
+
+    def run(self) -> History:
+        """All steps.
+
+        Raises
+        ------
+        NoReduction
+            If the tolerance is out of reach.
+        """
+        started = time.perf_counter()
+        p = self.problem
+        wanted = np.zeros(len(p.times), bool)
+        for observer in self.observers:
+            wanted |= observer.wanted
+        pair = _pair_of(p, self.tolerance)
+        while True:
+            built = time.perf_counter()
+            rich, difference, chunks = self._both(pair, wanted)
+            estimate = difference.estimate if difference else math.inf
+            if difference is not None and estimate <= self.tolerance:
+                break
+            try:
+                pair.grow()
+            except NoReduction as reason:
+                raise NoReduction(
+                    "kernel.stepping.reduction-inexact", reason=reason, estimate=estimate
+                ) from None
+        self._hand_over(pair.rich, wanted, chunks)
+        return History(
+            p.times, rich.energies, rich.iterations, "none", "reduced",
+            time.perf_counter() - built,
+            Reduction(
+                pair.rich.size, estimate, None, built - started, *difference.relative[3:].tolist()
+            ),
+        )  # fmt: skip
+
+    def _both(
+        self, pair: Pair, wanted: np.ndarray
+    ) -> tuple[Trace, Difference | None, list[Chunk] | None]:
+        """Both models over the motion, as long as they agree: the rich one, difference, chunks.
+
+        The difference is None if one of them did not converge, the chunks if they do not fit.
+        """
+        p, n = self.problem, len(self.problem.times)
+        sampled = np.zeros(n, bool)
+        sampled[np.unique(np.linspace(1, n - 1, INSTANTS).round().astype(int))] = True
+        fits = 3 * pair.rich.size * int(wanted.sum()) <= MOST_VALUES
+        poor = Trace(p, pair.poor, sampled)
+        rich = Trace(p, pair.rich, sampled | wanted if fits else sampled)
+        difference, chunks = Difference(p), []
+        for run in comparing(p.times):
+            a = poor.advance(run)
+            b = rich.advance(run) if a is not None else None
+            if a is None or b is None:
+                return rich, None, None
+            difference.take(poor, rich, a, b)
+            if not difference.estimate <= self.tolerance:
+                return rich, difference, None
+            chunks.append(replace(b, rows=b.rows._replace(jumps=b.rows.jumps[:0])))
+            if self.progress is not None:
+                self.progress(run.last, n - 1)
+        return rich, difference, chunks if fits else None
+
+    def _hand_over(
+        self, model: ReducedModel, wanted: np.ndarray, chunks: list[Chunk] | None
+    ) -> None:
+        """Saved instants, as whole fields; steps run again if their states did not fit memory."""
+        p = self.problem
+        if wanted[0]:
+            self._receive(snapshot_of(p, Integration(p).motion, 0))
+        source: Iterable[Chunk] = chunks if chunks is not None else self._again(model, wanted)
+        for chunk in source:
+            rows = np.flatnonzero(wanted[chunk.steps])
+            for start in range(0, len(rows), BATCH):
+                for snapshot in expanded(p, model, chunk, rows[start : start + BATCH]):
+                    self._receive(snapshot)
+
+    def _again(self, model: ReducedModel, wanted: np.ndarray) -> Iterator[Chunk]:
+        trace = Trace(self.problem, model, wanted)
+        for run in comparing(self.problem.times):
+            chunk = trace.advance(run)
+            assert chunk is not None
+            yield chunk
+
+    def _receive(self, snapshot: Snapshot) -> None:
+        for observer in self.observers:
+            if observer.wanted[snapshot.step]:
+                observer.receive(snapshot)
+
+
+def expanded(
+    problem: Problem, model: ReducedModel, chunk: Chunk, rows: IntArray
+) -> Iterator[Snapshot]:
+    """Whole fields of some rows of a chunk, with the reactions that their balance asks for."""
+    p, x = problem, chunk.rows
+    u, v, a = (model.expand(part[rows].T) for part in (x.u, x.v, x.a))
+    steps = chunk.steps[rows]
+    if chunk.course is not None:
+        X, c, now = model.supports.columns.X, chunk.course, steps - chunk.run.first
+        u, v, a = u + X @ c.c[now].T, v + X @ c.v[now].T, a + X @ c.a[now].T
+    rest = p.M @ a + p.C @ v + p.K @ u - p.loading.forces @ p.loading.at(p.times[steps]).T
+    joints = p.interface
+    if joints is not None:
+        f = np.zeros((len(rows), joints.size))
+        for i, row in enumerate(rows):
+            interface_forces(joints.points, x.t[row], f[i])
+        rest = rest + joints.J.T @ f.T
+    for i, (row, step) in enumerate(zip(rows, steps.tolist(), strict=True)):
+        yield Snapshot(
+            p, step, float(p.times[step]), u[:, i].copy(), v[:, i].copy(), a[:, i].copy(),
+            rest[:, i].copy(), x.w[row], x.t[row], x.state[row], np.zeros(0),
+        )  # fmt: skip
+
+
+def integrate_reduced(
+    problem: Problem,
+    tolerance: float,
+    observers: Sequence[Observer] = (),
+    progress: Progress | None = None,
+) -> History:
+    """Integrate a problem on a reduced basis, or as it is where that does not serve.
+
+    Parameters
+    ----------
+    tolerance : float
+        Largest estimated error of displacements and jumps, relative to the largest of the
+        motion, between 0 and 1.
+
+    Returns
+    -------
+    History
+        `reduction` says the number of vectors and the estimated error, or why the whole model
+        was run: the damping is not symmetric, the motion starts off its supports, or more than half
+        the unknowns would be needed.
+
+    Raises
+    ------
+    KernelError
+        For a tolerance out of range, unilateral relations, adaptive or conserving steps.
+    ConvergenceError, SingularMatrixError
+        See `integrate`.
+    """
+    if not 0.0 < tolerance < 1.0:
+        raise KernelError("kernel.stepping.tolerance-reduction", tolerance=tolerance)
+    refuse_reduction(problem)
+    started = time.perf_counter()
+    try:
+        history = ReducedIntegration(problem, observers, progress, tolerance).run()
+    except NoReduction as reason:
+        spent = time.perf_counter() - started
+        history = integrate(problem, observers, progress)
+        history.reduction = Reduction(refused=reason, prepared=spent)
+        return history
+    except BaseException:
+        _close(observers)
+        raise
+    _close(observers)
+    return history
+
+
+def _close(observers: Sequence[Observer]) -> None:
+    for observer in observers:
+        observer.close()

@@ -1,0 +1,104 @@
+"""Steps halved, again and again, where a joint or relation opens or closes within them.
+
+The event is located to dt/2^DEEPEST; elsewhere the step asked for is kept. Loads are linear
+within a step.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.contact.impact import ImpactRule
+from ssilang.kernel.contact.rows import BoolArray
+from ssilang.kernel.stepping.effective import effective_matrix, effective_of
+from ssilang.kernel.stepping.problem.problem import Problem
+from ssilang.kernel.stepping.rests.dense.loop import N_ENERGIES, Motion, Saved
+from ssilang.kernel.stepping.rests.sparse.loop import SparseLoop, StepSolver
+from ssilang.kernel.stepping.step_solvers import step_solver
+
+DEEPEST = 5
+
+
+class AdaptiveLoop:
+    """Steps of one dt, split at contact events.
+
+    `closed` (m,) are the unilateral relations that are closed at the start; kept up to date.
+    """
+
+    def __init__(self, problem: Problem, motion: Motion, dt: float, closed: BoolArray) -> None:
+        self.problem, self.motion, self.dt, self.closed = problem, motion, dt, closed
+        self._impacts: dict[int, ImpactRule] = {}
+        self.loop = SparseLoop(problem, motion)
+        self._solvers: dict[int, StepSolver] = {}
+        self.solver = ""
+        self._solver(0)
+
+    def march(
+        self, factors: FloatArray, save: IntArray, saved: Saved, history: FloatArray
+    ) -> tuple[int, int, float]:
+        """As `compiled_loop.march`."""
+        worst = 0
+        for k in range(len(save)):
+            turns, residual = self._step(0, factors[k], factors[k + 1])
+            if turns <= 0:
+                return k, turns, residual
+            worst = max(worst, turns)
+            history[k] = self.motion.energies
+            if save[k] >= 0:
+                self.loop.keep(saved, int(save[k]))
+        return len(save), worst, 0.0
+
+    def _solver(self, level: int) -> StepSolver:
+        if level not in self._solvers:
+            dt = self.dt / 2**level
+            share = 1 - self.problem.scheme.alpha_f
+            effective = effective_of(self.problem, effective_matrix(self.problem, dt), dt, share)
+            self.solver = effective.inverse.factor.name
+            self._solvers[level] = step_solver(self.problem, effective)
+            if self.problem.contact is not None:
+                rule = ImpactRule(self.problem, effective, self.problem.contact, self.closed)
+                self._impacts[level] = rule
+        return self._solvers[level]
+
+    def _step(self, level: int, start: FloatArray, end: FloatArray) -> tuple[int, float]:
+        """One step between two rows of load factors, split if contact changes in it."""
+        before, touching = [x.copy() for x in self.motion], self.closed.copy()
+        closed = self._closed()
+        solver = self._solver(level)
+        done, turns, residual = self.loop.march(
+            solver,
+            self.dt / 2**level,
+            np.stack([start, end]),
+            np.full(1, -1),
+            _nowhere(),
+            np.zeros((1, N_ENERGIES)),
+            self._impacts.get(level),
+        )
+        fine = done == 1 and np.array_equal(closed, self._closed())
+        if fine or (level == DEEPEST and done == 1):
+            return turns, residual
+        if level == DEEPEST:
+            return min(turns, 0), residual
+        for array, old in zip(self.motion, before, strict=True):
+            array[...] = old
+        self.closed[:] = touching
+        middle = 0.5 * (start + end)
+        first, residual = self._step(level + 1, start, middle)
+        if first <= 0:
+            return first, residual
+        second, residual = self._step(level + 1, middle, end)
+        return (second if second <= 0 else max(first, second)), residual
+
+    def _closed(self) -> BoolArray:
+        """Joints, then relations, that push."""
+        joints = self.motion.t[:, -1] < 0.0
+        contact = self.problem.contact
+        if contact is None:
+            return joints
+        return np.concatenate([joints, contact.closed(self.motion.contact)])
+
+
+def _nowhere() -> Saved:
+    empty = np.zeros((0, 0))
+    return Saved(empty, empty, empty, empty, empty, empty, empty, empty)

@@ -1,0 +1,243 @@
+"""The time loop on sparse matrices: one solve a step, the rest on the interface.
+
+Same steps as `compiled_loop`, which tests hold against this one.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.contact.impact import ImpactRule
+from ssilang.kernel.interface.condensed import Condensed
+from ssilang.kernel.interface.newton import Workspace, solve_interface, workspace
+from ssilang.kernel.interface.response import InterfaceState, accept, interface_energies
+from ssilang.kernel.stepping.effective import Effective
+from ssilang.kernel.stepping.problem.problem import Problem
+from ssilang.kernel.stepping.rests.dense.loop import (
+    DAMPED,
+    ELASTIC,
+    EXTERNAL,
+    KINETIC,
+    LOST,
+    STORED,
+    Motion,
+    Saved,
+)
+
+NOTHING = np.zeros(0)
+
+
+@dataclass
+class StepOutcome:
+    """Increment of a step, iterations it took (<= 0: none converged), last residual."""
+
+    du: FloatArray
+    turns: int
+    residual: float
+
+
+class StepSolver(Protocol):
+    """Solves `A du + c J^T (f_1 - f_0) = r`, `C du = dd`; updates the joints of the motion."""
+
+    def solve(self, motion: Motion, r: FloatArray, dd: FloatArray, d: FloatArray) -> StepOutcome:
+        """The step's increment; `motion.delta, f, w, t, state` become those of its end.
+
+        `d` (n_rows,) are the imposed values at the end of the step.
+        """
+        ...
+
+
+class CondensedSolver:
+    """The interface condensed exactly on its own unknowns (one factorisation a dt)."""
+
+    def __init__(self, problem: Problem, effective: Effective) -> None:
+        self.effective = effective
+        self.interface = problem.interface
+        R = effective.R if effective.R.any() else np.zeros((0, 0))
+        self._condensed = Condensed(effective.S, R, 1.0 - problem.scheme.alpha_f)
+        self._newton: Workspace | None = None
+
+    def solve(self, motion: Motion, r: FloatArray, dd: FloatArray, d: FloatArray) -> StepOutcome:
+        """One solve, Newton on the interface, one product."""
+        du = self.effective.solve(r)
+        if dd.any():
+            du = du + self.effective.imposed(dd)
+        if self.interface is None:
+            return StepOutcome(du, 1, 0.0)
+        if self._newton is None:
+            self._newton = workspace(motion.w.shape, self.interface.size)
+        trial = self._newton.trial
+        trial.y0[:] = self.interface.J @ du
+        trial.y[:] = trial.y0
+        now = InterfaceState(motion.delta, motion.f, motion.w, motion.t, motion.state)
+        turns, residual = solve_interface(self.interface.points, self._condensed, now, self._newton)
+        if turns > 0:
+            du = du - self.effective.Y @ trial.h
+            accept(trial, now)
+        return StepOutcome(du, turns, residual)
+
+
+def support_work(
+    problem: Problem,
+    reaction: FloatArray,
+    pushed: FloatArray,
+    du: FloatArray,
+    dd: FloatArray,
+    dc: FloatArray,
+) -> float:
+    """Work of moving supports and stops in a step, and of non-associated relations.
+
+    Parameters
+    ----------
+    reaction : array (n,)
+        Mean force of all conditions on the body.
+    pushed : array (size,)
+        Mean reactions and frictions of the unilateral relations.
+    du, dd, dc : increments of displacement, imposed values and load factors.
+    """
+    contact, rest, work = problem.contact, reaction, 0.0
+    if contact is not None and len(pushed):
+        rest = reaction - contact.pushing.T @ pushed
+        work = contact.work(pushed, du, dc)
+    if not problem.constraints.associated:
+        return work + float(rest @ du)
+    return work + float(dd @ problem.constraints.multipliers(rest)) if dd.any() else work
+
+
+@dataclass(eq=False)
+class SparseLoop:
+    """Steps of one dt with a solver for each."""
+
+    problem: Problem
+    motion: Motion
+
+    def __post_init__(self) -> None:
+        self._damped = self.problem.C.nnz > 0
+        self._J: sp.csr_array | None = None
+        if self.problem.interface is not None:
+            self._J = sp.csr_array(self.problem.interface.J.T)
+
+    def march(
+        self,
+        solver: StepSolver,
+        dt: float,
+        factors: FloatArray,
+        save: IntArray,
+        saved: Saved,
+        history: FloatArray,
+        impact: ImpactRule | None = None,
+    ) -> tuple[int, int, float]:
+        """As `compiled_loop.march`; `impact` corrects velocities of unilateral relations."""
+        p, worst, contact = self.problem, 0, self.problem.contact
+        self._begin()
+        loads = factors @ p.loading.forces.T
+        imposed = factors @ p.loading.imposed.T
+        for k in range(len(save)):
+            r = self._right_side(loads[k], loads[k + 1], dt)
+            dd = imposed[k + 1] - p.constraints.C @ self.motion.u
+            pushed = self.motion.contact.copy()
+            outcome = solver.solve(self.motion, r, dd, self._gap(factors[k + 1]))
+            if outcome.turns <= 0:
+                return k, outcome.turns, outcome.residual
+            worst = max(worst, outcome.turns)
+            self._advance(outcome.du, dt)
+            if impact is not None and contact is not None:
+                rate = contact.imposed @ (factors[k + 1] - factors[k]) / dt
+                impact.correct(self.motion, rate)
+            if not np.isfinite(self.motion.u).all():
+                return k, -1, np.inf
+            self._account(outcome.du, dd, loads[k], loads[k + 1], pushed, factors[k : k + 2])
+            history[k] = self.motion.energies
+            if save[k] >= 0:
+                self.keep(saved, int(save[k]))
+        return len(save), worst, 0.0
+
+    def _gap(self, factors: FloatArray) -> FloatArray:
+        contact = self.problem.contact
+        return NOTHING if contact is None else contact.gaps(self.motion.u, factors)
+
+    def _begin(self) -> None:
+        """Products of the current state, that each step hands to the next."""
+        p, m = self.problem, self.motion
+        self._Ku, self._Mv, self._Ma = p.K @ m.u, p.M @ m.v, p.M @ m.a
+        self._Cv = p.C @ m.v if self._damped else NOTHING
+        self._joints_lost = 0.0
+        if p.contact is not None and p.contact.friction is not None:
+            self._joints_lost = self._of_joints()[1]
+
+    def _of_joints(self) -> tuple[float, float]:
+        joints, m = self.problem.interface, self.motion
+        if joints is None:
+            return 0.0, 0.0
+        stored, lost = interface_energies(joints.points, m.w, m.t, m.state)
+        return float(stored), float(lost)
+
+    def _right_side(self, load0: FloatArray, load1: FloatArray, dt: float) -> FloatArray:
+        m, s = self.motion, self.problem.scheme
+        r: FloatArray = ((1 - s.alpha_m) / (s.beta * dt)) * self._Mv - self._Ku
+        r += ((1 - s.alpha_m) * (0.5 / s.beta - 1) - s.alpha_m) * self._Ma
+        r += (1 - s.alpha_f) * load1 + s.alpha_f * load0
+        if self._damped:
+            ratio = s.gamma / s.beta
+            r -= ((1 - s.alpha_f) * (1 - ratio) + s.alpha_f) * self._Cv
+            part = (1 - s.alpha_f) * dt * (1 - 0.5 * ratio)
+            if part != 0.0:
+                r -= part * (self.problem.C @ m.a)
+        if self._J is not None:
+            r -= self._J @ m.f
+        return r
+
+    def _advance(self, du: FloatArray, dt: float) -> None:
+        m, s = self.motion, self.problem.scheme
+        v0 = m.v.copy()
+        m.u[:] += du
+        ratio = s.gamma / s.beta
+        m.v[:] = ratio / dt * du + (1 - ratio) * v0 + dt * (1 - 0.5 * ratio) * m.a
+        m.a[:] = (du / dt - v0) / (s.beta * dt) - (0.5 / s.beta - 1) * m.a
+
+    def _account(
+        self,
+        du: FloatArray,
+        dd: FloatArray,
+        load0: FloatArray,
+        load1: FloatArray,
+        pushed: FloatArray,
+        factors: FloatArray,
+    ) -> None:
+        """Reactions and energies; `pushed` are the contact reactions at the step's start."""
+        p, m = self.problem, self.motion
+        old, before = m.reaction.copy(), m.energies[LOST] - self._joints_lost
+        Cv = self._Cv
+        self._begin()
+        m.reaction[:] = self._Ma + self._Ku - load1
+        if self._damped:
+            m.reaction[:] += self._Cv
+            m.energies[DAMPED] += 0.5 * du @ (Cv + self._Cv)
+        if self._J is not None:
+            m.reaction[:] += self._J @ m.f
+        m.energies[EXTERNAL] += 0.5 * du @ (load0 + load1)
+        m.energies[EXTERNAL] += support_work(
+            p, 0.5 * (old + m.reaction), 0.5 * (pushed + m.contact), du, dd, factors[1] - factors[0]
+        )
+        m.energies[KINETIC], m.energies[ELASTIC] = 0.5 * m.v @ self._Mv, 0.5 * m.u @ self._Ku
+        if p.contact is not None and p.contact_options.method == "PENALITE":
+            m.energies[ELASTIC] += p.contact.penalty_energy(
+                self._gap(factors[1]), p.contact_options.coefficient
+            )
+        if p.interface is not None:
+            m.energies[STORED], m.energies[LOST] = self._of_joints()
+        if p.contact is not None and p.contact.friction is not None:
+            rubbed = p.contact.rubbed(0.5 * (pushed + m.contact), du)
+            m.energies[LOST] = self._joints_lost + before + rubbed
+
+    def keep(self, saved: Saved, row: int) -> None:
+        """Put the current state into a row of the saved ones."""
+        m = self.motion
+        saved.u[row], saved.v[row], saved.a[row] = m.u, m.v, m.a
+        saved.reaction[row], saved.w[row], saved.t[row] = m.reaction, m.w, m.t
+        saved.state[row], saved.contact[row] = m.state, m.contact

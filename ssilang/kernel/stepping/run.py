@@ -1,0 +1,296 @@
+"""The time integration of a problem: chooses the loop, runs it, hands instants to observers."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import ConvergenceError
+from ssilang.kernel.stepping.choose import DenseEngine, Engine, kind_of
+from ssilang.kernel.stepping.driven import Drive, Driver
+from ssilang.kernel.stepping.problem.bodies import full_uplift
+from ssilang.kernel.stepping.problem.initial import (
+    admissible_velocity,
+    closed_at_start,
+    initial_acceleration,
+    initial_energies,
+    joint_state,
+    with_contact,
+)
+from ssilang.kernel.stepping.problem.problem import Problem
+from ssilang.kernel.stepping.rests.dense.loop import N_ENERGIES, Motion, Saved
+from ssilang.kernel.stepping.rests.reduced.basis import Reduction
+from ssilang.kernel.stepping.snapshot import Observer, Snapshot
+from ssilang.kernel.stepping.state import snapshot_of
+from ssilang.kernel.stepping.times import SAME, Run, runs_of
+
+CHUNK_VALUES = 4_000_000  # saved values held at once
+CHUNK_SECONDS = 0.5  # wished duration of a chunk of steps: progress and interruption
+LONGEST_CHUNK = 1 << 16  # steps of a chunk at most: its arrays stay in the second cache
+FACTORS_KEPT = 4  # step sizes whose factors stay in memory
+
+Progress = Callable[[int, int], None]
+"""Called with steps done and steps in all."""
+
+
+@dataclass(eq=False)
+class History:
+    """What a run leaves beside the instants that observers took.
+
+    Attributes
+    ----------
+    times : array (n_times,)
+    kept : array (n_times, N_ENERGIES)
+        Kinetic, elastic, stored in joints, lost in joints, damped, work of loads and supports;
+        ask for `energies`.
+    iterations : int
+        Most interface iterations in one step.
+    solver, loop : str
+        Linear solver and loop used.
+    reduction : Reduction or None
+        Of runs on a reduced basis.
+    again : callable or None
+        Finds the energies of a run that did not keep them; `worst` is then its imbalance.
+    together : int
+        Motions that advanced side by side; `seconds` is the share of one.
+    """
+
+    times: FloatArray
+    kept: FloatArray
+    iterations: int = 0
+    solver: str = ""
+    loop: str = ""
+    seconds: float = 0.0
+    reduction: Reduction | None = None
+    again: Callable[[], FloatArray] | None = None
+    worst: float = 0.0
+    together: int = 1
+
+    @property
+    def energies(self) -> FloatArray:
+        """Energies at all times, shape (n_times, N_ENERGIES); light loops step again for them."""
+        if self.again is not None:
+            self.kept, self.again = self.again(), None
+        return self.kept
+
+    @property
+    def worst_imbalance(self) -> float:
+        """The largest energy that came from nowhere, its absolute value."""
+        return self.worst if self.again else float(np.abs(self.imbalance).max(initial=0.0))
+
+    @property
+    def imbalance(self) -> FloatArray:
+        """Energy that came from nowhere since the start, shape (n_times,)."""
+        kept = self.energies.T
+        total = kept[0] + kept[1] + kept[2] + kept[3] + kept[4] - kept[5]
+        found: FloatArray = total - total[0]
+        return found
+
+
+@dataclass(eq=False)
+class Integration:
+    """A problem under way."""
+
+    problem: Problem
+    observers: Sequence[Observer] = ()
+    progress: Progress | None = None
+    full_newton: bool = False
+    driver: Driver | None = None
+    light: bool = True
+    motion: Motion = field(init=False)
+
+    def __post_init__(self) -> None:
+        p, self._drive = self.problem, None
+        if self.driver is not None:
+            self._drive = Drive(self.problem, self.driver, self.full_newton)
+            p = self._drive.start()
+        joints = joint_state(p)
+        v = admissible_velocity(p)
+        self._closed = closed_at_start(p)
+        a, pushing = with_contact(p, v, initial_acceleration(p, v, joints), self._closed)
+        load = p.loading.forces @ p.loading.at(p.times[:1])[0]
+        reaction = p.M @ a + p.C @ v + p.K @ p.u - load
+        if p.interface is not None:
+            reaction = reaction + p.interface.J.T @ joints.f
+        energies = initial_energies(p, v, joints)
+        self.motion = Motion(
+            p.u.copy(), v, a, joints.delta, joints.f, joints.w, joints.t, joints.state,
+            reaction, energies, pushing,
+        )  # fmt: skip
+        self._engines: dict[float, Engine] = {}
+        self._kind = kind_of(p, self.full_newton)
+        self._balance = np.array([energies[:5].sum() - energies[5], 0.0])  # at the start, worst
+
+    def run(self) -> History:
+        """All steps.
+
+        Raises
+        ------
+        ConvergenceError
+            If a step's interface iteration does not converge; says which time.
+        SingularMatrixError
+            If bodies are held by nothing, not even by mass.
+        """
+        times, started = self.problem.times, time.perf_counter()
+        history = History(times, np.zeros((len(times), N_ENERGIES)))
+        history.kept[0] = self.motion.energies
+        wanted = np.zeros(len(times), bool)
+        for observer in self.observers:
+            wanted |= observer.wanted
+        try:
+            if wanted[0]:
+                self.hand_over(snapshot_of(self.problem, self.motion, 0))
+            self._march(history, wanted)
+        finally:
+            for observer in self.observers:
+                observer.close()
+        history.seconds = time.perf_counter() - started
+        return history
+
+    def _march(self, history: History, wanted: np.ndarray) -> None:
+        times, done = self.problem.times, 0
+        longest = 4096 if self.problem.small else 64
+        while done < len(times) - 1:
+            run = next(runs_of(times[done : done + longest + 1], longest))
+            before = time.perf_counter()
+            run = Run(done + run.first, done + run.last, run.dt)
+            self._steps(run, history, wanted)
+            spent = time.perf_counter() - before
+            done = run.last
+            if spent < CHUNK_SECONDS / 2 and run.last - run.first == longest:
+                faster = int(CHUNK_SECONDS / 2 / max(spent, 1e-4))
+                longest = min(max(2, faster) * longest, LONGEST_CHUNK)
+            elif spent > 2 * CHUNK_SECONDS:
+                longest = max(longest // 2, 1)
+            if self.progress is not None:
+                self.progress(done, len(times) - 1)
+
+    def _steps(self, run: Run, history: History, wanted: np.ndarray) -> None:
+        first = run.first
+        while first < run.last:
+            last = self._within_memory(first, run.last, wanted)
+            factors = self.problem.loading.at(history.times[first : last + 1])
+            engine: Engine
+            if self._drive is None:
+                engine = self._engine(run.dt)
+            else:
+                at = float(history.times[last])
+                engine, factors = self._drive.engine(self.motion, run.dt, at, factors, self._closed)
+            history.solver, history.loop = engine.solver, engine.name
+            chosen = wanted[first + 1 : last + 1]
+            places = np.flatnonzero(chosen)
+            save = np.full(len(chosen), -1, np.int64)
+            save[places] = np.arange(len(places))
+            saved = self.room(len(places))
+            energies = history.kept[first + 1 : last + 1]
+            if self.light and isinstance(engine, DenseEngine) and engine.light:
+                energies, history.again = energies[:0], self._energies
+                engine.watch(self._balance)
+            done, turns, residual = engine.march(factors, save, saved, energies)
+            history.worst = float(self._balance[1])
+            if turns > 0:
+                history.iterations = max(history.iterations, turns)
+            steps = first + 1 + places[places < done]
+            for row, step in enumerate(steps):
+                self.hand_over(self.kept(saved, row, int(step)))
+            if done < last - first:
+                raise self.diverged(first + done + 1, turns, residual)
+            first = last
+
+    def _energies(self) -> FloatArray:
+        """Energies at all times, by stepping again."""
+        return Integration(self.problem, light=False).run().kept
+
+    def _within_memory(self, first: int, last: int, wanted: np.ndarray) -> int:
+        if self._drive is not None:
+            return first + 1
+        room = max(CHUNK_VALUES // max(4 * len(self.motion.u), 1), 1)
+        if last - first <= room:
+            return last
+        saved = np.flatnonzero(wanted[first + 1 : last + 1])
+        return last if len(saved) <= room else first + max(int(saved[room]), 1)
+
+    def _engine(self, dt: float) -> Engine:
+        dt = next((known for known in self._engines if abs(known - dt) <= SAME * known), dt)
+        found = self._engines.get(dt)
+        if found is None:
+            if len(self._engines) >= FACTORS_KEPT:
+                self._engines.pop(next(iter(self._engines)))
+            found = self._kind(self.problem, self.motion, dt, self.full_newton, self._closed)
+            self._engines[dt] = found
+        return found
+
+    def room(self, rows: int) -> Saved:
+        m = self.motion
+        n = (rows, len(m.u))
+        return Saved(
+            np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n),
+            np.zeros((rows, *m.w.shape)), np.zeros((rows, *m.t.shape)),
+            np.zeros((rows, *m.state.shape)), np.zeros((rows, len(m.contact))),
+        )  # fmt: skip
+
+    def kept(self, s: Saved, row: int, step: int) -> Snapshot:
+        time_ = float(self.problem.times[step])
+        problem = self.problem if self._drive is None else self._drive.problem
+        return Snapshot(
+            problem, step, time_, s.u[row], s.v[row], s.a[row], s.reaction[row], s.w[row],
+            s.t[row], s.state[row], s.contact[row],
+        )  # fmt: skip
+
+    def hand_over(self, snapshot: Snapshot) -> None:
+        for observer in self.observers:
+            if observer.wanted[snapshot.step]:
+                observer.receive(snapshot)
+
+    def diverged(self, step: int, turns: int, residual: float) -> ConvergenceError:
+        time_ = self.problem.times[step]
+        if turns == 0:
+            body = full_uplift(self.problem, self.motion.t)
+            if body is None:
+                return ConvergenceError("kernel.stepping.full-uplift", step=step, time=time_)
+            return ConvergenceError(
+                "kernel.stepping.full-uplift-of-body",
+                step=step,
+                time=time_,
+                node=body.node,
+                n_points=body.points,
+            )
+        if not np.isfinite(residual):
+            return ConvergenceError("kernel.stepping.motion-grew", step=step, time=time_)
+        return ConvergenceError(
+            "kernel.stepping.interface-not-converged",
+            step=step,
+            time=time_,
+            residual=residual,
+            turns=-turns,
+        )
+
+
+def integrate(
+    problem: Problem,
+    observers: Sequence[Observer] = (),
+    progress: Progress | None = None,
+    full_newton: bool = False,
+    driver: Driver | None = None,
+) -> History:
+    """Integrate a problem over its times.
+
+    Parameters
+    ----------
+    observers : sequence of Observer
+        Each receives the instants it wants.
+    full_newton : bool
+        Refactorise at each iteration instead of condensing the interface (comparison).
+    driver : callable, optional
+        What it adds to matrices and loads at each step; see `driven`.
+
+    Raises
+    ------
+    ConvergenceError, SingularMatrixError
+        See `Integration.run`.
+    """
+    return Integration(problem, observers, progress, full_newton, driver).run()

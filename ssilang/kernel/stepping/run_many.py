@@ -1,0 +1,250 @@
+"""Several problems integrated at once: those of one model advance side by side.
+
+A step of one motion reads all of a large factor, or all rows of a small model's springs, to do
+little with each number; steps of several motions read them once for all. Each motion has its own
+loads, initial state and interface iteration, and is what it is alone but for rounding.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import partial
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.stepping.choose import DenseEngine, InterleavedEngine, kind_of
+from ssilang.kernel.stepping.effective import effective_matrix, effective_of
+from ssilang.kernel.stepping.problem.problem import Problem
+from ssilang.kernel.stepping.problem.sharing import grouped
+from ssilang.kernel.stepping.rests.dense.loop import N_ENERGIES, Saved
+from ssilang.kernel.stepping.rests.modal.batch import springs_together
+from ssilang.kernel.stepping.rests.sparse.interleaved_batch import interleaved_together
+from ssilang.kernel.stepping.run import CHUNK_SECONDS, CHUNK_VALUES, History, Integration, Progress
+from ssilang.kernel.stepping.snapshot import Instants, Observer, Snapshot
+from ssilang.kernel.stepping.state import snapshot_of
+from ssilang.kernel.stepping.times import SAME, runs_of
+
+
+class Engine(Protocol):
+    """Steps of one dt of several problems."""
+
+    name: str
+    solver: str
+
+    def march(
+        self, factors: list[FloatArray], save: list[IntArray], history: list[FloatArray],
+        times: FloatArray,
+    ) -> tuple[list[tuple[int, int, float]], list[Instants]]:  # fmt: skip
+        """As `compiled_loop.march`, of each problem; instants instead of arrays of saved steps."""
+        ...
+
+
+@dataclass(eq=False)
+class Lane:
+    """One of the problems under way."""
+
+    integration: Integration
+    history: History
+    wanted: NDArray[np.bool_]
+    problem_found: Exception | None = None
+
+    @property
+    def alive(self) -> bool:
+        """Whether nothing went wrong so far."""
+        return self.problem_found is None
+
+
+@dataclass(eq=False)
+class Group:
+    """Problems of one model on their way."""
+
+    lanes: list[Lane]
+    engines: dict[float, Engine | None] = field(default_factory=dict)
+
+    def engine(self, dt: float) -> Engine | None:
+        """What steps all lanes together; None if nothing does."""
+        known = next((k for k in self.engines if abs(k - dt) <= SAME * k), None)
+        if known is None:
+            self.engines[dt] = _engine_of([lane.integration for lane in self.lanes], dt)
+            known = dt
+        return self.engines[known]
+
+
+def integrate_together(
+    problems: Sequence[Problem],
+    observers: Sequence[Sequence[Observer]] = (),
+    progress: Sequence[Progress | None] = (),
+) -> list[History | Exception]:
+    """Integrate several problems; those of one model advance together.
+
+    Parameters
+    ----------
+    problems : sequence of Problem
+        Of any kind. Problems with the same matrices, conditions, joints, scheme and times, and
+        supports at rest, form a group, where their loop is that of large models or that of
+        springs that only push; the others run one after another, as by `integrate`.
+    observers, progress : sequences
+        Of each problem; none if empty.
+
+    Returns
+    -------
+    list of History or Exception
+        In the order of the problems. What one problem or one of its observers raises is its
+        result; the others go on. `History.together` says how many advanced side by side.
+    """
+    observers = observers or [()] * len(problems)
+    progress = progress or [None] * len(problems)
+    found: dict[int, History | Exception] = {}
+    for group in grouped(problems):
+        lanes: dict[int, Lane] = {}
+        for i in group:
+            try:
+                lanes[i] = _lane(Integration(problems[i], observers[i], progress[i]))
+            except Exception as problem:  # an observer may raise anything
+                found[i] = problem
+        _run(list(lanes.values()))
+        for i, lane in lanes.items():
+            found[i] = lane.history if lane.problem_found is None else lane.problem_found
+    return [found[i] for i in range(len(problems))]
+
+
+def _lane(integration: Integration) -> Lane:
+    times = integration.problem.times
+    history = History(times, np.zeros((len(times), N_ENERGIES)))
+    history.kept[0] = integration.motion.energies
+    wanted = np.zeros(len(times), bool)
+    for observer in integration.observers:
+        wanted |= observer.wanted
+    return Lane(integration, history, wanted)
+
+
+def _run(lanes: list[Lane]) -> None:
+    """All steps of lanes of one model, side by side if there is an engine for it."""
+    group, started = Group(lanes), time.perf_counter()
+    if not _has_engines(group):
+        for lane in lanes:
+            _alone(lane)
+        return
+    for lane in lanes:
+        if lane.wanted[0]:
+            i = lane.integration
+            _give(lane, snapshot_of(i.problem, i.motion, 0))
+    _march(group)
+    for lane in lanes:
+        lane.history.seconds = (time.perf_counter() - started) / len(lanes)
+        lane.history.together = len(lanes)
+        _close(lane)
+
+
+def _has_engines(group: Group) -> bool:
+    if len(group.lanes) < 2:
+        return False
+    try:
+        times = group.lanes[0].integration.problem.times
+        return all(group.engine(dt) is not None for dt in {r.dt for r in runs_of(times, 1 << 16)})
+    except Exception:  # alone, each says it for itself
+        return False
+
+
+def _alone(lane: Lane) -> None:
+    try:
+        lane.history = lane.integration.run()
+    except Exception as problem:
+        lane.problem_found = problem
+
+
+def _march(group: Group) -> None:
+    """All steps, in chunks that report progress."""
+    first_problem = group.lanes[0].integration.problem
+    times, done = first_problem.times, 0
+    longest = 4096 if first_problem.small else 64
+    while done < len(times) - 1 and any(lane.alive for lane in group.lanes):
+        run = next(runs_of(times[done : done + longest + 1], longest))
+        last = _within_memory(group, done, done + run.last)
+        before = time.perf_counter()
+        _steps(group, run.dt, done, last)
+        spent = time.perf_counter() - before
+        if spent < CHUNK_SECONDS / 2 and last - done == longest:
+            longest = min(2 * longest, 1 << 16)
+        elif spent > 2 * CHUNK_SECONDS:
+            longest = max(longest // 2, 1)
+        done = last
+        for lane in group.lanes:
+            if lane.alive and lane.integration.progress is not None:
+                lane.integration.progress(done, len(times) - 1)
+
+
+def _within_memory(group: Group, first: int, last: int) -> int:
+    n = len(group.lanes[0].integration.motion.u)
+    room = max(CHUNK_VALUES // max(4 * n * len(group.lanes), 1), 1)
+    counts = np.cumsum(np.sum([lane.wanted[first + 1 : last + 1] for lane in group.lanes], axis=0))
+    over = np.flatnonzero(counts > room * len(group.lanes))
+    return last if len(over) == 0 else first + max(int(over[0]), 1)
+
+
+def _steps(group: Group, dt: float, first: int, last: int) -> None:
+    engine = group.engine(dt)
+    assert engine is not None
+    factors, save, history = [], [], []
+    times = group.lanes[0].integration.problem.times
+    for lane in group.lanes:
+        lane.history.solver, lane.history.loop = engine.solver, engine.name
+        factors.append(lane.integration.problem.loading.at(times[first : last + 1]))
+        chosen = lane.wanted[first + 1 : last + 1]
+        save.append(np.where(chosen, np.cumsum(chosen) - 1, -1).astype(np.int64))
+        history.append(lane.history.kept[first + 1 : last + 1])
+    outcomes, instants = engine.march(factors, save, history, times)
+    for lane, (done, turns, residual), instant in zip(group.lanes, outcomes, instants, strict=True):
+        if not lane.alive:
+            continue
+        lane.history.iterations = max(lane.history.iterations, turns)
+        steps = first + 1 + np.flatnonzero(lane.wanted[first + 1 : first + 1 + done])
+        for row, step in enumerate(steps):
+            _give(lane, instant(row, int(step)))
+        if lane.alive and done < last - first:
+            i = lane.integration
+            lane.problem_found = i.diverged(first + done + 1, turns, residual)
+
+
+def _give(lane: Lane, snapshot: Snapshot) -> None:
+    """Hand an instant to the lane's observers, if they took all before."""
+    if lane.problem_found is not None:
+        return
+    try:
+        lane.integration.hand_over(snapshot)
+    except Exception as problem:
+        lane.problem_found = problem
+
+
+def _close(lane: Lane) -> None:
+    for observer in lane.integration.observers:
+        try:
+            observer.close()
+        except Exception as problem:
+            lane.problem_found = lane.problem_found or problem
+
+
+def _engine_of(integrations: Sequence[Integration], dt: float) -> Engine | None:
+    problems, motions = [i.problem for i in integrations], [i.motion for i in integrations]
+    first = problems[0]
+    kind = kind_of(first, False)
+    if kind not in (DenseEngine, InterleavedEngine):
+        return None
+    share = 1 - first.scheme.alpha_f
+    effective = effective_of(first, effective_matrix(first, dt), dt, share)
+    if kind is DenseEngine:
+        return springs_together(problems, motions, effective)
+    return interleaved_together(
+        problems, motions, effective, [partial(_saved_room, i) for i in integrations]
+    )
+
+
+def _saved_room(integration: Integration, rows: int) -> tuple[Saved, Instants]:
+    """Room for saved steps, and the instants that it holds in the end."""
+    saved = integration.room(rows)
+    return saved, partial(integration.kept, saved)

@@ -1,0 +1,123 @@
+"""One saved instant of a motion, and who receives it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.interface.interface import interface_field, state_field
+from ssilang.kernel.matrices.assembly import vector_to_field
+from ssilang.kernel.stepping.problem.problem import Problem
+
+
+@dataclass(frozen=True, eq=False)
+class Snapshot:
+    """State at one instant.
+
+    Attributes
+    ----------
+    step : int
+        0 for the initial state.
+    u, v, a, reaction : arrays (n,)
+        Displacement, velocity, acceleration; force that the conditions apply on the body.
+    w, t : arrays (n_points, d)
+        Jumps and tractions of the joints.
+    state : array (n_points, N_STATE)
+    contact : array (size,)
+        Reactions of the unilateral relations, and frictions.
+    """
+
+    problem: Problem
+    step: int
+    time: float
+    u: FloatArray
+    v: FloatArray
+    a: FloatArray
+    reaction: FloatArray
+    w: FloatArray
+    t: FloatArray
+    state: FloatArray
+    contact: FloatArray
+
+    @property
+    def _multipliers(self) -> FloatArray:
+        """Reactions of the equalities, D^T of which is what they push by."""
+        rest = self.reaction
+        if self.problem.contact is not None:
+            rest = rest - self.problem.contact.pushing.T @ self.contact
+        return self.problem.constraints.multipliers(rest)
+
+    @property
+    def displacement(self) -> NodeField:
+        """Displacement, with the multipliers LX of the conditions."""
+        nodes, values, contact = self.problem.multipliers, -self._multipliers, self.problem.contact
+        if contact is not None:
+            nodes = np.concatenate([nodes, contact.multipliers])
+            values = np.concatenate([values, contact.lagrange(self.contact)])
+        pair = (nodes, values)
+        return vector_to_field(self.u, self.problem.numbering, multipliers=pair)
+
+    @property
+    def velocity(self) -> NodeField:
+        """Velocity, by the displacements' names."""
+        return vector_to_field(self.v, self.problem.numbering)
+
+    @property
+    def acceleration(self) -> NodeField:
+        """Acceleration, by the displacements' names."""
+        return vector_to_field(self.a, self.problem.numbering)
+
+    @property
+    def reactions(self) -> NodeField:
+        """Forces of the conditions on the body, by dual names."""
+        rows = self.problem.constraints.D
+        forces = rows.T @ self._multipliers
+        if self.problem.contact is not None:
+            forces = forces + self.problem.contact.pushing.T @ self.contact
+        return vector_to_field(forces, self.problem.numbering, dual=True)
+
+    @property
+    def jumps(self) -> CellField | None:
+        """Jumps at the joints' points, None without joints."""
+        joints = self.problem.interface
+        return None if joints is None else interface_field(joints, self.w, "jump")
+
+    @property
+    def tractions(self) -> CellField | None:
+        """Tractions at the joints' points, None without joints."""
+        joints = self.problem.interface
+        return None if joints is None else interface_field(joints, self.t, "traction")
+
+    @property
+    def variables(self) -> CellField | None:
+        """Internal variables of the joints, None without joints."""
+        joints = self.problem.interface
+        return None if joints is None else state_field(joints, self.state, self.w, self.t)
+
+
+Instants = Callable[[int, int], Snapshot]
+"""Gives a kept instant by its row among those of some steps and its step."""
+
+
+class Observer(Protocol):
+    """Receives the instants it wants, in order."""
+
+    @property
+    def wanted(self) -> NDArray[np.bool_]:
+        """Which times, shape (n_times,)."""
+        ...
+
+    def receive(self, snapshot: Snapshot) -> None:
+        """Take an instant."""
+        ...
+
+    def close(self) -> None:
+        """End of the calculation, also when it failed."""
+        ...

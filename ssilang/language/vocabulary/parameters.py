@@ -1,0 +1,382 @@
+"""Parameters of materials (MATE) and sections (CARA): meaning, unit, admissible and usual ranges.
+
+Who takes a parameter, and whether it must be given, is the kernel's. `of` limits a meaning to the
+laws, elements or families of elements that use the name for it. Usual ranges are wide, in SI: what
+is outside is probably in another unit. The conditions between several parameters (KN > FU^2/GF)
+are the laws' own.
+"""
+
+from __future__ import annotations
+
+from ssilang.language.vocabulary.terms import (
+    ANY_NUMBER,
+    NOT_NEGATIVE,
+    NOT_POSITIVE,
+    POSITIVE,
+    Quantity,
+    Range,
+    between,
+)
+
+
+def _p(
+    name: str,
+    unit: str | None,
+    en: str,
+    fr: str,
+    of: tuple[str, ...] = (),
+    *,
+    range: Range = ANY_NUMBER,
+    usual: Range = ANY_NUMBER,
+    default: float | None = None,
+) -> Quantity:
+    return Quantity(name, en, fr, of, "", unit, range, usual, default)
+
+
+_MACRO = ("MACRO_SEMELLE", "MACRO_DISQUE", "MACRO_RESSORTS")
+_ONE_POINT = ("JOI1", *_MACRO)
+_SHELLS = ("plate", "meridian", "mindlin", "thick")
+_STIFF = between(1e4, 1e13)  # moduli of soft clay to diamond
+_AXES = {"1": ("first", "premier"), "2": ("second", "deuxième"), "3": ("third", "troisième")}
+_POISSON = (
+    "Poisson's ratio, about 0.3 for soils and steel, 0.2 for concrete",
+    "Coefficient de Poisson, environ 0.3 pour les sols et l'acier, 0.2 pour le béton",
+)
+
+
+def _unused(name: str, unit: str | None, en: str, fr: str, of: tuple[str, ...] = ()) -> Quantity:
+    """A parameter that scripts may give and that nothing reads here."""
+    en, fr = f"{en} (taken, without effect)", f"{fr} (lu, sans effet)"
+    return Quantity(name, en, fr, of, "unused", unit)
+
+
+_ELASTIC = (
+    _p(
+        "YOUN", "Pa", "Young's modulus", "Module d'Young", range=NOT_NEGATIVE, usual=_STIFF
+    ),
+    # of bodies the kernel refuses 0.5 itself, with what to do about it
+    _p("NU", "", *_POISSON, range=Range(-1.0, 0.5, open_low=True)),
+    _p(
+        "RHO", "kg/m3", "Density", "Masse volumique", range=NOT_NEGATIVE, usual=between(1.0, 2.5e4)
+    ),
+    _p(
+        "RHO", "kg/m2", "Mass of the joint's own matter, for each unit of its surface",
+        "Masse propre du joint, par unité de surface", ("joint",), range=NOT_NEGATIVE,
+    ),
+    _p(
+        "ALPH", "1/K", "Coefficient of thermal expansion", "Coefficient de dilatation thermique",
+        usual=between(-1e-4, 1e-3), default=0.0,
+    ),
+    _unused("TREF", "K", "Reference temperature of expansion",
+            "Température de référence de la dilatation"),
+    _p("TALP", "K", "Temperature from which the coefficient of expansion is measured",
+       "Température depuis laquelle le coefficient de dilatation est mesuré", default=0.0),
+    _p("VISQ", "Pa s", "Viscosity, in the place of YOUN in the damping matrix (AMOR)",
+       "Viscosité, à la place de YOUN dans la matrice d'amortissement (AMOR)",
+       range=NOT_NEGATIVE),
+)  # fmt: skip
+
+_ORTHOTROPIC = (
+    *(
+        _p(f"YG{i}", "Pa", f"Young's modulus along the {en} axis",
+           f"Module d'Young suivant le {fr} axe", range=POSITIVE, usual=_STIFF)
+        for i, (en, fr) in _AXES.items()
+    ),
+    *(
+        _p(f"NU{i}{j}", "", f"Poisson's ratio: strain along axis {j} under a stress along axis {i}",
+           f"Coefficient de Poisson : déformation suivant l'axe {j} sous contrainte suivant "
+           f"l'axe {i}")
+        for i, j in ("12", "23", "13")
+    ),
+    *(
+        _p(f"G{i}{j}", "Pa", f"Shear modulus in the plane of axes {i} and {j}",
+           f"Module de cisaillement dans le plan des axes {i} et {j}", range=POSITIVE,
+           usual=_STIFF)
+        for i, j in ("12", "23", "13")
+    ),
+    *(
+        _p(f"ALP{i}", "1/K", f"Thermal expansion along the {en} axis",
+           f"Dilatation thermique suivant le {fr} axe", default=0.0)
+        for i, (en, fr) in _AXES.items()
+    ),
+    *(
+        _p(f"AL{i}{j}", "1/K", f"Thermal shear in the plane of axes {i} and {j}",
+           f"Distorsion thermique dans le plan des axes {i} et {j}", default=0.0)
+        for i, j in ("12", "23", "13")
+    ),
+    *(
+        _p(f"D{i}{j}", "Pa", f"Term {i}, {j} of the matrix of Hooke (stress {i}, strain {j})",
+           f"Terme {i}, {j} de la matrice de Hooke (contrainte {i}, déformation {j})",
+           range=NOT_NEGATIVE if i == j else ANY_NUMBER, default=None if i == j else 0.0)
+        for i in range(1, 7)
+        for j in range(1, i + 1)
+    ),
+    *(
+        Quantity(f"V{i}{c}", f"Component {c} of the {en} axis of the material (set by DIRECTION)",
+                 f"Composante {c} du {fr} axe du matériau (donnée par DIRECTION)", kind="axes")
+        for i, (en, fr) in (("1", _AXES["1"]), ("2", _AXES["2"]))
+        for c in "XYZ"
+    ),
+)  # fmt: skip
+
+_JOINTS = (
+    _p("KN", "Pa/m", "Normal stiffness of the joint", "Raideur normale du joint",
+       range=NOT_NEGATIVE, usual=between(1e5, 1e15)),
+    _p("KN", "N/m", "Normal stiffness of a joint of two points or of a whole footing",
+       "Raideur normale d'un joint de deux points ou d'une fondation entière", _ONE_POINT,
+       range=NOT_NEGATIVE, usual=between(1e3, 1e16)),
+    _p("KS", "Pa/m", "Shear stiffness of the joint (KS1 and KS2)",
+       "Raideur tangente du joint (KS1 et KS2)", range=NOT_NEGATIVE, usual=between(0.0, 1e15)),
+    _p("KS", "N/m", "Shear stiffness of a joint of two points",
+       "Raideur tangente d'un joint de deux points", _ONE_POINT, range=NOT_NEGATIVE,
+       usual=between(0.0, 1e16)),
+    *(
+        _p(f"KS{i}", unit, f"Shear stiffness along the {en} tangent (KS if not given)",
+           f"Raideur tangente suivant la {fr} tangente (KS sinon)", of, range=NOT_NEGATIVE)
+        for i, en, fr in (("1", "first", "première"), ("2", "second", "deuxième"))
+        for unit, of in (("Pa/m", ()), ("N/m", _ONE_POINT))
+    ),
+    _p("FU", "Pa", "Tensile strength of the joint; 0: it opens freely",
+       "Résistance en traction du joint ; 0 : il s'ouvre librement", range=NOT_NEGATIVE,
+       usual=between(0.0, 1e8)),
+    _p("FU", "N", "Tensile strength of a joint of two points; 0: it opens freely",
+       "Résistance en traction d'un joint de deux points ; 0 : il s'ouvre librement",
+       _ONE_POINT, range=NOT_NEGATIVE),
+    _p("GF", "N/m", "Energy spent to open the joint fully, for each unit of its surface",
+       "Énergie dépensée à l'ouverture complète du joint, par unité de surface",
+       range=NOT_NEGATIVE, usual=between(0.0, 1e6)),
+    _p("GF", "J", "Energy spent to open a joint of two points fully",
+       "Énergie dépensée à l'ouverture complète d'un joint de deux points", _ONE_POINT,
+       range=NOT_NEGATIVE),
+    _p("FC", "N", "Force at which an opened joint of two points is closed again, a compression",
+       "Force à laquelle un joint ouvert de deux points est refermé, une compression", ("JOI1",),
+       range=NOT_POSITIVE),
+    _p("FC", "Pa", "Traction at which an opened joint is closed again, a compression (<= 0)",
+       "Traction à laquelle un joint ouvert est refermé, une compression (<= 0)", ("JOINT_SDM",),
+       range=NOT_POSITIVE),
+    _p("FC", "Pa", "Strength of concrete in compression", "Résistance du béton en compression",
+       ("BETON_BAEL",), usual=between(-1e9, 1e9)),
+    _p("FROT", "", "Coulomb's coefficient of friction; negative: shear is not bounded",
+       "Coefficient de frottement de Coulomb ; négatif : cisaillement non borné",
+       usual=between(-1.0, 2.0)),
+    _p("FRIC", "deg", "Friction angle of the joint", "Angle de frottement du joint",
+       range=Range(0.0, 90.0, open_high=True)),
+    _p("FTRC", "Pa", "Tensile strength of a Mohr-Coulomb joint; 0: it opens and closes freely",
+       "Résistance en traction d'un joint de Mohr-Coulomb ; 0 : il s'ouvre et se ferme librement",
+       range=NOT_NEGATIVE),
+    _p("FTRC", "N", "Tensile strength of a Mohr-Coulomb joint of two points",
+       "Résistance en traction d'un joint de Mohr-Coulomb de deux points", ("JOI1",),
+       range=NOT_NEGATIVE),
+    _p("EF", "N/m", "Normal stiffness of a joint of two points beyond the closing ECN",
+       "Raideur normale d'un joint de deux points au-delà de la fermeture ECN", ("JOI1",),
+       range=NOT_NEGATIVE),
+    _p("COHE", "N", "Cohesion of a joint of two points", "Cohésion d'un joint de deux points",
+       ("JOI1",), range=NOT_NEGATIVE),
+    _p("EF", "Pa/m", "Normal stiffness beyond the closing ECN",
+       "Raideur normale au-delà de la fermeture ECN", range=NOT_NEGATIVE),
+    _p("ECN", "m", "Closing beyond which the normal stiffness is EF; 0: never",
+       "Fermeture au-delà de laquelle la raideur normale est EF ; 0 : jamais",
+       range=NOT_NEGATIVE),
+    _p("FNE", "N", "Compression from which a joint of two points yields; 0: never",
+       "Compression à partir de laquelle un joint de deux points plastifie ; 0 : jamais",
+       range=NOT_NEGATIVE),
+    _p("QT", "N/m", "Tangent stiffness of a joint of two points that yields",
+       "Raideur tangente d'un joint de deux points qui plastifie", range=NOT_NEGATIVE),
+    _p("TYPE", "", "1: slip of the displacements", "1 : glissement en déplacement",
+       range=between(1.0, 1.0)),
+    _p("LARG", "m", "Width of the footing, along the first tangent in space",
+       "Largeur de la fondation, suivant la première tangente dans l'espace", range=NOT_NEGATIVE),
+    _p("LONG", "m", "Other width of the footing; 0: a strip", "Autre largeur de la fondation ; "
+       "0 : bande", range=NOT_NEGATIVE),
+    _p("QS", "N m", "Spring of the relative rotation (for each radian)",
+       "Ressort de la rotation relative (par radian)", range=NOT_NEGATIVE),
+    _p("QN", "N m", "Spring of the relative rotation about the normal (for each radian)",
+       "Ressort de la rotation relative autour de la normale (par radian)", range=NOT_NEGATIVE),
+    *(
+        _p(f"QS{i}", "N m", f"Spring of the relative rotation about the {en} tangent (QS if not "
+           "given)", f"Ressort de la rotation relative autour de la {fr} tangente (QS sinon)",
+           range=NOT_NEGATIVE)
+        for i, en, fr in (("1", "first", "première"), ("2", "second", "deuxième"))
+    ),
+    *(
+        _unused(f"J{c}", "kg m2", f"Rotary inertia of a joint of two points about {c}",
+                f"Inertie de rotation d'un joint de deux points autour de {c}")
+        for c in "XYZ"
+    ),
+    _unused("ALPN", "m/K", "Thermal opening of the joint for each degree",
+       "Ouverture thermique du joint par degré"),
+    _unused("ALPS", "m/K", "Thermal slip of the joint for each degree",
+       "Glissement thermique du joint par degré"),
+    *(
+        _unused(f"ALP{i}", "m/K", f"Thermal slip along the {en} tangent for each degree",
+           f"Glissement thermique suivant la {fr} tangente par degré", ("joint",))
+        for i, en, fr in (("1", "first", "première"), ("2", "second", "deuxième"))
+    ),
+    _unused("ALQN", "1/K", "Thermal rotation about the normal for each degree",
+       "Rotation thermique autour de la normale par degré"),
+    _unused("ALQS", "1/K", "Thermal rotation for each degree", "Rotation thermique par degré"),
+    *(
+        _unused(f"ALQ{i}", "1/K", f"Thermal rotation about the {en} tangent for each degree",
+           f"Rotation thermique autour de la {fr} tangente par degré")
+        for i, en, fr in (("1", "first", "première"), ("2", "second", "deuxième"))
+    ),
+)  # fmt: skip
+
+_PLASTIC = (
+    _p("SIGY", "Pa", "Yield stress", "Limite d'élasticité", range=POSITIVE,
+       usual=between(1e2, 1e11)),
+    _p("ECRO", None, "Curve of the strength over the cumulated plastic strain",
+       "Courbe de la limite en fonction de la déformation plastique cumulée"),
+    _p("TRAC", None, "Tension curve from zero, stress over the whole strain (in the place of ECRO)",
+       "Courbe de traction depuis zéro, contrainte en fonction de la déformation totale (au lieu "
+       "d'ECRO)"),
+    _p("H", "Pa", "Hardening modulus", "Module d'écrouissage"),
+    _p("LTR", "Pa", "Strength in simple tension", "Résistance en traction simple",
+       range=POSITIVE),
+    _p("LCS", "Pa", "Strength in simple compression", "Résistance en compression simple"),
+    _p("ALFA", "", "Weight of the trace of stresses in the criterion",
+       "Poids de la trace des contraintes dans le critère", ("DRUCKER_PRAGER",)),
+    _p("BETA", "", "Weight of the deviator of stresses in the criterion",
+       "Poids du déviateur des contraintes dans le critère", ("DRUCKER_PRAGER",),
+       range=POSITIVE),
+    _p("K", "Pa", "First strength of the criterion", "Résistance initiale du critère"),
+    _p("ETA", "", "Weight of the trace of stresses in the ultimate criterion",
+       "Poids de la trace des contraintes dans le critère ultime"),
+    _p("MU", "", "Weight of the deviator of stresses in the ultimate criterion",
+       "Poids du déviateur des contraintes dans le critère ultime", ("DRUCKER_PRAGER",),
+       range=POSITIVE),
+    _p("KL", "Pa", "Ultimate strength of the criterion", "Résistance ultime du critère"),
+    _p("GAMM", "", "Weight of the trace of stresses in the flow",
+       "Poids de la trace des contraintes dans l'écoulement"),
+    _p("DELT", "", "Weight of the deviator of stresses in the flow",
+       "Poids du déviateur des contraintes dans l'écoulement", range=NOT_NEGATIVE),
+    _p("COHE", "Pa", "Cohesion", "Cohésion", range=NOT_NEGATIVE, usual=between(0.0, 1e8)),
+    _p("COHE", "Pa", "Cohesion", "Cohésion", ("RH_COULOMB",), range=POSITIVE,
+       usual=between(0.0, 1e8)),
+    _p("PHI", "rad", "Friction angle", "Angle de frottement", ("RH_COULOMB",),
+       range=Range(0.0, 1.5707963267948966, True, True)),
+    _p("PHI", "deg", "Friction angle of the joint", "Angle de frottement du joint",
+       ("JOINT_DILATANT",), range=Range(0.0, 90.0, open_high=True)),
+    _p("MU", "deg", "Dilatancy angle of the joint", "Angle de dilatance du joint",
+       ("JOINT_DILATANT",), range=Range(0.0, 90.0, open_high=True)),
+    _p("AF1", None, "Factor of the creep strain; its unit depends on AF2 and AF3",
+       "Facteur de la déformation de fluage ; son unité dépend d'AF2 et AF3",
+       range=NOT_NEGATIVE),
+    _p("AF2", "", "Exponent of the stress in creep", "Exposant de la contrainte dans le fluage",
+       range=Range(1.0)),
+    _p("AF3", "", "Exponent of the time in creep", "Exposant du temps dans le fluage",
+       range=Range(0.0, 1.0, open_low=True)),
+    _unused("SMAX", "Pa", "Largest stress of creep", "Contrainte maximale du fluage"),
+)  # fmt: skip
+
+_CONTACT = (
+    _p("JEU", "m", "Gap that is open at the start", "Jeu ouvert au départ", default=0.0),
+    _p("MU", "", "Coulomb's coefficient of friction", "Coefficient de frottement de Coulomb",
+       ("CONTACT",), range=NOT_NEGATIVE, usual=between(0.0, 2.0)),
+    _p("COHE", "Pa", "Cohesion of the sides in contact", "Cohésion des bords en contact",
+       ("CONTACT",), range=NOT_NEGATIVE, default=0.0),
+    _p("FF", "", "Friction of the cable for each radian of its angle",
+       "Frottement du câble par radian de déviation", range=NOT_NEGATIVE,
+       usual=between(0.0, 1.0)),
+    _p("PHIF", "1/m", "Friction of the cable for each unit of its length",
+       "Frottement du câble par unité de longueur", range=NOT_NEGATIVE, usual=between(0.0, 0.1)),
+)  # fmt: skip
+
+_POINTS = (
+    _p("RAID", "N/m", "Stiffness on translations; a curve over the frequency for COMPLEXE",
+       "Raideur en translation ; courbe en fonction de la fréquence pour COMPLEXE",
+       range=NOT_NEGATIVE),
+    _p("VISC", "N s/m", "Dashpot; a curve over the frequency for COMPLEXE",
+       "Amortisseur ; courbe en fonction de la fréquence pour COMPLEXE", range=NOT_NEGATIVE),
+    _p("MASS", "kg", "Mass at the point", "Masse au point", range=NOT_NEGATIVE),
+    _p("MASS", "kg", "Modal mass", "Masse modale", ("MODAL",), range=NOT_NEGATIVE),
+    _p("AMOR", "%", "Damping in per cent of the critical one",
+       "Amortissement en pour cent du critique", range=NOT_NEGATIVE),
+    _p("AMOR", "N s/m", "Damping of the shape: its term in the matrix that AMOR makes",
+       "Amortissement de la forme, son terme dans la matrice que fait AMOR",
+       ("MODAL", "STATIQUE"), default=0.0),
+    _p("CPLE", "N m", "Stiffness on rotations (for each radian)",
+       "Raideur en rotation (par radian)", range=NOT_NEGATIVE),
+    _p("INER", "kg m2", "Inertia on rotations", "Inertie en rotation", range=NOT_NEGATIVE),
+    _p("AROT", "%", "Damping on rotations in per cent of the critical one",
+       "Amortissement en rotation en pour cent du critique", range=NOT_NEGATIVE),
+    _p("MOCO", None, "Curves over the frequency: stiffness MOCO and dashpot VISC",
+       "Courbes en fonction de la fréquence : raideur MOCO et amortisseur VISC"),
+    _unused("ZNU", "", "Poisson's ratio of a spring", "Coefficient de Poisson d'un ressort"),
+    _unused("ALPH", "1/K", "Thermal expansion of a spring", "Dilatation thermique d'un ressort",
+            ("impedance",)),
+    _p("FREQ", "Hz", "Frequency of the mode", "Fréquence du mode", range=NOT_NEGATIVE),
+    _p("DEFO", None, "Shape: displacements, a field at points",
+       "Déformée : déplacements, un champ par points"),
+    _p("RIDE", None, "Stiffness times the shape, a field at points",
+       "Rigidité multipliée par la déformée, un champ par points"),
+    _p("MADE", None, "Mass times the shape, a field at points",
+       "Masse multipliée par la déformée, un champ par points"),
+    _unused("CGRA", None, "Centre of gravity of the body, a point",
+            "Centre de gravité du corps, un point"),
+)  # fmt: skip
+
+_SECTIONS = (
+    _p("DIM3", "m", "Thickness in plane stress and plane strain",
+       "Épaisseur en contraintes et déformations planes", range=NOT_NEGATIVE, default=1.0),
+    _p("SECT", "m2", "Area of the section", "Aire de la section", range=NOT_NEGATIVE,
+       usual=between(1e-8, 1e4)),
+    _p("SECY", "m2", "Area reduced for shear along y (POUT: rigid without it; TIMO: SECT)",
+       "Section réduite à l'effort tranchant suivant y (POUT : rigide sinon ; TIMO : SECT)",
+       range=NOT_NEGATIVE),
+    _p("SECZ", "m2", "Area reduced for shear along z (POUT: rigid without it; TIMO: SECT)",
+       "Section réduite à l'effort tranchant suivant z (POUT : rigide sinon ; TIMO : SECT)",
+       range=NOT_NEGATIVE),
+    _p("INRY", "m4", "Second moment of area about the local axis y",
+       "Moment quadratique autour de l'axe local y", range=NOT_NEGATIVE),
+    _p("INRZ", "m4", "Second moment of area about the local axis z",
+       "Moment quadratique autour de l'axe local z", range=NOT_NEGATIVE),
+    _p("TORS", "m4", "Torsion constant", "Constante de torsion", range=NOT_NEGATIVE),
+    _p("VECT", None, "Vector in the plane of the local axes x and y",
+       "Vecteur du plan des axes locaux x et y"),
+    *(
+        _p(f"V{c}", "", f"Component {c} of the vector VECT", f"Composante {c} du vecteur VECT")
+        for c in "XYZ"
+    ),
+    *(
+        _p(f"D{c}", "m", f"Lever of the stresses of moment {m} in the section",
+           f"Bras de levier des contraintes du moment {m} dans la section")
+        for c, m in (("X", "MOMX"), ("Y", "MOMZ"), ("Z", "MOMY"))
+    ),
+    _p("OMEG", "rad/s", "Speed of rotation of the beam about itself",
+       "Vitesse de rotation propre de la poutre"),
+    _p("MODS", None, "Model of the section, made of POJS, TRIS and QUAS",
+       "Modèle de la section, fait de POJS, TRIS et QUAS"),
+    _p("MATS", None, "Material of the section, a field of MATE",
+       "Matériau de la section, un champ de MATE"),
+    _p("ALPY", "", "Factor of the shear stresses along y", "Facteur des cisaillements suivant y",
+       range=NOT_NEGATIVE),
+    _p("ALPZ", "", "Factor of the shear stresses along z", "Facteur des cisaillements suivant z",
+       range=NOT_NEGATIVE),
+    _p("EPAI", "m", "Thickness", "Épaisseur", range=NOT_NEGATIVE, usual=between(1e-5, 1e2)),
+    _unused("EPAI", "m", "Thickness of the joint", "Épaisseur du joint", ("joint",)),
+    _p("EXCE", "m", "Distance of the mid-surface from the mesh along the normal",
+       "Distance de la surface moyenne au maillage suivant la normale", default=0.0),
+    _p("ALFA", "", "Weight of the moments in the equivalent stress (2/3)",
+       "Poids des moments dans la contrainte équivalente (2/3)", _SHELLS, default=2 / 3),
+    _unused("CALF", "", "Weight in the criterion of a shell", "Poids dans le critère d'une coque"),
+    _p("RAYO", "m", "Radius of the footing", "Rayon de la fondation", ("MACRO_DISQUE",),
+       range=NOT_NEGATIVE),
+    _p("RAYO", "m", "Outer radius of the pipe", "Rayon extérieur du tuyau", range=NOT_NEGATIVE),
+    _p("RACO", "m", "Radius of the bend; 0: straight", "Rayon du coude ; 0 : droit", default=0.0,
+       range=NOT_NEGATIVE),
+    _p("PRES", "Pa", "Inner pressure", "Pression interne", default=0.0),
+    _unused("CISA", "", "Shear factor of the pipe", "Facteur de cisaillement du tuyau"),
+    _p("CFFX", "", "Factor of the normal force in the equivalent stress",
+       "Facteur de l'effort normal dans la contrainte équivalente", default=1.0),
+    _p("CFMX", "", "Factor of the torsion in the equivalent stress (square root of 3 without it)",
+       "Facteur de la torsion dans la contrainte équivalente (racine de 3 sinon)"),
+    _p("CFMY", "", "Factor of the moment about y in the equivalent stress",
+       "Facteur du moment autour de y dans la contrainte équivalente"),
+    _p("CFMZ", "", "Factor of the moment about z in the equivalent stress",
+       "Facteur du moment autour de z dans la contrainte équivalente"),
+    _p("CFPR", "", "Factor of the pressure in the equivalent stress",
+       "Facteur de la pression dans la contrainte équivalente"),
+)  # fmt: skip
+
+WORDS = (*_ELASTIC, *_ORTHOTROPIC, *_JOINTS, *_PLASTIC, *_CONTACT, *_POINTS, *_SECTIONS)

@@ -1,0 +1,162 @@
+"""What is said of a word: meanings, units, ranges."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Unit:
+    """A unit of the SI with the powers of mass, length, time and temperature in it.
+
+    A quantity in a system of other base units has the same powers.
+    """
+
+    symbol: str
+    mass: int = 0
+    length: int = 0
+    time: int = 0
+    temperature: int = 0
+
+
+UNITS: dict[str, Unit] = {
+    unit.symbol: unit
+    for unit in (
+        Unit(""),  # a pure number
+        Unit("rad"),
+        Unit("deg"),
+        Unit("%"),
+        Unit("m", length=1),
+        Unit("m2", length=2),
+        Unit("m3", length=3),
+        Unit("m4", length=4),
+        Unit("1/m", length=-1),
+        Unit("m/s", length=1, time=-1),
+        Unit("m/s2", length=1, time=-2),
+        Unit("s", time=1),
+        Unit("Hz", time=-1),
+        Unit("rad/s", time=-1),
+        Unit("kg", mass=1),
+        Unit("kg/m2", mass=1, length=-2),
+        Unit("kg/m3", mass=1, length=-3),
+        Unit("kg m2", mass=1, length=2),
+        Unit("N", mass=1, length=1, time=-2),
+        Unit("N m", mass=1, length=2, time=-2),
+        Unit("N/m", mass=1, time=-2),
+        Unit("N s/m", mass=1, time=-1),
+        Unit("N m s", mass=1, length=2, time=-1),
+        Unit("Pa", mass=1, length=-1, time=-2),
+        Unit("Pa s", mass=1, length=-1, time=-1),
+        Unit("Pa/m", mass=1, length=-2, time=-2),
+        Unit("J", mass=1, length=2, time=-2),
+        Unit("K", temperature=1),
+        Unit("1/K", temperature=-1),
+        Unit("m/K", length=1, temperature=-1),
+        Unit("1/(m K)", length=-1, temperature=-1),
+    )
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Range:
+    """Numbers from `low` to `high`; an open end does not belong to it."""
+
+    low: float = -math.inf
+    high: float = math.inf
+    open_low: bool = False
+    open_high: bool = False
+
+    def __contains__(self, value: float) -> bool:
+        above = value > self.low if self.open_low else value >= self.low
+        below = value < self.high if self.open_high else value <= self.high
+        return above and below
+
+    def text(self, name: str) -> str:
+        """As an inequality: 'NU > -1', '-1 < NU <= 0.5'."""
+        bounded = math.isfinite(self.low), math.isfinite(self.high)
+        left, right = "<" if self.open_low else "<=", "<" if self.open_high else "<="
+        if all(bounded):
+            return f"{self.low:g} {left} {name} {right} {self.high:g}"
+        if bounded[0]:
+            return f"{name} {left.replace('<', '>')} {self.low:g}"
+        return f"{name} {right} {self.high:g}" if bounded[1] else ""
+
+
+ANY_NUMBER = Range()
+POSITIVE = Range(0.0, open_low=True)
+NOT_NEGATIVE = Range(0.0)
+NOT_POSITIVE = Range(high=0.0)
+
+
+def between(low: float, high: float) -> Range:
+    """From `low` to `high`, both included."""
+    return Range(low, high)
+
+
+@dataclass(frozen=True, slots=True)
+class Word:
+    """One meaning of a word.
+
+    Attributes
+    ----------
+    name : str
+        In full, in capitals.
+    en, fr : str
+        What it is, one sentence without its full stop.
+    of : tuple of str
+        What the meaning is limited to: laws, elements, families of elements; empty: everywhere.
+    kind : str
+        What sort of a word it is among those of its list ('joint' law, 'stress' component).
+    """
+
+    name: str
+    en: str
+    fr: str
+    of: tuple[str, ...] = ()
+    kind: str = ""
+
+    def meaning(self, language: str) -> str:
+        """In English ('en') or French ('fr')."""
+        return self.fr if language == "fr" else self.en
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity(Word):
+    """A word that stands for a number: unit, what is admissible, what is usual.
+
+    Attributes
+    ----------
+    unit : str or None
+        A key of `UNITS`; None where it is no number, or depends on what it stands in.
+    range : Range
+        Outside of it the value is refused.
+    usual : Range
+        Outside of it the value is probably in another unit (SI).
+    default : float or None
+        What is taken where it is not given, if that is a number and the kernel has no data of it.
+    """
+
+    unit: str | None = ""
+    range: Range = ANY_NUMBER
+    usual: Range = ANY_NUMBER
+    default: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Option(Word):
+    """An option of OPTI.
+
+    Attributes
+    ----------
+    takes : str
+        Type word of its value ('ENTIER', 'MOT' ...), '' for words of its own.
+    values : tuple of Word
+        The words that it takes.
+    default : str
+        As one would write it.
+    """
+
+    takes: str = ""
+    values: tuple[Word, ...] = ()
+    default: str = ""

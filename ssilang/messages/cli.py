@@ -1,0 +1,46 @@
+"""What ssilang/cli refuses and warns of."""
+
+from ssilang.messages.message import Message
+
+MESSAGES: dict[str, Message] = {
+    "range-no-values-first": Message(
+        "the range {text} has no values: it is first:last:step",
+        "l'intervalle {text} n'a pas de valeurs : il s'écrit premier:dernier:pas",
+    ),
+    "not-name-value-ag": Message(
+        "'{text}' is not NAME=VALUE, such as AG=0.3 or AG=0.1:1.0:0.1",
+        "'{text}' n'est pas NOM=VALEUR, comme AG=0.3 ou AG=0.1:1.0:0.1",
+    ),
+    "nothing-sweep-set-name": Message(
+        "nothing to sweep: give --set NAME=VALUES or --motions DIR",
+        "rien à faire varier : donnez --set NOM=VALEURS ou --motions REPERTOIRE",
+    ),
+    "not-folder-ground-motions": Message(
+        "{folder} is not a folder of ground motions",
+        "{folder} n'est pas un répertoire d'accélérogrammes",
+    ),
+    "no-file": Message(
+        "there is no file in {folder}",
+        "il n'y a pas de fichier dans {folder}",
+    ),
+    "set-twice": Message(
+        "{name} is set twice",
+        "{name} est donné deux fois",
+    ),
+    "sweep-writes-parquet-pip": Message(
+        "a sweep writes Parquet: pip install 'ssilang[sweep]'",
+        "un balayage écrit du Parquet : pip install 'ssilang[sweep]'",
+    ),
+    "cluster-needs-dask-distributed": Message(
+        "a cluster needs dask.distributed: pip install 'ssilang[cluster]'",
+        "un cluster demande dask.distributed : pip install 'ssilang[cluster]'",
+    ),
+    "several-values": Message(
+        "{text} gives {name} several values: that is a sweep",
+        "{text} donne à {name} plusieurs valeurs : c'est un balayage",
+    ),
+    "range-values": Message(
+        "the range {text} has {count} {count:value|values}",
+        "l'intervalle {text} a {count} {count:valeur|valeurs}",
+    ),
+}

@@ -1,0 +1,182 @@
+"""What ssilang/io refuses and warns of."""
+
+from ssilang.messages.message import Message
+
+MESSAGES: dict[str, Message] = {
+    "field-no-component": Message(
+        "the field has no component '{component}', it has {names}",
+        "le champ n'a pas de composante '{component}', il a {names}",
+    ),
+    "no-number-format": Message(
+        "'{descriptor}' is no number format",
+        "'{descriptor}' n'est pas un format de nombre",
+        "write '(F6.2)' or '(I4)'",
+        "écrivez '(F6.2)' ou '(I4)'",
+    ),
+    "nothing-draw-mesh-empty": Message(
+        "there is nothing to draw: the mesh is empty",
+        "il n'y a rien à tracer : le maillage est vide",
+    ),
+    "marq-no-marker": Message(
+        "MARQ has no marker",
+        "MARQ n'a pas de marqueur",
+        "markers are {markers:words}",
+        "les marqueurs sont {markers:words}",
+    ),
+    "no-marker": Message(
+        "'{word}' is no marker",
+        "'{word}' n'est pas un marqueur",
+        "markers are {markers:words}",
+        "les marqueurs sont {markers:words}",
+    ),
+    "no-line-option": Message(
+        "'{word}' is no line option",
+        "'{word}' n'est pas une option de ligne",
+        "options are {options}",
+        "les options sont {options}",
+    ),
+    "three-points-plane-lie": Message(
+        "the three points of the plane lie on a line",
+        "les trois points du plan sont alignés",
+    ),
+    "curve-asked-evolution": Message(
+        "curve {bad} is asked for, the evolution has {count}",
+        "la courbe {bad} est demandée, l'évolution en a {count}",
+    ),
+    "graduations-every-axis-too": Message(
+        "graduations every {step:g} on an axis from {low:g} to {high:g} are too many",
+        "des graduations tous les {step:g} sur un axe de {low:g} à {high:g} sont trop nombreuses",
+    ),
+    "colour-number-not": Message(
+        "colour number {colour} is not in 0..{n_names}",
+        "le numéro de couleur {colour} n'est pas dans 0..{n_names}",
+    ),
+    "no-colour": Message(
+        "'{name}' is no colour",
+        "'{name}' n'est pas une couleur",
+        "colours are {names:words}",
+        "les couleurs sont {names:words}",
+    ),
+    "line-no-finite-number": Message(
+        "{name}, line {line}: '{text}' is no finite number",
+        "{name}, ligne {line} : '{text}' n'est pas un nombre fini",
+        "a gap in a record: fill it before, or leave the line out",
+        "un trou dans un enregistrement : comblez-le avant, ou ôtez la ligne",
+    ),
+    "cannot-read": Message(
+        "{path} cannot be read: {strerror}",
+        "{path} ne peut être lu : {strerror}",
+    ),
+    "line-no-number": Message(
+        "{name}, line {line}: '{text}' is no number",
+        "{name}, ligne {line} : '{text}' n'est pas un nombre",
+        "begin behind the titles with 'DEBU', or name another separator with 'SEPA'",
+        "commencez après les titres par 'DEBU', ou nommez un autre séparateur par 'SEPA'",
+    ),
+    "cannot-written": Message(
+        "{path} cannot be written: {strerror}",
+        "{path} ne peut être écrit : {strerror}",
+        "check the directory given by --out, its rights and the space left on the disk",
+        "vérifiez le répertoire donné par --out, ses droits et la place qui reste sur le disque",
+    ),
+    "not-readable-pvd-collection": Message(
+        "{path} is not a readable .pvd collection: {error}",
+        "{path} n'est pas une collection .pvd lisible : {error}",
+    ),
+    "step-time-comes-after": Message(
+        "step at time {time:g} comes after the one at {last_time:g}",
+        "le pas au temps {time:g} vient après celui au temps {last_time:g}",
+    ),
+    "series-parts-step-brings": Message(
+        "the series has the parts ({old}), the step brings ({new})",
+        "la série a les parties ({old}), le pas apporte ({new})",
+    ),
+    "cells-no-vtk-counterpart": Message(
+        "cells {cell_type} have no VTK counterpart",
+        "les éléments {cell_type} n'ont pas d'équivalent VTK",
+    ),
+    "no-file-sauv-ssilang": Message(
+        "{name} is no file that SAUV of ssilang wrote: {error}",
+        "{name} n'est pas un fichier écrit par SAUV de ssilang : {error}",
+        "files of Cast3M itself cannot be restored",
+        "les fichiers de Cast3M même ne peuvent être restitués",
+    ),
+    "written-later-version-ssilang": Message(
+        "{name} was written by a later version of ssilang",
+        "{name} a été écrit par une version plus récente de ssilang",
+    ),
+    "holds-unknown-kind-data": Message(
+        "{name} holds an unknown kind of data '{kind}'",
+        "{name} contient des données de nature inconnue '{kind}'",
+    ),
+    "damaged": Message(
+        "{name} is damaged: {error}",
+        "{name} est endommagé : {error}",
+    ),
+    "save-file-holds-object": Message(
+        "the save file holds an object of unknown kind '{tag}'",
+        "le fichier de sauvegarde contient un objet de nature inconnue '{tag}'",
+    ),
+    "object-class-cannot-saved": Message(
+        "an object of class {name} cannot be saved",
+        "un objet de classe {name} ne peut être sauvé",
+    ),
+    "save-file-asks-no": Message(
+        "the save file asks for '{name}', which is no saved object's class",
+        "le fichier de sauvegarde demande '{name}', qui n'est pas une classe d'objets sauvés",
+    ),
+    "save-file-asks-not": Message(
+        "the save file asks for '{name}', which does not exist here",
+        "le fichier de sauvegarde demande '{name}', qui n'existe pas ici",
+    ),
+    "line-no-npts-dt": Message(
+        "{name}: line 4 has no 'NPTS= ..., DT= ... SEC'",
+        "{name} : la ligne 4 n'a pas de 'NPTS= ..., DT= ... SEC'",
+        "a PEER file has 4 lines of text before its values; LIRE 'CSV' reads plain columns",
+        "un fichier PEER a 4 lignes de texte avant ses valeurs ; LIRE 'CSV' lit de simples "
+        "colonnes",
+    ),
+    "line-no-number-2": Message(
+        "{name}, line {number}: '{rest}' is no number",
+        "{name}, ligne {number} : '{rest}' n'est pas un nombre",
+    ),
+    "field-cells-not-cover": Message(
+        "the field in cells does not cover the mesh",
+        "le champ par élément ne couvre pas le maillage",
+    ),
+    "cells-no-avs-counterpart": Message(
+        "cells {cell_type} have no AVS counterpart",
+        "les éléments {cell_type} n'ont pas d'équivalent AVS",
+    ),
+    "no-readable-avs-file": Message(
+        "{name} is no readable AVS file: {error}",
+        "{name} n'est pas un fichier AVS lisible : {error}",
+    ),
+    "stl-holds-tri3-only": Message(
+        "STL holds TRI3 only, the mesh has {others:?{others}|no cells}",
+        "STL ne contient que des TRI3, le maillage {others:?a des {others}|n'a pas d'éléments}",
+    ),
+    "holds-no-triangles": Message(
+        "{name} holds no triangles",
+        "{name} ne contient pas de triangles",
+    ),
+    "no-readable-stl-file": Message(
+        "{name} is no readable STL file: {error}",
+        "{name} n'est pas un fichier STL lisible : {error}",
+    ),
+    "holds-no-nodes-dataset": Message(
+        "{name} holds no nodes (dataset 2411)",
+        "{name} ne contient pas de noeuds (dataset 2411)",
+    ),
+    "no-readable-unv-file": Message(
+        "{name} is no readable UNV file: {error}",
+        "{name} n'est pas un fichier UNV lisible : {error}",
+    ),
+    "line-says-values-file": Message(
+        "{name}: line 4 says {count} {count:value|values}, the file holds {n_values}",
+        "{name} : la ligne 4 annonce {count} {count:valeur|valeurs}, le fichier en contient "
+        "{n_values}",
+        "the file is cut: fetch it again",
+        "le fichier est tronqué : récupérez-le de nouveau",
+    ),
+}

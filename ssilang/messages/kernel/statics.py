@@ -1,0 +1,173 @@
+"""What ssilang/kernel/statics refuses and warns of."""
+
+from ssilang.messages.message import Message
+
+MESSAGES: dict[str, Message] = {
+    "matrix-not-symmetric-eigenvalues": Message(
+        "the matrix is not symmetric: its eigenvalues need not be real",
+        "la matrice n'est pas symétrique : ses valeurs propres peuvent ne pas être réelles",
+    ),
+    "answer-law-creep-depends": Message(
+        "the answer of a law of creep depends on the duration of the step",
+        "la réponse d'une loi de fluage dépend de la durée du pas",
+        "PASAPAS and DYNAMIC take such models",
+        "PASAPAS et DYNAMIC prennent ces modèles",
+    ),
+    "plastic-shells-no-law": Message(
+        "plastic shells have no law between their forces and strains alone",
+        "les coques plastiques n'ont pas de loi entre leurs seuls efforts et déformations",
+        "PASAPAS and DYNAMIC take such models",
+        "PASAPAS et DYNAMIC prennent ces modèles",
+    ),
+    "hz-system-singular": Message(
+        "at {frequency:g} Hz the system is singular",
+        "à {frequency:g} Hz le système est singulier",
+        "undamped resonance, or a free motion at 0 Hz: leave this frequency out or add damping",
+        "résonance sans amortissement, ou mouvement libre à 0 Hz : ôter cette fréquence ou amortir",
+    ),
+    "load-matrices-lack": Message(
+        "the load {name} has {lost}, which the matrices lack",
+        "la charge {name} a {lost}, que les matrices n'ont pas",
+        "forces act on nodes and unknowns of the model",
+        "les forces agissent sur des noeuds et des inconnues du modèle",
+    ),
+    "matrix-empty-nothing-solve": Message(
+        "the matrix is empty: there is nothing to solve",
+        "la matrice est vide : il n'y a rien à résoudre",
+    ),
+    "conditions-contradict-cannot-take": Message(
+        "conditions contradict each other: one on {names} cannot take the value {d:.6g}",
+        "des blocages se contredisent : l'un, sur {names}, ne peut prendre la valeur {d:.6g}",
+        "the same unknown is imposed twice with different values",
+        "la même inconnue est imposée deux fois, avec des valeurs différentes",
+    ),
+    "cable-branches-node": Message(
+        "the cable branches at node {count}",
+        "le câble a un branchement au noeud {count}",
+    ),
+    "cable-node-ring-no": Message(
+        "the cable at node {node} is a ring: it has no end to be pulled at",
+        "le câble au noeud {node} est un anneau : il n'a pas de bout où le tirer",
+    ),
+    "law-element-no-criterion": Message(
+        "the law {words:words} of element {element} has no criterion here",
+        "la loi {words:words} de l'élément {element} n'a pas de critère ici",
+        "there are {criteria} and the joints' laws",
+        "il y a {criteria} et les lois des joints",
+    ),
+    "joints-law-no-criterion": Message(
+        "joints {element} with this law have no criterion",
+        "les joints {element} n'ont pas de critère avec cette loi",
+    ),
+    "load-needs-field-temperatures": Message(
+        "the load T needs a field of temperatures",
+        "le chargement T demande un champ de températures",
+    ),
+    "more-bodies": Message(
+        "{count} more {count:body|bodies}",
+        "{count} {count:autre|autres} corps",
+    ),
+    "motions": Message(
+        "{motions}",
+        "{motions}",
+    ),
+    "motions-of-body": Message(
+        "the body of {n_nodes} {n_nodes:node|nodes} around ({place:.4g}): "
+        "{motions:?{motions}|a mechanism}",
+        "le corps de {n_nodes} {n_nodes:noeud|noeuds} autour de ({place:.4g}) : "
+        "{motions:?{motions}|un mécanisme}",
+    ),
+    "translation": Message(
+        "translation along {axis}",
+        "translation suivant {axis}",
+    ),
+    "rotation": Message(
+        "rotation about {axis}",
+        "rotation autour de {axis}",
+    ),
+    "rotation-around": Message(
+        "rotation about {axis} around ({place:.4g})",
+        "rotation autour de {axis} au point ({place:.4g})",
+    ),
+    "held-by-contact-alone": Message(
+        "{failure}; held by them alone: {motions:?{motions:;}|a mechanism}",
+        "{failure} ; tenus par elles seules : {motions:?{motions:;}|un mécanisme}",
+        "{failure!h}",
+        "{failure!h}",
+    ),
+    "at-load-step": Message(
+        "load step {step}, time {time:g}: {failure}",
+        "pas de charge {step}, temps {time:g} : {failure}",
+        "{failure!h}",
+        "{failure!h}",
+    ),
+    "no-equilibrium-found-residual": Message(
+        "load step {step}, time {time:g}: no equilibrium found (residual {residual:.1e} of "
+        "the jump after {turns} {turns:iteration|iterations})",
+        "pas de charge {step}, temps {time:g} : aucun équilibre trouvé (résidu "
+        "{residual:.1e} du saut après {turns} {turns:itération|itérations})",
+        "smaller load steps",
+        "des pas de charge plus petits",
+    ),
+    "beams-sections-fibres-no": Message(
+        "beams with sections of fibres have no law between their forces and strains alone",
+        "les poutres à fibres n'ont pas de loi entre leurs seuls efforts et déformations",
+    ),
+    "unknowns-too-many-choose": Message(
+        "{size} unknowns are too many to choose frequencies for",
+        "{size} inconnues sont trop pour un choix des fréquences",
+    ),
+    "system-no-natural-frequency": Message(
+        "the system has no natural frequency to choose a sweep from",
+        "le système n'a pas de fréquence propre pour choisir un balayage",
+    ),
+    "load-ends-hz-below": Message(
+        "the load ends at {high:g} Hz, below the response, which begins at {low:g} Hz",
+        "le chargement finit à {high:g} Hz, sous la réponse, qui commence à {low:g} Hz",
+    ),
+    "unilateral-condition-no-harmonic": Message(
+        "a unilateral condition has no harmonic response",
+        "une condition unilatérale n'a pas de réponse harmonique",
+    ),
+    "load-not-mechanical": Message(
+        "the load {name} is not mechanical",
+        "le chargement {name} n'est pas mécanique",
+    ),
+    "loads-drive-motions": Message(
+        "the matrix is singular, with {count} {count:free motion|free motions} that the "
+        "loads drive{motions:? ({motions:;})}",
+        "la matrice est singulière : {count} {count:mouvement libre|mouvements libres}, que "
+        "le chargement entraîne{motions:? ({motions:;})}",
+        "not held: {free}{more:? and {more} more}{apart:?; {apart} {apart:node lies on a "
+        "node|nodes lie on nodes} of another body}",
+        "non tenu : {free}{more:? et {more} {more:autre|autres}}{apart:? ; {apart} "
+        "{apart:noeud est sur celui|noeuds sont sur ceux} d'un autre corps}",
+    ),
+    "matrix-no-unknown-force": Message(
+        "the matrix has no unknown for the force {lost}{more:? and {more} more}",
+        "la matrice n'a pas d'inconnue pour la force {lost}{more:? et {more} {more:autre|autres}}",
+        "{n_above:?node {above} lies on node {below} of the matrix|take it out of the second "
+        "member}",
+        "{n_above:?le noeud {above} est sur le noeud {below} de la matrice|ôtez-la du second "
+        "membre}",
+    ),
+    "no-equilibrium-full-uplift": Message(
+        "load step {step}, time {time:g}: no equilibrium, full uplift: {open_points} of "
+        "{n_points} joint points are open and nothing else holds the body at node {node}",
+        "pas de charge {step}, temps {time:g} : pas d'équilibre, décollement total : "
+        "{open_points} des {n_points} points de joint sont ouverts et rien d'autre ne tient "
+        "le corps au noeud {node}",
+        "less eccentric loads, a support, or a dynamic calculation; if the loads press, the "
+        "joint's sides are swapped",
+        "un chargement moins excentré, un appui, ou un calcul dynamique ; si le chargement "
+        "presse, les côtés du joint sont inversés",
+    ),
+    "mechanical-load-made-nodal": Message(
+        "a mechanical load is made of nodal fields",
+        "un chargement mécanique est fait de champs par points",
+    ),
+    "mota-knows-von-mises": Message(
+        "this is known for von Mises laws, not for {name}",
+        "ceci est connu pour les lois de von Mises, pas pour {name}",
+    ),
+}

@@ -1,0 +1,351 @@
+"""What help says of a word: its page, all its meanings, or what a search finds."""
+
+from __future__ import annotations
+
+import re
+import textwrap
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import cache
+
+from ssilang.kernel.elements.catalog import ELEMENTS
+from ssilang.kernel.matrices.matrix import PRIMAL_TO_DUAL
+from ssilang.language import vocabulary
+from ssilang.language.near import nearest
+from ssilang.language.registry import OPERATORS, keywords_of
+from ssilang.language.run.library import standard_procedures
+from ssilang.language.say.reference import (
+    WIDTH,
+    Page,
+    find_page,
+    first_sentence,
+    operator_page,
+    page_names,
+    page_text,
+    procedure_page,
+)
+from ssilang.language.search import Item, search
+from ssilang.language.vocabulary.examples import example
+from ssilang.language.vocabulary.terms import Option, Quantity, Word
+from ssilang.operators import words
+from ssilang.resources import resource
+
+_SHOWN = 20  # lines of a search
+
+_TEXTS: Mapping[str, tuple[str, str]] = {
+    "formulation": ("formulation of MODE", "formulation de MODE"),
+    "parameter": ("parameter of MATE or CARA", "paramètre de MATE ou CARA"),
+    "option": ("option of OPTI", "option d'OPTI"),
+    "value": ("value of OPTI {}", "valeur d'OPTI {}"),
+    "law elasticity": ("law of elasticity", "loi d'élasticité"),
+    "law plastic": ("plastic law", "loi plastique"),
+    "law creep": ("law of creep", "loi de fluage"),
+    "law joint": ("law of joints", "loi de joint"),
+    "law impedance": ("law of impedance", "loi d'impédance"),
+    "law contact": ("word of contact", "mot du contact"),
+    "law load": ("word of loading", "mot de chargement"),
+    "law choice": ("word of MODE", "mot de MODE"),
+    "element body": ("element of bodies", "élément massif"),
+    "element incompressible": ("element of bodies", "élément massif"),
+    "element structure": ("element of structures", "élément de structure"),
+    "element section": ("element of sections", "élément de section"),
+    "element shell": ("element of shells", "élément de coque"),
+    "element load": ("loaded side", "bord chargé"),
+    "element joint": ("joint element", "élément joint"),
+    "element shape": ("point of a shape", "point d'une forme"),
+    "element impedance": ("spring and dashpot", "ressort et amortisseur"),
+    "element contact": ("side of contact", "bord de contact"),
+    "element generic": ("several elements", "plusieurs éléments"),
+    "component unknown": ("unknown", "inconnue"),
+    "component force": ("force", "force"),
+    "component strain": ("strain", "déformation"),
+    "component curvature": ("curvature", "courbure"),
+    "component jump": ("jump of a joint", "saut d'un joint"),
+    "component stress": ("stress", "contrainte"),
+    "component traction": ("traction of a joint", "traction d'un joint"),
+    "component section force": ("section force", "effort de section"),
+    "component principal": ("principal value", "valeur principale"),
+    "component variable": ("internal variable", "variable interne"),
+    "component scalar": ("component", "composante"),
+    "keyword": ("keyword of", "mot-clé de"),
+    "operator": ("operator", "opérateur"),
+    "procedure": ("procedure", "procédure"),
+    "elements": ("Elements", "Éléments"),
+    "cells": ("Cells", "Mailles"),
+    "hypotheses": ("Hypotheses", "Hypothèses"),
+    "unknowns": ("Unknowns", "Inconnues"),
+    "strains": ("Strains", "Déformations"),
+    "stresses": ("Stresses", "Contraintes"),
+    "laws": ("Laws", "Lois"),
+    "parameters": ("Parameters", "Paramètres"),
+    "required": ("required", "obligatoire"),
+    "axes": ("Set by DIRECTION, RADIAL", "Donnés par DIRECTION, RADIAL"),
+    "unused": ("Taken without effect", "Lus sans effet"),
+    "unit": ("Unit", "Unité"),
+    "default": ("Default", "Défaut"),
+    "range": ("Range", "Domaine"),
+    "usual": ("Usual (SI)", "Usuel (SI)"),
+    "dual": ("Dual", "Duale"),
+    "of_laws": ("Of laws", "Des lois"),
+    "of_elements": ("Of elements", "Des éléments"),
+    "values": ("Values", "Valeurs"),
+    "takes": ("Takes", "Valeur"),
+    "example": ("Example", "Exemple"),
+    "see": ("See also", "Voir aussi"),
+    "near": ("did you mean {}?", "vouliez-vous dire {} ?"),
+    "found": ("What help knows of '{}':", "Ce que l'aide sait de « {} » :"),
+    "more": ("... and {} more", "... et {} autres"),
+}  # fmt: skip
+
+
+def _text(key: str, language: str) -> str:
+    return _TEXTS[key][language == "fr"]
+
+
+# ---- the page of a word of the vocabulary -------------------------------------------------------
+
+
+def vocabulary_text(kind: str, word: Word, language: str) -> str:
+    """The page of one meaning of a word."""
+    lines = [f"{word.name} : {label(kind, word, language)}", ""]
+    lines += textwrap.wrap(word.meaning(language) + ".", WIDTH)
+    for part in _PARTS.get(kind, lambda *_: [])(word, language):
+        lines += ["", *part] if isinstance(part, list) else [part]
+    shown = example(kind, word)
+    if kind == "parameter":
+        examples = (example(_kind_of(owner), owner) for owner, _ in _owners(word))
+        shown = next((e for e in examples if f"'{word.name}'" in e), "")
+    if shown:
+        lines += ["", _text("example", language)]
+        lines += ["    " + line for line in shown.split("\n")]
+    see = _see_also(kind, word)
+    if see:
+        lines += ["", *_filled(_text("see", language), see)]
+    return "\n".join(lines)
+
+
+def label(kind: str, word: Word, language: str) -> str:
+    """What sort of a word it is: 'law of joints'."""
+    text = _text(f"{kind} {word.kind}" if word.kind and kind != "parameter" else kind, language)
+    return text.format(*word.of) if kind == "value" else text
+
+
+def _filled(head: str, names: Iterable[str]) -> list[str]:
+    """A head with a list of names, wrapped under themselves."""
+    text = " ".join(names)
+    return textwrap.wrap(f"{head:<14}{text}", WIDTH, subsequent_indent=" " * 14) if text else []
+
+
+def _law(law: Word, language: str) -> Iterator[str | list[str]]:
+    zone = words.sample_of_law(law)
+    head = _filled(_text("elements", language), words.elements_of_law(law))
+    if head:
+        yield head
+    if zone is not None:
+        yield _table(words.parameter_rows(zone), language)
+
+
+def _element(element: Word, language: str) -> Iterator[str | list[str]]:
+    name = element.name
+    lines = _filled(_text("cells", language), words.cells_of(name))
+    if name not in ELEMENTS:
+        yield lines
+        return
+    for part in words.components_of(name):
+        modes = ", ".join(m.value for m in part.modes)
+        lines += _filled(_text("hypotheses", language), [modes])
+        lines += _filled("  " + _text("unknowns", language), part.unknowns)
+        lines += _filled("  " + _text("strains", language), part.strains)
+        lines += _filled("  " + _text("stresses", language), part.stresses)
+    lines += _filled(_text("laws", language), [", ".join(words.laws_of(name))])
+    yield lines
+    zone = list(words.samples_of_element(name))[-1]
+    yield _table(words.parameter_rows(zone, section=True), language)
+
+
+def _table(rows: Sequence[words.Row], language: str) -> list[str]:
+    """Name, unit, default, range and meaning of parameters."""
+    used = [r for r in rows if not r.word.kind]
+    lines = [_text("parameters", language)] if used else []
+    for row in used:
+        default = _text("required", language) if row.required else _number(row.default)
+        span = row.word.range.text(row.word.name)
+        head = f"    {row.word.name:<5} {row.word.unit or '-':<7} {default:<11} {span:<20} "
+        lines += textwrap.wrap(
+            head + row.word.meaning(language), 100, subsequent_indent=" " * len(head)
+        )
+    for kind in (words.AXES, words.UNUSED):
+        names = [r.word.name for r in rows if r.word.kind == kind]
+        lines += [f"    {_text(kind, language)} : {' '.join(names)}"] if names else []
+    return lines
+
+
+def _number(value: float | None) -> str:
+    return "-" if value is None else f"{value:g}"
+
+
+def _owners(parameter: Word) -> list[tuple[Word, Quantity]]:
+    return [(o, w) for o, w in words.owners(parameter.name) if w is parameter]
+
+
+def _kind_of(word: Word) -> str:
+    return "law" if word in vocabulary.words("law") else "element"
+
+
+def _parameter(word: Word, language: str) -> Iterator[str | list[str]]:
+    assert isinstance(word, Quantity)
+    facts = [
+        ("unit", "-" if word.unit is None else word.unit or "1"),
+        ("default", _number(word.default)),
+        ("range", word.range.text(word.name) or "-"),
+        ("usual", word.usual.text(word.name)),
+    ]
+    lines = [f"{_text(key, language):<14}{value}" for key, value in facts if value]
+    owners = [o for o, _ in _owners(word)]
+    lines += _filled(_text("of_laws", language), [o.name for o in owners if _kind_of(o) == "law"])
+    elements = [o.name for o in owners if _kind_of(o) == "element"]
+    yield lines + _filled(_text("of_elements", language), elements)
+
+
+def _component(word: Word, language: str) -> Iterator[str | list[str]]:
+    assert isinstance(word, Quantity)
+    lines = [f"{_text('unit', language):<14}{word.unit or '1'}"] if word.unit is not None else []
+    dual = {**{d: p for p, d in PRIMAL_TO_DUAL.items()}, **PRIMAL_TO_DUAL}.get(word.name)
+    lines += _filled(_text("dual", language), [dual] if dual else [])
+    owners = [e for e in words.elements_with(word.name) if _means(e, word)]
+    yield lines + _filled(_text("of_elements", language), owners)
+
+
+def _means(element: str, word: Word) -> bool:
+    """Whether a component has this meaning at an element."""
+    owners = (element, ELEMENTS[element].family)
+    return vocabulary.find("component", word.name, owners) is word
+
+
+def _option(word: Word, language: str) -> Iterator[str | list[str]]:
+    assert isinstance(word, Option)
+    facts = [("takes", word.takes), ("default", word.default)]
+    lines = [f"{_text(key, language):<14}{value}" for key, value in facts if value]
+    if lines:
+        yield lines
+    if word.values:
+        told = [f"    {v.name:<9} {v.meaning(language)}" for v in word.values]
+        yield [_text("values", language), *told]
+
+
+def _formulation(word: Word, language: str) -> Iterator[str | list[str]]:
+    kinds = {"CONTACT": ("contact",), "CHARGEMENT": ("load",)}.get(
+        word.name, ("elasticity", "plastic", "creep", "joint", "impedance")
+    )
+    laws = dict.fromkeys(w.name for w in vocabulary.words("law") if w.kind in kinds)
+    yield _filled(_text("laws", language), laws)
+
+
+_PARTS = {
+    "law": _law,
+    "element": _element,
+    "parameter": _parameter,
+    "component": _component,
+    "option": _option,
+    "formulation": _formulation,
+}
+
+
+def _see_also(kind: str, word: Word) -> list[str]:
+    """Operators, neighbours, pages of the manual that name the word."""
+    operators = {"option": ["OPTI", "VALE"], "value": ["OPTI"], "component": ["EXCO"]}
+    found = operators.get(kind, ["MODE", "MATE"])
+    if kind in ("law", "element") and word.kind:
+        alike = [w.name for w in vocabulary.words(kind) if w.kind == word.kind and w is not word]
+        found = [*found, *dict.fromkeys(alike[:8])]
+    pattern = re.compile(rf"\b{re.escape(word.name)}\b")
+    return [*found, *(name for name, text in _manual() if pattern.search(text))]
+
+
+# ---- everything that help knows --------------------------------------------------------------
+
+
+@cache
+def _manual() -> tuple[tuple[str, str], ...]:
+    """Pages of the manual by their path, where they are installed, without what is generated."""
+    try:
+        folder = resource("docs")
+    except FileNotFoundError:
+        return ()
+    pages = sorted(folder.glob("*.md"))
+    return tuple((f"docs/{p.name}", p.read_text(encoding="utf-8")) for p in pages)
+
+
+def _pages() -> list[Page]:
+    known = standard_procedures()
+    made = [operator_page(o) for name, o in sorted(OPERATORS.items()) if o.name == name]
+    return made + [procedure_page(known[name]) for name in sorted(known)]
+
+
+def items(language: str) -> Iterator[Item]:
+    """Operators, procedures, words and pages of the manual."""
+    for page in _pages():
+        own = page.help.fr if language == "fr" else page.help.en
+        whole = f"{page.full_name} {page.title} {page.help.en} {page.help.fr} {page.help.syntax}"
+        yield Item(page.name, _text(page.kind, language), first_sentence(own), whole)
+    for kind in vocabulary.KINDS:
+        for word in vocabulary.words(kind):
+            meaning = words.described(word, language)
+            yield Item(word.name, label(kind, word, language), meaning, f"{word.en} {word.fr}")
+    for path, text in _manual():
+        for part in re.split(r"(?m)^(?=#+ )", text):
+            title = part.partition("\n")[0].lstrip("# ").strip()
+            if title:
+                yield Item(path, "", title, part)
+
+
+def exact_pages(word: str, language: str) -> list[str]:
+    """The pages of an operator or procedure and of all words that are named so.
+
+    A word of the everyday language ('contact') is searched besides.
+    """
+    said = word.upper().strip()
+    page = find_page(said, standard_procedures())
+    pages = []
+    if page is not None and (said in _names(page) or page.full_name.startswith(said)):
+        pages.append(page_text(page, language))
+    for kind, found in vocabulary.all_meanings(said):
+        if found.name.startswith(said):
+            pages.append(vocabulary_text(kind, found, language))
+    known = [o for name, o in sorted(OPERATORS.items()) if o.name == name]
+    readers = [o.name for o in known if said in keywords_of(o)]
+    if readers:
+        pages.append("\n".join(_filled(f"{said} : {_text('keyword', language)} ", readers)))
+    if pages and len(said) > vocabulary.SHORT and said.isalpha():
+        pages.append(found_text(word, language))
+    return [p for p in pages if p]
+
+
+def _names(page: Page) -> tuple[str, ...]:
+    aliases = OPERATORS[page.name].aliases if page.name in OPERATORS else ()
+    return (page.name, page.full_name, *aliases)
+
+
+def found_text(query: str, language: str) -> str:
+    """A line for each thing that a search finds, '' if there is none."""
+    lines: dict[tuple[str, str], str] = {}
+    for item in search(query, items(language)):
+        kind = f"[{item.label}] " if item.label else ""
+        text = textwrap.shorten(kind + item.summary, 80, placeholder=" ...")
+        lines.setdefault((item.name, item.label), f"  {item.name:<17} {text}")
+    if not lines:
+        return ""
+    head, shown = _text("found", language).format(query.strip()), list(lines.values())[:_SHOWN]
+    left = len(lines) - len(shown)
+    more = [f"  {_text('more', language).format(left)}"] if left else []
+    return "\n".join([head, *shown, *more])
+
+
+def help_text(word: str, language: str) -> str:
+    """What help says of a word: its pages, else what a search finds; '' if nothing."""
+    return "\n\n".join(exact_pages(word, language)) or found_text(word, language)
+
+
+def near_name(word: str) -> str:
+    """The known name that looks most like a word, '' if none does."""
+    known: set[str] = page_names(standard_procedures())
+    return nearest(word, known.union(*(vocabulary.names(kind) for kind in vocabulary.KINDS)))

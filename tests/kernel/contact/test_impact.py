@@ -1,0 +1,131 @@
+"""Unilateral relations in time: velocity corrections, methods, modified mass."""
+
+import numpy as np
+import pytest
+from references.assembled import Bench
+from references.oscillators import MASS, STRUCTURE_STIFFNESS, ClubA
+from references.recorder import Recorder
+
+from ssilang.kernel.contact.options import ContactOptions
+from ssilang.kernel.solvers.active_set.contact_methods import METHODS
+from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
+from ssilang.kernel.stepping.run import integrate
+
+
+def club_a(steps: int, options: ContactOptions, duration: float = 0.4, **joint):
+    """The oscillator above a rigid stop (a relation MINI, or a joint)."""
+    bench = Bench()
+    top = bench.node(0.0, 0.0)
+    bench.spring(STRUCTURE_STIFFNESS, top, unknown="UX")
+    bench.mass(MASS, top)
+    bench.fix(top, "UY")
+    if joint:
+        soil = bench.node(-1.0, 0.0)
+        bench.fix(soil)
+        bench.joint("SEG2", [soil, top], "JOI1", KS=0.0, **joint)
+    else:
+        bench.relate([(1.0, "UX", top)], sense=1)
+    dt = 0.1 / steps
+    problem = make_problem(
+        Inputs(
+            bench.stiffness,
+            np.arange(round(duration / dt) + 1) * dt,
+            bench.mass_matrix,
+            displacement=bench.field((top, "UX", 0.01)),
+            model=bench.model,
+            characteristics=bench.characteristics,
+            contact_options=options,
+        )
+    )
+    recorder = Recorder(len(problem.times))
+    history = integrate(problem, [recorder])
+    return problem.times, recorder.of("u")[:, problem.numbering.index_of(top, "UX")], history
+
+
+def energies(history):
+    return history.energies[:, :2].sum(axis=1)
+
+
+def test_uncorrected_multipliers_gain_energy():
+    _, _, history = club_a(101, ContactOptions())
+    assert energies(history).max() > 1.2 * energies(history)[0]
+
+
+@pytest.mark.parametrize("correction", ["MASSE", "RIGIDITE"])
+def test_corrected_impact_keeps_the_energy_on_open_steps(correction):
+    times, u, history = club_a(1009, ContactOptions(correction=correction))
+    total = energies(history)
+    opened = u > 1e-12
+    np.testing.assert_allclose(total[opened], total[0], rtol=1e-10)
+    exact, _ = ClubA().motion(times)
+    assert np.abs(u - exact).max() < 0.1 * 0.01  # each impact comes late by less than a step
+
+
+def test_both_corrections_agree_on_one_degree_of_freedom():
+    _, one, _ = club_a(211, ContactOptions(correction="MASSE"))
+    _, two, _ = club_a(211, ContactOptions(correction="RIGIDITE"))
+    assert np.abs(one - two).max() < 1e-10 * 0.01
+
+
+@pytest.mark.parametrize("method", ["AUGMENTE", "UZAWA"])
+def test_augmented_lagrangian_is_lagrange(method):
+    _, one, _ = club_a(211, ContactOptions(correction="MASSE"))
+    _, two, _ = club_a(211, ContactOptions(method, correction="MASSE"))
+    assert np.abs(one - two).max() < 1e-9 * 0.01
+
+
+def test_joint_without_strength_is_penalty():
+    k = 200 * STRUCTURE_STIFFNESS
+    _, one, _ = club_a(401, ContactOptions("PENALITE", k))
+    _, two, _ = club_a(401, ContactOptions(), KN=k)
+    assert np.abs(one - two).max() < 1e-12 * 0.01  # 3e-13 found
+
+
+def test_resolved_joint_keeps_energy_where_an_unresolved_one_does_not():
+    k = 1e4 * STRUCTURE_STIFFNESS
+    contact_time = np.pi * np.sqrt(MASS / k)
+    fine = int(np.ceil(0.1 / (contact_time / 32)))
+    _, _, resolved = club_a(fine, ContactOptions(), KN=k)
+    _, _, coarse = club_a(53, ContactOptions(), KN=k)
+    drift = [np.abs(h.imbalance).max() / h.energies[0, 1] for h in (resolved, coarse)]
+    assert drift[0] < 5e-3
+    assert drift[1] > 0.5
+
+
+def test_moving_stop_throws_the_mass_at_twice_its_speed():
+    bench = Bench()
+    body = bench.node(0.0, 0.0)
+    bench.mass(2.0, body)
+    bench.spring(1e-9, body, unknown="UX")
+    bench.fix(body, "UY")
+    row = bench.relate([(1.0, "UX", body)], sense=1)
+    from ssilang.kernel.fields.node_field import NodeField
+
+    imposed = NodeField.of(bench.table, np.array([row]), {"FLX": np.array([1.0])})
+    load = bench.load(imposed, [0.0, 1.0], [-0.5005, 0.4995])
+    problem = make_problem(
+        Inputs(
+            bench.stiffness,
+            np.arange(101) * 0.01,
+            bench.mass_matrix,
+            load=load,
+            contact_options=ContactOptions(correction="MASSE"),
+        )
+    )
+    recorder = Recorder(101)
+    integrate(problem, [recorder])
+    assert recorder.of("v")[-1, 0] == pytest.approx(2.0, rel=1e-6)
+
+
+@pytest.mark.parametrize("method", list(METHODS))
+def test_methods_on_a_random_contact_problem(method):
+    rng = np.random.default_rng(2)
+    A = rng.standard_normal((8, 8))
+    W, q = A @ A.T / 8 + 0.2 * np.eye(8), rng.standard_normal(8)
+    found = METHODS[method](W, q, 1e9 if method == "PENALITE" else None, None)
+    gap = q + W @ found.p
+    within = 1e-7 if method == "PENALITE" else 1e-11
+    assert (gap > -within).all()
+    assert np.abs(gap * found.p).max() < within * found.p.max()
+    assert (found.p >= 0).all()
+    assert (found.p > 0).sum() in range(1, 8)

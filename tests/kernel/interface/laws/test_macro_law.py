@@ -1,0 +1,186 @@
+"""Macro-elements of footings: against integrals over the bed, closed forms, free rocking."""
+
+import numpy as np
+import pytest
+from references.assembled import Bench
+from references.footing import Disc, Strip
+from references.recorder import Recorder
+from references.rocking import macro_element_period
+
+from ssilang.kernel.base.errors import MaterialError
+from ssilang.kernel.curves.curve import Curve, CurvePart, Load, LoadPart
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.interface.laws.columns import N_PARAMETERS, N_STATE, Parameter
+from ssilang.kernel.interface.laws.point_laws import point_energies, respond
+from ssilang.kernel.materials.model import Mode
+from ssilang.kernel.statics.stepping import step_statics
+from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
+from ssilang.kernel.stepping.run import integrate
+
+STRIP, DISC, SPRINGS = 3, 4, 5
+KN = 1e6
+
+
+def parameters(**given):
+    table = np.zeros((1, N_PARAMETERS))
+    for name, value in ({"KN": KN} | given).items():
+        table[:, Parameter[name]] = value
+    return table
+
+
+def answer(code, w, p):
+    w = np.atleast_2d(np.asarray(w, float))
+    d = w.shape[1]
+    t, new, D = np.zeros((1, d)), np.zeros((1, N_STATE)), np.zeros((1, d, d))
+    respond(np.array([code]), w, np.zeros((1, N_STATE)), p, t, new, D)
+    return t[0], D[0]
+
+
+def bed_forces(code, w, p):
+    """Forces by a fine grid of springs."""
+    n, b, length, r = 1201, p[0, Parameter.LARG], p[0, Parameter.LONG], p[0, Parameter.RAYO]
+    b1, b2 = (2 * r, 2 * r) if code == DISC else (b, length or 1.0)
+    s1 = (np.arange(n) + 0.5) / n * b1 - b1 / 2
+    s2 = (np.arange(n) + 0.5) / n * b2 - b2 / 2
+    x, y = np.meshgrid(s1, s2, indexing="ij")
+    inside = x**2 + y**2 < r**2 if code == DISC else np.ones_like(x, bool)
+    k = KN / inside.sum()
+    if len(w) == 2:
+        u = k * np.minimum(w[1] + w[0] * x, 0.0) * inside
+        return np.array([(u * x).sum(), u.sum()])
+    u = k * np.minimum(w[2] + w[0] * y - w[1] * x, 0.0) * inside
+    return np.array([(u * y).sum(), -(u * x).sum(), u.sum()])
+
+
+CASES = [
+    (STRIP, {"LARG": 4.0}, [[1e-3, -1e-3], [-1e-3, 2e-4], [1e-4, -1e-3], [1e-3, 3e-3]]),
+    (DISC, {"RAYO": 2.0}, [[1e-3, -1e-3], [-1e-3, 2e-4], [1e-4, -1e-3], [1e-3, 3e-3]]),
+    (DISC, {"RAYO": 2.0}, [[1e-3, 5e-4, -1e-3], [-4e-4, 1e-3, 3e-4], [1e-4, 0.0, -1e-3]]),
+    (
+        STRIP,
+        {"LARG": 4.0, "LONG": 3.0},
+        [[1e-3, 5e-4, -1e-3], [-4e-4, 1e-3, 3e-4], [1e-4, 0.0, -1e-3], [3e-3, -2e-3, 1e-3]],
+    ),
+]
+
+
+@pytest.mark.parametrize(("code", "given", "jumps"), CASES)
+def test_forces_are_those_of_the_bed(code, given, jumps):
+    p = parameters(**given)
+    for w in jumps:
+        np.testing.assert_allclose(
+            answer(code, w, p)[0], bed_forces(code, np.array(w), p), rtol=3e-3, atol=1.0
+        )
+
+
+@pytest.mark.parametrize(
+    ("code", "given", "jumps"), [*CASES, (SPRINGS, {"LARG": 3.0}, CASES[0][2])]
+)
+def test_tangent_and_energy(code, given, jumps):
+    p = parameters(**given)
+    for w in np.array(jumps, float):
+        t, D = answer(code, w, p)
+        h = 1e-9
+        for j in range(len(w)):
+            e = h * np.eye(len(w))[j]
+            up, down = answer(code, w + e, p)[0], answer(code, w - e, p)[0]
+            np.testing.assert_allclose((up - down) / (2 * h), D[:, j], rtol=1e-4, atol=20.0)
+        energy = point_energies(code, w, t, np.zeros(N_STATE), p[0])[0]
+        s = (np.arange(400) + 0.5) / 400
+        work = sum(answer(code, x * w, p)[0] @ w for x in s) / 400
+        assert energy == pytest.approx(work, rel=1e-5, abs=1e-9)
+
+
+def footing(mode, law, element_nodes, **p):
+    bench = Bench(mode)
+    d = mode.dimension
+    down = [0.0] * (d - 1) + [-1.0]
+    soil, base = bench.node(*down), bench.node(*[0.0] * d)
+    bench.fix(soil, *(("UX", "UY", "RZ") if d == 2 else ("UX", "UY", "UZ", "RX", "RY", "RZ")))
+    bench.joint("SEG2", [soil, base], "JOI1", law=law, **p)
+    return bench, base
+
+
+def pushed(mode, law, turn, normal, theta, **p):
+    """Moment about `turn` for imposed rotations theta under a constant weight."""
+    bench, base = footing(mode, law, None, **p)
+    vertical = "UY" if mode.dimension == 2 else "UZ"
+    held = {2: ("UX",), 3: ("UX", "UY", "RZ", "RX" if turn == "RY" else "RY")}[mode.dimension]
+    bench.fix(base, *held)
+    row = bench.relate([(1.0, turn, base)])
+    times = np.arange(len(theta), dtype=float)
+    weight = LoadPart("MECA", bench.field((base, "F" + vertical[1], -normal)))
+    one = NodeField.of(bench.table, np.array([row]), {"FLX": np.array([1.0])})
+    curve = Curve((CurvePart(times, np.asarray(theta)),))
+    inputs = Inputs(
+        bench.stiffness,
+        times,
+        load=Load((weight, LoadPart("DIMP", one, curve))),
+        model=bench.model,
+        characteristics=bench.characteristics,
+    )
+    recorder = Recorder(len(times))
+    step_statics(make_problem(inputs), [recorder])
+    name = "M" + turn[1]
+    return np.array([s.reactions.values_at(name, np.array([base]))[0] for s in recorder.snapshots])
+
+
+RATIOS = np.array([0.0, 0.5, 1.5, 2.0, 5.0, 10.0])
+
+
+@pytest.mark.parametrize("mode", [Mode.PLANE_STRAIN, Mode.THREE_DIMENSIONAL])
+def test_strip_and_disc_follow_their_closed_forms(mode):
+    strip = Strip(4.0, 1.0, 2e7, 6e5)
+    disc = Disc(2.0, 2e7, 6e5)
+    turn = "RZ" if mode is Mode.PLANE_STRAIN else "RY"
+    theta = RATIOS * strip.uplift_rotation
+    long = {} if mode is Mode.PLANE_STRAIN else {"LONG": 1.0}
+    # in 3D the frame's first axis is X: rotation about Y moves along X, the side LARG
+    found = pushed(mode, "MACRO_SEMELLE", turn, 6e5, theta, KN=8e7, KS=1e8, LARG=4.0, **long)
+    np.testing.assert_allclose(found[1:], strip.moment(theta)[1:], rtol=1e-10)
+    theta = RATIOS * disc.uplift_rotation
+    k = 2e7 * np.pi * 4.0
+    found = pushed(mode, "MACRO_DISQUE", turn, 6e5, theta, KN=k, KS=1e8, RAYO=2.0)
+    exact = np.array([disc.moment(x) for x in theta])
+    np.testing.assert_allclose(found[1:], exact[1:], rtol=1e-10)
+
+
+def test_two_springs_carry_a_constant_moment_once_lifted():
+    theta = np.array([0.0, 1e-3, 0.05, 0.1])
+    found = pushed(Mode.PLANE_STRAIN, "MACRO_RESSORTS", "RZ", 6e5, theta, KN=8e7, KS=1e8, LARG=3.0)
+    assert found[1] == pytest.approx(8e7 * 1.5**2 * 1e-3)
+    np.testing.assert_allclose(found[2:], 6e5 * 1.5, rtol=1e-10)
+
+
+def test_free_rocking_period():
+    strip, inertia, amplitude = Strip(4.0, 1.0, 2e7, 6e5), 5e5, 4e-3 * 3
+    bench, base = footing(Mode.PLANE_STRAIN, "MACRO_SEMELLE", None, KN=8e7, KS=1e8, LARG=4.0)
+    bench.fix(base, "UX")
+    bench.mass(inertia, base, ("RZ",))
+    bench.mass(1e-3, base, ("UY",))
+    exact = macro_element_period(strip, inertia, amplitude)
+    lift = float(strip.lift(np.array(amplitude)))
+    times = np.linspace(0.0, 3 * exact, 6001)
+    problem = make_problem(
+        Inputs(
+            bench.stiffness,
+            times,
+            bench.mass_matrix,
+            load=bench.load(bench.field((base, "FY", -strip.normal))),
+            displacement=bench.field((base, "RZ", amplitude), (base, "UY", lift)),
+            model=bench.model,
+            characteristics=bench.characteristics,
+        )
+    )
+    recorder = Recorder(len(times))
+    integrate(problem, [recorder])
+    theta = recorder.of("u")[:, problem.numbering.index_of(base, "RZ")]
+    down = np.flatnonzero((theta[:-1] > 0) & (theta[1:] <= 0))
+    assert (times[down[2]] - times[down[0]]) / 2 == pytest.approx(exact, rel=1e-3)
+
+
+def test_footing_without_a_size_is_refused():
+    with pytest.raises(MaterialError, match="LONG"):
+        pushed(
+            Mode.THREE_DIMENSIONAL, "MACRO_SEMELLE", "RY", 1.0, [0.0, 1.0], KN=1.0, KS=1.0, LARG=1.0
+        )

@@ -1,0 +1,112 @@
+"""Mohr-Coulomb joints: path of Cast3M's elementary test, dilatancy, tangent, energy."""
+
+import numpy as np
+import pytest
+
+from ssilang.kernel.base.errors import MaterialError
+from ssilang.kernel.interface.laws.columns import N_PARAMETERS, N_STATE, Parameter, Variable
+from ssilang.kernel.interface.laws.parameters import check_mohr_parameters
+from ssilang.kernel.interface.laws.point_laws import point_energies, respond
+
+MOHR = 2
+
+
+def parameters(n=1, **given):
+    base = {"KN": 100.0, "KS1": 50.0, "KS2": 50.0, "TPHI": 1.0, "FROT": -1.0}
+    table = np.zeros((n, N_PARAMETERS))
+    for name, value in (base | given).items():
+        table[:, Parameter[name]] = value
+    return table
+
+
+def answer(w, state, p):
+    n, d = w.shape
+    t, new, D = np.zeros((n, d)), np.zeros((n, N_STATE)), np.zeros((n, d, d))
+    respond(np.full(n, MOHR), np.ascontiguousarray(w), state, p, t, new, D)
+    return t, new, D
+
+
+def walk(path, p):
+    state, tractions, states = np.zeros((1, N_STATE)), [], []
+    for w in path:
+        t, state, _ = answer(np.array([w], dtype=float), state, p)
+        tractions.append(t[0])
+        states.append(state[0])
+    return np.array(tractions), np.array(states)
+
+
+def test_slip_under_falling_pressure_then_opening():
+    path = [[0, -0.1], [0.1, -0.1], [0.3, -0.1], [0.3, -0.05], [0.3, 0.1]]
+    t, state = walk(path, parameters())
+    np.testing.assert_allclose(t[:, 1], [-10, -10, -10, -5, 0], atol=1e-12)
+    np.testing.assert_allclose(t[:, 0], [0, 5, 10, 5, 0], atol=1e-12)
+    np.testing.assert_allclose(state[:, Variable.SLIP1], [0, 0, 0.1, 0.2, 0.3], atol=1e-14)
+    np.testing.assert_allclose(state[:, Variable.OPENING], [0, 0, 0, 0, 0.1], atol=1e-14)
+    assert state[-1, Variable.STATUS] == 1
+    again, _, _ = answer(np.array([[0.3, -0.02]]), state[-1:], parameters())
+    np.testing.assert_allclose(again, [[0.0, -2.0]], atol=1e-12)
+
+
+def test_dilatant_slip_opens_the_joint_and_stays_on_the_cone():
+    p = parameters(TPSI=0.3, COHE=1.0)
+    s = np.linspace(0, 1, 50)
+    t, state = walk(np.stack([s, np.full(50, -0.1)], 1), p)
+    sliding = state[:, Variable.SLIP1] > 0
+    np.testing.assert_allclose(t[sliding, 0], 1.0 - t[sliding, 1], rtol=1e-12)
+    np.testing.assert_allclose(state[:, Variable.XI], 0.3 * state[:, Variable.SLIP1], rtol=1e-12)
+
+
+def test_tension_stops_at_the_strength_and_its_opening_stays():
+    p = parameters(COHE=10.0, FTRC=2.0)
+    t, state = walk([[0, 0.1], [0, 0.05]], p)
+    assert t[0, 1] == pytest.approx(2.0)
+    assert state[0, Variable.XI] == pytest.approx(0.08)
+    assert t[1, 1] == pytest.approx(-3.0)
+
+
+def test_compression_yields_and_hardens():
+    p = parameters(FNE=5.0, QT=10.0)
+    t, _ = walk([[0, -0.04], [0, -0.15], [0, -0.1]], p)
+    np.testing.assert_allclose(t[:, 1], [-4.0, -5.0 - 10.0 * 0.1, -1.0], rtol=1e-12)
+
+
+def test_second_normal_stiffness_beyond_a_closing():
+    t, _ = walk([[0, -0.05], [0, -0.2]], parameters(ECN=0.1, EF=500.0))
+    np.testing.assert_allclose(t[:, 1], [-5.0, -10.0 - 50.0], rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    "extra", [{}, {"TPSI": 0.4, "COHE": 2.0}, {"FTRC": 1.0, "COHE": 3.0}, {"FNE": 6.0, "QT": 9.0}]
+)
+@pytest.mark.parametrize("d", [2, 3])
+def test_tangent_is_the_derivative(extra, d):
+    rng = np.random.default_rng(7)
+    p = parameters(300, **extra)
+    state = np.zeros((300, N_STATE))
+    state[:, Variable.SLIP1] = rng.uniform(-0.1, 0.1, 300)
+    w = rng.uniform(-0.2, 0.1, (300, d))
+    _, _, D = answer(w, state, p)
+    h = 1e-7
+    for j in range(d):
+        step = np.zeros(d)
+        step[j] = h
+        slope = (answer(w + step, state, p)[0] - answer(w - step, state, p)[0]) / (2 * h)
+        assert np.quantile(np.abs(slope - D[:, :, j]).max(axis=1), 0.98) < 1e-4
+
+
+def test_work_is_stored_or_lost():
+    p = parameters(TPSI=0.2, COHE=1.0, FTRC=0.5)
+    a = np.linspace(0, 4 * np.pi, 40001)
+    path = np.stack([0.2 * np.sin(a), -0.05 + 0.06 * np.sin(0.7 * a)], 1)
+    t, state = walk(path, p)
+    work = np.sum(0.5 * (t[1:] + t[:-1]) * np.diff(path, axis=0))
+    stored, lost = point_energies(MOHR, path[-1], t[-1], state[-1], p[0])
+    assert lost == pytest.approx(state[-1, Variable.SHEAR_LOSS])
+    start, _ = point_energies(MOHR, path[0], t[0], state[0], p[0])
+    assert stored + lost - start == pytest.approx(work, rel=1e-3)
+
+
+@pytest.mark.parametrize("wrong", [{"KN": 0.0}, {"COHE": -1.0}, {"FNE": 1.0, "QT": 200.0}])
+def test_inadmissible_parameters_are_refused(wrong):
+    with pytest.raises(MaterialError):
+        check_mohr_parameters(parameters(**wrong))

@@ -1,0 +1,179 @@
+"""The SDM law: closed form, path, energies, tangent, limits; refused parameters."""
+
+import itertools
+
+import numpy as np
+import pytest
+
+from ssilang.kernel.base.errors import MaterialError
+from ssilang.kernel.interface.laws.columns import N_PARAMETERS, N_STATE, Parameter, Variable
+from ssilang.kernel.interface.laws.parameters import check_sdm_parameters
+from ssilang.kernel.interface.laws.point_laws import point_energies, respond
+from ssilang.kernel.interface.laws.sdm_arrays import normal_arrays, shear_arrays
+from ssilang.kernel.interface.laws.sdm_law import normal_law
+
+SDM = 1
+
+
+def parameters(n: int = 1, **given: float) -> np.ndarray:
+    base = {"KN": 1e9, "KS1": 4e8, "KS2": 3e8, "FU": 0.0, "GF": 0.0, "FC": 0.0, "FROT": -1.0}
+    table = np.zeros((n, N_PARAMETERS))
+    for name, value in (base | given).items():
+        table[:, Parameter[name]] = value
+    return table
+
+
+def answer(w, state, p):
+    n, d = w.shape
+    t, new, D = np.zeros((n, d)), np.zeros((n, N_STATE)), np.zeros((n, d, d))
+    respond(np.full(n, SDM), np.ascontiguousarray(w), state, p, t, new, D)
+    return t, new, D
+
+
+def walk(path, p, d=2):
+    """Tractions and states along a path of jumps (m, d), state committed at each."""
+    state, tractions, states = np.zeros((1, N_STATE)), [], []
+    for w in path:
+        t, state, _ = answer(np.array([w]), state, p)
+        tractions.append(t[0])
+        states.append(state[0])
+    return np.array(tractions), np.array(states)
+
+
+def test_iteration_gives_lamberts_closed_form():
+    rng = np.random.default_rng(3)
+    k = 10.0 ** rng.uniform(6, 11, 500)
+    fu = 10.0 ** rng.uniform(3, 6, 500) * (rng.random(500) > 0.2)
+    gf = np.where(fu > 0, fu**2 / k * rng.uniform(1.01, 50, 500), 0.0)
+    fc = -(10.0 ** rng.uniform(2, 6, 500)) * (rng.random(500) > 0.3)
+    length = np.where(fu > 0, gf / np.maximum(fu, 1.0), 1e-3)
+    xi, w = rng.uniform(0, 2, 500) * length, rng.uniform(-3, 4, 500) * length
+    t, new, slope = normal_arrays(w, xi, k, fu, gf, fc)
+    for i in range(500):
+        found = normal_law(w[i], xi[i], k[i], fu[i], gf[i], fc[i])
+        assert found[0] == pytest.approx(t[i], rel=1e-9, abs=1e-9 * k[i] * length[i])
+        assert found[1] == pytest.approx(new[i], rel=1e-9, abs=1e-12 * length[i])
+        assert found[2] == pytest.approx(slope[i], rel=1e-6, abs=1e-9 * k[i])
+
+
+@pytest.mark.parametrize("d", [2, 3])
+def test_points_take_the_tractions_and_slips_of_the_arrays(d):
+    """Paths through opening, sliding and closing; one shear direction in three has no stiffness."""
+    rng, n = np.random.default_rng(d), 300
+    p = parameters(n, GF=20.0)
+    p[:, Parameter.FU] = np.where(rng.random(n) < 0.4, 1e5, 0.0)
+    p[:, Parameter.FROT] = np.where(rng.random(n) < 0.5, 0.6, -1.0)
+    columns = [Parameter.KS1, Parameter.KS2][: d - 1]
+    stiffness = p[:, columns] * (rng.random((n, d - 1)) < 0.67)
+    p[:, columns] = stiffness
+    k, fu, gf, fc, friction = (p[:, Parameter[name]] for name in ("KN", "FU", "GF", "FC", "FROT"))
+    state, xi, slip = np.zeros((n, N_STATE)), np.zeros(n), np.zeros((n, d - 1))
+    seen = set()
+    for _ in range(12):
+        w = rng.normal(scale=3e-4, size=(n, d))
+        t, state, _ = answer(w, state, p)
+        tn, xi, _ = normal_arrays(w[:, -1], xi, k, fu, gf, fc)
+        shear, slip = shear_arrays(w[:, :-1], slip, stiffness, tn, xi, fu, gf, friction)
+        np.testing.assert_allclose(t[:, -1], tn, rtol=1e-9, atol=1e-4)
+        np.testing.assert_allclose(t[:, :-1], shear, rtol=1e-9, atol=1e-4)
+        np.testing.assert_allclose(
+            state[:, Variable.SLIP1 : Variable.SLIP1 + d - 1], slip, rtol=1e-9, atol=1e-15
+        )
+        seen |= set(zip((tn < 0.0).tolist(), (fu > 0.0).tolist(), strict=True))
+    assert len(seen) == 4
+    assert not slip[stiffness == 0.0].any()  # never slides, never records a slip
+    assert slip[stiffness > 0.0].any()
+
+
+def test_path_does_not_depend_on_the_steps():
+    p = parameters(FU=1e5, GF=20.0, FC=-2e4)
+    corners = np.array([0.0, 3e-4, -1e-4, 6e-4, 1e-5, 9e-4, -5e-4, 2e-4])
+    fine = np.concatenate([np.linspace(a, b, 400)[1:] for a, b in itertools.pairwise(corners)])
+    coarse, _ = walk(np.stack([0 * corners, corners], 1)[1:], p)
+    detailed, _ = walk(np.stack([0 * fine, fine], 1), p)
+    np.testing.assert_allclose(detailed[398::399], coarse, rtol=1e-9, atol=1e-4)
+
+
+def test_energy_of_full_opening_is_the_fracture_energy():
+    fu, gf = 1e5, 20.0
+    p = parameters(FU=fu, GF=gf)
+    w = np.linspace(0, 2e-3, 40001)
+    t, states = walk(np.stack([0 * w, w], 1), p)
+    work = np.trapezoid(t[:, 1], w)
+    xi = states[-1, Variable.XI]
+    spent = gf * -np.expm1(-fu * xi / gf)
+    stored, lost = point_energies(SDM, np.array([0.0, w[-1]]), t[-1], states[-1], p[0])
+    assert lost == pytest.approx(spent, rel=1e-12)
+    assert work == pytest.approx(stored + lost, rel=1e-6)
+
+
+def test_closed_cycle_in_compression_gives_back_its_energy():
+    p = parameters(FU=1e5, GF=20.0, FC=-3e4)
+    _, opened = walk(np.array([[0.0, 6e-4], [0.0, 0.0]]), p)
+    state = opened[-1][None]
+    w = np.concatenate([np.linspace(0, -3e-4, 20001), np.linspace(-3e-4, 0, 20001)])
+    t = np.array([answer(np.array([[0.0, x]]), state, p)[0][0, 1] for x in w])
+    down = np.trapezoid(t[:20001], w[:20001])
+    assert np.trapezoid(t, w) == pytest.approx(0.0, abs=1e-6 * abs(down))
+    at = [np.array([0.0, x]) for x in (0.0, -3e-4)]
+    ends = [answer(x[None], state, p)[0][0] for x in at]
+    stored = [point_energies(SDM, x, e, state[0], p[0])[0] for x, e in zip(at, ends, strict=True)]
+    assert stored[1] - stored[0] == pytest.approx(down, rel=1e-6)
+
+
+def test_without_strength_it_is_the_unilateral_spring():
+    p = parameters()
+    w = np.stack([np.zeros(41), np.linspace(-1e-3, 1e-3, 41)], 1)
+    t, _ = walk(np.concatenate([w, w[::-1]]), p)
+    expected = 1e9 * np.minimum(np.concatenate([w, w[::-1]])[:, 1], 0.0)
+    np.testing.assert_allclose(t[:, 1], expected, atol=1e-12 * 1e6)
+
+
+@pytest.mark.parametrize("extra", [{}, {"FROT": 0.4}, {"FU": 1e5, "GF": 20.0, "FC": -2e4}])
+@pytest.mark.parametrize("d", [2, 3])
+def test_tangent_is_the_derivative(extra, d):
+    rng = np.random.default_rng(5)
+    p = parameters(200, **extra)
+    state = np.zeros((200, N_STATE))
+    state[:, Variable.XI] = rng.uniform(0, 2e-4, 200)
+    w = rng.uniform(-4e-4, 4e-4, (200, d))
+    _, _new, D = answer(w, state, p)
+    h = 1e-10
+    for j in range(d):
+        step = np.zeros(d)
+        step[j] = h
+        up, _n1, _ = answer(w + step, state, p)
+        down, _n2, _ = answer(w - step, state, p)
+        slope = (up - down) / (2 * h)
+        error = np.abs(slope - D[:, :, j]).max(axis=1)
+        assert np.quantile(error, 0.97) < 1e-5 * 1e9  # the rest sits on a kink
+
+
+def test_friction_bounds_the_shear_and_counts_its_loss():
+    p = parameters(FROT=0.5)
+    s = np.linspace(0, 2e-3, 2001)
+    path = np.stack([s, np.full_like(s, -1e-3)], 1)
+    t, states = walk(path, p)
+    assert t[:, 0].max() == pytest.approx(0.5 * 1e6, rel=1e-12)
+    slipped = 2e-3 - 0.5e6 / 4e8
+    assert states[-1, Variable.SHEAR_LOSS] == pytest.approx(0.5e6 * slipped, rel=1e-9)
+
+
+def test_shear_is_lost_when_open_and_starts_anew_when_closed():
+    t, _ = walk(np.array([[1e-3, -1e-3], [1e-3, 1e-4], [3e-3, -1e-3]]), parameters())
+    np.testing.assert_allclose(t[:, 0], [4e5, 0.0, 4e8 * 2e-3])
+
+
+def test_too_soft_a_joint_is_refused_with_the_least_stiffness():
+    with pytest.raises(MaterialError) as error:
+        check_sdm_parameters(parameters(KN=4e8, FU=1e5, GF=20.0))
+    assert "5e+08" in str(error.value)
+    check_sdm_parameters(parameters(KN=6e8, FU=1e5, GF=20.0))
+
+
+@pytest.mark.parametrize(
+    "wrong", [{"KN": 0.0}, {"KS1": -1.0}, {"FC": 1.0}, {"FU": 1e5}, {"FU": -1.0}, {"KN": np.nan}]
+)
+def test_inadmissible_parameters_are_refused(wrong):
+    with pytest.raises(MaterialError):
+        check_sdm_parameters(parameters(**wrong))

@@ -1,0 +1,75 @@
+"""The kept response of a condensed interface follows changes of its points."""
+
+import numpy as np
+import pytest
+
+from ssilang.kernel.interface.condensed import Condensed
+from ssilang.kernel.interface.inverse import Inverse, apply_inverse, update_point
+from ssilang.kernel.interface.response import Joints, interface_stiffness
+from ssilang.kernel.solvers.dense import factorise_dense, solve_factors_together
+
+SHARE = 0.9
+
+
+def interface(rng, d=2, n_pairs=5):
+    """Two pairs a point, their compliance, weights, first tangents (one point open)."""
+    q = d * n_pairs
+    pairs = np.array([[i, i + 1] for i in range(n_pairs - 1)] * 2, dtype=np.int64)
+    B = rng.normal(size=(len(pairs), d, 2 * d))
+    X = rng.normal(size=(q, q))
+    D = rng.normal(size=(len(pairs), d, d))  # not symmetric, as with friction
+    D = 0.3 * D + 3.0 * np.eye(d)
+    D[0] = 0.0
+    weights, codes = rng.uniform(0.5, 2.0, len(pairs)), np.zeros(len(pairs), np.int64)
+    return Joints(pairs, B, weights, codes, np.zeros((len(pairs), 1))), X @ X.T / q, D
+
+
+def matrix(joints, condensed, D):
+    S, R, c = condensed
+    K = np.zeros_like(S)
+    interface_stiffness(joints, D, K)
+    return np.eye(len(S)) + S @ (c * K - R)
+
+
+@pytest.mark.parametrize("d", [2, 3])
+def test_response_follows_points_that_change(d):
+    rng = np.random.default_rng(d)
+    joints, S, D = interface(rng, d)
+    condensed = Condensed(S, 0.1 * np.eye(len(S)), SHARE)
+    Y = np.linalg.solve(matrix(joints, condensed, D), S)
+    inverse = Inverse(Y, np.empty(len(S)), np.zeros(1, np.int64))
+    room = np.empty((2, d, len(S)))
+    for turn in range(40):
+        p, new = turn % len(D), D.copy()
+        new[p] = 0.0 if turn % 3 == 0 else 2.5 * np.eye(d) + 0.2 * rng.normal(size=(d, d))
+        if turn % 3 == 1:
+            new[p, 0, 0] = 0.0  # slides: a change of lower rank
+        weight = SHARE * joints.weights[p]
+        assert update_point(joints.pairs[p], joints.B[p], weight, new[p], D[p], Y, room)
+        D = new
+        truth = np.linalg.solve(matrix(joints, condensed, D), S)
+        np.testing.assert_allclose(Y, truth, atol=1e-10 * np.abs(truth).max())
+        x = rng.normal(size=len(S))
+        solved = x.copy()
+        apply_inverse(joints, condensed, D, inverse, solved)
+        exact = np.linalg.solve(matrix(joints, condensed, D), x)
+        np.testing.assert_allclose(solved, exact, atol=1e-10 * np.abs(exact).max())
+
+
+def test_response_from_factors_with_row_exchanges():
+    rng = np.random.default_rng(3)
+    A, S = rng.normal(size=(9, 9)), rng.normal(size=(9, 9))
+    factors, pivots, Y = A.copy(), np.zeros(9, np.int64), np.empty((9, 9))
+    assert factorise_dense(factors, pivots)
+    assert (pivots != np.arange(9)).any()
+    Y[:] = S
+    solve_factors_together(factors, pivots, Y)
+    np.testing.assert_allclose(A @ Y, S, atol=1e-11)
+
+
+def test_change_that_makes_the_interface_singular_is_refused():
+    """One jump, S = 1: a tangent of -1 makes `1 + S D` vanish; Y stays as it was."""
+    pairs, one = np.zeros((1, 1), np.int64), np.ones((1, 1))
+    Y, room = one.copy(), np.empty((2, 1, 1))
+    assert not update_point(pairs[0], one, 1.0, -one, 0.0 * one, Y, room)
+    assert Y[0, 0] == 1.0

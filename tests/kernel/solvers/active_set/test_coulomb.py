@@ -1,0 +1,148 @@
+"""Contact with friction on random flexibilities: all conditions hold; small ones by trial."""
+
+from dataclasses import replace
+from itertools import product
+
+import numpy as np
+import pytest
+
+from ssilang.kernel.base.errors import ConvergenceError
+from ssilang.kernel.solvers.active_set.coulomb import CoulombProblem, solve_coulomb
+
+
+def flexibility(n, rng):
+    A = rng.normal(size=(n, n))
+    return A @ A.T / n + 0.3 * np.eye(n)
+
+
+def held(m, width, mu, rng):
+    n = m * (1 + width)
+    W = np.vstack([flexibility(n, rng), np.zeros((m, n))])
+    q = np.concatenate([rng.normal(size=n), np.zeros(m)])
+    none = np.zeros((n + m, 0))
+    full = np.full(m, 1.0)
+    return CoulombProblem(
+        W, q, none, none[:n], np.zeros(0), m, width, np.arange(m), mu * full, 0.0 * full
+    )
+
+
+def check(problem, found):
+    m, n, d = problem.n_normal, problem.n_forces, problem.width
+    seen = problem.q + problem.W @ found.forces + problem.B @ found.a
+    p, w = found.forces[:m], seen[:m]
+    tau, s = found.forces[m:].reshape(-1, d), seen[m:n].reshape(-1, d)
+    size = max(np.abs(problem.q).max(), np.abs(found.forces).max())
+    assert (p >= 0).all()
+    assert (w >= -1e-9 * size).all()
+    assert abs(p @ w) <= 1e-8 * size**2
+    limit = np.where(p > 0, problem.coefficient * p + problem.constant, 0.0)
+    length = np.linalg.norm(tau, axis=1)
+    assert (length <= limit + 1e-9 * size).all()
+    slipping = np.linalg.norm(s, axis=1) > 1e-7 * size
+    assert length[slipping] == pytest.approx(limit[slipping], abs=1e-8 * size)
+    work = np.einsum("kd,kd->k", tau, s)[slipping]  # friction against the slip, along it
+    assert work == pytest.approx(-(length * np.linalg.norm(s, axis=1))[slipping], abs=1e-7 * size)
+
+
+@pytest.mark.parametrize("width", [1, 2])
+@pytest.mark.parametrize("mu", [0.0, 0.3, 1.0])
+def test_conditions_hold_for_random_bodies(width, mu):
+    rng = np.random.default_rng(17)
+    for m in (1, 2, 5, 12):
+        for _ in range(5):
+            problem = held(m, width, mu, rng)
+            check(problem, solve_coulomb(problem))
+
+
+def all_sticking(forces, width, rng):
+    """Four places that rub on three motions alone, held by forces that are shared at will."""
+    m, n = 4, len(forces)
+    rows = np.zeros((n, m + 3))
+    rows[:m, :m] = np.eye(m)
+    rows[m:, m:] = rng.normal(size=(n - m, 3))
+    W = np.vstack([rows @ flexibility(m + 3, rng) @ rows.T, np.zeros((m, n))])
+    none, full = np.zeros((n + m, 0)), np.ones(m)
+    return CoulombProblem(
+        W, -W @ forces, none, none[:n], np.zeros(0), m, width, np.arange(m), full, 0 * full
+    )
+
+
+@pytest.mark.parametrize("width", [1, 2])
+def test_redundant_frictions_do_not_follow_rounding(width):
+    """Places outnumber what the body can do: what they share stays when rounding changes.
+
+    The rows that count have a condition below 1e5: 1e-15 of the motions is 1e-10 of the forces.
+    """
+    rng = np.random.default_rng(3)
+    for _ in range(10):
+        given = np.concatenate([10.0 + rng.random(4), 0.3 * rng.normal(size=4 * width)])
+        problem = all_sticking(given, width, rng)
+        found = solve_coulomb(problem)
+        check(problem, found)
+        assert found.sticking.all()
+        kept = np.linalg.svd(problem.W)[1]
+        assert kept[-1] < 1e-12 < 1e-5 < kept[6] / kept[0]
+        for _ in range(3):
+            other = replace(problem, q=problem.q * (1 + 1e-15 * rng.normal(size=len(problem.q))))
+            np.testing.assert_allclose(
+                solve_coulomb(other).forces, found.forces, rtol=0, atol=1e-9 * given.max()
+            )
+
+
+def test_states_found_by_trying_all_of_them():
+    """Open, sticking and sliding both ways at each of three places in the plane."""
+    rng = np.random.default_rng(5)
+    for _ in range(20):
+        problem = held(3, 1, 0.25, rng)
+        trials = (tried(problem, states) for states in product(range(4), repeat=3))
+        wanted = [x for x in trials if x]
+        found = solve_coulomb(problem).forces
+        assert min(np.abs(found - x[0]).max() for x in wanted) < 1e-9
+
+
+def tried(problem, states):
+    n, m = problem.n_forces, problem.n_normal
+    A, b = np.eye(n), np.zeros(n)
+    for i, state in enumerate(states):
+        if state > 0:
+            A[i], b[i] = problem.W[i], -problem.q[i]
+        if state == 1:
+            A[m + i], b[m + i] = problem.W[m + i], -problem.q[m + i]
+        if state > 1:
+            A[m + i, i] = (1 if state == 2 else -1) * problem.coefficient[i]
+    x = np.linalg.solve(A, b)
+    seen = problem.q[:n] + problem.W[:n] @ x
+    for i, state in enumerate(states):
+        p, tau, w, s = x[i], x[m + i], seen[i], seen[m + i]
+        good = w >= 0 if state == 0 else p >= 0
+        if state == 1:
+            good &= abs(tau) <= problem.coefficient[i] * p
+        if state > 1:
+            good &= tau * s <= 0
+        if not good:
+            return None
+    return (x,)
+
+
+def test_body_held_by_friction_alone():
+    """A weight 10 on a rough table pushed by 2: friction takes it below the limit."""
+    W = np.array([[0.1, 0.0], [0.0, 0.2], [0.0, 0.0]])
+    B = np.array([[1.0, 0.0], [0.0, 1.0], [0.0, 0.0]])
+    problem = CoulombProblem(
+        W, np.zeros(3), B, B[:2], np.array([-10.0, 2.0]), 1, 1, np.array([0]), np.array([0.3]),
+        np.zeros(1),
+    )  # fmt: skip
+    found = solve_coulomb(problem)
+    assert found.forces == pytest.approx([10.0, -2.0])
+    assert found.sticking.all()
+
+
+def test_body_that_friction_cannot_hold_is_refused():
+    W = np.array([[0.1, 0.0], [0.0, 0.2], [0.0, 0.0]])
+    B = np.array([[1.0, 0.0], [0.0, 1.0], [0.0, 0.0]])
+    problem = CoulombProblem(
+        W, np.zeros(3), B, B[:2], np.array([-10.0, 4.0]), 1, 1, np.array([0]), np.array([0.3]),
+        np.zeros(1),
+    )  # fmt: skip
+    with pytest.raises(ConvergenceError):
+        solve_coulomb(problem)

@@ -1,0 +1,128 @@
+"""Nested dissection and its Cholesky factors, against dense solves and SuperLU."""
+
+import numpy as np
+import pytest
+import scipy.sparse as sp
+import scipy.sparse.linalg as spla
+
+from ssilang.kernel.base.errors import SingularFactorError
+from ssilang.kernel.solvers.backends import factorise
+from ssilang.kernel.solvers.cholesky.dissected import DissectedFactor
+from ssilang.kernel.solvers.cholesky.dissection import dissection
+from ssilang.kernel.solvers.cholesky.inverse import invert
+from ssilang.kernel.solvers.cholesky.multifrontal import NotPositiveError
+from ssilang.kernel.solvers.cholesky.triangular import longest, solve_column
+from ssilang.kernel.solvers.cholesky.triangular_together import backward_many, forward_many
+from ssilang.kernel.solvers.factor import Ordering
+
+
+def grid(*shape, unknowns=1, seed=0):
+    """A positive matrix on the nodes of a grid, all neighbours linked, and the coordinates."""
+    points = np.stack(np.meshgrid(*(np.arange(n) for n in shape), indexing="ij"), -1)
+    points = points.reshape(-1, len(shape)).astype(float)
+    pattern = sp.csr_array(np.ones((1, 1)))
+    for n in shape:
+        line = sp.diags_array([np.ones(n - 1), np.ones(n), np.ones(n - 1)], offsets=(-1, 0, 1))
+        pattern = sp.kron(pattern, line, format="csr")
+    pattern = sp.kron(pattern, np.ones((unknowns, unknowns)), format="coo")
+    random = np.random.default_rng(seed)
+    upper = sp.coo_array((random.standard_normal(pattern.nnz), pattern.coords)).tocsr()
+    A = upper + upper.T
+    A = A + sp.diags_array(np.asarray(abs(A).sum(axis=1)) + 0.1)
+    return sp.csr_array(A), np.repeat(points, unknowns, axis=0)
+
+
+@pytest.mark.parametrize(
+    ("shape", "unknowns"), [((300,), 1), ((3, 2), 2), ((40, 23), 2), ((9, 8, 7), 3), ((1, 1), 3)]
+)
+@pytest.mark.parametrize("ending", [0, 5, 41])
+def test_solves(shape, unknowns, ending):
+    A, points = grid(*shape, unknowns=unknowns)
+    n = A.shape[0]
+    random = np.random.default_rng(1)
+    last = random.permutation(n)[: min(ending, n)]
+    factor = DissectedFactor(A, points, last)
+    assert set(factor.tree.order[n - len(last) :]) == set(last)
+    for columns in ((), (3,), (20,)):
+        b = random.standard_normal((n, *columns))
+        np.testing.assert_allclose(A @ factor.solve(b), b, atol=1e-11)
+
+
+def test_large_fronts_take_blas():
+    A, points = grid(500, 1)
+    dense = np.random.default_rng(3).standard_normal((500, 500))
+    A = sp.csr_array(dense @ dense.T + 500 * np.eye(500))
+    factor = DissectedFactor(A, points, np.arange(100, 400))
+    b = dense[0]
+    np.testing.assert_allclose(A @ factor.solve(b), b, atol=1e-10)
+
+
+def test_order_is_a_permutation_with_children_first():
+    A, points = grid(30, 20, unknowns=2)
+    tree = dissection(A, points, np.arange(7))
+    assert np.array_equal(np.sort(tree.order), np.arange(A.shape[0]))
+    has_parent = tree.parent >= 0
+    assert (tree.parent[has_parent] > np.flatnonzero(has_parent)).all()
+    assert tree.first[0] == 0
+    assert tree.first[-1] == A.shape[0]
+
+
+def test_fill_in_is_less_than_with_minimum_degree_on_a_large_grid():
+    A, points = grid(120, 120)
+    factor = DissectedFactor(A, points)
+    options = {"SymmetricMode": True}
+    other = spla.splu(
+        sp.csc_array(A), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options
+    )
+    sizes, below = np.diff(factor.panels.first), np.diff(factor.panels.ptr)
+    assert (sizes * (sizes + 1) // 2 + sizes * below).sum() < 1.1 * other.L.nnz
+
+
+def test_points_at_one_place_and_separate_bodies():
+    A, points = grid(12, 11)
+    both = sp.csr_array(sp.block_diag([A, 2 * A]))
+    factor = DissectedFactor(both, np.vstack([points, points]))
+    b = np.arange(both.shape[0], dtype=float)
+    np.testing.assert_allclose(both @ factor.solve(b), b, atol=1e-10)
+
+
+def test_a_matrix_that_is_not_positive_is_refused():
+    A, points = grid(8, 8)
+    A = sp.csr_array(A - 50 * sp.eye_array(64))
+    with pytest.raises(NotPositiveError):
+        DissectedFactor(A, points)
+    with pytest.raises(SingularFactorError):
+        factorise(A, True, ordering=Ordering(points, np.zeros(0, np.int64)))
+
+
+def test_an_indefinite_or_singular_matrix_is_inverted_all_the_same():
+    A, points = grid(8, 8)
+    order = Ordering(points, np.arange(3))
+    indefinite = sp.csr_array(A - 12 * sp.eye_array(64))
+    assert (np.linalg.eigvalsh(indefinite.toarray()) < 0).any()
+    b = np.arange(64.0)
+    np.testing.assert_allclose(
+        indefinite @ invert(indefinite, True, ordering=order).solve(b), b, atol=1e-9
+    )
+    loose = sp.csr_array(A - sp.diags_array(np.asarray(A.sum(axis=1))))  # constants are free
+    inverse = invert(sp.csr_array(-loose @ loose), True, ordering=order)
+    assert inverse.singular
+
+
+@pytest.mark.parametrize("count", [1, 3, 4, 6, 9])
+@pytest.mark.parametrize(("shape", "unknowns"), [((40, 23), 2), ((7, 8, 7), 3), ((300,), 1)])
+def test_several_vectors_go_through_the_panels_together(count, shape, unknowns):
+    """Half of the tree, with what goes beyond it gathered apart, then the rest."""
+    A, points = grid(*shape, unknowns=unknowns)
+    panels = DissectedFactor(A, points).panels
+    n, nodes = A.shape[0], len(panels.first) - 1
+    b = np.random.default_rng(count).standard_normal((count, n))
+    x, above, local = b.copy(), np.zeros((count, n)), np.zeros((4, longest(panels)))
+    half = max(nodes // 2, 1)
+    forward_many(panels, 0, half, x, int(panels.first[half]), above, local)
+    x += above
+    forward_many(panels, half, nodes, x, n, x, local)
+    backward_many(panels, 0, nodes, x, x, local)
+    for given, found in zip(b.copy(), x, strict=True):
+        solve_column(panels, given, local[0].copy())
+        np.testing.assert_allclose(found, given, rtol=1e-10, atol=1e-13)

@@ -1,0 +1,159 @@
+"""The loops of small problems against the loop on sparse matrices, step by step."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from references.assembled import Bench
+from references.recorder import Recorder
+
+from ssilang.kernel.matrices.matrix import Matrix
+from ssilang.kernel.stepping.choose import DenseEngine, SparseEngine
+from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
+from ssilang.kernel.stepping.rests.modal.modes import SmallLoop
+from ssilang.kernel.stepping.run import Integration, integrate
+from ssilang.kernel.stepping.scheme import Scheme, generalised_alpha, hht, newmark
+
+SCHEMES = [Scheme(), newmark(0.36, 0.7), hht(0.1), generalised_alpha(0.7)]
+LAWS = {
+    "no tension": {"KN": 7e6, "KS": 0.0},
+    "softening": {"KN": 7e6, "KS": 2e6, "FU": 2e4, "GF": 150.0},
+    "closing": {"KN": 7e6, "KS": 2e6, "FC": -2e4, "FROT": 0.3},
+    "softening and closing": {"KN": 7e6, "KS": 0.0, "FU": 2e4, "GF": 150.0, "FC": -1e4},
+}
+TIMES = 1e-3 * np.arange(401)
+
+
+def problem_of(
+    law: dict[str, float], scheme: Scheme = SCHEMES[0], joints: int = 1, shear: bool = False,
+    damping: float = 0.0, dashpot: float = 0.0, massless: bool = False,
+):  # fmt: skip
+    """Masses in a row on springs, the first `joints` on joints; pushed and released."""
+    bench, tops = Bench(), []
+    for i in range(max(joints, 1)):
+        ground, top = bench.node(-1.0, float(i)), bench.node(0.0, float(i))
+        bench.fix(ground)
+        bench.spring(4e6, top, unknown="UX")
+        bench.spring(3e6, top, unknown="UY")
+        if not massless or i:
+            bench.mass(1000.0 + 300.0 * i, top)
+        if not shear:
+            bench.fix(top, "UY")
+        if dashpot:
+            bench.dashpot(dashpot, top, "UX")
+        if i < joints:
+            bench.joint("SEG2", [ground, top], "JOI1", **law)
+        if tops:
+            bench.spring(2e6, tops[-1], top, unknown="UX")
+        tops.append(top)
+    push = bench.field(*((t, "FX", 6e4) for t in tops), *((t, "FY", 2e4) for t in tops))
+    K, M, C = bench.stiffness, bench.mass_matrix, bench.damping
+    if damping:
+        C = Matrix(K.table, M.scaled(damping).blocks + K.scaled(1e-3 * damping).blocks)
+    start = bench.field(*((t, "UX", 0.01 * (i + 1)) for i, t in enumerate(tops)))
+    return make_problem(
+        Inputs(
+            K, TIMES, M, C, bench.load(push, TIMES, np.sin(40.0 * TIMES)), start,
+            model=bench.model, characteristics=bench.characteristics, scheme=scheme,
+        )
+    )  # fmt: skip
+
+
+def compared(problem, monkeypatch, light: bool | None, tolerance: float = 1e-11):
+    """Run both loops, check which small one ran, compare all that instants hold."""
+    few, history = Recorder(len(problem.times)), Integration(problem)
+    engine = DenseEngine(problem, history.motion, 1e-3, False, np.zeros(0, bool))
+    assert isinstance(engine._reduced, SmallLoop) == (light is not None)
+    assert engine.light == bool(light)
+    found = integrate(problem, [few])
+    monkeypatch.setattr("ssilang.kernel.stepping.choose.kind_of", lambda p, full: SparseEngine)
+    monkeypatch.setattr("ssilang.kernel.stepping.run.kind_of", lambda p, full: SparseEngine)
+    other = Recorder(len(problem.times))
+    truth = integrate(problem, [other])
+    assert (found.loop, truth.loop) == ("compiled", "condensed")
+    for name in ("u", "v", "a", "reaction", "w", "t", "state"):
+        a, b = few.of(name), other.of(name)
+        size = np.abs(b).max(initial=0.0)
+        assert np.abs(a - b).max(initial=0.0) <= tolerance * size, name
+    size = np.abs(truth.energies).max()
+    np.testing.assert_allclose(found.energies, truth.energies, atol=1e-10 * size)
+    assert found.worst_imbalance == pytest.approx(truth.worst_imbalance, abs=1e-9 * size)
+
+
+@pytest.mark.parametrize("scheme", SCHEMES)
+@pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
+def test_one_spring_steps_as_the_sparse_loop(law, scheme, monkeypatch):
+    compared(problem_of(law, scheme), monkeypatch, light=True)
+
+
+@pytest.mark.parametrize("scheme", SCHEMES[::2])
+@pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
+def test_several_joints_with_shear_step_as_the_sparse_loop(law, scheme, monkeypatch):
+    compared(problem_of(law, scheme, 4, shear=True), monkeypatch, light=False, tolerance=1e-10)
+
+
+@pytest.mark.parametrize("joints", [0, 1, 3])
+def test_damping_of_rayleigh_is_diagonal(joints, monkeypatch):
+    problem = problem_of(LAWS["no tension"], joints=joints, damping=2.0)
+    compared(problem, monkeypatch, light=joints < 2)
+
+
+def test_unequal_dashpots_keep_their_matrix(monkeypatch):
+    compared(problem_of(LAWS["no tension"], joints=3, dashpot=4e3), monkeypatch, light=None)
+
+
+def test_motions_without_mass_follow_their_loads(monkeypatch):
+    problem = problem_of(LAWS["softening"], joints=2, massless=True)
+    compared(problem, monkeypatch, light=False, tolerance=1e-10)
+
+
+def test_softening_steeper_than_the_rest_takes_the_general_loop(monkeypatch):
+    law = {"KN": 7e6, "KS": 0.0, "FU": 2e4, "GF": 60.0}
+    heavy = problem_of(law)
+    slow = replace(heavy, times=0.2 * np.arange(20))
+    engine = DenseEngine(slow, Integration(slow).motion, 0.2, False, np.zeros(0, bool))
+    assert not engine.light
+
+
+def test_steps_of_two_lengths_hand_over_their_state(monkeypatch):
+    problem = problem_of(LAWS["closing"])
+    times = np.cumsum(np.concatenate([[0.0], np.tile([1e-3] * 7 + [5e-4] * 4, 30)]))
+    compared(replace(problem, times=times), monkeypatch, light=True)
+
+
+def test_light_runs_find_their_energies_when_asked():
+    problem = problem_of(LAWS["no tension"])
+    history = integrate(problem)
+    worst = history.worst_imbalance
+    assert worst == pytest.approx(np.abs(history.imbalance).max(), rel=1e-9)
+    assert history.energies.shape == (len(problem.times), 6)
+    assert history.energies[-1, 0] > 0.0
+
+
+def test_steps_that_differ_by_rounding_share_their_engine(monkeypatch):
+    made = []
+
+    class Counted(DenseEngine):
+        def __init__(self, *given):
+            made.append(given)
+            super().__init__(*given)
+
+    monkeypatch.setattr("ssilang.kernel.stepping.run.kind_of", lambda p, full: Counted)
+    integrate(replace(problem_of(LAWS["no tension"]), times=0.1 + 2.5e-4 * np.arange(30_000)))
+    assert len(made) == 1
+
+
+@pytest.mark.parametrize("name", ["no tension", "softening and closing"])
+def test_joints_without_shear_stiffness_step_along_their_normals(name, monkeypatch):
+    problem = problem_of(LAWS[name], joints=4, shear=True)
+    engine = DenseEngine(problem, Integration(problem).motion, 1e-3, False, np.zeros(0, bool))
+    assert engine._reduced._normal is not None
+    compared(problem, monkeypatch, light=False, tolerance=1e-10)
+
+
+def test_held_unknowns_do_not_make_a_problem_large(monkeypatch):
+    problem = problem_of(LAWS["no tension"], joints=3)
+    monkeypatch.setattr("ssilang.kernel.stepping.problem.problem.SMALL", 3)
+    monkeypatch.setattr("ssilang.kernel.stepping.choose.SMALL", 3)
+    assert problem.numbering.size > 3
+    assert integrate(problem).loop == "compiled"

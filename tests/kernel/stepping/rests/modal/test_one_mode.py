@@ -1,0 +1,158 @@
+"""The loop of one coordinate against the loop of a few, step by step and over long runs."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from references.assembled import Bench
+from references.recorder import Recorder
+
+from ssilang.kernel.stepping.choose import DenseEngine, SparseEngine
+from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
+from ssilang.kernel.stepping.rests.modal.one_mode import Mode as OneMode
+from ssilang.kernel.stepping.rests.modal.one_mode import branch_of, march_mode
+from ssilang.kernel.stepping.rests.modal.one_spring import (
+    Line,
+    LineRows,
+    LineState,
+    Spring,
+    march_line,
+)
+from ssilang.kernel.stepping.run import Integration, integrate
+from ssilang.kernel.stepping.scheme import Scheme, generalised_alpha, hht, newmark
+
+SCHEMES = [Scheme(), newmark(0.36, 0.7), hht(0.1), generalised_alpha(0.7)]
+SPRINGS = {
+    "none": Spring(0.0, 0.0, 0.0, 0.0, 0.0),
+    "no tension": Spring(1.5, 7e6, 0.0, 0.0, 0.0),
+    "softening": Spring(1.5, 7e6, 2e4, 150.0, 0.0),
+    "closing": Spring(1.5, 7e6, 0.0, 0.0, -2e4),
+    "softening and closing": Spring(1.5, 7e6, 2e4, 150.0, -1e4),
+}
+MASS, STIFFNESS = 3000.0, 12e6
+
+
+def both(scheme, spring, steps, dt, damping=0.0, load=0.0, every=1, mass=MASS, energies=True):
+    """Outcome, state and rows of the two loops from one start."""
+    numbers = np.array([scheme.alpha_m, scheme.alpha_f, scheme.beta, scheme.gamma])
+    share, c = 1 - numbers[1], 2 * damping * np.sqrt(STIFFNESS * MASS)
+    A = (1 - numbers[0]) * mass / (numbers[2] * dt**2)
+    A += share * (numbers[3] / (numbers[2] * dt) * c + STIFFNESS)
+    x = 1 / np.sqrt(A)  # the coordinate has a step's matrix of one
+    line = Line(
+        *(np.array([d * x * x]) for d in (mass, c, STIFFNESS)), np.array([-x]),
+        np.array([[load * x]]) if load else np.zeros((0, 1)), numbers,
+    )  # fmt: skip
+    factors = np.sin(30.0 * dt * np.arange(steps + 1))[:, None][:, : 1 if load else 0]
+    save = np.where(np.arange(steps) % every == every - 1, np.arange(steps) // every, -1)
+    found = []
+    for march in (march_line, march_mode):
+        w = 0.01 if spring.weight else 0.0
+        t, xi = (0.0, w) if spring.fu == 0.0 else (spring.k * 1e-5, w - 1e-5)
+        if spring.fu:
+            w, t, xi = 0.0, 0.0, 0.0
+        u = np.array([-0.01 / x])
+        state = LineState(
+            u, np.zeros(1), -STIFFNESS / max(mass, 1.0) * u, np.array([w, t, xi]), np.zeros(6),
+            np.zeros(2),
+        )  # fmt: skip
+        start = 0.5 * STIFFNESS * 0.01**2
+        state.balance[0] = start
+        n = steps // every
+        rows = LineRows(*(np.zeros((n, k)) for k in (1, 1, 1, 3)))
+        history = np.zeros((steps if energies else 0, 6))
+        one = (np.ones(1),) if march is march_line else ()
+        given = (line, dt, *one, spring, state, np.ascontiguousarray(factors), save, rows, history)
+        found.append((march(*given), state, rows, history))
+    return found
+
+
+def close(a, b, tolerance):
+    assert np.abs(a - b).max(initial=0.0) <= tolerance * np.abs(b).max(initial=0.0)
+
+
+@pytest.mark.parametrize("scheme", SCHEMES)
+@pytest.mark.parametrize("spring", SPRINGS.values(), ids=SPRINGS)
+@pytest.mark.parametrize(("damping", "load"), [(0.0, 0.0), (0.02, 0.0), (0.02, 6e4)])
+def test_steps_by_branches_are_those_of_the_law(scheme, spring, damping, load):
+    (one, few, kept, energies), (two, state, rows, history) = both(
+        scheme, spring, 3000, 5e-4, damping, load
+    )
+    assert one[:2] == two[:2] == (3000, 1)
+    for name in ("u", "v", "a", "joint"):
+        close(getattr(rows, name), getattr(kept, name), 1e-11)
+    close(history, energies, 1e-11)
+    close(state.energies, few.energies, 1e-11)
+    assert state.balance[1] == pytest.approx(few.balance[1], rel=1e-6, abs=1e-10 * few.balance[0])
+
+
+def test_a_hundred_thousand_free_steps_keep_twelve_digits():
+    """Average acceleration turns the phase by 2 atan(omega dt / 2) a step and loses nothing."""
+    steps, dt = 100_000, 2.5e-4
+    _, (_, state, rows, _) = both(Scheme(), SPRINGS["none"], steps, dt, every=1000, energies=False)
+    turn = 2 * np.arctan(0.5 * dt * np.sqrt(STIFFNESS / MASS))
+    start = -0.01 * np.sqrt(4 * MASS / dt**2 + STIFFNESS)
+    close(rows.u[:, 0], start * np.cos(turn * np.arange(1000, steps + 1, 1000)), 1e-12)
+    assert state.balance[1] <= 1e-12 * state.balance[0]
+
+
+def test_a_hundred_thousand_steps_with_uplift_agree():
+    """The loop of the law alone rounds more: 5e-12 in the free motion above."""
+    (_, few, kept, _), (_, state, rows, _) = both(
+        Scheme(), SPRINGS["no tension"], 100_000, 2.5e-4, every=1000, energies=False
+    )
+    close(rows.u, kept.u, 1e-10)
+    close(rows.v, kept.v, 1e-10)
+    assert state.balance[1] == pytest.approx(few.balance[1], rel=1e-6)
+    assert rows.joint[:, 0].min() < 0.0 < rows.joint[:, 0].max()
+
+
+@pytest.mark.parametrize("mass", [0.0, 1e-3])
+def test_light_modes_step_by_the_law(mass):
+    mode = OneMode(mass, 0.0, STIFFNESS, 1.0, 5e-4, 0.0, 0.0, 0.25, 0.5)
+    assert not branch_of(mode, SPRINGS["no tension"], (0.01, 0.0, 0.0, 0.01, 0.0, 0.01)).fits
+    (_, _, kept, _), (_, _, rows, _) = both(
+        Scheme(), SPRINGS["no tension"], 500, 5e-4, load=6e4, mass=mass
+    )
+    close(rows.u, kept.u, 1e-11)
+    close(rows.joint, kept.joint, 1e-11)
+
+
+def test_a_motion_beyond_all_numbers_is_told():
+    unstable = SimpleNamespace(alpha_m=0.0, alpha_f=0.0, beta=0.1, gamma=0.5)
+    (one, *_), (two, *_) = both(unstable, SPRINGS["none"], 20_000, 0.2)
+    assert two[0] < 20_000
+    assert two[1] <= 0
+    assert np.isinf(two[2])
+    assert one[1] <= 0
+
+
+def test_motions_without_mass_keep_their_velocity_and_acceleration(monkeypatch):
+    """A node without mass between springs: its mode does not move, but its acceleration starts."""
+    bench, times = Bench(), 1e-3 * np.arange(301)
+    ground, top, middle = bench.node(-1.0, 0.0), bench.node(0.0, 0.0), bench.node(0.0, 1.0)
+    bench.fix(ground)
+    bench.fix(top, "UY")
+    bench.fix(middle, "UY")
+    bench.spring(4e6, top, unknown="UX")
+    bench.spring(3e6, top, middle, unknown="UX")
+    bench.spring(2e6, middle, unknown="UX")
+    bench.mass(1000.0, top)
+    bench.joint("SEG2", [ground, top], "JOI1", KN=7e6, KS=0.0)
+    start = bench.field((top, "UX", 0.01), (middle, "UX", 0.006))
+    problem = make_problem(
+        Inputs(
+            bench.stiffness, times, bench.mass_matrix, displacement=start,
+            model=bench.model, characteristics=bench.characteristics, scheme=newmark(0.3, 0.6),
+        )
+    )  # fmt: skip
+    engine = DenseEngine(problem, Integration(problem).motion, 1e-3, False, np.zeros(0, bool))
+    assert engine._reduced is not None
+    _, _, active, idle = engine._reduced._line
+    assert (len(active), len(idle)) == (1, 1)
+    few, other = Recorder(len(times)), Recorder(len(times))
+    integrate(problem, [few])
+    monkeypatch.setattr("ssilang.kernel.stepping.run.kind_of", lambda p, full: SparseEngine)
+    integrate(problem, [other])
+    for name in ("u", "v", "a", "reaction", "w", "t", "state"):
+        close(few.of(name), other.of(name), 1e-11)

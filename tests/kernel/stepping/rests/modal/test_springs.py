@@ -1,0 +1,93 @@
+"""Springs that only push: each step is the answer of its complementarity problem."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from references.recorder import Recorder
+from references.rocking_beam import COUNT, rocking
+from scipy.optimize import nnls
+
+from ssilang.kernel.interface.laws.columns import Variable
+from ssilang.kernel.stepping.choose import DenseEngine
+from ssilang.kernel.stepping.rests.modal import springs as normal_loop
+from ssilang.kernel.stepping.rests.modal.springs import Contact, anew, list_closed, settle
+from ssilang.kernel.stepping.run import Integration, integrate
+from ssilang.kernel.stepping.scheme import Scheme, hht
+
+
+def contact_of(Q, k, closed):
+    n = len(k)
+    contact = Contact(Q, k, np.zeros((n, n)), closed, np.zeros(n, np.int64), np.zeros(2, np.int64))
+    anew(contact)
+    list_closed(contact)
+    return contact
+
+
+def forces_of(contact, answer):
+    return np.where(contact.closed, answer, 0.0)
+
+
+@pytest.mark.parametrize("at_once", [0, 20])
+@pytest.mark.parametrize("seed", range(6))
+def test_forces_are_the_smallest_in_the_compliance(seed, at_once, monkeypatch):
+    """`min f.Q f/2 - g.f` over f <= 0, by non-negative least squares on Q's factor."""
+    monkeypatch.setattr(normal_loop, "ALL_AT_ONCE", at_once)
+    rng = np.random.default_rng(seed)
+    k = rng.uniform(1.0, 10.0, COUNT)
+    J = rng.normal(size=(COUNT, 9))
+    Q = J @ J.T + np.diag(1 / k)
+    contact = contact_of(Q, k, rng.random(COUNT) < 0.5)
+    answer, L = np.zeros(COUNT), np.linalg.cholesky(Q)
+    for _ in range(5):
+        g = rng.normal(size=COUNT)
+        settle.py_func(contact, g, answer)
+        truth = -nnls(L.T, -np.linalg.solve(L, g))[0]
+        assert truth.any()
+        assert not truth.all()
+        np.testing.assert_allclose(forces_of(contact, answer), truth, atol=1e-12)
+        jumps = g - Q @ truth
+        np.testing.assert_allclose(answer[~contact.closed], jumps[~contact.closed], atol=1e-12)
+
+
+def test_many_exchanges_do_not_gather_rounding():
+    rng = np.random.default_rng(1)
+    k = 10.0 ** rng.uniform(0.0, 4.0, COUNT)
+    Q = np.diag(1 / k) + (J := rng.normal(size=(COUNT, 4))) @ J.T
+    contact = contact_of(Q, k, np.zeros(COUNT, bool))
+    answer = np.zeros(COUNT)
+    for _ in range(3000):
+        settle(contact, rng.normal(size=COUNT), answer)
+    g = rng.normal(size=COUNT)
+    settle(contact, g, answer)
+    f = forces_of(contact, answer)
+    jumps = g - Q @ f
+    np.testing.assert_allclose(f, np.minimum(k * (jumps + f / k), 0.0), atol=1e-9)
+    np.testing.assert_allclose(jumps[contact.closed], 0.0, atol=1e-10)
+
+
+@pytest.mark.parametrize("scheme", [Scheme(), hht(0.1)])
+def test_rocking_beam_steps_as_the_full_newton(scheme):
+    problem = rocking(scheme)
+    engine = DenseEngine(problem, Integration(problem).motion, 1e-3, False, np.zeros(0, bool))
+    assert engine._reduced._pushes
+    few, other = (Recorder(len(problem.times)) for _ in range(2))
+    found = integrate(problem, [few])
+    truth = integrate(problem, [other], full_newton=True)
+    open_points = (other.of("t")[..., -1] == 0.0).sum(axis=1)
+    assert len(np.unique(open_points)) > 4  # ends lift by and by
+    for name in ("u", "v", "w", "t", "state"):
+        a, b = few.of(name), other.of(name)
+        np.testing.assert_allclose(a, b, atol=1e-10 * np.abs(b).max(), err_msg=name)
+    size = np.abs(truth.energies).max()
+    np.testing.assert_allclose(found.energies, truth.energies, atol=1e-10 * size)
+
+
+def test_springs_with_a_past_keep_their_largest_opening():
+    problem = rocking(Scheme(), 400)
+    state = problem.state.copy()
+    state[:, Variable.XI] = 1.0
+    few = Recorder(len(problem.times))
+    integrate(replace(problem, state=state), [few])
+    assert (few.of("state")[..., Variable.XI] == 1.0).all()
+    assert (few.of("t")[..., -1] == 0.0).any()

@@ -1,0 +1,224 @@
+"""Reduced models with dashpots, undamped parts and moving supports, against the whole one."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from references.recorder import Recorder
+from references.soil_block import soil_block
+
+from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.stepping.rests.reduced.basis import Basis
+from ssilang.kernel.stepping.rests.reduced.damping import split, square_roots
+from ssilang.kernel.stepping.rests.reduced.loop import Reduced, reduced_step
+from ssilang.kernel.stepping.rests.reduced.run import _PAIRS, GROWTH, integrate_reduced
+from ssilang.kernel.stepping.run import integrate
+from ssilang.kernel.stepping.scheme import Scheme, generalised_alpha, hht
+
+RHO, YOUNG = 1900.0, 8e7  # of the soil of `soil_block`, Poisson's ratio 0.3
+VS = np.sqrt(YOUNG / 2.6 / RHO)
+VP = VS * np.sqrt(3.5)
+
+
+@pytest.fixture(autouse=True)
+def no_bases_of_other_tests():
+    _PAIRS.clear()
+
+
+def relative(found, exact):
+    return float(np.abs(found - exact).max() / np.abs(exact).max())
+
+
+def with_edges(problem, width=28):
+    """Dashpots of an absorbing edge on both sides of the soil."""
+    numbering = problem.numbering
+    x = numbering.table.coordinates[numbering.nodes, 0]
+    edge = np.abs(np.abs(x) - width / 2) < 1e-9
+    c = np.zeros(numbering.size)
+    for name, speed in (("UX", VP), ("UY", VS)):
+        at = numbering.where(name)
+        c[at[edge[at]]] = RHO * speed
+    return replace(problem, C=sp.csr_array(problem.C + sp.diags_array(c)))
+
+
+def with_block_damped(problem, share):
+    """Rayleigh damping of the soil; a share of it on the upper part of the block."""
+    numbering = problem.numbering
+    above = numbering.table.coordinates[numbering.nodes, 1] > 0.5
+    size = sp.diags_array(np.where(above, np.sqrt(share), 1.0))
+    return replace(problem, C=sp.csr_array(size @ problem.C @ size))
+
+
+def shaken(problem, height=0.06):
+    """The base moves by a curve; the inertia forces that shook it are taken off."""
+    loading = problem.loading
+    t = loading.curves[1][0]
+    forces, imposed = loading.forces.copy(), np.zeros((problem.constraints.C.shape[0], 2))
+    forces[:, 1] = 0.0
+    rows = abs(problem.constraints.C)[:, problem.numbering.where("UX")].sum(axis=1)
+    imposed[np.asarray(rows).ravel() > 0, 1] = 1.0
+    motion = height * np.sin(4 * np.pi * t) * np.minimum(1.0, 2 * t) ** 3
+    curves = (loading.curves[0], (t, motion))
+    return replace(problem, loading=replace(loading, forces=forces, imposed=imposed, curves=curves))
+
+
+def both(problem, tolerance):
+    whole, reduced = Recorder(len(problem.times)), Recorder(len(problem.times))
+    exact = integrate(problem, [whole])
+    return whole, exact, reduced, integrate_reduced(problem, tolerance, [reduced])
+
+
+def check(problem, tolerance, energy=10.0):
+    whole, exact, reduced, history = both(problem, tolerance)
+    found = history.reduction
+    assert found.refused is None
+    assert history.loop == "reduced"
+    assert 0 < found.vectors <= 0.5 * len(whole.of("u")[0])
+    assert found.estimate <= tolerance
+    assert whole.of("w")[..., 1].max() > 1e-4  # it lifts off
+    errors = [relative(reduced.of(x), whole.of(x)) for x in ("u", "w")]
+    assert max(errors) <= tolerance
+    assert max(errors) <= 2 * found.estimate
+    scale = np.abs(exact.energies).max()
+    assert np.abs(history.energies - exact.energies).max() <= energy * tolerance * scale
+
+
+MODELS = {
+    "absorbing edges": lambda scheme: with_edges(soil_block(scheme=scheme)),
+    "two dampings": lambda scheme: with_block_damped(soil_block(scheme=scheme), 0.4),
+    "a shaken base": lambda scheme: shaken(soil_block(scheme=scheme)),
+    "a shaken base between edges": lambda scheme: shaken(with_edges(soil_block(scheme=scheme))),
+}
+SCHEMES = {"average": Scheme(), "HHT": hht(0.1), "generalised alpha": generalised_alpha(0.8)}
+
+
+@pytest.mark.parametrize("model", MODELS)
+@pytest.mark.parametrize("scheme", SCHEMES)
+def test_true_error_is_below_the_estimate_and_the_tolerance(model, scheme):
+    check(MODELS[model](SCHEMES[scheme]), 1e-4)
+
+
+@pytest.mark.parametrize("model", ["two dampings", "a shaken base"])
+def test_the_estimate_holds_down_to_one_in_a_million(model):
+    check(MODELS[model](Scheme()), 1e-6)
+
+
+def test_edges_reach_one_in_a_million_with_a_short_rayleigh_damping():
+    problem = with_edges(soil_block(damping=(0.5, 8e-3), dt=1e-2, steps=200))
+    check(problem, 1e-6)
+
+
+def test_an_undamped_block():
+    check(with_block_damped(soil_block(), 0.0), 2e-3)
+
+
+def test_edges_alone_on_a_longer_step():
+    """Two seconds on a step that leaves the basis room: it needs less than half of its vectors.
+
+    On half this step joints chatter up to twice the frequency, and the vectors needed for it are
+    about those allowed (half of the unknowns): rounding decides which are more.
+    """
+    check(with_edges(soil_block(damping=None, dt=4e-2, steps=50)), 1e-2)
+
+
+def test_all_vectors_allowed_are_tried_before_the_whole_model_runs(monkeypatch):
+    """The last two models are nested as all are, whatever room was left for growing."""
+    problem = with_edges(soil_block(damping=None, dt=4e-2, steps=50, size=(12, 4, 4)), 12)
+    unknowns, block = problem.constraints.T.shape[1], 12
+    for share in (0.6, 0.7, 0.8):
+        _PAIRS.clear()
+        monkeypatch.setattr("ssilang.kernel.stepping.rests.reduced.run.MOST_VECTORS", share)
+        assert integrate_reduced(problem, 1e-10).loop == "condensed"
+        (pair,) = _PAIRS.values()
+        assert share * unknowns - block <= pair.rich.size <= share * unknowns
+        assert pair.rich.size >= GROWTH * pair.poor.size
+
+
+def test_basis_of_one_scheme_serves_another():
+    motion = shaken(soil_block())
+    integrate_reduced(motion, 1e-4)
+    check(replace(motion, scheme=hht(0.1)), 1e-4)
+
+
+def test_two_step_lengths_and_instants_kept_apart():
+    problem = shaken(with_edges(soil_block(steps=400)))
+    times = problem.times
+    late = times[149] + 0.5 * (times[1] - times[0]) * np.arange(1, 200)
+    check(replace(problem, times=np.concatenate([times[:150], late])), 1e-3)
+
+
+def test_reactions_of_moving_supports():
+    problem = shaken(soil_block(steps=100))
+    whole, _, reduced, _ = both(problem, 1e-6)
+    exact = np.array([problem.constraints.multipliers(r) for r in whole.of("reaction")[1:]])
+    found = np.array([problem.constraints.multipliers(r) for r in reduced.of("reaction")[1:]])
+    assert relative(found, exact) < 1e-3
+
+
+def test_a_motion_that_starts_off_its_supports_runs_whole():
+    problem = shaken(soil_block(steps=20))
+    loading = problem.loading
+    t, motion = loading.curves[1]
+    jumped = replace(loading, curves=(loading.curves[0], (t, motion + 0.1)))
+    history = integrate_reduced(replace(problem, loading=jumped), 1e-3)
+    assert history.loop == "condensed"
+    assert "initial motion" in str(history.reduction.refused)
+
+
+def test_energy_balances_with_edges_and_a_moving_base():
+    problem = shaken(with_edges(soil_block(words=("CISAILLEMENT_ELASTIQUE",), steps=400)))
+    exact, history = integrate(problem), integrate_reduced(problem, 1e-4)
+    assert history.loop == "reduced"
+    scale = np.abs(history.energies).max()
+    assert np.abs(history.imbalance - exact.imbalance).max() < 1e-3 * scale
+
+
+def test_damping_is_split_into_rayleigh_and_rows():
+    problem = with_edges(soil_block(steps=2))
+    T = problem.constraints.T
+    K, M, C = (sp.csr_array(T.T @ X @ T) for X in (problem.K, problem.M, problem.C))
+    parts = split(C, M, K, 400)
+    assert (parts.alpha, parts.beta) == pytest.approx((0.5, 2e-3), rel=1e-9)
+    V = np.random.default_rng(1).standard_normal((5, C.shape[0]))
+    wanted = V @ (C - parts.alpha * M - parts.beta * K).toarray() @ V.T
+    for given in (parts, replace(parts, few=None)):
+        rows, sense = given.on(V)
+        np.testing.assert_allclose(rows.T @ (sense[:, None] * rows), wanted, rtol=1e-9, atol=1e-6)
+
+
+def test_square_roots_keep_the_sign():
+    A = np.array([[2.0, 1.0, 0.0], [1.0, -3.0, 0.0], [0.0, 0.0, 0.0]])
+    rows, sense = square_roots(A)
+    assert rows.shape == (2, 3)
+    assert sorted(sense) == [-1.0, 1.0]
+    np.testing.assert_allclose(rows.T @ (sense[:, None] * rows), A, atol=1e-14)
+
+
+def test_dashpots_are_eliminated_from_the_interface():
+    random = np.random.default_rng(2)
+    r, q, d, dt = 7, 2, 3, 0.01
+    Rt, sense = random.standard_normal((r, q + d)), np.array([1.0, 1.0, -0.2])
+    m, c, k = random.uniform(1, 2, (3, r)) * np.array([[1.0], [0.1], [300.0]])
+    scheme = np.array([0.0, 0.1, 0.3025, 0.6])
+    none = np.zeros((0, r))
+    step = reduced_step(Reduced(m, c, k, Rt, sense, none, np.zeros((q, 0)), scheme), dt, q)
+    J, B = Rt.T[:q], Rt.T[q:]
+    C = np.diag(c) + B.T @ (sense[:, None] * B)
+    rate = 0.9 * 0.6 / (0.3025 * dt)
+    A = np.diag(m) / (0.3025 * dt**2) + rate * C + 0.9 * np.diag(k)
+    np.testing.assert_allclose(step.S, J @ np.linalg.solve(A, J.T), rtol=1e-10)
+
+
+def test_damped_space_matches_the_response_at_its_shift_and_beside():
+    problem = with_edges(soil_block(steps=2))
+    basis = Basis(problem, 5e-3, 441)
+    basis.grow()
+    model, T = basis.model(), problem.constraints.T
+    K, M, C = (np.asarray((T.T @ X @ T).todense()) for X in (problem.K, problem.M, problem.C))
+    J = (problem.interface.J @ T).toarray()
+    for s, near in ((basis.shift, 1e-8), (0.95 * basis.shift, 1e-5)):
+        exact = J @ np.linalg.solve(K + s * C + s**2 * M, J.T)
+        small = np.diag(model.k + s * model.c + s**2 * model.m)
+        small += s * model.B.T @ (model.sense[:, None] * model.B)
+        found = model.J @ np.linalg.solve(small, model.J.T)
+        assert relative(found, exact) < near

@@ -1,0 +1,167 @@
+"""The loop of large problems gives what Newton's method on all unknowns gives, at every step."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import scipy.sparse as sparse
+from references.soil_block import FRICTION, soil_block
+
+from ssilang.kernel.stepping import effective
+from ssilang.kernel.stepping.problem.constraints import EliminatedConstraints
+from ssilang.kernel.stepping.rests.sparse import interleaved as interleaved_loop
+from ssilang.kernel.stepping.run import integrate
+from ssilang.kernel.stepping.scheme import generalised_alpha, hht, newmark
+
+SOFTENING = {"KN": 2e8, "KS": 1e8, "FU": 2e4, "GF": 200.0, "FC": -1e4}
+BONDED = {"KN": 2e8, "KS": 1e8, "FU": 1e6, "GF": 1e6}
+SIZE = (16, 8, 4)
+
+
+class Instants:
+    """Keeps chosen instants."""
+
+    def __init__(self, problem, every=3):
+        self.wanted = np.arange(len(problem.times)) % every == 0
+        self.kept = []
+
+    def receive(self, snapshot):
+        """One more."""
+        self.kept.append(snapshot)
+
+    def close(self):
+        """Nothing to close."""
+
+
+def motions(problem, full):
+    instants = Instants(problem)
+    history = integrate(problem, [instants], full_newton=full)
+    return history, instants.kept
+
+
+def assert_same(problem, tolerance=1e-9):
+    (fast, kept), (full, expected) = motions(problem, False), motions(problem, True)
+    assert (fast.loop, fast.solver) == ("condensed", "nested dissection")
+    assert full.loop == "full Newton"
+    assert len(kept) == len(expected) > 10
+    for name in ("u", "v", "reaction", "w", "t", "state"):
+        a, b = (np.array([getattr(s, name) for s in k]) for k in (kept, expected))
+        if b.size:
+            assert np.abs(a - b).max() <= tolerance * np.abs(b).max(), name
+    size = np.abs(full.energies).max()
+    assert np.abs(fast.energies - full.energies).max() <= tolerance * size
+    return expected
+
+
+@pytest.mark.parametrize(
+    ("joint", "words"),
+    [(FRICTION, ()), (SOFTENING, ()), ({"KN": 2e8, "KS": 1e8}, ("CISAILLEMENT_ELASTIQUE",))],
+)
+@pytest.mark.parametrize("damping", [None, (0.5, 2e-3)])
+def test_laws_of_the_joint(joint, words, damping):
+    problem = soil_block(
+        steps=150, size=SIZE, joint=joint, words=words, damping=damping, acceleration=6.0
+    )
+    kept = assert_same(problem)
+    openings = np.array([s.w[:, -1] for s in kept])
+    assert (openings > 1e-6).any()  # it rocks
+    assert (openings < 0.0).any()
+
+
+@pytest.mark.parametrize("scheme", [hht(0.1), generalised_alpha(0.6), newmark(0.3025, 0.6)])
+@pytest.mark.parametrize("damping", [None, (0.5, 2e-3)])
+def test_schemes(scheme, damping):
+    assert_same(soil_block(steps=100, size=SIZE, scheme=scheme, damping=damping))
+
+
+def test_damping_that_is_a_diagonal_matrix():
+    problem = soil_block(steps=60, size=SIZE)
+    lumped = sparse.diags_array(problem.M.sum(axis=1)).tocsr()
+    assert_same(replace(problem, M=lumped, C=0.8 * lumped))
+
+
+def test_dashpots():
+    assert_same(soil_block(steps=100, size=SIZE, extra_damping=0.01))
+
+
+def test_without_joints():
+    problem = soil_block(steps=60, size=SIZE)
+    assert_same(replace(problem, interface=None, state=np.zeros((0, 0))))
+
+
+def test_a_body_without_mass_that_joints_alone_hold():
+    problem = soil_block(
+        steps=60, size=SIZE, damping=None, joint=BONDED, words=("CISAILLEMENT_ELASTIQUE",)
+    )
+    block = problem.numbering.table.coordinates[problem.numbering.nodes, 1] > 0.0
+    base = np.zeros(problem.numbering.size, bool)
+    base[problem.interface.J.indices] = True
+    coordinates = problem.numbering.table.coordinates[problem.numbering.nodes]
+    lower = problem.interface.J.toarray().max(axis=0) > 0.0  # the joints' upper faces
+    body = block | (lower & base & (coordinates[:, 1] == 0.0))
+    keep = sparse.diags_array(np.where(body, 0.0, 1.0))
+    light = replace(problem, M=sparse.csr_array(keep @ problem.M @ keep))
+    dt = float(light.times[1])
+    e = effective.effective_of(light, effective.effective_matrix(light, dt), dt, 1.0)
+    assert e.R.any()
+    assert_same(light)
+
+
+@pytest.mark.parametrize("scheme", [newmark(0.25, 0.5), hht(0.1), generalised_alpha(0.6)])
+@pytest.mark.parametrize("damping", [None, (0.5, 2e-3)])
+def test_moving_supports(scheme, damping):
+    problem = soil_block(steps=100, size=SIZE, moving=True, scheme=scheme, damping=damping)
+    problem.loading.imposed[::2, 0] = 0.0  # two patterns: the weight's curve and the shaking
+    assert np.ptp(problem.loading.at(problem.times)[:, 1]) > 0.0
+    assert_same(problem)
+
+
+def test_supports_of_the_joints_themselves_move():
+    problem = soil_block(steps=100, size=SIZE, damping=None)
+    up = problem.numbering.table.coordinates[problem.numbering.nodes, 1] < -0.5
+    rows = np.flatnonzero(up | (problem.interface.J.toarray().min(axis=0) < 0.0))
+    C = sparse.csr_array(
+        (np.ones(len(rows)), (np.arange(len(rows)), rows)), shape=(len(rows), len(up))
+    )
+    imposed = np.zeros((len(rows), 2))
+    imposed[:, 1] = 2e-4
+    moving = replace(
+        problem, constraints=EliminatedConstraints(C),
+        loading=replace(problem.loading, imposed=imposed),
+    )  # fmt: skip
+    kept = assert_same(moving)
+    assert (np.array([s.w[:, -1] for s in kept]) > 1e-6).any()
+
+
+def test_a_first_motion_that_the_supports_do_not_allow():
+    problem = soil_block(steps=60, size=SIZE)
+    rng = np.random.default_rng(3)
+    u, v = (1e-4 * rng.standard_normal(problem.numbering.size) for _ in range(2))
+    assert_same(replace(problem, u=u, v=v), 1e-8)
+
+
+@pytest.mark.parametrize("block", [1, 7, 64])
+def test_length_of_the_blocks_of_steps_changes_nothing(block, monkeypatch):
+    problem = soil_block(steps=100, size=SIZE)
+    expected = motions(problem, False)[1][-1]
+    monkeypatch.setattr(interleaved_loop, "BLOCK", block)
+    found = motions(problem, False)[1][-1]
+    assert np.abs(found.u - expected.u).max() <= 1e-10 * np.abs(expected.u).max()
+
+
+@pytest.mark.parametrize("branch", [0, 300, 10**9])
+def test_size_of_the_branches_changes_nothing(branch, monkeypatch):
+    problem = soil_block(steps=50, size=SIZE)
+    expected = motions(problem, False)[1][-1]
+    monkeypatch.setattr(interleaved_loop, "BRANCH", branch)
+    found = motions(problem, False)[1][-1]
+    assert np.abs(found.u - expected.u).max() <= 1e-11 * np.abs(expected.u).max()
+
+
+def test_energy_of_bonded_bodies_is_kept():
+    problem = soil_block(
+        steps=200, size=SIZE, damping=None, acceleration=0.1,
+        joint=BONDED, words=("CISAILLEMENT_ELASTIQUE",),
+    )  # fmt: skip
+    history, _ = motions(problem, False)
+    assert np.abs(history.imbalance).max() <= 1e-10 * np.abs(history.energies).max()

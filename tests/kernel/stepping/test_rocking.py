@@ -1,0 +1,149 @@
+"""Bodies on several joints: rocking on two supports, a bar that hits a wall."""
+
+import itertools
+
+import numpy as np
+import pytest
+from references.assembled import Bench
+from references.bar import Bar, solve_bar
+from references.contact import solve
+from references.recorder import Recorder
+from references.rocking import TwoSpringBlock
+
+from ssilang.kernel.contact.options import ContactOptions
+from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
+from ssilang.kernel.stepping.run import integrate
+from ssilang.kernel.stepping.scheme import Scheme
+
+BLOCK = TwoSpringBlock(mass=1e5, inertia=4e5, height=3.0, half_width=1.5, k=4e7)
+
+
+def block_problem(dt, duration, scheme):
+    """Base centre C (UY, RZ) with the two edges tied to it, joints to the fixed soil."""
+    bench, b = Bench(), BLOCK.half_width
+    centre = bench.node(0.0, 0.0)
+    bench.mass(BLOCK.mass, centre, ("UY",))
+    bench.mass(BLOCK.rocking_inertia, centre, ("RZ",))
+    for x in (-b, b):
+        edge, soil = bench.node(x, 0.0), bench.node(x, -1.0)
+        bench.fix(soil)
+        bench.fix(edge, "UX")
+        bench.relate([(1.0, "UY", edge), (-1.0, "UY", centre), (-x, "RZ", centre)])
+        bench.joint("SEG2", [soil, edge], "JOI1", KN=BLOCK.k, KS=0.0)
+    problem = make_problem(
+        Inputs(
+            bench.stiffness,
+            np.arange(round(duration / dt) + 1) * dt,
+            bench.mass_matrix,
+            load=bench.load(bench.field((centre, "FY", -BLOCK.weight))),
+            displacement=bench.field((centre, "UY", BLOCK.rest[0])),
+            velocity=bench.field((centre, "RZ", 0.5)),
+            model=bench.model,
+            characteristics=bench.characteristics,
+            scheme=scheme,
+        )
+    )
+    # edges start at the settlement, and move with the centre
+    for x in (-b, b):
+        node = int(np.flatnonzero(bench.table.coordinates[:, 0] == x)[0])
+        problem.u[problem.numbering.index_of(node, "UY")] = BLOCK.rest[0]
+        problem.v[problem.numbering.index_of(node, "UY")] = 0.5 * x
+    recorder = Recorder(len(problem.times))
+    history = integrate(problem, [recorder])
+    u = recorder.of("u")
+    found = u[:, [problem.numbering.index_of(centre, n) for n in ("UY", "RZ")]]
+    return problem.times, found, history
+
+
+def block_error(dt, scheme):
+    times, found, _ = block_problem(dt, 2.0, scheme)
+    motion = solve(BLOCK.system(), BLOCK.rest, np.array([0.0, 0.5]), 2.0)
+    exact, _ = motion(times)
+    return np.abs(found[:, 1] - exact[:, 1]).max() / np.abs(exact[:, 1]).max()
+
+
+@pytest.mark.parametrize("scheme", [Scheme(), Scheme(conserving=True)])
+def test_rocking_block_follows_the_event_driven_motion(scheme):
+    errors = [block_error(dt, scheme) for dt in (2e-3, 1e-3, 5e-4)]
+    assert errors[-1] < 2e-3
+    assert 1.5 < np.log2(errors[0] / errors[-1]) / 2 < 2.5
+
+
+def test_rocking_block_keeps_its_energy_with_the_conserving_step():
+    _, _, history = block_problem(1e-2, 3.0, Scheme(conserving=True))
+    reference = 0.5 * BLOCK.rocking_inertia * 0.5**2
+    assert np.abs(history.imbalance).max() < 1e-10 * reference
+
+
+BAR, PLAIN = Bar(), ContactOptions()
+
+
+def bar_impact(dt, options=PLAIN, joint=None, cells=100):
+    """Bar falling on a wall at its lower end; (times, lower end, history, pressure)."""
+    bench = Bench()
+    h = BAR.length / cells
+    nodes = [bench.node(0.0, i * h) for i in range(cells + 1)]
+    k, m = BAR.young / h, BAR.density * h
+    for a, b in itertools.pairwise(nodes):
+        bench.spring(k, a, b)
+        mass = np.array([[2.0, 1.0], [1.0, 2.0]]) * m / 6
+        bench.mass_blocks.append(bench._block([a, b], ["UY", "UY"], mass, "MASSE"))
+    if joint is None:
+        bench.relate([(1.0, "UY", nodes[0])], sense=1)
+    else:
+        wall = bench.node(0.0, -1.0)
+        bench.fix(wall)
+        bench.fix(nodes[0], "UX")
+        bench.joint("SEG2", [wall, nodes[0]], "JOI1", KN=joint, KS=0.0)
+    weight = np.full(cells + 1, -BAR.gravity * m)
+    weight[[0, -1]] /= 2
+    start = [(n, "UY", BAR.height) for n in nodes]
+    problem = make_problem(
+        Inputs(
+            bench.stiffness,
+            np.arange(round(2.2 / dt) + 1) * dt,
+            bench.mass_matrix,
+            load=bench.load(
+                bench.field(*((n, "FY", w) for n, w in zip(nodes, weight, strict=True)))
+            ),
+            displacement=bench.field(*start),
+            model=bench.model,
+            characteristics=bench.characteristics,
+            contact_options=options,
+        )
+    )
+    recorder = Recorder(len(problem.times))
+    history = integrate(problem, [recorder])
+    end = recorder.of("u")[:, problem.numbering.index_of(nodes[0], "UY")]
+    pressure = recorder.of("contact")[:, 0] if joint is None else -recorder.of("t")[:, 0, -1]
+    return problem.times, end, history, pressure
+
+
+def release(times, end):
+    """Time at which the end leaves the wall, between two steps."""
+    contact = np.flatnonzero(end < 1e-9)
+    i = contact[-1]
+    return times[i] + (times[i + 1] - times[i]) * max(-end[i], 0.0) / (end[i + 1] - end[i])
+
+
+def test_bar_on_a_joint_leaves_the_wall_in_time_and_keeps_its_energy():
+    times, end, history, _ = bar_impact(2.5e-4, joint=1e5)
+    exact = BAR.fall + BAR.round_trip
+    assert release(times, end) == pytest.approx(exact, abs=0.01)
+    kinetic = 0.5 * BAR.density * BAR.length * BAR.impact_velocity**2
+    assert np.abs(history.imbalance).max() < 2e-3 * kinetic
+
+
+def test_modified_mass_gives_the_cleanest_pressure():
+    motion = solve_bar(BAR, 2.2)
+    rms = {}
+    for name, options in (
+        ("plain", ContactOptions(correction="FAUX")),
+        ("modified", ContactOptions(modified_mass=True)),
+    ):
+        times, _, _, pressure = bar_impact(2e-3, options=options)
+        inside = (times > BAR.fall + 0.1) & (times < BAR.fall + BAR.round_trip - 0.1)
+        exact = motion.pressure(times[inside])
+        rms[name] = np.sqrt(np.mean((pressure[inside] - exact) ** 2)) / BAR.mean_pressure
+    assert rms["modified"] < 0.01
+    assert rms["modified"] < 0.1 * rms["plain"]

@@ -1,0 +1,134 @@
+"""Motions that lift off, against the exact ones; the loops against each other."""
+
+import numpy as np
+import pytest
+from references.assembled import Bench
+from references.oscillators import MASS, SOIL_STIFFNESS, STRUCTURE_STIFFNESS, ClubB
+from references.recorder import Recorder
+
+from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
+from ssilang.kernel.stepping.run import integrate
+from ssilang.kernel.stepping.scheme import Scheme, generalised_alpha, hht
+
+AVERAGE = Scheme()
+
+
+def club_b(dt: float, duration: float = 1.0, scheme: Scheme = AVERAGE, **joint: float):
+    bench = Bench()
+    soil, top = bench.node(-1.0, 0.0), bench.node(0.0, 0.0)
+    bench.spring(STRUCTURE_STIFFNESS, top, unknown="UX")
+    bench.mass(MASS, top)
+    bench.fix(soil)
+    bench.fix(top, "UY")
+    bench.joint("SEG2", [soil, top], "JOI1", **({"KN": SOIL_STIFFNESS, "KS": 0.0} | joint))
+    inputs = Inputs(
+        bench.stiffness,
+        np.arange(0, round(duration / dt) + 1) * dt,
+        bench.mass_matrix,
+        displacement=bench.field((top, "UX", 0.01)),
+        model=bench.model,
+        characteristics=bench.characteristics,
+        scheme=scheme,
+    )
+    problem = make_problem(inputs)
+    return problem, problem.numbering.index_of(top, "UX")
+
+
+def run(problem, **options):
+    recorder = Recorder(len(problem.times))
+    history = integrate(problem, [recorder], **options)
+    return recorder, history
+
+
+def club_b_error(dt: float, scheme: Scheme = AVERAGE) -> float:
+    problem, i = club_b(dt, scheme=scheme)
+    recorder, _ = run(problem)
+    exact, _ = ClubB().motion(problem.times)
+    return float(np.abs(recorder.of("u")[:, i] - exact).max() / 0.01)
+
+
+def test_bilinear_oscillator_is_of_second_order():
+    errors = np.array([club_b_error(dt) for dt in (1e-3, 5e-4, 2.5e-4)])
+    assert errors[2] < 2e-3
+    orders = np.log2(errors[:-1] / errors[1:])
+    assert (np.abs(orders - 2.0) < 0.1).all()
+
+
+def test_bilinear_oscillator_keeps_its_energy():
+    problem, _ = club_b(2.5e-4)
+    _, history = run(problem)
+    assert np.abs(history.imbalance).max() < 1e-4 * ClubB().energy
+
+
+@pytest.mark.parametrize("scheme", [Scheme(), hht(0.1), generalised_alpha(0.8)])
+def test_loops_agree(scheme, monkeypatch):
+    problem, _ = club_b(1e-3, 0.4, scheme)
+    compiled, history = run(problem)
+    newton, other = run(problem, full_newton=True)
+    assert (history.loop, other.loop) == ("compiled", "full Newton")
+    monkeypatch.setattr("ssilang.kernel.stepping.problem.problem.SMALL", 0)
+    problem, _ = club_b(1e-3, 0.4, scheme)
+    sparse, third = run(problem)
+    assert third.loop == "condensed"
+    for name in ("u", "v", "a", "reaction", "t"):
+        size = np.abs(compiled.of(name)).max()
+        assert np.abs(compiled.of(name) - newton.of(name)).max() < 1e-9 * size
+        assert np.abs(compiled.of(name) - sparse.of(name)).max() < 1e-9 * size
+    np.testing.assert_allclose(history.energies, third.energies, atol=1e-9 * ClubB().energy)
+
+
+@pytest.mark.parametrize("scheme", [hht(0.05), generalised_alpha(0.9)])
+def test_damped_schemes_are_of_second_order(scheme):
+    errors = [club_b_error(dt, scheme) for dt in (5e-4, 2.5e-4)]
+    assert 1.7 < np.log2(errors[0] / errors[1]) < 2.3
+
+
+@pytest.mark.parametrize("scheme", [hht(0.3), generalised_alpha(0.0)])
+def test_damped_schemes_lose_energy(scheme):
+    _, history = run(club_b(1e-3, scheme=scheme)[0])
+    total = history.energies[:, :4].sum(axis=1)
+    assert total[-1] < 0.9999 * total[0]
+
+
+CONSERVING = Scheme(conserving=True)
+
+
+def test_conserving_step_is_of_second_order():
+    errors = [club_b_error(dt, CONSERVING) for dt in (5e-4, 2.5e-4)]
+    assert 1.8 < np.log2(errors[0] / errors[1]) < 2.2
+
+
+@pytest.mark.parametrize("dt", [1e-2, 3e-3, 1e-3])
+@pytest.mark.parametrize("stiffness", [1.0, 1e4])
+def test_conserving_step_keeps_energy_at_any_step_and_stiffness(dt, stiffness):
+    problem, _ = club_b(dt, scheme=CONSERVING, KN=stiffness * SOIL_STIFFNESS)
+    _, history = run(problem)
+    assert np.abs(history.imbalance).max() < 1e-10 * ClubB().energy
+
+
+def test_conserving_step_balances_softening_and_friction():
+    problem, _ = club_b(
+        1e-3, 1.0, CONSERVING, KS=5e6, FU=2e4, GF=100.0, FC=-1e4, FROT=0.3, KN=SOIL_STIFFNESS
+    )
+    problem.v[:] = 0.1
+    _recorder, history = run(problem)
+    assert history.energies[-1, 3] > 1.0
+    assert np.abs(history.imbalance).max() < 1e-10 * history.energies[0].sum()
+
+
+def test_conserving_step_is_average_acceleration_without_opening():
+    one, _ = run(club_b(1e-3, 0.02)[0])
+    two, _ = run(club_b(1e-3, 0.02, CONSERVING)[0])
+    assert np.abs(one.of("u") - two.of("u")).max() < 1e-14
+
+
+def test_adapted_steps_find_the_events_and_keep_the_step_elsewhere():
+    plain, adapted = club_b_error(2e-3), club_b_error(2e-3, Scheme(adaptive=True))
+    smooth, _ = club_b(2e-3, 0.02)
+    split, _ = club_b(2e-3, 0.02, Scheme(adaptive=True))
+    assert adapted < plain
+    np.testing.assert_allclose(run(split)[0].of("u"), run(smooth)[0].of("u"), atol=1e-12)
+    problem, _ = club_b(2e-3, scheme=Scheme(adaptive=True))
+    _, history = run(problem)
+    _, coarse = run(club_b(2e-3)[0])
+    assert np.abs(history.imbalance).max() < 0.05 * np.abs(coarse.imbalance).max()

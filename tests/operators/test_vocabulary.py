@@ -1,0 +1,256 @@
+"""The vocabulary and the kernel know the same words; every entry is sound; help shows them."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from ssilang.cli.run import run_text
+from ssilang.kernel.elements.catalog import ELEMENTS, GENERIC_ELEMENTS
+from ssilang.kernel.interface.laws.parameters import DEFAULTS
+from ssilang.kernel.materials.behaviours import FORMULATIONS
+from ssilang.kernel.materials.model import Mode
+from ssilang.language import vocabulary
+from ssilang.language.vocabulary.examples import EXAMPLES, example
+from ssilang.language.vocabulary.terms import UNITS, Option, Quantity, Range
+from ssilang.operators import words
+from ssilang.operators.loader import load_operators
+from ssilang.operators.models.contact import METHODS
+from ssilang.operators.models.making import LAW_WORDS
+from ssilang.operators.session.options import READERS
+from ssilang.operators.word_pages import exact_pages, help_text, near_name, vocabulary_text
+
+load_operators()
+
+_ALL = [(kind, word) for kind in vocabulary.KINDS for word in vocabulary.words(kind)]
+_CHOICES = ("GAUSS", "LOBATTO", "INTEGRE", "CONS", "DPGE", "LIBRE", "LIE")
+_KNOWN = {
+    "formulation": FORMULATIONS,
+    "law": (
+        *LAW_WORDS, *METHODS, *_CHOICES, "UNILATERAL", "FROTTANT", "COULOMB", "FROCABLE", "PRESSION"
+    ),
+    "element": (*ELEMENTS, *GENERIC_ELEMENTS),
+    "parameter": words.known_parameters(),
+    "component": words.known_components(),
+    "option": tuple(READERS),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", vocabulary.KINDS)
+def test_every_word_has_an_entry_and_every_entry_is_known(kind):
+    known, declared = set(_KNOWN[kind]), set(vocabulary.names(kind))
+    assert known - declared == set(), "words without an entry"
+    assert declared - known == set(), "entries that nothing knows"
+
+
+@pytest.mark.parametrize("name", words.known_parameters())
+def test_every_meaning_of_a_parameter_is_that_of_some_law_or_element(name):
+    used = [meaning for _, meaning in words.owners(name)]
+    for word in vocabulary.meanings("parameter", name):
+        assert word in used, f"{name} of {word.of}: nothing takes it"
+
+
+def test_meanings_are_limited_to_what_exists():
+    families = {k.family for k in ELEMENTS.values()}
+    known = {*families, *ELEMENTS, *_KNOWN["law"], "CONTACT"}
+    for _, word in _ALL:
+        assert set(word.of) <= known, f"{word.name} is limited to {word.of}"
+
+
+@pytest.mark.parametrize(("kind", "word"), _ALL, ids=lambda v: getattr(v, "name", v))
+def test_an_entry_is_whole(kind, word):
+    assert word.name == word.name.upper()
+    values = word.values if isinstance(word, Option) else ()
+    for entry in (word, *values):
+        assert entry.en, entry.name
+        assert entry.fr, entry.name
+        assert entry.en[-1] != "."
+        assert entry.fr[-1] != "."
+    for language in ("en", "fr"):
+        assert word.meaning(language)[:20] in vocabulary_text(kind, word, language)
+
+
+@pytest.mark.parametrize(
+    "word", [w for _, w in _ALL if isinstance(w, Quantity)], ids=lambda w: w.name
+)
+def test_units_and_ranges_are_sound(word):
+    assert word.unit is None or word.unit in UNITS
+    for span in (word.range, word.usual):
+        assert span.low <= span.high
+        assert span.low < span.high or not (span.open_low or span.open_high)
+    assert word.default is None or word.default in word.range
+    ends = [e for e in (word.usual.low, word.usual.high) if math.isfinite(e)]
+    assert all(e in word.range or e in (word.range.low, word.range.high) for e in ends)
+
+
+def test_defaults_of_the_kernel_are_in_their_ranges():
+    for name, default in DEFAULTS.items():
+        for word in vocabulary.meanings("parameter", name):
+            assert default in word.range
+
+
+def test_one_meaning_has_one_unit_in_each_zone():
+    joint = words.sample("JOI2", Mode.PLANE_STRAIN)
+    points = words.sample("JOI1", Mode.PLANE_STRAIN)
+    assert words.parameter("KN", joint).unit == "Pa/m"
+    assert words.parameter("KN", points).unit == "N/m"
+    soil = words.sample(
+        "QUA4", Mode.PLANE_STRAIN, ("ELASTIQUE", "ISOTROPE", "PLASTIQUE", "RH_COULOMB")
+    )
+    slips = words.sample("JOI2", Mode.PLANE_STRAIN, ("ELASTIQUE", "JOINT_DILATANT"))
+    assert words.parameter("PHI", soil).unit == "rad"
+    assert words.parameter("PHI", slips).unit == "deg"
+
+
+@pytest.mark.parametrize("key", EXAMPLES)
+def test_examples_run(key, tmp_path):
+    done = run_text(EXAMPLES[key], output_directory=tmp_path)
+    assert done.exit_code == 0, done.message
+
+
+@pytest.mark.parametrize("kind", ["law", "element"])
+def test_every_law_and_element_has_an_example(kind):
+    for word in vocabulary.words(kind):
+        assert example(kind, word), word.name
+
+
+@pytest.mark.parametrize(
+    ("kind", "said", "name"),
+    [("law", "JOINT_SDM", "JOINT_SDM"), ("law", "joint_s", "JOINT_SDM"),
+     ("law", "ELAS", "ELASTIQUE"),
+     ("law", "ELA", ""), ("element", "POUTRE", "POUT"), ("option", "DIMENSION", "DIME"),
+     ("parameter", "YOUNG", ""), ("component", "UX", "UX"), ("component", "UXX", "")],
+)  # fmt: skip
+def test_words_are_found_as_the_language_compares_them(kind, said, name):
+    assert vocabulary.full_name(kind, said) == name
+    found = vocabulary.find(kind, said)
+    assert (found.name if found else "") == name
+
+
+def test_near_names_of_a_list():
+    assert vocabulary.near("element", "TIOM")[0] == "TIMO"
+    assert vocabulary.near("parameter", "YUON")[0] == "YOUN"
+
+
+@pytest.mark.parametrize(
+    ("low", "text"),
+    [(Range(), ""), (Range(0.0), "K >= 0"), (Range(0.0, open_low=True), "K > 0"),
+     (Range(high=0.0), "K <= 0"), (Range(-1.0, 0.5, True, True), "-1 < K < 0.5")],
+)  # fmt: skip
+def test_ranges_are_told_as_inequalities(low, text):
+    assert low.text("K") == text
+
+
+# ---- help ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("word", "parts"),
+    [
+        ("JOINT_SDM", ("law of joints", "JOI2", "FROT", "Pa/m", "required", "JOINT_DILATANT")),
+        ("KN", ("Pa/m", "N/m", "MACRO_SEMELLE", "JOI1", "KN >= 0")),
+        ("POUT", ("SEG2", "TRID", "UX UY UZ RX RY RZ", "EFFX", "Area of the section")),
+        ("UX", ("Displacement along x", "Dual", "FX", "QUA4")),
+        ("PLAN", ("value of OPTI MODE", "keyword of")),
+        ("MASS", ("operator", "Modal mass", "kg")),
+        ("DIME", ("operator", "option of OPTI", "ENTIER")),
+    ],
+)
+def test_help_of_a_word(word, parts):
+    text = help_text(word, "en")
+    for part in parts:
+        assert part in text
+
+
+def test_a_word_with_several_meanings_lists_them_all():
+    mass = [page.partition("\n")[0] for page in exact_pages("MASS", "en")]
+    assert mass[0] == "MASS (MASSE) : operator [matrix]"
+    assert mass[1:3] == ["MASS : parameter of MATE or CARA"] * 2  # at a point, of a mode
+    phi = help_text("PHI", "en")
+    assert "rad" in phi
+    assert "deg" in phi
+
+
+@pytest.mark.parametrize(
+    ("query", "name"),
+    [("uplift", "JOINT_SDM"), ("décollement", "JOINT_SDM"), ("damping", "AMOR"),
+     ("amortissement", "AMOR"), ("contact", "FROTTANT"), ("modes", "VIBR")],
+)  # fmt: skip
+@pytest.mark.parametrize("language", ["en", "fr"])
+def test_help_searches_both_languages(query, name, language):
+    assert f"  {name} " in help_text(query, language)
+
+
+def test_nothing_found_gives_a_near_name():
+    assert help_text("JOINT_SMD", "en") == ""
+    assert near_name("JOINT_SMD") == "JOINT_SDM"
+
+
+# ---- refusals ---------------------------------------------------------------------------------
+
+_BAR = (
+    "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0 0) (1 0) ; "
+    "M = MODE L MECANIQUE ELASTIQUE BARR ; A = MATE M 'SECT' 1. {} ;"
+)
+
+
+@pytest.mark.parametrize(
+    ("given", "name"),
+    [("'YOUN' -1. 'NU' 0.", "YOUN"), ("'YOUN' 1. 'NU' 0.7", "NU"), ("'YOUN' 1. 'NU' -1.", "NU"),
+     ("'YOUN' 1. 'NU' 0. 'RHO' -2500.", "RHO")],
+)  # fmt: skip
+def test_mate_refuses_numbers_out_of_their_range(given, name, tmp_path):
+    done = run_text(_BAR.format(given), output_directory=tmp_path)
+    assert done.exit_code == 1
+    assert f"parameter {name} = " in done.message
+    assert "is out of its range" in done.message
+
+
+@pytest.mark.parametrize("given", ["'YOUN' 0. 'NU' 0.5", "'YOUN' 2.E11 'NU' 0. 'ALPH' -1.E-6"])
+def test_mate_takes_numbers_in_their_range(given, tmp_path):
+    done = run_text(_BAR.format(given), output_directory=tmp_path)
+    assert done.exit_code == 0, done.message
+
+
+def test_a_field_out_of_range_is_refused_too(tmp_path):
+    text = (
+        "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0 0) (1 0) ; M = MODE L MECANIQUE ELASTIQUE BARR ; "
+        "Y = MANU 'CHML' M 'YOUN' -5. ; A = MATE M 'YOUN' Y ;"
+    )
+    done = run_text(text, output_directory=tmp_path)
+    assert "parameter YOUN = -5 is out of its range" in done.message
+
+
+def test_mode_says_what_stands_on_the_cells(tmp_path):
+    text = "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0 0) (1 0) ; M = MODE L MECANIQUE ELASTIQUE TIOM ;"
+    said = run_text(text, output_directory=tmp_path).message
+    assert "did you mean TIMO?" in said
+    assert "SEG2 cells take BARR POUT TIMO" in said
+
+
+def test_mate_says_what_parameters_mean(tmp_path):
+    said = run_text(_BAR.format("'YOUM' 1."), output_directory=tmp_path).message
+    assert "did you mean YOUN?" in said
+    assert "YOUN: Young's modulus (Pa)" in said
+
+
+def test_opti_says_what_values_mean(tmp_path):
+    said = run_text("OPTI DIME 2 MODE PALN ;", output_directory=tmp_path).message
+    assert "did you mean PLAN?" in said
+    assert "AXIS: Bodies of revolution" in said
+
+
+def test_info_searches_too(tmp_path):
+    done = run_text("INFO 'uplift' ;", output_directory=tmp_path)
+    assert "JOINT_SDM" in done.output
+
+
+def test_a_misspelt_component_of_a_force_gets_a_near_name(tmp_path):
+    text = "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0 0) (1 0) ; F = FORC 'FXX' 3. L ;"
+    assert "did you mean 'FX'?" in run_text(text, output_directory=tmp_path).message
+
+
+def test_components_of_ones_own_are_taken(tmp_path):
+    text = "OPTI DIME 2 ; P = 0. 0. ; U = MANU 'CHPO' P 1 'MINE' 2. ; V = EXCO 'MINE' U 'UX' ;"
+    assert run_text(text, output_directory=tmp_path).exit_code == 0
