@@ -7,10 +7,6 @@ MESSAGES: dict[str, Message] = {
         "no zone of the model behaves as {words:words}",
         "aucune zone du modèle n'a le comportement {words:words}",
     ),
-    "extr-words-of-model": Message(
-        "EXTR takes {words:words} out of a model",
-        "EXTR extrait d'un modèle : {words:words}",
-    ),
     "field-no-component": Message(
         "the field has no component {name}",
         "le champ n'a pas de composante {name}",
@@ -227,6 +223,12 @@ MESSAGES: dict[str, Message] = {
     "integration-points-none": Message(
         "{points} integration points in each direction are none",
         "{points} points d'intégration par direction n'en font aucun",
+    ),
+    "no-support": Message(
+        "'{support}' is no support",
+        "'{support}' n'est pas un support",
+        "{supports:words}",
+        "{supports:words}",
     ),
     "which-zeros": Message(
         "which zeros? one of {titles:words}",

@@ -128,12 +128,6 @@ MESSAGES: dict[str, Message] = {
         "the impedance of a Fourier harmonic",
         "l'impédance d'une harmonique de Fourier",
     ),
-    "supe-wants-word": Message(
-        "SUPE wants a keyword",
-        "SUPE demande un mot-clé",
-        "'RIGIDITE', 'CHARGE', 'DEPLA' or 'MASSE'",
-        "'RIGIDITE', 'CHARGE', 'DEPLA' ou 'MASSE'",
-    ),
     "extr-of-superele-wants-word": Message(
         "EXTR of a SUPERELE wants a keyword",
         "EXTR d'un SUPERELE demande un mot-clé",

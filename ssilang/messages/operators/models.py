@@ -43,20 +43,6 @@ MESSAGES: dict[str, Message] = {
         "the zones of the model have several constituents",
         "les zones du modèle ont plusieurs constituants",
     ),
-    "no-support": Message(
-        "'{support}' is no support",
-        "'{support}' n'est pas un support",
-        "{supports:words}",
-        "{supports:words}",
-    ),
-    "no-such-zone": Message(
-        "the model has {n_zones} {n_zones:zone|zones}, none of number {place}",
-        "le modèle a {n_zones} {n_zones:zone|zones}, aucune de numéro {place}",
-    ),
-    "no-such-point": Message(
-        "the zone has {n_cells} {n_cells:cell|cells} of {count} {count:point|points}",
-        "la zone a {n_cells} {n_cells:élément|éléments} de {count} {count:point|points}",
-    ),
     "section-list-count": Message(
         "{n_lists} {n_lists:list is|lists are} given: {space:?two curvatures and the normal "
         "force are needed "

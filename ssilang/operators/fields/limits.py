@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from ssilang.kernel.fields.cell_algebra import added, component_names
@@ -17,9 +15,9 @@ from ssilang.language.values import Table
 
 @operator(
     "PILE",
-    arg("first", "MCHAML"),
-    arg("second", "MCHAML"),
-    arg("limit", "FLOTTANT"),
+    arg("first", "MCHAML", en="where one starts", fr="point de départ"),
+    arg("second", "MCHAML", en="direction", fr="direction"),
+    arg("limit", "FLOTTANT", en="limit, positive", fr="limite, positive"),
     family="fields",
     full_name="PILEPS",
     help=Help(
@@ -54,6 +52,7 @@ def pile(call: Call, first: CellField, second: CellField, limit: float) -> float
 
 @operator(
     "SENS",
+    arg("contours", "TABLE", en="closed contours by number", fr="contours fermés par numéro"),
     family="fields",
     help=Help(
         "Of a table of closed contours in the plane, such as CCON gives: the table of their "
@@ -71,27 +70,28 @@ def pile(call: Call, first: CellField, second: CellField, limit: float) -> float
             "T = SENS (CCON (INVE C)) ; LIST (T . 1) ;",
         ),
     ),
-    reads_itself=True,
 )
-def sens(call: Call) -> Table:
-    """Senses of contours, or means of differences."""
-    found: Any = call.required("TABLE", "MCHAML")
-    if isinstance(found, CellField):
-        return _differences(call, found, call.required("MCHAML"))
+def sens(call: Call, contours: Table) -> Table:
+    """Senses of contours."""
     made = Table()
-    for number, contour in found.items():
+    for number, contour in contours.items():
         if not isinstance(number, int):
             continue
         if not isinstance(contour, Mesh):
-            raise call.error("operators.fields.not-a-contour", found, number=number)
+            raise call.error("operators.fields.not-a-contour", contours, number=number)
         area = signed_area(contour)
         if area == 0.0:
-            raise call.error("operators.fields.contour-without-area", found, number=number)
+            raise call.error("operators.fields.contour-without-area", contours, number=number)
         made.set(number, 1 if area > 0.0 else -1)
     return made
 
 
-def _differences(call: Call, first: CellField, second: CellField) -> Table:
+@sens.form(
+    arg("first", "MCHAML", en="field of one component", fr="champ à une composante"),
+    arg("second", "MCHAML", en="field to take from it", fr="champ à lui retrancher"),
+)
+def sens_of_fields(call: Call, first: CellField, second: CellField) -> Table:
+    """Means of differences, cell by cell."""
     names = component_names(first)
     if len(names) != 1 or component_names(second) != names:
         raise call.error("operators.fields.one-component-compared", second)

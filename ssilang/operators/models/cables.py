@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
@@ -14,7 +12,7 @@ from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.statics.prestress import NO_LOSSES, Cable, Losses, cables_of, tensions
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import Help, arg, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
 
@@ -30,6 +28,18 @@ _ENTRIES = {
 
 @operator(
     "PREC",
+    arg("model", "MMODEL", en="cables, bars", fr="câbles, barres"),
+    arg("material", "MCHAML", en="their parameters", fr="leurs caractéristiques"),
+    opt("table", "TABLE", en="losses", fr="pertes"),
+    arg("force", "FLOTTANT", en="tension at the end", fr="tension au bout", unit="N"),
+    opt(
+        "ends",
+        "MAILLAGE",
+        "POINT",
+        en="points that are pulled, else the last of each cable",
+        fr="points de mise en tension, sinon le dernier de chaque câble",
+    ),
+    opt("before", "MCHAML", en="not built", fr="non programmé"),
     family="model",
     full_name="PRECONTRAINTE",
     help=Help(
@@ -51,17 +61,18 @@ _ENTRIES = {
             "T . 'PHIF' = 0.003 ; LIST (MINI (PREC M A 1.E5 T)) ;",
         ),
     ),
-    reads_itself=True,
 )
-def prec(call: Call) -> CellField:
+def prec(
+    call: Call,
+    model: Model,
+    material: CellField,
+    table: Table | None,
+    force: float,
+    ends: Mesh | Point | None,
+    before: CellField | None,
+) -> CellField:
     """Tensions of all cables of a model."""
-    model: Model = call.required("MMODEL")
-    material: CellField = call.required("MCHAML")
-    table = call.optional("TABLE")
-    force = float(call.required("FLOTTANT"))
-    table = table if table is not None else call.optional("TABLE")
-    ends = call.optional("MAILLAGE", "POINT")
-    if call.read("MCHAML") is not None:
+    if before is not None:
         raise call.error("operators.models.tensions-before-not-built")
     losses = NO_LOSSES if table is None else _losses(call, table)
     chosen = _nodes(ends)
@@ -70,13 +81,10 @@ def prec(call: Call) -> CellField:
     )
 
 
-def _nodes(ends: Any) -> IntArray | None:
+def _nodes(ends: Mesh | Point | None) -> IntArray | None:
     if ends is None:
         return None
-    if isinstance(ends, Point):
-        return np.array([ends.node])
-    assert isinstance(ends, Mesh)
-    return ends.sorted_node_ids
+    return np.array([ends.node]) if isinstance(ends, Point) else ends.sorted_node_ids
 
 
 def _losses(call: Call, table: Table) -> Losses:
@@ -130,6 +138,7 @@ def _pulled(call: Call, cable: Cable, ends: IntArray | None) -> tuple[bool, bool
 
 @operator(
     "IMPF",
+    arg("mesh", "MAILLAGE", en="mesh", fr="maillage"),
     family="model",
     full_name="IMPF",
     help=Help(
@@ -140,9 +149,7 @@ def _pulled(call: Call, cable: Cable, ends: IntArray | None) -> tuple[bool, bool
         syntax="GEO1 = IMPF GEO2 ;",
         examples=("OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0 0) (1 0) ; G = IMPF L ; LIST (NBEL G) ;",),
     ),
-    reads_itself=True,
 )
-def impf(call: Call) -> Mesh:
+def impf(mesh: Mesh) -> Mesh:
     """The mesh, unchanged."""
-    mesh: Mesh = call.required("MAILLAGE")
     return mesh
