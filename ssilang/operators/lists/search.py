@@ -310,6 +310,6 @@ def _unique(value: Sortable, tolerance: float, fold: bool) -> Any:
                 kept.append(i)
         return taken(value, kept)
     seen: dict[Any, int] = {}
-    for i, key in enumerate(_keys(values, False, fold)):
-        seen.setdefault(key, i)
+    for i, item in enumerate(_keys(values, False, fold)):
+        seen.setdefault(item, i)
     return taken(value, sorted(seen.values()))
