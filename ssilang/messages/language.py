@@ -363,6 +363,7 @@ MESSAGES: dict[str, Message] = {
         "`ssilang help {procedure}` lists its entries",
         "`ssilang help {procedure} --lang fr` en donne la liste",
         severity="warning",
+    ),
     "refused-entry": Message(
         "{index} is refused: {problem}",
         "{index} est refusé : {problem}",
