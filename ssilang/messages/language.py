@@ -397,6 +397,13 @@ MESSAGES: dict[str, Message] = {
         "{name} reçoit une valeur que rien ne lit",
         severity="warning",
     ),
+    "near-word": Message(
+        "{operator} knows no word '{name}'",
+        "{operator} ne connaît pas le mot '{name}'",
+        "did you mean '{near}'?",
+        "vouliez-vous dire '{near}' ?",
+        severity="warning",
+    ),
     "perhaps-misspelt": Message(
         "{name} has no value and is read as a word; {like} has one",
         "{name} n'a pas de valeur et se lit comme un mot ; {like} en a une",
