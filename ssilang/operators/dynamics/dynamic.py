@@ -151,9 +151,7 @@ def _older_times(entries: Entries) -> tuple[FloatArray, NDArray[np.bool_]]:
     """INST (instants kept), DEBU (start, 0), FREQ (cut-off frequency, dt = 1/(4 FREQ))."""
     instants = entries.get("INST")
     if instants is None:
-        raise entries.bad(
-            "the entry 'TEMPS_CALCULES' is missing", "TAB1 . 'TEMPS_CALCULES' = PROG 0. 'PAS' ... ;"
-        )
+        entries.needed("TEMPS_CALCULES")
     frequency = entries.get("FREQ")
     wanted = np.asarray(instants.values, dtype=float)
     begin = entries.get("DEBU")
