@@ -24,8 +24,8 @@ from ssilang.kernel.mesh.mesh import CellBlock
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.model import Mode, Zone
 from ssilang.kernel.solvers.backends import DISSECTION, MULTIGRID
-from ssilang.kernel.solvers.factor import Ordering
 from ssilang.kernel.solvers.cholesky.inverse import invert
+from ssilang.kernel.solvers.factor import Ordering
 from ssilang.kernel.sparse import sp
 from ssilang.kernel.statics.linear_motion import rigid_motions
 
