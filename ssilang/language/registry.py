@@ -8,11 +8,13 @@ from __future__ import annotations
 
 import inspect
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
 ANY = "*"
+NAME = "NOM"
+"""Type word of an entry that takes the name of the next operand, whatever object bears it."""
 
 Function = Callable[..., Any]
 
@@ -27,7 +29,9 @@ class Argument:
     'parameter' ...). The `main` operand decides which form of an operator runs: it is the first
     of the types that the operator knows as main ones, one or two words may stand before it.
     A repeated one leaves the last `leaving` operands of the types `left` for what follows; of a
-    keyword's it may take only those `behind` the word.
+    keyword's it may take only those `behind` the word. What `leads` is read before any keyword is
+    looked for: it may be spelt like one. Of one that is `whole` the function gets the `Operand`:
+    with its name and its place.
     """
 
     name: str
@@ -43,6 +47,8 @@ class Argument:
     leaving: int = 0
     left: tuple[str, ...] = ()
     behind: bool = False
+    leads: bool = False
+    whole: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,7 +74,9 @@ class Keyword:
 class Select:
     """A keyword that decides what is read behind it: entries by word.
 
-    Passed to the function as `name`: a `Chosen`, or `default` where no word of it stands.
+    Passed to the function as `name`: a `Chosen`, or `default` where no word of it stands. A word
+    that is among the names `unless(value)` of the main operand is not meant here: a component of
+    a field may be called as what can be taken out of it.
     """
 
     name: str
@@ -79,6 +87,7 @@ class Select:
     length: int = 4
     en: str = ""
     fr: str = ""
+    unless: Callable[[Any], Collection[str]] | None = None
 
     @property
     def words(self) -> tuple[str, ...]:
@@ -92,7 +101,7 @@ class Group:
 
     Passed as `name`: a tuple of the values (the value itself if the group has one entry), or a
     list of these where repeated. Behind a word that a group begins with, values are looked for
-    behind that word first.
+    behind that word first. The entry `times`, read before, says how often at most, if it stands.
     """
 
     name: str
@@ -102,6 +111,7 @@ class Group:
     at_least: int = 0
     en: str = ""
     fr: str = ""
+    times: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,6 +146,21 @@ def arg(
     return Argument(name, types or (ANY,), en=en, fr=fr, unit=unit, kind=kind)
 
 
+def lead(
+    name: str, *types: str, whole: bool = False, en: str = "", fr: str = "", kind: str = ""
+) -> Argument:
+    """A mandatory operand that is read before any keyword: the first one, or right behind `said`.
+
+    Words such as names of files or items of lists may be spelt like a keyword.
+    """
+    return Argument(name, types or (ANY,), en=en, fr=fr, kind=kind, leads=True, whole=whole)
+
+
+def named(name: str, optional: bool = False, en: str = "", fr: str = "") -> Argument:
+    """The name that the next operand is written as, whatever object bears it: a str."""
+    return Argument(name, (NAME,), optional, en=en, fr=fr, leads=True)
+
+
 def main(name: str, *types: str, en: str = "", fr: str = "") -> Argument:
     """The operand whose type decides which form of an operator runs."""
     return Argument(name, types, en=en, fr=fr, main=True)
@@ -167,6 +192,7 @@ def many(
     fr: str = "",
     unit: str = "",
     kind: str = "",
+    whole: bool = False,
 ) -> Argument:
     """All operands of one of the types that can be read, as a tuple.
 
@@ -187,6 +213,7 @@ def many(
         leaving=leaving,
         left=tuple(left),
         behind=behind,
+        whole=whole,
     )
 
 
@@ -239,10 +266,11 @@ def select(
     length: int = 4,
     en: str = "",
     fr: str = "",
+    unless: Callable[[Any], Collection[str]] | None = None,
 ) -> Select:
     """A keyword that decides what is read behind it; `repeated` collects a list."""
     made = {word: tuple(entries) for word, entries in cases.items()}
-    return Select(name, made, optional, repeated, None, length, en, fr)
+    return Select(name, made, optional, repeated, None, length, en, fr, unless)
 
 
 def group(name: str, *entries: Entry, en: str = "", fr: str = "") -> Group:
@@ -250,9 +278,11 @@ def group(name: str, *entries: Entry, en: str = "", fr: str = "") -> Group:
     return Group(name, entries, en=en, fr=fr)
 
 
-def each(name: str, *entries: Entry, at_least: int = 0, en: str = "", fr: str = "") -> Group:
+def each(
+    name: str, *entries: Entry, at_least: int = 0, times: str = "", en: str = "", fr: str = ""
+) -> Group:
     """A group read as often as it stands there: pairs of a word and its value ..."""
-    return Group(name, entries, at_least == 0, True, at_least, en, fr)
+    return Group(name, entries, at_least == 0, True, at_least, en, fr, times)
 
 
 def either(name: str, *groups: Group, optional: bool = False, en: str = "", fr: str = "") -> Either:
@@ -262,12 +292,35 @@ def either(name: str, *groups: Group, optional: bool = False, en: str = "", fr: 
 
 @dataclass(frozen=True, slots=True)
 class Like:
-    """Results of the types, and as many, as the operands of the entry `name`."""
+    """Results of the types, and as many, as the operands of the entry `name` and of `more`."""
 
     name: str
+    more: tuple[str, ...] = ()
 
 
-Gives = tuple[str, ...] | Like | None
+@dataclass(frozen=True, slots=True)
+class By:
+    """Results by what the entry `name` says: its word, or True or False for a flag."""
+
+    name: str
+    results: Mapping[object, tuple[str, ...]]
+    default: tuple[str, ...] = ()
+
+    def of(self, value: object) -> tuple[str, ...]:
+        """Results where the entry has the value."""
+        key = value.word if isinstance(value, Chosen) else value
+        return self.results.get(key, self.default)
+
+
+def by(
+    name: str, results: Mapping[Any, str | Sequence[str]], default: str | Sequence[str] = ()
+) -> By:
+    """Results by the word of a `select` or a `choice`, or by a `flag`."""
+    made = {k: _as_words(v) for k, v in results.items()}
+    return By(name, made, _as_words(default))
+
+
+Gives = tuple[str, ...] | Like | By | None
 """Types of results: type words, 'A|B' where it may be one or the other, `ANY` where only the run
 can tell; () for a directive; None where the annotation of the function says it."""
 
@@ -356,7 +409,7 @@ class Operator:
     def form(
         self,
         *entries: Entry,
-        gives: str | Sequence[str] | Like | None = None,
+        gives: str | Sequence[str] | Like | By | None = None,
         syntax: str = "",
         en: str = "",
         fr: str = "",
@@ -376,7 +429,7 @@ class Operator:
         *entries : Entry
             What the form reads, in reading order. Keywords are looked for before and after each
             operand is read.
-        gives : str, sequence of str, or Like, optional
+        gives : str, sequence of str, Like, or By, optional
             Types of the results; by default what the function's annotation says.
         syntax, en, fr, examples
             Help of this form.
@@ -408,9 +461,11 @@ class Operator:
         return add
 
 
-def _gives(given: str | Sequence[str] | Like | None) -> Gives:
-    if given is None or isinstance(given, Like):
-        return given
+def _gives(given: str | Sequence[str] | Like | By | None) -> Gives:
+    return given if given is None or isinstance(given, Like | By) else _as_words(given)
+
+
+def _as_words(given: str | Sequence[str]) -> tuple[str, ...]:
     return (given,) if isinstance(given, str) else tuple(given)
 
 
@@ -429,7 +484,7 @@ def operator(
     aliases: Sequence[str] = (),
     terminal: bool = False,
     full_name: str = "",
-    gives: str | Sequence[str] | Like | None = None,
+    gives: str | Sequence[str] | Like | By | None = None,
     reads_itself: bool | str = False,
     when: When | None = None,
 ) -> Callable[[Function], Operator]:
@@ -444,7 +499,7 @@ def operator(
         operand is read.
     family : str
         Page of the manual: 'mesh', 'field', 'model', 'list', ...
-    gives : str, sequence of str, or Like, optional
+    gives : str, sequence of str, Like, or By, optional
         Types of the results; by default what the function's annotation says.
     reads_itself : str
         Why the function takes the `call` and reads from it; `entries` are then for help and checks.

@@ -294,7 +294,7 @@ def _unite(call: Call) -> Any:
 def _unite_table(call: Call, table: Any) -> Any:
     values = [v for index, v in table.items() if type(index) is int]
     if not values:
-        raise call.bad("the table holds nothing at integer indices", table)
+        raise call.error("operators.tables.empty-table", table)
     total = values[0]
     if len(values) == 1:
         return total

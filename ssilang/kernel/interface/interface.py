@@ -139,11 +139,9 @@ def _refuse_unfit_macro(zone: Zone, law: Law, table: FloatArray) -> None:
     if zone.mode.dimension != 3:
         return
     if law.in_space is None:
-        raise MaterialError(
-            "MACRO_RESSORTS exists in two dimensions only", "MACRO_SEMELLE or MACRO_DISQUE"
-        )
+        raise MaterialError("kernel.interface.macro-ressorts-exists-two")
     if any(not (table[:, Parameter[name]] > 0).all() for name in law.in_space):
-        raise MaterialError("MACRO_SEMELLE needs LONG, the second width, in three dimensions")
+        raise MaterialError("kernel.interface.macro-semelle-needs-long")
 
 
 def is_macro(joints: JointCells) -> bool:
@@ -198,7 +196,9 @@ def _places(numbering: Numbering, node: int, names: tuple[str, ...]) -> list[int
     found = [numbering.index_of(node, name) for name in names]
     if min(found) < 0:
         missing = names[found.index(min(found))]
-        raise FieldError(f"a joint needs {missing} at node {node + 1}, which the matrices lack")
+        raise FieldError(
+            "kernel.interface.joint-needs-node-matrices", missing=missing, node=node + 1
+        )
     return found
 
 
@@ -234,7 +234,9 @@ def _jump_matrix(keys: IntArray, names: tuple[str, ...], numbering: Numbering) -
     if columns.size and columns.min() < 0:
         pair, side, i = np.argwhere(columns < 0)[0]
         raise FieldError(
-            f"a joint needs {names[i]} at node {keys[pair, side] + 1}, which the matrices lack"
+            "kernel.interface.joint-needs-node-matrices",
+            missing=names[i],
+            node=keys[pair, side] + 1,
         )
     rows = np.broadcast_to(np.arange(n_pairs * d).reshape(n_pairs, 1, d), columns.shape)
     signs = np.broadcast_to(np.array([1.0, -1.0])[None, :, None], columns.shape)

@@ -228,16 +228,10 @@ def kind_of(problem: Problem, full_newton: bool) -> type[Engine]:
     """
     scheme, contact = problem.scheme, problem.contact
     if scheme.adaptive and (scheme.conserving or full_newton):
-        raise KernelError(
-            "adapted steps are those of the condensed interface",
-            "leave the conserving step and full Newton",
-        )
+        raise KernelError("kernel.stepping.adapted-steps-condensed-interface")
     plain = contact is None or (contact.friction is None and contact.associated)
     if scheme.conserving and not plain:
-        raise KernelError(
-            "the conserving step has no friction between meshes and no relations with a dual",
-            "leave 'CONSERVATIF'",
-        )
+        raise KernelError("kernel.stepping.conserving-step-no-friction")
     if scheme.adaptive and not (problem.interface is None and contact is None):
         return AdaptiveEngine
     if scheme.conserving:

@@ -114,7 +114,7 @@ def effective_of(
         inverse = invert(sp.csr_array(V.T @ A @ T), symmetric, ordering=order)
     if inverse.singular and not (free and joints is None):
         motions = T @ inverse.kernel
-        raise singular("kernel.statics.motions-without-mass", problem.numbering, motions)
+        raise singular("kernel.stepping.motions-without-mass", problem.numbering, motions)
     S, root = R, None
     if joints is not None:
         root = root_response(inverse, right)

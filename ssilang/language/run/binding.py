@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, TypeGuard
 
 from ssilang.language.registry import (
     ANY,
+    NAME,
     Argument,
     Chosen,
     Either,
@@ -21,7 +22,7 @@ from ssilang.language.registry import (
     find_operator,
     words_in,
 )
-from ssilang.language.run.call import Call, accepts
+from ssilang.language.run.call import Call, Operand, accepts
 from ssilang.language.say.errors import SsiError
 from ssilang.language.values import Mot, type_of
 
@@ -38,8 +39,9 @@ class _Level:
 class Binder:
     """Reads the entries of one form from a call; inner entries see the outer keywords too."""
 
-    def __init__(self, call: Call) -> None:
+    def __init__(self, call: Call, main: Any = None) -> None:
         self.call = call
+        self.main = main  # the operand that chose the form
         self._levels: list[_Level] = []
 
     def bind(self, entries: Sequence[Entry], after: int = -1) -> dict[str, Any]:
@@ -59,8 +61,9 @@ class Binder:
         level = _Level(keywords, {k.name: [] if k.repeated else k.default for k in keywords})
         self._levels.append(level)
         try:
+            leading = self._leading(entries, level)
             self._keywords()
-            for entry in entries:
+            for entry in entries[leading:]:
                 reader = _READERS.get(type(entry))
                 if reader is not None:
                     level.values[entry.name] = reader(self, entry, after)
@@ -72,6 +75,21 @@ class Binder:
                 raise missing_keyword(self.call, k.words)
         return level.values
 
+    def _leading(self, entries: Sequence[Entry], level: _Level) -> int:
+        """Read what leads, behind the word that chose the form; says how many entries that was."""
+        chosen = _is_choice(entries)
+        place, after = int(chosen), -1
+        if not _leads(entries[place : place + 1]):
+            return 0
+        if chosen:
+            if not self._keyword(_Level(level.keywords[:1], level.values, level.seen)):
+                return 0  # something stands before the word
+            after = self.call.keyword_end
+        while _leads(one := entries[place : place + 1]):
+            level.values[one[0].name] = self._argument(one[0], after)
+            place += 1
+        return place
+
     # ---- keywords ------------------------------------------------------------------------------
 
     def _keywords(self) -> None:
@@ -81,6 +99,8 @@ class Binder:
     def _keyword(self, level: _Level) -> bool:
         for k in level.keywords:
             if k.name in level.seen and not k.repeated:
+                continue
+            if isinstance(k, Select) and k.unless is not None and self._is_a_name(k.unless):
                 continue
             word = self.call.keyword(k.words, k.length)
             if word is None:
@@ -93,6 +113,11 @@ class Binder:
                 level.values[k.name] = value
             return True
         return False
+
+    def _is_a_name(self, names: Callable[[Any], Collection[str]]) -> bool:
+        """Whether the first unread word is one of the main operand's names."""
+        word = self.call.peek_word()
+        return word is not None and word.rstrip() in names(self.main)
 
     def _behind(self, k: Keyword | Select, word: str) -> Any:
         """What a keyword brings: the word, True, the values behind it, or the case it chose."""
@@ -111,9 +136,11 @@ class Binder:
     def _argument(self, a: Argument, after: int = -1) -> Any:
         if a.repeated:
             return self._several(a, after)
+        if NAME in a.types:
+            return self.call.take_name(a.optional)
         operand = self.call.read(*a.types, after=after)
         if operand is not None:
-            return operand.value
+            return _given(a, operand)
         if a.optional:
             return a.default
         raise self.call.missing(a.types)
@@ -126,7 +153,7 @@ class Binder:
             kept = set(left[-a.leaving :])
             # indices shift as operands are taken
             values = [
-                call.take(i - n, *a.types).value
+                _given(a, call.take(i - n, *a.types))
                 for n, i in enumerate(i for i in found if i not in kept)
             ]
         else:
@@ -135,7 +162,7 @@ class Binder:
             only = a.behind
             while (operand := call.read(*a.types, after=after, only=only)) is not None:
                 only = True
-                values.append(operand.value)
+                values.append(_given(a, operand))
                 if words:
                     self._keywords()
         if not values and not a.optional:
@@ -153,7 +180,8 @@ class Binder:
                     put_back()
                     return None
         found: list[Any] = []
-        while self.call.operands:
+        most = self._value(g.times) if g.times else None
+        while self.call.operands and (most is None or len(found) < most):
             with self._kept() as put_back:
                 before = len(self.call.used)
                 try:
@@ -169,6 +197,10 @@ class Binder:
         if len(found) < g.at_least:
             self._one(g, after)  # says what is missing
         return found
+
+    def _value(self, name: str) -> Any:
+        """What an entry read before gave, None if nothing."""
+        return next((v.values[name] for v in reversed(self._levels) if name in v.values), None)
 
     def _one(self, g: Group, after: int) -> Any:
         first = len(self.call.used)
@@ -223,6 +255,20 @@ class Binder:
         yield put_back
 
 
+def _given(a: Argument, operand: Operand) -> Any:
+    return operand if a.whole else operand.value
+
+
+def _leads(entries: Sequence[Entry]) -> TypeGuard[Sequence[Argument]]:
+    return all(isinstance(e, Argument) and e.leads for e in entries) and len(entries) > 0
+
+
+def _is_choice(entries: Sequence[Entry]) -> bool:
+    """Whether the first entry is the word that chooses the form."""
+    first = entries[0] if entries else None
+    return isinstance(first, Keyword) and first.name == "word" and not first.arguments
+
+
 _READERS: Mapping[type, Callable[[Binder, Any, int], Any]] = {
     Argument: Binder._argument,
     Group: Binder._group,
@@ -267,11 +313,20 @@ def bind_operator(found: Operator, call: Call) -> Bound:
             depth = len(call.used) - used
             if worst is None or depth > worst[0]:
                 worst = depth, problem
+            elif depth == worst[0]:
+                _expects_too(worst[1], problem)
             call.operands[:] = operands
             del call.used[used:]
     if worst is None:
         raise _no_form(found, call)
     raise worst[1]
+
+
+def _expects_too(first: SsiError, other: SsiError) -> None:
+    """Let the error of one form tell what another, that got as far, expects at that place."""
+    wanted, more = first.data.get("expected"), other.data.get("expected")
+    if first.code == other.code and isinstance(wanted, list) and isinstance(more, list):
+        wanted += [t for t in more if t not in wanted]
 
 
 def _bound(form: Form, call: Call, main: int | None) -> Bound:
@@ -285,7 +340,7 @@ def _bound(form: Form, call: Call, main: int | None) -> Bound:
         choice = call.keyword(form.said.words, form.said.length)
     if form.by_hand:
         return Bound(form, {}, choice)
-    values |= Binder(call).bind(entries)
+    values |= Binder(call, choice).bind(entries)
     if form.said is not None and "word" not in form.injected:
         values.pop("word", None)
     return Bound(form, values)
@@ -320,7 +375,7 @@ def _candidates(found: Operator, call: Call) -> Iterator[tuple[Form, int | None]
 
 
 def _is_meant(form: Form, call: Call) -> bool:
-    if form.when is not None and not form.when.test(call.session):
+    if form.when is not None and not call.meets(form.when):
         return False
     return not form.of or call.stands(*form.of)
 
@@ -355,7 +410,7 @@ def _is_among(word: str, words: Sequence[str], length: int) -> bool:
 
 def _no_form(found: Operator, call: Call) -> SsiError:
     """The error where no form of an operator fits the words and types that stand there."""
-    unmet = [f.when for f in found.forms if f.when is not None and not f.when.test(call.session)]
+    unmet = [f.when for f in found.forms if f.when is not None and not call.meets(f.when)]
     words = _words_said(found.forms)
     known = dict.fromkeys(t for f in found.forms if f.main is not None for t in f.main.types)
     wanted = dict.fromkeys(t for f in found.forms for t in f.of)

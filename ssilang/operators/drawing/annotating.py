@@ -67,6 +67,6 @@ def _tag(call: Call, word: str) -> Annotation:
         elif is_colour(said):
             colour = index_of(said)
         else:
-            raise call.bad(f"'{said}' is neither a colour nor one of {' '.join(PLACES)}")
+            raise call.error("operators.drawing.no-colour-no-place", said=said, places=PLACES)
     far = None if distance is None else float(distance.value)
     return Annotation((), (Tag(point, words[-1], colour, place, far, bool(link)),))

@@ -33,7 +33,12 @@ def _recolour(call: Call, value: Any) -> Any:
     elif isinstance(operand.value, ListMots):
         colours = [index_of(str(v)) for v in operand.value.values]
         if len(colours) != len(value.parts):
-            raise call.bad(f"{len(colours)} colours for {len(value.parts)} parts", operand.value)
+            raise call.error(
+                "operators.drawing.colour-count",
+                operand.value,
+                n_colours=len(colours),
+                n_parts=len(value.parts),
+            )
     else:
         colours = [_colour(call, operand.value)] * len(value.parts)
     parts = tuple(replace(p, colour=c) for p, c in zip(value.parts, colours, strict=True))
@@ -45,5 +50,5 @@ def _colour(call: Call, given: str | int) -> int:
     if isinstance(given, str):
         return index_of(given)
     if given > len(NAMES):
-        raise call.bad(f"colours have the numbers 1 to {len(NAMES)}, not {given}", given)
+        raise call.error("operators.drawing.colour-number", given, count=len(NAMES), given=given)
     return max(given - 1, 0)

@@ -31,7 +31,7 @@ def _pair(name: str) -> Option:
         after = call.keyword_end
         low, high = (float(call.required("FLOTTANT", after=after)) for _ in range(2))
         if low == high:
-            raise call.bad(f"the bounds are both {low:g}", low)
+            raise call.error("operators.drawing.equal-bounds", low, low=low)
         found[name] = (low, high)
 
     return read
@@ -173,7 +173,7 @@ def _styles(call: Call, table: Table) -> dict[str, Any]:
     for spans in (first, last):
         for n, value in spans.items():
             if not isinstance(value, int):
-                raise call.bad(f"INITIAL and FINAL hold whole numbers, curve {n} has {value!r}")
+                raise call.error("operators.drawing.whole-number-wanted", n=n, value=value)
     return {
         "styles": styles,
         "names": {n: str(text) for n, text in _by_number(table, "TITRE").items()},

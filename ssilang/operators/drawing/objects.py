@@ -160,7 +160,9 @@ def _nodal(call: Call, chpoint: NodeField) -> Arrows:
     made = arrows_at_nodes(chpoint, columns, scale, colour)
     if not any(c in chpoint.components for c in columns):
         known = ", ".join(chpoint.components) or "none"
-        raise call.bad(f"the field has none of {' '.join(columns)}", chpoint, f"it has {known}")
+        raise call.error(
+            "operators.drawing.component-missing", chpoint, columns=columns, known=known
+        )
     return made
 
 

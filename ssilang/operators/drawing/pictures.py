@@ -50,6 +50,7 @@ def refuse_rest(call: Call, words: Iterable[str]) -> None:
     call.used.append(left)
     if isinstance(left.value, str):
         near = nearest(str(left.value), words)
-        hint = f"did you mean {near}?" if near else "its words are " + " ".join(words)
-        raise call.bad(f"{call.name} does not know the word '{left.value}'", left.value, hint)
-    raise call.bad(f"{call.name} has no use for this {type_of(left.value)}", left.value)
+        raise call.error(
+            "operators.drawing.unknown-word", left.value, said=left.value, near=near, words=words
+        )
+    raise call.error("operators.drawing.useless-operand", left.value, found=type_of(left.value))

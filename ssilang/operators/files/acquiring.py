@@ -33,7 +33,9 @@ class Records:
     def next_line(self) -> str:
         """The next line, whole."""
         if self.line >= len(self.lines):
-            raise InputError(f"{self.name} has only {len(self.lines)} lines, all have been read")
+            raise InputError(
+                "operators.files.all-lines-read", name=self.name, n_lines=len(self.lines)
+            )
         self.line += 1
         return self.lines[self.line - 1]
 
@@ -47,7 +49,7 @@ class Records:
         """The next item, which must be a number."""
         item = self.next()
         if isinstance(item, str):
-            raise InputError(f"{self.name}, line {self.line}: '{item}' is no number")
+            raise InputError("operators.files.no-number", name=self.name, line=self.line, item=item)
         return item
 
 
@@ -69,7 +71,12 @@ def _item(match: re.Match[str]) -> str | float | int:
 def _whole(records: Records) -> int:
     value = records.number()
     if value != int(value):
-        raise InputError(f"{records.name}, line {records.line}: {value} is no whole number")
+        raise InputError(
+            "operators.files.no-whole-number",
+            name=records.name,
+            line=records.line,
+            value=value,
+        )
     return int(value)
 
 
@@ -147,17 +154,17 @@ def _wanted(call: Call) -> list[tuple[str, str, int]]:
         call.used.append(operand)
         name, kind, count = _name(operand), "", 1
         if not name:
-            raise call.bad("ACQU wants names, each with *TYPE", operand.value)
+            raise call.error("operators.files.no-name-with-type", operand.value)
         if operands and operands[0].span.text == "*":
             operands.pop(0)
             kind = _name(operands.pop(0)).strip() if operands else ""
             if kind not in _READERS or not kind:
                 types = " ".join(k for k in _READERS if k)
-                raise call.bad(f"'{kind}' cannot be read from a file", hint=f"types are {types}")
+                raise call.error("operators.files.type-not-read", kind=kind, types=types)
         if kind.startswith("LIST"):
             number = operands.pop(0).value if operands else None
             if type(number) is not int or number < 0:
-                raise call.bad(f"the number of values must follow {name}*{kind}")
+                raise call.error("operators.files.size-missing", name=name, kind=kind)
             count = number
         found.append((name, kind, count))
     return found

@@ -95,8 +95,9 @@ def _proc(call: Call, word: str) -> None:
         frame.assign(wanted, Procedure(wanted, body, str(path)))
         return
     if wanted and wanted not in found:
-        raise call.bad(f"{path.name} defines no procedure {wanted}", name,
-                       "it defines " + ", ".join(found))  # fmt: skip
+        raise call.error(
+            "operators.files.no-such-procedure", name, name=path.name, wanted=wanted, found=found
+        )
     for key, node in found.items():
         if not wanted or key == wanted:
             frame.assign(key, Procedure(key, node, str(path)))
@@ -121,7 +122,7 @@ def _avs(call: Call, word: str) -> Table:
     done = output.opened.get("LECT", 0)
     structure = read_avs(path, done)
     if structure is None:
-        raise call.bad(f"{path.name} holds {done} structures, all have been read")
+        raise call.error("operators.files.all-structures-read", name=path.name, done=done)
     output.opened["LECT"] = done + 1
     return _avs_table(call, structure)
 
@@ -225,7 +226,4 @@ def _peer(call: Call, word: str) -> Curve:
 
 @LIRE.on("MED", "FEM", "NAS")
 def _refused(call: Call, word: str) -> Any:
-    raise call.bad(
-        f"LIRE '{word}' is not supported",
-        hint="formats that are read: CSV, PEER, AVS, UNV, STL, PROC",
-    )
+    raise call.error("operators.files.format-not-read", word=word)

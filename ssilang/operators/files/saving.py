@@ -146,7 +146,7 @@ def sauv(call: Call) -> None:
     operands = [(o.name, o.value) for o in iter(lambda: call.read("*", "TEXTE"), None)]
     for name, value in operands:
         if not name and isinstance(value, str) and frame.find(value.upper()) is None:
-            raise call.bad(f"there is no object '{value}' to save", value)
+            raise call.error("operators.files.no-object-to-save", value, value=value)
     if not operands:
         operands = [(n, frame.find(n)) for n in sorted(_own_names(frame))]
     save(call, operands, label)
@@ -245,7 +245,7 @@ def _restore(call: Call, archive: Archive, name: str, label: str) -> None:
     labels = [r.label for r in archive.records]
     if label and label not in labels:
         known = ", ".join(x for x in labels if x) or "none"
-        raise InputError(f"{name} has no record labelled '{label}'", f"its labels are: {known}")
+        raise InputError("operators.files.no-such-label", name=name, label=label, known=known)
     records = archive.records[: labels.index(label) + 1] if label else archive.records
     decoder = Decoder(archive, ws.nodes)
     for record in records:

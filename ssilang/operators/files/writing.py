@@ -58,13 +58,13 @@ def _exce(call: Call, word: str) -> None:
         if said == "SEPA":
             named = call.keyword(tuple(_SEPARATORS))
             if named is None:
-                raise call.bad("SEPA wants one of " + " ".join(_SEPARATORS))
+                raise call.error("operators.files.separator", separators=_SEPARATORS)
             options["separator"] = _SEPARATORS[named]
             continue
         if said is not None:
             n = call.required("ENTIER", after=call.keyword_end)
             if n < (1 if said == "NCOL" else 0):
-                raise call.bad(f"{said} wants a positive number, not {n}", n)
+                raise call.error("operators.files.positive-number", n, said=said, n=n)
             options["width" if said == "NCOL" else "digits"] = n
             continue
         operand = call.read(*kinds)

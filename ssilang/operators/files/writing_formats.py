@@ -102,7 +102,7 @@ def _mat(call: Call, word: str) -> None:
     form = call.keyword(("MM", "MATRIX_MARKET", "RB", "RUTHERFORD_BOEING"))
     storage = call.keyword(("ASSEMBLEE", "ELEMENTAIRE"))
     if form not in ("MM", "MATRIX_MARKET") or storage != "ASSEMBLEE":
-        raise call.bad("only 'MM' 'ASSE' is supported, the assembled matrix as Matrix Market text")
+        raise call.error("operators.files.only-matrix-market")
     title, extras, matrix = "", set(), None
     while True:
         said = call.keyword(("TITR", "INCO", "GEOM"))

@@ -76,7 +76,9 @@ def _restore(call: Call, archive: Archive, wanted: str) -> None:
     names = archive.records[0].names if archive.records else {}
     if wanted and wanted not in names:
         known = ", ".join(names)
-        raise InputError(f"{archive.path.name} holds no mesh '{wanted}'", f"it holds {known}")
+        raise InputError(
+            "operators.files.no-such-mesh", name=archive.path.name, wanted=wanted, known=known
+        )
     ws = workspace(call.session)
     decoder = Decoder(archive, ws.nodes)
     for name, code in names.items():

@@ -10,11 +10,42 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import KernelError
-from ssilang.language.registry import Help, many, operator
+from ssilang.language.registry import Entry, Help, arg, key, many, operator, select
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListEnti, ListMots, ListObje, ListReel, type_of
 
 _REAL = ("ENTIER", "FLOTTANT")
+_FREE = "its items, steps and repetitions stand in any order"
+
+
+def _items(kind: str) -> tuple[Entry, ...]:
+    """What `_read_items` reads."""
+    return (
+        many(
+            "items",
+            kind,
+            "LISTREEL",
+            "LISTENTI",
+            en="items, lists of them, or N * item",
+            fr="éléments, listes d'éléments, ou N * élément",
+        ),
+        key(
+            "steps",
+            "PAS",
+            arg("step", kind),
+            repeated=True,
+            en="from the item before to the one behind by steps",
+            fr="de l'élément précédent au suivant par pas",
+        ),
+        key("ratio", "GEOM", arg("ratio", "FLOTTANT"), en="ratio of steps", fr="raison des pas"),
+        key("count", "NPAS", arg("count", "ENTIER"), en="number of steps", fr="nombre de pas"),
+    )
+
+
+_FACTORS = (
+    key("a", "A", arg("a", "FLOTTANT"), en="slope, 1 by default", fr="pente, 1 sinon"),
+    key("b", "B", arg("b", "FLOTTANT"), en="constant, 1 by default", fr="constante, 1 sinon"),
+)
 LONGEST = 20_000_000
 """Items of one list, or letters of one word, at most: more than any use, and memory holds them."""
 
@@ -28,10 +59,7 @@ def check_length(count: float) -> None:
         If there are more than `LONGEST`.
     """
     if not count <= LONGEST:
-        raise KernelError(
-            f"a list or word of {count:.4g} items is too long, the limit is {LONGEST}",
-            "look for a step that is too small or a count that is too large",
-        )
+        raise KernelError("operators.lists.too-long", count=count, longest=LONGEST)
 
 
 def _star(call: Call) -> bool:
@@ -79,7 +107,7 @@ def _read_items(call: Call, kinds: tuple[str, ...]) -> Items:
 
 def _repeated(call: Call, count: Any, kinds: tuple[str, ...]) -> list[Any]:
     if count != int(count) or count < 0:
-        raise call.bad(f"an item is repeated a whole number of times, not {count}", count)
+        raise call.error("operators.lists.repetition-count", count, count=count)
     check_length(count)
     return [call.required(*kinds)] * int(count)
 
@@ -92,7 +120,7 @@ def _steps(call: Call, start: Any, kinds: tuple[str, ...]) -> list[Any] | FloatA
     if call.keyword(("NPAS",)) is not None:
         count = call.required("ENTIER", after=call.keyword_end)
         if count < 0:
-            raise call.bad(f"NPAS is not negative, found {count}", count)
+            raise call.error("operators.lists.negative-step-count", count, count=count)
         check_length(count)
         return _progression(start, step, count, ratio)
     end = call.required(*kinds)
@@ -100,7 +128,7 @@ def _steps(call: Call, start: Any, kinds: tuple[str, ...]) -> list[Any] | FloatA
     if _star(call):
         more = _repeated(call, end, kinds)
         if not more:
-            raise call.bad("steps need an end: it is repeated at least once, not 0 times")
+            raise call.error("operators.lists.steps-without-end")
         end, more = more[0], more[1:]
     if step and (end - start) / step > 0:
         check_length(0 if ratio else (end - start) / step)
@@ -109,7 +137,7 @@ def _steps(call: Call, start: Any, kinds: tuple[str, ...]) -> list[Any] | FloatA
             return [*real_steps(float(start), float(step), float(end), ratio), *more]
         return [*integer_steps(start, step, end), *more]
     except KernelError as problem:
-        raise call.bad(str(problem), end, problem.hint) from None
+        raise call.error(problem.code, end, **problem.data) from None
 
 
 def _progression(start: Any, step: Any, count: int, ratio: float | None) -> list[Any] | FloatArray:
@@ -129,10 +157,7 @@ def integer_steps(start: int, step: int, end: int) -> list[int]:
     if start == end:
         return []
     if step == 0 or (end - start) % step or (end - start) // step < 0:
-        raise KernelError(
-            f"steps of {step} do not lead from {start} to {end}",
-            "LECT wants a step that divides the distance",
-        )
+        raise KernelError("operators.lists.steps-miss-end", step=step, start=start, end=end)
     return list(range(start + step, end + (1 if step > 0 else -1), step))
 
 
@@ -172,6 +197,22 @@ def _geometric_steps(start: float, step: float, end: float, ratio: float) -> lis
 
 @operator(
     "PROG",
+    select(
+        "function",
+        {
+            "SINU": [
+                arg("frequency", "FLOTTANT", en="frequency", fr="fréquence", unit="Hz"),
+                key("phase", "PHAS", arg("p", "FLOTTANT"), en="phase, degrees", fr="phase, degrés"),
+                key("size", "AMPL", arg("a", "FLOTTANT"), en="amplitude", fr="amplitude"),
+            ],
+            "LINE": _FACTORS,
+            "EXPO": _FACTORS,
+            "LOGA": _FACTORS,
+        },
+        en="a function of the items",
+        fr="une fonction des éléments",
+    ),
+    *_items("FLOTTANT"),
     family="lists",
     help=Help(
         en="List of reals. A PAS S B goes from A to B by steps of about S (adjusted to hit B); "
@@ -186,7 +227,7 @@ def _geometric_steps(start: float, step: float, end: float, ratio: float) -> lis
         "LREE1 = PROG 'LINE' | 'EXPO' | 'LOGA' ('A' A1) ('B' B1) LREE2 ;",
         examples=("LIST (PROG 0. PAS 0.5 2. 3 * 7.) ;", "LIST (PROG 'SINU' 1. (PROG 0. 0.25)) ;"),
     ),
-    reads_itself=True,
+    reads_itself=_FREE,
 )
 def prog(call: Call) -> ListReel:
     """Read reals."""
@@ -209,7 +250,7 @@ def _function_of_list(call: Call, word: str) -> ListReel:
         return ListReel(settings["AMPL"] * np.sin(angle))
     line = settings["A"] * x + settings["B"]
     if word == "LOGA" and np.any(line <= 0):
-        raise call.bad("a logarithm needs positive values", hint=f"smallest is {line.min():g}")
+        raise call.error("operators.lists.logarithm", smallest=line.min())
     if word == "LINE":
         return ListReel(line)
     return ListReel(np.exp(line) if word == "EXPO" else np.log(line))
@@ -217,6 +258,7 @@ def _function_of_list(call: Call, word: str) -> ListReel:
 
 @operator(
     "LECT",
+    *_items("ENTIER"),
     family="lists",
     help=Help(
         en="List of integers. A PAS S B goes from A to B by steps of S, NPAS N gives N more "
@@ -226,20 +268,21 @@ def _function_of_list(call: Call, word: str) -> ListReel:
         syntax="LENT1 = LECT I1 I2 ... (PAS S1 I3 | PAS S1 NPAS N1) (N2 * I4) ... ;",
         examples=("LIST (LECT 1 PAS 2 9 3 * 0) ;",),
     ),
-    reads_itself=True,
+    reads_itself=_FREE,
 )
 def lect(call: Call) -> ListEnti:
     """Read integers."""
     items = _read_items(call, ("ENTIER",))
     if not all(abs(i) < 2**63 for i in items):
-        raise call.bad("LECT takes integers that 64 bits hold", hint="PROG makes lists of reals")
+        raise call.error("operators.lists.integer-too-large")
     if any(isinstance(i, float) and i != math.floor(i) for i in items):
-        raise call.bad("LECT takes integers only", hint="PROG makes lists of reals")
+        raise call.error("operators.lists.integers-only")
     return ListEnti(np.asarray(items, dtype=np.int64))
 
 
 @operator(
     "MOTS",
+    many("words", "MOT", "ENTIER", en="words, or N * word", fr="mots, ou N * mot"),
     family="lists",
     help=Help(
         en="List of words; N * MOT1 repeats.",
@@ -247,7 +290,7 @@ def lect(call: Call) -> ListEnti:
         syntax="LMOT1 = MOTS (N1 *) MOT1 (MOT2 ...) ;",
         examples=("LIST (MOTS 'UX' 2 * 'UY') ;",),
     ),
-    reads_itself=True,
+    reads_itself=_FREE,
 )
 def mots(call: Call) -> ListMots:
     """Read words."""
@@ -257,7 +300,7 @@ def mots(call: Call) -> ListMots:
         if operand is not None and type(operand.value) is int:
             count = call.required("ENTIER")
             if not _star(call):
-                raise call.bad("a number in MOTS is a repetition: N * MOT", count)
+                raise call.error("operators.lists.number-among-words", count)
             check_length(len(words) + max(count, 0))
             words += [str(call.required("MOT"))] * count
             continue
@@ -269,7 +312,7 @@ def mots(call: Call) -> ListMots:
 
 @operator(
     "SUIT",
-    many("fields", "CHPOINT", "LISTCHPO"),
+    many("fields", "CHPOINT", "LISTCHPO", en="fields, in order", fr="champs, dans l'ordre"),
     family="lists",
     full_name="SUITE",
     help=Help(
@@ -289,6 +332,7 @@ def suit(fields: tuple[Any, ...]) -> ListChpo:
 
 @operator(
     "ENUM",
+    many("objects", en="objects of one type", fr="objets d'un même type"),
     family="lists",
     help=Help(
         en="List of objects of one type.",
@@ -296,18 +340,17 @@ def suit(fields: tuple[Any, ...]) -> ListChpo:
         syntax="LOBJ1 = ENUM OBJ1 (OBJ2 ...) ;",
         examples=("L = ENUM (PROG 1.) (PROG 2. 3.) ; LIST (DIME L) ;",),
     ),
-    reads_itself=True,
 )
-def enum(call: Call) -> ListObje:
+def enum(call: Call, objects: tuple[Any, ...]) -> ListObje:
     """Collect objects."""
     values: list[Any] = []
-    while (operand := call.read("*")) is not None:
-        value = operand.value
+    for value in objects:
         values += value.values if isinstance(value, ListObje) else [value]
         if type_of(values[-1]) != type_of(values[0]):
-            raise call.bad(
-                f"the objects of a list are of one type: {type_of(values[0])} first, "
-                f"{type_of(values[-1])} here",
+            raise call.error(
+                "operators.lists.object-of-other-type",
                 value,
+                first=type_of(values[0]),
+                found=type_of(values[-1]),
             )
     return ListObje(values)

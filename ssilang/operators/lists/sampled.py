@@ -2,18 +2,25 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.language.registry import Help, arg, operator, opt
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.language.registry import Chosen, Help, arg, choice, key, operator, opt, select
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
 
 
 @operator(
     "DIAD",
+    choice(
+        "way",
+        ("DIRE", "INVE", "IVIN"),
+        default="DIRE",
+        en="halved, or doubled with zeros or with means",
+        fr="réduit, ou doublé par des zéros ou des moyennes",
+    ),
+    arg("values", "LISTREEL", en="samples", fr="échantillons"),
     family="lists",
     help=Help(
         en="Every other value of a list ('DIRE', the default), the first kept; or a list with a "
@@ -25,18 +32,15 @@ from ssilang.language.values import ListReel
         syntax="LIST1 = DIAD ('DIRE' | 'INVE' | 'IVIN') LIST2 ;",
         examples=("LIST (DIAD 'IVIN' (PROG 1. 3. 7.)) ;",),
     ),
-    reads_itself=True,
 )
-def diad(call: Call) -> ListReel:
+def diad(way: str, values: ListReel) -> ListReel:
     """Halve or double the sampling."""
-    word = call.keyword(("DIRE", "INVE", "IVIN"))
-    y = call.required("LISTREEL").values
-    word = word or call.keyword(("DIRE", "INVE", "IVIN")) or "DIRE"
-    if word == "DIRE":
+    y = values.values
+    if way == "DIRE":
         return ListReel(y[::2].copy())
     made = np.zeros(2 * len(y) - len(y) % 2)
     made[::2] = y
-    if word == "IVIN" and len(y):
+    if way == "IVIN" and len(y):
         after = np.append(y[1:], y[-1])  # behind the last value stands nothing: the same again
         made[1::2] = 0.5 * (y + after)[: len(made) // 2]
     return ListReel(made)
@@ -44,10 +48,10 @@ def diad(call: Call) -> ListReel:
 
 @operator(
     "LTL",
-    arg("first", "LISTREEL"),
-    opt("second", "LISTREEL"),
-    opt("a", "FLOTTANT", default=1.0),
-    opt("b", "FLOTTANT", default=1.0),
+    arg("first", "LISTREEL", en="first list", fr="première liste"),
+    opt("second", "LISTREEL", en="second one, else the first", fr="seconde, sinon la première"),
+    opt("a", "FLOTTANT", default=1.0, en="factor", fr="facteur"),
+    opt("b", "FLOTTANT", default=1.0, en="second factor", fr="second facteur"),
     family="lists",
     help=Help(
         en="Dot product of two lists (or of one with itself) times two numbers.",
@@ -60,12 +64,28 @@ def ltl(call: Call, first: ListReel, second: ListReel | None, a: float, b: float
     """Dot product."""
     other = first if second is None else second
     if len(first) != len(other):
-        raise call.bad(f"lists of {len(first)} and {len(other)} values have no dot product")
+        raise call.error("operators.lists.dot-product", n_first=len(first), n_other=len(other))
     return float(a * b * (first.values @ other.values))
 
 
 @operator(
     "CVOL",
+    arg("signal", "LISTREEL", en="signal", fr="signal"),
+    arg("response", "LISTREEL", en="response", fr="réponse"),
+    key(
+        "before",
+        "NPNE",
+        arg("n", "ENTIER"),
+        en="number of its values before 0; by default it is symmetric",
+        fr="nombre de ses valeurs avant 0 ; par défaut elle est symétrique",
+    ),
+    choice(
+        "ends",
+        ("SYME", "PADD"),
+        default="SYME",
+        en="beyond its ends the signal is mirrored, or zero",
+        fr="hors de ses bornes le signal est symétrique, ou nul",
+    ),
     family="signals",
     help=Help(
         en="Convolution of a signal with a response: value k is the sum over j of response j times "
@@ -79,39 +99,34 @@ def ltl(call: Call, first: ListReel, second: ListReel | None, a: float, b: float
         syntax="LREEL1 = CVOL LREEL2 LREEL3 ('NPNE' N1) ('SYME' | 'PADD') ;",
         examples=("LIST (CVOL (PROG 0. 0. 4. 0.) (PROG 0.5 0.25) 'PADD') ;",),
     ),
-    reads_itself=True,
 )
-def cvol(call: Call) -> ListReel:
+def cvol(
+    call: Call, signal: ListReel, response: ListReel, before: int | None, ends: str
+) -> ListReel:
     """Convolution."""
-    signal, response = (call.required("LISTREEL").values for _ in range(2))
-    before, mirrored = None, True
-    while (word := call.keyword(("NPNE", "SYME", "PADD"))) is not None:
-        if word == "NPNE":
-            before = call.required("ENTIER", after=call.keyword_end)
-        else:
-            mirrored = word == "SYME"
+    return ListReel(_convolved(call, signal.values, response.values, before, ends == "SYME"))
+
+
+def _convolved(
+    call: Call, signal: FloatArray, response: FloatArray, before: int | None, mirrored: bool
+) -> FloatArray:
     if before is None:
         before = len(response) - 1
         response = np.concatenate([response[:0:-1], response])
     after = len(response) - 1 - before
     if len(response) == 0 or before < 0 or after < 0:
-        raise call.bad(f"a response of {len(response)} values cannot have {before} before 0")
+        raise call.error(
+            "operators.lists.response-too-short", n_response=len(response), before=before
+        )
     if mirrored and max(before, after) > len(signal) - 1:
-        raise call.bad(
-            f"a signal of {len(signal)} values is too short to be mirrored over "
-            f"{max(before, after)}",
-            hint="'PADD' fills with zeros",
+        raise call.error(
+            "operators.lists.signal-too-short",
+            n_signal=len(signal),
+            before=max(before, after),
         )
     # value k needs the signal from k - after to k + before
     padded = np.pad(signal, (after, before), "reflect" if mirrored else "constant")
-    return ListReel(np.convolve(padded, response, "valid"))
-
-
-_FUNCTIONS = {
-    "BESS": ("J0", "J1", "Y0", "Y1"),
-    "FRES": ("CX", "SX"),
-    "GAMM": (),
-}
+    return np.convolve(padded, response, "valid")
 
 
 def _special(kind: str, name: str, x: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -129,6 +144,18 @@ def _special(kind: str, name: str, x: NDArray[np.float64]) -> NDArray[np.float64
 
 @operator(
     "FONC",
+    select(
+        "function",
+        {
+            "BESSEL": [choice("name", ("J0", "J1", "Y0", "Y1"), optional=False)],
+            "FRESNEL": [choice("name", ("CX", "SX"), optional=False)],
+            "GAMMA": [],
+        },
+        optional=False,
+        en="which function",
+        fr="quelle fonction",
+    ),
+    arg("values", "LISTREEL", en="arguments", fr="arguments"),
     family="lists",
     full_name="FONCTION",
     help=Help(
@@ -142,29 +169,22 @@ def _special(kind: str, name: str, x: NDArray[np.float64]) -> NDArray[np.float64
         "LREEL1 = FONC 'FRESNEL' 'CX' | 'SX' LREEL2 ; LREEL1 = FONC 'GAMMA' LREEL2 ;",
         examples=("LIST (FONC 'GAMMA' (PROG 5. 0.5)) ;",),
     ),
-    reads_itself=True,
 )
-def fonc(call: Call) -> Any:
+def fonc(call: Call, function: Chosen, values: ListReel) -> ListReel:
     """Special functions."""
-    kind = call.keyword(tuple(_FUNCTIONS))
-    if kind is None:
-        raise call.bad("which function?", hint="'BESSEL' 'FRESNEL' 'GAMMA'")
-    names = _FUNCTIONS[kind]
-    name = call.keyword(names) if names else ""
-    if name is None:
-        raise call.bad("which function?", hint=" ".join(f"'{n}'" for n in names))
-    x = call.required("LISTREEL").values
+    kind, name = function.word[:4], function.values.get("name", "")
+    x = values.values
     bad = {"FRES": x < 0.0, "GAMM": (x <= 0.0) & (x == np.round(x))}.get(kind, np.zeros(0, bool))
     if name in ("Y0", "Y1"):
         bad = x <= 0.0
     if bad.any():
-        raise call.bad(f"the function is not defined at {x[bad][0]:g}")
+        raise call.error("operators.lists.function-undefined", x=x[bad][0])
     return ListReel(_special(kind, name, x))
 
 
 @operator(
     "ZLEG",
-    arg("degree", "ENTIER"),
+    arg("degree", "ENTIER", en="degree", fr="degré"),
     family="lists",
     help=Help(
         en="Points of Gauss-Lobatto on (-1, 1): the zeros of the derivative of Legendre's "
@@ -178,7 +198,7 @@ def fonc(call: Call) -> Any:
 def zleg(call: Call, degree: int) -> tuple[ListReel, ListReel]:
     """Lobatto's quadrature."""
     if not 1 <= degree <= 500:
-        raise call.bad(f"the degree is between 1 and 500, not {degree}", degree)
+        raise call.error("operators.lists.degree", degree, degree=degree)
     legendre = np.polynomial.legendre.Legendre.basis(degree)
     inner = np.sort(legendre.deriv().roots().real) if degree > 1 else np.zeros(0)
     x = np.concatenate([[-1.0], inner, [1.0]])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,7 @@ from ssilang.kernel.curves.curve import Curve
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import Help, Like, arg, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListReel
 
@@ -52,12 +53,20 @@ def _within(name: str, function: Function, low: float, high: float, strict: bool
         bad = bad | (x > high + slack) | np.isnan(x)
         if np.any(bad):
             worst = np.atleast_1d(x)[np.atleast_1d(bad)][0]
-            limits = f"above {low:g}" if strict else f"between {low:g} and {high:g}"
-            limits = f"at least {low:g}" if not strict and high == np.inf else limits
-            raise KernelError(f"{name} of {worst:g}: the argument must be {limits}")
+            raise _outside(name, worst, low, high, strict)
         return function(np.clip(x, low, high) if not strict else x)
 
     return run
+
+
+def _outside(name: str, worst: float, low: float, high: float, strict: bool) -> KernelError:
+    if strict:
+        return KernelError("operators.numbers.argument-above", name=name, worst=worst, low=low)
+    if high == np.inf:
+        return KernelError("operators.numbers.argument-at-least", name=name, worst=worst, low=low)
+    return KernelError(
+        "operators.numbers.argument-between", name=name, worst=worst, low=low, high=high
+    )
 
 
 def _degrees(function: Function) -> Function:
@@ -70,7 +79,7 @@ def _of_degrees(function: Function) -> Function:
 
 def _exponential(x: Any) -> Any:
     if np.any(np.asarray(x) > 709.7):
-        raise KernelError(f"EXP of {np.max(x):g} is larger than any number that can be held")
+        raise KernelError("operators.numbers.exp-too-large", x=np.max(x))
     return np.exp(x)
 
 
@@ -119,8 +128,11 @@ _FUNCTIONS: dict[str, tuple[Function, str, str, str, str]] = {
 _INTEGERS_STAY = frozenset({"ABS", "SIGN"})
 
 
-def _run(call: Call, name: str, function: Function) -> Any:
-    value = call.required(*OPERANDS)
+_VALUE = arg("value", *OPERANDS, en="argument", fr="argument")
+_REALS = "FLOTTANT|LISTREEL|EVOLUTIO|CHPOINT|MCHAML"
+
+
+def _run(name: str, function: Function, value: Any) -> Any:
     if name not in _INTEGERS_STAY:
         if isinstance(value, int):
             value = float(value)
@@ -133,6 +145,8 @@ def _run(call: Call, name: str, function: Function) -> Any:
 for _name, (_function, _en, _fr, _example, _more) in _FUNCTIONS.items():
     operator(
         _name,
+        _VALUE,
+        gives=Like("value") if _name in _INTEGERS_STAY else _REALS,
         family="functions",
         help=Help(
             _en + " Of a number, of each item of a list, ordinate of a curve or value of a field.",
@@ -141,12 +155,14 @@ for _name, (_function, _en, _fr, _example, _more) in _FUNCTIONS.items():
             f"OBJ2 = {_name} OBJ1 ;",
             (f"LIST ({_example}) ;",),
         ),
-        reads_itself=True,
-    )(lambda call, n=_name, f=_function: _run(call, n, f))
+    )(partial(_run, _name, _function))
 
 
 @operator(
     "ATG",
+    arg("first", *OPERANDS, en="tangent, or numerator", fr="tangente, ou numérateur"),
+    opt("second", *OPERANDS, en="denominator", fr="dénominateur"),
+    gives=_REALS,
     family="functions",
     help=Help(
         en="Arc tangent in degrees, between -90 and 90; with two objects, of their quotient, "
@@ -156,12 +172,9 @@ for _name, (_function, _en, _fr, _example, _more) in _FUNCTIONS.items():
         syntax="OBJ3 = ATG OBJ1 (OBJ2) ;",
         examples=("LIST (ATG 1.) ;", "LIST (ATG -1. -1.) ;"),
     ),
-    reads_itself=True,
 )
-def atg(call: Call) -> Any:
+def atg(call: Call, first: Any, second: Any) -> Any:
     """Arc tangent of one or two objects."""
-    first = call.required(*OPERANDS)
-    second = call.optional(*OPERANDS)
     if second is None:
         value = float(first) if isinstance(first, int) else first
         value = ListReel(value.values) if isinstance(value, ListEnti) else value
@@ -170,13 +183,15 @@ def atg(call: Call) -> Any:
         return float(np.degrees(np.arctan2(first, second)))
     if isinstance(first, ListReel | ListEnti) and isinstance(second, ListReel | ListEnti):
         if len(first) != len(second):
-            raise call.bad(f"the lists have {len(first)} and {len(second)} items", second)
+            raise call.error(
+                "operators.numbers.list-lengths", second, n_first=len(first), n_second=len(second)
+            )
         return ListReel(np.degrees(np.arctan2(first.values, second.values)))
     if isinstance(first, NodeField) and isinstance(second, NodeField):
         return _angle_of_fields(first, second)
     if isinstance(first, CellField) and isinstance(second, CellField):
         return _angle_of_cells(call, first, second)
-    raise call.bad("ATG of two objects needs two of the same kind", second)
+    raise call.error("operators.numbers.two-of-one-kind", second)
 
 
 def _angle_of_fields(first: NodeField, second: NodeField) -> NodeField:
@@ -194,7 +209,7 @@ def _angle_of_cells(call: Call, first: CellField, second: CellField) -> CellFiel
             (b for b in first.blocks if cell_algebra.same_cells(b.cells, block.cells)), None
         )
         if other is None:
-            raise call.bad("the two fields do not stand on the same cells", second)
+            raise call.error("operators.numbers.fields-on-other-cells", second)
         made = {
             k: np.degrees(np.arctan2(_part(other, k), cell_algebra.numeric(k, v)))
             for k, v in block.components.items()

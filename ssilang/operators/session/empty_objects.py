@@ -12,7 +12,7 @@ from ssilang.kernel.materials.model import Model
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import ANY, Help, flag, many, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import (
     ListChpo,
@@ -66,7 +66,9 @@ def _group(call: Call) -> list[Any] | None:
         return None
     kind = str(said.value).strip().upper()[:8]
     if kind not in _MAKERS:
-        raise call.bad(f"no empty '{kind}' can be made", said.value, " ".join(_MAKERS))
+        raise call.error(
+            "operators.session.nothing-empty-of-type", said.value, kind=kind, makers=_MAKERS
+        )
     sub, count = "", 1
     while call.operands and call.operands[0].span.text in ("/", "*"):
         mark = call.operands.pop(0).span.text
@@ -75,13 +77,28 @@ def _group(call: Call) -> list[Any] | None:
         else:
             sub = str(call.required("MOT")).strip()
     if kind == "MAILLAGE" and sub and sub.upper() not in CELL_TYPES:
-        raise call.bad(f"'{sub}' is no type of cell", hint=" ".join(CELL_TYPES))
+        raise call.error("operators.session.no-such-cell", sub=sub, cell_types=CELL_TYPES)
     ws = workspace(call.session)
     return [_MAKERS[kind](ws, sub) for _ in range(count)]
 
 
 @operator(
     "VIDE",
+    flag("tabulated", "TABU", en="in a table", fr="dans une table"),
+    opt(
+        "places",
+        "LISTENTI",
+        "LISTREEL",
+        "LISTMOTS",
+        en="indices of the table, else 1, 2 ...",
+        fr="indices de la table, sinon 1, 2 ...",
+    ),
+    many(
+        "types",
+        en="types with sub-type and number, or an object to test",
+        fr="types avec sous-type et nombre, ou un objet à tester",
+    ),
+    gives=ANY,
     family="objects",
     help=Help(
         en="Empty objects to begin unions with, several at once, or in a table ('TABULER', at the "
@@ -91,7 +108,7 @@ def _group(call: Call) -> list[Any] | None:
         syntax="OBJ1 ... = VIDE ('TABULER' (LIS1)) MOT1(/MOT2)(*N1) ... ; LOG1 = VIDE OBJ1 ;",
         examples=("L = VIDE 'LISTREEL' ; L = L ET 3. ; LIST L ; SI (VIDE L) ; ERRE 5 ; FINSI ;",),
     ),
-    reads_itself=True,
+    reads_itself="types, sub-types and numbers are joined by / and *",
 )
 def vide(call: Call) -> Any:
     """Make empty objects, or test one."""
@@ -99,7 +116,9 @@ def vide(call: Call) -> Any:
         tested = call.read("*")
         assert tested is not None
         if type_of(tested.value) not in (*_MAKERS, "DEFORME", "VECTEUR"):
-            raise call.bad(f"a {type_of(tested.value)} is never empty", tested.value)
+            raise call.error(
+                "operators.session.never-empty", tested.value, found=type_of(tested.value)
+            )
         return is_empty(tested.value)
     tabulated = call.keyword(("TABU",)) is not None
     places = call.read("LISTENTI", "LISTREEL", "LISTMOTS") if tabulated else None

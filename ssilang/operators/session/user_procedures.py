@@ -24,8 +24,6 @@ def call_user(call: Call, name: str, *values: Any) -> list[Any]:
     session = call.session
     procedure = session.frame.find(name) or session.library.find(name)
     if not isinstance(procedure, Procedure):
-        raise call.bad(
-            f"no procedure is called {name}", hint=f"DEBP {name} TAB1*TABLE ; ... FINP ;"
-        )
+        raise call.error("operators.session.no-such-procedure", name=name)
     operands = [Operand(v, call.span) for v in values]
     return call_procedure(session.evaluator, procedure, Call(session, operands, call.span))

@@ -25,10 +25,7 @@ def formatted(text: str, value: object) -> str:
     """
     body = text.strip()
     if not (body.startswith("(") and body.endswith(")")):
-        raise KernelError(
-            f"'{text}' is not a format: it stands between parentheses",
-            "for example 'FORMAT' '(F8.3)'",
-        )
+        raise KernelError("operators.texts.format-without-brackets", text=text)
     out, used, sign, scale = "", False, "", 0
     for part in _parts(body[1:-1]):
         said = part.strip().upper()
@@ -58,7 +55,7 @@ def _parts(body: str) -> list[str]:
 def _item(said: str, value: object, sign: str, scale: int, text: str) -> str:
     found = _ITEM.fullmatch(said)
     if found is None:
-        raise KernelError(f"'{text}' is not a format that can be read", "for example '(1PE12.5)'")
+        raise KernelError("operators.texts.bad-format", text=text)
     kind = found["kind"]
     width, digits = int(found["width"] or 0), int(found["digits"] or 0)
     if kind == "A":

@@ -9,19 +9,23 @@ import pytest
 from ssilang.cli.run import RunOptions, run_source
 from ssilang.language.registry import (
     OPERATORS,
+    Chosen,
     Form,
     Help,
     Like,
     When,
     arg,
+    by,
     choice,
     each,
     either,
     flag,
     group,
     key,
+    lead,
     main,
     many,
+    named,
     opt,
     said,
     select,
@@ -236,3 +240,76 @@ def test_annotations_say_results():
     assert results_of(Form((), several)) == ("LISTREEL", "LISTMOTS|")
     assert results_of(Form((), nothing)) == ()
     assert results_of(Form((), some)) == ("LISTREEL|LISTENTI",)
+
+
+def test_a_number_read_before_says_how_often_a_group_is_read(declare):
+    declare(
+        opt("n", "ENTIER"),
+        each("pairs", arg("name", "MOT"), arg("value", "FLOTTANT"), times="n"),
+    )
+    assert run("A = ZZZZ 1 'UX' 1. + 2 ; A = ZZZZ 'UX' 1. 'UY' 2. ;")[0] == 0
+    assert declare.found == [
+        {"n": 1, "pairs": [("UX", 1.0)]},
+        {"n": None, "pairs": [("UX", 1.0), ("UY", 2.0)]},
+    ]
+
+
+def test_a_name_of_the_main_operand_is_no_word_that_selects(declare):
+    declare(
+        main("names", "LISTMOTS"),
+        select("what", {"TYPE": [], "TOUT": []}, optional=False, unless=lambda names: names.values),
+    )
+    declare(main("names", "LISTMOTS"), arg("name", "MOT"))
+    assert run("L = MOTS 'TYPE' ; A = ZZZZ L 'TOUT' ; A = ZZZZ L 'TYPE' ;")[0] == 0
+    assert declare.found[0]["what"].word == "TOUT"
+    assert declare.found[1]["name"] == "TYPE"
+
+
+def test_forms_that_get_equally_far_tell_together_what_they_expect(declare):
+    declare(arg("a", "MAILLAGE"))
+    declare(arg("a", "LISTREEL"))
+    output = run("A = ZZZZ 3 ;")[1]
+    assert "MAILLAGE" in output
+    assert "LISTREEL" in output
+
+
+def test_results_by_a_word():
+    form = Form((), lambda: None, gives=by("what", {"MAIL": "MAILLAGE", "PAIR": ("MOT", "MOT")}))
+    assert results_of(form, {"what": Chosen("MAIL", {})}) == ("MAILLAGE",)
+    assert results_of(form, {"what": "PAIR"}) == ("MOT", "MOT")
+    flagged = Form((), lambda: None, gives=by("all", {True: "TABLE"}, "LISTREEL"))
+    assert results_of(flagged, {"all": True}) == ("TABLE",)
+    assert results_of(flagged, {"all": False}) == ("LISTREEL",)
+
+
+def test_what_leads_may_be_spelt_like_a_keyword(declare):
+    declare(lead("item"), key("list", "DANS", arg("l", "LISTMOTS"), optional=False))
+    assert run("A = ZZZZ 'DANS' 'DANS' (MOTS 'X') ; A = ZZZZ 'B' 'DANS' (MOTS 'X') ;")[0] == 0
+    assert [v["item"] for v in declare.found] == ["DANS", "B"]
+
+
+def test_what_leads_stands_behind_the_word_that_chooses_the_form(declare):
+    declare(said("CSV"), lead("file", "MOT"), key("first", "DEBU", arg("n", "ENTIER")))
+    declare(arg("x", "ENTIER"))
+    text = "A = ZZZZ 'CSV' 'debut.csv' 'DEBU' 2 ; A = ZZZZ 'DEBU' 3 'CSV' 'f.csv' ; A = ZZZZ 1 ;"
+    assert run(text)[0] == 0
+    assert declare.found == [
+        {"file": "debut.csv", "first": 2},
+        {"file": "f.csv", "first": 3},
+        {"x": 1},
+    ]
+
+
+def test_a_name_is_taken_whatever_object_bears_it(declare):
+    declare(named("loop"), opt("n", "ENTIER"))
+    assert run("X = 3. ; A = ZZZZ X 2 ; A = ZZZZ NEVER ;")[0] == 0
+    assert declare.found == [{"loop": "X", "n": 2}, {"loop": "NEVER", "n": None}]
+    code, output = run("A = ZZZZ 5. ;")
+    assert code == 1
+    assert "MOT" in output
+
+
+def test_whole_operands_have_their_names(declare):
+    declare(many("values", "FLOTTANT", whole=True))
+    assert run("X = 3. ; A = ZZZZ X 4 ;")[0] == 0
+    assert [(o.name, o.value) for o in declare.found[0]["values"]] == [("X", 3.0), ("", 4.0)]

@@ -147,9 +147,7 @@ def law_of(behaviour: tuple[str, ...]) -> Law:
             return LAWS[word]
     strange = [w for w in behaviour if w not in OTHER_WORDS and w not in LAWS]
     if strange:
-        raise MaterialError(
-            f"no joint law is called {strange[0]}", "joints have " + ", ".join(LAWS)
-        )
+        raise MaterialError("kernel.interface.no-joint-law-called", strange=strange[0], laws=LAWS)
     return LAWS["ELASTIQUE"]
 
 

@@ -119,6 +119,5 @@ def check_given(zone: Zone, values: Mapping[str, NDArray[np.generic]]) -> None:
 def _refuse_turning_slip(kind: FloatArray | None) -> None:
     if kind is not None and (kind != 1.0).any():
         raise MaterialError(
-            f"COULOMB with TYPE = {kind[kind != 1.0][0]:g} is not available",
-            "TYPE = 1: slip of the displacements; TYPE = 2, slip in rotation, is not built",
+            "kernel.interface.coulomb-type-not-available", kind=kind[kind != 1.0][0]
         )

@@ -186,7 +186,7 @@ def accelerated(problem: Problem, force: FloatArray) -> FloatArray:
         except RuntimeError:
             q[heavy] = np.linalg.lstsq(block.toarray(), pushed, rcond=1e-12)[0]
     if not np.isfinite(q).all():
-        raise KernelError("the mass matrix is singular: no initial acceleration can be found")
+        raise KernelError("kernel.stepping.mass-matrix-singular-no")
     a: FloatArray = T @ q
     return a
 

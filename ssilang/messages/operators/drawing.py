@@ -1,0 +1,42 @@
+"""What ssilang/operators/drawing refuses and warns of."""
+
+from ssilang.messages.message import Message
+
+MESSAGES: dict[str, Message] = {
+    "no-colour-no-place": Message(
+        "'{said}' is neither a colour nor one of {places:words}",
+        "'{said}' n'est ni une couleur ni l'un de {places:words}",
+    ),
+    "colour-number": Message(
+        "colours have the numbers 1 to {count}, not {given}",
+        "les couleurs ont les numéros 1 à {count}, pas {given}",
+    ),
+    "colour-count": Message(
+        "{n_colours} {n_colours:colour|colours} for {n_parts} {n_parts:part|parts}",
+        "{n_colours} {n_colours:couleur|couleurs} pour {n_parts} {n_parts:partie|parties}",
+    ),
+    "equal-bounds": Message(
+        "the bounds are both {low:g}",
+        "les deux bornes valent {low:g}",
+    ),
+    "whole-number-wanted": Message(
+        "INITIAL and FINAL hold whole numbers, curve {n} has {value!r}",
+        "INITIAL et FINAL contiennent des entiers, la courbe {n} a {value!r}",
+    ),
+    "component-missing": Message(
+        "the field has none of {columns:words}",
+        "le champ n'a aucune de ces composantes : {columns:words}",
+        "it has {known}",
+        "il a {known}",
+    ),
+    "unknown-word": Message(
+        "{operator} does not know the word '{said}'",
+        "{operator} ne connaît pas le mot '{said}'",
+        "{near:?did you mean {near}?|its words are {words:words}}",
+        "{near:?vouliez-vous dire {near} ?|ses mots sont {words:words}}",
+    ),
+    "useless-operand": Message(
+        "{operator} has no use for this {found}",
+        "{operator} ne prend pas ici d'objet {found}",
+    ),
+}

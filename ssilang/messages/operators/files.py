@@ -1,0 +1,76 @@
+"""What ssilang/operators/files refuses and warns of."""
+
+from ssilang.messages.message import Message
+
+MESSAGES: dict[str, Message] = {
+    "no-whole-number": Message(
+        "{name}, line {line}: {value} is no whole number",
+        "{name}, ligne {line} : {value} n'est pas un nombre entier",
+    ),
+    "all-lines-read": Message(
+        "{name} has only {n_lines} {n_lines:line|lines}, all have been read",
+        "{name} n'a que {n_lines} {n_lines:ligne|lignes}, toutes ont été lues",
+    ),
+    "no-number": Message(
+        "{name}, line {line}: '{item}' is no number",
+        "{name}, ligne {line} : '{item}' n'est pas un nombre",
+    ),
+    "no-name-with-type": Message(
+        "ACQU wants names, each with *TYPE",
+        "ACQU veut des noms, chacun avec *TYPE",
+    ),
+    "type-not-read": Message(
+        "'{kind}' cannot be read from a file",
+        "'{kind}' ne se lit pas dans un fichier",
+        "types are {types}",
+        "les types sont {types}",
+    ),
+    "size-missing": Message(
+        "the number of values must follow {name}*{kind}",
+        "le nombre de valeurs doit suivre {name}*{kind}",
+    ),
+    "format-not-read": Message(
+        "LIRE '{word}' is not supported",
+        "LIRE '{word}' n'existe pas",
+        "formats that are read: CSV, PEER, AVS, UNV, STL, PROC",
+        "formats qui se lisent : CSV, PEER, AVS, UNV, STL, PROC",
+    ),
+    "no-such-procedure": Message(
+        "{name} defines no procedure {wanted}",
+        "{name} ne définit pas de procédure {wanted}",
+        "it defines {found}",
+        "il définit {found}",
+    ),
+    "all-structures-read": Message(
+        "{name} holds {done} {done:structure|structures}, all have been read",
+        "{name} contient {done} {done:structure|structures}, toutes ont été lues",
+    ),
+    "no-such-label": Message(
+        "{name} has no record labelled '{label}'",
+        "{name} n'a pas d'enregistrement de label '{label}'",
+        "its labels are: {known}",
+        "ses labels sont : {known}",
+    ),
+    "no-object-to-save": Message(
+        "there is no object '{value}' to save",
+        "il n'y a pas d'objet '{value}' à sauver",
+    ),
+    "separator": Message(
+        "SEPA wants one of {separators:words}",
+        "SEPA veut l'un de {separators:words}",
+    ),
+    "positive-number": Message(
+        "{said} wants a positive number, not {n}",
+        "{said} veut un nombre positif, pas {n}",
+    ),
+    "only-matrix-market": Message(
+        "only 'MM' 'ASSE' is supported, the assembled matrix as Matrix Market text",
+        "seul 'MM' 'ASSE' existe, la matrice assemblée en texte Matrix Market",
+    ),
+    "no-such-mesh": Message(
+        "{name} holds no mesh '{wanted}'",
+        "{name} ne contient pas de maillage '{wanted}'",
+        "it holds {known}",
+        "il contient {known}",
+    ),
+}
