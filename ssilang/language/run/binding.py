@@ -20,9 +20,8 @@ from ssilang.language.registry import (
     Operator,
     Select,
     find_operator,
-    words_in,
 )
-from ssilang.language.run.call import Call, Operand, accepts
+from ssilang.language.run.call import Call, Operand, accepts, shortened
 from ssilang.language.say.errors import SsiError
 from ssilang.language.values import Mot, type_of
 
@@ -93,7 +92,9 @@ class Binder:
     # ---- keywords ------------------------------------------------------------------------------
 
     def _keywords(self) -> None:
-        while any(self._keyword(level) for level in reversed(self._levels)):
+        while self.call.word_index() is not None and any(
+            self._keyword(level) for level in reversed(self._levels)
+        ):
             pass
 
     def _keyword(self, level: _Level) -> bool:
@@ -361,11 +362,12 @@ def _candidates(found: Operator, call: Call) -> Iterator[tuple[Form, int | None]
         if meant:
             yield from ((f, None) for f in meant)
             return
-    known = dict.fromkeys(t for f in forms if f.main is not None for t in f.main.types)
+    with_main = [f for f in forms if f.main is not None]
+    known = dict.fromkeys(t for f in with_main if f.main is not None for t in f.main.types)
     main = call.main_operand(*known) if known else None
     if main is not None:
         kind = type_of(call.operands[main].value)
-        chosen = [f for f in forms if f.main is not None and accepts_kind(f.main.types, kind)]
+        chosen = [f for f in with_main if f.main and accepts_kind(f.main.types, kind)]
         silent = [f for f in chosen if f.said is None]
         if chosen and not silent:
             raise missing_keyword(call, _words_said(chosen))
@@ -389,11 +391,11 @@ def _is_said(form: Form, words: Sequence[str]) -> bool:
     """Whether a word of the form's stands first among the unread ones, or behind its keywords."""
     if form.said is None:
         return False
-    others = () if form.by_hand else tuple(words_in((form.entries or ())[1:]))
+    said, length = shortened(form.said.words, form.said.length), form.said.length
     for word in words:
-        if _is_among(word, form.said.words, form.said.length):
+        if word[:length] in said:
             return True
-        if not _is_among(word, others, 4):
+        if word[:4] not in form.beside:
             break
     return False
 
@@ -401,11 +403,6 @@ def _is_said(form: Form, words: Sequence[str]) -> bool:
 def _words_said(forms: Iterable[Form]) -> list[str]:
     """The words of forms, each once."""
     return list(dict.fromkeys(w for f in forms if f.said is not None for w in f.said.words))
-
-
-def _is_among(word: str, words: Sequence[str], length: int) -> bool:
-    wanted = word.upper().rstrip()[:length]
-    return any(w[:length].rstrip() == wanted for w in words)
 
 
 def _no_form(found: Operator, call: Call) -> SsiError:
