@@ -219,7 +219,7 @@ _HOST = arg("host", "MAILLAGE", en="cells that hold them", fr="éléments qui le
 )
 def rigid_with_rotations(
     call: Call,
-    turning: str,
+    turning: bool,
     moving: bool,
     unchecked: bool,
     mesh: Mesh | Point,
@@ -270,7 +270,7 @@ def together(call: Call, unknown: str, mesh: Mesh) -> Matrix:
     arg("guest", "MAILLAGE", "MMODEL", "POINT", en="nodes to tie", fr="noeuds à attacher"),
     syntax="RIG1 = RELA 'ACCRO' 'FORT' MODL2 GEO1 | MODL1 ;",
 )
-def hooked_on_model(call: Call, strong: str, host: Model, guest: Mesh | Model | Point) -> Matrix:
+def hooked_on_model(call: Call, strong: bool, host: Model, guest: Mesh | Model | Point) -> Matrix:
     """Nodes hooked onto the cells of a model."""
     names = made.in_space(workspace(call.session).mode)
     nodes = nodes_of(guest.mesh if isinstance(guest, Model) else guest)

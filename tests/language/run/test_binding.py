@@ -278,3 +278,13 @@ def test_results_by_a_word():
     flagged = Form((), lambda: None, gives=by("all", {True: "TABLE"}, "LISTREEL"))
     assert results_of(flagged, {"all": True}) == ("TABLE",)
     assert results_of(flagged, {"all": False}) == ("LISTREEL",)
+
+
+def test_a_keyword_behind_a_pair_does_not_take_its_value(declare):
+    declare(
+        each("pairs", arg("name", "MOT"), arg("value", "LISTREEL")),
+        key("axes", "DIRE", many("v", "LISTREEL")),
+    )
+    assert run("P = PROG 1. ; Q = PROG 2. ; A = ZZZZ 'VECT' P 'DIRE' Q ;")[0] == 0
+    assert [v.values[0] for v in declare.found[0]["axes"]] == [2.0]
+    assert declare.found[0]["pairs"][0][1].values[0] == 1.0
