@@ -173,10 +173,10 @@ def _parameters(
 ) -> CellField:
     given: list[Values] = [{} for _ in model.zones]
     said: dict[str, Any] = {}
-    for directions in axes:
-        _set_axes(call, directions, turn, model, given, known)
     for written, value in pairs:
         said[_set_value(call, written, value, model, given, known)] = value
+    for directions in axes:
+        _set_axes(call, directions, turn, model, given, known)
     for values in given:
         tension_to_hardening(values)
     blocks = [b for z, v in zip(model.zones, given, strict=True) for b in _blocks(z, v)]
