@@ -13,6 +13,8 @@ from dataclasses import dataclass, field
 from typing import Any, Literal
 
 ANY = "*"
+NAME = "NOM"
+"""Type word of an entry that takes the name of the next operand, whatever object bears it."""
 
 Function = Callable[..., Any]
 
@@ -27,7 +29,9 @@ class Argument:
     'parameter' ...). The `main` operand decides which form of an operator runs: it is the first
     of the types that the operator knows as main ones, one or two words may stand before it.
     A repeated one leaves the last `leaving` operands of the types `left` for what follows; of a
-    keyword's it may take only those `behind` the word.
+    keyword's it may take only those `behind` the word. What `leads` is read before any keyword is
+    looked for: it may be spelt like one. Of one that is `whole` the function gets the `Operand`:
+    with its name and its place.
     """
 
     name: str
@@ -43,6 +47,8 @@ class Argument:
     leaving: int = 0
     left: tuple[str, ...] = ()
     behind: bool = False
+    leads: bool = False
+    whole: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,6 +146,21 @@ def arg(
     return Argument(name, types or (ANY,), en=en, fr=fr, unit=unit, kind=kind)
 
 
+def lead(
+    name: str, *types: str, whole: bool = False, en: str = "", fr: str = "", kind: str = ""
+) -> Argument:
+    """A mandatory operand that is read before any keyword: the first one, or right behind `said`.
+
+    Words such as names of files or items of lists may be spelt like a keyword.
+    """
+    return Argument(name, types or (ANY,), en=en, fr=fr, kind=kind, leads=True, whole=whole)
+
+
+def named(name: str, optional: bool = False, en: str = "", fr: str = "") -> Argument:
+    """The name that the next operand is written as, whatever object bears it: a str."""
+    return Argument(name, (NAME,), optional, en=en, fr=fr, leads=True)
+
+
 def main(name: str, *types: str, en: str = "", fr: str = "") -> Argument:
     """The operand whose type decides which form of an operator runs."""
     return Argument(name, types, en=en, fr=fr, main=True)
@@ -171,6 +192,7 @@ def many(
     fr: str = "",
     unit: str = "",
     kind: str = "",
+    whole: bool = False,
 ) -> Argument:
     """All operands of one of the types that can be read, as a tuple.
 
@@ -191,6 +213,7 @@ def many(
         leaving=leaving,
         left=tuple(left),
         behind=behind,
+        whole=whole,
     )
 
 
@@ -269,9 +292,10 @@ def either(name: str, *groups: Group, optional: bool = False, en: str = "", fr: 
 
 @dataclass(frozen=True, slots=True)
 class Like:
-    """Results of the types, and as many, as the operands of the entry `name`."""
+    """Results of the types, and as many, as the operands of the entry `name` and of `more`."""
 
     name: str
+    more: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

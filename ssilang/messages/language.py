@@ -364,6 +364,12 @@ MESSAGES: dict[str, Message] = {
         "`ssilang help {procedure} --lang fr` en donne la liste",
         severity="warning",
     ),
+    "refused-entry": Message(
+        "{index} is refused: {problem}",
+        "{index} est refusé : {problem}",
+        "{problem!h}",
+        "{problem!h}",
+    ),
     "no-such-loop": Message(
         "no open loop or procedure is called {name}",
         "aucune boucle ou procédure ouverte ne s'appelle {name}",

@@ -86,8 +86,8 @@ def _sites() -> Iterator[Site]:
                 code = first.value if isinstance(first, ast.Constant) else None
                 if not isinstance(code, str) or " " in code:
                     continue
-                room = code.rpartition(".")[0]
-                if room in rooms or (first is node.args[0] and called in _RAISES):
+                room, _, name = code.rpartition(".")
+                if (room in rooms and name) or (first is node.args[0] and called in _RAISES):
                     names = frozenset(k.arg for k in node.keywords if k.arg)
                     raises = called in _RAISES or str(called).endswith("Error")
                     more = not raises or any(k.arg is None for k in node.keywords)
@@ -167,8 +167,23 @@ def test_every_site_gives_what_its_sentence_tells():
 
 
 def test_every_sentence_has_a_site():
-    lost = [code for code in catalogue() if code not in constants()]
+    of_library = set(re.findall(r"'(stdlib\.[a-z0-9-]+)'", _library_text()))
+    assert {c for c in catalogue() if c.startswith("stdlib.")} == of_library
+    lost = [code for code in catalogue() if code not in constants() | of_library]
     assert not lost
+
+
+def _library_text() -> str:
+    files = sorted((_ROOT.parent / "stdlib").glob("*.ssi"))
+    assert files
+    return "\n".join(f.read_text(encoding="utf-8") for f in files)
+
+
+def test_procedures_of_the_library_refuse_by_code():
+    """A sentence in the procedure itself would be told in one language only."""
+    assert not re.findall(
+        r"^[^*\n]*\bERRE +(?:\(CHAI|'(?!stdlib\.)).*", _library_text(), re.MULTILINE
+    )
 
 
 @pytest.mark.parametrize("code", sorted(HINTS))

@@ -64,3 +64,9 @@ def test_scripts_are_told_what_to_write_and_python_is_not():
     assert "ELIM" in hint(
         "kernel.statics.at-load-step", {"failure": MeshError(code, **data)}, "fr", script=True
     )
+
+
+def test_a_refused_entry_is_told_with_its_reason():
+    data = {"speaker": "DYNAMIC", "index": "'PAS'", "problem": Sentence("loop-name")}
+    told = sentence("refused-entry", data, "fr")
+    assert told == "DYNAMIC : 'PAS' est refusé : REPE demande un nom de boucle"

@@ -18,7 +18,7 @@ from ssilang.cli.checking.kinds import (
 from ssilang.cli.checking.scope import Scope
 from ssilang.language.registry import SCALAR_RULES, Operator, When, find_operator
 from ssilang.language.run.binding import bind_operator
-from ssilang.language.run.call import Call, Operand, accepts
+from ssilang.language.run.call import Call, Operand, accepts, name_of
 from ssilang.language.run.leftovers import is_call
 from ssilang.language.run.results import Results, results_of
 from ssilang.language.run.session import Session
@@ -61,6 +61,11 @@ class AbstractCall(Call):
     def stands(self, *types: str) -> bool:
         self._all_known()
         return super().stands(*types)
+
+    def take_name(self, optional: bool = False) -> str:
+        if self.operands and not name_of(self.operands[0]):
+            raise Ambiguous
+        return super().take_name(optional)
 
     def meets(self, when: When) -> bool:
         raise Ambiguous  # what the run sets is not known

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, TypeGuard
 
 from ssilang.language.registry import (
     ANY,
+    NAME,
     Argument,
     Chosen,
     Either,
@@ -21,7 +22,7 @@ from ssilang.language.registry import (
     find_operator,
     words_in,
 )
-from ssilang.language.run.call import Call, accepts
+from ssilang.language.run.call import Call, Operand, accepts
 from ssilang.language.say.errors import SsiError
 from ssilang.language.values import Mot, type_of
 
@@ -65,8 +66,9 @@ class Binder:
         level = _Level(keywords, {k.name: [] if k.repeated else k.default for k in keywords})
         self._levels.append(level)
         try:
+            leading = self._leading(entries, level)
             self._keywords(self._levels[-1:] if begun else self._levels)
-            for entry in entries:
+            for entry in entries[leading:]:
                 reader = _READERS.get(type(entry))
                 if reader is not None:
                     level.values[entry.name] = reader(self, entry, after)
@@ -77,6 +79,21 @@ class Binder:
             if not k.optional and k.name not in level.seen:
                 raise missing_keyword(self.call, k.words)
         return level.values
+
+    def _leading(self, entries: Sequence[Entry], level: _Level) -> int:
+        """Read what leads, behind the word that chose the form; says how many entries that was."""
+        chosen = _is_choice(entries)
+        place, after = int(chosen), -1
+        if not _leads(entries[place : place + 1]):
+            return 0
+        if chosen:
+            if not self._keyword(_Level(level.keywords[:1], level.values, level.seen)):
+                return 0  # something stands before the word
+            after = self.call.keyword_end
+        while _leads(one := entries[place : place + 1]):
+            level.values[one[0].name] = self._argument(one[0], after)
+            place += 1
+        return place
 
     # ---- keywords ------------------------------------------------------------------------------
 
@@ -124,9 +141,11 @@ class Binder:
     def _argument(self, a: Argument, after: int = -1) -> Any:
         if a.repeated:
             return self._several(a, after)
+        if NAME in a.types:
+            return self.call.take_name(a.optional)
         operand = self.call.read(*a.types, after=after)
         if operand is not None:
-            return operand.value
+            return _given(a, operand)
         if a.optional:
             return a.default
         raise self.call.missing(a.types)
@@ -139,7 +158,7 @@ class Binder:
             kept = set(left[-a.leaving :])
             # indices shift as operands are taken
             values = [
-                call.take(i - n, *a.types).value
+                _given(a, call.take(i - n, *a.types))
                 for n, i in enumerate(i for i in found if i not in kept)
             ]
         else:
@@ -148,7 +167,7 @@ class Binder:
             only = a.behind
             while (operand := call.read(*a.types, after=after, only=only)) is not None:
                 only = True
-                values.append(operand.value)
+                values.append(_given(a, operand))
                 if words:
                     self._keywords(self._levels)
         if not values and not a.optional:
@@ -239,6 +258,20 @@ class Binder:
                 level.seen.update(seen)
 
         yield put_back
+
+
+def _given(a: Argument, operand: Operand) -> Any:
+    return operand if a.whole else operand.value
+
+
+def _leads(entries: Sequence[Entry]) -> TypeGuard[Sequence[Argument]]:
+    return all(isinstance(e, Argument) and e.leads for e in entries) and len(entries) > 0
+
+
+def _is_choice(entries: Sequence[Entry]) -> bool:
+    """Whether the first entry is the word that chooses the form."""
+    first = entries[0] if entries else None
+    return isinstance(first, Keyword) and first.name == "word" and not first.arguments
 
 
 _READERS: Mapping[type, Callable[[Binder, Any, int], Any]] = {

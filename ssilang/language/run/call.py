@@ -29,6 +29,15 @@ class Operand:
     result: bool = False  # came out of an operator
 
 
+def name_of(operand: Operand) -> str:
+    """The name that an operand was written as: a variable, a word, a procedure."""
+    if operand.name:
+        return operand.name
+    if isinstance(operand.value, Procedure):
+        return operand.value.name
+    return str(operand.value).rstrip().upper() if isinstance(operand.value, Mot) else ""
+
+
 def accepts(types: Sequence[str], value: object) -> bool:
     """Whether a value may be read as one of the types."""
     if ANY in types:
@@ -165,6 +174,21 @@ class Call:
         named = (v.name if isinstance(v, Procedure) else v for v in values)
         return [str(v).upper() for v in named if isinstance(v, str)]
 
+    def take_name(self, optional: bool = False) -> str:
+        """Consume the next operand for its name, whatever object bears it; '' if optional.
+
+        Raises
+        ------
+        SsiError
+            'missing-argument' when nothing stands there, 'wrong-argument' for a value without name.
+        """
+        name = name_of(self.operands[0]) if self.operands else ""
+        if name:
+            self.used.append(self.operands.pop(0))
+        elif not optional:
+            raise self.missing(("MOT",))
+        return name
+
     def at_word(self) -> bool:
         """Whether a word is the very next operand."""
         return self.word_index() == 0
@@ -257,6 +281,7 @@ class Call:
 
     def missing(self, types: Sequence[str]) -> SsiError:
         """The error for an operand that is not there, pointing at what stands instead."""
+        types = (ANY,) if ANY in types else types
         if self.operands:
             wrong, every = self.operands[0], (*self.used, *self.operands)
             return SsiError(

@@ -29,12 +29,10 @@ def results_of(form: Form, values: Mapping[str, Any] | None = None) -> Results |
     """
     given = form.gives
     if isinstance(given, Like):
-        held = (values or {}).get(given.name)
-        if held is None:
+        held = [(values or {}).get(name) for name in (given.name, *given.more)]
+        if None in held:
             return None
-        return (
-            tuple(type_of(v) for v in held) if isinstance(held, tuple | list) else (type_of(held),)
-        )
+        return tuple(type_of(v) for h in held for v in (h if isinstance(h, tuple | list) else (h,)))
     if isinstance(given, By):
         return given.of((values or {}).get(given.name))
     if given is not None:

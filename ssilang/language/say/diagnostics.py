@@ -116,7 +116,7 @@ def _held_hint(data: dict[str, Any], language: str) -> str:
 
 def _label(error: SsiError, language: str) -> str:
     number = message.find(error.code).number
-    if error.code == "erre":  # the script's own number
+    if error.code == "erre" or error.code.startswith("stdlib."):  # what ERRE gives
         number = int(str(error.data.get("number", 0)))
     kind = _KINDS[error.severity][language]
     return f"{kind} {number}" if number else kind

@@ -6,23 +6,19 @@ errors; an entry that nobody reads is a warning that names the one that was mean
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from ssilang.language.say.errors import SsiError
 from ssilang.language.values import Annule, Mot, Procedure, Table, type_of
 from ssilang.language.vocabulary.entries import (
-    BOTH,
     NUMBER,
-    READ,
     REFUSED,
-    WRITTEN,
     Declaration,
     TableEntry,
     as_written,
 )
 from ssilang.language.vocabulary.spelling import near_word
+from ssilang.language.vocabulary.unread_entries import reads, unread
 
 if TYPE_CHECKING:
     from ssilang.language.run.scopes import Frame
@@ -30,7 +26,6 @@ if TYPE_CHECKING:
     from ssilang.language.text.source import Span
 
 _TRUTH = "LOGIQUE"
-_COUNTS = (READ, WRITTEN, BOTH)
 
 
 def shown(path: tuple[object, ...]) -> str:
@@ -145,36 +140,14 @@ class TableCheck:
         word = index.rstrip()
         if _Readers(self.session, self.place, table, len(path) > 1).read(word):
             return
-        meant = next((e.index for e in known.values() if word.upper() in e.means), "")
-        if table.has(meant):
-            meant = ""
-        owners = {} if meant else self._owners(word)
-        if any(_named(self.place.source.code, owner) for owner in owners):
-            return  # its table goes on to that procedure, or comes from it
-        readers = " ".join(o for o, reads in owners.items() if reads)
-        near = meant or near_word(word, (e.index for e in known.values() if e.role != REFUSED))
-        code = "entry-unknown" if near else "entry-of-another" if readers else "entry-unread"
-        self.session.warn(
-            code, self.place, procedure=self.declared.name, operator=self.declared.name,
-            where=shown(where), near=near, owners=readers,
-        )  # fmt: skip
-
-    def _owners(self, word: str) -> dict[str, bool]:
-        """Others that have an entry of that name, and whether they read it."""
-        every = (self.session.library.declared(n) for n in self.session.library.declared_names)
-        found: dict[str, bool] = {}
-        for declared in every:
-            if declared is None or declared.name == self.declared.name:
-                continue
-            own = [e for e in declared.entries if e.index == word and e.role in _COUNTS]
-            if own:
-                found[declared.name] = any(e.is_read and not e.taken_over for e in own)
-        return found
-
-
-def _named(text: str, name: str) -> bool:
-    """Whether a script calls a procedure."""
-    return re.search(rf"(?<![\w'@]){re.escape(name)}(?!\w)", text, re.IGNORECASE) is not None
+        said = unread(
+            self.session.library, self.declared, path, word, table.has, self.place.source.code
+        )
+        if said is not None:
+            name = self.declared.name
+            self.session.warn(
+                said[0], self.place, procedure=name, operator=name, where=shown(where), **said[1]
+            )
 
 
 class _Readers:
@@ -199,24 +172,12 @@ class _Readers:
 
     def read(self, word: str) -> bool:
         """Whether they read that index."""
-        if any(True for text in self.procedures for _ in _reads(text, word)):
+        if any(True for text in self.procedures for _ in reads(text, word)):
             return True
         return any(
-            parent.upper() in self.names or (self.nested and parent in "')")
-            for parent in _reads(self.main, word)
+            parent in self.names or (self.nested and parent in "')")
+            for parent in reads(self.main, word)
         )
-
-
-def _reads(text: str, word: str) -> Iterator[str]:
-    """What stands before each index `word` that is read: a name, or the end of a path."""
-    said = re.escape(word)
-    for found in re.finditer(rf"([@&!]?\w+|['\)])\s*\.\s*(?:'{said}'|{said}(?!\w))\s*(=?)", text):
-        if not found.group(2):
-            yield found.group(1)
-    for found in re.finditer(rf"\bEXIS\w*\s+\(?\s*([@&!]?\w+)[^;]*?'{said}'", text, re.IGNORECASE):
-        yield found.group(1)
-    for found in re.finditer(r"\bINDE\w*\s+([@&!]?\w+)", text, re.IGNORECASE):
-        yield found.group(1)
 
 
 def check_tables(session: Session, name: str, frame: Frame, place: Span) -> None:

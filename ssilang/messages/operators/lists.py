@@ -109,12 +109,6 @@ MESSAGES: dict[str, Message] = {
         "the polynomial is constant: it has no roots, or all numbers",
         "le polynôme est constant : il n'a aucune racine, ou tout nombre l'est",
     ),
-    "interval-ends": Message(
-        "'INTE' needs the two ends of the interval",
-        "'INTE' demande les deux bornes de l'intervalle",
-        "RACP 'INTE' X1 X2 LREE1",
-        "RACP 'INTE' X1 X2 LREE1",
-    ),
     "lengths-differ": Message(
         "the lists have not the same length",
         "les listes n'ont pas la même longueur",
@@ -146,18 +140,6 @@ MESSAGES: dict[str, Message] = {
         "'PADD' fills with zeros",
         "'PADD' complète par des zéros",
     ),
-    "which-function": Message(
-        "which function?",
-        "quelle fonction ?",
-        "'BESSEL' 'FRESNEL' 'GAMMA'",
-        "'BESSEL' 'FRESNEL' 'GAMMA'",
-    ),
-    "which-special-function": Message(
-        "which function?",
-        "quelle fonction ?",
-        "{names:words}",
-        "{names:words}",
-    ),
     "function-undefined": Message(
         "the function is not defined at {x:g}",
         "la fonction n'est pas définie en {x:g}",
@@ -165,12 +147,6 @@ MESSAGES: dict[str, Message] = {
     "degree": Message(
         "the degree is between 1 and 500, not {degree}",
         "le degré est entre 1 et 500, pas {degree}",
-    ),
-    "list-not-named": Message(
-        "the list is named by 'DANS'",
-        "la liste se nomme par 'DANS'",
-        "POSI item 'DANS' list ;",
-        "POSI élément 'DANS' liste ;",
     ),
     "point-or-mesh": Message(
         "a POINT or a MAILLAGE is looked for in a mesh",

@@ -42,33 +42,9 @@ MESSAGES: dict[str, Message] = {
         "a value is too large for an integer",
         "une valeur est trop grande pour un entier",
     ),
-    "which-test": Message(
-        "what is the test?",
-        "quel est le test ?",
-        "SUPERIEUR EGSUPE EGALE EGINFE INFERIEUR ...",
-        "SUPERIEUR EGSUPE EGALE EGINFE INFERIEUR ...",
-    ),
     "existence-of-cells": Message(
         "'EXISTE' is for fields in cells",
         "'EXISTE' vaut pour les champs par élément",
-    ),
-    "which-bound": Message(
-        "which bound?",
-        "quelle borne ?",
-        "'MAXIMUM' X2, 'MINIMUM' X1 or 'COMPRIS' X1 X2",
-        "'MAXIMUM' X2, 'MINIMUM' X1 ou 'COMPRIS' X1 X2",
-    ),
-    "white-noise-only": Message(
-        "only white noise is made",
-        "seul le bruit blanc est programmé",
-        "BRUI 'BLAN' 'GAUS' 0. 1. 100 ;",
-        "BRUI 'BLAN' 'GAUS' 0. 1. 100 ;",
-    ),
-    "which-law": Message(
-        "which law?",
-        "quelle loi ?",
-        "'GAUS' 'UNIF' 'EXPO' 'POIS'",
-        "'GAUS' 'UNIF' 'EXPO' 'POIS'",
     ),
     "negative-width": Message(
         "the width of a law is not negative, this one is {width:g}",
@@ -83,7 +59,7 @@ MESSAGES: dict[str, Message] = {
         "'{word}' n'est pas un nombre",
     ),
     "no-such-curve": Message(
-        "there are {n_parts} {n_parts:curve|curves}, none of number {place}",
+        "there {n_parts:is|are} {n_parts} {n_parts:curve|curves}, none of number {place}",
         "il y a {n_parts} {n_parts:courbe|courbes}, aucune de numéro {place}",
     ),
     "which-component": Message(

@@ -35,12 +35,6 @@ MESSAGES: dict[str, Message] = {
         "FORM CONS ELEM MATE",
         "FORM CONS ELEM MATE",
     ),
-    "name-and-object": Message(
-        "a name and an object are needed",
-        "il faut un nom et un objet",
-        "NOMM NOM1 OBJ1 ;",
-        "NOMM NOM1 OBJ1 ;",
-    ),
     "name-is-a-word": Message(
         "a name is a word, or a variable that holds one",
         "un nom est un mot, ou une variable qui en contient un",

@@ -7,7 +7,20 @@ from typing import Any
 import numpy as np
 
 from ssilang.kernel.base.errors import KernelError
-from ssilang.language.registry import Help, operator
+from ssilang.kernel.mesh.mesh import Point
+from ssilang.language.registry import (
+    ANY,
+    Argument,
+    Help,
+    Like,
+    arg,
+    flag,
+    key,
+    main,
+    operator,
+    opt,
+    shared,
+)
 from ssilang.language.run.call import Call
 from ssilang.language.values import (
     ListChpo,
@@ -24,9 +37,21 @@ from ssilang.operators.lists.making import check_length
 AnyList = ListReel | ListEnti | ListMots | ListChpo | ListObje
 LISTS = ("LISTREEL", "LISTENTI", "LISTMOTS", "LISTCHPO", "LISTOBJE")
 _ITEM = {
-    "LISTREEL": ("FLOTTANT",), "LISTENTI": ("ENTIER",), "LISTMOTS": ("MOT",),
-    "LISTCHPO": ("CHPOINT",), "LISTOBJE": ("*",),
+    "LISTREEL": "FLOTTANT", "LISTENTI": "ENTIER", "LISTMOTS": "MOT", "LISTCHPO": "CHPOINT",
+    "LISTOBJE": "*",
 }  # fmt: skip
+_PLACES = arg(
+    "places",
+    "ENTIER",
+    "LISTENTI",
+    en="place, or list of places, from 1",
+    fr="rang, ou liste de rangs, à partir de 1",
+)
+_LIST = main("value", *LISTS, en="list", fr="liste")
+
+
+def _list(kind: str) -> Argument:
+    return main("value", kind, en="list", fr="liste")
 
 
 def _places(call: Call, size: int, places: Any) -> list[int]:
@@ -49,38 +74,32 @@ def _plain(item: Any) -> Any:
     return item.item() if isinstance(item, np.generic) else item
 
 
-@EXTR.on(
-    *LISTS,
-    syntax="OBJ1 = EXTR LIS1 N1 ; LIS2 = EXTR LIS1 LENT1 ;",
-    en="Of a list: the item at place N1 (from 1), or the list of the items at places LENT1.",
-    fr="D'une liste : l'élément de rang N1 (à partir de 1), ou la liste des éléments de rangs "
-    "LENT1.",
-    examples=("LIST (EXTR (PROG 5. 6. 7.) 2) ;", "LIST (EXTR (MOTS 'A' 'B' 'C') (LECT 3 1)) ;"),
+@EXTR.form(
+    main("value", "LISTCHPO", en="list of fields", fr="liste de champs"),
+    key("taken", "VALE", optional=False, en="values at a point", fr="valeurs en un point"),
+    opt(
+        "names",
+        "LISTMOTS",
+        "MOT",
+        en="components, all by default",
+        fr="composantes, toutes sinon",
+        kind="component",
+    ),
+    arg("point", "POINT", en="where", fr="où"),
+    syntax="LREE1 = EXTR LCHP1 'VALE' POIN1 (MOT1 | LMOT1) ;",
+    en="Of a list of fields, with 'VALE': their values at a point, component by component.",
+    fr="D'une liste de champs, avec 'VALE' : leurs valeurs en un point, composante par composante.",
+    examples=(
+        "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'T' 1. ; LIST (EXTR (SUIT C C) 'VALE' P) ;",
+    ),
 )
-def _extract(call: Call, value: AnyList) -> Any:
-    if isinstance(value, ListChpo) and call.keyword(("VALE",)) is not None:
-        return _values_at(call, value)
-    operand = call.read("ENTIER", "LISTENTI")
-    if operand is None:
-        raise call.missing(("ENTIER", "LISTENTI"))
-    places = _places(call, len(value), operand.value)
-    if isinstance(operand.value, ListEnti):
-        return taken(value, places)
-    return _plain(value.values[places[0]])
-
-
-def _values_at(call: Call, value: ListChpo) -> ListReel:
-    point = call.read("POINT")
-    names = call.read("LISTMOTS", "MOT")
-    if point is None:
-        point = call.read("POINT")
-    if point is None:
-        raise call.missing(("POINT",))
-    node = np.asarray([point.value.node])
+def _values_at(
+    call: Call, value: ListChpo, taken: bool, names: ListMots | str | None, point: Point
+) -> ListReel:
+    node = np.asarray([point.node])
     fields: list[Any] = value.values
     if names is not None:
-        said = names.value
-        wanted = list(said.values) if isinstance(said, ListMots) else [said]
+        wanted = list(names.values) if isinstance(names, ListMots) else [names]
     else:
         wanted = list(dict.fromkeys(n for f in fields for n in f.components))
         if any(set(f.components) != set(wanted) for f in fields):
@@ -88,51 +107,66 @@ def _values_at(call: Call, value: ListChpo) -> ListReel:
     return ListReel([float(f.values_at(str(n).rstrip(), node)[0]) for n in wanted for f in fields])
 
 
-@ENLE.on(
-    *LISTS,
+def _extract(call: Call, value: AnyList, places: int | ListEnti) -> Any:
+    chosen = _places(call, len(value), places)
+    if isinstance(places, ListEnti):
+        return taken(value, chosen)
+    return _plain(value.values[chosen[0]])
+
+
+EXTR.form(
+    _list("LISTREEL"),
+    _PLACES,
+    gives="FLOTTANT|LISTREEL",
+    syntax="OBJ1 = EXTR LIS1 N1 ; LIS2 = EXTR LIS1 LENT1 ;",
+    en="Of a list: the item at place N1 (from 1), or the list of the items at places LENT1.",
+    fr="D'une liste : l'élément de rang N1 (à partir de 1), ou la liste des éléments de rangs "
+    "LENT1.",
+    examples=("LIST (EXTR (PROG 5. 6. 7.) 2) ;", "LIST (EXTR (MOTS 'A' 'B' 'C') (LECT 3 1)) ;"),
+)(_extract)
+for _kind in LISTS[1:-1]:
+    EXTR.form(_list(_kind), _PLACES, gives=f"{_ITEM[_kind]}|{_kind}")(_extract)
+EXTR.form(_list("LISTOBJE"), _PLACES, gives=ANY)(_extract)
+
+
+@ENLE.form(
+    _LIST,
+    _PLACES,
+    gives=Like("value"),
     syntax="LIS2 = ENLE LIS1 N1 | LENT1 ;",
     en="Of a list: without the items at places N1 or LENT1 (places before any removal).",
     fr="D'une liste : sans les éléments de rangs N1 ou LENT1 (rangs avant toute suppression).",
     examples=("LIST (ENLE (LECT 4 5 6) 2) ;",),
 )
-def _remove(call: Call, value: AnyList) -> Any:
-    operand = call.read("ENTIER", "LISTENTI")
-    if operand is None:
-        raise call.missing(("ENTIER", "LISTENTI"))
-    gone = set(_places(call, len(value), operand.value))
+def _remove(call: Call, value: AnyList, places: int | ListEnti) -> Any:
+    gone = set(_places(call, len(value), places))
     return taken(value, [i for i in range(len(value)) if i not in gone])
 
 
-@DIME.on(
-    *LISTS,
+@DIME.form(
+    _LIST,
     en="Of a list: its number of items.",
     fr="D'une liste : son nombre d'éléments.",
     examples=("LIST (DIME (PROG 1. 2. 3.)) ;",),
 )
-def _size(call: Call, value: AnyList) -> int:
+def _size(value: AnyList) -> int:
     return len(value)
 
 
-@operator(
+INSE = shared(
     "INSE",
-    family="lists",
-    full_name="INSERER",
-    help=Help(
+    "lists",
+    Help(
         en="New list with an item put at place N1; those from there on move up.",
         fr="Nouvelle liste avec un élément mis au rang N1 ; les suivants se décalent.",
         syntax="LIS2 = INSE LIS1 N1 OBJ1 ;",
         examples=("LIST (INSE (PROG 1. 3.) 2 2.) ;",),
     ),
-    reads_itself=True,
+    full_name="INSERER",
 )
-def inse(call: Call) -> Any:
-    """Insert an item."""
-    operand = call.read(*LISTS)
-    if operand is None:
-        raise call.missing(LISTS)
-    value, kind = operand.value, type_of(operand.value)
-    place = call.required("ENTIER")
-    item = call.required(*_ITEM[kind])
+
+
+def _insert(call: Call, value: AnyList, place: int, item: Any) -> Any:
     if not 1 <= place <= len(value) + 1:
         raise call.error(
             "operators.lists.no-place-to-insert", place, n_value=len(value), place=place
@@ -144,11 +178,19 @@ def inse(call: Call) -> Any:
     return type(value)(items)
 
 
-@operator(
+for _kind, _item in _ITEM.items():
+    INSE.form(
+        _list(_kind),
+        arg("place", "ENTIER", en="place, from 1", fr="rang, à partir de 1"),
+        arg("item", _item, en="item to put there", fr="élément à y mettre"),
+        gives=_kind,
+    )(_insert)
+
+
+REMP = shared(
     "REMP",
-    family="lists",
-    full_name="REMPLACER",
-    help=Help(
+    "lists",
+    Help(
         en="Replaces items of a list in place: all names of the list see it. Of a word: a new "
         "word where each MOT2 is replaced by MOT3.",
         fr="Remplace des éléments d'une liste sur place : tous les noms de la liste le voient. "
@@ -159,37 +201,16 @@ def inse(call: Call) -> Any:
             "LIST (REMP 'a_b' '_' ' ') ;",
         ),
     ),
-    reads_itself=True,
+    full_name="REMPLACER",
 )
-def remp(call: Call) -> Mot | None:
-    """Replace items."""
-    operand = call.read("MOT", *LISTS)
-    if operand is None:
-        raise call.missing(("MOT", *LISTS))
-    value = operand.value
-    if isinstance(value, str):
-        return _replace_in_word(call, value)
-    kind = type_of(value)
-    where = call.read("ENTIER", "LISTENTI")
-    if where is None:
-        raise call.missing(("ENTIER", "LISTENTI"))
-    places = _places(call, len(value), where.value)
-    new = call.read(*_ITEM[kind], kind) or call.read(*_ITEM[kind])
-    if new is None:
-        raise call.missing((*_ITEM[kind], kind))
-    items = list(new.value.values) if type_of(new.value) == kind else [new.value] * len(places)
-    if len(items) != len(places):
-        raise call.error(
-            "operators.lists.places-and-items", new.value, n_places=len(places), n_items=len(items)
-        )
-    for i, item in zip(places, items, strict=True):
-        value.values[i] = item
-    return None
 
 
-def _replace_in_word(call: Call, word: str) -> Mot:
-    old = call.required("MOT", "LISTMOTS")
-    new = call.required("MOT", "LISTMOTS")
+@REMP.form(
+    arg("word", "MOT", en="word", fr="mot"),
+    arg("old", "MOT", "LISTMOTS", en="what is replaced", fr="ce qui est remplacé"),
+    arg("new", "MOT", "LISTMOTS", en="by what", fr="par quoi"),
+)
+def _replace_in_word(call: Call, word: str, old: str | ListMots, new: str | ListMots) -> Mot:
     olds = list(old.values) if isinstance(old, ListMots) else [old]
     news = list(new.values) if isinstance(new, ListMots) else [new]
     if len(olds) != len(news):
@@ -203,8 +224,30 @@ def _replace_in_word(call: Call, word: str) -> Mot:
     return Mot(word)
 
 
+def _replace(call: Call, value: AnyList, places: int | ListEnti, new: Any) -> None:
+    chosen = _places(call, len(value), places)
+    items = list(new.values) if type_of(new) == type_of(value) else [new] * len(chosen)
+    if len(items) != len(chosen):
+        raise call.error(
+            "operators.lists.places-and-items", new, n_places=len(chosen), n_items=len(items)
+        )
+    for i, item in zip(chosen, items, strict=True):
+        value.values[i] = item
+
+
+for _kind, _item in _ITEM.items():
+    REMP.form(
+        arg("value", _kind, en="list", fr="liste"),
+        _PLACES,
+        arg("new", _item, _kind, en="item, or one for each place", fr="élément, ou un par rang"),
+    )(_replace)
+
+
 @operator(
     "SOMM",
+    flag("running", "CUMU", en="partial sums", fr="sommes partielles"),
+    arg("value", "LISTREEL", "LISTENTI", en="values to sum", fr="valeurs à sommer"),
+    gives="FLOTTANT|ENTIER|LISTREEL|LISTENTI",
     family="lists",
     full_name="SOMME",
     help=Help(
@@ -213,37 +256,35 @@ def _replace_in_word(call: Call, word: str) -> Mot:
         syntax="X1 = SOMM LIS1 ; LIS2 = SOMM 'CUMU' LIS1 ;",
         examples=("LIST (SOMM (LECT 1 2 3)) ;", "LIST (SOMM 'CUMU' (PROG 1. 2. 3.)) ;"),
     ),
-    reads_itself=True,
 )
-def somm(call: Call) -> Any:
+def somm(running: bool, value: ListReel | ListEnti) -> Any:
     """Sum a list."""
-    running = call.keyword(("CUMU",)) is not None
-    value = call.required("LISTREEL", "LISTENTI")
-    running = running or call.keyword(("CUMU",)) is not None
     if running:
         return type(value)(np.cumsum(value.values))
     return value.values.sum()
 
 
-@INVE.on(
-    *LISTS,
+@INVE.form(
+    _LIST,
+    gives=Like("value"),
     syntax="LIS2 = INVE LIS1 ;",
     en="Of a list: its items in reverse order.",
     fr="D'une liste : ses éléments dans l'ordre inverse.",
     examples=("LIST (INVE (PROG 1. 2.)) ;",),
 )
-def _reverse(call: Call, value: AnyList) -> Any:
+def _reverse(value: AnyList) -> Any:
     return taken(value, list(range(len(value) - 1, -1, -1)))
 
 
-@COPI.on(
-    *LISTS,
+@COPI.form(
+    _LIST,
+    gives=Like("value"),
     syntax="LIS2 = COPI LIS1 ;",
     en="Of a list: a list of its own, that REMP changes without changing the first.",
     fr="D'une liste : une liste indépendante, que REMP change sans changer la première.",
     examples=("L = PROG 1. 2. ; M = COPI L ; REMP M 1 5. ; LIST L ;",),
 )
-def _copy(call: Call, value: AnyList) -> Any:
+def _copy(value: AnyList) -> Any:
     return taken(value, list(range(len(value))))
 
 

@@ -10,11 +10,42 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import KernelError
-from ssilang.language.registry import Help, many, operator
+from ssilang.language.registry import Entry, Help, arg, key, many, operator, select
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListEnti, ListMots, ListObje, ListReel, type_of
 
 _REAL = ("ENTIER", "FLOTTANT")
+_FREE = "its items, steps and repetitions stand in any order"
+
+
+def _items(kind: str) -> tuple[Entry, ...]:
+    """What `_read_items` reads."""
+    return (
+        many(
+            "items",
+            kind,
+            "LISTREEL",
+            "LISTENTI",
+            en="items, lists of them, or N * item",
+            fr="éléments, listes d'éléments, ou N * élément",
+        ),
+        key(
+            "steps",
+            "PAS",
+            arg("step", kind),
+            repeated=True,
+            en="from the item before to the one behind by steps",
+            fr="de l'élément précédent au suivant par pas",
+        ),
+        key("ratio", "GEOM", arg("ratio", "FLOTTANT"), en="ratio of steps", fr="raison des pas"),
+        key("count", "NPAS", arg("count", "ENTIER"), en="number of steps", fr="nombre de pas"),
+    )
+
+
+_FACTORS = (
+    key("a", "A", arg("a", "FLOTTANT"), en="slope, 1 by default", fr="pente, 1 sinon"),
+    key("b", "B", arg("b", "FLOTTANT"), en="constant, 1 by default", fr="constante, 1 sinon"),
+)
 LONGEST = 20_000_000
 """Items of one list, or letters of one word, at most: more than any use, and memory holds them."""
 
@@ -166,6 +197,22 @@ def _geometric_steps(start: float, step: float, end: float, ratio: float) -> lis
 
 @operator(
     "PROG",
+    select(
+        "function",
+        {
+            "SINU": [
+                arg("frequency", "FLOTTANT", en="frequency", fr="fréquence", unit="Hz"),
+                key("phase", "PHAS", arg("p", "FLOTTANT"), en="phase, degrees", fr="phase, degrés"),
+                key("size", "AMPL", arg("a", "FLOTTANT"), en="amplitude", fr="amplitude"),
+            ],
+            "LINE": _FACTORS,
+            "EXPO": _FACTORS,
+            "LOGA": _FACTORS,
+        },
+        en="a function of the items",
+        fr="une fonction des éléments",
+    ),
+    *_items("FLOTTANT"),
     family="lists",
     help=Help(
         en="List of reals. A PAS S B goes from A to B by steps of about S (adjusted to hit B); "
@@ -180,7 +227,7 @@ def _geometric_steps(start: float, step: float, end: float, ratio: float) -> lis
         "LREE1 = PROG 'LINE' | 'EXPO' | 'LOGA' ('A' A1) ('B' B1) LREE2 ;",
         examples=("LIST (PROG 0. PAS 0.5 2. 3 * 7.) ;", "LIST (PROG 'SINU' 1. (PROG 0. 0.25)) ;"),
     ),
-    reads_itself=True,
+    reads_itself=_FREE,
 )
 def prog(call: Call) -> ListReel:
     """Read reals."""
@@ -211,6 +258,7 @@ def _function_of_list(call: Call, word: str) -> ListReel:
 
 @operator(
     "LECT",
+    *_items("ENTIER"),
     family="lists",
     help=Help(
         en="List of integers. A PAS S B goes from A to B by steps of S, NPAS N gives N more "
@@ -220,7 +268,7 @@ def _function_of_list(call: Call, word: str) -> ListReel:
         syntax="LENT1 = LECT I1 I2 ... (PAS S1 I3 | PAS S1 NPAS N1) (N2 * I4) ... ;",
         examples=("LIST (LECT 1 PAS 2 9 3 * 0) ;",),
     ),
-    reads_itself=True,
+    reads_itself=_FREE,
 )
 def lect(call: Call) -> ListEnti:
     """Read integers."""
@@ -234,6 +282,7 @@ def lect(call: Call) -> ListEnti:
 
 @operator(
     "MOTS",
+    many("words", "MOT", "ENTIER", en="words, or N * word", fr="mots, ou N * mot"),
     family="lists",
     help=Help(
         en="List of words; N * MOT1 repeats.",
@@ -241,7 +290,7 @@ def lect(call: Call) -> ListEnti:
         syntax="LMOT1 = MOTS (N1 *) MOT1 (MOT2 ...) ;",
         examples=("LIST (MOTS 'UX' 2 * 'UY') ;",),
     ),
-    reads_itself=True,
+    reads_itself=_FREE,
 )
 def mots(call: Call) -> ListMots:
     """Read words."""
@@ -263,7 +312,7 @@ def mots(call: Call) -> ListMots:
 
 @operator(
     "SUIT",
-    many("fields", "CHPOINT", "LISTCHPO"),
+    many("fields", "CHPOINT", "LISTCHPO", en="fields, in order", fr="champs, dans l'ordre"),
     family="lists",
     full_name="SUITE",
     help=Help(
@@ -283,6 +332,7 @@ def suit(fields: tuple[Any, ...]) -> ListChpo:
 
 @operator(
     "ENUM",
+    many("objects", en="objects of one type", fr="objets d'un même type"),
     family="lists",
     help=Help(
         en="List of objects of one type.",
@@ -290,13 +340,11 @@ def suit(fields: tuple[Any, ...]) -> ListChpo:
         syntax="LOBJ1 = ENUM OBJ1 (OBJ2 ...) ;",
         examples=("L = ENUM (PROG 1.) (PROG 2. 3.) ; LIST (DIME L) ;",),
     ),
-    reads_itself=True,
 )
-def enum(call: Call) -> ListObje:
+def enum(call: Call, objects: tuple[Any, ...]) -> ListObje:
     """Collect objects."""
     values: list[Any] = []
-    while (operand := call.read("*")) is not None:
-        value = operand.value
+    for value in objects:
         values += value.values if isinstance(value, ListObje) else [value]
         if type_of(values[-1]) != type_of(values[0]):
             raise call.error(

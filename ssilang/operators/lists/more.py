@@ -6,23 +6,35 @@ from typing import Any
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import ComplexArray, FloatArray
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.mesh.mesh import Point
-from ssilang.language.registry import Help, arg, operator
+from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.language.registry import (
+    Help,
+    Like,
+    arg,
+    choice,
+    flag,
+    main,
+    many,
+    operator,
+    opt,
+    said,
+    shared,
+)
 from ssilang.language.run.call import Call
-from ssilang.language.values import ListChpo, ListReel, Mot, Table
+from ssilang.language.values import ListChpo, ListEnti, ListMots, ListReel, Mot, Table
 from ssilang.operators.dispatch import INTE
 from ssilang.operators.lists.items import taken
 from ssilang.operators.lists.search import equal_items
 
-
-@operator(
+DANS = shared(
     "DANS",
-    family="lists",
-    help=Help(
+    "lists",
+    Help(
         en="Whether a list of integers stands in another one (as its k-th stretch of that "
         "length), a real in a list, a point in a mesh, a list of reals in another, in sequence "
         "('SEQU') or in any order ('QUEL').",
@@ -33,27 +45,53 @@ from ssilang.operators.lists.search import equal_items
         "LOG1 = DANS ('SEQU' | 'QUEL') LREE1 LREE2 ;",
         examples=("SI (DANS (PROG 1. 2.) 2.) ; MESS 'yes' ; FINSI ;",),
     ),
-    reads_itself=True,
 )
-def dans(call: Call) -> bool:
-    """Test membership."""
-    word = call.keyword(("SEQU", "QUEL")) or "SEQU"
-    point = call.read("POINT")
-    if point is not None:
-        mesh = call.required("MAILLAGE")
-        place: Point = point.value
-        return bool(np.any(mesh.node_ids == place.node))
-    first = call.read("LISTENTI")
-    if first is not None:
-        return _as_stretch(first.value.values, call.required("LISTENTI").values)
-    left = call.required("LISTREEL").values
-    number = call.read("FLOTTANT")
-    if number is not None:
-        return bool(np.any(np.abs(left - number.value) <= _slack(left)))
-    right = call.required("LISTREEL").values
-    word = call.keyword(("SEQU", "QUEL")) or word
+_WAY = choice(
+    "way",
+    ("SEQU", "QUEL"),
+    default="SEQU",
+    en="in sequence, or in any order",
+    fr="en séquence, ou dans un ordre quelconque",
+)
+_SECOND = {"en": "list where it is looked for", "fr": "liste où on la cherche"}
+
+
+@DANS.form(
+    _WAY,
+    arg("point", "POINT", en="point", fr="point"),
+    arg("mesh", "MAILLAGE", en="mesh", fr="maillage"),
+)
+def _point_in_mesh(way: str, point: Point, mesh: Mesh) -> bool:
+    return bool(np.any(mesh.node_ids == point.node))
+
+
+@DANS.form(
+    _WAY,
+    arg("part", "LISTENTI", en="list of integers", fr="liste d'entiers"),
+    arg("whole", "LISTENTI", **_SECOND),
+)
+def _integers_in_integers(way: str, part: ListEnti, whole: ListEnti) -> bool:
+    return _as_stretch(part.values, whole.values)
+
+
+@DANS.form(
+    _WAY,
+    arg("whole", "LISTREEL", en="list of reals", fr="liste de réels"),
+    arg("number", "FLOTTANT", en="number looked for", fr="nombre cherché"),
+)
+def _number_in_reals(way: str, whole: ListReel, number: float) -> bool:
+    return bool(np.any(np.abs(whole.values - number) <= _slack(whole.values)))
+
+
+@DANS.form(
+    _WAY,
+    arg("part", "LISTREEL", en="list of reals", fr="liste de réels"),
+    arg("whole", "LISTREEL", **_SECOND),
+)
+def _reals_in_reals(way: str, part: ListReel, whole: ListReel) -> bool:
+    left, right = part.values, whole.values
     slack = _slack(right)
-    if word == "QUEL":
+    if way == "QUEL":
         return all(bool(np.any(np.abs(right - v) <= slack)) for v in left)
     if len(left) == 0:
         return True
@@ -79,8 +117,8 @@ def _as_stretch(part: Any, whole: Any) -> bool:
 
 @operator(
     "OTER",
-    arg("table", "TABLE"),
-    arg("index"),
+    arg("table", "TABLE", en="table", fr="table"),
+    arg("index", en="index to remove", fr="indice à supprimer"),
     family="tables",
     help=Help(
         en="Removes an index from a table, in place.",
@@ -96,8 +134,17 @@ def oter(call: Call, table: Table, index: Any) -> None:
     table.remove(index)
 
 
+_SUBTRACTED = ("LISTREEL", "LISTENTI", "LISTMOTS")
+Subtracted = ListReel | ListEnti | ListMots
+
+
 @operator(
     "SAUF",
+    arg("first", *_SUBTRACTED, en="list", fr="liste"),
+    arg("second", *_SUBTRACTED, en="items to leave out", fr="éléments à omettre"),
+    opt("tolerance", "FLOTTANT", en="absolute tolerance", fr="tolérance absolue"),
+    flag("fold", "NOCA", en="whatever the case", fr="sans égard à la casse"),
+    gives=Like("first"),
     family="lists",
     help=Help(
         en="The items of a list that are not in a second one.",
@@ -105,27 +152,23 @@ def oter(call: Call, table: Table, index: Any) -> None:
         syntax="LIS3 = LIS1 SAUF LIS2 (X1 | 'NOCA') ;",
         examples=("LIST ((LECT 1 2 3 4) SAUF (LECT 2 4)) ;",),
     ),
-    reads_itself=True,
 )
-def sauf(call: Call) -> Any:
+def sauf(
+    call: Call, first: Subtracted, second: Subtracted, tolerance: float | None, fold: bool
+) -> Any:
     """Subtract a list from another."""
-    kinds = ("LISTREEL", "LISTENTI", "LISTMOTS")
-    first, second = call.required(*kinds), call.required(*kinds)
     if type(first) is not type(second):
         raise call.error("operators.lists.lists-of-one-type", second)
-    tolerance = call.optional("FLOTTANT")
-    fold = call.keyword(("NOCA",)) is not None
     gone = np.zeros(len(first), dtype=bool)
     for item in second.values:
         gone |= equal_items(first.values, item, tolerance, fold)
     return taken(first, [int(i) for i in np.flatnonzero(~gone)])
 
 
-@operator(
+COLI = shared(
     "COLI",
-    family="fields",
-    full_name="COLINEAIRE",
-    help=Help(
+    "fields",
+    Help(
         en="Linear combination: fields each followed by its coefficient, or a list of fields (or "
         "a table 1 .. N of fields or lists) with a list of coefficients.",
         fr="Combinaison linéaire : champs chacun suivi de son coefficient, ou une liste de champs "
@@ -135,21 +178,38 @@ def sauf(call: Call) -> Any:
             "T = TABL ; T . 1 = PROG 1. 2. ; T . 2 = PROG 3. 4. ; LIST (COLI T (PROG 2. 1.)) ;",
         ),
     ),
-    reads_itself=True,
+    full_name="COLINEAIRE",
 )
-def coli(call: Call) -> Any:
-    """Combine linearly."""
-    held = call.read("LISTCHPO", "TABLE")
-    if held is None:
-        objects = call.all("CHPOINT", "MCHAML")
-        factors = call.all("FLOTTANT")
-    else:
-        factors = call.required("LISTREEL").values.tolist()
-        value = held.value
-        if isinstance(value, ListChpo):
-            objects = list(value.values)
-        else:
-            objects = [value.get(i) for i in range(1, len(factors) + 1)]
+
+
+@COLI.form(
+    arg(
+        "held",
+        "LISTCHPO",
+        "TABLE",
+        en="fields, or a table 1 .. N of fields or lists",
+        fr="champs, ou table 1 .. N de champs ou de listes",
+    ),
+    arg("factors", "LISTREEL", en="coefficients", fr="coefficients"),
+    gives="CHPOINT|MCHAML|LISTREEL",
+)
+def _combine_held(call: Call, held: ListChpo | Table, factors: ListReel) -> Any:
+    numbers = factors.values.tolist()
+    if isinstance(held, ListChpo):
+        return _combined(call, list(held.values), numbers)
+    return _combined(call, [held.get(i) for i in range(1, len(numbers) + 1)], numbers)
+
+
+@COLI.form(
+    many("objects", "CHPOINT", "MCHAML", at_least=1, en="fields", fr="champs"),
+    many("factors", "FLOTTANT", en="coefficients", fr="coefficients"),
+    gives="CHPOINT|MCHAML",
+)
+def _combine_fields(call: Call, objects: tuple[Any, ...], factors: tuple[float, ...]) -> Any:
+    return _combined(call, list(objects), list(factors))
+
+
+def _combined(call: Call, objects: list[Any], factors: list[float]) -> Any:
     if not objects or len(objects) != len(factors):
         raise call.error(
             "operators.lists.coefficient-count", n_objects=len(objects), n_factors=len(factors)
@@ -170,7 +230,7 @@ def coli(call: Call) -> Any:
 
 @operator(
     "VERI",
-    arg("value", "FLOTTANT", "CHPOINT"),
+    arg("value", "FLOTTANT", "CHPOINT", en="what is tested", fr="ce que l'on teste"),
     family="numbers",
     help=Help(
         en="Whether a real, or all values of a field, are numbers (neither infinite nor "
@@ -190,7 +250,7 @@ def veri(value: Any) -> bool:
 
 @operator(
     "SOMT",
-    arg("field", "CHPOINT"),
+    arg("field", "CHPOINT", en="field of one component", fr="champ d'une composante"),
     family="fields",
     help=Help(
         en="Sum of the values of a field of a single component (SCAL, most often).",
@@ -206,11 +266,10 @@ def somt(field: NodeField) -> float:
     return float(next(iter(field.components.values())).values.sum())
 
 
-@operator(
+RACP = shared(
     "RACP",
-    family="numbers",
-    full_name="RACPOL",
-    help=Help(
+    "numbers",
+    Help(
         en="Real roots of a polynomial A0 + A1 X + A2 X**2 ..., in increasing order; with "
         "'IMAGINAIRE' real and imaginary parts of all roots; with 'INTE' the first real root in "
         "an interval (the word VIDE if there is none).",
@@ -221,46 +280,75 @@ def somt(field: NodeField) -> float:
         "X1 = RACP 'INTE' X2 X3 LREE1 ;",
         examples=("LIST (RACP (PROG 6. -5. 1.)) ;",),
     ),
-    reads_itself=True,
+    full_name="RACPOL",
 )
-def racp(call: Call) -> Any:
-    """Find roots."""
-    words: set[str] = set()
-    while (said := call.keyword(("IMAG", "BAIR", "INTE"))) is not None:
-        words.add(said)
-    listed = call.read("LISTREEL")
-    numbers = call.all("FLOTTANT")
-    while (said := call.keyword(("IMAG", "BAIR"))) is not None:
-        words.add(said)
-    bounds = numbers[:2] if "INTE" in words else []
-    coefficients = listed.value.values if listed is not None else np.asarray(numbers)
-    trimmed = np.trim_zeros(np.asarray(coefficients, dtype=float), "b")
-    if len(trimmed) < 2:
-        raise call.error("operators.lists.constant-polynomial")
-    roots = np.roots(trimmed[::-1])
-    roots = roots[np.lexsort((roots.imag, roots.real))]
-    if "IMAG" in words:
-        return ListReel(roots.real), ListReel(roots.imag)
-    # a real double root comes out of the companion matrix with an imaginary part of order
-    # sqrt(machine precision)
-    real = np.sort(roots.real[np.abs(roots.imag) <= 1e-7 * np.maximum(np.abs(roots), 1e-12)])
-    if "INTE" not in words:
-        return ListReel(real)
-    if len(bounds) != 2:
-        raise call.error("operators.lists.interval-ends")
-    low, high = sorted(bounds)
-    inside = real[(real >= low) & (real <= high)]
+_POLYNOMIAL = (
+    flag("bairstow", "BAIR", en="changes nothing", fr="sans effet"),
+    opt("listed", "LISTREEL", en="coefficients by power", fr="coefficients par puissance"),
+    many("numbers", "FLOTTANT", en="coefficients, else", fr="sinon les coefficients"),
+)
+
+
+@RACP.form(said("IMAG"), *_POLYNOMIAL)
+def _all_roots(
+    call: Call, bairstow: bool, listed: ListReel | None, numbers: tuple[float, ...]
+) -> tuple[ListReel, ListReel]:
+    roots = _roots(call, listed, numbers)
+    return ListReel(roots.real), ListReel(roots.imag)
+
+
+@RACP.form(
+    said("INTE"),
+    arg("low", "FLOTTANT", en="one end of an interval", fr="une borne d'un intervalle"),
+    arg("high", "FLOTTANT", en="the other end", fr="l'autre borne"),
+    *_POLYNOMIAL,
+    gives="FLOTTANT|MOT",
+)
+def _root_within(
+    call: Call,
+    low: float,
+    high: float,
+    bairstow: bool,
+    listed: ListReel | None,
+    numbers: tuple[float, ...],
+) -> float | Mot:
+    real = _real_roots(_roots(call, listed, numbers))
+    inside = real[(real >= min(low, high)) & (real <= max(low, high))]
     return float(inside[0]) if len(inside) else Mot("VIDE")
 
 
-@INTE.on(
-    "LISTREEL",
+@RACP.form(*_POLYNOMIAL)
+def _roots_of(
+    call: Call, bairstow: bool, listed: ListReel | None, numbers: tuple[float, ...]
+) -> ListReel:
+    return ListReel(_real_roots(_roots(call, listed, numbers)))
+
+
+def _roots(call: Call, listed: ListReel | None, numbers: tuple[float, ...]) -> ComplexArray:
+    """Roots of a polynomial, by real and then by imaginary part."""
+    coefficients = listed.values if listed is not None else np.asarray(numbers)
+    trimmed = np.trim_zeros(np.asarray(coefficients, dtype=float), "b")
+    if len(trimmed) < 2:
+        raise call.error("operators.lists.constant-polynomial")
+    roots = np.roots(trimmed[::-1]).astype(complex)
+    return roots[np.lexsort((roots.imag, roots.real))]
+
+
+def _real_roots(roots: ComplexArray) -> FloatArray:
+    # a real double root comes out of the companion matrix with an imaginary part of order
+    # sqrt(machine precision)
+    real = roots.real[np.abs(roots.imag) <= 1e-7 * np.maximum(np.abs(roots), 1e-12)]
+    return np.sort(real)
+
+
+@INTE.form(
+    main("first", "LISTREEL", en="first list", fr="première liste"),
+    arg("second", "LISTREEL", en="second list", fr="seconde liste"),
     syntax="LREE3 = LREE1 INTE LREE2 ;",
     en="Two lists of reals: the values of the first that the second holds as well.",
     fr="Deux listes de réels : les valeurs de la première que contient aussi la seconde.",
     examples=("LIST (INTE (PROG 1. 2. 3.) (PROG 2. 3. 4.)) ;",),
 )
-def common_reals(call: Call, first: ListReel) -> ListReel:
+def common_reals(first: ListReel, second: ListReel) -> ListReel:
     """Values in both lists, in the order of the first."""
-    second: ListReel = call.required("LISTREEL")
     return ListReel(first.values[np.isin(first.values, second.values)])

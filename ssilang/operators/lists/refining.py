@@ -8,19 +8,16 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.mesh.lines.subdivision import subdivide
-from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import Help, arg, shared
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
 from ssilang.operators.lists.making import check_length
 from ssilang.operators.mesh.changes.refining import refined
 
-
-@operator(
+RAFF = shared(
     "RAFF",
-    family="lists",
-    full_name="RAFFINER",
-    help=Help(
+    "lists",
+    Help(
         "A list with each interval cut: into N1 equal parts; into parts whose size is as near as "
         "can be to FLOT1; or with N1 negative into about -N1 parts whose sizes go geometrically "
         "from one interval to the next. Equal values that follow one another are repeated "
@@ -49,31 +46,50 @@ from ssilang.operators.mesh.changes.refining import refined
             " MESS (NBEL T) (NBEL (T ELEM 'SURE')) (MESU (DIFF T (T ELEM 'SURE'))) ;",
         ),
     ),
-    reads_itself=True,
+    full_name="RAFFINER",
 )
-def raff(call: Call) -> ListReel | Mesh:
-    """Refine a list or a mesh."""
-    mesh = call.read("MAILLAGE")
-    if mesh is not None:
-        return refined(mesh.value, call.required("CHPOINT"))
-    values = np.asarray(call.required("LISTREEL").values, dtype=float)
-    if not np.isfinite(values).all():
-        raise call.error("operators.lists.finite-numbers")
-    lengths = np.abs(np.diff(values))
-    count = call.read("ENTIER")
-    if count is None:
-        size = call.required("FLOTTANT")
-        if size <= 0.0:
-            raise call.error("operators.lists.interval-size", size, size=size)
-        check_length(float(np.sum(lengths / size)))
-        return ListReel(_joined(values, [_even(_nearest(d, size)) for d in lengths]))
-    number = int(count.value)
+_LIST = arg("value", "LISTREEL", en="list", fr="liste")
+
+RAFF.form(
+    arg("mesh", "MAILLAGE", en="mesh to refine", fr="maillage à raffiner"),
+    arg("sizes", "CHPOINT", en="sizes wanted", fr="tailles voulues", unit="m"),
+)(refined)
+
+
+@RAFF.form(
+    _LIST,
+    arg(
+        "number",
+        "ENTIER",
+        en="parts of each interval, negative for graded ones",
+        fr="parts de chaque intervalle, négatif pour une progression",
+    ),
+)
+def _refined_by_number(call: Call, value: ListReel, number: int) -> ListReel:
+    values, lengths = _intervals(call, value)
     if number == 0:
         raise call.error("operators.lists.no-parts", number)
     check_length(abs(float(number)) * len(lengths))
     if number > 0:
         return ListReel(_joined(values, [_even(number)] * (len(values) - 1)))
     return ListReel(_joined(values, _graded(lengths, -number)))
+
+
+@RAFF.form(_LIST, arg("size", "FLOTTANT", en="size wanted", fr="taille voulue"))
+def _refined_by_size(call: Call, value: ListReel, size: float) -> ListReel:
+    values, lengths = _intervals(call, value)
+    if size <= 0.0:
+        raise call.error("operators.lists.interval-size", size, size=size)
+    check_length(float(np.sum(lengths / size)))
+    return ListReel(_joined(values, [_even(_nearest(d, size)) for d in lengths]))
+
+
+def _intervals(call: Call, value: ListReel) -> tuple[FloatArray, FloatArray]:
+    """Values of a list and the lengths between them."""
+    values = np.asarray(value.values, dtype=float)
+    if not np.isfinite(values).all():
+        raise call.error("operators.lists.finite-numbers")
+    return values, np.abs(np.diff(values))
 
 
 def _joined(values: FloatArray, cuts: list[FloatArray]) -> FloatArray:

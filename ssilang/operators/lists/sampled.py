@@ -2,18 +2,25 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.language.registry import Help, arg, operator, opt
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.language.registry import Chosen, Help, arg, choice, key, operator, opt, select
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
 
 
 @operator(
     "DIAD",
+    choice(
+        "way",
+        ("DIRE", "INVE", "IVIN"),
+        default="DIRE",
+        en="halved, or doubled with zeros or with means",
+        fr="réduit, ou doublé par des zéros ou des moyennes",
+    ),
+    arg("values", "LISTREEL", en="samples", fr="échantillons"),
     family="lists",
     help=Help(
         en="Every other value of a list ('DIRE', the default), the first kept; or a list with a "
@@ -25,18 +32,15 @@ from ssilang.language.values import ListReel
         syntax="LIST1 = DIAD ('DIRE' | 'INVE' | 'IVIN') LIST2 ;",
         examples=("LIST (DIAD 'IVIN' (PROG 1. 3. 7.)) ;",),
     ),
-    reads_itself=True,
 )
-def diad(call: Call) -> ListReel:
+def diad(way: str, values: ListReel) -> ListReel:
     """Halve or double the sampling."""
-    word = call.keyword(("DIRE", "INVE", "IVIN"))
-    y = call.required("LISTREEL").values
-    word = word or call.keyword(("DIRE", "INVE", "IVIN")) or "DIRE"
-    if word == "DIRE":
+    y = values.values
+    if way == "DIRE":
         return ListReel(y[::2].copy())
     made = np.zeros(2 * len(y) - len(y) % 2)
     made[::2] = y
-    if word == "IVIN" and len(y):
+    if way == "IVIN" and len(y):
         after = np.append(y[1:], y[-1])  # behind the last value stands nothing: the same again
         made[1::2] = 0.5 * (y + after)[: len(made) // 2]
     return ListReel(made)
@@ -44,10 +48,10 @@ def diad(call: Call) -> ListReel:
 
 @operator(
     "LTL",
-    arg("first", "LISTREEL"),
-    opt("second", "LISTREEL"),
-    opt("a", "FLOTTANT", default=1.0),
-    opt("b", "FLOTTANT", default=1.0),
+    arg("first", "LISTREEL", en="first list", fr="première liste"),
+    opt("second", "LISTREEL", en="second one, else the first", fr="seconde, sinon la première"),
+    opt("a", "FLOTTANT", default=1.0, en="factor", fr="facteur"),
+    opt("b", "FLOTTANT", default=1.0, en="second factor", fr="second facteur"),
     family="lists",
     help=Help(
         en="Dot product of two lists (or of one with itself) times two numbers.",
@@ -66,6 +70,22 @@ def ltl(call: Call, first: ListReel, second: ListReel | None, a: float, b: float
 
 @operator(
     "CVOL",
+    arg("signal", "LISTREEL", en="signal", fr="signal"),
+    arg("response", "LISTREEL", en="response", fr="réponse"),
+    key(
+        "before",
+        "NPNE",
+        arg("n", "ENTIER"),
+        en="number of its values before 0; by default it is symmetric",
+        fr="nombre de ses valeurs avant 0 ; par défaut elle est symétrique",
+    ),
+    choice(
+        "ends",
+        ("SYME", "PADD"),
+        default="SYME",
+        en="beyond its ends the signal is mirrored, or zero",
+        fr="hors de ses bornes le signal est symétrique, ou nul",
+    ),
     family="signals",
     help=Help(
         en="Convolution of a signal with a response: value k is the sum over j of response j times "
@@ -79,17 +99,17 @@ def ltl(call: Call, first: ListReel, second: ListReel | None, a: float, b: float
         syntax="LREEL1 = CVOL LREEL2 LREEL3 ('NPNE' N1) ('SYME' | 'PADD') ;",
         examples=("LIST (CVOL (PROG 0. 0. 4. 0.) (PROG 0.5 0.25) 'PADD') ;",),
     ),
-    reads_itself=True,
 )
-def cvol(call: Call) -> ListReel:
+def cvol(
+    call: Call, signal: ListReel, response: ListReel, before: int | None, ends: str
+) -> ListReel:
     """Convolution."""
-    signal, response = (call.required("LISTREEL").values for _ in range(2))
-    before, mirrored = None, True
-    while (word := call.keyword(("NPNE", "SYME", "PADD"))) is not None:
-        if word == "NPNE":
-            before = call.required("ENTIER", after=call.keyword_end)
-        else:
-            mirrored = word == "SYME"
+    return ListReel(_convolved(call, signal.values, response.values, before, ends == "SYME"))
+
+
+def _convolved(
+    call: Call, signal: FloatArray, response: FloatArray, before: int | None, mirrored: bool
+) -> FloatArray:
     if before is None:
         before = len(response) - 1
         response = np.concatenate([response[:0:-1], response])
@@ -106,14 +126,7 @@ def cvol(call: Call) -> ListReel:
         )
     # value k needs the signal from k - after to k + before
     padded = np.pad(signal, (after, before), "reflect" if mirrored else "constant")
-    return ListReel(np.convolve(padded, response, "valid"))
-
-
-_FUNCTIONS = {
-    "BESS": ("J0", "J1", "Y0", "Y1"),
-    "FRES": ("CX", "SX"),
-    "GAMM": (),
-}
+    return np.convolve(padded, response, "valid")
 
 
 def _special(kind: str, name: str, x: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -131,6 +144,18 @@ def _special(kind: str, name: str, x: NDArray[np.float64]) -> NDArray[np.float64
 
 @operator(
     "FONC",
+    select(
+        "function",
+        {
+            "BESSEL": [choice("name", ("J0", "J1", "Y0", "Y1"), optional=False)],
+            "FRESNEL": [choice("name", ("CX", "SX"), optional=False)],
+            "GAMMA": [],
+        },
+        optional=False,
+        en="which function",
+        fr="quelle fonction",
+    ),
+    arg("values", "LISTREEL", en="arguments", fr="arguments"),
     family="lists",
     full_name="FONCTION",
     help=Help(
@@ -144,18 +169,11 @@ def _special(kind: str, name: str, x: NDArray[np.float64]) -> NDArray[np.float64
         "LREEL1 = FONC 'FRESNEL' 'CX' | 'SX' LREEL2 ; LREEL1 = FONC 'GAMMA' LREEL2 ;",
         examples=("LIST (FONC 'GAMMA' (PROG 5. 0.5)) ;",),
     ),
-    reads_itself=True,
 )
-def fonc(call: Call) -> Any:
+def fonc(call: Call, function: Chosen, values: ListReel) -> ListReel:
     """Special functions."""
-    kind = call.keyword(tuple(_FUNCTIONS))
-    if kind is None:
-        raise call.error("operators.lists.which-function")
-    names = _FUNCTIONS[kind]
-    name = call.keyword(names) if names else ""
-    if name is None:
-        raise call.error("operators.lists.which-special-function", names=[f"'{n}'" for n in names])
-    x = call.required("LISTREEL").values
+    kind, name = function.word[:4], function.values.get("name", "")
+    x = values.values
     bad = {"FRES": x < 0.0, "GAMM": (x <= 0.0) & (x == np.round(x))}.get(kind, np.zeros(0, bool))
     if name in ("Y0", "Y1"):
         bad = x <= 0.0
@@ -166,7 +184,7 @@ def fonc(call: Call) -> Any:
 
 @operator(
     "ZLEG",
-    arg("degree", "ENTIER"),
+    arg("degree", "ENTIER", en="degree", fr="degré"),
     family="lists",
     help=Help(
         en="Points of Gauss-Lobatto on (-1, 1): the zeros of the derivative of Legendre's "

@@ -6,7 +6,20 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import (
+    ANY,
+    Help,
+    Like,
+    arg,
+    choice,
+    flag,
+    key,
+    lead,
+    main,
+    many,
+    operator,
+    opt,
+)
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots, ListReel, Table
 from ssilang.operators.dispatch import ORDO, UNIQ
@@ -14,6 +27,7 @@ from ssilang.operators.lists.items import taken
 
 _PRECISION = 2.2e-16
 Sortable = ListReel | ListEnti | ListMots
+SORTABLE = ("LISTREEL", "LISTENTI", "LISTMOTS")
 
 
 def equal_items(items: Any, wanted: Any, tolerance: float | None, fold: bool) -> Any:
@@ -32,6 +46,19 @@ def equal_items(items: Any, wanted: Any, tolerance: float | None, fold: bool) ->
 
 @operator(
     "POSI",
+    lead("item", en="what is looked for", fr="ce que l'on cherche"),
+    key(
+        "where",
+        "DANS",
+        arg("list", "LISTREEL", "LISTENTI", "LISTMOTS", "MOT", "MAILLAGE"),
+        optional=False,
+        en="where it is looked for",
+        fr="où on le cherche",
+    ),
+    flag("every", "TOUS", en="all places", fr="tous les rangs"),
+    flag("fold", "NOCA", en="whatever the case", fr="sans égard à la casse"),
+    opt("tolerance", "FLOTTANT", en="absolute tolerance", fr="tolérance absolue"),
+    gives="ENTIER|LISTENTI",
     family="lists",
     full_name="POSITION",
     help=Help(
@@ -47,34 +74,18 @@ def equal_items(items: Any, wanted: Any, tolerance: float | None, fold: bool) ->
             "LIST (POSI 'a' 'DANS' 'banana' 'TOUS') ;",
         ),
     ),
-    reads_itself=True,
 )
-def posi(call: Call) -> Any:
+def posi(
+    call: Call, item: Any, where: Any, every: bool, fold: bool, tolerance: float | None
+) -> Any:
     """Look items up."""
-    item = call.read("*")
-    if item is None:
-        raise call.missing(("*",))
-    if call.keyword(("DANS",)) is None:
-        raise call.error("operators.lists.list-not-named")
-    place = call.keyword_end
-    kinds = ("LISTREEL", "LISTENTI", "LISTMOTS", "MOT", "MAILLAGE")
-    operand = call.read(*kinds, after=place)
-    if operand is None:
-        raise call.missing(kinds)
-    words: set[str] = set()
-    while (said := call.keyword(("TOUS", "NOCA"))) is not None:
-        words.add(said)
-    tolerance = call.optional("FLOTTANT")
-    while (said := call.keyword(("TOUS", "NOCA"))) is not None:
-        words.add(said)
-    where, fold = operand.value, "NOCA" in words
     if isinstance(where, str):
-        return _in_word(str(item.value), where, fold, "TOUS" in words)
-    items, wanted = _comparable(call, item.value, where)
+        return _in_word(str(item), where, fold, every)
+    items, wanted = _comparable(call, item, where)
     if isinstance(wanted, list | np.ndarray):
         return ListEnti([_first(equal_items(items, w, tolerance, fold)) for w in wanted])
     found = equal_items(items, wanted, tolerance, fold)
-    if "TOUS" in words:
+    if every:
         places = np.flatnonzero(found) + 1
         return ListEnti(places if len(places) else [0])
     return _first(found)
@@ -131,7 +142,7 @@ def sorting(values: Any, down: bool, absolute: bool = False, fold: bool = False)
     return [int(i) for i in order]
 
 
-def distinct(values: Any, order: list[int], tolerance: float, fold: bool) -> list[int]:
+def without_doubles(values: Any, order: list[int], tolerance: float, fold: bool) -> list[int]:
     """Drop from sorted places those whose value equals the one kept before."""
     kept: list[int] = []
     keys = _keys(values, False, fold)
@@ -145,10 +156,65 @@ def distinct(values: Any, order: list[int], tolerance: float, fold: bool) -> lis
     return kept
 
 
-@ORDO.on(
-    "LISTREEL",
-    "LISTENTI",
-    "LISTMOTS",
+_ORDER = (
+    choice(
+        "order",
+        ("CROI", "DECR"),
+        default="CROI",
+        en="increasing or decreasing",
+        fr="croissant ou décroissant",
+    ),
+    flag("absolute", "ABSO", en="by absolute values", fr="selon les valeurs absolues"),
+    flag("fold", "NOCA", en="whatever the case", fr="sans égard à la casse"),
+)
+_SORTED = main("value", *SORTABLE, en="list to sort by", fr="liste qui règle le tri")
+_OTHERS = many("others", *SORTABLE, en="lists that follow it", fr="listes qui la suivent")
+
+
+@ORDO.form(
+    _SORTED,
+    key(
+        "cost",
+        "COUT",
+        arg("costs", "LISTREEL", "LISTENTI"),
+        optional=False,
+        en="cost of each item at each place",
+        fr="coût de chaque élément à chaque rang",
+    ),
+    choice(
+        "method",
+        ("HONG", "COMP"),
+        en="changes nothing: the best is found",
+        fr="sans effet : le meilleur est trouvé",
+    ),
+    *_ORDER,
+    _OTHERS,
+    gives=ANY,
+)
+def _sort_by_cost(
+    call: Call,
+    value: Sortable,
+    cost: ListReel | ListEnti,
+    others: tuple[Sortable, ...],
+    **_: object,
+) -> Any:
+    lists = _together(call, value, others)
+    total, order = _cheapest(call, cost, len(value))
+    return (total, *(taken(v, order) for v in lists))
+
+
+@ORDO.form(
+    _SORTED,
+    *_ORDER,
+    key(
+        "distinct",
+        "UNIQ",
+        opt("tolerance", "FLOTTANT", default=0.0),
+        en="without doubles, within a tolerance",
+        fr="sans doublons, à une tolérance près",
+    ),
+    _OTHERS,
+    gives=Like("value", ("others",)),
     syntax="LIS2 = ORDO LIS1 ('CROI' | 'DECR') ('ABSO') ('NOCA') ('UNIQ' (FLOT1)) ;\n"
     "LIS3 LIS4 ... = ORDO LIS1 LIS2 ... ('CROI' | 'DECR') ('ABSO') ('NOCA') ;\n"
     "X1 LIS2 ... = ORDO LIS1 ... 'COUT' LIS3 ('HONG' | 'COMP') ;",
@@ -163,40 +229,31 @@ def distinct(values: Any, order: list[int], tolerance: float, fold: bool) -> lis
         "A B = ORDO (LECT 2 1) (MOTS 'X' 'Y') ; LIST B ;",
     ),
 )
-def _sort_lists(call: Call, first: Sortable) -> Any:
-    words, tolerance, cost = _sort_words(call)
-    lists: list[Any] = [first]
-    while (operand := call.read("LISTREEL", "LISTENTI", "LISTMOTS")) is not None:
-        lists.append(operand.value)
-    more, tolerance_more, cost_more = _sort_words(call)
-    words |= more
-    tolerance, cost = tolerance or tolerance_more, cost if cost is not None else cost_more
+def _sort_lists(
+    call: Call,
+    value: Sortable,
+    order: str,
+    absolute: bool,
+    fold: bool,
+    distinct: float | None,
+    others: tuple[Sortable, ...],
+) -> Any:
+    lists = _together(call, value, others)
+    places = sorting(value.values, order == "DECR", absolute, fold)
+    if distinct is not None:
+        if len(lists) > 1:
+            raise call.error("operators.lists.one-list-without-doubles")
+        places = without_doubles(value.values, places, distinct, fold)
+    return tuple(taken(v, places) for v in lists)
+
+
+def _together(call: Call, value: Sortable, others: tuple[Sortable, ...]) -> list[Sortable]:
+    """Lists that are sorted alike, checked."""
+    lists = [value, *others]
     if len({len(v) for v in lists}) > 1:
         sizes = " ".join(str(len(v)) for v in lists)
         raise call.error("operators.lists.sorted-lengths", sizes=sizes)
-    if cost is not None:
-        total, order = _cheapest(call, cost, len(first))
-        return (total, *(taken(v, order) for v in lists))
-    fold = "NOCA" in words
-    order = sorting(first.values, "DECR" in words, "ABSO" in words, fold)
-    if "UNIQ" in words:
-        if len(lists) > 1:
-            raise call.error("operators.lists.one-list-without-doubles")
-        order = distinct(first.values, order, tolerance, fold)
-    return tuple(taken(v, order) for v in lists)
-
-
-def _sort_words(call: Call) -> tuple[set[str], float, Any]:
-    words: set[str] = set()
-    tolerance, cost = 0.0, None
-    known = ("CROI", "DECR", "ABSO", "NOCA", "UNIQ", "COUT", "HONG", "COMP")
-    while (said := call.keyword(known)) is not None:
-        words.add(said)
-        if said == "UNIQ":
-            tolerance = call.optional("FLOTTANT", default=0.0)
-        elif said == "COUT":
-            cost = call.required("LISTREEL", "LISTENTI", after=call.keyword_end)
-    return words, tolerance, cost
+    return lists
 
 
 def _cheapest(call: Call, cost: Any, n: int) -> tuple[float | int, list[int]]:
@@ -210,40 +267,41 @@ def _cheapest(call: Call, cost: Any, n: int) -> tuple[float | int, list[int]]:
     return costs[rows, order].sum().item(), [int(i) for i in order]
 
 
-@ORDO.on(
-    "TABLE",
+@ORDO.form(
+    main("table", "TABLE", en="table of lists", fr="table de listes"),
+    lead("index", en="index of the list to sort by", fr="indice de la liste qui règle le tri"),
+    *_ORDER,
     syntax="TAB2 = ORDO TAB1 OBJ1 ('CROI' | 'DECR') ('ABSO') ('NOCA') ;",
     en="Of a table of lists: all sorted as the list at index OBJ1.",
     fr="D'une table de listes : toutes triées comme la liste d'indice OBJ1.",
 )
-def _sort_table(call: Call, table: Table) -> Table:
-    index = call.read("*")
-    if index is None or not table.has(index.value):
-        raise call.error("operators.lists.no-list-to-sort-by", index.value if index else None)
-    words, _, _ = _sort_words(call)
-    lead: Any = table.get(index.value)
-    if not isinstance(lead, ListReel | ListEnti | ListMots):
-        raise call.error("operators.lists.index-holds-no-list", index.value)
-    order = sorting(lead.values, "DECR" in words, "ABSO" in words, "NOCA" in words)
+def _sort_table(
+    call: Call, table: Table, index: Any, order: str, absolute: bool, fold: bool
+) -> Table:
+    if not table.has(index):
+        raise call.error("operators.lists.no-list-to-sort-by", index)
+    first: Any = table.get(index)
+    if not isinstance(first, ListReel | ListEnti | ListMots):
+        raise call.error("operators.lists.index-holds-no-list", index)
+    places = sorting(first.values, order == "DECR", absolute, fold)
     made = Table()
-    for key, value in table.items():
-        same = isinstance(value, ListReel | ListEnti | ListMots) and len(value) == len(lead)
-        made.set(key, taken(value, order) if same else value)
+    for name, value in table.items():
+        same = isinstance(value, ListReel | ListEnti | ListMots) and len(value) == len(first)
+        made.set(name, taken(value, places) if same else value)
     return made
 
 
-@UNIQ.on(
-    "LISTREEL",
-    "LISTENTI",
-    "LISTMOTS",
+@UNIQ.form(
+    main("value", *SORTABLE, en="list", fr="liste"),
+    opt("tolerance", "FLOTTANT", default=0.0, en="absolute tolerance", fr="tolérance absolue"),
+    flag("fold", "NOCA", en="whatever the case", fr="sans égard à la casse"),
+    gives=Like("value"),
     syntax="LIS2 = UNIQ LIS1 (FLOT1) ('NOCA') ;",
     en="Of a list: without doubles, in order of first appearance.",
     fr="D'une liste : sans doublons, dans l'ordre de première apparition.",
     examples=("LIST (UNIQ (LECT 3 1 3 2 1)) ;",),
 )
-def _unique(call: Call, value: Sortable) -> Any:
-    tolerance = call.optional("FLOTTANT", default=0.0)
-    fold = call.keyword(("NOCA",)) is not None
+def _unique(value: Sortable, tolerance: float, fold: bool) -> Any:
     values: Any = value.values
     if tolerance and not isinstance(value, ListMots):
         kept: list[int] = []
@@ -252,6 +310,6 @@ def _unique(call: Call, value: Sortable) -> Any:
                 kept.append(i)
         return taken(value, kept)
     seen: dict[Any, int] = {}
-    for i, key in enumerate(_keys(values, False, fold)):
-        seen.setdefault(key, i)
+    for i, item in enumerate(_keys(values, False, fold)):
+        seen.setdefault(item, i)
     return taken(value, sorted(seen.values()))

@@ -57,10 +57,7 @@ def surface_to_sweep(mesh: Mesh, side: int) -> Mesh:
     if mesh.dimension < 3:
         return mesh
     if len(mesh.sides) < 2:
-        raise MeshError(
-            f"this volume has no face {side + 1}",
-            "give a surface, or a volume made by sweeping a surface",
-        )
+        raise MeshError("operators.mesh.no-face-to-sweep", side=side + 1)
     return mesh.sides[side]
 
 
@@ -263,7 +260,7 @@ def thickened(shell: Mesh, thickness: float | NodeField, direction: FloatArray) 
             np.add.at(normal, place[:, k], vectors)
     length = np.linalg.norm(normal, axis=1, keepdims=True)
     if (length == 0.0).any():
-        raise MeshError("a shell of triangles or quadrangles with an area is needed to thicken it")
+        raise MeshError("operators.mesh.no-shell")
     normal /= length
     size = _thickness_at(shell, thickness)[:, None]
     inner = shell.nodes.add(shell.nodes.coordinates[ids] - 0.5 * size * normal)
@@ -283,7 +280,7 @@ def _thickness_at(shell: Mesh, thickness: float | NodeField) -> FloatArray:
     name = next(iter(thickness.components))
     values = thickness.values_at(name, ids, np.nan)
     if np.isnan(values).any():
-        raise MeshError("the field of thicknesses does not cover the surface")
+        raise MeshError("operators.mesh.thickness-missing")
     return values
 
 
@@ -315,5 +312,5 @@ def _thickness_at(shell: Mesh, thickness: float | NodeField) -> FloatArray:
 def pave(session: Session, call: Call, faces: tuple[Mesh, ...]) -> Mesh:
     """Fill a block."""
     if len(faces) != 6:
-        raise call.bad(f"a block has six faces, {len(faces)} are given")
+        raise call.error("operators.mesh.six-faces-wanted", n_faces=len(faces))
     return fill_block(faces, workspace(session).colour)

@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from ssilang.kernel.base.powers import real_power
-from ssilang.language.registry import SCALAR_RULES, Help, operator
+from ssilang.language.registry import ANY, SCALAR_RULES, Help, arg, operator
 from ssilang.language.run.call import Call
 from ssilang.language.say.errors import SsiError
 from ssilang.language.values import ListEnti, ListReel, Table, type_of
@@ -208,6 +208,9 @@ _TEXTS = {
 for _sign, (_en, _fr) in _TEXTS.items():
     operator(
         _sign,
+        arg("left", en="what stands before it", fr="ce qui précède"),
+        arg("right", en="what stands behind it", fr="ce qui suit"),
+        gives=ANY,
         family="arithmetic",
         help=Help(
             _en + " Phrases run from left to right, without precedence: 1 + 2 * 3 is 9.",
@@ -215,5 +218,5 @@ for _sign, (_en, _fr) in _TEXTS.items():
             f"OBJ3 = OBJ1 {_sign} OBJ2 ;",
             (f"x = 6 {_sign} 3 ; LIST x ;",),
         ),
-        reads_itself=True,
+        reads_itself="the types of its two operands choose a rule, which may read more",
     )(lambda call, s=_sign: compute(s, call))

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import operator as python
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from ssilang.kernel.mesh.mesh import Point
-from ssilang.language.registry import SCALAR_RULES, Help, operator
+from ssilang.language.registry import SCALAR_RULES, Help, arg, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.say.errors import SsiError
 from ssilang.language.values import ListEnti, ListMots, ListReel, type_of
@@ -46,19 +47,18 @@ for _sign, _compare in _ORDERS.items():
     SCALAR_RULES[_sign] = _ordered(_compare)
 
 
-def _two(call: Call, sign: str) -> tuple[Any, Any]:
-    left = call.read("*")
-    right = call.read("*") if left is not None else None
-    if left is None or right is None:
-        raise SsiError("two-operands", call.span, operator=sign)
-    return left, right
+_FIRST = arg("first", en="what stands before it", fr="ce qui précède")
+_SECOND = arg("second", en="what stands behind it", fr="ce qui suit")
 
 
-def equal(call: Call, sign: str) -> bool:
-    """Read two objects, and a tolerance for reals and points; say whether they are equal."""
-    left, right = _two(call, sign)
-    a, b = left.value, right.value
-    tolerance = call.optional("FLOTTANT")
+def _no_rule(call: Call, sign: str, first: Any, second: Any) -> SsiError:
+    span = call.used[0].span.to(call.used[1].span)
+    return SsiError("no-rule", span, operator=sign, left=type_of(first), right=type_of(second))
+
+
+def equal(sign: str, call: Call, first: Any, second: Any, tolerance: float | None) -> bool:
+    """Whether two objects are equal, reals and points within a tolerance."""
+    a, b = first, second
     if type(a) in _NUMBERS and type(b) in _NUMBERS:
         if tolerance is not None:
             return bool(abs(a - (int(b) if type(a) is int else b)) <= tolerance)
@@ -69,8 +69,7 @@ def equal(call: Call, sign: str) -> bool:
     if "MOT" in kinds and {*kinds} & {"ENTIER", "FLOTTANT"}:
         return _word_and_number(call, sign, a if isinstance(a, str) else b)
     if kinds[0] != kinds[1] and {*kinds} != {"LISTENTI", "LISTREEL"}:
-        span = left.span.to(right.span)
-        raise SsiError("no-rule", span, operator=sign, left=kinds[0], right=kinds[1])
+        raise _no_rule(call, sign, a, b)
     if isinstance(a, Point) and isinstance(b, Point):
         return _same_place(call, a, b, tolerance)
     if isinstance(a, ListMots):
@@ -100,9 +99,17 @@ def _same_place(call: Call, a: Point, b: Point, tolerance: float | None) -> bool
     return bool(np.linalg.norm(a.coordinates - b.coordinates) <= tolerance)
 
 
+def _told(sign: str, call: Call, first: Any, second: Any, tolerance: float | None) -> bool:
+    return equal(sign, call, first, second, tolerance) == (sign == "EGA")
+
+
 def _register_equality(sign: str, en: str, fr: str, example: str) -> None:
     operator(
         sign,
+        _FIRST,
+        _SECOND,
+        opt("tolerance", "FLOTTANT", en="absolute tolerance", fr="tolérance absolue"),
+        gives="LOGIQUE",
         family="comparisons",
         full_name=sign,
         help=Help(
@@ -116,8 +123,7 @@ def _register_equality(sign: str, en: str, fr: str, example: str) -> None:
             f"LOG1 = OBJ1 {sign} OBJ2 (FLOT1) ;",
             (example,),
         ),
-        reads_itself=True,
-    )(lambda call: equal(call, sign) == (sign == "EGA"))
+    )(partial(_told, sign))
 
 
 _register_equality(
@@ -134,13 +140,10 @@ _register_equality(
 )
 
 
-def _compare_numbers(call: Call, sign: str) -> bool:
-    left, right = _two(call, sign)
-    a, b = left.value, right.value
-    if type(a) not in _NUMBERS or type(b) not in _NUMBERS:
-        span = left.span.to(right.span)
-        raise SsiError("no-rule", span, operator=sign, left=type_of(a), right=type_of(b))
-    return _ORDERS[sign](a, b)
+def _compare_numbers(sign: str, call: Call, first: Any, second: Any) -> bool:
+    if type(first) not in _NUMBERS or type(second) not in _NUMBERS:
+        raise _no_rule(call, sign, first, second)
+    return _ORDERS[sign](first, second)
 
 
 _TEXTS = {
@@ -151,6 +154,9 @@ _TEXTS = {
 for _sign, (_en, _fr) in _TEXTS.items():
     operator(
         _sign,
+        _FIRST,
+        _SECOND,
+        gives="LOGIQUE",
         family="comparisons",
         help=Help(
             f"Whether the first number is {_en} than the second.",
@@ -158,5 +164,4 @@ for _sign, (_en, _fr) in _TEXTS.items():
             f"LOG1 = VAL1 {_sign} VAL2 ;",
             (f"SI (1 {_sign} 2) ; MESS 'yes' ; SINON ; MESS 'no' ; FINSI ;",),
         ),
-        reads_itself=True,
-    )(lambda call, s=_sign: _compare_numbers(call, s))
+    )(partial(_compare_numbers, _sign))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,7 @@ from ssilang.kernel.curves.curve import Curve
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import Help, Like, arg, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListReel
 
@@ -127,8 +128,11 @@ _FUNCTIONS: dict[str, tuple[Function, str, str, str, str]] = {
 _INTEGERS_STAY = frozenset({"ABS", "SIGN"})
 
 
-def _run(call: Call, name: str, function: Function) -> Any:
-    value = call.required(*OPERANDS)
+_VALUE = arg("value", *OPERANDS, en="argument", fr="argument")
+_REALS = "FLOTTANT|LISTREEL|EVOLUTIO|CHPOINT|MCHAML"
+
+
+def _run(name: str, function: Function, value: Any) -> Any:
     if name not in _INTEGERS_STAY:
         if isinstance(value, int):
             value = float(value)
@@ -141,6 +145,8 @@ def _run(call: Call, name: str, function: Function) -> Any:
 for _name, (_function, _en, _fr, _example, _more) in _FUNCTIONS.items():
     operator(
         _name,
+        _VALUE,
+        gives=Like("value") if _name in _INTEGERS_STAY else _REALS,
         family="functions",
         help=Help(
             _en + " Of a number, of each item of a list, ordinate of a curve or value of a field.",
@@ -149,12 +155,14 @@ for _name, (_function, _en, _fr, _example, _more) in _FUNCTIONS.items():
             f"OBJ2 = {_name} OBJ1 ;",
             (f"LIST ({_example}) ;",),
         ),
-        reads_itself=True,
-    )(lambda call, n=_name, f=_function: _run(call, n, f))
+    )(partial(_run, _name, _function))
 
 
 @operator(
     "ATG",
+    arg("first", *OPERANDS, en="tangent, or numerator", fr="tangente, ou numérateur"),
+    opt("second", *OPERANDS, en="denominator", fr="dénominateur"),
+    gives=_REALS,
     family="functions",
     help=Help(
         en="Arc tangent in degrees, between -90 and 90; with two objects, of their quotient, "
@@ -164,12 +172,9 @@ for _name, (_function, _en, _fr, _example, _more) in _FUNCTIONS.items():
         syntax="OBJ3 = ATG OBJ1 (OBJ2) ;",
         examples=("LIST (ATG 1.) ;", "LIST (ATG -1. -1.) ;"),
     ),
-    reads_itself=True,
 )
-def atg(call: Call) -> Any:
+def atg(call: Call, first: Any, second: Any) -> Any:
     """Arc tangent of one or two objects."""
-    first = call.required(*OPERANDS)
-    second = call.optional(*OPERANDS)
     if second is None:
         value = float(first) if isinstance(first, int) else first
         value = ListReel(value.values) if isinstance(value, ListEnti) else value

@@ -27,8 +27,8 @@ union(("LOGIQUE", "LOGIQUE"))(_both)
 
 @operator(
     "OU",
-    arg("first", "LOGIQUE"),
-    arg("second", "LOGIQUE"),
+    arg("first", "LOGIQUE", en="logical value", fr="valeur logique"),
+    arg("second", "LOGIQUE", en="another one", fr="une autre"),
     family="comparisons",
     help=Help(
         en="True when one of two logical values is, or both.",
@@ -44,7 +44,7 @@ def ou(first: bool, second: bool) -> bool:
 
 @operator(
     "NON",
-    arg("value", "LOGIQUE"),
+    arg("value", "LOGIQUE", en="logical value", fr="valeur logique"),
     family="comparisons",
     help=Help(
         en="Negation of a logical value.",
@@ -60,8 +60,8 @@ def non(value: bool) -> bool:
 
 @operator(
     "MULT",
-    arg("first", "ENTIER"),
-    arg("second", "ENTIER"),
+    arg("first", "ENTIER", en="integer", fr="entier"),
+    arg("second", "ENTIER", en="divisor", fr="diviseur"),
     family="comparisons",
     full_name="MULTIPLE",
     help=Help(

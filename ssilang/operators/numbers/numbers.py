@@ -7,11 +7,31 @@ from typing import Any
 
 import numpy as np
 
+from ssilang.io.plots.palette import NAMES as COLOURS
+from ssilang.io.plots.palette import index_of
 from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import (
+    Chosen,
+    Entry,
+    Help,
+    Like,
+    arg,
+    by,
+    choice,
+    each,
+    either,
+    flag,
+    group,
+    key,
+    main,
+    operator,
+    opt,
+    select,
+    shared,
+)
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots, ListReel
 from ssilang.operators.numbers.functions import mapped
@@ -44,6 +64,26 @@ def _whole(call: Call, values: Any) -> Any:
 
 @operator(
     "ENTI",
+    choice(
+        "way",
+        tuple(_ROUNDINGS),
+        default="TRONCATURE",
+        en="cut, below, above or nearest",
+        fr="tronqué, en dessous, au-dessus ou le plus proche",
+    ),
+    arg(
+        "value",
+        "ENTIER",
+        "FLOTTANT",
+        "LISTREEL",
+        "LISTENTI",
+        "CHPOINT",
+        "LISTMOTS",
+        "MOT",
+        en="numbers, or words that say them",
+        fr="nombres, ou mots qui les disent",
+    ),
+    gives="ENTIER|LISTENTI|CHPOINT",
     family="numbers",
     full_name="ENTIER",
     help=Help(
@@ -56,15 +96,10 @@ def _whole(call: Call, values: Any) -> Any:
         syntax="OBJ2 = ENTI ('TRONCATURE' | 'INFERIEUR' | 'SUPERIEUR' | 'PROCHE') OBJ1 ;",
         examples=("LIST (ENTI 'PROCHE' -3.5) ;", "LIST (ENTI (PROG 1.2 2.7)) ;"),
     ),
-    reads_itself=True,
 )
-def enti(call: Call) -> Any:
+def enti(call: Call, way: str, value: Any) -> Any:
     """Round."""
-    word = call.keyword(tuple(_ROUNDINGS))
-    value = call.required(
-        "ENTIER", "FLOTTANT", "LISTREEL", "LISTENTI", "CHPOINT", "LISTMOTS", "MOT"
-    )
-    rounding = _ROUNDINGS[word or call.keyword(tuple(_ROUNDINGS)) or "TRONCATURE"]
+    rounding = _ROUNDINGS[way]
     if isinstance(value, NodeField):
         return node_algebra.applied(value, rounding)
     if isinstance(value, str):
@@ -78,6 +113,17 @@ def enti(call: Call) -> Any:
 
 @operator(
     "FLOT",
+    arg(
+        "value",
+        "FLOTTANT",
+        "LISTREEL",
+        "LISTENTI",
+        "LISTMOTS",
+        "MOT",
+        en="numbers, or words that say them",
+        fr="nombres, ou mots qui les disent",
+    ),
+    gives="FLOTTANT|LISTREEL",
     family="numbers",
     full_name="FLOTTANT",
     help=Help(
@@ -86,11 +132,9 @@ def enti(call: Call) -> Any:
         syntax="OBJ2 = FLOT OBJ1 ;",
         examples=("LIST (FLOT 3) ;", "LIST (FLOT '-1.5E2') ;"),
     ),
-    reads_itself=True,
 )
-def flot(call: Call) -> Any:
+def flot(call: Call, value: Any) -> Any:
     """Convert to reals."""
-    value = call.required("FLOTTANT", "LISTREEL", "LISTENTI", "LISTMOTS", "MOT")
     if isinstance(value, str):
         return number_in(call, value)
     if isinstance(value, ListMots):
@@ -101,17 +145,21 @@ def flot(call: Call) -> Any:
 # ---- MASQ ---------------------------------------------------------------------------------------
 
 _TESTS: dict[str, Callable[[Any, Any], Any]] = {
-    "SUPE": np.greater, "EGSU": np.greater_equal, "EGAL": np.equal, "EGIN": np.less_equal,
-    "INFE": np.less, "DIFF": np.not_equal,
+    "SUPERIEUR": np.greater, "EGSUPE": np.greater_equal, "EGALE": np.equal,
+    "EGINFE": np.less_equal, "INFERIEUR": np.less, "DIFFERENT": np.not_equal,
 }  # fmt: skip
-_FIELDS = ("CHPOINT", "MCHAML", "LISTREEL", "LISTENTI")
+_LIMITS = {
+    "CHPOINT": ("FLOTTANT", "CHPOINT"),
+    "MCHAML": ("FLOTTANT", "MCHAML"),
+    "LISTREEL": ("FLOTTANT", "LISTREEL", "LISTENTI"),
+    "LISTENTI": ("ENTIER", "FLOTTANT", "LISTENTI"),
+}
+"""What the values of an object may be compared with, by its type."""
 
-
-@operator(
+MASQ = shared(
     "MASQ",
-    family="numbers",
-    full_name="MASQUE",
-    help=Help(
+    "numbers",
+    Help(
         en="Ones where a relation with a number, or with the values of an object of the same "
         "kind, is met, zeros elsewhere; with 'SOMME' their number. 'EXISTE' tells where a field "
         "in cells has a component.",
@@ -124,39 +172,51 @@ _FIELDS = ("CHPOINT", "MCHAML", "LISTREEL", "LISTENTI")
         "OBJ2 = OBJ1 MASQ 'EXISTE' (MOT1) ;",
         examples=("LIST (MASQ (PROG 1. 5. 9.) 'SUPERIEUR' 4.) ;",),
     ),
-    reads_itself=True,
+    full_name="MASQUE",
 )
-def masq(call: Call) -> Any:
-    """Compare values."""
-    value = call.required(*_FIELDS)
-    word = call.keyword((*_TESTS, "COMP", "EXIS"))
-    if word is None:
-        raise call.error("operators.numbers.which-test")
-    if word == "EXIS":
-        return _existing(call, value)
-    counted = call.keyword(("SOMM",)) is not None
-    low = _compared(call, value)
-    counted = counted or call.keyword(("SOMM",)) is not None
-    if word == "COMP":
-        high = _compared(call, value)
-        above = _tested(value, low, np.greater_equal)
-        made = _times(above, _tested(value, high, np.less_equal))
+
+
+def _test_of(*limits: str) -> tuple[Entry, ...]:
+    """The relation, with what the values are compared with."""
+    limit = arg("limit", *limits, en="value to compare with", fr="valeur de comparaison")
+    return (
+        select(
+            "test",
+            {
+                **{word: [limit] for word in _TESTS},
+                "COMPRIS": [
+                    arg("low", *limits, en="lower bound", fr="borne inférieure"),
+                    arg("high", *limits, en="upper bound", fr="borne supérieure"),
+                ],
+                "EXISTE": [
+                    opt("component", "MOT", en="component", fr="composante", kind="component")
+                ],
+            },
+            optional=False,
+            en="relation",
+            fr="relation",
+        ),
+        flag("counted", "SOMM", en="number of ones", fr="nombre de uns"),
+    )
+
+
+def _masked(call: Call, value: Any, test: Chosen, counted: bool) -> Any:
+    if test.word == "EXISTE":
+        return _existing(call, value, test["component"])
+    if test.word == "COMPRIS":
+        above = _tested(value, test["low"], np.greater_equal)
+        made = _times(above, _tested(value, test["high"], np.less_equal))
     else:
-        made = _tested(value, low, _TESTS[word])
+        made = _tested(value, test["limit"], _TESTS[test.word])
     return _count(made) if counted else made
 
 
-def _compared(call: Call, value: Any) -> Any:
-    kinds = {
-        NodeField: ("FLOTTANT", "CHPOINT"),
-        CellField: ("FLOTTANT", "MCHAML"),
-        ListReel: ("FLOTTANT", "LISTREEL", "LISTENTI"),
-        ListEnti: ("ENTIER", "FLOTTANT", "LISTENTI"),
-    }[type(value)]
-    operand = call.read(*kinds)
-    if operand is None:
-        raise call.missing(kinds)
-    return operand.value
+for _kind, _limits in _LIMITS.items():
+    MASQ.form(
+        main("value", _kind, en="values to test", fr="valeurs à tester"),
+        *_test_of(*_limits),
+        gives=by("counted", {True: "ENTIER"}, _kind),
+    )(_masked)
 
 
 def _tested(value: Any, other: Any, test: Callable[[Any, Any], Any]) -> Any:
@@ -194,11 +254,10 @@ def _count(made: Any) -> int:
     return int(made.values.sum())
 
 
-def _existing(call: Call, value: Any) -> CellField:
+def _existing(call: Call, value: Any, component: str | None) -> CellField:
     if not isinstance(value, CellField):
         raise call.error("operators.numbers.existence-of-cells", value)
-    operand = call.read("MOT")
-    name = None if operand is None else str(operand.value).rstrip()
+    name = None if component is None else str(component).rstrip()
     blocks = []
     for block in value.blocks:
         shape = max((v.shape for v in block.components.values()), default=(len(block.cells), 1))
@@ -213,11 +272,10 @@ def _existing(call: Call, value: Any) -> CellField:
 # ---- BORN ---------------------------------------------------------------------------------------
 
 
-@operator(
+BORN = shared(
     "BORN",
-    family="numbers",
-    full_name="BORNER",
-    help=Help(
+    "numbers",
+    Help(
         en="Values cut at an upper bound ('MAXIMUM'), a lower one ('MINIMUM') or both ('COMPRIS'). "
         "Of a field, component by component; of curves, curve by curve: those named are kept.",
         fr="Valeurs bornées en haut ('MAXIMUM'), en bas ('MINIMUM') ou des deux côtés ('COMPRIS'). "
@@ -226,39 +284,67 @@ def _existing(call: Call, value: Any) -> CellField:
         syntax="OBJ2 = BORN OBJ1 ((MOT1 | N1) 'MAXIMUM' X2 | 'MINIMUM' X1 | 'COMPRIS' X1 X2) ... ;",
         examples=("LIST (BORN (PROG -1. 0.5 3.) 'COMPRIS' 0. 1.) ;",),
     ),
-    reads_itself=True,
+    full_name="BORNER",
 )
-def born(call: Call) -> Any:
-    """Clip values."""
-    kinds = ("LISTENTI", "LISTREEL", "EVOLUTIO", "CHPOINT", "MCHAML")
-    value = call.required(*kinds)
-    if isinstance(value, ListReel | ListEnti):
-        _, low, high = _bounds(call, False, False)
-        return type(value)(np.clip(value.values, low, high))
-    named = isinstance(value, NodeField | CellField)
+_HIGH = arg("high", "ENTIER", "FLOTTANT", en="upper bound", fr="borne supérieure")
+_LOW = arg("low", "ENTIER", "FLOTTANT", en="lower bound", fr="borne inférieure")
+_BOUND = select(
+    "bound",
+    {"MAXIMUM": [_HIGH], "MINIMUM": [_LOW], "COMPRIS": [_LOW, _HIGH]},
+    optional=False,
+    en="bounds of the values",
+    fr="bornes des valeurs",
+)
+
+
+def _ends(bound: Chosen) -> tuple[float, float]:
+    return bound.values.get("low", -np.inf), bound.values.get("high", np.inf)
+
+
+@BORN.form(
+    main("value", "LISTENTI", "LISTREEL", en="list", fr="liste"), _BOUND, gives=Like("value")
+)
+def _clipped_list(value: ListEnti | ListReel, bound: Chosen) -> Any:
+    return type(value)(np.clip(value.values, *_ends(bound)))
+
+
+@BORN.form(
+    main("value", "EVOLUTIO", en="curves", fr="évolutions"),
+    each(
+        "bounds",
+        opt("curve", "ENTIER", en="number of a curve, 1 if none", fr="numéro de courbe, 1 sinon"),
+        _BOUND,
+        at_least=1,
+    ),
+)
+def _clipped_curves(call: Call, value: Curve, bounds: list[tuple[int | None, Chosen]]) -> Curve:
+    return _clipped_curve(call, value, [(who, *_ends(bound)) for who, bound in bounds])
+
+
+@BORN.form(
+    main("value", "CHPOINT", "MCHAML", en="field", fr="champ"),
+    each(
+        "bounds",
+        either(
+            "one",
+            group("only", _BOUND),
+            group(
+                "named",
+                arg("component", "MOT", en="component", fr="composante", kind="component"),
+                _BOUND,
+            ),
+        ),
+        at_least=1,
+    ),
+    gives=Like("value"),
+)
+def _clipped_fields(call: Call, value: NodeField | CellField, bounds: list[Chosen]) -> Any:
     wanted = []
-    while call.operands:
-        wanted.append(_bounds(call, named, isinstance(value, Curve)))
-    if isinstance(value, Curve):
-        return _clipped_curve(call, value, wanted)
+    for one in bounds:
+        name = one.values.get("component")
+        who = None if name is None else str(name).rstrip()
+        wanted.append((who, *_ends(one["bound"])))
     return _clipped_field(call, value, wanted)
-
-
-def _bounds(call: Call, named: bool, numbered: bool) -> tuple[Any, float, float]:
-    known = ("MAXI", "MINI", "COMP")
-    who: Any = None
-    if numbered:
-        who = call.optional("ENTIER")
-    word = call.keyword(known)
-    if word is None and named:
-        who = str(call.required("MOT")).rstrip()
-        word = call.keyword(known)
-    if word is None:
-        raise call.error("operators.numbers.which-bound")
-    first = call.required("ENTIER", "FLOTTANT", after=call.keyword_end)
-    if word == "COMP":
-        return who, first, call.required("ENTIER", "FLOTTANT")
-    return (who, -np.inf, first) if word == "MAXI" else (who, first, np.inf)
 
 
 def _clipped_curve(call: Call, value: Curve, wanted: list[tuple[Any, float, float]]) -> Curve:
@@ -323,11 +409,10 @@ def session_generator(call: Call, skip: int | None) -> np.random.Generator:
     return generator
 
 
-@operator(
+BRUI = shared(
     "BRUI",
-    family="numbers",
-    full_name="BRUIT",
-    help=Help(
+    "numbers",
+    Help(
         en="Random values without correlation: Gauss (mean, deviation), uniform (mean, half "
         "width), exponential; as a list, a curve over given times or a field on a mesh; Poisson as "
         "a list of integers. A run repeated gives the same values; a last integer skips terms.",
@@ -338,31 +423,62 @@ def session_generator(call: Call, skip: int | None) -> np.random.Generator:
         "LENT1 = BRUI 'BLAN' 'POIS' N1 N2 (N3) ;",
         examples=("LIST (DIME (BRUI 'BLAN' 'GAUS' 0. 1. 10)) ;",),
     ),
-    reads_itself=True,
+    full_name="BRUIT",
 )
-def brui(call: Call) -> Any:
-    """Draw values."""
-    if call.keyword(("BLAN",)) is None:
-        raise call.error("operators.numbers.white-noise-only")
-    law = call.keyword(("GAUS", "UNIF", "EXPO", "POIS"))
-    if law is None:
-        raise call.error("operators.numbers.which-law")
-    if law == "POIS":
-        mean, count = call.required("ENTIER"), call.required("ENTIER")
-        if mean < 0 or count < 0:
-            raise call.error("operators.numbers.negative-mean-or-count")
-        return ListEnti(session_generator(call, call.optional("ENTIER")).poisson(mean, count))
-    mean, width = call.required("FLOTTANT"), call.required("FLOTTANT")
+_NOISE = key("noise", "BLAN", optional=False, en="white noise", fr="bruit blanc")
+_SKIP = opt(
+    "skip",
+    "ENTIER",
+    en="terms that the generator, begun again, skips",
+    fr="termes que saute le générateur, repris au début",
+)
+
+
+@BRUI.form(
+    _NOISE,
+    choice("law", ("POIS",), optional=False, en="Poisson's law", fr="loi de Poisson"),
+    arg("mean", "ENTIER", en="mean", fr="moyenne"),
+    arg("count", "ENTIER", en="number of values", fr="nombre de valeurs"),
+    _SKIP,
+)
+def _poisson(
+    call: Call, noise: bool, law: str, mean: int, count: int, skip: int | None
+) -> ListEnti:
+    if mean < 0 or count < 0:
+        raise call.error("operators.numbers.negative-mean-or-count")
+    return ListEnti(session_generator(call, skip).poisson(mean, count))
+
+
+@BRUI.form(
+    _NOISE,
+    choice("law", ("GAUS", "UNIF", "EXPO"), optional=False, en="law", fr="loi"),
+    arg("mean", "FLOTTANT", en="mean", fr="moyenne"),
+    arg("width", "FLOTTANT", en="deviation or half width", fr="écart-type ou amplitude"),
+    arg(
+        "where",
+        "ENTIER",
+        "LISTREEL",
+        "MAILLAGE",
+        en="number of values, times, or mesh",
+        fr="nombre de valeurs, instants, ou maillage",
+    ),
+    choice("colour", COLOURS, en="colour of the curve", fr="couleur de l'évolution"),
+    _SKIP,
+    gives="LISTREEL|EVOLUTIO|CHPOINT",
+)
+def _continuous(
+    call: Call,
+    noise: bool,
+    law: str,
+    mean: float,
+    width: float,
+    where: Any,
+    colour: str | None,
+    skip: int | None,
+) -> Any:
     if width < 0:
         raise call.error("operators.numbers.negative-width", width, width=width)
-    support = call.read("ENTIER", "LISTREEL", "MAILLAGE")
-    if support is None:
-        raise call.missing(("ENTIER", "LISTREEL", "MAILLAGE"))
-    from ssilang.operators.curves.words import read_colour
-
-    colour = read_colour(call)
-    generator = session_generator(call, call.optional("ENTIER"))
-    where = support.value
+    generator = session_generator(call, skip)
     if isinstance(where, int) and where < 0:
         raise call.error("operators.numbers.negative-count", where, where=where)
     nodes = where.sorted_node_ids if hasattr(where, "sorted_node_ids") else None
@@ -376,4 +492,6 @@ def brui(call: Call) -> Any:
         return ListReel(values)
     if nodes is not None:
         return NodeField.of(where.nodes, nodes, {"SCAL": values}, "DIFFUS")
-    return Curve((CurvePart(where.values, values, "TEMPS", "BRUIT", "", colour or 0),))
+    return Curve(
+        (CurvePart(where.values, values, "TEMPS", "BRUIT", "", index_of(colour) if colour else 0),)
+    )

@@ -6,7 +6,7 @@ import time
 from datetime import datetime
 from typing import Any
 
-from ssilang.language.registry import Help, choice, flag, operator, opt
+from ssilang.language.registry import Help, choice, flag, key, many, operator, opt, said, shared
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.language.values import Mot, Table
@@ -24,11 +24,10 @@ def _clocks(session: Session) -> dict[str, tuple[float, float]]:
     return found
 
 
-@operator(
+TEMP = shared(
     "TEMP",
-    family="session",
-    full_name="TEMPS",
-    help=Help(
+    "session",
+    Help(
         en="Prints the time passed since TEMP was called last. 'ZERO' starts the count again; "
         "'HORL' and 'CPU' give wall and processor time in milliseconds since ZERO; 'NOEC' gives a "
         "table with both.",
@@ -38,33 +37,65 @@ def _clocks(session: Session) -> dict[str, tuple[float, float]]:
         syntax="TEMP ('ZERO' | 'IMPR' | 'PLAC') ; N1 = TEMP 'CPU' | 'HORL' ; TAB1 = TEMP 'NOEC' ;",
         examples=("TEMP 'ZERO' ; N = TEMP 'HORL' ;",),
     ),
-    reads_itself=True,
+    full_name="TEMPS",
 )
-def temp(call: Call) -> Any:
-    """Measure time."""
-    session = call.session
+_REST = many("rest", "*", "TEXTE", en="changes nothing", fr="sans effet")
+
+
+def _read_clocks(session: Session) -> tuple[tuple[float, float], tuple[int, int]]:
+    """Seconds, wall and processor, since TEMP was called last; milliseconds since ZERO."""
     clocks = _clocks(session)
     now = (time.perf_counter(), time.process_time())
-    zero, last = clocks["zero"], clocks["last"]
+    (wall, cpu), last = clocks["zero"], clocks["last"]
     clocks["last"] = now
-    word = call.keyword(("ZERO", "NOEC", "SGAC", "CPU", "HORL", "PLAC", "IMPR", "EFFI", "APPE"))
-    if word == "ZERO":
-        clocks["zero"] = now
-        return None
-    elapsed = [round(1000 * (n - z)) for n, z in zip(now, zero, strict=True)]
-    if word in ("CPU", "HORL"):
-        return elapsed[1] if word == "CPU" else elapsed[0]
-    if word == "SGAC" and call.keyword(("IMPR",)) is None:
-        return 0, 0
-    if word == "NOEC":
-        made = Table()
-        made.set(Mot("TEMPS_HORLOGE"), elapsed[0])
-        made.set(Mot("TEMPS_CPU"), elapsed[1])
-        return made
-    call.operands.clear()
-    wall, cpu = now[0] - last[0], now[1] - last[1]
+    since_zero = round(1000 * (now[0] - wall)), round(1000 * (now[1] - cpu))
+    return (now[0] - last[0], now[1] - last[1]), since_zero
+
+
+@TEMP.form(said("ZERO"))
+def _restart(session: Session) -> None:
+    _read_clocks(session)
+    clocks = _clocks(session)
+    clocks["zero"] = clocks["last"]
+
+
+@TEMP.form(said("CPU", "HORL"))
+def _elapsed(session: Session, word: str) -> int:
+    return _read_clocks(session)[1][word == "CPU"]
+
+
+@TEMP.form(said("NOEC"))
+def _tabulated(session: Session) -> Table:
+    wall, cpu = _read_clocks(session)[1]
+    made = Table()
+    made.set(Mot("TEMPS_HORLOGE"), wall)
+    made.set(Mot("TEMPS_CPU"), cpu)
+    return made
+
+
+@TEMP.form(said("SGAC"), key("printed", "IMPR", optional=False), _REST)
+def _print_all(session: Session, printed: bool, rest: tuple[Any, ...]) -> None:
+    _print_clocks(session, None, rest)
+
+
+@TEMP.form(said("SGAC"))
+def _garbage(session: Session) -> tuple[int, int]:
+    _read_clocks(session)
+    return 0, 0
+
+
+@TEMP.form(
+    choice(
+        "what",
+        ("PLAC", "IMPR", "EFFI", "APPE"),
+        en="the time that has passed is printed",
+        fr="le temps écoulé est affiché",
+    ),
+    _REST,
+)
+def _print_clocks(session: Session, what: str | None, rest: tuple[Any, ...]) -> None:
+    wall, cpu = _read_clocks(session)[0]
     session.print(f" elapsed {wall:.3f} s, processor {cpu:.3f} s")
-    return None
 
 
 @operator(

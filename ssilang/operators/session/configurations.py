@@ -5,8 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.deformed import displacements
-from ssilang.language.registry import Help, operator
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.materials.model import Model
+from ssilang.language.registry import Help, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import register_type
 from ssilang.operators.workspace import workspace
@@ -24,6 +27,15 @@ register_type(Configuration, "CONFIGUR")
 
 @operator(
     "FORM",
+    opt("start", "CONFIGUR", en="coordinates to begin with", fr="coordonnées de départ"),
+    opt("field", "CHPOINT", en="displacements", fr="déplacements", unit="m"),
+    opt(
+        "axes",
+        "MMODEL",
+        "MCHAML",
+        en="characteristics, refused: their local axes do not follow",
+        fr="caractéristiques, refusées : leurs axes locaux ne suivent pas",
+    ),
     family="mesh",
     full_name="FORME",
     help=Help(
@@ -39,15 +51,16 @@ register_type(Configuration, "CONFIGUR")
             "LIST (COOR 1 P) ; FORM C ; LIST (COOR 1 P) ;",
         ),
     ),
-    reads_itself=True,
 )
-def form(call: Call) -> Configuration:
+def form(
+    call: Call,
+    start: Configuration | None,
+    field: NodeField | None,
+    axes: Model | CellField | None,
+) -> Configuration:
     """Move the nodes."""
     nodes = workspace(call.session).nodes
-    start = call.optional("CONFIGUR")
-    field = call.optional("CHPOINT")
-    start = call.optional("CONFIGUR") if start is None else start
-    if call.read("MMODEL", "MCHAML") is not None:
+    if axes is not None:
         raise call.error("operators.session.local-axes-kept")
     if start is not None:
         nodes.coordinates[: len(start.coordinates)] = start.coordinates

@@ -4,38 +4,18 @@ from __future__ import annotations
 
 from typing import Any, NoReturn
 
-from ssilang.language.registry import Help, operator
-from ssilang.language.run.call import Call, Operand
+from ssilang.language.registry import Help, many, named, operator
+from ssilang.language.run.call import Call
 from ssilang.language.run.jumps import LeaveLoop, LeaveProcedure, NextTurn, StopRun
+from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SsiError
-from ssilang.language.values import ANNULE, Mot, Procedure
-
-
-def name_of(operand: Operand) -> str:
-    """The name that an operand was written as: a variable, a word, a procedure."""
-    if operand.name:
-        return operand.name
-    if isinstance(operand.value, Procedure):
-        return operand.value.name
-    return str(operand.value).rstrip().upper() if isinstance(operand.value, Mot) else ""
-
-
-def take_name(call: Call) -> str:
-    """Consume the next operand for its name, whatever object bears it.
-
-    Raises
-    ------
-    SsiError
-        'missing-argument' when nothing stands there, 'wrong-argument' for a value without name.
-    """
-    if not call.operands or not (name := name_of(call.operands[0])):
-        raise call.missing(("MOT",))
-    call.used.append(call.operands.pop(0))
-    return name
+from ssilang.language.values import ANNULE
 
 
 @operator(
     "QUIT",
+    named("name", en="loop or procedure to leave", fr="boucle ou procédure à quitter"),
+    gives=(),
     family="control",
     full_name="QUITTER",
     help=Help(
@@ -44,18 +24,18 @@ def take_name(call: Call) -> str:
         syntax="QUIT NOM1 ;",
         examples=("REPE B1 ; SI (&B1 > 3) ; QUIT B1 ; FINSI ; FIN B1 ; LIST &B1 ;",),
     ),
-    reads_itself=True,
 )
-def quitter(call: Call) -> NoReturn:
+def quitter(session: Session, name: str) -> NoReturn:
     """Leave a loop or a procedure."""
-    name = take_name(call)
-    if call.session.frame.procedure == name:
+    if session.frame.procedure == name:
         raise LeaveProcedure(name)
     raise LeaveLoop(name)
 
 
 @operator(
     "ITER",
+    named("name", en="loop that goes on", fr="boucle qui continue"),
+    gives=(),
     family="control",
     full_name="ITERER",
     help=Help(
@@ -64,15 +44,15 @@ def quitter(call: Call) -> NoReturn:
         syntax="ITER NOM1 ;",
         examples=("REPE B1 4 ; SI (&B1 / 2 * 2 EGA &B1) ; ITER B1 ; FINSI ; MESS &B1 ; FIN B1 ;",),
     ),
-    reads_itself=True,
 )
-def iterer(call: Call) -> NoReturn:
+def iterer(name: str) -> NoReturn:
     """Go to the end of the turn."""
-    raise NextTurn(take_name(call))
+    raise NextTurn(name)
 
 
 @operator(
     "FIN",
+    gives=(),
     family="control",
     help=Help(
         en="Ends the run; with a name, ends the block that REPE opened.",
@@ -80,15 +60,15 @@ def iterer(call: Call) -> NoReturn:
         syntax="FIN ; FIN NOM1 ;",
         examples=("MESS 'last words' ; FIN ;",),
     ),
-    reads_itself=True,
 )
-def fin(call: Call) -> NoReturn:
+def fin() -> NoReturn:
     """End the run."""
     raise StopRun
 
 
 @operator(
     "COMM",
+    many("text", "*", "TEXTE", en="whatever is said", fr="ce qui est dit"),
     family="control",
     full_name="COMMENTAIRE",
     help=Help(
@@ -97,11 +77,9 @@ def fin(call: Call) -> NoReturn:
         syntax="COMM ... ;",
         examples=("COMM nothing happens here ;",),
     ),
-    reads_itself=True,
 )
-def comm(call: Call) -> None:
+def comm(text: tuple[Any, ...]) -> None:
     """Swallow the statement."""
-    call.operands.clear()
 
 
 # ---- procedures --------------------------------------------------------------------------------
@@ -112,11 +90,11 @@ def _argument_marks(call: Call) -> list[tuple[str, bool, str, Any]]:
     found: list[tuple[str, bool, str, Any]] = []
     while call.operands:
         span = call.operands[0].span
-        name = take_name(call)
+        name = call.take_name()
         mandatory, kind = True, ""
         if call.operands and call.operands[0].span.text in ("*", "/"):
             mandatory = call.operands.pop(0).span.text == "*"
-            kind = take_name(call)[:8].rstrip()
+            kind = call.take_name()[:8].rstrip()
         found.append((name, mandatory, kind, span))
     return found
 
@@ -133,7 +111,7 @@ def _argument_marks(call: Call) -> list[tuple[str, bool, str, Any]]:
         syntax="ARGU NOM1*TYPE1 NOM2/TYPE2 ... ;",
         examples=("DEBP ADDITION ; ARGU I*ENTIER J*ENTIER ; FINP (I + J) ; LIST (ADDITION 2 3) ;",),
     ),
-    reads_itself=True,
+    reads_itself="its items are names and types, with * or / between",
 )
 def argu(call: Call) -> None:
     """Read from the caller's operands."""
@@ -158,6 +136,7 @@ def argu(call: Call) -> None:
 
 @operator(
     "RESP",
+    many("results", en="results, in order", fr="résultats, dans l'ordre"),
     family="control",
     full_name="RESPRO",
     help=Help(
@@ -166,11 +145,7 @@ def argu(call: Call) -> None:
         syntax="RESP OBJ1 OBJ2 ... ;",
         examples=("DEBP DEUX ; RESP 1 ; RESP 2 ; FINP ; A B = DEUX ; LIST B ;",),
     ),
-    reads_itself=True,
 )
-def resp(call: Call) -> None:
+def resp(session: Session, results: tuple[Any, ...]) -> None:
     """Queue results."""
-    frame = call.session.frame
-    while (operand := call.read("*")) is not None:
-        if operand.value is not ANNULE:
-            frame.results.append(operand.value)
+    session.frame.results.extend(r for r in results if r is not ANNULE)

@@ -12,7 +12,7 @@ from ssilang.kernel.materials.model import Model
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import ANY, Help, flag, many, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import (
     ListChpo,
@@ -84,6 +84,21 @@ def _group(call: Call) -> list[Any] | None:
 
 @operator(
     "VIDE",
+    flag("tabulated", "TABU", en="in a table", fr="dans une table"),
+    opt(
+        "places",
+        "LISTENTI",
+        "LISTREEL",
+        "LISTMOTS",
+        en="indices of the table, else 1, 2 ...",
+        fr="indices de la table, sinon 1, 2 ...",
+    ),
+    many(
+        "types",
+        en="types with sub-type and number, or an object to test",
+        fr="types avec sous-type et nombre, ou un objet à tester",
+    ),
+    gives=ANY,
     family="objects",
     help=Help(
         en="Empty objects to begin unions with, several at once, or in a table ('TABULER', at the "
@@ -93,7 +108,7 @@ def _group(call: Call) -> list[Any] | None:
         syntax="OBJ1 ... = VIDE ('TABULER' (LIS1)) MOT1(/MOT2)(*N1) ... ; LOG1 = VIDE OBJ1 ;",
         examples=("L = VIDE 'LISTREEL' ; L = L ET 3. ; LIST L ; SI (VIDE L) ; ERRE 5 ; FINSI ;",),
     ),
-    reads_itself=True,
+    reads_itself="types, sub-types and numbers are joined by / and *",
 )
 def vide(call: Call) -> Any:
     """Make empty objects, or test one."""

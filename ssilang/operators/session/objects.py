@@ -11,9 +11,10 @@ from ssilang.kernel.curves.curve import Load
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Model
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import Help, arg, flag, lead, many, named, operator, opt, shared
 from ssilang.language.run.call import Call
 from ssilang.language.run.procedures import BoundMethod, call_procedure
+from ssilang.language.run.session import Session
 from ssilang.language.values import (
     ANNULE,
     ListEnti,
@@ -25,11 +26,11 @@ from ssilang.language.values import (
     type_of,
 )
 from ssilang.operators.lists.search import equal_items
-from ssilang.operators.session.control import take_name
 
 
 @operator(
     "TYPE",
+    arg("value", "*", "TEXTE", en="any object", fr="un objet quelconque"),
     family="objects",
     terminal=True,
     help=Help(
@@ -38,18 +39,24 @@ from ssilang.operators.session.control import take_name
         syntax="MOT1 = TYPE OBJ1 ;",
         examples=("SI (EGA (TYPE 3.) 'FLOTTANT') ; MESS 'a real' ; FINSI ;",),
     ),
-    reads_itself=True,
 )
-def type_word(call: Call) -> Mot:
+def type_word(value: Any) -> Mot:
     """Name the type."""
-    operand = call.read("*", "TEXTE")
-    if operand is None:
-        raise call.missing(("*",))
-    return Mot(type_of(operand.value).ljust(8))
+    return Mot(type_of(value).ljust(8))
 
 
 @operator(
     "EXIS",
+    lead(
+        "value",
+        en="a name, or what is searched in",
+        fr="un nom, ou ce dans quoi l'on cherche",
+    ),
+    many(
+        "wanted",
+        en="index, component, item, name, support or words of a zone that is looked for",
+        fr="indice, composante, élément, nom, support ou mots d'une zone que l'on cherche",
+    ),
     family="objects",
     full_name="EXISTE",
     help=Help(
@@ -66,7 +73,8 @@ def type_word(call: Call) -> Mot:
             "SI (EXIS (MOTS 'UX' 'UY') 'UY') ; MESS 'it does' ; FINSI ;",
         ),
     ),
-    reads_itself=True,
+    gives="LOGIQUE",
+    reads_itself="its first operand may be a name without object, its second any index of a table",
 )
 def exis(call: Call) -> Any:
     """Look for something."""
@@ -90,7 +98,7 @@ def _in_table(call: Call, table: Table) -> bool:
 
 
 def _in_object(call: Call, holder: Objet) -> bool:
-    name = take_name(call)
+    name = call.take_name()
     return name in holder.attributes or name in holder.methods
 
 
@@ -162,29 +170,35 @@ _SEARCHES: dict[str, Callable[[Call, Any], Any]] = {
 }  # fmt: skip
 
 
-@operator(
+OUBL = shared(
     "OUBL",
-    family="objects",
-    full_name="OUBLIER",
-    help=Help(
+    "objects",
+    Help(
         en="Forgets a name, or an index of a table.",
         fr="Oublie un nom, ou un indice d'une table.",
         syntax="OUBL NOM1 ; OUBL TAB1 OBJ1 ;",
         examples=("T = TABL ; T . 1 = 5 ; OUBL T 1 ; LIST (DIME T) ;",),
     ),
-    reads_itself=True,
+    full_name="OUBLIER",
 )
-def oubl(call: Call) -> None:
-    """Forget."""
-    if len(call.operands) > 1 and isinstance(call.operands[0].value, Table):
-        table = call.operands.pop(0).value
-        table.remove(call.operands.pop(0).value)
-        return
-    call.session.frame.forget(take_name(call))
+
+
+@OUBL.form(
+    lead("table", "TABLE", en="table that loses an index", fr="table qui perd un indice"),
+    lead("index", "*", "TEXTE", en="index to forget", fr="indice à oublier"),
+)
+def _forget_index(table: Table, index: Any) -> None:
+    table.remove(index)
+
+
+@OUBL.form(named("name", en="name to forget", fr="nom à oublier"))
+def _forget_name(session: Session, name: str) -> None:
+    session.frame.forget(name)
 
 
 @operator(
     "DETR",
+    many("objects", "*", "TEXTE", en="objects no longer used", fr="objets devenus inutiles"),
     family="objects",
     full_name="DETRUIRE",
     help=Help(
@@ -193,15 +207,15 @@ def oubl(call: Call) -> None:
         syntax="DETR OBJ1 ;",
         examples=("L = PROG 1. ; DETR L ;",),
     ),
-    reads_itself=True,
 )
-def detr(call: Call) -> None:
+def detr(objects: tuple[Any, ...]) -> None:
     """Accept and ignore."""
-    call.operands.clear()
 
 
 @operator(
     "MENA",
+    flag("forced", "OBLI", en="at once", fr="tout de suite"),
+    many("ignored", "*", "TEXTE", en="changes nothing", fr="sans effet"),
     family="objects",
     full_name="MENAGE",
     help=Help(
@@ -210,19 +224,19 @@ def detr(call: Call) -> None:
         syntax="MENA ('OBLI') (N1) ;",
         examples=("MENA ;",),
     ),
-    reads_itself=True,
 )
-def mena(call: Call) -> None:
+def mena(forced: bool, ignored: tuple[Any, ...]) -> None:
     """Collect garbage when it is asked for by 'OBLI'."""
-    if call.keyword(("OBLI",)) is not None:
+    if forced:
         import gc
 
         gc.collect()
-    call.operands.clear()
 
 
 @operator(
     "NOMM",
+    lead("name", "*", "TEXTE", en="name, written or computed", fr="nom, écrit ou calculé"),
+    lead("value", "*", "TEXTE", en="object that gets it", fr="objet qui le reçoit"),
     family="objects",
     full_name="NOMMER",
     help=Help(
@@ -231,21 +245,15 @@ def mena(call: Call) -> None:
         syntax="NOMM NOM1 OBJ1 ;",
         examples=("REPE B 2 ; NOMM (CHAI 'L' &B) (PROG &B) ; FIN B ; LIST L2 ;",),
     ),
-    reads_itself=True,
 )
-def nomm(call: Call) -> None:
+def nomm(call: Call, name: Any, value: Any) -> None:
     """Assign to a computed name."""
-    if len(call.operands) < 2:
-        raise call.error("operators.session.name-and-object")
-    first = call.operands.pop(0)
-    call.used.append(first)
-    if not isinstance(first.value, Mot):
-        raise call.error("operators.session.name-is-a-word", first.value)
-    name = str(first.value).strip().upper()
-    operand = call.operands.pop(0)
-    if not name:
-        raise call.error("operators.session.empty-name", first.value)
-    call.session.frame.assign(name[:24], operand.value)
+    if not isinstance(name, Mot):
+        raise call.error("operators.session.name-is-a-word", name)
+    said = str(name).strip().upper()
+    if not said:
+        raise call.error("operators.session.empty-name", name)
+    call.session.frame.assign(said[:24], value)
 
 
 # ---- objects with methods -----------------------------------------------------------------------
@@ -253,6 +261,8 @@ def nomm(call: Call) -> None:
 
 @operator(
     "OBJE",
+    arg("constructor", "PROCEDUR", en="method, then its arguments", fr="méthode et ses arguments"),
+    gives="OBJET",
     family="objects",
     full_name="OBJET",
     help=Help(
@@ -264,29 +274,19 @@ def nomm(call: Call) -> None:
         syntax="OBJ1 = OBJE METH1 (ARG1 ...) ;",
         examples=("DEBM POSE X*ENTIER ; %VAL = X ; FINM ; O = OBJE POSE 5 ; LIST (O%VAL + 1) ;",),
     ),
-    reads_itself=True,
 )
-def obje(call: Call) -> tuple[Any, ...]:
+def obje(call: Call, constructor: Procedure) -> tuple[Any, ...]:
     """Construct an object."""
-    constructor = call.required("PROCEDUR")
     made = Objet(constructor.name)
     results = call_procedure(call.session.evaluator, BoundMethod(constructor, made), call)
     return (made, *results)
 
 
-def _target(call: Call) -> Objet:
-    for i, operand in enumerate(call.operands):
-        if isinstance(operand.value, Objet):
-            del call.operands[i]
-            return operand.value
-    found = call.session.frame.object
-    if found is None:
-        raise call.error("operators.session.no-object")
-    return found
-
-
 @operator(
     "METH",
+    opt("holder", "OBJET", en="object, else the present one", fr="objet, sinon l'objet en cours"),
+    named("name", en="name of the method", fr="nom de la méthode"),
+    arg("method", "PROCEDUR", en="what it does", fr="ce qu'elle fait"),
     family="objects",
     full_name="METHODE",
     help=Help(
@@ -299,19 +299,23 @@ def _target(call: Call) -> Objet:
             "O = OBJE NAIT ; LIST (O%AJOUTE) ;",
         ),
     ),
-    reads_itself=True,
 )
-def meth(call: Call) -> None:
+def meth(call: Call, holder: Objet | None, name: str, method: Procedure) -> None:
     """Attach a method."""
-    holder = _target(call)
-    name = take_name(call)
-    if not call.operands or not isinstance(call.operands[0].value, Procedure):
-        raise call.missing(("PROCEDUR",))
-    holder.methods[name] = call.operands.pop(0).value
+    target = holder or call.session.frame.object
+    if target is None:
+        raise call.error("operators.session.no-object")
+    target.methods[name] = method
 
 
 @operator(
     "HERI",
+    many(
+        "objects",
+        "OBJET",
+        en="heir, unless it is the present object, and whose methods it gets",
+        fr="héritier, sauf si c'est l'objet en cours, et celui dont il hérite",
+    ),
     family="objects",
     full_name="HERITE",
     help=Help(
@@ -323,13 +327,10 @@ def meth(call: Call) -> None:
             "DEBM B ; %X = 1 ; FINM ; P = OBJE A ; Q = OBJE B ; Q%HERITE P ; Q%DIT ;",
         ),
     ),
-    reads_itself=True,
 )
-def heri(call: Call) -> None:
+def heri(call: Call, objects: tuple[Objet, ...]) -> None:
     """Inherit methods."""
-    others = [o for o in call.operands if isinstance(o.value, Objet)]
-    holder = others[0].value if len(others) > 1 else call.session.frame.object
-    if not others or holder is None:
+    holder = objects[0] if len(objects) > 1 else call.session.frame.object
+    if not objects or holder is None:
         raise call.error("operators.session.nothing-to-inherit")
-    call.operands[:] = [o for o in call.operands if o not in others]
-    holder.methods.update(others[-1].value.methods)
+    holder.methods.update(objects[-1].methods)

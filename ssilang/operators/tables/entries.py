@@ -119,7 +119,7 @@ class Entries:
         try:
             yield
         except KernelError as problem:
-            raise self.bad(f"'{index}' is refused: {problem}", problem.hint) from problem
+            raise self.error("refused-entry", index=index, problem=problem) from problem
 
     def needed(self, index: str | int) -> Any:
         """The value at an index that must be there."""

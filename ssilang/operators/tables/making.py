@@ -4,18 +4,16 @@ from __future__ import annotations
 
 from typing import Any
 
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import Help, arg, flag, main, opt, shared
 from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table, known_types, type_of
 from ssilang.operators.dispatch import COPI, DIME, ENLE
 from ssilang.operators.numbers.arithmetic import rule
 
-
-@operator(
+TABL = shared(
     "TABL",
-    family="tables",
-    full_name="TABLE",
-    help=Help(
+    "tables",
+    Help(
         en="A new table; a word becomes its sub-type (index SOUSTYPE). Behind a table: that same "
         "table, under a further name.",
         fr="Une nouvelle table ; un mot devient son sous-type (indice SOUSTYPE). Suivi d'une "
@@ -23,23 +21,24 @@ from ssilang.operators.numbers.arithmetic import rule
         syntax="TAB1 = TABL (MOT1) ; TAB1 = TABL TAB2 ;",
         examples=("T = TABL ; T . 'A' = 3 ; T . 2 = 'x' ; LIST T ;",),
     ),
-    reads_itself=True,
+    full_name="TABLE",
 )
-def tabl(call: Call) -> Table:
-    """Make a table."""
-    same = call.read("TABLE")
-    if same is not None:
-        table: Table = same.value
-        return table
-    word = call.read("MOT")
-    return Table("" if word is None else str(word.value))
 
 
-@operator(
+@TABL.form(arg("table", "TABLE", en="table that gets a further name", fr="table à renommer"))
+def _same(table: Table) -> Table:
+    return table
+
+
+@TABL.form(opt("subtype", "MOT", default="", en="sub-type", fr="sous-type"))
+def _new(subtype: str) -> Table:
+    return Table(str(subtype))
+
+
+INDE = shared(
     "INDE",
-    family="tables",
-    full_name="INDEX",
-    help=Help(
+    "tables",
+    Help(
         en="Table (1 to n) of the indices of a table; with a type word such as *MAILLAGE, table "
         "of the named objects of that type, by name.",
         fr="Table (1 à n) des indices d'une table ; avec un mot de type comme *MAILLAGE, table des "
@@ -47,23 +46,29 @@ def tabl(call: Call) -> Table:
         syntax="TAB1 = INDE TAB2 ; TAB1 = INDE MOT1 ;",
         examples=("T = TABL ; T . 'A' = 3 ; I = INDE T ; LIST (I . 1) ;",),
     ),
-    reads_itself=True,
+    full_name="INDEX",
 )
-def inde(call: Call) -> Table:
-    """List indices."""
+
+
+@INDE.form(arg("table", "TABLE", en="table whose indices are wanted", fr="table à parcourir"))
+def _indices(table: Table) -> Table:
     made = Table()
-    operand = call.read("TABLE")
-    if operand is not None:
-        for place, (index, _) in enumerate(operand.value.items(), start=1):
-            made.set(place, index)
-        return made
-    call.operands[:] = [o for o in call.operands if o.span.text != "*"]
-    kind = str(call.required("MOT")).strip().lstrip("*").upper()[:8]
+    for place, (index, _) in enumerate(table.items(), start=1):
+        made.set(place, index)
+    return made
+
+
+@INDE.form(
+    flag("star", "*", en="stands before a type word", fr="précède un mot de type"),
+    arg("said", "MOT", en="type word", fr="mot de type"),
+)
+def _named(call: Call, star: bool, said: str) -> Table:
+    kind = str(said).strip().lstrip("*").upper()[:8]
     if kind not in known_types():
         raise call.error(
             "operators.tables.unknown-type", kind=kind, known_types=sorted(known_types())
         )
-    frame = call.session.frame
+    made, frame = Table(), call.session.frame
     for name in sorted(frame.names()):
         value = frame.find(name)
         if type_of(value) == kind:
@@ -71,27 +76,25 @@ def inde(call: Call) -> Table:
     return made
 
 
-@DIME.on(
-    "TABLE",
+@DIME.form(
+    main("table", "TABLE", en="table", fr="table"),
     en="Of a table: its number of indices.",
     fr="D'une table : son nombre d'indices.",
     examples=("T = TABL ; T . 1 = 2. ; LIST (DIME T) ;",),
 )
-def _size(call: Call, table: Table) -> int:
+def _size(table: Table) -> int:
     return len(table)
 
 
-@ENLE.on(
-    "TABLE",
+@ENLE.form(
+    main("table", "TABLE", en="table", fr="table"),
+    arg("index", "*", "TEXTE", en="index to leave out", fr="indice à omettre"),
     syntax="TAB2 = ENLE TAB1 OBJ1 ;",
     en="Of a table: a new table without an index.",
     fr="D'une table : une nouvelle table sans un indice.",
     examples=("T = TABL ; T . 1 = 5 ; T . 2 = 6 ; LIST (DIME (ENLE T 1)) ;",),
 )
-def _without(call: Call, table: Table) -> Table:
-    if not call.operands:
-        raise call.missing(("*",))
-    index = call.operands.pop(0).value
+def _without(call: Call, table: Table, index: Any) -> Table:
     if not table.has(index):
         raise call.error("no-index", index=index, known=[k for k, _ in table.items()])
     made = copied(table)
@@ -107,14 +110,14 @@ def copied(table: Table) -> Table:
     return made
 
 
-@COPI.on(
-    "TABLE",
+@COPI.form(
+    main("table", "TABLE", en="table", fr="table"),
     syntax="TAB2 = COPI TAB1 ;",
     en="Of a table: a new table with the same values; what it gets is its own.",
     fr="D'une table : une nouvelle table aux mêmes valeurs ; ce qu'on y met n'est qu'à elle.",
     examples=("T = TABL ; U = COPI T ; U . 1 = 2 ; LIST (DIME T) ;",),
 )
-def _copy(call: Call, table: Table) -> Table:
+def _copy(table: Table) -> Table:
     return copied(table)
 
 

@@ -6,7 +6,7 @@ from typing import Any
 
 from ssilang.kernel.mesh.combine import gathered
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import ANY, Help, arg, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import Table
 from ssilang.operators.dispatch import united
@@ -14,6 +14,8 @@ from ssilang.operators.dispatch import united
 
 @operator(
     "ETG",
+    arg("table", "TABLE", en="objects at 1, 2 ...", fr="objets en 1, 2 ..."),
+    gives=ANY,
     family="objects",
     help=Help(
         en="Union (ET) of the objects that a table of sub-type 'ESCLAVE' holds at the indices 1, 2 "
@@ -26,11 +28,9 @@ from ssilang.operators.dispatch import united
             "MESS (NBEL (T . 1)) (NBEL (ETG T)) ;",
         ),
     ),
-    reads_itself=True,
 )
-def etg(call: Call) -> Any:
+def etg(call: Call, table: Table) -> Any:
     """Union of a table's objects."""
-    table: Table = call.required("TABLE")
     if table.subtype != "ESCLAVE":
         raise call.error("operators.tables.wrong-subtype", table, subtype=table.subtype)
     values = [v for index, v in table.items() if type(index) is int]

@@ -10,8 +10,9 @@ import numpy as np
 from ssilang.io.plots.palette import NAMES as COLOURS
 from ssilang.kernel.curves.curve import Curve, Load
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import Help, arg, flag, key, lead, many, named, shared
 from ssilang.language.run.call import Call
+from ssilang.language.run.session import Session
 from ssilang.language.values import (
     ANNULE,
     ListChpo,
@@ -28,7 +29,6 @@ from ssilang.language.values import (
 )
 from ssilang.operators.dispatch import LISTINGS, listing
 from ssilang.operators.fields.signs import nature_word
-from ssilang.operators.session.control import name_of
 from ssilang.operators.texts.fortran_format import formatted
 
 _ROWS = 200  # rows printed of a field or curve before the middle is left out
@@ -268,8 +268,8 @@ def described(value: Any, mode: str = "", numbers: Sequence[int] = ()) -> str:
     return f"Objet de type {type_of(value)}"
 
 
-def _all_names(call: Call, kind: str) -> str:
-    frame = call.session.frame
+def _all_names(session: Session, kind: str) -> str:
+    frame = session.frame
     rows = []
     for name in sorted(frame.names()):
         value = frame.find(name)
@@ -278,12 +278,10 @@ def _all_names(call: Call, kind: str) -> str:
     return "\n".join([f"{len(rows)} objet(s) nommé(s){' de type ' + kind if kind else ''}", *rows])
 
 
-@operator(
+LIST = shared(
     "LIST",
-    family="output",
-    full_name="LISTE",
-    terminal=True,
-    help=Help(
+    "output",
+    Help(
         en="Prints what an object holds ('RESUME': less); without object, the names in use; "
         "*TYPE, those of one type. A number behind a list of numbers: values in a line (10 reals, "
         "20 integers); behind a table: how deep the tables that it holds are printed (10 at most); "
@@ -299,25 +297,45 @@ def _all_names(call: Call, kind: str) -> str:
             "T = TABL ; T . 1 = TABL ; T . 1 . 'A' = 3. ; LIST T 1 ;",
         ),
     ),
-    reads_itself=True,
+    full_name="LISTE",
+    terminal=True,
 )
-def list_objects(call: Call) -> None:
-    """Print objects."""
-    if not call.operands:
-        call.session.print(_all_names(call, ""))
-        return
-    if call.operands[0].span.text == "*" and len(call.operands) > 1:
-        kind = name_of(call.operands[1])[:8]
-        if kind not in known_types():
-            raise call.error(
-                "operators.texts.unknown-type", kind=kind, known_types=sorted(known_types())
-            )
-        call.operands.clear()
-        call.session.print(_all_names(call, kind))
-        return
-    mode = "RESU" if len(call.operands) > 1 and call.keyword(("RESU",)) else ""
-    operand = call.read("*", "TEXTE")
-    if operand is None:
-        raise call.missing(("*",))
-    numbers = [int(n) for n in call.all("ENTIER")]
-    call.session.print(described(operand.value, mode, numbers))
+_OBJECT = {"en": "what is printed", "fr": "ce qui est imprimé"}
+
+
+@LIST.form(
+    key("star", "*", optional=False, en="all objects of a type", fr="les objets d'un type"),
+    named("kind", en="type word", fr="mot de type"),
+)
+def _list_names(call: Call, star: bool, kind: str) -> None:
+    wanted = kind[:8]
+    if wanted not in known_types():
+        raise call.error(
+            "operators.texts.unknown-type", kind=wanted, known_types=sorted(known_types())
+        )
+    call.session.print(_all_names(call.session, wanted))
+
+
+@LIST.form(
+    flag("brief", "RESU", en="less of it", fr="en résumé"),
+    arg("value", "*", "TEXTE", **_OBJECT),
+    many(
+        "numbers",
+        "ENTIER",
+        en="values in a line, depth of tables, or first and last line",
+        fr="valeurs par ligne, profondeur des tables, ou première et dernière ligne",
+    ),
+)
+def _list_object(session: Session, brief: bool, value: Any, numbers: tuple[int, ...]) -> None:
+    session.print(described(value, "RESU" if brief else "", numbers))
+
+
+@LIST.form(lead("value", "*", "TEXTE", **_OBJECT))
+def _list_word(session: Session, value: Any) -> None:
+    """A word that is spelt like the keyword, alone."""
+    session.print(described(value))
+
+
+@LIST.form()
+def _list_all(session: Session) -> None:
+    session.print(_all_names(session, ""))

@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
-from ssilang.language.registry import Help, choice, operator, opt
+from ssilang.language.registry import Help, arg, choice, key, many, operator, opt, shared
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SsiError
 from ssilang.language.values import ListEnti, ListMots, ListReel
-from ssilang.operators.texts.words import read_text, written
+from ssilang.operators.texts.words import TEXT, TEXT_IS_FREE, read_text, written
 from ssilang.operators.workspace import workspace
 
 
 @operator(
     "MESS",
+    *TEXT,
     family="output",
     full_name="MESSAGE",
     help=Help(
@@ -23,11 +25,22 @@ from ssilang.operators.workspace import workspace
         syntax="MESS ('FORMAT' MOT2) OBJ1 (*N1 | /N1 | <N1 | >N1) (OBJ2 ...) ;",
         examples=("X = 2. ; MESS 'x = ' X ;", "MESS 'count' 12*20 ;"),
     ),
-    reads_itself=True,
+    reads_itself=TEXT_IS_FREE,
 )
 def mess(call: Call) -> None:
     """Print one line."""
     call.session.print(read_text(call))
+
+
+_OF_LIBRARY = "stdlib."
+_STOPPED = 308  # Cast3M's number of an error that a script reports in its own words
+
+
+def _of_library(call: Call, code: str) -> SsiError:
+    """What a procedure of the library refuses: a code, then what fills its sentence, in order."""
+    values = call.all("MOT", "ENTIER", "FLOTTANT", "LOGIQUE")
+    data = {str(i): written(value).strip() for i, value in enumerate(values, start=1)}
+    return SsiError(code, call.span, **data, number=_STOPPED)
 
 
 # what the numbers most used in decks mean, in words of our own: English, French
@@ -44,7 +57,7 @@ _SENTENCES: dict[int, tuple[str, str]] = {
 }
 
 
-def _flat(values: list[Any]) -> str:
+def _flat(values: Sequence[Any]) -> str:
     words: list[str] = []
     for value in values:
         many = value.values if isinstance(value, ListReel | ListEnti | ListMots) else [value]
@@ -52,11 +65,10 @@ def _flat(values: list[Any]) -> str:
     return " ".join(words)
 
 
-@operator(
+ERRE = shared(
     "ERRE",
-    family="output",
-    full_name="ERREUR",
-    help=Help(
+    "output",
+    Help(
         en="Reports an error and stops the run: a text, or the number of a message with the "
         "objects that fill it. ERRE 0 reports nothing; a negative number prints the message and "
         "goes on.",
@@ -66,35 +78,46 @@ def _flat(values: list[Any]) -> str:
         syntax="ERRE MOT1 ; ERRE N1 ('AVEC' OBJ1 OBJ2 ...) ;",
         examples=("SI (1 > 2) ; ERRE 'one is not larger than two' ; FINSI ;",),
     ),
-    reads_itself=True,
+    full_name="ERREUR",
 )
-def erre(call: Call) -> None:
-    """Raise the error 'erre'."""
-    number = call.read("ENTIER")
-    if number is None:
-        text = call.required("MOT")
-        raise SsiError("erre", call.span, message=str(text), number=308)
-    if number.value == 0:
+
+
+@ERRE.form(
+    arg("number", "ENTIER", en="number of the message", fr="numéro du message"),
+    key(
+        "values",
+        "AVEC",
+        many("values", "MOT", "ENTIER", "FLOTTANT", "LOGIQUE", "LISTMOTS", "LISTENTI", "LISTREEL"),
+        default=(),
+        en="what completes the message",
+        fr="ce qui complète le message",
+    ),
+)
+def _numbered(call: Call, number: int, values: tuple[Any, ...]) -> None:
+    if number == 0:
         return
-    values: list[Any] = []
-    if call.keyword(("AVEC",)) is not None:
-        kinds = ("MOT", "ENTIER", "FLOTTANT", "LOGIQUE", "LISTMOTS", "LISTENTI", "LISTREEL")
-        values = call.all(*kinds)
     french = call.session.language == "fr"
     unknown = ("the deck stops", "le jeu de données s'arrête")
-    sentence = _SENTENCES.get(abs(number.value), unknown)
+    sentence = _SENTENCES.get(abs(number), unknown)
     said = _flat(values)
     message = sentence[french] + (f": {said}" if said else "")
-    if number.value < 0:
-        call.session.print(f" ***** {-number.value} ***** {said or message}")
+    if number < 0:
+        call.session.print(f" ***** {-number} ***** {said or message}")
         return
-    raise SsiError("erre", call.span, message=message, number=number.value)
+    raise SsiError("erre", call.span, message=message, number=number)
+
+
+@ERRE.form(arg("text", "MOT", en="what is wrong", fr="ce qui ne va pas"))
+def _worded(call: Call, text: str) -> None:
+    if text.startswith(_OF_LIBRARY):
+        raise _of_library(call, str(text))
+    raise SsiError("erre", call.span, message=str(text), number=_STOPPED)
 
 
 @operator(
     "SAUT",
-    opt("count", "ENTIER", default=1),
-    choice("what", ("LIGN", "PAGE")),
+    opt("count", "ENTIER", default=1, en="number of lines", fr="nombre de lignes"),
+    choice("what", ("LIGN", "PAGE"), en="lines, or a page", fr="lignes, ou page"),
     family="output",
     help=Help(
         en="Prints blank lines ('PAGE': one).",
@@ -111,6 +134,7 @@ def saut(session: Session, count: int, what: str | None) -> None:
 
 @operator(
     "TITR",
+    *TEXT,
     family="output",
     full_name="TITRE",
     help=Help(
@@ -119,7 +143,7 @@ def saut(session: Session, count: int, what: str | None) -> None:
         syntax="TITR OBJ1 (OBJ2 ...) ;",
         examples=("TITR 'Settlement of the footing' ;",),
     ),
-    reads_itself=True,
+    reads_itself=TEXT_IS_FREE,
 )
 def titr(call: Call) -> None:
     """Set the title."""

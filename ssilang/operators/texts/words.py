@@ -4,14 +4,43 @@ from __future__ import annotations
 
 from typing import Any
 
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import Help, Like, arg, key, main, many, operator, opt, said
 from ssilang.language.run.call import Call
-from ssilang.language.values import ListMots, Mot, Table
+from ssilang.language.values import (
+    ListEnti,
+    ListMots,
+    Mot,
+    Procedure,
+    Table,
+    known_types,
+    type_of,
+)
 from ssilang.operators.dispatch import CHAN, DIME, EXTR, union
 from ssilang.operators.lists.making import check_length
 from ssilang.operators.texts.fortran_format import DEFAULT_FORMAT, formatted
 
 _MARKS = frozenset("*/<>")
+TEXT = (
+    key(
+        "form",
+        "FORMAT",
+        arg("form", "MOT"),
+        repeated=True,
+        en="Fortran format of the numbers that follow",
+        fr="format Fortran des nombres qui suivent",
+    ),
+    many(
+        "items",
+        "MOT",
+        "ENTIER",
+        "FLOTTANT",
+        "LOGIQUE",
+        en="what is written, each with a column if one is given",
+        fr="ce qui est écrit, chacun avec une colonne si elle est donnée",
+    ),
+)
+"""What `read_text` reads."""
+TEXT_IS_FREE = "its words and numbers stand in any order, with tab marks and formats between"
 
 
 def written(value: object, form: str = DEFAULT_FORMAT) -> str:
@@ -79,6 +108,7 @@ def read_text(call: Call) -> str:
 
 @operator(
     "CHAI",
+    *TEXT,
     family="words",
     full_name="CHAINE",
     terminal=True,
@@ -96,7 +126,7 @@ def read_text(call: Call) -> str:
             "MESS (CHAI 'FORMAT' '(F8.3)' 'x' 2.5*20) ;",
         ),
     ),
-    reads_itself=True,
+    reads_itself=TEXT_IS_FREE,
 )
 def chai(call: Call) -> Mot:
     """Write operands into one word."""
@@ -105,6 +135,8 @@ def chai(call: Call) -> Mot:
 
 @operator(
     "MOT",
+    arg("text", "PROCEDUR", "MOT", en="a word, bare or quoted", fr="un mot, nu ou non"),
+    gives="MOT|PROCEDUR",
     family="words",
     terminal=True,
     help=Help(
@@ -113,34 +145,40 @@ def chai(call: Call) -> Mot:
         syntax="MOT1 = MOT MOT2 ;",
         examples=("M = MOT 'LIST' ; LIST M ;",),
     ),
-    reads_itself=True,
 )
-def mot(call: Call) -> Any:
+def mot(text: Mot | Procedure) -> Any:
     """Give a word back; a bare name of a procedure stays a procedure."""
-    operand = call.read("PROCEDUR", "MOT")
-    if operand is None:
-        raise call.missing(("MOT",))
-    return operand.value
+    return text
 
 
-@CHAN.on(
-    "MAJU",
-    "MINU",
+@CHAN.form(
+    said("MAJU", "MINU"),
+    arg("text", "MOT", "LISTMOTS", en="words to change", fr="mots à changer"),
+    gives=Like("text"),
     syntax="MOT2 = CHAN 'MAJU' | 'MINU' MOT1 ;",
     en="MAJU and MINU change the case of a word.",
     fr="MAJU et MINU changent la casse d'un mot.",
     examples=("MESS (CHAN 'MAJU' 'abc') ;",),
 )
-def _case(call: Call, word: str) -> Mot | ListMots:
-    value = call.required("MOT", "LISTMOTS")
+def _case(word: str, text: Mot | ListMots) -> Mot | ListMots:
     change = str.upper if word == "MAJU" else str.lower
-    if isinstance(value, ListMots):
-        return ListMots([change(v) for v in value.values])
-    return Mot(change(str(value)))
+    if isinstance(text, ListMots):
+        return ListMots([change(v) for v in text.values])
+    return Mot(change(str(text)))
 
 
-@EXTR.on(
-    "MOT",
+@EXTR.form(
+    main("text", "MOT", en="word", fr="mot"),
+    arg("places", "LISTENTI", en="places of its characters", fr="rangs de ses caractères"),
+)
+def _letters(call: Call, text: str, places: ListEnti) -> Mot:
+    return Mot("".join(_letter(call, text, int(i)) for i in places.values))
+
+
+@EXTR.form(
+    main("text", "MOT", en="word", fr="mot"),
+    arg("first", "ENTIER", en="first character", fr="premier caractère"),
+    opt("last", "ENTIER", en="last character, the end by default", fr="dernier, la fin sinon"),
     syntax="MOT2 = EXTR MOT1 N1 (N2) ; MOT2 = EXTR MOT1 LISTENTI1 ; TAB1 = EXTR 'TYPE1' ;",
     en="Of a word: characters N1 to N2 (to the end without N2). With a type word alone: table of "
     "all named objects of that type.",
@@ -148,24 +186,18 @@ def _case(call: Call, word: str) -> Mot | ListMots:
     "table de tous les objets nommés de ce type.",
     examples=("MESS (EXTR 'abcdef' 2 4) ;",),
 )
-def _extract_word(call: Call, word: str) -> Any:
-    places = call.read("LISTENTI")
-    if places is not None:
-        return Mot("".join(_letter(call, word, int(i)) for i in places.value.values))
-    first = call.read("ENTIER")
-    if first is None:
-        return _named(call, word)
-    last = call.optional("ENTIER", default=len(word))
-    if not 1 <= first.value <= max(len(word), 1) or not first.value <= last <= len(word):
+def _extract_word(call: Call, text: str, first: int, last: int | None) -> Mot:
+    end = len(text) if last is None else last
+    if not 1 <= first <= max(len(text), 1) or not first <= end <= len(text):
         raise call.error(
             "operators.texts.characters-beyond-end",
-            first.value,
-            word=word,
-            size=len(word),
-            first=first.value,
-            last=last,
+            first,
+            word=text,
+            size=len(text),
+            first=first,
+            last=end,
         )
-    return Mot(word[first.value - 1 : last])
+    return Mot(text[first - 1 : end])
 
 
 def _letter(call: Call, word: str, i: int) -> str:
@@ -174,9 +206,8 @@ def _letter(call: Call, word: str, i: int) -> str:
     return word[i - 1]
 
 
+@EXTR.form(main("kind", "MOT", en="type word", fr="mot de type"))
 def _named(call: Call, kind: str) -> Table:
-    from ssilang.language.values import known_types, type_of
-
     wanted = kind.strip().lstrip("*").upper()
     if wanted not in known_types():
         raise call.error(
@@ -190,14 +221,14 @@ def _named(call: Call, kind: str) -> Table:
     return found
 
 
-@DIME.on(
-    "MOT",
+@DIME.form(
+    main("text", "MOT", en="word", fr="mot"),
     en="Of a word: its number of characters.",
     fr="D'un mot : son nombre de caractères.",
     examples=("LIST (DIME 'abc') ;",),
 )
-def _length(call: Call, word: str) -> int:
-    return len(word)
+def _length(text: str) -> int:
+    return len(text)
 
 
 @union(("MOT", "MOT"))

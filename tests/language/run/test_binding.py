@@ -22,8 +22,10 @@ from ssilang.language.registry import (
     flag,
     group,
     key,
+    lead,
     main,
     many,
+    named,
     opt,
     said,
     select,
@@ -288,3 +290,36 @@ def test_a_keyword_behind_a_pair_does_not_take_its_value(declare):
     assert run("P = PROG 1. ; Q = PROG 2. ; A = ZZZZ 'VECT' P 'DIRE' Q ;")[0] == 0
     assert [v.values[0] for v in declare.found[0]["axes"]] == [2.0]
     assert declare.found[0]["pairs"][0][1].values[0] == 1.0
+
+
+def test_what_leads_may_be_spelt_like_a_keyword(declare):
+    declare(lead("item"), key("list", "DANS", arg("l", "LISTMOTS"), optional=False))
+    assert run("A = ZZZZ 'DANS' 'DANS' (MOTS 'X') ; A = ZZZZ 'B' 'DANS' (MOTS 'X') ;")[0] == 0
+    assert [v["item"] for v in declare.found] == ["DANS", "B"]
+
+
+def test_what_leads_stands_behind_the_word_that_chooses_the_form(declare):
+    declare(said("CSV"), lead("file", "MOT"), key("first", "DEBU", arg("n", "ENTIER")))
+    declare(arg("x", "ENTIER"))
+    text = "A = ZZZZ 'CSV' 'debut.csv' 'DEBU' 2 ; A = ZZZZ 'DEBU' 3 'CSV' 'f.csv' ; A = ZZZZ 1 ;"
+    assert run(text)[0] == 0
+    assert declare.found == [
+        {"file": "debut.csv", "first": 2},
+        {"file": "f.csv", "first": 3},
+        {"x": 1},
+    ]
+
+
+def test_a_name_is_taken_whatever_object_bears_it(declare):
+    declare(named("loop"), opt("n", "ENTIER"))
+    assert run("X = 3. ; A = ZZZZ X 2 ; A = ZZZZ NEVER ;")[0] == 0
+    assert declare.found == [{"loop": "X", "n": 2}, {"loop": "NEVER", "n": None}]
+    code, output = run("A = ZZZZ 5. ;")
+    assert code == 1
+    assert "MOT" in output
+
+
+def test_whole_operands_have_their_names(declare):
+    declare(many("values", "FLOTTANT", whole=True))
+    assert run("X = 3. ; A = ZZZZ X 4 ;")[0] == 0
+    assert [(o.name, o.value) for o in declare.found[0]["values"]] == [("X", 3.0), ("", 4.0)]

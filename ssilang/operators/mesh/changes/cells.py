@@ -71,7 +71,7 @@ def _changed_block(block: CellBlock, target: str) -> Mesh:
         return changed(faces(alone), target)
     if (target, block.cell_type) in (("QUA4", "TRI3"), ("QUA8", "TRI6")):
         return alone  # triangles among quadrangles stay as they are
-    raise MeshError(f"cells of type {block.cell_type} cannot be changed into {target}")
+    raise MeshError("operators.mesh.no-change-of-cells", cell_type=block.cell_type, target=target)
 
 
 def _by_hand(mesh: Mesh, target: str, order: IntArray) -> Mesh:
@@ -79,9 +79,9 @@ def _by_hand(mesh: Mesh, target: str, order: IntArray) -> Mesh:
     ids = mesh.node_ids
     size = CELL_TYPES[target].n_nodes
     if len(order) % size or not len(order):
-        raise MeshError(f"{len(order)} numbers do not make whole cells of {size} points")
+        raise MeshError("operators.mesh.no-whole-cells", n_order=len(order), size=size)
     if order.min() < 1 or order.max() > len(ids):
-        raise MeshError(f"the numbers go beyond the {len(ids)} points of the mesh")
+        raise MeshError("operators.mesh.numbers-beyond-points", n_ids=len(ids))
     return Mesh.of(mesh.nodes, target, ids[order - 1].reshape(-1, size))
 
 
@@ -117,7 +117,7 @@ def change_to_current(session: Session, mesh: Mesh, numbers: ListEnti | None) ->
     """Mesh of the cell type of OPTI ELEM."""
     target = workspace(session).element
     if not target:
-        raise MeshError("no element type is chosen yet", "set it: OPTI ELEM, or name the type")
+        raise MeshError("operators.mesh.no-target-type")
     return changed(mesh, target) if numbers is None else _by_hand(mesh, target, numbers.values)
 
 
@@ -179,6 +179,6 @@ def by_hand(session: Session, word: str, given: Sequence[Point | Mesh], colour: 
     ids = np.concatenate([[g.node] if isinstance(g, Point) else g.node_ids for g in given])
     size = CELL_TYPES[word].n_nodes
     if len(ids) % size:
-        raise MeshError(f"a cell {word} needs {size} points, {len(ids)} are given")
+        raise MeshError("operators.mesh.points-of-cells", word=word, size=size, n_ids=len(ids))
     shade = ws.colour if colour is None else COLOURS.index(colour)
     return Mesh.of(ws.nodes, word, ids.astype(np.int64).reshape(-1, size), shade)

@@ -50,7 +50,7 @@ _FR = (
 def racc(session: Session, distance: float | None, first: Mesh, second: Mesh) -> Mesh:
     """Joints between lines."""
     if first.dimension > 1:
-        raise MeshError("RACC joins lines", "between surfaces use LIAI")
+        raise MeshError("operators.mesh.lines-wanted")
     return _joint(session, first, second, distance)
 
 
@@ -78,7 +78,7 @@ def racc(session: Session, distance: float | None, first: Mesh, second: Mesh) ->
 def liai(session: Session, distance: float | None, first: Mesh, second: Mesh) -> Mesh:
     """Joints between surfaces."""
     if first.dimension < 2:
-        raise MeshError("LIAI joins surfaces", "between lines use RACC")
+        raise MeshError("operators.mesh.surfaces-wanted")
     return _joint(session, first, second, distance)
 
 

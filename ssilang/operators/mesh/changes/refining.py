@@ -25,21 +25,14 @@ def refined(mesh: Mesh, sizes: NodeField) -> Mesh:
         If the field has several components, lacks at a node, or for cells that are not divided.
     """
     if len(sizes.components) != 1:
-        raise MeshError(
-            f"the field of sizes has {len(sizes.components)} components, one is needed",
-            "EXCO picks one",
-        )
+        raise MeshError("operators.mesh.one-size-wanted", n_components=len(sizes.components))
     cells, ties = parted(mesh)
     if ties:
-        raise MeshError(
-            "the mesh has been refined before: its SURE cells tie nodes that a second division "
-            "would move",
-            "refine the first mesh to the sizes wanted in the end",
-        )
+        raise MeshError("operators.mesh.refined-before")
     wanted = sizes.values_at(next(iter(sizes.components)), cells.node_ids, np.nan)
     if np.isnan(wanted).any():
         node = int(cells.node_ids[np.isnan(wanted)][0]) + 1
-        raise MeshError(f"no size is given at node {node}", "give the field on the whole mesh")
+        raise MeshError("operators.mesh.no-size-at-node", node=node)
     return divided_to_sizes(cells, wanted)
 
 

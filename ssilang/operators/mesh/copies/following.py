@@ -141,6 +141,6 @@ def _copied(
     objects: Sequence[Any], before: Mesh, after: Mesh, rotation: FloatArray | None
 ) -> tuple[Any, ...]:
     if not objects:
-        raise MeshError("nothing is given to transform")
+        raise MeshError("operators.mesh.nothing-to-copy")
     copier = Copier(mapping_between(before, after), rotation)
     return tuple(copier(v) for v in objects)

@@ -136,7 +136,7 @@ def turned(
         return
     size = float(np.linalg.norm(direction))
     if size == 0.0:
-        raise MeshError("the two points of the axis of rotation coincide")
+        raise MeshError("operators.mesh.axis-without-length")
     ids = np.unique(_ids(moved))
     degrees = angle.values_at(next(iter(angle.components)), ids)
     place = moved.nodes.coordinates
@@ -179,7 +179,9 @@ def _exactly(call: Call, points: Sequence[Point], count: int) -> list[FloatArray
     if len(points) < count:
         raise call.missing(("POINT",))
     if len(points) > count:
-        raise call.bad(f"{count} point(s) are needed here, {len(points)} are given", points[-1])
+        raise call.error(
+            "operators.mesh.points-in-excess", points[-1], count=count, n_points=len(points)
+        )
     return positions(points)
 
 

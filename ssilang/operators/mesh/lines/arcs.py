@@ -118,7 +118,7 @@ def turned_point(
     count, degrees = count_and_angle(call, count, angle)
     cuts = cuts_of(call, count, sizes)
     if closed and abs(abs(degrees) - 360.0) > 1e-6:
-        raise call.bad(f"ELIM closes a turn of 360 degrees, the angle is {degrees:g}")
+        raise call.error("operators.mesh.turn-not-whole", degrees=degrees)
     origin, direction = axis_of(call, axis)
 
     def way(at: FloatArray) -> tuple[Arc, float]:

@@ -45,9 +45,9 @@ def cong(
 ) -> tuple[Mesh, Mesh, Mesh]:
     """Round a corner; an integer alone is the radius."""
     if double:
-        raise call.bad("CONG 'DOUBLE' is not available", hint="draw the two arcs with CERC")
+        raise call.error("operators.mesh.no-double-fillet")
     if radius is None:
         radius, count = float(count or 0), 0
     if radius <= 0.0:
-        raise call.bad(f"the radius is positive, this one is {radius:g}")
+        raise call.error("operators.mesh.radius-not-positive", radius=radius)
     return fillet(first, second, radius, abs(count or 0), workspace(call.session).colour)

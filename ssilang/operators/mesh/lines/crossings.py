@@ -105,12 +105,9 @@ def crossing(
     """The line along which two surfaces cross, from a point or a line to another."""
     cuts = cuts_of(call, count, sizes)
     if length is not None and length <= 0.0:
-        raise call.bad(f"the length of the curve is positive, not {length:g}", length)
+        raise call.error("operators.mesh.curve-length-not-positive", length, length=length)
     if len(surfaces) != 2:
-        raise call.bad(
-            f"a curve is the crossing of two surfaces, {len(surfaces)} stand here",
-            hint="'PLAN' P1, 'SPHE' C1, 'CYLI' A1 A2, 'CONI' S1 A1 or 'TORI' C1 A1 C2, twice",
-        )
+        raise call.error("operators.mesh.two-surfaces-wanted", n_surfaces=len(surfaces))
     ends = ends_of(call, start, end)
     ws = workspace(call.session)
     first, last = positions(ws, ends.start, ends.end)

@@ -90,7 +90,7 @@ def cuts_of(call: Call, count: int | None, sizes: Sizes) -> Cuts:
     """What `COUNT` and `SIZES` have read."""
     for _, size in sizes:
         if size <= 0.0:
-            raise call.bad(f"a mesh size is positive, this one is {size:g}", size)
+            raise call.error("operators.mesh.size-not-positive", size, size=size)
     said = dict(sizes)
     return Cuts(count or 0, said.get("DINI", 0.0), said.get("DFIN", 0.0))
 
@@ -110,7 +110,9 @@ def axis_of(call: Call, points: Sequence[Point]) -> tuple[FloatArray, FloatArray
     if len(points) < needed:
         raise call.missing(("POINT",))
     if len(points) > needed:
-        raise call.bad(f"{needed} point(s) say where it turns, {len(points)} are given", points[-1])
+        raise call.error(
+            "operators.mesh.axis-points", points[-1], needed=needed, n_points=len(points)
+        )
     origin = points[0].coordinates.copy()
     if needed == 1:
         return origin, np.array([0.0, 0.0, 1.0])
@@ -126,7 +128,7 @@ def chosen_family(ws: Workspace) -> Family:
         If it was not set.
     """
     if not ws.element:
-        raise MeshError("no element type is chosen yet", "set it: OPTI ELEM QUA4 (SEG2, TRI3 ...)")
+        raise MeshError("operators.mesh.no-element-type")
     return family_of(ws.element)
 
 

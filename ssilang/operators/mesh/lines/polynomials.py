@@ -212,7 +212,7 @@ def _curve_ends(
             continue
         node = there.node if isinstance(there, Point) else line_ends(there)[side]
         if float(np.linalg.norm(ws.nodes.coordinates[node] - tip)) > 1e-4 * scale:
-            raise call.bad(f"the point behind {word} is not where the curve ends", there)
+            raise call.error("operators.mesh.point-off-curve", there, word=word)
         nodes.append(node)
     lines = (m if isinstance(m, Mesh) else None for m in (before, after))
     return Ends(nodes[0], nodes[1], *lines)

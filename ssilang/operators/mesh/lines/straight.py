@@ -192,9 +192,9 @@ def quel(
     if not lists:
         return polyline(ws.nodes, _given_nodes(call, points), quadratic, ws.colour)
     if points:
-        raise call.bad("a line goes through points or through lists of coordinates", points[0])
+        raise call.error("operators.mesh.points-and-lists", points[0])
     if len({len(v) for v in lists}) > 1:
-        raise call.bad("the lists of coordinates have different lengths", lists[1])
+        raise call.error("operators.mesh.coordinate-lists-differ", lists[1])
     table = np.column_stack([v.values for v in lists[: max(ws.dimension, 1)]])
     return chain_mesh(ws.nodes, ws.nodes.add(table, ws.density), quadratic, ws.colour)
 

@@ -78,7 +78,7 @@ def one_coordinate(call: Call, support: Support, axis: int) -> float | NodeField
     """One coordinate, or the density."""
     dimension = max(workspace(call.session).dimension, 1)
     if not 1 <= axis <= dimension + 1:
-        raise call.bad(f"coordinate {axis} is asked in dimension {dimension}", axis)
+        raise call.error("operators.mesh.no-such-coordinate", axis, axis=axis, dimension=dimension)
     return _coordinate(support, axis - 1, axis > dimension)
 
 

@@ -35,7 +35,7 @@ def numbered(session: Session, call: Call, number: int) -> Point:
     """The point of a node."""
     nodes = workspace(session).nodes
     if not 1 <= number <= len(nodes):
-        raise call.bad(f"there is no node {number}, numbers go from 1 to {len(nodes)}", number)
+        raise call.error("operators.mesh.no-such-node", number, number=number, n_nodes=len(nodes))
     return Point(nodes, number - 1)
 
 
@@ -92,4 +92,4 @@ def centres_of_cells(session: Session, mesh: Mesh) -> Mesh:
 
 def _not_empty(mesh: Mesh) -> None:
     if not mesh.n_cells:
-        raise MeshError("the mesh is empty: it has no barycentre")
+        raise MeshError("operators.mesh.no-barycentre")

@@ -131,7 +131,7 @@ def poin(session: Session, call: Call, mesh: Mesh, number: int, cell: int | None
         if 1 <= place <= len(block) and 1 <= number <= block.kind.n_nodes:
             return Point(nodes, int(block.connectivity[place - 1, number - 1]))
         place -= len(block)
-    raise call.bad(f"the mesh has no node {number} of element {cell}", number)
+    raise call.error("operators.mesh.no-such-node-of-cell", number, number=number, cell=cell)
 
 
 def _numbered(call: Call, mesh: Mesh, number: int) -> int:
@@ -140,12 +140,12 @@ def _numbered(call: Call, mesh: Mesh, number: int) -> int:
         ids = mesh.node_ids
     else:
         if not mesh.n_cells:
-            raise MeshError("the mesh is empty: it has no points")
+            raise MeshError("operators.mesh.no-points")
         starts = [b.connectivity[:, 0] for b in mesh.blocks]
         ends = [b.connectivity[-1:, -1] for b in mesh.blocks if b.kind.dimension == 1]
         ids = np.concatenate([*starts, *ends])
     if not 1 <= number <= len(ids):
-        raise call.bad(f"point {number} is asked of {len(ids)}", number)
+        raise call.error("operators.mesh.no-such-point", number, number=number, n_ids=len(ids))
     return int(ids[number - 1])
 
 
@@ -160,7 +160,7 @@ def junctions_of(session: Session, mesh: Mesh) -> Mesh:
     """Points that join more than two cells."""
     ids = junctions(mesh)
     if len(ids) == 0:
-        raise MeshError("no point of the mesh joins more than two elements")
+        raise MeshError("operators.mesh.no-junction")
     return poi1(workspace(session).nodes, ids)
 
 
@@ -197,7 +197,7 @@ def on_shape(session: Session, shape: Chosen, mesh: Mesh, distance: float | None
     at = ws.nodes.coordinates[ids]
     near = np.abs(shape_of(shape).distance(at)) <= tolerance_of(ws, distance, at)
     if not near.any():
-        raise MeshError(f"no point of the mesh lies there ({shape.word})", "give a larger distance")
+        raise MeshError("operators.mesh.no-point-there", word=shape.word)
     return poi1(ws.nodes, ids[near])
 
 
@@ -291,7 +291,7 @@ def made_of_lists(
     """Make a mesh of points."""
     ws = workspace(session)
     if len({len(v) for v in lists}) > 1:
-        raise call.bad("the lists of coordinates have different lengths", lists[-1])
+        raise call.error("operators.mesh.coordinate-lists-differ", lists[-1])
     size = ws.density if density is None else density
     table = np.column_stack([v.values for v in lists])
     ids = ws.nodes.add(table, size.values if isinstance(size, ListReel) else size)

@@ -85,7 +85,7 @@ def mesu(mesh: Mesh, what: str | None) -> float:
         return enclosed_area(mesh)
     if (asked, mesh.dimension) == (3, 2):
         return enclosed_volume(mesh)
-    raise MeshError(f"{what} of a mesh of dimension {mesh.dimension} has no meaning")
+    raise MeshError("operators.mesh.no-such-measure", what=what, dimension=mesh.dimension)
 
 
 @mesu.form(said("DENS"), arg("mesh", "MAILLAGE", en="mesh", fr="maillage"))

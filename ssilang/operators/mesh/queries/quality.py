@@ -87,14 +87,14 @@ def topological(
     """Quality of cells, in a metric."""
     kinds = {b.cell_type for b in mesh.blocks}
     if len(mesh.blocks) != 1 or not kinds <= {"TRI3", "TET4"}:
-        raise call.bad("'TOPO' is for a mesh of TRI3 or of TET4 alone", mesh)
+        raise call.error("operators.mesh.simplices-wanted", mesh)
     cells = mesh.blocks[0]
     wanted: FloatArray | None = None
     if isinstance(metric, NodeField):
         wanted = _metric(call, cells, metric, workspace(call.session).mode.dimension)
     elif metric is not None:
         if metric <= 0:
-            raise call.bad("the length wanted must be > 0", metric)
+            raise call.error("operators.mesh.wanted-length-not-positive", metric)
         wanted = np.broadcast_to(np.eye(3) / metric**2, (len(cells), 3, 3))
     values = quality_in_metric(cells.coordinates, wanted)
     if listed:
@@ -110,9 +110,7 @@ def _metric(call: Call, cells: CellBlock, field: NodeField, dimension: int) -> F
         names = {(i, i): "G" for i in range(dimension)}
     missing = [n for n in names.values() if n not in field.components]
     if missing:
-        raise call.bad(
-            f"the metric lacks {' '.join(missing)}", field, hint="G, or G11 G21 G22 (G31 G32 G33)"
-        )
+        raise call.error("operators.mesh.metric-incomplete", field, missing=missing)
     nodes = cells.connectivity
     M = np.zeros((len(nodes), 3, 3))
     for (i, j), name in names.items():
@@ -126,6 +124,11 @@ def _block(call: Call, cells: CellBlock, words: list[str]) -> CellFieldBlock:
     for word in words:
         kinds, measure = _MEASURES[word]
         if cells.cell_type not in kinds:
-            raise call.bad(f"'{word}' is for {' '.join(kinds)}, not for {cells.cell_type}")
+            raise call.error(
+                "operators.mesh.measure-of-other-cells",
+                word=word,
+                kinds=kinds,
+                cell_type=cells.cell_type,
+            )
         made[word] = measure(cells.coordinates)[:, None]
     return CellFieldBlock(cells, made, "GRAVITE")

@@ -61,7 +61,7 @@ def cont(mesh: Mesh, which: str, allowed: bool) -> Mesh:
     if which in ("INTE", "TOUT"):
         parts += inner_contour(mesh).blocks
     if not parts and not allowed:
-        raise MeshError("the mesh has no contour", "'NOID' allows an empty result")
+        raise MeshError("operators.mesh.no-contour")
     return _whole_lines(Mesh(mesh.nodes, tuple(parts)))
 
 
@@ -94,7 +94,7 @@ def enve(mesh: Mesh, inwards: bool, allowed: bool) -> Mesh:
     """Skin of a volume."""
     skin = envelope(orient(mesh, 3) if inwards else mesh)
     if not skin.blocks and not allowed:
-        raise MeshError("the mesh has no envelope", "it holds no volume cells; 'NOID' allows that")
+        raise MeshError("operators.mesh.no-envelope")
     return Mesh(skin.nodes, tuple(flip(b) for b in skin.blocks))
 
 

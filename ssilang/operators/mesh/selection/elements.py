@@ -178,7 +178,7 @@ def holding_point(holding: Chosen, mesh: Mesh, every: bool, allowed: bool) -> Me
     """Pick the cells that hold a point."""
     made = containing(mesh, holding["point"].coordinates, every)
     if not made.blocks and not allowed:
-        raise MeshError("the point is outside of all elements of the mesh", "'NOVE' allows that")
+        raise MeshError("operators.mesh.point-outside")
     return made
 
 
@@ -222,10 +222,7 @@ def resting_on_points(
     )
     made = resting_on(mesh, ids, resting["how"] != "LARGEMENT")
     if not made.blocks and not resting["allowed"]:
-        raise MeshError(
-            "no element of the mesh rests on these points",
-            "check that they belong to the mesh (ELIM), or use 'LARG'; 'NOVE' allows none",
-        )
+        raise MeshError("operators.mesh.no-cell-rests")
     return made
 
 
@@ -245,20 +242,20 @@ def _filtered(mesh: Mesh, filters: Sequence[str]) -> Mesh:
 def _of_colour(mesh: Mesh, colour: int) -> Mesh:
     made = take(mesh, lambda b: b.colours == colour)
     if not made.blocks:
-        raise MeshError(f"no element has colour {COLOURS[colour]}", "see OPTI COUL and COUL")
+        raise MeshError("operators.mesh.no-cell-of-colour", colour=COLOURS[colour])
     return made
 
 
 def _numbered(call: Call, mesh: Mesh, which: int | ListEnti | None) -> Mesh:
     left = call.peek_word()
     if left is not None and find_operator(left) is None:
-        raise call.bad(f"'{left.rstrip()}' is no element type, colour or keyword of ELEM")
+        raise call.error("operators.mesh.unknown-filter", left=left.rstrip())
     if which is None:
         return mesh
     numbers = which.values if isinstance(which, ListEnti) else np.array([which])
     if (numbers < 1).any() or (numbers > mesh.n_cells).any():
         wrong = numbers[(numbers < 1) | (numbers > mesh.n_cells)][0]
-        raise call.bad(f"element {wrong} is asked of {mesh.n_cells}", which)
+        raise call.error("operators.mesh.no-such-cell", which, wrong=wrong, n_cells=mesh.n_cells)
     blocks, start = [], 0
     for block in mesh.blocks:
         rows = numbers[(numbers > start) & (numbers <= start + len(block))] - 1 - start
@@ -283,7 +280,7 @@ def _values(block: CellFieldBlock, named: Named, absolute: bool) -> FloatArray:
         for n in chosen_components(block.components, named)
     ]
     if not chosen:
-        raise MeshError("the field has none of these components")
+        raise MeshError("operators.mesh.none-of-the-components")
     table = np.hstack(chosen)
     return np.abs(table) if absolute else table
 

@@ -44,7 +44,7 @@ def visa(call: Call, distance: float | None, first: Mesh, second: Mesh | None) -
     if not first.n_cells or (second is not None and not second.n_cells):
         return poi1(ws.nodes, _NONE), poi1(ws.nodes, _NONE)
     if reach <= 0:
-        raise call.bad("a distance is needed", hint="give FLOT1, or set a density with DENS")
+        raise call.error("operators.mesh.no-distance")
     here = first.sorted_node_ids
     there = here if second is None else second.sorted_node_ids
     a, b = facing(ws.nodes, here, there, reach)

@@ -50,7 +50,7 @@ def deda(session: Session, point: Point, mesh: Mesh, tolerance: float | None) ->
         return bool(inside_contour(at, border, strict=False)[0])
     corners = [b.connectivity[:, list(b.kind.corners)] for b in mesh.blocks]
     if not corners or any(t.shape[1] != 3 for t in corners):
-        raise MeshError("a closed surface of triangles is needed", "change it: CHAN 'TRI3'")
+        raise MeshError("operators.mesh.closed-triangles-wanted")
     return bool(ray_inside(at, mesh.nodes.coordinates, np.concatenate(corners))[0])
 
 
@@ -115,5 +115,5 @@ def incl(
 
     made = take(mesh, chosen)
     if not made.blocks and not allowed:
-        raise MeshError("no element lies inside", "'NOID' allows an empty result")
+        raise MeshError("operators.mesh.no-cell-inside")
     return made

@@ -65,7 +65,7 @@ def intersection_of_meshes(first: Mesh, second: Mesh | Point, allowed: bool) -> 
     """Common cells of two meshes."""
     made = intersection(first, as_mesh(second))
     if not made.blocks and not allowed:
-        raise MeshError("the two meshes have no element in common", "'NOVE' allows that")
+        raise MeshError("operators.mesh.no-common-cell")
     return made
 
 
@@ -92,7 +92,7 @@ def surfaces_that_cross(first: Mesh, second: Mesh, allowed: bool) -> tuple[Mesh,
     """Surfaces cut along their common lines, and these lines."""
     cut = crossed(first, second)
     if not cut[2].blocks and not allowed:
-        raise MeshError("the two surfaces do not cross", "'NOVE' allows that")
+        raise MeshError("operators.mesh.no-crossing")
     return cut
 
 

@@ -132,7 +132,7 @@ def separated_parts(
     if turn is not None:
         said |= {"angle": turn["angle"], "folded": folded}
     if not said:
-        raise call.bad("nothing separates", hint="say 'FACE', 'LIGN', 'MAIL' MAIL2 or 'ANGL'")
+        raise call.error("operators.mesh.nothing-separates")
     return _table(separated(mesh, **said), free)
 
 
@@ -178,7 +178,7 @@ def dealt_out_model(call: Call, model: Model, count: int, free: bool) -> Table:
 
 def _positive(call: Call, count: int) -> int:
     if count < 1:
-        raise call.bad(f"a mesh is not taken apart into {count} parts", count)
+        raise call.error("operators.mesh.no-such-number-of-parts", count, count=count)
     return count
 
 

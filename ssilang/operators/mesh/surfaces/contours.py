@@ -234,13 +234,17 @@ def polynomial_surface(
     """The surface of a polynomial in U and V."""
     ws = workspace(call.session)
     if columns < 1 or rows < 1 or columns * rows < 2:
-        raise call.bad(f"{columns} columns and {rows} rows make no surface", columns)
+        raise call.error("operators.mesh.too-few-rows", columns, columns=columns, rows=rows)
     if len(points) < columns * rows:
         raise call.missing(("POINT",))
     if len(points) > columns * rows:
-        raise call.bad(
-            f"{columns} columns and {rows} rows are {columns * rows} points, not {len(points)}",
+        raise call.error(
+            "operators.mesh.too-many-points",
             points[-1],
+            columns=columns,
+            rows=rows,
+            needed=columns * rows,
+            n_points=len(points),
         )
     table = np.array([p.coordinates for p in points]).reshape(rows, columns, 3)
     shape = PolynomialSurface(table, limits[:2], limits[2:])

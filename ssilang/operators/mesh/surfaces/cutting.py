@@ -41,7 +41,7 @@ def coup(call: Call, mesh: Mesh, p1: Point, p2: Point, p3: Point) -> Mesh:
     normal = np.cross(b - a, c - a)
     size = float(np.linalg.norm(normal))
     if size <= 1e-12 * max(float((b - a) @ (b - a)), float((c - a) @ (c - a))):
-        raise call.bad("the three points lie in line and give no plane", p3)
+        raise call.error("operators.mesh.no-plane", p3)
     flat = linear(mesh)
     blocks = []
     for cells in flat.blocks:

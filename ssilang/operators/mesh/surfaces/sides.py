@@ -31,13 +31,22 @@ from ssilang.language.run.call import Call
 )
 def cote(call: Call, number: int, mesh: Mesh) -> Mesh:
     """Give back a side."""
-    return _reference(call, number, mesh, "side")
+    kept = _sides(call, mesh)
+    if not 1 <= number <= len(kept):
+        raise call.error("operators.mesh.no-such-side", number, number=number, count=len(kept))
+    return kept[number - 1]
 
 
 @cote.form(arg("mesh", "MAILLAGE", en="surface", fr="surface"), gives=ANY)
 def all_sides(call: Call, mesh: Mesh) -> tuple[Mesh, ...]:
     """Give back all sides."""
-    return _references(call, mesh, "side")
+    return _sides(call, mesh)
+
+
+def _sides(call: Call, mesh: Mesh) -> tuple[Mesh, ...]:
+    if not mesh.sides:
+        raise call.error("operators.mesh.no-sides", mesh)
+    return mesh.sides
 
 
 @operator(
@@ -59,23 +68,19 @@ def all_sides(call: Call, mesh: Mesh) -> tuple[Mesh, ...]:
 )
 def face(call: Call, number: int, mesh: Mesh) -> Mesh:
     """Give back a face."""
-    return _reference(call, number, mesh, "face")
+    kept = _faces(call, mesh)
+    if not 1 <= number <= len(kept):
+        raise call.error("operators.mesh.no-such-face", number, number=number, count=len(kept))
+    return kept[number - 1]
 
 
 @face.form(arg("mesh", "MAILLAGE", en="volume", fr="volume"), gives=ANY)
 def all_faces(call: Call, mesh: Mesh) -> tuple[Mesh, ...]:
     """Give back all faces."""
-    return _references(call, mesh, "face")
+    return _faces(call, mesh)
 
 
-def _references(call: Call, mesh: Mesh, word: str) -> tuple[Mesh, ...]:
+def _faces(call: Call, mesh: Mesh) -> tuple[Mesh, ...]:
     if not mesh.sides:
-        raise call.bad(f"this mesh keeps no {word}", mesh, hint="pick its cells with ELEM")
+        raise call.error("operators.mesh.no-faces", mesh)
     return mesh.sides
-
-
-def _reference(call: Call, number: int, mesh: Mesh, word: str) -> Mesh:
-    sides = _references(call, mesh, word)
-    if not 1 <= number <= len(sides):
-        raise call.bad(f"{word} {number} is asked of a mesh that has {len(sides)}", number)
-    return sides[number - 1]

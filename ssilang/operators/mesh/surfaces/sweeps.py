@@ -69,9 +69,7 @@ def line_to_sweep(mesh: Mesh) -> Mesh:
     if mesh.dimension < 2:
         return mesh
     if len(mesh.sides) < 3:
-        raise MeshError(
-            "this surface has no side 3 to sweep", "sweep a line, or a surface made by sweeping"
-        )
+        raise MeshError("operators.mesh.no-side-to-sweep")
     return reversed_line(mesh.sides[2])
 
 
@@ -198,7 +196,7 @@ def regl(call: Call, swept: Mesh, count: int | None, sizes: Sizes, goal: Mesh) -
     reached = goal
     if goal.dimension > 1:
         if not goal.sides:
-            raise call.bad("this surface has no side 1 to reach", goal)
+            raise call.error("operators.mesh.no-side-to-reach", goal)
         reached = goal.sides[0]
     cuts = cuts_of(call, count, sizes)
     made = _swept(call, swept, lambda line: ruling(line, reached), mean_density(reached), cuts)

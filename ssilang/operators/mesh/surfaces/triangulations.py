@@ -98,8 +98,5 @@ def raft(session: Session, mesh: Mesh, sizes: NodeField | None, limit: int | Non
     else:
         wanted = sizes.values_at(next(iter(sizes.components)), ids, np.nan)
     if not (wanted > 0).all():
-        raise MeshError(
-            "a size is missing or not positive at some nodes",
-            "give a field of sizes on all nodes of the mesh",
-        )
+        raise MeshError("operators.mesh.sizes-not-positive")
     return refined_triangles(mesh, ids, wanted, workspace(session).colour)

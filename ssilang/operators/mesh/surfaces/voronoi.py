@@ -46,11 +46,11 @@ def voro(call: Call, germs: Mesh, contour: Mesh, weights: NodeField | None) -> T
     """Cells, edges and neighbours."""
     ws = workspace(call.session)
     if ws.dimension != 2:
-        raise call.bad("VORO works in the plane only", hint="OPTI DIME 2")
+        raise call.error("operators.mesh.plane-only")
     if any(b.cell_type != "POI1" for b in germs.blocks) or not germs.n_cells:
-        raise call.bad("the germs are a mesh of points (POI1)", germs, hint="CHAN 'POI1' mesh")
+        raise call.error("operators.mesh.germs-are-points", germs)
     if any(b.cell_type != "SEG2" for b in contour.blocks):
-        raise call.bad("the contour is a closed line of SEG2", contour, hint="CONT of a surface")
+        raise call.error("operators.mesh.contour-of-segments", contour)
     nodes = germs.nodes
     places = np.concatenate([b.connectivity[:, 0] for b in germs.blocks])
     sides = contour_cells(contour)
