@@ -282,6 +282,16 @@ def test_results_by_a_word():
     assert results_of(flagged, {"all": False}) == ("LISTREEL",)
 
 
+def test_a_keyword_behind_a_pair_does_not_take_its_value(declare):
+    declare(
+        each("pairs", arg("name", "MOT"), arg("value", "LISTREEL")),
+        key("axes", "DIRE", many("v", "LISTREEL")),
+    )
+    assert run("P = PROG 1. ; Q = PROG 2. ; A = ZZZZ 'VECT' P 'DIRE' Q ;")[0] == 0
+    assert [v.values[0] for v in declare.found[0]["axes"]] == [2.0]
+    assert declare.found[0]["pairs"][0][1].values[0] == 1.0
+
+
 def test_what_leads_may_be_spelt_like_a_keyword(declare):
     declare(lead("item"), key("list", "DANS", arg("l", "LISTMOTS"), optional=False))
     assert run("A = ZZZZ 'DANS' 'DANS' (MOTS 'X') ; A = ZZZZ 'B' 'DANS' (MOTS 'X') ;")[0] == 0
