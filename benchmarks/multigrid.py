@@ -24,8 +24,9 @@ from ssilang.kernel.matrices.assembly import assemble, numbering_of
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.mesh import CellBlock
 from ssilang.kernel.mesh.nodes import NodeTable
-from ssilang.kernel.solvers.backends import DISSECTION, MULTIGRID, Ordering
+from ssilang.kernel.solvers.backends import DISSECTION, MULTIGRID
 from ssilang.kernel.solvers.cholesky.inverse import invert
+from ssilang.kernel.solvers.factor import Ordering
 from ssilang.kernel.statics.linear_motion import rigid_motions
 
 

@@ -30,6 +30,8 @@ from ssilang.language.say.reference import (
     operator_page,
     procedure_page,
 )
+from ssilang.language.vocabulary.entries import read_declaration
+from ssilang.language.vocabulary.entries_table import entries_markdown
 from ssilang.operators.loader import load_operators
 
 _HERE = Path(__file__).resolve().parent
@@ -81,9 +83,12 @@ def page_markdown(page: Page, examples: Iterable[Ran]) -> str:
         syntax = [line.rstrip() for line in page.help.syntax.split("\n")]
         lines += ["## Syntax", "", "```", *syntax, "```", ""]
     lines += _arguments(page)
+    declared = read_declaration(page.name)
+    lines += [] if declared is None else entries_markdown(declared, "en")
     for ran in examples:
         lines += _example(ran)
     lines += ["## En français", "", page.help.fr.replace("\n", "\n\n"), ""]
+    lines += [] if declared is None else entries_markdown(declared, "fr")
     return "\n".join(lines)
 
 

@@ -7,15 +7,9 @@ import re
 from ssilang.language.registry import find_operator, keywords_of, operators_by_family
 from ssilang.language.run.session import Session
 from ssilang.language.values import Table
-from ssilang.language.vocabulary import names
+from ssilang.language.vocabulary import words_of
 
 _CONTROL = ("SI", "SINON", "FINSI", "REPETER", "FIN", "QUITTER", "ITERER", "DEBPROC", "FINPROC")
-_KINDS = {
-    "MODE": ("formulation", "law", "element"), "MATE": ("parameter",), "CARA": ("parameter",),
-    "OPTI": ("option",), "VALE": ("option",), "EXCO": ("component",), "BLOQ": ("component",),
-    "FORC": ("component",),
-}  # fmt: skip
-"""Words of the vocabulary that operators take besides their keywords."""
 _WORD = re.compile(r"[@&!#%]?\w*$")
 _TABLE_PATH = re.compile(r"([@&!]?\w+(?:\s*\.\s*(?:'[^']*'|\w+))*)\s*\.\s*('?)([^'.()]*)$")
 _ANY_WORD = re.compile(r"[@&!]?[^\W\d]\w*|\*\*|[-+*/]")
@@ -31,7 +25,8 @@ def completions(text: str, session: Session) -> tuple[str, list[str]]:
     """
     in_table = _TABLE_PATH.search(text)
     if in_table is not None:
-        keys = _table_keys(in_table.group(1), session)
+        table = _table(in_table.group(1), session)
+        keys = {*_keys(table), *_declared_keys(table, session)}
         if keys:
             quote, typed = in_table.group(2), in_table.group(3)
             prefix = quote + typed
@@ -73,23 +68,38 @@ def _keywords(text: str) -> list[str]:
     for word in reversed(_ANY_WORD.findall(re.sub(r"'[^']*'?", " ", _statement(text)))):
         found = find_operator(word.upper())
         if found is not None and word[0].isalpha():
-            kinds = _KINDS.get(found.name, ())
-            return [*keywords_of(found), *(name for kind in kinds for name in names(kind))]
+            return [*keywords_of(found), *words_of(found.name)]
     return []
 
 
-def _table_keys(path: str, session: Session) -> list[str]:
-    """Indices of the table that a path such as T . 'A' names, as they are written."""
+def _table(path: str, session: Session) -> Table:
+    """The table that a path such as T . 'A' names, an empty one if it names none."""
     names = [p.strip() for p in re.split(r"\s*\.\s*", path)]
     value = session.frame.find(names[0].upper())
     for name in names[1:]:
         if not isinstance(value, Table):
-            return []
+            break
         value = value.get(int(name) if name.isdigit() else name.strip("'"))
-    if not isinstance(value, Table):
-        return []
+    return value if isinstance(value, Table) else Table()
+
+
+def _keys(table: Table) -> list[str]:
+    """Indices of a table, as they are written."""
     return [
         f"'{k}'" if isinstance(k, str) else str(k)
-        for k, _ in value.items()
+        for k, _ in table.items()
         if isinstance(k, str | int | float)
     ]
+
+
+def _declared_keys(table: Table, session: Session) -> set[str]:
+    """Entries of the procedures that take a table with the indices that this one has."""
+    given = [k for k, _ in table.items() if k != "SOUSTYPE"]
+    found: set[str] = set()
+    for name in session.library.declared_names if given else ():
+        declared = session.library.declared(name)
+        for argument in declared.arguments if declared is not None else ():
+            known = declared.inside((argument.name,)) if declared is not None else {}
+            if all(isinstance(k, str) and k.rstrip() in known for k in given):
+                found |= {f"'{e.index}'" for e in known.values() if e.is_read and len(e.index) > 1}
+    return found

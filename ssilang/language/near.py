@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from itertools import takewhile
 
 LIKE, VERY_LIKE = 0.7, 0.8
 """Part of the letters of two words that agree."""
@@ -39,7 +40,7 @@ def nearest_names(
     """The known names that look like `word`, the nearest first, at most `count`.
 
     Of names as near, those with the same letters come first (a swap is the usual slip), then
-    those of the same length, then those with the same first letter.
+    those that begin alike for longer.
     """
     said = word.upper().rstrip()
     found = []
@@ -50,8 +51,9 @@ def nearest_names(
         alike = likeness(said, name.upper())
         if alike >= least - 1e-12:
             swapped = sorted(said) == sorted(name.upper())
-            other_length = len(said) != len(name)
-            found.append((-alike, not swapped, other_length, said[:1] != name[:1].upper(), name))
+            pairs = zip(said, name.upper(), strict=False)
+            beginning = len(list(takewhile(lambda pair: pair[0] == pair[1], pairs)))
+            found.append((-alike, not swapped, -beginning, name))
     return [name for *_, name in sorted(found)[:count]]
 
 

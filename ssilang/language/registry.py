@@ -28,9 +28,10 @@ class Argument:
     means; `kind` is the kind of words of the vocabulary that a MOT is one of ('component',
     'parameter' ...). The `main` operand decides which form of an operator runs: it is the first
     of the types that the operator knows as main ones, one or two words may stand before it.
-    A repeated one leaves the last `leaving` operands of the types `left` for what follows.
-    What `leads` is read before any keyword is looked for: it may be spelt like one. Of one that
-    is `whole` the function gets the `Operand`: with its name and its place.
+    A repeated one leaves the last `leaving` operands of the types `left` for what follows; of a
+    keyword's it may take only those `behind` the word. What `leads` is read before any keyword is
+    looked for: it may be spelt like one. Of one that is `whole` the function gets the `Operand`:
+    with its name and its place.
     """
 
     name: str
@@ -45,6 +46,7 @@ class Argument:
     main: bool = False
     leaving: int = 0
     left: tuple[str, ...] = ()
+    behind: bool = False
     leads: bool = False
     whole: bool = False
 
@@ -185,6 +187,7 @@ def many(
     at_least: Literal[0, 1] = 0,
     leaving: int = 0,
     left: Sequence[str] = (),
+    behind: bool = False,
     en: str = "",
     fr: str = "",
     unit: str = "",
@@ -194,7 +197,8 @@ def many(
     """All operands of one of the types that can be read, as a tuple.
 
     With `leaving`, the last ones (of the types `left`, or of any that is read) stay for what
-    follows: objects to turn, then the points of the axis.
+    follows: objects to turn, then the points of the axis. With `behind`, a keyword takes only
+    those that stand behind it.
     """
     return Argument(
         name,
@@ -208,6 +212,7 @@ def many(
         kind=kind,
         leaving=leaving,
         left=tuple(left),
+        behind=behind,
         whole=whole,
     )
 

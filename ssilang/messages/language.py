@@ -309,6 +309,67 @@ MESSAGES: dict[str, Message] = {
     ),
     "arithmetic": Message("{reason_text}", "{reason_text}"),
     "bad-value": Message("{message}", "{message}", "{hint}", "{hint}"),
+    # ---- entries of the tables of procedures
+    "entry-missing": Message(
+        "{procedure}: the entry {where} is missing",
+        "{procedure} : l'indice {where} manque",
+        "TAB1 . {where} = ... ;",
+        "TAB1 . {where} = ... ;",
+    ),
+    "entry-type": Message(
+        "{procedure}: {where} must be {kinds}, found {found}",
+        "{procedure} : {where} doit être {kinds}, trouvé {found}",
+    ),
+    "entry-value": Message(
+        "{procedure}: {where} is '{given}'",
+        "{procedure} : {where} vaut '{given}'",
+        "it may be {allowed}",
+        "valeurs possibles : {allowed}",
+    ),
+    "entry-value-near": Message(
+        "{procedure}: {where} is '{given}'",
+        "{procedure} : {where} vaut '{given}'",
+        "did you mean '{near}'? It may be {allowed}",
+        "vouliez-vous dire '{near}' ? Valeurs possibles : {allowed}",
+    ),
+    "entry-not-finite": Message(
+        "{procedure}: {where} has values that are not finite numbers",
+        "{procedure} : {where} a des valeurs qui ne sont pas des nombres finis",
+    ),
+    "entry-no-curve": Message(
+        "{procedure}: {where} holds no curve", "{procedure} : {where} ne contient aucune évolution"
+    ),
+    "entry-refused": Message(
+        "{procedure}: the entry {where} is not available: {en}",
+        "{procedure} : l'indice {where} n'est pas disponible : {fr}",
+    ),
+    "entry-unknown": Message(
+        "{where} is no entry of {procedure} and has no effect",
+        "{where} n'est pas un indice de {procedure} et n'a aucun effet",
+        "did you mean '{near}'?",
+        "vouliez-vous dire '{near}' ?",
+        severity="warning",
+    ),
+    "entry-of-another": Message(
+        "{where} is no entry of {procedure} and has no effect",
+        "{where} n'est pas un indice de {procedure} et n'a aucun effet",
+        "it is one of {owners}",
+        "c'en est un de {owners}",
+        severity="warning",
+    ),
+    "entry-unread": Message(
+        "{where} is no entry of {procedure} and nothing in the script reads it",
+        "{where} n'est pas un indice de {procedure} et rien dans le script ne le lit",
+        "`ssilang help {procedure}` lists its entries",
+        "`ssilang help {procedure} --lang fr` en donne la liste",
+        severity="warning",
+    ),
+    "refused-entry": Message(
+        "{index} is refused: {problem}",
+        "{index} est refusé : {problem}",
+        "{problem!h}",
+        "{problem!h}",
+    ),
     "no-such-loop": Message(
         "no open loop or procedure is called {name}",
         "aucune boucle ou procédure ouverte ne s'appelle {name}",

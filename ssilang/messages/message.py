@@ -143,37 +143,42 @@ def sentence(code: str, data: Mapping[str, Any], language: str = "en") -> str:
     return f"{data['speaker']}{_COLON[language]}{text}" if "speaker" in data else text
 
 
-def hint(code: str, data: Mapping[str, Any], language: str = "en") -> str:
-    """What to do about it, '' if nothing is known."""
+def hint(code: str, data: Mapping[str, Any], language: str = "en", script: bool = False) -> str:
+    """What to do about it, '' if nothing is known; `script`: in the words of scripts."""
     message, data = find(code), _translated(code, data, language)
-    return filled(message.hint_en if language == "en" else message.hint_fr, data, language)
+    hints = (message.hint_en, message.hint_fr)
+    if script and code.startswith("kernel."):
+        from ssilang.messages.script import HINTS
+
+        hints = HINTS.get(code, hints)
+    return filled(hints[0] if language == "en" else hints[1], data, language, script)
 
 
-def filled(template: str, data: Mapping[str, Any], language: str) -> str:
+def filled(template: str, data: Mapping[str, Any], language: str, script: bool = False) -> str:
     """A template with its data put in."""
+
+    def told(part: str) -> str:
+        return filled(part, data, language, script)
+
     made = []
     for literal, name, spec, conversion in Formatter().parse(template):
         made.append(literal)
         if name is not None:
-            made.append(_field(data[name], spec or "", conversion, data, language))
+            value, spec = data[name], spec or ""
+            if spec[:1] == "?":
+                there, absent = [*_branches(spec[1:]), ""][:2]
+                made.append(told(there if _says(value) else absent))
+            elif "|" in spec:
+                made.append(told(_branches(spec)[not _is_one(value, language)]))
+            elif conversion == "h" and isinstance(value, Said):
+                made.append(hint(value.code, value.data, language, script))
+            else:
+                made.append(repr(value) if conversion == "r" else _shown(value, spec, language))
     return "".join(made)
 
 
-def _field(
-    value: object, spec: str, conversion: str | None, data: Mapping[str, Any], language: str
-) -> str:
-    if spec[:1] == "?":
-        there, absent = [*_branches(spec[1:]), ""][:2]
-        return filled(there if _says(value) else absent, data, language)
-    if "|" in spec:
-        one, several = _branches(spec)
-        count = len(value) if _is_several(value) else value
-        return filled(one if count in _SINGULAR[language] else several, data, language)
-    if conversion == "h" and isinstance(value, Said):
-        return hint(value.code, value.data, language)
-    if conversion == "r":
-        return repr(value)
-    return _shown(value, spec, language)
+def _is_one(value: object, language: str) -> bool:
+    return (len(value) if _is_several(value) else value) in _SINGULAR[language]
 
 
 def _branches(spec: str) -> list[str]:

@@ -228,8 +228,10 @@ def known_components() -> tuple[str, ...]:
     for element in ELEMENTS:
         for part in components_of(element):
             names += [*part.unknowns, *part.strains, *part.stresses]
-    for law in (*PLASTIC_LAWS.values(), *CREEP_LAWS.values(), *JOINT_LAWS.values()):
+    for law in (*PLASTIC_LAWS.values(), *CREEP_LAWS.values()):
         names += [*law.variables]
+    for joint in JOINT_LAWS.values():
+        names += [*joint.variables]
     return tuple(dict.fromkeys(names))
 
 

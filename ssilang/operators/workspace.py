@@ -72,6 +72,7 @@ def open_session(session: Session) -> Session:
     """Give a session its evaluator and its workspace, and load all operators."""
     from ssilang.language.run.evaluator import Evaluator
     from ssilang.operators.loader import load_operators
+    from ssilang.operators.tables.soundness import flaw_of
 
     load_operators()
     Evaluator(session)
@@ -79,4 +80,5 @@ def open_session(session: Session) -> Session:
     session.workspace = made
     session.make_point = made.point
     session.dimension = lambda: made.dimension
+    session.flaw_of = flaw_of
     return session

@@ -164,3 +164,20 @@ def test_any_mutation_of_a_deck_is_checked(data):
 def test_examples_of_the_help_pass(name):
     for example in _EXAMPLES[name]:
         assert errors(Source(name, example)) == []
+
+
+@pytest.mark.parametrize(
+    ("entry", "near"),
+    [
+        ("T1 . 'CHARGEMENT' = 1 ;", "CHAR"),
+        ("T1 . 'CHARGEMENT' = 1 ; MESS (T1 . 'CHARGEMENT') ;", ""),
+        ("T1 . 'RIGI' = 1 ;", ""),
+        ("T1 . 'CHARGEMENT' = 1 ; T1 = TABL ; T1 . 'RIGI' = 1 ;", ""),
+    ],
+)
+def test_entries_that_the_procedure_does_not_have_are_shown_where_they_are_written(entry, near):
+    source = Source("script", f"T1 = TABL ; {entry} T2 = DYNAMIC T1 ; LIST T2 ;")
+    problems, _ = check_source(source)
+    found = [p for p in problems if p.code.startswith("entry")]
+    assert [p.data["near"] for p in found] == ([near] if near else [])
+    assert [p.span.text for p in found] == (["T1 . 'CHARGEMENT'"] if near else [])

@@ -50,6 +50,42 @@ def test_messages_in_french(ssilang, script):
     assert "division par zéro" in ssilang("run", script("y = 1 / 0 ;\n"), "--lang", "fr").err
 
 
+FREE = (
+    "OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ; P1 = 0. 0. ; L1 = DROI 2 P1 (1. 0.) ;\n"
+    "S1 = L1 TRAN 2 (0. 1.) ; MO1 = MODE S1 MECANIQUE ELASTIQUE ;\n"
+    "R = RIGI MO1 (MATE MO1 YOUN 1. NU 0.3) ; U = RESO R (FORC FX 1. P1) 'SOUC' ;\n"
+)
+
+
+@pytest.mark.parametrize(
+    ("language", "label", "said"),
+    [
+        ("en", "warning: ", "the matrix is singular, with 3 free motions"),
+        ("fr", "avertissement: ", "la matrice est singulière : 3 mouvements libres"),
+    ],
+)
+def test_what_does_not_stop_a_run_is_called_a_warning(ssilang, script, language, label, said):
+    done = ssilang("run", script(FREE), "--lang", language)
+    assert done.code == 0
+    assert done.err.startswith(label + said)
+    assert "translation" in done.err
+    assert "erreur" not in done.err
+    assert "error" not in done.err
+
+
+def test_warnings_speak_the_language_of_the_run(ssilang, script):
+    done = ssilang("run", script("SI (EGA 'ABC' 1) ; FINSI ;\n"), "--lang", "fr")
+    assert done.code == 0
+    assert done.err.startswith("avertissement: le mot ABC est comparé à un nombre")
+
+
+def test_wrong_settings_are_told_in_the_language_asked_for(ssilang, script, capsys):
+    with pytest.raises(SystemExit) as left:
+        ssilang("run", script("A = 1 ;\n"), "--set", "A", "--lang", "fr")
+    assert left.value.code == 2
+    assert capsys.readouterr().err.startswith("erreur: 'A' n'est pas NOM=VALEUR")
+
+
 def test_opti_lang_switches_the_messages(ssilang, script):
     assert "division par zéro" in ssilang(script("OPTI 'LANG' 'FRAN' ;\ny = 1 / 0 ;\n")).err
 

@@ -41,3 +41,10 @@ def test_keywords_belong_to_the_statement_under_the_cursor(session):
     assert "ELEMENT" in found or "ELEM" in found
     _, found = completions("x = 1 ; y = 'DI", session)
     assert "'DIME'" not in found
+
+
+def test_a_table_offers_the_entries_of_the_procedures_that_it_suits():
+    made = run_text("T1 = TABL ; T1 . 'RIGI' = 1 ; T1 . 'MASS' = 1 ;").session
+    _, found = completions("x = T1 . 'TEMPS", made)
+    assert "'TEMPS_CALCULES'" in found
+    assert "'CHARGEMENT'" not in completions("x = T1 . 'CHAR", made)[1]

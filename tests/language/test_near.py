@@ -26,8 +26,8 @@ def test_swapped_letters_come_before_other_slips():
     assert nearest("DORI", ["DORE", "DROI"]) == "DROI"
 
 
-def test_of_names_as_near_the_one_of_the_same_length_and_letter_comes_first():
-    assert nearest_names("PROD", ["POD", "BROD", "PROG"]) == ["PROG", "BROD", "POD"]
+def test_of_names_as_near_the_one_that_begins_alike_comes_first():
+    assert nearest_names("PROD", ["POD", "BROD", "PROG"]) == ["PROG", "POD", "BROD"]
 
 
 def test_a_word_unlike_all_has_no_near_name():

@@ -15,12 +15,13 @@ import pytest
 
 import ssilang
 from ssilang.messages.message import Message, Sentence, hint, sentence
+from ssilang.messages.script import HINTS
 
 _ROOT = Path(ssilang.__file__).parent
 _MESSAGES = _ROOT / "messages"
 _ADDED = {"operator", "speaker"}
 """What calls add to the data by themselves."""
-_OF_LANGUAGE = {"SsiError", "error", "warn", "Sentence", "_unfit"}
+_RAISES = {"SsiError", "error", "warn", "Sentence", "NoReduction"}
 
 
 @dataclass(frozen=True)
@@ -30,7 +31,7 @@ class Site:
     place: str
     code: str
     names: frozenset[str]
-    open: bool  # further data come in as **data
+    open: bool  # further data come in as **data, or from the function that is called
 
 
 @cache
@@ -39,7 +40,7 @@ def catalogue() -> dict[str, Message]:
     found = {}
     for path in sorted(_MESSAGES.rglob("*.py")):
         room = ".".join(path.relative_to(_MESSAGES).with_suffix("").parts)
-        if path.stem in ("__init__", "message"):
+        if path.stem in ("__init__", "message", "script"):
             continue
         module = importlib.import_module(f"ssilang.messages.{room}")
         for name, message in module.MESSAGES.items():
@@ -85,10 +86,11 @@ def _sites() -> Iterator[Site]:
                 code = first.value if isinstance(first, ast.Constant) else None
                 if not isinstance(code, str) or " " in code:
                     continue
-                room = code.rpartition(".")[0]
-                if room in rooms or (first is node.args[0] and called in _OF_LANGUAGE):
+                room, _, name = code.rpartition(".")
+                if (room in rooms and name) or (first is node.args[0] and called in _RAISES):
                     names = frozenset(k.arg for k in node.keywords if k.arg)
-                    more = any(k.arg is None for k in node.keywords)
+                    raises = called in _RAISES or str(called).endswith("Error")
+                    more = not raises or any(k.arg is None for k in node.keywords)
                     place = f"{path.relative_to(_ROOT)}:{node.lineno}"
                     yield Site(place, code, names, more)
 
@@ -102,8 +104,10 @@ def names_of(template: str) -> set[str]:
     return found
 
 
-def texts(message: Message) -> tuple[str, str, str, str]:
-    return message.en, message.fr, message.hint_en, message.hint_fr
+def texts(code: str) -> tuple[str, ...]:
+    """All templates that are filled with the data of a code."""
+    message = catalogue()[code]
+    return message.en, message.fr, message.hint_en, message.hint_fr, *HINTS.get(code, ())
 
 
 def _own(code: str) -> bool:
@@ -116,7 +120,7 @@ def test_both_languages_tell_the_same_data(code):
     message = catalogue()[code]
     assert message.en
     assert message.fr
-    assert not any("À TRADUIRE" in t for t in texts(message)), "French is to be written"
+    assert not any("À TRADUIRE" in t for t in texts(code)), "French is to be written"
     if _own(code):
         assert names_of(message.en) == names_of(message.fr)
         assert names_of(message.hint_en) == names_of(message.hint_fr)
@@ -126,18 +130,18 @@ def test_both_languages_tell_the_same_data(code):
 @pytest.mark.parametrize("language", ["en", "fr"])
 @pytest.mark.parametrize("code", sorted(c for c in catalogue() if _own(c)))
 def test_every_message_is_told(code, language):
-    message = catalogue()[code]
     for value in (1, 2, "name", ("a", "b"), (), Sentence("interrupted")):
-        data = {n: _fitting(n, value, "".join(texts(message))) for t in texts(message)
+        data = {n: _fitting(n, value, "".join(texts(code))) for t in texts(code)
                 for n in names_of(t)}  # fmt: skip
-        assert sentence(code, data, language)
+        assert sentence(code, data, language) or not value
         hint(code, data, language)
+        hint(code, data, language, script=True)
 
 
 def _fitting(name: str, value: object, template: str) -> object:
     """A value that the formats of a name take."""
     specs = re.findall(rf"{{{name}(?:!\w)?:([^?|{{}}]*)}}", template)
-    several = any(s.split(" ")[0] in ("and", "or", "words") for s in specs)
+    several = any(s.split(" ")[0] in ("and", "or", "words", ";") for s in specs)
     figures = [s for s in specs if re.search(r"[deEfgG%]$", s) and s not in ("and", "words")]
     if figures:
         number = value if isinstance(value, int) else 3
@@ -155,7 +159,7 @@ def test_every_site_gives_what_its_sentence_tells():
     for site in sites():
         if not _own(site.code) or site.code not in catalogue():
             continue
-        told = set().union(*map(names_of, texts(catalogue()[site.code]))) - _ADDED
+        told = set().union(*map(names_of, texts(site.code))) - _ADDED
         missing, idle = told - site.names, site.names - told - _ADDED - {"number"}
         if (missing and not site.open) or idle:
             lost.append(f"{site.place} {site.code}: lacks {missing}, tells nothing of {idle}")
@@ -163,5 +167,28 @@ def test_every_site_gives_what_its_sentence_tells():
 
 
 def test_every_sentence_has_a_site():
-    lost = [code for code in catalogue() if code not in constants()]
+    of_library = set(re.findall(r"'(stdlib\.[a-z0-9-]+)'", _library_text()))
+    assert {c for c in catalogue() if c.startswith("stdlib.")} == of_library
+    lost = [code for code in catalogue() if code not in constants() | of_library]
     assert not lost
+
+
+def _library_text() -> str:
+    files = sorted((_ROOT.parent / "stdlib").glob("*.ssi"))
+    assert files
+    return "\n".join(f.read_text(encoding="utf-8") for f in files)
+
+
+def test_procedures_of_the_library_refuse_by_code():
+    """A sentence in the procedure itself would be told in one language only."""
+    assert not re.findall(
+        r"^[^*\n]*\bERRE +(?:\(CHAI|'(?!stdlib\.)).*", _library_text(), re.MULTILINE
+    )
+
+
+@pytest.mark.parametrize("code", sorted(HINTS))
+def test_hints_for_scripts_are_those_of_codes(code):
+    english, french = HINTS[code]
+    assert code in catalogue()
+    assert "À TRADUIRE" not in french
+    assert names_of(english) == names_of(french)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from ssilang.kernel.base.errors import MeshError
-from ssilang.messages.message import Sentence, filled, find, sentence
+from ssilang.messages.message import Sentence, filled, find, hint, sentence
 
 
 @pytest.mark.parametrize(
@@ -54,3 +54,19 @@ def test_errors_keep_code_and_data_between_processes():
     error = pickle.loads(pickle.dumps(MeshError("recursion", limit=3)))
     assert (error.code, error.data) == ("recursion", {"limit": 3})
     assert "3 levels" in str(error)
+
+
+def test_scripts_are_told_what_to_write_and_python_is_not():
+    code, data = "kernel.mesh.contour-not-closed-line", {"nodes": (1, 2)}
+    assert str(MeshError(code, **data)).endswith("at nodes 1, 2")
+    assert "ELIM" not in MeshError(code, **data).hint
+    assert "ELIM" in hint(code, data, "en", script=True)
+    assert "ELIM" in hint(
+        "kernel.statics.at-load-step", {"failure": MeshError(code, **data)}, "fr", script=True
+    )
+
+
+def test_a_refused_entry_is_told_with_its_reason():
+    data = {"speaker": "DYNAMIC", "index": "'PAS'", "problem": Sentence("loop-name")}
+    told = sentence("refused-entry", data, "fr")
+    assert told == "DYNAMIC : 'PAS' est refusé : REPE demande un nom de boucle"

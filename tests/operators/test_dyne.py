@@ -115,7 +115,7 @@ def test_lists_instead_of_fields(tmp_path):
 @pytest.mark.parametrize(
     ("change", "sentence"),
     [
-        ("L1 . 'TYPE_LIAISON' = MOT 'LIGNE_LIGNE_FROTTEMENT' ;", "are not built"),
+        ("L1 . 'TYPE_LIAISON' = MOT 'LIGNE_LIGNE_FROTTEMENT' ;", "it may be"),
         ("L1 . 'NORMALE' = 0. 0. ;", "has no length"),
         ("L1 . 'RAIDEUR' = -1. ;", "has no positive stiffness"),
         ("OUBL L1 'RAIDEUR' ;", "the link has no 'RAIDEUR'"),

@@ -81,8 +81,8 @@ def test_the_sound_decks_run(name, tmp_path):
         ("SPPLANC", "T1 . 'EXCIT' . 'DUREE'", "-1.", ["above zero"]),
         # other types, other meshes, nothing at all
         ("HBM", "T1 . 'RESULTATS' . 1 . 'COMPOSANTES'", "'ABC'", ["ABC", "no matrix has"]),
-        ("DYNC", "TM . 'MODES' . 1 . 'FREQUENCE'", "'ABC'", ["number"]),
-        ("DYNC", "TL . 'LIAISON_A'", "VRAI", ["TABLE of links"]),
+        ("DYNC", "TM . 'MODES' . 1 . 'FREQUENCE'", "'ABC'", ["FLOTTANT"]),
+        ("DYNC", "TL . 'LIAISON_A'", "VRAI", ["must be TABLE"]),
         ("DYNC", "TL . 'LIAISON_A' . 1 . 'SUPPORT'", "ZP1", ["no mode"]),
         ("SPPLANC", "T1 . 'STRUC'", "VRAI", ["must be TABLE", "LOGIQUE"]),
         ("SPPLANC", "T1 . 'PLANCH' . 'AMORTPL'", None, ["missing"]),

@@ -244,3 +244,13 @@ def test_opti_says_what_values_mean(tmp_path):
 def test_info_searches_too(tmp_path):
     done = run_text("INFO 'uplift' ;", output_directory=tmp_path)
     assert "JOINT_SDM" in done.output
+
+
+def test_a_misspelt_component_of_a_force_gets_a_near_name(tmp_path):
+    text = "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0 0) (1 0) ; F = FORC 'FXX' 3. L ;"
+    assert "did you mean 'FX'?" in run_text(text, output_directory=tmp_path).message
+
+
+def test_components_of_ones_own_are_taken(tmp_path):
+    text = "OPTI DIME 2 ; P = 0. 0. ; U = MANU 'CHPO' P 1 'MINE' 2. ; V = EXCO 'MINE' U 'UX' ;"
+    assert run_text(text, output_directory=tmp_path).exit_code == 0

@@ -148,7 +148,7 @@ def test_refusals():
     for call, text in (
         ("DECONV T1 FON1 M1 'HORI' ACC1 5. 20. 20. 'LYSMER'", "MODE FOUR"),
         ("DECONV T1 FON1 M1 'BIAIS' ACC1 5. 20.", "HORI or VERT"),
-        ("DECONV (TABL) FON1 M1 'VERT' ACC1 5. 20.", "no item 1"),
+        ("DECONV (TABL) FON1 M1 'VERT' ACC1 5. 20.", "the entry 1 is missing"),
     ):
         result = run_text(start + f"T2 = {call} ;")
         assert result.exit_code == 1

@@ -212,9 +212,9 @@ def test_what_makes_no_sense_is_refused_with_its_reason(call, said):
 def test_unknown_or_mistyped_index_of_the_table_is_named():
     start = "OPTI DIME 2 ; T0 = TABL ; T0 . 'LARGEUR_SEMELLE' = 4. ;"
     unknown = run_text(f"{start} T0 . 'LARGUEUR_SOL' = 3. ; T1 = MAILLER T0 ;")
-    assert "LARGUEUR_SOL" in unknown.message
+    assert unknown.session.warnings[0].data["near"] == "LARGEUR_SOL"
     mistyped = run_text(f"{start} T0 . 'TAILLE' = 'fine' ; T1 = MAILLER T0 ;")
-    assert "TAILLE must be of type FLOTTANT, found MOT" in mistyped.message
+    assert "'TAILLE' must be FLOTTANT, found MOT" in mistyped.message
 
 
 def test_only_plane_models_are_meshed():

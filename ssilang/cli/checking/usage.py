@@ -22,7 +22,7 @@ def unused_names(script: tree.Script) -> list[SsiError]:
     """
     read: set[str] = set()
     first: dict[str, tree.Name] = {}
-    for statement in _statements(script.body):
+    for statement in statements_of(script.body):
         words = _words(statement.items)
         if statement.first_word[:4] in _WHOLE_SESSION and len(statement.items) == 1:
             return []
@@ -32,7 +32,7 @@ def unused_names(script: tree.Script) -> list[SsiError]:
                 first.setdefault(target.text, target)
             else:
                 read |= _words((target,))
-    used = [s for s in _statements(script.body) if len(s.targets) > 1]
+    used = [s for s in statements_of(script.body) if len(s.targets) > 1]
     for statement in used:
         names = {t.text for t in statement.targets if isinstance(t, tree.Name)}
         if names & read:
@@ -58,7 +58,7 @@ def misspelt_names(
     """
     found: dict[str, SsiError] = {}
     long_names = [n for n in names if len(n) >= _SHORTEST and n[0] != "&"]
-    for statement in _statements(script.body):
+    for statement in statements_of(script.body):
         for item in _bare_names(statement.items[1:] if not statement.assigns else statement.items):
             if len(item.text) < _SHORTEST or item.text in names or item.text[:4] in words:
                 continue
@@ -87,20 +87,20 @@ def _is_paren(item: tree.Item) -> bool:
     return isinstance(item, tree.Paren)
 
 
-def _statements(nodes: Iterable[tree.Node]) -> Iterator[tree.Statement]:
+def statements_of(nodes: Iterable[tree.Node]) -> Iterator[tree.Statement]:
     """All statements, with the parts of blocks that read values."""
     for node in nodes:
         if isinstance(node, tree.Statement):
             yield node
         elif isinstance(node, tree.If):
             yield node.condition
-            yield from _statements(node.then)
-            yield from _statements(node.otherwise)
+            yield from statements_of(node.then)
+            yield from statements_of(node.otherwise)
         elif isinstance(node, tree.Loop):
             yield tree.Statement((), node.count, node.span)
-            yield from _statements(node.body)
+            yield from statements_of(node.body)
         else:
-            yield from _statements(node.body)
+            yield from statements_of(node.body)
             yield tree.Statement((), node.results, node.span)
 
 

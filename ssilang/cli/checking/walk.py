@@ -9,6 +9,7 @@ from typing import Any
 from ssilang.cli.checking.kinds import UNKNOWN, kind_word, typed
 from ssilang.cli.checking.phrases import PhraseReader
 from ssilang.cli.checking.scope import Scope, assigned_names
+from ssilang.cli.checking.tables import unread_entries
 from ssilang.cli.checking.usage import misspelt_names, unused_names
 from ssilang.language.cast3m import cast3m_words
 from ssilang.language.registry import OPERATORS, find_operator, keywords_of
@@ -49,7 +50,7 @@ class Checker:
         self._walk(script.body, scope)
         for definition in self._procedures:
             self._body(definition, scope, library)
-        for problem in unused_names(script):
+        for problem in (*unused_names(script), *unread_entries(script, self.session.library)):
             self._report(problem)
         names = frozenset({*self._names, *scope.values, *self.session.library.standard_names})
         for problem in misspelt_names(script, names, _known_words()):

@@ -28,9 +28,7 @@ def without_contact_mass(M: sp.csr_array, K: sp.csr_array, G: sp.csr_array) -> s
     c, rest = np.flatnonzero(touched & stiff), np.flatnonzero(~(touched & stiff))
     inverse = invert(sp.csr_array(K[c][:, c]), True)
     if inverse.singular:
-        raise SingularMatrixError(
-            "the mass of the contact nodes cannot be taken off: no stiffness ties them to others"
-        )
+        raise SingularMatrixError("kernel.contact.mass-contact-nodes-cannot")
     follow = -inverse.solve(K[c][:, rest].toarray())
     P = sp.lil_array((n, n))
     P[rest, rest] = 1.0

@@ -17,7 +17,13 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.contact.options import ContactOptions
 from ssilang.kernel.contact.rows import BoolArray, ContactRows
-from ssilang.kernel.interface.response import interface_response, interface_stiffness
+from ssilang.kernel.interface.response import (
+    InterfaceState,
+    accept,
+    interface_response,
+    interface_stiffness,
+    new_trial,
+)
 from ssilang.kernel.solvers.active_set.complementarity import ContactProblem, solve_contact
 from ssilang.kernel.solvers.active_set.contact_methods import METHODS
 from ssilang.kernel.solvers.active_set.coulomb import CoulombProblem, solve_coulomb
@@ -131,27 +137,24 @@ class ContactSolver:
         joints, e, seen = self.interface, self.effective, self.contact.seen
         assert joints is not None
         SJP, SGJ = joints.J @ self.Y, seen @ e.Y
-        y0 = joints.J @ du
-        y, found = y0.copy(), motion.contact.copy()
-        f, new = np.zeros_like(motion.f), np.zeros_like(motion.state)
-        D = np.zeros((*motion.w.shape, motion.w.shape[1]))
+        trial, found = new_trial(motion.w.shape, joints.size), motion.contact.copy()
+        now = InterfaceState(motion.delta, motion.f, motion.w, motion.t, motion.state)
+        y0, y = trial.y0, trial.y
+        y0[:] = joints.J @ du
+        y[:] = y0
         K = np.zeros((joints.size, joints.size))
         residual = np.inf
         for turn in range(1, MOST_TURNS + 1):
-            interface_response(
-                joints.pairs, joints.B, joints.weights, joints.codes, joints.parameters,
-                motion.delta + y, motion.state, motion.w, motion.t, new, D, f,
-            )  # fmt: skip
-            h = self.share * (f - motion.f) - e.R @ y
+            interface_response(joints.points, motion.state, motion.delta + y, trial)
+            h = self.share * (trial.f - motion.f) - e.R @ y
             rest = y - (y0 - e.S @ h + SJP @ found)
             scale = max(np.abs(y).max(), np.abs(motion.delta).max(), np.abs(y0).max(), 1e-300)
             residual = float(np.abs(rest).max() / scale)
             if turn > 1 and residual <= TOLERANCE:
                 motion.contact[:] = found
-                motion.delta[:] += y
-                motion.f[:], motion.state[:, :] = f, new
+                accept(trial, now)
                 return StepOutcome(du - e.Y @ h + self.Y @ found, turn, residual)
-            interface_stiffness(joints.pairs, joints.B, joints.weights, D, K)
+            interface_stiffness(joints.points, trial.D, K)
             tangent = self.share * K - e.R
             inverse = np.linalg.inv(np.eye(joints.size) + e.S @ tangent)
             # y = base + slope forces with the law linearised
@@ -160,7 +163,7 @@ class ContactSolver:
             W = self.S - SGJ @ (tangent @ slope)
             q = g0 - SGJ @ (h + tangent @ (base - y))
             found = self.forces.held(W, q)
-            y = base + slope @ found
+            y[:] = base + slope @ found
         return StepOutcome(du, -MOST_TURNS, residual)
 
 

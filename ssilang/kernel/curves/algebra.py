@@ -50,7 +50,7 @@ def check_increasing(x: FloatArray) -> None:
     """Refuse abscissas that go back."""
     if len(x) > 1 and np.any(np.diff(x) < 0):
         k = int(np.flatnonzero(np.diff(x) < 0)[0])
-        raise FieldError("kernel.base.abscissas-must-increase-follows", x=x[k + 1], x_2=x[k])
+        raise FieldError("kernel.curves.abscissas-must-increase-follows", x=x[k + 1], x_2=x[k])
 
 
 def sampled(part: CurvePart, x: FloatArray) -> FloatArray:
@@ -72,7 +72,7 @@ def _on_common_domain(a: CurvePart, b: CurvePart, run: Callable[[Any, Any], Any]
     low = max(a.abscissas.min(), b.abscissas.min())
     high = min(a.abscissas.max(), b.abscissas.max())
     if low > high:
-        raise FieldError("kernel.base.two-curves-no-abscissa")
+        raise FieldError("kernel.curves.two-curves-no-abscissa")
     x = np.union1d(a.abscissas, b.abscissas)
     x = x[(x >= low) & (x <= high)]
     return dataclasses.replace(a, abscissas=x, ordinates=run(sampled(a, x), sampled(b, x)))
@@ -87,17 +87,19 @@ def combined(a: Curve, b: Curve, sign: str, run: Callable[[Any, Any], Any]) -> C
         If the numbers of curves, the kinds or the abscissas do not fit.
     """
     if len(a.parts) != len(b.parts):
-        raise FieldError("kernel.base.objects-curves", n_parts=len(a.parts), n_parts_2=len(b.parts))
+        raise FieldError(
+            "kernel.curves.objects-curves", n_parts=len(a.parts), n_parts_2=len(b.parts)
+        )
     if is_complex(a) != is_complex(b):
-        raise FieldError("kernel.base.real-curve-complex-cannot")
+        raise FieldError("kernel.curves.real-curve-complex-cannot")
     if is_complex(a):
         return _combined_complex(a, b, run)
     parts = []
     for x, y in zip(a.parts, b.parts, strict=True):
         if sign in "*/" and not _same_abscissas(x, y):
-            raise FieldError("kernel.base.curves-multiplied-same-abscissas")
+            raise FieldError("kernel.curves.curves-multiplied-same-abscissas")
         if sign == "/" and np.any(y.ordinates == 0):
-            raise FieldError("kernel.base.ordinate-divisor-zero")
+            raise FieldError("kernel.curves.ordinate-divisor-zero")
         parts.append(_on_common_domain(x, y, run))
     return Curve(tuple(parts), a.title, a.kind)
 
@@ -107,7 +109,7 @@ def _combined_complex(a: Curve, b: Curve, run: Callable[[Any, Any], Any]) -> Cur
     for i in range(0, len(a.parts), 2):
         mine, other = (a.parts[i], a.parts[i + 1]), (b.parts[i], b.parts[i + 1])
         if not _same_abscissas(mine[0], other[0]):
-            raise FieldError("kernel.base.complex-curves-must-same")
+            raise FieldError("kernel.curves.complex-curves-must-same")
         parts += complex_parts(mine, run(complex_values(*mine), complex_values(*other)))
     return Curve(tuple(parts), a.title, a.kind)
 
@@ -158,16 +160,16 @@ def spline(
     from scipy.interpolate import CubicSpline
 
     if len(x) < 2:
-        raise FieldError("kernel.base.spline-needs-two-points", n_x=len(x))
+        raise FieldError("kernel.curves.spline-needs-two-points", n_x=len(x))
     if len(x) != len(y):
-        raise FieldError("kernel.base.spline-many-abscissas-values", n_x=len(x), n_y=len(y))
+        raise FieldError("kernel.curves.spline-many-abscissas-values", n_x=len(x), n_y=len(y))
     order = slice(None, None, -1) if x[0] > x[-1] else slice(None)
     ends: Any = (
         (2, 0.0) if left is None else (1, left),
         (2, 0.0) if right is None else (1, right),
     )
     if np.any(np.diff(x[order]) <= 0):
-        raise FieldError("kernel.base.abscissas-spline-must-increase")
+        raise FieldError("kernel.curves.abscissas-spline-must-increase")
     found: FloatArray = CubicSpline(x[order], y[order], bc_type=ends)(at)
     return found
 
@@ -181,14 +183,14 @@ def interpolated(x: FloatArray, y: FloatArray, at: FloatArray) -> FloatArray:
         If they do neither.
     """
     if len(x) != len(y):
-        raise FieldError("kernel.base.abscissas-ordinates", n_x=len(x), n_y=len(y))
+        raise FieldError("kernel.curves.abscissas-ordinates", n_x=len(x), n_y=len(y))
     if len(x) == 0:
-        raise FieldError("kernel.base.no-point-interpolate-between")
+        raise FieldError("kernel.curves.no-point-interpolate-between")
     steps = np.diff(x)
     if np.all(steps <= 0) and np.any(steps < 0):
         x, y = x[::-1], y[::-1]
     elif np.any(steps < 0):
-        raise FieldError("kernel.base.abscissas-must-increase-decrease")
+        raise FieldError("kernel.curves.abscissas-must-increase-decrease")
     found: FloatArray = np.interp(at, x, y)
     return found
 

@@ -35,10 +35,10 @@ class Cloud:
             If there is no such column, or it holds objects.
         """
         if name not in self.columns:
-            raise FieldError("kernel.base.cloud-no-component", name=name, columns=self.columns)
+            raise FieldError("kernel.curves.cloud-no-component", name=name, columns=self.columns)
         held = self.columns[name]
         if not all(isinstance(v, int | float) for v in held):
-            raise FieldError("kernel.base.component-cloud-holds-objects", name=name)
+            raise FieldError("kernel.curves.component-cloud-holds-objects", name=name)
         return np.asarray(held, dtype=float)
 
     def rows(self, places: list[int]) -> Cloud:
@@ -95,13 +95,13 @@ def on_grid(axes: list[FloatArray], values: FloatArray, at: FloatArray) -> Float
     sizes = [len(a) for a in axes]
     if int(np.prod(sizes)) != len(values):
         raise FieldError(
-            "kernel.base.grid-nodes-needs-values",
+            "kernel.curves.grid-nodes-needs-values",
             grid=" x ".join(map(str, sizes)),
             wanted=np.prod(sizes),
             n_values=len(values),
         )
     if any(np.any(np.diff(a) <= 0) for a in axes):
-        raise FieldError("kernel.base.coordinates-grid-must-increase")
+        raise FieldError("kernel.curves.coordinates-grid-must-increase")
     table = values.reshape(sizes, order="F")
     low, share = [], []
     for a, x in zip(axes, at.T, strict=True):

@@ -27,3 +27,22 @@ def copy_rows(source: FloatArray, target: FloatArray) -> None:
     for i in range(source.shape[0]):
         for j in range(source.shape[1]):
             target[i, j] = source[i, j]
+
+
+@compiled
+def is_equal(A: FloatArray, B: FloatArray) -> bool:
+    """Whether two matrices hold the same numbers; NaN is equal to nothing."""
+    for i in range(A.shape[0]):
+        for j in range(A.shape[1]):
+            if A[i, j] != B[i, j]:
+                return False
+    return True
+
+
+@compiled
+def largest(v: FloatArray) -> float:
+    """The largest absolute value of a vector, 0 of an empty one."""
+    top = 0.0
+    for i in range(v.shape[0]):
+        top = max(top, abs(v[i]))
+    return top

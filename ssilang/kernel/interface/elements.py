@@ -92,9 +92,9 @@ def with_rule(element: str, rule: str) -> str:
         if other.cell_type == here.cell_type and other.rule == rule:
             return other.name
     raise MeshError(
-        f"the joint {element} cannot be integrated at its nodes (LOBATTO): weights there are "
-        "negative or zero",
-        "GAUSS, or linear faces (" + " ".join(NODAL_WEIGHTS) + ")",
+        "kernel.interface.joint-cannot-integrated-nodes",
+        element=element,
+        nodal_weights=NODAL_WEIGHTS,
     )
 
 

@@ -25,7 +25,7 @@ from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
 from ssilang.kernel.fields.cell_field import CellField, Support
 from ssilang.kernel.interface.elements import joint_element
 from ssilang.kernel.interface.kinematics import JointCells, joint_cells, point_values
-from ssilang.kernel.interface.laws.law_table import elastic_tangent, law_of, rocking_stiffness
+from ssilang.kernel.interface.laws.law_table import elastic_tangent, law_of
 from ssilang.kernel.interface.laws.parameter_table import joint_parameters
 from ssilang.kernel.materials.model import Mode, Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices
@@ -123,8 +123,8 @@ class JointFamily(ElementFamily):
         for i, names in enumerate(springs, start=len(order)):
             full[..., i, i] = _first_given(joints, parameters, names)
         law = law_of(zone.behaviour)
-        if law.macro:
-            rocking = rocking_stiffness(law.code, joint_parameters(joints, parameters))
+        if law.rocking is not None:
+            rocking = law.rocking(joint_parameters(joints, parameters))
             for i, values in enumerate(rocking[: len(springs)]):
                 place = len(order) + i + (len(springs) == 3)
                 full[..., place, place] = values[:, None]

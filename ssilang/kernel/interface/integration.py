@@ -40,6 +40,8 @@ def face_rule(face: str, rule: str = "GAUSS") -> Rule:
     if rule == "LOBATTO" and face in NODAL_WEIGHTS:
         return Rule(cell.nodes, np.array(NODAL_WEIGHTS[face]))
     raise MaterialError(
-        f"joints with {face} faces have no integration rule {rule}",
-        "GAUSS serves all faces, LOBATTO those of " + ", ".join(NODAL_WEIGHTS),
+        "kernel.interface.joints-faces-no-integration",
+        face=face,
+        rule=rule,
+        nodal_weights=NODAL_WEIGHTS,
     )

@@ -8,6 +8,7 @@ delta, whose size is that of the interface and not of the model.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -19,11 +20,11 @@ from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.family import component_order, displacement_names
 from ssilang.kernel.interface.kinematics import JointCells, joint_cells
-from ssilang.kernel.interface.laws.columns import N_STATE, OPENING, SLIP2, XI
-from ssilang.kernel.interface.laws.law_table import elastic_tangent, law_of, rocking_stiffness
+from ssilang.kernel.interface.laws.columns import N_STATE, Parameter, Variable
+from ssilang.kernel.interface.laws.law_table import Law, elastic_tangent, law_of
 from ssilang.kernel.interface.laws.parameter_table import joint_parameters
-from ssilang.kernel.interface.laws.parameters import Parameter
 from ssilang.kernel.interface.point_state import energies_of_points, point_states
+from ssilang.kernel.interface.response import Joints
 from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.matrices.assembly import Numbering
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
@@ -59,6 +60,12 @@ class Interface:
     weights: FloatArray
     codes: IntArray
     parameters: FloatArray
+
+    @cached_property
+    def points(self) -> Joints:
+        """The points as compiled code takes them."""
+        p = np.ascontiguousarray(self.parameters)
+        return Joints(self.pairs, self.B, self.weights, self.codes, p)
 
     @property
     def size(self) -> int:
@@ -108,10 +115,9 @@ def interface_of(
         given, law = zone_field(zone, characteristics), law_of(zone.behaviour)
         cells = joint_cells(zone, given)
         table = joint_parameters(cells, given)
-        if law.macro:
-            _refuse_unfit_macro(zone, law.code, table)
-            about_1, about_2 = rocking_stiffness(law.code, table)
-            table[:, Parameter.KS1], table[:, Parameter.KS2] = about_1, about_2
+        if law.rocking is not None:
+            _refuse_unfit_macro(zone, law, table)
+            table[:, Parameter.KS1], table[:, Parameter.KS2] = law.rocking(table)
         joints.append(cells)
         tables.append(table)
         codes.append(np.full(cells.weights.size, law.code, dtype=np.int64))
@@ -129,15 +135,13 @@ def interface_of(
     )
 
 
-def _refuse_unfit_macro(zone: Zone, code: int, table: FloatArray) -> None:
+def _refuse_unfit_macro(zone: Zone, law: Law, table: FloatArray) -> None:
     if zone.mode.dimension != 3:
         return
-    if code == 5:
-        raise MaterialError(
-            "MACRO_RESSORTS exists in two dimensions only", "MACRO_SEMELLE or MACRO_DISQUE"
-        )
-    if code == 3 and not (table[:, Parameter.LONG] > 0).all():
-        raise MaterialError("MACRO_SEMELLE needs LONG, the second width, in three dimensions")
+    if law.in_space is None:
+        raise MaterialError("kernel.interface.macro-ressorts-exists-two")
+    if any(not (table[:, Parameter[name]] > 0).all() for name in law.in_space):
+        raise MaterialError("kernel.interface.macro-semelle-needs-long")
 
 
 def is_macro(joints: JointCells) -> bool:
@@ -192,7 +196,9 @@ def _places(numbering: Numbering, node: int, names: tuple[str, ...]) -> list[int
     found = [numbering.index_of(node, name) for name in names]
     if min(found) < 0:
         missing = names[found.index(min(found))]
-        raise FieldError(f"a joint needs {missing} at node {node + 1}, which the matrices lack")
+        raise FieldError(
+            "kernel.interface.joint-needs-node-matrices", missing=missing, node=node + 1
+        )
     return found
 
 
@@ -228,7 +234,9 @@ def _jump_matrix(keys: IntArray, names: tuple[str, ...], numbering: Numbering) -
     if columns.size and columns.min() < 0:
         pair, side, i = np.argwhere(columns < 0)[0]
         raise FieldError(
-            f"a joint needs {names[i]} at node {keys[pair, side] + 1}, which the matrices lack"
+            "kernel.interface.joint-needs-node-matrices",
+            missing=names[i],
+            node=keys[pair, side] + 1,
         )
     rows = np.broadcast_to(np.arange(n_pairs * d).reshape(n_pairs, 1, d), columns.shape)
     signs = np.broadcast_to(np.array([1.0, -1.0])[None, :, None], columns.shape)
@@ -324,10 +332,10 @@ def state_field(interface: Interface, state: FloatArray, w: FloatArray, t: Float
         start += n * g
         shown = law_of(j.zone.behaviour).variables
         if interface.dimension == 2:
-            shown = {k: v for k, v in shown.items() if v != SLIP2}
+            shown = {k: v for k, v in shown.items() if v != Variable.SLIP2}
         fields = {name: local[..., column].copy() for name, column in shown.items()}
         if "PLA3" in fields:
-            fields["PLA3"] += local[..., OPENING]
+            fields["PLA3"] += local[..., Variable.OPENING]
         fields |= {name: of_all[i].copy() for i, name in enumerate(COMMON_VARIABLES)}
         blocks.append(_block(j, fields))
     return CellField(tuple(blocks), "VARIABLES INTERNES")
@@ -349,7 +357,7 @@ def state_from_field(interface: Interface, field: CellField) -> FloatArray:
                 values = np.broadcast_to(given.at(name, "STRESSES"), (n, g))
                 local[:, column] = values.ravel()
         if "PLA3" in given:
-            local[:, XI] -= local[:, OPENING]
+            local[:, Variable.XI] -= local[:, Variable.OPENING]
     return state
 
 

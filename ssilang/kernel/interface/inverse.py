@@ -1,7 +1,7 @@
 """The condensed interface of few jumps: `Y = (1 + S (c K - R))^-1 S`, kept while points change.
 
-K is the stiffness of the tangents `known`. A point whose tangent changes by dD changes K by
-`w B^T dD B`, of the rank of dD at most, and Y by
+K is the stiffness of the tangents that Y belongs to. A point whose tangent changes by dD changes K
+by `w B^T dD B`, of the rank of dD at most, and Y by
 
     Y - Y B^T (1 + M N)^-1 M B Y ,   M = c w dD ,   N = B Y B^T
 
@@ -11,21 +11,29 @@ direction is `-(1 + S (c K - R))^-1 r = Y (c K - R) r - r`.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.base.compiled.compiler import compiled_fast
-from ssilang.kernel.interface.copies import clear
+from ssilang.kernel.base.compiled.apart import apart
+from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
+from ssilang.kernel.interface.condensed import Condensed
+from ssilang.kernel.interface.copies import clear, copy_rows, is_equal
+from ssilang.kernel.interface.lu import LU, factorise
+from ssilang.kernel.interface.response import Joints
+from ssilang.kernel.solvers.dense import solve_factors_together
 
-FEW = 160  # jumps up to which Y is kept
 UPDATES = 64  # between two times that Y is made anew: rounding does not grow
 VANISHING = 1e-10  # of the largest number of `1 + M N`: a pivot from which Y is made anew
 
 
-@compiled_fast
-def is_few(q: int) -> bool:
-    """Whether an interface of q jumps keeps Y."""
-    return q <= FEW
+class Inverse(NamedTuple):
+    """Y (q, q), room (q,), and how many points were changed (1,) since Y was made."""
+
+    Y: FloatArray
+    room: FloatArray
+    updates: IntArray
 
 
 @compiled_fast
@@ -126,13 +134,53 @@ def update_point(
     return True
 
 
+@apart
+@compiled
+def update_inverse(
+    joints: Joints, condensed: Condensed, D: FloatArray, known: FloatArray, inverse: Inverse
+) -> bool:
+    """Y, that belongs to the tangents `known`, becomes that of D, as do these; False if none is."""
+    n, d, changed, Y = len(condensed.S), D.shape[1], 0, inverse.Y
+    for p in range(D.shape[0]):
+        if not is_equal(D[p], known[p]):
+            changed += 1
+    if changed == 0:
+        return True
+    # point by point, as long as that is cheaper and safe
+    if known[0, 0, 0] == known[0, 0, 0] and 3 * d * changed <= 2 * n:
+        room, good = np.empty((2, d, n)), inverse.updates[0] + changed <= UPDATES
+        for p in range(D.shape[0]):
+            if good and not is_equal(D[p], known[p]):
+                weight = condensed.c * joints.weights[p]
+                good = update_point(joints.pairs[p], joints.B[p], weight, D[p], known[p], Y, room)
+                if good:
+                    inverse.updates[0] += 1
+                    copy_rows(D[p], known[p])
+        if good:
+            return True
+    # else anew
+    lu = LU(np.empty((n, n)), np.empty(n, np.int64))
+    good = factorise(joints, condensed, D, lu)
+    for p in range(D.shape[0]):
+        if good:
+            copy_rows(D[p], known[p])
+        else:
+            known[p, 0, 0] = np.nan
+    if good:
+        copy_rows(condensed.S, Y)
+        solve_factors_together(lu.A, lu.exchanges, Y)
+        inverse.updates[0] = 0
+    return good
+
+
 @compiled_fast
 def apply_inverse(
-    pairs: IntArray, B: FloatArray, weights: FloatArray, D: FloatArray, R: FloatArray, c: float,
-    Y: FloatArray, g: FloatArray, x: FloatArray,
-) -> None:  # fmt: skip
-    """`x := (1 + S (c K - R))^-1 x = x - Y (c K - R) x`, K of the tangents D; g is room (q,)."""
+    joints: Joints, condensed: Condensed, D: FloatArray, inverse: Inverse, x: FloatArray
+) -> None:
+    """`x := (1 + S (c K - R))^-1 x = x - Y (c K - R) x`, K of the tangents D that Y belongs to."""
+    pairs, B, R, Y, g = joints.pairs, joints.B, condensed.R, inverse.Y, inverse.room
     n, d, _ = B.shape
+    # g = (c K - R) x, point by point
     for i in range(len(x)):
         g[i] = 0.0
         for j in range(len(R)):
@@ -148,7 +196,7 @@ def apply_inverse(
                             jump += B[p, k, pair * d + j] * x[pairs[p, pair] * d + j]
                     force += D[p, i, k] * jump
             if force != 0.0:
-                force *= c * weights[p]
+                force *= condensed.c * joints.weights[p]
                 for pair in range(pairs.shape[1]):
                     for j in range(d):
                         g[pairs[p, pair] * d + j] += force * B[p, i, pair * d + j]

@@ -21,6 +21,7 @@ from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.interface.elements import JointElement, joint_element
 from ssilang.kernel.interface.integration import face_rule
 from ssilang.kernel.materials.model import Mode, Zone
+from ssilang.messages.message import Sentence
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,15 +98,13 @@ def _refuse_merged(zone: Zone, upper: IntArray, lower: IntArray) -> None:
     merged = (resolve(upper) == resolve(lower)).all(axis=1)
     if merged.any():
         raise MeshError(
-            f"{_cells(merged)} of the joint {zone.element} has both sides on the same nodes",
-            "do not apply ELIM to the two sides of a joint together",
+            "kernel.interface.joint-both-sides-same", cells=_cells(merged), element=zone.element
         )
 
 
-def _cells(wrong: np.ndarray) -> str:
+def _cells(wrong: np.ndarray) -> Sentence:
     first = int(np.flatnonzero(wrong)[0]) + 1
-    more = int(wrong.sum()) - 1
-    return f"cell {first}" + (f" (and {more} more)" if more else "")
+    return Sentence("kernel.interface.cells", first=first, more=int(wrong.sum()) - 1)
 
 
 # --- two points ------------------------------------------------------------------------------
@@ -124,19 +123,12 @@ def _two_points(
     length = np.linalg.norm(x, axis=1)
     if axis is None:
         if not (length > 0).all():
-            raise MeshError(
-                f"{_cells(length == 0)} of the joint JOI1 has no length, so its normal is unknown",
-                "give it by MATE ... 'DIRECTION' n (from the first node to the second)",
-            )
+            raise MeshError("kernel.interface.joint-joi1-no-length", cells=_cells(length == 0))
         axis = x
     normal = _unit(axis)
     facing = np.einsum("ni,ni->n", normal, x) < -0.5 * length
     if "JOINT_SDM" in zone.behaviour and (facing & (length > 0)).any():
-        raise MeshError(
-            f"{_cells(facing)} of the joint JOI1 has a normal that goes from its second node to "
-            "its first: opening and closing would be exchanged",
-            "reverse the DIRECTION, or the order of the two nodes",
-        )
+        raise MeshError("kernel.interface.joint-joi1-normal-goes", cells=_cells(facing))
     frames = _frames_from_normal(normal, user_axis(given, "V2", n_cells, d))[:, None]
     return JointCells(zone, element, upper, lower, np.ones((1, 1)), frames, np.ones((n_cells, 1)))
 
@@ -173,7 +165,7 @@ def _surface(
     size = np.abs(middle - middle[:, :1]).max(axis=(1, 2)) ** (d - 1)
     flat = (area <= 1e-12 * size[:, None]).any(axis=1)
     if flat.any():
-        raise MeshError(f"{_cells(flat)} of the joint {zone.element} has no area")
+        raise MeshError("kernel.interface.joint-no-area", cells=_cells(flat), element=zone.element)
     _refuse_reversed(zone, frames[:, :, -1], np.einsum("gm,nmi->ngi", N, x_u - x_l), size)
     _refuse_folded(zone, frames[:, :, -1])
     weights = area * rule.weights * _thickness(zone, given, N, middle)
@@ -202,10 +194,7 @@ def _refuse_reversed(zone: Zone, normal: FloatArray, gap: FloatArray, size: Floa
     wrong = (np.sum(normal * gap, axis=-1) < -1e-9 * length[:, None]).any(axis=1)
     if wrong.any():
         raise MeshError(
-            f"{_cells(wrong)} of the joint {zone.element} has a normal that goes from its first "
-            "side to its second: opening and closing would be exchanged",
-            "walk both sides with the joint on the right hand, or exchange the two meshes given "
-            "to RACC (LIAI): the first is the upper side",
+            "kernel.interface.joint-normal-goes-first", cells=_cells(wrong), element=zone.element
         )
 
 
@@ -214,9 +203,9 @@ def _refuse_folded(zone: Zone, normal: FloatArray) -> None:
     folded = (np.einsum("ngi,ni->ng", normal, normal[:, 0]) <= 0.0).any(axis=1)
     if folded.any():
         raise MeshError(
-            f"{_cells(folded)} of the joint {zone.element} is folded: part of it has a negative "
-            "area",
-            "its nodes must follow one another round the face, on both sides in the same order",
+            "kernel.interface.joint-folded-part-negative",
+            cells=_cells(folded),
+            element=zone.element,
         )
 
 
@@ -228,8 +217,10 @@ def _refuse_negative(zone: Zone, weights: FloatArray) -> None:
     if negative.any():
         axisymmetric = zone.mode is Mode.AXISYMMETRIC
         raise MeshError(
-            f"{_cells(negative)} of the joint {zone.element} has a negative area",
-            "radii must be positive" if axisymmetric else "the thickness DIM3 must be positive",
+            "kernel.interface.joint-negative-area",
+            cells=_cells(negative),
+            element=zone.element,
+            axisymmetric=axisymmetric,
         )
 
 
@@ -260,7 +251,9 @@ def point_values(
     values, support = given.raw(name)
     if values.dtype == object:
         raise MaterialError(
-            f"the joint parameter {name} must be a number, not {type(values.flat[0]).__name__}"
+            "kernel.interface.joint-parameter-must-number",
+            name=name,
+            name_2=type(values.flat[0]).__name__,
         )
     g, m = shape.shape
     values = np.broadcast_to(values.astype(float, copy=False), (n_cells, values.shape[1]))
@@ -270,7 +263,7 @@ def point_values(
     if values.shape[1] in (1, g):
         return np.broadcast_to(values, (n_cells, g)).copy()
     raise MaterialError(
-        f"the joint parameter {name} has {values.shape[1]} values a cell where 1 or {g} fit"
+        "kernel.interface.joint-parameter-cell-fit", name=name, n_values=values.shape[1], g=g
     )
 
 
@@ -283,7 +276,7 @@ def user_axis(given: ZoneField | None, name: str, n_cells: int, d: int) -> Float
         if name + c in given:
             axis[:, i] = given.raw(name + c)[0].astype(float).mean(axis=1)
     if not (np.linalg.norm(axis, axis=1) > 0).all():
-        raise MeshError(f"the direction {name} given for a joint is a zero vector")
+        raise MeshError("kernel.interface.direction-joint-zero-vector", name=name)
     return axis
 
 

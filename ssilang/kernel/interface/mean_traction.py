@@ -8,43 +8,44 @@ both ends; what that leaves over stored energy counts as lost in shear.
 
 from __future__ import annotations
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.compiled.compiler import compiled
-from ssilang.kernel.interface.laws.columns import FC, FU, GF, KN, SHEAR_ENERGY, SHEAR_LOSS, XI
+from ssilang.kernel.interface.laws.columns import LawCode, Parameter, Variable
 from ssilang.kernel.interface.laws.point_laws import point_response
 from ssilang.kernel.interface.laws.sdm_law import normal_energy, opening_loss
-from ssilang.kernel.interface.response import interface_forces, local_jumps
+from ssilang.kernel.interface.response import (
+    InterfaceState,
+    Joints,
+    Trial,
+    interface_forces,
+    local_jumps,
+)
 
 TINY = 1e-6  # step (as a share of the tractions) below which the mean of both ends is as good
+CLOSED, CLOSING, OPEN, OPENING = range(4)  # CLOSING: also free, OPEN: elastic in tension
 
 
 @compiled
 def _branch(w: float, xi: float, new_xi: float, k: float, fc: float) -> int:
-    """0 closed, 1 closing or open and free, 2 open elastic, 3 opening further."""
+    """The straight line on which a point is, or that it opens further."""
     if new_xi != xi:
-        return 3
+        return OPENING
     if w > xi:
-        return 2
-    return 0 if k * w <= fc else 1
+        return OPEN
+    return CLOSED if k * w <= fc else CLOSING
 
 
 @compiled
-def mean_point(
-    code: int,
-    w0: FloatArray,
-    t0: FloatArray,
-    state: FloatArray,
-    w1: FloatArray,
-    p: FloatArray,
-    t1: FloatArray,
-    new: FloatArray,
-    tm: FloatArray,
-    D: FloatArray,
+def _mean_point(
+    joints: Joints, now: InterfaceState, end: Trial, tm: FloatArray, point: int
 ) -> None:
-    """End traction t1, new state, mean traction tm and its tangent D = dtm/dw1, in place."""
+    """A point's end traction and state, mean traction tm and its tangent dtm/dw, in place."""
+    p, state, new, D = joints.p[point], now.state[point], end.state[point], end.D[point]
+    w0, t0, w1, t1 = now.w[point], now.t[point], end.w[point], end.t[point]
     n = w0.shape[0] - 1
-    point_response(code, w1, state, p, t1, new, D)
+    point_response(joints.codes[point], w1, state, p, t1, new, D)
     slope = D[n, n]
+    # shear, and whatever has no energy of its own: the mean of both ends
     work = 0.0
     for i in range(n + 1):
         tm[i] = 0.5 * (t0[i] + t1[i])
@@ -52,20 +53,23 @@ def mean_point(
             D[i, j] *= 0.5
         if i < n:
             work += tm[i] * (w1[i] - w0[i])
-    if code != 1:
+    if joints.codes[point] != LawCode.SDM:
         return
-    new[SHEAR_LOSS] = state[SHEAR_LOSS] + work - (new[SHEAR_ENERGY] - state[SHEAR_ENERGY])
-    k, fc = p[KN], p[FC]
-    before = _branch(w0[n], state[XI], state[XI], k, fc)
-    after = _branch(w1[n], state[XI], new[XI], k, fc)
+    stored = new[Variable.SHEAR_ENERGY] - state[Variable.SHEAR_ENERGY]
+    new[Variable.SHEAR_LOSS] = state[Variable.SHEAR_LOSS] + work - stored
+    # the mean of both ends is exact too where the law is a straight line between them
+    k, fc, xi0, xi1 = p[Parameter.KN], p[Parameter.FC], state[Variable.XI], new[Variable.XI]
+    before, after = _branch(w0[n], xi0, xi0, k, fc), _branch(w1[n], xi0, xi1, k, fc)
     step = w1[n] - w0[n]
-    if before == after and after != 3:
+    if before == after and after != OPENING:
         return
     if abs(k * step) <= TINY * max(abs(t0[n]), abs(t1[n])) or step == 0.0:
         return
-    start = normal_energy(w0[n], t0[n], state[XI], k, fc) + opening_loss(state[XI], p[FU], p[GF])
-    end = normal_energy(w1[n], t1[n], new[XI], k, fc) + opening_loss(new[XI], p[FU], p[GF])
-    tm[n] = (end - start) / step
+    # elsewhere work over path; its tangent is kept below that which Newton could not leave
+    fu, gf = p[Parameter.FU], p[Parameter.GF]
+    work = normal_energy(w1[n], t1[n], xi1, k, fc) + opening_loss(xi1, fu, gf)
+    work -= normal_energy(w0[n], t0[n], xi0, k, fc) + opening_loss(xi0, fu, gf)
+    tm[n] = work / step
     D[n, n] = (t1[n] - tm[n]) / step
     if D[n, n] > 0.5 * k and slope == 0.0:
         D[n, n] = 0.5 * k
@@ -73,24 +77,14 @@ def mean_point(
 
 @compiled
 def mean_response(
-    pairs: IntArray,
-    B: FloatArray,
-    weights: FloatArray,
-    codes: IntArray,
-    p: FloatArray,
-    w0: FloatArray,
-    t0: FloatArray,
-    state: FloatArray,
-    delta: FloatArray,
-    w1: FloatArray,
-    t1: FloatArray,
-    new: FloatArray,
-    tm: FloatArray,
-    D: FloatArray,
-    f: FloatArray,
+    joints: Joints, now: InterfaceState, delta: FloatArray, end: Trial, tm: FloatArray
 ) -> None:
-    """Mean tractions, their tangents and forces f (size,) for end jumps delta, in place."""
-    local_jumps(pairs, B, delta, w1)
-    for i in range(w1.shape[0]):
-        mean_point(codes[i], w0[i], t0[i], state[i], w1[i], p[i], t1[i], new[i], tm[i], D[i])
-    interface_forces(pairs, B, weights, tm, f)
+    """Mean tractions tm (n_points, d) of a step that ends at the pair jumps delta, into `end`.
+
+    There w, t and state are those of the end; D are tangents of the mean tractions, f (q,) their
+    forces.
+    """
+    local_jumps(joints, delta, end.w)
+    for i in range(end.w.shape[0]):
+        _mean_point(joints, now, end, tm[i], i)
+    interface_forces(joints, tm, end.f)

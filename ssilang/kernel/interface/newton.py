@@ -1,178 +1,132 @@
-"""Exact solution of a problem that is linear but for its interface, on the interface alone.
+"""Semi-smooth Newton on the jumps of an interface, all else being linear (see `condensed`).
 
-`A x + c J^T (f(delta_0 + J x) - f_0) = r` with A factorised once (A includes `J^T R J`, R being a
-stiffness that keeps it regular, taken back here). With the compliance `S = J A^-1 J^T`,
-
-    y + S (c (f(delta_0 + y) - f_0) - R y) = y_0 ,   y = J x ,  y_0 = J A^-1 r
-
-is solved for y by semi-smooth Newton; the law is piecewise smooth, so two or three turns reach
-rounding errors.
+The laws are piecewise smooth, so two or three turns reach rounding errors.
 """
 
 from __future__ import annotations
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
+from typing import NamedTuple
+
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.compiled.apart import apart
 from ssilang.kernel.base.compiled.compiler import compiled
-from ssilang.kernel.interface.laws.columns import CLOSED_SHEAR, FROT, FU, HELD, OPEN_SHEAR, SHEAR
-from ssilang.kernel.interface.response import interface_response, interface_stiffness
+from ssilang.kernel.interface.changed import Changes
+from ssilang.kernel.interface.condensed import Condensed, residual
+from ssilang.kernel.interface.copies import largest
+from ssilang.kernel.interface.factors import Factors, new_factors, solve_tangent
+from ssilang.kernel.interface.inverse import Inverse
+from ssilang.kernel.interface.laws.columns import (
+    CLOSED_SHEAR,
+    OPEN_SHEAR,
+    LawCode,
+    Parameter,
+    Variable,
+)
+from ssilang.kernel.interface.lu import LU
+from ssilang.kernel.interface.response import (
+    InterfaceState,
+    Joints,
+    Trial,
+    interface_response,
+    new_trial,
+)
 
 TOLERANCE = 1e-12  # of the largest jump or increment: what double precision leaves
 PLAIN_TURNS = 12  # turns without line search
 HOLDING_TURN = 16  # turn from which shear that jumps with the opening is held
 MOST_TURNS = 60
+HALVINGS = 12  # of a step in the line search
 ACCEPTED = 1e-9  # residual at which an iteration that only rounding errors move is accepted
+MOVED = 1e-14  # least step of Newton, relative to the jumps
+
+
+class Workspace(NamedTuple):
+    """Arrays of the iteration, that go on from step to step."""
+
+    trial: Trial
+    factors: Factors
+
+
+def workspace(shape: tuple[int, ...], q: int) -> Workspace:
+    """Room for (n_points, d) local jumps and q jumps of pairs; nothing is factorised yet."""
+    return Workspace(new_trial(shape, q), new_factors(shape, q))
 
 
 @compiled
-def solve_dense(A: FloatArray, b: FloatArray) -> bool:
-    """Solve A x = b in place (b becomes x, A is lost); False if a pivot vanishes."""
-    n = b.shape[0]
-    top = 0.0
-    for i in range(n):
-        for j in range(n):
-            top = max(top, abs(A[i, j]))
-    for k in range(n):
-        pivot = k
-        for i in range(k + 1, n):
-            if abs(A[i, k]) > abs(A[pivot, k]):
-                pivot = i
-        if abs(A[pivot, k]) <= 1e-15 * top:
-            return False
-        if pivot != k:
-            for j in range(k, n):
-                A[k, j], A[pivot, j] = A[pivot, j], A[k, j]
-            b[k], b[pivot] = b[pivot], b[k]
-        inverse = 1.0 / A[k, k]
-        for i in range(k + 1, n):
-            factor = A[i, k] * inverse
-            if factor != 0.0:
-                for j in range(k + 1, n):
-                    A[i, j] -= factor * A[k, j]
-                b[i] -= factor * b[k]
-    for k in range(n - 1, -1, -1):
-        total = b[k]
-        for j in range(k + 1, n):
-            total -= A[k, j] * b[j]
-        b[k] = total / A[k, k]
-    return True
+def workspace_at(works: Workspace, j: int) -> Workspace:
+    """One of several workspaces that are stacked array by array."""
+    t, x = works.trial, works.factors
+    return Workspace(
+        Trial(
+            t.y0[j], t.y[j], t.delta[j], t.f[j], t.w[j], t.t[j], t.state[j], t.D[j], t.h[j],
+            t.r[j], t.dy[j],
+        ),
+        Factors(
+            x.tangents[j],
+            LU(x.lu.A[j], x.lu.exchanges[j]),
+            Inverse(x.inverse.Y[j], x.inverse.room[j], x.inverse.updates[j]),
+            Changes(x.changes.Z[j], x.changes.row[j], x.changes.held[j]),
+        ),
+    )  # fmt: skip
 
 
 @compiled
-def largest(v: FloatArray) -> float:
-    top = 0.0
-    for i in range(v.shape[0]):
-        top = max(top, abs(v[i]))
-    return top
-
-
-@compiled
-def _residual(
-    S: FloatArray,
-    R: FloatArray,
-    c: float,
-    y: FloatArray,
-    y0: FloatArray,
-    f: FloatArray,
-    f0: FloatArray,
-    h: FloatArray,
-    r: FloatArray,
-) -> float:
-    """h = c (f - f0) - R y and r = y - y0 + S h; returns max |r|."""
-    n = y.shape[0]
-    for i in range(n):
-        total = c * (f[i] - f0[i])
-        for j in range(n):
-            total -= R[i, j] * y[j]
-        h[i] = total
-    size = 0.0
-    for i in range(n):
-        total = y[i] - y0[i]
-        for j in range(n):
-            total += S[i, j] * h[j]
-        r[i] = total
-        size = max(size, abs(total))
-    return size
-
-
-@compiled
-def _newton_matrix(S: FloatArray, K: FloatArray, R: FloatArray, c: float, A: FloatArray) -> None:
-    """A = 1 + S (c K - R); K (overwritten) is sparse for few points."""
-    n = S.shape[0]
-    for k in range(n):
-        for j in range(n):
-            K[k, j] = c * K[k, j] - R[k, j]
-    for i in range(n):
-        for j in range(n):
-            A[i, j] = 0.0
-        A[i, i] = 1.0
-    for k in range(n):
-        for j in range(n):
-            value = K[k, j]
-            if value != 0.0:
-                for i in range(n):
-                    A[i, j] += S[i, k] * value
-
-
-@compiled
-def release_shear(state: FloatArray, new: FloatArray) -> None:
+def _release_shear(state: FloatArray, new: FloatArray) -> None:
     """End of an iteration: no shear is held any more."""
     for i in range(state.shape[0]):
-        state[i, HELD] = 0.0
-        new[i, HELD] = 0.0
+        state[i, Variable.HELD] = 0.0
+        new[i, Variable.HELD] = 0.0
 
 
 @compiled
-def hold_shear(codes: IntArray, p: FloatArray, t: FloatArray, state: FloatArray) -> bool:
+def _hold_shear(joints: Joints, t: FloatArray, state: FloatArray) -> bool:
     """Hold the shear of points that lose it at once on opening; True if there are any.
 
     `t` are the tractions at the start of the step.
     """
-    found, normal = False, t.shape[1] - 1
+    found, normal, p = False, t.shape[1] - 1, joints.p
     for i in range(state.shape[0]):
-        if codes[i] == 1 and p[i, FROT] < 0.0 and p[i, SHEAR] != 1.0 and p[i, FU] == 0.0:
-            state[i, HELD] = CLOSED_SHEAR if t[i, normal] < 0.0 else OPEN_SHEAR
+        bounded = p[i, Parameter.FROT] >= 0.0 or p[i, Parameter.SHEAR] == 1.0
+        if joints.codes[i] == LawCode.SDM and not bounded and p[i, Parameter.FU] == 0.0:
+            state[i, Variable.HELD] = CLOSED_SHEAR if t[i, normal] < 0.0 else OPEN_SHEAR
             found = True
     return found
 
 
 @apart
 @compiled
-def iterate_interface(
-    pairs: IntArray,
-    B: FloatArray,
-    weights: FloatArray,
-    codes: IntArray,
-    p: FloatArray,
-    S: FloatArray,
-    R: FloatArray,
-    c: float,
-    delta0: FloatArray,
-    f0: FloatArray,
-    state: FloatArray,
-    y0: FloatArray,
-    y: FloatArray,
-    w: FloatArray,
-    t: FloatArray,
-    new: FloatArray,
-    D: FloatArray,
-    f: FloatArray,
-    h: FloatArray,
-    r: FloatArray,
-    dy: FloatArray,
-    delta: FloatArray,
-    K: FloatArray,
-    A: FloatArray,
+def _evaluate(joints: Joints, condensed: Condensed, now: InterfaceState, trial: Trial) -> float:
+    """Tractions and forces at the increment y of the trial; the largest residual."""
+    for i in range(len(trial.y)):
+        trial.delta[i] = now.delta[i] + trial.y[i]
+    interface_response(joints, now.state, trial.delta, trial)
+    return residual(condensed, now, trial)
+
+
+@apart
+@compiled
+def _restart_held(joints: Joints, condensed: Condensed, now: InterfaceState, trial: Trial) -> float:
+    """Start again with the shear held that a step's start has, where no other shear is possible."""
+    interface_response(joints, now.state, now.delta, trial)
+    if _hold_shear(joints, trial.t, now.state):
+        for i in range(len(trial.y)):
+            trial.y[i] = trial.y0[i]
+    return _evaluate(joints, condensed, now, trial)
+
+
+@apart
+@compiled
+def solve_interface(
+    joints: Joints, condensed: Condensed, now: InterfaceState, work: Workspace
 ) -> tuple[int, float]:
-    """Increment y of the jumps (start value on entry), tractions, new states, forces.
+    """The increment `y` of the jumps, from a start value, with all that belongs to it, in `work`.
 
     Parameters
     ----------
-    r, dy, delta, K, A : arrays (size,), (size, size)
-        Room for the iteration.
-    h : array (size,)
-        On return `c (f - f0) - R y`, the load that corrects the linear solution:
-        `x = A^-1 r - A^-1 J^T h`.
+    now : InterfaceState
+        Start of the step; left as it is (`accept` makes the end the state).
+    work : Workspace
+        `trial.y0` and the start value of `trial.y` are read.
 
     Returns
     -------
@@ -181,46 +135,36 @@ def iterate_interface(
     residual : float
         Of the last turn, relative to the jumps.
     """
-    n = y.shape[0]
-    for i in range(n):
-        delta[i] = delta0[i] + y[i]
-    interface_response(pairs, B, weights, codes, p, delta, state, w, t, new, D, f)
-    size = _residual(S, R, c, y, y0, f, f0, h, r)
-    scale = max(largest(y0), largest(delta0), 1e-300)
+    trial, y, dy = work.trial, work.trial.y, work.trial.dy
+    size = _evaluate(joints, condensed, now, trial)
+    scale = max(largest(trial.y0), largest(now.delta), 1e-300)
+    turns = -MOST_TURNS
     for turn in range(1, MOST_TURNS + 1):
         scale = max(scale, largest(y))
         if turn == HOLDING_TURN:
-            interface_response(pairs, B, weights, codes, p, delta0, state, w, t, new, D, f)
-            if hold_shear(codes, p, t, state):
-                for i in range(n):
-                    y[i] = y0[i]
-                    delta[i] = delta0[i] + y[i]
-            interface_response(pairs, B, weights, codes, p, delta, state, w, t, new, D, f)
-            size = _residual(S, R, c, y, y0, f, f0, h, r)
+            size = _restart_held(joints, condensed, now, trial)
         if size <= TOLERANCE * scale:
-            release_shear(state, new)
-            return turn, size / scale
-        interface_stiffness(pairs, B, weights, D, K)
-        _newton_matrix(S, K, R, c, A)
-        for i in range(n):
-            dy[i] = -r[i]
-        if not solve_dense(A, dy):
-            release_shear(state, new)
-            return 0, size / scale
+            turns = turn
+            break
+        # Newton's direction
+        for i in range(len(y)):
+            dy[i] = -trial.r[i]
+        if not solve_tangent(joints, condensed, work.factors, trial.D, dy):
+            turns = 0
+            break
+        # step along it, halved after the first turns until the residual falls
         before, length = size, 1.0
-        for halving in range(12):
-            for i in range(n):
+        for halving in range(HALVINGS):
+            for i in range(len(y)):
                 y[i] += length * dy[i]
-                delta[i] = delta0[i] + y[i]
-            interface_response(pairs, B, weights, codes, p, delta, state, w, t, new, D, f)
-            size = _residual(S, R, c, y, y0, f, f0, h, r)
-            if turn <= PLAIN_TURNS or size < before or halving == 11:
+            size = _evaluate(joints, condensed, now, trial)
+            if turn <= PLAIN_TURNS or size < before or halving == HALVINGS - 1:
                 break
-            for i in range(n):
+            for i in range(len(y)):
                 y[i] -= length * dy[i]
             length *= 0.5
-        if length * largest(dy) <= 1e-14 * scale and size <= ACCEPTED * scale:
-            release_shear(state, new)
-            return turn, size / scale
-    release_shear(state, new)
-    return -MOST_TURNS, size / scale
+        if length * largest(dy) <= MOVED * scale and size <= ACCEPTED * scale:
+            turns = turn
+            break
+    _release_shear(now.state, trial.state)
+    return turns, size / scale

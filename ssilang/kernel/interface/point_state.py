@@ -6,8 +6,8 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.compiler import compiled
-from ssilang.kernel.interface.laws.columns import FC, FU, GF, KN, STATUS, XI
-from ssilang.kernel.interface.laws.law_table import MOHR, SDM, elastic_tangent
+from ssilang.kernel.interface.laws.columns import IS_OPEN, LawCode, Parameter, Variable
+from ssilang.kernel.interface.laws.law_table import elastic_tangent
 from ssilang.kernel.interface.laws.point_laws import point_energies
 
 CLOSED, CLOSING, OPEN, OPENING = 1.0, 2.0, 3.0, 4.0
@@ -39,15 +39,15 @@ def point_states(
     p : array (n, N_PARAMETERS)
     """
     found = np.full(len(codes), CLOSED)
-    for chosen, of in ((codes == SDM, _sdm), (codes == MOHR, _mohr), (codes > MOHR, _macro)):
-        if chosen.any():
-            found[chosen] = of(w[chosen], t[chosen], state[chosen], p[chosen])
+    for code in np.unique(codes[codes != LawCode.ELASTIC]):
+        chosen, of = codes == code, _STATES.get(code, _macro)
+        found[chosen] = of(w[chosen], t[chosen], state[chosen], p[chosen])
     return found
 
 
 def _sdm(w: FloatArray, t: FloatArray, state: FloatArray, p: FloatArray) -> FloatArray:
-    wn, tn, xi = w[:, -1], t[:, -1], state[:, XI]
-    k, fu, gf, fc = p[:, KN], p[:, FU], p[:, GF], p[:, FC]
+    wn, tn, xi = w[:, -1], t[:, -1], state[:, Variable.XI]
+    k, fu, gf, fc = p[:, Parameter.KN], p[:, Parameter.FU], p[:, Parameter.GF], p[:, Parameter.FC]
     rate = np.divide(fu, gf, out=np.zeros(len(fu)), where=fu > 0)
     largest = (xi > 0) & (wn >= xi) & (tn >= fu * np.exp(-rate * xi) * (1 - SAME))
     conditions = [k * wn <= fc, largest, (wn < xi) & (fc < 0)]
@@ -55,7 +55,7 @@ def _sdm(w: FloatArray, t: FloatArray, state: FloatArray, p: FloatArray) -> Floa
 
 
 def _mohr(w: FloatArray, t: FloatArray, state: FloatArray, p: FloatArray) -> FloatArray:
-    conditions = [state[:, STATUS] == 1.0, t[:, -1] > 0]
+    conditions = [state[:, Variable.STATUS] == IS_OPEN, t[:, -1] > 0]
     return np.select(conditions, [OPEN, OPENING], CLOSED)
 
 
@@ -64,6 +64,10 @@ def _macro(w: FloatArray, t: FloatArray, state: FloatArray, p: FloatArray) -> Fl
     whole = np.einsum("nij,nj->ni", elastic_tangent(p, d), w)
     size = np.abs(np.diagonal(elastic_tangent(p, d), axis1=1, axis2=2) * w).max(axis=1)
     return np.where((np.abs(t - whole).max(axis=1) <= WHOLE * size), CLOSED, OPEN)
+
+
+_STATES = {LawCode.SDM: _sdm, LawCode.MOHR: _mohr}
+"""By law; all others are macro-elements."""
 
 
 @compiled

@@ -2,15 +2,102 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
+import numpy as np
+
 from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.base.compiled.apart import apart
 from ssilang.kernel.base.compiled.compiler import compiled
+from ssilang.kernel.interface.copies import copy_rows, copy_state
+from ssilang.kernel.interface.laws.columns import N_STATE
 from ssilang.kernel.interface.laws.point_laws import point_energies, respond
 
 
+class Joints(NamedTuple):
+    """The points of an interface, as compiled code takes them.
+
+    Attributes
+    ----------
+    pairs : array (n_points, m)
+        Pairs of facing nodes that each point interpolates.
+    B : array (n_points, d, m d)
+        Local jump of a point from the jumps of its pairs.
+    weights : array (n_points,)
+    codes : array (n_points,)
+        Laws (`LawCode`).
+    p : array (n_points, N_PARAMETERS)
+        Their parameters, C-contiguous.
+    """
+
+    pairs: IntArray
+    B: FloatArray
+    weights: FloatArray
+    codes: IntArray
+    p: FloatArray
+
+
+class InterfaceState(NamedTuple):
+    """What an interface is at the end of the last converged step.
+
+    Attributes
+    ----------
+    delta, f : arrays (q,)
+        Jumps of the pairs, forces on them.
+    w, t : arrays (n_points, d)
+        Local jumps and tractions, normal last.
+    state : array (n_points, N_STATE)
+        Internal variables of the laws.
+    """
+
+    delta: FloatArray
+    f: FloatArray
+    w: FloatArray
+    t: FloatArray
+    state: FloatArray
+
+
+class Trial(NamedTuple):
+    """The end of a step while it is iterated on: jumps that are tried, and what the laws give.
+
+    Attributes
+    ----------
+    y0, y : arrays (q,)
+        Increments of the jumps under the forces of the start, and those that are tried.
+    delta, f : arrays (q,)
+        Jumps tried, forces.
+    w, t : arrays (n_points, d)
+    state : array (n_points, N_STATE)
+    D : array (n_points, d, d)
+        Tangents dt/dw.
+    h, r, dy : arrays (q,)
+        Load that corrects the linear solution, residual, Newton's direction.
+    """
+
+    y0: FloatArray
+    y: FloatArray
+    delta: FloatArray
+    f: FloatArray
+    w: FloatArray
+    t: FloatArray
+    state: FloatArray
+    D: FloatArray
+    h: FloatArray
+    r: FloatArray
+    dy: FloatArray
+
+
+def new_trial(shape: tuple[int, ...], q: int) -> Trial:
+    """Zeros for (n_points, d) local jumps and q jumps of pairs."""
+    n_points, d = shape
+    w, t, state = np.zeros(shape), np.zeros(shape), np.zeros((n_points, N_STATE))
+    y0, y, delta, f, h, r, dy = (np.zeros(q) for _ in range(7))
+    return Trial(y0, y, delta, f, w, t, state, np.zeros((n_points, d, d)), h, r, dy)
+
+
 @compiled
-def local_jumps(pairs: IntArray, B: FloatArray, delta: FloatArray, w: FloatArray) -> None:
-    """Local jumps w (n_points, d) from pair jumps delta (size,)."""
+def local_jumps(joints: Joints, delta: FloatArray, w: FloatArray) -> None:
+    """Local jumps w (n_points, d) from pair jumps delta (q,)."""
+    pairs, B = joints.pairs, joints.B
     n, d, _ = B.shape
     for p in range(n):
         for i in range(d):
@@ -22,10 +109,9 @@ def local_jumps(pairs: IntArray, B: FloatArray, delta: FloatArray, w: FloatArray
 
 
 @compiled
-def interface_forces(
-    pairs: IntArray, B: FloatArray, weights: FloatArray, t: FloatArray, f: FloatArray
-) -> None:
-    """Forces f (size,) on the pair jumps from local tractions t (n_points, d)."""
+def interface_forces(joints: Joints, t: FloatArray, f: FloatArray) -> None:
+    """Forces f (q,) on the pair jumps from local tractions t (n_points, d)."""
+    pairs, B, weights = joints.pairs, joints.B, joints.weights
     n, d, _ = B.shape
     for i in range(f.shape[0]):
         f[i] = 0.0
@@ -39,10 +125,9 @@ def interface_forces(
 
 
 @compiled
-def interface_stiffness(
-    pairs: IntArray, B: FloatArray, weights: FloatArray, D: FloatArray, K: FloatArray
-) -> None:
-    """Dense stiffness K (size, size) from local tangents D (n_points, d, d)."""
+def interface_stiffness(joints: Joints, D: FloatArray, K: FloatArray) -> None:
+    """Dense stiffness K (q, q) from local tangents D (n_points, d, d)."""
+    pairs, B, weights = joints.pairs, joints.B, joints.weights
     n, d, _ = B.shape
     for row in range(K.shape[0]):
         for column in range(K.shape[1]):
@@ -69,41 +154,36 @@ def _add_product(
                         K[row, pairs[b] * d + j] += part * right[b * d + j]
 
 
-@apart
 @compiled
-def interface_response(
-    pairs: IntArray,
-    B: FloatArray,
-    weights: FloatArray,
-    codes: IntArray,
-    p: FloatArray,
-    delta: FloatArray,
-    state: FloatArray,
-    w: FloatArray,
-    t: FloatArray,
-    new: FloatArray,
-    D: FloatArray,
-    f: FloatArray,
-) -> None:
-    """Jumps, tractions, new states, tangents and forces at the pair jumps delta, in place."""
-    local_jumps(pairs, B, delta, w)
-    respond(codes, w, state, p, t, new, D)
-    interface_forces(pairs, B, weights, t, f)
+def interface_response(joints: Joints, start: FloatArray, delta: FloatArray, end: Trial) -> None:
+    """Jumps, tractions, new states, tangents and forces at the pair jumps delta, into `end`.
+
+    `start` (n_points, N_STATE) are the states of the last converged step.
+    """
+    local_jumps(joints, delta, end.w)
+    respond(joints.codes, end.w, start, joints.p, end.t, end.state, end.D)
+    interface_forces(joints, end.t, end.f)
+
+
+@compiled
+def accept(trial: Trial, now: InterfaceState) -> None:
+    """The end of a converged step becomes the state."""
+    for i in range(len(trial.y)):
+        now.delta[i] += trial.y[i]
+    copy_state(trial.f, now.f)
+    copy_rows(trial.w, now.w)
+    copy_rows(trial.t, now.t)
+    copy_rows(trial.state, now.state)
 
 
 @compiled
 def interface_energies(
-    codes: IntArray,
-    p: FloatArray,
-    weights: FloatArray,
-    w: FloatArray,
-    t: FloatArray,
-    state: FloatArray,
+    joints: Joints, w: FloatArray, t: FloatArray, state: FloatArray
 ) -> tuple[float, float]:
     """Stored energy and energy lost so far of the whole interface (joules)."""
     stored, lost = 0.0, 0.0
     for i in range(w.shape[0]):
-        kept, gone = point_energies(codes[i], w[i], t[i], state[i], p[i])
-        stored += weights[i] * kept
-        lost += weights[i] * gone
+        kept, gone = point_energies(joints.codes[i], w[i], t[i], state[i], joints.p[i])
+        stored += joints.weights[i] * kept
+        lost += joints.weights[i] * gone
     return stored, lost

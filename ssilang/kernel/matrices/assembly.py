@@ -90,9 +90,13 @@ class Numbering:
         """Indices of all unknowns called `name`, by increasing node."""
         return np.flatnonzero(self.codes == self.code(name))
 
+    def name(self, index: int) -> str:
+        """Name of one unknown: 'UX'."""
+        return self.unknowns[self.codes[index]]
+
     def label(self, index: int) -> Sentence:
         """'UX at node 12' (node counted from 1, as scripts see it)."""
-        return unknown_label(self.unknowns[self.codes[index]], self.nodes[index])
+        return unknown_label(self.name(index), self.nodes[index])
 
 
 def unknown_label(name: str, node: int) -> Sentence:

@@ -118,7 +118,7 @@ class FollowingSolver(BulkSolver):
             lost = self._followed(motion, r, dd, way, lambda s, _: [most - s.x], share, start)
         if lost.turns > 0:
             assert lost.trial is not None
-            self._commit(motion, lost.du, lost.trial.f, lost.trial.new)
+            self._commit(motion, lost.trial.joints)
             answer = lost.trial.answer
             self.state, self.force, self.work = answer.state, answer.force, answer.work
         return lost

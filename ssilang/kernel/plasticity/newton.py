@@ -9,6 +9,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import SingularFactorError
 from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.interface.response import Trial, new_trial
 from ssilang.kernel.plasticity.bulk import Answer, Bulk, State
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.dense.loop import Motion
@@ -37,8 +38,7 @@ class _Trial:
     du: FloatArray
     answer: Answer
     K: sp.csr_array
-    f: FloatArray
-    new: FloatArray
+    joints: Trial
     rest: FloatArray
     residual: float
     free: FloatArray
@@ -131,7 +131,7 @@ class BulkSolver(FullNewtonSolver):
                 break
             if now.residual <= TOLERANCE or self._stalled():
                 motion.contact[:] = now.pushed
-                self._commit(motion, now.du, now.f, now.new)
+                self._commit(motion, now.joints)
                 answer = now.answer
                 self.state, self.force, self.work = answer.state, answer.force, answer.work
                 return StepOutcome(now.du, turn, now.residual)
@@ -160,9 +160,9 @@ class BulkSolver(FullNewtonSolver):
         return found
 
     def _trial(self, motion: Motion, r: FloatArray, du: FloatArray, pushed: FloatArray) -> _Trial:
-        f, new = np.zeros_like(motion.f), np.zeros_like(motion.state)
+        joints = new_trial(motion.w.shape, len(motion.f))
         answer = self.bulk.respond(self.state, du, self.time)
-        K, force = self._joints(motion, du, f, new)
+        K, force = self._joints(motion, du, joints)
         linear = self.A @ du
         free = r - linear - force - self.share * (answer.force - self.force)
         push = self._push(pushed)
@@ -174,7 +174,7 @@ class BulkSolver(FullNewtonSolver):
         floor = RIGID * stiff * moved
         scale = max(sum(float(np.abs(x).max(initial=0.0)) for x in parts), floor, 1e-300)
         residual = float(np.abs(rest).max(initial=0.0)) / scale
-        return _Trial(du, answer, K, f, new, rest, residual, free, pushed)
+        return _Trial(du, answer, K, joints, rest, residual, free, pushed)
 
     def _stalled(self) -> bool:
         last = self.residuals[-3:]

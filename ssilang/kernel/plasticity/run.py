@@ -84,7 +84,7 @@ class BulkRun:
         m.energies[LOST] = 0.0
         if joints is not None:
             m.energies[STORED], m.energies[LOST] = interface_energies(
-                joints.codes, joints.parameters, joints.weights, m.w, m.t, m.state
+                joints.points, m.w, m.t, m.state
             )
         m.energies[LOST] += self.lost
 

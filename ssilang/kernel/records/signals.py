@@ -18,11 +18,11 @@ def constant_step(x: FloatArray) -> float:
         With fewer than two points, or when a step differs by more than 1e-4 from the mean.
     """
     if len(x) < 2:
-        raise FieldError("kernel.base.signal-needs-two-points", n_x=len(x))
+        raise FieldError("kernel.records.signal-needs-two-points", n_x=len(x))
     step = float(x[-1] - x[0]) / (len(x) - 1)
     worst = float(np.max(np.abs(np.diff(x) - step)))
     if step <= 0 or worst > 1e-4 * step:
-        raise FieldError("kernel.base.abscissas-not-regularly-spaced", worst=worst, step=step)
+        raise FieldError("kernel.records.abscissas-not-regularly-spaced", worst=worst, step=step)
     return step
 
 

@@ -35,11 +35,11 @@ class SoilColumn:
     def __post_init__(self) -> None:
         columns = (self.thickness, self.density, self.modulus)
         if len({len(c) for c in (*columns, self.damping)}) != 1 or not len(self.thickness):
-            raise MaterialError("kernel.base.soil-needs-many-thicknesses")
+            raise MaterialError("kernel.records.soil-needs-many-thicknesses")
         if any(np.any(c <= 0) for c in columns) or np.any(self.damping < 0):
-            raise MaterialError("kernel.base.thickness-density-modulus-layer")
+            raise MaterialError("kernel.records.thickness-density-modulus-layer")
         if self.f1 <= 0 or self.f2 <= 0:
-            raise MaterialError("kernel.base.frequencies-rayleigh-damping-must")
+            raise MaterialError("kernel.records.frequencies-rayleigh-damping-must")
 
     @property
     def tops(self) -> FloatArray:
@@ -137,9 +137,9 @@ def free_field(
     bottom = soil.tops[-1]
     inside: FloatArray = np.append(depths, np.zeros(0) if control is None else control)
     if step <= 0 or cutoff <= 0 or len(acceleration) < 2:
-        raise MaterialError("kernel.base.acceleration-needs-two-points")
+        raise MaterialError("kernel.records.acceleration-needs-two-points")
     if np.any(inside < -1e-6 * bottom) or np.any(inside > bottom * (1 + 1e-6)):
-        raise MaterialError("kernel.base.depth-outside-layers-end", bottom=bottom)
+        raise MaterialError("kernel.records.depth-outside-layers-end", bottom=bottom)
     n = len(acceleration)
     padded = 2 ** int(np.ceil(np.log2(2 * n)))
     finer = int(np.ceil(step * STEPS_A_PERIOD * cutoff - 1e-9))

@@ -11,60 +11,20 @@ import importlib.util
 from collections import OrderedDict
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import KernelError, SingularFactorError
 from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.solvers.factor import Factor, Ordering
+from ssilang.kernel.solvers.multigrid import MultigridFactor
 
 DISSECTION = "nested dissection"
 MULTIGRID = "multigrid"
 DISSECTED = 8_000  # unknowns of a static problem from which nested dissection pays
 LARGE = 20_000  # unknowns from which a threaded solver pays for its start
-
-
-class Factor(Protocol):
-    """A factorised matrix; `solve` takes (n,) or (n, k)."""
-
-    name: str
-
-    def solve(self, b: FloatArray) -> FloatArray:
-        """Solution of A x = b, same shape as b."""
-        ...
-
-
-@dataclass(frozen=True, eq=False)
-class Ordering:
-    """What helps to order the unknowns of a matrix.
-
-    Attributes
-    ----------
-    points : array (n, d)
-        Coordinates of the unknowns.
-    last : array of int
-        Unknowns to be eliminated last, together.
-    rigid : array (n, k) or None
-        Rigid motions of the unknowns, for multigrid.
-    """
-
-    points: FloatArray
-    last: IntArray
-    rigid: FloatArray | None = None
-
-    def of(self, kept: IntArray) -> Ordering:
-        """The ordering of some of the unknowns (increasing)."""
-        place = np.full(len(self.points), -1, np.int64)
-        place[kept] = np.arange(len(kept))
-        last = place[self.last]
-        rigid = None if self.rigid is None else self.rigid[kept]
-        return Ordering(self.points[kept], last[last >= 0], rigid)
-
-    def scaled(self, scale: FloatArray) -> Ordering:
-        """The ordering of the unknowns `u / scale`."""
-        rigid = None if self.rigid is None else self.rigid / scale[:, None]
-        return Ordering(self.points, self.last, rigid)
 
 
 class SuperLUFactor:
@@ -157,12 +117,6 @@ class CholmodFactor:
         return np.array(x).reshape(b.shape)
 
 
-def _multigrid(A: sp.csr_array, positive: bool) -> Factor:
-    from ssilang.kernel.solvers.multigrid import MultigridFactor
-
-    return MultigridFactor(A, positive)
-
-
 @dataclass(frozen=True)
 class Backend:
     """A solver: what makes it, the package it needs, how to get that, when it is chosen."""
@@ -189,7 +143,7 @@ BACKENDS: dict[str, Backend] = {
         lambda n, positive: positive and n >= 2000,
     ),
     "SuperLU": Backend(SuperLUFactor, "scipy", "pip install scipy", lambda n, positive: True),
-    MULTIGRID: Backend(_multigrid, "pyamg", "pip install 'ssilang[amg]'", lambda n, p: False),
+    MULTIGRID: Backend(MultigridFactor, "pyamg", "pip install 'ssilang[amg]'", lambda n, p: False),
 }
 
 
@@ -265,7 +219,7 @@ def factorise(
         if dissected and ordering is not None:
             return _dissected(A, ordering)
         if name == MULTIGRID and positive and ordering is not None:
-            return _by_multigrid(A, ordering)
+            return MultigridFactor(A, True, ordering.rigid)
         return BACKENDS[name].make(A, positive)
 
     if not _keeping:
@@ -298,10 +252,4 @@ def _dissected(A: sp.csr_array, ordering: Ordering) -> Factor:
             gigabytes_2=gigabytes(available_bytes()),
             remedy=BACKENDS[MULTIGRID].remedy,
         )
-    return _by_multigrid(A, ordering)
-
-
-def _by_multigrid(A: sp.csr_array, ordering: Ordering) -> Factor:
-    from ssilang.kernel.solvers.multigrid import MultigridFactor
-
     return MultigridFactor(A, True, ordering.rigid)

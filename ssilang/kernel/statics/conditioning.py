@@ -15,7 +15,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.sparse import sp
-from ssilang.kernel.interface.laws.columns import KN
+from ssilang.kernel.interface.laws.columns import Parameter
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.statics.linear import LinearSystem
 from ssilang.kernel.stepping.effective import effective_matrix
@@ -120,7 +120,9 @@ def joint_conditioning(problem: Problem) -> JointConditioning | None:
     balanced = number
     if number > STRANGE_JOINTS:
         balanced = condition_number(sp.csr_array(V.T @ (A + closed / contrast) @ T))
-    return JointConditioning(number, balanced, contrast, float(np.median(joints.parameters[:, KN])))
+    return JointConditioning(
+        number, balanced, contrast, float(np.median(joints.parameters[:, Parameter.KN]))
+    )
 
 
 @dataclass(frozen=True)

@@ -22,10 +22,9 @@ from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.family import component_order, has_rotations
 from ssilang.kernel.interface.kinematics import joint_cells
-from ssilang.kernel.interface.laws.columns import N_STATE, OPENING, SLIP1, SLIP2, XI
-from ssilang.kernel.interface.laws.law_table import MOHR, SDM, law_of
+from ssilang.kernel.interface.laws.columns import N_STATE, LawCode, Parameter, Variable
+from ssilang.kernel.interface.laws.law_table import law_of
 from ssilang.kernel.interface.laws.parameter_table import joint_parameters
-from ssilang.kernel.interface.laws.parameters import Parameter
 from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.plasticity.points import PlasticPoints, is_plastic, plastic_strain_names
 from ssilang.kernel.plasticity.zone_points import plastic_points
@@ -221,7 +220,7 @@ def joint_state(points: JointPoints, variables: ZoneField) -> FloatArray:
             values = np.broadcast_to(variables.at(name, "STRESSES"), points.shape)
             state[:, column] = values.ravel()
     if "PLA3" in variables:
-        state[:, XI] -= state[:, OPENING]
+        state[:, Variable.XI] -= state[:, Variable.OPENING]
     return state
 
 
@@ -232,14 +231,14 @@ def _jump(points: JointPoints, traction: FloatArray, state: FloatArray, code: in
     """
     k = points.stiffness()
     w = traction / k
-    slips = (SLIP1, SLIP2)[: points.dimension - 1]
-    if code in (SDM, MOHR):
+    slips = (Variable.SLIP1, Variable.SLIP2)[: points.dimension - 1]
+    if code in (LawCode.SDM, LawCode.MOHR):
         for i, column in enumerate(slips):
             w[:, i] += state[:, column]
-    if code == MOHR:
-        w[:, -1] += state[:, XI] + state[:, OPENING]
-    if code == SDM:
-        t, xi, limit = traction[:, -1], state[:, XI], points.table[:, Parameter.FC]
+    if code == LawCode.MOHR:
+        w[:, -1] += state[:, Variable.XI] + state[:, Variable.OPENING]
+    if code == LawCode.SDM:
+        t, xi, limit = traction[:, -1], state[:, Variable.XI], points.table[:, Parameter.FC]
         closing = (t > limit) & (xi > 0) & (t < 0)
         ratio = np.divide(np.abs(limit), np.abs(limit) + k[:, -1] * xi,
                           out=np.ones_like(xi), where=np.abs(limit) > 0)  # fmt: skip
@@ -300,10 +299,10 @@ def _joint_answer(
         turned[:, :d], after, tangent = after, turned, whole
         after[:, :d] = points.named(t)
     shown = law_of(zone.behaviour).variables
-    kept = {k: c for k, c in shown.items() if d == 3 or c != SLIP2}
+    kept = {k: c for k, c in shown.items() if d == 3 or c != Variable.SLIP2}
     inner = {name: new[:, c].reshape(n, g).copy() for name, c in kept.items()}
     if "PLA3" in inner:
-        inner["PLA3"] += new[:, OPENING].reshape(n, g)
+        inner["PLA3"] += new[:, Variable.OPENING].reshape(n, g)
     elastic = (t - points.local(stress)) / points.stiffness()
     rest = points.named(points.local(step) - elastic)
     names = plastic_strain_names(zone)[:d]

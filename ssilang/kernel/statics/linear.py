@@ -33,9 +33,10 @@ from ssilang.kernel.matrices.assembly import (
 )
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.solvers.active_set.complementarity import ContactProblem, solve_contact
-from ssilang.kernel.solvers.backends import MULTIGRID, Ordering, SuperLUFactor, dissection_pays
+from ssilang.kernel.solvers.backends import MULTIGRID, SuperLUFactor, dissection_pays
 from ssilang.kernel.solvers.cholesky.elimination import Elimination, eliminate
 from ssilang.kernel.solvers.cholesky.inverse import Inverse, invert
+from ssilang.kernel.solvers.factor import Ordering
 from ssilang.kernel.statics.doubled import lying_on
 from ssilang.kernel.statics.linear_motion import (
     bodies_of,

@@ -134,7 +134,7 @@ def _step(problem: Problem, solver: StepSolver, motion: Motion, factors: FloatAr
     joints = problem.interface
     if joints is not None:
         motion.energies[STORED], motion.energies[LOST] = interface_energies(
-            joints.codes, joints.parameters, joints.weights, motion.w, motion.t, motion.state
+            joints.points, motion.w, motion.t, motion.state
         )
     if contact is not None and contact.friction is not None:
         rubbed = contact.rubbed(0.5 * (pushed + motion.contact), outcome.du)
@@ -174,11 +174,7 @@ def _lost_in_joints(problem: Problem, motion: Motion) -> float:
     joints = problem.interface
     if joints is None:
         return 0.0
-    return float(
-        interface_energies(
-            joints.codes, joints.parameters, joints.weights, motion.w, motion.t, motion.state
-        )[1]
-    )
+    return float(interface_energies(joints.points, motion.w, motion.t, motion.state)[1])
 
 
 def _check_balanced(

@@ -12,9 +12,8 @@ from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.interface.elements import is_joint
-from ssilang.kernel.interface.laws.columns import XI
-from ssilang.kernel.interface.laws.law_table import MOHR, SDM, law_of
-from ssilang.kernel.interface.laws.parameters import Parameter
+from ssilang.kernel.interface.laws.columns import LawCode, Parameter, Variable
+from ssilang.kernel.interface.laws.law_table import law_of
 from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.materials.plastic import rounded_coulomb
 from ssilang.kernel.materials.plastic.response import PointParameters, mises
@@ -109,16 +108,16 @@ def _of_joint(
     zone: Zone, material: CellField, stress: FloatArray, variables: ZoneField
 ) -> FloatArray:
     law = law_of(zone.behaviour)
-    if law.code not in (SDM, MOHR):
+    if law.code not in (LawCode.SDM, LawCode.MOHR):
         raise FieldError("kernel.statics.joints-law-no-criterion", element=zone.element)
     points = joint_points(zone, material)
     t, p = points.local(stress), points.table
     shear, normal = np.linalg.norm(t[:, :-1], axis=1), t[:, -1]
-    if law.code == MOHR:
+    if law.code == LawCode.MOHR:
         sliding = shear + normal * p[:, Parameter.TPHI] - p[:, Parameter.COHE]
         opening = normal - p[:, Parameter.FTRC]
         return np.asarray(np.maximum(sliding, opening).reshape(points.shape))
-    xi, fu = joint_state(points, variables)[:, XI], p[:, Parameter.FU]
+    xi, fu = joint_state(points, variables)[:, Variable.XI], p[:, Parameter.FU]
     rate = np.divide(fu, p[:, Parameter.GF], out=np.zeros_like(fu), where=fu > 0)
     opening = normal - fu * np.exp(-rate * xi)
     rough = p[:, Parameter.FROT]

@@ -9,6 +9,7 @@ from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.contact.impact import ImpactRule
 from ssilang.kernel.contact.modal import ContactLoop, contact_loop, takes
 from ssilang.kernel.contact.rows import BoolArray
+from ssilang.kernel.interface.newton import workspace
 from ssilang.kernel.stepping.effective import effective_matrix, effective_of
 from ssilang.kernel.stepping.problem.problem import SMALL, Problem
 from ssilang.kernel.stepping.rests.conserving import ConservingLoop
@@ -89,6 +90,7 @@ class DenseEngine:
         self._operators = operators_of(problem, effective)
         self._joints = joints_of(problem)
         self._motion = motion
+        self._newton = workspace(motion.w.shape, len(motion.f))
 
     def watch(self, balance: FloatArray) -> None:
         """Keep the sum of energies at the start and the largest departure from it in `balance`."""
@@ -101,7 +103,15 @@ class DenseEngine:
         if self._reduced is not None:
             return self._reduced.march(factors, save, saved, history)
         return march(
-            self._system, self._operators, self._joints, self._motion, factors, save, saved, history
+            self._system,
+            self._operators,
+            self._joints,
+            self._motion,
+            self._newton,
+            factors,
+            save,
+            saved,
+            history,
         )
 
 
@@ -218,16 +228,10 @@ def kind_of(problem: Problem, full_newton: bool) -> type[Engine]:
     """
     scheme, contact = problem.scheme, problem.contact
     if scheme.adaptive and (scheme.conserving or full_newton):
-        raise KernelError(
-            "adapted steps are those of the condensed interface",
-            "leave the conserving step and full Newton",
-        )
+        raise KernelError("kernel.stepping.adapted-steps-condensed-interface")
     plain = contact is None or (contact.friction is None and contact.associated)
     if scheme.conserving and not plain:
-        raise KernelError(
-            "the conserving step has no friction between meshes and no relations with a dual",
-            "leave 'CONSERVATIF'",
-        )
+        raise KernelError("kernel.stepping.conserving-step-no-friction")
     if scheme.adaptive and not (problem.interface is None and contact is None):
         return AdaptiveEngine
     if scheme.conserving:

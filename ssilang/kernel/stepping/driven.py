@@ -156,9 +156,9 @@ def _added(problem: Problem, matrix: Matrix | None) -> sp.csr_array:
     lost = [k for k in zip(own.nodes.tolist(), _names(own), strict=True) if k not in keys]
     if lost:
         raise KernelError(
-            f"a matrix added during the calculation has {lost[0][1]} at node {lost[0][0] + 1}, "
-            "which RIGI and MASS lack",
-            "give RIGI a stiffness (of zero, if need be) with this unknown",
+            "kernel.stepping.matrix-added-during-calculation",
+            lost=lost[0][1],
+            lost_2=lost[0][0] + 1,
         )
     return assemble(bare, problem.numbering)
 
@@ -173,10 +173,7 @@ def _with_relations(problem: Problem, operator: Matrix | None) -> Problem:
         return problem
     rows = constraint_matrix(replace(operator, blocks=(), cache={}), problem.numbering)
     if rows.sense.any():
-        raise KernelError(
-            "unilateral relations (MINI, MAXI) cannot be added during a calculation",
-            "put them into RIGI from the start",
-        )
+        raise KernelError("kernel.stepping.unilateral-relations-mini-maxi")
     held = problem.constraints
     C = sp.csr_array(sp.vstack([held.C, rows.C], format="csr"))
     D = C
@@ -197,12 +194,10 @@ def _force(problem: Problem, additions: Additions) -> FloatArray:
             continue
         lost = outside(given, problem.numbering)
         if lost:
-            raise KernelError(
-                f"a force added during the calculation has {lost[0]}, which the matrices lack"
-            )
+            raise KernelError("kernel.stepping.force-added-during-calculation-2", lost=lost[0])
         found += field_to_vector(given, problem.numbering)
     if not np.isfinite(found).all():
-        raise KernelError("a force added during the calculation is not a finite number")
+        raise KernelError("kernel.stepping.force-added-during-calculation")
     return found
 
 

@@ -18,8 +18,9 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.sparse import sp
-from ssilang.kernel.solvers.backends import DISSECTION, Ordering
+from ssilang.kernel.solvers.backends import DISSECTION
 from ssilang.kernel.solvers.cholesky.inverse import Inverse, invert
+from ssilang.kernel.solvers.factor import Ordering
 from ssilang.kernel.statics.linear_motion import singular
 from ssilang.kernel.stepping.problem.constraints import Constraints
 from ssilang.kernel.stepping.problem.problem import SMALL, Problem
@@ -113,7 +114,7 @@ def effective_of(
         inverse = invert(sp.csr_array(V.T @ A @ T), symmetric, ordering=order)
     if inverse.singular and not (free and joints is None):
         motions = T @ inverse.kernel
-        raise singular("kernel.statics.motions-without-mass", problem.numbering, motions)
+        raise singular("kernel.stepping.motions-without-mass", problem.numbering, motions)
     S, root = R, None
     if joints is not None:
         root = root_response(inverse, right)

@@ -247,24 +247,26 @@ class Integration:
                 observer.receive(snapshot)
 
     def diverged(self, step: int, turns: int, residual: float) -> ConvergenceError:
-        at = f"step {step}, time {self.problem.times[step]:g}"
+        time_ = self.problem.times[step]
         if turns == 0:
             body = full_uplift(self.problem, self.motion.t)
-            who = "the bodies" if body is None else f"the body at node {body.node}"
-            which = "" if body is None else f" {body.points}"
+            if body is None:
+                return ConvergenceError("kernel.stepping.full-uplift", step=step, time=time_)
             return ConvergenceError(
-                f"{at}: full uplift of {who}: all{which} joint points there are open and nothing "
-                "else holds it",
-                "give it mass (MASS), a support, or loads that press it on its joints",
+                "kernel.stepping.full-uplift-of-body",
+                step=step,
+                time=time_,
+                node=body.node,
+                n_points=body.points,
             )
         if not np.isfinite(residual):
-            return ConvergenceError(
-                f"{at}: the motion grew beyond all numbers", "check loads, units and the step"
-            )
+            return ConvergenceError("kernel.stepping.motion-grew", step=step, time=time_)
         return ConvergenceError(
-            f"{at}: the interface iteration did not converge (residual {residual:.1e} of the "
-            f"jump after {-turns} turns)",
-            "a smaller step, or softer joints",
+            "kernel.stepping.interface-not-converged",
+            step=step,
+            time=time_,
+            residual=residual,
+            turns=-turns,
         )
 
 

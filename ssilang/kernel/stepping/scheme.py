@@ -43,11 +43,7 @@ def newmark(beta: float = 0.25, gamma: float = 0.5) -> Scheme:
         If it is not implicit and unconditionally stable (gamma >= 1/2, beta >= gamma / 2).
     """
     if not (gamma >= 0.5 and beta >= gamma / 2 - 1e-15):
-        raise KernelError(
-            f"Newmark's scheme with beta = {beta:g}, gamma = {gamma:g} is not unconditionally "
-            "stable",
-            "gamma >= 0.5 and beta >= gamma/2",
-        )
+        raise KernelError("kernel.stepping.newmark-scheme-beta-gamma", beta=beta, gamma=gamma)
     return Scheme(0.0, 0.0, beta, gamma)
 
 
@@ -61,14 +57,14 @@ def hht(alpha: float) -> Scheme:
     """
     size = abs(alpha)
     if size > 1 / 3 + 1e-12:
-        raise KernelError(f"the HHT parameter {alpha:g} is out of range", "0 <= ALPHA_F <= 1/3")
+        raise KernelError("kernel.stepping.hht-parameter-range", alpha=alpha)
     return Scheme(0.0, size, (1 + size) ** 2 / 4, 0.5 + size)
 
 
 def generalised_alpha(rho_inf: float) -> Scheme:
     """Chung and Hulbert (1993), from the spectral radius at infinite frequency, 0 to 1."""
     if not 0 <= rho_inf <= 1:
-        raise KernelError(f"the spectral radius {rho_inf:g} is out of range", "0 <= RHO_INF <= 1")
+        raise KernelError("kernel.stepping.spectral-radius-range", rho_inf=rho_inf)
     alpha_m = (2 * rho_inf - 1) / (rho_inf + 1)
     alpha_f = rho_inf / (rho_inf + 1)
     return Scheme(alpha_m, alpha_f, (1 - alpha_m + alpha_f) ** 2 / 4, 0.5 - alpha_m + alpha_f)

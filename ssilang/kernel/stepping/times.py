@@ -43,7 +43,7 @@ def runs_of(times: FloatArray, longest: int) -> Iterator[Run]:
 def every(times: FloatArray, cadence: int) -> NDArray[np.bool_]:
     """Steps saved one in `cadence`, the first and the last always; shape (n_times,)."""
     if cadence < 1:
-        raise KernelError(f"one step in {cadence} cannot be saved", "a cadence of 1 or more")
+        raise KernelError("kernel.stepping.step-cannot-saved", cadence=cadence)
     chosen = np.zeros(len(times), bool)
     chosen[::cadence] = True
     chosen[-1] = True
@@ -64,8 +64,7 @@ def nearest(times: FloatArray, wanted: FloatArray) -> NDArray[np.bool_]:
         slack = 0.5 * float(np.diff(times).max())
         if abs(times[at] - t) > slack * (1 + SAME):
             raise KernelError(
-                f"the time {t:g} to save lies outside the calculation, "
-                f"{times[0]:g} to {times[-1]:g}"
+                "kernel.stepping.time-save-lies-outside", t=t, times=times[0], times_2=times[-1]
             )
         chosen[at] = True
     return chosen

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any, TypeGuard
@@ -159,7 +159,9 @@ class Binder:
         else:
             values = []
             words = accepts(a.types, Mot(""))
-            while (operand := call.read(*a.types, after=after, only=bool(values))) is not None:
+            only = a.behind
+            while (operand := call.read(*a.types, after=after, only=only)) is not None:
+                only = True
                 values.append(_given(a, operand))
                 if words:
                     self._keywords()
@@ -366,7 +368,7 @@ def _candidates(found: Operator, call: Call) -> Iterator[tuple[Form, int | None]
         chosen = [f for f in forms if f.main is not None and accepts_kind(f.main.types, kind)]
         silent = [f for f in chosen if f.said is None]
         if chosen and not silent:
-            raise missing_keyword(call, [w for f in chosen if f.said for w in f.said.words])
+            raise missing_keyword(call, _words_said(chosen))
         yield from ((f, main) for f in silent)
         return
     yield from ((f, None) for f in forms if f.main is None and f.said is None)
@@ -396,6 +398,11 @@ def _is_said(form: Form, words: Sequence[str]) -> bool:
     return False
 
 
+def _words_said(forms: Iterable[Form]) -> list[str]:
+    """The words of forms, each once."""
+    return list(dict.fromkeys(w for f in forms if f.said is not None for w in f.said.words))
+
+
 def _is_among(word: str, words: Sequence[str], length: int) -> bool:
     wanted = word.upper().rstrip()[:length]
     return any(w[:length].rstrip() == wanted for w in words)
@@ -404,7 +411,7 @@ def _is_among(word: str, words: Sequence[str], length: int) -> bool:
 def _no_form(found: Operator, call: Call) -> SsiError:
     """The error where no form of an operator fits the words and types that stand there."""
     unmet = [f.when for f in found.forms if f.when is not None and not call.meets(f.when)]
-    words = [w for f in found.forms if f.said is not None for w in f.said.words]
+    words = _words_said(found.forms)
     known = dict.fromkeys(t for f in found.forms if f.main is not None for t in f.main.types)
     wanted = dict.fromkeys(t for f in found.forms for t in f.of)
     if known and not (words and call.peek_word()):

@@ -8,6 +8,7 @@ from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
 from ssilang.language.text.tree import Definition
 from ssilang.language.values import Procedure
+from ssilang.language.vocabulary.entries import Declaration, declared_names, read_declaration
 from ssilang.resources import resource
 
 _SUFFIXES = (".ssi", ".procedur", ".dgibi")
@@ -31,6 +32,8 @@ class Library:
         self._folder = folder
         self._loaded: dict[str, Procedure | None] = {}
         self._standard = standard_procedures()
+        self._declared: dict[str, Declaration | None] = {}
+        self.declared_names = declared_names()
 
     @property
     def standard_names(self) -> frozenset[str]:
@@ -41,6 +44,13 @@ class Library:
     def standard_files(self) -> dict[str, Path]:
         """Files of the standard library's procedures by name."""
         return self._standard
+
+    def declared(self, name: str) -> Declaration | None:
+        """What is declared of the tables of a procedure or operator, None if nothing is."""
+        if name not in self._declared:
+            known = name in self.declared_names
+            self._declared[name] = read_declaration(name) if known else None
+        return self._declared[name]
 
     def find(self, name: str) -> Procedure | None:
         """The procedure of that name, loaded if it is not yet, None if there is none."""

@@ -12,6 +12,7 @@ from ssilang.language.say.errors import Interrupted, SsiError, interruption
 from ssilang.language.text.printer import heading
 from ssilang.language.text.tree import Parameter
 from ssilang.language.values import ANNULE, Objet, Procedure, Table, type_of
+from ssilang.language.vocabulary.entry_checks import check_tables
 
 
 class BoundMethod(Procedure):
@@ -49,6 +50,8 @@ def call_procedure(evaluator: Runner, procedure: Procedure, call: Call) -> list[
     frame = Frame(caller, procedure.name, call)
     for parameter in procedure.definition.parameters:
         frame.assign(parameter.name, _argument(parameter, call, procedure))
+    if procedure.origin == "stdlib":
+        check_tables(session, procedure.name, frame, call.span)
     if isinstance(procedure, BoundMethod):
         frame.object = procedure.target
     place = call.span

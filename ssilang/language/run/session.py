@@ -96,6 +96,9 @@ class Session:
         Turns numbers into a POINT, set by the operators' package.
     dimension : function
         Number of coordinates a point has (OPTI DIME), 0 before it is set.
+    flaw_of : function
+        Code of the refusal of a value that no calculation can use, '' if there is none; set by
+        the operators' package.
     """
 
     script_directory: Path = field(default_factory=Path.cwd)
@@ -108,6 +111,7 @@ class Session:
     workspace: Any = None
     make_point: Callable[[list[float]], Any] | None = None
     dimension: Callable[[], int] = lambda: 0
+    flaw_of: Callable[[Any], str] = lambda value: ""
     warnings: list[Any] = field(default_factory=list)
     assignments: dict[str, Any] = field(default_factory=dict)  # name -> span of its first target
     checks: list[Check] = field(default_factory=list)

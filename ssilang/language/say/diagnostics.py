@@ -13,6 +13,7 @@ from ssilang.language.say.errors import SsiError
 from ssilang.language.say.translations import in_french
 from ssilang.language.text.source import Span
 from ssilang.language.values import type_of
+from ssilang.language.vocabulary import words_of
 from ssilang.messages import message
 from ssilang.resources import resource
 
@@ -23,6 +24,7 @@ _ANY = {"en": "an object", "fr": "un objet"}
 
 
 _CALLED = {"en": "called by {name} at", "fr": "appelé par {name},"}
+_SHORT_LIKE = 0.6  # names of components have two letters: one slip is a third
 _LETTERS = 4  # that an operator goes by
 _LINE_SHOWN = 160  # characters of a source line
 _CALLS_SHOWN = 4  # at each end of the chain
@@ -95,7 +97,7 @@ def sentence(error: SsiError, language: str, names: Iterable[str] = ()) -> tuple
     if error.code == "not-a-table" and not data["name"]:
         data["name"] = error.span.text.split(".")[0].strip() if error.span else "it"
     text = message.sentence(error.code, data, language)
-    hint = message.hint(error.code, data, language).strip()
+    hint = message.hint(error.code, data, language, script=True).strip()
     return text, "\n".join(h for h in (_held_hint(data, language), hint) if h)
 
 
@@ -114,7 +116,7 @@ def _held_hint(data: dict[str, Any], language: str) -> str:
 
 def _label(error: SsiError, language: str) -> str:
     number = message.find(error.code).number
-    if error.code == "erre":  # the script's own number
+    if error.code == "erre" or error.code.startswith("stdlib."):  # what ERRE gives
         number = int(str(error.data.get("number", 0)))
     kind = _KINDS[error.severity][language]
     return f"{kind} {number}" if number else kind
@@ -261,9 +263,12 @@ def _keyword_hint(data: dict[str, object], language: str) -> str:
     if found is None or not isinstance(quoted, list):
         return ""
     keywords = [w.rstrip() for w in keywords_of(found)]
-    beginnings = {w[:4] for w in keywords}
+    others = words_of(found.name)
+    beginnings = {w[:_LETTERS] for w in (*keywords, *others)}
     for word in quoted:
-        near = "" if word.upper()[:4] in beginnings else nearest(word, keywords)
+        if word.upper()[:_LETTERS] in beginnings:
+            continue
+        near = nearest(word, keywords) or nearest(word, others, _SHORT_LIKE)
         if near:
             text = {
                 "en": "'{}' is no keyword of {}: did you mean '{}'?\n",

@@ -23,8 +23,11 @@ from ssilang.language.registry import (
     operators_by_family,
 )
 from ssilang.language.text.source_files import read_source
+from ssilang.language.vocabulary.entries import read_declaration
+from ssilang.language.vocabulary.entries_table import entries_text
 
 WIDTH = 88
+TABLE_WIDTH = 100
 
 _WORDS = {
     "syntax": {"en": "Syntax", "fr": "Syntaxe"},
@@ -144,6 +147,9 @@ def page_text(page: Page, language: str) -> str:
     arguments = _arguments(page, language)
     if arguments:
         lines += ["", _WORDS["arguments"][language], *arguments]
+    declared = read_declaration(page.name)
+    if declared is not None:
+        lines += entries_text(declared, language, TABLE_WIDTH)
     for example in page.help.examples:
         lines += ["", _WORDS["example"][language]]
         lines += ["    " + line for line in example_lines(example)]

@@ -26,9 +26,6 @@ PARTS: tuple[tuple[str, str], ...] = (
 )
 """Words inside of what a `{}` stands for (regular expressions)."""
 
-_REFUSED = re.compile(r"([^:]+): '(\w+)' is refused: (.+)", re.DOTALL)
-"""What an entry of a table is refused for is a sentence of its own."""
-
 
 @cache
 def templates() -> tuple[tuple[str, str], ...]:
@@ -55,10 +52,6 @@ def in_french(sentence: str) -> str:
     told = [in_french(line) for line in lines] if len(lines) > 1 else lines
     if told != lines:
         return "\n".join(told)
-    refused = _REFUSED.fullmatch(sentence)
-    if refused is not None:
-        procedure, index, reason = refused.groups()
-        return f"{procedure} : '{index}' est refusé : {in_french(reason)}"
     for pattern, french in _patterns():
         found = pattern.fullmatch(sentence)
         if found is not None:

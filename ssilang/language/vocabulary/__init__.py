@@ -16,12 +16,19 @@ from ssilang.language.near import LIKE, nearest_names
 from ssilang.language.vocabulary.terms import Option, Quantity, Unit, Word
 
 __all__ = [
-    "KINDS", "Option", "Quantity", "Unit", "Word", "all_meanings", "find", "full_name",
-    "meanings", "names", "near", "words",
+    "KINDS", "WORDS_OF", "Option", "Quantity", "Unit", "Word", "all_meanings", "find", "full_name",
+    "meanings", "names", "near", "words", "words_of",
 ]  # fmt: skip
 
 KINDS = ("formulation", "law", "element", "parameter", "component", "option")
 """The lists of words; each is the tuple WORDS of the module named after it in the plural."""
+
+WORDS_OF: dict[str, tuple[str, ...]] = {
+    "MODE": ("formulation", "law", "element"), "MATE": ("parameter",), "CARA": ("parameter",),
+    "OPTI": ("option",), "VALE": ("option",), "EXCO": ("component",), "BLOQ": ("component",),
+    "FORC": ("component",), "MOME": ("component",),
+}  # fmt: skip
+"""Lists of words that operators take besides their keywords."""
 
 _FOUR_LETTERS = ("element", "option")
 SHORT = 4
@@ -67,6 +74,11 @@ def full_name(kind: str, word: str) -> str:
 def meanings(kind: str, word: str) -> tuple[Word, ...]:
     """All meanings of a word in a list, none if it does not know it."""
     return _by_name(kind).get(full_name(kind, word), ())
+
+
+def words_of(operator: str) -> tuple[str, ...]:
+    """Names that an operator takes besides its keywords."""
+    return tuple(dict.fromkeys(n for kind in WORDS_OF.get(operator, ()) for n in names(kind)))
 
 
 def find(kind: str, word: str, of: Iterable[str] = ()) -> Word | None:

@@ -7,12 +7,6 @@ MESSAGES: dict[str, Message] = {
         "the matrices have no unknowns",
         "les matrices n'ont pas d'inconnues",
     ),
-    "harmonic-balance-takes-plain": Message(
-        "harmonic balance takes plain supports and relations",
-        "l'équilibrage harmonique prend des blocages et relations ordinaires",
-        "unilateral ones are nonlinear forces: write them in CHARMECA",
-        "les unilatérales sont des forces non linéaires : écrivez-les dans CHARMECA",
-    ),
     "no-first-solution-found": Message(
         "no first solution found at {t:g} (residual {size:.1e})",
         "aucune première solution trouvée en {t:g} (résidu {size:.1e})",
@@ -25,14 +19,6 @@ MESSAGES: dict[str, Message] = {
         "forces and their derivatives that are finite for all displacements",
         "forces et dérivées doivent être finies pour tout déplacement",
     ),
-    "link-remembers-past-plastic": Message(
-        "link {past} remembers its past (plastic, or sticking by springs): harmonic balance "
-        "wants forces of the present motion",
-        "la liaison {past} se souvient du passé (plastique, ou adhérente par ressorts) : "
-        "l'équilibrage harmonique veut des forces du mouvement présent",
-        "friction that slides alone: 'RAIDEUR_TANGENTIELLE' negative",
-        "prenez un frottement sans adhérence : 'RAIDEUR_TANGENTIELLE' négative",
-    ),
     "link-changes-time-frequency": Message(
         "link {timed} changes in time by a frequency of its own: harmonic balance wants "
         "forces of the motion alone",
@@ -43,5 +29,15 @@ MESSAGES: dict[str, Message] = {
         "harmonic balance takes {most} {most:unknown|unknowns} a node, found {pairs:words}",
         "l'équilibrage harmonique prend {most} {most:inconnue|inconnues} par noeud, trouvé "
         "{pairs:words}",
+    ),
+    "harmonic-balance-takes-plain": Message(
+        "harmonic balance takes plain supports and relations",
+        "l'équilibrage harmonique prend des blocages et relations ordinaires",
+    ),
+    "link-remembers-past-plastic": Message(
+        "link {past} remembers its past (plastic, or sticking by springs): harmonic balance "
+        "wants forces of the present motion",
+        "la liaison {past} se souvient du passé (plastique, ou adhérente par ressorts) : "
+        "l'équilibrage harmonique veut des forces du mouvement présent",
     ),
 }

@@ -3,12 +3,6 @@
 from ssilang.messages.message import Message
 
 MESSAGES: dict[str, Message] = {
-    "beam-cell-zero-length": Message(
-        "a beam cell has zero length",
-        "un élément de poutre est de longueur nulle",
-        "remove it or merge its nodes (ELIM, DEDU)",
-        "ôtez-le ou confondez ses noeuds (ELIM, DEDU)",
-    ),
     "vect-along-beam-must": Message(
         "VECT is along the beam: it must show the side of the local axis y",
         "VECT est le long de la poutre : il doit montrer le côté de l'axe local y",
@@ -21,12 +15,6 @@ MESSAGES: dict[str, Message] = {
         "element {element} has no equivalent stress",
         "l'élément {element} n'a pas de contrainte équivalente",
     ),
-    "element-carries-fields-pressures": Message(
-        "element {element} carries fields and pressures, it has no stiffness",
-        "l'élément {element} porte des champs et des pressions, il n'a pas de rigidité",
-        "name another in MODE: {others}",
-        "nommez-en un autre dans MODE : {others}",
-    ),
     "field-none-cells-element": Message(
         "the field has none of {names} on the cells of element {element}",
         "le champ n'a aucune des composantes {names} sur les éléments {element}",
@@ -36,12 +24,6 @@ MESSAGES: dict[str, Message] = {
     "element-no-geometric-stiffness": Message(
         "element {element} has no geometric stiffness",
         "l'élément {element} n'a pas de raideur géométrique",
-    ),
-    "element-describes-section-beam": Message(
-        "element {element} describes the section of a beam and has no unknowns",
-        "l'élément {element} décrit la section d'une poutre et n'a pas d'inconnues",
-        "give its model to a beam TIMO: MATE MODL1 'MODS' model 'MATS' material",
-        "donner son modèle à une poutre TIMO : MATE MODL1 'MODS' modèle 'MATS' matériau",
     ),
     "section-no-element": Message(
         "a section has no element {element}",
@@ -59,12 +41,6 @@ MESSAGES: dict[str, Message] = {
         "finite motions do not exist for a Fourier harmonic",
         "les grands mouvements n'existent pas pour une harmonique de Fourier",
     ),
-    "gradient-motion-determinant-not": Message(
-        "the gradient of the motion has a determinant that is not positive",
-        "le gradient du mouvement a un déterminant qui n'est pas positif",
-        "matter cannot be turned inside out: is the field F, or F - 1 ('DEPL')?",
-        "la matière ne se retourne pas : le champ est-il F, ou F - 1 ('DEPL') ?",
-    ),
     "field-stands-wanted-stresses": Message(
         "the field stands at '{support}', it is wanted at 'STRESSES'",
         "le champ est en '{support}', il le faut en 'STRESSES'",
@@ -72,10 +48,6 @@ MESSAGES: dict[str, Message] = {
     "stresses-stand-gradients": Message(
         "the stresses stand at '{support}', the gradients at '{other}'",
         "les contraintes sont en '{support}', les gradients en '{other}'",
-    ),
-    "work-no-gradients-fourier": Message(
-        "WORK has no gradients of Fourier harmonics",
-        "WORK n'a pas de gradients des harmoniques de Fourier",
     ),
     "cells-carry-no-pressure": Message(
         "{cell_type} cells carry no pressure in this space",
@@ -85,12 +57,6 @@ MESSAGES: dict[str, Message] = {
         "a vector or radius that gives a frame is zero",
         "un vecteur ou un rayon qui donne un repère est nul",
     ),
-    "line-cell-zero-length": Message(
-        "a line cell has zero length",
-        "un élément de ligne est de longueur nulle",
-        "remove it or merge its nodes (ELIM, DEDU)",
-        "ôtez-le ou confondez ses noeuds (ELIM, DEDU)",
-    ),
     "second-order-strains-not": Message(
         "second-order strains do not exist for a Fourier harmonic",
         "les déformations du second ordre n'existent pas pour une harmonique de Fourier",
@@ -99,39 +65,13 @@ MESSAGES: dict[str, Message] = {
         "the Hooke matrices stand at '{found}', they are needed at '{support}'",
         "les matrices de Hooke sont en '{found}', il les faut en '{support}'",
     ),
-    "elastic-matrix-element-cannot": Message(
-        "the elastic matrix of element {element} cannot be inverted",
-        "la matrice élastique de l'élément {element} ne s'inverse pas",
-        "give the sheared sections SECY and SECZ to MATE or CARA",
-        "donnez les sections cisaillées SECY et SECZ à MATE ou CARA",
-    ),
-    "generalised-plane-strain-needs": Message(
-        "generalised plane strain needs the point that carries the section's motion",
-        "les déformations planes généralisées demandent le point qui porte le mouvement de "
-        "la section",
-        "give it to MODE after the word DPGE",
-        "donnez-le à MODE après le mot DPGE",
-    ),
     "load-along-lines-beams": Message(
         "a load along lines is for beams and bars, not {element}",
         "une charge linéique est pour les poutres et les barres, pas {element}",
     ),
-    "pressure-component-field": Message(
-        "a pressure has one component, this field has {names:?{names}|none}",
-        "une pression a une composante, ce champ {names:?a {names}|n'en a aucune}",
-        "take one with EXCO",
-        "prenez-en une par EXCO",
-    ),
     "field-values-no-outer": Message(
         "the field has values on no outer side of the model",
         "le champ n'a de valeurs sur aucun côté extérieur du modèle",
-    ),
-    "volume-force-components-field": Message(
-        "a volume force has components {wanted:words}, this field has {given:?{given:words}|none}",
-        "une force de volume a pour composantes {wanted:words}, ce champ a "
-        "{given:?{given:words}|aucune}",
-        "change their names with NOMC or EXCO",
-        "changez leurs noms par NOMC ou EXCO",
     ),
     "volume-forces-continuous-elements": Message(
         "volume forces are for continuous elements, not {element}",
@@ -146,12 +86,6 @@ MESSAGES: dict[str, Message] = {
     "load-shells-not-element": Message(
         "a load on shells is not for element {element}",
         "une charge sur les coques n'est pas pour l'élément {element}",
-    ),
-    "shell-cell-zero-length": Message(
-        "a shell cell has zero length",
-        "un élément de coque est de longueur nulle",
-        "remove it or merge its nodes (ELIM)",
-        "ôtez-le ou confondez ses noeuds (ELIM)",
     ),
     "shells-off-mesh-exce": Message(
         "shells off their mesh (EXCE) are not available for COQ2",
@@ -176,12 +110,6 @@ MESSAGES: dict[str, Message] = {
     "element-not-fill-space": Message(
         "element {element} does not fill its space: no projection on it",
         "l'élément {element} n'est pas massif : pas de projection sur lui",
-    ),
-    "field-project-must-stand": Message(
-        "the field to project must stand at nodes",
-        "le champ à projeter doit être aux noeuds",
-        "CHAN 'NOEUD' model field",
-        "CHAN 'NOEUD' modèle champ",
     ),
     "no-cell-mesh-belongs": Message(
         "no cell of the mesh belongs to the model",
@@ -236,12 +164,6 @@ MESSAGES: dict[str, Message] = {
         "the first coordinate is the radius: it must not be negative",
         "la première coordonnée est le rayon : elle ne peut être négative",
     ),
-    "orthotropic-material-needs-axes": Message(
-        "an orthotropic material needs its axes",
-        "un matériau orthotrope demande ses axes",
-        "give DIRECTION and one vector (two in space) to MATE",
-        "donnez à MATE DIRECTION et un vecteur (deux en 3D)",
-    ),
     "vectors-axes-orthotropy-zero": Message(
         "the vectors that give the axes of orthotropy are zero or parallel",
         "les vecteurs qui donnent les axes d'orthotropie sont nuls ou parallèles",
@@ -253,12 +175,6 @@ MESSAGES: dict[str, Message] = {
     "elasticity-not-available-shb8": Message(
         "elasticity {symmetry_of} is not available for SHB8",
         "l'élasticité {symmetry_of} n'est pas disponible pour les SHB8",
-    ),
-    "impedance-changes-frequency-no": Message(
-        "an impedance {law_of_impedance} that changes with the frequency is no matrix",
-        "une impédance {law_of_impedance} qui dépend de la fréquence n'est pas une matrice",
-        "it works in a sweep of frequencies: OPTI 'MODE' 'FREQ', then PASAPAS",
-        "elle sert dans un balayage en fréquence : OPTI 'MODE' 'FREQ', puis PASAPAS",
     ),
     "impedance-joins-unknowns": Message(
         "an impedance joins {n_first} unknowns ({first:words}) to {n_second}",
@@ -276,21 +192,9 @@ MESSAGES: dict[str, Message] = {
         "a dashpot is given by VISC",
         "un amortisseur se donne par VISC",
     ),
-    "curve-moco-named": Message(
-        "a curve of MOCO is named '{said}'",
-        "une courbe de MOCO s'appelle '{said}'",
-        "EVOL 'MANU' 'FREQ' LREEL1 'MOCO' LREEL2 (stiffness), ... 'VISC' LREEL3",
-        "EVOL 'MANU' 'FREQ' LREEL1 'MOCO' LREEL2 (raideur), ... 'VISC' LREEL3",
-    ),
     "field-empty": Message(
         "the field is empty",
         "le champ est vide",
-    ),
-    "field-no-component": Message(
-        "the field has no component {name}: it has {components:?{components}|none}",
-        "le champ n'a pas de composante {name} : il a {components:?{components}|rien}",
-        "give the temperature the component T (NOMC)",
-        "donnez à la température la composante T (NOMC)",
     ),
     "thermal-expansion-joints-not": Message(
         "the thermal expansion of joints is not available",
@@ -306,16 +210,6 @@ MESSAGES: dict[str, Message] = {
         "the middle surface of a shell folds at a node",
         "la surface moyenne d'une coque se replie en un noeud",
     ),
-    "parameter-missing-element": Message(
-        "parameter {name} is missing for element {element} ({law})",
-        "le paramètre {name} manque pour l'élément {element} ({law})",
-        "{given:?give it with MATE or CARA; given: {given}|the field of properties holds "
-        "nothing on these cells: make it with MATE of this model (ET joins the fields of "
-        "several)}",
-        "{given:?donnez-le par MATE ou CARA ; sont donnés : {given}|le champ de "
-        "caractéristiques n'a rien sur ces éléments : faites-le par MATE de ce modèle (ET "
-        "réunit les champs de plusieurs)}",
-    ),
     "curves-points-vary-inside": Message(
         "curves or points that vary inside a cell cannot be moved to other points",
         "des évolutions ou des points qui varient dans un élément ne peuvent être portés en "
@@ -327,31 +221,11 @@ MESSAGES: dict[str, Message] = {
         "component {name} is not defined on all cells of the model's zone",
         "la composante {name} n'est pas définie sur tous les éléments de la zone du modèle",
     ),
-    "parameter-curve-depends-field": Message(
-        "parameter {name} is a curve: it depends on a field",
-        "le paramètre {name} est une évolution : il dépend d'un champ",
-        "evaluate it first at the state wanted (VARI)",
-        "évaluez-le d'abord à l'état voulu (VARI)",
-    ),
     "cells-no-default-element": Message(
         "{cell_type} cells have no default element in mode {mode}",
         "les éléments {cell_type} n'ont pas de formulation par défaut en mode {mode}",
         "{names:?name one of {names}|cells that exist in mode {mode}}",
         "{names:?nommez l'un de {names}|des éléments qui existent en mode {mode}}",
-    ),
-    "impedance-no-strains": Message(
-        "models IMPEDANCE have no strains",
-        "les modèles IMPEDANCE n'ont pas de déformations",
-        "their force is the stiffness (RIGI) times the displacement",
-        "leur force est la raideur (RIGI) fois le déplacement",
-    ),
-    "pressure-cells-stands-nodes": Message(
-        "a pressure in cells stands at nodes or is constant, this one has {n_values} "
-        "{n_values:value|values} a cell",
-        "une pression par élément est aux noeuds ou constante, celle-ci a {n_values} "
-        "{n_values:valeur|valeurs} par élément",
-        "CHAN 'NOEUD'",
-        "CHAN 'NOEUD'",
     ),
     "integration-points-not-fix": Message(
         "{n_rule} integration points do not fix the {n_nodes} {n_nodes:value|values} of a "
@@ -375,16 +249,108 @@ MESSAGES: dict[str, Message] = {
         "look for flat or folded cells in the mesh",
         "cherchez des éléments plats ou repliés dans le maillage",
     ),
+    "beam-cell-zero-length": Message(
+        "a beam cell has zero length",
+        "un élément de poutre est de longueur nulle",
+        "remove it or merge its nodes",
+        "ôtez-le ou confondez ses noeuds",
+    ),
+    "element-carries-fields-pressures": Message(
+        "element {element} carries fields and pressures, it has no stiffness",
+        "l'élément {element} porte des champs et des pressions, il n'a pas de rigidité",
+        "name another: {others}",
+        "nommez-en un autre : {others}",
+    ),
+    "element-describes-section-beam": Message(
+        "element {element} describes the section of a beam and has no unknowns",
+        "l'élément {element} décrit la section d'une poutre et n'a pas d'inconnues",
+    ),
+    "gradient-motion-determinant-not": Message(
+        "the gradient of the motion has a determinant that is not positive",
+        "le gradient du mouvement a un déterminant qui n'est pas positif",
+    ),
+    "line-cell-zero-length": Message(
+        "a line cell has zero length",
+        "un élément de ligne est de longueur nulle",
+        "remove it or merge its nodes",
+        "ôtez-le ou confondez ses noeuds",
+    ),
+    "elastic-matrix-element-cannot": Message(
+        "the elastic matrix of element {element} cannot be inverted",
+        "la matrice élastique de l'élément {element} ne s'inverse pas",
+    ),
+    "generalised-plane-strain-needs": Message(
+        "generalised plane strain needs the point that carries the section's motion",
+        "les déformations planes généralisées demandent le point qui porte le mouvement de "
+        "la section",
+    ),
+    "pressure-component-field": Message(
+        "a pressure has one component, this field has {names:?{names}|none}",
+        "une pression a une composante, ce champ {names:?a {names}|n'en a aucune}",
+    ),
+    "volume-force-components-field": Message(
+        "a volume force has components {wanted:words}, this field has {given:?{given:words}|none}",
+        "une force de volume a pour composantes {wanted:words}, ce champ a "
+        "{given:?{given:words}|aucune}",
+    ),
+    "shell-cell-zero-length": Message(
+        "a shell cell has zero length",
+        "un élément de coque est de longueur nulle",
+        "remove it or merge its nodes",
+        "ôtez-le ou confondez ses noeuds",
+    ),
+    "field-project-must-stand": Message(
+        "the field to project must stand at nodes",
+        "le champ à projeter doit être aux noeuds",
+    ),
+    "orthotropic-material-needs-axes": Message(
+        "an orthotropic material needs its axes",
+        "un matériau orthotrope demande ses axes",
+    ),
+    "impedance-changes-frequency-no": Message(
+        "an impedance {law_of_impedance} that changes with the frequency is no matrix",
+        "une impédance {law_of_impedance} qui dépend de la fréquence n'est pas une matrice",
+    ),
+    "curve-moco-named": Message(
+        "a curve of MOCO is named '{said}'",
+        "une courbe de MOCO s'appelle '{said}'",
+    ),
+    "field-no-component": Message(
+        "the field has no component {name}: it has {components:?{components}|none}",
+        "le champ n'a pas de composante {name} : il a {components:?{components}|rien}",
+    ),
+    "parameter-missing-element": Message(
+        "parameter {name} is missing for element {element} ({law})",
+        "le paramètre {name} manque pour l'élément {element} ({law})",
+        "{given:?given: {given}|the field of properties holds nothing on these cells}",
+        "{given:?sont donnés : {given}|le champ de propriétés ne contient rien sur ces éléments}",
+    ),
+    "parameter-curve-depends-field": Message(
+        "parameter {name} is a curve: it depends on a field",
+        "le paramètre {name} est une évolution : il dépend d'un champ",
+    ),
+    "impedance-no-strains": Message(
+        "models IMPEDANCE have no strains",
+        "les modèles IMPEDANCE n'ont pas de déformations",
+    ),
+    "pressure-cells-stands-nodes": Message(
+        "a pressure in cells stands at nodes or is constant, this one has {n_values} "
+        "{n_values:value|values} a cell",
+        "une pression par élément est aux noeuds ou constante, celle-ci a {n_values} "
+        "{n_values:valeur|valeurs} par élément",
+    ),
     "cells-no-side-cell": Message(
         "{lost} of {n_faces} {cell_type} {n_faces:cell|cells} {lost:is|are} no side of a "
         "cell of the model",
         "{lost} des {n_faces} éléments {cell_type} {lost:n'est|ne sont} le côté d'aucun "
         "élément du modèle",
-        "{inside:?give sides of the model's cells: lines of a surface (CONT, COTE), faces of "
-        "a volume (ENVE, FACE)|the surface and the model's mesh must share their nodes "
-        "(ELIM)}",
-        "{inside:?donnez des côtés des éléments du modèle : lignes d'une surface (CONT, "
-        "COTE), faces d'un volume (ENVE, FACE)|la surface et le maillage du modèle doivent "
-        "avoir les mêmes noeuds (ELIM)}",
+        "{inside:?give sides of the model's cells|the surface and the model's mesh must "
+        "share their nodes}",
+        "{inside:?donnez des côtés des éléments du modèle|la surface et le maillage du "
+        "modèle doivent avoir les mêmes noeuds}",
+    ),
+    "work-no-gradients-fourier": Message(
+        "there are no gradients of Fourier harmonics here",
+        "il n'y a pas ici de gradients des harmoniques de Fourier",
     ),
 }

@@ -3,24 +3,12 @@
 from ssilang.messages.message import Message
 
 MESSAGES: dict[str, Message] = {
-    "fields-natures-cannot-joined": Message(
-        "fields of natures {nature} and {nature_2} cannot be joined",
-        "des champs de natures {nature} et {nature_2} ne se réunissent pas",
-        "give them the same nature by CHAN 'ATTRIBUT', or write + to add them",
-        "donnez-leur la même nature par CHAN 'ATTRIBUT', ou ajoutez-les par +",
-    ),
     "component-field-node": Message(
         "component {name} is {values:g} in one field and {values_2:g} in the other at node {both}",
         "la composante {name} vaut {values:g} dans un champ et {values_2:g} dans l'autre au "
         "noeud {both}",
         "diffuse fields must agree where both are defined; NOER keeps the first",
         "des champs diffus doivent s'accorder là où les deux existent ; NOER garde le premier",
-    ),
-    "field-divide-zero": Message(
-        "the field to divide by has a zero",
-        "le champ diviseur a un zéro",
-        "see MASQ and BORN",
-        "voyez MASQ et BORN",
     ),
     "no-field-decompose": Message(
         "there is no field to decompose",
@@ -44,18 +32,6 @@ MESSAGES: dict[str, Message] = {
         "component {name} holds objects, not numbers",
         "la composante {name} contient des objets, pas des nombres",
     ),
-    "component-stands-field": Message(
-        "component {name} stands at {support} in one field and at {support_2} in the other",
-        "la composante {name} est en {support} dans un champ et en {support_2} dans l'autre",
-        "bring them to the same points by CHAN",
-        "portez-les aux mêmes points par CHAN",
-    ),
-    "zone-first-field-not": Message(
-        "a zone of {n_cells} {cell_type} of the first field is not a zone of the second",
-        "une zone de {n_cells} {cell_type} du premier champ n'est pas une zone du second",
-        "reduce both to the same model by REDU",
-        "réduisez les deux au même modèle par REDU",
-    ),
     "field-no-component-2": Message(
         "the field has no component {name}",
         "le champ n'a pas de composante {name}",
@@ -78,18 +54,6 @@ MESSAGES: dict[str, Message] = {
         "the field is empty",
         "le champ est vide",
     ),
-    "field-components": Message(
-        "the field has the components {components:words}",
-        "le champ a les composantes {components:words}",
-        "give a field of one component: EXCO takes it out",
-        "donnez un champ d'une composante : EXCO l'extrait",
-    ),
-    "field-not-stand-nodes": Message(
-        "the field does not stand at nodes",
-        "le champ n'est pas aux noeuds",
-        "CHAN 'NOEUD' brings it there",
-        "CHAN 'NOEUD' l'y porte",
-    ),
     "no-value-looked-cells": Message(
         "no value is looked for in cells of type {cell_type}",
         "aucune valeur ne se cherche dans les éléments de type {cell_type}",
@@ -99,12 +63,6 @@ MESSAGES: dict[str, Message] = {
     "field-none-components": Message(
         "the field has none of the components {columns:words}",
         "le champ n'a aucune des composantes {columns:words}",
-    ),
-    "field-holds-no-principal": Message(
-        "the field holds no principal stresses",
-        "le champ ne contient pas de contraintes principales",
-        "give the result of PRIN, or a LISTMOTS of the vector's components",
-        "donnez le résultat de PRIN, ou un LISTMOTS des composantes du vecteur",
     ),
     "field-field-not-defined": Message(
         "a field ({a:words}) by a field ({b:words}) is not defined",
@@ -117,5 +75,33 @@ MESSAGES: dict[str, Message] = {
         "le champ n'a pas de composante {name}",
         "{known:?its components are: {known:words}|it has none}",
         "{known:?ses composantes sont : {known:words}|il n'en a aucune}",
+    ),
+    "fields-natures-cannot-joined": Message(
+        "fields of natures {nature} and {nature_2} cannot be joined",
+        "des champs de natures {nature} et {nature_2} ne se réunissent pas",
+    ),
+    "field-divide-zero": Message(
+        "the field to divide by has a zero",
+        "le champ diviseur a un zéro",
+    ),
+    "component-stands-field": Message(
+        "component {name} stands at {support} in one field and at {support_2} in the other",
+        "la composante {name} est en {support} dans un champ et en {support_2} dans l'autre",
+    ),
+    "zone-first-field-not": Message(
+        "a zone of {n_cells} {cell_type} of the first field is not a zone of the second",
+        "une zone de {n_cells} {cell_type} du premier champ n'est pas une zone du second",
+    ),
+    "field-components": Message(
+        "the field has the components {components:words}",
+        "le champ a les composantes {components:words}",
+    ),
+    "field-not-stand-nodes": Message(
+        "the field does not stand at nodes",
+        "le champ n'est pas aux noeuds",
+    ),
+    "field-holds-no-principal": Message(
+        "the field holds no principal stresses",
+        "le champ ne contient pas de contraintes principales",
     ),
 }

@@ -41,12 +41,6 @@ MESSAGES: dict[str, Message] = {
         "abscissas are plastic strains from 0, ordinates stresses",
         "en abscisses les déformations plastiques à partir de 0, en ordonnées les contraintes",
     ),
-    "trac-begins-zero-stress": Message(
-        "TRAC begins at zero stress and strain, then comes the elastic limit",
-        "TRAC part de contrainte et déformation nulles, puis vient la limite élastique",
-        "EVOL 'MANU' (PROG 0. 1.E-3 0.1) (PROG 0. 200.E6 300.E6), or ECRO",
-        "donnez EVOL 'MANU' (PROG 0. 1.E-3 0.1) (PROG 0. 200.E6 300.E6), ou ECRO",
-    ),
     "first-slope-trac-youn": Message(
         "the first slope of TRAC is {slope:g}, YOUN is {young:g}",
         "la première pente de TRAC est {slope:g}, YOUN vaut {young:g}",
@@ -183,5 +177,9 @@ MESSAGES: dict[str, Message] = {
     "vectors-axes-zero-parallel": Message(
         "the vectors that give the axes are zero or parallel",
         "les vecteurs qui donnent les axes sont nuls ou parallèles",
+    ),
+    "trac-begins-zero-stress": Message(
+        "TRAC begins at zero stress and strain, then comes the elastic limit",
+        "TRAC part de contrainte et déformation nulles, puis vient la limite élastique",
     ),
 }

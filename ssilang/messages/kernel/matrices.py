@@ -9,26 +9,6 @@ MESSAGES: dict[str, Message] = {
         "it has the components {components:?{components}|none}",
         "il a les composantes {components:?{components}|aucune}",
     ),
-    "rela-wants-field-component": Message(
-        "'RELA' wants a field of one component, SCAL",
-        "'RELA' veut un champ d'une seule composante, SCAL",
-    ),
-    "field-values-fits-conditions": Message(
-        "a field of values fits conditions on a single unknown only",
-        "un champ de valeurs ne va qu'avec des blocages d'une seule inconnue",
-        "give relations a number, or 'RELA' and a field of component SCAL",
-        "donnez aux relations un nombre, ou 'RELA' et un champ de composante SCAL",
-    ),
-    "rela-fits-relations-between": Message(
-        "'RELA' fits relations between unknowns of one node only",
-        "'RELA' ne va qu'avec des relations entre inconnues d'un même noeud",
-    ),
-    "matrix-no-relation": Message(
-        "the matrix has no relation",
-        "la rigidité n'a pas de relation",
-        "BLOQ and RELA make them",
-        "BLOQ et RELA en font",
-    ),
     "diagonal-field-no-value": Message(
         "the diagonal field has no value for {label}",
         "le champ diagonal n'a pas de valeur pour {label}",
@@ -93,21 +73,9 @@ MESSAGES: dict[str, Message] = {
         "{n_masters} master unknowns make too large a full matrix (at most {largest})",
         "{n_masters} inconnues maîtresses font une matrice pleine trop grande (au plus {largest})",
     ),
-    "conditions-matrix-hold-master": Message(
-        "the conditions of the matrix hold the master unknown {label}",
-        "les conditions de la matrice bloquent l'inconnue maîtresse {label}",
-        "leave out 'NOMU', or choose other masters",
-        "retirez 'NOMU', ou choisissez d'autres maîtres",
-    ),
     "super-element-no-unknown": Message(
         "the super-element has no unknown for the force {lost}",
         "le super-élément n'a pas d'inconnue pour la force {lost}",
-    ),
-    "unilateral-non-associated-conditions": Message(
-        "unilateral and non-associated conditions cannot be condensed",
-        "des conditions unilatérales ou non associées ne se condensent pas",
-        "leave out 'NOMU'",
-        "retirez 'NOMU'",
     ),
     "full-matrix-rows-too": Message(
         "a full matrix of {n_places} rows is too large",
@@ -161,14 +129,6 @@ MESSAGES: dict[str, Message] = {
         "{name} at node {node}",
         "{name} au noeud {node}",
     ),
-    "rigid-body-distances-needs": Message(
-        "a rigid body by distances needs {plane:?three nodes not on a line|four nodes not in "
-        "a plane}",
-        "un corps rigide par les distances demande {plane:?trois noeuds non alignés|quatre "
-        "noeuds hors d'un même plan}",
-        "or say 'NOVERIF'",
-        "ou dites 'NOVERIF'",
-    ),
     "no-node-within-symmetry": Message(
         "no node within {tolerance:g} of the symmetry; the nearest is at {nearest:g}",
         "aucun noeud à moins de {tolerance:g} de la symétrie ; le plus proche est à {nearest:g}",
@@ -202,5 +162,35 @@ MESSAGES: dict[str, Message] = {
         "{n_terms:is|are} given",
         "une matrice de {size} {size:ligne|lignes} veut {wanted:or} termes, {n_terms} "
         "{n_terms:est donné|sont donnés}",
+    ),
+    "field-values-fits-conditions": Message(
+        "a field of values fits conditions on a single unknown only",
+        "un champ de valeurs ne va qu'avec des blocages d'une seule inconnue",
+    ),
+    "matrix-no-relation": Message(
+        "the matrix has no relation",
+        "la rigidité n'a pas de relation",
+    ),
+    "rela-wants-field-component": Message(
+        "values of relations are a field of one component, SCAL",
+        "les valeurs de relations sont un champ d'une seule composante, SCAL",
+    ),
+    "rela-fits-relations-between": Message(
+        "a field of values fits relations between unknowns of one node only",
+        "un champ de valeurs ne va qu'avec des relations entre inconnues d'un même noeud",
+    ),
+    "conditions-matrix-hold-master": Message(
+        "the conditions of the matrix hold the master unknown {label}",
+        "les conditions de la matrice bloquent l'inconnue maîtresse {label}",
+    ),
+    "unilateral-non-associated-conditions": Message(
+        "unilateral and non-associated conditions cannot be condensed",
+        "des conditions unilatérales ou non associées ne se condensent pas",
+    ),
+    "rigid-body-distances-needs": Message(
+        "a rigid body by distances needs {plane:?three nodes not on a line|four nodes not in "
+        "a plane}",
+        "un corps rigide par les distances demande {plane:?trois noeuds non alignés|quatre "
+        "noeuds hors d'un même plan}",
     ),
 }

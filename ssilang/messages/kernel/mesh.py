@@ -27,12 +27,6 @@ MESSAGES: dict[str, Message] = {
         "a side face has other numbers of cells than the rest of the block",
         "une face latérale a d'autres nombres d'éléments que le reste du bloc",
     ),
-    "four-side-faces-not": Message(
-        "the four side faces do not lead from the first face to the second",
-        "les quatre faces latérales ne mènent pas de la première face à la seconde",
-        "give opposite faces one after the other, and merge common nodes with ELIM",
-        "donnez les faces opposées l'une après l'autre, et confondez les noeuds communs par ELIM",
-    ),
     "edges-sought-volumes-surfaces": Message(
         "edges are sought on volumes or surfaces, this mesh has none",
         "les arêtes se cherchent sur des volumes ou des surfaces, ce maillage n'en a pas",
@@ -149,12 +143,6 @@ MESSAGES: dict[str, Message] = {
         "move the centre or one end",
         "déplacez le centre ou une extrémité",
     ),
-    "centre-two-ends-line": Message(
-        "the centre and the two ends are in line: there is no shorter arc",
-        "le centre et les deux extrémités sont alignés : aucun arc n'est le plus court",
-        "make a half circle with CERC 'ROTA' or in two arcs",
-        "faites un demi-cercle par CERC 'ROTA' ou en deux arcs",
-    ),
     "three-points-line-no": Message(
         "the three points are in line: no circle goes through them",
         "les trois points sont alignés : aucun cercle n'y passe",
@@ -193,18 +181,6 @@ MESSAGES: dict[str, Message] = {
         "cells of type {cell_type} have no quadratic counterpart here",
         "les éléments {cell_type} n'ont pas ici d'équivalent quadratique",
     ),
-    "no-mesh-made-elements": Message(
-        "no mesh can be made of {element} elements",
-        "aucun maillage ne se fait d'éléments {element}",
-        "see OPTI ELEM",
-        "voyez OPTI ELEM",
-    ),
-    "no-surface-made-elements": Message(
-        "no surface can be made of {line} elements",
-        "aucune surface ne se fait d'éléments {line}",
-        "choose a surface element first: OPTI ELEM QUA4 (or TRI3, QUA8, TRI6)",
-        "choisissez d'abord un élément de surface : OPTI ELEM QUA4 (ou TRI3, QUA8, TRI6)",
-    ),
     "two-lines-parallel-no": Message(
         "the two lines are parallel: no arc rounds their corner",
         "les deux lignes sont parallèles : aucun arc n'arrondit leur coin",
@@ -233,12 +209,6 @@ MESSAGES: dict[str, Message] = {
         "give masters in each part",
         "donnez des maîtres dans chaque partie",
     ),
-    "cells-type-cannot-follow": Message(
-        "cells of type {cell_type} cannot follow",
-        "les éléments de type {cell_type} ne peuvent pas suivre",
-        "linear surfaces and volumes do: CHAN 'LINEAIRE'",
-        "les surfaces et volumes linéaires le peuvent : CHAN 'LINEAIRE'",
-    ),
     "mesh-empty-no-line": Message(
         "the mesh is empty: there is no line",
         "le maillage est vide : il n'y a pas de ligne",
@@ -247,12 +217,6 @@ MESSAGES: dict[str, Message] = {
         "a line is needed, this mesh holds {cell_type}",
         "il faut une ligne, ce maillage contient {cell_type}",
     ),
-    "four-sides-not-form": Message(
-        "the four sides do not form a closed contour, one after the other",
-        "les quatre côtés ne forment pas, l'un après l'autre, un contour fermé",
-        "merge their common points with ELIM, or change their order",
-        "confondez leurs points communs par ELIM, ou changez leur ordre",
-    ),
     "four-sides-must-same": Message(
         "the four sides must be of the same type, all SEG2 or all SEG3",
         "les quatre côtés doivent être du même type, tous SEG2 ou tous SEG3",
@@ -260,12 +224,6 @@ MESSAGES: dict[str, Message] = {
     "side-surface-no-length": Message(
         "a side of the surface has no length",
         "un côté de la surface est de longueur nulle",
-    ),
-    "facing-cells-paired-within": Message(
-        "facing cells are paired within a positive distance",
-        "les éléments en face se cherchent à une distance positive",
-        "give the distance, or set the density (DENS) whose tenth is taken",
-        "donnez la distance, ou une densité (DENS) dont le dixième est pris",
     ),
     "no-cell-first-mesh": Message(
         "no cell of the first mesh faces a cell of the second within {tolerance:g}",
@@ -295,21 +253,9 @@ MESSAGES: dict[str, Message] = {
         "give another end point",
         "donnez un autre point d'arrivée",
     ),
-    "line-cells-not-follow": Message(
-        "the line's cells do not follow one another",
-        "les éléments de la ligne ne se suivent pas",
-        "join its parts with ET, and turn the reversed ones with INVE",
-        "réunissez ses parties par ET, et retournez par INVE celles qui sont inversées",
-    ),
     "line-set-points-needed": Message(
         "a line or a set of points is needed to have a first and a last point",
         "il faut une ligne ou un ensemble de points pour avoir un premier et un dernier point",
-    ),
-    "cells-not-divided": Message(
-        "{cell_type} cells are not divided",
-        "les éléments {cell_type} ne se divisent pas",
-        "{value:words} are: CHAN LINE makes cells linear",
-        "{value:words} le font : CHAN LINE rend les éléments linéaires",
     ),
     "sizes-wanted-positive": Message(
         "the sizes wanted are positive",
@@ -335,12 +281,6 @@ MESSAGES: dict[str, Message] = {
         "the volume inside a surface is asked of a mesh that is not a surface",
         "le volume intérieur à une surface est demandé à un maillage qui n'est pas une surface",
     ),
-    "nodes-merged-within-positive": Message(
-        "nodes are merged within a positive distance",
-        "les noeuds se confondent à une distance positive",
-        "give the distance, or set the density (DENS) whose tenth is taken",
-        "donnez la distance, ou une densité (DENS) dont le dixième est pris",
-    ),
     "angles-lines-surfaces-mesh": Message(
         "angles are those of lines and surfaces, the mesh holds volumes",
         "les angles sont ceux de lignes et de surfaces, le maillage contient des volumes",
@@ -352,12 +292,6 @@ MESSAGES: dict[str, Message] = {
     "no-way-leads-along": Message(
         "no way leads along the line from one point to the other",
         "aucun chemin ne mène d'un point à l'autre le long de la ligne",
-    ),
-    "mesh-size-not-set": Message(
-        "the mesh size is not set",
-        "la taille de maille n'est pas fixée",
-        "say OPTI 'DENS' X before",
-        "dites d'abord OPTI 'DENS' X",
     ),
     "two-opposite-sides-surface": Message(
         "two opposite sides of the surface have no length",
@@ -419,14 +353,6 @@ MESSAGES: dict[str, Message] = {
         "cells of type {cell_type} cannot be joined to a point",
         "des éléments {cell_type} ne peuvent être joints à un point",
     ),
-    "mesh-sizes-must-positive": Message(
-        "mesh sizes must be positive, got {start_size:g} and {end_size:g}",
-        "les tailles de maille doivent être positives, trouvé {start_size:g} et {end_size:g}",
-        "give the number of elements (an ENTIER: 10, not 10.), or set sizes with DENS, DINI "
-        "and DFIN",
-        "donnez le nombre d'éléments (un ENTIER : 10, pas 10.), ou des tailles par DENS, "
-        "DINI et DFIN",
-    ),
     "path-zero-length-cannot": Message(
         "a path of zero length cannot be cut by mesh sizes",
         "un chemin de longueur nulle ne se découpe pas en mailles",
@@ -434,18 +360,6 @@ MESSAGES: dict[str, Message] = {
     "mesh-sizes-ask-elements": Message(
         "the mesh sizes ask for {wanted:.3g} elements on one line",
         "les tailles de maille demandent {wanted:.3g} éléments sur une ligne",
-    ),
-    "polygons-straight-sides-contour": Message(
-        "polygons have straight sides, the contour is of SEG3",
-        "les polygones ont des côtés droits, le contour est en SEG3",
-        "CHAN 'LINEAIRE' makes it straight",
-        "CHAN 'LINEAIRE' le rend droit",
-    ),
-    "lines-contour-not-run": Message(
-        "the lines of the contour do not all run in the same sense",
-        "les lignes du contour ne vont pas toutes dans le même sens",
-        "turn some with INVE",
-        "retournez-en par INVE",
     ),
     "triangle-surface-cuts-cannot": Message(
         "a triangle that the other surface cuts cannot be meshed",
@@ -505,18 +419,6 @@ MESSAGES: dict[str, Message] = {
         "the points that define the map are in line or coincide",
         "les points qui définissent la transformation sont alignés ou confondus",
     ),
-    "contour-crosses-itself-two": Message(
-        "the contour crosses itself, or two of its lines cross",
-        "le contour se recoupe, ou deux de ses lignes se croisent",
-        "look at it with TRAC",
-        "regardez-le par TRAC",
-    ),
-    "side-contour-passes-through": Message(
-        "a side of the contour passes through another point or side of it",
-        "un côté du contour passe par un autre de ses points ou de ses côtés",
-        "look for crossing lines or coincident points (ELIM)",
-        "cherchez des lignes qui se croisent ou des points confondus (ELIM)",
-    ),
     "contour-crosses-itself": Message(
         "the contour crosses itself",
         "le contour se recoupe",
@@ -524,26 +426,6 @@ MESSAGES: dict[str, Message] = {
     "points-contour-cannot-triangulated": Message(
         "the points of the contour cannot be triangulated",
         "les points du contour ne peuvent être triangulés",
-    ),
-    "volume-filled-tri3-qua4": Message(
-        "a volume is filled from TRI3 and QUA4, or from TRI6; this surface holds "
-        "{kinds:?{kinds}|nothing}",
-        "un volume se remplit à partir de TRI3 et QUA4, ou de TRI6 ; cette surface contient "
-        "{kinds:?{kinds}|rien}",
-        "change its cells first: CHAN 'TRI3' or CHAN 'TRI6'",
-        "changez d'abord ses éléments : CHAN 'TRI3' ou CHAN 'TRI6'",
-    ),
-    "germ-lies-outside-contour": Message(
-        "a germ lies outside of the contour",
-        "un germe est hors du contour",
-        "INCL takes the points inside",
-        "INCL prend les points intérieurs",
-    ),
-    "two-germs-lie-same": Message(
-        "two germs lie at the same place",
-        "deux germes sont au même endroit",
-        "merge them with ELIM",
-        "confondez-les par ELIM",
     ),
     "two-weights-differ-too": Message(
         "two weights differ by too much: a germ would lie outside of its cell",
@@ -615,24 +497,6 @@ MESSAGES: dict[str, Message] = {
         "no {cell_type} in this mesh, which holds {kinds:?{kinds}|nothing}",
         "pas de {cell_type} dans ce maillage, qui {kinds:?contient {kinds}|est vide}",
     ),
-    "surfaces-tri3-needed-cross": Message(
-        "surfaces of TRI3 are needed to cross, this mesh holds {kinds:?{kinds}|nothing}",
-        "il faut des surfaces de TRI3 à croiser, ce maillage {kinds:?contient {kinds}|est vide}",
-        "CHAN 'TRI3' cuts quadrangles into triangles",
-        "CHAN 'TRI3' coupe les quadrangles en triangles",
-    ),
-    "adjacent-cells-described-opposite": Message(
-        "adjacent cells are described in opposite senses, at {nodes:node|nodes} {nodes}",
-        "des éléments voisins sont décrits en sens opposés, {nodes:au noeud|aux noeuds} {nodes}",
-        "turn one of the parts with INVE, or use ORIE",
-        "retournez une partie par INVE, ou ORIE",
-    ),
-    "contour-not-closed-line": Message(
-        "the contour is not closed: a line ends at {nodes:node|nodes} {nodes}",
-        "le contour n'est pas fermé : une ligne s'arrête {nodes:au noeud|aux noeuds} {nodes}",
-        "close it, or merge coincident points with ELIM",
-        "fermez-le, ou confondez par ELIM les points au même endroit",
-    ),
     "two-meshes-not-same": Message(
         "the two meshes do not have the same structure: {first:?{first}|nothing} and "
         "{second:?{second}|nothing}",
@@ -652,14 +516,6 @@ MESSAGES: dict[str, Message] = {
         "plusieurs éléments {ending:?finissent|commencent} au noeud {node} : la ligne y a un "
         "branchement",
     ),
-    "surface-not-closed-sides": Message(
-        "the surface is not closed: {lone} {lone:side belongs|sides belong} to one face "
-        "only, one near ({where:g})",
-        "la surface n'est pas fermée : {lone} {lone:côté n'a|côtés n'ont} qu'une face, l'un "
-        "près de ({where:g})",
-        "merge coincident points with ELIM, and check that no face is missing",
-        "confondez par ELIM les points au même endroit, et vérifiez qu'aucune face ne manque",
-    ),
     "cells-type-flat": Message(
         "{n_flat} {n_flat:cell|cells} of type {cell_type} {n_flat:is|are} flat",
         "{n_flat} {n_flat:élément|éléments} de type {cell_type} {n_flat:est plat|sont plats}",
@@ -671,5 +527,111 @@ MESSAGES: dict[str, Message] = {
         "premier en ({x:g})",
         "check the direction or the apex of the projection",
         "vérifiez la direction ou le sommet de la projection",
+    ),
+    "four-side-faces-not": Message(
+        "the four side faces do not lead from the first face to the second",
+        "les quatre faces latérales ne mènent pas de la première face à la seconde",
+    ),
+    "centre-two-ends-line": Message(
+        "the centre and the two ends are in line: there is no shorter arc",
+        "le centre et les deux extrémités sont alignés : aucun arc n'est le plus court",
+    ),
+    "no-mesh-made-elements": Message(
+        "no mesh can be made of {element} elements",
+        "aucun maillage ne se fait d'éléments {element}",
+    ),
+    "no-surface-made-elements": Message(
+        "no surface can be made of {line} elements",
+        "aucune surface ne se fait d'éléments {line}",
+    ),
+    "cells-type-cannot-follow": Message(
+        "cells of type {cell_type} cannot follow",
+        "les éléments de type {cell_type} ne peuvent pas suivre",
+    ),
+    "four-sides-not-form": Message(
+        "the four sides do not form a closed contour, one after the other",
+        "les quatre côtés ne forment pas, l'un après l'autre, un contour fermé",
+    ),
+    "facing-cells-paired-within": Message(
+        "facing cells are paired within a positive distance",
+        "les éléments en face se cherchent à une distance positive",
+    ),
+    "line-cells-not-follow": Message(
+        "the line's cells do not follow one another",
+        "les éléments de la ligne ne se suivent pas",
+    ),
+    "cells-not-divided": Message(
+        "{cell_type} cells are not divided",
+        "les éléments {cell_type} ne se divisent pas",
+        "{value:words} are",
+        "{value:words} se divisent",
+    ),
+    "nodes-merged-within-positive": Message(
+        "nodes are merged within a positive distance",
+        "les noeuds se confondent à une distance positive",
+    ),
+    "mesh-size-not-set": Message(
+        "the mesh size is not set",
+        "la taille de maille n'est pas fixée",
+    ),
+    "mesh-sizes-must-positive": Message(
+        "mesh sizes must be positive, got {start_size:g} and {end_size:g}",
+        "les tailles de maille doivent être positives, trouvé {start_size:g} et {end_size:g}",
+    ),
+    "polygons-straight-sides-contour": Message(
+        "polygons have straight sides, the contour is of SEG3",
+        "les polygones ont des côtés droits, le contour est en SEG3",
+    ),
+    "lines-contour-not-run": Message(
+        "the lines of the contour do not all run in the same sense",
+        "les lignes du contour ne vont pas toutes dans le même sens",
+    ),
+    "contour-crosses-itself-two": Message(
+        "the contour crosses itself, or two of its lines cross",
+        "le contour se recoupe, ou deux de ses lignes se croisent",
+    ),
+    "side-contour-passes-through": Message(
+        "a side of the contour passes through another point or side of it",
+        "un côté du contour passe par un autre de ses points ou de ses côtés",
+        "look for crossing lines or coincident points",
+        "cherchez des lignes qui se croisent ou des points au même endroit",
+    ),
+    "volume-filled-tri3-qua4": Message(
+        "a volume is filled from TRI3 and QUA4, or from TRI6; this surface holds "
+        "{kinds:?{kinds}|nothing}",
+        "un volume se remplit à partir de TRI3 et QUA4, ou de TRI6 ; cette surface contient "
+        "{kinds:?{kinds}|rien}",
+    ),
+    "germ-lies-outside-contour": Message(
+        "a germ lies outside of the contour",
+        "un germe est hors du contour",
+    ),
+    "two-germs-lie-same": Message(
+        "two germs lie at the same place",
+        "deux germes sont au même endroit",
+        "merge them",
+        "confondez-les",
+    ),
+    "surfaces-tri3-needed-cross": Message(
+        "surfaces of TRI3 are needed to cross, this mesh holds {kinds:?{kinds}|nothing}",
+        "il faut des surfaces de TRI3 à croiser, ce maillage {kinds:?contient {kinds}|est vide}",
+    ),
+    "adjacent-cells-described-opposite": Message(
+        "adjacent cells are described in opposite senses, at {nodes:node|nodes} {nodes}",
+        "des éléments voisins sont décrits en sens opposés, {nodes:au noeud|aux noeuds} {nodes}",
+    ),
+    "contour-not-closed-line": Message(
+        "the contour is not closed: a line ends at {nodes:node|nodes} {nodes}",
+        "le contour n'est pas fermé : une ligne s'arrête {nodes:au noeud|aux noeuds} {nodes}",
+        "close it, or merge coincident points",
+        "fermez-le, ou confondez les points au même endroit",
+    ),
+    "surface-not-closed-sides": Message(
+        "the surface is not closed: {lone} {lone:side belongs|sides belong} to one face "
+        "only, one near ({where:g})",
+        "la surface n'est pas fermée : {lone} {lone:côté n'a|côtés n'ont} qu'une face, l'un "
+        "près de ({where:g})",
+        "merge coincident points, and check that no face is missing",
+        "confondez les points au même endroit, et vérifiez qu'aucune face ne manque",
     ),
 }

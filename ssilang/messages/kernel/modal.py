@@ -3,16 +3,6 @@
 from ssilang.messages.message import Message
 
 MESSAGES: dict[str, Message] = {
-    "shapes-no-strains": Message(
-        "models MODAL and STATIQUE have no strains of their own",
-        "les modèles MODAL et STATIQUE n'ont pas de déformations propres",
-        "recombine the displacement with RECO, then use the model of the body",
-        "recombinez le déplacement par RECO, puis prenez le modèle du corps",
-    ),
-    "modes-non-associated-relations": Message(
-        "modes with non-associated relations ('DUAL') have no meaning here",
-        "des modes avec des relations non associées ('DUAL') n'ont pas de sens ici",
-    ),
     "matrix-empty-nothing-solve": Message(
         "the matrix is empty: there is nothing to solve",
         "la matrice est vide : il n'y a rien à résoudre",
@@ -87,16 +77,6 @@ MESSAGES: dict[str, Message] = {
         "the damping of an oscillator cannot be negative ({damping:g})",
         "l'amortissement d'un oscillateur ne peut être négatif ({damping:g})",
     ),
-    "default-list-frequencies-too": Message(
-        "the default list of frequencies is too long; give 'FREQ'",
-        "la liste de fréquences par défaut est trop longue ; donnez 'FREQ'",
-    ),
-    "matrices-not-symmetric-modes": Message(
-        "the matrices are not symmetric: the modes are complex",
-        "les matrices ne sont pas symétriques : les modes sont complexes",
-        "use VIBR 'IRAM'",
-        "prenez VIBR 'IRAM'",
-    ),
     "no-unknown-may-move": Message(
         "no unknown that may move has a mass",
         "aucune inconnue libre n'a de masse",
@@ -110,5 +90,21 @@ MESSAGES: dict[str, Message] = {
     "mass-matrix-negative-eigenvalues": Message(
         "the mass matrix has negative eigenvalues and the stiffness is not positive",
         "la matrice de masse a des valeurs propres négatives et la raideur n'est pas positive",
+    ),
+    "shapes-no-strains": Message(
+        "models MODAL and STATIQUE have no strains of their own",
+        "les modèles MODAL et STATIQUE n'ont pas de déformations propres",
+    ),
+    "matrices-not-symmetric-modes": Message(
+        "the matrices are not symmetric: the modes are complex",
+        "les matrices ne sont pas symétriques : les modes sont complexes",
+    ),
+    "modes-non-associated-relations": Message(
+        "modes with non-associated relations have no meaning here",
+        "des modes avec des relations non associées n'ont pas de sens ici",
+    ),
+    "default-list-frequencies-too": Message(
+        "the default list of frequencies is too long",
+        "la liste de fréquences par défaut est trop longue",
     ),
 }

@@ -7,12 +7,6 @@ MESSAGES: dict[str, Message] = {
         "the load T needs a field of temperatures",
         "le chargement T demande un champ de températures",
     ),
-    "time-no-solution-found": Message(
-        "time {t:g}: no solution found at the shortest step",
-        "temps {t:g} : pas de solution trouvée au plus petit pas",
-        "a smaller 'DSMIN'",
-        "un 'DSMIN' plus petit",
-    ),
     "beam-shrunk-nothing": Message(
         "a beam is shrunk to nothing",
         "une poutre est réduite à rien",
@@ -21,25 +15,11 @@ MESSAGES: dict[str, Message] = {
         "the fibres have no area or no YOUN: the section carries no normal force",
         "les fibres n'ont ni aire ni YOUN : la section ne porte pas d'effort normal",
     ),
-    "unilateral-relations-mini-maxi": Message(
-        "unilateral relations (MINI, MAXI) do not go with controlled loads",
-        "des relations unilatérales (MINI, MAXI) ne vont pas avec un chargement piloté",
-        "describe contact by joints (JOINT_SDM)",
-        "décrivez le contact par des joints (JOINT_SDM)",
-    ),
     "plastic-bodies-stepped-newmark": Message(
         "plastic bodies are stepped by Newmark, HHT or generalised alpha",
         "les corps plastiques avancent par Newmark, HHT ou alpha généralisé",
         "leave CONSERVATIF and PAS_ADAPTE",
         "ôtez CONSERVATIF et PAS_ADAPTE",
-    ),
-    "finite-displacements-not-built": Message(
-        "finite displacements are not built for {element} in this hypothesis",
-        "les grands déplacements ne sont pas programmés pour {element} dans cette hypothèse",
-        "continuous elements, bars, beams (POUT, TIMO) and plane COQ2 have them; leave "
-        "'GRANDS_DEPLACEMENTS' for others",
-        "les massifs, les barres, les poutres (POUT, TIMO) et les COQ2 du plan les ont ; "
-        "ôtez 'GRANDS_DEPLACEMENTS' pour les autres",
     ),
     "bar-shrunk-nothing": Message(
         "a bar is shrunk to nothing",
@@ -56,12 +36,6 @@ MESSAGES: dict[str, Message] = {
     "youn-plastic-law-needs": Message(
         "YOUN = {youn_min:g}: a plastic law needs YOUN > 0",
         "YOUN = {youn_min:g} : une loi plastique demande YOUN > 0",
-    ),
-    "parameter-curve": Message(
-        "parameter {name} is a curve",
-        "le paramètre {name} est une évolution",
-        "EVOL 'MANU' strains stresses",
-        "donnez EVOL 'MANU' déformations contraintes",
     ),
     "section-not-find-normal": Message(
         "the section does not find the normal force {force:g} of value {row}: {rest:+.3g} is "
@@ -90,15 +64,6 @@ MESSAGES: dict[str, Message] = {
         "smaller steps",
         "prenez des pas plus petits",
     ),
-    "time-no-point-path": Message(
-        "time {now:g}: no point of the path found, step cut {halvings} {halvings:time|times}",
-        "temps {now:g} : aucun point du chemin trouvé après {halvings} "
-        "{halvings:division|divisions} du pas",
-        "a smaller 'AUTOCRIT', or a control that grows along the path; supports "
-        "(BLOCAGES_MECANIQUES) that hold the structure",
-        "un 'AUTOCRIT' plus petit, ou un pilotage qui croît le long du chemin ; des appuis "
-        "(BLOCAGES_MECANIQUES) qui tiennent la structure",
-    ),
     "step-time-no-point": Message(
         "step {k}, time {times:g}: no point of the path found, step cut {halvings} "
         "{halvings:time|times}",
@@ -108,5 +73,28 @@ MESSAGES: dict[str, Message] = {
         "(BLOCAGES_MECANIQUES) that hold the structure",
         "un incrément de pilotage plus petit, ou un autre pilotage ; des appuis "
         "(BLOCAGES_MECANIQUES) qui tiennent la structure",
+    ),
+    "parameter-curve": Message(
+        "parameter {name} is a curve",
+        "le paramètre {name} est une évolution",
+    ),
+    "unilateral-relations-mini-maxi": Message(
+        "unilateral relations do not go with controlled loads",
+        "des relations unilatérales ne vont pas avec un chargement piloté",
+        "describe contact by joints (JOINT_SDM)",
+        "décrivez le contact par des joints (JOINT_SDM)",
+    ),
+    "time-no-solution-found": Message(
+        "time {t:g}: no solution found at the shortest step",
+        "temps {t:g} : pas de solution trouvée au plus petit pas",
+    ),
+    "finite-displacements-not-built": Message(
+        "finite displacements are not built for {element} in this hypothesis",
+        "les grands déplacements ne sont pas programmés pour {element} dans cette hypothèse",
+    ),
+    "time-no-point-path": Message(
+        "time {now:g}: no point of the path found, step cut {halvings} {halvings:time|times}",
+        "temps {now:g} : aucun point du chemin trouvé après {halvings} "
+        "{halvings:division|divisions} du pas",
     ),
 }

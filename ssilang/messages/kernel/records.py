@@ -15,12 +15,6 @@ MESSAGES: dict[str, Message] = {
         "the recording time of a shock must be positive",
         "la durée d'acquisition d'un choc doit être positive",
     ),
-    "record-no-whole-shock": Message(
-        "the record has no whole shock",
-        "l'enregistrement n'a pas de choc entier",
-        "a lower 'DECL' or a shorter 'ACQU'",
-        "donnez un 'DECL' plus bas ou un 'ACQU' plus court",
-    ),
     "frequencies-begin-constant-step": Message(
         "the frequencies begin at 0 and have a constant step",
         "les fréquences partent de 0 et vont par pas constant",
@@ -98,5 +92,39 @@ MESSAGES: dict[str, Message] = {
         "the function",
         "{n_omega} {n_omega:fréquence|fréquences} pour {n_values} {n_values:valeur|valeurs} "
         "de la fonction",
+    ),
+    "acceleration-needs-two-points": Message(
+        "the acceleration needs two points, a positive step and cut-off frequency",
+        "l'accélération demande deux points, un pas et une fréquence de coupure positifs",
+    ),
+    "depth-outside-layers-end": Message(
+        "a depth is outside the layers, which end at {bottom:g} m",
+        "une profondeur est hors des couches, qui finissent à {bottom:g} m",
+    ),
+    "frequencies-rayleigh-damping-must": Message(
+        "the frequencies of Rayleigh's damping must be positive",
+        "les fréquences de l'amortissement de Rayleigh doivent être positives",
+    ),
+    "signal-needs-two-points": Message(
+        "a signal needs two points at least, found {n_x}",
+        "un signal demande deux points au moins, trouvé {n_x}",
+    ),
+    "soil-needs-many-thicknesses": Message(
+        "a soil needs as many thicknesses as densities, moduli and dampings",
+        "un sol demande autant d'épaisseurs que de masses volumiques, de modules et "
+        "d'amortissements",
+    ),
+    "thickness-density-modulus-layer": Message(
+        "thickness, density and modulus of a layer must be positive",
+        "l'épaisseur, la masse volumique et le module d'une couche doivent être positifs",
+    ),
+    "abscissas-not-regularly-spaced": Message(
+        "the abscissas are not regularly spaced: steps differ by {worst:g} from {step:g}",
+        "les abscisses ne sont pas à pas constant : des pas s'écartent de {worst:g} de la "
+        "valeur {step:g}",
+    ),
+    "record-no-whole-shock": Message(
+        "the record has no whole shock",
+        "l'enregistrement n'a pas de choc entier",
     ),
 }

@@ -11,21 +11,6 @@ MESSAGES: dict[str, Message] = {
         "un corps tenu par le seul frottement glisse quand les charges le dépassent : le "
         "tenir, lui donner une masse en dynamique, ou prendre des pas plus petits",
     ),
-    "no-set-active-unilateral": Message(
-        "no set of active unilateral conditions gives equilibrium: the reaction of one "
-        "drives what it acts on further through it",
-        "aucun jeu de conditions unilatérales actives ne donne l'équilibre : la réaction de "
-        "l'une enfonce davantage à travers elle ce sur quoi elle agit",
-        "turn the field of 'DUAL' round, or take MINI for MAXI",
-        "retournez le champ de 'DUAL', ou prenez MINI au lieu de MAXI",
-    ),
-    "no-set-active-unilateral-2": Message(
-        "no set of active unilateral conditions gives equilibrium",
-        "aucun jeu de conditions unilatérales actives ne donne l'équilibre",
-        "a body held by MINI/MAXI conditions alone must be pressed against them by its loads",
-        "un corps que seules des conditions MINI/MAXI tiennent doit être pressé contre elles "
-        "par son chargement",
-    ),
     "matrix-holds-values-not": Message(
         "the matrix holds values that are not finite numbers",
         "la matrice contient des valeurs qui ne sont pas des nombres finis",
@@ -57,12 +42,6 @@ MESSAGES: dict[str, Message] = {
         "between 0 and {largest:g}",
         "entre 0 et {largest:g}",
     ),
-    "multigrid-solves-symmetric-positive": Message(
-        "multigrid solves symmetric positive matrices only",
-        "le multigrille ne résout que des matrices symétriques positives",
-        "without ELIM 0, STAB and relations with a dual; a direct solver takes the others",
-        "sans ELIM 0, ni STAB, ni relations avec une duale ; un solveur direct prend les autres",
-    ),
     "number-negative-eigenvalues-cannot": Message(
         "the number of negative eigenvalues cannot be found without row exchanges",
         "le nombre de valeurs propres négatives ne se trouve pas sans échanges de lignes",
@@ -86,13 +65,24 @@ MESSAGES: dict[str, Message] = {
         "{remedy}",
         "{remedy}",
     ),
+    "no-set-active-unilateral": Message(
+        "no set of active unilateral conditions gives equilibrium: the reaction of one "
+        "drives what it acts on further through it",
+        "aucun jeu de conditions unilatérales actives ne donne l'équilibre : la réaction de "
+        "l'une enfonce davantage à travers elle ce sur quoi elle agit",
+    ),
+    "no-set-active-unilateral-2": Message(
+        "no set of active unilateral conditions gives equilibrium",
+        "aucun jeu de conditions unilatérales actives ne donne l'équilibre",
+    ),
+    "multigrid-solves-symmetric-positive": Message(
+        "multigrid solves symmetric positive matrices only",
+        "le multigrille ne résout que des matrices symétriques positives",
+    ),
     "multigrid-did-not-converge": Message(
         "multigrid did not converge within {most_turns} {most_turns:turn|turns}: a body is "
         "free to move, or stiffnesses differ too much",
         "le multigrille n'a pas convergé en {most_turns} {most_turns:tour|tours} : un corps "
         "est libre, ou les raideurs sont trop différentes",
-        "hold every body (BLOQ); with more memory a direct solver says which motion is free",
-        "tenez chaque corps (BLOQ) ; avec plus de mémoire un solveur direct dit quel "
-        "mouvement est libre",
     ),
 }

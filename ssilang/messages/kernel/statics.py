@@ -7,12 +7,6 @@ MESSAGES: dict[str, Message] = {
         "the matrix is not symmetric: its eigenvalues need not be real",
         "la matrice n'est pas symétrique : ses valeurs propres peuvent ne pas être réelles",
     ),
-    "beams-sections-fibres-no": Message(
-        "beams with sections of fibres have no law between their forces and strains alone",
-        "les poutres à fibres n'ont pas de loi entre leurs seuls efforts et déformations",
-        "PASAPAS and DYNAMIC take such models, MOCU gives moments from curvatures",
-        "PASAPAS et DYNAMIC prennent ces modèles, MOCU donne les moments des courbures",
-    ),
     "answer-law-creep-depends": Message(
         "the answer of a law of creep depends on the duration of the step",
         "la réponse d'une loi de fluage dépend de la durée du pas",
@@ -30,40 +24,6 @@ MESSAGES: dict[str, Message] = {
         "à {frequency:g} Hz le système est singulier",
         "undamped resonance, or a free motion at 0 Hz: leave this frequency out or add damping",
         "résonance sans amortissement, ou mouvement libre à 0 Hz : ôter cette fréquence ou amortir",
-    ),
-    "unknowns-too-many-choose": Message(
-        "{size} unknowns are too many to choose frequencies for",
-        "{size} inconnues sont trop pour un choix des fréquences",
-        "say which: TAB1 . 'TEMPS_CALCULES' = PROG ... ;",
-        "dites lesquelles : TAB1 . 'TEMPS_CALCULES' = PROG ... ;",
-    ),
-    "system-no-natural-frequency": Message(
-        "the system has no natural frequency to choose a sweep from",
-        "le système n'a pas de fréquence propre pour choisir un balayage",
-        "say which: TAB1 . 'TEMPS_CALCULES' = PROG ... ;",
-        "dites lesquelles : TAB1 . 'TEMPS_CALCULES' = PROG ... ;",
-    ),
-    "load-ends-hz-below": Message(
-        "the load ends at {high:g} Hz, below the response, which begins at {low:g} Hz",
-        "le chargement finit à {high:g} Hz, sous la réponse, qui commence à {low:g} Hz",
-        "say the frequencies: TAB1 . 'TEMPS_CALCULES' = PROG ... ;",
-        "dites les fréquences : TAB1 . 'TEMPS_CALCULES' = PROG ... ;",
-    ),
-    "unilateral-condition-no-harmonic": Message(
-        "a unilateral condition has no harmonic response",
-        "une condition unilatérale n'a pas de réponse harmonique",
-        "hold with equalities (BLOQ, RELA without MINI or MAXI), or work in time",
-        "tenir par des égalités (BLOQ, RELA sans MINI ni MAXI), ou calculer en temps",
-    ),
-    "load-not-mechanical": Message(
-        "the load {name} is not mechanical",
-        "le chargement {name} n'est pas mécanique",
-        "MECA (or FORC) and DIMP are taken here",
-        "MECA (ou FORC) et DIMP sont admis ici",
-    ),
-    "mechanical-load-made-nodal": Message(
-        "a mechanical load is made of nodal fields (CHPOINT)",
-        "un chargement mécanique est fait de champs par points (CHPOINT)",
     ),
     "load-matrices-lack": Message(
         "the load {name} has {lost}, which the matrices lack",
@@ -99,36 +59,9 @@ MESSAGES: dict[str, Message] = {
         "joints {element} with this law have no criterion",
         "les joints {element} n'ont pas de critère avec cette loi",
     ),
-    "mota-knows-von-mises": Message(
-        "MOTA knows von Mises laws, not {name}",
-        "MOTA connaît les lois de von Mises, pas {name}",
-    ),
     "load-needs-field-temperatures": Message(
         "the load T needs a field of temperatures",
         "le chargement T demande un champ de températures",
-    ),
-    "loads-drive-motions": Message(
-        "the matrix is singular, with {count} {count:free motion|free motions} that the "
-        "loads drive{motions:? ({motions:;})}",
-        "la matrice est singulière : {count} {count:mouvement libre|mouvements libres}, que "
-        "le chargement entraîne{motions:? ({motions:;})}",
-        "not held: {free}{more:? and {more} more}; hold it with BLOQ or RELA{apart:?; "
-        "{apart} {apart:node lies on a node|nodes lie on nodes} of another body (ELIM)}",
-        "non tenu : {free}{more:? et {more} {more:autre|autres}} ; bloquez-le par BLOQ ou "
-        "RELA{apart:? ; {apart} {apart:noeud est sur celui|noeuds sont sur ceux} d'un autre "
-        "corps (ELIM)}",
-    ),
-    "motions-without-mass": Message(
-        "the matrix is singular, with {count} {count:free motion|free motions}{motions:? "
-        "({motions:;})}",
-        "la matrice est singulière : {count} {count:mouvement libre|mouvements "
-        "libres}{motions:? ({motions:;})}",
-        "not held: {free}{more:? and {more} more}; hold it with BLOQ or RELA{apart:?; "
-        "{apart} {apart:node lies on a node|nodes lie on nodes} of another body (ELIM)}, or "
-        "give it mass (MASS)",
-        "non tenu : {free}{more:? et {more} {more:autre|autres}} ; bloquez-le par BLOQ ou "
-        "RELA{apart:? ; {apart} {apart:noeud est sur celui|noeuds sont sur ceux} d'un autre "
-        "corps (ELIM)}, ou donnez-lui une masse (MASS)",
     ),
     "more-bodies": Message(
         "{count} more {count:body|bodies}",
@@ -176,15 +109,47 @@ MESSAGES: dict[str, Message] = {
         "smaller load steps",
         "des pas de charge plus petits",
     ),
+    "beams-sections-fibres-no": Message(
+        "beams with sections of fibres have no law between their forces and strains alone",
+        "les poutres à fibres n'ont pas de loi entre leurs seuls efforts et déformations",
+    ),
+    "unknowns-too-many-choose": Message(
+        "{size} unknowns are too many to choose frequencies for",
+        "{size} inconnues sont trop pour un choix des fréquences",
+    ),
+    "system-no-natural-frequency": Message(
+        "the system has no natural frequency to choose a sweep from",
+        "le système n'a pas de fréquence propre pour choisir un balayage",
+    ),
+    "load-ends-hz-below": Message(
+        "the load ends at {high:g} Hz, below the response, which begins at {low:g} Hz",
+        "le chargement finit à {high:g} Hz, sous la réponse, qui commence à {low:g} Hz",
+    ),
+    "unilateral-condition-no-harmonic": Message(
+        "a unilateral condition has no harmonic response",
+        "une condition unilatérale n'a pas de réponse harmonique",
+    ),
+    "load-not-mechanical": Message(
+        "the load {name} is not mechanical",
+        "le chargement {name} n'est pas mécanique",
+    ),
+    "loads-drive-motions": Message(
+        "the matrix is singular, with {count} {count:free motion|free motions} that the "
+        "loads drive{motions:? ({motions:;})}",
+        "la matrice est singulière : {count} {count:mouvement libre|mouvements libres}, que "
+        "le chargement entraîne{motions:? ({motions:;})}",
+        "not held: {free}{more:? and {more} more}{apart:?; {apart} {apart:node lies on a "
+        "node|nodes lie on nodes} of another body}",
+        "non tenu : {free}{more:? et {more} {more:autre|autres}}{apart:? ; {apart} "
+        "{apart:noeud est sur celui|noeuds sont sur ceux} d'un autre corps}",
+    ),
     "matrix-no-unknown-force": Message(
         "the matrix has no unknown for the force {lost}{more:? and {more} more}",
         "la matrice n'a pas d'inconnue pour la force {lost}{more:? et {more} {more:autre|autres}}",
-        "{n_above:?node {above} lies on node {below} of the matrix: coordinates that are "
-        "written again make a new node, the mesh's own is MAIL1 POIN 'PROC' P1|take it out "
-        "of the second member, or say 'NOID'}",
-        "{n_above:?le noeud {above} est sur le noeud {below} de la matrice : des coordonnées "
-        "écrites de nouveau font un nouveau noeud, celui du maillage est MAIL1 POIN 'PROC' "
-        "P1|ôtez-la du second membre, ou dites 'NOID'}",
+        "{n_above:?node {above} lies on node {below} of the matrix|take it out of the second "
+        "member}",
+        "{n_above:?le noeud {above} est sur le noeud {below} de la matrice|ôtez-la du second "
+        "membre}",
     ),
     "no-equilibrium-full-uplift": Message(
         "load step {step}, time {time:g}: no equilibrium, full uplift: {open_points} of "
@@ -193,9 +158,16 @@ MESSAGES: dict[str, Message] = {
         "{open_points} des {n_points} points de joint sont ouverts et rien d'autre ne tient "
         "le corps au noeud {node}",
         "less eccentric loads, a support, or a dynamic calculation; if the loads press, the "
-        "joint's sides are swapped: RACC and LIAI take the structure's first",
+        "joint's sides are swapped",
         "un chargement moins excentré, un appui, ou un calcul dynamique ; si le chargement "
-        "presse, les côtés du joint sont inversés : RACC et LIAI prennent d'abord celui de "
-        "la structure",
+        "presse, les côtés du joint sont inversés",
+    ),
+    "mechanical-load-made-nodal": Message(
+        "a mechanical load is made of nodal fields",
+        "un chargement mécanique est fait de champs par points",
+    ),
+    "mota-knows-von-mises": Message(
+        "this is known for von Mises laws, not for {name}",
+        "ceci est connu pour les lois de von Mises, pas pour {name}",
     ),
 }

@@ -9,7 +9,7 @@ from ssilang.language.registry import arg
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel, Mot, Table
 from ssilang.operators.dispatch import extend_help
-from ssilang.operators.mesh.boundaries import enve
+from ssilang.operators.mesh.selection.boundaries import enve
 
 SAME = 1e-6  # relative: dampings this near are one
 

@@ -14,11 +14,11 @@ if TYPE_CHECKING:
     from ssilang.kernel.stepping.problem.problem import Problem
 
 TERMS = {
-    "ADDI_KNL": ("stiffness", "RIGIDITE"),
-    "ADDI_CNL": ("damping", "RIGIDITE"),
-    "ADDI_MATRICE": ("operator", "RIGIDITE"),
-    "ADDI_FNL": ("force", "CHPOINT"),
-    "ADDI_SECOND": ("imposed", "CHPOINT"),
+    "ADDI_KNL": "stiffness",
+    "ADDI_CNL": "damping",
+    "ADDI_MATRICE": "operator",
+    "ADDI_FNL": "force",
+    "ADDI_SECOND": "imposed",
 }
 
 
@@ -42,11 +42,9 @@ class AddedByProcedure:
                 "the procedure CHARMECA must give one TABLE",
                 "TCHAR = TABL ; TCHAR . 'ADDI_FNL' = ... ; FINP TCHAR ;",
             )
-        found = Entries(self.entries.call, results[0], "CHARMECA")
-        found.warn_unknown(tuple(TERMS))
-        given: dict[str, Any] = {
-            name: found.get(word, type_) for word, (name, type_) in TERMS.items()
-        }
+        found = Entries(self.entries.call, results[0], self.entries.procedure, "TCHAR")
+        found.check()
+        given: dict[str, Any] = {name: found.get(word) for word, name in TERMS.items()}
         return Additions(**given)
 
 

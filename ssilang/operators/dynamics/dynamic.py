@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.plasticity.bulk import stiffness_beside
 from ssilang.kernel.plasticity.points import plastic_zones
-from ssilang.kernel.stepping.times import every
 from ssilang.language.registry import Help, operator
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
@@ -26,11 +25,7 @@ from ssilang.operators.dynamics.reports import (
     warn_resolution,
     warn_supports,
 )
-from ssilang.operators.dynamics.scheme_entries import (
-    CONTACT_ENTRIES,
-    contact_options,
-    scheme_of,
-)
+from ssilang.operators.dynamics.scheme_entries import contact_options, scheme_of
 from ssilang.operators.session.progress import COMPILING, ProgressLine
 from ssilang.operators.statics.bodies import plastic_bodies
 from ssilang.operators.tables.entries import Entries
@@ -43,16 +38,6 @@ if TYPE_CHECKING:
 
 MOST_STEPS = 1e9
 """Steps beyond which a list of times is a slip of the pen."""
-
-KNOWN = (
-    "DEPL", "VITE", "CHAR", "RIGI", "MASS", "AMOR", "MODELE", "CARACTERISTIQUES",
-    "TEMPS_CALCULES", "INST", "FREQ", "DEBU",
-    "PAS_SAUVES", "TEMPS_SAUVES", "MAILLAGE_SAUVE", "SAUV",
-    "ECON", "PAS_SAUVES_VTK", "TEMPS_SAUVES_VTK", "MAILLAGE_VTK", "FICHIER_VTK",
-    "PAS_SAUVES_CSV", "TEMPS_SAUVES_CSV", "MAILLAGE_CSV", "COMPOSANTES_CSV", "FICHIER_CSV",
-    "CHARMECA", "ETAT", "VITEUNIL", "ALPHA_F", "RHO_INF", "BETA", "GAMMA", "NEWTON_COMPLET",
-    "RESULTATS", "RESULTATS_CSV", "ENERGIES", "SOUSTYPE", "REDUCTION", *CONTACT_ENTRIES,
-)  # fmt: skip
 
 
 @operator(
@@ -75,7 +60,6 @@ def zdyn(call: Call) -> Table:
     from ssilang.kernel.stepping.problem.problem import make_problem
 
     entries = Entries(call, call.required("TABLE"), "DYNAMIC")
-    entries.warn_unknown(KNOWN)
     times, saved = _times(entries)
     inputs = _with_bodies(entries, _inputs(entries, times))
     problem = make_problem(inputs)
@@ -84,7 +68,7 @@ def zdyn(call: Call) -> Table:
     make_bodies = plastic_bodies(entries)
     bodies = None if make_bodies is None else make_bodies(problem, inputs)
     warn_resolution(entries, problem)
-    results = TableObserver(saved, nodes_asked(entries.get("MAILLAGE_SAUVE", "MAILLAGE", "POINT")))
+    results = TableObserver(saved, nodes_asked(entries.get("MAILLAGE_SAUVE")))
     vtk, csv = vtk_observer(entries, times), csv_observer(entries, times)
     line = ProgressLine("DYNAMIC")
     observers = [o for o in (results, vtk, csv) if o is not None]
@@ -113,7 +97,7 @@ def _integrated(
     from ssilang.kernel.stepping.rests.reduced.run import integrate_reduced
     from ssilang.kernel.stepping.run import integrate
 
-    tolerance = entries.get("REDUCTION", "FLOTTANT")
+    tolerance = entries.get("REDUCTION")
     full = entries.flag("NEWTON_COMPLET")
     if bodies is not None:
         if tolerance is not None:
@@ -160,19 +144,19 @@ def _times(entries: Entries) -> tuple[FloatArray, NDArray[np.bool_]]:
     times = entries.times("TEMPS_CALCULES")
     if times is None:
         return _older_times(entries)
-    return times, entries.saved_steps("", times, lambda: every(times, 4))
+    return times, entries.saved_steps("", times)
 
 
 def _older_times(entries: Entries) -> tuple[FloatArray, NDArray[np.bool_]]:
     """INST (instants kept), DEBU (start, 0), FREQ (cut-off frequency, dt = 1/(4 FREQ))."""
-    instants = entries.get("INST", "LISTREEL")
+    instants = entries.get("INST")
     if instants is None:
         raise entries.bad(
             "the entry 'TEMPS_CALCULES' is missing", "TAB1 . 'TEMPS_CALCULES' = PROG 0. 'PAS' ... ;"
         )
-    frequency = entries.get("FREQ", "FLOTTANT")
+    frequency = entries.get("FREQ")
     wanted = np.asarray(instants.values, dtype=float)
-    begin = entries.get("DEBU", "FLOTTANT")
+    begin = entries.get("DEBU")
     if begin is None:
         begin = min(0.0, float(wanted[0])) if len(wanted) else 0.0
     stops = wanted if len(wanted) and wanted[0] <= begin else np.concatenate([[begin], wanted])
@@ -209,15 +193,15 @@ def _inputs(entries: Entries, times: FloatArray) -> Inputs:
             "SAUV the table behind DYNAMIC, or use the VTK or CSV entries",
         )
     return Inputs(
-        entries.needed("RIGI", "RIGIDITE"),
+        entries.needed("RIGI"),
         times,
-        entries.get("MASS", "RIGIDITE"),
-        entries.get("AMOR", "RIGIDITE"),
-        entries.get("CHAR", "CHARGEME"),
-        entries.get("DEPL", "CHPOINT"),
-        entries.get("VITE", "CHPOINT"),
-        entries.get("MODELE", "MMODEL"),
-        entries.get("CARACTERISTIQUES", "MCHAML"),
+        entries.get("MASS"),
+        entries.get("AMOR"),
+        entries.get("CHAR"),
+        entries.get("DEPL"),
+        entries.get("VITE"),
+        entries.get("MODELE"),
+        entries.get("CARACTERISTIQUES"),
         scheme_of(entries),
         contact_options(entries),
     )
@@ -230,7 +214,7 @@ def _with_bodies(entries: Entries, inputs: Inputs) -> Inputs:
     zones = plastic_zones(inputs.model)
     if not zones:
         return inputs
-    material = entries.needed("CARACTERISTIQUES", "MCHAML")
+    material = entries.needed("CARACTERISTIQUES")
     stiffness = without_zones(inputs.stiffness, zones)
     blocks = (*stiffness.blocks, *(stiffness_beside(z, material) for z in zones))
     return replace(inputs, stiffness=replace(stiffness, blocks=blocks, cache={}))

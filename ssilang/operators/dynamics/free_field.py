@@ -50,13 +50,11 @@ def zcol(call: Call) -> Table:
     from ssilang.kernel.records.soil_column import SoilColumn, free_field
 
     entries = Entries(call, call.required("TABLE"), "ZCOL")
-    thickness, density, modulus, damping = (
-        entries.needed(name, "LISTREEL").values for name in _LAYERS
-    )
-    f1, f2, cutoff = (entries.needed(name, "FLOTTANT") for name in ("F1", "F2", "FC"))
-    depths = entries.needed("PROFONDEURS", "LISTREEL").values
-    signal = entries.needed("GAMMAO", "EVOLUTIO").parts[0]
-    control = entries.get("CONTROLE", "FLOTTANT") or 0.0
+    thickness, density, modulus, damping = (entries.needed(name).values for name in _LAYERS)
+    f1, f2, cutoff = (entries.needed(name) for name in ("F1", "F2", "FC"))
+    depths = entries.needed("PROFONDEURS").values
+    signal = entries.needed("GAMMAO").parts[0]
+    control = entries.get("CONTROLE") or 0.0
     steps = np.diff(signal.abscissas)
     if len(steps) == 0 or np.ptp(steps) > 1e-3 * abs(steps.mean()):
         raise entries.bad("the acceleration GAMMAO needs equal steps of time", "IPOL it first")

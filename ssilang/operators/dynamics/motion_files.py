@@ -38,13 +38,13 @@ def nodes_asked(mesh: Any) -> IntArray | None:
 def vtk_observer(entries: Entries, times: FloatArray) -> VtkObserver | None:
     if not (entries.has("PAS_SAUVES_VTK") or entries.has("TEMPS_SAUVES_VTK")):
         return None
-    wanted = entries.saved_steps("_VTK", times, lambda: np.zeros(len(times), bool))
-    given = entries.get("MAILLAGE_VTK", "MAILLAGE", "TABLE")
+    wanted = entries.saved_steps("_VTK", times)
+    given = entries.get("MAILLAGE_VTK")
     if given is None:
-        model: Model | None = entries.get("MODELE", "MMODEL")
-        given = entries.needed("MAILLAGE_VTK", "MAILLAGE", "TABLE") if model is None else model.mesh
+        model: Model | None = entries.get("MODELE")
+        given = entries.needed("MAILLAGE_VTK") if model is None else model.mesh
     meshes = {"": given} if isinstance(given, Mesh) else _parts(entries, given)
-    name = entries.get("FICHIER_VTK", "MOT") or "dynamic"
+    name = entries.get("FICHIER_VTK") or entries.default("FICHIER_VTK")
     path = output_path(entries.call, str(name).rstrip())
     writer = run_output(entries.call.session).begin_series(path)
     return VtkObserver(wanted, meshes, writer, _stress(entries))
@@ -59,8 +59,8 @@ def _parts(entries: Entries, table: Table) -> dict[str, Mesh]:
 
 def _stress(entries: Entries) -> Callable[[NodeField], CellField | None] | None:
     """Stresses of the zones of MODELE that are no joints."""
-    model: Model | None = entries.get("MODELE", "MMODEL")
-    material: CellField | None = entries.get("CARACTERISTIQUES", "MCHAML")
+    model: Model | None = entries.get("MODELE")
+    material: CellField | None = entries.get("CARACTERISTIQUES")
     zones = () if model is None else model.zones
     zones = tuple(z for z in zones if not is_joint(z) and not is_plastic(z))
     if not zones or material is None:
@@ -76,11 +76,11 @@ def _stress(entries: Entries) -> Callable[[NodeField], CellField | None] | None:
 def csv_observer(entries: Entries, times: FloatArray) -> CsvObserver | None:
     if not (entries.has("PAS_SAUVES_CSV") or entries.has("TEMPS_SAUVES_CSV")):
         return None
-    wanted = entries.saved_steps("_CSV", times, lambda: np.zeros(len(times), bool))
-    nodes = nodes_asked(entries.needed("MAILLAGE_CSV", "MAILLAGE", "POINT"))
+    wanted = entries.saved_steps("_CSV", times)
+    nodes = nodes_asked(entries.needed("MAILLAGE_CSV"))
     assert nodes is not None
-    components: ListMots | None = entries.get("COMPOSANTES_CSV", "LISTMOTS")
-    name = entries.get("FICHIER_CSV", "MOT")
+    components: ListMots | None = entries.get("COMPOSANTES_CSV")
+    name = entries.get("FICHIER_CSV")
     path = None
     if name is not None:
         text = str(name).rstrip()

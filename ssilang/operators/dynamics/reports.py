@@ -52,7 +52,7 @@ def report(entries: Entries, problem: Problem, history: History) -> None:
             "estimated_error": none_if_nan(history.reduction.estimate),
             "estimated_error_of_velocities": none_if_nan(history.reduction.velocity),
             "estimated_error_of_accelerations": none_if_nan(history.reduction.acceleration),
-            "not_reduced_because": history.reduction.refused,
+            "not_reduced_because": str(history.reduction.refused or ""),
             "seconds_preparing_the_basis": history.reduction.prepared,
         }
     entries.call.session.statistics.setdefault("calculations", []).append(line)

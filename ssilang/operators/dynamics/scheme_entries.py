@@ -4,24 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from ssilang.kernel.contact.options import ContactOptions
 from ssilang.kernel.stepping.scheme import Scheme, generalised_alpha, hht, newmark
 from ssilang.operators.tables.entries import Entries
 
-if TYPE_CHECKING:
-    pass
-
 SCHEME_ENTRIES = ("ALPHA_F", "RHO_INF", "BETA", "GAMMA")
-CONTACT_ENTRIES = (
-    "CONSERVATIF",
-    "PAS_ADAPTE",
-    "CONTACT",
-    "COEFFICIENT",
-    "CONTACT_PERSISTANT",
-    "MASSE_MODIFIEE",
-)
+NORMS = {True: "MASSE", False: "FAUX", "INERTIE": "MASSE", "RAIDEUR": "RIGIDITE"}
+"""Norm of the kernel in which VITEUNIL corrects velocities."""
 
 
 def contact_options(entries: Entries, dynamic: bool = True) -> ContactOptions:
@@ -29,11 +19,8 @@ def contact_options(entries: Entries, dynamic: bool = True) -> ContactOptions:
 
     VRAI, the default of the average acceleration, corrects in the norm of the mass.
     """
-    methods = ("LAGRANGE", "PENALITE", "AUGMENTE", "UZAWA")
-    method = str(entries.get("CONTACT", "MOT") or "LAGRANGE").upper().rstrip()
-    if method not in methods:
-        raise entries.bad(f"'CONTACT' is '{method}'", "one of " + ", ".join(methods))
-    coefficient = entries.get("COEFFICIENT", "FLOTTANT")
+    method = str(entries.get("CONTACT"))
+    coefficient = entries.get("COEFFICIENT")
     if method == "PENALITE" and coefficient is None:
         raise entries.bad("'CONTACT' = 'PENALITE' needs 'COEFFICIENT'", "a stiffness, N/m")
     if not dynamic:
@@ -50,14 +37,12 @@ def contact_options(entries: Entries, dynamic: bool = True) -> ContactOptions:
 def _correction(entries: Entries, method: str) -> str:
     scheme = scheme_of(entries)
     average = scheme.average_acceleration
-    given = entries.get("VITEUNIL", "LOGIQUE", "MOT")
+    given = entries.get("VITEUNIL")
     if scheme.conserving:
         return _no_correction(entries, given)
     if given is None:
         return "MASSE" if average and method != "PENALITE" else "FAUX"
-    word = {True: "MASSE", False: "FAUX"}.get(given, str(given).upper().rstrip())
-    if word not in ("FAUX", "MASSE", "RIGIDITE"):
-        raise entries.bad(f"'VITEUNIL' is '{given}'", "VRAI, FAUX, 'MASSE' or 'RIGIDITE'")
+    word = NORMS[given]
     if word != "FAUX" and not average:
         raise entries.bad(
             "'VITEUNIL' corrects velocities of the average acceleration only",
@@ -68,7 +53,7 @@ def _correction(entries: Entries, method: str) -> str:
 
 def _no_correction(entries: Entries, given: object) -> str:
     """The conserving step reflects velocities by itself."""
-    if given is not None and given is not False and str(given).upper().rstrip() != "FAUX":
+    if given is not None and given is not False:
         entries.warn(
             "'VITEUNIL' has no effect: the conserving step keeps the energy of impacts by itself",
             "VITEUNIL = FAUX",
@@ -96,7 +81,7 @@ def _basic_scheme(entries: Entries) -> Scheme:
         raise entries.bad(f"'{given[0]}' and '{given[1]}' choose two schemes", "give one")
     if not given:
         return Scheme()
-    values = [float(entries.needed(name, "FLOTTANT")) for name in given]
+    values = [float(entries.needed(name)) for name in given]
     makers: dict[str, Callable[[float], Scheme]] = {
         "ALPHA_F": hht,
         "RHO_INF": generalised_alpha,

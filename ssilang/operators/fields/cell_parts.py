@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from typing import Any
 
 import numpy as np
@@ -17,6 +17,17 @@ from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.materials.parameters import geometric_names, material_names
 from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.language.registry import (
+    ANY,
+    Chosen,
+    Entry,
+    arg,
+    by,
+    main,
+    many,
+    opt,
+    select,
+)
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots, Mot, Table
 from ssilang.operators.dispatch import EXTR, UNIONS, listing, union
@@ -40,7 +51,7 @@ def _unique(names: list[str]) -> ListMots:
     return ListMots(list(dict.fromkeys(names)))
 
 
-def _zone_list(call: Call, model: Model) -> Table:
+def _zone_list(model: Model) -> Table:
     table = Table()
     for i, zone in enumerate(model.zones):
         table.set(2 * i + 1, Model((zone,)))
@@ -48,41 +59,58 @@ def _zone_list(call: Call, model: Model) -> Table:
     return table
 
 
-def _chosen(attribute: str) -> Callable[[Call, Model], Model]:
-    def choose(call: Call, model: Model) -> Model:
-        words = [w.rstrip() for w in iter(call.word, None) if w is not None]
+_ATTRIBUTES = {"FORM": "formulation", "CONS": "constituent", "ELEM": "element"}
+_NO_NAMES = ("PARA", "NLOC", "PHAS")
+"""Parameters, non-local variables and phases: no law has them."""
+
+
+def _chosen(call: Call, model: Model, what: Chosen) -> Model:
+    """Zones that have one of the words, or behave as all of them."""
+    words = [w.rstrip() for w in what["names"]]
+    if what.word == "COMP":
+        words = [w.upper() for w in words]
+        kept = tuple(z for z in model.zones if all(w in z.behaviour for w in words))
+    else:
+        attribute = _ATTRIBUTES[what.word]
         kept = tuple(z for z in model.zones if getattr(z, attribute) in words)
-        if not kept:
-            raise call.bad(f"no zone of the model has {' '.join(words)}", model)
-        return Model(kept)
-
-    return choose
-
-
-def _behaving(call: Call, model: Model) -> Model:
-    """Zones whose behaviour has all the words that follow."""
-    words = [w.rstrip().upper() for w in iter(call.word, None) if w is not None]
-    kept = tuple(z for z in model.zones if all(w in z.behaviour for w in words))
     if not kept:
-        raise call.bad(f"no zone of the model behaves as {' '.join(words)}", model)
+        if what.word == "COMP":
+            raise call.error("operators.fields.no-zone-behaves", model, words=words)
+        raise call.error("operators.fields.no-zone-has", model, words=words)
     return Model(kept)
 
 
-_OF_MODEL: dict[str, Callable[[Call, Model], Any]] = {
-    "MAIL": lambda call, model: model.mesh,
-    "ZONE": _zone_list,
-    "FORM": _chosen("formulation"),
-    "CONS": _chosen("constituent"),
-    "ELEM": _chosen("element"),
-    "COMP": _behaving,
-    "PARA": lambda call, model: ListMots(),
-    "NLOC": lambda call, model: ListMots(),
-    "PHAS": lambda call, model: ListMots(),
-}
+def _names(kind: str, en: str, fr: str) -> list[Entry]:
+    return [many("names", "MOT", kind=kind, en=en, fr=fr)]
 
 
-@EXTR.on(
-    "MMODEL",
+@EXTR.form(
+    main("model", "MMODEL", en="model", fr="modèle"),
+    select(
+        "what",
+        {
+            "MAIL": [],
+            "ZONE": [],
+            "FORM": _names("formulation", "formulations", "formulations"),
+            "CONS": _names("", "constituents", "constituants"),
+            "ELEM": _names("element", "elements", "éléments"),
+            "COMP": _names("law", "words of the law", "mots de la loi"),
+            **{word: [] for word in (*_NO_NAMES, *_NAMES)},
+        },
+        optional=False,
+        en="mesh, table of zones, zones that have some words, or names of components",
+        fr="maillage, table des zones, zones qui ont certains mots, ou noms de composantes",
+    ),
+    gives=by(
+        "what",
+        {
+            "MAIL": "MAILLAGE",
+            "ZONE": "TABLE",
+            "COMP": "MMODEL",
+            **dict.fromkeys(_ATTRIBUTES, "MMODEL"),
+        },
+        "LISTMOTS",
+    ),
     syntax="OBJ1 = EXTR MODL1 'MAIL' | 'ZONE' ;\n"
     "MODL2 = EXTR MODL1 'FORM' | 'CONS' | 'ELEM' | 'COMP' MOT1 ... ;\n"
     "LMOT1 = EXTR MODL1 'CONT' | 'DEFO' | 'DEPL' | 'FORC' | 'MATE' | 'GEOM' | 'GRAD' | 'CONP' ;",
@@ -99,14 +127,15 @@ _OF_MODEL: dict[str, Callable[[Call, Model], Any]] = {
         "LIST (NBEL (EXTR M 'MAIL')) ; LIST (EXTR M 'CONT') ;",
     ),
 )
-def extr_model(call: Call, model: Model) -> Any:
+def extr_model(call: Call, model: Model, what: Chosen) -> Mesh | Table | Model | ListMots:
     """A part of a model."""
-    word = call.keyword((*_OF_MODEL, *_NAMES))
-    if word is None:
-        raise call.bad(f"EXTR takes {' '.join((*_OF_MODEL, *_NAMES))} out of a model", model)
-    if word in _OF_MODEL:
-        return _OF_MODEL[word](call, model)
-    return _unique([n for z in model.zones for n in _NAMES[word](z)])
+    if what.word == "MAIL":
+        return model.mesh
+    if what.word == "ZONE":
+        return _zone_list(model)
+    if what.word in _NAMES:
+        return _unique([n for z in model.zones for n in _NAMES[what.word](z)])
+    return ListMots() if what.word in _NO_NAMES else _chosen(call, model, what)
 
 
 def _mesh_of(field: CellField) -> Mesh:
@@ -114,22 +143,22 @@ def _mesh_of(field: CellField) -> Mesh:
     return Mesh(blocks[0].nodes, blocks)
 
 
-def _restricted(call: Call, field: CellField) -> tuple[CellFieldBlock, ...]:
-    """Blocks of the field, those of a model if one follows."""
-    model = call.optional("MMODEL")
+def _restricted(field: CellField, what: Chosen) -> tuple[CellFieldBlock, ...]:
+    """Blocks of the field, those of a model if one is given."""
+    model = what["model"]
     if model is None:
         return field.blocks
     wanted = {id(z.cells) for z in model.zones}
     return tuple(b for b in field.blocks if id(b.cells) in wanted)
 
 
-def _varying(call: Call, field: CellField) -> ListMots:
+def _varying(field: CellField) -> ListMots:
     return _unique(
         [n for b in field.blocks for n, v in b.components.items() if v.dtype == object and v.size]
     )
 
 
-def _depended_on(call: Call, field: CellField) -> ListMots:
+def _depended_on(field: CellField) -> ListMots:
     """Names of the abscissas of curves, and of the columns of clouds but the last."""
     held = [v for b in field.blocks for a in b.components.values() if a.dtype == object
             for v in {id(x): x for x in a.ravel()}.values()]  # fmt: skip
@@ -145,24 +174,53 @@ def _variables(value: Any) -> list[str]:
     return list(value.values) if isinstance(value, ListMots) else []
 
 
-_OF_FIELD: dict[str, Callable[[Call, CellField], Any]] = {
-    "TITR": lambda call, field: ListMots([field.title]),
-    "TYPE": lambda call, field: Mot(field.title),
-    "MAIL": lambda call, field: _mesh_of(field),
-    "COMP": lambda call, field: _unique(
-        [n for b in _restricted(call, field) for n in b.components]
+def _own_names(field: CellField) -> Collection[str]:
+    return [n for b in getattr(field, "blocks", ()) for n in b.components]
+
+
+_OF_MODEL = [opt("model", "MMODEL", en="its zones only", fr="ses zones seulement")]
+_OF_FIELD: dict[str, Callable[[CellField, Chosen], Any]] = {
+    "TITR": lambda field, what: ListMots([field.title]),
+    "TYPE": lambda field, what: Mot(field.title),
+    "MAIL": lambda field, what: _mesh_of(field),
+    "COMP": lambda field, what: _unique(
+        [n for b in _restricted(field, what) for n in b.components]
     ),
-    "CONS": lambda call, field: ListMots([b.constituent for b in _restricted(call, field)]),
-    "COVA": _varying,
-    "DEVA": _depended_on,
-    "NBZO": lambda call, field: len({id(b.cells) for b in field.blocks}),
+    "CONS": lambda field, what: ListMots([b.constituent for b in _restricted(field, what)]),
+    "COVA": lambda field, what: _varying(field),
+    "DEVA": lambda field, what: _depended_on(field),
+    "NBZO": lambda field, what: len({id(b.cells) for b in field.blocks}),
 }
 
 
-@EXTR.on(
-    "MCHAML",
-    syntax="VAL1 = EXTR CHAM1 MOT1 N1 N2 N3 ;\n"
-    "OBJ1 = EXTR CHAM1 'TYPE' | 'MAIL' | 'COMP' (MODL1) | 'CONS' | 'COVA' | 'DEVA' | 'NBZO' ;",
+@EXTR.form(
+    main("field", "MCHAML", en="field in cells", fr="champ par éléments"),
+    select(
+        "what",
+        {word: _OF_MODEL if word in ("COMP", "CONS") else [] for word in _OF_FIELD},
+        optional=False,
+        unless=_own_names,
+        en="sub-type, mesh, names of components or constituents, number of zones",
+        fr="sous-type, maillage, noms de composantes ou constituants, nombre de zones",
+    ),
+    gives=by("what", {"TYPE": "MOT", "MAIL": "MAILLAGE", "NBZO": "ENTIER"}, "LISTMOTS"),
+    syntax="OBJ1 = EXTR CHAM1 'TITR' | 'TYPE' | 'MAIL' | 'COMP' (MODL1) | 'CONS' | 'COVA' | 'DEVA' "
+    "| 'NBZO' ;",
+)
+def extr_cells(field: CellField, what: Chosen) -> ListMots | Mot | Mesh | int:
+    """A part of a field in cells."""
+    found: ListMots | Mot | Mesh | int = _OF_FIELD[what.word](field, what)
+    return found
+
+
+@EXTR.form(
+    main("field", "MCHAML", en="field in cells", fr="champ par éléments"),
+    arg("component", "MOT", kind="component", en="component", fr="composante"),
+    opt("zone", "ENTIER", en="number of the zone", fr="numéro de la zone"),
+    opt("cell", "ENTIER", en="number of the cell in it", fr="numéro de l'élément"),
+    opt("point", "ENTIER", en="number of the point in it", fr="numéro du point"),
+    gives=ANY,
+    syntax="VAL1 = EXTR CHAM1 MOT1 N1 N2 N3 ;",
     en="Of a field in cells: the value of a component in zone N1, cell N2, point N3; its type, "
     "mesh, names of components or constituents, of the components that vary (COVA: curves, "
     "clouds), of what they depend on (DEVA), number of zones.",
@@ -175,36 +233,40 @@ _OF_FIELD: dict[str, Callable[[Call, CellField], Any]] = {
         "A = MATE M 'YOUN' 2. 'NU' 0.3 'SECT' 1. ; LIST (EXTR A 'YOUN' 1 3 1) ;",
     ),
 )
-def extr_cells(call: Call, field: CellField) -> Any:
-    """A part of a field in cells."""
-    names = [n for b in field.blocks for n in b.components]
-    said = (call.peek_word() or "").rstrip()
-    if said not in names or not any(isinstance(o.value, int) for o in call.operands):
-        word = call.keyword(tuple(_OF_FIELD))
-        if word is not None:
-            return _OF_FIELD[word](call, field)
-    name = (call.word() or "").rstrip()
+def extr_value(
+    call: Call,
+    field: CellField,
+    component: str,
+    zone: int | None,
+    cell: int | None,
+    point: int | None,
+) -> object:
+    """The value of a component at a point of a cell."""
+    name, names = component.rstrip(), _own_names(field)
     if name not in names:
-        raise call.bad(f"the field has no component {name}", field, " ".join(dict.fromkeys(names)))
-    return _value(call, field, name)
-
-
-def _value(call: Call, field: CellField, name: str) -> Any:
-    zone, cell, point = (call.required("ENTIER") for _ in range(3))
+        raise call.error(
+            "operators.fields.field-no-component", field, name=name, names=dict.fromkeys(names)
+        )
+    if zone is None or cell is None or point is None:
+        raise call.missing(("ENTIER",))
     cells = list({id(b.cells): b.cells for b in field.blocks}.values())
     if not 1 <= zone <= len(cells):
-        raise call.bad(f"the field has {len(cells)} zones, not {zone}", zone)
+        raise call.error("operators.fields.no-such-zone", zone, n_zones=len(cells), zone=zone)
     block = next(
         (b for b in field.blocks if b.cells is cells[zone - 1] and name in b.components), None
     )
     if block is None:
-        raise call.bad(f"component {name} is not defined in zone {zone}", zone)
+        raise call.error("operators.fields.component-not-in-zone", zone, name=name, zone=zone)
     values = block.components[name]
     if not 1 <= cell <= len(block.cells):
-        raise call.bad(f"zone {zone} has {len(block.cells)} cells, not {cell}", cell)
+        raise call.error(
+            "operators.fields.no-such-cell", cell, zone=zone, n_cells=len(block.cells), cell=cell
+        )
     values = np.broadcast_to(values, (len(block.cells), values.shape[1]))
     if values.shape[1] > 1 and not 1 <= point <= values.shape[1]:
-        raise call.bad(f"the cells have {values.shape[1]} points, not {point}", point)
+        raise call.error(
+            "operators.fields.no-such-point", point, n_points=values.shape[1], point=point
+        )
     return values[cell - 1, 0 if values.shape[1] == 1 else point - 1]
 
 

@@ -53,8 +53,7 @@ def _evaluated(
     wanted = [n for n in cloud.columns if n not in given]
     if not names or not wanted:
         raise FieldError(
-            f"the field ({' '.join(given)}) and the cloud ({' '.join(cloud.columns)}) must share "
-            "some components, not all",
+            "operators.fields.cloud-shares-some-components", given=given, columns=cloud.columns
         )
     at = np.stack([given[n] for n in names], axis=1)
     if method == "GRIL":
@@ -72,6 +71,6 @@ def _grid(cloud: Cloud, names: list[str], target: str, at: FloatArray) -> FloatA
     lists = {n: cloud.columns[n][0] for n in (*names, target)}
     for name, held in lists.items():
         if not isinstance(held, ListReel):
-            raise FieldError(f"component {name} of a grid holds one LISTREEL")
+            raise FieldError("operators.fields.grid-component-is-one-list", name=name)
     arrays: dict[str, Any] = {n: getattr(held, "values", None) for n, held in lists.items()}
     return on_grid([arrays[n] for n in names], arrays[target], at)

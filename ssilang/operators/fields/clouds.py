@@ -2,14 +2,26 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Collection
 
 import numpy as np
 
 from ssilang.kernel.curves.cloud import Cloud
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import (
+    ANY,
+    Chosen,
+    Help,
+    arg,
+    by,
+    choice,
+    each,
+    main,
+    many,
+    operator,
+    select,
+)
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots, register_type, type_of
 from ssilang.operators.dispatch import DIME, EXTR, REDU, listing
@@ -20,6 +32,7 @@ _EXAMPLE = "N = NUAG 'COMP' 'X' 0. 1. 2. 'COMP' 'Y' 5. 6. 9. ; "
 
 @operator(
     "NUAG",
+    arg("field", "CHPOINT", "MCHAML", en="field", fr="champ"),
     family="clouds",
     full_name="NUAGE",
     help=Help(
@@ -28,23 +41,12 @@ _EXAMPLE = "N = NUAG 'COMP' 'X' 0. 1. 2. 'COMP' 'Y' 5. 6. 9. ; "
         fr="Nuage de n-uplets de valeurs nommées : colonne par colonne ('COMP' nom valeurs ...), "
         "ligne par ligne (d'abord les noms et leurs types), ou les valeurs d'un champ, un n-uplet "
         "par noeud ou point.",
-        syntax="NUAG1 = NUAG 'COMP' MOT1 OBJ1 OBJ2 ... 'COMP' MOT2 ... ;\n"
-        "NUAG1 = NUAG MOT1*TYP1 MOT2*TYP2 ... OBJ1 OBJ2 ... ; NUAG1 = NUAG CHPO1 | CHAM1 ;",
+        syntax="NUAG1 = NUAG CHPO1 | CHAM1 ;",
         examples=(_EXAMPLE + "LIST N ;",),
     ),
-    reads_itself=True,
 )
-def nuag(call: Call) -> Cloud:
-    """Make a cloud."""
-    field = call.read("CHPOINT", "MCHAML")
-    if field is not None:
-        return _of_field(field.value)
-    if call.peek_word() is not None and str(call.peek_word())[:4] == "COMP":
-        return _by_columns(call)
-    return _by_rows(call)
-
-
-def _of_field(field: NodeField | CellField) -> Cloud:
+def nuag(field: NodeField | CellField) -> Cloud:
+    """Cloud of the values of a field."""
     if isinstance(field, NodeField):
         nodes = field.node_ids
         return Cloud({k: tuple(v.at(nodes).tolist()) for k, v in field.components.items()})
@@ -59,6 +61,25 @@ def _of_field(field: NodeField | CellField) -> Cloud:
     return Cloud({k: tuple(v) for k, v in columns.items()})
 
 
+@nuag.form(
+    each(
+        "columns",
+        choice("word", ("COMP",), optional=False),
+        arg("component", "MOT", en="name of a column", fr="nom d'une colonne"),
+        many("values", en="its values, one a row", fr="ses valeurs, une par n-uplet"),
+    ),
+    by_hand="the values of a column are objects of any type, up to the next word; the types of a "
+    "row are said by words",
+    syntax="NUAG1 = NUAG 'COMP' MOT1 OBJ1 OBJ2 ... 'COMP' MOT2 ... ;\n"
+    "NUAG1 = NUAG MOT1*TYP1 MOT2*TYP2 ... OBJ1 OBJ2 ... ;",
+)
+def cloud_by_hand(call: Call) -> Cloud:
+    """Cloud column by column, or row by row."""
+    if call.peek_word() is not None and str(call.peek_word())[:4] == "COMP":
+        return _by_columns(call)
+    return _by_rows(call)
+
+
 def _by_columns(call: Call) -> Cloud:
     columns: dict[str, tuple[object, ...]] = {}
     while call.keyword(("COMP",)) is not None:
@@ -70,7 +91,7 @@ def _by_columns(call: Call) -> Cloud:
     sizes = {len(v) for v in columns.values()}
     if len(sizes) != 1 or 0 in sizes:
         counts = " ".join(f"{k}: {len(v)}" for k, v in columns.items())
-        raise call.bad(f"the components have different numbers of values ({counts})")
+        raise call.error("operators.fields.cloud-columns-differ", counts=counts)
     return Cloud(columns)
 
 
@@ -79,7 +100,7 @@ def _by_rows(call: Call) -> Cloud:
     while call.at_word():
         name = str(call.required("MOT")).rstrip()
         if not call.operands or call.operands[0].span.text != "*":
-            raise call.bad(f"the type of component {name} is missing", hint="NAME*TYPE")
+            raise call.error("operators.fields.component-type-missing", name=name)
         call.operands.pop(0)
         kinds[name] = str(call.required("MOT")).rstrip().upper()
     if not kinds:
@@ -90,10 +111,38 @@ def _by_rows(call: Call) -> Cloud:
     return Cloud({n: tuple(r[i] for r in rows) for i, n in enumerate(kinds)})
 
 
-@EXTR.on(
-    "NUAGE",
+_COMPONENT = arg("component", "MOT", en="column", fr="colonne")
+_LIMIT = arg("limit", "FLOTTANT", en="limit", fr="borne")
+
+
+def _columns(cloud: Cloud) -> Collection[str]:
+    return getattr(cloud, "columns", ())
+
+
+@EXTR.form(
+    main("cloud", "NUAGE", en="cloud", fr="nuage"),
+    select(
+        "what",
+        {
+            "COMP": [],
+            "MAXI": [_COMPONENT],
+            "MINI": [_COMPONENT],
+            "INFE": [_COMPONENT, _LIMIT],
+            "SUPE": [_COMPONENT, _LIMIT],
+            "ENTR": [
+                _COMPONENT,
+                _LIMIT,
+                arg("upper", "FLOTTANT", en="upper limit", fr="borne supérieure"),
+            ],
+        },
+        optional=False,
+        unless=_columns,
+        en="names of columns, or the rows to take",
+        fr="noms des colonnes, ou n-uplets à prendre",
+    ),
+    gives=by("what", {"COMP": "LISTMOTS"}, "NUAGE"),
     syntax="LMOT1 = EXTR NUAG1 'COMP' ; NUAG2 = EXTR NUAG1 'MAXI' | 'MINI' MOT1 ; "
-    "NUAG2 = EXTR NUAG1 'INFE' | 'SUPE' MOT1 X1 | 'ENTR' MOT1 X1 X2 ; OBJ1 = EXTR NUAG1 MOT1 ;",
+    "NUAG2 = EXTR NUAG1 'INFE' | 'SUPE' MOT1 X1 | 'ENTR' MOT1 X1 X2 ;",
     en="Of a cloud: names of components; the row of the largest or smallest value, of the value "
     "just below or above a number; the rows between two numbers; the object of a single row.",
     fr="D'un nuage : noms des composantes ; le n-uplet de la plus grande ou petite valeur, de la "
@@ -101,59 +150,70 @@ def _by_rows(call: Call) -> Cloud:
     "l'objet d'un nuage à un seul n-uplet.",
     examples=(_EXAMPLE + "LIST (EXTR (EXTR N 'MAXI' 'Y') 'X') ;",),
 )
-def _extract(call: Call, cloud: Cloud) -> Any:
-    known = (call.peek_word() or "").rstrip() in cloud.columns
-    words = ("COMP", "MAXI", "MINI", "INFE", "SUPE", "ENTR")
-    word = None if known else call.keyword(words)
+def extract(call: Call, cloud: Cloud, what: Chosen) -> ListMots | Cloud:
+    """Rows of a cloud, or the names of its columns."""
+    word = what.word
     if word == "COMP":
         return ListMots(list(cloud.columns))
-    name = str(call.required("MOT")).rstrip()
-    if word is None:
-        if name not in cloud.columns:
-            raise call.bad(f"the cloud has no component {name}", hint=" ".join(cloud.columns))
-        if len(cloud) != 1:
-            raise call.bad(f"the cloud has {len(cloud)} rows: take one first", cloud)
-        return cloud.columns[name][0]
+    name = what["component"].rstrip()
     values = cloud.numbers(name)
     if word in ("MAXI", "MINI"):
         place = np.argmax(values) if word == "MAXI" else np.argmin(values)
         return cloud.rows([int(place)])
-    low = call.required("FLOTTANT")
+    low = what["limit"]
     if word == "ENTR":
-        high = call.required("FLOTTANT")
-        return cloud.rows([int(i) for i in np.flatnonzero((values >= low) & (values <= high))])
-    side = values <= low if word == "INFE" else values >= low
+        inside = (values >= low) & (values <= what["upper"])
+        return cloud.rows([int(i) for i in np.flatnonzero(inside)])
+    below = word == "INFE"
+    side = values <= low if below else values >= low
     if not np.any(side):
-        raise call.bad(
-            f"no value of {name} is {'below' if word == 'INFE' else 'above'} {low:g}", low
-        )
-    inside = np.where(side, values, -np.inf if word == "INFE" else np.inf)
-    place = np.argmax(inside) if word == "INFE" else np.argmin(inside)
-    return cloud.rows([int(place)])
+        raise call.error("operators.fields.no-row-beyond", low, name=name, below=below, low=low)
+    near = np.where(side, values, -np.inf if below else np.inf)
+    return cloud.rows([int(np.argmax(near) if below else np.argmin(near))])
 
 
-@DIME.on(
-    "NUAGE",
+@EXTR.form(
+    main("cloud", "NUAGE", en="cloud of one row", fr="nuage d'un n-uplet"),
+    _COMPONENT,
+    gives=ANY,
+    syntax="OBJ1 = EXTR NUAG1 MOT1 ;",
+)
+def extract_object(call: Call, cloud: Cloud, component: str) -> object:
+    """What a column of a cloud of one row holds."""
+    name = component.rstrip()
+    if name not in cloud.columns:
+        raise call.error("operators.fields.cloud-lacks-component", name=name, columns=cloud.columns)
+    if len(cloud) != 1:
+        raise call.error("operators.fields.cloud-has-several-rows", cloud, n_rows=len(cloud))
+    return cloud.columns[name][0]
+
+
+@DIME.form(
+    main("cloud", "NUAGE", en="cloud", fr="nuage"),
+    choice("what", ("COMP", "UPLE"), en="columns or rows", fr="colonnes ou n-uplets"),
     syntax="N1 = DIME NUAG1 'COMP' | 'UPLE' ;",
     en="Of a cloud: its number of components, or of rows ('UPLE').",
     fr="D'un nuage : son nombre de composantes, ou de n-uplets ('UPLE').",
 )
-def _size(call: Call, cloud: Cloud) -> int:
-    return len(cloud) if call.keyword(("COMP", "UPLE")) == "UPLE" else len(cloud.columns)
+def size(cloud: Cloud, what: str | None) -> int:
+    """Number of columns or rows."""
+    return len(cloud) if what == "UPLE" else len(cloud.columns)
 
 
-@REDU.on(
-    "NUAGE",
+@REDU.form(
+    main("cloud", "NUAGE", en="cloud", fr="nuage"),
+    many("names", "MOT", en="columns to keep", fr="colonnes à garder"),
     syntax="NUAG2 = REDU NUAG1 MOT1 MOT2 ... ;",
     en="Of a cloud: some of its components.",
     fr="D'un nuage : certaines de ses composantes.",
 )
-def _reduce(call: Call, cloud: Cloud) -> Cloud:
-    names = [str(w).rstrip() for w in call.all("MOT")]
-    missing = [n for n in names if n not in cloud.columns]
-    if missing or not names:
-        raise call.bad(f"the cloud has no component {' '.join(missing)}", cloud)
-    return Cloud({n: cloud.columns[n] for n in names})
+def reduce(call: Call, cloud: Cloud, names: tuple[str, ...]) -> Cloud:
+    """Some columns of a cloud."""
+    kept = [str(w).rstrip() for w in names]
+    missing = [n for n in kept if n not in cloud.columns]
+    if missing or not kept:
+        raise call.error("operators.fields.cloud-lacks-components", cloud, missing=missing)
+    return Cloud({n: cloud.columns[n] for n in kept})
 
 
 @listing("NUAGE")

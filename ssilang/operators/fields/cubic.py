@@ -10,10 +10,10 @@ from ssilang.language.run.call import Call
 
 @operator(
     "DEG3",
-    arg("a0", "FLOTTANT"),
-    arg("a1", "FLOTTANT"),
-    arg("a2", "FLOTTANT"),
-    arg("a3", "FLOTTANT"),
+    arg("a0", "FLOTTANT", en="constant term", fr="terme constant"),
+    arg("a1", "FLOTTANT", en="factor of X", fr="facteur de X"),
+    arg("a2", "FLOTTANT", en="factor of X**2", fr="facteur de X**2"),
+    arg("a3", "FLOTTANT", en="factor of X**3", fr="facteur de X**3"),
     family="numbers",
     help=Help(
         en="The three roots of A0 + A1 X + A2 X**2 + A3 X**3, each as real and imaginary part; "
@@ -24,12 +24,15 @@ from ssilang.language.run.call import Call
         examples=("R1 I1 R2 I2 R3 I3 = DEG3 -6. 11. -6. 1. ; LIST R1 ; LIST R2 ; LIST R3 ;",),
     ),
 )
-def deg3(call: Call, a0: float, a1: float, a2: float, a3: float) -> tuple[float, ...]:
+def deg3(
+    call: Call, a0: float, a1: float, a2: float, a3: float
+) -> tuple[float, float, float, float, float, float]:
     """Roots as eigenvalues of the companion matrix."""
     if a3 == 0.0 or not np.isfinite([a0, a1, a2, a3]).all():
-        raise call.bad("the polynomial is not of the third degree: A3 is 0", hint="RACP takes any")
+        raise call.error("operators.fields.not-third-degree")
     roots = np.roots([a3, a2, a1, a0])
     small = 1e-12 * np.abs(roots).max(initial=0.0)
     pairs = [(float(r.real), float(r.imag) if abs(r.imag) > small else 0.0) for r in roots]
     pairs.sort(key=lambda p: (p[1] != 0.0, p[0], p[1]))
-    return tuple(part for pair in pairs for part in pair)
+    first, second, third = pairs
+    return (*first, *second, *third)

@@ -16,9 +16,21 @@ from ssilang.kernel.matrices.assembly import assemble, numbering_of
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.queries.signed_distance import beyond_front, beyond_tip, signed_distance
-from ssilang.language.registry import Help, arg, operator
+from ssilang.language.registry import (
+    Chosen,
+    Help,
+    Like,
+    arg,
+    by,
+    choice,
+    flag,
+    many,
+    operator,
+    opt,
+    select,
+)
 from ssilang.language.run.call import Call
-from ssilang.language.values import ListChpo, ListReel, Mot, Table
+from ssilang.language.values import ListChpo, ListEnti, ListMots, ListReel, Mot, Table
 from ssilang.operators.workspace import workspace
 
 _LINE = "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (2. 0.) ; X = COOR 1 L ; "
@@ -26,6 +38,14 @@ _LINE = "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (2. 0.) ; X = COOR 1 L ; "
 
 @operator(
     "MAX1",
+    arg("field", "CHPOINT", en="field", fr="champ"),
+    choice(
+        "which",
+        ("AVEC", "SANS"),
+        en="the components of the list, or all but them",
+        fr="les composantes de la liste, ou toutes sauf elles",
+    ),
+    opt("names", "LISTMOTS", kind="component", en="components", fr="composantes"),
     family="fields",
     help=Help(
         en="Nodal field divided by its value of largest size, which becomes 1; among the "
@@ -35,22 +55,18 @@ _LINE = "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (2. 0.) ; X = COOR 1 L ; "
         syntax="CHP1 = MAX1 CHP2 (('AVEC') | 'SANS' LMOTS1) ;",
         examples=(_LINE + "LIST (MINI (MAX1 (X - 4.))) ;",),
     ),
-    reads_itself=True,
 )
-def max1(call: Call) -> NodeField:
+def max1(call: Call, field: NodeField, which: str | None, names: ListMots | None) -> NodeField:
     """Bring a field to one."""
-    field: NodeField = call.required("CHPOINT")
-    without = call.keyword(("AVEC", "SANS")) == "SANS"
-    listed = call.optional("LISTMOTS")
-    names = list(field.components)
-    if listed is not None:
-        words = {str(w).rstrip() for w in listed.values}
-        names = [n for n in names if (n in words) != without]
-    values = [field.components[n].values for n in names]
+    chosen = list(field.components)
+    if names is not None:
+        words = {str(w).rstrip() for w in names.values}
+        chosen = [n for n in chosen if (n in words) != (which == "SANS")]
+    values = [field.components[n].values for n in chosen]
     every = np.concatenate(values) if values else np.zeros(0)
     largest = float(every[np.argmax(np.abs(every))]) if len(every) else 0.0
     if largest == 0.0:
-        raise call.bad("the field has no value that is not zero", field)
+        raise call.error("operators.fields.field-is-zero", field)
     return node_algebra.applied(field, lambda v: v / largest)
 
 
@@ -63,8 +79,9 @@ _ODD = {
 
 @operator(
     "DFOU",
-    arg("field", "CHPOINT", "MCHAML"),
-    arg("angle", "FLOTTANT"),
+    arg("field", "CHPOINT", "MCHAML", en="field of a harmonic", fr="champ d'une harmonique"),
+    arg("angle", "FLOTTANT", en="angle", fr="angle", unit="deg"),
+    gives=Like("field"),
     family="fields",
     full_name="DFOURIER",
     help=Help(
@@ -104,8 +121,33 @@ def dfou(call: Call, field: NodeField | CellField, angle: float) -> NodeField | 
     return replace(field, blocks=blocks)
 
 
+_ENDS = many(
+    "ends",
+    "POINT",
+    "MAILLAGE",
+    en="ends of the line (2D) or front of the surface (3D)",
+    fr="bouts de la ligne (2D) ou front de la surface (3D)",
+)
+
+
 @operator(
     "PSIP",
+    arg("place", "MAILLAGE", "POINT", en="where", fr="où"),
+    arg("mesh", "MAILLAGE", en="line or surface", fr="ligne ou surface"),
+    opt(
+        "reach",
+        "FLOTTANT",
+        en="nodes farther away (largest coordinate) are left out",
+        fr="les noeuds plus loin (plus grande coordonnée) sont exclus",
+        unit="m",
+    ),
+    select(
+        "ahead",
+        {"DEUX": [_ENDS], "TROI": [_ENDS]},
+        en="distances ahead of the ends too, and the abscissa along a front",
+        fr="aussi les distances en avant des bouts, et l'abscisse le long d'un front",
+    ),
+    gives=by("ahead", {"DEUX": ("CHPOINT",) * 2, "TROI": ("CHPOINT",) * 3}, "CHPOINT"),
     family="fields",
     help=Help(
         en="Signed distance PHI of the nodes of a mesh to a line (SEG2, in 2D) or a surface (TRI3, "
@@ -122,23 +164,18 @@ def dfou(call: Call, field: NodeField | CellField, angle: float) -> NodeField | 
         "| MAIL3 ; CHP1 CHP2 CHP3 = PSIP MAIL1 MAIL2 (X1) 'TROI' MAIL3 ;",
         examples=(_LINE + "P = (0.5 2.) ET (3. -1.) ; LIST (PSIP P L) ;",),
     ),
-    reads_itself=True,
 )
-def psip(call: Call) -> Any:
+def psip(
+    call: Call, place: Mesh | Point, mesh: Mesh, reach: float | None, ahead: Chosen | None
+) -> NodeField | tuple[NodeField, ...]:
     """Signed distances."""
     ws = workspace(call.session)
-    place = call.required("MAILLAGE", "POINT")
-    mesh: Mesh = call.required("MAILLAGE")
-    reach = call.optional("FLOTTANT")
-    word = call.keyword(("DEUX", "TROI"))
-    ends = [e.value for _ in range(2) if word and (e := call.read("POINT", "MAILLAGE")) is not None]
-    reach = call.optional("FLOTTANT") if reach is None else reach
     nodes = np.array([place.node]) if isinstance(place, Point) else place.sorted_node_ids
     points = ws.nodes.coordinates[nodes]
     phi = signed_distance(points, mesh, ws.dimension)
     rows = {"PHI": phi}
-    if word:
-        rows |= _ahead(call, word, points, mesh, ends)
+    if ahead is not None:
+        rows |= _ahead(call, ahead.word, points, mesh, ahead["ends"])
     kept = np.ones(len(nodes), bool) if reach is None else _near(points, mesh, reach)
     made = [NodeField.of(ws.nodes, nodes[kept], {k: v[kept]}, "DIFFUS") for k, v in rows.items()]
     return made[0] if len(made) == 1 else tuple(made)
@@ -152,19 +189,46 @@ def _near(points: Any, mesh: Mesh, reach: float) -> Any:
     return tree.query(points, p=np.inf)[0] <= reach
 
 
-def _ahead(call: Call, word: str, points: Any, mesh: Mesh, ends: list[Any]) -> dict[str, Any]:
+def _ahead(call: Call, word: str, points: Any, mesh: Mesh, ends: tuple[Any, ...]) -> dict[str, Any]:
     if workspace(call.session).dimension == 2:
-        if word == "TROI" or not ends or not all(isinstance(e, Point) for e in ends):
-            raise call.bad("in 2D 'DEUX' wants one end of the line, or both, as points")
+        fits = word == "DEUX" and len(ends) in (1, 2)
+        if not fits or not all(isinstance(e, Point) for e in ends):
+            raise call.error("operators.fields.ends-are-points")
         return {"PSI": beyond_tip(points, mesh, tuple(e.node for e in ends))}
     if len(ends) != 1 or not isinstance(ends[0], Mesh):
-        raise call.bad(f"in 3D '{word}' wants the front, a mesh of SEG2")
+        raise call.error("operators.fields.front-is-a-line-mesh", word=word)
     ahead, along = beyond_front(points, mesh, ends[0])
     return {"PSI": ahead} | ({"TAU": along} if word == "TROI" else {})
 
 
+_METHOD = choice(
+    "method",
+    ("SNAPSHOTS", "CLASSIQUE"),
+    en="for few fields, or for few unknowns",
+    fr="pour peu de champs, ou pour peu d'inconnues",
+)
+_TABLE = flag(
+    "table",
+    "TBAS",
+    en="the result is a table BASE_MODALE",
+    fr="le résultat est une table BASE_MODALE",
+)
+_OPTIONS = (
+    opt("numbers", "LISTENTI", en="fields to take, by number", fr="champs à prendre, par numéro"),
+    opt("names", "LISTMOTS", kind="component", en="components", fr="composantes"),
+    opt("matrix", "RIGIDITE", en="scalar product, a mass", fr="produit scalaire, une masse"),
+    arg("count", "ENTIER", en="number of modes", fr="nombre de modes"),
+    opt("support", "MAILLAGE", en="mesh told by the table", fr="maillage mis dans la table"),
+)
+
+
 @operator(
     "POD",
+    _METHOD,
+    _TABLE,
+    arg("fields", "LISTCHPO", en="fields", fr="champs"),
+    *_OPTIONS,
+    gives=by("table", {True: "TABLE"}, ("LISTCHPO", "LISTREEL")),
     family="modal",
     full_name="POD",
     help=Help(
@@ -185,52 +249,58 @@ def _ahead(call: Call, word: str, points: Any, mesh: Mesh, ends: list[Any]) -> d
             _LINE + "LC = (SUIT X) ET (2. * X) ET (X - 1.) ; M V = POD LC 'CLASSIQUE' 2 ; LIST V ;",
         ),
     ),
-    reads_itself=True,
 )
-def pod(call: Call) -> Any:
-    """Orthogonal decomposition."""
-    keys = ("SNAP", "CLAS", "TBAS")
-    fields = _series(call, keys)
-    chosen, names = call.optional("LISTENTI"), call.optional("LISTMOTS")
-    said = []
-    while (word := call.keyword(keys)) is not None:
-        said.append(word)
-    matrix, count = call.optional("RIGIDITE"), call.required("ENTIER")
-    while (word := call.keyword(keys)) is not None:
-        said.append(word)
-    support = call.optional("MAILLAGE")
-    if count < 1 or not {"SNAP", "CLAS"} & set(said):
-        raise call.bad("POD wants 'SNAPSHOTS' or 'CLASSIQUE' and a number of modes")
-    if chosen is not None:
-        missing = [int(i) for i in chosen.values if int(i) not in fields]
+def pod(call: Call, fields: ListChpo, **said: Any) -> Table | tuple[ListChpo, ListReel]:
+    """Orthogonal decomposition of a list of fields."""
+    pairs = {i: f for i, f in enumerate(fields.values, 1) if isinstance(f, NodeField)}
+    return _decomposed(call, fields, pairs, **said)
+
+
+@pod.form(
+    _METHOD,
+    _TABLE,
+    arg("result", "TABLE", en="result of a calculation", fr="résultat d'un calcul"),
+    opt("entry", "MOT", en="entry that holds the fields", fr="entrée qui contient les champs"),
+    *_OPTIONS,
+    gives=by("table", {True: "TABLE"}, ("LISTCHPO", "LISTREEL")),
+)
+def pod_of_table(
+    call: Call, result: Table, entry: str | None, **said: Any
+) -> Table | tuple[ListChpo, ListReel]:
+    """Orthogonal decomposition of the fields of a result."""
+    return _decomposed(call, result, _of_table(call, result, entry), **said)
+
+
+def _decomposed(
+    call: Call,
+    held: ListChpo | Table,
+    fields: dict[int, NodeField],
+    method: str | None,
+    table: bool,
+    numbers: ListEnti | None,
+    names: ListMots | None,
+    matrix: Matrix | None,
+    count: int,
+    support: Mesh | None,
+) -> Table | tuple[ListChpo, ListReel]:
+    if not fields:
+        raise call.error("operators.fields.no-field-to-decompose", held)
+    if count < 1 or method is None:
+        raise call.error("operators.fields.pod-method-and-count")
+    if numbers is not None:
+        missing = [int(i) for i in numbers.values if int(i) not in fields]
         if missing:
-            raise call.bad(f"there is no field of number {missing[0]}", chosen)
-        fields = {int(i): fields[int(i)] for i in chosen.values}
+            raise call.error("operators.fields.no-field-number", numbers, number=missing[0])
+        fields = {int(i): fields[int(i)] for i in numbers.values}
     wanted = None if names is None else [str(n).rstrip() for n in names.values]
-    held = list(fields.values())
-    series, places = stacked(held, wanted)
+    given = list(fields.values())
+    series, places = stacked(given, wanted)
     metric = None if matrix is None else _metric(matrix, places)
-    rows, values = modes(series, count, "SNAP" in said, metric)
-    made = as_fields(rows, places, held[0])
-    if "TBAS" not in said:
+    rows, values = modes(series, count, method == "SNAPSHOTS", metric)
+    made = as_fields(rows, places, given[0])
+    if not table:
         return ListChpo(list(made)), ListReel(values)
     return _basis(call, made, values, support)
-
-
-def _series(call: Call, keys: tuple[str, ...]) -> dict[int, NodeField]:
-    """Fields by number."""
-    operand = call.read("LISTCHPO", "TABLE")
-    if operand is None:
-        raise call.missing(("LISTCHPO", "TABLE"))
-    held = operand.value
-    if isinstance(held, ListChpo):
-        pairs = {i: f for i, f in enumerate(held.values, 1) if isinstance(f, NodeField)}
-    else:
-        named = None if call.peek_word() is None or call.keyword(keys) else call.word()
-        pairs = _of_table(call, held, named)
-    if not pairs:
-        raise call.bad("there is no field to decompose", held)
-    return pairs
 
 
 def _of_table(call: Call, table: Table, named: str | None) -> dict[int, NodeField]:
@@ -246,7 +316,7 @@ def _of_table(call: Call, table: Table, named: str | None) -> dict[int, NodeFiel
         if type(index) is int and isinstance(item, NodeField):
             found[index] = item
     if not found:
-        raise call.bad(f"the table has no fields {names[0]}", table)
+        raise call.error("operators.fields.table-has-no-fields", table, name=names[0])
     return dict(sorted(found.items()))
 
 

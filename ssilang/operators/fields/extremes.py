@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -10,82 +11,92 @@ from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
+from ssilang.language.registry import Argument, arg, flag, key, main, many
 from ssilang.language.run.call import Call
-from ssilang.language.values import ListEnti, ListReel
-from ssilang.operators.dispatch import MAXI, MINI
+from ssilang.language.values import ListEnti, ListMots, ListReel
+from ssilang.operators.dispatch import MAXI, MINI, Shared
 
-_NUMBERS = ("ENTIER", "FLOTTANT")
-_LISTS = ("LISTREEL", "LISTENTI")
-
-
-def _absolute(call: Call) -> bool:
-    return call.keyword(("ABS",)) is not None
+Numbers = ListReel | ListEnti
+Choices = list[tuple[str, ListMots | str]]
+"""'AVEC' or 'SANS', with names of components."""
 
 
-def _of_numbers(call: Call, first: Any, largest: bool) -> Any:
-    absolute = _absolute(call)
-    values = [first, *call.all(*_NUMBERS)]
-    absolute = _absolute(call) or absolute
+def _of_numbers(
+    value: float | int, absolute: bool, others: tuple[float | int, ...], largest: bool
+) -> float | int:
+    values = [value, *others]
     if absolute:
         values = [abs(v) for v in values]
     found = max(values) if largest else min(values)
     return found if all(isinstance(v, int) for v in values) else float(found)
 
 
-def _of_lists(call: Call, first: Any, largest: bool) -> Any:
-    absolute = _absolute(call)
-    lists = [first, *call.all(*_LISTS)]
-    absolute = _absolute(call) or absolute
-    arrays = [np.abs(v.values) if absolute else v.values for v in lists]
-    if len(arrays) == 1:
-        if not len(arrays[0]):
-            raise call.bad("the list is empty", first)
-        return (arrays[0].max() if largest else arrays[0].min()).item()
+def _of_list(call: Call, value: Numbers, absolute: bool, largest: bool) -> float | int:
+    values = np.abs(value.values) if absolute else value.values
+    if not len(values):
+        raise call.error("operators.fields.list-empty", value)
+    found: float | int = (values.max() if largest else values.min()).item()
+    return found
+
+
+def _of_lists(
+    call: Call,
+    value: Numbers,
+    absolute: bool,
+    second: Numbers,
+    others: tuple[Numbers, ...],
+    largest: bool,
+) -> Numbers:
+    lists = [value, second, *others]
+    arrays: list[Any] = [np.abs(v.values) if absolute else v.values for v in lists]
     if len({len(a) for a in arrays}) > 1:
-        raise call.bad(f"the lists have {' '.join(str(len(a)) for a in arrays)} items")
+        raise call.error(
+            "operators.fields.list-lengths-differ", lengths=[str(len(a)) for a in arrays]
+        )
     best = (np.maximum if largest else np.minimum).reduce(arrays)
     return ListEnti(best) if all(isinstance(v, ListEnti) for v in lists) else ListReel(best)
 
 
-def _components(call: Call, known: list[str]) -> tuple[bool, list[str]]:
-    """Whether absolute values are meant, and the components to look at."""
-    absolute, names = False, known
-    while (said := call.keyword(("ABS", "AVEC", "SANS"))) is not None:
-        if said == "ABS":
-            absolute = True
-            continue
-        operand = call.read("LISTMOTS", "MOT", after=call.keyword_end)
-        if operand is None:
-            raise call.missing(("LISTMOTS",))
-        value = operand.value
+def _components(call: Call, known: list[str], chosen: Choices) -> list[str]:
+    """The components to look at."""
+    names = known
+    for said, value in chosen:
         listed = [value] if isinstance(value, str) else value.values
         words = {str(w).rstrip() for w in listed}
         names = [n for n in known if (n in words) == (said == "AVEC")]
         if not names:
-            raise call.bad("no component is left to look at", value, "known: " + " ".join(known))
-    return absolute, names
+            raise call.error("operators.fields.no-component-left", value, known=known)
+    return names
 
 
 def _of_arrays(call: Call, arrays: list[Any], absolute: bool, largest: bool) -> float:
     arrays = [a for a in arrays if a.size]
     if not arrays:
-        raise call.bad("the field is empty")
+        raise call.error("operators.fields.field-empty")
     values = [np.abs(a) if absolute else a for a in arrays]
     return float(max(v.max() for v in values) if largest else min(v.min() for v in values))
 
 
-def _of_node_fields(call: Call, first: NodeField, largest: bool) -> Any:
-    absolute, names = _components(call, list(first.components))
-    others = call.all("CHPOINT")
-    if not others:
-        if not names:
-            raise call.bad("the field is empty", first)
-        arrays = [first.components[n].values for n in names]
-        return _of_arrays(call, arrays, absolute or _absolute(call), largest)
-    absolute = _absolute(call) or absolute
+def _of_node_field(
+    call: Call, value: NodeField, absolute: bool, chosen: Choices, largest: bool
+) -> float:
+    names = _components(call, list(value.components), chosen)
+    if not names:
+        raise call.error("operators.fields.field-empty", value)
+    return _of_arrays(call, [value.components[n].values for n in names], absolute, largest)
+
+
+def _of_node_fields(
+    value: NodeField,
+    absolute: bool,
+    chosen: Choices,
+    second: NodeField,
+    others: tuple[NodeField, ...],
+    largest: bool,
+) -> NodeField:
     run = np.maximum if largest else np.minimum
-    made = node_algebra.applied(first, np.abs) if absolute else first
-    for other in others:
+    made = node_algebra.applied(value, np.abs) if absolute else value
+    for other in (second, *others):
         made = _pairwise(made, node_algebra.applied(other, np.abs) if absolute else other, run)
     return made
 
@@ -95,54 +106,99 @@ def _pairwise(a: NodeField, b: NodeField, run: Any) -> NodeField:
     for name, part in a.components.items():
         other = b.components.get(name)
         if other is None or not np.array_equal(other.nodes, part.nodes):
-            raise KernelError(
-                "fields compared value by value must have the same components and nodes",
-                "reduce them to the same mesh by REDU",
-            )
+            raise KernelError("operators.fields.fields-do-not-match")
         made[name] = type(part)(part.nodes, run(part.values, other.values))
     return node_algebra.rebuilt(a, made)
 
 
-def _of_cell_fields(call: Call, field: CellField, largest: bool) -> float:
+def _of_cell_field(
+    call: Call, value: CellField, absolute: bool, chosen: Choices, largest: bool
+) -> float:
     known = [
         n
-        for n in cell_algebra.component_names(field)
-        if any(n in b.components and b.components[n].dtype != object for b in field.blocks)
+        for n in cell_algebra.component_names(value)
+        if any(n in b.components and b.components[n].dtype != object for b in value.blocks)
     ]
-    absolute, names = _components(call, known)
-    return _of_arrays(call, cell_algebra.values_of(field, names), absolute, largest)
+    names = _components(call, known, chosen)
+    return _of_arrays(call, cell_algebra.values_of(value, names), absolute, largest)
 
 
-for _operator, _largest, _en, _fr in (
-    (MAXI, True, "largest", "plus grande"),
-    (MINI, False, "smallest", "plus petite"),
-):
-    _name = _operator.name
-    _operator.on(
-        *_NUMBERS,
-        syntax=f"X1 = {_name} ('ABS') X2 X3 ... ;",
-        en=f"Of numbers: the {_en}.",
-        fr=f"De nombres : la {_fr}.",
-        examples=(f"LIST ({_name} 3. -7. 5.) ;",),
-    )(lambda call, value, w=_largest: _of_numbers(call, value, w))  # type: ignore[misc]
-    _operator.on(
-        *_LISTS,
-        syntax=f"X1 = {_name} LIS1 ('ABS') ; LIS4 = {_name} ('ABS') LIS1 LIS2 ... ;",
-        en=f"Of a list: the {_en} value; of several, item by item.",
-        fr=f"D'une liste : la {_fr} valeur ; de plusieurs, terme à terme.",
-        examples=(f"LIST ({_name} (PROG 3. -7. 5.) 'ABS') ;",),
-    )(lambda call, value, w=_largest: _of_lists(call, value, w))  # type: ignore[misc]
-    _operator.on(
-        "CHPOINT",
-        syntax=f"X1 = {_name} CHP1 ('ABS') ('AVEC' | 'SANS' LMOT1) ; CHPO4 = {_name} CHPO1 CHPO2 ;",
-        en=f"Of a field: the {_en} value, of all components or 'AVEC' / 'SANS' some; of several "
-        "fields at nodes, value by value.",
-        fr=f"D'un champ : la {_fr} valeur, de toutes les composantes ou 'AVEC' / 'SANS' certaines "
-        "; de plusieurs champs par points, valeur par valeur.",
+_ABSOLUTE = flag("absolute", "ABS", en="of the absolute values", fr="des valeurs absolues")
+_CHOSEN = key(
+    "chosen",
+    ("AVEC", "SANS"),
+    arg("names", "LISTMOTS", "MOT", kind="component"),
+    repeated=True,
+    en="only these components, or all but these",
+    fr="ces composantes seulement, ou toutes sauf elles",
+)
+
+
+def _others(*types: str, en: str, fr: str) -> tuple[Argument, Argument]:
+    return arg("second", *types, en=en, fr=fr), many("others", *types, en=en, fr=fr)
+
+
+def _add_forms(operator: Shared, largest: bool, en: str, fr: str) -> None:
+    name = operator.name
+    operator.form(
+        main("value", "ENTIER", "FLOTTANT", en="first number", fr="premier nombre"),
+        _ABSOLUTE,
+        many("others", "ENTIER", "FLOTTANT", en="more numbers", fr="autres nombres"),
+        gives="FLOTTANT|ENTIER",
+        syntax=f"X1 = {name} ('ABS') X2 X3 ... ;",
+        en=f"Of numbers: the {en}.",
+        fr=f"De nombres : la {fr}.",
+        examples=(f"LIST ({name} 3. -7. 5.) ;",),
+    )(partial(_of_numbers, largest=largest))
+    lists = main("value", "LISTREEL", "LISTENTI", en="list", fr="liste")
+    operator.form(
+        lists,
+        _ABSOLUTE,
+        *_others("LISTREEL", "LISTENTI", en="lists of the same length", fr="de même longueur"),
+        gives="LISTREEL|LISTENTI",
+        syntax=f"LIS4 = {name} ('ABS') LIS1 LIS2 ... ;",
+        en="Of several lists: item by item.",
+        fr="De plusieurs listes : terme à terme.",
+    )(partial(_of_lists, largest=largest))
+    operator.form(
+        lists,
+        _ABSOLUTE,
+        gives="FLOTTANT|ENTIER",
+        syntax=f"X1 = {name} LIS1 ('ABS') ;",
+        en=f"Of a list: the {en} value.",
+        fr=f"D'une liste : la {fr} valeur.",
+        examples=(f"LIST ({name} (PROG 3. -7. 5.) 'ABS') ;",),
+    )(partial(_of_list, largest=largest))
+    nodal = main("value", "CHPOINT", en="field at nodes", fr="champ par points")
+    operator.form(
+        nodal,
+        _ABSOLUTE,
+        _CHOSEN,
+        *_others("CHPOINT", en="fields at the same nodes", fr="champs aux mêmes noeuds"),
+        gives="CHPOINT",
+        syntax=f"CHPO4 = {name} CHPO1 CHPO2 ... ('ABS') ;",
+        en="Of several fields at nodes: value by value.",
+        fr="De plusieurs champs par points : valeur par valeur.",
+    )(partial(_of_node_fields, largest=largest))
+    operator.form(
+        nodal,
+        _ABSOLUTE,
+        _CHOSEN,
+        gives="FLOTTANT",
+        syntax=f"X1 = {name} CHP1 ('ABS') ('AVEC' | 'SANS' LMOT1) ;",
+        en=f"Of a field: the {en} value, of all components or 'AVEC' / 'SANS' some.",
+        fr=f"D'un champ : la {fr} valeur, de toutes les composantes ou 'AVEC' / 'SANS' certaines.",
         examples=(
-            f"OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; LIST ({_name} (COOR 1 L)) ;",
+            f"OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; LIST ({name} (COOR 1 L)) ;",
         ),
-    )(lambda call, value, w=_largest: _of_node_fields(call, value, w))  # type: ignore[misc]
-    _operator.on("MCHAML")(
-        lambda call, value, w=_largest: _of_cell_fields(call, value, w)  # type: ignore[misc]
-    )
+    )(partial(_of_node_field, largest=largest))
+    operator.form(
+        main("value", "MCHAML", en="field in cells", fr="champ par éléments"),
+        _ABSOLUTE,
+        _CHOSEN,
+        gives="FLOTTANT",
+    )(partial(_of_cell_field, largest=largest))
+
+
+_add_forms(MAXI, True, "largest", "plus grande")
+_add_forms(MINI, False, "smallest", "plus petite")

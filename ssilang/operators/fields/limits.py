@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from ssilang.kernel.fields.cell_algebra import added, component_names
@@ -17,9 +15,9 @@ from ssilang.language.values import Table
 
 @operator(
     "PILE",
-    arg("first", "MCHAML"),
-    arg("second", "MCHAML"),
-    arg("limit", "FLOTTANT"),
+    arg("first", "MCHAML", en="where one starts", fr="point de départ"),
+    arg("second", "MCHAML", en="direction", fr="direction"),
+    arg("limit", "FLOTTANT", en="limit, positive", fr="limite, positive"),
     family="fields",
     full_name="PILEPS",
     help=Help(
@@ -37,9 +35,9 @@ from ssilang.language.values import Table
 def pile(call: Call, first: CellField, second: CellField, limit: float) -> float:
     """Largest factor before a component passes the limit."""
     if limit <= 0.0:
-        raise call.bad(f"the limit is positive, not {limit:g}", limit)
+        raise call.error("operators.fields.limit-not-positive", limit, limit=limit)
     if component_names(first) != component_names(second) or len(first.blocks) != len(second.blocks):
-        raise call.bad("the two fields do not have the same components and zones", second)
+        raise call.error("operators.fields.fields-of-other-zones", second)
     best = np.inf
     for a, b in zip(first.blocks, second.blocks, strict=True):
         for name, values in b.components.items():
@@ -48,12 +46,13 @@ def pile(call: Call, first: CellField, second: CellField, limit: float) -> float
             room = (np.sign(step[moving]) * limit - start[moving]) / step[moving]
             best = min(best, float(room.min(initial=np.inf)))
     if not np.isfinite(best):
-        raise call.bad("the second field is zero: nothing limits it", second)
+        raise call.error("operators.fields.second-field-is-zero", second)
     return best
 
 
 @operator(
     "SENS",
+    arg("contours", "TABLE", en="closed contours by number", fr="contours fermés par numéro"),
     family="fields",
     help=Help(
         "Of a table of closed contours in the plane, such as CCON gives: the table of their "
@@ -71,30 +70,31 @@ def pile(call: Call, first: CellField, second: CellField, limit: float) -> float
             "T = SENS (CCON (INVE C)) ; LIST (T . 1) ;",
         ),
     ),
-    reads_itself=True,
 )
-def sens(call: Call) -> Table:
-    """Senses of contours, or means of differences."""
-    found: Any = call.required("TABLE", "MCHAML")
-    if isinstance(found, CellField):
-        return _differences(call, found, call.required("MCHAML"))
+def sens(call: Call, contours: Table) -> Table:
+    """Senses of contours."""
     made = Table()
-    for number, contour in found.items():
+    for number, contour in contours.items():
         if not isinstance(number, int):
             continue
         if not isinstance(contour, Mesh):
-            raise call.bad(f"entry {number} is not a contour", found)
+            raise call.error("operators.fields.not-a-contour", contours, number=number)
         area = signed_area(contour)
         if area == 0.0:
-            raise call.bad(f"contour {number} encloses no area", found)
+            raise call.error("operators.fields.contour-without-area", contours, number=number)
         made.set(number, 1 if area > 0.0 else -1)
     return made
 
 
-def _differences(call: Call, first: CellField, second: CellField) -> Table:
+@sens.form(
+    arg("first", "MCHAML", en="field of one component", fr="champ à une composante"),
+    arg("second", "MCHAML", en="field to take from it", fr="champ à lui retrancher"),
+)
+def sens_of_fields(call: Call, first: CellField, second: CellField) -> Table:
+    """Means of differences, cell by cell."""
     names = component_names(first)
     if len(names) != 1 or component_names(second) != names:
-        raise call.bad("fields of one component, the same in both, are compared", second)
+        raise call.error("operators.fields.one-component-compared", second)
     made, start = Table(), 1
     for block in added(first, second, -1.0).blocks:
         values = np.broadcast_to(

@@ -2,32 +2,69 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.elements.zone_fields import n_points
 from ssilang.kernel.fields import cell_algebra, node_algebra
-from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.fields.node_field import Nature, NodeField, NodeValues
 from ssilang.kernel.materials.model import Model
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import (
+    Help,
+    arg,
+    choice,
+    each,
+    flag,
+    key,
+    main,
+    many,
+    operator,
+    opt,
+    said,
+)
 from ssilang.language.run.call import Call
-from ssilang.language.values import ListChpo, ListReel, Table, type_of
+from ssilang.language.values import ListChpo, ListEnti, ListMots, ListReel, Table
 from ssilang.operators.dispatch import MANU
-from ssilang.operators.fields.parts import support_nodes
-from ssilang.operators.fields.signs import names_of, read_nature
+from ssilang.operators.fields.parts import NATURE, support_nodes
+from ssilang.operators.fields.signs import names_of, nature_of, paired_names
 
 _SUPPORTS = ("NOEUD", "GRAVITE", "RIGIDITE", "MASSE", "STRESSES")
 
 
-@MANU.on(
-    "CHPO",
-    syntax="CHPO1 = MANU 'CHPO' GEO1 (N1) MOT1 VAL1 MOT2 VAL2 ... ('TITRE' MOT3) "
-    "('NATURE' MOT4) ;\n"
-    "CHPO1 = MANU 'CHPO' GEO1 LMOT1 LREE1 ('TITRE' MOT3) ('NATURE' MOT4) ;",
+_TITLE = key("title", "TITRE", arg("text", "MOT"), en="title of the field", fr="titre du champ")
+_ON_NODES = arg(
+    "support",
+    "MAILLAGE",
+    "POINT",
+    en="mesh or point that carries the field",
+    fr="maillage ou point qui porte le champ",
+)
+
+
+@MANU.form(
+    said("CHPO"),
+    _TITLE,
+    NATURE,
+    opt("count", "ENTIER", en="number of pairs", fr="nombre de couples"),
+    _ON_NODES,
+    each(
+        "pairs",
+        arg("component", "MOT", en="name of a component", fr="nom d'une composante"),
+        arg(
+            "value",
+            "FLOTTANT",
+            "LISTREEL",
+            en="its value, or one value a point",
+            fr="sa valeur, ou une valeur par point",
+        ),
+        at_least=1,
+        times="count",
+    ),
+    syntax="CHPO1 = MANU 'CHPO' GEO1 (N1) MOT1 VAL1 MOT2 VAL2 ... ('TITRE' MOT3) ('NATURE' MOT4) ;",
     en="CHPO: field at the nodes of a mesh or at a point; a value is a number or, on a mesh of "
     "points, a list with one value a point. Words after the last pair need N1, the number of "
     "pairs.",
@@ -36,56 +73,45 @@ _SUPPORTS = ("NOEUD", "GRAVITE", "RIGIDITE", "MASSE", "STRESSES")
     "couple demandent N1, le nombre de couples.",
     examples=("OPTI DIME 2 ; P = 0. 0. ; LIST (MANU 'CHPO' P 'UX' 3. 'UY' 4.) ;",),
 )
-def _node_field(call: Call, word: str) -> NodeField:
-    title, nature = _title_and_nature(call, "", None)
-    support: Any = None
-    count = call.read("ENTIER")
-    operand = call.read("MAILLAGE", "POINT")
-    if operand is None:
-        raise call.missing(("MAILLAGE", "POINT"))
-    support = operand.value
-    if count is None and call.operands and type(call.operands[0].value) is int:
-        count = call.read("ENTIER")
-    lists = call.read("LISTMOTS")
-    if lists is not None:
-        values = call.required("LISTREEL").values.tolist()
-        names = names_of(lists.value)
-        pairs: list[tuple[str, Any]] = [
-            (n, values[i] if i < len(values) else 0.0) for i, n in enumerate(names)
-        ]
-    else:
-        pairs = _pairs(call, None if count is None else count.value)
-    title, nature = _title_and_nature(call, title, nature)
-    return _on_nodes(call, support, pairs, nature or "", title)
+def node_field(
+    call: Call,
+    title: str | None,
+    nature: str | None,
+    count: int | None,
+    support: Point | Mesh,
+    pairs: list[tuple[str, Any]],
+) -> NodeField:
+    """Field at nodes from pairs of a component and its value."""
+    named = [(name.rstrip()[:8], value) for name, value in pairs]
+    return _on_nodes(call, support, named, nature_of(call, nature) or "", title or "")
 
 
-def _title_and_nature(call: Call, title: str, nature: Nature | None) -> tuple[str, Nature | None]:
-    while True:
-        said = call.peek_word()
-        if said is not None and said[:4] == "TITR":
-            call.word()
-            title = str(call.required("MOT"))
-        elif said is not None and said[:4] == "NATU":
-            nature = read_nature(call)
-        else:
-            return title, nature
-
-
-def _pairs(call: Call, count: int | None) -> list[tuple[str, Any]]:
-    pairs: list[tuple[str, Any]] = []
-    while count is None or len(pairs) < count:
-        if count is None and pairs and (call.peek_word() or "")[:4] in ("TITR", "NATU"):
-            break
-        name = call.read("MOT")
-        if name is None:
-            break
-        value = call.read("FLOTTANT", "LISTREEL", after=name.span.end)
-        if value is None:
-            raise call.missing(("FLOTTANT", "LISTREEL"))
-        pairs.append((str(name.value).rstrip()[:8], value.value))
-    if not pairs:
-        raise call.missing(("MOT",))
-    return pairs
+@MANU.form(
+    said("CHPO"),
+    _TITLE,
+    NATURE,
+    _ON_NODES,
+    arg("names", "LISTMOTS", en="names of the components", fr="noms des composantes"),
+    arg(
+        "values",
+        "LISTREEL",
+        en="their values, 0 for those behind the last",
+        fr="leurs valeurs, 0 pour celles qui manquent",
+    ),
+    syntax="CHPO1 = MANU 'CHPO' GEO1 LMOT1 LREE1 ('TITRE' MOT3) ('NATURE' MOT4) ;",
+)
+def node_field_of_lists(
+    call: Call,
+    title: str | None,
+    nature: str | None,
+    support: Point | Mesh,
+    names: ListMots,
+    values: ListReel,
+) -> NodeField:
+    """Field at nodes, the same value everywhere, from lists of components and values."""
+    given = values.values.tolist()
+    pairs = [(n, given[i] if i < len(given) else 0.0) for i, n in enumerate(names_of(names))]
+    return _on_nodes(call, support, pairs, nature_of(call, nature) or "", title or "")
 
 
 def _on_nodes(
@@ -96,10 +122,8 @@ def _on_nodes(
     for name, value in pairs:
         listed = isinstance(value, ListReel)
         if listed and len(value) != len(nodes):
-            raise call.bad(
-                f"{len(value)} values for {len(nodes)} points",
-                value,
-                "a list needs a mesh of points (CHAN 'POI1') and one value a point",
+            raise call.error(
+                "operators.fields.values-per-point", value, n_values=len(value), n_nodes=len(nodes)
             )
         values = value.values if listed else np.full(len(nodes), float(value))
         part = _merged(call, name, nodes, values, nature)
@@ -117,100 +141,153 @@ def _merged(
     if nature == "DISCRET":
         return NodeValues(ids, np.bincount(place, weights=values).astype(float))
     if nature == "DIFFUS" and np.any(values != values[first][place]):
-        raise call.bad(f"a node stands twice in the mesh with different values of {name}")
+        raise call.error("operators.fields.node-twice-with-other-values", name=name)
     return NodeValues(ids, values[first])
 
 
 # ---- in cells -----------------------------------------------------------------------------------
 
 
-@MANU.on(
-    "CHML",
-    "CHAM",
+@MANU.form(
+    said("CHML", "CHAM"),
+    arg(
+        "support",
+        "MAILLAGE",
+        "MMODEL",
+        en="mesh or model that carries the field",
+        fr="maillage ou modèle qui porte le champ",
+    ),
+    key("title", "TYPE", arg("word", "MOT"), en="sub-type of the field", fr="sous-type du champ"),
+    key("constituent", "CONS", arg("word", "MOT"), en="constituent", fr="constituant"),
+    key("position", "POSI", arg("word", "MOT"), en="points: NOEUD ...", fr="points : NOEUD ..."),
+    flag(
+        "deal",
+        "REPA",
+        en="the values of a list are dealt out, one a cell",
+        fr="les valeurs d'une liste sont distribuées, une par élément",
+    ),
+    choice(
+        "points",
+        ("NOEUD", "GRAVITE", "STRESSES"),
+        en="points that carry the values",
+        fr="points qui portent les valeurs",
+    ),
+    choice(
+        "integration",
+        ("RIGIDITE", "MASSE"),
+        length=8,
+        en="points that carry the values",
+        fr="points qui portent les valeurs",
+    ),
+    each(
+        "pairs",
+        arg("component", "MOT", en="name of a component", fr="nom d'une composante"),
+        arg("value", en="its value or object", fr="sa valeur ou son objet"),
+        at_least=1,
+    ),
+    many(
+        "place",
+        "FLOTTANT",
+        en="of a field that is zero but at one point, whose cell was the value: number of the "
+        "point, of the zone if not 1, then the value",
+        fr="d'un champ nul sauf en un point, dont l'élément était la valeur : numéro du point, de "
+        "la zone si ce n'est 1, puis la valeur",
+    ),
     syntax="CHAM1 = MANU 'CHML' GEO1 | MODL1 ('REPA') MOT1 VAL1 MOT2 VAL2 ... ('TYPE' MOT3) "
     "('CONS' MOT4) ('NOEUD' | 'GRAVITE' | 'RIGIDITE' | 'MASSE' | 'STRESSES') ;\n"
-    "CHAM1 = MANU 'CHAM' MODL1 ('POSI' MOT2) MOT3 CELL1 POINT1 (ZONE1) VAL1 ;",
+    "CHAM1 = MANU 'CHAM' MODL1 ('TYPE' MOT1) ('POSI' MOT2) MOT3 CELL1 POINT1 (ZONE1) VAL1 ;",
     en="CHML: field in the cells of a mesh or model; values are numbers or objects, constant in "
-    "the cells; 'REPA' deals the values of a list out, one a cell.",
+    "the cells; 'REPA' deals the values of a list out, one a cell. On a model also: zero "
+    "everywhere but at one point of one cell.",
     fr="CHML : champ par éléments sur un maillage ou un modèle ; les valeurs sont des nombres ou "
     "des objets, constants par élément ; 'REPA' distribue les valeurs d'une liste, une par "
-    "élément.",
+    "élément. Sur un modèle aussi : nul partout sauf en un point d'un élément.",
     examples=(
         "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; "
         "LIST (MAXI (MANU 'CHML' L 'SCAL' 3.)) ;",
+        "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; "
+        "MO = MODE L 'MECANIQUE' 'ELASTIQUE' 'BARR' ; "
+        "LIST (MAXI (MANU 'CHAM' MO 'POSI' 'GRAVITE' 'V' 2 1 7.)) ;",
     ),
 )
-def _cell_field(call: Call, word: str) -> CellField:
-    operand = call.read("MAILLAGE", "MMODEL")
-    if operand is None:
-        raise call.missing(("MAILLAGE", "MMODEL"))
-    settings: dict[str, str] = {}
-    deal = False
-    pairs: list[tuple[str, Any]] = []
-    while (said := call.peek_word()) is not None:
-        key = said.rstrip()
-        if key[:4] in ("TYPE", "CONS", "POSI"):
-            call.word()
-            settings[key[:4]] = str(call.required("MOT")).rstrip()
-        elif key[:4] == "REPA":
-            call.word()
-            deal = True
-        elif key[:8] in _SUPPORTS or key[:4] in ("NOEU", "GRAV", "STRE"):
-            call.word()
-            settings["POSI"] = next(s for s in _SUPPORTS if s[:4] == key[:4])
-        else:
-            name = str(call.required("MOT")).rstrip()
-            value = call.read("*")
-            if value is None:
-                raise call.missing(("*",))
-            rest = call.all("FLOTTANT") if type(value.value) is int else []
-            if rest:
-                return _at_one_point(call, operand.value, name, [value.value, *rest], settings)
-            pairs.append((name, value.value))
-    if not pairs:
-        raise call.missing(("MOT",))
-    return _in_cells(operand.value, pairs, settings, deal)
+def cell_field(
+    call: Call,
+    support: Mesh | Model,
+    title: str | None,
+    constituent: str | None,
+    position: str | None,
+    deal: bool,
+    points: str | None,
+    integration: str | None,
+    pairs: list[tuple[str, Any]],
+    place: tuple[float, ...],
+) -> CellField:
+    """Field in cells from pairs of a component and its value, or zero but at one point."""
+    at = points or integration or (position or "NOEUD").rstrip()
+    if at not in _SUPPORTS:
+        raise call.error("operators.fields.no-support", support=at, supports=_SUPPORTS)
+    points_at, kind = cast(Support, at), (title or "").rstrip()
+    named = [(name.rstrip(), value) for name, value in pairs]
+    if place:
+        name, cell = named[-1]
+        return _at_one_point(call, support, name, (cell, *place), points_at, kind)
+    said = None if constituent is None else constituent.rstrip()
+    return _in_cells(support, named, points_at, kind, said, deal)
 
 
 def _at_one_point(
-    call: Call, model: Mesh | Model, name: str, numbers: list[float], settings: dict[str, str]
+    call: Call,
+    model: Mesh | Model,
+    name: str,
+    numbers: tuple[Any, ...],
+    at: Support,
+    title: str,
 ) -> CellField:
     """Zero but at one point: numbers of cell, point (and zone), then the value."""
-    if not isinstance(model, Model) or len(numbers) not in (3, 4):
-        raise call.bad("a field that is zero but at one point needs a model, cell, point, value")
+    whole = all(float(n).is_integer() for n in numbers[:-1] if isinstance(n, int | float))
+    if not isinstance(model, Model) or len(numbers) not in (3, 4) or not whole:
+        raise call.error("operators.fields.one-point-field-needs")
     cell, point = int(numbers[0]), int(numbers[1])
-    zone_number = int(numbers[2]) if len(numbers) == 4 else 1
-    if not 1 <= zone_number <= len(model.zones):
-        raise call.bad(f"the model has {len(model.zones)} zones, not {zone_number}")
-    zone = model.zones[zone_number - 1]
-    place: Any = settings.get("POSI", "NOEUD")
-    shape = (len(zone.cells), n_points(zone.element, place))
+    number = int(numbers[2]) if len(numbers) == 4 else 1
+    if not 1 <= number <= len(model.zones):
+        raise call.error(
+            "operators.fields.model-has-no-such-zone", n_zones=len(model.zones), zone=number
+        )
+    zone = model.zones[number - 1]
+    shape = (len(zone.cells), n_points(zone.element, at))
     if not (1 <= cell <= shape[0] and 1 <= point <= shape[1]):
-        raise call.bad(f"the zone has {shape[0]} cells of {shape[1]} points there")
+        raise call.error(
+            "operators.fields.zone-has-no-such-point", n_cells=shape[0], n_points=shape[1]
+        )
     values = np.zeros(shape)
     values[cell - 1, point - 1] = float(numbers[-1])
-    block = CellFieldBlock(zone.cells, {name: values}, place, zone.element, zone.constituent)
-    return CellField((block,), settings.get("TYPE", ""))
+    element = "" if at == "NOEUD" else zone.element
+    block = CellFieldBlock(zone.cells, {name: values}, at, element, zone.constituent)
+    return CellField((block,), title)
 
 
 def _in_cells(
-    support: Mesh | Model, pairs: list[tuple[str, Any]], settings: dict[str, str], deal: bool
+    support: Mesh | Model,
+    pairs: list[tuple[str, Any]],
+    at: Support,
+    title: str,
+    named: str | None,
+    deal: bool,
 ) -> CellField:
-    place: Any = settings.get("POSI", "NOEUD")
     blocks = []
     zones: list[tuple[CellBlock, str, str]]
     if isinstance(support, Model):
         zones = [(z.cells, z.element, z.constituent) for z in support.zones]
     else:
         zones = [(cells, "", "") for cells in support.blocks]
-        place = "NOEUD"
+        at = "NOEUD"
     taken = 0
     for cells, element, constituent in zones:
         made = {n: _cell_values(v, len(cells), deal, taken) for n, v in pairs}
         taken += len(cells)
-        said = settings.get("CONS", constituent)
-        blocks.append(CellFieldBlock(cells, made, place, element if place != "NOEUD" else "", said))
-    return CellField(tuple(blocks), settings.get("TYPE", ""))
+        said = constituent if named is None else named
+        blocks.append(CellFieldBlock(cells, made, at, element if at != "NOEUD" else "", said))
+    return CellField(tuple(blocks), title)
 
 
 def _cell_values(value: Any, n: int, deal: bool, taken: int) -> Any:
@@ -230,6 +307,7 @@ def _cell_values(value: Any, n: int, deal: bool, taken: int) -> Any:
 
 @operator(
     "RESU",
+    arg("field", "CHPOINT", en="forces, say", fr="des forces, par exemple"),
     family="fields",
     full_name="RESULT",
     help=Help(
@@ -242,23 +320,43 @@ def _cell_values(value: Any, n: int, deal: bool, taken: int) -> Any:
             "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; LIST (MAXI (RESU (COOR 1 L))) ;",
         ),
     ),
-    reads_itself=True,
 )
-def resu(call: Call) -> Any:
+def resu(call: Call, field: NodeField) -> NodeField:
     """Sum components over nodes."""
-    value = call.required("CHPOINT", "LISTREEL", "LISTENTI")
-    if not isinstance(value, NodeField):
-        return value.values.sum()
-    nodes = value.node_ids
+    nodes = field.node_ids
     if not len(nodes):
-        raise call.bad("the field is empty", value)
+        raise call.error("operators.fields.field-empty", field)
     here = nodes[:1]
-    made = {k: NodeValues(here, np.asarray([v.values.sum()])) for k, v in value.components.items()}
-    return NodeField(value.table, made, "DISCRET")
+    made = {k: NodeValues(here, np.asarray([v.values.sum()])) for k, v in field.components.items()}
+    return NodeField(field.table, made, "DISCRET")
+
+
+@resu.form(
+    arg("values", "LISTREEL", "LISTENTI", en="numbers to sum", fr="nombres à sommer"),
+    gives="FLOTTANT|ENTIER",
+)
+def resu_of_list(values: ListReel | ListEnti) -> float | int:
+    """Sum of a list."""
+    total: float | int = values.values.sum()
+    return total
+
+
+_PAIRED = (
+    arg("left", "LISTMOTS", en="components of the first", fr="composantes du premier"),
+    arg(
+        "right",
+        "LISTMOTS",
+        en="components of the second, paired with them",
+        fr="composantes du second, appariées",
+    ),
+)
 
 
 @operator(
     "XTY",
+    arg("first", "CHPOINT", en="first field", fr="premier champ"),
+    arg("second", "CHPOINT", en="second field", fr="second champ"),
+    *_PAIRED,
     family="fields",
     help=Help(
         en="Sum over all nodes of the products of paired components of two fields; of two lists "
@@ -271,27 +369,45 @@ def resu(call: Call) -> Any:
             "LIST (XTY C C (MOTS 'UX' 'UY') (MOTS 'UX' 'UY')) ;",
         ),
     ),
-    reads_itself=True,
 )
-def xty(call: Call) -> Any:
+def xty(call: Call, first: NodeField, second: NodeField, left: ListMots, right: ListMots) -> float:
     """Scalar product of fields."""
-    first = call.required("CHPOINT", "LISTCHPO")
-    second = call.required("LISTCHPO" if isinstance(first, ListChpo) else "CHPOINT")
-    left, right = (names_of(call.required("LISTMOTS")) for _ in range(2))
-    if len(left) != len(right):
-        raise call.bad(f"the lists have {len(left)} and {len(right)} words")
-    if isinstance(first, NodeField):
-        return float(node_algebra.scalar_product(first, second, left, right).values.sum())
+    return _product(first, second, *paired_names(call, left, right))
+
+
+@xty.form(
+    arg("first", "LISTCHPO", en="first fields", fr="premiers champs"),
+    arg("second", "LISTCHPO", en="as many second fields", fr="autant de seconds champs"),
+    *_PAIRED,
+)
+def xty_of_lists(
+    call: Call, first: ListChpo, second: ListChpo, left: ListMots, right: ListMots
+) -> ListReel:
+    """Scalar products of the fields of two lists."""
+    names = paired_names(call, left, right)
     if len(first) != len(second):
-        raise call.bad(f"the lists have {len(first)} and {len(second)} fields", second)
+        raise call.error(
+            "operators.fields.field-counts-differ", second, n_first=len(first), n_second=len(second)
+        )
     pairs: Any = zip(first.values, second.values, strict=True)
-    return ListReel(
-        [float(node_algebra.scalar_product(a, b, left, right).values.sum()) for a, b in pairs]
-    )
+    return ListReel([_product(a, b, *names) for a, b in pairs])
+
+
+def _product(a: NodeField, b: NodeField, left: list[str], right: list[str]) -> float:
+    return float(node_algebra.scalar_product(a, b, left, right).values.sum())
+
+
+_FACTORS = (
+    opt("a", "FLOTTANT", en="factor of the first field", fr="facteur du premier champ"),
+    opt("b", "FLOTTANT", en="factor of the second field", fr="facteur du second champ"),
+)
 
 
 @operator(
     "XTX",
+    main("first", "CHPOINT", en="field", fr="champ"),
+    opt("second", "CHPOINT", en="field to add", fr="champ à ajouter"),
+    *_FACTORS,
     family="fields",
     help=Help(
         en="Sum of the squares of all values of a field, or of X1 CHP1 + X2 CHP2.",
@@ -299,23 +415,48 @@ def xty(call: Call) -> Any:
         syntax="X3 = XTX CHP1 ; X3 = XTX X1 CHP1 X2 CHP2 ;",
         examples=("OPTI DIME 2 ; P = 0. 0. ; LIST (XTX (MANU 'CHPO' P 'UX' 3. 'UY' 4.)) ;",),
     ),
-    reads_itself=True,
 )
-def xtx(call: Call) -> float:
-    """Square norm."""
-    first = call.required("CHPOINT", "MCHAML")
-    second = call.optional(type_of(first))
+def xtx(
+    call: Call, first: NodeField, second: NodeField | None, a: float | None, b: float | None
+) -> float:
+    """Square norm of fields at nodes."""
     if second is not None:
-        a, b = call.required("FLOTTANT"), call.required("FLOTTANT")
-        algebra: Any = node_algebra if isinstance(first, NodeField) else cell_algebra
-        first = algebra.added(algebra.applied(first, lambda v: v * a), second, b)
-    if isinstance(first, NodeField):
-        return float(sum(v.values @ v.values for v in first.components.values()))
+        first = _weighted_sum(call, node_algebra, first, second, a, b)
+    return float(sum(v.values @ v.values for v in first.components.values()))
+
+
+@xtx.form(
+    main("first", "MCHAML", en="field", fr="champ"),
+    opt("second", "MCHAML", en="field to add", fr="champ à ajouter"),
+    *_FACTORS,
+)
+def xtx_in_cells(
+    call: Call, first: CellField, second: CellField | None, a: float | None, b: float | None
+) -> float:
+    """Square norm of fields in cells."""
+    if second is not None:
+        first = _weighted_sum(call, cell_algebra, first, second, a, b)
     return float(sum((v * v).sum() for v in cell_algebra.values_of(first)))
+
+
+def _weighted_sum(
+    call: Call, algebra: Any, first: Any, second: Any, a: float | None, b: float | None
+) -> Any:
+    if a is None or b is None:
+        raise call.missing(("FLOTTANT",))
+    return algebra.added(algebra.applied(first, lambda v: v * a), second, b)
 
 
 @operator(
     "COMB",
+    flag(
+        "alike",
+        "SEMBLABLE",
+        en="the fields have the same nodes and components",
+        fr="les champs ont les mêmes noeuds et composantes",
+    ),
+    arg("weights", "CHPOINT", en="coefficients, one component", fr="coefficients, une composante"),
+    arg("table", "TABLE", en="fields by point", fr="champs par point"),
     family="fields",
     full_name="COMBTABLE",
     help=Help(
@@ -330,15 +471,11 @@ def xtx(call: Call) -> float:
             "LIST (MAXI (COMB A T)) ;",
         ),
     ),
-    reads_itself=True,
 )
-def comb(call: Call) -> NodeField:
+def comb(call: Call, alike: bool, weights: NodeField, table: Table) -> NodeField:
     """Combine fields."""
-    call.keyword(("SEMB",))
-    weights: NodeField = call.required("CHPOINT")
-    table: Table = call.required("TABLE")
     if len(weights.components) != 1:
-        raise call.bad("the field of coefficients has one component", weights)
+        raise call.error("operators.fields.coefficients-have-one-component", weights)
     (part,) = weights.components.values()
     total: NodeField | None = None
     for index, field in table.items():
@@ -347,5 +484,5 @@ def comb(call: Call) -> NodeField:
             empty = node_algebra.rebuilt(field, {})
             total = node_algebra.added(empty if total is None else total, field, factor)
     if total is None:
-        raise call.bad("the table holds no field at a point", table)
+        raise call.error("operators.fields.table-without-point-fields", table)
     return total

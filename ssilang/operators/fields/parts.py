@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Collection
 
 import numpy as np
 
@@ -11,25 +11,56 @@ from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import (
+    Chosen,
+    Help,
+    Like,
+    arg,
+    by,
+    flag,
+    key,
+    main,
+    operator,
+    opt,
+    said,
+    select,
+)
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots, ListReel, Mot
 from ssilang.operators.dispatch import CHAN, COPI, ENLE, EXTR, REDU
-from ssilang.operators.fields.signs import names_of, nature_word, read_nature
+from ssilang.operators.fields.signs import names_of, nature_of, nature_word
 
 _FIELDS = ("CHPOINT", "MCHAML")
 _LAGRANGE = frozenset({"LX", "FLX"})
 _POINT_FIELD = "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'UX' 3. 'UY' 4. ; "
 
 
-def with_nature(call: Call, field: NodeField) -> NodeField:
-    """The field with the nature that 'NATURE' says, if it stands there."""
-    nature = read_nature(call)
-    return field if nature is None else node_algebra.rebuilt(field, field.components, nature)
+_FIELD = arg("field", *_FIELDS, en="field", fr="champ")
+_NODAL = arg("field", "CHPOINT", en="field at nodes", fr="champ par points")
+_IN_CELLS = arg("field", "MCHAML", en="field in cells", fr="champ par éléments")
+NATURE = key(
+    "nature",
+    "NATURE",
+    arg("word", "MOT"),
+    en="DIFFUS (as displacements), DISCRET (as forces) or INDETERMINE",
+    fr="DIFFUS (comme des déplacements), DISCRET (comme des forces) ou INDETERMINE",
+)
+_LENIENT = flag(
+    "lenient",
+    "NOID",
+    en="a missing component is no error",
+    fr="une composante absente n'est pas une erreur",
+)
 
 
 @operator(
     "EXCO",
+    arg("wanted", "LISTMOTS", en="components wanted", fr="composantes voulues"),
+    _LENIENT,
+    _FIELD,
+    opt("new", "LISTMOTS", en="their new names", fr="leurs nouveaux noms"),
+    NATURE,
+    gives=Like("field"),
     family="fields",
     full_name="EXCO",
     help=Help(
@@ -41,64 +72,80 @@ def with_nature(call: Call, field: NodeField) -> NodeField:
         syntax="CHP2 = EXCO MOT1 | LMOT1 ('NOID') CHP1 (MOT2 | LMOT2) ('NATURE' MOT3) ;",
         examples=(_POINT_FIELD + "LIST (EXCO 'UX' C) ;",),
     ),
-    reads_itself=True,
 )
-def exco(call: Call) -> Any:
-    """Extract components."""
-    wanted = call.read("MOT", "LISTMOTS")
-    if wanted is None:
-        raise call.missing(("MOT", "LISTMOTS"))
-    lenient = call.keyword(("NOID",)) is not None
-    field = call.required(*_FIELDS)
-    lenient = lenient or call.keyword(("NOID",)) is not None
-    nature = read_nature(call) if isinstance(field, NodeField) else None
-    new = call.read("LISTMOTS") if isinstance(wanted.value, ListMots) else call.read("MOT")
-    old = names_of(wanted.value)
-    if new is not None:
-        names = names_of(new.value)
-    else:
-        single = isinstance(wanted.value, str) and isinstance(field, NodeField)
-        names = ["SCAL"] if single else old
+def exco(
+    call: Call,
+    wanted: ListMots,
+    lenient: bool,
+    field: NodeField | CellField,
+    new: ListMots | None,
+    nature: str | None,
+) -> NodeField | CellField:
+    """Extract several components."""
+    old = names_of(wanted)
+    names = old if new is None else names_of(new)
     if len(names) != len(old):
-        raise call.bad(f"{len(old)} components, {len(names)} new names", new.value if new else None)
+        raise call.error("operators.fields.new-name-count", new, n_old=len(old), n_new=len(names))
+    return _extracted(call, field, old, names, lenient, nature)
+
+
+@exco.form(
+    arg("wanted", "MOT", kind="component", en="component wanted", fr="composante voulue"),
+    _LENIENT,
+    _FIELD,
+    NATURE,
+    opt("new", "MOT", en="its new name", fr="son nouveau nom"),
+    gives=Like("field"),
+)
+def exco_one(
+    call: Call,
+    wanted: str,
+    lenient: bool,
+    field: NodeField | CellField,
+    nature: str | None,
+    new: str | None,
+) -> NodeField | CellField:
+    """Extract one component."""
+    old = wanted.rstrip()
+    alone = "SCAL" if isinstance(field, NodeField) else old
+    name = alone if new is None else new.rstrip()
+    return _extracted(call, field, [old], [name], lenient, nature)
+
+
+def _extracted(
+    call: Call,
+    field: NodeField | CellField,
+    old: list[str],
+    names: list[str],
+    lenient: bool,
+    nature: str | None,
+) -> NodeField | CellField:
     if isinstance(field, CellField):
         return cell_algebra.extracted(field, old, names, not lenient)
-    nature = read_nature(call) if nature is None else nature
     made: dict[str, NodeValues] = {}
     for name, target in zip(old, names, strict=True):
         if name in field.components or not lenient:
             made[target] = node_algebra.component(field, name)
-    return node_algebra.rebuilt(field, made, nature)
+    return node_algebra.rebuilt(field, made, nature_of(call, nature))
 
 
-def _rename(call: Call) -> Any:
-    first = call.read("MOT", "LISTMOTS")
-    field = call.required(*_FIELDS)
-    if first is None:
-        first = call.read("MOT", "LISTMOTS")
-    if first is None:
-        raise call.missing(("MOT", "LISTMOTS"))
-    node = isinstance(field, NodeField)
-    known = list(field.components) if node else cell_algebra.component_names(field)
-    if isinstance(first.value, ListMots):
-        old, new = names_of(first.value), names_of(call.required("LISTMOTS"))
-        if len(old) != len(new):
-            raise call.bad(f"{len(old)} names to change into {len(new)}", first.value)
-    else:
-        if len(known) > 1:
-            raise call.bad(
-                f"the field has {len(known)} components, one name is not enough",
-                first.value,
-                "give two lists of words: old names, new names",
-            )
-        old, new = known, [str(first.value).rstrip()] * len(known)
-    if node:
-        return with_nature(call, node_algebra.renamed(field, old, new))
-    return cell_algebra.renamed(field, old, new)
+_NEW_NAMES = (
+    arg("old", "LISTMOTS", en="names to change", fr="noms à changer"),
+    arg("new", "LISTMOTS", en="new names", fr="nouveaux noms"),
+    _FIELD,
+    NATURE,
+)
+_ONE_NAME = (
+    arg("name", "MOT", en="name of the only component", fr="nom de l'unique composante"),
+    _FIELD,
+    NATURE,
+)
 
 
 @operator(
     "NOMC",
+    *_NEW_NAMES,
+    gives=Like("field"),
     family="fields",
     help=Help(
         en="Field with other names of components: one name for a single component, or a list of "
@@ -108,69 +155,113 @@ def _rename(call: Call) -> Any:
         syntax="CHP2 = NOMC MOT1 | (LMOT1 LMOT2) CHP1 ('NATURE' MOT3) ;",
         examples=(_POINT_FIELD + "LIST (NOMC (MOTS 'UX') (MOTS 'FX') C) ;",),
     ),
-    reads_itself=True,
 )
-def nomc(call: Call) -> Any:
-    """Rename components."""
-    return _rename(call)
+def nomc(
+    call: Call, old: ListMots, new: ListMots, field: NodeField | CellField, nature: str | None
+) -> NodeField | CellField:
+    """Rename components of two lists."""
+    names = names_of(old), names_of(new)
+    if len(names[0]) != len(names[1]):
+        raise call.error(
+            "operators.fields.renamed-name-count", old, n_old=len(names[0]), n_new=len(names[1])
+        )
+    return _renamed(call, field, *names, nature)
 
 
-@CHAN.on(
-    "COMP",
+@nomc.form(*_ONE_NAME, gives=Like("field"))
+def nomc_alone(
+    call: Call, name: str, field: NodeField | CellField, nature: str | None
+) -> NodeField | CellField:
+    """Rename the only component."""
+    known = (
+        list(field.components)
+        if isinstance(field, NodeField)
+        else cell_algebra.component_names(field)
+    )
+    if len(known) > 1:
+        raise call.error("operators.fields.one-name-not-enough", name, n_known=len(known))
+    return _renamed(call, field, known, [name.rstrip()] * len(known), nature)
+
+
+def _renamed(
+    call: Call, field: NodeField | CellField, old: list[str], new: list[str], nature: str | None
+) -> NodeField | CellField:
+    if isinstance(field, CellField):
+        return cell_algebra.renamed(field, old, new)
+    return _with_nature(call, node_algebra.renamed(field, old, new), nature)
+
+
+def _with_nature(call: Call, field: NodeField, word: str | None) -> NodeField:
+    nature = nature_of(call, word)
+    return field if nature is None else node_algebra.rebuilt(field, field.components, nature)
+
+
+CHAN.form(
+    said("COMP"),
+    *_NEW_NAMES,
     of=_FIELDS,
+    gives=Like("field"),
     syntax="CHP2 = CHAN 'COMP' MOT1 | (LMOT1 LMOT2) CHP1 ('NATU' MOT3) ;",
     en="COMP changes names of components, as NOMC does.",
     fr="COMP change des noms de composantes, comme NOMC.",
-)
-def _change_names(call: Call, word: str) -> Any:
-    return _rename(call)
+)(nomc.forms[0].function)
+CHAN.form(said("COMP"), *_ONE_NAME, of=_FIELDS, gives=Like("field"))(nomc_alone)
 
 
-@CHAN.on(
-    "ATTR",
+@CHAN.form(
+    said("ATTR"),
+    _NODAL,
+    NATURE,
     syntax="CHPO2 = CHAN 'ATTRIBUT' CHPO1 'NATURE' 'INDETER' | 'DIFFUS' | 'DISCRET' ;",
     en="ATTRIBUT changes the nature of a field at nodes.",
     fr="ATTRIBUT change la nature d'un champ par points.",
     examples=(_POINT_FIELD + "D = CHAN 'ATTRIBUT' C 'NATURE' 'DISCRET' ; MESS (EXTR D 'NATU') ;",),
 )
-def _change_nature(call: Call, word: str) -> NodeField:
-    return with_nature(call, call.required("CHPOINT"))
+def change_nature(call: Call, field: NodeField, nature: str | None) -> NodeField:
+    """Another nature."""
+    return _with_nature(call, field, nature)
 
 
-@CHAN.on(
-    "TITR",
+@CHAN.form(
+    said("TITR"),
+    _NODAL,
+    arg("title", "MOT", en="its new title", fr="son nouveau titre"),
     of=("CHPOINT",),
     syntax="CHPO2 = CHAN 'TITRE' CHPO1 MOT1 ;",
     en="TITRE changes the title of a field at nodes.",
     fr="TITRE change le titre d'un champ par points.",
 )
-def _change_title(call: Call, word: str) -> NodeField:
-    field: NodeField = call.required("CHPOINT")
-    return NodeField(field.table, field.components, field.nature, str(call.required("MOT")))
+def change_title(field: NodeField, title: str) -> NodeField:
+    """Another title."""
+    return NodeField(field.table, field.components, field.nature, str(title))
 
 
-@CHAN.on(
-    "TYPE",
+@CHAN.form(
+    said("TYPE"),
+    _IN_CELLS,
+    arg("title", "MOT", en="its new sub-type", fr="son nouveau sous-type"),
     of=("MCHAML",),
     syntax="CHAM2 = CHAN 'TYPE' CHAM1 MOT1 ;",
     en="TYPE changes the sub-type of a field in cells.",
     fr="TYPE change le sous-type d'un champ par éléments.",
 )
-def _change_type(call: Call, word: str) -> CellField:
-    field: CellField = call.required("MCHAML")
-    return CellField(field.blocks, str(call.required("MOT")).rstrip())
+def change_type(field: CellField, title: str) -> CellField:
+    """Another sub-type."""
+    return CellField(field.blocks, title.rstrip())
 
 
-@CHAN.on(
-    "CONS",
+@CHAN.form(
+    said("CONS"),
+    _IN_CELLS,
+    arg("constituent", "MOT", en="its new constituent", fr="son nouveau constituant"),
     of=("MCHAML",),
     syntax="CHAM2 = CHAN 'CONS' CHAM1 MOT1 ;",
     en="CONS changes the constituent of a field in cells.",
     fr="CONS change le constituant d'un champ par éléments.",
 )
-def _change_constituent(call: Call, word: str) -> CellField:
-    field: CellField = call.required("MCHAML")
-    name = str(call.required("MOT")).rstrip()
+def change_constituent(field: CellField, constituent: str) -> CellField:
+    """Another constituent."""
+    name = constituent.rstrip()
     blocks = tuple(
         CellFieldBlock(b.cells, b.components, b.support, b.element, name) for b in field.blocks
     )
@@ -189,10 +280,47 @@ def support_nodes(support: Point | Mesh) -> IntArray:
     return support.node_ids
 
 
-@EXTR.on(
-    "CHPOINT",
-    syntax="X1 = EXTR CHPO1 MOT1 POIN1 ; LREE1 = EXTR CHPO1 'VALE' (MOT1 | LMOT1) (POIN1 | GEO1) "
-    "('NOID') ;\nMAIL1 = EXTR CHPO1 'MAIL' ('NOMU') ; LMOT1 = EXTR CHPO1 'COMP' ; "
+def _component_names(field: NodeField) -> Collection[str]:
+    return getattr(field, "components", ())
+
+
+@EXTR.form(
+    main("field", "CHPOINT", en="field at nodes", fr="champ par points"),
+    select(
+        "what",
+        {
+            "VALE": [
+                _LENIENT,
+                opt("names", "LISTMOTS", "MOT", en="components, else all", fr="composantes"),
+                opt(
+                    "support",
+                    "POINT",
+                    "MAILLAGE",
+                    en="points, in their order",
+                    fr="points, dans leur ordre",
+                ),
+            ],
+            "MAIL": [
+                flag(
+                    "without",
+                    "NOMU",
+                    en="without the points of multipliers",
+                    fr="sans les points des multiplicateurs",
+                )
+            ],
+            "COMP": [],
+            "TITR": [],
+            "TYPE": [],
+            "NATU": [],
+        },
+        optional=False,
+        unless=_component_names,
+        en="values as a list, mesh of points, names of components, title, type or nature",
+        fr="valeurs en liste, maillage de points, noms des composantes, titre, type ou nature",
+    ),
+    gives=by("what", {"VALE": "LISTREEL", "MAIL": "MAILLAGE", "COMP": "LISTMOTS"}, "MOT"),
+    syntax="LREE1 = EXTR CHPO1 'VALE' (MOT1 | LMOT1) (POIN1 | GEO1) ('NOID') ;\n"
+    "MAIL1 = EXTR CHPO1 'MAIL' ('NOMU') ; LMOT1 = EXTR CHPO1 'COMP' ; "
     "MOT1 = EXTR CHPO1 'TITR' | 'TYPE' | 'NATU' ;",
     en="Of a field at nodes: a value at a point (0. outside of its support), values as a list (in "
     "the order of the points of a mesh), its mesh of points, names of components, title, type, "
@@ -202,26 +330,27 @@ def support_nodes(support: Point | Mesh) -> IntArray:
     "titre, type, nature.",
     examples=(_POINT_FIELD + "LIST (EXTR C 'UY' P) ; LIST (EXTR C 'VALE' 'UX') ;",),
 )
-def _extract(call: Call, field: NodeField) -> Any:
-    point = call.read("POINT")
-    said = call.peek_word()
-    key = "" if said is None else said.rstrip()
-    word = None
-    if key not in field.components:
-        word = call.keyword(("VALE", "MAIL", "COMP", "TITR", "TYPE", "NATU"))
-    if word is None:
-        name = str(call.required("MOT")).rstrip()
-        place = point or call.read("POINT")
-        if place is None:
-            raise call.missing(("POINT",))
-        return _value_at(field, name, place.value)
-    if word == "VALE":
-        return _values(call, field, None if point is None else point.value)
-    if word == "MAIL":
-        return _points_of(field, call.keyword(("NOMU",)) is not None)
-    if word == "COMP":
+def extract(field: NodeField, what: Chosen) -> ListReel | Mesh | ListMots | Mot:
+    """A part of a field at nodes."""
+    if what.word == "VALE":
+        return _values(field, what["names"], what["support"], what["lenient"])
+    if what.word == "MAIL":
+        return _points_of(field, what["without"])
+    if what.word == "COMP":
         return ListMots(list(field.components))
-    return Mot({"TITR": field.title, "TYPE": " " * 8, "NATU": nature_word(field.nature)}[word])
+    told = {"TITR": field.title, "TYPE": " " * 8, "NATU": nature_word(field.nature)}
+    return Mot(told[what.word])
+
+
+@EXTR.form(
+    main("field", "CHPOINT", en="field at nodes", fr="champ par points"),
+    arg("component", "MOT", kind="component", en="component", fr="composante"),
+    arg("point", "POINT", en="where", fr="où"),
+    syntax="X1 = EXTR CHPO1 MOT1 POIN1 ;",
+)
+def value_at(field: NodeField, component: str, point: Point) -> float:
+    """A component at a point."""
+    return _value_at(field, component.rstrip(), point)
 
 
 def _value_at(field: NodeField, name: str, point: Point) -> float:
@@ -240,15 +369,10 @@ def _points_of(field: NodeField, without_multipliers: bool) -> Mesh:
     return Mesh.of(field.table, "POI1", nodes[:, None])
 
 
-def _values(call: Call, field: NodeField, support: Any) -> ListReel:
-    lenient = call.keyword(("NOID",)) is not None
-    operand = call.read("LISTMOTS", "MOT")
-    if support is None:
-        support = call.optional("POINT", "MAILLAGE")
-    if operand is None:
-        operand = call.read("LISTMOTS", "MOT")
-    lenient = lenient or call.keyword(("NOID",)) is not None
-    names = list(field.components) if operand is None else names_of(operand.value)
+def _values(
+    field: NodeField, wanted: ListMots | str | None, support: Point | Mesh | None, lenient: bool
+) -> ListReel:
+    names = list(field.components) if wanted is None else names_of(wanted)
     if not lenient:
         for name in names:
             node_algebra.component(field, name)
@@ -259,8 +383,16 @@ def _values(call: Call, field: NodeField, support: Any) -> ListReel:
 # ---- REDU, ENLE, COPI ---------------------------------------------------------------------------
 
 
-@REDU.on(
-    "CHPOINT",
+@REDU.form(
+    main("field", "CHPOINT", en="field at nodes", fr="champ par points"),
+    arg(
+        "support",
+        "MAILLAGE",
+        "POINT",
+        "CHPOINT",
+        en="points that stay, or field that is not zero there",
+        fr="points gardés, ou champ non nul en ces points",
+    ),
     syntax="CHPO2 = REDU CHPO1 MAIL1 | POIN1 | CHPO3 ;",
     en="Of a field at nodes: the part on the points of a mesh, on a point, or where another field "
     "has a value other than zero.",
@@ -268,11 +400,8 @@ def _values(call: Call, field: NodeField, support: Any) -> ListReel:
     "là où un autre champ n'est pas nul.",
     examples=(_POINT_FIELD + "LIST (REDU C P) ;",),
 )
-def _reduce(call: Call, field: NodeField) -> NodeField:
-    operand = call.read("MAILLAGE", "POINT", "CHPOINT")
-    if operand is None:
-        raise call.missing(("MAILLAGE", "POINT", "CHPOINT"))
-    support = operand.value
+def reduce(field: NodeField, support: Mesh | Point | NodeField) -> NodeField:
+    """A field on fewer nodes."""
     if not isinstance(support, NodeField):
         return node_algebra.restricted(field, support_nodes(support))
     kept = [v.nodes[v.values != 0] for v in support.components.values()]
@@ -280,24 +409,29 @@ def _reduce(call: Call, field: NodeField) -> NodeField:
     return node_algebra.restricted(field, nodes)
 
 
-@ENLE.on(
-    "CHPOINT",
+@ENLE.form(
+    main("field", "CHPOINT", en="field at nodes", fr="champ par points"),
+    arg("names", "MOT", "LISTMOTS", kind="component", en="components", fr="composantes"),
     syntax="CHPO2 = ENLE CHPO1 MOT1 | LMOT1 ;",
     en="Of a field at nodes: without some components.",
     fr="D'un champ par points : sans certaines composantes.",
     examples=(_POINT_FIELD + "LIST (ENLE C 'UX') ;",),
 )
-def _without(call: Call, field: NodeField) -> NodeField:
-    operand = call.read("MOT", "LISTMOTS")
-    if operand is None:
-        raise call.missing(("MOT", "LISTMOTS"))
-    gone = set(names_of(operand.value))
+def without(field: NodeField, names: str | ListMots) -> NodeField:
+    """A field without some components."""
+    gone = set(names_of(names))
     return node_algebra.rebuilt(field, {k: v for k, v in field.components.items() if k not in gone})
 
 
-@COPI.on("CHPOINT", "MCHAML", en="Of a field: a field with the same values.")
-def _copy(call: Call, field: Any) -> Any:
-    call.keyword(("GEOM",))
+@COPI.form(
+    main("field", *_FIELDS, en="field", fr="champ"),
+    flag("shape", "GEOM", en="accepted, changes nothing", fr="accepté, sans effet"),
+    gives=Like("field"),
+    en="Of a field: a field with the same values.",
+    fr="D'un champ : un champ de mêmes valeurs.",
+)
+def copy(field: NodeField | CellField, shape: bool) -> NodeField | CellField:
+    """A field of its own with the same values."""
     if isinstance(field, NodeField):
         return node_algebra.rebuilt(field, dict(field.components))
     return CellField(field.blocks, field.title)

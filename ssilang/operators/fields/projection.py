@@ -22,15 +22,48 @@ from ssilang.kernel.materials.parameters import geometric_names, material_names
 from ssilang.kernel.materials.plastic.laws import plastic_law
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.plasticity.points import is_plastic
-from ssilang.language.registry import Help, operator
-from ssilang.language.run.call import Call, Operand
+from ssilang.language.registry import Chosen, Help, arg, choice, many, operator, opt, select
+from ssilang.language.run.call import Call
 from ssilang.operators.statics.stresses import on_zones
 
-SUPPORTS = ("NOEUDS", "GRAVITE", "RIGIDITE", "MASSE", "STRESSES")
+_FIELDS = many("fields", "MCHAML", at_least=1, en="field at nodes", fr="champ aux noeuds")
+_WAY = select(
+    "way",
+    {
+        "NOEUDS": [],
+        "GRAVITE": [],
+        "RIGIDITE": [],
+        "MASSE": [],
+        "STRESSES": [],
+        "MINI": [
+            opt(
+                "count",
+                "ENTIER",
+                default=3,
+                en="integration points in each direction",
+                fr="points d'intégration par direction",
+            )
+        ],
+        "POLY": [],
+    },
+    en="points of the result on a model, or least squares",
+    fr="points du résultat sur un modèle, ou moindres carrés",
+)
+_TOLERANCE = opt(
+    "tolerance",
+    "FLOTTANT",
+    default=1e-5,
+    en="how far outside of a cell a point counts, relative to the cell",
+    fr="distance à un élément à laquelle un point compte encore, relative à l'élément",
+)
 
 
 @operator(
     "PROI",
+    arg("place", "MMODEL", en="where to", fr="où"),
+    _FIELDS,
+    _WAY,
+    _TOLERANCE,
     family="fields",
     help=Help(
         en="Projection of a field in cells, given at nodes, by its shape functions: on a mesh (a "
@@ -51,38 +84,36 @@ SUPPORTS = ("NOEUDS", "GRAVITE", "RIGIDITE", "MASSE", "STRESSES")
             "LIST (EXTR (PROI (MANU 'POI1' P) C) 'SCAL' P) ;",
         ),
     ),
-    reads_itself=True,
 )
-def proi(call: Call) -> NodeField | CellField:
-    """Projection."""
-    if call.keyword(["POLY"]):
-        raise call.bad("'POLY' is not available", hint="give a field in cells")
-    place = call.read("MAILLAGE", "MMODEL")
-    fields: list[CellField] = call.all("MCHAML")
-    word = call.keyword((*SUPPORTS, "MINI"))
-    count = call.read("ENTIER") if word == "MINI" else None
-    place = call.read("MAILLAGE", "MMODEL") if place is None else place
-    fields += call.all("MCHAML")
-    tolerance = call.optional("FLOTTANT", default=1e-5)
-    if place is None or not fields:
-        raise call.missing(("MAILLAGE", "MMODEL") if place is None else ("MCHAML",))
-    if word == "MINI":
-        return _least_squares(call, fields[-1], place.value, count, tolerance)
-    if isinstance(place.value, Model):
-        support = cast(Support, "NOEUD" if word in (None, "NOEUDS") else word)
-        return on_model(fields[-1], place.value, support, tolerance)
-    return on_mesh(fields[-1], place.value, tolerance)
-
-
-def _least_squares(
-    call: Call, field: CellField, model: Model | Mesh, count: Operand | None, tolerance: float
+def proi(
+    call: Call, place: Model, fields: tuple[CellField, ...], way: Chosen | None, tolerance: float
 ) -> CellField:
-    if not isinstance(model, Model):
-        raise call.bad("'MINI' projects on a model, not on a mesh", model)
-    points = 3 if count is None else int(count.value)
-    if points < 1:
-        raise call.bad(f"{points} integration points in each direction are none", points)
-    return by_least_squares(field, model, points, tolerance)
+    """Projection on a model."""
+    word = _meant(call, way)
+    if word == "MINI" and way is not None:
+        points = way["count"]
+        if points < 1:
+            raise call.error("operators.fields.integration-points-none", points, points=points)
+        return by_least_squares(fields[-1], place, points, tolerance)
+    support = cast(Support, "NOEUD" if word in ("", "NOEUDS") else word)
+    return on_model(fields[-1], place, support, tolerance)
+
+
+@proi.form(arg("place", "MAILLAGE", en="where to", fr="où"), _FIELDS, _WAY, _TOLERANCE)
+def proi_on_mesh(
+    call: Call, place: Mesh, fields: tuple[CellField, ...], way: Chosen | None, tolerance: float
+) -> NodeField:
+    """Projection on a mesh."""
+    if _meant(call, way) == "MINI":
+        raise call.error("operators.fields.mini-needs-a-model", place)
+    return on_mesh(fields[-1], place, tolerance)
+
+
+def _meant(call: Call, way: Chosen | None) -> str:
+    word = "" if way is None else way.word
+    if word == "POLY":
+        raise call.error("operators.fields.poly-not-available")
+    return word
 
 
 def _scalar(support: Support) -> tuple[str, Support]:
@@ -143,6 +174,14 @@ def _names(zone: Zone, what: str) -> tuple[str, ...]:
 
 @operator(
     "ZERO",
+    arg("model", "MMODEL", en="model", fr="modèle"),
+    choice(
+        "word",
+        tuple(_TITLES),
+        length=8,
+        en="points of a scalar, or kind of field",
+        fr="points d'un scalaire, ou type de champ",
+    ),
     family="fields",
     help=Help(
         en="Field of zeros on a model: a scalar at the points of a support (NOEUD GRAVITE RIGIDITE "
@@ -159,14 +198,11 @@ def _names(zone: Zone, what: str) -> tuple[str, ...]:
             "M = MODE S MECANIQUE ELASTIQUE ; LIST (MAXI (ZERO M 'CONTRAIN')) ;",
         ),
     ),
-    reads_itself=True,
 )
-def zero(call: Call) -> CellField:
+def zero(call: Call, model: Model, word: str | None) -> CellField:
     """Zeros."""
-    model: Model = call.required("MMODEL")
-    word = call.keyword(tuple(_TITLES), length=8)
     if word is None:
-        raise call.bad(f"which zeros? one of {' '.join(_TITLES)}")
+        raise call.error("operators.fields.which-zeros", titles=_TITLES)
     title, support = _TITLES[word]
 
     def make(zone: Zone) -> CellFieldBlock:

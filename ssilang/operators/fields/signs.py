@@ -11,6 +11,7 @@ from ssilang.kernel.base.powers import real_power
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import Nature, NodeField
+from ssilang.language.registry import When, arg, main
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots
 from ssilang.operators.dispatch import PSCA, PVEC, union_with_call, union_words
@@ -25,14 +26,23 @@ def names_of(value: Any) -> list[str]:
     return [str(w).rstrip() for w in words]
 
 
-def read_nature(call: Call) -> Nature | None:
-    """'NATURE' with its word, None if it does not stand there."""
-    if call.keyword(("NATU",)) is None:
-        return None
-    word = call.keyword(tuple(_NATURES))
+def nature_of(call: Call, word: str | None) -> Nature | None:
+    """The nature that a word behind 'NATURE' says, None if none stands there."""
     if word is None:
-        raise call.bad("the nature is INDETERMINE, DIFFUS or DISCRET")
-    return _NATURES[word]
+        return None
+    if word.upper()[:4] not in _NATURES:
+        raise call.error("operators.fields.nature-unknown", word)
+    return _NATURES[word.upper()[:4]]
+
+
+def paired_names(call: Call, left: ListMots, right: ListMots) -> tuple[list[str], list[str]]:
+    """Names of two lists of the same length."""
+    names = names_of(left), names_of(right)
+    if len(names[0]) != len(names[1]):
+        raise call.error(
+            "operators.fields.word-counts-differ", n_left=len(names[0]), n_right=len(names[1])
+        )
+    return names
 
 
 def nature_word(nature: Nature) -> str:
@@ -48,7 +58,9 @@ def _lists(call: Call) -> tuple[list[str], list[str], list[str]] | None:
     lists = [first.value, call.required("LISTMOTS"), call.required("LISTMOTS")]
     names = [names_of(v) for v in lists]
     if len({len(n) for n in names}) > 1:
-        raise call.bad(f"the three lists have {', '.join(str(len(n)) for n in names)} words")
+        raise call.error(
+            "operators.fields.three-word-counts-differ", counts=[str(len(n)) for n in names]
+        )
     return names[0], names[1], names[2]
 
 
@@ -68,22 +80,24 @@ def _multiply(call: Call, sign: str, a: NodeField, b: NodeField) -> NodeField:
         made = node_algebra.multiplied(a, b, divide)
     else:
         made = node_algebra.multiplied_by_names(a, b, names, divide)
-    nature = read_nature(call)
+    said = call.keyword(("NATU",))
+    word = None if said is None else call.required("MOT", after=call.keyword_end)
+    nature = nature_of(call, word)
     return made if nature is None else node_algebra.rebuilt(made, made.components, nature)
 
 
 def _power(x: Any, exponent: float) -> Any:
     if exponent < 0 and np.any(np.asarray(x) == 0):
-        raise FieldError(f"zero has no power {exponent:g}")
+        raise FieldError("operators.fields.zero-no-power", exponent=exponent)
     try:
         return real_power(x, exponent)
     except ValueError as error:
-        raise FieldError(f"a negative value has no power {exponent:g}") from error
+        raise FieldError("operators.fields.negative-value-no-power", exponent=exponent) from error
 
 
 def _raised(number: float, x: Any) -> Any:
     if number < 0 or (number == 0 and np.any(np.asarray(x) < 0)):
-        raise FieldError(f"{number:g} cannot be raised to the powers of a field")
+        raise FieldError("operators.fields.number-has-no-field-power", number=number)
     return np.power(number, np.asarray(x, dtype=float))
 
 
@@ -91,7 +105,7 @@ def _with_number(sign: str, x: Any, number: float, left: bool) -> Any:
     if sign == "**":
         return _raised(number, x) if left else _power(x, number)
     if sign == "/" and (np.any(x == 0) if left else number == 0):
-        raise FieldError("division by zero")
+        raise FieldError("operators.fields.division-by-zero")
     return _ARRAY[sign](number, x) if left else _ARRAY[sign](x, number)
 
 
@@ -149,9 +163,21 @@ for _kind in ("ENTIER", "FLOTTANT"):
 # ---- PSCA ---------------------------------------------------------------------------------------
 
 
-@PSCA.on(
-    "CHPOINT",
-    "MCHAML",
+_NAMES = (
+    arg("left", "LISTMOTS", en="components of the first", fr="composantes du premier"),
+    arg(
+        "right",
+        "LISTMOTS",
+        en="components of the second, paired with them",
+        fr="composantes du second, appariées",
+    ),
+)
+
+
+@PSCA.form(
+    main("first", "CHPOINT", en="first field", fr="premier champ"),
+    arg("second", "CHPOINT", en="second field", fr="second champ"),
+    *_NAMES,
     syntax="CHP3 = PSCA CHP1 CHP2 LMOT1 LMOT2 ;",
     en="Of two fields: at each place the sum of products of paired components.",
     fr="De deux champs : en chaque lieu la somme des produits de composantes appariées.",
@@ -160,30 +186,56 @@ for _kind in ("ENTIER", "FLOTTANT"):
         "LIST (MAXI (PSCA C C (MOTS 'UX' 'UY') (MOTS 'UX' 'UY'))) ;",
     ),
 )
-def _scalar_product(call: Call, first: Any) -> Any:
-    second = call.required("CHPOINT" if isinstance(first, NodeField) else "MCHAML")
-    names = [names_of(call.required("LISTMOTS")) for _ in range(2)]
-    if len(names[0]) != len(names[1]):
-        raise call.bad(f"the lists have {len(names[0])} and {len(names[1])} words")
-    if isinstance(first, NodeField):
-        part = node_algebra.scalar_product(first, second, names[0], names[1])
-        return node_algebra.rebuilt(first, {"SCAL": part})
-    scalar = ["SCAL"] * len(names[0])
-    return cell_algebra.multiplied_by_names(first, second, (names[0], names[1], scalar))
+def scalar_product(
+    call: Call, first: NodeField, second: NodeField, left: ListMots, right: ListMots
+) -> NodeField:
+    """Scalar product at each node."""
+    part = node_algebra.scalar_product(first, second, *paired_names(call, left, right))
+    return node_algebra.rebuilt(first, {"SCAL": part})
 
 
-def _read_names(call: Call, count: int) -> list[list[str]]:
-    names = [names_of(call.required("LISTMOTS")) for _ in range(count)]
+@PSCA.form(
+    main("first", "MCHAML", en="first field", fr="premier champ"),
+    arg("second", "MCHAML", en="second field", fr="second champ"),
+    *_NAMES,
+)
+def scalar_product_in_cells(
+    call: Call, first: CellField, second: CellField, left: ListMots, right: ListMots
+) -> CellField:
+    """Scalar product at each point of the cells."""
+    names = paired_names(call, left, right)
+    return cell_algebra.multiplied_by_names(first, second, (*names, ["SCAL"] * len(names[0])))
+
+
+IN_PLANE = When(lambda s: s.dimension() == 2, "in the plane", "en dimension 2")
+NOT_IN_PLANE = When(lambda s: s.dimension() != 2, "in space", "en dimension 3")
+_THREE = tuple(
+    arg(name, "LISTMOTS", en=f"components of the {en}", fr=f"composantes du {fr}")
+    for name, en, fr in (
+        ("left", "first", "premier"),
+        ("right", "second", "second"),
+        ("made", "result", "résultat"),
+    )
+)
+_TWO = (
+    arg("old", "LISTMOTS", en="components to turn", fr="composantes à tourner"),
+    arg("new", "LISTMOTS", en="components of the result", fr="composantes du résultat"),
+)
+
+
+def _lists_of(call: Call, *lists: ListMots) -> list[list[str]]:
+    names = [names_of(v) for v in lists]
     dimension = call.session.dimension() or 3
     if any(len(n) != dimension for n in names):
-        raise call.bad(f"in dimension {dimension} each list names {dimension} components")
+        raise call.error("operators.fields.components-per-list", dimension=dimension)
     return names
 
 
-@PVEC.on(
-    "CHPOINT",
-    "MCHAML",
-    syntax="CHP3 = PVEC CHP1 CHP2 LMOT1 LMOT2 LMOT3 ; (3D)   CHP2 = PVEC CHP1 LMOT1 LMOT2 ; (2D)",
+@PVEC.form(
+    main("first", "CHPOINT", en="field", fr="champ"),
+    *_TWO,
+    when=IN_PLANE,
+    syntax="CHP2 = PVEC CHP1 LMOT1 LMOT2 ; (2D)",
     en="Of fields: at each place the vector product of the components LMOT1 of the first and LMOT2 "
     "of the second, named LMOT3; in 2D the components LMOT1 turned by a quarter turn.",
     fr="De champs : en chaque lieu le produit vectoriel des composantes LMOT1 du premier et LMOT2 "
@@ -193,16 +245,62 @@ def _read_names(call: Call, count: int) -> list[list[str]]:
         "LIST (PVEC C L L) ;",
     ),
 )
-def _vector_product(call: Call, first: Any) -> Any:
-    node = isinstance(first, NodeField)
-    algebra: Any = node_algebra if node else cell_algebra
-    extracted = _picked_nodes if node else cell_algebra.extracted
-    if call.session.dimension() == 2:
-        (x, y), (u, v) = _read_names(call, 2)
-        turned = algebra.applied(extracted(first, [y], [u]), np.negative)
-        return algebra.added(turned, extracted(first, [x], [v]))
-    second = call.required("CHPOINT" if node else "MCHAML")
-    a, b, c = _read_names(call, 3)
+def quarter_turn(call: Call, first: NodeField, old: ListMots, new: ListMots) -> NodeField:
+    """Components at nodes turned by a quarter turn."""
+    (x, y), (u, v) = _lists_of(call, old, new)
+    turned = node_algebra.applied(_picked_nodes(first, [y], [u]), np.negative)
+    return node_algebra.added(turned, _picked_nodes(first, [x], [v]))
+
+
+@PVEC.form(main("first", "MCHAML", en="field", fr="champ"), *_TWO, when=IN_PLANE)
+def quarter_turn_in_cells(call: Call, first: CellField, old: ListMots, new: ListMots) -> CellField:
+    """Components in cells turned by a quarter turn."""
+    (x, y), (u, v) = _lists_of(call, old, new)
+    turned = cell_algebra.applied(cell_algebra.extracted(first, [y], [u]), np.negative)
+    return cell_algebra.added(turned, cell_algebra.extracted(first, [x], [v]))
+
+
+@PVEC.form(
+    main("first", "CHPOINT", en="first field", fr="premier champ"),
+    arg("second", "CHPOINT", en="second field", fr="second champ"),
+    *_THREE,
+    when=NOT_IN_PLANE,
+    syntax="CHP3 = PVEC CHP1 CHP2 LMOT1 LMOT2 LMOT3 ; (3D)",
+)
+def vector_product(
+    call: Call,
+    first: NodeField,
+    second: NodeField,
+    left: ListMots,
+    right: ListMots,
+    made: ListMots,
+) -> NodeField:
+    """Vector product at each node."""
+    found: NodeField = _crossed(node_algebra, first, second, _lists_of(call, left, right, made))
+    return found
+
+
+@PVEC.form(
+    main("first", "MCHAML", en="first field", fr="premier champ"),
+    arg("second", "MCHAML", en="second field", fr="second champ"),
+    *_THREE,
+    when=NOT_IN_PLANE,
+)
+def vector_product_in_cells(
+    call: Call,
+    first: CellField,
+    second: CellField,
+    left: ListMots,
+    right: ListMots,
+    made: ListMots,
+) -> CellField:
+    """Vector product at each point of the cells."""
+    found: CellField = _crossed(cell_algebra, first, second, _lists_of(call, left, right, made))
+    return found
+
+
+def _crossed(algebra: Any, first: Any, second: Any, names: list[list[str]]) -> Any:
+    a, b, c = names
     total = None
     for i in range(3):
         j, k = (i + 1) % 3, (i + 2) % 3

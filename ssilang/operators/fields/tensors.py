@@ -35,12 +35,13 @@ from ssilang.kernel.elements.solids.gradients import (
 from ssilang.kernel.elements.solids.solid import coordinates, zone_geometry
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
+from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Model, Zone
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import Help, arg, by, choice, flag, main, many, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.operators.dispatch import INTG
-from ssilang.operators.matrices.element import joined
-from ssilang.operators.statics.stresses import Reading, on_zones
+from ssilang.operators.matrices.element import joined, present
+from ssilang.operators.statics.stresses import PARAMETERS, on_zones
 
 _SQUARE = (
     "OPTI DIME 2 ELEM QUA4 ; L = DROI 2 (0 0) (2 0) ; S = TRAN 1 L (0. 1.) ; "
@@ -54,39 +55,70 @@ def _scalar(zone: Zone, values: FloatArray, support: Support) -> CellFieldBlock:
     return CellFieldBlock(zone.cells, {"SCAL": values}, support, zone.element, zone.constituent)
 
 
-def _equivalent(said: Reading, compute: Callable[[FloatArray], FloatArray], what: str) -> CellField:
-    field, material = said.state_and_rest()
+MODEL = arg("model", "MMODEL", en="model", fr="modèle")
+STATE = many(
+    "fields",
+    "MCHAML",
+    at_least=1,
+    en="stresses or strains, and parameters",
+    fr="contraintes ou déformations, et caractéristiques",
+)
+_SIDE = choice(
+    "side",
+    _SKINS,
+    default="MOYE",
+    en="side of a shell: that of the normal, the middle (default) or the other",
+    fr="côté d'une coque : celui de la normale, le milieu (par défaut) ou l'autre",
+)
+
+
+def state_and_rest(fields: tuple[CellField, ...]) -> tuple[CellField, CellField | None]:
+    """The field of stresses or strains, in whatever order, and the parameters as one."""
+    state = next((f for f in fields if f.title not in PARAMETERS), fields[0])
+    rest = tuple(f for f in fields if f is not state)
+    return state, joined(rest) if rest else None
+
+
+def _equivalent(
+    call: Call,
+    model: Model,
+    fields: tuple[CellField, ...],
+    side: str,
+    compute: Callable[[FloatArray], FloatArray],
+    what: str,
+) -> CellField:
+    field, material = state_and_rest(fields)
 
     def make(zone: Zone) -> CellFieldBlock:
         if what == "VMIS" and is_shell(zone) and material is not None:
             return _scalar(zone, *shell_equivalent(zone, field, material))
         if is_solid(zone) or is_shell(zone):
-            T, support = _tensor(said, zone, field, material)
+            T, support = _tensor(zone, field, material, side)
             return _scalar(zone, compute(T), support)
         if what == "VMIS":
             return _scalar(zone, *equivalent_of_lines(zone, field, material))
-        raise FieldError(f"{what} is for continuous elements, not {zone.element}")
+        raise FieldError(
+            "operators.fields.continuous-elements-only", what=what, element=zone.element
+        )
 
-    return on_zones(said.model, "SCALAIRE", make)
+    return on_zones(present(call, model), "SCALAIRE", make)
 
 
 def _tensor(
-    said: Reading, zone: Zone, field: CellField, material: CellField | None
+    zone: Zone, field: CellField, material: CellField | None, side: str
 ) -> tuple[FloatArray, Support]:
-    """Tensors of a continuous zone, or of a shell at the side that a word says."""
+    """Tensors of a continuous zone, or of a shell at one side."""
     if is_solid(zone):
         return tensor(zone, field)[:2]
     if not is_shell(zone) or material is None:
-        raise FieldError(
-            f"element {zone.element} has no stress tensor here",
-            "continuous elements have; shells with their parameters (EPAI)",
-        )
-    side = next((w for w in said.words if w in _SKINS), "MOYE")
+        raise FieldError("operators.fields.no-stress-tensor", element=zone.element)
     return shell_tensor(zone, field, material, side)
 
 
 @operator(
     "VMIS",
+    MODEL,
+    STATE,
     family="stress",
     help=Help(
         en="Von Mises stress of a stress field; in beams and bars the equivalent stress of the "
@@ -98,15 +130,17 @@ def _tensor(
         syntax="CHAM1 = VMIS MODL1 SIG1 (CAR1) ;",
         examples=(_SQUARE + "LIST (MAXI (VMIS M (SIGM M A U))) ;",),
     ),
-    reads_itself=True,
 )
-def vmis(call: Call) -> CellField:
+def vmis(call: Call, model: Model, fields: tuple[CellField, ...]) -> CellField:
     """Equivalent stress."""
-    return _equivalent(Reading(call), von_mises, "VMIS")
+    return _equivalent(call, model, fields, "MOYE", von_mises, "VMIS")
 
 
 @operator(
     "TRES",
+    MODEL,
+    STATE,
+    _SIDE,
     family="stress",
     full_name="TRESCA",
     help=Help(
@@ -116,15 +150,23 @@ def vmis(call: Call) -> CellField:
         syntax="CHAM1 = TRES MODL1 SIG1 (CAR1 'SUPE' | 'MOYE' | 'INFE') ;",
         examples=(_SQUARE + "LIST (MAXI (TRES M (SIGM M A U))) ;",),
     ),
-    reads_itself=True,
 )
-def tres(call: Call) -> CellField:
+def tres(call: Call, model: Model, fields: tuple[CellField, ...], side: str) -> CellField:
     """Equivalent stress."""
-    return _equivalent(Reading(call, _SKINS), tresca, "TRES")
+    return _equivalent(call, model, fields, side, tresca, "TRES")
 
 
 @operator(
     "PRIN",
+    MODEL,
+    STATE,
+    flag(
+        "ordered",
+        "TRID",
+        en="the values decrease in the plane too",
+        fr="les valeurs décroissent aussi en 2D",
+    ),
+    _SIDE,
     family="stress",
     full_name="PRINCIPALE",
     help=Help(
@@ -138,23 +180,26 @@ def tres(call: Call) -> CellField:
         "CHAM2 = PRIN CHAM1 MODL1 CAR1 ('SUPE' | 'MOYE' | 'INFE') ;",
         examples=(_SQUARE + "LIST (MAXI (EXCO 'SI11' (PRIN (SIGM M A U) M))) ;",),
     ),
-    reads_itself=True,
 )
-def prin(call: Call) -> CellField:
+def prin(
+    call: Call, model: Model, fields: tuple[CellField, ...], ordered: bool, side: str
+) -> CellField:
     """Principal values and directions."""
-    said = Reading(call, ("TRID", *_SKINS))
-    field, material = said.state_and_rest()
+    field, material = state_and_rest(fields)
 
     def make(zone: Zone) -> CellFieldBlock:
-        T, support = _tensor(said, zone, field, material)
-        ordered = "TRID" in said.words and is_solid(zone)
-        return cell_block(zone, PRINCIPAL, principal(zone, T, ordered), support)
+        T, support = _tensor(zone, field, material, side)
+        values = principal(zone, T, ordered and is_solid(zone))
+        return cell_block(zone, PRINCIPAL, values, support)
 
-    return on_zones(said.model, "PRINCIPALE", make)
+    return on_zones(present(call, model), "PRINCIPALE", make)
 
 
 @operator(
     "INVA",
+    MODEL,
+    STATE,
+    _SIDE,
     family="stress",
     full_name="INVARIANT",
     help=Help(
@@ -165,15 +210,15 @@ def prin(call: Call) -> CellField:
         syntax="CHAM1 CHAM2 CHAM3 = INVA MODL1 CHAM4 (CAR1 'SUPE' | 'MOYE' | 'INFE') ;",
         examples=(_SQUARE + "I J K = INVA M (SIGM M A U) ; LIST (MAXI I) ;",),
     ),
-    reads_itself=True,
 )
-def inva(call: Call) -> tuple[CellField, CellField, CellField]:
+def inva(
+    call: Call, model: Model, fields: tuple[CellField, ...], side: str
+) -> tuple[CellField, CellField, CellField]:
     """Invariants."""
-    said = Reading(call, _SKINS)
-    field, material = said.state_and_rest()
+    field, material = state_and_rest(fields)
     rows: list[list[CellFieldBlock]] = [[], [], []]
-    for zone in said.model.zones:
-        T, support = _tensor(said, zone, field, material)
+    for zone in present(call, model).zones:
+        T, support = _tensor(zone, field, material, side)
         for row, values in zip(rows, invariants(T), strict=True):
             row.append(_scalar(zone, values, support))
     one, two, three = (CellField(tuple(r), "SCALAIRE") for r in rows)
@@ -182,6 +227,10 @@ def inva(call: Call) -> tuple[CellField, CellField, CellField]:
 
 @operator(
     "ENER",
+    MODEL,
+    arg("first", "MCHAML", en="stresses", fr="contraintes"),
+    arg("second", "MCHAML", en="strains", fr="déformations"),
+    many("others", "MCHAML", en="accepted, not used", fr="accepté, sans emploi"),
     family="stress",
     full_name="ENERGIE",
     help=Help(
@@ -192,25 +241,26 @@ def inva(call: Call) -> tuple[CellField, CellField, CellField]:
         syntax="CHAM3 = ENER MODL1 CHAM1 CHAM2 ;",
         examples=(_SQUARE + "E = ENER M (SIGM M A U) (EPSI M U) ; LIST (INTG M E) ;",),
     ),
-    reads_itself=True,
 )
-def ener(call: Call) -> CellField:
+def ener(
+    call: Call, model: Model, first: CellField, second: CellField, others: tuple[CellField, ...]
+) -> CellField:
     """Product of stresses and strains."""
-    said = Reading(call)
-    if len(said.cells) < 2:
-        raise call.missing(("MCHAML",))
+    given = (first, second, *others)
 
     def make(zone: Zone) -> CellFieldBlock:
         family = families.family_of(zone)
         stress, strain = family.stress_names(zone), family.strain_names(zone)
-        pair = [f for names in (stress, strain) for f in [_holding(zone, said.cells, names)]]
+        pair = [_holding(zone, given, names) for names in (stress, strain)]
         s, support = components_at_home(zone, pair[0], stress)
         e, other = components_at_home(zone, pair[1], strain)
         if s.shape[2] != e.shape[2] and 1 not in (s.shape[2], e.shape[2]):
-            raise FieldError(f"the stresses stand at '{support}', the strains at '{other}'")
+            raise FieldError(
+                "operators.fields.stresses-and-strains-apart", support=support, other=other
+            )
         return _scalar(zone, (s * e).sum(axis=1), support)
 
-    return on_zones(said.model, "SCALAIRE", make)
+    return on_zones(present(call, model), "SCALAIRE", make)
 
 
 def _holding(zone: Zone, fields: tuple[CellField, ...], names: tuple[str, ...]) -> CellField:
@@ -218,11 +268,14 @@ def _holding(zone: Zone, fields: tuple[CellField, ...], names: tuple[str, ...]) 
     for field in fields:
         if any(wanted.intersection(b.components) for b in field.blocks):
             return field
-    raise FieldError(f"no field has components {' '.join(names)} for element {zone.element}")
+    raise FieldError("operators.fields.no-field-for-element", names=names, element=zone.element)
 
 
 @operator(
     "GRAD",
+    MODEL,
+    arg("field", "CHPOINT", en="displacements or a scalar", fr="déplacements ou un scalaire"),
+    many("given", "MCHAML", en="parameters", fr="caractéristiques"),
     family="stress",
     full_name="GRADIENT",
     help=Help(
@@ -236,33 +289,42 @@ def _holding(zone: Zone, fields: tuple[CellField, ...], names: tuple[str, ...]) 
         syntax="GRAD1 = GRAD MODL1 CHPO1 (CAR1) ;",
         examples=(_SQUARE + "LIST (MAXI (EXCO 'UX,X' (GRAD M U))) ;",),
     ),
-    reads_itself=True,
 )
-def grad(call: Call) -> CellField:
+def grad(call: Call, model: Model, field: NodeField, given: tuple[CellField, ...]) -> CellField:
     """Gradients."""
-    said = Reading(call)
-    u = said.displacement()
-    names = tuple(u.components)
+    names = tuple(field.components)
 
     def make(zone: Zone) -> CellFieldBlock:
         if is_structural(zone):
-            given = zone_field(zone, joined(said.cells) if said.cells else None)
-            return cell_block(zone, structural_names(zone), structural_gradient(zone, u, given))
+            seen = zone_field(zone, joined(given) if given else None)
+            values = structural_gradient(zone, field, seen)
+            return cell_block(zone, structural_names(zone), values)
         if not is_solid(zone):
-            raise FieldError(f"GRAD is for continuous elements, not {zone.element}")
+            raise FieldError("operators.fields.grad-of-solids-only", element=zone.element)
         if any(n in names for n in families.family_of(zone).layout(zone).unknowns):
-            return cell_block(zone, gradient_names(zone), gradient_values(zone, u))
+            return cell_block(zone, gradient_names(zone), gradient_values(zone, field))
         if len(names) != 1:
-            raise FieldError(f"GRAD takes displacements or one scalar, not {' '.join(names)}")
+            raise FieldError("operators.fields.grad-of-displacements-or-scalar", names=names)
         axes = "RZ" if "R" in gradient_names(zone)[0] else "XYZ"
         labels = tuple(f"{names[0].rstrip()},{a}" for a in axes[: coordinates(zone).shape[-1]])
-        return cell_block(zone, labels, scalar_gradient(zone, u, names[0]))
+        return cell_block(zone, labels, scalar_gradient(zone, field, names[0]))
 
-    return on_zones(said.model, "GRADIENT", make)
+    return on_zones(present(call, model), "GRADIENT", make)
 
 
-@INTG.on(
-    "MMODEL",
+@INTG.form(
+    main("model", "MMODEL", en="model", fr="modèle"),
+    flag("by_cell", "ELEM", en="one value a cell", fr="une valeur par élément"),
+    opt(
+        "component",
+        "MOT",
+        kind="component",
+        en="component, if there are several",
+        fr="composante, s'il y en a plusieurs",
+    ),
+    arg("field", "MCHAML", en="field to integrate", fr="champ à intégrer"),
+    many("others", "MCHAML", en="parameters", fr="caractéristiques"),
+    gives=by("by_cell", {True: "MCHAML"}, "FLOTTANT"),
     syntax="VAL1 = INTG MODL1 CHAM1 (MOT1) (CAR1) ;\n"
     "CHAM2 = INTG 'ELEM' MODL1 CHAM1 (MOT1) (CAR1) ;",
     en="Of a field in cells: integral of a component over the model, or cell by cell ('ELEM'); "
@@ -273,20 +335,20 @@ def grad(call: Call) -> CellField:
     "les contraintes planes avec leur épaisseur.",
     examples=(_SQUARE + "LIST (INTG M A 'YOUN') ;",),
 )
-def intg(call: Call, model: Model) -> float | CellField:
+def intg(
+    call: Call,
+    model: Model,
+    by_cell: bool,
+    component: str | None,
+    field: CellField,
+    others: tuple[CellField, ...],
+) -> float | CellField:
     """Integral of a field in cells."""
-    by_cell = call.keyword(["ELEM"]) is not None
-    cells: list[CellField] = call.all("MCHAML")
-    name = call.word()
-    cells += call.all("MCHAML")
-    by_cell = by_cell or call.keyword(["ELEM"]) is not None
-    if not cells:
-        raise call.missing(("MCHAML",))
-    wanted = name.rstrip() if name is not None else _only(call, cells[0])
-    material = cells[1] if len(cells) > 1 else None
-    parts = [integrals(z, cells[0], wanted, material) for z in model.zones]
+    wanted = component.rstrip() if component is not None else _only(call, field)
+    material = others[0] if others else None
+    parts = [integrals(z, field, wanted, material) for z in model.zones]
     if all(p is None for p in parts):
-        raise call.bad(f"the field has no component {wanted} on the model", cells[0])
+        raise call.error("operators.fields.component-not-on-model", field, wanted=wanted)
     if not by_cell:
         return float(sum(p.sum() for p in parts if p is not None))
     blocks = [
@@ -300,12 +362,13 @@ def intg(call: Call, model: Model) -> float | CellField:
 def _only(call: Call, field: CellField) -> str:
     names = tuple(dict.fromkeys(n for b in field.blocks for n in b.components))
     if len(names) != 1:
-        raise call.bad(f"which component? the field has {' '.join(names)}", field)
+        raise call.error("operators.fields.which-component", field, names=names)
     return names[0]
 
 
 @operator(
     "JACO",
+    MODEL,
     family="stress",
     full_name="JACOBIEN",
     help=Help(
@@ -314,15 +377,13 @@ def _only(call: Call, field: CellField) -> str:
         syntax="CHAM1 = JACO MODL1 ;",
         examples=(_SQUARE + "LIST (MINI (JACO M)) ;",),
     ),
-    reads_itself=True,
 )
-def jaco(call: Call) -> CellField:
+def jaco(model: Model) -> CellField:
     """Jacobians."""
-    model: Model = call.required("MMODEL")
 
     def make(zone: Zone) -> CellFieldBlock:
         if not is_solid(zone):
-            raise FieldError(f"JACO is for continuous elements, not {zone.element}")
+            raise FieldError("operators.fields.jaco-of-solids-only", element=zone.element)
         geometry = zone_geometry(zone, "RIGIDITE", slice(0, len(zone.cells)))
         weights = support_rule(zone.element, "RIGIDITE").weights
         return _scalar(zone, geometry.volumes / weights, "RIGIDITE")

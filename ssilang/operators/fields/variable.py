@@ -15,7 +15,7 @@ from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.materials.model import Model
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import Help, arg, choice, operator, opt, said
 from ssilang.language.run.call import Call
 
 _SUPPORTS = ("NOEUD", "GRAVITE", "RIGIDITE", "MASSE", "STRESSES")
@@ -34,14 +34,25 @@ def argument_name(names: list[str], part: CurvePart) -> str:
         return wanted
     if len(names) == 1:
         return names[0]
-    raise FieldError(
-        f"none of the components {' '.join(names)} is the abscissa '{wanted}' of the law",
-        "name the abscissa of the curve as the component",
-    )
+    raise FieldError("operators.fields.no-component-is-abscissa", names=names, wanted=wanted)
+
+
+_SUPPORT = choice(
+    "support",
+    _SUPPORTS,
+    default="RIGIDITE",
+    en="points of the result",
+    fr="points du résultat",
+)
+_LAW = arg("curve", "EVOLUTIO", en="law of variation", fr="loi de variation")
 
 
 @operator(
     "VARI",
+    arg("model", "MMODEL", en="model", fr="modèle"),
+    arg("field", "CHPOINT", "MCHAML", en="what the law depends on", fr="argument de la loi"),
+    _LAW,
+    _SUPPORT,
     family="fields",
     full_name="VARIATION",
     help=Help(
@@ -60,30 +71,42 @@ def argument_name(names: list[str], part: CurvePart) -> str:
             "E = EVOL 'MANU' 'T' (PROG 0. 100.) 'YOUN' (PROG 2. 1.) ; LIST (VARI C E) ;",
         ),
     ),
-    reads_itself=True,
 )
-def vari(call: Call) -> Any:
-    """Evaluate laws of variation."""
-    if call.keyword(("NUAG",)) is not None:
-        return _parameters(call)
-    model = call.optional("MMODEL")
-    operand = call.read("CHPOINT", "MCHAML")
-    if operand is None:
-        raise call.missing(("CHPOINT", "MCHAML"))
-    curve: Curve = call.required("EVOLUTIO")
-    if len(curve.parts) != 1:
-        raise call.bad(f"a law is one curve, this object has {len(curve.parts)}", curve)
-    part, field = curve.parts[0], operand.value
-    if model is None:
-        if not isinstance(field, NodeField):
-            raise call.missing(("MMODEL",))
-        return _at_nodes(call, field, part)
-    support = cast(Support, call.keyword(_SUPPORTS) or "RIGIDITE")
-    placed = _placed(model, field, support)
+def vari(
+    call: Call, model: Model, field: NodeField | CellField, curve: Curve, support: str
+) -> CellField:
+    """Evaluate a law in cells."""
+    part = _law(call, curve)
+    placed = _placed(model, field, cast(Support, support))
     name = argument_name(cell_algebra.component_names(placed), part)
     one = cell_algebra.extracted(placed, [name], ["SCAL"])
     made = cell_algebra.applied(one, lambda v: interpolated(part.abscissas, part.ordinates, v))
     return CellField(made.blocks, "SCALAIRE")
+
+
+@vari.form(
+    arg("field", "CHPOINT", en="what the law depends on", fr="argument de la loi"),
+    _LAW,
+    opt(
+        "target",
+        "MOT",
+        en="component of the result, else the name of the ordinate",
+        fr="composante du résultat, sinon le nom de l'ordonnée",
+    ),
+)
+def vari_at_nodes(call: Call, field: NodeField, curve: Curve, target: str | None) -> NodeField:
+    """Evaluate a law at nodes."""
+    part = _law(call, curve)
+    name = part.ordinate_name.strip() if target is None else target.rstrip()
+    given = field.components[argument_name(list(field.components), part)]
+    values = interpolated(part.abscissas, part.ordinates, given.values)
+    return node_algebra.rebuilt(field, {name or "SCAL": NodeValues(given.nodes, values)})
+
+
+def _law(call: Call, curve: Curve) -> CurvePart:
+    if len(curve.parts) != 1:
+        raise call.error("operators.fields.law-is-one-curve", curve, n_parts=len(curve.parts))
+    return curve.parts[0]
 
 
 def _placed(model: Model, field: NodeField | CellField, support: Support) -> CellField:
@@ -92,28 +115,27 @@ def _placed(model: Model, field: NodeField | CellField, support: Support) -> Cel
     return moved(model, field, support, None)
 
 
-def _at_nodes(call: Call, field: NodeField, part: CurvePart) -> NodeField:
-    said = call.read("MOT")
-    target = str(said.value).rstrip() if said is not None else part.ordinate_name.strip()
-    given = field.components[argument_name(list(field.components), part)]
-    values = interpolated(part.abscissas, part.ordinates, given.values)
-    made = {target or "SCAL": NodeValues(given.nodes, values)}
-    return node_algebra.rebuilt(field, made)
-
-
-# ---- parameters given by curves -----------------------------------------------------------------
-
-
-def _parameters(call: Call) -> CellField:
-    model: Model = call.required("MMODEL")
-    laws: CellField = call.required("MCHAML")
-    operand = call.read("MCHAML", "CHPOINT")
-    if operand is None:
-        raise call.missing(("MCHAML", "CHPOINT"))
-    support = cast(Support, call.keyword(_SUPPORTS) or "RIGIDITE")
-    title = call.word()
-    fields = _placed(model, operand.value, support)
-    blocks = [_evaluated(block, fields, support) for block in laws.blocks]
+@vari.form(
+    said("NUAG"),
+    arg("model", "MMODEL", en="model", fr="modèle"),
+    arg("laws", "MCHAML", en="parameters, curves among them", fr="paramètres, dont des évolutions"),
+    arg(
+        "given",
+        "MCHAML",
+        "CHPOINT",
+        en="fields that the curves depend on",
+        fr="champs dont dépendent les évolutions",
+    ),
+    _SUPPORT,
+    opt("title", "MOT", en="sub-type of the result", fr="sous-type du résultat"),
+)
+def vari_of_parameters(
+    model: Model, laws: CellField, given: CellField | NodeField, support: str, title: str | None
+) -> CellField:
+    """Parameters given by curves as numbers."""
+    at = cast(Support, support)
+    fields = _placed(model, given, at)
+    blocks = [_evaluated(block, fields, at) for block in laws.blocks]
     return CellField(tuple(blocks), laws.title if title is None else title.rstrip())
 
 
@@ -122,7 +144,7 @@ def _evaluated(block: CellFieldBlock, fields: CellField, support: Support) -> Ce
         return block
     given = next((b for b in fields.blocks if cell_algebra.same_cells(b.cells, block.cells)), None)
     if given is None:
-        raise FieldError("the parameters and the fields they depend on stand on different cells")
+        raise FieldError("operators.fields.parameters-and-fields-apart")
     made: dict[str, NDArray[Any]] = {}
     for name, values in block.components.items():
         made[name] = _numbers(name, values, given) if values.dtype == object else values

@@ -12,7 +12,7 @@ from ssilang.language.registry import Help, arg, shared
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
 from ssilang.operators.lists.making import check_length
-from ssilang.operators.mesh.refining import refined
+from ssilang.operators.mesh.changes.refining import refined
 
 RAFF = shared(
     "RAFF",

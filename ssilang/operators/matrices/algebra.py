@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
@@ -13,10 +12,23 @@ from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices import submatrices as parts
 from ssilang.kernel.matrices.assembly import assemble, field_to_vector, numbering_of
-from ssilang.kernel.matrices.matrix import Matrix, dual_of, imaginary
+from ssilang.kernel.matrices.matrix import Matrix, dual_of
+from ssilang.kernel.matrices.matrix import imaginary as imaginary_of
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.statics.linear import product
-from ssilang.language.registry import Help, arg, operator
+from ssilang.language.registry import (
+    Chosen,
+    Help,
+    arg,
+    by,
+    choice,
+    flag,
+    main,
+    operator,
+    opt,
+    said,
+    select,
+)
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots
 from ssilang.operators.dispatch import CHAN, EXTR, REDU, listing, union
@@ -46,7 +58,7 @@ def _power(_sign: str, matrix: Matrix, power: float) -> Matrix:
         v = block.values
         if power != int(power) and (v < 0).any():
             raise FieldError(
-                f"the matrix has negative terms ({v.min():g}): they have no power {power:g}"
+                "operators.matrices.negative-terms-have-no-power", smallest=v.min(), power=power
             )
         raised = np.where(v == 0.0, 0.0, np.where(v == 0.0, 1.0, v) ** float(power))
         made.append(replace(block, values=raised, zone=None))
@@ -85,12 +97,11 @@ def _points(matrix: Matrix, nodes: IntArray) -> Mesh:
     return Mesh.of(matrix.table, "POI1", nodes[:, None])
 
 
-def _mesh_of(call: Call, matrix: Matrix) -> Mesh:
-    word = call.keyword(("NOMU", "MULT", "UNIL"))
-    if word == "NOMU":
+def _mesh_of(matrix: Matrix, part: str | None) -> Mesh:
+    if part == "NOMU":
         return parts.support_mesh(matrix)
-    if word is not None:
-        return _points(matrix, parts.multiplier_nodes(matrix, word == "UNIL"))
+    if part is not None:
+        return _points(matrix, parts.multiplier_nodes(matrix, part == "UNIL"))
     whole = parts.support_mesh(matrix)
     points = parts.multiplier_nodes(matrix)
     if len(points) == 0:
@@ -98,34 +109,53 @@ def _mesh_of(call: Call, matrix: Matrix) -> Mesh:
     return Mesh(matrix.table, (*whole.blocks, *_points(matrix, points).blocks))
 
 
-def _rigi_of(call: Call, matrix: Matrix) -> Matrix:
-    word = call.keyword(("NOMU", "MULT", "UNIL"))
-    if word is None:
-        raise call.bad("EXTR RIG1 'RIGI' wants 'NOMU', 'MULT' or 'UNIL'")
-    if word == "NOMU":
+def _rigi_of(matrix: Matrix, part: str) -> Matrix:
+    if part == "NOMU":
         return Matrix(matrix.table, matrix.blocks, (), matrix.kind)
-    if word == "MULT":
+    if part == "MULT":
         return Matrix(matrix.table, (), matrix.relations)
     kept = [parts.chosen_rows(r, r.sense != 0) for r in matrix.relations]
     return Matrix(matrix.table, (), tuple(r for r in kept if len(r)))
 
 
-def _names_of(call: Call, matrix: Matrix) -> ListMots:
-    return ListMots(parts.unknown_names(matrix, call.keyword(("DUAL",)) is not None))
-
-
-_EXTRACTED: dict[str, Callable[[Call, Matrix], Any]] = {
-    "MAIL": _mesh_of,
-    "RIGI": _rigi_of,
-    "COMP": _names_of,
-    "DIAG": lambda _, matrix: parts.diagonal(matrix),
-    "SYME": lambda _, matrix: parts.symmetric_part(matrix, 1.0),
-    "ANTI": lambda _, matrix: parts.symmetric_part(matrix, -1.0),
+_EXTRACTED: dict[str, Callable[[Matrix, Chosen], Mesh | Matrix | ListMots | NodeField]] = {
+    "MAIL": lambda matrix, what: _mesh_of(matrix, what["part"]),
+    "RIGI": lambda matrix, what: _rigi_of(matrix, what["part"]),
+    "COMP": lambda matrix, what: ListMots(parts.unknown_names(matrix, what["dual"])),
+    "DIAG": lambda matrix, what: parts.diagonal(matrix),
+    "SYME": lambda matrix, what: parts.symmetric_part(matrix, 1.0),
+    "ANTI": lambda matrix, what: parts.symmetric_part(matrix, -1.0),
 }
 
 
-@EXTR.on(
-    "RIGIDITE",
+_PART = choice(
+    "part",
+    ("NOMU", "MULT", "UNIL"),
+    en="without multipliers, of conditions, or of unilateral ones",
+    fr="sans multiplicateurs, des conditions, ou des seules unilatérales",
+)
+_MATRIX = main("matrix", "RIGIDITE", en="matrix", fr="rigidité")
+
+
+@EXTR.form(
+    _MATRIX,
+    select(
+        "what",
+        {
+            "MAIL": [_PART],
+            "RIGI": [_PART],
+            "COMP": [flag("dual", "DUAL", en="of the equations", fr="des équations")],
+            "DIAG": [],
+            "SYME": [],
+            "ANTI": [],
+        },
+        optional=False,
+        en="mesh, matrices or conditions, names of unknowns, diagonal, symmetric or "
+        "antisymmetric part",
+        fr="maillage, matrices ou conditions, noms d'inconnues, diagonale, partie symétrique ou "
+        "antisymétrique",
+    ),
+    gives=by("what", {"MAIL": "MAILLAGE", "COMP": "LISTMOTS", "DIAG": "CHPOINT"}, "RIGIDITE"),
     syntax="GEO1 = EXTR RIG1 'MAIL' ('NOMU' | 'MULT' | 'UNIL') ;\n"
     "RIG2 = EXTR RIG1 'RIGI' 'NOMU' | 'MULT' | 'UNIL' ;\nRIG2 = EXTR RIG1 'SYME' | 'ANTI' ;\n"
     "LISTMOTS1 = EXTR RIG1 'COMP' ('DUAL') ;\nCHPO1 = EXTR RIG1 'DIAG' ;\n"
@@ -138,62 +168,116 @@ _EXTRACTED: dict[str, Callable[[Call, Matrix], Any]] = {
     "inconnues, sa diagonale, ou les termes de certaines inconnues et équations.",
     examples=("OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; LIST (EXTR (APPU UX 2. P1) 'DIAG') ;",),
 )
-def _extract(call: Call, matrix: Matrix) -> Any:
-    word = call.keyword(tuple(_EXTRACTED))
-    if word is not None:
-        return _EXTRACTED[word](call, matrix)
-    lists = call.all("LISTMOTS")
-    names = lists if len(lists) == 2 else [ListMots([w]) for w in (call.word(), call.word()) if w]
-    if len(names) != 2:
-        raise call.bad(
-            "EXTR of a RIGIDITE wants a keyword or two names",
-            matrix,
-            "one of " + " ".join(_EXTRACTED),
-        )
-    primal, dual = ({str(w).upper().rstrip() for w in n.values} for n in names)
+def extract(call: Call, matrix: Matrix, what: Chosen) -> Mesh | Matrix | ListMots | NodeField:
+    """A part of a matrix."""
+    if what.word == "RIGI" and what["part"] is None:
+        raise call.error("operators.matrices.extr-rigi-wants-word")
+    return _EXTRACTED[what.word](matrix, what)
+
+
+@EXTR.form(
+    _MATRIX,
+    arg("unknowns", "LISTMOTS", en="unknowns", fr="inconnues"),
+    arg("equations", "LISTMOTS", en="equations", fr="équations"),
+)
+def extract_terms(matrix: Matrix, unknowns: ListMots, equations: ListMots) -> Matrix:
+    """The terms of some unknowns and equations."""
+    primal, dual = ({str(w).upper().rstrip() for w in n.values} for n in (unknowns, equations))
     return parts.named_part(matrix, primal, dual)
 
 
-@REDU.on(
-    "RIGIDITE",
+@EXTR.form(
+    _MATRIX,
+    arg("unknown", "MOT", kind="component", en="unknown", fr="inconnue"),
+    opt("equation", "MOT", kind="component", en="equation", fr="équation"),
+)
+def extract_term(call: Call, matrix: Matrix, unknown: str, equation: str | None) -> Matrix:
+    """The terms of one unknown and one equation."""
+    if equation is None:
+        raise call.error("operators.matrices.extr-wants-word-or-names", matrix, words=_EXTRACTED)
+    return parts.named_part(matrix, {unknown.upper().rstrip()}, {equation.upper().rstrip()})
+
+
+@REDU.form(
+    _MATRIX,
+    arg("mesh", "MAILLAGE", en="cells that stay", fr="éléments gardés"),
     syntax="RIG2 = REDU RIG1 GEO1 ;",
     en="A matrix keeps the element matrices of the cells of the mesh, and the conditions on its "
     "nodes.",
     fr="Une rigidité garde les matrices des éléments du maillage, et les conditions portant sur "
     "ses nœuds.",
 )
-def _reduced(call: Call, matrix: Matrix) -> Matrix:
-    return parts.on_mesh(matrix, call.required("MAILLAGE"))
+def reduced(matrix: Matrix, mesh: Mesh) -> Matrix:
+    """A matrix on fewer cells."""
+    return parts.on_mesh(matrix, mesh)
 
 
-@CHAN.on(
-    "TYPE",
+_CHANGED = arg("matrix", "RIGIDITE", en="matrix", fr="rigidité")
+
+
+@CHAN.form(
+    said("TYPE"),
+    _CHANGED,
+    arg("kind", "MOT", en="its new kind", fr="son nouveau sous-type"),
     of=("RIGIDITE",),
     syntax="RIG2 = CHAN 'TYPE' RIG1 MOT1 ;",
     en="The same matrix of another kind ('RIGIDITE', 'MASSE', 'AMORTISS').",
     fr="La même matrice avec un autre sous-type ('RIGIDITE', 'MASSE', 'AMORTISS').",
 )
-def _kind(call: Call, word: str) -> Matrix:
-    matrix: Matrix = call.required("RIGIDITE")
-    kind = call.required("MOT").upper().rstrip()
-    blocks = tuple(replace(b, kind=kind, zone=None) for b in matrix.blocks)
-    return Matrix(matrix.table, blocks, matrix.relations, kind)
+def change_kind(matrix: Matrix, kind: str) -> Matrix:
+    """Another kind."""
+    name = kind.upper().rstrip()
+    blocks = tuple(replace(b, kind=name, zone=None) for b in matrix.blocks)
+    return Matrix(matrix.table, blocks, matrix.relations, name)
 
 
-@CHAN.on(
-    "DEPE",
+@CHAN.form(
+    said("DEPE"),
+    _CHANGED,
     of=("RIGIDITE",),
     syntax="RIG2 = CHAN 'DEPE' RIG1 ;",
     en="Relations to be eliminated by RESO: RESO eliminates all it can, so they stay as they are.",
     fr="Relations à éliminer par RESO : RESO les élimine toujours quand il le peut, elles restent "
     "telles quelles.",
 )
-def _dependent(call: Call, word: str) -> Matrix:
-    return call.required("RIGIDITE")  # type: ignore[no-any-return]
+def dependent(matrix: Matrix) -> Matrix:
+    """The matrix itself."""
+    return matrix
 
 
-@CHAN.on(
-    "INCO",
+_SHAPE = (
+    choice(
+        "shape",
+        ("SYME", "ANTI", "QUEL"),
+        en="symmetric, antisymmetric or any (default)",
+        fr="symétrique, antisymétrique ou quelconque (par défaut)",
+    ),
+    flag(
+        "own",
+        "DUPL",
+        en="each condition gets a multiplier of its own",
+        fr="chaque condition reçoit son propre multiplicateur",
+    ),
+)
+_FOUR = (
+    ("old_unknowns", "unknowns", "inconnues"),
+    ("new_unknowns", "their new names", "leurs nouveaux noms"),
+    ("old_equations", "equations", "équations"),
+    ("new_equations", "their new names", "leurs nouveaux noms"),
+)
+
+
+@CHAN.form(
+    said("INCO"),
+    choice(
+        "imaginary",
+        ("COMP",),
+        optional=False,
+        en="an I (imaginary part) before all names",
+        fr="un I (partie imaginaire) devant tous les noms",
+    ),
+    _CHANGED,
+    *_SHAPE,
     of=("RIGIDITE",),
     syntax="RIG2 = CHAN 'INCO' RIG1 LISTMOTS1 LISTMOTS2 LISTMOTS3 LISTMOTS4 | MOT1 MOT2 MOT3 MOT4 "
     "| 'COMP' ('SYME' | 'ANTI' | 'QUEL') ('DUPL') ;",
@@ -208,34 +292,76 @@ def _dependent(call: Call, word: str) -> Matrix:
     "pas de condition. Le résultat est quelconque sauf si 'SYME' est dit. 'DUPL' donne à chaque "
     "condition son propre multiplicateur, pour qu'elle s'ajoute à celle dont elle vient.",
 )
-def _other_names(call: Call, word: str) -> Matrix:
-    matrix: Matrix = call.required("RIGIDITE")
-    primal, dual = _name_changes(call, matrix)
-    shape = own = None
-    while (said := call.keyword(("SYME", "ANTI", "QUEL", "DUPL"))) is not None:
-        shape, own = (shape, said) if said == "DUPL" else (said, own)
+def imaginary_names(
+    call: Call, imaginary: str, matrix: Matrix, shape: str | None, own: bool
+) -> Matrix:
+    """Names of imaginary parts."""
+    if matrix.relations:
+        raise call.error("operators.matrices.conditions-not-imaginary", matrix)
+    primal = {u: imaginary_of(u) for b in matrix.blocks for u in b.unknowns}
+    dual = {d: imaginary_of(d) for b in matrix.blocks for d in b.duals}
+    return _renamed(matrix, primal, dual, shape, own)
+
+
+@CHAN.form(
+    said("INCO"),
+    _CHANGED,
+    *(arg(name, "LISTMOTS", en=en, fr=fr) for name, en, fr in _FOUR),
+    *_SHAPE,
+    of=("RIGIDITE",),
+)
+def other_names(
+    call: Call,
+    matrix: Matrix,
+    old_unknowns: ListMots,
+    new_unknowns: ListMots,
+    old_equations: ListMots,
+    new_equations: ListMots,
+    shape: str | None,
+    own: bool,
+) -> Matrix:
+    """Other names, from lists."""
+    given = (old_unknowns, new_unknowns, old_equations, new_equations)
+    lists = [[str(w).rstrip() for w in v.values] for v in given]
+    return _renamed(matrix, *_name_changes(call, matrix, lists), shape, own)
+
+
+@CHAN.form(
+    said("INCO"),
+    _CHANGED,
+    *(arg(name, "MOT", kind="component", en=en, fr=fr) for name, en, fr in _FOUR),
+    *_SHAPE,
+    of=("RIGIDITE",),
+)
+def other_name(
+    call: Call,
+    matrix: Matrix,
+    old_unknowns: str,
+    new_unknowns: str,
+    old_equations: str,
+    new_equations: str,
+    shape: str | None,
+    own: bool,
+) -> Matrix:
+    """Other names of one unknown and one equation."""
+    given = (old_unknowns, new_unknowns, old_equations, new_equations)
+    lists = [[w.upper().rstrip()] for w in given]
+    return _renamed(matrix, *_name_changes(call, matrix, lists), shape, own)
+
+
+def _renamed(
+    matrix: Matrix, primal: dict[str, str], dual: dict[str, str], shape: str | None, own: bool
+) -> Matrix:
     made = parts.renamed(matrix, primal, dual, shape == "SYME")
     return parts.with_own_multipliers(made) if own else made
 
 
-def _name_changes(call: Call, matrix: Matrix) -> tuple[dict[str, str], dict[str, str]]:
+def _name_changes(
+    call: Call, matrix: Matrix, lists: list[list[str]]
+) -> tuple[dict[str, str], dict[str, str]]:
     """Old names of unknowns and of equations with the new ones."""
-    lists = [[str(w).rstrip() for w in v.values] for v in call.all("LISTMOTS")]
-    if not lists and call.keyword(("COMP",)) is not None:
-        if matrix.relations:
-            raise call.bad(
-                "conditions are not made imaginary by CHAN",
-                matrix,
-                "change the matrix before ET joins it to its conditions",
-            )
-        return (
-            {u: imaginary(u) for b in matrix.blocks for u in b.unknowns},
-            {d: imaginary(d) for b in matrix.blocks for d in b.duals},
-        )
-    if not lists:
-        lists = [[w.upper().rstrip()] for w in (call.word() for _ in range(4)) if w]
-    if len(lists) != 4 or len(lists[0]) != len(lists[1]) or len(lists[2]) != len(lists[3]):
-        raise call.bad("CHAN 'INCO' of a matrix wants four lists, of equal lengths by pairs")
+    if len(lists[0]) != len(lists[1]) or len(lists[2]) != len(lists[3]):
+        raise call.error("operators.matrices.inco-wants-four-lists")
     equations = {d for b in matrix.blocks for d in b.duals}
     equations |= {dual_of(u) for r in matrix.relations for u in (*r.unknowns, "LX")}
     if set(lists[1]) <= equations and len(lists[0]) == len(lists[2]):
@@ -243,7 +369,7 @@ def _name_changes(call: Call, matrix: Matrix) -> tuple[dict[str, str], dict[str,
         lists[1], lists[2] = lists[2], lists[1]
     primal = dict(zip(lists[0], lists[1], strict=True))
     if primal.get("LX", "LX") != "LX":
-        raise call.bad("the multiplier of a condition is always called LX here")
+        raise call.error("operators.matrices.multiplier-keeps-its-name")
     return primal, dict(zip(lists[2], lists[3], strict=True))
 
 
@@ -264,8 +390,8 @@ def _form(left: NodeField, matrix: Matrix, right: NodeField) -> float:
 
 @operator(
     "XTMX",
-    arg("field", "CHPOINT"),
-    arg("matrix", "RIGIDITE"),
+    arg("field", "CHPOINT", en="X", fr="X"),
+    arg("matrix", "RIGIDITE", en="M", fr="M"),
     family="matrix",
     help=Help(
         "Quadratic form X^T M X of a field and a matrix.",
@@ -283,9 +409,9 @@ def xtmx(field: NodeField, matrix: Matrix) -> float:
 
 @operator(
     "YTMX",
-    arg("right", "CHPOINT"),
-    arg("left", "CHPOINT"),
-    arg("matrix", "RIGIDITE"),
+    arg("right", "CHPOINT", en="X", fr="X"),
+    arg("left", "CHPOINT", en="Y", fr="Y"),
+    arg("matrix", "RIGIDITE", en="M", fr="M"),
     family="matrix",
     help=Help(
         "Bilinear form Y^T M X of two fields (X first) and a matrix.",

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from ssilang.kernel.fields import node_algebra
@@ -15,8 +17,9 @@ from ssilang.kernel.matrices.outer import sum_of_outer_products
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.modal.basis import work
 from ssilang.kernel.statics.linear import linear_system, product
-from ssilang.language.registry import Help, arg, operator, opt
+from ssilang.language.registry import Chosen, Help, arg, flag, operator, opt, select
 from ssilang.language.run.call import Call
+from ssilang.language.values import ListChpo, ListReel
 from ssilang.operators.numbers.numbers import session_generator
 from ssilang.operators.workspace import workspace
 
@@ -25,6 +28,16 @@ _TWO = "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; K = (APPU 'UX' 4. P) ET (APPU 'UX'
 
 @operator(
     "CHPO",
+    select(
+        "values",
+        {
+            "ALEATOIRE": [],
+            "UNIFORME": [arg("value", "FLOTTANT", en="value", fr="valeur")],
+        },
+        en="random, or the same everywhere",
+        fr="aléatoires, ou la même partout",
+    ),
+    arg("matrix", "RIGIDITE", en="matrix", fr="rigidité"),
     family="fields",
     full_name="CHPOINT",
     help=Help(
@@ -35,28 +48,26 @@ _TWO = "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; K = (APPU 'UX' 4. P) ET (APPU 'UX'
         syntax="CHPO1 = CHPO 'ALEATOIRE' | 'UNIFORME' X1 RIG1 ;",
         examples=(_TWO + "LIST (CHPO 'UNIFORME' 2. K) ;",),
     ),
-    reads_itself=True,
 )
-def chpo(call: Call) -> NodeField:
+def chpo(call: Call, values: Chosen | None, matrix: Matrix) -> NodeField:
     """Field on the unknowns of a matrix."""
-    word = call.keyword(("ALEA", "UNIF"))
-    if word is None:
-        raise call.bad("which values?", hint="'ALEATOIRE', or 'UNIFORME' and a number")
-    value = call.required("FLOTTANT", after=call.keyword_end) if word == "UNIF" else 0.0
-    numbering = numbering_of(call.required("RIGIDITE"))
+    if values is None:
+        raise call.error("operators.matrices.which-values")
+    value = values["value"] if values.word == "UNIFORME" else None
+    numbering = numbering_of(matrix)
     generator = session_generator(call, None)
     made = {}
     for name in numbering.unknowns:
         nodes = numbering.nodes[numbering.where(name)]
         n = len(nodes)
-        made[name] = NodeValues(nodes, np.full(n, value) if word == "UNIF" else generator.random(n))
+        made[name] = NodeValues(nodes, generator.random(n) if value is None else np.full(n, value))
     return NodeField(numbering.table, made, "DIFFUS")
 
 
 @operator(
     "XXT",
-    arg("field", "CHPOINT"),
-    opt("factor", "FLOTTANT", default=1.0),
+    arg("field", "CHPOINT", en="v", fr="v"),
+    opt("factor", "FLOTTANT", default=1.0, en="a", fr="a"),
     family="matrix",
     help=Help(
         en="Stiffness a v v^T of a nodal field v (forces, or displacements): one full element on "
@@ -77,8 +88,8 @@ def xxt(field: NodeField, factor: float) -> Matrix:
 
 @operator(
     "CMCT",
-    arg("matrix", "RIGIDITE"),
-    arg("diagonal", "CHPOINT"),
+    arg("matrix", "RIGIDITE", en="relations C", fr="relations C"),
+    arg("diagonal", "CHPOINT", en="M^-1", fr="M^-1"),
     family="matrix",
     help=Help(
         en="Condensation. With relations C and a field holding the inverse of a diagonal M: the "
@@ -99,7 +110,10 @@ def cmct(matrix: Matrix, diagonal: NodeField) -> Matrix:
     return condensed_on_multipliers(matrix, diagonal)
 
 
-@cmct.form(arg("matrix", "RIGIDITE"), arg("relations", "RIGIDITE"))
+@cmct.form(
+    arg("matrix", "RIGIDITE", en="matrix", fr="rigidité"),
+    arg("relations", "RIGIDITE", en="relations", fr="relations"),
+)
 def cmct_of_matrix(matrix: Matrix, relations: Matrix) -> Matrix:
     """On the unknowns that stay."""
     return condensed_by_relations(matrix, relations)
@@ -107,9 +121,9 @@ def cmct_of_matrix(matrix: Matrix, relations: Matrix) -> Matrix:
 
 @operator(
     "CABL",
-    arg("mesh", "MAILLAGE"),
-    arg("force", "FLOTTANT"),
-    arg("percent", "FLOTTANT"),
+    arg("mesh", "MAILLAGE", en="cables", fr="câbles"),
+    arg("force", "FLOTTANT", en="force", fr="force", unit="N"),
+    arg("percent", "FLOTTANT", en="lengthening under it", fr="son allongement", unit="%"),
     family="matrix",
     full_name="CABLE",
     help=Help(
@@ -125,18 +139,18 @@ def cmct_of_matrix(matrix: Matrix, relations: Matrix) -> Matrix:
 def cabl(call: Call, mesh: Mesh, force: float, percent: float) -> Matrix:
     """Cables."""
     if percent == 0.0:
-        raise call.bad("a force at no lengthening gives no stiffness")
+        raise call.error("operators.matrices.force-without-lengthening")
     return cable_stiffness(mesh, workspace(call.session).dimension, force, percent)
 
 
 @operator(
     "MFIL",
-    arg("weights", "CHPOINT"),
-    opt("radius", "FLOTTANT", default=0.0),
-    opt("power", "FLOTTANT", default=1.0),
-    opt("least", "FLOTTANT", default=0.0),
-    opt("unknown", "MOT"),
-    opt("dual", "MOT"),
+    arg("weights", "CHPOINT", en="weight of each node", fr="poids de chaque noeud"),
+    opt("radius", "FLOTTANT", default=0.0, en="radius", fr="rayon", unit="m"),
+    opt("power", "FLOTTANT", default=1.0, en="power", fr="puissance"),
+    opt("least", "FLOTTANT", default=0.0, en="least weight kept", fr="plus petit poids gardé"),
+    opt("unknown", "MOT", kind="component", en="unknown, else SCAL", fr="inconnue, sinon SCAL"),
+    opt("dual", "MOT", kind="component", en="dual, else the same", fr="duale, sinon la même"),
     family="matrix",
     help=Help(
         en="Matrix whose product with a nodal field smooths it: each node takes the mean of its "
@@ -165,7 +179,7 @@ def mfil(
 ) -> Matrix:
     """Weights of a filter."""
     if radius < 0.0:
-        raise call.bad(f"the radius of a filter is not negative, this one is {radius:g}", radius)
+        raise call.error("operators.matrices.filter-radius-negative", radius, radius=radius)
     name = "SCAL" if unknown is None else unknown.rstrip()
     return filter_weights(
         weights, radius, power, least, name, name if dual is None else dual.rstrip()
@@ -174,7 +188,7 @@ def mfil(
 
 @operator(
     "DIMN",
-    arg("matrix", "RIGIDITE"),
+    arg("matrix", "RIGIDITE", en="matrix", fr="rigidité"),
     family="matrix",
     full_name="DIMNOYAU",
     help=Help(
@@ -195,6 +209,19 @@ def dimn(matrix: Matrix) -> int:
 
 @operator(
     "ORTH",
+    flag(
+        "alike",
+        "SEMBLABLE",
+        en="the fields have the same nodes and components",
+        fr="les champs ont les mêmes noeuds et composantes",
+    ),
+    arg("field", "CHPOINT", en="field X", fr="champ X"),
+    arg("shapes", "LISTCHPO", en="fields U", fr="champs U"),
+    arg("norms", "LISTREEL", en="products U K U", fr="produits U K U"),
+    opt("loaded", "LISTCHPO", en="fields K U", fr="champs K U"),
+    arg("matrix", "RIGIDITE", en="matrix K", fr="rigidité K"),
+    opt("precision", "FLOTTANT", en="precision", fr="précision"),
+    opt("passes", "ENTIER", default=2, en="passes at most", fr="passages au plus"),
     family="matrix",
     full_name="ORTHOGONALISER",
     help=Help(
@@ -211,32 +238,38 @@ def dimn(matrix: Matrix) -> int:
             "(PROG 1. 2.) ; Y = ORTH X (SUIT U) (PROG 9.) K ; LIST (YTMX Y U K) ;",
         ),
     ),
-    reads_itself=True,
 )
-def orth(call: Call) -> NodeField:
+def orth(
+    call: Call,
+    alike: bool,
+    field: NodeField,
+    shapes: ListChpo,
+    norms: ListReel,
+    loaded: ListChpo | None,
+    matrix: Matrix,
+    precision: float | None,
+    passes: int,
+) -> NodeField:
     """Gram and Schmidt's step."""
-    call.keyword(("SEMB",))
-    x: NodeField = call.required("CHPOINT")
-    shapes = call.required("LISTCHPO").values
-    norms = call.required("LISTREEL").values
-    loaded = call.optional("LISTCHPO")
-    matrix: Matrix = call.required("RIGIDITE")
-    precision = call.optional("FLOTTANT")
-    passes = call.optional("ENTIER", default=2)
-    call.keyword(("SEMB",))
-    forces = [product(matrix, u) for u in shapes] if loaded is None else loaded.values
-    if not len(shapes) == len(norms) == len(forces):
-        raise call.bad(
-            f"{len(shapes)} fields, {len(norms)} products and {len(forces)} forces do not match"
+    fields: list[Any] = list(shapes.values)
+    forces: list[Any] = (
+        [product(matrix, u) for u in fields] if loaded is None else list(loaded.values)
+    )
+    if not len(fields) == len(norms) == len(forces):
+        raise call.error(
+            "operators.matrices.products-do-not-match",
+            n_shapes=len(fields),
+            n_norms=len(norms),
+            n_forces=len(forces),
         )
-    if (norms == 0.0).any():
-        raise call.bad("a field whose product U K U is zero cannot be orthogonalised to")
+    if (norms.values == 0.0).any():
+        raise call.error("operators.matrices.product-is-zero")
     for turn in range(max(passes, 1)):
         worst = 0.0
-        for u, k, f in zip(shapes, norms, forces, strict=True):
-            share = work(f, x) / k
+        for u, k, f in zip(fields, norms.values, forces, strict=True):
+            share = work(f, field) / k
             worst = max(worst, abs(share))
-            x = node_algebra.added(x, u, -share)
+            field = node_algebra.added(field, u, -share)
         if precision is None or (turn and worst <= precision):
             break
-    return x
+    return field

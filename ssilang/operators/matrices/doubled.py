@@ -27,10 +27,11 @@ def warn_doubled_supports(
         return
     x, y, z = matrix.table.coordinates[found.held[0]]
     session.warn(
-        "bad-value", span, operator=operator,
-        message=f"{len(found.held)} nodes that conditions hold have no stiffness, but lie on nodes "
-        f"that have (one at {x:.4g} {y:.4g} {z:.4g}): they hold nothing",
-        hint="a line or face made twice has new nodes: name it once and use the name "
-        "(BAS = P1 D P2 ;), take a part of the mesh (POIN, COTE), or join both with ELIM",
-        severity="warning",
-    )  # fmt: skip
+        "operators.matrices.held-nodes-without-stiffness",
+        span,
+        operator=operator,
+        n_held=len(found.held),
+        x=x,
+        y=y,
+        z=z,
+    )

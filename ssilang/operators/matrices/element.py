@@ -16,14 +16,16 @@ from ssilang.kernel.elements.solids.hooke import hooke_block
 from ssilang.kernel.elements.solids.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Mode, Model
 from ssilang.kernel.matrices.build import nodal_diagonal
 from ssilang.kernel.matrices.lumping import lumped_matrix
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.modal.shape_models import is_shape, shape_matrix
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import Help, arg, choice, flag, key, many, operator, opt
 from ssilang.language.run.call import Call
+from ssilang.language.values import ListMots
 from ssilang.operators.models.contact import model_relations
 from ssilang.operators.workspace import workspace
 
@@ -55,7 +57,7 @@ def present(call: Call, model: Model, pressures: bool = False) -> Model:
 
 def _assembled(model: Model, blocks: list[ElementMatrices], kind: str) -> Matrix:
     if not blocks:
-        raise MeshError("the model has no mechanical zone", "CHARGEMENT zones only carry loads")
+        raise MeshError("operators.matrices.no-mechanical-zone")
     return Matrix(model.mesh.nodes, tuple(blocks), (), kind)
 
 
@@ -64,31 +66,55 @@ def nodes_of(place: Mesh | Point) -> IntArray:
     return np.array([place.node]) if isinstance(place, Point) else place.sorted_node_ids
 
 
-def additional(call: Call, kind: str) -> Matrix:
-    """Values added at nodes: words DEPL, ROTA or names of unknowns, a number, a place."""
+MODEL = arg("model", "MMODEL", en="model", fr="modèle")
+PARAMETERS = many(
+    "fields",
+    "MCHAML",
+    at_least=1,
+    en="parameters, or Hooke matrices",
+    fr="caractéristiques, ou matrices de Hooke",
+)
+_IGNORED = (
+    flag("alone", "NOER", en="accepted, changes nothing", fr="accepté, sans effet"),
+    flag("reference", "REFE", en="accepted, changes nothing", fr="accepté, sans effet"),
+)
+_BUCKLING = flag(
+    "buckling",
+    "FLAM",
+    en="of type MASSE, for an analysis of buckling with VIBR",
+    fr="de type MASSE, pour une analyse de flambage avec VIBR",
+)
+_AT_NODES = (
+    key(
+        "names",
+        ("DEPL", "ROTA", *UNKNOWNS),
+        repeated=True,
+        en="all translations (default), all rotations, or unknowns",
+        fr="toutes les translations (par défaut), toutes les rotations, ou des inconnues",
+    ),
+    arg("amount", "FLOTTANT", en="value at each node", fr="valeur en chaque noeud"),
+    arg("place", "MAILLAGE", "POINT", en="nodes", fr="noeuds"),
+)
+
+
+def _additional(
+    call: Call, kind: str, names: list[str], amount: float, place: Mesh | Point
+) -> Matrix:
+    """Values added at nodes, on groups of unknowns or on unknowns by name."""
     mode = workspace(call.session).mode
-    names: list[str] = []
-    value = call.read("FLOTTANT")
-    place = call.read("MAILLAGE", "POINT")
-    while call.peek_word() is not None:
-        if call.keyword(["DEPL"]):
-            names += NODE_TRANSLATIONS[mode]
-        elif call.keyword(["ROTA"]):
-            names += NODE_ROTATIONS[mode]
-        elif (name := call.keyword(UNKNOWNS)) is not None:
-            names.append(name)
-        else:
-            break
-    amount = value.value if value is not None else call.required("FLOTTANT")
-    where = place.value if place is not None else call.required("MAILLAGE", "POINT")
-    nodes = nodes_of(where)
-    chosen = dict.fromkeys(names or NODE_TRANSLATIONS[mode])
-    values = {n: np.full(len(nodes), float(amount)) for n in chosen}
-    return nodal_diagonal(where.nodes, nodes, values, kind)
+    groups = {"DEPL": NODE_TRANSLATIONS[mode], "ROTA": NODE_ROTATIONS[mode]}
+    said = [n for name in names for n in groups.get(name, (name,))]
+    nodes = nodes_of(place)
+    chosen = dict.fromkeys(said or NODE_TRANSLATIONS[mode])
+    values = {n: np.full(len(nodes), amount) for n in chosen}
+    return nodal_diagonal(place.nodes, nodes, values, kind)
 
 
 @operator(
     "RIGI",
+    MODEL,
+    replace(PARAMETERS, optional=True),
+    *_IGNORED,
     family="matrix",
     full_name="RIGIDITE",
     help=Help(
@@ -103,30 +129,32 @@ def additional(call: Call, kind: str) -> Matrix:
         "RIG1 = RIGI ('DEPL') ('ROTA') | NOM1 ... VAL1 GEO1 ;",
         examples=("OPTI DIME 2 ; P = 0. 0. ; K = RIGI 'DEPL' 1.E6 P ; LIST (TYPE K) ;",),
     ),
-    reads_itself=True,
 )
-def rigi(call: Call) -> Matrix:
-    """Elastic stiffness of a model, or springs at nodes."""
-    operand = call.read("MMODEL")
-    if operand is None:
-        return additional(call, "RIGIDITE")
-    if any(z.formulation == "CONTACT" for z in operand.value.zones):
-        return _contact(call, operand.value)
-    model, material = present(call, operand.value), _fields(call)
-    blocks = [families.stiffness(z, material) for z in model.zones if not is_shape(z)]
-    return _assembled(model, [*blocks, *_shapes(model, material, "RIGIDITE")], "RIGIDITE")
+def rigi(
+    call: Call, model: Model, fields: tuple[CellField, ...], alone: bool, reference: bool
+) -> Matrix:
+    """Elastic stiffness of a model."""
+    if any(z.formulation == "CONTACT" for z in model.zones):
+        return _contact(call, model, fields)
+    if not fields:
+        raise call.missing(("MCHAML",))
+    shown, material = present(call, model), joined(fields)
+    blocks = [families.stiffness(z, material) for z in shown.zones if not is_shape(z)]
+    return _assembled(shown, [*blocks, *_shapes(shown, material, "RIGIDITE")], "RIGIDITE")
 
 
-def _contact(call: Call, model: Model) -> Matrix:
+@rigi.form(*_AT_NODES)
+def springs(call: Call, names: list[str], amount: float, place: Mesh | Point) -> Matrix:
+    """Springs at nodes."""
+    return _additional(call, "RIGIDITE", names, amount, place)
+
+
+def _contact(call: Call, model: Model, fields: tuple[CellField, ...]) -> Matrix:
     """Stiffness of the bodies of a model and the unilateral relations of its sides."""
-    fields = call.all("MCHAML")
-    material = joined(tuple(fields)) if fields else None
+    material = joined(fields) if fields else None
     rubbing = next((z for z in model.zones if z.behaviour[:1] == ("FROTTANT",)), None)
     if rubbing is not None:
-        raise call.bad(
-            "contact with friction is no matrix: its forces depend on the way there",
-            hint="PASAPAS takes the model; RIGI takes CONTACT UNILATERAL",
-        )
+        raise call.error("operators.matrices.friction-is-no-matrix")
     relations = tuple(c.relations for c in model_relations(model, material))
     zones = present(call, model).zones
     if zones and material is None:
@@ -141,17 +169,11 @@ def _shapes(model: Model, material: CellField, kind: str) -> list[ElementMatrice
     return [] if block is None else [block]
 
 
-def _fields(call: Call) -> CellField:
-    """The fields of characteristics that follow, at least one, as one."""
-    first: CellField = call.required("MCHAML")
-    found = (first, *call.all("MCHAML"))
-    while call.keyword(["NOER", "REFE"]):
-        found = (*found, *call.all("MCHAML"))
-    return joined(found)
-
-
 @operator(
     "MASS",
+    MODEL,
+    PARAMETERS,
+    *_IGNORED,
     family="matrix",
     full_name="MASSE",
     help=Help(
@@ -165,20 +187,27 @@ def _fields(call: Call) -> CellField:
         "MAS1 = MASS ('DEPL') ('ROTA') | NOM1 ... VAL1 GEO1 ;",
         examples=("OPTI DIME 2 ; P = 0. 0. ; M = MASS 'DEPL' 3. P ; LIST (TYPE M) ;",),
     ),
-    reads_itself=True,
 )
-def mass(call: Call) -> Matrix:
-    """Consistent mass of a model, or masses at nodes."""
-    operand = call.read("MMODEL")
-    if operand is None:
-        return additional(call, "MASSE")
-    model, material = present(call, operand.value), _fields(call)
-    blocks = [families.mass(z, material) for z in model.zones if not is_shape(z)]
-    return _assembled(model, [*blocks, *_shapes(model, material, "MASSE")], "MASSE")
+def mass(
+    call: Call, model: Model, fields: tuple[CellField, ...], alone: bool, reference: bool
+) -> Matrix:
+    """Consistent mass of a model."""
+    shown, material = present(call, model), joined(fields)
+    blocks = [families.mass(z, material) for z in shown.zones if not is_shape(z)]
+    return _assembled(shown, [*blocks, *_shapes(shown, material, "MASSE")], "MASSE")
+
+
+@mass.form(*_AT_NODES)
+def masses(call: Call, names: list[str], amount: float, place: Mesh | Point) -> Matrix:
+    """Masses at nodes."""
+    return _additional(call, "MASSE", names, amount, place)
 
 
 @operator(
     "LUMP",
+    MODEL,
+    PARAMETERS,
+    *_IGNORED,
     family="matrix",
     help=Help(
         en="Diagonal mass matrix: of a model (rows summed for linear elements, diagonal scaled "
@@ -190,21 +219,36 @@ def mass(call: Call) -> Matrix:
         syntax="MAS1 = LUMP MODL1 MAT1 (CAR1) ;\nMAS2 = LUMP MAS1 (LMOT1) ;",
         examples=("OPTI DIME 2 ; P = 0. 0. ; M = LUMP (MASS 'DEPL' 3. P) ; LIST (TYPE M) ;",),
     ),
-    reads_itself=True,
 )
-def lump(call: Call) -> Matrix:
-    """Diagonal mass."""
-    operand = call.read("MMODEL")
-    if operand is None:
-        full = call.required("RIGIDITE")
-        kept = call.optional("LISTMOTS")
-        return lumped_matrix(full, () if kept is None else tuple(m.rstrip() for m in kept.values))
-    model, material = present(call, operand.value), _fields(call)
-    return _assembled(model, [families.mass(z, material, True) for z in model.zones], "MASSE")
+def lump(
+    call: Call, model: Model, fields: tuple[CellField, ...], alone: bool, reference: bool
+) -> Matrix:
+    """Diagonal mass of a model."""
+    shown, material = present(call, model), joined(fields)
+    return _assembled(shown, [families.mass(z, material, True) for z in shown.zones], "MASSE")
+
+
+@lump.form(
+    arg("matrix", "RIGIDITE", en="full mass", fr="masse pleine"),
+    opt(
+        "kept",
+        "LISTMOTS",
+        kind="component",
+        en="unknowns that keep their diagonal term",
+        fr="inconnues qui gardent leur terme diagonal",
+    ),
+)
+def lump_of_matrix(matrix: Matrix, kept: ListMots | None) -> Matrix:
+    """Diagonal mass of a full one."""
+    return lumped_matrix(matrix, () if kept is None else tuple(m.rstrip() for m in kept.values))
 
 
 @operator(
     "AMOR",
+    MODEL,
+    arg("boundary", "MAILLAGE", en="absorbing boundary", fr="frontière absorbante"),
+    PARAMETERS,
+    *_IGNORED,
     family="matrix",
     full_name="AMORTISSEMENT",
     help=Help(
@@ -224,30 +268,68 @@ def lump(call: Call) -> Matrix:
         "AMO1 = AMOR ('DEPL') ('ROTA') | NOM1 ... VAL1 GEO1 ;",
         examples=("OPTI DIME 2 ; P = 0. 0. ; C = AMOR 'DEPL' 3. P ; LIST (TYPE C) ;",),
     ),
-    reads_itself=True,
 )
-def amor(call: Call) -> Matrix | tuple[Matrix, Matrix]:
-    """Viscous damping of a model, absorbing boundary, or dashpots at nodes."""
-    operand = call.read("MMODEL")
-    if operand is None:
-        return additional(call, "AMORTISSEMENT")
-    model = present(call, operand.value)
-    boundary = call.optional("MAILLAGE")
-    material = _fields(call)
-    boundary = call.optional("MAILLAGE") if boundary is None else boundary
-    if boundary is not None:
-        return absorbing_boundary(model, boundary, material)
-    blocks = [families.viscosity(z, material) for z in model.zones if not is_shape(z)]
-    kind = "AMORTISSEMENT"
-    if call.keyword(["COROTATIF"]) is not None:
-        pairs = zip(model.zones, blocks, strict=True)
-        turned = [corotational(z, b, material) for z, b in pairs]
-        return _assembled(model, blocks, kind), _assembled(model, turned, "RIGIDITE")
-    return _assembled(model, [*blocks, *_shapes(model, material, kind)], kind)
+def amor(
+    call: Call,
+    model: Model,
+    boundary: Mesh,
+    fields: tuple[CellField, ...],
+    alone: bool,
+    reference: bool,
+) -> Matrix:
+    """Absorbing boundary."""
+    return absorbing_boundary(present(call, model), boundary, joined(fields))
+
+
+@amor.form(
+    choice(
+        "turning",
+        ("COROTATIF",),
+        optional=False,
+        en="the damping turns with the beams",
+        fr="l'amortissement tourne avec les poutres",
+    ),
+    MODEL,
+    PARAMETERS,
+    *_IGNORED,
+)
+def turning_damping(
+    call: Call,
+    turning: str,
+    model: Model,
+    fields: tuple[CellField, ...],
+    alone: bool,
+    reference: bool,
+) -> tuple[Matrix, Matrix]:
+    """Damping that turns with beams, and the circulatory stiffness beside it."""
+    shown, material = present(call, model), joined(fields)
+    blocks = [families.viscosity(z, material) for z in shown.zones if not is_shape(z)]
+    pairs = zip(shown.zones, blocks, strict=True)
+    turned = [corotational(z, b, material) for z, b in pairs]
+    return _assembled(shown, blocks, "AMORTISSEMENT"), _assembled(shown, turned, "RIGIDITE")
+
+
+@amor.form(MODEL, PARAMETERS, *_IGNORED)
+def damping(
+    call: Call, model: Model, fields: tuple[CellField, ...], alone: bool, reference: bool
+) -> Matrix:
+    """Viscous damping of a model."""
+    shown, material, kind = present(call, model), joined(fields), "AMORTISSEMENT"
+    blocks = [families.viscosity(z, material) for z in shown.zones if not is_shape(z)]
+    return _assembled(shown, [*blocks, *_shapes(shown, material, kind)], kind)
+
+
+@amor.form(*_AT_NODES)
+def dashpots(call: Call, names: list[str], amount: float, place: Mesh | Point) -> Matrix:
+    """Dashpots at nodes."""
+    return _additional(call, "AMORTISSEMENT", names, amount, place)
 
 
 @operator(
     "HOOK",
+    MODEL,
+    PARAMETERS,
+    *_IGNORED,
     family="matrix",
     full_name="HOOKE",
     help=Help(
@@ -261,14 +343,14 @@ def amor(call: Call) -> Matrix | tuple[Matrix, Matrix]:
             "; H = HOOK M (MATE M 'YOUN' 2.E11 'NU' 0.3 'SECT' 0.01) ; LIST (TYPE H) ;",
         ),
     ),
-    reads_itself=True,
 )
-def hook(call: Call) -> CellField:
+def hook(
+    call: Call, model: Model, fields: tuple[CellField, ...], alone: bool, reference: bool
+) -> CellField:
     """Elastic matrices at the integration points."""
-    model = present(call, call.required("MMODEL"))
-    material = _fields(call)
+    material = joined(fields)
     blocks = []
-    for zone in model.zones:
+    for zone in present(call, model).zones:
         parameters = zone_field(zone, material)
         moduli = families.family_of(zone).moduli(zone, parameters, "RIGIDITE")
         blocks.append(hooke_block(zone, moduli, "RIGIDITE"))
@@ -277,6 +359,15 @@ def hook(call: Call) -> CellField:
 
 @operator(
     "KSIG",
+    MODEL,
+    many(
+        "fields",
+        "MCHAML",
+        at_least=1,
+        en="stresses, and parameters",
+        fr="contraintes, et caractéristiques",
+    ),
+    _BUCKLING,
     family="matrix",
     full_name="KSIGMA",
     help=Help(
@@ -292,26 +383,28 @@ def hook(call: Call) -> CellField:
             "U = MANU 'CHPO' L 1 'UX' 1.E-3 ; K = KSIG M (SIGM M A U) ; LIST (TYPE K) ;",
         ),
     ),
-    reads_itself=True,
 )
-def ksig(call: Call) -> Matrix:
+def ksig(call: Call, model: Model, fields: tuple[CellField, ...], buckling: bool) -> Matrix:
     """Geometric stiffness."""
-    fields: list[CellField] = call.all("MCHAML")
-    model = present(call, call.required("MMODEL"))
-    fields += call.all("MCHAML")
-    buckling = call.keyword(["FLAM"]) is not None
-    fields += call.all("MCHAML")
-    if not fields:
-        raise call.missing(("MCHAML",))
+    shown = present(call, model)
     stress = next((f for f in fields if f.title != "CARACTERISTIQUES"), fields[0])
     rest = tuple(f for f in fields if f is not stress)
     material = joined(rest) if rest else None
-    blocks = [families.geometric_stiffness(z, stress, material) for z in model.zones]
-    return _assembled(model, blocks, "MASSE" if buckling else "RIGIDITE")
+    blocks = [families.geometric_stiffness(z, stress, material) for z in shown.zones]
+    return _assembled(shown, blocks, "MASSE" if buckling else "RIGIDITE")
 
 
 @operator(
     "KP",
+    MODEL,
+    arg("pressure", "CHPOINT", "MCHAML", en="pressure", fr="pression", unit="Pa"),
+    _BUCKLING,
+    flag(
+        "whole",
+        "ASYM",
+        en="the unsymmetric part too",
+        fr="aussi la partie non symétrique",
+    ),
     family="matrix",
     help=Help(
         en="How the forces of a pressure change when the sides that carry it move and turn "
@@ -328,14 +421,11 @@ def ksig(call: Call) -> Matrix:
             "M = MODE L MECANIQUE COQ2 ; K = KP M (MANU 'CHPO' L 1 'P' 2.) ; LIST (TYPE K) ;",
         ),
     ),
-    reads_itself=True,
 )
-def kp(call: Call) -> Matrix:
+def kp(
+    call: Call, model: Model, pressure: NodeField | CellField, buckling: bool, whole: bool
+) -> Matrix:
     """Follower pressure."""
-    model = present(call, call.required("MMODEL"), pressures=True)
-    operand = call.read("CHPOINT", "MCHAML")
-    if operand is None:
-        raise call.missing(("CHPOINT", "MCHAML"))
-    words = [call.keyword(["FLAM", "ASYM"]) for _ in range(2)]
-    blocks = [pressure_stiffness(z, operand.value, "ASYM" in words) for z in model.zones]
-    return _assembled(model, blocks, "MASSE" if "FLAM" in words else "RIGIDITE")
+    shown = present(call, model, pressures=True)
+    blocks = [pressure_stiffness(z, pressure, whole) for z in shown.zones]
+    return _assembled(shown, blocks, "MASSE" if buckling else "RIGIDITE")

@@ -11,8 +11,8 @@ from ssilang.language.values import ListChpo, ListReel
 
 @operator(
     "ZXXT",
-    arg("fields", "LISTCHPO"),
-    arg("factors", "LISTREEL"),
+    arg("fields", "LISTCHPO", en="fields v", fr="champs v"),
+    arg("factors", "LISTREEL", en="numbers a", fr="nombres a"),
     family="matrix",
     help=Help(
         en="Full matrix of damping a1 v1 v1T + a2 v2 v2T + ... of fields v and numbers a, behind "

@@ -5,16 +5,17 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.materials.model import Model
 from ssilang.kernel.matrices import relations as made
 from ssilang.kernel.matrices import tied_relations as tied
-from ssilang.kernel.matrices.matrix import Matrix, Relations
+from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.matrices.relations import Term
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import Help, arg, choice, each, flag, key, operator, opt, said
 from ssilang.language.run.call import Call
-from ssilang.language.values import Mot, Procedure
+from ssilang.language.values import ListMots, Mot, Procedure
 from ssilang.operators.matrices.supports import as_matrix, nodes_of
-from ssilang.operators.mesh.refining import tie_relations
+from ssilang.operators.mesh.changes.refining import tie_relations
 from ssilang.operators.workspace import workspace
 
 _SENSE = {"MINI": 1, "MAXI": -1}
@@ -30,21 +31,6 @@ class _Sum:
     support: Point | Mesh | None = None
 
 
-def _rela(call: Call) -> Matrix | None:
-    sense = 0
-    while (word := call.keyword((*_SENSE, *_OPTIONS))) is not None:
-        if word not in _SENSE:
-            return _OPTIONS[word](call)
-        sense = _SENSE[word]
-    field = call.read("CHPOINT")
-    if field is not None:
-        return as_matrix(_weighted(call, field.value, sense))
-    model = call.read("MMODEL")
-    if model is not None:
-        return tie_relations(model.value, workspace(call.session).nodes)
-    return _sums(call, sense)
-
-
 # --- sums of terms ---------------------------------------------------------------------------
 
 
@@ -54,7 +40,7 @@ def _sums(call: Call, sense: int) -> Matrix:
     lists = [_spelled(call, t) for t in terms]
     count = max(len(rows) for rows in lists)
     if any(len(rows) not in (1, count) for rows in lists):
-        raise call.bad("terms on all displacements do not add to terms on a single one")
+        raise call.error("operators.matrices.terms-do-not-add")
     parts = []
     for i in range(count):
         row = [term for rows in lists for term in rows[i if len(rows) > 1 else 0]]
@@ -65,7 +51,7 @@ def _sums(call: Call, sense: int) -> Matrix:
 def _spelled(call: Call, term: _Sum) -> list[list[Term]]:
     """The term by unknowns: one list of terms for each relation that it makes."""
     if term.support is None:
-        raise call.bad("a term of the relation has no mesh", hint="(number) 'UX' mesh + ...")
+        raise call.error("operators.matrices.term-without-mesh")
     mode = workspace(call.session).mode
     nodes = nodes_of(term.support)
     groups = {"DEPL": made.in_space(mode), "ROTA": made.rotations(mode)}
@@ -76,7 +62,7 @@ def _spelled(call: Call, term: _Sum) -> list[list[Term]]:
     vector = whole[2:] if len(names) == 1 else whole[: len(names)]
     length = float((vector @ vector) ** 0.5)
     if length == 0.0:
-        raise call.bad("the direction of a relation has no length", term.direction)
+        raise call.error("operators.matrices.direction-without-length", term.direction)
     return [
         [
             Term(term.factor * float(v) / length, name, nodes)
@@ -135,87 +121,25 @@ def _consume(call: Call) -> None:
 # --- a field of coefficients -----------------------------------------------------------------
 
 
-def _weighted(call: Call, field: NodeField, sense: int) -> Relations:
-    rows = made.from_field(field, sense)
-    if call.keyword(("DUAL",)) is None:
-        return rows
-    dual: NodeField = call.required("CHPOINT", after=call.keyword_end)
-    # the field is the force on the body for LX = 1, and K u + D^T LX = F
-    reaction = made.from_field(made.primal_names(dual), sense, rows.raw_multipliers)
-    return replace(rows, dual=replace(reaction, coefficients=-reaction.coefficients))
+_SIDE = choice(
+    "sense",
+    tuple(_SENSE),
+    en="the sum stays at or above the value, or at or below",
+    fr="la somme reste supérieure ou égale à la valeur, ou inférieure ou égale",
+)
 
 
-# --- options ---------------------------------------------------------------------------------
-
-
-def _rigid(call: Call) -> Matrix:
-    ws = workspace(call.session)
-    names = made.in_space(ws.mode)
-    words = set()
-    while (word := call.keyword(("DEPL", "ROTA", "NOVERIF"))) is not None:
-        words.add(word)
-    if "ROTA" not in words:
-        mesh, check = call.required("MAILLAGE"), "NOVERIF" not in words
-        return as_matrix(tied.rigid_by_distances(ws.nodes, mesh.node_ids, names, check))
-    turning = nodes_of(call.required("MAILLAGE", "POINT"))
-    rest = call.read("MAILLAGE", "POINT")
-    following = turning[:0] if rest is None else nodes_of(rest.value)
-    turns = made.rotations(ws.mode)
-    return as_matrix(tied.rigid_with_rotations(ws.nodes, turning, following, names, turns))
-
-
-def _together(call: Call) -> Matrix:
-    ws = workspace(call.session)
-    unknown = call.required("MOT", after=call.keyword_end).upper().rstrip()
-    mesh = call.required("MAILLAGE")
-    return as_matrix(tied.same_value(ws.nodes, mesh.node_ids, unknown))
-
-
-def _hooked(call: Call) -> Matrix:
-    if call.keyword(("FORT",)) is not None:
-        host = call.required("MMODEL").mesh
-        guest = call.required("MAILLAGE", "MMODEL", "POINT")
-        names, tolerance = made.in_space(workspace(call.session).mode), 1e-5
-    else:
-        guest, host, names, tolerance = _two_meshes(call)
-    guest = getattr(guest, "mesh", guest)
-    return as_matrix(tied.hooked(nodes_of(guest), host, names, tolerance))
-
-
-def _sliding(call: Call) -> Matrix:
-    guest, host, names, tolerance = _two_meshes(call)
-    if not isinstance(guest, Mesh):
-        raise call.bad("a line slides in a mesh, not a single point", guest)
-    return as_matrix(tied.sliding(guest, host, names, tolerance))
-
-
-def _two_meshes(call: Call) -> tuple[Mesh, Mesh, tuple[str, ...], float]:
-    guest = call.required("MAILLAGE", "POINT")
-    host = call.required("MAILLAGE")
-    words = call.optional("LISTMOTS")
-    mode = workspace(call.session).mode
-    names = made.in_space(mode) if words is None else tuple(str(w).rstrip() for w in words.values)
-    return guest, host, names, call.optional("FLOTTANT", default=1e-5)
-
-
-def _middles(call: Call) -> Matrix:
-    words = call.optional("LISTMOTS")
-    mesh = call.required("MAILLAGE")
-    mode = workspace(call.session).mode
-    names = made.translations(mode) if words is None else [str(w).rstrip() for w in words.values]
-    return as_matrix(tied.middle_nodes(mesh, names))
-
-
-_OPTIONS = {
-    "CORI": _rigid,
-    "ENSE": _together,
-    "ACCRO": _hooked,
-    "GLISSANT": _sliding,
-    "MILI": _middles,
-}
-
-operator(
+@operator(
     "RELA",
+    arg("field", "CHPOINT", en="factors of the unknowns", fr="facteurs des inconnues"),
+    _SIDE,
+    key(
+        "dual",
+        "DUAL",
+        arg("field", "CHPOINT"),
+        en="force on the body for a multiplier of one",
+        fr="force sur le corps pour un multiplicateur égal à un",
+    ),
     family="relations",
     full_name="RELATION",
     help=Help(
@@ -233,15 +157,7 @@ operator(
         "les inconnues du même nom ; 'DUAL' donne le champ de la réaction. 'CORI' : corps rigide, "
         "'ENSE' : même valeur partout, 'ACCRO' : nœuds accrochés aux éléments qui les "
         "contiennent, 'GLIS' : de même sauf le long de la ligne, 'MILI' : nœuds milieux.",
-        "RIG1 = RELA ('MINI' | 'MAXI') (X1) MOT1 GEO1 + | - (X2) MOT2 GEO2 ... ;\n"
-        "RIG1 = RELA ... (X1) 'DEPL' | 'ROTA' ('DIRE' VEC1) GEO1 + | - ... ;\n"
-        "RIG1 = RELA ('MINI' | 'MAXI') CHPO1 ('DUAL' CHPO2) ;\n"
-        "RIG1 = RELA 'CORI' 'DEPL' ('NOVERIF') GEO1 | 'DEPL' 'ROTA' GEO1 (GEO2) ;\n"
-        "RIG1 = RELA 'ENSE' MOT1 GEO1 ;\n"
-        "RIG1 = RELA GEO1 'ACCRO' | 'GLIS' GEO2 (LISTMOTS1) (FLOT1) ;\n"
-        "RIG1 = RELA 'ACCRO' 'FORT' MODL2 GEO1 | MODL1 ;\n"
-        "RIG1 = RELA 'MILI' (LISTMOTS1) GEO1 ;\n"
-        "RIG1 = RELA MODL1 ;",
+        "RIG1 = RELA ('MINI' | 'MAXI') CHPO1 ('DUAL' CHPO2) ;",
         (
             "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; P2 = 1. 0. ;"
             " R1 = RELA 'MINI' 2. 'UX' P2 - 'UX' P1 ; F1 = DEPI R1 -0.1 ;",
@@ -249,5 +165,177 @@ operator(
             " R1 = RELA 'ENSE' 'UY' L1 ;",
         ),
     ),
-    reads_itself=True,
-)(_rela)
+)
+def rela(field: NodeField, sense: str | None, dual: NodeField | None) -> Matrix:
+    """One relation, from a field of factors."""
+    side = _SENSE.get(sense or "", 0)
+    rows = made.from_field(field, side)
+    if dual is None:
+        return as_matrix(rows)
+    # the field is the force on the body for LX = 1, and K u + D^T LX = F
+    reaction = made.from_field(made.primal_names(dual), side, rows.raw_multipliers)
+    return as_matrix(replace(rows, dual=replace(reaction, coefficients=-reaction.coefficients)))
+
+
+@rela.form(
+    arg("model", "MMODEL", en="model with hanging nodes", fr="modèle à noeuds pendants"),
+    _SIDE,
+    syntax="RIG1 = RELA MODL1 ;",
+)
+def of_hanging_nodes(call: Call, model: Model, sense: str | None) -> Matrix | None:
+    """Ties of the hanging nodes of a model."""
+    return tie_relations(model, workspace(call.session).nodes)
+
+
+# --- options ---------------------------------------------------------------------------------
+
+
+_UNKNOWNS = opt(
+    "words",
+    "LISTMOTS",
+    kind="component",
+    en="unknowns, else all displacements",
+    fr="inconnues, sinon tous les déplacements",
+)
+_TOLERANCE = opt(
+    "tolerance",
+    "FLOTTANT",
+    default=1e-5,
+    en="how far outside of a cell a node counts, relative to the cell",
+    fr="distance à un élément à laquelle un noeud compte encore, relative à l'élément",
+)
+_GUEST = arg("guest", "MAILLAGE", "POINT", en="nodes to tie", fr="noeuds à attacher")
+_HOST = arg("host", "MAILLAGE", en="cells that hold them", fr="éléments qui les tiennent")
+
+
+@rela.form(
+    said("CORI"),
+    choice("turning", ("ROTA",), optional=False, en="nodes that turn", fr="noeuds qui tournent"),
+    flag("moving", "DEPL", en="nodes that move", fr="noeuds qui se déplacent"),
+    flag("unchecked", "NOVERIF", en="accepted", fr="accepté"),
+    arg("mesh", "MAILLAGE", "POINT", en="rigid body", fr="corps rigide"),
+    opt("rest", "MAILLAGE", "POINT", en="its nodes without rotations", fr="noeuds sans rotations"),
+    syntax="RIG1 = RELA 'CORI' 'DEPL' ('NOVERIF') GEO1 | 'DEPL' 'ROTA' GEO1 (GEO2) ;",
+)
+def rigid_with_rotations(
+    call: Call,
+    turning: str,
+    moving: bool,
+    unchecked: bool,
+    mesh: Mesh | Point,
+    rest: Mesh | Point | None,
+) -> Matrix:
+    """A rigid body whose nodes turn."""
+    ws = workspace(call.session)
+    names, turns = made.in_space(ws.mode), made.rotations(ws.mode)
+    nodes = nodes_of(mesh)
+    following = nodes[:0] if rest is None else nodes_of(rest)
+    return as_matrix(tied.rigid_with_rotations(ws.nodes, nodes, following, names, turns))
+
+
+@rela.form(
+    said("CORI"),
+    flag("moving", "DEPL", en="nodes that move", fr="noeuds qui se déplacent"),
+    flag(
+        "unchecked",
+        "NOVERIF",
+        en="without a check that the nodes hold the body",
+        fr="sans vérifier que les noeuds tiennent le corps",
+    ),
+    arg("mesh", "MAILLAGE", en="rigid body", fr="corps rigide"),
+)
+def rigid(call: Call, moving: bool, unchecked: bool, mesh: Mesh) -> Matrix:
+    """A rigid body, by distances."""
+    ws = workspace(call.session)
+    names = made.in_space(ws.mode)
+    return as_matrix(tied.rigid_by_distances(ws.nodes, mesh.node_ids, names, not unchecked))
+
+
+@rela.form(
+    said("ENSE"),
+    arg("unknown", "MOT", kind="component", en="unknown", fr="inconnue"),
+    arg("mesh", "MAILLAGE", en="nodes", fr="noeuds"),
+    syntax="RIG1 = RELA 'ENSE' MOT1 GEO1 ;",
+)
+def together(call: Call, unknown: str, mesh: Mesh) -> Matrix:
+    """The same value at all nodes."""
+    ws = workspace(call.session)
+    return as_matrix(tied.same_value(ws.nodes, mesh.node_ids, unknown.upper().rstrip()))
+
+
+@rela.form(
+    said("ACCRO"),
+    choice("strong", ("FORT",), optional=False, en="onto a model", fr="sur un modèle"),
+    arg("host", "MMODEL", en="model that holds them", fr="modèle qui les tient"),
+    arg("guest", "MAILLAGE", "MMODEL", "POINT", en="nodes to tie", fr="noeuds à attacher"),
+    syntax="RIG1 = RELA 'ACCRO' 'FORT' MODL2 GEO1 | MODL1 ;",
+)
+def hooked_on_model(call: Call, strong: str, host: Model, guest: Mesh | Model | Point) -> Matrix:
+    """Nodes hooked onto the cells of a model."""
+    names = made.in_space(workspace(call.session).mode)
+    nodes = nodes_of(guest.mesh if isinstance(guest, Model) else guest)
+    return as_matrix(tied.hooked(nodes, host.mesh, names, 1e-5))
+
+
+@rela.form(
+    said("ACCRO"),
+    _GUEST,
+    _HOST,
+    _UNKNOWNS,
+    _TOLERANCE,
+    syntax="RIG1 = RELA GEO1 'ACCRO' | 'GLIS' GEO2 (LISTMOTS1) (FLOT1) ;",
+)
+def hooked(
+    call: Call, guest: Mesh | Point, host: Mesh, words: ListMots | None, tolerance: float
+) -> Matrix:
+    """Nodes hooked onto the cells that they lie in."""
+    return as_matrix(tied.hooked(nodes_of(guest), host, _unknowns(call, words), tolerance))
+
+
+@rela.form(said("GLISSANT"), _GUEST, _HOST, _UNKNOWNS, _TOLERANCE)
+def sliding(
+    call: Call, guest: Mesh | Point, host: Mesh, words: ListMots | None, tolerance: float
+) -> Matrix:
+    """A line that slides in cells, along itself."""
+    if not isinstance(guest, Mesh):
+        raise call.error("operators.matrices.line-slides-not-point", guest)
+    return as_matrix(tied.sliding(guest, host, _unknowns(call, words), tolerance))
+
+
+def _unknowns(call: Call, words: ListMots | None) -> tuple[str, ...]:
+    if words is None:
+        return made.in_space(workspace(call.session).mode)
+    return tuple(str(w).rstrip() for w in words.values)
+
+
+@rela.form(
+    said("MILI"),
+    _UNKNOWNS,
+    arg("mesh", "MAILLAGE", en="quadratic cells", fr="éléments quadratiques"),
+    syntax="RIG1 = RELA 'MILI' (LISTMOTS1) GEO1 ;",
+)
+def middles(call: Call, words: ListMots | None, mesh: Mesh) -> Matrix:
+    """Middle nodes held between the corners."""
+    mode = workspace(call.session).mode
+    names = made.translations(mode) if words is None else [str(w).rstrip() for w in words.values]
+    return as_matrix(tied.middle_nodes(mesh, names))
+
+
+@rela.form(
+    _SIDE,
+    each(
+        "terms",
+        opt("factor", "FLOTTANT", en="factor", fr="facteur"),
+        arg("unknown", "MOT", kind="component", en="unknown", fr="inconnue"),
+        arg("support", "MAILLAGE", "POINT", en="nodes", fr="noeuds"),
+    ),
+    by_hand="its terms are signs, numbers, words and meshes in any order",
+    syntax="RIG1 = RELA ('MINI' | 'MAXI') (X1) MOT1 GEO1 + | - (X2) MOT2 GEO2 ... ;\n"
+    "RIG1 = RELA ... (X1) 'DEPL' | 'ROTA' ('DIRE' VEC1) GEO1 + | - ... ;",
+)
+def sums(call: Call) -> Matrix:
+    """Sums of terms."""
+    sense = 0
+    while (word := call.keyword(tuple(_SENSE))) is not None:
+        sense = _SENSE[word]
+    return _sums(call, sense)

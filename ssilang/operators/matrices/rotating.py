@@ -10,9 +10,9 @@ from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.materials.model import Mode, Model
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.mesh import Point
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import Help, choice, flag, operator, opt
 from ssilang.language.run.call import Call
-from ssilang.operators.matrices.element import joined, present
+from ssilang.operators.matrices.element import MODEL, PARAMETERS, joined, present
 
 _SHAFT = (
     "OPTI DIME 3 MODE TRID ELEM SEG2 ; L = DROI 2 (0 0 0) (0 0 1) ; M = MODE L MECANIQUE TIMO ; "
@@ -20,12 +20,20 @@ _SHAFT = (
 )
 
 
-def _fields(call: Call) -> CellField:
-    return joined((call.required("MCHAML"), *call.all("MCHAML")))
+_VECTOR = opt("vector", "POINT", en="rotation vector", fr="vecteur rotation", unit="rad/s")
 
 
 @operator(
     "KENT",
+    choice(
+        "what",
+        ("CENTRIFUGE", "EULER"),
+        en="for the rotation vector, or for its rate",
+        fr="pour le vecteur rotation, ou pour sa dérivée",
+    ),
+    MODEL,
+    PARAMETERS,
+    _VECTOR,
     family="matrix",
     help=Help(
         en="Stiffness of a body in a turning frame, to be added to that of its elements: "
@@ -43,35 +51,43 @@ def _fields(call: Call) -> CellField:
         syntax="RIG1 = KENT 'CENTRIFUGE' | 'EULER' MODL1 MAT1 (VEC1) ;",
         examples=(_SHAFT.format("") + "LIST (EXTR (KENT 'CENTRIFUGE' M A (0 0 3)) 'DIAG') ;",),
     ),
-    reads_itself=True,
 )
-def kent(call: Call) -> Matrix:
+def kent(
+    call: Call,
+    what: str | None,
+    model: Model,
+    fields: tuple[CellField, ...],
+    vector: Point | None,
+) -> Matrix:
     """Turning frame."""
-    word = call.keyword(("CENT", "EULE"))
-    if word is None:
-        raise call.bad("which stiffness?", hint="'CENTRIFUGE' or 'EULER'")
-    model = present(call, call.required("MMODEL"))
-    material = _fields(call)
-    W = cross_matrix(_rotation(call, model))
-    coupling = W @ W if word == "CENT" else W
-    blocks = tuple(inertia_coupling(z, material, coupling) for z in model.zones)
-    return Matrix(model.mesh.nodes, blocks, (), "RIGIDITE")
+    if what is None:
+        raise call.error("operators.matrices.which-stiffness")
+    shown, material = present(call, model), joined(fields)
+    W = cross_matrix(_rotation(call, shown, vector))
+    coupling = W @ W if what == "CENTRIFUGE" else W
+    blocks = tuple(inertia_coupling(z, material, coupling) for z in shown.zones)
+    return Matrix(shown.mesh.nodes, blocks, (), "RIGIDITE")
 
 
-def _rotation(call: Call, model: Model) -> FloatArray:
+def _rotation(call: Call, model: Model, given: Point | None) -> FloatArray:
     """Rotation vector (3,); in bodies of revolution along the radius, circumference and axis."""
     turning = any(z.mode in (Mode.AXISYMMETRIC, Mode.FOURIER) for z in model.zones)
-    given: Point | None = call.optional("POINT") if turning else call.required("POINT")
     if turning:
         return np.array([0.0, 0.0, 1.0 if given is None else float(given.coordinates[1])])
-    if given is None or len(given.coordinates) == 2:
-        raise call.bad("a rotation vector has three components", hint="OPTI DIME 3 ;")
+    if given is None:
+        raise call.missing(("POINT",))
+    if len(given.coordinates) == 2:
+        raise call.error("operators.matrices.rotation-vector-in-space")
     found: FloatArray = np.array(given.coordinates, dtype=float)
     return found
 
 
 @operator(
     "CORI",
+    flag("harmonic", "HARM", en="not available", fr="non disponible"),
+    MODEL,
+    PARAMETERS,
+    _VECTOR,
     family="matrix",
     full_name="CORIOLIS",
     help=Help(
@@ -84,22 +100,27 @@ def _rotation(call: Call, model: Model) -> FloatArray:
         syntax="RIG1 = CORI MODL1 MAT1 VEC1 ;",
         examples=(_SHAFT.format("") + "LIST (TYPE (CORI M A (0 0 3))) ;",),
     ),
-    reads_itself=True,
 )
-def cori(call: Call) -> Matrix:
+def cori(
+    call: Call,
+    harmonic: bool,
+    model: Model,
+    fields: tuple[CellField, ...],
+    vector: Point | None,
+) -> Matrix:
     """Coriolis' damping."""
-    model = present(call, call.required("MMODEL"))
-    material = _fields(call)
-    if call.keyword(("HARM",)):
-        raise call.bad("'HARM' is not available", hint="the impedance of a Fourier harmonic")
-    coupling = 2.0 * cross_matrix(_rotation(call, model))
-    kind = "AMORTISSEMENT"
-    blocks = tuple(inertia_coupling(z, material, coupling, kind) for z in model.zones)
-    return Matrix(model.mesh.nodes, blocks, (), kind)
+    if harmonic:
+        raise call.error("operators.matrices.harm-not-available")
+    shown, material, kind = present(call, model), joined(fields), "AMORTISSEMENT"
+    coupling = 2.0 * cross_matrix(_rotation(call, shown, vector))
+    blocks = tuple(inertia_coupling(z, material, coupling, kind) for z in shown.zones)
+    return Matrix(shown.mesh.nodes, blocks, (), kind)
 
 
 @operator(
     "GYRO",
+    MODEL,
+    PARAMETERS,
     family="matrix",
     full_name="GYROSCOPIQUE",
     help=Help(
@@ -112,11 +133,9 @@ def cori(call: Call) -> Matrix:
         syntax="RIG1 = GYRO MODL1 MAT1 ;",
         examples=(_SHAFT.format("'OMEG' 3.") + "LIST (TYPE (GYRO M A)) ;",),
     ),
-    reads_itself=True,
 )
-def gyro(call: Call) -> Matrix:
+def gyro(call: Call, model: Model, fields: tuple[CellField, ...]) -> Matrix:
     """Turning beams."""
-    model = present(call, call.required("MMODEL"))
-    material = _fields(call)
-    blocks = tuple(gyroscopic(z, material) for z in model.zones)
-    return Matrix(model.mesh.nodes, blocks, (), "AMORTISSEMENT")
+    shown, material = present(call, model), joined(fields)
+    blocks = tuple(gyroscopic(z, material) for z in shown.zones)
+    return Matrix(shown.mesh.nodes, blocks, (), "AMORTISSEMENT")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 
@@ -18,8 +17,8 @@ from ssilang.kernel.matrices.superelement import (
     inner_displacement,
     shape_fields,
 )
-from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.language.registry import Help, operator
+from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.language.registry import Help, arg, by, choice, flag, main, opt, said, shared
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, register_type
 from ssilang.operators.dispatch import EXTR, listing
@@ -27,9 +26,9 @@ from ssilang.operators.dispatch import EXTR, listing
 register_type(SuperElement, "SUPERELE")
 
 
-@operator(
+SUPE = shared(
     "SUPE",
-    family="matrix",
+    "matrix",
     full_name="SUPER",
     help=Help(
         "Super-elements. 'RIGIDITE': the stiffness of a body condensed onto master unknowns: those "
@@ -65,51 +64,78 @@ register_type(SuperElement, "SUPERELE")
             "LIST (MAXI (ABS (V - (RESO R F))) 'AVEC' (MOTS 'UX' 'UY')) ;",
         ),
     ),
-    reads_itself=True,
 )
-def supe(call: Call) -> Any:
-    """Dispatch on the keyword."""
-    word = call.keyword(tuple(_FORMS))
-    if word is None:
-        raise call.bad("SUPE wants a keyword", hint="'RIGIDITE', 'CHARGE', 'DEPLA' or 'MASSE'")
-    return _FORMS[word](call)
+_ELEMENT = arg("element", "SUPERELE", en="super-element", fr="super-élément")
+_ACCEPTED = flag("alone", "NOER", en="accepted, changes nothing", fr="accepté, sans effet")
 
 
-def _stiffness(call: Call) -> SuperElement:
-    inside = call.keyword(("NOMU",)) is not None
-    matrix: Matrix = call.required("RIGIDITE")
-    inside = inside or call.keyword(("NOMU",)) is not None
-    chosen = call.required("MAILLAGE", "RIGIDITE", "CHPOINT", "POINT")
+@SUPE.form(
+    said("RIGIDITE"),
+    flag(
+        "inside",
+        "NOMU",
+        en="the conditions of the matrix hold inside",
+        fr="les conditions de la matrice jouent à l'intérieur",
+    ),
+    arg("matrix", "RIGIDITE", en="stiffness of the body", fr="rigidité du corps"),
+    arg(
+        "chosen",
+        "MAILLAGE",
+        "RIGIDITE",
+        "CHPOINT",
+        "POINT",
+        en="masters: nodes, unknowns of a matrix or components of a field",
+        fr="maîtres : noeuds, inconnues d'une rigidité ou composantes d'un champ",
+    ),
+)
+def stiffness(
+    inside: bool, matrix: Matrix, chosen: Mesh | Matrix | NodeField | Point
+) -> SuperElement:
+    """Stiffness condensed onto the masters."""
     if isinstance(chosen, Matrix | NodeField):
         return condense(matrix, chosen, inside)
     nodes = chosen.node_ids if isinstance(chosen, Mesh) else np.array([chosen.node])
     return condense(matrix, nodes, inside)
 
 
-def _load(call: Call) -> NodeField:
-    element: SuperElement = call.required("SUPERELE")
-    return condensed_load(element, call.required("CHPOINT"))
+@SUPE.form(
+    said("CHARGE"), _ELEMENT, arg("load", "CHPOINT", en="loads on the body", fr="charges du corps")
+)
+def load(element: SuperElement, load: NodeField) -> NodeField:
+    """Loads on the masters."""
+    return condensed_load(element, load)
 
 
-def _displacement(call: Call) -> NodeField:
-    call.keyword(("NOER",))
-    element: SuperElement = call.required("SUPERELE")
-    masters = call.required("CHPOINT")
-    load = call.optional("CHPOINT")
-    call.keyword(("NOER",))
+@SUPE.form(
+    said("DEPLA"),
+    _ACCEPTED,
+    _ELEMENT,
+    arg("masters", "CHPOINT", en="displacement of the masters", fr="déplacement des maîtres"),
+    opt("load", "CHPOINT", en="loads on the body", fr="charges du corps"),
+)
+def displacement(
+    alone: bool, element: SuperElement, masters: NodeField, load: NodeField | None
+) -> NodeField:
+    """Displacement of the whole body."""
     return inner_displacement(element, masters, load)
 
 
-def _mass(call: Call) -> Any:
-    shapes = call.keyword(("LCHP",)) is not None
-    element: SuperElement = call.required("SUPERELE")
-    made = condensed_mass(element, call.required("RIGIDITE"))
-    if shapes or call.keyword(("LCHP",)) is not None:
-        return ListChpo(tuple(shape_fields(element))), made
-    return made
-
-
-_FORMS = {"RIGIDITE": _stiffness, "CHARGE": _load, "DEPLA": _displacement, "MASSE": _mass}
+@SUPE.form(
+    said("MASSE"),
+    flag(
+        "shapes",
+        "LCHP",
+        en="the displacement for a unit of each master first",
+        fr="d'abord le déplacement pour une unité de chaque maître",
+    ),
+    _ELEMENT,
+    arg("mass", "RIGIDITE", en="mass of the body", fr="masse du corps"),
+    gives=by("shapes", {True: ("LISTCHPO", "RIGIDITE")}, "RIGIDITE"),
+)
+def mass(shapes: bool, element: SuperElement, mass: Matrix) -> Matrix | tuple[ListChpo, Matrix]:
+    """Mass that the masters feel."""
+    made = condensed_mass(element, mass)
+    return (ListChpo(tuple(shape_fields(element))), made) if shapes else made
 
 
 _PARTS: dict[str, Callable[[SuperElement], Matrix | Mesh]] = {
@@ -120,19 +146,26 @@ _PARTS: dict[str, Callable[[SuperElement], Matrix | Mesh]] = {
 }
 
 
-@EXTR.on(
-    "SUPERELE",
+@EXTR.form(
+    main("element", "SUPERELE", en="super-element", fr="super-élément"),
+    choice(
+        "what",
+        tuple(_PARTS),
+        en="condensed stiffness, stiffness, conditions or mesh of the masters",
+        fr="rigidité condensée, rigidité, conditions ou maillage des maîtres",
+    ),
+    gives=by("what", {"ELEM": "MAILLAGE"}, "RIGIDITE"),
     syntax="RIG1 = EXTR SUP1 'RIGI' | 'RIGT' | 'BLOQ' ;\nGEO1 = EXTR SUP1 'ELEM' ;",
     en="Of a super-element: its condensed stiffness, the stiffness of the whole body, the "
     "conditions in it, or the mesh of its masters.",
     fr="D'un super-élément : sa rigidité condensée, la rigidité du corps entier, les conditions "
     "qu'elle contient, ou le maillage de ses maîtres.",
 )
-def _extract(call: Call, element: SuperElement) -> Matrix | Mesh:
-    word = call.keyword(tuple(_PARTS))
-    if word is None:
-        raise call.bad("EXTR of a SUPERELE wants a keyword", element, "one of " + " ".join(_PARTS))
-    return _PARTS[word](element)
+def extract(call: Call, element: SuperElement, what: str | None) -> Matrix | Mesh:
+    """A part of a super-element."""
+    if what is None:
+        raise call.error("operators.matrices.extr-of-superele-wants-word", element, words=_PARTS)
+    return _PARTS[what](element)
 
 
 @listing("SUPERELE")

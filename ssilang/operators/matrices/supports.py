@@ -13,13 +13,26 @@ from ssilang.kernel.matrices import imposed
 from ssilang.kernel.matrices import relations as made
 from ssilang.kernel.matrices.matrix import Matrix, Relations
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import (
+    Argument,
+    Entry,
+    Help,
+    When,
+    arg,
+    choice,
+    flag,
+    key,
+    many,
+    operator,
+    opt,
+)
 from ssilang.language.run.call import Call
-from ssilang.language.values import Table
+from ssilang.language.values import ListMots, Table
 from ssilang.operators.workspace import Workspace, workspace
 
 _SENSE = {"MINI": 1, "MAXI": -1}
-_KEYWORDS = ("MINI", "MAXI", "DEPL", "ROTA", "DIRECTION", "RADIAL", "ORTHO")
+IN_PLANE = When(lambda s: workspace(s).mode.dimension != 3, "in the plane", "dans le plan")
+IN_SPACE = When(lambda s: workspace(s).mode.dimension == 3, "in space", "en dimension 3")
 
 
 def nodes_of(support: Point | Mesh) -> IntArray:
@@ -32,44 +45,72 @@ def as_matrix(relations: Relations) -> Matrix:
     return Matrix(relations.table, (), (relations,))
 
 
-class _Held:
-    """What BLOQ and APPU read: unknowns, directions, and then the support."""
+_CENTRE = arg("centre", "POINT", en="centre", fr="centre")
+_ON_AXIS = arg("on_axis", "POINT", en="second point of the axis", fr="second point de l'axe")
 
-    def __init__(self, call: Call) -> None:
+
+def _held(*centre: Argument) -> tuple[Entry, ...]:
+    """What BLOQ and APPU read to know unknowns and directions; points of RADI and ORTHO."""
+    return (
+        choice(
+            "sense",
+            tuple(_SENSE),
+            en="the unknowns stay at or above the value, or at or below",
+            fr="les inconnues restent supérieures ou égales à la valeur, ou inférieures ou égales",
+        ),
+        key(
+            "groups",
+            ("DEPL", "ROTA"),
+            repeated=True,
+            en="all displacements, all rotations",
+            fr="tous les déplacements, toutes les rotations",
+        ),
+        key(
+            "direction",
+            "DIRECTION",
+            arg("vector", "POINT", "CHPOINT"),
+            en="along a vector, or a field of vectors",
+            fr="selon un vecteur, ou un champ de vecteurs",
+        ),
+        key(
+            "polar",
+            ("RADIAL", "ORTHO"),
+            *centre,
+            en="along or across the line from a centre (2D) or an axis (3D)",
+            fr="selon le rayon depuis un centre (2D) ou un axe (3D), ou perpendiculairement",
+        ),
+        many("unknowns", "MOT", "LISTMOTS", kind="component", en="unknowns", fr="inconnues"),
+    )
+
+
+_SUPPORT = arg("support", "MAILLAGE", "POINT", en="nodes", fr="noeuds")
+
+
+class _Held:
+    """Unknowns and directions that BLOQ and APPU have read."""
+
+    def __init__(
+        self,
+        call: Call,
+        sense: str | None,
+        groups: list[str],
+        direction: Point | NodeField | None,
+        polar: tuple[Any, ...] | None,
+        unknowns: tuple[str | ListMots, ...],
+    ) -> None:
         self.call = call
         self.ws: Workspace = workspace(call.session)
-        self.sense = 0
-        self.groups: set[str] = set()
+        self.sense = 0 if sense is None else _SENSE[sense]
+        self.groups = set(groups)
+        self.direction = direction
+        self.polar = "" if polar is None else str(polar[0])
+        self.centre = [] if polar is None else [p.coordinates.copy() for p in polar[1:]]
         self.unknowns: list[str] = []
-        self.direction: Any = None
-        self.polar = ""
-        self.centre: list[FloatArray] = []
-        self._read_words()
-
-    def _read_words(self) -> None:
-        call = self.call
-        while call.peek_word() is not None or call.operands:
-            word = call.keyword(_KEYWORDS)
-            if word in _SENSE:
-                self.sense = _SENSE[word]
-            elif word in ("DEPL", "ROTA"):
-                self.groups.add(word)
-            elif word == "DIRECTION":
-                self.direction = call.required("POINT", "CHPOINT", after=call.keyword_end)
-            elif word is not None:
-                self.polar = word
-                count = 2 if self.ws.mode.dimension == 3 else 1
-                self.centre = [
-                    call.required("POINT", after=call.keyword_end).coordinates.copy()
-                    for _ in range(count)
-                ]
-            elif (name := call.word()) is not None:
-                self.unknowns.append(name.upper().rstrip())
+        for said in unknowns:
+            if isinstance(said, ListMots):
+                self.unknowns += [str(n).rstrip() for n in said.values]
             else:
-                names = call.read("LISTMOTS")
-                if names is None:
-                    break
-                self.unknowns += [str(n).rstrip() for n in names.value.values]
+                self.unknowns.append(said.upper().rstrip())
 
     def names(self) -> tuple[str, ...]:
         """Unknowns named one by one, or by DEPL and ROTA."""
@@ -79,9 +120,7 @@ class _Held:
         if "ROTA" in self.groups:
             names += made.rotations(self.ws.mode)
         if not names:
-            raise self.call.bad(
-                "no unknown is named", hint="say 'UX' 'UY' ..., 'DEPL', 'ROTA', 'DIRE' or 'RADI'"
-            )
+            raise self.call.error("operators.matrices.no-unknown")
         return tuple(names)
 
     def directed(self) -> bool:
@@ -104,7 +143,8 @@ class _Held:
             whole = self.direction.coordinates
             vector = whole[2:] if len(names) == 1 else whole[: len(names)]
             return np.tile(vector, (len(nodes), 1))
-        field: NodeField = self.direction
+        assert self.direction is not None
+        field = self.direction
         components = names if set(names) & set(field.components) else tuple(field.components)
         return np.stack([field.values_at(c, nodes) for c in components[: len(names)]], axis=1)
 
@@ -117,54 +157,11 @@ class _Held:
         return away[:, :dim]
 
 
-def _bloq(call: Call) -> Matrix:
-    table = call.read("TABLE")
-    if table is not None:
-        return _bloq_table(call, table.value)
-    held = _Held(call)
-    nodes = nodes_of(call.required("MAILLAGE", "POINT"))
-    _some(nodes)
-    if held.directed():
-        rows = [
-            made.blocked_along(held.ws.nodes, nodes, names, d, held.sense)
-            for names, d in held.along(nodes)
-        ]
-        return as_matrix(made.joined(rows))
-    return as_matrix(made.blocked(held.ws.nodes, nodes, held.names(), held.sense))
-
-
-def _some(nodes: IntArray) -> None:
-    if len(nodes) == 0:
-        raise MeshError("the mesh is empty: there is nothing to hold")
-
-
-def static_links(table: Table) -> list[tuple[Table, Point, str]]:
-    """Entries of a LIAISONS_STATIQUES table: (sub-table, point, unknown), in order of number."""
-    found = []
-    for index, entry in table.items():
-        if not isinstance(index, int) or not isinstance(entry, Table):
-            continue
-        point = entry.get("POINT_LIAISON", entry.get("POINT-LIAISON"))
-        found.append((entry, point, str(entry.get("DDL_LIAISON", "")).rstrip()))
-    return found  # type: ignore[return-value]
-
-
-def _bloq_table(call: Call, table: Table) -> Matrix:
-    ws = workspace(call.session)
-    parts: list[Relations] = []
-    for entry, point, unknown in static_links(table):
-        if not isinstance(point, Point) or not unknown:
-            raise call.bad("each entry wants POINT_LIAISON (POINT) and DDL_LIAISON (MOT)", table)
-        single = as_matrix(made.blocked(ws.nodes, nodes_of(point), (unknown,)))
-        entry.set("BLOCAGE", single)
-        parts += single.relations
-    if not parts:
-        raise call.bad("the table has no entry numbered 1, 2 ...", table)
-    return Matrix(ws.nodes, (), tuple(parts))
-
-
-operator(
+@operator(
     "BLOQ",
+    *_held(_CENTRE),
+    _SUPPORT,
+    when=IN_PLANE,
     family="relations",
     full_name="BLOQUE",
     help=Help(
@@ -187,39 +184,74 @@ operator(
             "OPTI DIME 2 MODE PLAN DEFO ; P1 = 1. 0. ; B1 = BLOQ 'MINI' 'DIRE' (1. 1.) P1 ;",
         ),
     ),
-    reads_itself=True,
-)(_bloq)
+)
+def bloq(call: Call, support: Mesh | Point, **said: Any) -> Matrix:
+    """Conditions on single nodes."""
+    held, nodes = _Held(call, **said), nodes_of(support)
+    _some(nodes)
+    if held.directed():
+        rows = [
+            made.blocked_along(held.ws.nodes, nodes, names, d, held.sense)
+            for names, d in held.along(nodes)
+        ]
+        return as_matrix(made.joined(rows))
+    return as_matrix(made.blocked(held.ws.nodes, nodes, held.names(), held.sense))
+
+
+bloq.form(*_held(_CENTRE, _ON_AXIS), _SUPPORT, when=IN_SPACE)(bloq.forms[0].function)
+
+
+def _some(nodes: IntArray) -> None:
+    if len(nodes) == 0:
+        raise MeshError("operators.matrices.nothing-to-hold")
+
+
+def static_links(table: Table) -> list[tuple[Table, Point, str]]:
+    """Entries of a LIAISONS_STATIQUES table: (sub-table, point, unknown), in order of number."""
+    found = []
+    for index, entry in table.items():
+        if not isinstance(index, int) or not isinstance(entry, Table):
+            continue
+        point = entry.get("POINT_LIAISON", entry.get("POINT-LIAISON"))
+        found.append((entry, point, str(entry.get("DDL_LIAISON", "")).rstrip()))
+    return found  # type: ignore[return-value]
+
+
+@bloq.form(arg("table", "TABLE", en="table LIAISONS_STATIQUES", fr="table LIAISONS_STATIQUES"))
+def bloq_of_table(call: Call, table: Table) -> Matrix:
+    """Conditions of a table of static links."""
+    ws = workspace(call.session)
+    parts: list[Relations] = []
+    for entry, point, unknown in static_links(table):
+        if not isinstance(point, Point) or not unknown:
+            raise call.error("operators.matrices.link-wants-point-and-unknown", table)
+        single = as_matrix(made.blocked(ws.nodes, nodes_of(point), (unknown,)))
+        entry.set("BLOCAGE", single)
+        parts += single.relations
+    if not parts:
+        raise call.error("operators.matrices.table-without-entries", table)
+    return Matrix(ws.nodes, (), tuple(parts))
 
 
 # --- imposed values --------------------------------------------------------------------------
 
 
-def _depi(call: Call) -> NodeField | None:
-    table = call.read("TABLE")
-    if table is not None:
-        _depi_table(call, table.value)
-        return None
-    mixed = call.keyword(("RELA",)) is not None
-    matrix: Matrix = call.required("RIGIDITE")
-    if not matrix.relations:
-        raise call.bad("this matrix holds no condition", matrix, "give what BLOQ or RELA made")
-    value = call.required("FLOTTANT", "CHPOINT")
-    if not isinstance(value, NodeField):
-        return imposed.imposed_uniform(matrix.relations, float(value))
-    fill = imposed.imposed_by_node if mixed else imposed.imposed_from_field
-    return fill(matrix.relations, value)
-
-
-def _depi_table(call: Call, table: Table) -> None:
-    for entry, _, _ in static_links(table):
-        block = entry.get("BLOCAGE")
-        if not isinstance(block, Matrix):
-            raise call.bad("an entry has no BLOCAGE", table, "call BLOQ on this table first")
-        entry.set("FORCE", imposed.imposed_uniform(block.relations, 1.0))
-
-
-operator(
+@operator(
     "DEPI",
+    flag(
+        "mixed",
+        "RELA",
+        en="the field SCAL gives the value of relations between unknowns of one node",
+        fr="le champ SCAL donne la valeur de relations entre inconnues d'un même noeud",
+    ),
+    arg("matrix", "RIGIDITE", en="conditions", fr="conditions"),
+    arg(
+        "value",
+        "FLOTTANT",
+        "CHPOINT",
+        en="one value for all, or a field of the held unknowns",
+        fr="une valeur pour toutes, ou un champ des inconnues bloquées",
+    ),
     family="relations",
     full_name="DEPIMPOSE",
     help=Help(
@@ -235,32 +267,73 @@ operator(
             " F1 = DEPI B1 1.E-3 ; LIST F1 ;",
         ),
     ),
-    reads_itself=True,
-)(_depi)
+)
+def depi(call: Call, mixed: bool, matrix: Matrix, value: float | NodeField) -> NodeField:
+    """Values of conditions."""
+    if not matrix.relations:
+        raise call.error("operators.matrices.matrix-without-condition", matrix)
+    if not isinstance(value, NodeField):
+        return imposed.imposed_uniform(matrix.relations, value)
+    fill = imposed.imposed_by_node if mixed else imposed.imposed_from_field
+    return fill(matrix.relations, value)
+
+
+@depi.form(arg("table", "TABLE", en="table LIAISONS_STATIQUES", fr="table LIAISONS_STATIQUES"))
+def depi_of_table(call: Call, table: Table) -> None:
+    """Values of one on the conditions of a table of static links."""
+    for entry, _, _ in static_links(table):
+        block = entry.get("BLOCAGE")
+        if not isinstance(block, Matrix):
+            raise call.error("operators.matrices.link-without-blocage", table)
+        entry.set("FORCE", imposed.imposed_uniform(block.relations, 1.0))
 
 
 # --- planes of symmetry ----------------------------------------------------------------------
 
 
-def _mirror(call: Call, mirrored: bool) -> Matrix:
+def _plane(points: int) -> tuple[Entry, ...]:
+    """What SYMT and ANTI read: points of a line or plane, then nodes."""
+    return (
+        key(
+            "groups",
+            ("DEPL", "ROTA"),
+            repeated=True,
+            en="displacements, rotations",
+            fr="déplacements, rotations",
+        ),
+        *(
+            arg(f"p{i + 1}", "POINT", en="point of the symmetry", fr="point de la symétrie")
+            for i in range(points)
+        ),
+        arg("mesh", "MAILLAGE", "POINT", en="nodes", fr="noeuds"),
+        opt(
+            "tolerance",
+            "FLOTTANT",
+            en="distance up to which a node counts, else a tenth of the density",
+            fr="distance de sélection, sinon un dixième de la densité",
+            unit="m",
+        ),
+    )
+
+
+def _mirror(
+    call: Call,
+    groups: list[str],
+    mesh: Mesh | Point,
+    tolerance: float | None,
+    mirrored: bool,
+    **points: Point,
+) -> Matrix:
     ws = workspace(call.session)
-    groups = set()
-    while (word := call.keyword(("DEPL", "ROTA"))) is not None:
-        groups.add(word)
     if not groups:
-        raise call.bad("say 'DEPL', 'ROTA' or both")
-    dim = ws.mode.dimension
-    if dim == 1:
-        raise call.bad("a plane of symmetry wants 2 or 3 dimensions", hint="use BLOQ")
-    points = np.stack([call.required("POINT").coordinates for _ in range(dim)])
-    mesh = call.required("MAILLAGE", "POINT")
-    tolerance = call.optional("FLOTTANT", default=ws.density / 10.0)
-    if tolerance <= 0.0:
-        raise call.bad(
-            "no distance says which nodes are on the symmetry",
-            hint="give it as the last argument, or set OPTI DENS: a tenth of it is used",
-        )
-    near, normal = made.on_plane(ws.nodes, nodes_of(mesh), points, tolerance)
+        raise call.error("operators.matrices.say-depl-or-rota")
+    if ws.mode.dimension == 1:
+        raise call.error("operators.matrices.symmetry-wants-dimensions")
+    reach = ws.density / 10.0 if tolerance is None else tolerance
+    if reach <= 0.0:
+        raise call.error("operators.matrices.symmetry-distance-missing")
+    plane = np.stack([p.coordinates for p in points.values()])
+    near, normal = made.on_plane(ws.nodes, nodes_of(mesh), plane, reach)
     names = made.in_space(ws.mode) if "DEPL" in groups else ()
     turns = made.rotations(ws.mode) if "ROTA" in groups else ()
     return as_matrix(made.mirror_rows(ws.nodes, near, normal, names, turns, mirrored))
@@ -271,8 +344,12 @@ _PLANE_EXAMPLE = (
     "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; P1 = 0. 0. ; P2 = 0. 1. ; L1 = DROI 2 P1 P2 ;"
     " B1 = {} 'DEPL' P1 P2 L1 1.E-3 ;"
 )
-operator(
+
+
+@operator(
     "SYMT",
+    *_plane(2),
+    when=IN_PLANE,
     family="relations",
     full_name="SYMT",
     help=Help(
@@ -285,10 +362,19 @@ operator(
         _PLANE_SYNTAX.format("SYMT"),
         (_PLANE_EXAMPLE.format("SYMT"),),
     ),
-    reads_itself=True,
-)(lambda call: _mirror(call, True))
-operator(
+)
+def symt(call: Call, **said: Any) -> Matrix:
+    """Symmetry."""
+    return _mirror(call, **said, mirrored=True)
+
+
+symt.form(*_plane(3), when=IN_SPACE)(symt.forms[0].function)
+
+
+@operator(
     "ANTI",
+    *_plane(2),
+    when=IN_PLANE,
     family="relations",
     full_name="ANTISYMETRIE",
     help=Help(
@@ -299,30 +385,27 @@ operator(
         _PLANE_SYNTAX.format("ANTI"),
         (_PLANE_EXAMPLE.format("ANTI"),),
     ),
-    reads_itself=True,
-)(lambda call: _mirror(call, False))
+)
+def anti(call: Call, **said: Any) -> Matrix:
+    """Antisymmetry."""
+    return _mirror(call, **said, mirrored=False)
+
+
+anti.form(*_plane(3), when=IN_SPACE)(anti.forms[0].function)
 
 
 # --- springs to the ground -------------------------------------------------------------------
 
 
-def _appu(call: Call) -> Matrix:
-    held = _Held(call)
-    if held.sense:
-        raise call.bad("a spring works both ways", hint="BLOQ has 'MINI' and 'MAXI'")
-    stiffness = call.required("FLOTTANT")
-    nodes = nodes_of(call.required("MAILLAGE", "POINT"))
-    _some(nodes)
-    if not held.directed():
-        return made.springs(held.ws.nodes, nodes, held.names(), stiffness)
-    parts = [
-        made.springs(held.ws.nodes, nodes, names, stiffness, d) for names, d in held.along(nodes)
-    ]
-    return Matrix(held.ws.nodes, tuple(b for p in parts for b in p.blocks))
+_STIFFNESS = arg("stiffness", "FLOTTANT", en="stiffness of each", fr="raideur de chacun")
 
 
-operator(
+@operator(
     "APPU",
+    *_held(_CENTRE),
+    _STIFFNESS,
+    _SUPPORT,
+    when=IN_PLANE,
     family="relations",
     full_name="APPUI",
     help=Help(
@@ -333,5 +416,19 @@ operator(
         "RIG1 = APPU MOT1 ... | ('DEPL') ('ROTA') ('DIRE' VEC1) | 'RADI' P1 (P2) FLOT1 GEO1 ;",
         ("OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; R1 = APPU 'UX' 'UY' 1.E6 P1 ;",),
     ),
-    reads_itself=True,
-)(_appu)
+)
+def appu(call: Call, stiffness: float, support: Mesh | Point, **said: Any) -> Matrix:
+    """Springs to the ground."""
+    held, nodes = _Held(call, **said), nodes_of(support)
+    if held.sense:
+        raise call.error("operators.matrices.spring-works-both-ways")
+    _some(nodes)
+    if not held.directed():
+        return made.springs(held.ws.nodes, nodes, held.names(), stiffness)
+    parts = [
+        made.springs(held.ws.nodes, nodes, names, stiffness, d) for names, d in held.along(nodes)
+    ]
+    return Matrix(held.ws.nodes, tuple(b for p in parts for b in p.blocks))
+
+
+appu.form(*_held(_CENTRE, _ON_AXIS), _STIFFNESS, _SUPPORT, when=IN_SPACE)(appu.forms[0].function)

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -25,12 +24,31 @@ from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.orientation import surface_normals
 from ssilang.kernel.mesh.volumes.block import fill_block
 from ssilang.kernel.mesh.volumes.volume import fill_volume
-from ssilang.language.registry import Help, many, operator
+from ssilang.language.registry import (
+    Chosen,
+    Help,
+    arg,
+    flag,
+    key,
+    many,
+    operator,
+    opt,
+    said,
+    select,
+)
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.language.values import ListReel
-from ssilang.operators.mesh.ends import Cuts, count_and_number, read_count, read_sizes
-from ssilang.operators.mesh.sweeps import generator_path, read_rotation
+from ssilang.operators.mesh.lines.ends import (
+    ANGLE,
+    AXIS,
+    SIZES,
+    Cuts,
+    Sizes,
+    count_and_angle,
+    cuts_of,
+)
+from ssilang.operators.mesh.surfaces.sweeps import LAYERS, generator_path, turning
 from ssilang.operators.workspace import workspace
 
 
@@ -39,10 +57,7 @@ def surface_to_sweep(mesh: Mesh, side: int) -> Mesh:
     if mesh.dimension < 3:
         return mesh
     if len(mesh.sides) < 2:
-        raise MeshError(
-            f"this volume has no face {side + 1}",
-            "give a surface, or a volume made by sweeping a surface",
-        )
+        raise MeshError("operators.mesh.no-face-to-sweep", side=side + 1)
     return mesh.sides[side]
 
 
@@ -65,88 +80,50 @@ def _make(base: Mesh, path: Path, end_size: float, cuts: Cuts, listed: ListReel 
     return made if surface is base else stacked(base, made)
 
 
-class _Reading:
-    """Operands of VOLU as they are found."""
-
-    def __init__(self, call: Call) -> None:
-        self.call = call
-        self.cuts = Cuts()
-        self.meshes: list[Mesh] = []
-        self.points: list[Point] = []
-        self.listed: ListReel | None = None
-        self.thickness: float | NodeField | None = None
-
-    def loose(self) -> None:
-        """Consume what may stand anywhere: sizes, number of layers, list of positions, meshes."""
-        call = self.call
-        before = -1
-        while before != len(call.operands):
-            before = len(call.operands)
-            read_sizes(call, self.cuts)
-            if call.keyword(("PROG",)) is not None:
-                self.listed = call.required("LISTREEL", after=call.keyword_end)
-            call.keyword(("VERB",))
-            if not self.cuts.count:
-                read_count(call, self.cuts)
-            self.meshes += call.all("MAILLAGE")
-
-    def base(self) -> Mesh:
-        """The surface or volume that is swept."""
-        if not self.meshes:
-            raise self.call.missing(("MAILLAGE",))
-        return self.meshes[0]
-
-
-def _translated(reading: _Reading) -> Mesh:
-    reading.loose()
-    vector: Point = reading.call.required("POINT")
-    reading.loose()
-    path = translation(vector.coordinates.copy())
-    return _make(reading.base(), path, vector.density, reading.cuts, reading.listed)
-
-
-def _turned(reading: _Reading) -> Mesh:
-    call, cuts = reading.call, reading.cuts
-    read_sizes(call, cuts)
-    count, angle = count_and_number(call)
-    if angle is None:
-        if not cuts.count:
-            raise call.missing(("FLOTTANT",))
-        angle, cuts.count = float(cuts.count), 0
-    cuts.count = cuts.count or count
-    turn, size = read_rotation(call, angle, cuts)
-    reading.loose()
-    base = reading.base()
-    return _make(base, turn(surface_to_sweep(base, 1)), size, cuts, reading.listed)
-
-
-def _along_line(reading: _Reading) -> Mesh:
-    line = reading.call.required("MAILLAGE", after=reading.call.keyword_end)
-    reading.loose()
-    path, layers = generator_path(line)
-    base = reading.base()
-    surface = surface_to_sweep(base, 1)
-    made = sweep_surface(surface, path, layers)
-    return made if surface is base else stacked(base, made)
-
-
-def _between(reading: _Reading) -> Mesh:
-    base, second = reading.meshes[:2]
-    goal = surface_to_sweep(second, 0)
-    path = ruling(surface_to_sweep(base, 1), goal)
-    made = _make(base, path, mean_density(goal), reading.cuts, reading.listed)
-    return made if goal is second else stacked(made, second)
-
-
-_WAYS: dict[str, Callable[[_Reading], Mesh]] = {
-    "TRANSLATION": _translated,
-    "ROTATION": _turned,
-    "GENERATRICE": _along_line,
-}
+_BASE = arg(
+    "base",
+    "MAILLAGE",
+    en="surface, or volume whose face 2 is swept",
+    fr="surface, ou volume dont la face 2 est balayée",
+)
+_CUTS = (
+    LAYERS,
+    SIZES,
+    key(
+        "places",
+        "PROG",
+        arg("places", "LISTREEL"),
+        en="positions of the layers",
+        fr="position des couches",
+    ),
+    flag("wordy", "VERB", en="accepted, without effect", fr="accepté, sans effet"),
+)
 
 
 @operator(
     "VOLU",
+    _BASE,
+    *_CUTS,
+    opt(
+        "goal",
+        "MAILLAGE",
+        en="surface to reach, or volume whose face 1 is reached",
+        fr="surface à atteindre, ou volume dont la face 1 est atteinte",
+    ),
+    opt(
+        "thickness",
+        "FLOTTANT",
+        "CHPOINT",
+        en="thickness to give to a shell",
+        fr="épaisseur à donner à une coque",
+        unit="m",
+    ),
+    opt(
+        "outwards",
+        "POINT",
+        en="vector from the inner to the outer skin of the shell",
+        fr="vecteur de la peau intérieure à la peau extérieure de la coque",
+    ),
     family="mesh",
     full_name="VOLUME",
     help=Help(
@@ -174,26 +151,96 @@ _WAYS: dict[str, Callable[[_Reading], Mesh]] = {
             " V = S VOLU 3 'TRAN' (0. 0. 1.) ; LIST (NBEL V) ;",
         ),
     ),
-    reads_itself=True,
 )
-def volu(call: Call) -> Mesh:
-    """Sweep a volume."""
-    reading = _Reading(call)
-    reading.loose()
-    word = call.keyword(tuple(_WAYS))
-    if word is not None:
-        return _WAYS[word](reading)
-    if len(reading.meshes) > 1:
-        return _between(reading)
-    thickness = call.optional("FLOTTANT", "CHPOINT")
-    if thickness is None and reading.cuts.count:
-        thickness = float(reading.cuts.count)
+def volu(
+    call: Call,
+    base: Mesh,
+    count: int | None,
+    sizes: Sizes,
+    places: ListReel | None,
+    wordy: bool,
+    goal: Mesh | None,
+    thickness: float | NodeField | None,
+    outwards: Point | None,
+) -> Mesh:
+    """Fill a volume, span one between two surfaces, or thicken a shell."""
+    if goal is not None:
+        end = surface_to_sweep(goal, 0)
+        path = ruling(surface_to_sweep(base, 1), end)
+        made = _make(base, path, mean_density(end), cuts_of(call, count, sizes), places)
+        return made if end is goal else stacked(made, goal)
+    if thickness is None and count:
+        thickness = float(count)
     if thickness is None:
-        return fill_volume(reading.base(), workspace(call.session).colour)
-    return thickened(reading.base(), thickness, call.required("POINT").coordinates.copy())
+        return fill_volume(base, workspace(call.session).colour)
+    if outwards is None:
+        raise call.missing(("POINT",))
+    return thickened(base, thickness, outwards.coordinates.copy())
 
 
-def thickened(shell: Mesh, thickness: Any, direction: FloatArray) -> Mesh:
+@volu.form(
+    said("TRANSLATION"),
+    _BASE,
+    *_CUTS,
+    arg("vector", "POINT", en="vector", fr="vecteur", unit="m"),
+)
+def translated(
+    call: Call,
+    base: Mesh,
+    count: int | None,
+    sizes: Sizes,
+    places: ListReel | None,
+    wordy: bool,
+    vector: Point,
+) -> Mesh:
+    """Sweep a volume along a vector."""
+    path = translation(vector.coordinates.copy())
+    return _make(base, path, vector.density, cuts_of(call, count, sizes), places)
+
+
+@volu.form(said("ROTATION"), _BASE, *_CUTS, ANGLE, AXIS)
+def turned(
+    call: Call,
+    base: Mesh,
+    count: int | None,
+    sizes: Sizes,
+    places: ListReel | None,
+    wordy: bool,
+    angle: float | None,
+    axis: Sequence[Point],
+) -> Mesh:
+    """Sweep a volume about an axis."""
+    count, degrees = count_and_angle(call, count, angle)
+    turn, size = turning(call, degrees, axis)
+    path = turn(surface_to_sweep(base, 1))
+    return _make(base, path, size, cuts_of(call, count, sizes), places)
+
+
+@volu.form(
+    select(
+        "along",
+        {"GENERATRICE": [arg("line", "MAILLAGE", en="line to follow", fr="ligne à suivre")]},
+        optional=False,
+    ),
+    _BASE,
+    *_CUTS,
+)
+def along_line(
+    along: Chosen,
+    base: Mesh,
+    count: int | None,
+    sizes: Sizes,
+    places: ListReel | None,
+    wordy: bool,
+) -> Mesh:
+    """Sweep a volume along a line, a layer for each of its cells."""
+    path, layers = generator_path(along["line"])
+    surface = surface_to_sweep(base, 1)
+    made = sweep_surface(surface, path, layers)
+    return made if surface is base else stacked(base, made)
+
+
+def thickened(shell: Mesh, thickness: float | NodeField, direction: FloatArray) -> Mesh:
     """Bricks on a shell, half the thickness on each side along the nodes' mean normals.
 
     Parameters
@@ -213,7 +260,7 @@ def thickened(shell: Mesh, thickness: Any, direction: FloatArray) -> Mesh:
             np.add.at(normal, place[:, k], vectors)
     length = np.linalg.norm(normal, axis=1, keepdims=True)
     if (length == 0.0).any():
-        raise MeshError("a shell of triangles or quadrangles with an area is needed to thicken it")
+        raise MeshError("operators.mesh.no-shell")
     normal /= length
     size = _thickness_at(shell, thickness)[:, None]
     inner = shell.nodes.add(shell.nodes.coordinates[ids] - 0.5 * size * normal)
@@ -226,20 +273,25 @@ def thickened(shell: Mesh, thickness: Any, direction: FloatArray) -> Mesh:
     return sweep_surface(Mesh(shell.nodes, blocks), path, Subdivision(np.array([0.0, 1.0]), 0, 0))
 
 
-def _thickness_at(shell: Mesh, thickness: Any) -> FloatArray:
+def _thickness_at(shell: Mesh, thickness: float | NodeField) -> FloatArray:
     ids = shell.node_ids
     if not isinstance(thickness, NodeField):
         return np.full(len(ids), float(thickness))
     name = next(iter(thickness.components))
     values = thickness.values_at(name, ids, np.nan)
     if np.isnan(values).any():
-        raise MeshError("the field of thicknesses does not cover the surface")
+        raise MeshError("operators.mesh.thickness-missing")
     return values
 
 
 @operator(
     "PAVE",
-    many("faces", "MAILLAGE"),
+    many(
+        "faces",
+        "MAILLAGE",
+        en="six faces, opposite ones one after the other",
+        fr="six faces, les opposées se suivant",
+    ),
     family="mesh",
     help=Help(
         en="Bricks inside six faces meshed as grids of quadrangles (DALL), opposite faces one "
@@ -260,5 +312,5 @@ def _thickness_at(shell: Mesh, thickness: Any) -> FloatArray:
 def pave(session: Session, call: Call, faces: tuple[Mesh, ...]) -> Mesh:
     """Fill a block."""
     if len(faces) != 6:
-        raise call.bad(f"a block has six faces, {len(faces)} are given")
+        raise call.error("operators.mesh.six-faces-wanted", n_faces=len(faces))
     return fill_block(faces, workspace(session).colour)

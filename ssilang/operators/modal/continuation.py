@@ -43,27 +43,33 @@ def lengths_of(entries: Entries) -> Lengths:
     """How far steps go: WTABLE . DS DSMIN DSMAX, NB_ITERATION, MAXITERATION, units."""
     from ssilang.kernel.continuation.arc import Lengths
 
-    times = np.asarray(entries.needed("TEMPS_CALCULES", "LISTREEL").values)
+    times = np.asarray(entries.needed("TEMPS_CALCULES").values)
     entries.times("TEMPS_CALCULES")  # refuses what does not increase
-    work = Entries(entries.call, entries.get("WTABLE", "TABLE") or Table(), "CONTINU, WTABLE")
-    start = work.get("DS", "FLOTTANT") or 1.0
-    least = work.get("DSMIN", "FLOTTANT") or 1e-3 * start
-    most = work.get("DSMAX", "FLOTTANT") or max(start, 1.0)
-    unit = entries.needed("MAXI_DEPLACEMENT", "FLOTTANT")
+    work = _work(entries)
+    start = work.get("DS") or work.default("DS")
+    least = work.get("DSMIN") or 1e-3 * start
+    most = work.get("DSMAX") or max(start, 1.0)
+    unit = entries.needed("MAXI_DEPLACEMENT")
     if unit <= 0.0 or not 0.0 < least <= start <= most:
         raise entries.bad("'MAXI_DEPLACEMENT' > 0 and 0 < 'DSMIN' <= 'DS' <= 'DSMAX' are wanted")
     return Lengths(
         start, least, most,
-        _positive(entries, "NB_ITERATION", 6.0), round(_positive(entries, "MAXITERATION", 24)),
+        _positive(entries, "NB_ITERATION"), round(_positive(entries, "MAXITERATION")),
         unit, float(np.mean(np.diff(times))),
-        _positive(entries, "PRECISION", 1e-6),
+        _positive(entries, "PRECISION"),
         BEND,
     )  # fmt: skip
 
 
-def _positive(entries: Entries, index: str, default: float) -> float:
+def _work(entries: Entries) -> Entries:
+    """The entries of WTABLE, of an empty one if there is none."""
+    table = entries.get("WTABLE") or Table()
+    return Entries(entries.call, table, "CONTINU", "TAB1.WTABLE")
+
+
+def _positive(entries: Entries, index: str) -> float:
     """A number above zero; zero stands for the default, as if it were not given."""
-    value = float(entries.get(index, "FLOTTANT", "ENTIER") or default)
+    value = float(entries.get(index) or entries.default(index))
     if value <= 0.0:
         raise entries.bad(f"'{index}' is {value:g}", "a number above zero")
     return value
@@ -85,14 +91,14 @@ def continue_harmonics(entries: Entries) -> None:
 
     names = known_names(entries)
     problem = _problem(entries, names)
-    times = np.asarray(entries.needed("TEMPS_CALCULES", "LISTREEL").values)
+    times = np.asarray(entries.needed("TEMPS_CALCULES").values)
     tracer = Tracer(problem, lengths_of(entries))
     begin = _begin(entries, problem, float(times[0]))
     if begin.way is None:
         first = tracer.first(begin.u, begin.t)
     else:
         first = tracer.turned(tracer.first(begin.u, begin.t), *begin.way)
-    most = entries.get("MAXIPAS", "ENTIER") or 1000
+    most = entries.get("MAXIPAS") or entries.default("MAXIPAS")
     low, high = float(times[0]), float(times[-1])
     branch = tracer.follow(first, most, lambda t: low <= t <= high, land=True)
     if branch.ended == "no solution":
@@ -110,19 +116,19 @@ def _problem(entries: Entries, names: Names) -> FrequencyProblem:
     from ssilang.kernel.stepping.problem.loading import loading_of
 
     words = ("RIGIDITE_HBM", "AMORTISSEMENT_HBM", "MASSE_HBM")
-    K, C, M = (entries.needed(w, "RIGIDITE") for w in words)
-    supports = entries.get("BLOCAGES_HBM", "RIGIDITE") or Matrix(K.table)
+    K, C, M = (entries.needed(w) for w in words)
+    supports = entries.get("BLOCAGES_HBM") or Matrix(K.table)
     whole = Matrix(K.table, (*K.blocks, *supports.blocks), (*K.relations, *supports.relations))
     numbering = numbering_of(whole, C, M)
     rows = constraint_matrix(whole, numbering)
-    load: Load | None = entries.get("CHARGEMENT", "CHARGEME")
+    load: Load | None = entries.get("CHARGEMENT")
     loading = loading_of(load, numbering, rows.multipliers)
     if loading.imposed.any():
         raise entries.bad("imposed displacements do not go with harmonic balance", "load by forces")
     constraints = constraints_of(rows, numbering.size <= 160)
-    law = entries.get("FREQUENCE", "EVOLUTION", "EVOLUTIO")
+    law = entries.get("FREQUENCE")
     found, samples = nonlinear_unknowns(entries), None
-    order = entries.get("N_PT_TFR", "ENTIER")
+    order = entries.get("N_PT_TFR")
     if order is not None and not 0 <= order <= MOST_ORDER:
         raise entries.bad(f"'N_PT_TFR' is {order}", f"2**N_PT_TFR instants, {MOST_ORDER} at most")
     least = int(np.ceil(np.log2(4 * names.places)))
@@ -165,14 +171,14 @@ def _places(
 def _begin(entries: Entries, problem: FrequencyProblem, first: float) -> Begin:
     """The last result, where there is one; else DEPLACEMENTS . 0 at the first time."""
     number = max(entries.numbers("DEPLACEMENTS"), default=0)
-    known = entries.at("DEPLACEMENTS", number, "CHPOINT")
-    time = entries.at("TEMPS", number, "FLOTTANT", "ENTIER")
+    known = entries.at("DEPLACEMENTS", number)
+    time = entries.at("TEMPS", number)
     again = time is not None and entries.has("TEMPS_PROG")
-    work = Entries(entries.call, entries.get("WTABLE", "TABLE") or Table(), "CONTINU, WTABLE")
+    work = _work(entries)
     way = None
     if work.has("DTIME0") and work.has("DDEP0"):
-        moved = _reduced(problem, work.needed("DDEP0", "CHPOINT"))
-        way = (moved, float(work.needed("DTIME0", "FLOTTANT")))
+        moved = _reduced(problem, work.needed("DDEP0"))
+        way = (moved, float(work.needed("DTIME0")))
     u = np.zeros(problem.T.shape[1]) if known is None else _reduced(problem, known)
     if again:
         return Begin(u, float(time), way, number)
@@ -198,7 +204,7 @@ def _fill(
     if again and not points:
         return
     all_times = longer(table, "TEMPS_PROG", np.array([p.t for p in points]))
-    every = entries.get("PAS_SAUVES", "ENTIER") or 1
+    every = entries.get("PAS_SAUVES") or entries.default("PAS_SAUVES")
     for word in ("TEMPS", "DEPLACEMENTS"):
         if not isinstance(table.get(word), Table):
             table.set(Mot(word), Table())
@@ -249,7 +255,7 @@ def _curves(
         drawn = curve(times, whole, ("t", asked.component), asked.title, asked.colour)
         asked.table.set(Mot("RESULTATS_EVOL"), drawn)
         curves.append(drawn)
-    inner = entries.needed("RESULTATS_HBM", "TABLE")
+    inner = entries.needed("RESULTATS_HBM")
     inner.set(Mot("RESULTATS_EVOL"), joined(curves))
     inner.set(Mot("TITRE"), numbered([Mot(a.title) for a in asked_all]))
 
@@ -259,7 +265,7 @@ def _stability(
     again: bool, names: Names,
 ) -> None:  # fmt: skip
     """RESULTATS_STABILITE at all points but the last, which a further call starts from."""
-    asked = entries.get("STABILITE", "LISTMOTS", "LOGIQUE")
+    asked = entries.get("STABILITE")
     words = [w.strip() for w in asked.values] if isinstance(asked, ListMots) else []
     words = ["FLOQ"] if asked is True else words
     wrong = [w for w in words if w not in STABILITY]
@@ -285,14 +291,12 @@ def _stability(
 def _begin_again(
     entries: Entries, problem: FrequencyProblem, tracer: Tracer, new: int
 ) -> Solution | None:
-    times = np.asarray(entries.needed("TEMPS_PROG", "LISTREEL").values)
+    times = np.asarray(entries.needed("TEMPS_PROG").values)
     numbers = entries.numbers("DEPLACEMENTS")
     at = float(times[len(times) - new - 1])
     for number in sorted(numbers, reverse=True):
-        if entries.at("TEMPS", number, "FLOTTANT") == at:
-            return tracer.first(
-                _reduced(problem, entries.at("DEPLACEMENTS", number, "CHPOINT")), at
-            )
+        if entries.at("TEMPS", number) == at:
+            return tracer.first(_reduced(problem, entries.at("DEPLACEMENTS", number)), at)
     return None
 
 
@@ -331,11 +335,11 @@ def _exponents(entries: Entries, problem: FrequencyProblem) -> Callable[[Solutio
     from ssilang.kernel.stepping.problem.constraints import constraints_of
 
     words = ("RIGIDITE_CONSTANTE", "AMORTISSEMENT_CONSTANT", "MASSE_CONSTANTE")
-    K, C, M = (entries.get(w, "RIGIDITE") for w in words)
+    K, C, M = (entries.get(w) for w in words)
     if K is None or M is None:
         raise entries.bad("stability wants 'RIGIDITE_CONSTANTE' and 'MASSE_CONSTANTE'")
     C = Matrix(K.table) if C is None else C
-    supports = entries.get("BLOCAGES_MECANIQUES", "RIGIDITE") or Matrix(K.table)
+    supports = entries.get("BLOCAGES_MECANIQUES") or Matrix(K.table)
     whole = Matrix(K.table, (*K.blocks, *supports.blocks), (*K.relations, *supports.relations))
     numbering = numbering_of(whole, C, M)
     rows = constraint_matrix(whole, numbering)

@@ -14,8 +14,9 @@ from ssilang.kernel.modal.links import link_arrays
 from ssilang.language.registry import Help, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots, ListReel, Mot, Table
-from ssilang.operators.modal.dyne import System, damping_of, system_of
+from ssilang.operators.modal.dyne import System, damping_of, system_of, tables_by_role
 from ssilang.operators.modal.dyne_links import links_of
+from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
     from ssilang.kernel.continuation.arc import Lengths
@@ -23,17 +24,15 @@ if TYPE_CHECKING:
     from ssilang.kernel.continuation.response import Response
 
 _ROLES = {
-    **dict.fromkeys(("BASE_MODALE", "BASE_DE_MODES", "ENSEMBLE_DE_BASES"), "system"),
-    "CHARGEMENT": "loads", "LIAISON": "links", "AMORTISSEMENT": "damping", "INITIAL": "start",
-    "PARAMETRES_NUMERIQUES": "numbers",
+    "TMOD": "system", "TCHR": "loads", "TLIAI": "links", "TAMOR": "damping", "TINI": "start",
+    "TNUM": "numbers",
 }  # fmt: skip
-_TYPES = ("FORC", "NNM")
 
 
 def _dync(call: Call) -> Table:
     from ssilang.kernel.continuation.response import forced_response, normal_mode
 
-    tables = _by_role(call, call.all("TABLE"))
+    tables = _tables(call)
     harmonics, samples = call.required("ENTIER"), call.required("ENTIER")
     if harmonics < 1 or samples < 2 * (2 * harmonics + 1):
         raise call.bad(
@@ -41,63 +40,49 @@ def _dync(call: Call) -> Table:
             f"{samples} are given"
         )
     system = system_of(call, tables["system"])
-    numbers = Numbers(call, tables["numbers"])
-    kind = numbers.word("TYPE", "FORC")
-    if kind not in _TYPES:
-        raise call.bad(
-            f"'TYPE' is '{kind}'",
-            tables["numbers"],
-            hint="'FORC' (forced response) and 'NNM' (nonlinear normal modes) are built",
-        )
+    numbers = Numbers(call, tables["numbers"], "TNUM")
+    kind = str(numbers.entries.get("TYPE"))
     oscillators = _oscillators(call, tables, system, harmonics, samples, kind == "NNM")
-    lengths, most = _lengths(numbers), int(numbers.positive("NBPAS", 1000.0))
-    start = Numbers(call, tables.get("start") or Table("INITIAL"))
+    lengths, most = _lengths(numbers), int(numbers.positive("NBPAS"))
+    start = Numbers(call, tables["start"], "TINI")
     end = numbers.real("VAL_FIN")
     if kind == "NNM":
-        mode = int(start.real("MODE", 1.0)) - 1
+        mode = int(start.real("MODE")) - 1
         if not 0 <= mode < len(system.M):
             raise call.bad(f"'MODE' is between 1 and {len(system.M)}", tables["start"])
         found = normal_mode(oscillators, mode, start.real("ENERGIE"), end, lengths, most)
     else:
-        first, sense = start.positive("FREQUENCE"), numbers.real("ISENS", 1.0)
+        first, sense = start.positive("FREQUENCE"), numbers.real("ISENS")
         guess = _guess(call, tables["start"], system, oscillators, first)
         found = forced_response(oscillators, guess, first, end, sense, lengths, most)
     return _results(call, found, system, kind == "NNM")
 
 
 class Numbers:
-    """Numbers and words of a table of parameters."""
+    """Numbers of a table of parameters."""
 
-    def __init__(self, call: Call, table: Table) -> None:
+    def __init__(self, call: Call, table: Table, argument: str) -> None:
         self.call, self.table = call, table
+        self.entries = Entries(call, table, "DYNC", argument)
 
     def real(self, name: str, default: float | None = None) -> float:
-        """A number."""
-        value = self.table.get(Mot(name), default)
-        if isinstance(value, bool) or not isinstance(value, int | float) or not np.isfinite(value):
+        """A number, where it is not given the one declared, or else `default`."""
+        value = self.entries.get(name)
+        value = default if value is None else value
+        if value is None:
             raise self.call.bad(f"the table {self.table.subtype} has no number '{name}'")
         return float(value)
 
-    def positive(self, name: str, default: float | None = None) -> float:
+    def positive(self, name: str) -> float:
         """A number above zero."""
-        value = self.real(name, default)
+        value = self.real(name)
         if value <= 0.0:
             raise self.call.bad(f"'{name}' is {value:g}, not above zero", self.table)
         return value
 
-    def word(self, name: str, default: str) -> str:
-        """A word."""
-        return str(self.table.get(Mot(name), default)).rstrip()
 
-
-def _by_role(call: Call, tables: list[Table]) -> dict[str, Table]:
-    found: dict[str, Table] = {}
-    for table in tables:
-        role = _ROLES.get(str(table.subtype))
-        if role is None or role in found:
-            word = "two tables" if role else "DYNC knows no table"
-            raise call.bad(f"{word} '{table.subtype}'", table, hint="known: " + " ".join(_ROLES))
-        found[role] = table
+def _tables(call: Call) -> dict[str, Table]:
+    found = tables_by_role(call, _ROLES)
     for role, name in (("system", "BASE_MODALE"), ("numbers", "PARAMETRES_NUMERIQUES")):
         if role not in found:
             raise call.bad(f"DYNC wants a table '{name}'")
@@ -120,10 +105,7 @@ def _oscillators(
     unbalance = False
     if table is not None and not free:
         load = _coefficients(call, table, system, harmonics, dual=True)
-        given = table.get(Mot("BALOURD"), 0)
-        if not isinstance(given, bool | int):
-            raise call.bad("'BALOURD' is 0 or 1", table)
-        unbalance = bool(given)
+        unbalance = bool(table.get(Mot("BALOURD"), 0))
     damping = np.zeros((n, n)) if free else damping_of(call, tables.get("damping"), system)
     basis = basis_of(harmonics, samples)
     return Oscillators(system.M, damping, system.K, basis, forces, load, unbalance)
@@ -161,16 +143,16 @@ def _guess(
 def _lengths(numbers: Numbers) -> Lengths:
     from ssilang.kernel.continuation.arc import Lengths
 
-    start = numbers.real("DS0", 0.01)
+    start = numbers.real("DS0")
     lengths = Lengths(start, numbers.real("DSMIN", 1e-3 * start), numbers.real("DSMAX", 10 * start))
     if not 0.0 < lengths.least <= lengths.start <= lengths.most:
         raise numbers.call.bad("0 < 'DSMIN' <= 'DS0' <= 'DSMAX' is wanted", numbers.table)
     return replace(
         lengths,
-        ideal=numbers.positive("ITERMOY", 4.0),
-        turns=round(max(numbers.positive("ITERMAX", 20.0), 1.0)),
-        tolerance=numbers.positive("TOLERANCE", 1e-8),
-        bend=float(np.radians(numbers.positive("ANGLE_MAX", 180.0))),
+        ideal=numbers.positive("ITERMOY"),
+        turns=round(max(numbers.positive("ITERMAX"), 1.0)),
+        tolerance=numbers.positive("TOLERANCE"),
+        bend=float(np.radians(numbers.positive("ANGLE_MAX"))),
     )
 
 
@@ -287,7 +269,7 @@ operator(
         "sont celles de DYNE dont la force suit du mouvement présent. REPONSE contient FREQUENCE, "
         "COEFFICIENTS . j . POINT, NORME_DEPLACEMENT, STABILITE (1 : instable), les exposants de "
         "Floquet (par intégration sur une période) ; BIFURCATION les points LP, BP, PD et NS.",
-        "TAB1 = DYNC TMOD (TCHR) (TLIA) (TAMOR) TINI TNUM NHBM NFFT ;",
+        "TAB1 = DYNC TMOD (TCHR) (TLIAI) (TAMOR) TINI TNUM NHBM NFFT ;",
         (
             _DUFFING + "R = DYNC TM TC TL TA TI TN 3 64 ; LIST (R . 'BIFURCATION' . 'TYPE') ; "
             "LIST (MAXI (R . 'REPONSE' . 'NORME_DEPLACEMENT')) ;",

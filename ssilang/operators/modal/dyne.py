@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -22,12 +23,13 @@ from ssilang.language.values import ListReel, Mot, Table
 from ssilang.operators.modal.basis import shapes_in
 from ssilang.operators.modal.dyne_links import Basis, ReadLink, link_results, links_of
 from ssilang.operators.modal.modes import filled
+from ssilang.operators.tables.entries import Entries
 from ssilang.operators.workspace import workspace
 
-_BASES = ("BASE_MODALE", "BASE_DE_MODES", "ENSEMBLE_DE_BASES")
+BASES = ("BASE_MODALE", "BASE_DE_MODES", "ENSEMBLE_DE_BASES")
 _ROLES = {
-    **dict.fromkeys(_BASES, "system"), "RAIDEUR_ET_MASSE": "system", "AMORTISSEMENT": "damping",
-    "LIAISON": "links", "CHARGEMENT": "loads", "INITIAL": "start", "SORTIE": "output",
+    "TBAS1": "system", "TRIGMASS": "system", "TAMOR": "damping", "TLIAI": "links",
+    "TCHAR": "loads", "TINIT": "start", "TSORT": "output",
 }  # fmt: skip
 
 
@@ -55,7 +57,7 @@ def _dyne(call: Call) -> Table:
     scheme = call.keyword(SCHEMES)
     if scheme is None:
         raise call.bad("which scheme steps in time?", hint=" ".join(f"'{s}'" for s in SCHEMES))
-    tables = _by_role(call, call.all("TABLE"))
+    tables = tables_by_role(call, _ROLES)
     if "system" not in tables:
         raise call.bad("DYNE wants a table BASE_MODALE or RAIDEUR_ET_MASSE")
     steps, h = call.required("ENTIER"), call.required("FLOTTANT")
@@ -68,20 +70,25 @@ def _dyne(call: Call) -> Table:
         system.M, damping_of(call, tables.get("damping"), system), system.K, spaces, amplitudes,
         link_arrays([r.link for r in links], len(system.M)), start, h, steps, every, scheme,
     )  # fmt: skip
-    return _results(call, run, system, links, tables.get("output"))
+    return _results(run, system, links, tables.get("output"))
 
 
-def _by_role(call: Call, tables: list[Table]) -> dict[str, Table]:
+def tables_by_role(call: Call, roles: Mapping[str, str]) -> dict[str, Table]:
+    """The tables among the operands, checked, by the role of the argument that they are."""
+    declared = call.session.library.declared(call.name)
+    assert declared is not None
+    by_subtype = {a.subtype: a.name for a in declared.arguments if a.subtype}
+    by_subtype |= dict.fromkeys(BASES, declared.arguments[0].name)
     found: dict[str, Table] = {}
-    for table in tables:
-        if table.subtype not in _ROLES:
-            raise call.bad(
-                f"DYNE knows no table '{table.subtype}'", table, hint="known: " + " ".join(_ROLES)
-            )
-        role = _ROLES[table.subtype]
-        if role in found:
+    for table in call.all("TABLE"):
+        argument = by_subtype.get(table.subtype)
+        if argument is None:
+            hint = "known: " + " ".join(by_subtype)
+            raise call.bad(f"{call.name} knows no table '{table.subtype}'", table, hint)
+        if roles[argument] in found:
             raise call.bad(f"two tables '{table.subtype}'", table)
-        found[role] = table
+        Entries(call, table, call.name, argument).check()
+        found[roles[argument]] = table
     return found
 
 
@@ -135,7 +142,7 @@ def _of_matrices(call: Call, table: Table) -> System:
         shapes = tuple(by_mark[int(n)] for n in numbering.nodes)
     basis = Basis(tuple(int(n) for n in numbering.nodes), tuple(named), shapes)
     K, M = (
-        _kept(assemble(m, numbering).toarray(), _full(call, table, nature))
+        _kept(assemble(m, numbering).toarray(), _full(table, nature))
         for m, nature in ((stiffness, "NATURE_RAIDEUR"), (mass, "NATURE_MASSE"))
     )
     return System(basis, numbering, K, M)
@@ -148,11 +155,8 @@ def _matrix(call: Call, table: Table, name: str) -> Matrix:
     return value
 
 
-def _full(call: Call, table: Table, name: str) -> bool:
-    word = str(table.get(Mot(name), "DIAGONALE")).rstrip()
-    if word not in ("PLEINE", "DIAGONALE"):
-        raise call.bad(f"'{name}' is 'PLEINE' or 'DIAGONALE'", table)
-    return word == "PLEINE"
+def _full(table: Table, name: str) -> bool:
+    return str(table.get(Mot(name), "DIAGONALE")).rstrip() == "PLEINE"
 
 
 def _kept(matrix: FloatArray, full: bool) -> FloatArray:
@@ -164,7 +168,7 @@ def damping_of(call: Call, table: Table | None, system: System) -> FloatArray:
     if table is None:
         return np.zeros_like(system.M)
     matrix = _matrix(call, table, "AMORTISSEMENT")
-    return _kept(assemble(matrix, system.numbering).toarray(), _full(call, table, "NATURE"))
+    return _kept(assemble(matrix, system.numbering).toarray(), _full(table, "NATURE"))
 
 
 def _forces(
@@ -214,9 +218,7 @@ def _values(call: Call, table: Table, name: str, system: System) -> FloatArray |
 # --- what is given back ------------------------------------------------------------------------
 
 
-def _results(
-    call: Call, run: ModalRun, system: System, links: list[ReadLink], output: Table | None
-) -> Table:
+def _results(run: ModalRun, system: System, links: list[ReadLink], output: Table | None) -> Table:
     table = Table("RESULTAT_DYNE")
     table.set(Mot("TEMPS_DE_SORTIE"), ListReel(run.times))
     variables = None if output is None else output.get("VARIABLE")
@@ -226,8 +228,6 @@ def _results(
         wanted |= {str(i).rstrip(): v is True for i, v in variables.items() if type(v) is bool}
         kind = str(variables.get("TYPE_SORTIE", kind)).rstrip()
     chosen = [i for i, name in enumerate(VARIABLES) if wanted.get(name)]
-    if kind not in ("CHPOINT", "LISTREEL"):
-        raise call.bad("'TYPE_SORTIE' is 'CHPOINT' or 'LISTREEL'", output)
     (_as_fields if kind == "CHPOINT" else _as_lists)(table, run, system, chosen)
     _add_links(table, run, links, output)
     table.set(Mot("REPRISE"), _restart(run, system))

@@ -28,27 +28,30 @@ class Asked:
 
 def asked_results(entries: Entries, index: str) -> list[Asked]:
     """Results 1, 2 ... of the table at an index; none without it."""
-    inner = entries.get(index, "TABLE")
+    inner = entries.get(index)
     if inner is None:
         return []
     return [
-        _asked(entries, inner.get(i), f"{index} . {i}")
+        _asked(entries, inner.get(i), index, i)
         for i, _ in sorted((i, v) for i, v in inner.items() if type(i) is int)
     ]
 
 
-def _asked(entries: Entries, table: object, place: str) -> Asked:
+def _asked(entries: Entries, table: object, index: str, number: int) -> Asked:
+    place = f"{index} . {number}"
     if not isinstance(table, Table):
         raise entries.bad(f"'{place}' must be TABLE")
-    own = Entries(entries.call, table, f"{entries.procedure}, {place}")
-    point: Point = own.needed("POINT_MESURE", "POINT")
+    own = Entries(entries.call, table, entries.procedure, f"TAB1.{index}.I")
+    point: Point = own.needed("POINT_MESURE")
     word = "COMPOSANTE" if own.has("COMPOSANTE") else "COMPOSANTES"
-    given = own.needed(word, "MOT", "LISTMOTS")
+    given = own.needed(word)
     words = given.values if isinstance(given, ListMots) else [str(given)]
     if not words or not words[0].strip():
-        raise own.bad(f"'{word}' names no component", f"TAB1 . {place} . '{word}' = MOT 'UX' ;")
+        raise entries.bad(
+            f"'{place} . {word}' names no component", f"TAB1 . {place} . '{word}' = MOT 'UX' ;"
+        )
     component = words[0]
-    title = own.get("TITRE", "MOT")
+    title = own.get("TITRE")
     return Asked(
         table, point, component.rstrip(), str(title or component).rstrip(),
         colour_of(table.get("COULEUR")),

@@ -24,10 +24,6 @@ from ssilang.operators.modal.harmonic_tables import (
 )
 from ssilang.operators.tables.entries import Entries
 
-REFUSED = {
-    "RIGIDITE_CENTRIFUGE": "the notice does not say how it enters Z",
-    "CORIOLIS_CONSTANT": "the notice does not say how it enters Z",
-}
 MATRICES = {
     "RIGIDITE_HBM": ("RIGIDITE_CONSTANTE", expansion.stiffness_terms),
     "AMORTISSEMENT_HBM": ("AMORTISSEMENT_CONSTANT", expansion.damping_terms),
@@ -43,11 +39,11 @@ MATRICES = {
 
 def known_names(entries: Entries) -> Names:
     """Unknowns and harmonics of a table given to HBM."""
-    harmonics = entries.needed("N_HARMONIQUE", "ENTIER")
+    harmonics = entries.needed("N_HARMONIQUE")
     if harmonics < 1:
         raise entries.bad(f"'N_HARMONIQUE' is {harmonics}", "1 or more")
     words = ("RIGIDITE_CONSTANTE", "AMORTISSEMENT_CONSTANT", "MASSE_CONSTANTE")
-    given = [m for m in (entries.get(w, "RIGIDITE") for w in words) if m is not None]
+    given = [m for m in (entries.get(w) for w in words) if m is not None]
     return names_of(given, harmonics)
 
 
@@ -64,14 +60,13 @@ def known_names(entries: Entries) -> Names:
 def zhbm(call: Call) -> None:
     """Read the matrices of the motion, add those of its coefficients."""
     entries = Entries(call, call.required("TABLE"), "HBM")
-    entries.refuse(REFUSED)
     names = known_names(entries)
-    entries.needed("RIGIDITE_CONSTANTE", "RIGIDITE")
-    entries.needed("MASSE_CONSTANTE", "RIGIDITE")
+    entries.needed("RIGIDITE_CONSTANTE")
+    entries.needed("MASSE_CONSTANTE")
     for index, (source, terms) in MATRICES.items():
-        given = entries.get(source, "RIGIDITE")
+        given = entries.get(source)
         if given is None:
-            given = Matrix(entries.needed("MASSE_CONSTANTE", "RIGIDITE").table)
+            given = Matrix(entries.needed("MASSE_CONSTANTE").table)
         if index == "BLOCAGES_HBM":
             given = Matrix(given.table, given.blocks, given.relations)
         elif index not in ("RIGIDITE_HBM",):
@@ -173,11 +168,11 @@ def zhpo(call: Call) -> None:
     wrong = [w for w in wanted if w not in ("MAXI", "TEMP", "VITE")]
     if wrong:
         raise entries.bad(f"'{wrong[0]}' is no result", "MAXI TEMP VITE")
-    harmonics = entries.needed("N_HARMONIQUE", "ENTIER")
-    count = entries.get("N_PT_POST", "ENTIER") or 2**7 * harmonics
+    harmonics = entries.needed("N_HARMONIQUE")
+    count = entries.get("N_PT_POST") or 2**7 * harmonics
     shares = np.arange(count + 1) / count
     values, rates = basis_at(harmonics, 2 * np.pi * shares)
-    every = entries.get("PAS_SAUVES", "ENTIER") or 1
+    every = entries.get("PAS_SAUVES") or entries.default("PAS_SAUVES")
     curves, titles = [], []
     for asked in asked_results(entries, "RESULTATS"):
         motion = _motion(entries, asked)
@@ -197,9 +192,9 @@ def zhpo(call: Call) -> None:
 
 
 def _motion(entries: Entries, asked: Asked) -> Motion:
-    own = Entries(entries.call, asked.table, "HBM_POST")
-    numbers = own.needed("INDICES_HBM", "LISTENTI").values
-    found = entries.needed("RESULTATS_HBM", "TABLE")
+    own = Entries(entries.call, asked.table, "HBM_POST", "TAB1.RESULTATS.I")
+    numbers = own.needed("INDICES_HBM").values
+    found = entries.needed("RESULTATS_HBM")
     lists = []
     for j in numbers:
         inner = found.get(int(j))
@@ -207,8 +202,8 @@ def _motion(entries: Entries, asked: Asked) -> Motion:
         if not isinstance(values, ListReel):
             raise entries.bad(f"'RESULTATS_HBM' . {j} has no 'RESULTATS'", "CONTINU gives them")
         lists.append(np.asarray(values.values))
-    times = np.asarray(entries.needed("TEMPS_PROG", "LISTREEL").values)
-    law = entries.get("FREQUENCE", "EVOLUTION", "EVOLUTIO")
+    times = np.asarray(entries.needed("TEMPS_PROG").values)
+    law = entries.get("FREQUENCE")
     frequencies = times if law is None else np.array([law.at(float(t)) for t in times])
     return Motion(np.stack(lists, axis=1), times, frequencies)
 

@@ -18,13 +18,13 @@ def nonlinear_unknowns(entries: Entries) -> tuple[Point, list[str]] | None:
     """POINT_FNL and COMP_FNL where PROCEDURE_CHARMECA and AFT are asked for."""
     if not entries.flag("PROCEDURE_CHARMECA"):
         return None
-    if str(entries.get("PROCEDURE_FREQUENCE_TEMPS", "MOT") or "").rstrip() != "AFT":
+    if entries.get("PROCEDURE_FREQUENCE_TEMPS") != "AFT":
         raise entries.bad(
             "nonlinear forces are computed in time",
             "TAB1 . 'PROCEDURE_FREQUENCE_TEMPS' = MOT 'AFT' ;",
         )
-    names = entries.needed("COMP_FNL", "LISTMOTS").values
-    return entries.needed("POINT_FNL", "POINT"), [n.rstrip() for n in names]
+    names = entries.needed("COMP_FNL").values
+    return entries.needed("POINT_FNL"), [n.rstrip() for n in names]
 
 
 class Sampled:
@@ -44,8 +44,8 @@ class Sampled:
         table, count = self.entries.table, motion.shape
         table.set(Mot("DEP_NL"), self._given(motion))
         call_user(self.entries.call, "CHARMECA", table)
-        force = self._forces(self.entries.needed("FNL_T", "LISTCHPO", "TABLE"), count)
-        stiffness = self.entries.needed("KNL_T", "TABLE")
+        force = self._forces(self.entries.needed("FNL_T"), count)
+        stiffness = self.entries.needed("KNL_T")
         k = np.zeros((*count, count[1]))
         for i in range(count[1]):
             for j in range(count[1]):

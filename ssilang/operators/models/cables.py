@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
@@ -14,7 +12,7 @@ from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.statics.prestress import NO_LOSSES, Cable, Losses, cables_of, tensions
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import Help, arg, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
 
@@ -30,6 +28,18 @@ _ENTRIES = {
 
 @operator(
     "PREC",
+    arg("model", "MMODEL", en="cables, bars", fr="câbles, barres"),
+    arg("material", "MCHAML", en="their parameters", fr="leurs caractéristiques"),
+    opt("table", "TABLE", en="losses", fr="pertes"),
+    arg("force", "FLOTTANT", en="tension at the end", fr="tension au bout", unit="N"),
+    opt(
+        "ends",
+        "MAILLAGE",
+        "POINT",
+        en="points that are pulled, else the last of each cable",
+        fr="points de mise en tension, sinon le dernier de chaque câble",
+    ),
+    opt("before", "MCHAML", en="not built", fr="non programmé"),
     family="model",
     full_name="PRECONTRAINTE",
     help=Help(
@@ -51,21 +61,19 @@ _ENTRIES = {
             "T . 'PHIF' = 0.003 ; LIST (MINI (PREC M A 1.E5 T)) ;",
         ),
     ),
-    reads_itself=True,
 )
-def prec(call: Call) -> CellField:
+def prec(
+    call: Call,
+    model: Model,
+    material: CellField,
+    table: Table | None,
+    force: float,
+    ends: Mesh | Point | None,
+    before: CellField | None,
+) -> CellField:
     """Tensions of all cables of a model."""
-    model: Model = call.required("MMODEL")
-    material: CellField = call.required("MCHAML")
-    table = call.optional("TABLE")
-    force = float(call.required("FLOTTANT"))
-    table = table if table is not None else call.optional("TABLE")
-    ends = call.optional("MAILLAGE", "POINT")
-    if call.read("MCHAML") is not None:
-        raise call.bad(
-            "tensions before (PRE0) are not built",
-            hint="PREC for the cables pulled now, added to the field of the others",
-        )
+    if before is not None:
+        raise call.error("operators.models.tensions-before-not-built")
     losses = NO_LOSSES if table is None else _losses(call, table)
     chosen = _nodes(ends)
     return CellField(
@@ -73,13 +81,10 @@ def prec(call: Call) -> CellField:
     )
 
 
-def _nodes(ends: Any) -> IntArray | None:
+def _nodes(ends: Mesh | Point | None) -> IntArray | None:
     if ends is None:
         return None
-    if isinstance(ends, Point):
-        return np.array([ends.node])
-    assert isinstance(ends, Mesh)
-    return ends.sorted_node_ids
+    return np.array([ends.node]) if isinstance(ends, Point) else ends.sorted_node_ids
 
 
 def _losses(call: Call, table: Table) -> Losses:
@@ -88,7 +93,7 @@ def _losses(call: Call, table: Table) -> Losses:
         name = str(key).rstrip() if isinstance(key, Mot | str) else ""
         if name in _ENTRIES:
             if isinstance(value, bool) or not isinstance(value, int | float):
-                raise call.bad(f"'{name}' of the losses is a number", table)
+                raise call.error("operators.models.loss-is-a-number", table, name=name)
             given[_ENTRIES[name]] = float(value)
     return Losses(**given)
 
@@ -102,7 +107,7 @@ def _zone(
     ends: IntArray | None,
 ) -> CellFieldBlock:
     if ELEMENTS[zone.element].family != "bar" or zone.cells.cell_type != "SEG2":
-        raise call.bad(f"prestressing cables are bars (BARR on SEG2), not {zone.element}")
+        raise call.error("operators.models.cables-are-bars", element=zone.element)
     cells = zone.cells.connectivity
     x = zone.cells.nodes.coordinates[:, : zone.mode.dimension]
     seen = zone_field(zone, material)
@@ -123,15 +128,17 @@ def _pulled(call: Call, cable: Cable, ends: IntArray | None) -> tuple[bool, bool
         return False, True
     found = (int(cable.nodes[0]) in ends, int(cable.nodes[-1]) in ends)
     if not any(found):
-        raise call.bad(
-            f"no end of the cable from node {int(cable.nodes[0]) + 1} to node "
-            f"{int(cable.nodes[-1]) + 1} is among the points where it is pulled"
+        raise call.error(
+            "operators.models.cable-end-not-pulled",
+            first=int(cable.nodes[0]) + 1,
+            last=int(cable.nodes[-1]) + 1,
         )
     return found
 
 
 @operator(
     "IMPF",
+    arg("mesh", "MAILLAGE", en="mesh", fr="maillage"),
     family="model",
     full_name="IMPF",
     help=Help(
@@ -142,9 +149,7 @@ def _pulled(call: Call, cable: Cable, ends: IntArray | None) -> tuple[bool, bool
         syntax="GEO1 = IMPF GEO2 ;",
         examples=("OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0 0) (1 0) ; G = IMPF L ; LIST (NBEL G) ;",),
     ),
-    reads_itself=True,
 )
-def impf(call: Call) -> Mesh:
+def impf(mesh: Mesh) -> Mesh:
     """The mesh, unchanged."""
-    mesh: Mesh = call.required("MAILLAGE")
     return mesh

@@ -12,7 +12,7 @@ from ssilang.operators.workspace import workspace
 
 @operator(
     "FREN",
-    arg("line", "MAILLAGE"),
+    arg("line", "MAILLAGE", en="lines", fr="lignes"),
     family="mesh",
     full_name="FRENET",
     help=Help(

@@ -26,10 +26,12 @@ from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.mesh.mesh import Point
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import Chosen, Help, arg, choice, many, operator, opt, select
 from ssilang.language.run.call import Call
+from ssilang.operators.fields.tensors import state_and_rest
 from ssilang.operators.fields.turned import turned_node_field
-from ssilang.operators.statics.stresses import Reading, on_zones
+from ssilang.operators.matrices.element import joined, present
+from ssilang.operators.statics.stresses import on_zones
 
 Frames = Callable[[Zone, Support], FloatArray]
 
@@ -40,8 +42,34 @@ _EXAMPLE = (
 )
 
 
+_CENTRE = arg("centre", "POINT", en="centre", fr="centre")
+_ON_AXIS = arg("on_axis", "POINT", en="point of the axis", fr="point de l'axe")
+_SECOND = opt(
+    "second",
+    "POINT",
+    en="vector of the plane of the first two axes, in space",
+    fr="vecteur du plan des deux premiers axes, en 3D",
+)
+
+
 @operator(
     "RTEN",
+    arg("model", "MMODEL", en="model", fr="modèle"),
+    arg("field", "MCHAML", en="stresses or strains", fr="contraintes ou déformations"),
+    opt("material", "MCHAML", en="parameters with axes", fr="caractéristiques avec axes"),
+    select(
+        "frame",
+        {
+            "POLA": [_CENTRE],
+            "CYLI": [_CENTRE, _ON_AXIS],
+            "SPHE": [_CENTRE, _ON_AXIS],
+            "TORI": [],
+        },
+        en="polar, cylindrical or spherical coordinates",
+        fr="coordonnées polaires, cylindriques ou sphériques",
+    ),
+    opt("first", "POINT", en="first axis", fr="premier axe"),
+    _SECOND,
     family="stress",
     full_name="RTENS",
     help=Help(
@@ -61,59 +89,73 @@ _EXAMPLE = (
         "CHPO2 = RTEN CHPO1 VEC1 (VEC2) ;",
         examples=(_EXAMPLE + "LIST (MAXI (RTEN (SIGM M A U) M 'POLA' (0. 0.))) ;",),
     ),
-    reads_itself=True,
 )
-def rten(call: Call) -> CellField | NodeField:
-    """Another frame."""
-    if (nodal := call.read("CHPOINT")) is not None:
-        rotation = _fixed(call)
-        return turned_node_field(nodal.value, rotation)
-    cells: list[CellField] = call.all("MCHAML")
-    model: Model = call.required("MMODEL")
-    cells += call.all("MCHAML")
-    if not cells:
-        raise call.missing(("MCHAML",))
-    field = cells[0]
-    frames = _frames(call, cells[1] if len(cells) > 1 else None)
+def rten(
+    call: Call,
+    model: Model,
+    field: CellField,
+    material: CellField | None,
+    frame: Chosen | None,
+    first: Point | None,
+    second: Point | None,
+) -> CellField:
+    """Stresses or strains in another frame."""
+    if frame is not None:
+        frames = _round(call, frame)
+    elif first is not None:
+        frames = _fixed_frames(first, second)
+    elif material is not None:
+        frames = _of_material(material)
+    else:
+        raise call.missing(("POINT",))
 
     def make(zone: Zone) -> CellFieldBlock:
         if not is_solid(zone):
-            raise FieldError(f"RTEN is for continuous elements, not {zone.element}")
+            raise FieldError("operators.models.rten-of-solids-only", element=zone.element)
         support = tensor(zone, field)[1]
         return seen_in(zone, field, frames(zone, support))
 
     return on_zones(model, field.title, make)
 
 
-def _fixed(call: Call) -> FloatArray:
-    first: Point = call.required("POINT")
-    second = call.optional("POINT")
+@rten.form(
+    arg("field", "CHPOINT", en="vectors", fr="vecteurs"),
+    arg("first", "POINT", en="first axis", fr="premier axe"),
+    _SECOND,
+)
+def rten_of_vectors(field: NodeField, first: Point, second: Point | None) -> NodeField:
+    """Vectors in another frame."""
+    return turned_node_field(field, _fixed(first, second))
+
+
+def _fixed(first: Point, second: Point | None) -> FloatArray:
     return fixed_frame(first.coordinates, None if second is None else second.coordinates)
 
 
-def _frames(call: Call, material: CellField | None) -> Frames:
-    word = call.keyword(["POLA", "CYLI", "SPHE", "TORI"])
-    if word == "TORI":
-        raise call.bad("'TORI' is not available", hint="'POLA', 'CYLI' and 'SPHE' are")
-    if (
-        word is None
-        and material is not None
-        and not any(isinstance(o.value, Point) for o in call.operands)
-    ):
-        return lambda zone, support: material_frames(zone, material, support)
-    if word is None:
-        rotation = _fixed(call)
-        return lambda zone, support: rotation
-    centre = call.required("POINT", after=call.keyword_end).coordinates
-    if word == "POLA":
+def _fixed_frames(first: Point, second: Point | None) -> Frames:
+    rotation = _fixed(first, second)
+    return lambda zone, support: rotation
+
+
+def _of_material(material: CellField) -> Frames:
+    return lambda zone, support: material_frames(zone, material, support)
+
+
+def _round(call: Call, frame: Chosen) -> Frames:
+    if frame.word == "TORI":
+        raise call.error("operators.models.tori-not-available")
+    centre = frame["centre"].coordinates
+    if frame.word == "POLA":
         return lambda zone, support: polar_frames(points_of(zone, support), centre)
-    on_axis = call.required("POINT").coordinates
-    build = cylindrical_frames if word == "CYLI" else spherical_frames
+    on_axis = frame["on_axis"].coordinates
+    build = cylindrical_frames if frame.word == "CYLI" else spherical_frames
     return lambda zone, support: build(points_of(zone, support), centre, on_axis)
 
 
 @operator(
     "VLOC",
+    arg("model", "MMODEL", en="model", fr="modèle"),
+    many("fields", "MCHAML", at_least=1, en="parameters", fr="caractéristiques"),
     family="model",
     help=Help(
         en="Axes of orthotropy of a material as a field in cells: V1X V1Y (V1Z) V2X ....",
@@ -126,12 +168,10 @@ def _frames(call: Call, material: CellField | None) -> Frames:
             "LIST (MAXI (EXCO 'V1Y' (VLOC M A))) ;",
         ),
     ),
-    reads_itself=True,
 )
-def vloc(call: Call) -> CellField:
+def vloc(call: Call, model: Model, fields: tuple[CellField, ...]) -> CellField:
     """Axes of orthotropy."""
-    said = Reading(call)
-    material = said.field()
+    material = joined(fields)
 
     def make(zone: Zone) -> CellFieldBlock:
         axes = material_frames(zone, material, "RIGIDITE")
@@ -144,11 +184,26 @@ def vloc(call: Call) -> CellField:
         values = np.stack([full[..., i, k] for i in range(kept) for k in range(kept)], axis=1)
         return cell_block(zone, names, values, "RIGIDITE")
 
-    return on_zones(said.model, "VECTEUR LOCAUX", make)
+    return on_zones(present(call, model), "VECTEUR LOCAUX", make)
 
 
 @operator(
     "CALP",
+    arg("model", "MMODEL", en="model", fr="modèle"),
+    many(
+        "fields",
+        "MCHAML",
+        at_least=1,
+        en="stresses or strains, and parameters",
+        fr="contraintes ou déformations, et caractéristiques",
+    ),
+    choice(
+        "side",
+        tuple(SIDES),
+        default="MOYE",
+        en="side of a shell: that of the normal, the middle (default) or the other",
+        fr="côté d'une coque : celui de la normale, le milieu (par défaut) ou l'autre",
+    ),
     family="stress",
     help=Help(
         en="Stress at the point DY DZ of the section of beams (local axes): SMXX = EFFX / SECT + "
@@ -167,15 +222,12 @@ def vloc(call: Call) -> CellField:
             "(FORC (0. 1.) Q) ; LIST (MAXI (CALP M (SIGM M A U) A)) ;",
         ),
     ),
-    reads_itself=True,
 )
-def calp(call: Call) -> CellField:
+def calp(call: Call, model: Model, fields: tuple[CellField, ...], side: str) -> CellField:
     """Skin stress of beams."""
-    said = Reading(call, tuple(SIDES))
-    field, material = said.state_and_rest()
+    field, material = state_and_rest(fields)
     if material is None:
         raise call.missing(("MCHAML",))
-    side = said.words[-1] if said.words else "MOYE"
 
     def make(zone: Zone) -> CellFieldBlock:
         if not is_shell(zone):
@@ -183,4 +235,4 @@ def calp(call: Call) -> CellField:
         parts, support = shell_skin(zone, field, material, side)
         return CellFieldBlock(zone.cells, parts, support, zone.element, zone.constituent)
 
-    return on_zones(said.model, field.title, make)
+    return on_zones(present(call, model), field.title, make)

@@ -2,19 +2,49 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.elements.beams.fibre_section import fibre_section
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.materials.model import Model
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import Help, When, arg, by, flag, many, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel, Mot, Table
 from ssilang.operators.workspace import workspace
 
+if TYPE_CHECKING:
+    from ssilang.kernel.plasticity.moment_curvature import BentSection
+
+
+_ENTRIES = (
+    flag("checked", "VERIF", en="a table of the fields too", fr="aussi une table des champs"),
+    many(
+        "lists",
+        "LISTREEL",
+        en="curvatures and normal force, one value a step",
+        fr="courbures et effort normal, une valeur par pas",
+    ),
+    arg("model", "MMODEL", en="section of fibres", fr="section de fibres"),
+    arg("material", "MCHAML", en="its parameters", fr="ses caractéristiques"),
+    arg(
+        "tolerance",
+        "FLOTTANT",
+        en="error allowed on the normal force, relative",
+        fr="erreur relative admise sur l'effort normal",
+    ),
+)
+_IN_SPACE = When(lambda s: workspace(s).mode.dimension == 3, "in space", "en dimension 3")
+_IN_PLANE = When(lambda s: workspace(s).mode.dimension != 3, "in the plane", "dans le plan")
+
 
 @operator(
     "MOCU",
+    *_ENTRIES,
+    when=_IN_SPACE,
+    gives=by("checked", {True: ("LISTREEL",) * 3 + ("TABLE",)}, ("LISTREEL",) * 3),
     family="model",
     help=Help(
         en="Moments of a section of fibres (elements POJS, TRIS, QUAS) that is bent step by step "
@@ -40,33 +70,61 @@ from ssilang.operators.workspace import workspace
             "MY MZ E = MOCU Z C Z M A 1.E-6 ; LIST MZ ;",
         ),
     ),
-    reads_itself=True,
 )
-def mocu(call: Call) -> tuple[object, ...]:
-    """Bend a section."""
+def mocu(
+    call: Call,
+    checked: bool,
+    lists: tuple[ListReel, ...],
+    model: Model,
+    material: CellField,
+    tolerance: float,
+) -> tuple[object, ...]:
+    """Bend a section in space."""
+    _check(call, lists, model, True)
+    curvatures = np.stack([v.values for v in lists[:-1]], axis=1)
+    found = _bent(model, material, curvatures, lists[-1], tolerance)
+    moments = [ListReel.of(found.moments[:, i].copy()) for i in (0, 1)]
+    return _results(found, moments, checked)
+
+
+@mocu.form(
+    *_ENTRIES,
+    when=_IN_PLANE,
+    gives=by("checked", {True: ("LISTREEL",) * 2 + ("TABLE",)}, ("LISTREEL",) * 2),
+)
+def mocu_in_plane(
+    call: Call,
+    checked: bool,
+    lists: tuple[ListReel, ...],
+    model: Model,
+    material: CellField,
+    tolerance: float,
+) -> tuple[object, ...]:
+    """Bend a section in the plane."""
+    _check(call, lists, model, False)
+    curvatures = np.column_stack([np.zeros(len(lists[0].values)), lists[0].values])
+    found = _bent(model, material, curvatures, lists[-1], tolerance)
+    return _results(found, [ListReel.of(found.moments[:, 1].copy())], checked)
+
+
+def _check(call: Call, lists: tuple[ListReel, ...], model: Model, space: bool) -> None:
+    if len(lists) != (3 if space else 2):
+        raise call.error(
+            "operators.models.section-list-count", model, n_lists=len(lists), space=space
+        )
+    if len({len(v.values) for v in lists}) > 1:
+        raise call.error("operators.models.lists-different-lengths", lists[-1])
+
+
+def _bent(
+    model: Model, material: CellField, curvatures: FloatArray, force: ListReel, tolerance: float
+) -> BentSection:
     from ssilang.kernel.plasticity.moment_curvature import bend
 
-    checked = call.keyword(("VERIF",)) is not None
-    lists: list[ListReel] = list(call.all("LISTREEL"))
-    model: Model = call.required("MMODEL")
-    material: CellField = call.required("MCHAML")
-    tolerance = float(call.required("FLOTTANT"))
-    checked = checked or call.keyword(("VERIF",)) is not None
-    space = workspace(call.session).mode.dimension == 3
-    if len(lists) != (3 if space else 2):
-        raise call.bad(
-            f"{len(lists)} lists are given: "
-            + ("two curvatures and the normal force are needed in space" if space
-               else "the curvature and the normal force are needed in the plane"),
-            model,
-        )  # fmt: skip
-    if len({len(v.values) for v in lists}) > 1:
-        raise call.bad("the lists have different lengths", lists[-1], hint="one value a step")
-    curvatures = np.stack([v.values for v in lists[:-1]], axis=1)
-    if not space:
-        curvatures = np.column_stack([np.zeros(len(curvatures)), curvatures])
-    found = bend(fibre_section(model, material), curvatures, lists[-1].values, tolerance)
-    moments = [ListReel.of(found.moments[:, i].copy()) for i in ((0, 1) if space else (1,))]
+    return bend(fibre_section(model, material), curvatures, force.values, tolerance)
+
+
+def _results(found: BentSection, moments: list[ListReel], checked: bool) -> tuple[object, ...]:
     results = (*moments, ListReel.of(found.strains))
     if not checked:
         return results

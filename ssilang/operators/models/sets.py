@@ -7,7 +7,7 @@ import numpy as np
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.mesh.combine import cell_keys
-from ssilang.language.run.call import Call
+from ssilang.language.registry import arg, main
 from ssilang.operators.dispatch import DIFF, INTE
 
 
@@ -28,8 +28,13 @@ def _found_in(zone: Zone, model: Model) -> bool:
     return any(same_zone(zone, other) for other in model.zones)
 
 
-@DIFF.on(
-    "MMODEL",
+_FIRST = main("first", "MMODEL", en="model", fr="modèle")
+_SECOND = arg("second", "MMODEL", en="other model", fr="autre modèle")
+
+
+@DIFF.form(
+    _FIRST,
+    _SECOND,
     syntax="MOD3 = MOD1 DIFF MOD2 ;",
     en="Of models: zones of one only.",
     fr="De modèles : zones de l'un seulement.",
@@ -39,23 +44,22 @@ def _found_in(zone: Zone, model: Model) -> bool:
         " C = (A ET B) DIFF A ; LIST (NBEL (EXTR C 'MAIL')) ;",
     ),
 )
-def difference_of_models(call: Call, first: Model) -> Model:
+def difference_of_models(first: Model, second: Model) -> Model:
     """Zones of one of two models only."""
-    second: Model = call.required("MMODEL")
     left = [z for z in first.zones if not _found_in(z, second)]
     return Model((*left, *(z for z in second.zones if not _found_in(z, first))))
 
 
-@INTE.on(
-    "MMODEL",
+@INTE.form(
+    _FIRST,
+    _SECOND,
     syntax="MOD3 = MOD1 INTE MOD2 ;",
     en="Of models: zones that both hold.",
     fr="De modèles : zones communes.",
 )
-def intersection_of_models(call: Call, first: Model) -> Model:
+def intersection_of_models(first: Model, second: Model) -> Model:
     """Common zones of two models."""
-    second: Model = call.required("MMODEL")
     common = tuple(z for z in first.zones if _found_in(z, second))
     if not common:
-        raise MeshError("the two models have no zone in common")
+        raise MeshError("operators.models.no-common-zone")
     return Model(common)

@@ -11,7 +11,7 @@ from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.mesh.queries.heights import smallest_lengths
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import Help, arg, choice, operator, opt
 from ssilang.language.run.call import Call
 
 _SHELLS = ("plate", "mindlin", "thick", "meridian")
@@ -31,6 +31,14 @@ def _depth(zone: Zone, given: ZoneField, family: str) -> FloatArray:
 
 @operator(
     "TAIL",
+    choice("what", ("DIAMETRE_MIN", "DIRECTION"), en="which size", fr="quelle taille"),
+    arg("model", "MMODEL", en="model", fr="modèle"),
+    opt(
+        "given",
+        "MCHAML",
+        en="thickness or section of shells and beams",
+        fr="épaisseur ou section des coques et poutres",
+    ),
     family="models",
     full_name="TAILLE",
     help=Help(
@@ -51,27 +59,21 @@ def _depth(zone: Zone, given: ZoneField, family: str) -> FloatArray:
             "LIST (MINI (TAIL 'DIAMETRE_MIN' (MODE S MECANIQUE ELASTIQUE))) ;",
         ),
     ),
-    reads_itself=True,
 )
-def tail(call: Call) -> CellField:
+def tail(call: Call, what: str | None, model: Model, given: CellField | None) -> CellField:
     """Smallest lengths of elements."""
-    word = call.keyword(("DIAM", "DIRE"))
-    model: Model = call.required("MMODEL")
-    given = call.optional("MCHAML")
-    if word != "DIAM":
-        raise call.bad("only 'DIAMETRE_MIN' is built", model)
+    if what != "DIAMETRE_MIN":
+        raise call.error("operators.models.only-diametre-min-built", model)
     blocks = []
     for zone in model.zones:
         family = ELEMENTS[zone.element].family
         if family not in (*SOLID_FAMILIES, *_SHELLS, *_BEAMS, "bar"):
-            raise call.bad(f"elements {zone.element} have no smallest length", model)
+            raise call.error("operators.models.no-smallest-length", model, element=zone.element)
         values = {"L": smallest_lengths(zone.cells)[:, None]}
         if family in (*_SHELLS, *_BEAMS):
             if given is None:
-                raise call.bad(
-                    f"elements {zone.element} bend: their thickness or section is needed",
-                    model,
-                    hint="TAIL 'DIAMETRE_MIN' MODL1 CAR1",
+                raise call.error(
+                    "operators.models.bending-elements-need-section", model, element=zone.element
                 )
             depth = _depth(zone, zone_field(zone, given), family)
             values["L2H"] = values["L"] ** 2 / depth

@@ -17,8 +17,8 @@ _BEAMS = ("beam", "timoshenko", "pipe")
 
 @operator(
     "VSUR",
-    arg("model", "MMODEL"),
-    flag("unit", "NORM"),
+    arg("model", "MMODEL", en="model", fr="modèle"),
+    flag("unit", "NORM", en="of length 1", fr="de longueur 1"),
     family="models",
     help=Help(
         en="At the integration points of a model, the normal of its shells and the tangent of its "

@@ -33,12 +33,12 @@ def tension_to_hardening(values: dict[str, tuple[NDArray[Any], Support]]) -> Non
         return
     table, support = values.pop("TRAC")
     if "ECRO" in values:
-        raise MaterialError("the hardening is given twice, by TRAC and by ECRO")
+        raise MaterialError("operators.models.hardening-given-twice")
     given = values["YOUN"][0] if "YOUN" in values else np.empty((0, 0))
     if given.dtype == object or not given.size or (given != given.flat[0]).any():
-        raise MaterialError("TRAC needs YOUN as one number", "give ECRO instead")
+        raise MaterialError("operators.models.trac-needs-one-youn")
     if not all(isinstance(v, Curve) for v in table.flat):
-        raise MaterialError("parameter TRAC is a curve", "EVOL 'MANU' strains stresses")
+        raise MaterialError("operators.models.trac-is-a-curve")
     made = {id(v): hardening_of(v, float(given.flat[0])) for v in table.flat}
     curves = np.empty(table.shape, dtype=object)
     for place, curve in np.ndenumerate(table):

@@ -27,17 +27,17 @@ def plastic_bodies(entries: Entries, start: Any = None) -> Bodies | None:
     start : Start, optional
         Where the calculation goes on from, with stresses and internal variables.
     """
-    model: Model | None = entries.get("MODELE", "MMODEL")
+    model: Model | None = entries.get("MODELE")
     zones = plastic_zones(model)
     if not zones:
         return None
-    material: CellField = entries.needed("CARACTERISTIQUES", "MCHAML")
+    material: CellField = entries.needed("CARACTERISTIQUES")
 
     def make(problem: Problem, inputs: Inputs) -> tuple[Bulk, State]:
         from ssilang.kernel.plasticity.expansion import free_strains
 
         bulk = bulk_of(zones, material, problem.numbering)
-        load = entries.get("CHARGEMENT", "CHARGEME") or entries.get("CHAR", "CHARGEME")
+        load = entries.get("CHARGEMENT") or entries.get("CHAR")
         bulk = replace(bulk, free=free_strains(load, zones, material))
         first = float(problem.times[0])
         given = None if start is None else _given(bulk, start)
@@ -54,12 +54,12 @@ def plastic_bodies(entries: Entries, start: Any = None) -> Bodies | None:
 
 def finite_bodies(entries: Entries, zones: tuple[Zone, ...], start: Any) -> Bodies:
     """What makes the bodies in finite displacements once the problem is numbered."""
-    material: CellField = entries.needed("CARACTERISTIQUES", "MCHAML")
+    material: CellField = entries.needed("CARACTERISTIQUES")
 
     def make(problem: Problem, inputs: Inputs) -> tuple[Bulk, State]:
         from ssilang.kernel.plasticity.finite import finite_bulk, finite_state
 
-        given = start.of("CONTRAINTES", "MCHAML")
+        given = start.of("CONTRAINTES")
         bulk = finite_bulk(zones, material, problem.numbering, problem.u, given)
         return bulk, finite_state(problem.u)
 
@@ -68,7 +68,7 @@ def finite_bodies(entries: Entries, zones: tuple[Zone, ...], start: Any) -> Bodi
 
 def finite_zones(entries: Entries) -> tuple[Zone, ...]:
     """Zones of MODELE in finite displacements: all bodies, where GRANDS_DEPLACEMENTS says so."""
-    model: Model | None = entries.get("MODELE", "MMODEL")
+    model: Model | None = entries.get("MODELE")
     if model is None or not entries.flag("GRANDS_DEPLACEMENTS"):
         return ()
     if plastic_zones(model):
@@ -78,4 +78,4 @@ def finite_zones(entries: Entries) -> tuple[Zone, ...]:
 
 def _given(bulk: Bulk, start: Any) -> State | None:
     words = ("CONTRAINTES", "VARIABLES_INTERNES", "DEFORMATIONS_INELASTIQUES")
-    return state_from_fields(bulk, *(start.of(word, "MCHAML") for word in words))
+    return state_from_fields(bulk, *(start.of(word) for word in words))

@@ -55,7 +55,7 @@ def continue_loads(entries: Entries) -> None:
 
     entries.refuse(REFUSED)
     lengths, begun = lengths_of(entries), time.perf_counter()
-    times = np.asarray(entries.needed("TEMPS_CALCULES", "LISTREEL").values, dtype=float)
+    times = np.asarray(entries.needed("TEMPS_CALCULES").values, dtype=float)
     start = start_of(entries)
     if start.time is not None and start.time > times[0]:
         raise entries.bad(
@@ -65,8 +65,9 @@ def continue_loads(entries: Entries) -> None:
     finite = finite_zones(entries)
     bodies = finite_bodies(entries, finite, start) if finite else plastic_bodies(entries, start)
     problem = make_problem(inputs)
-    most, every = entries.get("MAXIPAS", "ENTIER") or 1000, entries.get("PAS_SAUVES", "ENTIER") or 1
-    model: Model | None = entries.get("MODELE", "MMODEL")
+    most = entries.get("MAXIPAS") or entries.default("MAXIPAS")
+    every = entries.get("PAS_SAUVES") or entries.default("PAS_SAUVES")
+    model: Model | None = entries.get("MODELE")
     zones = () if model is None else model.zones
     saved = np.ones(len(times), bool)
     results = ResultTables(entries.table, saved, stresses, False, start.index, zones)
@@ -98,7 +99,7 @@ def _rate(entries: Entries, problem: Problem, times: FloatArray) -> FloatArray:
 
 
 def _stability(entries: Entries) -> list[str]:
-    given = entries.get("STABILITE", "LISTMOTS", "LOGIQUE")
+    given = entries.get("STABILITE")
     words = [w.strip() for w in given.values] if isinstance(given, ListMots) else []
     wrong = [w for w in words if w != "DIAG"]
     if wrong:

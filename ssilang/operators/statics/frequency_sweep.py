@@ -21,7 +21,6 @@ from ssilang.language.registry import Help, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
 from ssilang.operators.session.progress import ProgressLine
-from ssilang.operators.statics.pasapas_entries import KNOWN, REFUSED
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
@@ -45,8 +44,6 @@ def zfre(call: Call) -> None:
     from ssilang.kernel.statics.frequency import sweep
 
     entries = Entries(call, call.required("TABLE"), "PASAPAS")
-    entries.refuse(REFUSED)
-    entries.warn_unknown(KNOWN)
     inputs = _inputs(entries)
     frequencies = _frequencies(entries, inputs)
     tables = {word: Table() for word in _RESULTS}
@@ -81,7 +78,7 @@ def _at_rest(field: NodeField) -> NodeField:
 def _frequencies(entries: Entries, inputs: HarmonicInputs) -> FloatArray:
     from ssilang.kernel.statics.frequency import default_frequencies
 
-    given = entries.get("TEMPS_CALCULES", "LISTREEL") or entries.get("TEMPS_SAUVES", "LISTREEL")
+    given = entries.get("TEMPS_CALCULES") or entries.get("TEMPS_SAUVES")
     if given is None:
         return default_frequencies(inputs)
     values = np.asarray(given.values, dtype=float)
@@ -93,13 +90,13 @@ def _frequencies(entries: Entries, inputs: HarmonicInputs) -> FloatArray:
 def _inputs(entries: Entries) -> HarmonicInputs:
     from ssilang.kernel.statics.frequency import HarmonicInputs
 
-    model: Model | None = entries.get("MODELE", "MMODEL")
+    model: Model | None = entries.get("MODELE")
     zones = () if model is None else model.zones
     mechanical = tuple(z for z in zones if z.formulation == "MECANIQUE")
     for zone in mechanical:
         _check_linear(entries, zone)
     none = CellField((), "CARACTERISTIQUES")
-    material: CellField = entries.needed("CARACTERISTIQUES", "MCHAML") if mechanical else none
+    material: CellField = entries.needed("CARACTERISTIQUES") if mechanical else none
     blocks: dict[str, list[ElementMatrices]] = {"RIGIDITE": [], "MASSE": []}
     springs = []
     silent = False
@@ -118,19 +115,19 @@ def _inputs(entries: Entries) -> HarmonicInputs:
     for kind, found in blocks.items():
         shapes = shape_matrix(mechanical, material, kind)
         found += [] if shapes is None else [shapes]
-    damping = entries.get("AMORTISSEMENT", "RIGIDITE")
+    damping = entries.get("AMORTISSEMENT")
     if silent and damping is None:
         entries.warn(
             "dashpots of impedances given by numbers count by the matrix of damping only",
             "TAB1 . 'AMORTISSEMENT' = AMOR MODELE CARACTERISTIQUES ;",
         )
-    supports = entries.get("BLOCAGES_MECANIQUES", "RIGIDITE")
-    constant = entries.get("RIGIDITE_CONSTANTE", "RIGIDITE")
+    supports = entries.get("BLOCAGES_MECANIQUES")
+    constant = entries.get("RIGIDITE_CONSTANTE")
     return HarmonicInputs(
         _joined(entries, blocks["RIGIDITE"], (constant, supports), "RIGIDITE"),
-        _joined(entries, blocks["MASSE"], (entries.get("MASSE_CONSTANTE", "RIGIDITE"),), "MASSE"),
+        _joined(entries, blocks["MASSE"], (entries.get("MASSE_CONSTANTE"),), "MASSE"),
         damping,
-        entries.get("CHARGEMENT", "CHARGEME"),
+        entries.get("CHARGEMENT"),
         tuple(springs),
     )
 
@@ -151,7 +148,7 @@ def _joined(
 ) -> Matrix:
     given = [m for m in parts if m is not None]
     if not blocks and not given:
-        return Matrix(entries.needed("MODELE", "MMODEL").mesh.nodes, (), (), kind)
+        return Matrix(entries.needed("MODELE").mesh.nodes, (), (), kind)
     table = blocks[0].table if blocks else given[0].table
     all_blocks = (*blocks, *(b for m in given for b in m.blocks))
     return Matrix(table, all_blocks, tuple(r for m in given for r in m.relations), kind)

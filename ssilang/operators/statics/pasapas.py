@@ -33,8 +33,7 @@ from ssilang.operators.statics.initial_stress import offset_load, stress_offsets
 from ssilang.operators.statics.linear_zones import linear_blocks
 from ssilang.operators.statics.pasapas_charmeca import loaded_bodies
 from ssilang.operators.statics.pasapas_contact import sides_of
-from ssilang.operators.statics.pasapas_entries import KNOWN, REFUSED, RESULTS
-from ssilang.operators.statics.pasapas_results import ResultTables, Stresses
+from ssilang.operators.statics.pasapas_results import RESULTS, ResultTables, Stresses
 from ssilang.operators.statics.pasapas_stages import Reached, Stage, entering, stage_of
 from ssilang.operators.statics.pasapas_steering import (
     ChangedCalculation,
@@ -65,8 +64,6 @@ if TYPE_CHECKING:
 def zpas(call: Call) -> None:
     """Read the table, step through the times, fill the tables of results."""
     entries = Entries(call, call.required("TABLE"), "PASAPAS")
-    entries.refuse(REFUSED)
-    entries.warn_unknown(KNOWN)
     start = start_of(entries)
     times, saved = _times(entries, start)
     entries.table.set(Mot("CONV"), False)
@@ -90,7 +87,7 @@ def zpas(call: Call) -> None:
                     break
                 start, times, saved = _onward(entries, work, times, saved, stage.steps, state)
             except ChangedCalculation as change:
-                state = entries.get("ESTIMATION", "TABLE")
+                state = entries.get("ESTIMATION")
                 start, times, saved = _onward(entries, work, times, saved, change.step, state)
                 times, saved = _other_times(entries, times, saved)
     except StopCalculation:
@@ -124,12 +121,12 @@ def _stretch(
     problem = make_problem(inputs)
     if bodies is None and not control_asked(work) and stage.entries is work:
         warn_supports(work, inputs)
-    model: Model | None = given.get("MODELE", "MMODEL")
+    model: Model | None = given.get("MODELE")
     zones = () if model is None else model.zones
     results = ResultTables(entries.table, saved, stresses, dynamic, number, zones)
     reached = Reached(results, len(times))
     observers: list[Observer] = [results, reached]
-    kept = work.get("TEMPS_SAUVEGARDES", "LISTREEL")
+    kept = work.get("TEMPS_SAUVEGARDES")
     if kept is not None:
         observers.append(SavedTable(entries.call, entries.table, times, kept.values))
     if work is not entries:
@@ -159,9 +156,9 @@ def _entering(start: Start, stage: Stage) -> Start:
     """The start of a stage, with what the cells that come bring."""
     if start.reached is None:
         return start
-    model: Model | None = stage.entries.get("MODELE", "MMODEL")
+    model: Model | None = stage.entries.get("MODELE")
     state = entering(start.reached.table, model)
-    return replace(start, reached=Entries(stage.entries.call, state, start.reached.procedure))
+    return replace(start, reached=Entries(stage.entries.call, state, "PASAPAS", "TAB1.ESTIMATION"))
 
 
 def _onward(
@@ -175,7 +172,7 @@ def _onward(
     """Where it goes on from a state reached at a step: start, times, which are saved."""
     rest, kept = times[step:], saved[step:].copy()
     kept[0] = False  # it stands in the tables already if it was to be kept
-    reached = Entries(entries.call, state, "PASAPAS")
+    reached = Entries(entries.call, state, "PASAPAS", "TAB1.ESTIMATION")
     return Start(_last_number(entries), float(rest[0]), work, reached), rest, kept
 
 
@@ -183,12 +180,12 @@ def _other_times(
     entries: Entries, times: FloatArray, saved: NDArray[np.bool_]
 ) -> tuple[FloatArray, NDArray[np.bool_]]:
     """The times that the user's procedure asks for, if it does."""
-    listed = entries.get("A_CALCULER", "LISTREEL")
+    listed = entries.get("A_CALCULER")
     if listed is None:
         return times, saved
     times = np.concatenate([times[:1], listed.values[listed.values > times[0]]])
     entries.table.remove("A_CALCULER")
-    chosen = entries.get("TEMPS_SAUVES", "LISTREEL")
+    chosen = entries.get("TEMPS_SAUVES")
     saved = np.ones(len(times), bool)
     if chosen is not None and len(times) > 1:
         later = (chosen.values > times[0]) & (chosen.values <= times[-1])
@@ -220,7 +217,7 @@ def _say_model(entries: Entries, work: Entries, stage: Stage, first: int) -> Non
     models = entries.table.get("MODELES")
     models = models if isinstance(models, Table) else Table()
     for number in range(first, _last_number(entries)):
-        models.set(number, stage.entries.get("MODELE", "MMODEL"))
+        models.set(number, stage.entries.get("MODELE"))
     entries.table.set(Mot("MODELES"), models)
 
 
@@ -246,11 +243,11 @@ class Start:
     entries: Entries
     reached: Entries | None = None
 
-    def of(self, word: str, *types: str) -> Any:
+    def of(self, word: str) -> Any:
         """The result of this number, None if there is none."""
         if self.reached is not None:
-            return self.reached.get(word, *types)
-        return self.entries.at(word, self.index, *types)
+            return self.reached.get(word)
+        return self.entries.at(word, self.index)
 
 
 def start_of(entries: Entries) -> Start:
@@ -260,11 +257,11 @@ def start_of(entries: Entries) -> Start:
         for word in ("TEMPS", "DEPLACEMENTS", "CONTRAINTES", "VITESSES")
         for i in entries.numbers(word)
     ]
-    again = entries.get("REPRISE", "FLOTTANT")
+    again = entries.get("REPRISE")
     if again is None:
         index = max(entries.numbers("TEMPS") or numbers, default=0)
     else:
-        times = {i: entries.at("TEMPS", i, "FLOTTANT", "ENTIER") for i in entries.numbers("TEMPS")}
+        times = {i: entries.at("TEMPS", i) for i in entries.numbers("TEMPS")}
         if not times:
             raise entries.bad("'REPRISE' needs the results of an earlier calculation")
         index = min(times, key=lambda i: abs(times[i] - again))
@@ -274,15 +271,15 @@ def start_of(entries: Entries) -> Start:
                 f"the nearest is at {times[index]:g}",
             )
         entries.forget_after(index)
-    return Start(index, entries.at("TEMPS", index, "FLOTTANT", "ENTIER"), entries)
+    return Start(index, entries.at("TEMPS", index), entries)
 
 
 def _times(entries: Entries, start: Start) -> tuple[FloatArray, NDArray[np.bool_]]:
     """Times with the initial one first, and which are saved (the initial one always)."""
     if not entries.has("TEMPS_SAUVES"):
-        entries.needed("TEMPS_CALCULES", "LISTREEL")
+        entries.needed("TEMPS_CALCULES")
     index = "TEMPS_CALCULES" if entries.has("TEMPS_CALCULES") else "TEMPS_SAUVES"
-    given = entries.needed(index, "LISTREEL")
+    given = entries.needed(index)
     wanted = np.asarray(given.values, dtype=float)
     first = start.time
     if first is None:
@@ -291,7 +288,7 @@ def _times(entries: Entries, start: Start) -> tuple[FloatArray, NDArray[np.bool_
     if len(times) < 2:
         raise entries.bad(f"no time of '{index}' comes after the initial one, {first:g}")
     entries.increasing(index, times)
-    chosen = entries.get("TEMPS_SAUVES", "LISTREEL")
+    chosen = entries.get("TEMPS_SAUVES")
     if chosen is None:
         return times, np.ones(len(times), bool)
     later = chosen.values[(chosen.values > first) & (chosen.values <= times[-1])]
@@ -305,14 +302,14 @@ def _inputs(
 ) -> tuple[Inputs, Stresses]:
     from ssilang.kernel.stepping.problem.problem import Inputs
 
-    material: CellField | None = entries.get("CARACTERISTIQUES", "MCHAML")
-    model: Model | None = entries.get("MODELE", "MMODEL")
+    material: CellField | None = entries.get("CARACTERISTIQUES")
+    model: Model | None = entries.get("MODELE")
     linear = _linear_zones(entries)
     solids = [(z, m) for z, m in linear if not is_joint(z)]
-    load, thermal = split_thermal(entries.get("CHARGEMENT", "CHARGEME"), solids)
-    displacement = start.of("DEPLACEMENTS", "CHPOINT")
+    load, thermal = split_thermal(entries.get("CHARGEMENT"), solids)
+    displacement = start.of("DEPLACEMENTS")
     stresses = Stresses(linear, thermal)
-    given = start.of("CONTRAINTES", "MCHAML")
+    given = start.of("CONTRAINTES")
     if isinstance(given, CellField) and solids:
         stresses.offsets = stress_offsets(solids, stresses, given, displacement, float(times[0]))
         parts = offset_load(stresses.offsets, solids)
@@ -330,24 +327,24 @@ def _inputs(
     more += driven_parts(entries)
     if more:
         load = Load((*(load.parts if load else ()), *more))
-    constant = entries.get("RIGIDITE_CONSTANTE", "RIGIDITE")
-    supports = entries.get("BLOCAGES_MECANIQUES", "RIGIDITE")
+    constant = entries.get("RIGIDITE_CONSTANTE")
+    supports = entries.get("BLOCAGES_MECANIQUES")
     masses: Matrix | None = None
     if dynamic:
-        masses = _joined(entries, heavy, (entries.get("MASSE_CONSTANTE", "RIGIDITE"),), "MASSE")
+        masses = _joined(entries, heavy, (entries.get("MASSE_CONSTANTE"),), "MASSE")
     inputs = Inputs(
         _joined(entries, blocks, (constant, supports, sides.matrix), "RIGIDITE"),
         times,
         masses,
-        entries.get("AMORTISSEMENT", "RIGIDITE") if dynamic else None,
+        entries.get("AMORTISSEMENT") if dynamic else None,
         load,
         displacement,
-        start.of("VITESSES", "CHPOINT") if dynamic else None,
+        start.of("VITESSES") if dynamic else None,
         model,
         material,
         scheme_of(entries),
         contact_options(entries, dynamic),
-        start.of("VARIABLES_INTERNES", "MCHAML"),
+        start.of("VARIABLES_INTERNES"),
         sides.friction,
     )
     return inputs, stresses
@@ -364,17 +361,17 @@ def _joined(
     elif given:
         table = given[0].table
     else:
-        model = entries.needed("MODELE", "MMODEL")
+        model = entries.needed("MODELE")
         table = model.mesh.nodes
     return Matrix(table, all_blocks, relations, kind)
 
 
 def _linear_zones(entries: Entries) -> list[tuple[Zone, CellField]]:
     """Zones of MODELE whose stiffness says all, with the characteristics."""
-    model: Model | None = entries.get("MODELE", "MMODEL")
+    model: Model | None = entries.get("MODELE")
     if model is None:
         return []
-    material = entries.needed("CARACTERISTIQUES", "MCHAML")
+    material = entries.needed("CARACTERISTIQUES")
     finite = finite_zones(entries)
     mechanical = (z for z in model.zones if z.formulation == "MECANIQUE" and z not in finite)
     return [(z, material) for z in mechanical if _is_linear(z)]

@@ -23,8 +23,6 @@ from ssilang.operators.tables.entries import Entries
 if TYPE_CHECKING:
     from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 
-KNOWN = ("ADDI_SECOND", "ADDI_MATRICE")
-
 
 class LoadByProcedure:
     """Calls `TAB2 = CHARMECA TAB1 TIME` and reads its load.
@@ -60,11 +58,11 @@ class LoadByProcedure:
                 "the procedure CHARMECA must give one TABLE",
                 "TAB2 = TABL ; TAB2 . 'ADDI_SECOND' = ... ; FINP TAB2 ;",
             )
-        found = Entries(self.entries.call, results[0], "CHARMECA")
-        found.warn_unknown(KNOWN)
+        found = Entries(self.entries.call, results[0], "PASAPAS", "TCHAR")
+        found.check()
         numbering = self.problem.numbering
-        load: NodeField | None = found.get("ADDI_SECOND", "CHPOINT")
-        matrix = found.get("ADDI_MATRICE", "RIGIDITE")
+        load: NodeField | None = found.get("ADDI_SECOND")
+        matrix = found.get("ADDI_MATRICE")
         if load is None:
             return Added(np.zeros(numbering.size))
         lost = outside(load, numbering)

@@ -14,10 +14,16 @@ from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.statics.thermal_load import ThermalStress
 from ssilang.language.values import Mot, Table
-from ssilang.operators.statics.pasapas_entries import RESULTS
 
 if TYPE_CHECKING:
     from ssilang.kernel.stepping.snapshot import Snapshot
+
+
+RESULTS = (
+    "TEMPS", "DEPLACEMENTS", "CONTRAINTES", "VARIABLES_INTERNES", "REACTIONS", "VITESSES",
+    "ACCELERATIONS", "DEFORMATIONS_INELASTIQUES",
+)  # fmt: skip
+"""Tables of results, by number of the saved time."""
 
 
 @dataclass

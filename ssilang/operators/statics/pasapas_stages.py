@@ -58,7 +58,7 @@ class Stage:
 
 def stage_of(work: Entries, times: FloatArray) -> Stage:
     """The first stage of times[1:], times[0] being where it starts."""
-    load: Load | None = work.get("CHARGEMENT", "CHARGEME")
+    load: Load | None = work.get("CHARGEMENT")
     parts = [] if load is None else [p for p in load.parts if p.name.strip() in STAGED]
     if load is None or not parts:
         return Stage(work, len(times) - 1)
@@ -110,7 +110,7 @@ def _joined(work: Entries, word: str, values: list[Any]) -> Any:
         if len(values) == 1:
             return values[0]
         return CellField(tuple(b for f in values for b in f.blocks), values[0].title)
-    always = work.get("BLOCAGES_MECANIQUES", "RIGIDITE")
+    always = work.get("BLOCAGES_MECANIQUES")
     all_ = values if always is None else [always, *values]
     blocks = tuple(b for m in all_ for b in m.blocks)
     relations = tuple(r for m in all_ for r in m.relations)

@@ -64,9 +64,9 @@ class StrainPoints:
 
 def strain_points(entries: Entries, numbering: Numbering) -> StrainPoints:
     """Points of MODELE that have strains, those of ZONE_DE_PILOTAGE if it is given."""
-    model: Model = entries.needed("MODELE", "MMODEL")
-    material: CellField | None = entries.get("CARACTERISTIQUES", "MCHAML")
-    region: Mesh | None = entries.get("ZONE_DE_PILOTAGE", "MAILLAGE")
+    model: Model = entries.needed("MODELE")
+    material: CellField | None = entries.get("CARACTERISTIQUES")
+    region: Mesh | None = entries.get("ZONE_DE_PILOTAGE")
     zones = []
     for zone in model.zones:
         if zone.formulation != "MECANIQUE" or is_joint(zone):

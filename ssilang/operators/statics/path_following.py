@@ -31,8 +31,6 @@ if TYPE_CHECKING:
     from ssilang.kernel.stepping.run import History
 
 DRIVEN = ("DEPLACEMENTS_PILOTES", "FORCES_PILOTEES")
-DEFAULT_CRITERION = 1e-3
-DEFAULT_STEPS = 1000
 
 
 def control_asked(entries: Entries) -> str:
@@ -49,7 +47,7 @@ def driven_parts(entries: Entries) -> list[LoadPart]:
     """The loads of unknown size, behind all others."""
     if control_asked(entries) != "PILOTAGE_INDIRECT":
         return []
-    found = [(w, entries.get(w, "CHPOINT")) for w in DRIVEN]
+    found = [(w, entries.get(w)) for w in DRIVEN]
     parts = [
         LoadPart("DIMP" if word == DRIVEN[0] else "MECA", field)
         for word, field in found
@@ -82,7 +80,7 @@ def follow(entries: Entries, run: BulkRun) -> History:
 def _indirect(entries: Entries, run: BulkRun) -> tuple[PathRun, Trace]:
     from ssilang.kernel.plasticity.driven_load import follow_directions
 
-    curve = entries.needed("PARAMETRE_DE_PILOTAGE", "EVOLUTION", "EVOLUTIO")
+    curve = entries.needed("PARAMETRE_DE_PILOTAGE")
     asked = np.diff([curve.at(float(t)) for t in run.problem.times])
     if not asked.all():
         k = int(np.flatnonzero(asked == 0.0)[0])
@@ -97,14 +95,13 @@ def _indirect(entries: Entries, run: BulkRun) -> tuple[PathRun, Trace]:
 def _automatic(entries: Entries, run: BulkRun) -> tuple[PathRun, Trace]:
     from ssilang.kernel.plasticity.driven_load import follow_time
 
-    asked = entries.get("AUTOCRIT", "FLOTTANT")
-    asked = DEFAULT_CRITERION if asked is None else asked
-    most = entries.get("AUTOPAS", "ENTIER") or DEFAULT_STEPS
-    every = entries.get("AUTORESU", "ENTIER") or 1
+    asked = entries.get("AUTOCRIT")
+    most = entries.get("AUTOPAS") or entries.default("AUTOPAS")
+    every = entries.get("AUTORESU") or entries.default("AUTORESU")
     if asked <= 0.0 or most < 1 or every < 1:
         raise entries.bad("'AUTOCRIT', 'AUTOPAS' and 'AUTORESU' are positive")
-    model = entries.needed("MODELE", "MMODEL")
-    material = entries.get("CARACTERISTIQUES", "MCHAML") or CellField((), "CARACTERISTIQUES")
+    model = entries.needed("MODELE")
+    material = entries.get("CARACTERISTIQUES") or CellField((), "CARACTERISTIQUES")
 
     def control_of(path: PathRun) -> Control:
         numbering = run.problem.numbering

@@ -1,8 +1,8 @@
-"""Reading the entries of a procedure's table: typed, with errors that name the index."""
+"""Reading the entries of a procedure's table by what is declared of them."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from typing import Any
 
@@ -11,61 +11,89 @@ from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import KernelError
-from ssilang.kernel.curves.curve import Curve, Load
-from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.stepping.times import every, nearest
-from ssilang.language.near import nearest as nearest_word
 from ssilang.language.run.call import Call
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text.source import Span
-from ssilang.language.values import Annule, ListReel, Table, type_of
+from ssilang.language.values import Annule, Table
+from ssilang.language.vocabulary.entries import NUMBER, TableEntry
+from ssilang.language.vocabulary.entry_checks import TableCheck, checked, shown
 
 
 class Entries:
     """The entries of a table given to a procedure.
 
+    Types, defaults and allowed words are those declared in `stdlib/PROCEDURE.toml`. An index that
+    the procedure does not declare is never read: functions shared by several procedures ask for
+    what some of them do not have.
+
     Parameters
     ----------
     procedure : str
-        Name for messages.
+        Whose declaration it is; its name in messages.
+    path : str
+        Where the table is declared: the argument, or the argument and indices, with dots.
     """
 
-    def __init__(self, call: Call, table: Table, procedure: str) -> None:
+    def __init__(self, call: Call, table: Table, procedure: str, path: str = "TAB1") -> None:
         self.call, self.table, self.procedure = call, table, procedure
+        self.path = tuple(path.split("."))
+        declared = call.session.library.declared(procedure)
+        assert declared is not None, f"{procedure} declares no entries"
+        self.declared = declared
+
+    def inside(self, index: str | int) -> Entries | None:
+        """The entries of the table at an index, None if there is none."""
+        table = self.get(index)
+        if not isinstance(table, Table):
+            return None
+        step = NUMBER if isinstance(index, int) else index
+        return Entries(self.call, table, self.procedure, ".".join((*self.path, step)))
+
+    def check(self) -> None:
+        """Check the whole table, as those among the arguments of a procedure are."""
+        check = TableCheck(self.call.session, self.declared, self.place)
+        check.run(self.table, self.path, self.path)
+
+    def _declared(self, index: str | int) -> TableEntry | None:
+        return self.declared.at(self.path, index)
 
     def has(self, index: str | int) -> bool:
         """Whether the entry is given (and not ANNULE)."""
         return self.table.has(index) and not isinstance(self.table.get(index), Annule)
 
-    def get(self, index: str | int, *types: str) -> Any:
-        """The value at an index, None if there is none.
+    def get(self, index: str | int) -> Any:
+        """The value at an index; where it is not given its default, None without one.
 
         Raises
         ------
         SsiError
-            If it is of none of the types, or holds values that are not finite numbers.
+            If it is of no declared type, no allowed word, or holds values that are not finite.
         """
-        if not self.has(index):
+        entry = self._declared(index)
+        if entry is None:
             return None
-        value = self.table.get(index)
-        found = type_of(value)
-        if found in types:
-            self._sound(index, value)
-            return value
-        if found == "ENTIER" and "FLOTTANT" in types:
-            return float(value)  # type: ignore[arg-type]
-        raise self.bad(f"'{index}' must be {' or '.join(types)}, found {found}")
+        if not self.has(index):
+            return entry.fallback
+        where = (*self.path, index)
+        try:
+            return checked(
+                self.call.session, entry, self.table.get(index), where,
+                procedure=self.procedure, operator=self.procedure,
+            )  # fmt: skip
+        except SsiError as error:
+            error.span = self.call.span
+            raise
 
-    def _sound(self, index: str | int, value: object) -> None:
-        """Refuse values that no calculation can use."""
-        if isinstance(value, Curve) and not value.parts:
-            raise self.bad(f"'{index}' holds no curve")
-        if not all(np.isfinite(v).all() for v in _numbers_in(value)):
-            raise self.bad(f"'{index}' has values that are not finite numbers")
+    def default(self, index: str) -> Any:
+        """What counts where an entry is not given."""
+        entry = self._declared(index)
+        assert entry is not None
+        return entry.fallback
 
     def times(self, index: str) -> FloatArray | None:
         """Instants (n,) that increase, two at least; None if the entry is not given."""
-        given = self.get(index, "LISTREEL")
+        given = self.get(index)
         if given is None:
             return None
         values = np.asarray(given.values, dtype=float)
@@ -91,38 +119,33 @@ class Entries:
         try:
             yield
         except KernelError as problem:
-            raise self.bad(f"'{index}' is refused: {problem}", problem.hint) from problem
+            raise self.error("refused-entry", index=index, problem=problem) from problem
 
-    def needed(self, index: str | int, *types: str) -> Any:
+    def needed(self, index: str | int) -> Any:
         """The value at an index that must be there."""
-        value = self.get(index, *types)
+        value = self.get(index)
         if value is None:
-            raise self.bad(f"the entry '{index}' is missing", f"TAB1 . '{index}' = ... ;")
+            raise self.call.error(
+                "entry-missing", procedure=self.procedure, where=shown((*self.path, index))
+            )
         return value
 
-    def flag(self, index: str, default: bool = False) -> bool:
-        """A LOGIQUE."""
-        value = self.get(index, "LOGIQUE")
-        return default if value is None else bool(value)
+    def flag(self, index: str) -> bool:
+        """A LOGIQUE; FAUX where neither the table nor the declaration says anything."""
+        return self.get(index) is True
 
     def numbers(self, index: str) -> list[int]:
         """Integer indices of the table at an index, none if there is no table."""
         inner = self.table.get(index)
         return [i for i, _ in inner.items() if type(i) is int] if isinstance(inner, Table) else []
 
-    def at(self, index: str, number: int, *types: str) -> Any:
+    def at(self, index: str, number: int) -> Any:
         """`TAB1 . index . number`, None if there is none."""
         inner = self.table.get(index)
         if not isinstance(inner, Table) or not inner.has(number):
             return None
-        return Entries(self.call, inner, f"{self.procedure}, {index}")._number(number, types)
-
-    def _number(self, number: int, types: tuple[str, ...]) -> Any:
-        value = self.table.get(number)
-        if type_of(value) not in types:
-            found = type_of(value)
-            raise self.bad(f"index {number} must be {' or '.join(types)}, found {found}")
-        return value
+        path = ".".join((*self.path, index))
+        return Entries(self.call, inner, self.procedure, path).get(number)
 
     def forget_after(self, number: int) -> None:
         """Remove the results of higher numbers."""
@@ -141,42 +164,19 @@ class Entries:
             if self.has(index) and self.table.get(index) is not False:
                 raise self.bad(f"the entry '{index}' is not available: {reason}")
 
-    def warn_unknown(self, known: Collection[str]) -> None:
-        """Say which words of the table are no entries, with the nearest entry."""
-        for index, _ in self.table.items():
-            if not isinstance(index, str) or str(index).rstrip() in known:
-                continue
-            near = nearest_word(str(index), known, 0.75)
-            if near:
-                self.warn(
-                    f"'{index}' is no entry of {self.procedure} and has no effect",
-                    f"did you mean '{near}'?",
-                )
-
-    def saved_steps(
-        self, suffix: str, times: FloatArray, default: Callable[[], NDArray[np.bool_]]
-    ) -> NDArray[np.bool_]:
+    def saved_steps(self, suffix: str, times: FloatArray) -> NDArray[np.bool_]:
         """Steps asked for by PAS_SAUVES(suffix) or TEMPS_SAUVES(suffix), shape (n_times,)."""
-        wanted = self.get("TEMPS_SAUVES" + suffix, "LISTREEL")
+        wanted = self.get("TEMPS_SAUVES" + suffix)
         if wanted is not None:
             with self.about("TEMPS_SAUVES" + suffix):
                 return nearest(times, wanted.values)
-        cadence = self.get("PAS_SAUVES" + suffix, "ENTIER", "MOT")
-        if cadence is None:
-            return default()
+        cadence = self.get("PAS_SAUVES" + suffix)
         if isinstance(cadence, int):
             with self.about("PAS_SAUVES" + suffix):
                 return every(times, cadence)
-        word = str(cadence).upper().rstrip()
-        if word == "TOUS":
-            return np.ones(len(times), bool)
-        if word == "FINAL":
-            last = np.zeros(len(times), bool)
-            last[-1] = True
-            return last
-        raise self.bad(
-            f"'PAS_SAUVES{suffix}' is '{cadence}'", "an ENTIER (one step in N), 'TOUS' or 'FINAL'"
-        )
+        saved = np.full(len(times), cadence == "TOUS")
+        saved[-1] = cadence is not None
+        return saved
 
     def error(self, code: str, /, **data: object) -> SsiError:
         """An error of the procedure."""
@@ -202,19 +202,3 @@ class Entries:
         if " " in code:  # a sentence of its own, not yet in a catalogue
             code, data = "bad-value", {"message": code, "hint": hint}
         self.call.session.warn(code, self.place, **{"operator": self.procedure, **data})
-
-
-def _numbers_in(value: object) -> list[Any]:
-    """The numbers that an object holds, as arrays."""
-    if isinstance(value, float):
-        return [value]
-    if isinstance(value, ListReel):
-        return [np.asarray(value.values, dtype=float)]
-    if isinstance(value, NodeField):
-        return [p.values for p in value.components.values()]
-    if isinstance(value, Curve):
-        return [a for p in value.parts for a in (p.abscissas, p.ordinates)]
-    if isinstance(value, Load):
-        held = [h for p in value.parts for h in (p.space, p.time, *(f for _, f in p.steps))]
-        return [n for h in held for n in _numbers_in(h)]
-    return []

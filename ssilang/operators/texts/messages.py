@@ -32,6 +32,17 @@ def mess(call: Call) -> None:
     call.session.print(read_text(call))
 
 
+_OF_LIBRARY = "stdlib."
+_STOPPED = 308  # Cast3M's number of an error that a script reports in its own words
+
+
+def _of_library(call: Call, code: str) -> SsiError:
+    """What a procedure of the library refuses: a code, then what fills its sentence, in order."""
+    values = call.all("MOT", "ENTIER", "FLOTTANT", "LOGIQUE")
+    data = {str(i): written(value).strip() for i, value in enumerate(values, start=1)}
+    return SsiError(code, call.span, **data, number=_STOPPED)
+
+
 # what the numbers most used in decks mean, in words of our own: English, French
 _SENTENCES: dict[int, tuple[str, str]] = {
     5: ("the deck found a result out of tolerance", "le jeu de données a trouvé un écart"),
@@ -98,7 +109,9 @@ def _numbered(call: Call, number: int, values: tuple[Any, ...]) -> None:
 
 @ERRE.form(arg("text", "MOT", en="what is wrong", fr="ce qui ne va pas"))
 def _worded(call: Call, text: str) -> None:
-    raise SsiError("erre", call.span, message=str(text), number=308)
+    if text.startswith(_OF_LIBRARY):
+        raise _of_library(call, str(text))
+    raise SsiError("erre", call.span, message=str(text), number=_STOPPED)
 
 
 @operator(

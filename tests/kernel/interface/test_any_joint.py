@@ -8,8 +8,7 @@ from scipy.spatial.transform import Rotation
 
 from ssilang.kernel.elements.families import stiffness
 from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS
-from ssilang.kernel.interface.laws.columns import N_STATE, XI
-from ssilang.kernel.interface.laws.parameters import N_PARAMETERS, Parameter
+from ssilang.kernel.interface.laws.columns import N_PARAMETERS, N_STATE, Parameter, Variable
 from ssilang.kernel.interface.laws.point_laws import respond
 from ssilang.kernel.materials.model import Mode
 
@@ -92,7 +91,7 @@ def walk(p, corners, pieces):
             respond(np.array([1]), np.array([[0.0, w]]), state, p, t, new, D)
             state = new.copy()
         last = corner
-    return t[0, 1], state[0, XI]
+    return t[0, 1], state[0, Variable.XI]
 
 
 @settings(max_examples=60, deadline=None)

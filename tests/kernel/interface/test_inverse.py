@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 
-from ssilang.kernel.interface.factors import factorise_dense, solve_factors_together
-from ssilang.kernel.interface.inverse import apply_inverse, update_point
-from ssilang.kernel.interface.response import interface_stiffness
+from ssilang.kernel.interface.condensed import Condensed
+from ssilang.kernel.interface.inverse import Inverse, apply_inverse, update_point
+from ssilang.kernel.interface.response import Joints, interface_stiffness
+from ssilang.kernel.solvers.dense import factorise_dense, solve_factors_together
 
 SHARE = 0.9
 
@@ -19,35 +20,39 @@ def interface(rng, d=2, n_pairs=5):
     D = rng.normal(size=(len(pairs), d, d))  # not symmetric, as with friction
     D = 0.3 * D + 3.0 * np.eye(d)
     D[0] = 0.0
-    return pairs, B, rng.uniform(0.5, 2.0, len(pairs)), X @ X.T / q, D
+    weights, codes = rng.uniform(0.5, 2.0, len(pairs)), np.zeros(len(pairs), np.int64)
+    return Joints(pairs, B, weights, codes, np.zeros((len(pairs), 1))), X @ X.T / q, D
 
 
-def matrix(pairs, B, weights, S, D, R):
+def matrix(joints, condensed, D):
+    S, R, c = condensed
     K = np.zeros_like(S)
-    interface_stiffness(pairs, B, weights, D, K)
-    return np.eye(len(S)) + S @ (SHARE * K - R)
+    interface_stiffness(joints, D, K)
+    return np.eye(len(S)) + S @ (c * K - R)
 
 
 @pytest.mark.parametrize("d", [2, 3])
 def test_response_follows_points_that_change(d):
     rng = np.random.default_rng(d)
-    pairs, B, weights, S, D = interface(rng, d)
-    R = 0.1 * np.eye(len(S))
-    Y = np.linalg.solve(matrix(pairs, B, weights, S, D, R), S)
+    joints, S, D = interface(rng, d)
+    condensed = Condensed(S, 0.1 * np.eye(len(S)), SHARE)
+    Y = np.linalg.solve(matrix(joints, condensed, D), S)
+    inverse = Inverse(Y, np.empty(len(S)), np.zeros(1, np.int64))
     room = np.empty((2, d, len(S)))
     for turn in range(40):
         p, new = turn % len(D), D.copy()
         new[p] = 0.0 if turn % 3 == 0 else 2.5 * np.eye(d) + 0.2 * rng.normal(size=(d, d))
         if turn % 3 == 1:
             new[p, 0, 0] = 0.0  # slides: a change of lower rank
-        assert update_point(pairs[p], B[p], SHARE * weights[p], new[p], D[p], Y, room)
+        weight = SHARE * joints.weights[p]
+        assert update_point(joints.pairs[p], joints.B[p], weight, new[p], D[p], Y, room)
         D = new
-        truth = np.linalg.solve(matrix(pairs, B, weights, S, D, R), S)
+        truth = np.linalg.solve(matrix(joints, condensed, D), S)
         np.testing.assert_allclose(Y, truth, atol=1e-10 * np.abs(truth).max())
         x = rng.normal(size=len(S))
-        solved, g = x.copy(), np.empty(len(S))
-        apply_inverse(pairs, B, weights, D, R, SHARE, Y, g, solved)
-        exact = np.linalg.solve(matrix(pairs, B, weights, S, D, R), x)
+        solved = x.copy()
+        apply_inverse(joints, condensed, D, inverse, solved)
+        exact = np.linalg.solve(matrix(joints, condensed, D), x)
         np.testing.assert_allclose(solved, exact, atol=1e-10 * np.abs(exact).max())
 
 

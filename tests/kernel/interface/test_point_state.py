@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from ssilang.kernel.interface.laws.columns import N_STATE
-from ssilang.kernel.interface.laws.parameters import N_PARAMETERS, Parameter
+from ssilang.kernel.interface.laws.columns import N_PARAMETERS, N_STATE, Parameter
 from ssilang.kernel.interface.laws.point_laws import respond
 from ssilang.kernel.interface.point_state import (
     CLOSED,

@@ -14,8 +14,9 @@ from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.mesh import CellBlock
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.solvers import backends
-from ssilang.kernel.solvers.backends import MULTIGRID, Ordering, factorise
+from ssilang.kernel.solvers.backends import MULTIGRID, factorise
 from ssilang.kernel.solvers.cholesky.inverse import invert
+from ssilang.kernel.solvers.factor import Ordering
 from ssilang.kernel.solvers.multigrid import MultigridFactor
 from ssilang.kernel.statics.linear_motion import rigid_motions
 

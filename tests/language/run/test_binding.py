@@ -177,6 +177,19 @@ def test_a_mandatory_select_chooses_its_form(declare):
     assert declare.found[-1] == {"x": 1.0, "y": 2.0}
 
 
+def test_a_keyword_may_take_only_what_stands_behind_it(declare):
+    declare(
+        select("on", {"SUR": [many("those", "ENTIER", behind=True)]}),
+        arg("x", "ENTIER"),
+        many("more", "ENTIER"),
+    )
+    assert run("A = 1 2 ZZZZ 'SUR' ; B = 1 ZZZZ 'SUR' 2 3 ;")[0] == 0
+    assert [(v["on"]["those"], v["x"], v["more"]) for v in declare.found] == [
+        ((), 1, (2,)),
+        ((2, 3), 1, ()),
+    ]
+
+
 def test_the_words_of_all_forms_of_a_type_are_told(declare):
     declare(said("CUBE"), main("x", "ENTIER"))
     declare(said("CARRE"), main("x", "ENTIER"))

@@ -21,6 +21,8 @@ _PLATE = (
 def _literals():
     """All texts of the program, with {} for what is filled in."""
     for path in _ROOT.rglob("*.py"):
+        if path.is_relative_to(_ROOT / "messages"):
+            continue  # what stands there has its French beside it
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             if isinstance(node, ast.JoinedStr):
                 yield "".join(
@@ -48,12 +50,6 @@ def test_both_languages_carry_the_same_figures(english, french):
     figures = [f"<{i}>" for i in range(count)]
     assert french.count("{}") == count
     assert in_french(english.format(*figures)) == french.format(*figures)
-
-
-def test_a_refused_entry_is_told_in_french_with_its_reason():
-    reason = "the matrix is singular, with 1 free motion"
-    told = in_french(f"DYNAMIC: 'TEMPS_SAUVES' is refused: {reason}")
-    assert told.startswith("DYNAMIC : 'TEMPS_SAUVES' est refusé : la matrice est singulière")
 
 
 def test_a_sentence_without_template_stays():

@@ -1,15 +1,66 @@
-"""Columns of the tables that the compiled laws read and write."""
+"""Numbers of the laws, of their parameters and of their internal variables, each given once.
+
+Compiled code takes members of these enumerations for plain numbers.
+"""
 
 from __future__ import annotations
 
-# parameters (see Parameter)
-KN, KS1, KS2, FU, GF, FC, FROT, SHEAR, TPHI, TPSI, COHE, FTRC, EF, ECN, FNE, QT = range(16)
-LARG, LONG, RAYO, SYMMETRIC = range(16, 20)
-# state of a point: largest irreversible opening, slips, share of shear stiffness lost, stored
-# shear energy, energy lost in shear; HELD: during a step's iteration, whether shear is transmitted
-# (CLOSED_SHEAR) or not (OPEN_SHEAR) whatever the normal traction; 0 between steps
-# Mohr-Coulomb joints: XI plastic normal jump, DAMAGE plastic compression, STATUS (0 untouched,
-# 1 open, 2 in contact), OPENING of an open point, CUMULATED plastic jump
-XI, SLIP1, SLIP2, DAMAGE, SHEAR_ENERGY, SHEAR_LOSS, HELD, STATUS, OPENING, CUMULATED = range(10)
-N_STATE = 10
-CLOSED_SHEAR, OPEN_SHEAR = 1.0, 2.0
+from enum import IntEnum
+
+
+class LawCode(IntEnum):
+    """Number that compiled code knows a law by."""
+
+    ELASTIC = 0
+    SDM = 1
+    MOHR = 2
+    STRIP = 3  # macro-elements: a whole footing at one point
+    DISC = 4
+    SPRINGS = 5
+
+
+class Parameter(IntEnum):
+    """Columns of the parameter table of joint points (all laws read the same table)."""
+
+    KN = 0  # normal stiffness, Pa/m (N/m for a joint of two points)
+    KS1 = 1  # shear stiffness along t1
+    KS2 = 2  # shear stiffness along t2 (unused in 2D)
+    FU = 3  # tensile strength, Pa
+    GF = 4  # energy spent to open fully, N/m
+    FC = 5  # closing traction, Pa, <= 0
+    FROT = 6  # Coulomb coefficient, < 0: no bound on the shear of a closed point
+    SHEAR = 7  # 0 lost when open, 1 literally elastic at any opening
+    TPHI = 8  # tangent of the friction angle
+    TPSI = 9  # tangent of the dilatancy angle
+    COHE = 10  # cohesion
+    FTRC = 11  # tensile strength of a Mohr-Coulomb joint
+    EF = 12  # normal stiffness beyond the closing ECN
+    ECN = 13
+    FNE = 14  # compression from which a joint of two points yields, 0: never
+    QT = 15  # its tangent stiffness then
+    LARG = 16  # width of a footing (macro-elements), along t1 in 3D
+    LONG = 17  # its other width
+    RAYO = 18  # its radius
+    SYMMETRIC = 19  # 1: tangent of friction without its unsymmetric part
+
+
+class Variable(IntEnum):
+    """Columns of the state of a point, its internal variables."""
+
+    XI = 0  # largest irreversible opening; plastic normal jump of a Mohr-Coulomb joint
+    SLIP1 = 1  # along t1
+    SLIP2 = 2  # along t2
+    DAMAGE = 3  # share of the shear stiffness lost; plastic compression of a Mohr-Coulomb joint
+    SHEAR_ENERGY = 4  # stored
+    SHEAR_LOSS = 5  # energy lost in shear so far
+    HELD = 6  # in a step's iteration: CLOSED_SHEAR, OPEN_SHEAR, or 0: as the law says
+    STATUS = 7  # of a Mohr-Coulomb joint: untouched (0), IS_OPEN or IN_CONTACT
+    OPENING = 8  # of an open Mohr-Coulomb joint
+    CUMULATED = 9  # length of its plastic jump
+
+
+N_PARAMETERS = len(Parameter)
+N_STATE = len(Variable)
+
+CLOSED_SHEAR, OPEN_SHEAR = 1.0, 2.0  # HELD: transmitted or not, whatever the normal traction
+IS_OPEN, IN_CONTACT = 1.0, 2.0  # STATUS

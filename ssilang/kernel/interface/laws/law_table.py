@@ -9,23 +9,12 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MaterialError
-from ssilang.kernel.interface.laws.columns import (
-    CUMULATED,
-    DAMAGE,
-    OPENING,
-    SLIP1,
-    SLIP2,
-    STATUS,
-    XI,
-)
+from ssilang.kernel.interface.laws.columns import LawCode, Parameter, Variable
 from ssilang.kernel.interface.laws.parameters import (
-    Parameter,
     check_macro_parameters,
     check_mohr_parameters,
     check_sdm_parameters,
 )
-
-ELASTIC, SDM, MOHR = 0, 1, 2
 
 
 @dataclass(frozen=True)
@@ -46,36 +35,61 @@ class Law:
         Parameters in degrees, with the columns that take their tangents.
     variables : dict
         Internal variables that results show, with their column of the state.
-    macro : bool
-        True for a whole footing at a joint of two points: its jumps are rotations and opening.
+    rocking : callable or None
+        For a whole footing at a joint of two points, whose jumps are rotations and opening: its
+        stiffness in full contact about t1 and t2 (the same in 2D), each (n,), from the parameters.
+    in_space : tuple of str or None
+        Parameters that it needs in three dimensions beside; None if it is plane.
     """
 
-    code: int
+    code: LawCode
     required: tuple[str, ...]
     optional: tuple[str, ...] = ()
     check: Callable[[FloatArray], None] | None = None
     linear: bool = False
     angles: dict[str, tuple[str, ...]] = field(default_factory=dict)
-    variables: dict[str, int] = field(default_factory=dict)
-    macro: bool = False
+    variables: dict[str, Variable] = field(default_factory=dict)
+    rocking: Callable[[FloatArray], tuple[FloatArray, FloatArray]] | None = None
+    in_space: tuple[str, ...] | None = ()
+
+    @property
+    def macro(self) -> bool:
+        """True for a whole footing."""
+        return self.rocking is not None
+
+
+def _rocking_rectangle(p: FloatArray) -> tuple[FloatArray, FloatArray]:
+    k, width, length = p[:, Parameter.KN], p[:, Parameter.LARG], p[:, Parameter.LONG]
+    about_2 = k * width**2 / 12
+    return np.where(length > 0, k * length**2 / 12, about_2), about_2
+
+
+def _rocking_disc(p: FloatArray) -> tuple[FloatArray, FloatArray]:
+    both = p[:, Parameter.KN] * p[:, Parameter.RAYO] ** 2 / 4
+    return both, both
+
+
+def _rocking_springs(p: FloatArray) -> tuple[FloatArray, FloatArray]:
+    both = p[:, Parameter.KN] * p[:, Parameter.LARG] ** 2 / 4
+    return both, both
 
 
 _PLASTIC = {
-    "EPSE": CUMULATED, "STAT": STATUS, "EPOU": OPENING, "LAM1": DAMAGE, "PLA1": SLIP1,
-    "PLA2": SLIP2, "PLA3": XI,
+    "EPSE": Variable.CUMULATED, "STAT": Variable.STATUS, "EPOU": Variable.OPENING,
+    "LAM1": Variable.DAMAGE, "PLA1": Variable.SLIP1, "PLA2": Variable.SLIP2, "PLA3": Variable.XI,
 }  # fmt: skip
 
 LAWS: dict[str, Law] = {
-    "ELASTIQUE": Law(ELASTIC, ("KN", "KS"), linear=True),
+    "ELASTIQUE": Law(LawCode.ELASTIC, ("KN", "KS"), linear=True),
     "JOINT_SDM": Law(
-        SDM,
+        LawCode.SDM,
         ("KN", "KS"),
         ("FU", "GF", "FC", "FROT"),
         check_sdm_parameters,
-        variables={"SAUT": XI, "GLI1": SLIP1, "GLI2": SLIP2},
+        variables={"SAUT": Variable.XI, "GLI1": Variable.SLIP1, "GLI2": Variable.SLIP2},
     ),
     "JOINT_DILATANT": Law(
-        MOHR,
+        LawCode.MOHR,
         ("KN", "KS", "PHI", "MU"),
         ("FTRC", "COHE"),
         check_mohr_parameters,
@@ -83,16 +97,32 @@ LAWS: dict[str, Law] = {
         variables=_PLASTIC,
     ),
     "COULOMB": Law(
-        MOHR,
+        LawCode.MOHR,
         ("KN", "KS", "FRIC", "COHE"),
         ("FTRC", "EF", "ECN", "FNE", "QT", "TYPE"),
         check_mohr_parameters,
         angles={"FRIC": ("TPHI", "TPSI")},
         variables=_PLASTIC,
     ),
-    "MACRO_SEMELLE": Law(3, ("KN", "KS", "LARG"), ("LONG",), check_macro_parameters, macro=True),
-    "MACRO_DISQUE": Law(4, ("KN", "KS", "RAYO"), (), check_macro_parameters, macro=True),
-    "MACRO_RESSORTS": Law(5, ("KN", "KS", "LARG"), (), check_macro_parameters, macro=True),
+    "MACRO_SEMELLE": Law(
+        LawCode.STRIP,
+        ("KN", "KS", "LARG"),
+        ("LONG",),
+        check_macro_parameters,
+        rocking=_rocking_rectangle,
+        in_space=("LONG",),
+    ),
+    "MACRO_DISQUE": Law(
+        LawCode.DISC, ("KN", "KS", "RAYO"), (), check_macro_parameters, rocking=_rocking_disc
+    ),
+    "MACRO_RESSORTS": Law(
+        LawCode.SPRINGS,
+        ("KN", "KS", "LARG"),
+        (),
+        check_macro_parameters,
+        rocking=_rocking_springs,
+        in_space=None,
+    ),
 }
 """Laws by the last word of a model's behaviour; the purely elastic joint under 'ELASTIQUE'."""
 
@@ -117,9 +147,7 @@ def law_of(behaviour: tuple[str, ...]) -> Law:
             return LAWS[word]
     strange = [w for w in behaviour if w not in OTHER_WORDS and w not in LAWS]
     if strange:
-        raise MaterialError(
-            f"no joint law is called {strange[0]}", "joints have " + ", ".join(LAWS)
-        )
+        raise MaterialError("kernel.interface.no-joint-law-called", strange=strange[0], laws=LAWS)
     return LAWS["ELASTIQUE"]
 
 
@@ -130,16 +158,3 @@ def elastic_tangent(parameters: FloatArray, dimension: int) -> FloatArray:
     for i, column in enumerate(columns):
         tangent[:, i, i] = parameters[:, column]
     return tangent
-
-
-def rocking_stiffness(code: int, parameters: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Stiffness of a macro-element in full contact about t1 and t2 (the same in 2D), each (n,)."""
-    k, b = parameters[:, Parameter.KN], parameters[:, Parameter.LARG]
-    if code == 4:
-        both = k * parameters[:, Parameter.RAYO] ** 2 / 4
-        return both, both
-    if code == 5:
-        return k * b**2 / 4, k * b**2 / 4
-    other = parameters[:, Parameter.LONG]
-    about_1 = np.where(other > 0, k * other**2 / 12, k * b**2 / 12)
-    return about_1, k * b**2 / 12

@@ -19,9 +19,8 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.compiled.apart import apart
 from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.interface.copies import clear, copy_state
-from ssilang.kernel.interface.laws.columns import KN, LARG, LONG, RAYO
-
-STRIP_CODE, DISC_CODE, SPRINGS_CODE = 3, 4, 5
+from ssilang.kernel.interface.laws.columns import LawCode
+from ssilang.kernel.interface.laws.columns import Parameter as Par
 
 
 @compiled
@@ -88,8 +87,8 @@ def rectangle_contact(
             points[n, 0], points[n, 1] = x1, y1
             n += 1
         if (g1 < 0.0) != (g2 < 0.0):
-            share = g1 / (g1 - g2)
-            points[n, 0], points[n, 1] = x1 + share * (x2 - x1), y1 + share * (y2 - y1)
+            at = g1 / (g1 - g2)
+            points[n, 0], points[n, 1] = x1 + at * (x2 - x1), y1 + at * (y2 - y1)
             n += 1
     for i in range(6):
         out[i] = 0.0
@@ -120,7 +119,7 @@ def macro_point(
     copy_state(state, new)
     if w.shape[0] == 2:
         _plane(code, w, p, t, D)
-    elif code == DISC_CODE:
+    elif code == LawCode.DISC:
         _disc(w, p, t, D)
     else:
         _rectangle(w, p, t, D)
@@ -129,17 +128,17 @@ def macro_point(
 @compiled
 def _plane(code: int, w: FloatArray, p: FloatArray, t: FloatArray, D: FloatArray) -> None:
     theta, v = w[0], w[1]
-    if code == DISC_CODE:
-        k = p[KN] / (math.pi * p[RAYO] ** 2)
-        A, S, Q = disc_contact(v, abs(theta), p[RAYO])
+    if code == LawCode.DISC:
+        k = p[Par.KN] / (math.pi * p[Par.RAYO] ** 2)
+        A, S, Q = disc_contact(v, abs(theta), p[Par.RAYO])
         if theta < 0.0:
             S = -S
-    elif code == STRIP_CODE:
-        k = p[KN] / p[LARG]
-        A, S, Q = strip_contact(v, theta, p[LARG])
+    elif code == LawCode.STRIP:
+        k = p[Par.KN] / p[Par.LARG]
+        A, S, Q = strip_contact(v, theta, p[Par.LARG])
     else:
-        k = 0.5 * p[KN]
-        A, S, Q = springs_contact(v, theta, p[LARG])
+        k = 0.5 * p[Par.KN]
+        A, S, Q = springs_contact(v, theta, p[Par.LARG])
     t[0], t[1] = k * (v * S + theta * Q), k * (v * A + theta * S)
     D[0, 0], D[0, 1], D[1, 0], D[1, 1] = k * Q, k * S, k * S, k * A
 
@@ -147,9 +146,9 @@ def _plane(code: int, w: FloatArray, p: FloatArray, t: FloatArray, D: FloatArray
 @compiled
 def _disc(w: FloatArray, p: FloatArray, t: FloatArray, D: FloatArray) -> None:
     """w = (theta_1, theta_2, v); the opening grows along a = (-theta_2, theta_1)."""
-    k, v = p[KN] / (math.pi * p[RAYO] ** 2), w[2]
+    k, v = p[Par.KN] / (math.pi * p[Par.RAYO] ** 2), w[2]
     theta = math.sqrt(w[0] ** 2 + w[1] ** 2)
-    A, S, Q = disc_contact(v, theta, p[RAYO])
+    A, S, Q = disc_contact(v, theta, p[Par.RAYO])
     t[0], t[1], t[2] = 0.0, 0.0, k * (v * A + theta * S)
     clear(D)
     D[2, 2] = k * A
@@ -169,9 +168,9 @@ def _disc(w: FloatArray, p: FloatArray, t: FloatArray, D: FloatArray) -> None:
 @compiled
 def _rectangle(w: FloatArray, p: FloatArray, t: FloatArray, D: FloatArray) -> None:
     """w = (theta_1, theta_2, v); the opening is v + theta_1 s_2 - theta_2 s_1."""
-    k = p[KN] / (p[LARG] * p[LONG])
+    k = p[Par.KN] / (p[Par.LARG] * p[Par.LONG])
     m = np.zeros(6)
-    rectangle_contact(w[2], -w[1], w[0], p[LARG], p[LONG], m)
+    rectangle_contact(w[2], -w[1], w[0], p[Par.LARG], p[Par.LONG], m)
     D[0, 0], D[1, 1], D[2, 2] = k * m[5], k * m[3], k * m[0]
     D[0, 1] = D[1, 0] = -k * m[4]
     D[0, 2] = D[2, 0] = k * m[2]

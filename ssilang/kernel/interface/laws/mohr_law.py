@@ -16,32 +16,19 @@ from ssilang.kernel.base.compiled.apart import apart
 from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.interface.copies import clear, copy_state
 from ssilang.kernel.interface.laws.columns import (
-    COHE,
-    CUMULATED,
-    DAMAGE,
-    ECN,
-    EF,
-    FNE,
-    FTRC,
-    KN,
-    KS1,
-    OPENING,
-    QT,
-    SHEAR_LOSS,
-    SLIP1,
-    STATUS,
-    TPHI,
-    TPSI,
-    XI,
+    IN_CONTACT,
+    IS_OPEN,
 )
+from ssilang.kernel.interface.laws.columns import Parameter as Par
+from ssilang.kernel.interface.laws.columns import Variable as Var
 
 
 @compiled
 def _elastic_normal(closing: float, p: FloatArray) -> tuple[float, float]:
     """Traction and stiffness of an elastic normal jump."""
-    if p[ECN] > 0.0 and closing < -p[ECN]:
-        return -p[KN] * p[ECN] + p[EF] * (closing + p[ECN]), p[EF]
-    return p[KN] * closing, p[KN]
+    if p[Par.ECN] > 0.0 and closing < -p[Par.ECN]:
+        return -p[Par.KN] * p[Par.ECN] + p[Par.EF] * (closing + p[Par.ECN]), p[Par.EF]
+    return p[Par.KN] * closing, p[Par.KN]
 
 
 @compiled
@@ -50,13 +37,14 @@ def mohr_energy(w: FloatArray, t: FloatArray, state: FloatArray, p: FloatArray) 
     n = w.shape[0] - 1
     stored: float = 0.0
     if t[n] != 0.0:
-        e = w[n] - state[XI]
+        e = w[n] - state[Var.XI]
         stored = 0.5 * t[n] * e
-        if p[ECN] > 0.0 and e < -p[ECN]:
-            stored = 0.5 * p[KN] * p[ECN] ** 2 - 0.5 * (t[n] - p[KN] * p[ECN]) * (-e - p[ECN])
+        if p[Par.ECN] > 0.0 and e < -p[Par.ECN]:
+            first, beyond = p[Par.KN] * p[Par.ECN], -e - p[Par.ECN]
+            stored = 0.5 * first * p[Par.ECN] - 0.5 * (t[n] - first) * beyond
     for i in range(n):
-        if p[KS1 + i] > 0.0:
-            stored += 0.5 * t[i] * t[i] / p[KS1 + i]
+        if p[Par.KS1 + i] > 0.0:
+            stored += 0.5 * t[i] * t[i] / p[Par.KS1 + i]
     return stored
 
 
@@ -69,35 +57,35 @@ def mohr_point(
     n = w.shape[0] - 1
     clear(D)
     copy_state(state, new)
-    new[OPENING] = 0.0
-    new[STATUS] = 2.0
-    strength = p[FTRC]
-    if p[TPHI] > 0.0:
-        strength = min(strength, p[COHE] / p[TPHI])
-    tn, kn = _elastic_normal(w[n] - state[XI], p)
+    new[Var.OPENING] = 0.0
+    new[Var.STATUS] = IN_CONTACT
+    strength = p[Par.FTRC]
+    if p[Par.TPHI] > 0.0:
+        strength = min(strength, p[Par.COHE] / p[Par.TPHI])
+    tn, kn = _elastic_normal(w[n] - state[Var.XI], p)
     if tn > strength and strength == 0.0:
         _open(w, state, p, t, new)
         _cumulate(state, new, n)
         return
     loss = 0.0
     if tn > strength:
-        new[XI] += (tn - strength) / kn
+        new[Var.XI] += (tn - strength) / kn
         loss += strength * (tn - strength) / kn
         tn, kn = strength, 0.0
-    elif p[FNE] > 0.0 and tn < -(p[FNE] + _hardening(p) * state[DAMAGE]):
-        yielded = (-tn - p[FNE] - _hardening(p) * state[DAMAGE]) / (kn + _hardening(p))
-        new[XI] -= yielded
-        new[DAMAGE] += yielded
+    elif p[Par.FNE] > 0.0 and tn < -(p[Par.FNE] + _hardening(p) * state[Var.DAMAGE]):
+        yielded = (-tn - p[Par.FNE] - _hardening(p) * state[Var.DAMAGE]) / (kn + _hardening(p))
+        new[Var.XI] -= yielded
+        new[Var.DAMAGE] += yielded
         tn += kn * yielded
         loss -= tn * yielded
-        kn = p[QT]
-    new[SHEAR_LOSS] = state[SHEAR_LOSS] + loss + _slide(w, p, t, new, D, tn, kn)
+        kn = p[Par.QT]
+    new[Var.SHEAR_LOSS] = state[Var.SHEAR_LOSS] + loss + _slide(w, p, t, new, D, tn, kn)
     _cumulate(state, new, n)
 
 
 @compiled
 def _hardening(p: FloatArray) -> float:
-    slope: float = p[KN] * p[QT] / (p[KN] - p[QT])
+    slope: float = p[Par.KN] * p[Par.QT] / (p[Par.KN] - p[Par.QT])
     return slope
 
 
@@ -105,11 +93,11 @@ def _hardening(p: FloatArray) -> float:
 def _open(w: FloatArray, state: FloatArray, p: FloatArray, t: FloatArray, new: FloatArray) -> None:
     """An open point: no traction, the shear's stored energy is lost."""
     n = w.shape[0] - 1
-    new[STATUS] = 1.0
-    new[OPENING] = w[n] - state[XI]
+    new[Var.STATUS] = IS_OPEN
+    new[Var.OPENING] = w[n] - state[Var.XI]
     for i in range(n):
         t[i] = 0.0
-        new[SLIP1 + i] = w[i]
+        new[Var.SLIP1 + i] = w[i]
     t[n] = 0.0
 
 
@@ -127,36 +115,36 @@ def _slide(
     n = w.shape[0] - 1
     size, length = 0.0, 0.0
     for i in range(n):
-        t[i] = p[KS1 + i] * (w[i] - new[SLIP1 + i])
-        D[i, i] = p[KS1 + i]
+        t[i] = p[Par.KS1 + i] * (w[i] - new[Var.SLIP1 + i])
+        D[i, i] = p[Par.KS1 + i]
         size += t[i] * t[i]
-        length += (w[i] - new[SLIP1 + i]) ** 2
+        length += (w[i] - new[Var.SLIP1 + i]) ** 2
     size, length = math.sqrt(size), math.sqrt(length)
     t[n], D[n, n] = tn, kn
-    if size <= p[COHE] - tn * p[TPHI] or size == 0.0:
+    if size <= p[Par.COHE] - tn * p[Par.TPHI] or size == 0.0:
         return 0.0
-    a = kn * p[TPSI] * p[TPHI]
-    ratio = (p[COHE] - tn * p[TPHI] + a * length) / (size + a * length)
+    a = kn * p[Par.TPSI] * p[Par.TPHI]
+    ratio = (p[Par.COHE] - tn * p[Par.TPHI] + a * length) / (size + a * length)
     down = size + a * length
     slip = (1.0 - ratio) * length
     for i in range(n):
-        e_i = w[i] - new[SLIP1 + i]
+        e_i = w[i] - new[Var.SLIP1 + i]
         for j in range(n):
-            e_j = (w[j] - new[SLIP1 + j]) / length
-            g_j = p[KS1 + j] * t[j] / size
+            e_j = (w[j] - new[Var.SLIP1 + j]) / length
+            g_j = p[Par.KS1 + j] * t[j] / size
             D[i, j] = t[i] * (a * e_j - ratio * (g_j + a * e_j)) / down
-        D[i, i] += ratio * p[KS1 + i]
-        D[i, n] = -t[i] * kn * p[TPHI] / down
-        g_i = p[KS1 + i] * t[i] / size
+        D[i, i] += ratio * p[Par.KS1 + i]
+        D[i, n] = -t[i] * kn * p[Par.TPHI] / down
+        g_i = p[Par.KS1 + i] * t[i] / size
         dr = (a * e_i / length - ratio * (g_i + a * e_i / length)) / down
-        D[n, i] = -kn * p[TPSI] * ((1.0 - ratio) * e_i / length - length * dr)
-    D[n, n] = kn - kn * p[TPSI] * length * kn * p[TPHI] / down
-    t[n] = tn - kn * p[TPSI] * slip
-    spent: float = t[n] * p[TPSI] * slip
-    new[XI] += p[TPSI] * slip
+        D[n, i] = -kn * p[Par.TPSI] * ((1.0 - ratio) * e_i / length - length * dr)
+    D[n, n] = kn - kn * p[Par.TPSI] * length * kn * p[Par.TPHI] / down
+    t[n] = tn - kn * p[Par.TPSI] * slip
+    spent: float = t[n] * p[Par.TPSI] * slip
+    new[Var.XI] += p[Par.TPSI] * slip
     for i in range(n):
-        moved = (1.0 - ratio) * (w[i] - new[SLIP1 + i])
-        new[SLIP1 + i] += moved
+        moved = (1.0 - ratio) * (w[i] - new[Var.SLIP1 + i])
+        new[Var.SLIP1 + i] += moved
         t[i] *= ratio
         spent += t[i] * moved
     return spent
@@ -165,7 +153,7 @@ def _slide(
 @compiled
 def _cumulate(state: FloatArray, new: FloatArray, n: int) -> None:
     """Cumulated plastic jump, sqrt(2/3) of its length."""
-    total = (new[XI] + new[OPENING] - state[XI] - state[OPENING]) ** 2
+    total = (new[Var.XI] + new[Var.OPENING] - state[Var.XI] - state[Var.OPENING]) ** 2
     for i in range(n):
-        total += (new[SLIP1 + i] - state[SLIP1 + i]) ** 2
-    new[CUMULATED] = state[CUMULATED] + math.sqrt(2.0 / 3.0 * total)
+        total += (new[Var.SLIP1 + i] - state[Var.SLIP1 + i]) ** 2
+    new[Var.CUMULATED] = state[Var.CUMULATED] + math.sqrt(2.0 / 3.0 * total)

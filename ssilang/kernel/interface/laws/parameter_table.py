@@ -11,8 +11,9 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.elements.zone_fields import ZoneField, missing_parameter
 from ssilang.kernel.interface.kinematics import JointCells, point_values
+from ssilang.kernel.interface.laws.columns import N_PARAMETERS, Parameter
 from ssilang.kernel.interface.laws.law_table import law_of
-from ssilang.kernel.interface.laws.parameters import DEFAULTS, N_PARAMETERS, Parameter
+from ssilang.kernel.interface.laws.parameters import DEFAULTS
 from ssilang.kernel.materials.model import Zone
 
 ELASTIC_SHEAR = "CISAILLEMENT_ELASTIQUE"
@@ -118,6 +119,5 @@ def check_given(zone: Zone, values: Mapping[str, NDArray[np.generic]]) -> None:
 def _refuse_turning_slip(kind: FloatArray | None) -> None:
     if kind is not None and (kind != 1.0).any():
         raise MaterialError(
-            f"COULOMB with TYPE = {kind[kind != 1.0][0]:g} is not available",
-            "TYPE = 1: slip of the displacements; TYPE = 2, slip in rotation, is not built",
+            "kernel.interface.coulomb-type-not-available", kind=kind[kind != 1.0][0]
         )

@@ -1,48 +1,19 @@
-"""Parameters of the joint laws: columns, defaults, admissibility."""
+"""Parameters of the joint laws: defaults, admissibility."""
 
 from __future__ import annotations
-
-from enum import IntEnum
 
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MaterialError
-
-
-class Parameter(IntEnum):
-    """Columns of the parameter table of joint points (all laws read the same table)."""
-
-    KN = 0  # normal stiffness, Pa/m (N/m for a joint of two points)
-    KS1 = 1  # shear stiffness along t1
-    KS2 = 2  # shear stiffness along t2 (unused in 2D)
-    FU = 3  # tensile strength, Pa
-    GF = 4  # energy spent to open fully, N/m
-    FC = 5  # closing traction, Pa, <= 0
-    FROT = 6  # Coulomb coefficient, < 0: no bound on the shear of a closed point
-    SHEAR = 7  # 0 lost when open, 1 literally elastic at any opening
-    TPHI = 8  # tangent of the friction angle
-    TPSI = 9  # tangent of the dilatancy angle
-    COHE = 10  # cohesion
-    FTRC = 11  # tensile strength of a Mohr-Coulomb joint
-    EF = 12  # normal stiffness beyond the closing ECN
-    ECN = 13
-    FNE = 14  # compression from which a joint of two points yields, 0: never
-    QT = 15  # its tangent stiffness then
-    LARG = 16  # width of a footing (macro-elements), along t1 in 3D
-    LONG = 17  # its other width
-    RAYO = 18  # its radius
-    SYMMETRIC = 19  # 1: tangent of friction without its unsymmetric part
-
-
-N_PARAMETERS = len(Parameter)
+from ssilang.kernel.interface.laws.columns import Parameter
 
 DEFAULTS: dict[str, float] = {"FROT": -1.0}
 """What laws take for the parameters that are not given, if not 0: a joint without tension."""
 
 
 def check_sdm_parameters(parameters: FloatArray) -> None:
-    """Refuse parameters for which the SDM law has no or several answers.
+    """Refuse parameters for which the SDM law has no traction or several.
 
     Parameters
     ----------
@@ -62,14 +33,11 @@ def check_sdm_parameters(parameters: FloatArray) -> None:
         _refuse(columns[name] < 0, columns[name], name, ">= 0")
     _refuse(columns["FC"] > 0, columns["FC"], "FC", "<= 0 (it is a compression)")
     if not np.isfinite(parameters).all():
-        raise MaterialError("a joint parameter is not a finite number")
+        raise MaterialError("kernel.interface.joint-parameter-not-finite")
     brittle = (columns["FU"] > 0) & (columns["GF"] == 0)
     if brittle.any():
         fu, kn = columns["FU"][brittle].max(), columns["KN"][brittle].min()
-        raise MaterialError(
-            f"a joint with FU = {fu:g} and GF = 0 is perfectly brittle, which JOINT_SDM refuses",
-            f"give GF > FU^2/KN = {fu * fu / kn:g} N/m, or FU = 0 for a joint without tension",
-        )
+        raise MaterialError("kernel.interface.joint-fu-gf-perfectly", fu=fu, fu_2=fu * fu / kn)
     _check_snap_back(columns["KN"], columns["FU"], columns["GF"])
 
 
@@ -84,7 +52,7 @@ def check_mohr_parameters(parameters: FloatArray) -> None:
     """
     columns = {p.name: parameters[:, p] for p in Parameter}
     if not np.isfinite(parameters).all():
-        raise MaterialError("a joint parameter is not a finite number, or an angle reaches 90")
+        raise MaterialError("kernel.interface.joint-parameter-not-finite-2")
     _refuse(columns["KN"] <= 0, columns["KN"], "KN", "> 0")
     for name in ("KS1", "KS2", "TPHI", "TPSI", "COHE", "FTRC", "EF", "ECN", "FNE", "QT"):
         _refuse(columns[name] < 0, columns[name], name, ">= 0")
@@ -100,7 +68,7 @@ def check_macro_parameters(parameters: FloatArray) -> None:
         Naming the parameter.
     """
     if not np.isfinite(parameters).all():
-        raise MaterialError("a joint parameter is not a finite number")
+        raise MaterialError("kernel.interface.joint-parameter-not-finite")
     columns = {p.name: parameters[:, p] for p in Parameter}
     _refuse(columns["KN"] <= 0, columns["KN"], "KN", "> 0")
     for name in ("LARG", "LONG", "RAYO"):
@@ -109,7 +77,12 @@ def check_macro_parameters(parameters: FloatArray) -> None:
 
 def _refuse(wrong: np.ndarray, values: FloatArray, name: str, wanted: str) -> None:
     if wrong.any():
-        raise MaterialError(f"the joint parameter {name} = {values[wrong][0]:g} must be {wanted}")
+        raise MaterialError(
+            "kernel.interface.joint-parameter-must",
+            name=name,
+            values=values[wrong][0],
+            wanted=wanted,
+        )
 
 
 def _check_snap_back(kn: FloatArray, fu: FloatArray, gf: FloatArray) -> None:
@@ -118,7 +91,5 @@ def _check_snap_back(kn: FloatArray, fu: FloatArray, gf: FloatArray) -> None:
         at = int(np.flatnonzero(steep)[0])
         least, largest = fu[at] ** 2 / gf[at], np.sqrt(kn[at] * gf[at])
         raise MaterialError(
-            f"KN = {kn[at]:g} must exceed FU^2/GF = {least:g}: the joint would soften faster than "
-            "it unloads and one opening would have several tractions",
-            f"KN > {least:g} with this FU and GF, or FU < {largest:g} with this KN and GF",
+            "kernel.interface.kn-must-exceed-fu", kn=kn[at], least=least, largest=largest
         )

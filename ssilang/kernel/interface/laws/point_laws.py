@@ -4,7 +4,8 @@ A law is one file with a compiled function of one point::
 
     law(w, state, p, t, new, D)      # traction t, new state and tangent D, written in place
 
-To add a law: write it, give it a code in `law_table.LAWS` and a line in `point_response`.
+To add a law: write it, give it a code (`columns.LawCode`), a row in `law_table.LAWS` and a line in
+`point_response`.
 """
 
 from __future__ import annotations
@@ -13,7 +14,9 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.apart import apart
 from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.interface.copies import clear, copy_state
-from ssilang.kernel.interface.laws.columns import FC, FU, GF, KN, KS1, SHEAR_ENERGY, SHEAR_LOSS, XI
+from ssilang.kernel.interface.laws.columns import LawCode
+from ssilang.kernel.interface.laws.columns import Parameter as Par
+from ssilang.kernel.interface.laws.columns import Variable as Var
 from ssilang.kernel.interface.laws.macro_law import macro_point
 from ssilang.kernel.interface.laws.mohr_law import mohr_energy, mohr_point
 from ssilang.kernel.interface.laws.sdm_law import normal_energy, opening_loss, sdm_point
@@ -28,10 +31,10 @@ def elastic_point(
     clear(D)
     copy_state(state, new)
     for i in range(n):
-        D[i, i] = p[KS1 + i]
-        t[i] = p[KS1 + i] * w[i]
-    D[n, n] = p[KN]
-    t[n] = p[KN] * w[n]
+        D[i, i] = p[Par.KS1 + i]
+        t[i] = p[Par.KS1 + i] * w[i]
+    D[n, n] = p[Par.KN]
+    t[n] = p[Par.KN] * w[n]
 
 
 @compiled
@@ -45,14 +48,14 @@ def point_response(
     D: FloatArray,
 ) -> None:
     """Traction, new state and tangent of one point by the law of this code."""
-    if code == 1:
+    if code == LawCode.SDM:
         sdm_point(w, state, p, t, new, D)
-    elif code == 2:
+    elif code == LawCode.MOHR:
         mohr_point(w, state, p, t, new, D)
-    elif code >= 3:
-        macro_point(code, w, state, p, t, new, D)
-    else:
+    elif code == LawCode.ELASTIC:
         elastic_point(w, state, p, t, new, D)
+    else:
+        macro_point(code, w, state, p, t, new, D)
 
 
 @apart
@@ -77,12 +80,13 @@ def point_energies(
 ) -> tuple[float, float]:
     """Stored energy and energy lost so far of one point, per unit area, at its own state."""
     n = w.shape[0] - 1
-    if code == 1:
-        stored = normal_energy(w[n], t[n], state[XI], p[KN], p[FC]) + state[SHEAR_ENERGY]
-        return stored, opening_loss(state[XI], p[FU], p[GF]) + state[SHEAR_LOSS]
+    if code == LawCode.SDM:
+        xi, spent = state[Var.XI], state[Var.SHEAR_LOSS]
+        stored = normal_energy(w[n], t[n], xi, p[Par.KN], p[Par.FC]) + state[Var.SHEAR_ENERGY]
+        return stored, opening_loss(xi, p[Par.FU], p[Par.GF]) + spent
     stored = 0.0
-    if code == 2:
-        return mohr_energy(w, t, state, p), state[SHEAR_LOSS]
+    if code == LawCode.MOHR:
+        return mohr_energy(w, t, state, p), state[Var.SHEAR_LOSS]
     for i in range(n + 1):
         stored += 0.5 * w[i] * t[i]
     return stored, 0.0

@@ -25,22 +25,10 @@ from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.interface.copies import clear, copy_state
 from ssilang.kernel.interface.laws.columns import (
     CLOSED_SHEAR,
-    DAMAGE,
-    FC,
-    FROT,
-    FU,
-    GF,
-    HELD,
-    KN,
-    KS1,
     OPEN_SHEAR,
-    SHEAR,
-    SHEAR_ENERGY,
-    SHEAR_LOSS,
-    SLIP1,
-    SYMMETRIC,
-    XI,
 )
+from ssilang.kernel.interface.laws.columns import Parameter as Par
+from ssilang.kernel.interface.laws.columns import Variable as Var
 
 
 @compiled
@@ -107,33 +95,33 @@ def sdm_point(
         Parameters in the order of `Parameter`.
     """
     n = w.shape[0] - 1
-    tn, xi, dtn = normal_law(w[n], state[XI], p[KN], p[FU], p[GF], p[FC])
+    tn, xi, dtn = normal_law(w[n], state[Var.XI], p[Par.KN], p[Par.FU], p[Par.GF], p[Par.FC])
     clear(D)
     copy_state(state, new)
-    new[XI] = xi
+    new[Var.XI] = xi
     t[n] = tn
     D[n, n] = dtn
-    if p[SHEAR] == 1.0:
+    if p[Par.SHEAR] == 1.0:
         for i in range(n):
-            t[i] = p[KS1 + i] * w[i]
-            D[i, i] = p[KS1 + i]
-    elif (tn < 0.0 and state[HELD] != OPEN_SHEAR) or state[HELD] == CLOSED_SHEAR:
-        new[DAMAGE] = 0.0
+            t[i] = p[Par.KS1 + i] * w[i]
+            D[i, i] = p[Par.KS1 + i]
+    elif (tn < 0.0 and state[Var.HELD] != OPEN_SHEAR) or state[Var.HELD] == CLOSED_SHEAR:
+        new[Var.DAMAGE] = 0.0
         _closed_shear(w, p, t, new, D, tn, dtn)
-    elif p[FU] > 0.0:
-        left = math.exp(-p[FU] / p[GF] * xi)
-        new[DAMAGE] = 1.0 - left
-        softening = dtn / p[FU] if dtn < 0.0 else 0.0
+    elif p[Par.FU] > 0.0:
+        left = math.exp(-p[Par.FU] / p[Par.GF] * xi)
+        new[Var.DAMAGE] = 1.0 - left
+        softening = dtn / p[Par.FU] if dtn < 0.0 else 0.0
         for i in range(n):
-            elastic = p[KS1 + i] * (w[i] - state[SLIP1 + i])
+            elastic = p[Par.KS1 + i] * (w[i] - state[Var.SLIP1 + i])
             t[i] = left * elastic
-            D[i, i] = left * p[KS1 + i]
+            D[i, i] = left * p[Par.KS1 + i]
             D[i, n] = softening * elastic
     else:
         for i in range(n):
             t[i] = 0.0
-            if p[KS1 + i] > 0.0:
-                new[SLIP1 + i] = w[i]
+            if p[Par.KS1 + i] > 0.0:
+                new[Var.SLIP1 + i] = w[i]
     _shear_energies(w, state, p, t, new, tn)
 
 
@@ -144,15 +132,15 @@ def _shear_energies(
     """Stored energy of the shear and the energy that it has lost, into `new`."""
     stored, lost = 0.0, 0.0
     for i in range(w.shape[0] - 1):
-        elastic = w[i] - (0.0 if p[SHEAR] == 1.0 else new[SLIP1 + i])
+        elastic = w[i] - (0.0 if p[Par.SHEAR] == 1.0 else new[Var.SLIP1 + i])
         stored += 0.5 * t[i] * elastic
-        lost += t[i] * (new[SLIP1 + i] - state[SLIP1 + i])
-        lost += 0.5 * p[KS1 + i] * elastic**2 * (new[DAMAGE] - state[DAMAGE])
-    opened = (tn >= 0.0 and state[HELD] != CLOSED_SHEAR) or state[HELD] == OPEN_SHEAR
-    if opened and p[FU] == 0.0 and p[SHEAR] != 1.0:  # the stored shear is given up
-        lost = state[SHEAR_ENERGY]
-    new[SHEAR_ENERGY] = stored
-    new[SHEAR_LOSS] = state[SHEAR_LOSS] + lost
+        lost += t[i] * (new[Var.SLIP1 + i] - state[Var.SLIP1 + i])
+        lost += 0.5 * p[Par.KS1 + i] * elastic**2 * (new[Var.DAMAGE] - state[Var.DAMAGE])
+    opened = (tn >= 0.0 and state[Var.HELD] != CLOSED_SHEAR) or state[Var.HELD] == OPEN_SHEAR
+    if opened and p[Par.FU] == 0.0 and p[Par.SHEAR] != 1.0:  # the stored shear is given up
+        lost = state[Var.SHEAR_ENERGY]
+    new[Var.SHEAR_ENERGY] = stored
+    new[Var.SHEAR_LOSS] = state[Var.SHEAR_LOSS] + lost
 
 
 @compiled
@@ -173,25 +161,25 @@ def _closed_shear(
     n = w.shape[0] - 1
     size = 0.0
     for i in range(n):
-        t[i] = p[KS1 + i] * (w[i] - new[SLIP1 + i])
-        D[i, i] = p[KS1 + i]
+        t[i] = p[Par.KS1 + i] * (w[i] - new[Var.SLIP1 + i])
+        D[i, i] = p[Par.KS1 + i]
         size += t[i] * t[i]
     size = math.sqrt(size)
-    bound = -p[FROT] * tn
-    if p[FROT] < 0.0 or size <= bound:
+    bound = -p[Par.FROT] * tn
+    if p[Par.FROT] < 0.0 or size <= bound:
         return
     ratio = bound / size
     for i in range(n):
         direction = t[i] / size
         for j in range(n):
             cross = direction * t[j] / size
-            stiffness = p[KS1 + j]
-            if p[SYMMETRIC] == 1.0:
-                stiffness = 0.5 * (p[KS1 + i] + p[KS1 + j])
+            stiffness = p[Par.KS1 + j]
+            if p[Par.SYMMETRIC] == 1.0:
+                stiffness = 0.5 * (p[Par.KS1 + i] + p[Par.KS1 + j])
             D[i, j] = ratio * stiffness * ((1.0 if i == j else 0.0) - cross)
-        if p[SYMMETRIC] != 1.0:
-            D[i, n] = -p[FROT] * dtn * direction
+        if p[Par.SYMMETRIC] != 1.0:
+            D[i, n] = -p[Par.FROT] * dtn * direction
     for i in range(n):
-        if p[KS1 + i] > 0.0:
-            new[SLIP1 + i] += (1.0 - ratio) * (w[i] - new[SLIP1 + i])
+        if p[Par.KS1 + i] > 0.0:
+            new[Var.SLIP1 + i] += (1.0 - ratio) * (w[i] - new[Var.SLIP1 + i])
         t[i] *= ratio

@@ -171,7 +171,7 @@ def _solve_active(
     right = -np.concatenate([problem.q[chosen], problem.r])
     scale = float(np.sqrt(np.abs(np.diag(problem.W)).max(initial=0.0))) or 1.0
     weights: FloatArray = np.concatenate([np.full(n, 1.0 / scale), np.full(k, scale)])
-    solution = weights * _least_squares(weights[:, None] * system * weights, weights * right)
+    solution = weights * least_squares(weights[:, None] * system * weights, weights * right)
     error = np.abs(system @ solution - right)
     size = np.abs(system) @ np.abs(solution) + np.abs(right)
     holds = bool((error[n:] <= 1e-7 * size[n:].max(initial=0.0) + 1e-300).all())
@@ -180,15 +180,20 @@ def _solve_active(
     return p, solution[n:], holds and _of_natural_size(problem, p, solution[n:])
 
 
+def natural_motion(W: FloatArray, q: FloatArray, E: FloatArray, r: FloatArray) -> float:
+    """Size of the motions of rows that gaps q and loads r make, of flexibility W."""
+    push = np.abs(r).max(initial=0.0) / (np.abs(E).max(initial=0.0) or 1.0)
+    return float(np.abs(q).max(initial=0.0) + np.abs(W).max(initial=0.0) * push)
+
+
 def _of_natural_size(problem: ContactProblem, p: FloatArray, a: FloatArray) -> bool:
     """False for the huge numbers that contradictory rows give (a stop on both sides at once)."""
-    push = np.abs(problem.r).max(initial=0.0) / (np.abs(problem.E).max(initial=0.0) or 1.0)
-    natural = np.abs(problem.q).max(initial=0.0) + np.abs(problem.W).max(initial=0.0) * push
+    natural = natural_motion(problem.W, problem.q, problem.E, problem.r)
     moved = np.abs(problem.W @ p).max(initial=0.0) + np.abs(problem.B @ a).max(initial=0.0)
     return natural == 0.0 or bool(moved <= HUGE * natural)  # rigid and touching: only rounding
 
 
-def _least_squares(A: FloatArray, b: FloatArray) -> FloatArray:
+def least_squares(A: FloatArray, b: FloatArray) -> FloatArray:
     """Solution of A x = b, of least norm if A is singular (redundant rows)."""
     import scipy.linalg as la
 
@@ -214,18 +219,18 @@ def _wrong_rows(
     w = problem.q + problem.W @ p + problem.B @ a
     parts = (problem.q, problem.W @ p, problem.B @ a)
     size = sum(float(np.abs(part).max(initial=0.0)) for part in parts)
-    pulling = active & ~problem.equality & (p < -tolerance * np.abs(p).max(initial=0.0))
+    tensile = active & ~problem.equality & (p < -tolerance * np.abs(p).max(initial=0.0))
     crossing = ~active & (w < -tolerance * size)
-    wrong: BoolArray = pulling | crossing
+    wrong: BoolArray = tensile | crossing
     return wrong
 
 
 def _one_of(wrong: BoolArray, active: BoolArray, p: FloatArray, held: bool) -> BoolArray:
-    """The first wrong row; the most pulling one for a body held by contact alone."""
+    """The first wrong row; the one with the largest tension for a body held by contact alone."""
     chosen = np.zeros_like(wrong)
-    pulling = wrong & active
-    if not held and pulling.any() and not (wrong & ~active).any():
-        chosen[np.argmin(np.where(pulling, p, np.inf))] = True
+    tensile = wrong & active
+    if not held and tensile.any() and not (wrong & ~active).any():
+        chosen[np.argmin(np.where(tensile, p, np.inf))] = True
     else:
         candidates = wrong & ~active if not held and (wrong & ~active).any() else wrong
         chosen[np.flatnonzero(candidates)[0]] = True

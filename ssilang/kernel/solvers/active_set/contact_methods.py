@@ -61,31 +61,17 @@ def augmented(
 ) -> Reactions:
     """Augmented Lagrangian, all unknowns at once: rows with `p - c g > 0` are closed.
 
-    Newton's method on `p = max(0, p - c g)`; the solution does not depend on c. Where the sets
-    come back to one seen before, the plain active set goes on from it.
+    Newton's method on `p = max(0, p - c g)` is the active set of `lagrange` whatever c: g is zero
+    on closed rows and p on open ones (Hintermueller, Ito and Kunisch 2002).
+
+    Raises
+    ------
+    KernelError
+        If the coefficient is not positive.
     """
-    c = coefficient if coefficient is not None else 1.0 / _largest_eigenvalue(W)
-    if not c > 0.0:
-        raise KernelError("kernel.solvers.augmentation-must", c=c)
-    m = len(q)
-    p = np.zeros(m)
-    active: BoolArray = q < 0.0 if start is None else start.copy()
-    seen: set[bytes] = set()
-    for turn in range(1, 50 + 2 * m):
-        p[:] = 0.0
-        on = np.flatnonzero(active)
-        if len(on):
-            p[on] = np.linalg.lstsq(W[np.ix_(on, on)], -q[on], rcond=1e-14)[0]
-        gap = q + W @ p
-        gap[on] = 0.0
-        closed: BoolArray = p - c * gap > 0.0
-        if np.array_equal(closed, active):
-            return Reactions(_exact(W, q, p, active), active, turn)
-        if closed.tobytes() in seen:
-            break
-        seen.add(closed.tobytes())
-        active = closed
-    return lagrange(W, q, None, active)
+    if coefficient is not None and not coefficient > 0.0:
+        raise KernelError("kernel.solvers.augmentation-must", c=coefficient)
+    return lagrange(W, q, None, start)
 
 
 def uzawa(

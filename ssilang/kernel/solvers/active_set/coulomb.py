@@ -21,6 +21,11 @@ from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import ConvergenceError
+from ssilang.kernel.solvers.active_set.complementarity import (
+    HUGE,
+    ROUNDING,
+    natural_motion,
+)
 
 BoolArray = NDArray[np.bool_]
 TURNS = 60
@@ -28,12 +33,8 @@ TURNS = 60
 SWEEPS = 3000
 TOLERANCE = 1e-11
 """What is wrong with an accepted solution, relative to its own size."""
-HUGE = 1e7
-"""Motions, relative to gaps and loads, that no equilibrium has."""
 RANK = 1e-12
 """Reciprocal condition below which rows are redundant, and their share of it rounding."""
-ROUNDING = 1e-8
-"""The same where only rounding decides (redundant rows)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,7 +77,7 @@ class CoulombSolution:
 
 
 @dataclass(eq=False)
-class _Guess:
+class _Trial:
     """A trial: unknowns x = (lam, a) and what they say."""
 
     x: FloatArray
@@ -129,8 +130,7 @@ class _Solver:
         self.rn = 1.0 / flexible[:m]
         self.rt = 1.0 / flexible[m:].reshape(-1, p.width).max(axis=1, initial=0.0)
         self.unit = 1.0 / largest
-        push = np.abs(p.r).max(initial=0.0) / (np.abs(p.E).max(initial=0.0) or 1.0)
-        self.natural = float(np.abs(p.q).max(initial=0.0) + np.abs(p.W).max(initial=0.0) * push)
+        self.natural = natural_motion(p.W, p.q, p.E, p.r)
 
     # --- what a trial says
 
@@ -140,7 +140,7 @@ class _Solver:
         seen = p.q + p.W @ x[:n] + p.B @ x[n:]
         return seen[: p.n_normal], seen[p.n_normal : n].reshape(-1, p.width), seen[n:]
 
-    def judge(self, x: FloatArray) -> _Guess:
+    def trial(self, x: FloatArray) -> _Trial:
         p, m = self.p, self.p.n_normal
         w, s, b = self.observed(x)
         push = x[:m] - self.rn * w
@@ -151,7 +151,7 @@ class _Solver:
         size = np.linalg.norm(y, axis=1)
         rubbing = limit > 0.0
         sticking = rubbing & (size <= limit)
-        return _Guess(x, closed, sticking, rubbing & ~sticking, y, limit)
+        return _Trial(x, closed, sticking, rubbing & ~sticking, y, limit)
 
     def limits(self, pushes: FloatArray, closed: BoolArray, b: FloatArray) -> FloatArray:
         p = self.p
@@ -166,33 +166,33 @@ class _Solver:
 
     def newton(self, x: FloatArray, fresh: bool = False) -> CoulombSolution | None:
         """Newton from x (or from rows that the loads close and places that stick)."""
-        now = self.first() if fresh else self.judge(x)
+        now = self.first() if fresh else self.trial(x)
         seen: set[bytes] = set()
         last = np.inf
         for turn in range(1, TURNS + 1):
             x = self.solved(now)
             if not np.isfinite(x).all():
                 return None
-            after = self.judge(x)
-            same, error = after.key == now.key, self.wrong(after)
+            after = self.trial(x)
+            same, error = after.key == now.key, self.violation(after)
             if error <= TOLERANCE or (same and 0.5 * last < error <= ROUNDING):
-                return self.answer(after, turn)
+                return self.solution(after, turn)
             if self.p.width == 1 and not same and after.key in seen:
                 return None
             seen.add(after.key)
             now, last = after, error
-        return self.answer(now, TURNS) if self.wrong(now) <= ROUNDING else None
+        return self.solution(now, TURNS) if self.violation(now) <= ROUNDING else None
 
-    def first(self) -> _Guess:
+    def first(self) -> _Trial:
         p = self.p
         m, free = p.n_normal, p.B.shape[1] > 0
         closed = np.ones(m, bool) if free else p.q[:m] < 0.0
         touching = np.where(p.normal >= 0, closed[p.normal] if m else False, True)
         none = np.zeros(p.n_places, bool)
         y = np.zeros((p.n_places, p.width))
-        return _Guess(np.zeros(self.size), closed, touching, none, y, none.astype(float))
+        return _Trial(np.zeros(self.size), closed, touching, none, y, none.astype(float))
 
-    def solved(self, g: _Guess) -> FloatArray:
+    def solved(self, g: _Trial) -> FloatArray:
         """The unknowns that meet the equations of a state, linearised about the trial."""
         p, m, n = self.p, self.p.n_normal, self.p.n_forces
         A = np.zeros((self.size, self.size))
@@ -216,7 +216,7 @@ class _Solver:
         n = self.p.n_forces
         A[to, :n], A[to, n:], right[to] = self.p.W[rows], self.p.B[rows], -self.p.q[rows]
 
-    def _sliding_rows(self, A: FloatArray, right: FloatArray, g: _Guess) -> None:
+    def _sliding_rows(self, A: FloatArray, right: FloatArray, g: _Trial) -> None:
         """`tau = limit n`, n the direction of y; in space n turns with y."""
         p, m, n = self.p, self.p.n_normal, self.p.n_forces
         for i in np.flatnonzero(g.sliding):
@@ -256,7 +256,7 @@ class _Solver:
 
     # --- what is wrong with a trial
 
-    def wrong(self, g: _Guess) -> float:
+    def violation(self, g: _Trial) -> float:
         """The largest violation of any condition, relative to forces and motions at play."""
         p, m, n = self.p, self.p.n_normal, self.p.n_forces
         lam = g.x[:n]
@@ -280,7 +280,7 @@ class _Solver:
             found.append(_size(p.r + p.E.T @ lam, float(scale)))
         return max(found)
 
-    def answer(self, g: _Guess, turns: int) -> CoulombSolution:
+    def solution(self, g: _Trial, turns: int) -> CoulombSolution:
         n, m = self.p.n_forces, self.p.n_normal
         forces = g.x[:n].copy()
         forces[:m] = np.where(g.closed, np.maximum(forces[:m], 0.0), 0.0)

@@ -14,7 +14,8 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import KernelError, SingularFactorError
 from ssilang.kernel.base.sparse import sp
-from ssilang.kernel.solvers.backends import Factor, Ordering, factorise
+from ssilang.kernel.solvers.backends import factorise
+from ssilang.kernel.solvers.factor import Factor, Ordering
 
 SUSPECT = 1e-9  # smallest eigenvalue (unit diagonal) below which free motions are looked for
 FREE = 1e-14  # energy below which a motion is free: some tens of rounding errors

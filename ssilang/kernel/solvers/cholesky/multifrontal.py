@@ -57,6 +57,14 @@ class Panels(NamedTuple):
     values: FloatArray
 
 
+class Columns(NamedTuple):
+    """The lower triangle of a matrix, column after column."""
+
+    indptr: IntArray
+    indices: IntArray
+    data: FloatArray
+
+
 def factorise_panels(A: sp.csr_array, tree: Tree) -> Panels:
     """Factors of a symmetric positive A (n, n) in the order of a tree.
 
@@ -77,14 +85,12 @@ def factorise_panels(A: sp.csr_array, tree: Tree) -> Panels:
     needed = 8.0 * (float(at[-1]) + waiting + front)
     if not fits(needed):
         raise TooLargeError(needed)
-    values = np.zeros(at[-1])
-    bad = _factorise(
-        indptr, indices, lower.data, tree.first, ptr, rows, above, at, values, np.zeros(waiting),
-        np.zeros(front),
-    )  # fmt: skip
-    if bad >= 0 or not np.isfinite(values[-1:]).all():
+    panels = Panels(tree.first, ptr, rows, at, np.zeros(at[-1]))
+    columns = Columns(indptr, indices, lower.data)
+    bad = _factorise(columns, panels, above, np.zeros(waiting), np.zeros(front))
+    if bad >= 0 or not np.isfinite(panels.values[-1:]).all():
         raise NotPositiveError(f"pivot {bad} is not positive")
-    return Panels(tree.first, ptr, rows, at, values)
+    return panels
 
 
 @compiled
@@ -204,11 +210,9 @@ def _room(first: IntArray, ptr: IntArray, above: IntArray) -> tuple[int, int]:
 
 
 @compiled
-def _gather(
-    indptr: IntArray, indices: IntArray, data: FloatArray, c0: int, c1: int, where: IntArray,
-    F: FloatArray,
-) -> None:  # fmt: skip
+def _gather(A: Columns, c0: int, c1: int, where: IntArray, F: FloatArray) -> None:
     """The matrix's own columns into a front; F[j, i] is row i of column j."""
+    indptr, indices, data = A.indptr, A.indices, A.data
     for j in range(c0, c1):
         for q in range(indptr[j], indptr[j + 1]):
             F[j - c0, where[indices[q]]] = data[q]
@@ -334,11 +338,14 @@ def _columns(F: FloatArray, k: int, pos: int, values: FloatArray) -> int:
 
 @compiled
 def _factorise(
-    indptr: IntArray, indices: IntArray, data: FloatArray, first: IntArray, ptr: IntArray,
-    rows: IntArray, above: IntArray, at: IntArray, values: FloatArray, stack: FloatArray,
-    work: FloatArray,
-) -> int:  # fmt: skip
-    """Fill the panels; the column of a bad pivot or -1."""
+    A: Columns, panels: Panels, above: IntArray, stack: FloatArray, work: FloatArray
+) -> int:
+    """Fill the panels; the column of a bad pivot or -1.
+
+    `above` is the supernode of each one's first row below it; `stack` holds updates of supernodes
+    until those above take them, `work` one front.
+    """
+    first, ptr, rows = panels.first, panels.ptr, panels.rows
     count = len(first) - 1
     where = np.zeros(first[-1], np.int64)
     live, used = np.empty(count, np.int64), np.zeros(count, np.bool_)
@@ -346,6 +353,7 @@ def _factorise(
     child, sibling = np.full(count, -1, np.int64), np.full(count, -1, np.int64)
     alive = 0
     for s in range(count):
+        # a front of the supernode's columns and the rows below them; `where` is a row's place in it
         c0, k, below = first[s], first[s + 1] - first[s], ptr[s + 1] - ptr[s]
         m = k + below
         F = work[: m * m].reshape((m, m))
@@ -356,7 +364,8 @@ def _factorise(
             where[c0 + j] = j
         for i in range(below):
             where[rows[ptr[s] + i]] = k + i
-        _gather(indptr, indices, data, c0, c0 + k, where, F)
+        # filled by the matrix and by the updates of the supernodes below, which are then free
+        _gather(A, c0, c0 + k, where, F)
         c = child[s]
         while c >= 0:
             size = ptr[c + 1] - ptr[c]
@@ -365,9 +374,10 @@ def _factorise(
             used[c] = True
             c = sibling[c]
         alive = _free(alive, live, used)
-        bad = _columns(F, k, at[s], values)
+        bad = _columns(F, k, panels.at[s], panels.values)
         if bad >= 0:
             return int(c0 + bad)
+        # what is left of the front waits on the stack
         if below > 0:
             mine[s] = spot[alive]
             U = stack[mine[s] : mine[s] + below * below].reshape((below, below))

@@ -50,11 +50,7 @@ class EliminatedConstraints:
         self.C = self.D = C
         self._elimination = eliminate(C)
         if not self._elimination.eliminated.all():
-            raise KernelError(
-                "a relation with too many unknowns cannot be eliminated from a time-stepping "
-                "problem",
-                "split it, or write it on fewer unknowns",
-            )
+            raise KernelError("kernel.stepping.relation-too-many-unknowns")
         self.T = self.V = self._elimination.T
         self.associated = True
 
@@ -112,8 +108,9 @@ class NonAssociatedConstraints:
         self.T, self.V = self._moving.T, self._pushing.T
         if self.T.shape != self.V.shape:
             raise KernelError(
-                f"the relations leave {self.T.shape[1]} motions, their duals {self.V.shape[1]}",
-                "give each relation and its dual independent rows",
+                "kernel.stepping.relations-leave-motions-duals",
+                n_T=self.T.shape[1],
+                n_V=self.V.shape[1],
             )
 
     def particular(self, d: FloatArray) -> FloatArray:
@@ -145,11 +142,7 @@ def check_values(constraints: Constraints, imposed: FloatArray, numbering: Numbe
         wrong = np.flatnonzero(gap > 1e-9 * np.abs(d).max(initial=0.0))
         if len(wrong):
             worst = int(np.argmax(gap))
-            names = ", ".join(
-                str(numbering.label(int(i))) for i in constraints.C[[worst]].indices[:6]
-            )
+            names = [numbering.label(int(i)) for i in constraints.C[[worst]].indices[:6]]
             raise KernelError(
-                f"conditions contradict each other: one on {names} cannot take the value "
-                f"{d[worst]:.6g}",
-                "the same unknown is imposed twice with different values",
+                "kernel.stepping.conditions-contradict-cannot-take", names=names, d=d[worst]
             )

@@ -39,9 +39,9 @@ def joint_state(problem: Problem) -> JointState:
     delta = joints.J @ problem.u
     w, t, D = np.zeros((n, d)), np.zeros((n, d)), np.zeros((n, d, d))
     state, f = np.zeros_like(problem.state), np.zeros(joints.size)
-    local_jumps(joints.pairs, joints.B, delta, w)
+    local_jumps(joints.points, delta, w)
     respond(joints.codes, w, problem.state, joints.parameters, t, state, D)
-    interface_forces(joints.pairs, joints.B, joints.weights, t, f)
+    interface_forces(joints.points, t, f)
     return JointState(delta, f, w, t, state, D)
 
 
@@ -186,7 +186,7 @@ def accelerated(problem: Problem, force: FloatArray) -> FloatArray:
         except RuntimeError:
             q[heavy] = np.linalg.lstsq(block.toarray(), pushed, rcond=1e-12)[0]
     if not np.isfinite(q).all():
-        raise KernelError("the mass matrix is singular: no initial acceleration can be found")
+        raise KernelError("kernel.stepping.mass-matrix-singular-no")
     a: FloatArray = T @ q
     return a
 
@@ -207,9 +207,7 @@ def initial_energies(problem: Problem, v: FloatArray, joints: JointState) -> Flo
     stored = lost = 0.0
     p = problem.interface
     if p is not None:
-        stored, lost = interface_energies(
-            p.codes, p.parameters, p.weights, joints.w, joints.t, joints.state
-        )
+        stored, lost = interface_energies(p.points, joints.w, joints.t, joints.state)
     kinetic = 0.5 * v @ (problem.M @ v)
     elastic = 0.5 * problem.u @ (problem.K @ problem.u)
     contact, options = problem.contact, problem.contact_options

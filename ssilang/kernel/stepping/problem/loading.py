@@ -58,10 +58,7 @@ def loading_of(load: Load | None, numbering: Numbering, multipliers: IntArray) -
         for field, curve in _terms(part):
             lost = outside(field, numbering)
             if lost:
-                raise FieldError(
-                    f"the load {part.name} has {lost[0]}, which the matrices lack",
-                    "forces act on nodes and unknowns of the model",
-                )
+                raise FieldError("kernel.stepping.load-matrices-lack", name=part.name, lost=lost[0])
             forces.append(field_to_vector(field, numbering))
             imposed.append(imposed_values(field, multipliers))
             curves.append(curve)
@@ -79,9 +76,7 @@ TimeCurve = tuple[FloatArray, FloatArray]
 def _terms(part: LoadPart) -> list[tuple[NodeField, TimeCurve]]:
     """Fields of a mechanical part, each with its curve."""
     if part.name.strip() not in MECHANICAL:
-        raise FieldError(
-            f"the load {part.name} is not mechanical", "MECA (or FORC) and DIMP are taken here"
-        )
+        raise FieldError("kernel.stepping.load-not-mechanical", name=part.name)
     return [(_nodal(field), curve) for field, curve in terms_of(part)]
 
 
@@ -99,5 +94,5 @@ def terms_of(part: LoadPart) -> list[tuple[object, TimeCurve]]:
 
 def _nodal(field: object) -> NodeField:
     if not isinstance(field, NodeField):
-        raise FieldError("a mechanical load is made of nodal fields (CHPOINT)")
+        raise FieldError("kernel.stepping.mechanical-load-made-nodal")
     return field

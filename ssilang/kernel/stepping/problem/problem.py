@@ -180,7 +180,7 @@ def _joint_states(interface: Interface | None, given: CellField | None) -> Float
 def _checked_times(times: FloatArray) -> FloatArray:
     times = np.asarray(times, dtype=float)
     if len(times) < 2 or not np.isfinite(times).all() or not (np.diff(times) > 0).all():
-        raise KernelError("the times of a calculation must be at least two and strictly increase")
+        raise KernelError("kernel.stepping.times-calculation-must-least")
     return times
 
 
@@ -192,7 +192,7 @@ def _matrices(
     Joints whose law is linear stand in K, from their characteristics.
     """
     if joints_given and inputs.characteristics is None:
-        raise KernelError("joints need their parameters", "give CARACTERISTIQUES with MODELE")
+        raise KernelError("kernel.stepping.joints-need-parameters")
     stiffness = without_zones(inputs.stiffness, joints_given)
     linear = tuple(z for z in joints_given if z not in zones)
     if joints_given and inputs.characteristics is not None:
@@ -201,11 +201,7 @@ def _matrices(
         blocks += tuple(b for b in turning if b is not None)
         stiffness = replace(stiffness, blocks=(*stiffness.blocks, *blocks), cache={})
     if nonlinear_blocks(stiffness):
-        raise KernelError(
-            "the stiffness holds joints whose law is not linear (JOINT_SDM), and no law is given "
-            "for them: they would stay bonded",
-            "give MODELE and CARACTERISTIQUES with these joints",
-        )
+        raise KernelError("kernel.stepping.stiffness-holds-joints-whose")
     damping = None if inputs.damping is None else without_zones(inputs.damping, zones)
     joints = _unknowns_of(zones, stiffness) if zones else None
     return {"K": stiffness, "M": inputs.mass, "C": damping, "joints": joints}
@@ -239,10 +235,10 @@ def _assembled(matrix: Matrix | None, numbering: Numbering) -> sp.csr_array:
 def _refuse_not_finite(matrices: dict[str, sp.csr_array], loading: Loading) -> None:
     for name, matrix in matrices.items():
         if not np.isfinite(matrix.data).all():
-            raise KernelError(f"the matrix {name} has values that are not finite numbers")
+            raise KernelError("kernel.stepping.matrix-values-not-finite", name=name)
     for _, ordinates in loading.curves:
         if not np.isfinite(ordinates).all():
-            raise FieldError("a load curve has values that are not finite numbers")
+            raise FieldError("kernel.stepping.load-curve-values-not")
 
 
 def _start(given: NodeField | None, numbering: Numbering) -> FloatArray:
@@ -250,5 +246,5 @@ def _start(given: NodeField | None, numbering: Numbering) -> FloatArray:
         return np.zeros(numbering.size)
     values = field_to_vector(given, numbering, dual=False)
     if not np.isfinite(values).all():
-        raise FieldError("an initial field has values that are not finite numbers")
+        raise FieldError("kernel.stepping.initial-field-values-not")
     return values

@@ -16,9 +16,11 @@ from ssilang.kernel.contact.conserving import ConservingContact
 from ssilang.kernel.interface.interface import Interface
 from ssilang.kernel.interface.mean_traction import mean_response
 from ssilang.kernel.interface.response import (
+    InterfaceState,
     interface_energies,
     interface_forces,
     interface_stiffness,
+    new_trial,
 )
 from ssilang.kernel.stepping.effective import Effective
 from ssilang.kernel.stepping.problem.problem import Problem
@@ -47,10 +49,9 @@ class ConservingLoop:
         self.problem, self.motion, self.effective = problem, motion, effective
         joints = problem.interface
         if joints is not None:
-            n, d = joints.n_points, joints.dimension
-            self._w, self._t, self._tm = (np.zeros((n, d)) for _ in range(3))
-            self._new, self._D = np.zeros_like(problem.state), np.zeros((n, d, d))
-            self._f = np.zeros(joints.size)
+            self._end = new_trial(motion.w.shape, joints.size)
+            self._mean = np.zeros_like(motion.t)
+            self._now = InterfaceState(motion.delta, motion.f, motion.w, motion.t, motion.state)
             self._K = np.zeros((joints.size, joints.size))
         self._contact: ConservingContact | None = None
         if problem.contact is not None:
@@ -76,7 +77,7 @@ class ConservingLoop:
         """dh/dy at the last response."""
         joints = self.problem.interface
         assert joints is not None
-        interface_stiffness(joints.pairs, joints.B, joints.weights, self._D, self._K)
+        interface_stiffness(joints.points, self._end.D, self._K)
         found: FloatArray = 2 * self._K - self.effective.R
         return found
 
@@ -123,7 +124,7 @@ class ConservingLoop:
             scale = max(scale, float(np.abs(y).max()))
             if size <= TOLERANCE * scale:
                 return du - e.Y @ h, turn, size / scale
-            interface_stiffness(joints.pairs, joints.B, joints.weights, self._D, self._K)
+            interface_stiffness(joints.points, self._end.D, self._K)
             tangent = 2 * self._K - e.R
             rest = y - y0 + e.S @ h
             dy = -np.linalg.solve(np.eye(len(y)) + e.S @ tangent, rest)
@@ -169,11 +170,8 @@ class ConservingLoop:
         self, joints: Interface, y: FloatArray, y0: FloatArray
     ) -> tuple[float, FloatArray]:
         m, e = self.motion, self.effective
-        mean_response(
-            joints.pairs, joints.B, joints.weights, joints.codes, joints.parameters, m.w, m.t,
-            m.state, m.delta + y, self._w, self._t, self._new, self._tm, self._D, self._f,
-        )  # fmt: skip
-        h = 2 * self._f - e.R @ y
+        mean_response(joints.points, self._now, m.delta + y, self._end, self._mean)
+        h = 2 * self._end.f - e.R @ y
         return float(np.abs(y - y0 + e.S @ h).max()), h
 
     def _advance(
@@ -189,12 +187,13 @@ class ConservingLoop:
             m.reaction[:] += p.C @ du / dt
             m.energies[DAMPED] += du @ (p.C @ du) / dt
         if joints is not None:
-            m.reaction[:] += joints.J.T @ self._f
+            m.reaction[:] += joints.J.T @ self._end.f
             m.delta[:] = joints.J @ m.u
-            m.w[:, :], m.t[:, :], m.state[:, :] = self._w, self._t, self._new
-            interface_forces(joints.pairs, joints.B, joints.weights, m.t, m.f)
+            end = self._end
+            m.w[:, :], m.t[:, :], m.state[:, :] = end.w, end.t, end.state
+            interface_forces(joints.points, m.t, m.f)
             m.energies[STORED], m.energies[LOST] = interface_energies(
-                joints.codes, joints.parameters, joints.weights, m.w, m.t, m.state
+                joints.points, m.w, m.t, m.state
             )
         m.energies[EXTERNAL] += du @ mean_load
         m.energies[EXTERNAL] += support_work(

@@ -125,7 +125,7 @@ def test_ring_buckles_at_the_classical_load_when_the_pressure_follows():
     )
     numbering = numbering_of(K, G)
     ends = np.isin(numbering.nodes, [0, 4])
-    axial = np.array([numbering.label(i)[:2] in ("UZ", "RT") for i in range(numbering.size)])
+    axial = np.array([numbering.name(i)[:2] in ("UZ", "RT") for i in range(numbering.size)])
     free = ~(ends & axial)
     k, g = (assemble(m, numbering).toarray()[np.ix_(free, free)] for m in (K, G))
     load = 1 / np.linalg.eigvals(np.linalg.solve(k, g)).real.max()

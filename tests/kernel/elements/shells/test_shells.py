@@ -183,7 +183,7 @@ def test_ring_buckles_at_n_squared_d_over_r_cubed_under_dead_pressure():
     G = Matrix(zone.cells.nodes, (families.geometric_stiffness(zone, hoop),))
     numbering = numbering_of(K, G)
     ends = np.isin(numbering.nodes, [0, 4])
-    axial = np.array([numbering.label(i)[:2] in ("UZ", "RT") for i in range(numbering.size)])
+    axial = np.array([numbering.name(i)[:2] in ("UZ", "RT") for i in range(numbering.size)])
     free = ~(ends & axial)
     k, g = (assemble(m, numbering).toarray()[np.ix_(free, free)] for m in (K, G))
     load = 1 / np.linalg.eigvals(np.linalg.solve(k, g)).real.max()
@@ -237,7 +237,7 @@ def test_ring_of_shell_cells_under_pressure_grows_evenly(element):
     start, end = (np.isin(np.arange(len(x)), used) & np.isclose(x[:, 0], s) for s in (0, quarter))
 
     def fixed(m):
-        names = np.array([m.label(i)[:2] for i in range(m.size)])
+        names = np.array([m.name(i)[:2] for i in range(m.size)])
         at = [np.isin(m.nodes, np.flatnonzero(part)) for part in (start, end)]
         first = at[0] & np.isin(names, ["UY", "RX", "RZ"])
         last = at[1] & np.isin(names, ["UX", "RY", "RZ"])
@@ -321,7 +321,7 @@ def _buckling(zone, stress):
     numbering = numbering_of(K, G)
     x = zone.cells.nodes.coordinates[numbering.nodes][:, :2]
     side = (np.abs(x - 0.5) > 0.5 - 1e-9).any(axis=1)
-    names = np.array([numbering.label(i)[:2] for i in range(numbering.size)])
+    names = np.array([numbering.name(i)[:2] for i in range(numbering.size)])
     free = ~(side & (names == "UZ")) & np.isin(names, ("UZ", "RX", "RY"))
     k, g = (assemble(m, numbering).toarray()[np.ix_(free, free)] for m in (K, G))
     return 1 / np.linalg.eigvals(np.linalg.solve(k, -g)).real.max()

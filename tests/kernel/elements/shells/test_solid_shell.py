@@ -61,7 +61,7 @@ def solve(zone, mat, load, fixed):
     K = Matrix(zone.cells.nodes, (families.stiffness(zone, mat),))
     numbering = numbering_of(K)
     x = zone.cells.nodes.coordinates[numbering.nodes]
-    names = np.array([numbering.label(i)[:2] for i in range(numbering.size)])
+    names = np.array([numbering.name(i)[:2] for i in range(numbering.size)])
     free = ~np.array([fixed(p, n) for p, n in zip(x, names, strict=True)])
     A = csc_array(assemble(K, numbering))[free][:, free]
     u = np.zeros(numbering.size)
@@ -147,7 +147,7 @@ def test_clamped_strip_bends_like_a_beam_at_any_thinness(h, rtol):
     at = [
         i
         for i in range(numbering.size)
-        if numbering.label(i).startswith("UZ") and numbering.nodes[i] in tip
+        if numbering.name(i).startswith("UZ") and numbering.nodes[i] in tip
     ]
     theory = L**3 / (3 * E * h**3 / 12) + L / (E / 2 * h)
     assert u[at].mean() == pytest.approx(theory, rel=rtol)
@@ -167,7 +167,7 @@ def test_strip_of_skew_bricks_does_not_lock():
     at = [
         i
         for i in range(numbering.size)
-        if numbering.label(i).startswith("UZ") and numbering.nodes[i] in tip
+        if numbering.name(i).startswith("UZ") and numbering.nodes[i] in tip
     ]
     assert u[at].mean() == pytest.approx(L**3 / (3 * E * h**3 / 12), rel=0.02)
 
@@ -193,7 +193,7 @@ def pinched(n):
     at = [
         i
         for i in range(numbering.size)
-        if numbering.label(i).startswith("UX") and numbering.nodes[i] in under
+        if numbering.name(i).startswith("UX") and numbering.nodes[i] in under
     ]
     return -u[at].mean()
 

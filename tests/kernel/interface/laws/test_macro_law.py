@@ -10,8 +10,7 @@ from references.rocking import macro_element_period
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.curves.curve import Curve, CurvePart, Load, LoadPart
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.interface.laws.columns import N_STATE
-from ssilang.kernel.interface.laws.parameters import N_PARAMETERS, Parameter
+from ssilang.kernel.interface.laws.columns import N_PARAMETERS, N_STATE, Parameter
 from ssilang.kernel.interface.laws.point_laws import point_energies, respond
 from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.statics.stepping import step_statics

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from ssilang.kernel.base.errors import MaterialError
-from ssilang.kernel.interface.laws.columns import N_STATE, OPENING, SHEAR_LOSS, SLIP1, STATUS, XI
-from ssilang.kernel.interface.laws.parameters import N_PARAMETERS, Parameter, check_mohr_parameters
+from ssilang.kernel.interface.laws.columns import N_PARAMETERS, N_STATE, Parameter, Variable
+from ssilang.kernel.interface.laws.parameters import check_mohr_parameters
 from ssilang.kernel.interface.laws.point_laws import point_energies, respond
 
 MOHR = 2
@@ -40,9 +40,9 @@ def test_slip_under_falling_pressure_then_opening():
     t, state = walk(path, parameters())
     np.testing.assert_allclose(t[:, 1], [-10, -10, -10, -5, 0], atol=1e-12)
     np.testing.assert_allclose(t[:, 0], [0, 5, 10, 5, 0], atol=1e-12)
-    np.testing.assert_allclose(state[:, SLIP1], [0, 0, 0.1, 0.2, 0.3], atol=1e-14)
-    np.testing.assert_allclose(state[:, OPENING], [0, 0, 0, 0, 0.1], atol=1e-14)
-    assert state[-1, STATUS] == 1
+    np.testing.assert_allclose(state[:, Variable.SLIP1], [0, 0, 0.1, 0.2, 0.3], atol=1e-14)
+    np.testing.assert_allclose(state[:, Variable.OPENING], [0, 0, 0, 0, 0.1], atol=1e-14)
+    assert state[-1, Variable.STATUS] == 1
     again, _, _ = answer(np.array([[0.3, -0.02]]), state[-1:], parameters())
     np.testing.assert_allclose(again, [[0.0, -2.0]], atol=1e-12)
 
@@ -51,16 +51,16 @@ def test_dilatant_slip_opens_the_joint_and_stays_on_the_cone():
     p = parameters(TPSI=0.3, COHE=1.0)
     s = np.linspace(0, 1, 50)
     t, state = walk(np.stack([s, np.full(50, -0.1)], 1), p)
-    sliding = state[:, SLIP1] > 0
+    sliding = state[:, Variable.SLIP1] > 0
     np.testing.assert_allclose(t[sliding, 0], 1.0 - t[sliding, 1], rtol=1e-12)
-    np.testing.assert_allclose(state[:, XI], 0.3 * state[:, SLIP1], rtol=1e-12)
+    np.testing.assert_allclose(state[:, Variable.XI], 0.3 * state[:, Variable.SLIP1], rtol=1e-12)
 
 
 def test_tension_stops_at_the_strength_and_its_opening_stays():
     p = parameters(COHE=10.0, FTRC=2.0)
     t, state = walk([[0, 0.1], [0, 0.05]], p)
     assert t[0, 1] == pytest.approx(2.0)
-    assert state[0, XI] == pytest.approx(0.08)
+    assert state[0, Variable.XI] == pytest.approx(0.08)
     assert t[1, 1] == pytest.approx(-3.0)
 
 
@@ -83,7 +83,7 @@ def test_tangent_is_the_derivative(extra, d):
     rng = np.random.default_rng(7)
     p = parameters(300, **extra)
     state = np.zeros((300, N_STATE))
-    state[:, SLIP1] = rng.uniform(-0.1, 0.1, 300)
+    state[:, Variable.SLIP1] = rng.uniform(-0.1, 0.1, 300)
     w = rng.uniform(-0.2, 0.1, (300, d))
     _, _, D = answer(w, state, p)
     h = 1e-7
@@ -101,7 +101,7 @@ def test_work_is_stored_or_lost():
     t, state = walk(path, p)
     work = np.sum(0.5 * (t[1:] + t[:-1]) * np.diff(path, axis=0))
     stored, lost = point_energies(MOHR, path[-1], t[-1], state[-1], p[0])
-    assert lost == pytest.approx(state[-1, SHEAR_LOSS])
+    assert lost == pytest.approx(state[-1, Variable.SHEAR_LOSS])
     start, _ = point_energies(MOHR, path[0], t[0], state[0], p[0])
     assert stored + lost - start == pytest.approx(work, rel=1e-3)
 

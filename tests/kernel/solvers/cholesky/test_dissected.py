@@ -6,13 +6,14 @@ import scipy.sparse as sp
 import scipy.sparse.linalg as spla
 
 from ssilang.kernel.base.errors import SingularFactorError
-from ssilang.kernel.solvers.backends import Ordering, factorise
+from ssilang.kernel.solvers.backends import factorise
 from ssilang.kernel.solvers.cholesky.dissected import DissectedFactor
 from ssilang.kernel.solvers.cholesky.dissection import dissection
 from ssilang.kernel.solvers.cholesky.inverse import invert
 from ssilang.kernel.solvers.cholesky.multifrontal import NotPositiveError
 from ssilang.kernel.solvers.cholesky.triangular import longest, solve_column
 from ssilang.kernel.solvers.cholesky.triangular_together import backward_many, forward_many
+from ssilang.kernel.solvers.factor import Ordering
 
 
 def grid(*shape, unknowns=1, seed=0):

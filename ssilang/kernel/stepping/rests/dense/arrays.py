@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.interface.laws.columns import N_STATE
+from ssilang.kernel.interface.response import Joints
 from ssilang.kernel.stepping.effective import Effective
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.rests.dense.loop import Joints, StepOperators, System
+from ssilang.kernel.stepping.rests.dense.loop import StepOperators, System
 
 
 def system_of(problem: Problem) -> System:
@@ -20,6 +22,7 @@ def system_of(problem: Problem) -> System:
         problem.K.toarray(),
         problem.M.toarray(),
         problem.C.toarray(),
+        jumps_of(problem),
         problem.C.nnz > 0,
         np.ascontiguousarray(problem.loading.forces),
         np.ascontiguousarray(problem.loading.imposed),
@@ -40,26 +43,22 @@ def operators_of(problem: Problem, effective: Effective) -> StepOperators:
         np.ascontiguousarray(Q.T),
         np.ascontiguousarray(effective.Y),
         effective.S,
-        np.ascontiguousarray(effective.R),
+        effective.R if effective.R.any() else np.zeros((0, 0)),
     )
+
+
+def jumps_of(problem: Problem) -> FloatArray:
+    """Rows J (q, n) of the interface, none without joints."""
+    joints = problem.interface
+    return np.zeros((0, problem.numbering.size)) if joints is None else joints.J.toarray()
 
 
 def joints_of(problem: Problem) -> Joints:
-    """Interface arrays, empty without joints."""
-    joints = problem.interface
-    if joints is None:
-        empty, none = np.zeros((0, 0)), np.zeros(0, dtype=np.int64)
-        pairs = np.zeros((0, 1), dtype=np.int64)
-        n = problem.numbering.size
-        return Joints(np.zeros((0, n)), pairs, np.zeros((0, 1, 1)), np.zeros(0), none, empty[:, :0])
-    return Joints(
-        joints.J.toarray(),
-        joints.pairs,
-        joints.B,
-        joints.weights,
-        joints.codes,
-        np.ascontiguousarray(joints.parameters),
-    )
+    """Points of the interface, none without joints."""
+    if problem.interface is not None:
+        return problem.interface.points
+    empty, none = np.zeros((0, 0)), np.zeros(0, dtype=np.int64)
+    return Joints(np.zeros((0, 1), np.int64), np.zeros((0, 1, 1)), np.zeros(0), none, empty)
 
 
 STATE = N_STATE

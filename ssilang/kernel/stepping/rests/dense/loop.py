@@ -8,8 +8,14 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.compiler import compiled
-from ssilang.kernel.interface.newton import iterate_interface
-from ssilang.kernel.interface.response import interface_energies
+from ssilang.kernel.interface.condensed import Condensed
+from ssilang.kernel.interface.newton import Workspace, solve_interface
+from ssilang.kernel.interface.response import (
+    InterfaceState,
+    Joints,
+    accept,
+    interface_energies,
+)
 
 N_ENERGIES = 6
 KINETIC, ELASTIC, STORED, LOST, DAMPED, EXTERNAL = range(N_ENERGIES)
@@ -21,6 +27,7 @@ class System(NamedTuple):
     K: FloatArray
     M: FloatArray
     C: FloatArray
+    J: FloatArray  # (q, n), jumps of the interface
     damped: bool
     forces: FloatArray  # (n, k)
     imposed: FloatArray  # (n_rows, k)
@@ -38,17 +45,6 @@ class StepOperators(NamedTuple):
     Y: FloatArray  # (n, q)
     S: FloatArray  # (q, q)
     R: FloatArray  # (q, q)
-
-
-class Joints(NamedTuple):
-    """Interface arrays (see `Interface`)."""
-
-    J: FloatArray  # (q, n)
-    pairs: IntArray
-    B: FloatArray
-    weights: FloatArray
-    codes: IntArray
-    p: FloatArray
 
 
 class Scratch(NamedTuple):
@@ -117,13 +113,6 @@ def _copy(source: FloatArray, target: FloatArray) -> None:
 
 
 @compiled
-def _copy_rows(source: FloatArray, target: FloatArray) -> None:
-    for i in range(source.shape[0]):
-        for j in range(source.shape[1]):
-            target[i, j] = source[i, j]
-
-
-@compiled
 def _add(target: FloatArray, factor: float, source: FloatArray) -> None:
     for i in range(source.shape[0]):
         target[i] += factor * source[i]
@@ -183,7 +172,7 @@ def _account(
     for j in range(len(motion.f)):
         if motion.f[j] != 0.0:
             for i in range(n):
-                motion.reaction[i] += joints.J[j, i] * motion.f[j]
+                motion.reaction[i] += system.J[j, i] * motion.f[j]
     for row in range(len(dd)):
         if dd[row] != 0.0:
             for i in range(n):
@@ -193,16 +182,13 @@ def _account(
     motion.energies[ELASTIC] = elastic
     motion.energies[EXTERNAL] += external
     if len(motion.f):
-        stored, lost = interface_energies(
-            joints.codes, joints.p, joints.weights, motion.w, motion.t, motion.state
-        )
+        stored, lost = interface_energies(joints, motion.w, motion.t, motion.state)
         motion.energies[STORED], motion.energies[LOST] = stored, lost
 
 
 @compiled
 def _predict(
     system: System,
-    joints: Joints,
     motion: Motion,
     load0: FloatArray,
     load1: FloatArray,
@@ -230,7 +216,7 @@ def _predict(
     for j in range(len(motion.f)):
         if motion.f[j] != 0.0:
             for i in range(n):
-                r[i] -= joints.J[j, i] * motion.f[j]
+                r[i] -= system.J[j, i] * motion.f[j]
 
 
 @compiled
@@ -251,6 +237,7 @@ def march(
     step: StepOperators,
     joints: Joints,
     motion: Motion,
+    newton: Workspace,
     factors: FloatArray,
     save: IntArray,
     saved: Saved,
@@ -277,18 +264,14 @@ def march(
     n, q, dt = len(motion.u), len(delta), step.dt
     load0, load1 = np.zeros(n), np.zeros(n)
     r, du, tmp, dd = np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(len(system.rows))
-    y0, y, h, f1 = np.zeros(q), np.zeros(q), np.zeros(q), np.zeros(q)
-    d = motion.w.shape[1]
-    new = np.zeros((motion.state.shape[0], motion.state.shape[1]))
-    D = np.zeros((motion.w.shape[0], d, d))
-    rq, dyq, deltaq = np.zeros(q), np.zeros(q), np.zeros(q)
-    Kq, Aq = np.zeros((q, q)), np.zeros((q, q))
+    trial, now = newton.trial, InterfaceState(delta, f, motion.w, motion.t, motion.state)
+    condensed = Condensed(step.S, step.R, 1 - system.scheme[1])
     scratch = Scratch(np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n))
     worst = 0
     _times_vector(system.forces, factors[0], load0)
     for k in range(len(save)):
         _times_vector(system.forces, factors[k + 1], load1)
-        _predict(system, joints, motion, load0, load1, dt, r, scratch)
+        _predict(system, motion, load0, load1, dt, r, scratch)
         _times_vector(step.P, r, du)
         if len(dd):
             _times_vector(system.imposed, factors[k + 1], dd)
@@ -298,21 +281,15 @@ def march(
             _times_vector(step.Q, dd, tmp)
             _add(du, 1.0, tmp)
         if q:
-            _times_vector(joints.J, du, y0)
-            _copy(y0, y)
-            turns, residual = iterate_interface(
-                joints.pairs, joints.B, joints.weights, joints.codes, joints.p, step.S, step.R,
-                1 - system.scheme[1], delta, f, motion.state, y0, y, motion.w, motion.t, new, D,
-                f1, h, rq, dyq, deltaq, Kq, Aq,
-            )  # fmt: skip
+            _times_vector(system.J, du, trial.y0)
+            _copy(trial.y0, trial.y)
+            turns, residual = solve_interface(joints, condensed, now, newton)
             if turns <= 0:
                 return k, turns, residual
             worst = max(worst, turns)
-            _times_vector(step.Y, h, tmp)
+            _times_vector(step.Y, trial.h, tmp)
             _add(du, -1.0, tmp)
-            _add(delta, 1.0, y)
-            _copy(f1, f)
-            _copy_rows(new, motion.state)
+            accept(trial, now)
         _advance(system, motion, du, dt)
         if not _finite(motion.u):
             return k, -1, np.inf

@@ -9,17 +9,12 @@ from __future__ import annotations
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.interface.newton import workspace
+from ssilang.kernel.interface.response import Joints
 from ssilang.kernel.stepping.effective import Effective
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.rests.dense.arrays import joints_of
-from ssilang.kernel.stepping.rests.dense.loop import (
-    Joints,
-    Motion,
-    Saved,
-    StepOperators,
-    System,
-    march,
-)
+from ssilang.kernel.stepping.rests.dense.arrays import joints_of, jumps_of
+from ssilang.kernel.stepping.rests.dense.loop import Motion, Saved, StepOperators, System, march
 
 
 def supports_are_still(problem: Problem) -> bool:
@@ -35,13 +30,15 @@ class ReducedLoop:
     def __init__(self, problem: Problem, motion: Motion, effective: Effective) -> None:
         self.problem, self.motion = problem, motion
         self.T: FloatArray = problem.constraints.T.toarray()
-        self.full = joints_of(problem)
+        self.joints = joints_of(problem)
+        self._newton = workspace(motion.w.shape, len(motion.f))
         n = self.T.shape[1]
         s = problem.scheme
         self.system = System(
             self._reduced(problem.K.toarray()),
             self._reduced(problem.M.toarray()),
             self._reduced(problem.C.toarray()),
+            np.ascontiguousarray(jumps_of(problem) @ self.T),
             problem.C.nnz > 0,
             np.ascontiguousarray(self.T.T @ problem.loading.forces),
             np.zeros((0, problem.loading.forces.shape[1])),
@@ -55,9 +52,8 @@ class ReducedLoop:
             np.zeros((n, 0)),
             np.ascontiguousarray(self.T.T @ effective.Y),
             effective.S,
-            np.ascontiguousarray(effective.R),
+            effective.R if effective.R.any() else np.zeros((0, 0)),
         )
-        self.joints = Joints(np.ascontiguousarray(self.full.J @ self.T), *self.full[1:])
 
     def _reduced(self, A: FloatArray) -> FloatArray:
         return np.ascontiguousarray(self.T.T @ A @ self.T)
@@ -73,16 +69,18 @@ class ReducedLoop:
         )  # fmt: skip
         u, v, a, idle = (np.zeros((rows, n)) for _ in range(4))
         kept = Saved(u, v, a, idle, saved.w, saved.t, saved.state, saved.contact)
-        outcome = march(self.system, self.step, self.joints, few, factors, save, kept, history)
+        outcome = march(
+            self.system, self.step, self.joints, few, self._newton, factors, save, kept, history
+        )
         m.u[:], m.v[:], m.a[:] = self.T @ few.u, self.T @ few.v, self.T @ few.a
         saved.u[:], saved.v[:], saved.a[:] = u @ self.T.T, v @ self.T.T, a @ self.T.T
         loads = factors[1:][save >= 0] @ self.problem.loading.forces.T
         saved.reaction[:] = reactions(
-            self.problem, self.full, saved.u, saved.v, saved.a, saved.t, loads
+            self.problem, self.joints, saved.u, saved.v, saved.a, saved.t, loads
         )
         last = factors[outcome[0]] @ self.problem.loading.forces.T
         now = (x[None] for x in (m.u, m.v, m.a, m.t, last))
-        m.reaction[:] = reactions(self.problem, self.full, *now)[0]
+        m.reaction[:] = reactions(self.problem, self.joints, *now)[0]
         return outcome
 
 
@@ -99,5 +97,5 @@ def reactions(
         places = (joints.pairs[:, :, None] * d + np.arange(d)).reshape(len(joints.pairs), -1)
         f = np.zeros((len(u), p.interface.size))
         np.add.at(f, (np.arange(len(u))[:, None, None], places[None]), local)
-        total = total + f @ joints.J
+        total = total + f @ p.interface.J
     return total

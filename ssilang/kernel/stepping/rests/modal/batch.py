@@ -9,13 +9,13 @@ from functools import cached_property, partial
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.interface.laws.columns import KN, XI
-from ssilang.kernel.interface.response import interface_forces
+from ssilang.kernel.interface.laws.columns import Parameter, Variable
+from ssilang.kernel.interface.response import Joints, interface_forces
 from ssilang.kernel.stepping.effective import Effective
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.problem.sharing import LoadBasis
 from ssilang.kernel.stepping.rests.dense.arrays import joints_of
-from ssilang.kernel.stepping.rests.dense.loop import N_ENERGIES, Joints, Motion
+from ssilang.kernel.stepping.rests.dense.loop import N_ENERGIES, Motion
 from ssilang.kernel.stepping.rests.dense.still_supports import reactions
 from ssilang.kernel.stepping.rests.modal.loop import Modal, ModalStep
 from ssilang.kernel.stepping.rests.modal.modes import Modes, modes_of, only_pushes, shearless
@@ -80,7 +80,7 @@ class KeptInstants:
     def state(self) -> FloatArray:
         """States (n_rows, n_points, N_STATE)."""
         found = np.repeat(self.past[None], len(self.xi), axis=0)
-        found[..., XI] = self.xi
+        found[..., Variable.XI] = self.xi
         return found
 
     @cached_property
@@ -117,12 +117,12 @@ class SpringsTogether:
 
     def __init__(
         self, problems: Sequence[Problem], motions: Sequence[Motion], effective: Effective,
-        modes: Modes, normal: Joints,
+        modes: Modes, normal: Joints, J: FloatArray,
     ) -> None:  # fmt: skip
         self.problems, self.motions, self.modes, self.normal = problems, motions, modes, normal
         self.solver = effective.inverse.factor.name
         self.joints = joints_of(problems[0])
-        s, J = problems[0].scheme, normal.J
+        s = problems[0].scheme
         Jt = np.ascontiguousarray(J.T)
         self._loads = LoadBasis([p.loading.forces.T @ modes.X for p in problems])
         scheme = np.array([s.alpha_m, s.alpha_f, s.beta, s.gamma])
@@ -135,7 +135,7 @@ class SpringsTogether:
         times: FloatArray,
     ) -> tuple[list[Outcome], list[Instants]]:  # fmt: skip
         """Steps of all problems; see `together.Engine`."""
-        x, k = self._state(), self.normal.weights * self.normal.p[:, KN]
+        x, k = self._state(), self.normal.weights * self.normal.p[:, Parameter.KN]
         count, rows = len(self.problems), max(int((s >= 0).sum()) for s in save)
         kept = SpringRows(
             *(np.zeros((count, rows, self.modes.size)) for _ in range(3)),
@@ -170,7 +170,10 @@ class SpringsTogether:
         w, t, xi, energies = (
             np.stack(parts)
             for parts in zip(
-                *((m.w[:, -1], m.t[:, -1], m.state[:, XI], m.energies) for m in self.motions),
+                *(
+                    (m.w[:, -1], m.t[:, -1], m.state[:, Variable.XI], m.energies)
+                    for m in self.motions
+                ),
                 strict=True,
             )
         )
@@ -187,8 +190,8 @@ class SpringsTogether:
         motion.w[:] = np.einsum("pij,pj->pi", joints.B, jumps)
         motion.w[:, -1], motion.t[:, :-1] = x.delta[j], 0.0
         motion.t[:, -1] = x.f[j] / joints.weights
-        motion.state[:, XI], motion.energies[:] = x.xi[j], x.energies[j]
-        interface_forces(joints.pairs, joints.B, joints.weights, motion.t, motion.f)
+        motion.state[:, Variable.XI], motion.energies[:] = x.xi[j], x.energies[j]
+        interface_forces(joints, motion.t, motion.f)
 
 
 def _instant(kept: KeptInstants, times: FloatArray, row: int, step: int) -> Snapshot:
@@ -203,12 +206,12 @@ def springs_together(
     if modes is None or any(not _still(p) for p in problems):
         return None
     joints = joints_of(problems[0])
-    normal = shearless(joints, modes)
+    normal, J = shearless(joints, modes)
     if normal is None or len(joints.weights) < 2:
         return None  # a single spring has a loop of its own, that no other can be faster than
     if not all(only_pushes(normal, m.state) for m in motions):
         return None
-    return SpringsTogether(problems, motions, effective, modes, normal)
+    return SpringsTogether(problems, motions, effective, modes, normal, J)
 
 
 def _still(problem: Problem) -> bool:

@@ -12,9 +12,16 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.compiler import compiled_fast
+from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.copies import copy_rows, copy_state
-from ssilang.kernel.interface.factors import iterate_cached, solve_known
-from ssilang.kernel.interface.response import interface_energies
+from ssilang.kernel.interface.factors import is_factorised, solve_known
+from ssilang.kernel.interface.newton import Workspace, solve_interface
+from ssilang.kernel.interface.response import (
+    InterfaceState,
+    Joints,
+    accept,
+    interface_energies,
+)
 from ssilang.kernel.stepping.rests.dense.loop import (
     DAMPED,
     ELASTIC,
@@ -22,7 +29,6 @@ from ssilang.kernel.stepping.rests.dense.loop import (
     KINETIC,
     LOST,
     STORED,
-    Joints,
     Motion,
 )
 
@@ -220,21 +226,21 @@ def march_modal(
     step: ModalStep,
     joints: Joints,
     x: Motion,
+    newton: Workspace,
     factors: FloatArray,
     save: IntArray,
     rows: ModalRows,
     history: FloatArray,
 ) -> tuple[int, int, float]:
     """As `compiled_loop.march`; `x` and the rows hold reduced coordinates."""
-    n, q, d, steps = len(x.u), len(x.delta), x.w.shape[1], len(save)
+    for i in range(len(newton.trial.y0)):
+        newton.trial.y0[i] = 0.0
+    n, q, steps = len(x.u), len(x.delta), len(save)
     share, worst = 1 - modal.scheme[1], 0
-    sweep = Sweep(np.zeros(n), np.zeros(n), np.zeros(q), np.zeros(n), np.zeros(n))
-    y, f1, h = np.zeros(q), np.zeros(q), np.zeros(q)
-    new = np.zeros((x.state.shape[0], x.state.shape[1]))
-    D = np.zeros((x.w.shape[0], d, d))
-    known = np.full((x.w.shape[0], d, d), np.nan)
-    rq, dyq, deltaq, pivots = np.zeros(q), np.zeros(q), np.zeros(q), np.zeros(q, np.int64)
-    Kq, Aq, none = np.zeros((q, q)), np.zeros((q, q)), np.zeros((0, 0))
+    sweep = Sweep(np.zeros(n), np.zeros(n), newton.trial.y0, np.zeros(n), np.zeros(n))
+    trial = newton.trial
+    now = InterfaceState(x.delta, x.f, x.w, x.t, x.state)
+    condensed = Condensed(step.S, np.zeros((0, 0)), share)
     start = n - n  # not a literal: that is a type, and code, of its own
     _correct(modal, step, x.f, sweep, start, n)
     next_load(modal.forces, factors[0], sweep.load0, sweep.load1)
@@ -242,33 +248,21 @@ def march_modal(
     _predict(modal, step, x, sweep, start, n)
     for k in range(steps):
         if q:
-            for i in range(q):
-                y[i] = sweep.y0[i]
-            if not np.isnan(known[0, 0, 0]):  # starts where the last tangents lead
-                solve_known(
-                    joints.pairs, joints.B, joints.weights, none, share, Aq, known, pivots, rq, y
-                )
-            turns, residual = iterate_cached(
-                joints.pairs, joints.B, joints.weights, joints.codes, joints.p, step.S, none, share,
-                x.delta, x.f, x.state, sweep.y0, y, x.w, x.t, new, D, f1, h, rq, dyq, deltaq, Kq,
-                Aq, known, pivots,
-            )  # fmt: skip
+            copy_state(trial.y0, trial.y)
+            if is_factorised(newton.factors):  # starts where the last tangents lead
+                solve_known(joints, condensed, newton.factors, trial.y)
+            turns, residual = solve_interface(joints, condensed, now, newton)
             if turns <= 0:
                 return k, turns, residual
             worst = max(worst, turns)
-            for i in range(q):
-                x.delta[i] += y[i]
-                x.f[i] = f1[i]
-            copy_rows(new, x.state)
+            accept(trial, now)
             if len(rows.jumps):
                 copy_rows(x.w, rows.jumps[k])
-        size = _turn(modal, step, x, f1, factors[min(k + 2, steps)], sweep, k + 1 < steps)
+        size = _turn(modal, step, x, x.f, factors[min(k + 2, steps)], sweep, k + 1 < steps)
         if not np.isfinite(size):
             return k, -1, np.inf
         if q:
-            stored, lost = interface_energies(
-                joints.codes, joints.p, joints.weights, x.w, x.t, x.state
-            )
+            stored, lost = interface_energies(joints, x.w, x.t, x.state)
             x.energies[STORED], x.energies[LOST] = stored, lost
         copy_state(x.energies, history[k])
         if save[k] >= 0:

@@ -12,13 +12,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.interface.laws.columns import DAMAGE, FC, FU, GF, KN, KS1, KS2, XI
-from ssilang.kernel.interface.laws.law_table import SDM
-from ssilang.kernel.interface.response import interface_forces
+from ssilang.kernel.interface.laws.columns import LawCode, Parameter, Variable
+from ssilang.kernel.interface.newton import workspace
+from ssilang.kernel.interface.response import Joints, interface_forces
 from ssilang.kernel.stepping.effective import Effective
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.dense.arrays import joints_of
-from ssilang.kernel.stepping.rests.dense.loop import Joints, Motion, Saved
+from ssilang.kernel.stepping.rests.dense.loop import Motion, Saved
 from ssilang.kernel.stepping.rests.dense.still_supports import reactions, supports_are_still
 from ssilang.kernel.stepping.rests.modal.loop import Modal, ModalRows, ModalStep, march_modal
 from ssilang.kernel.stepping.rests.modal.one_mode import carry, march_mode
@@ -103,11 +103,10 @@ class SmallLoop:
         self._z = np.zeros((3, modes.size))
         self._line = line_of(problem, motion, modes, self._joints, self._scheme)
         self.balance = np.zeros(2)  # see `LineState`
-        self._normal = shearless(self._joints, modes)
+        self._normal, J = shearless(self._joints, modes)
         joints = self._joints if self._normal is None else self._normal
-        J = modes.J if self._normal is None else self._normal.J
         Jt = np.ascontiguousarray(J.T)
-        self._stepped = joints._replace(J=np.zeros((0, 0)))
+        self._stepped = joints
         self._modal = Modal(modes.m, modes.c, modes.k, J, Jt, modes.forces, self._scheme)
         self._step = ModalStep(effective.dt, np.ones(modes.size), np.ascontiguousarray(J @ Jt))
         self._pushes = self._normal is not None and only_pushes(joints, motion.state)
@@ -154,20 +153,20 @@ class SmallLoop:
         to = ModalRows(none, kept[0], kept[1], kept[2], to_w, to_t, saved.state)
         if self._pushes:
             weights = self._stepped.weights
-            k = weights * self._stepped.p[:, KN]
+            k = weights * self._stepped.p[:, Parameter.KN]
             outcome = march_normal(
                 self._modal, self._step, weights, k, few, factors, save, to, history
             )
         else:
+            newton = workspace(w.shape, len(f))
             outcome = march_modal(
-                self._modal, self._step, self._stepped, few, factors, save, to, history
+                self._modal, self._step, self._stepped, few, newton, factors, save, to, history
             )
         if self._normal is not None:
             self._put_normal(self._z[:1], w[None], t[None], m.w[None], m.t[None])
             self._put_normal(kept[0], to_w, to_t, saved.w, saved.t)
             m.delta[:] = self.modes.J @ self._z[0]
-            j = self._joints
-            interface_forces(j.pairs, j.B, j.weights, m.t, m.f)
+            interface_forces(self._joints, m.t, m.f)
         return outcome, kept
 
     def _put_normal(
@@ -176,7 +175,7 @@ class SmallLoop:
         """Whole jumps and tractions of instants from their coordinates and normal parts."""
         j = self._joints
         d = j.B.shape[1]
-        jumps = (z @ self.modes.J.T).reshape(len(z), j.J.shape[0] // d, d)[:, j.pairs[:, 0]]
+        jumps = (z @ self.modes.J.T).reshape(len(z), len(self.modes.J) // d, d)[:, j.pairs[:, 0]]
         to_w[:] = np.einsum("pij,kpj->kpi", j.B, jumps)
         to_w[..., -1], to_t[..., -1] = w[..., 0], t[..., 0]
         to_t[..., :-1] = 0.0
@@ -189,7 +188,7 @@ class SmallLoop:
         m, rows = self.motion, len(saved.u)
         joint = np.zeros(3)
         if spring.weight > 0.0:
-            joint[:] = m.w[0, -1], m.t[0, -1], m.state[0, XI]
+            joint[:] = m.w[0, -1], m.t[0, -1], m.state[0, Variable.XI]
         u, v, a = self._z[:, active].copy()
         x = LineState(u, v, a, joint, m.energies, self.balance)
         few = [np.zeros((rows, len(active))) for _ in range(3)]
@@ -231,30 +230,30 @@ class SmallLoop:
     def _put_joint(self, rows: FloatArray, w: FloatArray, t: FloatArray, state: FloatArray) -> None:
         """Jumps, tractions and states of instants from rows of (w, t, xi)."""
         p = self._joints.p[0]
-        w[:, 0, -1], t[:, 0, -1], state[:, 0, XI] = rows.T
-        if p[FU] > 0.0:
-            lost = -np.expm1(-p[FU] / p[GF] * rows[:, 2])
-            state[:, 0, DAMAGE] = np.where(rows[:, 1] < 0.0, 0.0, lost)
+        w[:, 0, -1], t[:, 0, -1], state[:, 0, Variable.XI] = rows.T
+        if p[Parameter.FU] > 0.0:
+            lost = -np.expm1(-p[Parameter.FU] / p[Parameter.GF] * rows[:, 2])
+            state[:, 0, Variable.DAMAGE] = np.where(rows[:, 1] < 0.0, 0.0, lost)
 
 
-def shearless(joints: Joints, modes: Modes) -> Joints | None:
-    """Joints that push along their normals alone, J on the modes; None if some resist shear."""
+def shearless(joints: Joints, modes: Modes) -> tuple[Joints | None, FloatArray]:
+    """Joints that push along their normals alone (None if some resist shear), J on the modes."""
     n, width = joints.pairs.shape
-    shear = joints.p[:, KS1 : KS2 + 1]
-    if n == 0 or width != 1 or (joints.codes != SDM).any() or shear.any():
-        return None
+    shear = joints.p[:, Parameter.KS1 : Parameter.KS2 + 1]
+    if n == 0 or width != 1 or (joints.codes != LawCode.SDM).any() or shear.any():
+        return None, modes.J
     d = joints.B.shape[1]
     rows = modes.J.reshape(-1, d, modes.size)[joints.pairs[:, 0]]
     J = np.ascontiguousarray(np.einsum("pj,pjr->pr", joints.B[:, -1], rows))
     places = np.arange(n, dtype=np.int64)[:, None]
-    return Joints(J, places, np.ones((n, 1, 1)), joints.weights, joints.codes, joints.p)
+    return Joints(places, np.ones((n, 1, 1)), joints.weights, joints.codes, joints.p), J
 
 
 def only_pushes(joints: Joints, state: FloatArray) -> bool:
     """Whether joints without shear have no strength, no closing traction and no past but xi."""
     past = state.copy()
-    past[:, XI] = 0.0
-    return not (joints.p[:, [FU, FC]].any() or past.any())
+    past[:, Variable.XI] = 0.0
+    return not (joints.p[:, [Parameter.FU, Parameter.FC]].any() or past.any())
 
 
 def line_of(
@@ -290,18 +289,18 @@ def _spring_of(
     motion: Motion, modes: Modes, joints: Joints, share: float
 ) -> tuple[Spring, FloatArray] | None:
     """The only point of the interface and its jump (r,), if shear cannot move there."""
-    if len(joints.weights) != 1 or joints.codes[0] != SDM or joints.pairs.shape[1] != 1:
+    if len(joints.weights) != 1 or joints.codes[0] != LawCode.SDM or joints.pairs.shape[1] != 1:
         return None
     jumps = joints.B[0] @ modes.J
     still = np.abs(jumps[:-1]).max(initial=0.0) <= NOTHING * np.abs(jumps[-1]).max(initial=0.0)
     state = motion.state[0].copy()
-    state[[XI, DAMAGE]] = 0.0
+    state[[Variable.XI, Variable.DAMAGE]] = 0.0
     if not still or state.any() or motion.w[0, :-1].any():
         return None
     p, weight, b = joints.p[0], float(joints.weights[0]), jumps[-1]
-    k, fu, gf = (float(p[i]) for i in (KN, FU, GF))
+    k, fu, gf = (float(p[i]) for i in (Parameter.KN, Parameter.FU, Parameter.GF))
     if fu > 0.0:  # the closed form is the only answer if the rest is stiffer than the softening
         a = fu / gf
         if 1.0 - share * weight * float(b @ b) * k * a * fu / (k - a * fu) <= 0.0:
             return None
-    return Spring(weight, k, fu, gf, float(p[FC])), b
+    return Spring(weight, k, fu, gf, float(p[Parameter.FC])), b

@@ -22,9 +22,8 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.compiler import compiled_fast
-from ssilang.kernel.interface.copies import copy_rows, copy_state
-from ssilang.kernel.interface.laws.columns import XI
-from ssilang.kernel.interface.newton import largest
+from ssilang.kernel.interface.copies import copy_rows, copy_state, largest
+from ssilang.kernel.interface.laws.columns import Variable
 from ssilang.kernel.stepping.rests.dense.loop import (
     DAMPED,
     ELASTIC,
@@ -262,7 +261,7 @@ def _save(
     copy_rows(x.state, rows.state[row])
     for i in range(len(f)):
         rows.w[row, i, 0], rows.t[row, i, 0] = x.delta[i], f[i] / weights[i]
-        rows.state[row, i, XI] = xi[i]
+        rows.state[row, i, Variable.XI] = xi[i]
 
 
 @compiled_fast
@@ -290,7 +289,7 @@ def march_normal(
         for j in range(q):
             Q[i, j] = share * step.S[i, j]
         Q[i, i] += 1.0 / k[i]
-        xi[i] = x.state[i, XI]
+        xi[i] = x.state[i, Variable.XI]
     anew(contact)
     list_closed(contact)
     start = n - n  # not a literal: that is a type, and code, of its own
@@ -330,5 +329,5 @@ def march_normal(
             _save(x, weights, f, xi, rows, save[s])
     for i in range(q):
         x.f[i], x.w[i, 0], x.t[i, 0] = f[i], x.delta[i], f[i] / weights[i]
-        x.state[i, XI] = xi[i]
+        x.state[i, Variable.XI] = xi[i]
     return steps, worst, 0.0

@@ -29,6 +29,7 @@ from ssilang.kernel.stepping.problem.initial import (
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.reduced.damping import States, split
 from ssilang.kernel.stepping.rests.reduced.supports import ReducedSupports, reduced_supports
+from ssilang.messages.message import Refusal, Sentence
 
 DEPENDENT = 1e-12
 """Squared length, of one, below which what is left of a vector is rounding: it is dropped."""
@@ -94,6 +95,10 @@ class ReducedModel:
         return found
 
 
+class NoReduction(Refusal):
+    """Why a problem that could be reduced is not: the whole model runs instead."""
+
+
 @dataclass(frozen=True)
 class Reduction:
     """What a reduced run says of itself.
@@ -104,7 +109,7 @@ class Reduction:
         0 if the whole model was run.
     estimate : float
         Estimated error of displacements and jumps, relative to the largest.
-    refused : str
+    refused : NoReduction or None
         Why the whole model was run.
     prepared : float
         Seconds spent on bases that did not give the result, and on building it.
@@ -115,14 +120,10 @@ class Reduction:
 
     vectors: int = 0
     estimate: float = math.nan
-    refused: str = ""
+    refused: NoReduction | None = None
     prepared: float = 0.0
     velocity: float = math.nan
     acceleration: float = math.nan
-
-
-class NoReduction(Exception):
-    """Why a problem that could be reduced is not: the whole model runs instead."""
 
 
 def refuse_reduction(problem: Problem) -> None:
@@ -133,16 +134,12 @@ def refuse_reduction(problem: Problem) -> None:
     KernelError
         For unilateral and non-associated relations, adaptive or conserving steps.
     """
-    hint = "leave 'REDUCTION'"
     if problem.contact is not None:
-        raise KernelError(
-            "'REDUCTION' does not take unilateral relations (MINI, MAXI)",
-            hint + ", or describe contact by joints (JOINT_SDM)",
-        )
+        raise KernelError("kernel.stepping.reduction-unilateral")
     if not problem.constraints.associated:
-        raise KernelError("'REDUCTION' does not take non-associated relations (DUAL)", hint)
+        raise KernelError("kernel.stepping.reduction-not-associated")
     if problem.scheme.conserving or problem.scheme.adaptive:
-        raise KernelError("'REDUCTION' goes with neither 'CONSERVATIF' nor 'PAS_ADAPTE'", hint)
+        raise KernelError("kernel.stepping.reduction-steps")
 
 
 class Basis:
@@ -157,15 +154,15 @@ class Basis:
         self.K, self.M, C = (sp.csr_array(T.T @ X @ T) for X in (problem.K, problem.M, problem.C))
         damping = split(C, self.M, self.K, largest)
         if damping is None:
-            raise NoReduction("the damping is not symmetric")
+            raise NoReduction("kernel.stepping.damping-not-symmetric")
         self.damping = damping
         joints = problem.interface
         ports = sp.csr_array((0, T.shape[1])) if joints is None else sp.csr_array(joints.J @ T)
         v = admissible_velocity(problem)
         a = initial_acceleration(problem, v, joint_state(problem))
         supports = reduced_supports(problem, T, problem.u, v, a)
-        if isinstance(supports, str):
-            raise NoReduction(supports)
+        if isinstance(supports, Sentence):
+            raise NoReduction(supports.code, **supports.data)
         self.supports = supports
         forces = T.T @ problem.loading.forces
         self.J, self.F = ports, np.hstack([forces, supports.columns.forces.T])
@@ -194,7 +191,7 @@ class Basis:
             A = A + damped * self.damping.C
         inverse = invert(sp.csr_array(A), True)
         if inverse.singular:
-            raise NoReduction("a body without mass is held by joints alone")
+            raise NoReduction("kernel.stepping.massless-body-on-joints")
         return inverse
 
     def _initial(self, fields: FloatArray) -> FloatArray:
@@ -280,7 +277,7 @@ class Basis:
         W = _whiten(W, self.N)
         r, b = self.size, W.shape[1]
         if r + b > len(self._store):
-            raise NoReduction(f"{len(self._store)} vectors do not reach the tolerance")
+            raise NoReduction("kernel.stepping.vectors-not-enough", n_vectors=len(self._store))
         self._store[r : r + b] = W.T
         part = self._store[: r + b] @ (self.K @ W)
         self._KV[: r + b, r : r + b] = part

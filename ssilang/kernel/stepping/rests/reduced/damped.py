@@ -7,9 +7,11 @@ from typing import NamedTuple
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.interface.newton import Workspace
+from ssilang.kernel.interface.response import Joints
 from ssilang.kernel.stepping.problem.moving_supports import Course, Start
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.rests.dense.loop import Joints, Motion
+from ssilang.kernel.stepping.rests.dense.loop import Motion
 from ssilang.kernel.stepping.rests.modal.loop import ModalRows
 from ssilang.kernel.stepping.rests.reduced.basis import ReducedModel
 from ssilang.kernel.stepping.rests.reduced.loop import (
@@ -27,6 +29,7 @@ class Given(NamedTuple):
     dt: float
     joints: Joints
     motion: Motion
+    newton: Workspace
     factors: FloatArray
     save: IntArray
 
@@ -66,8 +69,8 @@ class DampedTrace:
         start = Start(work, motion.f.copy())
         pull = Pull(self.model.B @ motion.v, self.model.B @ motion.a)
         done, turns, _ = march_reduced(
-            self.reduced, self.steps[given.dt], given.joints, motion, pull, whole, given.save, rows,
-            history, works,
+            self.reduced, self.steps[given.dt], given.joints, motion, pull, given.newton, whole,
+            given.save, rows, history, works,
         )  # fmt: skip
         if not moves:
             return done, turns, None

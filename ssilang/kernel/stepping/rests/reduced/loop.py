@@ -19,8 +19,16 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.compiler import compiled_fast
-from ssilang.kernel.interface.factors import iterate_cached, solve_known
-from ssilang.kernel.interface.response import interface_energies
+from ssilang.kernel.interface.condensed import Condensed
+from ssilang.kernel.interface.copies import copy_state
+from ssilang.kernel.interface.factors import is_factorised, solve_known
+from ssilang.kernel.interface.newton import Workspace, solve_interface
+from ssilang.kernel.interface.response import (
+    InterfaceState,
+    Joints,
+    accept,
+    interface_energies,
+)
 from ssilang.kernel.stepping.rests.dense.loop import (
     DAMPED,
     ELASTIC,
@@ -28,7 +36,6 @@ from ssilang.kernel.stepping.rests.dense.loop import (
     KINETIC,
     LOST,
     STORED,
-    Joints,
     Motion,
 )
 from ssilang.kernel.stepping.rests.modal.loop import BLOCK, ModalRows, add_jumps, next_load
@@ -211,22 +218,20 @@ def _turn(
 
 @compiled_fast
 def march_reduced(
-    model: Reduced, step: ReducedStep, joints: Joints, x: Motion, pull: Pull, factors: FloatArray,
-    save: IntArray, rows: ModalRows, history: FloatArray, works: FloatArray,
+    model: Reduced, step: ReducedStep, joints: Joints, x: Motion, pull: Pull, newton: Workspace,
+    factors: FloatArray, save: IntArray, rows: ModalRows, history: FloatArray, works: FloatArray,
 ) -> tuple[int, int, float]:  # fmt: skip
     """As `march_modal`; `works` (2, n_steps, n_loads or 0) as in `march_interleaved`."""
-    n, q, size_d, steps = len(x.u), len(x.delta), x.w.shape[1], len(save)
+    n, q, steps = len(x.u), len(x.delta), len(save)
     d, share, worst = len(model.sense), 1 - model.scheme[1], 0
     room = Room(
         np.zeros(n), np.zeros(n), np.zeros(q + d), np.zeros(n), np.zeros(n), np.zeros(d),
         np.zeros(d), np.zeros(d),
     )  # fmt: skip
-    y, f1, h = np.zeros(q), np.zeros(q), np.zeros(q)
-    new = np.zeros((x.state.shape[0], x.state.shape[1]))
-    D = np.zeros((x.w.shape[0], size_d, size_d))
-    known = np.full((x.w.shape[0], size_d, size_d), np.nan)
-    rq, dyq, deltaq, pivots = np.zeros(q), np.zeros(q), np.zeros(q), np.zeros(q, np.int64)
-    Kq, Aq, none = np.zeros((q, q)), np.zeros((q, q)), np.zeros((0, 0))
+    h = np.zeros(q)
+    trial = newton.trial
+    now = InterfaceState(x.delta, x.f, x.w, x.t, x.state)
+    condensed = Condensed(step.S, np.zeros((0, 0)), share)
     _correct(model, step, x.f, room, 0, n)
     room.du[:] = 0.0
     next_load(model.forces, factors[0], room.load0, room.load1)
@@ -239,41 +244,31 @@ def march_reduced(
         if d:
             _held_back(model, step, room, pull, q)
         if q:
-            y0 = room.y[:q]
-            y[:] = y0
-            if not np.isnan(known[0, 0, 0]):  # starts where the last tangents lead
-                solve_known(
-                    joints.pairs, joints.B, joints.weights, none, share, Aq, known, pivots, rq, y
-                )
-            turns, residual = iterate_cached(
-                joints.pairs, joints.B, joints.weights, joints.codes, joints.p, step.S, none, share,
-                x.delta, x.f, x.state, y0, y, x.w, x.t, new, D, f1, h, rq, dyq, deltaq, Kq,
-                Aq, known, pivots,
-            )  # fmt: skip
+            copy_state(room.y[:q], trial.y0)
+            copy_state(trial.y0, trial.y)
+            if is_factorised(newton.factors):  # starts where the last tangents lead
+                solve_known(joints, condensed, newton.factors, trial.y)
+            turns, residual = solve_interface(joints, condensed, now, newton)
             if turns <= 0:
                 return k, turns, residual
             worst = max(worst, turns)
             for i in range(q):
-                h[i] = share * (f1[i] - x.f[i])
-                x.delta[i] += y[i]
-                x.f[i] = f1[i]
-            x.state[:, :] = new
+                h[i] = share * (trial.f[i] - x.f[i])
+            accept(trial, now)
             if len(rows.jumps):
                 rows.jumps[k] = x.w
         if d:
             x.energies[DAMPED] += 0.5 * _pulled(model, step, room, pull, h)
         size = _turn(
-            model, step, x, f1, factors[min(k + 2, steps)], room, works[0, k], k + 1 < steps
+            model, step, x, x.f, factors[min(k + 2, steps)], room, works[0, k], k + 1 < steps
         )
         for c in range(min(model.lift.shape[1], works.shape[2])):
             for i in range(q):
-                works[1, k, c] += model.lift[i, c] * f1[i]
+                works[1, k, c] += model.lift[i, c] * x.f[i]
         if not np.isfinite(size):
             return k, -1, np.inf
         if q:
-            stored, lost = interface_energies(
-                joints.codes, joints.p, joints.weights, x.w, x.t, x.state
-            )
+            stored, lost = interface_energies(joints, x.w, x.t, x.state)
             x.energies[STORED], x.energies[LOST] = stored, lost
         history[k] = x.energies
         if save[k] >= 0:

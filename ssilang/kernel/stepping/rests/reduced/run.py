@@ -76,7 +76,7 @@ def _grown(basis: Basis, wanted: float) -> ReducedModel:
         before = basis.size
         basis.grow()
         if basis.size == before:
-            raise NoReduction("the Krylov space is exhausted")
+            raise NoReduction("kernel.stepping.krylov-exhausted")
     return basis.model()
 
 
@@ -154,13 +154,15 @@ class ReducedIntegration:
             try:
                 pair.grow()
             except NoReduction as reason:
-                raise NoReduction(f"{reason} (estimated error {estimate:.1e})") from None
+                raise NoReduction(
+                    "kernel.stepping.reduction-inexact", reason=reason, estimate=estimate
+                ) from None
         self._hand_over(pair.rich, wanted, chunks)
         return History(
             p.times, rich.energies, rich.iterations, "none", "reduced",
             time.perf_counter() - built,
             Reduction(
-                pair.rich.size, estimate, "", built - started, *difference.relative[3:].tolist()
+                pair.rich.size, estimate, None, built - started, *difference.relative[3:].tolist()
             ),
         )  # fmt: skip
 
@@ -233,7 +235,7 @@ def expanded(
     if joints is not None:
         f = np.zeros((len(rows), joints.size))
         for i, row in enumerate(rows):
-            interface_forces(joints.pairs, joints.B, joints.weights, x.t[row], f[i])
+            interface_forces(joints.points, x.t[row], f[i])
         rest = rest + joints.J.T @ f.T
     for i, (row, step) in enumerate(zip(rows, steps.tolist(), strict=True)):
         yield Snapshot(
@@ -271,7 +273,7 @@ def integrate_reduced(
         See `integrate`.
     """
     if not 0.0 < tolerance < 1.0:
-        raise KernelError(f"the tolerance of the reduction is {tolerance:g}", "between 0 and 1")
+        raise KernelError("kernel.stepping.tolerance-reduction", tolerance=tolerance)
     refuse_reduction(problem)
     started = time.perf_counter()
     try:
@@ -279,7 +281,7 @@ def integrate_reduced(
     except NoReduction as reason:
         spent = time.perf_counter() - started
         history = integrate(problem, observers, progress)
-        history.reduction = Reduction(refused=str(reason), prepared=spent)
+        history.reduction = Reduction(refused=reason, prepared=spent)
         return history
     except BaseException:
         _close(observers)

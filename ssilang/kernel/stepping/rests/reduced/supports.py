@@ -12,6 +12,7 @@ from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.stepping.problem.moving_supports import MOST, Columns, MovingSupports
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.dense.loop import Motion
+from ssilang.messages.message import Sentence
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,16 +45,16 @@ class ReducedSupports:
 
 def reduced_supports(
     problem: Problem, T: sp.csr_array, u: FloatArray, v: FloatArray, a: FloatArray
-) -> ReducedSupports | str:
+) -> ReducedSupports | Sentence:
     """The supports of a problem whose motion starts with u, v, a (n,); or why they are too much."""
     dt = float(problem.times[1] - problem.times[0])
     moving = MovingSupports(problem, dt, T)
     if len(moving.chosen) > MOST:
-        return f"supports move by more than {MOST} curves"
+        return Sentence("kernel.stepping.supports-move-by-too-many", most=MOST)
     none, table = np.zeros(0), np.zeros((0, 1))
     motion = Motion(u, v, a, none, none, table, table, table, none, none, none)
     columns, course = moving.begin(motion, problem.loading.at(problem.times[:2]))
     if columns.X.shape[1] > len(moving.chosen):
-        return "the initial motion is not the one that the supports impose"
+        return Sentence("kernel.stepping.initial-motion-of-supports")
     start = np.array([course.c[0], course.v[0], course.a[0]])
     return ReducedSupports(moving, columns, start)

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.interface.newton import Workspace, workspace
 from ssilang.kernel.stepping.problem.initial import (
     admissible_velocity,
     initial_energies,
@@ -15,7 +16,8 @@ from ssilang.kernel.stepping.problem.initial import (
 )
 from ssilang.kernel.stepping.problem.moving_supports import Course
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.rests.dense.loop import N_ENERGIES, Joints, Motion
+from ssilang.kernel.stepping.rests.dense.arrays import joints_of
+from ssilang.kernel.stepping.rests.dense.loop import N_ENERGIES, Motion
 from ssilang.kernel.stepping.rests.modal.loop import Modal, ModalRows, ModalStep, march_modal
 from ssilang.kernel.stepping.rests.reduced.basis import ReducedModel
 from ssilang.kernel.stepping.rests.reduced.damped import DampedTrace, Given
@@ -72,7 +74,7 @@ class Trace:
         scheme = np.array([s.alpha_m, s.alpha_f, s.beta, s.gamma])
         m = self.model
         Jt = np.ascontiguousarray(m.J.T)
-        self._joints = _joints(p)
+        self._joints = joints_of(p)
         self._steps: dict[float, ModalStep] = {}
         self._damped: DampedTrace | None = None
         if not m.diagonal:
@@ -90,17 +92,20 @@ class Trace:
         course = None
         if self._damped is not None:
             dt = self._like(run.dt, self._damped.steps)
-            given = Given(dt, self._joints, self.motion, factors, save)
+            given = Given(dt, self._joints, self.motion, self._newton(), factors, save)
             done, turns, course = self._damped.advance(given, rows, history)
         else:
             done, turns, _ = march_modal(
-                self._modal, self._step(run.dt), self._joints, self.motion, factors, save, rows,
-                history,
+                self._modal, self._step(run.dt), self._joints, self.motion, self._newton(), factors,
+                save, rows, history,
             )  # fmt: skip
         if done < run.last - run.first:
             return None
         self.iterations = max(self.iterations, turns)
         return Chunk(run, rows, run.first + 1 + np.flatnonzero(chosen), course)
+
+    def _newton(self) -> Workspace:
+        return workspace(self.motion.w.shape, len(self.motion.f))
 
     def _room(self, steps: int, rows: int) -> ModalRows:
         m, r = self.motion, self.model.size
@@ -123,19 +128,6 @@ class Trace:
             A += (1 - s.alpha_f) * s.gamma / (s.beta * dt) * m.c
             self._steps[dt] = ModalStep(dt, 1.0 / A, np.ascontiguousarray((m.J / A) @ m.J.T))
         return self._steps[dt]
-
-
-def _joints(problem: Problem) -> Joints:
-    """Interface arrays without the rows of J, which reduced vectors replace."""
-    joints = problem.interface
-    nothing = np.zeros((0, 0))
-    if joints is None:
-        pairs, none = np.zeros((0, 1), dtype=np.int64), np.zeros(0, dtype=np.int64)
-        return Joints(nothing, pairs, np.zeros((0, 1, 1)), np.zeros(0), none, nothing)
-    return Joints(
-        nothing, joints.pairs, joints.B, joints.weights, joints.codes,
-        np.ascontiguousarray(joints.parameters),
-    )  # fmt: skip
 
 
 class Difference:

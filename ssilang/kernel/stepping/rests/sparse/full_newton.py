@@ -8,7 +8,14 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import SingularFactorError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.contact.solver import ContactForces, stopped_motions
-from ssilang.kernel.interface.response import interface_response, interface_stiffness
+from ssilang.kernel.interface.response import (
+    InterfaceState,
+    Trial,
+    accept,
+    interface_response,
+    interface_stiffness,
+    new_trial,
+)
 from ssilang.kernel.solvers.backends import factorise
 from ssilang.kernel.solvers.cholesky.inverse import invert
 from ssilang.kernel.stepping.problem.problem import Problem
@@ -36,11 +43,11 @@ class FullNewtonSolver:
     def solve(self, motion: Motion, r: FloatArray, dd: FloatArray, gap: FloatArray) -> StepOutcome:
         """Newton from the linear prediction with the joints as they are."""
         du = self.constraints.particular(dd)
-        f, new = np.zeros_like(motion.f), np.zeros_like(motion.state)
+        trial = new_trial(motion.w.shape, len(motion.f))
         pushed = motion.contact.copy()
         residual = np.inf
         for turn in range(1, MOST_TURNS + 1):
-            K, force = self._joints(motion, du, f, new)
+            K, force = self._joints(motion, du, trial)
             free = r - self.A @ du - force
             rest = self.constraints.V.T @ (free + self._push(pushed))
             scale = np.abs(r).max(initial=0.0) + np.abs(self.A @ du).max(initial=0.0)
@@ -48,7 +55,7 @@ class FullNewtonSolver:
             residual = float(np.abs(rest).max(initial=0.0)) / max(scale, 1e-300)
             if turn > 1 and residual <= TOLERANCE:
                 motion.contact[:] = pushed
-                self._commit(motion, du, f, new)
+                self._commit(motion, trial)
                 return StepOutcome(du, turn, residual)
             try:
                 step, pushed = self._turn(motion, self.A + K, free, du, gap, pushed)
@@ -103,23 +110,20 @@ class FullNewtonSolver:
         return moved + motions @ a, found
 
     def _joints(
-        self, motion: Motion, du: FloatArray, f: FloatArray, new: FloatArray
+        self, motion: Motion, du: FloatArray, trial: Trial
     ) -> tuple[sp.csr_array, FloatArray]:
         joints, n = self.interface, len(du)
         if joints is None:
             return sp.csr_array((n, n)), np.zeros(n)
-        delta = motion.delta + joints.J @ du
-        D = np.zeros((*motion.w.shape, motion.w.shape[1]))
-        interface_response(
-            joints.pairs, joints.B, joints.weights, joints.codes, joints.parameters, delta,
-            motion.state, motion.w, motion.t, new, D, f,
-        )  # fmt: skip
+        trial.y[:] = joints.J @ du
+        trial.delta[:] = motion.delta + trial.y
+        interface_response(joints.points, motion.state, trial.delta, trial)
         K = np.zeros((joints.size, joints.size))
-        interface_stiffness(joints.pairs, joints.B, joints.weights, D, K)
+        interface_stiffness(joints.points, trial.D, K)
         tangent = sp.csr_array(joints.J.T @ sp.csr_array(self.share * K) @ joints.J)
-        return tangent, self.share * (joints.J.T @ (f - motion.f))
+        return tangent, self.share * (joints.J.T @ (trial.f - motion.f))
 
-    def _commit(self, motion: Motion, du: FloatArray, f: FloatArray, new: FloatArray) -> None:
+    def _commit(self, motion: Motion, trial: Trial) -> None:
         if self.interface is not None:
-            motion.delta[:] += self.interface.J @ du
-            motion.f[:], motion.state[:, :] = f, new
+            now = InterfaceState(motion.delta, motion.f, motion.w, motion.t, motion.state)
+            accept(trial, now)

@@ -9,7 +9,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.sparse import sp
-from ssilang.kernel.interface.factors import workspace
+from ssilang.kernel.interface.newton import workspace
 from ssilang.kernel.solvers.cholesky.dissected import DissectedFactor
 from ssilang.kernel.solvers.cholesky.triangular import longest
 from ssilang.kernel.stepping.effective import Effective, RootResponse
@@ -23,7 +23,7 @@ from ssilang.kernel.stepping.problem.moving_supports import (
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.problem.rayleigh import split_damping
 from ssilang.kernel.stepping.rests.dense.arrays import joints_of
-from ssilang.kernel.stepping.rests.dense.loop import Joints, Motion, Saved
+from ssilang.kernel.stepping.rests.dense.loop import Motion, Saved
 from ssilang.kernel.stepping.rests.sparse.interleaved_loop import (
     Damping,
     Flow,
@@ -79,10 +79,9 @@ class InterleavedLoop:
             (s.alpha_m, s.alpha_f, s.beta, s.gamma, effective.dt), longest(factor.panels),
         )  # fmt: skip
         self.supports = MovingSupports(problem, effective.dt, self.T)
-        joints = joints_of(problem) if problem.interface is None else None
-        self.joints = joints or _joints_without_rows(problem)
+        self.joints = joints_of(problem)
         self.J = sp.csr_array((0, n)) if problem.interface is None else problem.interface.J @ self.T
-        self.newton = workspace(q, motion.w, motion.state)
+        self.newton = workspace(motion.w.shape, q)
         gram = sp.csr_array(self.T.T @ self.T)
         self._gram_diagonal = gram.diagonal()
         self._gram = None if gram.nnz == n else sp.csc_array(gram)
@@ -94,7 +93,7 @@ class InterleavedLoop:
         other.forces = np.ascontiguousarray((self.T.T @ problem.loading.forces).T)
         other.plan = self.plan._replace(forces=other.forces)
         other.supports = MovingSupports(problem, self.plan.scheme[-1], self.T)
-        other.newton = workspace(len(motion.f), motion.w, motion.state)
+        other.newton = workspace(motion.w.shape, len(motion.f))
         return other
 
     def _reduced(self, A: sp.csr_array) -> sp.csr_array:
@@ -231,16 +230,6 @@ class PreparedBlock:
     factors: FloatArray
     works: FloatArray
     start: Start
-
-
-def _joints_without_rows(problem: Problem) -> Joints:
-    """Interface arrays without the dense J, that large problems never need."""
-    joints = problem.interface
-    assert joints is not None
-    return Joints(
-        np.zeros((0, 0)), joints.pairs, joints.B, joints.weights, joints.codes,
-        np.ascontiguousarray(joints.parameters),
-    )  # fmt: skip
 
 
 def _rows(A: sp.csr_array) -> Sparse:

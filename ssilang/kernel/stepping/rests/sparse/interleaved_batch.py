@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.interface.factors import Workspace
+from ssilang.kernel.interface.newton import Workspace
 from ssilang.kernel.stepping.effective import Effective
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.problem.sharing import LoadBasis
@@ -133,12 +133,21 @@ class BlockTask:
 
 
 def _without(arrays: tuple[Any, ...], at: int) -> list[Any]:
-    return [np.delete(x, at, axis=0) for x in arrays]
+    return [_left(x, at) for x in arrays]
+
+
+def _left(x: Any, at: int) -> Any:
+    return type(x)(*_without(x, at)) if isinstance(x, tuple) else np.delete(x, at, axis=0)
 
 
 def _stacked(parts: Sequence[tuple[Any, ...]]) -> list[Any]:
     """Arrays of several tuples, those of one place together."""
-    return [np.stack(arrays) for arrays in zip(*parts, strict=True)]
+    return [
+        type(first)(*_stacked((first, *others)))
+        if isinstance(first, tuple)
+        else np.stack((first, *others))
+        for first, *others in zip(*parts, strict=True)
+    ]
 
 
 def interleaved_together(

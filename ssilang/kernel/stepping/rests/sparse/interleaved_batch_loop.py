@@ -11,10 +11,10 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.interface.copies import copy_state
-from ssilang.kernel.interface.factors import Workspace
+from ssilang.kernel.interface.newton import Workspace, workspace_at
+from ssilang.kernel.interface.response import Joints
 from ssilang.kernel.solvers.cholesky.multifrontal import Panels
 from ssilang.kernel.solvers.cholesky.triangular_together import FOUR, backward_many, forward_many
-from ssilang.kernel.stepping.rests.dense.loop import Joints
 from ssilang.kernel.stepping.rests.modal.springs_batch import Ends
 from ssilang.kernel.stepping.rests.sparse.interleaved_loop import (
     Flow,
@@ -35,14 +35,6 @@ def _flow(x: Flow, j: int) -> Flow:
     return Flow(
         x.u[j], x.v[j], x.a[j], x.g[j], x.Mv[j], x.Ma[j], x.Cv[j], x.Ca[j], x.loads[j],
         x.delta[j], x.f[j], x.w[j], x.t[j], x.state[j], x.energies[j],
-    )  # fmt: skip
-
-
-@compiled
-def _newton(x: Workspace, j: int) -> Workspace:
-    return Workspace(
-        x.new[j], x.D[j], x.f[j], x.h[j], x.r[j], x.dy[j], x.delta[j], x.K[j], x.A[j], x.known[j],
-        x.pivots[j],
     )  # fmt: skip
 
 
@@ -73,7 +65,7 @@ def _root(
     for j in range(len(b)):
         if ends.steps[j] == steps:
             turns, residual = settle_interface(
-                plan, joints, _flow(flows, j), _newton(newtons, j), du[j], rise[j], pull[j]
+                plan, joints, _flow(flows, j), workspace_at(newtons, j), du[j], rise[j], pull[j]
             )
             if turns <= 0:
                 ends.steps[j], ends.turns[j], ends.residual[j] = k, turns, residual

@@ -31,9 +31,10 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.apart import apart
 from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
+from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.copies import copy_rows, copy_state
-from ssilang.kernel.interface.factors import Workspace, iterate_cached
-from ssilang.kernel.interface.response import interface_energies
+from ssilang.kernel.interface.newton import Workspace, solve_interface
+from ssilang.kernel.interface.response import InterfaceState, Joints, accept, interface_energies
 from ssilang.kernel.solvers.cholesky.multifrontal import Panels
 from ssilang.kernel.solvers.cholesky.triangular import backward, forward
 from ssilang.kernel.stepping.rests.dense.loop import (
@@ -43,7 +44,6 @@ from ssilang.kernel.stepping.rests.dense.loop import (
     KINETIC,
     LOST,
     STORED,
-    Joints,
 )
 
 
@@ -292,28 +292,21 @@ def settle_interface(
     """As `_interface`, the root's unknowns in `du` being those under the joints' old forces."""
     begin, end = plan.L.first[plan.root], plan.L.first[plan.root + 1]
     q = len(flow.f)
-    y0, y, own = np.empty(q), np.empty(q), du[begin:end]
+    trial, own = newton.trial, du[begin:end]
     for i in range(q):
-        y0[i] = _row(plan.Jr, i, own)
+        y = _row(plan.Jr, i, own)
         for c in range(plan.lift.shape[1]):
-            y0[i] += plan.lift[i, c] * rise[c]
-        y[i] = y0[i]
-    turns, residual = iterate_cached(
-        joints.pairs, joints.B, joints.weights, joints.codes, joints.p, plan.S, plan.R,
-        1 - plan.scheme[1], flow.delta, flow.f, flow.state, y0, y, flow.w, flow.t, newton.new,
-        newton.D, newton.f, newton.h, newton.r, newton.dy, newton.delta, newton.K, newton.A,
-        newton.known, newton.pivots,
-    )  # fmt: skip
+            y += plan.lift[i, c] * rise[c]
+        trial.y0[i] = trial.y[i] = y
+    now = InterfaceState(flow.delta, flow.f, flow.w, flow.t, flow.state)
+    condensed = Condensed(plan.S, plan.R, 1 - plan.scheme[1])
+    turns, residual = solve_interface(joints, condensed, now, newton)
     if turns > 0:
-        back = np.dot(plan.Yr, newton.h)
-        for i in range(q):
-            flow.delta[i] += y[i]
-            y[i] = flow.f[i] - newton.f[i]
-            flow.f[i] = newton.f[i]
+        back, released = np.dot(plan.Yr, trial.h), flow.f - trial.f
         for i in range(end - begin):
             du[begin + i] -= back[i]
-            pull[begin + i] = _row(plan.JrT, i, y)
-        copy_rows(newton.new, flow.state)
+            pull[begin + i] = _row(plan.JrT, i, released)
+        accept(trial, now)
     return turns, residual
 
 
@@ -354,9 +347,7 @@ def account(
     flow.energies[KINETIC], flow.energies[ELASTIC] = 0.5 * sums[0], 0.5 * elastic
     flow.energies[DAMPED] += 0.5 * sums[3]
     if len(flow.f):
-        stored, lost = interface_energies(
-            joints.codes, joints.p, joints.weights, flow.w, flow.t, flow.state
-        )
+        stored, lost = interface_energies(joints, flow.w, flow.t, flow.state)
         flow.energies[STORED], flow.energies[LOST] = stored, lost
 
 

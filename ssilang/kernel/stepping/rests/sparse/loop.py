@@ -13,9 +13,9 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.contact.impact import ImpactRule
-from ssilang.kernel.interface.factors import Workspace, iterate_cached, workspace
-from ssilang.kernel.interface.interface import Interface
-from ssilang.kernel.interface.response import interface_energies
+from ssilang.kernel.interface.condensed import Condensed
+from ssilang.kernel.interface.newton import Workspace, solve_interface, workspace
+from ssilang.kernel.interface.response import InterfaceState, accept, interface_energies
 from ssilang.kernel.stepping.effective import Effective
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.dense.loop import (
@@ -58,10 +58,9 @@ class CondensedSolver:
     def __init__(self, problem: Problem, effective: Effective) -> None:
         self.effective = effective
         self.interface = problem.interface
-        self.share = 1 - problem.scheme.alpha_f
-        R = effective.R
-        self._R = R if R.any() else np.zeros((0, 0))
-        self._work: Workspace | None = None
+        R = effective.R if effective.R.any() else np.zeros((0, 0))
+        self._condensed = Condensed(effective.S, R, 1.0 - problem.scheme.alpha_f)
+        self._newton: Workspace | None = None
 
     def solve(self, motion: Motion, r: FloatArray, dd: FloatArray, d: FloatArray) -> StepOutcome:
         """One solve, Newton on the interface, one product."""
@@ -70,29 +69,17 @@ class CondensedSolver:
             du = du + self.effective.imposed(dd)
         if self.interface is None:
             return StepOutcome(du, 1, 0.0)
-        y0 = self.interface.J @ du
-        y = y0.copy()
-        turns, residual = self._iterate(self.interface, motion, y0, y)
+        if self._newton is None:
+            self._newton = workspace(motion.w.shape, self.interface.size)
+        trial = self._newton.trial
+        trial.y0[:] = self.interface.J @ du
+        trial.y[:] = trial.y0
+        now = InterfaceState(motion.delta, motion.f, motion.w, motion.t, motion.state)
+        turns, residual = solve_interface(self.interface.points, self._condensed, now, self._newton)
         if turns > 0:
-            assert self._work is not None
-            du = du - self.effective.Y @ self._work.h
-            motion.delta[:] += y
-            motion.f[:] = self._work.f
-            motion.state[:, :] = self._work.new
+            du = du - self.effective.Y @ trial.h
+            accept(trial, now)
         return StepOutcome(du, turns, residual)
-
-    def _iterate(
-        self, joints: Interface, motion: Motion, y0: FloatArray, y: FloatArray
-    ) -> tuple[int, float]:
-        if self._work is None:
-            self._work = workspace(joints.size, motion.w, motion.state)
-        k = self._work
-        return iterate_cached(
-            joints.pairs, joints.B, joints.weights, joints.codes,
-            np.ascontiguousarray(joints.parameters), self.effective.S, self._R, self.share,
-            motion.delta, motion.f, motion.state, y0, y, motion.w, motion.t, k.new, k.D, k.f, k.h,
-            k.r, k.dy, k.delta, k.K, k.A, k.known, k.pivots,
-        )  # fmt: skip
 
 
 def support_work(
@@ -187,9 +174,7 @@ class SparseLoop:
         joints, m = self.problem.interface, self.motion
         if joints is None:
             return 0.0, 0.0
-        stored, lost = interface_energies(
-            joints.codes, joints.parameters, joints.weights, m.w, m.t, m.state
-        )
+        stored, lost = interface_energies(joints.points, m.w, m.t, m.state)
         return float(stored), float(lost)
 
     def _right_side(self, load0: FloatArray, load1: FloatArray, dt: float) -> FloatArray:

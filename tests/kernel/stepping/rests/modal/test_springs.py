@@ -8,7 +8,7 @@ from references.recorder import Recorder
 from references.rocking_beam import COUNT, rocking
 from scipy.optimize import nnls
 
-from ssilang.kernel.interface.laws.columns import XI
+from ssilang.kernel.interface.laws.columns import Variable
 from ssilang.kernel.stepping.choose import DenseEngine
 from ssilang.kernel.stepping.rests.modal import springs as normal_loop
 from ssilang.kernel.stepping.rests.modal.springs import Contact, anew, list_closed, settle
@@ -86,8 +86,8 @@ def test_rocking_beam_steps_as_the_full_newton(scheme):
 def test_springs_with_a_past_keep_their_largest_opening():
     problem = rocking(Scheme(), 400)
     state = problem.state.copy()
-    state[:, XI] = 1.0
+    state[:, Variable.XI] = 1.0
     few = Recorder(len(problem.times))
     integrate(replace(problem, state=state), [few])
-    assert (few.of("state")[..., XI] == 1.0).all()
+    assert (few.of("state")[..., Variable.XI] == 1.0).all()
     assert (few.of("t")[..., -1] == 0.0).any()

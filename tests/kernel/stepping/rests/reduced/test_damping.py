@@ -71,7 +71,7 @@ def both(problem, tolerance):
 def check(problem, tolerance, energy=10.0):
     whole, exact, reduced, history = both(problem, tolerance)
     found = history.reduction
-    assert found.refused == ""
+    assert found.refused is None
     assert history.loop == "reduced"
     assert 0 < found.vectors <= 0.5 * len(whole.of("u")[0])
     assert found.estimate <= tolerance
@@ -162,7 +162,7 @@ def test_a_motion_that_starts_off_its_supports_runs_whole():
     jumped = replace(loading, curves=(loading.curves[0], (t, motion + 0.1)))
     history = integrate_reduced(replace(problem, loading=jumped), 1e-3)
     assert history.loop == "condensed"
-    assert "initial motion" in history.reduction.refused
+    assert "initial motion" in str(history.reduction.refused)
 
 
 def test_energy_balances_with_edges_and_a_moving_base():

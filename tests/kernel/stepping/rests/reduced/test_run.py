@@ -158,7 +158,7 @@ def test_damping_that_is_not_symmetric_runs_the_whole_model():
     turned[i, j] += abs(problem.C).max()
     history = integrate_reduced(replace(problem, C=sp.csr_array(turned)), 1e-3)
     assert history.loop == "condensed"
-    assert "not symmetric" in history.reduction.refused
+    assert "not symmetric" in str(history.reduction.refused)
 
 
 def test_a_basis_that_cannot_grow_does_not_pass_the_next_motion():
@@ -172,7 +172,7 @@ def test_a_tolerance_out_of_reach_runs_the_whole_model():
     problem = soil_block(steps=100, size=(12, 3, 8), damping=None)
     history = integrate_reduced(problem, 1e-10)
     assert history.loop == "condensed"
-    assert "vectors do not reach" in history.reduction.refused
+    assert "vectors do not reach" in str(history.reduction.refused)
 
 
 @pytest.mark.parametrize("tolerance", [0.0, -1.0, 1.0, np.nan])
@@ -187,5 +187,5 @@ def test_schemes_that_do_not_go_with_it_are_refused():
         replace(problem.scheme, conserving=True),
         replace(problem.scheme, adaptive=True),
     ):
-        with pytest.raises(KernelError, match="CONSERVATIF"):
+        with pytest.raises(KernelError, match="neither conserving nor adapted"):
             integrate_reduced(replace(problem, scheme=scheme), 1e-3)

@@ -1,0 +1,66 @@
+"""Equilibrium of a step on the jumps alone, where all but the interface is linear.
+
+`A x + c J^T (f(delta_0 + J x) - f_0) = r` with A factorised once (A includes `J^T R J`, R being a
+stiffness that keeps it regular, taken back here). With the compliance `S = J A^-1 J^T`,
+
+    y + S h = y_0 ,   h = c (f(delta_0 + y) - f_0) - R y ,   y = J x ,   y_0 = J A^-1 r
+
+and then `x = A^-1 r - A^-1 J^T h`.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
+from ssilang.kernel.interface.response import InterfaceState, Joints, Trial, interface_stiffness
+
+
+class Condensed(NamedTuple):
+    """What all but the interface is to the interface.
+
+    Attributes
+    ----------
+    S, R : arrays (q, q)
+        Compliance, stiffness that it holds in excess (no rows: none).
+    c : float
+        Share of the end of the step in its equilibrium.
+    """
+
+    S: FloatArray
+    R: FloatArray
+    c: float
+
+
+@compiled_fast
+def residual(condensed: Condensed, now: InterfaceState, trial: Trial) -> float:
+    """`h = c (f - f_0) - R y` and `r = y - y_0 + S h` of the trial; the largest |r|."""
+    S, R, y, h, r = condensed.S, condensed.R, trial.y, trial.h, trial.r
+    for i in range(len(h)):
+        total = condensed.c * (trial.f[i] - now.f[i])
+        if len(R):
+            row = R[i]
+            for j in range(len(y)):
+                total -= row[j] * y[j]
+        h[i] = total
+    size = 0.0
+    for i in range(len(r)):
+        total, row = 0.0, S[i]
+        for j in range(len(h)):
+            total += row[j] * h[j]
+        r[i] = y[i] - trial.y0[i] + total
+        size = max(size, abs(r[i]))
+    return size
+
+
+@compiled
+def jump_stiffness(joints: Joints, condensed: Condensed, D: FloatArray, K: FloatArray) -> None:
+    """`K = dh/dy`, `c K - R` of the tangents D (n_points, d, d), dense (q, q)."""
+    interface_stiffness(joints, D, K)
+    R = condensed.R
+    for i in range(len(K)):
+        for j in range(len(K)):
+            K[i, j] *= condensed.c
+            if len(R):
+                K[i, j] -= R[i, j]

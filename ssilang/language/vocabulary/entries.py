@@ -1,0 +1,259 @@
+"""The entries of the tables that procedures take, declared in a file beside the procedure.
+
+`stdlib/dynamic.toml` stands beside `stdlib/dynamic.ssi`; an operator that takes tables has a file
+of its full name. A section says where an entry stands, as a script would write it::
+
+    [TAB1.times.TEMPS_CALCULES]              argument, theme, index
+    types = ["LISTREEL"]
+    unit = "s"
+    en = "instants of the calculation"
+    fr = "instants du calcul"
+
+    [TAB1.results."RESULTATS.I.TEMP"]        I : any integer; * : any index
+    [TAB1.problem."F1,F2"]                   two entries of which the same is said
+
+`like` takes entries over from another file, of all themes or of those named behind it; in the
+section of an argument these are its own, in that of an entry those of the table it holds.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from ssilang.language.registry import find_operator
+from ssilang.resources import resource
+
+NUMBER, ANYTHING = "I", "*"
+"""Stand in a path for any integer index, and for any index."""
+
+WRITTEN, READ, BOTH, UNUSED, REFUSED = "written", "read", "both", "unused", "refused"
+ROLES = (READ, WRITTEN, BOTH, UNUSED, REFUSED)
+"""`unused` entries are accepted and change nothing, `refused` ones are not available."""
+
+THEMES = {
+    "problem": ("Problem", "Problème"),
+    "times": ("Times", "Temps"),
+    "frequencies": ("Frequencies", "Fréquences"),
+    "scheme": ("Scheme", "Schéma"),
+    "steps": ("Steps", "Pas"),
+    "contact": ("Contact", "Contact"),
+    "kept": ("What is kept", "Ce qui est gardé"),
+    "files": ("Files", "Fichiers"),
+    "procedure": ("Procedures of the script", "Procédures du script"),
+    "path": ("Loads sought", "Charges cherchées"),
+    "start": ("Start", "Départ"),
+    "layers": ("Layers", "Couches"),
+    "modes": ("Modes", "Modes"),
+    "links": ("Links", "Liaisons"),
+    "law": ("Law", "Loi"),
+    "sizes": ("Sizes", "Dimensions"),
+    "drawing": ("Drawing", "Dessin"),
+    "results": ("Results", "Résultats"),
+    "unused": ("Accepted, without effect here", "Acceptés, sans effet ici"),
+    "refused": ("Not available", "Non disponibles"),
+}
+"""Groups of entries in the order in which they are shown: English, French."""
+
+
+@dataclass(frozen=True, slots=True)
+class TableEntry:
+    """One entry of a table.
+
+    Attributes
+    ----------
+    path : tuple of str
+        Argument and indices, such as ('TAB1', 'RESULTATS', 'I', 'TEMP').
+    types : tuple of str
+        Type words; FLOTTANT takes an ENTIER. Empty: any object.
+    default : number, bool, word, or (English, French)
+        What counts if the entry is not given; a pair only says it.
+    values : tuple of str
+        Words that a MOT may be.
+    length : int
+        Letters that count in them, in either case; 0: all, as EGA compares.
+    older : dict
+        Further words that are accepted, with the word that each stands for.
+    needed : bool
+        Whether the procedure cannot do without it.
+    means : tuple of str
+        What other procedures, or habit, call the same thing.
+    """
+
+    path: tuple[str, ...]
+    types: tuple[str, ...]
+    theme: str
+    en: str
+    fr: str
+    role: str = READ
+    unit: str = ""
+    default: Any = None
+    values: tuple[str, ...] = ()
+    older: Mapping[str, str] | None = None
+    length: int = 0
+    needed: bool = False
+    means: tuple[str, ...] = ()
+    taken_over: bool = False
+
+    @property
+    def index(self) -> str:
+        """Its last index."""
+        return self.path[-1]
+
+    def said(self, language: str) -> str:
+        """What it is."""
+        return self.en if language == "en" else self.fr
+
+    @property
+    def is_read(self) -> bool:
+        """Whether the procedure looks at what the script puts there."""
+        return self.role in (READ, BOTH)
+
+    @property
+    def fallback(self) -> Any:
+        """What counts where the entry is not given, None if nothing simple does."""
+        return None if isinstance(self.default, tuple) else self.default
+
+    def word(self, given: str) -> str | None:
+        """The declared word that `given` is, None if it is none of them."""
+        spellings = {**{w: w for w in self.values}, **(self.older or {})}
+        said = given.rstrip()
+        if said in spellings or not self.length:
+            return spellings.get(said)
+        short = said.upper()[: self.length]
+        return next((w for s, w in spellings.items() if s[: self.length] == short), None)
+
+
+@dataclass(frozen=True)
+class Argument:
+    """A table that a procedure takes: name of its argument, or the sub-type it goes by."""
+
+    name: str
+    subtype: str = ""
+
+
+@dataclass(frozen=True)
+class Declaration:
+    """All entries of the tables of a procedure or operator."""
+
+    name: str
+    arguments: tuple[Argument, ...]
+    entries: tuple[TableEntry, ...]
+
+    @cached_property
+    def by_path(self) -> dict[tuple[str, ...], TableEntry]:
+        """Entries by their path."""
+        return {e.path: e for e in self.entries}
+
+    @cached_property
+    def _inside(self) -> dict[tuple[str, ...], dict[str, TableEntry]]:
+        found: dict[tuple[str, ...], dict[str, TableEntry]] = {}
+        for entry in self.entries:
+            found.setdefault(entry.path[:-1], {})[entry.index] = entry
+        return found
+
+    def inside(self, path: tuple[str, ...]) -> dict[str, TableEntry]:
+        """Entries of the table at a path, by their index."""
+        return self._inside.get(path, {})
+
+    def at(self, path: tuple[str, ...], index: object) -> TableEntry | None:
+        """The entry that an index of the table at a path is, None if it is none."""
+        known = self.inside(path)
+        if isinstance(index, str) and index.rstrip() in known:
+            return known[index.rstrip()]
+        if type(index) is int and NUMBER in known:
+            return known[NUMBER]
+        return None if index == "SOUSTYPE" else known.get(ANYTHING)
+
+    def of(self, argument: str) -> Iterator[TableEntry]:
+        """Entries of one argument, those of nested tables behind the table."""
+        yield from (e for e in self.entries if e.path[0] == argument)
+
+
+def as_written(word: str) -> str:
+    """A word as a script must write it: `MOT` takes one that names an operator as a word."""
+    return f"MOT '{word}'" if find_operator(word[:4].rstrip() or word) else f"'{word}'"
+
+
+# ---- reading the files ------------------------------------------------------------------------
+
+
+def declaration_file(name: str) -> Path:
+    """Where the entries of a procedure or operator are declared, whether or not they are."""
+    return resource("stdlib") / f"{name.lower()}.toml"
+
+
+def declared_names() -> list[str]:
+    """Procedures and operators whose entries are declared."""
+    return sorted(p.stem.upper() for p in resource("stdlib").glob("*.toml"))
+
+
+def read_declaration(name: str) -> Declaration | None:
+    """The declaration of a procedure or operator, None if it has none."""
+    path = declaration_file(name)
+    if not path.is_file():
+        return None
+    data = tomllib.loads(path.read_text(encoding="utf-8"))
+    entries: list[TableEntry] = []
+    arguments = []
+    for argument, section in data.items():
+        found = _entries_of(section, (argument,))
+        arguments.append(Argument(argument, section.get("subtype", "")))
+        entries += {e.path: e for e in found}.values()  # what is said last holds
+    return Declaration(name.upper(), tuple(arguments), tuple(_in_order(entries)))
+
+
+def _in_order(entries: list[TableEntry]) -> list[TableEntry]:
+    """By theme, what is inside of a table right behind it."""
+    order = {theme: i for i, theme in enumerate(THEMES)}
+    return sorted(entries, key=lambda e: order[e.theme])
+
+
+def _entries_of(section: dict[str, Any], path: tuple[str, ...]) -> Iterator[TableEntry]:
+    yield from _like(section.get("like", ()), path, "")
+    for theme, members in section.items():
+        if theme in ("like", "subtype"):
+            continue
+        for names, said in members.items():
+            for written in names.split(","):
+                entry = _entry((*path, *written.split(".")), theme, said)
+                yield entry
+                yield from _like(said.get("like", ()), entry.path, theme)
+
+
+def _entry(path: tuple[str, ...], theme: str, said: dict[str, Any]) -> TableEntry:
+    default = said.get("default")
+    return TableEntry(
+        path,
+        tuple(said.get("types", ())),
+        theme,
+        said["en"],
+        said["fr"],
+        said.get("role", READ),
+        said.get("unit", ""),
+        (default["en"], default["fr"]) if isinstance(default, dict) else default,
+        tuple(said.get("values", ())),
+        said.get("older"),
+        said.get("length", 0),
+        said.get("needed", False),
+        tuple(said.get("means", ())),
+    )
+
+
+def _like(sources: tuple[str, ...], path: tuple[str, ...], theme: str) -> Iterator[TableEntry]:
+    """Entries of the first table of other files, put at a path."""
+    for source in sources:
+        name, *themes = source.split()
+        declared = read_declaration(name)
+        assert declared is not None, f"{path[0]} is like {name}, which has no file"
+        first = declared.arguments[0].name
+        for entry in declared.of(first):
+            if not themes or entry.theme in themes:
+                yield replace(
+                    entry, path=(*path, *entry.path[1:]), theme=theme or entry.theme,
+                    taken_over=True,
+                )  # fmt: skip

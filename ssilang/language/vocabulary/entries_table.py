@@ -1,0 +1,165 @@
+"""The entries of a procedure's tables as a table by theme: for help, and for the manual."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Iterator, Sequence
+from itertools import groupby
+
+from ssilang.language.vocabulary.entries import (
+    ANYTHING,
+    NUMBER,
+    THEMES,
+    Declaration,
+    TableEntry,
+    as_written,
+)
+
+_HEADS = {
+    "en": ("index", "types", "unit", "default", "meaning"),
+    "fr": ("indice", "types", "unité", "défaut", "sens"),
+}
+_WORDS = {
+    "entries": {"en": "Entries of {}", "fr": "Indices de {}"},
+    "subtype": {"en": ", a table '{}'", "fr": ", table '{}'"},
+    "needed": {"en": "needed", "fr": "obligatoire"},
+    "allowed": {"en": "Allowed: {}", "fr": "Valeurs : {}"},
+    "any": {"en": "any", "fr": "tout"},
+    "number": {"en": "i (integer)", "fr": "i (entier)"},
+    "anything": {"en": "(any index)", "fr": "(tout indice)"},
+}
+_MOST = (26, 10, 8, 16)
+"""Widths of the columns but the last, at most."""
+_LISTED = 6
+"""Entries of one row that stand on lines of their own."""
+
+Row = tuple[str, str, str, str, str]
+"""Index, types, unit, default, meaning."""
+
+
+def entries_text(declared: Declaration, language: str, width: int) -> list[str]:
+    """Lines of all tables, a column each for index, types, unit, default and meaning."""
+    lines: list[str] = []
+    for argument in declared.arguments:
+        blocks = list(_blocks(declared, argument.name, language))
+        if not blocks:
+            continue
+        lines += ["", _title(declared, argument.name, language)]
+        rows = [row for _, rows in blocks for row in rows]
+        widths = _widths([_HEADS[language], *rows], width)
+        lines += _laid_out(_HEADS[language], widths)
+        for theme, rows in blocks:
+            lines += ["", f"  {THEMES[theme][language == 'fr']}"]
+            lines += [line for row in rows for line in _laid_out(row, widths)]
+    return lines
+
+
+def entries_markdown(declared: Declaration, language: str) -> list[str]:
+    """The same as tables of Markdown."""
+    lines: list[str] = []
+    for argument in declared.arguments:
+        blocks = list(_blocks(declared, argument.name, language))
+        if not blocks:
+            continue
+        lines += [f"## {_title(declared, argument.name, language)}", ""]
+        for theme, rows in blocks:
+            lines += [f"### {THEMES[theme][language == 'fr']}", ""]
+            lines += ["| " + " | ".join(_HEADS[language]) + " |", "| --- " * 5 + "|"]
+            for row in rows:
+                cells = [" ".join(cell.split()).replace("|", "\\|") for cell in row]
+                lines.append("| " + " | ".join([f"`{cells[0]}`", *cells[1:]]) + " |")
+            lines.append("")
+    return lines
+
+
+def _title(declared: Declaration, name: str, language: str) -> str:
+    subtype = next(a.subtype for a in declared.arguments if a.name == name)
+    more = _WORDS["subtype"][language].format(subtype) if subtype else ""
+    return _WORDS["entries"][language].format(name) + more
+
+
+def _blocks(declared: Declaration, argument: str, language: str) -> Iterator[tuple[str, list[Row]]]:
+    """Rows of an argument by theme."""
+    for theme, members in groupby(declared.of(argument), key=lambda e: e.theme):
+        alike = groupby(members, key=_sameness)
+        yield theme, [_row(list(group), language) for _, group in alike]
+
+
+def _sameness(entry: TableEntry) -> tuple[object, ...]:
+    """What entries that share a row have in common."""
+    return (entry.path[:-1], entry.types, entry.unit, str(entry.default), entry.en, entry.needed)
+
+
+def _row(group: Sequence[TableEntry], language: str) -> Row:
+    entry = group[0]
+    deep = len(entry.path) - 2
+    before = "  " * deep + (". " if deep else "")
+    names = [_index(e.index, language) for e in group]
+    index = " ".join(names) if len(names) > _LISTED else "\n".join(before + name for name in names)
+    meaning = entry.said(language)
+    if entry.values:
+        meaning += "\n" + _WORDS["allowed"][language].format(_allowed(entry))
+    types = " | ".join(entry.types) or _WORDS["any"][language]
+    return index, types, entry.unit, _default(entry, language), meaning
+
+
+def _index(index: str, language: str) -> str:
+    special = {NUMBER: "number", ANYTHING: "anything"}.get(index)
+    return _WORDS[special][language] if special else index
+
+
+def _allowed(entry: TableEntry) -> str:
+    return " | ".join(as_written(w) for w in entry.values)
+
+
+def _default(entry: TableEntry, language: str) -> str:
+    if entry.needed:
+        return _WORDS["needed"][language]
+    default = entry.default
+    if default is None:
+        return ""
+    if isinstance(default, tuple):
+        return str(default[language == "fr"])
+    if isinstance(default, bool):
+        return "VRAI" if default else "FAUX"
+    return as_written(default) if isinstance(default, str) else f"{default:g}"
+
+
+def _widths(rows: Sequence[Sequence[str]], width: int) -> list[int]:
+    """Widths of the columns: as wide as their longest word, the last takes what is left."""
+    widths = []
+    for column, most in enumerate(_MOST):
+        cells = [row[column] for row in rows]
+        lines = [line for cell in cells for line in cell.split("\n")]
+        longest = max(len(line) - len(line.lstrip(" .")) + _longest(line) for line in lines)
+        widths.append(max(min(max(map(len, lines)), most), longest))
+    left = width - 4 - sum(w + 2 for w in widths)
+    return [*widths, max(left, 30)]
+
+
+def _longest(line: str) -> int:
+    return max((len(word) for word in line.split()), default=0)
+
+
+def _laid_out(row: Sequence[str], widths: Sequence[int]) -> list[str]:
+    """A row on as many lines as its longest cell takes."""
+    cells = [_wrapped(cell, width) for cell, width in zip(row, widths, strict=True)]
+    count = max(len(lines) for lines in cells)
+    return [
+        (
+            "    "
+            + "  ".join(
+                (lines[i] if i < len(lines) else "").ljust(width)
+                for lines, width in zip(cells, widths, strict=True)
+            )
+        ).rstrip()
+        for i in range(count)
+    ]
+
+
+def _wrapped(cell: str, width: int) -> list[str]:
+    return [
+        line
+        for part in cell.split("\n")
+        for line in textwrap.wrap(part, width, break_long_words=False) or [""]
+    ]

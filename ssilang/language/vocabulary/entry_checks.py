@@ -1,0 +1,193 @@
+"""What is wrong with a table that a procedure is called with, by what is declared of its entries.
+
+Values of another type, words that are not allowed, entries that are missing or not available are
+errors; an entry that nobody reads is a warning that names the one that was meant.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from ssilang.language.say.errors import SsiError
+from ssilang.language.values import Annule, Mot, Procedure, Table, type_of
+from ssilang.language.vocabulary.entries import (
+    NUMBER,
+    REFUSED,
+    Declaration,
+    TableEntry,
+    as_written,
+)
+from ssilang.language.vocabulary.spelling import near_word
+from ssilang.language.vocabulary.unread_entries import reads, unread
+
+if TYPE_CHECKING:
+    from ssilang.language.run.scopes import Frame
+    from ssilang.language.run.session import Session
+    from ssilang.language.text.source import Span
+
+_TRUTH = "LOGIQUE"
+
+
+def shown(path: tuple[object, ...]) -> str:
+    """Indices as a script writes them, the argument left out: 'SOL' . 'ITERATION' . 1."""
+    return " . ".join(str(i) if isinstance(i, int) else f"'{str(i).rstrip()}'" for i in path[1:])
+
+
+def allowed(entry: TableEntry) -> str:
+    """What a value may be: types other than MOT, and the words."""
+    kinds = [t for t in entry.types if t != "MOT"]
+    kinds = [k for t in kinds for k in (("VRAI", "FAUX") if t == _TRUTH else (t,))]
+    return " | ".join([*kinds, *map(as_written, entry.values)])
+
+
+def checked(
+    session: Session, entry: TableEntry, value: Any, where: tuple[object, ...], **data: object
+) -> Any:
+    """The value of an entry in the form that it is declared in.
+
+    An ENTIER becomes a FLOTTANT where one is wanted, a word the declared one that it is.
+
+    Raises
+    ------
+    SsiError
+        If it is of another type, or no allowed word, or holds what no calculation can use.
+    """
+    found, place = type_of(value), shown(where)
+    if entry.types and found not in entry.types:
+        if found != "ENTIER" or "FLOTTANT" not in entry.types:
+            kinds = " | ".join(entry.types)
+            raise SsiError("entry-type", None, where=place, kinds=kinds, found=found, **data)
+        return float(value)
+    if entry.values and found == "MOT":
+        word = entry.word(str(value))
+        if word is None:
+            near = near_word(str(value), entry.values)
+            code = "entry-value-near" if near else "entry-value"
+            raise SsiError(
+                code, None, where=place, given=str(value).rstrip(), near=near,
+                allowed=allowed(entry), **data,
+            )  # fmt: skip
+        return Mot(word)
+    flaw = session.flaw_of(value)
+    if flaw:
+        raise SsiError(flaw, None, where=place, **data)
+    return value
+
+
+class TableCheck:
+    """Looks through one table given to a procedure, and the tables in it.
+
+    Parameters
+    ----------
+    place : Span
+        Where the script calls.
+    aloud : bool
+        Whether to warn of entries that nobody reads.
+    """
+
+    def __init__(
+        self, session: Session, declared: Declaration, place: Span, aloud: bool = True
+    ) -> None:
+        self.session, self.declared, self.place, self.aloud = session, declared, place, aloud
+
+    def run(self, table: Table, path: tuple[str, ...], where: tuple[object, ...]) -> None:
+        """Check a table, `path` being where it is declared and `where` where it stands.
+
+        Raises
+        ------
+        SsiError
+            For the first entry that the procedure cannot use.
+        """
+        if type(table) is not Table:  # made by procedures, their values not even found yet
+            return
+        given = [(i, v) for i, v in table.items() if not isinstance(v, Annule)]
+        for index, value in given:
+            entry = self.declared.at(path, index)
+            if entry is None:
+                self._unknown(table, path, (*where, index))
+            else:
+                self._known(entry, value, (*where, index))
+        for entry in self.declared.inside(path).values():
+            if entry.needed and not any(self.declared.at(path, i) is entry for i, _ in given):
+                missing = 1 if entry.index == NUMBER else entry.index
+                raise self._error("entry-missing", shown((*where, missing)))
+
+    def _known(self, entry: TableEntry, value: Any, where: tuple[object, ...]) -> None:
+        if entry.role == REFUSED and value is not False:  # FAUX asks for nothing
+            raise self._error("entry-refused", shown(where), en=entry.en, fr=entry.fr)
+        if not entry.is_read:
+            return
+        name = self.declared.name
+        try:
+            checked(self.session, entry, value, where, procedure=name, operator=name)
+        except SsiError as error:
+            error.span = self.place
+            raise
+        if isinstance(value, Table) and self.declared.inside(entry.path):
+            self.run(value, entry.path, where)
+
+    def _error(self, code: str, where: str, **data: object) -> SsiError:
+        name = self.declared.name
+        return SsiError(code, self.place, procedure=name, operator=name, where=where, **data)
+
+    # ---- entries that nobody reads --------------------------------------------------------------
+
+    def _unknown(self, table: Table, path: tuple[str, ...], where: tuple[object, ...]) -> None:
+        index = where[-1]
+        known = self.declared.inside(path)
+        if not self.aloud or not isinstance(index, str) or index == "SOUSTYPE" or not known:
+            return
+        word = index.rstrip()
+        if _Readers(self.session, self.place, table, len(path) > 1).read(word):
+            return
+        said = unread(
+            self.session.library, self.declared, path, word, table.has, self.place.source.code
+        )
+        if said is not None:
+            name = self.declared.name
+            self.session.warn(
+                said[0], self.place, procedure=name, operator=name, where=shown(where), **said[1]
+            )
+
+
+class _Readers:
+    """Whether the script's own statements read an index of a table.
+
+    Anywhere in its procedures; outside of them where the table goes by one of its names.
+    """
+
+    def __init__(self, session: Session, place: Span, table: Table, nested: bool) -> None:
+        self.main, self.nested = place.source.code, nested
+        self.names: set[str] = set()
+        self.procedures: list[str] = []
+        frame: Frame | None = session.frame
+        while frame is not None:
+            for name, value in frame.variables.items():
+                if value is table:
+                    self.names.add(name)
+                elif isinstance(value, Procedure) and value.origin != "stdlib":
+                    span = value.definition.span
+                    self.procedures.append(span.source.code[span.start : span.end])
+            frame = frame.caller
+
+    def read(self, word: str) -> bool:
+        """Whether they read that index."""
+        if any(True for text in self.procedures for _ in reads(text, word)):
+            return True
+        return any(
+            parent in self.names or (self.nested and parent in "')")
+            for parent in reads(self.main, word)
+        )
+
+
+def check_tables(session: Session, name: str, frame: Frame, place: Span) -> None:
+    """Check the tables among the arguments of a procedure of the library, `frame` holding them."""
+    declared = session.library.declared(name)
+    if declared is None:
+        return
+    aloud = session.frame.procedure not in session.library.standard_names
+    check = TableCheck(session, declared, place, aloud)
+    for argument in declared.arguments:
+        value = frame.variables.get(argument.name)
+        if isinstance(value, Table):
+            check.run(value, (argument.name,), (argument.name,))

@@ -1,0 +1,82 @@
+"""Entries of tables that nobody reads: which one was meant, or whose it is."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING
+
+from ssilang.language.vocabulary.entries import BOTH, READ, REFUSED, WRITTEN, Declaration
+from ssilang.language.vocabulary.spelling import near_word
+
+if TYPE_CHECKING:
+    from ssilang.language.run.library import Library
+
+_COUNTS = (READ, WRITTEN, BOTH)
+
+
+def unread(
+    library: Library,
+    declared: Declaration,
+    path: tuple[str, ...],
+    word: str,
+    given: Callable[[str], bool],
+    script: str,
+) -> tuple[str, dict[str, str]] | None:
+    """Code and data of the warning of an index that a procedure does not declare.
+
+    Parameters
+    ----------
+    path : tuple of str
+        Where the table is declared.
+    given : function
+        Whether another entry is given.
+    script : str
+        Text of the script: a table may go on to the other procedures that it names.
+
+    Returns
+    -------
+    tuple or None
+        None if the entry belongs to another procedure that the script calls.
+    """
+    known = declared.inside(path).values()
+    meant = next((e.index for e in known if word.upper() in e.means and not given(e.index)), "")
+    owners = {} if meant else _owners(library, declared, word)
+    if any(_named(script, owner) for owner in owners):
+        return None
+    readers = " ".join(owner for owner, reads in owners.items() if reads)
+    near = meant or near_word(word, (e.index for e in known if e.role != REFUSED))
+    code = "entry-unknown" if near else "entry-of-another" if readers else "entry-unread"
+    return code, {"near": near, "owners": readers}
+
+
+def _owners(library: Library, declared: Declaration, word: str) -> dict[str, bool]:
+    """Others that have an entry of that name, and whether they read it."""
+    found: dict[str, bool] = {}
+    for name in library.declared_names:
+        other = library.declared(name)
+        if other is None or name == declared.name:
+            continue
+        own = [e for e in other.entries if e.index == word and e.role in _COUNTS]
+        if own:
+            found[name] = any(e.is_read and not e.taken_over for e in own)
+    return found
+
+
+def _named(text: str, name: str) -> bool:
+    """Whether a script calls a procedure."""
+    return re.search(rf"(?<![\w'@]){re.escape(name)}(?!\w)", text, re.IGNORECASE) is not None
+
+
+def reads(text: str, word: str) -> Iterator[str]:
+    """What stands before each index `word` that a text reads: a name, or the end of a path.
+
+    Also the tables that the text asks for it (EXIS), or for all their indices (INDE).
+    """
+    said = re.escape(word)
+    for found in re.finditer(rf"([@&!]?\w+|['\)])\s*\.\s*(?:'{said}'|{said}(?!\w))\s*(=?)", text):
+        if not found.group(2):
+            yield found.group(1).upper()
+    for pattern in (rf"\bEXIS\w*\s+\(?\s*([@&!]?\w+)[^;]*?'{said}'", r"\bINDE\w*\s+([@&!]?\w+)"):
+        for found in re.finditer(pattern, text, re.IGNORECASE):
+            yield found.group(1).upper()

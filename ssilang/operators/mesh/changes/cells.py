@@ -1,0 +1,184 @@
+"""Meshes of other cells, or given node by node: CHAN MANU."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ssilang.io.plots.palette import NAMES as COLOURS
+from ssilang.kernel.base.arrays import IntArray
+from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.mesh.boundary import edges, faces
+from ssilang.kernel.mesh.cells import CELL_TYPES
+from ssilang.kernel.mesh.changes.complete import COMPLETE, complete, taken_apart
+from ssilang.kernel.mesh.changes.degree import LINEAR, linear, quadratic
+from ssilang.kernel.mesh.changes.split import split_quadrangles, tetrahedra
+from ssilang.kernel.mesh.combine import poi1, union
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
+from ssilang.language.registry import arg, choice, main, many, opt, said
+from ssilang.language.run.session import Session
+from ssilang.language.values import ListEnti
+from ssilang.operators.dispatch import CHAN, MANU
+from ssilang.operators.workspace import workspace
+
+_SIMPLEX = {"TRI3": "QUA4", "TRI6": "QUA8"}
+
+
+def changed(mesh: Mesh, target: str) -> Mesh:
+    """The mesh made of cells of another type.
+
+    Points from any mesh; lines as edges; quadrangles cut into triangles, volumes into
+    tetrahedra; quadratic cells from linear ones and the reverse.
+
+    Raises
+    ------
+    MeshError
+        If there is no way from a cell of the mesh to the type.
+    """
+    if target == "POI1":
+        return poi1(mesh.nodes, mesh.node_ids)
+    parts = [_changed_block(b, target) for b in mesh.blocks]
+    return union(*parts, as_given=True) if parts else mesh
+
+
+def _changed_block(block: CellBlock, target: str) -> Mesh:
+    alone = Mesh(block.nodes, (block,))
+    kind = CELL_TYPES[target]
+    if block.cell_type == target:
+        return alone
+    whole = block.cell_type in COMPLETE.values() and kind.degree == 1
+    if whole and kind.dimension >= block.kind.dimension:
+        return taken_apart(block, target)
+    if target in COMPLETE.values():
+        return complete(alone)
+    if kind.degree == 2 and block.kind.degree == 1:
+        return quadratic(_changed_block(block, LINEAR[target]))
+    if (block.cell_type, target) == ("SEG3", "SEG2"):
+        halves = block.connectivity[:, [0, 1, 1, 2]].reshape(-1, 2)
+        return Mesh.of(block.nodes, "SEG2", halves, np.repeat(block.colours, 2))
+    if kind.degree == 1 and block.kind.degree == 2 and not whole:
+        return _changed_block(linear(alone).single_block(), target)
+    if kind.dimension == 1 and block.kind.dimension > 1:
+        return edges(alone)
+    if target in _SIMPLEX and block.cell_type == _SIMPLEX[target]:
+        return split_quadrangles(alone)
+    if target == "TET4" and block.kind.dimension == 3:
+        return Mesh.of(block.nodes, "TET4", tetrahedra(block))
+    if target == "TE10" and block.kind.dimension == 3:
+        return quadratic(Mesh.of(block.nodes, "TET4", tetrahedra(block)))
+    if kind.dimension == 2 and block.kind.dimension == 3:
+        return changed(faces(alone), target)
+    if (target, block.cell_type) in (("QUA4", "TRI3"), ("QUA8", "TRI6")):
+        return alone  # triangles among quadrangles stay as they are
+    raise MeshError("operators.mesh.no-change-of-cells", cell_type=block.cell_type, target=target)
+
+
+def _by_hand(mesh: Mesh, target: str, order: IntArray) -> Mesh:
+    """Cells on the points of a mesh, by a list of their numbers in it."""
+    ids = mesh.node_ids
+    size = CELL_TYPES[target].n_nodes
+    if len(order) % size or not len(order):
+        raise MeshError("operators.mesh.no-whole-cells", n_order=len(order), size=size)
+    if order.min() < 1 or order.max() > len(ids):
+        raise MeshError("operators.mesh.numbers-beyond-points", n_ids=len(ids))
+    return Mesh.of(mesh.nodes, target, ids[order - 1].reshape(-1, size))
+
+
+_NUMBERS = opt(
+    "numbers",
+    "LISTENTI",
+    en="numbers of the points of each cell, in a mesh of points",
+    fr="numéros des points de chaque élément, dans un maillage de points",
+)
+
+
+@CHAN.form(
+    said(*CELL_TYPES),
+    arg("mesh", "MAILLAGE", en="mesh", fr="maillage"),
+    _NUMBERS,
+    syntax="GEO2 = CHAN (TYPE) GEO1 (LENTI1) ;",
+    en="A cell type: the mesh made of such cells (the type of OPTI ELEM when none is said). From "
+    "points, a list of numbers gives the connectivity.",
+    fr="Un type d'élément : le maillage formé de tels éléments (par défaut celui d'OPTI ELEM). A "
+    "partir de points, une liste de numéros donne la connectivité.",
+    examples=(
+        "OPTI DIME 2 ELEM QUA4 ; S = (DROI 4 (0. 0.) (1. 0.)) TRAN 3 (0. 1.) ;"
+        " LIST (NBEL (CHAN 'POI1' S)) ; LIST (NBEL (CHAN 'TRI3' S)) ;",
+    ),
+)
+def change_type(word: str, mesh: Mesh, numbers: ListEnti | None) -> Mesh:
+    """Mesh of another cell type."""
+    return changed(mesh, word) if numbers is None else _by_hand(mesh, word, numbers.values)
+
+
+@CHAN.form(main("mesh", "MAILLAGE", en="mesh", fr="maillage"), _NUMBERS)
+def change_to_current(session: Session, mesh: Mesh, numbers: ListEnti | None) -> Mesh:
+    """Mesh of the cell type of OPTI ELEM."""
+    target = workspace(session).element
+    if not target:
+        raise MeshError("operators.mesh.no-target-type")
+    return changed(mesh, target) if numbers is None else _by_hand(mesh, target, numbers.values)
+
+
+_WHOLE = {
+    "LIGNE": edges,
+    "SURFACE": faces,
+    "LINEAIRE": linear,
+    "QUADRATIQUE": quadratic,
+    "QUAF": complete,
+}
+
+
+@CHAN.form(
+    said(*_WHOLE),
+    arg("mesh", "MAILLAGE", en="mesh", fr="maillage"),
+    syntax="GEO2 = CHAN 'LIGNE'|'SURFACE'|'LINEAIRE'|'QUADRATIQUE'|'QUAF' GEO1 ;",
+    en="'LIGN': all edges of the cells, each once; 'SURF': all faces; 'LINE', 'QUAD': linear or "
+    "quadratic cells in place of the others; 'QUAF': complete ones, with nodes in the middle of "
+    "faces and cells, that linear types then take apart (TRI7 into 6 TRI3 or 3 QUA4, CU27 into 8 "
+    "CUB8).",
+    fr="'LIGN' : toutes les arêtes des éléments, une fois chacune ; 'SURF' : toutes les faces ; "
+    "'LINE', 'QUAD' : éléments linéaires ou quadratiques à la place des autres ; 'QUAF' : éléments "
+    "complets, à noeuds au milieu des faces et des éléments, que les types linéaires découpent "
+    "ensuite (TRI7 en 6 TRI3 ou 3 QUA4, CU27 en 8 CUB8).",
+    examples=(
+        "OPTI DIME 2 ELEM QUA4 ; S = (DROI 4 (0. 0.) (1. 0.)) TRAN 3 (0. 1.) ;"
+        " LIST (NBNO (CHAN 'QUAD' S)) ; LIST (NBEL (CHAN 'LIGN' S)) ;",
+    ),
+)
+def change_whole(word: str, mesh: Mesh) -> Mesh:
+    """Edges, faces, linear or quadratic cells."""
+    return _WHOLE[word](mesh)
+
+
+@MANU.form(
+    said(*CELL_TYPES),
+    many(
+        "given",
+        "POINT",
+        "MAILLAGE",
+        at_least=1,
+        en="points, cell after cell",
+        fr="points, élément après élément",
+    ),
+    choice(
+        "colour",
+        COLOURS,
+        en="colour, that of OPTI COUL by default",
+        fr="couleur, par défaut celle d'OPTI COUL",
+    ),
+    syntax="GEO1 = MANU TYPE POIN1 POIN2 ...|GEO2 (COUL1) ;",
+    en="A cell type: cells of that type on points, or on the points of a mesh.",
+    fr="Un type d'élément : éléments de ce type sur des points, ou sur ceux d'un maillage.",
+    examples=("OPTI DIME 2 ; T = MANU 'TRI3' (0. 0.) (1. 0.) (0. 1.) ROUG ; LIST (MESU T) ;",),
+)
+def by_hand(session: Session, word: str, given: Sequence[Point | Mesh], colour: str | None) -> Mesh:
+    """Cells given node by node."""
+    ws = workspace(session)
+    ids = np.concatenate([[g.node] if isinstance(g, Point) else g.node_ids for g in given])
+    size = CELL_TYPES[word].n_nodes
+    if len(ids) % size:
+        raise MeshError("operators.mesh.points-of-cells", word=word, size=size, n_ids=len(ids))
+    shade = ws.colour if colour is None else COLOURS.index(colour)
+    return Mesh.of(ws.nodes, word, ids.astype(np.int64).reshape(-1, size), shade)

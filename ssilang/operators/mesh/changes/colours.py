@@ -1,0 +1,77 @@
+"""Colours of meshes: COUL AFCO."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from ssilang.io.plots.palette import NAMES as COLOURS
+from ssilang.io.plots.palette import index_of
+from ssilang.kernel.mesh.combine import recolour
+from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.language.registry import Chosen, Help, arg, either, group, main, operator
+from ssilang.language.run.session import Session
+from ssilang.operators.dispatch import COUL
+from ssilang.operators.workspace import workspace
+
+# other cells are white
+_COLOURS = {
+    "BLEU": "SEG2 TRI3 CUB8 TET4 LIA3", "ROUG": "QUA4 PRI6 PYR5 RAC2 LIA4",
+    "ROSE": "SEG3 TRI6 CU20 TE10 LIA6", "VERT": "QUA8 PR15 PY13 RAC3 LIA8", "JAUN": "TRI7 QUA9",
+}  # fmt: skip
+_COLOUR_OF = {cell: colour for colour, cells in _COLOURS.items() for cell in cells.split()}
+
+
+@operator(
+    "AFCO",
+    arg("mesh", "MAILLAGE", en="mesh", fr="maillage"),
+    family="mesh",
+    help=Help(
+        en="The same mesh, coloured by type of cell: blue the linear SEG2 TRI3 CUB8 TET4, red QUA4 "
+        "PRI6 PYR5, pink the quadratic SEG3 TRI6 CU20 TE10, green QUA8 PR15 PY13, yellow TRI7 "
+        "QUA9, white the others.",
+        fr="Le même maillage, coloré par type d'élément : bleu SEG2 TRI3 CUB8 TET4, rouge QUA4 "
+        "PRI6 PYR5, rose SEG3 TRI6 CU20 TE10, vert QUA8 PR15 PY13, jaune TRI7 QUA9, blanc les "
+        "autres.",
+        syntax="GEO1 = AFCO GEO2 ;",
+        examples=(
+            "OPTI DIME 2 ELEM QUA4 ; S = (DROI 2 (0. 0.) (1. 0.)) TRAN 2 (0. 1.) ; "
+            "LIST (NBEL ((AFCO S) ELEM ROUG)) ;",
+        ),
+    ),
+)
+def afco(mesh: Mesh) -> Mesh:
+    """Colour each block by its type of cell."""
+    shades = [index_of(_COLOUR_OF.get(b.cell_type, "BLAN")) for b in mesh.blocks]
+    blocks = tuple(
+        replace(b, colours=np.full(len(b), shade, dtype=np.int8))
+        for b, shade in zip(mesh.blocks, shades, strict=True)
+    )
+    return replace(mesh, blocks=blocks)
+
+
+@COUL.form(
+    main("mesh", "MAILLAGE", en="mesh", fr="maillage"),
+    either(
+        "colour",
+        group("number", arg("number", "ENTIER", en="its number", fr="son numéro")),
+        group("name", arg("name", "MOT", en="its name", fr="son nom", kind="colour")),
+        optional=True,
+        en="colour, that of OPTI COUL by default",
+        fr="couleur, par défaut celle d'OPTI COUL",
+    ),
+    syntax="OBJ2 = OBJ1 COUL (MOT1|ENT1) ;",
+    en="Of a mesh: the same cells in another colour, by name or number (that of OPTI COUL when "
+    "none is said).",
+    fr="D'un maillage : les mêmes éléments dans une autre couleur, par nom ou numéro (celle "
+    "d'OPTI COUL par défaut).",
+    examples=("OPTI DIME 2 ELEM SEG2 ; L = (DROI 2 (0. 0.) (1. 0.)) COUL ROUG ;",),
+)
+def coloured(session: Session, mesh: Mesh, colour: Chosen | None) -> Mesh:
+    """Mesh in another colour."""
+    if colour is None:
+        return recolour(mesh, workspace(session).colour)
+    if colour.word == "number":
+        return recolour(mesh, min(max(colour["number"] - 1, 0), len(COLOURS) - 1))
+    return recolour(mesh, index_of(colour["name"]))

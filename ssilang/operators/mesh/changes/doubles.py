@@ -1,0 +1,110 @@
+"""Nodes that stand at one place: ELIM merges them, REGE clears cells of them, DEDO makes them."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import IntArray
+from ssilang.kernel.mesh.changes.cut_open import cut_open
+from ssilang.kernel.mesh.changes.merge import merge_between, merge_close, regenerate, repeated_nodes
+from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.language.registry import Help, arg, flag, operator, opt
+from ssilang.language.run.session import Session
+from ssilang.operators.mesh.tolerance import DISTANCE, tolerance_of
+from ssilang.operators.workspace import workspace
+
+
+def _ids(item: Mesh | Point) -> IntArray:
+    return np.array([item.node]) if isinstance(item, Point) else item.node_ids
+
+
+@operator(
+    "ELIM",
+    arg("first", "MAILLAGE", "POINT", en="mesh, or point", fr="maillage, ou point"),
+    opt(
+        "second",
+        "MAILLAGE",
+        "POINT",
+        en="mesh whose nodes are merged with those of the first",
+        fr="maillage dont les noeuds sont fusionnés avec ceux du premier",
+    ),
+    DISTANCE,
+    family="mesh",
+    full_name="ELIMINATION",
+    help=Help(
+        en="Merges the nodes of a mesh that are closer than a distance (a tenth of the density by "
+        "default), in all objects that hold them; with two meshes, only nodes of one with nodes of "
+        "the other.",
+        fr="Fusionne les noeuds d'un maillage plus proches qu'une distance (le dixième de la "
+        "densité par défaut), dans tous les objets qui les portent ; avec deux maillages, "
+        "seulement des noeuds de l'un avec des noeuds de l'autre.",
+        syntax="(GEO1 =) ELIM GEO1 (GEO2) (FLOT1) ;",
+        examples=(
+            "OPTI DIME 2 ELEM SEG2 ; L = (DROI 2 (0. 0.) (1. 0.)) ET (DROI 2 (1. 0.) (2. 0.)) ;"
+            " ELIM L 1E-3 ; LIST (NBNO L) ;",
+        ),
+    ),
+)
+def elim(
+    session: Session, first: Mesh | Point, second: Mesh | Point | None, distance: float | None
+) -> Mesh | Point:
+    """Merge close nodes; gives the first object back."""
+    ws = workspace(session)
+    ids = _ids(first)
+    near = max(tolerance_of(ws, distance, ws.nodes.coordinates[ids]), 1e-300)
+    if second is None:
+        merge_close(ws.nodes, ids, near)
+    else:
+        merge_between(ws.nodes, ids, _ids(second), near)
+    return first
+
+
+@operator(
+    "REGE",
+    arg("mesh", "MAILLAGE", en="mesh", fr="maillage"),
+    flag("check", "VERI", en="warn of what is left", fr="avertir de ce qui reste"),
+    family="mesh",
+    full_name="REGENERER",
+    help=Help(
+        en="Cells in which nodes coincide after ELIM replaced by simpler ones: QUA4 by TRI3, CUB8 "
+        "by PRI6 ... 'VERI' warns when some are left.",
+        fr="Eléments dont des noeuds sont confondus après ELIM remplacés par de plus simples : "
+        "QUA4 par TRI3, CUB8 par PRI6 ... 'VERI' avertit s'il en reste.",
+        syntax="GEO1 = REGE GEO2 ('VERI') ;",
+        examples=(
+            "OPTI DIME 2 ELEM QUA4 ; S = (DROI 2 (0. 0.) (1. 0.)) ROTA 4 90. (1E-4 0.) ;"
+            " ELIM S 0.01 ; T = REGE S ; LIST (NBEL (T ELEM TRI3)) ;",
+        ),
+    ),
+)
+def rege(session: Session, mesh: Mesh, check: bool) -> Mesh:
+    """Replace degenerate cells."""
+    made = regenerate(mesh)
+    left = repeated_nodes(made) if check else 0
+    if left:
+        session.print(f"REGENERER : {left} element(s) ont encore un noeud double")
+    return made
+
+
+@operator(
+    "DEDO",
+    arg("surface", "MAILLAGE", en="surface", fr="surface"),
+    arg("line", "MAILLAGE", en="line of its edges", fr="ligne de ses arêtes"),
+    family="mesh",
+    full_name="DEDOUBLER",
+    help=Help(
+        en="Opens a surface along a line of its edges: the nodes of the line are doubled, except a "
+        "tip inside the surface. Gives the new surface and the line on the new nodes.",
+        fr="Ouvre une surface le long d'une ligne de ses arêtes : les noeuds de la ligne sont "
+        "dédoublés, sauf une pointe intérieure. Rend la nouvelle surface et la ligne sur les "
+        "nouveaux noeuds.",
+        syntax="GEO3 GEO4 = DEDO GEO1 GEO2 ;",
+        examples=(
+            "OPTI DIME 2 ELEM QUA4 ; L = DROI 2 (0. 0.) (1. 0.) ;"
+            " S = (L TRAN 1 (0. 1.)) ET (L TRAN 1 (0. -1.)) ; T M = DEDO S L ; LIST (NBNO T) ;",
+        ),
+    ),
+)
+def dedo(surface: Mesh, line: Mesh) -> tuple[Mesh, Mesh]:
+    """Double the nodes of a line."""
+    return cut_open(surface, line)

@@ -1,0 +1,124 @@
+"""Joint cells between meshes: RACC LIAI GENJ; TASS."""
+
+from __future__ import annotations
+
+from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.mesh.generators.interfaces import joint_mesh, joints_inside
+from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.language.registry import Help, arg, flag, many, operator
+from ssilang.language.run.session import Session
+from ssilang.operators.mesh.tolerance import DISTANCE, tolerance_of
+from ssilang.operators.workspace import workspace
+
+
+def _joint(session: Session, first: Mesh, second: Mesh, distance: float | None) -> Mesh:
+    ws = workspace(session)
+    near = tolerance_of(ws, distance, ws.nodes.coordinates[first.node_ids])
+    return joint_mesh(first, second, max(near, 1e-300))
+
+
+_EN = (
+    "A joint is made for each cell of the first mesh and the cell of the second that faces it "
+    "within a distance (a tenth of the density by default); its first half is the first mesh's. "
+)
+_FR = (
+    "Un joint est créé pour chaque élément du premier maillage et l'élément du second qui lui fait "
+    "face à une distance près (le dixième de la densité par défaut) ; sa première moitié est celle "
+    "du premier. "
+)
+
+
+@operator(
+    "RACC",
+    DISTANCE,
+    arg("first", "MAILLAGE", en="line", fr="ligne"),
+    arg("second", "MAILLAGE", en="line that faces it", fr="ligne en face"),
+    family="mesh",
+    full_name="RACCORD",
+    help=Help(
+        en="Line of joint cells (RAC2, RAC3) between two lines. " + _EN + "Who walks along the "
+        "first line sees the joint on the right.",
+        fr="Ligne d'éléments de joint (RAC2, RAC3) entre deux lignes. " + _FR + "Un observateur "
+        "qui parcourt la première ligne voit le joint à sa droite.",
+        syntax="GEO3 = RACC (FLOT1) GEO1 GEO2 ;",
+        examples=(
+            "OPTI DIME 2 ELEM SEG2 ; A = DROI 2 (0. 0.) (1. 0.) ; B = DROI 2 (0. 0.) (1. 0.) ;"
+            " J = RACC 1E-3 A B ; LIST (NBEL J) ;",
+        ),
+    ),
+)
+def racc(session: Session, distance: float | None, first: Mesh, second: Mesh) -> Mesh:
+    """Joints between lines."""
+    if first.dimension > 1:
+        raise MeshError("operators.mesh.lines-wanted")
+    return _joint(session, first, second, distance)
+
+
+@operator(
+    "LIAI",
+    DISTANCE,
+    arg("first", "MAILLAGE", en="surface", fr="surface"),
+    arg("second", "MAILLAGE", en="surface that faces it", fr="surface en face"),
+    family="mesh",
+    full_name="LIAISON",
+    help=Help(
+        en="Surface of joint cells (LIA3, LIA4, LIA6, LIA8) between two surfaces. "
+        + _EN
+        + "The normal of the first surface goes from the second to the first (opening).",
+        fr="Surface d'éléments de joint (LIA3, LIA4, LIA6, LIA8) entre deux surfaces. "
+        + _FR
+        + "La normale de la première surface va de la seconde à la première (ouverture).",
+        syntax="GEO1 = LIAI (FLOT1) GEO2 GEO3 ;",
+        examples=(
+            "OPTI DIME 3 ELEM QUA4 ; L = DROI 2 (0. 0. 0.) (1. 0. 0.) ; A = L TRAN 2 (0. 1. 0.) ;"
+            " B = A PLUS (0. 0. 0.) ; J = LIAI 1E-3 A B ; LIST (NBEL J) ;",
+        ),
+    ),
+)
+def liai(session: Session, distance: float | None, first: Mesh, second: Mesh) -> Mesh:
+    """Joints between surfaces."""
+    if first.dimension < 2:
+        raise MeshError("operators.mesh.surfaces-wanted")
+    return _joint(session, first, second, distance)
+
+
+@operator(
+    "GENJ",
+    arg("mesh", "MAILLAGE", en="surfaces or volumes", fr="surfaces ou volumes"),
+    DISTANCE,
+    family="mesh",
+    help=Help(
+        en="Joint cells between the parts of a mesh that touch without sharing nodes: on each pair "
+        "of coincident edges of surfaces, or faces of volumes, within a distance.",
+        fr="Eléments de joint entre les parties d'un maillage qui se touchent sans partager leurs "
+        "noeuds : sur chaque paire d'arêtes de surfaces, ou de faces de volumes, confondues à une "
+        "distance près.",
+        syntax="GEO2 = GENJ GEO1 FLOT1 ;",
+        examples=(
+            "OPTI DIME 2 ELEM QUA4 ; S = (DROI 2 (0. 0.) (1. 0.)) TRAN 2 (0. 1.) ;"
+            " T = (DROI 2 (0. 1.) (1. 1.)) TRAN 2 (0. 1.) ; LIST (NBEL (GENJ (S ET T) 1E-3)) ;",
+        ),
+    ),
+)
+def genj(session: Session, mesh: Mesh, distance: float | None) -> Mesh:
+    """Joints between the touching parts of a mesh."""
+    ws = workspace(session)
+    near = tolerance_of(ws, distance, ws.nodes.coordinates[mesh.node_ids])
+    return joints_inside(mesh, max(near, 1e-300))
+
+
+@operator(
+    "TASS",
+    many("meshes", "MAILLAGE", en="meshes", fr="maillages"),
+    flag("keep", "NOOP", en="accepted, without effect", fr="accepté, sans effet"),
+    family="mesh",
+    full_name="TASSER",
+    help=Help(
+        en="Accepted and without effect: unknowns are renumbered when systems are solved.",
+        fr="Accepté et sans effet : les inconnues sont renumérotées à la résolution.",
+        syntax="TASS (GEO1 ...) ('NOOP') ;",
+        examples=("OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (1. 0.) ; TASS L ;",),
+    ),
+)
+def tass(meshes: tuple[Mesh, ...], keep: bool) -> None:
+    """Do nothing."""

@@ -1,0 +1,138 @@
+"""How cells are described: INVE ORIE VERS ORDO."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ssilang.kernel.mesh.boundary import (
+    chained,
+)
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
+from ssilang.kernel.mesh.orientation import (
+    check_consistent,
+    flip,
+    orient,
+    orient_towards,
+    reversed_line,
+)
+from ssilang.language.registry import Help, arg, choice, main, operator, opt
+from ssilang.language.run.call import Call
+from ssilang.operators.dispatch import INVE, ORDO
+from ssilang.operators.workspace import workspace
+
+
+@INVE.form(
+    main("mesh", "MAILLAGE", en="mesh", fr="maillage"),
+    syntax="GEO2 = INVE GEO1 ;",
+    en="Of a mesh: cells turned inside out; the cells of lines also in reverse order.",
+    fr="D'un maillage : éléments retournés ; ceux des lignes aussi dans l'ordre inverse.",
+    examples=(
+        "OPTI DIME 2 ELEM SEG2 ; L = INVE (DROI 2 (0. 0.) (1. 0.)) ;"
+        " LIST (COOR 1 (L POIN 'INIT')) ;",
+    ),
+)
+def inverted(mesh: Mesh) -> Mesh:
+    """Mesh turned inside out."""
+    return reversed_line(mesh)
+
+
+@operator(
+    "ORIE",
+    choice(
+        "towards",
+        ("DIRECTION", "POINT"),
+        en="normals go in a direction, the default, or towards a point",
+        fr="les normales vont dans une direction, par défaut, ou vers un point",
+    ),
+    arg("mesh", "MAILLAGE", en="cells", fr="éléments"),
+    opt("target", "POINT", en="direction, or point", fr="direction, ou point"),
+    family="mesh",
+    full_name="ORIENTER",
+    help=Help(
+        en="Cells described so that their Jacobian is positive (lines in 1D, surfaces in 2D, "
+        "volumes in 3D); with a direction or towards a 'POINT', surface cells in space turned so "
+        "that their normals go that way, and bricks of 8 nodes (shells SHB8) so that they go from "
+        "their first four nodes to their last four, FACE 1 and FACE 2 of the result.",
+        fr="Eléments décrits de sorte que leur jacobien soit positif (lignes en 1D, surfaces en "
+        "2D, volumes en 3D) ; avec une direction ou vers un 'POINT', éléments de surface dans "
+        "l'espace retournés pour que leurs normales aillent dans ce sens, et cubes à 8 noeuds "
+        "(coques SHB8) pour qu'ils aillent de leurs quatre premiers noeuds aux quatre derniers, "
+        "FACE 1 et FACE 2 du résultat.",
+        syntax="GEO1 = ORIE GEO2 (('DIRE') VEC1 | 'POINT' POIN1) ;",
+        examples=(
+            "OPTI DIME 2 ELEM QUA4 ; S = ORIE ((DROI 4 (0. 0.) (1. 0.)) TRAN 3 (0. -1.)) ;"
+            " LIST (MESU S) ;",
+        ),
+    ),
+)
+def orie(call: Call, towards: str | None, mesh: Mesh, target: Point | None) -> Mesh:
+    """Orient cells."""
+    if target is not None:
+        return orient_towards(mesh, target.coordinates.copy(), towards == "POINT")
+    if towards is not None:
+        raise call.missing(("POINT",))
+    return orient(mesh, max(workspace(call.session).dimension, 1))
+
+
+@operator(
+    "VERS",
+    arg("mesh", "MAILLAGE", en="lines or surfaces", fr="lignes ou surfaces"),
+    family="mesh",
+    full_name="VERSENS",
+    help=Help(
+        en="The same mesh, or an error if two adjacent cells are described in opposite senses.",
+        fr="Le même maillage, ou une erreur si deux éléments jointifs sont décrits en sens "
+        "opposés.",
+        syntax="GEO2 = VERS GEO1 ;",
+        examples=("OPTI DIME 2 ELEM SEG2 ; L = VERS (DROI 4 (0. 0.) (1. 0.)) ;",),
+    ),
+)
+def vers(mesh: Mesh) -> Mesh:
+    """Check the sense of description."""
+    return check_consistent(mesh)
+
+
+@ORDO.form(
+    main("mesh", "MAILLAGE", en="lines or points", fr="lignes ou points"),
+    syntax="MAIL2 = ORDO MAIL1 ;",
+    en="Of a mesh: lines put end to end, points by distance from the first one.",
+    fr="D'un maillage : lignes mises bout à bout, points par distance au premier.",
+)
+def ordered(mesh: Mesh) -> Mesh:
+    """Mesh with its cells in order."""
+    return Mesh(mesh.nodes, tuple(_ordered_block(b) for b in mesh.blocks))
+
+
+def _ordered_block(block: CellBlock) -> CellBlock:
+    if block.kind.dimension == 0:
+        at = block.coordinates[:, 0]
+        order = np.argsort(np.linalg.norm(at - at[0], axis=1), kind="stable")
+        return CellBlock.make(block.nodes, "POI1", block.raw[order], block.colours[order])
+    if block.kind.dimension > 1 or block.kind.joint:
+        return block
+    return chained(Mesh(block.nodes, (_in_one_sense(block),))).blocks[0]
+
+
+def _in_one_sense(block: CellBlock) -> CellBlock:
+    """Segments turned so that each chain runs in the sense of its first cell."""
+    table = block.connectivity.copy()
+    touching: dict[int, list[int]] = {}
+    for i, (a, b) in enumerate(table[:, [0, -1]].tolist()):
+        touching.setdefault(a, []).append(i)
+        touching.setdefault(b, []).append(i)
+    turned = np.zeros(len(table), dtype=bool)
+    seen = np.zeros(len(table), dtype=bool)
+    for first in range(len(table)):
+        todo = [] if seen[first] else [first]
+        seen[first] = True
+        while todo:
+            cell = todo.pop()
+            tail, head = table[cell, [0, -1]] if not turned[cell] else table[cell, [-1, 0]]
+            for node, at_start in ((int(head), True), (int(tail), False)):
+                for other in touching[node]:
+                    if not seen[other] and len(touching[node]) == 2:
+                        seen[other] = True
+                        starts_here = int(table[other, 0]) == node
+                        turned[other] = starts_here != at_start
+                        todo.append(other)
+    return flip(block, turned)

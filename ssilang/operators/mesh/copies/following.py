@@ -1,0 +1,146 @@
+"""DEDU: copies that follow some nodes, or go through the map between two meshes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.mesh.changes.follow import followed
+from ssilang.kernel.mesh.changes.transform import NodeCopier, mapping_between
+from ssilang.kernel.mesh.generators.sweep import corresponding_nodes
+from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.language.registry import ANY, Help, Like, arg, flag, many, operator, said
+from ssilang.language.run.call import Call
+from ssilang.operators.mesh.copies.images import GEOMETRIC, Copier
+from ssilang.operators.mesh.copies.maps import rotation_matrix
+from ssilang.operators.mesh.copies.moves import displacements
+from ssilang.operators.workspace import workspace
+
+_EVEN = flag(
+    "even",
+    "REGU",
+    en="inner nodes then go to the mean of their neighbours",
+    fr="les noeuds intérieurs vont ensuite au milieu de leurs voisins",
+)
+_BEFORE = arg("before", "MAILLAGE", en="mesh before", fr="maillage avant")
+_AFTER = arg(
+    "after",
+    "MAILLAGE",
+    en="mesh after, of the same structure",
+    fr="maillage après, de même structure",
+)
+_OBJECTS = many(
+    "objects", *GEOMETRIC, leaving=2, left=("MAILLAGE",), en="objects to copy", fr="objets à copier"
+)
+
+
+@operator(
+    "DEDU",
+    arg("mesh", "MAILLAGE", en="linear surfaces or volumes", fr="surfaces ou volumes linéaires"),
+    arg("masters", "MAILLAGE", en="its master nodes", fr="ses noeuds maîtres"),
+    arg("goal", "MAILLAGE", en="what these become", fr="ce qu'ils deviennent"),
+    _EVEN,
+    family="mesh",
+    full_name="DEDUIRE",
+    help=Help(
+        en="Copy of a mesh of linear surfaces or volumes whose master nodes GEO2 have become those "
+        "of GEO3, of the same structure; the others follow harmonically. 'REGU': then each inner "
+        "node goes to the mean of its neighbours. A displacement of some nodes is carried to all "
+        "in the same way. 'TRAN': copies of objects through the transformation that takes one mesh "
+        "to another of the same structure; 'ROTA': the same, vectors and tensors of fields turning "
+        "by the angle.",
+        fr="Copie d'un maillage de surfaces ou volumes linéaires dont les noeuds maîtres GEO2 sont "
+        "devenus ceux de GEO3, de même structure ; les autres suivent harmoniquement. 'REGU' : "
+        "puis chaque noeud intérieur va au milieu de ses voisins. Un déplacement de certains "
+        "noeuds est étendu à tous de même. 'TRAN' : copies d'objets par la transformation qui mène "
+        "d'un maillage à un autre de même structure ; 'ROTA' : de même, vecteurs et tenseurs des "
+        "champs tournant de l'angle.",
+        syntax="GEO4 = DEDU GEO1 GEO2 GEO3 ('REGU') ;\nCHPO2 = DEDU GEO1 CHPO1 ;\n"
+        "OBJ2 ... = OBJ1 ... DEDU 'TRAN' GEO1 GEO2 ;\n"
+        "OBJ2 ... = OBJ1 ... DEDU 'ROTA' FLOT1 POIN1 (POIN2) GEO1 GEO2 ;",
+        examples=(
+            "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; M = DROI 4 (0. 1.) (2. 1.) ;"
+            " P = L POIN 'FINAL' ; Q = P DEDU 'TRAN' L M ; LIST (COOR 1 Q) ;",
+        ),
+    ),
+)
+def dedu(mesh: Mesh, masters: Mesh, goal: Mesh, even: bool) -> Mesh:
+    """Copy a mesh that follows its master nodes."""
+    target = corresponding_nodes(masters, goal)
+    ids = masters.node_ids
+    nodes, places = followed(mesh, ids, mesh.nodes.coordinates[target], even)
+    kept = dict(zip(ids.tolist(), target.tolist(), strict=True))
+
+    def moved(ids: IntArray) -> FloatArray:
+        return places[np.searchsorted(nodes, ids)]
+
+    return Copier(NodeCopier(mesh.nodes, by_node=moved, copies=kept)).mesh(mesh)
+
+
+@dedu.form(
+    arg("mesh", "MAILLAGE", en="linear surfaces or volumes", fr="surfaces ou volumes linéaires"),
+    arg(
+        "field",
+        "CHPOINT",
+        en="displacements of some of its nodes",
+        fr="déplacements de certains de ses noeuds",
+        unit="m",
+    ),
+    _EVEN,
+)
+def extended(mesh: Mesh, field: NodeField, even: bool) -> NodeField:
+    """The displacement of all nodes of a mesh from that of some, harmonic in between."""
+    given = field.node_ids
+    start = mesh.nodes.coordinates
+    nodes, places = followed(mesh, given, start[given] + displacements(field, given), even)
+    motion = places - start[nodes]
+    axes = ("UR", "UZ") if "UR" in field.components else ("UX", "UY", "UZ")
+    kept = {n: motion[:, k] for k, n in enumerate(axes) if n in field.components}
+    return NodeField.of(mesh.nodes, nodes, kept, "DIFFUS")
+
+
+@dedu.form(said("TRAN"), _OBJECTS, _BEFORE, _AFTER, gives=Like("objects"))
+def through_map(objects: Sequence[Any], before: Mesh, after: Mesh) -> tuple[Any, ...]:
+    """Copy through the map between two meshes."""
+    return _copied(objects, before, after, None)
+
+
+@dedu.form(
+    said("ROTA"),
+    arg(
+        "angle",
+        "FLOTTANT",
+        en="angle by which vectors turn",
+        fr="angle dont tournent les vecteurs",
+        unit="degree",
+    ),
+    _OBJECTS,
+    _BEFORE,
+    _AFTER,
+    gives=ANY,
+)
+def through_turn(
+    call: Call, angle: float, objects: Sequence[Any], before: Mesh, after: Mesh
+) -> tuple[Any, ...]:
+    """The same, vectors and tensors turning; the last points are those of the axis."""
+    count = 1 if workspace(call.session).dimension < 3 else 2
+    points = [v for v in objects if isinstance(v, Point)][-count:]
+    if len(points) < count:
+        raise call.missing(("POINT",))
+    others = [v for v in objects if not any(v is p for p in points)]
+    axis = points[1].coordinates - points[0].coordinates if count == 2 else np.eye(3)[2]
+    return _copied(others, before, after, rotation_matrix(angle, axis))
+
+
+def _copied(
+    objects: Sequence[Any], before: Mesh, after: Mesh, rotation: FloatArray | None
+) -> tuple[Any, ...]:
+    if not objects:
+        raise MeshError("operators.mesh.nothing-to-copy")
+    copier = Copier(mapping_between(before, after), rotation)
+    return tuple(copier(v) for v in objects)

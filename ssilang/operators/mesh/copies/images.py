@@ -1,0 +1,392 @@
+"""Moved copies of objects: PLUS MOIN TOUR SYME HOMO AFFI PROJ."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.materials.model import Mode, Model
+from ssilang.kernel.mesh.changes.transform import (
+    NodeCopier,
+    PointMap,
+    affinity,
+    mirror_line,
+    mirror_plane,
+    mirror_point,
+    scaling,
+    shift,
+    turn,
+)
+from ssilang.kernel.mesh.generators.sweep import corresponding_nodes
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
+from ssilang.language.registry import Argument, Chosen, Help, Like, arg, many, operator, said
+from ssilang.language.run.call import Call
+from ssilang.language.run.session import Session
+from ssilang.language.values import Table
+from ssilang.operators.fields.turned import turned_cell_field, turned_node_field
+from ssilang.operators.mesh.copies.maps import (
+    ANGLE,
+    DIRECTION,
+    FIXED,
+    MIRRORS,
+    RATIO,
+    RAYS,
+    VECTOR,
+    positions,
+    projection_of,
+    rotation_matrix,
+)
+from ssilang.operators.mesh.copies.moves import displacements
+from ssilang.operators.mesh.dimensions import IN_PLANE, IN_SPACE
+from ssilang.operators.workspace import Workspace, workspace
+
+GEOMETRIC = ("POINT", "MAILLAGE", "CHPOINT", "MCHAML", "MMODEL", "TABLE")
+
+
+def displacement_names(ws: Workspace) -> tuple[str, ...]:
+    """Displacement components of the mode in force."""
+    if ws.mode in (Mode.AXISYMMETRIC, Mode.FOURIER):
+        return ("UR", "UZ")
+    return ("UX", "UY", "UZ")[: ws.dimension]
+
+
+class Copier:
+    """Copies of objects of any kind whose nodes go through one `NodeCopier`."""
+
+    def __init__(self, nodes: NodeCopier, rotation: FloatArray | None = None) -> None:
+        self.nodes = nodes
+        self.rotation = rotation
+        self._blocks: dict[int, tuple[CellBlock, CellBlock]] = {}
+
+    def block(self, block: CellBlock) -> CellBlock:
+        """Copy of a block, the same one each time it is met."""
+        made = self._blocks.get(id(block))
+        if made is None:
+            made = self._blocks[id(block)] = (block, self.nodes.block(block))
+        return made[1]
+
+    def mesh(self, mesh: Mesh) -> Mesh:
+        """Copy of a mesh with its sides."""
+        blocks = tuple(self.block(b) for b in mesh.blocks)
+        return Mesh(mesh.nodes, blocks, tuple(self.mesh(s) for s in mesh.sides))
+
+    def node_field(self, field: NodeField) -> NodeField:
+        """The field on the copied nodes, vectors turned by the rotation if there is one."""
+        components = {
+            name: NodeField.of(field.table, self.nodes.of_nodes(part.nodes), {name: part.values})
+            for name, part in field.components.items()
+        }
+        made = NodeField(
+            field.table, {k: f.components[k] for k, f in components.items()}, field.nature
+        )
+        return made if self.rotation is None else turned_node_field(made, self.rotation)
+
+    def cell_field(self, field: CellField) -> CellField:
+        """The field on the copied cells, tensors turned by the rotation if there is one."""
+        blocks = tuple(replace(b, cells=self.block(b.cells)) for b in field.blocks)
+        made = CellField(blocks, field.title)
+        return made if self.rotation is None else turned_cell_field(made, self.rotation)
+
+    def model(self, model: Model) -> Model:
+        """The model on the copied cells."""
+        return Model(tuple(replace(z, cells=self.block(z.cells)) for z in model.zones))
+
+    def table(self, table: Table) -> Table:
+        """A table of copies, indices kept."""
+        made = Table()
+        for index, value in table.items():
+            made.set(index, self(value) if type(value) in _COPIES else value)
+        return made
+
+    def __call__(self, value: Any) -> Any:
+        return _COPIES[type(value)](self, value)
+
+
+_COPIES: dict[type, Any] = {
+    Point: lambda c, p: c.nodes.point(p),
+    Mesh: Copier.mesh,
+    NodeField: Copier.node_field,
+    CellField: Copier.cell_field,
+    Model: Copier.model,
+    Table: Copier.table,
+}
+
+
+def copies(
+    call: Call, objects: Sequence[Any], image: PointMap, rotation: FloatArray | None = None
+) -> tuple[Any, ...]:
+    """Copies of all objects through one map."""
+    if not objects:
+        raise call.missing(GEOMETRIC)
+    copier = Copier(NodeCopier(workspace(call.session).nodes, image), rotation)
+    return tuple(copier(v) for v in objects)
+
+
+def _shifted(
+    call: Call, objects: Sequence[Any], by: Point | NodeField, sign: float
+) -> tuple[Any, ...]:
+    """Copies moved by a vector, or whose nodes move by a field of displacements."""
+    if not objects:
+        raise call.missing(("POINT", "CHPOINT"))
+    if isinstance(by, Point):
+        return copies(call, objects, shift(sign * by.coordinates.copy()))
+    nodes, field = workspace(call.session).nodes, by
+
+    def moved(ids: IntArray) -> FloatArray:
+        return nodes.coordinates[ids] + sign * displacements(field, ids)
+
+    copier = Copier(NodeCopier(nodes, by_node=moved))
+    return tuple(copier(v) for v in objects)
+
+
+def _objects(leaving: int, *left: str) -> Argument:
+    return many(
+        "objects",
+        *GEOMETRIC,
+        leaving=leaving,
+        left=left,
+        en="objects to copy",
+        fr="objets à copier",
+    )
+
+
+_SHIFTED = (
+    _objects(1, "POINT", "CHPOINT"),
+    arg(
+        "by",
+        "POINT",
+        "CHPOINT",
+        en="vector, or displacements",
+        fr="vecteur, ou déplacements",
+        unit="m",
+    ),
+)
+
+
+@operator(
+    "PLUS",
+    *_SHIFTED,
+    gives=Like("objects"),
+    family="mesh",
+    help=Help(
+        en="Copies of objects moved by a vector or by a field of displacements (UX UY UZ or UR "
+        "UZ); nodes that several objects share are copied once. As many results as objects.",
+        fr="Copies d'objets translatés d'un vecteur ou d'un champ de déplacements (UX UY UZ ou UR "
+        "UZ) ; les noeuds communs ne sont copiés qu'une fois. Autant de résultats que d'objets.",
+        syntax="OBJ2 ... = OBJ1 ... PLUS VEC1|CHPO1 ;",
+        examples=("OPTI DIME 2 ; P = 1. 0. ; Q = P PLUS (0. 2.) ; LIST (COOR 2 Q) ;",),
+    ),
+)
+def plus(call: Call, objects: Sequence[Any], by: Point | NodeField) -> tuple[Any, ...]:
+    """Copy and move."""
+    return _shifted(call, objects, by, 1.0)
+
+
+@operator(
+    "MOIN",
+    *_SHIFTED,
+    gives=Like("objects"),
+    family="mesh",
+    full_name="MOINS",
+    help=Help(
+        en="Copies of objects moved against a vector or a field of displacements; between two "
+        "meshes of the same structure, the field of displacements that takes the second to the "
+        "first.",
+        fr="Copies d'objets translatés de l'opposé d'un vecteur ou d'un champ de déplacements ; "
+        "entre deux maillages de même structure, le champ de déplacements qui mène du second au "
+        "premier.",
+        syntax="OBJ2 ... = OBJ1 ... MOIN VEC1|CHPO1 ;\nCHPO1 = GEO2 MOIN GEO1 ;",
+        examples=("OPTI DIME 2 ; P = 1. 0. ; Q = P MOIN (0. 2.) ; LIST (COOR 2 Q) ;",),
+    ),
+)
+def moin(call: Call, objects: Sequence[Any], by: Point | NodeField) -> tuple[Any, ...]:
+    """Copy and move backwards."""
+    return _shifted(call, objects, by, -1.0)
+
+
+@moin.form(
+    arg("after", "MAILLAGE", en="mesh after the motion", fr="maillage après le mouvement"),
+    arg("before", "MAILLAGE", en="mesh before it", fr="maillage avant lui"),
+)
+def motion(session: Session, after: Mesh, before: Mesh) -> NodeField:
+    """The displacements between two meshes."""
+    target = corresponding_nodes(before, after)
+    ids = before.node_ids
+    xyz = before.nodes.coordinates
+    gap = xyz[target] - xyz[ids]
+    names = displacement_names(workspace(session))
+    return NodeField.of(
+        before.nodes, ids, {name: gap[:, k] for k, name in enumerate(names)}, "DIFFUS"
+    )
+
+
+@operator(
+    "TOUR",
+    _objects(1, "POINT"),
+    ANGLE,
+    arg("centre", "POINT", en="centre", fr="centre"),
+    gives=Like("objects"),
+    when=IN_PLANE,
+    family="mesh",
+    full_name="TOURNER",
+    help=Help(
+        en="Copies of objects turned by an angle in degrees about a point (2D) or an axis (3D). "
+        "Vectors in nodal fields and stresses and strains in cell fields turn too.",
+        fr="Copies d'objets tournés d'un angle en degrés autour d'un point (2D) ou d'un axe (3D). "
+        "Les vecteurs des champs par points, contraintes et déformations tournent aussi.",
+        syntax="OBJ2 ... = OBJ1 ... TOUR FLOT1 POIN1 (POIN2) ;",
+        examples=("OPTI DIME 2 ; P = 1. 0. ; Q = P TOUR 90. (0. 0.) ; LIST (COOR 2 Q) ;",),
+    ),
+)
+def tour(call: Call, objects: Sequence[Any], angle: float, centre: Point) -> tuple[Any, ...]:
+    """Copy and turn about a point."""
+    return _turned(call, objects, angle, centre.coordinates.copy(), np.array([0.0, 0.0, 1.0]))
+
+
+@tour.form(
+    _objects(2, "POINT"),
+    ANGLE,
+    arg("first", "POINT", en="point of the axis", fr="point de l'axe"),
+    arg("second", "POINT", en="other point of the axis", fr="autre point de l'axe"),
+    gives=Like("objects"),
+    when=IN_SPACE,
+)
+def turned_about_axis(
+    call: Call, objects: Sequence[Any], angle: float, first: Point, second: Point
+) -> tuple[Any, ...]:
+    """Copy and turn about an axis."""
+    origin = first.coordinates.copy()
+    return _turned(call, objects, angle, origin, second.coordinates - origin)
+
+
+def _turned(
+    call: Call, objects: Sequence[Any], angle: float, origin: FloatArray, axis: FloatArray
+) -> tuple[Any, ...]:
+    return copies(call, objects, turn(angle, origin, axis), rotation_matrix(angle, axis))
+
+
+@operator(
+    "SYME",
+    said("POINT"),
+    _objects(1, "POINT"),
+    *MIRRORS["POINT"],
+    gives=Like("objects"),
+    family="mesh",
+    full_name="SYMETRIE",
+    help=Help(
+        en="Copies of points, meshes or nodal fields mirrored about a point, a line or a plane.",
+        fr="Copies de points, maillages ou champs par points symétriques par rapport à un point, "
+        "une droite ou un plan.",
+        syntax="GEO1 ... = GEO2 ... SYME 'POINT' P1 | 'DROIT' P1 P2 | 'PLAN' P1 P2 P3 ;",
+        examples=(
+            "OPTI DIME 2 ; P = 1. 2. ; Q = P SYME 'DROIT' (0. 0.) (1. 0.) ; LIST (COOR 2 Q) ;",
+        ),
+    ),
+)
+def syme(call: Call, objects: Sequence[Any], centre: Point) -> tuple[Any, ...]:
+    """Copy and mirror about a point."""
+    return copies(call, objects, mirror_point(*positions((centre,))))
+
+
+@syme.form(said("DROIT"), _objects(2, "POINT"), *MIRRORS["DROIT"], gives=Like("objects"))
+def mirrored_about_line(
+    call: Call, objects: Sequence[Any], point: Point, second: Point
+) -> tuple[Any, ...]:
+    """Copy and mirror about a line."""
+    return copies(call, objects, mirror_line(*positions((point, second))))
+
+
+@syme.form(said("PLAN"), _objects(3, "POINT"), *MIRRORS["PLAN"], gives=Like("objects"))
+def mirrored_about_plane(
+    call: Call, objects: Sequence[Any], point: Point, second: Point, third: Point
+) -> tuple[Any, ...]:
+    """Copy and mirror about a plane."""
+    return copies(call, objects, mirror_plane(*positions((point, second, third))))
+
+
+@operator(
+    "HOMO",
+    _objects(1, "POINT"),
+    RATIO,
+    FIXED,
+    gives=Like("objects"),
+    family="mesh",
+    full_name="HOMOTHETIE",
+    help=Help(
+        en="Copies of objects scaled by a ratio about a point.",
+        fr="Copies d'objets par homothétie de rapport et de centre donnés.",
+        syntax="GEO1 ... = GEO2 ... HOMO RAPP1 POIN1 ;",
+        examples=("OPTI DIME 2 ; P = 1. 2. ; Q = P HOMO 3. (0. 0.) ; LIST (COOR 2 Q) ;",),
+    ),
+)
+def homo(call: Call, objects: Sequence[Any], ratio: float, fixed: Point) -> tuple[Any, ...]:
+    """Copy and scale."""
+    return copies(call, objects, scaling(ratio, fixed.coordinates.copy()))
+
+
+@operator(
+    "AFFI",
+    _objects(2, "POINT"),
+    RATIO,
+    FIXED,
+    DIRECTION,
+    gives=Like("objects"),
+    family="mesh",
+    full_name="AFFINITE",
+    help=Help(
+        en="Copies of objects stretched by a ratio along the direction of two points, the first of "
+        "which stays in place.",
+        fr="Copies d'objets par affinité de rapport donné suivant la direction de deux points, le "
+        "premier restant en place.",
+        syntax="GEO2 ... = GEO1 ... AFFI FLOT1 POIN1 POIN2 ;",
+        examples=("OPTI DIME 2 ; P = 1. 2. ; Q = P AFFI 3. (0. 0.) (0. 1.) ; LIST (COOR 2 Q) ;",),
+    ),
+)
+def affi(
+    call: Call, objects: Sequence[Any], ratio: float, fixed: Point, towards: Point
+) -> tuple[Any, ...]:
+    """Copy and stretch."""
+    return copies(call, objects, affinity(ratio, *positions((fixed, towards))))
+
+
+@operator(
+    "PROJ",
+    *RAYS,
+    _objects(0),
+    gives=Like("objects"),
+    family="mesh",
+    full_name="PROJETER",
+    help=Help(
+        en="Copies of objects projected along a vector ('CYLI', the default) or from a point "
+        "('CONI') on a plane, sphere, cylinder, cone or torus; in 2D on a line or a circle.",
+        fr="Copies d'objets projetés suivant un vecteur ('CYLI', par défaut) ou depuis un point "
+        "('CONI') sur un plan, une sphère, un cylindre, un cône ou un tore ; en 2D sur une droite "
+        "ou un cercle.",
+        syntax="GEO1 ... = GEO2 ... PROJ ('CYLI') VEC1 | 'CONI' SOMM1  'PLAN' P1 P2 P3 | "
+        "'SPHE' C1 P1 | 'CYLI' C1 C2 P1 | 'CONI' S1 A1 P1 | 'TORI' C1 A1 C2 P1 | "
+        "'DROI' P1 P2 | 'CERC' C1 P1 ;",
+        examples=(
+            "OPTI DIME 2 ; P = 1. 2. ; Q = P PROJ (0. 1.) 'DROI' (0. 0.) (1. 1.) ;"
+            " LIST (COOR 2 Q) ;",
+        ),
+    ),
+)
+def proj(
+    call: Call, rays: tuple[str, Point], surface: Chosen, objects: Sequence[Any]
+) -> tuple[Any, ...]:
+    """Copy and project, as it is said how the rays go."""
+    return copies(call, objects, projection_of(*rays, surface))
+
+
+@proj.form(_objects(1, "POINT"), *VECTOR, gives=Like("objects"))
+def projected_along(
+    call: Call, objects: Sequence[Any], vector: Point, surface: Chosen
+) -> tuple[Any, ...]:
+    """Copy and project along a vector."""
+    return copies(call, objects, projection_of("CYLI", vector, surface))

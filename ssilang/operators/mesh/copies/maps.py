@@ -1,0 +1,125 @@
+"""Geometric maps as operators read them: rotation, symmetry, scaling, affinity, projection."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.mesh.changes.transform import PointMap, turn
+from ssilang.kernel.mesh.mesh import Point
+from ssilang.kernel.mesh.surfaces.analytic import (
+    Shape,
+    cone_shape,
+    cylinder_shape,
+    line_shape,
+    plane_shape,
+    project,
+    sphere_shape,
+    torus_shape,
+)
+from ssilang.language.registry import Argument, Chosen, arg, group, key, select
+
+RATIO = arg("ratio", "FLOTTANT", en="ratio", fr="rapport")
+FIXED = arg("fixed", "POINT", en="point that stays", fr="point fixe")
+DIRECTION = arg(
+    "towards",
+    "POINT",
+    en="other point of the direction",
+    fr="autre point de la direction",
+)
+ANGLE = arg("angle", "FLOTTANT", en="angle", fr="angle", unit="degree")
+
+_POINT = arg("point", "POINT", en="point there", fr="point de cet objet")
+_SECOND = arg("second", "POINT", en="second point", fr="deuxième point")
+_THIRD = arg("third", "POINT", en="third point", fr="troisième point")
+_CENTRE = arg("centre", "POINT", en="centre", fr="centre")
+_AXIS = arg("axis", "POINT", en="point of the axis", fr="point de l'axe")
+_OTHER = arg("other", "POINT", en="other point of the axis", fr="autre point de l'axe")
+_APEX = arg("apex", "POINT", en="apex", fr="sommet")
+_SMALL = arg("small", "POINT", en="centre of a small circle", fr="centre d'un petit cercle")
+
+SHAPES: Mapping[str, tuple[Argument, ...]] = {
+    "DROIT": (_POINT, _SECOND),
+    "PLAN": (_POINT, _SECOND, _THIRD),
+    "SPHERE": (_CENTRE, _POINT),
+    "CYLINDRE": (_AXIS, _OTHER, _POINT),
+    "CONE": (_APEX, _AXIS, _POINT),
+    "CONI": (_APEX, _AXIS, _POINT),
+    "TORE": (_CENTRE, _AXIS, _SMALL, _POINT),
+    "TORI": (_CENTRE, _AXIS, _SMALL, _POINT),
+    "CERC": (_CENTRE, _POINT),
+}
+"""Lines and surfaces by word, with the points behind it."""
+
+_SHAPES: Mapping[str, Callable[..., Shape]] = {
+    "DROIT": line_shape,
+    "PLAN": plane_shape,
+    "SPHERE": sphere_shape,
+    "CYLINDRE": cylinder_shape,
+    "CONE": cone_shape,
+    "CONI": cone_shape,
+    "TORE": torus_shape,
+    "TORI": torus_shape,
+    "CERC": sphere_shape,
+}
+
+MIRRORS: Mapping[str, tuple[Argument, ...]] = {
+    "POINT": (_CENTRE,),
+    "DROIT": SHAPES["DROIT"],
+    "PLAN": SHAPES["PLAN"],
+}
+"""What is mirrored about by word, with the points behind it."""
+
+_SURFACE = group(
+    "surface",
+    select(
+        "shape",
+        SHAPES,
+        optional=False,
+        en="line or surface on which it goes",
+        fr="ligne ou surface d'arrivée",
+    ),
+)
+RAYS = (
+    group(
+        "rays",
+        key(
+            "way",
+            ("CYLI", "CONI"),
+            arg("point", "POINT"),
+            optional=False,
+            en="along a vector, or from a point",
+            fr="suivant un vecteur, ou depuis un point",
+        ),
+    ),
+    _SURFACE,
+)
+"""A projection that says how its rays go."""
+
+VECTOR = (arg("vector", "POINT", en="direction", fr="direction"), _SURFACE)
+"""A projection along a vector."""
+
+
+def positions(points: Sequence[Point]) -> list[FloatArray]:
+    """Copies of the positions of points."""
+    return [p.coordinates.copy() for p in points]
+
+
+def shape_of(chosen: Chosen) -> Shape:
+    """The line or the surface of `SHAPES` that was read."""
+    return _SHAPES[chosen.word](*positions(list(chosen.values.values())))
+
+
+def projection_of(way: str, point: Point, surface: Chosen) -> PointMap:
+    """The projection along a vector ('CYLI') or from a point ('CONI')."""
+    shape, at = shape_of(surface), point.coordinates.copy()
+    if way == "CONI":
+        return lambda x: project(shape, x, None, at)
+    return lambda x: project(shape, x, at, None)
+
+
+def rotation_matrix(angle: float, axis: FloatArray) -> FloatArray:
+    """Matrix (3, 3) that turns vectors by an angle in degrees about an axis."""
+    return turn(angle, np.zeros(3), axis)(np.eye(3)).T

@@ -1,0 +1,269 @@
+"""Nodes moved in place: DEPL."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.mesh.changes.transform import (
+    PointMap,
+    affine_through,
+    affinity,
+    from_cylindrical,
+    mirror_line,
+    mirror_plane,
+    mirror_point,
+    move,
+    scaling,
+    shift,
+    straighten_middles,
+    to_cylindrical,
+    turn,
+)
+from ssilang.kernel.mesh.generators.sweep import rotate
+from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.language.registry import Chosen, Help, arg, choice, many, operator, opt, said
+from ssilang.language.run.call import Call
+from ssilang.operators.mesh.copies.maps import (
+    DIRECTION,
+    FIXED,
+    MIRRORS,
+    RATIO,
+    RAYS,
+    VECTOR,
+    positions,
+    projection_of,
+)
+from ssilang.operators.mesh.lines.ends import AXIS, axis_of
+from ssilang.operators.workspace import workspace
+
+_MIRRORS: Mapping[str, Callable[..., PointMap]] = {
+    "POINT": mirror_point,
+    "DROIT": mirror_line,
+    "PLAN": mirror_plane,
+}
+_MOVED = arg("moved", "MAILLAGE", "POINT", en="what is moved", fr="ce qui est déplacé")
+
+
+def _ids(moved: Mesh | Point) -> IntArray:
+    return np.array([moved.node]) if isinstance(moved, Point) else moved.node_ids
+
+
+def _move(moved: Mesh | Point, image: PointMap) -> None:
+    move(moved.nodes, _ids(moved), image)
+
+
+def displacements(field: NodeField, ids: IntArray) -> FloatArray:
+    """Displacements (n, 3) of nodes (n,) from components UX UY UZ or UR UZ, zero where absent."""
+    names = ("UR", "UZ") if "UR" in field.components else ("UX", "UY", "UZ")
+    step = np.zeros((len(ids), 3))
+    for k, name in enumerate(names):
+        step[:, k] = field.values_at(name, ids)
+    return step
+
+
+@operator(
+    "DEPL",
+    said("PLUS", "MOINS"),
+    _MOVED,
+    arg(
+        "by",
+        "POINT",
+        "CHPOINT",
+        en="vector, or displacements",
+        fr="vecteur, ou déplacements",
+        unit="m",
+    ),
+    family="mesh",
+    full_name="DEPLACER",
+    help=Help(
+        en="Moves the nodes of a mesh or a point in place: all objects that hold them follow. "
+        "'PLUS' and 'MOIN' a vector or a field of displacements; 'TOUR' an angle (or a field of "
+        "angles) in degrees about a point or an axis; 'HOMO', 'AFFI', 'SYME', 'PROJ' as the "
+        "operators of those names; 'COOR' to cylindrical coordinates and back; 'MILI' middle nodes "
+        "onto the mediator planes of their edges; 'DEDU' the affine map between two sets of "
+        "points.",
+        fr="Déplace sur place les noeuds d'un maillage ou un point : tous les objets qui les "
+        "portent suivent. 'PLUS' et 'MOIN' un vecteur ou un champ de déplacements ; 'TOUR' un "
+        "angle (ou un champ d'angles) en degrés autour d'un point ou d'un axe ; 'HOMO', 'AFFI', "
+        "'SYME', 'PROJ' comme les opérateurs de ces noms ; 'COOR' en coordonnées cylindriques et "
+        "retour ; 'MILI' noeuds milieux sur les plans médiateurs ; 'DEDU' l'application affine "
+        "entre deux ensembles de points.",
+        syntax="DEPL GEO1 'PLUS'|'MOIN' VEC1|CHPO1 ;\n"
+        "DEPL GEO1 'TOUR' ANGL1|CHPO1 POIN1 (POIN2) ;\n"
+        "DEPL GEO1 'HOMO' RAPP1 POIN1 ; DEPL GEO1 'AFFI' RAPP1 POIN1 POIN2 ;\n"
+        "DEPL GEO1 'SYME' 'POIN' P1 | 'DROIT' P1 P2 | 'PLAN' P1 P2 P3 ;\n"
+        "DEPL GEO1 'PROJ' ('CYLI') VEC1 | 'CONI' SOMM1 'PLAN' P1 P2 P3 ... ;\n"
+        "DEPL GEO1 'COOR' 'CYLI' P1 P2 (P3) | 'CART' ; DEPL GEO1 'MILI' ;\n"
+        "DEPL GEO1 'DEDU' GEO2 GEO3 | CHP1 ;",
+        examples=("OPTI DIME 2 ; P = 1. 0. ; DEPL P 'PLUS' (0. 2.) ; LIST (COOR 2 P) ;",),
+    ),
+)
+def depl(word: str, moved: Mesh | Point, by: Point | NodeField) -> None:
+    """Move nodes by a vector or by displacements."""
+    sign = 1.0 if word == "PLUS" else -1.0
+    if isinstance(by, Point):
+        _move(moved, shift(sign * by.coordinates.copy()))
+        return
+    ids = np.unique(_ids(moved))
+    moved.nodes.coordinates[ids] += sign * displacements(by, ids)
+
+
+@depl.form(
+    said("TOUR"),
+    _MOVED,
+    arg(
+        "angle",
+        "CHPOINT",
+        "FLOTTANT",
+        en="angle, or one for each node",
+        fr="angle, ou un par noeud",
+        unit="degree",
+    ),
+    AXIS,
+)
+def turned(
+    call: Call, moved: Mesh | Point, angle: NodeField | float, axis: Sequence[Point]
+) -> None:
+    """Turn nodes."""
+    origin, direction = axis_of(call, axis)
+    if not isinstance(angle, NodeField):
+        _move(moved, turn(angle, origin, direction))
+        return
+    size = float(np.linalg.norm(direction))
+    if size == 0.0:
+        raise MeshError("operators.mesh.axis-without-length")
+    ids = np.unique(_ids(moved))
+    degrees = angle.values_at(next(iter(angle.components)), ids)
+    place = moved.nodes.coordinates
+    for value in np.unique(degrees):
+        rows = ids[degrees == value]
+        place[rows] = rotate(place[rows].copy(), float(np.radians(value)), origin, direction / size)
+
+
+@depl.form(said("HOMO"), _MOVED, RATIO, FIXED)
+def scaled(moved: Mesh | Point, ratio: float, fixed: Point) -> None:
+    """Scale about a point."""
+    _move(moved, scaling(ratio, fixed.coordinates.copy()))
+
+
+@depl.form(said("AFFI"), _MOVED, RATIO, FIXED, DIRECTION)
+def stretched(moved: Mesh | Point, ratio: float, fixed: Point, towards: Point) -> None:
+    """Stretch along a direction."""
+    _move(moved, affinity(ratio, *positions((fixed, towards))))
+
+
+@depl.form(
+    said("SYME"),
+    choice(
+        "about",
+        tuple(MIRRORS),
+        optional=False,
+        en="what is mirrored about",
+        fr="ce par rapport à quoi on prend le symétrique",
+    ),
+    _MOVED,
+    many("points", "POINT", en="its points", fr="ses points"),
+)
+def mirrored(call: Call, about: str, moved: Mesh | Point, points: Sequence[Point]) -> None:
+    """Mirror about a point, a line or a plane."""
+    _move(moved, _MIRRORS[about](*_exactly(call, points, len(MIRRORS[about]))))
+
+
+def _exactly(call: Call, points: Sequence[Point], count: int) -> list[FloatArray]:
+    """Positions of points, as many as are needed."""
+    if len(points) < count:
+        raise call.missing(("POINT",))
+    if len(points) > count:
+        raise call.error(
+            "operators.mesh.points-in-excess", points[-1], count=count, n_points=len(points)
+        )
+    return positions(points)
+
+
+@depl.form(said("PROJ"), _MOVED, *RAYS)
+def projected(moved: Mesh | Point, rays: tuple[str, Point], surface: Chosen) -> None:
+    """Project, as it is said how the rays go."""
+    _move(moved, projection_of(*rays, surface))
+
+
+@depl.form(said("PROJ"), _MOVED, *VECTOR)
+def projected_along(moved: Mesh | Point, vector: Point, surface: Chosen) -> None:
+    """Project along a vector."""
+    _move(moved, projection_of("CYLI", vector, surface))
+
+
+@depl.form(
+    said("COOR"),
+    choice(
+        "coordinates",
+        ("CYLI", "CART"),
+        optional=False,
+        en="to cylindrical coordinates, or back",
+        fr="vers des coordonnées cylindriques, ou retour",
+    ),
+    _MOVED,
+    many(
+        "points",
+        "POINT",
+        en="origin (in space another point of the axis) and a point of angle 0, with 'CYLI'",
+        fr="origine (en dimension 3 un autre point de l'axe) et un point d'angle 0, avec 'CYLI'",
+    ),
+)
+def changed_coordinates(
+    call: Call, coordinates: str, moved: Mesh | Point, points: Sequence[Point]
+) -> None:
+    """Take cylindrical coordinates for cartesian ones, or the reverse."""
+    if coordinates == "CART":
+        _exactly(call, points, 0)
+        _move(moved, from_cylindrical)
+        return
+    if workspace(call.session).dimension < 3:
+        origin, second = _exactly(call, points, 2)
+        axis, zero = np.array([0.0, 0.0, 1.0]), second - origin
+    else:
+        origin, second, third = _exactly(call, points, 3)
+        axis, zero = second - origin, third - origin
+    _move(moved, to_cylindrical(origin, axis, zero))
+
+
+@depl.form(said("MILI"), _MOVED)
+def straightened(moved: Mesh | Point) -> None:
+    """Put middle nodes onto the mediator planes of their edges."""
+    if isinstance(moved, Mesh):
+        straighten_middles(moved)
+
+
+@depl.form(
+    said("DEDU"),
+    _MOVED,
+    arg(
+        "by",
+        "MAILLAGE",
+        "CHPOINT",
+        "POINT",
+        en="points before, or displacements of some",
+        fr="points avant, ou déplacements de certains",
+    ),
+    opt("goal", "MAILLAGE", "POINT", en="points after", fr="points après"),
+)
+def deduced(
+    call: Call,
+    moved: Mesh | Point,
+    by: Mesh | NodeField | Point,
+    goal: Mesh | Point | None,
+) -> None:
+    """Move by the affine map between two sets of points."""
+    if isinstance(by, NodeField):
+        ids = by.node_ids
+        old = by.table.coordinates[ids].copy()
+        new = old + displacements(by, ids)
+    else:
+        if goal is None:
+            raise call.missing(("MAILLAGE", "POINT"))
+        old, new = (m.nodes.coordinates[_ids(m)].copy() for m in (by, goal))
+    _move(moved, affine_through(old, new, workspace(call.session).dimension))

@@ -1,0 +1,201 @@
+"""Arcs of circle: CERC CER3 PARC."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.mesh.combine import union
+from ssilang.kernel.mesh.lines.curves import (
+    Arc,
+    ParabolicArc,
+    arc_about_axis,
+    arc_about_centre,
+    arc_through,
+)
+from ssilang.kernel.mesh.lines.lines import chain_mesh, different_nodes, end_sizes
+from ssilang.kernel.mesh.lines.subdivision import subdivide
+from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.language.registry import Help, arg, choice, flag, operator, said
+from ssilang.language.run.call import Call
+from ssilang.operators.mesh.lines.ends import (
+    ANGLE,
+    AXIS,
+    COUNT,
+    END,
+    SIZES,
+    SIZES_EN,
+    SIZES_FR,
+    START,
+    Sizes,
+    axis_of,
+    count_and_angle,
+    cuts_of,
+    drawn_by_middle,
+    drawn_from,
+    ends_of,
+    positions,
+)
+from ssilang.operators.workspace import workspace
+
+
+@operator(
+    "CERC",
+    choice(
+        "through",
+        ("CENTR", "PASS"),
+        default="CENTR",
+        en="the second point is the centre, the default, or lies on the arc",
+        fr="le deuxième point est le centre, par défaut, ou est sur l'arc",
+    ),
+    COUNT,
+    START,
+    arg("middle", "POINT", en="centre, or point of the arc", fr="centre, ou point de l'arc"),
+    END,
+    SIZES,
+    family="mesh",
+    full_name="CERCLE",
+    aliases=("C",),
+    help=Help(
+        en="Circular arc: around a centre (the shorter arc, the default), through three points "
+        "('PASS'), or by turning a point by an angle in degrees about a point (2D) or an axis (3D) "
+        "('ROTA'; 'ELIM' closes a turn of 360 degrees on its first point). " + SIZES_EN,
+        fr="Arc de cercle : de centre donné (l'arc le plus court, par défaut), par trois points "
+        "('PASS'), ou par rotation d'un point d'un angle en degrés autour d'un point (2D) ou d'un "
+        "axe (3D) ('ROTA' ; 'ELIM' ferme un tour complet sur son premier point). " + SIZES_FR,
+        syntax="LIG1 = CERC (N1) ('CENTR') POIN1 CENTR2 POIN3 ('DINI' DENS1) ('DFIN' DENS2) ;\n"
+        "LIG1 = CERC (N1) 'PASS' POIN1 POIN2 POIN3 ('DINI' DENS1) ('DFIN' DENS2) ;\n"
+        "LIG1 = CERC (N1) 'ROTA' FLOT1 POIN1 POIN2 (POIN3) ('ELIM') ('DINI' D1) ('DFIN' D2) ;",
+        examples=(
+            "OPTI DIME 2 ELEM SEG2 ; L = CERC 8 (1. 0.) (0. 0.) (0. 1.) ;",
+            "OPTI DIME 2 ELEM SEG2 ; L = CERC 8 'ROTA' 180. (1. 0.) (0. 0.) ;",
+            "OPTI DIME 2 ELEM SEG3 ; L = CERC 8 'PASS' (1. 0.) (0. 1.) (-1. 0.) ;",
+        ),
+    ),
+)
+def cerc(
+    call: Call,
+    through: str,
+    count: int | None,
+    start: Point | Mesh,
+    middle: Point,
+    end: Point | Mesh | None,
+    sizes: Sizes,
+) -> Mesh:
+    """Draw a circular arc about a centre or through three points."""
+    curve = arc_through if through == "PASS" else arc_about_centre
+    cuts = cuts_of(call, count, sizes)
+    return drawn_by_middle(call, curve, (start, middle, end), cuts)
+
+
+@cerc.form(
+    said("ROTA"),
+    COUNT,
+    ANGLE,
+    START,
+    AXIS,
+    flag(
+        "closed",
+        "ELIM",
+        en="a whole turn ends on its first point",
+        fr="un tour complet finit sur son premier point",
+    ),
+    SIZES,
+)
+def turned_point(
+    call: Call,
+    count: int | None,
+    angle: float | None,
+    start: Point | Mesh,
+    axis: Sequence[Point],
+    closed: bool,
+    sizes: Sizes,
+) -> Mesh:
+    """The arc that a point describes in a rotation."""
+    count, degrees = count_and_angle(call, count, angle)
+    cuts = cuts_of(call, count, sizes)
+    if closed and abs(abs(degrees) - 360.0) > 1e-6:
+        raise call.error("operators.mesh.turn-not-whole", degrees=degrees)
+    origin, direction = axis_of(call, axis)
+
+    def way(at: FloatArray) -> tuple[Arc, float]:
+        arc = arc_about_axis(at, origin, direction, math.radians(degrees))
+        return arc, arc.length
+
+    return drawn_from(call, start, way, cuts, closed=closed)
+
+
+@operator(
+    "CER3",
+    COUNT,
+    START,
+    arg("middle", "POINT", en="point of the arc", fr="point de l'arc"),
+    END,
+    SIZES,
+    family="mesh",
+    help=Help(
+        en="Circular arc through three points. " + SIZES_EN,
+        fr="Arc de cercle passant par trois points. " + SIZES_FR,
+        syntax="LIG1 = CER3 (N1) POIN1 POIN2 POIN3 ('DINI' DENS1) ('DFIN' DENS2) ;",
+        examples=("OPTI DIME 2 ELEM SEG2 ; L = CER3 8 (1. 0.) (0. 1.) (-1. 0.) ;",),
+    ),
+)
+def cer3(
+    call: Call,
+    count: int | None,
+    start: Point | Mesh,
+    middle: Point,
+    end: Point | Mesh | None,
+    sizes: Sizes,
+) -> Mesh:
+    """Draw the arc through three points."""
+    return drawn_by_middle(call, arc_through, (start, middle, end), cuts_of(call, count, sizes))
+
+
+@operator(
+    "PARC",
+    COUNT,
+    START,
+    arg("centre", "POINT", en="centre", fr="centre"),
+    END,
+    SIZES,
+    family="mesh",
+    help=Help(
+        en="The shorter arc of circle around a centre as arcs of parabola, SEG3 whose ends lie on "
+        "the circle and are tangent to it. " + SIZES_EN,
+        fr="L'arc de cercle le plus court autour d'un centre en arcs de parabole, SEG3 dont les "
+        "extrémités sont sur le cercle et lui sont tangentes. " + SIZES_FR,
+        syntax="LIG1 = PARC (N1) POIN1 CENTR1 POIN2 ('DINI' DENS1) ('DFIN' DENS2) ;",
+        examples=("OPTI DIME 2 ; L = PARC 2 (1. 0.) (0. 0.) (0. 1.) ; LIST (COOR 1 L) ;",),
+    ),
+)
+def parc(
+    call: Call,
+    count: int | None,
+    start: Point | Mesh,
+    centre: Point,
+    end: Point | Mesh | None,
+    sizes: Sizes,
+) -> Mesh:
+    """Draw parabolas along an arc."""
+    ws = workspace(call.session)
+    cuts = cuts_of(call, count, sizes)
+    ends = ends_of(call, start, end)
+    different_nodes(ws.nodes, ends.start, ends.end)
+    a, b = positions(ws, ends.start, ends.end)
+    arc = arc_about_centre(a, centre.coordinates.copy(), b)
+    tips = cuts.sizes(end_sizes(ws.nodes, ends.start, ends.end))
+    pieces = subdivide(arc.length, *tips, cuts.count)
+    middles = ParabolicArc(arc, pieces.fractions).middles()
+    inner = pieces.fractions[1:-1]
+    corners = ws.nodes.add(arc(inner), pieces.density(inner)) if len(inner) else inner.astype(int)
+    chain = np.empty(2 * pieces.count + 1, dtype=np.int64)
+    chain[0], chain[-1] = ends.start, ends.end
+    chain[2:-1:2] = corners
+    chain[1::2] = ws.nodes.add(middles, pieces.density(pieces.middles))
+    line = chain_mesh(ws.nodes, chain, True, ws.colour)
+    parts = [m for m in (ends.before, line, ends.after) if m is not None]
+    return union(*parts, as_given=True)

@@ -1,0 +1,121 @@
+"""INTE between points: the curve along which two simple surfaces cross."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.mesh.lines.crossing_curve import crossing_curve
+from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.kernel.mesh.surfaces.analytic import (
+    Shape,
+    cone_shape,
+    cylinder_shape,
+    plane_shape,
+    sphere_shape,
+    torus_shape,
+)
+from ssilang.language.registry import Chosen, arg, key, main, select
+from ssilang.language.run.call import Call
+from ssilang.operators.dispatch import INTE
+from ssilang.operators.mesh.lines.ends import (
+    COUNT,
+    END,
+    SIZES,
+    START,
+    Ends,
+    Sizes,
+    cuts_of,
+    drawn,
+    ends_of,
+    positions,
+)
+from ssilang.operators.workspace import workspace
+
+_CENTRE = arg("centre", "POINT", en="centre", fr="centre")
+_AXIS = arg("axis", "POINT", en="point of the axis", fr="point de l'axe")
+_SMALL_CIRCLE = arg("circle", "POINT", en="centre of a small circle", fr="centre d'un petit cercle")
+
+# word -> surface through the start of the curve (a plane through both its ends)
+_SURFACES: Mapping[str, Callable[[Sequence[FloatArray], FloatArray, FloatArray], Shape]] = {
+    "PLAN": lambda p, start, end: plane_shape(start, end, p[0]),
+    "SPHE": lambda p, start, end: sphere_shape(p[0], start),
+    "CYLI": lambda p, start, end: cylinder_shape(p[0], p[1], start),
+    "CONI": lambda p, start, end: cone_shape(p[0], p[1], start),
+    "TORI": lambda p, start, end: torus_shape(p[0], p[1], p[2], start),
+}
+
+
+@INTE.form(
+    select(
+        "surfaces",
+        {
+            "PLAN": [arg("point", "POINT", en="point of the plane", fr="point du plan")],
+            "SPHE": [_CENTRE],
+            "CYLI": [arg("first", "POINT", en=_AXIS.en, fr=_AXIS.fr), _AXIS],
+            "CONI": [arg("apex", "POINT", en="apex", fr="sommet"), _AXIS],
+            "TORI": [
+                _CENTRE,
+                _AXIS,
+                _SMALL_CIRCLE,
+            ],
+        },
+        optional=False,
+        repeated=True,
+        en="the two surfaces that cross, both through the start",
+        fr="les deux surfaces qui se croisent, passant par le départ",
+    ),
+    main("start", "POINT", "MAILLAGE", en=START.en, fr=START.fr),
+    COUNT,
+    SIZES,
+    key(
+        "length",
+        "LONG",
+        arg("length", "FLOTTANT", unit="m"),
+        en="length of the curve, then the end only shows the way",
+        fr="longueur de la courbe, l'arrivée ne montrant alors que le sens",
+    ),
+    END,
+    syntax="LIG1 = POIN1 | LIG2 INTE (N1) ('DINI' D1) ('DFIN' D2) ('LONG' X1) 'PLAN' P1 | "
+    "'SPHE' C1 | 'CYLI' A1 A2 | 'CONI' S1 A1 | 'TORI' C1 A1 C2 (again) POIN2 ;",
+    en="With two simple surfaces: the curve along which they cross, the shortest way from POIN1 to "
+    "POIN2. The surfaces pass through POIN1: a plane (through POIN2 too), a sphere by its centre, "
+    "a cylinder by its axis, a cone by its apex and a point of its axis, a torus by its centre, a "
+    "point of its axis and the centre of a small circle. 'LONG' gives the length instead of the "
+    "end, towards POIN2.",
+    fr="Avec deux surfaces simples : la courbe où elles se croisent, par le plus court chemin de "
+    "POIN1 à POIN2. Les surfaces passent par POIN1 : un plan (aussi par POIN2), une sphère par son "
+    "centre, un cylindre par son axe, un cône par son sommet et un point de son axe, un tore par "
+    "son centre, un point de son axe et le centre d'un petit cercle. 'LONG' impose la longueur au "
+    "lieu de l'extrémité, vers POIN2.",
+    examples=(
+        "OPTI DIME 3 ELEM SEG2 ; A = 1. 0. 0. ; B = 0. 1. 0. ;"
+        " L = A INTE 16 'CYLI' (0. 0. -1.) (0. 0. 1.) 'PLAN' (-1. 0. 0.) B ; MESS (MESU L) ;",
+    ),
+)
+def crossing(
+    call: Call,
+    surfaces: Sequence[Chosen],
+    start: Point | Mesh,
+    count: int | None,
+    sizes: Sizes,
+    length: float | None,
+    end: Point | Mesh | None,
+) -> Mesh:
+    """The line along which two surfaces cross, from a point or a line to another."""
+    cuts = cuts_of(call, count, sizes)
+    if length is not None and length <= 0.0:
+        raise call.error("operators.mesh.curve-length-not-positive", length, length=length)
+    if len(surfaces) != 2:
+        raise call.error("operators.mesh.two-surfaces-wanted", n_surfaces=len(surfaces))
+    ends = ends_of(call, start, end)
+    ws = workspace(call.session)
+    first, last = positions(ws, ends.start, ends.end)
+    gaps = [
+        _SURFACES[s.word]([p.coordinates.copy() for p in s.values.values()], first, last).distance
+        for s in surfaces
+    ]
+    curve = crossing_curve((gaps[0], gaps[1]), first, last, length)
+    if length is not None:
+        ends = Ends(ends.start, int(ws.nodes.add(curve.points[-1:], cuts.last)[0]), ends.before)
+    return drawn(call, ends, curve, curve.length, cuts)

@@ -1,0 +1,218 @@
+"""What operators that draw lines read: ends, numbers of elements, mesh sizes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.mesh.combine import union
+from ssilang.kernel.mesh.families import Family, family_of
+from ssilang.kernel.mesh.lines.curves import Arc, Polynomial
+from ssilang.kernel.mesh.lines.lines import (
+    CurveMap,
+    different_nodes,
+    end_sizes,
+    line_ends,
+    mesh_curve,
+)
+from ssilang.kernel.mesh.lines.subdivision import subdivide
+from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.language.registry import arg, key, many, opt
+from ssilang.language.run.call import Call
+from ssilang.operators.workspace import Workspace, workspace
+
+SIZES_EN = (
+    "N1 > 0: that many equal elements; N1 < 0: that many, graded by the mesh sizes of the ends; "
+    "without N1 the sizes decide. DINI and DFIN replace the sizes that the ends carry. A line in "
+    "place of an end point is continued; a line alone is closed."
+)
+SIZES_FR = (
+    "N1 > 0 : N1 éléments égaux ; N1 < 0 : N1 éléments gradués selon les densités ; sans N1 les "
+    "densités décident. DINI et DFIN remplacent les densités des extrémités. Une ligne à la place "
+    "d'une extrémité est prolongée ; une ligne seule est fermée."
+)
+
+
+COUNT = opt(
+    "count",
+    "ENTIER",
+    en="number of elements, graded by the mesh sizes if negative; without it these decide",
+    fr="nombre d'éléments, gradués selon les densités s'il est négatif ; sans lui elles décident",
+)
+ANGLE = opt("angle", "FLOTTANT", en="angle", fr="angle", unit="degree")
+SIZES = key(
+    "sizes",
+    ("DINI", "DFIN"),
+    arg("size", "FLOTTANT", unit="m"),
+    repeated=True,
+    en="mesh size at the start, at the end, in place of the one there",
+    fr="densité au départ, à l'arrivée, à la place de celle qui y est",
+)
+Sizes = Sequence[tuple[str, float]]
+START = arg(
+    "start", "POINT", "MAILLAGE", en="start, or a line to go on", fr="départ, ou ligne à prolonger"
+)
+END = opt(
+    "end",
+    "POINT",
+    "MAILLAGE",
+    en="end, or a line to reach; without it the line START is closed",
+    fr="arrivée, ou ligne à rejoindre ; sans elle la ligne START est fermée",
+)
+
+AXIS = many(
+    "axis",
+    "POINT",
+    at_least=1,
+    en="centre, or in space two points of the axis",
+    fr="centre, ou en dimension 3 deux points de l'axe",
+)
+
+
+@dataclass(frozen=True)
+class Cuts:
+    """Number of elements and mesh sizes at both ends; 0 if not given."""
+
+    count: int = 0
+    first: float = 0.0
+    last: float = 0.0
+
+    def sizes(self, densities: tuple[float, float]) -> tuple[float, float]:
+        """The given sizes, else those of the two ends."""
+        return self.first or densities[0], self.last or densities[1]
+
+
+def cuts_of(call: Call, count: int | None, sizes: Sizes) -> Cuts:
+    """What `COUNT` and `SIZES` have read."""
+    for _, size in sizes:
+        if size <= 0.0:
+            raise call.error("operators.mesh.size-not-positive", size, size=size)
+    said = dict(sizes)
+    return Cuts(count or 0, said.get("DINI", 0.0), said.get("DFIN", 0.0))
+
+
+def count_and_angle(call: Call, count: int | None, angle: float | None) -> tuple[int, float]:
+    """What `COUNT` and `ANGLE` have read: an integer alone is the angle."""
+    if angle is not None:
+        return count or 0, angle
+    if count is None:
+        raise call.missing(("FLOTTANT",))
+    return 0, float(count)
+
+
+def axis_of(call: Call, points: Sequence[Point]) -> tuple[FloatArray, FloatArray]:
+    """Origin and direction that `AXIS` has read: in the plane the direction is its normal."""
+    needed = 2 if workspace(call.session).dimension == 3 else 1
+    if len(points) < needed:
+        raise call.missing(("POINT",))
+    if len(points) > needed:
+        raise call.error(
+            "operators.mesh.axis-points", points[-1], needed=needed, n_points=len(points)
+        )
+    origin = points[0].coordinates.copy()
+    if needed == 1:
+        return origin, np.array([0.0, 0.0, 1.0])
+    return origin, points[1].coordinates - origin
+
+
+def chosen_family(ws: Workspace) -> Family:
+    """Cells that go with OPTI ELEM.
+
+    Raises
+    ------
+    MeshError
+        If it was not set.
+    """
+    if not ws.element:
+        raise MeshError("operators.mesh.no-element-type")
+    return family_of(ws.element)
+
+
+@dataclass(frozen=True)
+class Ends:
+    """Where a new line starts and ends, and the lines that it continues on either side."""
+
+    start: int
+    end: int
+    before: Mesh | None = None
+    after: Mesh | None = None
+
+
+def ends_of(call: Call, first: Point | Mesh, second: Point | Mesh | None) -> Ends:
+    """Ends from one or two points or lines; a line alone is closed from its end to its start."""
+    if second is None:
+        if isinstance(first, Point):
+            raise call.missing(("POINT",))
+        start, end = line_ends(first)
+        return Ends(end, start, first)
+    start = first.node if isinstance(first, Point) else line_ends(first)[1]
+    end = second.node if isinstance(second, Point) else line_ends(second)[0]
+    before = first if isinstance(first, Mesh) else None
+    return Ends(start, end, before, second if isinstance(second, Mesh) else None)
+
+
+def positions(ws: Workspace, *nodes: int) -> list[FloatArray]:
+    """Copies of the coordinates of nodes."""
+    return [ws.nodes.coordinates[n].copy() for n in nodes]
+
+
+def drawn(call: Call, ends: Ends, curve: CurveMap, length: float, cuts: Cuts) -> Mesh:
+    """The line along a curve between the ends, joined to the lines on either side."""
+    ws = workspace(call.session)
+    different_nodes(ws.nodes, ends.start, ends.end)
+    parts = subdivide(length, *cuts.sizes(end_sizes(ws.nodes, ends.start, ends.end)), cuts.count)
+    quadratic = chosen_family(ws).quadratic
+    line = mesh_curve(ws.nodes, curve, ends.start, ends.end, parts, quadratic, ws.colour)
+    pieces = [m for m in (ends.before, line, ends.after) if m is not None]
+    return union(*pieces, as_given=True)
+
+
+def drawn_by_middle(
+    call: Call,
+    curve: Callable[[FloatArray, FloatArray, FloatArray], Arc | Polynomial],
+    points: tuple[Point | Mesh, Point, Point | Mesh | None],
+    cuts: Cuts,
+) -> Mesh:
+    """The line that a start, a point and an end say."""
+    start, middle, end = points
+    ends = ends_of(call, start, end)
+    a, b = positions(workspace(call.session), ends.start, ends.end)
+    shape = curve(a, middle.coordinates.copy(), b)
+    return drawn(call, ends, shape, shape.length, cuts)
+
+
+def drawn_from(
+    call: Call,
+    start: Point | Mesh,
+    way: Callable[[FloatArray], tuple[CurveMap, float]],
+    cuts: Cuts,
+    last_size: float | None = None,
+    closed: bool = False,
+) -> Mesh:
+    """The line from a point, or from the end of a line, which it goes on.
+
+    Parameters
+    ----------
+    way : callable
+        The curve and its length from the position (3,) of its start.
+    last_size : float, optional
+        Mesh size at the end; by default that of the start.
+    closed : bool
+        Whether the line comes back to its first node.
+    """
+    ws = workspace(call.session)
+    before = start if isinstance(start, Mesh) else None
+    first = start.node if isinstance(start, Point) else line_ends(start)[1]
+    curve, length = way(positions(ws, first)[0])
+    size = float(ws.nodes.density[first])
+    sizes = cuts.sizes((size, size if last_size is None else last_size))
+    parts = subdivide(length, *sizes, cuts.count)
+    quadratic = chosen_family(ws).quadratic
+    line = mesh_curve(
+        ws.nodes, curve, first, first if closed else None, parts, quadratic, ws.colour
+    )
+    return line if before is None else union(before, line, as_given=True)

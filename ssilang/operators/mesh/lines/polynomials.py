@@ -1,0 +1,218 @@
+"""Polynomial curves: PARA CUBP CUBT COUR."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ssilang.kernel.mesh.lines.curves import Polynomial, cubic_tangents, cubic_through, parabola
+from ssilang.kernel.mesh.lines.lines import line_ends
+from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.language.registry import Help, arg, flag, key, many, operator
+from ssilang.language.run.call import Call
+from ssilang.operators.mesh.lines.ends import (
+    COUNT,
+    END,
+    SIZES,
+    SIZES_EN,
+    SIZES_FR,
+    START,
+    Ends,
+    Sizes,
+    cuts_of,
+    drawn,
+    drawn_by_middle,
+    ends_of,
+    positions,
+)
+from ssilang.operators.workspace import workspace
+
+
+@operator(
+    "PARA",
+    COUNT,
+    START,
+    arg(
+        "middle",
+        "POINT",
+        en="where the tangents of both ends meet",
+        fr="intersection des tangentes aux extrémités",
+    ),
+    END,
+    SIZES,
+    family="mesh",
+    full_name="PARABOLE",
+    help=Help(
+        en="Arc of parabola between two points, the middle point being where the end tangents "
+        "meet. " + SIZES_EN,
+        fr="Arc de parabole entre deux points, le point du milieu étant l'intersection des "
+        "tangentes aux extrémités. " + SIZES_FR,
+        syntax="LIG1 = PARA (N1) POIN1 POIN3 POIN2 ('DINI' DENS1) ('DFIN' DENS2) ;",
+        examples=("OPTI DIME 2 ELEM SEG2 ; L = PARA 8 (0. 0.) (1. 2.) (2. 0.) ;",),
+    ),
+)
+def para(
+    call: Call,
+    count: int | None,
+    start: Point | Mesh,
+    middle: Point,
+    end: Point | Mesh | None,
+    sizes: Sizes,
+) -> Mesh:
+    """Draw an arc of parabola."""
+    cuts = cuts_of(call, count, sizes)
+    return drawn_by_middle(call, parabola, (start, middle, end), cuts)
+
+
+@operator(
+    "CUBP",
+    COUNT,
+    START,
+    arg("first", "POINT", en="first inner point", fr="premier point interne"),
+    arg("second", "POINT", en="second inner point", fr="deuxième point interne"),
+    END,
+    flag("uniform", "UNIF", en="nodes even in length", fr="noeuds réguliers en longueur"),
+    SIZES,
+    family="mesh",
+    help=Help(
+        en="Cubic through four points; 'UNIF' spaces nodes by length, else by the parameter that "
+        "is 1/3 and 2/3 at the inner points. " + SIZES_EN,
+        fr="Cubique passant par quatre points ; 'UNIF' répartit les noeuds selon l'abscisse "
+        "curviligne, sinon selon le paramètre valant 1/3 et 2/3 aux points internes. " + SIZES_FR,
+        syntax="LIG1 = CUBP (N1) POIN1 POIN2 POIN3 POIN4 ('UNIF') ('DINI' D1) ('DFIN' D2) ;",
+        examples=("OPTI DIME 2 ELEM SEG2 ; L = CUBP 9 (0. 0.) (1. 1.) (2. -1.) (3. 0.) ;",),
+    ),
+)
+def cubp(
+    call: Call,
+    count: int | None,
+    start: Point | Mesh,
+    first: Point,
+    second: Point,
+    end: Point | Mesh | None,
+    sizes: Sizes,
+    uniform: bool,
+) -> Mesh:
+    """Draw the cubic through four points."""
+    ends = ends_of(call, start, end)
+    inner = first.coordinates.copy(), second.coordinates.copy()
+    a, b = positions(workspace(call.session), ends.start, ends.end)
+    shape = cubic_through(a, *inner, b, uniform)
+    return drawn(call, ends, shape, shape.length, cuts_of(call, count, sizes))
+
+
+@operator(
+    "CUBT",
+    COUNT,
+    START,
+    arg("first", "POINT", en="tangent at the start", fr="tangente au départ"),
+    arg("second", "POINT", en="tangent at the end", fr="tangente à l'arrivée"),
+    END,
+    SIZES,
+    family="mesh",
+    help=Help(
+        en="Cubic between two points, tangent to a vector at each. " + SIZES_EN,
+        fr="Cubique entre deux points, tangente à un vecteur en chacun. " + SIZES_FR,
+        syntax="LIG1 = CUBT (N1) POIN1 VECT1 VECT2 POIN2 ('DINI' DENS1) ('DFIN' DENS2) ;",
+        examples=("OPTI DIME 2 ELEM SEG2 ; L = CUBT 9 (0. 0.) (1. 1.) (1. -1.) (3. 0.) ;",),
+    ),
+)
+def cubt(
+    call: Call,
+    count: int | None,
+    start: Point | Mesh,
+    first: Point,
+    second: Point,
+    end: Point | Mesh | None,
+    sizes: Sizes,
+) -> Mesh:
+    """Draw the cubic between two tangents."""
+    ends = ends_of(call, start, end)
+    tangents = first.coordinates.copy(), second.coordinates.copy()
+    a, b = positions(workspace(call.session), ends.start, ends.end)
+    shape = cubic_tangents(a, *tangents, b)
+    return drawn(call, ends, shape, shape.length, cuts_of(call, count, sizes))
+
+
+@operator(
+    "COUR",
+    COUNT,
+    SIZES,
+    key(
+        "before",
+        "PINI",
+        arg("point", "POINT", "MAILLAGE"),
+        en="existing point at the start, or a line to go on",
+        fr="point existant au départ, ou ligne à prolonger",
+    ),
+    key(
+        "after",
+        "PFIN",
+        arg("point", "POINT", "MAILLAGE"),
+        en="existing point at the end, or a line to reach",
+        fr="point existant à l'arrivée, ou ligne à rejoindre",
+    ),
+    key(
+        "limits",
+        "PARAMETRE",
+        arg("u1", "FLOTTANT"),
+        arg("u2", "FLOTTANT"),
+        default=(0.0, 1.0),
+        en="U at the start and at the end",
+        fr="U au départ et à l'arrivée",
+    ),
+    flag("regular", "REGULIER", en="nodes even in length", fr="noeuds réguliers en longueur"),
+    many("points", "POINT", at_least=1, en="P0 P1 P2 ...", fr="P0 P1 P2 ..."),
+    family="mesh",
+    full_name="COURBE",
+    help=Help(
+        en="Polynomial curve P(U) = P0 + U P1 + U**2 P2 + ..., U from 0 to 1 or between the values "
+        "behind 'PARA'. 'REGU' spaces nodes by length. 'PINI' and 'PFIN' give an existing point "
+        "(or a line to continue) where the curve starts or ends.",
+        fr="Courbe polynomiale P(U) = P0 + U P1 + U**2 P2 + ..., U de 0 à 1 ou entre les bornes "
+        "données derrière 'PARA'. 'REGU' répartit les noeuds selon l'abscisse curviligne. 'PINI' "
+        "et 'PFIN' donnent un point existant (ou une ligne à prolonger) aux extrémités.",
+        syntax="LIG1 = COUR (N1) ('DINI' D1) ('DFIN' D2) ('PINI' OBJ1) ('PFIN' OBJ2) POIN0 POIN1 "
+        "(POIN2 ...) ('PARA' U1 U2) ('REGU') ;",
+        examples=("OPTI DIME 2 ELEM SEG2 ; L = COUR 8 (0. 0.) (1. 0.) (0. 1.) ;",),
+    ),
+)
+def cour(
+    call: Call,
+    count: int | None,
+    sizes: Sizes,
+    before: Point | Mesh | None,
+    after: Point | Mesh | None,
+    limits: tuple[float, float],
+    regular: bool,
+    points: Sequence[Point],
+) -> Mesh:
+    """Draw a polynomial curve."""
+    if len(points) < 2:
+        raise call.missing(("POINT",))
+    cuts = cuts_of(call, count, sizes)
+    table = np.array([p.coordinates for p in points])
+    shape = Polynomial(table, *limits, regular=regular)
+    ends = _curve_ends(call, shape, before, after)
+    return drawn(call, ends, shape, shape.length, cuts)
+
+
+def _curve_ends(
+    call: Call, shape: Polynomial, before: Point | Mesh | None, after: Point | Mesh | None
+) -> Ends:
+    """Existing or new end nodes of a curve."""
+    ws = workspace(call.session)
+    tips = shape(np.array([0.0, 1.0]))
+    scale = max(shape.length, 1e-300)
+    nodes = []
+    for word, there, side, tip in (("PINI", before, 1, tips[0]), ("PFIN", after, 0, tips[1])):
+        if there is None:
+            nodes.append(int(ws.nodes.add(tip[None], ws.density)[0]))
+            continue
+        node = there.node if isinstance(there, Point) else line_ends(there)[side]
+        if float(np.linalg.norm(ws.nodes.coordinates[node] - tip)) > 1e-4 * scale:
+            raise call.error("operators.mesh.point-off-curve", there, word=word)
+        nodes.append(node)
+    lines = (m if isinstance(m, Mesh) else None for m in (before, after))
+    return Ends(nodes[0], nodes[1], *lines)

@@ -1,0 +1,214 @@
+"""Straight and broken lines: DROI LIGN QUEL."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.mesh.lines.curves import Arc, arc_about_axis
+from ssilang.kernel.mesh.lines.lines import CurveMap, chain_mesh, polyline
+from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.language.registry import Help, arg, choice, many, operator, opt, said
+from ssilang.language.run.call import Call
+from ssilang.language.values import ListReel
+from ssilang.operators.mesh.lines.ends import (
+    ANGLE,
+    COUNT,
+    END,
+    SIZES,
+    SIZES_EN,
+    SIZES_FR,
+    START,
+    Sizes,
+    chosen_family,
+    count_and_angle,
+    cuts_of,
+    drawn,
+    drawn_from,
+    ends_of,
+    positions,
+)
+from ssilang.operators.workspace import workspace
+
+
+@operator(
+    "DROI",
+    COUNT,
+    START,
+    END,
+    SIZES,
+    family="mesh",
+    full_name="DROIT",
+    aliases=("D",),
+    help=Help(
+        en="Straight line between two points. " + SIZES_EN,
+        fr="Segment de droite entre deux points. " + SIZES_FR,
+        syntax="LIG1 = DROI (N1) POIN1 POIN2 ('DINI' DENS1) ('DFIN' DENS2) ;",
+        examples=(
+            "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; LIST (NBEL L) ;",
+            "OPTI DIME 2 ELEM SEG3 DENS 0.25 ; P = 0. 0. ; L = P DROI (1. 0.) 'DFIN' 0.1 ;",
+        ),
+    ),
+)
+def droi(
+    call: Call,
+    count: int | None,
+    start: Point | Mesh,
+    end: Point | Mesh | None,
+    sizes: Sizes,
+) -> Mesh:
+    """Draw a straight line."""
+    cuts = cuts_of(call, count, sizes)
+    ends = ends_of(call, start, end)
+    a, b = positions(workspace(call.session), ends.start, ends.end)
+    return drawn(call, ends, lambda s: a + s[:, None] * (b - a), float(np.linalg.norm(b - a)), cuts)
+
+
+@operator(
+    "LIGN",
+    said("ROTA"),
+    COUNT,
+    ANGLE,
+    arg("centre", "POINT", en="centre", fr="centre"),
+    START,
+    opt(
+        "normal",
+        "POINT",
+        en="normal to the plane of the arc, in space",
+        fr="normale au plan de l'arc, en dimension 3",
+    ),
+    SIZES,
+    family="mesh",
+    full_name="LIGNE",
+    help=Help(
+        en="Arc ('ROTA') from a point (or the end of a line) about a centre, with the normal of "
+        "its plane in 3D, by an angle in degrees; or segment ('TRAN') from a point along a vector. "
+        + SIZES_EN,
+        fr="Arc ('ROTA') d'un point (ou de la fin d'une ligne) autour d'un centre, avec la normale "
+        "à son plan en 3D, d'un angle en degrés ; ou segment ('TRAN') d'un point selon un vecteur. "
+        + SIZES_FR,
+        syntax="LIG1 = LIGN 'ROTA' (N1) CENTRE POIN1 (NORMAL) ANGLE ('DINI' D1) ('DFIN' D2) ;\n"
+        "LIG1 = LIGN 'TRAN' (N1) POIN1 VEC1 ('DINI' D1) ('DFIN' D2) ;",
+        examples=(
+            "OPTI DIME 2 ELEM SEG2 ; L = LIGN 'ROTA' 8 (0. 0.) (1. 0.) 90. ;"
+            " M = LIGN 'TRAN' 4 (0. 0.) (1. 1.) ;",
+        ),
+    ),
+)
+def lign(
+    call: Call,
+    count: int | None,
+    angle: float | None,
+    centre: Point,
+    start: Point | Mesh,
+    normal: Point | None,
+    sizes: Sizes,
+) -> Mesh:
+    """Draw an arc from a point."""
+    count, degrees = count_and_angle(call, count, angle)
+    cuts = cuts_of(call, count, sizes)
+    axis = np.array([0.0, 0.0, 1.0])
+    if workspace(call.session).dimension == 3:
+        if normal is None:
+            raise call.missing(("POINT",))
+        axis = normal.coordinates.copy()
+    origin = centre.coordinates.copy()
+
+    def way(at: FloatArray) -> tuple[Arc, float]:
+        arc = arc_about_axis(at, origin, axis, math.radians(degrees))
+        return arc, arc.length
+
+    return drawn_from(call, start, way, cuts)
+
+
+@lign.form(
+    said("TRAN"),
+    COUNT,
+    START,
+    arg("vector", "POINT", en="vector to the end", fr="vecteur vers l'arrivée"),
+    SIZES,
+)
+def segment(
+    call: Call,
+    count: int | None,
+    start: Point | Mesh,
+    vector: Point,
+    sizes: Sizes,
+) -> Mesh:
+    """Draw a segment from a point along a vector."""
+    step = vector.coordinates.copy()
+
+    def way(at: FloatArray) -> tuple[CurveMap, float]:
+        return lambda s: at + s[:, None] * step, float(np.linalg.norm(step))
+
+    return drawn_from(call, start, way, cuts_of(call, count, sizes), vector.density)
+
+
+@operator(
+    "QUEL",
+    choice(
+        "cell_type",
+        ("SEG2", "SEG3"),
+        en="type of the cells, that of OPTI ELEM by default",
+        fr="type des éléments, par défaut celui d'OPTI ELEM",
+    ),
+    many(
+        "lists",
+        "LISTREEL",
+        en="first coordinates, second ones ...",
+        fr="premières coordonnées, deuxièmes ...",
+        unit="m",
+    ),
+    many(
+        "points",
+        "POINT",
+        "MAILLAGE",
+        en="points, or meshes whose points follow one another",
+        fr="points, ou maillages dont les points se suivent",
+    ),
+    family="mesh",
+    full_name="QUELCONQUE",
+    help=Help(
+        en="Broken line through points, in order: given one by one, as a mesh of points, or by "
+        "lists of coordinates. With SEG3 every other point is the middle of an element.",
+        fr="Ligne brisée passant par des points dans l'ordre : donnés un à un, par un maillage de "
+        "points ou par des listes de coordonnées. Avec SEG3 un point sur deux est un milieu.",
+        syntax="LIG1 = QUEL ('SEG2'|'SEG3') POIN1 POIN2 ... | MAIL1 | LISTX (LISTY (LISTZ)) ;",
+        examples=(
+            "OPTI DIME 2 ; L = QUEL 'SEG2' (0. 0.) (1. 1.) (2. 0.) ;",
+            "OPTI DIME 2 ; L = QUEL 'SEG2' (PROG 0. 1. 2.) (PROG 0. 1. 0.) ;",
+        ),
+    ),
+)
+def quel(
+    call: Call, cell_type: str | None, lists: Sequence[ListReel], points: Sequence[Point | Mesh]
+) -> Mesh:
+    """Draw a broken line."""
+    ws = workspace(call.session)
+    quadratic = cell_type == "SEG3" if cell_type else chosen_family(ws).quadratic
+    if not lists:
+        return polyline(ws.nodes, _given_nodes(call, points), quadratic, ws.colour)
+    if points:
+        raise call.error("operators.mesh.points-and-lists", points[0])
+    if len({len(v) for v in lists}) > 1:
+        raise call.error("operators.mesh.coordinate-lists-differ", lists[1])
+    table = np.column_stack([v.values for v in lists[: max(ws.dimension, 1)]])
+    return chain_mesh(ws.nodes, ws.nodes.add(table, ws.density), quadratic, ws.colour)
+
+
+def _given_nodes(call: Call, points: Sequence[Point | Mesh]) -> IntArray:
+    if not points:
+        raise call.missing(("POINT", "MAILLAGE", "LISTREEL"))
+    parts = [
+        p
+        for item in points
+        for p in (
+            [np.array([item.node])]
+            if isinstance(item, Point)
+            else [b.connectivity.ravel() for b in item.blocks]
+        )
+    ]
+    return np.concatenate(parts).astype(np.int64)

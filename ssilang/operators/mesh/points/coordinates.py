@@ -1,0 +1,163 @@
+"""COOR: coordinates of points, of nodes and of integration points."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.elements.zone_fields import carry
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.materials.model import Model
+from ssilang.kernel.mesh.boundary import chained
+from ssilang.kernel.mesh.lines.lines import line_chain
+from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.kernel.mesh.nodes import NodeTable
+from ssilang.language.registry import ANY, arg, main, opt, said
+from ssilang.language.run.call import Call
+from ssilang.language.run.session import Session
+from ssilang.operators.dispatch import COOR
+from ssilang.operators.workspace import workspace
+
+_AXIS = arg(
+    "axis",
+    "ENTIER",
+    en="number of the coordinate; the dimension + 1 stands for the density",
+    fr="numéro de la coordonnée ; la dimension + 1 désigne la densité",
+)
+_POINT = main("support", "POINT", en="point", fr="point")
+_MESH = main("support", "MAILLAGE", en="mesh", fr="maillage")
+_NODE_FIELD = main("support", "CHPOINT", en="field at nodes", fr="champ par points")
+_MODEL = main("support", "MMODEL", en="model", fr="modèle")
+_CELL_FIELD = main("support", "MCHAML", en="field in cells", fr="champ par éléments")
+
+Support = Point | Mesh | NodeField | Model | CellField
+
+
+@COOR.form(
+    _CELL_FIELD,
+    _AXIS,
+    en="Of a cell field: cell fields, at the same points.",
+    fr="D'un champ par éléments : champs par éléments, aux mêmes points.",
+    gives="MCHAML",
+)
+@COOR.form(
+    _MODEL,
+    _AXIS,
+    syntax="CHAM1 ... = COOR (N1) MODL1 ;",
+    en="Of a model: cell fields at nodes.",
+    fr="D'un modèle : champs par éléments aux noeuds.",
+    gives="MCHAML",
+)
+@COOR.form(_NODE_FIELD, _AXIS, gives="CHPOINT")
+@COOR.form(
+    _MESH,
+    _AXIS,
+    syntax="CHPO1 ... = COOR (N1) GEO1 ('CURV') ;",
+    en="Of a mesh or a nodal field: nodal fields of component SCAL; 'CURV': the length along a "
+    "line from its start.",
+    fr="D'un maillage ou d'un champ par points : champs par points de composante SCAL ; 'CURV' : "
+    "abscisse curviligne d'une ligne.",
+    examples=(
+        "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; X = COOR 1 L ; LIST (MAXI X) ;",
+    ),
+    gives="CHPOINT",
+)
+@COOR.form(
+    _POINT,
+    _AXIS,
+    syntax="X1 (Y1 (Z1)) = COOR (N1) POIN1 ;",
+    en="Of a point: one coordinate (number DIME + 1 is the density), or all of them.",
+    fr="D'un point : une coordonnée (la DIME + 1 ième est la densité), ou toutes.",
+    examples=("OPTI DIME 2 ; X Y = COOR (1. 2.) ; LIST Y ;",),
+    gives="FLOTTANT",
+)
+def one_coordinate(call: Call, support: Support, axis: int) -> float | NodeField | CellField:
+    """One coordinate, or the density."""
+    dimension = max(workspace(call.session).dimension, 1)
+    if not 1 <= axis <= dimension + 1:
+        raise call.error("operators.mesh.no-such-coordinate", axis, axis=axis, dimension=dimension)
+    return _coordinate(support, axis - 1, axis > dimension)
+
+
+@COOR.form(_CELL_FIELD, gives=ANY)
+@COOR.form(_MODEL, gives=ANY)
+@COOR.form(_NODE_FIELD, gives=ANY)
+@COOR.form(_MESH, gives=ANY)
+@COOR.form(_POINT, gives=ANY)
+def all_coordinates(
+    session: Session, support: Support
+) -> tuple[float | NodeField | CellField, ...]:
+    """All coordinates."""
+    axes = range(max(workspace(session).dimension, 1))
+    return tuple(_coordinate(support, axis, False) for axis in axes)
+
+
+@COOR.form(
+    said("CURV"),
+    arg("line", "MAILLAGE", en="line", fr="ligne"),
+    opt("axis", "ENTIER", en="accepted, without effect", fr="accepté, sans effet"),
+)
+def curvilinear_coordinate(line: Mesh, axis: int | None) -> NodeField:
+    """Length along a line."""
+    return curvilinear(line)
+
+
+def _coordinate(support: Support, axis: int, density: bool) -> float | NodeField | CellField:
+    """One coordinate, from 0, or the density, of what an object stands on."""
+    if isinstance(support, Model):
+        return _of_model(support, axis, density)
+    if isinstance(support, CellField):
+        return _of_cell_field(support, axis, density)
+    nodes = support.table if isinstance(support, NodeField) else support.nodes
+    column = _column(nodes, axis, density)
+    if isinstance(support, Point):
+        return float(column[support.node])
+    ids = support.sorted_node_ids if isinstance(support, Mesh) else support.node_ids
+    return NodeField.of(nodes, ids, {"SCAL": column[ids]}, "DIFFUS")
+
+
+def _column(nodes: NodeTable, axis: int, density: bool) -> FloatArray:
+    column: FloatArray = nodes.density if density else nodes.coordinates[:, axis]
+    return column
+
+
+def curvilinear(line: Mesh) -> NodeField:
+    """Length along a line from its start, at its nodes; a closed line starts with its first cell.
+
+    Raises
+    ------
+    MeshError
+        If the mesh is not one line.
+    """
+    chain = line_chain(chained(line))
+    xyz = line.nodes.coordinates[chain]
+    length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(xyz, axis=0), axis=1))])
+    if chain[0] == chain[-1]:
+        chain, length = chain[:-1], length[:-1]
+    return NodeField.of(line.nodes, chain, {"SCAL": length}, "DIFFUS")
+
+
+def _of_cell_field(field: CellField, axis: int, density: bool) -> CellField:
+    blocks = []
+    for b in field.blocks:
+        values = _column(b.cells.nodes, axis, density)[b.cells.connectivity]
+        if b.support != "NOEUD":
+            values = carry(values, b.element, "NOEUD", b.support)
+        blocks.append(replace(b, components={"SCAL": values}))
+    return CellField(tuple(blocks), "SCALAIRE")
+
+
+def _of_model(model: Model, axis: int, density: bool) -> CellField:
+    blocks = tuple(
+        CellFieldBlock(
+            z.cells,
+            {"SCAL": _column(z.cells.nodes, axis, density)[z.cells.connectivity]},
+            element=z.element,
+            constituent=z.constituent,
+        )
+        for z in model.zones
+    )
+    return CellField(blocks, "SCALAIRE")

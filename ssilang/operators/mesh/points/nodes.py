@@ -1,0 +1,95 @@
+"""Points and their nodes: NOEU CONF BARY."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.mesh.combine import poi1
+from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.language.registry import Help, arg, operator, said
+from ssilang.language.run.call import Call
+from ssilang.language.run.session import Session
+from ssilang.operators.workspace import workspace
+
+
+@operator(
+    "NOEU",
+    arg("point", "POINT", en="point", fr="point"),
+    family="mesh",
+    full_name="NOEUD",
+    help=Help(
+        en="The point with a node number, or the node number of a point.",
+        fr="Le point d'un numéro de noeud, ou le numéro de noeud d'un point.",
+        syntax="POIN1 = NOEU N1 ; N1 = NOEU POIN1 ;",
+        examples=("OPTI DIME 2 ; P = 1. 0. ; Q = NOEU (NOEU P) ; LIST (COOR 1 Q) ;",),
+    ),
+)
+def noeu(point: Point) -> int:
+    """The number of a point's node."""
+    return point.node + 1
+
+
+@noeu.form(arg("number", "ENTIER", en="number of a node", fr="numéro d'un noeud"))
+def numbered(session: Session, call: Call, number: int) -> Point:
+    """The point of a node."""
+    nodes = workspace(session).nodes
+    if not 1 <= number <= len(nodes):
+        raise call.error("operators.mesh.no-such-node", number, number=number, n_nodes=len(nodes))
+    return Point(nodes, number - 1)
+
+
+@operator(
+    "CONF",
+    arg("first", "POINT", en="point that goes", fr="point qui disparaît"),
+    arg("second", "POINT", en="point that it becomes", fr="point qu'il devient"),
+    family="mesh",
+    full_name="CONFONDRE",
+    help=Help(
+        en="Makes the first point the same node as the second, wherever it is.",
+        fr="Confond le premier point avec le second, où qu'il soit.",
+        syntax="CONF POIN1 POIN2 ;",
+        examples=("OPTI DIME 2 ; P = 1. 0. ; Q = 2. 0. ; CONF P Q ; LIST (COOR 1 P) ;",),
+    ),
+)
+def conf(first: Point, second: Point) -> None:
+    """Merge two points."""
+    if first.node != second.node:
+        first.nodes.merge(np.array([second.node]), np.array([first.node]))
+
+
+@operator(
+    "BARY",
+    arg("mesh", "MAILLAGE", "POINT", en="mesh, or point", fr="maillage, ou point"),
+    family="mesh",
+    full_name="BARYCENTRE",
+    help=Help(
+        en="Mean position of a mesh's nodes, or with 'ELEM' of each cell's nodes.",
+        fr="Position moyenne des noeuds d'un maillage ou, avec 'ELEM', des noeuds de chaque "
+        "élément.",
+        syntax="POIN1 = BARY GEO1 ('ELEM') ;",
+        examples=("OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; LIST (COOR 1 (BARY L)) ;",),
+    ),
+)
+def bary(session: Session, mesh: Mesh | Point) -> Point:
+    """Mean position of the nodes."""
+    if isinstance(mesh, Point):
+        return mesh
+    ws = workspace(session)
+    _not_empty(mesh)
+    centre = ws.nodes.coordinates[mesh.node_ids].mean(axis=0)
+    return Point(ws.nodes, int(ws.nodes.add(centre[None], ws.density)[0]))
+
+
+@bary.form(said("ELEM"), arg("mesh", "MAILLAGE", en="cells", fr="éléments"))
+def centres_of_cells(session: Session, mesh: Mesh) -> Mesh:
+    """Mean position of each cell's nodes."""
+    ws = workspace(session)
+    _not_empty(mesh)
+    centres = np.concatenate([b.coordinates.mean(axis=1) for b in mesh.blocks])
+    return poi1(ws.nodes, ws.nodes.add(centres, ws.density), ws.colour)
+
+
+def _not_empty(mesh: Mesh) -> None:
+    if not mesh.n_cells:
+        raise MeshError("operators.mesh.no-barycentre")

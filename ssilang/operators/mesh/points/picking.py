@@ -1,0 +1,340 @@
+"""POIN: points picked from meshes and fields, or made from coordinates."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.elements.zone_fields import carry
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.mesh.combine import poi1
+from ssilang.kernel.mesh.lines.lines import line_ends
+from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.kernel.mesh.queries.select import junctions, nearest_node
+from ssilang.language.registry import (
+    Chosen,
+    Help,
+    arg,
+    flag,
+    key,
+    main,
+    many,
+    operator,
+    opt,
+    said,
+    select,
+)
+from ssilang.language.run.call import Call
+from ssilang.language.run.session import Session
+from ssilang.language.values import ListMots, ListReel
+from ssilang.operators.mesh.copies.maps import SHAPES, shape_of
+from ssilang.operators.mesh.tolerance import DISTANCE, tolerance_of
+from ssilang.operators.workspace import workspace
+
+_COMPARISONS: dict[str, Callable[[FloatArray, float], NDArray[np.bool_]]] = {
+    "SUPERIEUR": np.greater,
+    "EGSUPE": np.greater_equal,
+    "EGALE": lambda v, x: np.isclose(v, x, rtol=1e-12, atol=0.0),
+    "EGINFE": np.less_equal,
+    "INFERIEUR": np.less,
+    "DIFFERENT": lambda v, x: ~np.isclose(v, x, rtol=1e-12, atol=0.0),
+}
+_LIMIT = arg("limit", "FLOTTANT", en="value", fr="valeur")
+EXTREMES = select(
+    "what",
+    {
+        "MAXI": (),
+        "MINI": (),
+        **dict.fromkeys(_COMPARISONS, (_LIMIT,)),
+        "COMPRIS": (
+            arg("low", "FLOTTANT", en="one limit", fr="une limite"),
+            arg("high", "FLOTTANT", en="other limit", fr="autre limite"),
+        ),
+    },
+    optional=False,
+    en="largest or smallest values, or how they compare",
+    fr="valeurs extrêmes, ou ce qu'elles vérifient",
+)
+ABSOLUTE = flag("absolute", "ABS", en="of absolute values", fr="en valeur absolue")
+NAMED = key(
+    "named",
+    ("AVEC", "SANS"),
+    arg("names", "LISTMOTS", kind="component"),
+    repeated=True,
+    en="only these components, or all but these",
+    fr="ces composantes seulement, ou toutes sauf elles",
+)
+Named = Sequence[tuple[str, ListMots]]
+
+
+def chosen_components(names: Iterable[str], named: Named) -> list[str]:
+    """The names that `NAMED` leaves."""
+    left = list(names)
+    for word, listed in named:
+        said = {str(n).rstrip() for n in listed.values}
+        left = [n for n in left if (n in said) == (word == "AVEC")]
+    return left
+
+
+_MESH = main("mesh", "MAILLAGE", en="mesh to pick from", fr="maillage où choisir")
+
+
+@operator(
+    "POIN",
+    _MESH,
+    arg(
+        "number",
+        "ENTIER",
+        en="number of a point, or in the cell",
+        fr="numéro d'un point, ou dans l'élément",
+    ),
+    opt("cell", "ENTIER", en="number of the cell", fr="numéro de l'élément"),
+    family="mesh",
+    full_name="POINT",
+    help=Help(
+        en="Picks points. From a mesh: by number (of points, or of cells of SEG2), by number in a "
+        "cell, 'INIT' and 'FINA' of a line, 'JONC' (junctions), 'PROC' (nearest to a point), all "
+        "on a line, plane, cylinder, cone, sphere or torus within a distance (a tenth of the "
+        "density by default). From a field: where values are largest, smallest or compare with "
+        "given ones (none: an empty mesh, and SOUC is raised). "
+        "From numbers or lists of coordinates: makes a point or a mesh of points.",
+        fr="Désigne des points. D'un maillage : par numéro (de point, ou d'élément SEG2), par "
+        "numéro dans un élément, 'INIT' et 'FINA' d'une ligne, 'JONC' (jonctions), 'PROC' (le plus "
+        "proche d'un point), tous ceux d'une droite, d'un plan, cylindre, cône, sphère ou tore à "
+        "une distance près (le dixième de la densité par défaut). D'un champ : là où les valeurs "
+        "sont extrêmes ou vérifient une comparaison (aucune : un maillage vide, et SOUC est levé). "
+        "De nombres ou listes : crée point ou points.",
+        syntax="POIN1 = GEO1 POIN N1 | I1 I2 | 'INIT' | 'FINA' | 'JONC' | 'PROC' P1 | "
+        "'DROIT' P1 P2 (D1) | 'PLAN' P1 P2 P3 (D1) | 'CYLI' | 'CONE' | 'SPHE' | 'TORE' ... ;\n"
+        "GEO1 = CHPO1 POIN 'MAXI'|'MINI'|'SUPE' X1|'COMP' X1 X2 ('ABS') ('AVEC'|'SANS' LMOTS1) ;\n"
+        "POIN1 = POIN X1 (Y1 (Z1)) ('DENS' D1) ;",
+        examples=(
+            "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; P = L POIN 'PROC' (0.3 1.) ;"
+            " LIST (COOR 1 P) ;",
+            "OPTI DIME 2 ELEM QUA4 ; S = (DROI 4 (0. 0.) (1. 0.)) TRAN 2 (0. 1.) ;"
+            " Q = S POIN 'DROI' (0. 0.) (0. 1.) 1E-3 ; LIST (NBNO Q) ;",
+        ),
+    ),
+)
+def poin(session: Session, call: Call, mesh: Mesh, number: int, cell: int | None) -> Point:
+    """Pick a point by number."""
+    nodes = workspace(session).nodes
+    if cell is None:
+        return Point(nodes, _numbered(call, mesh, number))
+    place = cell
+    for block in mesh.blocks:
+        if 1 <= place <= len(block) and 1 <= number <= block.kind.n_nodes:
+            return Point(nodes, int(block.connectivity[place - 1, number - 1]))
+        place -= len(block)
+    raise call.error("operators.mesh.no-such-node-of-cell", number, number=number, cell=cell)
+
+
+def _numbered(call: Call, mesh: Mesh, number: int) -> int:
+    """Node by number in a mesh of points or SEG2."""
+    if any(b.kind.dimension > 1 for b in mesh.blocks):
+        ids = mesh.node_ids
+    else:
+        if not mesh.n_cells:
+            raise MeshError("operators.mesh.no-points")
+        starts = [b.connectivity[:, 0] for b in mesh.blocks]
+        ends = [b.connectivity[-1:, -1] for b in mesh.blocks if b.kind.dimension == 1]
+        ids = np.concatenate([*starts, *ends])
+    if not 1 <= number <= len(ids):
+        raise call.error("operators.mesh.no-such-point", number, number=number, n_ids=len(ids))
+    return int(ids[number - 1])
+
+
+@poin.form(said("INITIAL", "FINAL"), _MESH)
+def end_of_line(session: Session, word: str, mesh: Mesh) -> Point:
+    """The first or the last point of a line."""
+    return Point(workspace(session).nodes, line_ends(mesh)[0 if word == "INITIAL" else 1])
+
+
+@poin.form(said("JONC"), _MESH)
+def junctions_of(session: Session, mesh: Mesh) -> Mesh:
+    """Points that join more than two cells."""
+    ids = junctions(mesh)
+    if len(ids) == 0:
+        raise MeshError("operators.mesh.no-junction")
+    return poi1(workspace(session).nodes, ids)
+
+
+@poin.form(
+    select(
+        "near",
+        {"PROC": [arg("point", "POINT", en="point", fr="point")]},
+        optional=False,
+        en="the nearest to a point",
+        fr="le plus proche d'un point",
+    ),
+    _MESH,
+)
+def nearest(session: Session, near: Chosen, mesh: Mesh) -> Point:
+    """The point of a mesh that is nearest to another one."""
+    return Point(workspace(session).nodes, nearest_node(mesh, near["point"].coordinates))
+
+
+@poin.form(
+    select(
+        "shape",
+        {w: points for w, points in SHAPES.items() if w not in ("CERC", "CONI", "TORI")},
+        optional=False,
+        en="points on a line or a surface",
+        fr="points d'une droite ou d'une surface",
+    ),
+    _MESH,
+    DISTANCE,
+)
+def on_shape(session: Session, shape: Chosen, mesh: Mesh, distance: float | None) -> Mesh:
+    """The points of a mesh on a line or a surface."""
+    ws = workspace(session)
+    ids = mesh.node_ids
+    at = ws.nodes.coordinates[ids]
+    near = np.abs(shape_of(shape).distance(at)) <= tolerance_of(ws, distance, at)
+    if not near.any():
+        raise MeshError("operators.mesh.no-point-there", word=shape.word)
+    return poi1(ws.nodes, ids[near])
+
+
+@poin.form(
+    main("field", "CHPOINT", en="field at nodes", fr="champ par points"), EXTREMES, ABSOLUTE, NAMED
+)
+def of_field(
+    session: Session, field: NodeField, what: Chosen, absolute: bool, named: Named
+) -> Mesh:
+    """Nodes where values are extreme or compare."""
+    parts = [field.components[n] for n in chosen_components(field.components, named)]
+    if not parts:
+        return _doubted_if_empty(session, Mesh(field.table, ()))
+    nodes = np.concatenate([p.nodes for p in parts])
+    values = np.concatenate([p.values for p in parts])
+    found = nodes[_fitting(values, what, absolute)]
+    return _doubted_if_empty(session, poi1(field.table, _once(found)))
+
+
+@poin.form(
+    main("field", "MCHAML", en="field in cells", fr="champ par éléments"),
+    EXTREMES,
+    ABSOLUTE,
+    NAMED,
+)
+def of_cell_field(
+    session: Session, field: CellField, what: Chosen, absolute: bool, named: Named
+) -> Mesh:
+    """Nodes, or new points at integration points, where values are extreme or compare."""
+    names = dict.fromkeys(n for b in field.blocks for n in b.components)
+    wanted = chosen_components(names, named)
+    nodes = field.blocks[0].cells.nodes
+    values, places, ids = [], [], []
+    for block in field.blocks:
+        x, numbers = _support_points(block)
+        for name in wanted:
+            if name in block.components:
+                part = np.asarray(block.components[name], dtype=float)
+                values.append(np.broadcast_to(part, numbers.shape).ravel())
+                places.append(x.reshape(-1, 3))
+                ids.append(numbers.ravel())
+    if not values:
+        return _doubted_if_empty(session, Mesh(nodes, ()))
+    chosen = _fitting(np.concatenate(values), what, absolute)
+    numbers = np.concatenate(ids)[chosen]
+    fresh = numbers < 0
+    if fresh.any():
+        at = np.concatenate(places)[chosen][fresh]  # in the order of the cells
+        first = np.sort(np.unique(at, axis=0, return_index=True)[1])
+        return poi1(nodes, nodes.add(at[first], workspace(session).density))
+    return _doubted_if_empty(session, poi1(nodes, _once(numbers)))
+
+
+@poin.form(
+    many("coordinates", "FLOTTANT", at_least=1, en="coordinates", fr="coordonnées", unit="m"),
+    key(
+        "density",
+        "DENS",
+        arg("density", "FLOTTANT", unit="m"),
+        en="mesh size there, that of OPTI DENS by default",
+        fr="taille de maille en ce point, par défaut celle d'OPTI DENS",
+    ),
+)
+def made(session: Session, coordinates: Sequence[float], density: float | None) -> Point:
+    """Make a point."""
+    ws = workspace(session)
+    size = ws.density if density is None else density
+    return Point(ws.nodes, int(ws.nodes.add(np.array([coordinates]), size)[0]))
+
+
+@poin.form(
+    many(
+        "lists",
+        "LISTREEL",
+        at_least=1,
+        en="first coordinates, second ones ...",
+        fr="premières coordonnées, deuxièmes ...",
+        unit="m",
+    ),
+    key(
+        "density",
+        "DENS",
+        arg("density", "FLOTTANT", "LISTREEL", unit="m"),
+        en="mesh size there, that of OPTI DENS by default",
+        fr="taille de maille en ces points, par défaut celle d'OPTI DENS",
+    ),
+)
+def made_of_lists(
+    session: Session, call: Call, lists: Sequence[ListReel], density: float | ListReel | None
+) -> Mesh:
+    """Make a mesh of points."""
+    ws = workspace(session)
+    if len({len(v) for v in lists}) > 1:
+        raise call.error("operators.mesh.coordinate-lists-differ", lists[-1])
+    size = ws.density if density is None else density
+    table = np.column_stack([v.values for v in lists])
+    ids = ws.nodes.add(table, size.values if isinstance(size, ListReel) else size)
+    return poi1(ws.nodes, ids, ws.colour)
+
+
+def _doubted_if_empty(session: Session, found: Mesh) -> Mesh:
+    """The points found; none raise the flag that SOUC reads."""
+    if not found.n_cells:
+        options = session.options
+        options["SOUC"] = max(int(options.get("SOUC", 0)), 1)
+    return found
+
+
+def _fitting(values: FloatArray, what: Chosen, absolute: bool) -> NDArray[np.bool_]:
+    """Which values (n,) are sought."""
+    return picked(np.abs(values) if absolute else values, what.word, list(what.values.values()))
+
+
+def _support_points(block: CellFieldBlock) -> tuple[FloatArray, IntArray]:
+    """Positions (n_cells, p, 3) that carry a field, and their node numbers, -1 off nodes."""
+    x, table = block.cells.coordinates, block.cells.connectivity
+    if block.support == "NOEUD":
+        return x, table
+    columns = [carry(x[..., k], block.element, "NOEUD", block.support) for k in range(3)]
+    at = np.stack(columns, axis=-1)
+    return at, np.full(at.shape[:2], -1, dtype=np.int64)
+
+
+def picked(values: FloatArray, word: str, limits: Sequence[float]) -> NDArray[np.bool_]:
+    """Which values (n,) are extreme, or compare with the limits as the word says."""
+    if not len(values):
+        return np.zeros(0, dtype=bool)
+    if word in ("MAXI", "MINI"):
+        extreme = values.max() if word == "MAXI" else values.min()
+        hair = 1e-12 * float(np.abs(values).max())
+        return np.asarray(np.abs(values - extreme) <= hair)
+    if word == "COMPRIS":
+        low, high = sorted(limits)
+        return np.asarray((values >= low) & (values <= high))
+    return np.asarray(_COMPARISONS[word](values, limits[0]))
+
+
+def _once(ids: IntArray) -> IntArray:
+    first = np.sort(np.unique(ids, return_index=True)[1])
+    return ids[first]

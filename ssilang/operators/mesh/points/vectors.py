@@ -1,0 +1,110 @@
+"""Points as vectors: + - * /, PSCA, PVEC, PMIX, NORM."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.mesh.mesh import Point
+from ssilang.language.registry import Help, arg, main, operator, opt
+from ssilang.language.run.call import Call
+from ssilang.language.run.session import Session
+from ssilang.operators.dispatch import PSCA, PVEC
+from ssilang.operators.mesh.dimensions import IN_PLANE, IN_SPACE
+from ssilang.operators.numbers.arithmetic import rule
+from ssilang.operators.workspace import workspace
+
+
+def _made(like: Point, position: FloatArray) -> Point:
+    return Point(like.nodes, int(like.nodes.add(position[None], like.density)[0]))
+
+
+@rule("+ -", "POINT", "POINT")
+def _add(sign: str, a: Point, b: Point) -> Point:
+    step = b.coordinates if sign == "+" else -b.coordinates
+    return _made(a, a.coordinates + step)
+
+
+def _scale(sign: str, a: Any, b: Any) -> Point:
+    point, factor = (a, float(b)) if isinstance(a, Point) else (b, float(a))
+    return _made(point, point.coordinates * (1.0 / factor if sign == "/" else factor))
+
+
+for _number in ("ENTIER", "FLOTTANT"):
+    rule("* /", "POINT", _number)(_scale)
+    rule("*", _number, "POINT")(_scale)
+
+
+@PSCA.form(
+    main("first", "POINT", en="vector", fr="vecteur"),
+    arg("second", "POINT", en="vector", fr="vecteur"),
+    syntax="FLOT1 = VEC1 PSCA VEC2 ;",
+    en="Of two points: their scalar product as vectors.",
+    fr="De deux points : leur produit scalaire en tant que vecteurs.",
+    examples=("OPTI DIME 2 ; X = (1. 2.) PSCA (3. 4.) ; LIST X ;",),
+)
+def scalar_product(first: Point, second: Point) -> float:
+    """Scalar product of two points."""
+    return float(first.coordinates @ second.coordinates)
+
+
+@PVEC.form(
+    main("first", "POINT", en="vector", fr="vecteur"),
+    arg("second", "POINT", en="vector", fr="vecteur"),
+    syntax="VEC3 = VEC1 PVEC (VEC2) ;",
+    en="Of points: the vector product in 3D; in 2D the vector turned by a quarter turn.",
+    fr="De points : le produit vectoriel en 3D ; en 2D le vecteur tourné d'un quart de tour.",
+    examples=("OPTI DIME 2 ; V = PVEC (1. 2.) ; LIST (COOR 1 V) ;",),
+    when=IN_SPACE,
+)
+def vector_product(first: Point, second: Point) -> Point:
+    """Vector product of two points."""
+    return _made(first, np.cross(first.coordinates, second.coordinates))
+
+
+@PVEC.form(main("first", "POINT", en="vector", fr="vecteur"), when=IN_PLANE)
+def quarter_turn(first: Point) -> Point:
+    """A vector turned by a quarter turn."""
+    return _made(first, np.cross([0.0, 0.0, 1.0], first.coordinates))
+
+
+@operator(
+    "PMIX",
+    arg("first", "POINT", en="vector", fr="vecteur"),
+    arg("second", "POINT", en="vector", fr="vecteur"),
+    opt("third", "POINT", en="vector, in space", fr="vecteur, en dimension 3"),
+    family="mesh",
+    full_name="PMIXTE",
+    help=Help(
+        en="Mixed product: determinant of two vectors in 2D, of three in 3D.",
+        fr="Produit mixte : déterminant de deux vecteurs en 2D, de trois en 3D.",
+        syntax="FLOT1 = PMIX VEC1 VEC2 (VEC3) ;",
+        examples=("OPTI DIME 2 ; X = PMIX (1. 2.) (3. 4.) ; LIST X ;",),
+    ),
+)
+def pmix(session: Session, call: Call, first: Point, second: Point, third: Point | None) -> float:
+    """Mixed product."""
+    normal = np.cross(first.coordinates, second.coordinates)
+    if workspace(session).dimension < 3:
+        return float(normal[2])
+    if third is None:
+        raise call.missing(("POINT",))
+    return float(normal @ third.coordinates)
+
+
+@operator(
+    "NORM",
+    arg("vector", "POINT", en="vector", fr="vecteur"),
+    family="mesh",
+    help=Help(
+        en="Length of a point as a vector.",
+        fr="Norme d'un point en tant que vecteur.",
+        syntax="FLOT1 = NORM VEC1 ;",
+        examples=("OPTI DIME 2 ; X = NORM (3. 4.) ; LIST X ;",),
+    ),
+)
+def norm(vector: Point) -> float:
+    """Length of a vector."""
+    return float(np.linalg.norm(vector.coordinates))

@@ -1,0 +1,95 @@
+"""How much a mesh holds: NBEL NBNO MESU."""
+
+from __future__ import annotations
+
+from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.kernel.mesh.queries.measure import (
+    enclosed_area,
+    enclosed_volume,
+    node_sizes,
+    total_measure,
+)
+from ssilang.language.registry import Help, arg, choice, operator, said
+from ssilang.language.values import ListEnti, ListMots
+
+
+@operator(
+    "NBEL",
+    arg("mesh", "MAILLAGE", en="mesh", fr="maillage"),
+    arg("types", "LISTMOTS", en="types of cells", fr="types d'éléments", kind="element"),
+    family="mesh",
+    help=Help(
+        en="Number of cells of a mesh; with a list of cell types, a list of their numbers.",
+        fr="Nombre d'éléments d'un maillage ; avec une liste de types, la liste de leurs nombres.",
+        syntax="RESU1 = NBEL GEO1 (LMOTS1) ;",
+        examples=("OPTI DIME 2 ELEM SEG2 ; LIST (NBEL (DROI 4 (0. 0.) (1. 0.))) ;",),
+    ),
+)
+def nbel(mesh: Mesh, types: ListMots) -> ListEnti:
+    """Count cells by type."""
+    wanted = [str(t).rstrip().upper() for t in types.values]
+    return ListEnti([sum(len(b) for b in mesh.blocks if b.cell_type == t) for t in wanted])
+
+
+@nbel.form(arg("mesh", "MAILLAGE", en="mesh", fr="maillage"))
+def count_cells(mesh: Mesh) -> int:
+    """Count cells."""
+    return mesh.n_cells
+
+
+@operator(
+    "NBNO",
+    arg("mesh", "MAILLAGE", "POINT", en="mesh, or point", fr="maillage, ou point"),
+    family="mesh",
+    help=Help(
+        en="Number of nodes of a mesh.",
+        fr="Nombre de noeuds d'un maillage.",
+        syntax="N1 = NBNO GEO1 ;",
+        examples=("OPTI DIME 2 ELEM SEG2 ; LIST (NBNO (DROI 4 (0. 0.) (1. 0.))) ;",),
+    ),
+)
+def nbno(mesh: Mesh | Point) -> int:
+    """Count nodes."""
+    return len(mesh.node_ids) if isinstance(mesh, Mesh) else 1
+
+
+@operator(
+    "MESU",
+    arg("mesh", "MAILLAGE", en="mesh", fr="maillage"),
+    choice(
+        "what",
+        ("LONG", "SURF", "VOLU"),
+        en="length, area, volume; by default as the cells are",
+        fr="longueur, aire, volume ; par défaut selon les éléments",
+    ),
+    family="mesh",
+    full_name="MESURE",
+    help=Help(
+        en="Length, area or volume of a mesh; 'SURF' of a closed line: the area inside; 'VOLU' of "
+        "a closed surface: the volume inside; 'DENS': field of mesh sizes (component SCAL).",
+        fr="Longueur, aire ou volume d'un maillage ; 'SURF' d'une ligne fermée : l'aire intérieure "
+        "; 'VOLU' d'une surface fermée : le volume intérieur ; 'DENS' : champ des tailles de "
+        "maille.",
+        syntax="FLOT1 = MESU GEO1 ('LONG'|'SURF'|'VOLU') ; CHPO1 = MESU GEO1 'DENS' ;",
+        examples=("OPTI DIME 2 ELEM SEG2 ; LIST (MESU (DROI 4 (0. 0.) (1. 0.))) ;",),
+    ),
+)
+def mesu(mesh: Mesh, what: str | None) -> float:
+    """Measure a mesh."""
+    asked = {"LONG": 1, "SURF": 2, "VOLU": 3}.get(what or "", mesh.dimension)
+    if asked == mesh.dimension:
+        return total_measure(mesh)
+    if (asked, mesh.dimension) == (2, 1):
+        return enclosed_area(mesh)
+    if (asked, mesh.dimension) == (3, 2):
+        return enclosed_volume(mesh)
+    raise MeshError("operators.mesh.no-such-measure", what=what, dimension=mesh.dimension)
+
+
+@mesu.form(said("DENS"), arg("mesh", "MAILLAGE", en="mesh", fr="maillage"))
+def sizes(mesh: Mesh) -> NodeField:
+    """Field of mesh sizes."""
+    ids, values = node_sizes(mesh)
+    return NodeField.of(mesh.nodes, ids, {"SCAL": values}, "DIFFUS")

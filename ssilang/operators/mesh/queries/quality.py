@@ -1,0 +1,134 @@
+"""INDI: shape of cells."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh
+from ssilang.kernel.mesh.queries.quality import aspect_ratio, flatness, quality_in_metric, skewness
+from ssilang.language.registry import Help, arg, flag, key, operator, opt, said
+from ssilang.language.run.call import Call
+from ssilang.language.values import ListReel
+from ssilang.operators.workspace import workspace
+
+_MEASURES: dict[str, tuple[tuple[str, ...], Callable[[FloatArray], FloatArray]]] = {
+    "PLAN": (("QUA4",), flatness),
+    "ASPE": (("TRI3", "TET4"), aspect_ratio),
+    "SKEW": (("TRI3", "TET4"), skewness),
+}
+
+
+@operator(
+    "INDI",
+    key(
+        "measures",
+        tuple(_MEASURES),
+        optional=False,
+        repeated=True,
+        en="flatness of QUA4, aspect ratio, skewness of TRI3 and TET4",
+        fr="planéité des QUA4, rapport de forme, dissymétrie des TRI3 et TET4",
+    ),
+    arg("mesh", "MAILLAGE", en="cells", fr="éléments"),
+    family="mesh",
+    full_name="INDICATEUR",
+    help=Help(
+        en="Field in cells of indicators of their shape. 'PLAN' of quadrangles: 100 for a plane "
+        "one, less by the angle between its two normals (0 at 180 degrees). 'ASPE' of TRI3 and "
+        "TET4: longest edge over shortest height, 1 for an equilateral cell. 'SKEW' of TRI3 and "
+        "TET4: share of the measure of the equilateral cell in the same circumscribed sphere that "
+        "is lacking, 0 to 1. 'TOPO': quality of TRI3 or TET4, 0 for a cell without measure to 1 "
+        "for an equilateral one, of edges of the length wanted where METR1 gives it: a number (the "
+        "length), or a field at nodes of metric tensors (G, or G11 G21 G22 (G31 G32 G33), in "
+        "length^-2): the mean ratio of the cell times the smaller of s and 1/s, s being the root "
+        "of the mean square of the edges over the length wanted. 'LISTREEL' gives a list.",
+        fr="Champ par éléments d'indicateurs de leur forme. 'PLAN' des quadrangles : 100 pour un "
+        "élément plan, moins selon l'angle de ses deux normales (0 à 180 degrés). 'ASPE' des TRI3 "
+        "et TET4 : plus grande arête sur plus petite hauteur, 1 pour un élément équilatéral. "
+        "'SKEW' des TRI3 et TET4 : part manquante de la mesure de l'élément équilatéral de même "
+        "sphère circonscrite, de 0 à 1. 'TOPO' : qualité des TRI3 ou TET4, de 0 (sans mesure) à 1 "
+        "(équilatéral, d'arêtes de la longueur voulue si METR1 la donne : un nombre, la longueur, "
+        "ou un champ aux noeuds de métriques G, ou G11 G21 G22 (G31 G32 G33), en longueur^-2) : "
+        "rapport moyen de l'élément fois le plus petit de s et 1/s, s étant la moyenne quadratique "
+        "des arêtes sur la longueur voulue. 'LISTREEL' donne une liste.",
+        syntax="CHAM1 = INDI GEO1 'PLAN' | 'ASPE' | 'SKEW' ... ;\n"
+        "CHAM1 = INDI 'TOPO' GEO1 (METR1) ('LISTREEL') ;",
+        examples=(
+            "OPTI DIME 2 ELEM TRI3 ; T = MANU 'TRI3' (0. 0.) (1. 0.) (0. 1.) ; "
+            "LIST (MAXI (INDI T 'ASPE')) ;",
+        ),
+    ),
+)
+def indi(call: Call, measures: list[str], mesh: Mesh) -> CellField:
+    """Shape of cells."""
+    blocks = tuple(_block(call, b, measures) for b in mesh.blocks)
+    return CellField(blocks, "SCALAIRE")
+
+
+@indi.form(
+    said("TOPO"),
+    arg("mesh", "MAILLAGE", en="triangles or tetrahedra", fr="triangles ou tétraèdres"),
+    opt(
+        "metric",
+        "FLOTTANT",
+        "CHPOINT",
+        en="length wanted, or metric G (G11 G21 G22 ...) in length^-2",
+        fr="longueur voulue, ou métrique G (G11 G21 G22 ...) en longueur^-2",
+    ),
+    flag("listed", "LISTREEL", en="a list is given", fr="une liste est rendue"),
+)
+def topological(
+    call: Call, mesh: Mesh, metric: float | NodeField | None, listed: bool
+) -> CellField | ListReel:
+    """Quality of cells, in a metric."""
+    kinds = {b.cell_type for b in mesh.blocks}
+    if len(mesh.blocks) != 1 or not kinds <= {"TRI3", "TET4"}:
+        raise call.error("operators.mesh.simplices-wanted", mesh)
+    cells = mesh.blocks[0]
+    wanted: FloatArray | None = None
+    if isinstance(metric, NodeField):
+        wanted = _metric(call, cells, metric, workspace(call.session).mode.dimension)
+    elif metric is not None:
+        if metric <= 0:
+            raise call.error("operators.mesh.wanted-length-not-positive", metric)
+        wanted = np.broadcast_to(np.eye(3) / metric**2, (len(cells), 3, 3))
+    values = quality_in_metric(cells.coordinates, wanted)
+    if listed:
+        return ListReel(values)
+    block = CellFieldBlock(cells, {"SCAL": values[:, None]}, "GRAVITE")
+    return CellField((block,), "SCALAIRE")
+
+
+def _metric(call: Call, cells: CellBlock, field: NodeField, dimension: int) -> FloatArray:
+    """Mean over the nodes of each cell of the metric (n, 3, 3)."""
+    names = {(i, j): f"G{i + 1}{j + 1}" for i in range(dimension) for j in range(i + 1)}
+    if "G" in field.components:
+        names = {(i, i): "G" for i in range(dimension)}
+    missing = [n for n in names.values() if n not in field.components]
+    if missing:
+        raise call.error("operators.mesh.metric-incomplete", field, missing=missing)
+    nodes = cells.connectivity
+    M = np.zeros((len(nodes), 3, 3))
+    for (i, j), name in names.items():
+        values = field.values_at(name, nodes.ravel()).reshape(nodes.shape).mean(axis=1)
+        M[:, i, j] = M[:, j, i] = values
+    return M
+
+
+def _block(call: Call, cells: CellBlock, words: list[str]) -> CellFieldBlock:
+    made = {}
+    for word in words:
+        kinds, measure = _MEASURES[word]
+        if cells.cell_type not in kinds:
+            raise call.error(
+                "operators.mesh.measure-of-other-cells",
+                word=word,
+                kinds=kinds,
+                cell_type=cells.cell_type,
+            )
+        made[word] = measure(cells.coordinates)[:, None]
+    return CellFieldBlock(cells, made, "GRAVITE")

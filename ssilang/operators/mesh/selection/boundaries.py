@@ -1,0 +1,118 @@
+"""Boundaries of meshes: CONT ENVE ARET."""
+
+from __future__ import annotations
+
+from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.mesh.boundary import (
+    chained,
+    contour,
+    envelope,
+    inner_contour,
+    sharp_edges,
+)
+from ssilang.kernel.mesh.combine import join_blocks
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh
+from ssilang.kernel.mesh.orientation import (
+    flip,
+    orient,
+)
+from ssilang.language.registry import Help, arg, choice, flag, operator
+
+
+def _whole_lines(mesh: Mesh) -> Mesh:
+    """The cells of lines put end to end, one block a type."""
+    groups: dict[str, list[CellBlock]] = {}
+    for block in mesh.blocks:
+        groups.setdefault(block.cell_type, []).append(block)
+    return chained(Mesh(mesh.nodes, tuple(join_blocks(b) for b in groups.values())))
+
+
+@operator(
+    "CONT",
+    arg("mesh", "MAILLAGE", en="surface", fr="surface"),
+    choice(
+        "which",
+        ("EXTE", "INTE", "TOUT"),
+        default="EXTE",
+        en="edges of one cell, of three or more, or both",
+        fr="arêtes d'un élément, de trois ou plus, ou les deux",
+    ),
+    flag("allowed", "NOID", en="the result may be empty", fr="le résultat peut être vide"),
+    family="mesh",
+    full_name="CONTOUR",
+    help=Help(
+        en="Contour of a surface: edges of one cell only ('EXTE', the default), of three or more "
+        "('INTE'), or both ('TOUT'). The lines are put end to end. 'NOID' allows an empty result.",
+        fr="Contour d'une surface : arêtes d'un seul élément ('EXTE', par défaut), de trois ou "
+        "plus ('INTE'), ou les deux ('TOUT'). Les lignes sont mises bout à bout. 'NOID' permet un "
+        "résultat vide.",
+        syntax="GEO1 = CONT ('NOID') ('EXTE'|'INTE'|'TOUT') GEO2 ;",
+        examples=(
+            "OPTI DIME 2 ELEM QUA4 ; S = (DROI 4 (0. 0.) (1. 0.)) TRAN 3 (0. 1.) ;"
+            " LIST (NBEL (CONT S)) ;",
+        ),
+    ),
+)
+def cont(mesh: Mesh, which: str, allowed: bool) -> Mesh:
+    """Contour of a surface."""
+    parts: list[CellBlock] = []
+    if which in ("EXTE", "TOUT"):
+        parts += contour(mesh).blocks
+    if which in ("INTE", "TOUT"):
+        parts += inner_contour(mesh).blocks
+    if not parts and not allowed:
+        raise MeshError("operators.mesh.no-contour")
+    return _whole_lines(Mesh(mesh.nodes, tuple(parts)))
+
+
+@operator(
+    "ENVE",
+    arg("mesh", "MAILLAGE", en="volume", fr="volume"),
+    flag(
+        "inwards",
+        "ORIE",
+        en="faces described inwards in any case",
+        fr="faces toujours décrites vers l'intérieur",
+    ),
+    flag("allowed", "NOID", en="the result may be empty", fr="le résultat peut être vide"),
+    family="mesh",
+    full_name="ENVELOPPE",
+    help=Help(
+        en="Skin of a volume: the faces of one cell only, described inwards where the volume's "
+        "cells are in the direct sense ('ORIE': in any case). 'NOID' allows an empty result.",
+        fr="Enveloppe d'un volume : les faces d'un seul élément, décrites vers l'intérieur là "
+        "où les éléments du volume sont de sens direct ('ORIE' : toujours). 'NOID' permet un "
+        "résultat vide.",
+        syntax="SURF1 = ENVE VOLU1 ('ORIE') ('NOID') ;",
+        examples=(
+            "OPTI DIME 3 ELEM CUB8 ; S = (DROI 2 (0. 0. 0.) (1. 0. 0.)) TRAN 2 (0. 1. 0.) ;"
+            " V = S VOLU 2 'TRAN' (0. 0. 1.) ; LIST (NBEL (ENVE V)) ;",
+        ),
+    ),
+)
+def enve(mesh: Mesh, inwards: bool, allowed: bool) -> Mesh:
+    """Skin of a volume."""
+    skin = envelope(orient(mesh, 3) if inwards else mesh)
+    if not skin.blocks and not allowed:
+        raise MeshError("operators.mesh.no-envelope")
+    return Mesh(skin.nodes, tuple(flip(b) for b in skin.blocks))
+
+
+@operator(
+    "ARET",
+    arg("mesh", "MAILLAGE", en="surface or volume", fr="surface ou volume"),
+    family="mesh",
+    full_name="ARETE",
+    help=Help(
+        en="Sharp edges, as SEG2: where the skin turns by more than 20 degrees, or ends.",
+        fr="Arêtes vives, en SEG2 : là où la peau tourne de plus de 20 degrés, ou finit.",
+        syntax="GEO1 = ARET GEO2 ;",
+        examples=(
+            "OPTI DIME 3 ELEM CUB8 ; S = (DROI 2 (0. 0. 0.) (1. 0. 0.)) TRAN 2 (0. 1. 0.) ;"
+            " V = S VOLU 2 'TRAN' (0. 0. 1.) ; LIST (NBEL (ARET V)) ;",
+        ),
+    ),
+)
+def aret(mesh: Mesh) -> Mesh:
+    """Sharp edges."""
+    return sharp_edges(mesh)

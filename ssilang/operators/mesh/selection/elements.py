@@ -1,0 +1,323 @@
+"""ELEM: cells picked from a mesh, or by the values of a field in cells."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ssilang.io.plots.palette import NAMES as COLOURS
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.mesh.boundary import chained
+from ssilang.kernel.mesh.cells import CELL_TYPES
+from ssilang.kernel.mesh.changes.local_refinement import TIE, is_tie, parted
+from ssilang.kernel.mesh.combine import (
+    of_type,
+    polygons,
+    take,
+    union,
+)
+from ssilang.kernel.mesh.lines.paths import network_of_lines, shortest_line
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
+from ssilang.kernel.mesh.queries.select import containing, resting_on, stretch
+from ssilang.language.registry import (
+    Chosen,
+    Help,
+    arg,
+    choice,
+    find_operator,
+    flag,
+    key,
+    main,
+    many,
+    operator,
+    opt,
+    said,
+    select,
+)
+from ssilang.language.run.call import Call
+from ssilang.language.values import ListEnti, ListMots
+from ssilang.operators.mesh.points.picking import (
+    ABSOLUTE,
+    EXTREMES,
+    NAMED,
+    Named,
+    chosen_components,
+    picked,
+)
+
+_MESH = main("mesh", "MAILLAGE", en="cells to pick from", fr="éléments où choisir")
+_ALLOWED = flag("allowed", "NOVERIF", en="the result may be empty", fr="le résultat peut être vide")
+_FILTERS = key(
+    "filters",
+    (TIE, *CELL_TYPES, "POLY", *COLOURS),
+    repeated=True,
+    en="type or colour of the cells",
+    fr="type ou couleur des éléments",
+)
+_NUMBERS = opt(
+    "which",
+    "ENTIER",
+    "LISTENTI",
+    en="number, or numbers, among those",
+    fr="numéro, ou numéros, parmi ceux-là",
+)
+
+
+@operator(
+    "ELEM",
+    _MESH,
+    _FILTERS,
+    _NUMBERS,
+    family="mesh",
+    full_name="ELEMENT",
+    help=Help(
+        en="Picks cells: by type, by colour, by number or list of numbers among those; 'CONT' the "
+        "cell that holds a point ('TOUS': all of them); 'APPU' those on given points ('STRI' with "
+        "all nodes, the default, 'LARG' with one at least); 'COMP' the part of a line between two "
+        "points, described from the first to the second; of a network such as ARET's the shortest "
+        "way. 'TYPE' and 'COUL' alone list the cell "
+        "types and colours. From a cell field: cells whose values are extreme or compare. 'NOVE' "
+        "allows an empty result.",
+        fr="Choisit des éléments : par type, par couleur, par numéro ou liste de numéros parmi "
+        "ceux-ci ; 'CONT' l'élément contenant un point ('TOUS' : tous) ; 'APPU' ceux qui "
+        "s'appuient sur des points ('STRI' par tous leurs noeuds, par défaut, 'LARG' par un au "
+        "moins) ; 'COMP' la partie d'une ligne entre deux points, décrite du premier au second ; "
+        "d'un réseau comme celui d'ARET le plus court chemin. "
+        "'TYPE' et 'COUL' seuls listent types et couleurs. D'un champ par éléments : éléments de "
+        "valeurs extrêmes ou vérifiant une comparaison. 'NOVE' permet un résultat vide.",
+        syntax="GEO1 = GEO2 ELEM (TYPE) (COUL1) (N1|LENTI1) | 'COUL' I1 | 'CONT' P1 ('TOUS') "
+        "('NOVE') | 'APPU' ('STRI'|'LARG') GEO3 ('NOVE') | 'COMP' P1 P2 ;\n"
+        "LMOTS1 = GEO2 ELEM 'TYPE'|'COUL' ;\n"
+        "GEO1 = CHAM1 ELEM 'MAXI'|'MINI'|'SUPE' X1|'COMP' X1 X2 ('ABS') ('LARG'|'STRI') "
+        "('AVEC'|'SANS' LMOTS1) ;",
+        examples=(
+            "OPTI DIME 2 ELEM SEG2 ; P = 0.25 0. ; L = (DROI 2 (0. 0.) P) ET (DROI 3 P (1. 0.)) ;"
+            " M = L ELEM 'APPU' 'LARG' P ; LIST (NBEL M) ;",
+        ),
+    ),
+)
+def elem(call: Call, mesh: Mesh, filters: Sequence[str], which: int | ListEnti | None) -> Mesh:
+    """Pick cells by type, colour and number."""
+    return _numbered(call, _filtered(mesh, filters), which)
+
+
+@elem.form(
+    select(
+        "colour",
+        {
+            "COUL": [
+                opt("number", "ENTIER", en="number of a colour", fr="numéro d'une couleur"),
+            ]
+        },
+        optional=False,
+        en="cells of a colour; without number the colours that there are",
+        fr="éléments d'une couleur ; sans numéro les couleurs présentes",
+    ),
+    _MESH,
+    _FILTERS,
+    _NUMBERS,
+)
+def of_numbered_colour(
+    call: Call,
+    colour: Chosen,
+    mesh: Mesh,
+    filters: Sequence[str],
+    which: int | ListEnti | None,
+) -> Mesh | ListMots:
+    """Pick cells of a colour, or list the colours."""
+    chosen = _filtered(mesh, filters)
+    number = colour["number"]
+    if number is not None:
+        return _numbered(call, _of_colour(chosen, max(number - 1, 0)), which)
+    shades = np.concatenate([b.colours for b in chosen.blocks])
+    _, first = np.unique(shades, return_index=True)
+    return ListMots([COLOURS[shades[k]] for k in np.sort(first)])
+
+
+@elem.form(said("TYPE"), _MESH)
+def types(mesh: Mesh) -> ListMots:
+    """List the types of the cells."""
+    names = [TIE if is_tie(b.cell_type) else b.cell_type for b in mesh.blocks]
+    return ListMots(list(dict.fromkeys(names)))
+
+
+@elem.form(
+    said("COMPRIS"),
+    _MESH,
+    arg("first", "POINT", en="where the part begins", fr="début de la partie"),
+    arg("second", "POINT", en="where it ends", fr="fin de la partie"),
+    of=("MAILLAGE",),
+)
+def between(mesh: Mesh, first: Point, second: Point) -> Mesh:
+    """The part of a line between two points; of a network, the shortest way."""
+    try:
+        return stretch(chained(mesh), first.node, second.node)
+    except MeshError:
+        if not network_of_lines(mesh):
+            raise
+    return shortest_line(mesh, first.node, second.node)
+
+
+@elem.form(
+    select(
+        "holding",
+        {"CONTENANT": [arg("point", "POINT", en="point", fr="point")]},
+        optional=False,
+        en="cell that holds a point",
+        fr="élément qui contient un point",
+    ),
+    _MESH,
+    flag("every", "TOUS", en="all cells that hold it", fr="tous les éléments qui le contiennent"),
+    _ALLOWED,
+)
+def holding_point(holding: Chosen, mesh: Mesh, every: bool, allowed: bool) -> Mesh:
+    """Pick the cells that hold a point."""
+    made = containing(mesh, holding["point"].coordinates, every)
+    if not made.blocks and not allowed:
+        raise MeshError("operators.mesh.point-outside")
+    return made
+
+
+@elem.form(
+    select(
+        "resting",
+        {
+            "APPUYE": [
+                choice(
+                    "how",
+                    ("STRICTEMENT", "LARGEMENT"),
+                    default="STRICTEMENT",
+                    en="by all nodes, the default, or by one at least",
+                    fr="par tous les noeuds, par défaut, ou par un au moins",
+                ),
+                _ALLOWED,
+                many("support", "MAILLAGE", "POINT", behind=True, en="points", fr="points"),
+            ]
+        },
+        optional=False,
+        en="cells that rest on points",
+        fr="éléments qui s'appuient sur des points",
+    ),
+    opt("mesh", "MAILLAGE", en="cells to pick from", fr="éléments où choisir"),
+    many("more", "MAILLAGE", "POINT", en="further points", fr="autres points"),
+    gives="MAILLAGE",
+)
+def resting_on_points(
+    call: Call, resting: Chosen, mesh: Mesh | None, more: Sequence[Mesh | Point]
+) -> Mesh:
+    """Pick the cells that rest on points; the mesh stands first, or last behind the word."""
+    support = [*resting["support"], *more]
+    last = support.pop() if mesh is None and support else mesh
+    if not isinstance(last, Mesh):
+        raise call.missing(("MAILLAGE",))
+    mesh = last
+    if not support:
+        raise call.missing(("MAILLAGE", "POINT"))
+    ids = np.concatenate(
+        [np.array([s.node]) if isinstance(s, Point) else s.node_ids for s in support]
+    )
+    made = resting_on(mesh, ids, resting["how"] != "LARGEMENT")
+    if not made.blocks and not resting["allowed"]:
+        raise MeshError("operators.mesh.no-cell-rests")
+    return made
+
+
+def _filtered(mesh: Mesh, filters: Sequence[str]) -> Mesh:
+    for word in filters:
+        if word == TIE:
+            mesh = Mesh(mesh.nodes, parted(mesh)[1])
+        elif word in CELL_TYPES:
+            mesh = of_type(mesh, word)
+        elif word == "POLY":
+            mesh = polygons(mesh)
+        else:
+            mesh = _of_colour(mesh, COLOURS.index(word))
+    return mesh
+
+
+def _of_colour(mesh: Mesh, colour: int) -> Mesh:
+    made = take(mesh, lambda b: b.colours == colour)
+    if not made.blocks:
+        raise MeshError("operators.mesh.no-cell-of-colour", colour=COLOURS[colour])
+    return made
+
+
+def _numbered(call: Call, mesh: Mesh, which: int | ListEnti | None) -> Mesh:
+    left = call.peek_word()
+    if left is not None and find_operator(left) is None:
+        raise call.error("operators.mesh.unknown-filter", left=left.rstrip())
+    if which is None:
+        return mesh
+    numbers = which.values if isinstance(which, ListEnti) else np.array([which])
+    if (numbers < 1).any() or (numbers > mesh.n_cells).any():
+        wrong = numbers[(numbers < 1) | (numbers > mesh.n_cells)][0]
+        raise call.error("operators.mesh.no-such-cell", which, wrong=wrong, n_cells=mesh.n_cells)
+    blocks, start = [], 0
+    for block in mesh.blocks:
+        rows = numbers[(numbers > start) & (numbers <= start + len(block))] - 1 - start
+        start += len(block)
+        if len(rows):
+            blocks.append(
+                CellBlock.make(
+                    mesh.nodes, block.cell_type, block.connectivity[rows], block.colours[rows]
+                )
+            )
+    return Mesh(mesh.nodes, tuple(blocks))
+
+
+def _rows(cells: CellBlock, keep: NDArray[np.bool_]) -> Mesh:
+    return take(Mesh(cells.nodes, (cells,)), lambda _: keep)
+
+
+def _values(block: CellFieldBlock, named: Named, absolute: bool) -> FloatArray:
+    """All values (n_cells, m) of the chosen components of a block."""
+    chosen = [
+        np.asarray(block.components[n], dtype=float).reshape(len(block.cells), -1)
+        for n in chosen_components(block.components, named)
+    ]
+    if not chosen:
+        raise MeshError("operators.mesh.none-of-the-components")
+    table = np.hstack(chosen)
+    return np.abs(table) if absolute else table
+
+
+def _extreme_cell(field: CellField, values: Sequence[FloatArray], word: str) -> Mesh:
+    sense = 1.0 if word == "MAXI" else -1.0
+    best = [float((sense * t).max(initial=-np.inf)) for t in values]
+    where = int(np.argmax(best))
+    cells, table = field.blocks[where].cells, values[where]
+    row = int((sense * table).max(axis=1).argmax())
+    picked_row: NDArray[np.int64] = np.array([row])
+    return take(Mesh(cells.nodes, (cells,)), lambda _: picked_row)
+
+
+@elem.form(
+    EXTREMES,
+    main("field", "MCHAML", en="field in cells", fr="champ par éléments"),
+    ABSOLUTE,
+    choice(
+        "how",
+        ("LARG", "STRI"),
+        default="LARG",
+        en="one value of the cell fits, the default, or all do",
+        fr="une valeur de l'élément convient, par défaut, ou toutes",
+    ),
+    NAMED,
+    of=("MCHAML",),
+)
+def by_values(what: Chosen, field: CellField, absolute: bool, how: str, named: Named) -> Mesh:
+    """Pick cells whose values are extreme or compare."""
+    values = [_values(b, named, absolute) for b in field.blocks]
+    if what.word in ("MAXI", "MINI"):
+        return _extreme_cell(field, values, what.word)
+    blocks: list[CellBlock] = []
+    for block, table in zip(field.blocks, values, strict=True):
+        good = picked(table, what.word, list(what.values.values()))
+        keep = np.asarray((np.all if how == "STRI" else np.any)(good, axis=1))
+        blocks += _rows(block.cells, keep).blocks
+    parts = [Mesh(b.nodes, (b,)) for b in blocks]
+    return union(*parts, as_given=True) if parts else Mesh(field.blocks[0].cells.nodes, ())

@@ -1,0 +1,119 @@
+"""What lies inside lines, surfaces and volumes: DEDA INCL."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.mesh.boundary import contour
+from ssilang.kernel.mesh.combine import (
+    take,
+)
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
+from ssilang.kernel.mesh.queries.select import inside_contour, inside_volume
+from ssilang.kernel.mesh.volumes.tetrahedralize import ray_inside
+from ssilang.language.registry import Help, arg, choice, flag, operator, opt
+from ssilang.language.run.session import Session
+from ssilang.operators.workspace import workspace
+
+
+@operator(
+    "DEDA",
+    arg("point", "POINT", en="point", fr="point"),
+    arg(
+        "mesh",
+        "MAILLAGE",
+        en="closed line or closed surface",
+        fr="ligne fermée ou surface fermée",
+    ),
+    opt("tolerance", "FLOTTANT", en="accepted, without effect", fr="accepté, sans effet"),
+    family="mesh",
+    help=Help(
+        en="Whether a point lies inside a closed line of SEG2 (2D) or a closed surface of TRI3 "
+        "(3D); of a surface in 2D the contour is taken.",
+        fr="Dit si un point est à l'intérieur d'une ligne fermée de SEG2 (2D) ou d'une surface "
+        "fermée de TRI3 (3D) ; d'une surface en 2D on prend le contour.",
+        syntax="LOG1 = DEDA P1 MAIL1 (FLOT1) ;",
+        examples=(
+            "OPTI DIME 2 ELEM QUA4 ; S = (DROI 2 (0. 0.) (1. 0.)) TRAN 2 (0. 1.) ;"
+            " SI (DEDA (2. 0.5) (CONT S)) ; ERRE 5 ; FINSI ;",
+        ),
+    ),
+)
+def deda(session: Session, point: Point, mesh: Mesh, tolerance: float | None) -> bool:
+    """Whether a point is inside."""
+    at = point.coordinates[None].copy()
+    if workspace(session).dimension < 3:
+        border = contour(mesh) if mesh.dimension == 2 else mesh
+        return bool(inside_contour(at, border, strict=False)[0])
+    corners = [b.connectivity[:, list(b.kind.corners)] for b in mesh.blocks]
+    if not corners or any(t.shape[1] != 3 for t in corners):
+        raise MeshError("operators.mesh.closed-triangles-wanted")
+    return bool(ray_inside(at, mesh.nodes.coordinates, np.concatenate(corners))[0])
+
+
+@operator(
+    "INCL",
+    flag("volume", "VOLU", en="inside volume cells", fr="dans des éléments volumiques"),
+    arg("mesh", "MAILLAGE", en="cells to pick from", fr="éléments où choisir"),
+    arg(
+        "outer",
+        "MAILLAGE",
+        en="closed line, surface with such a contour, or volume cells",
+        fr="ligne fermée, surface de tel contour, ou éléments volumiques",
+    ),
+    choice(
+        "how",
+        ("STRI", "LARG", "BARY"),
+        en="nodes on the border do not count, or do; or centres decide",
+        fr="les noeuds du bord ne comptent pas, ou comptent ; ou les centres décident",
+    ),
+    flag("allowed", "NOID", en="the result may be empty", fr="le résultat peut être vide"),
+    opt(
+        "margin",
+        "FLOTTANT",
+        en="with 'VOLU' how far outside still counts, 1E-2 by default",
+        fr="avec 'VOLU' l'écart encore admis, 1E-2 par défaut",
+    ),
+    family="mesh",
+    full_name="INCLUS",
+    help=Help(
+        en="Cells of a mesh that lie inside a closed plane line ('LARG', the default: nodes on the "
+        "line count; 'STRI': they do not; 'BARY': by the cells' centres), or with 'VOLU' inside "
+        "volume cells ('STRI', the default: all nodes; 'LARG': one at least; 'BARY'). 'NOID' "
+        "allows an empty result.",
+        fr="Eléments d'un maillage intérieurs à une ligne plane fermée ('LARG', par défaut : les "
+        "noeuds de la ligne comptent ; 'STRI' : ils ne comptent pas ; 'BARY' : par les centres) "
+        "ou, avec 'VOLU', à des éléments volumiques ('STRI', par défaut : tous les noeuds ; 'LARG' "
+        ": un au moins ; 'BARY'). 'NOID' permet un résultat vide.",
+        syntax="GEO1 = INCL GEO2 GEO3 ('VOLU') ('STRI'|'LARG'|'BARY') ('NOID') (FLOT1) ;",
+        examples=(
+            "OPTI DIME 2 ELEM QUA4 ; S = (DROI 4 (0. 0.) (4. 0.)) TRAN 4 (0. 4.) ;"
+            " C = CONT ((DROI 2 (0.5 0.5) (2.5 0.5)) TRAN 2 (0. 2.)) ;"
+            " LIST (NBEL (INCL S C)) ;",
+        ),
+    ),
+)
+def incl(
+    volume: bool, mesh: Mesh, outer: Mesh, how: str | None, allowed: bool, margin: float | None
+) -> Mesh:
+    """Cells inside a contour (or the contour of a surface), or inside a volume."""
+    border = contour(outer) if not volume and outer.dimension == 2 else outer
+
+    def inside(at: FloatArray) -> NDArray[np.bool_]:
+        if volume:
+            return inside_volume(at, outer, 1e-2 if margin is None else margin)
+        return inside_contour(at, border, how == "STRI")
+
+    def chosen(block: CellBlock) -> NDArray[np.bool_]:
+        if how == "BARY":
+            return inside(block.coordinates.mean(axis=1))
+        good = inside(block.coordinates.reshape(-1, 3)).reshape(len(block), -1)
+        return np.asarray((np.any if volume and how == "LARG" else np.all)(good, axis=1))
+
+    made = take(mesh, chosen)
+    if not made.blocks and not allowed:
+        raise MeshError("operators.mesh.no-cell-inside")
+    return made

@@ -1,0 +1,107 @@
+"""Meshes as sets: ET DIFF INTE UNIQ."""
+
+from __future__ import annotations
+
+from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.mesh.combine import (
+    intersection,
+    points_mesh,
+    symmetric_difference,
+    union,
+    without_duplicates,
+)
+from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.kernel.mesh.surfaces.surface_crossing import crossed
+from ssilang.language.registry import arg, flag, main, said
+from ssilang.language.run.call import Call
+from ssilang.operators.dispatch import DIFF, INTE, UNIQ, union_with_call, union_words
+
+_SECOND = arg("second", "MAILLAGE", "POINT", en="mesh, or point", fr="maillage, ou point")
+_ALLOWED = flag("allowed", "NOVERIF", en="the result may be empty", fr="le résultat peut être vide")
+
+
+def as_mesh(item: Mesh | Point) -> Mesh:
+    """The mesh itself, or a point as a mesh of one POI1."""
+    return points_mesh([item], item.nodes) if isinstance(item, Point) else item
+
+
+@union_with_call(
+    ("MAILLAGE", "MAILLAGE"), ("POINT", "MAILLAGE"), ("MAILLAGE", "POINT"), ("POINT", "POINT")
+)
+def unite_meshes(call: Call, left: Mesh | Point, right: Mesh | Point) -> Mesh:
+    """Cells of both; lines are put in the order in which they continue unless TELQ is said."""
+    return union(as_mesh(left), as_mesh(right), as_given="TELQ" in union_words(call))
+
+
+@DIFF.form(
+    main("first", "MAILLAGE", en="mesh", fr="maillage"),
+    _SECOND,
+    syntax="GEO3 = GEO1 DIFF GEO2 ;",
+    en="Of meshes: cells (same type, same nodes) of one only.",
+    fr="De maillages : éléments (mêmes type et noeuds) de l'un seulement.",
+    examples=(
+        "OPTI DIME 2 ELEM SEG2 ; A = DROI 2 (0. 0.) (1. 0.) ; B = A ET (DROI 3 (0. 1.) (1. 1.)) ;"
+        " LIST (NBEL (A DIFF B)) ;",
+    ),
+)
+def difference_of_meshes(first: Mesh, second: Mesh | Point) -> Mesh:
+    """Symmetric difference of two meshes."""
+    return symmetric_difference(first, as_mesh(second))
+
+
+@INTE.form(
+    main("first", "MAILLAGE", en="mesh", fr="maillage"),
+    _SECOND,
+    _ALLOWED,
+    syntax="GEO3 = GEO1 INTE GEO2 ('NOVERIF') ;",
+    en="Of meshes: cells (same type, same nodes) that both hold. 'NOVERIF' allows an empty result.",
+    fr="De maillages : éléments (mêmes type et noeuds) communs. 'NOVERIF' permet un résultat vide.",
+    examples=(
+        "OPTI DIME 2 ELEM SEG2 ; A = DROI 2 (0. 0.) (1. 0.) ; B = A ET (DROI 3 (0. 1.) (1. 1.)) ;"
+        " LIST (NBEL (A INTE B)) ;",
+    ),
+)
+def intersection_of_meshes(first: Mesh, second: Mesh | Point, allowed: bool) -> Mesh:
+    """Common cells of two meshes."""
+    made = intersection(first, as_mesh(second))
+    if not made.blocks and not allowed:
+        raise MeshError("operators.mesh.no-common-cell")
+    return made
+
+
+@INTE.form(
+    said("GEOM"),
+    arg("first", "MAILLAGE", en="surface of TRI3", fr="surface de TRI3"),
+    arg("second", "MAILLAGE", en="surface of TRI3", fr="surface de TRI3"),
+    _ALLOWED,
+    syntax="GEO1B GEO2B LIG1 LIG2 = INTE 'GEOM' GEO1 GEO2 ('NOVERIF') ;",
+    en="With 'GEOM', of two surfaces of TRI3 in space: both surfaces with their triangles cut "
+    "where the surfaces cross, then the lines where they cross, by nodes of the first surface and "
+    "by nodes of the second. Parts where the surfaces lie in one plane give no line.",
+    fr="Avec 'GEOM', de deux surfaces de TRI3 dans l'espace : les deux surfaces, leurs triangles "
+    "coupés là où elles se croisent, puis les lignes où elles se croisent, par des noeuds de la "
+    "première surface et par des noeuds de la seconde. Les parties situées dans un même plan ne "
+    "donnent pas de ligne.",
+    examples=(
+        "OPTI DIME 3 ELEM TRI3 ; A = (DROI 2 (0. 0. 0.) (2. 0. 0.)) TRAN 2 (0. 2. 0.) ;"
+        " B = (DROI 2 (-1. 1.1 -1.) (3. 1.1 -1.)) TRAN 2 (0. 0. 2.) ;"
+        " C D L M = INTE 'GEOM' A B ; MESS (NBEL C) (NBEL D) (MESU L) ;",
+    ),
+)
+def surfaces_that_cross(first: Mesh, second: Mesh, allowed: bool) -> tuple[Mesh, Mesh, Mesh, Mesh]:
+    """Surfaces cut along their common lines, and these lines."""
+    cut = crossed(first, second)
+    if not cut[2].blocks and not allowed:
+        raise MeshError("operators.mesh.no-crossing")
+    return cut
+
+
+@UNIQ.form(
+    main("mesh", "MAILLAGE", en="mesh", fr="maillage"),
+    en="Of a mesh: each cell once, whatever the order of its nodes and its colour.",
+    fr="D'un maillage : chaque élément une fois, quels que soient l'ordre de ses noeuds et sa "
+    "couleur.",
+)
+def unique_cells(mesh: Mesh) -> Mesh:
+    """Each cell once."""
+    return without_duplicates(mesh)

@@ -1,0 +1,217 @@
+"""PART and CCON: a mesh taken apart into a table of zones."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+from ssilang.kernel.materials.model import Model, Zone
+from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.kernel.mesh.queries.partition import balanced, connected, scattered, separated
+from ssilang.language.registry import (
+    Chosen,
+    Help,
+    arg,
+    choice,
+    flag,
+    key,
+    main,
+    operator,
+    opt,
+    said,
+    select,
+)
+from ssilang.language.run.call import Call
+from ssilang.language.values import Mot, Table
+
+_CUT = "OPTI DIME 2 ELEM SEG2 ; L = (DROI 2 (0. 0.) (1. 0.)) ET (DROI 3 (2. 0.) (3. 0.)) ; "
+
+
+_FREE = flag(
+    "free",
+    "NESC",
+    en="the table has no sub-type",
+    fr="la table n'a pas de sous-type",
+)
+_MESH = main("mesh", "MAILLAGE", en="mesh", fr="maillage")
+_COUNT = arg("count", "ENTIER", en="number of parts", fr="nombre de parties")
+
+
+@operator(
+    "PART",
+    said("CONN"),
+    _MESH,
+    _FREE,
+    family="mesh",
+    full_name="PARTITION",
+    help=Help(
+        en="Table of the zones 1, 2 ... of a mesh, of sub-type 'ESCLAVE' unless 'NESC' is said. "
+        "'CONN': parts joined by common nodes. 'SEPA': parts joined by common sides, except "
+        "('FACE', 'LIGN') sides of more than two cells, ('MAIL') sides within cells of a mesh, "
+        "('ANGL') sides where normals or tangents turn by more than an angle (20 degrees); cells "
+        "described in opposite senses are not taken as folded unless 'TELQ' is said. 'OPTI': as "
+        "many equal parts as said (a power of 2, by default 2). 'ARLE' (of a model also without "
+        "this word): cells dealt out in turn to that many parts. ETG joins the parts again.",
+        fr="Table des zones 1, 2 ... d'un maillage, de sous-type 'ESCLAVE' sauf avec 'NESC'. "
+        "'CONN' : parties jointes par des noeuds communs. 'SEPA' : parties jointes par des côtés "
+        "communs, sauf ('FACE', 'LIGN') ceux de plus de deux éléments, ('MAIL') ceux compris dans "
+        "des éléments d'un maillage, ('ANGL') ceux où normales ou tangentes tournent de plus d'un "
+        "angle (20 degrés) ; des éléments de sens contraires ne sont pas pris pour repliés sauf "
+        "avec 'TELQ'. 'OPTI' : autant de parties égales que dit (puissance de 2, par défaut 2). "
+        "'ARLE' (pour un modèle aussi sans ce mot) : éléments distribués tour à tour à ce nombre "
+        "de parties. ETG les réunit.",
+        syntax="TAB1 = PART ('NESC') 'CONN' MAIL1 ;\n"
+        "TAB1 = PART ('NESC') 'SEPA' MAIL1 ('FACE'|'LIGN') ('MAIL' MAIL2) "
+        "('ANGL' (FLOT1) ('TELQ')) ;\n"
+        "TAB1 = PART ('NESC') 'OPTI' MAIL1 (N1) ; TAB1 = PART ('NESC') 'ARLE' MAIL1 N1 ;\n"
+        "TAB1 = PART ('NESC') ('ARLE') MODL1 N1 ;",
+        examples=(_CUT + "T = PART 'NESC' 'CONN' L ; MESS (DIME T) ;",),
+    ),
+)
+def part(mesh: Mesh, free: bool) -> Table:
+    """Parts joined by common nodes."""
+    return _table(connected(mesh), free)
+
+
+@part.form(
+    said("SEPA"),
+    _MESH,
+    key(
+        "branching",
+        ("FACE", "LIGN"),
+        repeated=True,
+        en="sides of more than two cells separate",
+        fr="les côtés de plus de deux éléments séparent",
+    ),
+    key(
+        "separator",
+        "MAIL",
+        arg("mesh", "MAILLAGE"),
+        en="sides within these cells separate",
+        fr="les côtés compris dans ces éléments séparent",
+    ),
+    select(
+        "turn",
+        {
+            "ANGL": (
+                opt(
+                    "angle",
+                    "FLOTTANT",
+                    default=20.0,
+                    en="least angle",
+                    fr="angle minimal",
+                    unit="degree",
+                ),
+            )
+        },
+        en="sides where normals or tangents turn separate",
+        fr="les côtés où normales ou tangentes tournent séparent",
+    ),
+    flag(
+        "folded",
+        "TELQ",
+        en="cells of opposite senses are taken as folded",
+        fr="des éléments de sens contraires sont pris pour repliés",
+    ),
+    _FREE,
+)
+def separated_parts(
+    call: Call,
+    mesh: Mesh,
+    branching: list[str],
+    separator: Mesh | None,
+    turn: Chosen | None,
+    folded: bool,
+    free: bool,
+) -> Table:
+    """Parts joined by common sides, but those that separate."""
+    said: dict[str, Any] = {"by_branching": True} if branching else {}
+    if separator is not None:
+        said["separator"] = separator
+    if turn is not None:
+        said |= {"angle": turn["angle"], "folded": folded}
+    if not said:
+        raise call.error("operators.mesh.nothing-separates")
+    return _table(separated(mesh, **said), free)
+
+
+@part.form(
+    said("OPTI"),
+    _MESH,
+    opt(
+        "count",
+        "ENTIER",
+        default=2,
+        en="number of parts, a power of 2",
+        fr="nombre de parties, puissance de 2",
+    ),
+    _FREE,
+)
+def equal_parts(mesh: Mesh, count: int, free: bool) -> Table:
+    """Parts of equal size."""
+    return _table(balanced(mesh, count), free)
+
+
+@part.form(said("ARLE"), _MESH, _COUNT, _FREE, of=("MAILLAGE",))
+def dealt_out(call: Call, mesh: Mesh, count: int, free: bool) -> Table:
+    """Cells dealt out in turn."""
+    return _table(scattered(mesh, _positive(call, count)), free)
+
+
+@part.form(
+    main("model", "MMODEL", en="model", fr="modèle"),
+    _COUNT,
+    _FREE,
+)
+@part.form(
+    said("ARLE"), arg("model", "MMODEL", en="model", fr="modèle"), _COUNT, _FREE, of=("MMODEL",)
+)
+def dealt_out_model(call: Call, model: Model, count: int, free: bool) -> Table:
+    """Models whose cells are dealt out in turn, zone by zone."""
+    made: list[list[Zone]] = [[] for _ in range(_positive(call, count))]
+    for zone in model.zones:
+        for place, mesh in enumerate(scattered(Mesh(zone.cells.nodes, (zone.cells,)), len(made))):
+            made[place] += [replace(zone, cells=cells) for cells in mesh.blocks]
+    return _table([Model(tuple(zones)) for zones in made if zones], free)
+
+
+def _positive(call: Call, count: int) -> int:
+    if count < 1:
+        raise call.error("operators.mesh.no-such-number-of-parts", count, count=count)
+    return count
+
+
+def _table(zones: Sequence[Mesh | Model], free: bool) -> Table:
+    table = Table()
+    if not free:
+        table.set(Mot("SOUSTYPE"), Mot("ESCLAVE"))
+    for number, zone in enumerate(zones, 1):
+        table.set(number, zone)
+    return table
+
+
+@operator(
+    "CCON",
+    arg("mesh", "MAILLAGE", en="mesh", fr="maillage"),
+    choice(
+        "strict",
+        ("STR1", "STR2"),
+        en="points of more than two lines, edges of more than two cells separate",
+        fr="les points de plus de deux lignes, les arêtes de plus de deux éléments séparent",
+    ),
+    family="mesh",
+    help=Help(
+        en="Table of the connected parts 1, 2 ... of a mesh. With 'STR1' points of more than two "
+        "lines separate, with 'STR2' cells hang together by edges of not more than two cells. "
+        "PART does more.",
+        fr="Table des composantes connexes 1, 2 ... d'un maillage. Avec 'STR1' les points de plus "
+        "de deux lignes séparent, avec 'STR2' les éléments se tiennent par des arêtes d'au plus "
+        "deux éléments. PART en fait davantage.",
+        syntax="TAB1 = CCON ('STR1'|'STR2') MAIL1 ;",
+        examples=(_CUT + "T = CCON L ; MESS (NBEL (T . 2)) ;",),
+    ),
+)
+def ccon(mesh: Mesh, strict: str | None) -> Table:
+    """Connected parts."""
+    return _table(separated(mesh, by_branching=True) if strict else connected(mesh), True)

@@ -1,0 +1,252 @@
+"""Surfaces inside contours: SURF DALL."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.mesh.changes.split import split_quadrangles
+from ssilang.kernel.mesh.combine import union
+from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.kernel.mesh.surfaces.charts import (
+    Chart,
+    cone_chart,
+    cylinder_chart,
+    plane_chart,
+    sphere_chart,
+    torus_chart,
+)
+from ssilang.kernel.mesh.surfaces.grid import grid_surface, matching_sides, sides_in_order
+from ssilang.kernel.mesh.surfaces.polynomial_surface import (
+    PolynomialSurface,
+    mesh_polynomial_surface,
+)
+from ssilang.kernel.mesh.surfaces.surface import contour_chart_data, fill_surface
+from ssilang.language.registry import (
+    Chosen,
+    Help,
+    arg,
+    flag,
+    key,
+    many,
+    operator,
+    opt,
+    said,
+    select,
+)
+from ssilang.language.run.call import Call
+from ssilang.language.run.session import Session
+from ssilang.operators.mesh.lines.ends import chosen_family
+from ssilang.operators.workspace import workspace
+
+_POLYNOMIAL_EN = (
+    "'POLY': the surface P(U,V), sum of P1 P2 P3 ... times 1 U U**2 ..., and of the further rows "
+    "times V V**2 ..., N1 columns and N2 rows of points; U and V go from 0 to 1 or between the "
+    "values behind 'PARA'. OPTI DENS says the size of the cells; 'REGU' spaces the nodes evenly "
+    "along the sides, else they are even in U and V."
+)
+_POLYNOMIAL_FR = (
+    "'POLY' : la surface P(U,V), somme de P1 P2 P3 ... fois 1 U U**2 ... et des lignes suivantes "
+    "fois V V**2 ..., N1 colonnes et N2 lignes de points ; U et V vont de 0 à 1 ou entre les "
+    "valeurs données derrière 'PARA'. OPTI DENS dit la taille des éléments ; 'REGU' répartit les "
+    "noeuds régulièrement le long des côtés, sinon ils le sont en U et V."
+)
+_POLYNOMIAL_SYNTAX = (
+    "SURF1 = {} 'POLY' N1 N2 P1 P2 (P3 ...) P11 P12 (P13 ...) (...) ('PARA' U1 U2 V1 V2) ('REGU') ;"
+)
+_CENTRE = arg("centre", "POINT", en="centre", fr="centre")
+_APEX = arg("apex", "POINT", en="apex", fr="sommet")
+_FIRST = arg("first", "POINT", en="point of the axis", fr="point de l'axe")
+_AXIS = arg("axis", "POINT", en="other point of the axis", fr="autre point de l'axe")
+_CIRCLE = arg("circle", "POINT", en="centre of a small circle", fr="centre d'un petit cercle")
+_SHAPES = {
+    "PLANE": (),
+    "SPHERIQUE": (_CENTRE,),
+    "CYLINDRIQUE": (_FIRST, _AXIS),
+    "CONIQUE": (_APEX, _AXIS),
+    "TORIQUE": (_CENTRE, _AXIS, _CIRCLE),
+}
+_SHAPE_EN, _SHAPE_FR = "what the surface lies on", "ce sur quoi la surface s'appuie"
+# chart of the contour's positions and the points behind the word
+_CHARTS: dict[str, Callable[..., Chart]] = {
+    "SPHERIQUE": sphere_chart,
+    "CYLINDRIQUE": cylinder_chart,
+    "CONIQUE": cone_chart,
+    "TORIQUE": torus_chart,
+}
+
+
+def _curved_chart(shape: Chosen, boundary: FloatArray) -> Chart:
+    points = [p.coordinates.copy() for p in shape.values.values()]
+    return _CHARTS[shape.word](boundary, *points)
+
+
+@operator(
+    "SURF",
+    opt(
+        "sizes",
+        "CHPOINT",
+        en="mesh sizes to respect, one component",
+        fr="tailles de maille à respecter, une composante",
+        unit="m",
+    ),
+    arg("contour", "MAILLAGE", en="closed lines", fr="lignes fermées"),
+    select("shape", _SHAPES, en=_SHAPE_EN, fr=_SHAPE_FR),
+    opt(
+        "criterion",
+        "FLOTTANT",
+        en="how far the lines may leave their plane, a share of their extent, 1E-3 by default",
+        fr="écart des lignes à leur plan, rapporté à leur étendue, 1E-3 par défaut",
+    ),
+    family="mesh",
+    full_name="SURFACE",
+    help=Help(
+        en="Mesh inside closed lines (holes run the other way): in their plane (the default), on a "
+        "sphere, cylinder, cone or torus. OPTI ELEM decides between triangles, quadrangles with "
+        "some triangles, and (POLY) polygons with some triangles. A nodal "
+        "field of one component gives the mesh sizes to respect.",
+        fr="Maillage intérieur à des lignes fermées (les trous tournent en sens inverse) : dans "
+        "leur plan (par défaut), sur une sphère, un cylindre, un cône ou un tore. OPTI ELEM "
+        "choisit triangles, quadrangles avec quelques triangles, ou (POLY) polygones avec quelques "
+        "triangles. Un champ par points à une "
+        "composante donne les tailles de maille à respecter.",
+        syntax="SURF1 = SURF (CHPO1) LIG1 'PLANE' (CRIT) | 'SPHE' CENTR1 | 'CYLI' AXE1 AXE2 | "
+        "'CONI' SOMM1 AXE1 | 'TORI' CENTR1 AXE1 CENTR2 ;",
+        examples=(
+            "OPTI DIME 2 ELEM TRI3 ; A = 0. 0. ; B = 1. 0. ; C = 0. 1. ;"
+            " L = A DROI 5 B DROI 5 C DROI 5 A ; S = SURF L 'PLANE' ;",
+        ),
+    ),
+)
+def surf(
+    session: Session,
+    sizes: NodeField | None,
+    contour: Mesh,
+    shape: Chosen | None,
+    criterion: float | None,
+) -> Mesh:
+    """Mesh the inside of a contour."""
+    boundary, segments = contour_chart_data(contour)
+    if shape is None or shape.word == "PLANE":
+        chart = plane_chart(boundary, segments, 1e-3 if criterion is None else abs(criterion))
+    else:
+        chart = _curved_chart(shape, boundary)
+    ws = workspace(session)
+    surface = chosen_family(ws).need_surface()
+    return fill_surface(contour, chart, surface, ws.colour, _wanted_sizes(sizes))
+
+
+def _wanted_sizes(field: NodeField | None) -> tuple[FloatArray, FloatArray] | None:
+    if field is None:
+        return None
+    part = next(iter(field.components.values()))
+    return field.table.coordinates[part.nodes].copy(), part.values
+
+
+@operator(
+    "DALL",
+    arg("side1", "MAILLAGE", en="first side", fr="premier côté"),
+    arg("side2", "MAILLAGE", en="second side", fr="deuxième côté"),
+    arg("side3", "MAILLAGE", en="third side", fr="troisième côté"),
+    arg("side4", "MAILLAGE", en="fourth side", fr="quatrième côté"),
+    select("shape", {**_SHAPES, "QUELCONQUE": ()}, en=_SHAPE_EN, fr=_SHAPE_FR),
+    family="mesh",
+    full_name="DALLER",
+    help=Help(
+        en="Surface on four lines that form a contour: a grid when opposite sides have the same "
+        "number of cells. 'PLAN', 'SPHE', 'CYLI', 'CONI', 'TORI' say on what it lies; 'QUEL' "
+        "interpolates between the sides. Cells turn as the contour does. COTE gives the sides. ",
+        fr="Surface sur quatre lignes formant un contour : une grille si les côtés opposés ont le "
+        "même nombre d'éléments. 'PLAN', 'SPHE', 'CYLI', 'CONI', 'TORI' disent sur quoi elle "
+        "s'appuie ; 'QUEL' interpole entre les côtés. COTE rend les côtés.",
+        syntax="SURF1 = DALL COTE1 COTE2 COTE3 COTE4 'PLAN' | 'SPHE' CENTR1 | 'CYLI' POIN1 POIN2 | "
+        "'CONI' POIN1 POIN2 | 'TORI' CENTR1 POIN1 CENTR2 | 'QUELCONQUE' ;",
+        examples=(
+            "OPTI DIME 2 ELEM QUA4 ; A = 0. 0. ; B = 1. 0. ; C = 1. 1. ; D0 = 0. 1. ;"
+            " S = DALL (DROI 3 A B) (DROI 2 B C) (DROI 3 C D0) (DROI 2 D0 A) 'PLAN' ;"
+            " LIST (NBEL S) ;",
+        ),
+    ),
+)
+def dall(
+    session: Session, side1: Mesh, side2: Mesh, side3: Mesh, side4: Mesh, shape: Chosen | None
+) -> Mesh:
+    """Make a grid on four sides."""
+    ws = workspace(session)
+    ordered = sides_in_order([side1, side2, side3, side4])
+    chart = None
+    if shape is not None and shape.word in _CHARTS:
+        boundary, _ = contour_chart_data(union(*ordered, as_given=True))
+        chart = _curved_chart(shape, boundary)
+    surface = chosen_family(ws).need_surface()
+    if matching_sides(ordered):
+        made = grid_surface(ordered, chart, ws.colour)
+        return split_quadrangles(made) if surface.startswith("TRI") else made
+    contour = union(*ordered, as_given=True)
+    if chart is None:
+        chart = plane_chart(*contour_chart_data(contour))
+    made = fill_surface(contour, chart, surface, ws.colour)
+    return Mesh(made.nodes, made.blocks, ordered)
+
+
+_POLYNOMIAL = (
+    said("POLYNOME"),
+    arg("columns", "ENTIER", en="number of columns of points", fr="nombre de colonnes de points"),
+    arg("rows", "ENTIER", en="number of rows of points", fr="nombre de lignes de points"),
+    many("points", "POINT", en="P1 P2 P3 ..., row by row", fr="P1 P2 P3 ..., ligne par ligne"),
+    key(
+        "limits",
+        "PARAMETRE",
+        arg("u1", "FLOTTANT"),
+        arg("u2", "FLOTTANT"),
+        arg("v1", "FLOTTANT"),
+        arg("v2", "FLOTTANT"),
+        default=(0.0, 1.0, 0.0, 1.0),
+        en="where U and V begin and end",
+        fr="bornes de U et de V",
+    ),
+    flag(
+        "regular",
+        "REGULIER",
+        en="nodes even along the sides",
+        fr="noeuds réguliers le long des côtés",
+    ),
+)
+
+
+@dall.form(
+    *_POLYNOMIAL, syntax=_POLYNOMIAL_SYNTAX.format("DALL"), en=_POLYNOMIAL_EN, fr=_POLYNOMIAL_FR
+)
+@surf.form(
+    *_POLYNOMIAL, syntax=_POLYNOMIAL_SYNTAX.format("SURF"), en=_POLYNOMIAL_EN, fr=_POLYNOMIAL_FR
+)
+def polynomial_surface(
+    call: Call,
+    columns: int,
+    rows: int,
+    points: Sequence[Point],
+    limits: tuple[float, float, float, float],
+    regular: bool,
+) -> Mesh:
+    """The surface of a polynomial in U and V."""
+    ws = workspace(call.session)
+    if columns < 1 or rows < 1 or columns * rows < 2:
+        raise call.error("operators.mesh.too-few-rows", columns, columns=columns, rows=rows)
+    if len(points) < columns * rows:
+        raise call.missing(("POINT",))
+    if len(points) > columns * rows:
+        raise call.error(
+            "operators.mesh.too-many-points",
+            points[-1],
+            columns=columns,
+            rows=rows,
+            needed=columns * rows,
+            n_points=len(points),
+        )
+    table = np.array([p.coordinates for p in points]).reshape(rows, columns, 3)
+    shape = PolynomialSurface(table, limits[:2], limits[2:])
+    surface = chosen_family(ws).need_surface()
+    return mesh_polynomial_surface(ws.nodes, shape, ws.density, surface, regular, ws.colour)

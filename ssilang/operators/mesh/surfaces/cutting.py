@@ -1,0 +1,84 @@
+"""COUP FUIT: meshes cut by a plane, contours cut by a segment."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.fields.isovalue import isovalue
+from ssilang.kernel.mesh.changes.degree import linear
+from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.kernel.mesh.surfaces.contour_split import split_contour
+from ssilang.language.registry import Help, arg, operator
+from ssilang.language.run.call import Call
+
+
+@operator(
+    "COUP",
+    arg("mesh", "MAILLAGE"),
+    arg("p1", "POINT"),
+    arg("p2", "POINT"),
+    arg("p3", "POINT"),
+    family="mesh",
+    full_name="COUPER",
+    help=Help(
+        en="What a plane through three points cuts out of a mesh in space: triangles in volumes, "
+        "lines in surfaces, points in lines. Quadratic cells are cut as linear ones.",
+        fr="Ce qu'un plan passant par trois points coupe d'un maillage de l'espace : des triangles "
+        "dans les volumes, des lignes dans les surfaces, des points dans les lignes. Les éléments "
+        "quadratiques sont coupés comme des linéaires.",
+        syntax="GEO2 = COUP GEO1 P1 P2 P3 ;",
+        examples=(
+            "OPTI DIME 3 ELEM CUB8 ; S = (DROI 2 (0. 0. 0.) (1. 0. 0.)) TRAN 2 (0. 1. 0.) ; "
+            "V = S VOLU 2 'TRAN' (0. 0. 1.) ; "
+            "C = COUP V (0. 0. 0.3) (1. 0. 0.3) (0. 1. 0.3) ; MESS (MESU C) ;",
+        ),
+    ),
+)
+def coup(call: Call, mesh: Mesh, p1: Point, p2: Point, p3: Point) -> Mesh:
+    """Section by a plane."""
+    a, b, c = (p.coordinates for p in (p1, p2, p3))
+    normal = np.cross(b - a, c - a)
+    size = float(np.linalg.norm(normal))
+    if size <= 1e-12 * max(float((b - a) @ (b - a)), float((c - a) @ (c - a))):
+        raise call.error("operators.mesh.no-plane", p3)
+    flat = linear(mesh)
+    blocks = []
+    for cells in flat.blocks:
+        height = (cells.coordinates - a) @ (normal / size)
+        blocks.append(CellFieldBlock(cells, {"SCAL": height}, "NOEUD"))
+    return isovalue(CellField(tuple(blocks), ""), 0.0)
+
+
+@operator(
+    "FUIT",
+    arg("contour", "MAILLAGE"),
+    arg("first", "MAILLAGE", "POINT"),
+    arg("second", "MAILLAGE", "POINT"),
+    family="mesh",
+    help=Help(
+        en="Cuts a closed contour of SEG2 in two by the shortest segment from a node of the second "
+        "mesh to a node of the third: that segment, the contour that holds it and the one that "
+        "holds its inverse, both in the sense of the first. Only nodes on the contour count. A "
+        "line that the axis of revolution closes may be cut too.",
+        fr="Coupe en deux un contour fermé de SEG2 par le plus petit segment entre un noeud du "
+        "deuxième maillage et un noeud du troisième : ce segment, le contour qui le contient et "
+        "celui qui contient son inverse, dans le sens du premier. Seuls comptent les noeuds du "
+        "contour. Une ligne que l'axe de révolution ferme peut aussi être coupée.",
+        syntax="MAIL4 MAIL5 MAIL6 = FUIT MAIL1 MAIL2 MAIL3 ;",
+        examples=(
+            "OPTI DIME 2 ELEM SEG2 ; A = DROI 6 (0. 0.) (3. 0.) ; B = DROI 2 (3. 0.) (3. 1.) ; "
+            "C = DROI 6 (3. 1.) (0. 1.) ; D = DROI 2 (0. 1.) (0. 0.) ; L = A ET B ET C ET D ; "
+            "ELIM 1.E-6 L ; E F G = FUIT L (A POIN 4) C ; MESS (NBEL F) (NBEL G) (MESU E) ;",
+        ),
+    ),
+)
+def fuit(contour: Mesh, first: Mesh | Point, second: Mesh | Point) -> tuple[Mesh, Mesh, Mesh]:
+    """Cut a contour in two."""
+    return split_contour(contour, _nodes(first), _nodes(second))
+
+
+def _nodes(given: Mesh | Point) -> Mesh:
+    if isinstance(given, Mesh):
+        return given
+    return Mesh.of(given.nodes, "POI1", np.array([[given.node]]))

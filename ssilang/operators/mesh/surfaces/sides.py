@@ -1,0 +1,86 @@
+"""Sides of surfaces and faces of volumes that meshes keep from their making: COTE FACE."""
+
+from __future__ import annotations
+
+from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.language.registry import ANY, Help, arg, operator
+from ssilang.language.run.call import Call
+
+
+@operator(
+    "COTE",
+    arg(
+        "number",
+        "ENTIER",
+        en="1 initial, 2 right, 3 final, 4 left",
+        fr="1 initial, 2 droit, 3 final, 4 gauche",
+    ),
+    arg("mesh", "MAILLAGE", en="surface", fr="surface"),
+    family="mesh",
+    help=Help(
+        en="Side of a surface kept from its making: 1 initial, 2 right, 3 final, 4 left; all of "
+        "them without a number. They run round the surface in the sense of side 1.",
+        fr="Côté d'une surface gardé de sa construction : 1 initial, 2 droit, 3 final, 4 gauche ; "
+        "tous sans numéro. Ils tournent autour de la surface dans le sens du côté 1.",
+        syntax="GEO1 = COTE (I1) GEO2 ;",
+        examples=(
+            "OPTI DIME 2 ELEM QUA4 ; L = DROI 4 (0. 0.) (1. 0.) ; S = L TRAN 3 (0. 1.) ;"
+            " LIST (NBEL (COTE 2 S)) ;",
+        ),
+    ),
+)
+def cote(call: Call, number: int, mesh: Mesh) -> Mesh:
+    """Give back a side."""
+    kept = _sides(call, mesh)
+    if not 1 <= number <= len(kept):
+        raise call.error("operators.mesh.no-such-side", number, number=number, count=len(kept))
+    return kept[number - 1]
+
+
+@cote.form(arg("mesh", "MAILLAGE", en="surface", fr="surface"), gives=ANY)
+def all_sides(call: Call, mesh: Mesh) -> tuple[Mesh, ...]:
+    """Give back all sides."""
+    return _sides(call, mesh)
+
+
+def _sides(call: Call, mesh: Mesh) -> tuple[Mesh, ...]:
+    if not mesh.sides:
+        raise call.error("operators.mesh.no-sides", mesh)
+    return mesh.sides
+
+
+@operator(
+    "FACE",
+    arg("number", "ENTIER", en="1 start, 2 end, 3 around", fr="1 initiale, 2 finale, 3 latérale"),
+    arg("mesh", "MAILLAGE", en="volume", fr="volume"),
+    family="mesh",
+    help=Help(
+        en="Face of a volume kept from its making: 1 start, 2 end, 3 around; all of them without a "
+        "number.",
+        fr="Face d'un volume gardée de sa construction : 1 initiale, 2 finale, 3 latérale ; toutes "
+        "sans numéro.",
+        syntax="GEO1 = FACE (N1) GEO2 ;",
+        examples=(
+            "OPTI DIME 3 ELEM CUB8 ; L = DROI 2 (0. 0. 0.) (1. 0. 0.) ; S = L TRAN 2 (0. 1. 0.) ;"
+            " V = S VOLU 2 'TRAN' (0. 0. 1.) ; LIST (NBEL (FACE 3 V)) ;",
+        ),
+    ),
+)
+def face(call: Call, number: int, mesh: Mesh) -> Mesh:
+    """Give back a face."""
+    kept = _faces(call, mesh)
+    if not 1 <= number <= len(kept):
+        raise call.error("operators.mesh.no-such-face", number, number=number, count=len(kept))
+    return kept[number - 1]
+
+
+@face.form(arg("mesh", "MAILLAGE", en="volume", fr="volume"), gives=ANY)
+def all_faces(call: Call, mesh: Mesh) -> tuple[Mesh, ...]:
+    """Give back all faces."""
+    return _faces(call, mesh)
+
+
+def _faces(call: Call, mesh: Mesh) -> tuple[Mesh, ...]:
+    if not mesh.sides:
+        raise call.error("operators.mesh.no-faces", mesh)
+    return mesh.sides

@@ -1,0 +1,254 @@
+"""Surfaces swept by lines: TRAN, ROTA, REGL, GENE."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.mesh.combine import union
+from ssilang.kernel.mesh.generators.sweep import (
+    Path,
+    layer_cuts,
+    mean_density,
+    rotation,
+    ruling,
+    sweep_line,
+    translation,
+)
+from ssilang.kernel.mesh.lines.lines import line_chain
+from ssilang.kernel.mesh.lines.subdivision import Subdivision
+from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.kernel.mesh.orientation import reversed_line
+from ssilang.language.registry import Help, arg, operator, opt
+from ssilang.language.run.call import Call
+from ssilang.language.run.session import Session
+from ssilang.operators.mesh.lines.ends import (
+    ANGLE,
+    AXIS,
+    SIZES,
+    Cuts,
+    Sizes,
+    axis_of,
+    chosen_family,
+    count_and_angle,
+    cuts_of,
+)
+from ssilang.operators.workspace import workspace
+
+_LAYERS_EN = (
+    "N1 > 0: that many equal layers; N1 < 0: that many, graded by the mesh sizes; without N1 the "
+    "sizes decide; DINI and DFIN replace them. If the first mesh is a surface its side 3 is swept "
+    "and the result is the surface grown by the new cells. COTE gives the sides."
+)
+_LAYERS_FR = (
+    "N1 > 0 : N1 couches égales ; N1 < 0 : N1 couches gradées selon les densités ; sans N1 les "
+    "densités décident ; DINI et DFIN les remplacent. Si le premier maillage est une surface, son "
+    "côté 3 est balayé et le résultat est la surface augmentée. COTE rend les côtés."
+)
+
+
+LAYERS = opt(
+    "count",
+    "ENTIER",
+    en="number of layers, graded by the mesh sizes if negative; without it these decide",
+    fr="nombre de couches, graduées selon les densités s'il est négatif ; sans lui elles décident",
+)
+_SWEPT = arg(
+    "swept",
+    "MAILLAGE",
+    en="line, or surface whose side 3 is swept",
+    fr="ligne, ou surface dont le côté 3 est balayé",
+)
+
+
+def line_to_sweep(mesh: Mesh) -> Mesh:
+    """The mesh itself if it is a line, else its side 3 in the sense of its side 1."""
+    if mesh.dimension < 2:
+        return mesh
+    if len(mesh.sides) < 3:
+        raise MeshError("operators.mesh.no-side-to-sweep")
+    return reversed_line(mesh.sides[2])
+
+
+def grown(first: Mesh, new: Mesh) -> Mesh:
+    """The surface `first` continued by `new` from its side 3; `new` alone if it is a line."""
+    if first.dimension < 2:
+        return new
+    made = union(first, new, as_given=True)
+    old = first.sides
+    if len(old) < 4:
+        return made
+    right = union(old[1], new.sides[1], as_given=True)
+    left = union(new.sides[3], old[3], as_given=True)
+    return Mesh(made.nodes, made.blocks, (old[0], right, new.sides[2], left))
+
+
+def _swept(
+    call: Call, mesh: Mesh, path_of: Callable[[Mesh], Path], end_size: float, cuts: Cuts
+) -> Mesh:
+    line = line_to_sweep(mesh)
+    path = path_of(line)
+    layers = layer_cuts(line, path, end_size, cuts.count, (cuts.first, cuts.last))
+    surface = chosen_family(workspace(call.session)).need_surface()
+    return grown(mesh, sweep_line(line, path, layers, surface))
+
+
+@operator(
+    "TRAN",
+    _SWEPT,
+    LAYERS,
+    SIZES,
+    arg("vector", "POINT", en="vector", fr="vecteur", unit="m"),
+    family="mesh",
+    full_name="TRANSLATION",
+    help=Help(
+        en="Surface swept by a line moved along a vector. " + _LAYERS_EN,
+        fr="Surface engendrée par translation d'une ligne selon un vecteur. " + _LAYERS_FR,
+        syntax="SURF1 = LIG1 TRAN (N1) ('DINI' DENS1) ('DFIN' DENS2) VEC1 ;",
+        examples=(
+            "OPTI DIME 2 ELEM QUA4 ; L = DROI 4 (0. 0.) (1. 0.) ; S = L TRAN 3 (0. 1.) ;"
+            " LIST (NBEL S) ;",
+        ),
+    ),
+)
+def tran(call: Call, swept: Mesh, count: int | None, sizes: Sizes, vector: Point) -> Mesh:
+    """Sweep a line along a vector."""
+    shift = vector.coordinates.copy()
+    cuts = cuts_of(call, count, sizes)
+    return _swept(call, swept, lambda line: translation(shift), vector.density, cuts)
+
+
+@operator(
+    "ROTA",
+    _SWEPT,
+    LAYERS,
+    ANGLE,
+    SIZES,
+    AXIS,
+    family="mesh",
+    full_name="ROTATION",
+    help=Help(
+        en="Surface swept by a line turned by an angle in degrees about a point (2D) or an axis "
+        "(3D). " + _LAYERS_EN,
+        fr="Surface engendrée par rotation d'une ligne d'un angle en degrés autour d'un point (2D) "
+        "ou d'un axe (3D). " + _LAYERS_FR,
+        syntax="SURF1 = LIG1 ROTA (N1) FLOT1 ('DINI' DENS1) ('DFIN' DENS2) POIN1 (POIN2) ;",
+        examples=(
+            "OPTI DIME 2 ELEM QUA4 ; L = DROI 2 (1. 0.) (2. 0.) ; S = L ROTA 8 90. (0. 0.) ;",
+        ),
+    ),
+)
+def rota(
+    call: Call,
+    swept: Mesh,
+    count: int | None,
+    angle: float | None,
+    sizes: Sizes,
+    axis: Sequence[Point],
+) -> Mesh:
+    """Sweep a line about a centre or an axis."""
+    count, degrees = count_and_angle(call, count, angle)
+    turn, size = turning(call, degrees, axis)
+    return _swept(call, swept, turn, size, cuts_of(call, count, sizes))
+
+
+def turning(
+    call: Call, degrees: float, axis: Sequence[Point]
+) -> tuple[Callable[[Mesh], Path], float]:
+    """The rotation about what `AXIS` has read, and the mesh size at its end."""
+    origin, direction = axis_of(call, axis)
+    size = sum(p.density for p in axis) / len(axis)
+    return (lambda mesh: rotation(mesh, degrees, origin, direction)), size
+
+
+@operator(
+    "REGL",
+    _SWEPT,
+    LAYERS,
+    SIZES,
+    arg(
+        "goal",
+        "MAILLAGE",
+        en="line to reach, or surface whose side 1 is reached",
+        fr="ligne à atteindre, ou surface dont le côté 1 est atteint",
+    ),
+    family="mesh",
+    full_name="REGLER",
+    help=Help(
+        en="Ruled surface between two lines with the same cells, described in the same sense. "
+        + _LAYERS_EN
+        + " If the second is a surface its side 1 is reached.",
+        fr="Surface réglée entre deux lignes de même découpage, décrites dans le même sens. "
+        + _LAYERS_FR
+        + " Si le second est une surface, son côté 1 est atteint.",
+        syntax="SURF1 = LIG1 REGL (N1) ('DINI' DENS1) ('DFIN' DENS2) LIG2 ;",
+        examples=(
+            "OPTI DIME 2 ELEM QUA4 ; L = DROI 4 (0. 0.) (1. 0.) ; M = DROI 4 (0. 1.) (2. 1.) ;"
+            " S = L REGL 3 M ;",
+        ),
+    ),
+)
+def regl(call: Call, swept: Mesh, count: int | None, sizes: Sizes, goal: Mesh) -> Mesh:
+    """Sweep a line to another one."""
+    reached = goal
+    if goal.dimension > 1:
+        if not goal.sides:
+            raise call.error("operators.mesh.no-side-to-reach", goal)
+        reached = goal.sides[0]
+    cuts = cuts_of(call, count, sizes)
+    made = _swept(call, swept, lambda line: ruling(line, reached), mean_density(reached), cuts)
+    if reached is goal:
+        return made
+    whole = union(made, goal, as_given=True)
+    if len(goal.sides) < 4:
+        return whole
+    right = union(made.sides[1], goal.sides[1], as_given=True)
+    left = union(goal.sides[3], made.sides[3], as_given=True)
+    return Mesh(whole.nodes, whole.blocks, (made.sides[0], right, goal.sides[2], left))
+
+
+def generator_path(generator: Mesh) -> tuple[Path, Subdivision]:
+    """The motion along a line, layer by layer at its cells."""
+    block = generator.single_block()
+    chain = generator.nodes.coordinates[line_chain(generator)].copy()
+    offsets: FloatArray = chain - chain[0]
+    place = np.linspace(0.0, 1.0, len(chain))
+    n = len(block)
+
+    def motion(x: FloatArray, s: float) -> FloatArray:
+        shift = [[float(np.interp(s, place, offsets[:, k])) for k in range(3)]]
+        moved: FloatArray = x + np.array(shift)
+        return moved
+
+    length = float(np.linalg.norm(np.diff(chain, axis=0), axis=1).sum())
+    sizes = generator.nodes.density[[block.connectivity[0, 0], block.connectivity[-1, -1]]]
+    fractions = np.linspace(0.0, 1.0, n + 1)
+    return Path(motion, length), Subdivision(fractions, float(sizes[0]), float(sizes[1]))
+
+
+@operator(
+    "GENE",
+    arg("line", "MAILLAGE", en="line that is swept", fr="ligne balayée"),
+    arg("way", "MAILLAGE", en="line along which it goes", fr="ligne qu'elle suit"),
+    family="mesh",
+    full_name="GENERATRICE",
+    help=Help(
+        en="Surface swept by a line moved parallel to itself along another line, one layer for "
+        "each of its cells.",
+        fr="Surface engendrée par une ligne déplacée parallèlement à elle-même le long d'une autre "
+        "ligne, une couche par élément de celle-ci.",
+        syntax="SURF1 = LIG1 GENE LIG2 ;",
+        examples=(
+            "OPTI DIME 2 ELEM QUA4 ; L = DROI 4 (0. 0.) (1. 0.) ;"
+            " M = QUEL SEG2 (0. 0.) (0. 1.) (1. 2.) ; S = L GENE M ;",
+        ),
+    ),
+)
+def gene(session: Session, line: Mesh, way: Mesh) -> Mesh:
+    """Sweep a line along another line."""
+    path, layers = generator_path(way)
+    surface = chosen_family(workspace(session)).need_surface()
+    return sweep_line(line, path, layers, surface)

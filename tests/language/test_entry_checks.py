@@ -1,0 +1,131 @@
+"""Tables given to procedures: what cannot be used is refused, what nobody reads is a warning."""
+
+from __future__ import annotations
+
+import pytest
+
+from ssilang.cli.run import run_text
+from ssilang.language.say.diagnostics import sentence
+from ssilang.language.vocabulary.spelling import edit_distance, near_word
+
+OSCILLATOR = """
+OPTI DIME 2 ELEM SEG2 ; P = 0. 0. ; T1 = TABL ;
+T1 . 'RIGI' = (APPU 'DEPL' 'UX' 4. P) ET (BLOQ 'UY' P) ; T1 . 'MASS' = MASS 'DEPL' 1. P ;
+T1 . 'VITE' = MANU 'CHPO' P 1 'UX' 1. ; T1 . 'TEMPS_CALCULES' = PROG 0. 'PAS' 0.1 1. ;
+"""
+BLOCK = """
+OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ; L1 = DROI 1 (0. 0.) (0. 1.) ; S1 = L1 TRAN 1 (1. 0.) ;
+M1 = MODE S1 'MECANIQUE' 'ELASTIQUE' ; D1 = BLOQ 'UX' (COTE 3 S1) ;
+E1 = EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.) ; C1 = CHAR 'DIMP' (DEPI D1 1.E-3) E1 ;
+T1 = TABL ; T1 . 'MODELE' = M1 ; T1 . 'CARACTERISTIQUES' = MATE M1 'YOUN' 1.E9 'NU' 0.2 ;
+T1 . 'BLOCAGES_MECANIQUES' = (BLOQ 'DEPL' L1) ET D1 ; T1 . 'TEMPS_CALCULES' = PROG 0. 1. ;
+"""
+DYNAMIC, PASAPAS = (OSCILLATOR, "T2 = DYNAMIC T1 ;"), (BLOCK, "PASAPAS T1 ;")
+
+
+def warnings(text: str, language: str = "en") -> list[str]:
+    """Sentences and hints about entries, of a run that goes well."""
+    result = run_text(text)
+    assert result.exit_code == 0, result.message
+    found = [w for w in result.session.warnings if w.code.startswith("entry")]
+    return [" = ".join(sentence(w, language)) for w in found]
+
+
+@pytest.mark.parametrize(
+    ("deck", "entry", "right"),
+    [
+        (DYNAMIC, "T1 . 'CHARGEMENT' = 1 ;", "'CHAR'"),
+        (DYNAMIC, "T1 . 'AMORTISSEMENT' = 1 ;", "'AMOR'"),
+        (DYNAMIC, "T1 . 'TEMPS_CALUCLES' = 1 ;", "'TEMPS_CALCULES'"),
+        (DYNAMIC, "T1 . 'VITEUNLI' = 1 ;", "'VITEUNIL'"),
+        (DYNAMIC, "T1 . 'PROCEDURE_CHARMECA' = 1 ;", "'CHARMECA'"),
+        (PASAPAS, "T1 . 'CHAR' = C1 ;", "'CHARGEMENT'"),
+        (PASAPAS, "T1 . 'AMOR' = 1 ;", "'AMORTISSEMENT'"),
+        (PASAPAS, "T1 . 'FICHIER_VTK' = 'X' ;", "one of DYNAMIC"),
+        (PASAPAS, "T1 . 'CECI' = 1 ;", "ssilang help PASAPAS"),
+    ],
+)
+def test_an_entry_that_nobody_reads_is_a_warning_that_names_the_right_one(deck, entry, right):
+    (said,) = warnings(deck[0] + entry + deck[1])
+    assert right in said
+    assert entry.split("'")[1] in said
+
+
+@pytest.mark.parametrize(
+    "more",
+    [
+        "T1 . 'CHARGEMENT' = C1 ; T1 . 'CHAR' = C1 ; MESS (TYPE (T1 . 'CHAR')) ;",
+        "T1 . 'MON_SEUIL' = 1.E-3 ; SI (EXIS T1 'MON_SEUIL') ; FINSI ;",
+        "T1 . 'MOVA' = 'UX' ;",
+        "T1 . 'MAXI_DEPLACEMENT' = 1. ; SI FAUX ; CONTINU T1 ; FINSI ;",
+    ],
+)
+def test_what_the_script_reads_and_what_is_known_is_no_warning(more):
+    assert warnings(BLOCK + more + "PASAPAS T1 ;") == []
+
+
+def test_what_a_procedure_of_the_script_reads_is_no_warning():
+    text = """
+    DEBP PERSO1 TAB1*TABLE ; SI ((TAB1 . 'MON_SEUIL') > 3.) ; TAB1 . 'ARRET' = VRAI ; FINSI ; FINP ;
+    """
+    text += BLOCK + "T1 . 'PROCEDURE_PERSO1' = VRAI ; T1 . 'MON_SEUIL' = 1. ;"
+    assert warnings(text + "PASAPAS T1 ;") == []
+    assert len(warnings(text.replace("TAB1 . 'MON_SEUIL'", "1.") + "PASAPAS T1 ;")) == 1
+
+
+def test_results_and_a_second_call_are_no_warning():
+    assert warnings(BLOCK + "T1 . 'CHARGEMENT' = C1 ; PASAPAS T1 ; PASAPAS T1 ;".replace(
+        "PASAPAS T1 ; PASAPAS", "PASAPAS T1 ; T1 . 'TEMPS_CALCULES' = PROG 2. ; PASAPAS"
+    )) == []  # fmt: skip
+    assert warnings(OSCILLATOR + "T2 = DYNAMIC T1 ; T2 = DYNAMIC T1 ;") == []
+
+
+def test_warnings_speak_french():
+    (said,) = warnings(OSCILLATOR + "T1 . 'CHARGEMENT' = 1 ; T2 = DYNAMIC T1 ;", "fr")
+    assert "n'est pas un indice de DYNAMIC" in said
+    assert "vouliez-vous dire 'CHAR' ?" in said
+
+
+@pytest.mark.parametrize(
+    ("entry", "words"),
+    [
+        ("T1 . 'RIGI' = 3 ;", ["'RIGI' must be RIGIDITE, found ENTIER"]),
+        ("OUBL T1 'RIGI' ;", ["the entry 'RIGI' is missing"]),
+        ("T1 . 'CONTACT' = 'LARGANGE' ;", ["did you mean 'LAGRANGE'?", "'UZAWA'"]),
+        ("T1 . 'VITEUNIL' = 'TOTO' ;", ["'TOTO'", "VRAI | FAUX | 'INERTIE' | 'RAIDEUR'"]),
+        ("T1 . 'PAS_SAUVES' = 2.5 ;", ["ENTIER | MOT", "FLOTTANT"]),
+    ],
+)
+def test_values_that_cannot_be_used_are_refused_with_those_that_can(entry, words):
+    result = run_text(OSCILLATOR + entry + "T2 = DYNAMIC T1 ;")
+    assert result.exit_code == 1
+    for word in words:
+        assert word in result.message
+
+
+@pytest.mark.parametrize(
+    "value", ["VRAI", "FAUX", "'INERTIE'", "'RAIDEUR'", "MOT 'MASSE'", "MOT 'RIGIDITE'"]
+)
+def test_documented_words_and_older_ones_work(value):
+    assert warnings(OSCILLATOR + f"T1 . 'VITEUNIL' = {value} ; T2 = DYNAMIC T1 ;") == []
+
+
+@pytest.mark.parametrize("word", ["'TOUS'", "'tous'", "'FINAL'", "'FINA'"])
+def test_words_compare_on_four_letters(word):
+    assert warnings(OSCILLATOR + f"T1 . 'PAS_SAUVES' = {word} ; T2 = DYNAMIC T1 ;") == []
+
+
+def test_entries_inside_of_tables_are_checked():
+    text = """
+    T1 = TABL ; TS = TABL ; T1 . 'STRUC' = TS ; TS . 'NMODE' = 1.5 ;
+    T1 . 'PLANCH' = TABL ; T1 . 'EXCIT' = TABL ; T2 = SPPLANC T1 ;
+    """
+    assert "'STRUC' . 'NMODE' must be ENTIER" in run_text(text).message
+
+
+def test_swapped_letters_count_once():
+    assert edit_distance("TEMPS", "TMEPS") == 1
+    assert edit_distance("TEMPS", "TEMP") == 1
+    assert edit_distance("CHAR", "CHOIR") == 2
+    assert near_word("VITESSE", ["VITE", "DEPL"]) == "VITE"
+    assert near_word("XYZ", ["VITE", "DEPL"]) == ""
