@@ -76,4 +76,8 @@ MESSAGES: dict[str, Message] = {
         "the mean and the number of values are not negative",
         "la moyenne et le nombre de valeurs ne sont pas négatifs",
     ),
+    "constant-polynomial": Message(
+        "the polynomial is constant: it has no roots, or all numbers",
+        "le polynôme est constant : il n'a aucune racine, ou tout nombre l'est",
+    ),
 }
