@@ -13,7 +13,7 @@ from ssilang.language.registry import Help, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
 from ssilang.operators.curves.accelerograms import one_curve
-from ssilang.operators.numbers.numbers import session_generator
+from ssilang.operators.numbers.noise import session_generator
 
 _SERIES = ("ACCE", "VITE", "DEPL")
 _NUMBERS = ("TINI", "NCOU", "NPOI", "NSIN", "INIT")

@@ -14,7 +14,7 @@ from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
 from ssilang.operators.matrices.element import joined, present
 from ssilang.operators.modal.basis import shapes_in
-from ssilang.operators.tables.making import copied
+from ssilang.operators.tables.indices import copied
 
 _AXES = ("UX", "UY", "UZ")
 _MODE = (
