@@ -67,9 +67,10 @@ class _Step:
         seen = zone_field(zone, self.end)
         if not any(n in seen for n in names):
             raise FieldError(
-                f"the second field has no strain ({' '.join(names)}) on the cells of element "
-                f"{zone.element}",
-                f"it has: {' '.join(seen.names) or 'nothing there'}",
+                "operators.statics.second-field-has-no-strain",
+                names=names,
+                element=zone.element,
+                seen=seen.names,
             )
         return seen.matrix(names, "STRESSES") - _strains_of(zone, self.start)
 
@@ -218,7 +219,7 @@ def _state_read(call: Call) -> _StateRead:
     number = call.optional("FLOTTANT")
     precision = precision if number is None else number
     if precision <= 0.0:
-        raise call.bad(f"the precision must be positive, not {precision:g}")
+        raise call.error("operators.statics.precision-not-positive", precision=precision)
     return _StateRead(present(call, model), stress, variables, material, precision, symmetric)
 
 
@@ -226,7 +227,7 @@ def _tangent_matrix(
     model: Model, tangents: list[tuple[FloatArray, bool]], material: CellField, symmetric: bool
 ) -> Matrix:
     if not model.zones:
-        raise MeshError("the model has no mechanical zone", "CHARGEMENT zones only carry loads")
+        raise MeshError("operators.statics.no-mechanical-zone")
     blocks = []
     for zone, (tangent, own) in zip(model.zones, tangents, strict=True):
         parameters = zone_field(zone, material)
@@ -292,7 +293,7 @@ def _perturbed(call: Call) -> Matrix:
             said[word] = call.required("FLOTTANT", after=call.keyword_end)
     share, least = said["C1"], said.get("C2", said["C1"] / 100.0)
     if share <= 0.0 or least <= 0.0:
-        raise call.bad("the coefficients of the perturbation must be positive")
+        raise call.error("operators.statics.perturbation-not-positive")
     tangents = [(_by_differences(z, step, share, least), not has_law(z)) for z in model.zones]
     return _tangent_matrix(model, tangents, joined((step.end, step.start)), symmetric)
 

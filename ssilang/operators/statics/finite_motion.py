@@ -43,7 +43,9 @@ _SQUARE = (
 
 def _solid(zone: Zone, name: str) -> None:
     if not is_solid(zone):
-        raise FieldError(f"{name} is for continuous elements, not {zone.element}")
+        raise FieldError(
+            "operators.statics.for-continuous-elements", name=name, element=zone.element
+        )
 
 
 def _stands(zone: Zone, field: CellField, names: tuple[str, ...]) -> bool:
@@ -91,7 +93,7 @@ def _carried(call: Call, name: str, forward: bool) -> CellField:
     said = Reading(call, ("JAUM", "UTIL"))
     field, u = said.field(), said.displacement()
     if len(said.nodal) > 1:
-        raise call.bad(f"{name} takes one field of displacements: cracks (XFEM) are not built")
+        raise call.error("operators.statics.no-cracks", name=name)
     if "UTIL" in said.words:
         return field
 
@@ -183,7 +185,7 @@ def _stress_and_gradient(said: Reading) -> tuple[CellField, CellField]:
         (f for f in said.cells if any(_stands(z, f, n) for z, n in names.items())), None
     )
     if gradient is None:
-        raise said.call.bad("no field of gradients is given", hint="GRAD makes one")
+        raise said.call.error("operators.statics.no-gradients")
     stress = next(f for f in said.cells if f is not gradient)
     return stress, gradient
 
@@ -239,10 +241,10 @@ def tagr(call: Call, gradient: CellField) -> CellField:
     for block in gradient.blocks:
         names = {n: f"U{n[3]},{n[1]}" for n in block.components if len(n) == 4 and n[2] == ","}
         if not names or any(n not in block.components for n in names.values()):
-            raise call.bad(
-                "a field of gradients has components UX,X UX,Y ...; this one has "
-                + " ".join(block.components),
+            raise call.error(
+                "operators.statics.not-gradients",
                 gradient,
+                components=block.components,
             )
         made = {n: block.components[names.get(n, n)] for n in block.components}
         blocks.append(replace(block, components=made))

@@ -83,7 +83,7 @@ def _frequencies(entries: Entries, inputs: HarmonicInputs) -> FloatArray:
         return default_frequencies(inputs)
     values = np.asarray(given.values, dtype=float)
     if not len(values) or (values < 0.0).any():
-        raise entries.bad("'TEMPS_CALCULES' holds the frequencies, at least one, none negative")
+        raise entries.error("operators.statics.frequencies-wanted")
     return values
 
 
@@ -117,10 +117,7 @@ def _inputs(entries: Entries) -> HarmonicInputs:
         found += [] if shapes is None else [shapes]
     damping = entries.get("AMORTISSEMENT")
     if silent and damping is None:
-        entries.warn(
-            "dashpots of impedances given by numbers count by the matrix of damping only",
-            "TAB1 . 'AMORTISSEMENT' = AMOR MODELE CARACTERISTIQUES ;",
-        )
+        entries.warn("operators.statics.dashpots-by-numbers")
     supports = entries.get("BLOCAGES_MECANIQUES")
     constant = entries.get("RIGIDITE_CONSTANTE")
     return HarmonicInputs(
@@ -138,8 +135,7 @@ def _check_linear(entries: Entries, zone: Zone) -> None:
 
     if is_plastic(zone) or (is_joint(zone) and not law_of(zone.behaviour).linear):
         raise KernelError(
-            f"a law {' '.join(zone.behaviour)} has no harmonic response",
-            "only linear models work in a sweep of frequencies",
+            "operators.statics.law-has-no-harmonic-response", behaviour=zone.behaviour
         )
 
 

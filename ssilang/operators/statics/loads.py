@@ -40,13 +40,13 @@ def _shared(call: Call, usual: tuple[str, ...], allowed: tuple[str, ...]) -> Nod
         values[name] = float(call.required("FLOTTANT", after=call.keyword_end))
     if not values:
         if not usual:
-            raise call.bad("a vector gives no moment in the plane", hint="name it: 'MZ' value")
+            raise call.error("operators.statics.no-moment-by-vector")
         vector: Point = call.required("POINT")
         values = dict(zip(usual, vector.coordinates[: len(usual)], strict=True))
     place: Mesh | Point = call.required("MAILLAGE", "POINT")
     nodes = nodes_of(place)
     if not len(nodes):
-        raise call.bad("the mesh is empty: there is nothing to share the force out to", place)
+        raise call.error("operators.statics.empty-mesh-for-force", place)
     parts = {n: np.full(len(nodes), v / len(nodes)) for n, v in values.items()}
     return NodeField.of(place.nodes, nodes, parts, "DISCRET")
 
@@ -83,11 +83,11 @@ def _unit_forces(call: Call, table: Table) -> None:
     links = static_links(table)
     for entry, point, component in links:
         if not isinstance(point, Point) or not component:
-            raise call.bad("each entry wants POINT_LIAISON (POINT) and DDL_LIAISON (MOT)", table)
+            raise call.error("operators.statics.entry-wants-point-and-unknown", table)
         at, one = np.array([point.node]), np.ones(1)
         entry.set("FORCE", NodeField.of(nodes, at, {component: one}, "DISCRET"))
     if not links:
-        raise call.bad("the table has no entry numbered 1, 2 ...", table)
+        raise call.error("operators.statics.no-numbered-entry", table)
 
 
 @operator(
@@ -160,7 +160,7 @@ def pres(call: Call) -> NodeField | CellField:
     value = operand.value
     if kind == "COQU":
         if call.keyword(["POIN"]):
-            raise call.bad("'POIN' is not available", hint="'NORM' or a vector")
+            raise call.error("operators.statics.pressure-by-point")
         along = call.optional("POINT") if call.keyword(["NORM"]) is None else None
         return shell_load(model, value, None if along is None else along.coordinates)
     faces = _brick_faces(call, model) if kind == "SHB8" else call.optional("MAILLAGE")
@@ -191,7 +191,7 @@ def _of_loads(call: Call) -> CellField | None:
         if isinstance(value, CellField):
             seen = zone_field(zone, value)
             if len(seen.names) != 1:
-                raise call.bad("a pressure is a field with one component", value)
+                raise call.error("operators.statics.pressure-has-one-component", value)
             values = seen.raw(seen.names[0])[0]
         else:
             values = np.full((len(zone.cells), 1), float(value))
@@ -204,7 +204,7 @@ def _of_loads(call: Call) -> CellField | None:
 def _brick_faces(call: Call, model: Model) -> Mesh | None:
     """The inner or outer face of shells of bricks: first or last four nodes."""
     if any(z.element != "SHB8" for z in model.zones):
-        raise call.bad("'SHB8' is for models of elements SHB8", model)
+        raise call.error("operators.statics.not-shb8", model)
     side = call.keyword(["INTE", "EXTE"])
     if side is None:
         return None
@@ -217,7 +217,7 @@ def _kind(call: Call, others: tuple[str, ...], known: tuple[str, ...] = ()) -> s
     """MASS, or a refusal of the elements that are not here."""
     found = call.keyword(["MASS", "POUT", "COQU", "TUYA", *known, *others])
     if found in others:
-        raise call.bad(f"'{found}' loads are not available", hint="'MASS' is")
+        raise call.error("operators.statics.load-not-available", found=found)
     return found or "MASS"
 
 

@@ -54,10 +54,7 @@ def char(call: Call) -> Load:
     part = _from_tables(call, name) if tables else _from_field(call, name)
     while (said := call.keyword(("LIE", "LIBR", *moves))) is not None:
         if said in moves:
-            raise call.bad(
-                f"moving loadings ('{said}') are not supported",
-                hint="give the field at each time by two tables",
-            )
+            raise call.error("operators.statics.moving-load", said=said)
     return Load((part,))
 
 
@@ -68,9 +65,9 @@ def _from_field(call: Call, name: str) -> LoadPart:
     curve = call.optional("EVOLUTIO")
     if curve is not None:
         if len(curve.parts) != 1:
-            raise call.bad(f"one curve is needed, this object has {len(curve.parts)}", curve)
+            raise call.error("operators.statics.one-curve-wanted", curve, n_parts=len(curve.parts))
         if not len(curve.parts[0].abscissas):
-            raise call.bad("the curve is empty", curve)
+            raise call.error("operators.statics.empty-curve", curve)
         check_increasing(curve.parts[0].abscissas)
         _check_numbers(call, curve)
     return LoadPart(name, operand.value, curve)
@@ -82,11 +79,12 @@ def _check_numbers(call: Call, curve: Curve) -> None:
     wrong = np.flatnonzero(~np.isfinite(values))
     if len(wrong):
         first = int(wrong[0])
-        more = f" (and {len(wrong) - 1} more)" if len(wrong) > 1 else ""
-        raise call.bad(
-            f"the curve has {values[first]:g} at abscissa {part.abscissas[first]:g}{more}",
+        raise call.error(
+            "operators.statics.curve-holds-no-number",
             curve,
-            "a gap in the record of a motion: fill it before",
+            value=values[first],
+            abscissa=part.abscissas[first],
+            more=len(wrong) - 1,
         )
 
 
@@ -95,19 +93,20 @@ def _from_tables(call: Call, name: str) -> LoadPart:
     steps: list[tuple[float, Any]] = []
     for i in range(len(times)):
         if not times.has(i) or not fields.has(i):
-            raise call.bad(
-                f"index {i} is missing in one of the tables",
-                times,
-                "times and fields are indexed by 0 1 2 ... without a gap",
-            )
+            raise call.error("operators.statics.index-missing", times, i=i)
         time, held = times.get(i), fields.get(i)
         if not isinstance(time, int | float) or type_of(held) not in _HELD:
-            raise call.bad(f"at index {i} a time and a field are needed", times)
+            raise call.error("operators.statics.time-and-field-wanted", times, i=i)
         if steps and time <= steps[-1][0]:
-            raise call.bad(f"times must increase: {time:g} follows {steps[-1][0]:g}", times)
+            raise call.error(
+                "operators.statics.times-must-increase",
+                times,
+                time=time,
+                steps=steps[-1][0],
+            )
         steps.append((float(time), held))
     if not steps:
-        raise call.bad("the tables are empty", times)
+        raise call.error("operators.statics.tables-are-empty", times)
     return LoadPart(name, None, None, tuple(steps))
 
 
@@ -172,9 +171,9 @@ def tire(call: Call) -> Any:
     values = [part_at(p, time) for p in parts]
     kinds = {type_of(v) for v in values}
     if len(kinds) > 1 or (len(values) > 1 and not kinds <= set(_SPACE)):
-        raise call.bad(f"parts of types {' '.join(sorted(kinds))} do not add up", load, "name one")
+        raise call.error("operators.statics.parts-do-not-add-up", load, kinds=sorted(kinds))
     if not values:
-        raise call.bad("the loading is empty", load)
+        raise call.error("operators.statics.loading-empty", load)
     total = values[0]
     for value in values[1:]:
         total = _sum(total, value)
@@ -186,7 +185,7 @@ def _named(call: Call, load: Load, names: list[str]) -> tuple[LoadPart, ...]:
     parts = tuple(p for p in load.parts if p.name in wanted)
     if not parts:
         known = " ".join(dict.fromkeys(p.name or "''" for p in load.parts))
-        raise call.bad(f"no part is called {' '.join(names)}", load, f"its parts are: {known}")
+        raise call.error("operators.statics.no-part-of-name", load, names=names, known=known)
     return parts
 
 
@@ -222,14 +221,19 @@ def _extract(call: Call, load: Load) -> Any:
         return Load(load.parts if word == "LIE" else ())
     place = call.optional("ENTIER", default=1)
     if not 1 <= place <= len(load.parts):
-        raise call.bad(f"the loading has {len(load.parts)} parts, none of number {place}", place)
+        raise call.error(
+            "operators.statics.no-part-of-number",
+            place,
+            n_parts=len(load.parts),
+            place=place,
+        )
     part = load.parts[place - 1]
     if word == "CHAR":
         return Load((part,))
     if word == "CHAM":
         return part.space if part.space is not None else part.steps[0][1]
     if part.time is None:
-        raise call.bad("this part has no curve in time", load)
+        raise call.error("operators.statics.part-has-no-curve", load)
     return part.time
 
 

@@ -263,12 +263,11 @@ def start_of(entries: Entries) -> Start:
     else:
         times = {i: entries.at("TEMPS", i) for i in entries.numbers("TEMPS")}
         if not times:
-            raise entries.bad("'REPRISE' needs the results of an earlier calculation")
+            raise entries.error("operators.statics.no-results-to-go-on-from")
         index = min(times, key=lambda i: abs(times[i] - again))
         if abs(times[index] - again) > 1e-9 * max(abs(again), 1e-9):
-            raise entries.bad(
-                f"no result stands at the time of 'REPRISE', {again:g}",
-                f"the nearest is at {times[index]:g}",
+            raise entries.error(
+                "operators.statics.no-result-at-time", again=again, times=times[index]
             )
         entries.forget_after(index)
     return Start(index, entries.at("TEMPS", index), entries)
@@ -286,7 +285,7 @@ def _times(entries: Entries, start: Start) -> tuple[FloatArray, NDArray[np.bool_
         first = min(0.0, float(wanted[0])) if len(wanted) else 0.0
     times = np.concatenate([[float(first)], wanted[wanted > first]])
     if len(times) < 2:
-        raise entries.bad(f"no time of '{index}' comes after the initial one, {first:g}")
+        raise entries.error("operators.statics.no-time-after-start", index=index, first=first)
     entries.increasing(index, times)
     chosen = entries.get("TEMPS_SAUVES")
     if chosen is None:

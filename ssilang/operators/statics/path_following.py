@@ -37,9 +37,9 @@ def control_asked(entries: Entries) -> str:
     """'PILOTAGE_INDIRECT', 'AUTOMATIQUE', or nothing."""
     asked = [w for w in ("PILOTAGE_INDIRECT", "AUTOMATIQUE") if entries.flag(w)]
     if len(asked) > 1:
-        raise entries.bad("'PILOTAGE_INDIRECT' and 'AUTOMATIQUE' exclude one another")
+        raise entries.error("operators.statics.two-controls")
     if asked and entries.flag("DYNAMIQUE"):
-        raise entries.bad(f"'{asked[0]}' is for static calculations")
+        raise entries.error("operators.statics.only-in-statics", asked=asked[0])
     return asked[0] if asked else ""
 
 
@@ -54,9 +54,7 @@ def driven_parts(entries: Entries) -> list[LoadPart]:
         if field is not None
     ]
     if not parts:
-        raise entries.bad(
-            "which load is controlled?", "'DEPLACEMENTS_PILOTES' (from DEPI) or 'FORCES_PILOTEES'"
-        )
+        raise entries.error("operators.statics.which-load-is-controlled")
     return parts
 
 
@@ -84,10 +82,7 @@ def _indirect(entries: Entries, run: BulkRun) -> tuple[PathRun, Trace]:
     asked = np.diff([curve.at(float(t)) for t in run.problem.times])
     if not asked.all():
         k = int(np.flatnonzero(asked == 0.0)[0])
-        raise entries.bad(
-            f"'PARAMETRE_DE_PILOTAGE' does not change over step {k + 1}",
-            "it must reach beyond the last time",
-        )
+        raise entries.error("operators.statics.control-does-not-change", k=k + 1)
     control_of = indirect_control(entries, run.problem.numbering)
     return follow_directions(run, len(driven_parts(entries)), asked, control_of)
 
@@ -99,7 +94,7 @@ def _automatic(entries: Entries, run: BulkRun) -> tuple[PathRun, Trace]:
     most = entries.get("AUTOPAS") or entries.default("AUTOPAS")
     every = entries.get("AUTORESU") or entries.default("AUTORESU")
     if asked <= 0.0 or most < 1 or every < 1:
-        raise entries.bad("'AUTOCRIT', 'AUTOPAS' and 'AUTORESU' are positive")
+        raise entries.error("operators.statics.control-not-positive")
     model = entries.needed("MODELE")
     material = entries.get("CARACTERISTIQUES") or CellField((), "CARACTERISTIQUES")
 
@@ -109,11 +104,7 @@ def _automatic(entries: Entries, run: BulkRun) -> tuple[PathRun, Trace]:
 
     path, trace = follow_time(run, control_of, most, every)
     if trace.unfinished:
-        entries.warn(
-            f"'AUTOPAS' = {most} steps did not reach the time asked for: the path ends at "
-            f"{trace.times[-1]:g}",
-            "more steps, or a greater 'AUTOCRIT'",
-        )
+        entries.warn("operators.statics.path-ends-early", most=most, times=trace.times[-1])
     return path, trace
 
 
@@ -137,7 +128,7 @@ def zpil(call: Call) -> float:
     points = strain_points(entries, numbering)
     found = strain_parameters(points, u0, u1 + u2, u3, asked)
     if not found:
-        raise entries.bad("the displacement of the controlled load causes no strain")
+        raise entries.error("operators.statics.controlled-load-strains-nothing")
     return min(found, key=abs)
 
 
@@ -151,7 +142,7 @@ def _numbering_of(fields: Sequence[NodeField]) -> Numbering:
         nodes.append(there)
         codes.append(np.full(len(there), code, dtype=np.int64))
     if not names:
-        raise FieldError("the fields hold nothing")
+        raise FieldError("operators.statics.empty-fields")
     table = fields[0].table
     numbers, places = np.concatenate(nodes), np.concatenate(codes)
     order = np.lexsort((places, numbers))

@@ -69,12 +69,16 @@ def _warn_condition(call: Call, matrix: Matrix, options: SolveOptions) -> None:
     (stiff, most), (soft, least) = found.stiffest, found.softest
     digits = max(0, round(16 - math.log10(found.number)))
     call.session.warn(
-        "bad-value", call.span, operator="RESO",
-        message=f"the condition number of the matrix is {found.number:.0e}: {digits} of 16 "
-        f"digits are left",
-        hint=f"check units: the stiffest part reaches {most:.1e} ({stiff}), the softest "
-        f"{least:.1e} ({soft})", severity="warning",
-    )  # fmt: skip
+        "operators.statics.badly-conditioned",
+        call.span,
+        operator="RESO",
+        number=found.number,
+        digits=digits,
+        most=most,
+        stiff=stiff,
+        least=least,
+        soft=soft,
+    )
 
 
 def _read_flags(call: Call) -> tuple[set[str], int | None]:
@@ -131,7 +135,7 @@ def _reso_links(call: Call, matrix: Matrix, table: Table, options: SolveOptions)
     for entry, _, _ in static_links(table):
         force, block = entry.get("FORCE"), entry.get("BLOCAGE")
         if not isinstance(force, NodeField):
-            raise call.bad("an entry has no FORCE", table, "call DEPI on this table first")
+            raise call.error("operators.statics.entry-has-no-force", table)
         whole = matrix
         if isinstance(block, Matrix):
             known = {id(r) for r in matrix.relations}

@@ -141,7 +141,7 @@ def epsi(call: Call) -> CellField:
     said = Reading(call, ("NOER", "LINE", "QUAD", "GEOM", "DEPL", "TRUE", "JAUM", "UTIL"))
     for word in ("TRUE", "JAUM", "UTIL"):
         if word in said.words:
-            raise call.bad(f"strains '{word}' are not available", hint="'LINE' and 'QUAD' are")
+            raise call.error("operators.statics.strain-not-available", word=word)
     if not said.nodal:
         gradient, by_displacement = said.field(), "DEPL" in said.words
         return on_zones(
@@ -158,8 +158,7 @@ def _logarithmic(zone: Zone, gradient: CellField, by_displacement: bool) -> Cell
     seen = zone_field(zone, gradient)
     if not any(n in seen for n in names):
         raise FieldError(
-            f"EPSI takes displacements, or a field of gradients {' '.join(names)}",
-            f"this field has: {' '.join(seen.names) or 'nothing there'}",
+            "operators.statics.no-displacement-no-gradient", names=names, seen=seen.names
         )
     values = seen.matrix(names, "STRESSES")
     strains = logarithmic_strain(zone, values, by_displacement)
@@ -208,7 +207,7 @@ def elas(call: Call) -> CellField:
     said = Reading(call)
     state = next((f for f in said.cells if _state(said.model, f)), None)
     if state is None:
-        raise call.bad("neither field holds stresses or strains of the model")
+        raise call.error("operators.statics.no-stress-no-strain")
     rest = tuple(f for f in said.cells if f is not state)
     if not rest:
         raise call.missing(("MCHAML",))
