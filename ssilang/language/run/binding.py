@@ -75,9 +75,12 @@ class Binder:
 
     # ---- keywords ------------------------------------------------------------------------------
 
-    def _keywords(self) -> None:
+    def _keywords(self) -> bool:
+        """Read keywords as long as the first unread word is one; says whether there were any."""
+        found = False
         while any(self._keyword(level) for level in reversed(self._levels)):
-            pass
+            found = True
+        return found
 
     def _keyword(self, level: _Level) -> bool:
         for k in level.keywords:
@@ -141,7 +144,13 @@ class Binder:
             values = []
             words = accepts(a.types, Mot(""))
             only = a.behind
-            while (operand := call.read(*a.types, after=after, only=only)) is not None:
+            while True:
+                operand = call.read(*a.types, after=after, only=only)
+                if operand is None:
+                    # a keyword may stand between two operands, but for those of a keyword itself
+                    if after < 0 and self._keywords():
+                        continue
+                    break
                 only = True
                 values.append(operand.value)
                 if words:

@@ -17,7 +17,7 @@ from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.modal.shape_models import is_shape, shape_matrix
 from ssilang.kernel.plasticity.points import is_plastic
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import Help, arg, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
 from ssilang.operators.session.progress import ProgressLine
@@ -31,24 +31,24 @@ _RESULTS = ("TEMPS", "DEPLACEMENTS", "REACTIONS")
 
 @operator(
     "ZFRE",
+    arg("table", "TABLE", en="table of PASAPAS", fr="table de PASAPAS"),
     family="statics",
     help=Help(
         en="Sweep of frequencies of the table of PASAPAS, which is the procedure to call.",
         fr="Balayage en fréquence de la table de PASAPAS, procédure à appeler.",
         syntax="ZFRE TAB1 ;",
     ),
-    reads_itself=True,
 )
-def zfre(call: Call) -> None:
+def zfre(call: Call, table: Table) -> None:
     """Fill TEMPS (frequencies in Hz), DEPLACEMENTS and REACTIONS, 0 being a state at rest."""
     from ssilang.kernel.statics.frequency import sweep
 
-    entries = Entries(call, call.required("TABLE"), "PASAPAS")
+    entries = Entries(call, table, "PASAPAS")
     inputs = _inputs(entries)
     frequencies = _frequencies(entries, inputs)
     tables = {word: Table() for word in _RESULTS}
-    for word, table in tables.items():
-        entries.table.set(Mot(word), table)
+    for word, results in tables.items():
+        entries.table.set(Mot(word), results)
     entries.table.set(Mot("CONV"), False)
     line = ProgressLine("PASAPAS")
     try:

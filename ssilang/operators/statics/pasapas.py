@@ -20,7 +20,7 @@ from ssilang.kernel.plasticity.bulk import stiffness_beside, without_stiffness
 from ssilang.kernel.plasticity.points import is_plastic, plastic_zones
 from ssilang.kernel.statics.thermal_load import split_thermal
 from ssilang.kernel.stepping.times import nearest
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import Help, arg, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
 from ssilang.operators.dynamics.dynamic import integrated
@@ -53,17 +53,17 @@ if TYPE_CHECKING:
 
 @operator(
     "ZPAS",
+    arg("table", "TABLE", en="table of PASAPAS", fr="table de PASAPAS"),
     family="statics",
     help=Help(
         en="Load steps of the table of PASAPAS, which is the procedure to call.",
         fr="Pas de charge de la table de PASAPAS, procédure à appeler.",
         syntax="ZPAS TAB1 ;",
     ),
-    reads_itself=True,
 )
-def zpas(call: Call) -> None:
+def zpas(call: Call, table: Table) -> None:
     """Read the table, step through the times, fill the tables of results."""
-    entries = Entries(call, call.required("TABLE"), "PASAPAS")
+    entries = Entries(call, table, "PASAPAS")
     start = start_of(entries)
     times, saved = _times(entries, start)
     entries.table.set(Mot("CONV"), False)

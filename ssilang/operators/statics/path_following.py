@@ -13,9 +13,9 @@ from ssilang.kernel.curves.curve import LoadPart
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import Numbering, field_to_vector
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import Help, arg, operator
 from ssilang.language.run.call import Call
-from ssilang.language.values import ListReel, Mot
+from ssilang.language.values import ListReel, Mot, Table
 from ssilang.operators.statics.path_controls import (
     AutomaticControl,
     indirect_control,
@@ -110,19 +110,30 @@ def _automatic(entries: Entries, run: BulkRun) -> tuple[PathRun, Trace]:
 
 @operator(
     "ZPIL",
+    arg("table", "TABLE", en="table of PILOINDI", fr="table de PILOINDI"),
+    arg("start", "CHPOINT", en="displacement", fr="déplacement", unit="m"),
+    arg("du", "CHPOINT", en="step so far", fr="incrément courant", unit="m"),
+    arg("rest", "CHPOINT", en="step by the residual", fr="incrément du résidu", unit="m"),
+    arg("unit", "CHPOINT", en="step by the load", fr="incrément de la charge", unit="m"),
+    arg("asked", "FLOTTANT", en="strain asked for", fr="déformation demandée"),
     family="statics",
     help=Help(
         en="Equation of strains behind PILOINDI, which is the procedure to call.",
         fr="Équation des déformations de PILOINDI, procédure à appeler.",
         syntax="FLOT2 = ZPIL TAB1 CHPO1 CHPO2 CHPO3 CHPO4 FLOT1 ;",
     ),
-    reads_itself=True,
 )
-def zpil(call: Call) -> float:
+def zpil(
+    call: Call,
+    table: Table,
+    start: NodeField,
+    du: NodeField,
+    rest: NodeField,
+    unit: NodeField,
+    asked: float,
+) -> float:
     """Of the parameters that fulfil the equation, the one nearest zero."""
-    entries = Entries(call, call.required("TABLE"), "PILOINDI")
-    start, du, rest, unit = (call.required("CHPOINT") for _ in range(4))
-    asked = call.required("FLOTTANT")
+    entries = Entries(call, table, "PILOINDI")
     numbering = _numbering_of((start, du, rest, unit))
     u0, u1, u2, u3 = (field_to_vector(f, numbering, dual=False) for f in (start, du, rest, unit))
     points = strain_points(entries, numbering)
