@@ -96,11 +96,14 @@ class Binder:
 
     # ---- keywords ------------------------------------------------------------------------------
 
-    def _keywords(self, levels: Sequence[_Level]) -> None:
+    def _keywords(self, levels: Sequence[_Level]) -> bool:
+        """Read keywords as long as the first unread word is one; says whether there were any."""
+        found = False
         while self.call.word_index() is not None and any(
             self._keyword(level) for level in reversed(levels)
         ):
-            pass
+            found = True
+        return found
 
     def _keyword(self, level: _Level) -> bool:
         for k in level.keywords:
@@ -166,7 +169,13 @@ class Binder:
             values = []
             words = accepts(a.types, Mot(""))
             only = a.behind
-            while (operand := call.read(*a.types, after=after, only=only)) is not None:
+            while True:
+                operand = call.read(*a.types, after=after, only=only)
+                if operand is None:
+                    # a keyword may stand between two operands, but for those of a keyword itself
+                    if after < 0 and self._keywords(self._levels):
+                        continue
+                    break
                 only = True
                 values.append(_given(a, operand))
                 if words:
