@@ -44,13 +44,18 @@ class Binder:
         self.main = main  # the operand that chose the form
         self._levels: list[_Level] = []
 
-    def bind(self, entries: Sequence[Entry], after: int = -1) -> dict[str, Any]:
+    def bind(
+        self, entries: Sequence[Entry], after: int = -1, *, begun: bool = False, open: bool = False
+    ) -> dict[str, Any]:
         """Values of entries by name.
 
         Parameters
         ----------
         after : int
             Offset in the source behind which values are looked for first.
+        begun, open : bool
+            The entries go on with a group, or the group goes on behind them: between a name and
+            its value no keyword of others is looked for.
 
         Raises
         ------
@@ -63,11 +68,11 @@ class Binder:
         self._levels.append(level)
         try:
             leading = self._leading(entries, level) if made.leading else 0
-            self._keywords()
+            self._keywords(self._levels[-1:] if begun else self._levels)
             for place, entry, reader in made.operands:
                 if place >= leading:
                     level.values[entry.name] = reader(self, entry, after)
-                    self._keywords()
+                    self._keywords(self._levels[-1:] if open else self._levels)
         finally:
             self._levels.pop()
         for k in keywords:
@@ -92,11 +97,17 @@ class Binder:
 
     # ---- keywords ------------------------------------------------------------------------------
 
-    def _keywords(self) -> None:
-        levels = [level for level in reversed(self._levels) if level.keywords]
-        while levels and self.call.word_index() is not None:
-            if not any(self._keyword(level) for level in levels):
-                break
+    def _keywords(self, levels: Sequence[_Level]) -> bool:
+        """Read keywords as long as the first unread word is one; says whether there were any."""
+        found = False
+        levels = [level for level in reversed(levels) if level.keywords]
+        while (
+            levels
+            and self.call.word_index() is not None
+            and any(self._keyword(level) for level in levels)
+        ):
+            found = True
+        return found
 
     def _keyword(self, level: _Level) -> bool:
         for k in level.keywords:
@@ -162,11 +173,17 @@ class Binder:
             values = []
             words = accepts(a.types, Mot(""))
             only = a.behind
-            while (operand := call.read(*a.types, after=after, only=only)) is not None:
+            while True:
+                operand = call.read(*a.types, after=after, only=only)
+                if operand is None:
+                    # a keyword may stand between two operands, but for those of a keyword itself
+                    if after < 0 and self._keywords(self._levels):
+                        continue
+                    break
                 only = True
                 values.append(_given(a, operand))
                 if words:
-                    self._keywords()
+                    self._keywords(self._levels)
         if not values and not a.optional:
             raise call.missing(a.types)
         return tuple(values)
@@ -207,11 +224,11 @@ class Binder:
     def _one(self, g: Group, after: int) -> Any:
         first = len(self.call.used)
         head, rest = g.entries[:1], g.entries[1:]
-        values = self.bind(head, after)
+        values = self.bind(head, after, open=bool(rest))
         used = self.call.used[first:]
         if used and isinstance(used[0].value, Mot):
             after = used[0].span.end
-        values |= self.bind(rest, after) if rest else {}
+        values |= self.bind(rest, after, begun=True) if rest else {}
         ordered = tuple(values[e.name] for e in g.entries)
         return ordered[0] if len(ordered) == 1 else ordered
 

@@ -20,7 +20,7 @@ from ssilang.kernel.statics.linear import linear_system, product
 from ssilang.language.registry import Chosen, Help, arg, flag, operator, opt, select
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListReel
-from ssilang.operators.numbers.numbers import session_generator
+from ssilang.operators.numbers.noise import session_generator
 from ssilang.operators.workspace import workspace
 
 _TWO = "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; K = (APPU 'UX' 4. P) ET (APPU 'UX' 5. Q) ; "
