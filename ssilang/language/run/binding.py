@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from functools import cache
 from typing import Any, TypeGuard
 
 from ssilang.language.registry import (
@@ -61,15 +62,15 @@ class Binder:
         SsiError
             When a mandatory entry cannot be read.
         """
-        keywords = tuple(e for e in entries if isinstance(e, Keyword | Select))
+        made = _prepared(tuple(entries))
+        keywords = made.keywords
         level = _Level(keywords, {k.name: [] if k.repeated else k.default for k in keywords})
         self._levels.append(level)
         try:
-            leading = self._leading(entries, level)
+            leading = self._leading(entries, level) if made.leading else 0
             self._keywords(self._levels[-1:] if begun else self._levels)
-            for entry in entries[leading:]:
-                reader = _READERS.get(type(entry))
-                if reader is not None:
+            for place, entry, reader in made.operands:
+                if place >= leading:
                     level.values[entry.name] = reader(self, entry, after)
                     self._keywords(self._levels[-1:] if open else self._levels)
         finally:
@@ -99,8 +100,11 @@ class Binder:
     def _keywords(self, levels: Sequence[_Level]) -> bool:
         """Read keywords as long as the first unread word is one; says whether there were any."""
         found = False
-        while self.call.word_index() is not None and any(
-            self._keyword(level) for level in reversed(levels)
+        levels = [level for level in reversed(levels) if level.keywords]
+        while (
+            levels
+            and self.call.word_index() is not None
+            and any(self._keyword(level) for level in levels)
         ):
             found = True
         return found
@@ -291,6 +295,26 @@ _READERS: Mapping[type, Callable[[Binder, Any, int], Any]] = {
 }
 
 
+@dataclass(frozen=True, slots=True)
+class _Prepared:
+    """What is known of entries before any call: keywords, and operands with what reads them."""
+
+    keywords: tuple[Keyword | Select, ...]
+    operands: tuple[tuple[int, Entry, Callable[[Binder, Any, int], Any]], ...]
+    leading: bool
+
+
+@cache
+def _prepared(entries: tuple[Entry, ...]) -> _Prepared:
+    readers = ((i, e, _READERS.get(type(e))) for i, e in enumerate(entries))
+    place = int(_is_choice(entries))
+    return _Prepared(
+        tuple(e for e in entries if isinstance(e, Keyword | Select)),
+        tuple((i, e, reader) for i, e, reader in readers if reader is not None),
+        _leads(entries[place : place + 1]),
+    )
+
+
 def missing_keyword(call: Call, words: Sequence[str]) -> SsiError:
     """The error for a keyword that must stand there."""
     return SsiError(
@@ -350,7 +374,7 @@ def _bound(form: Form, call: Call, main: int | None) -> Bound:
     choice: Any = None
     if main is not None and form.main is not None:
         choice = values[form.main.name] = call.take(main, *form.main.types).value
-        entries = tuple(e for e in entries if e is not form.main)
+        entries = form.rest
     elif form.by_hand and form.said is not None:
         choice = call.keyword(form.said.words, form.said.length)
     if form.by_hand:
@@ -363,11 +387,13 @@ def _bound(form: Form, call: Call, main: int | None) -> Bound:
 
 def _candidates(found: Operator, call: Call) -> Iterator[tuple[Form, int | None]]:
     """Forms to try, in order, with the index of the main operand where it chose the form."""
-    forms = [f for f in found.forms if _is_meant(f, call)]
+    forms = found.forms
+    if found.conditional:
+        forms = [f for f in forms if _is_meant(f, call)]
     if len(forms) == 1 and forms[0].main is None:
         yield forms[0], None
         return
-    words = call.words() if any(f.said for f in forms) else []
+    words = call.words() if found.speaks and any(f.said for f in forms) else []
     if words:
         spoken = [f for f in found.forms if _is_said(f, words)]
         meant = sorted((f for f in spoken if f in forms), key=lambda f: not f.of)
@@ -376,12 +402,13 @@ def _candidates(found: Operator, call: Call) -> Iterator[tuple[Form, int | None]
         if meant:
             yield from ((f, None) for f in meant)
             return
-    with_main = [f for f in forms if f.main is not None]
-    known = dict.fromkeys(t for f in with_main if f.main is not None for t in f.main.types)
+    known = found.main_types
+    if found.conditional:
+        known = tuple(dict.fromkeys(t for f in forms if f.main for t in f.main.types))
     main = call.main_operand(*known) if known else None
     if main is not None:
         kind = type_of(call.operands[main].value)
-        chosen = [f for f in with_main if f.main and accepts_kind(f.main.types, kind)]
+        chosen = [f for f in forms if f.main and accepts_kind(f.main.types, kind)]
         silent = [f for f in chosen if f.said is None]
         if chosen and not silent:
             raise missing_keyword(call, _words_said(chosen))
