@@ -1,4 +1,4 @@
-"""MAXI MINI on numbers, lists and fields (curves are in curve_items)."""
+"""MAXI MINI on numbers, lists and fields, MAX1 (curves have theirs)."""
 
 from __future__ import annotations
 
@@ -11,7 +11,18 @@ from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.language.registry import Argument, arg, flag, key, main, many
+from ssilang.language.registry import (
+    Argument,
+    Help,
+    arg,
+    choice,
+    flag,
+    key,
+    main,
+    many,
+    operator,
+    opt,
+)
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots, ListReel
 from ssilang.operators.dispatch import MAXI, MINI, Shared
@@ -202,3 +213,40 @@ def _add_forms(operator: Shared, largest: bool, en: str, fr: str) -> None:
 
 _add_forms(MAXI, True, "largest", "plus grande")
 _add_forms(MINI, False, "smallest", "plus petite")
+
+
+@operator(
+    "MAX1",
+    arg("field", "CHPOINT", en="field", fr="champ"),
+    choice(
+        "which",
+        ("AVEC", "SANS"),
+        en="the components of the list, or all but them",
+        fr="les composantes de la liste, ou toutes sauf elles",
+    ),
+    opt("names", "LISTMOTS", kind="component", en="components", fr="composantes"),
+    family="fields",
+    help=Help(
+        en="Nodal field divided by its value of largest size, which becomes 1; among the "
+        "components named ('AVEC', may be left out) or not named ('SANS') by a list.",
+        fr="Champ par points divisé par sa valeur de plus grande taille, qui devient 1 ; parmi "
+        "les composantes nommées ('AVEC', facultatif) ou non nommées ('SANS') par une liste.",
+        syntax="CHP1 = MAX1 CHP2 (('AVEC') | 'SANS' LMOTS1) ;",
+        examples=(
+            "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (2. 0.) ; X = COOR 1 L ; "
+            "LIST (MINI (MAX1 (X - 4.))) ;",
+        ),
+    ),
+)
+def max1(call: Call, field: NodeField, which: str | None, names: ListMots | None) -> NodeField:
+    """Bring a field to one."""
+    chosen = list(field.components)
+    if names is not None:
+        words = {str(w).rstrip() for w in names.values}
+        chosen = [n for n in chosen if (n in words) != (which == "SANS")]
+    values = [field.components[n].values for n in chosen]
+    every = np.concatenate(values) if values else np.zeros(0)
+    largest = float(every[np.argmax(np.abs(every))]) if len(every) else 0.0
+    if largest == 0.0:
+        raise call.error("operators.fields.field-is-zero", field)
+    return node_algebra.applied(field, lambda v: v / largest)
