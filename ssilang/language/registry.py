@@ -364,23 +364,26 @@ class Form:
     when: When | None = None
     of: tuple[str, ...] = ()  # an operand of one of these types stands in the phrase
 
-    @property
-    def said(self) -> Keyword | Select | None:
-        """The words of which one says that this form is meant: `said`, or a mandatory `select`."""
-        match self.entries[:1] if self.entries else ():
-            case (Keyword(name="word", arguments=()) as first,):
-                return first
-            case (Select(optional=False) as first,):
-                return first
-        return None
+    said: Keyword | Select | None = field(init=False, repr=False, compare=False)
+    """The words of which one says that this form is meant: `said`, or a mandatory `select`."""
+    main: Argument | None = field(init=False, repr=False, compare=False)
+    """The operand that decides that this form runs."""
+    beside: frozenset[str] = field(init=False, repr=False, compare=False)
+    """Its other keywords, four letters of each: they may stand before the word that says it."""
 
-    @property
-    def main(self) -> Argument | None:
-        """The operand that decides that this form runs."""
-        for entry in self.entries or ():
-            if isinstance(entry, Argument) and entry.main:
-                return entry
-        return None
+    def __post_init__(self) -> None:
+        entries = self.entries or ()
+        said: Keyword | Select | None = None
+        match entries[:1]:
+            case (Keyword(name="word", arguments=()) as first,):
+                said = first
+            case (Select(optional=False) as first,):
+                said = first
+        main = next((e for e in entries if isinstance(e, Argument) and e.main), None)
+        words = () if self.by_hand else words_in(entries[1:])
+        object.__setattr__(self, "said", said)
+        object.__setattr__(self, "main", main)
+        object.__setattr__(self, "beside", frozenset(w[:4].rstrip() for w in words))
 
 
 @dataclass(slots=True)

@@ -8,7 +8,18 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from ssilang.language.registry import OPERATORS, Help, main, operator, said, shared
+from ssilang.language.registry import (
+    ANY,
+    OPERATORS,
+    Help,
+    arg,
+    flag,
+    main,
+    operator,
+    opt,
+    said,
+    shared,
+)
 from ssilang.language.run.call import Call
 from ssilang.language.say.errors import SsiError
 from ssilang.language.values import Mot, type_of
@@ -305,6 +316,11 @@ def _unite_table(call: Call, table: Any) -> Any:
 
 operator(
     "ET",
+    flag("exact", "TELQ", en="words are joined with their blanks", fr="mots avec leurs blancs"),
+    arg("first", en="object, or a table of objects", fr="objet, ou table d'objets"),
+    opt("second", en="object joined to it", fr="objet qui s'y joint"),
+    flag("merged", "NOER", en="doubles are no error", fr="les doublons ne sont pas une erreur"),
+    gives=ANY,
     family="objects",
     help=Help(
         "Joins two objects: union of meshes, sum of matrices, concatenation of lists, logical and.",
@@ -312,5 +328,5 @@ operator(
         "OBJ3 = OBJ1 ET OBJ2 ('NOER') ; OBJ3 = ET ('TELQUEL') OBJ1 OBJ2 ; OBJ2 = ET TAB1 ;",
         ("l = (PROG 1. 2.) ET 3. ; LIST l ;", "SI (VRAI ET FAUX) ; ERRE 5 ; FINSI ;"),
     ),
-    reads_itself=True,
+    reads_itself="the types of its operands, words too, choose a rule, which may read more",
 )(_unite)

@@ -20,9 +20,8 @@ from ssilang.language.registry import (
     Operator,
     Select,
     find_operator,
-    words_in,
 )
-from ssilang.language.run.call import Call, Operand, accepts
+from ssilang.language.run.call import Call, Operand, accepts, shortened
 from ssilang.language.say.errors import SsiError
 from ssilang.language.values import Mot, type_of
 
@@ -97,9 +96,14 @@ class Binder:
 
     # ---- keywords ------------------------------------------------------------------------------
 
-    def _keywords(self, levels: Sequence[_Level]) -> None:
-        while any(self._keyword(level) for level in reversed(levels)):
-            pass
+    def _keywords(self, levels: Sequence[_Level]) -> bool:
+        """Read keywords as long as the first unread word is one; says whether there were any."""
+        found = False
+        while self.call.word_index() is not None and any(
+            self._keyword(level) for level in reversed(levels)
+        ):
+            found = True
+        return found
 
     def _keyword(self, level: _Level) -> bool:
         for k in level.keywords:
@@ -165,7 +169,13 @@ class Binder:
             values = []
             words = accepts(a.types, Mot(""))
             only = a.behind
-            while (operand := call.read(*a.types, after=after, only=only)) is not None:
+            while True:
+                operand = call.read(*a.types, after=after, only=only)
+                if operand is None:
+                    # a keyword may stand between two operands, but for those of a keyword itself
+                    if after < 0 and self._keywords(self._levels):
+                        continue
+                    break
                 only = True
                 values.append(_given(a, operand))
                 if words:
@@ -366,11 +376,12 @@ def _candidates(found: Operator, call: Call) -> Iterator[tuple[Form, int | None]
         if meant:
             yield from ((f, None) for f in meant)
             return
-    known = dict.fromkeys(t for f in forms if f.main is not None for t in f.main.types)
+    with_main = [f for f in forms if f.main is not None]
+    known = dict.fromkeys(t for f in with_main if f.main is not None for t in f.main.types)
     main = call.main_operand(*known) if known else None
     if main is not None:
         kind = type_of(call.operands[main].value)
-        chosen = [f for f in forms if f.main is not None and accepts_kind(f.main.types, kind)]
+        chosen = [f for f in with_main if f.main and accepts_kind(f.main.types, kind)]
         silent = [f for f in chosen if f.said is None]
         if chosen and not silent:
             raise missing_keyword(call, _words_said(chosen))
@@ -394,11 +405,11 @@ def _is_said(form: Form, words: Sequence[str]) -> bool:
     """Whether a word of the form's stands first among the unread ones, or behind its keywords."""
     if form.said is None:
         return False
-    others = () if form.by_hand else tuple(words_in((form.entries or ())[1:]))
+    said, length = shortened(form.said.words, form.said.length), form.said.length
     for word in words:
-        if _is_among(word, form.said.words, form.said.length):
+        if word[:length] in said:
             return True
-        if not _is_among(word, others, 4):
+        if word[:4] not in form.beside:
             break
     return False
 
@@ -406,11 +417,6 @@ def _is_said(form: Form, words: Sequence[str]) -> bool:
 def _words_said(forms: Iterable[Form]) -> list[str]:
     """The words of forms, each once."""
     return list(dict.fromkeys(w for f in forms if f.said is not None for w in f.said.words))
-
-
-def _is_among(word: str, words: Sequence[str], length: int) -> bool:
-    wanted = word.upper().rstrip()[:length]
-    return any(w[:length].rstrip() == wanted for w in words)
 
 
 def _no_form(found: Operator, call: Call) -> SsiError:

@@ -55,10 +55,6 @@ MESSAGES: dict[str, Message] = {
         "there is no object '{value}' to save",
         "il n'y a pas d'objet '{value}' à sauver",
     ),
-    "separator": Message(
-        "SEPA wants one of {separators:words}",
-        "SEPA veut l'un de {separators:words}",
-    ),
     "positive-number": Message(
         "{said} wants a positive number, not {n}",
         "{said} veut un nombre positif, pas {n}",

@@ -105,10 +105,6 @@ MESSAGES: dict[str, Message] = {
         "see EXCO and RESU",
         "voyez EXCO et RESU",
     ),
-    "constant-polynomial": Message(
-        "the polynomial is constant: it has no roots, or all numbers",
-        "le polynôme est constant : il n'a aucune racine, ou tout nombre l'est",
-    ),
     "lengths-differ": Message(
         "the lists have not the same length",
         "les listes n'ont pas la même longueur",

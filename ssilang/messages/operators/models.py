@@ -19,10 +19,6 @@ MESSAGES: dict[str, Message] = {
         "aucune extrémité du câble allant du noeud {first} au noeud {last} n'est parmi "
         "les points de mise en tension",
     ),
-    "loss-is-a-number": Message(
-        "'{name}' of the losses is a number",
-        "'{name}' des pertes est un nombre",
-    ),
     "tori-not-available": Message(
         "'TORI' is not available",
         "'TORI' n'est pas disponible",

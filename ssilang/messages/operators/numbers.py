@@ -82,4 +82,8 @@ MESSAGES: dict[str, Message] = {
         "RACP takes any",
         "RACP prend tous les degrés",
     ),
+    "constant-polynomial": Message(
+        "the polynomial is constant: it has no roots, or all numbers",
+        "le polynôme est constant : il n'a aucune racine, ou tout nombre l'est",
+    ),
 }

@@ -61,4 +61,50 @@ MESSAGES: dict[str, Message] = {
         "DEBP {name} TAB1*TABLE ; ... FINP ;",
         "DEBP {name} TAB1*TABLE ; ... FINP ;",
     ),
+    "dimension": Message(
+        "the space has 1, 2 or 3 dimensions, not {n}",
+        "l'espace a 1, 2 ou 3 dimensions, pas {n}",
+    ),
+    "mesh-size": Message(
+        "a mesh size is positive, this one is {size:g}",
+        "une taille de maille est positive, pas {size:g}",
+    ),
+    "unknowns-in-pairs": Message(
+        "{n_primal} primal and {n_dual} dual unknowns are named",
+        "{n_primal} inconnues primales et {n_dual} duales sont nommées",
+    ),
+    "no-option": Message(
+        "no option is named",
+        "aucune option n'est nommée",
+        "for example OPTI DIME 2 ELEM QUA4 ;",
+        "par exemple OPTI DIME 2 ELEM QUA4 ;",
+    ),
+    "mode-and-dimension": Message(
+        "mode {mode} needs dimension {dimension}, DIME is {present}",
+        "le mode {mode} demande la dimension {dimension}, DIME vaut {present}",
+        "set DIME {dimension}",
+        "donnez DIME {dimension}",
+    ),
+    "option-not-set": Message(
+        "option {word} was not set",
+        "l'option {word} n'a pas été donnée",
+    ),
+    "no-value-of-option": Message(
+        "'{said}' is no value of {option}",
+        "'{said}' n'est pas une valeur de {option}",
+        "{near:?did you mean {near}? }it takes {values:words}{told}",
+        "{near:?vouliez-vous dire {near} ? }valeurs possibles : {values:words}{told}",
+    ),
+    "unknown-option": Message(
+        "'{said}' is no option",
+        "'{said}' n'est pas une option",
+        "{near:?did you mean {near}?|options are {options:words}}{told}",
+        "{near:?vouliez-vous dire {near} ?|les options sont {options:words}}{told}",
+    ),
+    "no-help": Message(
+        "there is no help about {said}",
+        "il n'y a pas d'aide sur {said}",
+        "{near:?did you mean {near}?|`ssilang help` lists what there is}",
+        "{near:?vouliez-vous dire {near} ?|`ssilang help` dit ce qu'il y a}",
+    ),
 }

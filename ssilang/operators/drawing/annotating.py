@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from ssilang.io.plots.labels import PLACES, Annotation, Category, Tag
 from ssilang.io.plots.palette import index_of
+from ssilang.kernel.mesh.mesh import Point
+from ssilang.language.registry import arg, many, opt, said
 from ssilang.language.run.call import Call
 from ssilang.language.values import register_type
-from ssilang.operators.dispatch import ByWord, union
+from ssilang.operators.dispatch import Shared, union
 from ssilang.operators.drawing.objects import is_colour
 
 register_type(Annotation, "ANNOTATI")
 
-ANNO = ByWord(
+ANNO = Shared(
     "ANNO",
     "drawing",
     "Makes texts that TRAC adds to a picture; ET puts several together.",
@@ -24,8 +26,10 @@ def _both(left: Annotation, right: Annotation) -> Annotation:
     return left.joined(right)
 
 
-@ANNO.on(
-    "CATE",
+@ANNO.form(
+    said("CATE"),
+    arg("colour", "MOT", en="colour", fr="couleur", kind="colour"),
+    arg("text", "MOT", en="its meaning", fr="son sens"),
     syntax="ANNO1 = ANNO 'CATE' COUL1 MOT1 ;",
     en="CATE: a line of the legend, a colour and its meaning.",
     fr="CATE : une ligne de légende, une couleur et son sens.",
@@ -34,13 +38,22 @@ def _both(left: Annotation, right: Annotation) -> Annotation:
         "TRAC L (ANNO 'CATE' 'ROUG' 'beam') ;",
     ),
 )
-def _category(call: Call, word: str) -> Annotation:
-    colour = call.required("MOT", after=call.keyword_end)
-    return Annotation((Category(index_of(colour), str(call.required("MOT"))),))
+def _category(colour: str, text: str) -> Annotation:
+    return Annotation((Category(index_of(colour), str(text)),))
 
 
-@ANNO.on(
-    "ETIQ",
+@ANNO.form(
+    said("ETIQ"),
+    arg("point", "POINT", en="where", fr="où"),
+    many(
+        "words",
+        "MOT",
+        at_least=1,
+        en="colour and side, if any, then the text",
+        fr="couleur et côté éventuels, puis le texte",
+    ),
+    opt("distance", "FLOTTANT", en="distance of the text", fr="distance du texte", unit="m"),
+    opt("link", "LOGIQUE", default=True, en="whether a line is drawn", fr="si un trait est tracé"),
     syntax="ANNO1 = ANNO 'ETIQ' POIN1 (COUL1) ('N'|'NE'|'E'|'SE'|'S'|'SO'|'O'|'NO'|'C') "
     "(FLOT1) (LOGI1) MOT1 ;",
     en="ETIQ: a text at a point, in a colour, on one of its sides, at a distance, with a line to "
@@ -48,25 +61,15 @@ def _category(call: Call, word: str) -> Annotation:
     fr="ETIQ : un texte en un point, dans une couleur, d'un de ses côtés, à une distance, relié au "
     "point par un trait sauf si LOGI1 est FAUX.",
 )
-def _tag(call: Call, word: str) -> Annotation:
-    point = call.required("POINT", after=call.keyword_end)
-    distance = call.read("FLOTTANT")
-    link = call.optional("LOGIQUE", default=True)
-    words = []
-    while (operand := call.read("MOT")) is not None:
-        words.append(str(operand.value))
-        distance = distance or call.read("FLOTTANT")
-        behind = call.read("LOGIQUE")
-        link = link if behind is None else behind.value
-    if not words:
-        raise call.missing(("MOT",))
+def _tag(
+    call: Call, point: Point, words: tuple[str, ...], distance: float | None, link: bool
+) -> Annotation:
     colour, place = 0, "NE"
-    for said in words[:-1]:
-        if said.strip().upper() in PLACES:
-            place = said.strip().upper()
-        elif is_colour(said):
-            colour = index_of(said)
+    for word in words[:-1]:
+        if word.strip().upper() in PLACES:
+            place = word.strip().upper()
+        elif is_colour(word):
+            colour = index_of(word)
         else:
-            raise call.error("operators.drawing.no-colour-no-place", said=said, places=PLACES)
-    far = None if distance is None else float(distance.value)
-    return Annotation((), (Tag(point, words[-1], colour, place, far, bool(link)),))
+            raise call.error("operators.drawing.no-colour-no-place", said=word, places=PLACES)
+    return Annotation((), (Tag(point, str(words[-1]), colour, place, distance, link),))

@@ -6,16 +6,25 @@ from dataclasses import replace
 from typing import Any
 
 from ssilang.io.plots.palette import NAMES, index_of
+from ssilang.language.registry import Like, main, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots
 from ssilang.operators.dispatch import COUL
 from ssilang.operators.workspace import workspace
 
 
-@COUL.on(
-    "EVOLUTIO",
-    "DEFORME",
-    "VECTEUR",
+@COUL.form(
+    main("value", "EVOLUTIO", "DEFORME", "VECTEUR", en="what is coloured", fr="objet à colorer"),
+    opt(
+        "given",
+        "LISTMOTS",
+        "ENTIER",
+        "MOT",
+        en="colour, its number, or one for each part",
+        fr="couleur, son numéro, ou une par partie",
+        kind="colour",
+    ),
+    gives=Like("value"),
     syntax="OBJ2 = OBJ1 COUL (MOT1 | LISTMOTS1 | N1) ;",
     en="A curve, deformed shape or set of arrows in one colour for all its parts, or in one each "
     "(LISTMOTS); without a colour, in that of OPTI COUL.",
@@ -26,21 +35,20 @@ from ssilang.operators.workspace import workspace
         "DESS F ;",
     ),
 )
-def _recolour(call: Call, value: Any) -> Any:
-    operand = call.read("LISTMOTS") or call.read("ENTIER") or call.read("MOT")
-    if operand is None:
+def _recolour(call: Call, value: Any, given: ListMots | int | str | None) -> Any:
+    if given is None:
         colours = [workspace(call.session).colour] * len(value.parts)
-    elif isinstance(operand.value, ListMots):
-        colours = [index_of(str(v)) for v in operand.value.values]
+    elif isinstance(given, ListMots):
+        colours = [index_of(str(v)) for v in given.values]
         if len(colours) != len(value.parts):
             raise call.error(
                 "operators.drawing.colour-count",
-                operand.value,
+                given,
                 n_colours=len(colours),
                 n_parts=len(value.parts),
             )
     else:
-        colours = [_colour(call, operand.value)] * len(value.parts)
+        colours = [_colour(call, given)] * len(value.parts)
     parts = tuple(replace(p, colour=c) for p, c in zip(value.parts, colours, strict=True))
     return replace(value, parts=parts)
 

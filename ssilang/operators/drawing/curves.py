@@ -2,14 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 from ssilang.io.plots.graphs.curves import CurveOptions, draw_curves
 from ssilang.io.plots.graphs.line_style import DASHES, LineStyle, parse_style
 from ssilang.kernel.curves.curve import Curve
-from ssilang.language.registry import Help, operator
-from ssilang.language.run.call import Call
+from ssilang.language.registry import (
+    Chosen,
+    Entry,
+    Help,
+    Keyword,
+    Select,
+    arg,
+    choice,
+    flag,
+    key,
+    many,
+    operator,
+    opt,
+    select,
+    words_in,
+)
+from ssilang.language.run.call import Call, Operand
 from ssilang.language.values import Table
 from ssilang.operators.drawing.pictures import (
     picture_formats,
@@ -19,88 +33,84 @@ from ssilang.operators.drawing.pictures import (
 )
 from ssilang.operators.workspace import workspace
 
-Option = Callable[[Call, dict[str, Any]], None]
+
+def _corner() -> Keyword:
+    return choice("corner", ("NO", "NE", "SO", "SE", "EXT"), en="corner", fr="coin")
 
 
-def _flags(**values: Any) -> Option:
-    return lambda call, found: found.update(values)
+def _bounds(name: str, word: str, en: str, fr: str) -> Keyword:
+    return key(name, word, arg("low", "FLOTTANT"), arg("high", "FLOTTANT"), en=en, fr=fr)
 
 
-def _pair(name: str) -> Option:
-    def read(call: Call, found: dict[str, Any]) -> None:
-        after = call.keyword_end
-        low, high = (float(call.required("FLOTTANT", after=after)) for _ in range(2))
-        if low == high:
-            raise call.error("operators.drawing.equal-bounds", low, low=low)
-        found[name] = (low, high)
-
-    return read
+def _title_place(name: str, word: str, en: str, fr: str) -> Select:
+    at_end = choice("at", ("EXCE", "CENT"), en="at the end or in the middle", fr="bout ou milieu")
+    return select(name, {word: [at_end]}, en=en, fr=fr)
 
 
-def _value(name: str, type_word: str) -> Option:
-    def read(call: Call, found: dict[str, Any]) -> None:
-        found[name] = call.required(type_word, after=call.keyword_end)
-
-    return read
-
-
-def _grid(call: Call, found: dict[str, Any]) -> None:
-    found["grid"] = "LIGN"
-    while (word := call.keyword((*DASHES, "GRIS"))) is not None:
-        found |= {"grey_grid": True} if word == "GRIS" else {"grid": word}
-
-
-def _choice(call: Call, found: dict[str, Any]) -> None:
-    numbers: list[int] = []
-    for value in call.all("ENTIER", "LISTENTI"):
-        numbers += [value] if isinstance(value, int) else [int(v) for v in value.values]
-    found["chosen"] = tuple(numbers)
-
-
-def _place_of_title(name: str) -> Option:
-    def read(call: Call, found: dict[str, Any]) -> None:
-        found[name] = call.keyword(("EXCE", "CENT")) == "EXCE"
-
-    return read
-
-
-def _legend(call: Call, found: dict[str, Any]) -> None:
-    place = call.keyword(("NO", "NE", "SO", "SE", "EXT", "XY"))
-    found["legend"] = place or ""
-    if place == "XY":
-        after = call.keyword_end
-        found["legend_at"] = tuple(call.required("FLOTTANT", after=after) for _ in range(2))
-
-
-_OPTIONS: dict[str, Option] = {
-    "LOGX": _flags(log_x=True),
-    "LOGY": _flags(log_y=True),
-    "GRIL": _grid,
-    "CARR": _flags(square=True),
-    "XBOR": _pair("x_limits"),
-    "YBOR": _pair("y_limits"),
-    "XGRA": _value("x_step", "FLOTTANT"),
-    "YGRA": _value("y_step", "FLOTTANT"),
-    "MIMA": _flags(extremes=True),
-    "DATE": _flags(date=True),
-    "LOGO": _flags(),
-    "SEPA": _flags(separate=True),
-    "CHOI": _choice,
-    "TITR": _value("title", "MOT"),
-    "TITX": _value("x_title", "MOT"),
-    "TITY": _value("y_title", "MOT"),
-    "POSX": _place_of_title("x_title_at_end"),
-    "POSY": _place_of_title("y_title_at_end"),
-    "XFMT": _value("x_format", "MOT"),
-    "YFMT": _value("y_format", "MOT"),
-    "AXES": _flags(axes=True),
-    "NCLK": _flags(),
-    "LEGE": _legend,
-}
+_OPTIONS: tuple[Entry, ...] = (
+    flag("log_x", "LOGX", en="logarithmic abscissas", fr="abscisses logarithmiques"),
+    flag("log_y", "LOGY", en="logarithmic ordinates", fr="ordonnées logarithmiques"),
+    select(
+        "grid",
+        {
+            "GRIL": [
+                choice("dash", tuple(DASHES), default="LIGN", en="dash", fr="tirets"),
+                flag("grey", "GRIS", en="in grey", fr="en gris"),
+            ]
+        },
+        en="grid",
+        fr="quadrillage",
+    ),
+    flag("square", "CARR", en="square frame", fr="cadre carré"),
+    _bounds("x_limits", "XBOR", "bounds of the abscissas", "bornes des abscisses"),
+    _bounds("y_limits", "YBOR", "bounds of the ordinates", "bornes des ordonnées"),
+    key("x_step", "XGRA", arg("d", "FLOTTANT"), en="step of the abscissas", fr="pas en abscisse"),
+    key("y_step", "YGRA", arg("d", "FLOTTANT"), en="step of the ordinates", fr="pas en ordonnée"),
+    flag("extremes", "MIMA", en="extreme values are written", fr="extrêmes écrits"),
+    flag("date", "DATE", en="the date is written", fr="date écrite"),
+    flag("logo", "LOGO", en="changes nothing", fr="sans effet"),
+    flag("separate", "SEPA", en="a frame for each curve", fr="un cadre par courbe"),
+    key(
+        "chosen",
+        "CHOI",
+        many("numbers", "ENTIER", "LISTENTI"),
+        default=(),
+        en="numbers of the curves drawn",
+        fr="numéros des courbes tracées",
+    ),
+    key("title", "TITR", arg("t", "MOT"), en="title", fr="titre"),
+    key("x_title", "TITX", arg("t", "MOT"), en="title of the abscissas", fr="titre des abscisses"),
+    key("y_title", "TITY", arg("t", "MOT"), en="title of the ordinates", fr="titre des ordonnées"),
+    _title_place("x_place", "POSX", "where that stands", "où il se met"),
+    _title_place("y_place", "POSY", "where that stands", "où il se met"),
+    key("x_format", "XFMT", arg("f", "MOT"), en="format of abscissas", fr="format en abscisse"),
+    key("y_format", "YFMT", arg("f", "MOT"), en="format of ordinates", fr="format en ordonnée"),
+    flag("axes", "AXES", en="axes through the origin", fr="axes par l'origine"),
+    flag("no_click", "NCLK", en="changes nothing", fr="sans effet"),
+    select(
+        "legend",
+        {
+            "LEGE": [
+                _corner(),
+                key("at", "XY", arg("x", "FLOTTANT"), arg("y", "FLOTTANT"), en="place", fr="place"),
+            ]
+        },
+        en="legend",
+        fr="légende",
+    ),
+)
 
 
 @operator(
     "DESS",
+    many("curves", "EVOLUTIO", at_least=1, whole=True, en="curves", fr="évolutions"),
+    opt(
+        "table",
+        "TABLE",
+        en="styles by number of curve, names, ends and dashes",
+        fr="styles par numéro de courbe, noms, bouts et tirets",
+    ),
+    *_OPTIONS,
     family="drawing",
     full_name="DESSIN",
     help=Help(
@@ -128,30 +138,17 @@ _OPTIONS: dict[str, Option] = {
             "EV = EVOL 'MANU' 't' (PROG 0. 1. 2.) 'u' (PROG 0. 3. 1.) ; DESS EV 'GRIL' 'MIMA' ;",
         ),
     ),
-    reads_itself=True,
 )
-def dess(call: Call) -> None:
-    """Read curves, options and table in any order; draw and write."""
-    found: dict[str, Any] = {}
-    curve: Curve | None = None
-    name, table = "", None
-    while True:
-        word = call.keyword(list(_OPTIONS))
-        if word is not None:
-            _OPTIONS[word](call, found)
-            continue
-        operand = call.read("EVOLUTIO", "TABLE")
-        if operand is None:
-            break
-        if isinstance(operand.value, Table):
-            table = operand.value
-        elif curve is None:
-            curve, name = operand.value, operand.name
-        else:
-            curve = Curve(curve.parts + operand.value.parts, curve.title, curve.kind)
-    if curve is None:
-        raise call.missing(("EVOLUTIO",))
-    refuse_rest(call, _OPTIONS)
+def dess(call: Call, curves: tuple[Operand, ...], table: Table | None, **said: Any) -> None:
+    """Draw and write."""
+    first: Curve = curves[0].value
+    parts = [part for c in curves for part in c.value.parts]
+    curve = Curve(tuple(parts), first.title, first.kind)
+    refuse_rest(call, words_in(_OPTIONS))
+    found = _settings(**said)
+    for name in ("x_limits", "y_limits"):
+        if name in found and found[name][0] == found[name][1]:
+            raise call.error("operators.drawing.equal-bounds", low=found[name][0])
     if table is not None:
         found |= _styles(call, table)
     # the title of the evolution, else the one in force
@@ -159,8 +156,33 @@ def dess(call: Call) -> None:
         found["title"] = workspace(call.session).title
     figure = draw_curves(curve, CurveOptions(**found))
     title = str(found.get("title") or curve.title)
-    stem = picture_name(call.session, title, name or "dess")
+    stem = picture_name(call.session, title, curves[0].name or "dess")
     save_picture(call.session, figure, stem, picture_formats(call.session, ("png", "svg")))
+
+
+def _settings(
+    grid: Chosen | None,
+    chosen: tuple[Any, ...],
+    x_place: Chosen | None,
+    y_place: Chosen | None,
+    legend: Chosen | None,
+    **plain: Any,
+) -> dict[str, Any]:
+    """Options of the drawing from what DESS has read."""
+    numbers = [[n] if isinstance(n, int) else n.values.tolist() for n in chosen]
+    found = {k: v for k, v in plain.items() if v is not None and v is not False and k not in _IDLE}
+    found["chosen"] = tuple(n for several in numbers for n in several)
+    if grid is not None:
+        found |= {"grid": grid["dash"], "grey_grid": grid["grey"]}
+    for name, place in (("x_title_at_end", x_place), ("y_title_at_end", y_place)):
+        found[name] = place is not None and place["at"] == "EXCE"
+    if legend is not None:
+        found["legend"] = legend["corner"] or ("XY" if legend["at"] else "")
+        found["legend_at"] = legend["at"]
+    return found
+
+
+_IDLE = frozenset({"logo", "no_click"})  # of other programs' windows
 
 
 def _styles(call: Call, table: Table) -> dict[str, Any]:

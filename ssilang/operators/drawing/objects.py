@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from ssilang.io.plots.palette import NAMES as COLOURS
 from ssilang.io.plots.palette import index_of
 from ssilang.kernel.fields.arrows import (
@@ -14,9 +12,11 @@ from ssilang.kernel.fields.arrows import (
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.deformed import Arrows, Deformed, DeformedPart
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.language.registry import Help, operator
+from ssilang.kernel.materials.model import Model
+from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.language.registry import Help, arg, choice, main, many, operator, opt, shared
 from ssilang.language.run.call import Call
-from ssilang.language.values import ListMots, Mot, register_type
+from ssilang.language.values import ListMots, register_type
 from ssilang.operators.dispatch import union
 from ssilang.operators.workspace import workspace
 
@@ -41,6 +41,14 @@ def is_colour(word: str) -> bool:
 
 @operator(
     "DEFO",
+    choice("colour", COLOURS, en="colour", fr="couleur"),
+    arg("mesh", "MAILLAGE", en="mesh", fr="maillage"),
+    arg("displacement", "CHPOINT", en="displacements", fr="déplacements", unit="m"),
+    opt("scale", "FLOTTANT", en="amplification", fr="amplification"),
+    opt("arrows", "VECTEUR", en="arrows drawn on it", fr="vecteurs tracés dessus"),
+    opt("field", "CHPOINT", en="field shown on it", fr="champ montré dessus"),
+    opt("cells", "MCHAML", en="field in cells shown on it", fr="champ par éléments montré"),
+    opt("model", "MMODEL", en="its model", fr="son modèle"),
     family="drawing",
     full_name="DEFORME",
     help=Help(
@@ -56,49 +64,21 @@ def is_colour(word: str) -> bool:
             "U = MANU 'CHPO' L 2 'UX' 0. 'UY' 0.1 ; D = DEFO L U 1. 'ROUG' ; TRAC D ;",
         ),
     ),
-    reads_itself=True,
 )
-def defo(call: Call) -> Deformed:
-    """Read mesh, displacement and what goes with them, in any order."""
-    found: dict[str, list[Any]] = {}
-    colour: int | None = None
-    kinds = ("MAILLAGE", "CHPOINT", "FLOTTANT", "VECTEUR", "MCHAML", "MMODEL")
-    while True:
-        word = call.keyword(COLOURS)
-        if word is not None:
-            colour = index_of(word)
-            continue
-        operand = call.read(*kinds)
-        if operand is None:
-            break
-        found.setdefault(_kind(operand.value), []).append(operand.value)
-    for kind, type_word in (("mesh", "MAILLAGE"), ("nodal", "CHPOINT")):
-        if kind not in found:
-            raise call.missing((type_word,))
-
-    def first(kind: str) -> Any:
-        return found.get(kind, [None])[0]
-
-    nodal = found["nodal"]
-    return Deformed(
-        (
-            DeformedPart(
-                first("mesh"),
-                nodal[0],
-                first("scale"),
-                colour,
-                first("arrows"),
-                first("cells") if "cells" in found else (nodal[1] if len(nodal) > 1 else None),
-                first("model"),
-            ),
-        )
-    )
-
-
-def _kind(value: object) -> str:
-    table = {"Mesh": "mesh", "NodeField": "nodal", "float": "scale", "Arrows": "arrows",
-             "CellField": "cells", "Model": "model"}  # fmt: skip
-    return table[type(value).__name__]
+def defo(
+    colour: str | None,
+    mesh: Mesh,
+    displacement: NodeField,
+    scale: float | None,
+    arrows: Arrows | None,
+    field: NodeField | None,
+    cells: CellField | None,
+    model: Model | None,
+) -> Deformed:
+    """Mesh, displacement and what goes with them."""
+    shade = None if colour is None else index_of(colour)
+    shown = field if cells is None else cells
+    return Deformed((DeformedPart(mesh, displacement, scale, shade, arrows, shown, model),))
 
 
 _FAMILIES = {
@@ -107,11 +87,10 @@ _FAMILIES = {
 }
 
 
-@operator(
+VECT = shared(
     "VECT",
-    family="drawing",
-    full_name="VECTEUR",
-    help=Help(
+    "drawing",
+    Help(
         en="Arrows for TRAC. Of a nodal field: its displacements (DEPL), forces (FORC) or the "
         "components named, times an amplification (chosen by the picture if it is not given; "
         "negative: the arrow points at its node), in a colour. Of a field in cells: with a "
@@ -130,27 +109,35 @@ _FAMILIES = {
             "F = MANU 'CHPO' L 2 'FX' 0. 'FY' -1. ; V = VECT F 'FORC' 'ROUG' ; TRAC V L ;",
         ),
     ),
-    reads_itself=True,
+    full_name="VECTEUR",
 )
-def vect(call: Call) -> Arrows:
-    """Arrows of a nodal field or of a field in cells."""
-    first = call.read("CHPOINT", "MCHAML")
-    if first is None:
-        raise call.missing(("CHPOINT", "MCHAML"))
-    if isinstance(first.value, NodeField):
-        return _nodal(call, first.value)
-    return _in_cells(call, first.value)
+_SCALE = opt(
+    "scale",
+    "FLOTTANT",
+    en="amplification, chosen by the picture by default",
+    fr="amplification, choisie par le tracé sinon",
+)
 
 
-def _nodal(call: Call, chpoint: NodeField) -> Arrows:
+@VECT.form(
+    main("chpoint", "CHPOINT", en="nodal field", fr="champ par points"),
+    many(
+        "names",
+        "LISTMOTS",
+        "MOT",
+        en="DEPL, FORC or components, and a colour",
+        fr="DEPL, FORC ou composantes, et une couleur",
+        kind="component",
+    ),
+    _SCALE,
+)
+def _nodal(
+    call: Call, chpoint: NodeField, names: tuple[ListMots | str, ...], scale: float | None
+) -> Arrows:
     words: list[str] = []
-    scale: float | None = None
     colour = 0
-    while (operand := call.read("FLOTTANT", "LISTMOTS") or call.read("MOT")) is not None:
-        value = operand.value
-        if isinstance(value, float):
-            scale = value
-        elif not isinstance(value, str):
+    for value in names:
+        if not isinstance(value, str):
             words += [str(v) for v in value.values]
         elif is_colour(value) and value.strip() not in chpoint.components:
             colour = index_of(value)
@@ -184,26 +171,39 @@ def _columns(call: Call, chpoint: NodeField, words: list[str]) -> tuple[str, str
     return tuple([*list(chpoint.components)[:size], "", "", ""][:3])  # type: ignore[return-value]
 
 
-def _in_cells(call: Call, mchaml: CellField) -> Arrows:
-    scale: float | None = None
-    words: list[str] = []
-    lists: list[list[str]] = []
-    kinds = ("MCHAML", "MMODEL", "FLOTTANT", "LISTMOTS")
-    while (operand := call.read(*kinds) or call.read("MOT")) is not None:
-        value = operand.value
-        if isinstance(value, float):
-            scale = value
-        elif isinstance(value, Mot):
-            words.append(str(value).strip())
-        elif isinstance(value, ListMots):
-            lists.append([str(v).strip() for v in value.values])
-        # characteristics and model are read, but arrows stand in the middle of the cells
+@VECT.form(
+    main("mchaml", "MCHAML", en="field in cells", fr="champ par éléments"),
+    many(
+        "ignored",
+        "MCHAML",
+        "MMODEL",
+        en="characteristics and model: arrows stand in the middle of the cells",
+        fr="caractéristiques et modèle : les flèches sont au milieu des éléments",
+    ),
+    many(
+        "words",
+        "LISTMOTS",
+        "MOT",
+        en="components, principal stresses or colours",
+        fr="composantes, contraintes principales ou couleurs",
+        kind="component",
+    ),
+    _SCALE,
+)
+def _in_cells(
+    mchaml: CellField,
+    ignored: tuple[object, ...],
+    words: tuple[ListMots | str, ...],
+    scale: float | None,
+) -> Arrows:
+    single = [str(w).strip() for w in words if isinstance(w, str)]
+    lists = [[str(v).strip() for v in w.values] for w in words if isinstance(w, ListMots)]
     names = {c for block in mchaml.blocks for c in block.components}
     columns = next((x for x in lists if any(c in names for c in x)), None)
     colours = [index_of(c) for x in lists if x is not columns for c in x]
-    colours += [index_of(w) for w in words if is_colour(w) and w not in names]
+    colours += [index_of(w) for w in single if is_colour(w) and w not in names]
     if columns is not None:
         shade = colours[0] if colours else 0
         return arrows_in_cells(mchaml, tuple([*columns, "", "", ""][:3]), scale, shade)  # type: ignore[arg-type]
-    chosen = [w for w in words if w in names]
+    chosen = [w for w in single if w in names]
     return principal_strokes(mchaml, scale, tuple(chosen), tuple(colours))

@@ -46,11 +46,11 @@ def refuse_rest(call: Call, words: Iterable[str]) -> None:
     """Refuse what a drawing statement has not read, before anything is drawn."""
     if not call.operands:
         return
-    left = call.operands[0]
+    left, known = call.operands[0], tuple(dict.fromkeys(words))
     call.used.append(left)
     if isinstance(left.value, str):
-        near = nearest(str(left.value), words)
+        near = nearest(str(left.value), known)
         raise call.error(
-            "operators.drawing.unknown-word", left.value, said=left.value, near=near, words=words
+            "operators.drawing.unknown-word", left.value, said=left.value, near=near, words=known
         )
     raise call.error("operators.drawing.useless-operand", left.value, found=type_of(left.value))

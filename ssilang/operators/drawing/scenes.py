@@ -21,7 +21,20 @@ from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.matrices.support import support_mesh
 from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import (
+    Chosen,
+    Entry,
+    Help,
+    arg,
+    choice,
+    flag,
+    key,
+    many,
+    operator,
+    opt,
+    select,
+    words_in,
+)
 from ssilang.language.run.call import Call, Operand
 from ssilang.language.run.session import Session
 from ssilang.language.values import type_of
@@ -47,77 +60,49 @@ class _Said:
     animation: str = ""
 
 
-Option = Callable[[Call, _Said], None]
 _ISO = {"LIGN": "LIGNE", "SULI": "SULI"}
 
 
-def _flags(**values: Any) -> Option:
-    return lambda call, said: said.options.update(values)
-
-
-def _colour(call: Call, said: _Said) -> None:
-    word = call.keyword(COLOURS)
-    said.options["only_colour"] = index_of(word) if word else 0
-
-
-def _shrink(call: Call, said: _Said) -> None:
-    operand = call.read("FLOTTANT", after=call.keyword_end)
-    said.options["shrink"] = operand.value if operand else 0.5
-
-
-def _plane(name: str) -> Option:
-    def read(call: Call, said: _Said) -> None:
-        after = call.keyword_end
-        points = [call.required("POINT", after=after).coordinates for _ in range(3)]
-        said.options[name] = Plane.through(*points)
-
-    return read
-
-
-def _text(name: str) -> Option:
-    def read(call: Call, said: _Said) -> None:
-        said.options[name] = str(call.required("MOT", after=call.keyword_end))
-
-    return read
-
-
-def _box(call: Call, said: _Said) -> None:
-    said.options["frame"] = call.required("MAILLAGE", after=call.keyword_end)
-
-
-def _animate(word: str) -> Option:
-    return lambda call, said: setattr(said, "animation", word)
-
-
-def _qualify(call: Call, said: _Said) -> None:
-    said.qualify = True
-
-
-_OPTIONS: dict[str, Option] = {
-    "QUAL": _qualify,
-    "NOEU": _flags(node_numbers=True),
-    "COUL": _colour,
-    "ELEM": _flags(cell_numbers=True),
-    "CACH": _flags(hidden=True),
-    "FACE": _flags(filled=True),
-    "FACB": _flags(filled=True),
-    "FSDB": _flags(filled=True),
-    "ECLA": _shrink,
-    "COUP": _plane("beyond"),
-    "SECT": _plane("section"),
-    "TITR": _text("title"),
-    "LEGE": _text("legend_name"),
-    "NOLE": _flags(legend=False),
-    "DATE": _flags(date=True),
-    "CHAM": _flags(point_values=True),
-    "BOIT": _box,
-    "NCLK": _flags(),
-    "ARET": _flags(),
-    "ANIM": _animate("ANIM"),
-    "OSCI": _animate("OSCI"),
-    "DIRE": _flags(),
-    "LOGO": _flags(),
-}
+_POINTS = tuple(arg(name, "POINT") for name in ("a", "b", "c"))
+_TEXT = arg("text", "MOT")
+_OPTIONS: tuple[Entry, ...] = (
+    flag("names", "QUAL", en="names of points and meshes", fr="noms des points et maillages"),
+    flag("node_numbers", "NOEU", en="numbers of the nodes", fr="numéros des noeuds"),
+    select(
+        "one_colour",
+        {"COUL": [choice("colour", COLOURS, en="colour", fr="couleur")]},
+        en="in one colour",
+        fr="d'une seule couleur",
+    ),
+    flag("cell_numbers", "ELEM", en="numbers of the cells", fr="numéros des éléments"),
+    flag("hidden", "CACH", en="the back is hidden", fr="l'arrière est caché"),
+    choice("filled", ("FACE", "FACB", "FSDB"), en="faces are filled", fr="faces remplies"),
+    key(
+        "shrink",
+        "ECLA",
+        opt("size", "FLOTTANT", default=0.5),
+        en="cells are shrunk by a factor",
+        fr="éléments réduits d'un facteur",
+    ),
+    key("beyond", "COUP", *_POINTS, en="only what is beyond a plane", fr="au-delà d'un plan"),
+    key("section", "SECT", *_POINTS, en="what a plane cuts", fr="ce que coupe un plan"),
+    key("title", "TITR", _TEXT, en="title", fr="titre"),
+    key("legend_name", "LEGE", _TEXT, en="title of the legend", fr="titre de la légende"),
+    flag("no_legend", "NOLE", en="no legend", fr="sans légende"),
+    flag("date", "DATE", en="the date is written", fr="date écrite"),
+    flag("point_values", "CHAM", en="values at the nodes", fr="valeurs aux noeuds"),
+    key("frame", "BOIT", arg("mesh", "MAILLAGE"), en="what is framed", fr="ce qui est cadré"),
+    choice(
+        "animation",
+        ("ANIM", "OSCI"),
+        en="an animated picture, also back",
+        fr="image animée, aller et retour",
+    ),
+    flag("no_click", "NCLK", en="changes nothing", fr="sans effet"),
+    flag("edges", "ARET", en="changes nothing: edges are drawn", fr="sans effet : arêtes tracées"),
+    flag("direct", "DIRE", en="changes nothing", fr="sans effet"),
+    flag("logo", "LOGO", en="changes nothing", fr="sans effet"),
+)
 
 
 def _mesh(said: _Said, value: Any) -> None:
@@ -166,6 +151,14 @@ _OBJECTS: dict[str, Callable[[_Said, Any], None]] = {
 
 @operator(
     "TRAC",
+    many(
+        "objects",
+        *_OBJECTS,
+        whole=True,
+        en="meshes, deformed shapes, arrows, fields, levels, eye, texts",
+        fr="maillages, déformées, vecteurs, champs, niveaux, oeil, textes",
+    ),
+    *_OPTIONS,
     family="drawing",
     full_name="TRACER",
     help=Help(
@@ -198,24 +191,42 @@ _OBJECTS: dict[str, Callable[[_Said, Any], None]] = {
             "S = TRAN L 3 (0. 1.) ; TRAC S 'NOEU' 'TITR' 'A square' ;",
         ),
     ),
-    reads_itself=True,
 )
-def trac(call: Call) -> None:
-    """Read objects and options in any order; draw and write."""
-    said = _Said()
-    session = call.session
-    while True:
-        word = call.keyword(list(_OPTIONS))
-        if word is not None:
-            _OPTIONS[word](call, said)
-            continue
-        operand = call.read(*_OBJECTS)
-        if operand is None:
-            break
+def trac(call: Call, objects: tuple[Operand, ...], **options: Any) -> None:
+    """Draw and write."""
+    said = _said(**options)
+    for operand in objects:
         _OBJECTS[type_of(operand.value)](said, operand.value)
         _keep_name(said, operand)
-    refuse_rest(call, _OPTIONS)
-    _draw(call, session, said)
+    refuse_rest(call, words_in(_OPTIONS))
+    _draw(call, call.session, said)
+
+
+def _said(
+    names: bool,
+    one_colour: Chosen | None,
+    filled: str | None,
+    no_legend: bool,
+    animation: str | None,
+    **plain: Any,
+) -> _Said:
+    """Options of the picture from what TRAC has read."""
+    options = {
+        k: v for k, v in plain.items() if v is not None and v is not False and k not in _IDLE
+    }
+    for plane in {"beyond", "section"} & {*options}:
+        options[plane] = Plane.through(*(p.coordinates for p in options[plane]))
+    if one_colour is not None:
+        said = one_colour["colour"]
+        options["only_colour"] = index_of(said) if said else 0
+    if filled:
+        options["filled"] = True
+    if no_legend:
+        options["legend"] = False
+    return _Said(options=options, qualify=names, animation=animation or "")
+
+
+_IDLE = frozenset({"no_click", "edges", "direct", "logo"})  # of other programs' windows
 
 
 def _keep_name(said: _Said, operand: Operand) -> None:

@@ -9,8 +9,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ssilang.io.errors import InputError
-from ssilang.language.registry import Help, operator
-from ssilang.language.run.call import Call, Operand
+from ssilang.language.registry import Help, flag, many, operator
+from ssilang.language.run.call import Call, name_of
 from ssilang.language.values import ListEnti, ListReel, Mot
 from ssilang.operators.files.outputs import input_path, option_name, run_output
 
@@ -97,6 +97,13 @@ _READERS: dict[str, Callable[[Records, int], Any]] = {
 
 @operator(
     "ACQU",
+    flag("line", "BRUT", en="the next line, as a word", fr="la ligne suivante, en un mot"),
+    many(
+        "names",
+        "*",
+        en="names, each with * and a type, behind a list the number of its values",
+        fr="noms, chacun avec * et un type, derrière une liste son nombre de valeurs",
+    ),
     family="files",
     full_name="ACQUERIR",
     help=Help(
@@ -114,7 +121,8 @@ _READERS: dict[str, Callable[[Records, int], Any]] = {
             "ACQU I*ENTIER X*FLOTTANT L*LISTENTI 2 ; LIST X ;",
         ),
     ),
-    reads_itself=True,
+    gives="MOT|",
+    reads_itself="its items are names and types, with * between, and numbers of values",
 )
 def acqu(call: Call) -> Mot | None:
     """Read values into names, or one line."""
@@ -141,10 +149,6 @@ def _records(call: Call) -> Records:
     return records
 
 
-def _name(operand: Operand) -> str:
-    return operand.name or (str(operand.value).upper() if isinstance(operand.value, str) else "")
-
-
 def _wanted(call: Call) -> list[tuple[str, str, int]]:
     """Names, types and numbers of values; the operands stand as written."""
     found = []
@@ -152,12 +156,12 @@ def _wanted(call: Call) -> list[tuple[str, str, int]]:
     while operands:
         operand = operands.pop(0)
         call.used.append(operand)
-        name, kind, count = _name(operand), "", 1
+        name, kind, count = name_of(operand), "", 1
         if not name:
             raise call.error("operators.files.no-name-with-type", operand.value)
         if operands and operands[0].span.text == "*":
             operands.pop(0)
-            kind = _name(operands.pop(0)).strip() if operands else ""
+            kind = name_of(operands.pop(0)).strip() if operands else ""
             if kind not in _READERS or not kind:
                 types = " ".join(k for k in _READERS if k)
                 raise call.error("operators.files.type-not-read", kind=kind, types=types)

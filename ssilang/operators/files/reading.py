@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import NoReturn
 
 import numpy as np
 
@@ -17,16 +17,17 @@ from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
+from ssilang.language.registry import arg, choice, key, lead, opt, said
 from ssilang.language.run.call import Call
 from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
 from ssilang.language.text.tree import Definition
 from ssilang.language.values import ListReel, Mot, Procedure, Table
-from ssilang.operators.dispatch import ByWord
+from ssilang.operators.dispatch import Shared
 from ssilang.operators.files.outputs import input_path, option_name, run_output
 from ssilang.operators.workspace import workspace
 
-LIRE = ByWord(
+LIRE = Shared(
     "LIRE",
     "files",
     "Reads a file below the script's folder or the output folder.",
@@ -34,8 +35,10 @@ LIRE = ByWord(
 )
 
 
-def _file(call: Call, suffix: str = "") -> Path:
-    name = str(call.required("MOT", after=call.keyword_end))
+_FILE = lead("file", "MOT", en="file", fr="fichier")
+
+
+def _file(call: Call, name: str, suffix: str) -> Path:
     output = run_output(call.session)
     with_suffix = output.source(name + suffix) if suffix else None
     plain = output.source(name)
@@ -44,8 +47,12 @@ def _file(call: Call, suffix: str = "") -> Path:
     return input_path(call, name)
 
 
-@LIRE.on(
-    "CSV",
+@LIRE.form(
+    said("CSV"),
+    _FILE,
+    key("first", "DEBU", arg("n", "ENTIER"), default=1, en="first line", fr="première ligne"),
+    key("separator", "SEPA", arg("s", "MOT"), default=";", en="separator", fr="séparateur"),
+    choice("by", ("COLO", "LIGN"), default="COLO", en="columns or lines", fr="colonnes ou lignes"),
     syntax="TAB1 = LIRE 'CSV' FIC1 ('DEBU' N1) ('SEPA' MOT1) ('COLO' | 'LIGN') ;",
     en="CSV: a table of LISTREEL, 1 to the number of columns (COLO) or lines (LIGN) of a CSV file, "
     "from line DEBU, separated by SEPA (one character, ; if it is not given).",
@@ -56,37 +63,30 @@ def _file(call: Call, suffix: str = "") -> Path:
         "T = LIRE 'CSV' 'two.csv' ; LIST (T . 2) ;",
     ),
 )
-def _csv(call: Call, word: str) -> Table:
-    path = _file(call, ".csv")
-    separator, first, by_line = ";", 1, False
-    while (said := call.keyword(("DEBU", "SEPA", "COLO", "LIGN"))) is not None:
-        if said == "SEPA":
-            separator = str(call.required("MOT", after=call.keyword_end)) or ";"
-            if len(separator) > 1:
-                separator = separator.strip()[:1] or " "
-        elif said == "DEBU":
-            first = call.required("ENTIER", after=call.keyword_end)
-        else:
-            by_line = said == "LIGN"
-    rows = read_csv(path, separator, first)
+def _csv(call: Call, file: str, first: int, separator: str, by: str) -> Table:
+    sign = str(separator) or ";"
+    if len(sign) > 1:
+        sign = sign.strip()[:1] or " "
+    rows = read_csv(_file(call, str(file), ".csv"), sign, first)
     made = Table()
-    for i, values in enumerate(rows if by_line else as_columns(rows), start=1):
+    for i, values in enumerate(rows if by == "LIGN" else as_columns(rows), start=1):
         made.set(i, ListReel(values))
     return made
 
 
-@LIRE.on(
-    "PROC",
+@LIRE.form(
+    said("PROC"),
+    _FILE,
+    opt("name", "MOT", default="", en="the only one wanted", fr="la seule voulue"),
     syntax="LIRE 'PROC' FIC1 (MOT1) ;",
     en="PROC: the procedures that a file defines (only MOT1 if it is given); a file of statements "
     "without a DEBP becomes the procedure MOT1.",
     fr="PROC : les procédures définies dans un fichier (seulement MOT1 s'il est donné) ; un "
     "fichier d'instructions sans DEBP devient la procédure MOT1.",
 )
-def _proc(call: Call, word: str) -> None:
-    name = call.required("MOT", after=call.keyword_end)
-    path = input_path(call, name)
-    wanted = (call.word() or "").strip().upper()
+def _proc(call: Call, file: str, name: str) -> None:
+    path = input_path(call, file)
+    wanted = str(name).strip().upper()
     script = parse(read_source(path))
     frame = call.session.frame
     found = {n.name: n for n in script.body if isinstance(n, Definition)}
@@ -96,15 +96,15 @@ def _proc(call: Call, word: str) -> None:
         return
     if wanted and wanted not in found:
         raise call.error(
-            "operators.files.no-such-procedure", name, name=path.name, wanted=wanted, found=found
+            "operators.files.no-such-procedure", file, name=path.name, wanted=wanted, found=found
         )
-    for key, node in found.items():
-        if not wanted or key == wanted:
-            frame.assign(key, Procedure(key, node, str(path)))
+    for one, node in found.items():
+        if not wanted or one == wanted:
+            frame.assign(one, Procedure(one, node, str(path)))
 
 
-@LIRE.on(
-    "AVS",
+@LIRE.form(
+    said("AVS"),
     syntax="TAB1 = LIRE 'AVS' ;",
     en="AVS: the next structure of the AVS UCD file that OPTI LECT names, as a table: MAILSUPP its "
     "nodes, LEMAILLA its cells, SOUMAILA the parts by kind and material, LECHPOIN and LEMCHAML "
@@ -113,7 +113,7 @@ def _proc(call: Call, word: str) -> None:
     "ses noeuds, LEMAILLA ses éléments, SOUMAILA les parties par type et matériau, LECHPOIN et "
     "LEMCHAML ses champs, les valeurs globales sous leur nom.",
 )
-def _avs(call: Call, word: str) -> Table:
+def _avs(call: Call) -> Table:
     name = option_name(call.session, "LECT", 4)
     output = run_output(call.session)
     path = output.source(name + ".inp")
@@ -141,8 +141,8 @@ def _avs_table(call: Call, structure: Structure) -> Table:
         made.set(Mot("LECHPOIN"), NodeField.of(nodes, ids, structure.node_values))
     if structure.cell_values:
         made.set(Mot("LEMCHAML"), CellField(_cell_parts(structure, blocks), "SCALAIRE"))
-    for key, value in structure.model_values.items():
-        made.set(Mot(key), value)
+    for index, value in structure.model_values.items():
+        made.set(Mot(index), value)
     return made
 
 
@@ -156,8 +156,9 @@ def _cell_parts(structure: Structure, blocks: list[CellBlock]) -> tuple[CellFiel
     return tuple(made)
 
 
-@LIRE.on(
-    "UNV",
+@LIRE.form(
+    said("UNV"),
+    _FILE,
     syntax="TAB1 = LIRE 'UNV' FIC1 ;",
     en="UNV: nodes, cells and groups of an I-DEAS universal file, as a table of meshes: NOEUDS, "
     "MAILLAGE, '@SEG2' ... by type, and each group under its name (NAME_GN for the nodes of a "
@@ -166,8 +167,8 @@ def _cell_parts(structure: Structure, blocks: list[CellBlock]) -> tuple[CellFiel
     "NOEUDS, MAILLAGE, '@SEG2' ... par type, et chaque groupe sous son nom (NOM_GN pour les "
     "noeuds d'un groupe qui contient aussi des éléments).",
 )
-def _unv(call: Call, word: str) -> Table:
-    return _unv_table(call, read_unv(_file(call, ".unv")))
+def _unv(call: Call, file: str) -> Table:
+    return _unv_table(call, read_unv(_file(call, str(file), ".unv")))
 
 
 def _unv_table(call: Call, read: UnvMesh) -> Table:
@@ -194,36 +195,38 @@ def _unv_table(call: Call, read: UnvMesh) -> Table:
     return made
 
 
-@LIRE.on(
-    "STL",
+@LIRE.form(
+    said("STL"),
+    _FILE,
     syntax="MAIL1 = LIRE 'STL' FIC1 ;",
     en="STL: a mesh of TRI3, text or binary; ELIM joins its nodes.",
     fr="STL : un maillage de TRI3, texte ou binaire ; ELIM réunit ses noeuds.",
 )
-def _stl(call: Call, word: str) -> Mesh:
-    corners = read_stl(_file(call, ".stl"))
+def _stl(call: Call, file: str) -> Mesh:
+    corners = read_stl(_file(call, str(file), ".stl"))
     nodes = workspace(call.session).nodes
     ids = nodes.add(corners.reshape(-1, 3))
     return Mesh.of(nodes, "TRI3", ids.reshape(-1, 3))
 
 
-@LIRE.on(
-    "PEER",
+@LIRE.form(
+    said("PEER"),
+    _FILE,
+    opt("factor", "FLOTTANT", default=1.0, en="factor of the values", fr="facteur des valeurs"),
     syntax="EVO1 = LIRE 'PEER' FIC1 (FLOT1) ;",
     en="PEER: a ground motion in the format of the PEER database (.AT2, .VT2, .DT2) as an "
     "evolution in time, times FLOT1 (9.81 makes m/s2 of g).",
     fr="PEER : un accélérogramme au format de la base PEER (.AT2, .VT2, .DT2), évolution dans le "
     "temps, multipliée par FLOT1 (9.81 fait des m/s2 de g).",
 )
-def _peer(call: Call, word: str) -> Curve:
-    record = read_peer(_file(call, ".AT2"))
-    factor = call.optional("FLOTTANT", default=1.0)
+def _peer(call: Call, file: str, factor: float) -> Curve:
+    record = read_peer(_file(call, str(file), ".AT2"))
     part = CurvePart(
         record.times, factor * record.values, "TEMP", record.quantity, record.event[:40]
     )
     return Curve((part,), record.event[:72])
 
 
-@LIRE.on("MED", "FEM", "NAS")
-def _refused(call: Call, word: str) -> Any:
+@LIRE.form(said("MED", "FEM", "NAS"), gives=())
+def _refused(call: Call, word: str) -> NoReturn:
     raise call.error("operators.files.format-not-read", word=word)

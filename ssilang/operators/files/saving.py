@@ -10,8 +10,8 @@ from ssilang.io.archive import Archive, Decoder, Encoder, Record, read_archive, 
 from ssilang.io.archive.classes import Packing, register_packing
 from ssilang.io.errors import InputError
 from ssilang.kernel.materials.model import Mode
-from ssilang.language.registry import Help, operator
-from ssilang.language.run.call import Call
+from ssilang.language.registry import Help, arg, flag, key, many, operator
+from ssilang.language.run.call import Call, Operand
 from ssilang.language.run.scopes import PREDEFINED, Frame
 from ssilang.language.text.source import Source
 from ssilang.language.text.structure import parse
@@ -114,8 +114,31 @@ class _Begun:
     records: list[Record] = field(default_factory=list)
 
 
+_WORDS = (
+    flag("formatted", "FORMAT", en="changes nothing", fr="sans effet"),
+    key(
+        "label",
+        "LABEL",
+        arg("label", "MOT"),
+        default="",
+        en="label of the record",
+        fr="label de l'enregistrement",
+    ),
+    flag("silent", "MUET", en="changes nothing", fr="sans effet"),
+)
+
+
 @operator(
     "SAUV",
+    *_WORDS,
+    many(
+        "objects",
+        "*",
+        "TEXTE",
+        whole=True,
+        en="objects, all that have a name by default",
+        fr="objets, sinon tous ceux qui ont un nom",
+    ),
     family="files",
     full_name="SAUVER",
     help=Help(
@@ -134,22 +157,19 @@ class _Begun:
             "OPTI REST 'l.sauv' ; REST ; MESS (NBEL L) ;",
         ),
     ),
-    reads_itself=True,
 )
-def sauv(call: Call) -> None:
+def sauv(
+    call: Call, formatted: bool, label: str, silent: bool, objects: tuple[Operand, ...]
+) -> None:
     """Add a record to the file and write it."""
-    label = ""
-    while (said := call.keyword(("FORMAT", "LABEL", "MUET"))) is not None:
-        if said == "LABEL":
-            label = str(call.required("MOT", after=call.keyword_end)).strip()
     frame = call.session.frame
-    operands = [(o.name, o.value) for o in iter(lambda: call.read("*", "TEXTE"), None)]
+    operands = [(o.name, o.value) for o in objects]
     for name, value in operands:
         if not name and isinstance(value, str) and frame.find(value.upper()) is None:
             raise call.error("operators.files.no-object-to-save", value, value=value)
     if not operands:
         operands = [(n, frame.find(n)) for n in sorted(_own_names(frame))]
-    save(call, operands, label)
+    save(call, operands, str(label).strip())
 
 
 def save(call: Call, operands: list[tuple[str, Any]], label: str = "") -> None:
@@ -212,6 +232,7 @@ def _settings(ws: Workspace) -> dict[str, Any]:
 
 @operator(
     "REST",
+    *_WORDS,
     family="files",
     full_name="RESTITUER",
     help=Help(
@@ -227,17 +248,12 @@ def _settings(ws: Workspace) -> dict[str, Any]:
             "OPTI REST 'x.sauv' ; REST ; MESS (DIME X) ;",
         ),
     ),
-    reads_itself=True,
 )
-def rest(call: Call) -> None:
+def rest(call: Call, formatted: bool, label: str, silent: bool) -> None:
     """Read a file's records into names."""
-    label = ""
-    while (said := call.keyword(("FORMAT", "LABEL", "MUET"))) is not None:
-        if said == "LABEL":
-            label = str(call.required("MOT", after=call.keyword_end)).strip()
     name = option_name(call.session, "REST", 2)
     with closing(read_archive(input_path(call, name))) as archive:
-        _restore(call, archive, name, label)
+        _restore(call, archive, name, str(label).strip())
 
 
 def _restore(call: Call, archive: Archive, name: str, label: str) -> None:
@@ -249,8 +265,8 @@ def _restore(call: Call, archive: Archive, name: str, label: str) -> None:
     records = archive.records[: labels.index(label) + 1] if label else archive.records
     decoder = Decoder(archive, ws.nodes)
     for record in records:
-        for key, code in record.names.items():
-            call.session.frame.assign(key, decoder.decode(code))
+        for held, code in record.names.items():
+            call.session.frame.assign(held, decoder.decode(code))
     if added := archive.settings.get("INCO"):
         ws.options["INCO"] = {**ws.options.get("INCO", {}), **added}
     if not ws.dimension:

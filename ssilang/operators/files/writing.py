@@ -7,14 +7,15 @@ from typing import Any
 
 from ssilang.io.csv_tables import Column, csv_lines
 from ssilang.kernel.curves.curve import Curve
+from ssilang.language.registry import Chosen, arg, choice, key, lead, many, opt, said, select
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Check
 from ssilang.language.values import ListEnti, ListMots, ListReel, Table
-from ssilang.operators.dispatch import ByWord
+from ssilang.operators.dispatch import Shared
 from ssilang.operators.files.outputs import option_name, output_path, run_output
-from ssilang.operators.texts.words import read_text
+from ssilang.operators.texts.words import TEXT, TEXT_IS_FREE, read_text
 
-SORT = ByWord(
+SORT = Shared(
     "SORT",
     "files",
     "Writes objects to the file that OPTI SORT names (fort.7 if it names none), in the output "
@@ -37,8 +38,30 @@ def target_path(call: Call, suffix: str = "", also: tuple[str, ...] = ()) -> Pat
 _SEPARATORS = {"PVIR": ";", "VIRG": ",", "ESPA": " ", "TABU": "\t", "OBLI": "/"}
 
 
-@SORT.on(
-    "EXCE",
+_NUMBER = arg("n", "ENTIER")
+
+
+@SORT.form(
+    said("EXCE"),
+    many(
+        "objects",
+        "LISTENTI",
+        "LISTREEL",
+        "LISTMOTS",
+        "EVOLUTIO",
+        "TABLE",
+        at_least=1,
+        en="lists, or what holds them",
+        fr="listes, ou ce qui en contient",
+    ),
+    key("width", "NCOL", _NUMBER, en="columns side by side", fr="colonnes côte à côte"),
+    key("digits", "DIGI", _NUMBER, en="decimals", fr="décimales"),
+    select(
+        "separator",
+        {"SEPA": [choice("sign", tuple(_SEPARATORS), optional=False)]},
+        en="separator",
+        fr="séparateur",
+    ),
     syntax="SORT 'EXCE' OBJ1 (OBJ2 ...) ('NCOL' N1) ('SEPA' PVIR|VIRG|ESPA|TABU|OBLI) "
     "('DIGI' N2) ;",
     en="EXCE: a CSV table with a column for each list of the objects (LISTREEL LISTENTI LISTMOTS "
@@ -49,30 +72,24 @@ _SEPARATORS = {"PVIR": ";", "VIRG": ",", "ESPA": " ", "TABU": "\t", "OBLI": "/"}
     "NCOL colonnes au plus côte à côte, DIGI décimales. Les SORT suivants ajoutent au fichier.",
     examples=("OPTI SORT 'valeurs.csv' ; SORT 'EXCE' (PROG 1. 2. 3.) 'SEPA' 'VIRG' ;",),
 )
-def _exce(call: Call, word: str) -> None:
-    columns: list[Column] = []
+def _exce(
+    call: Call,
+    objects: tuple[Any, ...],
+    width: int | None,
+    digits: int | None,
+    separator: Chosen | None,
+) -> None:
     options: dict[str, Any] = {}
-    kinds = ("LISTENTI", "LISTREEL", "LISTMOTS", "EVOLUTIO", "TABLE")
-    while True:
-        said = call.keyword(("NCOL", "SEPA", "DIGI"))
-        if said == "SEPA":
-            named = call.keyword(tuple(_SEPARATORS))
-            if named is None:
-                raise call.error("operators.files.separator", separators=_SEPARATORS)
-            options["separator"] = _SEPARATORS[named]
-            continue
-        if said is not None:
-            n = call.required("ENTIER", after=call.keyword_end)
-            if n < (1 if said == "NCOL" else 0):
-                raise call.error("operators.files.positive-number", n, said=said, n=n)
-            options["width" if said == "NCOL" else "digits"] = n
-            continue
-        operand = call.read(*kinds)
-        if operand is None:
-            break
-        columns += _columns(operand.value, "")
+    for name, word, n, least in (("width", "NCOL", width, 1), ("digits", "DIGI", digits, 0)):
+        if n is not None:
+            if n < least:
+                raise call.error("operators.files.positive-number", n, said=word, n=n)
+            options[name] = n
+    if separator is not None:
+        options["separator"] = _SEPARATORS[separator["sign"]]
+    columns = [column for value in objects for column in _columns(value, "")]
     if not columns:
-        raise call.missing(kinds)
+        raise call.missing(("LISTREEL", "EVOLUTIO", "TABLE"))
     path = target_path(call, ".csv", (".txt", ".dat", ".xls"))
     run_output(call.session).add_lines("SORT", path, csv_lines(columns, **options))
 
@@ -94,8 +111,11 @@ def _columns(value: Any, name: str) -> list[Column]:
     return []
 
 
-@SORT.on(
-    "CHAI",
+@SORT.form(
+    said("CHAI"),
+    *TEXT,
+    gives=(),
+    by_hand=TEXT_IS_FREE,
     syntax="SORT 'CHAI' OBJ1 (OBJ2 ...) ;",
     en="CHAI: a line of text, written as MESS writes it. Further SORT statements append.",
     fr="CHAI : une ligne de texte, écrite comme par MESS. Les SORT suivants ajoutent au fichier.",
@@ -106,8 +126,12 @@ def _chai(call: Call, word: str) -> None:
     run_output(call.session).add_lines("SORT", target_path(call), [text])
 
 
-@SORT.on(
-    "BILA",
+@SORT.form(
+    said("BILA"),
+    lead("name", "MOT", en="name of the figure", fr="nom du résultat"),
+    arg("value", "FLOTTANT", en="figure", fr="résultat"),
+    opt("expected", "FLOTTANT", en="value expected", fr="valeur attendue"),
+    opt("tolerance", "FLOTTANT", en="largest distance to it", fr="plus grand écart admis"),
     syntax="SORT 'BILA' MOT1 FLOT1 (FLOT2 FLOT3) ;",
     en="BILA: reports a figure of the run under a name in summary.json, with the value expected "
     "and the tolerance on their distance if there are any.",
@@ -115,10 +139,9 @@ def _chai(call: Call, word: str) -> None:
     "valeur attendue et la tolérance sur l'écart.",
     examples=("SORT 'BILA' 'two and two' (2. + 2.) 4. 1.E-12 ;",),
 )
-def _bila(call: Call, word: str) -> None:
-    name = str(call.required("MOT", after=call.keyword_end)).strip()
-    value = float(call.required("FLOTTANT"))
-    expected = call.read("FLOTTANT")
-    tolerance = None if expected is None else float(call.required("FLOTTANT"))
-    reference = None if expected is None else float(expected.value)
-    call.session.checks.append(Check(name, value, reference, tolerance))
+def _bila(
+    call: Call, name: str, value: float, expected: float | None, tolerance: float | None
+) -> None:
+    if expected is not None and tolerance is None:
+        raise call.missing(("FLOTTANT",))
+    call.session.checks.append(Check(str(name).strip(), value, expected, tolerance))

@@ -8,16 +8,23 @@ from ssilang.io.mesh_files.avs import avs_lines, structure_of
 from ssilang.io.mesh_files.stl import stl_lines
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.changes.local_refinement import parted
 from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
+from ssilang.language.registry import arg, choice, flag, key, opt, said
 from ssilang.language.run.call import Call
 from ssilang.operators.files.outputs import run_output
 from ssilang.operators.files.writing import SORT, target_path
 
 
-@SORT.on(
-    "AVS",
+@SORT.form(
+    said("AVS"),
+    opt("mesh", "MAILLAGE", en="mesh", fr="maillage"),
+    opt("nodal", "CHPOINT", en="nodal field", fr="champ par points"),
+    opt("cells", "MCHAML", en="field in cells", fr="champ par éléments"),
+    flag("follows", "SUIT", en="behind what is written", fr="à la suite"),
+    key("time", "TEMP", arg("t", "FLOTTANT"), en="time, in s", fr="temps, en s"),
     syntax="SORT 'AVS ' (MAIL1) (CHPO1) (MCHAML1) ('SUIT') ('TEMP' FLOT1) ;",
     en="AVS: a mesh (else the cells of the field in cells, else the nodes of the nodal field) with "
     "a nodal field and a field in cells (one mean value a cell), in AVS UCD text. SUIT appends a "
@@ -31,35 +38,26 @@ from ssilang.operators.files.writing import SORT, target_path
         "SORT 'AVS ' L 'TEMP' 1.5 ;",
     ),
 )
-def _avs(call: Call, word: str) -> None:
-    found: dict[type, object] = {}
-    time: float | None = None
-    follows = False
-    while True:
-        said = call.keyword(("SUIT", "TEMP"))
-        if said == "SUIT":
-            follows = True
-            continue
-        if said == "TEMP":
-            time = float(call.required("FLOTTANT", after=call.keyword_end))
-            continue
-        operand = call.read("MAILLAGE", "CHPOINT", "MCHAML")
-        if operand is None:
-            break
-        found[type(operand.value)] = operand.value
-    nodal, cells = found.get(NodeField), found.get(CellField)
-    assert nodal is None or isinstance(nodal, NodeField)
-    assert cells is None or isinstance(cells, CellField)
-    mesh = _support(call, found.get(Mesh), nodal, cells)
+def _avs(
+    call: Call,
+    mesh: Mesh | None,
+    nodal: NodeField | None,
+    cells: CellField | None,
+    follows: bool,
+    time: float | None,
+) -> None:
+    support = _support(call, mesh, nodal, cells)
     output = run_output(call.session)
     if not follows:
         output.reopen("SORT")
-    lines = avs_lines(structure_of(mesh, nodal, cells, time))
+    lines = avs_lines(structure_of(support, nodal, cells, time))
     output.add_lines("SORT", target_path(call, ".inp"), lines)
 
 
-def _support(call: Call, mesh: object, nodal: NodeField | None, cells: CellField | None) -> Mesh:
-    if isinstance(mesh, Mesh):
+def _support(
+    call: Call, mesh: Mesh | None, nodal: NodeField | None, cells: CellField | None
+) -> Mesh:
+    if mesh is not None:
         return parted(mesh)[0]
     if cells is not None and cells.blocks:
         blocks: dict[int, CellBlock] = {id(b.cells): b.cells for b in cells.blocks}
@@ -69,21 +67,37 @@ def _support(call: Call, mesh: object, nodal: NodeField | None, cells: CellField
     raise call.missing(("MAILLAGE", "CHPOINT", "MCHAML"))
 
 
-@SORT.on(
-    "STL",
+@SORT.form(
+    said("STL"),
+    arg("mesh", "MAILLAGE", en="surface of TRI3", fr="surface de TRI3"),
     syntax="SORT 'STL ' MAIL1 ;",
     en="STL: a surface of TRI3 as STL text.",
     fr="STL : une surface de TRI3 en texte STL.",
 )
-def _stl(call: Call, word: str) -> None:
-    mesh = call.required("MAILLAGE")
+def _stl(call: Call, mesh: Mesh) -> None:
     output = run_output(call.session)
     output.reopen("SORT")
     output.add_lines("SORT", target_path(call, ".stl"), stl_lines(mesh))
 
 
-@SORT.on(
-    "MAT",
+@SORT.form(
+    said("MAT"),
+    choice(
+        "form",
+        ("MM", "MATRIX_MARKET", "RB", "RUTHERFORD_BOEING"),
+        en="format, only MM is made",
+        fr="format, seul MM existe",
+    ),
+    choice(
+        "storage",
+        ("ASSEMBLEE", "ELEMENTAIRE"),
+        en="assembled, the only one made",
+        fr="assemblée, la seule forme qui existe",
+    ),
+    key("title", "TITR", arg("t", "MOT"), default="", en="title", fr="titre"),
+    flag("unknowns", "INCO", en="a file of the unknowns too", fr="avec un fichier des inconnues"),
+    flag("places", "GEOM", en="a file of the nodes too", fr="avec un fichier des noeuds"),
+    arg("matrix", "RIGIDITE", en="matrix", fr="rigidité"),
     syntax="SORT 'MAT ' 'MM' 'ASSE' RIGI1 ('TITR' MOT1) ('INCO') ('GEOM') ;",
     en="MAT: a matrix, assembled, as Matrix Market text (.mm), the multipliers of its conditions "
     "behind its unknowns. INCO adds a file .inco (local node and component of each unknown, then "
@@ -98,31 +112,24 @@ def _stl(call: Call, word: str) -> None:
         "SORT 'MAT ' 'MM' 'ASSE' K 'INCO' ;",
     ),
 )
-def _mat(call: Call, word: str) -> None:
-    form = call.keyword(("MM", "MATRIX_MARKET", "RB", "RUTHERFORD_BOEING"))
-    storage = call.keyword(("ASSEMBLEE", "ELEMENTAIRE"))
+def _mat(
+    call: Call,
+    form: str | None,
+    storage: str | None,
+    title: str,
+    unknowns: bool,
+    places: bool,
+    matrix: Matrix,
+) -> None:
     if form not in ("MM", "MATRIX_MARKET") or storage != "ASSEMBLEE":
         raise call.error("operators.files.only-matrix-market")
-    title, extras, matrix = "", set(), None
-    while True:
-        said = call.keyword(("TITR", "INCO", "GEOM"))
-        if said == "TITR":
-            title = str(call.required("MOT", after=call.keyword_end))
-        elif said is not None:
-            extras.add(said)
-        elif (operand := call.read("RIGIDITE")) is not None:
-            matrix = operand.value
-        else:
-            break
-    if matrix is None:
-        raise call.missing(("RIGIDITE",))
     system = system_of(matrix)
     path = target_path(call, ".mm")
     output = run_output(call.session)
-    texts = {path: market_lines(system, title)}
-    if "INCO" in extras:
+    texts = {path: market_lines(system, str(title))}
+    if unknowns:
         texts[path.with_suffix(".inco")] = unknown_lines(system)
-    if "GEOM" in extras:
+    if places:
         texts[path.with_suffix(".geom")] = node_lines(system, matrix.table.coordinates)
     for target, lines in texts.items():
         write_text(target, "".join(line + "\n" for line in lines))

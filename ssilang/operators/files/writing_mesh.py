@@ -10,6 +10,7 @@ import numpy as np
 from ssilang.io.archive import Archive, Decoder, Encoder, Record, read_archive, write_archive
 from ssilang.io.errors import InputError
 from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.language.registry import flag, main, named
 from ssilang.language.run.call import Call
 from ssilang.operators.files.outputs import input_path, option_name, run_output
 from ssilang.operators.files.reading import LIRE
@@ -17,8 +18,9 @@ from ssilang.operators.files.writing import SORT, target_path
 from ssilang.operators.workspace import workspace
 
 
-@SORT.on_type(
-    "MAILLAGE",
+@SORT.form(
+    main("mesh", "MAILLAGE", en="mesh", fr="maillage"),
+    flag("kept", "NOOP", en="changes nothing", fr="sans effet"),
     syntax="SORT MAIL1 ('NOOP') ;",
     en="Without a word: a mesh with its named parts (points and meshes on its nodes), in a file of "
     "ssilang's own that LIRE reads; SAUV saves everything else too.",
@@ -29,8 +31,7 @@ from ssilang.operators.workspace import workspace
         "OPTI LECT 'line' ; LIRE L ; MESS (NBEL L) ;",
     ),
 )
-def _sort_mesh(call: Call, mesh: Mesh) -> None:
-    call.keyword(("NOOP",))
+def _sort_mesh(call: Call, mesh: Mesh, kept: bool) -> None:
     frame = call.session.frame
     encoder = Encoder()
     names = {}
@@ -56,17 +57,15 @@ def _is_part(value: Any, mesh: Mesh) -> bool:
     return False
 
 
-@LIRE.on(
-    "",
+@LIRE.form(
+    named("wanted", optional=True, en="mesh that must be there", fr="maillage qui doit y être"),
     syntax="LIRE (GEO1) ;",
     en="Without a word: the mesh and its named parts from the file that OPTI LECT names, written "
     "by SORT; GEO1 must be one of them if it is given.",
     fr="Sans mot : le maillage et ses parties nommées du fichier que nomme OPTI LECT, écrit par "
     "SORT ; GEO1 doit en être un s'il est donné.",
 )
-def _lire_mesh(call: Call, word: str) -> None:
-    operand = call.read("*")
-    wanted = "" if operand is None else operand.name or str(operand.value).strip().upper()
+def _lire_mesh(call: Call, wanted: str) -> None:
     path = input_path(call, option_name(call.session, "LECT", 4))
     with closing(read_archive(path)) as archive:
         _restore(call, archive, wanted)

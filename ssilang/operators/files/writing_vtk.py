@@ -15,6 +15,7 @@ from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.changes.local_refinement import parted
 from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.language.registry import arg, choice, flag, key, many, said
 from ssilang.language.run.call import Call
 from ssilang.language.values import Table
 from ssilang.operators.files.outputs import run_output
@@ -47,8 +48,33 @@ class _Said:
             self.cells[name or f"CHEL{len(self.cells) + 1}"] = value
 
 
-@SORT.on(
-    "VTK",
+@SORT.form(
+    said("VTK"),
+    many(
+        "objects",
+        *_OBJECTS,
+        "MOT",
+        en="meshes, fields and tables of them, each with a name or not",
+        fr="maillages, champs et tables de tels objets, chacun avec ou sans nom",
+    ),
+    choice(
+        "encoding",
+        _ENCODINGS,
+        default="ZIP",
+        en="as text, binary or packed",
+        fr="en texte, en binaire ou compressé",
+    ),
+    choice(
+        "listing",
+        _LISTS,
+        default="AUTO",
+        en="the series goes on, begins anew, or is not listed",
+        fr="la série se poursuit, recommence, ou n'est pas énumérée",
+    ),
+    key("time", "TEMP", arg("t", "FLOTTANT"), en="time, in s", fr="temps, en s"),
+    flag("double", "DOUBLE_PRECISION", en="changes nothing", fr="sans effet"),
+    gives=(),
+    by_hand="a word right behind an object is its name, unless it says an option",
     syntax="SORT 'VTK ' OBJ1 (MOT1) (OBJ2 (MOT2) ...) ('FORM'|'BINA'|'ZIP') "
     "('AUTO'|'NOUV'|'SUIT'|'NPVD') ('TEMP' FLOT1) ('DOUBLE_PRECISION') ;",
     en="VTK: meshes, nodal fields, fields in cells and tables of them, each with an optional name, "

@@ -11,7 +11,7 @@ from ssilang.kernel.mesh.lines.subdivision import subdivide
 from ssilang.language.registry import Help, arg, shared
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
-from ssilang.operators.lists.making import check_length
+from ssilang.operators.lists.progressions import check_length
 from ssilang.operators.mesh.changes.refining import refined
 
 RAFF = shared(

@@ -23,7 +23,7 @@ from ssilang.language.registry import (
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots, ListReel, Table
 from ssilang.operators.dispatch import ORDO, UNIQ
-from ssilang.operators.lists.items import taken
+from ssilang.operators.lists.places import taken
 
 _PRECISION = 2.2e-16
 Sortable = ListReel | ListEnti | ListMots

@@ -9,7 +9,7 @@ from ssilang.kernel.matrices.assembly import numbering_of
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.language.registry import Chosen, Help, arg, operator, select
 from ssilang.language.run.call import Call
-from ssilang.operators.numbers.numbers import session_generator
+from ssilang.operators.numbers.noise import session_generator
 
 _TWO = "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; K = (APPU 'UX' 4. P) ET (APPU 'UX' 5. Q) ; "
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from ssilang.language.registry import OPERATORS, Help, operator
+from ssilang.language.registry import OPERATORS, Help, arg, operator, opt, shared
 from ssilang.language.run.call import Call
 from ssilang.language.run.library import standard_procedures
+from ssilang.language.run.session import Session
 from ssilang.language.say.reference import (
     operator_page,
     overview,
@@ -16,6 +17,7 @@ from ssilang.operators.word_pages import help_text, near_name
 
 @operator(
     "INFO",
+    arg("said", "MOT", en="operator, procedure or word", fr="opérateur, procédure ou mot"),
     family="session",
     full_name="INFORMATION",
     help=Help(
@@ -27,23 +29,19 @@ from ssilang.operators.word_pages import help_text, near_name
         syntax="INFO NAME1 ;",
         examples=("INFO DENS ;", "INFO JOINT_SDM ;", "INFO 'uplift' ;"),
     ),
-    reads_itself=True,
 )
-def info(call: Call) -> None:
+def info(call: Call, said: str) -> None:
     """Print the page of the word that follows."""
-    said = call.word()
-    if said is None:
-        raise call.missing(("MOT",))
     text = help_text(said, call.session.language)
     if not text:
         near = near_name(said)
-        hint = f"did you mean {near}?" if near else "`ssilang help` lists what there is"
-        raise call.bad(f"there is no help about {said.upper()}", said, hint)
+        raise call.error("operators.session.no-help", said, said=said.upper(), near=near)
     call.session.print(text)
 
 
 @operator(
     "NOTI",
+    opt("said", "MOT", en="changes nothing", fr="sans effet"),
     family="session",
     full_name="NOTICE",
     help=Help(
@@ -52,17 +50,15 @@ def info(call: Call) -> None:
         syntax="NOTI (MOT1) ;",
         examples=("NOTI GIBI ;",),
     ),
-    reads_itself=True,
 )
-def noti(call: Call) -> None:
+def noti(session: Session, said: str | None) -> None:
     """Print the overview; the word that may follow chooses nothing here."""
-    call.word()
-    language = call.session.language
-    call.session.print(overview(standard_procedures().values(), language))
+    session.print(overview(standard_procedures().values(), session.language))
 
 
 @operator(
     "AIDE",
+    arg("said", "MOT", en="text looked for", fr="texte cherché"),
     family="session",
     help=Help(
         en="List of the operators and procedures whose help contains a text; the list is printed "
@@ -72,13 +68,9 @@ def noti(call: Call) -> None:
         syntax="LISMO1 = AIDE MOT1 ;",
         examples=("L1 = AIDE 'EIGEN' ; LIST (DIME L1) ;",),
     ),
-    reads_itself=True,
 )
-def aide(call: Call) -> ListMots:
+def aide(session: Session, said: str) -> ListMots:
     """Search the help in both languages, whatever the case."""
-    said = call.word()
-    if said is None:
-        raise call.missing(("MOT",))
     pages = [operator_page(o) for n, o in sorted(OPERATORS.items()) if n == o.name]
     pages += [procedure_page(p) for p in standard_procedures().values()]
     wanted = said.upper()
@@ -88,15 +80,14 @@ def aide(call: Call) -> ListMots:
         if wanted in " ".join((p.name, p.full_name, p.title, p.help.en, p.help.fr)).upper()
     ]
     if found:
-        call.session.print(" ".join(found))
+        session.print(" ".join(found))
     return ListMots(found)
 
 
-@operator(
+SOUC = shared(
     "SOUC",
-    family="session",
-    full_name="SOUCI",
-    help=Help(
+    "session",
+    Help(
         en="Flag of doubts: without argument, whether it is raised; with an ENTIER, raises it to "
         "that level (it only grows; 0 lowers it).",
         fr="Indicateur de soucis : sans argument, s'il est levé ; avec un ENTIER, le porte à ce "
@@ -104,14 +95,20 @@ def aide(call: Call) -> ListMots:
         syntax="LOG1 = SOUC ; SOUC N1 ;",
         examples=("SOUC 2 ; LIST (SOUC) ; SOUC 0 ; LIST (SOUC) ;",),
     ),
-    reads_itself=True,
+    full_name="SOUCI",
 )
-def souc(call: Call) -> bool | None:
-    """Read or set the flag, which lives in the session's options."""
-    options = call.session.options
-    level = int(options.get("SOUC", 0))
-    operand = call.read("ENTIER")
-    if operand is None:
-        return level != 0
-    options["SOUC"] = max(level, operand.value) if operand.value else 0
-    return None
+
+
+@SOUC.form(arg("level", "ENTIER", en="level, 0 to lower the flag", fr="niveau, 0 pour annuler"))
+def _raise_flag(session: Session, level: int) -> None:
+    session.options["SOUC"] = max(_level(session), level) if level else 0
+
+
+@SOUC.form()
+def _is_raised(session: Session) -> bool:
+    return _level(session) != 0
+
+
+def _level(session: Session) -> int:
+    """The level of doubts, which lives in the session's options."""
+    return int(session.options.get("SOUC", 0))

@@ -11,7 +11,7 @@ from ssilang.kernel.curves.curve import Load
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Model
-from ssilang.language.registry import Help, arg, flag, lead, many, named, operator, opt, shared
+from ssilang.language.registry import ANY, Help, arg, flag, lead, many, named, operator, opt, shared
 from ssilang.language.run.call import Call
 from ssilang.language.run.procedures import BoundMethod, call_procedure
 from ssilang.language.run.session import Session
@@ -261,8 +261,9 @@ def nomm(call: Call, name: Any, value: Any) -> None:
 
 @operator(
     "OBJE",
-    arg("constructor", "PROCEDUR", en="method, then its arguments", fr="méthode et ses arguments"),
-    gives="OBJET",
+    arg("constructor", "PROCEDUR", en="method that makes it", fr="méthode qui le construit"),
+    many("arguments", en="its arguments", fr="ses arguments"),
+    gives=ANY,
     family="objects",
     full_name="OBJET",
     help=Help(
@@ -274,9 +275,11 @@ def nomm(call: Call, name: Any, value: Any) -> None:
         syntax="OBJ1 = OBJE METH1 (ARG1 ...) ;",
         examples=("DEBM POSE X*ENTIER ; %VAL = X ; FINM ; O = OBJE POSE 5 ; LIST (O%VAL + 1) ;",),
     ),
+    reads_itself="the constructor reads its arguments itself",
 )
-def obje(call: Call, constructor: Procedure) -> tuple[Any, ...]:
+def obje(call: Call) -> tuple[Any, ...]:
     """Construct an object."""
+    constructor: Procedure = call.required("PROCEDUR")
     made = Objet(constructor.name)
     results = call_procedure(call.session.evaluator, BoundMethod(constructor, made), call)
     return (made, *results)

@@ -12,7 +12,7 @@ from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.matrices.matrix import PRIMAL_TO_DUAL
 from ssilang.kernel.mesh.cells import CELL_TYPES, POLYGON_SIDES
 from ssilang.language.near import nearest, nearest_names
-from ssilang.language.registry import Help, arg, operator
+from ssilang.language.registry import ANY, Help, arg, each, flag, lead, operator
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SsiError
@@ -85,15 +85,15 @@ def _one_of(call: Call, option: str, words: tuple[str, ...]) -> str:
     for word in words:
         if said[:4] == word[:4].rstrip():
             return word
-    near = nearest(said, words, 0.3)
-    hint = f"did you mean {near}? " if near else ""
     told = told_values(option, words, call.session.language)
     raise SsiError(
-        "bad-value",
+        "operators.session.no-value-of-option",
         call.used[-1].span,
-        operator="OPTION",
-        message=f"'{said}' is no value of {option}",
-        hint="\n".join([f"{hint}it takes {' '.join(words)}", *told]),
+        said=said,
+        option=option,
+        near=nearest(said, words, 0.3),
+        values=words,
+        told="".join(f"\n{line}" for line in told),
     )
 
 
@@ -101,7 +101,7 @@ def _one_of(call: Call, option: str, words: tuple[str, ...]) -> str:
 def _dime(call: Call, word: str) -> None:
     n = call.required("ENTIER", after=call.keyword_end)
     if n not in (1, 2, 3):
-        raise call.bad(f"the space has 1, 2 or 3 dimensions, not {n}", n)
+        raise call.error("operators.session.dimension", n, n=n)
     ws = workspace(call.session)
     ws.dimension = n
     if ws.mode.dimension != n:
@@ -120,7 +120,7 @@ def _dens(call: Call, word: str) -> None:
 
 def _set_density(call: Call, size: float) -> None:
     if size <= 0:
-        raise call.bad(f"a mesh size is positive, this one is {size:g}", size)
+        raise call.error("operators.session.mesh-size", size, size=size)
     workspace(call.session).density = float(size)
 
 
@@ -207,8 +207,11 @@ def _inco(call: Call, word: str) -> None:
         for said in (primal, dual)
     ]
     if len(names[0]) != len(names[1]):
-        raise call.bad(
-            f"{len(names[0])} primal unknowns and {len(names[1])} dual ones are named", dual
+        raise call.error(
+            "operators.session.unknowns-in-pairs",
+            dual,
+            n_primal=len(names[0]),
+            n_dual=len(names[1]),
         )
     earlier = workspace(call.session).options.get(word, {})
     _store(call, word, {**earlier, **dict(zip(*names, strict=True))})
@@ -240,6 +243,13 @@ def _donn(call: Call, word: str) -> None:
 
 @operator(
     "OPTI",
+    each(
+        "settings",
+        arg("option", "MOT", en="option", fr="option", kind="option"),
+        arg("value", en="its value", fr="sa valeur"),
+        en="options, each with its value",
+        fr="options, chacune avec sa valeur",
+    ),
     family="session",
     full_name="OPTION",
     help=Help(
@@ -252,7 +262,8 @@ def _donn(call: Call, word: str) -> None:
         "OPTI 'REST' FICHIER ; OPTI 'ACQU' FICHIER ; OPTI 'DONN' FICHIER ;",
         examples=("OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; LIST (VALE 'DIME') ;",),
     ),
-    reads_itself=True,
+    gives=(),
+    reads_itself="each option reads its value, a word even where a variable bears its name",
 )
 def opti(call: Call) -> None:
     """Read option after option; then check that mode and dimension agree."""
@@ -263,25 +274,30 @@ def opti(call: Call) -> None:
         found = True
     left = call.peek_word()
     if left is not None:
-        raise _unknown_option(call, left)
+        word = call.word()
+        raise _unknown_option(call, left, word)
     if not found:
-        raise call.bad("no option is named", hint="for example OPTI DIME 2 ELEM QUA4 ;")
+        raise call.error("operators.session.no-option")
     ws = workspace(call.session)
     if ws.dimension and ws.mode.dimension != ws.dimension:
-        raise call.bad(
-            f"mode {ws.mode.value} needs dimension {ws.mode.dimension}, DIME is {ws.dimension}",
-            hint=f"set DIME {ws.mode.dimension}",
+        raise call.error(
+            "operators.session.mode-and-dimension",
+            mode=ws.mode.value,
+            dimension=ws.mode.dimension,
+            present=ws.dimension,
         )
 
 
-def _unknown_option(call: Call, said: str) -> SsiError:
-    word = call.word()
+def _unknown_option(call: Call, said: str, word: str | None = None) -> SsiError:
     near = nearest_names(said.strip()[:4], sorted(READERS), 0.5)
-    hint = f"did you mean {near[0]}?" if near else "options are " + " ".join(sorted(READERS))
-    hint = "\n".join([hint, *told_options(near, call.session.language)])
-    span = call.used[-1].span if call.used else call.span
+    told = told_options(near, call.session.language)
     return SsiError(
-        "bad-value", span, operator="OPTION", message=f"'{word}' is no option", hint=hint
+        "operators.session.unknown-option",
+        call.used[-1].span if call.used else call.span,
+        said=word or said,
+        near=near[0] if near else "",
+        options=sorted(READERS),
+        told="".join(f"\n{line}" for line in told),
     )
 
 
@@ -302,6 +318,9 @@ _CURRENT: dict[str, Callable[[Workspace], Any]] = {
 
 @operator(
     "VALE",
+    lead("said", "MOT", en="option", fr="option", kind="option"),
+    flag("harmonic", "FOUR", en="the harmonic of MODE FOUR", fr="l'harmonique de MODE FOUR"),
+    gives=ANY,
     family="session",
     full_name="VALEUR",
     terminal=True,
@@ -311,19 +330,15 @@ _CURRENT: dict[str, Callable[[Workspace], Any]] = {
         syntax="VAL1 = VALE MOT1 ;",
         examples=("OPTI DIME 3 ; N = VALE 'DIME' ; LIST N ;",),
     ),
-    reads_itself=True,
 )
-def vale(call: Call) -> Any:
+def vale(call: Call, said: str, harmonic: bool) -> Any:
     """Read an option back."""
     ws = workspace(call.session)
-    known = sorted({*_CURRENT, *_DEFAULTS, *READERS})
-    word = call.keyword(known)
+    known = {*_CURRENT, *_DEFAULTS, *READERS}
+    word = next((w for w in known if w[:4] == said.upper().rstrip()[:4]), None)
     if word is None:
-        left = call.peek_word()
-        if left is None:
-            raise call.missing(("MOT",))
-        raise _unknown_option(call, left)
-    if word == "MODE" and call.keyword(("FOUR",)) is not None:
+        raise _unknown_option(call, said.upper(), said)
+    if word == "MODE" and harmonic:
         return ws.fourier
     if word == "INCO":
         return _unknowns(ws)
@@ -331,7 +346,7 @@ def vale(call: Call) -> Any:
         return _CURRENT[word](ws)
     value = ws.options.get(word, _DEFAULTS.get(word))
     if value is None:
-        raise call.bad(f"option {word} was not set")
+        raise call.error("operators.session.option-not-set", word=word)
     if word == "ERRE":
         return {"IGNORE": 2, "CONTROLE": 1}.get(str(value), 0)
     return Mot(value) if isinstance(value, str) else value
@@ -339,7 +354,7 @@ def vale(call: Call) -> Any:
 
 @operator(
     "DENS",
-    arg("size", "FLOTTANT"),
+    arg("size", "FLOTTANT", en="mesh size", fr="taille de maille", unit="m"),
     family="mesh",
     full_name="DENSITE",
     help=Help(

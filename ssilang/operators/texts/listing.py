@@ -300,7 +300,6 @@ LIST = shared(
     full_name="LISTE",
     terminal=True,
 )
-_OBJECT = {"en": "what is printed", "fr": "ce qui est imprimé"}
 
 
 @LIST.form(
@@ -318,7 +317,7 @@ def _list_names(call: Call, star: bool, kind: str) -> None:
 
 @LIST.form(
     flag("brief", "RESU", en="less of it", fr="en résumé"),
-    arg("value", "*", "TEXTE", **_OBJECT),
+    arg("value", "*", "TEXTE", en="what is printed", fr="ce qui est imprimé"),
     many(
         "numbers",
         "ENTIER",
@@ -330,7 +329,7 @@ def _list_object(session: Session, brief: bool, value: Any, numbers: tuple[int, 
     session.print(described(value, "RESU" if brief else "", numbers))
 
 
-@LIST.form(lead("value", "*", "TEXTE", **_OBJECT))
+@LIST.form(lead("value", "*", "TEXTE", en="what is printed", fr="ce qui est imprimé"))
 def _list_word(session: Session, value: Any) -> None:
     """A word that is spelt like the keyword, alone."""
     session.print(described(value))

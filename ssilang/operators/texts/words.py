@@ -16,7 +16,7 @@ from ssilang.language.values import (
     type_of,
 )
 from ssilang.operators.dispatch import CHAN, DIME, EXTR, union
-from ssilang.operators.lists.making import check_length
+from ssilang.operators.lists.progressions import check_length
 from ssilang.operators.texts.fortran_format import DEFAULT_FORMAT, formatted
 
 _MARKS = frozenset("*/<>")

@@ -140,6 +140,14 @@ def test_repeated_words_end_at_a_keyword(declare):
     assert declare.found == [{"names": ("UX", "UY", "UZ"), "how": "AVEC"}]
 
 
+def test_a_keyword_may_stand_between_the_operands_of_many(declare):
+    declare(
+        many("numbers", "ENTIER", at_least=1), flag("quadratic", "QUAD"), key("a", "A", arg("a"))
+    )
+    assert run("X = ZZZZ 1 'QUAD' 2 'A' 3 4 ;")[0] == 0
+    assert declare.found == [{"numbers": (1, 2, 4), "quadratic": True, "a": 3}]
+
+
 def test_the_type_of_the_main_operand_chooses_behind_a_word(declare):
     declare(main("value", "LISTREEL"), flag("absolute", "ABS"))
     declare(main("value", "ENTIER"), opt("b", "FLOTTANT"))

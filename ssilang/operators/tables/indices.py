@@ -1,12 +1,25 @@
-"""TABL INDE and tables in DIME, ENLE, COPI, EXTR; tables of type VECTEUR in sums."""
+"""TABL INDE OTER and tables in DIME, ENLE, COPI; tables of type VECTEUR in sums."""
 
 from __future__ import annotations
 
 from typing import Any
 
-from ssilang.language.registry import Help, arg, flag, main, opt, shared
+from ssilang.language.registry import (
+    Help,
+    arg,
+    flag,
+    main,
+    operator,
+    opt,
+    shared,
+)
 from ssilang.language.run.call import Call
-from ssilang.language.values import Mot, Table, known_types, type_of
+from ssilang.language.values import (
+    Mot,
+    Table,
+    known_types,
+    type_of,
+)
 from ssilang.operators.dispatch import COPI, DIME, ENLE
 from ssilang.operators.numbers.arithmetic import rule
 
@@ -151,3 +164,22 @@ def _check_vectors(*tables: Table) -> None:
 for _kind in ("ENTIER", "FLOTTANT"):
     rule("* /", "TABLE", _kind)(_scale_vector)
     rule("*", _kind, "TABLE")(lambda sign, factor, table: _scale_vector(sign, table, factor))
+
+
+@operator(
+    "OTER",
+    arg("table", "TABLE", en="table", fr="table"),
+    arg("index", en="index to remove", fr="indice à supprimer"),
+    family="tables",
+    help=Help(
+        en="Removes an index from a table, in place.",
+        fr="Supprime un indice d'une table, sur place.",
+        syntax="OTER TAB1 OBJ1 ;",
+        examples=("T = TABL ; T . 1 = 2. ; OTER T 1 ; LIST (DIME T) ;",),
+    ),
+)
+def oter(call: Call, table: Table, index: Any) -> None:
+    """Forget an index."""
+    if not table.has(index):
+        raise call.error("no-index", index, index=index, known=[k for k, _ in table.items()])
+    table.remove(index)

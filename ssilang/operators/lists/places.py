@@ -1,4 +1,4 @@
-"""Items of lists: EXTR ENLE INSE REMP SOMM DIME POSI INVE COPI, ET."""
+"""Items of lists by their places: EXTR ENLE INSE REMP SOMM DIME INVE COPI, ET."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ from ssilang.language.values import (
     type_of,
 )
 from ssilang.operators.dispatch import COPI, DIME, ENLE, EXTR, INVE, union
-from ssilang.operators.lists.making import check_length
+from ssilang.operators.lists.progressions import check_length
 
 AnyList = ListReel | ListEnti | ListMots | ListChpo | ListObje
 LISTS = ("LISTREEL", "LISTENTI", "LISTMOTS", "LISTCHPO", "LISTOBJE")

@@ -1,0 +1,152 @@
+"""DANS SAUF INTE: what lists, meshes and words hold."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.language.registry import (
+    Help,
+    Like,
+    arg,
+    choice,
+    flag,
+    main,
+    operator,
+    opt,
+    shared,
+)
+from ssilang.language.run.call import Call
+from ssilang.language.values import ListEnti, ListMots, ListReel
+from ssilang.operators.dispatch import INTE
+from ssilang.operators.lists.places import taken
+from ssilang.operators.lists.search import equal_items
+
+DANS = shared(
+    "DANS",
+    "lists",
+    Help(
+        en="Whether a list of integers stands in another one (as its k-th stretch of that "
+        "length), a real in a list, a point in a mesh, a list of reals in another, in sequence "
+        "('SEQU') or in any order ('QUEL').",
+        fr="Dit si une liste d'entiers est dans une autre (comme sa k-ième tranche de cette "
+        "longueur), un réel dans une liste, un point dans un maillage, une liste de réels dans "
+        "une autre, en séquence ('SEQU') ou dans un ordre quelconque ('QUEL').",
+        syntax="LOG1 = DANS LENT1 LENT2 ; LOG1 = DANS LREE1 X1 ; LOG1 = DANS POIN1 MAIL1 ; "
+        "LOG1 = DANS ('SEQU' | 'QUEL') LREE1 LREE2 ;",
+        examples=("SI (DANS (PROG 1. 2.) 2.) ; MESS 'yes' ; FINSI ;",),
+    ),
+)
+_WAY = choice(
+    "way",
+    ("SEQU", "QUEL"),
+    default="SEQU",
+    en="in sequence, or in any order",
+    fr="en séquence, ou dans un ordre quelconque",
+)
+_SECOND = {"en": "list where it is looked for", "fr": "liste où on la cherche"}
+
+
+@DANS.form(
+    _WAY,
+    arg("point", "POINT", en="point", fr="point"),
+    arg("mesh", "MAILLAGE", en="mesh", fr="maillage"),
+)
+def _point_in_mesh(way: str, point: Point, mesh: Mesh) -> bool:
+    return bool(np.any(mesh.node_ids == point.node))
+
+
+@DANS.form(
+    _WAY,
+    arg("part", "LISTENTI", en="list of integers", fr="liste d'entiers"),
+    arg("whole", "LISTENTI", **_SECOND),
+)
+def _integers_in_integers(way: str, part: ListEnti, whole: ListEnti) -> bool:
+    return _as_stretch(part.values, whole.values)
+
+
+@DANS.form(
+    _WAY,
+    arg("whole", "LISTREEL", en="list of reals", fr="liste de réels"),
+    arg("number", "FLOTTANT", en="number looked for", fr="nombre cherché"),
+)
+def _number_in_reals(way: str, whole: ListReel, number: float) -> bool:
+    return bool(np.any(np.abs(whole.values - number) <= _slack(whole.values)))
+
+
+@DANS.form(
+    _WAY,
+    arg("part", "LISTREEL", en="list of reals", fr="liste de réels"),
+    arg("whole", "LISTREEL", **_SECOND),
+)
+def _reals_in_reals(way: str, part: ListReel, whole: ListReel) -> bool:
+    left, right = part.values, whole.values
+    slack = _slack(right)
+    if way == "QUEL":
+        return all(bool(np.any(np.abs(right - v) <= slack)) for v in left)
+    if len(left) == 0:
+        return True
+    if len(left) > len(right):
+        return False
+    windows = np.lib.stride_tricks.sliding_window_view(right, len(left))
+    return bool(np.any(np.all(np.abs(windows - left) <= slack, axis=1)))
+
+
+def _slack(values: Any) -> float:
+    gaps = np.abs(np.diff(values))
+    gaps = gaps[gaps > 0]
+    return 1e-8 * float(gaps.min()) if len(gaps) else 0.0
+
+
+def _as_stretch(part: Any, whole: Any) -> bool:
+    p = len(part)
+    if p == 0:
+        return True
+    rows = whole[: len(whole) // p * p].reshape(-1, p)
+    return bool(np.any(np.all(rows == part, axis=1)))
+
+
+_SUBTRACTED = ("LISTREEL", "LISTENTI", "LISTMOTS")
+Subtracted = ListReel | ListEnti | ListMots
+
+
+@operator(
+    "SAUF",
+    arg("first", *_SUBTRACTED, en="list", fr="liste"),
+    arg("second", *_SUBTRACTED, en="items to leave out", fr="éléments à omettre"),
+    opt("tolerance", "FLOTTANT", en="absolute tolerance", fr="tolérance absolue"),
+    flag("fold", "NOCA", en="whatever the case", fr="sans égard à la casse"),
+    gives=Like("first"),
+    family="lists",
+    help=Help(
+        en="The items of a list that are not in a second one.",
+        fr="Les éléments d'une liste qui ne sont pas dans une seconde.",
+        syntax="LIS3 = LIS1 SAUF LIS2 (X1 | 'NOCA') ;",
+        examples=("LIST ((LECT 1 2 3 4) SAUF (LECT 2 4)) ;",),
+    ),
+)
+def sauf(
+    call: Call, first: Subtracted, second: Subtracted, tolerance: float | None, fold: bool
+) -> Any:
+    """Subtract a list from another."""
+    if type(first) is not type(second):
+        raise call.error("operators.lists.lists-of-one-type", second)
+    gone = np.zeros(len(first), dtype=bool)
+    for item in second.values:
+        gone |= equal_items(first.values, item, tolerance, fold)
+    return taken(first, [int(i) for i in np.flatnonzero(~gone)])
+
+
+@INTE.form(
+    main("first", "LISTREEL", en="first list", fr="première liste"),
+    arg("second", "LISTREEL", en="second list", fr="seconde liste"),
+    syntax="LREE3 = LREE1 INTE LREE2 ;",
+    en="Two lists of reals: the values of the first that the second holds as well.",
+    fr="Deux listes de réels : les valeurs de la première que contient aussi la seconde.",
+    examples=("LIST (INTE (PROG 1. 2. 3.) (PROG 2. 3. 4.)) ;",),
+)
+def common_reals(first: ListReel, second: ListReel) -> ListReel:
+    """Values in both lists, in the order of the first."""
+    return ListReel(first.values[np.isin(first.values, second.values)])

@@ -1,0 +1,143 @@
+"""ENTI FLOT VERI: conversions between integers, reals and words."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from ssilang.kernel.fields import node_algebra
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.language.registry import (
+    Help,
+    arg,
+    choice,
+    operator,
+)
+from ssilang.language.run.call import Call
+from ssilang.language.values import ListEnti, ListMots, ListReel
+
+
+def nearest(x: Any) -> Any:
+    """Nearest integer; halves go away from zero."""
+    return np.sign(x) * np.floor(np.abs(x) + 0.5)
+
+
+_ROUNDINGS: dict[str, Callable[[Any], Any]] = {
+    "TRONCATURE": np.trunc, "INFERIEUR": np.floor, "SUPERIEUR": np.ceil, "PROCHE": nearest,
+}  # fmt: skip
+
+
+def number_in(call: Call, word: str) -> float:
+    """The number that a word says, in any usual way of writing it."""
+    try:
+        return float(str(word).strip().upper().replace("D", "E"))
+    except ValueError:
+        raise call.error("operators.numbers.not-number", word, word=word) from None
+
+
+def _whole(call: Call, values: Any) -> Any:
+    if np.any(~np.isfinite(values)) or np.any(np.abs(values) >= 2.0**63):
+        raise call.error("operators.numbers.integer-too-large")
+    return values.astype(np.int64)
+
+
+@operator(
+    "ENTI",
+    choice(
+        "way",
+        tuple(_ROUNDINGS),
+        default="TRONCATURE",
+        en="cut, below, above or nearest",
+        fr="tronqué, en dessous, au-dessus ou le plus proche",
+    ),
+    arg(
+        "value",
+        "ENTIER",
+        "FLOTTANT",
+        "LISTREEL",
+        "LISTENTI",
+        "CHPOINT",
+        "LISTMOTS",
+        "MOT",
+        en="numbers, or words that say them",
+        fr="nombres, ou mots qui les disent",
+    ),
+    gives="ENTIER|LISTENTI|CHPOINT",
+    family="numbers",
+    full_name="ENTIER",
+    help=Help(
+        en="Integer of a real, of each item of a list or value of a field, or written in a word: "
+        "cut ('TRONCATURE', by default), below ('INFERIEUR'), above ('SUPERIEUR'), nearest "
+        "('PROCHE').",
+        fr="Entier d'un réel, de chaque élément d'une liste ou valeur d'un champ, ou écrit dans un "
+        "mot : tronqué ('TRONCATURE', par défaut), en dessous ('INFERIEUR'), au-dessus "
+        "('SUPERIEUR'), le plus proche ('PROCHE').",
+        syntax="OBJ2 = ENTI ('TRONCATURE' | 'INFERIEUR' | 'SUPERIEUR' | 'PROCHE') OBJ1 ;",
+        examples=("LIST (ENTI 'PROCHE' -3.5) ;", "LIST (ENTI (PROG 1.2 2.7)) ;"),
+    ),
+)
+def enti(call: Call, way: str, value: Any) -> Any:
+    """Round."""
+    rounding = _ROUNDINGS[way]
+    if isinstance(value, NodeField):
+        return node_algebra.applied(value, rounding)
+    if isinstance(value, str):
+        value = number_in(call, value)
+    elif isinstance(value, ListMots):
+        value = ListReel([number_in(call, w) for w in value.values])
+    if isinstance(value, int | float):
+        return int(_whole(call, np.asarray(rounding(float(value)))))
+    return ListEnti(_whole(call, rounding(value.values.astype(float))))
+
+
+@operator(
+    "FLOT",
+    arg(
+        "value",
+        "FLOTTANT",
+        "LISTREEL",
+        "LISTENTI",
+        "LISTMOTS",
+        "MOT",
+        en="numbers, or words that say them",
+        fr="nombres, ou mots qui les disent",
+    ),
+    gives="FLOTTANT|LISTREEL",
+    family="numbers",
+    full_name="FLOTTANT",
+    help=Help(
+        en="Real of an integer, of each item of a list, or written in a word.",
+        fr="Réel d'un entier, de chaque élément d'une liste, ou écrit dans un mot.",
+        syntax="OBJ2 = FLOT OBJ1 ;",
+        examples=("LIST (FLOT 3) ;", "LIST (FLOT '-1.5E2') ;"),
+    ),
+)
+def flot(call: Call, value: Any) -> Any:
+    """Convert to reals."""
+    if isinstance(value, str):
+        return number_in(call, value)
+    if isinstance(value, ListMots):
+        return ListReel([number_in(call, w) for w in value.values])
+    return value if isinstance(value, float) else ListReel(value.values)
+
+
+@operator(
+    "VERI",
+    arg("value", "FLOTTANT", "CHPOINT", en="what is tested", fr="ce que l'on teste"),
+    family="numbers",
+    help=Help(
+        en="Whether a real, or all values of a field, are numbers (neither infinite nor "
+        "undefined).",
+        fr="Dit si un réel, ou toutes les valeurs d'un champ, sont des nombres (ni infinis ni "
+        "indéfinis).",
+        syntax="LOG1 = VERI X1 | CHPO1 ;",
+        examples=("SI (VERI 3.) ; MESS 'a number' ; FINSI ;",),
+    ),
+)
+def veri(value: Any) -> bool:
+    """Test for numbers."""
+    if isinstance(value, float):
+        return bool(np.isfinite(value))
+    return all(bool(np.all(np.isfinite(v.values))) for v in value.components.values())

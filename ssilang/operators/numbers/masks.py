@@ -1,0 +1,150 @@
+"""MASQ: ones where values meet a relation, zeros elsewhere."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from ssilang.kernel.fields import cell_algebra, node_algebra
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.language.registry import (
+    Chosen,
+    Entry,
+    Help,
+    arg,
+    by,
+    flag,
+    main,
+    opt,
+    select,
+    shared,
+)
+from ssilang.language.run.call import Call
+from ssilang.operators.numbers.functions import mapped
+
+_TESTS: dict[str, Callable[[Any, Any], Any]] = {
+    "SUPERIEUR": np.greater, "EGSUPE": np.greater_equal, "EGALE": np.equal,
+    "EGINFE": np.less_equal, "INFERIEUR": np.less, "DIFFERENT": np.not_equal,
+}  # fmt: skip
+_LIMITS = {
+    "CHPOINT": ("FLOTTANT", "CHPOINT"),
+    "MCHAML": ("FLOTTANT", "MCHAML"),
+    "LISTREEL": ("FLOTTANT", "LISTREEL", "LISTENTI"),
+    "LISTENTI": ("ENTIER", "FLOTTANT", "LISTENTI"),
+}
+"""What the values of an object may be compared with, by its type."""
+
+MASQ = shared(
+    "MASQ",
+    "numbers",
+    Help(
+        en="Ones where a relation with a number, or with the values of an object of the same "
+        "kind, is met, zeros elsewhere; with 'SOMME' their number. 'EXISTE' tells where a field "
+        "in cells has a component.",
+        fr="Des 1 où une relation avec un nombre, ou avec les valeurs d'un objet de même nature, "
+        "est vérifiée, des 0 ailleurs ; avec 'SOMME' leur nombre. 'EXISTE' dit où un champ par "
+        "éléments a une composante.",
+        syntax="OBJ2 = OBJ1 MASQ 'SUPERIEUR' | 'EGSUPE' | 'EGALE' | 'EGINFE' | 'INFERIEUR' | "
+        "'DIFFERENT' ('SOMME') X1 | OBJ3 ;\n"
+        "OBJ2 = OBJ1 MASQ 'COMPRIS' ('SOMME') X1 X2 | OBJ3 OBJ4 ;\n"
+        "OBJ2 = OBJ1 MASQ 'EXISTE' (MOT1) ;",
+        examples=("LIST (MASQ (PROG 1. 5. 9.) 'SUPERIEUR' 4.) ;",),
+    ),
+    full_name="MASQUE",
+)
+
+
+def _test_of(*limits: str) -> tuple[Entry, ...]:
+    """The relation, with what the values are compared with."""
+    limit = arg("limit", *limits, en="value to compare with", fr="valeur de comparaison")
+    return (
+        select(
+            "test",
+            {
+                **{word: [limit] for word in _TESTS},
+                "COMPRIS": [
+                    arg("low", *limits, en="lower bound", fr="borne inférieure"),
+                    arg("high", *limits, en="upper bound", fr="borne supérieure"),
+                ],
+                "EXISTE": [
+                    opt("component", "MOT", en="component", fr="composante", kind="component")
+                ],
+            },
+            optional=False,
+            en="relation",
+            fr="relation",
+        ),
+        flag("counted", "SOMM", en="number of ones", fr="nombre de uns"),
+    )
+
+
+def _masked(call: Call, value: Any, test: Chosen, counted: bool) -> Any:
+    if test.word == "EXISTE":
+        return _existing(call, value, test["component"])
+    if test.word == "COMPRIS":
+        above = _tested(value, test["low"], np.greater_equal)
+        made = _times(above, _tested(value, test["high"], np.less_equal))
+    else:
+        made = _tested(value, test["limit"], _TESTS[test.word])
+    return _count(made) if counted else made
+
+
+for _kind, _limits in _LIMITS.items():
+    MASQ.form(
+        main("value", _kind, en="values to test", fr="valeurs à tester"),
+        *_test_of(*_limits),
+        gives=by("counted", {True: "ENTIER"}, _kind),
+    )(_masked)
+
+
+def _tested(value: Any, other: Any, test: Callable[[Any, Any], Any]) -> Any:
+    if isinstance(other, int | float):
+        return mapped(lambda x: test(x, other).astype(x.dtype), value)
+    if isinstance(value, NodeField):
+        made = {
+            k: type(v)(v.nodes, test(v.values, other.values_at(k, v.nodes)).astype(float))
+            for k, v in value.components.items()
+        }
+        return node_algebra.rebuilt(value, made)
+    if isinstance(value, CellField):
+        gap = cell_algebra.added(value, other, -1.0)
+        return cell_algebra.applied(gap, lambda x: test(x, 0.0).astype(float))
+    if len(value) != len(other):
+        from ssilang.kernel.base.errors import KernelError
+
+        raise KernelError("operators.numbers.list-lengths", n_first=len(value), n_second=len(other))
+    return type(value)(test(value.values, other.values))
+
+
+def _times(a: Any, b: Any) -> Any:
+    if isinstance(a, NodeField):
+        return node_algebra.multiplied(a, b)
+    if isinstance(a, CellField):
+        return cell_algebra.multiplied(a, b)
+    return type(a)(a.values * b.values)
+
+
+def _count(made: Any) -> int:
+    if isinstance(made, NodeField):
+        return int(sum(v.values.sum() for v in made.components.values()))
+    if isinstance(made, CellField):
+        return int(sum(v.sum() for v in cell_algebra.values_of(made)))
+    return int(made.values.sum())
+
+
+def _existing(call: Call, value: Any, component: str | None) -> CellField:
+    if not isinstance(value, CellField):
+        raise call.error("operators.numbers.existence-of-cells", value)
+    name = None if component is None else str(component).rstrip()
+    blocks = []
+    for block in value.blocks:
+        shape = max((v.shape for v in block.components.values()), default=(len(block.cells), 1))
+        if name is None:
+            made = {k: np.ones(v.shape) for k, v in block.components.items()}
+        else:
+            made = {name: np.full(shape, float(name in block.components))}
+        blocks.append(cell_algebra.rebuilt(block, made))
+    return CellField(tuple(blocks), value.title)

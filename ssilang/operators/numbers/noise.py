@@ -1,0 +1,126 @@
+"""BRUI: random values."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ssilang.io.plots.palette import NAMES as COLOURS
+from ssilang.io.plots.palette import index_of
+from ssilang.kernel.curves.curve import Curve, CurvePart
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.language.registry import (
+    Help,
+    arg,
+    choice,
+    key,
+    opt,
+    shared,
+)
+from ssilang.language.run.call import Call
+from ssilang.language.values import ListEnti, ListReel
+from ssilang.operators.workspace import workspace
+
+
+def session_generator(call: Call, skip: int | None) -> np.random.Generator:
+    """The session's generator; `skip` starts it again, that many terms further."""
+    options = workspace(call.session).options
+    found = options.get("RANDOM GENERATOR")
+    if found is None or skip is not None:
+        found = np.random.default_rng(1)
+        if skip is not None and skip < 0:
+            raise call.error("operators.numbers.negative-skip", skip, skip=skip)
+        if skip:
+            found.random(skip)
+        options["RANDOM GENERATOR"] = found
+    generator: np.random.Generator = found
+    return generator
+
+
+BRUI = shared(
+    "BRUI",
+    "numbers",
+    Help(
+        en="Random values without correlation: Gauss (mean, deviation), uniform (mean, half "
+        "width), exponential; as a list, a curve over given times or a field on a mesh; Poisson as "
+        "a list of integers. A run repeated gives the same values; a last integer skips terms.",
+        fr="Valeurs aléatoires non corrélées : gaussiennes (moyenne, écart-type), uniformes "
+        "(moyenne, amplitude), exponentielles ; en liste, en évolution ou en champ ; Poisson en "
+        "liste d'entiers. Un calcul répété redonne les mêmes ; un dernier entier saute des termes.",
+        syntax="OBJ1 = BRUI 'BLAN' 'GAUS' | 'UNIF' | 'EXPO' X1 X2 N2 | LREE1 (COUL1) | GEO1 (N3) ; "
+        "LENT1 = BRUI 'BLAN' 'POIS' N1 N2 (N3) ;",
+        examples=("LIST (DIME (BRUI 'BLAN' 'GAUS' 0. 1. 10)) ;",),
+    ),
+    full_name="BRUIT",
+)
+_NOISE = key("noise", "BLAN", optional=False, en="white noise", fr="bruit blanc")
+_SKIP = opt(
+    "skip",
+    "ENTIER",
+    en="terms that the generator, begun again, skips",
+    fr="termes que saute le générateur, repris au début",
+)
+
+
+@BRUI.form(
+    _NOISE,
+    choice("law", ("POIS",), optional=False, en="Poisson's law", fr="loi de Poisson"),
+    arg("mean", "ENTIER", en="mean", fr="moyenne"),
+    arg("count", "ENTIER", en="number of values", fr="nombre de valeurs"),
+    _SKIP,
+)
+def _poisson(
+    call: Call, noise: bool, law: str, mean: int, count: int, skip: int | None
+) -> ListEnti:
+    if mean < 0 or count < 0:
+        raise call.error("operators.numbers.negative-mean-or-count")
+    return ListEnti(session_generator(call, skip).poisson(mean, count))
+
+
+@BRUI.form(
+    _NOISE,
+    choice("law", ("GAUS", "UNIF", "EXPO"), optional=False, en="law", fr="loi"),
+    arg("mean", "FLOTTANT", en="mean", fr="moyenne"),
+    arg("width", "FLOTTANT", en="deviation or half width", fr="écart-type ou amplitude"),
+    arg(
+        "where",
+        "ENTIER",
+        "LISTREEL",
+        "MAILLAGE",
+        en="number of values, times, or mesh",
+        fr="nombre de valeurs, instants, ou maillage",
+    ),
+    choice("colour", COLOURS, en="colour of the curve", fr="couleur de l'évolution"),
+    _SKIP,
+    gives="LISTREEL|EVOLUTIO|CHPOINT",
+)
+def _continuous(
+    call: Call,
+    noise: bool,
+    law: str,
+    mean: float,
+    width: float,
+    where: Any,
+    colour: str | None,
+    skip: int | None,
+) -> Any:
+    if width < 0:
+        raise call.error("operators.numbers.negative-width", width, width=width)
+    generator = session_generator(call, skip)
+    if isinstance(where, int) and where < 0:
+        raise call.error("operators.numbers.negative-count", where, where=where)
+    nodes = where.sorted_node_ids if hasattr(where, "sorted_node_ids") else None
+    count = where if isinstance(where, int) else len(where if nodes is None else nodes)
+    values = {
+        "GAUS": lambda: generator.normal(mean, width, count),
+        "UNIF": lambda: generator.uniform(mean - width, mean + width, count),
+        "EXPO": lambda: generator.exponential(width, count),
+    }[law]()
+    if isinstance(where, int):
+        return ListReel(values)
+    if nodes is not None:
+        return NodeField.of(where.nodes, nodes, {"SCAL": values}, "DIFFUS")
+    return Curve(
+        (CurvePart(where.values, values, "TEMPS", "BRUIT", "", index_of(colour) if colour else 0),)
+    )

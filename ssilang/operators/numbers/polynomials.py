@@ -1,0 +1,92 @@
+"""RACP: roots of polynomials."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import ComplexArray, FloatArray
+from ssilang.language.registry import (
+    Help,
+    arg,
+    flag,
+    many,
+    opt,
+    said,
+    shared,
+)
+from ssilang.language.run.call import Call
+from ssilang.language.values import ListReel, Mot
+
+RACP = shared(
+    "RACP",
+    "numbers",
+    Help(
+        en="Real roots of a polynomial A0 + A1 X + A2 X**2 ..., in increasing order; with "
+        "'IMAGINAIRE' real and imaginary parts of all roots; with 'INTE' the first real root in "
+        "an interval (the word VIDE if there is none).",
+        fr="Racines réelles d'un polynôme A0 + A1 X + A2 X**2 ..., par ordre croissant ; avec "
+        "'IMAGINAIRE' parties réelles et imaginaires de toutes ; avec 'INTE' la première racine "
+        "réelle d'un intervalle (le mot VIDE s'il n'y en a pas).",
+        syntax="LREE2 (LREE3) = RACP ('IMAGINAIRE') LREE1 | A0 A1 A2 (A3) (A4) ; "
+        "X1 = RACP 'INTE' X2 X3 LREE1 ;",
+        examples=("LIST (RACP (PROG 6. -5. 1.)) ;",),
+    ),
+    full_name="RACPOL",
+)
+_POLYNOMIAL = (
+    flag("bairstow", "BAIR", en="changes nothing", fr="sans effet"),
+    opt("listed", "LISTREEL", en="coefficients by power", fr="coefficients par puissance"),
+    many("numbers", "FLOTTANT", en="coefficients, else", fr="sinon les coefficients"),
+)
+
+
+@RACP.form(said("IMAG"), *_POLYNOMIAL)
+def _all_roots(
+    call: Call, bairstow: bool, listed: ListReel | None, numbers: tuple[float, ...]
+) -> tuple[ListReel, ListReel]:
+    roots = _roots(call, listed, numbers)
+    return ListReel(roots.real), ListReel(roots.imag)
+
+
+@RACP.form(
+    said("INTE"),
+    arg("low", "FLOTTANT", en="one end of an interval", fr="une borne d'un intervalle"),
+    arg("high", "FLOTTANT", en="the other end", fr="l'autre borne"),
+    *_POLYNOMIAL,
+    gives="FLOTTANT|MOT",
+)
+def _root_within(
+    call: Call,
+    low: float,
+    high: float,
+    bairstow: bool,
+    listed: ListReel | None,
+    numbers: tuple[float, ...],
+) -> float | Mot:
+    real = _real_roots(_roots(call, listed, numbers))
+    inside = real[(real >= min(low, high)) & (real <= max(low, high))]
+    return float(inside[0]) if len(inside) else Mot("VIDE")
+
+
+@RACP.form(*_POLYNOMIAL)
+def _roots_of(
+    call: Call, bairstow: bool, listed: ListReel | None, numbers: tuple[float, ...]
+) -> ListReel:
+    return ListReel(_real_roots(_roots(call, listed, numbers)))
+
+
+def _roots(call: Call, listed: ListReel | None, numbers: tuple[float, ...]) -> ComplexArray:
+    """Roots of a polynomial, by real and then by imaginary part."""
+    coefficients = listed.values if listed is not None else np.asarray(numbers)
+    trimmed = np.trim_zeros(np.asarray(coefficients, dtype=float), "b")
+    if len(trimmed) < 2:
+        raise call.error("operators.numbers.constant-polynomial")
+    roots = np.roots(trimmed[::-1]).astype(complex)
+    return roots[np.lexsort((roots.imag, roots.real))]
+
+
+def _real_roots(roots: ComplexArray) -> FloatArray:
+    # a real double root comes out of the companion matrix with an imaginary part of order
+    # sqrt(machine precision)
+    real = roots.real[np.abs(roots.imag) <= 1e-7 * np.maximum(np.abs(roots), 1e-12)]
+    return np.sort(real)
