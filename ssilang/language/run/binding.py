@@ -25,6 +25,8 @@ from ssilang.language.run.call import Call, Operand, accepts, shortened
 from ssilang.language.say.errors import SsiError
 from ssilang.language.values import Mot, type_of
 
+_LOOKED_FOR = (Keyword, Select)
+
 
 @dataclass(slots=True)
 class _Level:
@@ -61,7 +63,7 @@ class Binder:
         SsiError
             When a mandatory entry cannot be read.
         """
-        keywords = tuple(e for e in entries if isinstance(e, Keyword | Select))
+        keywords = tuple([e for e in entries if isinstance(e, _LOOKED_FOR)])
         level = _Level(keywords, {k.name: [] if k.repeated else k.default for k in keywords})
         self._levels.append(level)
         try:
@@ -350,7 +352,7 @@ def _bound(form: Form, call: Call, main: int | None) -> Bound:
     choice: Any = None
     if main is not None and form.main is not None:
         choice = values[form.main.name] = call.take(main, *form.main.types).value
-        entries = tuple(e for e in entries if e is not form.main)
+        entries = form.rest
     elif form.by_hand and form.said is not None:
         choice = call.keyword(form.said.words, form.said.length)
     if form.by_hand:

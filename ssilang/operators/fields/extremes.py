@@ -11,18 +11,7 @@ from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.language.registry import (
-    Argument,
-    Help,
-    arg,
-    choice,
-    flag,
-    key,
-    main,
-    many,
-    operator,
-    opt,
-)
+from ssilang.language.registry import Help, arg, by, choice, flag, key, main, many, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots, ListReel
 from ssilang.operators.dispatch import MAXI, MINI, Shared
@@ -42,24 +31,16 @@ def _of_numbers(
     return found if all(isinstance(v, int) for v in values) else float(found)
 
 
-def _of_list(call: Call, value: Numbers, absolute: bool, largest: bool) -> float | int:
-    values = np.abs(value.values) if absolute else value.values
-    if not len(values):
-        raise call.error("operators.fields.list-empty", value)
-    found: float | int = (values.max() if largest else values.min()).item()
-    return found
-
-
 def _of_lists(
-    call: Call,
-    value: Numbers,
-    absolute: bool,
-    second: Numbers,
-    others: tuple[Numbers, ...],
-    largest: bool,
-) -> Numbers:
-    lists = [value, second, *others]
+    call: Call, value: Numbers, absolute: bool, others: tuple[Numbers, ...], largest: bool
+) -> Numbers | float | int:
+    lists = [value, *others]
     arrays: list[Any] = [np.abs(v.values) if absolute else v.values for v in lists]
+    if not others:
+        if not len(arrays[0]):
+            raise call.error("operators.fields.list-empty", value)
+        found: float | int = (arrays[0].max() if largest else arrays[0].min()).item()
+        return found
     if len({len(a) for a in arrays}) > 1:
         raise call.error(
             "operators.fields.list-lengths-differ", lengths=[str(len(a)) for a in arrays]
@@ -88,26 +69,22 @@ def _of_arrays(call: Call, arrays: list[Any], absolute: bool, largest: bool) -> 
     return float(max(v.max() for v in values) if largest else min(v.min() for v in values))
 
 
-def _of_node_field(
-    call: Call, value: NodeField, absolute: bool, chosen: Choices, largest: bool
-) -> float:
-    names = _components(call, list(value.components), chosen)
-    if not names:
-        raise call.error("operators.fields.field-empty", value)
-    return _of_arrays(call, [value.components[n].values for n in names], absolute, largest)
-
-
 def _of_node_fields(
+    call: Call,
     value: NodeField,
     absolute: bool,
     chosen: Choices,
-    second: NodeField,
     others: tuple[NodeField, ...],
     largest: bool,
-) -> NodeField:
+) -> NodeField | float:
+    names = _components(call, list(value.components), chosen)
+    if not others:
+        if not names:
+            raise call.error("operators.fields.field-empty", value)
+        return _of_arrays(call, [value.components[n].values for n in names], absolute, largest)
     run = np.maximum if largest else np.minimum
     made = node_algebra.applied(value, np.abs) if absolute else value
-    for other in (second, *others):
+    for other in others:
         made = _pairwise(made, node_algebra.applied(other, np.abs) if absolute else other, run)
     return made
 
@@ -145,10 +122,6 @@ _CHOSEN = key(
 )
 
 
-def _others(*types: str, en: str, fr: str) -> tuple[Argument, Argument]:
-    return arg("second", *types, en=en, fr=fr), many("others", *types, en=en, fr=fr)
-
-
 def _add_forms(operator: Shared, largest: bool, en: str, fr: str) -> None:
     name = operator.name
     operator.form(
@@ -161,48 +134,37 @@ def _add_forms(operator: Shared, largest: bool, en: str, fr: str) -> None:
         fr=f"De nombres : la {fr}.",
         examples=(f"LIST ({name} 3. -7. 5.) ;",),
     )(partial(_of_numbers, largest=largest))
-    lists = main("value", "LISTREEL", "LISTENTI", en="list", fr="liste")
     operator.form(
-        lists,
+        main("value", "LISTREEL", "LISTENTI", en="list", fr="liste"),
         _ABSOLUTE,
-        *_others("LISTREEL", "LISTENTI", en="lists of the same length", fr="de même longueur"),
-        gives="LISTREEL|LISTENTI",
-        syntax=f"LIS4 = {name} ('ABS') LIS1 LIS2 ... ;",
-        en="Of several lists: item by item.",
-        fr="De plusieurs listes : terme à terme.",
+        many(
+            "others",
+            "LISTREEL",
+            "LISTENTI",
+            en="lists of the same length",
+            fr="listes de même longueur",
+        ),
+        gives=by("others", {True: "LISTREEL|LISTENTI"}, "FLOTTANT|ENTIER"),
+        syntax=f"X1 = {name} LIS1 ('ABS') ; LIS4 = {name} ('ABS') LIS1 LIS2 ... ;",
+        en=f"Of a list: the {en} value; of several, item by item.",
+        fr=f"D'une liste : la {fr} valeur ; de plusieurs, terme à terme.",
+        examples=(f"LIST ({name} (PROG 3. -7. 5.) 'ABS') ;",),
     )(partial(_of_lists, largest=largest))
     operator.form(
-        lists,
-        _ABSOLUTE,
-        gives="FLOTTANT|ENTIER",
-        syntax=f"X1 = {name} LIS1 ('ABS') ;",
-        en=f"Of a list: the {en} value.",
-        fr=f"D'une liste : la {fr} valeur.",
-        examples=(f"LIST ({name} (PROG 3. -7. 5.) 'ABS') ;",),
-    )(partial(_of_list, largest=largest))
-    nodal = main("value", "CHPOINT", en="field at nodes", fr="champ par points")
-    operator.form(
-        nodal,
+        main("value", "CHPOINT", en="field at nodes", fr="champ par points"),
         _ABSOLUTE,
         _CHOSEN,
-        *_others("CHPOINT", en="fields at the same nodes", fr="champs aux mêmes noeuds"),
-        gives="CHPOINT",
-        syntax=f"CHPO4 = {name} CHPO1 CHPO2 ... ('ABS') ;",
-        en="Of several fields at nodes: value by value.",
-        fr="De plusieurs champs par points : valeur par valeur.",
-    )(partial(_of_node_fields, largest=largest))
-    operator.form(
-        nodal,
-        _ABSOLUTE,
-        _CHOSEN,
-        gives="FLOTTANT",
-        syntax=f"X1 = {name} CHP1 ('ABS') ('AVEC' | 'SANS' LMOT1) ;",
-        en=f"Of a field: the {en} value, of all components or 'AVEC' / 'SANS' some.",
-        fr=f"D'un champ : la {fr} valeur, de toutes les composantes ou 'AVEC' / 'SANS' certaines.",
+        many("others", "CHPOINT", en="fields at the same nodes", fr="champs aux mêmes noeuds"),
+        gives=by("others", {True: "CHPOINT"}, "FLOTTANT"),
+        syntax=f"X1 = {name} CHP1 ('ABS') ('AVEC' | 'SANS' LMOT1) ; CHPO4 = {name} CHPO1 CHPO2 ;",
+        en=f"Of a field: the {en} value, of all components or 'AVEC' / 'SANS' some; of several "
+        "fields at nodes, value by value.",
+        fr=f"D'un champ : la {fr} valeur, de toutes les composantes ou 'AVEC' / 'SANS' certaines "
+        "; de plusieurs champs par points, valeur par valeur.",
         examples=(
             f"OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; LIST ({name} (COOR 1 L)) ;",
         ),
-    )(partial(_of_node_field, largest=largest))
+    )(partial(_of_node_fields, largest=largest))
     operator.form(
         main("value", "MCHAML", en="field in cells", fr="champ par éléments"),
         _ABSOLUTE,
