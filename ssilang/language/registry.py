@@ -300,7 +300,10 @@ class Like:
 
 @dataclass(frozen=True, slots=True)
 class By:
-    """Results by what the entry `name` says: its word, or True or False for a flag."""
+    """Results by what the entry `name` says: its word, or True or False for a flag.
+
+    An entry that collects several says True where there are any.
+    """
 
     name: str
     results: Mapping[object, tuple[str, ...]]
@@ -309,6 +312,8 @@ class By:
     def of(self, value: object) -> tuple[str, ...]:
         """Results where the entry has the value."""
         key = value.word if isinstance(value, Chosen) else value
+        if isinstance(key, tuple | list):
+            key = bool(key)
         return self.results.get(key, self.default)
 
 
@@ -368,6 +373,8 @@ class Form:
     """The words of which one says that this form is meant: `said`, or a mandatory `select`."""
     main: Argument | None = field(init=False, repr=False, compare=False)
     """The operand that decides that this form runs."""
+    rest: tuple[Entry, ...] = field(init=False, repr=False, compare=False)
+    """What is read besides it."""
     beside: frozenset[str] = field(init=False, repr=False, compare=False)
     """Its other keywords, four letters of each: they may stand before the word that says it."""
     rest: tuple[Entry, ...] = field(init=False, repr=False, compare=False)

@@ -26,6 +26,8 @@ from ssilang.language.run.call import Call, Operand, accepts, shortened
 from ssilang.language.say.errors import SsiError
 from ssilang.language.values import Mot, type_of
 
+_LOOKED_FOR = (Keyword, Select)
+
 
 @dataclass(slots=True)
 class _Level:

@@ -3,10 +3,6 @@
 from ssilang.messages.message import Message
 
 MESSAGES: dict[str, Message] = {
-    "no-zone-behaves": Message(
-        "no zone of the model behaves as {words:words}",
-        "aucune zone du modèle n'a le comportement {words:words}",
-    ),
     "field-no-component": Message(
         "the field has no component {name}",
         "le champ n'a pas de composante {name}",
@@ -28,10 +24,6 @@ MESSAGES: dict[str, Message] = {
     "no-such-point": Message(
         "the cells have {n_points} {n_points:point|points}, not {point}",
         "les éléments ont {n_points} {n_points:point|points}, il n'y a pas de point {point}",
-    ),
-    "no-zone-has": Message(
-        "no zone of the model has {words:words}",
-        "aucune zone du modèle n'a {words:words}",
     ),
     "no-coordinate": Message(
         "there is no coordinate {wanted}",

@@ -270,4 +270,12 @@ MESSAGES: dict[str, Message] = {
         "FROTTANT COULOMB or FROCABLE",
         "FROTTANT COULOMB ou FROCABLE",
     ),
+    "no-zone-behaves": Message(
+        "no zone of the model behaves as {words:words}",
+        "aucune zone du modèle n'a le comportement {words:words}",
+    ),
+    "no-zone-has": Message(
+        "no zone of the model has {words:words}",
+        "aucune zone du modèle n'a {words:words}",
+    ),
 }
