@@ -364,23 +364,47 @@ class Form:
     when: When | None = None
     of: tuple[str, ...] = ()  # an operand of one of these types stands in the phrase
 
-    @property
-    def said(self) -> Keyword | Select | None:
-        """The words of which one says that this form is meant: `said`, or a mandatory `select`."""
-        match self.entries[:1] if self.entries else ():
-            case (Keyword(name="word", arguments=()) as first,):
-                return first
-            case (Select(optional=False) as first,):
-                return first
-        return None
+    said: Keyword | Select | None = field(init=False)  # words of which one chooses this form
+    main: Argument | None = field(init=False)  # the operand that decides that this form runs
+    rest: tuple[Entry, ...] = field(init=False)  # entries but for the main operand
+    words: tuple[str, ...] = field(init=False)  # keywords that may stand before those of `said`
 
-    @property
-    def main(self) -> Argument | None:
-        """The operand that decides that this form runs."""
-        for entry in self.entries or ():
-            if isinstance(entry, Argument) and entry.main:
-                return entry
-        return None
+    def __post_init__(self) -> None:
+        entries = self.entries or ()
+        main = next((e for e in entries if isinstance(e, Argument) and e.main), None)
+        said = _choosing(entries)
+        words = () if said is None or self.by_hand else tuple(words_in(entries[1:]))
+        for name, value in (
+            ("said", said),
+            ("main", main),
+            ("rest", tuple(e for e in entries if e is not main)),
+            ("words", words),
+        ):
+            object.__setattr__(self, name, value)
+
+
+def _choosing(entries: tuple[Entry, ...]) -> Keyword | Select | None:
+    """The words of which one says that a form is meant: `said`, or a mandatory `select`."""
+    match entries[:1]:
+        case (Keyword(name="word", arguments=()) as first,):
+            return first
+        case (Select(optional=False) as first,):
+            return first
+    return None
+
+
+class Choices:
+    """What chooses among forms, gathered once."""
+
+    def __init__(self, forms: Sequence[Form]) -> None:
+        self.forms = tuple(forms)
+        self.conditional = any(f.when is not None or f.of for f in forms)
+        self.said = tuple(f for f in forms if f.said is not None)
+        self.known = tuple(
+            dict.fromkeys(t for f in forms if f.main is not None for t in f.main.types)
+        )
+        self.plain = tuple(f for f in forms if f.main is None and f.said is None)
+        self.by_kind: dict[str, tuple[Form, ...]] = {}  # forms by the type of the main operand
 
 
 @dataclass(slots=True)
@@ -394,6 +418,24 @@ class Operator:
     aliases: tuple[str, ...] = ()
     terminal: bool = False  # its result is not looked at as an operator's name
     full_name: str = ""  # as usually written: 'MODELISER', 'RIGIDITE'
+    _choices: Choices | None = None
+    _meant: dict[tuple[bool, ...], Choices] = field(default_factory=dict)
+
+    @property
+    def choices(self) -> Choices:
+        """What chooses among all forms."""
+        if self._choices is None or len(self._choices.forms) != len(self.forms):
+            self._choices = Choices(self.forms)
+            self._meant.clear()
+        return self._choices
+
+    def choices_where(self, meant: tuple[bool, ...]) -> Choices:
+        """What chooses among the forms that the session and the phrase allow."""
+        found = self._meant.get(meant)
+        if found is None:
+            kept = [f for f, allowed in zip(self.forms, meant, strict=True) if allowed]
+            found = self._meant[meant] = Choices(kept)
+        return found
 
     @property
     def help(self) -> Help:

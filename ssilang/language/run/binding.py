@@ -11,6 +11,7 @@ from ssilang.language.registry import (
     ANY,
     NAME,
     Argument,
+    Choices,
     Chosen,
     Either,
     Entry,
@@ -20,7 +21,6 @@ from ssilang.language.registry import (
     Operator,
     Select,
     find_operator,
-    words_in,
 )
 from ssilang.language.run.call import Call, Operand, accepts
 from ssilang.language.say.errors import SsiError
@@ -77,6 +77,8 @@ class Binder:
 
     def _leading(self, entries: Sequence[Entry], level: _Level) -> int:
         """Read what leads, behind the word that chose the form; says how many entries that was."""
+        if not any(type(e) is Argument and e.leads for e in entries[:2]):
+            return 0
         chosen = _is_choice(entries)
         place, after = int(chosen), -1
         if not _leads(entries[place : place + 1]):
@@ -335,7 +337,7 @@ def _bound(form: Form, call: Call, main: int | None) -> Bound:
     choice: Any = None
     if main is not None and form.main is not None:
         choice = values[form.main.name] = call.take(main, *form.main.types).value
-        entries = tuple(e for e in entries if e is not form.main)
+        entries = form.rest
     elif form.by_hand and form.said is not None:
         choice = call.keyword(form.said.words, form.said.length)
     if form.by_hand:
@@ -348,30 +350,43 @@ def _bound(form: Form, call: Call, main: int | None) -> Bound:
 
 def _candidates(found: Operator, call: Call) -> Iterator[tuple[Form, int | None]]:
     """Forms to try, in order, with the index of the main operand where it chose the form."""
-    forms = [f for f in found.forms if _is_meant(f, call)]
+    every = choices = found.choices
+    if every.conditional:
+        choices = found.choices_where(tuple(_is_meant(f, call) for f in every.forms))
+    forms = choices.forms
     if len(forms) == 1 and forms[0].main is None:
         yield forms[0], None
         return
-    words = call.words() if any(f.said for f in forms) else []
+    words = call.words() if choices.said else []
     if words:
-        spoken = [f for f in found.forms if _is_said(f, words)]
-        meant = sorted((f for f in spoken if f in forms), key=lambda f: not f.of)
+        spoken = [f for f in every.said if _is_said(f, words)]
+        meant = sorted((f for f in spoken if f in forms), key=lambda f: not f.of) if spoken else []
         if spoken and not meant:
             raise call.missing(tuple(dict.fromkeys(t for f in spoken for t in f.of)) or (ANY,))
         if meant:
             yield from ((f, None) for f in meant)
             return
-    known = dict.fromkeys(t for f in forms if f.main is not None for t in f.main.types)
-    main = call.main_operand(*known) if known else None
+    main = call.main_operand(*choices.known) if choices.known else None
     if main is not None:
         kind = type_of(call.operands[main].value)
-        chosen = [f for f in forms if f.main is not None and accepts_kind(f.main.types, kind)]
+        chosen = _of_kind(choices, kind)
         silent = [f for f in chosen if f.said is None]
         if chosen and not silent:
             raise missing_keyword(call, _words_said(chosen))
         yield from ((f, main) for f in silent)
         return
-    yield from ((f, None) for f in forms if f.main is None and f.said is None)
+    yield from ((f, None) for f in choices.plain)
+
+
+def _of_kind(choices: Choices, kind: str) -> tuple[Form, ...]:
+    """Forms whose main operand may be of the type."""
+    found = choices.by_kind.get(kind)
+    if found is None:
+        found = tuple(
+            f for f in choices.forms if f.main is not None and accepts_kind(f.main.types, kind)
+        )
+        choices.by_kind[kind] = found
+    return found
 
 
 def _is_meant(form: Form, call: Call) -> bool:
@@ -389,11 +404,10 @@ def _is_said(form: Form, words: Sequence[str]) -> bool:
     """Whether a word of the form's stands first among the unread ones, or behind its keywords."""
     if form.said is None:
         return False
-    others = () if form.by_hand else tuple(words_in((form.entries or ())[1:]))
     for word in words:
         if _is_among(word, form.said.words, form.said.length):
             return True
-        if not _is_among(word, others, 4):
+        if not _is_among(word, form.words, 4):
             break
     return False
 
