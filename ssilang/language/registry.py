@@ -368,6 +368,7 @@ class Form:
     main: Argument | None = field(init=False)  # the operand that decides that this form runs
     rest: tuple[Entry, ...] = field(init=False)  # entries but for the main operand
     words: tuple[str, ...] = field(init=False)  # keywords that may stand before those of `said`
+    plain: bool = field(init=False)  # operands are read one after the other, there is no keyword
 
     def __post_init__(self) -> None:
         entries = self.entries or ()
@@ -379,6 +380,7 @@ class Form:
             ("main", main),
             ("rest", tuple(e for e in entries if e is not main)),
             ("words", words),
+            ("plain", all(isinstance(e, Argument) for e in entries)),
         ):
             object.__setattr__(self, name, value)
 

@@ -88,14 +88,15 @@ class Binder:
                 return 0  # something stands before the word
             after = self.call.keyword_end
         while _leads(one := entries[place : place + 1]):
-            level.values[one[0].name] = self._argument(one[0], after)
+            level.values[one[0].name] = self.operand(one[0], after)
             place += 1
         return place
 
     # ---- keywords ------------------------------------------------------------------------------
 
     def _keywords(self) -> None:
-        while any(self._keyword(level) for level in reversed(self._levels)):
+        levels = [level for level in reversed(self._levels) if level.keywords]
+        while any(self._keyword(level) for level in levels):
             pass
 
     def _keyword(self, level: _Level) -> bool:
@@ -128,14 +129,15 @@ class Binder:
             return Chosen(word, self.bind(k.cases[word], place))
         if not k.arguments:
             return True if len(k.words) == 1 else word
-        parts = [self._argument(a, place) for a in k.arguments]
+        parts = [self.operand(a, place) for a in k.arguments]
         if len(k.words) > 1:
             return (word, *parts)
         return parts[0] if len(parts) == 1 else tuple(parts)
 
     # ---- operands ------------------------------------------------------------------------------
 
-    def _argument(self, a: Argument, after: int = -1) -> Any:
+    def operand(self, a: Argument, after: int = -1) -> Any:
+        """What an entry gets of the unread operands."""
         if a.repeated:
             return self._several(a, after)
         if NAME in a.types:
@@ -272,7 +274,7 @@ def _is_choice(entries: Sequence[Entry]) -> bool:
 
 
 _READERS: Mapping[type, Callable[[Binder, Any, int], Any]] = {
-    Argument: Binder._argument,
+    Argument: Binder.operand,
     Group: Binder._group,
     Either: Binder._either,
 }
@@ -342,7 +344,12 @@ def _bound(form: Form, call: Call, main: int | None) -> Bound:
         choice = call.keyword(form.said.words, form.said.length)
     if form.by_hand:
         return Bound(form, {}, choice)
-    values |= Binder(call, choice).bind(entries)
+    binder = Binder(call, choice)
+    if form.plain:
+        for entry in entries:
+            values[entry.name] = binder.operand(entry)
+    else:
+        values |= binder.bind(entries)
     if form.said is not None and "word" not in form.injected:
         values.pop("word", None)
     return Bound(form, values)
