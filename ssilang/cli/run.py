@@ -24,6 +24,7 @@ from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
 from ssilang.language.text.tree import first_assignments
 from ssilang.language.values import Mot
+from ssilang.messages.message import sentence
 
 
 @dataclass
@@ -193,7 +194,8 @@ def _summarise(result: RunResult, source: Source, err: TextIO) -> None:
         result.exit_code = 1
         return
     if err.isatty() and output.files:
-        err.write(f"{len(output.files)} files in {output.directory}\n")
+        told = {"count": len(output.files), "folder": output.directory}
+        err.write(sentence("cli.files-written", told, result.session.language) + "\n")
 
 
 def run_file(path: Path | str, options: RunOptions | None = None) -> RunResult:

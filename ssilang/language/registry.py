@@ -364,35 +364,33 @@ class Form:
     when: When | None = None
     of: tuple[str, ...] = ()  # an operand of one of these types stands in the phrase
 
-    said: Keyword | Select | None = field(init=False)  # words of which one chooses this form
-    main: Argument | None = field(init=False)  # the operand that decides that this form runs
-    rest: tuple[Entry, ...] = field(init=False)  # entries but for the main operand
-    words: tuple[str, ...] = field(init=False)  # keywords that may stand before those of `said`
-    plain: bool = field(init=False)  # operands are read one after the other, there is no keyword
+    said: Keyword | Select | None = field(init=False, repr=False, compare=False)
+    """The words of which one says that this form is meant: `said`, or a mandatory `select`."""
+    main: Argument | None = field(init=False, repr=False, compare=False)
+    """The operand that decides that this form runs."""
+    beside: frozenset[str] = field(init=False, repr=False, compare=False)
+    """Its other keywords, four letters of each: they may stand before the word that says it."""
+
+    rest: tuple[Entry, ...] = field(init=False, repr=False, compare=False)
+    """Its entries but for the main operand."""
+    plain: bool = field(init=False, repr=False, compare=False)
+    """Whether it has operands alone, which are read one after the other."""
 
     def __post_init__(self) -> None:
         entries = self.entries or ()
+        said: Keyword | Select | None = None
+        match entries[:1]:
+            case (Keyword(name="word", arguments=()) as first,):
+                said = first
+            case (Select(optional=False) as first,):
+                said = first
         main = next((e for e in entries if isinstance(e, Argument) and e.main), None)
-        said = _choosing(entries)
-        words = () if said is None or self.by_hand else tuple(words_in(entries[1:]))
-        for name, value in (
-            ("said", said),
-            ("main", main),
-            ("rest", tuple(e for e in entries if e is not main)),
-            ("words", words),
-            ("plain", all(isinstance(e, Argument) for e in entries)),
-        ):
-            object.__setattr__(self, name, value)
-
-
-def _choosing(entries: tuple[Entry, ...]) -> Keyword | Select | None:
-    """The words of which one says that a form is meant: `said`, or a mandatory `select`."""
-    match entries[:1]:
-        case (Keyword(name="word", arguments=()) as first,):
-            return first
-        case (Select(optional=False) as first,):
-            return first
-    return None
+        words = () if self.by_hand else words_in(entries[1:])
+        object.__setattr__(self, "said", said)
+        object.__setattr__(self, "main", main)
+        object.__setattr__(self, "beside", frozenset(w[:4].rstrip() for w in words))
+        object.__setattr__(self, "rest", tuple(e for e in entries if e is not main))
+        object.__setattr__(self, "plain", all(isinstance(e, Argument) for e in entries))
 
 
 class Choices:

@@ -43,4 +43,21 @@ MESSAGES: dict[str, Message] = {
         "the range {text} has {count} {count:value|values}",
         "l'intervalle {text} a {count} {count:valeur|valeurs}",
     ),
+    "runs-done": Message(
+        "{done} of {total} runs are done already",
+        "{done} calculs sur {total} sont déjà faits",
+    ),
+    "run-failed": Message(
+        "run {number} failed: {error} (runs/{folder})",
+        "le calcul {number} a échoué : {error} (runs/{folder})",
+    ),
+    "swept": Message(
+        "{runs} {runs:run|runs}, {failed} failed; {table}, {pictures} {pictures:picture|pictures}",
+        "{runs} {runs:calcul|calculs}, {failed} en échec ; {table}, {pictures} "
+        "{pictures:image|images}",
+    ),
+    "files-written": Message(
+        "{count} {count:file|files} in {folder}",
+        "{count} {count:fichier|fichiers} dans {folder}",
+    ),
 }

@@ -397,6 +397,13 @@ MESSAGES: dict[str, Message] = {
         "{name} reçoit une valeur que rien ne lit",
         severity="warning",
     ),
+    "near-word": Message(
+        "{operator} knows no word '{name}'",
+        "{operator} ne connaît pas le mot '{name}'",
+        "did you mean '{near}'?",
+        "vouliez-vous dire '{near}' ?",
+        severity="warning",
+    ),
     "perhaps-misspelt": Message(
         "{name} has no value and is read as a word; {like} has one",
         "{name} n'a pas de valeur et se lit comme un mot ; {like} en a une",
@@ -439,4 +446,72 @@ MESSAGES: dict[str, Message] = {
     ),
     # ---- ERRE
     "erre": Message("{message}", "{message}"),
+    # ---- hints that other messages hold
+    "write-condition": Message(
+        "a condition is written SI (A > 3) ; ... SINON ; ... FINSI ;",
+        "une condition s'écrit SI (A > 3) ; ... SINON ; ... FINSI ;",
+    ),
+    "write-loop": Message(
+        "a loop is written REPE LOOP1 10 ; ... FIN LOOP1 ; &LOOP1 counts its turns",
+        "une boucle s'écrit REPE TOUR1 10 ; ... FIN TOUR1 ; &TOUR1 compte ses tours",
+    ),
+    "write-leaving": Message(
+        "a loop is left by QUIT LOOP1 ; ITER LOOP1 ; goes to its next turn",
+        "on sort d'une boucle par QUIT TOUR1 ; ITER TOUR1 ; passe au tour suivant",
+    ),
+    "write-printing": Message(
+        "printing is written MESS 'A is ' A ;",
+        "un affichage s'écrit MESS 'A vaut ' A ;",
+    ),
+    "write-procedure": Message(
+        "a procedure is written DEBP NAME A*FLOTTANT ; ... FINP B ;",
+        "une procédure s'écrit DEBP NOM A*FLOTTANT ; ... FINP B ;",
+    ),
+    "write-truth": Message(
+        "these values are VRAI and FAUX; A ET B, A OU B, NON A combine them",
+        "ces valeurs sont VRAI et FAUX ; A ET B, A OU B, NON A les combinent",
+    ),
+    "write-comment": Message(
+        "a comment is a line whose first character is *",
+        "un commentaire est une ligne dont le premier caractère est *",
+    ),
+    "write-item": Message(
+        "an item of a list is EXTR LIST1 3, of a table TAB1 . 3",
+        "un élément d'une liste est EXTR LIST1 3, d'une table TAB1 . 3",
+    ),
+    "excess-order": Message(
+        "a phrase runs from left to right: put parentheses around what belongs together",
+        "une phrase va de gauche à droite : mettez entre parenthèses ce qui va ensemble",
+    ),
+    "excess-numbers": Message(
+        "numbers side by side make a POINT where OPTI DIME 2 (or 3) was set and there are as many",
+        "des nombres côte à côte font un POINT si OPTI DIME 2 (ou 3) le précède et qu'il y "
+        "en a autant",
+    ),
+    "excess-parentheses": Message(
+        "operands stand behind their operator, without parentheses around them all: {caller} A B ;",
+        "les opérandes suivent leur opérateur, sans parenthèses autour de tous : {caller} A B ;",
+    ),
+    "no-result-at-all": Message(
+        "what stands on the right of = gives no result; a procedure gives what stands behind "
+        "its FINP",
+        "ce qui est à droite de = ne donne aucun résultat ; une procédure donne ce qui suit "
+        "son FINP",
+    ),
+    "fewer-results": Message(
+        "{count} names stand on the left of =, the right side gives fewer results",
+        "{count} noms sont à gauche de =, la partie droite donne moins de résultats",
+    ),
+    "item-of-list": Message(
+        "an item of a list is taken by EXTR: EXTR {name} 1",
+        "un élément d'une liste se prend par EXTR : EXTR {name} 1",
+    ),
+    "only-tables-have-indices": Message(
+        "only a TABLE (made by TABL) and an OBJET have indices; was {name} given another value?",
+        "seuls une TABLE (créée par TABL) et un OBJET ont des indices ; {name} a-t-il changé ?",
+    ),
+    "word-in-quotes": Message(
+        "{name} has a value here: the word {name} is written between quotes, '{name}'\n",
+        "{name} a ici une valeur : le mot {name} s'écrit entre apostrophes, '{name}'\n",
+    ),
 }

@@ -149,7 +149,7 @@ def test_python_asks_only_for_what_is_declared():
     assert PYTHON["asked"] <= EVERY
 
 
-@pytest.mark.parametrize("name", ["DYNE", "DYNC", "ZCOL"])
+@pytest.mark.parametrize("name", ["DYNE", "DYNC", "ZCOL", "PREC", "DESS", "BLOQ"])
 def test_operators_read_what_is_declared(name):
     own = [e for e in DECLARED[name].entries if e.role not in (UNUSED, REFUSED, WRITTEN)]
     words = {e.index for e in own} - {NUMBER, ANYTHING}

@@ -1,10 +1,15 @@
 """How templates are filled."""
 
+import os
 import pickle
+import subprocess
+import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+import ssilang
 from ssilang.kernel.base.errors import MeshError
 from ssilang.messages.message import Sentence, filled, find, hint, sentence
 
@@ -70,3 +75,19 @@ def test_a_refused_entry_is_told_with_its_reason():
     data = {"speaker": "DYNAMIC", "index": "'PAS'", "problem": Sentence("loop-name")}
     told = sentence("refused-entry", data, "fr")
     assert told == "DYNAMIC : 'PAS' est refusé : REPE demande un nom de boucle"
+
+
+def test_a_run_without_refusals_loads_no_catalogue(tmp_path):
+    program = (
+        "import sys; from ssilang.cli.run import run_text; from pathlib import Path\n"
+        "text = 'OPTI DIME 2 ELEM QUA4 ; P1 = 0. 0. ; L1 = DROI 2 P1 (1. 0.) ;'\n"
+        "done = run_text(text, Path('out'))\n"
+        "assert done.exit_code == 0\n"
+        "print(sorted(m for m in sys.modules if m.startswith('ssilang.messages.')))"
+    )
+    root = str(Path(ssilang.__file__).parents[1])
+    found = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, cwd=tmp_path, check=True,
+        env={**os.environ, "PYTHONPATH": root},
+    )  # fmt: skip
+    assert found.stdout.strip() == "['ssilang.messages.message']"

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ssilang.cli.run import run_text
-from ssilang.operators.fields.cell_parts import _variables
+from ssilang.operators.fields.cell_extraction import _variables
 
 PLATE = (
     "OPTI DIME 2 ELEM QUA4 ; P1 = 0. 0. ; P2 = 2. 0. ; L = DROI 2 P1 P2 ; S = TRAN 1 L (0. 1.) ; "

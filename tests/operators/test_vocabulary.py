@@ -17,7 +17,7 @@ from ssilang.language.vocabulary.terms import UNITS, Option, Quantity, Range
 from ssilang.operators import words
 from ssilang.operators.loader import load_operators
 from ssilang.operators.models.contact import METHODS
-from ssilang.operators.models.making import LAW_WORDS
+from ssilang.operators.models.mode import LAW_WORDS
 from ssilang.operators.session.options import READERS
 from ssilang.operators.word_pages import exact_pages, help_text, near_name, vocabulary_text
 

@@ -78,7 +78,7 @@ class AbstractCall(Call):
         if any(o.value is UNKNOWN or o.value is SOMETHING for o in self.operands):
             raise Ambiguous
 
-    def _word_index(self) -> int | None:
+    def word_index(self) -> int | None:
         for i, operand in enumerate(self.operands):
             if operand.value is UNKNOWN or isinstance(operand.value, AnyWord | Texte):
                 raise Ambiguous
@@ -118,7 +118,7 @@ class PhraseReader:
         if procedure is not None:
             self._procedure(procedure.value, procedure.span, call)
             raise Ambiguous  # its results are not known
-        i = call._word_index()
+        i = call.word_index()
         if i is None:
             return False
         operand = call.operands[i]

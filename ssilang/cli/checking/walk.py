@@ -11,6 +11,7 @@ from ssilang.cli.checking.phrases import PhraseReader
 from ssilang.cli.checking.scope import Scope, assigned_names
 from ssilang.cli.checking.tables import unread_entries
 from ssilang.cli.checking.usage import misspelt_names, unused_names
+from ssilang.cli.checking.words import misspelt_words
 from ssilang.language.cast3m import cast3m_words
 from ssilang.language.registry import OPERATORS, find_operator, keywords_of
 from ssilang.language.run.leftovers import is_call
@@ -55,6 +56,11 @@ class Checker:
         names = frozenset({*self._names, *scope.values, *self.session.library.standard_names})
         for problem in misspelt_names(script, names, _known_words()):
             if problem.span not in [e.span for e in self.problems]:
+                self._report(problem)
+        for problem in misspelt_words(script, names):
+            inside = [e.span for e in self.problems if e.span is not None]
+            assert problem.span is not None
+            if problem.span.start not in [s.start for s in inside]:
                 self._report(problem)
         return sorted(self.problems, key=lambda e: e.span.start if e.span else 0)
 

@@ -16,6 +16,7 @@ from ssilang.cli.sweeping.trunk import run_all
 from ssilang.cli.sweeping.worker import ROW, Task
 from ssilang.language.say.diagnostics import render
 from ssilang.language.say.errors import SsiError
+from ssilang.messages.message import sentence
 
 TABLE = "sweep.parquet"
 TOGETHER = 8
@@ -56,13 +57,17 @@ def sweep(options: SweepOptions, out: TextIO, err: TextIO) -> int:
     tasks = [_task(case, options, folder / "runs" / case.key(text)) for case in cases]
     rows = {task.number: row for task in tasks if (row := _done(task)) is not None}
     if rows:
-        out.write(f"{len(rows)} of {len(tasks)} runs are done already\n")
+        done = sentence("cli.runs-done", {"done": len(rows), "total": len(tasks)}, options.language)
+        out.write(done + "\n")
     waiting = [task for task in tasks if task.number not in rows]
     for row in _progress(_run(waiting, options), len(waiting), err):
         rows[row["run"]] = row
         if row["exit_code"] != 0:
-            err.write(f"run {row['run']} failed: {row['error']} (runs/{row['folder']})\n")
-    return _finish([rows[k] for k in sorted(rows)], list(cases[0].values), folder, out)
+            failure = {"number": row["run"], "error": row["error"], "folder": row["folder"]}
+            err.write(sentence("cli.run-failed", failure, options.language) + "\n")
+    made = _finish([rows[k] for k in sorted(rows)], list(cases[0].values), folder)
+    out.write(sentence("cli.swept", made, options.language) + "\n")
+    return 1 if made["failed"] else 0
 
 
 def _checked_cases(options: SweepOptions) -> list[Case]:
@@ -106,9 +111,14 @@ def _progress(rows: Iterator[dict[str, Any]], total: int, err: TextIO) -> Iterat
     line.close()
 
 
-def _finish(rows: list[dict[str, Any]], swept: list[str], folder: Path, out: TextIO) -> int:
+def _finish(rows: list[dict[str, Any]], swept: list[str], folder: Path) -> dict[str, object]:
+    """Write table and pictures; what to say of them."""
     write_table(rows, folder / TABLE)
     pictures = draw_figures(rows, swept, folder)
     failed = sum(row["exit_code"] != 0 for row in rows)
-    out.write(f"{len(rows)} runs, {failed} failed; {folder / TABLE}, {len(pictures)} pictures\n")
-    return 1 if failed else 0
+    return {
+        "runs": len(rows),
+        "failed": failed,
+        "table": folder / TABLE,
+        "pictures": len(pictures),
+    }

@@ -20,8 +20,14 @@ from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.family import component_order, displacement_names
 from ssilang.kernel.interface.kinematics import JointCells, joint_cells
-from ssilang.kernel.interface.laws.columns import N_STATE, Parameter, Variable
-from ssilang.kernel.interface.laws.law_table import Law, elastic_tangent, law_of
+from ssilang.kernel.interface.laws.columns import N_STATE, Parameter
+from ssilang.kernel.interface.laws.law_table import (
+    Law,
+    elastic_tangent,
+    law_of,
+    shown_variables,
+    state_of,
+)
 from ssilang.kernel.interface.laws.parameter_table import joint_parameters
 from ssilang.kernel.interface.point_state import energies_of_points, point_states
 from ssilang.kernel.interface.response import Joints
@@ -330,12 +336,7 @@ def state_field(interface: Interface, state: FloatArray, w: FloatArray, t: Float
         local = state[start : start + n * g].reshape(n, g, -1)
         of_all = common[:, start : start + n * g].reshape(-1, n, g)
         start += n * g
-        shown = law_of(j.zone.behaviour).variables
-        if interface.dimension == 2:
-            shown = {k: v for k, v in shown.items() if v != Variable.SLIP2}
-        fields = {name: local[..., column].copy() for name, column in shown.items()}
-        if "PLA3" in fields:
-            fields["PLA3"] += local[..., Variable.OPENING]
+        fields = shown_variables(law_of(j.zone.behaviour), local, interface.dimension)
         fields |= {name: of_all[i].copy() for i, name in enumerate(COMMON_VARIABLES)}
         blocks.append(_block(j, fields))
     return CellField(tuple(blocks), "VARIABLES INTERNES")
@@ -346,19 +347,11 @@ def state_from_field(interface: Interface, field: CellField) -> FloatArray:
 
     Variables that the field lacks are zero.
     """
-    state, start = interface.initial_state(), 0
-    for j in interface.joints:
-        n, g = j.weights.shape
-        local = state[start : start + n * g]
-        start += n * g
-        given = zone_field(j.zone, field)
-        for name, column in law_of(j.zone.behaviour).variables.items():
-            if name in given:
-                values = np.broadcast_to(given.at(name, "STRESSES"), (n, g))
-                local[:, column] = values.ravel()
-        if "PLA3" in given:
-            local[:, Variable.XI] -= local[:, Variable.OPENING]
-    return state
+    parts = [
+        state_of(law_of(j.zone.behaviour), zone_field(j.zone, field), j.weights.shape)
+        for j in interface.joints
+    ]
+    return np.concatenate(parts)
 
 
 def _block(joints: JointCells, components: dict[str, FloatArray]) -> CellFieldBlock:

@@ -23,7 +23,7 @@ from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.family import component_order, has_rotations
 from ssilang.kernel.interface.kinematics import joint_cells
 from ssilang.kernel.interface.laws.columns import N_STATE, LawCode, Parameter, Variable
-from ssilang.kernel.interface.laws.law_table import law_of
+from ssilang.kernel.interface.laws.law_table import law_of, shown_variables, state_of
 from ssilang.kernel.interface.laws.parameter_table import joint_parameters
 from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.plasticity.points import PlasticPoints, is_plastic, plastic_strain_names
@@ -214,14 +214,7 @@ def joint_points(zone: Zone, material: CellField) -> JointPoints:
 
 def joint_state(points: JointPoints, variables: ZoneField) -> FloatArray:
     """State (m, N_STATE) from internal variables by name."""
-    state = np.zeros((len(points.table), N_STATE))
-    for name, column in law_of(points.zone.behaviour).variables.items():
-        if name in variables:
-            values = np.broadcast_to(variables.at(name, "STRESSES"), points.shape)
-            state[:, column] = values.ravel()
-    if "PLA3" in variables:
-        state[:, Variable.XI] -= state[:, Variable.OPENING]
-    return state
+    return state_of(law_of(points.zone.behaviour), variables, points.shape)
 
 
 def _jump(points: JointPoints, traction: FloatArray, state: FloatArray, code: int) -> FloatArray:
@@ -298,11 +291,7 @@ def _joint_answer(
         whole[..., :d, :d] = local
         turned[:, :d], after, tangent = after, turned, whole
         after[:, :d] = points.named(t)
-    shown = law_of(zone.behaviour).variables
-    kept = {k: c for k, c in shown.items() if d == 3 or c != Variable.SLIP2}
-    inner = {name: new[:, c].reshape(n, g).copy() for name, c in kept.items()}
-    if "PLA3" in inner:
-        inner["PLA3"] += new[:, Variable.OPENING].reshape(n, g)
+    inner = shown_variables(law_of(zone.behaviour), new.reshape(n, g, -1), d)
     elastic = (t - points.local(stress)) / points.stiffness()
     rest = points.named(points.local(step) - elastic)
     names = plastic_strain_names(zone)[:d]

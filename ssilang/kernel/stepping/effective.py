@@ -6,7 +6,7 @@
 
 on the motions `du = T q + particular(dd)` that the conditions leave. Where A alone is singular
 (bodies without mass held by joints alone) the closed joints' stiffness R is added to it, and
-`iterate_interface` takes it back exactly.
+`interface.condensed` takes it back exactly.
 """
 
 from __future__ import annotations

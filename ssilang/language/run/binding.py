@@ -22,7 +22,7 @@ from ssilang.language.registry import (
     Select,
     find_operator,
 )
-from ssilang.language.run.call import Call, Operand, accepts
+from ssilang.language.run.call import Call, Operand, accepts, shortened
 from ssilang.language.say.errors import SsiError
 from ssilang.language.values import Mot, type_of
 
@@ -44,13 +44,18 @@ class Binder:
         self.main = main  # the operand that chose the form
         self._levels: list[_Level] = []
 
-    def bind(self, entries: Sequence[Entry], after: int = -1) -> dict[str, Any]:
+    def bind(
+        self, entries: Sequence[Entry], after: int = -1, *, begun: bool = False, open: bool = False
+    ) -> dict[str, Any]:
         """Values of entries by name.
 
         Parameters
         ----------
         after : int
             Offset in the source behind which values are looked for first.
+        begun, open : bool
+            The entries go on with a group, or the group goes on behind them: between a name and
+            its value no keyword of others is looked for.
 
         Raises
         ------
@@ -62,12 +67,12 @@ class Binder:
         self._levels.append(level)
         try:
             leading = self._leading(entries, level)
-            self._keywords()
+            self._keywords(self._levels[-1:] if begun else self._levels)
             for entry in entries[leading:]:
                 reader = _READERS.get(type(entry))
                 if reader is not None:
                     level.values[entry.name] = reader(self, entry, after)
-                    self._keywords()
+                    self._keywords(self._levels[-1:] if open else self._levels)
         finally:
             self._levels.pop()
         for k in keywords:
@@ -94,10 +99,15 @@ class Binder:
 
     # ---- keywords ------------------------------------------------------------------------------
 
-    def _keywords(self) -> None:
-        levels = [level for level in reversed(self._levels) if level.keywords]
-        while any(self._keyword(level) for level in levels):
-            pass
+    def _keywords(self, levels: Sequence[_Level]) -> bool:
+        """Read keywords as long as the first unread word is one; says whether there were any."""
+        open_ones = [level for level in reversed(levels) if level.keywords]
+        if not open_ones:
+            return False
+        found = False
+        while self.call.word_index() is not None and any(map(self._keyword, open_ones)):
+            found = True
+        return found
 
     def _keyword(self, level: _Level) -> bool:
         for k in level.keywords:
@@ -164,11 +174,17 @@ class Binder:
             values = []
             words = accepts(a.types, Mot(""))
             only = a.behind
-            while (operand := call.read(*a.types, after=after, only=only)) is not None:
+            while True:
+                operand = call.read(*a.types, after=after, only=only)
+                if operand is None:
+                    # a keyword may stand between two operands, but for those of a keyword itself
+                    if after < 0 and self._keywords(self._levels):
+                        continue
+                    break
                 only = True
                 values.append(_given(a, operand))
                 if words:
-                    self._keywords()
+                    self._keywords(self._levels)
         if not values and not a.optional:
             raise call.missing(a.types)
         return tuple(values)
@@ -209,11 +225,11 @@ class Binder:
     def _one(self, g: Group, after: int) -> Any:
         first = len(self.call.used)
         head, rest = g.entries[:1], g.entries[1:]
-        values = self.bind(head, after)
+        values = self.bind(head, after, open=bool(rest))
         used = self.call.used[first:]
         if used and isinstance(used[0].value, Mot):
             after = used[0].span.end
-        values |= self.bind(rest, after) if rest else {}
+        values |= self.bind(rest, after, begun=True) if rest else {}
         ordered = tuple(values[e.name] for e in g.entries)
         return ordered[0] if len(ordered) == 1 else ordered
 
@@ -411,10 +427,11 @@ def _is_said(form: Form, words: Sequence[str]) -> bool:
     """Whether a word of the form's stands first among the unread ones, or behind its keywords."""
     if form.said is None:
         return False
+    said, length = shortened(form.said.words, form.said.length), form.said.length
     for word in words:
-        if _is_among(word, form.said.words, form.said.length):
+        if word[:length] in said:
             return True
-        if not _is_among(word, form.words, 4):
+        if word[:4] not in form.beside:
             break
     return False
 
@@ -422,11 +439,6 @@ def _is_said(form: Form, words: Sequence[str]) -> bool:
 def _words_said(forms: Iterable[Form]) -> list[str]:
     """The words of forms, each once."""
     return list(dict.fromkeys(w for f in forms if f.said is not None for w in f.said.words))
-
-
-def _is_among(word: str, words: Sequence[str], length: int) -> bool:
-    wanted = word.upper().rstrip()[:length]
-    return any(w[:length].rstrip() == wanted for w in words)
 
 
 def _no_form(found: Operator, call: Call) -> SsiError:

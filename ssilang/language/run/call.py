@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from ssilang.language.registry import ANY, When
@@ -58,6 +59,12 @@ def _as_read(operand: Operand, types: Sequence[str]) -> Operand:
     if isinstance(value, Procedure) and "PROCEDUR" not in types:
         return Operand(Mot(value.name), operand.span, operand.name)
     return operand
+
+
+@cache
+def shortened(words: tuple[str, ...], length: int) -> dict[str, str]:
+    """Words by the characters that are compared; of two alike the first."""
+    return {word[:length].rstrip(): word for word in reversed(words)}
 
 
 _A_WORD = Mot("")
@@ -172,7 +179,7 @@ class Call:
             return []
         values = [o.value for o in self.operands]
         named = (v.name if isinstance(v, Procedure) else v for v in values)
-        return [str(v).upper() for v in named if isinstance(v, str)]
+        return [str(v).upper().rstrip() for v in named if isinstance(v, str)]
 
     def take_name(self, optional: bool = False) -> str:
         """Consume the next operand for its name, whatever object bears it; '' if optional.
@@ -204,13 +211,12 @@ class Call:
         value = self.operands[i].value
         text = value.name if isinstance(value, Procedure) else str(value)
         wanted = text.upper().rstrip()[:length]
-        for word in words:
-            if word[:length].rstrip() == wanted:
-                operand = self.operands.pop(i)
-                self.used.append(operand)
-                self._after = operand.span.end
-                return word
-        return None
+        word = shortened(tuple(words), length).get(wanted)
+        if word is not None:
+            operand = self.operands.pop(i)
+            self.used.append(operand)
+            self._after = operand.span.end
+        return word
 
     @property
     def keyword_end(self) -> int:

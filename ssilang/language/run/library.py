@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from pathlib import Path
 
 from ssilang.language.text.source_files import read_source
@@ -33,7 +34,6 @@ class Library:
         self._loaded: dict[str, Procedure | None] = {}
         self._standard = standard_procedures()
         self._declared: dict[str, Declaration | None] = {}
-        self.declared_names = declared_names()
 
     @property
     def standard_names(self) -> frozenset[str]:
@@ -44,6 +44,11 @@ class Library:
     def standard_files(self) -> dict[str, Path]:
         """Files of the standard library's procedures by name."""
         return self._standard
+
+    @cached_property
+    def declared_names(self) -> list[str]:
+        """Procedures and operators whose tables are declared."""
+        return declared_names()
 
     def declared(self, name: str) -> Declaration | None:
         """What is declared of the tables of a procedure or operator, None if nothing is."""

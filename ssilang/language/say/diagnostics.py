@@ -151,10 +151,10 @@ def _window(text: str, before: int, width: int) -> tuple[str, int, int]:
     return shown, before, max(1, min(width, _LINE_SHOWN - before))
 
 
-def _derived(error: SsiError, language: str, names: Iterable[str]) -> dict[str, str]:
+def _derived(error: SsiError, language: str, names: Iterable[str]) -> dict[str, object]:
     """Parts of sentences computed from the data of the error."""
     data = error.data
-    made: dict[str, str] = {}
+    made: dict[str, object] = {}
     join = _OR[language]
     if "expected" in data and isinstance(data["expected"], list):
         made["types"] = _types_text(data["expected"], language)
@@ -167,7 +167,7 @@ def _derived(error: SsiError, language: str, names: Iterable[str]) -> dict[str, 
     if error.code == "not-a-table":
         made["a_found"] = _article(str(data["found"]), language)
         named = data["name"] or (error.span.text.split(".")[0].strip() if error.span else "it")
-        made["not_a_table_hint"] = hints.not_a_table_hint({**data, "name": named}, language)
+        made["not_a_table_hint"] = hints.not_a_table_hint({**data, "name": named})
     if error.code == "excess" and data.get("name"):
         made["named"] = f" ({data['name']})"
     if data.get("found") == "nothing":
@@ -186,11 +186,11 @@ def _derived(error: SsiError, language: str, names: Iterable[str]) -> dict[str, 
     if data.get("quoted"):
         made["keyword_hint"] = _keyword_hint(data, language)
     if _expected(data) == ["MOT"] and data.get("name") and error.code == "wrong-argument":
-        made["word_hint"] = hints.word_hint(str(data["name"]), language)
+        made["word_hint"] = hints.word_hint(str(data["name"]))
     made["near_hint"] = _near_hint(data, language, names)
-    made["excess_hint"] = hints.excess_hint(data, language)
-    made["no_result_hint"] = hints.no_result_hint(data, language)
-    made["comment_hint"] = hints.comment_hint(_text_from(error.span), language)
+    made["excess_hint"] = hints.excess_hint(data)
+    made["no_result_hint"] = hints.no_result_hint(data)
+    made["comment_hint"] = hints.comment_hint(_text_from(error.span))
     made["syntax_hint"] = _syntax_hint(data)
     made["known_hint"] = _known_hint(data, language)
     if "index" in data:
@@ -284,11 +284,11 @@ def _found(data: dict[str, object], language: str) -> str:
     return f"{kind} ({detail})" if detail else kind
 
 
-def _near_hint(data: dict[str, object], language: str, names: Iterable[str]) -> str:
+def _near_hint(data: dict[str, object], language: str, names: Iterable[str]) -> hints.Hint:
     if "name" not in data:
         return ""
     word = str(data["name"])
-    foreign = hints.foreign_hint(word, language)
+    foreign = hints.foreign_hint(word)
     if foreign:
         return foreign
     known = elsewhere(word, language)

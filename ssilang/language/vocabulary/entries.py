@@ -18,7 +18,6 @@ section of an argument these are its own, in that of an entry those of the table
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -194,6 +193,8 @@ def declared_names() -> list[str]:
 
 def read_declaration(name: str) -> Declaration | None:
     """The declaration of a procedure or operator, None if it has none."""
+    import tomllib
+
     path = declaration_file(name)
     if not path.is_file():
         return None

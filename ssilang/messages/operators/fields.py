@@ -75,12 +75,6 @@ MESSAGES: dict[str, Message] = {
         "the cloud has {n_rows} {n_rows:row|rows}: take one first",
         "le nuage a {n_rows} {n_rows:n-uplet|n-uplets} : prenez-en d'abord un",
     ),
-    "not-third-degree": Message(
-        "the polynomial is not of the third degree: A3 is 0",
-        "le polynôme n'est pas du troisième degré : A3 est nul",
-        "RACP takes any",
-        "RACP prend tous les degrés",
-    ),
     "field-is-zero": Message(
         "the field has no value that is not zero",
         "le champ n'a que des valeurs nulles",

@@ -19,10 +19,6 @@ MESSAGES: dict[str, Message] = {
         "aucune extrémité du câble allant du noeud {first} au noeud {last} n'est parmi "
         "les points de mise en tension",
     ),
-    "loss-is-a-number": Message(
-        "'{name}' of the losses is a number",
-        "'{name}' des pertes est un nombre",
-    ),
     "tori-not-available": Message(
         "'TORI' is not available",
         "'TORI' n'est pas disponible",
@@ -90,5 +86,188 @@ MESSAGES: dict[str, Message] = {
         "le paramètre TRAC est une évolution",
         "EVOL 'MANU' strains stresses",
         "donnez EVOL 'MANU' déformations contraintes",
+    ),
+    "no-element-on-a-point": Message(
+        "no element of this version stands on a point",
+        "aucun élément de cette version ne porte sur un point",
+    ),
+    "mesh-empty": Message(
+        "the mesh is empty",
+        "le maillage est vide",
+    ),
+    "formulation-missing": Message(
+        "the formulation is not said",
+        "la formulation n'est pas dite",
+        "MODE mesh 'MECANIQUE' 'ELASTIQUE'",
+        "MODE maillage 'MECANIQUE' 'ELASTIQUE'",
+    ),
+    "only-sure-cells": Message(
+        "the mesh holds nothing but SURE cells, which tie hanging nodes",
+        "le maillage ne contient que des éléments SURE, qui attachent des noeuds pendants",
+    ),
+    "element-of-other-cells": Message(
+        "element {element} does not stand on {kinds:words} cells",
+        "l'élément {element} ne va pas sur des mailles {kinds:words}",
+        "{element} needs {cell_type} cells{fitting:?\n{kinds:words} cells take {fitting:words}}",
+        "{element} demande des mailles {cell_type}"
+        "{fitting:?\nles mailles {kinds:words} prennent {fitting:words}}",
+    ),
+    "word-unknown": Message(
+        "MODE does not know the word {said}",
+        "MODE ne connaît pas le mot {said}",
+        "{near:?did you mean {near}?|known: {known:words}}"
+        "{fitting:?\n{kinds:words} cells take {fitting:words}}",
+        "{near:?vouliez-vous dire {near} ?|connus : {known:words}}"
+        "{fitting:?\nles mailles {kinds:words} prennent {fitting:words}}",
+    ),
+    "lists-for-impedance": Message(
+        "only IMPEDANCE takes lists of unknowns",
+        "seul IMPEDANCE prend des listes d'inconnues",
+    ),
+    "rule-without-joints": Message(
+        "{rule} chooses the integration of joints: the mesh has none",
+        "{rule} choisit l'intégration des joints : le maillage n'en a pas",
+        "other elements have their own (Q4RI, Q8RI ... by name)",
+        "les autres éléments ont la leur (Q4RI, Q8RI ... par leur nom)",
+    ),
+    "coq3-is-elastic": Message(
+        "COQ3 has no plastic law",
+        "COQ3 n'a pas de loi plastique",
+        "DKT has: MODE ... DKT 'INTEGRE' 7 ;",
+        "DKT en a : MODE ... DKT 'INTEGRE' 7 ;",
+    ),
+    "generalised-plasticity-not-built": Message(
+        "plastic laws on the forces and moments of shells are not built",
+        "les lois plastiques sur les efforts et moments des coques ne sont pas programmées",
+        "points across the thickness: MODE ... DKT 'INTEGRE' 7 ;",
+        "des points dans l'épaisseur : MODE ... DKT 'INTEGRE' 7 ;",
+    ),
+    "points-across": Message(
+        "'INTEGRE' {count}: 2 to 15 points across",
+        "'INTEGRE' {count} : 2 à 15 points dans l'épaisseur",
+    ),
+    "joint-law-not-built": Message(
+        "the joint law {said} is not built: what its parameters BETA (unloading) and CPLG "
+        "(coupling) do is published nowhere",
+        "la loi de joint {said} n'est pas construite : ce que font ses paramètres BETA "
+        "(décharge) et CPLG (couplage) n'est publié nulle part",
+        "JOINT_SDM softens in tension with FU and GF; JOINT_DILATANT and COULOMB slide",
+        "JOINT_SDM s'adoucit en traction avec FU et GF ; JOINT_DILATANT et COULOMB glissent",
+    ),
+    "element-not-in-mode": Message(
+        "element {name} does not exist in mode {mode}",
+        "l'élément {name} n'existe pas en mode {mode}",
+        "it exists in {names}",
+        "il existe en {names}",
+    ),
+    "cells-carry-no-pressure": Message(
+        "{cell_type} cells cannot carry a pressure in this space",
+        "les éléments {cell_type} ne peuvent porter une pression dans cet espace",
+    ),
+    "formulation-not-available": Message(
+        "the formulation {said} is not available",
+        "la formulation {said} n'est pas disponible",
+        "'MECANIQUE' 'ELASTIQUE' is, with {words:words}",
+        "'MECANIQUE' 'ELASTIQUE' l'est, avec {words:words}",
+    ),
+    "behaviour-not-available": Message(
+        "the behaviour {said} is not available",
+        "le comportement {said} n'est pas disponible",
+        "'MECANIQUE' 'ELASTIQUE' is, with {words:words}",
+        "'MECANIQUE' 'ELASTIQUE' l'est, avec {words:words}",
+    ),
+    "no-parameter": Message(
+        "no parameter is given",
+        "aucun paramètre n'est donné",
+        "NAME VALUE, such as 'YOUN' 2.E11",
+        "NOM VALEUR, comme 'YOUN' 2.E11",
+    ),
+    "field-not-on-model": Message(
+        "the field given for {name} is not defined on the model",
+        "le champ donné pour {name} n'est pas défini sur le modèle",
+    ),
+    "parameter-is-no-model": Message(
+        "parameter {name} is no model",
+        "le paramètre {name} n'est pas un modèle",
+    ),
+    "parameter-is-no-nodal-field": Message(
+        "parameter {name} is no field at points",
+        "le paramètre {name} n'est pas un champ par points",
+        "CHAN 'CHAM' makes cells",
+        "CHAN 'CHAM' donne un champ par élément",
+    ),
+    "vect-is-a-vector": Message(
+        "VECT takes a vector",
+        "VECT prend un vecteur",
+        "a POINT such as (0. 1. 0.)",
+        "un POINT comme (0. 1. 0.)",
+    ),
+    "section-model-wrong": Message(
+        "MODS takes the model of a section of fibres",
+        "MODS prend le modèle d'une section de fibres",
+    ),
+    "section-material-wrong": Message(
+        "MATS takes the material field of a section of fibres",
+        "MATS prend le champ de matériau d'une section de fibres",
+    ),
+    "parameter-unknown": Message(
+        "no zone of the model takes a parameter {name}",
+        "aucune zone du modèle ne prend le paramètre {name}",
+        "{near:?did you mean {near}? }known: {names:words}{told:?\n{told}}",
+        "{near:?vouliez-vous dire {near} ? }connus : {names:words}{told:?\n{told}}",
+    ),
+    "field-has-several-components": Message(
+        "the field given for {name} has several components: {names}",
+        "le champ donné pour {name} a plusieurs composantes : {names}",
+        "take one with EXCO",
+        "prenez-en une par EXCO",
+    ),
+    "no-zone-has-axes": Message(
+        "no zone of the model has axes",
+        "aucune zone du modèle n'a d'axes",
+        "ORTHOTROPE, ANISOTROPE or joints do",
+        "ORTHOTROPE, ANISOTROPE ou les joints en ont",
+    ),
+    "parameter-range": Message(
+        "parameter {name} = {wrong:g} is out of its range",
+        "le paramètre {name} = {wrong:g} est hors de ses bornes",
+        "{text}: {described}",
+        "{text}: {described}",
+    ),
+    "parameter-is-a-number": Message(
+        "parameter {name} is a number, not a POINT",
+        "le paramètre {name} est un nombre, pas un POINT",
+    ),
+    "contact-needs-dimensions": Message(
+        "contact needs the plane or space",
+        "le contact demande le plan ou l'espace",
+    ),
+    "contact-side-cells": Message(
+        "a side of contact is made of SEG2 (plane), TRI3 or QUA4 (space), not {bad}",
+        "un bord de contact se fait de SEG2 (plan), TRI3 ou QUA4 (espace), pas de {bad}",
+    ),
+    "cable-friction-needs-dimensions": Message(
+        "cables with friction need the plane or space",
+        "les câbles frottants demandent le plan ou l'espace",
+    ),
+    "cable-is-a-line": Message(
+        "a cable is a line of SEG2, not of {bad}",
+        "un câble est une ligne de SEG2, pas de {bad}",
+    ),
+    "friction-not-negative": Message(
+        "MU and COHE of friction must not be negative",
+        "MU et COHE ne peuvent être négatifs",
+    ),
+    "contact-parameter-varies": Message(
+        "{name} varies along a side of contact",
+        "{name} varie le long d'un bord de contact",
+        "one value for a pair of sides",
+        "une seule valeur par paire de bords",
+    ),
+    "friction-law-missing": Message(
+        "the law of friction is not said",
+        "la loi de frottement n'est pas dite",
+        "FROTTANT COULOMB or FROCABLE",
+        "FROTTANT COULOMB ou FROCABLE",
     ),
 }

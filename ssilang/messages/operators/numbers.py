@@ -76,6 +76,12 @@ MESSAGES: dict[str, Message] = {
         "the mean and the number of values are not negative",
         "la moyenne et le nombre de valeurs ne sont pas négatifs",
     ),
+    "not-third-degree": Message(
+        "the polynomial is not of the third degree: A3 is 0",
+        "le polynôme n'est pas du troisième degré : A3 est nul",
+        "RACP takes any",
+        "RACP prend tous les degrés",
+    ),
     "constant-polynomial": Message(
         "the polynomial is constant: it has no roots, or all numbers",
         "le polynôme est constant : il n'a aucune racine, ou tout nombre l'est",

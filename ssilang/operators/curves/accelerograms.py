@@ -107,12 +107,12 @@ def chsp(call: Call, spectrum: Curve, given: str, wanted: str, colour: str | Non
     names = [w.strip().upper()[:4] for w in (given, wanted)]
     for name in names:
         if name not in _KINDS:
-            raise call.bad(f"a spectrum is of DEPL, VITE or ACCE, not {name}")
+            raise call.error("operators.curves.kind-of-spectrum", name=name)
     power = _KINDS.index(names[1]) - _KINDS.index(names[0])
     parts = []
     for p in spectrum.parts:
         if power < 0 and (p.abscissas <= 0.0).any():
-            raise call.bad("frequencies must be positive to divide by them", spectrum)
+            raise call.error("operators.curves.frequency-not-positive", spectrum)
         y = p.ordinates * (2.0 * np.pi * p.abscissas) ** power
         shade = p.colour if colour is None else index_of(colour)
         parts.append(dataclasses.replace(p, ordinates=y, ordinate_name=names[1], colour=shade))
@@ -123,7 +123,7 @@ def one_curve(call: Call) -> tuple[Curve, CurvePart]:
     """A curve object of one curve, and that curve."""
     curve: Curve = call.required("EVOLUTIO")
     if len(curve.parts) != 1:
-        raise call.bad(f"one curve is needed, here are {len(curve.parts)}", curve)
+        raise call.error("operators.curves.one-curve-wanted", curve, n_parts=len(curve.parts))
     return curve, curve.parts[0]
 
 
@@ -149,7 +149,7 @@ def dspr(call: Call) -> Curve:
     """Power density."""
     power = call.required("ENTIER")
     if not 1 <= power <= 26:
-        raise call.bad(f"2**N1 points are used: N1 is between 1 and 26, not {power}", power)
+        raise call.error("operators.curves.power-of-two", power, power=power)
     curve, part = one_curve(call)
     limits = {"FMIN": 0.0, "FMAX": 0.0}
     while (said := call.keyword(("FMIN", "FMAX"))) is not None:
@@ -205,7 +205,7 @@ def psrs(call: Call) -> Curve:
         words = [said if said in group else w for w, group in zip(words, _PSRS, strict=True)]
     abscissa, kind, law = words
     if given is None and duration <= 0.04:
-        raise call.bad(f"the periods go from 0.04 s to the duration, which is {duration:g}")
+        raise call.error("operators.curves.duration-too-short", duration=duration)
     periods = np.geomspace(0.04, duration, 75) if given is None else given.values
     parts = []
     for xi in dampings:

@@ -67,17 +67,20 @@ def siar(call: Call) -> Any:
     start = float(said.get("TINI", bands[0].times[0]))
     end = float(bands[0].times[-1]) if given is None else float(given)
     if not bands[0].times[0] <= start < end <= bands[0].times[-1]:
-        raise call.bad(
-            f"signals from {start:g} to {end:g} do not fit in the modulation, "
-            f"from {bands[0].times[0]:g} to {bands[0].times[-1]:g}"
+        raise call.error(
+            "operators.curves.signals-outside-modulation",
+            start=start,
+            end=end,
+            times=bands[0].times[0],
+            times_2=bands[0].times[-1],
         )
     if said.get("NPOI", 2) < 2 or said.get("NSIN", 1) < 1:
-        raise call.bad("a signal needs two instants and one sine at least")
+        raise call.error("operators.curves.signal-too-short")
     times = np.linspace(start, end, said.get("NPOI", round((end - start) / 0.02) + 1))
     width = float(part.abscissas[-1] - part.abscissas[0])
     count = said.get("NSIN", max(round(width / 0.1), 1))
     if len(times) < 2 or count < 1:
-        raise call.bad("a signal needs two instants and one sine at least")
+        raise call.error("operators.curves.signal-too-short")
     f, amplitudes = sines(part.abscissas, part.ordinates, count)
     generator = _drawn(call, said.get("INIT"))
     drawn = []
@@ -102,22 +105,24 @@ def _bands(
 ) -> tuple[Band, ...]:
     f = spectrum.abscissas
     if len(f) < 2 or (np.diff(f) <= 0).any() or f[0] < 0:
-        raise call.bad("a power spectrum stands over increasing frequencies, two at least")
+        raise call.error("operators.curves.not-a-power-spectrum")
     if modulation is None:
         if end is None:
             raise call.missing(("FLOTTANT",))
         times = np.array([min(0.0, end), end])
         return (Band(float(f[0]), float(f[-1]), times, np.ones(2)),)
     if len(limits) != len(modulation.parts) + 1:
-        raise call.bad(
-            f"{len(modulation.parts)} modulations need {len(modulation.parts) + 1} limits of "
-            f"bands, found {len(limits)}"
+        raise call.error(
+            "operators.curves.limits-of-bands",
+            n_parts=len(modulation.parts),
+            least=len(modulation.parts) + 1,
+            n_limits=len(limits),
         )
     pairs = zip(limits[:-1], limits[1:], modulation.parts, strict=True)
     bands = tuple(Band(float(a), float(b), p.abscissas, p.ordinates) for a, b, p in pairs)
     ends = np.array([[b.times[0], b.times[-1]] for b in bands])
     if np.ptp(ends, axis=0).max() > 1e-6:
-        raise call.bad("all modulations must begin and end together", modulation)
+        raise call.error("operators.curves.modulations-differ", modulation)
     return bands
 
 

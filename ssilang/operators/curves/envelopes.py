@@ -22,14 +22,17 @@ def _spectra(call: Call, table: Table) -> list[tuple[Curve, list[float]]]:
             continue
         curve, dampings = entry.get(Mot("SPECTRE")), entry.get(Mot("AMORTISSEMENT"))
         if not isinstance(curve, Curve) or not isinstance(dampings, ListReel):
-            raise call.bad(f"table {index} wants a SPECTRE and its list AMORTISSEMENT", table)
+            raise call.error("operators.curves.spectrum-and-dampings-wanted", table, index=index)
         if len(dampings) != len(curve.parts):
-            raise call.bad(
-                f"spectrum {index} has {len(curve.parts)} curves for {len(dampings)} dampings"
+            raise call.error(
+                "operators.curves.curves-and-dampings-differ",
+                index=index,
+                n_parts=len(curve.parts),
+                n_dampings=len(dampings),
             )
         found.append((curve, [float(v) for v in dampings.values]))
     if not found:
-        raise call.bad("the table holds no spectrum at 1, 2 ...", table)
+        raise call.error("operators.curves.table-has-no-spectrum", table)
     return found
 
 

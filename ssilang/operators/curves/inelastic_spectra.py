@@ -28,19 +28,19 @@ def _read(call: Call) -> dict[str, Any]:
         elif word == "DEMA":
             said[word] = True
         elif word == "TAKE":
-            raise call.bad("the law of Takeda is not available", hint="CINE ISOT or ELAS")
+            raise call.error("operators.curves.takeda-not-available")
         else:
             said["LAW"] = word
             said["LIST"] = call.required("LISTREEL", after=call.keyword_end)
     for word in ("SIGN", "SPEL", "AMOR"):
         if word not in said:
-            raise call.bad(f"SPON wants '{word}'")
+            raise call.error("operators.curves.number-wanted", word=word)
     if "LAW" not in said or len(said["KINDS"]) != 2:
-        raise call.bad("SPON wants a law (CINE ISOT ELAS) and the kinds of both spectra")
+        raise call.error("operators.curves.law-and-kinds-wanted")
     if len(said["LIST"].values) < 2:
-        raise call.bad("a law wants a ductility and a hardening ratio")
+        raise call.error("operators.curves.ductility-and-hardening-wanted")
     if len(said["SPEL"].parts) != len(said["AMOR"].values):
-        raise call.bad("SPON wants one linear spectrum for each damping")
+        raise call.error("operators.curves.spectra-and-dampings-differ")
     return said
 
 

@@ -86,7 +86,7 @@ def _interpolate(call: Call, value: Any, x: FloatArray, y: FloatArray) -> Any:
         slopes[said] = call.required("FLOTTANT", after=call.keyword_end)
     if word == "TOUS":
         if not isinstance(value, float):
-            raise call.bad("'TOUS' looks one number up", value)
+            raise call.error("operators.curves.all-of-one-number", value)
         return ListReel(crossings(x, y, value))
     if word == "SPLI":
         ends = slopes.get("DGAU"), slopes.get("DDRO")
@@ -97,10 +97,12 @@ def _interpolate(call: Call, value: Any, x: FloatArray, y: FloatArray) -> Any:
 def _in_table(call: Call, table: Table, time: float) -> Any:
     pairs = sorted((i, v) for i, v in table.items() if isinstance(i, float))
     if not pairs:
-        raise call.bad("the table has no FLOTTANT index", table)
+        raise call.error("operators.curves.no-real-index", table)
     times = [t for t, _ in pairs]
     if not times[0] <= time <= times[-1]:
-        raise call.bad(f"{time:g} is outside of the table, {times[0]:g} to {times[-1]:g}", time)
+        raise call.error(
+            "operators.curves.outside-table", time, time=time, times=times[0], times_2=times[-1]
+        )
     k = min(int(np.searchsorted(times, time, side="right")), len(times) - 1)
     (t0, a), (t1, b) = pairs[k - 1] if k else pairs[0], pairs[k]
     share = 0.0 if t1 == t0 else (time - t0) / (t1 - t0)
@@ -111,13 +113,15 @@ def _in_table(call: Call, table: Table, time: float) -> Any:
 
 def _on_line(call: Call, field: NodeField, distance: float) -> Point:
     if len(field.components) != 1:
-        raise call.bad("a field of curvilinear abscissas has one component", field)
+        raise call.error("operators.curves.abscissas-have-one-component", field)
     (part,) = field.components.values()
     order = np.argsort(part.values, kind="stable")
     x = field.table.coordinates[part.nodes[order]]
     s = part.values[order]
     if not s[0] <= distance <= s[-1]:
-        raise call.bad(f"{distance:g} is outside of the line, {s[0]:g} to {s[-1]:g}", distance)
+        raise call.error(
+            "operators.curves.outside-line", distance, distance=distance, s=s[0], s_2=s[-1]
+        )
     ws = workspace(call.session)
     return ws.point([float(np.interp(distance, s, x[:, i])) for i in range(ws.dimension or 3)])
 
@@ -178,16 +182,16 @@ def _intervals(call: Call, part: CurvePart, word: str, bounds: Any) -> list[tupl
     """Pairs of abscissas for 'BORN', of 0-based places otherwise."""
     count = len(part.abscissas)
     if count == 0:
-        raise call.bad("a curve is empty")
+        raise call.error("operators.curves.empty-curve")
     if bounds is None:
         return [(0, count - 1)]
     low, high = (np.atleast_1d(getattr(b, "values", b)) for b in bounds)
     if len(low) != len(high):
-        raise call.bad(f"{len(low)} lower and {len(high)} upper bounds")
+        raise call.error("operators.curves.bounds-differ", n_low=len(low), n_high=len(high))
     if word == "INDI":
         both = np.concatenate((low, high))
         if len(both) and (both.min() < 1 or both.max() > count):
-            raise call.bad(f"the curve has {count} points, places go from 1 to {count}")
+            raise call.error("operators.curves.no-such-place", count=count)
         low, high = low - 1, high - 1
     return list(zip(low.tolist(), high.tolist(), strict=True))
 

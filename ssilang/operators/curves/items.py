@@ -22,7 +22,7 @@ def numbered(call: Call, curve: Curve, place: int | None) -> CurvePart:
     """Curve number `place` (from 1; the first without number)."""
     place = 1 if place is None else place
     if not 1 <= place <= len(curve.parts):
-        raise call.bad(f"the object has {len(curve.parts)} curves, none of number {place}")
+        raise call.error("operators.curves.no-such-curve", n_parts=len(curve.parts), place=place)
     return curve.parts[place - 1]
 
 
@@ -69,8 +69,11 @@ def _extract(call: Call, curve: Curve) -> Any:
         if part.ordinate_name.rstrip() == wanted:
             return ordinate_list(part)
     names = sorted({n for p in curve.parts for n in (p.abscissa_name, p.ordinate_name)} - {""})
-    raise call.bad(
-        f"no axis is called '{wanted}'", said.value, "axes: " + " ".join(f"'{n}'" for n in names)
+    raise call.error(
+        "operators.curves.no-axis-of-name",
+        said.value,
+        wanted=wanted,
+        names=[f"'{n}'" for n in names],
     )
 
 
@@ -93,7 +96,7 @@ def _curves(call: Call, curve: Curve) -> Curve:
             p for p in curve.parts if wanted in (p.abscissa_name.rstrip(), p.ordinate_name.rstrip())
         )
         if not parts:
-            raise call.bad(f"no axis is called '{wanted}'", value)
+            raise call.error("operators.curves.no-axis-with-name", value, wanted=wanted)
     else:
         places = value.values.tolist() if isinstance(value, ListEnti) else [value]
         parts = tuple(numbered(call, curve, int(i)) for i in places)
@@ -119,7 +122,7 @@ def _picked(curve: Curve, choose: Any, zero: bool = False) -> Curve:
 def _every(call: Call, curve: Curve) -> Curve:
     step = call.required("ENTIER")
     if step < 1:
-        raise call.bad(f"one point of N is kept: N is positive, not {step}", step)
+        raise call.error("operators.curves.step-of-points", step, step=step)
     return _picked(curve, lambda p: slice(None, None, step))
 
 
@@ -247,7 +250,7 @@ def _extreme(call: Call, curve: Curve, pick: Any) -> Any:
     places, xs, ys = [], [], []
     for part in curve.parts:
         if not len(part.ordinates):
-            raise call.bad("a curve is empty", curve)
+            raise call.error("operators.curves.empty-curve", curve)
         i = int(pick(np.abs(part.ordinates) if absolute else part.ordinates))
         places.append(i + 1)
         xs.append(float(part.abscissas[i]))

@@ -65,7 +65,7 @@ def evol(call: Call) -> Curve:
     colours = read_colours(call)
     word = call.keyword(tuple(KINDS))
     if word is None:
-        raise call.bad("what kind of curve?", hint="EVOL " + " ".join(f"'{w}'" for w in KINDS))
+        raise call.error("operators.curves.which-curve", kinds=[f"'{w}'" for w in KINDS])
     colours = colours or read_colours(call) or [workspace(call.session).colour]
     made: Curve = KINDS[word](call, colours)
     return made
@@ -81,7 +81,9 @@ def _manual(call: Call, colours: list[int]) -> Curve:
     y_name = axis_name(call)
     y = call.required(*_LISTS)
     if len(x) != len(y):
-        raise call.bad(f"{len(x)} abscissas for {len(y)} ordinates", y)
+        raise call.error(
+            "operators.curves.abscissas-and-ordinates-differ", y, n_x=len(x), n_y=len(y)
+        )
     marks = tuple(x.values) if isinstance(x, ListMots) else ()
     abscissas = np.arange(1.0, len(x) + 1) if marks else x.values.astype(float)
     words: tuple[str, ...] = ()
@@ -111,7 +113,13 @@ def _complex(call: Call, colours: list[int]) -> Curve:
         names.append(axis_name(call))
         values.append(call.required("LISTREEL").values)
     if len({len(x), len(values[0]), len(values[1])}) > 1:
-        raise call.bad(f"the lists have {len(x)}, {len(values[0])} and {len(values[1])} items", x)
+        raise call.error(
+            "operators.curves.lists-differ",
+            x,
+            n_x=len(x),
+            n_values=len(values[0]),
+            n_values_2=len(values[1]),
+        )
     kinds = ("PREE", "PIMA") if form == "REIM" else ("MODU", "PHAS")
     default = ("Re", "Im") if form == "REIM" else ("Amp", "Phi")
     parts = tuple(
@@ -154,13 +162,12 @@ def _along_line(call: Call, colours: list[int]) -> Curve:
     missing = ~np.isin(nodes, part.nodes)
     if np.any(missing):
         call.session.warn(
-            "bad-value",
+            "operators.curves.no-value-on-line",
             call.span,
             operator="EVOL",
-            message=f"the field has no value of {name} at {missing.sum()} of the {len(nodes)} "
-            "nodes of the line",
-            hint="the curve is zero there",
-            severity="warning",
+            name=name,
+            n_missing=missing.sum(),
+            n_nodes=len(nodes),
         )
     made = CurvePart(s, part.at(nodes), "ABS", name, "", colours[0])
     return Curve((made,), workspace(call.session).title)
@@ -169,7 +176,7 @@ def _along_line(call: Call, colours: list[int]) -> Curve:
 def _only(call: Call, field: NodeField) -> str:
     names = list(field.components)
     if len(names) != 1:
-        raise call.bad("the field has several components", field, "name one: " + " ".join(names))
+        raise call.error("operators.curves.which-component", field, names=names)
     return names[0]
 
 
@@ -185,7 +192,7 @@ def _in_time(call: Call, colours: list[int]) -> Curve:
     if chosen is not None:
         places = chosen.value.values - 1 if not title else chosen.value.values
         if np.any(places < 0) or np.any(places >= len(fields)):
-            raise call.bad(f"there are {len(fields)} steps", chosen.value)
+            raise call.error("operators.curves.no-such-step", chosen.value, n_fields=len(fields))
         fields, times = [fields[int(i)] for i in places], times[places]
     if fields and isinstance(fields[0], CellField):
         return _in_a_cell(call, fields, times, colours[0])
@@ -221,7 +228,9 @@ def _in_a_cell(call: Call, fields: list[Any], times: FloatArray, colour: int) ->
             field.blocks[zone - 1].components.get(name) if 1 <= zone <= len(field.blocks) else None
         )
         if held is None or not 1 <= cell <= len(held) or point < 1:
-            raise call.bad(f"no value of {name} in zone {zone}, cell {cell}, point {point}")
+            raise call.error(
+                "operators.curves.no-value-at-point", name=name, zone=zone, cell=cell, point=point
+            )
         row = held[cell - 1]
         values.append(float(row[min(point, len(row)) - 1]))
     part = CurvePart(times, np.asarray(values), "TEMP", name[:12], name, colour)
@@ -254,7 +263,12 @@ def history(call: Call, unmade: bool = False) -> tuple[list[Any], FloatArray, st
         times = call.required("LISTREEL").values
         fields = list(operand.value.values)
         if len(times) != len(fields):
-            raise call.bad(f"{len(fields)} fields for {len(times)} times", operand.value)
+            raise call.error(
+                "operators.curves.fields-and-times-differ",
+                operand.value,
+                n_fields=len(fields),
+                n_times=len(times),
+            )
         return fields, times, ""
     table: Table = operand.value
     index = _DEFAULT_INDEX.get(table.subtype, "DEPL")
@@ -306,7 +320,7 @@ def results_in_time(table: Table, index: str, unmade: bool = False) -> tuple[lis
             if field is not MISSING:
                 found.append((value.get("TEMP", place), field))
     if not found:
-        raise KernelError(f"the table holds no results in time at index {index}")
+        raise KernelError("operators.curves.no-results-in-time", index=index)
     found.sort(key=lambda pair: float(str(pair[0])))
     return [f for _, f in found], reals([t for t, _ in found])
 

@@ -74,9 +74,7 @@ def prns(call: Call) -> Curve:
         if said is None and shade is None:
             break
         if said == "ONDE":
-            raise call.bad(
-                "modulations of wavelets are not built: the notice does not name the filters"
-            )
+            raise call.error("operators.curves.no-modulation-of-wavelets")
         if said in _TUNING:
             numbers[said] = call.required(_TUNING[said], after=call.keyword_end)
         colour = colour if shade is None else shade
@@ -87,7 +85,7 @@ def prns(call: Call) -> Curve:
         tuple(p.abscissas for p in modulation.parts), tuple(p.ordinates for p in modulation.parts),
     )  # fmt: skip
     if given is None and signal.duration <= 0.04:
-        raise call.bad(f"the periods go from 0.04 s to the duration, which is {signal.duration:g}")
+        raise call.error("operators.curves.duration-too-short", duration=signal.duration)
     periods = np.geomspace(0.04, signal.duration, 75) if given is None else given.values
     resolution = Resolution(
         numbers.get("NBPR", max(round(signal.duration / 2.0), 1)),

@@ -48,7 +48,7 @@ def prol(call: Call) -> Curve:
 def _continued(call: Call, part: CurvePart, wanted: list[float], line: bool) -> CurvePart:
     x, y = part.abscissas, part.ordinates
     if part.words or part.abscissa_words or len(x) < 1 + line:
-        raise call.bad("this curve has too few points, or words, and cannot be continued")
+        raise call.error("operators.curves.cannot-be-continued")
     order = np.argsort(x, kind="stable")
     low, high = order[:2], order[-1:-3:-1]
     rows = [(float(a), float(b)) for a, b in zip(x, y, strict=True)]
@@ -61,7 +61,7 @@ def _continued(call: Call, part: CurvePart, wanted: list[float], line: bool) -> 
         if line:
             run = float(x[ends[1]] - x[ends[0]])
             if run == 0.0:
-                raise call.bad("the last two points of the curve have the same abscissa")
+                raise call.error("operators.curves.last-points-together")
             value += (w - float(x[ends[0]])) * float(y[ends[1]] - y[ends[0]]) / run
         first = (w < x.min()) == rising
         rows = [(w, value), *rows] if first else [*rows, (w, value)]
@@ -88,13 +88,15 @@ def _continued(call: Call, part: CurvePart, wanted: list[float], line: bool) -> 
 def conc(call: Call, first: Curve, second: Curve) -> Curve:
     """Join curves."""
     if len(first.parts) != len(second.parts):
-        raise call.bad(
-            f"curves are joined two by two: here are {len(first.parts)} and {len(second.parts)}"
+        raise call.error(
+            "operators.curves.curves-two-by-two",
+            n_parts=len(first.parts),
+            n_parts_2=len(second.parts),
         )
     parts = []
     for a, b in zip(first.parts, second.parts, strict=True):
         if bool(a.words) != bool(b.words):
-            raise call.bad("a curve of words and a curve of numbers cannot be joined")
+            raise call.error("operators.curves.words-and-numbers")
         one, two = (a, b) if _start(a) <= _start(b) else (b, a)
         parts.append(
             dataclasses.replace(
@@ -137,9 +139,9 @@ def lsqf(call: Call) -> Curve:
     word = call.keyword(("UNIF", "OPTI", "REDU"))
     size = call.required("ENTIER", after=call.keyword_end) if word in ("OPTI", "REDU") else 1
     if word == "OPTI":
-        raise call.bad("'OPTI' is not available in LSQF", hint="'UNIF' or 'REDU'")
+        raise call.error("operators.curves.no-optimal-fit")
     if count < 1 or size < 1:
-        raise call.bad("the numbers of intervals and of samples must be positive")
+        raise call.error("operators.curves.counts-not-positive")
     parts = []
     for p in curve.parts:
         constant_step(p.abscissas)
@@ -183,7 +185,7 @@ def mapp(call: Call) -> Curve:
 def _at(call: Call, curve: Curve, times: FloatArray) -> FloatArray:
     part = curve.parts[0]
     if len(part.abscissas) == 0 or (len(times) and times[-1] > part.abscissas[-1]):
-        raise call.bad("displacement and velocity must cover the times of the force", curve)
+        raise call.error("operators.curves.times-of-force-not-covered", curve)
     return np.asarray(np.interp(times, part.abscissas, part.ordinates))
 
 
@@ -211,7 +213,7 @@ def _at(call: Call, curve: Curve, times: FloatArray) -> FloatArray:
 def cmoy(call: Call, records: Curve, duration: float, percent: float, count: int | None) -> Curve:
     """Mean shock."""
     if count is not None and count < 1:
-        raise call.bad(f"the number of shocks is positive, not {count}", count)
+        raise call.error("operators.curves.count-of-shocks", count, count=count)
     parts = []
     for p in records.parts:
         constant_step(p.abscissas)
@@ -243,10 +245,14 @@ def cmoy(call: Call, records: Curve, duration: float, percent: float, count: int
 def lapl(call: Call) -> Curve:
     """Inverse Laplace transform."""
     if call.keyword(("INVE",)) is None:
-        raise call.bad("only the inverse transform is available", hint="LAPL 'INVERSE' ...")
+        raise call.error("operators.curves.only-inverse-transform")
     omega, real, imaginary = (call.required("LISTREEL").values for _ in range(3))
     shift, group = call.required("FLOTTANT"), call.required("ENTIER")
     if len(real) != len(imaginary):
-        raise call.bad(f"{len(real)} real parts for {len(imaginary)} imaginary parts")
+        raise call.error(
+            "operators.curves.parts-differ",
+            n_real=len(real),
+            n_imaginary=len(imaginary),
+        )
     t, y = inverse_laplace(omega, real + 1j * imaginary, shift, group)
     return Curve((CurvePart(t, y, "TEMPS", "F(T)", "LAPLACE INVERSE"),))

@@ -63,14 +63,14 @@ def tfr(call: Call) -> Any:
     """Transform signals."""
     power = call.required("ENTIER")
     if not 1 <= power <= 26:
-        raise call.bad(f"2**N1 points are used: N1 is between 1 and 26, not {power}", power)
+        raise call.error("operators.curves.power-of-two", power, power=power)
     operand = call.read("EVOLUTIO", "LISTCHPO")
     if operand is None:
         raise call.missing(("EVOLUTIO", "LISTCHPO"))
     times = call.required("LISTREEL").values if isinstance(operand.value, ListChpo) else None
     form = call.keyword(("REIM", "MOPH"))
     if form is None:
-        raise call.bad("how are the values to be given?", hint="'REIM' or 'MOPH'")
+        raise call.error("operators.curves.how-to-give-values")
     limits = {"FMIN": 0.0, "FMAX": np.inf}
     while (said := call.keyword(("FMIN", "FMAX"))) is not None:
         limits[said] = call.required("FLOTTANT", after=call.keyword_end)
@@ -79,7 +79,7 @@ def tfr(call: Call) -> Any:
         return _transformed_fields(call, operand.value, times, 2**power, limits)
     curve: Curve = operand.value
     if len(curve.parts) != 1:
-        raise call.bad(f"one curve is transformed at a time, here are {len(curve.parts)}", curve)
+        raise call.error("operators.curves.one-curve-at-a-time", curve, n_parts=len(curve.parts))
     part = curve.parts[0]
     f, values = fourier(part.ordinates, constant_step(part.abscissas), 2**power)
     kept = (f >= limits["FMIN"]) & (f <= limits["FMAX"])
@@ -92,7 +92,12 @@ def _transformed_fields(
 ) -> tuple[ListChpo, ListChpo, ListReel]:
     held: list[Any] = fields.values
     if len(held) != len(times):
-        raise call.bad(f"{len(held)} fields for {len(times)} times", fields)
+        raise call.error(
+            "operators.curves.fields-and-times-differ",
+            fields,
+            n_fields=len(held),
+            n_times=len(times),
+        )
     step = constant_step(times)
     real: dict[str, Any] = {}
     f = np.empty(0)
@@ -130,10 +135,10 @@ def tfri(call: Call) -> Curve:
     """Transform back."""
     curve: Curve = call.required("EVOLUTIO")
     if not is_complex(curve) or len(curve.parts) != 2:
-        raise call.bad("one complex curve is needed", curve, "made by TFR or EVOL 'COMP'")
+        raise call.error("operators.curves.complex-curve-wanted", curve)
     f = curve.parts[0].abscissas
     if len(f) and abs(f[0]) > 1e-9 * max(abs(f[-1]), 1e-300):
-        raise call.bad(f"the frequencies must begin at 0, not {f[0]:g}", curve)
+        raise call.error("operators.curves.frequencies-from-zero", curve, f=f[0])
     t, values = inverse_fourier(f, complex_values(*curve.parts))
     part = CurvePart(t, values, "TEMPS", "SIGNAL", "", curve.parts[0].colour)
     return Curve((part,), curve.title)
@@ -170,7 +175,7 @@ def filt(call: Call) -> Curve:
         elif said != "SORT":
             form = said
     if not kind or spacing <= 0 or not 1 <= power <= 26:
-        raise call.bad("a filter needs N1, a 'TYPE' and a positive step 'DFRQ'")
+        raise call.error("operators.curves.filter-incomplete")
     f = spacing * np.arange(2 ** (power - 1) + 1)
     if kind == "OMEG":
         omega = 2j * np.pi * f
@@ -179,7 +184,7 @@ def filt(call: Call) -> Curve:
         values = omega**cut
     else:
         if cut <= 0:
-            raise call.bad(f"a cut-off frequency is positive, not {cut:g}", cut)
+            raise call.error("operators.curves.cut-off-not-positive", cut, cut=cut)
         ratio = 1j * f / cut
         values = (ratio if kind == "PHAU" else 1.0) / (1.0 + ratio)
     return spectrum(f, values, form)
@@ -188,7 +193,7 @@ def filt(call: Call) -> Curve:
 def _single(call: Call) -> tuple[Curve, CurvePart]:
     curve: Curve = call.required("EVOLUTIO")
     if len(curve.parts) != 1:
-        raise call.bad(f"one curve is needed, here are {len(curve.parts)}", curve)
+        raise call.error("operators.curves.one-curve-wanted", curve, n_parts=len(curve.parts))
     return curve, curve.parts[0]
 
 
@@ -244,7 +249,7 @@ def comt(call: Call) -> Any:
     if not words:
         return ListEnti([len(f[1]) for f in found])
     if len(found) != 1:
-        raise call.bad("peaks and places are given for one curve only", curve)
+        raise call.error("operators.curves.peaks-of-one-curve", curve)
     peaks, begins, ends = found[0]
     more: list[Any] = [ListReel(peaks)] if "MAXI" in words else []
     more += [ListEnti(begins)] if "DEBU" in words else []
@@ -304,7 +309,7 @@ def fdt(call: Call) -> Curve:
             return _in_time(values[0] * np.arange(len(second)), second.values, name)
         values, pairs = second.values, True
     if len(values) % 2:
-        raise call.bad(f"times and values come in pairs, found {len(values)} numbers")
+        raise call.error("operators.curves.times-and-values-in-pairs", n_values=len(values))
     if pairs:
         return _in_time(values[::2], values[1::2], name)
     half = len(values) // 2

@@ -103,14 +103,16 @@ def _valp(call: Call) -> ListReel:
     while call.keyword(("ITERATION", "ABSOLU", "RELATIF")) is not None:
         call.required("FLOTTANT", after=call.keyword_end)  # accuracy: always to rounding
     if len(below) != len(diagonal) - 1:
-        raise call.bad(
-            f"a diagonal of {len(diagonal)} terms has {len(diagonal) - 1} terms below it, "
-            f"not {len(below)}"
+        raise call.error(
+            "operators.curves.terms-below-diagonal",
+            n_diagonal=len(diagonal),
+            needed=len(diagonal) - 1,
+            n_below=len(below),
         )
     matrix = np.diag(diagonal) + np.diag(below, -1) + np.diag(np.ones(len(below)), 1)
     values = np.linalg.eigvals(matrix)
     if np.abs(values.imag).max(initial=0.0) > 1e-9 * np.abs(values).max(initial=1.0):
-        raise call.bad("this matrix has complex eigenvalues")
+        raise call.error("operators.curves.complex-eigenvalues")
     return ListReel(np.sort(values.real))
 
 

@@ -53,7 +53,7 @@ def onde(call: Call) -> Any:
     """Wavelet transform."""
     power = call.required("ENTIER")
     if not 1 <= power <= 20:
-        raise call.bad(f"2**N1 points are used: N1 is between 1 and 20, not {power}", power)
+        raise call.error("operators.curves.power-of-two-of-wavelets", power, power=power)
     curve, part = one_curve(call)
     form = call.keyword(("CRMO", "CRPH", "REIM", "MOPH"))
     said = dict(_NUMBERS)
@@ -63,12 +63,12 @@ def onde(call: Call) -> Any:
     colour = read_colour(call) or 0
     count = int(said["NFRQ"])
     if not 0.0 < said["FMIN"] < said["FMAX"] or count < 1 or said["PULS"] <= 0.0:
-        raise call.bad(
-            f"'FMIN' ({said['FMIN']:g}) and 'FMAX' ({said['FMAX']:g}) are positive and increase"
+        raise call.error(
+            "operators.curves.frequencies-must-increase", fmin=said["FMIN"], fmax=said["FMAX"]
         )
     step, n = constant_step(part.abscissas), 2**power
     if n * (count + 1) > 20_000_000:
-        raise call.bad("the transform would have too many values", hint="fewer frequencies 'NFRQ'")
+        raise call.error("operators.curves.transform-too-large")
     scale = scales(said["FMIN"], said["FMAX"], count, said["PULS"])
     found = transform(part.ordinates, step, n, scale, said["PULS"])
     times = part.abscissas[0] + step * np.arange(n)
@@ -91,7 +91,7 @@ def _square(
     ws = workspace(call.session)
     rows, n = found.shape
     if ws.dimension < 2:
-        raise call.bad("a mesh needs two dimensions", hint="OPTI DIME 2 ;")
+        raise call.error("operators.curves.two-dimensions-wanted")
     xy = np.zeros((rows * n, ws.dimension))
     xy[:, 0] = np.tile(np.linspace(0.0, 1.0, n), rows)
     xy[:, 1] = np.repeat(np.linspace(1.0, 0.0, rows), n)

@@ -38,10 +38,7 @@ class AddedByProcedure:
         self.entries.table.set(Mot("ETAT"), _table_of(state, problem))
         results = call_user(self.entries.call, "CHARMECA", self.entries.table, time)
         if len(results) != 1 or not isinstance(results[0], Table):
-            raise self.entries.bad(
-                "the procedure CHARMECA must give one TABLE",
-                "TCHAR = TABL ; TCHAR . 'ADDI_FNL' = ... ; FINP TCHAR ;",
-            )
+            raise self.entries.error("operators.dynamics.charmeca-gives-a-table")
         found = Entries(self.entries.call, results[0], self.entries.procedure, "TCHAR")
         found.check()
         given: dict[str, Any] = {name: found.get(word) for word, name in TERMS.items()}

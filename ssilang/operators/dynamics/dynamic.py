@@ -101,7 +101,7 @@ def _integrated(
     full = entries.flag("NEWTON_COMPLET")
     if bodies is not None:
         if tolerance is not None:
-            raise entries.bad("'REDUCTION' needs linear bodies", "MODELE has plastic ones")
+            raise entries.error("operators.dynamics.reduction-of-plastic-bodies")
         return run_bulk(problem, *bodies, observers, line, dynamic=True)
     driver = AddedByProcedure(entries) if entries.flag("CHARMECA") else None
     if tolerance is None and not full and driver is None:
@@ -109,11 +109,11 @@ def _integrated(
     if tolerance is None:
         return integrate(problem, observers, line, full, driver)
     if driver is not None:
-        raise entries.bad("'REDUCTION' and 'CHARMECA' exclude each other", "leave one")
+        raise entries.error("operators.dynamics.reduction-or-charmeca")
     if full:
-        raise entries.bad("'REDUCTION' and 'NEWTON_COMPLET' choose two methods", "give one")
+        raise entries.error("operators.dynamics.reduction-or-newton")
     if not 0.0 < tolerance < 1.0:
-        raise entries.bad(f"'REDUCTION' is {tolerance:g}", "a relative error, such as 1.E-6")
+        raise entries.error("operators.dynamics.tolerance-of-reduction", tolerance=tolerance)
     return integrate_reduced(problem, float(tolerance), observers, line)
 
 
@@ -121,9 +121,7 @@ def _say_reduction(entries: Entries, history: History) -> None:
     """Warn when a reduction that was asked for was not made."""
     found = history.reduction
     if found is not None and found.vectors == 0:
-        entries.warn(
-            f"no reduced model was used: {found.refused}", "the whole model was run, exactly"
-        )
+        entries.warn("operators.dynamics.reduction-not-used", refused=found.refused)
 
 
 def integrated(
@@ -151,9 +149,7 @@ def _older_times(entries: Entries) -> tuple[FloatArray, NDArray[np.bool_]]:
     """INST (instants kept), DEBU (start, 0), FREQ (cut-off frequency, dt = 1/(4 FREQ))."""
     instants = entries.get("INST")
     if instants is None:
-        raise entries.bad(
-            "the entry 'TEMPS_CALCULES' is missing", "TAB1 . 'TEMPS_CALCULES' = PROG 0. 'PAS' ... ;"
-        )
+        entries.needed("TEMPS_CALCULES")
     frequency = entries.get("FREQ")
     wanted = np.asarray(instants.values, dtype=float)
     begin = entries.get("DEBU")
@@ -161,14 +157,14 @@ def _older_times(entries: Entries) -> tuple[FloatArray, NDArray[np.bool_]]:
         begin = min(0.0, float(wanted[0])) if len(wanted) else 0.0
     stops = wanted if len(wanted) and wanted[0] <= begin else np.concatenate([[begin], wanted])
     if len(stops) < 2 or not (np.diff(stops) > 0.0).all():
-        raise entries.bad("'INST' holds instants that increase from 'DEBU' on", "one or more")
+        raise entries.error("operators.dynamics.instants-must-increase")
     if frequency is None:
         return stops, np.isin(stops, wanted)
     if frequency <= 0:
-        raise entries.bad(f"'FREQ' is {frequency:g}", "a cut-off frequency > 0 (Hz)")
+        raise entries.error("operators.dynamics.frequency-not-positive", frequency=frequency)
     if float(stops[-1] - stops[0]) * 4 * frequency > MOST_STEPS:
-        raise entries.bad(
-            f"'FREQ' is {frequency:g}: more than {MOST_STEPS:g} steps", "dt = 1/(4 FREQ)"
+        raise entries.error(
+            "operators.dynamics.too-many-steps", frequency=frequency, most_steps=MOST_STEPS
         )
     counts = np.maximum(np.ceil(np.diff(stops) * 4 * frequency * (1 - 1e-9)), 1).astype(int)
     pieces = [
@@ -183,15 +179,9 @@ def _inputs(entries: Entries, times: FloatArray) -> Inputs:
     from ssilang.kernel.stepping.problem.problem import Inputs
 
     if entries.flag("ECON"):
-        entries.warn(
-            "'ECON' asks to keep results on disk: they stay in memory",
-            "PAS_SAUVES and MAILLAGE_SAUVE make them smaller",
-        )
+        entries.warn("operators.dynamics.results-stay-in-memory")
     if entries.flag("SAUV"):
-        entries.warn(
-            "'SAUV' asks to write each step to the file of OPTI SAUV: results stay in memory",
-            "SAUV the table behind DYNAMIC, or use the VTK or CSV entries",
-        )
+        entries.warn("operators.dynamics.steps-not-written")
     return Inputs(
         entries.needed("RIGI"),
         times,

@@ -57,7 +57,7 @@ def zcol(call: Call) -> Table:
     control = entries.get("CONTROLE") or 0.0
     steps = np.diff(signal.abscissas)
     if len(steps) == 0 or np.ptp(steps) > 1e-3 * abs(steps.mean()):
-        raise entries.bad("the acceleration GAMMAO needs equal steps of time", "IPOL it first")
+        raise entries.error("operators.dynamics.equal-steps-wanted")
     field = free_field(
         SoilColumn(thickness, density, modulus, damping, f1, f2),
         float(steps.mean()),

@@ -53,7 +53,7 @@ def vtk_observer(entries: Entries, times: FloatArray) -> VtkObserver | None:
 def _parts(entries: Entries, table: Table) -> dict[str, Mesh]:
     parts = {str(i): m for i, m in table.items() if isinstance(m, Mesh)}
     if not parts:
-        raise entries.bad("'MAILLAGE_VTK' is a TABLE without MAILLAGE")
+        raise entries.error("operators.dynamics.table-without-mesh")
     return parts
 
 

@@ -72,13 +72,12 @@ def warn_resolution(entries: Entries, problem: Problem) -> None:
     found = contact_resolution(problem)
     if found is None or found.resolved:
         return
-    advice = f"dt <= T_c/30 = {found.wanted_dt:.3g} s keeps energy; or CONSERVATIF, a softer joint"
-    if problem.scheme.conserving:
-        advice = f"energy is kept; dt <= T_c/30 = {found.wanted_dt:.3g} s follows the contact too"
     entries.warn(
-        f"the step {found.dt:.3g} s does not resolve contact, whose half period is "
-        f"{found.contact_time:.3g} s with the mass attached to the joints",
-        advice,
+        "operators.dynamics.contact-not-resolved",
+        dt=found.dt,
+        contact_time=found.contact_time,
+        wanted_dt=found.wanted_dt,
+        conserving=problem.scheme.conserving,
     )
 
 
@@ -91,11 +90,7 @@ def warn_massless(entries: Entries, problem: Problem) -> None:
         return
     for body in loose_bodies(problem, np.zeros((joints.n_points, joints.dimension))):
         if body.mass == 0.0:
-            entries.warn(
-                f"the body at node {body.node} has no mass and only joints hold it: it follows "
-                "its loads at once, and is lost where all its joints open",
-                "give its MASS",
-            )
+            entries.warn("operators.dynamics.body-without-mass", node=body.node)
 
 
 def warn_supports(entries: Entries, inputs: Inputs) -> None:
@@ -106,11 +101,7 @@ def warn_supports(entries: Entries, inputs: Inputs) -> None:
         entries.call.session, entries.place, entries.procedure, inputs.stiffness, inputs.model
     )
     for x, y, z in swapped_joints(inputs.stiffness, inputs.model, inputs.characteristics):
-        entries.warn(
-            f"the joint around {x:.4g} {y:.4g} {z:.4g} opens where its bodies come together: its "
-            "sides are swapped",
-            "RACC and LIAI take the structure's side first",
-        )
+        entries.warn("operators.dynamics.sides-swapped", x=x, y=y, z=z)
 
 
 def warn_motion_elsewhere(entries: Entries, problem: Problem, inputs: Inputs) -> None:
@@ -121,10 +112,7 @@ def warn_motion_elsewhere(entries: Entries, problem: Problem, inputs: Inputs) ->
         nodes = np.unique(np.concatenate(moved)) if moved else np.empty(0, dtype=np.int64)
         lost = int(np.isin(nodes, problem.numbering.nodes, invert=True).sum())
         if lost:
-            entries.warn(
-                f"{lost} nodes of '{index}' belong to no matrix: what moves there is not seen",
-                "a point written again is a new node: use the names of the mesh",
-            )
+            entries.warn("operators.dynamics.motion-elsewhere", lost=lost, index=index)
 
 
 def warn_contrast(entries: Entries, problem: Problem) -> None:
@@ -135,18 +123,19 @@ def warn_contrast(entries: Entries, problem: Problem) -> None:
     found = joint_conditioning(problem)
     if found is not None and found.joints_are_to_blame:
         entries.warn(
-            f"the condition number of the stiffness with closed joints is {found.number:.0e}: "
-            f"{found.digits} of 16 digits are left; with joints as stiff as the bodies at their "
-            f"nodes it is {found.balanced:.0e}",
-            f"KN and KS are in Pa/m (N/m for JOI1), here KN = {found.kn:.3g}: check their units; "
-            f"{found.wanted_kn:.1e} is as stiff as the bodies",
+            "operators.dynamics.badly-conditioned",
+            number=found.number,
+            digits=found.digits,
+            balanced=found.balanced,
+            kn=found.kn,
+            wanted_kn=found.wanted_kn,
         )
         return
     ratio = stiffness_contrast(problem)
     if ratio is None or 1 / STRANGE <= ratio <= STRANGE:
         return
-    more = f"{ratio:.1e} times as stiff as" if ratio > 1 else f"{1 / ratio:.1e} times softer than"
     entries.warn(
-        f"the joints are {more} the bodies at the same nodes: digits are lost",
-        "KN and KS are in Pa/m (N/m for JOI1); check their units",
+        "operators.dynamics.joints-out-of-proportion",
+        stiffer=ratio if ratio > 1 else 0.0,
+        softer=1 / ratio,
     )

@@ -22,7 +22,7 @@ def contact_options(entries: Entries, dynamic: bool = True) -> ContactOptions:
     method = str(entries.get("CONTACT"))
     coefficient = entries.get("COEFFICIENT")
     if method == "PENALITE" and coefficient is None:
-        raise entries.bad("'CONTACT' = 'PENALITE' needs 'COEFFICIENT'", "a stiffness, N/m")
+        raise entries.error("operators.dynamics.penalty-wants-coefficient")
     if not dynamic:
         return ContactOptions(method, coefficient)
     return ContactOptions(
@@ -44,25 +44,16 @@ def _correction(entries: Entries, method: str) -> str:
         return "MASSE" if average and method != "PENALITE" else "FAUX"
     word = NORMS[given]
     if word != "FAUX" and not average:
-        raise entries.bad(
-            "'VITEUNIL' corrects velocities of the average acceleration only",
-            "leave ALPHA_F, RHO_INF, BETA and GAMMA, or VITEUNIL = FAUX",
-        )
+        raise entries.error("operators.dynamics.no-corrected-velocities")
     return word
 
 
 def _no_correction(entries: Entries, given: object) -> str:
     """The conserving step reflects velocities by itself."""
     if given is not None and given is not False:
-        entries.warn(
-            "'VITEUNIL' has no effect: the conserving step keeps the energy of impacts by itself",
-            "VITEUNIL = FAUX",
-        )
+        entries.warn("operators.dynamics.correction-without-effect")
     if entries.flag("CONTACT_PERSISTANT"):
-        raise entries.bad(
-            "'CONTACT_PERSISTANT' takes energy, 'CONSERVATIF' keeps it: they exclude each other",
-            "leave one",
-        )
+        raise entries.error("operators.dynamics.conserving-or-persistent")
     return "FAUX"
 
 
@@ -75,10 +66,10 @@ def _basic_scheme(entries: Entries) -> Scheme:
     given = [name for name in SCHEME_ENTRIES if entries.has(name)]
     if entries.flag("CONSERVATIF"):
         if given:
-            raise entries.bad(f"'CONSERVATIF' and '{given[0]}' choose two schemes", "give one")
+            raise entries.error("operators.dynamics.conserving-and-scheme", given=given[0])
         return Scheme(conserving=True)
     if len(given) > 1 and given != ["BETA", "GAMMA"]:
-        raise entries.bad(f"'{given[0]}' and '{given[1]}' choose two schemes", "give one")
+        raise entries.error("operators.dynamics.two-schemes", given=given[0], given_2=given[1])
     if not given:
         return Scheme()
     values = [float(entries.needed(name)) for name in given]

@@ -293,7 +293,7 @@ _FOUR = (
     "condition son propre multiplicateur, pour qu'elle s'ajoute à celle dont elle vient.",
 )
 def imaginary_names(
-    call: Call, imaginary: str, matrix: Matrix, shape: str | None, own: bool
+    call: Call, imaginary: bool, matrix: Matrix, shape: str | None, own: bool
 ) -> Matrix:
     """Names of imaginary parts."""
     if matrix.relations:

@@ -295,7 +295,7 @@ def amor(
 )
 def turning_damping(
     call: Call,
-    turning: str,
+    turning: bool,
     model: Model,
     fields: tuple[CellField, ...],
     alone: bool,

@@ -157,6 +157,8 @@ _SIDE = choice(
         "les inconnues du même nom ; 'DUAL' donne le champ de la réaction. 'CORI' : corps rigide, "
         "'ENSE' : même valeur partout, 'ACCRO' : nœuds accrochés aux éléments qui les "
         "contiennent, 'GLIS' : de même sauf le long de la ligne, 'MILI' : nœuds milieux.",
+        "RIG1 = RELA ('MINI' | 'MAXI') (X1) MOT1 GEO1 + | - (X2) MOT2 GEO2 ... ;\n"
+        "RIG1 = RELA ... (X1) 'DEPL' | 'ROTA' ('DIRE' VEC1) GEO1 + | - ... ;\n"
         "RIG1 = RELA ('MINI' | 'MAXI') CHPO1 ('DUAL' CHPO2) ;",
         (
             "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; P2 = 1. 0. ;"
@@ -219,7 +221,7 @@ _HOST = arg("host", "MAILLAGE", en="cells that hold them", fr="éléments qui le
 )
 def rigid_with_rotations(
     call: Call,
-    turning: str,
+    turning: bool,
     moving: bool,
     unchecked: bool,
     mesh: Mesh | Point,
@@ -270,7 +272,7 @@ def together(call: Call, unknown: str, mesh: Mesh) -> Matrix:
     arg("guest", "MAILLAGE", "MMODEL", "POINT", en="nodes to tie", fr="noeuds à attacher"),
     syntax="RIG1 = RELA 'ACCRO' 'FORT' MODL2 GEO1 | MODL1 ;",
 )
-def hooked_on_model(call: Call, strong: str, host: Model, guest: Mesh | Model | Point) -> Matrix:
+def hooked_on_model(call: Call, strong: bool, host: Model, guest: Mesh | Model | Point) -> Matrix:
     """Nodes hooked onto the cells of a model."""
     names = made.in_space(workspace(call.session).mode)
     nodes = nodes_of(guest.mesh if isinstance(guest, Model) else guest)
@@ -330,8 +332,6 @@ def middles(call: Call, words: ListMots | None, mesh: Mesh) -> Matrix:
         arg("support", "MAILLAGE", "POINT", en="nodes", fr="noeuds"),
     ),
     by_hand="its terms are signs, numbers, words and meshes in any order",
-    syntax="RIG1 = RELA ('MINI' | 'MAXI') (X1) MOT1 GEO1 + | - (X2) MOT2 GEO2 ... ;\n"
-    "RIG1 = RELA ... (X1) 'DEPL' | 'ROTA' ('DIRE' VEC1) GEO1 + | - ... ;",
 )
 def sums(call: Call) -> Matrix:
     """Sums of terms."""

@@ -46,7 +46,7 @@ def shapes_of(call: Call, *tables: Table) -> list[Shape]:
     """Modes and static shapes of BASE_MODALE, BASE_DE_MODES, LIAISONS_STATIQUES tables."""
     found = [s for t in tables for s in shapes_in(t)]
     if not found:
-        raise call.bad("the table holds no mode and no static shape", tables[0] if tables else None)
+        raise call.error("operators.modal.no-mode-no-shape", tables[0] if tables else None)
     return found
 
 
@@ -95,7 +95,7 @@ def read_basis(call: Call) -> list[Shape]:
     material = joined((call.required("MCHAML"), *call.all("MCHAML")))
     points = shape_points(model.value.zones, material)
     if not points:
-        raise call.bad("the model has no zone MODAL or STATIQUE", model.value)
+        raise call.error("operators.modal.model-no-zone-modal", model.value)
     nodes = workspace(call.session).nodes
     return [Shape(p.field, Point(nodes, p.node), p.unknown, Table()) for p in points]
 
@@ -120,7 +120,7 @@ def _pjba(call: Call) -> Any:
 
 def _forces(call: Call, force: object, shapes: list[Shape]) -> NodeField:
     if not isinstance(force, NodeField):
-        raise call.bad("only nodal forces times a curve can be projected")
+        raise call.error("operators.modal.only-nodal-forces-times")
     return _at_marks(force.table, shapes, [work(force, s.field) for s in shapes], dual=True)
 
 
@@ -132,7 +132,7 @@ def _project_list(call: Call, fields: ListChpo, shapes: list[Shape]) -> ListChpo
     out: list[object] = []
     for field in fields.values:
         if not isinstance(field, NodeField):
-            raise call.bad("the list holds something else than nodal fields", fields)
+            raise call.error("operators.modal.list-holds-something-else", fields)
         values = [work(d, field, same_names=metric is None) for d in dual]
         out.append(_at_marks(field.table, shapes, values, dual=False))
     return ListChpo(out)
@@ -176,7 +176,7 @@ def _psmo(call: Call) -> Table:
     masses = [m for m in matrices if m.kind.startswith("MASS")]
     others = [m for m in matrices if not m.kind.startswith("MASS")]
     if len(others) != 1 or len(masses) > 1:
-        raise call.bad("PSMO wants one stiffness, and a mass for 'SEISME' and free bodies")
+        raise call.error("operators.modal.psmo-wants-stiffness-mass")
     system = _Shifted(call, others[0], masses[0] if masses else None, modes, float(frequency))
     table = Table("PSEUDO_MODE")
     entries = system.seismic(directions) if directions else []
@@ -186,7 +186,7 @@ def _psmo(call: Call) -> Table:
         fields: list[Any] = value.values if isinstance(value, ListChpo) else [value]
         entries += [system.driven(f, seismic) for f in fields]
     if not entries:
-        raise call.bad("nothing drives the structure: give a CHPOINT, or 'SEISME' 'UX' ...")
+        raise call.error("operators.modal.nothing-drives-structure-chpoint")
     for number, entry in enumerate(entries, start=1):
         table.set(number, filled("", entry))
     return table
@@ -204,7 +204,7 @@ class _Shifted:
             f = 0.5 * min((k for k in known if abs(k) >= 1e-5), default=0.0)
         shift = eigenvalue(f)
         if shift and mass is None:
-            raise call.bad("a structure with free motions wants its mass matrix")
+            raise call.error("operators.modal.structure-free-motions-wants")
         self.system = together(stiffness, mass.scaled(-shift)) if shift and mass else stiffness
         masses = [float(m.entry.get("MASSE_GENERALISEE", 1.0)) for m in modes]  # type: ignore[arg-type]
         self.stiffnesses = [m * (eigenvalue(k) - shift) for m, k in zip(masses, known, strict=True)]
@@ -237,7 +237,7 @@ class _Shifted:
     def seismic(self, directions: list[str]) -> list[dict[str, Any]]:
         """Unit accelerations of the base along X, Y, Z: forces - M d."""
         if self.mass is None:
-            raise self.call.bad("'SEISME' wants the mass matrix")
+            raise self.call.error("operators.modal.seisme-wants-mass-matrix")
         nodes = np.unique(np.concatenate([b.nodes.ravel() for b in self.mass.blocks]))
         entries = []
         for name in directions:
@@ -324,8 +324,7 @@ def join_bases(first: Table, second: Table) -> Table:
     kinds = ("LIAISONS_STATIQUES", "BASE_MODALE", "BASE_DE_MODES")
     if first.subtype != second.subtype or first.subtype not in kinds:
         raise KernelError(
-            f"tables '{first.subtype}' and '{second.subtype}' cannot be joined",
-            "ET joins two tables LIAISONS_STATIQUES or two tables BASE_MODALE",
+            "operators.modal.tables-cannot-joined", subtype=first.subtype, subtype_2=second.subtype
         )
     inner = [t.get("MODES") for t in (first, second)]
     table = Table(first.subtype)

@@ -51,7 +51,7 @@ def lengths_of(entries: Entries) -> Lengths:
     most = work.get("DSMAX") or max(start, 1.0)
     unit = entries.needed("MAXI_DEPLACEMENT")
     if unit <= 0.0 or not 0.0 < least <= start <= most:
-        raise entries.bad("'MAXI_DEPLACEMENT' > 0 and 0 < 'DSMIN' <= 'DS' <= 'DSMAX' are wanted")
+        raise entries.error("operators.modal.steps-of-continuation")
     return Lengths(
         start, least, most,
         _positive(entries, "NB_ITERATION"), round(_positive(entries, "MAXITERATION")),
@@ -71,7 +71,7 @@ def _positive(entries: Entries, index: str) -> float:
     """A number above zero; zero stands for the default, as if it were not given."""
     value = float(entries.get(index) or entries.default(index))
     if value <= 0.0:
-        raise entries.bad(f"'{index}' is {value:g}", "a number above zero")
+        raise entries.error("operators.modal.entry-not-positive", index=index, value=value)
     return value
 
 
@@ -102,7 +102,7 @@ def continue_harmonics(entries: Entries) -> None:
     low, high = float(times[0]), float(times[-1])
     branch = tracer.follow(first, most, lambda t: low <= t <= high, land=True)
     if branch.ended == "no solution":
-        entries.warn(f"the branch is lost at {branch.points[-1].t:g}", "a smaller 'DSMIN'")
+        entries.warn("operators.modal.branch-lost", t=branch.points[-1].t)
     _fill(entries, problem, tracer, branch, begin, names)
 
 
@@ -124,17 +124,21 @@ def _problem(entries: Entries, names: Names) -> FrequencyProblem:
     load: Load | None = entries.get("CHARGEMENT")
     loading = loading_of(load, numbering, rows.multipliers)
     if loading.imposed.any():
-        raise entries.bad("imposed displacements do not go with harmonic balance", "load by forces")
+        raise entries.error("operators.modal.imposed-displacements-not-go")
     constraints = constraints_of(rows, numbering.size <= 160)
     law = entries.get("FREQUENCE")
     found, samples = nonlinear_unknowns(entries), None
     order = entries.get("N_PT_TFR")
     if order is not None and not 0 <= order <= MOST_ORDER:
-        raise entries.bad(f"'N_PT_TFR' is {order}", f"2**N_PT_TFR instants, {MOST_ORDER} at most")
+        raise entries.error(
+            "operators.modal.instants-of-a-period", order=order, most_order=MOST_ORDER
+        )
     least = int(np.ceil(np.log2(4 * names.places)))
     count = 2 ** (order if order is not None else least)
     if count < 2 * names.harmonics + 1:
-        raise entries.bad(f"'N_PT_TFR' = {order}: {count} instants for {names.harmonics} harmonics")
+        raise entries.error(
+            "operators.modal.too-few-instants", order=order, count=count, harmonics=names.harmonics
+        )
     places = np.zeros((names.places, 0), dtype=np.int64)
     if found is not None:
         samples = Sampled(entries, *found)
@@ -151,9 +155,8 @@ def _places(
 ) -> IntArray:
     wrong = [u for u in unknowns if u not in names.unknowns]
     if wrong:
-        raise entries.bad(
-            f"'COMP_FNL' is {wrong[0]}, which no matrix has",
-            "unknowns: " + " ".join(names.unknowns),
+        raise entries.error(
+            "operators.modal.no-such-unknown", wrong=wrong[0], unknowns=names.unknowns
         )
     found = [
         [numbering.index_of(point.node, names.coefficient(u, p)) for u in unknowns]
@@ -161,7 +164,7 @@ def _places(
     ]
     places = np.array(found, dtype=np.int64)
     if (places < 0).any():
-        raise entries.bad("the matrices have no unknowns at 'POINT_FNL'")
+        raise entries.error("operators.modal.matrices-no-unknowns-point")
     return places
 
 
@@ -270,7 +273,9 @@ def _stability(
     words = ["FLOQ"] if asked is True else words
     wrong = [w for w in words if w not in STABILITY]
     if wrong:
-        raise entries.bad(f"'STABILITE': '{wrong[0]}' is not known", " ".join(STABILITY))
+        raise entries.error(
+            "operators.modal.stability-not-known", wrong=wrong[0], stability=STABILITY
+        )
     if not words:
         return
     inner = entries.table.get("RESULTATS_STABILITE")
@@ -337,7 +342,7 @@ def _exponents(entries: Entries, problem: FrequencyProblem) -> Callable[[Solutio
     words = ("RIGIDITE_CONSTANTE", "AMORTISSEMENT_CONSTANT", "MASSE_CONSTANTE")
     K, C, M = (entries.get(w) for w in words)
     if K is None or M is None:
-        raise entries.bad("stability wants 'RIGIDITE_CONSTANTE' and 'MASSE_CONSTANTE'")
+        raise entries.error("operators.modal.stability-wants-rigidite-constante")
     C = Matrix(K.table) if C is None else C
     supports = entries.get("BLOCAGES_MECANIQUES") or Matrix(K.table)
     whole = Matrix(K.table, (*K.blocks, *supports.blocks), (*K.relations, *supports.relations))
@@ -346,9 +351,7 @@ def _exponents(entries: Entries, problem: FrequencyProblem) -> Callable[[Solutio
     T = constraints_of(rows, numbering.size <= 160).T.toarray()
     k, c, m = (T.T @ assemble(x, numbering).toarray() @ T for x in (whole, C, M))
     if np.linalg.matrix_rank(m) < len(m):
-        raise entries.bad(
-            "'MASSE_CONSTANTE' is not regular: Floquet exponents want a mass for each unknown"
-        )
+        raise entries.error("operators.modal.masse-constante-not-regular")
     found = nonlinear_unknowns(entries)
     at = [] if found is None else [numbering.index_of(found[0].node, n) for n in found[1]]
     rows_of = T[at]

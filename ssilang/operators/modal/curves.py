@@ -97,7 +97,7 @@ def _recombined_results(call: Call, colours: list[int]) -> Curve:
     known = [s.field for s in shapes]
     if load is not None and quantity == "DEPL":
         if basis is None:
-            raise call.bad("pseudo-modes want a table of the basis", load)
+            raise call.error("operators.modal.pseudo-modes-want-basis", load)
         pseudo = pseudo_shapes(call, basis, load)
         weights = np.column_stack([weights, *(p.at(times) for p in pseudo)])
         known += [p.field for p in pseudo]
@@ -128,7 +128,7 @@ def _at(call: Call, asked: ListReel, times: FloatArray, weights: FloatArray) -> 
     wanted = asked.values
     span = 1e-9 * max(float(times[-1] - times[0]), 1e-300)
     if len(wanted) and not (times[0] - span <= wanted.min() and wanted.max() <= times[-1] + span):
-        raise call.bad(f"the results go from {times[0]:.6g} to {times[-1]:.6g} s", asked)
+        raise call.error("operators.modal.no-such-time", asked, times=times[0], times_2=times[-1])
     return np.stack([np.interp(wanted, times, w) for w in weights.T], axis=1)
 
 
@@ -141,7 +141,7 @@ def _of_contributions(call: Call, colours: list[int]) -> Curve:
     words = (*_SOLU, "TRAVAIL_INTERIEUR", "TRAVAIL_EXTERIEUR")
     word = call.keyword(words, length=9)
     if word is None:
-        raise call.bad("which contributions?", hint=" ".join(f"'{w}'" for w in words))
+        raise call.error("operators.modal.which-contributions", words=[f"'{w}'" for w in words])
     fields, times = modal_history(call, results, _SOLU.get(word, word))
     other = call.read("TABLE")
     if other is not None:
@@ -171,7 +171,7 @@ def _of_contributions(call: Call, colours: list[int]) -> Curve:
 def _places(call: Call, steps: ListEnti, count: int) -> list[int]:
     places = [int(i) - 1 for i in steps.values]
     if any(not 0 <= i < count for i in places):
-        raise call.bad(f"there are {count} steps", steps)
+        raise call.error("operators.modal.no-such-step", steps, count=count)
     return places
 
 
@@ -189,7 +189,7 @@ def _projected(call: Call, colours: list[int]) -> Curve:
         value = chosen.value
         numbers = [int(i) for i in value.values] if isinstance(value, ListEnti) else [value]
         if any(not 1 <= i <= len(shapes) for i in numbers):
-            raise call.bad(f"the basis has {len(shapes)} shapes", value)
+            raise call.error("operators.modal.no-such-shape", value, n_shapes=len(shapes))
     parts = []
     for k, number in enumerate(numbers):
         shape = shapes[number - 1].field

@@ -35,9 +35,11 @@ def _dync(call: Call) -> Table:
     tables = _tables(call)
     harmonics, samples = call.required("ENTIER"), call.required("ENTIER")
     if harmonics < 1 or samples < 2 * (2 * harmonics + 1):
-        raise call.bad(
-            f"{harmonics} harmonics want {2 * (2 * harmonics + 1)} instants of a period or more, "
-            f"{samples} are given"
+        raise call.error(
+            "operators.modal.instants-for-harmonics",
+            harmonics=harmonics,
+            least=2 * (2 * harmonics + 1),
+            samples=samples,
         )
     system = system_of(call, tables["system"])
     numbers = Numbers(call, tables["numbers"], "TNUM")
@@ -49,7 +51,7 @@ def _dync(call: Call) -> Table:
     if kind == "NNM":
         mode = int(start.real("MODE")) - 1
         if not 0 <= mode < len(system.M):
-            raise call.bad(f"'MODE' is between 1 and {len(system.M)}", tables["start"])
+            raise call.error("operators.modal.no-such-mode", tables["start"], n_M=len(system.M))
         found = normal_mode(oscillators, mode, start.real("ENERGIE"), end, lengths, most)
     else:
         first, sense = start.positive("FREQUENCE"), numbers.real("ISENS")
@@ -70,14 +72,18 @@ class Numbers:
         value = self.entries.get(name)
         value = default if value is None else value
         if value is None:
-            raise self.call.bad(f"the table {self.table.subtype} has no number '{name}'")
+            raise self.call.error(
+                "operators.modal.number-wanted", subtype=self.table.subtype, name=name
+            )
         return float(value)
 
     def positive(self, name: str) -> float:
         """A number above zero."""
         value = self.real(name)
         if value <= 0.0:
-            raise self.call.bad(f"'{name}' is {value:g}, not above zero", self.table)
+            raise self.call.error(
+                "operators.modal.number-not-positive", self.table, name=name, value=value
+            )
         return value
 
 
@@ -85,9 +91,9 @@ def _tables(call: Call) -> dict[str, Table]:
     found = tables_by_role(call, _ROLES)
     for role, name in (("system", "BASE_MODALE"), ("numbers", "PARAMETRES_NUMERIQUES")):
         if role not in found:
-            raise call.bad(f"DYNC wants a table '{name}'")
+            raise call.error("operators.modal.table-wanted", name=name)
     if "start" not in found:
-        raise call.bad("DYNC wants a table 'INITIAL'", hint="with 'FREQUENCE', or 'ENERGIE'")
+        raise call.error("operators.modal.start-wanted")
     return found
 
 
@@ -120,9 +126,13 @@ def _coefficients(
         if type(index) is not int:
             continue
         if abs(index) > harmonics:
-            raise call.bad(f"index {index} is beyond the {harmonics} harmonics", table)
+            raise call.error(
+                "operators.modal.no-such-harmonic", table, index=index, harmonics=harmonics
+            )
         if not isinstance(value, NodeField):
-            raise call.bad(f"index {index} of the table {table.subtype} is a CHPOINT", table)
+            raise call.error(
+                "operators.modal.index-holds-a-field", table, index=index, subtype=table.subtype
+            )
         place = 0 if index == 0 else 2 * abs(index) - (1 if index > 0 else 0)
         out[place] = field_to_vector(value, system.numbering, dual=dual)
     return out
@@ -146,7 +156,7 @@ def _lengths(numbers: Numbers) -> Lengths:
     start = numbers.real("DS0")
     lengths = Lengths(start, numbers.real("DSMIN", 1e-3 * start), numbers.real("DSMAX", 10 * start))
     if not 0.0 < lengths.least <= lengths.start <= lengths.most:
-        raise numbers.call.bad("0 < 'DSMIN' <= 'DS0' <= 'DSMAX' is wanted", numbers.table)
+        raise numbers.call.error("operators.modal.steps-of-dync", numbers.table)
     return replace(
         lengths,
         ideal=numbers.positive("ITERMOY"),
@@ -162,9 +172,8 @@ def _lengths(numbers: Numbers) -> Lengths:
 def _results(call: Call, found: Response, system: System, free: bool) -> Table:
     if found.ended == "no solution":
         call.session.warn(
-            "bad-value", call.span, operator="DYNC", severity="warning",
-            message=f"the branch is lost at {found.frequencies[-1]:g}", hint="a smaller 'DSMIN'",
-        )  # fmt: skip
+            "operators.modal.branch-lost", call.span, operator="DYNC", t=found.frequencies[-1]
+        )
     table = Table("RESULTAT_DYNC")
     table.set(Mot("REPONSE"), _response(found, system, free))
     table.set(Mot("BIFURCATION"), _bifurcations(found))

@@ -56,10 +56,10 @@ class System:
 def _dyne(call: Call) -> Table:
     scheme = call.keyword(SCHEMES)
     if scheme is None:
-        raise call.bad("which scheme steps in time?", hint=" ".join(f"'{s}'" for s in SCHEMES))
+        raise call.error("operators.modal.which-scheme", schemes=[f"'{s}'" for s in SCHEMES])
     tables = tables_by_role(call, _ROLES)
     if "system" not in tables:
-        raise call.bad("DYNE wants a table BASE_MODALE or RAIDEUR_ET_MASSE")
+        raise call.error("operators.modal.dyne-wants-table-base")
     steps, h = call.required("ENTIER"), call.required("FLOTTANT")
     every = call.optional("ENTIER", default=1)
     system = system_of(call, tables["system"])
@@ -83,10 +83,15 @@ def tables_by_role(call: Call, roles: Mapping[str, str]) -> dict[str, Table]:
     for table in call.all("TABLE"):
         argument = by_subtype.get(table.subtype)
         if argument is None:
-            hint = "known: " + " ".join(by_subtype)
-            raise call.bad(f"{call.name} knows no table '{table.subtype}'", table, hint)
+            raise call.error(
+                "operators.modal.unknown-table",
+                table,
+                name=call.name,
+                subtype=table.subtype,
+                known=list(by_subtype),
+            )
         if roles[argument] in found:
-            raise call.bad(f"two tables '{table.subtype}'", table)
+            raise call.error("operators.modal.two-tables-of-kind", table, subtype=table.subtype)
         Entries(call, table, call.name, argument).check()
         found[roles[argument]] = table
     return found
@@ -101,19 +106,14 @@ def system_of(call: Call, table: Table) -> System:
         return _of_matrices(call, table)
     shapes = sorted(shapes_in(table), key=lambda s: s.mark.node)
     if not shapes or any(s.unknown != "ALFA" for s in shapes):
-        raise call.bad(
-            "the table holds no mode",
-            table,
-            hint="MODES . 1 ... each with 'DEFORMEE_MODALE' (CHPOINT), 'POINT_REPERE' (POINT), "
-            "'FREQUENCE' and 'MASSE_GENERALISEE'",
-        )
+        raise call.error("operators.modal.basis-without-modes", table)
     nodes = workspace(call.session).nodes
     marks = np.array([s.mark.node for s in shapes])
     codes = np.zeros(len(marks), dtype=np.int64)
     numbering = Numbering(nodes, ("ALFA",), ("FALF",), marks, codes, nodes.version)
     masses = np.array([_of_mode(call, s.entry, "MASSE_GENERALISEE") for s in shapes])
     if (masses <= 0.0).any():
-        raise call.bad(f"'MASSE_GENERALISEE' of a mode is {masses.min():g}, not above zero", table)
+        raise call.error("operators.modal.mass-not-positive", table, masses_min=masses.min())
     squares = np.array([eigenvalue(_of_mode(call, s.entry, "FREQUENCE")) for s in shapes])
     basis = Basis(tuple(int(m) for m in marks), ("ALFA",) * len(marks), tuple(shapes))
     return System(basis, numbering, np.diag(masses * squares), np.diag(masses))
@@ -123,7 +123,7 @@ def _of_mode(call: Call, entry: Table, name: str) -> float:
     """A number of the table of a mode."""
     value = entry.get(Mot(name))
     if isinstance(value, bool) or not isinstance(value, int | float) or not np.isfinite(value):
-        raise call.bad(f"'{name}' of a mode must be a number", entry)
+        raise call.error("operators.modal.mode-number-wanted", entry, name=name)
     return float(value)
 
 
@@ -132,13 +132,13 @@ def _of_matrices(call: Call, table: Table) -> System:
     numbering = numbering_of(stiffness, mass)
     named = [numbering.unknowns[c] for c in numbering.codes]
     if any(u not in ("ALFA", "BETA") for u in named):
-        raise call.bad("the matrices of DYNE are on ALFA and BETA: project them with PJBA", table)
+        raise call.error("operators.modal.matrices-dyne-alfa-beta", table)
     shapes = None
     known = table.get("BASE_MODALE")
     if isinstance(known, Table):
         by_mark = {s.mark.node: s for s in shapes_in(known)}
         if any(int(n) not in by_mark for n in numbering.nodes):
-            raise call.bad("the matrices have modes that 'BASE_MODALE' lacks", table)
+            raise call.error("operators.modal.matrices-modes-base-modale", table)
         shapes = tuple(by_mark[int(n)] for n in numbering.nodes)
     basis = Basis(tuple(int(n) for n in numbering.nodes), tuple(named), shapes)
     K, M = (
@@ -151,7 +151,7 @@ def _of_matrices(call: Call, table: Table) -> System:
 def _matrix(call: Call, table: Table, name: str) -> Matrix:
     value = table.get(Mot(name))
     if not isinstance(value, Matrix):
-        raise call.bad(f"the table {table.subtype} has no matrix '{name}'", table)
+        raise call.error("operators.modal.matrix-wanted", table, subtype=table.subtype, name=name)
     return value
 
 
@@ -177,7 +177,7 @@ def _forces(
     """Forces on the modes (p, n) and their values at each half step (p, 2 steps + 1)."""
     load = None if table is None else table.get("BASE_A")
     if table is not None and not isinstance(load, Load):
-        raise call.bad("the table CHARGEMENT has no load 'BASE_A' (PJBA makes it)", table)
+        raise call.error("operators.modal.table-chargement-no-load", table)
     given = load if isinstance(load, Load) else None
     loading = loading_of(given, system.numbering, np.zeros(0, dtype=np.int64))
     times = t0 + 0.5 * h * np.arange(2 * max(steps, 0) + 1, dtype=np.float64)
@@ -198,7 +198,7 @@ def _start(call: Call, table: Table | None, system: System, links: int) -> Modal
     kept = again.get("LIAISONS")
     state = np.asarray(kept.values).reshape(-1, STATES) if isinstance(kept, ListReel) else None
     if state is None or len(state) != links:
-        raise call.bad(f"the table REPRISE does not hold the state of {links} links", again)
+        raise call.error("operators.modal.table-reprise-not-hold", again, links=links)
     return replace(
         start, time=_of_mode(call, again, "TEMPS"), links=state,
         before=_values(call, again, "ACCELERATION_1/2", system),
@@ -211,7 +211,9 @@ def _values(call: Call, table: Table, name: str, system: System) -> FloatArray |
     if field is None:
         return None
     if not isinstance(field, NodeField):
-        raise call.bad(f"'{name}' of the table {table.subtype} is a CHPOINT", table)
+        raise call.error(
+            "operators.modal.entry-is-a-field", table, name=name, subtype=table.subtype
+        )
     return field_to_vector(field, system.numbering, dual=False)
 
 

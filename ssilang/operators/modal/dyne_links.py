@@ -35,10 +35,7 @@ class Basis:
     def rows(self, call: Call, point: Point, names: Sequence[str] = MOVES) -> FloatArray:
         """Components of the motion of a point, (3, n): zero where a shape has none."""
         if self.shapes is None:
-            raise call.bad(
-                "links of base B need the shapes: give the table 'BASE_MODALE'",
-                hint="in the table RAIDEUR_ET_MASSE, at the index 'BASE_MODALE'",
-            )
+            raise call.error("operators.modal.links-base-need-shapes")
         node = np.array([point.node])
         rows = [[float(s.field.values_at(c, node)[0]) for s in self.shapes] for c in names]
         return np.array(rows)
@@ -46,11 +43,7 @@ class Basis:
     def unit(self, call: Call, point: Point, name: str) -> FloatArray:
         """Row (3, n) that picks the unknown of a mode by its point, given at the index `name`."""
         if point.node not in self.marks:
-            raise call.bad(
-                f"'{name}' of a link marks no mode of the basis",
-                point,
-                hint="give the 'POINT_REPERE' of a mode",
-            )
+            raise call.error("operators.modal.link-without-mode", point, name=name)
         rows = np.zeros((3, len(self.marks)))
         rows[0, self.marks.index(point.node)] = 1.0
         return rows
@@ -77,7 +70,7 @@ class LinkTable:
         """A mandatory value."""
         value = self.entries.get(name)
         if value is None:
-            raise self.call.bad(f"the link has no '{name}'", self.table)
+            raise self.call.error("operators.modal.link-without-entry", self.table, name=name)
         return value
 
     def real(self, name: str, default: float | None = None) -> float:
@@ -101,7 +94,7 @@ class LinkTable:
         v = self.vector(name)
         size = float(np.linalg.norm(v))
         if size == 0.0:
-            raise self.call.bad(f"'{name}' of a link has no length", self.table)
+            raise self.call.error("operators.modal.no-length", self.table, name=name)
         return v / size
 
     def says(self, name: str) -> bool:
@@ -131,7 +124,7 @@ def _spring(t: LinkTable) -> tuple[dict[int, float], FloatArray | None]:
     limit = t.real("SEUIL_PLASTIQUE", 0.0)
     if limit > 0.0:
         if points is not None:
-            raise t.call.bad("'SEUIL_PLASTIQUE' goes with 'RAIDEUR', not with a law", t.table)
+            raise t.call.error("operators.modal.seuil-plastique-goes-raideur", t.table)
         points = np.array([[0.0, 0.0], [limit / numbers[law.STIFF], limit]])
         numbers[law.PLASTIC] = 1.0
     return numbers, points
@@ -153,7 +146,7 @@ def _friction(t: LinkTable) -> dict[int, float]:
     elif drive is not None:
         numbers[law.DX] = t.real("VITESSE_ENTRAINEMENT")
     if numbers[law.TANGENT] < 0.0 and numbers[law.TANGENT_DAMP] <= 0.0:
-        raise t.call.bad("Oden's friction wants a positive velocity of regularisation", t.table)
+        raise t.call.error("operators.modal.oden-friction-wants-positive", t.table)
     return numbers
 
 
@@ -201,7 +194,7 @@ def _circle_on_plane(t: LinkTable, basis: Basis) -> ReadLink:
     centre, turns = basis.rows(t.call, support), basis.rows(t.call, support, TURNS)
     radius = t.real("RAYON_SUPPORT")
     if radius <= 0.0:
-        raise t.call.bad("'RAYON_SUPPORT' of a link must be > 0", t.table)
+        raise t.call.error("operators.modal.rayon-support-link-must", t.table)
     rows = centre + np.cross(turns.T, radius * normal).T
     numbers, points = _spring(t)
     numbers |= _friction(t) | _vector(law.NX, normal) | {law.GAP: t.real("JEU")}
@@ -224,7 +217,7 @@ def _two_points(t: LinkTable, basis: Basis) -> ReadLink:
     plastic = t.kind.endswith("_PLASTIQUE") and not t.says("ELASTIQUE")
     if plastic:
         if points is None:
-            raise t.call.bad("the link has no 'LOI_DE_COMPORTEMENT'", t.table)
+            raise t.call.error("operators.modal.link-without-law", t.table)
         numbers[law.PLASTIC] = 1.0
         numbers[law.KINEMATIC] = float(t.need("ECROUISSAGE") == "CINEMATIQUE")
     kind = "MOMENT" if turning else "FORCE"

@@ -29,7 +29,7 @@ def _impe(call: Call) -> Matrix:
     if chosen is not None:
         values = [float(v) for v in chosen.values]
         if len(values) != 4:
-            raise call.bad("'QUELCONQUE' wants a list of four numbers", chosen)
+            raise call.error("operators.modal.four-numbers-wanted", chosen)
         return impedance(matrix, (values[0], values[1], values[2], values[3]), kind, other)
     said = word or _KINDS.get(matrix.kind[:4], "RAIDEUR")
     return impedance(matrix, factors(said, pulsation), kind, other)
@@ -64,10 +64,7 @@ operator(
 def _vibc(call: Call) -> Table:
     matrices = call.all("RIGIDITE")
     if len(matrices) not in (2, 3):
-        raise call.bad(
-            f"{len(matrices)} matrices are given",
-            hint="VIBC wants a mass, a stiffness and, if there is one, a damping",
-        )
+        raise call.error("operators.modal.matrices-of-vibc", n_matrices=len(matrices))
     stiffness, mass, damping = matrices_by_kind(matrices, mass_first=True)
     basis = call.read("TABLE")
     pairs = call.optional("ENTIER")

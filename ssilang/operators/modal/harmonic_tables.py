@@ -40,16 +40,14 @@ def asked_results(entries: Entries, index: str) -> list[Asked]:
 def _asked(entries: Entries, table: object, index: str, number: int) -> Asked:
     place = f"{index} . {number}"
     if not isinstance(table, Table):
-        raise entries.bad(f"'{place}' must be TABLE")
+        raise entries.error("operators.modal.entry-is-a-table", place=place)
     own = Entries(entries.call, table, entries.procedure, f"TAB1.{index}.I")
     point: Point = own.needed("POINT_MESURE")
     word = "COMPOSANTE" if own.has("COMPOSANTE") else "COMPOSANTES"
     given = own.needed(word)
     words = given.values if isinstance(given, ListMots) else [str(given)]
     if not words or not words[0].strip():
-        raise entries.bad(
-            f"'{place} . {word}' names no component", f"TAB1 . {place} . '{word}' = MOT 'UX' ;"
-        )
+        raise entries.error("operators.modal.component-wanted", place=place, word=word)
     component = words[0]
     title = own.get("TITRE")
     return Asked(

@@ -41,7 +41,7 @@ def known_names(entries: Entries) -> Names:
     """Unknowns and harmonics of a table given to HBM."""
     harmonics = entries.needed("N_HARMONIQUE")
     if harmonics < 1:
-        raise entries.bad(f"'N_HARMONIQUE' is {harmonics}", "1 or more")
+        raise entries.error("operators.modal.harmonics-not-positive", harmonics=harmonics)
     words = ("RIGIDITE_CONSTANTE", "AMORTISSEMENT_CONSTANT", "MASSE_CONSTANTE")
     given = [m for m in (entries.get(w) for w in words) if m is not None]
     return names_of(given, harmonics)
@@ -99,9 +99,10 @@ def _results(entries: Entries, names: Names) -> None:
     found, number, titles = Table(), 0, []
     for asked in asked_results(entries, "RESULTATS"):
         if asked.component not in names.unknowns:
-            raise entries.bad(
-                f"'COMPOSANTES' is {asked.component}, which no matrix has",
-                "unknowns: " + " ".join(names.unknowns),
+            raise entries.error(
+                "operators.modal.no-such-component",
+                component=asked.component,
+                unknowns=names.unknowns,
             )
         given = asked.table.get("COULEUR_HBM")
         colours = colours_of(given, names.places, asked.colour)
@@ -167,7 +168,7 @@ def zhpo(call: Call) -> None:
     wanted = [w.strip().upper()[:4] for w in call.required("LISTMOTS").values]
     wrong = [w for w in wanted if w not in ("MAXI", "TEMP", "VITE")]
     if wrong:
-        raise entries.bad(f"'{wrong[0]}' is no result", "MAXI TEMP VITE")
+        raise entries.error("operators.modal.unknown-result", wrong=wrong[0])
     harmonics = entries.needed("N_HARMONIQUE")
     count = entries.get("N_PT_POST") or 2**7 * harmonics
     shares = np.arange(count + 1) / count
@@ -200,7 +201,7 @@ def _motion(entries: Entries, asked: Asked) -> Motion:
         inner = found.get(int(j))
         values = inner.get("RESULTATS") if isinstance(inner, Table) else None
         if not isinstance(values, ListReel):
-            raise entries.bad(f"'RESULTATS_HBM' . {j} has no 'RESULTATS'", "CONTINU gives them")
+            raise entries.error("operators.modal.no-harmonic-results", j=j)
         lists.append(np.asarray(values.values))
     times = np.asarray(entries.needed("TEMPS_PROG").values)
     law = entries.get("FREQUENCE")

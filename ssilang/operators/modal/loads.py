@@ -52,16 +52,16 @@ def seis(call: Call) -> Load:
     factor = call.required("FLOTTANT")
     word = call.keyword(_AXES)
     if word is None:
-        raise call.bad("in which direction does the ground move?", hint="'UX' 'UY' 'UZ'")
+        raise call.error("operators.modal.which-direction")
     shapes = [s for s in shapes_in(table) if s.unknown == "ALFA"]
     if not shapes:
-        raise call.bad("the table holds no mode", table)
+        raise call.error("operators.modal.table-without-modes", table)
     values = {}
     for shape in shapes:
         along = shape.entry.get(Mot("DEPLACEMENTS_GENERALISES"))
         number = along.get(_AXES.index(word) + 1) if isinstance(along, Table) else None
         if not isinstance(number, int | float):
-            raise call.bad("a mode has no generalised displacements in this direction", table)
+            raise call.error("operators.modal.mode-no-generalised-displacements", table)
         values[shape.mark.node] = -factor * float(number)
     nodes = np.array(sorted(values))
     part = NodeValues(nodes, np.array([values[int(n)] for n in nodes]))
@@ -96,7 +96,7 @@ def sigs(call: Call) -> Table:
     material = joined((*cells, *call.all("MCHAML")))
     made, found = _with_stresses(model, material, table)
     if not found:
-        raise call.bad("the table holds no mode and no static shape", table)
+        raise call.error("operators.modal.no-mode-no-shape", table)
     return made
 
 

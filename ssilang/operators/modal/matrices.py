@@ -42,7 +42,7 @@ def _modal(call: Call, basis: Table) -> tuple[list[Shape], list[float], list[flo
     """Real modes of a basis, their masses and frequencies."""
     modes = [s for s in shapes_of(call, basis) if s.unknown == "ALFA"]
     if not modes:
-        raise call.bad("the basis holds no modes", basis)
+        raise call.error("operators.modal.no-modes", basis)
     return modes, _numbers(call, modes, "MASSE_GENERALISEE"), _numbers(call, modes, "FREQUENCE")
 
 
@@ -50,7 +50,7 @@ def _numbers(call: Call, modes: list[Shape], name: str) -> list[float]:
     """A number of each mode's entry, say its frequency."""
     column = [m.entry.get(name) for m in modes]
     if not all(isinstance(v, float) for v in column):
-        raise call.bad(f"the basis holds no modes with {name}")
+        raise call.error("operators.modal.no-modes-with", name=name)
     return [float(v) for v in column]  # type: ignore[arg-type]
 
 
@@ -77,7 +77,7 @@ def _tables(call: Call, basis: Table, other: Table | None) -> tuple[Table, ...]:
     if other is None:
         return (basis,)
     if (basis.subtype == "LIAISONS_STATIQUES") == (other.subtype == "LIAISONS_STATIQUES"):
-        raise call.bad("of two tables one holds modes, the other is LIAISONS_STATIQUES", other)
+        raise call.error("operators.modal.two-tables-holds-modes", other)
     return (basis, other)
 
 
@@ -104,9 +104,7 @@ def _held_by(call: Call, shape: Shape) -> list[NodeField]:
     found = [f for f in map(shape.entry.get, ("FORCE", "REACTION")) if isinstance(f, NodeField)]
     real = [f for f in found if any(name not in MULTIPLIERS for name in f.components)]
     if not real:
-        raise call.bad(
-            "a static shape has neither FORCE nor REACTION", hint="call REAC on this table first"
-        )
+        raise call.error("operators.modal.static-shape-neither-force")
     return real
 
 
@@ -124,9 +122,7 @@ def _places(shapes: list[Shape]) -> tuple[IntArray, list[str], list[str]]:
 @_first(mass, arg("basis", "TABLE"))
 def modal_mass(call: Call, basis: Table) -> Matrix:
     if basis.subtype == "LIAISONS_STATIQUES":
-        raise call.bad(
-            "static shapes hold no mass", basis, "give the mass matrix too: MASS TAB1 MASS1"
-        )
+        raise call.error("operators.modal.static-shapes-hold-no", basis)
     modes, masses, _ = _modal(call, basis)
     return _diagonal(modes, masses, "MASSE")
 
@@ -141,7 +137,12 @@ def projected_mass(call: Call, basis: Table, other: Table | None, inertia: Matri
 def modal_damping(call: Call, basis: Table, ratios: ListReel) -> Matrix:
     modes, masses, frequencies = _modal(call, basis)
     if len(ratios) != len(modes):
-        raise call.bad(f"{len(modes)} modes want as many damping ratios, not {len(ratios)}", ratios)
+        raise call.error(
+            "operators.modal.dampings-and-modes-differ",
+            ratios,
+            n_modes=len(modes),
+            n_ratios=len(ratios),
+        )
     values = [
         2.0 * m * abs(2.0 * np.pi * f) * xi / 100.0
         for m, f, xi in zip(masses, frequencies, ratios.values, strict=True)

@@ -39,7 +39,7 @@ class _Asked:
             elif word == "HAUTE":
                 self.highest = call.required("ENTIER", after=call.keyword_end)
         if not self.method:
-            raise call.bad("no method is named", hint="say one of " + " ".join(_METHODS))
+            raise call.error("operators.modal.which-method", methods=_METHODS)
 
     def read_near(self, call: Call) -> None:
         """PROCHE: frequencies, and how many modes near each (default 1)."""
@@ -48,8 +48,10 @@ class _Asked:
         counts = call.read("LISTENTI", after=place)
         numbers = [1] * len(frequencies) if counts is None else list(counts.value.values)
         if len(numbers) != len(frequencies):
-            raise call.bad(
-                f"{len(frequencies)} frequencies and {len(numbers)} numbers of modes are given"
+            raise call.error(
+                "operators.modal.frequencies-and-numbers-differ",
+                n_frequencies=len(frequencies),
+                n_numbers=len(numbers),
             )
         self.wanted = [(float(f), int(n)) for f, n in zip(frequencies, numbers, strict=True)]
 
@@ -86,7 +88,7 @@ _READERS = {
 
 def _vibr(call: Call) -> Table:
     if (word := call.keyword(("SOLU",))) is not None:
-        raise call.bad(f"'{word}' (an object SOLUTION) is not supported", hint="the table is")
+        raise call.error("operators.modal.no-solution-object", word=word)
     asked = _Asked(call)
     matrices: list[Matrix] = call.all("RIGIDITE")
     if len(matrices) < 2:
@@ -126,9 +128,7 @@ def _complex(
     call: Call, asked: _Asked, stiffness: Matrix, mass: Matrix, damping: Matrix | None
 ) -> Table:
     if asked.method != "IRAM":
-        raise call.bad(
-            "damped or unsymmetric systems have complex modes", hint="use VIBR 'IRAM' for them"
-        )
+        raise call.error("operators.modal.complex-modes")
     frequency, count = asked.wanted[0]
     near = complex(frequency, asked.decay)
     modes = complex_modes(stiffness, mass, damping, near, count)

@@ -60,7 +60,7 @@ def pseudo_shapes(call: Call, basis: Table, load: Load) -> list[PseudoShape]:
     """
     table = basis.get(Mot("PSEUDO_MODES"))
     if not isinstance(table, Table):
-        raise call.bad("a load counts by pseudo-modes: the basis has no 'PSEUDO_MODES'", basis)
+        raise call.error("operators.modal.load-counts-pseudo-modes", basis)
     found = []
     for index, entry in table.items():
         if type(index) is not int or not isinstance(entry, Table):
@@ -148,9 +148,7 @@ def modal_history(call: Call, table: Table, quantity: str) -> tuple[list[Any], F
         entry = table.get(i)
         field = entry.get(Mot(name)) if isinstance(entry, Table) else None
         if field is None:
-            raise call.bad(
-                f"the results hold no {name} in steps", table, hint="ask for it in the table SORTIE"
-            )
+            raise call.error("operators.modal.results-hold-no-steps", table, name=name)
         fields.append(field)
     return fields, times.values
 
@@ -159,7 +157,7 @@ def at_time(call: Call, fields: list[Any], times: FloatArray, time: float) -> No
     """A field in time at one instant, linear between the saved ones."""
     span = 1e-9 * max(float(times[-1] - times[0]), 1e-300)
     if not times[0] - span <= time <= times[-1] + span:
-        raise call.bad(f"the results go from {times[0]:.6g} to {times[-1]:.6g} s", time)
+        raise call.error("operators.modal.no-such-time", time, times=times[0], times_2=times[-1])
     i = int(np.clip(np.searchsorted(times, time) - 1, 0, max(len(times) - 2, 0)))
     if len(times) == 1:
         return fields[0]  # type: ignore[no-any-return]
@@ -186,7 +184,7 @@ def _reco(call: Call) -> Any:
     pseudo: list[PseudoShape] = []
     if load is not None and quantity in ("DEPL", "CONT", "REAC"):
         if time is None or basis is None:
-            raise call.bad("pseudo-modes want a table of the basis and the time", load)
+            raise call.error("operators.modal.pseudo-modes-want-basis-and-time", load)
         pseudo = pseudo_shapes(call, basis, load)
     if quantity == "CONT":
         return _stresses(call, first, shapes, pseudo, time)
@@ -201,7 +199,7 @@ def _reco(call: Call) -> Any:
 
 def _count(call: Call, number: float) -> int:
     if number != int(number) or number < 1:
-        raise call.bad(f"at least one mode is recombined, not {number:g}", number)
+        raise call.error("operators.modal.least-mode-recombined-not", number, number=number)
     return int(number)
 
 
@@ -218,7 +216,7 @@ def _stresses(
     for factor, entry in _weighted(weights, shapes, pseudo, time):
         stress = entry.get(Mot("CONTRAINTE_MODALE"), entry.get(Mot("CONTRAINTE")))
         if not isinstance(stress, CellField):
-            raise call.bad("a shape has no stresses", entry, hint="SIGS gives them to the table")
+            raise call.error("operators.modal.shape-no-stresses", entry)
         first = total is None
         total = cell_algebra.added(stress if total is None else total, stress, factor - first)
     assert total is not None
@@ -243,7 +241,7 @@ def _reactions(
     for _, entry in entries:
         field = entry.get(Mot("REACTION_MODALE"), entry.get(Mot("REACTION")))
         if not isinstance(field, NodeField):
-            raise call.bad("a shape has no reactions", entry, hint="REAC gives them to the table")
+            raise call.error("operators.modal.shape-no-reactions", entry)
         fields.append(field)
     return combined([f for f, _ in entries], fields)
 

@@ -19,10 +19,7 @@ def nonlinear_unknowns(entries: Entries) -> tuple[Point, list[str]] | None:
     if not entries.flag("PROCEDURE_CHARMECA"):
         return None
     if entries.get("PROCEDURE_FREQUENCE_TEMPS") != "AFT":
-        raise entries.bad(
-            "nonlinear forces are computed in time",
-            "TAB1 . 'PROCEDURE_FREQUENCE_TEMPS' = MOT 'AFT' ;",
-        )
+        raise entries.error("operators.modal.nonlinear-forces-computed-time")
     names = entries.needed("COMP_FNL").values
     return entries.needed("POINT_FNL"), [n.rstrip() for n in names]
 
@@ -76,7 +73,7 @@ class Sampled:
             ]
             return np.stack(columns, axis=1)
         if len(given) != count[0] or not all(isinstance(f, NodeField) for f in given.values):
-            raise self.entries.bad(f"CHARMECA must give {count[0]} CHPOINTs in 'FNL_T'")
+            raise self.entries.error("operators.modal.charmeca-gives-fields", count=count[0])
         node, out = np.array([self.point.node]), np.zeros(count)
         for t, field in enumerate(given.values):
             assert isinstance(field, NodeField)
@@ -86,7 +83,9 @@ class Sampled:
 
     def _list(self, value: object, count: int, place: str) -> FloatArray:
         if not isinstance(value, ListReel) or len(value.values) != count:
-            raise self.entries.bad(f"CHARMECA must give {count} reals in '{place}'")
+            raise self.entries.error(
+                "operators.modal.charmeca-gives-reals", count=count, place=place
+            )
         return np.asarray(value.values, dtype=float)
 
 

@@ -49,7 +49,7 @@ def _largest(call: Call, field: NodeField, names: set[str] | None, without: bool
     ]
     top = max((float(np.abs(v).max(initial=0.0)) for v in chosen), default=0.0)
     if top == 0.0:
-        raise call.bad("the field is zero on the components looked at", field)
+        raise call.error("operators.modal.field-is-zero", field)
     return top
 
 
@@ -137,7 +137,7 @@ def _inertia_left(sign: str, mass: Matrix, table: Table) -> Table:
 def _known(table: Table) -> list[Shape]:
     found = shapes_in(table)
     if not found:
-        raise KernelError("the table holds no mode and no static shape to multiply")
+        raise KernelError("operators.modal.nothing-to-multiply")
     return found
 
 

@@ -14,7 +14,8 @@ from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.statics.prestress import NO_LOSSES, Cable, Losses, cables_of, tensions
 from ssilang.language.registry import Help, arg, operator, opt
 from ssilang.language.run.call import Call
-from ssilang.language.values import Mot, Table
+from ssilang.language.values import Table
+from ssilang.operators.tables.entries import Entries
 
 _ENTRIES = {
     "FF": "angular",
@@ -88,14 +89,8 @@ def _nodes(ends: Mesh | Point | None) -> IntArray | None:
 
 
 def _losses(call: Call, table: Table) -> Losses:
-    given = {}
-    for key, value in table.items():
-        name = str(key).rstrip() if isinstance(key, Mot | str) else ""
-        if name in _ENTRIES:
-            if isinstance(value, bool) or not isinstance(value, int | float):
-                raise call.error("operators.models.loss-is-a-number", table, name=name)
-            given[_ENTRIES[name]] = float(value)
-    return Losses(**given)
+    entries = Entries(call, table, "PREC")
+    return Losses(**{name: entries.get(index) for index, name in _ENTRIES.items()})
 
 
 def _zone(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ssilang.kernel.elements.catalog import ElementKind, register_element
 from ssilang.kernel.materials.model import Mode, Model, Zone
@@ -27,39 +27,17 @@ for _cell, _name in ELEMENTS.items():
     )
 
 
-def take_contact(call: Call, options: dict[str, Any]) -> bool:
-    """Read one thing that stands behind CONTACT; False if none is next."""
-    if call.keyword(["FROTTANT"]) is not None:
-        law = call.keyword(["COULOMB", "FROCABLE"])
-        if law is None:
-            raise call.bad("the law of friction is not said", hint="FROTTANT COULOMB or FROCABLE")
-        options["friction"] = law
-        return True
-    if call.keyword(["UNILATERAL"]) is not None:
-        return True
-    method = call.keyword(METHODS)
-    if method is not None:
-        options["method"] = method
-        return True
-    return False
-
-
-def contact_model(call: Call, master: Mesh, options: dict[str, Any], ws: Workspace) -> Model:
-    """A model of two sides, the first mesh read and the one that follows; or of a cable."""
-    if options.get("friction") == "FROCABLE":
-        return cable_model(call, master, ws)
-    slave: Mesh = call.required("MAILLAGE")
-    while call.peek_word() is not None and take_contact(call, options):
-        pass
+def contact_model(
+    call: Call, master: Mesh, slave: Mesh, method: str, rubbing: bool, ws: Workspace
+) -> Model:
+    """A model of two sides."""
     if ws.mode.dimension < 2:
-        raise call.bad("contact needs the plane or space", slave)
+        raise call.error("operators.models.contact-needs-dimensions", slave)
     bad = next((b.cell_type for b in master.blocks if b.cell_type not in ELEMENTS), None)
     if bad is not None:
-        raise call.bad(
-            f"a side of contact is made of SEG2 (plane), TRI3 or QUA4 (space), not {bad}", master
-        )
-    whole = {"method": "MESC", **options, "master": master, "slave": slave}
-    behaviour = COULOMB if whole.pop("friction", None) else ("UNILATERAL",)
+        raise call.error("operators.models.contact-side-cells", master, bad=bad)
+    whole = {"method": method, "master": master, "slave": slave}
+    behaviour = COULOMB if rubbing else ("UNILATERAL",)
     return Model(
         tuple(
             Zone(b, "CONTACT", behaviour, ELEMENTS[b.cell_type], ws.mode, "", dict(whole))
@@ -68,16 +46,14 @@ def contact_model(call: Call, master: Mesh, options: dict[str, Any], ws: Workspa
     )
 
 
-def cable_model(call: Call, line: Mesh, ws: Workspace) -> Model:
-    """FROCABLE: a cable (its mechanical model may be named) and the body that it slides in."""
-    named = call.read("MMODEL")
-    body: Mesh = call.required("MAILLAGE")
+def cable_model(call: Call, line: Mesh, cables: Model | None, body: Mesh, ws: Workspace) -> Model:
+    """A cable (its mechanical model may be named) and the body that it slides in."""
     if ws.mode.dimension < 2 or ws.mode.value in ("AXIS", "FOUR"):
-        raise call.bad("cables with friction need the plane or space", body)
+        raise call.error("operators.models.cable-friction-needs-dimensions", body)
     bad = next((b.cell_type for b in line.blocks if b.cell_type != "SEG2"), None)
     if bad is not None:
-        raise call.bad(f"a cable is a line of SEG2, not of {bad}", line)
-    whole = {"body": body, "cables": None if named is None else named.value}
+        raise call.error("operators.models.cable-is-a-line", line, bad=bad)
+    whole = {"body": body, "cables": cables}
     return Model(
         tuple(
             Zone(b, "CONTACT", FROCABLE, ELEMENTS["SEG2"], ws.mode, "", dict(whole))
@@ -121,7 +97,7 @@ def _rubbing(zone: Zone, material: CellField | None) -> Rubbing | None:
     coefficient = uniform(zone, material, "MU", None)
     cohesion = uniform(zone, material, "COHE", 0.0)
     if coefficient < 0.0 or cohesion < 0.0:
-        raise MaterialError("MU and COHE of friction must not be negative")
+        raise MaterialError("operators.models.friction-not-negative")
     return Rubbing(coefficient, cohesion, zone.mode is Mode.AXISYMMETRIC)
 
 
@@ -143,7 +119,5 @@ def uniform(zone: Zone, material: CellField | None, name: str, default: float | 
         return default
     values = given.raw(name)[0].astype(float)
     if float(values.max() - values.min()) > 1e-12 * abs(float(values.max())):
-        raise MaterialError(
-            f"{name} varies along a side of contact", "one value for a pair of sides"
-        )
+        raise MaterialError("operators.models.contact-parameter-varies", name=name)
     return float(values.flat[0])

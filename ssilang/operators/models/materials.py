@@ -19,7 +19,7 @@ from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.materials.parameters import geometric_names
 from ssilang.kernel.mesh.mesh import Point
 from ssilang.language.near import nearest_names
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import Chosen, Help, arg, each, many, operator, select
 from ssilang.language.run.call import Call
 from ssilang.operators import words
 from ssilang.operators.models.tension import material_names, tension_to_hardening
@@ -32,11 +32,42 @@ Check = Callable[[Model, list[Values]], None]
 _VALUES = ("FLOTTANT", "EVOLUTIO", "MCHAML", "POINT", "CHPOINT", "MMODEL")
 SHAPES = ("DEFO", "RIDE", "MADE")
 """Parameters of models MODAL and STATIQUE that are fields at points."""
-_TURNS = ("PARALLELE", "PERPENDICULAIRE", "INCLINE")
+
+
+_AXES = (
+    arg("first", "POINT", en="first axis, or centre", fr="premier axe, ou centre"),
+    many("others", "POINT", en="further vectors or points", fr="autres vecteurs ou points"),
+)
+ENTRIES = (
+    arg("model", "MMODEL", en="model", fr="modèle"),
+    select(
+        "axes",
+        {"DIRECTION": _AXES, "RADIAL": _AXES},
+        repeated=True,
+        en="axes of orthotropy: along vectors, or from a centre",
+        fr="repère d'orthotropie : selon des vecteurs, ou depuis un centre",
+    ),
+    select(
+        "turn",
+        {
+            "PARALLELE": [],
+            "PERPENDICULAIRE": [],
+            "INCLINE": [arg("angle", "FLOTTANT", en="angle", fr="angle", unit="deg")],
+        },
+        en="how the axes lie to that direction",
+        fr="position du repère par rapport à cette direction",
+    ),
+    each(
+        "pairs",
+        arg("name", "MOT", kind="parameter", en="parameter", fr="paramètre"),
+        arg("value", *_VALUES, en="its value", fr="sa valeur"),
+    ),
+)
 
 
 @operator(
     "MATE",
+    *ENTRIES,
     family="model",
     full_name="MATERIAU",
     aliases=("MATR",),
@@ -94,11 +125,10 @@ _TURNS = ("PARALLELE", "PERPENDICULAIRE", "INCLINE")
             "A = MATE M 'YOUN' 5.E7 'NU' 0.3 'COHE' 1.E4 'PHI' 0.52 ; LIST (TYPE A) ;",
         ),
     ),
-    reads_itself=True,
 )
-def mate(call: Call) -> CellField:
+def mate(call: Call, **said: Any) -> CellField:
     """Parameters of law and section; those of joints are checked by their law."""
-    return _parameters(call, material_names, check_joints)
+    return _parameters(call, material_names, check_joints, **said)
 
 
 def check_joints(model: Model, given: list[Values]) -> None:
@@ -110,6 +140,7 @@ def check_joints(model: Model, given: list[Values]) -> None:
 
 @operator(
     "CARA",
+    *ENTRIES,
     family="model",
     full_name="CARACTERISTIQUE",
     aliases=("CARB",),
@@ -125,28 +156,32 @@ def check_joints(model: Model, given: list[Values]) -> None:
             "; A = (MATE M 'YOUN' 2.E11 'NU' 0.3) ET (CARA M 'SECT' 0.01) ; LIST (TYPE A) ;",
         ),
     ),
-    reads_itself=True,
 )
-def cara(call: Call) -> CellField:
+def cara(call: Call, **said: Any) -> CellField:
     """Parameters of the section."""
-    return _parameters(call, lambda zone: geometric_names(zone).all)
+    return _parameters(call, lambda zone: geometric_names(zone).all, None, **said)
 
 
-def _parameters(call: Call, known: Known, check: Check | None = None) -> CellField:
-    model: Model = call.required("MMODEL")
+def _parameters(
+    call: Call,
+    known: Known,
+    check: Check | None,
+    model: Model,
+    axes: list[Chosen],
+    turn: Chosen | None,
+    pairs: list[tuple[str, Any]],
+) -> CellField:
     given: list[Values] = [{} for _ in model.zones]
     said: dict[str, Any] = {}
-    while (word := call.peek_word()) is not None:
-        if call.keyword(["DIRECTION", "RADIAL"]):
-            _read_axes(call, word, model, given, known)
-        else:
-            name, value = _read_value(call, word, model, given, known)
-            said[name] = value
+    for written, value in pairs:
+        said[_set_value(call, written, value, model, given, known)] = value
+    for directions in axes:
+        _set_axes(call, directions, turn, model, given, known)
     for values in given:
         tension_to_hardening(values)
     blocks = [b for z, v in zip(model.zones, given, strict=True) for b in _blocks(z, v)]
     if not blocks:
-        raise call.bad("no parameter is given", model, hint="NAME VALUE, such as 'YOUN' 2.E11")
+        raise call.error("operators.models.no-parameter", model)
     if check is not None:
         check(model, given)
     for zone, values in zip(model.zones, given, strict=True):
@@ -163,24 +198,25 @@ def _refuse_outside(call: Call, zone: Zone, values: Values, said: dict[str, Any]
             continue
         wrong = [v for v in (float(array.min()), float(array.max())) if v not in found.range]
         if wrong:
-            raise call.bad(
-                f"parameter {name} = {wrong[0]:g} is out of its range",
+            raise call.error(
+                "operators.models.parameter-range",
                 said[name],
-                f"{found.range.text(name)}: {words.described(found, call.session.language)}",
+                name=name,
+                wrong=wrong[0],
+                text=found.range.text(name),
+                described=words.described(found, call.session.language),
             )
 
 
-def _read_value(
-    call: Call, word: str, model: Model, given: list[Values], known: Known
-) -> tuple[str, Any]:
-    """Read the value of a parameter into its zones; its name and the value as written."""
-    said = word.rstrip()
-    name = said if any(said in known(z) for z in model.zones) else said[:4]
+def _set_value(
+    call: Call, written: str, value: Any, model: Model, given: list[Values], known: Known
+) -> str:
+    """Put the value of a parameter into the zones that have it; its name."""
+    told = written.upper().rstrip()
+    name = told if any(told in known(z) for z in model.zones) else told[:4]
     taking = [i for i, z in enumerate(model.zones) if name in known(z)]
     if not taking:
-        raise _unknown(call, said, model, known)
-    call.keyword([said], length=8)
-    value = call.required(*_VALUES, after=call.keyword_end)
+        raise _unknown(call, written, model, known)
     found = 0
     for i in taking:
         made = _values(call, model.zones[i], name, value)
@@ -188,21 +224,23 @@ def _read_value(
             given[i][name] = made
             found += 1
     if not found:
-        raise call.bad(f"the field given for {name} is not defined on the model", value)
-    return name, value
+        raise call.error("operators.models.field-not-on-model", value, name=name)
+    return name
 
 
-def _unknown(call: Call, name: str, model: Model, known: Known) -> Exception:
+def _unknown(call: Call, written: str, model: Model, known: Known) -> Exception:
+    name = written.upper().rstrip()
     names = tuple(dict.fromkeys(n for z in model.zones for n in known(z)))
     near = nearest_names(name, names, 0.5)
-    hint = f"did you mean {near[0]}? " if near else ""
-    hint += "known: " + " ".join(names)
     zone = next(z for z in model.zones if not near or near[0] in known(z))
-    call.word()
-    word = call.used[-1].value
     told = words.told_parameters(zone, near or known(zone), call.session.language)
-    return call.bad(
-        f"no zone of the model takes a parameter {name}", word, "\n".join([hint, *told])
+    return call.error(
+        "operators.models.parameter-unknown",
+        written,
+        name=name,
+        near=near[0] if near else "",
+        names=names,
+        told="\n".join(told),
     )
 
 
@@ -213,17 +251,17 @@ def _values(call: Call, zone: Zone, name: str, value: Any) -> Value | None:
         _check_section(call, name, value)
         return _one_object(value, n)
     if isinstance(value, Model):
-        raise call.bad(f"parameter {name} is no model", value)
+        raise call.error("operators.models.parameter-is-no-model", value, name=name)
     if isinstance(value, CellField):
         return _field_values(call, zone, name, value)
     if isinstance(value, NodeField) and name not in SHAPES:
-        raise call.bad(f"parameter {name} is no field at points", value, "CHAN 'CHAM' makes cells")
+        raise call.error("operators.models.parameter-is-no-nodal-field", value, name=name)
     if isinstance(value, Point | Curve | NodeField):
         if isinstance(value, Point) and name not in ("VECT", "CGRA"):
-            raise call.bad(f"parameter {name} is a number, not a POINT", value)
+            raise call.error("operators.models.parameter-is-a-number", value, name=name)
         return _one_object(value, n)
     if name == "VECT":
-        raise call.bad("VECT takes a vector", value, hint="a POINT such as (0. 1. 0.)")
+        raise call.error("operators.models.vect-is-a-vector", value)
     return np.full((n, 1), float(value)), "GRAVITE"
 
 
@@ -236,9 +274,10 @@ def _one_object(value: Any, n: int) -> Value:
 
 def _check_section(call: Call, name: str, value: Any) -> None:
     """Refuse what does not describe a section."""
-    wanted, words = (Model, "the model") if name == "MODS" else (CellField, "the material field")
-    if not isinstance(value, wanted):
-        raise call.bad(f"{name} takes {words} of a section of fibres", value)
+    if name == "MODS" and not isinstance(value, Model):
+        raise call.error("operators.models.section-model-wrong", value)
+    if name == "MATS" and not isinstance(value, CellField):
+        raise call.error("operators.models.section-material-wrong", value)
 
 
 def _field_values(call: Call, zone: Zone, name: str, value: CellField) -> Value | None:
@@ -246,34 +285,35 @@ def _field_values(call: Call, zone: Zone, name: str, value: CellField) -> Value 
     if not seen.names:
         return None
     if name not in seen.names and len(seen.names) > 1:
-        raise call.bad(
-            f"the field given for {name} has several components: {', '.join(seen.names)}",
-            value,
-            hint="take one with EXCO",
+        raise call.error(
+            "operators.models.field-has-several-components", value, name=name, names=seen.names
         )
     return seen.raw(name if name in seen.names else seen.names[0])
 
 
-def _read_axes(call: Call, word: str, model: Model, given: list[Values], known: Known) -> None:
+def _set_axes(
+    call: Call,
+    axes: Chosen,
+    turn: Chosen | None,
+    model: Model,
+    given: list[Values],
+    known: Known,
+) -> None:
     taking = [i for i, z in enumerate(model.zones) if "V1X" in known(z)]
     if not taking:
-        raise call.bad("no zone of the model has axes", hint="ORTHOTROPE, ANISOTROPE or joints do")
-    first = call.required("POINT", after=call.keyword_end)
-    others = call.all("POINT")
-    angle = _turn(call)
-    others += call.all("POINT")
-    vectors = [None if p is None else p.coordinates for p in (*others, None, None)]
-    said = Directions(first.coordinates, vectors[0], word[:4] == "RADI", angle, vectors[1])
+        raise call.error("operators.models.no-zone-has-axes")
+    vectors = [None if p is None else p.coordinates for p in (*axes["others"], None, None)]
+    first, radial = axes["first"].coordinates, axes.word == "RADIAL"
+    told = Directions(first, vectors[0], radial, _angle(turn), vectors[1])
     for i in taking:
-        values, support = axis_parameters(model.zones[i], said)
+        values, support = axis_parameters(model.zones[i], told)
         given[i].update({n: (v, support) for n, v in values.items()})
 
 
-def _turn(call: Call) -> float:
-    turn = call.keyword(_TURNS)
-    if turn == "INCLINE":
-        return float(call.required("FLOTTANT", after=call.keyword_end))
-    return 90.0 if turn == "PERPENDICULAIRE" else 0.0
+def _angle(turn: Chosen | None) -> float:
+    if turn is None or turn.word == "PARALLELE":
+        return 0.0
+    return 90.0 if turn.word == "PERPENDICULAIRE" else float(turn["angle"])
 
 
 def _blocks(zone: Zone, given: Values) -> list[CellFieldBlock]:

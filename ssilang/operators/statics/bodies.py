@@ -72,7 +72,7 @@ def finite_zones(entries: Entries) -> tuple[Zone, ...]:
     if model is None or not entries.flag("GRANDS_DEPLACEMENTS"):
         return ()
     if plastic_zones(model):
-        raise entries.bad("plastic bodies have small displacements only")
+        raise entries.error("operators.statics.plastic-in-finite-motion")
     return tuple(z for z in model.zones if z.formulation == "MECANIQUE" and not is_joint(z))
 
 

@@ -18,10 +18,11 @@ from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.statics.constitutive import Answer, has_law, probing_step, respond
 from ssilang.kernel.statics.yielding import criterion, tangent_modulus
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import Help, arg, flag, key, many, operator, opt, said
 from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
 from ssilang.operators.matrices.element import joined, present
+from ssilang.operators.statics.stresses import MODEL
 
 _BAR = (
     "OPTI DIME 2 ELEM SEG2 ; L = DROI 1 (0. 0.) (1. 0.) ; "
@@ -67,9 +68,10 @@ class _Step:
         seen = zone_field(zone, self.end)
         if not any(n in seen for n in names):
             raise FieldError(
-                f"the second field has no strain ({' '.join(names)}) on the cells of element "
-                f"{zone.element}",
-                f"it has: {' '.join(seen.names) or 'nothing there'}",
+                "operators.statics.second-field-has-no-strain",
+                names=names,
+                element=zone.element,
+                seen=seen.names,
             )
         return seen.matrix(names, "STRESSES") - _strains_of(zone, self.start)
 
@@ -84,14 +86,29 @@ class _Step:
         )
 
 
-def _two_states(call: Call) -> tuple[Model, _Step]:
-    model: Model = call.required("MMODEL")
-    start, end = call.required("MCHAML"), call.required("MCHAML")
-    return present(call, model), _Step(start, end)
+_TWO_STATES = (
+    MODEL,
+    arg(
+        "start",
+        "MCHAML",
+        en="stresses, variables, strains and parameters at the start",
+        fr="contraintes, variables, déformations et caractéristiques initiales",
+    ),
+    arg(
+        "end",
+        "MCHAML",
+        en="strains and parameters at the end",
+        fr="déformations et caractéristiques finales",
+    ),
+)
+_STRESS = arg("stress", "MCHAML", en="stresses", fr="contraintes")
+_VARIABLES = arg("variables", "MCHAML", en="internal variables", fr="variables internes")
+_MATERIAL = many("material", "MCHAML", at_least=1, en="parameters", fr="caractéristiques")
 
 
 @operator(
     "COMP",
+    *_TWO_STATES,
     family="stress",
     full_name="COMPORTEMENT",
     help=Help(
@@ -111,13 +128,12 @@ def _two_states(call: Call) -> tuple[Model, _Step]:
             "LIST (MAXI (EXCO 'EISS' C)) ;",
         ),
     ),
-    reads_itself=True,
 )
-def comp(call: Call) -> CellField:
+def comp(call: Call, model: Model, start: CellField, end: CellField) -> CellField:
     """Integrate the laws."""
-    model, step = _two_states(call)
+    step = _Step(start, end)
     blocks = []
-    for zone in model.zones:
+    for zone in present(call, model).zones:
         answer = step.answer(zone)
         before = zone_field(zone, step.start)
         parts = dict(_named(zone, answer, "CONTRAINTES").components) | dict(answer.variables)
@@ -130,28 +146,51 @@ def comp(call: Call) -> CellField:
 # ---- ECOU, PLAS -----------------------------------------------------------------------------
 
 
-def _flow(call: Call) -> tuple[CellField, CellField, CellField]:
-    model = present(call, call.required("MMODEL"))
-    stress, variables, strain = (call.required("MCHAML") for _ in range(3))
-    material = joined((call.required("MCHAML"), *call.all("MCHAML")))
-    extra = call.optional("TABLE")
-    call.optional("FLOTTANT")  # accuracy: the laws are solved to rounding
-    call.keyword(("NOID",))
-    call.optional("ENTIER")
+_FLOW = (
+    MODEL,
+    _STRESS,
+    _VARIABLES,
+    arg("strain", "MCHAML", en="step of strain", fr="incrément de déformation"),
+    _MATERIAL,
+    opt("extra", "TABLE", en="gets SUCCES", fr="reçoit SUCCES"),
+    opt(
+        "accuracy",
+        "FLOTTANT",
+        en="accepted: the laws are solved to rounding",
+        fr="accepté : les lois sont résolues à l'arrondi près",
+    ),
+    flag("alone", "NOID", en="accepted, changes nothing", fr="accepté, sans effet"),
+    opt("count", "ENTIER", en="accepted, changes nothing", fr="accepté, sans effet"),
+)
+
+
+def _flow(
+    call: Call,
+    model: Model,
+    stress: CellField,
+    variables: CellField,
+    strain: CellField,
+    material: tuple[CellField, ...],
+    extra: Table | None,
+    accuracy: float | None,
+    alone: bool,
+    count: int | None,
+) -> tuple[CellField, CellField, CellField]:
+    parameters = joined(material)
     found: dict[str, list[CellFieldBlock]] = {
         "CONTRAINTES": [], "VARIABLES INTERNES": [], "DEFORMATIONS INELASTIQUES": []
     }  # fmt: skip
-    for zone in model.zones:
+    for zone in present(call, model).zones:
         answer = respond(
             zone,
-            material,
+            parameters,
             _stresses_of(zone, stress),
             zone_field(zone, variables),
             _strains_of(zone, strain),
         )
         for title, blocks in found.items():
             blocks.append(_named(zone, answer, title))
-    if isinstance(extra, Table):
+    if extra is not None:
         extra.set(Mot("SUCCES"), True)
     made = [CellField(tuple(b for b in bs if b.components), t) for t, bs in found.items()]
     return made[0], made[1], made[2]
@@ -160,6 +199,7 @@ def _flow(call: Call) -> tuple[CellField, CellField, CellField]:
 for _name, _full in (("ECOU", "ECOULE"), ("PLAS", "PLAS")):
     operator(
         _name,
+        *_FLOW,
         family="stress",
         full_name=_full,
         help=Help(
@@ -179,7 +219,6 @@ for _name, _full in (("ECOU", "ECOULE"), ("PLAS", "PLAS")):
                 "LIST (MAXI S) ;",
             ),
         ),
-        reads_itself=True,
     )(_flow)
 
 
@@ -195,7 +234,6 @@ class _StateRead:
     variables: CellField
     material: CellField
     precision: float
-    symmetric: bool
 
     def tangent(self, zone: Zone) -> Answer:
         """The law's tangent at this state."""
@@ -204,29 +242,51 @@ class _StateRead:
         return respond(zone, self.material, stress, variables, step)
 
 
-def _state_read(call: Call) -> _StateRead:
-    model: Model = call.required("MMODEL")
-    stress, variables = call.required("MCHAML"), call.required("MCHAML")
-    material = joined((call.required("MCHAML"), *call.all("MCHAML")))
-    precision, symmetric = 1e-3, False
-    while (word := call.keyword(("PREC", "DT", "SYME"))) is not None:
-        if word == "SYME":
-            symmetric = True
-            continue
-        value = call.required("FLOTTANT", after=call.keyword_end)
-        precision = value if word == "PREC" else precision  # no law here has a viscosity
-    number = call.optional("FLOTTANT")
+_STATE = (
+    MODEL,
+    _STRESS,
+    _VARIABLES,
+    _MATERIAL,
+    key(
+        "precision",
+        "PREC",
+        arg("precision", "FLOTTANT"),
+        default=1e-3,
+        en="distance to the surface, a share of the stress; 1.E-3 without it",
+        fr="distance à la surface, part de la contrainte ; 1.E-3 sans elle",
+    ),
+    key(
+        "step",
+        "DT",
+        arg("step", "FLOTTANT", unit="s"),
+        en="accepted: no law here has a viscosity",
+        fr="accepté : aucune loi n'a ici de viscosité",
+    ),
+    opt("number", "FLOTTANT", en="the same as PREC", fr="comme PREC"),
+)
+_SYMMETRIC = flag("symmetric", "SYME", en="symmetric part", fr="partie symétrique")
+
+
+def _state_read(
+    call: Call,
+    model: Model,
+    stress: CellField,
+    variables: CellField,
+    material: tuple[CellField, ...],
+    precision: float,
+    number: float | None,
+) -> _StateRead:
     precision = precision if number is None else number
     if precision <= 0.0:
-        raise call.bad(f"the precision must be positive, not {precision:g}")
-    return _StateRead(present(call, model), stress, variables, material, precision, symmetric)
+        raise call.error("operators.statics.precision-not-positive", precision=precision)
+    return _StateRead(present(call, model), stress, variables, joined(material), precision)
 
 
 def _tangent_matrix(
     model: Model, tangents: list[tuple[FloatArray, bool]], material: CellField, symmetric: bool
 ) -> Matrix:
     if not model.zones:
-        raise MeshError("the model has no mechanical zone", "CHARGEMENT zones only carry loads")
+        raise MeshError("operators.statics.no-mechanical-zone")
     blocks = []
     for zone, (tangent, own) in zip(model.zones, tangents, strict=True):
         parameters = zone_field(zone, material)
@@ -249,6 +309,8 @@ def _stiffness(zone: Zone, tangent: FloatArray, parameters: ZoneField) -> Elemen
 
 @operator(
     "KTAN",
+    *_STATE,
+    _SYMMETRIC,
     family="matrix",
     help=Help(
         en="Tangent stiffness of a model at a state given by stresses, internal variables and "
@@ -269,31 +331,60 @@ def _stiffness(zone: Zone, tangent: FloatArray, parameters: ZoneField) -> Elemen
             "K = KTAN M S (ZERO M 'VARINTER') A ; LIST (TYPE K) ;",
         ),
     ),
-    reads_itself=True,
 )
-def ktan(call: Call) -> Matrix:
+def ktan(
+    call: Call,
+    model: Model,
+    stress: CellField,
+    variables: CellField,
+    material: tuple[CellField, ...],
+    precision: float,
+    step: float | None,
+    number: float | None,
+    symmetric: bool,
+) -> Matrix:
     """Tangent stiffness."""
-    if call.keyword(("PERT",)) is not None:
-        return _perturbed(call)
-    said = _state_read(call)
-    answers = [said.tangent(z) for z in said.model.zones]
+    read = _state_read(call, model, stress, variables, material, precision, number)
+    answers = [read.tangent(z) for z in read.model.zones]
     tangents = [(a.tangent, a.symmetric) for a in answers]
-    return _tangent_matrix(said.model, tangents, said.material, said.symmetric)
+    return _tangent_matrix(read.model, tangents, read.material, symmetric)
 
 
-def _perturbed(call: Call) -> Matrix:
-    model, step = _two_states(call)
-    said: dict[str, float] = {"C1": 1e-3}
-    symmetric = False
-    while (word := call.keyword(("C1", "C2", "SYME"))) is not None:
-        if word == "SYME":
-            symmetric = True
-        else:
-            said[word] = call.required("FLOTTANT", after=call.keyword_end)
-    share, least = said["C1"], said.get("C2", said["C1"] / 100.0)
-    if share <= 0.0 or least <= 0.0:
-        raise call.bad("the coefficients of the perturbation must be positive")
-    tangents = [(_by_differences(z, step, share, least), not has_law(z)) for z in model.zones]
+@ktan.form(
+    said("PERT"),
+    *_TWO_STATES,
+    key(
+        "share",
+        "C1",
+        arg("share", "FLOTTANT"),
+        default=1e-3,
+        en="share of the step by which its strain is perturbed, 1.E-3 without it",
+        fr="part du pas dont sa déformation est perturbée, 1.E-3 sans elle",
+    ),
+    key(
+        "least",
+        "C2",
+        arg("least", "FLOTTANT"),
+        en="least perturbation, C1 / 100 without it",
+        fr="plus petite perturbation, C1 / 100 sans elle",
+    ),
+    _SYMMETRIC,
+)
+def perturbed(
+    call: Call,
+    model: Model,
+    start: CellField,
+    end: CellField,
+    share: float,
+    least: float | None,
+    symmetric: bool,
+) -> Matrix:
+    """Stiffness of a step, by perturbing its strain."""
+    model, step = present(call, model), _Step(start, end)
+    smallest = share / 100.0 if least is None else least
+    if share <= 0.0 or smallest <= 0.0:
+        raise call.error("operators.statics.perturbation-not-positive")
+    tangents = [(_by_differences(z, step, share, smallest), not has_law(z)) for z in model.zones]
     return _tangent_matrix(model, tangents, joined((step.end, step.start)), symmetric)
 
 
@@ -314,6 +405,7 @@ def _by_differences(zone: Zone, step: _Step, share: float, least: float) -> Floa
 
 @operator(
     "HOTA",
+    *_STATE,
     family="stress",
     full_name="HOTANGE",
     help=Help(
@@ -328,17 +420,26 @@ def _by_differences(zone: Zone, step: _Step, share: float, least: float) -> Floa
             "H = HOTA M S (ZERO M 'VARINTER') A ; LIST (EXTR H 'COMP') ;",
         ),
     ),
-    reads_itself=True,
 )
-def hota(call: Call) -> CellField:
+def hota(
+    call: Call,
+    model: Model,
+    stress: CellField,
+    variables: CellField,
+    material: tuple[CellField, ...],
+    precision: float,
+    step: float | None,
+    number: float | None,
+) -> CellField:
     """Tangent Hooke matrices."""
-    said = _state_read(call)
-    blocks = [hooke_block(z, said.tangent(z).tangent, "STRESSES") for z in said.model.zones]
+    read = _state_read(call, model, stress, variables, material, precision, number)
+    blocks = [hooke_block(z, read.tangent(z).tangent, "STRESSES") for z in read.model.zones]
     return CellField(tuple(blocks), "MATRICE DE HOOKE")
 
 
 @operator(
     "CRIT",
+    *_STATE,
     family="stress",
     full_name="CRITERE",
     help=Help(
@@ -354,15 +455,23 @@ def hota(call: Call) -> CellField:
             "LIST (MAXI (CRIT M S (ZERO M 'VARINTER') A)) ;",
         ),
     ),
-    reads_itself=True,
 )
-def crit(call: Call) -> CellField:
+def crit(
+    call: Call,
+    model: Model,
+    stress: CellField,
+    variables: CellField,
+    material: tuple[CellField, ...],
+    precision: float,
+    step: float | None,
+    number: float | None,
+) -> CellField:
     """Yield criterion."""
-    said = _state_read(call)
+    read = _state_read(call, model, stress, variables, material, precision, number)
     blocks = []
-    for zone in said.model.zones:
-        stress = _stresses_of(zone, said.stress)
-        values = criterion(zone, said.material, stress, zone_field(zone, said.variables))
+    for zone in read.model.zones:
+        there = _stresses_of(zone, read.stress)
+        values = criterion(zone, read.material, there, zone_field(zone, read.variables))
         blocks.append(_scalar(zone, values))
     return CellField(tuple(blocks), "SCALAIRE")
 
@@ -373,6 +482,7 @@ def _scalar(zone: Zone, values: FloatArray) -> CellFieldBlock:
 
 @operator(
     "MOTA",
+    *_STATE,
     family="stress",
     help=Help(
         en="Tangent moduli of equivalent stress on equivalent plastic strain, of von Mises laws: "
@@ -387,15 +497,22 @@ def _scalar(zone: Zone, values: FloatArray) -> CellFieldBlock:
             "LIST (MAXI (MOTA M S (ZERO M 'VARINTER') A)) ;",
         ),
     ),
-    reads_itself=True,
 )
-def mota(call: Call) -> CellField:
+def mota(
+    call: Call,
+    model: Model,
+    stress: CellField,
+    variables: CellField,
+    material: tuple[CellField, ...],
+    precision: float,
+    step: float | None,
+    number: float | None,
+) -> CellField:
     """Tangent moduli."""
-    said = _state_read(call)
+    read = _state_read(call, model, stress, variables, material, precision, number)
     blocks = []
-    for zone in said.model.zones:
-        stress, variables = _stresses_of(zone, said.stress), zone_field(zone, said.variables)
-        blocks.append(
-            _scalar(zone, tangent_modulus(zone, said.material, stress, variables, said.precision))
-        )
+    for zone in read.model.zones:
+        there, held = _stresses_of(zone, read.stress), zone_field(zone, read.variables)
+        modulus = tangent_modulus(zone, read.material, there, held, read.precision)
+        blocks.append(_scalar(zone, modulus))
     return CellField(tuple(blocks), "SCALAIRE")

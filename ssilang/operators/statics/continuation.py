@@ -58,9 +58,7 @@ def continue_loads(entries: Entries) -> None:
     times = np.asarray(entries.needed("TEMPS_CALCULES").values, dtype=float)
     start = start_of(entries)
     if start.time is not None and start.time > times[0]:
-        raise entries.bad(
-            "the path begins at the first time of 'TEMPS_CALCULES'", "a new table for a new path"
-        )
+        raise entries.error("operators.statics.path-begins-at-first-time")
     inputs, stresses = _inputs(entries, start, times, False)
     finite = finite_zones(entries)
     bodies = finite_bodies(entries, finite, start) if finite else plastic_bodies(entries, start)
@@ -89,12 +87,9 @@ def _rate(entries: Entries, problem: Problem, times: FloatArray) -> FloatArray:
     rate = (factors[-1] - factors[0]) / (times[-1] - times[0])
     straight = factors[0] + np.outer(times - times[0], rate)
     if np.abs(factors - straight).max(initial=0.0) > 1e-9 * np.abs(factors).max(initial=1e-300):
-        raise entries.bad(
-            "the load is not straight in time over 'TEMPS_CALCULES'",
-            "one line from the first time to the last: the load keeps its direction",
-        )
+        raise entries.error("operators.statics.load-not-straight")
     if not rate.any():
-        raise entries.bad("the load does not change in time")
+        raise entries.error("operators.statics.load-does-not-change")
     return np.asarray(rate)
 
 
@@ -103,7 +98,7 @@ def _stability(entries: Entries) -> list[str]:
     words = [w.strip() for w in given.values] if isinstance(given, ListMots) else []
     wrong = [w for w in words if w != "DIAG"]
     if wrong:
-        raise entries.bad(f"'STABILITE': '{wrong[0]}' is for harmonic balance", "'DIAG'")
+        raise entries.error("operators.statics.stability-for-harmonic-balance", wrong=wrong[0])
     return ["DIAG"] if given is True else words
 
 

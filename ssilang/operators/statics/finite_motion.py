@@ -27,11 +27,18 @@ from ssilang.kernel.elements.solids.gradients import gradient_names
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.materials.model import Zone
-from ssilang.language.registry import Help, arg, operator
+from ssilang.kernel.materials.model import Model, Zone
+from ssilang.language.registry import Help, arg, choice, many, operator
 from ssilang.language.run.call import Call
-from ssilang.operators.matrices.element import joined
-from ssilang.operators.statics.stresses import Reading, on_zones
+from ssilang.operators.matrices.element import joined, present
+from ssilang.operators.statics.stresses import (
+    MODEL,
+    Fields,
+    displacement_of,
+    joined_cells,
+    nodal_of,
+    on_zones,
+)
 
 _SQUARE = (
     "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; L = DROI 1 (0 0) (1 0) ; S = TRAN 1 L (0. 1.) ; "
@@ -43,7 +50,9 @@ _SQUARE = (
 
 def _solid(zone: Zone, name: str) -> None:
     if not is_solid(zone):
-        raise FieldError(f"{name} is for continuous elements, not {zone.element}")
+        raise FieldError(
+            "operators.statics.for-continuous-elements", name=name, element=zone.element
+        )
 
 
 def _stands(zone: Zone, field: CellField, names: tuple[str, ...]) -> bool:
@@ -53,6 +62,15 @@ def _stands(zone: Zone, field: CellField, names: tuple[str, ...]) -> bool:
 
 @operator(
     "POLA",
+    MODEL,
+    many("fields", "MCHAML", at_least=1, en="gradients", fr="gradients"),
+    choice(
+        "what",
+        ("GEOM", "DEPL"),
+        default="GEOM",
+        en="what the field is: F (default), or F - 1 as GRAD gives it",
+        fr="nature du champ : F (par défaut), ou F - 1 tel que le donne GRAD",
+    ),
     family="stress",
     full_name="POLAIRE",
     help=Help(
@@ -68,14 +86,14 @@ def _stands(zone: Zone, field: CellField, names: tuple[str, ...]) -> bool:
             "LIST (MAXI (EXCO 'UX,X' R)) ;",
         ),
     ),
-    reads_itself=True,
 )
-def pola(call: Call) -> tuple[CellField, CellField]:
+def pola(
+    call: Call, model: Model, fields: tuple[CellField, ...], what: str
+) -> tuple[CellField, CellField]:
     """Rotation and stretch."""
-    said = Reading(call, ("GEOM", "DEPL"))
-    gradient, by_displacement = said.field(), "DEPL" in said.words
+    gradient, by_displacement = joined(fields), what == "DEPL"
     rows: tuple[list[CellFieldBlock], list[CellFieldBlock]] = ([], [])
-    for zone in said.model.zones:
+    for zone in present(call, model).zones:
         _solid(zone, "POLA")
         names = gradient_names(zone)
         flat, support = components_at_home(zone, gradient, names)
@@ -87,24 +105,45 @@ def pola(call: Call) -> tuple[CellField, CellField]:
     return turned, stretched
 
 
-def _carried(call: Call, name: str, forward: bool) -> CellField:
-    said = Reading(call, ("JAUM", "UTIL"))
-    field, u = said.field(), said.displacement()
-    if len(said.nodal) > 1:
-        raise call.bad(f"{name} takes one field of displacements: cracks (XFEM) are not built")
-    if "UTIL" in said.words:
+_CARRIED = (
+    MODEL,
+    many(
+        "fields",
+        "CHPOINT",
+        "MCHAML",
+        at_least=1,
+        en="stresses or strains, and displacements",
+        fr="contraintes ou déformations, et déplacements",
+    ),
+    choice(
+        "frame",
+        ("JAUM", "UTIL"),
+        en="from or to the frame that turns with the matter; unchanged",
+        fr="depuis ou vers le repère qui tourne avec la matière ; inchangé",
+    ),
+)
+
+
+def _carried(
+    call: Call, model: Model, fields: Fields, frame: str | None, forward: bool
+) -> CellField:
+    field, u = joined_cells(call, fields), displacement_of(call, fields)
+    if len(nodal_of(fields)) > 1:
+        raise call.error("operators.statics.no-cracks", name=call.name)
+    if frame == "UTIL":
         return field
 
     def make(zone: Zone) -> CellFieldBlock:
-        _solid(zone, name)
-        names, values, support = carried(zone, field, u, forward, "JAUM" in said.words)
+        _solid(zone, call.name)
+        names, values, support = carried(zone, field, u, forward, frame == "JAUM")
         return cell_block(zone, names, values, support)
 
-    return on_zones(said.model, field.title, make)
+    return on_zones(present(call, model), field.title, make)
 
 
 @operator(
     "PICA",
+    *_CARRIED,
     family="stress",
     help=Help(
         en="Stresses of Piola-Kirchhoff (second kind) changed into Cauchy's, or strains of "
@@ -117,15 +156,15 @@ def _carried(call: Call, name: str, forward: bool) -> CellField:
         syntax="CH2 = PICA ('JAUM' | 'UTIL') MODL1 CH1 DEP1 ;",
         examples=(_SQUARE + "LIST (MAXI (EXCO 'SMXX' (PICA M (SIGM 'QUAD' M A U) U))) ;",),
     ),
-    reads_itself=True,
 )
-def pica(call: Call) -> CellField:
+def pica(call: Call, model: Model, fields: Fields, frame: str | None) -> CellField:
     """From the reference to the present configuration."""
-    return _carried(call, "PICA", True)
+    return _carried(call, model, fields, frame, True)
 
 
 @operator(
     "CAPI",
+    *_CARRIED,
     family="stress",
     help=Help(
         en="Stresses of Cauchy changed into Piola-Kirchhoff's (second kind), or strains of Almansi "
@@ -137,15 +176,25 @@ def pica(call: Call) -> CellField:
         syntax="CH2 = CAPI ('JAUM' | 'UTIL') MODL1 CH1 DEP1 ;",
         examples=(_SQUARE + "LIST (MAXI (EXCO 'SMXX' (CAPI M (SIGM M A U) U))) ;",),
     ),
-    reads_itself=True,
 )
-def capi(call: Call) -> CellField:
+def capi(call: Call, model: Model, fields: Fields, frame: str | None) -> CellField:
     """From the present to the reference configuration."""
-    return _carried(call, "CAPI", False)
+    return _carried(call, model, fields, frame, False)
+
+
+_STRESS_AND_GRADIENT = many(
+    "fields",
+    "MCHAML",
+    at_least=1,
+    en="stresses, gradients, and parameters",
+    fr="contraintes, gradients, et caractéristiques",
+)
 
 
 @operator(
     "WORK",
+    MODEL,
+    _STRESS_AND_GRADIENT,
     family="stress",
     help=Help(
         en="Trace of the product of a field of stresses and a field of gradients, in continuous "
@@ -157,12 +206,11 @@ def capi(call: Call) -> CellField:
         syntax="WORK1 = WORK MODL1 SIG1 GRAD1 ;",
         examples=(_SQUARE + "LIST (INTG M (WORK M (SIGM M A U) (GRAD M U))) ;",),
     ),
-    reads_itself=True,
 )
-def work_of(call: Call) -> CellField:
+def work_of(call: Call, model: Model, fields: tuple[CellField, ...]) -> CellField:
     """Work of stresses on gradients."""
-    said = Reading(call)
-    stress, gradient = _stress_and_gradient(said)
+    zones = present(call, model)
+    stress, gradient = _stress_and_gradient(call, zones, fields)
 
     def make(zone: Zone) -> CellFieldBlock:
         if is_structural(zone):
@@ -171,25 +219,27 @@ def work_of(call: Call) -> CellField:
         values, support = work(zone, stress, gradient)
         return CellFieldBlock(zone.cells, {"SCAL": values}, support, zone.element, zone.constituent)
 
-    return on_zones(said.model, "SCALAIRE", make)
+    return on_zones(zones, "SCALAIRE", make)
 
 
-def _stress_and_gradient(said: Reading) -> tuple[CellField, CellField]:
-    if len(said.cells) < 2:
-        raise said.call.missing(("MCHAML",))
-    names = {z: gradient_names(z) for z in said.model.zones if is_solid(z)}
-    names |= {z: structural_names(z) for z in said.model.zones if is_structural(z)}
-    gradient = next(
-        (f for f in said.cells if any(_stands(z, f, n) for z, n in names.items())), None
-    )
+def _stress_and_gradient(
+    call: Call, model: Model, fields: tuple[CellField, ...]
+) -> tuple[CellField, CellField]:
+    if len(fields) < 2:
+        raise call.missing(("MCHAML",))
+    names = {z: gradient_names(z) for z in model.zones if is_solid(z)}
+    names |= {z: structural_names(z) for z in model.zones if is_structural(z)}
+    gradient = next((f for f in fields if any(_stands(z, f, n) for z, n in names.items())), None)
     if gradient is None:
-        raise said.call.bad("no field of gradients is given", hint="GRAD makes one")
-    stress = next(f for f in said.cells if f is not gradient)
+        raise call.error("operators.statics.no-gradients")
+    stress = next(f for f in fields if f is not gradient)
     return stress, gradient
 
 
 @operator(
     "FOFI",
+    MODEL,
+    _STRESS_AND_GRADIENT,
     family="stress",
     full_name="FOFISS",
     help=Help(
@@ -204,15 +254,14 @@ def _stress_and_gradient(said: Reading) -> tuple[CellField, CellField]:
         syntax="FORC1 = FOFI MODL1 SIG1 GRDEP1 (CAR1) ;",
         examples=(_SQUARE + "LIST (MAXI (FOFI M (SIGM M A U) (GRAD M U))) ;",),
     ),
-    reads_itself=True,
 )
-def fofi(call: Call) -> NodeField:
+def fofi(call: Call, model: Model, fields: tuple[CellField, ...]) -> NodeField:
     """Forces of stresses on gradients."""
-    said = Reading(call)
-    stress, gradient = _stress_and_gradient(said)
-    rest = tuple(f for f in said.cells if f is not stress and f is not gradient)
+    zones = present(call, model)
+    stress, gradient = _stress_and_gradient(call, zones, fields)
+    rest = tuple(f for f in fields if f is not stress and f is not gradient)
     forces = []
-    for zone in said.model.zones:
+    for zone in zones.zones:
         parameters = zone_field(zone, joined(rest) if rest else None)
         if is_structural(zone):
             forces.append(structural_forces(zone, stress, gradient, parameters))
@@ -224,7 +273,7 @@ def fofi(call: Call) -> NodeField:
 
 @operator(
     "TAGR",
-    arg("gradient", "MCHAML"),
+    arg("gradient", "MCHAML", en="gradients", fr="gradients"),
     family="stress",
     help=Help(
         en="Transposed field of gradients: UX,Y and UY,X change places.",
@@ -239,10 +288,10 @@ def tagr(call: Call, gradient: CellField) -> CellField:
     for block in gradient.blocks:
         names = {n: f"U{n[3]},{n[1]}" for n in block.components if len(n) == 4 and n[2] == ","}
         if not names or any(n not in block.components for n in names.values()):
-            raise call.bad(
-                "a field of gradients has components UX,X UX,Y ...; this one has "
-                + " ".join(block.components),
+            raise call.error(
+                "operators.statics.not-gradients",
                 gradient,
+                components=block.components,
             )
         made = {n: block.components[names.get(n, n)] for n in block.components}
         blocks.append(replace(block, components=made))

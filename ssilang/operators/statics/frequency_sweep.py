@@ -17,7 +17,7 @@ from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.modal.shape_models import is_shape, shape_matrix
 from ssilang.kernel.plasticity.points import is_plastic
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import Help, arg, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
 from ssilang.operators.session.progress import ProgressLine
@@ -31,24 +31,24 @@ _RESULTS = ("TEMPS", "DEPLACEMENTS", "REACTIONS")
 
 @operator(
     "ZFRE",
+    arg("table", "TABLE", en="table of PASAPAS", fr="table de PASAPAS"),
     family="statics",
     help=Help(
         en="Sweep of frequencies of the table of PASAPAS, which is the procedure to call.",
         fr="Balayage en fréquence de la table de PASAPAS, procédure à appeler.",
         syntax="ZFRE TAB1 ;",
     ),
-    reads_itself=True,
 )
-def zfre(call: Call) -> None:
+def zfre(call: Call, table: Table) -> None:
     """Fill TEMPS (frequencies in Hz), DEPLACEMENTS and REACTIONS, 0 being a state at rest."""
     from ssilang.kernel.statics.frequency import sweep
 
-    entries = Entries(call, call.required("TABLE"), "PASAPAS")
+    entries = Entries(call, table, "PASAPAS")
     inputs = _inputs(entries)
     frequencies = _frequencies(entries, inputs)
     tables = {word: Table() for word in _RESULTS}
-    for word, table in tables.items():
-        entries.table.set(Mot(word), table)
+    for word, results in tables.items():
+        entries.table.set(Mot(word), results)
     entries.table.set(Mot("CONV"), False)
     line = ProgressLine("PASAPAS")
     try:
@@ -83,7 +83,7 @@ def _frequencies(entries: Entries, inputs: HarmonicInputs) -> FloatArray:
         return default_frequencies(inputs)
     values = np.asarray(given.values, dtype=float)
     if not len(values) or (values < 0.0).any():
-        raise entries.bad("'TEMPS_CALCULES' holds the frequencies, at least one, none negative")
+        raise entries.error("operators.statics.frequencies-wanted")
     return values
 
 
@@ -117,10 +117,7 @@ def _inputs(entries: Entries) -> HarmonicInputs:
         found += [] if shapes is None else [shapes]
     damping = entries.get("AMORTISSEMENT")
     if silent and damping is None:
-        entries.warn(
-            "dashpots of impedances given by numbers count by the matrix of damping only",
-            "TAB1 . 'AMORTISSEMENT' = AMOR MODELE CARACTERISTIQUES ;",
-        )
+        entries.warn("operators.statics.dashpots-by-numbers")
     supports = entries.get("BLOCAGES_MECANIQUES")
     constant = entries.get("RIGIDITE_CONSTANTE")
     return HarmonicInputs(
@@ -138,8 +135,7 @@ def _check_linear(entries: Entries, zone: Zone) -> None:
 
     if is_plastic(zone) or (is_joint(zone) and not law_of(zone.behaviour).linear):
         raise KernelError(
-            f"a law {' '.join(zone.behaviour)} has no harmonic response",
-            "only linear models work in a sweep of frequencies",
+            "operators.statics.law-has-no-harmonic-response", behaviour=zone.behaviour
         )
 
 

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.elements.loads.line_loads import line_load
 from ssilang.kernel.elements.loads.loads import (
     body_force,
@@ -22,37 +25,55 @@ from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Mode, Model
 from ssilang.kernel.matrices.matrix import dual_of
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import (
+    Chosen,
+    Help,
+    arg,
+    choice,
+    either,
+    flag,
+    group,
+    key,
+    many,
+    operator,
+    opt,
+    said,
+)
 from ssilang.language.run.call import Call
 from ssilang.language.values import Table
 from ssilang.operators.matrices.element import joined, nodes_of
 from ssilang.operators.matrices.supports import static_links
+from ssilang.operators.statics.stresses import MODEL
 from ssilang.operators.workspace import workspace
 
 FORCES = ("FX", "FY", "FZ", "FR", "FT")
 MOMENTS = ("MX", "MY", "MZ", "MT", "MR")
 
 
-def _shared(call: Call, usual: tuple[str, ...], allowed: tuple[str, ...]) -> NodeField:
-    """A vector, or named values, shared equally by the nodes of a place."""
-    values: dict[str, float] = {}
-    while (name := call.keyword(allowed)) is not None:
-        values[name] = float(call.required("FLOTTANT", after=call.keyword_end))
-    if not values:
-        if not usual:
-            raise call.bad("a vector gives no moment in the plane", hint="name it: 'MZ' value")
-        vector: Point = call.required("POINT")
-        values = dict(zip(usual, vector.coordinates[: len(usual)], strict=True))
-    place: Mesh | Point = call.required("MAILLAGE", "POINT")
+_PLACE = arg(
+    "place", "MAILLAGE", "POINT", en="nodes that share it", fr="noeuds qui se la partagent"
+)
+
+
+def _shared(call: Call, values: Mapping[str, float], place: Mesh | Point) -> NodeField:
+    """Values by component, shared equally by the nodes of a place."""
     nodes = nodes_of(place)
     if not len(nodes):
-        raise call.bad("the mesh is empty: there is nothing to share the force out to", place)
+        raise call.error("operators.statics.empty-mesh-for-force", place)
     parts = {n: np.full(len(nodes), v / len(nodes)) for n, v in values.items()}
     return NodeField.of(place.nodes, nodes, parts, "DISCRET")
 
 
+def _by_vector(call: Call, vector: Point, names: tuple[str, ...], place: Mesh | Point) -> NodeField:
+    usual = tuple(dual_of(n) for n in names)
+    values = dict(zip(usual, vector.coordinates[: len(usual)], strict=True))
+    return _shared(call, values, place)
+
+
 @operator(
     "FORC",
+    arg("vector", "POINT", en="force", fr="force", unit="N"),
+    _PLACE,
     family="load",
     full_name="FORCE",
     help=Help(
@@ -65,33 +86,47 @@ def _shared(call: Call, usual: tuple[str, ...], allowed: tuple[str, ...]) -> Nod
         syntax="FOR1 = FORC | VEC1 | MOT1 VAL1 ... GEO1 ;\nFORC TAB1 ;  (LIAISONS_STATIQUES)",
         examples=("OPTI DIME 2 ; P = 0. 0. ; F = FORC (0. -3.) P ; LIST (EXTR F 'FY' P) ;",),
     ),
-    reads_itself=True,
 )
-def forc(call: Call) -> NodeField | None:
-    """Point forces."""
-    table = call.read("TABLE")
-    if table is not None:
-        _unit_forces(call, table.value)
-        return None
-    names = NODE_TRANSLATIONS[workspace(call.session).mode]
-    return _shared(call, tuple(dual_of(n) for n in names), FORCES)
+def forc(call: Call, vector: Point, place: Mesh | Point) -> NodeField:
+    """A force by its vector."""
+    return _by_vector(call, vector, NODE_TRANSLATIONS[workspace(call.session).mode], place)
 
 
-def _unit_forces(call: Call, table: Table) -> None:
+@forc.form(
+    key(
+        "values",
+        FORCES,
+        arg("value", "FLOTTANT", unit="N"),
+        optional=False,
+        repeated=True,
+        en="components",
+        fr="composantes",
+    ),
+    _PLACE,
+)
+def named_forces(call: Call, values: list[tuple[str, float]], place: Mesh | Point) -> NodeField:
+    """A force by its components."""
+    return _shared(call, dict(values), place)
+
+
+@forc.form(arg("table", "TABLE", en="table LIAISONS_STATIQUES", fr="table LIAISONS_STATIQUES"))
+def unit_forces(call: Call, table: Table) -> None:
     """FORCE in each entry of a table LIAISONS_STATIQUES: one, at its point."""
     nodes = workspace(call.session).nodes
     links = static_links(table)
     for entry, point, component in links:
         if not isinstance(point, Point) or not component:
-            raise call.bad("each entry wants POINT_LIAISON (POINT) and DDL_LIAISON (MOT)", table)
+            raise call.error("operators.statics.entry-wants-point-and-unknown", table)
         at, one = np.array([point.node]), np.ones(1)
         entry.set("FORCE", NodeField.of(nodes, at, {component: one}, "DISCRET"))
     if not links:
-        raise call.bad("the table has no entry numbered 1, 2 ...", table)
+        raise call.error("operators.statics.no-numbered-entry", table)
 
 
 @operator(
     "MOME",
+    arg("vector", "POINT", en="moment, in space", fr="moment, en dimension 3", unit="N m"),
+    _PLACE,
     family="load",
     full_name="MOMENT",
     help=Help(
@@ -102,17 +137,68 @@ def _unit_forces(call: Call, table: Table) -> None:
         syntax="FOR1 = MOME | VEC1 | MOT1 VAL1 ... GEO1 ;",
         examples=("OPTI DIME 2 ; P = 0. 0. ; F = MOME 'MZ' 5. P ; LIST (EXTR F 'MZ' P) ;",),
     ),
-    reads_itself=True,
 )
-def mome(call: Call) -> NodeField:
-    """Point moments."""
+def mome(call: Call, vector: Point, place: Mesh | Point) -> NodeField:
+    """A moment by its vector."""
     mode = workspace(call.session).mode
-    names = NODE_ROTATIONS[mode] if mode is Mode.THREE_DIMENSIONAL else ()
-    return _shared(call, tuple(dual_of(n) for n in names), MOMENTS)
+    if mode is not Mode.THREE_DIMENSIONAL:
+        raise call.error("operators.statics.no-moment-by-vector")
+    return _by_vector(call, vector, NODE_ROTATIONS[mode], place)
+
+
+@mome.form(
+    key(
+        "values",
+        MOMENTS,
+        arg("value", "FLOTTANT", unit="N m"),
+        optional=False,
+        repeated=True,
+        en="components",
+        fr="composantes",
+    ),
+    _PLACE,
+)
+def named_moments(call: Call, values: list[tuple[str, float]], place: Mesh | Point) -> NodeField:
+    """A moment by its components."""
+    return _shared(call, dict(values), place)
+
+
+_PRESSURE = arg(
+    "value",
+    "CHPOINT",
+    "MCHAML",
+    "FLOTTANT",
+    en="pressure, by its number or as a field",
+    fr="pression, par sa valeur ou en champ",
+    unit="Pa",
+)
+_FACES = opt("faces", "MAILLAGE", en="sides", fr="faces")
 
 
 @operator(
     "PRES",
+    MODEL,
+    choice(
+        "kind",
+        ("MASS", "POUT"),
+        en="on sides of continuous elements, the default",
+        fr="sur des faces de massifs, par défaut",
+    ),
+    either(
+        "load",
+        group("plain", _PRESSURE, _FACES),
+        group(
+            "named",
+            arg(
+                "name",
+                "MOT",
+                en="name of the component, for a model CHARGEMENT",
+                fr="nom de la composante, pour un modèle CHARGEMENT",
+            ),
+            arg("value", "FLOTTANT", "MCHAML", en="pressure", fr="pression", unit="Pa"),
+            _FACES,
+        ),
+    ),
     family="load",
     full_name="PRESSION",
     help=Help(
@@ -144,26 +230,20 @@ def mome(call: Call) -> NodeField:
             "F = PRES 'MASS' M 3. L ; LIST (MAXI (RESU F)) ;",
         ),
     ),
-    reads_itself=True,
 )
-def pres(call: Call) -> NodeField | CellField:
-    """Pressure on sides."""
-    if (loaded := _of_loads(call)) is not None:
-        return loaded
-    kind = _kind(call, ("FISS",), ("SHB8",))
-    model: Model = call.required("MMODEL")
-    if kind == "TUYA":
-        return pipe_pressure(model, joined((call.required("MCHAML"), *call.all("MCHAML"))))
-    operand = call.read("CHPOINT", "MCHAML", "FLOTTANT")
-    if operand is None:
+def pres(call: Call, model: Model, kind: str | None, load: Chosen) -> NodeField | CellField:
+    """Pressure on sides of continuous elements, or the field of a model of loads."""
+    value, faces = load["value"], load["faces"]
+    if all(z.formulation == "CHARGEMENT" for z in model.zones) and kind is None:
+        return _of_loads(call, model, load.values.get("name"), value, faces)
+    if load.word == "named":
         raise call.missing(("FLOTTANT", "CHPOINT", "MCHAML"))
-    value = operand.value
-    if kind == "COQU":
-        if call.keyword(["POIN"]):
-            raise call.bad("'POIN' is not available", hint="'NORM' or a vector")
-        along = call.optional("POINT") if call.keyword(["NORM"]) is None else None
-        return shell_load(model, value, None if along is None else along.coordinates)
-    faces = _brick_faces(call, model) if kind == "SHB8" else call.optional("MAILLAGE")
+    return _on_faces(call, model, value, faces)
+
+
+def _on_faces(
+    call: Call, model: Model, value: NodeField | CellField | float, faces: Mesh | None
+) -> NodeField:
     if isinstance(value, CellField):
         value = on_sides(model, value)
     if faces is None:
@@ -173,16 +253,76 @@ def pres(call: Call) -> NodeField | CellField:
     return pressure(model, faces, value)
 
 
-def _of_loads(call: Call) -> CellField | None:
+@pres.form(
+    said("COQU"),
+    MODEL,
+    _PRESSURE,
+    flag("normal", "NORM", en="along the normal", fr="selon la normale"),
+    opt(
+        "along", "POINT", en="vector on the side it pushes to", fr="vecteur du côté où elle pousse"
+    ),
+    flag(
+        "towards", "POIN", en="towards a point: not available", fr="vers un point : non disponible"
+    ),
+)
+def shell_pressure(
+    call: Call,
+    model: Model,
+    value: NodeField | CellField | float,
+    normal: bool,
+    along: Point | None,
+    towards: bool,
+) -> NodeField:
+    """Pressure on shells."""
+    if towards:
+        raise call.error("operators.statics.pressure-by-point")
+    return shell_load(model, value, None if along is None or normal else along.coordinates)
+
+
+@pres.form(
+    said("SHB8"),
+    MODEL,
+    _PRESSURE,
+    choice(
+        "side",
+        ("INTE", "EXTE"),
+        en="face of the first four nodes, or of the last four",
+        fr="face des quatre premiers noeuds, ou des quatre derniers",
+    ),
+)
+def brick_pressure(
+    call: Call, model: Model, value: NodeField | CellField | float, side: str | None
+) -> NodeField:
+    """Pressure on shells of bricks."""
+    return _on_faces(call, model, value, _brick_faces(call, model, side))
+
+
+@pres.form(
+    said("TUYA"),
+    MODEL,
+    many("material", "MCHAML", at_least=1, en="parameters", fr="caractéristiques"),
+)
+def pressure_in_pipes(model: Model, material: tuple[CellField, ...]) -> NodeField:
+    """Pressure on the closed ends of pipes."""
+    return pipe_pressure(model, joined(material))
+
+
+@pres.form(said("FISS"))
+def crack_pressure(call: Call) -> NodeField:
+    """Pressure on sides of cracks: refused."""
+    raise call.error("operators.statics.load-not-available", found="FISS")
+
+
+def _of_loads(
+    call: Call,
+    model: Model,
+    name: str | None,
+    value: CellField | NodeField | float,
+    faces: Mesh | None,
+) -> CellField:
     """The field of pressure of a model of loads: a number or a field in cells."""
-    first = call.operands[0].value if call.operands else None
-    if not isinstance(first, Model) or any(z.formulation != "CHARGEMENT" for z in first.zones):
-        return None
-    model: Model = call.required("MMODEL")
-    given = call.read("MCHAML")
-    name = None if given is not None else call.word()
-    value = given.value if given is not None else call.required("FLOTTANT", "MCHAML")
-    faces = call.optional("MAILLAGE")
+    if isinstance(value, NodeField):
+        raise call.missing(("FLOTTANT", "MCHAML"))
     if faces is not None:
         model = model_on_mesh(model, faces)
     label = (name or "PRES").rstrip()
@@ -191,7 +331,7 @@ def _of_loads(call: Call) -> CellField | None:
         if isinstance(value, CellField):
             seen = zone_field(zone, value)
             if len(seen.names) != 1:
-                raise call.bad("a pressure is a field with one component", value)
+                raise call.error("operators.statics.pressure-has-one-component", value)
             values = seen.raw(seen.names[0])[0]
         else:
             values = np.full((len(zone.cells), 1), float(value))
@@ -201,11 +341,10 @@ def _of_loads(call: Call) -> CellField | None:
     return CellField(tuple(blocks), "PRESSION")
 
 
-def _brick_faces(call: Call, model: Model) -> Mesh | None:
+def _brick_faces(call: Call, model: Model, side: str | None) -> Mesh | None:
     """The inner or outer face of shells of bricks: first or last four nodes."""
     if any(z.element != "SHB8" for z in model.zones):
-        raise call.bad("'SHB8' is for models of elements SHB8", model)
-    side = call.keyword(["INTE", "EXTE"])
+        raise call.error("operators.statics.not-shb8", model)
     if side is None:
         return None
     nodes = slice(0, 4) if side == "INTE" else slice(4, 8)
@@ -213,16 +352,34 @@ def _brick_faces(call: Call, model: Model) -> Mesh | None:
     return Mesh(model.mesh.nodes, tuple(blocks))
 
 
-def _kind(call: Call, others: tuple[str, ...], known: tuple[str, ...] = ()) -> str:
-    """MASS, or a refusal of the elements that are not here."""
-    found = call.keyword(["MASS", "POUT", "COQU", "TUYA", *known, *others])
-    if found in others:
-        raise call.bad(f"'{found}' loads are not available", hint="'MASS' is")
-    return found or "MASS"
+_DENSITY = arg(
+    "density",
+    "CHPOINT",
+    "POINT",
+    en="force per area or length, as a vector or a field",
+    fr="force par unité de surface ou de longueur, vecteur ou champ",
+)
+_THICKNESS = many(
+    "fields", "MCHAML", en="thickness in plane stress", fr="épaisseur en contraintes planes"
+)
+
+
+def _values(density: NodeField | Point) -> NodeField | FloatArray:
+    return density if isinstance(density, NodeField) else density.coordinates
 
 
 @operator(
     "FSUR",
+    MODEL,
+    choice(
+        "kind",
+        ("MASS", "TUYA"),
+        en="on sides of continuous elements, the default",
+        fr="sur des faces de massifs, par défaut",
+    ),
+    _DENSITY,
+    _FACES,
+    _THICKNESS,
     family="load",
     help=Help(
         en="Nodal forces of a force per area on sides of continuous elements ('MASS'), or per "
@@ -242,33 +399,58 @@ def _kind(call: Call, others: tuple[str, ...], known: tuple[str, ...] = ()) -> s
             "; F = FSUR 'POUT' M (0. -3.) ; LIST (MAXI (RESU F)) ;",
         ),
     ),
-    reads_itself=True,
 )
-def fsur(call: Call) -> NodeField:
-    """Surface and line forces."""
-    kind = _kind(call, ())
-    model: Model = call.required("MMODEL")
-    operand = call.read("CHPOINT", "POINT")
-    if operand is None:
-        raise call.missing(("POINT", "CHPOINT"))
-    density = operand.value if isinstance(operand.value, NodeField) else operand.value.coordinates
-    if kind == "COQU":
-        return shell_load(model, density)
-    if kind == "POUT":
-        projected = call.keyword(["PROJ"])
-        normal = call.required("POINT", after=call.keyword_end) if projected else None
-        return line_load(model, density, None if normal is None else normal.coordinates)
-    faces = call.optional("MAILLAGE")
-    fields = call.all("MCHAML")
+def fsur(
+    call: Call,
+    model: Model,
+    kind: str | None,
+    density: NodeField | Point,
+    faces: Mesh | None,
+    fields: tuple[CellField, ...],
+) -> NodeField:
+    """Forces on sides of continuous elements."""
     if faces is None:
         if not isinstance(density, NodeField):
             raise call.missing(("MAILLAGE",))
         faces = loaded_faces(model, density)
-    return traction(model, faces, density, joined(tuple(fields)) if fields else None)
+    return traction(model, faces, _values(density), joined(fields) if fields else None)
+
+
+@fsur.form(said("COQU"), MODEL, _DENSITY)
+def shell_forces(model: Model, density: NodeField | Point) -> NodeField:
+    """Forces on shells."""
+    return shell_load(model, _values(density))
+
+
+@fsur.form(
+    said("POUT"),
+    MODEL,
+    _DENSITY,
+    key(
+        "normal",
+        "PROJ",
+        arg("normal", "POINT"),
+        en="vector normal to the plane of projection",
+        fr="vecteur normal au plan de projection",
+    ),
+)
+def line_forces(model: Model, density: NodeField | Point, normal: Point | None) -> NodeField:
+    """Forces along beams and bars."""
+    return line_load(model, _values(density), None if normal is None else normal.coordinates)
 
 
 @operator(
     "CNEQ",
+    MODEL,
+    arg(
+        "force",
+        "CHPOINT",
+        "MCHAML",
+        en="force per volume",
+        fr="force par unité de volume",
+        unit="N/m3",
+    ),
+    _THICKNESS,
     family="load",
     help=Help(
         en="Nodal forces of a force per volume in continuous elements: nodal field or field in "
@@ -284,13 +466,7 @@ def fsur(call: Call) -> NodeField:
             "F = CNEQ M G ; LIST (MAXI 'ABS' (RESU F)) ;",
         ),
     ),
-    reads_itself=True,
 )
-def cneq(call: Call) -> NodeField:
+def cneq(model: Model, force: NodeField | CellField, fields: tuple[CellField, ...]) -> NodeField:
     """Volume forces."""
-    model: Model = call.required("MMODEL")
-    operand = call.read("CHPOINT", "MCHAML")
-    if operand is None:
-        raise call.missing(("CHPOINT", "MCHAML"))
-    fields = call.all("MCHAML")
-    return body_force(model, operand.value, joined(tuple(fields)) if fields else None)
+    return body_force(model, force, joined(fields) if fields else None)

@@ -11,7 +11,20 @@ from ssilang.kernel.curves.curve import Curve, Load, LoadPart
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import (
+    Chosen,
+    Help,
+    arg,
+    by,
+    choice,
+    flag,
+    group,
+    main,
+    operator,
+    opt,
+    said,
+    select,
+)
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots, Mot, Table, type_of
 from ssilang.operators.dispatch import CHAN, DIME, ENLE, EXTR, union
@@ -24,8 +37,33 @@ _EXAMPLE = (
 )
 
 
+_NAME = opt("name", "MOT", en="name, of 4 characters", fr="nom, de 4 caractères")
+_LINK = choice(
+    "link",
+    ("LIE", "LIBR"),
+    en="follows the matter or not: the same here",
+    fr="lié à la matière ou non : sans effet ici",
+)
+_MOVES = choice("moves", ("TRAN", "ROTA"), en="moving: not available", fr="mobile : non disponible")
+_PATH = group(  # behind the name, which may be this word
+    "path",
+    choice("path", ("TRAJ",), en="moving: not available", fr="mobile : non disponible"),
+)
+
+
 @operator(
     "CHAR",
+    _NAME,
+    arg("held", *_HELD, en="field, or what is loaded", fr="champ, ou objet chargé"),
+    opt(
+        "curve",
+        "EVOLUTIO",
+        en="factor in time, 1 without it",
+        fr="facteur en temps, 1 sans elle",
+    ),
+    _LINK,
+    _MOVES,
+    _PATH,
     family="loads",
     full_name="CHARGEMENT",
     help=Help(
@@ -41,39 +79,35 @@ _EXAMPLE = (
         "CHAR1 = CHAR (MOT1) TAB1 TAB2 ;",
         examples=(_EXAMPLE + "LIST (EXTR (TIRE C 1.) 'FY' P) ;",),
     ),
-    reads_itself=True,
 )
-def char(call: Call) -> Load:
-    """Make a loading."""
-    name = ""
-    word = call.peek_word()
-    moves = ("TRAN", "ROTA", "TRAJ")
-    if word is not None and (word.rstrip() == "TRAJ" or word[:4] not in (*moves, "LIE", "LIBR")):
-        name = str(call.word()).rstrip()[:4].rstrip()
-    tables = [o.value for o in call.operands if isinstance(o.value, Table)]
-    part = _from_tables(call, name) if tables else _from_field(call, name)
-    while (said := call.keyword(("LIE", "LIBR", *moves))) is not None:
-        if said in moves:
-            raise call.bad(
-                f"moving loadings ('{said}') are not supported",
-                hint="give the field at each time by two tables",
-            )
-    return Load((part,))
-
-
-def _from_field(call: Call, name: str) -> LoadPart:
-    operand = call.read(*_HELD)
-    if operand is None:
-        raise call.missing(_SPACE)
-    curve = call.optional("EVOLUTIO")
+def char(
+    call: Call,
+    name: str | None,
+    held: Any,
+    curve: Curve | None,
+    link: str | None,
+    moves: str | None,
+    path: str | None,
+) -> Load:
+    """A field times a curve."""
+    _refuse_moving(call, moves or path)
     if curve is not None:
         if len(curve.parts) != 1:
-            raise call.bad(f"one curve is needed, this object has {len(curve.parts)}", curve)
+            raise call.error("operators.statics.one-curve-wanted", curve, n_parts=len(curve.parts))
         if not len(curve.parts[0].abscissas):
-            raise call.bad("the curve is empty", curve)
+            raise call.error("operators.statics.empty-curve", curve)
         check_increasing(curve.parts[0].abscissas)
         _check_numbers(call, curve)
-    return LoadPart(name, operand.value, curve)
+    return Load((LoadPart(_short(name), held, curve),))
+
+
+def _short(name: str | None) -> str:
+    return (name or "").rstrip()[:4].rstrip()
+
+
+def _refuse_moving(call: Call, word: str | None) -> None:
+    if word is not None:
+        raise call.error("operators.statics.moving-load", said=word)
 
 
 def _check_numbers(call: Call, curve: Curve) -> None:
@@ -82,33 +116,52 @@ def _check_numbers(call: Call, curve: Curve) -> None:
     wrong = np.flatnonzero(~np.isfinite(values))
     if len(wrong):
         first = int(wrong[0])
-        more = f" (and {len(wrong) - 1} more)" if len(wrong) > 1 else ""
-        raise call.bad(
-            f"the curve has {values[first]:g} at abscissa {part.abscissas[first]:g}{more}",
+        raise call.error(
+            "operators.statics.curve-holds-no-number",
             curve,
-            "a gap in the record of a motion: fill it before",
+            value=values[first],
+            abscissa=part.abscissas[first],
+            more=len(wrong) - 1,
         )
 
 
-def _from_tables(call: Call, name: str) -> LoadPart:
-    times, fields = call.required("TABLE"), call.required("TABLE")
+@char.form(
+    _NAME,
+    arg("times", "TABLE", en="times, from 0 on", fr="temps, à partir de 0"),
+    arg("fields", "TABLE", en="a field for each", fr="un champ pour chacun"),
+    _LINK,
+    _MOVES,
+    _PATH,
+)
+def char_in_steps(
+    call: Call,
+    name: str | None,
+    times: Table,
+    fields: Table,
+    link: str | None,
+    moves: str | None,
+    path: str | None,
+) -> Load:
+    """A field at each of listed times."""
+    _refuse_moving(call, moves or path)
     steps: list[tuple[float, Any]] = []
     for i in range(len(times)):
         if not times.has(i) or not fields.has(i):
-            raise call.bad(
-                f"index {i} is missing in one of the tables",
-                times,
-                "times and fields are indexed by 0 1 2 ... without a gap",
-            )
+            raise call.error("operators.statics.index-missing", times, i=i)
         time, held = times.get(i), fields.get(i)
         if not isinstance(time, int | float) or type_of(held) not in _HELD:
-            raise call.bad(f"at index {i} a time and a field are needed", times)
+            raise call.error("operators.statics.time-and-field-wanted", times, i=i)
         if steps and time <= steps[-1][0]:
-            raise call.bad(f"times must increase: {time:g} follows {steps[-1][0]:g}", times)
+            raise call.error(
+                "operators.statics.times-must-increase",
+                times,
+                time=time,
+                steps=steps[-1][0],
+            )
         steps.append((float(time), held))
     if not steps:
-        raise call.bad("the tables are empty", times)
-    return LoadPart(name, None, None, tuple(steps))
+        raise call.error("operators.statics.tables-are-empty", times)
+    return Load((LoadPart(_short(name), None, None, tuple(steps)),))
 
 
 # ---- values at a time ---------------------------------------------------------------------------
@@ -143,10 +196,20 @@ def part_at(part: LoadPart, time: float) -> Any:
     return _sum(_scaled(before, 1.0 - share), part.steps[k][1], share)
 
 
+_LOAD = arg("load", "CHARGEME", en="loading", fr="chargement")
+_TIME = arg("time", "FLOTTANT", en="time", fr="instant", unit="s")
+
+
 @operator(
     "TIRE",
+    _LOAD,
+    _TIME,
+    opt(
+        "name", "MOT", en="name of the parts, all without it", fr="nom des parties, toutes sans lui"
+    ),
     family="loads",
     full_name="TIRER",
+    gives="|".join(_HELD),
     help=Help(
         en="What a loading is at a time: the sum of all its parts, those of a name, or a table by "
         "names ('TABL').",
@@ -155,30 +218,30 @@ def part_at(part: LoadPart, time: float) -> Any:
         syntax="CHP1 = TIRE CHAR1 X1 (MOT1) ; TAB1 = TIRE CHAR1 X1 'TABL' ;",
         examples=(_EXAMPLE + "LIST (TIRE C 0.5 'MECA') ;",),
     ),
-    reads_itself=True,
 )
-def tire(call: Call) -> Any:
+def tire(call: Call, load: Load, time: float, name: str | None) -> Any:
     """Evaluate a loading."""
-    load: Load = call.required("CHARGEME")
-    time = call.required("FLOTTANT")
-    if call.keyword(("TABL",)) is not None:
-        made = Table()
-        for part in load.parts:
-            value, before = part_at(part, time), made.get(part.name)
-            made.set(Mot(part.name), value if before is None else _sum(before, value))
-        return made
-    name = call.read("MOT")
-    parts = load.parts if name is None else _named(call, load, [str(name.value)])
+    parts = load.parts if name is None else _named(call, load, [name])
     values = [part_at(p, time) for p in parts]
     kinds = {type_of(v) for v in values}
     if len(kinds) > 1 or (len(values) > 1 and not kinds <= set(_SPACE)):
-        raise call.bad(f"parts of types {' '.join(sorted(kinds))} do not add up", load, "name one")
+        raise call.error("operators.statics.parts-do-not-add-up", load, kinds=sorted(kinds))
     if not values:
-        raise call.bad("the loading is empty", load)
+        raise call.error("operators.statics.loading-empty", load)
     total = values[0]
     for value in values[1:]:
         total = _sum(total, value)
     return total
+
+
+@tire.form(said("TABL"), _LOAD, _TIME)
+def tire_by_names(load: Load, time: float) -> Table:
+    """A table of the parts by their names."""
+    made = Table()
+    for part in load.parts:
+        value, before = part_at(part, time), made.get(part.name)
+        made.set(Mot(part.name), value if before is None else _sum(before, value))
+    return made
 
 
 def _named(call: Call, load: Load, names: list[str]) -> tuple[LoadPart, ...]:
@@ -186,15 +249,36 @@ def _named(call: Call, load: Load, names: list[str]) -> tuple[LoadPart, ...]:
     parts = tuple(p for p in load.parts if p.name in wanted)
     if not parts:
         known = " ".join(dict.fromkeys(p.name or "''" for p in load.parts))
-        raise call.bad(f"no part is called {' '.join(names)}", load, f"its parts are: {known}")
+        raise call.error("operators.statics.no-part-of-name", load, names=names, known=known)
     return parts
 
 
 # ---- parts --------------------------------------------------------------------------------------
 
 
-@EXTR.on(
-    "CHARGEME",
+_MAIN = main("load", "CHARGEME", en="loading", fr="chargement")
+_NUMBER = opt("place", "ENTIER", default=1, en="number of the part", fr="numéro de la partie")
+_PART = arg("name", "MOT", en="name of parts", fr="nom des parties")
+
+
+@EXTR.form(
+    _MAIN,
+    select(
+        "what",
+        {
+            "CHAR": [_NUMBER],
+            "CHAM": [_NUMBER],
+            "EVOL": [_NUMBER],
+            "COMP": [],
+            "LIE": [],
+            "LIBR": [],
+        },
+        optional=False,
+        unless=lambda load: {p.name for p in load.parts},
+        en="a part, its field, its curve, all names, the parts that follow the matter or not",
+        fr="une partie, son champ, son évolution, tous les noms, les parties liées ou libres",
+    ),
+    gives=by("what", {"CHAM": "|".join(_HELD), "EVOL": "EVOLUTIO", "COMP": "LISTMOTS"}, "CHARGEME"),
     syntax="CHAR2 = EXTR CHAR1 'CHAR' (N1) | MOT1 | LMOT1 | 'LIE' | 'LIBR' ; "
     "CHP1 = EXTR CHAR1 'CHAM' (N1) ; EVOL1 = EXTR CHAR1 'EVOL' (N1) ; LMOT1 = EXTR CHAR1 'COMP' ;\n"
     "TAB1 TAB2 = EXTR CHAR1 MOT1 'TABL' ;",
@@ -202,38 +286,49 @@ def _named(call: Call, load: Load, names: list[str]) -> tuple[LoadPart, ...]:
     fr="D'un chargement : une partie par numéro ou nom, son champ, son évolution, les noms.",
     examples=(_EXAMPLE + "LIST (EXTR C 'COMP') ;",),
 )
-def _extract(call: Call, load: Load) -> Any:
-    names = call.read("LISTMOTS")
-    if names is not None:
-        return Load(_named(call, load, [str(w) for w in names.value.values]))
-    known = {p.name for p in load.parts}
-    said = (call.peek_word() or "").rstrip()
-    word = None
-    if said not in known:
-        word = call.keyword(("CHAR", "CHAM", "EVOL", "COMP", "LIE", "LIBR"))
-    if word is None:
-        name = str(call.required("MOT"))
-        if call.keyword(("TABL",)) is not None:
-            return _tables(call, _named(call, load, [name])[0])
-        return Load(_named(call, load, [name]))
-    if word == "COMP":
+def extr_load(call: Call, load: Load, what: Chosen) -> Any:
+    """A part of a loading, by a word."""
+    if what.word == "COMP":
         return ListMots([p.name for p in load.parts])
-    if word in ("LIE", "LIBR"):
-        return Load(load.parts if word == "LIE" else ())
-    place = call.optional("ENTIER", default=1)
+    if what.word in ("LIE", "LIBR"):
+        return Load(load.parts if what.word == "LIE" else ())
+    place = what["place"]
     if not 1 <= place <= len(load.parts):
-        raise call.bad(f"the loading has {len(load.parts)} parts, none of number {place}", place)
+        raise call.error(
+            "operators.statics.no-part-of-number",
+            place,
+            n_parts=len(load.parts),
+            place=place,
+        )
     part = load.parts[place - 1]
-    if word == "CHAR":
+    if what.word == "CHAR":
         return Load((part,))
-    if word == "CHAM":
+    if what.word == "CHAM":
         return part.space if part.space is not None else part.steps[0][1]
     if part.time is None:
-        raise call.bad("this part has no curve in time", load)
+        raise call.error("operators.statics.part-has-no-curve", load)
     return part.time
 
 
-def _tables(call: Call, part: LoadPart) -> tuple[Table, Table]:
+@EXTR.form(
+    _MAIN,
+    _PART,
+    flag("tables", "TABL", en="as times and fields", fr="en temps et champs"),
+    gives=by("tables", {True: ("TABLE", "TABLE")}, "CHARGEME"),
+)
+def extr_named(call: Call, load: Load, name: str, tables: bool) -> Load | tuple[Table, Table]:
+    """The parts of a name, or the first of them as two tables."""
+    parts = _named(call, load, [name])
+    return _tables(parts[0]) if tables else Load(parts)
+
+
+@EXTR.form(_MAIN, arg("names", "LISTMOTS", en="names of parts", fr="noms des parties"))
+def extr_names(call: Call, load: Load, names: ListMots) -> Load:
+    """The parts of some names."""
+    return Load(_named(call, load, [str(w) for w in names.values]))
+
+
+def _tables(part: LoadPart) -> tuple[Table, Table]:
     steps: list[tuple[float, Any]] = list(part.steps)
     if not steps and part.time is not None:
         times = part.time.parts[0].abscissas.tolist()
@@ -245,16 +340,17 @@ def _tables(call: Call, part: LoadPart) -> tuple[Table, Table]:
     return times_table, fields_table
 
 
-@CHAN.on(
-    "TABL",
+@CHAN.form(
+    said("TABL"),
+    _LOAD,
+    _PART,
     of=("CHARGEME",),
     syntax="CHAR2 = CHAN 'TABL' CHAR1 MOT1 ;",
     en="TABL gives the parts of a loading that have a name as fields at listed times.",
     fr="TABL met les parties d'un chargement qui portent un nom sous forme de champs à des temps.",
 )
-def _as_tables(call: Call, word: str) -> Load:
-    load: Load = call.required("CHARGEME")
-    name = str(call.required("MOT"))
+def in_steps(call: Call, load: Load, name: str) -> Load:
+    """Parts of a name as fields at listed times."""
     chosen = _named(call, load, [name])
     times = sorted({t for p in chosen for t in _times(p)})
     total = Load(chosen)
@@ -276,19 +372,22 @@ def _times(part: LoadPart) -> list[float]:
     return [] if curve is None else [float(t) for t in curve.parts[0].abscissas]
 
 
-@DIME.on("CHARGEME", en="Of a loading: its number of parts.", fr="D'un chargement : ses parties.")
-def _count(call: Call, load: Load) -> int:
+@DIME.form(_MAIN, en="Of a loading: its number of parts.", fr="D'un chargement : ses parties.")
+def count_parts(load: Load) -> int:
+    """Number of parts."""
     return len(load.parts)
 
 
-@ENLE.on(
-    "CHARGEME",
+@ENLE.form(
+    _MAIN,
+    _PART,
     syntax="CHAR2 = ENLE CHAR1 MOT1 ;",
     en="Of a loading: without the parts of a name.",
     fr="D'un chargement : sans les parties d'un nom.",
 )
-def _without(call: Call, load: Load) -> Load:
-    gone = _named(call, load, [str(call.required("MOT"))])
+def without_parts(call: Call, load: Load, name: str) -> Load:
+    """A loading without the parts of a name."""
+    gone = _named(call, load, [name])
     return Load(tuple(p for p in load.parts if p not in gone))
 
 

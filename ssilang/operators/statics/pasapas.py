@@ -20,7 +20,7 @@ from ssilang.kernel.plasticity.bulk import stiffness_beside, without_stiffness
 from ssilang.kernel.plasticity.points import is_plastic, plastic_zones
 from ssilang.kernel.statics.thermal_load import split_thermal
 from ssilang.kernel.stepping.times import nearest
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import Help, arg, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
 from ssilang.operators.dynamics.dynamic import integrated
@@ -53,17 +53,17 @@ if TYPE_CHECKING:
 
 @operator(
     "ZPAS",
+    arg("table", "TABLE", en="table of PASAPAS", fr="table de PASAPAS"),
     family="statics",
     help=Help(
         en="Load steps of the table of PASAPAS, which is the procedure to call.",
         fr="Pas de charge de la table de PASAPAS, procédure à appeler.",
         syntax="ZPAS TAB1 ;",
     ),
-    reads_itself=True,
 )
-def zpas(call: Call) -> None:
+def zpas(call: Call, table: Table) -> None:
     """Read the table, step through the times, fill the tables of results."""
-    entries = Entries(call, call.required("TABLE"), "PASAPAS")
+    entries = Entries(call, table, "PASAPAS")
     start = start_of(entries)
     times, saved = _times(entries, start)
     entries.table.set(Mot("CONV"), False)
@@ -263,12 +263,11 @@ def start_of(entries: Entries) -> Start:
     else:
         times = {i: entries.at("TEMPS", i) for i in entries.numbers("TEMPS")}
         if not times:
-            raise entries.bad("'REPRISE' needs the results of an earlier calculation")
+            raise entries.error("operators.statics.no-results-to-go-on-from")
         index = min(times, key=lambda i: abs(times[i] - again))
         if abs(times[index] - again) > 1e-9 * max(abs(again), 1e-9):
-            raise entries.bad(
-                f"no result stands at the time of 'REPRISE', {again:g}",
-                f"the nearest is at {times[index]:g}",
+            raise entries.error(
+                "operators.statics.no-result-at-time", again=again, times=times[index]
             )
         entries.forget_after(index)
     return Start(index, entries.at("TEMPS", index), entries)
@@ -286,7 +285,7 @@ def _times(entries: Entries, start: Start) -> tuple[FloatArray, NDArray[np.bool_
         first = min(0.0, float(wanted[0])) if len(wanted) else 0.0
     times = np.concatenate([[float(first)], wanted[wanted > first]])
     if len(times) < 2:
-        raise entries.bad(f"no time of '{index}' comes after the initial one, {first:g}")
+        raise entries.error("operators.statics.no-time-after-start", index=index, first=first)
     entries.increasing(index, times)
     chosen = entries.get("TEMPS_SAUVES")
     if chosen is None:

@@ -54,10 +54,7 @@ class LoadByProcedure:
 
     def _read(self, results: list[object]) -> Added:
         if len(results) != 1 or not isinstance(results[0], Table):
-            raise self.entries.bad(
-                "the procedure CHARMECA must give one TABLE",
-                "TAB2 = TABL ; TAB2 . 'ADDI_SECOND' = ... ; FINP TAB2 ;",
-            )
+            raise self.entries.error("operators.statics.charmeca-gives-a-table")
         found = Entries(self.entries.call, results[0], "PASAPAS", "TCHAR")
         found.check()
         numbering = self.problem.numbering
@@ -67,7 +64,7 @@ class LoadByProcedure:
             return Added(np.zeros(numbering.size))
         lost = outside(load, numbering)
         if lost:
-            raise found.bad(f"'ADDI_SECOND' acts where there are no unknowns: {lost[0]}")
+            raise found.error("operators.statics.force-without-unknowns", lost=lost[0])
         stiffness = None if matrix is None else assemble(matrix, numbering)
         return Added(field_to_vector(load, numbering), stiffness)
 

@@ -54,10 +54,7 @@ def sides_of(
         *(c.friction for c in cables),
     )
     if len({f.width for f in friction}) > 1:
-        raise MaterialError(
-            "sides with friction in space and cables with friction do not go together yet",
-            "smooth sides (UNILATERAL) beside the cables",
-        )
+        raise MaterialError("operators.statics.friction-of-sides-and-cables")
     gaps = None
     if found:
         nodes = np.concatenate([c.relations.multipliers for c in found])
@@ -102,7 +99,7 @@ def _of_bars(
         if len(on) == 0:
             continue
         if is_plastic(bar):
-            raise MaterialError("cables with friction are elastic", "ELASTIQUE alone for the bars")
+            raise MaterialError("operators.statics.cable-not-elastic")
         given = zone_field(bar, material)
         section = given.at("YOUN", "GRAVITE") * given.at("SECT", "GRAVITE")
         stiffness[on] = _by_cell(section, rows[on]) / length[on]
@@ -111,10 +108,7 @@ def _of_bars(
             tension[on] = _by_cell(np.asarray(start.components["EFFX"], dtype=float), rows[on])
         known[on] = True
     if not known.all():
-        raise MaterialError(
-            "a cable with friction (FROCABLE) has no bars on its cells",
-            "MODE cable 'MECANIQUE' 'ELASTIQUE' 'BARR', joined to the model",
-        )
+        raise MaterialError("operators.statics.cable-without-bars")
     return stiffness, tension
 
 

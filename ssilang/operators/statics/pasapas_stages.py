@@ -90,9 +90,8 @@ def _at(work: Entries, parts: list[LoadPart], time: float) -> dict[str, list[Any
         if value is None and (part.steps or word == "MATE"):
             value = part_at(part, time)
         if not isinstance(value, kind):
-            raise work.bad(
-                f"the load {word} gives no {STAGED[word][1]} at time {time:g}",
-                f"CHAR '{word}' TABLE1 TABLE2 : times, and a {STAGED[word][1]} for each",
+            raise work.error(
+                "operators.statics.no-load-at-time", word=word, staged=STAGED[word][1], time=time
             )
         found.setdefault(word, []).append(value)
     return found

@@ -81,10 +81,7 @@ def strain_points(entries: Entries, numbering: Numbering) -> StrainPoints:
         if kept.any():
             zones.append((zone, kept))
     if not zones:
-        raise entries.bad(
-            "no element has strains to control the load by",
-            "write your own procedure: DEBP PILOINDI ... or DEBP AUTOPILO ...",
-        )
+        raise entries.error("operators.statics.no-strain-to-control")
     return StrainPoints(tuple(zones), material, numbering)
 
 
@@ -149,7 +146,7 @@ def _by_procedure(entries: Entries, numbering: Numbering, asked: float) -> Contr
 
 def _number(entries: Entries, name: str, found: list[Any]) -> float:
     if len(found) != 1 or isinstance(found[0], bool) or not isinstance(found[0], int | float):
-        raise entries.bad(f"the procedure {name} must give one FLOTTANT")
+        raise entries.error("operators.statics.procedure-gives-a-real", name=name)
     return float(found[0])
 
 
@@ -190,7 +187,7 @@ class AutomaticControl:
                 raise
             ahead, back = norm(1.0), norm(-1.0)
         if ahead == 0.0 or not np.isfinite(ahead):
-            raise self.entries.bad("AUTOPILO gives no norm to the step that the load causes")
+            raise self.entries.error("operators.statics.no-norm-of-step")
         if ahead * back < 0.0:
             return [_root(norm, asked, asked / ahead)]
         if not known.any():

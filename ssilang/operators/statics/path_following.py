@@ -13,9 +13,9 @@ from ssilang.kernel.curves.curve import LoadPart
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import Numbering, field_to_vector
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import Help, arg, operator
 from ssilang.language.run.call import Call
-from ssilang.language.values import ListReel, Mot
+from ssilang.language.values import ListReel, Mot, Table
 from ssilang.operators.statics.path_controls import (
     AutomaticControl,
     indirect_control,
@@ -37,9 +37,9 @@ def control_asked(entries: Entries) -> str:
     """'PILOTAGE_INDIRECT', 'AUTOMATIQUE', or nothing."""
     asked = [w for w in ("PILOTAGE_INDIRECT", "AUTOMATIQUE") if entries.flag(w)]
     if len(asked) > 1:
-        raise entries.bad("'PILOTAGE_INDIRECT' and 'AUTOMATIQUE' exclude one another")
+        raise entries.error("operators.statics.two-controls")
     if asked and entries.flag("DYNAMIQUE"):
-        raise entries.bad(f"'{asked[0]}' is for static calculations")
+        raise entries.error("operators.statics.only-in-statics", asked=asked[0])
     return asked[0] if asked else ""
 
 
@@ -54,9 +54,7 @@ def driven_parts(entries: Entries) -> list[LoadPart]:
         if field is not None
     ]
     if not parts:
-        raise entries.bad(
-            "which load is controlled?", "'DEPLACEMENTS_PILOTES' (from DEPI) or 'FORCES_PILOTEES'"
-        )
+        raise entries.error("operators.statics.which-load-is-controlled")
     return parts
 
 
@@ -84,10 +82,7 @@ def _indirect(entries: Entries, run: BulkRun) -> tuple[PathRun, Trace]:
     asked = np.diff([curve.at(float(t)) for t in run.problem.times])
     if not asked.all():
         k = int(np.flatnonzero(asked == 0.0)[0])
-        raise entries.bad(
-            f"'PARAMETRE_DE_PILOTAGE' does not change over step {k + 1}",
-            "it must reach beyond the last time",
-        )
+        raise entries.error("operators.statics.control-does-not-change", k=k + 1)
     control_of = indirect_control(entries, run.problem.numbering)
     return follow_directions(run, len(driven_parts(entries)), asked, control_of)
 
@@ -99,7 +94,7 @@ def _automatic(entries: Entries, run: BulkRun) -> tuple[PathRun, Trace]:
     most = entries.get("AUTOPAS") or entries.default("AUTOPAS")
     every = entries.get("AUTORESU") or entries.default("AUTORESU")
     if asked <= 0.0 or most < 1 or every < 1:
-        raise entries.bad("'AUTOCRIT', 'AUTOPAS' and 'AUTORESU' are positive")
+        raise entries.error("operators.statics.control-not-positive")
     model = entries.needed("MODELE")
     material = entries.get("CARACTERISTIQUES") or CellField((), "CARACTERISTIQUES")
 
@@ -109,35 +104,42 @@ def _automatic(entries: Entries, run: BulkRun) -> tuple[PathRun, Trace]:
 
     path, trace = follow_time(run, control_of, most, every)
     if trace.unfinished:
-        entries.warn(
-            f"'AUTOPAS' = {most} steps did not reach the time asked for: the path ends at "
-            f"{trace.times[-1]:g}",
-            "more steps, or a greater 'AUTOCRIT'",
-        )
+        entries.warn("operators.statics.path-ends-early", most=most, times=trace.times[-1])
     return path, trace
 
 
 @operator(
     "ZPIL",
+    arg("table", "TABLE", en="table of PILOINDI", fr="table de PILOINDI"),
+    arg("start", "CHPOINT", en="displacement", fr="déplacement", unit="m"),
+    arg("du", "CHPOINT", en="step so far", fr="incrément courant", unit="m"),
+    arg("rest", "CHPOINT", en="step by the residual", fr="incrément du résidu", unit="m"),
+    arg("unit", "CHPOINT", en="step by the load", fr="incrément de la charge", unit="m"),
+    arg("asked", "FLOTTANT", en="strain asked for", fr="déformation demandée"),
     family="statics",
     help=Help(
         en="Equation of strains behind PILOINDI, which is the procedure to call.",
         fr="Équation des déformations de PILOINDI, procédure à appeler.",
         syntax="FLOT2 = ZPIL TAB1 CHPO1 CHPO2 CHPO3 CHPO4 FLOT1 ;",
     ),
-    reads_itself=True,
 )
-def zpil(call: Call) -> float:
+def zpil(
+    call: Call,
+    table: Table,
+    start: NodeField,
+    du: NodeField,
+    rest: NodeField,
+    unit: NodeField,
+    asked: float,
+) -> float:
     """Of the parameters that fulfil the equation, the one nearest zero."""
-    entries = Entries(call, call.required("TABLE"), "PILOINDI")
-    start, du, rest, unit = (call.required("CHPOINT") for _ in range(4))
-    asked = call.required("FLOTTANT")
+    entries = Entries(call, table, "PILOINDI")
     numbering = _numbering_of((start, du, rest, unit))
     u0, u1, u2, u3 = (field_to_vector(f, numbering, dual=False) for f in (start, du, rest, unit))
     points = strain_points(entries, numbering)
     found = strain_parameters(points, u0, u1 + u2, u3, asked)
     if not found:
-        raise entries.bad("the displacement of the controlled load causes no strain")
+        raise entries.error("operators.statics.controlled-load-strains-nothing")
     return min(found, key=abs)
 
 
@@ -151,7 +153,7 @@ def _numbering_of(fields: Sequence[NodeField]) -> Numbering:
         nodes.append(there)
         codes.append(np.full(len(there), code, dtype=np.int64))
     if not names:
-        raise FieldError("the fields hold nothing")
+        raise FieldError("operators.statics.empty-fields")
     table = fields[0].table
     numbers, places = np.concatenate(nodes), np.concatenate(codes)
     order = np.lexsort((places, numbers))

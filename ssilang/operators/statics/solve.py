@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import Any
 
 from ssilang.kernel.base.errors import KernelError
@@ -11,36 +12,84 @@ from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.statics.linear import SolveOptions, linear_system, reactions, solve
 from ssilang.kernel.statics.stability import free_motion_fields, negative_eigenvalues
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import ANY, Help, Like, arg, flag, key, many, operator, opt, said
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, Table
 from ssilang.operators.matrices.doubled import warn_doubled_supports
 from ssilang.operators.matrices.supports import static_links
 from ssilang.operators.workspace import workspace
 
-_FLAGS = ("NOID", "NOUNIL", "STAB", "NOSTAB", "SOUC", "ENSE", "ELIM", "INIB")
+_MATRIX = arg("matrix", "RIGIDITE", en="matrix", fr="matrice")
+_WORDS = (
+    flag(
+        "project",
+        "NOID",
+        en="leave out the part of the loads that drives a free motion",
+        fr="ôte du chargement la part qui excite un mouvement libre",
+    ),
+    flag(
+        "warned",
+        "SOUC",
+        en="leave it out too, with a warning",
+        fr="l'ôte aussi, avec un avertissement",
+    ),
+    flag(
+        "bilateral",
+        "NOUNIL",
+        en="unilateral conditions are equalities",
+        fr="les conditions unilatérales sont des égalités",
+    ),
+    flag(
+        "stabilise",
+        "STAB",
+        en="add to the diagonal what makes the matrix positive",
+        fr="ajoute à la diagonale de quoi rendre la matrice positive",
+    ),
+    flag("plain", "NOSTAB", en="accepted: the default", fr="accepté : par défaut"),
+    key(
+        "passes",
+        "ELIM",
+        arg("passes", "ENTIER"),
+        en="0 keeps all conditions in a saddle point",
+        fr="0 garde toutes les conditions dans un point-selle",
+    ),
+    key(
+        "first",
+        "INIB",
+        arg("conditions", "RIGIDITE", en="conditions", fr="conditions"),
+        arg("active", "LISTENTI", en="active ones", fr="actives"),
+        en="first guess of the active conditions: accepted, found without it",
+        fr="première estimation des conditions actives : acceptée, trouvée sans elle",
+    ),
+)
+_PRECISION = opt(
+    "precision",
+    "FLOTTANT",
+    en="accepted: the solution is refined to rounding anyway",
+    fr="accepté : la solution est de toute façon affinée à l'arrondi près",
+)
+_LOADS = many("loads", "CHPOINT", at_least=1, en="second members", fr="seconds membres")
 
 
-def _reso(call: Call) -> Any:
-    flags, passes = _read_flags(call)
-    matrix: Matrix = call.required("RIGIDITE")
-    options = SolveOptions(
-        unilateral="NOUNIL" not in flags,
-        eliminate=passes is None or passes > 0,
-        project=bool({"NOID", "SOUC"} & flags),
-        stabilise="STAB" in flags,
+def _options(words: Mapping[str, Any]) -> SolveOptions:
+    """What `_WORDS` have read."""
+    return SolveOptions(
+        unilateral=not words["bilateral"],
+        eliminate=words["passes"] is None or words["passes"] > 0,
+        project=words["project"] or words["warned"],
+        stabilise=words["stabilise"],
     )
-    table = call.read("TABLE")
-    if table is not None:
-        return _reso_links(call, matrix, table.value, options)
-    several = call.read("LISTCHPO")
-    if several is not None:
-        return ListChpo(tuple(solve(matrix, several.value.values, options)))
-    call.optional("FLOTTANT")  # precision: the solution is refined to rounding anyway
-    loads = [call.required("CHPOINT"), *call.all("CHPOINT")]
-    if "ENSE" in flags:
-        return _with_motions(call, matrix, loads, options)
-    if "SOUC" in flags:
+
+
+def _reso(
+    call: Call,
+    matrix: Matrix,
+    precision: float | None,
+    loads: tuple[NodeField, ...],
+    **words: Any,
+) -> tuple[NodeField, ...]:
+    options = _options(words)
+    if words["warned"]:
         return _or_warning(call, matrix, loads, options)
     warn_doubled_supports(call.session, call.span, "RESO", matrix)
     solutions = tuple(solve(matrix, loads, options))
@@ -69,29 +118,20 @@ def _warn_condition(call: Call, matrix: Matrix, options: SolveOptions) -> None:
     (stiff, most), (soft, least) = found.stiffest, found.softest
     digits = max(0, round(16 - math.log10(found.number)))
     call.session.warn(
-        "bad-value", call.span, operator="RESO",
-        message=f"the condition number of the matrix is {found.number:.0e}: {digits} of 16 "
-        f"digits are left",
-        hint=f"check units: the stiffest part reaches {most:.1e} ({stiff}), the softest "
-        f"{least:.1e} ({soft})", severity="warning",
-    )  # fmt: skip
-
-
-def _read_flags(call: Call) -> tuple[set[str], int | None]:
-    flags: set[str] = set()
-    passes: int | None = None
-    while (word := call.keyword(_FLAGS)) is not None:
-        flags.add(word)
-        if word == "ELIM":
-            passes = call.required("ENTIER", after=call.keyword_end)
-        elif word == "INIB":  # the first guess of the active rows: found without it
-            call.required("RIGIDITE", after=call.keyword_end)
-            call.required("LISTENTI", after=call.keyword_end)
-    return flags, passes
+        "operators.statics.badly-conditioned",
+        call.span,
+        operator="RESO",
+        number=found.number,
+        digits=digits,
+        most=most,
+        stiff=stiff,
+        least=least,
+        soft=soft,
+    )
 
 
 def _or_warning(
-    call: Call, matrix: Matrix, loads: list[NodeField], options: SolveOptions
+    call: Call, matrix: Matrix, loads: tuple[NodeField, ...], options: SolveOptions
 ) -> tuple[NodeField, ...]:
     """Solutions; loads that drive a free motion give a warning instead of an error."""
     from dataclasses import replace
@@ -103,51 +143,15 @@ def _or_warning(
     return tuple(solve(matrix, loads, options))
 
 
-def _with_motions(
-    call: Call, matrix: Matrix, loads: list[NodeField], options: SolveOptions
-) -> tuple[Any, ...]:
-    """'ENSE': solutions, then the number of free motions and the nodes that pin them.
-
-    Where the loads drive a free motion, the motion itself is given.
-    """
-    from dataclasses import replace
-
-    motions, pins = free_motion_fields(matrix, options)
-    fields = []
-    for load in loads:
-        try:
-            fields += solve(matrix, [load], replace(options, project=False))
-        except KernelError:
-            if not motions:
-                raise
-            fields.append(motions[0])
-    nodes = Mesh.of(matrix.table, "POI1", pins[:, None])
-    return (*fields, len(motions), nodes)
-
-
-def _reso_links(call: Call, matrix: Matrix, table: Table, options: SolveOptions) -> Table:
-    """Static shapes of a LIAISONS_STATIQUES table: DEFORMEE and POINT_REPERE of each entry."""
-    ws = workspace(call.session)
-    for entry, _, _ in static_links(table):
-        force, block = entry.get("FORCE"), entry.get("BLOCAGE")
-        if not isinstance(force, NodeField):
-            raise call.bad("an entry has no FORCE", table, "call DEPI on this table first")
-        whole = matrix
-        if isinstance(block, Matrix):
-            known = {id(r) for r in matrix.relations}
-            extra = tuple(r for r in block.relations if id(r) not in known)
-            if extra:
-                whole = Matrix(matrix.table, matrix.blocks, (*matrix.relations, *extra))
-        entry.set("DEFORMEE", solve(whole, [force], options)[0])
-        mark = ws.nodes.add(ws.nodes.coordinates[:1] * 0.0)
-        entry.set("POINT_REPERE", Point(ws.nodes, int(mark[0])))
-    return table
-
-
-operator(
+RESO = operator(
     "RESO",
+    _MATRIX,
+    _PRECISION,
+    _LOADS,
+    *_WORDS,
     family="solve",
     full_name="RESO",
+    gives=Like("loads"),
     help=Help(
         "Solves K u = F with the conditions in the matrix: equalities exactly, 'MINI' and 'MAXI' "
         "by active sets. Forces FX, FY, MZ ... and imposed values of DEPI add up in the second "
@@ -176,18 +180,73 @@ operator(
             " U1 = RESO (R1 ET B1) (F1 ET F2) ; LIST (EXTR U1 'UX' P1) ;",
         ),
     ),
-    reads_itself=True,
 )(_reso)
 
 
-def _reac(call: Call) -> Any:
-    matrix: Matrix = call.required("RIGIDITE")
-    found = call.required("CHPOINT", "TABLE")
-    if isinstance(found, NodeField):
-        return reactions(matrix, found)
-    for entry, shape, index in _shapes(found):
+@RESO.form(said("ENSE"), _MATRIX, _PRECISION, _LOADS, *_WORDS, gives=ANY)
+def with_motions(
+    call: Call,
+    matrix: Matrix,
+    precision: float | None,
+    loads: tuple[NodeField, ...],
+    **words: Any,
+) -> tuple[Any, ...]:
+    """Solutions, then the number of free motions and the nodes that pin them.
+
+    Where the loads drive a free motion, the motion itself is given.
+    """
+    from dataclasses import replace
+
+    options = _options(words)
+    motions, pins = free_motion_fields(matrix, options)
+    fields = []
+    for load in loads:
+        try:
+            fields += solve(matrix, [load], replace(options, project=False))
+        except KernelError:
+            if not motions:
+                raise
+            fields.append(motions[0])
+    nodes = Mesh.of(matrix.table, "POI1", pins[:, None])
+    return (*fields, len(motions), nodes)
+
+
+@RESO.form(_MATRIX, arg("loads", "LISTCHPO", en="second members", fr="seconds membres"), *_WORDS)
+def solved_list(matrix: Matrix, loads: ListChpo, **words: Any) -> ListChpo:
+    """One solution for each second member of a list."""
+    return ListChpo(tuple(solve(matrix, loads.values, _options(words))))
+
+
+@RESO.form(
+    _MATRIX,
+    arg("table", "TABLE", en="table LIAISONS_STATIQUES", fr="table LIAISONS_STATIQUES"),
+    *_WORDS,
+)
+def solved_links(call: Call, matrix: Matrix, table: Table, **words: Any) -> Table:
+    """Static shapes of a LIAISONS_STATIQUES table: DEFORMEE and POINT_REPERE of each entry."""
+    ws, options = workspace(call.session), _options(words)
+    for entry, _, _ in static_links(table):
+        force, block = entry.get("FORCE"), entry.get("BLOCAGE")
+        if not isinstance(force, NodeField):
+            raise call.error("operators.statics.entry-has-no-force", table)
+        whole = matrix
+        if isinstance(block, Matrix):
+            known = {id(r) for r in matrix.relations}
+            extra = tuple(r for r in block.relations if id(r) not in known)
+            if extra:
+                whole = Matrix(matrix.table, matrix.blocks, (*matrix.relations, *extra))
+        entry.set("DEFORMEE", solve(whole, [force], options)[0])
+        mark = ws.nodes.add(ws.nodes.coordinates[:1] * 0.0)
+        entry.set("POINT_REPERE", Point(ws.nodes, int(mark[0])))
+    return table
+
+
+def _reac(matrix: Matrix, solution: NodeField | Table) -> NodeField | Table:
+    if isinstance(solution, NodeField):
+        return reactions(matrix, solution)
+    for entry, shape, index in _shapes(solution):
         entry.set(index, reactions(matrix, shape))
-    return found
+    return solution
 
 
 def _shapes(table: Table) -> list[tuple[Table, NodeField, str]]:
@@ -213,8 +272,17 @@ def _shapes(table: Table) -> list[tuple[Table, NodeField, str]]:
 
 operator(
     "REAC",
+    _MATRIX,
+    arg(
+        "solution",
+        "CHPOINT",
+        "TABLE",
+        en="solution, or table of shapes",
+        fr="solution, ou table de déformées",
+    ),
     family="solve",
     full_name="REACTION",
+    gives=Like("solution"),
     help=Help(
         "Forces that the conditions in a matrix apply on the body, - C^T LX, from a solution of "
         "RESO. A table of modes or of static shapes is completed by REACTION_MODALE or REACTION.",
@@ -228,16 +296,16 @@ operator(
             " LIST (EXTR (REAC B1 U1) 'FX' P1) ;",
         ),
     ),
-    reads_itself=True,
 )(_reac)
 
 
-def _diag(call: Call) -> int:
-    return negative_eigenvalues(call.required("RIGIDITE"))
+def _diag(matrix: Matrix) -> int:
+    return negative_eigenvalues(matrix)
 
 
 operator(
     "DIAG",
+    _MATRIX,
     family="solve",
     full_name="DIAGNEG",
     help=Help(
@@ -248,5 +316,4 @@ operator(
         "N1 = DIAG RIG1 ;",
         ("OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; LIST (DIAG (APPU 'UX' -3. P1)) ;",),
     ),
-    reads_itself=True,
 )(_diag)

@@ -15,7 +15,7 @@ from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Model, Zone
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import Help, arg, choice, flag, many, operator
 from ssilang.language.run.call import Call
 from ssilang.operators.matrices.element import joined, present
 
@@ -28,6 +28,44 @@ _BAR = (
 
 PARAMETERS = ("CARACTERISTIQUES", "MATRICE DE HOOKE")
 """Types of fields in cells that hold parameters."""
+
+
+MODEL = arg("model", "MMODEL", en="model", fr="modèle")
+NO_ERROR = flag("silent", "NOER", en="accepted, changes nothing", fr="accepté, sans effet")
+Fields = tuple[NodeField | CellField, ...]
+
+
+def nodal_of(fields: Fields) -> tuple[NodeField, ...]:
+    """The nodal ones of fields, in their order."""
+    return tuple(f for f in fields if isinstance(f, NodeField))
+
+
+def cells_of(fields: Fields) -> tuple[CellField, ...]:
+    """Those in cells of fields, in their order."""
+    return tuple(f for f in fields if isinstance(f, CellField))
+
+
+def displacement_of(call: Call, fields: Fields) -> NodeField:
+    """The first nodal field, mandatory."""
+    nodal = nodal_of(fields)
+    if not nodal:
+        raise call.missing(("CHPOINT",))
+    return nodal[0]
+
+
+def joined_cells(call: Call, fields: Fields) -> CellField:
+    """All fields in cells as one, at least one."""
+    cells = cells_of(fields)
+    if not cells:
+        raise call.missing(("MCHAML",))
+    return joined(cells)
+
+
+def state_and_rest(fields: tuple[CellField, ...]) -> tuple[CellField, CellField | None]:
+    """The field of stresses or strains, in whatever order, and the parameters as one."""
+    state = next((f for f in fields if f.title not in PARAMETERS), fields[0])
+    rest = tuple(f for f in fields if f is not state)
+    return state, joined(rest) if rest else None
 
 
 class Reading:
@@ -92,6 +130,23 @@ def on_zones(model: Model, title: str, make: Callable[[Zone], CellFieldBlock]) -
 
 @operator(
     "SIGM",
+    MODEL,
+    many(
+        "fields",
+        "CHPOINT",
+        "MCHAML",
+        at_least=1,
+        en="displacements, and parameters or Hooke matrices",
+        fr="déplacements, et caractéristiques ou matrices de Hooke",
+    ),
+    NO_ERROR,
+    choice(
+        "order",
+        ("LINE", "QUAD"),
+        default="LINE",
+        en="strains of first order (default), or of second order too",
+        fr="déformations du premier ordre (par défaut), ou aussi du second",
+    ),
     family="stress",
     full_name="SIGMA",
     help=Help(
@@ -106,18 +161,40 @@ def on_zones(model: Model, title: str, make: Callable[[Zone], CellFieldBlock]) -
         syntax="SIG1 = SIGM ('NOER') ('LINE' | 'QUAD') MODL1 MAT1 (CAR1) DEP1 ;",
         examples=(_BAR + "LIST (MAXI (SIGM M A U)) ;",),
     ),
-    reads_itself=True,
 )
-def sigm(call: Call) -> CellField:
+def sigm(call: Call, model: Model, fields: Fields, silent: bool, order: str) -> CellField:
     """Stresses."""
-    said = Reading(call, ("NOER", "LINE", "QUAD"))
-    u, material = said.displacement(), said.field()
-    compute = green_stress if "QUAD" in said.words else families.stress
-    return on_zones(said.model, "CONTRAINTES", lambda z: compute(z, material, u))
+    u, material = displacement_of(call, fields), joined_cells(call, fields)
+    compute = green_stress if order == "QUAD" else families.stress
+    return on_zones(present(call, model), "CONTRAINTES", lambda z: compute(z, material, u))
 
 
 @operator(
     "EPSI",
+    MODEL,
+    many(
+        "fields",
+        "CHPOINT",
+        "MCHAML",
+        at_least=1,
+        en="displacements and parameters, or gradients",
+        fr="déplacements et caractéristiques, ou gradients",
+    ),
+    NO_ERROR,
+    choice(
+        "measure",
+        ("LINE", "QUAD", "TRUE", "JAUM", "UTIL"),
+        default="LINE",
+        en="first order (default), or of second order too; the other measures are not available",
+        fr="premier ordre (par défaut), ou aussi second ; les autres ne sont pas disponibles",
+    ),
+    choice(
+        "gradient",
+        ("GEOM", "DEPL"),
+        default="GEOM",
+        en="what a field of gradients is: F (default), or F - 1 as GRAD gives it",
+        fr="nature d'un champ de gradients : F (par défaut), ou F - 1 tel que le donne GRAD",
+    ),
     family="stress",
     full_name="EPSILON",
     help=Help(
@@ -134,23 +211,20 @@ def sigm(call: Call) -> CellField:
         "EPS1 = EPSI MODL1 GRAD1 ('GEOM' | 'DEPL') ;",
         examples=(_BAR + "LIST (MAXI (EPSI M U)) ;",),
     ),
-    reads_itself=True,
 )
-def epsi(call: Call) -> CellField:
+def epsi(
+    call: Call, model: Model, fields: Fields, silent: bool, measure: str, gradient: str
+) -> CellField:
     """Strains."""
-    said = Reading(call, ("NOER", "LINE", "QUAD", "GEOM", "DEPL", "TRUE", "JAUM", "UTIL"))
-    for word in ("TRUE", "JAUM", "UTIL"):
-        if word in said.words:
-            raise call.bad(f"strains '{word}' are not available", hint="'LINE' and 'QUAD' are")
-    if not said.nodal:
-        gradient, by_displacement = said.field(), "DEPL" in said.words
-        return on_zones(
-            said.model, "DEFORMATIONS", lambda z: _logarithmic(z, gradient, by_displacement)
-        )
-    material = joined(said.cells) if said.cells else None
-    u = said.displacement()
-    compute = green_strain if "QUAD" in said.words else families.strain
-    return on_zones(said.model, "DEFORMATIONS", lambda z: compute(z, u, material))
+    if measure not in ("LINE", "QUAD"):
+        raise call.error("operators.statics.strain-not-available", word=measure)
+    zones, nodal, cells = present(call, model), nodal_of(fields), cells_of(fields)
+    if not nodal:
+        grad, by_displacement = joined(cells), gradient == "DEPL"
+        return on_zones(zones, "DEFORMATIONS", lambda z: _logarithmic(z, grad, by_displacement))
+    material = joined(cells) if cells else None
+    compute = green_strain if measure == "QUAD" else families.strain
+    return on_zones(zones, "DEFORMATIONS", lambda z: compute(z, nodal[0], material))
 
 
 def _logarithmic(zone: Zone, gradient: CellField, by_displacement: bool) -> CellFieldBlock:
@@ -158,8 +232,7 @@ def _logarithmic(zone: Zone, gradient: CellField, by_displacement: bool) -> Cell
     seen = zone_field(zone, gradient)
     if not any(n in seen for n in names):
         raise FieldError(
-            f"EPSI takes displacements, or a field of gradients {' '.join(names)}",
-            f"this field has: {' '.join(seen.names) or 'nothing there'}",
+            "operators.statics.no-displacement-no-gradient", names=names, seen=seen.names
         )
     values = seen.matrix(names, "STRESSES")
     strains = logarithmic_strain(zone, values, by_displacement)
@@ -168,6 +241,15 @@ def _logarithmic(zone: Zone, gradient: CellField, by_displacement: bool) -> Cell
 
 @operator(
     "BSIG",
+    MODEL,
+    many(
+        "fields",
+        "MCHAML",
+        at_least=1,
+        en="stresses, or pressure, and parameters",
+        fr="contraintes, ou pression, et caractéristiques",
+    ),
+    NO_ERROR,
     family="stress",
     full_name="BSIGMA",
     help=Help(
@@ -179,19 +261,26 @@ def _logarithmic(zone: Zone, gradient: CellField, by_displacement: bool) -> Cell
         syntax="FOR1 = BSIG ('NOER') MODL1 SIG1 (CAR1) ;",
         examples=(_BAR + "F = BSIG M (SIGM M A U) ; LIST (EXTR F 'FX' Q) ;",),
     ),
-    reads_itself=True,
 )
-def bsig(call: Call) -> NodeField:
+def bsig(call: Call, model: Model, fields: tuple[CellField, ...], silent: bool) -> NodeField:
     """Internal forces."""
-    said = Reading(call, ("NOER",))
-    stress, material = said.state_and_rest()
-    forces = [families.internal_forces(z, stress, material) for z in said.model.zones]
-    forces += [pressure_vectors(z, stress) for z in said.loads]
+    stress, material = state_and_rest(fields)
+    forces = [families.internal_forces(z, stress, material) for z in present(call, model).zones]
+    loads = [z for z in model.zones if z.formulation == "CHARGEMENT"]
+    forces += [pressure_vectors(z, stress) for z in loads]
     return total(forces[0].table, forces)
 
 
 @operator(
     "ELAS",
+    MODEL,
+    many(
+        "fields",
+        "MCHAML",
+        at_least=1,
+        en="stresses or strains, and parameters",
+        fr="contraintes ou déformations, et caractéristiques",
+    ),
     family="stress",
     full_name="ELASTICITE",
     help=Help(
@@ -201,25 +290,30 @@ def bsig(call: Call) -> NodeField:
         syntax="CHAM2 = ELAS MODL1 CHAM1 MAT1 (CAR1) ;",
         examples=(_BAR + "LIST (MAXI (ELAS M (EPSI M U) A)) ;",),
     ),
-    reads_itself=True,
 )
-def elas(call: Call) -> CellField:
+def elas(call: Call, model: Model, fields: tuple[CellField, ...]) -> CellField:
     """Hooke's law, either way."""
-    said = Reading(call)
-    state = next((f for f in said.cells if _state(said.model, f)), None)
+    zones = present(call, model)
+    state = next((f for f in fields if _state(zones, f)), None)
     if state is None:
-        raise call.bad("neither field holds stresses or strains of the model")
-    rest = tuple(f for f in said.cells if f is not state)
+        raise call.error("operators.statics.no-stress-no-strain")
+    rest = tuple(f for f in fields if f is not state)
     if not rest:
         raise call.missing(("MCHAML",))
     material = joined(rest)
-    if _state(said.model, state) == "strains":
-        return on_zones(
-            said.model, "CONTRAINTES", lambda z: families.elastic_stress(z, material, state)
-        )
-    return on_zones(
-        said.model, "DEFORMATIONS", lambda z: families.elastic_strain(z, material, state)
-    )
+    if _state(zones, state) == "strains":
+        return on_zones(zones, "CONTRAINTES", lambda z: families.elastic_stress(z, material, state))
+    return on_zones(zones, "DEFORMATIONS", lambda z: families.elastic_strain(z, material, state))
+
+
+_THERMAL = many(
+    "fields",
+    "CHPOINT",
+    "MCHAML",
+    at_least=1,
+    en="parameters, and the temperature, last of the fields in cells",
+    fr="caractéristiques, et la température, dernier des champs par éléments",
+)
 
 
 def _state(model: Model, field: CellField) -> str:
@@ -235,6 +329,8 @@ def _state(model: Model, field: CellField) -> str:
 
 @operator(
     "EPTH",
+    MODEL,
+    _THERMAL,
     family="stress",
     help=Help(
         en="Thermal strains ALPH (T - TALP) of a temperature T (nodal field, or field in cells).",
@@ -246,21 +342,21 @@ def _state(model: Model, field: CellField) -> str:
             "LIST (MAXI (EPTH M B T)) ;",
         ),
     ),
-    reads_itself=True,
 )
-def epth(call: Call) -> CellField:
+def epth(call: Call, model: Model, fields: Fields) -> CellField:
     """Thermal strains."""
-    said = Reading(call)
-    material, field = _thermal(said)
-    return on_zones(said.model, "DEFORMATIONS", lambda z: _thermal_block(z, material, field))
+    material, field = _thermal(call, fields)
+    zones = present(call, model)
+    return on_zones(zones, "DEFORMATIONS", lambda z: _thermal_block(z, material, field))
 
 
-def _thermal(said: Reading) -> tuple[CellField, NodeField | CellField]:
-    if said.nodal:
-        return said.field(), said.nodal[0]
-    if len(said.cells) < 2:
-        raise said.call.missing(("CHPOINT", "MCHAML"))
-    return joined(said.cells[:-1]), said.cells[-1]
+def _thermal(call: Call, fields: Fields) -> tuple[CellField, NodeField | CellField]:
+    nodal, cells = nodal_of(fields), cells_of(fields)
+    if nodal:
+        return joined_cells(call, fields), nodal[0]
+    if len(cells) < 2:
+        raise call.missing(("CHPOINT", "MCHAML"))
+    return joined(cells[:-1]), cells[-1]
 
 
 def _thermal_block(zone: Zone, material: CellField, field: NodeField | CellField) -> CellFieldBlock:
@@ -270,6 +366,8 @@ def _thermal_block(zone: Zone, material: CellField, field: NodeField | CellField
 
 @operator(
     "THET",
+    MODEL,
+    _THERMAL,
     family="stress",
     full_name="THETA",
     help=Help(
@@ -283,15 +381,10 @@ def _thermal_block(zone: Zone, material: CellField, field: NodeField | CellField
             "F = BSIG M (THET M B T) ; LIST (EXTR F 'FX' Q) ;",
         ),
     ),
-    reads_itself=True,
 )
-def thet(call: Call) -> CellField:
+def thet(call: Call, model: Model, fields: Fields) -> CellField:
     """Thermal stresses."""
-    said = Reading(call)
-    material, field = _thermal(said)
-    strains = CellField(
-        tuple(_thermal_block(z, material, field) for z in said.model.zones), "DEFORMATIONS"
-    )
-    return on_zones(
-        said.model, "CONTRAINTES", lambda z: families.elastic_stress(z, material, strains)
-    )
+    material, field = _thermal(call, fields)
+    zones = present(call, model)
+    strains = on_zones(zones, "DEFORMATIONS", lambda z: _thermal_block(z, material, field))
+    return on_zones(zones, "CONTRAINTES", lambda z: families.elastic_stress(z, material, strains))

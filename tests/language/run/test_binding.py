@@ -140,6 +140,14 @@ def test_repeated_words_end_at_a_keyword(declare):
     assert declare.found == [{"names": ("UX", "UY", "UZ"), "how": "AVEC"}]
 
 
+def test_a_keyword_may_stand_between_the_operands_of_many(declare):
+    declare(
+        many("numbers", "ENTIER", at_least=1), flag("quadratic", "QUAD"), key("a", "A", arg("a"))
+    )
+    assert run("X = ZZZZ 1 'QUAD' 2 'A' 3 4 ;")[0] == 0
+    assert declare.found == [{"numbers": (1, 2, 4), "quadratic": True, "a": 3}]
+
+
 def test_the_type_of_the_main_operand_chooses_behind_a_word(declare):
     declare(main("value", "LISTREEL"), flag("absolute", "ABS"))
     declare(main("value", "ENTIER"), opt("b", "FLOTTANT"))
@@ -280,6 +288,16 @@ def test_results_by_a_word():
     flagged = Form((), lambda: None, gives=by("all", {True: "TABLE"}, "LISTREEL"))
     assert results_of(flagged, {"all": True}) == ("TABLE",)
     assert results_of(flagged, {"all": False}) == ("LISTREEL",)
+
+
+def test_a_keyword_behind_a_pair_does_not_take_its_value(declare):
+    declare(
+        each("pairs", arg("name", "MOT"), arg("value", "LISTREEL")),
+        key("axes", "DIRE", many("v", "LISTREEL")),
+    )
+    assert run("P = PROG 1. ; Q = PROG 2. ; A = ZZZZ 'VECT' P 'DIRE' Q ;")[0] == 0
+    assert [v.values[0] for v in declare.found[0]["axes"]] == [2.0]
+    assert declare.found[0]["pairs"][0][1].values[0] == 1.0
 
 
 def test_what_leads_may_be_spelt_like_a_keyword(declare):

@@ -9,7 +9,8 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MaterialError
-from ssilang.kernel.interface.laws.columns import LawCode, Parameter, Variable
+from ssilang.kernel.elements.zone_fields import ZoneField
+from ssilang.kernel.interface.laws.columns import N_STATE, LawCode, Parameter, Variable
 from ssilang.kernel.interface.laws.parameters import (
     check_macro_parameters,
     check_mohr_parameters,
@@ -34,7 +35,7 @@ class Law:
     angles : dict
         Parameters in degrees, with the columns that take their tangents.
     variables : dict
-        Internal variables that results show, with their column of the state.
+        Internal variables that results show, with their columns of the state, whose sum they are.
     rocking : callable or None
         For a whole footing at a joint of two points, whose jumps are rotations and opening: its
         stiffness in full contact about t1 and t2 (the same in 2D), each (n,), from the parameters.
@@ -48,7 +49,7 @@ class Law:
     check: Callable[[FloatArray], None] | None = None
     linear: bool = False
     angles: dict[str, tuple[str, ...]] = field(default_factory=dict)
-    variables: dict[str, Variable] = field(default_factory=dict)
+    variables: dict[str, tuple[Variable, ...]] = field(default_factory=dict)
     rocking: Callable[[FloatArray], tuple[FloatArray, FloatArray]] | None = None
     in_space: tuple[str, ...] | None = ()
 
@@ -75,8 +76,9 @@ def _rocking_springs(p: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 _PLASTIC = {
-    "EPSE": Variable.CUMULATED, "STAT": Variable.STATUS, "EPOU": Variable.OPENING,
-    "LAM1": Variable.DAMAGE, "PLA1": Variable.SLIP1, "PLA2": Variable.SLIP2, "PLA3": Variable.XI,
+    "EPSE": (Variable.CUMULATED,), "STAT": (Variable.STATUS,), "EPOU": (Variable.OPENING,),
+    "LAM1": (Variable.DAMAGE,), "PLA1": (Variable.SLIP1,), "PLA2": (Variable.SLIP2,),
+    "PLA3": (Variable.XI, Variable.OPENING),
 }  # fmt: skip
 
 LAWS: dict[str, Law] = {
@@ -86,7 +88,11 @@ LAWS: dict[str, Law] = {
         ("KN", "KS"),
         ("FU", "GF", "FC", "FROT"),
         check_sdm_parameters,
-        variables={"SAUT": Variable.XI, "GLI1": Variable.SLIP1, "GLI2": Variable.SLIP2},
+        variables={
+            "SAUT": (Variable.XI,),
+            "GLI1": (Variable.SLIP1,),
+            "GLI2": (Variable.SLIP2,),
+        },
     ),
     "JOINT_DILATANT": Law(
         LawCode.MOHR,
@@ -149,6 +155,30 @@ def law_of(behaviour: tuple[str, ...]) -> Law:
     if strange:
         raise MaterialError("kernel.interface.no-joint-law-called", strange=strange[0], laws=LAWS)
     return LAWS["ELASTIQUE"]
+
+
+def shown_variables(law: Law, state: FloatArray, dimension: int) -> dict[str, FloatArray]:
+    """Internal variables by name, each (...), of a state (..., N_STATE); no second slip in 2D."""
+    return {
+        name: state[..., list(columns)].sum(axis=-1)
+        for name, columns in law.variables.items()
+        if dimension == 3 or Variable.SLIP2 not in columns
+    }
+
+
+def state_of(law: Law, given: ZoneField, shape: tuple[int, int]) -> FloatArray:
+    """State (n g, N_STATE) of the points (n, g) of a zone from internal variables by name.
+
+    Variables that are not given are zero.
+    """
+    state = np.zeros((shape[0] * shape[1], N_STATE))
+    known = [columns for name, columns in law.variables.items() if name in given]
+    for name, columns in law.variables.items():
+        if name in given:
+            state[:, columns[0]] = np.broadcast_to(given.at(name, "STRESSES"), shape).ravel()
+    for first, *others in known:
+        state[:, first] -= state[:, others].sum(axis=1)
+    return state
 
 
 def elastic_tangent(parameters: FloatArray, dimension: int) -> FloatArray:

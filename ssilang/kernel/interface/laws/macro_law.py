@@ -67,6 +67,10 @@ def springs_contact(v: float, theta: float, width: float) -> tuple[float, float,
     return count, first, second
 
 
+N_MOMENTS = 6
+AREA, S1, S2, I11, I12, I22 = range(N_MOMENTS)  # of a part in contact: area, first, second moments
+
+
 @compiled
 def rectangle_contact(
     v: float, a1: float, a2: float, width: float, length: float, out: FloatArray
@@ -90,18 +94,18 @@ def rectangle_contact(
             at = g1 / (g1 - g2)
             points[n, 0], points[n, 1] = x1 + at * (x2 - x1), y1 + at * (y2 - y1)
             n += 1
-    for i in range(6):
+    for i in range(N_MOMENTS):
         out[i] = 0.0
     for i in range(n):
         j = (i + 1) % n
         x1, y1, x2, y2 = points[i, 0], points[i, 1], points[j, 0], points[j, 1]
         cross = x1 * y2 - x2 * y1
-        out[0] += cross / 2.0
-        out[1] += cross * (x1 + x2) / 6.0
-        out[2] += cross * (y1 + y2) / 6.0
-        out[3] += cross * (x1 * x1 + x1 * x2 + x2 * x2) / 12.0
-        out[4] += cross * (2 * x1 * y1 + x1 * y2 + x2 * y1 + 2 * x2 * y2) / 24.0
-        out[5] += cross * (y1 * y1 + y1 * y2 + y2 * y2) / 12.0
+        out[AREA] += cross / 2.0
+        out[S1] += cross * (x1 + x2) / 6.0
+        out[S2] += cross * (y1 + y2) / 6.0
+        out[I11] += cross * (x1 * x1 + x1 * x2 + x2 * x2) / 12.0
+        out[I12] += cross * (2 * x1 * y1 + x1 * y2 + x2 * y1 + 2 * x2 * y2) / 24.0
+        out[I22] += cross * (y1 * y1 + y1 * y2 + y2 * y2) / 12.0
 
 
 @apart
@@ -169,11 +173,11 @@ def _disc(w: FloatArray, p: FloatArray, t: FloatArray, D: FloatArray) -> None:
 def _rectangle(w: FloatArray, p: FloatArray, t: FloatArray, D: FloatArray) -> None:
     """w = (theta_1, theta_2, v); the opening is v + theta_1 s_2 - theta_2 s_1."""
     k = p[Par.KN] / (p[Par.LARG] * p[Par.LONG])
-    m = np.zeros(6)
+    m = np.zeros(N_MOMENTS)
     rectangle_contact(w[2], -w[1], w[0], p[Par.LARG], p[Par.LONG], m)
-    D[0, 0], D[1, 1], D[2, 2] = k * m[5], k * m[3], k * m[0]
-    D[0, 1] = D[1, 0] = -k * m[4]
-    D[0, 2] = D[2, 0] = k * m[2]
-    D[1, 2] = D[2, 1] = -k * m[1]
+    D[0, 0], D[1, 1], D[2, 2] = k * m[I22], k * m[I11], k * m[AREA]
+    D[0, 1] = D[1, 0] = -k * m[I12]
+    D[0, 2] = D[2, 0] = k * m[S2]
+    D[1, 2] = D[2, 1] = -k * m[S1]
     for i in range(3):
         t[i] = D[i, 0] * w[0] + D[i, 1] * w[1] + D[i, 2] * w[2]

@@ -113,6 +113,7 @@ def _slide(
 ) -> float:
     """Shear returned to the cone, dilatancy; returns the energy spent on slip."""
     n = w.shape[0] - 1
+    # elastic trial: size of the traction, length of the elastic jump
     size, length = 0.0, 0.0
     for i in range(n):
         t[i] = p[Par.KS1 + i] * (w[i] - new[Var.SLIP1 + i])
@@ -123,10 +124,12 @@ def _slide(
     t[n], D[n, n] = tn, kn
     if size <= p[Par.COHE] - tn * p[Par.TPHI] or size == 0.0:
         return 0.0
+    # back on the cone: dilatancy presses the faces together, which raises the bound
     a = kn * p[Par.TPSI] * p[Par.TPHI]
     ratio = (p[Par.COHE] - tn * p[Par.TPHI] + a * length) / (size + a * length)
     down = size + a * length
     slip = (1.0 - ratio) * length
+    # consistent tangent
     for i in range(n):
         e_i = w[i] - new[Var.SLIP1 + i]
         for j in range(n):
@@ -139,6 +142,7 @@ def _slide(
         dr = (a * e_i / length - ratio * (g_i + a * e_i / length)) / down
         D[n, i] = -kn * p[Par.TPSI] * ((1.0 - ratio) * e_i / length - length * dr)
     D[n, n] = kn - kn * p[Par.TPSI] * length * kn * p[Par.TPHI] / down
+    # tractions, slip and what it spends
     t[n] = tn - kn * p[Par.TPSI] * slip
     spent: float = t[n] * p[Par.TPSI] * slip
     new[Var.XI] += p[Par.TPSI] * slip

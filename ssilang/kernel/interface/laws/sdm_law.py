@@ -89,10 +89,10 @@ def sdm_point(
     w : array (d,)
         Jump, shear first, normal last.
     state, new : array (N_STATE,)
-        Last converged and new state: xi, slip s1, s2, share of the shear stiffness lost, stored
-        shear energy, energy lost in shear (friction, and shear given up at opening).
-    p : array (8,)
-        Parameters in the order of `Parameter`.
+        Last converged and new state, see `Variable`; lost in shear is what friction takes, and
+        what an opening gives up.
+    p : array (N_PARAMETERS,)
+        See `Parameter`.
     """
     n = w.shape[0] - 1
     tn, xi, dtn = normal_law(w[n], state[Var.XI], p[Par.KN], p[Par.FU], p[Par.GF], p[Par.FC])
@@ -101,14 +101,16 @@ def sdm_point(
     new[Var.XI] = xi
     t[n] = tn
     D[n, n] = dtn
-    if p[Par.SHEAR] == 1.0:
+    if p[Par.SHEAR] == 1.0:  # elastic at any opening
         for i in range(n):
             t[i] = p[Par.KS1 + i] * w[i]
             D[i, i] = p[Par.KS1 + i]
     elif (tn < 0.0 and state[Var.HELD] != OPEN_SHEAR) or state[Var.HELD] == CLOSED_SHEAR:
+        # in compression: elastic up to Coulomb's bound
         new[Var.DAMAGE] = 0.0
         _closed_shear(w, p, t, new, D, tn, dtn)
     elif p[Par.FU] > 0.0:
+        # in cohesive tension: stiffness and strength fade together
         left = math.exp(-p[Par.FU] / p[Par.GF] * xi)
         new[Var.DAMAGE] = 1.0 - left
         softening = dtn / p[Par.FU] if dtn < 0.0 else 0.0
@@ -118,6 +120,7 @@ def sdm_point(
             D[i, i] = left * p[Par.KS1 + i]
             D[i, n] = softening * elastic
     else:
+        # open: shear is lost, the slip follows the jump
         for i in range(n):
             t[i] = 0.0
             if p[Par.KS1 + i] > 0.0:

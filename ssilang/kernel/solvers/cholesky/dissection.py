@@ -182,6 +182,7 @@ def _dissect(
     start, parent = np.empty(2 * n + 2, np.int64), np.empty(2 * n + 2, np.int64)
     stack = np.empty((2 * n + 2, 3), np.int64)
     count, depth, m, end = 0, 1, 0, n
+    # those that shall come last make the root
     for i in range(n):
         if ending[i]:
             end -= 1
@@ -200,16 +201,19 @@ def _dissect(
         axis, cut = -1, 0.0
         if hi - lo > leaf:
             axis, cut = _best_cut(ptr, neighbours, points, order, lo, hi, keys, side)
+        # few points, or none that a cut would part: a leaf
         if axis < 0:
             for i in range(lo, hi):
                 side[order[i]] = -1
             start[count], parent[count] = lo, above
             count += 1
             continue
+        # the smaller of both borders of the cut separates its sides
         for i in range(lo, hi):
             keys[i - lo] = points[order[i], axis]
         _, high, low = _sides(ptr, neighbours, order, lo, hi, keys, cut, side)
         separating = 2 if high <= low else 3
+        # order: lower side, upper side, what separates them
         a, b, c = lo, 0, 0
         for i in range(lo, hi):
             v = order[i]
@@ -228,6 +232,7 @@ def _dissect(
             order[a + i] = upper[i]
         for i in range(c):
             order[hi - c + i] = upper[hi - lo - c + i]
+        # a supernode of it, then both sides by turns
         if c > 0:
             start[count], parent[count] = hi - c, above
             above = count

@@ -132,6 +132,7 @@ def _rows_below(
     child, sibling = np.full(count, -1, np.int64), np.full(count, -1, np.int64)
     size = 0
     for s in range(count):
+        # rows of the matrix's own columns, then those of the supernodes just below
         end, start = first[s + 1], size
         for k in range(indptr[first[s]], indptr[end]):
             i = indices[k]

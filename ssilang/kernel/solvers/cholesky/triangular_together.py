@@ -90,6 +90,7 @@ def _subtract_transposed(
     """x[k0:k1] -= P x[k1:m] for four vectors."""
     y0, y1, y2, y3 = x[0, k1:m], x[1, k1:m], x[2, k1:m], x[3, k1:m]
     n, j = m - k1, k0
+    # four columns of P with four vectors: sixteen sums that stay in registers
     while j + 3 < k1:
         p0, p1 = values[pos : pos + n], values[pos + n : pos + 2 * n]
         p2, p3 = values[pos + 2 * n : pos + 3 * n], values[pos + 3 * n : pos + 4 * n]
@@ -120,6 +121,7 @@ def _subtract_transposed(
         _take_off(x[3], j, d0, d1, d2, d3)
         pos += 4 * n
         j += 4
+    # columns left over, one by one
     while j < k1:
         p0 = values[pos : pos + n]
         s0, s1, s2, s3 = 0.0, 0.0, 0.0, 0.0

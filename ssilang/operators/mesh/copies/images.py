@@ -29,7 +29,7 @@ from ssilang.language.registry import Argument, Chosen, Help, Like, arg, many, o
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.language.values import Table
-from ssilang.operators.fields.turned import turned_cell_field, turned_node_field
+from ssilang.operators.fields.turning import turned_cell_field, turned_node_field
 from ssilang.operators.mesh.copies.maps import (
     ANGLE,
     DIRECTION,

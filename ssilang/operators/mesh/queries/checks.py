@@ -16,7 +16,7 @@ _CHECKS = (
 
 @operator(
     "VERM",
-    arg("mesh", "MAILLAGE"),
+    arg("mesh", "MAILLAGE", en="mesh", fr="maillage"),
     family="mesh",
     help=Help(
         en="Checks a mesh and says what is wrong: cells on the same nodes, linear cells next to "

@@ -11,14 +11,14 @@ from ssilang.kernel.mesh.queries.measure import (
     node_sizes,
     total_measure,
 )
-from ssilang.language.registry import Help, arg, choice, operator, said
+from ssilang.language.registry import Help, arg, choice, operator, opt, said
 from ssilang.language.values import ListEnti, ListMots
 
 
 @operator(
     "NBEL",
     arg("mesh", "MAILLAGE", en="mesh", fr="maillage"),
-    arg("types", "LISTMOTS", en="types of cells", fr="types d'éléments", kind="element"),
+    opt("types", "LISTMOTS", en="types of cells", fr="types d'éléments", kind="element"),
     family="mesh",
     help=Help(
         en="Number of cells of a mesh; with a list of cell types, a list of their numbers.",
@@ -27,16 +27,12 @@ from ssilang.language.values import ListEnti, ListMots
         examples=("OPTI DIME 2 ELEM SEG2 ; LIST (NBEL (DROI 4 (0. 0.) (1. 0.))) ;",),
     ),
 )
-def nbel(mesh: Mesh, types: ListMots) -> ListEnti:
-    """Count cells by type."""
+def nbel(mesh: Mesh, types: ListMots | None) -> int | ListEnti:
+    """Count cells, or cells by type."""
+    if types is None:
+        return mesh.n_cells
     wanted = [str(t).rstrip().upper() for t in types.values]
     return ListEnti([sum(len(b) for b in mesh.blocks if b.cell_type == t) for t in wanted])
-
-
-@nbel.form(arg("mesh", "MAILLAGE", en="mesh", fr="maillage"))
-def count_cells(mesh: Mesh) -> int:
-    """Count cells."""
-    return mesh.n_cells
 
 
 @operator(

@@ -10,6 +10,7 @@ from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.language.registry import Help, arg, operator, opt
 from ssilang.language.run.call import Call
+from ssilang.operators.mesh.tolerance import DISTANCE
 from ssilang.operators.workspace import workspace
 
 _NONE = np.empty(0, dtype=np.int64)
@@ -17,9 +18,14 @@ _NONE = np.empty(0, dtype=np.int64)
 
 @operator(
     "VISA",
-    opt("distance", "FLOTTANT"),
-    arg("first", "MAILLAGE"),
-    opt("second", "MAILLAGE"),
+    DISTANCE,
+    arg("first", "MAILLAGE", en="mesh", fr="maillage"),
+    opt(
+        "second",
+        "MAILLAGE",
+        en="mesh whose nodes may face them; without it the first itself",
+        fr="maillage dont les noeuds peuvent leur faire face ; sans lui le premier même",
+    ),
     family="mesh",
     full_name="VISAVIS",
     help=Help(

@@ -15,10 +15,10 @@ from ssilang.language.run.call import Call
 
 @operator(
     "COUP",
-    arg("mesh", "MAILLAGE"),
-    arg("p1", "POINT"),
-    arg("p2", "POINT"),
-    arg("p3", "POINT"),
+    arg("mesh", "MAILLAGE", en="mesh in space", fr="maillage de l'espace"),
+    arg("p1", "POINT", en="point of the plane", fr="point du plan"),
+    arg("p2", "POINT", en="second point of the plane", fr="deuxième point du plan"),
+    arg("p3", "POINT", en="third point of the plane", fr="troisième point du plan"),
     family="mesh",
     full_name="COUPER",
     help=Help(
@@ -52,9 +52,15 @@ def coup(call: Call, mesh: Mesh, p1: Point, p2: Point, p3: Point) -> Mesh:
 
 @operator(
     "FUIT",
-    arg("contour", "MAILLAGE"),
-    arg("first", "MAILLAGE", "POINT"),
-    arg("second", "MAILLAGE", "POINT"),
+    arg("contour", "MAILLAGE", en="closed contour of SEG2", fr="contour fermé de SEG2"),
+    arg(
+        "first",
+        "MAILLAGE",
+        "POINT",
+        en="where the segment may begin",
+        fr="où le segment peut commencer",
+    ),
+    arg("second", "MAILLAGE", "POINT", en="where it may end", fr="où il peut finir"),
     family="mesh",
     help=Help(
         en="Cuts a closed contour of SEG2 in two by the shortest segment from a node of the second "

@@ -12,9 +12,17 @@ _SIDES = {"EGAL": 0, "EGINFE": -1, "EGSUPE": 1}
 
 @operator(
     "ISOV",
-    arg("field", "MCHAML"),
-    choice("side", tuple(_SIDES), default="EGAL"),
-    arg("value", "FLOTTANT"),
+    arg(
+        "field", "MCHAML", en="field at nodes, one component", fr="champ aux noeuds, une composante"
+    ),
+    choice(
+        "side",
+        tuple(_SIDES),
+        default="EGAL",
+        en="places of the value, the default, or of smaller or larger ones",
+        fr="lieux de la valeur, par défaut, ou de valeurs inférieures ou supérieures",
+    ),
+    arg("value", "FLOTTANT", en="value", fr="valeur"),
     family="mesh",
     full_name="ISOVALEUR",
     help=Help(

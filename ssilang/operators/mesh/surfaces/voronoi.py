@@ -18,9 +18,9 @@ from ssilang.operators.workspace import workspace
 
 @operator(
     "VORO",
-    arg("germs", "MAILLAGE"),
-    arg("contour", "MAILLAGE"),
-    opt("weights", "CHPOINT"),
+    arg("germs", "MAILLAGE", en="points of the cells", fr="points des cellules"),
+    arg("contour", "MAILLAGE", en="closed line of SEG2", fr="ligne fermée de SEG2"),
+    opt("weights", "CHPOINT", en="weights of the points", fr="poids des points", unit="m"),
     family="mesh",
     full_name="VORONOI",
     help=Help(

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
+from typing import Any
 
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements.catalog import ELEMENTS, GENERIC_ELEMENTS, default_element
@@ -28,11 +30,23 @@ from ssilang.kernel.mesh.changes.local_refinement import parted
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
 from ssilang.kernel.modal import shape_models
 from ssilang.language.near import nearest
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import (
+    Chosen,
+    Help,
+    arg,
+    choice,
+    flag,
+    key,
+    many,
+    opt,
+    select,
+    shared,
+)
 from ssilang.language.run.call import Call
+from ssilang.language.values import ListMots
 from ssilang.operators import words
 from ssilang.operators.dispatch import union
-from ssilang.operators.models.contact import contact_model, take_contact
+from ssilang.operators.models.contact import METHODS, cable_model, contact_model
 from ssilang.operators.workspace import Workspace, workspace
 
 register_family("joint", JointFamily())
@@ -58,9 +72,46 @@ class _Wish:
     options: dict[str, object] = field(default_factory=dict)
 
 
-@operator(
+_WORDS = many(
+    "said",
+    "MOT",
+    kind="law",
+    en="formulation, law and elements",
+    fr="formulation, loi et éléments",
+)
+_SETTINGS = (
+    key("constituent", "CONS", arg("name", "MOT"), en="constituent", fr="constituant"),
+    key(
+        "section",
+        "DPGE",
+        arg("point", "POINT"),
+        en="point that carries the motion of the section in generalised plane strain",
+        fr="point qui porte le mouvement de la section en déformation plane généralisée",
+    ),
+    key(
+        "layers",
+        "INTEGRE",
+        arg("count", "ENTIER"),
+        en="points across the thickness of shells",
+        fr="points dans l'épaisseur des coques",
+    ),
+    choice(
+        "rule",
+        ("GAUSS", "LOBATTO"),
+        length=8,
+        en="integration of joints",
+        fr="intégration des joints",
+    ),
+    choice(
+        "bound",
+        ("LIBRE", "LIE"),
+        en="whether the axes of JOI1 follow",
+        fr="si le repère de JOI1 suit",
+    ),
+)
+MODE = shared(
     "MODE",
-    family="model",
+    "model",
     full_name="MODELISER",
     aliases=("MODL",),
     help=Help(
@@ -156,37 +207,142 @@ class _Wish:
             "M = MODE L 'MECANIQUE' 'ELASTIQUE' 'BARR' ; LIST (TYPE M) ;",
         ),
     ),
-    reads_itself=True,
 )
-def mode(call: Call) -> Model:
-    """Read a mesh and words, give a zone to each of its blocks."""
+
+
+@MODE.form(
+    choice(
+        "formulation",
+        ("CONTACT",),
+        optional=False,
+        en="two sides that do not go into each other",
+        fr="deux bords qui ne se pénètrent pas",
+    ),
+    select(
+        "friction",
+        {
+            "FROTTANT": [
+                choice(
+                    "law",
+                    ("COULOMB", "FROCABLE"),
+                    en="Coulomb's friction, or that of a cable",
+                    fr="frottement de Coulomb, ou d'un câble",
+                )
+            ]
+        },
+        en="friction",
+        fr="frottement",
+    ),
+    flag(
+        "smooth", "UNILATERAL", en="without friction (default)", fr="sans frottement (par défaut)"
+    ),
+    choice(
+        "method",
+        METHODS,
+        default="MESC",
+        en="nodes of the second side (default), of both, or means over its cells or nodes",
+        fr="noeuds du second bord (par défaut), des deux, ou moyennes par maille ou par noeud",
+    ),
+    *_SETTINGS,
+    _WORDS,
+    arg("master", "MAILLAGE", "POINT", en="first side, or the cable", fr="premier bord, ou câble"),
+    opt("cables", "MMODEL", en="model of the cable", fr="modèle du câble"),
+    arg("slave", "MAILLAGE", en="second side, or the body", fr="second bord, ou volume"),
+)
+def contact(
+    call: Call,
+    formulation: bool,
+    friction: Chosen | None,
+    smooth: bool,
+    method: str,
+    said: tuple[str, ...],
+    master: Mesh | Point,
+    cables: Model | None,
+    slave: Mesh,
+    **settings: Any,
+) -> Model:
+    """A model of two sides, or of a cable in a body."""
+    if friction is not None and friction["law"] is None:
+        raise call.error("operators.models.friction-law-missing")
+    wish = _wish(call, ("CONTACT", *said), **settings)
+    mesh, _ = _usable(call, master, wish)
     ws = workspace(call.session)
-    first = call.read("MAILLAGE", "POINT")
-    wish = _Wish()
-    while (word := call.peek_word()) is not None:
-        _take(call, word, wish)
+    if friction is not None and friction["law"] == "FROCABLE":
+        return cable_model(call, mesh, cables, slave, ws)
+    return contact_model(call, mesh, slave, method, friction is not None, ws)
+
+
+@MODE.form(
+    *_SETTINGS,
+    _WORDS,
+    arg("mesh", "MAILLAGE", "POINT", en="mesh", fr="maillage"),
+    many(
+        "unknowns",
+        "LISTMOTS",
+        kind="component",
+        en="unknowns of IMPEDANCE: one list, or one for each end",
+        fr="inconnues d'IMPEDANCE : une liste, ou une par bout",
+    ),
+)
+def mode(
+    call: Call,
+    said: tuple[str, ...],
+    mesh: Mesh | Point,
+    unknowns: tuple[ListMots, ...],
+    **settings: Any,
+) -> Model:
+    """A model: a zone for each block of the mesh."""
+    ws, wish = workspace(call.session), _wish(call, said, **settings)
     if "IMPEDANCE" in wish.laws:
-        names = [tuple(str(n).rstrip() for n in m.values) for m in call.all("LISTMOTS")]
+        names = [tuple(str(n).rstrip() for n in m.values) for m in unknowns]
         wish.options["UNKNOWNS"] = (*names, (), ())[:2]
-    mesh = first.value if first is not None else call.required("MAILLAGE", "POINT")
-    if isinstance(mesh, Point):
-        raise call.bad("no element of this version stands on a point", mesh)
-    if not mesh.blocks:
-        raise call.bad("the mesh is empty", mesh)
-    if not wish.formulation and not wish.laws:
-        raise call.bad("the formulation is not said", mesh, "MODE mesh 'MECANIQUE' 'ELASTIQUE'")
-    mesh, ties = parted(mesh)
-    if not mesh.blocks:
-        raise call.bad("the mesh holds nothing but SURE cells, which tie hanging nodes")
-    _check_elements(call, wish, mesh)
+    elif unknowns:
+        raise call.error("operators.models.lists-for-impedance", unknowns[0])
+    used, ties = _usable(call, mesh, wish)
     if wish.formulation == "CONTACT":
-        return contact_model(call, mesh, wish.options, ws)
+        raise call.missing(("MAILLAGE",))
     if wish.formulation == "CHARGEMENT":
-        return Model(tuple(_pressure_zone(block, wish, ws) for block in mesh.blocks))
-    zones = tuple(_zone(block, wish, ws) for block in mesh.blocks)
+        return Model(tuple(_pressure_zone(block, wish, ws) for block in used.blocks))
+    zones = tuple(_zone(block, wish, ws) for block in used.blocks)
     _check_rule(call, wish, zones)
     _check_layers(call, wish, zones)
     return Model(zones, ties)
+
+
+def _wish(
+    call: Call,
+    said: Iterable[str],
+    constituent: str | None,
+    section: Point | None,
+    layers: int | None,
+    rule: str | None,
+    bound: str | None,
+) -> _Wish:
+    """What words and settings say."""
+    given = {"DPGE": section, "INTEGRE": layers, "FRAME": bound}
+    wish = _Wish(
+        constituent=(constituent or "").rstrip(),
+        rule=rule or "",
+        options={k: v for k, v in given.items() if v is not None},
+    )
+    for word in said:
+        _name(call, word, wish)
+    return wish
+
+
+def _usable(call: Call, mesh: Mesh | Point, wish: _Wish) -> tuple[Mesh, tuple[CellBlock, ...]]:
+    """The mesh that elements stand on, and the cells that tie hanging nodes."""
+    if isinstance(mesh, Point):
+        raise call.error("operators.models.no-element-on-a-point", mesh)
+    if not mesh.blocks:
+        raise call.error("operators.models.mesh-empty", mesh)
+    if not wish.formulation and not wish.laws:
+        raise call.error("operators.models.formulation-missing", mesh)
+    used, ties = parted(mesh)
+    if not used.blocks:
+        raise call.error("operators.models.only-sure-cells")
+    _check_elements(call, wish, used)
+    return used, ties
 
 
 def _check_elements(call: Call, wish: _Wish, mesh: Mesh) -> None:
@@ -194,55 +350,33 @@ def _check_elements(call: Call, wish: _Wish, mesh: Mesh) -> None:
     kinds = [b.cell_type for b in mesh.blocks]
     fitting = [n for n in wish.elements if n in GENERIC_ELEMENTS or ELEMENTS[n].cell_type in kinds]
     if wish.elements and not fitting:
-        raise call.bad(
-            f"element {wish.elements[0]} does not stand on {' '.join(dict.fromkeys(kinds))} cells",
-            hint=f"{wish.elements[0]} needs {ELEMENTS[wish.elements[0]].cell_type} cells"
-            + _fitting(call, mesh),
+        raise call.error(
+            "operators.models.element-of-other-cells",
+            element=wish.elements[0],
+            kinds=sorted(set(kinds)),
+            cell_type=ELEMENTS[wish.elements[0]].cell_type,
+            fitting=_fitting(call, kinds),
         )
 
 
 def _check_rule(call: Call, wish: _Wish, zones: tuple[Zone, ...]) -> None:
     """Refuse a rule of joints where there are none."""
     if wish.rule and not any(is_joint(z) for z in zones):
-        raise call.bad(
-            f"{wish.rule} chooses the integration of joints: the mesh has none",
-            hint="other elements have their own (Q4RI, Q8RI ... by name)",
-        )
+        raise call.error("operators.models.rule-without-joints", rule=wish.rule)
 
 
 def _check_layers(call: Call, wish: _Wish, zones: tuple[Zone, ...]) -> None:
     """Plastic thin shells need points across the thickness, 2 to 15 of them."""
     plastic = [z.element for z in zones if "PLASTIQUE" in z.behaviour]
     if "COQ3" in plastic:
-        raise call.bad("COQ3 has no plastic law", hint="DKT has: MODE ... DKT 'INTEGRE' 7 ;")
+        raise call.error("operators.models.coq3-is-elastic")
     if "DKT" not in plastic:
         return
     count = wish.options.get("INTEGRE")
     if not isinstance(count, int):
-        raise call.bad(
-            "plastic laws on the forces and moments of shells are not built",
-            hint="points across the thickness: MODE ... DKT 'INTEGRE' 7 ;",
-        )
+        raise call.error("operators.models.generalised-plasticity-not-built")
     if not 2 <= count <= 15:
-        raise call.bad(f"'INTEGRE' {count}: 2 to 15 points across")
-
-
-def _take(call: Call, word: str, wish: _Wish) -> None:
-    """Consume one word of MODE, with what it introduces."""
-    if wish.formulation == "CONTACT" and take_contact(call, wish.options):
-        return
-    if call.keyword(["CONS"]):
-        wish.constituent = str(call.required("MOT", after=call.keyword_end)).rstrip()
-    elif call.keyword(["DPGE"]):
-        wish.options["DPGE"] = call.required("POINT", after=call.keyword_end)
-    elif call.keyword(["INTEGRE"]):
-        wish.options["INTEGRE"] = call.required("ENTIER", after=call.keyword_end)
-    elif (rule := call.keyword(["GAUSS", "LOBATTO"], length=8)) is not None:
-        wish.rule = rule
-    elif (bound := call.keyword(["LIBRE", "LIE"])) is not None:
-        wish.options["FRAME"] = bound
-    else:
-        _name(call, str(call.word()), wish)
+        raise call.error("operators.models.points-across", count=count)
 
 
 def _name(call: Call, word: str, wish: _Wish) -> None:
@@ -259,35 +393,36 @@ def _name(call: Call, word: str, wish: _Wish) -> None:
         raise _unknown(call, said)
 
 
-def _fitting(call: Call, mesh: Mesh) -> str:
-    """A line of a hint: the elements that stand on the cells of a mesh."""
-    mode, kinds = workspace(call.session).mode, {b.cell_type for b in mesh.blocks}
-    names = words.elements_on(kinds, mode)
-    return f"\n{' '.join(sorted(kinds))} cells take {' '.join(names)}" if names else ""
+def _fitting(call: Call, kinds: Iterable[str]) -> list[str]:
+    """The elements that stand on some cells."""
+    return words.elements_on(set(kinds), workspace(call.session).mode)
 
 
 def _unknown(call: Call, said: str) -> Exception:
     known = (*FORMULATIONS, *LAW_WORDS, *ELEMENTS, *GENERIC_ELEMENTS)
     if said in UNDESCRIBED_LAWS:
-        return call.bad(
-            f"the joint law {said} is not built: what its parameters BETA (unloading) and CPLG "
-            "(coupling) do is published nowhere",
-            hint="JOINT_SDM softens in tension with FU and GF; JOINT_DILATANT and COULOMB slide",
-        )
+        return call.error("operators.models.joint-law-not-built", said=said)
     written = next((o.value for o in call.used[::-1] if str(o.value).upper() == said), None)
-    for known_words, what in ((OTHER_FORMULATIONS, "formulation"), (OTHER_BEHAVIOURS, "behaviour")):
-        if full_word(said, known_words):
-            return call.bad(
-                f"the {what} {said} is not available",
-                written,
-                hint="'MECANIQUE' 'ELASTIQUE' is, with " + " ".join((*ELASTICITIES, *JOINT_WORDS)),
-            )
+    laws = (*ELASTICITIES, *JOINT_WORDS)
+    if full_word(said, OTHER_FORMULATIONS):
+        code = "operators.models.formulation-not-available"
+        return call.error(code, written, said=said, words=laws)
+    if full_word(said, OTHER_BEHAVIOURS):
+        code = "operators.models.behaviour-not-available"
+        return call.error(code, written, said=said, words=laws)
     near = nearest(said, known, 0.5)
-    hint = f"did you mean {near}?" if near else "known: " + " ".join(known)
     mesh = next((o.value for o in call.used if isinstance(o.value, Mesh)), None)
-    if mesh is not None and near not in (*FORMULATIONS, *LAW_WORDS):
-        hint += _fitting(call, mesh)
-    return call.bad(f"MODE does not know the word {said}", written, hint)
+    element = mesh is not None and near not in (*FORMULATIONS, *LAW_WORDS)
+    kinds = sorted({b.cell_type for b in mesh.blocks}) if mesh is not None and element else []
+    return call.error(
+        "operators.models.word-unknown",
+        written,
+        said=said,
+        near=near,
+        known=known,
+        kinds=kinds,
+        fitting=_fitting(call, kinds),
+    )
 
 
 def _zone(block: CellBlock, wish: _Wish, ws: Workspace) -> Zone:
@@ -296,7 +431,7 @@ def _zone(block: CellBlock, wish: _Wish, ws: Workspace) -> Zone:
     if ws.mode not in kind.modes:
         names = ", ".join(m.value for m in kind.modes)
         raise MeshError(
-            f"element {name} does not exist in mode {ws.mode.value}", f"it exists in {names}"
+            "operators.models.element-not-in-mode", name=name, mode=ws.mode.value, names=names
         )
     options = dict(wish.options)
     if ws.mode is Mode.FOURIER:
@@ -314,7 +449,7 @@ def _zone(block: CellBlock, wish: _Wish, ws: Workspace) -> Zone:
 def _pressure_zone(block: CellBlock, wish: _Wish, ws: Workspace) -> Zone:
     """Sides that carry a pressure."""
     if block.kind.dimension != ws.mode.dimension - 1 or block.kind.joint:
-        raise MeshError(f"{block.cell_type} cells cannot carry a pressure in this space")
+        raise MeshError("operators.models.cells-carry-no-pressure", cell_type=block.cell_type)
     options = {"harmonic": ws.fourier} if ws.mode is Mode.FOURIER else {}
     named = [n for n in wish.elements if ELEMENTS[n].cell_type == block.cell_type]
     element = named[0] if named else block.cell_type

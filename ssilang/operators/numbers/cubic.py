@@ -29,7 +29,7 @@ def deg3(
 ) -> tuple[float, float, float, float, float, float]:
     """Roots as eigenvalues of the companion matrix."""
     if a3 == 0.0 or not np.isfinite([a0, a1, a2, a3]).all():
-        raise call.error("operators.fields.not-third-degree")
+        raise call.error("operators.numbers.not-third-degree")
     roots = np.roots([a3, a2, a1, a0])
     small = 1e-12 * np.abs(roots).max(initial=0.0)
     pairs = [(float(r.real), float(r.imag) if abs(r.imag) > small else 0.0) for r in roots]

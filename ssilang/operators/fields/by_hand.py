@@ -29,7 +29,7 @@ from ssilang.language.registry import (
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListEnti, ListMots, ListReel, Table
 from ssilang.operators.dispatch import MANU
-from ssilang.operators.fields.parts import NATURE, support_nodes
+from ssilang.operators.fields.components import NATURE, support_nodes
 from ssilang.operators.fields.signs import names_of, nature_of, paired_names
 
 _SUPPORTS = ("NOEUD", "GRAVITE", "RIGIDITE", "MASSE", "STRESSES")

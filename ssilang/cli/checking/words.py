@@ -1,0 +1,149 @@
+"""Words behind an operator that are nearly one of its keywords, or of the words that it takes."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from functools import cache
+
+from ssilang.cli.checking.usage import statements_of
+from ssilang.language import vocabulary
+from ssilang.language.near import VERY_LIKE, nearest, slips
+from ssilang.language.registry import OPERATORS, Operator, arguments_in, find_operator, keywords_of
+from ssilang.language.say.errors import SsiError
+from ssilang.language.text import tree
+
+_OWN = frozenset({"component"})  # scripts may have names of their own
+_SHORT, _LONG = 2, 5
+"""Letters of a word that may be misspelt, and from which on more than a swap is one slip."""
+
+
+def misspelt_words(script: tree.Script, names: frozenset[str]) -> Iterator[SsiError]:
+    """A warning at each word that its operator does not know, but nearly.
+
+    Parameters
+    ----------
+    names : frozenset of str
+        Names that have a value somewhere: they are no words.
+    """
+    reader = _Words(names)
+    statements = list(statements_of(script.body))
+    for statement in statements:
+        reader.count(statement.items)
+    for statement in statements:
+        yield from reader.phrase(statement.items)
+
+
+class _Words:
+    """Goes through phrases from left to right: a word belongs to the operator before it."""
+
+    def __init__(self, names: frozenset[str]) -> None:
+        self.names = names
+        self.times: Counter[str] = Counter()
+
+    def count(self, items: Iterable[tree.Item]) -> None:
+        """Count the words of a phrase, those that are indices of tables too."""
+        for item in items:
+            if isinstance(item, tree.Paren):
+                self.count(item.items)
+            elif isinstance(item, tree.Path):
+                self.count((item.base, *item.indices))
+            elif isinstance(item, tree.Quoted | tree.Name):
+                self.times[item.text.upper()] += 1
+
+    def phrase(self, items: Iterable[tree.Item]) -> Iterator[SsiError]:
+        """What is misspelt in a phrase and in its parentheses."""
+        operator: Operator | None = None
+        for place, item in enumerate(items):
+            if isinstance(item, tree.Paren):
+                yield from self.phrase(item.items)
+            elif isinstance(item, tree.Path):
+                yield from self.phrase(i for i in item.indices if isinstance(i, tree.Paren))
+            elif isinstance(item, tree.Quoted | tree.Name) and item.text.upper() not in self.names:
+                word = item.text.upper().rstrip()
+                if operator is not None and _knows(operator, word):
+                    continue
+                named = find_operator(word)
+                if named is not None:
+                    operator = named
+                elif operator is not None:
+                    yield from self._near(operator, word, item)
+                elif place == 0 and isinstance(item, tree.Name) and self._is_operator(word):
+                    yield SsiError("unknown-operator", item.span, name=item.text)
+
+    def _is_operator(self, word: str) -> bool:
+        """Whether a word that stands nowhere else is nearly an operator's name."""
+        if len(word) < vocabulary.SHORT or self.times[word] > 1:
+            return False
+        full = {o.full_name for o in OPERATORS.values()}
+        swapped = any(sorted(word) == sorted(name) for name in OPERATORS)
+        return swapped or bool(nearest(word, full, VERY_LIKE))
+
+    def _near(
+        self, operator: Operator, word: str, item: tree.Quoted | tree.Name
+    ) -> Iterator[SsiError]:
+        near = _meant(operator, word, self.times[word] == 1)
+        if near:
+            yield SsiError(
+                "near-word", item.span, name=item.text, operator=operator.full_name, near=near
+            )
+
+
+@cache
+def _kinds(name: str) -> frozenset[str]:
+    """Lists of the vocabulary that an operator takes words of."""
+    found = find_operator(name)
+    forms = found.forms if found is not None else ()
+    declared = {a.kind for form in forms for a in arguments_in(form.entries or ())}
+    return frozenset({*declared, *vocabulary.WORDS_OF.get(name, ())} & {*vocabulary.KINDS})
+
+
+@cache
+def _keywords(name: str) -> tuple[str, ...]:
+    found = find_operator(name)
+    return tuple(w.rstrip() for w in keywords_of(found)) if found is not None else ()
+
+
+@cache
+def _values() -> frozenset[str]:
+    """Words that options may be set to, by their first letters."""
+    options = (o for o in vocabulary.words("option") if isinstance(o, vocabulary.Option))
+    values = {v.name[: vocabulary.SHORT] for o in options for v in o.values}
+    return frozenset({*values, *(n[: vocabulary.SHORT] for n in vocabulary.names("element"))})
+
+
+def _knows(operator: Operator, word: str) -> bool:
+    short, kinds = word[: vocabulary.SHORT], _kinds(operator.name)
+    alike = [w for w in _keywords(operator.name) if w[: vocabulary.SHORT] == short]
+    if "law" in kinds:  # JOINT_SDM and JOINT_SOFT differ behind their fourth letter
+        alike = [w for w in alike if w.startswith(word) or word.startswith(w)]
+    return (
+        bool(alike)
+        or any(vocabulary.full_name(kind, word) for kind in kinds)
+        or ("option" in kinds and short in _values())
+    )
+
+
+def _meant(operator: Operator, word: str, once: bool) -> str:
+    """The word that is meant, '' if none is certain enough; `once`: it stands nowhere else."""
+    if len(word) < _SHORT:
+        return ""
+    kinds = _kinds(operator.name)
+    for kind in sorted(kinds - _OWN):
+        found = vocabulary.near(kind, word)
+        if found:
+            return found[0]
+    if kinds & _OWN and once and not vocabulary.full_name("parameter", word):
+        near = [n for n in vocabulary.names("component") if _one_slip(word, n)]
+        if near:
+            return min(near, key=lambda n: (sorted(n) != sorted(word), n))
+    swapped = [w for w in _keywords(operator.name) if sorted(w) == sorted(word)]
+    if swapped and once:
+        return swapped[0]
+    return nearest(word, _keywords(operator.name), VERY_LIKE) if len(word) >= _LONG else ""
+
+
+def _one_slip(word: str, name: str) -> bool:
+    """Whether letters were swapped, or one is too many or missing; VX beside UX is another word."""
+    other = sorted(word) == sorted(name) or len(word) != len(name) or len(name) >= _LONG
+    return len(name) > 1 and slips(word, name) == 1 and other

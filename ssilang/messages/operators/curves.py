@@ -1,0 +1,295 @@
+"""What ssilang/operators/curves refuses and warns of."""
+
+from ssilang.messages.message import Message
+
+MESSAGES: dict[str, Message] = {
+    "one-curve-wanted": Message(
+        "one curve is needed, here are {n_parts}",
+        "il faut une courbe, il y en a {n_parts}",
+    ),
+    "power-of-two": Message(
+        "2**N1 points are used: N1 is between 1 and 26, not {power}",
+        "2**N1 points sont pris : N1 est entre 1 et 26, pas {power}",
+    ),
+    "duration-too-short": Message(
+        "the periods go from 0.04 s to the duration, which is {duration:g}",
+        "les périodes vont de 0.04 s à la durée, qui vaut {duration:g}",
+    ),
+    "kind-of-spectrum": Message(
+        "a spectrum is of DEPL, VITE or ACCE, not {name}",
+        "un spectre est de DEPL, VITE ou ACCE, pas {name}",
+    ),
+    "frequency-not-positive": Message(
+        "frequencies must be positive to divide by them",
+        "les fréquences doivent être positives pour diviser par elles",
+    ),
+    "signals-outside-modulation": Message(
+        "signals from {start:g} to {end:g} do not fit in the modulation, from {times:g} to "
+        "{times_2:g}",
+        "des signaux de {start:g} à {end:g} n'entrent pas dans la modulation, de {times:g} à "
+        "{times_2:g}",
+    ),
+    "signal-too-short": Message(
+        "a signal needs two instants and one sine at least",
+        "un signal demande au moins deux instants et un sinus",
+    ),
+    "not-a-power-spectrum": Message(
+        "a power spectrum stands over increasing frequencies, two at least",
+        "une densité spectrale de puissance porte sur des fréquences croissantes, deux au moins",
+    ),
+    "limits-of-bands": Message(
+        "{n_parts} {n_parts:modulation needs|modulations need} {least} {least:limit|limits} of "
+        "bands, found {n_limits}",
+        "{n_parts} {n_parts:modulation demande|modulations demandent} {least} "
+        "{least:limite|limites} de bandes, trouvé {n_limits}",
+    ),
+    "modulations-differ": Message(
+        "all modulations must begin and end together",
+        "toutes les modulations doivent commencer et finir ensemble",
+    ),
+    "table-has-no-spectrum": Message(
+        "the table holds no spectrum at 1, 2 ...",
+        "la table ne contient pas de spectre en 1, 2 ...",
+    ),
+    "spectrum-and-dampings-wanted": Message(
+        "table {index} wants a SPECTRE and its list AMORTISSEMENT",
+        "la table {index} veut un SPECTRE et sa liste AMORTISSEMENT",
+    ),
+    "curves-and-dampings-differ": Message(
+        "spectrum {index} has {n_parts} {n_parts:curve|curves} for {n_dampings} "
+        "{n_dampings:damping|dampings}",
+        "le spectre {index} a {n_parts} {n_parts:courbe|courbes} pour {n_dampings} "
+        "{n_dampings:amortissement|amortissements}",
+    ),
+    "law-and-kinds-wanted": Message(
+        "SPON wants a law (CINE ISOT ELAS) and the kinds of both spectra",
+        "SPON veut une loi (CINE ISOT ELAS) et le type des deux spectres",
+    ),
+    "ductility-and-hardening-wanted": Message(
+        "a law wants a ductility and a hardening ratio",
+        "une loi veut une ductilité et un rapport d'écrouissage",
+    ),
+    "spectra-and-dampings-differ": Message(
+        "SPON wants one linear spectrum for each damping",
+        "SPON veut un spectre linéaire par amortissement",
+    ),
+    "number-wanted": Message(
+        "SPON wants '{word}'",
+        "SPON veut '{word}'",
+    ),
+    "takeda-not-available": Message(
+        "the law of Takeda is not available",
+        "la loi de Takeda n'est pas disponible",
+        "CINE ISOT or ELAS",
+        "CINE ISOT ou ELAS",
+    ),
+    "no-real-index": Message(
+        "the table has no FLOTTANT index",
+        "la table n'a pas d'indice FLOTTANT",
+    ),
+    "outside-table": Message(
+        "{time:g} is outside of the table, {times:g} to {times_2:g}",
+        "{time:g} est hors de la table, de {times:g} à {times_2:g}",
+    ),
+    "abscissas-have-one-component": Message(
+        "a field of curvilinear abscissas has one component",
+        "un champ d'abscisses curvilignes a une composante",
+    ),
+    "outside-line": Message(
+        "{distance:g} is outside of the line, {s:g} to {s_2:g}",
+        "{distance:g} est hors de la ligne, de {s:g} à {s_2:g}",
+    ),
+    "empty-curve": Message(
+        "a curve is empty",
+        "une courbe est vide",
+    ),
+    "bounds-differ": Message(
+        "{n_low} lower and {n_high} upper bounds",
+        "{n_low} bornes inférieures et {n_high} supérieures",
+    ),
+    "all-of-one-number": Message(
+        "'TOUS' looks one number up",
+        "'TOUS' cherche un seul nombre",
+    ),
+    "no-such-place": Message(
+        "the curve has {count} {count:point|points}, places go from 1 to {count}",
+        "la courbe a {count} {count:point|points}, les rangs vont de 1 à {count}",
+    ),
+    "no-axis-of-name": Message(
+        "no axis is called '{wanted}'",
+        "aucun axe ne s'appelle '{wanted}'",
+        "axes: {names:words}",
+        "axes : {names:words}",
+    ),
+    "no-such-curve": Message(
+        "the object has {n_parts} {n_parts:curve|curves}, none of number {place}",
+        "l'objet a {n_parts} {n_parts:courbe|courbes}, aucune de numéro {place}",
+    ),
+    "step-of-points": Message(
+        "one point of N is kept: N is positive, not {step}",
+        "un point sur N est gardé : N est positif, pas {step}",
+    ),
+    "no-axis-with-name": Message(
+        "no axis is called '{wanted}'",
+        "aucun axe ne s'appelle '{wanted}'",
+    ),
+    "which-curve": Message(
+        "what kind of curve?",
+        "quelle sorte d'évolution ?",
+        "EVOL {kinds:words}",
+        "EVOL {kinds:words}",
+    ),
+    "abscissas-and-ordinates-differ": Message(
+        "{n_x} {n_x:abscissa|abscissas} for {n_y} {n_y:ordinate|ordinates}",
+        "{n_x} {n_x:abscisse|abscisses} pour {n_y} {n_y:ordonnée|ordonnées}",
+    ),
+    "lists-differ": Message(
+        "the lists have {n_x}, {n_values} and {n_values_2} {n_values_2:item|items}",
+        "les listes ont {n_x}, {n_values} et {n_values_2} {n_values_2:valeur|valeurs}",
+    ),
+    "no-value-on-line": Message(
+        "the field has no value of {name} at {n_missing} of the {n_nodes} "
+        "{n_nodes:node|nodes} of the line",
+        "le champ n'a pas de valeur de {name} en {n_missing} des {n_nodes} "
+        "{n_nodes:noeud|noeuds} de la ligne",
+        "the curve is zero there",
+        "la courbe y est nulle",
+        severity="warning",
+    ),
+    "which-component": Message(
+        "the field has several components",
+        "le champ a plusieurs composantes",
+        "name one: {names:words}",
+        "nommez-en une : {names:words}",
+    ),
+    "no-results-in-time": Message(
+        "the table holds no results in time at index {index}",
+        "la table ne contient pas de résultats en temps à l'indice {index}",
+    ),
+    "no-such-step": Message(
+        "there are {n_fields} {n_fields:step|steps}",
+        "il y a {n_fields} pas",
+    ),
+    "no-value-at-point": Message(
+        "no value of {name} in zone {zone}, cell {cell}, point {point}",
+        "pas de valeur de {name} dans la zone {zone}, élément {cell}, point {point}",
+    ),
+    "fields-and-times-differ": Message(
+        "{n_fields} {n_fields:field|fields} for {n_times} {n_times:time|times}",
+        "{n_fields} {n_fields:champ|champs} pour {n_times} {n_times:instant|instants}",
+    ),
+    "no-modulation-of-wavelets": Message(
+        "modulations of wavelets are not built: the notice does not name the filters",
+        "les modulations d'ondelettes ne sont pas programmées : la notice ne nomme pas les filtres",
+    ),
+    "cannot-be-continued": Message(
+        "this curve has too few points, or words, and cannot be continued",
+        "cette courbe a trop peu de points, ou des mots, et ne se prolonge pas",
+    ),
+    "curves-two-by-two": Message(
+        "curves are joined two by two: here are {n_parts} and {n_parts_2}",
+        "les courbes se joignent deux à deux : il y en a {n_parts} et {n_parts_2}",
+    ),
+    "no-optimal-fit": Message(
+        "'OPTI' is not available in LSQF",
+        "'OPTI' n'est pas disponible dans LSQF",
+        "'UNIF' or 'REDU'",
+        "'UNIF' ou 'REDU'",
+    ),
+    "counts-not-positive": Message(
+        "the numbers of intervals and of samples must be positive",
+        "les nombres d'intervalles et d'échantillons doivent être positifs",
+    ),
+    "times-of-force-not-covered": Message(
+        "displacement and velocity must cover the times of the force",
+        "le déplacement et la vitesse doivent couvrir les instants de la force",
+    ),
+    "count-of-shocks": Message(
+        "the number of shocks is positive, not {count}",
+        "le nombre de chocs est positif, pas {count}",
+    ),
+    "only-inverse-transform": Message(
+        "only the inverse transform is available",
+        "seule la transformée inverse est disponible",
+        "LAPL 'INVERSE' ...",
+        "LAPL 'INVERSE' ...",
+    ),
+    "parts-differ": Message(
+        "{n_real} real parts for {n_imaginary} imaginary parts",
+        "{n_real} parties réelles pour {n_imaginary} parties imaginaires",
+    ),
+    "words-and-numbers": Message(
+        "a curve of words and a curve of numbers cannot be joined",
+        "une courbe de mots et une courbe de nombres ne se joignent pas",
+    ),
+    "last-points-together": Message(
+        "the last two points of the curve have the same abscissa",
+        "les deux derniers points de la courbe ont la même abscisse",
+    ),
+    "how-to-give-values": Message(
+        "how are the values to be given?",
+        "sous quelle forme donner les valeurs ?",
+        "'REIM' or 'MOPH'",
+        "'REIM' ou 'MOPH'",
+    ),
+    "one-curve-at-a-time": Message(
+        "one curve is transformed at a time, here are {n_parts}",
+        "une courbe se transforme à la fois, il y en a {n_parts}",
+    ),
+    "complex-curve-wanted": Message(
+        "one complex curve is needed",
+        "il faut une courbe complexe",
+        "made by TFR or EVOL 'COMP'",
+        "faite par TFR ou EVOL 'COMP'",
+    ),
+    "frequencies-from-zero": Message(
+        "the frequencies must begin at 0, not {f:g}",
+        "les fréquences doivent commencer à 0, pas {f:g}",
+    ),
+    "filter-incomplete": Message(
+        "a filter needs N1, a 'TYPE' and a positive step 'DFRQ'",
+        "un filtre demande N1, un 'TYPE' et un pas 'DFRQ' positif",
+    ),
+    "peaks-of-one-curve": Message(
+        "peaks and places are given for one curve only",
+        "les pics et leurs rangs sont donnés pour une seule courbe",
+    ),
+    "times-and-values-in-pairs": Message(
+        "times and values come in pairs, found {n_values} {n_values:number|numbers}",
+        "instants et valeurs vont par paires, trouvé {n_values} {n_values:nombre|nombres}",
+    ),
+    "cut-off-not-positive": Message(
+        "a cut-off frequency is positive, not {cut:g}",
+        "une fréquence de coupure est positive, pas {cut:g}",
+    ),
+    "terms-below-diagonal": Message(
+        "a diagonal of {n_diagonal} {n_diagonal:term|terms} has {needed} {needed:term|terms} "
+        "below it, not {n_below}",
+        "une diagonale de {n_diagonal} {n_diagonal:terme|termes} a {needed} {needed:terme|termes} "
+        "au-dessous, pas {n_below}",
+    ),
+    "complex-eigenvalues": Message(
+        "this matrix has complex eigenvalues",
+        "cette matrice a des valeurs propres complexes",
+    ),
+    "power-of-two-of-wavelets": Message(
+        "2**N1 points are used: N1 is between 1 and 20, not {power}",
+        "2**N1 points sont pris : N1 est entre 1 et 20, pas {power}",
+    ),
+    "frequencies-must-increase": Message(
+        "'FMIN' ({fmin:g}) and 'FMAX' ({fmax:g}) are positive and increase",
+        "'FMIN' ({fmin:g}) et 'FMAX' ({fmax:g}) sont positifs et croissants",
+    ),
+    "transform-too-large": Message(
+        "the transform would have too many values",
+        "la transformée aurait trop de valeurs",
+        "fewer frequencies 'NFRQ'",
+        "moins de fréquences 'NFRQ'",
+    ),
+    "two-dimensions-wanted": Message(
+        "a mesh needs two dimensions",
+        "un maillage demande deux dimensions",
+        "OPTI DIME 2 ;",
+        "OPTI DIME 2 ;",
+    ),
+}

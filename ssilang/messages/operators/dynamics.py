@@ -1,0 +1,184 @@
+"""What ssilang/operators/dynamics refuses and warns of."""
+
+from ssilang.messages.message import Message
+
+MESSAGES: dict[str, Message] = {
+    "charmeca-gives-a-table": Message(
+        "the procedure CHARMECA must give one TABLE",
+        "la procédure CHARMECA doit rendre une TABLE",
+        "TCHAR = TABL ; TCHAR . 'ADDI_FNL' = ... ; FINP TCHAR ;",
+        "TCHAR = TABL ; TCHAR . 'ADDI_FNL' = ... ; FINP TCHAR ;",
+    ),
+    "reduction-or-charmeca": Message(
+        "'REDUCTION' and 'CHARMECA' exclude each other",
+        "'REDUCTION' et 'CHARMECA' s'excluent",
+        "leave one",
+        "ôter l'un des deux",
+    ),
+    "reduction-or-newton": Message(
+        "'REDUCTION' and 'NEWTON_COMPLET' choose two methods",
+        "'REDUCTION' et 'NEWTON_COMPLET' choisissent deux méthodes",
+        "give one",
+        "n'en donner qu'un",
+    ),
+    "tolerance-of-reduction": Message(
+        "'REDUCTION' is {tolerance:g}",
+        "'REDUCTION' vaut {tolerance:g}",
+        "a relative error, such as 1.E-6",
+        "une erreur relative, telle que 1.E-6",
+    ),
+    "reduction-not-used": Message(
+        "no reduced model was used: {refused}",
+        "aucun modèle réduit n'a servi : {refused}",
+        "the whole model was run, exactly",
+        "le modèle complet a été calculé, exactement",
+        severity="warning",
+    ),
+    "instants-must-increase": Message(
+        "'INST' holds instants that increase from 'DEBU' on",
+        "'INST' contient des instants croissants à partir de 'DEBU'",
+        "one or more",
+        "un ou plus",
+    ),
+    "frequency-not-positive": Message(
+        "'FREQ' is {frequency:g}",
+        "'FREQ' vaut {frequency:g}",
+        "a cut-off frequency > 0 (Hz)",
+        "une fréquence de coupure > 0 (Hz)",
+    ),
+    "too-many-steps": Message(
+        "'FREQ' is {frequency:g}: more than {most_steps:g} steps",
+        "'FREQ' vaut {frequency:g} : plus de {most_steps:g} pas",
+        "dt = 1/(4 FREQ)",
+        "dt = 1/(4 FREQ)",
+    ),
+    "results-stay-in-memory": Message(
+        "'ECON' asks to keep results on disk: they stay in memory",
+        "'ECON' demande de garder les résultats sur disque : ils restent en mémoire",
+        "PAS_SAUVES and MAILLAGE_SAUVE make them smaller",
+        "PAS_SAUVES et MAILLAGE_SAUVE les réduisent",
+        severity="warning",
+    ),
+    "steps-not-written": Message(
+        "'SAUV' asks to write each step to the file of OPTI SAUV: results stay in memory",
+        "'SAUV' demande d'écrire chaque pas dans le fichier d'OPTI SAUV : les résultats "
+        "restent en mémoire",
+        "SAUV the table behind DYNAMIC, or use the VTK or CSV entries",
+        "sauvez la table par SAUV après DYNAMIC, ou prenez les entrées VTK ou CSV",
+        severity="warning",
+    ),
+    "reduction-of-plastic-bodies": Message(
+        "'REDUCTION' needs linear bodies",
+        "'REDUCTION' demande des corps linéaires",
+        "MODELE has plastic ones",
+        "MODELE en a de plastiques",
+    ),
+    "equal-steps-wanted": Message(
+        "the acceleration GAMMAO needs equal steps of time",
+        "l'accélération GAMMAO demande des pas de temps égaux",
+        "IPOL it first",
+        "interpolez-la d'abord par IPOL",
+    ),
+    "table-without-mesh": Message(
+        "'MAILLAGE_VTK' is a TABLE without MAILLAGE",
+        "'MAILLAGE_VTK' est une TABLE sans MAILLAGE",
+    ),
+    "joints-out-of-proportion": Message(
+        "the joints are {stiffer:?{stiffer:.1e} times as stiff as|{softer:.1e} times softer "
+        "than} the "
+        "bodies at the same nodes: digits are lost",
+        "les joints sont {stiffer:?{stiffer:.1e} fois plus raides|{softer:.1e} fois plus souples} "
+        "que les corps aux mêmes noeuds : des chiffres se perdent",
+        "KN and KS are in Pa/m (N/m for JOI1); check their units",
+        "KN et KS sont en Pa/m (N/m pour JOI1) ; vérifiez leurs unités",
+        severity="warning",
+    ),
+    "sides-swapped": Message(
+        "the joint around {x:.4g} {y:.4g} {z:.4g} opens where its bodies come together: its "
+        "sides are swapped",
+        "le joint autour de {x:.4g} {y:.4g} {z:.4g} s'ouvre quand ses corps se rapprochent : "
+        "ses côtés sont inversés",
+        "RACC and LIAI take the structure's side first",
+        "RACC et LIAI prennent d'abord le côté de la structure",
+        severity="warning",
+    ),
+    "badly-conditioned": Message(
+        "the condition number of the stiffness with closed joints is {number:.0e}: {digits} "
+        "of 16 digits are left; with joints as stiff as the bodies at their nodes it is "
+        "{balanced:.0e}",
+        "le conditionnement de la raideur, joints fermés, vaut {number:.0e} : il reste "
+        "{digits} chiffres sur 16 ; avec des joints aussi raides que les corps à leurs "
+        "noeuds il vaut {balanced:.0e}",
+        "KN and KS are in Pa/m (N/m for JOI1), here KN = {kn:.3g}: check their units; "
+        "{wanted_kn:.1e} is as stiff as the bodies",
+        "KN et KS sont en Pa/m (N/m pour JOI1), ici KN = {kn:.3g} : vérifiez leurs unités ; "
+        "{wanted_kn:.1e} est aussi raide que les corps",
+        severity="warning",
+    ),
+    "body-without-mass": Message(
+        "the body at node {node} has no mass and only joints hold it: it follows its loads "
+        "at once, and is lost where all its joints open",
+        "le corps au noeud {node} n'a pas de masse et n'est tenu que par des joints : il "
+        "suit aussitôt son chargement, et se perd quand tous ses joints s'ouvrent",
+        "give its MASS",
+        "donnez sa masse (MASS)",
+        severity="warning",
+    ),
+    "motion-elsewhere": Message(
+        "{lost} {lost:node|nodes} of '{index}' {lost:belongs|belong} to no matrix: what moves "
+        "there is not seen",
+        "{lost} {lost:noeud|noeuds} de '{index}' {lost:n'est|ne sont} dans aucune matrice : ce "
+        "qui y bouge n'est pas vu",
+        "a point written again is a new node: use the names of the mesh",
+        "un point récrit est un nouveau noeud : reprenez les noms du maillage",
+        severity="warning",
+    ),
+    "penalty-wants-coefficient": Message(
+        "'CONTACT' = 'PENALITE' needs 'COEFFICIENT'",
+        "'CONTACT' = 'PENALITE' demande 'COEFFICIENT'",
+        "a stiffness, N/m",
+        "une raideur, N/m",
+    ),
+    "no-corrected-velocities": Message(
+        "'VITEUNIL' corrects velocities of the average acceleration only",
+        "'VITEUNIL' ne corrige que les vitesses de l'accélération moyenne",
+        "leave ALPHA_F, RHO_INF, BETA and GAMMA, or VITEUNIL = FAUX",
+        "retirez ALPHA_F, RHO_INF, BETA et GAMMA, ou VITEUNIL = FAUX",
+    ),
+    "correction-without-effect": Message(
+        "'VITEUNIL' has no effect: the conserving step keeps the energy of impacts by itself",
+        "'VITEUNIL' est sans effet : le pas conservatif garde de lui-même l'énergie des chocs",
+        "VITEUNIL = FAUX",
+        "VITEUNIL = FAUX",
+        severity="warning",
+    ),
+    "conserving-or-persistent": Message(
+        "'CONTACT_PERSISTANT' takes energy, 'CONSERVATIF' keeps it: they exclude each other",
+        "'CONTACT_PERSISTANT' prend de l'énergie, 'CONSERVATIF' la garde : ils s'excluent",
+        "leave one",
+        "ôter l'un des deux",
+    ),
+    "two-schemes": Message(
+        "'{given}' and '{given_2}' choose two schemes",
+        "'{given}' et '{given_2}' choisissent deux schémas",
+        "give one",
+        "n'en donner qu'un",
+    ),
+    "conserving-and-scheme": Message(
+        "'CONSERVATIF' and '{given}' choose two schemes",
+        "'CONSERVATIF' et '{given}' choisissent deux schémas",
+        "give one",
+        "n'en donner qu'un",
+    ),
+    "contact-not-resolved": Message(
+        "the step {dt:.3g} s does not resolve contact, whose half period is {contact_time:.3g} s "
+        "with the mass attached to the joints",
+        "le pas {dt:.3g} s ne résout pas le contact, dont la demi-période est {contact_time:.3g} s "
+        "avec la masse attachée aux joints",
+        "{conserving:?energy is kept; dt <= T_c/30 = {wanted_dt:.3g} s follows the contact too"
+        "|dt <= T_c/30 = {wanted_dt:.3g} s keeps energy; or CONSERVATIF, a softer joint}",
+        "{conserving:?l'énergie est gardée ; dt <= T_c/30 = {wanted_dt:.3g} s suit aussi le contact"
+        "|dt <= T_c/30 = {wanted_dt:.3g} s garde l'énergie ; ou CONSERVATIF, un joint plus souple}",
+        severity="warning",
+    ),
+}

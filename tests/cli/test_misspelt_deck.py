@@ -1,0 +1,56 @@
+"""`ssilang check` finds slips of the fingers in a whole deck, each at its place, and no other."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from ssilang.cli.check import check_source
+from ssilang.language.say.diagnostics import render
+from ssilang.language.text.source import Source
+
+_DECK = Path(__file__).resolve().parents[2] / "cases" / "footing" / "block_on_soil.ssi"
+_SLIPS = {
+    "operator": ("SIG0 = SIGM MOJ", "SIG0 = SGIM MOJ", "SGIM", "SIGM"),
+    "option": ("OPTI DIME 2 MODE PLAN", "OPTI DIEM 2 MODE PLAN", "DIEM", "DIME"),
+    "parameter": ("MATE MOS 'YOUN' YOUS", "MATE MOS 'YUON' YOUS", "YUON", "YOUN"),
+    "entry": ("'TEMPS_CALCULES' =", "'TEMPS_CALCULS' =", "TEMPS_CALCULS", "TEMPS_CALCULES"),
+    "keyword": ("LTP = PROG 0. 'PAS' 0.002", "LTP = PROG 0. 'PSA' 0.002", "PSA", "PAS"),
+    "law": ("'JOINT_SDM' 'JOI2'", "'JOINT_SMD' 'JOI2'", "JOINT_SMD", "JOINT_SDM"),
+    "component": ("BLO = (BLOQ 'UX' 'UY'", "BLO = (BLOQ 'UXX' 'UY'", "UXX", "UX"),
+}
+
+
+def _text() -> str:
+    return _DECK.read_text(encoding="utf-8")
+
+
+def _said(text: str) -> list[str]:
+    problems, names = check_source(Source("deck", text))
+    return [render(p, "en", names) for p in problems]
+
+
+def test_the_deck_itself_is_sound():
+    assert _text().count("\n") > 150
+    assert _said(_text()) == []
+
+
+@pytest.mark.parametrize("kind", _SLIPS)
+def test_one_slip_is_found_where_it_stands(kind):
+    right, wrong, word, meant = _SLIPS[kind]
+    assert _text().count(right) == 1
+    said = _said(_text().replace(right, wrong))
+    line = next(n for n, t in enumerate(_text().replace(right, wrong).split("\n"), 1) if wrong in t)
+    found = [s for s in said if word in s and meant in s and f":{line}:" in s]
+    assert found, said
+
+
+def test_seven_slips_are_found_together_and_nothing_else():
+    text = _text()
+    for right, wrong, _, _ in _SLIPS.values():
+        text = text.replace(right, wrong)
+    said = _said(text)
+    for word in (word for _, _, word, _ in _SLIPS.values()):
+        assert any(word in s for s in said), word
+    assert len(said) == len(_SLIPS), said
