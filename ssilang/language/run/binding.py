@@ -363,6 +363,7 @@ def _bound(form: Form, call: Call, main: int | None) -> Bound:
     binder = Binder(call, choice)
     if form.plain:
         for entry in entries:
+            assert isinstance(entry, Argument)
             values[entry.name] = binder.operand(entry)
     else:
         values |= binder.bind(entries)
