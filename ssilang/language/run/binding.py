@@ -12,6 +12,7 @@ from ssilang.language.registry import (
     ANY,
     NAME,
     Argument,
+    Choices,
     Chosen,
     Either,
     Entry,
@@ -25,8 +26,6 @@ from ssilang.language.registry import (
 from ssilang.language.run.call import Call, Operand, accepts, shortened
 from ssilang.language.say.errors import SsiError
 from ssilang.language.values import Mot, type_of
-
-_LOOKED_FOR = (Keyword, Select)
 
 
 @dataclass(slots=True)
@@ -84,6 +83,8 @@ class Binder:
 
     def _leading(self, entries: Sequence[Entry], level: _Level) -> int:
         """Read what leads, behind the word that chose the form; says how many entries that was."""
+        if not any(type(e) is Argument and e.leads for e in entries[:2]):
+            return 0
         chosen = _is_choice(entries)
         place, after = int(chosen), -1
         if not _leads(entries[place : place + 1]):
@@ -93,7 +94,7 @@ class Binder:
                 return 0  # something stands before the word
             after = self.call.keyword_end
         while _leads(one := entries[place : place + 1]):
-            level.values[one[0].name] = self._argument(one[0], after)
+            level.values[one[0].name] = self.operand(one[0], after)
             place += 1
         return place
 
@@ -101,13 +102,11 @@ class Binder:
 
     def _keywords(self, levels: Sequence[_Level]) -> bool:
         """Read keywords as long as the first unread word is one; says whether there were any."""
+        open_ones = [level for level in reversed(levels) if level.keywords]
+        if not open_ones:
+            return False
         found = False
-        levels = [level for level in reversed(levels) if level.keywords]
-        while (
-            levels
-            and self.call.word_index() is not None
-            and any(self._keyword(level) for level in levels)
-        ):
+        while self.call.word_index() is not None and any(map(self._keyword, open_ones)):
             found = True
         return found
 
@@ -141,14 +140,15 @@ class Binder:
             return Chosen(word, self.bind(k.cases[word], place))
         if not k.arguments:
             return True if len(k.words) == 1 else word
-        parts = [self._argument(a, place) for a in k.arguments]
+        parts = [self.operand(a, place) for a in k.arguments]
         if len(k.words) > 1:
             return (word, *parts)
         return parts[0] if len(parts) == 1 else tuple(parts)
 
     # ---- operands ------------------------------------------------------------------------------
 
-    def _argument(self, a: Argument, after: int = -1) -> Any:
+    def operand(self, a: Argument, after: int = -1) -> Any:
+        """What an entry gets of the unread operands."""
         if a.repeated:
             return self._several(a, after)
         if NAME in a.types:
@@ -291,7 +291,7 @@ def _is_choice(entries: Sequence[Entry]) -> bool:
 
 
 _READERS: Mapping[type, Callable[[Binder, Any, int], Any]] = {
-    Argument: Binder._argument,
+    Argument: Binder.operand,
     Group: Binder._group,
     Either: Binder._either,
 }
@@ -381,7 +381,13 @@ def _bound(form: Form, call: Call, main: int | None) -> Bound:
         choice = call.keyword(form.said.words, form.said.length)
     if form.by_hand:
         return Bound(form, {}, choice)
-    values |= Binder(call, choice).bind(entries)
+    binder = Binder(call, choice)
+    if form.plain:
+        for entry in entries:
+            assert isinstance(entry, Argument)
+            values[entry.name] = binder.operand(entry)
+    else:
+        values |= binder.bind(entries)
     if form.said is not None and "word" not in form.injected:
         values.pop("word", None)
     return Bound(form, values)
@@ -389,34 +395,43 @@ def _bound(form: Form, call: Call, main: int | None) -> Bound:
 
 def _candidates(found: Operator, call: Call) -> Iterator[tuple[Form, int | None]]:
     """Forms to try, in order, with the index of the main operand where it chose the form."""
-    forms = found.forms
-    if found.conditional:
-        forms = [f for f in forms if _is_meant(f, call)]
+    every = choices = found.choices
+    if every.conditional:
+        choices = found.choices_where(tuple(_is_meant(f, call) for f in every.forms))
+    forms = choices.forms
     if len(forms) == 1 and forms[0].main is None:
         yield forms[0], None
         return
-    words = call.words() if found.speaks and any(f.said for f in forms) else []
+    words = call.words() if choices.said else []
     if words:
-        spoken = [f for f in found.forms if _is_said(f, words)]
-        meant = sorted((f for f in spoken if f in forms), key=lambda f: not f.of)
+        spoken = [f for f in every.said if _is_said(f, words)]
+        meant = sorted((f for f in spoken if f in forms), key=lambda f: not f.of) if spoken else []
         if spoken and not meant:
             raise call.missing(tuple(dict.fromkeys(t for f in spoken for t in f.of)) or (ANY,))
         if meant:
             yield from ((f, None) for f in meant)
             return
-    known = found.main_types
-    if found.conditional:
-        known = tuple(dict.fromkeys(t for f in forms if f.main for t in f.main.types))
-    main = call.main_operand(*known) if known else None
+    main = call.main_operand(*choices.known) if choices.known else None
     if main is not None:
         kind = type_of(call.operands[main].value)
-        chosen = [f for f in forms if f.main and accepts_kind(f.main.types, kind)]
+        chosen = _of_kind(choices, kind)
         silent = [f for f in chosen if f.said is None]
         if chosen and not silent:
             raise missing_keyword(call, _words_said(chosen))
         yield from ((f, main) for f in silent)
         return
-    yield from ((f, None) for f in forms if f.main is None and f.said is None)
+    yield from ((f, None) for f in choices.plain)
+
+
+def _of_kind(choices: Choices, kind: str) -> tuple[Form, ...]:
+    """Forms whose main operand may be of the type."""
+    found = choices.by_kind.get(kind)
+    if found is None:
+        found = tuple(
+            f for f in choices.forms if f.main is not None and accepts_kind(f.main.types, kind)
+        )
+        choices.by_kind[kind] = found
+    return found
 
 
 def _is_meant(form: Form, call: Call) -> bool:

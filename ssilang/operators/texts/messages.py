@@ -36,9 +36,8 @@ _OF_LIBRARY = "stdlib."
 _STOPPED = 308  # Cast3M's number of an error that a script reports in its own words
 
 
-def _of_library(call: Call, code: str) -> SsiError:
+def _of_library(call: Call, code: str, values: Sequence[Any]) -> SsiError:
     """What a procedure of the library refuses: a code, then what fills its sentence, in order."""
-    values = call.all("MOT", "ENTIER", "FLOTTANT", "LOGIQUE")
     data = {str(i): written(value).strip() for i, value in enumerate(values, start=1)}
     return SsiError(code, call.span, **data, number=_STOPPED)
 
@@ -107,10 +106,21 @@ def _numbered(call: Call, number: int, values: tuple[Any, ...]) -> None:
     raise SsiError("erre", call.span, message=message, number=number)
 
 
-@ERRE.form(arg("text", "MOT", en="what is wrong", fr="ce qui ne va pas"))
-def _worded(call: Call, text: str) -> None:
+@ERRE.form(
+    arg("text", "MOT", en="what is wrong", fr="ce qui ne va pas"),
+    many(
+        "values",
+        "MOT",
+        "ENTIER",
+        "FLOTTANT",
+        "LOGIQUE",
+        en="what completes a sentence of the library",
+        fr="ce qui complète une phrase de la bibliothèque",
+    ),
+)
+def _worded(call: Call, text: str, values: tuple[Any, ...]) -> None:
     if text.startswith(_OF_LIBRARY):
-        raise _of_library(call, str(text))
+        raise _of_library(call, str(text), values)
     raise SsiError("erre", call.span, message=str(text), number=_STOPPED)
 
 
