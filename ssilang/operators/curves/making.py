@@ -14,7 +14,7 @@ from ssilang.kernel.fields.node_algebra import component
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.lines.lines import line_chain
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import Entry, Help, arg, choice, key, many, operator, opt, select
 from ssilang.language.run.call import Call
 from ssilang.language.values import (
     LazyRows,
@@ -26,14 +26,78 @@ from ssilang.language.values import (
     Table,
 )
 from ssilang.operators.curves.instants import InstantField, components_in_time, value_in_time
-from ssilang.operators.curves.words import axis_name, read_colours
+from ssilang.operators.curves.words import COLOUR, axis_name, read_colours
 from ssilang.operators.workspace import workspace
 
 _LISTS = ("LISTREEL", "LISTENTI", "LISTMOTS")
 
 
+_ABSCISSA = opt("x_name", "MOT", en="name of the abscissas", fr="nom des abscisses")
+_ORDINATE = opt("y_name", "MOT", en="name of the ordinates", fr="nom des ordonnées")
+_COMPONENT = opt("name", "MOT", en="component", fr="composante", kind="component")
+
+# what EVOL reads, for its help; families of modal analysis add theirs
+_ENTRIES: dict[str, list[Entry]] = {
+    "MANU": [
+        key(
+            "type", "TYPE", arg("type", "MOT"), en="type of the ordinates", fr="type des ordonnées"
+        ),
+        key("legend", "LEGE", arg("legend", "MOT"), en="legend", fr="légende"),
+        _ABSCISSA,
+        arg("x", *_LISTS, en="abscissas", fr="abscisses"),
+        _ORDINATE,
+        arg("y", *_LISTS, en="ordinates", fr="ordonnées"),
+    ],
+    "COMP": [
+        choice(
+            "form",
+            ("REIM", "MOPH"),
+            en="real and imaginary parts (default), or modulus and phase",
+            fr="parties réelle et imaginaire (par défaut), ou module et phase",
+        ),
+        key(
+            "legends",
+            "LEGE",
+            arg("first", "MOT"),
+            arg("second", "MOT"),
+            en="legends",
+            fr="légendes",
+        ),
+        _ABSCISSA,
+        arg("x", "LISTREEL", en="abscissas", fr="abscisses"),
+        _ORDINATE,
+        arg("first", "LISTREEL", en="first parts", fr="premières parties"),
+        opt("second_name", "MOT", en="name of the second", fr="nom des secondes"),
+        arg("second", "LISTREEL", en="second parts", fr="secondes parties"),
+    ],
+    "CHPO": [
+        arg("field", "CHPOINT", en="field", fr="champ"),
+        _COMPONENT,
+        arg("line", "MAILLAGE", en="line", fr="ligne"),
+    ],
+    "TEMP": [
+        arg("history", "LISTCHPO", "TABLE", en="fields, or results", fr="champs, ou résultats"),
+        opt("times", "LISTREEL", en="their times", fr="leurs instants", unit="s"),
+        opt("index", "MOT", en="what of the results", fr="lequel des résultats"),
+        opt("steps", "LISTENTI", en="steps, all without it", fr="pas, tous sans elle"),
+        opt(
+            "names",
+            "MOT",
+            "LISTMOTS",
+            en="component, or several",
+            fr="composante, ou plusieurs",
+            kind="component",
+        ),
+        opt("support", "POINT", "MAILLAGE", en="points", fr="points"),
+        many("cell", "ENTIER", en="zone, cell, point", fr="zone, élément, point"),
+    ],
+}
+
+
 @operator(
     "EVOL",
+    COLOUR,
+    select("kind", _ENTRIES, en="where it comes from", fr="son origine"),
     family="curves",
     full_name="EVOLUTION",
     help=Help(
@@ -58,7 +122,7 @@ _LISTS = ("LISTREEL", "LISTENTI", "LISTMOTS")
             "E = EVOL 'CHPO' (X * X) 'SCAL' L ; LIST E ;",
         ),
     ),
-    reads_itself=True,
+    reads_itself="names of axes are words of any kind, spelt as keywords or colours too",
 )
 def evol(call: Call) -> Curve:
     """Choose the kind of curve."""
