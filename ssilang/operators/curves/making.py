@@ -14,7 +14,18 @@ from ssilang.kernel.fields.node_algebra import component
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.lines.lines import line_chain
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.registry import Entry, Help, arg, choice, key, many, operator, opt, select
+from ssilang.language.registry import (
+    Entry,
+    Help,
+    arg,
+    choice,
+    flag,
+    key,
+    many,
+    operator,
+    opt,
+    select,
+)
 from ssilang.language.run.call import Call
 from ssilang.language.values import (
     LazyRows,
@@ -36,7 +47,9 @@ _ABSCISSA = opt("x_name", "MOT", en="name of the abscissas", fr="nom des absciss
 _ORDINATE = opt("y_name", "MOT", en="name of the ordinates", fr="nom des ordonnées")
 _COMPONENT = opt("name", "MOT", en="component", fr="composante", kind="component")
 
-# what EVOL reads, for its help; families of modal analysis add theirs
+_BASIS = arg("basis", "TABLE", "MMODEL", en="basis of shapes", fr="base de déformées")
+
+# what EVOL reads, for its help
 _ENTRIES: dict[str, list[Entry]] = {
     "MANU": [
         key(
@@ -90,6 +103,46 @@ _ENTRIES: dict[str, list[Entry]] = {
         ),
         opt("support", "POINT", "MAILLAGE", en="points", fr="points"),
         many("cell", "ENTIER", en="zone, cell, point", fr="zone, élément, point"),
+    ],
+    "RECO": [
+        arg(
+            "history", "LISTCHPO", "TABLE", en="contributions in time", fr="contributions en temps"
+        ),
+        opt("times", "LISTREEL", en="their times", fr="leurs instants", unit="s"),
+        _BASIS,
+        opt("count", "ENTIER", en="number of shapes, all without it", fr="nombre de déformées"),
+        opt("load", "CHARGEME", en="load of pseudo-modes", fr="chargement des pseudo-modes"),
+        choice(
+            "quantity",
+            ("DEPL", "VITE", "ACCE"),
+            en="displacement (default), velocity or acceleration",
+            fr="déplacement (par défaut), vitesse ou accélération",
+        ),
+        _COMPONENT,
+        opt("support", "POINT", "MAILLAGE", "CHPOINT", en="points", fr="points"),
+    ],
+    "SOLU": [
+        arg("results", "TABLE", en="results of DYNE", fr="résultats de DYNE"),
+        choice(
+            "quantity",
+            ("DEPL", "VITE", "ACCE", "TRAVAIL_INTERIEUR", "TRAVAIL_EXTERIEUR"),
+            en="what of them",
+            fr="lesquels",
+            length=9,
+        ),
+        opt("basis", "TABLE", en="basis", fr="base"),
+        flag("modes", "ALFA", en="of its modes", fr="de ses modes"),
+        opt("support", "POINT", "MAILLAGE", "CHPOINT", en="marks", fr="points repères"),
+        _COMPONENT,
+        opt("times", "LISTREEL", en="times", fr="instants", unit="s"),
+    ],
+    "PJBA": [
+        arg("history", "LISTCHPO", "TABLE", en="fields in time", fr="champs en temps"),
+        opt("times", "LISTREEL", en="their times", fr="leurs instants", unit="s"),
+        opt("steps", "LISTENTI", en="steps, all without it", fr="pas, tous sans elle"),
+        _BASIS,
+        opt("shapes", "ENTIER", "LISTENTI", en="shapes, all without it", fr="déformées, toutes"),
+        opt("metric", "RIGIDITE", en="matrix of the product", fr="matrice du produit"),
     ],
 }
 
