@@ -299,12 +299,6 @@ MESSAGES: dict[str, Message] = {
         "CONTINU gives them",
         "CONTINU les donne",
     ),
-    "which-direction": Message(
-        "in which direction does the ground move?",
-        "dans quelle direction le sol bouge-t-il ?",
-        "'UX' 'UY' 'UZ'",
-        "'UX' 'UY' 'UZ'",
-    ),
     "table-without-modes": Message(
         "the table holds no mode",
         "la table ne contient aucun mode",
@@ -353,12 +347,6 @@ MESSAGES: dict[str, Message] = {
         "les systèmes amortis ou non symétriques ont des modes complexes",
         "use VIBR 'IRAM' for them",
         "calculez-les par VIBR 'IRAM'",
-    ),
-    "which-method": Message(
-        "no method is named",
-        "aucune méthode n'est nommée",
-        "say one of {methods:words}",
-        "donnez l'un des mots {methods:words}",
     ),
     "frequencies-and-numbers-differ": Message(
         "{n_frequencies} {n_frequencies:frequency|frequencies} and {n_numbers} "
