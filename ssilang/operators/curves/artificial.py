@@ -14,7 +14,6 @@ from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
 from ssilang.operators.curves.words import one_part
 from ssilang.operators.numbers.noise import session_generator
-from ssilang.operators.numbers.numbers import session_generator
 
 _SERIES = ("ACCE", "VITE", "DEPL")
 _SEED = key("seed", "INIT", arg("seed", "ENTIER"), en="start of the random numbers", fr="germe")
