@@ -19,7 +19,7 @@ NAME = "NOM"
 Function = Callable[..., Any]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Argument:
     """An operand read by type.
 
@@ -51,7 +51,7 @@ class Argument:
     whole: bool = False
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Keyword:
     """Words of which one may stand among the operands, with the operands that follow it.
 
@@ -70,7 +70,7 @@ class Keyword:
     fr: str = ""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Select:
     """A keyword that decides what is read behind it: entries by word.
 
@@ -95,7 +95,7 @@ class Select:
         return tuple(self.cases)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Group:
     """Entries read one after the other, as often as they stand there if `repeated`.
 
@@ -114,7 +114,7 @@ class Group:
     times: str = ""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Either:
     """One of several groups: the first that can be read, passed as a `Chosen` by its name."""
 
@@ -370,11 +370,8 @@ class Form:
     """The operand that decides that this form runs."""
     beside: frozenset[str] = field(init=False, repr=False, compare=False)
     """Its other keywords, four letters of each: they may stand before the word that says it."""
-
     rest: tuple[Entry, ...] = field(init=False, repr=False, compare=False)
-    """Its entries but for the main operand."""
-    plain: bool = field(init=False, repr=False, compare=False)
-    """Whether it has operands alone, which are read one after the other."""
+    """Its entries but the main one."""
 
     def __post_init__(self) -> None:
         entries = self.entries or ()
@@ -388,23 +385,8 @@ class Form:
         words = () if self.by_hand else words_in(entries[1:])
         object.__setattr__(self, "said", said)
         object.__setattr__(self, "main", main)
-        object.__setattr__(self, "beside", frozenset(w[:4].rstrip() for w in words))
         object.__setattr__(self, "rest", tuple(e for e in entries if e is not main))
-        object.__setattr__(self, "plain", all(isinstance(e, Argument) for e in entries))
-
-
-class Choices:
-    """What chooses among forms, gathered once."""
-
-    def __init__(self, forms: Sequence[Form]) -> None:
-        self.forms = tuple(forms)
-        self.conditional = any(f.when is not None or f.of for f in forms)
-        self.said = tuple(f for f in forms if f.said is not None)
-        self.known = tuple(
-            dict.fromkeys(t for f in forms if f.main is not None for t in f.main.types)
-        )
-        self.plain = tuple(f for f in forms if f.main is None and f.said is None)
-        self.by_kind: dict[str, tuple[Form, ...]] = {}  # forms by the type of the main operand
+        object.__setattr__(self, "beside", frozenset(w[:4].rstrip() for w in words))
 
 
 @dataclass(slots=True)
@@ -418,24 +400,9 @@ class Operator:
     aliases: tuple[str, ...] = ()
     terminal: bool = False  # its result is not looked at as an operator's name
     full_name: str = ""  # as usually written: 'MODELISER', 'RIGIDITE'
-    _choices: Choices | None = None
-    _meant: dict[tuple[bool, ...], Choices] = field(default_factory=dict)
-
-    @property
-    def choices(self) -> Choices:
-        """What chooses among all forms."""
-        if self._choices is None or len(self._choices.forms) != len(self.forms):
-            self._choices = Choices(self.forms)
-            self._meant.clear()
-        return self._choices
-
-    def choices_where(self, meant: tuple[bool, ...]) -> Choices:
-        """What chooses among the forms that the session and the phrase allow."""
-        found = self._meant.get(meant)
-        if found is None:
-            kept = [f for f, allowed in zip(self.forms, meant, strict=True) if allowed]
-            found = self._meant[meant] = Choices(kept)
-        return found
+    conditional: bool = False  # a form has a condition
+    speaks: bool = False  # a form is said by a word
+    main_types: tuple[str, ...] = ()  # of main operands
 
     @property
     def help(self) -> Help:
@@ -447,6 +414,13 @@ class Operator:
             "\n".join(h.syntax for h in helps if h.syntax),
             tuple(e for h in helps for e in h.examples),
         )
+
+    def _add(self, form: Form) -> None:
+        self.forms.append(form)
+        self.conditional |= form.when is not None or bool(form.of)
+        self.speaks |= form.said is not None
+        more = form.main.types if form.main is not None else ()
+        self.main_types = tuple(dict.fromkeys((*self.main_types, *more)))
 
     def form(
         self,
@@ -486,7 +460,7 @@ class Operator:
 
         def add(function: Function) -> Function:
             help = Help(en, fr, syntax, tuple(examples))
-            self.forms.append(
+            self._add(
                 Form(
                     tuple(entries) if entries or not by_hand else None,
                     function,
