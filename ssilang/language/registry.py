@@ -378,9 +378,6 @@ class Form:
     beside: frozenset[str] = field(init=False, repr=False, compare=False)
     """Its other keywords, four letters of each: they may stand before the word that says it."""
     rest: tuple[Entry, ...] = field(init=False, repr=False, compare=False)
-    """Its entries but the main one."""
-
-    rest: tuple[Entry, ...] = field(init=False, repr=False, compare=False)
     """Its entries but for the main operand."""
     plain: bool = field(init=False, repr=False, compare=False)
     """Whether it has operands alone, which are read one after the other."""
@@ -397,7 +394,6 @@ class Form:
         words = () if self.by_hand else words_in(entries[1:])
         object.__setattr__(self, "said", said)
         object.__setattr__(self, "main", main)
-        object.__setattr__(self, "rest", tuple(e for e in entries if e is not main))
         object.__setattr__(self, "beside", frozenset(w[:4].rstrip() for w in words))
         object.__setattr__(self, "rest", tuple(e for e in entries if e is not main))
         object.__setattr__(self, "plain", all(isinstance(e, Argument) for e in entries))

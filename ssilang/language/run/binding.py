@@ -65,6 +65,9 @@ class Binder:
         """
         made = _prepared(tuple(entries))
         keywords = made.keywords
+        if not keywords and not self._levels and len(made.operands) == len(entries) == 1:
+            _, only, read = made.operands[0]  # nothing can stand between
+            return {only.name: read(self, only, after)}
         level = _Level(keywords, {k.name: [] if k.repeated else k.default for k in keywords})
         self._levels.append(level)
         try:
