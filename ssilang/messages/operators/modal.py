@@ -165,12 +165,6 @@ MESSAGES: dict[str, Message] = {
         "index {index} of the table {subtype} is a CHPOINT",
         "l'indice {index} de la table {subtype} est un CHPOINT",
     ),
-    "which-scheme": Message(
-        "which scheme steps in time?",
-        "quel schéma avance en temps ?",
-        "{schemes:words}",
-        "{schemes:words}",
-    ),
     "dyne-wants-table-base": Message(
         "DYNE wants a table BASE_MODALE or RAIDEUR_ET_MASSE",
         "DYNE veut une table BASE_MODALE ou RAIDEUR_ET_MASSE",

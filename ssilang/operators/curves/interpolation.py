@@ -39,7 +39,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel, Table
-from ssilang.operators.curves.items import numbered
+from ssilang.operators.curves.extraction import numbered
 from ssilang.operators.curves.words import CURVE
 from ssilang.operators.dispatch import INTG
 from ssilang.operators.fields.cloud_functions import interpolate_cloud

@@ -60,14 +60,12 @@ TABLES = many(
 
 def _dyne(
     call: Call,
-    scheme: str | None,
+    scheme: str,
     given: tuple[Table, ...],
     steps: int,
     h: float,
     every: int,
 ) -> Table:
-    if scheme is None:
-        raise call.error("operators.modal.which-scheme", schemes=[f"'{s}'" for s in SCHEMES])
     tables = tables_by_role(call, given, _ROLES)
     if "system" not in tables:
         raise call.error("operators.modal.dyne-wants-table-base")
@@ -301,7 +299,7 @@ _EXAMPLE = (
 )
 operator(
     "DYNE",
-    choice("scheme", SCHEMES, en="how time is stepped", fr="schéma en temps"),
+    choice("scheme", SCHEMES, optional=False, en="how time is stepped", fr="schéma en temps"),
     TABLES,
     arg("steps", "ENTIER", en="number of steps", fr="nombre de pas"),
     arg("h", "FLOTTANT", en="time step", fr="pas de temps", unit="s"),

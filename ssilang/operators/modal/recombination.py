@@ -19,7 +19,7 @@ from ssilang.kernel.stepping.problem.loading import terms_of
 from ssilang.language.registry import Chosen, Help, arg, choice, main, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListReel, Mot, Table
-from ssilang.operators.curves.making import results_in_time
+from ssilang.operators.curves.evol import results_in_time
 from ssilang.operators.modal.basis import BASIS, Shape, basis_shapes, shapes_in
 
 QUANTITIES = ("DEPL", "VITE", "ACCE", "CONT", "REAC")

@@ -71,8 +71,8 @@ _ENTRIES: dict[str, list[Entry]] = {
         key(
             "legends",
             "LEGE",
-            arg("first", "MOT"),
-            arg("second", "MOT"),
+            arg("first", "MOT", en="of the first", fr="de la première"),
+            arg("second", "MOT", en="of the second", fr="de la seconde"),
             en="legends",
             fr="légendes",
         ),
