@@ -307,8 +307,10 @@ MESSAGES: dict[str, Message] = {
         "phrases run from left to right without precedence; put parentheses where you mean them",
         "les phrases vont de gauche à droite sans priorité ; mettez des parenthèses",
     ),
-    "arithmetic": Message("{reason_text}", "{reason_text}"),
-    "bad-value": Message("{message}", "{message}", "{hint}", "{hint}"),
+    "arithmetic": Message("{reason}", "{reason}"),
+    "division-by-zero": Message("division by zero", "division par zéro"),
+    "too-large": Message("the result is too large", "le résultat est trop grand"),
+    "no-value": Message("these values have no result", "ces valeurs n'ont pas de résultat"),
     # ---- entries of the tables of procedures
     "entry-missing": Message(
         "{procedure}: the entry {where} is missing",

@@ -20,7 +20,7 @@ One is singular in English; in French nought is, too.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
@@ -123,29 +123,16 @@ def _room(name: str) -> dict[str, Message]:
     return found
 
 
-TRANSLATORS: list[Callable[[str], str]] = []
-"""Makes French of sentences that stand in no catalogue yet (code 'bad-value')."""
-
-
-def _translated(code: str, data: Mapping[str, Any], language: str) -> Mapping[str, Any]:
-    if code != "bad-value" or language == "en":
-        return data
-    told = {k: v for k, v in data.items() if k in ("message", "hint")}
-    for translate in TRANSLATORS:
-        told = {k: translate(str(v)) for k, v in told.items()}
-    return {**data, **told}
-
-
 def sentence(code: str, data: Mapping[str, Any], language: str = "en") -> str:
     """What is wrong, in 'en' or 'fr'; `speaker` among the data is named first."""
-    message, data = find(code), _translated(code, data, language)
+    message = find(code)
     text = filled(message.en if language == "en" else message.fr, data, language)
     return f"{data['speaker']}{_COLON[language]}{text}" if "speaker" in data else text
 
 
 def hint(code: str, data: Mapping[str, Any], language: str = "en", script: bool = False) -> str:
     """What to do about it, '' if nothing is known; `script`: in the words of scripts."""
-    message, data = find(code), _translated(code, data, language)
+    message = find(code)
     hints = (message.hint_en, message.hint_fr)
     if script and code.startswith("kernel."):
         from ssilang.messages.script import HINTS

@@ -873,4 +873,8 @@ MESSAGES: dict[str, Message] = {
         "ZIGZAG: the two vectors are in line and make no plane",
         "ZIGZAG : les deux vecteurs sont alignés et ne font pas de plan",
     ),
+    "spplanc-no-mode": Message(
+        "SPPLANC: FREQU, AMORT or COEFFPL have no item {1}",
+        "SPPLANC : FREQU, AMORT ou COEFFPL n'ont pas d'élément {1}",
+    ),
 }

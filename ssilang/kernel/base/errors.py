@@ -8,10 +8,9 @@ from ssilang.messages.message import Refusal
 class KernelError(Refusal):
     """An input or a state that the kernel cannot work with."""
 
-    def __init__(self, code: str, hint: str = "", /, **data: object) -> None:
-        if " " in code:  # a sentence of its own, not yet in a catalogue
-            code, data = "bad-value", {"message": code, "hint": hint}
-        super().__init__(code, **data)
+
+class NoResultError(KernelError, ArithmeticError):
+    """A sign between two values that have no result: the values are at fault, not the sign."""
 
 
 class MeshError(KernelError):

@@ -7,13 +7,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ssilang.kernel.base.errors import NoResultError
+
 
 def real_power(base: Any, exponent: Any) -> NDArray[np.float64]:
     """``base ** exponent`` elementwise; (-8) ** (1/3) is -2.
 
     Raises
     ------
-    ValueError
+    NoResultError
         If a negative number is raised to a power that is neither an integer nor the inverse of
         an odd integer.
     """
@@ -25,7 +27,9 @@ def real_power(base: Any, exponent: Any) -> NDArray[np.float64]:
     odd = (np.abs(order - np.round(order)) <= 1e-12 * np.abs(order)) & (np.round(order) % 2 == 1)
     if not odd.all():
         worst = np.flatnonzero(~odd)[0]
-        raise ValueError(f"{x[low][worst]:g} ** {power[low][worst]:g} has no real value")
+        raise NoResultError(
+            "kernel.base.no-real-power", number=x[low][worst], power=power[low][worst]
+        )
     roots = np.power(np.abs(x), power)
     made: NDArray[np.float64] = np.where(low, -roots, np.power(np.where(low, 1.0, x), power))
     return made

@@ -318,10 +318,6 @@ class Call:
         """A warning placed at the operator."""
         self.session.warn(code, self.span, **{"operator": self.name, **data})
 
-    def bad(self, message: str, value: object = None, hint: str = "") -> SsiError:
-        """An error in words of its own, placed like `error`."""
-        return self.error("bad-value", value, message=message, hint=hint)
-
 
 def _is_operand(held: object, value: object) -> bool:
     """Whether an operand's value is the one meant; words are also known by what they say."""

@@ -10,14 +10,11 @@ from ssilang.language.near import LIKE, VERY_LIKE, nearest
 from ssilang.language.registry import ANY, OPERATORS, find_operator, keywords_of
 from ssilang.language.say import hints
 from ssilang.language.say.errors import SsiError
-from ssilang.language.say.translations import in_french
 from ssilang.language.text.source import Span
 from ssilang.language.values import type_of
 from ssilang.language.vocabulary import words_of
 from ssilang.messages import message
 from ssilang.resources import resource
-
-message.TRANSLATORS[:] = [in_french]
 
 _OR = {"en": " or ", "fr": " ou "}
 _ANY = {"en": "an object", "fr": "un objet"}
@@ -174,8 +171,6 @@ def _derived(error: SsiError, language: str, names: Iterable[str]) -> dict[str, 
         made["found"] = {"en": "nothing", "fr": "rien"}[language]
     if data.get("wanted"):
         made["wanted_text"] = {"en": " of type ", "fr": " de type "}[language] + str(data["wanted"])
-    if error.code == "arithmetic":
-        made["reason_text"] = _reason(str(data.get("reason")), language)
     if data.get("before"):
         before = {"en": "; it ends behind a word, here {}", "fr": " ; un mot l'arrête, ici {}"}
         made["before_text"] = before[language].format(data["before"])
@@ -218,23 +213,6 @@ def _article(kind: str, language: str) -> str:
     if language == "fr":
         return f"un {kind}"
     return f"an {kind}" if kind[0] in "AEIO" else f"a {kind}"
-
-
-def _reason(reason: str, language: str) -> str:
-    """Python's reasons of failed arithmetic in a user's words."""
-    for sign, (english, french) in _REASONS.items():
-        if sign in reason:
-            return english if language == "en" else french
-    return in_french(reason) if language == "fr" else reason
-
-
-_REASONS = {
-    "by zero": ("division by zero", "division par zéro"),
-    "negative power": ("division by zero", "division par zéro"),
-    "too large": ("the result is too large", "le résultat est trop grand"),
-    "out of range": ("the result is too large", "le résultat est trop grand"),
-    "infinity": ("the result is too large", "le résultat est trop grand"),
-}
 
 
 _POINT_HINT = {

@@ -3,6 +3,11 @@
 from ssilang.messages.message import Message
 
 MESSAGES: dict[str, Message] = {
+    "no-followers": Message(
+        "follower loads of a procedure are not built for structures",
+        "les forces suiveuses d'une procédure ne sont pas faites pour les structures",
+    ),
+    "static-path": Message("the path of loads is static", "le trajet de chargement est statique"),
     "plastic-in-finite-motion": Message(
         "plastic bodies have small displacements only",
         "les corps plastiques n'ont que de petits déplacements",

@@ -15,6 +15,27 @@ MESSAGES: dict[str, Message] = {
         "TABL 'ESCLAVE', PART",
         "TABL 'ESCLAVE', PART",
     ),
+    "entry-not-available": Message(
+        "the entry '{index}' is not available: {reason}",
+        "l'indice '{index}' n'est pas disponible : {reason}",
+    ),
+    "few-instants": Message(
+        "'{index}' has {count} {count:instant|instants}",
+        "'{index}' a {count} {count:instant|instants}",
+        "two instants or more",
+        "deux instants ou plus",
+    ),
+    "instants-not-increasing": Message(
+        "'{index}' does not increase: {value:g} follows {before:g} "
+        "(values {place} and {next_place})",
+        "'{index}' ne croît pas : {value:g} suit {before:g} (valeurs {place} et {next_place})",
+        "each instant after the one before it",
+        "chaque instant après celui qui le précède",
+    ),
+    "not-a-vector": Message(
+        "a table of sub-type VECTEUR is needed, found '{subtype}'",
+        "il faut une table de sous-type VECTEUR, trouvé '{subtype}'",
+    ),
     "empty-table": Message(
         "the table holds nothing at integer indices",
         "la table ne contient rien aux indices entiers",

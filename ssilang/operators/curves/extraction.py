@@ -9,6 +9,7 @@ import numpy as np
 
 from ssilang.io.plots.palette import NAMES
 from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import NoResultError
 from ssilang.kernel.curves.algebra import combined, is_complex
 from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.language.registry import Chosen, arg, by, choice, flag, main, opt, said, select
@@ -364,7 +365,7 @@ def _scaled(sign: str, curve: Curve, number: Any, left: bool) -> Curve:
             parts.append(part)
             continue
         if sign == "/" and (np.any(part.ordinates == 0) if left else number == 0):
-            raise ValueError("division by zero")
+            raise NoResultError("division-by-zero")
         y = run(number, part.ordinates) if left else run(part.ordinates, number)
         parts.append(dataclasses.replace(part, ordinates=np.asarray(y, dtype=float)))
     return dataclasses.replace(curve, parts=tuple(parts))

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import NoResultError
 from ssilang.kernel.curves.algebra import (
     crossings,
     integral,
@@ -224,7 +225,7 @@ def on_line(call: Call, field: NodeField, distance: float) -> Point:
 
 def _through(field: Any, curve: Curve) -> Any:
     if len(curve.parts) != 1:
-        raise ValueError(f"one curve is needed, this object has {len(curve.parts)}")
+        raise NoResultError("operators.curves.one-curve-wanted", n_parts=len(curve.parts))
     part = curve.parts[0]
     return mapped(lambda at: interpolated(part.abscissas, part.ordinates, at), field)
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.base.errors import FieldError
+from ssilang.kernel.base.errors import FieldError, NoResultError
 from ssilang.kernel.base.powers import real_power
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.kernel.fields.cell_field import CellField
@@ -91,7 +91,7 @@ def _power(x: Any, exponent: float) -> Any:
         raise FieldError("operators.fields.zero-no-power", exponent=exponent)
     try:
         return real_power(x, exponent)
-    except ValueError as error:
+    except NoResultError as error:
         raise FieldError("operators.fields.negative-value-no-power", exponent=exponent) from error
 
 

@@ -9,11 +9,13 @@ from typing import Any, TypeVar
 
 import numpy as np
 
+from ssilang.kernel.base.errors import NoResultError
 from ssilang.kernel.base.powers import real_power
 from ssilang.language.registry import ANY, SCALAR_RULES, Help, arg, operator
 from ssilang.language.run.call import Call
 from ssilang.language.say.errors import SsiError
 from ssilang.language.values import ListEnti, ListReel, Table, type_of
+from ssilang.messages.message import Said, Sentence
 
 Rule = Callable[[Any, Any], Any]
 
@@ -68,13 +70,13 @@ def _integer_divide(a: int, b: int) -> int:
 
 def _integer_power(a: int, b: int) -> int:
     if b > 0 and b * a.bit_length() > _INTEGER_BITS:
-        raise OverflowError("the integer is too large")
+        raise OverflowError
     return int(a**b) if b >= 0 else int(float(a) ** b)
 
 
 def _integer_product(a: int, b: int) -> int:
     if a.bit_length() + b.bit_length() > _INTEGER_BITS:
-        raise OverflowError("the integer is too large")
+        raise OverflowError
     return a * b
 
 
@@ -116,7 +118,7 @@ def _list_rule(sign: str) -> Rule:
     def run(a: Any, b: Any) -> Any:
         x, y = getattr(a, "values", a), getattr(b, "values", b)
         if isinstance(x, np.ndarray) and isinstance(y, np.ndarray) and len(x) != len(y):
-            raise ValueError(f"the lists have {len(x)} and {len(y)} items")
+            raise NoResultError("operators.numbers.list-lengths", n_first=len(x), n_second=len(y))
         if all(isinstance(v, int) or getattr(v, "dtype", None) == np.int64 for v in (x, y)):
             return ListEnti(_integer_arrays(sign, np.asarray(x), np.asarray(y)))
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -173,8 +175,16 @@ def compute(sign: str, call: Call) -> Any:
         return found(left.value, right.value)
     except (ArithmeticError, ValueError, TypeError) as problem:
         raise SsiError(
-            "arithmetic", left.span.to(right.span), operator=sign, reason=str(problem)
+            "arithmetic", left.span.to(right.span), operator=sign, reason=_reason(problem)
         ) from None
+
+
+def _reason(problem: Exception) -> Said:
+    if isinstance(problem, NoResultError):
+        return problem
+    if isinstance(problem, ZeroDivisionError):
+        return Sentence("division-by-zero")
+    return Sentence("too-large" if isinstance(problem, OverflowError) else "no-value")
 
 
 def _sum_of_table(sign: str, call: Call, table: Table) -> Any:

@@ -25,8 +25,8 @@ if TYPE_CHECKING:
     from ssilang.kernel.stepping.snapshot import Observer, Snapshot
 
 REFUSED = {
-    "PROCEDURE_CHARMECA": "follower loads of a procedure are not built for structures",
-    "DYNAMIQUE": "the path of loads is static",
+    "PROCEDURE_CHARMECA": "operators.statics.no-followers",
+    "DYNAMIQUE": "operators.statics.static-path",
 }
 
 

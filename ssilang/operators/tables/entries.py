@@ -18,6 +18,7 @@ from ssilang.language.text.source import Span
 from ssilang.language.values import Annule, Table
 from ssilang.language.vocabulary.entries import NUMBER, TableEntry
 from ssilang.language.vocabulary.entry_checks import TableCheck, checked, shown
+from ssilang.messages.message import Sentence
 
 
 class Entries:
@@ -98,7 +99,7 @@ class Entries:
             return None
         values = np.asarray(given.values, dtype=float)
         if len(values) < 2:
-            raise self.bad(f"'{index}' has {len(values)} instants", "two instants or more")
+            raise self.error("operators.tables.few-instants", index=index, count=len(values))
         self.increasing(index, values)
         return values
 
@@ -107,10 +108,13 @@ class Entries:
         wrong = np.flatnonzero(np.diff(values) <= 0.0)
         if len(wrong):
             i = int(wrong[0])
-            raise self.bad(
-                f"'{index}' does not increase: {values[i + 1]:g} follows {values[i]:g} "
-                f"(values {i + 1} and {i + 2})",
-                "each instant after the one before it",
+            raise self.error(
+                "operators.tables.instants-not-increasing",
+                index=index,
+                value=values[i + 1],
+                before=values[i],
+                place=i + 1,
+                next_place=i + 2,
             )
 
     @contextmanager
@@ -156,13 +160,15 @@ class Entries:
                         inner.remove(i)
 
     def refuse(self, wrong: Mapping[str, str]) -> None:
-        """Refuse entries that have no effect here; `wrong` says why, by index.
+        """Refuse entries that have no effect here; `wrong` has the code that says why, by index.
 
         A LOGIQUE at FAUX asks for nothing and passes.
         """
-        for index, reason in wrong.items():
+        for index, code in wrong.items():
             if self.has(index) and self.table.get(index) is not False:
-                raise self.bad(f"the entry '{index}' is not available: {reason}")
+                raise self.error(
+                    "operators.tables.entry-not-available", index=index, reason=Sentence(code)
+                )
 
     def saved_steps(self, suffix: str, times: FloatArray) -> NDArray[np.bool_]:
         """Steps asked for by PAS_SAUVES(suffix) or TEMPS_SAUVES(suffix), shape (n_times,)."""
@@ -182,10 +188,6 @@ class Entries:
         """An error of the procedure."""
         return self.call.error(code, None, **{"speaker": self.procedure, **data})
 
-    def bad(self, message: str, hint: str = "") -> SsiError:
-        """An error of the procedure, in a sentence that stands in no catalogue yet."""
-        return self.call.bad(f"{self.procedure}: {message}", hint=hint)
-
     @property
     def place(self) -> Span:
         """Where the script calls the procedure: its own line, not one of the library."""
@@ -197,8 +199,6 @@ class Entries:
             frame = frame.caller
         return place
 
-    def warn(self, code: str, hint: str = "", /, **data: object) -> None:
+    def warn(self, code: str, /, **data: object) -> None:
         """A warning of the procedure."""
-        if " " in code:  # a sentence of its own, not yet in a catalogue
-            code, data = "bad-value", {"message": code, "hint": hint}
         self.call.session.warn(code, self.place, **{"operator": self.procedure, **data})

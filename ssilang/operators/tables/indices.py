@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from ssilang.kernel.base.errors import NoResultError
 from ssilang.language.registry import (
     Help,
     arg,
@@ -158,7 +159,7 @@ def _scale_vector(sign: str, table: Table, factor: float) -> Table:
 def _check_vectors(*tables: Table) -> None:
     for table in tables:
         if table.subtype != "VECTEUR":
-            raise ValueError(f"a table of sub-type VECTEUR is needed, found '{table.subtype}'")
+            raise NoResultError("operators.tables.not-a-vector", subtype=table.subtype)
 
 
 for _kind in ("ENTIER", "FLOTTANT"):

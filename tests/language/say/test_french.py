@@ -1,0 +1,37 @@
+"""Errors of a run said in French."""
+
+import io
+
+import pytest
+
+from ssilang.cli.run import RunOptions, run_source
+from ssilang.language.say.diagnostics import render
+from ssilang.language.text.source import Source
+
+_PLATE = (
+    "OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ; P1 = 0. 0. ; L1 = DROI 2 P1 (1. 0.) ; "
+    "S1 = L1 TRAN 2 (0. 1.) ; MO1 = MODE S1 MECANIQUE ELASTIQUE ; "
+)
+
+
+@pytest.mark.parametrize(
+    ("script", "sentences"),
+    [
+        (
+            _PLATE + "MA1 = MATE MO1 YOUN 1. NU 0.3 ; R = RIGI MO1 MA1 ; F = FORC FX 1. P1 ; "
+            "U = RESO R F ;",
+            ("la matrice est singulière : ", "translation suivant", "non tenu : "),
+        ),
+        (
+            _PLATE + "MA1 = MATE MO1 YOUN 1. ; R = RIGI MO1 MA1 ;",
+            ("le paramètre NU manque pour l'élément QUA4", "sont donnés : YOUN"),
+        ),
+        ("L = PROG 1000000000 * 1. ;", ("trop long", "cherchez un pas")),
+    ],
+)
+def test_errors_of_a_run_are_told_in_french(script, sentences, tmp_path):
+    options = RunOptions(tmp_path)
+    result = run_source(Source("deck", script), options, io.StringIO(), io.StringIO())
+    text = render(result.errors[0], "fr")
+    assert all(s in text for s in sentences), text
+    assert "singular" in render(result.errors[0]) or "singulière" not in text
