@@ -410,7 +410,8 @@ class Choices:
             dict.fromkeys(t for f in forms if f.main is not None for t in f.main.types)
         )
         self.plain = tuple(f for f in forms if f.main is None and f.said is None)
-        self.by_kind: dict[str, tuple[Form, ...]] = {}  # forms by the type of the main operand
+        # forms by the type of the main operand, and those of them that want no word
+        self.by_kind: dict[str, tuple[tuple[Form, ...], tuple[Form, ...]]] = {}
 
 
 @dataclass(slots=True)

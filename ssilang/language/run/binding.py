@@ -348,8 +348,11 @@ def bind_operator(found: Operator, call: Call) -> Bound:
     SsiError
         That of the form which got furthest, operands put back.
     """
+    forms, main = _candidates(found, call)
+    if len(forms) == 1:
+        return _bound(forms[0], call, main)  # no other form needs the operands as they stood
     worst: tuple[int, SsiError] | None = None
-    for form, main in _candidates(found, call):
+    for form in forms:
         operands, used = list(call.operands), len(call.used)
         try:
             return _bound(form, call, main)
@@ -396,15 +399,14 @@ def _bound(form: Form, call: Call, main: int | None) -> Bound:
     return Bound(form, values)
 
 
-def _candidates(found: Operator, call: Call) -> Iterator[tuple[Form, int | None]]:
-    """Forms to try, in order, with the index of the main operand where it chose the form."""
+def _candidates(found: Operator, call: Call) -> tuple[Sequence[Form], int | None]:
+    """Forms to try, in order, and the index of the main operand where it chose them."""
     every = choices = found.choices
     if every.conditional:
         choices = found.choices_where(tuple(_is_meant(f, call) for f in every.forms))
     forms = choices.forms
     if len(forms) == 1 and forms[0].main is None:
-        yield forms[0], None
-        return
+        return forms, None
     words = call.words() if choices.said else []
     if words:
         spoken = [f for f in every.said if _is_said(f, words)]
@@ -412,28 +414,24 @@ def _candidates(found: Operator, call: Call) -> Iterator[tuple[Form, int | None]
         if spoken and not meant:
             raise call.missing(tuple(dict.fromkeys(t for f in spoken for t in f.of)) or (ANY,))
         if meant:
-            yield from ((f, None) for f in meant)
-            return
+            return meant, None
     main = call.main_operand(*choices.known) if choices.known else None
     if main is not None:
-        kind = type_of(call.operands[main].value)
-        chosen = _of_kind(choices, kind)
-        silent = [f for f in chosen if f.said is None]
+        chosen, silent = _of_kind(choices, type_of(call.operands[main].value))
         if chosen and not silent:
             raise missing_keyword(call, _words_said(chosen))
-        yield from ((f, main) for f in silent)
-        return
-    yield from ((f, None) for f in choices.plain)
+        return silent, main
+    return choices.plain, None
 
 
-def _of_kind(choices: Choices, kind: str) -> tuple[Form, ...]:
-    """Forms whose main operand may be of the type."""
+def _of_kind(choices: Choices, kind: str) -> tuple[tuple[Form, ...], tuple[Form, ...]]:
+    """Forms whose main operand may be of the type, and those of them that want no word."""
     found = choices.by_kind.get(kind)
     if found is None:
-        found = tuple(
+        fit = tuple(
             f for f in choices.forms if f.main is not None and accepts_kind(f.main.types, kind)
         )
-        choices.by_kind[kind] = found
+        found = choices.by_kind[kind] = fit, tuple(f for f in fit if f.said is None)
     return found
 
 
