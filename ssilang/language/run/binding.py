@@ -358,7 +358,7 @@ def bind_operator(found: Operator, call: Call) -> Bound:
             return _bound(form, call, main)
         except SsiError as problem:
             depth = len(call.used) - used
-            if worst is None or depth > worst[0]:
+            if worst is None or depth > worst[0] or _names_the_slip(worst, depth, problem):
                 worst = depth, problem
             elif depth == worst[0]:
                 _expects_too(worst[1], problem)
@@ -367,6 +367,19 @@ def bind_operator(found: Operator, call: Call) -> Bound:
     if worst is None:
         raise _no_form(found, call)
     raise worst[1]
+
+
+def _names_the_slip(worst: tuple[int, SsiError], depth: int, problem: SsiError) -> bool:
+    """Whether an error shows a variable where another, that got as far, only misses a word."""
+    first, expected = worst[1], problem.data.get("expected")
+    return (
+        depth == worst[0]
+        and first.code == "missing-keyword"
+        and problem.code == "wrong-argument"
+        and isinstance(expected, list)
+        and "MOT" in expected
+        and bool(problem.data.get("name"))
+    )
 
 
 def _expects_too(first: SsiError, other: SsiError) -> None:
