@@ -21,8 +21,8 @@ from ssilang.kernel.mesh.mesh import Point
 from ssilang.language.near import nearest_names
 from ssilang.language.registry import Chosen, Help, arg, each, many, operator, select
 from ssilang.language.run.call import Call
-from ssilang.operators import words
 from ssilang.operators.models.tension import material_names, tension_to_hardening
+from ssilang.operators.vocabulary import words
 
 Known = Callable[[Zone], tuple[str, ...]]
 Value = tuple[NDArray[Any], Support]

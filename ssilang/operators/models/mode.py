@@ -44,9 +44,9 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots
-from ssilang.operators import words
 from ssilang.operators.dispatch import union
 from ssilang.operators.models.contact import METHODS, cable_model, contact_model
+from ssilang.operators.vocabulary import words
 from ssilang.operators.workspace import Workspace, workspace
 
 register_family("joint", JointFamily())
