@@ -43,14 +43,14 @@ settled = frame.peer_model
 
 def sparse_seconds(steps: int, folder: Path) -> float:
     """Seconds of the loop on sparse matrices."""
-    from ssilang.kernel.stepping import choose, run
+    from ssilang.kernel.stepping import choose
 
-    kept = run.kind_of
-    run.kind_of = lambda problem, full: choose.SparseEngine
+    kept = choose.RULES
+    choose.RULES = choose.only("condensed")
     try:
         return frame.ours(steps, steps, folder)[1]
     finally:
-        run.kind_of = kept
+        choose.RULES = kept
 
 
 def main(steps: int = 5000) -> None:

@@ -47,10 +47,15 @@ def compiled_fused(function: Function) -> Function:
     return _made(function, {"contract"})
 
 
-def _made(function: Function, freedom: set[str] | bool) -> Function:
+def compiled_inline(function: Function) -> Function:
+    """As `compiled_fast`, written out in each caller: large records need not be handed over."""
+    return _made(function, {"reassoc", "contract", "nsz", "arcp"}, True)
+
+
+def _made(function: Function, freedom: set[str] | bool, inline: bool = False) -> Function:
     if not os.environ.get("NUMBA_CACHE_DIR"):
         numba.config.CACHE_DIR = str(_folder(function.__module__))  # type: ignore[attr-defined]
-    return cast(Function, numba.njit(fastmath=freedom, **_OPTIONS)(function))
+    return cast(Function, numba.njit(fastmath=freedom, forceinline=inline, **_OPTIONS)(function))
 
 
 def is_compiled(package: str) -> bool:

@@ -11,9 +11,9 @@ from ssilang.kernel.plasticity.bulk import Answer, Bulk, State
 from ssilang.kernel.solvers.backends import SingularFactorError
 from ssilang.kernel.sparse import sp
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.rests.dense.loop import Motion
 from ssilang.kernel.stepping.rests.sparse.full_newton import FullNewtonSolver
 from ssilang.kernel.stepping.rests.sparse.loop import StepOutcome
+from ssilang.kernel.stepping.state import Motion
 
 TURNS = 30
 TOLERANCE = 1e-10

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ssilang.kernel.contact.solver import step_solver
 from ssilang.kernel.errors import ConvergenceError, SingularMatrixError
 from ssilang.kernel.joints.response import interface_energies
 from ssilang.kernel.mesh.nodes import FloatArray
@@ -15,12 +16,10 @@ from ssilang.kernel.statics.linear_motion import describe_motions
 from ssilang.kernel.stepping.effective import effective_of
 from ssilang.kernel.stepping.problem.initial import initial_energies, joint_state
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.rests.dense.loop import ELASTIC, EXTERNAL, LOST, N_ENERGIES, STORED
 from ssilang.kernel.stepping.rests.sparse.loop import NOTHING, StepOutcome, StepSolver, support_work
 from ssilang.kernel.stepping.run import History, Progress
-from ssilang.kernel.stepping.snapshot import Observer
-from ssilang.kernel.stepping.state import Motion, snapshot_of
-from ssilang.kernel.stepping.step_solvers import step_solver
+from ssilang.kernel.stepping.snapshot import Observer, snapshot_of
+from ssilang.kernel.stepping.state import ELASTIC, EXTERNAL, LOST, N_ENERGIES, STORED, Motion
 
 BALANCED = 1e-13
 """Imbalance over the loads taken for rounding."""

@@ -31,7 +31,9 @@ def report(entries: Entries, problem: Problem, history: History) -> None:
     """Energies in time into the table, and a line of statistics for the summary."""
     energies = LazyTable(partial(_energy, history), promises("TEMPS", *ENERGIES, "ECART"))
     entries.table.set(Mot("ENERGIES"), energies)
-    steps = len(history.times) - 1
+    steps, session = len(history.times) - 1, entries.call.session
+    method = history.words.get(session.language, history.loop)
+    session.note(f"{entries.procedure}: {method} ({history.solver})")
     line: dict[str, Any] = {
         "procedure": entries.procedure,
         "unknowns": problem.numbering.size,
@@ -39,6 +41,7 @@ def report(entries: Entries, problem: Problem, history: History) -> None:
         "steps": steps,
         "together": history.together,
         "loop": history.loop,
+        "method": method,
         "solver": history.solver,
         "most_interface_iterations": history.iterations,
         "seconds": history.seconds,
@@ -55,7 +58,7 @@ def report(entries: Entries, problem: Problem, history: History) -> None:
             "not_reduced_because": history.reduction.refused,
             "seconds_preparing_the_basis": history.reduction.prepared,
         }
-    entries.call.session.statistics.setdefault("calculations", []).append(line)
+    session.statistics.setdefault("calculations", []).append(line)
 
 
 def none_if_nan(value: float) -> float | None:

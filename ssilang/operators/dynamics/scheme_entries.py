@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from ssilang.kernel.contact.options import ContactOptions
-from ssilang.kernel.stepping.scheme import Scheme, generalised_alpha, hht, newmark
+from ssilang.kernel.stepping.newmark import Scheme, generalised_alpha, hht, newmark
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:

@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.joints.columns import N_STATE
 from ssilang.kernel.stepping.effective import Effective
+from ssilang.kernel.stepping.newmark import newmark_of
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.dense.loop import Joints, StepOperators, System
 
 
 def system_of(problem: Problem) -> System:
     """Matrices, loads and conditions, dense."""
-    s = problem.scheme
     rows = problem.constraints.C.toarray()
     n_rows, n = rows.shape
     multipliers = np.array([problem.constraints.multipliers(e) for e in np.eye(n)])
@@ -25,7 +24,6 @@ def system_of(problem: Problem) -> System:
         np.ascontiguousarray(problem.loading.imposed),
         rows,
         np.ascontiguousarray(multipliers.reshape(n, n_rows).T),
-        np.array([s.alpha_m, s.alpha_f, s.beta, s.gamma]),
     )
 
 
@@ -35,7 +33,7 @@ def operators_of(problem: Problem, effective: Effective) -> StepOperators:
     P = effective.solve(np.eye(n))
     Q = np.array([effective.imposed(e) for e in np.eye(n_rows)]).reshape(n_rows, n)
     return StepOperators(
-        effective.dt,
+        newmark_of(problem.scheme, effective.dt),
         np.ascontiguousarray(P),
         np.ascontiguousarray(Q.T),
         np.ascontiguousarray(effective.Y),
@@ -60,7 +58,3 @@ def joints_of(problem: Problem) -> Joints:
         joints.codes,
         np.ascontiguousarray(joints.parameters),
     )
-
-
-STATE = N_STATE
-"""Columns of a joint's state."""

@@ -11,8 +11,8 @@ from ssilang.kernel.solvers.backends import SingularFactorError, factorise
 from ssilang.kernel.solvers.inverse import invert
 from ssilang.kernel.sparse import sp
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.rests.dense.loop import Motion
 from ssilang.kernel.stepping.rests.sparse.loop import StepOutcome
+from ssilang.kernel.stepping.state import Motion
 
 MOST_TURNS = 40
 TOLERANCE = 1e-12
