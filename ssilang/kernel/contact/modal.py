@@ -19,7 +19,11 @@ from ssilang.kernel.stepping.effective import Effective
 from ssilang.kernel.stepping.newmark import newmark_of
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.dense.arrays import joints_of
-from ssilang.kernel.stepping.rests.dense.still_supports import put_reactions, supports_are_still
+from ssilang.kernel.stepping.rests.dense.still_supports import (
+    keep_reactions,
+    react,
+    supports_are_still,
+)
 from ssilang.kernel.stepping.rests.modal.diagonal import Diagonal
 from ssilang.kernel.stepping.rests.modal.modes import Modes, modes_of
 from ssilang.kernel.stepping.state import Motion, Outcome, Recorder, recorder_of
@@ -119,5 +123,6 @@ class ContactLoop:
         for part, z in zip((r.u, r.v, r.a), (kept.u, kept.v, kept.a), strict=True):
             np.matmul(z, X.T, out=part)
         r.contact[:] = kept.contact
-        put_reactions(self.problem, self._joints, m, factors, r, outcome[0])
+        keep_reactions(self.problem, self._joints, factors, r)
+        react(self.problem, self._joints, m, factors[outcome[0]])
         return outcome

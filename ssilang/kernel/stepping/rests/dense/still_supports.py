@@ -64,20 +64,22 @@ class ReducedLoop:
         outcome = run_dense(self.system, self.step, self.joints, few, factors, to)
         m.u[:], m.v[:], m.a[:] = T @ few.u, T @ few.v, T @ few.a
         r.u[:], r.v[:], r.a[:] = u @ T.T, v @ T.T, a @ T.T
-        put_reactions(self.problem, self.full, m, factors, r, outcome[0])
+        keep_reactions(self.problem, self.full, factors, r)
+        react(self.problem, self.full, m, factors[outcome[0]])
         return outcome
 
 
-def put_reactions(
-    problem: Problem, joints: Joints, m: Motion, factors: FloatArray, kept: Recorder, done: int
-) -> None:
-    """Reactions of kept instants and of the motion, after `done` steps, from equilibrium."""
-    forces = problem.loading.forces.T
+def keep_reactions(problem: Problem, joints: Joints, factors: FloatArray, kept: Recorder) -> None:
+    """Reactions of kept instants, from equilibrium."""
     if len(kept.u):
-        loads = factors[1:][kept.row >= 0] @ forces
+        loads = factors[1:][kept.row >= 0] @ problem.loading.forces.T
         kept.reaction[:] = reactions(problem, joints, kept.u, kept.v, kept.a, kept.t, loads)
-    last = factors[done] @ forces
-    now = (x[None] for x in (m.u, m.v, m.a, m.t, last))
+
+
+def react(problem: Problem, joints: Joints, m: Motion, factors: FloatArray) -> None:
+    """Reactions of the motion at load factors (k,), from equilibrium."""
+    loads = problem.loading.forces @ factors
+    now = (x[None] for x in (m.u, m.v, m.a, m.t, loads))
     m.reaction[:] = reactions(problem, joints, *now)[0]
 
 

@@ -22,7 +22,7 @@ from ssilang.kernel.stepping.newmark import Newmark, advanced, newmark_of
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.dense.arrays import joints_of
 from ssilang.kernel.stepping.rests.dense.loop import Joints
-from ssilang.kernel.stepping.rests.dense.still_supports import put_reactions, supports_are_still
+from ssilang.kernel.stepping.rests.dense.still_supports import keep_reactions, supports_are_still
 from ssilang.kernel.stepping.rests.modal.diagonal import Diagonal
 from ssilang.kernel.stepping.rests.modal.loop import Modal, ModalStep, run_modal
 from ssilang.kernel.stepping.rests.modal.one_mode import carry, run_one_mode
@@ -141,7 +141,7 @@ class SmallLoop:
         if len(r.u):
             for part, z in zip((r.u, r.v, r.a), (kept.u, kept.v, kept.a), strict=True):
                 np.matmul(z, X.T, out=part)
-        put_reactions(self.problem, self._joints, m, factors, r, outcome[0])
+        keep_reactions(self.problem, self._joints, factors, r)
         return outcome
 
     def by_modes(self, factors: FloatArray, recorder: Recorder) -> tuple[Outcome, Recorder]:
