@@ -71,8 +71,8 @@ WHOLE = ("u", "v", "a", "reaction", "w", "t", "state", "contact")
 def recorder_of(
     motion: Motion, row: IntArray, energies: FloatArray, kept: Sequence[str] = WHOLE, **more: Any
 ) -> Recorder:
-    """Room for the rows of steps of a motion; `more` are other fields as they are."""
-    rows = int((row >= 0).sum())
+    """Room for the rows, numbered without gaps, of steps of a motion; `more`: other fields."""
+    rows = int(row.max(initial=-1)) + 1
     parts: dict[str, Any] = {
         name: np.zeros((rows if name in kept else 0, *getattr(motion, name).shape))
         for name in PARTS
