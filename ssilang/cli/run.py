@@ -60,6 +60,7 @@ class RunOptions:
     language: str = "en"
     debug: bool = False
     quiet: bool = False
+    verbose: bool = False  # say by which method each calculation is done
     summary: bool = False  # write summary.json into the output folder
     limits: Limits = field(default_factory=Limits)
     given: dict[str, Any] = field(default_factory=dict)  # name -> value, `--set`
@@ -123,6 +124,8 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
     """Run a source to its end, print what went wrong, write the summary."""
     session = make_session(source, options, out)
     session.on_warning = lambda w: err.write(coloured(render(w, session.language), err) + "\n")
+    if options.verbose:
+        session.on_note = lambda text: err.write(text + "\n")
     follow_loops(session, err)
     errors: list[SsiError] = []
     take()  # an interruption before this run is none of its own
