@@ -154,3 +154,4 @@ class Session:
     on_warning: Callable[[Any], object] | None = None
     was_interrupted: Callable[[], bool] = lambda: False  # a signal came that nobody has seen
     loops: LoopObserver | None = None
+    on_form: Callable[[Any, Any, Any], object] | None = None  # told of each form that runs
