@@ -57,10 +57,12 @@ class Shared:
         full_name: str = "",
         terminal: bool = False,
         length: int = 4,
+        examples: tuple[str, ...] = (),
     ) -> None:
         self.name = name
         self.length = length
-        self.operator = shared(name, family, Help(en, fr), full_name=full_name, terminal=terminal)
+        help = Help(en, fr, examples=examples)
+        self.operator = shared(name, family, help, full_name=full_name, terminal=terminal)
         self.form = self.operator.form
 
 

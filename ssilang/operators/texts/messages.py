@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, NoReturn
 
 from ssilang.language.registry import Help, arg, choice, key, many, operator, opt, shared
 from ssilang.language.run.call import Call
@@ -108,7 +108,7 @@ def _numbered(call: Call, number: int, values: tuple[Any, ...]) -> None:
 
 
 @ERRE.form(arg("text", "MOT", en="what is wrong", fr="ce qui ne va pas"))
-def _worded(call: Call, text: str) -> None:
+def _worded(call: Call, text: str) -> NoReturn:
     if text.startswith(_OF_LIBRARY):
         raise _of_library(call, str(text))
     raise SsiError("erre", call.span, message=str(text), number=_STOPPED)
