@@ -123,6 +123,23 @@ ENTRIES = (
             "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; S = TRAN 1 (DROI 1 (0 0) (1 0)) (0. 1.) ; "
             "M = MODE S MECANIQUE ELASTIQUE PLASTIQUE RH_COULOMB ; "
             "A = MATE M 'YOUN' 5.E7 'NU' 0.3 'COHE' 1.E4 'PHI' 0.52 ; LIST (TYPE A) ;",
+            (
+                "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;\n"
+                "M = MODE ((DROI 1 (1. 0.) (2. 0.)) TRAN 1 (0. 1.)) 'MECANIQUE' 'ELASTIQUE'\n"
+                "'ORTHOTROPE' ;\n"
+                "A = MATE M 'DIRE' (1. 0.) 'PARA' 'YG1' 2. 'YG2' 1. 'YG3' 1. 'NU12' 0.\n"
+                "'NU23' 0. 'NU13' 0. 'G12' 1. ;\n"
+                "MESS (MAXI (EXCO 'V1X' A)) (MAXI (EXCO 'V1Y' A)) ;\n"
+                "A = MATE M 'DIRE' (1. 0.) 'PERP' 'YG1' 2. 'YG2' 1. 'YG3' 1. 'NU12' 0.\n"
+                "'NU23' 0. 'NU13' 0. 'G12' 1. ;\n"
+                "MESS (MAXI (EXCO 'V1X' A)) (MAXI (EXCO 'V1Y' A)) ;\n"
+                "A = MATE M 'DIRE' (1. 0.) 'INCL' 60. 'YG1' 2. 'YG2' 1. 'YG3' 1. 'NU12' 0.\n"
+                "'NU23' 0. 'NU13' 0. 'G12' 1. ;\n"
+                "MESS (MAXI (EXCO 'V1X' A)) (MAXI (EXCO 'V1Y' A)) ;\n"
+                "A = MATE M 'RADI' (0. 0.) 'PARA' 'YG1' 2. 'YG2' 1. 'YG3' 1. 'NU12' 0.\n"
+                "'NU23' 0. 'NU13' 0. 'G12' 1. ;\n"
+                "MESS (MAXI (EXCO 'V1X' A)) (MAXI (EXCO 'V1Y' A)) ;"
+            ),
         ),
     ),
 )

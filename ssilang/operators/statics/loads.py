@@ -84,7 +84,10 @@ def _by_vector(call: Call, vector: Point, names: tuple[str, ...], place: Mesh | 
         "vecteur (ses coordonnées sont les composantes, donné avant le lieu) ou des composantes "
         "nommées FX FY FZ (FR FZ FT en axisymétrie).",
         syntax="FOR1 = FORC | VEC1 | MOT1 VAL1 ... GEO1 ;\nFORC TAB1 ;  (LIAISONS_STATIQUES)",
-        examples=("OPTI DIME 2 ; P = 0. 0. ; F = FORC (0. -3.) P ; LIST (EXTR F 'FY' P) ;",),
+        examples=(
+            "OPTI DIME 2 ; P = 0. 0. ; F = FORC (0. -3.) P ; LIST (EXTR F 'FY' P) ;",
+            "OPTI DIME 2 ; P = 0. 0. ; F = FORC 'FX' 3. 'FY' -2. P ; LIST F ;",
+        ),
     ),
 )
 def forc(call: Call, vector: Point, place: Mesh | Point) -> NodeField:
@@ -135,7 +138,10 @@ def unit_forces(call: Call, table: Table) -> None:
         fr="Champ par points d'un moment, réparti également sur les noeuds d'un lieu : un "
         "vecteur dans l'espace, ou des composantes nommées MX MY MZ (MT en axisymétrie).",
         syntax="FOR1 = MOME | VEC1 | MOT1 VAL1 ... GEO1 ;",
-        examples=("OPTI DIME 2 ; P = 0. 0. ; F = MOME 'MZ' 5. P ; LIST (EXTR F 'MZ' P) ;",),
+        examples=(
+            "OPTI DIME 2 ; P = 0. 0. ; F = MOME 'MZ' 5. P ; LIST (EXTR F 'MZ' P) ;",
+            "OPTI DIME 3 ; P = 0 0 0 ; F = MOME (0 0 5) P ; LIST F ;",
+        ),
     ),
 )
 def mome(call: Call, vector: Point, place: Mesh | Point) -> NodeField:
@@ -228,6 +234,12 @@ _FACES = opt("faces", "MAILLAGE", en="sides", fr="faces")
             "OPTI DIME 2 ELEM QUA4 ; P = 0. 0. ; Q = 2. 0. ; L = DROI 2 P Q ; "
             "S = TRAN 1 L (0. 1.) ; M = MODE S MECANIQUE ELASTIQUE ; "
             "F = PRES 'MASS' M 3. L ; LIST (MAXI (RESU F)) ;",
+            (
+                "OPTI DIME 3 MODE TRID ELEM TRI3 ;\n"
+                "M = MODE (MANU 'TRI3' (0 0 0) (1 0 0) (0 1 0)) 'MECANIQUE' 'ELASTIQUE'\n"
+                "'DKT' ;\n"
+                "F = PRES 'COQU' M 6. 'NORM' ; LIST (MAXI (RESU F)) ;"
+            ),
         ),
     ),
 )
@@ -397,6 +409,18 @@ def _values(density: NodeField | Point) -> NodeField | FloatArray:
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0 0) (2 0) ; M = MODE L MECANIQUE ELASTIQUE POUT "
             "; F = FSUR 'POUT' M (0. -3.) ; LIST (MAXI (RESU F)) ;",
+            (
+                "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;\n"
+                "L = DROI 2 (0. 0.) (2. 0.) ;\n"
+                "M = MODE (L TRAN 1 (0. 1.)) 'MECANIQUE' 'ELASTIQUE' ;\n"
+                "F = FSUR 'MASS' M (0. -3.) L ; LIST (MINI (RESU F)) ;"
+            ),
+            (
+                "OPTI DIME 3 MODE TRID ELEM TRI3 ;\n"
+                "M = MODE (MANU 'TRI3' (0 0 0) (1 0 0) (0 1 0)) 'MECANIQUE' 'ELASTIQUE'\n"
+                "'DKT' ;\n"
+                "F = FSUR 'COQU' M (0 0 -6) ; LIST (MINI (RESU F)) ;"
+            ),
         ),
     ),
 )

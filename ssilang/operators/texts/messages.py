@@ -76,7 +76,10 @@ ERRE = shared(
         "objets qui le complètent. ERRE 0 ne signale rien ; un numéro négatif écrit le message et "
         "continue.",
         syntax="ERRE MOT1 ; ERRE N1 ('AVEC' OBJ1 OBJ2 ...) ;",
-        examples=("SI (1 > 2) ; ERRE 'one is not larger than two' ; FINSI ;",),
+        examples=(
+            "SI (1 > 2) ; ERRE 'one is not larger than two' ; FINSI ;",
+            "ERRE -21 ; MESS 'goes on' ;",
+        ),
     ),
     full_name="ERREUR",
 )
