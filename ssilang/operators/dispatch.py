@@ -324,6 +324,12 @@ CHAN = ByWord(
             "E = EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.) ;\n"
             "C = CHAN 'TABL' (CHAR 'MECA' F E) 'MECA' ; LIST (TIRE C 0.5 'MECA') ;"
         ),
+        (
+            "OPTI DIME 2 ELEM SEG2 ;\n"
+            "P = (MANU 'POI1' (0. 0.)) ET (MANU 'POI1' (1. 0.)) ET (MANU 'POI1' (2. 0.))\n"
+            ";\n"
+            "L = CHAN P (LECT 1 2 2 3) ; LIST (NBEL L) ;"
+        ),
     ),
 )
 MAXI = ByType(

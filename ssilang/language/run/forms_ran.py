@@ -22,9 +22,14 @@ class FormsRan:
             self._seen.add((operator.name, number, f"{path}{word}"))
 
     def missing(self, operator: Operator) -> list[str]:
-        """Forms of an operator that have not run, '2', and words of forms that have, '2 MAXI'."""
+        """Forms of an operator that have not run, '2', and words of forms that have, '2 MAXI'.
+
+        A form that does nothing but refuse is none that could run.
+        """
         left = []
         for number, form in enumerate(operator.forms, 1):
+            if _only_refuses(form):
+                continue
             if (operator.name, number, "") not in self._seen:
                 left.append(str(number))
             elif not form.by_hand:  # what such a form reads is known to it alone
@@ -34,6 +39,12 @@ class FormsRan:
 
     def _ran(self, operator: Operator, number: int, word: str) -> bool:
         return (operator.name, number, word) in self._seen
+
+
+def _only_refuses(form: Form) -> bool:
+    """Whether a form stands there to say that what it reads is not available."""
+    function = getattr(form.function, "func", form.function)  # what a partial is made of
+    return bool(function.__annotations__.get("return") == "NoReturn")
 
 
 def _words(entries: Iterable[Entry], path: str = "") -> Iterator[str]:

@@ -53,6 +53,19 @@ LIRE = Shared(
             "OPTI SORT 'one.avs' ; SORT 'AVS' L ; OPTI LECT 'one.avs' ; T = LIRE 'AVS' ;\n"
             "LIST (TYPE T) ;"
         ),
+        (
+            "OPTI DIME 2 ELEM SEG2 SORT 'mesh' ; L = DROI 4 (0. 0.) (1. 0.) ; SORT L ;\n"
+            "L = 0 ; OPTI LECT 'mesh' ; LIRE L ; LIST (NBEL L) ;"
+        ),
+        (
+            "OPTI SORT 'line.unv' ;\n"
+            "SORT 'CHAI' '    -1' ; SORT 'CHAI' '  2411' ;\n"
+            "SORT 'CHAI' ' 1 1 1 11' ; SORT 'CHAI' ' 0. 0. 0.' ;\n"
+            "SORT 'CHAI' ' 2 1 1 11' ; SORT 'CHAI' ' 2. 0. 0.' ; SORT 'CHAI' '    -1' ;\n"
+            "SORT 'CHAI' '    -1' ; SORT 'CHAI' '  2412' ; SORT 'CHAI' ' 1 11 1 1 7 2' ;\n"
+            "SORT 'CHAI' ' 0 1 1' ; SORT 'CHAI' ' 1 2' ; SORT 'CHAI' '    -1' ;\n"
+            "OPTI DIME 3 ; T = LIRE 'UNV' 'line.unv' ; LIST (MESU (T . 'MAILLAGE')) ;"
+        ),
     ),
 )
 

@@ -199,6 +199,10 @@ def _shapes(model: Model, material: CellField, kind: str) -> list[ElementMatrice
                 "M = MODE ((DROI 1 (0. 0.) (1. 0.)) TRAN 1 (0. 1.)) 'MECANIQUE' 'ELASTIQUE' ;\n"
                 "LIST (MAXI (EXTR (MASS M (MATE M 'YOUN' 1. 'NU' 0. 'RHO' 9.)) 'DIAG')) ;"
             ),
+            (
+                "OPTI DIME 2 MODE PLAN DEFO ; P = 0. 0. ; M = MASS 'UX' 4. P ;\n"
+                "T = VIBR 'SIMU' 1. 1 (APPU 'UX' 400. P) M ; LIST (EXTR (MASS T M) 'DIAG') ;"
+            ),
         ),
     ),
 )
@@ -295,6 +299,14 @@ def lump_of_matrix(matrix: Matrix, kept: ListMots | None) -> Matrix:
                 "M = MODE (L TRAN 1 (0. 1.)) 'MECANIQUE' 'ELASTIQUE' ;\n"
                 "A = MATE M 'YOUN' 1.E7 'NU' 0.3 'RHO' 2000. 'VISQ' 1.E4 ;\n"
                 "C = AMOR M L A ; LIST (TYPE C) ; D = AMOR M A ; LIST (TYPE D) ;"
+            ),
+            (
+                "OPTI DIME 3 MODE TRID ELEM SEG2 ;\n"
+                "M = MODE (DROI 2 (0 0 0) (1 0 0)) 'MECANIQUE' 'ELASTIQUE' 'POUT' ;\n"
+                "A = MATE M 'YOUN' 2.E11 'NU' 0.3 'RHO' 7800. 'VISQ' 1.E4 'SECT' 0.01 'INRY'\n"
+                "1.E-5 'INRZ' 1.E-5\n"
+                "    'TORS' 2.E-5 'OMEG' 10. ;\n"
+                "C H = AMOR M A 'COROTATIF' ; LIST (EXTR C 'COMP') ;"
             ),
         ),
     ),

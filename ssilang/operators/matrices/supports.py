@@ -183,6 +183,11 @@ class _Held:
             " B1 = BLOQ 'UX' 'UY' L1 ; LIST (NBNO (EXTR B1 'MAIL' 'MULT')) ;",
             "OPTI DIME 2 MODE PLAN DEFO ; P1 = 1. 0. ; B1 = BLOQ 'MINI' 'DIRE' (1. 1.) P1 ;",
             "OPTI DIME 3 ; P = 0 0 0 ; B = BLOQ 'DEPL' P ; LIST (EXTR B 'COMP') ;",
+            (
+                "OPTI DIME 2 ; P = 0. 0. ;\n"
+                "T = TABL 'LIAISONS_STATIQUES' ; T . 1 = TABL ; T . 1 . 'POINT_LIAISON' = P ;\n"
+                "T . 1 . 'DDL_LIAISON' = 'UX' ; B = BLOQ T ; LIST (EXTR B 'COMP') ;"
+            ),
         ),
     ),
 )
@@ -266,6 +271,12 @@ def bloq_of_table(call: Call, table: Table) -> Matrix:
         (
             "OPTI DIME 2 MODE PLAN DEFO ; P1 = 1. 0. ; B1 = BLOQ 'UX' P1 ;"
             " F1 = DEPI B1 1.E-3 ; LIST F1 ;",
+            (
+                "OPTI DIME 2 ; P = 0. 0. ; K = APPU 'UX' 'UY' 4. P ;\n"
+                "T = TABL 'LIAISONS_STATIQUES' ; T . 1 = TABL ; T . 1 . 'POINT_LIAISON' = P ;\n"
+                "T . 1 . 'DDL_LIAISON' = 'UX' ; B = BLOQ T ; DEPI T ;\n"
+                "RESO (K ET B) T ; LIST (EXTR (T . 1 . 'DEFORMEE') 'UX' P) ;"
+            ),
         ),
     ),
 )

@@ -22,7 +22,6 @@ from ssilang.language.registry import (
     select,
     shared,
 )
-from ssilang.language.run.call import Call
 from ssilang.operators.numbers.functions import mapped
 
 _TESTS: dict[str, Callable[[Any, Any], Any]] = {
@@ -89,7 +88,11 @@ MASQ = shared(
 )
 
 
-def _test_of(*limits: str) -> tuple[Entry, ...]:
+_EXISTE = {"EXISTE": [opt("component", "MOT", en="component", fr="composante", kind="component")]}
+"""What is asked of fields in cells alone."""
+
+
+def _test_of(kind: str, *limits: str) -> tuple[Entry, ...]:
     """The relation, with what the values are compared with."""
     limit = arg("limit", *limits, en="value to compare with", fr="valeur de comparaison")
     return (
@@ -101,9 +104,7 @@ def _test_of(*limits: str) -> tuple[Entry, ...]:
                     arg("low", *limits, en="lower bound", fr="borne inférieure"),
                     arg("high", *limits, en="upper bound", fr="borne supérieure"),
                 ],
-                "EXISTE": [
-                    opt("component", "MOT", en="component", fr="composante", kind="component")
-                ],
+                **(_EXISTE if kind == "MCHAML" else {}),
             },
             optional=False,
             en="relation",
@@ -113,9 +114,9 @@ def _test_of(*limits: str) -> tuple[Entry, ...]:
     )
 
 
-def _masked(call: Call, value: Any, test: Chosen, counted: bool) -> Any:
+def _masked(value: Any, test: Chosen, counted: bool) -> Any:
     if test.word == "EXISTE":
-        return _existing(call, value, test["component"])
+        return _existing(value, test["component"])
     if test.word == "COMPRIS":
         above = _tested(value, test["low"], np.greater_equal)
         made = _times(above, _tested(value, test["high"], np.less_equal))
@@ -127,7 +128,7 @@ def _masked(call: Call, value: Any, test: Chosen, counted: bool) -> Any:
 for _kind, _limits in _LIMITS.items():
     MASQ.form(
         main("value", _kind, en="values to test", fr="valeurs à tester"),
-        *_test_of(*_limits),
+        *_test_of(_kind, *_limits),
         gives=by("counted", {True: "ENTIER"}, _kind),
     )(_masked)
 
@@ -167,9 +168,7 @@ def _count(made: Any) -> int:
     return int(made.values.sum())
 
 
-def _existing(call: Call, value: Any, component: str | None) -> CellField:
-    if not isinstance(value, CellField):
-        raise call.error("operators.numbers.existence-of-cells", value)
+def _existing(value: CellField, component: str | None) -> CellField:
     name = None if component is None else str(component).rstrip()
     blocks = []
     for block in value.blocks:

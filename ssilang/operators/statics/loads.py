@@ -87,6 +87,11 @@ def _by_vector(call: Call, vector: Point, names: tuple[str, ...], place: Mesh | 
         examples=(
             "OPTI DIME 2 ; P = 0. 0. ; F = FORC (0. -3.) P ; LIST (EXTR F 'FY' P) ;",
             "OPTI DIME 2 ; P = 0. 0. ; F = FORC 'FX' 3. 'FY' -2. P ; LIST F ;",
+            (
+                "OPTI DIME 2 ; P = 0. 0. ;\n"
+                "T = TABL 'LIAISONS_STATIQUES' ; T . 1 = TABL ; T . 1 . 'POINT_LIAISON' = P ;\n"
+                "T . 1 . 'DDL_LIAISON' = 'FX' ; FORC T ; LIST (T . 1 . 'FORCE') ;"
+            ),
         ),
     ),
 )
@@ -240,6 +245,18 @@ _FACES = opt("faces", "MAILLAGE", en="sides", fr="faces")
                 "'DKT' ;\n"
                 "F = PRES 'COQU' M 6. 'NORM' ; LIST (MAXI (RESU F)) ;"
             ),
+            (
+                "OPTI DIME 3 MODE TRID ELEM CUB8 ;\n"
+                "V = ((DROI 1 (0 0 0) (1 0 0)) TRAN 1 (0 1 0)) VOLU 1 'TRAN' (0 0 0.1) ;\n"
+                "F = PRES 'SHB8' (MODE V 'MECANIQUE' 'ELASTIQUE' 'SHB8') 6. 'INTE' ;\n"
+                "LIST (MAXI (RESU F)) ;"
+            ),
+            (
+                "OPTI DIME 3 MODE TRID ELEM SEG2 ;\n"
+                "M = MODE (DROI 1 (0 0 0) (1 0 0)) 'MECANIQUE' 'ELASTIQUE' 'TUYA' ;\n"
+                "A = MATE M 'YOUN' 2.E11 'NU' 0.3 'EPAI' 0.01 'RAYO' 0.11 'PRES' 1.E5 ;\n"
+                "F = PRES 'TUYA' M A ; LIST (MAXI F) ;"
+            ),
         ),
     ),
 )
@@ -320,7 +337,7 @@ def pressure_in_pipes(model: Model, material: tuple[CellField, ...]) -> NodeFiel
 
 
 @pres.form(said("FISS"))
-def crack_pressure(call: Call) -> NodeField:
+def crack_pressure(call: Call) -> NoReturn:
     """Pressure on sides of cracks: refused."""
     raise call.error("operators.statics.load-not-available", found="FISS")
 

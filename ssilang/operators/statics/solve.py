@@ -183,6 +183,12 @@ RESO = operator(
                 "F = FORC (2. 3.) P ; L = RESO K (SUIT F F) ; LIST (MAXI (EXTR L 2)) ;\n"
                 "U N M = RESO 'ENSE' K F ; LIST N ;"
             ),
+            (
+                "OPTI DIME 2 ; P = 0. 0. ; K = APPU 'UX' 'UY' 4. P ;\n"
+                "T = TABL 'LIAISONS_STATIQUES' ; T . 1 = TABL ; T . 1 . 'POINT_LIAISON' = P ;\n"
+                "T . 1 . 'DDL_LIAISON' = 'UX' ; B = BLOQ T ; DEPI T ;\n"
+                "RESO (K ET B) T ; REAC B T ; LIST (EXTR (T . 1 . 'REACTION') 'FX' P) ;"
+            ),
         ),
     ),
 )(_reso)

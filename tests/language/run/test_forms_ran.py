@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NoReturn
+
 import pytest
 
 from ssilang.cli.run import RunOptions, run_text
@@ -39,6 +41,10 @@ def declared():
     )
     def grouped(all):
         return 2
+
+    @made.form(said("WRON"))
+    def refused() -> NoReturn:
+        raise AssertionError
 
     yield made
     del OPERATORS["ZTRY"]
