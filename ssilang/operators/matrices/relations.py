@@ -187,6 +187,12 @@ _SIDE = choice(
                 "R = RELA 'CORI' 'DEPL' 'ROTA' (DROI 2 (0 0 0) (1 0 0)) ;\n"
                 "LIST (EXTR R 'COMP') ;"
             ),
+            (
+                "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;\n"
+                "S = (DROI 2 (0. 0.) (2. 0.)) TRAN 1 (0. 1.) ;\n"
+                "T = RAFF S (0.3 + (COOR 1 S)) ;\n"
+                "R = RELA (MODE T 'MECANIQUE' 'ELASTIQUE') ; LIST (EXTR R 'COMP') ;"
+            ),
         ),
     ),
 )

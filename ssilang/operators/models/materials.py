@@ -38,8 +38,17 @@ _AXES = (
     arg("first", "POINT", en="first axis, or centre", fr="premier axe, ou centre"),
     many("others", "POINT", en="further vectors or points", fr="autres vecteurs ou points"),
 )
-ENTRIES = (
-    arg("model", "MMODEL", en="model", fr="modèle"),
+_MODEL = arg("model", "MMODEL", en="model", fr="modèle")
+_PAIRS = each(
+    "pairs",
+    arg("name", "MOT", kind="parameter", en="parameter", fr="paramètre"),
+    arg("value", *_VALUES, en="its value", fr="sa valeur"),
+)
+
+
+@operator(
+    "MATE",
+    _MODEL,
     select(
         "axes",
         {"DIRECTION": _AXES, "RADIAL": _AXES},
@@ -57,17 +66,7 @@ ENTRIES = (
         en="how the axes lie to that direction",
         fr="position du repère par rapport à cette direction",
     ),
-    each(
-        "pairs",
-        arg("name", "MOT", kind="parameter", en="parameter", fr="paramètre"),
-        arg("value", *_VALUES, en="its value", fr="sa valeur"),
-    ),
-)
-
-
-@operator(
-    "MATE",
-    *ENTRIES,
+    _PAIRS,
     family="model",
     full_name="MATERIAU",
     aliases=("MATR",),
@@ -157,7 +156,8 @@ def check_joints(model: Model, given: list[Values]) -> None:
 
 @operator(
     "CARA",
-    *ENTRIES,
+    _MODEL,
+    _PAIRS,
     family="model",
     full_name="CARACTERISTIQUE",
     aliases=("CARB",),
@@ -174,9 +174,9 @@ def check_joints(model: Model, given: list[Values]) -> None:
         ),
     ),
 )
-def cara(call: Call, **said: Any) -> CellField:
+def cara(call: Call, model: Model, pairs: list[tuple[str, Any]]) -> CellField:
     """Parameters of the section."""
-    return _parameters(call, lambda zone: geometric_names(zone).all, None, **said)
+    return _parameters(call, lambda zone: geometric_names(zone).all, None, model, [], None, pairs)
 
 
 def _parameters(
