@@ -163,3 +163,4 @@ class Session:
     on_note: Callable[[str], object] | None = None
     was_interrupted: Callable[[], bool] = lambda: False  # a signal came that nobody has seen
     loops: LoopObserver | None = None
+    on_form: Callable[[Any, Any, Any], object] | None = None  # told of each form that runs
