@@ -151,8 +151,9 @@ class Repl:
                 return
         for value in self.session.evaluator.values_of(node):
             kind = type_of(value)
-            text = LISTINGS[kind](value, "RESU") if kind in LISTINGS else str(value)
-            self.out.write((text if kind in LISTINGS else f"{kind} : {text}").rstrip("\n") + "\n")
+            entry = LISTINGS.get(kind)
+            text = entry(value, True, self.session.told) if entry else f"{kind} : {value}"
+            self.out.write(text.rstrip("\n") + "\n")
 
     def _page(self, word: str) -> bool:
         page = find_page(word, self.session.library.standard_files)

@@ -107,4 +107,9 @@ MESSAGES: dict[str, Message] = {
         "{near:?did you mean {near}?|`ssilang help` lists what there is}",
         "{near:?vouliez-vous dire {near} ?|`ssilang help` dit ce qu'il y a}",
     ),
+    # ---- what is printed
+    "clocks": Message(
+        "elapsed {wall:.3f} s, processor {cpu:.3f} s",
+        "temps écoulé {wall:.3f} s, processeur {cpu:.3f} s",
+    ),
 }

@@ -30,6 +30,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots, Mot, Table
+from ssilang.messages.message import Teller
 from ssilang.operators.dispatch import EXTR, UNIONS, listing, union
 
 _NAMES: dict[str, Callable[[Zone], tuple[str, ...]]] = {
@@ -301,27 +302,43 @@ if ("MCHAML", "MCHAML") not in UNIONS:
 
 
 @listing("MMODEL")
-def list_model(model: Any, word: str) -> str:
+def list_model(model: Any, short: bool, say: Teller) -> str:
     """Zones of a model, one a line."""
-    lines = [f"MMODEL with {len(model.zones)} zone(s)"]
+    lines = [say("operators.fields.listed-model", count=len(model.zones))]
     for i, z in enumerate(model.zones, start=1):
-        words = " ".join((z.formulation, *z.behaviour))
         lines.append(
-            f"  {i}: {len(z.cells)} cells {z.cells.cell_type}, element {z.element}, {words}, "
-            f"mode {z.mode.value}" + (f", constituent {z.constituent}" if z.constituent else "")
+            say(
+                "operators.fields.listed-zone",
+                number=i,
+                count=len(z.cells),
+                cell_type=z.cells.cell_type,
+                element=z.element,
+                words=[z.formulation, *z.behaviour],
+                mode=z.mode.value,
+                constituent=z.constituent,
+            )
         )
     return "\n".join(lines)
 
 
 @listing("MCHAML")
-def list_cells(field: Any, word: str) -> str:
+def list_cells(field: Any, short: bool, say: Teller) -> str:
     """Zones of a field in cells with the range of each component."""
-    lines = [f"MCHAML {field.title or '(no type)'}, {len(field.blocks)} zone(s)"]
+    lines = [say("operators.fields.listed-field", title=field.title, count=len(field.blocks))]
     for i, b in enumerate(field.blocks, start=1):
-        lines.append(f"  {i}: {len(b.cells)} cells {b.cells.cell_type}, at {b.support}")
+        lines.append(
+            say(
+                "operators.fields.listed-cells",
+                number=i,
+                count=len(b.cells),
+                cell_type=b.cells.cell_type,
+                support=b.support,
+            )
+        )
         for name, values in b.components.items():
             if values.dtype == object:
                 lines.append(f"     {name:<8} {type(values.flat[0]).__name__}")
             else:
-                lines.append(f"     {name:<8} {values.min():12.5E} to {values.max():12.5E}")
+                low, high = values.min(), values.max()
+                lines.append(say("operators.fields.listed-range", name=name, low=low, high=high))
     return "\n".join(lines)
