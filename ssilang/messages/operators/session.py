@@ -112,4 +112,5 @@ MESSAGES: dict[str, Message] = {
         "elapsed {wall:.3f} s, processor {cpu:.3f} s",
         "temps écoulé {wall:.3f} s, processeur {cpu:.3f} s",
     ),
+    "time-left": Message("{seconds:.0f} s left", "reste {seconds:.0f} s"),
 }
