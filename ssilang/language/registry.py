@@ -19,7 +19,7 @@ NAME = "NOM"
 Function = Callable[..., Any]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Argument:
     """An operand read by type.
 
@@ -51,7 +51,7 @@ class Argument:
     whole: bool = False
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Keyword:
     """Words of which one may stand among the operands, with the operands that follow it.
 
@@ -70,7 +70,7 @@ class Keyword:
     fr: str = ""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Select:
     """A keyword that decides what is read behind it: entries by word.
 
@@ -95,7 +95,7 @@ class Select:
         return tuple(self.cases)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Group:
     """Entries read one after the other, as often as they stand there if `repeated`.
 
@@ -114,7 +114,7 @@ class Group:
     times: str = ""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Either:
     """One of several groups: the first that can be read, passed as a `Chosen` by its name."""
 
@@ -300,7 +300,10 @@ class Like:
 
 @dataclass(frozen=True, slots=True)
 class By:
-    """Results by what the entry `name` says: its word, or True or False for a flag."""
+    """Results by what the entry `name` says: its word, or True or False for a flag.
+
+    An entry that collects several says True where there are any.
+    """
 
     name: str
     results: Mapping[object, tuple[str, ...]]
@@ -309,6 +312,8 @@ class By:
     def of(self, value: object) -> tuple[str, ...]:
         """Results where the entry has the value."""
         key = value.word if isinstance(value, Chosen) else value
+        if isinstance(key, tuple | list):
+            key = bool(key)
         return self.results.get(key, self.default)
 
 
@@ -368,8 +373,14 @@ class Form:
     """The words of which one says that this form is meant: `said`, or a mandatory `select`."""
     main: Argument | None = field(init=False, repr=False, compare=False)
     """The operand that decides that this form runs."""
+    rest: tuple[Entry, ...] = field(init=False, repr=False, compare=False)
+    """What is read besides it."""
     beside: frozenset[str] = field(init=False, repr=False, compare=False)
     """Its other keywords, four letters of each: they may stand before the word that says it."""
+    rest: tuple[Entry, ...] = field(init=False, repr=False, compare=False)
+    """Its entries but for the main operand."""
+    plain: bool = field(init=False, repr=False, compare=False)
+    """Whether it has operands alone, which are read one after the other."""
 
     def __post_init__(self) -> None:
         entries = self.entries or ()
@@ -384,6 +395,23 @@ class Form:
         object.__setattr__(self, "said", said)
         object.__setattr__(self, "main", main)
         object.__setattr__(self, "beside", frozenset(w[:4].rstrip() for w in words))
+        object.__setattr__(self, "rest", tuple(e for e in entries if e is not main))
+        object.__setattr__(self, "plain", all(isinstance(e, Argument) for e in entries))
+
+
+class Choices:
+    """What chooses among forms, gathered once."""
+
+    def __init__(self, forms: Sequence[Form]) -> None:
+        self.forms = tuple(forms)
+        self.conditional = any(f.when is not None or f.of for f in forms)
+        self.said = tuple(f for f in forms if f.said is not None)
+        self.known = tuple(
+            dict.fromkeys(t for f in forms if f.main is not None for t in f.main.types)
+        )
+        self.plain = tuple(f for f in forms if f.main is None and f.said is None)
+        # forms by the type of the main operand, and those of them that want no word
+        self.by_kind: dict[str, tuple[tuple[Form, ...], tuple[Form, ...]]] = {}
 
 
 @dataclass(slots=True)
@@ -397,6 +425,24 @@ class Operator:
     aliases: tuple[str, ...] = ()
     terminal: bool = False  # its result is not looked at as an operator's name
     full_name: str = ""  # as usually written: 'MODELISER', 'RIGIDITE'
+    _choices: Choices | None = None
+    _meant: dict[tuple[bool, ...], Choices] = field(default_factory=dict)
+
+    @property
+    def choices(self) -> Choices:
+        """What chooses among all forms."""
+        if self._choices is None or len(self._choices.forms) != len(self.forms):
+            self._choices = Choices(self.forms)
+            self._meant.clear()
+        return self._choices
+
+    def choices_where(self, meant: tuple[bool, ...]) -> Choices:
+        """What chooses among the forms that the session and the phrase allow."""
+        found = self._meant.get(meant)
+        if found is None:
+            kept = [f for f, allowed in zip(self.forms, meant, strict=True) if allowed]
+            found = self._meant[meant] = Choices(kept)
+        return found
 
     @property
     def help(self) -> Help:

@@ -52,6 +52,8 @@ def errors(source: Source) -> list[str]:
         ("SI (PORG 1. 2.) ; FINSI ;", "unknown-operator"),
         ("DEBP P A*ENTIER ; B = PORG A ; FINP B ; X = P 1 ; MESS X ;", "unknown-operator"),
         ("X = 1 + VRAI ; MESS X ;", "no-rule"),
+        ("OPTI DIME 2 ; P = 0. 0. ; B = BLOQ 'UX' P ; N = NBEL B ; MESS N ;", "wrong-argument"),
+        ("OPTI DIME 2 ; P = 0. 0. ; B = SYMT 'DEPL' P ; MESS B ;", "missing-argument"),
         ("X = 1. + ; MESS X ;", "two-operands"),
         ("A = 2. ; X = -A ; MESS X ;", "two-operands"),
         ("A = 2 ; X = A -1 ; MESS X ;", "glued-sign"),

@@ -224,3 +224,11 @@ def test_decomposition_with_a_mass_is_the_same_both_ways(found):
         np.testing.assert_allclose(
             one.components["UX"].values, other.components["UX"].values, atol=1e-8
         )
+
+
+def test_a_table_is_decomposed_without_naming_its_entry(found):
+    line = "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (2. 0.) ; X = COOR 1 L ; "
+    table = "T = TABL ; T . 1 = X ; T . 2 = 2. * X ; M V = POD T 'CLASSIQUE' 1 ; "
+    listed = "N W = POD ((SUIT X) ET (2. * X)) 'CLASSIQUE' 1 ;"
+    of_table, of_list = found(line + table + listed, "V", "W")
+    assert of_table.values[0] == of_list.values[0] > 0.0

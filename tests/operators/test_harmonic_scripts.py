@@ -253,7 +253,7 @@ def test_uplift_on_a_one_sided_spring_is_what_dynamic_settles_on(found):
         ("TN . 'TYPE' = MOT 'AUTO' ;", "'AUTO'"),
         ("TI = TABL 'INITIAL' ;", "FREQUENCE"),
         ("TN . 'DSMIN' = 1. ;", "DSMIN"),
-        ("TC . 7 = TC . 1 ;", "beyond the 1 harmonics"),
+        ("TC . 7 = TC . 1 ;", "beyond the 1 harmonic"),
     ],
 )
 def test_tables_of_dync_that_say_too_little_are_refused(change, words, refused):

@@ -5,6 +5,7 @@ import pytest
 
 from ssilang.cli.run import run_text
 from ssilang.kernel.matrices.assembly import assemble
+from ssilang.language.say.diagnostics import sentence
 
 
 def test_power_of_a_lumped_mass_is_its_inverse(found):
@@ -29,7 +30,8 @@ def test_curve_is_zero_where_the_field_is_not_and_says_so():
     assert result.exit_code == 0
     part = result.session.root.find("E").parts[0]
     np.testing.assert_allclose(part.ordinates, [0, 1.25, 1.5, 0, 0])
-    assert any("no value of SCAL at 3 of the 5" in str(w.data) for w in result.session.warnings)
+    said = [sentence(w, "en")[0] for w in result.session.warnings]
+    assert any("no value of SCAL at 3 of the 5" in s for s in said)
 
 
 @pytest.mark.parametrize("how", ["'ARLE' M 2", "2 M"])

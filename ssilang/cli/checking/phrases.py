@@ -17,7 +17,7 @@ from ssilang.cli.checking.kinds import (
 )
 from ssilang.cli.checking.scope import Scope
 from ssilang.language.registry import SCALAR_RULES, Operator, When, find_operator
-from ssilang.language.run.binding import bind_operator
+from ssilang.language.run.binding import Bound, bind_operator
 from ssilang.language.run.call import Call, Operand, accepts, name_of
 from ssilang.language.run.leftovers import is_call
 from ssilang.language.run.results import Results, results_of
@@ -67,8 +67,10 @@ class AbstractCall(Call):
             raise Ambiguous
         return super().take_name(optional)
 
+    met: When | None = None  # condition that the session is taken to meet
+
     def meets(self, when: When) -> bool:
-        raise Ambiguous  # what the run sets is not known
+        return when is self.met
 
     def main_operand(self, *types: str) -> int | None:
         self._all_known()
@@ -136,12 +138,34 @@ class PhraseReader:
         if found.name in SIGNS.split() or found.name in _COMPARISONS:
             self._sign(found.name, operand, call)
             return
-        bound = bind_operator(found, call)
+        bound = self._bound(found, call)
         results = results_of(bound.form, bound.values)
         if bound.form.by_hand:
             self._free(results, operand, call)
         else:
             self._push(results, operand.span, call)
+
+    @staticmethod
+    def _bound(found: Operator, call: AbstractCall) -> Bound:
+        """The form meant. What the session meets is not known: all that fits must do the same."""
+        whens = tuple({id(f.when): f.when for f in found.forms if f.when is not None}.values())
+        start, problem = list(call.operands), None
+        outcomes: list[tuple[Results | None, list[Operand], Bound]] = []
+        for call.met in whens or (None,):
+            call.operands[:], call.used = start, []
+            try:
+                bound = bind_operator(found, call)
+            except SsiError as error:
+                problem = error if problem is None or problem.code == "form-condition" else problem
+                continue
+            outcomes.append((results_of(bound.form, bound.values), list(call.operands), bound))
+        if problem is not None and not outcomes:
+            raise problem
+        results, left, bound = outcomes[0]
+        if any(r != results or [*map(id, o)] != [*map(id, left)] for r, o, _ in outcomes):
+            raise Ambiguous
+        call.operands[:] = left
+        return bound
 
     def _free(self, results: Results | None, operand: Operand, call: AbstractCall) -> None:
         """An operator that reads for itself: only when nothing follows is its result known."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import importlib.util
 from collections.abc import Callable
 from dataclasses import dataclass, fields, is_dataclass
 from enum import Enum
@@ -11,6 +12,30 @@ from typing import Any
 from ssilang.io.errors import InputError, OutputError
 
 _TRUSTED = ("ssilang.kernel.", "ssilang.io.plots.labels")
+
+HOMES = {
+    "Annotation": "ssilang.io.plots.labels", "Category": "ssilang.io.plots.labels",
+    "Tag": "ssilang.io.plots.labels",
+    "Cloud": "ssilang.kernel.curves.cloud", "Curve": "ssilang.kernel.curves.curve",
+    "CurvePart": "ssilang.kernel.curves.curve", "Load": "ssilang.kernel.curves.curve",
+    "LoadPart": "ssilang.kernel.curves.curve",
+    "CellField": "ssilang.kernel.fields.cell_field",
+    "CellFieldBlock": "ssilang.kernel.fields.cell_field",
+    "NodeField": "ssilang.kernel.fields.node_field",
+    "NodeValues": "ssilang.kernel.fields.node_field",
+    "Arrows": "ssilang.kernel.fields.deformed", "ArrowPart": "ssilang.kernel.fields.deformed",
+    "Deformed": "ssilang.kernel.fields.deformed",
+    "DeformedPart": "ssilang.kernel.fields.deformed",
+    "Mode": "ssilang.kernel.materials.model", "Model": "ssilang.kernel.materials.model",
+    "Zone": "ssilang.kernel.materials.model",
+    "ElementMatrices": "ssilang.kernel.matrices.matrix",
+    "Matrix": "ssilang.kernel.matrices.matrix", "Relations": "ssilang.kernel.matrices.matrix",
+    "Numbering": "ssilang.kernel.matrices.assembly",
+    "SuperElement": "ssilang.kernel.matrices.superelement",
+    "CellBlock": "ssilang.kernel.mesh.mesh", "Mesh": "ssilang.kernel.mesh.mesh",
+    "Point": "ssilang.kernel.mesh.mesh",
+}  # fmt: skip
+"""Where classes stand that files hold by their name alone: a file outlives the moves of modules."""
 
 # fields that hold node numbers, shifted when nodes are added to those of a session
 NODE_FIELDS: dict[str, tuple[str, ...]] = {
@@ -67,6 +92,8 @@ def class_name(cls: type) -> str:
     OutputError
         For any other class.
     """
+    if HOMES.get(cls.__qualname__) == cls.__module__:
+        return f":{cls.__qualname__}"
     name = f"{cls.__module__}:{cls.__qualname__}"
     if not name.startswith(_TRUSTED) or not (is_dataclass(cls) or issubclass(cls, Enum)):
         raise OutputError("io.object-class-cannot-saved", name=cls.__name__)
@@ -81,8 +108,10 @@ def class_named(name: str) -> type:
     InputError
         For a name outside of the kernel.
     """
-    module, _, qualname = name.partition(":")
-    if not name.startswith(_TRUSTED) or "." in qualname:
+    module, _, qualname = name.rpartition(":")
+    if not module or (name.startswith(_TRUSTED) and qualname in HOMES and not _stands(module)):
+        module = HOMES.get(qualname, "")  # files of older versions say where the class stood
+    if not module.startswith(_TRUSTED) or "." in qualname:
         raise InputError("io.save-file-asks-no", name=name)
     try:
         found = getattr(importlib.import_module(module), qualname)
@@ -91,6 +120,14 @@ def class_named(name: str) -> type:
     if not (isinstance(found, type) and (is_dataclass(found) or issubclass(found, Enum))):
         raise InputError("io.save-file-asks-no", name=name)
     return found
+
+
+def _stands(module: str) -> bool:
+    """Whether there is such a module today."""
+    try:
+        return importlib.util.find_spec(module) is not None
+    except ModuleNotFoundError:
+        return False
 
 
 def saved_fields(cls: type) -> tuple[str, ...]:

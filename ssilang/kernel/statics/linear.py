@@ -7,6 +7,7 @@ from one factorisation. Reactions come from the residual.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -321,7 +322,7 @@ def stabilised(A: sp.csr_array, n: int) -> sp.csr_array:
 
 def solve(
     matrix: Matrix,
-    loads: list[NodeField],
+    loads: Sequence[NodeField],
     options: SolveOptions = SolveOptions(),
 ) -> list[NodeField]:
     """Displacement fields (with LX at the multipliers) for each second member.

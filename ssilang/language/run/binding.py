@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from functools import cache
 from typing import Any, TypeGuard
 
 from ssilang.language.registry import (
     ANY,
     NAME,
     Argument,
+    Choices,
     Chosen,
     Either,
     Entry,
@@ -61,15 +63,18 @@ class Binder:
         SsiError
             When a mandatory entry cannot be read.
         """
-        keywords = tuple(e for e in entries if isinstance(e, Keyword | Select))
+        made = _prepared(tuple(entries))
+        keywords = made.keywords
+        if not keywords and not self._levels and len(made.operands) == len(entries) == 1:
+            _, only, read = made.operands[0]  # nothing can stand between
+            return {only.name: read(self, only, after)}
         level = _Level(keywords, {k.name: [] if k.repeated else k.default for k in keywords})
         self._levels.append(level)
         try:
-            leading = self._leading(entries, level)
+            leading = self._leading(entries, level) if made.leading else 0
             self._keywords(self._levels[-1:] if begun else self._levels)
-            for entry in entries[leading:]:
-                reader = _READERS.get(type(entry))
-                if reader is not None:
+            for place, entry, reader in made.operands:
+                if place >= leading:
                     level.values[entry.name] = reader(self, entry, after)
                     self._keywords(self._levels[-1:] if open else self._levels)
         finally:
@@ -81,6 +86,8 @@ class Binder:
 
     def _leading(self, entries: Sequence[Entry], level: _Level) -> int:
         """Read what leads, behind the word that chose the form; says how many entries that was."""
+        if not any(type(e) is Argument and e.leads for e in entries[:2]):
+            return 0
         chosen = _is_choice(entries)
         place, after = int(chosen), -1
         if not _leads(entries[place : place + 1]):
@@ -90,7 +97,7 @@ class Binder:
                 return 0  # something stands before the word
             after = self.call.keyword_end
         while _leads(one := entries[place : place + 1]):
-            level.values[one[0].name] = self._argument(one[0], after)
+            level.values[one[0].name] = self.operand(one[0], after)
             place += 1
         return place
 
@@ -98,10 +105,11 @@ class Binder:
 
     def _keywords(self, levels: Sequence[_Level]) -> bool:
         """Read keywords as long as the first unread word is one; says whether there were any."""
+        open_ones = [level for level in reversed(levels) if level.keywords]
+        if not open_ones:
+            return False
         found = False
-        while self.call.word_index() is not None and any(
-            self._keyword(level) for level in reversed(levels)
-        ):
+        while self.call.word_index() is not None and any(map(self._keyword, open_ones)):
             found = True
         return found
 
@@ -135,14 +143,15 @@ class Binder:
             return Chosen(word, self.bind(k.cases[word], place))
         if not k.arguments:
             return True if len(k.words) == 1 else word
-        parts = [self._argument(a, place) for a in k.arguments]
+        parts = [self.operand(a, place) for a in k.arguments]
         if len(k.words) > 1:
             return (word, *parts)
         return parts[0] if len(parts) == 1 else tuple(parts)
 
     # ---- operands ------------------------------------------------------------------------------
 
-    def _argument(self, a: Argument, after: int = -1) -> Any:
+    def operand(self, a: Argument, after: int = -1) -> Any:
+        """What an entry gets of the unread operands."""
         if a.repeated:
             return self._several(a, after)
         if NAME in a.types:
@@ -285,10 +294,30 @@ def _is_choice(entries: Sequence[Entry]) -> bool:
 
 
 _READERS: Mapping[type, Callable[[Binder, Any, int], Any]] = {
-    Argument: Binder._argument,
+    Argument: Binder.operand,
     Group: Binder._group,
     Either: Binder._either,
 }
+
+
+@dataclass(frozen=True, slots=True)
+class _Prepared:
+    """What is known of entries before any call: keywords, and operands with what reads them."""
+
+    keywords: tuple[Keyword | Select, ...]
+    operands: tuple[tuple[int, Entry, Callable[[Binder, Any, int], Any]], ...]
+    leading: bool
+
+
+@cache
+def _prepared(entries: tuple[Entry, ...]) -> _Prepared:
+    readers = ((i, e, _READERS.get(type(e))) for i, e in enumerate(entries))
+    place = int(_is_choice(entries))
+    return _Prepared(
+        tuple(e for e in entries if isinstance(e, Keyword | Select)),
+        tuple((i, e, reader) for i, e, reader in readers if reader is not None),
+        _leads(entries[place : place + 1]),
+    )
 
 
 def missing_keyword(call: Call, words: Sequence[str]) -> SsiError:
@@ -319,14 +348,17 @@ def bind_operator(found: Operator, call: Call) -> Bound:
     SsiError
         That of the form which got furthest, operands put back.
     """
+    forms, main = _candidates(found, call)
+    if len(forms) == 1:
+        return _bound(forms[0], call, main)  # no other form needs the operands as they stood
     worst: tuple[int, SsiError] | None = None
-    for form, main in _candidates(found, call):
+    for form in forms:
         operands, used = list(call.operands), len(call.used)
         try:
             return _bound(form, call, main)
         except SsiError as problem:
             depth = len(call.used) - used
-            if worst is None or depth > worst[0]:
+            if worst is None or depth > worst[0] or _names_the_slip(worst, depth, problem):
                 worst = depth, problem
             elif depth == worst[0]:
                 _expects_too(worst[1], problem)
@@ -335,6 +367,19 @@ def bind_operator(found: Operator, call: Call) -> Bound:
     if worst is None:
         raise _no_form(found, call)
     raise worst[1]
+
+
+def _names_the_slip(worst: tuple[int, SsiError], depth: int, problem: SsiError) -> bool:
+    """Whether an error shows a variable where another, that got as far, only misses a word."""
+    first, expected = worst[1], problem.data.get("expected")
+    return (
+        depth == worst[0]
+        and first.code == "missing-keyword"
+        and problem.code == "wrong-argument"
+        and isinstance(expected, list)
+        and "MOT" in expected
+        and bool(problem.data.get("name"))
+    )
 
 
 def _expects_too(first: SsiError, other: SsiError) -> None:
@@ -350,44 +395,57 @@ def _bound(form: Form, call: Call, main: int | None) -> Bound:
     choice: Any = None
     if main is not None and form.main is not None:
         choice = values[form.main.name] = call.take(main, *form.main.types).value
-        entries = tuple(e for e in entries if e is not form.main)
+        entries = form.rest
     elif form.by_hand and form.said is not None:
         choice = call.keyword(form.said.words, form.said.length)
     if form.by_hand:
         return Bound(form, {}, choice)
-    values |= Binder(call, choice).bind(entries)
+    binder = Binder(call, choice)
+    if form.plain:
+        for entry in entries:
+            assert isinstance(entry, Argument)
+            values[entry.name] = binder.operand(entry)
+    else:
+        values |= binder.bind(entries)
     if form.said is not None and "word" not in form.injected:
         values.pop("word", None)
     return Bound(form, values)
 
 
-def _candidates(found: Operator, call: Call) -> Iterator[tuple[Form, int | None]]:
-    """Forms to try, in order, with the index of the main operand where it chose the form."""
-    forms = [f for f in found.forms if _is_meant(f, call)]
+def _candidates(found: Operator, call: Call) -> tuple[Sequence[Form], int | None]:
+    """Forms to try, in order, and the index of the main operand where it chose them."""
+    every = choices = found.choices
+    if every.conditional:
+        choices = found.choices_where(tuple(_is_meant(f, call) for f in every.forms))
+    forms = choices.forms
     if len(forms) == 1 and forms[0].main is None:
-        yield forms[0], None
-        return
-    words = call.words() if any(f.said for f in forms) else []
+        return forms, None
+    words = call.words() if choices.said else []
     if words:
-        spoken = [f for f in found.forms if _is_said(f, words)]
-        meant = sorted((f for f in spoken if f in forms), key=lambda f: not f.of)
+        spoken = [f for f in every.said if _is_said(f, words)]
+        meant = sorted((f for f in spoken if f in forms), key=lambda f: not f.of) if spoken else []
         if spoken and not meant:
             raise call.missing(tuple(dict.fromkeys(t for f in spoken for t in f.of)) or (ANY,))
         if meant:
-            yield from ((f, None) for f in meant)
-            return
-    with_main = [f for f in forms if f.main is not None]
-    known = dict.fromkeys(t for f in with_main if f.main is not None for t in f.main.types)
-    main = call.main_operand(*known) if known else None
+            return meant, None
+    main = call.main_operand(*choices.known) if choices.known else None
     if main is not None:
-        kind = type_of(call.operands[main].value)
-        chosen = [f for f in with_main if f.main and accepts_kind(f.main.types, kind)]
-        silent = [f for f in chosen if f.said is None]
+        chosen, silent = _of_kind(choices, type_of(call.operands[main].value))
         if chosen and not silent:
             raise missing_keyword(call, _words_said(chosen))
-        yield from ((f, main) for f in silent)
-        return
-    yield from ((f, None) for f in forms if f.main is None and f.said is None)
+        return silent, main
+    return choices.plain, None
+
+
+def _of_kind(choices: Choices, kind: str) -> tuple[tuple[Form, ...], tuple[Form, ...]]:
+    """Forms whose main operand may be of the type, and those of them that want no word."""
+    found = choices.by_kind.get(kind)
+    if found is None:
+        fit = tuple(
+            f for f in choices.forms if f.main is not None and accepts_kind(f.main.types, kind)
+        )
+        found = choices.by_kind[kind] = fit, tuple(f for f in fit if f.said is None)
+    return found
 
 
 def _is_meant(form: Form, call: Call) -> bool:

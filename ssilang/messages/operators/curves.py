@@ -24,10 +24,10 @@ MESSAGES: dict[str, Message] = {
         "les fréquences doivent être positives pour diviser par elles",
     ),
     "signals-outside-modulation": Message(
-        "signals from {start:g} to {end:g} do not fit in the modulation, from {times:g} to "
-        "{times_2:g}",
-        "des signaux de {start:g} à {end:g} n'entrent pas dans la modulation, de {times:g} à "
-        "{times_2:g}",
+        "signals from {start:g} to {end:g} do not fit in the modulation, from {first:g} to "
+        "{last:g}",
+        "des signaux de {start:g} à {end:g} n'entrent pas dans la modulation, de {first:g} à "
+        "{last:g}",
     ),
     "signal-too-short": Message(
         "a signal needs two instants and one sine at least",
@@ -73,10 +73,6 @@ MESSAGES: dict[str, Message] = {
         "SPON wants one linear spectrum for each damping",
         "SPON veut un spectre linéaire par amortissement",
     ),
-    "number-wanted": Message(
-        "SPON wants '{word}'",
-        "SPON veut '{word}'",
-    ),
     "takeda-not-available": Message(
         "the law of Takeda is not available",
         "la loi de Takeda n'est pas disponible",
@@ -88,16 +84,16 @@ MESSAGES: dict[str, Message] = {
         "la table n'a pas d'indice FLOTTANT",
     ),
     "outside-table": Message(
-        "{time:g} is outside of the table, {times:g} to {times_2:g}",
-        "{time:g} est hors de la table, de {times:g} à {times_2:g}",
+        "{time:g} is outside of the table, {first:g} to {last:g}",
+        "{time:g} est hors de la table, de {first:g} à {last:g}",
     ),
     "abscissas-have-one-component": Message(
         "a field of curvilinear abscissas has one component",
         "un champ d'abscisses curvilignes a une composante",
     ),
     "outside-line": Message(
-        "{distance:g} is outside of the line, {s:g} to {s_2:g}",
-        "{distance:g} est hors de la ligne, de {s:g} à {s_2:g}",
+        "{distance:g} is outside of the line, {first:g} to {last:g}",
+        "{distance:g} est hors de la ligne, de {first:g} à {last:g}",
     ),
     "empty-curve": Message(
         "a curve is empty",
@@ -187,8 +183,8 @@ MESSAGES: dict[str, Message] = {
         "cette courbe a trop peu de points, ou des mots, et ne se prolonge pas",
     ),
     "curves-two-by-two": Message(
-        "curves are joined two by two: here are {n_parts} and {n_parts_2}",
-        "les courbes se joignent deux à deux : il y en a {n_parts} et {n_parts_2}",
+        "curves are joined two by two: here are {n_parts} and {n_others}",
+        "les courbes se joignent deux à deux : il y en a {n_parts} et {n_others}",
     ),
     "no-optimal-fit": Message(
         "'OPTI' is not available in LSQF",
@@ -225,12 +221,6 @@ MESSAGES: dict[str, Message] = {
     "last-points-together": Message(
         "the last two points of the curve have the same abscissa",
         "les deux derniers points de la courbe ont la même abscisse",
-    ),
-    "how-to-give-values": Message(
-        "how are the values to be given?",
-        "sous quelle forme donner les valeurs ?",
-        "'REIM' or 'MOPH'",
-        "'REIM' ou 'MOPH'",
     ),
     "one-curve-at-a-time": Message(
         "one curve is transformed at a time, here are {n_parts}",

@@ -3,10 +3,6 @@
 from ssilang.messages.message import Message
 
 MESSAGES: dict[str, Message] = {
-    "no-zone-behaves": Message(
-        "no zone of the model behaves as {words:words}",
-        "aucune zone du modèle n'a le comportement {words:words}",
-    ),
     "field-no-component": Message(
         "the field has no component {name}",
         "le champ n'a pas de composante {name}",
@@ -28,10 +24,6 @@ MESSAGES: dict[str, Message] = {
     "no-such-point": Message(
         "the cells have {n_points} {n_points:point|points}, not {point}",
         "les éléments ont {n_points} {n_points:point|points}, il n'y a pas de point {point}",
-    ),
-    "no-zone-has": Message(
-        "no zone of the model has {words:words}",
-        "aucune zone du modèle n'a {words:words}",
     ),
     "no-coordinate": Message(
         "there is no coordinate {wanted}",
@@ -310,15 +302,6 @@ MESSAGES: dict[str, Message] = {
         "les paramètres et les champs dont ils dépendent sont sur des éléments différents",
     ),
     # ---- what is printed
-    "listed-model": Message(
-        "MMODEL of {count} {count:zone|zones}", "MMODEL de {count} {count:zone|zones}"
-    ),
-    "listed-zone": Message(
-        "  {number}: {count} {count:cell|cells} {cell_type}, element {element}, {words:words}, "
-        "mode {mode}{constituent:?, constituent {constituent}}",
-        "  {number} : {count} {count:maille|mailles} {cell_type}, élément {element}, "
-        "{words:words}, mode {mode}{constituent:?, constituant {constituent}}",
-    ),
     "listed-field": Message(
         "MCHAML {title:?{title}|(no type)}, {count} {count:zone|zones}",
         "MCHAML {title:?{title}|(sans type)}, {count} {count:zone|zones}",

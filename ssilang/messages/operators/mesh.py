@@ -45,6 +45,18 @@ MESSAGES: dict[str, Message] = {
         "ELIM closes a turn of 360 degrees, the angle is {degrees:g}",
         "ELIM ferme un tour de 360 degrés, l'angle est de {degrees:g}",
     ),
+    "mesh-as-centre": Message(
+        "only the beginning of the line may be a mesh",
+        "seul le début de la ligne peut être un maillage",
+        "give points",
+        "donnez des points",
+    ),
+    "no-angle-of-segment": Message(
+        "a straight line has no angle",
+        "un segment de droite n'a pas d'angle",
+        "'ROTA' draws arcs",
+        "'ROTA' trace des arcs",
+    ),
     "points-and-lists": Message(
         "a line goes through points or through lists of coordinates, not both",
         "une ligne passe par des points ou par des listes de coordonnées, non les deux",

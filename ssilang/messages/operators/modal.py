@@ -165,12 +165,6 @@ MESSAGES: dict[str, Message] = {
         "index {index} of the table {subtype} is a CHPOINT",
         "l'indice {index} de la table {subtype} est un CHPOINT",
     ),
-    "which-scheme": Message(
-        "which scheme steps in time?",
-        "quel schéma avance en temps ?",
-        "{schemes:words}",
-        "{schemes:words}",
-    ),
     "dyne-wants-table-base": Message(
         "DYNE wants a table BASE_MODALE or RAIDEUR_ET_MASSE",
         "DYNE veut une table BASE_MODALE ou RAIDEUR_ET_MASSE",
@@ -299,12 +293,6 @@ MESSAGES: dict[str, Message] = {
         "CONTINU gives them",
         "CONTINU les donne",
     ),
-    "which-direction": Message(
-        "in which direction does the ground move?",
-        "dans quelle direction le sol bouge-t-il ?",
-        "'UX' 'UY' 'UZ'",
-        "'UX' 'UY' 'UZ'",
-    ),
     "table-without-modes": Message(
         "the table holds no mode",
         "la table ne contient aucun mode",
@@ -353,12 +341,6 @@ MESSAGES: dict[str, Message] = {
         "les systèmes amortis ou non symétriques ont des modes complexes",
         "use VIBR 'IRAM' for them",
         "calculez-les par VIBR 'IRAM'",
-    ),
-    "which-method": Message(
-        "no method is named",
-        "aucune méthode n'est nommée",
-        "say one of {methods:words}",
-        "donnez l'un des mots {methods:words}",
     ),
     "frequencies-and-numbers-differ": Message(
         "{n_frequencies} {n_frequencies:frequency|frequencies} and {n_numbers} "

@@ -270,4 +270,21 @@ MESSAGES: dict[str, Message] = {
         "FROTTANT COULOMB or FROCABLE",
         "FROTTANT COULOMB ou FROCABLE",
     ),
+    "no-zone-behaves": Message(
+        "no zone of the model behaves as {words:words}",
+        "aucune zone du modèle n'a le comportement {words:words}",
+    ),
+    "no-zone-has": Message(
+        "no zone of the model has {words:words}",
+        "aucune zone du modèle n'a {words:words}",
+    ),
+    "listed-model": Message(
+        "MMODEL of {count} {count:zone|zones}", "MMODEL de {count} {count:zone|zones}"
+    ),
+    "listed-zone": Message(
+        "  {number}: {count} {count:cell|cells} {cell_type}, element {element}, {words:words}, "
+        "mode {mode}{constituent:?, constituent {constituent}}",
+        "  {number} : {count} {count:maille|mailles} {cell_type}, élément {element}, "
+        "{words:words}, mode {mode}{constituent:?, constituant {constituent}}",
+    ),
 }

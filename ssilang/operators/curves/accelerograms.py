@@ -12,21 +12,28 @@ from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.records.integration import brought_to_rest, integrated
 from ssilang.kernel.records.power import power_density, response_spectrum
 from ssilang.kernel.records.signals import constant_step
-from ssilang.language.registry import Help, arg, key, operator
+from ssilang.language.registry import Help, arg, choice, key, operator, opt
 from ssilang.language.run.call import Call
-from ssilang.operators.curves.words import read_colour
+from ssilang.language.values import ListReel
+from ssilang.operators.curves.words import COLOUR, CURVE, one_part, shade
 
 _KINDS = ("DEPL", "VITE", "ACCE")
 _RECORD = "A = EVOL 'MANU' 'TEMP' (PROG 0. PAS 0.1 1.) 'ACCE' (PROG 11 * 2.) ; "
 
 
-def _rule(call: Call) -> bool:
-    """Whether 'LINE' is asked for."""
-    return call.keyword(("SIMP", "LINE")) == "LINE"
+_RULE = choice(
+    "rule",
+    ("SIMP", "LINE"),
+    default="SIMP",
+    en="by trapezoids (default), or exactly for an acceleration linear in the steps",
+    fr="par les trapèzes (par défaut), ou exact pour une accélération linéaire dans les pas",
+)
 
 
 @operator(
     "INSI",
+    CURVE,
+    _RULE,
     family="signals",
     help=Help(
         en="Displacements and velocities of accelerations at a constant step, from rest: by "
@@ -38,12 +45,10 @@ def _rule(call: Call) -> bool:
         syntax="EVOL1 EVOL2 = INSI EVOL3 ('SIMP' | 'LINE') ;",
         examples=(_RECORD + "D V = INSI A 'LINE' ; LIST (EXTR V 'ORDO') ; LIST (EXTR D 'ORDO') ;",),
     ),
-    reads_itself=True,
 )
-def insi(call: Call) -> tuple[Curve, Curve]:
+def insi(curve: Curve, rule: str) -> tuple[Curve, Curve]:
     """Integrate records."""
-    curve: Curve = call.required("EVOLUTIO")
-    linear = _rule(call)
+    linear = rule == "LINE"
     moved, fast = [], []
     for p in curve.parts:
         v, d = integrated(p.ordinates, constant_step(p.abscissas), linear)
@@ -54,6 +59,8 @@ def insi(call: Call) -> tuple[Curve, Curve]:
 
 @operator(
     "COSI",
+    CURVE,
+    _RULE,
     family="signals",
     help=Help(
         en="Accelerations corrected, as little as possible in least squares, so that INSI (with "
@@ -68,12 +75,10 @@ def insi(call: Call) -> tuple[Curve, Curve]:
             "D V = INSI (COSI A) ; MESS (ABS (EXTR (EXTR D 'ORDO') 11) < 1.E-12) ;",
         ),
     ),
-    reads_itself=True,
 )
-def cosi(call: Call) -> Curve:
+def cosi(curve: Curve, rule: str) -> Curve:
     """Correct records."""
-    curve: Curve = call.required("EVOLUTIO")
-    linear = _rule(call)
+    linear = rule == "LINE"
     parts = [
         dataclasses.replace(
             p, ordinates=brought_to_rest(p.ordinates, constant_step(p.abscissas), linear)
@@ -85,10 +90,24 @@ def cosi(call: Call) -> Curve:
 
 @operator(
     "CHSP",
-    arg("spectrum", "EVOLUTIO"),
-    key("given", "ENTR", arg("kind", "MOT"), optional=False),
-    key("wanted", "SORT", arg("kind", "MOT"), optional=False),
-    key("colour", "COUL", arg("c", "MOT")),
+    arg("spectrum", "EVOLUTIO", en="spectra over frequencies", fr="spectres en fréquence"),
+    key(
+        "given",
+        "ENTR",
+        arg("kind", "MOT", en="DEPL, VITE or ACCE", fr="DEPL, VITE ou ACCE"),
+        optional=False,
+        en="what they are",
+        fr="leur nature",
+    ),
+    key(
+        "wanted",
+        "SORT",
+        arg("kind", "MOT", en="DEPL, VITE or ACCE", fr="DEPL, VITE ou ACCE"),
+        optional=False,
+        en="what they become",
+        fr="nature du résultat",
+    ),
+    key("colour", "COUL", arg("c", "MOT", kind="colour"), en="colour", fr="couleur"),
     family="signals",
     help=Help(
         en="Response spectra over frequencies (Hz) in another unit: displacement 'DEPL', "
@@ -119,16 +138,27 @@ def chsp(call: Call, spectrum: Curve, given: str, wanted: str, colour: str | Non
     return Curve(tuple(parts), spectrum.title)
 
 
-def one_curve(call: Call) -> tuple[Curve, CurvePart]:
-    """A curve object of one curve, and that curve."""
-    curve: Curve = call.required("EVOLUTIO")
-    if len(curve.parts) != 1:
-        raise call.error("operators.curves.one-curve-wanted", curve, n_parts=len(curve.parts))
-    return curve, curve.parts[0]
-
-
 @operator(
     "DSPR",
+    arg("power", "ENTIER", en="2**N1 points", fr="2**N1 points"),
+    CURVE,
+    key(
+        "lowest",
+        "FMIN",
+        arg("lowest", "FLOTTANT", unit="Hz"),
+        default=0.0,
+        en="lowest frequency, 0 without it",
+        fr="fréquence minimale, 0 sans elle",
+    ),
+    key(
+        "highest",
+        "FMAX",
+        arg("highest", "FLOTTANT", unit="Hz"),
+        default=0.0,
+        en="highest frequency, all without it",
+        fr="fréquence maximale, toutes sans elle",
+    ),
+    COLOUR,
     family="signals",
     help=Help(
         en="One-sided power spectral density (per hertz) of a signal at constant step, on 2**N1 "
@@ -143,29 +173,60 @@ def one_curve(call: Call) -> tuple[Curve, CurvePart]:
             "; LIST (DSPR 3 S) ;",
         ),
     ),
-    reads_itself=True,
 )
-def dspr(call: Call) -> Curve:
+def dspr(
+    call: Call, power: int, curve: Curve, lowest: float, highest: float, colour: str | None
+) -> Curve:
     """Power density."""
-    power = call.required("ENTIER")
     if not 1 <= power <= 26:
         raise call.error("operators.curves.power-of-two", power, power=power)
-    curve, part = one_curve(call)
-    limits = {"FMIN": 0.0, "FMAX": 0.0}
-    while (said := call.keyword(("FMIN", "FMAX"))) is not None:
-        limits[said] = abs(call.required("FLOTTANT", after=call.keyword_end))
-    colour = read_colour(call) or 0
+    part = one_part(call, curve)
     f, y = power_density(part.ordinates, constant_step(part.abscissas), 2**power)
-    kept = (f >= limits["FMIN"]) & (f <= (limits["FMAX"] or np.inf))
-    made = CurvePart(f[kept], y[kept], "FREQ (HZ)", "DSP UN**2/HZ", part.legend, colour)
+    kept = (f >= abs(lowest)) & (f <= (abs(highest) or np.inf))
+    index = shade(colour, 0)
+    made = CurvePart(f[kept], y[kept], "FREQ (HZ)", "DSP UN**2/HZ", part.legend, index)
     return Curve((made,), curve.title)
 
 
-_PSRS = (("PERI", "FREQ"), ("ACCE", "VITE", "DEPL"), ("CRAM", "NEWG"))
+ABSCISSA = choice(
+    "abscissa",
+    ("PERI", "FREQ"),
+    default="PERI",
+    en="over periods (default) or frequencies",
+    fr="en périodes (par défaut) ou en fréquences",
+)
+KIND = choice(
+    "kind",
+    ("ACCE", "VITE", "DEPL"),
+    default="ACCE",
+    en="absolute acceleration (default), relative velocity or displacement",
+    fr="accélération absolue (par défaut), vitesse ou déplacement relatifs",
+)
+PERIODS = opt(
+    "periods",
+    "LISTREEL",
+    en="periods, 75 from 0.04 s to the duration without it",
+    fr="périodes, 75 de 0,04 s à la durée sans elle",
+    unit="s",
+)
 
 
 @operator(
     "PSRS",
+    arg("curve", "EVOLUTIO", en="power density per hertz", fr="densité de puissance par hertz"),
+    arg("duration", "FLOTTANT", en="duration", fr="durée", unit="s"),
+    arg("dampings", "LISTREEL", en="dampings", fr="amortissements"),
+    PERIODS,
+    ABSCISSA,
+    KIND,
+    choice(
+        "law",
+        ("CRAM", "NEWG"),
+        default="CRAM",
+        en="law of rare crossings (default), or of Gumbel",
+        fr="loi des franchissements rares (par défaut), ou de Gumbel",
+    ),
+    COLOUR,
     family="signals",
     help=Help(
         en="Response spectra of a stationary acceleration of duration X1 whose one-sided power "
@@ -186,33 +247,28 @@ _PSRS = (("PERI", "FREQ"), ("ACCE", "VITE", "DEPL"), ("CRAM", "NEWG"))
             "LIST (PSRS S 10. (PROG 0.05) (PROG 0.1 0.5) 'FREQ') ;",
         ),
     ),
-    reads_itself=True,
 )
-def psrs(call: Call) -> Curve:
+def psrs(
+    call: Call,
+    curve: Curve,
+    duration: float,
+    dampings: ListReel,
+    periods: ListReel | None,
+    abscissa: str,
+    kind: str,
+    law: str,
+    colour: str | None,
+) -> Curve:
     """Response spectra of a power spectrum."""
-    curve, part = one_curve(call)
-    duration = call.required("FLOTTANT")
-    dampings = call.required("LISTREEL").values
-    given = call.optional("LISTREEL")
-    words = [w[0] for w in _PSRS]
-    colour = part.colour
-    while True:
-        said = call.keyword(tuple(w for group in _PSRS for w in group))
-        shade = None if said else read_colour(call)
-        if said is None and shade is None:
-            break
-        colour = colour if shade is None else shade
-        words = [said if said in group else w for w, group in zip(words, _PSRS, strict=True)]
-    abscissa, kind, law = words
-    if given is None and duration <= 0.04:
+    part = one_part(call, curve)
+    if periods is None and duration <= 0.04:
         raise call.error("operators.curves.duration-too-short", duration=duration)
-    periods = np.geomspace(0.04, duration, 75) if given is None else given.values
+    over = np.geomspace(0.04, duration, 75) if periods is None else periods.values
+    index = shade(colour, part.colour)
     parts = []
-    for xi in dampings:
-        y = response_spectrum(
-            part.abscissas, part.ordinates, duration, periods, float(xi), kind, law
-        )
-        parts.append(spectrum_part(periods, y, abscissa, kind, float(xi), colour))
+    for xi in dampings.values:
+        y = response_spectrum(part.abscissas, part.ordinates, duration, over, float(xi), kind, law)
+        parts.append(spectrum_part(over, y, abscissa, kind, float(xi), index))
     return Curve(tuple(parts), curve.title)
 
 

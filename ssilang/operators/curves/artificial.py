@@ -9,14 +9,14 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.records.artificial import Band, motion, perturbed, sines
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import ANY, Help, arg, flag, key, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
-from ssilang.operators.curves.accelerograms import one_curve
+from ssilang.operators.curves.words import one_part
 from ssilang.operators.numbers.noise import session_generator
 
 _SERIES = ("ACCE", "VITE", "DEPL")
-_NUMBERS = ("TINI", "NCOU", "NPOI", "NSIN", "INIT")
+_SEED = key("seed", "INIT", arg("seed", "ENTIER"), en="start of the random numbers", fr="germe")
 
 
 def _drawn(call: Call, seed: int | None) -> np.random.Generator:
@@ -26,8 +26,51 @@ def _drawn(call: Call, seed: int | None) -> np.random.Generator:
 
 @operator(
     "SIAR",
+    arg("spectrum", "EVOLUTIO", en="power density per hertz", fr="densité de puissance par hertz"),
+    opt(
+        "modulation",
+        "EVOLUTIO",
+        en="modulations in time by bands of frequencies",
+        fr="modulations en temps par bandes de fréquence",
+    ),
+    opt("limits", "LISTREEL", en="limits of the bands", fr="bornes des bandes", unit="Hz"),
+    opt("duration", "FLOTTANT", en="end of the signals", fr="fin des signaux", unit="s"),
+    key(
+        "start",
+        "TINI",
+        arg("start", "FLOTTANT", unit="s"),
+        en="start of the signals",
+        fr="instant initial",
+    ),
+    flag("acceleration", "ACCE", en="acceleration", fr="accélération"),
+    flag("velocity", "VITE", en="velocity", fr="vitesse"),
+    flag("displacement", "DEPL", en="displacement", fr="déplacement"),
+    key(
+        "n_signals",
+        "NCOU",
+        arg("n", "ENTIER"),
+        default=1,
+        en="number of signals, 1 without it",
+        fr="nombre de signaux, 1 sans lui",
+    ),
+    key(
+        "n_instants",
+        "NPOI",
+        arg("n", "ENTIER"),
+        en="number of instants, steps of 0.02 s without it",
+        fr="nombre d'instants, pas de 0,02 s sans lui",
+    ),
+    key(
+        "n_sines",
+        "NSIN",
+        arg("n", "ENTIER"),
+        en="number of sines, slices of 0.1 Hz without it",
+        fr="nombre de sinus, bandes de 0,1 Hz sans lui",
+    ),
+    _SEED,
     family="signals",
     full_name="SIAR",
+    gives=ANY,
     help=Help(
         en="Artificial signals of a one-sided power density (per hertz): sums of sines of random "
         "phase, times modulations in time given for bands of frequencies (limits in the list), "
@@ -46,48 +89,53 @@ def _drawn(call: Call, seed: int | None) -> np.random.Generator:
             "A = SIAR S 8. 'ACCE' 'INIT' 3 ; LIST (DIME (EXTR A 'ORDO')) ;",
         ),
     ),
-    reads_itself=True,
 )
-def siar(call: Call) -> Any:
+def siar(
+    call: Call,
+    spectrum: Curve,
+    modulation: Curve | None,
+    limits: ListReel | None,
+    duration: float | None,
+    start: float | None,
+    acceleration: bool,
+    velocity: bool,
+    displacement: bool,
+    n_signals: int,
+    n_instants: int | None,
+    n_sines: int | None,
+    seed: int | None,
+) -> Any:
     """Draw signals."""
-    _, part = one_curve(call)
-    modulation = call.optional("EVOLUTIO")
-    limits = call.required("LISTREEL").values if modulation is not None else None
-    given = call.optional("FLOTTANT")
-    wanted: list[str] = []
-    said: dict[str, Any] = {}
-    while (word := call.keyword(_SERIES + _NUMBERS)) is not None:
-        if word in _SERIES:
-            wanted.append(word)
-        else:
-            kind = "FLOTTANT" if word == "TINI" else "ENTIER"
-            said[word] = call.required(kind, after=call.keyword_end)
-    given = call.optional("FLOTTANT") if given is None else given
-    bands = _bands(call, part, modulation, limits, given)
-    start = float(said.get("TINI", bands[0].times[0]))
-    end = float(bands[0].times[-1]) if given is None else float(given)
-    if not bands[0].times[0] <= start < end <= bands[0].times[-1]:
+    part = one_part(call, spectrum)
+    if modulation is not None and limits is None:
+        raise call.missing(("LISTREEL",))
+    bands = _bands(call, part, modulation, limits.values if limits else None, duration)
+    held = bands[0].times
+    begin = float(held[0] if start is None else start)
+    end = float(held[-1] if duration is None else duration)
+    if not held[0] <= begin < end <= held[-1]:
         raise call.error(
             "operators.curves.signals-outside-modulation",
-            start=start,
+            start=begin,
             end=end,
-            times=bands[0].times[0],
-            times_2=bands[0].times[-1],
+            first=held[0],
+            last=held[-1],
         )
-    if said.get("NPOI", 2) < 2 or said.get("NSIN", 1) < 1:
-        raise call.error("operators.curves.signal-too-short")
-    times = np.linspace(start, end, said.get("NPOI", round((end - start) / 0.02) + 1))
     width = float(part.abscissas[-1] - part.abscissas[0])
-    count = said.get("NSIN", max(round(width / 0.1), 1))
-    if len(times) < 2 or count < 1:
+    count = max(round(width / 0.1), 1) if n_sines is None else n_sines
+    samples = round((end - begin) / 0.02) + 1 if n_instants is None else n_instants
+    if samples < 2 or count < 1:
         raise call.error("operators.curves.signal-too-short")
+    times = np.linspace(begin, end, samples)
     f, amplitudes = sines(part.abscissas, part.ordinates, count)
-    generator = _drawn(call, said.get("INIT"))
+    generator = _drawn(call, seed)
     drawn = []
-    for _ in range(said.get("NCOU", 1)):
+    for _ in range(n_signals):
         phases = 2.0 * np.pi * generator.random(count)
-        drawn.append(motion(times, f, amplitudes, phases, bands, float(bands[0].times[0])))
-    made = [_series(times, drawn, w, part.colour) for w in _SERIES if w in (wanted or _SERIES)]
+        drawn.append(motion(times, f, amplitudes, phases, bands, float(held[0])))
+    asked = zip(_SERIES, (acceleration, velocity, displacement), strict=True)
+    wanted = [w for w, said in asked if said] or _SERIES
+    made = [_series(times, drawn, w, part.colour) for w in wanted]
     return made[0] if len(made) == 1 else tuple(made)
 
 
@@ -128,6 +176,16 @@ def _bands(
 
 @operator(
     "PERT",
+    arg("values", "LISTREEL", en="values", fr="valeurs"),
+    flag("signs", "SIGN", en="signs drawn, the default", fr="signes tirés, par défaut"),
+    key(
+        "degrees",
+        "AMPL",
+        arg("degrees", "FLOTTANT", unit="degree"),
+        en="largest angle whose sin^2 is the share given to the neighbours",
+        fr="plus grand angle dont le sin^2 est la part donnée aux voisins",
+    ),
+    _SEED,
     family="signals",
     help=Help(
         en="A list perturbed at random: signs drawn ('SIGN', the default), or a part of each "
@@ -139,18 +197,10 @@ def _bands(
         syntax="LREEL1 = PERT LREEL2 ('SIGN') ('AMPL' X1) ('INIT' N1) ;",
         examples=("LIST (SOMM ((PERT (PROG 1. 2. 3.) 'AMPL' 30. 'INIT' 1) ** 2)) ;",),
     ),
-    reads_itself=True,
 )
-def pert(call: Call) -> ListReel:
+def pert(
+    call: Call, values: ListReel, signs: bool, degrees: float | None, seed: int | None
+) -> ListReel:
     """Perturb values."""
-    values = call.required("LISTREEL").values
-    signs, degrees, seed = False, None, None
-    while (word := call.keyword(("SIGN", "AMPL", "INIT"))) is not None:
-        if word == "SIGN":
-            signs = True
-        elif word == "AMPL":
-            degrees = call.required("FLOTTANT", after=call.keyword_end)
-        else:
-            seed = call.required("ENTIER", after=call.keyword_end)
     generator = _drawn(call, seed)
-    return ListReel(perturbed(values, generator, signs or degrees is None, degrees))
+    return ListReel(perturbed(values.values, generator, signs or degrees is None, degrees))

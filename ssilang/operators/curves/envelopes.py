@@ -45,7 +45,7 @@ def largest(parts: list[CurvePart]) -> CurvePart:
     return CurvePart(x, y, first.abscissa_name, first.ordinate_name, first.legend, first.colour)
 
 
-@enve.form(arg("table", "TABLE"))
+@enve.form(arg("table", "TABLE", en="spectra", fr="spectres"))
 def envelope_of_spectra(call: Call, table: Table) -> Table:
     """Envelope of spectra."""
     spectra = _spectra(call, table)

@@ -6,13 +6,25 @@ import numpy as np
 
 from ssilang.kernel.curves.curve import Curve
 from ssilang.kernel.records.floors import Storey, floor_spectrum
-from ssilang.language.registry import Help, operator
-from ssilang.language.run.call import Call
+from ssilang.language.registry import Help, arg, operator
 from ssilang.language.values import ListReel
 
 
 @operator(
     "ZSPP",
+    arg("modes", "LISTREEL", en="frequencies of modes", fr="fréquences des modes", unit="Hz"),
+    arg("dampings", "LISTREEL", en="their dampings", fr="leurs amortissements"),
+    arg("shares", "LISTREEL", en="their participations", fr="leurs participations"),
+    arg(
+        "frequencies",
+        "LISTREEL",
+        en="frequencies of the spectrum",
+        fr="fréquences du spectre",
+        unit="Hz",
+    ),
+    arg("damping", "FLOTTANT", en="its damping", fr="son amortissement"),
+    arg("power", "EVOLUTIO", en="power density", fr="densité de puissance"),
+    arg("envelope", "EVOLUTIO", en="envelope", fr="enveloppe"),
     family="signals",
     help=Help(
         en="Standard deviations and peak factors of a floor spectrum, for SPPLANC, the procedure "
@@ -23,15 +35,19 @@ from ssilang.language.values import ListReel
         "son amortissement, densité de puissance, enveloppe.",
         syntax="LREEL1 LREEL2 = ZSPP LREEL3 LREEL4 LREEL5 LREEL6 X1 EVOL1 EVOL2 ;",
     ),
-    reads_itself=True,
 )
-def zspp(call: Call) -> tuple[ListReel, ListReel]:
+def zspp(
+    modes: ListReel,
+    dampings: ListReel,
+    shares: ListReel,
+    frequencies: ListReel,
+    damping: float,
+    power: Curve,
+    envelope: Curve,
+) -> tuple[ListReel, ListReel]:
     """Relative displacements of oscillators on a floor."""
-    modes = [np.asarray(call.required("LISTREEL").values, dtype=float) for _ in range(3)]
-    frequencies = np.asarray(call.required("LISTREEL").values, dtype=float)
-    damping = float(call.required("FLOTTANT"))
-    power: Curve = call.required("EVOLUTIO")
-    envelope: Curve = call.required("EVOLUTIO")
+    storey = Storey(*(np.asarray(v.values, dtype=float) for v in (modes, dampings, shares)))
+    over = np.asarray(frequencies.values, dtype=float)
     density, shape = ((c.parts[0].abscissas, c.parts[0].ordinates) for c in (power, envelope))
-    deviations, factors = floor_spectrum(Storey(*modes), density, shape, frequencies, damping)
+    deviations, factors = floor_spectrum(storey, density, shape, over, damping)
     return ListReel(deviations), ListReel(factors)

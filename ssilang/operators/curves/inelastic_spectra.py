@@ -2,73 +2,107 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from ssilang.io.plots.palette import index_of
 from ssilang.kernel.curves.curve import Curve, CurvePart
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import Help, arg, flag, key, operator
 from ssilang.language.run.call import Call
+from ssilang.language.values import ListReel
 
 _LAWS = ("CINE", "ISOT", "ELAS")
 _POWER = {"DEPL": 0, "VITE": 1, "ACCE": 2}
-_VALUES = {"SIGN": "EVOLUTIO", "SPEL": "EVOLUTIO", "AMOR": "LISTREEL", "COUL": "MOT"}
 
 
-def _read(call: Call) -> dict[str, Any]:
-    """What is said by keyword; the two kinds of spectrum under 'KINDS', the law under 'LAW'."""
-    said: dict[str, Any] = {"KINDS": []}
-    words = ("DEMA", *_VALUES, *_LAWS, "TAKE", *_POWER)
-    while (word := call.keyword(words)) is not None:
-        if word in _POWER:
-            said["KINDS"].append(word)
-        elif word in _VALUES:
-            said[word] = call.required(_VALUES[word], after=call.keyword_end)
-        elif word == "DEMA":
-            said[word] = True
-        elif word == "TAKE":
-            raise call.error("operators.curves.takeda-not-available")
-        else:
-            said["LAW"] = word
-            said["LIST"] = call.required("LISTREEL", after=call.keyword_end)
-    for word in ("SIGN", "SPEL", "AMOR"):
-        if word not in said:
-            raise call.error("operators.curves.number-wanted", word=word)
-    if "LAW" not in said or len(said["KINDS"]) != 2:
-        raise call.error("operators.curves.law-and-kinds-wanted")
-    if len(said["LIST"].values) < 2:
-        raise call.error("operators.curves.ductility-and-hardening-wanted")
-    if len(said["SPEL"].parts) != len(said["AMOR"].values):
-        raise call.error("operators.curves.spectra-and-dampings-differ")
-    return said
-
-
-def _spon(call: Call) -> Curve:
+def _spon(
+    call: Call,
+    demand: bool,
+    signal: Curve,
+    linear: Curve,
+    dampings: ListReel,
+    law: tuple[str, ListReel] | None,
+    takeda: bool,
+    kinds: list[str],
+    colour: str,
+) -> Curve:
     from ssilang.kernel.records.inelastic import limits_for_ductility, yielding_peaks
 
-    said = _read(call)
-    signal = said["SIGN"].parts[0]
-    t, g = np.asarray(signal.abscissas, float), np.asarray(signal.ordinates, float)
-    given, wanted = said["KINDS"]
-    ductility, hardening = (float(v) for v in said["LIST"].values[:2])
-    colour = index_of(str(said.get("COUL", "DEFA")))
+    if takeda:
+        raise call.error("operators.curves.takeda-not-available")
+    if law is None or len(kinds) != 2:
+        raise call.error("operators.curves.law-and-kinds-wanted")
+    name, numbers = law
+    if len(numbers.values) < 2:
+        raise call.error("operators.curves.ductility-and-hardening-wanted")
+    if len(linear.parts) != len(dampings.values):
+        raise call.error("operators.curves.spectra-and-dampings-differ")
+    record = signal.parts[0]
+    t, g = np.asarray(record.abscissas, float), np.asarray(record.ordinates, float)
+    given, wanted = kinds
+    ductility, hardening = (float(v) for v in numbers.values[:2])
+    shade = index_of(colour)
     made = []
-    for xi, part in zip(said["AMOR"].values, said["SPEL"].parts, strict=True):
+    for xi, part in zip(dampings.values, linear.parts, strict=True):
         f = np.asarray(part.abscissas, float)
         w = 2.0 * np.pi * f
         limits = np.asarray(part.ordinates, float) / w ** _POWER[given] / ductility
-        if "DEMA" in said:
-            x = limits_for_ductility(t, g, f, float(xi), said["LAW"], hardening, ductility, limits)
+        if demand:
+            x = limits_for_ductility(t, g, f, float(xi), name, hardening, ductility, limits)
         else:
-            x = yielding_peaks(t, g, f, float(xi), said["LAW"], hardening, limits)
+            x = yielding_peaks(t, g, f, float(xi), name, hardening, limits)
         y = x * w ** _POWER[wanted]
-        made.append(CurvePart(f, y, "FREQ", wanted, f"{100.0 * xi:g} %", colour))
-    return Curve(tuple(made), said["SIGN"].title)
+        made.append(CurvePart(f, y, "FREQ", wanted, f"{100.0 * xi:g} %", shade))
+    return Curve(tuple(made), signal.title)
 
 
 operator(
     "SPON",
+    flag(
+        "demand",
+        "DEMA",
+        en="limits at which the ductility is the given one",
+        fr="limites pour lesquelles la ductilité est celle donnée",
+    ),
+    key("signal", "SIGN", arg("signal", "EVOLUTIO"), optional=False, en="signal", fr="signal"),
+    key(
+        "linear",
+        "SPEL",
+        arg("linear", "EVOLUTIO"),
+        optional=False,
+        en="linear spectra, one for each damping",
+        fr="spectres linéaires, un par amortissement",
+    ),
+    key(
+        "dampings",
+        "AMOR",
+        arg("dampings", "LISTREEL"),
+        optional=False,
+        en="dampings",
+        fr="amortissements",
+    ),
+    key(
+        "law",
+        _LAWS,
+        arg("numbers", "LISTREEL", en="ductility and ratio", fr="ductilité et rapport"),
+        en="kinematic or isotropic hardening, or non-linear elastic",
+        fr="écrouissage cinématique ou isotrope, ou élastique non linéaire",
+    ),
+    flag("takeda", "TAKE", en="not available", fr="non disponible"),
+    key(
+        "kinds",
+        tuple(_POWER),
+        repeated=True,
+        en="what the linear spectrum is, then what is wanted",
+        fr="nature du spectre linéaire, puis du résultat",
+    ),
+    key(
+        "colour",
+        "COUL",
+        arg("colour", "MOT", kind="colour"),
+        default="DEFA",
+        en="colour",
+        fr="couleur",
+    ),
     family="modal",
     help=Help(
         "Spectra of oscillators that yield, one for each damping: bilinear with kinematic ('CINE') "
@@ -94,5 +128,4 @@ operator(
             " 'ACCE') ;",
         ),
     ),
-    reads_itself=True,
 )(_spon)

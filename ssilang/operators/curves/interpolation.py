@@ -20,22 +20,75 @@ from ssilang.kernel.curves.algebra import (
 from ssilang.kernel.curves.cloud import Cloud
 from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.fields import cell_algebra, node_algebra
+from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.mesh import Point
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import (
+    Chosen,
+    Help,
+    Like,
+    arg,
+    choice,
+    either,
+    flag,
+    group,
+    key,
+    main,
+    operator,
+    opt,
+    said,
+)
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel, Table
-from ssilang.operators.curves.items import numbered
+from ssilang.operators.curves.extraction import numbered
+from ssilang.operators.curves.words import CURVE
 from ssilang.operators.dispatch import INTG
 from ssilang.operators.fields.cloud_functions import interpolate_cloud
 from ssilang.operators.numbers.arithmetic import rule
 from ssilang.operators.numbers.functions import mapped
 from ssilang.operators.workspace import workspace
 
+_VALUE = arg(
+    "value",
+    "FLOTTANT",
+    "LISTREEL",
+    "CHPOINT",
+    "MCHAML",
+    en="where the function is wanted",
+    fr="où la fonction est cherchée",
+)
+_FUNCTION = either(
+    "function",
+    group("curve", CURVE),
+    group(
+        "lists",
+        arg("x", "LISTREEL", en="abscissas", fr="abscisses"),
+        arg("y", "LISTREEL", en="ordinates", fr="ordonnées"),
+    ),
+)
+
 
 @operator(
     "IPOL",
+    _VALUE,
+    _FUNCTION,
+    flag("smooth", "SPLI", en="by a cubic spline", fr="par spline cubique"),
+    key(
+        "left",
+        "DGAU",
+        arg("left", "FLOTTANT"),
+        en="slope of the spline at the left end",
+        fr="pente de la spline au bord gauche",
+    ),
+    key(
+        "right",
+        "DDRO",
+        arg("right", "FLOTTANT"),
+        en="slope of the spline at the right end",
+        fr="pente de la spline au bord droit",
+    ),
     family="curves",
+    gives=Like("value"),
     help=Help(
         en="Value of a function given by a curve or two lists, at a number, at each item of a "
         "list or value of a field: linear, or by a cubic spline ('SPLI', with slopes at the ends "
@@ -55,54 +108,92 @@ from ssilang.operators.workspace import workspace
             "LIST (IPOL (PROG 0.5 5.) (EVOL 'MANU' (PROG 0. 1.) (PROG 2. 4.))) ;",
         ),
     ),
-    reads_itself=True,
 )
-def ipol(call: Call) -> Any:
+def ipol(
+    call: Call,
+    value: Any,
+    function: Chosen,
+    smooth: bool,
+    left: float | None,
+    right: float | None,
+) -> Any:
     """Interpolate."""
-    table = call.read("TABLE")
-    if table is not None:
-        return _in_table(call, table.value, call.required("FLOTTANT"))
-    cloud = call.read("NUAGE")
-    if cloud is not None:
-        return interpolate_cloud(call, cloud.value, call.required("CHPOINT", "MCHAML"))
-    operand = call.read("FLOTTANT", "LISTREEL", "CHPOINT", "MCHAML")
-    if operand is None:
-        raise call.missing(("FLOTTANT", "LISTREEL", "CHPOINT", "MCHAML"))
-    value = operand.value
-    curve = call.read("EVOLUTIO")
-    if curve is not None:
-        part = numbered(call, curve.value, 1)
-        x, y = part.abscissas, part.ordinates
-    elif isinstance(value, NodeField) and (distance := call.read("FLOTTANT")) is not None:
-        return _on_line(call, value, distance.value)
-    else:
-        x, y = call.required("LISTREEL").values, call.required("LISTREEL").values
-    return _interpolate(call, value, x, y)
-
-
-def _interpolate(call: Call, value: Any, x: FloatArray, y: FloatArray) -> Any:
-    slopes: dict[str, float] = {}
-    word = call.keyword(("SPLI", "TOUS"))
-    while (said := call.keyword(("DGAU", "DDRO"))) is not None:
-        slopes[said] = call.required("FLOTTANT", after=call.keyword_end)
-    if word == "TOUS":
-        if not isinstance(value, float):
-            raise call.error("operators.curves.all-of-one-number", value)
-        return ListReel(crossings(x, y, value))
-    if word == "SPLI":
-        ends = slopes.get("DGAU"), slopes.get("DDRO")
-        return mapped(lambda at: spline(x, y, at, *ends), value)
+    x, y = _points_of(call, function)
+    if smooth:
+        return mapped(lambda at: spline(x, y, at, left, right), value)
     return mapped(lambda at: interpolated(x, y, at), value)
 
 
-def _in_table(call: Call, table: Table, time: float) -> Any:
+def _points_of(call: Call, function: Chosen) -> tuple[FloatArray, FloatArray]:
+    """Abscissas and ordinates that `_FUNCTION` has read."""
+    if function.word == "lists":
+        return function["x"].values, function["y"].values
+    part = numbered(call, function["curve"], 1)
+    return part.abscissas, part.ordinates
+
+
+@ipol.form(said("TOUS"), _VALUE, _FUNCTION)
+def all_values(call: Call, value: Any, function: Chosen) -> ListReel:
+    """All ordinates of a curve that goes back."""
+    if not isinstance(value, float):
+        raise call.error("operators.curves.all-of-one-number", value)
+    return ListReel(crossings(*_points_of(call, function), value))
+
+
+@ipol.form(
+    arg("cloud", "NUAGE", en="function by its points", fr="fonction par ses points"),
+    arg("field", "CHPOINT", "MCHAML", en="where it is wanted", fr="où elle est cherchée"),
+    choice(
+        "method",
+        ("GAUS", "RATI", "GRIL"),
+        en="weights of the points (default GAUS), or a grid",
+        fr="poids des points (par défaut GAUS), ou grille",
+    ),
+    key(
+        "power",
+        "PID",
+        opt("power", "FLOTTANT", default=1.0),
+        en="weights by powers of the distance",
+        fr="poids en puissance de la distance",
+    ),
+    key(
+        "cut",
+        "ELIM",
+        opt("cut", "FLOTTANT", default=0.0),
+        default=0.0,
+        en="distance within which a point gives its own values",
+        fr="distance en deçà de laquelle un point donne ses propres valeurs",
+    ),
+    gives=Like("field"),
+)
+def of_cloud(
+    cloud: Cloud,
+    field: NodeField | CellField,
+    method: str | None,
+    power: float | None,
+    cut: float,
+) -> NodeField | CellField:
+    """A function of several variables."""
+    if method is None:
+        method = "GAUS" if power is None else "PID"
+    settings = {"PID": 1.0 if power is None else power, "ELIM": cut}
+    return interpolate_cloud(cloud, field, method, settings)
+
+
+@ipol.form(
+    arg("table", "TABLE", en="fields by times", fr="champs par instants"),
+    arg("time", "FLOTTANT", en="time", fr="instant", unit="s"),
+    gives="CHPOINT|MCHAML",
+)
+def in_table(call: Call, table: Table, time: float) -> Any:
+    """The field between two of a table."""
     pairs = sorted((i, v) for i, v in table.items() if isinstance(i, float))
     if not pairs:
         raise call.error("operators.curves.no-real-index", table)
     times = [t for t, _ in pairs]
     if not times[0] <= time <= times[-1]:
         raise call.error(
-            "operators.curves.outside-table", time, time=time, times=times[0], times_2=times[-1]
+            "operators.curves.outside-table", time, time=time, first=times[0], last=times[-1]
         )
     k = min(int(np.searchsorted(times, time, side="right")), len(times) - 1)
     (t0, a), (t1, b) = pairs[k - 1] if k else pairs[0], pairs[k]
@@ -112,7 +203,12 @@ def _in_table(call: Call, table: Table, time: float) -> Any:
     return algebra.added(first, b, share)
 
 
-def _on_line(call: Call, field: NodeField, distance: float) -> Point:
+@ipol.form(
+    arg("field", "CHPOINT", en="curvilinear abscissas", fr="abscisses curvilignes"),
+    arg("distance", "FLOTTANT", en="distance along the line", fr="abscisse du point", unit="m"),
+)
+def on_line(call: Call, field: NodeField, distance: float) -> Point:
+    """A point of a line."""
     if len(field.components) != 1:
         raise call.error("operators.curves.abscissas-have-one-component", field)
     (part,) = field.components.values()
@@ -121,7 +217,7 @@ def _on_line(call: Call, field: NodeField, distance: float) -> Point:
     s = part.values[order]
     if not s[0] <= distance <= s[-1]:
         raise call.error(
-            "operators.curves.outside-line", distance, distance=distance, s=s[0], s_2=s[-1]
+            "operators.curves.outside-line", distance, distance=distance, first=s[0], last=s[-1]
         )
     ws = workspace(call.session)
     return ws.point([float(np.interp(distance, s, x[:, i])) for i in range(ws.dimension or 3)])
@@ -142,8 +238,30 @@ for _kind in ("CHPOINT", "MCHAML"):
 # ---- integrals ----------------------------------------------------------------------------------
 
 
-@INTG.on(
-    "EVOLUTIO",
+_BOUND = ("FLOTTANT", "LISTREEL")
+_PLACE = ("ENTIER", "LISTENTI")
+
+
+@INTG.form(
+    main("curve", "EVOLUTIO", en="curves", fr="évolutions"),
+    flag("absolute", "ABS", en="of the absolute value", fr="de la valeur absolue"),
+    key(
+        "bounds",
+        "BORN",
+        arg("low", *_BOUND, en="lower ones", fr="inférieures"),
+        arg("high", *_BOUND, en="upper ones", fr="supérieures"),
+        en="between abscissas",
+        fr="entre abscisses",
+    ),
+    key(
+        "places",
+        "INDI",
+        arg("low", *_PLACE, en="first ones", fr="premiers"),
+        arg("high", *_PLACE, en="last ones", fr="derniers"),
+        en="between places",
+        fr="entre rangs",
+    ),
+    gives="FLOTTANT|LISTREEL|NUAGE",
     syntax="X1 | LREE1 = INTG EVOL1 ('ABS') ('BORN' X1 X2 | LREE1 LREE2) "
     "('INDI' N1 N2 | LENT1 LENT2) ;",
     en="Of a curve: integral by trapezes, over all or between bounds (abscissas 'BORN' or places "
@@ -155,13 +273,10 @@ for _kind in ("CHPOINT", "MCHAML"):
     "l'aire qu'elle entoure.",
     examples=("LIST (INTG (EVOL 'MANU' (PROG 0. 1. 2.) (PROG 0. 1. 0.))) ;",),
 )
-def _integrate(call: Call, curve: Curve) -> Any:
-    absolute, word, bounds = False, "", None
-    while (said := call.keyword(("ABS", "BORN", "INDI"))) is not None:
-        if said == "ABS":
-            absolute = True
-        else:
-            word, bounds = said, _bounds(call, said)
+def integrate(call: Call, curve: Curve, absolute: bool, bounds: Any, places: Any) -> Any:
+    """Integrals of curves."""
+    word = "BORN" if bounds is not None else "INDI" if places is not None else ""
+    bounds = bounds if bounds is not None else places
     way = integral if word == "BORN" else integral_along
     results = [
         [way(part, low, high, absolute) for low, high in _intervals(call, part, word, bounds)]
@@ -172,11 +287,6 @@ def _integrate(call: Call, curve: Curve) -> Any:
     flat = [v for row in results for v in row]
     one = len(curve.parts) == 1 and (bounds is None or isinstance(bounds[0], int | float))
     return flat[0] if one else ListReel(flat)
-
-
-def _bounds(call: Call, word: str) -> tuple[Any, Any]:
-    kinds = ("FLOTTANT", "LISTREEL") if word == "BORN" else ("ENTIER", "LISTENTI")
-    return call.required(*kinds, after=call.keyword_end), call.required(*kinds)
 
 
 def _intervals(call: Call, part: CurvePart, word: str, bounds: Any) -> list[tuple[Any, Any]]:
@@ -199,6 +309,7 @@ def _intervals(call: Call, part: CurvePart, word: str, bounds: Any) -> list[tupl
 
 @operator(
     "PRIM",
+    CURVE,
     family="curves",
     full_name="PRIMITIVE",
     help=Help(
@@ -207,9 +318,7 @@ def _intervals(call: Call, part: CurvePart, word: str, bounds: Any) -> list[tupl
         syntax="EVOL2 = PRIM EVOL1 ;",
         examples=("LIST (PRIM (EVOL 'MANU' (PROG 0. 1. 2.) (PROG 1. 1. 1.))) ;",),
     ),
-    reads_itself=True,
 )
-def prim(call: Call) -> Curve:
+def prim(curve: Curve) -> Curve:
     """Running integral."""
-    curve: Curve = call.required("EVOLUTIO")
     return dataclasses.replace(curve, parts=tuple(primitive(p) for p in curve.parts))

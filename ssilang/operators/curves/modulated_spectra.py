@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from ssilang.kernel.curves.curve import Curve
@@ -12,19 +10,64 @@ from ssilang.kernel.records.modulated import (
     Resolution,
     modulated_response_spectrum,
 )
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import Help, arg, flag, key, operator, opt
 from ssilang.language.run.call import Call
-from ssilang.operators.curves.accelerograms import one_curve, spectrum_part
-from ssilang.operators.curves.words import read_colour
-
-_CHOICES = (("PERI", "FREQ"), ("ACCE", "VITE", "DEPL"))
-_TUNING = {"NBPR": "ENTIER", "NBIN": "ENTIER", "TPLU": "FLOTTANT", "PREC": "FLOTTANT"}
-_ROOTS = ("NEG1", "NEG2", "NBDE")
-"""Words that choose what has one answer here: how levels are searched, the defaults."""
+from ssilang.language.values import ListReel
+from ssilang.operators.curves.accelerograms import ABSCISSA, KIND, PERIODS, spectrum_part
+from ssilang.operators.curves.words import COLOUR, one_part, shade
 
 
 @operator(
     "PRNS",
+    arg("curve", "EVOLUTIO", en="power density per hertz", fr="densité de puissance par hertz"),
+    arg("modulation", "EVOLUTIO", en="a curve for each band", fr="une courbe par bande"),
+    arg("bands", "LISTREEL", en="limits of the bands", fr="bornes des bandes", unit="Hz"),
+    PERIODS,
+    opt(
+        "damping",
+        "FLOTTANT",
+        default=0.05,
+        en="damping, 0.05 without it",
+        fr="amortissement, 0,05 sans lui",
+    ),
+    KIND,
+    ABSCISSA,
+    COLOUR,
+    key(
+        "n_processes",
+        "NBPR",
+        arg("n", "ENTIER"),
+        en="number of processes, of about 2 s without it",
+        fr="nombre de processus, d'environ 2 s sans lui",
+    ),
+    key(
+        "n_instants",
+        "NBIN",
+        arg("n", "ENTIER"),
+        default=10,
+        en="instants of each, 10 without it",
+        fr="instants de chacun, 10 sans lui",
+    ),
+    key(
+        "rest",
+        "TPLU",
+        arg("rest", "FLOTTANT", unit="s"),
+        default=20.0,
+        en="time behind the end, 20 without it",
+        fr="temps au-delà de la fin, 20 sans lui",
+    ),
+    key(
+        "precision",
+        "PREC",
+        arg("precision", "FLOTTANT"),
+        default=1e-3,
+        en="precision of the levels, 1.E-3 without it",
+        fr="précision des niveaux, 1.E-3 sans elle",
+    ),
+    flag("defaults", "NBDE", en="the defaults", fr="les valeurs par défaut"),
+    flag("root_1", "NEG1", en="accepted, changes nothing", fr="accepté, sans effet"),
+    flag("root_2", "NEG2", en="accepted, changes nothing", fr="accepté, sans effet"),
+    flag("wavelets", "ONDE", en="not available", fr="non disponible"),
     family="signals",
     help=Help(
         en="Response spectrum of a random acceleration that changes in time: a stationary signal "
@@ -57,54 +100,40 @@ _ROOTS = ("NEG1", "NEG2", "NBDE")
             "LIST (PRNS S M (PROG 0.5 20.) 0.05 (PROG 0.1 0.5) 'FREQ') ;",
         ),
     ),
-    reads_itself=True,
 )
-def prns(call: Call) -> Curve:
+def prns(
+    call: Call,
+    curve: Curve,
+    modulation: Curve,
+    bands: ListReel,
+    periods: ListReel | None,
+    damping: float,
+    kind: str,
+    abscissa: str,
+    colour: str | None,
+    n_processes: int | None,
+    n_instants: int,
+    rest: float,
+    precision: float,
+    wavelets: bool,
+    **_: bool,
+) -> Curve:
     """Response spectrum of a modulated power spectrum."""
-    curve, power = one_curve(call)
-    modulation: Curve = call.required("EVOLUTIO")
-    bands = call.required("LISTREEL").values
-    words = [w[0] for w in _CHOICES]
-    numbers: dict[str, Any] = {}
-    colour = power.colour
-    damping, given = _left(call, None, None)
-    while True:
-        said = call.keyword((*(w for g in _CHOICES for w in g), *_TUNING, *_ROOTS, "ONDE"))
-        shade = None if said else read_colour(call)
-        if said is None and shade is None:
-            break
-        if said == "ONDE":
-            raise call.error("operators.curves.no-modulation-of-wavelets")
-        if said in _TUNING:
-            numbers[said] = call.required(_TUNING[said], after=call.keyword_end)
-        colour = colour if shade is None else shade
-        words = [said if said in g else w for w, g in zip(words, _CHOICES, strict=True)]
-        damping, given = _left(call, damping, given)
+    if wavelets:
+        raise call.error("operators.curves.no-modulation-of-wavelets")
+    power = one_part(call, curve)
     signal = ModulatedSignal(
-        power.abscissas, power.ordinates, np.asarray(bands, dtype=float),
+        power.abscissas, power.ordinates, np.asarray(bands.values, dtype=float),
         tuple(p.abscissas for p in modulation.parts), tuple(p.ordinates for p in modulation.parts),
     )  # fmt: skip
-    if given is None and signal.duration <= 0.04:
+    if periods is None and signal.duration <= 0.04:
         raise call.error("operators.curves.duration-too-short", duration=signal.duration)
-    periods = np.geomspace(0.04, signal.duration, 75) if given is None else given.values
-    resolution = Resolution(
-        numbers.get("NBPR", max(round(signal.duration / 2.0), 1)),
-        numbers.get("NBIN", 10),
-        float(numbers.get("TPLU", 20.0)),
-        float(numbers.get("PREC", 1e-3)),
-    )
-    abscissa, kind = words
-    xi = 0.05 if damping is None else float(damping)
-    order = np.argsort(periods)
-    values = modulated_response_spectrum(signal, periods[order], xi, kind, resolution)
-    part = spectrum_part(periods[order], values, abscissa, kind, xi, colour)
+    over = np.geomspace(0.04, signal.duration, 75) if periods is None else periods.values
+    if n_processes is None:
+        n_processes = max(round(signal.duration / 2.0), 1)
+    resolution = Resolution(n_processes, n_instants, rest, precision)
+    order = np.argsort(over)
+    values = modulated_response_spectrum(signal, over[order], damping, kind, resolution)
+    index = shade(colour, power.colour)
+    part = spectrum_part(over[order], values, abscissa, kind, damping, index)
     return Curve((part,), curve.title)
-
-
-def _left(call: Call, damping: Any, given: Any) -> tuple[Any, Any]:
-    """The damping and the list of periods, where they stand before the next word."""
-    if given is None:
-        given = call.optional("LISTREEL")
-    if damping is None:
-        damping = call.optional("FLOTTANT")
-    return damping, given

@@ -10,15 +10,26 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.records.envelope import energy_envelope, inverse_laplace, mean_shock
 from ssilang.kernel.records.signals import constant_step
-from ssilang.language.registry import Help, arg, key, operator
+from ssilang.language.registry import Help, arg, choice, flag, key, operator, opt
 from ssilang.language.run.call import Call
-from ssilang.operators.curves.words import read_colour
+from ssilang.language.values import ListReel
+from ssilang.operators.curves.words import COLOUR, CURVE, shade
 
 _LINE = "E = EVOL 'MANU' 'X' (PROG 0. 1. 2.) 'Y' (PROG 0. 1. 4.) ; "
 
 
 @operator(
     "PROL",
+    choice(
+        "rule",
+        ("BORN", "LINE"),
+        default="BORN",
+        en="by the value at the end (default), or along the last two points",
+        fr="par la valeur à la borne (par défaut), ou selon les deux derniers points",
+    ),
+    CURVE,
+    arg("first", "FLOTTANT", en="abscissa to reach", fr="abscisse à atteindre"),
+    opt("second", "FLOTTANT", en="another one", fr="une autre"),
     family="curves",
     help=Help(
         en="Curves continued to one or two abscissas outside their range: with the value at the "
@@ -30,16 +41,10 @@ _LINE = "E = EVOL 'MANU' 'X' (PROG 0. 1. 2.) 'Y' (PROG 0. 1. 4.) ; "
         syntax="EVOL2 = PROL ('BORN' | 'LINE') EVOL1 X1 (X2) ;",
         examples=(_LINE + "LIST (PROL 'LINE' E 3. -1.) ;",),
     ),
-    reads_itself=True,
 )
-def prol(call: Call) -> Curve:
+def prol(call: Call, rule: str, curve: Curve, first: float, second: float | None) -> Curve:
     """Continue curves."""
-    rule = call.keyword(("BORN", "LINE"))
-    curve: Curve = call.required("EVOLUTIO")
-    wanted = [call.required("FLOTTANT")]
-    second = call.optional("FLOTTANT")
-    wanted += [] if second is None else [second]
-    rule = rule or call.keyword(("BORN", "LINE"))
+    wanted = [first] if second is None else [first, second]
     return dataclasses.replace(
         curve, parts=tuple(_continued(call, p, wanted, rule == "LINE") for p in curve.parts)
     )
@@ -73,8 +78,8 @@ def _continued(call: Call, part: CurvePart, wanted: list[float], line: bool) -> 
 
 @operator(
     "CONC",
-    arg("first", "EVOLUTIO"),
-    arg("second", "EVOLUTIO"),
+    arg("first", "EVOLUTIO", en="curves", fr="évolutions"),
+    arg("second", "EVOLUTIO", en="as many curves", fr="autant d'évolutions"),
     family="curves",
     full_name="CONCAT",
     help=Help(
@@ -91,7 +96,7 @@ def conc(call: Call, first: Curve, second: Curve) -> Curve:
         raise call.error(
             "operators.curves.curves-two-by-two",
             n_parts=len(first.parts),
-            n_parts_2=len(second.parts),
+            n_others=len(second.parts),
         )
     parts = []
     for a, b in zip(first.parts, second.parts, strict=True):
@@ -116,6 +121,17 @@ def _start(part: CurvePart) -> float:
 
 @operator(
     "LSQF",
+    CURVE,
+    arg("count", "ENTIER", en="number of intervals", fr="nombre d'intervalles"),
+    flag("uniform", "UNIF", en="of equal length, the default", fr="de longueur égale, par défaut"),
+    key("best", "OPTI", arg("n", "ENTIER"), en="not available", fr="non disponible"),
+    key(
+        "size",
+        "REDU",
+        arg("n", "ENTIER"),
+        en="steps of the signal in an interval",
+        fr="pas du signal par intervalle",
+    ),
     family="curves",
     help=Help(
         en="Broken lines of about N1 intervals that stand for the size of signals at constant "
@@ -130,22 +146,19 @@ def _start(part: CurvePart) -> float:
             "LIST (LSQF S 2) ;",
         ),
     ),
-    reads_itself=True,
 )
-def lsqf(call: Call) -> Curve:
+def lsqf(
+    call: Call, curve: Curve, count: int, uniform: bool, best: int | None, size: int | None
+) -> Curve:
     """Simplify signals."""
-    curve: Curve = call.required("EVOLUTIO")
-    count = call.required("ENTIER")
-    word = call.keyword(("UNIF", "OPTI", "REDU"))
-    size = call.required("ENTIER", after=call.keyword_end) if word in ("OPTI", "REDU") else 1
-    if word == "OPTI":
+    if best is not None:
         raise call.error("operators.curves.no-optimal-fit")
-    if count < 1 or size < 1:
+    if count < 1 or (size is not None and size < 1):
         raise call.error("operators.curves.counts-not-positive")
     parts = []
     for p in curve.parts:
         constant_step(p.abscissas)
-        wanted = max(count, (len(p.abscissas) - 1) // size) if word == "REDU" else count
+        wanted = count if size is None else max(count, (len(p.abscissas) - 1) // size)
         x, y = energy_envelope(p.abscissas, p.ordinates, wanted)
         parts.append(dataclasses.replace(p, abscissas=x, ordinates=y))
     return Curve(tuple(parts), curve.title)
@@ -153,6 +166,10 @@ def lsqf(call: Call) -> Curve:
 
 @operator(
     "MAPP",
+    COLOUR,
+    arg("force", "EVOLUTIO", en="contact force", fr="force de contact", unit="N"),
+    arg("moved", "EVOLUTIO", en="displacement", fr="déplacement", unit="m"),
+    arg("speed", "EVOLUTIO", en="velocity", fr="vitesse", unit="m/s"),
     family="curves",
     help=Help(
         en="Poincaré map: displacement and velocity of a node at the instants where a shock "
@@ -166,19 +183,15 @@ def lsqf(call: Call) -> Curve:
             "LIST (MAPP F D V) ;",
         ),
     ),
-    reads_itself=True,
 )
-def mapp(call: Call) -> Curve:
+def mapp(call: Call, colour: str | None, force: Curve, moved: Curve, speed: Curve) -> Curve:
     """Poincaré map."""
-    colour = read_colour(call) or 0
-    force, moved, speed = (call.required("EVOLUTIO") for _ in range(3))
-    colour = read_colour(call) or colour
     parts = []
     for f in force.parts:
         x, y = f.abscissas, np.abs(f.ordinates) > 0.0
         begins = x[np.flatnonzero(~y[:-1] & y[1:]) + 1]
         pair = [_at(call, c, begins) for c in (moved, speed)]
-        parts.append(CurvePart(pair[0], pair[1], "DEPL", "VITE", "", colour))
+        parts.append(CurvePart(pair[0], pair[1], "DEPL", "VITE", "", shade(colour, 0)))
     return Curve(tuple(parts), "CARTE DE POINCARE")
 
 
@@ -191,10 +204,30 @@ def _at(call: Call, curve: Curve, times: FloatArray) -> FloatArray:
 
 @operator(
     "CMOY",
-    arg("records", "EVOLUTIO"),
-    key("duration", "ACQU", arg("t", "FLOTTANT"), optional=False),
-    key("percent", "DECL", arg("p", "FLOTTANT"), default=1e-6),
-    key("count", "NCHO", arg("n", "ENTIER")),
+    arg("records", "EVOLUTIO", en="records", fr="enregistrements"),
+    key(
+        "duration",
+        "ACQU",
+        arg("t", "FLOTTANT", unit="s"),
+        optional=False,
+        en="time that a shock is recorded",
+        fr="durée d'enregistrement d'un choc",
+    ),
+    key(
+        "percent",
+        "DECL",
+        arg("p", "FLOTTANT", unit="%"),
+        default=1e-6,
+        en="threshold of the largest absolute value, 1.E-6 without it",
+        fr="seuil par rapport au maximum absolu, 1.E-6 sans lui",
+    ),
+    key(
+        "count",
+        "NCHO",
+        arg("n", "ENTIER"),
+        en="number of shocks kept, all without it",
+        fr="nombre de chocs gardés, tous sans lui",
+    ),
     family="signals",
     help=Help(
         en="Mean shock of records: each shock is recorded for the time 'ACQU' from where the "
@@ -224,6 +257,12 @@ def cmoy(call: Call, records: Curve, duration: float, percent: float, count: int
 
 @operator(
     "LAPL",
+    flag("inverse", "INVERSE", en="the inverse transform", fr="la transformée inverse"),
+    arg("omega", "LISTREEL", en="circular frequencies", fr="pulsations", unit="rad/s"),
+    arg("real", "LISTREEL", en="real parts", fr="parties réelles"),
+    arg("imaginary", "LISTREEL", en="imaginary parts", fr="parties imaginaires"),
+    arg("shift", "FLOTTANT", en="real part a of the variable", fr="partie réelle a de la variable"),
+    arg("group", "ENTIER", en="group size", fr="regroupement"),
     family="signals",
     full_name="LAPLACE",
     help=Help(
@@ -240,19 +279,24 @@ def cmoy(call: Call, records: Curve, duration: float, percent: float, count: int
             "E = LAPL 'INVERSE' W (1.2 / D) (-1. * W / D) 0.2 4 ; LIST (EXTR (EXTR E 'ORDO') 50) ;",
         ),
     ),
-    reads_itself=True,
 )
-def lapl(call: Call) -> Curve:
+def lapl(
+    call: Call,
+    inverse: bool,
+    omega: ListReel,
+    real: ListReel,
+    imaginary: ListReel,
+    shift: float,
+    group: int,
+) -> Curve:
     """Inverse Laplace transform."""
-    if call.keyword(("INVE",)) is None:
+    if not inverse:
         raise call.error("operators.curves.only-inverse-transform")
-    omega, real, imaginary = (call.required("LISTREEL").values for _ in range(3))
-    shift, group = call.required("FLOTTANT"), call.required("ENTIER")
     if len(real) != len(imaginary):
         raise call.error(
             "operators.curves.parts-differ",
             n_real=len(real),
             n_imaginary=len(imaginary),
         )
-    t, y = inverse_laplace(omega, real + 1j * imaginary, shift, group)
+    t, y = inverse_laplace(omega.values, real.values + 1j * imaginary.values, shift, group)
     return Curve((CurvePart(t, y, "TEMPS", "F(T)", "LAPLACE INVERSE"),))

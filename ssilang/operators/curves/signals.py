@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from ssilang.io.plots.palette import NAMES
 from ssilang.kernel.curves.algebra import complex_values, is_complex
 from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
@@ -18,10 +19,21 @@ from ssilang.kernel.records.signals import (
     smoothed,
     time_above,
 )
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import (
+    ANY,
+    Chosen,
+    Help,
+    arg,
+    choice,
+    flag,
+    key,
+    operator,
+    opt,
+    select,
+)
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListEnti, ListReel
-from ssilang.operators.curves.words import read_colour
+from ssilang.operators.curves.words import COLOUR, CURVE, one_part, shade
 
 _SIGNAL = "S = EVOL 'MANU' 'TEMP' (PROG 0. PAS 0.01 NPAS 63) 'A' (PROG 64 * 1.) ; "
 
@@ -41,8 +53,38 @@ def spectrum(
     return Curve(parts, title, "COMPLEXE")
 
 
+_POWER = arg("power", "ENTIER", en="2**N1 points", fr="2**N1 points")
+_REIM = "real and imaginary parts, or modulus and phase"
+_REIM_FR = "parties réelle et imaginaire, ou module et phase"
+_FORM = choice("form", ("REIM", "MOPH"), optional=False, en=_REIM, fr=_REIM_FR)
+_LIMITS = (
+    key(
+        "lowest",
+        "FMIN",
+        arg("lowest", "FLOTTANT", unit="Hz"),
+        default=0.0,
+        en="lowest frequency, 0 without it",
+        fr="fréquence minimale, 0 sans elle",
+    ),
+    key(
+        "highest",
+        "FMAX",
+        arg("highest", "FLOTTANT", unit="Hz"),
+        default=np.inf,
+        en="highest frequency, all without it",
+        fr="fréquence maximale, toutes sans elle",
+    ),
+)
+
+
 @operator(
     "TFR",
+    _POWER,
+    arg("signal", "EVOLUTIO", en="signal at constant step", fr="signal à pas constant"),
+    _FORM,
+    *_LIMITS,
+    COLOUR,
+    choice("second_colour", NAMES, en="colour of the second curve", fr="couleur de la seconde"),
     family="signals",
     help=Help(
         en="Fast Fourier transform of a signal at constant step, on 2**N1 points (cut, or filled "
@@ -57,39 +99,51 @@ def spectrum(
         "LCHP1 LCHP2 LREE1 = TFR N1 LCHP3 LREE2 'REIM' | 'MOPH' ('FMIN' F1) ('FMAX' F2) ;",
         examples=(_SIGNAL + "F = TFR 6 S 'MOPH' ; LIST (EXTR (EXTR F 'MODU') 1) ;",),
     ),
-    reads_itself=True,
 )
-def tfr(call: Call) -> Any:
+def tfr(
+    call: Call,
+    power: int,
+    signal: Curve,
+    form: str,
+    lowest: float,
+    highest: float,
+    colour: str | None,
+    second_colour: str | None,
+) -> Curve:
     """Transform signals."""
-    power = call.required("ENTIER")
+    _check_power(call, power)
+    if len(signal.parts) != 1:
+        raise call.error("operators.curves.one-curve-at-a-time", signal, n_parts=len(signal.parts))
+    part = signal.parts[0]
+    f, values = fourier(part.ordinates, constant_step(part.abscissas), 2**power)
+    kept = (f >= lowest) & (f <= highest)
+    shades = (shade(colour, 0), shade(second_colour, 0))
+    return spectrum(f[kept], values[kept], form, shades, signal.title)
+
+
+def _check_power(call: Call, power: int) -> None:
     if not 1 <= power <= 26:
         raise call.error("operators.curves.power-of-two", power, power=power)
-    operand = call.read("EVOLUTIO", "LISTCHPO")
-    if operand is None:
-        raise call.missing(("EVOLUTIO", "LISTCHPO"))
-    times = call.required("LISTREEL").values if isinstance(operand.value, ListChpo) else None
-    form = call.keyword(("REIM", "MOPH"))
-    if form is None:
-        raise call.error("operators.curves.how-to-give-values")
-    limits = {"FMIN": 0.0, "FMAX": np.inf}
-    while (said := call.keyword(("FMIN", "FMAX"))) is not None:
-        limits[said] = call.required("FLOTTANT", after=call.keyword_end)
-    colours = read_colour(call), read_colour(call)
-    if times is not None:
-        return _transformed_fields(call, operand.value, times, 2**power, limits)
-    curve: Curve = operand.value
-    if len(curve.parts) != 1:
-        raise call.error("operators.curves.one-curve-at-a-time", curve, n_parts=len(curve.parts))
-    part = curve.parts[0]
-    f, values = fourier(part.ordinates, constant_step(part.abscissas), 2**power)
-    kept = (f >= limits["FMIN"]) & (f <= limits["FMAX"])
-    shades = (colours[0] or 0, colours[1] or 0)
-    return spectrum(f[kept], values[kept], form, shades, curve.title)
 
 
-def _transformed_fields(
-    call: Call, fields: ListChpo, times: Any, n: int, limits: dict[str, float]
+@tfr.form(
+    _POWER,
+    arg("fields", "LISTCHPO", en="fields at constant step", fr="champs à pas constant"),
+    arg("times", "LISTREEL", en="their times", fr="leurs instants", unit="s"),
+    _FORM,
+    *_LIMITS,
+)
+def tfr_of_fields(
+    call: Call,
+    power: int,
+    fields: ListChpo,
+    times: ListReel,
+    form: str,
+    lowest: float,
+    highest: float,
 ) -> tuple[ListChpo, ListChpo, ListReel]:
+    """Transform fields: real and imaginary ones, and the frequencies."""
+    _check_power(call, power)
     held: list[Any] = fields.values
     if len(held) != len(times):
         raise call.error(
@@ -98,13 +152,13 @@ def _transformed_fields(
             n_fields=len(held),
             n_times=len(times),
         )
-    step = constant_step(times)
+    step, n = constant_step(times.values), 2**power
     real: dict[str, Any] = {}
     f = np.empty(0)
     for name, first in held[0].components.items():
         rows = np.asarray([h.values_at(name, first.nodes) for h in held])
         f, real[name] = fourier(rows, step, n)
-    kept = np.flatnonzero((f >= limits["FMIN"]) & (f <= limits["FMAX"]))
+    kept = np.flatnonzero((f >= lowest) & (f <= highest))
     like: NodeField = held[0]
 
     def field(k: int, part: str) -> NodeField:
@@ -120,6 +174,7 @@ def _transformed_fields(
 
 @operator(
     "TFRI",
+    arg("curve", "EVOLUTIO", en="complex curve", fr="évolution complexe"),
     family="signals",
     help=Help(
         en="Inverse Fourier transform of a complex curve from frequency 0 to the highest, at "
@@ -129,11 +184,9 @@ def _transformed_fields(
         syntax="EVOL2 = TFRI EVOL1 ;",
         examples=(_SIGNAL + "R = TFRI (TFR 6 S 'REIM') ; LIST (MAXI (EXTR R 'ORDO')) ;",),
     ),
-    reads_itself=True,
 )
-def tfri(call: Call) -> Curve:
+def tfri(call: Call, curve: Curve) -> Curve:
     """Transform back."""
-    curve: Curve = call.required("EVOLUTIO")
     if not is_complex(curve) or len(curve.parts) != 2:
         raise call.error("operators.curves.complex-curve-wanted", curve)
     f = curve.parts[0].abscissas
@@ -144,8 +197,39 @@ def tfri(call: Call) -> Curve:
     return Curve((part,), curve.title)
 
 
+_CUT = arg("cut", "FLOTTANT", en="cut-off frequency", fr="fréquence de coupure", unit="Hz")
+
+
 @operator(
     "FILT",
+    _POWER,
+    flag("type", "TYPE", en="its type follows", fr="son type suit"),
+    select(
+        "kind",
+        {
+            "PHAU": [_CUT],
+            "PBAS": [_CUT],
+            "OMEG": [arg("cut", "ENTIER", en="exponent", fr="exposant")],
+        },
+        en="high-pass, low-pass, or power of the circular frequency",
+        fr="passe-haut, passe-bas, ou puissance de la pulsation",
+    ),
+    flag("shown", "SORT", en="the parts wanted follow", fr="les parties voulues suivent"),
+    choice(
+        "form",
+        ("REIM", "MOPH"),
+        default="MOPH",
+        en=_REIM + ", the default",
+        fr=_REIM_FR + ", par défaut",
+    ),
+    key(
+        "spacing",
+        "DFRQ",
+        arg("spacing", "FLOTTANT", unit="Hz"),
+        default=0.0,
+        en="step of frequency",
+        fr="pas de fréquence",
+    ),
     family="signals",
     full_name="FILTRE",
     help=Help(
@@ -159,25 +243,22 @@ def tfri(call: Call) -> Curve:
         "'DFRQ' F2 ;",
         examples=("LIST (DIME (FILT 4 'TYPE' 'PBAS' 2. 'DFRQ' 0.5)) ;",),
     ),
-    reads_itself=True,
 )
-def filt(call: Call) -> Curve:
+def filt(
+    call: Call,
+    power: int,
+    type: bool,
+    kind: Chosen | None,
+    shown: bool,
+    form: str,
+    spacing: float,
+) -> Curve:
     """Make a filter."""
-    power = call.required("ENTIER")
-    kind, cut, form, spacing = "", 0.0, "MOPH", 0.0
-    while (said := call.keyword(("TYPE", "SORT", "DFRQ", "REIM", "MOPH"))) is not None:
-        if said == "TYPE":
-            kind = call.keyword(("PHAU", "PBAS", "OMEG")) or ""
-            number = "ENTIER" if kind == "OMEG" else "FLOTTANT"
-            cut = call.required(number, after=call.keyword_end)
-        elif said == "DFRQ":
-            spacing = call.required("FLOTTANT", after=call.keyword_end)
-        elif said != "SORT":
-            form = said
-    if not kind or spacing <= 0 or not 1 <= power <= 26:
+    if kind is None or spacing <= 0 or not 1 <= power <= 26:
         raise call.error("operators.curves.filter-incomplete")
     f = spacing * np.arange(2 ** (power - 1) + 1)
-    if kind == "OMEG":
+    cut = kind["cut"]
+    if kind.word == "OMEG":
         omega = 2j * np.pi * f
         if cut < 0:
             omega[0] = np.inf
@@ -186,19 +267,15 @@ def filt(call: Call) -> Curve:
         if cut <= 0:
             raise call.error("operators.curves.cut-off-not-positive", cut, cut=cut)
         ratio = 1j * f / cut
-        values = (ratio if kind == "PHAU" else 1.0) / (1.0 + ratio)
+        values = (ratio if kind.word == "PHAU" else 1.0) / (1.0 + ratio)
     return spectrum(f, values, form)
-
-
-def _single(call: Call) -> tuple[Curve, CurvePart]:
-    curve: Curve = call.required("EVOLUTIO")
-    if len(curve.parts) != 1:
-        raise call.error("operators.curves.one-curve-wanted", curve, n_parts=len(curve.parts))
-    return curve, curve.parts[0]
 
 
 @operator(
     "HANN",
+    CURVE,
+    arg("passes", "ENTIER", en="how many times", fr="nombre de fois"),
+    COLOUR,
     family="signals",
     full_name="HANNING",
     help=Help(
@@ -207,24 +284,37 @@ def _single(call: Call) -> tuple[Curve, CurvePart]:
         syntax="EVOL1 = HANN EVOL2 N1 (COUL1) ;",
         examples=("LIST (HANN (EVOL 'MANU' (PROG 1. 2. 3.) (PROG 0. 4. 0.)) 1) ;",),
     ),
-    reads_itself=True,
 )
-def hann(call: Call) -> Curve:
+def hann(call: Call, curve: Curve, passes: int, colour: str | None) -> Curve:
     """Smooth a spectrum."""
-    curve, part = _single(call)
-    passes = call.required("ENTIER")
-    colour = read_colour(call)
+    part = one_part(call, curve)
     made = dataclasses.replace(
         part,
         ordinates=smoothed(part.ordinates, passes),
-        colour=part.colour if colour is None else colour,
+        colour=shade(colour, part.colour),
     )
     return Curve((made,), f"HANNING({passes}) {curve.title}".rstrip(), curve.kind)
 
 
+_PERCENT = opt(
+    "percent",
+    "FLOTTANT",
+    default=1e-6,
+    en="threshold, 1.E-6 without it",
+    fr="seuil, 1.E-6 sans lui",
+    unit="%",
+)
+
+
 @operator(
     "COMT",
+    CURVE,
+    _PERCENT,
+    flag("peaks", "MAXI", en="peaks too", fr="aussi les maxima"),
+    flag("begins", "DEBU", en="places where they begin too", fr="aussi les rangs de début"),
+    flag("ends", "FIN", en="places where they end too", fr="aussi les rangs de fin"),
     family="signals",
+    gives=ANY,
     help=Help(
         en="Number of shocks in records: stretches above a threshold in percent of the largest "
         "absolute value (1.E-6 by default). Of one record also the peaks ('MAXI') and the places "
@@ -236,29 +326,25 @@ def hann(call: Call) -> Curve:
         "('DEBU') ('FIN') ;",
         examples=("LIST (COMT (EVOL 'MANU' (PROG 0. PAS 1. 4.) (PROG 0. 3. 0. 2. 0.))) ;",),
     ),
-    reads_itself=True,
 )
-def comt(call: Call) -> Any:
+def comt(call: Call, curve: Curve, percent: float, peaks: bool, begins: bool, ends: bool) -> Any:
     """Count shocks."""
-    curve: Curve = call.required("EVOLUTIO")
-    percent = call.optional("FLOTTANT", default=1e-6)
-    words: set[str] = set()
-    while (said := call.keyword(("MAXI", "DEBU", "FIN"))) is not None:
-        words.add(said)
     found = [shocks(p.ordinates, percent) for p in curve.parts]
-    if not words:
+    if not (peaks or begins or ends):
         return ListEnti([len(f[1]) for f in found])
     if len(found) != 1:
         raise call.error("operators.curves.peaks-of-one-curve", curve)
-    peaks, begins, ends = found[0]
-    more: list[Any] = [ListReel(peaks)] if "MAXI" in words else []
-    more += [ListEnti(begins)] if "DEBU" in words else []
-    more += [ListEnti(ends)] if "FIN" in words else []
-    return (len(begins), *more)
+    largest, first, last = found[0]
+    more: list[Any] = [ListReel(largest)] if peaks else []
+    more += [ListEnti(first)] if begins else []
+    more += [ListEnti(last)] if ends else []
+    return (len(first), *more)
 
 
 @operator(
     "TOTE",
+    CURVE,
+    _PERCENT,
     family="signals",
     full_name="TOTEMP",
     help=Help(
@@ -267,19 +353,29 @@ def comt(call: Call) -> Any:
         syntax="LREE1 = TOTE EVOL1 (X1) ;",
         examples=("LIST (TOTE (EVOL 'MANU' (PROG 0. 1. 2.) (PROG 0. 2. 0.)) 50.) ;",),
     ),
-    reads_itself=True,
 )
-def tote(call: Call) -> ListReel:
+def tote(curve: Curve, percent: float) -> ListReel:
     """Measure durations."""
-    curve: Curve = call.required("EVOLUTIO")
-    percent = call.optional("FLOTTANT", default=1e-6)
     levels = [percent / 100.0 * float(np.max(p.ordinates)) for p in curve.parts]
     pairs = zip(curve.parts, levels, strict=True)
     return ListReel([time_above(p.abscissas, p.ordinates, v) for p, v in pairs])
 
 
+_AXIS = arg("name", "MOT", en="name of the ordinates", fr="nom des ordonnées")
+
+
 @operator(
     "FDT",
+    _AXIS,
+    key(
+        "step",
+        "CONS",
+        arg("step", "FLOTTANT", unit="s"),
+        optional=False,
+        en="constant step",
+        fr="pas constant",
+    ),
+    arg("values", "LISTREEL", en="ordinates", fr="ordonnées"),
     family="signals",
     help=Help(
         en="Curve in time from ordinates at a constant step ('CONS'), or from times and values "
@@ -291,29 +387,44 @@ def tote(call: Call) -> ListReel:
         syntax="EVOL1 = FDT MOT1 'CONS' X1 LREE1 ; EVOL1 = FDT MOT1 'NOCO' 'COUP' LREE2 | LREE3 ;",
         examples=("LIST (FDT 'ACCE' 'CONS' 0.5 (PROG 1. 2. 3.)) ;",),
     ),
-    reads_itself=True,
 )
-def fdt(call: Call) -> Curve:
-    """Make a curve in time."""
-    name = call.word() or ""
-    word = call.keyword(("CONS", "NOCO"))
-    if word == "CONS":
-        step = call.required("FLOTTANT", after=call.keyword_end)
-        y = call.required("LISTREEL").values
-        return _in_time(step * np.arange(len(y)), y, name)
-    pairs = call.keyword(("COUP",)) is not None
-    values = call.required("LISTREEL").values
-    second = call.optional("LISTREEL")
+def fdt(name: str, step: float, values: ListReel) -> Curve:
+    """A curve at a constant step."""
+    return _in_time(step * np.arange(len(values)), values.values, name)
+
+
+@fdt.form(
+    _AXIS,
+    flag("given", "NOCO", en="times are given", fr="les instants sont donnés"),
+    flag("pairs", "COUP", en="by pairs", fr="par couples"),
+    arg(
+        "values",
+        "LISTREEL",
+        en="times and ordinates, or the step or 0",
+        fr="instants et ordonnées, ou le pas ou 0",
+    ),
+    opt(
+        "second",
+        "LISTREEL",
+        en="ordinates, or pairs of time and ordinate",
+        fr="ordonnées, ou couples d'instant et d'ordonnée",
+    ),
+)
+def fdt_of_times(
+    call: Call, name: str, given: bool, pairs: bool, values: ListReel, second: ListReel | None
+) -> Curve:
+    """A curve over given times."""
+    numbers = values.values
     if second is not None:
-        if len(values) == 1 and values[0] > 0:
-            return _in_time(values[0] * np.arange(len(second)), second.values, name)
-        values, pairs = second.values, True
-    if len(values) % 2:
-        raise call.error("operators.curves.times-and-values-in-pairs", n_values=len(values))
+        if len(numbers) == 1 and numbers[0] > 0:
+            return _in_time(numbers[0] * np.arange(len(second)), second.values, name)
+        numbers, pairs = second.values, True
+    if len(numbers) % 2:
+        raise call.error("operators.curves.times-and-values-in-pairs", n_values=len(numbers))
     if pairs:
-        return _in_time(values[::2], values[1::2], name)
-    half = len(values) // 2
-    return _in_time(values[:half], values[half:], name)
+        return _in_time(numbers[::2], numbers[1::2], name)
+    half = len(numbers) // 2
+    return _in_time(numbers[:half], numbers[half:], name)
 
 
 def _in_time(t: Any, y: Any, name: str) -> Curve:

@@ -11,16 +11,41 @@ from ssilang.language.registry import Help, arg, choice, key, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
 
+_TIMES = key(
+    "times",
+    "TEMPS",
+    arg("t", "LISTREEL", unit="s"),
+    en="times; those of the signal without it",
+    fr="instants ; ceux du signal sans elle",
+)
+_COLOUR = key(
+    "colour", "COUL", arg("c", "MOT", kind="colour"), default="DEFA", en="colour", fr="couleur"
+)
+
 
 @operator(
     "OSCI",
-    key("damping", "AMOR", arg("xi", "FLOTTANT"), optional=False),
-    key("frequency", "FREQ", arg("f", "FLOTTANT"), optional=False),
-    key("times", "TEMPS", arg("t", "LISTREEL")),
-    key("start", "DEPL", arg("x0", "FLOTTANT"), default=0.0),
-    key("speed", "VITE", arg("v0", "FLOTTANT"), default=0.0),
-    key("colour", "COUL", arg("c", "MOT"), default="DEFA"),
-    arg("signal", "EVOLUTIO"),
+    key(
+        "damping",
+        "AMOR",
+        arg("xi", "FLOTTANT"),
+        optional=False,
+        en="damping ratio",
+        fr="amortissement réduit",
+    ),
+    key(
+        "frequency",
+        "FREQ",
+        arg("f", "FLOTTANT", unit="Hz"),
+        optional=False,
+        en="frequency",
+        fr="fréquence",
+    ),
+    _TIMES,
+    key("start", "DEPL", arg("x0", "FLOTTANT"), default=0.0, en="X at the start", fr="X initial"),
+    key("speed", "VITE", arg("v0", "FLOTTANT"), default=0.0, en="X' at the start", fr="X' initial"),
+    _COLOUR,
+    arg("signal", "EVOLUTIO", en="signal g(t)", fr="signal g(t)"),
     family="modal",
     help=Help(
         "Displacement X(t) of an oscillator, X'' + 2 a w X' + w^2 X = g(t), from X and X' at the "
@@ -55,12 +80,31 @@ def osci(
 
 @operator(
     "SPO",
-    key("dampings", "AMOR", arg("xi", "LISTREEL", "FLOTTANT"), optional=False),
-    key("frequencies", "FREQ", arg("f", "LISTREEL")),
-    key("times", "TEMP", arg("t", "LISTREEL")),
-    key("colour", "COUL", arg("c", "MOT"), default="DEFA"),
-    choice("kind", ("DEPL", "VITE", "ACCE", "ACCA"), optional=False),
-    arg("signal", "EVOLUTIO"),
+    key(
+        "dampings",
+        "AMOR",
+        arg("xi", "LISTREEL", "FLOTTANT"),
+        optional=False,
+        en="damping ratios",
+        fr="amortissements réduits",
+    ),
+    key(
+        "frequencies",
+        "FREQ",
+        arg("f", "LISTREEL", unit="Hz"),
+        en="frequencies; usual ones without it",
+        fr="fréquences ; des valeurs usuelles sans elle",
+    ),
+    _TIMES,
+    _COLOUR,
+    choice(
+        "kind",
+        ("DEPL", "VITE", "ACCE", "ACCA"),
+        optional=False,
+        en="displacement, pseudo-velocity, pseudo-acceleration, absolute acceleration",
+        fr="déplacement, pseudo-vitesse, pseudo-accélération, accélération absolue",
+    ),
+    arg("signal", "EVOLUTIO", en="acceleration", fr="accélération"),
     family="modal",
     help=Help(
         "Response spectrum of an acceleration: for each damping, the largest relative displacement "
@@ -97,11 +141,9 @@ def spo(
     return Curve(tuple(made), signal.title)
 
 
-def _valp(call: Call) -> ListReel:
-    diagonal = call.required("LISTREEL").values
-    below = call.required("LISTREEL").values
-    while call.keyword(("ITERATION", "ABSOLU", "RELATIF")) is not None:
-        call.required("FLOTTANT", after=call.keyword_end)  # accuracy: always to rounding
+def _valp(
+    call: Call, diagonal: ListReel, below: ListReel, accuracy: list[tuple[str, float]]
+) -> ListReel:
     if len(below) != len(diagonal) - 1:
         raise call.error(
             "operators.curves.terms-below-diagonal",
@@ -109,7 +151,7 @@ def _valp(call: Call) -> ListReel:
             needed=len(diagonal) - 1,
             n_below=len(below),
         )
-    matrix = np.diag(diagonal) + np.diag(below, -1) + np.diag(np.ones(len(below)), 1)
+    matrix = np.diag(diagonal.values) + np.diag(below.values, -1) + np.diag(np.ones(len(below)), 1)
     values = np.linalg.eigvals(matrix)
     if np.abs(values.imag).max(initial=0.0) > 1e-9 * np.abs(values).max(initial=1.0):
         raise call.error("operators.curves.complex-eigenvalues")
@@ -118,6 +160,16 @@ def _valp(call: Call) -> ListReel:
 
 operator(
     "VALP",
+    arg("diagonal", "LISTREEL", en="diagonal", fr="diagonale"),
+    arg("below", "LISTREEL", en="sub-diagonal", fr="sous-diagonale"),
+    key(
+        "accuracy",
+        ("ITERATION", "ABSOLU", "RELATIF"),
+        arg("number", "FLOTTANT"),
+        repeated=True,
+        en="accepted: exact to rounding",
+        fr="accepté : exact à l'arrondi près",
+    ),
     family="modal",
     full_name="VALPROPRE",
     help=Help(
@@ -128,5 +180,4 @@ operator(
         "LREEL1 = VALP LREEL2 LREEL3 ('ITERATION' N1) ('ABSOLU' | 'RELATIF' X1) ;",
         ("LIST (VALP (PROG 2. 2.) (PROG 1.)) ;",),
     ),
-    reads_itself=True,
 )(_valp)

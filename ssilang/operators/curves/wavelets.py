@@ -12,19 +12,67 @@ from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.records.signals import constant_step
 from ssilang.kernel.records.wavelets import modulus_ridge, phase_ridge, scales, settled, transform
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import Help, arg, by, choice, key, operator
 from ssilang.language.run.call import Call
-from ssilang.operators.curves.accelerograms import one_curve
-from ssilang.operators.curves.words import read_colour
+from ssilang.operators.curves.words import COLOUR, CURVE, one_part, shade
 from ssilang.operators.workspace import workspace
-
-_NUMBERS = {"FMIN": 0.0, "FMAX": 0.0, "NFRQ": 50.0, "DFRQ": 50.0, "EPSI": 1e-4, "PULS": 5.0}
 
 
 @operator(
     "ONDE",
+    arg("power", "ENTIER", en="2**N1 points", fr="2**N1 points"),
+    CURVE,
+    choice(
+        "form",
+        ("CRMO", "CRPH", "REIM", "MOPH"),
+        default="CRMO",
+        en="ridge by the modulus (default) or by the phase, or the transform as a field",
+        fr="arête par le module (par défaut) ou par la phase, ou la transformée en champ",
+    ),
+    key(
+        "lowest",
+        "FMIN",
+        arg("lowest", "FLOTTANT", unit="Hz"),
+        default=0.0,
+        en="lowest frequency",
+        fr="fréquence minimale",
+    ),
+    key(
+        "highest",
+        "FMAX",
+        arg("highest", "FLOTTANT", unit="Hz"),
+        default=0.0,
+        en="highest frequency",
+        fr="fréquence maximale",
+    ),
+    key(
+        "count",
+        ("NFRQ", "DFRQ"),
+        arg("count", "FLOTTANT"),
+        default=("NFRQ", 50.0),
+        en="number of frequencies, 50 without it",
+        fr="nombre de fréquences, 50 sans lui",
+    ),
+    key(
+        "turn",
+        "EPSI",
+        arg("turn", "FLOTTANT"),
+        default=1e-4,
+        en="tolerance of the phase, 1.E-4 without it",
+        fr="tolérance sur la phase, 1.E-4 sans elle",
+    ),
+    key(
+        "pulsation",
+        "PULS",
+        arg("pulsation", "FLOTTANT"),
+        default=5.0,
+        en="pulsation of the wavelet, 5 without it",
+        fr="pulsation de l'ondelette, 5 sans elle",
+    ),
+    COLOUR,
     family="signals",
     full_name="ONDE",
+    gives=by("form", dict.fromkeys(("REIM", "MOPH"), ("CHPOINT", "MAILLAGE")), "EVOLUTIO"),
     help=Help(
         en="Continuous wavelet transform (Morlet's wavelet of pulsation 'PULS', 5 by default) of a "
         "signal on 2**N1 points, scaled so that a sine gives its amplitude. 'REIM' or 'MOPH': "
@@ -47,40 +95,41 @@ _NUMBERS = {"FMIN": 0.0, "FMAX": 0.0, "NFRQ": 50.0, "DFRQ": 50.0, "EPSI": 1e-4, 
             "; R = ONDE 9 S 'CRMO' 'FMIN' 1. 'FMAX' 4. ; LIST (DIME R) ;",
         ),
     ),
-    reads_itself=True,
 )
-def onde(call: Call) -> Any:
+def onde(
+    call: Call,
+    power: int,
+    curve: Curve,
+    form: str,
+    lowest: float,
+    highest: float,
+    count: tuple[str, float],
+    turn: float,
+    pulsation: float,
+    colour: str | None,
+) -> Any:
     """Wavelet transform."""
-    power = call.required("ENTIER")
     if not 1 <= power <= 20:
         raise call.error("operators.curves.power-of-two-of-wavelets", power, power=power)
-    curve, part = one_curve(call)
-    form = call.keyword(("CRMO", "CRPH", "REIM", "MOPH"))
-    said = dict(_NUMBERS)
-    while (word := call.keyword(tuple(_NUMBERS))) is not None:
-        said["NFRQ" if word == "DFRQ" else word] = call.required("FLOTTANT", after=call.keyword_end)
-    form = form or call.keyword(("CRMO", "CRPH", "REIM", "MOPH")) or "CRMO"
-    colour = read_colour(call) or 0
-    count = int(said["NFRQ"])
-    if not 0.0 < said["FMIN"] < said["FMAX"] or count < 1 or said["PULS"] <= 0.0:
-        raise call.error(
-            "operators.curves.frequencies-must-increase", fmin=said["FMIN"], fmax=said["FMAX"]
-        )
+    part, rows = one_part(call, curve), int(count[1])
+    if not 0.0 < lowest < highest or rows < 1 or pulsation <= 0.0:
+        raise call.error("operators.curves.frequencies-must-increase", fmin=lowest, fmax=highest)
     step, n = constant_step(part.abscissas), 2**power
-    if n * (count + 1) > 20_000_000:
+    if n * (rows + 1) > 20_000_000:
         raise call.error("operators.curves.transform-too-large")
-    scale = scales(said["FMIN"], said["FMAX"], count, said["PULS"])
-    found = transform(part.ordinates, step, n, scale, said["PULS"])
+    scale = scales(lowest, highest, rows, pulsation)
+    found = transform(part.ordinates, step, n, scale, pulsation)
     times = part.abscissas[0] + step * np.arange(n)
     if form in ("REIM", "MOPH"):
         return _square(call, times, found, scale, form)
     if form == "CRMO":
-        t, f, size = modulus_ridge(times, found, scale, said["PULS"])
+        t, f, size = modulus_ridge(times, found, scale, pulsation)
     else:
-        t, f, size = phase_ridge(times, found, scale, said["PULS"], said["EPSI"])
+        t, f, size = phase_ridge(times, found, scale, pulsation, turn)
+    index = shade(colour, 0)
     parts = (
-        CurvePart(t, f, "TEMPS", "FREQ (HZ)", "FREQUENCE", colour),
-        CurvePart(t, size, "TEMPS", "MODULE", "MODULE", colour),
+        CurvePart(t, f, "TEMPS", "FREQ (HZ)", "FREQUENCE", index),
+        CurvePart(t, size, "TEMPS", "MODULE", "MODULE", index),
     )
     return Curve(parts, curve.title)
 

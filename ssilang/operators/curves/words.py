@@ -1,10 +1,27 @@
-"""Words that operators on curves read: colours, names of axes."""
+"""What operators on curves read: one curve, colours, names of axes."""
 
 from __future__ import annotations
 
 from ssilang.io.plots.palette import NAMES, index_of
+from ssilang.kernel.curves.curve import Curve, CurvePart
+from ssilang.language.registry import arg, choice
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots
+
+CURVE = arg("curve", "EVOLUTIO", en="curves", fr="évolutions")
+COLOUR = choice("colour", NAMES, en="colour", fr="couleur")
+
+
+def shade(colour: str | None, default: int) -> int:
+    """Index of the colour that `COLOUR` has read."""
+    return default if colour is None else index_of(colour)
+
+
+def one_part(call: Call, curve: Curve) -> CurvePart:
+    """The only curve of a curve object."""
+    if len(curve.parts) != 1:
+        raise call.error("operators.curves.one-curve-wanted", curve, n_parts=len(curve.parts))
+    return curve.parts[0]
 
 
 def read_colour(call: Call) -> int | None:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.plasticity.bulk import stiffness_beside
 from ssilang.kernel.plasticity.points import plastic_zones
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import Help, arg, operator
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.language.values import Mot, Table
@@ -42,6 +42,7 @@ MOST_STEPS = 1e9
 
 @operator(
     "ZDYN",
+    arg("table", "TABLE", en="table of DYNAMIC", fr="table de DYNAMIC"),
     family="dynamics",
     help=Help(
         en="Time integration of the table of DYNAMIC, which is the procedure to call.\n"
@@ -52,14 +53,13 @@ MOST_STEPS = 1e9
         "sauvés est rendue.",
         syntax="TAB2 = ZDYN TAB1 ;",
     ),
-    reads_itself=True,
 )
-def zdyn(call: Call) -> Table:
+def zdyn(call: Call, table: Table) -> Table:
     """Read the table, integrate, hand back the saved instants."""
     from ssilang.kernel.base.compiled.cache import is_compiled
     from ssilang.kernel.stepping.problem.problem import make_problem
 
-    entries = Entries(call, call.required("TABLE"), "DYNAMIC")
+    entries = Entries(call, table, "DYNAMIC")
     times, saved = _times(entries)
     inputs = _with_bodies(entries, _inputs(entries, times))
     problem = make_problem(inputs)

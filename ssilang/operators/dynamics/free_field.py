@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ssilang.kernel.curves.curve import Curve, CurvePart
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import Help, arg, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel, Table
 from ssilang.operators.tables.entries import Entries
@@ -21,6 +21,7 @@ _LAYERS = ("EPAISSEUR", "MASSE_VOLUMIQUE", "MODULE", "AMORTISSEMENT")
 
 @operator(
     "ZCOL",
+    arg("table", "TABLE", en="layers, motion and depths", fr="couches, mouvement et profondeurs"),
     family="dynamics",
     help=Help(
         en="Free field of a layered soil under vertical waves, behind DECONV and DECONV3D: "
@@ -43,13 +44,12 @@ _LAYERS = ("EPAISSEUR", "MASSE_VOLUMIQUE", "MODULE", "AMORTISSEMENT")
             " T . 'GAMMAO' = EVOL 'MANU' LT LA ; R = ZCOL T ; LIST (R . 'DEFO') ;",
         ),
     ),
-    reads_itself=True,
 )
-def zcol(call: Call) -> Table:
+def zcol(call: Call, table: Table) -> Table:
     """Read the table, compute, hand back curves."""
     from ssilang.kernel.records.soil_column import SoilColumn, free_field
 
-    entries = Entries(call, call.required("TABLE"), "ZCOL")
+    entries = Entries(call, table, "ZCOL")
     thickness, density, modulus, damping = (entries.needed(name).values for name in _LAYERS)
     f1, f2, cutoff = (entries.needed(name) for name in ("F1", "F2", "FC"))
     depths = entries.needed("PROFONDEURS").values

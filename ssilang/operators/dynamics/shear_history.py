@@ -14,8 +14,8 @@ from ssilang.language.values import ListChpo
 
 @operator(
     "ZGAM",
-    arg("model", "MMODEL"),
-    arg("motion", "LISTCHPO"),
+    arg("model", "MMODEL", en="model", fr="modèle"),
+    arg("motion", "LISTCHPO", en="displacements", fr="déplacements"),
     family="dynamics",
     help=Help(
         en="Largest shear strain over a list of displacements, at the centres of solid cells, for "

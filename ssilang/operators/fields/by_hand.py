@@ -1,4 +1,4 @@
-"""MANU 'CHPO' and 'CHML', RESU, XTY, XTX, COMB: fields from values, sums over fields."""
+"""MANU 'CHPO' and 'CHML': fields from values."""
 
 from __future__ import annotations
 
@@ -8,34 +8,32 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.elements.zone_fields import n_points
-from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.fields.node_field import Nature, NodeField, NodeValues
 from ssilang.kernel.materials.model import Model
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
 from ssilang.language.registry import (
-    Help,
     arg,
     choice,
     each,
     flag,
     key,
-    main,
     many,
-    operator,
     opt,
     said,
 )
 from ssilang.language.run.call import Call
-from ssilang.language.values import ListChpo, ListEnti, ListMots, ListReel, Table
+from ssilang.language.values import ListMots, ListReel
 from ssilang.operators.dispatch import MANU
 from ssilang.operators.fields.components import NATURE, support_nodes
-from ssilang.operators.fields.signs import names_of, nature_of, paired_names
+from ssilang.operators.fields.signs import names_of, nature_of
 
 _SUPPORTS = ("NOEUD", "GRAVITE", "RIGIDITE", "MASSE", "STRESSES")
 
 
 _TITLE = key("title", "TITRE", arg("text", "MOT"), en="title of the field", fr="titre du champ")
+
+
 _ON_NODES = arg(
     "support",
     "MAILLAGE",
@@ -300,189 +298,3 @@ def _cell_values(value: Any, n: int, deal: bool, taken: int) -> Any:
     made = np.empty((n, 1), dtype=object)
     made[:, 0] = [value] * n
     return made
-
-
-# ---- measures -----------------------------------------------------------------------------------
-
-
-@operator(
-    "RESU",
-    arg("field", "CHPOINT", en="forces, say", fr="des forces, par exemple"),
-    family="fields",
-    full_name="RESULT",
-    help=Help(
-        en="Resultant of a field at nodes: its first point with the sum of each component. "
-        "The sum of a list is SOMM's.",
-        fr="Résultante d'un champ par points : son premier point avec les sommes des "
-        "composantes. La somme d'une liste est l'affaire de SOMM.",
-        syntax="CHPO2 = RESU CHPO1 ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; LIST (MAXI (RESU (COOR 1 L))) ;",
-        ),
-    ),
-)
-def resu(call: Call, field: NodeField) -> NodeField:
-    """Sum components over nodes."""
-    nodes = field.node_ids
-    if not len(nodes):
-        raise call.error("operators.fields.field-empty", field)
-    here = nodes[:1]
-    made = {k: NodeValues(here, np.asarray([v.values.sum()])) for k, v in field.components.items()}
-    return NodeField(field.table, made, "DISCRET")
-
-
-@resu.form(
-    arg("values", "LISTREEL", "LISTENTI", en="numbers to sum", fr="nombres à sommer"),
-    gives="FLOTTANT|ENTIER",
-)
-def resu_of_list(values: ListReel | ListEnti) -> float | int:
-    """Sum of a list."""
-    total: float | int = values.values.sum()
-    return total
-
-
-_PAIRED = (
-    arg("left", "LISTMOTS", en="components of the first", fr="composantes du premier"),
-    arg(
-        "right",
-        "LISTMOTS",
-        en="components of the second, paired with them",
-        fr="composantes du second, appariées",
-    ),
-)
-
-
-@operator(
-    "XTY",
-    arg("first", "CHPOINT", en="first field", fr="premier champ"),
-    arg("second", "CHPOINT", en="second field", fr="second champ"),
-    *_PAIRED,
-    family="fields",
-    help=Help(
-        en="Sum over all nodes of the products of paired components of two fields; of two lists "
-        "of fields, a list.",
-        fr="Somme sur tous les noeuds des produits de composantes appariées de deux champs ; de "
-        "deux listes de champs, une liste.",
-        syntax="X1 = XTY CHPO1 CHPO2 LMOT1 LMOT2 ; LREE1 = XTY LCHP1 LCHP2 LMOT1 LMOT2 ;",
-        examples=(
-            "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'UX' 3. 'UY' 4. ; "
-            "LIST (XTY C C (MOTS 'UX' 'UY') (MOTS 'UX' 'UY')) ;",
-        ),
-    ),
-)
-def xty(call: Call, first: NodeField, second: NodeField, left: ListMots, right: ListMots) -> float:
-    """Scalar product of fields."""
-    return _product(first, second, *paired_names(call, left, right))
-
-
-@xty.form(
-    arg("first", "LISTCHPO", en="first fields", fr="premiers champs"),
-    arg("second", "LISTCHPO", en="as many second fields", fr="autant de seconds champs"),
-    *_PAIRED,
-)
-def xty_of_lists(
-    call: Call, first: ListChpo, second: ListChpo, left: ListMots, right: ListMots
-) -> ListReel:
-    """Scalar products of the fields of two lists."""
-    names = paired_names(call, left, right)
-    if len(first) != len(second):
-        raise call.error(
-            "operators.fields.field-counts-differ", second, n_first=len(first), n_second=len(second)
-        )
-    pairs: Any = zip(first.values, second.values, strict=True)
-    return ListReel([_product(a, b, *names) for a, b in pairs])
-
-
-def _product(a: NodeField, b: NodeField, left: list[str], right: list[str]) -> float:
-    return float(node_algebra.scalar_product(a, b, left, right).values.sum())
-
-
-_FACTORS = (
-    opt("a", "FLOTTANT", en="factor of the first field", fr="facteur du premier champ"),
-    opt("b", "FLOTTANT", en="factor of the second field", fr="facteur du second champ"),
-)
-
-
-@operator(
-    "XTX",
-    main("first", "CHPOINT", en="field", fr="champ"),
-    opt("second", "CHPOINT", en="field to add", fr="champ à ajouter"),
-    *_FACTORS,
-    family="fields",
-    help=Help(
-        en="Sum of the squares of all values of a field, or of X1 CHP1 + X2 CHP2.",
-        fr="Somme des carrés de toutes les valeurs d'un champ, ou de X1 CHP1 + X2 CHP2.",
-        syntax="X3 = XTX CHP1 ; X3 = XTX X1 CHP1 X2 CHP2 ;",
-        examples=("OPTI DIME 2 ; P = 0. 0. ; LIST (XTX (MANU 'CHPO' P 'UX' 3. 'UY' 4.)) ;",),
-    ),
-)
-def xtx(
-    call: Call, first: NodeField, second: NodeField | None, a: float | None, b: float | None
-) -> float:
-    """Square norm of fields at nodes."""
-    if second is not None:
-        first = _weighted_sum(call, node_algebra, first, second, a, b)
-    return float(sum(v.values @ v.values for v in first.components.values()))
-
-
-@xtx.form(
-    main("first", "MCHAML", en="field", fr="champ"),
-    opt("second", "MCHAML", en="field to add", fr="champ à ajouter"),
-    *_FACTORS,
-)
-def xtx_in_cells(
-    call: Call, first: CellField, second: CellField | None, a: float | None, b: float | None
-) -> float:
-    """Square norm of fields in cells."""
-    if second is not None:
-        first = _weighted_sum(call, cell_algebra, first, second, a, b)
-    return float(sum((v * v).sum() for v in cell_algebra.values_of(first)))
-
-
-def _weighted_sum(
-    call: Call, algebra: Any, first: Any, second: Any, a: float | None, b: float | None
-) -> Any:
-    if a is None or b is None:
-        raise call.missing(("FLOTTANT",))
-    return algebra.added(algebra.applied(first, lambda v: v * a), second, b)
-
-
-@operator(
-    "COMB",
-    flag(
-        "alike",
-        "SEMBLABLE",
-        en="the fields have the same nodes and components",
-        fr="les champs ont les mêmes noeuds et composantes",
-    ),
-    arg("weights", "CHPOINT", en="coefficients, one component", fr="coefficients, une composante"),
-    arg("table", "TABLE", en="fields by point", fr="champs par point"),
-    family="fields",
-    full_name="COMBTABLE",
-    help=Help(
-        en="Linear combination of the fields of a table indexed by points, with the values of a "
-        "field with one component as coefficients.",
-        fr="Combinaison linéaire des champs d'une table indicée par des points, les coefficients "
-        "étant les valeurs d'un champ à une composante.",
-        syntax="CHPO1 = COMB ('SEMBLABLE') CHPO2 TAB1 ;",
-        examples=(
-            "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; T = TABL ; T . P = MANU 'CHPO' P 'UX' 3. ; "
-            "T . Q = MANU 'CHPO' P 'UX' 5. ; A = MANU 'CHPO' (P ET Q) 'ALFA' 2. ; "
-            "LIST (MAXI (COMB A T)) ;",
-        ),
-    ),
-)
-def comb(call: Call, alike: bool, weights: NodeField, table: Table) -> NodeField:
-    """Combine fields."""
-    if len(weights.components) != 1:
-        raise call.error("operators.fields.coefficients-have-one-component", weights)
-    (part,) = weights.components.values()
-    total: NodeField | None = None
-    for index, field in table.items():
-        if isinstance(index, Point) and isinstance(field, NodeField):
-            factor = float(part.at(np.asarray([index.node]))[0])
-            empty = node_algebra.rebuilt(field, {})
-            total = node_algebra.added(empty if total is None else total, field, factor)
-    if total is None:
-        raise call.error("operators.fields.table-without-point-fields", table)
-    return total

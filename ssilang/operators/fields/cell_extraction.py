@@ -1,4 +1,4 @@
-"""EXTR, DIME, ET and LIST of models and fields in cells."""
+"""EXTR, ET and LIST of fields in cells."""
 
 from __future__ import annotations
 
@@ -9,134 +9,21 @@ import numpy as np
 
 from ssilang.kernel.curves.cloud import Cloud
 from ssilang.kernel.curves.curve import Curve
-from ssilang.kernel.elements.boundary import is_solid
-from ssilang.kernel.elements.families import family_of
-from ssilang.kernel.elements.results.tensors import PRINCIPAL
-from ssilang.kernel.elements.solids.gradients import gradient_names
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
-from ssilang.kernel.materials.model import Model, Zone
-from ssilang.kernel.materials.parameters import geometric_names, material_names
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.language.registry import (
     ANY,
     Chosen,
-    Entry,
     arg,
     by,
     main,
-    many,
     opt,
     select,
 )
 from ssilang.language.run.call import Call
-from ssilang.language.values import ListMots, Mot, Table
+from ssilang.language.values import ListMots, Mot
 from ssilang.messages.message import Teller
 from ssilang.operators.dispatch import EXTR, UNIONS, listing, union
-
-_NAMES: dict[str, Callable[[Zone], tuple[str, ...]]] = {
-    "GEOM": lambda z: geometric_names(z).all,
-    "CONT": lambda z: family_of(z).stress_names(z),
-    "DEFO": lambda z: family_of(z).strain_names(z),
-    "DEPL": lambda z: tuple(dict.fromkeys(family_of(z).layout(z).unknowns)),
-    "FORC": lambda z: tuple(dict.fromkeys(family_of(z).layout(z).duals)),
-    "GRAD": lambda z: gradient_names(z) if is_solid(z) else (),
-    "GRAF": lambda z: (),
-    "MATE": lambda z: material_names(z).all,
-    "CONP": lambda z: PRINCIPAL if is_solid(z) else (),
-    "TEMP": lambda z: ("T",),
-    "VARI": lambda z: (),
-}
-
-
-def _unique(names: list[str]) -> ListMots:
-    return ListMots(list(dict.fromkeys(names)))
-
-
-def _zone_list(model: Model) -> Table:
-    table = Table()
-    for i, zone in enumerate(model.zones):
-        table.set(2 * i + 1, Model((zone,)))
-        table.set(2 * i + 2, Mesh(zone.cells.nodes, (zone.cells,)))
-    return table
-
-
-_ATTRIBUTES = {"FORM": "formulation", "CONS": "constituent", "ELEM": "element"}
-_NO_NAMES = ("PARA", "NLOC", "PHAS")
-"""Parameters, non-local variables and phases: no law has them."""
-
-
-def _chosen(call: Call, model: Model, what: Chosen) -> Model:
-    """Zones that have one of the words, or behave as all of them."""
-    words = [w.rstrip() for w in what["names"]]
-    if what.word == "COMP":
-        words = [w.upper() for w in words]
-        kept = tuple(z for z in model.zones if all(w in z.behaviour for w in words))
-    else:
-        attribute = _ATTRIBUTES[what.word]
-        kept = tuple(z for z in model.zones if getattr(z, attribute) in words)
-    if not kept:
-        if what.word == "COMP":
-            raise call.error("operators.fields.no-zone-behaves", model, words=words)
-        raise call.error("operators.fields.no-zone-has", model, words=words)
-    return Model(kept)
-
-
-def _names(kind: str, en: str, fr: str) -> list[Entry]:
-    return [many("names", "MOT", kind=kind, en=en, fr=fr)]
-
-
-@EXTR.form(
-    main("model", "MMODEL", en="model", fr="modèle"),
-    select(
-        "what",
-        {
-            "MAIL": [],
-            "ZONE": [],
-            "FORM": _names("formulation", "formulations", "formulations"),
-            "CONS": _names("", "constituents", "constituants"),
-            "ELEM": _names("element", "elements", "éléments"),
-            "COMP": _names("law", "words of the law", "mots de la loi"),
-            **{word: [] for word in (*_NO_NAMES, *_NAMES)},
-        },
-        optional=False,
-        en="mesh, table of zones, zones that have some words, or names of components",
-        fr="maillage, table des zones, zones qui ont certains mots, ou noms de composantes",
-    ),
-    gives=by(
-        "what",
-        {
-            "MAIL": "MAILLAGE",
-            "ZONE": "TABLE",
-            "COMP": "MMODEL",
-            **dict.fromkeys(_ATTRIBUTES, "MMODEL"),
-        },
-        "LISTMOTS",
-    ),
-    syntax="OBJ1 = EXTR MODL1 'MAIL' | 'ZONE' ;\n"
-    "MODL2 = EXTR MODL1 'FORM' | 'CONS' | 'ELEM' | 'COMP' MOT1 ... ;\n"
-    "LMOT1 = EXTR MODL1 'CONT' | 'DEFO' | 'DEPL' | 'FORC' | 'MATE' | 'GEOM' | 'GRAD' | 'CONP' ;",
-    en="Of a model: its mesh (MAIL), a table of its zones and their meshes (ZONE), the zones of a "
-    "formulation, constituent or element, or the names of the components of its stresses (CONT), "
-    "strains (DEFO), displacements (DEPL), forces (FORC), parameters (MATE, GEOM), gradients "
-    "(GRAD), principal stresses (CONP).",
-    fr="D'un modèle : son maillage (MAIL), une table de ses zones et de leurs maillages (ZONE), "
-    "les zones d'une formulation, d'un constituant ou d'un élément, ou les noms de composantes "
-    "des contraintes (CONT), déformations (DEFO), déplacements (DEPL), forces (FORC), paramètres "
-    "(MATE, GEOM), gradients (GRAD), contraintes principales (CONP).",
-    examples=(
-        "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0 0) (1 0) ; M = MODE L MECANIQUE ELASTIQUE BARR ; "
-        "LIST (NBEL (EXTR M 'MAIL')) ; LIST (EXTR M 'CONT') ;",
-    ),
-)
-def extr_model(call: Call, model: Model, what: Chosen) -> Mesh | Table | Model | ListMots:
-    """A part of a model."""
-    if what.word == "MAIL":
-        return model.mesh
-    if what.word == "ZONE":
-        return _zone_list(model)
-    if what.word in _NAMES:
-        return _unique([n for z in model.zones for n in _NAMES[what.word](z)])
-    return ListMots() if what.word in _NO_NAMES else _chosen(call, model, what)
 
 
 def _mesh_of(field: CellField) -> Mesh:
@@ -151,6 +38,10 @@ def _restricted(field: CellField, what: Chosen) -> tuple[CellFieldBlock, ...]:
         return field.blocks
     wanted = {id(z.cells) for z in model.zones}
     return tuple(b for b in field.blocks if id(b.cells) in wanted)
+
+
+def _unique(names: list[str]) -> ListMots:
+    return ListMots(list(dict.fromkeys(names)))
 
 
 def _varying(field: CellField) -> ListMots:
@@ -180,6 +71,8 @@ def _own_names(field: CellField) -> Collection[str]:
 
 
 _OF_MODEL = [opt("model", "MMODEL", en="its zones only", fr="ses zones seulement")]
+
+
 _OF_FIELD: dict[str, Callable[[CellField, Chosen], Any]] = {
     "TITR": lambda field, what: ListMots([field.title]),
     "TYPE": lambda field, what: Mot(field.title),
@@ -299,26 +192,6 @@ def _same_place(a: CellFieldBlock, b: CellFieldBlock) -> bool:
 
 if ("MCHAML", "MCHAML") not in UNIONS:
     union(("MCHAML", "MCHAML"))(join_cell_fields)
-
-
-@listing("MMODEL")
-def list_model(model: Any, short: bool, say: Teller) -> str:
-    """Zones of a model, one a line."""
-    lines = [say("operators.fields.listed-model", count=len(model.zones))]
-    for i, z in enumerate(model.zones, start=1):
-        lines.append(
-            say(
-                "operators.fields.listed-zone",
-                number=i,
-                count=len(z.cells),
-                cell_type=z.cells.cell_type,
-                element=z.element,
-                words=[z.formulation, *z.behaviour],
-                mode=z.mode.value,
-                constituent=z.constituent,
-            )
-        )
-    return "\n".join(lines)
 
 
 @listing("MCHAML")

@@ -12,19 +12,13 @@ from ssilang.kernel.curves.cloud import Cloud, inverse_distance, moving_plane, o
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
-from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
 
 
-def interpolate_cloud(call: Call, cloud: Cloud, field: NodeField | CellField) -> Any:
-    """Read the method and evaluate the cloud at the values of a field."""
-    settings: dict[str, float] = {"PID": 1.0, "ELIM": 0.0}
-    method = "GAUS"
-    while (said := call.keyword(("GAUS", "RATI", "PID", "ELIM", "GRIL"))) is not None:
-        if said != "ELIM":
-            method = said
-        if said in settings:
-            settings[said] = call.optional("FLOTTANT", default=settings[said])
+def interpolate_cloud(
+    cloud: Cloud, field: NodeField | CellField, method: str, settings: dict[str, float]
+) -> NodeField | CellField:
+    """Evaluate the cloud at the values of a field; settings 'PID' and 'ELIM' of the method."""
     if isinstance(field, NodeField):
         return _at_nodes(cloud, field, method, settings)
     blocks = []

@@ -1,4 +1,4 @@
-"""MAXI MINI on numbers, lists and fields (curves are in curve_items)."""
+"""MAXI MINI on numbers, lists and fields, MAX1 (curves have theirs)."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.language.registry import Argument, arg, flag, key, main, many
+from ssilang.language.registry import Help, arg, by, choice, flag, key, main, many, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots, ListReel
 from ssilang.operators.dispatch import MAXI, MINI, Shared
@@ -31,24 +31,16 @@ def _of_numbers(
     return found if all(isinstance(v, int) for v in values) else float(found)
 
 
-def _of_list(call: Call, value: Numbers, absolute: bool, largest: bool) -> float | int:
-    values = np.abs(value.values) if absolute else value.values
-    if not len(values):
-        raise call.error("operators.fields.list-empty", value)
-    found: float | int = (values.max() if largest else values.min()).item()
-    return found
-
-
 def _of_lists(
-    call: Call,
-    value: Numbers,
-    absolute: bool,
-    second: Numbers,
-    others: tuple[Numbers, ...],
-    largest: bool,
-) -> Numbers:
-    lists = [value, second, *others]
+    call: Call, value: Numbers, absolute: bool, others: tuple[Numbers, ...], largest: bool
+) -> Numbers | float | int:
+    lists = [value, *others]
     arrays: list[Any] = [np.abs(v.values) if absolute else v.values for v in lists]
+    if not others:
+        if not len(arrays[0]):
+            raise call.error("operators.fields.list-empty", value)
+        found: float | int = (arrays[0].max() if largest else arrays[0].min()).item()
+        return found
     if len({len(a) for a in arrays}) > 1:
         raise call.error(
             "operators.fields.list-lengths-differ", lengths=[str(len(a)) for a in arrays]
@@ -77,26 +69,22 @@ def _of_arrays(call: Call, arrays: list[Any], absolute: bool, largest: bool) -> 
     return float(max(v.max() for v in values) if largest else min(v.min() for v in values))
 
 
-def _of_node_field(
-    call: Call, value: NodeField, absolute: bool, chosen: Choices, largest: bool
-) -> float:
-    names = _components(call, list(value.components), chosen)
-    if not names:
-        raise call.error("operators.fields.field-empty", value)
-    return _of_arrays(call, [value.components[n].values for n in names], absolute, largest)
-
-
 def _of_node_fields(
+    call: Call,
     value: NodeField,
     absolute: bool,
     chosen: Choices,
-    second: NodeField,
     others: tuple[NodeField, ...],
     largest: bool,
-) -> NodeField:
+) -> NodeField | float:
+    names = _components(call, list(value.components), chosen)
+    if not others:
+        if not names:
+            raise call.error("operators.fields.field-empty", value)
+        return _of_arrays(call, [value.components[n].values for n in names], absolute, largest)
     run = np.maximum if largest else np.minimum
     made = node_algebra.applied(value, np.abs) if absolute else value
-    for other in (second, *others):
+    for other in others:
         made = _pairwise(made, node_algebra.applied(other, np.abs) if absolute else other, run)
     return made
 
@@ -134,10 +122,6 @@ _CHOSEN = key(
 )
 
 
-def _others(*types: str, en: str, fr: str) -> tuple[Argument, Argument]:
-    return arg("second", *types, en=en, fr=fr), many("others", *types, en=en, fr=fr)
-
-
 def _add_forms(operator: Shared, largest: bool, en: str, fr: str) -> None:
     name = operator.name
     operator.form(
@@ -150,48 +134,37 @@ def _add_forms(operator: Shared, largest: bool, en: str, fr: str) -> None:
         fr=f"De nombres : la {fr}.",
         examples=(f"LIST ({name} 3. -7. 5.) ;",),
     )(partial(_of_numbers, largest=largest))
-    lists = main("value", "LISTREEL", "LISTENTI", en="list", fr="liste")
     operator.form(
-        lists,
+        main("value", "LISTREEL", "LISTENTI", en="list", fr="liste"),
         _ABSOLUTE,
-        *_others("LISTREEL", "LISTENTI", en="lists of the same length", fr="de même longueur"),
-        gives="LISTREEL|LISTENTI",
-        syntax=f"LIS4 = {name} ('ABS') LIS1 LIS2 ... ;",
-        en="Of several lists: item by item.",
-        fr="De plusieurs listes : terme à terme.",
+        many(
+            "others",
+            "LISTREEL",
+            "LISTENTI",
+            en="lists of the same length",
+            fr="listes de même longueur",
+        ),
+        gives=by("others", {True: "LISTREEL|LISTENTI"}, "FLOTTANT|ENTIER"),
+        syntax=f"X1 = {name} LIS1 ('ABS') ; LIS4 = {name} ('ABS') LIS1 LIS2 ... ;",
+        en=f"Of a list: the {en} value; of several, item by item.",
+        fr=f"D'une liste : la {fr} valeur ; de plusieurs, terme à terme.",
+        examples=(f"LIST ({name} (PROG 3. -7. 5.) 'ABS') ;",),
     )(partial(_of_lists, largest=largest))
     operator.form(
-        lists,
-        _ABSOLUTE,
-        gives="FLOTTANT|ENTIER",
-        syntax=f"X1 = {name} LIS1 ('ABS') ;",
-        en=f"Of a list: the {en} value.",
-        fr=f"D'une liste : la {fr} valeur.",
-        examples=(f"LIST ({name} (PROG 3. -7. 5.) 'ABS') ;",),
-    )(partial(_of_list, largest=largest))
-    nodal = main("value", "CHPOINT", en="field at nodes", fr="champ par points")
-    operator.form(
-        nodal,
+        main("value", "CHPOINT", en="field at nodes", fr="champ par points"),
         _ABSOLUTE,
         _CHOSEN,
-        *_others("CHPOINT", en="fields at the same nodes", fr="champs aux mêmes noeuds"),
-        gives="CHPOINT",
-        syntax=f"CHPO4 = {name} CHPO1 CHPO2 ... ('ABS') ;",
-        en="Of several fields at nodes: value by value.",
-        fr="De plusieurs champs par points : valeur par valeur.",
-    )(partial(_of_node_fields, largest=largest))
-    operator.form(
-        nodal,
-        _ABSOLUTE,
-        _CHOSEN,
-        gives="FLOTTANT",
-        syntax=f"X1 = {name} CHP1 ('ABS') ('AVEC' | 'SANS' LMOT1) ;",
-        en=f"Of a field: the {en} value, of all components or 'AVEC' / 'SANS' some.",
-        fr=f"D'un champ : la {fr} valeur, de toutes les composantes ou 'AVEC' / 'SANS' certaines.",
+        many("others", "CHPOINT", en="fields at the same nodes", fr="champs aux mêmes noeuds"),
+        gives=by("others", {True: "CHPOINT"}, "FLOTTANT"),
+        syntax=f"X1 = {name} CHP1 ('ABS') ('AVEC' | 'SANS' LMOT1) ; CHPO4 = {name} CHPO1 CHPO2 ;",
+        en=f"Of a field: the {en} value, of all components or 'AVEC' / 'SANS' some; of several "
+        "fields at nodes, value by value.",
+        fr=f"D'un champ : la {fr} valeur, de toutes les composantes ou 'AVEC' / 'SANS' certaines "
+        "; de plusieurs champs par points, valeur par valeur.",
         examples=(
             f"OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; LIST ({name} (COOR 1 L)) ;",
         ),
-    )(partial(_of_node_field, largest=largest))
+    )(partial(_of_node_fields, largest=largest))
     operator.form(
         main("value", "MCHAML", en="field in cells", fr="champ par éléments"),
         _ABSOLUTE,
@@ -202,3 +175,40 @@ def _add_forms(operator: Shared, largest: bool, en: str, fr: str) -> None:
 
 _add_forms(MAXI, True, "largest", "plus grande")
 _add_forms(MINI, False, "smallest", "plus petite")
+
+
+@operator(
+    "MAX1",
+    arg("field", "CHPOINT", en="field", fr="champ"),
+    choice(
+        "which",
+        ("AVEC", "SANS"),
+        en="the components of the list, or all but them",
+        fr="les composantes de la liste, ou toutes sauf elles",
+    ),
+    opt("names", "LISTMOTS", kind="component", en="components", fr="composantes"),
+    family="fields",
+    help=Help(
+        en="Nodal field divided by its value of largest size, which becomes 1; among the "
+        "components named ('AVEC', may be left out) or not named ('SANS') by a list.",
+        fr="Champ par points divisé par sa valeur de plus grande taille, qui devient 1 ; parmi "
+        "les composantes nommées ('AVEC', facultatif) ou non nommées ('SANS') par une liste.",
+        syntax="CHP1 = MAX1 CHP2 (('AVEC') | 'SANS' LMOTS1) ;",
+        examples=(
+            "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (2. 0.) ; X = COOR 1 L ; "
+            "LIST (MINI (MAX1 (X - 4.))) ;",
+        ),
+    ),
+)
+def max1(call: Call, field: NodeField, which: str | None, names: ListMots | None) -> NodeField:
+    """Bring a field to one."""
+    chosen = list(field.components)
+    if names is not None:
+        words = {str(w).rstrip() for w in names.values}
+        chosen = [n for n in chosen if (n in words) != (which == "SANS")]
+    values = [field.components[n].values for n in chosen]
+    every = np.concatenate(values) if values else np.zeros(0)
+    largest = float(every[np.argmax(np.abs(every))]) if len(every) else 0.0
+    if largest == 0.0:
+        raise call.error("operators.fields.field-is-zero", field)
+    return node_algebra.applied(field, lambda v: v / largest)

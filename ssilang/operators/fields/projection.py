@@ -1,32 +1,20 @@
-"""PROI and ZERO: fields in cells projected on other supports, fields of zeros."""
+"""PROI: fields in cells projected on other supports."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import cast
 
-import numpy as np
-
-from ssilang.kernel.elements.boundary import is_solid
-from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.results.projection import by_least_squares, on_mesh, on_model
-from ssilang.kernel.elements.results.structural_gradients import is_structural, structural_names
-from ssilang.kernel.elements.results.tensors import PRINCIPAL
-from ssilang.kernel.elements.solids.gradients import gradient_names
-from ssilang.kernel.elements.solids.hooke import hooke_block
-from ssilang.kernel.elements.zone_fields import n_points
-from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
+from ssilang.kernel.fields.cell_field import CellField, Support
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.materials.model import Model, Zone
-from ssilang.kernel.materials.parameters import geometric_names, material_names
-from ssilang.kernel.materials.plastic.laws import plastic_law
+from ssilang.kernel.materials.model import Model
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.kernel.plasticity.points import is_plastic
-from ssilang.language.registry import Chosen, Help, arg, choice, many, operator, opt, select
+from ssilang.language.registry import Chosen, Help, arg, many, operator, opt, select
 from ssilang.language.run.call import Call
-from ssilang.operators.statics.stresses import on_zones
 
 _FIELDS = many("fields", "MCHAML", at_least=1, en="field at nodes", fr="champ aux noeuds")
+
+
 _WAY = select(
     "way",
     {
@@ -49,6 +37,8 @@ _WAY = select(
     en="points of the result on a model, or least squares",
     fr="points du résultat sur un modèle, ou moindres carrés",
 )
+
+
 _TOLERANCE = opt(
     "tolerance",
     "FLOTTANT",
@@ -114,103 +104,3 @@ def _meant(call: Call, way: Chosen | None) -> str:
     if word == "POLY":
         raise call.error("operators.fields.poly-not-available")
     return word
-
-
-def _scalar(support: Support) -> tuple[str, Support]:
-    return "SCALAIRE", support
-
-
-_TITLES: dict[str, tuple[str, Support]] = {
-    "NOEUD": _scalar("NOEUD"),
-    "GRAVITE": _scalar("GRAVITE"),
-    "RIGIDITE": _scalar("RIGIDITE"),
-    "MASSE": _scalar("MASSE"),
-    "STRESSES": _scalar("STRESSES"),
-    "DEPLACEM": ("DEPLACEMENTS", "NOEUD"),
-    "FORCES": ("FORCES", "NOEUD"),
-    "TEMPERAT": ("TEMPERATURES", "NOEUD"),
-    "GRADIENT": ("GRADIENT", "STRESSES"),
-    "CONTRAIN": ("CONTRAINTES", "STRESSES"),
-    "DEFORMAT": ("DEFORMATIONS", "STRESSES"),
-    "PRINCIPA": ("PRINCIPALE", "STRESSES"),
-    "MATERIAU": ("CARACTERISTIQUES", "STRESSES"),
-    "CARACTER": ("CARACTERISTIQUES", "STRESSES"),
-    "DEFINELA": ("DEFORMATIONS INELASTIQUES", "STRESSES"),
-    "VARINTER": ("VARIABLES INTERNES", "STRESSES"),
-    "MAHOOKE": ("MATRICE DE HOOKE", "RIGIDITE"),
-    "HOTANGEN": ("MATRICE DE HOOKE TANGENTE", "RIGIDITE"),
-}
-
-
-def _gradient_names(zone: Zone) -> tuple[str, ...]:
-    if is_structural(zone):
-        return structural_names(zone)
-    return gradient_names(zone) if is_solid(zone) else ()
-
-
-def _variable_names(zone: Zone) -> tuple[str, ...]:
-    """Those of a plastic law of bodies, EPSE for other laws."""
-    found = plastic_law(zone.behaviour) if is_plastic(zone) else None
-    return ("EPSE",) if found is None else found.variables
-
-
-def _names(zone: Zone, what: str) -> tuple[str, ...]:
-    family = family_of(zone)
-    tables: dict[str, Callable[[], tuple[str, ...]]] = {
-        "DEPLACEM": lambda: tuple(dict.fromkeys(family.layout(zone).unknowns)),
-        "FORCES": lambda: tuple(dict.fromkeys(family.layout(zone).duals)),
-        "TEMPERAT": lambda: ("T",),
-        "GRADIENT": lambda: _gradient_names(zone),
-        "CONTRAIN": lambda: family.stress_names(zone),
-        "DEFORMAT": lambda: family.strain_names(zone),
-        "DEFINELA": lambda: family.strain_names(zone),
-        "PRINCIPA": lambda: PRINCIPAL,
-        "MATERIAU": lambda: material_names(zone).all,
-        "CARACTER": lambda: geometric_names(zone).all,
-        "VARINTER": lambda: _variable_names(zone),
-    }
-    return tables[what]() if what in tables else ("SCAL",)
-
-
-@operator(
-    "ZERO",
-    arg("model", "MMODEL", en="model", fr="modèle"),
-    choice(
-        "word",
-        tuple(_TITLES),
-        length=8,
-        en="points of a scalar, or kind of field",
-        fr="points d'un scalaire, ou type de champ",
-    ),
-    family="fields",
-    help=Help(
-        en="Field of zeros on a model: a scalar at the points of a support (NOEUD GRAVITE RIGIDITE "
-        "MASSE STRESSES), or the components of a kind of field (CONTRAIN, DEFORMAT, DEPLACEM, "
-        "FORCES, GRADIENT, MATERIAU, CARACTER, TEMPERAT, PRINCIPA, DEFINELA, VARINTER, MAHOOKE, "
-        "HOTANGEN).",
-        fr="Champ nul sur un modèle : un scalaire aux points d'un support (NOEUD GRAVITE RIGIDITE "
-        "MASSE STRESSES), ou les composantes d'un type de champ (CONTRAIN, DEFORMAT, DEPLACEM, "
-        "FORCES, GRADIENT, MATERIAU, CARACTER, TEMPERAT, PRINCIPA, DEFINELA, VARINTER, MAHOOKE, "
-        "HOTANGEN).",
-        syntax="CHAM1 = ZERO MODL1 MOT1 ;",
-        examples=(
-            "OPTI DIME 2 ELEM QUA4 ; L = DROI 2 (0. 0.) (2. 0.) ; S = TRAN 1 L (0. 1.) ; "
-            "M = MODE S MECANIQUE ELASTIQUE ; LIST (MAXI (ZERO M 'CONTRAIN')) ;",
-        ),
-    ),
-)
-def zero(call: Call, model: Model, word: str | None) -> CellField:
-    """Zeros."""
-    if word is None:
-        raise call.error("operators.fields.which-zeros", titles=_TITLES)
-    title, support = _TITLES[word]
-
-    def make(zone: Zone) -> CellFieldBlock:
-        if word in ("MAHOOKE", "HOTANGEN"):
-            s = len(family_of(zone).strain_names(zone))
-            return hooke_block(zone, np.zeros((1, n_points(zone.element, support), s, s)), support)
-        shape = (len(zone.cells), n_points(zone.element, support))
-        components = {n: np.zeros(shape) for n in _names(zone, word)}
-        return CellFieldBlock(zone.cells, components, support, zone.element, zone.constituent)
-
-    return on_zones(model, title, make)

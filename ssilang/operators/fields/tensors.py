@@ -41,7 +41,7 @@ from ssilang.language.registry import Help, arg, by, choice, flag, main, many, o
 from ssilang.language.run.call import Call
 from ssilang.operators.dispatch import INTG
 from ssilang.operators.matrices.element import joined, present
-from ssilang.operators.statics.stresses import PARAMETERS, on_zones
+from ssilang.operators.statics.stresses import MODEL, on_zones, state_and_rest
 
 _SQUARE = (
     "OPTI DIME 2 ELEM QUA4 ; L = DROI 2 (0 0) (2 0) ; S = TRAN 1 L (0. 1.) ; "
@@ -55,7 +55,6 @@ def _scalar(zone: Zone, values: FloatArray, support: Support) -> CellFieldBlock:
     return CellFieldBlock(zone.cells, {"SCAL": values}, support, zone.element, zone.constituent)
 
 
-MODEL = arg("model", "MMODEL", en="model", fr="modèle")
 STATE = many(
     "fields",
     "MCHAML",
@@ -70,13 +69,6 @@ _SIDE = choice(
     en="side of a shell: that of the normal, the middle (default) or the other",
     fr="côté d'une coque : celui de la normale, le milieu (par défaut) ou l'autre",
 )
-
-
-def state_and_rest(fields: tuple[CellField, ...]) -> tuple[CellField, CellField | None]:
-    """The field of stresses or strains, in whatever order, and the parameters as one."""
-    state = next((f for f in fields if f.title not in PARAMETERS), fields[0])
-    rest = tuple(f for f in fields if f is not state)
-    return state, joined(rest) if rest else None
 
 
 def _equivalent(

@@ -10,7 +10,7 @@ from ssilang.io.archive import Archive, Decoder, Encoder, Record, read_archive, 
 from ssilang.io.archive.classes import Packing, register_packing
 from ssilang.io.errors import InputError
 from ssilang.kernel.materials.model import Mode
-from ssilang.language.registry import Help, arg, flag, key, many, operator
+from ssilang.language.registry import ANY, Help, arg, flag, key, many, operator
 from ssilang.language.run.call import Call, Operand
 from ssilang.language.run.scopes import PREDEFINED, Frame
 from ssilang.language.text.source import Source
@@ -233,6 +233,7 @@ def _settings(ws: Workspace) -> dict[str, Any]:
 @operator(
     "REST",
     *_WORDS,
+    gives=ANY,  # a name that it restores may be spelt like it
     family="files",
     full_name="RESTITUER",
     help=Help(

@@ -173,7 +173,7 @@ def _insert(call: Call, value: AnyList, place: int, item: Any) -> Any:
         )
     if isinstance(value, ListReel | ListEnti):
         return type(value)(np.insert(value.values, place - 1, item))
-    items = list(value.values)
+    items: list[Any] = list(value.values)
     items.insert(place - 1, item)
     return type(value)(items)
 
@@ -205,6 +205,36 @@ REMP = shared(
 )
 
 
+def _replace(call: Call, value: AnyList, places: int | ListEnti, new: Any) -> None:
+    chosen = _places(call, len(value), places)
+    items = list(new.values) if type_of(new) == type_of(value) else [new] * len(chosen)
+    if len(items) != len(chosen):
+        raise call.error(
+            "operators.lists.places-and-items", new, n_places=len(chosen), n_items=len(items)
+        )
+    for i, item in zip(chosen, items, strict=True):
+        value.values[i] = item
+
+
+def _replacing(kind: str) -> None:
+    REMP.form(
+        arg("value", kind, en="list", fr="liste"),
+        _PLACES,
+        arg(
+            "new",
+            _ITEM[kind],
+            kind,
+            en="item, or one for each place",
+            fr="élément, ou un par rang",
+        ),
+    )(_replace)
+
+
+# a list of words could be what is replaced in a word: that is tried before
+for _kind in ("LISTREEL", "LISTENTI"):
+    _replacing(_kind)
+
+
 @REMP.form(
     arg("word", "MOT", en="word", fr="mot"),
     arg("old", "MOT", "LISTMOTS", en="what is replaced", fr="ce qui est remplacé"),
@@ -224,23 +254,8 @@ def _replace_in_word(call: Call, word: str, old: str | ListMots, new: str | List
     return Mot(word)
 
 
-def _replace(call: Call, value: AnyList, places: int | ListEnti, new: Any) -> None:
-    chosen = _places(call, len(value), places)
-    items = list(new.values) if type_of(new) == type_of(value) else [new] * len(chosen)
-    if len(items) != len(chosen):
-        raise call.error(
-            "operators.lists.places-and-items", new, n_places=len(chosen), n_items=len(items)
-        )
-    for i, item in zip(chosen, items, strict=True):
-        value.values[i] = item
-
-
-for _kind, _item in _ITEM.items():
-    REMP.form(
-        arg("value", _kind, en="list", fr="liste"),
-        _PLACES,
-        arg("new", _item, _kind, en="item, or one for each place", fr="élément, ou un par rang"),
-    )(_replace)
+for _kind in ("LISTMOTS", "LISTCHPO", "LISTOBJE"):
+    _replacing(_kind)
 
 
 @operator(

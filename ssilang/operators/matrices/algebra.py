@@ -1,4 +1,4 @@
-"""Signs, ET, EXTR, REDU, CHAN, LIST, XTMX, YTMX on matrices (RIGIDITE)."""
+"""Signs, ET, EXTR, DIME, REDU, CHAN, LIST, XTMX, YTMX, DIMN on matrices (RIGIDITE)."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ssilang.kernel.matrices.assembly import assemble, field_to_vector, numberin
 from ssilang.kernel.matrices.matrix import Matrix, dual_of
 from ssilang.kernel.matrices.matrix import imaginary as imaginary_of
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.kernel.statics.linear import product
+from ssilang.kernel.statics.linear import linear_system, product
 from ssilang.language.registry import (
     Chosen,
     Help,
@@ -32,7 +32,7 @@ from ssilang.language.registry import (
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots
 from ssilang.messages.message import Teller
-from ssilang.operators.dispatch import CHAN, EXTR, REDU, listing, union
+from ssilang.operators.dispatch import CHAN, DIME, EXTR, REDU, listing, union
 from ssilang.operators.numbers.arithmetic import rule
 
 # --- signs -----------------------------------------------------------------------------------
@@ -426,3 +426,39 @@ def xtmx(field: NodeField, matrix: Matrix) -> float:
 )
 def ytmx(right: NodeField, left: NodeField, matrix: Matrix) -> float:
     return _form(left, matrix, right)
+
+
+@operator(
+    "DIMN",
+    arg("matrix", "RIGIDITE", en="matrix", fr="rigidité"),
+    family="matrix",
+    full_name="DIMNOYAU",
+    help=Help(
+        en="Dimension of the kernel of a matrix with its relations: the number of free motions.",
+        fr="Dimension du noyau d'une rigidité avec ses relations : le nombre de mouvements libres.",
+        syntax="N1 = DIMN RIG1 ;",
+        examples=(
+            "OPTI DIME 2 ELEM QUA4 ; L = DROI 1 (0. 0.) (1. 0.) ; S = TRAN 1 L (0. 1.) ; "
+            "M = MODE S MECANIQUE ELASTIQUE ; K = RIGI M (MATE M 'YOUN' 1. 'NU' 0.3) ; "
+            "LIST (DIMN K) ;",
+        ),
+    ),
+)
+def dimn(matrix: Matrix) -> int:
+    """Dimension of the kernel."""
+    return int(linear_system(matrix).free_motions.shape[1])
+
+
+@DIME.form(
+    main("matrix", "RIGIDITE", en="matrix", fr="rigidité"),
+    en="Of a matrix: its number of unknowns.",
+    fr="D'une rigidité : son nombre d'inconnues.",
+    examples=(
+        "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; "
+        "MO = MODE L 'MECANIQUE' 'ELASTIQUE' 'BARR' ; "
+        "LIST (DIME (RIGI MO (MATE MO 'YOUN' 1. 'NU' 0. 'SECT' 1.))) ;",
+    ),
+)
+def unknowns(matrix: Matrix) -> int:
+    """Number of unknowns."""
+    return numbering_of(matrix).size

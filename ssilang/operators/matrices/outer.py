@@ -1,11 +1,11 @@
-"""ZXXT: the sum of outer products behind the procedures M_DAMPIN and M_DAMP_K."""
+"""XXT and ZXXT: sums of outer products, behind the procedures M_DAMPIN and M_DAMP_K."""
 
 from __future__ import annotations
 
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.matrices.outer import sum_of_outer_products
-from ssilang.language.registry import Help, arg, operator
+from ssilang.language.registry import Help, arg, operator, opt
 from ssilang.language.values import ListChpo, ListReel
 
 
@@ -30,3 +30,25 @@ def zxxt(fields: ListChpo, factors: ListReel) -> Matrix:
     """Sum of the outer products."""
     vectors = [f for f in fields.values if isinstance(f, NodeField)]
     return sum_of_outer_products(vectors, [float(a) for a in factors.values], "AMORTISSEMENT")
+
+
+@operator(
+    "XXT",
+    arg("field", "CHPOINT", en="v", fr="v"),
+    opt("factor", "FLOTTANT", default=1.0, en="a", fr="a"),
+    family="matrix",
+    help=Help(
+        en="Stiffness a v v^T of a nodal field v (forces, or displacements): one full element on "
+        "all its nodes.",
+        fr="Rigidité a v v^T d'un champ par points v (forces, ou déplacements) : un seul "
+        "superélément plein sur tous ses noeuds.",
+        syntax="RIG1 = XXT CHPO1 (X1) ;",
+        examples=(
+            "OPTI DIME 2 ; V = MANU 'CHPO' (0. 0.) 2 'FX' 1. 'FY' 2. 'NATURE' 'DISCRET' ; "
+            "LIST (EXTR (XXT V 3.) 'DIAG') ;",
+        ),
+    ),
+)
+def xxt(field: NodeField, factor: float) -> Matrix:
+    """Outer product."""
+    return sum_of_outer_products([field], [factor], "RIGIDITE")

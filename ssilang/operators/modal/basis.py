@@ -9,10 +9,12 @@ import numpy as np
 
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.curves.curve import Load
+from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
+from ssilang.kernel.materials.model import Model
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.matrices.submatrices import together
-from ssilang.kernel.mesh.mesh import Point
+from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.modal.basis import (
     projected_matrix,
@@ -23,7 +25,20 @@ from ssilang.kernel.modal.basis import (
 from ssilang.kernel.modal.modes import eigenvalue
 from ssilang.kernel.modal.shape_models import shape_points
 from ssilang.kernel.statics.linear import product, solve
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import (
+    Chosen,
+    Help,
+    Like,
+    arg,
+    either,
+    flag,
+    group,
+    key,
+    main,
+    many,
+    operator,
+    opt,
+)
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, Mot, Table
 from ssilang.operators.dispatch import union
@@ -87,24 +102,45 @@ def _at_marks(table: NodeTable, shapes: list[Shape], values: list[float], dual: 
 # --- projection ------------------------------------------------------------------------------
 
 
+BASIS = either(
+    "basis",
+    group(
+        "tables",
+        many("tables", "TABLE", at_least=1, en="modes, static shapes", fr="modes, déformées"),
+    ),
+    group(
+        "model",
+        arg("model", "MMODEL", en="model of shapes", fr="modèle de déformées"),
+        many("material", "MCHAML", at_least=1, en="its parameters", fr="ses caractéristiques"),
+    ),
+)
+
+
+def basis_shapes(call: Call, basis: Chosen) -> list[Shape]:
+    """Shapes of the tables, or of the model with its parameters, that `BASIS` has read."""
+    if basis.word == "tables":
+        return shapes_of(call, *basis["tables"])
+    return _model_shapes(call, basis["model"], basis["material"])
+
+
 def read_basis(call: Call) -> list[Shape]:
     """Shapes of the tables that stand in a call, or of a model with its parameters."""
     model = call.read("MMODEL")
     if model is None:
         return shapes_of(call, *call.all("TABLE"))
-    material = joined((call.required("MCHAML"), *call.all("MCHAML")))
-    points = shape_points(model.value.zones, material)
+    return _model_shapes(call, model.value, (call.required("MCHAML"), *call.all("MCHAML")))
+
+
+def _model_shapes(call: Call, model: Model, material: tuple[CellField, ...]) -> list[Shape]:
+    points = shape_points(model.zones, joined(material))
     if not points:
-        raise call.error("operators.modal.model-no-zone-modal", model.value)
+        raise call.error("operators.modal.model-no-zone-modal", model)
     nodes = workspace(call.session).nodes
     return [Shape(p.field, Point(nodes, p.node), p.unknown, Table()) for p in points]
 
 
-def _pjba(call: Call) -> Any:
-    thing = call.required("CHPOINT", "CHARGEME", "LISTCHPO", "RIGIDITE")
-    shapes = read_basis(call)
-    if isinstance(thing, ListChpo):
-        return _project_list(call, thing, shapes)
+def _pjba(call: Call, thing: NodeField | Load | Matrix, basis: Chosen) -> NodeField | Load | Matrix:
+    shapes = basis_shapes(call, basis)
     if isinstance(thing, Load):
         return Load(tuple(replace(p, space=_forces(call, p.space, shapes)) for p in thing.parts))
     if isinstance(thing, NodeField):
@@ -124,22 +160,11 @@ def _forces(call: Call, force: object, shapes: list[Shape]) -> NodeField:
     return _at_marks(force.table, shapes, [work(force, s.field) for s in shapes], dual=True)
 
 
-def _project_list(call: Call, fields: ListChpo, shapes: list[Shape]) -> ListChpo:
-    count = call.optional("ENTIER", default=len(shapes))
-    metric: Matrix | None = call.optional("RIGIDITE")
-    shapes = shapes[:count]
-    dual = [s.field if metric is None else product(metric, s.field) for s in shapes]
-    out: list[object] = []
-    for field in fields.values:
-        if not isinstance(field, NodeField):
-            raise call.error("operators.modal.list-holds-something-else", fields)
-        values = [work(d, field, same_names=metric is None) for d in dual]
-        out.append(_at_marks(field.table, shapes, values, dual=False))
-    return ListChpo(out)
-
-
-operator(
+pjba = operator(
     "PJBA",
+    main("thing", "CHPOINT", "CHARGEME", "RIGIDITE", en="what is projected", fr="objet projeté"),
+    BASIS,
+    gives=Like("thing"),
     family="modal",
     help=Help(
         "Projects on the shapes of a modal basis (and static shapes): forces or loads give FALF "
@@ -155,35 +180,52 @@ operator(
             " T1 = VIBR 'SIMU' 1. 1 K1 (MASS 'UX' 4. P1) ; LIST (PJBA (FORC 'FX' 2. P1) T1) ;",
         ),
     ),
-    reads_itself=True,
 )(_pjba)
+
+
+@pjba.form(
+    main("fields", "LISTCHPO", en="fields", fr="champs"),
+    BASIS,
+    opt("count", "ENTIER", en="number of shapes, all without it", fr="nombre de déformées"),
+    opt("metric", "RIGIDITE", en="matrix of the product", fr="matrice du produit"),
+)
+def project_list(
+    call: Call, fields: ListChpo, basis: Chosen, count: int | None, metric: Matrix | None
+) -> ListChpo:
+    """Products of fields with shapes."""
+    shapes = basis_shapes(call, basis)[:count]
+    dual = [s.field if metric is None else product(metric, s.field) for s in shapes]
+    out: list[object] = []
+    for field in fields.values:
+        if not isinstance(field, NodeField):
+            raise call.error("operators.modal.list-holds-something-else", fields)
+        values = [work(d, field, same_names=metric is None) for d in dual]
+        out.append(_at_marks(field.table, shapes, values, dual=False))
+    return ListChpo(out)
 
 
 # --- pseudo-modes ----------------------------------------------------------------------------
 
 
-def _psmo(call: Call) -> Table:
-    frequency, seismic, directions = 0.0, False, []
-    while (word := call.keyword(("FREQ", "SEISME", "UX", "UY", "UZ"))) is not None:
-        if word == "FREQ":
-            frequency = call.required("FLOTTANT", after=call.keyword_end)
-        elif word == "SEISME":
-            seismic = True
-        else:
-            directions.append(word)
-    matrices: list[Matrix] = call.all("RIGIDITE")
-    modes = shapes_of(call, call.required("TABLE"))
+def _psmo(
+    call: Call,
+    frequency: float,
+    seismic: bool,
+    directions: list[str],
+    matrices: tuple[Matrix, ...],
+    basis: Table,
+    field: NodeField | ListChpo | None,
+) -> Table:
+    modes = shapes_of(call, basis)
     masses = [m for m in matrices if m.kind.startswith("MASS")]
     others = [m for m in matrices if not m.kind.startswith("MASS")]
     if len(others) != 1 or len(masses) > 1:
         raise call.error("operators.modal.psmo-wants-stiffness-mass")
-    system = _Shifted(call, others[0], masses[0] if masses else None, modes, float(frequency))
+    system = _Shifted(call, others[0], masses[0] if masses else None, modes, frequency)
     table = Table("PSEUDO_MODE")
     entries = system.seismic(directions) if directions else []
-    field = call.read("CHPOINT", "LISTCHPO")
     if field is not None:
-        value = field.value
-        fields: list[Any] = value.values if isinstance(value, ListChpo) else [value]
+        fields: list[Any] = field.values if isinstance(field, ListChpo) else [field]
         entries += [system.driven(f, seismic) for f in fields]
     if not entries:
         raise call.error("operators.modal.nothing-drives-structure-chpoint")
@@ -254,6 +296,38 @@ class _Shifted:
 
 operator(
     "PSMO",
+    key(
+        "frequency",
+        "FREQ",
+        arg("frequency", "FLOTTANT", unit="Hz"),
+        default=0.0,
+        en="frequency of the response",
+        fr="fréquence de la réponse",
+    ),
+    flag(
+        "seismic",
+        "SEISME",
+        en="displacements of supports, or accelerations of the base",
+        fr="déplacements d'appuis, ou accélérations de la base",
+    ),
+    key(
+        "directions",
+        ("UX", "UY", "UZ"),
+        repeated=True,
+        en="of the base",
+        fr="de la base",
+    ),
+    many(
+        "matrices",
+        "RIGIDITE",
+        at_least=1,
+        en="stiffness, and mass",
+        fr="rigidité, et masse",
+    ),
+    arg("basis", "TABLE", en="modes", fr="modes"),
+    opt(
+        "field", "CHPOINT", "LISTCHPO", en="forces, or field of DEPI", fr="forces, ou champ de DEPI"
+    ),
     family="modal",
     help=Help(
         "Pseudo-modes: the static response to forces, to displacements of supports ('SEISME' and a "
@@ -273,13 +347,11 @@ operator(
             " LIST (PM . 1 . 'DEPLACEMENT') ;",
         ),
     ),
-    reads_itself=True,
 )(_psmo)
 
 
-def _idli(call: Call) -> Table:
-    matrix: Matrix = call.required("RIGIDITE")
-    inside = call.required("MAILLAGE").sorted_node_ids
+def _idli(call: Call, matrix: Matrix, place: Mesh) -> Table:
+    inside = place.sorted_node_ids
     ws = workspace(call.session)
     pairs = sorted(
         {
@@ -298,6 +370,8 @@ def _idli(call: Call) -> Table:
 
 operator(
     "IDLI",
+    arg("matrix", "RIGIDITE", en="conditions", fr="conditions"),
+    arg("place", "MAILLAGE", en="points", fr="points"),
     family="modal",
     help=Help(
         "Table LIAISONS_STATIQUES of the points of a mesh, and their unknowns, on which the "
@@ -311,7 +385,6 @@ operator(
             " LIST (T1 . 1 . 'DDL_LIAISON') ;",
         ),
     ),
-    reads_itself=True,
 )(_idli)
 
 

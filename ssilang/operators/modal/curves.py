@@ -13,7 +13,7 @@ from ssilang.kernel.modal.basis import work
 from ssilang.kernel.statics.linear import product
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListEnti, ListReel, Table
-from ssilang.operators.curves.making import KINDS, history, names_in_time, nodes_named
+from ssilang.operators.curves.evol import KINDS, history, names_in_time, nodes_named
 from ssilang.operators.dispatch import extend_help
 from ssilang.operators.modal.basis import Shape, read_basis, shapes_of
 from ssilang.operators.modal.recombination import modal_history, pseudo_shapes

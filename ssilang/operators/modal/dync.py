@@ -11,10 +11,16 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import field_to_vector
 from ssilang.kernel.modal.links import link_arrays
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import Help, arg, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots, ListReel, Mot, Table
-from ssilang.operators.modal.dyne import System, damping_of, system_of, tables_by_role
+from ssilang.operators.modal.dyne import (
+    TABLES,
+    System,
+    damping_of,
+    system_of,
+    tables_by_role,
+)
 from ssilang.operators.modal.dyne_links import links_of
 from ssilang.operators.tables.entries import Entries
 
@@ -29,11 +35,10 @@ _ROLES = {
 }  # fmt: skip
 
 
-def _dync(call: Call) -> Table:
+def _dync(call: Call, given: tuple[Table, ...], harmonics: int, samples: int) -> Table:
     from ssilang.kernel.continuation.response import forced_response, normal_mode
 
-    tables = _tables(call)
-    harmonics, samples = call.required("ENTIER"), call.required("ENTIER")
+    tables = _tables(call, given)
     if harmonics < 1 or samples < 2 * (2 * harmonics + 1):
         raise call.error(
             "operators.modal.instants-for-harmonics",
@@ -87,8 +92,8 @@ class Numbers:
         return value
 
 
-def _tables(call: Call) -> dict[str, Table]:
-    found = tables_by_role(call, _ROLES)
+def _tables(call: Call, given: tuple[Table, ...]) -> dict[str, Table]:
+    found = tables_by_role(call, given, _ROLES)
     for role, name in (("system", "BASE_MODALE"), ("numbers", "PARAMETRES_NUMERIQUES")):
         if role not in found:
             raise call.error("operators.modal.table-wanted", name=name)
@@ -258,6 +263,9 @@ _DUFFING = (
 )
 operator(
     "DYNC",
+    TABLES,
+    arg("harmonics", "ENTIER", en="number of harmonics", fr="nombre d'harmoniques"),
+    arg("samples", "ENTIER", en="instants of a period", fr="instants d'une période"),
     family="modal",
     help=Help(
         "Branches of periodic motions of modes with links, by harmonic balance and continuation "
@@ -284,5 +292,4 @@ operator(
             "LIST (MAXI (R . 'REPONSE' . 'NORME_DEPLACEMENT')) ;",
         ),
     ),
-    reads_itself=True,
 )(_dync)

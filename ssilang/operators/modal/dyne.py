@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -17,7 +17,7 @@ from ssilang.kernel.modal.explicit import SCHEMES, VARIABLES, ModalRun, ModalSta
 from ssilang.kernel.modal.links import STATES, link_arrays
 from ssilang.kernel.modal.modes import eigenvalue
 from ssilang.kernel.stepping.problem.loading import loading_of
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import Help, arg, choice, many, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel, Mot, Table
 from ssilang.operators.modal.basis import shapes_in
@@ -53,15 +53,22 @@ class System:
         return NodeField(self.numbering.table, parts, "DIFFUS")
 
 
-def _dyne(call: Call) -> Table:
-    scheme = call.keyword(SCHEMES)
-    if scheme is None:
-        raise call.error("operators.modal.which-scheme", schemes=[f"'{s}'" for s in SCHEMES])
-    tables = tables_by_role(call, _ROLES)
+TABLES = many(
+    "given", "TABLE", en="basis, links, damping, loads ...", fr="base, liaisons, amortissement ..."
+)
+
+
+def _dyne(
+    call: Call,
+    scheme: str,
+    given: tuple[Table, ...],
+    steps: int,
+    h: float,
+    every: int,
+) -> Table:
+    tables = tables_by_role(call, given, _ROLES)
     if "system" not in tables:
         raise call.error("operators.modal.dyne-wants-table-base")
-    steps, h = call.required("ENTIER"), call.required("FLOTTANT")
-    every = call.optional("ENTIER", default=1)
     system = system_of(call, tables["system"])
     links = links_of(call, tables.get("links"), system.basis)
     start = _start(call, tables.get("start"), system, len(links))
@@ -73,14 +80,16 @@ def _dyne(call: Call) -> Table:
     return _results(run, system, links, tables.get("output"))
 
 
-def tables_by_role(call: Call, roles: Mapping[str, str]) -> dict[str, Table]:
-    """The tables among the operands, checked, by the role of the argument that they are."""
+def tables_by_role(
+    call: Call, tables: Iterable[Table], roles: Mapping[str, str]
+) -> dict[str, Table]:
+    """Tables, checked, by the role of the argument that they are."""
     declared = call.session.library.declared(call.name)
     assert declared is not None
     by_subtype = {a.subtype: a.name for a in declared.arguments if a.subtype}
     by_subtype |= dict.fromkeys(BASES, declared.arguments[0].name)
     found: dict[str, Table] = {}
-    for table in call.all("TABLE"):
+    for table in tables:
         argument = by_subtype.get(table.subtype)
         if argument is None:
             raise call.error(
@@ -290,6 +299,17 @@ _EXAMPLE = (
 )
 operator(
     "DYNE",
+    choice("scheme", SCHEMES, optional=False, en="how time is stepped", fr="schéma en temps"),
+    TABLES,
+    arg("steps", "ENTIER", en="number of steps", fr="nombre de pas"),
+    arg("h", "FLOTTANT", en="time step", fr="pas de temps", unit="s"),
+    opt(
+        "every",
+        "ENTIER",
+        default=1,
+        en="one step of so many is kept, all without it",
+        fr="un pas gardé sur tant, tous sans lui",
+    ),
     family="modal",
     help=Help(
         "Time stepping on modes: De Vogelaere (fourth order), central differences, average "
@@ -325,5 +345,4 @@ operator(
             "LIST (MAXI (R . L1 . 'FORCE_DE_CHOC') 'ABS') ;",
         ),
     ),
-    reads_itself=True,
 )(_dyne)

@@ -8,9 +8,9 @@ from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.impedance import factors, impedance
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.modal.complex_modes import ComplexMode, conjugate_modes
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import Help, arg, choice, key, many, operator, opt
 from ssilang.language.run.call import Call
-from ssilang.language.values import Table
+from ssilang.language.values import ListReel, Table
 from ssilang.operators.modal.basis import Shape, shapes_of
 from ssilang.operators.modal.modes import matrices_by_kind, modal_table
 from ssilang.operators.modal.recombination import recombined
@@ -18,25 +18,51 @@ from ssilang.operators.modal.recombination import recombined
 _KINDS = {"RIGI": "RAIDEUR", "MASS": "MASSE", "AMOR": "AMORTISSEMENT"}
 
 
-def _impe(call: Call) -> Matrix:
-    word = call.keyword(("MASSE", "RAIDEUR", "AMORTISSEMENT", "QUELCONQUE"))
-    chosen = call.required("LISTREEL", after=call.keyword_end) if word == "QUELCONQUE" else None
-    matrix: Matrix = call.required("RIGIDITE")
-    other: Matrix | None = call.optional("RIGIDITE")
-    pulsation = float(call.optional("FLOTTANT", default=1.0))
-    buckling = call.optional("LOGIQUE", default=False)
+def _impe(
+    call: Call,
+    kind_of: str | None,
+    chosen: ListReel | None,
+    matrix: Matrix,
+    other: Matrix | None,
+    pulsation: float,
+    buckling: bool,
+) -> Matrix:
     kind = "MASSE" if buckling else matrix.kind
     if chosen is not None:
         values = [float(v) for v in chosen.values]
         if len(values) != 4:
             raise call.error("operators.modal.four-numbers-wanted", chosen)
         return impedance(matrix, (values[0], values[1], values[2], values[3]), kind, other)
-    said = word or _KINDS.get(matrix.kind[:4], "RAIDEUR")
+    said = kind_of or _KINDS.get(matrix.kind[:4], "RAIDEUR")
     return impedance(matrix, factors(said, pulsation), kind, other)
 
 
 operator(
     "IMPE",
+    choice(
+        "kind_of",
+        ("MASSE", "RAIDEUR", "AMORTISSEMENT"),
+        en="what the matrix is, by its type without it",
+        fr="nature de la matrice, selon son type sans lui",
+    ),
+    key(
+        "chosen",
+        "QUELCONQUE",
+        arg("factors", "LISTREEL"),
+        en="factors of the four blocks",
+        fr="facteurs des quatre blocs",
+    ),
+    arg("matrix", "RIGIDITE", en="matrix", fr="matrice"),
+    opt("other", "RIGIDITE", en="of the imaginary rows", fr="des lignes imaginaires"),
+    opt(
+        "pulsation",
+        "FLOTTANT",
+        default=1.0,
+        en="circular frequency, 1 without it",
+        fr="pulsation, 1 sans elle",
+        unit="rad/s",
+    ),
+    opt("buckling", "LOGIQUE", default=False, en="of type MASSE", fr="de type MASSE"),
     family="modal",
     full_name="IMPEDANCE",
     help=Help(
@@ -57,19 +83,17 @@ operator(
             " U1 = RESO Z1 (MANU 'CHPO' P1 1 'FX' 1. 'NATURE' 'DISCRET') ; LIST U1 ;",
         ),
     ),
-    reads_itself=True,
 )(_impe)
 
 
-def _vibc(call: Call) -> Table:
-    matrices = call.all("RIGIDITE")
+def _vibc(
+    call: Call, matrices: tuple[Matrix, ...], basis: Table | None, pairs: int | None
+) -> Table:
     if len(matrices) not in (2, 3):
         raise call.error("operators.modal.matrices-of-vibc", n_matrices=len(matrices))
     stiffness, mass, damping = matrices_by_kind(matrices, mass_first=True)
-    basis = call.read("TABLE")
-    pairs = call.optional("ENTIER")
     modes = conjugate_modes(stiffness, mass, damping, pairs)
-    shapes = None if basis is None else shapes_of(call, basis.value)
+    shapes = None if basis is None else shapes_of(call, basis)
     table = modal_table(call, mass, [_entry(m, shapes) for m in modes], "MODE_COMPLEXE")
     table.set("CONVERGENCE", True)
     return table
@@ -89,6 +113,14 @@ def _entry(mode: ComplexMode, shapes: list[Shape] | None) -> dict[str, Any]:
 
 operator(
     "VIBC",
+    many(
+        "matrices",
+        "RIGIDITE",
+        en="mass, stiffness, and damping",
+        fr="masse, rigidité, et amortissement",
+    ),
+    opt("basis", "TABLE", en="basis of the projection", fr="base de la projection"),
+    opt("pairs", "ENTIER", en="number of couples, all without it", fr="nombre de couples, tous"),
     family="modal",
     full_name="VIBC",
     help=Help(
@@ -107,5 +139,4 @@ operator(
             " B1 = VIBC M1 K1 C1 ; LIST (B1 . 'MODES' . 1 . 'FREQUENCE_IMAGINAIRE') ;",
         ),
     ),
-    reads_itself=True,
 )(_vibc)

@@ -11,7 +11,7 @@ from ssilang.kernel.continuation import expansion
 from ssilang.kernel.continuation.expansion import Names, names_of
 from ssilang.kernel.continuation.harmonics import basis_at
 from ssilang.kernel.matrices.matrix import Matrix
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import Help, arg, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots, ListReel, Mot, Table
 from ssilang.operators.modal.harmonic_tables import (
@@ -49,17 +49,17 @@ def known_names(entries: Entries) -> Names:
 
 @operator(
     "ZHBM",
+    arg("table", "TABLE", en="table of HBM", fr="table de HBM"),
     family="modal",
     help=Help(
         en="Matrices of harmonic balance of the table of HBM, which is the procedure to call.",
         fr="Matrices d'équilibrage harmonique de la table de HBM, procédure à appeler.",
         syntax="ZHBM TAB1 ;",
     ),
-    reads_itself=True,
 )
-def zhbm(call: Call) -> None:
+def zhbm(call: Call, table: Table) -> None:
     """Read the matrices of the motion, add those of its coefficients."""
-    entries = Entries(call, call.required("TABLE"), "HBM")
+    entries = Entries(call, table, "HBM")
     names = known_names(entries)
     entries.needed("RIGIDITE_CONSTANTE")
     entries.needed("MASSE_CONSTANTE")
@@ -154,18 +154,19 @@ class Motion:
 
 @operator(
     "ZHPO",
+    arg("table", "TABLE", en="table of HBM_POST", fr="table de HBM_POST"),
+    arg("results", "LISTMOTS", en="MAXI, TEMP, VITE", fr="MAXI, TEMP, VITE"),
     family="modal",
     help=Help(
         en="Results in time of the table of HBM_POST, which is the procedure to call.",
         fr="Résultats temporels de la table de HBM_POST, procédure à appeler.",
         syntax="ZHPO TAB1 LMOT1 ;",
     ),
-    reads_itself=True,
 )
-def zhpo(call: Call) -> None:
+def zhpo(call: Call, table: Table, results: ListMots) -> None:
     """Maxima, motions and velocities from the coefficients."""
-    entries = Entries(call, call.required("TABLE"), "HBM_POST")
-    wanted = [w.strip().upper()[:4] for w in call.required("LISTMOTS").values]
+    entries = Entries(call, table, "HBM_POST")
+    wanted = [w.strip().upper()[:4] for w in results.values]
     wrong = [w for w in wanted if w not in ("MAXI", "TEMP", "VITE")]
     if wrong:
         raise entries.error("operators.modal.unknown-result", wrong=wrong[0])
@@ -186,10 +187,10 @@ def zhpo(call: Call) -> None:
                 Mot("RESULTATS_TEMPORELS"),
                 _in_time(motion, asked, (shares, values, rates), wanted, every),
             )
-    results = entries.table.get("RESULTATS")
-    if curves and isinstance(results, Table):
-        results.set(Mot("RESULTATS_EVOL"), joined(curves))
-        results.set(Mot("TITRE"), numbered(titles))
+    shown = entries.table.get("RESULTATS")
+    if curves and isinstance(shown, Table):
+        shown.set(Mot("RESULTATS_EVOL"), joined(curves))
+        shown.set(Mot("TITRE"), numbered(titles))
 
 
 def _motion(entries: Entries, asked: Asked) -> Motion:

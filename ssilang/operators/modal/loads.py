@@ -9,7 +9,7 @@ from ssilang.kernel.elements import families
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.materials.model import Model
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import Help, arg, choice, many, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
 from ssilang.operators.matrices.element import joined, present
@@ -28,6 +28,10 @@ _MODE = (
 
 @operator(
     "SEIS",
+    arg("curve", "EVOLUTIO", en="acceleration of the ground", fr="accélération du sol"),
+    arg("table", "TABLE", en="basis", fr="base"),
+    arg("factor", "FLOTTANT", en="factor", fr="facteur"),
+    choice("direction", _AXES, optional=False, en="direction of the ground", fr="direction du sol"),
     family="modal",
     full_name="SEISME",
     help=Help(
@@ -43,23 +47,16 @@ _MODE = (
             "LIST (MAXI (TIRE C 1. 'MECA') 'ABS') ;",
         ),
     ),
-    reads_itself=True,
 )
-def seis(call: Call) -> Load:
+def seis(call: Call, curve: Curve, table: Table, factor: float, direction: str) -> Load:
     """Seismic load."""
-    curve: Curve = call.required("EVOLUTIO")
-    table: Table = call.required("TABLE")
-    factor = call.required("FLOTTANT")
-    word = call.keyword(_AXES)
-    if word is None:
-        raise call.error("operators.modal.which-direction")
     shapes = [s for s in shapes_in(table) if s.unknown == "ALFA"]
     if not shapes:
         raise call.error("operators.modal.table-without-modes", table)
     values = {}
     for shape in shapes:
         along = shape.entry.get(Mot("DEPLACEMENTS_GENERALISES"))
-        number = along.get(_AXES.index(word) + 1) if isinstance(along, Table) else None
+        number = along.get(_AXES.index(direction) + 1) if isinstance(along, Table) else None
         if not isinstance(number, int | float):
             raise call.error("operators.modal.mode-no-generalised-displacements", table)
         values[shape.mark.node] = -factor * float(number)
@@ -71,6 +68,9 @@ def seis(call: Call) -> Load:
 
 @operator(
     "SIGS",
+    arg("model", "MMODEL", en="model", fr="modèle"),
+    many("material", "MCHAML", at_least=1, en="parameters", fr="caractéristiques"),
+    arg("table", "TABLE", en="shapes", fr="déformées"),
     family="modal",
     full_name="SIGSOL",
     help=Help(
@@ -86,15 +86,10 @@ def seis(call: Call) -> Load:
             + "C = SIGS MO MA B ; LIST (MAXI (C . 'MODES' . 1 . 'CONTRAINTE_MODALE') 'ABS') ;",
         ),
     ),
-    reads_itself=True,
 )
-def sigs(call: Call) -> Table:
+def sigs(call: Call, model: Model, material: tuple[CellField, ...], table: Table) -> Table:
     """Stresses of modes."""
-    model: Model = present(call, call.required("MMODEL"))
-    cells = [call.required("MCHAML"), *call.all("MCHAML")]
-    table: Table = call.required("TABLE")
-    material = joined((*cells, *call.all("MCHAML")))
-    made, found = _with_stresses(model, material, table)
+    made, found = _with_stresses(present(call, model), joined(material), table)
     if not found:
         raise call.error("operators.modal.no-mode-no-shape", table)
     return made

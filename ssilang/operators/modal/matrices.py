@@ -64,7 +64,11 @@ def _stiffnesses(call: Call, modes: list[Shape]) -> list[float]:
 # --- modes and static shapes -----------------------------------------------------------------
 
 
-@_first(rigi, arg("basis", "TABLE"), opt("other", "TABLE"))
+_BASIS = arg("basis", "TABLE", en="modes, or static shapes", fr="modes, ou déformées statiques")
+_OTHER = opt("other", "TABLE", en="the other of both", fr="l'autre des deux")
+
+
+@_first(rigi, _BASIS, _OTHER)
 def modal_stiffness(call: Call, basis: Table, other: Table | None) -> Matrix:
     shapes = shapes_of(call, *_tables(call, basis, other))
     modes = [s for s in shapes if s.unknown == "ALFA"]
@@ -119,7 +123,7 @@ def _places(shapes: list[Shape]) -> tuple[IntArray, list[str], list[str]]:
     return np.array([s.mark.node for s in shapes]), unknowns, [dual_of(u) for u in unknowns]
 
 
-@_first(mass, arg("basis", "TABLE"))
+@_first(mass, _BASIS)
 def modal_mass(call: Call, basis: Table) -> Matrix:
     if basis.subtype == "LIAISONS_STATIQUES":
         raise call.error("operators.modal.static-shapes-hold-no", basis)
@@ -127,13 +131,17 @@ def modal_mass(call: Call, basis: Table) -> Matrix:
     return _diagonal(modes, masses, "MASSE")
 
 
-@_first(mass, arg("basis", "TABLE"), opt("other", "TABLE"), arg("inertia", "RIGIDITE"))
+@_first(mass, _BASIS, _OTHER, arg("inertia", "RIGIDITE", en="mass", fr="masse"))
 def projected_mass(call: Call, basis: Table, other: Table | None, inertia: Matrix) -> Matrix:
     shapes = shapes_of(call, *_tables(call, basis, other))
     return projected_matrix(inertia, [s.field for s in shapes], *_places(shapes))
 
 
-@_first(amor, arg("basis", "TABLE"), arg("ratios", "LISTREEL"))
+@_first(
+    amor,
+    _BASIS,
+    arg("ratios", "LISTREEL", en="damping ratios", fr="amortissements réduits", unit="%"),
+)
 def modal_damping(call: Call, basis: Table, ratios: ListReel) -> Matrix:
     modes, masses, frequencies = _modal(call, basis)
     if len(ratios) != len(modes):

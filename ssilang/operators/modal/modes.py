@@ -11,97 +11,58 @@ from ssilang.kernel.matrices.submatrices import support_mesh
 from ssilang.kernel.mesh.mesh import Point
 from ssilang.kernel.modal.complex_modes import ComplexMode, complex_modes
 from ssilang.kernel.modal.modes import Mode, modes_between, modes_near
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import Chosen, Help, arg, flag, key, many, operator, opt, select
 from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
 from ssilang.operators.matrices.doubled import warn_doubled_supports
 from ssilang.operators.workspace import workspace
 
-_METHODS = ("PROCHE", "INTERVALLE", "SIMULTANE", "IRAM")
-_OPTIONS = ("IMPR", "BASSE", "HAUTE", "MULT", "TBAS", "LM")
+_FREQUENCY = arg("frequency", "FLOTTANT", en="frequency", fr="fréquence", unit="Hz")
+_COUNT = arg("count", "ENTIER", en="number of modes", fr="nombre de modes")
 
 
-class _Asked:
-    """What VIBR's words say: method, frequencies, numbers of modes."""
-
-    def __init__(self, call: Call) -> None:
-        self.method = ""
-        self.wanted: list[tuple[float, int]] = []
-        self.interval = (0.0, 0.0)
-        self.lowest = self.highest = 0
-        self.decay = 0.0
-        while (word := call.keyword((*_METHODS, *_OPTIONS))) is not None:
-            if word in _METHODS:
-                self.method = word
-                _READERS[word](self, call)
-            elif word == "BASSE":
-                self.lowest = call.required("ENTIER", after=call.keyword_end)
-            elif word == "HAUTE":
-                self.highest = call.required("ENTIER", after=call.keyword_end)
-        if not self.method:
-            raise call.error("operators.modal.which-method", methods=_METHODS)
-
-    def read_near(self, call: Call) -> None:
-        """PROCHE: frequencies, and how many modes near each (default 1)."""
-        place = call.keyword_end
-        frequencies = call.required("LISTREEL", after=place).values
-        counts = call.read("LISTENTI", after=place)
-        numbers = [1] * len(frequencies) if counts is None else list(counts.value.values)
-        if len(numbers) != len(frequencies):
-            raise call.error(
-                "operators.modal.frequencies-and-numbers-differ",
-                n_frequencies=len(frequencies),
-                n_numbers=len(numbers),
-            )
-        self.wanted = [(float(f), int(n)) for f, n in zip(frequencies, numbers, strict=True)]
-
-    def read_interval(self, call: Call) -> None:
-        """INTERVALLE: two frequencies."""
-        place = call.keyword_end
-        low, high = call.required("FLOTTANT", after=place), call.required("FLOTTANT", after=place)
-        self.interval = (min(low, high), max(low, high))
-
-    def read_number(self, call: Call) -> None:
-        """SIMULTANE and IRAM: a frequency and a number of modes."""
-        place = call.keyword_end
-        frequency = float(call.required("FLOTTANT", after=place))
-        count = max(int(call.required("ENTIER", after=place)), 1)
-        self.wanted = [(frequency, count)]
-        if self.method == "IRAM":
-            decay = call.read("FLOTTANT")
-            self.decay = 0.0 if decay is None else float(decay.value)
-
-    def cut(self, modes: list[Mode]) -> list[Mode]:
-        """INTERVALLE with BASSE or HAUTE: so many modes from one end."""
-        if self.lowest:
-            return modes[: self.lowest]
-        return modes[-self.highest :] if self.highest else modes
+def _wanted(call: Call, method: Chosen) -> list[tuple[float, int]]:
+    """Frequencies, and how many modes near each."""
+    if method.word != "PROCHE":
+        return [(method["frequency"], max(method["count"], 1))]
+    frequencies, counts = method["frequencies"].values, method["counts"]
+    numbers = [1] * len(frequencies) if counts is None else list(counts.values)
+    if len(numbers) != len(frequencies):
+        raise call.error(
+            "operators.modal.frequencies-and-numbers-differ",
+            n_frequencies=len(frequencies),
+            n_numbers=len(numbers),
+        )
+    return [(float(f), int(n)) for f, n in zip(frequencies, numbers, strict=True)]
 
 
-_READERS = {
-    "PROCHE": _Asked.read_near,
-    "INTERVALLE": _Asked.read_interval,
-    "SIMULTANE": _Asked.read_number,
-    "IRAM": _Asked.read_number,
-}
-
-
-def _vibr(call: Call) -> Table:
-    if (word := call.keyword(("SOLU",))) is not None:
-        raise call.error("operators.modal.no-solution-object", word=word)
-    asked = _Asked(call)
-    matrices: list[Matrix] = call.all("RIGIDITE")
+def _vibr(
+    call: Call,
+    solution: bool,
+    method: Chosen,
+    lowest: int,
+    highest: int,
+    matrices: tuple[Matrix, ...],
+    signed: bool,
+    **_: bool,
+) -> Table:
+    if solution:
+        raise call.error("operators.modal.no-solution-object", word="SOLU")
     if len(matrices) < 2:
         raise call.missing(("RIGIDITE",))
-    signed = call.optional("LOGIQUE", default=True)
     stiffness, mass, damping = matrices_by_kind(matrices)
     warn_doubled_supports(call.session, call.span, "VIBR", stiffness)
     if damping is not None or not (is_symmetric(stiffness) and is_symmetric(mass)):
-        return _complex(call, asked, stiffness, mass, damping)
-    if asked.method == "INTERVALLE":
-        modes = asked.cut(modes_between(stiffness, mass, *asked.interval))
+        return _complex(call, method, stiffness, mass, damping)
+    if method.word == "INTERVALLE":
+        ends = sorted((method["low"], method["high"]))
+        modes = modes_between(stiffness, mass, ends[0], ends[1])
+        if lowest:
+            modes = modes[:lowest]
+        elif highest:
+            modes = modes[-highest:]
     else:
-        modes = modes_near(stiffness, mass, asked.wanted)
+        modes = modes_near(stiffness, mass, _wanted(call, method))
     return modal_table(call, mass, [_real_entry(m, signed) for m in modes])
 
 
@@ -125,12 +86,12 @@ def matrices_by_kind(
 
 
 def _complex(
-    call: Call, asked: _Asked, stiffness: Matrix, mass: Matrix, damping: Matrix | None
+    call: Call, method: Chosen, stiffness: Matrix, mass: Matrix, damping: Matrix | None
 ) -> Table:
-    if asked.method != "IRAM":
+    if method.word != "IRAM":
         raise call.error("operators.modal.complex-modes")
-    frequency, count = asked.wanted[0]
-    near = complex(frequency, asked.decay)
+    ((frequency, count),) = _wanted(call, method)
+    near = complex(frequency, method["decay"])
     modes = complex_modes(stiffness, mass, damping, near, count)
     return modal_table(call, mass, [_complex_entry(m) for m in modes])
 
@@ -186,6 +147,62 @@ def modal_table(
 
 operator(
     "VIBR",
+    flag("solution", "SOLU", en="an object: not available", fr="un objet : non disponible"),
+    select(
+        "method",
+        {
+            "PROCHE": [
+                arg("frequencies", "LISTREEL", en="frequencies", fr="fréquences", unit="Hz"),
+                opt("counts", "LISTENTI", en="modes near each, 1", fr="modes autour de chacune, 1"),
+            ],
+            "INTERVALLE": [
+                arg("low", "FLOTTANT", en="one end", fr="une borne", unit="Hz"),
+                arg("high", "FLOTTANT", en="the other", fr="l'autre", unit="Hz"),
+            ],
+            "SIMULTANE": [_FREQUENCY, _COUNT],
+            "IRAM": [
+                _FREQUENCY,
+                _COUNT,
+                opt("decay", "FLOTTANT", default=0.0, en="imaginary part", fr="partie imaginaire"),
+            ],
+        },
+        optional=False,
+        en="near frequencies, in an interval, near one",
+        fr="proches de fréquences, dans un intervalle, autour d'une",
+    ),
+    key(
+        "lowest",
+        "BASSE",
+        arg("count", "ENTIER"),
+        default=0,
+        en="so many from the low end",
+        fr="nombre gardé du côté bas",
+    ),
+    key(
+        "highest",
+        "HAUTE",
+        arg("count", "ENTIER"),
+        default=0,
+        en="so many from the high end",
+        fr="nombre gardé du côté haut",
+    ),
+    flag("shown", "IMPR", en="accepted, changes nothing", fr="accepté, sans effet"),
+    flag("multiple", "MULT", en="accepted, changes nothing", fr="accepté, sans effet"),
+    flag("table", "TBAS", en="a table: the default", fr="une table : par défaut"),
+    flag("largest", "LM", en="accepted, changes nothing", fr="accepté, sans effet"),
+    many(
+        "matrices",
+        "RIGIDITE",
+        en="stiffness, mass, and damping",
+        fr="rigidité, masse, et amortissement",
+    ),
+    opt(
+        "signed",
+        "LOGIQUE",
+        default=True,
+        en="negative frequencies of unstable modes (default VRAI)",
+        fr="fréquences négatives des modes instables (VRAI par défaut)",
+    ),
     family="modal",
     full_name="VIBRATION",
     help=Help(
@@ -214,5 +231,4 @@ operator(
             " LIST (T1 . 'MODES' . 1 . 'FREQUENCE') ;",
         ),
     ),
-    reads_itself=True,
 )(_vibr)

@@ -16,11 +16,11 @@ from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.matrices.matrix import imaginary
 from ssilang.kernel.modal.basis import combined
 from ssilang.kernel.stepping.problem.loading import terms_of
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import Chosen, Help, arg, choice, main, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListReel, Mot, Table
-from ssilang.operators.curves.making import results_in_time
-from ssilang.operators.modal.basis import Shape, read_basis, shapes_in
+from ssilang.operators.curves.evol import results_in_time
+from ssilang.operators.modal.basis import BASIS, Shape, basis_shapes, shapes_in
 
 QUANTITIES = ("DEPL", "VITE", "ACCE", "CONT", "REAC")
 _INDEX = {
@@ -165,32 +165,57 @@ def at_time(call: Call, fields: list[Any], times: FloatArray, time: float) -> No
     return combined([1.0 - part, part], [fields[i], fields[i + 1]])
 
 
-def _reco(call: Call) -> Any:
-    quantity = call.keyword(QUANTITIES) or "DEPL"
-    first = call.required("CHPOINT", "LISTCHPO", "TABLE")
-    basis = next((o.value for o in call.operands if isinstance(o.value, Table)), None)
-    shapes = read_basis(call)
-    if isinstance(first, ListChpo):
-        shapes = _first_shapes(call, shapes)
-        return ListChpo([recombined(f, shapes) for f in first.values])
-    load = call.optional("CHARGEME")
-    time = call.optional("FLOTTANT")
-    if isinstance(first, Table):
-        if time is None:
-            raise call.missing(("FLOTTANT",))
-        first = at_time(call, *modal_history(call, first, quantity), time)
-    elif time is not None and load is None:  # a number of shapes to take
+_QUANTITY = choice(
+    "quantity",
+    QUANTITIES,
+    default="DEPL",
+    en="displacement (default), velocity, acceleration, stresses, reactions",
+    fr="déplacement (par défaut), vitesse, accélération, contraintes, réactions",
+)
+_LOAD = opt("load", "CHARGEME", en="load of pseudo-modes", fr="chargement des pseudo-modes")
+
+
+def _reco(
+    call: Call,
+    weights: NodeField,
+    basis: Chosen,
+    quantity: str,
+    load: Load | None,
+    time: float | None,
+) -> NodeField | CellField:
+    shapes = basis_shapes(call, basis)
+    if time is not None and load is None:  # a number of shapes to take
         shapes = shapes[: _count(call, time)]
-    pseudo: list[PseudoShape] = []
-    if load is not None and quantity in ("DEPL", "CONT", "REAC"):
-        if time is None or basis is None:
-            raise call.error("operators.modal.pseudo-modes-want-basis-and-time", load)
-        pseudo = pseudo_shapes(call, basis, load)
+    return _combined(
+        call, weights, shapes, _pseudo(call, basis, quantity, load, time), quantity, time
+    )
+
+
+def _pseudo(
+    call: Call, basis: Chosen, quantity: str, load: Load | None, time: float | None
+) -> list[PseudoShape]:
+    """Pseudo-modes that a load drives."""
+    if load is None or quantity not in ("DEPL", "CONT", "REAC"):
+        return []
+    if time is None or basis.word != "tables":
+        raise call.error("operators.modal.pseudo-modes-want-basis-and-time", load)
+    return pseudo_shapes(call, basis["tables"][0], load)
+
+
+def _combined(
+    call: Call,
+    weights: NodeField,
+    shapes: list[Shape],
+    pseudo: list[PseudoShape],
+    quantity: str,
+    time: float | None,
+) -> NodeField | CellField:
+    """What contributions at an instant combine to."""
     if quantity == "CONT":
-        return _stresses(call, first, shapes, pseudo, time)
+        return _stresses(call, weights, shapes, pseudo, time)
     if quantity == "REAC":
-        return _reactions(call, first, shapes, pseudo, time)
-    field = recombined(first, shapes)
+        return _reactions(call, weights, shapes, pseudo, time)
+    field = recombined(weights, shapes)
     if pseudo:
         amplitudes = [float(p.at(np.array([time]))[0]) for p in pseudo]
         field = node_algebra.added(field, combined(amplitudes, [p.field for p in pseudo]))
@@ -201,11 +226,6 @@ def _count(call: Call, number: float) -> int:
     if number != int(number) or number < 1:
         raise call.error("operators.modal.least-mode-recombined-not", number, number=number)
     return int(number)
-
-
-def _first_shapes(call: Call, shapes: list[Shape]) -> list[Shape]:
-    number = call.optional("ENTIER", default=len(shapes))
-    return shapes[: _count(call, number)]
 
 
 def _stresses(
@@ -246,8 +266,18 @@ def _reactions(
     return combined([f for f, _ in entries], fields)
 
 
-operator(
+reco = operator(
     "RECO",
+    main("weights", "CHPOINT", en="contributions", fr="contributions"),
+    BASIS,
+    _QUANTITY,
+    _LOAD,
+    opt(
+        "time",
+        "FLOTTANT",
+        en="number of shapes to take; instant of the load",
+        fr="nombre de déformées prises ; instant du chargement",
+    ),
     family="modal",
     help=Help(
         "Field u = sum of the shapes of a basis times the contributions ALFA (and BETA) that a "
@@ -274,5 +304,40 @@ operator(
             " R = DYNE 'DE_VOGELAERE' T1 TI 20 0.01 ; LIST (RECO R T1 0.15 'VITE') ;",
         ),
     ),
-    reads_itself=True,
 )(_reco)
+
+
+@reco.form(
+    main("results", "TABLE", en="results of DYNE or PASAPAS", fr="résultats de DYNE ou PASAPAS"),
+    BASIS,
+    _QUANTITY,
+    _LOAD,
+    arg("time", "FLOTTANT", en="instant", fr="instant", unit="s"),
+)
+def reco_of_results(
+    call: Call,
+    results: Table,
+    basis: Chosen,
+    quantity: str,
+    load: Load | None,
+    time: float,
+) -> NodeField | CellField:
+    """What results in time combine to at an instant."""
+    shapes = basis_shapes(call, basis)
+    weights = at_time(call, *modal_history(call, results, quantity), time)
+    return _combined(
+        call, weights, shapes, _pseudo(call, basis, quantity, load, time), quantity, time
+    )
+
+
+@reco.form(
+    main("fields", "LISTCHPO", en="contributions", fr="contributions"),
+    BASIS,
+    opt("count", "ENTIER", en="number of shapes, all without it", fr="nombre de déformées"),
+)
+def reco_of_list(call: Call, fields: ListChpo, basis: Chosen, count: int | None) -> ListChpo:
+    """What each field of a list combines to."""
+    shapes = basis_shapes(call, basis)
+    if count is not None:
+        shapes = shapes[: _count(call, count)]
+    return ListChpo([recombined(f, shapes) for f in fields.values])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
@@ -13,9 +14,9 @@ from ssilang.kernel.matrices.assembly import assemble, field_to_vector, numberin
 from ssilang.kernel.matrices.imposed import geometric_gaps
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.statics.linear import product
-from ssilang.language.registry import Help, arg, operator
+from ssilang.language.registry import Help, Like, arg, choice, flag, operator, opt, said
 from ssilang.language.run.call import Call
-from ssilang.language.values import Mot, Table
+from ssilang.language.values import ListMots, Mot, Table
 from ssilang.operators.modal.basis import Shape, shapes_in
 from ssilang.operators.modal.modes import filled
 from ssilang.operators.numbers.arithmetic import rule
@@ -23,19 +24,23 @@ from ssilang.operators.numbers.arithmetic import rule
 # --- unit size -------------------------------------------------------------------------------
 
 
-def _nnor(call: Call) -> Any:
-    norm = call.keyword(("INFI", "EUCL")) or "INFI"
-    thing = call.required("CHPOINT", "TABLE")
-    side = call.keyword(("AVEC", "SANS"))
-    words = call.read("LISTMOTS")
-    names = None if words is None else {str(w).rstrip() for w in words.value.values}
-    metric: Matrix | None = call.optional("RIGIDITE") if norm == "EUCL" else None
+_THING = arg("thing", "CHPOINT", "TABLE", en="field, or basis", fr="champ, ou base")
 
-    def size(field: NodeField) -> float:
-        if norm == "EUCL":
-            return _euclidean(field, metric)
-        return _largest(call, field, names, side == "SANS")
 
+def _nnor(
+    call: Call,
+    largest: bool,
+    thing: NodeField | Table,
+    side: str | None,
+    names: ListMots | None,
+) -> NodeField | Table:
+    chosen = None if names is None else {str(w).rstrip() for w in names.values}
+    return _of_unit_size(thing, lambda f: _largest(call, f, chosen, side == "SANS"))
+
+
+def _of_unit_size(
+    thing: NodeField | Table, size: Callable[[NodeField], float]
+) -> NodeField | Table:
     if isinstance(thing, NodeField):
         return _divided(thing, size(thing))
     return _unit_basis(thing, size)
@@ -96,8 +101,20 @@ def _unit_mode(entry: Table, shape: NodeField, by: float) -> Table:
     return made
 
 
-operator(
+nnor = operator(
     "NNOR",
+    flag(
+        "largest", "INFI", en="by the largest value, the default", fr="par le maximum, par défaut"
+    ),
+    _THING,
+    choice(
+        "side",
+        ("AVEC", "SANS"),
+        en="of the components named (default), or of the others",
+        fr="des composantes citées (par défaut), ou des autres",
+    ),
+    opt("names", "LISTMOTS", en="components", fr="composantes", kind="component"),
+    gives=Like("thing"),
     family="modal",
     full_name="NNOR",
     help=Help(
@@ -114,8 +131,18 @@ operator(
             " LIST (NNOR U1) ; LIST (NNOR U1 'AVEC' (MOTS 'UX')) ;",
         ),
     ),
-    reads_itself=True,
 )(_nnor)
+
+
+@nnor.form(
+    said("EUCL"),
+    _THING,
+    opt("metric", "RIGIDITE", en="matrix of the norm", fr="matrice de la norme"),
+    gives=Like("thing"),
+)
+def by_euclidean_norm(thing: NodeField | Table, metric: Matrix | None) -> NodeField | Table:
+    """Shapes of Euclidean norm one."""
+    return _of_unit_size(thing, lambda f: _euclidean(f, metric))
 
 
 # --- inertia of shapes -----------------------------------------------------------------------
@@ -146,7 +173,7 @@ def _known(table: Table) -> list[Shape]:
 
 @operator(
     "JEU",
-    arg("matrix", "RIGIDITE"),
+    arg("matrix", "RIGIDITE", en="relations", fr="relations"),
     family="relations",
     help=Help(
         "Second member of relations between displacements so that they speak of positions: the sum "

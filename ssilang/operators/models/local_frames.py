@@ -28,10 +28,9 @@ from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.mesh.mesh import Point
 from ssilang.language.registry import Chosen, Help, arg, choice, many, operator, opt, select
 from ssilang.language.run.call import Call
-from ssilang.operators.fields.tensors import state_and_rest
 from ssilang.operators.fields.turning import turned_node_field
 from ssilang.operators.matrices.element import joined, present
-from ssilang.operators.statics.stresses import on_zones
+from ssilang.operators.statics.stresses import on_zones, state_and_rest
 
 Frames = Callable[[Zone, Support], FloatArray]
 

@@ -214,7 +214,8 @@ def with_motions(
 @RESO.form(_MATRIX, arg("loads", "LISTCHPO", en="second members", fr="seconds membres"), *_WORDS)
 def solved_list(matrix: Matrix, loads: ListChpo, **words: Any) -> ListChpo:
     """One solution for each second member of a list."""
-    return ListChpo(tuple(solve(matrix, loads.values, _options(words))))
+    fields: list[Any] = loads.values
+    return ListChpo(tuple(solve(matrix, fields, _options(words))))
 
 
 @RESO.form(

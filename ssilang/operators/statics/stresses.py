@@ -68,61 +68,6 @@ def state_and_rest(fields: tuple[CellField, ...]) -> tuple[CellField, CellField 
     return state, joined(rest) if rest else None
 
 
-class Reading:
-    """What an operator with a model and fields in any order says.
-
-    Attributes
-    ----------
-    words : list of str
-        Keywords found, in full.
-    model : Model; nodal : tuple of NodeField; cells : tuple of CellField
-    """
-
-    def __init__(self, call: Call, words: tuple[str, ...] = ()) -> None:
-        self.call = call
-        self.words: list[str] = []
-        models: list[Model] = []
-        nodal: list[NodeField] = []
-        cells: list[CellField] = []
-        while True:
-            if words and (word := call.keyword(words)) is not None:
-                self.words.append(word)
-                continue
-            operand = call.read("CHPOINT", "MCHAML", *(() if models else ("MMODEL",)))
-            if operand is None:
-                break
-            value = operand.value
-            if isinstance(value, Model):
-                models.append(value)
-            else:
-                (nodal if isinstance(value, NodeField) else cells).append(value)
-        if not models:
-            raise call.missing(("MMODEL",))
-        self.model = present(call, models[0])
-        self.loads = tuple(z for z in models[0].zones if z.formulation == "CHARGEMENT")
-        self.nodal, self.cells = tuple(nodal), tuple(cells)
-
-    def displacement(self) -> NodeField:
-        """The nodal field, mandatory."""
-        if not self.nodal:
-            raise self.call.missing(("CHPOINT",))
-        return self.nodal[0]
-
-    def field(self) -> CellField:
-        """All fields in cells as one, at least one."""
-        if not self.cells:
-            raise self.call.missing(("MCHAML",))
-        return joined(self.cells)
-
-    def state_and_rest(self) -> tuple[CellField, CellField | None]:
-        """The field of stresses or strains, in whatever order, and the parameters as one."""
-        if not self.cells:
-            raise self.call.missing(("MCHAML",))
-        state = next((f for f in self.cells if f.title not in PARAMETERS), self.cells[0])
-        rest = tuple(f for f in self.cells if f is not state)
-        return state, joined(rest) if rest else None
-
-
 def on_zones(model: Model, title: str, make: Callable[[Zone], CellFieldBlock]) -> CellField:
     """A field in cells, zone by zone."""
     return CellField(tuple(make(z) for z in model.zones), title)

@@ -37,9 +37,8 @@ _OF_LIBRARY = "stdlib."
 _STOPPED = 308  # Cast3M's number of an error that a script reports in its own words
 
 
-def _of_library(call: Call, code: str) -> SsiError:
+def _of_library(call: Call, code: str, values: Sequence[Any]) -> SsiError:
     """What a procedure of the library refuses: a code, then what fills its sentence, in order."""
-    values = call.all("MOT", "ENTIER", "FLOTTANT", "LOGIQUE")
     return SsiError(code, call.span, **filling(values), number=_STOPPED)
 
 
@@ -104,10 +103,21 @@ def _numbered(call: Call, number: int, values: tuple[Any, ...]) -> None:
     raise SsiError("erre", call.span, message=Sentence(code, said=said), number=number)
 
 
-@ERRE.form(arg("text", "MOT", en="what is wrong", fr="ce qui ne va pas"))
-def _worded(call: Call, text: str) -> None:
+@ERRE.form(
+    arg("text", "MOT", en="what is wrong", fr="ce qui ne va pas"),
+    many(
+        "values",
+        "MOT",
+        "ENTIER",
+        "FLOTTANT",
+        "LOGIQUE",
+        en="what completes a sentence of the library",
+        fr="ce qui complète une phrase de la bibliothèque",
+    ),
+)
+def _worded(call: Call, text: str, values: tuple[Any, ...]) -> None:
     if text.startswith(_OF_LIBRARY):
-        raise _of_library(call, str(text))
+        raise _of_library(call, str(text), values)
     raise SsiError("erre", call.span, message=str(text), number=_STOPPED)
 
 

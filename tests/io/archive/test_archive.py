@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import importlib
 import json
+import shutil
 import zipfile
 from pathlib import Path
 from typing import Any
@@ -10,7 +12,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from ssilang.cli.run import run_file
 from ssilang.io.archive import Decoder, Encoder, Record, read_archive, write_archive
+from ssilang.io.archive.classes import HOMES, class_name, class_named
 from ssilang.io.errors import InputError, OutputError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
@@ -129,3 +133,24 @@ def test_an_object_of_unknown_class_is_not_saved(tmp_path: Path) -> None:
     with pytest.raises(OutputError, match="cannot be saved"):
         saved(tmp_path / "s", X=object())
     assert not (tmp_path / "s").exists()
+
+
+def test_a_file_of_the_last_release_is_restored(tmp_path):
+    file = Path(__file__).with_name("files") / "0.1.0.sauv"  # its modules stood elsewhere
+    shutil.copy(file, tmp_path / "old.sauv")
+    script = tmp_path / "old.ssi"
+    script.write_text(
+        "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; OPTI REST 'old.sauv' ; REST ; "
+        "MESS (MAXI 'ABS' (T . 'U')) (MAXI 'ABS' SG) (NBEL S) (TYPE MJ) (TYPE AJ) ;",
+        encoding="utf-8",
+    )
+    result = run_file(script)
+    assert result.exit_code == 0, result.message
+    assert "3.17147" in result.output
+    assert "7.68272" in result.output
+
+
+def test_classes_have_their_homes():
+    for name, module in HOMES.items():
+        assert class_name(getattr(importlib.import_module(module), name)) == f":{name}"
+        assert class_named(f":{name}").__module__ == module

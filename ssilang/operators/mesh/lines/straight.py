@@ -72,7 +72,7 @@ def droi(
     said("ROTA"),
     COUNT,
     ANGLE,
-    arg("centre", "POINT", en="centre", fr="centre"),
+    arg("centre", "POINT", "MAILLAGE", en="centre, a point", fr="centre, un point"),
     START,
     opt(
         "normal",
@@ -102,12 +102,14 @@ def lign(
     call: Call,
     count: int | None,
     angle: float | None,
-    centre: Point,
+    centre: Point | Mesh,
     start: Point | Mesh,
     normal: Point | None,
     sizes: Sizes,
 ) -> Mesh:
     """Draw an arc from a point."""
+    if isinstance(centre, Mesh):
+        raise call.error("operators.mesh.mesh-as-centre", centre)
     count, degrees = count_and_angle(call, count, angle)
     cuts = cuts_of(call, count, sizes)
     axis = np.array([0.0, 0.0, 1.0])
@@ -139,6 +141,9 @@ def segment(
     sizes: Sizes,
 ) -> Mesh:
     """Draw a segment from a point along a vector."""
+    angle = call.read("FLOTTANT")
+    if angle is not None:
+        raise call.error("operators.mesh.no-angle-of-segment", angle.value)
     step = vector.coordinates.copy()
 
     def way(at: FloatArray) -> tuple[CurveMap, float]:

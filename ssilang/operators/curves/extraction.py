@@ -12,9 +12,10 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import NoResultError
 from ssilang.kernel.curves.algebra import combined, is_complex
 from ssilang.kernel.curves.curve import Curve, CurvePart
+from ssilang.language.registry import Chosen, arg, by, choice, flag, main, opt, said, select
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots, ListReel, Mot
-from ssilang.operators.curves.words import read_colour
+from ssilang.operators.curves.words import CURVE, read_colour
 from ssilang.operators.dispatch import CHAN, COPI, DIME, EXTR, MAXI, MINI, ORDO, union
 from ssilang.operators.numbers.arithmetic import _ARRAY, SIGNS, rule, rule_with_call
 
@@ -41,8 +42,58 @@ def ordinate_list(part: CurvePart) -> ListReel | ListEnti | ListMots:
     return ListReel(part.ordinates)
 
 
-@EXTR.on(
-    "EVOLUTIO",
+_MAIN = main("curve", "EVOLUTIO", en="curves", fr="évolutions")
+_NUMBER = opt("place", "ENTIER", en="number of the curve", fr="numéro de la courbe")
+_BY_PLACE = flag(
+    "by_place", "INDI", en="limits are places of points", fr="les limites sont des rangs de points"
+)
+_LOW = arg("low", "FLOTTANT", en="first abscissa", fr="première abscisse")
+_HIGH = arg("high", "FLOTTANT", en="last abscissa", fr="dernière abscisse")
+_ZERO = flag("zero", "ZERO", en="abscissas begin at 0", fr="les abscisses commencent à 0")
+
+
+@EXTR.form(
+    _MAIN,
+    select(
+        "what",
+        {
+            "ABSC": [_NUMBER],
+            "ORDO": [_NUMBER],
+            "COUR": [
+                arg(
+                    "which",
+                    "ENTIER",
+                    "LISTENTI",
+                    "MOT",
+                    en="number, numbers, or name of an axis",
+                    fr="numéro, numéros, ou nom d'un axe",
+                )
+            ],
+            "PAS": [arg("step", "ENTIER", en="one point of so many", fr="un point sur tant")],
+            "AVAN": [_BY_PLACE, _HIGH],
+            "APRE": [_BY_PLACE, _LOW, _ZERO],
+            "COMP": [_BY_PLACE, _LOW, _HIGH, _ZERO],
+            "LEGX": [_NUMBER],
+            "LEGY": [_NUMBER],
+            "LEGE": [_NUMBER],
+            "COUL": [_NUMBER],
+        },
+        optional=False,
+        en="abscissas, ordinates, curves, points before, after or between, names, colours",
+        fr="abscisses, ordonnées, courbes, points avant, après ou compris, noms, couleurs",
+    ),
+    gives=by(
+        "what",
+        {
+            "ABSC": "LISTREEL|LISTMOTS",
+            "ORDO": "LISTREEL|LISTENTI|LISTMOTS",
+            "LEGX": "MOT",
+            "LEGY": "MOT",
+            "LEGE": "MOT",
+            "COUL": "MOT|LISTMOTS",
+        },
+        "EVOLUTIO",
+    ),
     syntax="LREE1 = EXTR EVOL1 'ABSC' | 'ORDO' (N1) | MOT1 ; EVOL2 = EXTR EVOL1 'COUR' N1 | MOT1 "
     "| LENT1 ;\nEVOL2 = EXTR EVOL1 'PAS' N1 | 'AVAN' X2 | 'APRE' X3 | 'COMP' X2 X3 ('ZERO') ; "
     "(limits as reals, or 'INDI' and integers)\n"
@@ -56,14 +107,19 @@ def ordinate_list(part: CurvePart) -> ListReel | ListEnti | ListMots:
         "E = EVOL 'MANU' (PROG 0. 1. 2.) (PROG 5. 6. 7.) ; LIST (EXTR E 'APRE' 1. 'ZERO') ;",
     ),
 )
-def _extract(call: Call, curve: Curve) -> Any:
-    word = call.keyword(tuple(_PARTS))
-    if word is not None:
-        return _PARTS[word](call, curve)
-    said = call.read("MOT")
-    if said is None:
-        raise call.missing(("MOT",))
-    wanted = str(said.value).rstrip()[:12]
+def extr_curve(call: Call, curve: Curve, what: Chosen) -> Any:
+    """A part of curves, by a word."""
+    return _PARTS[what.word](call, curve, **what.values)
+
+
+@EXTR.form(
+    _MAIN,
+    arg("name", "MOT", en="name of an axis", fr="nom d'un axe"),
+    gives="LISTREEL|LISTENTI|LISTMOTS",
+)
+def extr_axis(call: Call, curve: Curve, name: str) -> ListReel | ListEnti | ListMots:
+    """What stands along the axis of a name."""
+    wanted = name.rstrip()[:12]
     for part in curve.parts:
         if part.abscissa_name.rstrip() == wanted:
             return abscissa_list(part)
@@ -72,34 +128,30 @@ def _extract(call: Call, curve: Curve) -> Any:
     names = sorted({n for p in curve.parts for n in (p.abscissa_name, p.ordinate_name)} - {""})
     raise call.error(
         "operators.curves.no-axis-of-name",
-        said.value,
+        name,
         wanted=wanted,
         names=[f"'{n}'" for n in names],
     )
 
 
-def _abscissas(call: Call, curve: Curve) -> Any:
-    return abscissa_list(numbered(call, curve, call.optional("ENTIER")))
+def _abscissas(call: Call, curve: Curve, place: int | None) -> Any:
+    return abscissa_list(numbered(call, curve, place))
 
 
-def _ordinates(call: Call, curve: Curve) -> Any:
-    return ordinate_list(numbered(call, curve, call.optional("ENTIER")))
+def _ordinates(call: Call, curve: Curve, place: int | None) -> Any:
+    return ordinate_list(numbered(call, curve, place))
 
 
-def _curves(call: Call, curve: Curve) -> Curve:
-    operand = call.read("ENTIER", "LISTENTI", "MOT")
-    if operand is None:
-        raise call.missing(("ENTIER", "LISTENTI", "MOT"))
-    value = operand.value
-    if isinstance(value, str):
-        wanted = value.rstrip()[:12]
+def _curves(call: Call, curve: Curve, which: int | ListEnti | str) -> Curve:
+    if isinstance(which, str):
+        wanted = which.rstrip()[:12]
         parts = tuple(
             p for p in curve.parts if wanted in (p.abscissa_name.rstrip(), p.ordinate_name.rstrip())
         )
         if not parts:
-            raise call.error("operators.curves.no-axis-with-name", value, wanted=wanted)
+            raise call.error("operators.curves.no-axis-with-name", which, wanted=wanted)
     else:
-        places = value.values.tolist() if isinstance(value, ListEnti) else [value]
+        places = which.values.tolist() if isinstance(which, ListEnti) else [which]
         parts = tuple(numbered(call, curve, int(i)) for i in places)
     return Curve(parts, curve.title, curve.kind)
 
@@ -120,17 +172,10 @@ def _picked(curve: Curve, choose: Any, zero: bool = False) -> Curve:
     return dataclasses.replace(curve, parts=parts)
 
 
-def _every(call: Call, curve: Curve) -> Curve:
-    step = call.required("ENTIER")
+def _every(call: Call, curve: Curve, step: int) -> Curve:
     if step < 1:
         raise call.error("operators.curves.step-of-points", step, step=step)
     return _picked(curve, lambda p: slice(None, None, step))
-
-
-def _limits(call: Call, count: int) -> tuple[bool, list[Any]]:
-    by_place = call.keyword(("INDI",)) is not None
-    kind = "ENTIER" if by_place else "FLOTTANT"
-    return by_place, [call.required(kind) for _ in range(count)]
 
 
 def _between(by_place: bool, low: float, high: float) -> Any:
@@ -142,74 +187,76 @@ def _between(by_place: bool, low: float, high: float) -> Any:
     return choose
 
 
-def _before(call: Call, curve: Curve) -> Curve:
-    by_place, (high,) = _limits(call, 1)
+def _before(call: Call, curve: Curve, by_place: bool, high: float) -> Curve:
     return _picked(curve, _between(by_place, -np.inf, high))
 
 
-def _after(call: Call, curve: Curve) -> Curve:
-    by_place, (low,) = _limits(call, 1)
-    zero = call.keyword(("ZERO",)) is not None
+def _after(call: Call, curve: Curve, by_place: bool, low: float, zero: bool) -> Curve:
     return _picked(curve, _between(by_place, low, np.inf), zero)
 
 
-def _window(call: Call, curve: Curve) -> Curve:
-    by_place, (low, high) = _limits(call, 2)
-    zero = call.keyword(("ZERO",)) is not None
+def _window(call: Call, curve: Curve, by_place: bool, low: float, high: float, zero: bool) -> Curve:
     return _picked(curve, _between(by_place, low, high), zero)
 
 
-def _x_name(call: Call, curve: Curve) -> Mot:
-    return Mot(numbered(call, curve, call.optional("ENTIER")).abscissa_name)
+def _x_name(call: Call, curve: Curve, place: int | None) -> Mot:
+    return Mot(numbered(call, curve, place).abscissa_name)
 
 
-def _y_name(call: Call, curve: Curve) -> Mot:
-    return Mot(numbered(call, curve, call.optional("ENTIER")).ordinate_name)
+def _y_name(call: Call, curve: Curve, place: int | None) -> Mot:
+    return Mot(numbered(call, curve, place).ordinate_name)
 
 
-def _legend(call: Call, curve: Curve) -> Mot:
-    return Mot(numbered(call, curve, call.optional("ENTIER")).legend)
+def _legend(call: Call, curve: Curve, place: int | None) -> Mot:
+    return Mot(numbered(call, curve, place).legend)
 
 
-def _colour(call: Call, curve: Curve) -> Mot | ListMots:
-    place = call.optional("ENTIER")
+def _colour(call: Call, curve: Curve, place: int | None) -> Mot | ListMots:
     if place is None:
         return ListMots([NAMES[p.colour] for p in curve.parts])
     return Mot(NAMES[numbered(call, curve, place).colour])
 
 
-_PARTS = {
+_PARTS: dict[str, Any] = {
     "ABSC": _abscissas, "ORDO": _ordinates, "COUR": _curves, "PAS": _every, "AVAN": _before,
     "APRE": _after, "COMP": _window, "LEGX": _x_name, "LEGY": _y_name, "LEGE": _legend,
     "COUL": _colour,
 }  # fmt: skip
 
 
-@DIME.on("EVOLUTIO", en="Of curves: how many there are.", fr="D'évolutions : le nombre de courbes.")
-def _count(call: Call, curve: Curve) -> int:
+@DIME.form(_MAIN, en="Of curves: how many there are.", fr="D'évolutions : le nombre de courbes.")
+def count_curves(curve: Curve) -> int:
+    """Number of curves."""
     return len(curve.parts)
 
 
-@COPI.on("EVOLUTIO")
-def _copy(call: Call, curve: Curve) -> Curve:
+@COPI.form(_MAIN)
+def copy_curves(curve: Curve) -> Curve:
+    """A copy."""
     return dataclasses.replace(curve)
 
 
-@ORDO.on(
-    "EVOLUTIO",
+@ORDO.form(
+    _MAIN,
+    choice(
+        "order",
+        ("CROI", "DECR"),
+        default="CROI",
+        en="increasing (default) or decreasing",
+        fr="croissant (par défaut) ou décroissant",
+    ),
+    flag("absolute", "ABSO", en="by absolute values", fr="selon les valeurs absolues"),
     syntax="EVOL2 = ORDO EVOL1 ('CROI' | 'DECR') ('ABSO') ;",
     en="Of curves: points in order of abscissas.",
     fr="D'évolutions : points dans l'ordre des abscisses.",
     examples=("LIST (ORDO (EVOL 'MANU' (PROG 2. 1.) (PROG 5. 6.))) ;",),
 )
-def _ordered(call: Call, curve: Curve) -> Curve:
-    words = set()
-    while (said := call.keyword(("CROI", "DECR", "ABSO"))) is not None:
-        words.add(said)
+def ordered(curve: Curve, order: str, absolute: bool) -> Curve:
+    """Points in order of abscissas."""
 
     def choose(part: CurvePart) -> Any:
-        keys = np.abs(part.abscissas) if "ABSO" in words else part.abscissas
-        return np.argsort(-keys if "DECR" in words else keys, kind="stable")
+        keys = np.abs(part.abscissas) if absolute else part.abscissas
+        return np.argsort(-keys if order == "DECR" else keys, kind="stable")
 
     return _picked(curve, choose)
 
@@ -217,11 +264,11 @@ def _ordered(call: Call, curve: Curve) -> Curve:
 _FIELD_OF = {"LEGE": "legend", "NOMA": "abscissa_name", "NOMO": "ordinate_name"}
 
 
-@CHAN.on(
-    "TITR",
-    "LEGE",
-    "NOMA",
-    "NOMO",
+@CHAN.form(
+    said("TITR", *_FIELD_OF),
+    CURVE,
+    opt("place", "ENTIER", en="number of the curve, all without it", fr="numéro, toutes sans lui"),
+    arg("name", "MOT", en="title, legend or name", fr="titre, légende ou nom"),
     of=("EVOLUTIO",),
     syntax="EVOL2 = CHAN 'TITR' | 'LEGE' | 'NOMABS' | 'NOMORD' EVOL1 (N1) MOT1 ;",
     en="TITR, LEGE, NOMABS, NOMORD change the title, the legend, the names of the axes of curves "
@@ -230,13 +277,12 @@ _FIELD_OF = {"LEGE": "legend", "NOMA": "abscissa_name", "NOMO": "ordinate_name"}
     "(de la seule courbe N1).",
     examples=("E = CHAN 'LEGE' (EVOL 'MANU' (PROG 0. 1.) (PROG 2. 3.)) 'measured' ; LIST E ;",),
 )
-def _change(call: Call, word: str) -> Curve:
-    curve: Curve = call.required("EVOLUTIO")
-    place = call.optional("ENTIER")
-    said = str(call.required("MOT")).rstrip()
+def change_names(call: Call, word: str, curve: Curve, place: int | None, name: str) -> Curve:
+    """Other titles, legends, names of axes."""
+    name = name.rstrip()
     if word == "TITR":
-        return dataclasses.replace(curve, title=said)
-    change: dict[str, Any] = {_FIELD_OF[word]: said}
+        return dataclasses.replace(curve, title=name)
+    change: dict[str, Any] = {_FIELD_OF[word]: name}
     if place is not None:
         numbered(call, curve, place)
     parts = tuple(
@@ -246,8 +292,11 @@ def _change(call: Call, word: str) -> Curve:
     return dataclasses.replace(curve, parts=parts)
 
 
-def _extreme(call: Call, curve: Curve, pick: Any) -> Any:
-    absolute = call.keyword(("ABS",)) is not None
+_ABSOLUTE = flag("absolute", "ABS", en="of absolute values", fr="des valeurs absolues")
+_EXTREME = ("ENTIER|LISTENTI", "FLOTTANT|LISTREEL", "FLOTTANT|LISTREEL")
+
+
+def _extreme(call: Call, curve: Curve, absolute: bool, pick: Any) -> Any:
     places, xs, ys = [], [], []
     for part in curve.parts:
         if not len(part.ordinates):
@@ -261,25 +310,31 @@ def _extreme(call: Call, curve: Curve, pick: Any) -> Any:
     return ListEnti(places), ListReel(xs), ListReel(ys)
 
 
-@MAXI.on(
-    "EVOLUTIO",
+@MAXI.form(
+    _MAIN,
+    _ABSOLUTE,
+    gives=_EXTREME,
     syntax="N1 X1 Y1 = MAXI EVOL1 ('ABS') ;",
     en="Of a curve: place, abscissa and ordinate of the largest ordinate; of several, lists.",
     fr="D'une évolution : rang, abscisse et ordonnée de la plus grande ; de plusieurs, des listes.",
     examples=("I X Y = MAXI (EVOL 'MANU' (PROG 0. 1. 2.) (PROG 3. 9. 1.)) ; LIST Y ;",),
 )
-def _largest(call: Call, curve: Curve) -> Any:
-    return _extreme(call, curve, np.argmax)
+def largest_ordinate(call: Call, curve: Curve, absolute: bool) -> Any:
+    """The largest ordinate."""
+    return _extreme(call, curve, absolute, np.argmax)
 
 
-@MINI.on(
-    "EVOLUTIO",
+@MINI.form(
+    _MAIN,
+    _ABSOLUTE,
+    gives=_EXTREME,
     syntax="N1 X1 Y1 = MINI EVOL1 ('ABS') ;",
     en="Of a curve: place, abscissa and ordinate of the smallest ordinate; of several, lists.",
     fr="D'une évolution : rang, abscisse et ordonnée de la plus petite ; de plusieurs, des listes.",
 )
-def _smallest(call: Call, curve: Curve) -> Any:
-    return _extreme(call, curve, np.argmin)
+def smallest_ordinate(call: Call, curve: Curve, absolute: bool) -> Any:
+    """The smallest ordinate."""
+    return _extreme(call, curve, absolute, np.argmin)
 
 
 # ---- ET and signs -------------------------------------------------------------------------------

@@ -14,7 +14,18 @@ from ssilang.kernel.fields.node_algebra import component
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.lines.lines import line_chain
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.registry import Help, operator
+from ssilang.language.registry import (
+    Entry,
+    Help,
+    arg,
+    choice,
+    flag,
+    key,
+    many,
+    operator,
+    opt,
+    select,
+)
 from ssilang.language.run.call import Call
 from ssilang.language.values import (
     LazyRows,
@@ -26,14 +37,120 @@ from ssilang.language.values import (
     Table,
 )
 from ssilang.operators.curves.instants import InstantField, components_in_time, value_in_time
-from ssilang.operators.curves.words import axis_name, read_colours
+from ssilang.operators.curves.words import COLOUR, axis_name, read_colours
 from ssilang.operators.workspace import workspace
 
 _LISTS = ("LISTREEL", "LISTENTI", "LISTMOTS")
 
 
+_ABSCISSA = opt("x_name", "MOT", en="name of the abscissas", fr="nom des abscisses")
+_ORDINATE = opt("y_name", "MOT", en="name of the ordinates", fr="nom des ordonnées")
+_COMPONENT = opt("name", "MOT", en="component", fr="composante", kind="component")
+
+_BASIS = arg("basis", "TABLE", "MMODEL", en="basis of shapes", fr="base de déformées")
+
+# what EVOL reads, for its help
+_ENTRIES: dict[str, list[Entry]] = {
+    "MANU": [
+        key(
+            "type", "TYPE", arg("type", "MOT"), en="type of the ordinates", fr="type des ordonnées"
+        ),
+        key("legend", "LEGE", arg("legend", "MOT"), en="legend", fr="légende"),
+        _ABSCISSA,
+        arg("x", *_LISTS, en="abscissas", fr="abscisses"),
+        _ORDINATE,
+        arg("y", *_LISTS, en="ordinates", fr="ordonnées"),
+    ],
+    "COMP": [
+        choice(
+            "form",
+            ("REIM", "MOPH"),
+            en="real and imaginary parts (default), or modulus and phase",
+            fr="parties réelle et imaginaire (par défaut), ou module et phase",
+        ),
+        key(
+            "legends",
+            "LEGE",
+            arg("first", "MOT", en="of the first", fr="de la première"),
+            arg("second", "MOT", en="of the second", fr="de la seconde"),
+            en="legends",
+            fr="légendes",
+        ),
+        _ABSCISSA,
+        arg("x", "LISTREEL", en="abscissas", fr="abscisses"),
+        _ORDINATE,
+        arg("first", "LISTREEL", en="first parts", fr="premières parties"),
+        opt("second_name", "MOT", en="name of the second", fr="nom des secondes"),
+        arg("second", "LISTREEL", en="second parts", fr="secondes parties"),
+    ],
+    "CHPO": [
+        arg("field", "CHPOINT", en="field", fr="champ"),
+        _COMPONENT,
+        arg("line", "MAILLAGE", en="line", fr="ligne"),
+    ],
+    "TEMP": [
+        arg("history", "LISTCHPO", "TABLE", en="fields, or results", fr="champs, ou résultats"),
+        opt("times", "LISTREEL", en="their times", fr="leurs instants", unit="s"),
+        opt("index", "MOT", en="what of the results", fr="lequel des résultats"),
+        opt("steps", "LISTENTI", en="steps, all without it", fr="pas, tous sans elle"),
+        opt(
+            "names",
+            "MOT",
+            "LISTMOTS",
+            en="component, or several",
+            fr="composante, ou plusieurs",
+            kind="component",
+        ),
+        opt("support", "POINT", "MAILLAGE", en="points", fr="points"),
+        many("cell", "ENTIER", en="zone, cell, point", fr="zone, élément, point"),
+    ],
+    "RECO": [
+        arg(
+            "history", "LISTCHPO", "TABLE", en="contributions in time", fr="contributions en temps"
+        ),
+        opt("times", "LISTREEL", en="their times", fr="leurs instants", unit="s"),
+        _BASIS,
+        opt("count", "ENTIER", en="number of shapes, all without it", fr="nombre de déformées"),
+        opt("load", "CHARGEME", en="load of pseudo-modes", fr="chargement des pseudo-modes"),
+        choice(
+            "quantity",
+            ("DEPL", "VITE", "ACCE"),
+            en="displacement (default), velocity or acceleration",
+            fr="déplacement (par défaut), vitesse ou accélération",
+        ),
+        _COMPONENT,
+        opt("support", "POINT", "MAILLAGE", "CHPOINT", en="points", fr="points"),
+    ],
+    "SOLU": [
+        arg("results", "TABLE", en="results of DYNE", fr="résultats de DYNE"),
+        choice(
+            "quantity",
+            ("DEPL", "VITE", "ACCE", "TRAVAIL_INTERIEUR", "TRAVAIL_EXTERIEUR"),
+            en="what of them",
+            fr="lesquels",
+            length=9,
+        ),
+        opt("basis", "TABLE", en="basis", fr="base"),
+        flag("modes", "ALFA", en="of its modes", fr="de ses modes"),
+        opt("support", "POINT", "MAILLAGE", "CHPOINT", en="marks", fr="points repères"),
+        _COMPONENT,
+        opt("times", "LISTREEL", en="times", fr="instants", unit="s"),
+    ],
+    "PJBA": [
+        arg("history", "LISTCHPO", "TABLE", en="fields in time", fr="champs en temps"),
+        opt("times", "LISTREEL", en="their times", fr="leurs instants", unit="s"),
+        opt("steps", "LISTENTI", en="steps, all without it", fr="pas, tous sans elle"),
+        _BASIS,
+        opt("shapes", "ENTIER", "LISTENTI", en="shapes, all without it", fr="déformées, toutes"),
+        opt("metric", "RIGIDITE", en="matrix of the product", fr="matrice du produit"),
+    ],
+}
+
+
 @operator(
     "EVOL",
+    COLOUR,
+    select("kind", _ENTRIES, en="where it comes from", fr="son origine"),
     family="curves",
     full_name="EVOLUTION",
     help=Help(
@@ -58,7 +175,7 @@ _LISTS = ("LISTREEL", "LISTENTI", "LISTMOTS")
             "E = EVOL 'CHPO' (X * X) 'SCAL' L ; LIST E ;",
         ),
     ),
-    reads_itself=True,
+    reads_itself="names of axes are words of any kind, spelt as keywords or colours too",
 )
 def evol(call: Call) -> Curve:
     """Choose the kind of curve."""

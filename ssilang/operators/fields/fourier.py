@@ -1,0 +1,68 @@
+"""DFOU: fields of a Fourier harmonic at an angle."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.fields.node_field import NodeField, NodeValues
+from ssilang.language.registry import (
+    Help,
+    Like,
+    arg,
+    operator,
+)
+from ssilang.language.run.call import Call
+from ssilang.operators.workspace import workspace
+
+_ODD = {
+    "UT", "FT", "SMRT", "SMZT", "GART", "GAZT", "EPRT", "EPZT", "GAST", "RTST", "NSST", "MSST",
+    "NST", "MST", "RR", "RZ", "MR", "MZ",
+}  # fmt: skip
+"""Components that go with the sine of a symmetric harmonic; the others go with the cosine."""
+
+
+@operator(
+    "DFOU",
+    arg("field", "CHPOINT", "MCHAML", en="field of a harmonic", fr="champ d'une harmonique"),
+    arg("angle", "FLOTTANT", en="angle", fr="angle", unit="deg"),
+    gives=Like("field"),
+    family="fields",
+    full_name="DFOURIER",
+    help=Help(
+        en="Values at an angle (degrees) of a field of the Fourier harmonic n that OPTI says: "
+        "cos(n a) for UR UZ, their forces, the stresses and strains of the meridian plane and the "
+        "hoop ones, sin(n a) for UT and the shears RT ZT; for a negative n sin(|n| a) and "
+        "cos(|n| a).",
+        fr="Valeurs à un angle (degrés) d'un champ de l'harmonique de Fourier n que dit OPTI : "
+        "cos(n a) pour UR UZ, leurs forces, les contraintes et déformations du plan méridien et "
+        "orthoradiales, sin(n a) pour UT et les cisaillements RT ZT ; pour n négatif sin(|n| a) "
+        "et cos(|n| a).",
+        syntax="CH2 = DFOU CH1 X1 ;",
+        examples=(
+            "OPTI DIME 2 MODE FOUR 2 ; P = 1. 0. ; "
+            "U = MANU 'CHPO' P 2 'UR' 3. 'UT' 4. ; LIST (DFOU U 90.) ;",
+        ),
+    ),
+)
+def dfou(call: Call, field: NodeField | CellField, angle: float) -> NodeField | CellField:
+    """Sum a harmonic."""
+    n = workspace(call.session).fourier
+    turn = np.radians(abs(n) * angle)
+    even, odd = (np.cos(turn), np.sin(turn)) if n >= 0 else (np.sin(turn), np.cos(turn))
+    if n == 0:
+        odd = 1.0  # harmonic 0: uniform stretching and uniform torsion, uncoupled
+
+    def factor(name: str) -> float:
+        return float(odd if name in _ODD else even)
+
+    if isinstance(field, NodeField):
+        made = {k: NodeValues(v.nodes, factor(k) * v.values) for k, v in field.components.items()}
+        return replace(field, components=made)
+    blocks = tuple(
+        replace(b, components={k: factor(k) * v for k, v in b.components.items()})
+        for b in field.blocks
+    )
+    return replace(field, blocks=blocks)

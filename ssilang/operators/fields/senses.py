@@ -1,0 +1,70 @@
+"""SENS: senses of contours, differences of fields."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ssilang.kernel.fields.cell_algebra import added, component_names
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.kernel.mesh.queries.measure import signed_area
+from ssilang.language.registry import Help, arg, operator
+from ssilang.language.run.call import Call
+from ssilang.language.values import Table
+
+
+@operator(
+    "SENS",
+    arg("contours", "TABLE", en="closed contours by number", fr="contours fermés par numéro"),
+    family="fields",
+    help=Help(
+        "Of a table of closed contours in the plane, such as CCON gives: the table of their "
+        "senses, "
+        "1 anticlockwise, -1 clockwise. In MODE AXIS a contour may be open along the axis. Of two "
+        "fields in cells: the table, by number of the cell, of the mean over the cell's points of "
+        "their difference (one component).",
+        "D'une table de contours fermés du plan, comme celle de CCON : la table de leurs sens, 1 "
+        "direct, -1 sinon. En MODE AXIS un contour peut être ouvert le long de l'axe. De deux "
+        "champs par éléments : la table, par numéro d'élément, de la moyenne sur les points de "
+        "l'élément de leur différence (une composante).",
+        "TAB2 = SENS TAB1 ;\nTAB1 = SENS MCHAML1 MCHAML2 ;",
+        (
+            "OPTI DIME 2 ELEM SEG2 ; C = CERC 8 'ROTA' 360. (1. 0.) (0. 0.) 'ELIM' ; "
+            "T = SENS (CCON (INVE C)) ; LIST (T . 1) ;",
+        ),
+    ),
+)
+def sens(call: Call, contours: Table) -> Table:
+    """Senses of contours."""
+    made = Table()
+    for number, contour in contours.items():
+        if not isinstance(number, int):
+            continue
+        if not isinstance(contour, Mesh):
+            raise call.error("operators.fields.not-a-contour", contours, number=number)
+        area = signed_area(contour)
+        if area == 0.0:
+            raise call.error("operators.fields.contour-without-area", contours, number=number)
+        made.set(number, 1 if area > 0.0 else -1)
+    return made
+
+
+@sens.form(
+    arg("first", "MCHAML", en="field of one component", fr="champ à une composante"),
+    arg("second", "MCHAML", en="field to take from it", fr="champ à lui retrancher"),
+)
+def sens_of_fields(call: Call, first: CellField, second: CellField) -> Table:
+    """Means of differences, cell by cell."""
+    names = component_names(first)
+    if len(names) != 1 or component_names(second) != names:
+        raise call.error("operators.fields.one-component-compared", second)
+    made, start = Table(), 1
+    for block in added(first, second, -1.0).blocks:
+        values = np.broadcast_to(
+            block.components[names[0]],
+            (len(block.cells), block.components[names[0]].shape[1]),
+        )
+        for number, mean in enumerate(values.astype(float).mean(axis=1), start):
+            made.set(number, float(mean))
+        start += len(block.cells)
+    return made

@@ -1,0 +1,105 @@
+"""PSIP: signed distances to lines and surfaces."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.kernel.mesh.queries.signed_distance import beyond_front, beyond_tip, signed_distance
+from ssilang.language.registry import (
+    Chosen,
+    Help,
+    arg,
+    by,
+    many,
+    operator,
+    opt,
+    select,
+)
+from ssilang.language.run.call import Call
+from ssilang.operators.workspace import workspace
+
+_LINE = "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (2. 0.) ; X = COOR 1 L ; "
+
+
+_ENDS = many(
+    "ends",
+    "POINT",
+    "MAILLAGE",
+    en="ends of the line (2D) or front of the surface (3D)",
+    fr="bouts de la ligne (2D) ou front de la surface (3D)",
+)
+
+
+@operator(
+    "PSIP",
+    arg("place", "MAILLAGE", "POINT", en="where", fr="où"),
+    arg("mesh", "MAILLAGE", en="line or surface", fr="ligne ou surface"),
+    opt(
+        "reach",
+        "FLOTTANT",
+        en="nodes farther away (largest coordinate) are left out",
+        fr="les noeuds plus loin (plus grande coordonnée) sont exclus",
+        unit="m",
+    ),
+    select(
+        "ahead",
+        {"DEUX": [_ENDS], "TROI": [_ENDS]},
+        en="distances ahead of the ends too, and the abscissa along a front",
+        fr="aussi les distances en avant des bouts, et l'abscisse le long d'un front",
+    ),
+    gives=by("ahead", {"DEUX": ("CHPOINT",) * 2, "TROI": ("CHPOINT",) * 3}, "CHPOINT"),
+    family="fields",
+    help=Help(
+        en="Signed distance PHI of the nodes of a mesh to a line (SEG2, in 2D) or a surface (TRI3, "
+        "QUA4, in 3D), positive on the side of its normals (to the left of a line); nodes farther "
+        "than a number (largest coordinate) are left out. 'DEUX' adds the signed distance PSI "
+        "ahead of the line's ends given as points, or of the surface's front given as a mesh of "
+        "SEG2; 'TROI' (3D) the abscissa TAU along the front besides.",
+        fr="Distance signée PHI des noeuds d'un maillage à une ligne (SEG2, en 2D) ou une surface "
+        "(TRI3, QUA4, en 3D), positive du côté de ses normales (à gauche d'une ligne) ; les "
+        "noeuds plus loin qu'un nombre (plus grande coordonnée) sont exclus. 'DEUX' ajoute la "
+        "distance signée PSI en avant des bouts de la ligne donnés en points, ou du front de la "
+        "surface donné en maillage de SEG2 ; 'TROI' (3D) de plus l'abscisse TAU le long du front.",
+        syntax="CHP1 = PSIP MAIL1 MAIL2 (X1) ;\nCHP1 CHP2 = PSIP MAIL1 MAIL2 (X1) 'DEUX' P1 (P2) "
+        "| MAIL3 ; CHP1 CHP2 CHP3 = PSIP MAIL1 MAIL2 (X1) 'TROI' MAIL3 ;",
+        examples=(_LINE + "P = (0.5 2.) ET (3. -1.) ; LIST (PSIP P L) ;",),
+    ),
+)
+def psip(
+    call: Call, place: Mesh | Point, mesh: Mesh, reach: float | None, ahead: Chosen | None
+) -> NodeField | tuple[NodeField, ...]:
+    """Signed distances."""
+    ws = workspace(call.session)
+    nodes = np.array([place.node]) if isinstance(place, Point) else place.sorted_node_ids
+    points = ws.nodes.coordinates[nodes]
+    phi = signed_distance(points, mesh, ws.dimension)
+    rows = {"PHI": phi}
+    if ahead is not None:
+        rows |= _ahead(call, ahead.word, points, mesh, ahead["ends"])
+    kept = np.ones(len(nodes), bool) if reach is None else _near(points, mesh, reach)
+    made = [NodeField.of(ws.nodes, nodes[kept], {k: v[kept]}, "DIFFUS") for k, v in rows.items()]
+    return made[0] if len(made) == 1 else tuple(made)
+
+
+def _near(points: Any, mesh: Mesh, reach: float) -> Any:
+    """Points within a reach (largest coordinate) of a node of the mesh."""
+    from scipy.spatial import cKDTree
+
+    tree = cKDTree(mesh.nodes.coordinates[mesh.sorted_node_ids])
+    return tree.query(points, p=np.inf)[0] <= reach
+
+
+def _ahead(call: Call, word: str, points: Any, mesh: Mesh, ends: tuple[Any, ...]) -> dict[str, Any]:
+    if workspace(call.session).dimension == 2:
+        fits = word == "DEUX" and len(ends) in (1, 2)
+        if not fits or not all(isinstance(e, Point) for e in ends):
+            raise call.error("operators.fields.ends-are-points")
+        return {"PSI": beyond_tip(points, mesh, tuple(e.node for e in ends))}
+    if len(ends) != 1 or not isinstance(ends[0], Mesh):
+        raise call.error("operators.fields.front-is-a-line-mesh", word=word)
+    ahead, along = beyond_front(points, mesh, ends[0])
+    return {"PSI": ahead} | ({"TAU": along} if word == "TROI" else {})

@@ -1,0 +1,34 @@
+"""CABL: stiffness of cables under tension."""
+
+from __future__ import annotations
+
+from ssilang.kernel.matrices.cables import cable_stiffness
+from ssilang.kernel.matrices.matrix import Matrix
+from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.language.registry import Help, arg, operator
+from ssilang.language.run.call import Call
+from ssilang.operators.workspace import workspace
+
+
+@operator(
+    "CABL",
+    arg("mesh", "MAILLAGE", en="cables", fr="câbles"),
+    arg("force", "FLOTTANT", en="force", fr="force", unit="N"),
+    arg("percent", "FLOTTANT", en="lengthening under it", fr="son allongement", unit="%"),
+    family="matrix",
+    full_name="CABLE",
+    help=Help(
+        en="Stiffness of cables (SEG2) whose force is X1 at a lengthening of X2 percent.",
+        fr="Rigidité de câbles (SEG2) dont la force est X1 à un allongement de X2 pour cent.",
+        syntax="RIG1 = CABL GEO1 X1 X2 ;",
+        examples=(
+            "OPTI DIME 2 ELEM SEG2 ; L = DROI 1 (0. 0.) (2. 0.) ; "
+            "LIST (EXTR (CABL L 10. 1.) 'DIAG') ;",
+        ),
+    ),
+)
+def cabl(call: Call, mesh: Mesh, force: float, percent: float) -> Matrix:
+    """Cables."""
+    if percent == 0.0:
+        raise call.error("operators.matrices.force-without-lengthening")
+    return cable_stiffness(mesh, workspace(call.session).dimension, force, percent)

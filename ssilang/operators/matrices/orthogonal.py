@@ -1,0 +1,84 @@
+"""ORTH: fields made orthogonal for a matrix."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ssilang.kernel.fields import node_algebra
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.matrices.matrix import Matrix
+from ssilang.kernel.modal.basis import work
+from ssilang.kernel.statics.linear import product
+from ssilang.language.registry import Help, arg, flag, operator, opt
+from ssilang.language.run.call import Call
+from ssilang.language.values import ListChpo, ListReel
+
+_TWO = "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; K = (APPU 'UX' 4. P) ET (APPU 'UX' 5. Q) ; "
+
+
+@operator(
+    "ORTH",
+    flag(
+        "alike",
+        "SEMBLABLE",
+        en="the fields have the same nodes and components",
+        fr="les champs ont les mêmes noeuds et composantes",
+    ),
+    arg("field", "CHPOINT", en="field X", fr="champ X"),
+    arg("shapes", "LISTCHPO", en="fields U", fr="champs U"),
+    arg("norms", "LISTREEL", en="products U K U", fr="produits U K U"),
+    opt("loaded", "LISTCHPO", en="fields K U", fr="champs K U"),
+    arg("matrix", "RIGIDITE", en="matrix K", fr="rigidité K"),
+    opt("precision", "FLOTTANT", en="precision", fr="précision"),
+    opt("passes", "ENTIER", default=2, en="passes at most", fr="passages au plus"),
+    family="matrix",
+    full_name="ORTHOGONALISER",
+    help=Help(
+        en="Field made orthogonal, for a matrix K, to fields U of a list that are so among "
+        "themselves: X - sum (X K U) / (U K U) U. The list of reals holds the U K U; a second "
+        "list of fields may hold the K U. A precision asks for further passes, N1 at most.",
+        fr="Champ rendu orthogonal, au sens d'une rigidité K, aux champs U d'une liste qui le sont "
+        "entre eux : X - somme (X K U) / (U K U) U. La liste de réels contient les U K U ; une "
+        "seconde liste de champs peut contenir les K U. Une précision demande d'autres passages, "
+        "N1 au plus.",
+        syntax="CHPO1 = ORTH ('SEMBLABLE') CHPO2 LCHPO1 LREEL1 (LCHPO2) RIG1 (X1 (N1)) ;",
+        examples=(
+            _TWO + "U = MANU 'CHPO' (P ET Q) 1 'UX' 1. ; X = MANU 'CHPO' (P ET Q) 1 'UX' "
+            "(PROG 1. 2.) ; Y = ORTH X (SUIT U) (PROG 9.) K ; LIST (YTMX Y U K) ;",
+        ),
+    ),
+)
+def orth(
+    call: Call,
+    alike: bool,
+    field: NodeField,
+    shapes: ListChpo,
+    norms: ListReel,
+    loaded: ListChpo | None,
+    matrix: Matrix,
+    precision: float | None,
+    passes: int,
+) -> NodeField:
+    """Gram and Schmidt's step."""
+    fields: list[Any] = list(shapes.values)
+    forces: list[Any] = (
+        [product(matrix, u) for u in fields] if loaded is None else list(loaded.values)
+    )
+    if not len(fields) == len(norms) == len(forces):
+        raise call.error(
+            "operators.matrices.products-do-not-match",
+            n_shapes=len(fields),
+            n_norms=len(norms),
+            n_forces=len(forces),
+        )
+    if (norms.values == 0.0).any():
+        raise call.error("operators.matrices.product-is-zero")
+    for turn in range(max(passes, 1)):
+        worst = 0.0
+        for u, k, f in zip(fields, norms.values, forces, strict=True):
+            share = work(f, field) / k
+            worst = max(worst, abs(share))
+            field = node_algebra.added(field, u, -share)
+        if precision is None or (turn and worst <= precision):
+            break
+    return field

@@ -1,0 +1,61 @@
+"""Operands and keywords in odd orders mean what they mean in the usual one."""
+
+from __future__ import annotations
+
+import pytest
+
+_CURVES = "E = EVOL 'MANU' 't' (PROG 0. 1.) 'u' (PROG -5. 5.) ; F = E ET E ; "
+_FIELD = "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 2 'UX' 1. 'UY' 9. ; L = SUIT C C ; "
+
+
+@pytest.mark.parametrize(
+    ("before", "usual", "odd"),
+    [
+        ("", "EXTR (PROG 5. 6.) 2", "EXTR 2 (PROG 5. 6.)"),
+        (_FIELD, "EXTR L 'VALE' P 'UY'", "EXTR L 'VALE' 'UY' P"),
+        ("", "INSE (PROG 1. 3.) 2 2.", "INSE 2 2. (PROG 1. 3.)"),
+        ("", "SOMM 'CUMU' (PROG 1. 2.)", "SOMM (PROG 1. 2.) 'CUMU'"),
+        ("", "RACP 'INTE' 2.5 4. (PROG 6. -5. 1.)", "RACP 2.5 4. 'INTE' (PROG 6. -5. 1.)"),
+        ("", "POSI 2. 'DANS' (PROG 1. 2.) 'TOUS' 0.1", "POSI 2. 'DANS' (PROG 1. 2.) 0.1 'TOUS'"),
+        ("", "POSI 'b' 'DANS' (MOTS 'A' 'B') 'NOCA'", "POSI 'b' 'NOCA' 'DANS' (MOTS 'A' 'B')"),
+        ("", "ORDO (PROG 3. 1. 2.) 'DECR'", "ORDO 'DECR' (PROG 3. 1. 2.)"),
+        ("", "RAFF (PROG 0. 1. 3.) 0.5", "RAFF 0.5 (PROG 0. 1. 3.)"),
+        ("", "DIAD 'INVE' (PROG 1. 3. 7.)", "DIAD (PROG 1. 3. 7.) 'INVE'"),
+        ("", "FONC 'BESS' 'Y1' (PROG 5.)", "FONC (PROG 5.) 'BESS' 'Y1'"),
+        ("", "ENTI 'PROCHE' -3.5", "ENTI -3.5 'PROCHE'"),
+        ("", "MASQ (PROG 1. 5.) 'EGIN' 4", "4. MASQ (PROG 1. 5.) 'EGIN'"),
+        ("", "MASQ (PROG 1. 5.) 'SUPE' 'SOMM' 4.", "MASQ (PROG 1. 5.) 'SUPE' 4. 'SOMM'"),
+        (_CURVES, "BORN F 1 'MAXI' 1. 2 'MINI' 0.", "BORN F 'MAXI' 1. 2 'MINI' 0."),
+        (_CURVES, "E COUL ROUG", "COUL 'ROUG' E"),
+    ],
+)
+def test_the_order_of_operands_is_free(printed, before, usual, odd):
+    assert printed(f"{before}LIST ({odd}) ;") == printed(f"{before}LIST ({usual}) ;")
+
+
+@pytest.mark.parametrize(
+    ("statement", "says"),
+    [
+        ("LIST (POSI 'DANS' 'DANS' (MOTS 'X' 'DANS')) ;", "2"),
+        ("LIST (POSI 'NOCA' 'DANS' (MOTS 'noca' 'NOCA')) ;", "2"),
+        (
+            "T = TABL ; T . 'DECR' = PROG 2. 1. ; U = ORDO T 'DECR' ; LIST (EXTR (U . 'DECR') 1) ;",
+            "1.0",
+        ),
+        ("LIST 'RESU' ;", "RESU"),
+        ("LIST '*' ;", "*"),
+        ("X = 3 ; LIST *ENTIER ;", "X"),
+    ],
+)
+def test_words_that_are_spelt_like_keywords_are_operands_where_operands_stand(
+    printed, statement, says
+):
+    assert says in "\n".join(printed(statement))
+
+
+def test_a_file_may_be_called_like_an_option(printed):
+    printed(
+        "OPTI SORT 'debut.csv' ; SORT 'EXCE' (PROG 1. 2.) (PROG 3. 4.) ; "
+        "T = LIRE 'CSV' 'debut.csv' 'DEBU' 2 'LIGN' ; "
+        "SI (NEG (EXTR (T . 1) 2) 4.) ; ERRE 5 ; FINSI ;"
+    )
