@@ -8,18 +8,10 @@ from ssilang.cli.paging import show
 from ssilang.language.run.library import standard_procedures
 from ssilang.language.say.diagnostics import elsewhere
 from ssilang.language.say.reference import overview
+from ssilang.messages.message import teller
 from ssilang.operators.loader import load_operators
 
 OK, UNKNOWN = 0, 1
-
-_TEXTS = {
-    "unknown": {
-        "en": "there is no help about {word}",
-        "fr": "il n'y a pas d'aide sur {word}",
-    },
-    "near": {"en": "did you mean {near}?", "fr": "vouliez-vous dire {near} ?"},
-    "list": {"en": "`ssilang help` lists all of them", "fr": "`ssilang help` en donne la liste"},
-}
 
 
 def show_help(word: str, language: str, out: TextIO) -> int:
@@ -35,7 +27,7 @@ def show_help(word: str, language: str, out: TextIO) -> int:
     if text:
         show(text, out)
         return OK
-    near = near_name(word)
-    hint = hint or _TEXTS["near" if near else "list"][language].format(near=near)
-    out.write(f"{_TEXTS['unknown'][language].format(word=word)}\n  = {hint}\n")
+    told, near = teller(language), near_name(word)
+    hint = hint or (told("did-you-mean", near=near) if near else told("cli.list-of-help"))
+    out.write(f"{told('cli.no-help', word=word)}\n  = {hint}\n")
     return UNKNOWN

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from typing import TextIO, cast
 
 from ssilang.language.run.session import Session
+from ssilang.messages.message import Teller
 
 PATIENCE = 2.0  # seconds that a loop may run before anything shows
 REFRESH = 0.2
@@ -34,9 +35,12 @@ class LoopProgress:
     ----------
     stream : text stream
         The terminal.
+    told : function
+        Makes texts of codes.
     """
 
     stream: TextIO
+    told: Teller
     _open: list[_Loop] = field(default_factory=list)
     _shown: float = 0.0
     _visible: bool = False
@@ -52,7 +56,7 @@ class LoopProgress:
         if now - self._shown < REFRESH or now - self._open[0].started < PATIENCE:
             return
         self._shown = now
-        line = " > ".join(str(loop) for loop in self._open) + _left(self._open[0], now)
+        line = " > ".join(str(loop) for loop in self._open) + self._left(self._open[0], now)
         width = min(shutil.get_terminal_size().columns, 80) - 1
         self.wipe()
         self._visible = True  # before it is: Ctrl-C may come between
@@ -65,21 +69,21 @@ class LoopProgress:
         if not self._open:
             self.wipe()
 
+    def _left(self, loop: _Loop, now: float) -> str:
+        """The time that the outermost loop still needs, if it says how many turns it makes."""
+        done = loop.turn - 1
+        spent = now - loop.started
+        if loop.limit is None or not done:
+            return f", {spent:.0f} s"
+        seconds = spent * (loop.limit - done) / done
+        return ", " + self.told("operators.session.time-left", seconds=seconds)
+
     def wipe(self) -> None:
         """Take the line away."""
         if self._visible:
             self.stream.write("\r\x1b[K")
             self.stream.flush()
             self._visible = False
-
-
-def _left(loop: _Loop, now: float) -> str:
-    """The time that the outermost loop still needs, if it says how many turns it makes."""
-    done = loop.turn - 1
-    spent = now - loop.started
-    if loop.limit is None or not done:
-        return f", {spent:.0f} s"
-    return f", {spent * (loop.limit - done) / done:.0f} s left"
 
 
 class _Wiping(io.TextIOBase):
@@ -104,7 +108,7 @@ def follow_loops(session: Session, terminal: TextIO) -> None:
     """Show the loops of a session on `terminal`, if it is one."""
     if not terminal.isatty() or os.environ.get("TERM") == "dumb":
         return
-    progress = LoopProgress(terminal)
+    progress = LoopProgress(terminal, session.told)
     session.loops = progress
     session.out = cast(TextIO, _Wiping(session.out, progress))
     tell = session.on_warning

@@ -13,7 +13,6 @@ from ssilang.cli.completion import completions
 from ssilang.cli.line_editor import Ask, line_editor
 from ssilang.cli.loop_progress import follow_loops
 from ssilang.cli.paging import show
-from ssilang.cli.repl_texts import TEXTS
 from ssilang.cli.run import RunOptions, execute, make_session
 from ssilang.language.run.jumps import StopRun
 from ssilang.language.run.session import Session
@@ -91,7 +90,7 @@ class Repl:
         name, _, rest = line.partition(" ")
         action = self._commands.get(name.lower())
         if action is None:
-            self._say("unknown", name=name)
+            self._say("cli.no-such-command", name=name)
             return True
         return action(rest.strip().strip("'\""))
 
@@ -122,7 +121,7 @@ class Repl:
         except StopRun:
             return False
         except KeyboardInterrupt:
-            self._say("interrupted")
+            self._say("cli.session-goes-on")
         except SeveralErrors as several:
             for error in several.errors:
                 self._report(error)
@@ -151,8 +150,9 @@ class Repl:
                 return
         for value in self.session.evaluator.values_of(node):
             kind = type_of(value)
-            text = LISTINGS[kind](value, "RESU") if kind in LISTINGS else str(value)
-            self.out.write((text if kind in LISTINGS else f"{kind} : {text}").rstrip("\n") + "\n")
+            entry = LISTINGS.get(kind)
+            text = entry(value, True, self.session.told) if entry else f"{kind} : {value}"
+            self.out.write(text.rstrip("\n") + "\n")
 
     def _page(self, word: str) -> bool:
         page = find_page(word, self.session.library.standard_files)
@@ -166,13 +166,13 @@ class Repl:
         text = render(error, self.session.language, names)
         self.out.write(coloured(text, self.out) + "\n")
 
-    def _say(self, key: str, **data: object) -> None:
-        self.out.write(TEXTS[key][self.session.language].format(**data) + "\n")
+    def _say(self, code: str, /, **data: object) -> None:
+        self.out.write(self.session.told(code, **data) + "\n")
 
     # ---- commands ----------------------------------------------------------------------------
 
     def _help(self, _: str) -> bool:
-        self._say("commands")
+        self._say("cli.commands")
         return True
 
     def _variables(self, _: str) -> bool:
@@ -183,19 +183,19 @@ class Repl:
 
     def _save(self, path: str) -> bool:
         if not path:
-            self._say("file", name="%save")
+            self._say("cli.file-name-wanted", name="%save")
             return True
         try:
             Path(path).write_text("\n".join(self.kept) + "\n", encoding="utf-8")
         except OSError as problem:
             self.out.write(f"{path}: {problem.strerror}\n")
             return True
-        self._say("saved", count=len(self.kept), path=path)
+        self._say("cli.lines-saved", count=len(self.kept), path=path)
         return True
 
     def _run_file(self, path: str) -> bool:
         if not path:
-            self._say("file", name="%run")
+            self._say("cli.file-name-wanted", name="%run")
             return True
         return self._guarded(lambda: execute(self.session, read_source(Path(path))))
 
@@ -211,7 +211,7 @@ def interact(session: Session, greet: bool = False) -> int:
     ask = line_editor(lambda text: completions(text, session)) if person else _next_line
     repl = Repl(session, ask, sys.stdout)
     if greet and person:
-        repl._say("welcome", version=__version__)
+        repl._say("cli.welcome", version=__version__)
     repl.loop()
     return 0
 

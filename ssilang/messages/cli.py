@@ -60,4 +60,43 @@ MESSAGES: dict[str, Message] = {
         "{count} {count:file|files} in {folder}",
         "{count} {count:fichier|fichiers} dans {folder}",
     ),
+    "runs": Message("runs", "calculs"),
+    # ---- the interactive session
+    "welcome": Message(
+        "ssilang {version}. Statements end with ;   INFO NAME ; shows help, %help the commands, "
+        "FIN ; leaves.",
+        "ssilang {version}. Une instruction finit par ;   INFO NOM ; montre l'aide, %help les "
+        "commandes, FIN ; fait sortir.",
+    ),
+    "commands": Message(
+        """%help            this list
+%vars            the objects of the session
+%save FILE       write the statements that ran to a script
+%run FILE        run a script in this session
+%quit            leave (also FIN ; or Ctrl-D)
+Ctrl-C stops what runs, or forgets what is being typed; Tab completes.""",
+        """%help            cette liste
+%vars            les objets de la session
+%save FICHIER    écrire les instructions exécutées dans un script
+%run FICHIER     exécuter un script dans cette session
+%quit            sortir (ou FIN ; ou Ctrl-D)
+Ctrl-C arrête le calcul en cours, ou oublie ce qui est tapé ; Tab complète.""",
+    ),
+    "no-such-command": Message(
+        "there is no command {name}; %help lists them",
+        "il n'y a pas de commande {name} ; %help en donne la liste",
+    ),
+    "lines-saved": Message(
+        "{count} {count:line|lines} written to {path}",
+        "{count} {count:ligne écrite|lignes écrites} dans {path}",
+    ),
+    "file-name-wanted": Message("{name} needs a file's name", "{name} demande un nom de fichier"),
+    "session-goes-on": Message(
+        "interrupted; the session goes on", "interrompu ; la session continue"
+    ),
+    # ---- help
+    "no-help": Message("there is no help about {word}", "il n'y a pas d'aide sur {word}"),
+    "list-of-help": Message(
+        "`ssilang help` lists all of them", "`ssilang help --lang fr` en donne la liste"
+    ),
 }

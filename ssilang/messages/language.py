@@ -516,4 +516,5 @@ MESSAGES: dict[str, Message] = {
         "{name} has a value here: the word {name} is written between quotes, '{name}'\n",
         "{name} a ici une valeur : le mot {name} s'écrit entre apostrophes, '{name}'\n",
     ),
+    "did-you-mean": Message("did you mean {near}?", "vouliez-vous dire {near} ?"),
 }

@@ -77,6 +77,18 @@ class Sentence:
         return sentence(self.code, self.data)
 
 
+class Teller(Protocol):
+    """Makes a text of a code and its data, in the language of whoever reads it."""
+
+    def __call__(self, code: str, /, **data: object) -> str:
+        """The text."""
+
+
+def teller(language: str) -> Teller:
+    """What makes texts in 'en' or 'fr'."""
+    return lambda code, /, **data: sentence(code, data, language)
+
+
 class Refusal(Exception):
     """What is refused, and why: a code and data, from which a sentence is made at the very end.
 
@@ -115,6 +127,12 @@ def find(code: str) -> Message:
         return _room(room or "language")[name]
     except (ModuleNotFoundError, KeyError):
         raise LookupError(f"no message has the code '{code}'") from None
+
+
+def places(template: str) -> int:
+    """How many operands fill a text of the library, whose places are numbered: {1} {2} ..."""
+    fields = Formatter().parse(template)
+    return len({name for _, name, _, _ in fields if name is not None and name.isdigit()})
 
 
 @cache

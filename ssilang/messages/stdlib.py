@@ -877,4 +877,87 @@ MESSAGES: dict[str, Message] = {
         "SPPLANC: FREQU, AMORT or COEFFPL have no item {1}",
         "SPPLANC : FREQU, AMORT ou COEFFPL n'ont pas d'élément {1}",
     ),
+    # ---- what is printed
+    "verifie-head": Message(
+        "check                                                 obtained      expected    "
+        "  distance     tolerance",
+        "contrôle                                                obtenu       attendu    "
+        "     écart     tolérance",
+    ),
+    "verifie-relative": Message(
+        "{1} (relative)",
+        "{1} (relatif)",
+    ),
+    "verifie-outside": Message(
+        "   OUT OF TOLERANCE",
+        "   HORS TOLÉRANCE",
+    ),
+    "bilan-all": Message(
+        "all {1} checks within tolerance",
+        "{1} contrôles, tous dans la tolérance",
+    ),
+    "visor-no-orientation": Message(
+        "@VISOR: elements {1} have no orientation to show",
+        "@VISOR : les éléments {1} n'ont pas d'orientation à montrer",
+    ),
+    "balourd-speed": Message(
+        "BALOURD: speed {1}",
+        "BALOURD : vitesse {1}",
+    ),
+    "campbell-speed": Message(
+        "CAMPBELL: speed {1}",
+        "CAMPBELL : vitesse {1}",
+    ),
+    "explorer-no-component": Message(
+        "EXPLORER: no field of the loading has the component {1}",
+        "EXPLORER : aucun champ du chargement n'a la composante {1}",
+    ),
+    "explorer-one-field": Message(
+        "EXPLORER: one field of iso-values for each call, {1} is not drawn",
+        "EXPLORER : un champ d'isovaleurs par appel, {1} n'est pas tracé",
+    ),
+    "issleq-step": Message(
+        "ISSLEQ: step {1}, largest change of modulus or damping {2}",
+        "ISSLEQ : itération {1}, plus grande variation de module ou d'amortissement {2}",
+    ),
+    "postvibr-no-mode": Message(
+        "POSTVIBR: no mode",
+        "POSTVIBR : aucun mode",
+    ),
+    "postvibr-head-shapes": Message(
+        "  shape   unknown    node",
+        "  forme  inconnue   noeud",
+    ),
+    "postvibr-head-modes": Message(
+        "   mode   frequency (Hz)   generalised mass",
+        "   mode   fréquence (Hz)  masse généralisée",
+    ),
+    "postvibr-shape": Message(
+        "{1} shape {2}",
+        "{1} forme {2}",
+    ),
+    "respowns-turn": Message(
+        "RESPOWNS: turn {1}, deviation of the spectra {2}",
+        "RESPOWNS : itération {1}, écart des spectres {2}",
+    ),
+    "respowns-after": Message(
+        "RESPOWNS: after {1} turns the spectra deviate by {2}",
+        "RESPOWNS : après {1} itérations les spectres s'écartent de {2}",
+    ),
+    "respowsp-turn": Message(
+        "RESPOWSP: turn {1}, deviation of the spectra {2}",
+        "RESPOWSP : itération {1}, écart des spectres {2}",
+    ),
+    "respowsp-after": Message(
+        "RESPOWSP: after {1} turns the spectra deviate by {2}",
+        "RESPOWSP : après {1} itérations les spectres s'écartent de {2}",
+    ),
+    "signsynt-turn": Message(
+        "signal {1} turn {2} distance of the spectra {3}",
+        "signal {1}, itération {2}, distance des spectres {3}",
+    ),
+    "sissib-all": Message(
+        "SISSIB: {1}, all directions",
+        "SISSIB : {1}, toutes les directions",
+    ),
 }

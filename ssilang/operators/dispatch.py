@@ -23,6 +23,7 @@ from ssilang.language.registry import (
 from ssilang.language.run.call import Call
 from ssilang.language.say.errors import SsiError
 from ssilang.language.values import Mot, type_of
+from ssilang.messages.message import Teller
 
 if TYPE_CHECKING:
     from ssilang.language.text.source import Span
@@ -519,9 +520,9 @@ INTE = ByType(
     ),
 )
 
-ListingEntry = Callable[[Any, str], str]
+ListingEntry = Callable[[Any, bool, Teller], str]
 LISTINGS: dict[str, ListingEntry] = {}
-"""LIST: type -> function (value, 'RESU' or '') giving the text that is printed."""
+"""LIST: type -> function (value, whether in brief, what makes texts of codes)."""
 
 
 def listing(*types: str) -> Callable[[ListingEntry], ListingEntry]:

@@ -32,7 +32,7 @@ def test_typed_lines_completion_and_save(terminal, tmp_path):
     terminal.type("TAB1 . AL")
     terminal.press_until("\t", "'ALPHA'")
     terminal.type(" ;\n")
-    terminal.wait_for("valant : 42")
+    terminal.wait_for("of value: 42")
     terminal.type("%save kept.ssi\n")
     terminal.wait_for("kept.ssi[^\n]*\n.*" + PROMPT)
     terminal.type("FIN ;\n")

@@ -47,4 +47,4 @@ def test_lists_give_meshes_of_points(tmp_path):
 
 def test_spherical_points_need_three_dimensions(tmp_path):
     result = run_text("OPTI DIME 2 ; P = POINTSPH 1. 2. 3. ;", output_directory=tmp_path)
-    assert result.errors[0].code == "erre"
+    assert result.errors[0].code == "stdlib.pointsph-spherical-coordinates-need-opti"

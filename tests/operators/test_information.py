@@ -57,4 +57,4 @@ def test_vertytab(tmp_path):
     run("T = TABL ; T . 'X' = 1. ; VERTYTAB T 'X' 'FLOTTANT' ;", tmp_path)
     for bad in ("VERTYTAB T 'Y' 'FLOTTANT'", "VERTYTAB T 'X' 'ENTIER'"):
         result = run_text(f"T = TABL ; T . 'X' = 1. ; {bad} ;", output_directory=tmp_path)
-        assert result.errors[0].code == "erre"
+        assert result.errors[0].code.startswith("stdlib.vertytab-")

@@ -2,6 +2,7 @@
 
 import io
 
+from ssilang.messages.message import teller
 from ssilang.operators.session import progress
 from ssilang.operators.session.progress import ProgressLine
 
@@ -14,7 +15,7 @@ class Terminal(io.StringIO):
 def test_silent_when_not_a_terminal(monkeypatch):
     monkeypatch.setattr(progress, "PATIENCE", 0.0)
     stream = io.StringIO()
-    line = ProgressLine("X", stream)
+    line = ProgressLine("X", teller("en"), stream)
     line.note("starting")
     line(1, 2)
     line(2, 2)
@@ -26,7 +27,7 @@ def test_time_left_does_not_count_what_came_before_the_first_report(monkeypatch)
     clock = iter([0.0, 100.0, 101.0, 102.0])
     monkeypatch.setattr(progress.time, "monotonic", lambda: next(clock))
     stream = Terminal()
-    line = ProgressLine("X", stream)
+    line = ProgressLine("X", teller("en"), stream)
     line(10, 40)
     line(20, 40)
     line(30, 40)
@@ -41,7 +42,7 @@ def test_time_left_does_not_count_what_came_before_the_first_report(monkeypatch)
 
 def test_nothing_shows_in_the_first_two_seconds():
     stream = Terminal()
-    line = ProgressLine("X", stream)
+    line = ProgressLine("X", teller("en"), stream)
     line(1, 10)
     line.close()
     assert stream.getvalue() == ""

@@ -56,7 +56,7 @@ def test_what_variable_components_depend_on_is_told():
     assert lines[1].split() == ["T", "DOSE"]
     assert lines[3].split() == ["YOUN", "NU"]
     result = run_text(text.replace("YOUN' E 'NU' F", "YOUN' 1. 'NU' 0."))
-    assert "0 mot" in result.output
+    assert "0 words" in result.output
 
 
 def test_a_cloud_depends_on_its_columns_and_on_the_abscissas_of_its_curves():

@@ -131,7 +131,7 @@ def test_listings_say_what_objects_hold(printed):
             "X = 7 ; LIST *ENTIER ;"
         )
     )
-    for part in ("valant : 3", "2.50000", "VRAI", "abc", "UX", "3.00000E+00", "X "):
+    for part in ("of value: 3", "2.50000", "VRAI", "abc", "UX", "3.00000E+00", "X "):
         assert part in text
 
 
@@ -174,5 +174,5 @@ def test_tables_in_tables_are_printed_as_deep_as_said():
     tables = "T = TABL ; T . 1 = TABL ; T . 1 . 2 = TABL ; T . 1 . 2 . 'DEEP' = 7 ; T . 3 = T ;\n"
     found = [run_text(tables + f"LIST T{n} ;").output for n in ("", " 1", " 2", " 99")]
     assert ["DEEP" in text for text in found] == [False, False, True, True]
-    assert found[1].count("Table de") == 2
+    assert found[1].count("Table of") == 2
     assert found[2] == found[3]  # a table that holds itself ends there

@@ -16,7 +16,7 @@ from ssilang.cli.sweeping.trunk import run_all
 from ssilang.cli.sweeping.worker import ROW, Task
 from ssilang.language.say.diagnostics import render
 from ssilang.language.say.errors import SsiError
-from ssilang.messages.message import sentence
+from ssilang.messages.message import Teller, sentence, teller
 
 TABLE = "sweep.parquet"
 TOGETHER = 8
@@ -60,7 +60,7 @@ def sweep(options: SweepOptions, out: TextIO, err: TextIO) -> int:
         done = sentence("cli.runs-done", {"done": len(rows), "total": len(tasks)}, options.language)
         out.write(done + "\n")
     waiting = [task for task in tasks if task.number not in rows]
-    for row in _progress(_run(waiting, options), len(waiting), err):
+    for row in _progress(_run(waiting, options), len(waiting), teller(options.language), err):
         rows[row["run"]] = row
         if row["exit_code"] != 0:
             failure = {"number": row["run"], "error": row["error"], "folder": row["folder"]}
@@ -100,11 +100,13 @@ def _run(tasks: list[Task], options: SweepOptions) -> Iterator[dict[str, Any]]:
     return run_all(tasks, max(min(jobs, len(tasks)), 1), together=options.together)
 
 
-def _progress(rows: Iterator[dict[str, Any]], total: int, err: TextIO) -> Iterator[dict[str, Any]]:
+def _progress(
+    rows: Iterator[dict[str, Any]], total: int, told: Teller, err: TextIO
+) -> Iterator[dict[str, Any]]:
     """The same rows, with a line of progress at a terminal."""
     from ssilang.operators.session.progress import ProgressLine
 
-    line = ProgressLine("runs", err)
+    line = ProgressLine(told("cli.runs"), told, err)
     for done, row in enumerate(rows, start=1):
         line(done, total)
         yield row

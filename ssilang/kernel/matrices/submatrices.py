@@ -11,6 +11,7 @@ from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.matrices.assembly import assemble, constraint_matrix, numbering_of
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, Relations
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
+from ssilang.messages.message import Teller
 
 
 def together(*matrices: Matrix) -> Matrix:
@@ -208,36 +209,41 @@ def with_own_multipliers(matrix: Matrix) -> Matrix:
     return replace(matrix, relations=tuple(moved(r) for r in matrix.relations), cache={})
 
 
-def listed(matrix: Matrix, values: bool = True) -> list[str]:
+def listed(matrix: Matrix, say: Teller, values: bool = True) -> list[str]:
     """Lines that describe the element matrices and the relations, with their first values."""
-    lines = [f"RIGIDITE, {matrix.kind}: {len(matrix.blocks)} blocks of element matrices"]
+    lines = [say("kernel.matrices.listed", kind=matrix.kind, count=len(matrix.blocks))]
     for block in matrix.blocks:
-        shape = "symmetric" if block.symmetric else "unsymmetric"
-        names = " ".join(dict.fromkeys(block.unknowns))
         lines.append(
-            f"  {len(block.values)} matrices of {len(block.unknowns)} unknowns ({names}), {shape}"
+            say(
+                "kernel.matrices.listed-block",
+                count=len(block.values),
+                size=len(block.unknowns),
+                names=list(dict.fromkeys(block.unknowns)),
+                symmetric=block.symmetric,
+            )
         )
         if values:
-            lines += [_shown(block, i) for i in range(min(len(block.values), 3))]
+            lines += [_shown(block, i, say) for i in range(min(len(block.values), 3))]
     if matrix.relations:
         rows = constraint_matrix(matrix)
         signs = {0: "=", 1: ">=", -1: "<="}
         numbering = numbering_of(matrix)
-        lines.append(f"  {len(rows.multipliers)} conditions")
+        lines.append(say("kernel.matrices.listed-conditions", count=len(rows.multipliers)))
         for i, node in enumerate(rows.multipliers[: 20 if values else 0]):
             row = rows.C[[i]]
+            labels = [numbering.label(int(j)) for j in row.indices[:12]]
             terms = " ".join(
-                f"{v:+.6g} {numbering.label(int(j))}"
-                for j, v in zip(row.indices[:12], row.data[:12], strict=True)
+                f"{v:+.6g} {say(label.code, **label.data)}"
+                for label, v in zip(labels, row.data[:12], strict=True)
             )
             more = " ..." if row.nnz > 12 else ""
-            lines.append(f"    {terms}{more} {signs[int(rows.sense[i])]} d, multiplier {node + 1}")
+            multiplier = say("kernel.matrices.listed-multiplier", node=node + 1)
+            lines.append(f"    {terms}{more} {signs[int(rows.sense[i])]} d, {multiplier}")
     return lines
 
 
-def _shown(block: ElementMatrices, i: int) -> str:
-    nodes = " ".join(str(n + 1) for n in block.nodes[i])
-    rows = ["    nodes " + nodes]
+def _shown(block: ElementMatrices, i: int, say: Teller) -> str:
+    rows = [say("kernel.matrices.listed-nodes", nodes=[int(n) + 1 for n in block.nodes[i]])]
     if block.values.shape[1] <= 12:
         rows += ["      " + " ".join(f"{v:12.5E}" for v in row) for row in block.values[i]]
     return "\n".join(rows)

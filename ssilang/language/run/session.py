@@ -18,6 +18,7 @@ from ssilang.language.run.scopes import PREDEFINED, Frame
 from ssilang.language.say.errors import ReaderLeft, SsiError
 from ssilang.language.text import tree
 from ssilang.language.text.source import Span
+from ssilang.messages.message import sentence
 
 
 @dataclass
@@ -134,6 +135,10 @@ class Session:
             self.out.write(text + "\n")
         except BrokenPipeError as closed:
             raise ReaderLeft from closed
+
+    def told(self, code: str, /, **data: object) -> str:
+        """A text of the catalogue in the language of the run."""
+        return sentence(code, data, self.language)
 
     def warn(self, code: str, span: Any = None, /, **data: object) -> None:
         """Report a warning: kept for the summary, shown by the renderer that listens."""

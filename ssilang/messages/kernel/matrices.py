@@ -193,4 +193,20 @@ MESSAGES: dict[str, Message] = {
         "un corps rigide par les distances demande {plane:?trois noeuds non alignés|quatre "
         "noeuds hors d'un même plan}",
     ),
+    # ---- what is printed
+    "listed": Message(
+        "RIGIDITE, {kind}: {count} {count:block|blocks} of element matrices",
+        "RIGIDITE, {kind} : {count} {count:bloc|blocs} de matrices élémentaires",
+    ),
+    "listed-block": Message(
+        "  {count} {count:matrix|matrices} of {size} {size:unknown|unknowns} ({names:words}), "
+        "{symmetric:?symmetric|unsymmetric}",
+        "  {count} {count:matrice|matrices} de {size} {size:inconnue|inconnues} ({names:words}), "
+        "{symmetric:?symétrique|non symétrique}",
+    ),
+    "listed-conditions": Message(
+        "  {count} {count:condition|conditions}", "  {count} {count:condition|conditions}"
+    ),
+    "listed-multiplier": Message("multiplier {node}", "multiplicateur {node}"),
+    "listed-nodes": Message("    nodes {nodes:words}", "    noeuds {nodes:words}"),
 }

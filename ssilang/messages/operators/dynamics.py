@@ -181,4 +181,8 @@ MESSAGES: dict[str, Message] = {
         "|dt <= T_c/30 = {wanted_dt:.3g} s garde l'énergie ; ou CONSERVATIF, un joint plus souple}",
         severity="warning",
     ),
+    "compiling": Message(
+        "compiling the time loop, once on this machine (5 to 40 s)",
+        "compilation de la boucle en temps, une fois sur cette machine (5 à 40 s)",
+    ),
 }

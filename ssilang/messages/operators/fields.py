@@ -301,4 +301,23 @@ MESSAGES: dict[str, Message] = {
         "the parameters and the fields they depend on stand on different cells",
         "les paramètres et les champs dont ils dépendent sont sur des éléments différents",
     ),
+    # ---- what is printed
+    "listed-field": Message(
+        "MCHAML {title:?{title}|(no type)}, {count} {count:zone|zones}",
+        "MCHAML {title:?{title}|(sans type)}, {count} {count:zone|zones}",
+    ),
+    "listed-cells": Message(
+        "  {number}: {count} {count:cell|cells} {cell_type}, at {support}",
+        "  {number} : {count} {count:maille|mailles} {cell_type}, support {support}",
+    ),
+    "listed-range": Message(
+        "     {name:<8} {low:12.5E} to {high:12.5E}", "     {name:<8} {low:12.5E} à {high:12.5E}"
+    ),
+    "listed-cloud": Message(
+        "Cloud of {count} {count:tuple|tuples} with {n_names} {n_names:component|components}",
+        "Nuage de {count} {count:n-uplet|n-uplets} à {n_names} {n_names:composante|composantes}",
+    ),
+    "listed-column": Message(
+        "  component {name}{kind:? of type {kind}}", "  composante {name}{kind:? de type {kind}}"
+    ),
 }

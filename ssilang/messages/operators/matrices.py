@@ -186,4 +186,10 @@ MESSAGES: dict[str, Message] = {
         "call BLOQ on this table first",
         "appelez d'abord BLOQ sur cette table",
     ),
+    # ---- what is printed
+    "super-element": Message(
+        "Super-element: {masters} master {masters:unknown|unknowns}, {inner} inside",
+        "Super-élément : {masters} {masters:inconnue maître|inconnues maîtres}, {inner} à "
+        "l'intérieur",
+    ),
 }

@@ -359,4 +359,35 @@ MESSAGES: dict[str, Message] = {
         "a mesh is not taken apart into {count} {count:part|parts}",
         "un maillage ne se partage pas en {count} {count:partie|parties}",
     ),
+    # ---- what is printed
+    "listed": Message(
+        "MAILLAGE: {n_cells} {n_cells:cell|cells}, {n_nodes} {n_nodes:node|nodes}, {n_types} "
+        "{n_types:type|types}, {n_sides} {n_sides:reference|references}",
+        "MAILLAGE : {n_cells} {n_cells:élément|éléments}, {n_nodes} {n_nodes:noeud|noeuds}, "
+        "{n_types} {n_types:type|types}, {n_sides} {n_sides:référence|références}",
+    ),
+    "listed-block": Message(
+        " {count} {count:cell|cells} {cell_type} of {n_nodes} {n_nodes:node|nodes}",
+        " {count} {count:élément|éléments} {cell_type} de {n_nodes} {n_nodes:noeud|noeuds}",
+    ),
+    "repeated-cells": Message(
+        "VERM: {count} {count:cell stands|cells stand} on the nodes of another one ({name})",
+        "VERM : {count} {count:élément est|éléments sont} sur les noeuds d'un autre ({name})",
+    ),
+    "unmatched-middles": Message(
+        "VERM: {count} {count:middle node stands|middle nodes stand} on edges of linear cells "
+        "({name})",
+        "VERM : {count} {count:noeud milieu est|noeuds milieux sont} sur des arêtes d'éléments "
+        "linéaires ({name})",
+    ),
+    "unfit-faces": Message(
+        "VERM: {count} {count:triangular face lies|triangular faces lie} on quadrangular ones "
+        "({name})",
+        "VERM : {count} {count:face triangulaire est|faces triangulaires sont} sur des faces "
+        "quadrangulaires ({name})",
+    ),
+    "doubles-left": Message(
+        "REGENERER: {count} {count:cell still has|cells still have} a double node",
+        "REGENERER : {count} {count:élément a|éléments ont} encore un noeud double",
+    ),
 }

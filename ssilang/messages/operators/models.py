@@ -278,4 +278,13 @@ MESSAGES: dict[str, Message] = {
         "no zone of the model has {words:words}",
         "aucune zone du modèle n'a {words:words}",
     ),
+    "listed-model": Message(
+        "MMODEL of {count} {count:zone|zones}", "MMODEL de {count} {count:zone|zones}"
+    ),
+    "listed-zone": Message(
+        "  {number}: {count} {count:cell|cells} {cell_type}, element {element}, {words:words}, "
+        "mode {mode}{constituent:?, constituent {constituent}}",
+        "  {number} : {count} {count:maille|mailles} {cell_type}, élément {element}, "
+        "{words:words}, mode {mode}{constituent:?, constituant {constituent}}",
+    ),
 }

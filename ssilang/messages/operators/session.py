@@ -107,4 +107,10 @@ MESSAGES: dict[str, Message] = {
         "{near:?did you mean {near}?|`ssilang help` lists what there is}",
         "{near:?vouliez-vous dire {near} ?|`ssilang help` dit ce qu'il y a}",
     ),
+    # ---- what is printed
+    "clocks": Message(
+        "elapsed {wall:.3f} s, processor {cpu:.3f} s",
+        "temps écoulé {wall:.3f} s, processeur {cpu:.3f} s",
+    ),
+    "time-left": Message("{seconds:.0f} s left", "reste {seconds:.0f} s"),
 }

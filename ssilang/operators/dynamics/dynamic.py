@@ -26,7 +26,7 @@ from ssilang.operators.dynamics.reports import (
     warn_supports,
 )
 from ssilang.operators.dynamics.scheme_entries import contact_options, scheme_of
-from ssilang.operators.session.progress import COMPILING, ProgressLine
+from ssilang.operators.session.progress import ProgressLine
 from ssilang.operators.statics.bodies import plastic_bodies
 from ssilang.operators.tables.entries import Entries
 
@@ -70,10 +70,10 @@ def zdyn(call: Call, table: Table) -> Table:
     warn_resolution(entries, problem)
     results = TableObserver(saved, nodes_asked(entries.get("MAILLAGE_SAUVE")))
     vtk, csv = vtk_observer(entries, times), csv_observer(entries, times)
-    line = ProgressLine("DYNAMIC")
+    line = ProgressLine("DYNAMIC", entries.call.session.told)
     observers = [o for o in (results, vtk, csv) if o is not None]
     if not is_compiled("dynamics"):
-        line.note(COMPILING)
+        line.note("operators.dynamics.compiling")
     try:
         history = _integrated(entries, problem, observers, line, bodies)
     finally:

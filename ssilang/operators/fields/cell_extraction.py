@@ -22,6 +22,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots, Mot
+from ssilang.messages.message import Teller
 from ssilang.operators.dispatch import EXTR, UNIONS, listing, union
 
 
@@ -194,14 +195,23 @@ if ("MCHAML", "MCHAML") not in UNIONS:
 
 
 @listing("MCHAML")
-def list_cells(field: Any, word: str) -> str:
+def list_cells(field: Any, short: bool, say: Teller) -> str:
     """Zones of a field in cells with the range of each component."""
-    lines = [f"MCHAML {field.title or '(no type)'}, {len(field.blocks)} zone(s)"]
+    lines = [say("operators.fields.listed-field", title=field.title, count=len(field.blocks))]
     for i, b in enumerate(field.blocks, start=1):
-        lines.append(f"  {i}: {len(b.cells)} cells {b.cells.cell_type}, at {b.support}")
+        lines.append(
+            say(
+                "operators.fields.listed-cells",
+                number=i,
+                count=len(b.cells),
+                cell_type=b.cells.cell_type,
+                support=b.support,
+            )
+        )
         for name, values in b.components.items():
             if values.dtype == object:
                 lines.append(f"     {name:<8} {type(values.flat[0]).__name__}")
             else:
-                lines.append(f"     {name:<8} {values.min():12.5E} to {values.max():12.5E}")
+                low, high = values.min(), values.max()
+                lines.append(say("operators.fields.listed-range", name=name, low=low, high=high))
     return "\n".join(lines)

@@ -24,6 +24,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots, register_type, type_of
+from ssilang.messages.message import Teller
 from ssilang.operators.dispatch import DIME, EXTR, REDU, listing
 
 register_type(Cloud, "NUAGE")
@@ -223,11 +224,11 @@ def reduce(call: Call, cloud: Cloud, names: tuple[str, ...]) -> Cloud:
 
 
 @listing("NUAGE")
-def _list(cloud: Cloud, mode: str) -> str:
-    lines = [f"Nuage de {len(cloud)} n-uplet(s) à {len(cloud.columns)} composante(s)"]
+def _list(cloud: Cloud, short: bool, say: Teller) -> str:
+    lines = [say("operators.fields.listed-cloud", count=len(cloud), n_names=len(cloud.columns))]
     for name, held in cloud.columns.items():
         kind = type_of(held[0]) if held else ""
-        lines.append(f"  composante {name} de type {kind}")
-        if not mode and kind in ("FLOTTANT", "ENTIER"):
+        lines.append(say("operators.fields.listed-column", name=name, kind=kind))
+        if not short and kind in ("FLOTTANT", "ENTIER"):
             lines.append("   " + " ".join(f"{v:.5E}" for v in cloud.numbers(name)))
     return "\n".join(lines)

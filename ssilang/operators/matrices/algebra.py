@@ -31,6 +31,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots
+from ssilang.messages.message import Teller
 from ssilang.operators.dispatch import CHAN, DIME, EXTR, REDU, listing, union
 from ssilang.operators.numbers.arithmetic import rule
 
@@ -374,8 +375,8 @@ def _name_changes(
 
 
 @listing("RIGIDITE")
-def _listed(matrix: Matrix, detail: str) -> str:
-    return "\n".join(parts.listed(matrix, not detail))
+def _listed(matrix: Matrix, short: bool, say: Teller) -> str:
+    return "\n".join(parts.listed(matrix, say, not short))
 
 
 # --- quadratic forms -------------------------------------------------------------------------

@@ -21,6 +21,7 @@ from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.language.registry import Help, arg, by, choice, flag, main, opt, said, shared
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, register_type
+from ssilang.messages.message import Teller
 from ssilang.operators.dispatch import EXTR, listing
 
 register_type(SuperElement, "SUPERELE")
@@ -178,6 +179,7 @@ def extract(call: Call, element: SuperElement, what: str | None) -> Matrix | Mes
 
 
 @listing("SUPERELE")
-def _listed(element: SuperElement, detail: str) -> str:
-    inner = element.numbering.size - len(element.masters)
-    return f"Super-element: {len(element.masters)} master unknowns, {inner} inside"
+def _listed(element: SuperElement, short: bool, say: Teller) -> str:
+    masters = len(element.masters)
+    inner = element.numbering.size - masters
+    return say("operators.matrices.super-element", masters=masters, inner=inner)

@@ -25,6 +25,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots, Table
+from ssilang.messages.message import Teller
 from ssilang.operators.dispatch import CHAN, ENLE, EXTR, listing
 
 _EXAMPLE = (
@@ -188,13 +189,20 @@ def extr_model(call: Call, model: Model, what: Chosen) -> Mesh | Table | Model |
 
 
 @listing("MMODEL")
-def list_model(model: Any, word: str) -> str:
+def list_model(model: Any, short: bool, say: Teller) -> str:
     """Zones of a model, one a line."""
-    lines = [f"MMODEL with {len(model.zones)} zone(s)"]
+    lines = [say("operators.models.listed-model", count=len(model.zones))]
     for i, z in enumerate(model.zones, start=1):
-        words = " ".join((z.formulation, *z.behaviour))
         lines.append(
-            f"  {i}: {len(z.cells)} cells {z.cells.cell_type}, element {z.element}, {words}, "
-            f"mode {z.mode.value}" + (f", constituent {z.constituent}" if z.constituent else "")
+            say(
+                "operators.models.listed-zone",
+                number=i,
+                count=len(z.cells),
+                cell_type=z.cells.cell_type,
+                element=z.element,
+                words=[z.formulation, *z.behaviour],
+                mode=z.mode.value,
+                constituent=z.constituent,
+            )
         )
     return "\n".join(lines)

@@ -98,7 +98,7 @@ def _garbage(session: Session) -> tuple[int, int]:
 )
 def _print_clocks(session: Session, what: str | None, rest: tuple[Any, ...]) -> None:
     wall, cpu = _read_clocks(session)[0]
-    session.print(f" elapsed {wall:.3f} s, processor {cpu:.3f} s")
+    session.print(" " + session.told("operators.session.clocks", wall=wall, cpu=cpu))
 
 
 @operator(

@@ -6,7 +6,8 @@ import sys
 import time
 from typing import TextIO
 
-COMPILING = "compiling the time loop, once on this machine (5 to 40 s)"
+from ssilang.messages.message import Teller
+
 PATIENCE = 2.0  # seconds before anything shows
 REFRESH = 0.2
 WIDTH = 30
@@ -15,8 +16,9 @@ WIDTH = 30
 class ProgressLine:
     """Shows steps done and the time left; silent when `stream` is not a terminal."""
 
-    def __init__(self, title: str, stream: TextIO | None = None) -> None:
+    def __init__(self, title: str, told: Teller, stream: TextIO | None = None) -> None:
         self.title = title
+        self._told = told
         self.stream = stream or sys.stderr
         self._started = self._shown = time.monotonic()
         self._visible = False
@@ -35,16 +37,17 @@ class ProgressLine:
         share = done / total if total else 1.0
         left = ""
         if done > before:
-            left = f", {(now - since) * (total - done) / (done - before):.0f} s left"
+            seconds = (now - since) * (total - done) / (done - before)
+            left = ", " + self._told("operators.session.time-left", seconds=seconds)
         bar = ("#" * round(share * WIDTH)).ljust(WIDTH, ".")
         self.stream.write(f"\r{self.title} [{bar}] {done}/{total}{left}".ljust(80))
         self._visible = True
         self.stream.flush()
 
-    def note(self, text: str) -> None:
+    def note(self, code: str) -> None:
         """Say at once, on the line, what takes time before the first step."""
         if self.stream.isatty():
-            self.stream.write(f"\r{self.title}: {text} ")
+            self.stream.write(f"\r{self.title}: {self._told(code)} ")
             self._visible = True
             self.stream.flush()
 

@@ -50,7 +50,7 @@ def zfre(call: Call, table: Table) -> None:
     for word, results in tables.items():
         entries.table.set(Mot(word), results)
     entries.table.set(Mot("CONV"), False)
-    line = ProgressLine("PASAPAS")
+    line = ProgressLine("PASAPAS", entries.call.session.told)
     try:
         for number, found in enumerate(sweep(inputs, frequencies), 1):
             if number == 1:

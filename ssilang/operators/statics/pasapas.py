@@ -131,7 +131,7 @@ def _stretch(
         observers.append(SavedTable(entries.call, entries.table, times, kept.values))
     if work is not entries:
         observers.append(Steering(entries.call, entries.table, work.table, results, len(times)))
-    line = ProgressLine("PASAPAS")
+    line = ProgressLine("PASAPAS", entries.call.session.told)
     try:
         (warn_resolution if dynamic else warn_contrast)(work, problem)
         if control_asked(work):

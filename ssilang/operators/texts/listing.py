@@ -27,6 +27,7 @@ from ssilang.language.values import (
     known_types,
     type_of,
 )
+from ssilang.messages.message import Teller
 from ssilang.operators.dispatch import LISTINGS, listing
 from ssilang.operators.fields.signs import nature_word
 from ssilang.operators.texts.fortran_format import formatted
@@ -46,61 +47,58 @@ def _rows(cells: list[str], per_line: int) -> list[str]:
 
 
 @listing("ENTIER")
-def _integer(value: int, mode: str) -> str:
-    return f"Entier valant : {value}"
+def _integer(value: int, short: bool, say: Teller) -> str:
+    return say("operators.texts.integer", value=value)
 
 
 @listing("FLOTTANT")
-def _real(value: float, mode: str) -> str:
-    return f"Réel valant : {formatted('(1PE22.14)', value)}"
+def _real(value: float, short: bool, say: Teller) -> str:
+    return say("operators.texts.real", value=formatted("(1PE22.14)", value))
 
 
 @listing("LOGIQUE")
-def _logical(value: bool, mode: str) -> str:
-    return f"Logique valant : {'VRAI' if value else 'FAUX'}"
+def _logical(value: bool, short: bool, say: Teller) -> str:
+    return say("operators.texts.logical", value="VRAI" if value else "FAUX")
 
 
 @listing("MOT")
-def _word(value: str, mode: str) -> str:
-    return f"Chaîne de {len(value)} caractères de contenu : {value}"
+def _word(value: str, short: bool, say: Teller) -> str:
+    return say("operators.texts.word", length=len(value), text=value)
 
 
 @listing("TEXTE")
-def _text(value: Texte, mode: str) -> str:
-    return "Texte de contenu : " + " ".join(i.span.text for i in value.items)
+def _text(value: Texte, short: bool, say: Teller) -> str:
+    return say("operators.texts.text", text=" ".join(i.span.text for i in value.items))
 
 
 @listing("LISTREEL")
-def _reals(value: ListReel, mode: str) -> str:
-    head = f"Liste de réels contenant {len(value)} réel(s)"
-    if mode:
-        return head
-    return "\n".join([head + " :", *_rows([f" {real(v)}" for v in value.values.tolist()], 10)])
+def _reals(value: ListReel, short: bool, say: Teller, per_line: int = 10) -> str:
+    rows = _rows([f" {real(v)}" for v in value.values.tolist()], per_line)
+    head = say("operators.texts.reals", count=len(value), full=not short)
+    return head if short else "\n".join([head, *rows])
 
 
 @listing("LISTENTI")
-def _integers(value: ListEnti, mode: str) -> str:
-    head = f"Liste d'entiers contenant {len(value)} entier(s)"
-    if mode:
-        return head
-    return "\n".join([head + " :", *_rows([f" {v:7d}" for v in value.values.tolist()], 20)])
+def _integers(value: ListEnti, short: bool, say: Teller, per_line: int = 20) -> str:
+    rows = _rows([f" {v:7d}" for v in value.values.tolist()], per_line)
+    head = say("operators.texts.integers", count=len(value), full=not short)
+    return head if short else "\n".join([head, *rows])
 
 
 @listing("LISTMOTS")
-def _words(value: ListMots, mode: str) -> str:
-    head = f"Liste de mots contenant {len(value)} mot(s)"
-    if mode:
-        return head
-    return "\n".join([head + " :", *_rows([f" {v.rstrip():<8s}" for v in value.values], 10)])
+def _words(value: ListMots, short: bool, say: Teller) -> str:
+    rows = _rows([f" {v.rstrip():<8s}" for v in value.values], 10)
+    head = say("operators.texts.words", count=len(value), full=not short)
+    return head if short else "\n".join([head, *rows])
 
 
 @listing("LISTCHPO", "LISTOBJE")
-def _objects(value: ListChpo | ListObje, mode: str) -> str:
-    kind = type_of(value.values[0]) if value.values else "objet"
-    return f"Liste contenant {len(value)} objet(s) de type {kind}"
+def _objects(value: ListChpo | ListObje, short: bool, say: Teller) -> str:
+    kind = type_of(value.values[0]) if value.values else ""
+    return say("operators.texts.objects", count=len(value), kind=kind)
 
 
-def brief(value: Any) -> str:
+def brief(value: Any, say: Teller) -> str:
     """A value in a few characters, for tables."""
     if isinstance(value, bool):
         return "VRAI" if value else "FAUX"
@@ -114,100 +112,120 @@ def brief(value: Any) -> str:
         return value.subtype
     if isinstance(value, Procedure):
         return value.name
-    return f"{len(value)} éléments" if hasattr(value, "__len__") else ""
+    return say("operators.texts.items", count=len(value)) if hasattr(value, "__len__") else ""
 
 
 @listing("TABLE")
-def _table(value: Table, mode: str) -> str:
-    lines = [f"Table de {len(value)} indice(s)"]
-    if mode:
+def _table(value: Table, short: bool, say: Teller) -> str:
+    lines = [say("operators.texts.table", count=len(value))]
+    if short:
         return lines[0]
-    lines.append("  indice : type et valeur        objet : type et valeur")
+    left, right = say("operators.texts.table-index"), say("operators.texts.table-object")
+    lines.append(f"  {left:<30s} {right}")
     for index, held in value.items():
-        left = f"{type_of(index):<8s} {brief(index)}"
-        lines.append(f"  {left:<30s} {type_of(held):<8s} {brief(held)}".rstrip())
+        left = f"{type_of(index):<8s} {brief(index, say)}"
+        lines.append(f"  {left:<30s} {type_of(held):<8s} {brief(held, say)}".rstrip())
     return "\n".join(lines)
 
 
 @listing("OBJET")
-def _object(value: Objet, mode: str) -> str:
-    lines = [f"Objet de classe {value.class_name}"]
+def _object(value: Objet, short: bool, say: Teller) -> str:
+    lines = [say("operators.texts.object", name=value.class_name)]
     for name, held in value.attributes.items():
-        lines.append(f"  élément {name:<24s} {type_of(held):<8s} {brief(held)}".rstrip())
-    lines += [f"  méthode {name}" for name in value.methods]
+        head = say("operators.texts.attribute", name=name)
+        lines.append(f"{head} {type_of(held):<8s} {brief(held, say)}".rstrip())
+    lines += [say("operators.texts.method", name=name) for name in value.methods]
     return "\n".join(lines)
 
 
 @listing("PROCEDUR")
-def _procedure(value: Procedure, mode: str) -> str:
-    text = value.definition.span.text
-    lines = text.split("\n")
-    head = f"Procédure {value.name} ({value.origin}), {len(lines)} ligne(s)"
-    if mode:
+def _procedure(value: Procedure, short: bool, say: Teller) -> str:
+    lines = value.definition.span.text.split("\n")
+    head = say("operators.texts.procedure", name=value.name, origin=value.origin, count=len(lines))
+    if short:
         return head
     return "\n".join([head, *(f"{i:5d}  {line}" for i, line in enumerate(lines, start=1))])
 
 
 @listing("EVOLUTIO")
-def _curves(value: Curve, mode: str) -> str:
-    lines = [f"Evolution de {len(value.parts)} courbe(s), titre : {value.title}".rstrip()]
+def _curves(value: Curve, short: bool, say: Teller) -> str:
+    lines = [say("operators.texts.curves", count=len(value.parts), title=value.title)]
     for i, part in enumerate(value.parts, start=1):
-        kind = part.kind or "REEL"
-        lines.append(f"  courbe {i} de type {kind}, couleur {COLOURS[part.colour]}, "
-                     f"{len(part.abscissas)} points, légende : {part.legend}".rstrip())  # fmt: skip
-        if mode:
-            continue
         lines.append(
-            f"  {part.abscissa_name or 'abscisse':>13s} {part.ordinate_name or 'ordonnée':>13s}"
+            say(
+                "operators.texts.curve",
+                number=i,
+                kind=part.kind or "REEL",
+                colour=COLOURS[part.colour],
+                count=len(part.abscissas),
+                legend=part.legend,
+            )
         )
+        if short:
+            continue
+        x = part.abscissa_name or say("operators.texts.abscissa")
+        y = part.ordinate_name or say("operators.texts.ordinate")
+        lines.append(f"  {x:>13s} {y:>13s}")
         ordinates = part.words or [f" {real(y)}" for y in part.ordinates.tolist()]
         abscissas = part.abscissa_words or [real(x) for x in part.abscissas.tolist()]
         pairs = zip(abscissas, ordinates, strict=True)
-        lines += _shortened([f"   {x} {y}" for x, y in pairs])
+        lines += _shortened([f"   {x} {y}" for x, y in pairs], say)
     return "\n".join(lines)
 
 
-def _shortened(rows: list[str]) -> list[str]:
+def _shortened(rows: list[str], say: Teller) -> list[str]:
     if len(rows) <= _ROWS:
         return rows
     half = _ROWS // 2
-    return [*rows[:half], f"   ... {len(rows) - _ROWS} lignes ...", *rows[-half:]]
+    left_out = say("operators.texts.lines-left-out", count=len(rows) - _ROWS)
+    return [*rows[:half], left_out, *rows[-half:]]
 
 
 @listing("CHPOINT")
-def _node_field(value: NodeField, mode: str) -> str:
+def _node_field(value: NodeField, short: bool, say: Teller) -> str:
     nodes = value.node_ids
     names = list(value.components)
-    head = f"Champ par points, {len(nodes)} noeuds, {len(names)} composante(s)"
-    lines = [f"{head}, nature {nature_word(value.nature)}"]
+    lines = [
+        say(
+            "operators.texts.node-field",
+            n_nodes=len(nodes),
+            n_names=len(names),
+            nature=nature_word(value.nature),
+        )
+    ]
     if value.title:
-        lines.append(f"  titre : {value.title}")
+        lines.append(say("operators.texts.title-line", title=value.title))
     for name in names:
         v = value.components[name].values
         if len(v):
-            lines.append(f"  {name:<8s} de {real(v.min())} à {real(v.max())}")
-    if mode or not len(nodes):
+            low, high = real(v.min()), real(v.max())
+            lines.append(say("operators.texts.extremes", name=name, low=low, high=high))
+    if short or not len(nodes):
         return "\n".join(lines)
-    lines.append("  noeud  " + "".join(f"{n:>14s}" for n in names))
+    lines.append(f"  {say('operators.texts.node'):<5s}  " + "".join(f"{n:>14s}" for n in names))
     columns = np.array([value.components[n].at(nodes, np.nan) for n in names])
     rows = []
     for k, node in enumerate(nodes.tolist()):
         cells = ["            ." if np.isnan(x) else f" {real(x)}" for x in columns[:, k]]
         rows.append(f"{node + 1:7d}  " + "".join(f"{c:>14s}" for c in cells))
-    return "\n".join([*lines, *_shortened(rows)])
+    return "\n".join([*lines, *_shortened(rows, say)])
 
 
 @listing("CHARGEME")
-def _load(value: Load, mode: str) -> str:
-    lines = [f"Chargement de {len(value.parts)} partie(s)"]
+def _load(value: Load, short: bool, say: Teller) -> str:
+    lines = [say("operators.texts.load", count=len(value.parts))]
     for part in value.parts:
         if part.steps:
-            what = f"{len(part.steps)} instants de {part.steps[0][0]:g} à {part.steps[-1][0]:g}"
+            first, last = part.steps[0][0], part.steps[-1][0]
+            what = say(
+                "operators.texts.load-of-steps", count=len(part.steps), first=first, last=last
+            )
         elif part.time is None:
-            what = f"{type_of(part.space)} constant"
+            what = say("operators.texts.constant-load", kind=type_of(part.space))
         else:
             x = part.time.parts[0].abscissas
-            what = f"{type_of(part.space)} fois une évolution de {x[0]:g} à {x[-1]:g}"
+            kind = type_of(part.space)
+            what = say("operators.texts.load-in-time", kind=kind, first=x[0], last=x[-1])
         lines.append(f"  '{part.name:<4s}' {what}")
     return "\n".join(lines)
 
@@ -215,39 +233,38 @@ def _load(value: Load, mode: str) -> str:
 # --- with numbers behind the object ----------------------------------------------------------
 
 
-def _procedure_lines(value: Procedure, first: int, last: int) -> str:
+def _procedure_lines(value: Procedure, first: int, last: int, say: Teller) -> str:
     lines = value.definition.span.text.split("\n")
     chosen = list(enumerate(lines, start=1))[max(first - 1, 0) : max(last, 0)]
-    return "\n".join([_procedure(value, "RESU"), *(f"{i:5d}  {line}" for i, line in chosen)])
+    return "\n".join([_procedure(value, True, say), *(f"{i:5d}  {line}" for i, line in chosen)])
 
 
-def _reals_by(value: ListReel, per_line: int, _: int) -> str:
-    rows = _rows([f" {real(v)}" for v in value.values.tolist()], per_line)
-    return "\n".join([_reals(value, "RESU") + " :", *rows])
+def _reals_by(value: ListReel, per_line: int, _: int, say: Teller) -> str:
+    return _reals(value, False, say, per_line)
 
 
-def _integers_by(value: ListEnti, per_line: int, _: int) -> str:
-    rows = _rows([f" {v:7d}" for v in value.values.tolist()], per_line)
-    return "\n".join([_integers(value, "RESU") + " :", *rows])
+def _integers_by(value: ListEnti, per_line: int, _: int, say: Teller) -> str:
+    return _integers(value, False, say, per_line)
 
 
-def _table_within(value: Table, depth: int, _: int) -> str:
-    return "\n".join(_nested(value, min(depth, _DEEPEST), (id(value),)))
+def _table_within(value: Table, depth: int, _: int, say: Teller) -> str:
+    return "\n".join(_nested(value, min(depth, _DEEPEST), (id(value),), say))
 
 
-def _nested(value: Table, depth: int, above: tuple[int, ...]) -> list[str]:
+def _nested(value: Table, depth: int, above: tuple[int, ...], say: Teller) -> list[str]:
     """The table, and below each table that it holds that table's lines, moved in."""
-    head, *rows = _table(value, "").split("\n")
+    head, *rows = _table(value, False, say).split("\n")
     lines = [head, *rows[:1]]
     for row, (_, held) in zip(rows[1:], value.items(), strict=True):
         lines.append(row)
         if depth > 0 and isinstance(held, Table) and id(held) not in above:
-            lines += ["    " + r for r in _nested(held, depth - 1, (*above, id(held)))]
+            inner = _nested(held, depth - 1, (*above, id(held)), say)
+            lines += ["    " + r for r in inner]
     return lines
 
 
 _DEEPEST = 10
-_NUMBERED: dict[str, Callable[[Any, int, int], str]] = {
+_NUMBERED: dict[str, Callable[[Any, int, int, Teller], str]] = {
     "PROCEDUR": _procedure_lines,
     "LISTREEL": _reals_by,
     "LISTENTI": _integers_by,
@@ -255,17 +272,17 @@ _NUMBERED: dict[str, Callable[[Any, int, int], str]] = {
 }
 
 
-def described(value: Any, mode: str = "", numbers: Sequence[int] = ()) -> str:
+def described(value: Any, say: Teller, short: bool = False, numbers: Sequence[int] = ()) -> str:
     """The lines that LIST prints of an object, `numbers` being those that stand behind it."""
     numbered = _NUMBERED.get(type_of(value))
     if numbers and numbered is not None and min(numbers) > 0:
-        return numbered(value, numbers[0], numbers[-1])
+        return numbered(value, numbers[0], numbers[-1], say)
     entry = LISTINGS.get(type_of(value))
     if entry is not None:
-        return entry(value, mode)
+        return entry(value, short, say)
     if value is ANNULE:
-        return "Objet non défini (ANNULE)"
-    return f"Objet de type {type_of(value)}"
+        return say("operators.texts.undefined")
+    return say("operators.texts.of-type", kind=type_of(value))
 
 
 def _all_names(session: Session, kind: str) -> str:
@@ -274,8 +291,8 @@ def _all_names(session: Session, kind: str) -> str:
     for name in sorted(frame.names()):
         value = frame.find(name)
         if not kind or type_of(value) == kind:
-            rows.append(f"  {name:<24s} {type_of(value):<8s} {brief(value)}".rstrip())
-    return "\n".join([f"{len(rows)} objet(s) nommé(s){' de type ' + kind if kind else ''}", *rows])
+            rows.append(f"  {name:<24s} {type_of(value):<8s} {brief(value, session.told)}".rstrip())
+    return "\n".join([session.told("operators.texts.named", count=len(rows), kind=kind), *rows])
 
 
 LIST = shared(
@@ -328,13 +345,13 @@ def _list_names(call: Call, star: bool, kind: str) -> None:
     ),
 )
 def _list_object(session: Session, brief: bool, value: Any, numbers: tuple[int, ...]) -> None:
-    session.print(described(value, "RESU" if brief else "", numbers))
+    session.print(described(value, session.told, brief, numbers))
 
 
 @LIST.form(lead("value", "*", "TEXTE", en="what is printed", fr="ce qui est imprimé"))
 def _list_word(session: Session, value: Any) -> None:
     """A word that is spelt like the keyword, alone."""
-    session.print(described(value))
+    session.print(described(value, session.told))
 
 
 @LIST.form()

@@ -10,7 +10,8 @@ from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SsiError
 from ssilang.language.values import ListEnti, ListMots, ListReel
-from ssilang.operators.texts.words import TEXT, TEXT_IS_FREE, read_text, written
+from ssilang.messages.message import Sentence
+from ssilang.operators.texts.words import TEXT, TEXT_IS_FREE, filling, read_text, written
 from ssilang.operators.workspace import workspace
 
 
@@ -38,22 +39,21 @@ _STOPPED = 308  # Cast3M's number of an error that a script reports in its own w
 
 def _of_library(call: Call, code: str, values: Sequence[Any]) -> SsiError:
     """What a procedure of the library refuses: a code, then what fills its sentence, in order."""
-    data = {str(i): written(value).strip() for i, value in enumerate(values, start=1)}
-    return SsiError(code, call.span, **data, number=_STOPPED)
+    return SsiError(code, call.span, **filling(values), number=_STOPPED)
 
 
-# what the numbers most used in decks mean, in words of our own: English, French
-_SENTENCES: dict[int, tuple[str, str]] = {
-    5: ("the deck found a result out of tolerance", "le jeu de données a trouvé un écart"),
-    6: ("not enough memory", "mémoire insuffisante"),
-    21: ("incompatible data", "données incompatibles"),
-    22: ("this operation is not foreseen", "opération non prévue"),
-    26: ("this task is not implemented", "tâche non implémentée"),
-    37: ("an object is missing", "il manque un objet"),
-    153: ("the calculation does not converge", "le calcul ne converge pas"),
-    251: ("an attempt at a forbidden operation", "tentative d'opération interdite"),
-    626: ("the object has not the right sub-type", "l'objet n'a pas le bon sous-type"),
+_NUMBERED = {
+    5: "operators.texts.out-of-tolerance",
+    6: "operators.texts.no-memory",
+    21: "operators.texts.incompatible-data",
+    22: "operators.texts.not-foreseen",
+    26: "operators.texts.not-implemented",
+    37: "operators.texts.missing-object",
+    153: "operators.texts.no-convergence",
+    251: "operators.texts.forbidden-operation",
+    626: "operators.texts.wrong-sub-type",
 }
+"""What the numbers most used in decks mean: codes of sentences in words of our own."""
 
 
 def _flat(values: Sequence[Any]) -> str:
@@ -98,15 +98,12 @@ ERRE = shared(
 def _numbered(call: Call, number: int, values: tuple[Any, ...]) -> None:
     if number == 0:
         return
-    french = call.session.language == "fr"
-    unknown = ("the deck stops", "le jeu de données s'arrête")
-    sentence = _SENTENCES.get(abs(number), unknown)
     said = _flat(values)
-    message = sentence[french] + (f": {said}" if said else "")
+    code = _NUMBERED.get(abs(number), "operators.texts.deck-stops")
     if number < 0:
-        call.session.print(f" ***** {-number} ***** {said or message}")
+        call.session.print(f" ***** {-number} ***** {said or call.session.told(code, said=said)}")
         return
-    raise SsiError("erre", call.span, message=message, number=number)
+    raise SsiError("erre", call.span, message=Sentence(code, said=said), number=number)
 
 
 @ERRE.form(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from ssilang.language.registry import Help, Like, arg, key, main, many, operator, opt, said
@@ -15,6 +16,7 @@ from ssilang.language.values import (
     known_types,
     type_of,
 )
+from ssilang.messages.message import find, places
 from ssilang.operators.dispatch import CHAN, DIME, EXTR, union
 from ssilang.operators.lists.progressions import check_length
 from ssilang.operators.texts.fortran_format import DEFAULT_FORMAT, formatted
@@ -94,7 +96,7 @@ def read_text(call: Call) -> str:
         operand = call.read("MOT", "ENTIER", "FLOTTANT", "LOGIQUE")
         if operand is None:
             break
-        item = written(operand.value, form)
+        item = _of_library(call, operand.value) or written(operand.value, form)
         tab = _tab(call)
         blanks = 0 if tab is None else _place(*tab, len(text), len(item))
         check_length(len(text) + blanks + len(item))
@@ -104,6 +106,29 @@ def read_text(call: Call) -> str:
         call.used.append(wrong)
         raise call.missing(("MOT", "ENTIER", "FLOTTANT", "LOGIQUE"))
     return text
+
+
+def _of_library(call: Call, value: object) -> str:
+    """A text of the library's procedures, told in the language of the run; '' for other words.
+
+    The word is its code; as many operands as the text has places for follow and fill it.
+    """
+    if not isinstance(value, str) or not value.startswith("stdlib."):
+        return ""
+    code = value.rstrip()
+    try:
+        count = places(find(code).en)
+    except LookupError:
+        return ""
+    given = [call.required("MOT", "ENTIER", "FLOTTANT", "LOGIQUE") for _ in range(count)]
+    return call.session.told(code, **filling(given))
+
+
+def filling(values: Sequence[Any]) -> dict[str, object]:
+    """What fills a text of the library: its operands by their number, from 1 on."""
+    return {
+        str(i): v if type(v) is int else written(v).strip() for i, v in enumerate(values, start=1)
+    }
 
 
 @operator(

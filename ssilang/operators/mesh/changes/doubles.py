@@ -82,7 +82,7 @@ def rege(session: Session, mesh: Mesh, check: bool) -> Mesh:
     made = regenerate(mesh)
     left = repeated_nodes(made) if check else 0
     if left:
-        session.print(f"REGENERER : {left} element(s) ont encore un noeud double")
+        session.print(session.told("operators.mesh.doubles-left", count=left))
     return made
 
 

@@ -8,9 +8,9 @@ from ssilang.language.registry import Help, arg, operator
 from ssilang.language.run.session import Session
 
 _CHECKS = (
-    ("MESH", repeated_cells, "cells stand on the nodes of another one"),
-    ("NODE", unmatched_middles, "middle nodes stand on edges of linear cells"),
-    ("MESH", unfit_faces, "triangular faces lie on quadrangular ones"),
+    ("MESH", repeated_cells, "operators.mesh.repeated-cells"),
+    ("NODE", unmatched_middles, "operators.mesh.unmatched-middles"),
+    ("MESH", unfit_faces, "operators.mesh.unfit-faces"),
 )
 
 
@@ -34,10 +34,10 @@ _CHECKS = (
 def verm(session: Session, mesh: Mesh) -> None:
     """Check a mesh."""
     count = {"MESH": 0, "NODE": 0}
-    for kind, check, said in _CHECKS:
+    for kind, check, code in _CHECKS:
         found = check(mesh)
         if found.n_cells:
             count[kind] += 1
             name = f"{kind}{count[kind]}"
             session.frame.assign(name, found)
-            session.print(f" VERM: {found.n_cells} {said} ({name})")
+            session.print(" " + session.told(code, count=found.n_cells, name=name))

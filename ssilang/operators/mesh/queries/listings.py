@@ -4,26 +4,39 @@ from __future__ import annotations
 
 from ssilang.io.plots.palette import NAMES as COLOURS
 from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.messages.message import Teller
 from ssilang.operators.dispatch import listing
 
 
 @listing("POINT")
-def list_point(point: Point, form: str) -> str:
+def list_point(point: Point, short: bool, say: Teller) -> str:
     """What LIST prints of a point."""
     x, y, z = point.coordinates
     return f"POINT {point.node + 1} : X={x:.5E} Y={y:.5E} Z={z:.5E} DENS={point.density:.5E}"
 
 
 @listing("MAILLAGE")
-def list_mesh(mesh: Mesh, form: str) -> str:
+def list_mesh(mesh: Mesh, short: bool, say: Teller) -> str:
     """What LIST prints of a mesh: a line a cell, or with 'RESU' a line a cell type."""
     lines = [
-        f"MAILLAGE : {mesh.n_cells} element(s), {len(mesh.node_ids)} noeud(s), "
-        f"{len(mesh.blocks)} type(s), {len(mesh.sides)} reference(s)"
+        say(
+            "operators.mesh.listed",
+            n_cells=mesh.n_cells,
+            n_nodes=len(mesh.node_ids),
+            n_types=len(mesh.blocks),
+            n_sides=len(mesh.sides),
+        )
     ]
     for block in mesh.blocks:
-        lines.append(f" {len(block)} element(s) {block.cell_type} de {block.kind.n_nodes} noeud(s)")
-        if form:
+        lines.append(
+            say(
+                "operators.mesh.listed-block",
+                count=len(block),
+                cell_type=block.cell_type,
+                n_nodes=block.kind.n_nodes,
+            )
+        )
+        if short:
             continue
         rows = zip(block.colours.tolist(), (block.connectivity + 1).tolist(), strict=True)
         for k, (colour, row) in enumerate(rows, 1):
