@@ -43,15 +43,14 @@ settled = frame.peer_model
 
 def sparse_seconds(steps: int, folder: Path) -> float:
     """Seconds of the loop on sparse matrices."""
-    from ssilang.kernel.stepping import choose as engines
-    from ssilang.kernel.stepping import run as integrate
+    from ssilang.kernel.stepping import choose
 
-    kept = integrate.kind_of
-    integrate.kind_of = lambda problem, full: engines.SparseEngine
+    kept = choose.RULES
+    choose.RULES = choose.only("condensed")
     try:
         return frame.ours(steps, steps, folder)[1]
     finally:
-        integrate.kind_of = kept
+        choose.RULES = kept
 
 
 def main(steps: int = 5000) -> None:

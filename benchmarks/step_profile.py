@@ -22,6 +22,7 @@ from ssilang.kernel.stepping.effective import effective_matrix, effective_of
 from ssilang.kernel.stepping.problem.problem import make_problem
 from ssilang.kernel.stepping.rests.sparse.interleaved import InterleavedLoop
 from ssilang.kernel.stepping.run import Integration
+from ssilang.kernel.stepping.state import recorder_of
 
 STEPS = 64
 
@@ -55,11 +56,10 @@ def profile(unknowns: int) -> None:
     factor = effective.inverse.factor
     assert isinstance(factor, DissectedFactor)
     values, b = factor.panels.values, np.ones(len(factor.tree.order))
-    factors, save = problem.loading.at(problem.times), np.full(STEPS, -1)
-    energies = np.zeros((STEPS, 6))
-    saved = loop.motion  # no step is saved
+    factors = problem.loading.at(problem.times)
+    recorder = recorder_of(loop.motion, np.full(STEPS, -1), np.zeros((STEPS, 6)))
     turns = max(3, 100_000 // unknowns)
-    step = best(lambda: loop.march(factors, save, saved, energies), turns) / STEPS  # type: ignore[arg-type]
+    step = best(lambda: loop.run(factors, recorder), turns) / STEPS
     pair = best(lambda: factor.solve(b), 20 * turns)
     reading = best(lambda: total(values), 20)
     print(

@@ -36,6 +36,7 @@ from ssilang.operators.loader import load_operators
 
 _HERE = Path(__file__).resolve().parent
 _LINES_SHOWN = 40
+WITHOUT_EXAMPLE = "without an example:"
 _SIGNS = {
     "+": "sign_plus", "-": "sign_minus", "*": "sign_times", "/": "sign_divide", "**": "sign_power",
     "<": "sign_less", ">": "sign_greater", "<EG": "sign_less_equal", ">EG": "sign_greater_equal",
@@ -132,8 +133,14 @@ def index_markdown(pages: Iterable[Page]) -> str:
 
 
 def partly_built() -> dict[str, str]:
-    """Operators whose notice has forms that are not built, with these forms (`partly.txt`)."""
+    """Operators of which something is not built or not tried, with what it is (`partly.txt`)."""
     return _remarks("partly.txt")
+
+
+def untried(remark: str) -> list[str]:
+    """Forms ('2') and words of forms ('2 MAXI') that a remark says no example runs."""
+    listed = remark.partition(WITHOUT_EXAMPLE)[2]
+    return [part.strip() for part in listed.split(",") if part.strip()]
 
 
 def not_built() -> dict[str, str]:
@@ -170,7 +177,9 @@ def coverage_markdown() -> str:
     words = cast3m_words()
     lines = ["# What is built of Cast3M", "",
              "Names are those of Cast3M's public documentation. *built*: every form of the notice "
-             "that belongs to mechanics; *partly*: the remark says what is missing; *not built*: "
+             "that belongs to mechanics, and of an operator each one runs in an example of its "
+             "page, with every word that chooses what is read; *partly*: the remark says what is "
+             "missing, or which forms, by their number, no example tries; *not built*: "
              "belongs here and does not exist (the remark says why); *out of scope*: another "
              "subject. `python docs/build.py` writes this table.", ""]  # fmt: skip
     for kind in ("operator", "procedure"):

@@ -20,7 +20,7 @@ def show_help(word: str, language: str, out: TextIO) -> int:
     if not word:
         show(overview(standard_procedures().values(), language), out)
         return OK
-    from ssilang.operators.word_pages import exact_pages, found_text, near_name
+    from ssilang.operators.vocabulary.pages import exact_pages, found_text, near_name
 
     hint = elsewhere(word, language)
     text = "\n\n".join(exact_pages(word, language)) or ("" if hint else found_text(word, language))

@@ -87,6 +87,9 @@ def _run_arguments(parser: argparse.ArgumentParser) -> None:
         "--allow", type=Path, action="append", default=[], help="further folder to read and write"
     )
     parser.add_argument("--lang", choices=("en", "fr"), default="en", help="language of messages")
+    parser.add_argument(
+        "-v", "--verbose", action="store_true", help="say by which method motions are calculated"
+    )
     parser.add_argument("--debug", action="store_true", help="show Python's traceback too")
     parser.add_argument("--max-recursion", type=int, default=200, help="procedure calls in depth")
     parser.add_argument("--max-statements", type=int, help="stop after so many statements")
@@ -183,6 +186,7 @@ def _run_options(options: argparse.Namespace) -> RunOptions:
         allowed=[p.resolve() for p in options.allow],
         language=options.lang,
         debug=options.debug,
+        verbose=options.verbose,
         limits=Limits(options.max_recursion, options.max_statements),
         given=_given(getattr(options, "set", []), options.lang),
     )

@@ -15,6 +15,7 @@ from typing import Any, TextIO
 from ssilang.cli.colour import coloured
 from ssilang.cli.loop_progress import follow_loops
 from ssilang.cli.signals import ENDED_BY_CLOSED_PIPE, take
+from ssilang.language.run.forms_ran import FormsRan
 from ssilang.language.run.jumps import StopRun
 from ssilang.language.run.session import Limits, Session
 from ssilang.language.say.diagnostics import render
@@ -60,10 +61,12 @@ class RunOptions:
     language: str = "en"
     debug: bool = False
     quiet: bool = False
+    verbose: bool = False  # say by which method each calculation is done
     summary: bool = False  # write summary.json into the output folder
     limits: Limits = field(default_factory=Limits)
     given: dict[str, Any] = field(default_factory=dict)  # name -> value, `--set`
     integrate: Any = None  # replaces the kernel's time integration, see `sweeping.gathering`
+    on_form: FormsRan | None = None  # collects the forms of operators that run
 
 
 def make_session(source: Source, options: RunOptions, out: TextIO) -> Session:
@@ -84,6 +87,7 @@ def make_session(source: Source, options: RunOptions, out: TextIO) -> Session:
             given={k: _as_object(v) for k, v in options.given.items()},
             integrate=options.integrate,
             was_interrupted=take,
+            on_form=options.on_form,
         )
     )
 
@@ -123,6 +127,8 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
     """Run a source to its end, print what went wrong, write the summary."""
     session = make_session(source, options, out)
     session.on_warning = lambda w: err.write(coloured(render(w, session.language), err) + "\n")
+    if options.verbose:
+        session.on_note = lambda text: err.write(text + "\n")
     follow_loops(session, err)
     errors: list[SsiError] = []
     take()  # an interruption before this run is none of its own

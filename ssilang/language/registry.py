@@ -377,8 +377,6 @@ class Form:
     """What is read besides it."""
     beside: frozenset[str] = field(init=False, repr=False, compare=False)
     """Its other keywords, four letters of each: they may stand before the word that says it."""
-    rest: tuple[Entry, ...] = field(init=False, repr=False, compare=False)
-    """Its entries but for the main operand."""
     plain: bool = field(init=False, repr=False, compare=False)
     """Whether it has operands alone, which are read one after the other."""
 

@@ -21,6 +21,27 @@ def test_debug_shows_the_traceback_too(ssilang, script):
     assert "Traceback" in ssilang("run", script("y = 1 / 0 ;\n"), "--debug").err
 
 
+MASS_ON_A_SPRING = """
+OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ;
+P = 0. 0. ; Q = -1. 0. ; L = DROI 1 Q P ;
+MO = MODE L 'MECANIQUE' 'ELASTIQUE' 'BARR' ;
+MA = MATE MO 'YOUN' 4. 'NU' 0. 'SECT' 1. 'RHO' 0. ;
+T1 = TABL ;
+T1 . 'RIGI' = (RIGI MO MA) ET (BLOQ 'UX' 'UY' Q) ET (BLOQ 'UY' P) ;
+T1 . 'MASS' = MASS 'DEPL' 1. P ;
+T1 . 'VITE' = MANU 'CHPO' P 1 'UX' 1. ;
+T1 . 'TEMPS_CALCULES' = PROG 0. 'PAS' 0.01 1. ;
+T2 = DYNAMIC T1 ;
+"""
+
+
+def test_verbose_runs_say_by_which_method_motions_are_calculated(ssilang, script):
+    deck = script(MASS_ON_A_SPRING)
+    assert "compiled" not in ssilang("run", deck).err
+    assert "DYNAMIC: compiled, one mode: linear while" in ssilang("run", deck, "-v").err
+    assert "DYNAMIC: compilé, un mode : linéaire" in ssilang("run", deck, "-v", "--lang", "fr").err
+
+
 def test_a_missing_file_is_wrong_usage(ssilang):
     done = ssilang("no_such_file.ssi")
     assert done.code == 2

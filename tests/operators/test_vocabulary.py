@@ -14,12 +14,12 @@ from ssilang.kernel.materials.model import Mode
 from ssilang.language import vocabulary
 from ssilang.language.vocabulary.examples import EXAMPLES, example
 from ssilang.language.vocabulary.terms import UNITS, Option, Quantity, Range
-from ssilang.operators import words
 from ssilang.operators.loader import load_operators
 from ssilang.operators.models.contact import METHODS
 from ssilang.operators.models.mode import LAW_WORDS
 from ssilang.operators.session.options import READERS
-from ssilang.operators.word_pages import exact_pages, help_text, near_name, vocabulary_text
+from ssilang.operators.vocabulary import words
+from ssilang.operators.vocabulary.pages import exact_pages, help_text, near_name, vocabulary_text
 
 load_operators()
 

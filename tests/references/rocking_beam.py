@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 
 from references.assembled import Bench
+from ssilang.kernel.stepping.newmark import Scheme
 from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
-from ssilang.kernel.stepping.scheme import Scheme
 
 COUNT = 14
 

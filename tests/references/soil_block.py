@@ -12,8 +12,8 @@ from ssilang.kernel.matrices.assembly import assemble, numbering_of, vector_to_f
 from ssilang.kernel.matrices.matrix import Matrix, Relations
 from ssilang.kernel.mesh.mesh import CellBlock
 from ssilang.kernel.mesh.nodes import NodeTable
+from ssilang.kernel.stepping.newmark import Scheme
 from ssilang.kernel.stepping.problem.problem import Inputs, Problem, make_problem
-from ssilang.kernel.stepping.scheme import Scheme
 
 FRICTION = {"KN": 2e8, "KS": 1e8, "FROT": 0.6}
 RAYLEIGH = (0.5, 2e-3)

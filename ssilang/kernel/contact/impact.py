@@ -18,7 +18,7 @@ from ssilang.kernel.contact.rows import BoolArray, ContactRows
 from ssilang.kernel.solvers.cholesky.inverse import invert
 from ssilang.kernel.stepping.effective import Effective
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.rests.dense.loop import Motion
+from ssilang.kernel.stepping.state import Motion
 
 CORRECTIONS = ("FAUX", "MASSE", "RIGIDITE")
 MASSLESS = 1e-10

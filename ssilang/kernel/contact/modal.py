@@ -1,26 +1,32 @@
-"""Small problems with unilateral relations, set up for `march_contact`."""
+"""Small problems with unilateral relations, set up for `run_contact`."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.contact.active_set import ActiveSet, active_set_of
 from ssilang.kernel.contact.impact import MASSLESS
 from ssilang.kernel.contact.modal_loop import (
-    ContactRowsKept,
-    Held,
-    Moving,
+    ROUNDING,
     Stops,
+    VelocityChange,
     factorise,
-    march_contact,
+    run_contact,
 )
 from ssilang.kernel.contact.rows import BoolArray, ContactRows
 from ssilang.kernel.stepping.effective import Effective
+from ssilang.kernel.stepping.newmark import newmark_of
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.dense.arrays import joints_of
-from ssilang.kernel.stepping.rests.dense.loop import Motion, Saved
-from ssilang.kernel.stepping.rests.dense.still_supports import reactions, supports_are_still
+from ssilang.kernel.stepping.rests.dense.still_supports import (
+    keep_reactions,
+    react,
+    supports_are_still,
+)
+from ssilang.kernel.stepping.rests.modal.diagonal import Diagonal
 from ssilang.kernel.stepping.rests.modal.modes import Modes, modes_of
+from ssilang.kernel.stepping.state import Motion, Outcome, Recorder, recorder_of
 
 MOST = 400
 """Motions that supports leave, up to which all modes are made and steps are compiled."""
@@ -53,30 +59,41 @@ def contact_loop(
     modes = modes_of(problem, effective)
     if modes is None or problem.contact is None:
         return None
-    stops = _stops(problem, problem.contact, modes, effective.dt)
-    m = len(problem.contact)
-    for A in (stops.W, stops.closing, stops.lasting):
+    stops = _stops(problem, problem.contact, modes, closed, effective.dt)
+    rows, m = _rows(stops), len(problem.contact)
+    for A in (rows.Q, stops.closing.on, stops.lasting.on):
         if len(A) and not factorise(A, np.arange(m), m, np.zeros((m, m))):
             return None
-    return ContactLoop(problem, motion, modes, stops, closed)
+    return ContactLoop(problem, motion, modes, stops, rows)
 
 
-def _stops(problem: Problem, contact: ContactRows, modes: Modes, dt: float) -> Stops:
-    options, s = problem.contact_options, problem.scheme
+def _rows(stops: Stops) -> ActiveSet:
+    """The relations by their flexibility, with the springs of a penalty."""
+    m = len(stops.G)
+    W = stops.G @ stops.G.T
+    if stops.stiffness:
+        W += np.eye(m) / stops.stiffness
+    return active_set_of(W, 1.0 / np.diag(W), ROUNDING)
+
+
+def _stops(
+    problem: Problem, contact: ContactRows, modes: Modes, closed: BoolArray, dt: float
+) -> Stops:
+    options, n = problem.contact_options, newmark_of(problem.scheme, dt)
     G = np.ascontiguousarray(contact.G @ modes.X)
     stiffness = float(options.coefficient or 0.0) if options.method == "PENALITE" else 0.0
-    own = G @ G.T
-    W = own + np.eye(len(G)) / stiffness if stiffness else own
-    none, nothing = np.zeros((modes.size, 0)), np.zeros((0, 0))
+    none = np.zeros((modes.size, 0))
     by_mass = np.ascontiguousarray(G.T / (modes.m + MASSLESS * 0.25 * dt**2)[:, None])
     by_step = np.ascontiguousarray(G.T)
     closing = {"MASSE": by_mass, "RIGIDITE": by_step}.get(options.correction, none)
     lasting = by_mass if options.persistent else none
+    nothing = np.zeros((0, 0))
     return Stops(
-        modes.m, modes.c, modes.k, G, W, modes.forces, np.ascontiguousarray(contact.imposed),
-        closing, G @ closing if closing.size else nothing,
-        lasting, G @ lasting if lasting.size else nothing,
-        np.array([s.alpha_m, s.alpha_f, s.beta, s.gamma]), dt, stiffness,
+        n, Diagonal(modes.m, modes.c, modes.k, np.ones(modes.size)), G, modes.forces,
+        np.ascontiguousarray(contact.imposed),
+        VelocityChange(closing, G @ closing if closing.size else nothing, -2.0),
+        VelocityChange(lasting, G @ lasting if lasting.size else nothing, -1.0), stiffness,
+        closed,
     )  # fmt: skip
 
 
@@ -84,42 +101,28 @@ class ContactLoop:
     """Steps of one dt."""
 
     def __init__(
-        self, problem: Problem, motion: Motion, modes: Modes, stops: Stops, closed: BoolArray
+        self, problem: Problem, motion: Motion, modes: Modes, stops: Stops, rows: ActiveSet
     ) -> None:
-        self.problem, self.motion, self.modes = problem, motion, modes
-        self.stops, self._closed = stops, closed
-        m = len(closed)
-        self._held = Held(
-            np.zeros(m, bool), np.zeros(m, bool), np.zeros((m, m)), np.zeros(m, np.int64),
-            np.zeros(m), np.zeros(m),
-        )  # fmt: skip
+        self.problem, self.motion, self.modes, self.stops = problem, motion, modes, stops
+        self._rows = rows
         self._seen: FloatArray | None = None  # displacement up to which z is known
         self._z = np.zeros((3, modes.size))
         self._joints = joints_of(problem)
 
-    def march(
-        self, factors: FloatArray, save: IntArray, saved: Saved, history: FloatArray
-    ) -> tuple[int, int, float]:
-        """As `compiled_loop.march`, on the whole problem's arrays."""
-        m, X, rows = self.motion, self.modes.X, len(saved.u)
+    def run(self, factors: FloatArray, recorder: Recorder) -> Outcome:
+        """Steps on the whole problem's arrays."""
+        m, X, r = self.motion, self.modes.X, recorder
         if self._seen is None or not np.array_equal(self._seen, m.u):
             self._z = self.modes.coordinates(np.stack([m.u, m.v, m.a], axis=1)).T.copy()
-        moving = Moving(self._z, m.contact, self._closed, m.energies)
-        kept = ContactRowsKept(np.zeros((rows, 3, self.modes.size)), saved.contact)
-        outcome = march_contact(self.stops, moving, self._held, factors, save, kept, history)
+        u, v, a = self._z
+        few = m._replace(u=u, v=v, a=a, reaction=np.zeros(0))
+        kept = recorder_of(few, r.row, r.energies, ("u", "v", "a", "contact"))
+        outcome = run_contact(self.stops, self._rows, few, factors, kept)
         m.u[:], m.v[:], m.a[:] = self._z @ X.T
         self._seen = m.u.copy()
-        for part, i in ((saved.u, 0), (saved.v, 1), (saved.a, 2)):
-            np.matmul(kept.z[:, i], X.T, out=part)
-        forces = self.problem.loading.forces.T
-        loads = factors[1:][save >= 0] @ forces
-        saved.reaction[:] = self._reactions(saved.u, saved.v, saved.a, loads)
-        last = factors[outcome[0]] @ forces
-        m.reaction[:] = self._reactions(m.u[None], m.v[None], m.a[None], last[None])[0]
+        for part, z in zip((r.u, r.v, r.a), (kept.u, kept.v, kept.a), strict=True):
+            np.matmul(z, X.T, out=part)
+        r.contact[:] = kept.contact
+        keep_reactions(self.problem, self._joints, factors, r)
+        react(self.problem, self._joints, m, factors[outcome[0]])
         return outcome
-
-    def _reactions(
-        self, u: FloatArray, v: FloatArray, a: FloatArray, loads: FloatArray
-    ) -> FloatArray:
-        nothing = np.zeros((len(u), 0, 1))
-        return reactions(self.problem, self._joints, u, v, a, nothing, loads)

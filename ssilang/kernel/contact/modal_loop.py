@@ -5,10 +5,8 @@ flexibility of the rows `W = G G^T` is theirs for all steps. A step asks for rea
 
     w = q + W p >= 0 ,   p >= 0 ,   w p = 0
 
-with the gaps q that it would end with without them. The set of rows that push starts from that of
-the step before: all wrong rows change at once, one at a time after some turns (Murty's rule). W is
-regular here, so the reactions are those of any other order. Velocities are corrected as `impact`
-says.
+with the gaps q that it would end with without them, by `active_set` (f = -p). W is regular here,
+so the reactions are those of any other order. Velocities are corrected as `impact` says.
 """
 
 from __future__ import annotations
@@ -19,61 +17,50 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.compiler import compiled_fast, compiled_fused
-from ssilang.kernel.stepping.rests.dense.loop import DAMPED, ELASTIC, EXTERNAL, KINETIC
+from ssilang.kernel.contact.active_set import ActiveSet, find_active
+from ssilang.kernel.interface.copies import copy_state
+from ssilang.kernel.stepping.newmark import Newmark
+from ssilang.kernel.stepping.rests.modal.diagonal import (
+    Diagonal,
+    account,
+    advance_range,
+    next_load,
+    predict,
+    sweep_of,
+)
+from ssilang.kernel.stepping.state import DAMPED, ELASTIC, EXTERNAL, KINETIC, Motion, Recorder
+from ssilang.kernel.stepping.verbs import keep
 
-ALL_AT_ONCE = 20  # turns that may change several rows; later ones change a single row
-ROUNDING = 1e-12  # of the largest reaction or gap
+ROUNDING = 1e-12  # of the largest gap, or of a pivot
+
+
+class VelocityChange(NamedTuple):
+    """How velocities of chosen rows change: motions `by` (r, m), what they do on the rows `on`.
+
+    No columns: they do not. The rows' velocities change by `factor` times themselves.
+    """
+
+    by: FloatArray
+    on: FloatArray
+    factor: float
 
 
 class Stops(NamedTuple):
-    """Diagonal matrices (r,), rows of the relations, loads, for one step length.
+    """Diagonals, rows of the relations, loads, for one step length.
 
-    `W` (m, m) is the flexibility, of a penalty's springs too (`stiffness` > 0); `by_closing` and
-    `by_lasting` (r, m) are the motions that change velocities of rows that close and that stay
-    closed, `closing` and `lasting` (m, m) what they do on the rows; none: no columns.
+    `closed` (m,) are the rows that pushed in the last step; `closing` and `lasting` change
+    velocities of rows that close and that stay closed; `stiffness` is that of a penalty, or zero.
     """
 
-    m: FloatArray
-    c: FloatArray
-    k: FloatArray
+    newmark: Newmark
+    diagonal: Diagonal
     G: FloatArray  # (m, r)
-    W: FloatArray
     forces: FloatArray  # (n_loads, r)
     imposed: FloatArray  # (m, n_loads)
-    by_closing: FloatArray
-    closing: FloatArray
-    by_lasting: FloatArray
-    lasting: FloatArray
-    scheme: FloatArray  # alpha_m, alpha_f, beta, gamma
-    dt: float
+    closing: VelocityChange
+    lasting: VelocityChange
     stiffness: float
-
-
-class Moving(NamedTuple):
-    """The state, changed in place."""
-
-    z: FloatArray  # (3, r) displacement, velocity, acceleration
-    p: FloatArray  # (m,)
-    closed: np.ndarray  # (m,) rows that pushed in the last step
-    energies: FloatArray
-
-
-class Held(NamedTuple):
-    """Rows that push, the factor of their flexibility, and room."""
-
-    active: np.ndarray  # (m,) bool
-    factored: np.ndarray  # (m,) bool: rows whose flexibility is in L
-    L: FloatArray  # (m, m)
-    rows: IntArray  # (m,) the active ones
-    x: FloatArray  # (m,)
-    w: FloatArray  # (m,)
-
-
-class ContactRowsKept(NamedTuple):
-    """Where the saved steps go, one row each."""
-
-    z: FloatArray  # (n_rows, 3, r)
-    p: FloatArray
+    closed: np.ndarray
 
 
 @compiled_fused
@@ -107,110 +94,45 @@ def solve(L: FloatArray, n: int, x: FloatArray) -> None:
 
 
 @compiled_fused
-def _pushes(W: FloatArray, q: FloatArray, held: Held, p: FloatArray) -> int:
-    """Reactions p of the active rows, gaps w of all; the number of active rows, < 0: singular."""
-    n, changed = 0, False
-    for i in range(len(q)):
-        if held.active[i]:
-            held.rows[n] = i
-            held.x[n] = -q[i]
-            n += 1
-        changed = changed or held.active[i] != held.factored[i]
-    if changed:
-        if not factorise(W, held.rows, n, held.L):
-            return -1
-        held.factored[:] = held.active
-    solve(held.L, n, held.x)
-    p[:] = 0.0
-    held.w[:] = q
-    for j in range(n):
-        row, push = held.rows[j], held.x[j]
-        p[row] = push
-        for i in range(len(q)):
-            held.w[i] += W[i, row] * push
-    return n
-
-
-@compiled_fused
-def react(W: FloatArray, q: FloatArray, held: Held, p: FloatArray) -> int:
-    """Reactions p (m,) for gaps q (m,); turns taken, <= 0 if there are none."""
-    m = len(q)
-    for turn in range(1, 51 + 20 * m):
-        if _pushes(W, q, held, p) < 0:
-            return -turn
-        size, push = 0.0, 0.0
-        for i in range(m):
-            size = max(size, abs(q[i]), abs(held.w[i]))
-            push = max(push, abs(p[i]))
-        first, wrong = -1, 0
-        for i in range(m):
-            pulls = held.active[i] and p[i] < -ROUNDING * push
-            crosses = not held.active[i] and held.w[i] < -ROUNDING * size
-            if not (pulls or crosses):
-                continue
-            wrong += 1
-            if turn <= ALL_AT_ONCE:
-                held.active[i] = not held.active[i]
-            elif first < 0 or (crosses and held.active[first]):
-                first = i
-        if first >= 0:
-            held.active[first] = not held.active[first]
-        if not wrong:
-            for i in range(m):
-                p[i] = max(p[i], 0.0)
-            return turn
-    return 0
-
-
-@compiled_fused
-def _turn_round(
-    G: FloatArray, by: FloatArray, H: FloatArray, chosen: np.ndarray, factor: float,
-    rate: FloatArray, v: FloatArray, held: Held,
-) -> None:  # fmt: skip
-    """Change velocities of the chosen rows by `factor` times themselves, relative to `rate`."""
-    n = 0
+def _change_velocity(
+    G: FloatArray, change: VelocityChange, chosen: np.ndarray, rate: FloatArray, v: FloatArray
+) -> None:
+    """Change velocities of the chosen rows, relative to `rate`."""
+    n, rows, x = 0, np.empty(len(chosen), np.int64), np.empty(len(chosen))
     for i in range(len(chosen)):
         if chosen[i]:
-            held.rows[n] = i
+            rows[n] = i
             total = -rate[i]
             for j in range(len(v)):
                 total += G[i, j] * v[j]
-            held.x[n] = factor * total
+            x[n] = change.factor * total
             n += 1
     if n == 0:
         return
     L = np.empty((n, n))
-    if not factorise(H, held.rows, n, L):
+    if not factorise(change.on, rows, n, L):
         v[:] = np.nan
         return
-    solve(L, n, held.x)
+    solve(L, n, x)
     for i in range(n):
-        row, part = held.rows[i], held.x[i]
+        row, part = rows[i], x[i]
         for j in range(len(v)):
-            v[j] += by[j, row] * part
+            v[j] += change.by[j, row] * part
 
 
 @compiled_fused
-def _impacts(stops: Stops, x: Moving, rate: FloatArray, held: Held) -> None:
+def _impacts(stops: Stops, x: Motion, rate: FloatArray) -> None:
     """Velocities of rows that close, and of those that stay closed; the new set of closed rows."""
-    m = len(x.p)
-    now, closing, lasting = x.p > 0.0, np.zeros(m, np.bool_), np.zeros(m, np.bool_)
+    m, closed = len(x.contact), stops.closed
+    now, closing, lasting = x.contact > 0.0, np.zeros(m, np.bool_), np.zeros(m, np.bool_)
     for i in range(m):
-        closing[i] = now[i] and not x.closed[i]
-        lasting[i] = now[i] and x.closed[i]
-    x.closed[:] = now
-    if stops.by_closing.shape[1]:
-        _turn_round(stops.G, stops.by_closing, stops.closing, closing, -2.0, rate, x.z[1], held)
-    if stops.by_lasting.shape[1]:
-        _turn_round(stops.G, stops.by_lasting, stops.lasting, lasting, -1.0, rate, x.z[1], held)
-
-
-@compiled_fast
-def _loads(forces: FloatArray, factors: FloatArray, load: FloatArray) -> None:
-    load[:] = 0.0
-    for c in range(len(factors)):
-        for i in range(len(load)):
-            load[i] += forces[c, i] * factors[c]
+        closing[i] = now[i] and not closed[i]
+        lasting[i] = now[i] and closed[i]
+    closed[:] = now
+    if stops.closing.by.shape[1]:
+        _change_velocity(stops.G, stops.closing, closing, rate, x.v)
+    if stops.lasting.by.shape[1]:
+        _change_velocity(stops.G, stops.lasting, lasting, rate, x.v)
 
 
 @compiled_fast
@@ -224,96 +146,69 @@ def _rows_of(G: FloatArray, z: FloatArray, out: FloatArray) -> None:
 
 
 @compiled_fast
-def _free(
-    stops: Stops, z: FloatArray, load0: FloatArray, load1: FloatArray, du: FloatArray
-) -> None:
-    """Increments of a step without reactions."""
-    am, af, beta, gamma = stops.scheme[0], stops.scheme[1], stops.scheme[2], stops.scheme[3]
-    mass_v, mass_a = (1 - am) / (beta * stops.dt), (1 - am) * (0.5 / beta - 1) - am
-    damping_v = (1 - af) * (1 - gamma / beta) + af
-    damping_a = (1 - af) * stops.dt * (1 - 0.5 * gamma / beta)
-    u, v, a = z[0], z[1], z[2]
+def _correct_energies(stops: Stops, x: Motion, v0: FloatArray, du: FloatArray) -> float:
+    """Kinetic and damped energies with the velocities that impacts changed; finite if they are."""
+    m, c = stops.diagonal.m, stops.diagonal.c
+    kinetic, damped, size = 0.0, 0.0, 0.0
     for i in range(len(du)):
-        r = stops.m[i] * (mass_v * v[i] + mass_a * a[i]) - stops.k[i] * u[i]
-        r -= stops.c[i] * (damping_v * v[i] + damping_a * a[i])
-        du[i] = r + (1 - af) * load1[i] + af * load0[i]
-
-
-@compiled_fast
-def _advance(stops: Stops, z: FloatArray, du: FloatArray) -> None:
-    beta, gamma, dt = stops.scheme[2], stops.scheme[3], stops.dt
-    rate, keep, drift = gamma / (beta * dt), 1 - gamma / beta, dt * (1 - 0.5 * gamma / beta)
-    bend, slow, late = 1 / (beta * dt**2), 1 / (beta * dt), 0.5 / beta - 1
-    u, v, a = z[0], z[1], z[2]
-    for i in range(len(du)):
-        v0, a0 = v[i], a[i]
-        u[i] += du[i]
-        v[i] = rate * du[i] + keep * v0 + drift * a0
-        a[i] = bend * du[i] - slow * v0 - late * a0
-
-
-@compiled_fast
-def _account(
-    stops: Stops, x: Moving, du: FloatArray, v0: FloatArray, load0: FloatArray, load1: FloatArray
-) -> float:
-    """Energies of a step; a number that is finite if the motion is."""
-    kinetic, elastic, damped, external, size = 0.0, 0.0, 0.0, 0.0, 0.0
-    u, v = x.z[0], x.z[1]
-    for i in range(len(du)):
-        kinetic += stops.m[i] * v[i] * v[i]
-        elastic += stops.k[i] * u[i] * u[i]
-        damped += stops.c[i] * du[i] * (v0[i] + v[i])
-        external += du[i] * (load0[i] + load1[i])
-        size += abs(u[i]) + abs(v[i])
-    x.energies[KINETIC], x.energies[ELASTIC] = 0.5 * kinetic, 0.5 * elastic
+        kinetic += m[i] * x.v[i] * x.v[i]
+        damped += c[i] * du[i] * (x.v[i] - v0[i])
+        size += abs(x.v[i])
+    x.energies[KINETIC] = 0.5 * kinetic
     x.energies[DAMPED] += 0.5 * damped
-    x.energies[EXTERNAL] += 0.5 * external
     return size
 
 
 @compiled_fast
-def march_contact(
-    stops: Stops, x: Moving, held: Held, factors: FloatArray, save: IntArray,
-    kept: ContactRowsKept, history: FloatArray,
-) -> tuple[int, int, float]:  # fmt: skip
-    """As `compiled_loop.march`."""
+def run_contact(
+    stops: Stops, rows: ActiveSet, x: Motion, factors: FloatArray, to: Recorder
+) -> tuple[int, int, float]:
+    """As `run_modal`, with relations in place of joints."""
+    n, diagonal = stops.newmark, stops.diagonal
     m, r = stops.G.shape
-    du, v0, load0, load1 = np.zeros(r), np.zeros(r), np.zeros(r), np.zeros(r)
-    gap, q, rise, rate, before = np.zeros(m), np.zeros(m), np.zeros(m), np.zeros(m), np.zeros(m)
-    worst = 0
-    _loads(stops.forces, factors[0], load1)
-    _rows_of(stops.G, x.z[0], gap)  # without what is imposed
-    for k in range(len(save)):
-        load0[:] = load1
-        _loads(stops.forces, factors[k + 1], load1)
-        _free(stops, x.z, load0, load1, du)
+    sweep = sweep_of(r)
+    v1, start = np.zeros(r), r - r  # not a literal: that is a type, and code, of its own
+    gap, rise, rate, before = np.zeros(m), np.zeros(m), np.zeros(m), np.zeros(m)
+    worst, corrected = 0, stops.closing.by.shape[1] + stops.lasting.by.shape[1] > 0
+    next_load(stops.forces, factors[0], sweep.load0, sweep.load1)
+    _rows_of(stops.G, x.u, gap)  # without what is imposed
+    for k in range(len(to.row)):
+        # predict: increments without reactions, and the gaps that they lead to
+        next_load(stops.forces, factors[k + 1], sweep.load0, sweep.load1)
+        predict(n, diagonal, x, sweep, 0.0, start, r)
         for i in range(m):
             shift, late = 0.0, 0.0
             for c in range(stops.imposed.shape[1]):
                 shift += stops.imposed[i, c] * factors[k + 1, c]
                 late += stops.imposed[i, c] * (factors[k + 1, c] - factors[k, c])
-            rise[i], rate[i], q[i] = late, late / stops.dt, gap[i] - shift
-        _rows_of(stops.G, du, q)
-        before[:], v0[:] = x.p, x.z[1]
-        turns = react(stops.W, q, held, x.p)
+            rise[i], rate[i], rows.free[i] = late, late / n.dt, gap[i] - shift
+        _rows_of(stops.G, sweep.du, rows.free)
+        # solve: the rows that push
+        copy_state(x.contact, before)
+        turns = find_active(rows)
         if turns <= 0:
-            return k, turns - 1, 1.0
+            return k, turns, 1.0
         worst = max(worst, turns)
         for i in range(m):
-            if x.p[i] > 0.0:
+            x.contact[i] = max(-rows.found[i], 0.0) if rows.closed[i] else 0.0
+            if x.contact[i] > 0.0:
                 for j in range(r):
-                    du[j] += stops.G[i, j] * x.p[i]
-        _advance(stops, x.z, du)
-        _rows_of(stops.G, du, gap)
-        _impacts(stops, x, rate, held)
-        size = _account(stops, x, du, v0, load0, load1)
+                    sweep.du[j] += stops.G[i, j] * x.contact[i]
+        # advance, correct the velocities, account
+        size = advance_range(n, diagonal, x, sweep, start, r)
+        account(x, sweep)
+        _rows_of(stops.G, sweep.du, gap)
+        copy_state(x.v, v1)
+        _impacts(stops, x, rate)
+        if corrected:
+            size += _correct_energies(stops, x, v1, sweep.du)
         if not np.isfinite(size):
             return k, -1, np.inf
         for i in range(m):
-            x.energies[EXTERNAL] += 0.5 * (before[i] + x.p[i]) * rise[i]
+            x.energies[EXTERNAL] += 0.5 * (before[i] + x.contact[i]) * rise[i]
             if stops.stiffness > 0.0:  # what is closed has the gap -p / stiffness
-                x.energies[ELASTIC] += 0.5 * x.p[i] ** 2 / stops.stiffness
-        history[k] = x.energies
-        if save[k] >= 0:
-            kept.z[save[k]], kept.p[save[k]] = x.z, x.p
-    return len(save), worst, 0.0
+                x.energies[ELASTIC] += 0.5 * x.contact[i] ** 2 / stops.stiffness
+        copy_state(x.energies, to.energies[k])
+        if to.row[k] >= 0:
+            keep(x, to, to.row[k])
+    return len(to.row), worst, 0.0

@@ -29,8 +29,8 @@ from ssilang.kernel.solvers.active_set.contact_methods import METHODS
 from ssilang.kernel.solvers.active_set.coulomb import CoulombProblem, solve_coulomb
 from ssilang.kernel.stepping.effective import Effective
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.rests.dense.loop import Motion
-from ssilang.kernel.stepping.rests.sparse.loop import StepOutcome
+from ssilang.kernel.stepping.rests.sparse.loop import CondensedSolver, StepOutcome, StepSolver
+from ssilang.kernel.stepping.state import Motion
 
 MOST_TURNS = 40
 TOLERANCE = 1e-12
@@ -176,3 +176,10 @@ def stopped_motions(contact: ContactRows, free: FloatArray) -> FloatArray:
     _, sizes, motions = np.linalg.svd(B, full_matrices=False)
     found: FloatArray = motions[sizes > UNSTOPPED * sizes.max(initial=0.0)].T
     return found
+
+
+def step_solver(problem: Problem, effective: Effective) -> StepSolver:
+    """The condensed interface, with active sets where there are unilateral relations."""
+    if problem.contact is not None:
+        return ContactSolver(problem, effective, problem.contact)
+    return CondensedSolver(problem, effective)

@@ -233,25 +233,19 @@ def _rows(master: Side, slave: Side, points: _Points, distance: float) -> Rows |
     if points.weight[:1].tolist() == [-1.0]:
         share = slave.sizes[points.cell] / slave.cells.shape[1]
         area = np.bincount(points.row, share)[rows].astype(np.float64)
-    return _gathered(master, slave, points, found, seen, row, weight, distance, area)
+    slave_points = _Points(points.cell[seen], points.shapes[seen], row, weight)
+    faced = Projection(found.cell[seen], found.shapes[seen], found.gap[seen])
+    return _gathered(master, slave, slave_points, faced, distance, area)
 
 
 def _gathered(
-    master: Side,
-    slave: Side,
-    points: _Points,
-    found: Projection,
-    seen: IntArray,
-    row: IntArray,
-    weight: FloatArray,
-    distance: float,
-    area: FloatArray,
+    master: Side, slave: Side, points: _Points, faced: Projection, distance: float, area: FloatArray
 ) -> Rows:
-    """Sums over the points of each row."""
-    normal = master.normals[found.cell[seen]]
-    own, other = slave.cells[points.cell[seen]], master.cells[found.cell[seen]]
+    """Sums over the points of each row, that all face the master."""
+    normal, row, weight = master.normals[faced.cell], points.row, points.weight
+    own, other = slave.cells[points.cell], master.cells[faced.cell]
     nodes = np.concatenate([own, other], axis=1)
-    shapes = np.concatenate([points.shapes[seen], -found.shapes[seen]], axis=1)
+    shapes = np.concatenate([points.shapes, -faced.shapes], axis=1)
     unique, place = np.unique(nodes, return_inverse=True)
     place = place.reshape(nodes.shape)
     n, d = int(row.max()) + 1, normal.shape[1]
@@ -267,8 +261,8 @@ def _gathered(
 
     middle = np.stack([mean(normal[:, i]) for i in range(d)], axis=1)
     slips = tuple(gathered(t[row]) for t in _across(middle))
-    x = np.einsum("nk,nkd->nd", points.shapes[seen], slave.corners[points.cell[seen]])
-    least = mean(distance - found.gap[seen])
+    x = np.einsum("nk,nkd->nd", points.shapes, slave.corners[points.cell])
+    least = mean(distance - faced.gap)
     return Rows(unique, gathered(normal), slips, least, area, mean(x[:, 0]))
 
 

@@ -92,7 +92,8 @@ class Numbering:
 
     def name(self, index: int) -> str:
         """Name of one unknown: 'UX'."""
-        return self.unknowns[self.codes[index]]
+        name: str = self.unknowns[self.codes[index]]
+        return name
 
     def label(self, index: int) -> Sentence:
         """'UX at node 12' (node counted from 1, as scripts see it)."""

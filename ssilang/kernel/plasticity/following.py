@@ -21,8 +21,8 @@ from ssilang.kernel.plasticity.run import BulkRun
 from ssilang.kernel.plasticity.snapshot import BulkSnapshot
 from ssilang.kernel.solvers.backends import factorise
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.rests.dense.loop import EXTERNAL, Motion
-from ssilang.kernel.stepping.state import snapshot_of
+from ssilang.kernel.stepping.snapshot import snapshot_of
+from ssilang.kernel.stepping.state import EXTERNAL, Motion
 
 SOFT = 1e7
 """Displacement under a unit of load over that of the first state, beyond which it is a collapse."""

@@ -12,9 +12,9 @@ from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.interface.response import Trial, new_trial
 from ssilang.kernel.plasticity.bulk import Answer, Bulk, State
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.rests.dense.loop import Motion
 from ssilang.kernel.stepping.rests.sparse.full_newton import FullNewtonSolver
 from ssilang.kernel.stepping.rests.sparse.loop import StepOutcome
+from ssilang.kernel.stepping.state import Motion
 
 TURNS = 30
 TOLERANCE = 1e-10

@@ -16,6 +16,7 @@ from ssilang.kernel.plasticity.bulk import Bulk, State
 from ssilang.kernel.plasticity.newton import BulkSolver
 from ssilang.kernel.plasticity.snapshot import NOTHING, hand_over
 from ssilang.kernel.stepping.effective import effective_matrix, effective_of
+from ssilang.kernel.stepping.newmark import newmark_of
 from ssilang.kernel.stepping.problem.initial import (
     admissible_velocity,
     closed_at_start,
@@ -23,7 +24,10 @@ from ssilang.kernel.stepping.problem.initial import (
     joint_state,
 )
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.rests.dense.loop import (
+from ssilang.kernel.stepping.rests.sparse.loop import SparseLoop, StepOutcome, support_work
+from ssilang.kernel.stepping.run import History, Progress
+from ssilang.kernel.stepping.snapshot import Observer
+from ssilang.kernel.stepping.state import (
     ELASTIC,
     EXTERNAL,
     LOST,
@@ -31,9 +35,6 @@ from ssilang.kernel.stepping.rests.dense.loop import (
     STORED,
     Motion,
 )
-from ssilang.kernel.stepping.rests.sparse.loop import SparseLoop, StepOutcome, support_work
-from ssilang.kernel.stepping.run import History, Progress
-from ssilang.kernel.stepping.snapshot import Observer
 
 HALVINGS = 7
 """How often a step that does not converge is cut in two."""
@@ -251,7 +252,7 @@ class _BulkLoop(SparseLoop):
 
     def __init__(self, run: BulkRun) -> None:
         super().__init__(run.problem, run.motion)
-        self.run = run
+        self.bulk_run = run
         self._solvers: list[tuple[float, BulkSolver, ImpactRule | None]] = []
         self._closed = closed_at_start(run.problem)
         self._begin()
@@ -262,7 +263,7 @@ class _BulkLoop(SparseLoop):
                 return solver, impact
         share = 1 - self.problem.scheme.alpha_f
         A = effective_matrix(self.problem, dt)
-        solver = BulkSolver(self.problem, A, share, self.run.bulk, self.run.state)
+        solver = BulkSolver(self.problem, A, share, self.bulk_run.bulk, self.bulk_run.state)
         impact = None
         if self.problem.contact is not None:
             effective = effective_of(self.problem, A, dt, share)
@@ -272,12 +273,13 @@ class _BulkLoop(SparseLoop):
 
     def step(self, start: float, end: float, factors: FloatArray) -> StepOutcome:
         """One step of time."""
-        p, m, run, dt = self.problem, self.motion, self.run, end - start
+        p, m, run, dt = self.problem, self.motion, self.bulk_run, end - start
         solver, impact = self._solver(dt)
         solver.state, solver.time = run.state, end
         solver.force = old = run.bulk.force(run.state)
         load0, load1 = factors @ p.loading.forces.T
-        r = self._right_side(load0 - old, load1 - old, dt)
+        n = newmark_of(p.scheme, dt)
+        r = self._predict(n, load0 - old, load1 - old)
         dd = p.loading.imposed @ factors[1] - p.constraints.C @ m.u
         pushed = m.contact.copy()
         outcome = solver.solve(m, r, dd, self._gap(factors[1]))
@@ -286,11 +288,12 @@ class _BulkLoop(SparseLoop):
         stored, driven = run.bulk.stored(run.state), run.bulk.pushed(run.state)
         run.state = solver.state
         driven = driven + run.bulk.pushed(run.state)
-        self._advance(outcome.du, dt)
+        self._advance(n, outcome.du)
         if impact is not None and p.contact is not None:
             impact.correct(m, p.contact.imposed @ (factors[1] - factors[0]) / dt)
         # the bodies' forces are no loads: their part in the work of the loads is taken back
-        self._account(outcome.du, dd, load0 - old, load1 - solver.force, pushed, factors)
+        loads = np.stack([load0 - old, load1 - solver.force])
+        self._account(outcome.du, dd, loads, pushed, factors)
         if p.contact is not None:
             run.lost += p.contact.rubbed(0.5 * (pushed + m.contact), outcome.du)
         m.energies[EXTERNAL] += 0.5 * outcome.du @ (old + solver.force + driven)

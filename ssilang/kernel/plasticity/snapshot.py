@@ -9,9 +9,8 @@ import numpy as np
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.plasticity.bulk import Bulk, State
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.rests.dense.loop import Motion
-from ssilang.kernel.stepping.snapshot import Observer, Snapshot
-from ssilang.kernel.stepping.state import snapshot_of
+from ssilang.kernel.stepping.snapshot import Observer, Snapshot, snapshot_of
+from ssilang.kernel.stepping.state import Motion
 
 NOTHING = np.zeros(0)
 

@@ -9,18 +9,17 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import ConvergenceError
+from ssilang.kernel.contact.solver import step_solver
 from ssilang.kernel.interface.response import interface_energies
 from ssilang.kernel.solvers.cholesky.inverse import Inverse
 from ssilang.kernel.statics.linear_motion import singular
 from ssilang.kernel.stepping.effective import effective_of
 from ssilang.kernel.stepping.problem.initial import initial_energies, joint_state
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.rests.dense.loop import ELASTIC, EXTERNAL, LOST, N_ENERGIES, STORED
 from ssilang.kernel.stepping.rests.sparse.loop import NOTHING, StepOutcome, StepSolver, support_work
 from ssilang.kernel.stepping.run import History, Progress
-from ssilang.kernel.stepping.snapshot import Observer
-from ssilang.kernel.stepping.state import Motion, snapshot_of
-from ssilang.kernel.stepping.step_solvers import step_solver
+from ssilang.kernel.stepping.snapshot import Observer, snapshot_of
+from ssilang.kernel.stepping.state import ELASTIC, EXTERNAL, LOST, N_ENERGIES, STORED, Motion
 
 BALANCED = 1e-13
 """Imbalance over the loads taken for rounding."""

@@ -1,244 +1,344 @@
-"""The loops that run steps of one length, behind one interface; which one a problem gets."""
+"""Which loop a problem gets: a table of rules, the first that fits is taken.
+
+`python -m ssilang.kernel.stepping.choose` prints the table. What a loop needs besides (the step's
+system, the modes) is made once, when a rule asks for it.
+"""
 
 from __future__ import annotations
 
-from typing import cast
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Protocol
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.contact.impact import ImpactRule
 from ssilang.kernel.contact.modal import ContactLoop, contact_loop, takes
 from ssilang.kernel.contact.rows import BoolArray
-from ssilang.kernel.interface.newton import workspace
-from ssilang.kernel.stepping.effective import effective_matrix, effective_of
+from ssilang.kernel.contact.solver import step_solver
+from ssilang.kernel.stepping.effective import Effective, effective_matrix, effective_of
+from ssilang.kernel.stepping.newmark import newmark_of
 from ssilang.kernel.stepping.problem.problem import SMALL, Problem
 from ssilang.kernel.stepping.rests.conserving import ConservingLoop
-from ssilang.kernel.stepping.rests.dense.arrays import joints_of, operators_of, system_of
-from ssilang.kernel.stepping.rests.dense.loop import Motion, Saved, march
 from ssilang.kernel.stepping.rests.dense.still_supports import ReducedLoop, supports_are_still
+from ssilang.kernel.stepping.rests.dense.whole import DenseLoop
 from ssilang.kernel.stepping.rests.modal.modes import SmallLoop, modes_of
 from ssilang.kernel.stepping.rests.sparse.adaptive import AdaptiveLoop
-from ssilang.kernel.stepping.rests.sparse.loop import SparseLoop, StepSolver
-from ssilang.kernel.stepping.step_solvers import step_solver
+from ssilang.kernel.stepping.rests.sparse.interleaved import InterleavedLoop, fits
+from ssilang.kernel.stepping.rests.sparse.loop import SparseLoop, SparseSteps, StepSolver
+from ssilang.kernel.stepping.state import Motion, Outcome, Recorder
+from ssilang.messages.message import Sentence
 
 
-class ConservingEngine:
-    """The energy-conserving loop."""
+class Loop(Protocol):
+    """Steps of one length of a problem."""
 
-    name = "conserving"
-
-    def __init__(
-        self, problem: Problem, motion: Motion, dt: float, full: bool, closed: BoolArray
-    ) -> None:
-        effective = effective_of(problem, effective_matrix(problem, dt), dt, 2.0)
-        self.solver = effective.inverse.factor.name
-        self._loop = ConservingLoop(problem, motion, effective)
-
-    def renew(self, problem: Problem) -> None:
-        """Go on with other loads, all else being the same."""
-        self._loop.problem = problem
-
-    def march(
-        self, factors: FloatArray, save: IntArray, saved: Saved, history: FloatArray
-    ) -> tuple[int, int, float]:
-        return self._loop.march(factors, save, saved, history)
+    def run(self, factors: FloatArray, recorder: Recorder) -> Outcome:
+        """Steps between the rows of `factors` (n_steps + 1, k)."""
+        ...
 
 
-class AdaptiveEngine:
-    """Steps split at contact events."""
-
-    name = "adaptive"
-
-    def __init__(
-        self, problem: Problem, motion: Motion, dt: float, full: bool, closed: BoolArray
-    ) -> None:
-        self._loop = AdaptiveLoop(problem, motion, dt, closed)
-        self.solver = self._loop.solver
+class RenewableLoop(Loop, Protocol):
+    """A loop whose loads may change from step to step."""
 
     def renew(self, problem: Problem) -> None:
         """Go on with other loads, all else being the same."""
-        self._loop.problem = self._loop.loop.problem = problem
-
-    def march(
-        self, factors: FloatArray, save: IntArray, saved: Saved, history: FloatArray
-    ) -> tuple[int, int, float]:
-        return self._loop.march(factors, save, saved, history)
+        ...
 
 
-class DenseEngine:
-    """The compiled loop; a light one takes an empty history of energies."""
+@dataclass(frozen=True, eq=False)
+class Case:
+    """What rules look at: a problem with its motion, for steps dt.
 
-    name = "compiled"
-    light = False
+    `full` asks for Newton's method on all unknowns, `closed` (m,) are the relations that are
+    closed, kept up to date by the loop.
+    """
 
-    def __init__(
-        self, problem: Problem, motion: Motion, dt: float, full: bool, closed: BoolArray
-    ) -> None:
-        share = 1 - problem.scheme.alpha_f
-        effective = effective_of(problem, effective_matrix(problem, dt), dt, share)
-        self.solver = effective.inverse.factor.name
-        self._reduced: ReducedLoop | SmallLoop | None = None
-        modes = modes_of(problem, effective)
-        if modes is not None:
-            self._reduced = SmallLoop(problem, motion, effective, modes)
-            self.light = self._reduced.light
-            return
-        if supports_are_still(problem):
-            self._reduced = ReducedLoop(problem, motion, effective)
-            return
-        self._system = system_of(problem)
-        self._operators = operators_of(problem, effective)
-        self._joints = joints_of(problem)
-        self._motion = motion
-        self._newton = workspace(motion.w.shape, len(motion.f))
+    problem: Problem
+    motion: Motion
+    dt: float
+    full: bool = False
+    closed: BoolArray = field(default_factory=lambda: np.zeros(0, bool))
 
-    def watch(self, balance: FloatArray) -> None:
-        """Keep the sum of energies at the start and the largest departure from it in `balance`."""
-        if isinstance(self._reduced, SmallLoop):
-            self._reduced.balance = balance
+    @cached_property
+    def effective(self) -> Effective:
+        """The step's linear system."""
+        p = self.problem
+        end = 2.0 if p.scheme.conserving else 1 - p.scheme.alpha_f
+        return effective_of(p, effective_matrix(p, self.dt), self.dt, end)
 
-    def march(
-        self, factors: FloatArray, save: IntArray, saved: Saved, history: FloatArray
-    ) -> tuple[int, int, float]:
-        if self._reduced is not None:
-            return self._reduced.march(factors, save, saved, history)
-        return march(
-            self._system,
-            self._operators,
-            self._joints,
-            self._motion,
-            self._newton,
-            factors,
-            save,
-            saved,
-            history,
-        )
+    @cached_property
+    def small(self) -> bool:
+        """Whether dense matrices serve."""
+        p = self.problem
+        return p.small and (p.numbering.size <= SMALL or supports_are_still(p))
+
+    @cached_property
+    def modal(self) -> SmallLoop | None:
+        """The loop on all modes of a small problem, if its damping is diagonal in them."""
+        modes = modes_of(self.problem, self.effective) if self.small else None
+        if modes is None:
+            return None
+        return SmallLoop(self.problem, self.motion, self.effective, modes)
+
+    @cached_property
+    def stops(self) -> ContactLoop | None:
+        """The compiled loop of unilateral relations, if it can run the problem."""
+        if not takes(self.problem):
+            return None
+        return contact_loop(self.problem, self.motion, self.effective, self.closed)
 
 
-class SparseEngine:
-    """The loop on sparse matrices."""
-
-    name = "condensed"
-
-    def __init__(
-        self, problem: Problem, motion: Motion, dt: float, full: bool, closed: BoolArray
-    ) -> None:
-        A = effective_matrix(problem, dt)
-        share = 1 - problem.scheme.alpha_f
-        self._step: StepSolver
-        self._impact: ImpactRule | None = None
-        if full:
-            from ssilang.kernel.stepping.rests.sparse.full_newton import FullNewtonSolver
-
-            self.solver, self.name = "SuperLU", "full Newton"
-            self._step = FullNewtonSolver(problem, A, share)
-        if not full or problem.contact is not None:
-            effective = effective_of(problem, A, dt, share)
-        if not full:
-            self.solver = effective.inverse.factor.name
-            self._step = step_solver(problem, effective)
-        if problem.contact is not None:
-            self._impact = ImpactRule(problem, effective, problem.contact, closed)
-        self._loop, self._dt = SparseLoop(problem, motion), dt
-
-    def renew(self, problem: Problem) -> None:
-        """Go on with other loads, all else being the same."""
-        self._loop.problem = problem
-
-    def march(
-        self, factors: FloatArray, save: IntArray, saved: Saved, history: FloatArray
-    ) -> tuple[int, int, float]:
-        return self._loop.march(self._step, self._dt, factors, save, saved, history, self._impact)
+def _adaptive(case: Case) -> Loop:
+    return AdaptiveLoop(case.problem, case.motion, case.dt, case.closed)
 
 
-class InterleavedEngine:
-    """The compiled loop of large problems; the loop on sparse matrices for what it cannot do."""
-
-    name = "condensed"
-
-    def __init__(
-        self, problem: Problem, motion: Motion, dt: float, full: bool, closed: BoolArray
-    ) -> None:
-        from ssilang.kernel.stepping.rests.sparse.interleaved import InterleavedLoop, fits
-
-        share = 1 - problem.scheme.alpha_f
-        effective = effective_of(problem, effective_matrix(problem, dt), dt, share)
-        self.solver = effective.inverse.factor.name
-        self._loop: InterleavedLoop | None = None
-        if fits(problem, effective):
-            self._loop = InterleavedLoop(problem, motion, effective)
-            return
-        self.name, self._dt = SparseEngine.name, dt
-        self._step = step_solver(problem, effective)
-        self._plain = SparseLoop(problem, motion)
-
-    def march(
-        self, factors: FloatArray, save: IntArray, saved: Saved, history: FloatArray
-    ) -> tuple[int, int, float]:
-        if self._loop is not None:
-            return self._loop.march(factors, save, saved, history)
-        return self._plain.march(self._step, self._dt, factors, save, saved, history)
+def _conserving(case: Case) -> Loop:
+    return ConservingLoop(case.problem, case.motion, case.effective)
 
 
-class ContactEngine:
-    """The compiled loop of small problems with relations; the sparse one for what it cannot do."""
-
-    name = "compiled"
-
-    def __init__(
-        self, problem: Problem, motion: Motion, dt: float, full: bool, closed: BoolArray
-    ) -> None:
-        share = 1 - problem.scheme.alpha_f
-        effective = effective_of(problem, effective_matrix(problem, dt), dt, share)
-        found = contact_loop(problem, motion, effective, closed)
-        self._loop: ContactLoop | SparseEngine
-        self._loop = found or SparseEngine(problem, motion, dt, full, closed)
-        self.name = self.name if found else SparseEngine.name
-        self.solver = effective.inverse.factor.name
-
-    def march(
-        self, factors: FloatArray, save: IntArray, saved: Saved, history: FloatArray
-    ) -> tuple[int, int, float]:
-        return self._loop.march(factors, save, saved, history)
+def _stops(case: Case) -> Loop:
+    assert case.stops is not None
+    return case.stops
 
 
-Engine = (
-    DenseEngine | SparseEngine | ConservingEngine | AdaptiveEngine | InterleavedEngine
-    | ContactEngine
+def _by(way: str) -> Callable[[Case], Loop]:
+    """One of the ways to step on modes."""
+
+    def make(case: Case) -> Loop:
+        assert case.modal is not None
+        return case.modal.using(getattr(case.modal, way))
+
+    return make
+
+
+def _still(case: Case) -> Loop:
+    return ReducedLoop(case.problem, case.motion, case.effective)
+
+
+def _dense(case: Case) -> Loop:
+    return DenseLoop(case.problem, case.motion, case.effective)
+
+
+def _interleaved(case: Case) -> Loop:
+    return InterleavedLoop(case.problem, case.motion, case.effective)
+
+
+def _condensed(case: Case) -> Loop:
+    return _sparse(case, step_solver(case.problem, case.effective))
+
+
+def _full_newton(case: Case) -> Loop:
+    from ssilang.kernel.stepping.rests.sparse.full_newton import FullNewtonSolver
+
+    p = case.problem
+    A = effective_matrix(p, case.dt)
+    return _sparse(case, FullNewtonSolver(p, A, 1 - p.scheme.alpha_f))
+
+
+def _sparse(case: Case, solver: StepSolver) -> Loop:
+    p, impact = case.problem, None
+    if p.contact is not None:
+        impact = ImpactRule(p, case.effective, p.contact, case.closed)
+    n = newmark_of(p.scheme, case.dt)
+    return SparseSteps(SparseLoop(p, case.motion), solver, n, impact)
+
+
+@dataclass(frozen=True)
+class Rule:
+    """One loop: when it fits, how it is made, what is said of it.
+
+    Attributes
+    ----------
+    name : str
+    loop : str
+        The word of the summary.
+    when : str
+        The condition, for the table.
+    said : str
+        Code of what is said of the choice; `q` is the number of the interface's unknowns.
+    fits, make : callables
+    renewable : bool
+        Whether loads may change from step to step (CHARMECA).
+    light : bool
+        Whether a run without its energies costs much less.
+    factorises : bool
+        Whether the step's matrix is factorised at each iteration.
+    """
+
+    name: str
+    loop: str
+    when: str
+    said: str
+    fits: Callable[[Case], bool]
+    make: Callable[[Case], Loop]
+    renewable: bool = False
+    light: bool = False
+    factorises: bool = False
+
+
+RULES = (
+    Rule(
+        "adaptive", "adaptive",
+        "steps adapted to contact, with joints or unilateral relations",
+        "kernel.stepping.loop-adaptive",
+        lambda c: c.problem.scheme.adaptive
+        and not (c.problem.interface is None and c.problem.contact is None),
+        _adaptive, renewable=True,
+    ),
+    Rule(
+        "conserving", "conserving",
+        "the energy-conserving step",
+        "kernel.stepping.loop-conserving",
+        lambda c: c.problem.scheme.conserving,
+        _conserving, renewable=True,
+    ),
+    Rule(
+        "full Newton", "full Newton",
+        "Newton's method on all unknowns is asked for",
+        "kernel.stepping.loop-full-newton",
+        lambda c: c.full,
+        _full_newton, renewable=True, factorises=True,
+    ),
+    Rule(
+        "relations on modes", "compiled",
+        "few unknowns, relations without friction, no joints, supports at rest, diagonal damping",
+        "kernel.stepping.loop-relations-on-modes",
+        lambda c: c.stops is not None,
+        _stops,
+    ),
+    Rule(
+        "relations", "condensed",
+        "unilateral relations",
+        "kernel.stepping.loop-relations",
+        lambda c: c.problem.contact is not None,
+        _condensed, renewable=True,
+    ),
+    Rule(
+        "one mode", "compiled",
+        "small, diagonal damping, one mode that moves and at most one joint that only opens",
+        "kernel.stepping.loop-one-mode",
+        lambda c: c.modal is not None and c.modal.active == 1,
+        _by("by_one_mode"), light=True,
+    ),
+    Rule(
+        "one spring", "compiled",
+        "small, diagonal damping, a few modes and at most one joint that only opens",
+        "kernel.stepping.loop-one-spring",
+        lambda c: c.modal is not None and c.modal.active > 1,
+        _by("by_one_spring"), light=True,
+    ),
+    Rule(
+        "springs", "compiled",
+        "small, diagonal damping, joints that only push",
+        "kernel.stepping.loop-springs",
+        lambda c: c.modal is not None and c.modal.springs is not None,
+        _by("by_springs"),
+    ),
+    Rule(
+        "modes", "compiled",
+        "small, diagonal damping, supports at rest",
+        "kernel.stepping.loop-modes",
+        lambda c: c.modal is not None,
+        _by("by_modes"),
+    ),
+    Rule(
+        "still supports", "compiled",
+        "small, supports at rest",
+        "kernel.stepping.loop-still-supports",
+        lambda c: c.small and supports_are_still(c.problem),
+        _still,
+    ),
+    Rule(
+        "dense", "compiled",
+        "small",
+        "kernel.stepping.loop-dense",
+        lambda c: c.small,
+        _dense,
+    ),
+    Rule(
+        "dissection", "condensed",
+        "a factor by nested dissection, the interface at its root, few curves of imposed values",
+        "kernel.stepping.loop-dissection",
+        lambda c: fits(c.problem, c.effective),
+        _interleaved,
+    ),
+    Rule(
+        "condensed", "condensed",
+        "all others",
+        "kernel.stepping.loop-condensed",
+        lambda c: True,
+        _condensed, renewable=True,
+    ),
 )  # fmt: skip
 
 
-RenewableEngine = SparseEngine | ConservingEngine | AdaptiveEngine
+@dataclass(frozen=True, eq=False)
+class Choice:
+    """The loop of a case, and the rule that gave it."""
+
+    rule: Rule
+    loop: Loop
+    solver: str
 
 
-def renewable_kind(problem: Problem, full_newton: bool) -> type[RenewableEngine]:
-    """As `kind_of`, for steps whose matrices and loads are made as the motion goes."""
-    kind = kind_of(problem, full_newton)
-    loads_fixed = kind in (DenseEngine, InterleavedEngine, ContactEngine)
-    return SparseEngine if loads_fixed else cast("type[RenewableEngine]", kind)
+def method_of(rule: Rule, problem: Problem) -> Sentence:
+    """What is said of a problem's loop."""
+    return Sentence(rule.said, q=0 if problem.interface is None else problem.interface.size)
 
 
-def kind_of(problem: Problem, full_newton: bool) -> type[Engine]:
-    """Which engine runs a problem.
+def rule_of(case: Case, renewable: bool = False) -> Rule:
+    """The first rule that fits; of those whose loads may change, if wished.
 
     Raises
     ------
     KernelError
         For combinations that do not exist.
     """
+    refuse_combinations(case.problem, case.full)
+    return next(r for r in RULES if (r.renewable or not renewable) and r.fits(case))
+
+
+def choose(case: Case, renewable: bool = False) -> Choice:
+    """The loop of a case; see `rule_of`."""
+    rule = rule_of(case, renewable)
+    loop = rule.make(case)
+    if isinstance(loop, AdaptiveLoop):
+        solver = loop.solver
+    else:
+        solver = "SuperLU" if rule.factorises else case.effective.inverse.factor.name
+    return Choice(rule, loop, solver)
+
+
+def only(name: str) -> tuple[Rule, ...]:
+    """The table with one rule, that fits all: to hold loops against each other."""
+    return tuple(r for r in RULES if r.name == name)
+
+
+def refuse_combinations(problem: Problem, full: bool) -> None:
+    """Refuse schemes and methods that exclude each other.
+
+    Raises
+    ------
+    KernelError
+        For adapted steps with others, and for conserving steps with friction or dual relations.
+    """
     scheme, contact = problem.scheme, problem.contact
-    if scheme.adaptive and (scheme.conserving or full_newton):
+    if scheme.adaptive and (scheme.conserving or full):
         raise KernelError("kernel.stepping.adapted-steps-condensed-interface")
     plain = contact is None or (contact.friction is None and contact.associated)
     if scheme.conserving and not plain:
         raise KernelError("kernel.stepping.conserving-step-no-friction")
-    if scheme.adaptive and not (problem.interface is None and contact is None):
-        return AdaptiveEngine
-    if scheme.conserving:
-        return ConservingEngine
-    if problem.contact is not None and not full_newton and takes(problem):
-        return ContactEngine
-    if full_newton or problem.contact is not None:
-        return SparseEngine
-    few = problem.numbering.size <= SMALL or (problem.small and supports_are_still(problem))
-    return DenseEngine if problem.small and few else InterleavedEngine
+
+
+def table() -> str:
+    """The rules, in the order in which they are tried."""
+    width = max(len(r.name) for r in RULES)
+    return "\n".join(f"{r.name:{width}s}  {r.when}" for r in RULES)
+
+
+if __name__ == "__main__":
+    print(table())

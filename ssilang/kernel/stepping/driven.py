@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import cast
 
 import numpy as np
 
@@ -27,11 +28,11 @@ from ssilang.kernel.matrices.assembly import (
     outside,
 )
 from ssilang.kernel.matrices.matrix import Matrix
-from ssilang.kernel.stepping.choose import RenewableEngine, renewable_kind
+from ssilang.kernel.stepping.choose import Case, Choice, RenewableLoop, choose, refuse_combinations
 from ssilang.kernel.stepping.problem.constraints import constraints_of
 from ssilang.kernel.stepping.problem.loading import Loading
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.rests.dense.loop import Motion
+from ssilang.kernel.stepping.state import Motion
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,10 +81,10 @@ class Drive:
     def __init__(self, problem: Problem, driver: Driver, full_newton: bool) -> None:
         self.problem = self._given = problem
         self.driver, self._full = driver, full_newton
-        self._kind = renewable_kind(problem, full_newton)
+        refuse_combinations(problem, full_newton)
         self._last = Additions()
         self._time = float(problem.times[0])
-        self._engine: RenewableEngine | None = None
+        self._choice: Choice | None = None
         self._made_of: tuple[object, ...] = ()
 
     def start(self) -> Problem:
@@ -96,10 +97,10 @@ class Drive:
         self.problem = replace(first, loading=replace(first.loading, curves=curves))
         return self.problem
 
-    def engine(
+    def choice(
         self, motion: Motion, dt: float, time: float, factors: FloatArray, closed: BoolArray
-    ) -> tuple[RenewableEngine, FloatArray]:
-        """The engine of the step that ends at `time`, and its load factors (2, k + 2)."""
+    ) -> tuple[Choice, FloatArray]:
+        """The loop of the step that ends at `time`, and its load factors (2, k + 2)."""
         state = State(self._time, motion.u.copy(), motion.v.copy(), motion.a.copy())
         new = self.driver(time, state, self._given)
         self.problem = changed(self._given, self._last, new)
@@ -107,12 +108,13 @@ class Drive:
         same = len(made_of) == len(self._made_of) and all(
             a is b or a == b for a, b in zip(made_of, self._made_of, strict=True)
         )
-        if self._engine is None or not same:
-            self._engine = self._kind(self.problem, motion, dt, self._full, closed)
+        if self._choice is None or not same:
+            case = Case(self.problem, motion, dt, self._full, closed)
+            self._choice = choose(case, renewable=True)
             self._made_of = made_of
-        self._engine.renew(self.problem)
+        cast(RenewableLoop, self._choice.loop).renew(self.problem)
         self._last, self._time = new, time
-        return self._engine, np.hstack([factors, np.eye(2)])
+        return self._choice, np.hstack([factors, np.eye(2)])
 
 
 def changed(problem: Problem, start: Additions, end: Additions) -> Problem:

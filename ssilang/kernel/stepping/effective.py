@@ -22,6 +22,7 @@ from ssilang.kernel.solvers.backends import DISSECTION
 from ssilang.kernel.solvers.cholesky.inverse import Inverse, invert
 from ssilang.kernel.solvers.factor import Ordering
 from ssilang.kernel.statics.linear_motion import singular
+from ssilang.kernel.stepping.newmark import newmark_of
 from ssilang.kernel.stepping.problem.constraints import Constraints
 from ssilang.kernel.stepping.problem.problem import SMALL, Problem
 
@@ -77,10 +78,8 @@ class Effective:
 
 def effective_matrix(problem: Problem, dt: float) -> sp.csr_array:
     """A without the joints, for a step dt; the stiffness alone for a static problem."""
-    s = problem.scheme
-    mass = (1 - s.alpha_m) / (s.beta * dt**2)
-    damping = (1 - s.alpha_f) * s.gamma / (s.beta * dt)
-    A = mass * problem.M + damping * problem.C + (1 - s.alpha_f) * problem.K
+    n = newmark_of(problem.scheme, dt)
+    A = n.mass * problem.M + n.damping * problem.C + n.end * problem.K
     return sp.csr_array(A)
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import ConvergenceError
-from ssilang.kernel.stepping.choose import DenseEngine, Engine, kind_of
+from ssilang.kernel.stepping.choose import Case, Choice, choose, method_of, refuse_combinations
 from ssilang.kernel.stepping.driven import Drive, Driver
 from ssilang.kernel.stepping.problem.bodies import full_uplift
 from ssilang.kernel.stepping.problem.initial import (
@@ -22,11 +22,11 @@ from ssilang.kernel.stepping.problem.initial import (
     with_contact,
 )
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.rests.dense.loop import N_ENERGIES, Motion, Saved
 from ssilang.kernel.stepping.rests.reduced.basis import Reduction
-from ssilang.kernel.stepping.snapshot import Observer, Snapshot
-from ssilang.kernel.stepping.state import snapshot_of
+from ssilang.kernel.stepping.snapshot import Observer, Snapshot, kept_instant, snapshot_of
+from ssilang.kernel.stepping.state import N_ENERGIES, Motion, recorder_of, rows_of
 from ssilang.kernel.stepping.times import SAME, Run, runs_of
+from ssilang.messages.message import Sentence
 
 CHUNK_VALUES = 4_000_000  # saved values held at once
 CHUNK_SECONDS = 0.5  # wished duration of a chunk of steps: progress and interruption
@@ -51,6 +51,8 @@ class History:
         Most interface iterations in one step.
     solver, loop : str
         Linear solver and loop used.
+    method : Sentence or None
+        What is said of the loop, where a rule chose it.
     reduction : Reduction or None
         Of runs on a reduced basis.
     again : callable or None
@@ -69,6 +71,7 @@ class History:
     again: Callable[[], FloatArray] | None = None
     worst: float = 0.0
     together: int = 1
+    method: Sentence | None = None
 
     @property
     def energies(self) -> FloatArray:
@@ -121,8 +124,8 @@ class Integration:
             p.u.copy(), v, a, joints.delta, joints.f, joints.w, joints.t, joints.state,
             reaction, energies, pushing,
         )  # fmt: skip
-        self._engines: dict[float, Engine] = {}
-        self._kind = kind_of(p, self.full_newton)
+        self._choices: dict[float, Choice] = {}
+        refuse_combinations(p, self.full_newton)
         self._balance = np.array([energies[:5].sum() - energies[5], 0.0])  # at the start, worst
 
     def run(self) -> History:
@@ -144,14 +147,14 @@ class Integration:
         try:
             if wanted[0]:
                 self.hand_over(snapshot_of(self.problem, self.motion, 0))
-            self._march(history, wanted)
+            self._run(history, wanted)
         finally:
             for observer in self.observers:
                 observer.close()
         history.seconds = time.perf_counter() - started
         return history
 
-    def _march(self, history: History, wanted: np.ndarray) -> None:
+    def _run(self, history: History, wanted: np.ndarray) -> None:
         times, done = self.problem.times, 0
         longest = 4096 if self.problem.small else 64
         while done < len(times) - 1:
@@ -174,29 +177,25 @@ class Integration:
         while first < run.last:
             last = self._within_memory(first, run.last, wanted)
             factors = self.problem.loading.at(history.times[first : last + 1])
-            engine: Engine
             if self._drive is None:
-                engine = self._engine(run.dt)
+                choice = self._choice(run.dt)
             else:
                 at = float(history.times[last])
-                engine, factors = self._drive.engine(self.motion, run.dt, at, factors, self._closed)
-            history.solver, history.loop = engine.solver, engine.name
-            chosen = wanted[first + 1 : last + 1]
-            places = np.flatnonzero(chosen)
-            save = np.full(len(chosen), -1, np.int64)
-            save[places] = np.arange(len(places))
-            saved = self.room(len(places))
+                choice, factors = self._drive.choice(self.motion, run.dt, at, factors, self._closed)
+            history.solver, history.loop = choice.solver, choice.rule.loop
+            history.method = method_of(choice.rule, self.problem)
             energies = history.kept[first + 1 : last + 1]
-            if self.light and isinstance(engine, DenseEngine) and engine.light:
+            if self.light and choice.rule.light:
                 energies, history.again = energies[:0], self._energies
-                engine.watch(self._balance)
-            done, turns, residual = engine.march(factors, save, saved, energies)
+            row = rows_of(wanted[first + 1 : last + 1])
+            recorder = recorder_of(self.motion, row, energies, balance=self._balance)
+            done, turns, residual = choice.loop.run(factors, recorder)
             history.worst = float(self._balance[1])
             if turns > 0:
                 history.iterations = max(history.iterations, turns)
-            steps = first + 1 + places[places < done]
-            for row, step in enumerate(steps):
-                self.hand_over(self.kept(saved, row, int(step)))
+            problem = self.problem if self._drive is None else self._drive.problem
+            for k in np.flatnonzero(row[:done] >= 0).tolist():
+                self.hand_over(kept_instant(problem, recorder, int(row[k]), first + 1 + k))
             if done < last - first:
                 raise self.diverged(first + done + 1, turns, residual)
             first = last
@@ -214,32 +213,15 @@ class Integration:
         saved = np.flatnonzero(wanted[first + 1 : last + 1])
         return last if len(saved) <= room else first + max(int(saved[room]), 1)
 
-    def _engine(self, dt: float) -> Engine:
-        dt = next((known for known in self._engines if abs(known - dt) <= SAME * known), dt)
-        found = self._engines.get(dt)
+    def _choice(self, dt: float) -> Choice:
+        dt = next((known for known in self._choices if abs(known - dt) <= SAME * known), dt)
+        found = self._choices.get(dt)
         if found is None:
-            if len(self._engines) >= FACTORS_KEPT:
-                self._engines.pop(next(iter(self._engines)))
-            found = self._kind(self.problem, self.motion, dt, self.full_newton, self._closed)
-            self._engines[dt] = found
+            if len(self._choices) >= FACTORS_KEPT:
+                self._choices.pop(next(iter(self._choices)))
+            case = Case(self.problem, self.motion, dt, self.full_newton, self._closed)
+            found = self._choices[dt] = choose(case)
         return found
-
-    def room(self, rows: int) -> Saved:
-        m = self.motion
-        n = (rows, len(m.u))
-        return Saved(
-            np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n),
-            np.zeros((rows, *m.w.shape)), np.zeros((rows, *m.t.shape)),
-            np.zeros((rows, *m.state.shape)), np.zeros((rows, len(m.contact))),
-        )  # fmt: skip
-
-    def kept(self, s: Saved, row: int, step: int) -> Snapshot:
-        time_ = float(self.problem.times[step])
-        problem = self.problem if self._drive is None else self._drive.problem
-        return Snapshot(
-            problem, step, time_, s.u[row], s.v[row], s.a[row], s.reaction[row], s.w[row],
-            s.t[row], s.state[row], s.contact[row],
-        )  # fmt: skip
 
     def hand_over(self, snapshot: Snapshot) -> None:
         for observer in self.observers:

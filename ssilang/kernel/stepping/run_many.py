@@ -8,26 +8,25 @@ loads, initial state and interface iteration, and is what it is alone but for ro
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from functools import partial
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.stepping.choose import DenseEngine, InterleavedEngine, kind_of
-from ssilang.kernel.stepping.effective import effective_matrix, effective_of
+from ssilang.kernel.stepping.choose import Case, method_of, rule_of
+from ssilang.kernel.stepping.effective import Effective
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.problem.sharing import grouped
-from ssilang.kernel.stepping.rests.dense.loop import N_ENERGIES, Saved
-from ssilang.kernel.stepping.rests.modal.batch import springs_together
-from ssilang.kernel.stepping.rests.sparse.interleaved_batch import interleaved_together
+from ssilang.kernel.stepping.rests.modal.batch import springs_batch
+from ssilang.kernel.stepping.rests.sparse.interleaved_batch import interleaved_batch
 from ssilang.kernel.stepping.run import CHUNK_SECONDS, CHUNK_VALUES, History, Integration, Progress
-from ssilang.kernel.stepping.snapshot import Instants, Observer, Snapshot
-from ssilang.kernel.stepping.state import snapshot_of
+from ssilang.kernel.stepping.snapshot import Instants, Observer, Snapshot, snapshot_of
+from ssilang.kernel.stepping.state import N_ENERGIES, Motion, Outcome, rows_of
 from ssilang.kernel.stepping.times import SAME, runs_of
+from ssilang.messages.message import Sentence
 
 
 class Engine(Protocol):
@@ -36,11 +35,11 @@ class Engine(Protocol):
     name: str
     solver: str
 
-    def march(
-        self, factors: list[FloatArray], save: list[IntArray], history: list[FloatArray],
+    def run(
+        self, factors: list[FloatArray], rows: list[IntArray], history: list[FloatArray],
         times: FloatArray,
-    ) -> tuple[list[tuple[int, int, float]], list[Instants]]:  # fmt: skip
-        """As `compiled_loop.march`, of each problem; instants instead of arrays of saved steps."""
+    ) -> tuple[list[Outcome], list[Instants]]:  # fmt: skip
+        """Steps of each problem: load factors, rows of kept steps, energies; kept instants."""
         ...
 
 
@@ -65,14 +64,23 @@ class Group:
 
     lanes: list[Lane]
     engines: dict[float, Engine | None] = field(default_factory=dict)
+    method: Sentence | None = None
 
     def engine(self, dt: float) -> Engine | None:
         """What steps all lanes together; None if nothing does."""
         known = next((k for k in self.engines if abs(k - dt) <= SAME * k), None)
         if known is None:
-            self.engines[dt] = _engine_of([lane.integration for lane in self.lanes], dt)
+            self.engines[dt] = self._engine_of([lane.integration for lane in self.lanes], dt)
             known = dt
         return self.engines[known]
+
+    def _engine_of(self, integrations: Sequence[Integration], dt: float) -> Engine | None:
+        problems, motions = [i.problem for i in integrations], [i.motion for i in integrations]
+        case = Case(problems[0], motions[0], dt)
+        rule = rule_of(case)
+        self.method = method_of(rule, problems[0])
+        batch = BATCHES.get(rule.name)
+        return None if batch is None else batch(problems, motions, case.effective)
 
 
 def integrate_together(
@@ -134,7 +142,7 @@ def _run(lanes: list[Lane]) -> None:
         if lane.wanted[0]:
             i = lane.integration
             _give(lane, snapshot_of(i.problem, i.motion, 0))
-    _march(group)
+    _run_group(group)
     for lane in lanes:
         lane.history.seconds = (time.perf_counter() - started) / len(lanes)
         lane.history.together = len(lanes)
@@ -158,7 +166,7 @@ def _alone(lane: Lane) -> None:
         lane.problem_found = problem
 
 
-def _march(group: Group) -> None:
+def _run_group(group: Group) -> None:
     """All steps, in chunks that report progress."""
     first_problem = group.lanes[0].integration.problem
     times, done = first_problem.times, 0
@@ -190,15 +198,15 @@ def _within_memory(group: Group, first: int, last: int) -> int:
 def _steps(group: Group, dt: float, first: int, last: int) -> None:
     engine = group.engine(dt)
     assert engine is not None
-    factors, save, history = [], [], []
+    factors, rows, history = [], [], []
     times = group.lanes[0].integration.problem.times
     for lane in group.lanes:
         lane.history.solver, lane.history.loop = engine.solver, engine.name
+        lane.history.method = group.method
         factors.append(lane.integration.problem.loading.at(times[first : last + 1]))
-        chosen = lane.wanted[first + 1 : last + 1]
-        save.append(np.where(chosen, np.cumsum(chosen) - 1, -1).astype(np.int64))
+        rows.append(rows_of(lane.wanted[first + 1 : last + 1]))
         history.append(lane.history.kept[first + 1 : last + 1])
-    outcomes, instants = engine.march(factors, save, history, times)
+    outcomes, instants = engine.run(factors, rows, history, times)
     for lane, (done, turns, residual), instant in zip(group.lanes, outcomes, instants, strict=True):
         if not lane.alive:
             continue
@@ -229,22 +237,8 @@ def _close(lane: Lane) -> None:
             lane.problem_found = lane.problem_found or problem
 
 
-def _engine_of(integrations: Sequence[Integration], dt: float) -> Engine | None:
-    problems, motions = [i.problem for i in integrations], [i.motion for i in integrations]
-    first = problems[0]
-    kind = kind_of(first, False)
-    if kind not in (DenseEngine, InterleavedEngine):
-        return None
-    share = 1 - first.scheme.alpha_f
-    effective = effective_of(first, effective_matrix(first, dt), dt, share)
-    if kind is DenseEngine:
-        return springs_together(problems, motions, effective)
-    return interleaved_together(
-        problems, motions, effective, [partial(_saved_room, i) for i in integrations]
-    )
-
-
-def _saved_room(integration: Integration, rows: int) -> tuple[Saved, Instants]:
-    """Room for saved steps, and the instants that it holds in the end."""
-    saved = integration.room(rows)
-    return saved, partial(integration.kept, saved)
+BATCHES: dict[str, Callable[[Sequence[Problem], Sequence[Motion], Effective], Engine | None]] = {
+    "springs": springs_batch,
+    "dissection": interleaved_batch,
+}
+"""What steps several problems side by side, by the rule that gives the loop of one."""

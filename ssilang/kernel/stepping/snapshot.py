@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Protocol
 
 import numpy as np
@@ -15,6 +16,7 @@ from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.interface.interface import interface_field, state_field
 from ssilang.kernel.matrices.assembly import vector_to_field
 from ssilang.kernel.stepping.problem.problem import Problem
+from ssilang.kernel.stepping.state import Motion, Recorder
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,8 +104,31 @@ class Snapshot:
         return None if joints is None else state_field(joints, self.state, self.w, self.t)
 
 
+def snapshot_of(problem: Problem, motion: Motion, step: int) -> Snapshot:
+    """A copy of the state at a step."""
+    m = motion
+    parts = (m.u, m.v, m.a, m.reaction, m.w, m.t, m.state, m.contact)
+    u, v, a, reaction, w, t, state, contact = (x.copy() for x in parts)
+    time = float(problem.times[step])
+    return Snapshot(problem, step, time, u, v, a, reaction, w, t, state, contact)
+
+
 Instants = Callable[[int, int], Snapshot]
 """Gives a kept instant by its row among those of some steps and its step."""
+
+
+def kept_instant(problem: Problem, recorder: Recorder, row: int, step: int) -> Snapshot:
+    """The instant in a row of what was kept."""
+    r = recorder
+    return Snapshot(
+        problem, step, float(problem.times[step]), r.u[row], r.v[row], r.a[row], r.reaction[row],
+        r.w[row], r.t[row], r.state[row], r.contact[row],
+    )  # fmt: skip
+
+
+def kept_instants(problem: Problem, recorder: Recorder) -> Instants:
+    """The instants of what was kept."""
+    return partial(kept_instant, problem, recorder)
 
 
 class Observer(Protocol):

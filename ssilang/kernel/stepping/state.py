@@ -1,19 +1,114 @@
-"""The state of a calculation under way, changed in place by the loops."""
+"""The state of a motion under way, and what is kept of its steps: the two containers of loops."""
 
 from __future__ import annotations
 
-from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.rests.dense.loop import Motion
-from ssilang.kernel.stepping.snapshot import Snapshot
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+
+N_ENERGIES = 6
+KINETIC, ELASTIC, STORED, LOST, DAMPED, EXTERNAL = range(N_ENERGIES)
 
 
-def snapshot_of(problem: Problem, motion: Motion, step: int) -> Snapshot:
-    """A copy of the state at a step."""
-    m = motion
-    parts = (m.u, m.v, m.a, m.reaction, m.w, m.t, m.state, m.contact)
-    u, v, a, reaction, w, t, state, contact = (x.copy() for x in parts)
-    time = float(problem.times[step])
-    return Snapshot(problem, step, time, u, v, a, reaction, w, t, state, contact)
+class Motion(NamedTuple):
+    """The state at the end of the last step, changed in place.
+
+    Loops on coordinates hold these in place of the n unknowns; loops of several motions one more
+    direction, the first, in each array.
+    """
+
+    u: FloatArray  # (n,)
+    v: FloatArray
+    a: FloatArray
+    delta: FloatArray  # (q,) jumps at the interface's nodes
+    f: FloatArray  # (q,) forces on them
+    w: FloatArray  # (n_points, d) jumps at the joints' points
+    t: FloatArray  # (n_points, d) tractions
+    state: FloatArray  # (n_points, N_STATE) internal variables of the joints
+    reaction: FloatArray  # (n,) M a + C v + K u + J^T f - F of the last step
+    energies: FloatArray  # (N_ENERGIES,)
+    contact: FloatArray  # (m,) reactions of unilateral relations
 
 
-__all__ = ["Motion", "snapshot_of"]
+class Recorder(NamedTuple):
+    """What some steps leave: a row of the state for steps that are kept, numbers for all.
+
+    `row` (n_steps,) is the row of each step, -1 for none; parts without rows are not kept.
+    """
+
+    row: IntArray
+    energies: FloatArray  # (n_steps, N_ENERGIES), or none
+    u: FloatArray  # (n_rows, n)
+    v: FloatArray
+    a: FloatArray
+    reaction: FloatArray
+    f: FloatArray  # (n_rows, q)
+    w: FloatArray  # (n_rows, n_points, d)
+    t: FloatArray
+    state: FloatArray
+    contact: FloatArray  # (n_rows, m)
+    jumps: FloatArray  # (n_steps, n_points, d) of all steps, or none
+    work: FloatArray  # (2, n_steps, k) of loads, of the joints on `lift` (k = 0: none)
+    balance: FloatArray  # (2,) sum of energies at the start, largest departure from it
+
+
+class Ends(NamedTuple):
+    """How several motions ended, see `Outcome`."""
+
+    steps: IntArray  # (m,)
+    turns: IntArray
+    residual: FloatArray
+
+
+PARTS = ("u", "v", "a", "reaction", "f", "w", "t", "state", "contact")
+WHOLE = ("u", "v", "a", "reaction", "w", "t", "state", "contact")
+"""Parts of the state that an instant holds."""
+
+
+def recorder_of(
+    motion: Motion, row: IntArray, energies: FloatArray, kept: Sequence[str] = WHOLE, **more: Any
+) -> Recorder:
+    """Room for the rows, numbered without gaps, of steps of a motion; `more`: other fields."""
+    rows = int(row.max(initial=-1)) + 1
+    parts: dict[str, Any] = {
+        name: np.zeros((rows if name in kept else 0, *getattr(motion, name).shape))
+        for name in PARTS
+    }
+    parts |= {
+        "jumps": np.zeros((0, *motion.w.shape)),
+        "work": np.zeros((2, len(row), 0)),
+        "balance": np.zeros(2),
+    }
+    return Recorder(row, energies, **(parts | more))
+
+
+def rows_of(chosen: np.ndarray) -> IntArray:
+    """Row of each step (n_steps,) when the chosen ones are kept, -1 for the others."""
+    found, places = np.full(len(chosen), -1, np.int64), np.flatnonzero(chosen)
+    found[places] = np.arange(len(places))
+    return found
+
+
+Outcome = tuple[int, int, float]
+"""Of some steps: how many were done, most interface iterations in one (<= 0: the step after them
+did not converge), residual of a step that did not."""
+
+
+def ends_of(count: int) -> Ends:
+    """Room for the ends of m motions."""
+    return Ends(np.zeros(count, np.int64), np.zeros(count, np.int64), np.zeros(count))
+
+
+def stacked(parts: Sequence[Any]) -> Any:
+    """Records of several motions, or of records, as one: arrays behind a first direction (m,)."""
+    if isinstance(parts[0], tuple):
+        return type(parts[0])(*(stacked(fields) for fields in zip(*parts, strict=True)))
+    return np.stack(parts)
+
+
+def part_of(record: Any, j: int) -> Any:
+    """The record of one of several motions."""
+    return type(record)(*(array[j] for array in record))

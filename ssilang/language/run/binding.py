@@ -498,6 +498,8 @@ def run_operator(found: Operator, call: Call) -> Any:
     """Choose the form that the operands fit and run it; returns what the function returned."""
     bound = bind_operator(found, call)
     form, values = bound.form, bound.values
+    if call.session.on_form is not None:
+        call.session.on_form(found, form, values)
     if form.by_hand:
         chooses = form.main is not None or form.said is not None
         return form.function(call, bound.choice) if chooses else form.function(call)

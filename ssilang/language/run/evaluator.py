@@ -219,7 +219,10 @@ class Evaluator(PhraseRunner):
         try:
             compiled = self._compiled[statement]
         except KeyError:
-            compiled = self._compiled[statement] = compile_phrase(statement.items)
+            # who is told of the forms that run is told of signs too
+            short = self.session.on_form is None
+            compiled = compile_phrase(statement.items) if short else None
+            self._compiled[statement] = compiled
         if compiled is None:
             return None
         try:

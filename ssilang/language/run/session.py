@@ -156,6 +156,16 @@ class Session:
         except BrokenPipeError as closed:
             raise ReaderLeft from closed
 
+    def note(self, text: str) -> None:
+        """Say what a calculation does, to who asked to hear it."""
+        if self.on_note is not None:
+            try:
+                self.on_note(text)
+            except BrokenPipeError as closed:
+                raise ReaderLeft from closed
+
     on_warning: Callable[[Any], object] | None = None
+    on_note: Callable[[str], object] | None = None
     was_interrupted: Callable[[], bool] = lambda: False  # a signal came that nobody has seen
     loops: LoopObserver | None = None
+    on_form: Callable[[Any, Any, Any], object] | None = None  # told of each form that runs

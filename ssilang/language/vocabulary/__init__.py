@@ -1,8 +1,8 @@
 """The words of the language, declared once: what each means, in both languages, unit and range.
 
 The vocabulary holds meanings; which parameters a law or an element has, which are mandatory, on
-which cells it stands, is known by the kernel (`ssilang.operators.words` joins both). Each list is
-a module, loaded when a word of it is first asked for.
+which cells it stands, is known by the kernel (`ssilang.operators.vocabulary.words` joins both).
+Each list is a module, loaded when a word of it is first asked for.
 """
 
 from __future__ import annotations

@@ -211,4 +211,58 @@ MESSAGES: dict[str, Message] = {
         "the conserving step has no friction between meshes and no relations with a dual",
         "le pas conservatif n'a ni frottement entre maillages ni relations avec une duale",
     ),
+    "loop-adaptive": Message(
+        "condensed, steps halved where one of {q} joint unknowns or a relation opens or closes",
+        "condensé, pas divisés où l'une des {q} inconnues de joint ou une relation "
+        "s'ouvre ou se ferme",
+    ),
+    "loop-conserving": Message(
+        "condensed, midpoint rule with the mean tractions of {q} joint unknowns",
+        "condensé, règle du point milieu avec les tractions moyennes de {q} inconnues de joint",
+    ),
+    "loop-full-newton": Message(
+        "full Newton: all unknowns iterated on, factorised at each iteration",
+        "Newton complet : itérations sur toutes les inconnues, factorisation à chacune",
+    ),
+    "loop-relations-on-modes": Message(
+        "compiled, all modes: linear but for the active set of the unilateral relations",
+        "compilé, tous les modes : linéaire hormis le jeu actif des relations unilatérales",
+    ),
+    "loop-relations": Message(
+        "condensed, sparse: linear but for {q} joint unknowns and an active set of relations",
+        "condensé, creux : linéaire hormis {q} inconnues de joint et un jeu de relations actives",
+    ),
+    "loop-one-mode": Message(
+        "compiled, one mode: linear while its joint stays open or closed",
+        "compilé, un mode : linéaire tant que son joint reste ouvert ou fermé",
+    ),
+    "loop-one-spring": Message(
+        "compiled, a few modes: linear but for one joint, in closed form",
+        "compilé, quelques modes : linéaire hormis un joint, sous forme explicite",
+    ),
+    "loop-springs": Message(
+        "compiled, all modes: linear but for the active set of springs that only push",
+        "compilé, tous les modes : linéaire hormis le jeu actif de ressorts qui ne font "
+        "que pousser",
+    ),
+    "loop-modes": Message(
+        "compiled, all modes: linear but for {q} joint unknowns",
+        "compilé, tous les modes : linéaire hormis {q} inconnues de joint",
+    ),
+    "loop-still-supports": Message(
+        "compiled, dense, without its supports: linear but for {q} joint unknowns",
+        "compilé, plein, sans ses appuis : linéaire hormis {q} inconnues de joint",
+    ),
+    "loop-dense": Message(
+        "compiled, dense: linear but for {q} joint unknowns",
+        "compilé, plein : linéaire hormis {q} inconnues de joint",
+    ),
+    "loop-dissection": Message(
+        "condensed, nested dissection: linear but for {q} joint unknowns",
+        "condensé, dissection emboîtée : linéaire hormis {q} inconnues de joint",
+    ),
+    "loop-condensed": Message(
+        "condensed, sparse: linear but for {q} joint unknowns",
+        "condensé, creux : linéaire hormis {q} inconnues de joint",
+    ),
 }

@@ -42,10 +42,6 @@ MESSAGES: dict[str, Message] = {
         "a value is too large for an integer",
         "une valeur est trop grande pour un entier",
     ),
-    "existence-of-cells": Message(
-        "'EXISTE' is for fields in cells",
-        "'EXISTE' vaut pour les champs par élément",
-    ),
     "negative-width": Message(
         "the width of a law is not negative, this one is {width:g}",
         "la largeur d'une loi n'est pas négative, celle-ci vaut {width:g}",

@@ -18,6 +18,12 @@ ANNO = Shared(
     "drawing",
     "Makes texts that TRAC adds to a picture; ET puts several together.",
     "Fabrique des textes que TRAC ajoute à un tracé ; ET en réunit plusieurs.",
+    examples=(
+        (
+            "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ;\n"
+            "TRAC L (ANNO 'ETIQ' (0.5 0.) 'ROUG' 'N' 'middle') ;"
+        ),
+    ),
 )
 
 

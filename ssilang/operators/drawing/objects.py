@@ -107,6 +107,12 @@ VECT = shared(
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; "
             "F = MANU 'CHPO' L 2 'FX' 0. 'FY' -1. ; V = VECT F 'FORC' 'ROUG' ; TRAC V L ;",
+            (
+                "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;\n"
+                "S = (DROI 2 (0. 0.) (1. 0.)) TRAN 1 (0. 1.) ;\n"
+                "M = MODE S 'MECANIQUE' 'ELASTIQUE' ;\n"
+                "V = VECT (MANU 'CHML' M 'VX' 3. 'VY' 4.) M 0.1 (MOTS 'VX' 'VY') ; TRAC V S ;"
+            ),
         ),
     ),
     full_name="VECTEUR",

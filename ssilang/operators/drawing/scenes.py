@@ -189,6 +189,7 @@ _OBJECTS: dict[str, Callable[[_Said, Any], None]] = {
         examples=(
             "OPTI DIME 2 ELEM QUA4 ; L = DROI 4 (0. 0.) (1. 0.) ; "
             "S = TRAN L 3 (0. 1.) ; TRAC S 'NOEU' 'TITR' 'A square' ;",
+            "OPTI DIME 2 ELEM SEG2 ; TRAC (DROI 4 (0. 0.) (1. 0.)) 'COUL' 'ROUG' ;",
         ),
     ),
 )

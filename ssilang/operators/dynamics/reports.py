@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ssilang.language.values import LazyTable, ListReel, Mot, promises
+from ssilang.messages.message import sentence
 from ssilang.operators.matrices.doubled import warn_doubled_supports
 from ssilang.operators.tables.entries import Entries
 
@@ -31,7 +32,11 @@ def report(entries: Entries, problem: Problem, history: History) -> None:
     """Energies in time into the table, and a line of statistics for the summary."""
     energies = LazyTable(partial(_energy, history), promises("TEMPS", *ENERGIES, "ECART"))
     entries.table.set(Mot("ENERGIES"), energies)
-    steps = len(history.times) - 1
+    steps, session = len(history.times) - 1, entries.call.session
+    method = history.loop
+    if history.method is not None:
+        method = sentence(history.method.code, history.method.data, session.language)
+    session.note(f"{entries.procedure}: {method} ({history.solver})")
     line: dict[str, Any] = {
         "procedure": entries.procedure,
         "unknowns": problem.numbering.size,
@@ -39,6 +44,7 @@ def report(entries: Entries, problem: Problem, history: History) -> None:
         "steps": steps,
         "together": history.together,
         "loop": history.loop,
+        "method": method,
         "solver": history.solver,
         "most_interface_iterations": history.iterations,
         "seconds": history.seconds,
@@ -55,7 +61,7 @@ def report(entries: Entries, problem: Problem, history: History) -> None:
             "not_reduced_because": str(history.reduction.refused or ""),
             "seconds_preparing_the_basis": history.reduction.prepared,
         }
-    entries.call.session.statistics.setdefault("calculations", []).append(line)
+    session.statistics.setdefault("calculations", []).append(line)
 
 
 def none_if_nan(value: float) -> float | None:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from ssilang.kernel.contact.options import ContactOptions
-from ssilang.kernel.stepping.scheme import Scheme, generalised_alpha, hht, newmark
+from ssilang.kernel.stepping.newmark import Scheme, generalised_alpha, hht, newmark
 from ssilang.operators.tables.entries import Entries
 
 SCHEME_ENTRIES = ("ALPHA_F", "RHO_INF", "BETA", "GAMMA")

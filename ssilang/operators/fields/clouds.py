@@ -43,7 +43,13 @@ _EXAMPLE = "N = NUAG 'COMP' 'X' 0. 1. 2. 'COMP' 'Y' 5. 6. 9. ; "
         "ligne par ligne (d'abord les noms et leurs types), ou les valeurs d'un champ, un n-uplet "
         "par noeud ou point.",
         syntax="NUAG1 = NUAG CHPO1 | CHAM1 ;",
-        examples=(_EXAMPLE + "LIST N ;",),
+        examples=(
+            _EXAMPLE + "LIST N ;",
+            (
+                "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (2. 0.) ; N = NUAG (COOR 1 L) ;\n"
+                "LIST N ;"
+            ),
+        ),
     ),
 )
 def nuag(field: NodeField | CellField) -> Cloud:

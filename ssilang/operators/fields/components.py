@@ -70,7 +70,13 @@ _LENIENT = flag(
         "l'unique composante d'un champ par points s'appelle SCAL). 'NOID' : une composante "
         "absente n'est pas une erreur.",
         syntax="CHP2 = EXCO MOT1 | LMOT1 ('NOID') CHP1 (MOT2 | LMOT2) ('NATURE' MOT3) ;",
-        examples=(_POINT_FIELD + "LIST (EXCO 'UX' C) ;",),
+        examples=(
+            _POINT_FIELD + "LIST (EXCO 'UX' C) ;",
+            (
+                "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'UX' 3. 'UY' 4. ;\n"
+                "LIST (EXCO (MOTS 'UX' 'UY') C (MOTS 'FX' 'FY')) ;"
+            ),
+        ),
     ),
 )
 def exco(
@@ -153,7 +159,10 @@ _ONE_NAME = (
         fr="Champ aux composantes renommées : un nom pour une composante unique, ou une liste "
         "d'anciens noms et une liste de nouveaux.",
         syntax="CHP2 = NOMC MOT1 | (LMOT1 LMOT2) CHP1 ('NATURE' MOT3) ;",
-        examples=(_POINT_FIELD + "LIST (NOMC (MOTS 'UX') (MOTS 'FX') C) ;",),
+        examples=(
+            _POINT_FIELD + "LIST (NOMC (MOTS 'UX') (MOTS 'FX') C) ;",
+            "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'UX' 3. ; LIST (NOMC 'T' C) ;",
+        ),
     ),
 )
 def nomc(

@@ -38,6 +38,7 @@ from ssilang.operators.fields.signs import paired_names
         syntax="CHPO2 = RESU CHPO1 ;",
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; LIST (MAXI (RESU (COOR 1 L))) ;",
+            "LIST (RESU (PROG 1. 2. 4.)) ;",
         ),
     ),
 )
@@ -87,6 +88,11 @@ _PAIRED = (
         examples=(
             "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'UX' 3. 'UY' 4. ; "
             "LIST (XTY C C (MOTS 'UX' 'UY') (MOTS 'UX' 'UY')) ;",
+            (
+                "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'T' 5. ;\n"
+                "D = MANU 'CHPO' P 'T' 2. ; L = MOTS 'T' ;\n"
+                "LIST (XTY (SUIT C D) (SUIT D D) L L) ;"
+            ),
         ),
     ),
 )
@@ -133,7 +139,14 @@ _FACTORS = (
         en="Sum of the squares of all values of a field, or of X1 CHP1 + X2 CHP2.",
         fr="Somme des carrés de toutes les valeurs d'un champ, ou de X1 CHP1 + X2 CHP2.",
         syntax="X3 = XTX CHP1 ; X3 = XTX X1 CHP1 X2 CHP2 ;",
-        examples=("OPTI DIME 2 ; P = 0. 0. ; LIST (XTX (MANU 'CHPO' P 'UX' 3. 'UY' 4.)) ;",),
+        examples=(
+            "OPTI DIME 2 ; P = 0. 0. ; LIST (XTX (MANU 'CHPO' P 'UX' 3. 'UY' 4.)) ;",
+            (
+                "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;\n"
+                "M = MODE ((DROI 1 (0. 0.) (1. 0.)) TRAN 1 (0. 1.)) 'MECANIQUE' 'ELASTIQUE' ;\n"
+                "LIST (XTX (MANU 'CHML' M 'SCAL' 3.)) ;"
+            ),
+        ),
     ),
 )
 def xtx(

@@ -23,6 +23,12 @@ SORT = Shared(
     "Écrit des objets dans le fichier que nomme OPTI SORT (fort.7 sinon), dans le dossier de "
     "sortie. L'extension peut être omise.",
     "SORTIR",
+    examples=(
+        (
+            "OPTI DIME 3 ELEM TRI3 ; T = MANU 'TRI3' (0 0 0) (1 0 0) (0 1 0) ;\n"
+            "OPTI SORT 'one' ; SORT 'STL ' T ; M = LIRE 'STL' 'one.stl' ; LIST (NBEL M) ;"
+        ),
+    ),
 )
 
 

@@ -29,6 +29,11 @@ COLI = shared(
         syntax="CHP1 = COLI CHP2 X2 CHP3 X3 ... ; OBJ1 = COLI LCHP1 | TAB1 LREE1 ;",
         examples=(
             "T = TABL ; T . 1 = PROG 1. 2. ; T . 2 = PROG 3. 4. ; LIST (COLI T (PROG 2. 1.)) ;",
+            (
+                "OPTI DIME 2 ; P = 0. 0. ;\n"
+                "C = MANU 'CHPO' P 'T' 5. ; D = MANU 'CHPO' P 'T' 1. ;\n"
+                "LIST (MAXI (COLI C 2. D 3.)) ;"
+            ),
         ),
     ),
     full_name="COLINEAIRE",

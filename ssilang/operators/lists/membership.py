@@ -36,7 +36,15 @@ DANS = shared(
         "une autre, en séquence ('SEQU') ou dans un ordre quelconque ('QUEL').",
         syntax="LOG1 = DANS LENT1 LENT2 ; LOG1 = DANS LREE1 X1 ; LOG1 = DANS POIN1 MAIL1 ; "
         "LOG1 = DANS ('SEQU' | 'QUEL') LREE1 LREE2 ;",
-        examples=("SI (DANS (PROG 1. 2.) 2.) ; MESS 'yes' ; FINSI ;",),
+        examples=(
+            "SI (DANS (PROG 1. 2.) 2.) ; MESS 'yes' ; FINSI ;",
+            (
+                "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (1. 0.) ;\n"
+                "LIST (DANS (L POIN 1) L) ; LIST (DANS (0. 7.) L) ;\n"
+                "LIST (DANS (LECT 2 3) (LECT 0 1 2 3)) ;\n"
+                "LIST (DANS 'QUEL' (PROG 3. 2.) (PROG 1. 2. 3.)) ;"
+            ),
+        ),
     ),
 )
 _WAY = choice(

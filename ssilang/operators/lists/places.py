@@ -160,7 +160,15 @@ INSE = shared(
         en="New list with an item put at place N1; those from there on move up.",
         fr="Nouvelle liste avec un élément mis au rang N1 ; les suivants se décalent.",
         syntax="LIS2 = INSE LIS1 N1 OBJ1 ;",
-        examples=("LIST (INSE (PROG 1. 3.) 2 2.) ;",),
+        examples=(
+            "LIST (INSE (PROG 1. 3.) 2 2.) ;",
+            (
+                "LIST (INSE (LECT 1 3) 2 7) ; LIST (INSE (MOTS 'UX' 'UZ') 2 'UY') ;\n"
+                "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'T' 5. ;\n"
+                "LIST (DIME (INSE (SUIT C C) 2 C)) ;\n"
+                "LIST (DIME (INSE (ENUM P P) 1 P)) ;"
+            ),
+        ),
     ),
     full_name="INSERER",
 )
@@ -199,6 +207,14 @@ REMP = shared(
         examples=(
             "L = PROG 1. 2. 3. ; REMP L 2 9. ; LIST L ;",
             "LIST (REMP 'a_b' '_' ' ') ;",
+            (
+                "L = LECT 1 2 3 ; REMP L 2 9 ; LIST L ;\n"
+                "M = MOTS 'UX' 'UY' ; REMP M 2 'UZ' ; LIST M ;\n"
+                "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'T' 5. ;\n"
+                "D = MANU 'CHPO' P 'T' 1. ;\n"
+                "S = SUIT C C ; REMP S 2 D ; LIST (MAXI (EXTR S 2)) ;\n"
+                "O = ENUM P P ; Q = 1. 0. ; REMP O 2 Q ; LIST (COOR 1 (EXTR O 2)) ;"
+            ),
         ),
     ),
     full_name="REMPLACER",

@@ -167,7 +167,13 @@ def _special(kind: str, name: str, x: NDArray[np.float64]) -> NDArray[np.float64
         "('SX') de 0 à x, fonction gamma ('GAMMA').",
         syntax="LREEL1 = FONC 'BESSEL' 'J0' | 'J1' | 'Y0' | 'Y1' LREEL2 ;\n"
         "LREEL1 = FONC 'FRESNEL' 'CX' | 'SX' LREEL2 ; LREEL1 = FONC 'GAMMA' LREEL2 ;",
-        examples=("LIST (FONC 'GAMMA' (PROG 5. 0.5)) ;",),
+        examples=(
+            "LIST (FONC 'GAMMA' (PROG 5. 0.5)) ;",
+            (
+                "LIST (FONC 'BESS' 'J0' (PROG 0. 1. 2.)) ;\n"
+                "LIST (FONC 'FRES' 'CX' (PROG 0. 1. 2.)) ;"
+            ),
+        ),
     ),
 )
 def fonc(call: Call, function: Chosen, values: ListReel) -> ListReel:

@@ -26,6 +26,12 @@ _TWO = "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; K = (APPU 'UX' 4. P) ET (APPU 'UX'
         examples=(
             _TWO + "C = RELA 2. 'UX' P '+' 3. 'UX' Q ; "
             "D = MANU 'CHPO' (P ET Q) 1 'UX' 0.5 ; LIST (EXTR (CMCT C D) 'DIAG') ;",
+            (
+                "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ;\n"
+                "K = (APPU 'UX' 4. P) ET (APPU 'UX' 5. Q) ;\n"
+                "C = RELA 2. 'UX' P '+' 3. 'UX' Q ;\n"
+                "LIST (EXTR (CMCT C K) 'DIAG') ;"
+            ),
         ),
     ),
 )

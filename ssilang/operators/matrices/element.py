@@ -127,7 +127,14 @@ def _additional(
         "chaque noeud reçoit toute la valeur.",
         syntax="RIG1 = RIGI MODL1 MAT1 (CAR1) ;\n"
         "RIG1 = RIGI ('DEPL') ('ROTA') | NOM1 ... VAL1 GEO1 ;",
-        examples=("OPTI DIME 2 ; P = 0. 0. ; K = RIGI 'DEPL' 1.E6 P ; LIST (TYPE K) ;",),
+        examples=(
+            "OPTI DIME 2 ; P = 0. 0. ; K = RIGI 'DEPL' 1.E6 P ; LIST (TYPE K) ;",
+            (
+                "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;\n"
+                "M = MODE ((DROI 1 (0. 0.) (1. 0.)) TRAN 1 (0. 1.)) 'MECANIQUE' 'ELASTIQUE' ;\n"
+                "LIST (MAXI (EXTR (RIGI M (MATE M 'YOUN' 6. 'NU' 0.)) 'DIAG')) ;"
+            ),
+        ),
     ),
 )
 def rigi(
@@ -185,7 +192,18 @@ def _shapes(model: Model, material: CellField, kind: str) -> list[ElementMatrice
         "rotations, ou sur les inconnues nommées ; chaque noeud reçoit toute la valeur.",
         syntax="MAS1 = MASS MODL1 MAT1 (CAR1) ;\n"
         "MAS1 = MASS ('DEPL') ('ROTA') | NOM1 ... VAL1 GEO1 ;",
-        examples=("OPTI DIME 2 ; P = 0. 0. ; M = MASS 'DEPL' 3. P ; LIST (TYPE M) ;",),
+        examples=(
+            "OPTI DIME 2 ; P = 0. 0. ; M = MASS 'DEPL' 3. P ; LIST (TYPE M) ;",
+            (
+                "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;\n"
+                "M = MODE ((DROI 1 (0. 0.) (1. 0.)) TRAN 1 (0. 1.)) 'MECANIQUE' 'ELASTIQUE' ;\n"
+                "LIST (MAXI (EXTR (MASS M (MATE M 'YOUN' 1. 'NU' 0. 'RHO' 9.)) 'DIAG')) ;"
+            ),
+            (
+                "OPTI DIME 2 MODE PLAN DEFO ; P = 0. 0. ; M = MASS 'UX' 4. P ;\n"
+                "T = VIBR 'SIMU' 1. 1 (APPU 'UX' 400. P) M ; LIST (EXTR (MASS T M) 'DIAG') ;"
+            ),
+        ),
     ),
 )
 def mass(
@@ -217,7 +235,14 @@ def masses(call: Call, names: list[str], amount: float, place: Mesh | Point) -> 
         "linéaires, diagonale mise à l'échelle de la masse pour les autres), ou d'une matrice "
         "pleine (somme des lignes ; les inconnues de la liste gardent leur terme diagonal).",
         syntax="MAS1 = LUMP MODL1 MAT1 (CAR1) ;\nMAS2 = LUMP MAS1 (LMOT1) ;",
-        examples=("OPTI DIME 2 ; P = 0. 0. ; M = LUMP (MASS 'DEPL' 3. P) ; LIST (TYPE M) ;",),
+        examples=(
+            "OPTI DIME 2 ; P = 0. 0. ; M = LUMP (MASS 'DEPL' 3. P) ; LIST (TYPE M) ;",
+            (
+                "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;\n"
+                "M = MODE ((DROI 1 (0. 0.) (1. 0.)) TRAN 1 (0. 1.)) 'MECANIQUE' 'ELASTIQUE' ;\n"
+                "LIST (MAXI (EXTR (LUMP M (MATE M 'YOUN' 1. 'NU' 0. 'RHO' 8.)) 'DIAG')) ;"
+            ),
+        ),
     ),
 )
 def lump(
@@ -266,7 +291,24 @@ def lump_of_matrix(matrix: Matrix, kept: ListMots | None) -> Matrix:
         syntax="AMO1 = AMOR MODL1 MAT1 ; AMO1 RIG1 = AMOR MODL1 MAT1 'COROTATIF' ;\n"
         "AMO1 = AMOR MODL1 GEO1 MAT1 ;\n"
         "AMO1 = AMOR ('DEPL') ('ROTA') | NOM1 ... VAL1 GEO1 ;",
-        examples=("OPTI DIME 2 ; P = 0. 0. ; C = AMOR 'DEPL' 3. P ; LIST (TYPE C) ;",),
+        examples=(
+            "OPTI DIME 2 ; P = 0. 0. ; C = AMOR 'DEPL' 3. P ; LIST (TYPE C) ;",
+            (
+                "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;\n"
+                "L = DROI 2 (0. 0.) (1. 0.) ;\n"
+                "M = MODE (L TRAN 1 (0. 1.)) 'MECANIQUE' 'ELASTIQUE' ;\n"
+                "A = MATE M 'YOUN' 1.E7 'NU' 0.3 'RHO' 2000. 'VISQ' 1.E4 ;\n"
+                "C = AMOR M L A ; LIST (TYPE C) ; D = AMOR M A ; LIST (TYPE D) ;"
+            ),
+            (
+                "OPTI DIME 3 MODE TRID ELEM SEG2 ;\n"
+                "M = MODE (DROI 2 (0 0 0) (1 0 0)) 'MECANIQUE' 'ELASTIQUE' 'POUT' ;\n"
+                "A = MATE M 'YOUN' 2.E11 'NU' 0.3 'RHO' 7800. 'VISQ' 1.E4 'SECT' 0.01 'INRY'\n"
+                "1.E-5 'INRZ' 1.E-5\n"
+                "    'TORS' 2.E-5 'OMEG' 10. ;\n"
+                "C H = AMOR M A 'COROTATIF' ; LIST (EXTR C 'COMP') ;"
+            ),
+        ),
     ),
 )
 def amor(

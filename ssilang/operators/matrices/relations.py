@@ -165,6 +165,34 @@ _SIDE = choice(
             " R1 = RELA 'MINI' 2. 'UX' P2 - 'UX' P1 ; F1 = DEPI R1 -0.1 ;",
             "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; L1 = DROI 3 (0. 0.) (1. 0.) ;"
             " R1 = RELA 'ENSE' 'UY' L1 ;",
+            (
+                "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;\n"
+                "P = 0. 0. ; Q = 1. 0. ; L = MOTS 'UX' 'UY' ;\n"
+                "R = RELA 'MINI' ((MANU 'CHPO' P 'UX' 1.) ET (MANU 'CHPO' Q 'UX' -1.)) ;\n"
+                "LIST (NBNO (EXTR R 'MAIL')) ;\n"
+                "S = (DROI 2 P Q) TRAN 2 (0. 1.) ; T = MANU 'POI1' (0.3 0.2) ;\n"
+                "R = RELA T 'ACCRO' S ; LIST (EXTR R 'COMP') ;\n"
+                "R = RELA (DROI 1 (0.3 0.) (0.8 0.)) 'GLIS' (COTE 1 S) ;\n"
+                "LIST (EXTR R 'COMP') ;\n"
+                "M = MODE S 'MECANIQUE' 'ELASTIQUE' ; R = RELA 'ACCRO' 'FORT' M T ;\n"
+                "LIST (EXTR R 'COMP') ;\n"
+                "R = RELA 'CORI' 'DEPL' S ; LIST (EXTR R 'COMP') ;"
+            ),
+            (
+                "OPTI DIME 2 MODE PLAN DEFO ELEM SEG3 ;\n"
+                "R = RELA 'MILI' (DROI 2 (0. 0.) (1. 0.)) ; LIST (EXTR R 'COMP') ;"
+            ),
+            (
+                "OPTI DIME 3 MODE TRID ELEM SEG2 ;\n"
+                "R = RELA 'CORI' 'DEPL' 'ROTA' (DROI 2 (0 0 0) (1 0 0)) ;\n"
+                "LIST (EXTR R 'COMP') ;"
+            ),
+            (
+                "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;\n"
+                "S = (DROI 2 (0. 0.) (2. 0.)) TRAN 1 (0. 1.) ;\n"
+                "T = RAFF S (0.3 + (COOR 1 S)) ;\n"
+                "R = RELA (MODE T 'MECANIQUE' 'ELASTIQUE') ; LIST (EXTR R 'COMP') ;"
+            ),
         ),
     ),
 )

@@ -63,6 +63,15 @@ SUPE = shared(
             "-1.) L ; "
             "U = RESO (EXTR SU 'RIGI') (SUPE 'CHAR' SU F) ; V = SUPE 'DEPL' SU U F ; "
             "LIST (MAXI (ABS (V - (RESO R F))) 'AVEC' (MOTS 'UX' 'UY')) ;",
+            (
+                "OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ;\n"
+                "S = ((0. 0.) DROI 8 (4. 0.)) TRAN 2 (0. 1.) ;\n"
+                "MO = MODE S 'MECANIQUE' 'ELASTIQUE' ;\n"
+                "A = MATE MO 'YOUN' 1.E3 'NU' 0.3 'RHO' 2. ;\n"
+                "R = (RIGI MO A) ET (BLOQ 'DEPL' (COTE 4 S)) ;\n"
+                "SU = SUPE 'RIGI' R (COTE 2 S) ; LIST (TYPE (SUPE 'MASSE' SU (MASS MO A))) ;\n"
+                "LIST (TYPE (EXTR SU 'RIGI')) ; LIST (NBNO (EXTR SU 'ELEM')) ;"
+            ),
         ),
     ),
 )

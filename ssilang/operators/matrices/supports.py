@@ -182,6 +182,12 @@ class _Held:
             "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; L1 = DROI 2 (0. 0.) (1. 0.) ;"
             " B1 = BLOQ 'UX' 'UY' L1 ; LIST (NBNO (EXTR B1 'MAIL' 'MULT')) ;",
             "OPTI DIME 2 MODE PLAN DEFO ; P1 = 1. 0. ; B1 = BLOQ 'MINI' 'DIRE' (1. 1.) P1 ;",
+            "OPTI DIME 3 ; P = 0 0 0 ; B = BLOQ 'DEPL' P ; LIST (EXTR B 'COMP') ;",
+            (
+                "OPTI DIME 2 ; P = 0. 0. ;\n"
+                "T = TABL 'LIAISONS_STATIQUES' ; T . 1 = TABL ; T . 1 . 'POINT_LIAISON' = P ;\n"
+                "T . 1 . 'DDL_LIAISON' = 'UX' ; B = BLOQ T ; LIST (EXTR B 'COMP') ;"
+            ),
         ),
     ),
 )
@@ -265,6 +271,12 @@ def bloq_of_table(call: Call, table: Table) -> Matrix:
         (
             "OPTI DIME 2 MODE PLAN DEFO ; P1 = 1. 0. ; B1 = BLOQ 'UX' P1 ;"
             " F1 = DEPI B1 1.E-3 ; LIST F1 ;",
+            (
+                "OPTI DIME 2 ; P = 0. 0. ; K = APPU 'UX' 'UY' 4. P ;\n"
+                "T = TABL 'LIAISONS_STATIQUES' ; T . 1 = TABL ; T . 1 . 'POINT_LIAISON' = P ;\n"
+                "T . 1 . 'DDL_LIAISON' = 'UX' ; B = BLOQ T ; DEPI T ;\n"
+                "RESO (K ET B) T ; LIST (EXTR (T . 1 . 'DEFORMEE') 'UX' P) ;"
+            ),
         ),
     ),
 )
@@ -360,7 +372,13 @@ _PLANE_EXAMPLE = (
         "pas de déplacement à travers ('DEPL'), pas de rotation autour d'axes du plan ('ROTA'). "
         "FLOT1 est la distance de sélection (par défaut un dixième de la densité).",
         _PLANE_SYNTAX.format("SYMT"),
-        (_PLANE_EXAMPLE.format("SYMT"),),
+        (
+            _PLANE_EXAMPLE.format("SYMT"),
+            (
+                "OPTI DIME 3 ; R = SYMT 'DEPL' (0 0 0) (1 0 0) (0 1 0) (0 0 0) 0.1 ;\n"
+                "LIST (EXTR R 'COMP') ;"
+            ),
+        ),
     ),
 )
 def symt(call: Call, **said: Any) -> Matrix:
@@ -383,7 +401,13 @@ symt.form(*_plane(3), when=IN_SPACE)(symt.forms[0].function)
         "Conditions d'antisymétrie aux nœuds du maillage situés sur une droite (2D) ou un plan "
         "(3D) : pas de déplacement dans le plan, pas de rotation autour de sa normale.",
         _PLANE_SYNTAX.format("ANTI"),
-        (_PLANE_EXAMPLE.format("ANTI"),),
+        (
+            _PLANE_EXAMPLE.format("ANTI"),
+            (
+                "OPTI DIME 3 ; R = ANTI 'DEPL' (0 0 0) (1 0 0) (0 1 0) (0 0 0) 0.1 ;\n"
+                "LIST (EXTR R 'COMP') ;"
+            ),
+        ),
     ),
 )
 def anti(call: Call, **said: Any) -> Matrix:
@@ -414,7 +438,10 @@ _STIFFNESS = arg("stiffness", "FLOTTANT", en="stiffness of each", fr="raideur de
         "Ressorts linéaires vers le sol aux nœuds d'un maillage, sur les inconnues nommées ou "
         "selon une direction (comme BLOQ), de raideur FLOT1 chacun.",
         "RIG1 = APPU MOT1 ... | ('DEPL') ('ROTA') ('DIRE' VEC1) | 'RADI' P1 (P2) FLOT1 GEO1 ;",
-        ("OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; R1 = APPU 'UX' 'UY' 1.E6 P1 ;",),
+        (
+            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; R1 = APPU 'UX' 'UY' 1.E6 P1 ;",
+            "OPTI DIME 3 ; P = 0 0 0 ; K = APPU 'DEPL' 4. P ; LIST (EXTR K 'DIAG') ;",
+        ),
     ),
 )
 def appu(call: Call, stiffness: float, support: Mesh | Point, **said: Any) -> Matrix:

@@ -34,7 +34,13 @@ _TWO = "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; K = (APPU 'UX' 4. P) ET (APPU 'UX'
         fr="Champ par points sur les inconnues d'une rigidité : la même valeur partout "
         "('UNIFORME'), ou des valeurs aléatoires entre 0 et 1 ('ALEATOIRE').",
         syntax="CHPO1 = CHPO 'ALEATOIRE' | 'UNIFORME' X1 RIG1 ;",
-        examples=(_TWO + "LIST (CHPO 'UNIFORME' 2. K) ;",),
+        examples=(
+            _TWO + "LIST (CHPO 'UNIFORME' 2. K) ;",
+            (
+                "OPTI DIME 2 ; P = 0. 0. ;\n"
+                "C = CHPO 'ALEA' (APPU 'UX' 1. P) ; LIST (EXTR C 'COMP') ;"
+            ),
+        ),
     ),
 )
 def chpo(call: Call, values: Chosen | None, matrix: Matrix) -> NodeField:

@@ -149,6 +149,13 @@ _CUTS = (
         examples=(
             "OPTI DIME 3 ELEM CUB8 ; L = DROI 2 (0. 0. 0.) (1. 0. 0.) ; S = L TRAN 2 (0. 1. 0.) ;"
             " V = S VOLU 3 'TRAN' (0. 0. 1.) ; LIST (NBEL V) ;",
+            (
+                "OPTI DIME 3 ELEM CUB8 ;\n"
+                "S = (DROI 2 (1 0 0) (2 0 0)) TRAN 2 (0 1 0) ;\n"
+                "V = S VOLU 3 'ROTA' 90. (0 0 0) (0 1 0) ; MESS (NBEL V) (MESU V) ;\n"
+                "V = S VOLU 'GENE' (DROI 4 (1 0 0) (1 0 2)) ; MESS (NBEL V) (MESU V) ;\n"
+                "V = VOLU 2 S (S PLUS (0 0 1)) ; MESS (NBEL V) (MESU V) ;"
+            ),
         ),
     ),
 )

@@ -86,7 +86,18 @@ _SECOND = opt(
         syntax="CHAM3 = RTEN CHAM1 MODL1 | VEC1 (VEC2) | CHAM2 ;\n"
         "CHAM3 = RTEN CHAM1 MODL1 'POLA' P1 | 'CYLI' P1 P2 | 'SPHE' P1 P2 ;\n"
         "CHPO2 = RTEN CHPO1 VEC1 (VEC2) ;",
-        examples=(_EXAMPLE + "LIST (MAXI (RTEN (SIGM M A U) M 'POLA' (0. 0.))) ;",),
+        examples=(
+            _EXAMPLE + "LIST (MAXI (RTEN (SIGM M A U) M 'POLA' (0. 0.))) ;",
+            (
+                "OPTI DIME 3 MODE TRID ELEM CUB8 ;\n"
+                "V = ((DROI 1 (1 0 0) (2 0 0)) TRAN 1 (0 1 0)) VOLU 1 'TRAN' (0 0 1) ;\n"
+                "M = MODE V 'MECANIQUE' 'ELASTIQUE' ; A = MATE M 'YOUN' 2. 'NU' 0.3 ;\n"
+                "X Y Z = COOR V ; U = (NOMC 'UX' X) ET (NOMC 'UY' Y) ET (NOMC 'UZ' Z) ;\n"
+                "S = SIGM M A U ; O = 0 0 0 ; D = 0 0 1 ;\n"
+                "LIST (MAXI (RTEN S M 'CYLI' O D)) ; LIST (MAXI (RTEN S M 'SPHE' O D)) ;\n"
+                "LIST (MAXI (EXCO 'UY' (RTEN U (0 1 0) (0 0 1)))) ;"
+            ),
+        ),
     ),
 )
 def rten(

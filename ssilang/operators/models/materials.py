@@ -21,8 +21,8 @@ from ssilang.kernel.mesh.mesh import Point
 from ssilang.language.near import nearest_names
 from ssilang.language.registry import Chosen, Help, arg, each, many, operator, select
 from ssilang.language.run.call import Call
-from ssilang.operators import words
 from ssilang.operators.models.tension import material_names, tension_to_hardening
+from ssilang.operators.vocabulary import words
 
 Known = Callable[[Zone], tuple[str, ...]]
 Value = tuple[NDArray[Any], Support]
@@ -38,8 +38,17 @@ _AXES = (
     arg("first", "POINT", en="first axis, or centre", fr="premier axe, ou centre"),
     many("others", "POINT", en="further vectors or points", fr="autres vecteurs ou points"),
 )
-ENTRIES = (
-    arg("model", "MMODEL", en="model", fr="modèle"),
+_MODEL = arg("model", "MMODEL", en="model", fr="modèle")
+_PAIRS = each(
+    "pairs",
+    arg("name", "MOT", kind="parameter", en="parameter", fr="paramètre"),
+    arg("value", *_VALUES, en="its value", fr="sa valeur"),
+)
+
+
+@operator(
+    "MATE",
+    _MODEL,
     select(
         "axes",
         {"DIRECTION": _AXES, "RADIAL": _AXES},
@@ -57,17 +66,7 @@ ENTRIES = (
         en="how the axes lie to that direction",
         fr="position du repère par rapport à cette direction",
     ),
-    each(
-        "pairs",
-        arg("name", "MOT", kind="parameter", en="parameter", fr="paramètre"),
-        arg("value", *_VALUES, en="its value", fr="sa valeur"),
-    ),
-)
-
-
-@operator(
-    "MATE",
-    *ENTRIES,
+    _PAIRS,
     family="model",
     full_name="MATERIAU",
     aliases=("MATR",),
@@ -123,6 +122,23 @@ ENTRIES = (
             "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; S = TRAN 1 (DROI 1 (0 0) (1 0)) (0. 1.) ; "
             "M = MODE S MECANIQUE ELASTIQUE PLASTIQUE RH_COULOMB ; "
             "A = MATE M 'YOUN' 5.E7 'NU' 0.3 'COHE' 1.E4 'PHI' 0.52 ; LIST (TYPE A) ;",
+            (
+                "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;\n"
+                "M = MODE ((DROI 1 (1. 0.) (2. 0.)) TRAN 1 (0. 1.)) 'MECANIQUE' 'ELASTIQUE'\n"
+                "'ORTHOTROPE' ;\n"
+                "A = MATE M 'DIRE' (1. 0.) 'PARA' 'YG1' 2. 'YG2' 1. 'YG3' 1. 'NU12' 0.\n"
+                "'NU23' 0. 'NU13' 0. 'G12' 1. ;\n"
+                "MESS (MAXI (EXCO 'V1X' A)) (MAXI (EXCO 'V1Y' A)) ;\n"
+                "A = MATE M 'DIRE' (1. 0.) 'PERP' 'YG1' 2. 'YG2' 1. 'YG3' 1. 'NU12' 0.\n"
+                "'NU23' 0. 'NU13' 0. 'G12' 1. ;\n"
+                "MESS (MAXI (EXCO 'V1X' A)) (MAXI (EXCO 'V1Y' A)) ;\n"
+                "A = MATE M 'DIRE' (1. 0.) 'INCL' 60. 'YG1' 2. 'YG2' 1. 'YG3' 1. 'NU12' 0.\n"
+                "'NU23' 0. 'NU13' 0. 'G12' 1. ;\n"
+                "MESS (MAXI (EXCO 'V1X' A)) (MAXI (EXCO 'V1Y' A)) ;\n"
+                "A = MATE M 'RADI' (0. 0.) 'PARA' 'YG1' 2. 'YG2' 1. 'YG3' 1. 'NU12' 0.\n"
+                "'NU23' 0. 'NU13' 0. 'G12' 1. ;\n"
+                "MESS (MAXI (EXCO 'V1X' A)) (MAXI (EXCO 'V1Y' A)) ;"
+            ),
         ),
     ),
 )
@@ -140,7 +156,8 @@ def check_joints(model: Model, given: list[Values]) -> None:
 
 @operator(
     "CARA",
-    *ENTRIES,
+    _MODEL,
+    _PAIRS,
     family="model",
     full_name="CARACTERISTIQUE",
     aliases=("CARB",),
@@ -157,9 +174,9 @@ def check_joints(model: Model, given: list[Values]) -> None:
         ),
     ),
 )
-def cara(call: Call, **said: Any) -> CellField:
+def cara(call: Call, model: Model, pairs: list[tuple[str, Any]]) -> CellField:
     """Parameters of the section."""
-    return _parameters(call, lambda zone: geometric_names(zone).all, None, **said)
+    return _parameters(call, lambda zone: geometric_names(zone).all, None, model, [], None, pairs)
 
 
 def _parameters(

@@ -44,9 +44,9 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots
-from ssilang.operators import words
 from ssilang.operators.dispatch import union
 from ssilang.operators.models.contact import METHODS, cable_model, contact_model
+from ssilang.operators.vocabulary import words
 from ssilang.operators.workspace import Workspace, workspace
 
 register_family("joint", JointFamily())
@@ -205,6 +205,12 @@ MODE = shared(
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0 0) (1 0) ; "
             "M = MODE L 'MECANIQUE' 'ELASTIQUE' 'BARR' ; LIST (TYPE M) ;",
+            (
+                "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ;\n"
+                "A = DROI 4 (0. 0.) (2. 0.) ; B = A PLUS (0. 0.) ;\n"
+                "M = MODE A 'CONTACT' 'FROTTANT' 'COULOMB' B ; LIST (NBEL (EXTR M 'MAIL')) ;\n"
+                "N = MODE A 'CONTACT' 'UNILATERAL' B ; LIST (TYPE N) ;"
+            ),
         ),
     ),
 )

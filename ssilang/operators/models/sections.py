@@ -68,6 +68,14 @@ _IN_PLANE = When(lambda s: workspace(s).mode.dimension != 3, "in the plane", "da
             "A = MATE M 'YOUN' 2.E11 'NU' 0.3 'SIGY' 2.E8 'H' 0. 'ALPY' 0.83 'ALPZ' 0.83 ; "
             "Z = PROG 0. 0. 0. ; C = PROG 0.01 0.02 0.1 ; "
             "MY MZ E = MOCU Z C Z M A 1.E-6 ; LIST MZ ;",
+            (
+                "OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ;\n"
+                "S = (DROI 20 (-0.1 -0.05) (0.1 -0.05)) TRAN 1 (0. 0.1) ;\n"
+                "M = MODE S MECANIQUE ELASTIQUE PLASTIQUE PARFAIT_UNI QUAS ;\n"
+                "A = MATE M 'YOUN' 2.E11 'NU' 0.3 'SIGY' 2.E8 'H' 0. 'ALPY' 0.83 'ALPZ' 0.83\n"
+                ";\n"
+                "Z = PROG 0. 0. 0. ; MZ E = MOCU (PROG 0.01 0.02 0.1) Z M A 1.E-6 ; LIST MZ ;"
+            ),
         ),
     ),
 )

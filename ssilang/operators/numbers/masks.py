@@ -22,7 +22,6 @@ from ssilang.language.registry import (
     select,
     shared,
 )
-from ssilang.language.run.call import Call
 from ssilang.operators.numbers.functions import mapped
 
 _TESTS: dict[str, Callable[[Any, Any], Any]] = {
@@ -51,13 +50,49 @@ MASQ = shared(
         "'DIFFERENT' ('SOMME') X1 | OBJ3 ;\n"
         "OBJ2 = OBJ1 MASQ 'COMPRIS' ('SOMME') X1 X2 | OBJ3 OBJ4 ;\n"
         "OBJ2 = OBJ1 MASQ 'EXISTE' (MOT1) ;",
-        examples=("LIST (MASQ (PROG 1. 5. 9.) 'SUPERIEUR' 4.) ;",),
+        examples=(
+            "LIST (MASQ (PROG 1. 5. 9.) 'SUPERIEUR' 4.) ;",
+            (
+                "L = PROG 1. 2. 3. ;\n"
+                "LIST (L MASQ 'EGSU' 2.) ; LIST (L MASQ 'EGAL' 2.) ;\n"
+                "LIST (L MASQ 'EGIN' 2.) ;\n"
+                "LIST (L MASQ 'INFE' 2.) ; LIST (L MASQ 'DIFF' 2.) ;\n"
+                "LIST (L MASQ 'COMP' 1.5 3.) ;"
+            ),
+            (
+                "L = LECT 1 2 3 ; LIST (L MASQ 'SUPE' 2) ;\n"
+                "LIST (L MASQ 'EGSU' 2) ; LIST (L MASQ 'EGAL' 2) ; LIST (L MASQ 'EGIN' 2) ;\n"
+                "LIST (L MASQ 'INFE' 2) ; LIST (L MASQ 'DIFF' 2) ; LIST (L MASQ 'COMP' 2 3) ;"
+            ),
+            (
+                "OPTI DIME 2 ELEM SEG2 ; X = COOR 1 (DROI 4 (0. 0.) (2. 0.)) ;\n"
+                "MESS (X MASQ 'SUPE' 'SOMM' 1.) (X MASQ 'EGSU' 'SOMM' 1.) (X MASQ 'EGAL'\n"
+                "'SOMM' 1.) ;\n"
+                "MESS (X MASQ 'EGIN' 'SOMM' 0.5) (X MASQ 'INFE' 'SOMM' 0.5) (X MASQ 'DIFF'\n"
+                "'SOMM' 1.) ;\n"
+                "MESS (X MASQ 'COMP' 'SOMM' 0.4 2.) ;"
+            ),
+            (
+                "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;\n"
+                "M = MODE ((DROI 4 (0. 0.) (2. 0.)) TRAN 1 (0. 1.)) 'MECANIQUE' 'ELASTIQUE' ;\n"
+                "X = COOR 1 (MANU 'CHML' M 'SCAL' 1.) ;\n"
+                "MESS (X MASQ 'SUPE' 'SOMM' 1.) (X MASQ 'EGSU' 'SOMM' 1.) (X MASQ 'EGAL'\n"
+                "'SOMM' 1.) ;\n"
+                "MESS (X MASQ 'EGIN' 'SOMM' 0.5) (X MASQ 'INFE' 'SOMM' 0.5) (X MASQ 'DIFF'\n"
+                "'SOMM' 1.) ;\n"
+                "MESS (X MASQ 'COMP' 'SOMM' 0.4 2.) (MAXI (X MASQ 'EXIS' 'SCAL')) ;"
+            ),
+        ),
     ),
     full_name="MASQUE",
 )
 
 
-def _test_of(*limits: str) -> tuple[Entry, ...]:
+_EXISTE = {"EXISTE": [opt("component", "MOT", en="component", fr="composante", kind="component")]}
+"""What is asked of fields in cells alone."""
+
+
+def _test_of(kind: str, *limits: str) -> tuple[Entry, ...]:
     """The relation, with what the values are compared with."""
     limit = arg("limit", *limits, en="value to compare with", fr="valeur de comparaison")
     return (
@@ -69,9 +104,7 @@ def _test_of(*limits: str) -> tuple[Entry, ...]:
                     arg("low", *limits, en="lower bound", fr="borne inférieure"),
                     arg("high", *limits, en="upper bound", fr="borne supérieure"),
                 ],
-                "EXISTE": [
-                    opt("component", "MOT", en="component", fr="composante", kind="component")
-                ],
+                **(_EXISTE if kind == "MCHAML" else {}),
             },
             optional=False,
             en="relation",
@@ -81,9 +114,9 @@ def _test_of(*limits: str) -> tuple[Entry, ...]:
     )
 
 
-def _masked(call: Call, value: Any, test: Chosen, counted: bool) -> Any:
+def _masked(value: Any, test: Chosen, counted: bool) -> Any:
     if test.word == "EXISTE":
-        return _existing(call, value, test["component"])
+        return _existing(value, test["component"])
     if test.word == "COMPRIS":
         above = _tested(value, test["low"], np.greater_equal)
         made = _times(above, _tested(value, test["high"], np.less_equal))
@@ -95,7 +128,7 @@ def _masked(call: Call, value: Any, test: Chosen, counted: bool) -> Any:
 for _kind, _limits in _LIMITS.items():
     MASQ.form(
         main("value", _kind, en="values to test", fr="valeurs à tester"),
-        *_test_of(*_limits),
+        *_test_of(_kind, *_limits),
         gives=by("counted", {True: "ENTIER"}, _kind),
     )(_masked)
 
@@ -135,9 +168,7 @@ def _count(made: Any) -> int:
     return int(made.values.sum())
 
 
-def _existing(call: Call, value: Any, component: str | None) -> CellField:
-    if not isinstance(value, CellField):
-        raise call.error("operators.numbers.existence-of-cells", value)
+def _existing(value: CellField, component: str | None) -> CellField:
     name = None if component is None else str(component).rstrip()
     blocks = []
     for block in value.blocks:

@@ -29,7 +29,13 @@ RACP = shared(
         "réelle d'un intervalle (le mot VIDE s'il n'y en a pas).",
         syntax="LREE2 (LREE3) = RACP ('IMAGINAIRE') LREE1 | A0 A1 A2 (A3) (A4) ; "
         "X1 = RACP 'INTE' X2 X3 LREE1 ;",
-        examples=("LIST (RACP (PROG 6. -5. 1.)) ;",),
+        examples=(
+            "LIST (RACP (PROG 6. -5. 1.)) ;",
+            (
+                "R I = RACP 'IMAG' (PROG 1. 0. 1.) ; LIST R ; LIST I ;\n"
+                "LIST (RACP 'INTE' 0. 2. (PROG -2. 0. 1.)) ;"
+            ),
+        ),
     ),
     full_name="RACPOL",
 )

@@ -35,7 +35,10 @@ TEMP = shared(
         "rendent les temps horloge et processeur en millisecondes depuis ZERO ; 'NOEC' rend une "
         "table des deux.",
         syntax="TEMP ('ZERO' | 'IMPR' | 'PLAC') ; N1 = TEMP 'CPU' | 'HORL' ; TAB1 = TEMP 'NOEC' ;",
-        examples=("TEMP 'ZERO' ; N = TEMP 'HORL' ;",),
+        examples=(
+            "TEMP 'ZERO' ; N = TEMP 'HORL' ;",
+            ("T = TEMP 'NOEC' ; LIST (TYPE T) ; TEMP 'SGAC' 'IMPR' ; TEMP 'SGAC' ;\nTEMP 'IMPR' ;"),
+        ),
     ),
     full_name="TEMPS",
 )

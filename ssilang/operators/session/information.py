@@ -12,7 +12,7 @@ from ssilang.language.say.reference import (
     procedure_page,
 )
 from ssilang.language.values import ListMots
-from ssilang.operators.word_pages import help_text, near_name
+from ssilang.operators.vocabulary.pages import help_text, near_name
 
 
 @operator(

@@ -177,7 +177,10 @@ OUBL = shared(
         en="Forgets a name, or an index of a table.",
         fr="Oublie un nom, ou un indice d'une table.",
         syntax="OUBL NOM1 ; OUBL TAB1 OBJ1 ;",
-        examples=("T = TABL ; T . 1 = 5 ; OUBL T 1 ; LIST (DIME T) ;",),
+        examples=(
+            "T = TABL ; T . 1 = 5 ; OUBL T 1 ; LIST (DIME T) ;",
+            "A = 3 ; OUBL A ; LIST (TYPE A) ;",
+        ),
     ),
     full_name="OUBLIER",
 )

@@ -18,7 +18,7 @@ from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SsiError
 from ssilang.language.values import ListMots, Mot
 from ssilang.operators.session.option_files import include, read_file_option
-from ssilang.operators.words import told_options, told_values
+from ssilang.operators.vocabulary.words import told_options, told_values
 from ssilang.operators.workspace import Workspace, workspace
 
 Reader = Callable[[Call, str], None]

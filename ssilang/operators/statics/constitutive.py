@@ -329,6 +329,14 @@ def _stiffness(zone: Zone, tangent: FloatArray, parameters: ZoneField) -> Elemen
         examples=(
             _BAR + "S = MANU 'CHML' M 'EFFX' 1. 'TYPE' 'CONTRAINTES' 'STRESSES' ; "
             "K = KTAN M S (ZERO M 'VARINTER') A ; LIST (TYPE K) ;",
+            (
+                "OPTI DIME 2 ELEM SEG2 ; L = DROI 1 (0. 0.) (1. 0.) ;\n"
+                "M = MODE L 'MECANIQUE' 'ELASTIQUE' 'PLASTIQUE' 'PARFAIT' 'BARR' ;\n"
+                "A = MATE M 'YOUN' 1.E3 'NU' 0. 'SIGY' 2. 'SECT' 1. ;\n"
+                "S = (ZERO M 'CONTRAIN') ET (ZERO M 'VARINTER') ET (ZERO M 'DEFORMAT') ET A ;\n"
+                "E = (MANU 'CHML' M 'EPSS' 1.E-3 'TYPE' 'DEFORMATIONS' 'STRESSES') ET A ;\n"
+                "LIST (TYPE (KTAN 'PERT' M S E)) ;"
+            ),
         ),
     ),
 )

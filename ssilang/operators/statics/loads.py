@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import NoReturn
 
 import numpy as np
 
@@ -84,7 +85,15 @@ def _by_vector(call: Call, vector: Point, names: tuple[str, ...], place: Mesh | 
         "vecteur (ses coordonnées sont les composantes, donné avant le lieu) ou des composantes "
         "nommées FX FY FZ (FR FZ FT en axisymétrie).",
         syntax="FOR1 = FORC | VEC1 | MOT1 VAL1 ... GEO1 ;\nFORC TAB1 ;  (LIAISONS_STATIQUES)",
-        examples=("OPTI DIME 2 ; P = 0. 0. ; F = FORC (0. -3.) P ; LIST (EXTR F 'FY' P) ;",),
+        examples=(
+            "OPTI DIME 2 ; P = 0. 0. ; F = FORC (0. -3.) P ; LIST (EXTR F 'FY' P) ;",
+            "OPTI DIME 2 ; P = 0. 0. ; F = FORC 'FX' 3. 'FY' -2. P ; LIST F ;",
+            (
+                "OPTI DIME 2 ; P = 0. 0. ;\n"
+                "T = TABL 'LIAISONS_STATIQUES' ; T . 1 = TABL ; T . 1 . 'POINT_LIAISON' = P ;\n"
+                "T . 1 . 'DDL_LIAISON' = 'FX' ; FORC T ; LIST (T . 1 . 'FORCE') ;"
+            ),
+        ),
     ),
 )
 def forc(call: Call, vector: Point, place: Mesh | Point) -> NodeField:
@@ -135,7 +144,10 @@ def unit_forces(call: Call, table: Table) -> None:
         fr="Champ par points d'un moment, réparti également sur les noeuds d'un lieu : un "
         "vecteur dans l'espace, ou des composantes nommées MX MY MZ (MT en axisymétrie).",
         syntax="FOR1 = MOME | VEC1 | MOT1 VAL1 ... GEO1 ;",
-        examples=("OPTI DIME 2 ; P = 0. 0. ; F = MOME 'MZ' 5. P ; LIST (EXTR F 'MZ' P) ;",),
+        examples=(
+            "OPTI DIME 2 ; P = 0. 0. ; F = MOME 'MZ' 5. P ; LIST (EXTR F 'MZ' P) ;",
+            "OPTI DIME 3 ; P = 0 0 0 ; F = MOME (0 0 5) P ; LIST F ;",
+        ),
     ),
 )
 def mome(call: Call, vector: Point, place: Mesh | Point) -> NodeField:
@@ -228,6 +240,24 @@ _FACES = opt("faces", "MAILLAGE", en="sides", fr="faces")
             "OPTI DIME 2 ELEM QUA4 ; P = 0. 0. ; Q = 2. 0. ; L = DROI 2 P Q ; "
             "S = TRAN 1 L (0. 1.) ; M = MODE S MECANIQUE ELASTIQUE ; "
             "F = PRES 'MASS' M 3. L ; LIST (MAXI (RESU F)) ;",
+            (
+                "OPTI DIME 3 MODE TRID ELEM TRI3 ;\n"
+                "M = MODE (MANU 'TRI3' (0 0 0) (1 0 0) (0 1 0)) 'MECANIQUE' 'ELASTIQUE'\n"
+                "'DKT' ;\n"
+                "F = PRES 'COQU' M 6. 'NORM' ; LIST (MAXI (RESU F)) ;"
+            ),
+            (
+                "OPTI DIME 3 MODE TRID ELEM CUB8 ;\n"
+                "V = ((DROI 1 (0 0 0) (1 0 0)) TRAN 1 (0 1 0)) VOLU 1 'TRAN' (0 0 0.1) ;\n"
+                "F = PRES 'SHB8' (MODE V 'MECANIQUE' 'ELASTIQUE' 'SHB8') 6. 'INTE' ;\n"
+                "LIST (MAXI (RESU F)) ;"
+            ),
+            (
+                "OPTI DIME 3 MODE TRID ELEM SEG2 ;\n"
+                "M = MODE (DROI 1 (0 0 0) (1 0 0)) 'MECANIQUE' 'ELASTIQUE' 'TUYA' ;\n"
+                "A = MATE M 'YOUN' 2.E11 'NU' 0.3 'EPAI' 0.01 'RAYO' 0.11 'PRES' 1.E5 ;\n"
+                "F = PRES 'TUYA' M A ; LIST (MAXI F) ;"
+            ),
         ),
     ),
 )
@@ -308,7 +338,7 @@ def pressure_in_pipes(model: Model, material: tuple[CellField, ...]) -> NodeFiel
 
 
 @pres.form(said("FISS"))
-def crack_pressure(call: Call) -> NodeField:
+def crack_pressure(call: Call) -> NoReturn:
     """Pressure on sides of cracks: refused."""
     raise call.error("operators.statics.load-not-available", found="FISS")
 
@@ -397,6 +427,18 @@ def _values(density: NodeField | Point) -> NodeField | FloatArray:
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0 0) (2 0) ; M = MODE L MECANIQUE ELASTIQUE POUT "
             "; F = FSUR 'POUT' M (0. -3.) ; LIST (MAXI (RESU F)) ;",
+            (
+                "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;\n"
+                "L = DROI 2 (0. 0.) (2. 0.) ;\n"
+                "M = MODE (L TRAN 1 (0. 1.)) 'MECANIQUE' 'ELASTIQUE' ;\n"
+                "F = FSUR 'MASS' M (0. -3.) L ; LIST (MINI (RESU F)) ;"
+            ),
+            (
+                "OPTI DIME 3 MODE TRID ELEM TRI3 ;\n"
+                "M = MODE (MANU 'TRI3' (0 0 0) (1 0 0) (0 1 0)) 'MECANIQUE' 'ELASTIQUE'\n"
+                "'DKT' ;\n"
+                "F = FSUR 'COQU' M (0 0 -6) ; LIST (MINI (RESU F)) ;"
+            ),
         ),
     ),
 )

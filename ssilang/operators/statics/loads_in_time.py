@@ -77,7 +77,14 @@ _PATH = group(  # behind the name, which may be this word
         "T, PRES. Les chargements se réunissent par ET.",
         syntax="CHAR1 = CHAR (MOT1) CHPO1 | CHAM1 (EVOL1) ('LIE' | 'LIBRE') ;\n"
         "CHAR1 = CHAR (MOT1) TAB1 TAB2 ;",
-        examples=(_EXAMPLE + "LIST (EXTR (TIRE C 1.) 'FY' P) ;",),
+        examples=(
+            _EXAMPLE + "LIST (EXTR (TIRE C 1.) 'FY' P) ;",
+            (
+                "OPTI DIME 2 ; P = 0. 0. ; T = TABL ; U = TABL ;\n"
+                "T . 0 = 0. ; T . 1 = 2. ; U . 0 = FORC (0. 0.) P ; U . 1 = FORC (0. -3.) P ;\n"
+                "LIST (TIRE (CHAR 'MECA' T U) 1. 'MECA') ;"
+            ),
+        ),
     ),
 )
 def char(
@@ -216,7 +223,14 @@ _TIME = arg("time", "FLOTTANT", en="time", fr="instant", unit="s")
         fr="Valeur d'un chargement à un instant : la somme de toutes ses parties, celles d'un nom, "
         "ou une table indicée par les noms ('TABL').",
         syntax="CHP1 = TIRE CHAR1 X1 (MOT1) ; TAB1 = TIRE CHAR1 X1 'TABL' ;",
-        examples=(_EXAMPLE + "LIST (TIRE C 0.5 'MECA') ;",),
+        examples=(
+            _EXAMPLE + "LIST (TIRE C 0.5 'MECA') ;",
+            (
+                "OPTI DIME 2 ; P = 0. 0. ; F = FORC (0. -3.) P ;\n"
+                "E = EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.) ;\n"
+                "T = TIRE (CHAR 'MECA' F E) 0.5 'TABL' ; LIST (MINI (T . 'MECA')) ;"
+            ),
+        ),
     ),
 )
 def tire(call: Call, load: Load, time: float, name: str | None) -> Any:

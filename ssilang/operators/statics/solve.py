@@ -178,6 +178,17 @@ RESO = operator(
             "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; R1 = APPU 'UX' 100. P1 ;"
             " B1 = BLOQ 'MAXI' 'UX' P1 ; F1 = DEPI B1 0.02 ; F2 = FORC 'FX' 5. P1 ;"
             " U1 = RESO (R1 ET B1) (F1 ET F2) ; LIST (EXTR U1 'UX' P1) ;",
+            (
+                "OPTI DIME 2 ; P = 0. 0. ; K = (APPU 'UX' 4. P) ET (APPU 'UY' 2. P) ;\n"
+                "F = FORC (2. 3.) P ; L = RESO K (SUIT F F) ; LIST (MAXI (EXTR L 2)) ;\n"
+                "U N M = RESO 'ENSE' K F ; LIST N ;"
+            ),
+            (
+                "OPTI DIME 2 ; P = 0. 0. ; K = APPU 'UX' 'UY' 4. P ;\n"
+                "T = TABL 'LIAISONS_STATIQUES' ; T . 1 = TABL ; T . 1 . 'POINT_LIAISON' = P ;\n"
+                "T . 1 . 'DDL_LIAISON' = 'UX' ; B = BLOQ T ; DEPI T ;\n"
+                "RESO (K ET B) T ; REAC B T ; LIST (EXTR (T . 1 . 'REACTION') 'FX' P) ;"
+            ),
         ),
     ),
 )(_reso)

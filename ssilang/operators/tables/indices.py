@@ -33,7 +33,10 @@ TABL = shared(
         fr="Une nouvelle table ; un mot devient son sous-type (indice SOUSTYPE). Suivi d'une "
         "table : cette même table, sous un autre nom.",
         syntax="TAB1 = TABL (MOT1) ; TAB1 = TABL TAB2 ;",
-        examples=("T = TABL ; T . 'A' = 3 ; T . 2 = 'x' ; LIST T ;",),
+        examples=(
+            "T = TABL ; T . 'A' = 3 ; T . 2 = 'x' ; LIST T ;",
+            "T = TABL ; T . 1 = 5 ; S = TABL T ; S . 1 = 7 ; LIST (T . 1) ;",
+        ),
     ),
     full_name="TABLE",
 )
@@ -58,7 +61,10 @@ INDE = shared(
         fr="Table (1 à n) des indices d'une table ; avec un mot de type comme *MAILLAGE, table des "
         "objets nommés de ce type, indicée par leur nom.",
         syntax="TAB1 = INDE TAB2 ; TAB1 = INDE MOT1 ;",
-        examples=("T = TABL ; T . 'A' = 3 ; I = INDE T ; LIST (I . 1) ;",),
+        examples=(
+            "T = TABL ; T . 'A' = 3 ; I = INDE T ; LIST (I . 1) ;",
+            "A = 3 ; B = 'YES' ; T = INDE *'ENTIER' ; LIST (TYPE T) ;",
+        ),
     ),
     full_name="INDEX",
 )

@@ -312,6 +312,8 @@ LIST = shared(
             "LIST (PROG 1. 2. 3.) ;",
             "X = 3 ; LIST *ENTIER ;",
             "T = TABL ; T . 1 = TABL ; T . 1 . 'A' = 3. ; LIST T 1 ;",
+            "LIST *'ENTIER' ; A = 3 ; LIST ;",
+            "LIST 'RESU' ;",
         ),
     ),
     full_name="LISTE",

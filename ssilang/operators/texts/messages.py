@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, NoReturn
 
 from ssilang.language.registry import Help, arg, choice, key, many, operator, opt, shared
 from ssilang.language.run.call import Call
@@ -75,7 +75,10 @@ ERRE = shared(
         "objets qui le complètent. ERRE 0 ne signale rien ; un numéro négatif écrit le message et "
         "continue.",
         syntax="ERRE MOT1 ; ERRE N1 ('AVEC' OBJ1 OBJ2 ...) ;",
-        examples=("SI (1 > 2) ; ERRE 'one is not larger than two' ; FINSI ;",),
+        examples=(
+            "SI (1 > 2) ; ERRE 'one is not larger than two' ; FINSI ;",
+            "ERRE -21 ; MESS 'goes on' ;",
+        ),
     ),
     full_name="ERREUR",
 )
@@ -115,7 +118,7 @@ def _numbered(call: Call, number: int, values: tuple[Any, ...]) -> None:
         fr="ce qui complète une phrase de la bibliothèque",
     ),
 )
-def _worded(call: Call, text: str, values: tuple[Any, ...]) -> None:
+def _worded(call: Call, text: str, values: tuple[Any, ...]) -> NoReturn:
     if text.startswith(_OF_LIBRARY):
         raise _of_library(call, str(text), values)
     raise SsiError("erre", call.span, message=str(text), number=_STOPPED)

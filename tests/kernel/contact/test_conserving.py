@@ -10,9 +10,9 @@ from references.recorder import Recorder
 
 from ssilang.kernel.contact.conserving import mean_penalty
 from ssilang.kernel.contact.options import ContactOptions
+from ssilang.kernel.stepping.newmark import Scheme
 from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
 from ssilang.kernel.stepping.run import integrate
-from ssilang.kernel.stepping.scheme import Scheme
 
 METHODS = [
     ContactOptions("PENALITE", 1e3 * STRUCTURE_STIFFNESS),

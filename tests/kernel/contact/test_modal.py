@@ -7,18 +7,18 @@ import pytest
 from references.assembled import Bench
 from references.recorder import Recorder
 
+from ssilang.kernel.contact.active_set import active_set_of, anew, find_active, list_closed
 from ssilang.kernel.contact.modal import takes
-from ssilang.kernel.contact.modal_loop import Held, react
 from ssilang.kernel.contact.options import ContactOptions
 from ssilang.kernel.curves.curve import Load
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.solvers.active_set.complementarity import ContactProblem, solve_contact
-from ssilang.kernel.stepping.choose import ContactEngine, SparseEngine, kind_of
+from ssilang.kernel.stepping.choose import Case, Rule, only, rule_of
+from ssilang.kernel.stepping.newmark import Scheme, generalised_alpha, hht
 from ssilang.kernel.stepping.problem.initial import closed_at_start
 from ssilang.kernel.stepping.problem.problem import Inputs, Problem, make_problem
-from ssilang.kernel.stepping.run import integrate
-from ssilang.kernel.stepping.scheme import Scheme, generalised_alpha, hht
+from ssilang.kernel.stepping.run import Integration, integrate
 
 FEET, K, M = 6, 4e5, 20.0
 
@@ -77,16 +77,22 @@ def dashpots(bench: Bench, nodes: list[int]) -> Matrix | None:
     return bench.damping
 
 
+def rule(problem: Problem, full: bool = False) -> Rule:
+    """The rule that gives the problem's loop."""
+    closed = np.zeros(len(problem.contact), bool)
+    return rule_of(Case(problem, Integration(problem).motion, 2e-3, full, closed))
+
+
 def both(problem, monkeypatch):
     """Records and histories of the compiled loop and of the sparse one.
 
     Impacts of several bodies are chaotic: the sparse loop itself, started one rounding apart, is
     1e-7 apart after 400 steps. The motions are short for that (see `roundings`).
     """
-    assert kind_of(problem, False) is ContactEngine
+    assert takes(problem)
     one, two = Recorder(len(problem.times)), Recorder(len(problem.times))
     found = integrate(problem, [one])
-    monkeypatch.setattr("ssilang.kernel.stepping.run.kind_of", lambda p, full: SparseEngine)
+    monkeypatch.setattr("ssilang.kernel.stepping.choose.RULES", only("condensed"))
     exact = integrate(problem, [two])
     assert exact.loop == "condensed"
     return one, found, two, exact
@@ -172,8 +178,9 @@ def test_what_it_cannot_do_runs_in_the_sparse_loop(other, monkeypatch):
 
 def test_relations_that_it_leaves_to_others():
     assert takes(feet(steps=2))
+    assert rule(feet(steps=2)).name == "relations on modes"
     assert not takes(feet(ContactOptions("UZAWA"), steps=2))
-    assert kind_of(feet(steps=2), True) is SparseEngine
+    assert rule(feet(steps=2), full=True).name == "full Newton"
 
 
 @pytest.mark.parametrize("gap", [1e-19, -1e-19, 0.0])
@@ -216,11 +223,12 @@ def test_active_sets_end_where_the_reference_ends():
         for _ in range(20):
             A = random.standard_normal((m, m))
             W, q = A @ A.T + 0.05 * np.eye(m), random.standard_normal(m)
-            held = Held(
-                random.random(m) < 0.5, np.zeros(m, bool), np.zeros((m, m)),
-                np.zeros(m, np.int64), np.zeros(m), np.zeros(m),
-            )  # fmt: skip
-            p, none = np.zeros(m), np.zeros((m, 0))
-            assert react(W, q, held, p) > 0
+            rows, none = active_set_of(W, 1.0 / np.diag(W), 1e-12), np.zeros((m, 0))
+            rows.closed[:] = random.random(m) < 0.5
+            anew(rows)
+            list_closed(rows)
+            rows.free[:] = q
+            assert find_active(rows) > 0
+            p = np.where(rows.closed, -rows.found, 0.0)
             exact = solve_contact(ContactProblem(W, q, none, none, np.zeros(0), np.zeros(m, bool)))
             np.testing.assert_allclose(p, exact.p, atol=1e-9 * max(exact.p.max(), 1e-3))

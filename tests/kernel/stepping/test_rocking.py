@@ -11,9 +11,9 @@ from references.recorder import Recorder
 from references.rocking import TwoSpringBlock
 
 from ssilang.kernel.contact.options import ContactOptions
+from ssilang.kernel.stepping.newmark import Scheme
 from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
 from ssilang.kernel.stepping.run import integrate
-from ssilang.kernel.stepping.scheme import Scheme
 
 BLOCK = TwoSpringBlock(mass=1e5, inertia=4e5, height=3.0, half_width=1.5, k=4e7)
 

@@ -10,10 +10,10 @@ from references.soil_block import FRICTION, soil_block
 
 from ssilang.kernel.base.errors import ConvergenceError
 from ssilang.kernel.stepping import run_many as together
+from ssilang.kernel.stepping.newmark import Scheme, generalised_alpha, hht
 from ssilang.kernel.stepping.problem.loading import Loading
 from ssilang.kernel.stepping.rests.sparse import interleaved_batch as interleaved_together
 from ssilang.kernel.stepping.run import integrate
-from ssilang.kernel.stepping.scheme import Scheme, generalised_alpha, hht
 
 SIZE = (16, 8, 4)
 ROUNDING = 1e-11  # sums in another order, over the steps

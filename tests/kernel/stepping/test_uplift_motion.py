@@ -6,9 +6,9 @@ from references.assembled import Bench
 from references.oscillators import MASS, SOIL_STIFFNESS, STRUCTURE_STIFFNESS, ClubB
 from references.recorder import Recorder
 
+from ssilang.kernel.stepping.newmark import Scheme, generalised_alpha, hht
 from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
 from ssilang.kernel.stepping.run import integrate
-from ssilang.kernel.stepping.scheme import Scheme, generalised_alpha, hht
 
 AVERAGE = Scheme()
 

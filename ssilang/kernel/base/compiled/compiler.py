@@ -32,9 +32,15 @@ def compiled_fused(function: Function) -> Function:
     return _made(function, {"contract"})
 
 
-def _made(function: Function, freedom: set[str] | bool) -> Function:
+def compiled_inline(function: Function) -> Function:
+    """As `compiled_fast`, written out in each caller: large records need not be handed over."""
+    return _made(function, {"reassoc", "contract", "nsz", "arcp"}, True)
+
+
+def _made(function: Function, freedom: set[str] | bool, inline: bool = False) -> Function:
     given = bool(os.environ.get("NUMBA_CACHE_DIR"))
     if not given and not PLAIN:
         numba.config.CACHE_DIR = str(folder_of(function.__module__))  # type: ignore[attr-defined]
     kept = given or not PLAIN
-    return cast(Function, numba.njit(fastmath=freedom, cache=kept, **_OPTIONS)(function))
+    made = numba.njit(fastmath=freedom, cache=kept, forceinline=inline, **_OPTIONS)
+    return cast(Function, made(function))

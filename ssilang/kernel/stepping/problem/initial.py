@@ -203,7 +203,7 @@ def _least_squares(mass: sp.csr_array, force: FloatArray) -> FloatArray:
 
 
 def initial_energies(problem: Problem, v: FloatArray, joints: JointState) -> FloatArray:
-    """Energies at the start, in the order of `compiled_loop` (no work done yet)."""
+    """Energies at the start, in the order of `state` (no work done yet)."""
     stored = lost = 0.0
     p = problem.interface
     if p is not None:

@@ -18,8 +18,9 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.stepping.newmark import Newmark, advanced, newmark_of
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.rests.dense.loop import DAMPED, ELASTIC, EXTERNAL, KINETIC, Motion
+from ssilang.kernel.stepping.state import DAMPED, ELASTIC, EXTERNAL, KINETIC, Motion
 
 MOST = 24  # curves of imposed values: each is three loads more
 ALLOWED = 1e-12  # rounding errors of a motion that the supports allow
@@ -54,15 +55,15 @@ class Course:
     v: FloatArray
     a: FloatArray
 
-    def factors(self, alpha_m: float, alpha_f: float) -> FloatArray:
+    def factors(self, n: Newmark) -> FloatArray:
         """Factors (n_steps + 1, 3 m) of the loads on q.
 
         Those of the inertia are such that a mean by alpha_f is that of c'' by alpha_m.
         """
         inertia = self.a.copy()
         for k in range(len(inertia) - 1):
-            mean = (1 - alpha_m) * self.a[k + 1] + alpha_m * self.a[k]
-            inertia[k + 1] = (mean - alpha_f * inertia[k]) / (1 - alpha_f)
+            mean = n.inertia_end * self.a[k + 1] + n.inertia_start * self.a[k]
+            inertia[k + 1] = (mean - n.start * inertia[k]) / n.end
         return np.hstack([inertia, self.v, self.c])
 
 
@@ -92,6 +93,11 @@ class MovingSupports:
         X = [problem.constraints.particular(imposed[:, j]) for j in self.chosen]
         n = problem.numbering.size
         self._own = self._columns(np.array(X).reshape(-1, n).T)
+
+    @property
+    def newmark(self) -> Newmark:
+        """Coefficients of the steps."""
+        return newmark_of(self.problem.scheme, self.dt)
 
     def _columns(self, X: FloatArray) -> Columns:
         p = self.problem
@@ -124,13 +130,10 @@ class MovingSupports:
 
     def course(self, c: FloatArray, v0: FloatArray, a0: FloatArray) -> Course:
         """The scheme's velocities and accelerations of c, from those at the start."""
-        s, dt = self.problem.scheme, self.dt
-        v, a, ratio = np.zeros_like(c), np.zeros_like(c), s.gamma / s.beta
+        v, a, n = np.zeros_like(c), np.zeros_like(c), self.newmark
         v[0], a[0] = v0, a0
         for k in range(len(c) - 1):
-            rise = c[k + 1] - c[k]
-            v[k + 1] = ratio / dt * rise + (1 - ratio) * v[k] + dt * (1 - 0.5 * ratio) * a[k]
-            a[k + 1] = (rise / dt - v[k]) / (s.beta * dt) - (0.5 / s.beta - 1) * a[k]
+            v[k + 1], a[k + 1] = advanced(n, c[k + 1] - c[k], v[k], a[k])
         return Course(c, v, a)
 
     def complete(
@@ -142,7 +145,7 @@ class MovingSupports:
         Parameters
         ----------
         works : array (2, n_steps, 3 m)
-            See `march_interleaved`.
+            See `run_interleaved`.
         factors : array (n_steps + 1, k)
             Of the loads of the problem.
         """
@@ -162,7 +165,7 @@ class MovingSupports:
             a @ MXX + v @ CXX + c @ KXX + pulls - loads
             - motion.a[:, inertia] - motion.v[:, damping] - u[:, strain]
         )  # fmt: skip
-        whole = course.factors(self.problem.scheme.alpha_m, self.problem.scheme.alpha_f)
+        whole = course.factors(self.newmark)
         dc, before = np.diff(c, axis=0), slice(0, steps)
         external = -0.5 * np.sum((whole[:steps] + whole[1 : steps + 1]) * rises, axis=1)
         external += 0.5 * np.sum(

@@ -37,9 +37,9 @@ from ssilang.kernel.matrices.assembly import (
     numbering_of,
 )
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
+from ssilang.kernel.stepping.newmark import Scheme
 from ssilang.kernel.stepping.problem.constraints import Constraints, check_values, constraints_of
 from ssilang.kernel.stepping.problem.loading import Loading, loading_of
-from ssilang.kernel.stepping.scheme import Scheme
 
 SMALL = 160
 """Motions that supports leave, up to which dense matrices and the compiled loop are used."""

@@ -4,14 +4,14 @@
 
 For linear systems it is the average acceleration; with joints the balance of energy holds to
 rounding whatever dt and the joints' stiffness. The matrix is that of the average acceleration.
-Unilateral relations push by mean reactions that give back all energy (`conserving_contact`).
+Unilateral relations push by mean reactions that give back all energy (`contact.conserving`).
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.contact.conserving import ConservingContact
 from ssilang.kernel.interface.interface import Interface
 from ssilang.kernel.interface.mean_traction import mean_response
@@ -24,7 +24,8 @@ from ssilang.kernel.interface.response import (
 )
 from ssilang.kernel.stepping.effective import Effective
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.rests.dense.loop import (
+from ssilang.kernel.stepping.rests.sparse.loop import keep_whole, support_work
+from ssilang.kernel.stepping.state import (
     DAMPED,
     ELASTIC,
     EXTERNAL,
@@ -32,9 +33,9 @@ from ssilang.kernel.stepping.rests.dense.loop import (
     LOST,
     STORED,
     Motion,
-    Saved,
+    Outcome,
+    Recorder,
 )
-from ssilang.kernel.stepping.rests.sparse.loop import support_work
 
 TOLERANCE = 1e-14
 ACCEPTED = 1e-11
@@ -81,13 +82,15 @@ class ConservingLoop:
         found: FloatArray = 2 * self._K - self.effective.R
         return found
 
-    def march(
-        self, factors: FloatArray, save: IntArray, saved: Saved, history: FloatArray
-    ) -> tuple[int, int, float]:
-        """As `compiled_loop.march`."""
+    def renew(self, problem: Problem) -> None:
+        """Go on with other loads, all else being the same."""
+        self.problem = problem
+
+    def run(self, factors: FloatArray, recorder: Recorder) -> Outcome:
+        """Steps on the whole problem's arrays."""
         p, m, dt, worst = self.problem, self.motion, self.effective.dt, 0
         loads, imposed = factors @ p.loading.forces.T, factors @ p.loading.imposed.T
-        for k in range(len(save)):
+        for k in range(len(recorder.row)):
             mean_load = 0.5 * (loads[k] + loads[k + 1])
             r = 2 * mean_load - 2 * (p.K @ m.u) + (4 / dt) * (p.M @ m.v)
             dd = imposed[k + 1] - p.constraints.C @ m.u
@@ -101,13 +104,10 @@ class ConservingLoop:
             self._advance(du, dd, mean_load, factors[k : k + 2])
             if not np.isfinite(m.u).all():
                 return k, -1, np.inf
-            history[k] = m.energies
-            if save[k] >= 0:
-                row = int(save[k])
-                saved.u[row], saved.v[row], saved.a[row] = m.u, m.v, m.a
-                saved.reaction[row], saved.w[row], saved.t[row] = m.reaction, m.w, m.t
-                saved.state[row], saved.contact[row] = m.state, m.contact
-        return len(save), worst, 0.0
+            recorder.energies[k] = m.energies
+            if recorder.row[k] >= 0:
+                keep_whole(m, recorder, int(recorder.row[k]))
+        return len(recorder.row), worst, 0.0
 
     def _increment(self, r: FloatArray, dd: FloatArray) -> tuple[FloatArray, int, float]:
         e, joints = self.effective, self.problem.interface

@@ -202,7 +202,14 @@ def plus(call: Call, objects: Sequence[Any], by: Point | NodeField) -> tuple[Any
         "entre deux maillages de même structure, le champ de déplacements qui mène du second au "
         "premier.",
         syntax="OBJ2 ... = OBJ1 ... MOIN VEC1|CHPO1 ;\nCHPO1 = GEO2 MOIN GEO1 ;",
-        examples=("OPTI DIME 2 ; P = 1. 0. ; Q = P MOIN (0. 2.) ; LIST (COOR 2 Q) ;",),
+        examples=(
+            "OPTI DIME 2 ; P = 1. 0. ; Q = P MOIN (0. 2.) ; LIST (COOR 2 Q) ;",
+            (
+                "OPTI DIME 2 ELEM SEG2 ;\n"
+                "L = DROI 4 (0. 0.) (1. 0.) ; M = L PLUS (0. 0.5) ;\n"
+                "LIST (MAXI (EXCO 'UY' (M MOIN L))) ;"
+            ),
+        ),
     ),
 )
 def moin(call: Call, objects: Sequence[Any], by: Point | NodeField) -> tuple[Any, ...]:
@@ -241,7 +248,10 @@ def motion(session: Session, after: Mesh, before: Mesh) -> NodeField:
         fr="Copies d'objets tournés d'un angle en degrés autour d'un point (2D) ou d'un axe (3D). "
         "Les vecteurs des champs par points, contraintes et déformations tournent aussi.",
         syntax="OBJ2 ... = OBJ1 ... TOUR FLOT1 POIN1 (POIN2) ;",
-        examples=("OPTI DIME 2 ; P = 1. 0. ; Q = P TOUR 90. (0. 0.) ; LIST (COOR 2 Q) ;",),
+        examples=(
+            "OPTI DIME 2 ; P = 1. 0. ; Q = P TOUR 90. (0. 0.) ; LIST (COOR 2 Q) ;",
+            ("OPTI DIME 3 ;\nQ = (1 0 0) TOUR 90. (0 0 0) (0 0 1) ; LIST (COOR 2 Q) ;"),
+        ),
     ),
 )
 def tour(call: Call, objects: Sequence[Any], angle: float, centre: Point) -> tuple[Any, ...]:
@@ -286,6 +296,13 @@ def _turned(
         syntax="GEO1 ... = GEO2 ... SYME 'POINT' P1 | 'DROIT' P1 P2 | 'PLAN' P1 P2 P3 ;",
         examples=(
             "OPTI DIME 2 ; P = 1. 2. ; Q = P SYME 'DROIT' (0. 0.) (1. 0.) ; LIST (COOR 2 Q) ;",
+            (
+                "OPTI DIME 3 ;\n"
+                "P = 1 2 3 ; O = 0 0 0 ;\n"
+                "Q = P SYME 'POINT' O ; LIST (COOR 3 Q) ;\n"
+                "Q = P SYME 'PLAN' O (1 0 0) (0 1 0) ;\n"
+                "MESS (COOR 1 Q) (COOR 2 Q) (COOR 3 Q) ;"
+            ),
         ),
     ),
 )
@@ -374,6 +391,35 @@ def affi(
         examples=(
             "OPTI DIME 2 ; P = 1. 2. ; Q = P PROJ (0. 1.) 'DROI' (0. 0.) (1. 1.) ;"
             " LIST (COOR 2 Q) ;",
+            (
+                "OPTI DIME 3 ;\n"
+                "P = 1 1 3 ; D = 0 0 1 ; O = 0 0 0 ; A = 2 0 0 ; B = 0 2 0 ;\n"
+                "Q = P PROJ D 'PLAN' O A B ; MESS (COOR 3 Q) ;\n"
+                "Q = P PROJ 'CYLI' D 'PLAN' O A B ; MESS (COOR 3 Q) ;\n"
+                "Q = P PROJ D 'SPHE' O A ; MESS (COOR 3 Q) ;\n"
+                "Q = P PROJ D 'CYLI' O A B ; MESS (COOR 3 Q) ;\n"
+                "Q = P PROJ D 'CONE' O A (1 1 0) ; MESS (COOR 3 Q) ;\n"
+                "Q = P PROJ D 'CONI' O A (1 1 0) ; MESS (COOR 3 Q) ;\n"
+                "Q = (2 0 3) PROJ D 'TORE' O D A (2.5 0 0) ; MESS (COOR 3 Q) ;\n"
+                "Q = (2 0 3) PROJ D 'TORI' O D A (2.5 0 0) ; MESS (COOR 3 Q) ;"
+            ),
+            ("OPTI DIME 2 ;\nQ = (0.6 3.) PROJ (0. 1.) 'CERC' (0. 0.) (1. 0.) ; LIST (COOR 2 Q) ;"),
+            (
+                "OPTI DIME 3 ;\n"
+                "O = 0 0 0 ; A = 2 0 0 ; B = 0 2 0 ; D = 0 0 1 ;\n"
+                "Q = (1 1 3) PROJ 'CYLI' D 'PLAN' O A B ; MESS (COOR 3 Q) ;\n"
+                "Q = (1 1 3) PROJ 'CYLI' D 'SPHE' O A ; MESS (COOR 3 Q) ;\n"
+                "Q = (1 1 3) PROJ 'CYLI' D 'CYLI' O A B ; MESS (COOR 3 Q) ;\n"
+                "Q = (1 1 3) PROJ 'CYLI' D 'CONE' O A (1 1 0) ; MESS (COOR 3 Q) ;\n"
+                "Q = (1 1 3) PROJ 'CYLI' D 'CONI' O A (1 1 0) ; MESS (COOR 3 Q) ;\n"
+                "Q = (2 0 3) PROJ 'CYLI' D 'TORE' O D A (2.5 0 0) ; MESS (COOR 3 Q) ;\n"
+                "Q = (2 0 3) PROJ 'CYLI' D 'TORI' O D A (2.5 0 0) ; MESS (COOR 3 Q) ;"
+            ),
+            (
+                "OPTI DIME 2 ; O = 0. 0. ; D = 0. 1. ;\n"
+                "Q = (0.6 3.) PROJ 'CYLI' D 'DROI' O (1. 1.) ; MESS (COOR 2 Q) ;\n"
+                "Q = (0.6 3.) PROJ 'CYLI' D 'CERC' O (1. 0.) ; MESS (COOR 2 Q) ;"
+            ),
         ),
     ),
 )

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.elements.zone_fields import carry
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Model
@@ -31,18 +28,10 @@ _POINT = main("support", "POINT", en="point", fr="point")
 _MESH = main("support", "MAILLAGE", en="mesh", fr="maillage")
 _NODE_FIELD = main("support", "CHPOINT", en="field at nodes", fr="champ par points")
 _MODEL = main("support", "MMODEL", en="model", fr="modèle")
-_CELL_FIELD = main("support", "MCHAML", en="field in cells", fr="champ par éléments")
 
-Support = Point | Mesh | NodeField | Model | CellField
+Support = Point | Mesh | NodeField | Model
 
 
-@COOR.form(
-    _CELL_FIELD,
-    _AXIS,
-    en="Of a cell field: cell fields, at the same points.",
-    fr="D'un champ par éléments : champs par éléments, aux mêmes points.",
-    gives="MCHAML",
-)
 @COOR.form(
     _MODEL,
     _AXIS,
@@ -82,7 +71,6 @@ def one_coordinate(call: Call, support: Support, axis: int) -> float | NodeField
     return _coordinate(support, axis - 1, axis > dimension)
 
 
-@COOR.form(_CELL_FIELD, gives=ANY)
 @COOR.form(_MODEL, gives=ANY)
 @COOR.form(_NODE_FIELD, gives=ANY)
 @COOR.form(_MESH, gives=ANY)
@@ -109,8 +97,6 @@ def _coordinate(support: Support, axis: int, density: bool) -> float | NodeField
     """One coordinate, from 0, or the density, of what an object stands on."""
     if isinstance(support, Model):
         return _of_model(support, axis, density)
-    if isinstance(support, CellField):
-        return _of_cell_field(support, axis, density)
     nodes = support.table if isinstance(support, NodeField) else support.nodes
     column = _column(nodes, axis, density)
     if isinstance(support, Point):
@@ -138,16 +124,6 @@ def curvilinear(line: Mesh) -> NodeField:
     if chain[0] == chain[-1]:
         chain, length = chain[:-1], length[:-1]
     return NodeField.of(line.nodes, chain, {"SCAL": length}, "DIFFUS")
-
-
-def _of_cell_field(field: CellField, axis: int, density: bool) -> CellField:
-    blocks = []
-    for b in field.blocks:
-        values = _column(b.cells.nodes, axis, density)[b.cells.connectivity]
-        if b.support != "NOEUD":
-            values = carry(values, b.element, "NOEUD", b.support)
-        blocks.append(replace(b, components={"SCAL": values}))
-    return CellField(tuple(blocks), "SCALAIRE")
 
 
 def _of_model(model: Model, axis: int, density: bool) -> CellField:

@@ -68,7 +68,14 @@ def conf(first: Point, second: Point) -> None:
         fr="Position moyenne des noeuds d'un maillage ou, avec 'ELEM', des noeuds de chaque "
         "élément.",
         syntax="POIN1 = BARY GEO1 ('ELEM') ;",
-        examples=("OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; LIST (COOR 1 (BARY L)) ;",),
+        examples=(
+            "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; LIST (COOR 1 (BARY L)) ;",
+            (
+                "OPTI DIME 2 ELEM SEG2 ;\n"
+                "C = BARY 'ELEM' (DROI 4 (0. 0.) (1. 0.)) ;\n"
+                "LIST (COOR 1 (C POIN 1)) ;"
+            ),
+        ),
     ),
 )
 def bary(session: Session, mesh: Mesh | Point) -> Point:

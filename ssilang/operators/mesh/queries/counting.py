@@ -69,7 +69,10 @@ def nbno(mesh: Mesh | Point) -> int:
         "; 'VOLU' d'une surface fermée : le volume intérieur ; 'DENS' : champ des tailles de "
         "maille.",
         syntax="FLOT1 = MESU GEO1 ('LONG'|'SURF'|'VOLU') ; CHPO1 = MESU GEO1 'DENS' ;",
-        examples=("OPTI DIME 2 ELEM SEG2 ; LIST (MESU (DROI 4 (0. 0.) (1. 0.))) ;",),
+        examples=(
+            "OPTI DIME 2 ELEM SEG2 ; LIST (MESU (DROI 4 (0. 0.) (1. 0.))) ;",
+            ("OPTI DIME 2 ELEM SEG2 ;\nLIST (MAXI (MESU 'DENS' (DROI 4 (0. 0.) (1. 0.)))) ;"),
+        ),
     ),
 )
 def mesu(mesh: Mesh, what: str | None) -> float:

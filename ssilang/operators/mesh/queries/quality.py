@@ -60,6 +60,10 @@ _MEASURES: dict[str, tuple[tuple[str, ...], Callable[[FloatArray], FloatArray]]]
         examples=(
             "OPTI DIME 2 ELEM TRI3 ; T = MANU 'TRI3' (0. 0.) (1. 0.) (0. 1.) ; "
             "LIST (MAXI (INDI T 'ASPE')) ;",
+            (
+                "OPTI DIME 2 ELEM TRI3 ;\n"
+                "T = MANU 'TRI3' (0. 0.) (1. 0.) (0. 1.) ; LIST (MAXI (INDI 'TOPO' T 1.)) ;"
+            ),
         ),
     ),
 )

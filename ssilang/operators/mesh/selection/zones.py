@@ -66,7 +66,19 @@ _COUNT = arg("count", "ENTIER", en="number of parts", fr="nombre de parties")
         "('ANGL' (FLOT1) ('TELQ')) ;\n"
         "TAB1 = PART ('NESC') 'OPTI' MAIL1 (N1) ; TAB1 = PART ('NESC') 'ARLE' MAIL1 N1 ;\n"
         "TAB1 = PART ('NESC') ('ARLE') MODL1 N1 ;",
-        examples=(_CUT + "T = PART 'NESC' 'CONN' L ; MESS (DIME T) ;",),
+        examples=(
+            _CUT + "T = PART 'NESC' 'CONN' L ; MESS (DIME T) ;",
+            (
+                "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;\n"
+                "S = (DROI 4 (0. 0.) (4. 0.)) TRAN 2 (0. 1.) ;\n"
+                "M = MODE S 'MECANIQUE' 'ELASTIQUE' ;\n"
+                "T = PART 'OPTI' S 2 ; LIST (NBEL (T . 1)) ;\n"
+                "T = PART 'ARLE' S 4 ; LIST (NBEL (T . 1)) ;\n"
+                "T = PART 'ARLE' M 4 ; LIST (NBEL (EXTR (T . 1) 'MAIL')) ;\n"
+                "T = PART M 2 ; LIST (NBEL (EXTR (T . 1) 'MAIL')) ;\n"
+                "T = PART 'NESC' 'SEPA' (CONT S) 'ANGL' 45. ; LIST (DIME T) ;"
+            ),
+        ),
     ),
 )
 def part(mesh: Mesh, free: bool) -> Table:

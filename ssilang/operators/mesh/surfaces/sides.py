@@ -26,6 +26,11 @@ from ssilang.language.run.call import Call
         examples=(
             "OPTI DIME 2 ELEM QUA4 ; L = DROI 4 (0. 0.) (1. 0.) ; S = L TRAN 3 (0. 1.) ;"
             " LIST (NBEL (COTE 2 S)) ;",
+            (
+                "OPTI DIME 2 ELEM QUA4 ;\n"
+                "S = (DROI 4 (0. 0.) (1. 0.)) TRAN 3 (0. 1.) ;\n"
+                "A B C D = COTE S ; MESS (NBEL A) (NBEL B) (NBEL C) (NBEL D) ;"
+            ),
         ),
     ),
 )
@@ -63,6 +68,11 @@ def _sides(call: Call, mesh: Mesh) -> tuple[Mesh, ...]:
         examples=(
             "OPTI DIME 3 ELEM CUB8 ; L = DROI 2 (0. 0. 0.) (1. 0. 0.) ; S = L TRAN 2 (0. 1. 0.) ;"
             " V = S VOLU 2 'TRAN' (0. 0. 1.) ; LIST (NBEL (FACE 3 V)) ;",
+            (
+                "OPTI DIME 3 ELEM CUB8 ;\n"
+                "V = ((DROI 2 (0 0 0) (1 0 0)) TRAN 2 (0 1 0)) VOLU 3 'TRAN' (0 0 1) ;\n"
+                "F1 F2 F3 = FACE V ; MESS (NBEL F1) (NBEL F2) (NBEL F3) ;"
+            ),
         ),
     ),
 )

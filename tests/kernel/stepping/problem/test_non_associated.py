@@ -10,9 +10,9 @@ from references.recorder import Recorder
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.matrices.relations import Term, relation_rows
 from ssilang.kernel.statics.stepping import step_statics
+from ssilang.kernel.stepping.newmark import Scheme, hht
 from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
 from ssilang.kernel.stepping.run import integrate
-from ssilang.kernel.stepping.scheme import Scheme, hht
 
 KN, K1, K2, M1, M2 = 5e4, 2e4, 3e4, 2.0, 3.0
 C, D = np.array([1.0, -0.5]), np.array([1.0, -0.2])

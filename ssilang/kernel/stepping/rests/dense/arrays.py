@@ -5,16 +5,15 @@ from __future__ import annotations
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.interface.laws.columns import N_STATE
 from ssilang.kernel.interface.response import Joints
 from ssilang.kernel.stepping.effective import Effective
+from ssilang.kernel.stepping.newmark import newmark_of
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.dense.loop import StepOperators, System
 
 
 def system_of(problem: Problem) -> System:
     """Matrices, loads and conditions, dense."""
-    s = problem.scheme
     rows = problem.constraints.C.toarray()
     n_rows, n = rows.shape
     multipliers = np.array([problem.constraints.multipliers(e) for e in np.eye(n)])
@@ -28,7 +27,6 @@ def system_of(problem: Problem) -> System:
         np.ascontiguousarray(problem.loading.imposed),
         rows,
         np.ascontiguousarray(multipliers.reshape(n, n_rows).T),
-        np.array([s.alpha_m, s.alpha_f, s.beta, s.gamma]),
     )
 
 
@@ -38,7 +36,7 @@ def operators_of(problem: Problem, effective: Effective) -> StepOperators:
     P = effective.solve(np.eye(n))
     Q = np.array([effective.imposed(e) for e in np.eye(n_rows)]).reshape(n_rows, n)
     return StepOperators(
-        effective.dt,
+        newmark_of(problem.scheme, effective.dt),
         np.ascontiguousarray(P),
         np.ascontiguousarray(Q.T),
         np.ascontiguousarray(effective.Y),
@@ -59,7 +57,3 @@ def joints_of(problem: Problem) -> Joints:
         return problem.interface.points
     empty, none = np.zeros((0, 0)), np.zeros(0, dtype=np.int64)
     return Joints(np.zeros((0, 1), np.int64), np.zeros((0, 1, 1)), np.zeros(0), none, empty)
-
-
-STATE = N_STATE
-"""Columns of a joint's state."""

@@ -6,9 +6,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.interface.condensed import Condensed
+from ssilang.kernel.interface.copies import copy_state
 from ssilang.kernel.interface.newton import Workspace, solve_interface
 from ssilang.kernel.interface.response import (
     InterfaceState,
@@ -16,13 +17,22 @@ from ssilang.kernel.interface.response import (
     accept,
     interface_energies,
 )
-
-N_ENERGIES = 6
-KINETIC, ELASTIC, STORED, LOST, DAMPED, EXTERNAL = range(N_ENERGIES)
+from ssilang.kernel.stepping.newmark import Newmark
+from ssilang.kernel.stepping.state import (
+    DAMPED,
+    ELASTIC,
+    EXTERNAL,
+    KINETIC,
+    LOST,
+    STORED,
+    Motion,
+    Recorder,
+)
+from ssilang.kernel.stepping.verbs import advance, keep
 
 
 class System(NamedTuple):
-    """What does not change with dt: dense matrices (n, n), loads, conditions, scheme."""
+    """What does not change with dt: dense matrices (n, n), loads, conditions."""
 
     K: FloatArray
     M: FloatArray
@@ -33,13 +43,12 @@ class System(NamedTuple):
     imposed: FloatArray  # (n_rows, k)
     rows: FloatArray  # (n_rows, n)
     multipliers: FloatArray  # (n_rows, n): reactions of the rows from forces on the unknowns
-    scheme: FloatArray  # alpha_m, alpha_f, beta, gamma
 
 
 class StepOperators(NamedTuple):
     """What depends on dt: `du = P r + Q dd - Y h`."""
 
-    dt: float
+    newmark: Newmark
     P: FloatArray  # (n, n)
     Q: FloatArray  # (n, n_rows)
     Y: FloatArray  # (n, q)
@@ -47,42 +56,18 @@ class StepOperators(NamedTuple):
     R: FloatArray  # (q, q)
 
 
-class Scratch(NamedTuple):
-    """Vectors (n,) that each step overwrites."""
+class Sweep(NamedTuple):
+    """Vectors that each step overwrites."""
 
-    pv: FloatArray
-    px: FloatArray
-    tmp: FloatArray
-    old: FloatArray
-
-
-class Motion(NamedTuple):
-    """The current state, changed in place."""
-
-    u: FloatArray
-    v: FloatArray
-    a: FloatArray
-    delta: FloatArray
-    f: FloatArray
-    w: FloatArray
-    t: FloatArray
-    state: FloatArray
-    reaction: FloatArray  # (n,) M a + C v + K u + J^T f - F of the last step
-    energies: FloatArray  # (N_ENERGIES,)
-    contact: FloatArray  # (m,) reactions of unilateral relations (none in the compiled loop)
-
-
-class Saved(NamedTuple):
-    """Where the saved steps go, one row each."""
-
-    u: FloatArray
-    v: FloatArray
-    a: FloatArray
-    reaction: FloatArray
-    w: FloatArray
-    t: FloatArray
-    state: FloatArray
-    contact: FloatArray
+    r: FloatArray  # (n,) right-hand side
+    du: FloatArray  # (n,)
+    dd: FloatArray  # (n_rows,) increments of the imposed values
+    load0: FloatArray  # (n,)
+    load1: FloatArray  # (n,)
+    v0: FloatArray  # (n,) velocity at the step's start
+    past: FloatArray  # (n,) room
+    product: FloatArray  # (n,) room
+    old: FloatArray  # (n,) reaction at the step's start
 
 
 @compiled
@@ -107,12 +92,6 @@ def _form(A: FloatArray, x: FloatArray) -> float:
 
 
 @compiled
-def _copy(source: FloatArray, target: FloatArray) -> None:
-    for i in range(source.shape[0]):
-        target[i] = source[i]
-
-
-@compiled
 def _add(target: FloatArray, factor: float, source: FloatArray) -> None:
     for i in range(source.shape[0]):
         target[i] += factor * source[i]
@@ -127,175 +106,140 @@ def _finite(x: FloatArray) -> bool:
 
 
 @compiled
-def _keep(motion: Motion, saved: Saved, row: int) -> None:
-    """Put the current state into a row of the saved ones."""
-    for i in range(len(motion.u)):
-        saved.u[row, i], saved.v[row, i] = motion.u[i], motion.v[i]
-        saved.a[row, i], saved.reaction[row, i] = motion.a[i], motion.reaction[i]
-    for i in range(motion.w.shape[0]):
-        for j in range(motion.w.shape[1]):
-            saved.w[row, i, j], saved.t[row, i, j] = motion.w[i, j], motion.t[i, j]
-        for j in range(motion.state.shape[1]):
-            saved.state[row, i, j] = motion.state[i, j]
+def _predict(system: System, n: Newmark, x: Motion, sweep: Sweep) -> None:
+    """Right-hand side r of `A du + end J^T (f1 - f0) = r`."""
+    r, past, product = sweep.r, sweep.past, sweep.product
+    for i in range(len(r)):
+        past[i] = n.m_v * x.v[i] + n.m_a * x.a[i]
+    _times_vector(system.M, past, r)
+    _times_vector(system.K, x.u, product)
+    for i in range(len(r)):
+        r[i] += n.end * sweep.load1[i] + n.start * sweep.load0[i] - product[i]
+    if system.damped:
+        for i in range(len(r)):
+            past[i] = n.c_v * x.v[i] + n.c_a * x.a[i]
+        _times_vector(system.C, past, product)
+        _add(r, -1.0, product)
+    for j in range(len(x.f)):
+        if x.f[j] != 0.0:
+            for i in range(len(r)):
+                r[i] -= system.J[j, i] * x.f[j]
 
 
 @compiled
-def _account(
-    system: System,
-    joints: Joints,
-    motion: Motion,
-    du: FloatArray,
-    dd: FloatArray,
-    load0: FloatArray,
-    load1: FloatArray,
-    dt: float,
-    scratch: Scratch,
+def _respond(
+    system: System, step: StepOperators, x: Motion, factor: FloatArray, sweep: Sweep
 ) -> None:
+    """Increment du under r and what is imposed, the joints' forces as they are."""
+    _times_vector(step.P, sweep.r, sweep.du)
+    dd = sweep.dd
+    if len(dd) == 0:
+        return
+    _times_vector(system.imposed, factor, dd)
+    for row in range(len(dd)):
+        for i in range(len(x.u)):
+            dd[row] -= system.rows[row, i] * x.u[i]
+    _times_vector(step.Q, dd, sweep.product)
+    _add(sweep.du, 1.0, sweep.product)
+
+
+@compiled
+def _advance(n: Newmark, x: Motion, sweep: Sweep) -> None:
+    """Displacement, velocity and acceleration after the increment du."""
+    for i in range(len(x.u)):
+        du, v = sweep.du[i], x.v[i]
+        x.u[i] += du
+        x.v[i], x.a[i] = advance(n, du, v, x.a[i])
+        sweep.v0[i] = v
+
+
+@compiled
+def _account(system: System, joints: Joints, x: Motion, sweep: Sweep) -> None:
     """Reactions and energies of the new state.
 
     Work is that of mean forces on the increment, exact for the average acceleration.
     """
-    n = len(du)
-    old, tmp = scratch.old, scratch.tmp
-    _copy(motion.reaction, old)
-    _times_vector(system.M, motion.a, motion.reaction)
-    _times_vector(system.K, motion.u, tmp)
-    elastic, external = 0.0, 0.0
+    n, du, dd, product = len(x.u), sweep.du, sweep.dd, sweep.product
+    copy_state(x.reaction, sweep.old)
+    _times_vector(system.M, x.a, x.reaction)
+    _times_vector(system.K, x.u, product)
+    elastic, external, damped = 0.0, 0.0, 0.0
     for i in range(n):
-        elastic += 0.5 * tmp[i] * motion.u[i]
-        external += 0.5 * (load0[i] + load1[i]) * du[i]
-        motion.reaction[i] += tmp[i] - load1[i]
+        elastic += 0.5 * product[i] * x.u[i]
+        external += 0.5 * (sweep.load0[i] + sweep.load1[i]) * du[i]
+        x.reaction[i] += product[i] - sweep.load1[i]
     if system.damped:
-        _times_vector(system.C, motion.v, tmp)
-        _add(motion.reaction, 1.0, tmp)
-        motion.energies[DAMPED] += _form(system.C, du) / dt
-    for j in range(len(motion.f)):
-        if motion.f[j] != 0.0:
+        _times_vector(system.C, x.v, product)
+        _add(x.reaction, 1.0, product)
+        for i in range(n):
+            damped += 0.5 * du[i] * product[i]
+        _times_vector(system.C, sweep.v0, product)
+        for i in range(n):
+            damped += 0.5 * du[i] * product[i]
+        x.energies[DAMPED] += damped
+    for j in range(len(x.f)):
+        if x.f[j] != 0.0:
             for i in range(n):
-                motion.reaction[i] += system.J[j, i] * motion.f[j]
+                x.reaction[i] += system.J[j, i] * x.f[j]
     for row in range(len(dd)):
         if dd[row] != 0.0:
             for i in range(n):
-                mean = 0.5 * (old[i] + motion.reaction[i])
+                mean = 0.5 * (sweep.old[i] + x.reaction[i])
                 external += dd[row] * system.multipliers[row, i] * mean
-    motion.energies[KINETIC] = 0.5 * _form(system.M, motion.v)
-    motion.energies[ELASTIC] = elastic
-    motion.energies[EXTERNAL] += external
-    if len(motion.f):
-        stored, lost = interface_energies(joints, motion.w, motion.t, motion.state)
-        motion.energies[STORED], motion.energies[LOST] = stored, lost
+    x.energies[KINETIC] = 0.5 * _form(system.M, x.v)
+    x.energies[ELASTIC] = elastic
+    x.energies[EXTERNAL] += external
+    if len(x.f):
+        stored, lost = interface_energies(joints, x.w, x.t, x.state)
+        x.energies[STORED], x.energies[LOST] = stored, lost
 
 
 @compiled
-def _predict(
-    system: System,
-    motion: Motion,
-    load0: FloatArray,
-    load1: FloatArray,
-    dt: float,
-    r: FloatArray,
-    scratch: Scratch,
-) -> None:
-    """Right-hand side r of `A du + c J^T (f1 - f0) = r`."""
-    am, af, beta, gamma = system.scheme[0], system.scheme[1], system.scheme[2], system.scheme[3]
-    v, a, n = motion.v, motion.a, len(r)
-    pv, px, tmp = scratch.pv, scratch.px, scratch.tmp
-    for i in range(n):
-        pv[i] = (1 - am) * (v[i] / (beta * dt) + (0.5 / beta - 1) * a[i]) - am * a[i]
-        px[i] = (1 - af) * (
-            (1 - gamma / beta) * v[i] + dt * (1 - 0.5 * gamma / beta) * a[i]
-        ) + af * v[i]
-    _times_vector(system.M, pv, r)
-    _times_vector(system.K, motion.u, tmp)
-    for i in range(n):
-        r[i] += (1 - af) * load1[i] + af * load0[i] - tmp[i]
-    if system.damped:
-        _times_vector(system.C, px, tmp)
-        for i in range(n):
-            r[i] -= tmp[i]
-    for j in range(len(motion.f)):
-        if motion.f[j] != 0.0:
-            for i in range(n):
-                r[i] -= system.J[j, i] * motion.f[j]
-
-
-@compiled
-def _advance(system: System, motion: Motion, du: FloatArray, dt: float) -> None:
-    """Displacement, velocity and acceleration after the increment du."""
-    beta, gamma = system.scheme[2], system.scheme[3]
-    for i in range(len(du)):
-        v0, a0 = motion.v[i], motion.a[i]
-        motion.u[i] += du[i]
-        motion.v[i] = gamma / (beta * dt) * du[i] + (1 - gamma / beta) * v0
-        motion.v[i] += dt * (1 - 0.5 * gamma / beta) * a0
-        motion.a[i] = (du[i] / dt - v0) / (beta * dt) - (0.5 / beta - 1) * a0
-
-
-@compiled
-def march(
+def run_dense(
     system: System,
     step: StepOperators,
     joints: Joints,
     motion: Motion,
-    newton: Workspace,
+    work: Workspace,
     factors: FloatArray,
-    save: IntArray,
-    saved: Saved,
-    history: FloatArray,
+    to: Recorder,
 ) -> tuple[int, int, float]:
-    """Steps of one dt.
+    """Steps of one dt; see `state.Outcome` for the result.
 
     Parameters
     ----------
     factors : array (n_steps + 1, k)
         Load factors at the times, the first being that of the current state.
-    save : array (n_steps,)
-        Row of `saved` for each step, -1 for none.
-    history : array (n_steps, N_ENERGIES)
-        Energies after each step.
-
-    Returns
-    -------
-    done, turns, residual
-        Steps done, and the largest number of Newton turns in a step (<= 0: the step after
-        `done` did not converge, with this residual).
     """
-    delta, f = motion.delta, motion.f
-    n, q, dt = len(motion.u), len(delta), step.dt
-    load0, load1 = np.zeros(n), np.zeros(n)
-    r, du, tmp, dd = np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(len(system.rows))
-    trial, now = newton.trial, InterfaceState(delta, f, motion.w, motion.t, motion.state)
-    condensed = Condensed(step.S, step.R, 1 - system.scheme[1])
-    scratch = Scratch(np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n))
-    worst = 0
-    _times_vector(system.forces, factors[0], load0)
-    for k in range(len(save)):
-        _times_vector(system.forces, factors[k + 1], load1)
-        _predict(system, motion, load0, load1, dt, r, scratch)
-        _times_vector(step.P, r, du)
-        if len(dd):
-            _times_vector(system.imposed, factors[k + 1], dd)
-            for row in range(len(dd)):
-                for i in range(n):
-                    dd[row] -= system.rows[row, i] * motion.u[i]
-            _times_vector(step.Q, dd, tmp)
-            _add(du, 1.0, tmp)
-        if q:
-            _times_vector(system.J, du, trial.y0)
-            _copy(trial.y0, trial.y)
-            turns, residual = solve_interface(joints, condensed, now, newton)
+    n, scheme, worst = len(motion.u), step.newmark, 0
+    trial, condensed = work.trial, Condensed(step.S, step.R, scheme.end)
+    now = InterfaceState(motion.delta, motion.f, motion.w, motion.t, motion.state)
+    sweep = Sweep(
+        np.zeros(n), np.zeros(n), np.zeros(len(system.rows)), np.zeros(n), np.zeros(n),
+        np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n),
+    )  # fmt: skip
+    _times_vector(system.forces, factors[0], sweep.load0)
+    for k in range(len(to.row)):
+        # predict: the past, the loads, and what supports impose
+        _times_vector(system.forces, factors[k + 1], sweep.load1)
+        _predict(system, scheme, motion, sweep)
+        _respond(system, step, motion, factors[k + 1], sweep)
+        if len(motion.f):  # solve: Newton's method on the interface
+            _times_vector(system.J, sweep.du, trial.y0)
+            copy_state(trial.y0, trial.y)
+            turns, residual = solve_interface(joints, condensed, now, work)
             if turns <= 0:
                 return k, turns, residual
             worst = max(worst, turns)
-            _times_vector(step.Y, trial.h, tmp)
-            _add(du, -1.0, tmp)
+            _times_vector(step.Y, trial.h, sweep.product)
+            _add(sweep.du, -1.0, sweep.product)
             accept(trial, now)
-        _advance(system, motion, du, dt)
+        _advance(scheme, motion, sweep)
         if not _finite(motion.u):
             return k, -1, np.inf
-        _account(system, joints, motion, du, dd, load0, load1, dt, scratch)
-        _copy(motion.energies, history[k])
-        if save[k] >= 0:
-            _keep(motion, saved, save[k])
-        _copy(load1, load0)
-    return len(save), worst, 0.0
+        _account(system, joints, motion, sweep)
+        copy_state(motion.energies, to.energies[k])
+        if to.row[k] >= 0:
+            keep(motion, to, to.row[k])
+        copy_state(sweep.load1, sweep.load0)
+    return len(to.row), worst, 0.0

@@ -8,13 +8,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.interface.newton import workspace
 from ssilang.kernel.interface.response import Joints
 from ssilang.kernel.stepping.effective import Effective
+from ssilang.kernel.stepping.newmark import newmark_of
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.dense.arrays import joints_of, jumps_of
-from ssilang.kernel.stepping.rests.dense.loop import Motion, Saved, StepOperators, System, march
+from ssilang.kernel.stepping.rests.dense.loop import StepOperators, System, run_dense
+from ssilang.kernel.stepping.state import Motion, Outcome, Recorder
 
 
 def supports_are_still(problem: Problem) -> bool:
@@ -31,9 +33,8 @@ class ReducedLoop:
         self.problem, self.motion = problem, motion
         self.T: FloatArray = problem.constraints.T.toarray()
         self.joints = joints_of(problem)
-        self._newton = workspace(motion.w.shape, len(motion.f))
+        self._work = workspace(motion.w.shape, len(motion.f))
         n = self.T.shape[1]
-        s = problem.scheme
         self.system = System(
             self._reduced(problem.K.toarray()),
             self._reduced(problem.M.toarray()),
@@ -44,10 +45,9 @@ class ReducedLoop:
             np.zeros((0, problem.loading.forces.shape[1])),
             np.zeros((0, n)),
             np.zeros((0, n)),
-            np.array([s.alpha_m, s.alpha_f, s.beta, s.gamma]),
         )
         self.step = StepOperators(
-            effective.dt,
+            newmark_of(problem.scheme, effective.dt),
             np.ascontiguousarray(effective.inverse.solve(np.eye(n))),
             np.zeros((n, 0)),
             np.ascontiguousarray(self.T.T @ effective.Y),
@@ -58,30 +58,32 @@ class ReducedLoop:
     def _reduced(self, A: FloatArray) -> FloatArray:
         return np.ascontiguousarray(self.T.T @ A @ self.T)
 
-    def march(
-        self, factors: FloatArray, save: IntArray, saved: Saved, history: FloatArray
-    ) -> tuple[int, int, float]:
-        """As `compiled_loop.march`, on the whole problem's arrays."""
-        m, n, rows = self.motion, self.T.shape[1], len(saved.u)
-        few = Motion(
-            self.T.T @ m.u, self.T.T @ m.v, self.T.T @ m.a, m.delta, m.f, m.w, m.t, m.state,
-            np.zeros(n), m.energies, m.contact,
-        )  # fmt: skip
-        u, v, a, idle = (np.zeros((rows, n)) for _ in range(4))
-        kept = Saved(u, v, a, idle, saved.w, saved.t, saved.state, saved.contact)
-        outcome = march(
-            self.system, self.step, self.joints, few, self._newton, factors, save, kept, history
-        )
-        m.u[:], m.v[:], m.a[:] = self.T @ few.u, self.T @ few.v, self.T @ few.a
-        saved.u[:], saved.v[:], saved.a[:] = u @ self.T.T, v @ self.T.T, a @ self.T.T
-        loads = factors[1:][save >= 0] @ self.problem.loading.forces.T
-        saved.reaction[:] = reactions(
-            self.problem, self.joints, saved.u, saved.v, saved.a, saved.t, loads
-        )
-        last = factors[outcome[0]] @ self.problem.loading.forces.T
-        now = (x[None] for x in (m.u, m.v, m.a, m.t, last))
-        m.reaction[:] = reactions(self.problem, self.joints, *now)[0]
+    def run(self, factors: FloatArray, recorder: Recorder) -> Outcome:
+        """Steps on the whole problem's arrays."""
+        m, n, r, T = self.motion, self.T.shape[1], recorder, self.T
+        few = m._replace(u=T.T @ m.u, v=T.T @ m.v, a=T.T @ m.a, reaction=np.zeros(n))
+        u, v, a = (np.zeros((len(r.u), n)) for _ in range(3))
+        to = r._replace(u=u, v=v, a=a, reaction=np.zeros((0, n)))
+        outcome = run_dense(self.system, self.step, self.joints, few, self._work, factors, to)
+        m.u[:], m.v[:], m.a[:] = T @ few.u, T @ few.v, T @ few.a
+        r.u[:], r.v[:], r.a[:] = u @ T.T, v @ T.T, a @ T.T
+        keep_reactions(self.problem, self.joints, factors, r)
+        react(self.problem, self.joints, m, factors[outcome[0]])
         return outcome
+
+
+def keep_reactions(problem: Problem, joints: Joints, factors: FloatArray, kept: Recorder) -> None:
+    """Reactions of kept instants, from equilibrium."""
+    if len(kept.u):
+        loads = factors[1:][kept.row >= 0] @ problem.loading.forces.T
+        kept.reaction[:] = reactions(problem, joints, kept.u, kept.v, kept.a, kept.t, loads)
+
+
+def react(problem: Problem, joints: Joints, m: Motion, factors: FloatArray) -> None:
+    """Reactions of the motion at load factors (k,), from equilibrium."""
+    loads = problem.loading.forces @ factors
+    now = (x[None] for x in (m.u, m.v, m.a, m.t, loads))
+    m.reaction[:] = reactions(problem, joints, *now)[0]
 
 
 def reactions(

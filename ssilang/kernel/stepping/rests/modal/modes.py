@@ -7,29 +7,30 @@ back for the instants that are kept.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.contact.active_set import ActiveSet
 from ssilang.kernel.interface.laws.columns import LawCode, Parameter, Variable
 from ssilang.kernel.interface.newton import workspace
 from ssilang.kernel.interface.response import Joints, interface_forces
 from ssilang.kernel.stepping.effective import Effective
+from ssilang.kernel.stepping.newmark import Newmark, advanced, newmark_of
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.dense.arrays import joints_of
-from ssilang.kernel.stepping.rests.dense.loop import Motion, Saved
-from ssilang.kernel.stepping.rests.dense.still_supports import reactions, supports_are_still
-from ssilang.kernel.stepping.rests.modal.loop import Modal, ModalRows, ModalStep, march_modal
-from ssilang.kernel.stepping.rests.modal.one_mode import carry, march_mode
-from ssilang.kernel.stepping.rests.modal.one_spring import (
-    Line,
-    LineRows,
-    LineState,
-    Spring,
-    march_line,
+from ssilang.kernel.stepping.rests.dense.still_supports import keep_reactions, supports_are_still
+from ssilang.kernel.stepping.rests.modal.diagonal import Diagonal
+from ssilang.kernel.stepping.rests.modal.loop import Modal, ModalStep, run_modal
+from ssilang.kernel.stepping.rests.modal.one_mode import carry, run_one_mode
+from ssilang.kernel.stepping.rests.modal.one_spring import Line, Spring, run_one_spring
+from ssilang.kernel.stepping.rests.modal.springs import (
+    run_springs,
+    springs_of,
 )
-from ssilang.kernel.stepping.rests.modal.springs import march_normal
+from ssilang.kernel.stepping.state import Motion, Outcome, Recorder, recorder_of
 
 DIAGONAL = 1e-13  # of the step's matrix: damping off the diagonal that rounding leaves
 NOTHING = 1e-14  # of the largest: a part of a mode that is rounding
@@ -90,150 +91,192 @@ def modes_of(problem: Problem, effective: Effective) -> Modes | None:
     )  # fmt: skip
 
 
+LineSteps = Callable[[Line, Spring, Motion, FloatArray, Recorder], Outcome]
+Steps = Callable[[FloatArray, Recorder], tuple[Outcome, Recorder]]
+
+
 class SmallLoop:
-    """Steps of one dt; `light` says that a run without its energies costs much less."""
+    """Steps of one dt on the modes, by the loop that fits: see `choose`.
+
+    `line` are few modes and one spring, `springs` springs that only push; None if it is not that.
+    """
 
     def __init__(self, problem: Problem, motion: Motion, effective: Effective, modes: Modes):
         self.problem, self.motion, self.modes = problem, motion, modes
-        s = problem.scheme
-        self._scheme = np.array([s.alpha_m, s.alpha_f, s.beta, s.gamma])
+        self._newmark = newmark_of(problem.scheme, effective.dt)
         self._joints = joints_of(problem)
-        self._dt = effective.dt
         self._seen: FloatArray | None = None  # displacement up to which z is known
         self._z = np.zeros((3, modes.size))
-        self._line = line_of(problem, motion, modes, self._joints, self._scheme)
-        self.balance = np.zeros(2)  # see `LineState`
-        self._normal, J = shearless(self._joints, modes)
-        joints = self._joints if self._normal is None else self._normal
-        Jt = np.ascontiguousarray(J.T)
+        self.line = line_of(problem, motion, modes, self._joints, self._newmark)
+        self.normal, J = shearless(self._joints, modes)
+        joints = self._joints if self.normal is None else self.normal
         self._stepped = joints
-        self._modal = Modal(modes.m, modes.c, modes.k, J, Jt, modes.forces, self._scheme)
-        self._step = ModalStep(effective.dt, np.ones(modes.size), np.ascontiguousarray(J @ Jt))
-        self._pushes = self._normal is not None and only_pushes(joints, motion.state)
+        self._modal, self._step = modal_of(modes, J, modes.forces, self._newmark)
+        self.springs: ActiveSet | None = None
+        if self.normal is not None and only_pushes(joints, motion.state):
+            k = joints.weights * joints.p[:, Parameter.KN]
+            self.springs = springs_of(self._step, k)
+        self._steps: Steps = self.by_modes
 
     @property
-    def light(self) -> bool:
-        """Whether energies are kept only if asked for."""
-        return self._line is not None
+    def active(self) -> int:
+        """Modes of the line that move; 0 if there is no line."""
+        return 0 if self.line is None else len(self.line[2])
 
-    def march(
-        self, factors: FloatArray, save: IntArray, saved: Saved, history: FloatArray
-    ) -> tuple[int, int, float]:
-        """As `compiled_loop.march`, on the whole problem's arrays; a history may be empty."""
-        m, X = self.motion, self.modes.X
+    def using(self, steps: Steps) -> SmallLoop:
+        """The loop with one of its ways to step."""
+        self._steps = steps
+        return self
+
+    def run(self, factors: FloatArray, recorder: Recorder) -> Outcome:
+        """Steps on the whole problem's arrays; the recorder may have no room for energies."""
+        m, X, r = self.motion, self.modes.X, recorder
         if self._seen is None or not np.array_equal(self._seen, m.u):
             self._z = self.modes.coordinates(np.stack([m.u, m.v, m.a], axis=1)).T.copy()
-        chosen = save >= 0
-        run = self._march_line if self._line is not None else self._march_modal
-        outcome, kept = run(factors, save, saved, history)
+        outcome, kept = self._steps(factors, recorder)
         m.u[:], m.v[:], m.a[:] = self._z @ X.T
         self._seen = m.u.copy()
-        forces = self.problem.loading.forces.T
-        if len(saved.u):
-            for part, z in zip((saved.u, saved.v, saved.a), kept, strict=True):
+        if len(r.u):
+            for part, z in zip((r.u, r.v, r.a), (kept.u, kept.v, kept.a), strict=True):
                 np.matmul(z, X.T, out=part)
-            loads = factors[1:][chosen] @ forces
-            saved.reaction[:] = reactions(
-                self.problem, self._joints, saved.u, saved.v, saved.a, saved.t, loads
-            )
+        keep_reactions(self.problem, self._joints, factors, r)
         return outcome
 
-    def _march_modal(
-        self, factors: FloatArray, save: IntArray, saved: Saved, history: FloatArray
-    ) -> tuple[tuple[int, int, float], list[FloatArray]]:
-        m, rows = self.motion, len(saved.u)
+    def by_modes(self, factors: FloatArray, recorder: Recorder) -> tuple[Outcome, Recorder]:
+        """Steps by Newton's method on the interface; the kept coordinates."""
+        m, r = self.motion, recorder
         u, v, a = self._z
-        kept = [np.zeros((rows, self.modes.size)) for _ in range(3)]
-        w, t, delta, f, to_w, to_t = m.w, m.t, m.delta, m.f, saved.w, saved.t
-        if self._normal is not None:
-            w, t, to_w, to_t = (x[..., -1:].copy() for x in (w, t, to_w, to_t))
-            delta, f = w[:, 0].copy(), self._normal.weights * t[:, 0]
-        few = Motion(u, v, a, delta, f, w, t, m.state, np.zeros(0), m.energies, m.contact)
-        none = np.zeros((0, *w.shape))
-        to = ModalRows(none, kept[0], kept[1], kept[2], to_w, to_t, saved.state)
-        if self._pushes:
-            weights = self._stepped.weights
-            k = weights * self._stepped.p[:, Parameter.KN]
-            outcome = march_normal(
-                self._modal, self._step, weights, k, few, factors, save, to, history
-            )
+        few = m._replace(u=u, v=v, a=a, reaction=np.zeros(0), contact=np.zeros(0))
+        normal = self.normal
+        if normal is not None:
+            w, t = m.w[:, -1:].copy(), m.t[:, -1:].copy()
+            few = few._replace(w=w, t=t, delta=w[:, 0].copy(), f=normal.weights * t[:, 0])
+        kept = recorder_of(few, r.row, r.energies, ("u", "v", "a", "w", "t", "state"))
+        work = workspace(few.w.shape, len(few.f))
+        outcome = run_modal(self._modal, self._step, self._stepped, few, work, factors, kept)
+        if normal is None:
+            r.w[:], r.t[:] = kept.w, kept.t
         else:
-            newton = workspace(w.shape, len(f))
-            outcome = march_modal(
-                self._modal, self._step, self._stepped, few, newton, factors, save, to, history
-            )
-        if self._normal is not None:
-            self._put_normal(self._z[:1], w[None], t[None], m.w[None], m.t[None])
-            self._put_normal(kept[0], to_w, to_t, saved.w, saved.t)
-            m.delta[:] = self.modes.J @ self._z[0]
-            interface_forces(self._joints, m.t, m.f)
+            self._put_normal(few.w[None], few.t[None], kept, r)
+        r.state[:] = kept.state
         return outcome, kept
 
-    def _put_normal(
-        self, z: FloatArray, w: FloatArray, t: FloatArray, to_w: FloatArray, to_t: FloatArray
+    def by_springs(self, factors: FloatArray, recorder: Recorder) -> tuple[Outcome, Recorder]:
+        """Steps on springs that only push."""
+        m, r = self.motion, recorder
+        assert self.normal is not None
+        assert self.springs is not None
+        weights = self.normal.weights
+        u, v, a = self._z
+        few = m._replace(
+            u=u, v=v, a=a, delta=np.zeros(0), f=weights * m.t[:, -1], w=m.w[:, -1:].copy(),
+            t=np.zeros((0, 1)), state=m.state[:, [Variable.XI]], reaction=np.zeros(0),
+            contact=np.zeros(0),
+        )  # fmt: skip
+        kept = recorder_of(few, r.row, r.energies, ("u", "v", "a", "f", "w", "state"))
+        outcome = run_springs(self._modal, self._step, self.springs, few, factors, kept)
+        t = kept.f[..., None] / weights[:, None]
+        r.state[:] = m.state
+        r.state[..., Variable.XI] = kept.state[..., 0]
+        m.state[:, Variable.XI] = few.state[:, 0]
+        tractions = (few.f / weights)[None, :, None]
+        self._put_normal(few.w[None], tractions, kept._replace(t=t), r)
+        return outcome, kept
+
+    def _put_normal(self, w: FloatArray, t: FloatArray, kept: Recorder, r: Recorder) -> None:
+        """Whole jumps and tractions of the motion, and of kept instants, from normal parts."""
+        m = self.motion
+        self._put_whole(self._z[:1], w, t, (m.w[None], m.t[None]))
+        self._put_whole(kept.u, kept.w, kept.t, (r.w, r.t))
+        m.delta[:] = self.modes.J @ self._z[0]
+        interface_forces(self._joints, m.t, m.f)
+
+    def _put_whole(
+        self, z: FloatArray, w: FloatArray, t: FloatArray, to: tuple[FloatArray, FloatArray]
     ) -> None:
-        """Whole jumps and tractions of instants from their coordinates and normal parts."""
-        j = self._joints
-        d = j.B.shape[1]
-        jumps = (z @ self.modes.J.T).reshape(len(z), len(self.modes.J) // d, d)[:, j.pairs[:, 0]]
-        to_w[:] = np.einsum("pij,kpj->kpi", j.B, jumps)
+        to_w, to_t = to
+        to_w[:] = local_jumps(self._joints, z @ self.modes.J.T)
         to_w[..., -1], to_t[..., -1] = w[..., 0], t[..., 0]
         to_t[..., :-1] = 0.0
 
-    def _march_line(
-        self, factors: FloatArray, save: IntArray, saved: Saved, history: FloatArray
-    ) -> tuple[tuple[int, int, float], list[FloatArray]]:
-        assert self._line is not None
-        line, spring, active, idle = self._line
-        m, rows = self.motion, len(saved.u)
-        joint = np.zeros(3)
-        if spring.weight > 0.0:
-            joint[:] = m.w[0, -1], m.t[0, -1], m.state[0, Variable.XI]
+    def by_one_mode(self, factors: FloatArray, recorder: Recorder) -> tuple[Outcome, Recorder]:
+        """Steps of one mode and at most one spring."""
+        return self._by_line(run_one_mode, factors, recorder)
+
+    def by_one_spring(self, factors: FloatArray, recorder: Recorder) -> tuple[Outcome, Recorder]:
+        """Steps of a few modes and at most one spring."""
+        return self._by_line(run_one_spring, factors, recorder)
+
+    def _by_line(
+        self, run: LineSteps, factors: FloatArray, recorder: Recorder
+    ) -> tuple[Outcome, Recorder]:
+        assert self.line is not None
+        line, spring, active, idle = self.line
+        m, r = self.motion, recorder
         u, v, a = self._z[:, active].copy()
-        x = LineState(u, v, a, joint, m.energies, self.balance)
-        few = [np.zeros((rows, len(active))) for _ in range(3)]
-        to = LineRows(few[0], few[1], few[2], np.zeros((rows, 3)))
+        w, t, xi = np.zeros((1, 1)), np.zeros((1, 1)), np.zeros((1, 1))
+        if spring.weight > 0.0:
+            w[0, 0], t[0, 0], xi[0, 0] = m.w[0, -1], m.t[0, -1], m.state[0, Variable.XI]
+        none = np.zeros(0)
+        few = Motion(u, v, a, none, none, w, t, xi, none, m.energies, none)
+        to = recorder_of(
+            few, r.row, r.energies, ("u", "v", "a", "w", "t", "state"), balance=r.balance
+        )
         if not line.forces.shape[0]:
             factors = factors[:, :0]
-        factors = np.ascontiguousarray(factors)
-        if len(active) == 1:
-            outcome = march_mode(line, self._dt, spring, x, factors, save, to, history)
-        else:
-            one = np.ones(len(active))
-            outcome = march_line(line, self._dt, one, spring, x, factors, save, to, history)
-        self._z[:, active] = x.u, x.v, x.a
+        outcome = run(line, spring, few, np.ascontiguousarray(factors), to)
+        self._z[:, active] = few.u, few.v, few.a
         if spring.weight > 0.0:
-            self._put_joint(joint[None], m.w[None], m.t[None], m.state[None])
-            self._put_joint(to.joint, saved.w, saved.t, saved.state)
+            self._put_joint(w[None], t[None], xi[None], (m.w[None], m.t[None], m.state[None]))
+            self._put_joint(to.w, to.t, to.state, (r.w, r.t, r.state))
             B = self._joints.B[0]
             m.delta[:], m.f[:] = B.T @ m.w[0], spring.weight * (B.T @ m.t[0])
-        kept = [np.zeros((rows, self.modes.size)) for _ in range(3)]
-        for whole, part in zip(kept, few, strict=True):
+        kept = [np.zeros((len(r.u), self.modes.size)) for _ in range(3)]
+        for whole, part in zip(kept, (to.u, to.v, to.a), strict=True):
             whole[:, active] = part
         if len(idle):
-            still, led = self._z[1:, idle].copy(), np.zeros((2, rows, len(idle)))
-            carry(self._unmoved(), save, still, led)
+            still, led = self._z[1:, idle].copy(), np.zeros((2, len(r.u), len(idle)))
+            carry(self._unmoved(), r.row, still, led)
             self._z[1:, idle] = still
             kept[1][:, idle], kept[2][:, idle] = led
-        return outcome, kept
+        return outcome, to._replace(u=kept[0], v=kept[1], a=kept[2])
 
     def _unmoved(self) -> FloatArray:
         """What a step makes of velocity and acceleration of a motion that does not move."""
-        beta, gamma, dt = self._scheme[2], self._scheme[3], self._dt
-        return np.array(
-            [
-                [1 - gamma / beta, dt * (1 - 0.5 * gamma / beta)],
-                [-1 / (beta * dt), 1 - 0.5 / beta],
-            ]
-        )
+        zero, unit = np.zeros(2), np.eye(2)
+        return np.array(advanced(self._newmark, zero, unit[0], unit[1]))
 
-    def _put_joint(self, rows: FloatArray, w: FloatArray, t: FloatArray, state: FloatArray) -> None:
-        """Jumps, tractions and states of instants from rows of (w, t, xi)."""
-        p = self._joints.p[0]
-        w[:, 0, -1], t[:, 0, -1], state[:, 0, Variable.XI] = rows.T
+    def _put_joint(
+        self, w: FloatArray, t: FloatArray, xi: FloatArray,
+        to: tuple[FloatArray, FloatArray, FloatArray],
+    ) -> None:  # fmt: skip
+        """Jumps, tractions and states of instants from those of the only joint."""
+        p, (to_w, to_t, state) = self._joints.p[0], to
+        to_w[:, 0, -1], to_t[:, 0, -1], state[:, 0, Variable.XI] = (
+            w[:, 0, 0],
+            t[:, 0, 0],
+            xi[:, 0, 0],
+        )
         if p[Parameter.FU] > 0.0:
-            lost = -np.expm1(-p[Parameter.FU] / p[Parameter.GF] * rows[:, 2])
-            state[:, 0, Variable.DAMAGE] = np.where(rows[:, 1] < 0.0, 0.0, lost)
+            lost = -np.expm1(-p[Parameter.FU] / p[Parameter.GF] * xi[:, 0, 0])
+            state[:, 0, Variable.DAMAGE] = np.where(t[:, 0, 0] < 0.0, 0.0, lost)
+
+
+def modal_of(
+    modes: Modes, J: FloatArray, forces: FloatArray, n: Newmark
+) -> tuple[Modal, ModalStep]:
+    """Arrays of the loops on modes, that are orthonormal in the step's matrix; J (q, r)."""
+    Jt = np.ascontiguousarray(J.T)
+    diagonal = Diagonal(modes.m, modes.c, modes.k, np.ones(modes.size))
+    return Modal(J, Jt, forces), ModalStep(n, diagonal, np.ascontiguousarray(J @ Jt))
+
+
+def local_jumps(joints: Joints, delta: FloatArray) -> FloatArray:
+    """Jumps (k, n_points, d) at the joints' points from those (k, q) at their nodes."""
+    d = joints.B.shape[1]
+    jumps = delta.reshape(len(delta), delta.shape[1] // d, d)[:, joints.pairs[:, 0]]
+    found: FloatArray = np.einsum("pij,kpj->kpi", joints.B, jumps)
+    return found
 
 
 def shearless(joints: Joints, modes: Modes) -> tuple[Joints | None, FloatArray]:
@@ -257,7 +300,7 @@ def only_pushes(joints: Joints, state: FloatArray) -> bool:
 
 
 def line_of(
-    problem: Problem, motion: Motion, modes: Modes, joints: Joints, scheme: FloatArray
+    problem: Problem, motion: Motion, modes: Modes, joints: Joints, n: Newmark
 ) -> tuple[Line, Spring, IntArray, IntArray] | None:
     """The problem as a few modes and one spring; None if it is not.
 
@@ -266,7 +309,7 @@ def line_of(
     """
     spring, b = Spring(0.0, 0.0, 0.0, 0.0, 0.0), np.zeros(modes.size)
     if problem.interface is not None:
-        found = _spring_of(motion, modes, joints, 1 - scheme[1])
+        found = _spring_of(motion, modes, joints, n.end)
         if found is None:
             return None
         spring, b = found
@@ -282,11 +325,12 @@ def line_of(
         return None
     forces = modes.forces[:, active] if loaded.any() else np.zeros((0, len(active)))
     m, c, k, b = (np.ascontiguousarray(x[active]) for x in (modes.m, modes.c, modes.k, b))
-    return Line(m, c, k, b, np.ascontiguousarray(forces), scheme), spring, active, idle
+    diagonal = Diagonal(m, c, k, np.ones(len(active)))
+    return Line(n, diagonal, b, np.ascontiguousarray(forces)), spring, active, idle
 
 
 def _spring_of(
-    motion: Motion, modes: Modes, joints: Joints, share: float
+    motion: Motion, modes: Modes, joints: Joints, end: float
 ) -> tuple[Spring, FloatArray] | None:
     """The only point of the interface and its jump (r,), if shear cannot move there."""
     if len(joints.weights) != 1 or joints.codes[0] != LawCode.SDM or joints.pairs.shape[1] != 1:
@@ -301,6 +345,6 @@ def _spring_of(
     k, fu, gf = (float(p[i]) for i in (Parameter.KN, Parameter.FU, Parameter.GF))
     if fu > 0.0:  # the closed form is the only answer if the rest is stiffer than the softening
         a = fu / gf
-        if 1.0 - share * weight * float(b @ b) * k * a * fu / (k - a * fu) <= 0.0:
+        if 1.0 - end * weight * float(b @ b) * k * a * fu / (k - a * fu) <= 0.0:
             return None
     return Spring(weight, k, fu, gf, float(p[Parameter.FC])), b

@@ -1,10 +1,10 @@
 """The whole time loop, compiled, for one coordinate and at most one joint that only opens.
 
-The steps are those of `scalar_loop`. While the joint stays open, or stays closed, a step is one and
-the same linear map; in the new acceleration, `share = 1 - alpha_f` and k with the closed joint's,
+The steps are those of `one_spring`. While the joint stays open, or stays closed, a step is one and
+the same linear map; in the new acceleration, `end = 1 - alpha_f` and k with the closed joint's,
 
-    D a1 = (D - m - share (c dt + k dt^2 / 2)) a - (c + share k dt) v - k u + load ,
-    D = (1 - alpha_m) m + share (gamma dt c + beta dt^2 k) ,
+    D a1 = (D - m - end (c dt + k dt^2 / 2)) a - (c + end k dt) v - k u + load ,
+    D = (1 - alpha_m) m + end (gamma dt c + beta dt^2 k) ,
 
 so that the new u, v, a follow from the old ones by a few fused products side by side. A step that
 finds the joint beyond its branch is made again by the law.
@@ -20,38 +20,36 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.compiler import compiled, compiled_fused
 from ssilang.kernel.interface.copies import copy_rows
 from ssilang.kernel.interface.laws.sdm_law import normal_energy, opening_loss
-from ssilang.kernel.stepping.rests.dense.loop import (
+from ssilang.kernel.stepping.newmark import Newmark
+from ssilang.kernel.stepping.rests.modal.one_spring import (
+    MOST_TURNS,
+    Line,
+    Spring,
+    closed_form,
+)
+from ssilang.kernel.stepping.state import (
     DAMPED,
     ELASTIC,
     EXTERNAL,
     KINETIC,
     LOST,
     STORED,
+    Motion,
+    Recorder,
 )
-from ssilang.kernel.stepping.rests.modal.one_spring import (
-    MOST_TURNS,
-    Line,
-    LineRows,
-    LineState,
-    Spring,
-    closed_form,
-)
+from ssilang.kernel.stepping.verbs import advance, from_past
 
 STIFFEST = 10.0  # angle (rad) of a step beyond which rounding shows in the acceleration's form
 
 
 class Mode(NamedTuple):
-    """The coordinate: its diagonals, the jump it gives the joint, the scheme's numbers."""
+    """The coordinate: its diagonals, the jump b it gives the joint."""
 
     m: float
     c: float
     k: float
     b: float
-    dt: float
-    am: float
-    af: float
-    beta: float
-    gamma: float
+    newmark: Newmark
 
 
 class Branch(NamedTuple):
@@ -94,7 +92,7 @@ State = tuple[float, float, float, float, float, float]
 def branch_of(mode: Mode, spring: Spring, x: State) -> Branch:
     """The branch on which a step ended."""
     u, _, _, w, t, xi = x
-    m, c, b, dt = mode.m, mode.c, mode.b, mode.dt
+    m, c, b, n = mode.m, mode.c, mode.b, mode.newmark
     fc, weight = spring.fc, spring.weight
     held, side, limit, known = 0.0, 1.0, -np.inf, True
     if weight > 0.0:
@@ -103,17 +101,17 @@ def branch_of(mode: Mode, spring: Spring, x: State) -> Branch:
         else:
             limit = xi if fc < 0.0 else 0.0
             known = spring.fu == 0.0 and t == 0.0 and w >= limit
-    share, kappa = 1 - mode.af, weight * held
+    kappa = weight * held
     k = mode.k + kappa * b * b
-    D = (1 - mode.am) * m + share * dt * (mode.gamma * c + mode.beta * dt * k)
-    ca = share * dt * ((mode.gamma - 1) * c + (mode.beta - 0.5) * dt * k) - mode.am * m
+    D = n.inertia_end * m + n.end * (n.v_a1 * c + n.u_a1 * k)
+    ca = -n.end * (n.v_a0 * c + n.u_a0 * k) - n.inertia_start * m
     offset = 0.0
     if weight > 0.0:
         stored = normal_energy(w, t, xi, spring.k, fc) - 0.5 * held * w * w
         offset = weight * (stored + opening_loss(xi, spring.fu, spring.gf))
-    fits = known and m > 0.0 and k * dt * dt <= STIFFEST**2 * m
+    fits = known and m > 0.0 and k * n.dt * n.dt <= STIFFEST**2 * m
     return Branch(
-        fits, -k / D, -(c + share * dt * k) / D, ca / D, 1.0 / D, -kappa * b * (w - b * u) / D,
+        fits, -k / D, -(c + n.end * n.dt * k) / D, ca / D, 1.0 / D, -kappa * b * (w - b * u) / D,
         held, side, limit, offset,
     )  # fmt: skip
 
@@ -121,31 +119,27 @@ def branch_of(mode: Mode, spring: Spring, x: State) -> Branch:
 @compiled
 def general_of(mode: Mode, spring: Spring) -> General:
     """What a step by the law needs."""
-    m, c, beta, gamma, dt = mode.m, mode.c, mode.beta, mode.gamma, mode.dt
-    share, mass = 1 - mode.af, 1 - mode.am
-    p = 1.0 / (mass / (beta * dt**2) * m + share * (gamma / (beta * dt) * c + mode.k))
-    keep, drift = 1 - gamma / beta, dt * (1 - 0.5 * gamma / beta)
-    pv = mass / (beta * dt) * m - (share * keep + mode.af) * c
-    pa = (mass * (0.5 / beta - 1) - mode.am) * m - share * drift * c
+    m, c, n = mode.m, mode.c, mode.newmark
+    p = 1.0 / (n.mass * m + n.damping * c + n.end * mode.k)
+    pv, pa = p * from_past(n, m, 0.0, c, 0.0), p * from_past(n, 0.0, m, 0.0, c)
     pf = p * mode.b
-    s = mode.b * pf * share * spring.weight
+    s = mode.b * pf * n.end * spring.weight
     closed = spring.fc / spring.k + s * spring.fc if spring.fc < 0.0 else 0.0
-    return General(-p * mode.k, p * pv, p * pa, p, pf, s, 1 / (1 + s * spring.k), closed)
+    return General(-p * mode.k, pv, pa, p, pf, s, 1 / (1 + s * spring.k), closed)
 
 
 @compiled_fused
 def by_law(mode: Mode, spring: Spring, g: General, x: State, load: float) -> State:
     """One step whatever the branch; w is not a number if the law has no answer."""
     u, v, a, w, t, xi = x
-    dt, beta, gamma, change = mode.dt, mode.beta, mode.gamma, 0.0
+    change = 0.0
     move = g.pu * u + g.pv * v + g.pa * a + g.p * load - g.pf * (spring.weight * t)
     if spring.weight > 0.0:
         old = t
         w, t, xi = closed_form(w + g.s * t + mode.b * move, g.s, g.soft, g.closed, xi, spring)
-        change = (1 - mode.af) * spring.weight * (t - old)
+        change = mode.newmark.end * spring.weight * (t - old)
     move -= g.pf * change
-    v1 = gamma / (beta * dt) * move + (1 - gamma / beta) * v + dt * (1 - 0.5 * gamma / beta) * a
-    a1 = 1 / (beta * dt**2) * move - 1 / (beta * dt) * v - (0.5 / beta - 1) * a
+    v1, a1 = advance(mode.newmark, move, v, a)
     return u + move, v1, a1, w, t, xi
 
 
@@ -170,46 +164,45 @@ def _load(line: Line, factors: FloatArray, step: int) -> float:
 
 
 @compiled_fused
-def march_mode(
-    line: Line, dt: float, spring: Spring, x: LineState, factors: FloatArray, save: IntArray,
-    rows: LineRows, history: FloatArray,
-) -> tuple[int, int, float]:  # fmt: skip
-    """As `scalar_loop.march_line`, for one mode; `save` is the row of each step, or less than 0."""
-    am, af, beta, gamma = line.scheme[0], line.scheme[1], line.scheme[2], line.scheme[3]
-    m, c, k, weight = line.m[0], line.c[0], line.k[0], spring.weight
+def run_one_mode(
+    line: Line, spring: Spring, x: Motion, factors: FloatArray, to: Recorder
+) -> tuple[int, int, float]:
+    """As `run_one_spring`, for one mode."""
+    n, weight, row = line.newmark, spring.weight, to.row
+    m, c, k = line.diagonal.m[0], line.diagonal.c[0], line.diagonal.k[0]
     b = line.b[0] if weight > 0.0 else 0.0
-    mode = Mode(m, c, k, b, dt, am, af, beta, gamma)
-    u, v, a, w, t, xi = x.u[0], x.v[0], x.a[0], x.joint[0], x.joint[1], x.joint[2]
+    mode = Mode(m, c, k, b, n)
+    u, v, a, w, t, xi = x.u[0], x.v[0], x.a[0], x.w[0, 0], x.t[0, 0], x.state[0, 0]
     general, now = general_of(mode, spring), branch_of(mode, spring, (u, v, a, w, t, xi))
-    du, dv, da = beta * dt * dt, gamma * dt, (0.5 - beta) * dt * dt
-    lag, share, per_step = (1 - gamma) * dt, 1 - af, 1 / dt
-    damped, external, worst = x.energies[DAMPED], x.energies[EXTERNAL], x.balance[1]
-    start, base, follows = x.balance[0], w - b * u, spring.fc < 0.0
-    loaded, keeps, limit = line.forces.shape[0] > 0, len(history) > 0, now.limit
+    damped, external, worst = x.energies[DAMPED], x.energies[EXTERNAL], to.balance[1]
+    start, base, follows, half = to.balance[0], w - b * u, spring.fc < 0.0, 0.5 * c
+    loaded, keeps, limit = line.forces.shape[0] > 0, len(to.energies) > 0, now.limit
     load0, load1, load = 0.0, 0.0, 0.0
     if loaded:
         load0 = _load(line, factors, 0)
-    for step in range(len(save)):
+    for step in range(len(row)):
         if loaded:
             load1 = _load(line, factors, step + 1)
-            load = share * load1 + af * load0
+            load = n.end * load1 + n.start * load0
+        # predict and advance on the branch of the step before, by accelerations
         a1 = (now.cu * u + (now.push * load + now.constant)) + (now.cv * v + now.ca * a)
-        u1 = u + (dt * v + (da * a + du * a1))
-        v1 = v + (lag * a + dv * a1)
+        u1 = u + (n.dt * v + (n.u_a0 * a + n.u_a1 * a1))
+        v1 = v + (n.v_a0 * a + n.v_a1 * a1)
         w1 = b * u1 + base
         if now.fits and now.side * (w1 - limit) > 0.0:
             w, t, xi = w1, now.k * w1, max(xi, w1)
             if follows:
                 limit = max(limit, w1) if now.side > 0.0 else limit
-        else:
+        else:  # solve: the joint has left its branch
             u1, v1, a1, w, t, xi = by_law(mode, spring, general, (u, v, a, w, t, xi), load)
             if not np.isfinite(w):
                 return step, -MOST_TURNS, abs(u)
             now, base = branch_of(mode, spring, (u1, v1, a1, w, t, xi)), w - b * u1
             limit = now.limit
+        # account
         move = u1 - u
+        damped += half * move * (v + v1)
         u, v, a = u1, v1, a1
-        damped += (c * per_step) * move * move
         if loaded:
             external += 0.5 * move * (load0 + load1)
             load0 = load1
@@ -221,15 +214,15 @@ def march_mode(
                 return step, -1, np.inf
             worst = apart
         if keeps:
-            store((u, v, a, w, t, xi), mode, spring, (damped, external), history[step])
-        if save[step] >= 0:
-            row = save[step]
-            rows.u[row, 0], rows.v[row, 0], rows.a[row, 0] = u, v, a
-            rows.joint[row, 0], rows.joint[row, 1], rows.joint[row, 2] = w, t, xi
-    x.u[0], x.v[0], x.a[0], x.joint[0], x.joint[1], x.joint[2] = u, v, a, w, t, xi
+            store((u, v, a, w, t, xi), mode, spring, (damped, external), to.energies[step])
+        if row[step] >= 0:
+            at = row[step]
+            to.u[at, 0], to.v[at, 0], to.a[at, 0] = u, v, a
+            to.w[at, 0, 0], to.t[at, 0, 0], to.state[at, 0, 0] = w, t, xi
+    x.u[0], x.v[0], x.a[0], x.w[0, 0], x.t[0, 0], x.state[0, 0] = u, v, a, w, t, xi
     store((u, v, a, w, t, xi), mode, spring, (damped, external), x.energies)
-    x.balance[1] = worst
-    return len(save), 1, 0.0
+    to.balance[1] = worst
+    return len(row), 1, 0.0
 
 
 @compiled

@@ -1,6 +1,6 @@
 """The whole time loop, compiled, for a few diagonal coordinates and one joint that only opens.
 
-The steps are those of `modal_loop`. The joint is one point of the Strong Discontinuity law whose
+The steps are those of `loop`. The joint is one point of the Strong Discontinuity law whose
 shear cannot move: its normal law is piecewise linear, so the step's equation
 
     w + S c W t(w) = w_free ,   w_free = w_0 + y_0 + S c f_0
@@ -16,17 +16,23 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.compiled.compiler import compiled_fast
+from ssilang.kernel.interface.copies import copy_state
 from ssilang.kernel.interface.laws.sdm_law import normal_energy, normal_law, opening_loss
-from ssilang.kernel.stepping.rests.dense.loop import (
+from ssilang.kernel.stepping.newmark import Newmark
+from ssilang.kernel.stepping.rests.modal.diagonal import Diagonal
+from ssilang.kernel.stepping.state import (
     DAMPED,
     ELASTIC,
     EXTERNAL,
     KINETIC,
     LOST,
     STORED,
+    Motion,
+    Recorder,
 )
+from ssilang.kernel.stepping.verbs import advance, from_past, keep
 
 MOST_TURNS = 60
 CLOSE = 1e-15  # of the jump: last change of the iteration on softening
@@ -43,37 +49,12 @@ class Spring(NamedTuple):
 
 
 class Line(NamedTuple):
-    """Modes seen by the joint: diagonals (r,), jump of each, loads (n_loads, r), scheme."""
+    """Modes seen by the joint: diagonals (r,), jump b of each, loads (n_loads, r)."""
 
-    m: FloatArray
-    c: FloatArray
-    k: FloatArray
+    newmark: Newmark
+    diagonal: Diagonal
     b: FloatArray
     forces: FloatArray
-    scheme: FloatArray
-
-
-class LineState(NamedTuple):
-    """State, changed in place: modes (r,), joint (w, t, xi), energies as in `compiled_loop`.
-
-    `balance` is the sum of energies at the start of the run, and how far it was left at most.
-    """
-
-    u: FloatArray
-    v: FloatArray
-    a: FloatArray
-    joint: FloatArray
-    energies: FloatArray
-    balance: FloatArray
-
-
-class LineRows(NamedTuple):
-    """Steps that are kept: modes (n, r), joints (n, 3)."""
-
-    u: FloatArray
-    v: FloatArray
-    a: FloatArray
-    joint: FloatArray
 
 
 @compiled_fast
@@ -115,101 +96,106 @@ def _softening(
     return math.nan, 0.0, xi
 
 
-@compiled_fast
-def march_line(
-    line: Line,
-    dt: float,
-    P: FloatArray,
-    spring: Spring,
-    x: LineState,
-    factors: FloatArray,
-    save: IntArray,
-    rows: LineRows,
-    history: FloatArray,
-) -> tuple[int, int, float]:
-    """As `compiled_loop.march`; P (r,) is the inverse of the step's diagonal matrix.
+class LinearStep(NamedTuple):
+    """Increments `du = pu u + pv v + pa a + P load - pf f` (r,), and `closed_form`'s numbers."""
 
-    An empty history keeps no energies.
-    """
-    am, af, beta, gamma = line.scheme[0], line.scheme[1], line.scheme[2], line.scheme[3]
-    rate, keep, drift = gamma / (beta * dt), 1 - gamma / beta, dt * (1 - 0.5 * gamma / beta)
-    bend, slow, late = 1 / (beta * dt**2), 1 / (beta * dt), 0.5 / beta - 1
-    r, share, loads, per_step = len(x.u), 1 - af, line.forces.shape[0], 1 / dt
-    # du = Pu u + Pv v + Pa a + Pf f + P (load)
-    Pu, Pv, Pa, Pf = np.zeros(r), np.zeros(r), np.zeros(r), np.zeros(r)
-    du, load0, load1 = np.zeros(r), np.zeros(r), np.zeros(r)
+    pu: FloatArray
+    pv: FloatArray
+    pa: FloatArray
+    pf: FloatArray
+    s: float
+    soft: float
+    closed: float
+
+
+@compiled_fast
+def linear_step(line: Line, spring: Spring) -> LinearStep:
+    """What the past and the joint's force f make of each coordinate."""
+    n, diagonal, r = line.newmark, line.diagonal, len(line.b)
+    pu, pv, pa, pf = np.zeros(r), np.zeros(r), np.zeros(r), np.zeros(r)
     compliance = 0.0
     for i in range(r):
-        m, c = line.m[i], line.c[i]
-        Pu[i] = -P[i] * line.k[i]
-        Pv[i] = P[i] * ((1 - am) / (beta * dt) * m - (share * keep + af) * c)
-        Pa[i] = P[i] * (((1 - am) * late - am) * m - share * drift * c)
-        Pf[i] = P[i] * line.b[i]
-        compliance += line.b[i] * Pf[i]
-        for j in range(loads):
-            load0[i] += line.forces[j, i] * factors[0, j]
-    s = compliance * share * spring.weight
-    soft, closed = 1.0 / (1.0 + s * spring.k), 0.0
+        m, c, P = diagonal.m[i], diagonal.c[i], diagonal.P[i]
+        pu[i] = -P * diagonal.k[i]
+        pv[i] = P * from_past(n, m, 0.0, c, 0.0)
+        pa[i] = P * from_past(n, 0.0, m, 0.0, c)
+        pf[i] = line.b[i] * P
+        compliance += line.b[i] * pf[i]
+    s, closed = compliance * n.end * spring.weight, 0.0
     if spring.fc < 0.0:
         closed = spring.fc / spring.k + s * spring.fc
-    w, t, xi = x.joint[0], x.joint[1], x.joint[2]
+    return LinearStep(pu, pv, pa, pf, s, 1.0 / (1.0 + s * spring.k), closed)
+
+
+@compiled_fast
+def run_one_spring(
+    line: Line, spring: Spring, x: Motion, factors: FloatArray, to: Recorder
+) -> tuple[int, int, float]:
+    """As `run_modal`, on jumps w and tractions t (1, 1) and the opening xi as the state (1, 1).
+
+    Steps without room for their energies leave those of the end alone, and the balance.
+    """
+    n, diagonal, b, step = line.newmark, line.diagonal, line.b, linear_step(line, spring)
+    r, loads, weight = len(x.u), line.forces.shape[0], spring.weight
+    du, load0, load1 = np.zeros(r), np.zeros(r), np.zeros(r)
+    for i in range(r):
+        for j in range(loads):
+            load0[i] += line.forces[j, i] * factors[0, j]
+    w, t, xi = x.w[0, 0], x.t[0, 0], x.state[0, 0]
     damped, external = x.energies[DAMPED], x.energies[EXTERNAL]
-    worst, keeps = x.balance[1], len(history) > 0
-    for step in range(len(save)):
-        f0 = spring.weight * t
-        free = w + s * t
+    worst, keeps, steps = to.balance[1], len(to.energies) > 0, len(to.row)
+    for k in range(steps):
+        # predict: increments and jump, the joint's force as it is
+        f0, free = weight * t, w + step.s * t
         for i in range(r):
-            total = Pu[i] * x.u[i] + Pv[i] * x.v[i] + Pa[i] * x.a[i] - Pf[i] * f0
+            move = step.pu[i] * x.u[i] + step.pv[i] * x.v[i] + step.pa[i] * x.a[i]
+            move -= step.pf[i] * f0
             if loads:
                 load1[i] = 0.0
                 for j in range(loads):
-                    load1[i] += line.forces[j, i] * factors[step + 1, j]
-                total += P[i] * (share * load1[i] + af * load0[i])
-            du[i] = total
-            free += line.b[i] * total
+                    load1[i] += line.forces[j, i] * factors[k + 1, j]
+                move += diagonal.P[i] * (n.end * load1[i] + n.start * load0[i])
+            du[i] = move
+            free += b[i] * move
+        # solve: the joint's law in closed form
         change = 0.0
-        if spring.weight > 0.0:
+        if weight > 0.0:
             old = t
-            w, t, xi = closed_form(free, s, soft, closed, xi, spring)
+            w, t, xi = closed_form(free, step.s, step.soft, step.closed, xi, spring)
             if not np.isfinite(w):
-                return step, -1 if np.isfinite(free) else -MOST_TURNS, abs(free)
-            change = share * spring.weight * (t - old)
+                return k, -1 if np.isfinite(free) else -MOST_TURNS, abs(free)
+            change = n.end * weight * (t - old)
+        # advance and account
         kinetic, elastic, size = 0.0, 0.0, 0.0
         for i in range(r):
-            move = du[i] - Pf[i] * change
-            v0, a0 = x.v[i], x.a[i]
+            move, v0 = du[i] - step.pf[i] * change, x.v[i]
             u1 = x.u[i] + move
-            v1 = rate * move + keep * v0 + drift * a0
-            x.u[i] = u1
-            x.v[i] = v1
-            x.a[i] = bend * move - slow * v0 - late * a0
-            kinetic += line.m[i] * v1 * v1
-            elastic += line.k[i] * u1 * u1
-            damped += line.c[i] * move * move * per_step
+            v1, x.a[i] = advance(n, move, v0, x.a[i])
+            x.u[i], x.v[i] = u1, v1
+            kinetic += diagonal.m[i] * v1 * v1
+            elastic += diagonal.k[i] * u1 * u1
+            damped += 0.5 * diagonal.c[i] * move * (v0 + v1)
             size += abs(u1)
             if loads:
                 external += 0.5 * move * (load0[i] + load1[i])
                 load0[i] = load1[i]
         if not np.isfinite(size):
-            return step, -1, np.inf
+            return k, -1, np.inf
         stored, lost = 0.0, 0.0
-        if spring.weight > 0.0:
-            stored = spring.weight * normal_energy(w, t, xi, spring.k, spring.fc)
-            lost = spring.weight * opening_loss(xi, spring.fu, spring.gf)
+        if weight > 0.0:
+            stored = weight * normal_energy(w, t, xi, spring.k, spring.fc)
+            lost = weight * opening_loss(xi, spring.fu, spring.gf)
         total = 0.5 * (kinetic + elastic) + stored + lost + damped - external
-        worst = max(worst, abs(total - x.balance[0]))
-        if keeps or step == len(save) - 1:
+        worst = max(worst, abs(total - to.balance[0]))
+        if keeps or k == steps - 1:
             x.energies[KINETIC], x.energies[ELASTIC] = 0.5 * kinetic, 0.5 * elastic
             x.energies[STORED], x.energies[LOST] = stored, lost
             x.energies[DAMPED], x.energies[EXTERNAL] = damped, external
             if keeps:
-                for i in range(len(x.energies)):
-                    history[step, i] = x.energies[i]
-        if save[step] >= 0:
-            row = save[step]
-            for i in range(r):
-                rows.u[row, i], rows.v[row, i], rows.a[row, i] = x.u[i], x.v[i], x.a[i]
-            rows.joint[row, 0], rows.joint[row, 1], rows.joint[row, 2] = w, t, xi
-    x.joint[0], x.joint[1], x.joint[2] = w, t, xi
-    x.balance[1] = worst
-    return len(save), 1, 0.0
+                copy_state(x.energies, to.energies[k])
+        if to.row[k] >= 0:
+            x.w[0, 0], x.t[0, 0], x.state[0, 0] = w, t, xi
+            keep(x, to, to.row[k])
+    x.w[0, 0], x.t[0, 0], x.state[0, 0] = w, t, xi
+    to.balance[1] = worst
+    return steps, 1, 0.0

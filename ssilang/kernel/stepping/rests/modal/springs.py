@@ -1,176 +1,49 @@
 """The whole time loop, compiled, for diagonal coordinates on springs that only push.
 
 The springs are points of the Strong Discontinuity law without strength, closing traction and
-shear: `f = k min(jump, 0)`. The steps are those of `modal_loop`. With the jumps g that the end of
-a step would have without its springs, and their compliance `S = J P J^T`,
-
-    jumps = g - c S f,   f_i = k_i jumps_i of closed springs, 0 of open ones,   c = 1 - alpha_f
-
-so that the closed springs (set C) carry `f_C = Q_CC^-1 g_C` with `Q = 1/k + c S`, and the open ones
-jump by `g_O - Q_OC f_C`. Both maps are rows of Q exchanged on C: `[Q^-1, -Q^-1 Q_CO; Q_OC Q^-1,
-Schur]`. A spring that opens or closes is one more exchange, of rank one; a step without any is a
-product with the rows of C. Each step ends at the only answer (Q is positive definite): sets follow
-the signs, and after some turns one spring at a time, the first that is wrong (Murty's rule, which
-is finite).
+shear: `f = k min(jump, 0)`. The steps are those of `loop`. The jumps that the end of a step would
+have without its springs, and the springs' compliance `S = J P J^T`, give by `contact.active_set`
+the springs that push: `Q = 1/k + c S` with c = 1 - alpha_f.
 """
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.base.compiled.compiler import compiled_fast
-from ssilang.kernel.interface.copies import copy_rows, copy_state, largest
-from ssilang.kernel.interface.laws.columns import Variable
-from ssilang.kernel.stepping.rests.dense.loop import (
-    DAMPED,
-    ELASTIC,
-    EXTERNAL,
-    KINETIC,
-    STORED,
-    Motion,
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.compiled.compiler import compiled_fast, compiled_inline
+from ssilang.kernel.contact.active_set import (
+    ActiveSet,
+    active_set_of,
+    anew,
+    find_active,
+    list_closed,
 )
-from ssilang.kernel.stepping.rests.modal.loop import (
-    Modal,
-    ModalRows,
-    ModalStep,
+from ssilang.kernel.interface.copies import copy_state
+from ssilang.kernel.stepping.rests.modal.diagonal import (
+    Sweep,
+    account,
     add_jumps,
+    advance_range,
     next_load,
+    predict,
+    sweep_of,
 )
+from ssilang.kernel.stepping.rests.modal.loop import Modal, ModalStep
+from ssilang.kernel.stepping.state import STORED, Motion, Recorder
+from ssilang.kernel.stepping.verbs import keep
 
 BLOCK = 64  # coordinates whose rows of J and Jt stay in the nearest cache
-ALL_AT_ONCE = 20  # turns of a step that change all springs with the wrong sign
-MOST_TURNS = 2000  # of a step: more only if rounding decides the signs
-EXCHANGES = 64  # between two times that Q is exchanged anew: rounding does not grow
-WRONG = 1e-14  # of the largest jump, or of the force that makes it: a sign that is not rounding
+WRONG = 1e-14  # of the largest jump, or of its force: a sign that is not rounding
 
 
-class Contact(NamedTuple):
-    """The springs' exchanged matrix E on the set `closed`, its springs in `order[:n]`.
-
-    `tally` holds n and the exchanges since E was made.
-    """
-
-    Q: FloatArray  # (q, q)
-    k: FloatArray  # (q,)
-    E: FloatArray  # (q, q)
-    closed: np.ndarray
-    order: IntArray
-    tally: IntArray
-
-
-class Released(NamedTuple):
-    """Vectors that each step overwrites."""
-
-    du: FloatArray  # (r,) increments without the springs' forces at the end
-    end: FloatArray  # (r,) coordinates with them
-    g: FloatArray  # (r,) forces of the springs on the coordinates
-    load0: FloatArray  # (r,)
-    load1: FloatArray  # (r,)
-    jumps: FloatArray  # (q,) of `end`
-
-
-@compiled_fast
-def _exchange(E: FloatArray, i: int) -> None:
-    """Exchange force and jump of the spring i in `E`; twice leads back."""
-    inverse = 1.0 / E[i, i]
-    row = E[i]
-    for j in range(len(E)):
-        if j != i:
-            factor = E[j, i] * inverse
-            line = E[j]
-            for k in range(len(E)):
-                line[k] -= factor * row[k]
-            line[i] = factor
-    for k in range(len(E)):
-        row[k] *= -inverse
-    row[i] = inverse
-
-
-@compiled_fast
-def list_closed(contact: Contact) -> None:
-    n = 0
-    for i in range(len(contact.k)):
-        if contact.closed[i]:
-            contact.order[n] = i
-            n += 1
-    contact.tally[0] = n
-
-
-@compiled_fast
-def anew(contact: Contact) -> None:
-    """E from Q."""
-    copy_rows(contact.Q, contact.E)
-    for i in range(len(contact.k)):
-        if contact.closed[i]:
-            _exchange(contact.E, i)
-    contact.tally[1] = 0
-
-
-@compiled_fast
-def _change(contact: Contact, i: int) -> None:
-    contact.closed[i] = not contact.closed[i]
-    _exchange(contact.E, i)
-    contact.tally[1] += 1
-
-
-@compiled_fast
-def _solve(contact: Contact, g: FloatArray, out: FloatArray) -> None:
-    """Forces of closed springs and jumps of open ones."""
-    E, order, n = contact.E, contact.order, contact.tally[0]
-    for i in range(len(g)):
-        out[i] = 0.0 if contact.closed[i] else g[i]
-    fours = n // 4 * 4
-    for m in range(0, fours, 4):
-        i0, i1, i2, i3 = order[m], order[m + 1], order[m + 2], order[m + 3]
-        a, b, c, d = g[i0], g[i1], g[i2], g[i3]
-        row0, row1, row2, row3 = E[i0], E[i1], E[i2], E[i3]
-        for j in range(len(out)):
-            out[j] += (row0[j] * a + row1[j] * b) + (row2[j] * c + row3[j] * d)
-    for m in range(fours, n):
-        row, a = E[order[m]], g[order[m]]
-        for j in range(len(out)):
-            out[j] += row[j] * a
-
-
-@compiled_fast
-def settle(contact: Contact, g: FloatArray, out: FloatArray) -> int:
-    """The springs' answer in `out` (see `_solve`) to the jumps g; its turns (< 0: none found)."""
-    turn, most = 0, 0.0
-    for i in range(len(g)):
-        most = max(most, abs(g[i]))
-    if not np.isfinite(most):
-        return 1
-    while True:
-        turn += 1
-        _solve(contact, g, out)
-        changed = False
-        for i in range(len(g)):
-            closed = contact.closed[i]
-            limit = WRONG * most * (contact.k[i] if closed else 1.0)
-            if (closed and out[i] > limit) or (not closed and out[i] < -limit):
-                _change(contact, i)
-                changed = True
-                if turn > ALL_AT_ONCE:
-                    break
-        if not changed:
-            return turn
-        if turn == MOST_TURNS:
-            return -turn
-        if contact.tally[1] > EXCHANGES:
-            anew(contact)
-        list_closed(contact)
-
-
-@compiled_fast
+@compiled_inline
 def _push(
-    modal: Modal, step: ModalStep, contact: Contact, f: FloatArray, out: Released, first: int,
+    modal: Modal, step: ModalStep, springs: ActiveSet, f: FloatArray, sweep: Sweep, first: int,
     last: int,
 ) -> None:  # fmt: skip
     """The springs' new forces f into g and the increments of some coordinates."""
-    g, order, n, J = out.g[first:last], contact.order, contact.tally[0], modal.J
+    g, order, n, J = sweep.g[first:last], springs.order, springs.tally[0], modal.J
     for i in range(len(g)):
         g[i] = 0.0
     fours = n // 4 * 4
@@ -185,149 +58,100 @@ def _push(
         row, a = J[order[m], first:last], f[order[m]]
         for j in range(len(g)):
             g[j] += row[j] * a
-    du, P, share = out.du[first:last], step.P[first:last], 1 - modal.scheme[1]
+    du, P, end = sweep.du[first:last], step.diagonal.P[first:last], step.newmark.end
     for i in range(len(g)):
-        du[i] -= share * P[i] * g[i]
+        du[i] -= end * P[i] * g[i]
 
 
-@compiled_fast
-def _release(
-    modal: Modal, step: ModalStep, x: Motion, out: Released, first: int, last: int
-) -> None:
-    """Increments of the next step without its springs at the end; their jumps are added up."""
-    am, af, beta, gamma = modal.scheme[0], modal.scheme[1], modal.scheme[2], modal.scheme[3]
-    mass_v, mass_a = (1 - am) / (beta * step.dt), (1 - am) * (0.5 / beta - 1) - am
-    damping_v = (1 - af) * (1 - gamma / beta) + af
-    damping_a = (1 - af) * step.dt * (1 - 0.5 * gamma / beta)
-    du, g, P, end = out.du[first:last], out.g[first:last], step.P[first:last], out.end[first:last]
-    m, c, k = modal.m[first:last], modal.c[first:last], modal.k[first:last]
-    u, v, a = x.u[first:last], x.v[first:last], x.a[first:last]
-    load0, load1 = out.load0[first:last], out.load1[first:last]
-    for i in range(len(du)):
-        r = m[i] * (mass_v * v[i] + mass_a * a[i]) - c[i] * (damping_v * v[i] + damping_a * a[i])
-        du[i] = P[i] * (r - k[i] * u[i] - af * g[i] + (1 - af) * load1[i] + af * load0[i])
+@compiled_inline
+def _begin(
+    modal: Modal, step: ModalStep, springs: ActiveSet, x: Motion, sweep: Sweep, factors: FloatArray,
+    first: int, last: int,
+) -> None:  # fmt: skip
+    """Loads and increments of the next step without its springs at the end; their jumps."""
+    next_load(
+        modal.forces[:, first:last], factors, sweep.load0[first:last], sweep.load1[first:last]
+    )
+    predict(step.newmark, step.diagonal, x, sweep, step.newmark.start, first, last)
+    u, du, end = x.u[first:last], sweep.du[first:last], sweep.end[first:last]
+    for i in range(len(end)):
         end[i] = u[i] + du[i]
-    add_jumps(modal.Jt[first:last], end, out.jumps)
+    add_jumps(modal.Jt[first:last], end, springs.free)
 
 
 @compiled_fast
-def _advance(
-    modal: Modal, dt: float, x: Motion, out: Released, first: int, last: int, sums: FloatArray
-) -> None:
-    """Motion of some coordinates; their energies, and something finite if they are, into sums."""
-    beta, gamma = modal.scheme[2], modal.scheme[3]
-    rate, keep, drift = gamma / (beta * dt), 1 - gamma / beta, dt * (1 - 0.5 * gamma / beta)
-    bend, slow, late = 1 / (beta * dt**2), 1 / (beta * dt), 0.5 / beta - 1
-    u, v, a, du = x.u[first:last], x.v[first:last], x.a[first:last], out.du[first:last]
-    m, c, k = modal.m[first:last], modal.c[first:last], modal.k[first:last]
-    load0, load1 = out.load0[first:last], out.load1[first:last]
-    kinetic, elastic, damped, external, size = 0.0, 0.0, 0.0, 0.0, 0.0
-    for i in range(len(u)):
-        move, v0, a0 = du[i], v[i], a[i]
-        u1 = u[i] + move
-        v1 = rate * move + keep * v0 + drift * a0
-        a[i] = bend * move - slow * v0 - late * a0
-        u[i], v[i] = u1, v1
-        kinetic += m[i] * v1 * v1
-        elastic += k[i] * u1 * u1
-        damped += c[i] * move * move
-        external += move * (load0[i] + load1[i])
-        size += abs(u1)
-    sums[0] += kinetic
-    sums[1] += elastic
-    sums[2] += damped
-    sums[3] += external
-    sums[4] += size
+def begin_springs(springs: ActiveSet, x: Motion) -> None:
+    """The set of closed springs of the state, and E on it."""
+    for i in range(len(springs.k)):
+        springs.closed[i] = x.f[i] < 0.0
+    anew(springs)
+    list_closed(springs)
 
 
-@compiled_fast
-def _account(x: Motion, contact: Contact, f: FloatArray, dt: float, sums: FloatArray) -> None:
-    stored = 0.0
-    for i in range(len(f)):
-        stored += f[i] * f[i] / contact.k[i]
-    x.energies[KINETIC], x.energies[ELASTIC] = 0.5 * sums[0], 0.5 * sums[1]
+@compiled_inline
+def end_springs(springs: ActiveSet, x: Motion) -> int:
+    """Forces, jumps and largest openings of the springs at a step's end; see `find_active`."""
+    turns, stored, found = find_active(springs), 0.0, springs.found
+    for i in range(len(springs.k)):
+        closed, stiffness = springs.closed[i], springs.k[i]
+        force = min(found[i], 0.0) if closed else 0.0
+        x.f[i], x.w[i, 0] = force, force / stiffness if closed else found[i]
+        x.state[i, 0] = max(x.state[i, 0], x.w[i, 0])
+        stored += force * force / stiffness
     x.energies[STORED] = 0.5 * stored
-    x.energies[DAMPED] += sums[2] / dt
-    x.energies[EXTERNAL] += 0.5 * sums[3]
+    return turns
 
 
 @compiled_fast
-def _save(
-    x: Motion, weights: FloatArray, f: FloatArray, xi: FloatArray, rows: ModalRows, row: int
-) -> None:
-    copy_state(x.u, rows.u[row])
-    copy_state(x.v, rows.v[row])
-    copy_state(x.a, rows.a[row])
-    copy_rows(x.state, rows.state[row])
-    for i in range(len(f)):
-        rows.w[row, i, 0], rows.t[row, i, 0] = x.delta[i], f[i] / weights[i]
-        rows.state[row, i, Variable.XI] = xi[i]
+def wrong_sign(springs: ActiveSet) -> float:
+    """Largest wrong sign of what was found, over the largest jump."""
+    wrong, most = 0.0, 0.0
+    for i in range(len(springs.k)):
+        part = springs.found[i]
+        wrong = max(wrong, part / springs.k[i] if springs.closed[i] else -part)
+        most = max(most, abs(springs.free[i]))
+    return wrong / most
+
+
+def springs_of(step: ModalStep, k: FloatArray) -> ActiveSet:
+    """Springs of stiffness k (q,), all open."""
+    return active_set_of(step.newmark.end * step.S + np.diag(1.0 / k), k, WRONG)
 
 
 @compiled_fast
-def march_normal(
-    modal: Modal,
-    step: ModalStep,
-    weights: FloatArray,
-    k: FloatArray,
-    x: Motion,
-    factors: FloatArray,
-    save: IntArray,
-    rows: ModalRows,
-    history: FloatArray,
+def run_springs(
+    modal: Modal, step: ModalStep, springs: ActiveSet, x: Motion, factors: FloatArray, to: Recorder
 ) -> tuple[int, int, float]:
-    """As `march_modal`, J being the springs' jumps, `k` their stiffness and `weights` their areas.
+    """As `run_modal`, J being the springs' jumps.
 
-    The state changes in xi, the largest opening, alone.
+    `x` holds jumps w (q, 1), forces f (q,) and, as its state (q, 1), the largest openings.
     """
-    n, q, steps, worst, share = len(x.u), len(k), len(save), 1, 1 - modal.scheme[1]
-    out = Released(np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(q))
-    Q, answer, f, xi, sums = np.zeros((q, q)), np.zeros(q), np.zeros(q), np.zeros(q), np.zeros(5)
-    copy_state(x.f, f)
-    contact = Contact(Q, k, np.zeros((q, q)), f < 0.0, np.zeros(q, np.int64), np.zeros(2, np.int64))
-    for i in range(q):
-        for j in range(q):
-            Q[i, j] = share * step.S[i, j]
-        Q[i, i] += 1.0 / k[i]
-        xi[i] = x.state[i, Variable.XI]
-    anew(contact)
-    list_closed(contact)
+    n, steps, worst = len(x.u), len(to.row), 1
+    sweep = sweep_of(n)
+    begin_springs(springs, x)
     start = n - n  # not a literal: that is a type, and code, of its own
-    _push(modal, step, contact, f, out, start, n)  # the forces at the start, for alpha_f
-    next_load(modal.forces, factors[0], out.load0, out.load1)
-    next_load(modal.forces, factors[min(1, steps)], out.load0, out.load1)
-    _release(modal, step, x, out, start, n)
+    _push(modal, step, springs, x.f, sweep, start, n)  # the forces at the start, for alpha_f
+    next_load(modal.forces, factors[0], sweep.load0, sweep.load1)
+    for i in range(len(springs.free)):
+        springs.free[i] = 0.0
+    _begin(modal, step, springs, x, sweep, factors[min(1, steps)], start, n)
     for s in range(steps):
-        turns = settle(contact, out.jumps, answer)
+        turns = end_springs(springs, x)  # solve: the set of springs that push
         if turns < 0:
-            wrong = 0.0
-            for i in range(q):
-                wrong = max(wrong, answer[i] / k[i] if contact.closed[i] else -answer[i])
-            return s, turns, wrong / largest(out.jumps)
-        worst = max(worst, turns)
-        for i in range(q):
-            closed = contact.closed[i]
-            f[i] = min(answer[i], 0.0) if closed else 0.0
-            x.delta[i] = f[i] / k[i] if closed else answer[i]
-            xi[i] = max(xi[i], x.delta[i])
-            out.jumps[i] = 0.0
-        for i in range(5):
-            sums[i] = 0.0
-        for first in range(0, n, BLOCK):
+            return s, turns, wrong_sign(springs)
+        worst, size = max(worst, turns), 0.0
+        for i in range(len(springs.free)):
+            springs.free[i] = 0.0
+        for first in range(0, n, BLOCK):  # advance, and predict the next step
             last = min(first + BLOCK, n)
-            _push(modal, step, contact, f, out, first, last)
-            _advance(modal, step.dt, x, out, first, last, sums)
+            _push(modal, step, springs, x.f, sweep, first, last)
+            size += advance_range(step.newmark, step.diagonal, x, sweep, first, last)
             if s + 1 < steps:
-                load0, load1 = out.load0[first:last], out.load1[first:last]
-                next_load(modal.forces[:, first:last], factors[s + 2], load0, load1)
-                _release(modal, step, x, out, first, last)
-        if not np.isfinite(sums[4]):
+                _begin(modal, step, springs, x, sweep, factors[s + 2], first, last)
+        if not np.isfinite(size):
             return s, -1, np.inf
-        _account(x, contact, f, step.dt, sums)
-        copy_state(x.energies, history[s])
-        if save[s] >= 0:
-            _save(x, weights, f, xi, rows, save[s])
-    for i in range(q):
-        x.f[i], x.w[i, 0], x.t[i, 0] = f[i], x.delta[i], f[i] / weights[i]
-        x.state[i, Variable.XI] = xi[i]
+        account(x, sweep)
+        copy_state(x.energies, to.energies[s])
+        if to.row[s] >= 0:
+            keep(x, to, to.row[s])
     return steps, worst, 0.0

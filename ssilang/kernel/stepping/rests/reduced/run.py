@@ -32,8 +32,7 @@ from ssilang.kernel.stepping.rests.reduced.basis import (
 )
 from ssilang.kernel.stepping.rests.reduced.trace import Chunk, Difference, Trace, comparing
 from ssilang.kernel.stepping.run import History, Integration, Progress, integrate
-from ssilang.kernel.stepping.snapshot import Observer, Snapshot
-from ssilang.kernel.stepping.state import snapshot_of
+from ssilang.kernel.stepping.snapshot import Observer, Snapshot, snapshot_of
 
 INSTANTS = 64  # at which whole fields are compared
 GROWTH = 1.2  # a basis is compared with one that is this much smaller, or more

@@ -11,7 +11,7 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.stepping.problem.moving_supports import MOST, Columns, MovingSupports
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.rests.dense.loop import Motion
+from ssilang.kernel.stepping.state import Motion
 from ssilang.messages.message import Sentence
 
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.interface.newton import Workspace, workspace
+from ssilang.kernel.interface.newton import workspace
+from ssilang.kernel.stepping.newmark import Newmark, newmark_of
 from ssilang.kernel.stepping.problem.initial import (
     admissible_velocity,
     initial_energies,
@@ -17,12 +18,14 @@ from ssilang.kernel.stepping.problem.initial import (
 from ssilang.kernel.stepping.problem.moving_supports import Course
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.dense.arrays import joints_of
-from ssilang.kernel.stepping.rests.dense.loop import N_ENERGIES, Motion
-from ssilang.kernel.stepping.rests.modal.loop import Modal, ModalRows, ModalStep, march_modal
+from ssilang.kernel.stepping.rests.modal.diagonal import diagonal_of
+from ssilang.kernel.stepping.rests.modal.loop import Modal, ModalStep, run_modal
 from ssilang.kernel.stepping.rests.reduced.basis import ReducedModel
-from ssilang.kernel.stepping.rests.reduced.damped import DampedTrace, Given
+from ssilang.kernel.stepping.rests.reduced.damped import DampedTrace
+from ssilang.kernel.stepping.state import N_ENERGIES, Motion, Recorder, recorder_of, rows_of
 from ssilang.kernel.stepping.times import SAME, Run, runs_of
 
+KEPT = ("u", "v", "a", "w", "t", "state")
 SPARSER = 8  # velocities and accelerations at one of so many of them
 CHUNK, LONGEST = 256, 4096  # steps to the first comparison, between the last ones
 
@@ -41,7 +44,7 @@ class Chunk:
     """Steps of one dt: jumps of all, rows of those kept."""
 
     run: Run
-    rows: ModalRows
+    rows: Recorder
     steps: IntArray
     """Steps of the rows."""
     course: Course | None = None
@@ -70,64 +73,53 @@ class Trace:
         )  # fmt: skip
         self.energies = np.zeros((len(p.times), N_ENERGIES))
         self.energies[0] = energies
-        s = p.scheme
-        scheme = np.array([s.alpha_m, s.alpha_f, s.beta, s.gamma])
         m = self.model
-        Jt = np.ascontiguousarray(m.J.T)
         self._joints = joints_of(p)
-        self._steps: dict[float, ModalStep] = {}
+        self._steps: dict[float, Newmark] = {}
+        self._modal_steps: dict[float, ModalStep] = {}
         self._damped: DampedTrace | None = None
         if not m.diagonal:
-            self._damped = DampedTrace(p, m, scheme)
+            self._damped = DampedTrace(p, m, self._joints)
             return
-        self._modal = Modal(m.m, m.c, m.k, m.J, Jt, np.ascontiguousarray(m.forces.T), scheme)
+        Jt = np.ascontiguousarray(m.J.T)
+        self._modal = Modal(m.J, Jt, np.ascontiguousarray(m.forces.T))
 
     def advance(self, run: Run) -> Chunk | None:
         """The steps of a run; None if one of them did not converge."""
-        chosen = self.kept[run.first + 1 : run.last + 1]
-        save = np.where(chosen, np.cumsum(chosen) - 1, -1).astype(np.int64)
-        rows = self._room(run.last - run.first, int(chosen.sum()))
+        row = rows_of(self.kept[run.first + 1 : run.last + 1])
+        steps = run.first + 1 + np.flatnonzero(row >= 0)
         factors = self.problem.loading.at(self.problem.times[run.first : run.last + 1])
-        history = self.energies[run.first + 1 : run.last + 1]
-        course = None
+        to = recorder_of(
+            self.motion, row, self.energies[run.first + 1 : run.last + 1], KEPT,
+            jumps=np.zeros((len(row), *self.motion.w.shape)),
+        )  # fmt: skip
+        n, course = self._newmark(run.dt), None
+        work = workspace(self.motion.w.shape, len(self.motion.f))
         if self._damped is not None:
-            dt = self._like(run.dt, self._damped.steps)
-            given = Given(dt, self._joints, self.motion, self._newton(), factors, save)
-            done, turns, course = self._damped.advance(given, rows, history)
+            done, turns, course = self._damped.advance(n, self.motion, work, factors, to)
         else:
-            done, turns, _ = march_modal(
-                self._modal, self._step(run.dt), self._joints, self.motion, self._newton(), factors,
-                save, rows, history,
-            )  # fmt: skip
-        if done < run.last - run.first:
+            done, turns, _ = run_modal(
+                self._modal, self._step(n), self._joints, self.motion, work, factors, to
+            )
+        if done < len(row):
             return None
         self.iterations = max(self.iterations, turns)
-        return Chunk(run, rows, run.first + 1 + np.flatnonzero(chosen), course)
+        return Chunk(run, to, steps, course)
 
-    def _newton(self) -> Workspace:
-        return workspace(self.motion.w.shape, len(self.motion.f))
-
-    def _room(self, steps: int, rows: int) -> ModalRows:
-        m, r = self.motion, self.model.size
-        u, v, a = (np.zeros((rows, r)) for _ in range(3))
-        w, t = np.zeros((rows, *m.w.shape)), np.zeros((rows, *m.t.shape))
-        return ModalRows(
-            np.zeros((steps, *m.w.shape)), u, v, a, w, t, np.zeros((rows, *m.state.shape))
-        )
-
-    @staticmethod
-    def _like(dt: float, steps: Iterable[float]) -> float:
-        """dt, or the length of a step known that is the same but for rounding."""
-        return next((known for known in steps if abs(known - dt) <= SAME * dt), dt)
-
-    def _step(self, dt: float) -> ModalStep:
-        dt = self._like(dt, self._steps)
+    def _newmark(self, dt: float) -> Newmark:
+        """Coefficients of steps dt, or of known ones that are as long but for rounding."""
+        dt = next((known for known in self._steps if abs(known - dt) <= SAME * known), dt)
         if dt not in self._steps:
-            s, m = self.problem.scheme, self.model
-            A = (1 - s.alpha_m) / (s.beta * dt**2) * m.m + (1 - s.alpha_f) * m.k
-            A += (1 - s.alpha_f) * s.gamma / (s.beta * dt) * m.c
-            self._steps[dt] = ModalStep(dt, 1.0 / A, np.ascontiguousarray((m.J / A) @ m.J.T))
+            self._steps[dt] = newmark_of(self.problem.scheme, dt)
         return self._steps[dt]
+
+    def _step(self, n: Newmark) -> ModalStep:
+        if n.dt not in self._modal_steps:
+            m = self.model
+            diagonal = diagonal_of(n, m.m, m.c, m.k)
+            S = np.ascontiguousarray((m.J * diagonal.P) @ m.J.T)
+            self._modal_steps[n.dt] = ModalStep(n, diagonal, S)
+        return self._modal_steps[n.dt]
 
 
 class Difference:

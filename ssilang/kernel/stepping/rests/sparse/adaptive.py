@@ -8,14 +8,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.contact.impact import ImpactRule
 from ssilang.kernel.contact.rows import BoolArray
+from ssilang.kernel.contact.solver import step_solver
 from ssilang.kernel.stepping.effective import effective_matrix, effective_of
+from ssilang.kernel.stepping.newmark import newmark_of
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.rests.dense.loop import N_ENERGIES, Motion, Saved
-from ssilang.kernel.stepping.rests.sparse.loop import SparseLoop, StepSolver
-from ssilang.kernel.stepping.step_solvers import step_solver
+from ssilang.kernel.stepping.rests.sparse.loop import SparseLoop, StepSolver, keep_whole
+from ssilang.kernel.stepping.state import N_ENERGIES, Motion, Outcome, Recorder, recorder_of
 
 DEEPEST = 5
 
@@ -34,20 +35,22 @@ class AdaptiveLoop:
         self.solver = ""
         self._solver(0)
 
-    def march(
-        self, factors: FloatArray, save: IntArray, saved: Saved, history: FloatArray
-    ) -> tuple[int, int, float]:
-        """As `compiled_loop.march`."""
-        worst = 0
-        for k in range(len(save)):
+    def renew(self, problem: Problem) -> None:
+        """Go on with other loads, all else being the same."""
+        self.problem = self.loop.problem = problem
+
+    def run(self, factors: FloatArray, recorder: Recorder) -> Outcome:
+        """Steps of dt, each in as many parts as it takes."""
+        worst, r = 0, recorder
+        for k in range(len(r.row)):
             turns, residual = self._step(0, factors[k], factors[k + 1])
             if turns <= 0:
                 return k, turns, residual
             worst = max(worst, turns)
-            history[k] = self.motion.energies
-            if save[k] >= 0:
-                self.loop.keep(saved, int(save[k]))
-        return len(save), worst, 0.0
+            r.energies[k] = self.motion.energies
+            if r.row[k] >= 0:
+                keep_whole(self.motion, r, int(r.row[k]))
+        return len(r.row), worst, 0.0
 
     def _solver(self, level: int) -> StepSolver:
         if level not in self._solvers:
@@ -66,14 +69,10 @@ class AdaptiveLoop:
         before, touching = [x.copy() for x in self.motion], self.closed.copy()
         closed = self._closed()
         solver = self._solver(level)
-        done, turns, residual = self.loop.march(
-            solver,
-            self.dt / 2**level,
-            np.stack([start, end]),
-            np.full(1, -1),
-            _nowhere(),
-            np.zeros((1, N_ENERGIES)),
-            self._impacts.get(level),
+        nowhere = recorder_of(self.motion, np.full(1, -1), np.zeros((1, N_ENERGIES)))
+        n = newmark_of(self.problem.scheme, self.dt / 2**level)
+        done, turns, residual = self.loop.run(
+            solver, n, np.stack([start, end]), nowhere, self._impacts.get(level)
         )
         fine = done == 1 and np.array_equal(closed, self._closed())
         if fine or (level == DEEPEST and done == 1):
@@ -97,8 +96,3 @@ class AdaptiveLoop:
         if contact is None:
             return joints
         return np.concatenate([joints, contact.closed(self.motion.contact)])
-
-
-def _nowhere() -> Saved:
-    empty = np.zeros((0, 0))
-    return Saved(empty, empty, empty, empty, empty, empty, empty, empty)

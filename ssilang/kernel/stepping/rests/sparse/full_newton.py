@@ -19,8 +19,8 @@ from ssilang.kernel.interface.response import (
 from ssilang.kernel.solvers.backends import factorise
 from ssilang.kernel.solvers.cholesky.inverse import invert
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.rests.dense.loop import Motion
 from ssilang.kernel.stepping.rests.sparse.loop import StepOutcome
+from ssilang.kernel.stepping.state import Motion
 
 MOST_TURNS = 40
 TOLERANCE = 1e-12

@@ -1,4 +1,4 @@
-"""Large problems with supports at rest or in motion, set up for `march_interleaved`."""
+"""Large problems with supports at rest or in motion, set up for `run_interleaved`."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from ssilang.kernel.interface.newton import workspace
 from ssilang.kernel.solvers.cholesky.dissected import DissectedFactor
 from ssilang.kernel.solvers.cholesky.triangular import longest
 from ssilang.kernel.stepping.effective import Effective, RootResponse
+from ssilang.kernel.stepping.newmark import newmark_of
 from ssilang.kernel.stepping.problem.moving_supports import (
     MOST,
     Columns,
@@ -23,16 +24,16 @@ from ssilang.kernel.stepping.problem.moving_supports import (
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.problem.rayleigh import split_damping
 from ssilang.kernel.stepping.rests.dense.arrays import joints_of
-from ssilang.kernel.stepping.rests.dense.loop import Motion, Saved
 from ssilang.kernel.stepping.rests.sparse.interleaved_loop import (
     Damping,
-    Flow,
-    Kept,
     Plan,
+    Products,
     Sparse,
-    march_interleaved,
+    run_interleaved,
 )
+from ssilang.kernel.stepping.state import Motion, Outcome, Recorder, recorder_of, rows_of
 
+KEPT = ("u", "v", "a", "f", "w", "t", "state")
 BRANCH = 64_000  # numbers of a branch of the factor: half of a megabyte, the cache of a core
 BLOCK = 64  # steps between two evaluations of the equilibrium from the displacements
 
@@ -65,7 +66,7 @@ class InterleavedLoop:
         self.T = sp.csr_array(sp.csc_array(scaled)[:, order])
         self.M, self.C, self.K = (self._reduced(A) for A in (problem.M, problem.C, problem.K))
         self.forces = np.ascontiguousarray((self.T.T @ problem.loading.forces).T)
-        n, q, s = len(order), effective.S.shape[0], problem.scheme
+        n, q = len(order), effective.S.shape[0]
         root = effective.root
         if root is None:
             root = RootResponse(sp.csr_array((q, 0)), np.zeros((0, q)))
@@ -76,7 +77,7 @@ class InterleavedLoop:
             _rows(self.M), Damping(alpha, beta, _all_rows(rest)), self.C.nnz > 0, self.forces,
             np.zeros((q, 0)), _all_rows(root.J), _all_rows(sp.csr_array(root.J.T)), root.Y,
             effective.S, effective.R if effective.R.any() else np.zeros((0, 0)),
-            (s.alpha_m, s.alpha_f, s.beta, s.gamma, effective.dt), longest(factor.panels),
+            newmark_of(problem.scheme, effective.dt), longest(factor.panels),
         )  # fmt: skip
         self.supports = MovingSupports(problem, effective.dt, self.T)
         self.joints = joints_of(problem)
@@ -92,32 +93,27 @@ class InterleavedLoop:
         other.problem, other.motion = problem, motion
         other.forces = np.ascontiguousarray((self.T.T @ problem.loading.forces).T)
         other.plan = self.plan._replace(forces=other.forces)
-        other.supports = MovingSupports(problem, self.plan.scheme[-1], self.T)
+        other.supports = MovingSupports(problem, self.plan.newmark.dt, self.T)
         other.newton = workspace(motion.w.shape, len(motion.f))
         return other
 
     def _reduced(self, A: sp.csr_array) -> sp.csr_array:
         return sp.csr_array(self.T.T @ A @ self.T)
 
-    def march(
-        self, factors: FloatArray, save: IntArray, saved: Saved, history: FloatArray
-    ) -> tuple[int, int, float]:
-        """As `compiled_loop.march`."""
-        worst, steps = 0, len(save)
+    def run(self, factors: FloatArray, recorder: Recorder) -> Outcome:
+        """Steps on the whole problem's arrays, some at a time."""
+        worst, r, steps = 0, recorder, len(recorder.row)
         for first in range(0, steps, BLOCK):
-            last = min(first + BLOCK, steps)
-            rows, given = save[first:last], np.ascontiguousarray(factors[first : last + 1])
-            chosen = np.flatnonzero(rows >= 0)
-            places = np.where(rows >= 0, np.cumsum(rows >= 0) - 1, -1)
-            kept = self.room(len(chosen))
+            part = slice(first, min(first + BLOCK, steps))
+            given = np.ascontiguousarray(factors[first : part.stop + 1])
             block = self.block(given)
-            done, turns, residual = march_interleaved(
-                block.plan, self.joints, block.flow, self.newton, block.factors, places, kept,
-                history[first:last], block.works,
+            kept = self.room(block, r.row[part], r.energies[part])
+            done, turns, residual = run_interleaved(
+                block.plan, self.joints, block.motion, block.products, self.newton, block.factors,
+                kept,
             )  # fmt: skip
-            self.finish(block, given, history[first : first + done])
-            for row, k in enumerate(chosen[chosen < done]):
-                self.keep(kept, row, block, int(k) + 1, given[k + 1], saved, int(rows[k]))
+            self.finish(block, given, kept, done)
+            self.put(block, given, kept, r, first, done)
             if turns <= 0:
                 return first + done, turns, residual
             worst = max(worst, turns)
@@ -125,41 +121,37 @@ class InterleavedLoop:
 
     def block(self, factors: FloatArray) -> PreparedBlock:
         """The motion on the loop's unknowns, with the forces of equilibrium from scratch."""
-        m, s = self.motion, self.problem.scheme
+        m = self.motion
         columns, course = self.supports.begin(m, factors)
+        plan, whole, extra = self.plan, factors, self.forces.shape[0]
         moved = columns.X.shape[1] > 0
         parts = (course.c[0], course.v[0], course.a[0])
         u, v, a = (
             self._folded(x - columns.X @ p if moved else x)
             for x, p in zip((m.u, m.v, m.a), parts, strict=True)
         )
-        plan, whole, extra = self.plan, factors, self.forces.shape[0]
         if moved:
-            whole = np.hstack([factors, course.factors(s.alpha_m, s.alpha_f)])
+            whole = np.hstack([factors, course.factors(plan.newmark)])
             forces = np.vstack([self.forces, columns.forces])
             lift = np.zeros((len(m.f), whole.shape[1]))
             lift[:, whole.shape[1] - columns.X.shape[1] :] = columns.lift
             plan = plan._replace(forces=forces, lift=lift if lift.any() else lift[:, :0].copy())
         Cv, Ca = self.C @ v, self.C @ a
         g = self.K @ u + Cv + self.J.T @ m.f - plan.forces.T @ whole[0]
-        flow = Flow(
-            u, v, a, g, self.M @ v, self.M @ a, Cv, Ca, plan.forces @ u, m.delta, m.f, m.w, m.t,
-            m.state, m.energies,
-        )  # fmt: skip
+        few = m._replace(u=u, v=v, a=a, reaction=np.zeros(0), contact=np.zeros(0))
+        products = Products(g, self.M @ v, self.M @ a, Cv, Ca, plan.forces @ u)
         own = plan.forces[extra:]
         start = Start(np.array([own @ u, own @ v, own @ a]), m.f.copy())
-        works = np.zeros((2, len(factors) - 1, whole.shape[1]))
-        return PreparedBlock(plan, flow, columns, course, whole, works, start)
+        return PreparedBlock(plan, few, products, columns, course, whole, start)
 
-    def finish(self, block: PreparedBlock, factors: FloatArray, history: FloatArray) -> None:
+    def finish(self, block: PreparedBlock, factors: FloatArray, kept: Recorder, done: int) -> None:
         """The motion and its energies after the steps that were done."""
-        m, flow, done = self.motion, block.flow, len(history)
-        extra = self.forces.shape[0]
-        works = block.works[:, :done, extra:]
+        m, few, history = self.motion, block.motion, kept.energies[:done]
+        works = kept.work[:, :done, self.forces.shape[0] :]
         self.supports.complete(block.columns, block.course, block.start, works, factors, history)
         if done:
             m.energies[:] = history[-1]
-        m.u[:], m.v[:], m.a[:] = self._unfolded(block, flow.u, flow.v, flow.a, done)
+        m.u[:], m.v[:], m.a[:] = self._unfolded(block, few.u, few.v, few.a, done)
         m.reaction[:] = self._reaction(m.u, m.v, m.a, m.f, factors[done])
 
     def _unfolded(
@@ -195,40 +187,34 @@ class InterleavedLoop:
             r += p.interface.J.T @ f
         return r
 
-    def room(self, rows: int) -> Kept:
-        m, n = self.motion, self.T.shape[1]
-        return Kept(
-            np.zeros((rows, n)), np.zeros((rows, n)), np.zeros((rows, n)),
-            np.zeros((rows, len(m.f))), np.zeros((rows, *m.w.shape)),
-            np.zeros((rows, *m.t.shape)), np.zeros((rows, *m.state.shape)),
-        )  # fmt: skip
+    def room(self, block: PreparedBlock, row: IntArray, energies: FloatArray) -> Recorder:
+        """Room for the kept steps of a block, whose rows in the end are `row`."""
+        work = np.zeros((2, len(row), block.factors.shape[1]))
+        return recorder_of(block.motion, rows_of(row >= 0), energies, KEPT, work=work)
 
-    def keep(
-        self,
-        kept: Kept,
-        row: int,
-        block: PreparedBlock,
-        k: int,
-        factors: FloatArray,
-        saved: Saved,
-        to: int,
-    ) -> None:
-        u, v, a = self._unfolded(block, kept.u[row], kept.v[row], kept.a[row], k)
-        saved.u[to], saved.v[to], saved.a[to] = u, v, a
-        saved.reaction[to] = self._reaction(u, v, a, kept.f[row], factors)
-        saved.w[to], saved.t[to], saved.state[to] = kept.w[row], kept.t[row], kept.state[row]
+    def put(
+        self, block: PreparedBlock, factors: FloatArray, kept: Recorder, to: Recorder, first: int,
+        done: int,
+    ) -> None:  # fmt: skip
+        """Kept instants of a block that begins with step `first` as whole arrays."""
+        for k in np.flatnonzero(kept.row[:done] >= 0).tolist():
+            row, at = int(kept.row[k]), int(to.row[first + k])
+            u, v, a = self._unfolded(block, kept.u[row], kept.v[row], kept.a[row], k + 1)
+            to.u[at], to.v[at], to.a[at] = u, v, a
+            to.reaction[at] = self._reaction(u, v, a, kept.f[row], factors[k + 1])
+            to.w[at], to.t[at], to.state[at] = kept.w[row], kept.t[row], kept.state[row]
 
 
 @dataclass(frozen=True, eq=False)
 class PreparedBlock:
-    """Some steps: what `march_interleaved` takes, and the supports' part of the motion."""
+    """Some steps: what `run_interleaved` takes, and the supports' part of the motion."""
 
     plan: Plan
-    flow: Flow
+    motion: Motion
+    products: Products
     columns: Columns
     course: Course
     factors: FloatArray
-    works: FloatArray
     start: Start
 
 

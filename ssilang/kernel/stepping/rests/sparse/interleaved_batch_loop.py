@@ -1,4 +1,4 @@
-"""Several motions of one large model: the steps of `interleaved_march`, side by side.
+"""Several motions of one large model: the steps of `interleaved_loop`, side by side.
 
 Each branch of the factor is read once for all motions, which go through its triangular solves four
 at a time. What is a motion's own, its interface above all, is stepped as alone.
@@ -6,67 +6,76 @@ at a time. What is a motion's own, its interface above all, is stepped as alone.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.interface.copies import copy_state
 from ssilang.kernel.interface.newton import Workspace, workspace_at
 from ssilang.kernel.interface.response import Joints
 from ssilang.kernel.solvers.cholesky.multifrontal import Panels
 from ssilang.kernel.solvers.cholesky.triangular_together import FOUR, backward_many, forward_many
-from ssilang.kernel.stepping.rests.modal.springs_batch import Ends
 from ssilang.kernel.stepping.rests.sparse.interleaved_loop import (
-    Flow,
-    Kept,
     Plan,
+    Products,
+    Sweep,
     account,
     add_work,
-    advance,
-    keep,
-    right_side,
+    advance_range,
+    begin_step,
+    predict,
     settle_interface,
 )
+from ssilang.kernel.stepping.state import Ends, Motion, Recorder
+from ssilang.kernel.stepping.verbs import keep, motion_at, recorder_at
+
+
+class Batch(NamedTuple):
+    """m motions of one model, the first direction of each array, and where they end."""
+
+    x: Motion
+    products: Products
+    newton: Workspace
+    ends: Ends
 
 
 @compiled
-def _flow(x: Flow, j: int) -> Flow:
-    """One of the motions, that lie in the first direction of each array."""
-    return Flow(
-        x.u[j], x.v[j], x.a[j], x.g[j], x.Mv[j], x.Ma[j], x.Cv[j], x.Ca[j], x.loads[j],
-        x.delta[j], x.f[j], x.w[j], x.t[j], x.state[j], x.energies[j],
-    )  # fmt: skip
+def _products_at(x: Products, j: int) -> Products:
+    return Products(x.g[j], x.Mv[j], x.Ma[j], x.Cv[j], x.Ca[j], x.loads[j])
 
 
 @compiled
-def _rows(x: Kept, j: int) -> Kept:
-    return Kept(x.u[j], x.v[j], x.a[j], x.f[j], x.w[j], x.t[j], x.state[j])
+def _sweep_at(x: Sweep, j: int) -> Sweep:
+    return Sweep(
+        x.b[j], x.du[j], x.above[j], x.change[j], x.room[j], x.rise[j], x.coming[j], x.sums[j]
+    )
 
 
 @compiled
-def _add_above(L: Panels, s: int, b: FloatArray, above: FloatArray) -> None:
-    for j in range(len(b)):
+def _add_above(L: Panels, s: int, sweep: Sweep) -> None:
+    for j in range(len(sweep.b)):
         for i in range(L.first[s], L.first[s + 1]):
-            b[j, i] += above[j, i]
-            above[j, i] = 0.0
+            sweep.b[j, i] += sweep.above[j, i]
+            sweep.above[j, i] = 0.0
 
 
 @compiled
-def _root(
-    plan: Plan, joints: Joints, flows: Flow, newtons: Workspace, b: FloatArray, above: FloatArray,
-    du: FloatArray, local: FloatArray, rise: FloatArray, pull: FloatArray, k: int, steps: int,
-    ends: Ends,
-) -> None:  # fmt: skip
+def _solve_interfaces(
+    plan: Plan, joints: Joints, batch: Batch, sweep: Sweep, local: FloatArray, k: int, steps: int
+) -> None:
     """The interfaces of all motions at the end of step k; motions without an answer end."""
-    L, s = plan.L, plan.root
-    _add_above(L, s, b, above)
-    forward_many(L, s, s + 1, b, L.first[0], above, local)
-    backward_many(L, s, s + 1, b, du, local)
-    for j in range(len(b)):
+    L, s, ends = plan.L, plan.root, batch.ends
+    _add_above(L, s, sweep)
+    forward_many(L, s, s + 1, sweep.b, L.first[0], sweep.above, local)
+    backward_many(L, s, s + 1, sweep.b, sweep.du, local)
+    for j in range(len(sweep.b)):
         if ends.steps[j] == steps:
             turns, residual = settle_interface(
-                plan, joints, _flow(flows, j), workspace_at(newtons, j), du[j], rise[j], pull[j]
-            )
+                plan, joints, motion_at(batch.x, j), workspace_at(batch.newton, j),
+                _sweep_at(sweep, j),
+            )  # fmt: skip
             if turns <= 0:
                 ends.steps[j], ends.turns[j], ends.residual[j] = k, turns, residual
             else:
@@ -74,101 +83,84 @@ def _root(
 
 
 @compiled
-def march_many(
-    plan: Plan,
-    joints: Joints,
-    flows: Flow,
-    newtons: Workspace,
-    factors: FloatArray,
-    save: IntArray,
-    kept: Kept,
-    history: FloatArray,
-    works: FloatArray,
-    ends: Ends,
+def _advance_all(
+    plan: Plan, batch: Batch, sweep: Sweep, to: Recorder, k: int, begin: int, end: int
 ) -> None:
-    """Step m motions as `march_interleaved` steps one; a motion that fails stops alone.
-
-    Parameters
-    ----------
-    flows, newtons, kept
-        As there, with a first direction (m,) in each array.
-    factors : array (m, n_steps + 1, k)
-    save : array (m, n_steps)
-    history : array (m, n_steps, N_ENERGIES)
-    works : array (m, 2, n_steps, k)
-    """
-    L, count, n, steps = plan.L, flows.u.shape[0], flows.u.shape[1], save.shape[1]
-    b, du, above = np.empty((count, n)), np.zeros((count, n)), np.zeros((count, n))
-    pull, room, local = np.zeros((count, n)), np.empty(n), np.empty((FOUR, plan.room))
-    loads, start = factors.shape[2], L.first[0]
-    rise, coming, sums = (
-        np.zeros((count, loads)), np.zeros((count, loads)), np.zeros((count, 5)),
-    )  # fmt: skip
-    for j in range(count):
-        ends.steps[j], ends.turns[j] = steps, 1
-        for c in range(loads):
-            rise[j, c] = factors[j, 1, c] - factors[j, 0, c]
-        right_side(plan, _flow(flows, j), rise[j], start, n, b[j])
-    for i in range(len(plan.branches)):
-        s0, s1 = plan.branches[i]
-        forward_many(L, s0, s1, b, L.first[s1], above, local)
-    for k in range(steps):
-        for s in plan.trunk:
-            _add_above(L, s, b, above)
-            forward_many(L, s, s + 1, b, L.first[0], above, local)
-        if flows.f.shape[1]:
-            _root(
-                plan, joints, flows, newtons, b, above, du, local, rise, pull, k, steps, ends
-            )  # fmt: skip
-        for i in range(len(plan.trunk) - 1, -1, -1):
-            s = plan.trunk[i]
-            backward_many(L, s, s + 1, b, du, local)
-        for j in range(count):
-            for c in range(loads):
-                works[j, 0, k, c] = 0.0
-                rise[j, c] = factors[j, k + 1, c] - factors[j, k, c]
-                coming[j, c] = factors[j, min(k + 2, steps), c] - factors[j, k + 1, c]
-            for c in range(5):
-                sums[j, c] = 0.0
-        for i in range(len(plan.branches)):
-            s0, s1 = plan.branches[i]
-            begin, end = L.first[s0], L.first[s1]
-            backward_many(L, s0, s1, b, du, local)
-            for j in range(count):
-                flow, work = _flow(flows, j), works[j, 0, k]
-                advance(plan, flow, du[j], begin, end, sums[j], rise[j], pull[j], room)
-                add_work(plan.forces, du[j], begin, end, work)
-                right_side(plan, flow, coming[j], begin, end, b[j])
-            if k + 1 < steps:
-                forward_many(L, s0, s1, b, end, above, local)
-        for i in range(len(plan.trunk) + 1):
-            s = plan.trunk[i] if i < len(plan.trunk) else plan.root
-            if s < len(L.first) - 1:
-                begin, end = L.first[s], L.first[s + 1]
-                for j in range(count):
-                    flow, work = _flow(flows, j), works[j, 0, k]
-                    advance(plan, flow, du[j], begin, end, sums[j], rise[j], pull[j], room)
-                    add_work(plan.forces, du[j], begin, end, work)
-                    right_side(plan, flow, coming[j], begin, end, b[j])
-        for j in range(count):
-            if ends.steps[j] == steps:
-                _end_of_step(
-                    plan, joints, _flow(flows, j), sums[j], works[j], factors[j], k, history[j],
-                    ends, j,
-                )  # fmt: skip
-                if ends.steps[j] == steps and save[j, k] >= 0:
-                    keep(_flow(flows, j), _rows(kept, j), save[j, k])
-            for c in range(loads):
-                rise[j, c] = coming[j, c]
+    """Advance all motions on a range of unknowns, and predict their next step there."""
+    for j in range(len(sweep.b)):
+        own, products = _sweep_at(sweep, j), _products_at(batch.products, j)
+        advance_range(plan, motion_at(batch.x, j), products, own, begin, end)
+        add_work(plan.forces, own.du, begin, end, to.work[j, 0, k])
+        predict(plan, products, own.coming, own.b, begin, end)
 
 
 @compiled
 def _end_of_step(
-    plan: Plan, joints: Joints, flow: Flow, sums: FloatArray, works: FloatArray,
-    factors: FloatArray, k: int, history: FloatArray, ends: Ends, j: int,
+    plan: Plan, joints: Joints, batch: Batch, sweep: Sweep, factors: FloatArray, to: Recorder,
+    k: int, j: int,
 ) -> None:  # fmt: skip
-    account(plan, joints, flow, sums, works[0, k], factors, k, works[1, k])
-    if not np.isfinite(sums[4]):
+    """Energies of motion j after step k, and its row if the step is kept."""
+    x, own, ends = motion_at(batch.x, j), recorder_at(to, j), batch.ends
+    products, mine = _products_at(batch.products, j), _sweep_at(sweep, j)
+    account(plan, joints, x, products, mine, factors[j], own.work, k)
+    if not np.isfinite(mine.sums[4]):
         ends.steps[j], ends.turns[j], ends.residual[j] = k, -1, np.inf
         return
-    copy_state(flow.energies, history[k])
+    copy_state(x.energies, own.energies[k])
+    if own.row[k] >= 0:
+        keep(x, own, own.row[k])
+
+
+@compiled
+def run_interleaved_batch(
+    plan: Plan, joints: Joints, batch: Batch, factors: FloatArray, to: Recorder
+) -> None:
+    """Step m motions as `run_interleaved` steps one; a motion that fails stops alone.
+
+    All arrays of the batch, of `to` and the factors (m, n_steps + 1, k) have the motions first.
+    """
+    L, count, n, steps = plan.L, batch.x.u.shape[0], batch.x.u.shape[1], to.row.shape[1]
+    loads, start, ends = factors.shape[2], L.first[0], batch.ends
+    sweep = Sweep(
+        np.empty((count, n)), np.zeros((count, n)), np.zeros((count, n)), np.zeros((count, n)),
+        np.empty((count, n)), np.zeros((count, loads)), np.zeros((count, loads)),
+        np.zeros((count, 5)),
+    )  # fmt: skip
+    b, du, above, local = sweep.b, sweep.du, sweep.above, np.empty((FOUR, plan.room))
+    for j in range(count):
+        ends.steps[j], ends.turns[j] = steps, 1
+        for c in range(loads):
+            sweep.rise[j, c] = factors[j, 1, c] - factors[j, 0, c]
+        predict(plan, _products_at(batch.products, j), sweep.rise[j], b[j], start, n)
+    for i in range(len(plan.branches)):
+        s0, s1 = plan.branches[i]
+        forward_many(L, s0, s1, b, L.first[s1], above, local)
+    for k in range(steps):
+        # solve: up the trunk, the interfaces at the root, down the trunk
+        for s in plan.trunk:
+            _add_above(L, s, sweep)
+            forward_many(L, s, s + 1, b, L.first[0], above, local)
+        if batch.x.f.shape[1]:
+            _solve_interfaces(plan, joints, batch, sweep, local, k, steps)
+        for i in range(len(plan.trunk) - 1, -1, -1):
+            s = plan.trunk[i]
+            backward_many(L, s, s + 1, b, du, local)
+        for j in range(count):
+            begin_step(_sweep_at(sweep, j), factors[j], k, to.work[j, 0, k])
+        # each branch: down, advance and predict all motions, and up for the next step
+        for i in range(len(plan.branches)):
+            s0, s1 = plan.branches[i]
+            begin, end = L.first[s0], L.first[s1]
+            backward_many(L, s0, s1, b, du, local)
+            _advance_all(plan, batch, sweep, to, k, begin, end)
+            if k + 1 < steps:
+                forward_many(L, s0, s1, b, end, above, local)
+        # the trunk's and the root's own unknowns
+        for i in range(len(plan.trunk) + 1):
+            s = plan.trunk[i] if i < len(plan.trunk) else plan.root
+            if s < len(L.first) - 1:
+                _advance_all(plan, batch, sweep, to, k, L.first[s], L.first[s + 1])
+        for j in range(count):
+            if ends.steps[j] == steps:
+                _end_of_step(plan, joints, batch, sweep, factors, to, k, j)
+            copy_state(sweep.coming[j], sweep.rise[j])

@@ -32,19 +32,23 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.apart import apart
 from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
 from ssilang.kernel.interface.condensed import Condensed
-from ssilang.kernel.interface.copies import copy_rows, copy_state
+from ssilang.kernel.interface.copies import copy_state
 from ssilang.kernel.interface.newton import Workspace, solve_interface
 from ssilang.kernel.interface.response import InterfaceState, Joints, accept, interface_energies
 from ssilang.kernel.solvers.cholesky.multifrontal import Panels
 from ssilang.kernel.solvers.cholesky.triangular import backward, forward
-from ssilang.kernel.stepping.rests.dense.loop import (
+from ssilang.kernel.stepping.newmark import Newmark
+from ssilang.kernel.stepping.state import (
     DAMPED,
     ELASTIC,
     EXTERNAL,
     KINETIC,
     LOST,
     STORED,
+    Motion,
+    Recorder,
 )
+from ssilang.kernel.stepping.verbs import advance, from_past, keep
 
 
 class Sparse(NamedTuple):
@@ -88,8 +92,7 @@ class Plan(NamedTuple):
         Motions of the root's unknowns under forces on the jumps.
     S, R : arrays (q, q)
         Compliance of the interface, stiffness of it that A holds (no rows: none).
-    scheme : tuple
-        alpha_m, alpha_f, beta, gamma, dt.
+    newmark : Newmark
     room : int
         Length of the longest supernode.
     """
@@ -108,44 +111,49 @@ class Plan(NamedTuple):
     Yr: FloatArray
     S: FloatArray
     R: FloatArray
-    scheme: tuple[float, float, float, float, float]
+    newmark: Newmark
     room: int
 
 
-class Flow(NamedTuple):
-    """State that the steps change in place; u to Ca are (n,), all on the unknowns q.
+class Products(NamedTuple):
+    """What goes with the motion, changed in place; g to Ca are (n,), on the unknowns q.
 
     `g` are the out-of-balance forces, `Mv` to `Ca` products of mass and damping with the motion,
     `loads` (k,) the work `forces u` of each load.
     """
 
-    u: FloatArray
-    v: FloatArray
-    a: FloatArray
     g: FloatArray
     Mv: FloatArray
     Ma: FloatArray
     Cv: FloatArray
     Ca: FloatArray
     loads: FloatArray
-    delta: FloatArray
-    f: FloatArray
-    w: FloatArray
-    t: FloatArray
-    state: FloatArray
-    energies: FloatArray
 
 
-class Kept(NamedTuple):
-    """Rows for saved steps."""
+class Sweep(NamedTuple):
+    """Vectors that each step overwrites.
 
-    u: FloatArray
-    v: FloatArray
-    a: FloatArray
-    f: FloatArray
-    w: FloatArray
-    t: FloatArray
-    state: FloatArray
+    Attributes
+    ----------
+    b, du, above : arrays (n,)
+        Right-hand side, increment, what branches add to the rows above them.
+    change : array (n,)
+        `-J^T df` of the step's end.
+    room : array (n,)
+    rise, coming : arrays (k,)
+        Increments of the load factors in this step and in the next one.
+    sums : array (5,)
+        v.Mv, u.g, u.Cv, du.(Cv_0 + Cv_1), something finite if all is.
+    """
+
+    b: FloatArray
+    du: FloatArray
+    above: FloatArray
+    change: FloatArray
+    room: FloatArray
+    rise: FloatArray
+    coming: FloatArray
+    sums: FloatArray
 
 
 @compiled_fast
@@ -158,88 +166,76 @@ def _row(A: Sparse, i: int, x: FloatArray) -> float:
 
 @apart
 @compiled_fast
-def right_side(
-    plan: Plan, flow: Flow, rise: FloatArray, begin: int, end: int, b: FloatArray
+def predict(
+    plan: Plan, products: Products, rise: FloatArray, b: FloatArray, begin: int, end: int
 ) -> None:
-    """b of the next step; `rise` (k,) are the increments of the load factors."""
-    am, af, beta, gamma, dt = plan.scheme
-    by_v, by_a = (1 - am) / (beta * dt), (1 - am) * (0.5 / beta - 1) - am
-    by_cv, by_ca = (1 - af) * gamma / beta, -(1 - af) * dt * (1 - 0.5 * gamma / beta)
-    for i in range(begin, end):
-        b[i] = by_v * flow.Mv[i] + by_a * flow.Ma[i] - flow.g[i]
+    """b of the next step on a range of unknowns; `rise` (k,) are increments of the load factors."""
+    n, g, Mv, Ma, Cv, Ca = (
+        plan.newmark, products.g, products.Mv, products.Ma, products.Cv, products.Ca,
+    )  # fmt: skip
     if plan.damped:
         for i in range(begin, end):
-            b[i] += by_cv * flow.Cv[i] + by_ca * flow.Ca[i]
+            b[i] = from_past(n, Mv[i], Ma[i], Cv[i], Ca[i]) + Cv[i] - g[i]
+    else:
+        for i in range(begin, end):
+            b[i] = from_past(n, Mv[i], Ma[i], 0.0, 0.0) - g[i]
     for c in range(len(rise)):
         if rise[c] != 0.0:
-            part = (1 - af) * rise[c]
+            part = n.end * rise[c]
             for i in range(begin, end):
                 b[i] += part * plan.forces[c, i]
 
 
 @compiled_fast
-def _strain_forces(
-    forces: FloatArray, rise: FloatArray, begin: int, end: int, pull: FloatArray, out: FloatArray
-) -> None:
-    """out = dF - J^T df on a range of unknowns; `pull` holds the last term and becomes zero."""
+def _strain_forces(forces: FloatArray, sweep: Sweep, begin: int, end: int) -> None:
+    """`dF - J^T df` into the sweep's room; `change`, the last term, becomes zero."""
+    out, change = sweep.room, sweep.change
     for i in range(begin, end):
-        out[i] = pull[i]
-        pull[i] = 0.0
-    for c in range(len(rise)):
-        if rise[c] != 0.0:
+        out[i] = change[i]
+        change[i] = 0.0
+    for c in range(len(sweep.rise)):
+        if sweep.rise[c] != 0.0:
             for i in range(begin, end):
-                out[i] += rise[c] * forces[c, i]
+                out[i] += sweep.rise[c] * forces[c, i]
 
 
 @apart
 @compiled_fast
-def advance(
-    plan: Plan, flow: Flow, du: FloatArray, begin: int, end: int, sums: FloatArray,
-    rise: FloatArray, pull: FloatArray, Cx: FloatArray,
-) -> None:  # fmt: skip
-    """Motion, products and out-of-balance forces after the increment, on a range of unknowns.
-
-    `sums` gather v.Mv, u.g, u.Cv, du.(Cv_0 + Cv_1), and something finite if all is. `rise` (k,)
-    are the increments of the load factors in this step, `pull` (n,) becomes zero and was
-    `-J^T df`, `Cx` (n,) is room.
-    """
-    am, af, beta, gamma, dt = plan.scheme
-    v_u, v_v, v_a = gamma / (beta * dt), 1 - gamma / beta, dt * (1 - 0.5 * gamma / beta)
-    a_u, a_v, a_a = 1 / (beta * dt * dt), -1 / (beta * dt), 1 - 0.5 / beta
-    g_g, g_1, g_0 = -af / (1 - af), -(1 - am) / (1 - af), -am / (1 - af)
+def advance_range(
+    plan: Plan, x: Motion, products: Products, sweep: Sweep, begin: int, end: int
+) -> None:
+    """Motion, products and out-of-balance forces after the increment, on a range of unknowns."""
+    n, du, g, Mv, Ma = plan.newmark, sweep.du, products.g, products.Mv, products.Ma
+    g_g, g_1, g_0 = -n.start / n.end, -n.inertia_end / n.end, -n.inertia_start / n.end
     kinetic, static, size = 0.0, 0.0, 0.0
     if plan.damped:
-        _strain_forces(plan.forces, rise, begin, end, pull, Cx)
+        _strain_forces(plan.forces, sweep, begin, end)
     for i in range(begin, end):
-        x, v0, a0, Ma0 = du[i], flow.v[i], flow.a[i], flow.Ma[i]
-        flow.u[i] += x
-        flow.v[i] = v_u * x + v_v * v0 + v_a * a0
-        flow.a[i] = (x / dt - v0) / (beta * dt) + a_a * a0
-        Mv0 = flow.Mv[i]
+        # the motion, and products with the mass
+        move, Ma0, g0 = du[i], Ma[i], g[i]
+        x.u[i] += move
+        x.v[i], x.a[i] = advance(n, move, x.v[i], x.a[i])
         if plan.M.diagonal:
-            Mx = plan.M.data[i] * x
-            flow.Mv[i], flow.Ma[i] = plan.M.data[i] * flow.v[i], plan.M.data[i] * flow.a[i]
+            Mx = plan.M.data[i] * move
+            Mv[i], Ma[i] = plan.M.data[i] * x.v[i], plan.M.data[i] * x.a[i]
         else:
             Mx = _row(plan.M, i, du)
-            flow.Mv[i] = v_u * Mx + v_v * Mv0 + v_a * Ma0
-            flow.Ma[i] = (Mx / dt - Mv0) / (beta * dt) + a_a * Ma0
-        g0 = flow.g[i]
-        flow.g[i] = g_g * g0 + g_1 * flow.Ma[i] + g_0 * Ma0
-        if plan.damped:
-            Cv0, Ca0 = flow.Cv[i], flow.Ca[i]
+            Mv[i], Ma[i] = advance(n, Mx, Mv[i], Ma0)
+        g[i] = g_g * g0 + g_1 * Ma[i] + g_0 * Ma0
+        if plan.damped:  # C du from the balance of the step, without a product with K
+            Cv0, Ca0 = products.Cv[i], products.Ca[i]
             part = plan.C.alpha * Mx + _row(plan.C.rest, i, du)
-            Kx = Cx[i] + flow.g[i] - g0 + (1 - v_v) * Cv0 - v_a * Ca0 - v_u * part
-            part += plan.C.beta * Kx / (1 + plan.C.beta * v_u)
-            flow.Cv[i] = v_u * part + v_v * Cv0 + v_a * Ca0
-            flow.Ca[i] = a_u * part + a_v * Cv0 + a_a * Ca0
-            sums[2] += flow.u[i] * flow.Cv[i]
-            sums[3] += x * (Cv0 + flow.Cv[i])
-        kinetic += flow.v[i] * flow.Mv[i]
-        static += flow.u[i] * flow.g[i]
-        size += abs(flow.u[i])
-    sums[0] += kinetic
-    sums[1] += static
-    sums[4] += size
+            Kx = sweep.room[i] + g[i] - g0 + Cv0 - advance(n, part, Cv0, Ca0)[0]
+            part += plan.C.beta * Kx / (1 + plan.C.beta * n.v_du)
+            products.Cv[i], products.Ca[i] = advance(n, part, Cv0, Ca0)
+            sweep.sums[2] += x.u[i] * products.Cv[i]
+            sweep.sums[3] += move * (Cv0 + products.Cv[i])
+        kinetic += x.v[i] * Mv[i]
+        static += x.u[i] * g[i]
+        size += abs(x.u[i])
+    sweep.sums[0] += kinetic
+    sweep.sums[1] += static
+    sweep.sums[4] += size
 
 
 @compiled_fast
@@ -250,6 +246,18 @@ def add_work(forces: FloatArray, du: FloatArray, begin: int, end: int, work: Flo
         for i in range(begin, end):
             total += forces[c, i] * du[i]
         work[c] += total
+
+
+@compiled
+def begin_step(sweep: Sweep, factors: FloatArray, k: int, work: FloatArray) -> None:
+    """Increments of the load factors of step k and of the next; sums and work become zero."""
+    last = len(factors) - 1
+    for i in range(len(sweep.sums)):
+        sweep.sums[i] = 0.0
+    for c in range(len(work)):
+        work[c] = 0.0
+        sweep.rise[c] = factors[k + 1, c] - factors[k, c]
+        sweep.coming[c] = factors[min(k + 2, last), c] - factors[k + 1, c]
 
 
 @compiled
@@ -266,151 +274,133 @@ def _trunk_forward(
 
 @apart
 @compiled
-def _interface(
-    plan: Plan, joints: Joints, flow: Flow, newton: Workspace, b: FloatArray, above: FloatArray,
-    du: FloatArray, local: FloatArray, rise: FloatArray, pull: FloatArray,
-) -> tuple[int, float]:  # fmt: skip
-    """Increment of the root's unknowns; the joints' state becomes that of the step's end.
-
-    `rise` (k,) are the increments of the load factors; `pull` (n,) becomes `-J^T df`.
-    """
-    L, s = plan.L, plan.root
-    for i in range(L.first[s], L.first[s + 1]):
-        b[i] += above[i]
-        above[i] = 0.0
-    forward(L, s, s + 1, b, L.first[0], above, local)
-    backward(L, s, s + 1, b, du, local)
-    return settle_interface(plan, joints, flow, newton, du, rise, pull)
-
-
-@apart
-@compiled
 def settle_interface(
-    plan: Plan, joints: Joints, flow: Flow, newton: Workspace, du: FloatArray, rise: FloatArray,
-    pull: FloatArray,
-) -> tuple[int, float]:  # fmt: skip
-    """As `_interface`, the root's unknowns in `du` being those under the joints' old forces."""
+    plan: Plan, joints: Joints, flow: Motion, newton: Workspace, sweep: Sweep
+) -> tuple[int, float]:
+    """The joints' state at the end of the step, the root's unknowns in `du` with it.
+
+    They are those under the joints' old forces before.
+    """
     begin, end = plan.L.first[plan.root], plan.L.first[plan.root + 1]
-    q = len(flow.f)
-    trial, own = newton.trial, du[begin:end]
+    du, q, trial = sweep.du, len(flow.f), newton.trial
+    own = du[begin:end]
     for i in range(q):
         y = _row(plan.Jr, i, own)
         for c in range(plan.lift.shape[1]):
-            y += plan.lift[i, c] * rise[c]
+            y += plan.lift[i, c] * sweep.rise[c]
         trial.y0[i] = trial.y[i] = y
     now = InterfaceState(flow.delta, flow.f, flow.w, flow.t, flow.state)
-    condensed = Condensed(plan.S, plan.R, 1 - plan.scheme[1])
+    condensed = Condensed(plan.S, plan.R, plan.newmark.end)
     turns, residual = solve_interface(joints, condensed, now, newton)
     if turns > 0:
         back, released = np.dot(plan.Yr, trial.h), flow.f - trial.f
         for i in range(end - begin):
             du[begin + i] -= back[i]
-            pull[begin + i] = _row(plan.JrT, i, released)
+            sweep.change[begin + i] = _row(plan.JrT, i, released)
         accept(trial, now)
     return turns, residual
 
 
 @apart
 @compiled
-def keep(flow: Flow, kept: Kept, row: int) -> None:
-    copy_state(flow.u, kept.u[row])
-    copy_state(flow.v, kept.v[row])
-    copy_state(flow.a, kept.a[row])
-    copy_state(flow.f, kept.f[row])
-    copy_rows(flow.w, kept.w[row])
-    copy_rows(flow.t, kept.t[row])
-    copy_rows(flow.state, kept.state[row])
-
-
-@apart
-@compiled
 def account(
-    plan: Plan, joints: Joints, flow: Flow, sums: FloatArray, work: FloatArray,
-    factors: FloatArray, k: int, pulls: FloatArray,
+    plan: Plan, joints: Joints, x: Motion, products: Products, sweep: Sweep, factors: FloatArray,
+    work: FloatArray, k: int,
 ) -> None:  # fmt: skip
     """Energies at the end of step k, from equilibrium: K u = g - C v - J^T f + F.
 
-    `pulls` (k,) become the work of the joints' forces on unit jumps of each load.
+    `work` (2, n_steps, k): of each load on the increment, and that of the joints' forces on unit
+    jumps of each load, which is made here.
     """
+    sums, pulls = sweep.sums, work[1, k]
     elastic = sums[1] - sums[2]
-    for c in range(len(work)):
-        flow.loads[c] += work[c]
-        elastic += factors[k + 1, c] * flow.loads[c]
-        flow.energies[EXTERNAL] += 0.5 * (factors[k, c] + factors[k + 1, c]) * work[c]
-    for i in range(len(flow.f)):
-        elastic -= flow.delta[i] * flow.f[i]
+    for c in range(len(pulls)):
+        products.loads[c] += work[0, k, c]
+        elastic += factors[k + 1, c] * products.loads[c]
+        x.energies[EXTERNAL] += 0.5 * (factors[k, c] + factors[k + 1, c]) * work[0, k, c]
+    for i in range(len(x.f)):
+        elastic -= x.delta[i] * x.f[i]
     for c in range(plan.lift.shape[1]):
         pulls[c] = 0.0
-        for i in range(len(flow.f)):
-            pulls[c] += plan.lift[i, c] * flow.f[i]
+        for i in range(len(x.f)):
+            pulls[c] += plan.lift[i, c] * x.f[i]
         elastic += factors[k + 1, c] * pulls[c]
-    flow.energies[KINETIC], flow.energies[ELASTIC] = 0.5 * sums[0], 0.5 * elastic
-    flow.energies[DAMPED] += 0.5 * sums[3]
-    if len(flow.f):
-        stored, lost = interface_energies(joints, flow.w, flow.t, flow.state)
-        flow.energies[STORED], flow.energies[LOST] = stored, lost
+    x.energies[KINETIC], x.energies[ELASTIC] = 0.5 * sums[0], 0.5 * elastic
+    x.energies[DAMPED] += 0.5 * sums[3]
+    if len(x.f):
+        stored, lost = interface_energies(joints, x.w, x.t, x.state)
+        x.energies[STORED], x.energies[LOST] = stored, lost
 
 
 @compiled
-def march_interleaved(
-    plan: Plan, joints: Joints, flow: Flow, newton: Workspace, factors: FloatArray, save: IntArray,
-    kept: Kept, history: FloatArray, works: FloatArray,
-) -> tuple[int, int, float]:  # fmt: skip
-    """Steps between the rows of `factors`; see `compiled_loop.march` for the results.
+def _root(plan: Plan, sweep: Sweep, local: FloatArray) -> None:
+    """Forward and backward solves of the root, under the joints' old forces."""
+    L, s = plan.L, plan.root
+    for i in range(L.first[s], L.first[s + 1]):
+        sweep.b[i] += sweep.above[i]
+        sweep.above[i] = 0.0
+    forward(L, s, s + 1, sweep.b, L.first[0], sweep.above, local)
+    backward(L, s, s + 1, sweep.b, sweep.du, local)
 
-    `works` (2, n_steps, k): work of each load on the step's increment, and of the joints' forces
-    on the jumps of `lift` at its end.
+
+@compiled
+def run_interleaved(
+    plan: Plan, joints: Joints, x: Motion, products: Products, newton: Workspace,
+    factors: FloatArray, to: Recorder,
+) -> tuple[int, int, float]:  # fmt: skip
+    """Steps between the rows of `factors`; see `state.Outcome` for the results.
+
+    The recorder's work (2, n_steps, k) is that of each load on the step's increment, and of the
+    joints' forces on the jumps of `lift` at its end.
     """
-    L, n, steps, worst = plan.L, len(flow.u), len(save), 1
-    b, du, above, local = np.empty(n), np.zeros(n), np.zeros(n), np.empty(plan.room)
-    pull, room = np.zeros(n), np.empty(n)
-    sums, start = np.zeros(5), L.first[0]  # 0, but not as a literal: that is a type of its own
-    rise, coming = factors[1] - factors[0], np.zeros(factors.shape[1])
-    right_side(plan, flow, rise, start, n, b)
+    L, n, loads, steps, worst = plan.L, len(x.u), factors.shape[1], len(to.row), 1
+    sweep = Sweep(
+        np.empty(n), np.zeros(n), np.zeros(n), np.zeros(n), np.empty(n), factors[1] - factors[0],
+        np.zeros(loads), np.zeros(5),
+    )  # fmt: skip
+    b, du, above, local = sweep.b, sweep.du, sweep.above, np.empty(plan.room)
+    start = L.first[0]  # 0, but not as a literal: that is a type of its own
+    predict(plan, products, sweep.rise, b, start, n)
     for j in range(len(plan.branches)):
         s0, s1 = plan.branches[j]
         forward(L, s0, s1, b, L.first[s1], above, local)
     for k in range(steps):
+        # solve: up the trunk, Newton's method on the interface at the root, down the trunk
         _trunk_forward(L, plan.trunk, b, above, local)
-        if len(flow.f):
-            turns, residual = _interface(
-                plan, joints, flow, newton, b, above, du, local, rise, pull
-            )
+        if len(x.f):
+            _root(plan, sweep, local)
+            turns, residual = settle_interface(plan, joints, x, newton, sweep)
             if turns <= 0:
                 return k, turns, residual
             worst = max(worst, turns)
         for j in range(len(plan.trunk) - 1, -1, -1):
             s = plan.trunk[j]
             backward(L, s, s + 1, b, du, local)
-        work = works[0, k]
-        for i in range(5):
-            sums[i] = 0.0
-        for c in range(len(coming)):
-            work[c] = 0.0
-            rise[c] = factors[k + 1, c] - factors[k, c]
-            coming[c] = factors[min(k + 2, steps), c] - factors[k + 1, c]
+        work = to.work[0, k]
+        begin_step(sweep, factors, k, work)
+        # each branch: down, advance, predict, and up for the next step while it is near
         for j in range(len(plan.branches)):
             s0, s1 = plan.branches[j]
             begin, end = L.first[s0], L.first[s1]
             backward(L, s0, s1, b, du, local)
-            advance(plan, flow, du, begin, end, sums, rise, pull, room)
+            advance_range(plan, x, products, sweep, begin, end)
             add_work(plan.forces, du, begin, end, work)
             if k + 1 < steps:
-                right_side(plan, flow, coming, begin, end, b)
+                predict(plan, products, sweep.coming, b, begin, end)
                 forward(L, s0, s1, b, end, above, local)
+        # the trunk's and the root's own unknowns
         for j in range(len(plan.trunk) + 1):
             s = plan.trunk[j] if j < len(plan.trunk) else plan.root
             if s < len(L.first) - 1:
                 begin, end = L.first[s], L.first[s + 1]
-                advance(plan, flow, du, begin, end, sums, rise, pull, room)
+                advance_range(plan, x, products, sweep, begin, end)
                 add_work(plan.forces, du, begin, end, work)
-                right_side(plan, flow, coming, begin, end, b)
-        account(plan, joints, flow, sums, work, factors, k, works[1, k])
-        if not np.isfinite(sums[4]):
+                predict(plan, products, sweep.coming, b, begin, end)
+        account(plan, joints, x, products, sweep, factors, to.work, k)
+        if not np.isfinite(sweep.sums[4]):
             return k, -1, np.inf
-        copy_state(flow.energies, history[k])
-        for c in range(len(rise)):
-            rise[c] = coming[c]
-        if save[k] >= 0:
-            keep(flow, kept, save[k])
+        copy_state(x.energies, to.energies[k])
+        copy_state(sweep.coming, sweep.rise)
+        if to.row[k] >= 0:
+            keep(x, to, to.row[k])
     return steps, worst, 0.0

@@ -1,6 +1,6 @@
 """The time loop on sparse matrices: one solve a step, the rest on the interface.
 
-Same steps as `compiled_loop`, which tests hold against this one.
+Same steps as the compiled loops, which tests hold against this one.
 """
 
 from __future__ import annotations
@@ -10,23 +10,26 @@ from typing import Protocol
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.contact.impact import ImpactRule
 from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.newton import Workspace, solve_interface, workspace
 from ssilang.kernel.interface.response import InterfaceState, accept, interface_energies
 from ssilang.kernel.stepping.effective import Effective
+from ssilang.kernel.stepping.newmark import Newmark, advanced, from_past
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.rests.dense.loop import (
+from ssilang.kernel.stepping.state import (
     DAMPED,
     ELASTIC,
     EXTERNAL,
     KINETIC,
     LOST,
     STORED,
+    WHOLE,
     Motion,
-    Saved,
+    Outcome,
+    Recorder,
 )
 
 NOTHING = np.zeros(0)
@@ -122,40 +125,34 @@ class SparseLoop:
         if self.problem.interface is not None:
             self._J = sp.csr_array(self.problem.interface.J.T)
 
-    def march(
-        self,
-        solver: StepSolver,
-        dt: float,
-        factors: FloatArray,
-        save: IntArray,
-        saved: Saved,
-        history: FloatArray,
+    def run(
+        self, solver: StepSolver, n: Newmark, factors: FloatArray, recorder: Recorder,
         impact: ImpactRule | None = None,
-    ) -> tuple[int, int, float]:
-        """As `compiled_loop.march`; `impact` corrects velocities of unilateral relations."""
-        p, worst, contact = self.problem, 0, self.problem.contact
+    ) -> Outcome:  # fmt: skip
+        """Steps of one dt; `impact` corrects velocities of unilateral relations."""
+        p, worst, contact, r = self.problem, 0, self.problem.contact, recorder
         self._begin()
         loads = factors @ p.loading.forces.T
         imposed = factors @ p.loading.imposed.T
-        for k in range(len(save)):
-            r = self._right_side(loads[k], loads[k + 1], dt)
+        for k in range(len(r.row)):
+            rest = self._predict(n, loads[k], loads[k + 1])
             dd = imposed[k + 1] - p.constraints.C @ self.motion.u
             pushed = self.motion.contact.copy()
-            outcome = solver.solve(self.motion, r, dd, self._gap(factors[k + 1]))
+            outcome = solver.solve(self.motion, rest, dd, self._gap(factors[k + 1]))
             if outcome.turns <= 0:
                 return k, outcome.turns, outcome.residual
             worst = max(worst, outcome.turns)
-            self._advance(outcome.du, dt)
+            self._advance(n, outcome.du)
             if impact is not None and contact is not None:
-                rate = contact.imposed @ (factors[k + 1] - factors[k]) / dt
+                rate = contact.imposed @ (factors[k + 1] - factors[k]) / n.dt
                 impact.correct(self.motion, rate)
             if not np.isfinite(self.motion.u).all():
                 return k, -1, np.inf
-            self._account(outcome.du, dd, loads[k], loads[k + 1], pushed, factors[k : k + 2])
-            history[k] = self.motion.energies
-            if save[k] >= 0:
-                self.keep(saved, int(save[k]))
-        return len(save), worst, 0.0
+            self._account(outcome.du, dd, loads[k : k + 2], pushed, factors[k : k + 2])
+            r.energies[k] = self.motion.energies
+            if r.row[k] >= 0:
+                keep_whole(self.motion, r, int(r.row[k]))
+        return len(r.row), worst, 0.0
 
     def _gap(self, factors: FloatArray) -> FloatArray:
         contact = self.problem.contact
@@ -177,50 +174,42 @@ class SparseLoop:
         stored, lost = interface_energies(joints.points, m.w, m.t, m.state)
         return float(stored), float(lost)
 
-    def _right_side(self, load0: FloatArray, load1: FloatArray, dt: float) -> FloatArray:
-        m, s = self.motion, self.problem.scheme
-        r: FloatArray = ((1 - s.alpha_m) / (s.beta * dt)) * self._Mv - self._Ku
-        r += ((1 - s.alpha_m) * (0.5 / s.beta - 1) - s.alpha_m) * self._Ma
-        r += (1 - s.alpha_f) * load1 + s.alpha_f * load0
-        if self._damped:
-            ratio = s.gamma / s.beta
-            r -= ((1 - s.alpha_f) * (1 - ratio) + s.alpha_f) * self._Cv
-            part = (1 - s.alpha_f) * dt * (1 - 0.5 * ratio)
-            if part != 0.0:
-                r -= part * (self.problem.C @ m.a)
+    def _predict(self, n: Newmark, load0: FloatArray, load1: FloatArray) -> FloatArray:
+        """Right-hand side of the step, the joints' forces as they are."""
+        zero = np.zeros_like(load0)
+        Cv, Ca = (self._Cv, zero) if self._damped else (zero, zero)
+        if self._damped and n.c_a != 0.0:
+            Ca = self.problem.C @ self.motion.a
+        r: FloatArray = from_past(n, self._Mv, self._Ma, Cv, Ca) - self._Ku
+        r += n.end * load1 + n.start * load0
         if self._J is not None:
-            r -= self._J @ m.f
+            r -= self._J @ self.motion.f
         return r
 
-    def _advance(self, du: FloatArray, dt: float) -> None:
-        m, s = self.motion, self.problem.scheme
-        v0 = m.v.copy()
+    def _advance(self, n: Newmark, du: FloatArray) -> None:
+        m = self.motion
         m.u[:] += du
-        ratio = s.gamma / s.beta
-        m.v[:] = ratio / dt * du + (1 - ratio) * v0 + dt * (1 - 0.5 * ratio) * m.a
-        m.a[:] = (du / dt - v0) / (s.beta * dt) - (0.5 / s.beta - 1) * m.a
+        m.v[:], m.a[:] = advanced(n, du, m.v, m.a)
 
     def _account(
-        self,
-        du: FloatArray,
-        dd: FloatArray,
-        load0: FloatArray,
-        load1: FloatArray,
-        pushed: FloatArray,
+        self, du: FloatArray, dd: FloatArray, loads: FloatArray, pushed: FloatArray,
         factors: FloatArray,
-    ) -> None:
-        """Reactions and energies; `pushed` are the contact reactions at the step's start."""
+    ) -> None:  # fmt: skip
+        """Reactions and energies; `pushed` are the contact reactions at the step's start.
+
+        `loads` (2, n) and `factors` (2, k) are those of both ends.
+        """
         p, m = self.problem, self.motion
         old, before = m.reaction.copy(), m.energies[LOST] - self._joints_lost
         Cv = self._Cv
         self._begin()
-        m.reaction[:] = self._Ma + self._Ku - load1
+        m.reaction[:] = self._Ma + self._Ku - loads[1]
         if self._damped:
             m.reaction[:] += self._Cv
             m.energies[DAMPED] += 0.5 * du @ (Cv + self._Cv)
         if self._J is not None:
             m.reaction[:] += self._J @ m.f
-        m.energies[EXTERNAL] += 0.5 * du @ (load0 + load1)
+        m.energies[EXTERNAL] += 0.5 * du @ (loads[0] + loads[1])
         m.energies[EXTERNAL] += support_work(
             p, 0.5 * (old + m.reaction), 0.5 * (pushed + m.contact), du, dd, factors[1] - factors[0]
         )
@@ -235,9 +224,26 @@ class SparseLoop:
             rubbed = p.contact.rubbed(0.5 * (pushed + m.contact), du)
             m.energies[LOST] = self._joints_lost + before + rubbed
 
-    def keep(self, saved: Saved, row: int) -> None:
-        """Put the current state into a row of the saved ones."""
-        m = self.motion
-        saved.u[row], saved.v[row], saved.a[row] = m.u, m.v, m.a
-        saved.reaction[row], saved.w[row], saved.t[row] = m.reaction, m.w, m.t
-        saved.state[row], saved.contact[row] = m.state, m.contact
+
+def keep_whole(m: Motion, to: Recorder, row: int) -> None:
+    """The present state of a whole problem into a row."""
+    for name in WHOLE:
+        getattr(to, name)[row] = getattr(m, name)
+
+
+@dataclass(eq=False)
+class SparseSteps:
+    """Steps of one dt of a sparse loop with one solver."""
+
+    loop: SparseLoop
+    solver: StepSolver
+    newmark: Newmark
+    impact: ImpactRule | None = None
+
+    def run(self, factors: FloatArray, recorder: Recorder) -> Outcome:
+        """Steps on the whole problem's arrays."""
+        return self.loop.run(self.solver, self.newmark, factors, recorder, self.impact)
+
+    def renew(self, problem: Problem) -> None:
+        """Go on with other loads, all else being the same."""
+        self.loop.problem = problem

@@ -8,11 +8,11 @@ from references.assembled import Bench
 from references.recorder import Recorder
 
 from ssilang.kernel.matrices.matrix import Matrix
-from ssilang.kernel.stepping.choose import DenseEngine, SparseEngine
+from ssilang.kernel.stepping.choose import Case, Choice, choose, only
+from ssilang.kernel.stepping.newmark import Scheme, generalised_alpha, hht, newmark
 from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
 from ssilang.kernel.stepping.rests.modal.modes import SmallLoop
 from ssilang.kernel.stepping.run import Integration, integrate
-from ssilang.kernel.stepping.scheme import Scheme, generalised_alpha, hht, newmark
 
 SCHEMES = [Scheme(), newmark(0.36, 0.7), hht(0.1), generalised_alpha(0.7)]
 LAWS = {
@@ -62,12 +62,11 @@ def problem_of(
 def compared(problem, monkeypatch, light: bool | None, tolerance: float = 1e-11):
     """Run both loops, check which small one ran, compare all that instants hold."""
     few, history = Recorder(len(problem.times)), Integration(problem)
-    engine = DenseEngine(problem, history.motion, 1e-3, False, np.zeros(0, bool))
-    assert isinstance(engine._reduced, SmallLoop) == (light is not None)
-    assert engine.light == bool(light)
+    choice = choose(Case(problem, history.motion, 1e-3))
+    assert isinstance(choice.loop, SmallLoop) == (light is not None)
+    assert choice.rule.light == bool(light)
     found = integrate(problem, [few])
-    monkeypatch.setattr("ssilang.kernel.stepping.choose.kind_of", lambda p, full: SparseEngine)
-    monkeypatch.setattr("ssilang.kernel.stepping.run.kind_of", lambda p, full: SparseEngine)
+    monkeypatch.setattr("ssilang.kernel.stepping.choose.RULES", only("condensed"))
     other = Recorder(len(problem.times))
     truth = integrate(problem, [other])
     assert (found.loop, truth.loop) == ("compiled", "condensed")
@@ -98,6 +97,14 @@ def test_damping_of_rayleigh_is_diagonal(joints, monkeypatch):
     compared(problem, monkeypatch, light=joints < 2)
 
 
+@pytest.mark.parametrize("scheme", SCHEMES[1:])
+@pytest.mark.parametrize("joints", [1, 3])
+def test_damped_energy_is_the_same_by_all_loops(joints, scheme, monkeypatch):
+    """Work of the mean damping forces, whatever the scheme."""
+    problem = problem_of(LAWS["no tension"], scheme, joints, damping=2.0)
+    compared(problem, monkeypatch, light=joints < 2, tolerance=1e-10)
+
+
 def test_unequal_dashpots_keep_their_matrix(monkeypatch):
     compared(problem_of(LAWS["no tension"], joints=3, dashpot=4e3), monkeypatch, light=None)
 
@@ -111,8 +118,7 @@ def test_softening_steeper_than_the_rest_takes_the_general_loop(monkeypatch):
     law = {"KN": 7e6, "KS": 0.0, "FU": 2e4, "GF": 60.0}
     heavy = problem_of(law)
     slow = replace(heavy, times=0.2 * np.arange(20))
-    engine = DenseEngine(slow, Integration(slow).motion, 0.2, False, np.zeros(0, bool))
-    assert not engine.light
+    assert not choose(Case(slow, Integration(slow).motion, 0.2)).rule.light
 
 
 def test_steps_of_two_lengths_hand_over_their_state(monkeypatch):
@@ -133,12 +139,11 @@ def test_light_runs_find_their_energies_when_asked():
 def test_steps_that_differ_by_rounding_share_their_engine(monkeypatch):
     made = []
 
-    class Counted(DenseEngine):
-        def __init__(self, *given):
-            made.append(given)
-            super().__init__(*given)
+    def counted(case: Case) -> Choice:
+        made.append(case)
+        return choose(case)
 
-    monkeypatch.setattr("ssilang.kernel.stepping.run.kind_of", lambda p, full: Counted)
+    monkeypatch.setattr("ssilang.kernel.stepping.run.choose", counted)
     integrate(replace(problem_of(LAWS["no tension"]), times=0.1 + 2.5e-4 * np.arange(30_000)))
     assert len(made) == 1
 
@@ -146,8 +151,7 @@ def test_steps_that_differ_by_rounding_share_their_engine(monkeypatch):
 @pytest.mark.parametrize("name", ["no tension", "softening and closing"])
 def test_joints_without_shear_stiffness_step_along_their_normals(name, monkeypatch):
     problem = problem_of(LAWS[name], joints=4, shear=True)
-    engine = DenseEngine(problem, Integration(problem).motion, 1e-3, False, np.zeros(0, bool))
-    assert engine._reduced._normal is not None
+    assert choose(Case(problem, Integration(problem).motion, 1e-3)).loop.normal is not None
     compared(problem, monkeypatch, light=False, tolerance=1e-10)
 
 

@@ -7,19 +7,15 @@ import pytest
 from references.assembled import Bench
 from references.recorder import Recorder
 
-from ssilang.kernel.stepping.choose import DenseEngine, SparseEngine
+from ssilang.kernel.stepping.choose import Case, choose, only
+from ssilang.kernel.stepping.newmark import Scheme, generalised_alpha, hht, newmark, newmark_of
 from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
+from ssilang.kernel.stepping.rests.modal.diagonal import Diagonal
 from ssilang.kernel.stepping.rests.modal.one_mode import Mode as OneMode
-from ssilang.kernel.stepping.rests.modal.one_mode import branch_of, march_mode
-from ssilang.kernel.stepping.rests.modal.one_spring import (
-    Line,
-    LineRows,
-    LineState,
-    Spring,
-    march_line,
-)
+from ssilang.kernel.stepping.rests.modal.one_mode import branch_of, run_one_mode
+from ssilang.kernel.stepping.rests.modal.one_spring import Line, Spring, run_one_spring
 from ssilang.kernel.stepping.run import Integration, integrate
-from ssilang.kernel.stepping.scheme import Scheme, generalised_alpha, hht, newmark
+from ssilang.kernel.stepping.state import Motion, recorder_of, rows_of
 
 SCHEMES = [Scheme(), newmark(0.36, 0.7), hht(0.1), generalised_alpha(0.7)]
 SPRINGS = {
@@ -34,36 +30,29 @@ MASS, STIFFNESS = 3000.0, 12e6
 
 def both(scheme, spring, steps, dt, damping=0.0, load=0.0, every=1, mass=MASS, energies=True):
     """Outcome, state and rows of the two loops from one start."""
-    numbers = np.array([scheme.alpha_m, scheme.alpha_f, scheme.beta, scheme.gamma])
-    share, c = 1 - numbers[1], 2 * damping * np.sqrt(STIFFNESS * MASS)
-    A = (1 - numbers[0]) * mass / (numbers[2] * dt**2)
-    A += share * (numbers[3] / (numbers[2] * dt) * c + STIFFNESS)
+    n, c = newmark_of(scheme, dt), 2 * damping * np.sqrt(STIFFNESS * MASS)
+    A = n.mass * mass + n.damping * c + n.end * STIFFNESS
     x = 1 / np.sqrt(A)  # the coordinate has a step's matrix of one
-    line = Line(
-        *(np.array([d * x * x]) for d in (mass, c, STIFFNESS)), np.array([-x]),
-        np.array([[load * x]]) if load else np.zeros((0, 1)), numbers,
-    )  # fmt: skip
+    diagonal = Diagonal(*(np.array([d * x * x]) for d in (mass, c, STIFFNESS)), np.ones(1))
+    line = Line(n, diagonal, np.array([-x]), np.array([[load * x]]) if load else np.zeros((0, 1)))
     factors = np.sin(30.0 * dt * np.arange(steps + 1))[:, None][:, : 1 if load else 0]
-    save = np.where(np.arange(steps) % every == every - 1, np.arange(steps) // every, -1)
+    row = rows_of(np.arange(steps) % every == every - 1)
     found = []
-    for march in (march_line, march_mode):
+    for run in (run_one_spring, run_one_mode):
         w = 0.01 if spring.weight else 0.0
         t, xi = (0.0, w) if spring.fu == 0.0 else (spring.k * 1e-5, w - 1e-5)
         if spring.fu:
             w, t, xi = 0.0, 0.0, 0.0
-        u = np.array([-0.01 / x])
-        state = LineState(
-            u, np.zeros(1), -STIFFNESS / max(mass, 1.0) * u, np.array([w, t, xi]), np.zeros(6),
-            np.zeros(2),
+        u, none = np.array([-0.01 / x]), np.zeros(0)
+        state = Motion(
+            u, np.zeros(1), -STIFFNESS / max(mass, 1.0) * u, none, none, np.array([[w]]),
+            np.array([[t]]), np.array([[xi]]), none, np.zeros(6), none,
         )  # fmt: skip
-        start = 0.5 * STIFFNESS * 0.01**2
-        state.balance[0] = start
-        n = steps // every
-        rows = LineRows(*(np.zeros((n, k)) for k in (1, 1, 1, 3)))
-        history = np.zeros((steps if energies else 0, 6))
-        one = (np.ones(1),) if march is march_line else ()
-        given = (line, dt, *one, spring, state, np.ascontiguousarray(factors), save, rows, history)
-        found.append((march(*given), state, rows, history))
+        kept = recorder_of(
+            state, row, np.zeros((steps if energies else 0, 6)), ("u", "v", "a", "w", "t", "state"),
+            balance=np.array([0.5 * STIFFNESS * 0.01**2, 0.0]),
+        )  # fmt: skip
+        found.append((run(line, spring, state, np.ascontiguousarray(factors), kept), state, kept))
     return found
 
 
@@ -75,47 +64,47 @@ def close(a, b, tolerance):
 @pytest.mark.parametrize("spring", SPRINGS.values(), ids=SPRINGS)
 @pytest.mark.parametrize(("damping", "load"), [(0.0, 0.0), (0.02, 0.0), (0.02, 6e4)])
 def test_steps_by_branches_are_those_of_the_law(scheme, spring, damping, load):
-    (one, few, kept, energies), (two, state, rows, history) = both(
-        scheme, spring, 3000, 5e-4, damping, load
-    )
+    (one, few, kept), (two, state, rows) = both(scheme, spring, 3000, 5e-4, damping, load)
     assert one[:2] == two[:2] == (3000, 1)
-    for name in ("u", "v", "a", "joint"):
+    for name in ("u", "v", "a", "w", "t", "state"):
         close(getattr(rows, name), getattr(kept, name), 1e-11)
-    close(history, energies, 1e-11)
+    close(rows.energies, kept.energies, 1e-11)
     close(state.energies, few.energies, 1e-11)
-    assert state.balance[1] == pytest.approx(few.balance[1], rel=1e-6, abs=1e-10 * few.balance[0])
+    start = kept.balance[0]
+    assert rows.balance[1] == pytest.approx(kept.balance[1], rel=1e-6, abs=1e-10 * start)
 
 
 def test_a_hundred_thousand_free_steps_keep_twelve_digits():
     """Average acceleration turns the phase by 2 atan(omega dt / 2) a step and loses nothing."""
     steps, dt = 100_000, 2.5e-4
-    _, (_, state, rows, _) = both(Scheme(), SPRINGS["none"], steps, dt, every=1000, energies=False)
+    _, (_, _, rows) = both(Scheme(), SPRINGS["none"], steps, dt, every=1000, energies=False)
     turn = 2 * np.arctan(0.5 * dt * np.sqrt(STIFFNESS / MASS))
     start = -0.01 * np.sqrt(4 * MASS / dt**2 + STIFFNESS)
     close(rows.u[:, 0], start * np.cos(turn * np.arange(1000, steps + 1, 1000)), 1e-12)
-    assert state.balance[1] <= 1e-12 * state.balance[0]
+    assert rows.balance[1] <= 1e-12 * rows.balance[0]
 
 
 def test_a_hundred_thousand_steps_with_uplift_agree():
     """The loop of the law alone rounds more: 5e-12 in the free motion above."""
-    (_, few, kept, _), (_, state, rows, _) = both(
+    (_, _, kept), (_, _, rows) = both(
         Scheme(), SPRINGS["no tension"], 100_000, 2.5e-4, every=1000, energies=False
     )
     close(rows.u, kept.u, 1e-10)
     close(rows.v, kept.v, 1e-10)
-    assert state.balance[1] == pytest.approx(few.balance[1], rel=1e-6)
-    assert rows.joint[:, 0].min() < 0.0 < rows.joint[:, 0].max()
+    assert rows.balance[1] == pytest.approx(kept.balance[1], rel=1e-6)
+    assert rows.w.min() < 0.0 < rows.w.max()
 
 
 @pytest.mark.parametrize("mass", [0.0, 1e-3])
 def test_light_modes_step_by_the_law(mass):
-    mode = OneMode(mass, 0.0, STIFFNESS, 1.0, 5e-4, 0.0, 0.0, 0.25, 0.5)
+    mode = OneMode(mass, 0.0, STIFFNESS, 1.0, newmark_of(Scheme(), 5e-4))
     assert not branch_of(mode, SPRINGS["no tension"], (0.01, 0.0, 0.0, 0.01, 0.0, 0.01)).fits
-    (_, _, kept, _), (_, _, rows, _) = both(
+    (_, _, kept), (_, _, rows) = both(
         Scheme(), SPRINGS["no tension"], 500, 5e-4, load=6e4, mass=mass
     )
     close(rows.u, kept.u, 1e-11)
-    close(rows.joint, kept.joint, 1e-11)
+    for name in ("w", "t", "state"):
+        close(getattr(rows, name), getattr(kept, name), 1e-11)
 
 
 def test_a_motion_beyond_all_numbers_is_told():
@@ -146,13 +135,11 @@ def test_motions_without_mass_keep_their_velocity_and_acceleration(monkeypatch):
             model=bench.model, characteristics=bench.characteristics, scheme=newmark(0.3, 0.6),
         )
     )  # fmt: skip
-    engine = DenseEngine(problem, Integration(problem).motion, 1e-3, False, np.zeros(0, bool))
-    assert engine._reduced is not None
-    _, _, active, idle = engine._reduced._line
+    _, _, active, idle = choose(Case(problem, Integration(problem).motion, 1e-3)).loop.line
     assert (len(active), len(idle)) == (1, 1)
     few, other = Recorder(len(times)), Recorder(len(times))
     integrate(problem, [few])
-    monkeypatch.setattr("ssilang.kernel.stepping.run.kind_of", lambda p, full: SparseEngine)
+    monkeypatch.setattr("ssilang.kernel.stepping.choose.RULES", only("condensed"))
     integrate(problem, [other])
     for name in ("u", "v", "a", "reaction", "w", "t", "state"):
         close(few.of(name), other.of(name), 1e-11)

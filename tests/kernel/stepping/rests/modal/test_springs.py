@@ -8,17 +8,18 @@ from references.recorder import Recorder
 from references.rocking_beam import COUNT, rocking
 from scipy.optimize import nnls
 
+from ssilang.kernel.contact import active_set
+from ssilang.kernel.contact.active_set import active_set_of, anew, find_active, list_closed
 from ssilang.kernel.interface.laws.columns import Variable
-from ssilang.kernel.stepping.choose import DenseEngine
-from ssilang.kernel.stepping.rests.modal import springs as normal_loop
-from ssilang.kernel.stepping.rests.modal.springs import Contact, anew, list_closed, settle
+from ssilang.kernel.stepping.choose import Case, rule_of
+from ssilang.kernel.stepping.newmark import Scheme, hht
+from ssilang.kernel.stepping.rests.modal.springs import WRONG
 from ssilang.kernel.stepping.run import Integration, integrate
-from ssilang.kernel.stepping.scheme import Scheme, hht
 
 
 def contact_of(Q, k, closed):
-    n = len(k)
-    contact = Contact(Q, k, np.zeros((n, n)), closed, np.zeros(n, np.int64), np.zeros(2, np.int64))
+    contact = active_set_of(Q, k, WRONG)
+    contact.closed[:] = closed
     anew(contact)
     list_closed(contact)
     return contact
@@ -32,16 +33,17 @@ def forces_of(contact, answer):
 @pytest.mark.parametrize("seed", range(6))
 def test_forces_are_the_smallest_in_the_compliance(seed, at_once, monkeypatch):
     """`min f.Q f/2 - g.f` over f <= 0, by non-negative least squares on Q's factor."""
-    monkeypatch.setattr(normal_loop, "ALL_AT_ONCE", at_once)
+    monkeypatch.setattr(active_set, "ALL_AT_ONCE", at_once)
     rng = np.random.default_rng(seed)
     k = rng.uniform(1.0, 10.0, COUNT)
     J = rng.normal(size=(COUNT, 9))
     Q = J @ J.T + np.diag(1 / k)
     contact = contact_of(Q, k, rng.random(COUNT) < 0.5)
-    answer, L = np.zeros(COUNT), np.linalg.cholesky(Q)
+    answer, L = contact.found, np.linalg.cholesky(Q)
     for _ in range(5):
         g = rng.normal(size=COUNT)
-        settle.py_func(contact, g, answer)
+        contact.free[:] = g
+        find_active.py_func(contact)
         truth = -nnls(L.T, -np.linalg.solve(L, g))[0]
         assert truth.any()
         assert not truth.all()
@@ -55,12 +57,12 @@ def test_many_exchanges_do_not_gather_rounding():
     k = 10.0 ** rng.uniform(0.0, 4.0, COUNT)
     Q = np.diag(1 / k) + (J := rng.normal(size=(COUNT, 4))) @ J.T
     contact = contact_of(Q, k, np.zeros(COUNT, bool))
-    answer = np.zeros(COUNT)
     for _ in range(3000):
-        settle(contact, rng.normal(size=COUNT), answer)
-    g = rng.normal(size=COUNT)
-    settle(contact, g, answer)
-    f = forces_of(contact, answer)
+        contact.free[:] = rng.normal(size=COUNT)
+        find_active(contact)
+    g = contact.free[:] = rng.normal(size=COUNT)
+    find_active(contact)
+    f = forces_of(contact, contact.found)
     jumps = g - Q @ f
     np.testing.assert_allclose(f, np.minimum(k * (jumps + f / k), 0.0), atol=1e-9)
     np.testing.assert_allclose(jumps[contact.closed], 0.0, atol=1e-10)
@@ -69,8 +71,7 @@ def test_many_exchanges_do_not_gather_rounding():
 @pytest.mark.parametrize("scheme", [Scheme(), hht(0.1)])
 def test_rocking_beam_steps_as_the_full_newton(scheme):
     problem = rocking(scheme)
-    engine = DenseEngine(problem, Integration(problem).motion, 1e-3, False, np.zeros(0, bool))
-    assert engine._reduced._pushes
+    assert rule_of(Case(problem, Integration(problem).motion, 1e-3)).name == "springs"
     few, other = (Recorder(len(problem.times)) for _ in range(2))
     found = integrate(problem, [few])
     truth = integrate(problem, [other], full_newton=True)

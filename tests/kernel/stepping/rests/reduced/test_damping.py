@@ -8,12 +8,12 @@ from references.recorder import Recorder
 from references.soil_block import soil_block
 
 from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.stepping.newmark import Scheme, generalised_alpha, hht, newmark_of
 from ssilang.kernel.stepping.rests.reduced.basis import Basis
 from ssilang.kernel.stepping.rests.reduced.damping import split, square_roots
 from ssilang.kernel.stepping.rests.reduced.loop import Reduced, reduced_step
 from ssilang.kernel.stepping.rests.reduced.run import _PAIRS, GROWTH, integrate_reduced
 from ssilang.kernel.stepping.run import integrate
-from ssilang.kernel.stepping.scheme import Scheme, generalised_alpha, hht
 
 RHO, YOUNG = 1900.0, 8e7  # of the soil of `soil_block`, Poisson's ratio 0.3
 VS = np.sqrt(YOUNG / 2.6 / RHO)
@@ -199,9 +199,11 @@ def test_dashpots_are_eliminated_from_the_interface():
     r, q, d, dt = 7, 2, 3, 0.01
     Rt, sense = random.standard_normal((r, q + d)), np.array([1.0, 1.0, -0.2])
     m, c, k = random.uniform(1, 2, (3, r)) * np.array([[1.0], [0.1], [300.0]])
-    scheme = np.array([0.0, 0.1, 0.3025, 0.6])
+    scheme = Scheme(0.0, 0.1, 0.3025, 0.6)
     none = np.zeros((0, r))
-    step = reduced_step(Reduced(m, c, k, Rt, sense, none, np.zeros((q, 0)), scheme), dt, q)
+    step = reduced_step(
+        Reduced(m, c, k, Rt, sense, none, np.zeros((q, 0))), newmark_of(scheme, dt), q
+    )
     J, B = Rt.T[:q], Rt.T[q:]
     C = np.diag(c) + B.T @ (sense[:, None] * B)
     rate = 0.9 * 0.6 / (0.3025 * dt)

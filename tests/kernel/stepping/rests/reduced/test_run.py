@@ -9,10 +9,10 @@ from references.soil_block import soil_block
 
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.stepping.newmark import generalised_alpha, hht
 from ssilang.kernel.stepping.rests.reduced.basis import Basis
 from ssilang.kernel.stepping.rests.reduced.run import _PAIRS, integrate_reduced
 from ssilang.kernel.stepping.run import integrate
-from ssilang.kernel.stepping.scheme import generalised_alpha, hht
 
 
 @pytest.fixture(autouse=True)

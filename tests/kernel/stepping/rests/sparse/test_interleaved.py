@@ -8,10 +8,10 @@ import scipy.sparse as sparse
 from references.soil_block import FRICTION, soil_block
 
 from ssilang.kernel.stepping import effective
+from ssilang.kernel.stepping.newmark import generalised_alpha, hht, newmark
 from ssilang.kernel.stepping.problem.constraints import EliminatedConstraints
 from ssilang.kernel.stepping.rests.sparse import interleaved as interleaved_loop
 from ssilang.kernel.stepping.run import integrate
-from ssilang.kernel.stepping.scheme import generalised_alpha, hht, newmark
 
 SOFTENING = {"KN": 2e8, "KS": 1e8, "FU": 2e4, "GF": 200.0, "FC": -1e4}
 BONDED = {"KN": 2e8, "KS": 1e8, "FU": 1e6, "GF": 1e6}

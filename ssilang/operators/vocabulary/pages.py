@@ -26,7 +26,7 @@ from ssilang.language.say.reference import (
 from ssilang.language.search import Item, search
 from ssilang.language.vocabulary.examples import example
 from ssilang.language.vocabulary.terms import Option, Quantity, Word
-from ssilang.operators import words
+from ssilang.operators.vocabulary import words
 from ssilang.resources import resource
 
 _SHOWN = 20  # lines of a search

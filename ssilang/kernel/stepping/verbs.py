@@ -1,0 +1,52 @@
+"""The verbs of a step that all loops share, compiled: Newmark's formulas, rows that are kept."""
+
+from __future__ import annotations
+
+from ssilang.kernel.base.compiled.apart import apart
+from ssilang.kernel.base.compiled.compiler import compiled, compiled_inline
+from ssilang.kernel.interface.copies import copy_rows, copy_state
+from ssilang.kernel.stepping import newmark
+from ssilang.kernel.stepping.state import Motion, Recorder
+
+advance = compiled_inline(newmark.advanced)
+from_past = compiled_inline(newmark.from_past)
+
+
+@apart
+@compiled
+def keep(x: Motion, to: Recorder, row: int) -> None:
+    """The present state into a row of those of its parts that are kept."""
+    if len(to.u):
+        copy_state(x.u, to.u[row])
+        copy_state(x.v, to.v[row])
+        copy_state(x.a, to.a[row])
+    if len(to.reaction):
+        copy_state(x.reaction, to.reaction[row])
+    if len(to.f):
+        copy_state(x.f, to.f[row])
+    if len(to.w):
+        copy_rows(x.w, to.w[row])
+    if len(to.t):
+        copy_rows(x.t, to.t[row])
+    if len(to.state):
+        copy_rows(x.state, to.state[row])
+    if len(to.contact):
+        copy_state(x.contact, to.contact[row])
+
+
+@compiled
+def motion_at(x: Motion, j: int) -> Motion:
+    """One of several motions, that lie in the first direction of each array."""
+    return Motion(
+        x.u[j], x.v[j], x.a[j], x.delta[j], x.f[j], x.w[j], x.t[j], x.state[j], x.reaction[j],
+        x.energies[j], x.contact[j],
+    )  # fmt: skip
+
+
+@compiled
+def recorder_at(x: Recorder, j: int) -> Recorder:
+    """What is kept of one of several motions."""
+    return Recorder(
+        x.row[j], x.energies[j], x.u[j], x.v[j], x.a[j], x.reaction[j], x.f[j], x.w[j], x.t[j],
+        x.state[j], x.contact[j], x.jumps[j], x.work[j], x.balance[j],
+    )  # fmt: skip
