@@ -25,6 +25,7 @@ from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
 from ssilang.language.values import Mot, type_of
 from ssilang.operators.dispatch import LISTINGS
+from ssilang.operators.texts.words import written
 
 _UNFINISHED = frozenset(
     {"missing-semicolon", "unclosed-string", "unclosed-paren", "unclosed-block"}
@@ -177,8 +178,9 @@ class Repl:
 
     def _variables(self, _: str) -> bool:
         for name, value in sorted(self.session.root.variables.items()):
-            short = f" {value}" if isinstance(value, bool | int | float | Mot) else ""
-            self.out.write(f"{name:<24} {type_of(value)}{short}\n")
+            short = written(value) if isinstance(value, bool) else value
+            shown = f" {short}" if isinstance(value, bool | int | float | Mot) else ""
+            self.out.write(f"{name:<24} {type_of(value)}{shown}\n")
         return True
 
     def _save(self, path: str) -> bool:

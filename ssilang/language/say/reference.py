@@ -42,6 +42,45 @@ _WORDS = {
     "procedure": {"en": "procedure", "fr": "procédure"},
 }
 
+_FAMILIES = {
+    "arithmetic": "calcul",
+    "clouds": "nuages",
+    "comparisons": "comparaisons",
+    "control": "conduite du calcul",
+    "curves": "évolutions",
+    "drawing": "dessin",
+    "dynamics": "dynamique",
+    "fields": "champs",
+    "files": "fichiers",
+    "functions": "fonctions",
+    "lists": "listes",
+    "load": "forces",
+    "loads": "chargements",
+    "matrix": "matrices",
+    "mesh": "maillage",
+    "modal": "analyse modale",
+    "model": "modèle",
+    "models": "modèles",
+    "numbers": "nombres",
+    "objects": "objets",
+    "output": "affichage",
+    "relations": "relations",
+    "session": "session",
+    "signals": "signaux",
+    "solve": "résolution",
+    "statics": "statique",
+    "stress": "contraintes",
+    "tables": "tables",
+    "words": "mots",
+    "procedures": "procédures",
+}
+"""Families of operators in French; in English they are called as the program calls them."""
+
+
+def family_text(family: str, language: str) -> str:
+    """What a family is called."""
+    return family if language == "en" else _FAMILIES[family]
+
 
 @dataclass(frozen=True, slots=True)
 class Page:
@@ -136,8 +175,9 @@ def find_page(word: str, procedures: Mapping[str, Path]) -> Page | None:
 def page_text(page: Page, language: str) -> str:
     """A page as plain text, at most `WIDTH` columns."""
     kind = _WORDS[page.kind][language]
+    title = page.title if language == "en" else ""
     full = f" ({page.full_name})" if page.full_name != page.name else ""
-    lines = [f"{page.name}{full} : {page.title or kind} [{page.family}]", ""]
+    lines = [f"{page.name}{full} : {title or kind} [{family_text(page.family, language)}]", ""]
     text = page.help.en if language == "en" else page.help.fr
     for paragraph in text.split("\n"):
         lines += textwrap.wrap(paragraph, WIDTH)
@@ -259,7 +299,7 @@ def overview(procedures: Iterable[Path], language: str) -> str:
     """All operators by family and all procedures, a line each."""
     lines: list[str] = []
     for family, members in operators_by_family().items():
-        lines += ["", family.upper()]
+        lines += ["", family_text(family, language).upper()]
         for found in members:
             text = found.help.en if language == "en" else found.help.fr
             lines.append(_entry_line(found.name, text))
