@@ -93,6 +93,7 @@ def test_control_c_while_running_keeps_the_session(typed, monkeypatch):
         raise KeyboardInterrupt
 
     form = OPERATORS["PROG"].forms[0]
+    monkeypatch.setattr(OPERATORS["PROG"], "_meant", {})  # forms chosen in earlier runs
     monkeypatch.setattr(
         OPERATORS["PROG"], "forms", [type(form)(form.entries, interrupted, form.injected)]
     )
