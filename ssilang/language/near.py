@@ -60,3 +60,24 @@ def nearest_names(
 def nearest(word: str, known: Iterable[str], least: float = LIKE) -> str:
     """The known name that looks most like `word`, '' if none is as like as `least`."""
     return next(iter(nearest_names(word, known, least, 1)), "")
+
+
+_BEGINNING = 4
+"""Letters that a word and its abbreviation share at least."""
+
+
+def meant(word: str, known: Iterable[str]) -> str:
+    """The known word that `word` is a slip or an abbreviation of, '' if there is none.
+
+    A word and its beginning (VITESSE, VITE) are near; else one letter in four may be wrong.
+    """
+    said = word.upper().rstrip()
+    found: list[tuple[int, str]] = []
+    for other in known:
+        short, long = sorted((said, other.upper()), key=len)
+        distance = slips(said, other.upper())
+        if distance <= len(short) // 4:
+            found.append((distance, other))
+        elif len(short) >= _BEGINNING and long.startswith(short):
+            found.append((len(long), other))
+    return min(found, default=(0, ""))[1]

@@ -7,9 +7,7 @@ built, and what is said there is so.
 
 from __future__ import annotations
 
-import importlib.util
 import re
-from pathlib import Path
 
 import pytest
 
@@ -23,19 +21,12 @@ from ssilang.operators.loader import load_operators
 load_operators()
 _OPERATORS = [o for n, o in sorted(OPERATORS.items()) if n == o.name]
 _PROCEDURES = {p: procedure_page(p) for p in standard_procedures().values()}
-_BUILD = Path(__file__).resolve().parents[2] / "docs" / "build.py"
 
 
 @pytest.fixture(scope="module")
-def untried():
+def untried(build):
     """What `docs/partly.txt` says is without an example, by operator."""
-    spec = importlib.util.spec_from_file_location("build_manual_of_examples", _BUILD)
-    module = importlib.util.module_from_spec(spec)
-    import sys
-
-    sys.modules[spec.name] = module
-    spec.loader.exec_module(module)
-    return {name: module.untried(text) for name, text in module.partly_built().items()}
+    return {name: build.untried(text) for name, text in build.partly_built().items()}
 
 
 def _examples(operator):

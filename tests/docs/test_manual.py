@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.util
 import re
 from pathlib import Path
 
@@ -16,17 +15,6 @@ from ssilang.language.run.library import standard_procedures
 from ssilang.language.text.source import Source
 
 _DOCS = Path(__file__).resolve().parents[2] / "docs"
-
-
-@pytest.fixture(scope="module")
-def build():
-    spec = importlib.util.spec_from_file_location("build_manual", _DOCS / "build.py")
-    module = importlib.util.module_from_spec(spec)
-    import sys
-
-    sys.modules["build_manual"] = module
-    spec.loader.exec_module(module)
-    return module
 
 
 def test_a_page_shows_syntax_help_and_what_the_example_printed(build, tmp_path):

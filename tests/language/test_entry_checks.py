@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from ssilang.cli.run import run_text
+from ssilang.language.near import meant, slips
 from ssilang.language.say.diagnostics import sentence
-from ssilang.language.vocabulary.spelling import edit_distance, near_word
 
 OSCILLATOR = """
 OPTI DIME 2 ELEM SEG2 ; P = 0. 0. ; T1 = TABL ;
@@ -124,8 +124,8 @@ def test_entries_inside_of_tables_are_checked():
 
 
 def test_swapped_letters_count_once():
-    assert edit_distance("TEMPS", "TMEPS") == 1
-    assert edit_distance("TEMPS", "TEMP") == 1
-    assert edit_distance("CHAR", "CHOIR") == 2
-    assert near_word("VITESSE", ["VITE", "DEPL"]) == "VITE"
-    assert near_word("XYZ", ["VITE", "DEPL"]) == ""
+    assert slips("TEMPS", "TMEPS") == 1
+    assert slips("TEMPS", "TEMP") == 1
+    assert slips("CHAR", "CHOIR") == 2
+    assert meant("VITESSE", ["VITE", "DEPL"]) == "VITE"
+    assert meant("XYZ", ["VITE", "DEPL"]) == ""

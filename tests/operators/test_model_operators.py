@@ -215,3 +215,11 @@ def test_an_element_for_pressures_has_no_stiffness(refused, asked):
     assert "element SEG2 carries fields and pressures, it has no stiffness" in told
     assert "BARR, POUT, TIMO" in told
     assert "M1D2" not in told
+
+
+def test_sections_have_no_axes_of_orthotropy(refused):
+    said = refused(
+        "OPTI DIME 2 ELEM SEG2 ; L = DROI 1 (0. 0.) (1. 0.) ;"
+        "M = MODE L MECANIQUE ELASTIQUE BARR ; C = CARA M 'DIRE' (0. 1.) 'PARA' 'SECT' 0.1 ;"
+    )
+    assert "DIRE" in said

@@ -193,3 +193,9 @@ def test_other_roots_of_negative_values_are_refused(base: str) -> None:
     assert result.exit_code == 1
     assert "0.5" in result.message
     assert run_text(line + f"X = ({base}) ** (1. / 9.) ;").exit_code == 0
+
+
+def test_whether_a_component_exists_is_asked_of_fields_in_cells_alone(refused):
+    said = refused("X = MASQ (PROG 1. 2.) 'EXISTE' 'A' ;")
+    assert "'SUPERIEUR' or" in said
+    assert "found EXISTE" in said

@@ -58,6 +58,9 @@ class AbstractCall(Call):
         self._all_known()
         return super().readable(*types)
 
+    def wordless(self) -> bool:
+        return False  # what is unknown may be a word
+
     def stands(self, *types: str) -> bool:
         self._all_known()
         return super().stands(*types)

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from typing import Any, TypeGuard
@@ -37,6 +36,9 @@ class _Level:
     seen: set[str] = field(default_factory=set)
 
 
+_Kept = tuple[list[Operand], int, list[tuple[_Level, dict[str, Any], set[str]]]]
+
+
 class Binder:
     """Reads the entries of one form from a call; inner entries see the outer keywords too."""
 
@@ -44,6 +46,7 @@ class Binder:
         self.call = call
         self.main = main  # the operand that chose the form
         self._levels: list[_Level] = []
+        self._wordless = call.wordless()
 
     def bind(
         self, entries: Sequence[Entry], after: int = -1, *, begun: bool = False, open: bool = False
@@ -105,6 +108,8 @@ class Binder:
 
     def _keywords(self, levels: Sequence[_Level]) -> bool:
         """Read keywords as long as the first unread word is one; says whether there were any."""
+        if self._wordless:
+            return False
         open_ones = [level for level in reversed(levels) if level.keywords]
         if not open_ones:
             return False
@@ -194,27 +199,28 @@ class Binder:
         return tuple(values)
 
     def _group(self, g: Group, after: int) -> Any:
+        if not g.repeated and not g.optional:
+            return self._one(g, after)
         if not g.repeated:
-            if not g.optional:
+            if not self._may_begin(g):
+                return None
+            kept = self._kept()
+            try:
                 return self._one(g, after)
-            with self._kept() as put_back:
-                try:
-                    return self._one(g, after)
-                except SsiError:
-                    put_back()
-                    return None
+            except SsiError:
+                self._put_back(kept)
+                return None
         found: list[Any] = []
         most = self._value(g.times) if g.times else None
-        while self.call.operands and (most is None or len(found) < most):
-            with self._kept() as put_back:
-                before = len(self.call.used)
-                try:
-                    value = self._one(g, after)
-                except SsiError:
-                    if self._stands_in_the_middle(before):
-                        raise
-                    put_back()
-                    break
+        while self.call.operands and (most is None or len(found) < most) and self._may_begin(g):
+            before, kept = len(self.call.used), self._kept()
+            try:
+                value = self._one(g, after)
+            except SsiError:
+                if self._stands_in_the_middle(before):
+                    raise
+                self._put_back(kept)
+                break
             if len(self.call.used) == before:
                 break
             found.append(value)
@@ -248,35 +254,48 @@ class Binder:
     def _either(self, e: Either, after: int) -> Chosen | None:
         worst: tuple[int, SsiError] | None = None
         for g in e.groups:
-            with self._kept() as put_back:
-                before = len(self.call.used)
-                try:
-                    return Chosen(g.name, self.bind(g.entries, after))
-                except SsiError as problem:
-                    depth = len(self.call.used) - before
-                    if worst is None or depth > worst[0]:
-                        worst = depth, problem
-                    put_back()
-        if e.optional or worst is None:
+            if not self._may_begin(g):
+                continue
+            before, kept = len(self.call.used), self._kept()
+            try:
+                return Chosen(g.name, self.bind(g.entries, after))
+            except SsiError as problem:
+                depth = len(self.call.used) - before
+                if worst is None or depth > worst[0]:
+                    worst = depth, problem
+                self._put_back(kept)
+        if e.optional:
             return None
+        if worst is None or not worst[0]:
+            self.bind(e.groups[0].entries, after)  # says what is missing
+        assert worst is not None
         raise worst[1]
 
-    @contextmanager
-    def _kept(self) -> Iterator[Callable[[], None]]:
-        """Gives a function that puts the operands back as they stood."""
-        operands, used = list(self.call.operands), len(self.call.used)
-        levels = [(v, dict(v.values), set(v.seen)) for v in self._levels]
+    def _may_begin(self, g: Group) -> bool:
+        """Whether the operand that a group begins with may stand there; no more is looked at."""
+        first = g.entries[0] if g.entries else None
+        if not self._wordless or type(first) is not Argument or first.optional:
+            return True
+        return any(accepts(first.types, o.value) for o in self.call.operands)
 
-        def put_back() -> None:
-            self.call.operands[:] = operands
-            del self.call.used[used:]
-            for level, values, seen in levels:
-                level.values.clear()
-                level.values.update(values)
-                level.seen.clear()
-                level.seen.update(seen)
+    def _kept(self) -> _Kept:
+        """The operands, and what the open levels have, as they stand."""
+        levels = self._levels if not self._wordless else ()
+        return (
+            list(self.call.operands),
+            len(self.call.used),
+            [(v, dict(v.values), set(v.seen)) for v in levels],
+        )
 
-        yield put_back
+    def _put_back(self, kept: _Kept) -> None:
+        operands, used, levels = kept
+        self.call.operands[:] = operands
+        del self.call.used[used:]
+        for level, values, seen in levels:
+            level.values.clear()
+            level.values.update(values)
+            level.seen.clear()
+            level.seen.update(seen)
 
 
 def _given(a: Argument, operand: Operand) -> Any:

@@ -258,6 +258,10 @@ class Call:
         self.used.append(operand)
         return _as_read(operand, types)
 
+    def wordless(self) -> bool:
+        """Whether certainly no word, procedure or text stands among the unread operands."""
+        return not any(isinstance(o.value, Mot | Procedure | Texte) for o in self.operands)
+
     def stands(self, *types: str) -> bool:
         """Whether an unread operand of one of the types stands in the phrase."""
         return any(accepts(types, o.value) for o in self.operands)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from ssilang.language.near import meant as near_word
 from ssilang.language.say.errors import SsiError
 from ssilang.language.values import Annule, Mot, Procedure, Table, type_of
 from ssilang.language.vocabulary.entries import (
@@ -17,7 +18,6 @@ from ssilang.language.vocabulary.entries import (
     TableEntry,
     as_written,
 )
-from ssilang.language.vocabulary.spelling import near_word
 from ssilang.language.vocabulary.unread_entries import reads, unread
 
 if TYPE_CHECKING:

@@ -6,8 +6,8 @@ import re
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
+from ssilang.language.near import meant as near_word
 from ssilang.language.vocabulary.entries import BOTH, READ, REFUSED, WRITTEN, Declaration
-from ssilang.language.vocabulary.spelling import near_word
 
 if TYPE_CHECKING:
     from ssilang.language.run.library import Library

@@ -30,7 +30,7 @@ _TWO = "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; K = (APPU 'UX' 4. P) ET (APPU 'UX'
                 "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ;\n"
                 "K = (APPU 'UX' 4. P) ET (APPU 'UX' 5. Q) ;\n"
                 "C = RELA 2. 'UX' P '+' 3. 'UX' Q ;\n"
-                "LIST (EXTR (CMCT C K) 'DIAG') ;"
+                "LIST (EXTR (CMCT K C) 'DIAG') ;"
             ),
         ),
     ),
