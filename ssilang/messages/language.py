@@ -517,4 +517,55 @@ MESSAGES: dict[str, Message] = {
         "{name} a ici une valeur : le mot {name} s'écrit entre apostrophes, '{name}'\n",
     ),
     "did-you-mean": Message("did you mean {near}?", "vouliez-vous dire {near} ?"),
+    # ---- parts of other sentences
+    "label-error": Message("error", "erreur"),
+    "label-warning": Message("warning", "avertissement"),
+    "called-by": Message("called by {name} at", "appelé par {name},"),
+    "held-word": Message(
+        "'{word}', the value of {holder}, names an operator, which ran: MOT {holder} takes it as "
+        "a word, EGA {holder} 'OTHER' compares it",
+        "'{word}', la valeur de {holder}, nomme un opérateur, exécuté : MOT {holder} le prend "
+        "comme mot, EGA {holder} 'AUTRE' le compare",
+    ),
+    "found-word": Message(", found {found}", ", trouvé {found}"),
+    "nothing": Message("nothing", "rien"),
+    "of-type": Message(" of type {wanted}", " de type {wanted}"),
+    "ended-by-word": Message(
+        "; it ends behind a word, here {before}", " ; un mot l'arrête, ici {before}"
+    ),
+    "bare-word": Message(
+        "{word} was never given a value{near:? (did you mean {near}?)}\n",
+        "{word} n'a jamais reçu de valeur{near:? (vouliez-vous dire {near} ?)}\n",
+    ),
+    "point-in-parentheses": Message(
+        "a point inside a phrase is written in parentheses: (0. 1.)\n",
+        "un point dans une phrase s'écrit entre parenthèses : (0. 1.)\n",
+    ),
+    "any-object": Message("an object", "un objet"),
+    "one-of-types": Message("one of {types:or}", "l'un des types {types:or}"),
+    "no-keyword": Message(
+        "'{word}' is no keyword of {operator}: did you mean '{near}'?\n",
+        "'{word}' n'est pas un mot-clé de {operator} : vouliez-vous dire '{near}' ?\n",
+    ),
+    "give-a-value": Message(
+        "give it a value first ({word} = ... ;), or see the operators with `ssilang help`",
+        "donnez-lui d'abord une valeur ({word} = ... ;), ou voyez `ssilang help`",
+    ),
+    "not-built": Message(
+        "{name} is a Cast3M {operator:?operator|procedure} that ssilang does not have",
+        "{name} est un mot de Cast3M ({operator:?opérateur|procédure}) que ssilang n'a pas",
+    ),
+    "out-of-scope": Message(
+        "{name} is a Cast3M {operator:?operator|procedure} ({subject}), out of ssilang's scope",
+        "{name} est un mot de Cast3M ({operator:?opérateur|procédure}, {subject}), hors du champ "
+        "de ssilang",
+    ),
+    "indices-known": Message(
+        "{known:?its indices are: {known}|it is empty}",
+        "{known:?ses indices sont : {known}|elle est vide}",
+    ),
+    "innermost-block": Message(
+        "; the innermost open block is {where} of line {line}",
+        " ; le bloc ouvert le plus intérieur est {where}, ligne {line}",
+    ),
 }

@@ -93,6 +93,8 @@ def test_control_c_while_running_keeps_the_session(typed, monkeypatch):
         raise KeyboardInterrupt
 
     form = OPERATORS["PROG"].forms[0]
+    monkeypatch.setattr(OPERATORS["PROG"], "_choices", None)  # what earlier runs gathered
+    monkeypatch.setattr(OPERATORS["PROG"], "_meant", {})
     monkeypatch.setattr(
         OPERATORS["PROG"], "forms", [type(form)(form.entries, interrupted, form.injected)]
     )

@@ -14,22 +14,18 @@ from ssilang.language.text.source import Span
 from ssilang.language.values import type_of
 from ssilang.language.vocabulary import words_of
 from ssilang.messages import message
+from ssilang.messages.message import Sentence
 from ssilang.resources import resource
 
 _OR = {"en": " or ", "fr": " ou "}
-_ANY = {"en": "an object", "fr": "un objet"}
-
-
-_CALLED = {"en": "called by {name} at", "fr": "appelé par {name},"}
 _SHORT_LIKE = 0.6  # names of components have two letters: one slip is a third
 _LETTERS = 4  # that an operator goes by
 _LINE_SHOWN = 160  # characters of a source line
 _CALLS_SHOWN = 4  # at each end of the chain
 _INDICES_SHOWN = 20
-_KINDS = {
-    "error": {"en": "error", "fr": "erreur"},
-    "warning": {"en": "warning", "fr": "avertissement"},
-}
+
+
+_KINDS = {"error": "label-error", "warning": "label-warning"}
 
 
 class _Data(dict[str, Any]):
@@ -79,7 +75,8 @@ def _calls(calls: list[tuple[str, Span]], language: str) -> list[str]:
     lines = []
     for name, span in calls:
         line, column = span.source.position(span.start)
-        lines.append(f"  {_CALLED[language].format(name=name)} {span.source.name}:{line}:{column}")
+        called = message.sentence("called-by", {"name": name}, language)
+        lines.append(f"  {called} {span.source.name}:{line}:{column}")
     if len(lines) <= 2 * _CALLS_SHOWN:
         return lines
     count = len(lines) - 2 * _CALLS_SHOWN
@@ -102,20 +99,15 @@ def _held_hint(data: dict[str, Any], language: str) -> str:
     """Says that an operator ran because the value of a name or an entry is its name."""
     if "held_word" not in data:
         return ""
-    text = {
-        "en": "'{0}', the value of {1}, names an operator, which ran: MOT {1} takes it as a word, "
-        "EGA {1} 'OTHER' compares it",
-        "fr": "'{0}', la valeur de {1}, nomme un opérateur, exécuté : MOT {1} le prend comme mot, "
-        "EGA {1} 'AUTRE' le compare",
-    }
-    return text[language].format(*data["held_word"])
+    word, holder = data["held_word"]
+    return message.sentence("held-word", {"word": word, "holder": holder}, language)
 
 
 def _label(error: SsiError, language: str) -> str:
     number = message.find(error.code).number
     if error.code == "erre" or error.code.startswith("stdlib."):  # what ERRE gives
         number = int(str(error.data.get("number", 0)))
-    kind = _KINDS[error.severity][language]
+    kind = message.sentence(_KINDS[error.severity], {}, language)
     return f"{kind} {number}" if number else kind
 
 
@@ -158,7 +150,7 @@ def _derived(error: SsiError, language: str, names: Iterable[str]) -> dict[str, 
     if "words" in data and isinstance(data["words"], list):
         made["words_text"] = join.join(f"'{w}'" for w in data["words"][:12])
     if data.get("found") and error.code == "missing-keyword":
-        made["found_word"] = {"en": ", found ", "fr": ", trouvé "}[language] + str(data["found"])
+        made["found_word"] = Sentence("found-word", found=data["found"])
     if error.code == "wrong-argument":
         made["found_text"] = _found(data, language)
     if error.code == "not-a-table":
@@ -168,18 +160,18 @@ def _derived(error: SsiError, language: str, names: Iterable[str]) -> dict[str, 
     if error.code == "excess" and data.get("name"):
         made["named"] = f" ({data['name']})"
     if data.get("found") == "nothing":
-        made["found"] = {"en": "nothing", "fr": "rien"}[language]
+        made["found"] = Sentence("nothing")
     if data.get("wanted"):
-        made["wanted_text"] = {"en": " of type ", "fr": " de type "}[language] + str(data["wanted"])
+        made["wanted_text"] = Sentence("of-type", wanted=data["wanted"])
     if data.get("before"):
-        before = {"en": "; it ends behind a word, here {}", "fr": " ; un mot l'arrête, ici {}"}
-        made["before_text"] = before[language].format(data["before"])
+        made["before_text"] = Sentence("ended-by-word", before=data["before"])
     if data.get("bare") and error.code == "wrong-argument" and "held_word" not in data:
-        made["bare_hint"] = _bare_hint(str(data["value"]), language, names)
+        word = str(data["value"])
+        made["bare_hint"] = Sentence("bare-word", word=word, near=nearest(word, names))
     if data.get("found") in ("ENTIER", "FLOTTANT") and "POINT" in _expected(data):
-        made["point_hint"] = _POINT_HINT[language]
+        made["point_hint"] = Sentence("point-in-parentheses")
     if data.get("quoted"):
-        made["keyword_hint"] = _keyword_hint(data, language)
+        made["keyword_hint"] = _keyword_hint(data)
     if _expected(data) == ["MOT"] and data.get("name") and error.code == "wrong-argument":
         made["word_hint"] = hints.word_hint(str(data["name"]))
     made["near_hint"] = _near_hint(data, language, names)
@@ -187,10 +179,10 @@ def _derived(error: SsiError, language: str, names: Iterable[str]) -> dict[str, 
     made["no_result_hint"] = hints.no_result_hint(data)
     made["comment_hint"] = hints.comment_hint(_text_from(error.span))
     made["syntax_hint"] = _syntax_hint(data)
-    made["known_hint"] = _known_hint(data, language)
+    made["known_hint"] = _known_hint(data)
     if "index" in data:
         made["index"] = _shown_index(data["index"])
-    made["inside_text"] = _inside(data, language)
+    made["inside_text"] = _inside(data)
     return made
 
 
@@ -202,11 +194,10 @@ def _text_from(span: Span | None) -> str:
 def _types_text(types: list[str], language: str) -> str:
     """Expected types as a phrase: 'a RIGIDITE', 'an ENTIER or a FLOTTANT', 'one of A, B or C'."""
     if types == [ANY]:
-        return _ANY[language]
+        return message.sentence("any-object", {}, language)
     if len(types) <= 2:
         return _OR[language].join(_article(t, language) for t in types)
-    head = {"en": "one of ", "fr": "l'un des types "}[language]
-    return head + ", ".join(types[:-1]) + _OR[language] + types[-1]
+    return message.sentence("one-of-types", {"types": types}, language)
 
 
 def _article(kind: str, language: str) -> str:
@@ -215,26 +206,12 @@ def _article(kind: str, language: str) -> str:
     return f"an {kind}" if kind[0] in "AEIO" else f"a {kind}"
 
 
-_POINT_HINT = {
-    "en": "a point inside a phrase is written in parentheses: (0. 1.)\n",
-    "fr": "un point dans une phrase s'écrit entre parenthèses : (0. 1.)\n",
-}
-
-
 def _expected(data: dict[str, object]) -> list[str]:
     expected = data.get("expected")
     return expected if isinstance(expected, list) else []
 
 
-def _bare_hint(word: str, language: str, names: Iterable[str]) -> str:
-    near = nearest(word, names)
-    question = {"en": " (did you mean {}?)", "fr": " (vouliez-vous dire {} ?)"}[language]
-    ask = question.format(near) if near else ""
-    text = {"en": "{} was never given a value{}\n", "fr": "{} n'a jamais reçu de valeur{}\n"}
-    return text[language].format(word, ask)
-
-
-def _keyword_hint(data: dict[str, object], language: str) -> str:
+def _keyword_hint(data: dict[str, object]) -> hints.Hint:
     """A quoted word of the phrase that is nearly a keyword of its operator."""
     found = find_operator(str(data.get("operator", "")))
     quoted = data.get("quoted")
@@ -248,11 +225,7 @@ def _keyword_hint(data: dict[str, object], language: str) -> str:
             continue
         near = nearest(word, keywords) or nearest(word, others, _SHORT_LIKE)
         if near:
-            text = {
-                "en": "'{}' is no keyword of {}: did you mean '{}'?\n",
-                "fr": "'{}' n'est pas un mot-clé de {} : vouliez-vous dire '{}' ?\n",
-            }[language]
-            return text.format(word, found.name.strip(), near)
+            return Sentence("no-keyword", word=word, operator=found.name.strip(), near=near)
     return ""
 
 
@@ -276,11 +249,8 @@ def _near_hint(data: dict[str, object], language: str, names: Iterable[str]) -> 
     if known and not (near and len(word) > _LETTERS):
         return known
     if near:
-        return {"en": f"did you mean {near}?", "fr": f"vouliez-vous dire {near} ?"}[language]
-    return {
-        "en": f"give it a value first ({word} = ... ;), or see the operators with `ssilang help`",
-        "fr": f"donnez-lui d'abord une valeur ({word} = ... ;), ou voyez `ssilang help`",
-    }[language]
+        return Sentence("did-you-mean", near=near)
+    return Sentence("give-a-value", word=word)
 
 
 def elsewhere(word: str, language: str) -> str:
@@ -288,17 +258,11 @@ def elsewhere(word: str, language: str) -> str:
     found = find_cast3m_word(word)
     if found is None or find_operator(found.name) is not None:
         return ""
-    english, french = SUBJECTS[found.subject]
-    kind = {"operator": "opérateur", "procedure": "procédure"}[found.kind]
+    data = {"name": found.name, "operator": found.kind == "operator"}
     if found.subject == IN_SCOPE:
-        return {
-            "en": f"{found.name} is a Cast3M {found.kind} that ssilang does not have",
-            "fr": f"{found.name} est un mot de Cast3M ({kind}) que ssilang n'a pas",
-        }[language]
-    return {
-        "en": f"{found.name} is a Cast3M {found.kind} ({english}), out of ssilang's scope",
-        "fr": f"{found.name} est un mot de Cast3M ({kind}, {french}), hors du champ de ssilang",
-    }[language]
+        return message.sentence("not-built", data, language)
+    data["subject"] = SUBJECTS[found.subject][language == "fr"]
+    return message.sentence("out-of-scope", data, language)
 
 
 def _syntax_hint(data: dict[str, object]) -> str:
@@ -312,18 +276,16 @@ def _syntax_hint(data: dict[str, object]) -> str:
     return next((line for line in lines for w in quoted if f"'{w[:4]}" in line), lines[0])
 
 
-def _known_hint(data: dict[str, object], language: str) -> str:
+def _known_hint(data: dict[str, object]) -> hints.Hint:
     known = data.get("known")
     if not isinstance(known, list):
         return ""
     near = nearest(str(data.get("index")), [k for k in known if isinstance(k, str)])
     if near:
-        return {"en": f"did you mean '{near}'?", "fr": f"vouliez-vous dire '{near}' ?"}[language]
+        return Sentence("did-you-mean", near=f"'{near}'")
     shown = ", ".join(_shown_index(k) for k in known[:_INDICES_SHOWN])
     more = f" ... {_shown_index(known[-1])}" if len(known) > _INDICES_SHOWN else ""
-    text = {"en": "its indices are: ", "fr": "ses indices sont : "}[language]
-    empty = {"en": "it is empty", "fr": "elle est vide"}[language]
-    return text + shown + more if known else empty
+    return Sentence("indices-known", known=shown + more)
 
 
 def _shown_index(index: object) -> str:
@@ -333,12 +295,8 @@ def _shown_index(index: object) -> str:
     return type_of(index)
 
 
-def _inside(data: dict[str, object], language: str) -> str:
+def _inside(data: dict[str, object]) -> hints.Hint:
     if not data.get("inside"):
         return ""
     where = f"{data['inside']} {data.get('inside_name', '')}".strip()
-    line = data.get("line")
-    return {
-        "en": f"; the innermost open block is {where} of line {line}",
-        "fr": f" ; le bloc ouvert le plus intérieur est {where}, ligne {line}",
-    }[language]
+    return Sentence("innermost-block", where=where, line=data.get("line"))

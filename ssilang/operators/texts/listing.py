@@ -72,14 +72,24 @@ def _text(value: Texte, short: bool, say: Teller) -> str:
 
 
 @listing("LISTREEL")
-def _reals(value: ListReel, short: bool, say: Teller, per_line: int = 10) -> str:
+def _reals(value: ListReel, short: bool, say: Teller) -> str:
+    return say_reals(value, short, say, 10)
+
+
+def say_reals(value: ListReel, short: bool, say: Teller, per_line: int) -> str:
+    """The numbers of a list, so many in a line."""
     rows = _rows([f" {real(v)}" for v in value.values.tolist()], per_line)
     head = say("operators.texts.reals", count=len(value), full=not short)
     return head if short else "\n".join([head, *rows])
 
 
 @listing("LISTENTI")
-def _integers(value: ListEnti, short: bool, say: Teller, per_line: int = 20) -> str:
+def _integers(value: ListEnti, short: bool, say: Teller) -> str:
+    return say_integers(value, short, say, 20)
+
+
+def say_integers(value: ListEnti, short: bool, say: Teller, per_line: int) -> str:
+    """The numbers of a list, so many in a line."""
     rows = _rows([f" {v:7d}" for v in value.values.tolist()], per_line)
     head = say("operators.texts.integers", count=len(value), full=not short)
     return head if short else "\n".join([head, *rows])
@@ -240,11 +250,11 @@ def _procedure_lines(value: Procedure, first: int, last: int, say: Teller) -> st
 
 
 def _reals_by(value: ListReel, per_line: int, _: int, say: Teller) -> str:
-    return _reals(value, False, say, per_line)
+    return say_reals(value, False, say, per_line)
 
 
 def _integers_by(value: ListEnti, per_line: int, _: int, say: Teller) -> str:
-    return _integers(value, False, say, per_line)
+    return say_integers(value, False, say, per_line)
 
 
 def _table_within(value: Table, depth: int, _: int, say: Teller) -> str:
