@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.modal.link_laws import link_forces
@@ -54,43 +54,37 @@ class LinkForces:
             return f, fq, fv
         steps = [SMALL * max(float(np.abs(x).max(initial=0.0)), 1e-9) for x in (q, v)]
         sample_links(
-            np.ascontiguousarray(q), np.ascontiguousarray(v), steps[0], steps[1], k.kinds,
-            k.receives, k.sees, k.numbers, k.law_sizes, k.laws, k.conditions, STATES, RECORDS,
-            f, fq, fv,
+            np.ascontiguousarray(q), np.ascontiguousarray(v), (steps[0], steps[1]), k, f, fq, fv,
         )  # fmt: skip
         return f, fq, fv
 
 
 @compiled
 def sample_links(
-    q: FloatArray, v: FloatArray, dq: float, dv: float, kinds: IntArray, receives: FloatArray,
-    sees: FloatArray, numbers: FloatArray, law_sizes: IntArray, laws: FloatArray,
-    conditions: IntArray, states: int, records: int, f: FloatArray, fq: FloatArray,
-    fv: FloatArray,
+    q: FloatArray, v: FloatArray, steps: tuple[float, float], links: LinkArrays,
+    f: FloatArray, fq: FloatArray, fv: FloatArray,
 ) -> None:  # fmt: skip
-    """Fill f, fq and fv: central differences, one instant after the other."""
+    """Fill f, fq and fv: central differences by `steps` of q and v, an instant after the other."""
     count, n = q.shape
     up, down = np.zeros(n), np.zeros(n)
-    state, record = np.zeros((len(kinds), states)), np.zeros((len(kinds), records))
+    state = np.zeros((len(links.kinds), STATES))
+    record = np.zeros((len(links.kinds), RECORDS))
     for i in range(count):
         x, y = q[i].copy(), v[i].copy()
         state[:] = 0.0
-        link_forces(x, y, 0.0, kinds, receives, sees, numbers, law_sizes, laws, conditions, state,
-                    record, up)  # fmt: skip
+        link_forces(x, y, 0.0, links, state, record, up)
         f[i] = up
         for j in range(n):
             for which in range(2):
                 moved = x if which == 0 else y
-                h = dq if which == 0 else dv
+                h = steps[which]
                 old = moved[j]
                 moved[j] = old + h
                 state[:] = 0.0
-                link_forces(x, y, 0.0, kinds, receives, sees, numbers, law_sizes, laws, conditions,
-                            state, record, up)  # fmt: skip
+                link_forces(x, y, 0.0, links, state, record, up)
                 moved[j] = old - h
                 state[:] = 0.0
-                link_forces(x, y, 0.0, kinds, receives, sees, numbers, law_sizes, laws, conditions,
-                            state, record, down)  # fmt: skip
+                link_forces(x, y, 0.0, links, state, record, down)
                 moved[j] = old
                 for m in range(n):
                     slope = (up[m] - down[m]) / (2.0 * h)

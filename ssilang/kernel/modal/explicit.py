@@ -72,7 +72,15 @@ def march(
     KernelError
         For a singular mass, a step too long for the scheme, or a run that diverges.
     """
-    from ssilang.kernel.modal.explicit_loops import de_vogelaere, newmark
+    from ssilang.kernel.modal.explicit_loops import (
+        Loads,
+        Motion,
+        Plan,
+        Saved,
+        System,
+        de_vogelaere,
+        newmark,
+    )
 
     if h <= 0.0 or steps < 1 or every < 1:
         raise KernelError("kernel.modal.step-numbers-steps-must")
@@ -87,18 +95,18 @@ def march(
     before = np.zeros(n) if start.before is None else start.before.copy()
     q_before = np.zeros(n) if start.q_before is None else start.q_before.copy()
     q, v = start.q.copy(), start.v.copy()
-    given = (
-        spaces, amplitudes, start.time, h, steps, every,
-        links.kinds, links.receives, links.sees, links.numbers, links.law_sizes, links.laws,
-        links.conditions, state, q, v, before, q_before, has_before, values, records,
-    )  # fmt: skip
+    loads, beta = Loads(spaces, amplitudes), BETA.get(scheme, 0.0)
+    plan = Plan(start.time, h, steps, every, beta)
+    motion = Motion(q, v, before, q_before, has_before, state)
+    inverse = _inverse(M)
     if scheme == "DE_VOGELAERE":
-        full, half = _inverse(M + h / 6.0 * C), _inverse(M + 5.0 * h / 24.0 * C)
-        de_vogelaere(_inverse(M), half, full, C, K, *given)
+        half, full = _inverse(M + 5.0 * h / 24.0 * C), _inverse(M + h / 6.0 * C)
+        system = System(inverse, half, full, C, K)
+        de_vogelaere(system, loads, plan, links, motion, Saved(values, records))
     else:
-        beta = BETA[scheme]
-        system = _inverse(M + 0.5 * h * C + beta * h * h * K)
-        newmark(_inverse(M), system, C, K, beta, *given)
+        full = _inverse(M + 0.5 * h * C + beta * h * h * K)
+        system = System(inverse, full, full, C, K)
+        newmark(system, loads, plan, links, motion, Saved(values, records))
     if not np.isfinite(values).all():
         raise KernelError("kernel.modal.run-diverges")
     times = start.time + h * every * np.arange(saved, dtype=np.float64)

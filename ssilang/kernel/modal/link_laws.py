@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.modal.links import (
     A0,
@@ -50,6 +50,7 @@ from ssilang.kernel.modal.links import (
     VT,
     WEAR,
     XP,
+    LinkArrays,
     X,
 )
 
@@ -184,34 +185,40 @@ def friction(
 
 @compiled
 def contact(
-    kind: int, x: FloatArray, v: FloatArray, t: float, row: FloatArray, law: FloatArray,
-    size: int, s: FloatArray, f: FloatArray, record: FloatArray,
+    links: LinkArrays, i: int, x: FloatArray, v: FloatArray, t: float, s: FloatArray,
+    f: FloatArray, record: FloatArray,
 ) -> None:  # fmt: skip
-    """Force of an obstacle, a plane or a circle, on a relative motion; fills `f` and `record`."""
+    """Force of link i, a plane or a circle, on a relative motion; fills `f` and `record`."""
+    kind, row = links.kinds[i], links.numbers[i]
     n = np.empty(3)
     overlap = 0.0
     if kind == PLANE:
-        for i in range(3):
-            n[i] = row[NX + i]
-            overlap += x[i] * n[i]
+        for c in range(3):
+            n[c] = row[NX + c]
+            overlap += x[c] * n[c]
         overlap -= row[GAP]
     else:
         along = x[0] * row[NX] + x[1] * row[NY] + x[2] * row[NZ]
-        for i in range(3):
-            n[i] = x[i] - along * row[NX + i] - row[EX + i]
+        for c in range(3):
+            n[c] = x[c] - along * row[NX + c] - row[EX + c]
         radius = np.sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2])
         sense = -1.0 if row[OUTSIDE] != 0.0 else 1.0
         overlap = sense * (radius - row[GAP])
-        for i in range(3):
-            n[i] = sense * n[i] / radius if radius > 0.0 else 0.0
+        for c in range(3):
+            n[c] = sense * n[c] / radius if radius > 0.0 else 0.0
     rate = v[0] * n[0] + v[1] * n[1] + v[2] * n[2]
-    push = normal_force(overlap, rate, row, law, size, s)
-    for i in range(3):
-        f[i] = -push * n[i]
+    push = normal_force(overlap, rate, row, links.laws[i], links.law_sizes[i], s)
+    for c in range(3):
+        f[c] = -push * n[c]
     record[FN], record[VN] = -push, rate
     record[PLASTIC_PART], record[PLASTIC_SUM] = s[XP], s[CUMULATED]
     if row[FRICTION] != 0.0 and push > 0.0:
-        rub(push, n, x, v, velocity_of_obstacle(kind, n, row), t, row, s, f, record)
+        drive = velocity_of_obstacle(kind, n, row)
+        ft, speed = rub(push, n, x, v, drive, t, row, s)
+        for c in range(3):
+            f[c] += ft[c]
+            record[FT + c] = ft[c]
+        record[VT], record[WEAR] = speed, push * speed
     s[TOUCHES] = 1.0 if push > 0.0 else 0.0
 
 
@@ -230,9 +237,9 @@ def velocity_of_obstacle(kind: int, n: FloatArray, row: FloatArray) -> FloatArra
 @compiled
 def rub(
     push: float, n: FloatArray, x: FloatArray, v: FloatArray, drive: FloatArray, t: float,
-    row: FloatArray, s: FloatArray, f: FloatArray, record: FloatArray,
-) -> None:  # fmt: skip
-    """Add friction to the force of a contact."""
+    row: FloatArray, s: FloatArray,
+) -> tuple[FloatArray, float]:  # fmt: skip
+    """Friction of a contact, (3,), and the speed of sliding."""
     xn = x[0] * n[0] + x[1] * n[1] + x[2] * n[2]
     vn = v[0] * n[0] + v[1] * n[1] + v[2] * n[2]
     xt, vt = np.empty(3), np.empty(3)
@@ -242,11 +249,7 @@ def rub(
     ft = friction(push, xt, vt, drive, t, row, s)
     sliding = row[TANGENT] < 0.0 or s[STICKS] == 0.0
     speed = np.sqrt(vt[0] ** 2 + vt[1] ** 2 + vt[2] ** 2) if sliding else 0.0
-    for i in range(3):
-        f[i] += ft[i]
-        record[FT + i] = ft[i]
-    record[VT] = speed
-    record[WEAR] = push * speed
+    return ft, speed
 
 
 @compiled
@@ -268,12 +271,11 @@ def coupling(kind: int, x: float, v: float, t: float, row: FloatArray) -> float:
 
 @compiled
 def link_forces(
-    q: FloatArray, v: FloatArray, t: float,
-    kinds: IntArray, receives: FloatArray, sees: FloatArray, numbers: FloatArray,
-    law_sizes: IntArray, laws: FloatArray, conditions: IntArray,
+    q: FloatArray, v: FloatArray, t: float, links: LinkArrays,
     state: FloatArray, record: FloatArray, total: FloatArray,
 ) -> None:  # fmt: skip
     """Forces of all links on the modes, into `total` (n,); `state` and `record` are filled."""
+    kinds, receives, sees = links.kinds, links.receives, links.sees
     count, n = receives.shape[0], q.shape[0]
     total[:] = 0.0
     forces = np.zeros((count, 3))
@@ -286,17 +288,18 @@ def link_forces(
             record[i, X + c] = x[c]
         record[i, FN : FORCE + 1] = 0.0
         if kinds[i] <= CIRCLE:
-            contact(kinds[i], x, rate, t, numbers[i], laws[i], law_sizes[i], state[i], forces[i],
-                    record[i])  # fmt: skip
+            contact(links, i, x, rate, t, state[i], forces[i], record[i])
         else:
-            forces[i, 0] = coupling(kinds[i], x[0], rate[0], t, numbers[i])
+            forces[i, 0] = coupling(kinds[i], x[0], rate[0], t, links.numbers[i])
             record[i, FN], record[i, VN] = forces[i, 0], rate[0]
         record[i, FORCE] = np.sqrt(forces[i, 0] ** 2 + forces[i, 1] ** 2 + forces[i, 2] ** 2)
     for i in range(count):
         acts = True
         for k in range(count):
             pushes = record[k, FORCE] > 1e-20
-            if (conditions[i, k] == 1 and not pushes) or (conditions[i, k] == -1 and pushes):
+            if (links.conditions[i, k] == 1 and not pushes) or (
+                links.conditions[i, k] == -1 and pushes
+            ):
                 acts = False
         if acts:
             for c in range(3):

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 
@@ -69,8 +70,7 @@ class Link:
     conditions: dict[int, bool] = field(default_factory=dict)
 
 
-@dataclass(frozen=True, eq=False)
-class LinkArrays:
+class LinkArrays(NamedTuple):
     """Links as arrays: kinds (L,), rows (L, 3, n), numbers (L, COLUMNS), conditions (L, L)."""
 
     kinds: IntArray
