@@ -297,9 +297,8 @@ def link_forces(
         acts = True
         for k in range(count):
             pushes = record[k, FORCE] > 1e-20
-            if (links.conditions[i, k] == 1 and not pushes) or (
-                links.conditions[i, k] == -1 and pushes
-            ):
+            wanted = links.conditions[i, k]
+            if (wanted == 1 and not pushes) or (wanted == -1 and pushes):
                 acts = False
         if acts:
             for c in range(3):

@@ -118,7 +118,8 @@ def test_unit_ductility_gives_the_linear_spectrum_back() -> None:
 
 
 def test_takeda_and_missing_entries_are_said() -> None:
-    result = run_text(SCRIPT + "R = SPON 'SIGN' G1 'SPEL' S1 'ACCE' 'AMOR' X1 'TAKE' (PROG 2. 0.) 'ACCE' ;")
+    text = "R = SPON 'SIGN' G1 'SPEL' S1 'ACCE' 'AMOR' X1 'TAKE' (PROG 2. 0.) 'ACCE' ;"
+    result = run_text(SCRIPT + text)
     assert "Takeda" in result.message
     result = run_text(SCRIPT + "R = SPON 'SIGN' G1 'AMOR' X1 'CINE' (PROG 2. 0.) 'ACCE' 'ACCE' ;")
     assert "SPEL" in result.message
