@@ -7,7 +7,6 @@ Operators register themselves with the decorator `operator`; everything that nee
 from __future__ import annotations
 
 import inspect
-import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal
@@ -532,7 +531,7 @@ def operator(
     terminal: bool = False,
     full_name: str = "",
     gives: str | Sequence[str] | Like | By | None = None,
-    reads_itself: bool | str = False,
+    reads_itself: str = "",
     when: When | None = None,
 ) -> Callable[[Function], Operator]:
     """Decorator that registers an operator with its first form.
@@ -560,8 +559,7 @@ def operator(
 
     def add(function: Function) -> Operator:
         made = shared(name, family, help, aliases=aliases, terminal=terminal, full_name=full_name)
-        by_hand = reads_itself if isinstance(reads_itself, str) else "?" * reads_itself
-        made.form(*entries, gives=gives, by_hand=by_hand, when=when)(function)
+        made.form(*entries, gives=gives, by_hand=reads_itself, when=when)(function)
         return made
 
     return add
@@ -607,13 +605,8 @@ def operators_by_family() -> Mapping[str, list[Operator]]:
 
 
 def keywords_of(found: Operator) -> list[str]:
-    """Keywords that an operator's forms declare, or that the syntax of undeclared ones quotes."""
-    words: set[str] = set()
-    for form in found.forms:
-        if form.entries is None:
-            words.update(re.findall(r"'([A-Z][A-Z0-9_]*) *'", found.help.syntax))
-        words.update(w.strip() for w in words_in(form.entries or ()))
-    return sorted(words)
+    """Keywords that an operator's forms declare."""
+    return sorted({w.strip() for form in found.forms for w in words_in(form.entries or ())})
 
 
 def words_in(entries: Iterable[Entry]) -> Iterator[str]:

@@ -1,6 +1,6 @@
-"""Operators that several families share: one name, a table of what it does by type or by word.
+"""Operators that several families share: one name, forms by the type of an operand or by a word.
 
-A family adds its entry with the decorator `on`; help texts and examples add up.
+A family adds its forms with the decorator `form`; help texts and examples add up.
 """
 
 from __future__ import annotations
@@ -12,12 +12,11 @@ from ssilang.language.registry import (
     ANY,
     OPERATORS,
     Help,
+    Operator,
     arg,
     flag,
-    main,
     operator,
     opt,
-    said,
     shared,
 )
 from ssilang.language.run.call import Call
@@ -27,11 +26,6 @@ from ssilang.messages.message import Teller
 
 if TYPE_CHECKING:
     from ssilang.language.text.source import Span
-
-Entry = Callable[[Call, Any], Any]
-
-UNDECLARED = "?"
-"""Reason of a form that nobody has declared yet."""
 
 
 def extend_help(name: str, syntax: str, en: str, fr: str, examples: tuple[str, ...]) -> None:
@@ -46,82 +40,21 @@ def extend_help(name: str, syntax: str, en: str, fr: str, examples: tuple[str, .
     )
 
 
-class Shared:
+def shared_operator(
+    name: str,
+    family: str,
+    en: str,
+    fr: str,
+    full_name: str = "",
+    terminal: bool = False,
+    examples: tuple[str, ...] = (),
+) -> Operator:
     """An operator whose forms stand in several families; `form` adds one (see `Operator.form`)."""
-
-    def __init__(
-        self,
-        name: str,
-        family: str,
-        en: str,
-        fr: str,
-        full_name: str = "",
-        terminal: bool = False,
-        length: int = 4,
-        examples: tuple[str, ...] = (),
-    ) -> None:
-        self.name = name
-        self.length = length
-        help = Help(en, fr, examples=examples)
-        self.operator = shared(name, family, help, full_name=full_name, terminal=terminal)
-        self.form = self.operator.form
+    help = Help(en, fr, examples=examples)
+    return shared(name, family, help, full_name=full_name, terminal=terminal)
 
 
-class ByType(Shared):
-    """One whose work depends on the type of its main operand."""
-
-    def on(
-        self,
-        *types: str,
-        syntax: str = "",
-        en: str = "",
-        fr: str = "",
-        examples: tuple[str, ...] = (),
-    ) -> Callable[[Entry], Entry]:
-        """Decorator: `(call, value)`, read by hand, for main operands of the types."""
-        return self.form(
-            main("value", *types), syntax=syntax, en=en, fr=fr, examples=examples,
-            by_hand=UNDECLARED,
-        )  # fmt: skip
-
-
-class ByWord(Shared):
-    """One whose work depends on the keyword that follows it."""
-
-    def on(
-        self,
-        *words: str,
-        of: tuple[str, ...] = (),
-        syntax: str = "",
-        en: str = "",
-        fr: str = "",
-        examples: tuple[str, ...] = (),
-    ) -> Callable[[Entry], Entry]:
-        """Decorator: a function `(call, word)` that reads by hand, for keywords (in full).
-
-        With `of`, for operands of these types only: several families may share a keyword.
-        """
-        entries = (said(*words, length=self.length),) if words != ("",) else ()
-        return self.form(
-            *entries, of=of, syntax=syntax, en=en, fr=fr, examples=examples, by_hand=UNDECLARED
-        )
-
-    def on_type(
-        self,
-        *types: str,
-        syntax: str = "",
-        en: str = "",
-        fr: str = "",
-        examples: tuple[str, ...] = (),
-    ) -> Callable[[Entry], Entry]:
-        """Decorator: a function `(call, value)` that reads by hand, without a keyword."""
-        return self.form(
-            main("value", *types), syntax=syntax, en=en, fr=fr, examples=examples,
-            by_hand=UNDECLARED,
-        )  # fmt: skip
-
-
-EXTR = ByType(
+EXTR = shared_operator(
     "EXTR",
     "objects",
     "Takes a part out of an object.",
@@ -205,7 +138,7 @@ EXTR = ByType(
         ),
     ),
 )
-DIME = ByType(
+DIME = shared_operator(
     "DIME",
     "objects",
     "Number of items of a list, table, word, curve ...",
@@ -223,7 +156,7 @@ DIME = ByType(
     ),
 )
 extend_help("DIME", "ENTI1 = DIME OBJ1 ;", "", "", ("LIST (DIME (PROG 1. 2. 3.)) ;",))
-ENLE = ByType(
+ENLE = shared_operator(
     "ENLE",
     "objects",
     "Removes items; gives a new object.",
@@ -244,7 +177,7 @@ ENLE = ByType(
         ),
     ),
 )
-REDU = ByType(
+REDU = shared_operator(
     "REDU",
     "fields",
     "Restricts an object to a smaller support.",
@@ -265,7 +198,7 @@ REDU = ByType(
         ("N = NUAG 'COMP' 'X' 0. 1. 2. 'COMP' 'Y' 5. 6. 9. ;\nLIST (DIME (REDU N 'Y') 'COMP') ;"),
     ),
 )
-MANU = ByWord(
+MANU = shared_operator(
     "MANU",
     "objects",
     "Makes an object from its parts, named by a keyword.",
@@ -285,7 +218,7 @@ MANU = ByWord(
         ),
     ),
 )
-CHAN = ByWord(
+CHAN = shared_operator(
     "CHAN",
     "objects",
     "Changes an object in a way named by a keyword.",
@@ -333,7 +266,7 @@ CHAN = ByWord(
         ),
     ),
 )
-MAXI = ByType(
+MAXI = shared_operator(
     "MAXI",
     "fields",
     "Largest value of a list, field or curve.",
@@ -349,7 +282,7 @@ MAXI = ByType(
         ),
     ),
 )
-MINI = ByType(
+MINI = shared_operator(
     "MINI",
     "fields",
     "Smallest value of a list, field or curve.",
@@ -366,7 +299,7 @@ MINI = ByType(
         ),
     ),
 )
-COPI = ByType(
+COPI = shared_operator(
     "COPI",
     "objects",
     "Copy of an object.",
@@ -381,7 +314,7 @@ COPI = ByType(
         ),
     ),
 )
-ORDO = ByType(
+ORDO = shared_operator(
     "ORDO",
     "objects",
     "Sorts the items of an object.",
@@ -401,9 +334,9 @@ ORDO = ByType(
     ),
 )
 
-COUL = ByType("COUL", "objects", "Gives a colour.", "Attribue une couleur.", "COULEUR")
-INVE = ByType("INVE", "objects", "Inverts an object.", "Inverse un objet.", "INVERSE")
-UNIQ = ByType(
+COUL = shared_operator("COUL", "objects", "Gives a colour.", "Attribue une couleur.", "COULEUR")
+INVE = shared_operator("INVE", "objects", "Inverts an object.", "Inverse un objet.", "INVERSE")
+UNIQ = shared_operator(
     "UNIQ",
     "objects",
     "Removes doubles.",
@@ -413,11 +346,11 @@ UNIQ = ByType(
         ("OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (1. 0.) ;\nLIST (NBEL (UNIQ (L ET L))) ;"),
     ),
 )
-INTG = ByType(
+INTG = shared_operator(
     "INTG", "fields", "Integral of a field or a curve.", "Intégrale d'un champ ou d'une évolution."
 )
 
-PSCA = ByType(
+PSCA = shared_operator(
     "PSCA",
     "fields",
     "Scalar product.",
@@ -432,7 +365,7 @@ PSCA = ByType(
         ),
     ),
 )
-PVEC = ByType(
+PVEC = shared_operator(
     "PVEC",
     "fields",
     "Vector product.",
@@ -457,7 +390,7 @@ PVEC = ByType(
         ),
     ),
 )
-COOR = ByType(
+COOR = shared_operator(
     "COOR",
     "mesh",
     "Coordinates of what an object stands on.",
@@ -490,14 +423,14 @@ COOR = ByType(
         ),
     ),
 )
-DIFF = ByType(
+DIFF = shared_operator(
     "DIFF",
     "objects",
     "What belongs to one of two objects only (symmetric difference).",
     "Ce qui n'appartient qu'à l'un de deux objets (différence symétrique).",
     "DIFFERENCE",
 )
-INTE = ByType(
+INTE = shared_operator(
     "INTE",
     "objects",
     "What is common to two objects.",

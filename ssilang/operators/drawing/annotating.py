@@ -8,12 +8,12 @@ from ssilang.kernel.mesh.mesh import Point
 from ssilang.language.registry import arg, many, opt, said
 from ssilang.language.run.call import Call
 from ssilang.language.values import register_type
-from ssilang.operators.dispatch import Shared, union
+from ssilang.operators.dispatch import shared_operator, union
 from ssilang.operators.drawing.objects import is_colour
 
 register_type(Annotation, "ANNOTATI")
 
-ANNO = Shared(
+ANNO = shared_operator(
     "ANNO",
     "drawing",
     "Makes texts that TRAC adds to a picture; ET puts several together.",

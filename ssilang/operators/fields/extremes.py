@@ -11,10 +11,22 @@ from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.language.registry import Help, arg, by, choice, flag, key, main, many, operator, opt
+from ssilang.language.registry import (
+    Help,
+    Operator,
+    arg,
+    by,
+    choice,
+    flag,
+    key,
+    main,
+    many,
+    operator,
+    opt,
+)
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots, ListReel
-from ssilang.operators.dispatch import MAXI, MINI, Shared
+from ssilang.operators.dispatch import MAXI, MINI
 
 Numbers = ListReel | ListEnti
 Choices = list[tuple[str, ListMots | str]]
@@ -122,7 +134,7 @@ _CHOSEN = key(
 )
 
 
-def _add_forms(operator: Shared, largest: bool, en: str, fr: str) -> None:
+def _add_forms(operator: Operator, largest: bool, en: str, fr: str) -> None:
     name = operator.name
     operator.form(
         main("value", "ENTIER", "FLOTTANT", en="first number", fr="premier nombre"),

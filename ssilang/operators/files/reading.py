@@ -23,11 +23,11 @@ from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
 from ssilang.language.text.tree import Definition
 from ssilang.language.values import ListReel, Mot, Procedure, Table
-from ssilang.operators.dispatch import Shared
+from ssilang.operators.dispatch import shared_operator
 from ssilang.operators.files.outputs import input_path, option_name, run_output
 from ssilang.operators.workspace import workspace
 
-LIRE = Shared(
+LIRE = shared_operator(
     "LIRE",
     "files",
     "Reads a file below the script's folder or the output folder.",

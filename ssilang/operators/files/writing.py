@@ -11,11 +11,11 @@ from ssilang.language.registry import Chosen, arg, choice, key, lead, many, opt,
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Check
 from ssilang.language.values import ListEnti, ListMots, ListReel, Table
-from ssilang.operators.dispatch import Shared
+from ssilang.operators.dispatch import shared_operator
 from ssilang.operators.files.outputs import option_name, output_path, run_output
 from ssilang.operators.texts.words import TEXT, TEXT_IS_FREE, read_text
 
-SORT = Shared(
+SORT = shared_operator(
     "SORT",
     "files",
     "Writes objects to the file that OPTI SORT names (fort.7 if it names none), in the output "
