@@ -443,8 +443,9 @@ class Operator:
 
     @property
     def help(self) -> Help:
-        """What is said of the operator and of each form, one after the other."""
-        helps = (self.about, *(f.help for f in self.forms))
+        """What is said of the operator and of each form, by module whatever was imported first."""
+        forms = sorted(self.forms, key=lambda f: f.function.__module__)
+        helps = (self.about, *(f.help for f in forms))
         return Help(
             "\n".join(h.en for h in helps if h.en),
             "\n".join(h.fr for h in helps if h.fr),

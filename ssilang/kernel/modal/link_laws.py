@@ -238,8 +238,8 @@ def velocity_of_obstacle(kind: int, n: FloatArray, row: FloatArray) -> FloatArra
 def rub(
     push: float, n: FloatArray, x: FloatArray, v: FloatArray, drive: FloatArray, t: float,
     row: FloatArray, s: FloatArray,
-) -> tuple[FloatArray, float]:  # fmt: skip
-    """Friction of a contact, (3,), and the speed of sliding."""
+) -> tuple[tuple[float, float, float], float]:  # fmt: skip
+    """Friction of a contact, and the speed of sliding."""
     xn = x[0] * n[0] + x[1] * n[1] + x[2] * n[2]
     vn = v[0] * n[0] + v[1] * n[1] + v[2] * n[2]
     xt, vt = np.empty(3), np.empty(3)
@@ -248,7 +248,7 @@ def rub(
         vt[i] = v[i] - vn * n[i] - drive[i]
     ft = friction(push, xt, vt, drive, t, row, s)
     sliding = row[TANGENT] < 0.0 or s[STICKS] == 0.0
-    speed = np.sqrt(vt[0] ** 2 + vt[1] ** 2 + vt[2] ** 2) if sliding else 0.0
+    speed: float = np.sqrt(vt[0] ** 2 + vt[1] ** 2 + vt[2] ** 2) if sliding else 0.0
     return ft, speed
 
 
