@@ -174,3 +174,14 @@ def test_no_module_rebinds_its_names_while_it_runs():
         if word.search(path.read_text(encoding="utf-8"))
     }
     assert found == GLOBAL_STATE
+
+
+def test_no_file_of_the_package_is_ignored_and_so_left_out_of_the_wheel():
+    files = [str(p.relative_to(_ROOT)) for p in _PACKAGE.rglob("*.py")]
+    asked = subprocess.run(
+        ["git", "check-ignore", "--no-index", "--stdin"],
+        input="\n".join(files), cwd=_ROOT, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    if asked.returncode > 1:
+        pytest.skip("no git checkout")
+    assert asked.stdout == ""
