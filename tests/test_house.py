@@ -20,7 +20,6 @@ DOORS = 20  # files and rooms in a room
 WIDER: dict[str, int] = {  # to be lowered to DOORS, one by one
 }
 SAYS_NOTHING = frozenset({"making", "parts", "more", "items", "derived"})
-NAMED_SO = ("operators",)  # rooms that still have files of such names
 GLOBAL_STATE = {"kernel/solvers/backends.py"}  # the factors kept between runs; see `session.py`
 
 
@@ -145,12 +144,7 @@ def test_wider_rooms_are_listed_with_the_doors_that_they_have():
 
 
 def test_files_are_named_after_what_they_hold():
-    vague = {
-        f"{room}/{name}"
-        for room, doors in _rooms().items()
-        for name in doors & SAYS_NOTHING
-        if not room.startswith(NAMED_SO)
-    }
+    vague = {f"{room}/{name}" for room, doors in _rooms().items() for name in doors & SAYS_NOTHING}
     assert not vague
 
 

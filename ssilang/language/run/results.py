@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from functools import cache
 from typing import Any
 
-from ssilang.language.registry import ANY, By, Form, Like
+from ssilang.language.registry import By, Form, Like
 from ssilang.language.values import known_classes, type_of
 
 Results = tuple[str, ...]
@@ -73,8 +73,3 @@ def _words(note: str) -> tuple[str, ...] | None:
 @cache
 def _type_words() -> Mapping[str, str]:
     return {cls.__name__: word for cls, word in known_classes().items()}
-
-
-def is_open(results: Results | None) -> bool:
-    """Whether something of the results is not known before the run."""
-    return results is None or any(ANY in r or "|" in r for r in results)

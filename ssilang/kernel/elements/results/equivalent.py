@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import FieldError
+from ssilang.kernel.elements.beams.pipe import pipe_parameters
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.families import family_of
-from ssilang.kernel.elements.beams.pipe import pipe_parameters
 from ssilang.kernel.elements.results.tensors import components_at_home
 from ssilang.kernel.elements.zone_fields import zone_field
-from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.fields.cell_field import CellField, Support
-from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.materials.model import Zone
 
 # force, distance that makes a stress of it, section constant

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
+from ssilang.kernel.elements.results.tensors import as_components, tensor
+from ssilang.kernel.elements.shapes.reference import shape_functions
 from ssilang.kernel.elements.shells.mindlin import quadrangle_frames
 from ssilang.kernel.elements.shells.plate import plate_frames
-from ssilang.kernel.elements.shapes.reference import shape_functions
 from ssilang.kernel.elements.solids.solid import kinematics
 from ssilang.kernel.elements.solids.solid_moduli import material_axes
-from ssilang.kernel.elements.results.tensors import as_components, tensor
 from ssilang.kernel.elements.zone_fields import zone_field
-from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
-from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.materials.model import Zone
 
 

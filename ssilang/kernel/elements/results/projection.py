@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.results.frames import points_of
 from ssilang.kernel.elements.shapes.geometry import cell_geometry
 from ssilang.kernel.elements.shapes.quadrature import Rule, quadrature
 from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS
-from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
+from ssilang.kernel.materials.model import Mode, Model
 from ssilang.kernel.matrices.location import locate
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.materials.model import Mode, Model
 
 
 def _interpolated(

@@ -6,11 +6,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from ssilang.kernel.elements.zone_fields import cell_rows, zone_field
 from ssilang.kernel.base.errors import FieldError
+from ssilang.kernel.elements.zone_fields import cell_rows, zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
-from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.materials.model import Model, Zone
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 
 
 def model_on_mesh(model: Model, mesh: Mesh) -> Model:

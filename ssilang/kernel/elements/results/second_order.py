@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.beams.bar import bar_stretch
 from ssilang.kernel.elements.boundary import is_solid
@@ -9,7 +10,6 @@ from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.solids.gradients import second_order_strain
 from ssilang.kernel.elements.zone_fields import zone_field
-from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Zone

@@ -6,10 +6,10 @@ from collections.abc import Iterable
 
 import numpy as np
 
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.zone_fields import zone_field
-from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.fields.cell_field import CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Zone

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.beams.beam_frame import kept_rows
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.results.tensors import components_at_home
 from ssilang.kernel.elements.zone_fields import zone_field
-from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
-from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.materials.model import Zone
 
 SIDES = {"SUPE": 1.0, "MOYE": 0.0, "INFE": -1.0}

@@ -13,18 +13,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.beams.beam_frame import beam_frame
 from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.family import Layout
+from ssilang.kernel.elements.shapes.reference import shape_gradients
 from ssilang.kernel.elements.shells.mindlin import quadrangle_frames
 from ssilang.kernel.elements.shells.plate import plate_frames
-from ssilang.kernel.elements.shapes.reference import shape_gradients
 from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
-from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.materials.model import Mode, Zone
 
 LINES = ("beam", "timoshenko", "pipe", "bar")

@@ -6,16 +6,16 @@ from typing import Literal
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
 from ssilang.kernel.elements.shapes.reference import shape_functions
 from ssilang.kernel.elements.zone_fields import carry, zone_field
-from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
-from ssilang.kernel.mesh.mesh import CellBlock, Mesh
-from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.materials.model import Model, Zone
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh
+from ssilang.kernel.mesh.nodes import NodeTable
 
 
 def moved(model: Model, field: CellField, target: Support, title: str | None = None) -> CellField:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.solids.gradients import PAIRS
 from ssilang.kernel.elements.solids.solid import kinematics
 from ssilang.kernel.elements.zone_fields import carry, zone_field
-from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.fields.cell_field import CellField, Support
-from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.materials.model import Mode, Zone
 
 PRINCIPAL = tuple(f"SI{i}{i}" for i in (1, 2, 3)) + tuple(

@@ -3,22 +3,33 @@
 import numpy as np
 import pytest
 
+from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.catalog import support_rule
 from ssilang.kernel.elements.family import cell_block
-from ssilang.kernel.elements.solids.gradients import gradient_names, gradient_values, logarithmic_strain
+from ssilang.kernel.elements.loads.thermal import thermal_strain
 from ssilang.kernel.elements.results.integrals import integrals
 from ssilang.kernel.elements.results.reduction import field_on_mesh, field_on_model, model_on_mesh
 from ssilang.kernel.elements.results.second_order import green_strain
 from ssilang.kernel.elements.results.supports import cells_of_nodal, moved, nodal_of_cells
-from ssilang.kernel.elements.results.tensors import PRINCIPAL, as_tensor, invariants, principal, tresca, von_mises
-from ssilang.kernel.elements.loads.thermal import thermal_strain
+from ssilang.kernel.elements.results.tensors import (
+    PRINCIPAL,
+    as_tensor,
+    invariants,
+    principal,
+    tresca,
+    von_mises,
+)
+from ssilang.kernel.elements.solids.gradients import (
+    gradient_names,
+    gradient_values,
+    logarithmic_strain,
+)
 from ssilang.kernel.elements.zone_fields import zone_field
-from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
-from ssilang.kernel.materials.model import Mode, Model, Zone
 from tests.kernel.elements.samples import ELASTIC, PLANE, SPACE, cell_zone, field, material
 
 
