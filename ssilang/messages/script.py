@@ -342,10 +342,9 @@ HINTS: dict[str, tuple[str, str]] = {
     ),
     "kernel.statics.no-equilibrium-full-uplift": (
         "less eccentric loads, a support, or a dynamic calculation; if the loads press, the "
-        "joint's sides are swapped: RACC and LIAI take the structure's first",
+        "joint's sides are swapped: RACC (INVE GEO1) GEO2 turns it round",
         "un chargement moins excentré, un appui, ou un calcul dynamique ; si le chargement "
-        "presse, les côtés du joint sont inversés : RACC et LIAI prennent d'abord celui de "
-        "la structure",
+        "presse, les côtés du joint sont inversés : RACC (INVE GEO1) GEO2 le retourne",
     ),
     "kernel.stepping.motions-without-mass": (
         "not held: {free}{more:? and {more} more}; hold it with BLOQ or RELA{apart:?; "
