@@ -219,7 +219,8 @@ def test_entries_of_dynamic_choose_the_scheme(entry, tmp_path):
     C = MANU 'RIGI' 'TYPE' 'AMORTISSEMENT' P (MOTS 'UX' 'UY') (PROG {DASHPOT} 0. 0. 0.) ;
     T1 = TABL ; T1 . 'RIGI' = K ; T1 . 'MASS' = M ; T1 . 'AMOR' = C ;
     T1 . 'DEPL' = MANU 'CHPO' P 1 'UX' 0.02 ; T1 . 'VITE' = MANU 'CHPO' P 1 'UX' -0.7 ;
-    T1 . 'TEMPS_CALCULES' = PROG 0. 'PAS' 0.01 0.5 ; T1 . '{name}' = {value} ; T1 . 'PAS_SAUVES' = 1 ;
+    T1 . 'TEMPS_CALCULES' = PROG 0. 'PAS' 0.01 0.5 ;
+    T1 . '{name}' = {value} ; T1 . 'PAS_SAUVES' = 1 ;
     T2 = DYNAMIC T1 ;
     U = EXTR (EVOL 'TEMP' T2 'DEPL' 'UX' P) 'ORDO' ;
     """
