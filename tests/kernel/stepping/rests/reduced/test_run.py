@@ -151,6 +151,35 @@ def test_the_next_motion_finds_the_basis(monkeypatch):
     assert second.reduction.vectors == first.reduction.vectors
 
 
+def test_a_basis_kept_for_loads_at_other_places_is_not_taken(monkeypatch):
+    """A push on the far edge of the soil, which the first basis has never seen."""
+    problem = soil_block(steps=100)
+    integrate_reduced(problem, 1e-4)
+    forces = problem.loading.forces.copy()
+    far = int(np.flatnonzero(problem.constraints.T.sum(axis=1))[-3])
+    forces[:, 1] = 0.0
+    forces[far, 1] = 2e4
+    other = replace(problem, loading=replace(problem.loading, forces=forces))
+    whole, _, reduced, history = both(other, 1e-4)
+    assert history.loop == "reduced"
+    alone = Recorder(101)
+    _PAIRS.clear()
+    integrate_reduced(other, 1e-4, [alone])
+    np.testing.assert_array_equal(reduced.of("u"), alone.of("u"))
+    assert relative(reduced.of("u"), whole.of("u")) <= 2 * history.reduction.estimate
+
+
+def test_the_estimate_is_that_of_jumps_where_they_are_worse():
+    """Closed joints of a great stiffness: their jumps are small beside what moves."""
+    joint = {"KN": 2e11, "KS": 1e11, "FU": 1e9, "GF": 1e9}
+    whole, _, reduced, history = both(soil_block(steps=150, joint=joint), 1e-2)
+    assert history.loop == "reduced"
+    displacements, jumps = (relative(reduced.of(x), whole.of(x)) for x in ("u", "w"))
+    assert jumps > 2 * displacements
+    assert jumps <= 2 * history.reduction.estimate
+    assert history.reduction.estimate <= 1e-2
+
+
 def test_damping_that_is_not_symmetric_runs_the_whole_model():
     problem = soil_block(steps=20)
     i, j = problem.constraints.T[:, [100, 101]].argmax(axis=0).ravel()
