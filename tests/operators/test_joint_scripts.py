@@ -356,7 +356,7 @@ def test_stiffness_given_at_nodes_is_the_mean_of_both_sides(place):
         KN = LOW ET (MANU 'CHPO' L2 1 'SCAL' 3.E6) ;
         MA = MATE MO 'KN' (CHAN 'CHAM' KN MO '{place}') 'KS' 0. ;
         W = MANU 'CHPO' L2 1 'UY' 1.E-3 ; F = (RIGI MO MA) * W ;
-        TOTAL = MAXI (RESU (REDU F L2)) ; 
+        TOTAL = MAXI (RESU (REDU F L2)) ;
         RIGHT = XTY F (NOMC 'UY' (COOR 1 L2)) (MOTS 'FY') (MOTS 'UY') ;
         """
     )
