@@ -292,8 +292,8 @@ MESSAGES: dict[str, Message] = {
     "no-envelope": Message(
         "the mesh has no envelope",
         "le maillage n'a pas d'enveloppe",
-        "it holds no volume cells; 'NOID' allows that",
-        "il ne contient pas d'éléments de volume ; 'NOID' le permet",
+        "it has no face of one cell only; 'NOID' allows that",
+        "il n'a aucune face d'un seul élément ; 'NOID' le permet",
     ),
     "point-outside": Message(
         "the point is outside of all elements of the mesh",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import takewhile
 from typing import Any
 
 import numpy as np
@@ -142,17 +143,21 @@ def sorting(values: Any, down: bool, absolute: bool = False, fold: bool = False)
     return [int(i) for i in order]
 
 
-def without_doubles(values: Any, order: list[int], tolerance: float, fold: bool) -> list[int]:
-    """Drop from sorted places those whose value equals the one kept before."""
+def without_doubles(
+    values: Any, order: list[int], tolerance: float, absolute: bool = False, fold: bool = False
+) -> list[int]:
+    """Drop from places, sorted that way, those whose value equals one kept before."""
     kept: list[int] = []
-    keys = _keys(values, False, fold)
+    keys, sizes = _keys(values, False, fold), _keys(values, absolute, fold)
+
+    def near(a: Any, b: Any) -> bool:
+        return bool(a == b if isinstance(a, str) else abs(a - b) <= tolerance)
+
     for i in order:
-        if kept:
-            last = keys[kept[-1]]
-            same = keys[i] == last if isinstance(keys, list) else abs(keys[i] - last) <= tolerance
-            if same:
-                continue
-        kept.append(i)
+        # 1 -1 1 stand side by side where absolute values count
+        beside = takewhile(lambda j: near(sizes[j], sizes[i]), reversed(kept))  # noqa: B023
+        if not any(near(keys[j], keys[i]) for j in beside):
+            kept.append(i)
     return kept
 
 
@@ -167,12 +172,14 @@ _ORDER = (
     flag("absolute", "ABSO", en="by absolute values", fr="selon les valeurs absolues"),
     flag("fold", "NOCA", en="whatever the case", fr="sans égard à la casse"),
 )
-_SORTED = main("value", *SORTABLE, en="list to sort by", fr="liste qui règle le tri")
-_OTHERS = many("others", *SORTABLE, en="lists that follow it", fr="listes qui la suivent")
-
-
-@ORDO.form(
-    _SORTED,
+_DISTINCT = key(
+    "distinct",
+    "UNIQ",
+    opt("tolerance", "FLOTTANT", default=0.0),
+    en="without doubles, within a tolerance",
+    fr="sans doublons, à une tolérance près",
+)
+_COST = (
     key(
         "cost",
         "COUT",
@@ -187,6 +194,14 @@ _OTHERS = many("others", *SORTABLE, en="lists that follow it", fr="listes qui la
         en="changes nothing: the best is found",
         fr="sans effet : le meilleur est trouvé",
     ),
+)
+_SORTED = main("value", *SORTABLE, en="list to sort by", fr="liste qui règle le tri")
+_OTHERS = many("others", *SORTABLE, en="lists that follow it", fr="listes qui la suivent")
+
+
+@ORDO.form(
+    _SORTED,
+    *_COST,
     *_ORDER,
     _OTHERS,
     gives=ANY,
@@ -206,13 +221,7 @@ def _sort_by_cost(
 @ORDO.form(
     _SORTED,
     *_ORDER,
-    key(
-        "distinct",
-        "UNIQ",
-        opt("tolerance", "FLOTTANT", default=0.0),
-        en="without doubles, within a tolerance",
-        fr="sans doublons, à une tolérance près",
-    ),
+    _DISTINCT,
     _OTHERS,
     gives=Like("value", ("others",)),
     syntax="LIS2 = ORDO LIS1 ('CROI' | 'DECR') ('ABSO') ('NOCA') ('UNIQ' (FLOT1)) ;\n"
@@ -243,7 +252,7 @@ def _sort_lists(
     if distinct is not None:
         if len(lists) > 1:
             raise call.error("operators.lists.one-list-without-doubles")
-        places = without_doubles(value.values, places, distinct, fold)
+        places = without_doubles(value.values, places, distinct, absolute, fold)
     return tuple(taken(v, places) for v in lists)
 
 
@@ -267,26 +276,77 @@ def _cheapest(call: Call, cost: Any, n: int) -> tuple[float | int, list[int]]:
     return costs[rows, order].sum().item(), [int(i) for i in order]
 
 
+_TABLE = main("table", "TABLE", en="table of lists", fr="table de listes")
+_INDEX_EN, _INDEX_FR = "index of the list to sort by", "indice de la liste qui règle le tri"
+
+
 @ORDO.form(
-    main("table", "TABLE", en="table of lists", fr="table de listes"),
-    lead("index", en="index of the list to sort by", fr="indice de la liste qui règle le tri"),
+    _TABLE,
+    *_COST,
     *_ORDER,
-    syntax="TAB2 = ORDO TAB1 OBJ1 ('CROI' | 'DECR') ('ABSO') ('NOCA') ;",
-    en="Of a table of lists: all sorted as the list at index OBJ1.",
-    fr="D'une table de listes : toutes triées comme la liste d'indice OBJ1.",
+    opt("index", en="changes nothing: all lists follow", fr="sans effet : toutes suivent"),
+    gives=ANY,
+    syntax="X1 TAB2 = ORDO TAB1 'COUT' LIS3 ('HONG' | 'COMP') ;",
+    examples=(
+        "T = TABL ; T . 'A' = LECT 10 20 ; X T = ORDO T 'COUT' (PROG 5. 1. 1. 5.) ;\n"
+        "LIST (T . 'A') ; LIST X ;",
+    ),
+)
+def _sort_table_by_cost(
+    call: Call, table: Table, cost: ListReel | ListEnti, **_: object
+) -> tuple[float | int, Table]:
+    lengths = {len(v) for _, v in table.items() if isinstance(v, Sortable)}
+    if len(lengths) != 1:
+        sizes = " ".join(map(str, sorted(lengths)))
+        raise call.error("operators.lists.sorted-lengths", table, sizes=sizes)
+    total, order = _cheapest(call, cost, lengths.pop())
+    return total, _in_order(table, order, len(order))
+
+
+# an index may be spelt like a keyword: it is one where no other index stands
+@ORDO.form(_TABLE, lead("index", en=_INDEX_EN, fr=_INDEX_FR), *_ORDER, _DISTINCT)
+@ORDO.form(
+    _TABLE,
+    *_ORDER,
+    _DISTINCT,
+    arg("index", en=_INDEX_EN, fr=_INDEX_FR),
+    syntax="TAB2 = ORDO TAB1 OBJ1 ('CROI' | 'DECR') ('ABSO') ('NOCA') ('UNIQ' (FLOT1)) ;",
+    en="Of a table of lists: all sorted as the list at index OBJ1; 'UNIQ' where it is the only "
+    "list.",
+    fr="D'une table de listes : toutes triées comme la liste d'indice OBJ1 ; 'UNIQ' si elle est "
+    "la seule liste.",
+    examples=(
+        "T = TABL ; T . 'UNIQ' = PROG 3. 1. 2. 1. ;\nT = ORDO T 'UNIQ' 'UNIQ' ;\n"
+        "LIST (T . 'UNIQ') ; T = ORDO T 'UNIQ' ; LIST (T . 'UNIQ') ;",
+    ),
 )
 def _sort_table(
-    call: Call, table: Table, index: Any, order: str, absolute: bool, fold: bool
+    call: Call,
+    table: Table,
+    index: Any,
+    order: str,
+    absolute: bool,
+    fold: bool,
+    distinct: float | None,
 ) -> Table:
     if not table.has(index):
         raise call.error("operators.lists.no-list-to-sort-by", index)
     first: Any = table.get(index)
-    if not isinstance(first, ListReel | ListEnti | ListMots):
+    if not isinstance(first, Sortable):
         raise call.error("operators.lists.index-holds-no-list", index)
     places = sorting(first.values, order == "DECR", absolute, fold)
+    if distinct is not None:
+        if sum(isinstance(v, Sortable) for _, v in table.items()) > 1:
+            raise call.error("operators.lists.one-list-without-doubles")
+        places = without_doubles(first.values, places, distinct, absolute, fold)
+    return _in_order(table, places, len(first))
+
+
+def _in_order(table: Table, places: list[int], length: int) -> Table:
+    """The table with its lists of that length in another order."""
     made = Table()
     for name, value in table.items():
-        same = isinstance(value, ListReel | ListEnti | ListMots) and len(value) == len(first)
+        same = isinstance(value, Sortable) and len(value) == length
         made.set(name, taken(value, places) if same else value)
     return made
 
