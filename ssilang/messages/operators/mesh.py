@@ -3,6 +3,10 @@
 from ssilang.messages.message import Message
 
 MESSAGES: dict[str, Message] = {
+    "matrix-moved-by-field": Message(
+        "a matrix is moved by a vector, not by a field of displacements",
+        "une matrice se translate d'un vecteur, pas d'un champ de déplacements",
+    ),
     "axis-points": Message(
         "{needed} {needed:point says|points say} where it turns, {n_points} are given",
         "{needed} {needed:point dit|points disent} où l'on tourne, il y en a {n_points}",

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left, insort
 from itertools import takewhile
 from typing import Any
 
 import numpy as np
 
+from ssilang.kernel.mesh.combine import without_duplicates
+from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.language.registry import (
     ANY,
     Help,
@@ -352,24 +355,49 @@ def _in_order(table: Table, places: list[int], length: int) -> Table:
 
 
 @UNIQ.form(
-    main("value", *SORTABLE, en="list", fr="liste"),
-    opt("tolerance", "FLOTTANT", default=0.0, en="absolute tolerance", fr="tolérance absolue"),
+    main("value", *SORTABLE, "MAILLAGE", en="list, or mesh", fr="liste, ou maillage"),
+    many("others", *SORTABLE, "MAILLAGE", en="further ones", fr="d'autres"),
+    opt(
+        "tolerance", "FLOTTANT", en="absolute tolerance of reals", fr="tolérance absolue des réels"
+    ),
     flag("fold", "NOCA", en="whatever the case", fr="sans égard à la casse"),
-    gives=Like("value"),
-    syntax="LIS2 = UNIQ LIS1 (FLOT1) ('NOCA') ;",
-    en="Of a list: without doubles, in order of first appearance.",
-    fr="D'une liste : sans doublons, dans l'ordre de première apparition.",
-    examples=("LIST (UNIQ (LECT 3 1 3 2 1)) ;",),
+    gives=Like("value", ("others",)),
+    syntax="OBJ3 (OBJ4 ...) = UNIQ OBJ1 (OBJ2 ...) (FLOT1) ('NOCA') ;",
+    en="Of lists and meshes: without doubles, the first ones kept; as many results as operands. "
+    "Cells are doubles on the same nodes, whatever their order and colour.",
+    fr="De listes et de maillages : sans doublons, les premiers sont gardés ; autant de résultats "
+    "que d'opérandes. Des éléments aux mêmes noeuds sont des doublons, quels que soient leur ordre "
+    "et leur couleur.",
+    examples=("LIST (UNIQ (LECT 3 1 3 2 1)) ; A B = UNIQ (PROG 1. 1.) (LECT 2 2) ; LIST B ;",),
 )
-def _unique(value: Sortable, tolerance: float, fold: bool) -> Any:
-    values: Any = value.values
-    if tolerance and not isinstance(value, ListMots):
-        kept: list[int] = []
-        for i in range(len(values)):
-            if not any(abs(values[i] - values[j]) <= tolerance for j in kept):
-                kept.append(i)
-        return taken(value, kept)
+def _unique(
+    value: Sortable | Mesh,
+    others: tuple[Sortable | Mesh, ...],
+    tolerance: float | None,
+    fold: bool,
+) -> Any:
+    return tuple(_without_doubles_of(v, tolerance, fold) for v in (value, *others))
+
+
+def _first_reals(numbers: list[float], tolerance: float | None) -> list[int]:
+    """Places of the numbers that none before them equals."""
+    kept: list[int] = []
+    known: list[float] = []  # sorted
+    for i, x in enumerate(numbers):
+        slack = 10 * _PRECISION * abs(x) if tolerance is None else tolerance
+        near = bisect_left(known, x - slack)
+        if near == len(known) or known[near] > x + slack:
+            kept.append(i)
+            insort(known, x)
+    return kept
+
+
+def _without_doubles_of(value: Sortable | Mesh, tolerance: float | None, fold: bool) -> Any:
+    if isinstance(value, Mesh):
+        return without_duplicates(value)
+    if isinstance(value, ListReel):
+        return taken(value, _first_reals(value.values.tolist(), tolerance))
     seen: dict[Any, int] = {}
-    for i, item in enumerate(_keys(values, False, fold)):
+    for i, item in enumerate(_keys(value.values, False, fold)):
         seen.setdefault(item, i)
     return taken(value, sorted(seen.values()))

@@ -352,3 +352,29 @@ def test_cells_of_a_mesh_of_several_types_come_first() -> None:
     for phrase, height in (("M ET C", 0.0), ("C ET M", 0.0), ("ET 'TELQ' M C", 3.0)):
         script = both + f"Y = ({phrase}) ELEM 'SEG2' ; X = COOR 2 ((Y ELEM 1) POIN 'INIT') ;"
         assert value(script) == height
+
+
+def test_edges_are_sharp_from_the_angle_that_is_given() -> None:
+    cube = SPACE + "V = ((O D 2 A) TRAN 2 (0. 1. 0.)) VOLU 2 'TRAN' Z ; "
+    assert value(cube + "X = NBEL (ARET V 89.) ;") == 24  # twelve edges of two cells
+    assert value(cube + "X = NBEL (ARET V) ;") == 24
+    assert value(cube + "X = (ARET V 91.) ; N = NBEL X ;", "N") == 0
+
+
+def test_matrices_are_moved_with_their_nodes_and_relations() -> None:
+    script = (
+        PLANE + "L = O D 1 A ; V = 0. 2. ; K = (APPU 'UX' 4. L) ET (RELA 'UX' O '-' 'UX' A) ; "
+        "M R = L K PLUS V ; F = FORC (1. 0.) (M POIN 1) ; "
+        "U = RESO R F ; X = EXTR U 'UX' (M POIN 'INIT') ; Y = EXTR U 'UX' (M POIN 'FINA') ; "
+    )
+    # two springs of 4 that move together under 1
+    assert value(script) == pytest.approx(1 / 8)
+    assert value(script, "Y") == pytest.approx(1 / 8)
+    moved = PLANE + "K = APPU 'UX' 4. O ; U = MANU 'CHPO' O 'UX' 1. 'UY' 0. ; Q = K PLUS U ;"
+    assert "vector" in message(moved)
+
+
+def test_nodes_are_told_in_the_order_of_their_numbers() -> None:
+    script = PLANE + "L = O D 2 B ; M = TASS L 'NOOP' ; "
+    assert value(script + "X = NBEL M ;") == 5
+    assert value(script + "X = COOR 2 (M POIN 3) ;") == 1.0  # B is the third point made

@@ -156,10 +156,8 @@ _YZW: _Polynomial = {(0, 1, 1): 1, (1, 1, 1): -1, (0, 2, 1): -1, (0, 1, 2): -1}
 _XZW: _Polynomial = {(1, 0, 1): 1, (2, 0, 1): -1, (1, 1, 1): -1, (1, 0, 2): -1}
 _XYZW: _Polynomial = {(1, 1, 1): 1, (2, 1, 1): -1, (1, 2, 1): -1, (1, 1, 2): -1}
 _SQUARES = (0, 1, 2)
-_WEDGE_BUBBLES: list[_Polynomial] = [
-    *({(i, j, 2): 1} for i, j in _P2[3:]),
-    *({(1, 1, k): 1, (2, 1, k): -1, (1, 2, k): -1} for k in _SQUARES),
-]
+_WEDGE_BUBBLES: list[_Polynomial] = [{(i, j, 2): 1} for i, j in _P2[3:]]
+_WEDGE_BUBBLES += [{(1, 1, k): 1, (2, 1, k): -1, (1, 2, k): -1} for k in _SQUARES]
 _BRICK_FACES: list[tuple[float, ...]] = [
     (0.0, 0.0, -1.0), (0.0, 0.0, 1.0), (0.0, -1.0, 0.0),
     (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (-1.0, 0.0, 0.0),

@@ -17,7 +17,7 @@ from ssilang.kernel.mesh.orientation import (
     flip,
     orient,
 )
-from ssilang.language.registry import Help, arg, choice, flag, operator
+from ssilang.language.registry import Help, arg, choice, flag, operator, opt
 
 
 def _whole_lines(mesh: Mesh) -> Mesh:
@@ -110,18 +110,28 @@ def enve(mesh: Mesh, inwards: bool, allowed: bool) -> Mesh:
 @operator(
     "ARET",
     arg("mesh", "MAILLAGE", en="surface or volume", fr="surface ou volume"),
+    opt(
+        "angle",
+        "FLOTTANT",
+        default=20.0,
+        en="turn of the skin from which on an edge is sharp",
+        fr="angle de la peau à partir duquel une arête est vive",
+        unit="degree",
+    ),
     family="mesh",
     full_name="ARETE",
     help=Help(
-        en="Sharp edges, as SEG2: where the skin turns by more than 20 degrees, or ends.",
-        fr="Arêtes vives, en SEG2 : là où la peau tourne de plus de 20 degrés, ou finit.",
-        syntax="GEO1 = ARET GEO2 ;",
+        en="Sharp edges, as SEG2: where the skin turns by more than 20 degrees, or the angle that "
+        "is given, or ends.",
+        fr="Arêtes vives, en SEG2 : là où la peau tourne de plus de 20 degrés, ou de l'angle "
+        "donné, ou finit.",
+        syntax="GEO1 = ARET GEO2 (FLOT1) ;",
         examples=(
             "OPTI DIME 3 ELEM CUB8 ; S = (DROI 2 (0. 0. 0.) (1. 0. 0.)) TRAN 2 (0. 1. 0.) ;"
             " V = S VOLU 2 'TRAN' (0. 0. 1.) ; LIST (NBEL (ARET V)) ;",
         ),
     ),
 )
-def aret(mesh: Mesh) -> Mesh:
+def aret(mesh: Mesh, angle: float) -> Mesh:
     """Sharp edges."""
-    return sharp_edges(mesh)
+    return sharp_edges(mesh, angle)

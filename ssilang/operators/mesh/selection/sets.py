@@ -10,12 +10,11 @@ from ssilang.kernel.mesh.combine import (
     points_mesh,
     symmetric_difference,
     union,
-    without_duplicates,
 )
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.surfaces.surface_crossing import crossed
 from ssilang.language.registry import arg, flag, main, said
-from ssilang.operators.dispatch import DIFF, INTE, UNIQ, worded_union
+from ssilang.operators.dispatch import DIFF, INTE, worded_union
 
 _SECOND = arg("second", "MAILLAGE", "POINT", en="mesh, or point", fr="maillage, ou point")
 _ALLOWED = flag("allowed", "NOVERIF", en="the result may be empty", fr="le résultat peut être vide")
@@ -103,14 +102,3 @@ def surfaces_that_cross(first: Mesh, second: Mesh, allowed: bool) -> tuple[Mesh,
     if not cut[2].blocks and not allowed:
         raise MeshError("operators.mesh.no-crossing")
     return cut
-
-
-@UNIQ.form(
-    main("mesh", "MAILLAGE", en="mesh", fr="maillage"),
-    en="Of a mesh: each cell once, whatever the order of its nodes and its colour.",
-    fr="D'un maillage : chaque élément une fois, quels que soient l'ordre de ses noeuds et sa "
-    "couleur.",
-)
-def unique_cells(mesh: Mesh) -> Mesh:
-    """Each cell once."""
-    return without_duplicates(mesh)
