@@ -94,7 +94,8 @@ def changes(node: ast.AST) -> Iterator[ast.AST]:
     elif isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub | ast.Not):
         yield node.operand
     elif isinstance(node, ast.Constant) and type(node.value) in (int, float):
-        yield ast.Constant(node.value * 2 if isinstance(node.value, float) else node.value + 1)
+        whole = isinstance(node.value, int) or node.value == 0.0
+        yield ast.Constant(node.value + 1 if whole else 2 * node.value)
     elif isinstance(node, ast.If | ast.IfExp):
         other = copy.copy(node)
         other.test = ast.UnaryOp(ast.Not(), node.test)
@@ -148,9 +149,14 @@ def mutants(room: str, count: int, rng: random.Random) -> Iterator[tuple[Path, s
         node = mutable(tree)[i]
         new = next(changes(node))
         line = getattr(node, "lineno", 0)
-        said = f"{path.relative_to(ROOT)}:{line}: {ast.unparse(node)[:60]} -> "
+        said = f"{path.relative_to(ROOT)}:{line}: {_short(node)} -> "
         changed = ast.fix_missing_locations(_Swap(node, new).visit(tree))
-        yield path, ast.unparse(changed), said + ast.unparse(new)[:60]
+        yield path, ast.unparse(changed), said + _short(new)
+
+
+def _short(node: ast.AST) -> str:
+    """The start of a node's text: the condition alone of an `if`."""
+    return ast.unparse(getattr(node, "test", node))[:60]
 
 
 def noticed(copy_of: Path, room: str) -> bool:
