@@ -597,9 +597,10 @@ MESSAGES: dict[str, Message] = {
         "cherchez des lignes qui se croisent ou des points au même endroit",
     ),
     "volume-filled-tri3-qua4": Message(
-        "a volume is filled from TRI3 and QUA4, or from TRI6; this surface holds "
+        "a volume is filled from TRI3 and QUA4, or from TRI6 and QUA8; this surface holds "
         "{kinds:?{kinds}|nothing}",
-        "un volume se remplit à partir de TRI3 et QUA4, ou de TRI6 ; cette surface contient "
+        "un volume se remplit à partir de TRI3 et QUA4, ou de TRI6 et QUA8 ; cette surface "
+        "contient "
         "{kinds:?{kinds}|rien}",
     ),
     "germ-lies-outside-contour": Message(
