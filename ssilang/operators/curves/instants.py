@@ -35,6 +35,7 @@ class InstantField:
 
 AnyField = NodeField | InstantField
 
+
 def value_in_time(call: Call, fields: list[AnyField], name: str, node: int) -> FloatArray:
     """Values (n_fields,) of a component at a node; zero in fields that lack it there.
 
@@ -82,9 +83,7 @@ def refused_place(call: Call, fields: Sequence[AnyField], name: str, node: int) 
     if not support:
         known = list(dict.fromkeys(n for f in made for n in f.components))
         near = nearest(name, known)
-        return call.error(
-            "operators.curves.no-such-component", name=name, known=known, near=near
-        )
+        return call.error("operators.curves.no-such-component", name=name, known=known, near=near)
     nodes, table = np.unique(np.concatenate(support)), made[0].table
     distance = np.linalg.norm(table.coordinates[nodes] - table.coordinates[node], axis=1)
     i = int(np.argmin(distance))
