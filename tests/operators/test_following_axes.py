@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+NAMES = ("UX", "UY", "UZ", "RX", "RY", "RZ")
 TURN = np.array([0.3, -0.4, 0.9])
 """Rotation vector, 59 degrees about an axis along nothing."""
 
@@ -14,9 +15,7 @@ def _motion(points):
     for name, place in points.items():
         moved = Rotation.from_rotvec(TURN).apply(place) - place
         values = [*moved, *TURN]
-        words = " ".join(
-            f"'{n}' {v:.17g}" for n, v in zip(("UX", "UY", "UZ", "RX", "RY", "RZ"), values)
-        )
+        words = " ".join(f"'{n}' {v:.17g}" for n, v in zip(NAMES, values, strict=True))
         parts.append(f"(MANU 'CHPO' {name} {words} 'NATURE' 'DIFFUS')")
     return "U = " + " ET ".join(parts) + " ; "
 

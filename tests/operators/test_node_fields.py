@@ -222,8 +222,8 @@ def test_a_point_that_carries_no_value_is_told_with_the_nearest_node(refused, st
 def test_forces_are_zero_where_none_acts(found, refused):
     start = POINT + "R = 5. 5. ; F = FORC (3. 4.) P ; "
     values = found(
-        start + "X1 = EXTR F 'FX' R ; X2 = EXTR F 'FX' P ; X3 = EXTR (EXTR C 'VALE' 'UX' R 'NOID') 1 "
-        "; X4 = EXTR (EXTR C 'VALE' 'UY' (P ET R)) 2 ;",
+        start + "X1 = EXTR F 'FX' R ; X2 = EXTR F 'FX' P ; "
+        "X3 = EXTR (EXTR C 'VALE' 'UX' R 'NOID') 1 ; X4 = EXTR (EXTR C 'VALE' 'UY' (P ET R)) 2 ;",
         "X1", "X2", "X3", "X4",
     )  # fmt: skip
     assert values == (0.0, 3.0, 0.0, 0.0)

@@ -43,9 +43,9 @@ register_type(Configuration, "CONFIGUR")
     help=Help(
         en="Moves all nodes: to the coordinates of a configuration if one is given, then by a "
         "field of displacements if one is given. Gives the configuration that is then in force; "
-        "alone it only gives the present one. With a model and its parameters, gives these too, with "
-        "the local axes of beams, pipes and joints JOI1 whose model says LIE turned by the mean of "
-        "the rotations of the cell's nodes in that field (a rotation of any size).",
+        "alone it only gives the present one. With a model and its parameters, gives these too: "
+        "the local axes of beams, pipes and joints JOI1 whose model says LIE have turned by "
+        "the mean of the rotations of the cell's nodes in that field (a rotation of any size).",
         fr="Déplace tous les noeuds : aux coordonnées d'une configuration si elle est donnée, "
         "puis d'un champ de déplacements s'il est donné. Rend la configuration alors en "
         "vigueur ; seul, il rend la configuration présente. Avec un modèle et ses "
