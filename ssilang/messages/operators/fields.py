@@ -232,6 +232,10 @@ MESSAGES: dict[str, Message] = {
         "the three lists have {counts} words",
         "les trois listes ont {counts} mots",
     ),
+    "table-of-fields": Message(
+        "the table has no fields in cells at numbers",
+        "la table n'a pas de champs par éléments à des indices numériques",
+    ),
     "factor-count": Message(
         "{n_factors} {n_factors:factor|factors} for {n_names} {n_names:name|names}",
         "{n_factors} {n_factors:coefficient|coefficients} pour {n_names} {n_names:nom|noms}",
