@@ -32,7 +32,7 @@ FRENCH = frozenset(
         "point_without_a_dimension", "else_if", "loop_of_another_language",
         "operands_in_parentheses", "item_in_brackets", "procedure_without_a_result",
         "joint_sides_swapped", "load_on_a_point_written_again", "meshes_not_joined",
-        "properties_of_another_zone",
+        "properties_of_another_zone", "motion_with_nothing_free", "mass_of_the_wrong_sign",
     }
 )  # fmt: skip
 _CASES = [(p.stem, "en") for p in sorted(_SCRIPTS.glob("*.ssi"))] + [

@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.base.errors import FieldError
+from ssilang.kernel.base.errors import FieldError, KernelError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.fields.node_field import Nature, NodeField, NodeValues
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, Relations, dual_of
@@ -262,6 +262,27 @@ def _places(block: ElementMatrices, numbering: Numbering) -> NDArray[np.int32]:
     if places.size and places.min() < 0:
         raise FieldError("kernel.matrices.matrix-unknowns-numbering-lacks")
     return places
+
+
+NEGATIVE = 1e-12
+"""Share of the largest mass up to which a negative one is rounding."""
+
+
+def refuse_negative_mass(mass: sp.csr_array, numbering: Numbering) -> None:
+    """Refuse a mass matrix that resists the motion of some unknown with a negative mass.
+
+    Raises
+    ------
+    KernelError
+        Naming the unknown with the most negative one.
+    """
+    diagonal = mass.diagonal()
+    if diagonal.size == 0 or diagonal.min() >= -NEGATIVE * np.abs(diagonal).max():
+        return
+    worst = int(np.argmin(diagonal))
+    raise KernelError(
+        "kernel.matrices.mass-negative", unknown=numbering.label(worst), mass=diagonal[worst]
+    )
 
 
 def is_symmetric(matrix: Matrix) -> bool:
