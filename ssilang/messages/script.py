@@ -416,8 +416,10 @@ HINTS: dict[str, tuple[str, str]] = {
         "retirez 'NOMU'",
     ),
     "kernel.matrices.rigid-body-distances-needs": (
-        "or say 'NOVERIF'",
-        "ou dites 'NOVERIF'",
+        "tie the nodes to a centre that turns, a point: RELA 'CORI' 'DEPL' 'ROTA' C1 GEO1 ; "
+        "'NOVERIF' leaves a mechanism of nodes that lie too flat",
+        "liez les noeuds à un centre qui tourne, un point : RELA 'CORI' 'DEPL' 'ROTA' C1 GEO1 ; "
+        "'NOVERIF' laisse un mécanisme à des noeuds trop plats",
     ),
     "kernel.plasticity.time-no-solution-found": (
         "a smaller 'DSMIN'",

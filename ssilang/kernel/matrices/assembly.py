@@ -268,6 +268,15 @@ NEGATIVE = 1e-12
 """Share of the largest mass up to which a negative one is rounding."""
 
 
+def negative_mass(mass: sp.csr_array, numbering: Numbering) -> tuple[Sentence, float] | None:
+    """The unknown whose motion the most negative mass resists, and that mass; None without."""
+    diagonal = mass.diagonal()
+    if diagonal.size == 0 or diagonal.min() >= -NEGATIVE * np.abs(diagonal).max():
+        return None
+    worst = int(np.argmin(diagonal))
+    return numbering.label(worst), float(diagonal[worst])
+
+
 def refuse_negative_mass(mass: sp.csr_array, numbering: Numbering) -> None:
     """Refuse a mass matrix that resists the motion of some unknown with a negative mass.
 
@@ -276,13 +285,9 @@ def refuse_negative_mass(mass: sp.csr_array, numbering: Numbering) -> None:
     KernelError
         Naming the unknown with the most negative one.
     """
-    diagonal = mass.diagonal()
-    if diagonal.size == 0 or diagonal.min() >= -NEGATIVE * np.abs(diagonal).max():
-        return
-    worst = int(np.argmin(diagonal))
-    raise KernelError(
-        "kernel.matrices.mass-negative", unknown=numbering.label(worst), mass=diagonal[worst]
-    )
+    found = negative_mass(mass, numbering)
+    if found is not None:
+        raise KernelError("kernel.matrices.mass-negative", unknown=found[0], mass=found[1])
 
 
 def is_symmetric(matrix: Matrix) -> bool:

@@ -108,8 +108,8 @@ def reduced_problem(
     T = elimination.T
     K, M = assemble(stiffness, numbering), assemble(mass, numbering)
     C = None if damping is None else sp.csr_array(T.T @ assemble(damping, numbering) @ T)
-    if mass.kind.startswith("MASS"):  # a geometric stiffness in its place has both signs
-        refuse_negative_mass(M, numbering)
+    if mass.kind.startswith("MASS") and not (M.diagonal() > 0.0).any():
+        refuse_negative_mass(M, numbering)  # a buckling load in its place has both signs
     left = np.flatnonzero(~elimination.eliminated)
     return ReducedProblem(
         numbering,
