@@ -349,6 +349,16 @@ HINTS: dict[str, tuple[str, str]] = {
         "RELA{apart:? ; {apart} {apart:noeud est sur celui|noeuds sont sur ceux} d'un autre "
         "corps (ELIM)}, ou donnez-lui une masse (MASS)",
     ),
+    "kernel.stepping.conditions-hold-every-unknown": (
+        "leave some free: BLOQ of fewer nodes or unknowns, or RESO for the state that supports "
+        "impose",
+        "laissez-en libres : BLOQ de moins de noeuds ou d'inconnues, ou RESO pour l'état que "
+        "les appuis imposent",
+    ),
+    "kernel.matrices.mass-negative": (
+        "look for the sign in MASS or MANU, or in the factor of a matrix",
+        "cherchez le signe dans MASS ou MANU, ou dans le coefficient d'une matrice",
+    ),
     "kernel.stepping.matrix-added-during-calculation": (
         "give RIGI a stiffness (of zero, if need be) with this unknown",
         "donnez à RIGI une raideur (nulle, au besoin) avec cette inconnue",
@@ -406,8 +416,10 @@ HINTS: dict[str, tuple[str, str]] = {
         "retirez 'NOMU'",
     ),
     "kernel.matrices.rigid-body-distances-needs": (
-        "or say 'NOVERIF'",
-        "ou dites 'NOVERIF'",
+        "tie the nodes to a centre that turns, a point: RELA 'CORI' 'DEPL' 'ROTA' C1 GEO1 ; "
+        "'NOVERIF' leaves a mechanism of nodes that lie too flat",
+        "liez les noeuds à un centre qui tourne, un point : RELA 'CORI' 'DEPL' 'ROTA' C1 GEO1 ; "
+        "'NOVERIF' laisse un mécanisme à des noeuds trop plats",
     ),
     "kernel.plasticity.time-no-solution-found": (
         "a smaller 'DSMIN'",

@@ -48,7 +48,8 @@ TEMP = shared(
             (
                 "TEMP 'ZERO' ; L = PROG 1. 2. ; M = PROG 3. ; T = TEMP 'NOEC' ;\n"
                 "LIST (T . 'APPELS' . 'PROG') ; LIST ((T . 'TEMPS_CPU' . 'INITIAL') >EG 0) ;\n"
-                "TEMP 'IMPR' 'APPE' ; TEMP 'SGAC' 'IMPR' ; TEMP 'SGAC' ;\nTEMP 'IMPR' ; TEMP 'PLAC' ;"
+                "TEMP 'IMPR' 'APPE' ; TEMP 'SGAC' 'IMPR' ; TEMP 'SGAC' ;\n"
+                "TEMP 'IMPR' ; TEMP 'PLAC' ;"
             ),
         ),
     ),
