@@ -117,7 +117,8 @@ def _default(entry: TableEntry, language: str) -> str:
     if default is None:
         return ""
     if isinstance(default, tuple):
-        return spoken(*default, language)
+        en, fr = default
+        return spoken(en, fr, language)
     if isinstance(default, bool):
         return "VRAI" if default else "FAUX"
     return as_written(default) if isinstance(default, str) else f"{default:g}"

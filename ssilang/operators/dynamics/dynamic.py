@@ -72,7 +72,7 @@ def zdyn(call: Call, table: Table) -> Table:
     vtk, csv = vtk_observer(entries, times), csv_observer(entries, times)
     line = ProgressLine("DYNAMIC", entries.call.session.told)
     observers = [o for o in (results, vtk, csv) if o is not None]
-    if not is_compiled("dynamics"):
+    if not is_compiled("stepping"):
         line.note("operators.dynamics.compiling")
     try:
         history = _integrated(entries, problem, observers, line, bodies)
