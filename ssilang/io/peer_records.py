@@ -19,17 +19,28 @@ _SIZES = (  # the fourth line, as files of different years have it
     re.compile(r"NPTS\s*=\s*(\d+)\s*,?\s*DT\s*=\s*([\d.EeDd+-]+)", re.IGNORECASE),
     re.compile(r"^\s*(\d+)\s+([\d.EeDd+-]+)\s*(?:NPTS|$)", re.IGNORECASE),
 )
+_UNIT = re.compile(r"UNITS?\s*(?:OF|IN|=|:)?\s*([A-Z][A-Z0-9/*^]*)", re.IGNORECASE)
+_IN_SI = {"G": 9.81, **dict.fromkeys(("GAL", "CM/S", "CM", "CM/S2", "CM/S/S", "CM/S**2"), 0.01)}
 _QUANTITIES = {"ACC": "ACCE", "VEL": "VITE", "DIS": "DEPL"}
 
 
 @dataclass(frozen=True)
 class PeerRecord:
-    """A record: values (n,) in the file's unit, step dt (s), event, quantity ACCE VITE or DEPL."""
+    """A record: values (n,) in the file's unit, step dt (s), event, quantity ACCE VITE or DEPL.
+
+    `unit` is what the third line says it is, '' where it says nothing.
+    """
 
     values: FloatArray
     dt: float
     event: str
     quantity: str
+    unit: str = ""
+
+    @property
+    def in_si(self) -> float:
+        """Factor that makes SI of its unit, 1 for those not known."""
+        return _IN_SI.get(self.unit, 1.0)
 
     @property
     def times(self) -> FloatArray:
@@ -59,7 +70,9 @@ def read_peer(path: Path) -> PeerRecord:
     if not np.isfinite(values[:count]).all():
         raise InputError("io.record-not-finite", name=path.name)
     quantity = next((w for k, w in _QUANTITIES.items() if k in lines[2].upper()), "ACCE")
-    return PeerRecord(values[:count], dt, lines[1].strip(), quantity)
+    unit = _UNIT.search(lines[2])
+    said = unit[1].upper() if unit is not None else ""
+    return PeerRecord(values[:count], dt, lines[1].strip(), quantity, said)
 
 
 def _sizes(path: Path, lines: list[str]) -> tuple[int, float]:

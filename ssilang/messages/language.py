@@ -548,6 +548,8 @@ MESSAGES: dict[str, Message] = {
         "un point dans une phrase s'écrit entre parenthèses : (0. 1.)\n",
     ),
     "any-object": Message("an object", "un objet"),
+    "a-object-of-type": Message("a {kind}", "un {kind}"),
+    "an-object-of-type": Message("an {kind}", "un {kind}"),
     "one-of-types": Message("one of {types:or}", "l'un des types {types:or}"),
     "no-keyword": Message(
         "'{word}' is no keyword of {operator}: did you mean '{near}'?\n",

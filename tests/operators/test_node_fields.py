@@ -220,7 +220,9 @@ def test_negative_value_has_no_fractional_power():
     field = NodeField.of(TABLE, np.array([0]), {"T": np.array([-1.0])})
     from ssilang.operators.fields.signs import _node_number
 
-    with pytest.raises(FieldError):
+    with pytest.raises(
+        FieldError, check=lambda e: e.code == "operators.fields.negative-value-no-power"
+    ):
         _node_number("**", field, 0.5)
 
 

@@ -11,6 +11,12 @@ from ssilang.kernel.base.errors import MeshError
 FARTHEST = 1e100  # coordinates stay below: volumes are finite numbers
 
 
+def told_coordinates(values: FloatArray) -> str:
+    """Coordinates (n,) as messages write them, in six digits: '0. 4.'."""
+    digits = (f"{x + 0.0:.6g}" for x in values)
+    return " ".join(d if any(s in d for s in ".en") else f"{d}." for d in digits)
+
+
 class NodeTable:
     """Append-only table of node coordinates and mesh densities.
 
@@ -71,6 +77,14 @@ class NodeTable:
     def resolve(self, ids: IntArray) -> IntArray:
         """The surviving node numbers of `ids` after all merges (same shape)."""
         return self._alias[ids]
+
+    def told(self, node: int) -> str:
+        """A node as messages name it: its number, from 1, and where it is: '12 (0. 4.)'.
+
+        The third coordinate is left out where no node of the table has one.
+        """
+        shown = self.coordinates[int(node), : 3 if self.coordinates[:, 2].any() else 2]
+        return f"{int(node) + 1} ({told_coordinates(shown)})"
 
     def merge(self, kept: IntArray, dropped: IntArray) -> None:
         """Make every `dropped[i]` an alias of `kept[i]` (arrays (m,), resolved on the way)."""

@@ -22,12 +22,6 @@ MESSAGES: dict[str, Message] = {
         "the fields have no energy: there is no mode",
         "les champs n'ont pas d'énergie : il n'y a pas de mode",
     ),
-    "component-holds-objects-types": Message(
-        "component {name} holds objects of types {name_2} and {name_3}",
-        "la composante {name} contient des objets de types {name_2} et {name_3}",
-        "only numbers and curves add up",
-        "seuls des nombres et des évolutions s'additionnent",
-    ),
     "component-holds-objects-not": Message(
         "component {name} holds objects, not numbers",
         "la composante {name} contient des objets, pas des nombres",
