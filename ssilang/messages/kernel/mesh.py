@@ -3,6 +3,12 @@
 from ssilang.messages.message import Message
 
 MESSAGES: dict[str, Message] = {
+    "node-out-of-range": Message(
+        "a node would have the coordinate {value:g}",
+        "un noeud aurait la coordonnée {value:g}",
+        "coordinates are finite numbers below {limit:g}",
+        "les coordonnées sont des nombres finis, inférieurs à {limit:g}",
+    ),
     "point-opens-cone-lies": Message(
         "the point that opens the cone lies in the plane of its apex",
         "le point qui donne l'ouverture du cône est dans le plan de son sommet",
