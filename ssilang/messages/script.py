@@ -334,12 +334,17 @@ HINTS: dict[str, tuple[str, str]] = {
         "écrites de nouveau font un nouveau noeud, celui du maillage est MAIL1 POIN 'PROC' "
         "P1|ôtez-la du second membre, ou dites 'NOID'}",
     ),
+    "kernel.mesh.sides-do-not-fit": (
+        "divide both sides alike (the same numbers and sizes in DROI), or say 'PART' to join "
+        "only the cells that fit",
+        "découpez les deux côtés de la même façon (mêmes nombres et tailles dans DROI), ou dites "
+        "'PART' pour ne joindre que les éléments qui se correspondent",
+    ),
     "kernel.statics.no-equilibrium-full-uplift": (
         "less eccentric loads, a support, or a dynamic calculation; if the loads press, the "
-        "joint's sides are swapped: RACC and LIAI take the structure's first",
+        "joint's sides are swapped: RACC (INVE GEO1) GEO2 turns it round",
         "un chargement moins excentré, un appui, ou un calcul dynamique ; si le chargement "
-        "presse, les côtés du joint sont inversés : RACC et LIAI prennent d'abord celui de "
-        "la structure",
+        "presse, les côtés du joint sont inversés : RACC (INVE GEO1) GEO2 le retourne",
     ),
     "kernel.stepping.motions-without-mass": (
         "not held: {free}{more:? and {more} more}; hold it with BLOQ or RELA{apart:?; "
@@ -348,6 +353,16 @@ HINTS: dict[str, tuple[str, str]] = {
         "non tenu : {free}{more:? et {more} {more:autre|autres}} ; bloquez-le par BLOQ ou "
         "RELA{apart:? ; {apart} {apart:noeud est sur celui|noeuds sont sur ceux} d'un autre "
         "corps (ELIM)}, ou donnez-lui une masse (MASS)",
+    ),
+    "kernel.stepping.conditions-hold-every-unknown": (
+        "leave some free: BLOQ of fewer nodes or unknowns, or RESO for the state that supports "
+        "impose",
+        "laissez-en libres : BLOQ de moins de noeuds ou d'inconnues, ou RESO pour l'état que "
+        "les appuis imposent",
+    ),
+    "kernel.matrices.mass-negative": (
+        "look for the sign in MASS or MANU, or in the factor of a matrix",
+        "cherchez le signe dans MASS ou MANU, ou dans le coefficient d'une matrice",
     ),
     "kernel.stepping.matrix-added-during-calculation": (
         "give RIGI a stiffness (of zero, if need be) with this unknown",
@@ -406,8 +421,10 @@ HINTS: dict[str, tuple[str, str]] = {
         "retirez 'NOMU'",
     ),
     "kernel.matrices.rigid-body-distances-needs": (
-        "or say 'NOVERIF'",
-        "ou dites 'NOVERIF'",
+        "tie the nodes to a centre that turns, a point: RELA 'CORI' 'DEPL' 'ROTA' C1 GEO1 ; "
+        "'NOVERIF' leaves a mechanism of nodes that lie too flat",
+        "liez les noeuds à un centre qui tourne, un point : RELA 'CORI' 'DEPL' 'ROTA' C1 GEO1 ; "
+        "'NOVERIF' laisse un mécanisme à des noeuds trop plats",
     ),
     "kernel.plasticity.time-no-solution-found": (
         "a smaller 'DSMIN'",

@@ -232,6 +232,22 @@ MESSAGES: dict[str, Message] = {
         "the three lists have {counts} words",
         "les trois listes ont {counts} mots",
     ),
+    "table-of-fields": Message(
+        "the table has no fields in cells at numbers",
+        "la table n'a pas de champs par éléments à des indices numériques",
+    ),
+    "factor-count": Message(
+        "{n_factors} {n_factors:factor|factors} for {n_names} {n_names:name|names}",
+        "{n_factors} {n_factors:coefficient|coefficients} pour {n_names} {n_names:nom|noms}",
+        "as many numbers as each list has words",
+        "autant de nombres que chaque liste a de mots",
+    ),
+    "objects-do-not-go": Message(
+        "{sign} does not go with what the cells hold: {types:words}",
+        "{sign} ne va pas avec ce que portent les éléments : {types:words}",
+        "curves, lists and numbers combine; points add up",
+        "les évolutions, listes et nombres se combinent ; les points s'additionnent",
+    ),
     "zero-no-power": Message(
         "zero has no power {exponent:g}",
         "zéro n'a pas de puissance {exponent:g}",

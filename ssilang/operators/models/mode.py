@@ -59,6 +59,9 @@ LAW_WORDS = (
     *IMPEDANCE_LAWS,
 )  # fmt: skip
 
+_OF_JOINTS = tuple(w for w in JOINT_WORDS if w != "PLASTIQUE")
+"""Words that only joints have."""
+
 
 @dataclass
 class _Wish:
@@ -130,7 +133,8 @@ MODE = shared(
         "side), REUSS (one behind the other), COMPLEXE (functions of the frequency), on all "
         "translations (on rotations too with CPLE), on the unknowns of one or two lists of words, "
         "or with MODAL or STATIQUE on the share of that shape. Without a name of element, cells "
-        "get the continuous element of their name; BARR, POUT, TIMO, TUYA, "
+        "get the continuous element of their name, SEG2 and SEG3 bars (BARR, BAR3) in plane and "
+        "space; POUT, TIMO, TUYA, "
         "DKT, COQ2, COQ4, COQ6, COQ8, SHB8 (shell of cubes) and the joints are to be named "
         "(Q4RI, ICQ4, BBAR choose "
         "another integration; POLY takes the elements of a mesh of polygons). "
@@ -168,7 +172,8 @@ MODE = shared(
         "(en parallèle), REUSS (en série), COMPLEXE (fonctions de la fréquence), sur toutes les "
         "translations (et les rotations si CPLE est donné), sur les inconnues d'une ou deux "
         "listes de mots, ou avec MODAL ou STATIQUE sur la part de cette forme. Sans nom "
-        "d'élément, les mailles reçoivent l'élément massif de leur nom ; BARR, POUT, TIMO, TUYA, "
+        "d'élément, les mailles reçoivent l'élément massif de leur nom, les SEG2 et SEG3 des "
+        "barres (BARR, BAR3) dans le plan et l'espace ; POUT, TIMO, TUYA, "
         "DKT, COQ2, COQ4, COQ6, COQ8, SHB8 (coque de cubes) et les joints se nomment (Q4RI, "
         "ICQ4, BBAR choisissent une "
         "autre intégration ; POLY prend les éléments d'un maillage de polygones). "
@@ -204,7 +209,9 @@ MODE = shared(
         "MODL1 = MODE GEO1 'CHARGEMENT' 'PRESSION' (ELEM1 ...) ;",
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0 0) (1 0) ; "
-            "M = MODE L 'MECANIQUE' 'ELASTIQUE' 'BARR' ; LIST (TYPE M) ;",
+            "M = MODE L 'MECANIQUE' 'ELASTIQUE' ; LIST (TYPE M) ;\n"
+            "A = MATE M 'YOUN' 1. 'NU' 0. 'SECT' 2. ;\n"
+            "U = NOMC 'UX' (COOR 1 L) ; LIST (MAXI (EXCO 'EFFX' (SIGM M A U))) ;",
             (
                 "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ;\n"
                 "A = DROI 4 (0. 0.) (2. 0.) ; B = A PLUS (0. 0.) ;\n"
@@ -478,7 +485,7 @@ def _element(block: CellBlock, wish: _Wish, mode: Mode) -> str:
         if shape in wish.laws and cell == "POI1":
             return shape
     joints = [n for n in JOINT_NAMES if ELEMENTS[n].cell_type == cell]
-    if joints and (block.kind.joint or any(w in JOINT_WORDS for w in wish.laws)):
+    if joints and (block.kind.joint or any(w in _OF_JOINTS for w in wish.laws)):
         return joints[0]
     return default_element(cell, mode)
 

@@ -221,15 +221,33 @@ def _sum_of_table(sign: str, call: Call, table: Table) -> Any:
     return total
 
 
+_FURTHER = {
+    "*": "\nCHAM3 = CHAM1 * CHAM2 (LMOT1 LMOT2 LMOT3 (LREE1)) ;\nSIG1 = HOO1 * EPS1 MODL1 ;",
+    "/": "\nCHAM3 = CHAM1 / CHAM2 (LMOT1 LMOT2 LMOT3 (LREE1)) ;",
+}
 _TEXTS = {
     "+": ("Sum of two objects.", "Somme de deux objets."),
     "-": ("Difference of two objects.", "Différence de deux objets."),
-    "*": ("Product of two objects.", "Produit de deux objets."),
+    "*": (
+        "Product of two objects. Of fields with three lists of names: component by component (in "
+        "cells with a factor each); of matrices of Hooke by strains, with the model: stresses.",
+        "Produit de deux objets. De champs avec trois listes de noms : composante par composante "
+        "(par éléments, avec un coefficient chacune) ; de matrices de Hooke par des déformations, "
+        "avec le modèle : contraintes.",
+    ),
     "/": (
         "Quotient; of two integers it is an integer, cut towards zero.",
         "Quotient ; entre deux entiers, c'est un entier tronqué vers zéro.",
     ),
     "**": ("Power.", "Puissance."),
+}
+_EXAMPLES = {
+    "*": (
+        "OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ; S = (DROI 1 (0. 0.) (1. 0.)) TRAN 1 (0. 1.) ; "
+        "M = MODE S MECANIQUE ELASTIQUE ; H = HOOK M (MATE M 'YOUN' 100. 'NU' 0.) ; "
+        "E = EPSI M (NOMC 'UX' (0.01 * (COOR 1 S))) ; LIST (MAXI (H * E M)) ; "
+        "LIST (MAXI (E * E (MOTS 'EPXX') (MOTS 'EPXX') (MOTS 'SQUA') (PROG 1.E4))) ;",
+    ),
 }
 for _sign, (_en, _fr) in _TEXTS.items():
     operator(
@@ -241,8 +259,8 @@ for _sign, (_en, _fr) in _TEXTS.items():
         help=Help(
             _en + " Phrases run from left to right, without precedence: 1 + 2 * 3 is 9.",
             _fr + " Les phrases vont de gauche à droite, sans priorité : 1 + 2 * 3 vaut 9.",
-            f"OBJ3 = OBJ1 {_sign} OBJ2 ;",
-            (f"x = 6 {_sign} 3 ; LIST x ;",),
+            f"OBJ3 = OBJ1 {_sign} OBJ2 ;" + _FURTHER.get(_sign, ""),
+            (f"x = 6 {_sign} 3 ; LIST x ;", *_EXAMPLES.get(_sign, ())),
         ),
         reads_itself="the types of its two operands choose a rule, which may read more",
     )(lambda call, s=_sign: compute(s, call))
