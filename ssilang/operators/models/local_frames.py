@@ -104,8 +104,8 @@ _SECOND = opt(
         "orthotropy of a field of parameters, or in polar ('POLA' centre), cylindrical ('CYLI' "
         "centre, point of the axis) or spherical ('SPHE') coordinates, or those of a torus "
         "('TORI': 'CART' as 'CYLI'; 'CIRC': along the large circle, along the small one whose "
-        "centre is the third point, outwards), or by a field of matrices of rotation (components UX,X UX,Y ... "
-        "as those of GRAD). The components keep their names. A nodal field "
+        "centre is the third point, outwards), or by a field of matrices of rotation (components "
+        "UX,X UX,Y ... as those of GRAD). The components keep their names. A nodal field "
         "of vectors is turned to the frame of the vectors.",
         fr="Contraintes ou déformations de massifs dans un autre repère : selon un vecteur (en 3D "
         "deux : le premier axe et un vecteur du plan des deux premiers), dans le repère "
