@@ -121,9 +121,7 @@ def _text_of(value: Texte) -> str:
 for _cls in (ListReel, ListEnti, ListMots, ListChpo, ListObje):
     register_packing(_cls, _cls.__name__, _list_packing(_cls))
 register_packing(Mot, "Mot", Packing(str, Mot))
-register_packing(
-    Configuration, "Configuration", Packing(lambda c: c.coordinates, _configuration)
-)
+register_packing(Configuration, "Configuration", Packing(lambda c: c.coordinates, _configuration))
 register_packing(Annule, "Annule", Packing(lambda _: None, lambda _: Annule()))
 register_packing(Texte, "Texte", Packing(_text_of, _texte))
 register_packing(Procedure, "Procedure", Packing(_source_of, _procedure))
