@@ -121,7 +121,7 @@ class PhraseRunner(OperandReader):
         elif results is not None:
             self._push(call, [results], span)
 
-    def guarded(self, action: Callable[[], Any], span: Span, name: str) -> Any:
+    def guarded(self, action: Callable[[], Any], span: Span | None, name: str) -> Any:
         """Run what an operator does; whatever it raises becomes an error of the script."""
         try:
             result = action()
@@ -169,7 +169,8 @@ class PhraseRunner(OperandReader):
         if len(numbers) < dimension:
             raise SsiError("third-coordinate", span)
         if len(numbers) == dimension:
-            point = self.session.make_point([float(o.value) for o in numbers])
+            make = self.session.make_point
+            point = self.guarded(lambda: make([float(o.value) for o in numbers]), span, "POINT")
             call.operands[:] = [Operand(point, span, result=True)]
 
 

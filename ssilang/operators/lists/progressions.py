@@ -137,7 +137,7 @@ def _read_row(call: Call, items: Items, plain: frozenset[type]) -> None:
 
 
 def _repeated(call: Call, count: Any, kinds: tuple[str, ...]) -> list[Any]:
-    if count != int(count) or count < 0:
+    if not 0 <= count < math.inf or count != int(count):
         raise call.error("operators.lists.repetition-count", count, count=count)
     check_length(count)
     return [call.required(*kinds)] * int(count)
@@ -204,9 +204,11 @@ def real_steps(start: float, step: float, end: float, ratio: float | None = None
     Raises
     ------
     KernelError
-        If the step leads away from `end`, or nowhere.
+        If the step leads away from `end`, or nowhere, or one of the three is no finite number.
     """
     distance = end - start
+    if not all(map(math.isfinite, (distance, step, ratio or 0.0))):
+        raise KernelError("operators.lists.steps-not-finite", step=step, start=start, end=end)
     if abs(distance) <= _SAME * max(abs(start), abs(end)):
         return [end]
     if step == 0 or (distance < 0) != (step < 0):
