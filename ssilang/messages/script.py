@@ -315,9 +315,21 @@ HINTS: dict[str, tuple[str, str]] = {
         "hold with equalities (BLOQ, RELA without MINI or MAXI), or work in time",
         "tenir par des égalités (BLOQ, RELA sans MINI ni MAXI), ou calculer en temps",
     ),
+    "kernel.statics.pressure-without-sides": (
+        "join MODE GEO1 'CHARGEMENT' 'PRESSION' of these sides to MODELE",
+        "joignez à MODELE le modèle MODE GEO1 'CHARGEMENT' 'PRESSION' de ces faces",
+    ),
+    "kernel.statics.pressure-follows": (
+        "PROCEDURE_CHARMECA calls CHARMECA, which gives it at each step (BSIG, KP)",
+        "PROCEDURE_CHARMECA appelle CHARMECA, qui la donne à chaque pas (BSIG, KP)",
+    ),
+    "kernel.statics.pressure-is-no-field-in-cells": (
+        "CHAR 'PRES' (PRES MODL1 'PRES' P1) EVOL1",
+        "CHAR 'PRES' (PRES MODL1 'PRES' P1) EVOL1",
+    ),
     "kernel.statics.load-not-mechanical": (
-        "MECA (or FORC) and DIMP are taken here",
-        "MECA (ou FORC) et DIMP sont admis ici",
+        "MECA (or FORC) and DIMP are taken here, PRES by PASAPAS",
+        "MECA (ou FORC) et DIMP sont admis ici, PRES par PASAPAS",
     ),
     "kernel.statics.loads-drive-motions": (
         "not held: {free}{more:? and {more} more}; hold it with BLOQ or RELA{apart:?; "
@@ -376,8 +388,8 @@ HINTS: dict[str, tuple[str, str]] = {
         "donnez MODELE et CARACTERISTIQUES avec ces joints",
     ),
     "kernel.stepping.load-not-mechanical": (
-        "MECA (or FORC) and DIMP are taken here",
-        "MECA (ou FORC) et DIMP sont admis ici",
+        "MECA (or FORC) and DIMP are taken here, PRES by PASAPAS",
+        "MECA (ou FORC) et DIMP sont admis ici, PRES par PASAPAS",
     ),
     "kernel.stepping.full-uplift": (
         "give it mass (MASS), a support, or loads that press it on its joints",
