@@ -130,3 +130,13 @@ def test_contour_drawn_in_both_senses_is_filled(found):
         "X",
     )
     assert area == pytest.approx(0.5)
+
+
+def test_adherence_is_refused_with_what_takes_its_place():
+    result = run_text(
+        "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; A = DROI 4 (0. 0.) (2. 0.) ; B = A PLUS (0. 0.) ; "
+        "M = MODE A 'CONTACT' 'FROTTANT' 'COULOMB' B ; C = MATE M 'MU' 0.3 'ADHE' 1. ;"
+    )
+    assert result.exit_code == 1
+    assert "ADHE is not built" in result.message
+    assert "JOINT_SDM" in result.message

@@ -35,6 +35,9 @@ def value(run, text, name="X"):
     ("statement", "said"),
     [
         ("M = MODE S MECANIQUE PLASTIQUE HUJEUX ;", "HUJEUX is not available"),
+        ("M = MODE S MECANIQUE ELASTIQUE PLASTIQUE TUYAU_FISSURE ;", "TUYAU_FISSURE is not"),
+        ("M = MODE S MECANIQUE ELASTIQUE PLASTIQUE DRUCKER_PRAGER_2 ;", "gives no equation"),
+        ("M = MODE S MECANIQUE ELASTIQUE PLASTIQUE AMADEI ;", "FIMU SGMT I0"),
         ("M = MODE S MECANIQUE ELASTIQUE JOINT_SDM ;", "for joints only"),
         ("M = MODE S THERMIQUE ;", "THERMIQUE is not available"),
         ("M = MODE S MECANIQUE ELASTIQUE ISOTORPE ;", "ISOTROPE"),
@@ -207,7 +210,9 @@ def test_vibr_takes_a_mass_of_both_signs_for_a_buckling_load(run):
 
 def test_vibr_tells_of_a_mass_of_both_signs_and_refuses_one_that_is_negative(run, refused):
     spring = "OPTI DIME 2 ; P = 0. 0. ; K = APPU 'DEPL' 4. P ; "
-    result, _ = run(spring + "G = (MASS 'UX' 1. P) ET (MASS 'UY' -2. P) ; T = VIBR 'SIMU' 0. 1 K G ;")
+    result, _ = run(
+        spring + "G = (MASS 'UX' 1. P) ET (MASS 'UY' -2. P) ; T = VIBR 'SIMU' 0. 1 K G ;"
+    )
     (said,) = [w for w in result.session.warnings if w.code.endswith("mass-of-both-signs")]
     assert said.data["value"] == -2.0
     assert "negative: -2" in refused(spring + "T = VIBR 'SIMU' 0. 1 K (MASS 'DEPL' -2. P) ;")

@@ -154,9 +154,7 @@ def dashpots(zone: Zone, parameters: ZoneField) -> FloatArray:
     return spread(zone, layout, (total[0] + viscous, turning))
 
 
-def in_series(
-    zone: Zone, parameters: ZoneField, kind: str
-) -> tuple[FloatArray, Layout]:
+def in_series(zone: Zone, parameters: ZoneField, kind: str) -> tuple[FloatArray, Layout]:
     """Matrices of REUSS: springs ('RIGIDITE') or dashpots on the points and the inner nodes."""
     outer = impedance_layout(zone, parameters)
     m, two = len(outer.unknowns), zone.cells.cell_type == "SEG2"
