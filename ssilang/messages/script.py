@@ -348,10 +348,11 @@ HINTS: dict[str, tuple[str, str]] = {
     ),
     "kernel.statics.no-equilibrium-full-uplift": (
         "less eccentric loads, a support, or a dynamic calculation; if the loads press, the "
-        "joint's sides are swapped: RACC and LIAI take the structure's first",
+        "joint's sides are swapped: RACC and LIAI take the structure's first, and a joint JOI1 "
+        "opens where its second node goes along DIRECTION",
         "un chargement moins excentré, un appui, ou un calcul dynamique ; si le chargement "
         "presse, les côtés du joint sont inversés : RACC et LIAI prennent d'abord celui de "
-        "la structure",
+        "la structure, et un joint JOI1 s'ouvre quand son second noeud va selon DIRECTION",
     ),
     "kernel.stepping.motions-without-mass": (
         "not held: {free}{more:? and {more} more}; hold it with BLOQ or RELA{apart:?; "

@@ -21,7 +21,7 @@ ELASTICITIES: dict[str, tuple[str, ...]] = {
     ),
     "SECTION": ("timoshenko",),
     "ORTHOTROPE": (*SOLID_FAMILIES, *_SHELLS, "joint"),
-    "ANISOTROPE": SOLID_FAMILIES,
+    "ANISOTROPE": (*SOLID_FAMILIES, "joint"),  # of joints, those of two points
     "UNIDIRECTIONNEL": SOLID_FAMILIES,
     "MODAL": ("shape",),
     "STATIQUE": ("shape",),

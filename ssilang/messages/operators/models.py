@@ -152,6 +152,11 @@ MESSAGES: dict[str, Message] = {
         "COHE is the cohesion of the sides; a joint JOINT_SDM holds in tension up to FU",
         "COHE est la cohésion des bords ; un joint JOINT_SDM tient en traction jusqu'à FU",
     ),
+    "anisotropy-of-two-points": Message(
+        "joints {name} have no elasticity ANISOTROPE: of joints, only JOI1 (two points) has it",
+        "les joints {name} n'ont pas d'élasticité ANISOTROPE : parmi les joints, seul JOI1 (deux "
+        "points) l'a",
+    ),
     "law-without-equations": Message(
         "the law {said} is not built: its notice names the parameters {names} and gives no "
         "equation",

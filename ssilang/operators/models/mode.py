@@ -123,9 +123,9 @@ MODE = shared(
         "The formulation is MECANIQUE; the law is ELASTIQUE, followed by ISOTROPE (default), "
         "ORTHOTROPE, ANISOTROPE or UNIDIRECTIONNEL; joints also have JOINT_SDM. Continuous "
         "elements and bars may add PLASTIQUE and PARFAIT, ISOTROPE (default), J2 or CINEMATIQUE "
-        "(von Mises), DRUCKER_PARFAIT, DRUCKER_PRAGER or RH_COULOMB (rounded Mohr-Coulomb), or FLUAGE "
-        "NORTON (creep); shells DKT the laws of von Mises with INTEGRE N1, points across their "
-        "thickness. Beams TIMO "
+        "(von Mises), DRUCKER_PARFAIT, DRUCKER_PRAGER or RH_COULOMB (rounded Mohr-Coulomb), or "
+        "FLUAGE NORTON (creep); shells DKT the laws of von Mises with INTEGRE N1, points across "
+        "their thickness. Beams TIMO "
         "are ELASTIQUE SECTION where their section is a model of fibres (POJS on points, TRIS, "
         "QUAS) given by MATE, and add PLASTIQUE SECTION where fibres yield (PARFAIT_UNI: along the "
         "fibre; BETON_BAEL: concrete without tension; or von Mises). MODAL and "
@@ -161,8 +161,8 @@ MODE = shared(
         "La formulation est MECANIQUE ; la loi est ELASTIQUE, suivie d'ISOTROPE (par défaut), "
         "ORTHOTROPE, ANISOTROPE ou UNIDIRECTIONNEL ; les joints ont aussi JOINT_SDM. Les massifs "
         "et les barres ajoutent PLASTIQUE et PARFAIT, ISOTROPE (par défaut), J2 ou CINEMATIQUE "
-        "(von Mises), DRUCKER_PARFAIT, DRUCKER_PRAGER ou RH_COULOMB (Mohr-Coulomb arrondi), ou FLUAGE "
-        "NORTON ; les coques DKT ont les lois de von Mises avec INTEGRE N1, points dans "
+        "(von Mises), DRUCKER_PARFAIT, DRUCKER_PRAGER ou RH_COULOMB (Mohr-Coulomb arrondi), "
+        "ou FLUAGE NORTON ; les coques DKT ont les lois de von Mises avec INTEGRE N1, points dans "
         "l'épaisseur. Les poutres "
         "TIMO sont ELASTIQUE SECTION quand leur section est un modèle de fibres (POJS sur des "
         "points, TRIS, QUAS) donné par MATE, avec PLASTIQUE SECTION si des fibres plastifient "
@@ -456,6 +456,8 @@ def _zone(block: CellBlock, wish: _Wish, ws: Workspace) -> Zone:
     if ws.mode is Mode.FOURIER:
         options["harmonic"] = ws.fourier
     behaviour = normalised(wish.laws, kind.family)
+    if kind.family == "joint" and "ANISOTROPE" in behaviour and kind.name != "JOI1":
+        raise MeshError("operators.models.anisotropy-of-two-points", name=name)
     if wish.rule and kind.family == "joint":
         name = with_rule(name, wish.rule)
     constituent = wish.constituent
