@@ -6,6 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import MeshError
+
+FARTHEST = 1e100  # coordinates stay below: volumes are finite numbers
 
 
 def told_coordinates(values: FloatArray) -> str:
@@ -51,8 +54,16 @@ class NodeTable:
         coordinates : array (m, 1..3)
             Missing columns are set to zero.
         density : float or array (m,)
+
+        Raises
+        ------
+        MeshError
+            For a coordinate that is no finite number, or so large that its cube is none.
         """
         rows = np.atleast_2d(np.asarray(coordinates, dtype=float))
+        if not (np.abs(rows) < FARTHEST).all():
+            far = rows[~(np.abs(rows) < FARTHEST)][0]
+            raise MeshError("kernel.mesh.node-out-of-range", value=far, limit=FARTHEST)
         m = len(rows)
         self._reserve(self._count + m)
         ids = np.arange(self._count, self._count + m, dtype=np.int64)

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.generators.interfaces import joint_mesh, joints_inside
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.language.registry import Help, arg, flag, many, operator
@@ -122,11 +125,18 @@ def genj(session: Session, mesh: Mesh, distance: float | None) -> Mesh:
     family="mesh",
     full_name="TASSER",
     help=Help(
-        en="Accepted and without effect: unknowns are renumbered when systems are solved.",
-        fr="Accepté et sans effet : les inconnues sont renumérotées à la résolution.",
-        syntax="TASS (GEO1 ...) ('NOOP') ;",
-        examples=("OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (1. 0.) ; TASS L ;",),
+        en="Nodes keep their numbers: unknowns are renumbered when systems are solved. Gives the "
+        "nodes in the order of these numbers, as POI1.",
+        fr="Les noeuds gardent leurs numéros : les inconnues sont renumérotées à la résolution. "
+        "Rend les noeuds dans l'ordre de ces numéros, en POI1.",
+        syntax="(GEO2 =) TASS (GEO1 ...) ('NOOP') ;",
+        examples=(
+            "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (1. 0.) ; TASS L ;\n"
+            "M = TASS L 'NOOP' ; LIST (NBEL M) ;",
+        ),
     ),
 )
-def tass(meshes: tuple[Mesh, ...], keep: bool) -> None:
-    """Do nothing."""
+def tass(session: Session, meshes: tuple[Mesh, ...], keep: bool) -> Mesh:
+    """The nodes by number, which stay as they are."""
+    nodes = workspace(session).nodes
+    return poi1(nodes, np.unique(nodes.resolve(np.arange(len(nodes)))))
