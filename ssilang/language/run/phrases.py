@@ -111,7 +111,7 @@ class PhraseRunner(OperandReader):
         if isinstance(results, tuple):
             self._push(call, list(results), span)
         elif results is not None:
-            self._push(call, [results], span)
+            call.operands.insert(0, Operand(normalised(results), span, result=True))
 
     def guarded(self, action: Callable[[], Any], span: Span, name: str) -> Any:
         """Run what an operator does; whatever it raises becomes an error of the script."""
@@ -147,8 +147,10 @@ class PhraseRunner(OperandReader):
         call.operands[:0] = [Operand(normalised(r), span, result=True) for r in results]
 
     def _implicit_point(self, call: Call) -> None:
+        if len(call.operands) < 2:
+            return
         numbers = [o for o in call.operands if type(o.value) in (int, float)]
-        if len(numbers) < 2 or len(numbers) != len(call.operands):
+        if len(numbers) != len(call.operands):
             return
         dimension = self.session.dimension()
         if dimension not in (2, 3) or self.session.make_point is None:

@@ -52,9 +52,8 @@ def _made(function: Function, freedom: set[str] | bool, inline: bool = False) ->
     if not given and not PLAIN:
         numba.config.CACHE_DIR = str(folder_of(function.__module__))  # type: ignore[attr-defined]
     kept = given or not PLAIN
-    made = numba.njit(
-        fastmath=freedom, cache=kept, forceinline=inline, _nrt=PLAIN or counts(function), **_OPTIONS
-    )
+    options = _OPTIONS | {"_nrt": PLAIN or counts(function)}
+    made = numba.njit(fastmath=freedom, cache=kept, forceinline=inline, **options)
     return cast(Function, made(function))
 
 
