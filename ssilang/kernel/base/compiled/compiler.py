@@ -48,12 +48,13 @@ def compiled_inline(function: Function) -> Function:
 
 
 def _made(function: Function, freedom: set[str] | bool, inline: bool = False) -> Function:
-    given = bool(os.environ.get("NUMBA_CACHE_DIR"))
-    if not given and not PLAIN:
-        numba.config.CACHE_DIR = str(folder_of(function.__module__))  # type: ignore[attr-defined]
-    kept = given or not PLAIN
+    kept = None
+    if os.environ.get("NUMBA_CACHE_DIR") or not PLAIN:
+        kept = folder_of(function.__module__)
+    if kept is not None:
+        numba.config.CACHE_DIR = str(kept)  # type: ignore[attr-defined]
     options = _OPTIONS | {"_nrt": PLAIN or counts(function)}
-    made = numba.njit(fastmath=freedom, cache=kept, forceinline=inline, **options)
+    made = numba.njit(fastmath=freedom, cache=kept is not None, forceinline=inline, **options)
     return cast(Function, made(function))
 
 
