@@ -23,15 +23,16 @@ SAYS_NOTHING = frozenset({"making", "parts", "more", "items", "derived"})
 GLOBAL_STATE = {"kernel/solvers/backends.py"}  # the factors kept between runs; see `session.py`
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "command",
     [
+        ["mypy", "ssilang"],
         ["ruff", "check", *_SOURCES],
         ["ruff", "format", "--check", *_SOURCES],
-        ["mypy", "ssilang"],
         ["lint-imports"],
     ],
-    ids=["lint", "format", "types", "import directions"],
+    ids=["types", "lint", "format", "import directions"],
 )
 def test_tool_finds_nothing(command):
     tool = _TOOLS / command[0]
