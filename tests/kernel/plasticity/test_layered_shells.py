@@ -45,7 +45,7 @@ def test_below_the_limit_the_shell_is_the_elastic_one(tmp_path, layers):
 
 
 def test_a_pulled_strip_yields_at_once_across(tmp_path):
-    find = run(tmp_path, what="UX", dual="FX", size="0.007")  # yields at 0.005
+    find = run(tmp_path, what="UX", dual="FX", size="0.0054")  # yields at 0.005
     assert find("F") == pytest.approx(1e8 * 0.5, rel=1e-8)
 
 
