@@ -48,7 +48,7 @@ SHORTER = {
     "club_cast3m_2014/club_a_methods.ssi": ("DUREE = 0.4 ;", "DUREE = 0.16 ;"),
     "club_cast3m_2014/club_b_sdm.ssi": ("DUREE = 1. ;", "DUREE = 0.15 ;"),
     "club_cast3m_2014/club_c_sdm.ssi": ("DUREE = 1. ;", "DUREE = 0.15 ;"),
-    "seismic/tower_quake.ssi": ("DUREE = 3. ;", "DUREE = 1.2 ;"),
+    "seismic/tower_quake.ssi": ("DUREE = 3. ;", "DUREE = 1.5 ;"),
 }
 
 
