@@ -537,6 +537,7 @@ MESSAGES: dict[str, Message] = {
     # ---- parts of other sentences
     "label-error": Message("error", "erreur"),
     "label-warning": Message("warning", "avertissement"),
+    "labelled": Message("{label}: {head}", "{label} : {head}"),
     "called-by": Message("called by {name} at", "appelé par {name},"),
     "held-word": Message(
         "'{word}', the value of {holder}, names an operator, which ran: MOT {holder} takes it as "
