@@ -315,9 +315,21 @@ HINTS: dict[str, tuple[str, str]] = {
         "hold with equalities (BLOQ, RELA without MINI or MAXI), or work in time",
         "tenir par des égalités (BLOQ, RELA sans MINI ni MAXI), ou calculer en temps",
     ),
+    "kernel.statics.pressure-without-sides": (
+        "join MODE GEO1 'CHARGEMENT' 'PRESSION' of these sides to MODELE",
+        "joignez à MODELE le modèle MODE GEO1 'CHARGEMENT' 'PRESSION' de ces faces",
+    ),
+    "kernel.statics.pressure-follows": (
+        "PROCEDURE_CHARMECA calls CHARMECA, which gives it at each step (BSIG, KP)",
+        "PROCEDURE_CHARMECA appelle CHARMECA, qui la donne à chaque pas (BSIG, KP)",
+    ),
+    "kernel.statics.pressure-is-no-field-in-cells": (
+        "CHAR 'PRES' (PRES MODL1 'PRES' P1) EVOL1",
+        "CHAR 'PRES' (PRES MODL1 'PRES' P1) EVOL1",
+    ),
     "kernel.statics.load-not-mechanical": (
-        "MECA (or FORC) and DIMP are taken here",
-        "MECA (ou FORC) et DIMP sont admis ici",
+        "MECA (or FORC) and DIMP are taken here, PRES by PASAPAS",
+        "MECA (ou FORC) et DIMP sont admis ici, PRES par PASAPAS",
     ),
     "kernel.statics.loads-drive-motions": (
         "not held: {free}{more:? and {more} more}; hold it with BLOQ or RELA{apart:?; "
@@ -342,9 +354,11 @@ HINTS: dict[str, tuple[str, str]] = {
     ),
     "kernel.statics.no-equilibrium-full-uplift": (
         "less eccentric loads, a support, or a dynamic calculation; if the loads press, the "
-        "joint's sides are swapped: RACC (INVE GEO1) GEO2 turns it round",
+        "joint's sides are swapped: RACC (INVE GEO1) GEO2 turns it round, and a joint JOI1 opens "
+        "where its second node goes along DIRECTION",
         "un chargement moins excentré, un appui, ou un calcul dynamique ; si le chargement "
-        "presse, les côtés du joint sont inversés : RACC (INVE GEO1) GEO2 le retourne",
+        "presse, les côtés du joint sont inversés : RACC (INVE GEO1) GEO2 le retourne, et un "
+        "joint JOI1 s'ouvre quand son second nœud va selon DIRECTION",
     ),
     "kernel.stepping.motions-without-mass": (
         "not held: {free}{more:? and {more} more}; hold it with BLOQ or RELA{apart:?; "
@@ -381,8 +395,8 @@ HINTS: dict[str, tuple[str, str]] = {
         "donnez MODELE et CARACTERISTIQUES avec ces joints",
     ),
     "kernel.stepping.load-not-mechanical": (
-        "MECA (or FORC) and DIMP are taken here",
-        "MECA (ou FORC) et DIMP sont admis ici",
+        "MECA (or FORC) and DIMP are taken here, PRES by PASAPAS",
+        "MECA (ou FORC) et DIMP sont admis ici, PRES par PASAPAS",
     ),
     "kernel.stepping.full-uplift": (
         "give it mass (MASS), a support, or loads that press it on its joints",

@@ -35,6 +35,9 @@ def value(run, text, name="X"):
     ("statement", "said"),
     [
         ("M = MODE S MECANIQUE PLASTIQUE HUJEUX ;", "HUJEUX is not available"),
+        ("M = MODE S MECANIQUE ELASTIQUE PLASTIQUE TUYAU_FISSURE ;", "TUYAU_FISSURE is not"),
+        ("M = MODE S MECANIQUE ELASTIQUE PLASTIQUE DRUCKER_PRAGER_2 ;", "gives no equation"),
+        ("M = MODE S MECANIQUE ELASTIQUE PLASTIQUE AMADEI ;", "FIMU SGMT I0"),
         ("M = MODE S MECANIQUE ELASTIQUE JOINT_SDM ;", "for joints only"),
         ("M = MODE S THERMIQUE ;", "THERMIQUE is not available"),
         ("M = MODE S MECANIQUE ELASTIQUE ISOTORPE ;", "ISOTROPE"),

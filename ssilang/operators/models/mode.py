@@ -22,6 +22,7 @@ from ssilang.kernel.materials.behaviours import (
     OTHER_FORMULATIONS,
     PLASTIC_WORDS,
     UNDESCRIBED_LAWS,
+    UNPUBLISHED,
     full_word,
     normalised,
 )
@@ -121,10 +122,10 @@ MODE = shared(
         en="Gives a mesh its finite elements and its law.\n"
         "The formulation is MECANIQUE; the law is ELASTIQUE, followed by ISOTROPE (default), "
         "ORTHOTROPE, ANISOTROPE or UNIDIRECTIONNEL; joints also have JOINT_SDM. Continuous "
-        "elements and bars may add PLASTIQUE and PARFAIT, ISOTROPE (default) or CINEMATIQUE (von "
-        "Mises), DRUCKER_PARFAIT, DRUCKER_PRAGER or RH_COULOMB (rounded Mohr-Coulomb), or FLUAGE "
-        "NORTON (creep); shells DKT the laws of von Mises with INTEGRE N1, points across their "
-        "thickness. Beams TIMO "
+        "elements and bars may add PLASTIQUE and PARFAIT, ISOTROPE (default), J2 or CINEMATIQUE "
+        "(von Mises), DRUCKER_PARFAIT, DRUCKER_PRAGER or RH_COULOMB (rounded Mohr-Coulomb), or "
+        "FLUAGE NORTON (creep); shells DKT the laws of von Mises with INTEGRE N1, points across "
+        "their thickness. Beams TIMO "
         "are ELASTIQUE SECTION where their section is a model of fibres (POJS on points, TRIS, "
         "QUAS) given by MATE, and add PLASTIQUE SECTION where fibres yield (PARFAIT_UNI: along the "
         "fibre; BETON_BAEL: concrete without tension; or von Mises). MODAL and "
@@ -159,9 +160,9 @@ MODE = shared(
         fr="Donne à un maillage ses éléments finis et sa loi.\n"
         "La formulation est MECANIQUE ; la loi est ELASTIQUE, suivie d'ISOTROPE (par défaut), "
         "ORTHOTROPE, ANISOTROPE ou UNIDIRECTIONNEL ; les joints ont aussi JOINT_SDM. Les massifs "
-        "et les barres ajoutent PLASTIQUE et PARFAIT, ISOTROPE (par défaut) ou CINEMATIQUE (von "
-        "Mises), DRUCKER_PARFAIT, DRUCKER_PRAGER ou RH_COULOMB (Mohr-Coulomb arrondi), ou FLUAGE "
-        "NORTON ; les coques DKT ont les lois de von Mises avec INTEGRE N1, points dans "
+        "et les barres ajoutent PLASTIQUE et PARFAIT, ISOTROPE (par défaut), J2 ou CINEMATIQUE "
+        "(von Mises), DRUCKER_PARFAIT, DRUCKER_PRAGER ou RH_COULOMB (Mohr-Coulomb arrondi), "
+        "ou FLUAGE NORTON ; les coques DKT ont les lois de von Mises avec INTEGRE N1, points dans "
         "l'épaisseur. Les poutres "
         "TIMO sont ELASTIQUE SECTION quand leur section est un modèle de fibres (POJS sur des "
         "points, TRIS, QUAS) donné par MATE, avec PLASTIQUE SECTION si des fibres plastifient "
@@ -396,6 +397,8 @@ def _name(call: Call, word: str, wish: _Wish) -> None:
     """A formulation, a law or an element."""
     said = LONG_NAMES.get(word.upper().rstrip(), word.upper().rstrip())
     element = said if said in GENERIC_ELEMENTS else said[:4]
+    if said in OTHER_BEHAVIOURS:  # some begin as an element does: TUYAU_FISSURE
+        raise _unknown(call, said)
     if element in ELEMENTS or element in GENERIC_ELEMENTS:
         wish.elements.append(element)
     elif (law := full_word(said, LAW_WORDS)) is not None:
@@ -415,6 +418,9 @@ def _unknown(call: Call, said: str) -> Exception:
     known = (*FORMULATIONS, *LAW_WORDS, *ELEMENTS, *GENERIC_ELEMENTS)
     if said in UNDESCRIBED_LAWS:
         return call.error("operators.models.joint-law-not-built", said=said)
+    if said in UNPUBLISHED:
+        names = UNPUBLISHED[said]
+        raise call.error("operators.models.law-without-equations", said, said=said, names=names)
     written = next((o.value for o in call.used[::-1] if str(o.value).upper() == said), None)
     laws = (*ELASTICITIES, *JOINT_WORDS)
     if full_word(said, OTHER_FORMULATIONS):
@@ -450,6 +456,8 @@ def _zone(block: CellBlock, wish: _Wish, ws: Workspace) -> Zone:
     if ws.mode is Mode.FOURIER:
         options["harmonic"] = ws.fourier
     behaviour = normalised(wish.laws, kind.family)
+    if kind.family == "joint" and "ANISOTROPE" in behaviour and kind.name != "JOI1":
+        raise MeshError("operators.models.anisotropy-of-two-points", name=name)
     if wish.rule and kind.family == "joint":
         name = with_rule(name, wish.rule)
     constituent = wish.constituent

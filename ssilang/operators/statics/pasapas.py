@@ -18,6 +18,7 @@ from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.plasticity.bulk import stiffness_beside, without_stiffness
 from ssilang.kernel.plasticity.points import is_plastic, plastic_zones
+from ssilang.kernel.statics.pressure_load import loaded_sides, with_pressures
 from ssilang.kernel.statics.thermal_load import split_thermal
 from ssilang.kernel.stepping.times import nearest
 from ssilang.language.registry import Help, arg, operator
@@ -310,7 +311,9 @@ def _inputs(
     model: Model | None = entries.get("MODELE")
     linear = _linear_zones(entries)
     solids = [(z, m) for z, m in linear if not is_joint(z)]
-    load, thermal = split_thermal(entries.get("CHARGEMENT"), solids)
+    pressed = () if model is None else loaded_sides(model)
+    forces = with_pressures(entries.get("CHARGEMENT"), pressed, bool(finite_zones(entries)))
+    load, thermal = split_thermal(forces, solids)
     displacement = start.of("DEPLACEMENTS")
     stresses = Stresses(linear, thermal)
     given = start.of("CONTRAINTES")
