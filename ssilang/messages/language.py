@@ -30,6 +30,10 @@ MESSAGES: dict[str, Message] = {
         "look for a recursive call whose end test is never met",
         "cherchez un appel récursif dont le test d'arrêt n'est jamais vrai",
     ),
+    "cannot-print": Message(
+        "what is printed cannot be written: {reason}",
+        "ce qui est imprimé ne peut être écrit : {reason}",
+    ),
     "memory": Message(
         "{operator} needs more memory than there is", "{operator} : mémoire insuffisante"
     ),
@@ -309,6 +313,12 @@ MESSAGES: dict[str, Message] = {
     ),
     "arithmetic": Message("{reason}", "{reason}"),
     "division-by-zero": Message("division by zero", "division par zéro"),
+    "number-too-large": Message(
+        "{operator} calculates with a number that is too large for it",
+        "{operator} calcule avec un nombre trop grand pour lui",
+        "integers that are no count stay below 2**63, reals below 1.8E308",
+        "les entiers qui ne comptent rien restent sous 2**63, les réels sous 1.8E308",
+    ),
     "too-large": Message("the result is too large", "le résultat est trop grand"),
     "no-value": Message("these values have no result", "ces valeurs n'ont pas de résultat"),
     # ---- entries of the tables of procedures
@@ -364,6 +374,13 @@ MESSAGES: dict[str, Message] = {
         "{where} n'est pas un indice de {procedure} et rien dans le script ne le lit",
         "`ssilang help {procedure}` lists its entries",
         "`ssilang help {procedure} --lang fr` en donne la liste",
+        severity="warning",
+    ),
+    "entries-without-effect": Message(
+        "{procedure} accepts {names:and} without effect{en:?: {en}}",
+        "{procedure} accepte {names:and} sans effet{fr:? : {fr}}",
+        "`ssilang help {procedure}` lists the entries that it reads",
+        "`ssilang help {procedure} --lang fr` donne la liste de ceux qu'il lit",
         severity="warning",
     ),
     "refused-entry": Message(

@@ -253,3 +253,17 @@ def test_vector_product_in_3d_is_orthogonal_to_both_factors(found):
 def test_number_raised_to_the_values_of_a_field(found, refused):
     assert found(POINT + "A = MAXI (2. ** C) ; B = MINI (2 ** C) ;", "A", "B") == (16.0, 8.0)
     assert "powers of a field" in refused(POINT + "A = -2. ** C ;")
+
+
+def test_inverse_of_a_field_is_one_over_its_values(found, refused):
+    field = found(POINT + "D = INVE C ;", "D")
+    for name, expected in (("UX", 1 / 3), ("UY", 0.25)):
+        np.testing.assert_allclose(field.components[name].values, expected)
+    assert "UX is 0 at (0, 0" in refused(POINT + "D = INVE (MANU 'CHPO' P 'UX' 0.) ;")
+
+
+@pytest.mark.parametrize("phrase", ["A ET B 'NOER'", "A ET 'NOER' B", "ET 'NOER' A B"])
+def test_diffuse_fields_that_differ_are_joined_where_it_is_said(found, refused, phrase):
+    fields = "OPTI DIME 2 ; P = 0. 0. ; A = MANU 'CHPO' P 'T' 3. 'NATU' 'DIFFUS' ; B = A + 1. ; "
+    assert found(fields + f"X = EXTR ({phrase}) 'T' P ;", "X") == 3.0
+    assert "T" in refused(fields + "X = A ET B ;")

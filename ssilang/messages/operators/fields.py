@@ -3,6 +3,10 @@
 from ssilang.messages.message import Message
 
 MESSAGES: dict[str, Message] = {
+    "no-inverse-of-zero": Message(
+        "component {name} is 0 at ({at:.4g}): it has no inverse there",
+        "la composante {name} vaut 0 en ({at:.4g}) : elle n'y a pas d'inverse",
+    ),
     "field-no-component": Message(
         "the field has no component {name}",
         "le champ n'a pas de composante {name}",

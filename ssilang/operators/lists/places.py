@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import accumulate
 from typing import Any
 
 import numpy as np
@@ -295,9 +296,14 @@ for _kind in ("LISTMOTS", "LISTCHPO", "LISTOBJE"):
 )
 def somm(running: bool, value: ListReel | ListEnti) -> Any:
     """Sum a list."""
-    if running:
-        return type(value)(np.cumsum(value.values))
-    return value.values.sum()
+    if isinstance(value, ListReel):
+        return ListReel(np.cumsum(value.values)) if running else value.values.sum()
+    sums = list(accumulate(value.values.tolist()))  # exact: single integers may be longer
+    if not running:
+        return sums[-1] if sums else 0
+    if max(map(abs, sums), default=0) >= 2**63:
+        raise KernelError("operators.numbers.list-integer-too-large")
+    return ListEnti(sums)
 
 
 @INVE.form(

@@ -297,7 +297,7 @@ reco = operator(
             "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = APPU 'UX' 400. P1 ;"
             " T1 = VIBR 'SIMU' 1. 1 K1 (MASS 'UX' 4. P1) ;"
             " Q1 = MANU 'CHPO' (T1 . 'MODES' . 1 . 'POINT_REPERE') 1 'ALFA' 3. ;"
-            " LIST (RECO Q1 T1) ;",
+            " LIST (RECO Q1 T1) ; LIST (EXTR (RECO (SUIT Q1 (2. * Q1)) T1 1) 2) ;",
             "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = APPU 'UX' 400. P1 ;"
             " T1 = VIBR 'SIMU' 1. 1 K1 (MASS 'UX' 4. P1) ; TI = TABL 'INITIAL' ;"
             " TI . 'VITESSE' = MANU 'CHPO' (T1 . 'MODES' . 1 . 'POINT_REPERE') 1 'ALFA' 3. ;"
