@@ -84,8 +84,9 @@ def _turn(own: FloatArray, axes: SurfaceAxes) -> FloatArray:
     if axes.normal is not None:
         sign = np.sign(np.sum(own[..., 2, :] * axes.normal, axis=-1))
     elif axes.toward is not None:
+        otherwise = axes.toward if axes.otherwise is None else axes.otherwise
         along = np.sum(_global(own, second) * axes.toward, axis=-1)
-        other = np.sum(_global(own, second) * axes.otherwise, axis=-1)
+        other = np.sum(_global(own, second) * otherwise, axis=-1)
         sign = np.sign(np.where(np.abs(along) > 1e-9 * np.linalg.norm(axes.toward), along, other))
     else:
         sign = np.ones(first.shape[:-1])
