@@ -391,7 +391,8 @@ def test_anisotropic_joint_of_two_points_gives_its_matrix_times_the_jump(dimensi
         f"OPTI DIME {dimension} ELEM SEG2 ; {ends} L = MANU 'SEG2' P Q ; "
         "M = MODE L 'MECANIQUE' 'ELASTIQUE' 'ANISOTROPE' 'JOI1' ; "
         f"A = MATE M {terms} {axes} ; U = MANU 'CHPO' Q {given} ; F = (RIGI M A) * U ; "
-        f"N = EXTR (SIGM M A U) 'EFFX' 1 1 1 ; B = MAXI (ABS (F - (BSIG M (SIGM M A U) A))) ; {read}",
+        f"N = EXTR (SIGM M A U) 'EFFX' 1 1 1 ; B = MAXI (ABS (F - (BSIG M (SIGM M A U) A))) ; "
+        f"{read}",
         output_directory=tmp_path,
     )
     assert result.exit_code == 0, result.message
