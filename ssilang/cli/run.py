@@ -144,6 +144,7 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
     except ReaderLeft:
         errors = [SsiError("reader-left", session.evaluator.current_span)]
     left = any(e.code == "reader-left" for e in errors)
+    _tell_refused_code(session)
     _close_files(session, errors)
     names = session.frame.names() | session.library.standard_names
     message = "\n\n".join(render(e, session.language, names) for e in errors)
@@ -154,6 +155,19 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
     if options.summary:
         _summarise(result, source, err)
     return result
+
+
+def _tell_refused_code(session: Session) -> None:
+    """Warn of folders of compiled code that others could have written to, once a process."""
+    kept = sys.modules.get("ssilang.kernel.base.compiled.cache")  # a run may have compiled nothing
+    refused = [] if kept is None else kept.REFUSED
+    while refused:
+        folder, fault = refused.pop(0)
+        told = {"folder": str(folder), "fault": str(fault)}
+        warning = SsiError("cli.compiled-code-refused", None, **told)
+        warning.warns = True
+        with suppress(ReaderLeft):  # it is in the summary
+            session.report(warning)
 
 
 def _tell(errors: list[SsiError], message: str, debug: bool, err: TextIO) -> None:

@@ -11,6 +11,8 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, S
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
+from ssilang.messages.message import spoken
+
 ANY = "*"
 NAME = "NOM"
 """Type word of an entry that takes the name of the next operand, whatever object bears it."""
@@ -346,6 +348,10 @@ class Help:
     fr: str
     syntax: str = ""  # one line an accepted form, notices' style
     examples: tuple[str, ...] = ()  # scripts that run by themselves
+
+    def told(self, language: str) -> str:
+        """What it says in 'en' or 'fr'."""
+        return spoken(self.en, self.fr, language)
 
 
 NO_HELP = Help("", "")

@@ -113,6 +113,10 @@ MESSAGES: dict[str, Message] = {
         "{name} is damaged: {error}",
         "{name} est endommagé : {error}",
     ),
+    "damaged-object": Message(
+        "{name} is damaged: {part} of an object '{kind}' cannot be",
+        "{name} est endommagé : {part} d'un objet '{kind}' ne peut être",
+    ),
     "save-file-holds-object": Message(
         "the save file holds an object of unknown kind '{tag}'",
         "le fichier de sauvegarde contient un objet de nature inconnue '{tag}'",
@@ -171,6 +175,10 @@ MESSAGES: dict[str, Message] = {
     "no-readable-unv-file": Message(
         "{name} is no readable UNV file: {error}",
         "{name} n'est pas un fichier UNV lisible : {error}",
+    ),
+    "record-not-finite": Message(
+        "{name} has values that are too large for a number",
+        "{name} a des valeurs trop grandes pour un nombre",
     ),
     "line-says-values-file": Message(
         "{name}: line 4 says {count} {count:value|values}, the file holds {n_values}",

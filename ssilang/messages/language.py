@@ -309,6 +309,12 @@ MESSAGES: dict[str, Message] = {
     ),
     "arithmetic": Message("{reason}", "{reason}"),
     "division-by-zero": Message("division by zero", "division par zéro"),
+    "number-too-large": Message(
+        "{operator} calculates with a number that is too large for it",
+        "{operator} calcule avec un nombre trop grand pour lui",
+        "integers that are no count stay below 2**63, reals below 1.8E308",
+        "les entiers qui ne comptent rien restent sous 2**63, les réels sous 1.8E308",
+    ),
     "too-large": Message("the result is too large", "le résultat est trop grand"),
     "no-value": Message("these values have no result", "ces valeurs n'ont pas de résultat"),
     # ---- entries of the tables of procedures
@@ -549,6 +555,8 @@ MESSAGES: dict[str, Message] = {
         "un point dans une phrase s'écrit entre parenthèses : (0. 1.)\n",
     ),
     "any-object": Message("an object", "un objet"),
+    "a-object-of-type": Message("a {kind}", "un {kind}"),
+    "an-object-of-type": Message("an {kind}", "un {kind}"),
     "one-of-types": Message("one of {types:or}", "l'un des types {types:or}"),
     "no-keyword": Message(
         "'{word}' is no keyword of {operator}: did you mean '{near}'?\n",

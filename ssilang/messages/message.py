@@ -114,6 +114,11 @@ class Refusal(Exception):
         return hint(self.code, self.data)
 
 
+def spoken(en: str, fr: str, language: str) -> str:
+    """The one of two texts that is in 'en' or 'fr'."""
+    return en if language == "en" else fr
+
+
 def find(code: str) -> Message:
     """The message of a code.
 
@@ -144,7 +149,7 @@ def _room(name: str) -> dict[str, Message]:
 def sentence(code: str, data: Mapping[str, Any], language: str = "en") -> str:
     """What is wrong, in 'en' or 'fr'; `speaker` among the data is named first."""
     message = find(code)
-    text = filled(message.en if language == "en" else message.fr, data, language)
+    text = filled(spoken(message.en, message.fr, language), data, language)
     return f"{data['speaker']}{_COLON[language]}{text}" if "speaker" in data else text
 
 
@@ -156,7 +161,7 @@ def hint(code: str, data: Mapping[str, Any], language: str = "en", script: bool 
         from ssilang.messages.script import HINTS
 
         hints = HINTS.get(code, hints)
-    return filled(hints[0] if language == "en" else hints[1], data, language, script)
+    return filled(spoken(*hints, language), data, language, script)
 
 
 def filled(template: str, data: Mapping[str, Any], language: str, script: bool = False) -> str:

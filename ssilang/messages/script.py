@@ -346,13 +346,19 @@ HINTS: dict[str, tuple[str, str]] = {
         "écrites de nouveau font un nouveau noeud, celui du maillage est MAIL1 POIN 'PROC' "
         "P1|ôtez-la du second membre, ou dites 'NOID'}",
     ),
+    "kernel.mesh.sides-do-not-fit": (
+        "divide both sides alike (the same numbers and sizes in DROI), or say 'PART' to join "
+        "only the cells that fit",
+        "découpez les deux côtés de la même façon (mêmes nombres et tailles dans DROI), ou dites "
+        "'PART' pour ne joindre que les éléments qui se correspondent",
+    ),
     "kernel.statics.no-equilibrium-full-uplift": (
         "less eccentric loads, a support, or a dynamic calculation; if the loads press, the "
-        "joint's sides are swapped: RACC and LIAI take the structure's first, and a joint JOI1 "
-        "opens where its second node goes along DIRECTION",
+        "joint's sides are swapped: RACC (INVE GEO1) GEO2 turns it round, and a joint JOI1 opens "
+        "where its second node goes along DIRECTION",
         "un chargement moins excentré, un appui, ou un calcul dynamique ; si le chargement "
-        "presse, les côtés du joint sont inversés : RACC et LIAI prennent d'abord celui de "
-        "la structure, et un joint JOI1 s'ouvre quand son second noeud va selon DIRECTION",
+        "presse, les côtés du joint sont inversés : RACC (INVE GEO1) GEO2 le retourne, et un "
+        "joint JOI1 s'ouvre quand son second noeud va selon DIRECTION",
     ),
     "kernel.stepping.motions-without-mass": (
         "not held: {free}{more:? and {more} more}; hold it with BLOQ or RELA{apart:?; "

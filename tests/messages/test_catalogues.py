@@ -14,8 +14,15 @@ from string import Formatter
 import pytest
 
 import ssilang
+from ssilang.language import vocabulary
+from ssilang.language.cast3m import cast3m_words
+from ssilang.language.registry import OPERATORS
+from ssilang.language.vocabulary.entries import THEMES
+from ssilang.language.vocabulary.terms import Word
 from ssilang.messages.message import Message, Sentence, hint, sentence
 from ssilang.messages.script import HINTS
+from ssilang.operators.loader import load_operators
+from ssilang.operators.vocabulary.pages import label_code
 
 _ROOT = Path(ssilang.__file__).parent
 _MESSAGES = _ROOT / "messages"
@@ -169,8 +176,24 @@ def test_every_site_gives_what_its_sentence_tells():
 def test_every_sentence_has_a_site():
     of_library = set(re.findall(r"'(stdlib\.[a-z0-9-]+)'", _library_text()))
     assert {c for c in catalogue() if c.startswith("stdlib.")} == of_library
-    lost = [code for code in catalogue() if code not in constants() | of_library]
+    lost = [code for code in catalogue() if code not in constants() | of_library | named_words()]
     assert not lost
+
+
+def named_words() -> set[str]:
+    """Codes of what the words of the program are called in help, which are put together."""
+    load_operators()
+    names = {f"subject-{word.subject}" for word in cast3m_words().values()}
+    names |= {f"theme-{theme}" for theme in THEMES}
+    names |= {f"family-{o.family}" for o in OPERATORS.values()} | {"family-procedures"}
+    names |= {"operator", "procedure"}
+    every = [(kind, word) for kind in vocabulary.KINDS for word in vocabulary.words(kind)]
+    every += [("value", Word("", "", ""))]
+    return {f"help.{name}" for name in names} | {label_code(*word) for word in every}
+
+
+def test_every_word_of_the_program_is_called_something():
+    assert named_words() <= set(catalogue())
 
 
 def _library_text() -> str:

@@ -232,3 +232,31 @@ def test_a_table_is_decomposed_without_naming_its_entry(found):
     listed = "N W = POD ((SUIT X) ET (2. * X)) 'CLASSIQUE' 1 ;"
     of_table, of_list = found(line + table + listed, "V", "W")
     assert of_table.values[0] == of_list.values[0] > 0.0
+
+
+@pytest.mark.parametrize(
+    ("mesh", "at"),
+    [
+        ("CHAN 'TRI7' (CHAN 'TRI6' S)", "0.3 0.4"),
+        ("CHAN 'QUA9' S", "0.3 0.4"),
+        ("VOLU (ENVE V)", "0.3 0.4 0.6"),  # TE10 and PY13
+        ("CHAN 'CU27' V", "0.3 0.4 0.6"),
+        ("CHAN 'TE15' (CHAN 'TE10' V)", "0.3 0.4 0.6"),
+    ],
+)
+def test_projection_reproduces_a_square_in_cells_of_second_degree(found, mesh, at):
+    dimension = len(at.split())
+    text = "OPTI DIME 2 ELEM QUA8 ; S = (DROI 2 (0 0) (1 0)) TRAN 2 (0 1) ; "
+    if dimension == 3:
+        text = (
+            "OPTI DIME 3 ELEM CU20 ; V = ((DROI 2 (0 0 0) (1 0 0)) TRAN 2 (0 1 0)) VOLU 2 "
+            "'TRAN' (0 0 1) ; "
+        )
+    text += (
+        f"P = {at} ; M = {mesh} ; X = NOMC 'T' (COOR 1 M) ; Y = NOMC 'T' (COOR 2 M) ; "
+        "C = CHAN 'CHAM' ((X * X) + (X * Y)) M ; V1 = EXTR (PROI (MANU 'POI1' P) C) 'T' P ; "
+        "A = MESU M ;"
+    )
+    value, size = found(text, "V1", "A")
+    assert value == pytest.approx(0.3 * 0.3 + 0.3 * 0.4)
+    assert size == pytest.approx(1.0)

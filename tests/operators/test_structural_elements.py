@@ -46,7 +46,7 @@ def test_shell_of_bricks_balances_its_load_and_gives_skin_stress_at_nodes(tmp_pa
 def test_pressure_on_bricks_is_refused_for_other_elements(tmp_path):
     text = STRIP.replace("SHB8", "CUB8") + "F = PRES 'SHB8' MO 1. 'EXTERNE' ;"
     result = run_text(text, output_directory=tmp_path)
-    assert result.exit_code != 0
+    assert result.exit_code == 1
     assert "is for models of elements SHB8" in result.message
 
 

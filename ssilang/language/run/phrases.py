@@ -120,12 +120,16 @@ class PhraseRunner(OperandReader):
         except KeyboardInterrupt:
             self.session.was_interrupted()  # it is seen
             raise
-        except (SsiError, StopRun, LeaveLoop, NextTurn, LeaveProcedure, ReaderLeft):
+        except (
+            SsiError, SeveralErrors, StopRun, LeaveLoop, NextTurn, LeaveProcedure, ReaderLeft,
+        ):  # fmt: skip
             raise
         except RecursionError:
             raise SsiError("recursion", span, limit=self.session.limits.recursion) from None
         except MemoryError:
             raise SsiError("memory", span, operator=name) from None
+        except OverflowError:
+            raise SsiError("number-too-large", span, operator=name) from None
         except Exception as problem:
             if self.session.was_interrupted():  # it fails over what it swallowed
                 raise KeyboardInterrupt from problem

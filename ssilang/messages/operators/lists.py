@@ -49,6 +49,14 @@ MESSAGES: dict[str, Message] = {
         "LECT wants a step that divides the distance",
         "LECT veut un pas qui divise la distance",
     ),
+    "steps-lead-away": Message(
+        "steps of {step:g} do not lead from {start:g} to {end:g}: {step:?they go the other way|"
+        "they go nowhere}",
+        "des pas de {step:g} ne mènent pas de {start:g} à {end:g} : {step:?ils vont dans l'autre "
+        "sens|ils ne mènent nulle part}",
+        "{meant:?the step has the sign of the distance: PAS {meant:g}}",
+        "{meant:?le pas a le signe de la distance : PAS {meant:g}}",
+    ),
     "logarithm": Message(
         "a logarithm needs positive values",
         "un logarithme demande des valeurs positives",

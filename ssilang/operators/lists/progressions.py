@@ -161,17 +161,29 @@ def integer_steps(start: int, step: int, end: int) -> list[int]:
     return list(range(start + step, end + (1 if step > 0 else -1), step))
 
 
+_SAME = 1e-12  # relative distance of two reals that rounding alone makes differ
+
+
 def real_steps(start: float, step: float, end: float, ratio: float | None = None) -> list[float]:
     """Reals behind `start` up to `end`, the step being adjusted so that `end` is hit.
 
     Without `ratio` the number of steps is the nearest that fits; with it, the smallest geometric
-    number of steps that reaches `end`, all scaled alike. A step of the wrong sign gives `end`.
+    number of steps that reaches `end`, all scaled alike.
+
+    Raises
+    ------
+    KernelError
+        If the step leads away from `end`, or nowhere.
     """
     distance = end - start
+    if abs(distance) <= _SAME * max(abs(start), abs(end)):
+        return [end]
+    if step == 0 or (distance < 0) != (step < 0):
+        raise KernelError(
+            "operators.lists.steps-lead-away", step=step, start=start, end=end, meant=-step
+        )
     if ratio is not None:
         return _geometric_steps(start, step, end, ratio)
-    if step == 0 or distance / step <= 0:
-        return [end]
     count = max(round(distance / step), 1)
     values: list[float] = (start + distance * np.arange(1, count + 1) / count).tolist()
     values[-1] = end
@@ -180,7 +192,7 @@ def real_steps(start: float, step: float, end: float, ratio: float | None = None
 
 def _geometric_steps(start: float, step: float, end: float, ratio: float) -> list[float]:
     distance = end - start
-    if step == 0 or ratio <= 0 or distance / step <= 0:
+    if ratio <= 0:
         return [end]
     wanted, total = distance / step, 0.0
     lengths: list[float] = []

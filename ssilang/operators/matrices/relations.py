@@ -150,9 +150,9 @@ _SIDE = choice(
         "gives the force on the body for a multiplier of one. 'CORI' moves a mesh as a rigid body: "
         "'DEPL' keeps the distances of its nodes, which may not lie in a plane; 'DEPL' 'ROTA' "
         "ties it to a centre that turns, the first node of GEO1 (beams, shells, or a point of its "
-        "own), and GEO2 are those of its nodes that have no rotations. "
-        "'ENSE' gives all nodes the same value, 'ACCRO' hooks nodes onto the cells that they "
-        "lie in, 'GLIS' does so but along the line, 'MILI' holds middle nodes between the corners.",
+        "own), and GEO2 are those of its nodes that have no rotations. 'ENSE' gives all nodes the "
+        "same value, 'ACCRO' hooks nodes onto the cells that they lie in, "
+        "'GLIS' does so but along the line, 'MILI' holds middle nodes between the corners.",
         "Relations linéaires, à ajouter à la matrice d'un système ; DEPI donne leur valeur "
         "(0 par défaut). Une somme de termes fait une relation par nœud des maillages (de même "
         "nombre de nœuds, ou d'un seul) ; avec 'MINI' la somme reste supérieure ou égale à la "
@@ -160,9 +160,9 @@ _SIDE = choice(
         "les inconnues du même nom ; 'DUAL' donne le champ de la réaction. 'CORI' : corps rigide ; "
         "'DEPL' garde les distances de ses nœuds, qui ne sont pas coplanaires ; 'DEPL' 'ROTA' le "
         "lie à un centre qui tourne, premier nœud de GEO1 (poutres, coques, ou un point à part), "
-        "GEO2 étant ceux de ses nœuds qui n'ont pas de rotations. "
-        "'ENSE' : même valeur partout, 'ACCRO' : nœuds accrochés aux éléments qui les "
-        "contiennent, 'GLIS' : de même sauf le long de la ligne, 'MILI' : nœuds milieux.",
+        "GEO2 étant ceux de ses nœuds qui n'ont pas de rotations. 'ENSE' : même valeur partout, "
+        "'ACCRO' : nœuds accrochés aux éléments qui les contiennent, "
+        "'GLIS' : de même sauf le long de la ligne, 'MILI' : nœuds milieux.",
         "RIG1 = RELA ('MINI' | 'MAXI') (X1) MOT1 GEO1 + | - (X2) MOT2 GEO2 ... ;\n"
         "RIG1 = RELA ... (X1) 'DEPL' | 'ROTA' ('DIRE' VEC1) GEO1 + | - ... ;\n"
         "RIG1 = RELA ('MINI' | 'MAXI') CHPO1 ('DUAL' CHPO2) ;",

@@ -90,6 +90,7 @@ def _nodes(ends: Mesh | Point | None) -> IntArray | None:
 
 def _losses(call: Call, table: Table) -> Losses:
     entries = Entries(call, table, "PREC")
+    entries.check()
     return Losses(**{name: entries.get(index) for index, name in _ENTRIES.items()})
 
 

@@ -25,7 +25,12 @@ from ssilang.language.registry import Help, arg, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
 from ssilang.operators.dynamics.dynamic import integrated
-from ssilang.operators.dynamics.reports import report, warn_contrast, warn_resolution, warn_supports
+from ssilang.operators.dynamics.reports import (
+    report,
+    warn_contrast,
+    warn_of_connections,
+    warn_resolution,
+)
 from ssilang.operators.dynamics.scheme_entries import contact_options, scheme_of
 from ssilang.operators.session.progress import ProgressLine
 from ssilang.operators.session.user_procedures import StopCalculation
@@ -121,7 +126,7 @@ def _stretch(
         bodies = loaded_bodies(work, bodies)
     problem = make_problem(inputs)
     if bodies is None and not control_asked(work) and stage.entries is work:
-        warn_supports(work, inputs)
+        warn_of_connections(work, inputs)
     model: Model | None = given.get("MODELE")
     zones = () if model is None else model.zones
     results = ResultTables(entries.table, saved, stresses, dynamic, number, zones)

@@ -210,3 +210,31 @@ def test_drucker_cone_ends_at_the_ultimate_one(slope: float, limit: float, wante
     law = PLASTIC_LAWS["DRUCKER_PRAGER"]
     found, _ = respond_held(law, p, np.zeros((1, 6)), strain, np.zeros((1, 1)), (2,))
     assert found.stress[0, :2] == pytest.approx(wanted / 1.8, rel=1e-12)
+
+
+@pytest.mark.parametrize("share", [0.6, 0.99, 1.01, 1.6])
+@pytest.mark.parametrize("delta", [0.4, 1.0, 2.5])
+def test_flow_along_its_own_cone_ends_at_the_tip_only_where_the_deviator_is_used_up(
+    delta: float, share: float
+) -> None:
+    """One step without hardening: `x = f / (3 G beta delta + 9 B alpha gamma)`, and the deviator
+    falls by `3 G delta x`: by `share` of what it was."""
+    alpha, beta, strength, gamma = 0.3, 1.2, 2.0, 0.2
+    given = {"ALFA": alpha, "BETA": beta, "K": strength, "ETA": alpha, "MU": beta, "KL": strength,
+             "H": 0, "GAMM": gamma, "DELT": delta, "YOUN": 1e3, "NU": 0.25}  # fmt: skip
+    p = PointParameters({n: np.full(1, float(v)) for n, v in given.items()}, {})
+    shear, bulk = 400.0, 1000 / 1.5
+    q = 3.0
+    x = share * q / (3 * shear * delta)
+    over = x * (3 * shear * beta * delta + 9 * bulk * alpha * gamma)
+    trace = (over + strength - beta * q) / alpha
+    # q of shear alone is sqrt(3) s, s = G g
+    strain = np.array([[*[trace / (9 * bulk)] * 3, q / np.sqrt(3) / shear, 0.0, 0.0]])
+    found = PLASTIC_LAWS["DRUCKER_PRAGER"].respond(p, np.zeros((1, 6)), strain, np.zeros((1, 1)))
+    stress = found.stress[0]
+    if share < 1:
+        assert stress[:3].sum() == pytest.approx(trace - 9 * bulk * gamma * x, rel=1e-12)
+        assert np.sqrt(3) * stress[3] == pytest.approx((1 - share) * q, rel=1e-11)
+        assert found.variables[0, 0] == pytest.approx(x * np.sqrt(delta**2 + 2 * gamma**2))
+    else:
+        assert stress == pytest.approx([*[strength / alpha / 3] * 3, 0, 0, 0], abs=1e-12)

@@ -55,7 +55,9 @@ def test_one_numbering_serves_matrices_with_different_unknowns(table):
     ]
     assert assemble(k, numbering).shape == (4, 4)
     assert assemble(m, numbering).toarray()[2, 3] == -7.0
-    with pytest.raises(FieldError):
+    with pytest.raises(
+        FieldError, check=lambda e: e.code == "kernel.matrices.matrix-unknowns-numbering-lacks"
+    ):
         assemble(m, numbering_of(k))
 
 

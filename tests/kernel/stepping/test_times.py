@@ -24,5 +24,5 @@ def test_saved_steps():
     assert np.flatnonzero(nearest(times, np.array([0.31, 1.0]))).tolist() == [3, 10]
     with pytest.raises(KernelError, match="outside"):
         nearest(times, np.array([1.2]))
-    with pytest.raises(KernelError):
+    with pytest.raises(KernelError, check=lambda e: e.code == "kernel.stepping.step-cannot-saved"):
         every(times, 0)

@@ -129,13 +129,24 @@ def test_without_strength_it_is_the_unilateral_spring():
     np.testing.assert_allclose(t[:, 1], expected, atol=1e-12 * 1e6)
 
 
-@pytest.mark.parametrize("extra", [{}, {"FROT": 0.4}, {"FU": 1e5, "GF": 20.0, "FC": -2e4}])
+@pytest.mark.parametrize(
+    "extra",
+    [
+        {},
+        {"FROT": 0.4},
+        {"FU": 1e5, "GF": 20.0, "FC": -2e4},
+        {"FU": 1e5, "GF": 20.0, "FC": -2e4, "FROT": 0.7},
+    ],
+)
 @pytest.mark.parametrize("d", [2, 3])
 def test_tangent_is_the_derivative(extra, d):
     rng = np.random.default_rng(5)
     p = parameters(200, **extra)
     state = np.zeros((200, N_STATE))
     state[:, Variable.XI] = rng.uniform(0, 2e-4, 200)
+    if "FROT" in extra:  # points that slid before, some of them back
+        state[:, Variable.SLIP1] = rng.uniform(-2e-4, 2e-4, 200)
+        state[:, Variable.SLIP2] = rng.uniform(-2e-4, 2e-4, 200) * (d == 3)
     w = rng.uniform(-4e-4, 4e-4, (200, d))
     _, _new, D = answer(w, state, p)
     h = 1e-10
