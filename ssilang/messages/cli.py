@@ -56,6 +56,12 @@ MESSAGES: dict[str, Message] = {
         "{runs} {runs:calcul|calculs}, {failed} en échec ; {table}, {pictures} "
         "{pictures:image|images}",
     ),
+    "no-working-folder": Message(
+        "the working folder was removed",
+        "le dossier de travail a été supprimé",
+        "go to a folder that is there (cd)",
+        "allez dans un dossier qui existe (cd)",
+    ),
     "compiled-code-refused": Message(
         "others could have put code into {folder}: none is read from there or kept, this run "
         "compiles anew",

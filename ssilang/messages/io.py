@@ -113,6 +113,26 @@ MESSAGES: dict[str, Message] = {
         "{name} is damaged: {error}",
         "{name} est endommagé : {error}",
     ),
+    "folder-in-use": Message(
+        "another run writes into {folder}: process {pid}{host:? on {host}}",
+        "un autre calcul écrit dans {folder} : processus {pid}{host:? sur {host}}",
+        "wait for its end, or choose another folder with --out{elsewhere:?; if that run is over, "
+        "remove {elsewhere}}",
+        "attendez sa fin, ou choisissez un autre dossier par --out{elsewhere:? ; si ce calcul est "
+        "fini, supprimez {elsewhere}}",
+    ),
+    "output-folder-gone": Message(
+        "the output folder {folder} was removed or exchanged during the run",
+        "le dossier de sortie {folder} a été supprimé ou échangé pendant le calcul",
+    ),
+    "no-such-place": Message(
+        "no file can be called '{name}': {reason}",
+        "aucun fichier ne peut s'appeler '{name}' : {reason}",
+    ),
+    "series-files-gone": Message(
+        "files that the run wrote for the series {path} are gone: {names}",
+        "des fichiers écrits pour la série {path} ont disparu : {names}",
+    ),
     "damaged-object": Message(
         "{name} is damaged: {part} of an object '{kind}' cannot be",
         "{name} est endommagé : {part} d'un objet '{kind}' ne peut être",

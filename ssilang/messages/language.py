@@ -30,6 +30,10 @@ MESSAGES: dict[str, Message] = {
         "look for a recursive call whose end test is never met",
         "cherchez un appel récursif dont le test d'arrêt n'est jamais vrai",
     ),
+    "cannot-print": Message(
+        "what is printed cannot be written: {reason}",
+        "ce qui est imprimé ne peut être écrit : {reason}",
+    ),
     "memory": Message(
         "{operator} needs more memory than there is", "{operator} : mémoire insuffisante"
     ),

@@ -36,6 +36,7 @@ _BETWEEN = {
     "words": {"en": " ", "fr": " "},
     ";": {"en": "; ", "fr": " ; "},
 }
+_LONGEST = 40  # letters of a value that has not the form it should be shown in
 _COLON = {"en": ": ", "fr": " : "}
 
 
@@ -216,7 +217,7 @@ def _shown(value: object, spec: str, language: str) -> str:
     if isinstance(value, Said):
         return sentence(value.code, value.data, language)
     if not _is_several(value):
-        return format(value, spec)
+        return _formatted(value, spec)
     joint, _, form = spec.partition(" ")
     if joint not in _LAST and joint not in _BETWEEN:
         joint, form = "", spec
@@ -224,3 +225,10 @@ def _shown(value: object, spec: str, language: str) -> str:
     if joint in _LAST and len(words) > 1:
         return ", ".join(words[:-1]) + _LAST[joint][language] + words[-1]
     return _BETWEEN.get(joint, _BETWEEN[""])[language].join(words)
+
+
+def _formatted(value: object, spec: str) -> str:
+    try:
+        return format(value, spec)
+    except (OverflowError, TypeError, ValueError):  # an integer past all reals, or of another type
+        return str(value)[:_LONGEST]

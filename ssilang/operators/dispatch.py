@@ -136,6 +136,16 @@ EXTR = shared_operator(
             "LIST (MAXI (EXTR (SUIT C C) 2)) ; LIST (EXTR (ENUM 7 8) 2) ;\n"
             "T = EXTR 'POINT' ; LIST (DIME T) ;"
         ),
+        (
+            "A = EVOL 'ROUG' 'MANU' 'TIME' (PROG 0. 1. 3.) 'UX' (PROG 5. 6. 8.) ;\n"
+            "B = EVOL 'BLEU' 'MANU' 'TIME' (PROG 0. 1. 3.) 'UY' (PROG 7. 7. 9.) ; C = A ET B ;\n"
+            "LIST (EXTR C 'ABSC' 2) ; LIST (EXTR C 'UY') ;\n"
+            "LIST (EXTR C 'COUR' 2) ; LIST (DIME (EXTR C 'COUR' 'TIME')) ;\n"
+            "LIST (EXTR A 'PAS' 2) ; LIST (EXTR A 'AVAN' 1.) ;\n"
+            "LIST (EXTR A 'COMP' 'INDI' 2 3 'ZERO') ;\n"
+            "LIST (EXTR A 'LEGX') ; LIST (EXTR C 'LEGY' 2) ; LIST (EXTR A 'LEGE') ;\n"
+            "LIST (EXTR C 'COUL') ;"
+        ),
     ),
 )
 DIME = shared_operator(

@@ -96,3 +96,10 @@ def test_lists_of_a_table_go_to_their_cheapest_places(found):
     assert total == 2
     assert table.get("A").values.tolist() == [20, 10]
     assert table.get("B").values == ["Y", "X"]
+
+
+@pytest.mark.parametrize("phrase", ["L M 'ET'", "L 'ET' M"])
+def test_all_words_of_a_list_are_looked_for_whatever_the_place_of_the_word(found, phrase):
+    lists = "L = MOTS 'A' 'B' ; M = MOTS 'A' 'C' ; "
+    assert found(lists + f"X = EXIS {phrase} ;", "X") is False
+    assert found(lists + f"X = EXIS {phrase.replace('ET', 'OU')} ;", "X") is True

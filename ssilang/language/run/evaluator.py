@@ -208,9 +208,13 @@ class Evaluator(PhraseRunner):
             'no-such-loop' for a QUIT or ITER that names nothing open, besides what nodes raise.
         """
         try:
-            self.run(nodes)
+            self.guarded(lambda: self._run_all(nodes), self.current_span, "")
         except (LeaveLoop, NextTurn, LeaveProcedure) as jump:
             raise SsiError("no-such-loop", self.current_span, name=jump.name) from None
+
+    def _run_all(self, nodes: Sequence[tree.Node]) -> None:
+        try:
+            self.run(nodes)
         except RecursionError:
             raise SsiError("nesting", self.current_span) from None
 

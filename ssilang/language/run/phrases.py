@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 
 # operators whose operands must stay as written
 _RAW_ITEMS = frozenset({"TEXT"})
+_SIGNS = frozenset({"+", "-", "*", "/", "ET", "OU"})
+_PART = 255  # operands of a long chain `a + b + c ...` that are run together, an odd number
 
 
 class PhraseRunner(OperandReader):
@@ -80,6 +82,12 @@ class PhraseRunner(OperandReader):
         return None
 
     def _reduce(self, call: Call) -> None:
+        while _begins_long_chain(call.operands):
+            # what stands behind a sign is never reached from before it: the part runs by itself,
+            # and the rest of the chain does not move at each sign
+            part = Call(self.session, call.operands[:_PART], call.span)
+            self._reduce(part)
+            call.operands[:_PART] = part.operands
         while (i := call.word_index()) is not None:
             operand = call.operands[i]
             if isinstance(operand.value, Procedure):
@@ -113,7 +121,7 @@ class PhraseRunner(OperandReader):
         elif results is not None:
             self._push(call, [results], span)
 
-    def guarded(self, action: Callable[[], Any], span: Span, name: str) -> Any:
+    def guarded(self, action: Callable[[], Any], span: Span | None, name: str) -> Any:
         """Run what an operator does; whatever it raises becomes an error of the script."""
         try:
             result = action()
@@ -161,8 +169,18 @@ class PhraseRunner(OperandReader):
         if len(numbers) < dimension:
             raise SsiError("third-coordinate", span)
         if len(numbers) == dimension:
-            point = self.session.make_point([float(o.value) for o in numbers])
+            make = self.session.make_point
+            point = self.guarded(lambda: make([float(o.value) for o in numbers]), span, "POINT")
             call.operands[:] = [Operand(point, span, result=True)]
+
+
+def _begins_long_chain(operands: Sequence[Operand]) -> bool:
+    """Whether a phrase begins with values and signs in turn, more than a part, a sign behind."""
+    return (
+        len(operands) > 2 * _PART
+        and all(isinstance(o.value, Mot) and o.value in _SIGNS for o in operands[1 : _PART + 1 : 2])
+        and not any(isinstance(o.value, Mot | Procedure | Texte) for o in operands[:_PART:2])
+    )
 
 
 def _words_of(item: tree.Quoted) -> list[tree.Item]:

@@ -3,6 +3,10 @@
 from ssilang.messages.message import Message
 
 MESSAGES: dict[str, Message] = {
+    "no-facets-to-project-on": Message(
+        "the mesh has neither surfaces nor lines to project on",
+        "le maillage n'a ni surfaces ni lignes sur lesquelles projeter",
+    ),
     "node-out-of-range": Message(
         "a node would have the coordinate {value:g}",
         "un noeud aurait la coordonnée {value:g}",

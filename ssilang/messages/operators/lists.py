@@ -49,6 +49,10 @@ MESSAGES: dict[str, Message] = {
         "LECT wants a step that divides the distance",
         "LECT veut un pas qui divise la distance",
     ),
+    "steps-not-finite": Message(
+        "steps of {step:g} from {start:g} to {end:g} are no finite numbers",
+        "des pas de {step:g} de {start:g} à {end:g} ne sont pas des nombres finis",
+    ),
     "steps-lead-away": Message(
         "steps of {step:g} do not lead from {start:g} to {end:g}: {step:?they go the other way|"
         "they go nowhere}",

@@ -19,12 +19,6 @@ MESSAGES: dict[str, Message] = {
         "aucune extrémité du câble allant du noeud {first} au noeud {last} n'est parmi "
         "les points de mise en tension",
     ),
-    "tori-not-available": Message(
-        "'TORI' is not available",
-        "'TORI' n'est pas disponible",
-        "'POLA', 'CYLI' and 'SPHE' are",
-        "'POLA', 'CYLI' et 'SPHE' le sont",
-    ),
     "rten-of-solids-only": Message(
         "RTEN is for continuous elements, not {element}",
         "RTEN vaut pour les éléments massifs, pas {element}",

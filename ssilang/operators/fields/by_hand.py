@@ -184,10 +184,14 @@ def curves_in_cells(
 @MANU.form(*_CURVES, arg("table", "TABLE", en="fields by abscissa", fr="champs par abscisse"))
 def curves_of_table(call: Call, curves: str, name: str, table: Table) -> CellField:
     """Curves from a table of fields in cells."""
-    rows = {float(k): v for k, v in table.items() if isinstance(k, int | float)}
-    if not rows or not all(isinstance(v, CellField) for v in rows.values()):
+    rows = [
+        (float(k), v)
+        for k, v in table.items()
+        if isinstance(k, int | float) and isinstance(v, CellField)
+    ]
+    if not rows:
         raise call.error("operators.fields.table-of-fields", table)
-    return through(name.rstrip(), list(rows), list(rows.values()))
+    return through(name.rstrip(), [x for x, _ in rows], [f for _, f in rows])
 
 
 @MANU.form(

@@ -378,3 +378,37 @@ def test_nodes_are_told_in_the_order_of_their_numbers() -> None:
     script = PLANE + "L = O D 2 B ; M = TASS L 'NOOP' ; "
     assert value(script + "X = NBEL M ;") == 5
     assert value(script + "X = COOR 2 (M POIN 3) ;") == 1.0  # B is the third point made
+
+
+@pytest.mark.parametrize(
+    ("goal", "expected"),
+    [
+        ("S", 0.25),  # the plane z = x / 2 of QUA4
+        ("(CHAN 'QUAD' S)", 0.25),
+        ("(CHAN 'TRI3' S)", 0.25),
+        ("(S VOLU 1 'TRAN' (0. 0. -1.))", 0.25),  # the nearest face of the skin
+    ],
+)
+def test_points_go_on_a_mesh_along_a_vector(goal: str, expected: float) -> None:
+    script = SPACE + (
+        "OPTI ELEM QUA4 ; S = (O D 4 (1. 0. 0.5)) TRAN 3 (0. 1. 0.) ; OPTI ELEM CUB8 ; "
+        f"G = {goal} ; P = 0.5 0.41 7. ; Q = P PROJ 'CYLI' Z G ; X = COOR 3 Q ; "
+    )
+    assert value(script) == pytest.approx(expected)
+
+
+def test_meshes_go_on_a_mesh_away_from_a_point() -> None:
+    flat = SPACE + (
+        "OPTI ELEM QUA4 ; S = ((-9. -9. 2.) D 3 (9. -9. 2.)) TRAN 3 (0. 18. 0.) ; L = Z D 2 "
+        "(1. 0. 1.) ; M = L PROJ 'CONI' O S ; "
+    )
+    # twice as far from the origin as the line at height 1
+    assert value(flat + "X = MESU M ;") == pytest.approx(2.0)
+    assert value(flat + "X = COOR 3 (M POIN 'FINA') ;") == pytest.approx(2.0)
+    assert "no projection" in message(flat + "N = L PROJ 'CYLI' A S ;")
+
+
+def test_points_of_the_plane_go_on_a_line() -> None:
+    line = PLANE + "L = (O D 2 A D 2 B) ; Q = (5. 0.25) PROJ 'CYLI' A L ; "
+    assert value(line + "X = COOR 1 Q ;") == pytest.approx(1.0)
+    assert "lines" in message(PLANE + "Q = O PROJ 'CYLI' A (MANU 'POI1' B) ;")

@@ -26,6 +26,7 @@ from ssilang.kernel.mesh.changes.transform import (
 )
 from ssilang.kernel.mesh.generators.sweep import corresponding_nodes
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
+from ssilang.kernel.mesh.surfaces.facets import facet_shape
 from ssilang.language.registry import Argument, Chosen, Help, Like, arg, many, operator, said
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
@@ -41,6 +42,7 @@ from ssilang.operators.mesh.copies.maps import (
     VECTOR,
     positions,
     projection_of,
+    projection_on,
     rotation_matrix,
 )
 from ssilang.operators.mesh.copies.moves import displacements
@@ -477,3 +479,24 @@ def projected_along(
 ) -> tuple[Any, ...]:
     """Copy and project along a vector."""
     return copies(call, objects, projection_of("CYLI", vector, surface))
+
+
+@proj.form(
+    RAYS[0],
+    _objects(1, "MAILLAGE"),
+    arg("goal", "MAILLAGE", en="mesh on which they go", fr="maillage d'arrivée"),
+    gives=Like("objects"),
+    syntax="GEO1 ... = GEO2 ... PROJ 'CYLI' VEC1 | 'CONI' SOMM1  GEO3 ;",
+    en="On a mesh: the nearest point of its skin, surfaces or lines, taken as flat facets.",
+    fr="Sur un maillage : le point le plus proche de sa peau, de ses surfaces ou de ses lignes, "
+    "prises comme des facettes planes.",
+    examples=(
+        "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (2. 1.) ;\n"
+        "Q = (1. 5.) PROJ 'CYLI' (0. 1.) L ; LIST (COOR 2 Q) ;",
+    ),
+)
+def projected_on_mesh(
+    call: Call, rays: tuple[str, Point], objects: Sequence[Any], goal: Mesh
+) -> tuple[Any, ...]:
+    """Copy and project on a mesh."""
+    return copies(call, objects, projection_on(*rays, facet_shape(goal)))
