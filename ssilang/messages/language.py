@@ -313,6 +313,12 @@ MESSAGES: dict[str, Message] = {
     ),
     "arithmetic": Message("{reason}", "{reason}"),
     "division-by-zero": Message("division by zero", "division par zéro"),
+    "operand-not-finite": Message(
+        "{operator} cannot calculate with {value}, which is no finite number",
+        "{operator} ne peut calculer avec {value}, qui n'est pas un nombre fini",
+        "VERI tells whether a real is a number; look where this one comes from",
+        "VERI dit si un réel est un nombre ; cherchez d'où vient celui-ci",
+    ),
     "number-too-large": Message(
         "{operator} calculates with a number that is too large for it",
         "{operator} calcule avec un nombre trop grand pour lui",

@@ -170,6 +170,7 @@ _HEADS = {
     "element unknown": lambda h: part_of(h, "Zone").update(element="QUA5"),
     "a field is missing": lambda h: part_of(h, "CellBlock").pop("raw"),
     "unknowns too few": lambda h: part_of(h, "ElementMatrices").update(unknowns=["t", ["UX"]]),
+    "a load without a field": lambda h: part_of(h, "LoadPart").update(space=None),
     "endless": point_to_itself,
     "settings": lambda h: h["settings"].update(DIME=[3]),
     "unknowns of INCO": lambda h: h["settings"].update(INCO=3),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from abc import abstractmethod
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
@@ -105,6 +106,9 @@ class PhraseRunner(OperandReader):
             results = self.guarded(lambda: run_operator(found, call), operand.span, found.full_name)
         except SsiError as error:
             tell_held_word(error, operand)
+            if error.code == "internal" and (cause := _not_finite(call.used)) is not None:
+                told = {"operator": found.full_name, "value": str(cause.value)}
+                raise SsiError("operand-not-finite", cause.span, **told) from error
             raise
         span = operand.span
         self._silent = operand if results is None else None
@@ -164,6 +168,12 @@ class PhraseRunner(OperandReader):
             make = self.session.make_point
             point = self.guarded(lambda: make([float(o.value) for o in numbers]), span, "POINT")
             call.operands[:] = [Operand(point, span, result=True)]
+
+
+def _not_finite(operands: Sequence[Operand]) -> Operand | None:
+    """The first number that is none (NaN) or infinite: what an operator failed over."""
+    numbers = (o for o in operands if type(o.value) is float)
+    return next((o for o in numbers if not math.isfinite(o.value)), None)
 
 
 def _words_of(item: tree.Quoted) -> list[tree.Item]:
