@@ -382,6 +382,13 @@ MESSAGES: dict[str, Message] = {
         "`ssilang help {procedure} --lang fr` en donne la liste",
         severity="warning",
     ),
+    "entries-without-effect": Message(
+        "{procedure} accepts {names:and} without effect{en:?: {en}}",
+        "{procedure} accepte {names:and} sans effet{fr:? : {fr}}",
+        "`ssilang help {procedure}` lists the entries that it reads",
+        "`ssilang help {procedure} --lang fr` donne la liste de ceux qu'il lit",
+        severity="warning",
+    ),
     "refused-entry": Message(
         "{index} is refused: {problem}",
         "{index} est refusé : {problem}",

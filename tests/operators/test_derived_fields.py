@@ -232,3 +232,85 @@ def test_a_table_is_decomposed_without_naming_its_entry(found):
     listed = "N W = POD ((SUIT X) ET (2. * X)) 'CLASSIQUE' 1 ;"
     of_table, of_list = found(line + table + listed, "V", "W")
     assert of_table.values[0] == of_list.values[0] > 0.0
+
+
+@pytest.mark.parametrize(
+    ("mesh", "at"),
+    [
+        ("CHAN 'TRI7' (CHAN 'TRI6' S)", "0.3 0.4"),
+        ("CHAN 'QUA9' S", "0.3 0.4"),
+        ("VOLU (ENVE V)", "0.3 0.4 0.6"),  # TE10 and PY13
+        ("CHAN 'CU27' V", "0.3 0.4 0.6"),
+        ("CHAN 'TE15' (CHAN 'TE10' V)", "0.3 0.4 0.6"),
+    ],
+)
+def test_projection_reproduces_a_square_in_cells_of_second_degree(found, mesh, at):
+    dimension = len(at.split())
+    text = "OPTI DIME 2 ELEM QUA8 ; S = (DROI 2 (0 0) (1 0)) TRAN 2 (0 1) ; "
+    if dimension == 3:
+        text = (
+            "OPTI DIME 3 ELEM CU20 ; V = ((DROI 2 (0 0 0) (1 0 0)) TRAN 2 (0 1 0)) VOLU 2 "
+            "'TRAN' (0 0 1) ; "
+        )
+    text += (
+        f"P = {at} ; M = {mesh} ; X = NOMC 'T' (COOR 1 M) ; Y = NOMC 'T' (COOR 2 M) ; "
+        "C = CHAN 'CHAM' ((X * X) + (X * Y)) M ; V1 = EXTR (PROI (MANU 'POI1' P) C) 'T' P ; "
+        "A = MESU M ;"
+    )
+    value, size = found(text, "V1", "A")
+    assert value == pytest.approx(0.3 * 0.3 + 0.3 * 0.4)
+    assert size == pytest.approx(1.0)
+
+
+BRICK = (
+    "OPTI DIME 3 MODE TRID ELEM CUB8 ; V = ((DROI 1 (4. 1. 0.5) (5. 1. 0.5)) TRAN 1 (0. 1. 0.)) "
+    "VOLU 1 'TRAN' (0. 0. 1.) ; M = MODE V MECANIQUE ELASTIQUE ; "
+    "S = MANU 'CHML' M 'SMXX' 3. 'SMYY' -1. 'SMZZ' 2. 'SMXY' 0.5 'SMXZ' 0.7 'SMYZ' -0.4 "
+    "'TYPE' 'CONTRAINTES' 'STRESSES' ; O = 0. 0. 0. ; D = 0. 0. 1. ; "
+)
+SIGMA = np.array([[3.0, 0.5, 0.7], [0.5, -1.0, -0.4], [0.7, -0.4, 2.0]])
+
+
+def test_stresses_in_the_axes_of_a_torus(found):
+    """Large circle of radius 3 at the height 0.25: the axes by hand at one point."""
+    values = found(
+        BRICK + "T = RTEN S M 'TORI' 'CIRC' O D (0. 3. 0.25) ; X Y Z = COOR T ; "
+        "A1 = EXTR X 'SCAL' 1 1 3 ; A2 = EXTR Y 'SCAL' 1 1 3 ; A3 = EXTR Z 'SCAL' 1 1 3 ; "
+        "B1 = EXTR T 'SMXX' 1 1 3 ; B2 = EXTR T 'SMYY' 1 1 3 ; B3 = EXTR T 'SMZZ' 1 1 3 ; "
+        "B4 = EXTR T 'SMXZ' 1 1 3 ;",
+        "A1", "A2", "A3", "B1", "B2", "B3", "B4",
+    )  # fmt: skip
+    place, stress = np.array(values[:3]), values[3:]
+    radial = np.array([place[0], place[1], 0.0]) / np.hypot(place[0], place[1])
+    around = np.array([-radial[1], radial[0], 0.0])
+    outward = place - (3.0 * radial + [0.0, 0.0, 0.25])
+    outward = outward / np.linalg.norm(outward)
+    along = np.cross(outward, around)
+    seen = [v @ SIGMA @ v for v in (around, along, outward)]
+    assert stress == pytest.approx((*seen, around @ SIGMA @ outward), rel=1e-10)
+
+
+def test_straight_axes_of_a_torus_are_those_of_a_cylinder(found, refused):
+    gap = found(
+        BRICK + "X = MAXI 'ABS' ((RTEN S M 'TORI' O D) - (RTEN S M 'CYLI' O D)) ; "
+        "Y = MAXI 'ABS' ((RTEN S M 'TORI' 'CART' O D) - (RTEN S M 'CYLI' O D)) ;",
+        "X", "Y",
+    )  # fmt: skip
+    assert gap == (0.0, 0.0)
+    assert "wanted a POINT" in refused(BRICK + "T = RTEN S M 'TORI' 'CIRC' O D ;")
+
+
+def test_stresses_turned_by_a_field_of_rotations(found):
+    """A quarter turn about z, R = [0 -1 0, 1 0 0, 0 0 1]: Rt A R has A22 first."""
+    script = (
+        BRICK + "X Y Z = COOR V ; "
+        "R = GRAD M ((NOMC 'UX' (-1. * Y)) ET (NOMC 'UY' X) ET (NOMC 'UZ' Z)) ; "
+        "T = RTEN S M R ; U = RTEN S M R 'RART' ; B = RTEN T M R 'RART' ; "
+        "X1 = EXTR T 'SMXX' 1 1 1 ; X2 = EXTR T 'SMXZ' 1 1 1 ; X3 = EXTR U 'SMXZ' 1 1 1 ; "
+        "X4 = MAXI 'ABS' (B - S) ;"
+    )
+    R = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+    first, second, third, back = found(script, "X1", "X2", "X3", "X4")
+    assert (first, second) == pytest.approx(((R.T @ SIGMA @ R)[0, 0], (R.T @ SIGMA @ R)[0, 2]))
+    assert third == pytest.approx((R @ SIGMA @ R.T)[0, 2])
+    assert back == pytest.approx(0.0, abs=1e-13)

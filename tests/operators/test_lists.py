@@ -239,3 +239,16 @@ def test_steps_at_the_head_of_a_list_start_from_a_zero_left_out(found):
     reals, integers = found("A = PROG PAS 0.5 2. 7. ; B = LECT PAS 2 NPAS 3 ;", "A", "B")
     assert list(reals.values) == [0.5, 1.0, 1.5, 2.0, 7.0]
     assert list(integers.values) == [2, 4, 6]
+
+
+def test_each_operand_loses_its_doubles():
+    result = run_text(
+        "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0 0) (1 0) ; "
+        "A B C = UNIQ (PROG 0.3 (0.1 + 0.2) 1. 1.05 1.) (LECT 3 3 1) (L ET (INVE L)) ; "
+        "E = UNIQ 0.1 (PROG 1. 2. 1.05) ;"
+    )
+    assert result.exit_code == 0, result.message
+    a, b, c, e = map(result.session.root.find, "ABCE")
+    assert a.values.tolist() == [0.3, 1.0, 1.05]  # 0.1 + 0.2 is 0.3 but for rounding
+    assert (b.values.tolist(), c.n_cells) == ([3, 1], 2)
+    assert e.values.tolist() == [1.0, 2.0]

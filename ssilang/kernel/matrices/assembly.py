@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.base.errors import FieldError
+from ssilang.kernel.base.errors import FieldError, KernelError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.fields.node_field import Nature, NodeField, NodeValues
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, Relations, dual_of
@@ -262,6 +262,32 @@ def _places(block: ElementMatrices, numbering: Numbering) -> NDArray[np.int32]:
     if places.size and places.min() < 0:
         raise FieldError("kernel.matrices.matrix-unknowns-numbering-lacks")
     return places
+
+
+NEGATIVE = 1e-12
+"""Share of the largest mass up to which a negative one is rounding."""
+
+
+def negative_mass(mass: sp.csr_array, numbering: Numbering) -> tuple[Sentence, float] | None:
+    """The unknown whose motion the most negative mass resists, and that mass; None without."""
+    diagonal = mass.diagonal()
+    if diagonal.size == 0 or diagonal.min() >= -NEGATIVE * np.abs(diagonal).max():
+        return None
+    worst = int(np.argmin(diagonal))
+    return numbering.label(worst), float(diagonal[worst])
+
+
+def refuse_negative_mass(mass: sp.csr_array, numbering: Numbering) -> None:
+    """Refuse a mass matrix that resists the motion of some unknown with a negative mass.
+
+    Raises
+    ------
+    KernelError
+        Naming the unknown with the most negative one.
+    """
+    found = negative_mass(mass, numbering)
+    if found is not None:
+        raise KernelError("kernel.matrices.mass-negative", unknown=found[0], mass=found[1])
 
 
 def is_symmetric(matrix: Matrix) -> bool:

@@ -78,13 +78,13 @@ class NodeTable:
         """The surviving node numbers of `ids` after all merges (same shape)."""
         return self._alias[ids]
 
-    def told(self, node: int) -> str:
-        """A node as messages name it: its number, from 1, and where it is: '12 (0. 4.)'.
+    def shown(self, coordinates: FloatArray) -> FloatArray:
+        """The coordinates (3,) that messages write: two where no node of the table has a third."""
+        return coordinates[: 3 if self.coordinates[:, 2].any() else 2]
 
-        The third coordinate is left out where no node of the table has one.
-        """
-        shown = self.coordinates[int(node), : 3 if self.coordinates[:, 2].any() else 2]
-        return f"{int(node) + 1} ({told_coordinates(shown)})"
+    def told(self, node: int) -> str:
+        """A node as messages name it: its number, from 1, and where it is: '12 (0. 4.)'."""
+        return f"{int(node) + 1} ({told_coordinates(self.shown(self.coordinates[int(node)]))})"
 
     def merge(self, kept: IntArray, dropped: IntArray) -> None:
         """Make every `dropped[i]` an alias of `kept[i]` (arrays (m,), resolved on the way)."""

@@ -517,6 +517,8 @@ def run_operator(found: Operator, call: Call) -> Any:
     """Choose the form that the operands fit and run it; returns what the function returned."""
     bound = bind_operator(found, call)
     form, values = bound.form, bound.values
+    calls = call.session.calls
+    calls[found.name] = calls.get(found.name, 0) + 1
     if call.session.on_form is not None:
         call.session.on_form(found, form, values)
     if form.by_hand:

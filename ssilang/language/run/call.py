@@ -198,7 +198,9 @@ class Call:
 
     def at_word(self) -> bool:
         """Whether a word is the very next operand."""
-        return self.word_index() == 0
+        while self.operands and isinstance(self.operands[0].value, Texte):
+            self._expand(0)
+        return bool(self.operands) and isinstance(self.operands[0].value, Mot | Procedure)
 
     def keyword(self, words: Sequence[str], length: int = 4) -> str | None:
         """Consume the first unread word if it is one of `words`; returns that entry of `words`.
@@ -251,6 +253,11 @@ class Call:
                 break
             i += 1
         return found
+
+    def take_first(self, count: int) -> None:
+        """Consume so many operands at once: one by one, what is left would move at each."""
+        self.used += self.operands[:count]
+        del self.operands[:count]
 
     def take(self, index: int, *types: str) -> Operand:
         """Consume the operand at an index of the unread ones, as one of the types."""

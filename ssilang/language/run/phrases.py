@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 
 # operators whose operands must stay as written
 _RAW_ITEMS = frozenset({"TEXT"})
+_SIGNS = frozenset({"+", "-", "*", "/", "ET", "OU"})
+_PART = 255  # operands of a long chain `a + b + c ...` that are run together, an odd number
 
 
 class PhraseRunner(OperandReader):
@@ -81,6 +83,12 @@ class PhraseRunner(OperandReader):
         return None
 
     def _reduce(self, call: Call) -> None:
+        while _begins_long_chain(call.operands):
+            # what stands behind a sign is never reached from before it: the part runs by itself,
+            # and the rest of the chain does not move at each sign
+            part = Call(self.session, call.operands[:_PART], call.span)
+            self._reduce(part)
+            call.operands[:_PART] = part.operands
         while (i := call.word_index()) is not None:
             operand = call.operands[i]
             if isinstance(operand.value, Procedure):
@@ -174,6 +182,15 @@ def _not_finite(operands: Sequence[Operand]) -> Operand | None:
     """The first number that is none (NaN) or infinite: what an operator failed over."""
     numbers = (o for o in operands if type(o.value) is float)
     return next((o for o in numbers if not math.isfinite(o.value)), None)
+
+
+def _begins_long_chain(operands: Sequence[Operand]) -> bool:
+    """Whether a phrase begins with values and signs in turn, more than a part, a sign behind."""
+    return (
+        len(operands) > 2 * _PART
+        and all(isinstance(o.value, Mot) and o.value in _SIGNS for o in operands[1 : _PART + 1 : 2])
+        and not any(isinstance(o.value, Mot | Procedure | Texte) for o in operands[:_PART:2])
+    )
 
 
 def _words_of(item: tree.Quoted) -> list[tree.Item]:

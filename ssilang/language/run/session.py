@@ -120,6 +120,9 @@ class Session:
     integrate: Any = None  # integrates in time instead of the kernel, for runs that go together
     given: dict[str, Any] = field(default_factory=dict)  # replaces a name's first assignment
     started: float = field(default_factory=time.perf_counter)
+    calls: dict[str, int] = field(
+        default_factory=dict
+    )  # how often operators ran, since TEMP 'ZERO'
     evaluator: Runner = field(init=False)  # puts itself here
 
     def __post_init__(self) -> None:

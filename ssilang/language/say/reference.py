@@ -154,7 +154,7 @@ def page_text(page: Page, language: str) -> str:
     return "\n".join(lines)
 
 
-_STATEMENT = re.compile(r"(?:'(?:[^']|'')*'|[^;'])*;\s*")
+_STATEMENT = re.compile(r"(?:'[^']*(?:''[^']*)*'|[^;'])*;\s*")
 
 
 def example_lines(text: str) -> list[str]:

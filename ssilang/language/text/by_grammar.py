@@ -158,7 +158,7 @@ def _explain(source: Source, text: str, problem: UnexpectedInput) -> tuple[SsiEr
 def _syntax_error(source: Source, text: str, begin: int, place: int, end: int) -> SsiError:
     statement = text[begin:end]
     head = Span(source, begin, min(end, begin + len(statement.split("\n")[0])))
-    bare = re.sub(r"'(?:[^']|'')*'", lambda m: " " * len(m.group()), statement, flags=re.DOTALL)
+    bare = re.sub(r"'[^']*(?:''[^']*)*'", lambda m: " " * len(m.group()), statement)
     quote = bare.find("'")
     if quote >= 0:
         early = re.search(r"'[^'\n]*'(?=\w)", statement)

@@ -11,6 +11,12 @@ MESSAGES: dict[str, Message] = {
         "abscissas of a spline must increase strictly",
         "les abscisses d'une spline doivent croître strictement",
     ),
+    "clouds-of-other-components": Message(
+        "clouds are joined row by row: {first:words} and {second:words} are not the same "
+        "components",
+        "des nuages se joignent ligne par ligne : {first:words} et {second:words} ne sont pas les "
+        "mêmes composantes",
+    ),
     "cloud-no-component": Message(
         "the cloud has no component {name}",
         "le nuage n'a pas de composante {name}",

@@ -129,6 +129,19 @@ MESSAGES: dict[str, Message] = {
         "a unilateral condition has no harmonic response",
         "une condition unilatérale n'a pas de réponse harmonique",
     ),
+    "pressure-without-sides": Message(
+        "a load of pressure stands on no side: the model has no zones of loads",
+        "un chargement de pression n'a pas de face : le modèle n'a pas de zones de chargement",
+    ),
+    "pressure-follows": Message(
+        "a load of pressure follows its sides in large displacements, and is given as a constant "
+        "one",
+        "en grands déplacements un chargement de pression suit ses faces ; il est donné constant",
+    ),
+    "pressure-is-no-field-in-cells": Message(
+        "a load of pressure is made of a field in cells",
+        "un chargement de pression est fait d'un champ par éléments",
+    ),
     "load-not-mechanical": Message(
         "the load {name} is not mechanical",
         "le chargement {name} n'est pas mécanique",

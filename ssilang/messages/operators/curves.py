@@ -103,10 +103,6 @@ MESSAGES: dict[str, Message] = {
         "{n_low} lower and {n_high} upper bounds",
         "{n_low} bornes inférieures et {n_high} supérieures",
     ),
-    "all-of-one-number": Message(
-        "'TOUS' looks one number up",
-        "'TOUS' cherche un seul nombre",
-    ),
     "no-such-place": Message(
         "the curve has {count} {count:point|points}, places go from 1 to {count}",
         "la courbe a {count} {count:point|points}, les rangs vont de 1 à {count}",

@@ -3,6 +3,12 @@
 from ssilang.messages.message import Message
 
 MESSAGES: dict[str, Message] = {
+    "amplification-of-picture": Message(
+        "the amplification of this shape is chosen by the picture",
+        "l'amplification de cette déformée est choisie par le tracé",
+        "DEFO takes a number for it",
+        "DEFO accepte un nombre pour elle",
+    ),
     "no-colour-no-place": Message(
         "'{said}' is neither a colour nor one of {places:words}",
         "'{said}' n'est ni une couleur ni l'un de {places:words}",

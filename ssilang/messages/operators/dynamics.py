@@ -93,15 +93,6 @@ MESSAGES: dict[str, Message] = {
         "KN et KS sont en Pa/m (N/m pour JOI1) ; vérifiez leurs unités",
         severity="warning",
     ),
-    "sides-swapped": Message(
-        "the joint around {x:.4g} {y:.4g} {z:.4g} opens where its bodies come together: its "
-        "sides are swapped",
-        "le joint autour de {x:.4g} {y:.4g} {z:.4g} s'ouvre quand ses corps se rapprochent : "
-        "ses côtés sont inversés",
-        "RACC and LIAI take the structure's side first",
-        "RACC et LIAI prennent d'abord le côté de la structure",
-        severity="warning",
-    ),
     "badly-conditioned": Message(
         "the condition number of the stiffness with closed joints is {number:.0e}: {digits} "
         "of 16 digits are left; with joints as stiff as the bodies at their nodes it is "

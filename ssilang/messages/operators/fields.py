@@ -3,6 +3,10 @@
 from ssilang.messages.message import Message
 
 MESSAGES: dict[str, Message] = {
+    "no-inverse-of-zero": Message(
+        "component {name} is 0 at ({at:.4g}): it has no inverse there",
+        "la composante {name} vaut 0 en ({at:.4g}) : elle n'y a pas d'inverse",
+    ),
     "field-no-component": Message(
         "the field has no component {name}",
         "le champ n'a pas de composante {name}",
@@ -227,6 +231,10 @@ MESSAGES: dict[str, Message] = {
     "three-word-counts-differ": Message(
         "the three lists have {counts} words",
         "les trois listes ont {counts} mots",
+    ),
+    "table-of-fields": Message(
+        "the table has no fields in cells at numbers",
+        "la table n'a pas de champs par éléments à des indices numériques",
     ),
     "factor-count": Message(
         "{n_factors} {n_factors:factor|factors} for {n_names} {n_names:name|names}",

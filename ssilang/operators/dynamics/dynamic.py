@@ -22,8 +22,8 @@ from ssilang.operators.dynamics.motion_observers import TableObserver
 from ssilang.operators.dynamics.reports import (
     report,
     warn_motion_elsewhere,
+    warn_of_connections,
     warn_resolution,
-    warn_supports,
 )
 from ssilang.operators.dynamics.scheme_entries import contact_options, scheme_of
 from ssilang.operators.session.progress import ProgressLine
@@ -63,7 +63,7 @@ def zdyn(call: Call, table: Table) -> Table:
     times, saved = _times(entries)
     inputs = _with_bodies(entries, _inputs(entries, times))
     problem = make_problem(inputs)
-    warn_supports(entries, inputs)
+    warn_of_connections(entries, inputs)
     warn_motion_elsewhere(entries, problem, inputs)
     make_bodies = plastic_bodies(entries)
     bodies = None if make_bodies is None else make_bodies(problem, inputs)

@@ -9,7 +9,7 @@ import numpy as np
 
 from ssilang.language.values import LazyTable, ListReel, Mot, promises
 from ssilang.messages.message import sentence
-from ssilang.operators.matrices.doubled import warn_doubled_supports
+from ssilang.operators.matrices.connections import warn_connections
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
@@ -99,15 +99,16 @@ def warn_massless(entries: Entries, problem: Problem) -> None:
             entries.warn("operators.dynamics.body-without-mass", node=body.node)
 
 
-def warn_supports(entries: Entries, inputs: Inputs) -> None:
-    """Warn of supports beside the body (lines made twice) and of joints the wrong way round."""
-    from ssilang.kernel.statics.sides import swapped_joints
-
-    warn_doubled_supports(
-        entries.call.session, entries.place, entries.procedure, inputs.stiffness, inputs.model
+def warn_of_connections(entries: Entries, inputs: Inputs) -> None:
+    """Warn of supports beside the body, joints the wrong way round, beams on single nodes."""
+    warn_connections(
+        entries.call.session,
+        entries.place,
+        entries.procedure,
+        inputs.stiffness,
+        inputs.model,
+        inputs.characteristics,
     )
-    for x, y, z in swapped_joints(inputs.stiffness, inputs.model, inputs.characteristics):
-        entries.warn("operators.dynamics.sides-swapped", x=x, y=y, z=z)
 
 
 def warn_motion_elsewhere(entries: Entries, problem: Problem, inputs: Inputs) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from typing import Any
 
 import numpy as np
@@ -21,7 +22,7 @@ from ssilang.kernel.mesh.mesh import Point
 from ssilang.language.registry import When, arg, main
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots, type_of
-from ssilang.operators.dispatch import PSCA, PVEC, union_with_call, union_words
+from ssilang.operators.dispatch import INVE, PSCA, PVEC, worded_union
 from ssilang.operators.numbers.arithmetic import _ARRAY, RULES, SIGNS, rule, rule_with_call
 
 _NATURES: dict[str, Nature] = {"INDE": "", "DIFF": "DIFFUS", "DISC": "DISCRET"}
@@ -129,9 +130,25 @@ for _kind in ("ENTIER", "FLOTTANT"):
     rule(SIGNS, _kind, "CHPOINT")(_number_node)
 
 
-@union_with_call(("CHPOINT", "CHPOINT"))
-def _join_node_fields(call: Call, a: NodeField, b: NodeField) -> NodeField:
-    return node_algebra.united(a, b, "NOER" not in union_words(call))
+@INVE.form(
+    main("field", "CHPOINT", en="nodal field", fr="champ par points"),
+    syntax="CHPO2 = INVE CHPO1 ;",
+    en="Of a nodal field: one over its values.",
+    fr="D'un champ par points : l'inverse de ses valeurs.",
+    examples=("OPTI DIME 2 ; P = 0. 0. ; C = INVE (MANU 'CHPO' P 'T' 4.) ; LIST (EXTR C 'T' P) ;",),
+)
+def _inverse(call: Call, field: NodeField) -> NodeField:
+    for name, part in field.components.items():
+        if not np.all(part.values):
+            node = part.nodes[np.flatnonzero(part.values == 0.0)[0]]
+            at = field.table.coordinates[node].tolist()
+            raise call.error("operators.fields.no-inverse-of-zero", field, name=name, at=at)
+    return node_algebra.applied(field, np.reciprocal)
+
+
+@worded_union(("CHPOINT", "CHPOINT"))
+def _join_node_fields(words: Collection[str], a: NodeField, b: NodeField) -> NodeField:
+    return node_algebra.united(a, b, "NOER" not in words)
 
 
 # ---- in cells -----------------------------------------------------------------------------------

@@ -14,7 +14,7 @@ from ssilang.language.run.call import Call, name_of
 from ssilang.language.values import ListEnti, ListReel, Mot
 from ssilang.operators.files.outputs import input_path, option_name, run_output
 
-_ITEM = re.compile(r"'((?:[^']|'')*)'|([^\s,;]+)")
+_ITEM = re.compile(r"'([^']*(?:''[^']*)*)'|([^\s,;]+)")
 
 
 @dataclass

@@ -11,8 +11,16 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import KernelError
 from ssilang.language.registry import Entry, Help, arg, key, many, operator, select
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListChpo, ListEnti, ListMots, ListObje, ListReel, type_of
+from ssilang.language.run.call import Call, Operand
+from ssilang.language.values import (
+    ListChpo,
+    ListEnti,
+    ListMots,
+    ListObje,
+    ListReel,
+    Mot,
+    type_of,
+)
 
 _REAL = ("ENTIER", "FLOTTANT")
 _FREE = "its items, steps and repetitions stand in any order"
@@ -64,10 +72,14 @@ def check_length(count: float) -> None:
 
 def _star(call: Call) -> bool:
     """Whether a repetition mark stands next; it is consumed."""
-    if call.operands and call.operands[0].span.text in ("*", "'*'"):
+    if call.operands and _is_star(call.operands[0]):
         call.used.append(call.operands.pop(0))
         return True
     return False
+
+
+def _is_star(operand: Operand) -> bool:
+    return isinstance(operand.value, Mot) and operand.span.text in ("*", "'*'")
 
 
 if TYPE_CHECKING:
@@ -86,7 +98,9 @@ def _extend(items: Items, more: list[Any] | FloatArray | IntArray) -> None:
 def _read_items(call: Call, kinds: tuple[str, ...]) -> Items:
     """Numbers with repetitions and steps, in order; lists among them are taken whole."""
     items: Items = array("d") if "FLOTTANT" in kinds else []
+    plain = frozenset({int, float} if "FLOTTANT" in kinds else {int})
     while True:
+        _read_row(call, items, plain)
         if call.at_word() and call.keyword(("PAS",)) is not None:
             # steps that begin the list start from a zero that is not in it
             _extend(items, _steps(call, items[-1] if items else 0, kinds))
@@ -103,6 +117,23 @@ def _read_items(call: Call, kinds: tuple[str, ...]) -> Items:
             check_length(len(items))
         else:
             items.append(value)
+
+
+def _read_row(call: Call, items: Items, plain: frozenset[type]) -> None:
+    """Read the bare numbers that stand next, `N * X` among them: pasted lists are long."""
+    operands, i = call.operands, 0
+    while i < len(operands) and type(value := operands[i].value) in plain:
+        if i + 1 == len(operands) or not _is_star(operands[i + 1]):
+            items.append(value)
+            i += 1
+            continue
+        behind = operands[i + 2].value if i + 2 < len(operands) else None
+        if type(value) is not int or value < 0 or type(behind) not in plain:
+            break  # what is wrong is told where each is read by itself
+        check_length(len(items) + value)
+        items.extend([behind] * value)
+        i += 3
+    call.take_first(i)
 
 
 def _repeated(call: Call, count: Any, kinds: tuple[str, ...]) -> list[Any]:
@@ -310,6 +341,10 @@ def mots(call: Call) -> ListMots:
     """Read words."""
     words: list[str] = []
     while True:
+        behind = (i for i, o in enumerate(call.operands) if not isinstance(o.value, Mot))
+        row = next(behind, len(call.operands))
+        words += [str(o.value) for o in call.operands[:row]]
+        call.take_first(row)
         operand = call.operands[0] if call.operands else None
         if operand is not None and type(operand.value) is int:
             count = call.required("ENTIER")

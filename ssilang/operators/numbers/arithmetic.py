@@ -127,12 +127,28 @@ def _list_rule(sign: str) -> Rule:
     return run
 
 
+_LARGEST = 2**63 - 1  # of an item of a list of integers, whatever its sign: ABS stays one
+
+
 def _integer_arrays(sign: str, x: Any, y: Any) -> Any:
-    if sign == "/":
-        return np.trunc(np.divide(x, y)).astype(np.int64)
-    if sign == "**":
-        return np.trunc(np.power(x.astype(float), y)).astype(np.int64)
-    return _ARRAY[sign](x, y)
+    """Lists of integers by the rules of single ones; what 64 bits cannot hold is an error."""
+    if sign in "+-*" and _stays_small(sign, x, y):
+        return _ARRAY[sign](x, y)
+    if sign == "/" and object not in (x.dtype, y.dtype) and np.all(y != 0):
+        quotient = x // y  # cut downwards
+        return quotient + ((quotient < 0) & (quotient * y != x))
+    made = np.vectorize(_INTEGER[sign], otypes=[object])(x, y)
+    if made.size and max(made.max(), -made.min()) > _LARGEST:
+        raise NoResultError("operators.numbers.list-integer-too-large")
+    return made.astype(np.int64)
+
+
+def _stays_small(sign: str, x: Any, y: Any) -> bool:
+    """Whether sums, or products, of two lists of integers keep far from what 64 bits hold."""
+    if object in (x.dtype, y.dtype):
+        return False
+    large, other = (float(np.max(np.abs(v.astype(float)), initial=0.0)) for v in (x, y))
+    return (large * other if sign == "*" else large + other) < 2.0**62
 
 
 for _sign in SIGNS.split():

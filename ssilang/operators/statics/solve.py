@@ -15,7 +15,7 @@ from ssilang.kernel.statics.stability import free_motion_fields, negative_eigenv
 from ssilang.language.registry import ANY, Help, Like, arg, flag, key, many, operator, opt, said
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, Table
-from ssilang.operators.matrices.doubled import warn_doubled_supports
+from ssilang.operators.matrices.connections import warn_connections
 from ssilang.operators.matrices.supports import static_links
 from ssilang.operators.workspace import workspace
 
@@ -91,7 +91,7 @@ def _reso(
     options = _options(words)
     if words["warned"]:
         return _or_warning(call, matrix, loads, options)
-    warn_doubled_supports(call.session, call.span, "RESO", matrix)
+    warn_connections(call.session, call.span, "RESO", matrix)
     solutions = tuple(solve(matrix, loads, options))
     _warn_condition(call, matrix, options)
     return solutions

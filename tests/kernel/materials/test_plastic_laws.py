@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
+from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.materials.plastic.held_stress import respond_held
-from ssilang.kernel.materials.plastic.laws import PLASTIC_LAWS
+from ssilang.kernel.materials.plastic.laws import PLASTIC_LAWS, check_parameters
 from ssilang.kernel.materials.plastic.response import PointParameters, mises
 
 M = 60
@@ -15,6 +19,7 @@ CURVE = Curve((CurvePart(np.array([0.0, 0.01, 0.1]), np.array([1.0, 2.0, 3.0])),
 GIVEN = {
     "PARFAIT": {"SIGY": 1},
     "ISOTROPE": {},
+    "J2": {"SIG0": 1, "SIGI": 2, "KISO": 30, "VELO": 150},
     "CINEMATIQUE": {"SIGY": 1, "H": 100},
     "DRUCKER_PARFAIT": {"LTR": 1, "LCS": 5},
     "DRUCKER_PRAGER": {
@@ -159,6 +164,24 @@ def test_isotropic_bar_follows_its_curve_and_grows_both_ways() -> None:
     strain = 0.005 + 1.5 / 1000  # plastic strain 0.005 on the first branch: stress 1.5
     found = uniaxial("ISOTROPE", [strain, strain - 3e-3, strain - 3e-3 - 0.005 - 0.5e-3])
     assert found == pytest.approx([1.5, -1.5, -2.0])
+
+
+def test_saturating_bar_follows_simo_and_hughes_and_grows_both_ways() -> None:
+    def strength(p: float) -> float:
+        return 1.0 + 30.0 * p + (2.0 - 1.0) * (1.0 - math.exp(-150.0 * p))
+
+    first = brentq(lambda p: strength(p) - 1000.0 * (0.012 - p), 0.0, 0.012)
+    second = brentq(lambda p: -strength(p) - 1000.0 * (-0.008 - (2 * first - p)), first, 0.05)
+    found = uniaxial("J2", [0.0005, 0.012, -0.008])
+    assert found == pytest.approx([0.5, strength(first), -strength(second)], rel=1e-9)
+
+
+def test_a_saturation_that_sinks_is_refused() -> None:
+    given = parameters("J2", 1)
+    sinking = PointParameters({**given.values, "SIGI": np.array([0.5])}, given.curves)
+    with pytest.raises(MaterialError) as caught:
+        check_parameters(PLASTIC_LAWS["J2"], sinking)
+    assert caught.value.code == "kernel.materials.saturation-sinks"
 
 
 def test_drucker_bar_has_the_strengths_given() -> None:

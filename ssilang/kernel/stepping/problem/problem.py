@@ -35,6 +35,7 @@ from ssilang.kernel.matrices.assembly import (
     constraint_matrix,
     field_to_vector,
     numbering_of,
+    refuse_negative_mass,
 )
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.stepping.newmark import Scheme
@@ -125,8 +126,8 @@ def make_problem(inputs: Inputs) -> Problem:
     Raises
     ------
     KernelError
-        If times do not increase, joints with a law stand in the stiffness alone, or values are
-        not finite.
+        If times do not increase, joints with a law stand in the stiffness alone, values are not
+        finite, a mass is negative, or supports hold all unknowns.
     """
     times = _checked_times(inputs.times)
     given_zones = () if inputs.model is None else joint_zones(inputs.model)
@@ -146,9 +147,12 @@ def make_problem(inputs: Inputs) -> Problem:
         contact = replace(contact, imposed=np.zeros((len(contact), imposed.shape[1])))
     constraints = constraints_of(rows, numbering.size <= SMALL)
     check_values(constraints, loading.imposed, numbering)
+    if constraints.T.shape[1] == 0:
+        raise KernelError("kernel.stepping.conditions-hold-every-unknown", count=numbering.size)
     interface = interface_of(zones, inputs.characteristics, numbering) if zones else None
     assembled = {k: _assembled(m, numbering) for k, m in matrices.items()}
     _refuse_not_finite(assembled, loading)
+    refuse_negative_mass(assembled["M"], numbering)
     if contact is not None and inputs.contact_options.modified_mass:
         assembled["M"] = without_contact_mass(assembled["M"], assembled["K"], contact.G)
     return Problem(

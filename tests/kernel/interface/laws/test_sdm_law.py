@@ -175,6 +175,16 @@ def test_shear_is_lost_when_open_and_starts_anew_when_closed():
     np.testing.assert_allclose(t[:, 0], [4e5, 0.0, 4e8 * 2e-3])
 
 
+@pytest.mark.parametrize("normal", [-1e-4, 2e-4])
+def test_elastic_shear_stores_its_work_at_any_opening(normal):
+    p = parameters(SHEAR=1.0)
+    path = np.array([[0.0, normal], [1e-4, normal], [3e-4, normal], [-2e-4, normal]])
+    t, states = walk(path, p)
+    np.testing.assert_allclose(t[:, 0], 4e8 * path[:, 0], rtol=1e-12)
+    np.testing.assert_allclose(states[:, Variable.SHEAR_ENERGY], 2e8 * path[:, 0] ** 2, rtol=1e-12)
+    assert not states[:, Variable.SHEAR_LOSS].any()
+
+
 def test_too_soft_a_joint_is_refused_with_the_least_stiffness():
     with pytest.raises(MaterialError) as error:
         check_sdm_parameters(parameters(KN=4e8, FU=1e5, GF=20.0))
