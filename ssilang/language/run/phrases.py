@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from abc import abstractmethod
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
@@ -114,8 +113,8 @@ class PhraseRunner(OperandReader):
             results = self.guarded(lambda: run_operator(found, call), operand.span, found.full_name)
         except SsiError as error:
             tell_held_word(error, operand)
-            if error.code == "internal" and (cause := _not_finite(call.used)) is not None:
-                told = {"operator": found.full_name, "value": str(cause.value)}
+            if error.code == "internal" and (cause := self._not_finite(call.used)) is not None:
+                told = {"operator": found.full_name, "operand": cause.span.text[:40]}
                 raise SsiError("operand-not-finite", cause.span, **told) from error
             raise
         span = operand.span
@@ -158,6 +157,11 @@ class PhraseRunner(OperandReader):
             raise KeyboardInterrupt
         return result
 
+    def _not_finite(self, operands: Sequence[Operand]) -> Operand | None:
+        """The first operand that holds NaN or an infinite number: what an operator failed over."""
+        flaw_of = self.session.flaw_of
+        return next((o for o in operands if flaw_of(o.value) == "entry-not-finite"), None)
+
     @staticmethod
     def _push(call: Call, results: Sequence[Any], span: Span) -> None:
         call.operands[:0] = [Operand(normalised(r), span, result=True) for r in results]
@@ -176,12 +180,6 @@ class PhraseRunner(OperandReader):
             make = self.session.make_point
             point = self.guarded(lambda: make([float(o.value) for o in numbers]), span, "POINT")
             call.operands[:] = [Operand(point, span, result=True)]
-
-
-def _not_finite(operands: Sequence[Operand]) -> Operand | None:
-    """The first number that is none (NaN) or infinite: what an operator failed over."""
-    numbers = (o for o in operands if type(o.value) is float)
-    return next((o for o in numbers if not math.isfinite(o.value)), None)
 
 
 def _begins_long_chain(operands: Sequence[Operand]) -> bool:
