@@ -113,6 +113,9 @@ class PhraseRunner(OperandReader):
             results = self.guarded(lambda: run_operator(found, call), operand.span, found.full_name)
         except SsiError as error:
             tell_held_word(error, operand)
+            if error.code == "internal" and (cause := self._not_finite(call.used)) is not None:
+                told = {"operator": found.full_name, "operand": cause.span.text[:40]}
+                raise SsiError("operand-not-finite", cause.span, **told) from error
             raise
         span = operand.span
         self._silent = operand if results is None else None
@@ -153,6 +156,11 @@ class PhraseRunner(OperandReader):
         if self.session.was_interrupted():
             raise KeyboardInterrupt
         return result
+
+    def _not_finite(self, operands: Sequence[Operand]) -> Operand | None:
+        """The first operand that holds NaN or an infinite number: what an operator failed over."""
+        flaw_of = self.session.flaw_of
+        return next((o for o in operands if flaw_of(o.value) == "entry-not-finite"), None)
 
     @staticmethod
     def _push(call: Call, results: Sequence[Any], span: Span) -> None:
