@@ -88,9 +88,10 @@ class ExtremesObserver:
                 continue
             table, node = self.problem.numbering.table, self.problem.numbering.nodes[peak.place]
             entry.set(Mot("POINT"), Point(table, int(node)))
-            if not made.has(kind):
-                made.set(Mot(kind), Table())
-            made.get(kind).set(Mot(name), entry)
+            of_kind = made.get(kind) if made.has(kind) else Table()
+            assert isinstance(of_kind, Table)
+            of_kind.set(Mot(name), entry)
+            made.set(Mot(kind), of_kind)
         return made
 
     def _at_joint(self, point: int) -> FloatArray:
