@@ -198,6 +198,14 @@ MESSAGES: dict[str, Message] = {
         "{excess_hint}",
         number=11,
     ),
+    "results-in-excess": Message(
+        "{caller} gives several results here: {types:words}",
+        "{caller} donne ici plusieurs résultats : {types:words}",
+        "give each a name in front of =, `A B ... = {caller} ... ;`, then use the one that is wanted",
+        "donnez un nom à chacun devant =, `A B ... = {caller} ... ;`, puis servez-vous de celui "
+        "qu'il faut",
+        number=11,
+    ),
     "no-result": Message(
         "there is no result{wanted_text} for the name {name}",
         "il n'y a pas de résultat{wanted_text} pour le nom {name}",
