@@ -352,6 +352,14 @@ HINTS: dict[str, tuple[str, str]] = {
         "découpez les deux côtés de la même façon (mêmes nombres et tailles dans DROI), ou dites "
         "'PART' pour ne joindre que les éléments qui se correspondent",
     ),
+    "kernel.statics.solution-without-multipliers": (
+        "{others:?a BLOQ or RELA made again has multipliers of its own: give REAC the one that "
+        "RESO, DYNAMIC or PASAPAS had|take the solution as RESO gives it; in DYNAMIC, "
+        "MAILLAGE_SAUVE keeps only its nodes: add EXTR RIG1 'MAIL' 'MULT'}",
+        "{others:?un BLOQ ou RELA refait a ses propres multiplicateurs : donnez à REAC celui "
+        "qu'avait RESO, DYNAMIC ou PASAPAS|prenez la solution telle que RESO la donne ; dans "
+        "DYNAMIC, MAILLAGE_SAUVE ne garde que ses noeuds : ajoutez EXTR RIG1 'MAIL' 'MULT'}",
+    ),
     "kernel.statics.no-equilibrium-full-uplift": (
         "less eccentric loads, a support, or a dynamic calculation; if the loads press, the "
         "joint's sides are swapped: RACC (INVE GEO1) GEO2 turns it round, and a joint JOI1 opens "

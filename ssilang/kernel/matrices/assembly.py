@@ -96,13 +96,13 @@ class Numbering:
         return name
 
     def label(self, index: int) -> Sentence:
-        """'UX at node 12' (node counted from 1, as scripts see it)."""
-        return unknown_label(self.name(index), self.nodes[index])
+        """'UX at node 12 (0. 4.)' (node counted from 1, as scripts see it)."""
+        return unknown_label(self.table, self.name(index), self.nodes[index])
 
 
-def unknown_label(name: str, node: int) -> Sentence:
-    """'UX at node 12' for node 11."""
-    return Sentence("kernel.matrices.unknown-at-node", name=name, node=int(node) + 1)
+def unknown_label(table: NodeTable, name: str, node: int) -> Sentence:
+    """'UX at node 12 (0. 4.)' for node 11."""
+    return Sentence("kernel.matrices.unknown-at-node", name=name, node=table.told(node))
 
 
 class ConstraintRows(NamedTuple):
@@ -380,7 +380,7 @@ def outside(field: NodeField, numbering: Numbering, dual: bool = True) -> list[S
             continue
         code = names.index(name) if name in names else -1
         missing = (numbering.index(part.nodes, code) < 0) & (part.values != 0.0)
-        lost += [unknown_label(name, node) for node in part.nodes[missing]]
+        lost += [unknown_label(field.table, name, node) for node in part.nodes[missing]]
     return lost
 
 

@@ -83,6 +83,15 @@ MESSAGES: dict[str, Message] = {
         "'MAILLAGE_VTK' is a TABLE without MAILLAGE",
         "'MAILLAGE_VTK' est une TABLE sans MAILLAGE",
     ),
+    "left-for-good": Message(
+        "all joints are open since t = {time:.4g} s at the latest, and open further to the end "
+        "({least:.3g} m at least): the structure leaves the ground for good",
+        "tous les joints sont ouverts depuis t = {time:.4g} s au plus tard, et s'ouvrent encore à "
+        "la fin (d'au moins {least:.3g} m) : la structure quitte le sol pour de bon",
+        "does the weight press it down? MASS times an acceleration of -9.81 upwards",
+        "le poids la presse-t-il ? MASS fois une accélération de -9.81 vers le haut",
+        severity="warning",
+    ),
     "joints-out-of-proportion": Message(
         "the joints are {stiffer:?{stiffer:.1e} times as stiff as|{softer:.1e} times softer "
         "than} the "

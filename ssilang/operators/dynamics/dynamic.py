@@ -26,6 +26,7 @@ from ssilang.operators.dynamics.reports import (
     warn_resolution,
 )
 from ssilang.operators.dynamics.scheme_entries import contact_options, scheme_of
+from ssilang.operators.dynamics.watching import ExtremesObserver, UpliftWatch
 from ssilang.operators.session.progress import ProgressLine
 from ssilang.operators.statics.bodies import plastic_bodies
 from ssilang.operators.tables.entries import Entries
@@ -71,7 +72,9 @@ def zdyn(call: Call, table: Table) -> Table:
     results = TableObserver(saved, nodes_asked(entries.get("MAILLAGE_SAUVE")))
     vtk, csv = vtk_observer(entries, times), csv_observer(entries, times)
     line = ProgressLine("DYNAMIC", entries.call.session.told)
-    observers = [o for o in (results, vtk, csv) if o is not None]
+    extremes = ExtremesObserver(problem) if entries.flag("EXTREMES") else None
+    uplift = UpliftWatch.of(problem)
+    observers = [o for o in (results, vtk, csv, extremes, uplift) if o is not None]
     if not is_compiled("stepping"):
         line.note("operators.dynamics.compiling")
     try:
@@ -81,6 +84,10 @@ def zdyn(call: Call, table: Table) -> Table:
     _say_reduction(entries, history)
     if csv is not None:
         entries.table.set(Mot("RESULTATS_CSV"), csv.table)
+    if extremes is not None:
+        entries.table.set(Mot("RESULTATS_EXTREMES"), extremes.table())
+    if uplift is not None and uplift.left:
+        entries.warn("operators.dynamics.left-for-good", time=uplift.since, least=uplift.opening)
     report(entries, problem, history)
     return results.table
 
