@@ -201,7 +201,8 @@ MESSAGES: dict[str, Message] = {
     "results-in-excess": Message(
         "{caller} gives several results here: {types:words}",
         "{caller} donne ici plusieurs résultats : {types:words}",
-        "give each a name in front of =, `A B ... = {caller} ... ;`, then use the one that is wanted",
+        "give each a name in front of =, `A B ... = {caller} ... ;`, then use the one that is "
+        "wanted",
         "donnez un nom à chacun devant =, `A B ... = {caller} ... ;`, puis servez-vous de celui "
         "qu'il faut",
         number=11,

@@ -77,7 +77,7 @@ class ExtremesObserver:
 
     def table(self) -> Table:
         """VALEUR, TEMPS and where, by quantity and, at nodes, by component."""
-        made = Table()
+        made, inner = Table(), dict[str, Table]()
         for (kind, name), peak in self.peaks.items():
             entry = Table()
             entry.set(Mot("VALEUR"), peak.value)
@@ -88,10 +88,10 @@ class ExtremesObserver:
                 continue
             table, node = self.problem.numbering.table, self.problem.numbering.nodes[peak.place]
             entry.set(Mot("POINT"), Point(table, int(node)))
-            of_kind = made.get(kind) if made.has(kind) else Table()
-            assert isinstance(of_kind, Table)
-            of_kind.set(Mot(name), entry)
-            made.set(Mot(kind), of_kind)
+            if kind not in inner:
+                inner[kind] = Table()
+                made.set(Mot(kind), inner[kind])
+            inner[kind].set(Mot(name), entry)
         return made
 
     def _at_joint(self, point: int) -> FloatArray:
