@@ -198,6 +198,15 @@ MESSAGES: dict[str, Message] = {
         "{excess_hint}",
         number=11,
     ),
+    "results-in-excess": Message(
+        "{caller} gives several results here: {types:words}",
+        "{caller} donne ici plusieurs résultats : {types:words}",
+        "give each a name in front of =, `A B ... = {caller} ... ;`, then use the one that is "
+        "wanted",
+        "donnez un nom à chacun devant =, `A B ... = {caller} ... ;`, puis servez-vous de celui "
+        "qu'il faut",
+        number=11,
+    ),
     "no-result": Message(
         "there is no result{wanted_text} for the name {name}",
         "il n'y a pas de résultat{wanted_text} pour le nom {name}",
@@ -313,6 +322,13 @@ MESSAGES: dict[str, Message] = {
     ),
     "arithmetic": Message("{reason}", "{reason}"),
     "division-by-zero": Message("division by zero", "division par zéro"),
+    "operand-not-finite": Message(
+        "{operator} cannot calculate with {operand}, which has values that are no finite numbers",
+        "{operator} ne peut calculer avec {operand}, qui a des valeurs qui ne sont pas des nombres "
+        "finis",
+        "VERI tells whether a value is a number; look where this one comes from",
+        "VERI dit si une valeur est un nombre ; cherchez d'où vient celle-ci",
+    ),
     "number-too-large": Message(
         "{operator} calculates with a number that is too large for it",
         "{operator} calcule avec un nombre trop grand pour lui",
@@ -537,6 +553,7 @@ MESSAGES: dict[str, Message] = {
     # ---- parts of other sentences
     "label-error": Message("error", "erreur"),
     "label-warning": Message("warning", "avertissement"),
+    "labelled": Message("{label}: {head}", "{label} : {head}"),
     "called-by": Message("called by {name} at", "appelé par {name},"),
     "held-word": Message(
         "'{word}', the value of {holder}, names an operator, which ran: MOT {holder} takes it as "

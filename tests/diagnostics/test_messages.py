@@ -39,10 +39,12 @@ def run(script: Path, language: str, folder: Path) -> tuple[RunResult, str]:
 
 def message_of(name: str, language: str, folder: Path) -> str:
     """What running the script writes: its error, without one its warnings."""
-    result, shown = run(_SCRIPTS / f"{name}.ssi", language, folder)
+    inner = folder / "scripts"
+    inner.mkdir()
+    result, shown = run(_SCRIPTS / f"{name}.ssi", language, inner)
     assert shown
     message = result.message if result.exit_code == 1 else shown
-    return message.replace(str(folder), "FOLDER") + "\n"
+    return message.replace(str(inner), "FOLDER").replace(str(folder), "ABOVE") + "\n"
 
 
 @pytest.mark.parametrize(("name", "language"), _CASES, ids=lambda v: v)

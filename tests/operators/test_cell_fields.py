@@ -138,6 +138,7 @@ def test_hooke_matrices_times_strains_are_stresses_in_any_order(found, order):
 
 def test_hooke_matrices_times_strains_ask_for_the_model(refused):
     assert "wanted a MMODEL" in refused(STRAINED + "T = H * E ;")
+    assert "with a model" in refused(STRAINED + "T = M E * E ;")
 
 
 def test_products_by_names_take_a_factor_each(found, refused):

@@ -170,6 +170,7 @@ _HEADS = {
     "element unknown": lambda h: part_of(h, "Zone").update(element="QUA5"),
     "a field is missing": lambda h: part_of(h, "CellBlock").pop("raw"),
     "unknowns too few": lambda h: part_of(h, "ElementMatrices").update(unknowns=["t", ["UX"]]),
+    "a load without a field": lambda h: part_of(h, "LoadPart").update(space=None),
     "endless": point_to_itself,
     "settings": lambda h: h["settings"].update(DIME=[3]),
     "unknowns of INCO": lambda h: h["settings"].update(INCO=3),
@@ -191,21 +192,31 @@ def test_an_archive_whose_head_is_damaged_fails_when_it_is_read(damage, files, t
     assert run("OPTI REST 'all.sauv' ; REST ; LIST S1 ;", tmp_path).exit_code == 0
 
 
-def test_an_archive_names_nodes_that_are_there(files, tmp_path):
-    with zipfile.ZipFile(io.BytesIO(files["all.sauv"])) as z:
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [("all.sauv", "OPTI REST 'all.sauv' ; REST ;"), ("mesh", "OPTI LECT 'mesh' ; LIRE S1 ;")],
+)
+def test_an_archive_names_nodes_that_are_there(name, text, files, tmp_path):
+    with zipfile.ZipFile(io.BytesIO(files[name])) as z:
         members = {n: z.read(n) for n in z.namelist()}
     head = json.loads(members["objects.json"])
     number = part_of(head, "CellBlock")["raw"][1]
-    for wrong in (10**6, -1):
+    sound = np.load(io.BytesIO(members[f"arrays/{number}.npy"]))
+    for first, codes in (
+        (10**6, ["io.damaged-object"]),
+        (-1, ["io.damaged-object"]),
+        (sound.flat[0], []),
+    ):
+        table = sound.copy()
+        table.flat[0] = first
         buffer = io.BytesIO()
-        table = np.load(io.BytesIO(members[f"arrays/{number}.npy"]))
-        table.flat[0] = wrong
         np.save(buffer, table)
-        with zipfile.ZipFile(tmp_path / "all.sauv", "w") as z:
-            for name, content in members.items():
-                z.writestr(name, buffer.getvalue() if name == f"arrays/{number}.npy" else content)
-        result = run("OPTI REST 'all.sauv' ; REST ;", tmp_path)
-        assert [e.code for e in result.errors] == ["io.damaged-object"]
+        with zipfile.ZipFile(tmp_path / name, "w") as z:
+            for member, content in members.items():
+                changed = member == f"arrays/{number}.npy"
+                z.writestr(member, buffer.getvalue() if changed else content)
+        result = run(text, tmp_path)
+        assert [e.code for e in result.errors] == codes
 
 
 def test_texts_come_back_from_an_archive_as_they_were(tmp_path):

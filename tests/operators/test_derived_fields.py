@@ -314,3 +314,89 @@ def test_stresses_turned_by_a_field_of_rotations(found):
     assert (first, second) == pytest.approx(((R.T @ SIGMA @ R)[0, 0], (R.T @ SIGMA @ R)[0, 2]))
     assert third == pytest.approx((R @ SIGMA @ R.T)[0, 2])
     assert back == pytest.approx(0.0, abs=1e-13)
+
+
+SHELL = (
+    "OPTI DIME 3 MODE TRID ELEM TRI3 ; A = 0. 0. 0. ; B = 3. 0.4 1. ; C = 2.7 2. 1.5 ; "
+    "S = (A DROI 3 B) TRAN 2 (C MOIN B) ; M = MODE S MECANIQUE ELASTIQUE DKT ; "
+    "MA = MATE M 'YOUN' 10. 'NU' 0.25 'EPAI' 0.5 ; X Y Z = COOR S ; "
+    "U = (NOMC 'UX' (0.01 * X)) ET (NOMC 'UY' (0.02 * Y)) ; F = SIGM M MA U ; "
+)
+
+
+def _membrane(first, second):
+    """Forces in two axes of the surface, from the strains of space, by hand."""
+    e = np.diag([0.01, 0.02, 0.0])
+    e1, e2, g = first @ e @ first, second @ e @ second, 2 * first @ e @ second
+    stiff = 10.0 * 0.5 / (1 - 0.25**2)
+    shear = 10.0 * 0.5 / (2 * 1.25)
+    return stiff * (e1 + 0.25 * e2), stiff * (e2 + 0.25 * e1), shear * g
+
+
+@pytest.mark.parametrize(
+    ("vectors", "side"),
+    [("(0.2 1. 0.)", 1.0), ("(0.2 1. 0.) (1. 0. 0.)", -1.0)],
+    ids=["one", "two"],
+)
+def test_membrane_forces_of_shells_along_a_vector(found, vectors, side):
+    """The triangles differ in their own axes, the forces along the vector do not."""
+    normal = np.cross([3.0, 0.4, 1.0], [-0.3, 1.6, 0.5])
+    normal = normal / np.linalg.norm(normal)
+    first = np.array([0.2, 1.0, 0.0])
+    first = first - (first @ normal) * normal
+    first = first / np.linalg.norm(first)
+    values = found(
+        SHELL + f"R = RTEN F M {vectors} ; X1 = MAXI (EXCO 'N11' R) ; X2 = MINI (EXCO 'N11' R) ; "
+        "X3 = MAXI (EXCO 'N22' R) ; X4 = MAXI (EXCO 'N12' R) ; X5 = MINI (EXCO 'N12' R) ;",
+        "X1", "X2", "X3", "X4", "X5",
+    )  # fmt: skip
+    one, two, shear = _membrane(first, side * np.cross(normal, first))
+    assert values == pytest.approx((one, one, two, shear, shear), rel=1e-9)
+
+
+def test_moments_of_a_cylindrical_bending_at_half_a_right_angle(found):
+    """nu = 0, one curvature: at 45 degrees half of it on both axes, and half in torsion."""
+    script = (
+        "OPTI DIME 3 MODE TRID ELEM TRI3 ; "
+        "S = ((0. 0. 0.) DROI 3 (3. 0.5 0.)) TRAN 2 (0.3 2. 0.) ; "
+        "M = MODE S MECANIQUE ELASTIQUE DKT ; MA = MATE M 'YOUN' 12. 'NU' 0. 'EPAI' 1. ; "
+        "X Y Z = COOR S ; U = (NOMC 'UZ' (0.5 * (X ** 2))) ET (NOMC 'RY' (-1. * X)) ; "
+        "F = SIGM M MA U ; R = RTEN F M (1. 1. 0.) ; Q = RTEN F M (1. 0. 0.) ; "
+    )
+    values = found(
+        script + "X1 = MAXI 'ABS' (EXCO 'M11' R) ; X2 = MAXI 'ABS' (EXCO 'M22' R) ; "
+        "X3 = MAXI 'ABS' (EXCO 'M12' R) ; X4 = MAXI 'ABS' (EXCO 'M11' Q) ; "
+        "X5 = MAXI 'ABS' (EXCO 'M22' Q) ;",
+        "X1", "X2", "X3", "X4", "X5",
+    )  # fmt: skip
+    assert values == pytest.approx((0.5, 0.5, 0.5, 1.0, 0.0), abs=1e-9)
+
+
+def test_forces_of_shells_around_an_axis(found):
+    """A cylinder's generator and circumference: the hoop force is first, whatever the triangles."""
+    hoop, along = found(
+        "OPTI DIME 3 MODE TRID ELEM TRI3 ; P = 1. 0. 0. ; Q = 0. 1. 0. ; O = 0. 0. 0. ; "
+        "L = CERC 6 P O Q ; S = L TRAN 2 (0. 0. 1.) ; M = MODE S MECANIQUE ELASTIQUE DKT ; "
+        "MA = MATE M 'YOUN' 10. 'NU' 0. 'EPAI' 0.5 ; X Y Z = COOR S ; "
+        "U = (NOMC 'UX' (0.01 * X)) ET (NOMC 'UY' (0.01 * Y)) ; "
+        "R = RTEN (SIGM M MA U) M 'CYLI' O (0. 0. 1.) ; "
+        "X1 = MINI (EXCO 'N11' R) ; X2 = MAXI 'ABS' (EXCO 'N22' R) ;",
+        "X1", "X2",
+    )  # fmt: skip
+    assert hoop == pytest.approx(0.05, rel=1e-9)
+    assert along == pytest.approx(0.0, abs=1e-12)
+
+
+def test_strains_of_shells_turn_as_tensors(found):
+    shear, largest = found(
+        SHELL + "E = RTEN (EPSI M MA U) M (1. 0. 0.) ; T = RTEN (EPSI M MA U) M (-1. 0. 0.) ; "
+        "X1 = MAXI 'ABS' (E - T) ; X2 = MAXI (EXCO 'EPSS' (RTEN (EPSI M MA U) M (0.2 1. 0.))) ;",
+        "X1", "X2",
+    )  # fmt: skip
+    normal = np.cross([3.0, 0.4, 1.0], [-0.3, 1.6, 0.5])
+    normal = normal / np.linalg.norm(normal)
+    first = np.array([0.2, 1.0, 0.0])
+    first = first - (first @ normal) * normal
+    first = first / np.linalg.norm(first)
+    assert shear == pytest.approx(0.0, abs=1e-14)
+    assert largest == pytest.approx(first @ np.diag([0.01, 0.02, 0.0]) @ first)

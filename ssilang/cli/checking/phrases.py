@@ -61,6 +61,9 @@ class AbstractCall(Call):
     def wordless(self) -> bool:
         return False  # what is unknown may be a word
 
+    def seen(self) -> tuple[tuple[str, ...], tuple[str, ...]] | None:
+        return None  # what stands there is looked at form by form, unknown ones are refused
+
     def stands(self, *types: str) -> bool:
         self._all_known()
         return super().stands(*types)
@@ -318,7 +321,7 @@ class PhraseReader:
                     self.session.evaluator.refuse_leftovers(left)
                 if len(left) > 1:
                     self.session.evaluator.refuse_leftovers(
-                        [o for o in left[1:] if not o.result] or left[1:]
+                        [o for o in left[1:] if not o.result] or left[1:], left[:1]
                     )
         except SsiError as error:
             self.report(error)

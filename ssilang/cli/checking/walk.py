@@ -230,7 +230,7 @@ class Checker:
         if len(left) < count:
             target = statement.targets[len(left)]
             raise no_result(statement.targets, target, count)
-        evaluator.refuse_leftovers(left[count:])
+        evaluator.refuse_leftovers(left[count:], left[:count])
         return [o.value for o in left]
 
     def _assign(self, statement: tree.Statement, values: list[Any] | None, scope: Scope) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from enum import Enum
 from typing import Any
 
@@ -9,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ssilang.io.archive.classes import NODE_FIELDS, class_named, packing_named, saved_fields
-from ssilang.io.archive.container import DAMAGES, Archive
+from ssilang.io.archive.container import DAMAGES, Archive, Record
 from ssilang.io.archive.soundness import flaw_of
 from ssilang.io.errors import InputError
 from ssilang.kernel.base.errors import KernelError
@@ -54,17 +55,19 @@ class Decoder:
         except DAMAGES as error:
             raise InputError("io.damaged", name=self._archive.path.name, error=error) from error
 
-    def check_nodes(self) -> None:
-        """Check that all nodes that objects name are there, after the last of them is read.
+    def named(self, records: Iterable[Record]) -> list[tuple[str, Any]]:
+        """Names of records with their objects, all of them read and all of their nodes there.
 
         Raises
         ------
         InputError
             If the file is damaged.
         """
+        found = [(name, self.decode(c)) for r in records for name, c in r.names.items()]
         for numbers in self._named:
             if numbers.size and not 0 <= numbers.min() <= numbers.max() < len(self._nodes):
                 raise self._unfit("nodes", "node numbers")
+        return found
 
     def _decoded(self, code: list[Any]) -> Any:
         kind, what = code[0], code[1]

@@ -120,6 +120,13 @@ def _curve_part(values: Mapping[str, Any]) -> str:
     return "" if x.ndim == 1 and x.shape == y.shape else "ordinates"
 
 
+def _load_part(values: Mapping[str, Any]) -> str:
+    """Without a field in space there are fields at times."""
+    if values.get("space") is not None:
+        return ""
+    return "space" if values.get("time") is not None or not values.get("steps") else ""
+
+
 def _element_matrices(values: Mapping[str, Any]) -> str:
     nodes, local, unknowns = values["raw_nodes"], values["local"], values["unknowns"]
     if nodes.ndim != 2:
@@ -153,6 +160,7 @@ _AGREEMENTS: dict[str, Callable[[Mapping[str, Any]], str]] = {
     "CellFieldBlock": _cell_field_block,
     "Zone": _known_element,
     "CurvePart": _curve_part,
+    "LoadPart": _load_part,
     "ElementMatrices": _element_matrices,
     "Relations": _relations,
 }

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.base.errors import ConvergenceError
+from ssilang.kernel.base.errors import ConvergenceError, KernelError
 from ssilang.kernel.stepping.choose import Case, Choice, choose, method_of, refuse_combinations
 from ssilang.kernel.stepping.driven import Drive, Driver
 from ssilang.kernel.stepping.problem.bodies import full_uplift
@@ -115,6 +115,9 @@ class Integration:
 
     def __post_init__(self) -> None:
         p, self._drive = self.problem, None
+        if p.constraints.T.shape[1] == 0 and not p.loading.imposed.any():
+            size = p.numbering.size
+            raise KernelError("kernel.stepping.conditions-hold-every-unknown", count=size)
         if self.driver is not None:
             self._drive = Drive(self.problem, self.driver, self.full_newton)
             p = self._drive.start()

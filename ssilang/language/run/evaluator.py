@@ -235,6 +235,9 @@ class Evaluator(PhraseRunner):
             return None
 
     def _assign(self, statement: tree.Statement, left: list[Operand]) -> None:
+        if len(left) == len(statement.targets) == 1 and not is_call(left):
+            self.store(statement.targets[0], left[0].value)
+            return
         targets = self._typed_targets(statement.targets)
         self.refuse_leftovers(left[:1] if left and is_call(left) else [])
         taken = []

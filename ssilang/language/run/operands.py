@@ -48,18 +48,22 @@ class OperandReader(ABC):
         """Value of a phrase of scalars by the short way, None if it is not one."""
 
     @abstractmethod
-    def refuse_leftovers(self, left: Sequence[Operand]) -> None:
-        """Raise the error for operands that nothing read, if there are any."""
+    def refuse_leftovers(self, left: Sequence[Operand], taken: Sequence[Operand] = ()) -> None:
+        """Raise the error for operands that nothing read, behind those taken, if there are any."""
 
     def operands_of(self, items: Sequence[tree.Item]) -> list[Operand]:
         """Operands of items: names replaced by their objects, parentheses run."""
         table = self._operand
         if len(items) == 1:
             return table[type(items[0])](items[0])
+        found: list[Operand] = []
+        if tree.Paren not in map(type, items):
+            for item in items:
+                found += table[type(item)](item)
+            return found
         parens = {
             i: self._paren(item) for i, item in enumerate(items) if isinstance(item, tree.Paren)
         }
-        found: list[Operand] = []
         for i, item in enumerate(items):
             found.extend(parens[i] if i in parens else table[type(item)](item))
         return found
@@ -87,7 +91,7 @@ class OperandReader(ABC):
                 self._warn_of_unread(unread[0], item)
                 return [Operand(results[0].value, item.span, results[0].name)]
             word = results[:1] if unread and isinstance(results[0].value, Mot) else []
-            self.refuse_leftovers(word + (unread or results[1:]))
+            self.refuse_leftovers(word + (unread or results[1:]), results[:1])
         value = results[0].value
         return [Operand(value, item.span, results[0].name)]
 

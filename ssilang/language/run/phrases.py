@@ -113,13 +113,16 @@ class PhraseRunner(OperandReader):
             results = self.guarded(lambda: run_operator(found, call), operand.span, found.full_name)
         except SsiError as error:
             tell_held_word(error, operand)
+            if error.code == "internal" and (cause := self._not_finite(call.used)) is not None:
+                told = {"operator": found.full_name, "operand": cause.span.text[:40]}
+                raise SsiError("operand-not-finite", cause.span, **told) from error
             raise
         span = operand.span
         self._silent = operand if results is None else None
         if isinstance(results, tuple):
             self._push(call, list(results), span)
         elif results is not None:
-            self._push(call, [results], span)
+            call.operands.insert(0, Operand(normalised(results), span, result=True))
 
     def guarded(self, action: Callable[[], Any], span: Span | None, name: str) -> Any:
         """Run what an operator does; whatever it raises becomes an error of the script."""
@@ -154,13 +157,20 @@ class PhraseRunner(OperandReader):
             raise KeyboardInterrupt
         return result
 
+    def _not_finite(self, operands: Sequence[Operand]) -> Operand | None:
+        """The first operand that holds NaN or an infinite number: what an operator failed over."""
+        flaw_of = self.session.flaw_of
+        return next((o for o in operands if flaw_of(o.value) == "entry-not-finite"), None)
+
     @staticmethod
     def _push(call: Call, results: Sequence[Any], span: Span) -> None:
         call.operands[:0] = [Operand(normalised(r), span, result=True) for r in results]
 
     def _implicit_point(self, call: Call) -> None:
+        if len(call.operands) < 2:
+            return
         numbers = [o for o in call.operands if type(o.value) in (int, float)]
-        if len(numbers) < 2 or len(numbers) != len(call.operands):
+        if len(numbers) != len(call.operands):
             return
         dimension = self.session.dimension()
         if dimension not in (2, 3) or self.session.make_point is None:

@@ -43,7 +43,8 @@ def render(error: SsiError, language: str = "en", names: Iterable[str] = ()) -> 
         Known variables and procedures, for the suggestion of a near name.
     """
     head, hint = sentence(error, language, names)
-    lines = [f"{_label(error, language)}: {head}"]
+    label = _label(error, language)
+    lines = [message.sentence("labelled", {"label": label, "head": head}, language)]
     place, calls = _seen(error)
     if place is not None:
         lines += _place(place, "-->")

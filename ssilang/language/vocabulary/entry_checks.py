@@ -123,7 +123,8 @@ class TableCheck:
     ) -> None:
         """Warn, once for a table, of what changes nothing; FAUX asks for nothing."""
         known = [(i, v, self.declared.at(path, i)) for i, v in given if v is not False]
-        unused = [(i, e) for i, _, e in known if e is not None and e.role == UNUSED]
+        # other entries that nobody reads are those of tables that operators make
+        unused = [(i, e) for i, _, e in known if e is not None and e.theme == UNUSED]
         readers = _Readers(self.session, self.place, table, len(path) > 1)
         told = [(i, e) for i, e in unused if self.aloud and not readers.read(str(i).rstrip())]
         if not told:

@@ -20,8 +20,8 @@ MESSAGES: dict[str, Message] = {
     "cloud-no-component": Message(
         "the cloud has no component {name}",
         "le nuage n'a pas de composante {name}",
-        "it has {columns:words}",
-        "il a {columns:words}",
+        "it has {columns:?{columns:words}|none}",
+        "il a {columns:?{columns:words}|aucune composante}",
     ),
     "complex-curves-must-same": Message(
         "complex curves must have the same abscissas",

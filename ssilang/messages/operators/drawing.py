@@ -3,11 +3,9 @@
 from ssilang.messages.message import Message
 
 MESSAGES: dict[str, Message] = {
-    "amplification-of-picture": Message(
-        "the amplification of this shape is chosen by the picture",
-        "l'amplification de cette déformée est choisie par le tracé",
-        "DEFO takes a number for it",
-        "DEFO accepte un nombre pour elle",
+    "empty-shape": Message(
+        "the deformed shape is empty: it has no amplification",
+        "la déformée est vide : elle n'a pas d'amplification",
     ),
     "no-colour-no-place": Message(
         "'{said}' is neither a colour nor one of {places:words}",

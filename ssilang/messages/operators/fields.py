@@ -232,6 +232,13 @@ MESSAGES: dict[str, Message] = {
         "the three lists have {counts} words",
         "les trois listes ont {counts} mots",
     ),
+    "model-for-hooke": Message(
+        "with a model, matrices of Hooke are multiplied by strains",
+        "avec un modèle, ce sont des matrices de Hooke qu'on multiplie par des déformations",
+        "HOOK makes them, EPSI gives strains; without a model fields go component by component",
+        "HOOK les fabrique, EPSI donne les déformations ; sans modèle, les champs se multiplient "
+        "composante par composante",
+    ),
     "table-of-fields": Message(
         "the table has no fields in cells at numbers",
         "la table n'a pas de champs par éléments à des indices numériques",

@@ -3,6 +3,10 @@
 from ssilang.messages.message import Message
 
 MESSAGES: dict[str, Message] = {
+    "no-list-in-table": Message(
+        "the table holds no list of numbers or words",
+        "la table ne contient aucune liste de nombres ou de mots",
+    ),
     "no-place-to-insert": Message(
         "the list has {n_value} {n_value:item|items}, nothing goes to place {place}",
         "la liste a {n_value} {n_value:élément|éléments}, rien ne se met au rang {place}",

@@ -20,8 +20,8 @@ MESSAGES: dict[str, Message] = {
         "les points de mise en tension",
     ),
     "rten-of-solids-only": Message(
-        "RTEN is for continuous elements, not {element}",
-        "RTEN vaut pour les éléments massifs, pas {element}",
+        "RTEN is for continuous elements and flat shells, not {element}",
+        "RTEN vaut pour les éléments massifs et les coques planes, pas {element}",
     ),
     "what-to-remove": Message(
         "what is to be removed?",

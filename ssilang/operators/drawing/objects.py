@@ -15,7 +15,6 @@ from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Model
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.language.registry import (
-    Chosen,
     Help,
     arg,
     choice,
@@ -23,7 +22,6 @@ from ssilang.language.registry import (
     many,
     operator,
     opt,
-    select,
     shared,
 )
 from ssilang.language.run.call import Call
@@ -48,24 +46,6 @@ def _arrows_union(left: Arrows, right: Arrows) -> Arrows:
 def is_colour(word: str) -> bool:
     """Whether a word names a colour."""
     return word.strip().upper()[:4] in COLOURS
-
-
-@EXTR.form(
-    main("shape", "DEFORME", en="deformed shape", fr="déformée"),
-    select("what", {"AMPL": []}, optional=False, en="amplification", fr="amplification"),
-    syntax="X1 = EXTR DEF1 'AMPL' ;",
-    en="Of a deformed shape: its amplification.",
-    fr="D'une déformée : son amplification.",
-    examples=(
-        "OPTI DIME 2 ELEM SEG2 ; L = DROI 1 (0 0) (1 0) ;\n"
-        "D = DEFO L (MANU 'CHPO' L 2 'UX' 1. 'UY' 0.) 3. ; LIST (EXTR D 'AMPL') ;",
-    ),
-)
-def _amplification(call: Call, shape: Deformed, what: Chosen) -> float:
-    scale = shape.parts[0].scale if shape.parts else None
-    if scale is None:
-        raise call.error("operators.drawing.amplification-of-picture", shape)
-    return scale
 
 
 @operator(
@@ -255,8 +235,10 @@ def _in_cells(
         "LIST (EXTR (DEFO 3. L U) 'AMPL') ;",
     ),
 )
-def amplification(shape: Deformed, what: str) -> float:
+def amplification(call: Call, shape: Deformed, what: str) -> float:
     """By how much the displacement is amplified."""
+    if not shape.parts:
+        raise call.error("operators.drawing.empty-shape", shape)
     first = shape.parts[0]
     if first.scale is not None:
         return float(first.scale)

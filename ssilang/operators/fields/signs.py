@@ -189,6 +189,8 @@ def _multiply_cells(
     if sign == "*" and _has_matrices(a) != _has_matrices(b):
         found = call.required("MMODEL") if model is None else model
         return _stresses(found, a, b) if _has_matrices(a) else _stresses(found, b, a)
+    if model is not None:
+        raise call.error("operators.fields.model-for-hooke", model)
     return cell_algebra.multiplied(a, b, sign == "/", _of_objects)
 
 

@@ -296,12 +296,10 @@ def _restore(call: Call, archive: Archive, name: str, label: str) -> None:
     if label and label not in labels:
         known = ", ".join(x for x in labels if x) or "none"
         raise InputError("operators.files.no-such-label", name=name, label=label, known=known)
-    _check_settings(archive, name)
+    check_settings(archive, name)
     records = archive.records[: labels.index(label) + 1] if label else archive.records
     decoder = Decoder(archive, ws.nodes)
-    found = [(held, decoder.decode(c)) for r in records for held, c in r.names.items()]
-    decoder.check_nodes()
-    for held, value in found:
+    for held, value in decoder.named(records):
         call.session.frame.assign(held, value)
     if added := dict(archive.settings.get("INCO", {})):
         ws.options["INCO"] = {**ws.options.get("INCO", {}), **added}
@@ -309,7 +307,7 @@ def _restore(call: Call, archive: Archive, name: str, label: str) -> None:
         _restore_settings(ws, archive.settings)
 
 
-def _check_settings(archive: Archive, name: str) -> None:
+def check_settings(archive: Archive, name: str) -> None:
     """Refuse settings that no session has; a file need not have them all."""
     saved = archive.settings
     element, added = saved.get("ELEM", ""), saved.get("INCO", {})

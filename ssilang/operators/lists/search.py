@@ -299,6 +299,8 @@ def _sort_table_by_cost(
     call: Call, table: Table, cost: ListReel | ListEnti, **_: object
 ) -> tuple[float | int, Table]:
     lengths = {len(v) for _, v in table.items() if isinstance(v, Sortable)}
+    if not lengths:
+        raise call.error("operators.lists.no-list-in-table", table)
     if len(lengths) != 1:
         sizes = " ".join(map(str, sorted(lengths)))
         raise call.error("operators.lists.sorted-lengths", table, sizes=sizes)

@@ -21,6 +21,12 @@ from ssilang.kernel.elements.results.frames import (
     spherical_frames,
     torus_frames,
 )
+from ssilang.kernel.elements.results.shell_frames import (
+    SurfaceAxes,
+    is_flat_shell,
+    shell_in_axes,
+    shell_support,
+)
 from ssilang.kernel.elements.results.skin import SIDES, is_shell, shell_skin, skin_stress
 from ssilang.kernel.elements.results.tensors import tensor
 from ssilang.kernel.elements.zone_fields import n_points
@@ -35,6 +41,7 @@ from ssilang.operators.matrices.element import joined, present
 from ssilang.operators.statics.stresses import on_zones, state_and_rest
 
 Frames = Callable[[Zone, Support], FloatArray]
+Surface = Callable[[Zone, Support], SurfaceAxes]
 
 _EXAMPLE = (
     "OPTI DIME 2 ELEM QUA4 ; L = DROI 2 (1. 0.) (2. 0.) ; S = TRAN 1 L (0. 1.) ; "
@@ -99,23 +106,27 @@ _SECOND = opt(
     family="stress",
     full_name="RTENS",
     help=Help(
-        en="Stresses or strains of continuous elements in another frame: along a vector (in space "
-        "two: the first axis and a vector of the plane of the first two), in the axes of "
-        "orthotropy of a field of parameters, or in polar ('POLA' centre), cylindrical ('CYLI' "
-        "centre, point of the axis) or spherical ('SPHE') coordinates, or those of a torus "
-        "('TORI': 'CART' as 'CYLI'; 'CIRC': along the large circle, along the small one whose "
-        "centre is the third point, outwards), or by a field of matrices of rotation (components "
-        "UX,X UX,Y ... as those of GRAD). The components keep their names. A nodal field "
-        "of vectors is turned to the frame of the vectors.",
-        fr="Contraintes ou déformations de massifs dans un autre repère : selon un vecteur (en 3D "
-        "deux : le premier axe et un vecteur du plan des deux premiers), dans le repère "
-        "d'orthotropie d'un champ de caractéristiques, ou en coordonnées polaires ('POLA' "
-        "centre), cylindriques ('CYLI' centre, point de l'axe), sphériques ('SPHE') ou "
+        en="Stresses or strains of continuous elements and flat shells in another frame: along a "
+        "vector (in space two: the first axis and a vector of the plane of the first two), in the "
+        "axes of orthotropy of a field of parameters, or in polar ('POLA' centre), cylindrical "
+        "('CYLI' centre, point of the axis) or spherical ('SPHE') coordinates, or those of a "
+        "torus ('TORI': 'CART' as 'CYLI'; 'CIRC': along the large circle, along the small one "
+        "whose centre is the third point, outwards), or by a field of matrices of rotation "
+        "(components UX,X UX,Y ... as those of GRAD). The components keep their names. In shells "
+        "the first axis is the projection of the first vector, or of the direction around the "
+        "axis; the side that counts as upper stays the element's. A nodal field of vectors is "
+        "turned to the frame of the vectors.",
+        fr="Contraintes ou déformations de massifs et de coques planes dans un autre repère : "
+        "selon un vecteur (en 3D deux : le premier axe et un vecteur du plan des deux premiers), "
+        "dans le repère d'orthotropie d'un champ de caractéristiques, ou en coordonnées polaires "
+        "('POLA' centre), cylindriques ('CYLI' centre, point de l'axe), sphériques ('SPHE') ou "
         "celles d'un tore ('TORI' : 'CART' comme 'CYLI' ; 'CIRC' : le long du grand cercle, le "
         "long du petit dont le centre est le troisième point, vers l'extérieur), ou par un champ "
         "de matrices de rotation (composantes UX,X UX,Y ... comme celles de GRAD). Les "
-        "composantes gardent leurs noms. Un champ par points de vecteurs est tourné dans le "
-        "repère des vecteurs.",
+        "composantes gardent leurs noms. Dans les coques, le premier axe est la projection du "
+        "premier vecteur, ou de la direction orthoradiale ; le côté compté comme supérieur reste "
+        "celui de l'élément. Un champ par points de vecteurs est tourné dans le repère des "
+        "vecteurs.",
         syntax="CHAM3 = RTEN CHAM1 MODL1 | VEC1 (VEC2) | CHAM2 ;\n"
         "CHAM3 = RTEN CHAM1 MODL1 'POLA' P1 | 'CYLI' P1 P2 | 'SPHE' P1 P2 | "
         "'TORI' ('CART') P1 P2 | 'TORI' 'CIRC' P1 P2 P3 ;\n"
@@ -136,6 +147,15 @@ _SECOND = opt(
                 "LIST (MAXI (RTEN S M R)) ; LIST (MAXI (RTEN S M R 'RART')) ;\n"
                 "LIST (MAXI (EXCO 'UY' (RTEN U (0 1 0) (0 0 1)))) ;"
             ),
+            (
+                "OPTI DIME 3 MODE TRID ELEM QUA4 ;\n"
+                "P = (DROI 1 (0 0 0) (1 0 0)) TRAN 1 (0 1 0) ;\n"
+                "M = MODE P 'MECANIQUE' 'ELASTIQUE' 'COQ4' ;\n"
+                "A = MATE M 'YOUN' 2. 'NU' 0. 'EPAI' 0.5 ;\n"
+                "S = SIGM M A (NOMC 'UX' (COOR 1 P)) ;\n"
+                "LIST (MAXI (EXCO 'N11' (RTEN S M (1 0 0)))) ;\n"
+                "LIST (MAXI (EXCO 'N22' (RTEN S M (0 1 0)))) ;"
+            ),
         ),
     ),
 )
@@ -150,17 +170,26 @@ def rten(
     second: Point | None,
 ) -> CellField:
     """Stresses or strains in another frame."""
+    turning = material is not None and any("UX,X" in b.components for b in material.blocks)
+    surface: Surface | None = None
     if frame is not None:
         frames = _round(call, frame)
+        surface = _round_surface(frame, frames)
     elif first is not None:
         frames = _fixed_frames(first, second)
-    elif material is not None:
-        turned = any("UX,X" in b.components for b in material.blocks)
-        frames = _of_rotations(material, product) if turned else _of_material(material)
-    else:
+        surface = _fixed_surface(first, second)
+    elif material is None:
         raise call.missing(("POINT",))
+    elif turning:
+        frames = _of_rotations(material, product)
+    else:
+        frames = _of_material(material)
+        surface = _surface_of_material(material)
 
     def make(zone: Zone) -> CellFieldBlock:
+        if surface is not None and is_flat_shell(zone):
+            axes = surface(zone, shell_support(zone, field))
+            return shell_in_axes(zone, field, axes)
         if not is_solid(zone):
             raise FieldError("operators.models.rten-of-solids-only", element=zone.element)
         support = tensor(zone, field)[1]
@@ -184,8 +213,32 @@ def _fixed(first: Point, second: Point | None) -> FloatArray:
 
 
 def _fixed_frames(first: Point, second: Point | None) -> Frames:
-    rotation = _fixed(first, second)
-    return lambda zone, support: rotation
+    return lambda zone, support: _fixed(first, second)
+
+
+def _fixed_surface(first: Point, second: Point | None) -> Surface:
+    along = first.coordinates
+    normal = None if second is None else np.cross(along, second.coordinates)
+    return lambda zone, support: SurfaceAxes(along, normal=normal)
+
+
+def _surface_of_material(material: CellField) -> Surface:
+    return lambda zone, support: SurfaceAxes(material_frames(zone, material, support)[..., 0, :])
+
+
+def _round_surface(frame: Chosen, frames: Frames) -> Surface | None:
+    """Around the axis first, then to the side of the axis, or inwards where that is normal."""
+    if frame.word == "POLA":
+        return None
+    axis = frame["on_axis"].coordinates - frame["centre"].coordinates
+    around = 0 if frame.word == "TORI" and frame["section"] == "CIRC" else 1
+
+    def axes(zone: Zone, support: Support) -> SurfaceAxes:
+        rows = frames(zone, support)
+        inwards = -rows[..., 2 if around == 0 else 0, :]
+        return SurfaceAxes(rows[..., around, :], axis, inwards)
+
+    return axes
 
 
 def _of_material(material: CellField) -> Frames:

@@ -322,13 +322,14 @@ def _inputs(
         parts = offset_load(stresses.offsets, solids)
         load = Load((*(load.parts if load else ()), *(LoadPart("MECA", f) for f in parts)))
     blocks = linear_blocks(solids, "RIGIDITE", stiffness)
-    plastic = (*plastic_zones(model), *finite_zones(entries))
-    blocks += [without_stiffness(z) for z in finite_zones(entries)]
+    finite = finite_zones(entries)
+    yielding = tuple(z for z in plastic_zones(model) if z not in finite)
+    blocks += [without_stiffness(z) for z in finite]
     if material is not None:
-        blocks += [stiffness_beside(z, material) for z in plastic_zones(model)]
+        blocks += [stiffness_beside(z, material) for z in yielding]
     heavy = linear_blocks(solids, "MASSE", mass) if dynamic else []
     if dynamic and material is not None:
-        heavy += [mass(z, material) for z in plastic]
+        heavy += [mass(z, material) for z in (*yielding, *finite)]
     sides = sides_of(model, material, stresses.offsets)
     more = [] if sides.gaps is None else [LoadPart("MECA", sides.gaps)]
     more += driven_parts(entries)

@@ -53,14 +53,8 @@ def _made(function: Function, freedom: set[str] | bool, inline: bool = False) ->
         kept = folder_of(function.__module__)
     if kept is not None:
         numba.config.CACHE_DIR = str(kept)  # type: ignore[attr-defined]
-    counting = PLAIN or counts(function)
-    made = numba.njit(
-        fastmath=freedom,
-        cache=kept is not None,
-        forceinline=inline,
-        _nrt=counting,
-        **_OPTIONS,
-    )
+    options = _OPTIONS | {"_nrt": PLAIN or counts(function)}
+    made = numba.njit(fastmath=freedom, cache=kept is not None, forceinline=inline, **options)
     return cast(Function, made(function))
 
 

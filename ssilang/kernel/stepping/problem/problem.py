@@ -127,7 +127,7 @@ def make_problem(inputs: Inputs) -> Problem:
     ------
     KernelError
         If times do not increase, joints with a law stand in the stiffness alone, values are not
-        finite, a mass is negative, or supports hold all unknowns.
+        finite, or a mass is negative.
     """
     times = _checked_times(inputs.times)
     given_zones = () if inputs.model is None else joint_zones(inputs.model)
@@ -147,8 +147,6 @@ def make_problem(inputs: Inputs) -> Problem:
         contact = replace(contact, imposed=np.zeros((len(contact), imposed.shape[1])))
     constraints = constraints_of(rows, numbering.size <= SMALL)
     check_values(constraints, loading.imposed, numbering)
-    if constraints.T.shape[1] == 0:
-        raise KernelError("kernel.stepping.conditions-hold-every-unknown", count=numbering.size)
     interface = interface_of(zones, inputs.characteristics, numbering) if zones else None
     assembled = {k: _assembled(m, numbering) for k, m in matrices.items()}
     _refuse_not_finite(assembled, loading)
