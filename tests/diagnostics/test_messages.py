@@ -32,7 +32,11 @@ FRENCH = frozenset(
         "point_without_a_dimension", "else_if", "loop_of_another_language",
         "operands_in_parentheses", "item_in_brackets", "procedure_without_a_result",
         "joint_sides_swapped", "load_on_a_point_written_again", "meshes_not_joined",
-        "properties_of_another_zone",
+        "properties_of_another_zone", "decimal_comma", "quote_forgotten_lines_before",
+        "option_hidden_by_a_variable", "comment_with_a_star_behind_a_statement",
+        "comment_with_a_hash_behind_a_statement",
+        "comment_with_slashes_behind_a_statement", "semicolon_forgotten_before_a_message",
+        "text_between_double_quotes", "operator_given_to_an_entry_that_takes_other_words",
     }
 )  # fmt: skip
 _CASES = [(p.stem, "en") for p in sorted(_SCRIPTS.glob("*.ssi"))] + [

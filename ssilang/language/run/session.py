@@ -16,6 +16,7 @@ from typing import Any, Protocol, TextIO
 from ssilang.language.run.library import Library
 from ssilang.language.run.scopes import PREDEFINED, Frame
 from ssilang.language.say.errors import ReaderLeft, SsiError
+from ssilang.language.say.visible import visible
 from ssilang.language.text import tree
 from ssilang.language.text.source import Span
 from ssilang.messages.message import sentence
@@ -132,7 +133,7 @@ class Session:
     def print(self, text: str = "") -> None:
         """Print a line of results."""
         try:
-            self.out.write(text + "\n")
+            self.out.write(visible(text) + "\n")
         except BrokenPipeError as closed:
             raise ReaderLeft from closed
 
