@@ -19,7 +19,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from ssilang.cli.run import RunOptions, run_text
-from ssilang.language.cast3m import IN_SCOPE, SUBJECTS, Cast3mWord, cast3m_words
+from ssilang.language.cast3m import IN_SCOPE, Cast3mWord, cast3m_words
 from ssilang.language.registry import OPERATORS, operators_by_family
 from ssilang.language.run.library import standard_procedures
 from ssilang.language.say.reference import (
@@ -32,6 +32,7 @@ from ssilang.language.say.reference import (
 )
 from ssilang.language.vocabulary.entries import read_declaration
 from ssilang.language.vocabulary.entries_table import entries_markdown
+from ssilang.messages.message import teller
 from ssilang.operators.loader import load_operators
 
 _HERE = Path(__file__).resolve().parent
@@ -165,7 +166,7 @@ def status(
         return ("partly", partly[word.name]) if word.name in partly else ("built", "")
     if word.subject == IN_SCOPE:
         return "not built", reasons.get(word.name, "")
-    return "out of scope", SUBJECTS[word.subject][0]
+    return "out of scope", teller("en")(f"help.subject-{word.subject}")
 
 
 def coverage_markdown() -> str:

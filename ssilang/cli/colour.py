@@ -8,7 +8,7 @@ from typing import TextIO
 
 _RED, _YELLOW, _BLUE, _CYAN, _END = "\x1b[1;31m", "\x1b[1;33m", "\x1b[1;34m", "\x1b[36m", "\x1b[0m"
 _WARNING = ("warning", "avertissement")
-_LABEL = re.compile(r"^([\wéè]+(?: \d+)?)(?=:)")
+_LABEL = re.compile(r"^([\wéè]+(?: \d+)?)(?= ?:)")
 
 
 def coloured(message: str, stream: TextIO) -> str:

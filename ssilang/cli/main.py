@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import argparse
+import errno
 import io
 import os
 import sys
 import warnings
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -101,7 +103,10 @@ def _run_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Entry point; returns the exit code (0 fine, 1 the script failed, 2 wrong usage)."""
+    """Entry point; returns the exit code.
+
+    0 fine, 1 the script failed or was interrupted, 2 wrong usage, 141 nobody reads the output.
+    """
     words = _command_first(list(sys.argv[1:] if arguments is None else arguments))
     named = bool(words) and words[0] in (*_COMMANDS, "-h", "--help", "--version")
     parser = _parser()
@@ -110,6 +115,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if named:
             parser.error("run needs a file, or - for standard input")
         options.command, options.file = ("repl" if sys.stdin.isatty() else "run"), "-"
+    _open_streams()
+    if (gone := _folder_gone(getattr(options, "lang", "en"))) is not None:
+        return gone
     for stream in (sys.stdout, sys.stderr):  # a terminal without accents must not stop a run
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")
@@ -120,11 +128,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         with listening():
             code = _ACTIONS[options.command or "repl"](options)
-            sys.stdout.flush()
-            sys.stderr.flush()
-            return code
+            return _flushed(code)
     except BrokenPipeError:
         return _leave_quietly()
+    except OSError as problem:  # of a stream: what concerns files is told where it happens
+        _told(problem, getattr(options, "lang", "en"))
+        return FAILED
+    except MemoryError:
+        from ssilang.language.say.errors import SsiError
+
+        _told(SsiError("memory", None, operator="ssilang"), getattr(options, "lang", "en"))
+        return FAILED
     except KeyboardInterrupt:  # while the program starts, or a check or a sweep goes on
         from ssilang.language.say.diagnostics import render
         from ssilang.language.say.errors import SsiError
@@ -143,14 +157,67 @@ def _command_first(words: list[str]) -> list[str]:
     return [words[length], *words[:length], *words[length + 1 :]]
 
 
+def _open_streams() -> None:
+    """Streams in place of those that were closed before (`>&-`); printing to them is an error."""
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:
+            setattr(sys, name, _Closed())
+
+
+class _Closed(io.TextIOBase):
+    """A stream that was closed before the program began."""
+
+    def write(self, text: str) -> int:
+        raise OSError(errno.EBADF, os.strerror(errno.EBADF))
+
+
+def _folder_gone(language: str) -> int | None:
+    """The exit code if the working folder was removed: no name leads anywhere then."""
+    try:
+        Path.cwd()
+    except OSError:
+        from ssilang.language.say.errors import SsiError
+
+        _told(SsiError("cli.no-working-folder", None), language)
+        return USAGE
+    return None
+
+
+def _flushed(code: int) -> int:
+    """The exit code, when all that was printed has been written."""
+    sys.stdout.flush()
+    with suppress(OSError):  # a full one that takes no messages
+        sys.stderr.flush()
+    return code
+
+
+def _told(problem: Exception, language: str) -> None:
+    """Tell what ended the program, where that can be; nothing more is written."""
+    from ssilang.language.say.diagnostics import render
+    from ssilang.language.say.errors import SsiError, unprinted
+
+    said = unprinted(problem) if isinstance(problem, OSError) else problem
+    assert isinstance(said, SsiError)
+    with suppress(OSError):
+        sys.stderr.write(render(said, language) + "\n")
+        sys.stderr.flush()
+    _silence()
+
+
 def _leave_quietly() -> int:
     """The reader of our output left (`ssilang case.ssi | head -1`): nothing more is written."""
     from ssilang.cli.signals import ENDED_BY_CLOSED_PIPE
 
+    _silence()
+    return ENDED_BY_CLOSED_PIPE
+
+
+def _silence() -> None:
+    """Let what is left in the streams go nowhere when the process ends."""
     nowhere = os.open(os.devnull, os.O_WRONLY)
     for stream in (sys.stdout, sys.stderr):
-        os.dup2(nowhere, stream.fileno())
-    return ENDED_BY_CLOSED_PIPE
+        with suppress(OSError):  # one that was never open
+            os.dup2(nowhere, stream.fileno())
 
 
 def _run(options: argparse.Namespace) -> int:

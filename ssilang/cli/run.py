@@ -19,7 +19,7 @@ from ssilang.language.run.forms_ran import FormsRan
 from ssilang.language.run.jumps import StopRun
 from ssilang.language.run.session import Limits, Session
 from ssilang.language.say.diagnostics import render
-from ssilang.language.say.errors import ReaderLeft, SeveralErrors, SsiError, interruption
+from ssilang.language.say.errors import ReaderLeft, SeveralErrors, SsiError, interruption, unprinted
 from ssilang.language.say.visible import visible
 from ssilang.language.text.source import Source
 from ssilang.language.text.source_files import read_source
@@ -107,7 +107,7 @@ def execute(session: Session, source: Source) -> None:
     """
     # before anything walks the tree: blocks may be nested deep
     sys.setrecursionlimit(max(sys.getrecursionlimit(), 60 * session.limits.recursion + 2000))
-    script = parse(source)
+    script = session.evaluator.guarded(lambda: parse(source), None, source.name)
     try:
         session.assignments = first_assignments(script.body)
     except RecursionError:
@@ -134,6 +134,8 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
     errors: list[SsiError] = []
     take()  # an interruption before this run is none of its own
     try:
+        if options.summary:  # it writes there in any case
+            hold_folder(session)
         with _libraries_quiet(options.debug):
             execute(session, source)
     except SeveralErrors as several:
@@ -144,24 +146,75 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
         errors = [interruption(stop, session.evaluator.current_span)]
     except ReaderLeft:
         errors = [SsiError("reader-left", session.evaluator.current_span)]
+    _tell_refused_code(session)
+    refused = any(e.code == "io.folder-in-use" for e in errors)
+    if not refused:
+        _close_files(session, errors)
+    _flush(out, errors)
     left = any(e.code == "reader-left" for e in errors)
-    _close_files(session, errors)
     names = session.frame.names() | session.library.standard_names
     message = "\n\n".join(render(e, session.language, names) for e in errors)
     if not left:
         _tell(errors, coloured(message, err), options.debug, err)
     code = ENDED_BY_CLOSED_PIPE if left else 1 if errors else 0
     result = RunResult(code, session, errors=errors, message=message)
-    if options.summary:
+    if options.summary and not refused:  # what stands there is the other run's
         _summarise(result, source, err, options.quiet)
+    _release_folder(session)
     return result
+
+
+def hold_folder(session: Session) -> None:
+    """Keep other runs out of the output folder.
+
+    Raises
+    ------
+    SsiError
+        'io.folder-in-use' if one runs there.
+    """
+    from ssilang.io.errors import OutputError
+    from ssilang.operators.files.outputs import run_output
+
+    try:
+        run_output(session).hold()
+    except OutputError as problem:
+        raise SsiError.of(problem, None) from problem
+
+
+def _release_folder(session: Session) -> None:
+    from ssilang.operators.files.outputs import run_output
+
+    run_output(session).release()
+
+
+def _flush(out: TextIO, errors: list[SsiError]) -> None:
+    """Hand what was printed to the system; what it does not take is an error."""
+    try:
+        out.flush()
+    except BrokenPipeError:
+        errors.append(SsiError("reader-left", None))
+    except OSError as problem:
+        errors.append(unprinted(problem))
+
+
+def _tell_refused_code(session: Session) -> None:
+    """Warn of folders of compiled code that others could have written to, once a process."""
+    kept = sys.modules.get("ssilang.kernel.base.compiled.cache")  # a run may have compiled nothing
+    refused = [] if kept is None else kept.REFUSED
+    while refused:
+        folder, fault = refused.pop(0)
+        told = {"folder": str(folder), "fault": str(fault)}
+        warning = SsiError("cli.compiled-code-refused", None, **told)
+        warning.warns = True
+        with suppress(ReaderLeft):  # it is in the summary
+            session.report(warning)
 
 
 def _tell(errors: list[SsiError], message: str, debug: bool, err: TextIO) -> None:
     """Print what went wrong; a reader who left does not keep the summary from being written."""
     if not errors:
         return
-    with suppress(BrokenPipeError):
+    with suppress(OSError):  # it is in the summary
         err.write(message + "\n")
         for error in errors if debug else ():
             traceback.print_exception(error, file=err)
@@ -197,7 +250,8 @@ def _summarise(result: RunResult, source: Source, err: TextIO, quiet: bool) -> N
     try:
         write_summary(result.session, source, output, result.errors, result.exit_code)
     except OutputError as problem:
-        err.write(render(SsiError.of(problem, None), result.session.language) + "\n")
+        with suppress(OSError):
+            err.write(render(SsiError.of(problem, None), result.session.language) + "\n")
         result.exit_code = 1
         return
     session = result.session
@@ -212,7 +266,7 @@ def _summarise(result: RunResult, source: Source, err: TextIO, quiet: bool) -> N
         "warnings": sum(w.severity == "warning" for w in session.warnings),
         "energy": f"{100.0 * max(imbalances):.2g}" if imbalances else "",
     }
-    with suppress(BrokenPipeError):
+    with suppress(OSError):
         err.write(visible(sentence("cli.files-written", told, session.language)) + "\n")
 
 

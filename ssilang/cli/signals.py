@@ -29,11 +29,17 @@ def take() -> bool:
 
 @contextmanager
 def listening() -> Iterator[None]:
-    """Turn SIGINT and SIGTERM into KeyboardInterrupt: a run told to end still writes its files."""
+    """Turn SIGINT, SIGTERM and SIGHUP into KeyboardInterrupt: a run told to end writes its files.
+
+    A hang-up that was ignored before (nohup) is ignored still.
+    """
     if threading.current_thread() is not threading.main_thread():
         yield
         return
-    numbers = (signal.SIGINT, signal.SIGTERM)
+    numbers = [signal.SIGINT, signal.SIGTERM]
+    hangup = getattr(signal, "SIGHUP", None)  # not on every system
+    if hangup is not None and signal.getsignal(hangup) is not signal.SIG_IGN:
+        numbers.append(hangup)
     before = [signal.signal(n, interrupt) for n in numbers]
     ignored, sys.unraisablehook = sys.unraisablehook, _quiet_about_interruptions
     try:

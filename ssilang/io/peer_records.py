@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,23 +12,35 @@ import numpy as np
 from ssilang.io.errors import InputError
 from ssilang.kernel.base.arrays import FloatArray
 
+_DIGITS = 12  # of a number of values that a file can hold
 _HEADER = 4  # lines: source, event and station, quantity and unit, number of values and step
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[EeDd][-+]?\d+)?")
 _SIZES = (  # the fourth line, as files of different years have it
     re.compile(r"NPTS\s*=\s*(\d+)\s*,?\s*DT\s*=\s*([\d.EeDd+-]+)", re.IGNORECASE),
     re.compile(r"^\s*(\d+)\s+([\d.EeDd+-]+)\s*(?:NPTS|$)", re.IGNORECASE),
 )
+_UNIT = re.compile(r"UNITS?\s*(?:OF|IN|=|:)?\s*([A-Z][A-Z0-9/*^]*)", re.IGNORECASE)
+_IN_SI = {"G": 9.81, **dict.fromkeys(("GAL", "CM/S", "CM", "CM/S2", "CM/S/S", "CM/S**2"), 0.01)}
 _QUANTITIES = {"ACC": "ACCE", "VEL": "VITE", "DIS": "DEPL"}
 
 
 @dataclass(frozen=True)
 class PeerRecord:
-    """A record: values (n,) in the file's unit, step dt (s), event, quantity ACCE VITE or DEPL."""
+    """A record: values (n,) in the file's unit, step dt (s), event, quantity ACCE VITE or DEPL.
+
+    `unit` is what the third line says it is, '' where it says nothing.
+    """
 
     values: FloatArray
     dt: float
     event: str
     quantity: str
+    unit: str = ""
+
+    @property
+    def in_si(self) -> float:
+        """Factor that makes SI of its unit, 1 for those not known."""
+        return _IN_SI.get(self.unit, 1.0)
 
     @property
     def times(self) -> FloatArray:
@@ -49,23 +62,35 @@ def read_peer(path: Path) -> PeerRecord:
     except OSError as error:
         raise InputError("io.cannot-read", path=path, strerror=error.strerror) from error
     count, dt = _sizes(path, lines)
-    values = np.array([float(t.upper().replace("D", "E")) for t in _values(path, lines)])
+    values = np.array([_real(t) for t in _values(path, lines)])
     if len(values) < count:
         raise InputError(
             "io.line-says-values-file", name=path.name, count=count, n_values=len(values)
         )
+    if not np.isfinite(values[:count]).all():
+        raise InputError("io.record-not-finite", name=path.name)
     quantity = next((w for k, w in _QUANTITIES.items() if k in lines[2].upper()), "ACCE")
-    return PeerRecord(values[:count], dt, lines[1].strip(), quantity)
+    unit = _UNIT.search(lines[2])
+    said = unit[1].upper() if unit is not None else ""
+    return PeerRecord(values[:count], dt, lines[1].strip(), quantity, said)
 
 
 def _sizes(path: Path, lines: list[str]) -> tuple[int, float]:
     if len(lines) >= _HEADER:
         for pattern in _SIZES:
             if (found := pattern.search(lines[_HEADER - 1])) is not None:
-                dt = float(found[2].rstrip(".").upper().replace("D", "E") or "nan")
-                if dt > 0.0:
+                dt = _real(found[2].rstrip("."))
+                if 0.0 < dt < math.inf and len(found[1]) < _DIGITS:
                     return int(found[1]), dt
     raise InputError("io.line-no-npts-dt", name=path.name)
+
+
+def _real(text: str) -> float:
+    """A number as Fortran writes it, NaN for what is none."""
+    try:
+        return float(text.upper().replace("D", "E"))
+    except ValueError:
+        return math.nan
 
 
 def _values(path: Path, lines: list[str]) -> list[str]:

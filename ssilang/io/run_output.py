@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+import errno
+import os
 from dataclasses import dataclass, field
 from pathlib import Path
 from time import monotonic
 from typing import Any
 
 from ssilang.io.atomic import write_text
+from ssilang.io.errors import OutputError
 from ssilang.io.plots.figure import Pictures
+from ssilang.io.run_lock import RunLock, hold
 from ssilang.io.vtk.series import SeriesWriter, strip_extension
 
+_SHOWN = 60  # letters of a name in a message
 _FLUSH_EVERY = 1.0  # seconds: a loop that adds lines does not rewrite the file at each turn
 
 
@@ -38,6 +43,8 @@ class RunOutput:
     opened : dict of str to object
         What an option's file holds since OPTI named it ('SORT': lines, 'ACQU': values left);
         forgotten when OPTI names it again.
+    lock : RunLock or None
+        Keeps other runs out of `directory`.
     """
 
     directory: Path
@@ -46,6 +53,7 @@ class RunOutput:
     files: list[Path] = field(default_factory=list)
     series: dict[Path, SeriesWriter] = field(default_factory=dict)
     opened: dict[str, Any] = field(default_factory=dict)
+    lock: RunLock | None = None
     _pending: dict[Path, list[str]] = field(default_factory=dict, repr=False)
     _flushed_at: float = 0.0
 
@@ -56,8 +64,15 @@ class RunOutput:
         self.pictures = Pictures(self.directory)
 
     def target(self, name: str) -> Path | None:
-        """Where a file of that name is written; None if that place is forbidden."""
-        path = (self.directory / name.strip()).resolve()
+        """Where a file of that name is written; None if that place is forbidden.
+
+        Raises
+        ------
+        OutputError
+            For a name that no file can have, or if the output folder is gone.
+        """
+        path = _place(self.directory, name)
+        self.check()
         return path if self._within(path, (self.directory, *self.allowed)) else None
 
     def source(self, name: str) -> Path | None:
@@ -66,10 +81,15 @@ class RunOutput:
         A file that this run has written is preferred to one of the same name beside the script;
         failing both, one that another case has left in its own folder beside the output folder
         (a deck that goes on from the SAUV of the deck before).
+
+        Raises
+        ------
+        OutputError
+            For a name that no file can have.
         """
         self.flush()
-        written = (self.directory / name.strip()).resolve()
-        path = (self.inputs / name.strip()).resolve()
+        written = _place(self.directory, name)
+        path = _place(self.inputs, name)
         roots = (self.directory, self.inputs, *self.allowed)
         if written in self.files or (not path.exists() and written.exists()):
             path = written
@@ -84,8 +104,9 @@ class RunOutput:
     def _of_another_case(self, name: str) -> Path | None:
         """The latest file of that name in the output folder of another run."""
         results = self.directory.parent
-        paths = [(s.parent / name).resolve() for s in results.glob("*/summary.json")]
-        found = [p for p in paths if p.is_file() and p.is_relative_to(results)]
+        places = [s.parent for s in results.glob("*/summary.json")]
+        paths = [(place, _place(place, name)) for place in places]
+        found = [p for place, p in paths if p.is_file() and p.is_relative_to(place)]
         return max(found, key=lambda p: p.stat().st_mtime, default=None)
 
     @staticmethod
@@ -124,9 +145,68 @@ class RunOutput:
         """Add files to the list of those written (those that are never written drop out)."""
         self.files += [p for p in dict.fromkeys(paths) if p not in self.files]
 
+    def hold(self) -> None:
+        """Keep other runs out of the output folder until `close`.
+
+        Raises
+        ------
+        OutputError
+            If one runs there.
+        """
+        self.lock = hold(self.directory)
+
+    def check(self) -> None:
+        """Check that the output folder is still there.
+
+        Raises
+        ------
+        OutputError
+            If somebody has removed or exchanged it.
+        """
+        if self.lock is not None and not self.lock.is_held():
+            raise OutputError("io.output-folder-gone", folder=self.directory)
+
     def close(self) -> None:
-        """Finish what is open: text files and the lists of series."""
+        """Finish what is open: text files and the lists of series.
+
+        Raises
+        ------
+        OutputError
+            If the output folder is gone, or cannot be written to.
+        """
+        self.check()
         self.flush()
         for writer in self.series.values():
             writer.close()
             self.wrote(*writer.files)
+
+    def release(self) -> None:
+        """Let other runs have the output folder."""
+        if self.lock is not None:
+            self.lock.release()
+            self.lock = None
+
+
+def _place(folder: Path, name: str) -> Path:
+    """Where a name leads, through all links.
+
+    Raises
+    ------
+    OutputError
+        For a name that no file can have: too long, with a sign that names have not, or a link
+        that leads to itself.
+    """
+    try:
+        path = (folder / name.strip()).resolve()
+        path.exists()
+        if os.path.islink(path):  # what resolve leaves is a loop
+            raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))
+    except (OSError, ValueError, RuntimeError) as error:
+        reason = getattr(error, "strerror", None) or error
+        raise OutputError("io.no-such-place", name=_shown(name), reason=reason) from error
+    return path
+
+
+def _shown(name: str) -> str:
+    plain = name.strip().replace("\0", "\\0")
+    return plain if len(plain) <= _SHOWN else plain[:_SHOWN] + "..."

@@ -8,33 +8,13 @@ from pathlib import Path
 
 _FILE = Path(__file__).with_name("cast3m_words.txt")
 
-SUBJECTS: dict[str, tuple[str, str]] = {
-    "mechanics": ("mechanics and data", "mécanique et données"),
-    "fluids": ("fluids", "fluides"),
-    "heat": ("heat", "thermique"),
-    "porous": ("flow in porous media", "écoulements en milieu poreux"),
-    "chemistry": ("chemistry", "chimie"),
-    "electromagnetism": ("electromagnetism", "électromagnétisme"),
-    "fracture": ("fracture", "rupture"),
-    "concrete": ("concrete, fatigue, prestress", "béton, fatigue, précontrainte"),
-    "optimisation": ("optimisation and statistics", "optimisation et statistiques"),
-    "system": ("the machine and its windows", "la machine et ses fenêtres"),
-    "substructures": (
-        "substructures held in STRUCTURE, ATTACHE and SOLUTION objects",
-        "sous-structures des objets STRUCTURE, ATTACHE et SOLUTION",
-    ),
-    "internal": ("inner workings of Cast3M", "rouages internes de Cast3M"),
-    "old": ("words that Cast3M gave up", "mots abandonnés par Cast3M"),
-    "elsewhere": ("other subjects", "autres sujets"),
-}
-"""Subject: its name in English and in French. All but 'mechanics' are out of scope."""
-
 IN_SCOPE = "mechanics"
+"""The subject whose words are in scope; all others are not."""
 
 
 @dataclass(frozen=True, slots=True)
 class Cast3mWord:
-    """A word of Cast3M: `kind` is 'operator' or 'procedure', `subject` a key of SUBJECTS."""
+    """A word of Cast3M: `kind` is 'operator' or 'procedure', `subject` as in the file."""
 
     name: str
     kind: str

@@ -11,6 +11,8 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, S
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
+from ssilang.messages.message import spoken
+
 ANY = "*"
 NAME = "NOM"
 """Type word of an entry that takes the name of the next operand, whatever object bears it."""
@@ -347,6 +349,10 @@ class Help:
     syntax: str = ""  # one line an accepted form, notices' style
     examples: tuple[str, ...] = ()  # scripts that run by themselves
 
+    def told(self, language: str) -> str:
+        """What it says in 'en' or 'fr'."""
+        return spoken(self.en, self.fr, language)
+
 
 NO_HELP = Help("", "")
 
@@ -396,6 +402,25 @@ class Form:
         object.__setattr__(self, "plain", all(isinstance(e, Argument) for e in entries))
 
 
+@dataclass(frozen=True, slots=True)
+class Trial:
+    """What to try on the operands of a call.
+
+    Attributes
+    ----------
+    forms : tuple of Form
+        All that are meant, in order.
+    main : int or None
+        Index of the operand that chose them.
+    fitting : tuple of Form
+        Those of them that the operands may fit, by number, types and words.
+    """
+
+    forms: tuple[Form, ...]
+    main: int | None
+    fitting: tuple[Form, ...]
+
+
 class Choices:
     """What chooses among forms, gathered once."""
 
@@ -409,6 +434,11 @@ class Choices:
         self.plain = tuple(f for f in forms if f.main is None and f.said is None)
         # forms by the type of the main operand, and those of them that want no word
         self.by_kind: dict[str, tuple[tuple[Form, ...], tuple[Form, ...]]] = {}
+        self.whens = tuple({id(f.when): f.when for f in forms if f.when is not None}.values())
+        alone = len(self.forms) == 1 and self.forms[0].main is None and not self.conditional
+        self.only = Trial(self.forms, None, self.forms) if alone else None
+        # what was found to try, by types, words and conditions
+        self.trials: dict[tuple[object, ...], Trial] = {}
 
 
 @dataclass(slots=True)

@@ -56,6 +56,21 @@ MESSAGES: dict[str, Message] = {
         "{runs} {runs:calcul|calculs}, {failed} en échec ; {table}, {pictures} "
         "{pictures:image|images}",
     ),
+    "no-working-folder": Message(
+        "the working folder was removed",
+        "le dossier de travail a été supprimé",
+        "go to a folder that is there (cd)",
+        "allez dans un dossier qui existe (cd)",
+    ),
+    "compiled-code-refused": Message(
+        "others could have put code into {folder}: none is read from there or kept, this run "
+        "compiles anew",
+        "d'autres ont pu mettre du code dans {folder} : rien n'y est lu ni conservé, ce calcul "
+        "compile à nouveau",
+        "{fault} must belong to you, be no link, and not let others write (chmod 700)",
+        "{fault} doit vous appartenir, ne pas être un lien et ne pas laisser écrire les autres "
+        "(chmod 700)",
+    ),
     "files-written": Message(
         "{count} {count:file|files} in {folder}, {warnings} {warnings:warning|warnings}"
         "{energy:?, energy within {energy} %}",

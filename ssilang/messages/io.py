@@ -119,6 +119,30 @@ MESSAGES: dict[str, Message] = {
         "{name} is damaged: {error}",
         "{name} est endommagé : {error}",
     ),
+    "folder-in-use": Message(
+        "another run writes into {folder}: process {pid}{host:? on {host}}",
+        "un autre calcul écrit dans {folder} : processus {pid}{host:? sur {host}}",
+        "wait for its end, or choose another folder with --out{elsewhere:?; if that run is over, "
+        "remove {elsewhere}}",
+        "attendez sa fin, ou choisissez un autre dossier par --out{elsewhere:? ; si ce calcul est "
+        "fini, supprimez {elsewhere}}",
+    ),
+    "output-folder-gone": Message(
+        "the output folder {folder} was removed or exchanged during the run",
+        "le dossier de sortie {folder} a été supprimé ou échangé pendant le calcul",
+    ),
+    "no-such-place": Message(
+        "no file can be called '{name}': {reason}",
+        "aucun fichier ne peut s'appeler '{name}' : {reason}",
+    ),
+    "series-files-gone": Message(
+        "files that the run wrote for the series {path} are gone: {names}",
+        "des fichiers écrits pour la série {path} ont disparu : {names}",
+    ),
+    "damaged-object": Message(
+        "{name} is damaged: {part} of an object '{kind}' cannot be",
+        "{name} est endommagé : {part} d'un objet '{kind}' ne peut être",
+    ),
     "save-file-holds-object": Message(
         "the save file holds an object of unknown kind '{tag}'",
         "le fichier de sauvegarde contient un objet de nature inconnue '{tag}'",
@@ -177,6 +201,10 @@ MESSAGES: dict[str, Message] = {
     "no-readable-unv-file": Message(
         "{name} is no readable UNV file: {error}",
         "{name} n'est pas un fichier UNV lisible : {error}",
+    ),
+    "record-not-finite": Message(
+        "{name} has values that are too large for a number",
+        "{name} a des valeurs trop grandes pour un nombre",
     ),
     "line-says-values-file": Message(
         "{name}: line 4 says {count} {count:value|values}, the file holds {n_values}",

@@ -30,6 +30,10 @@ MESSAGES: dict[str, Message] = {
         "look for a recursive call whose end test is never met",
         "cherchez un appel récursif dont le test d'arrêt n'est jamais vrai",
     ),
+    "cannot-print": Message(
+        "what is printed cannot be written: {reason}",
+        "ce qui est imprimé ne peut être écrit : {reason}",
+    ),
     "memory": Message(
         "{operator} needs more memory than there is", "{operator} : mémoire insuffisante"
     ),
@@ -330,6 +334,19 @@ MESSAGES: dict[str, Message] = {
     ),
     "arithmetic": Message("{reason}", "{reason}"),
     "division-by-zero": Message("division by zero", "division par zéro"),
+    "operand-not-finite": Message(
+        "{operator} cannot calculate with {operand}, which has values that are no finite numbers",
+        "{operator} ne peut calculer avec {operand}, qui a des valeurs qui ne sont pas des nombres "
+        "finis",
+        "VERI tells whether a value is a number; look where this one comes from",
+        "VERI dit si une valeur est un nombre ; cherchez d'où vient celle-ci",
+    ),
+    "number-too-large": Message(
+        "{operator} calculates with a number that is too large for it",
+        "{operator} calcule avec un nombre trop grand pour lui",
+        "integers that are no count stay below 2**63, reals below 1.8E308",
+        "les entiers qui ne comptent rien restent sous 2**63, les réels sous 1.8E308",
+    ),
     "too-large": Message("the result is too large", "le résultat est trop grand"),
     "no-value": Message("these values have no result", "ces valeurs n'ont pas de résultat"),
     # ---- entries of the tables of procedures
@@ -385,6 +402,13 @@ MESSAGES: dict[str, Message] = {
         "{where} n'est pas un indice de {procedure} et rien dans le script ne le lit",
         "`ssilang help {procedure}` lists its entries",
         "`ssilang help {procedure} --lang fr` en donne la liste",
+        severity="warning",
+    ),
+    "entries-without-effect": Message(
+        "{procedure} accepts {names:and} without effect{en:?: {en}}",
+        "{procedure} accepte {names:and} sans effet{fr:? : {fr}}",
+        "`ssilang help {procedure}` lists the entries that it reads",
+        "`ssilang help {procedure} --lang fr` donne la liste de ceux qu'il lit",
         severity="warning",
     ),
     "refused-entry": Message(
@@ -541,6 +565,7 @@ MESSAGES: dict[str, Message] = {
     # ---- parts of other sentences
     "label-error": Message("error", "erreur"),
     "label-warning": Message("warning", "avertissement"),
+    "labelled": Message("{label}: {head}", "{label} : {head}"),
     "called-by": Message("called by {name} at", "appelé par {name},"),
     "held-word": Message(
         "'{word}', the value of {holder}, names an operator, which ran: MOT {holder} takes it as "
@@ -563,6 +588,8 @@ MESSAGES: dict[str, Message] = {
         "un point dans une phrase s'écrit entre parenthèses : (0. 1.)\n",
     ),
     "any-object": Message("an object", "un objet"),
+    "a-object-of-type": Message("a {kind}", "un {kind}"),
+    "an-object-of-type": Message("an {kind}", "un {kind}"),
     "one-of-types": Message("one of {types:or}", "l'un des types {types:or}"),
     "no-keyword": Message(
         "'{word}' is no keyword of {operator}: did you mean '{near}'?\n",

@@ -36,6 +36,7 @@ _BETWEEN = {
     "words": {"en": " ", "fr": " "},
     ";": {"en": "; ", "fr": " ; "},
 }
+_LONGEST = 40  # letters of a value that has not the form it should be shown in
 _COLON = {"en": ": ", "fr": " : "}
 
 
@@ -114,6 +115,11 @@ class Refusal(Exception):
         return hint(self.code, self.data)
 
 
+def spoken(en: str, fr: str, language: str) -> str:
+    """The one of two texts that is in 'en' or 'fr'."""
+    return en if language == "en" else fr
+
+
 def find(code: str) -> Message:
     """The message of a code.
 
@@ -144,7 +150,7 @@ def _room(name: str) -> dict[str, Message]:
 def sentence(code: str, data: Mapping[str, Any], language: str = "en") -> str:
     """What is wrong, in 'en' or 'fr'; `speaker` among the data is named first."""
     message = find(code)
-    text = filled(message.en if language == "en" else message.fr, data, language)
+    text = filled(spoken(message.en, message.fr, language), data, language)
     return f"{data['speaker']}{_COLON[language]}{text}" if "speaker" in data else text
 
 
@@ -156,7 +162,7 @@ def hint(code: str, data: Mapping[str, Any], language: str = "en", script: bool 
         from ssilang.messages.script import HINTS
 
         hints = HINTS.get(code, hints)
-    return filled(hints[0] if language == "en" else hints[1], data, language, script)
+    return filled(spoken(*hints, language), data, language, script)
 
 
 def filled(template: str, data: Mapping[str, Any], language: str, script: bool = False) -> str:
@@ -211,7 +217,7 @@ def _shown(value: object, spec: str, language: str) -> str:
     if isinstance(value, Said):
         return sentence(value.code, value.data, language)
     if not _is_several(value):
-        return format(value, spec)
+        return _formatted(value, spec)
     joint, _, form = spec.partition(" ")
     if joint not in _LAST and joint not in _BETWEEN:
         joint, form = "", spec
@@ -219,3 +225,10 @@ def _shown(value: object, spec: str, language: str) -> str:
     if joint in _LAST and len(words) > 1:
         return ", ".join(words[:-1]) + _LAST[joint][language] + words[-1]
     return _BETWEEN.get(joint, _BETWEEN[""])[language].join(words)
+
+
+def _formatted(value: object, spec: str) -> str:
+    try:
+        return format(value, spec)
+    except (OverflowError, TypeError, ValueError):  # an integer past all reals, or of another type
+        return str(value)[:_LONGEST]

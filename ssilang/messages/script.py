@@ -315,9 +315,21 @@ HINTS: dict[str, tuple[str, str]] = {
         "hold with equalities (BLOQ, RELA without MINI or MAXI), or work in time",
         "tenir par des égalités (BLOQ, RELA sans MINI ni MAXI), ou calculer en temps",
     ),
+    "kernel.statics.pressure-without-sides": (
+        "join MODE GEO1 'CHARGEMENT' 'PRESSION' of these sides to MODELE",
+        "joignez à MODELE le modèle MODE GEO1 'CHARGEMENT' 'PRESSION' de ces faces",
+    ),
+    "kernel.statics.pressure-follows": (
+        "PROCEDURE_CHARMECA calls CHARMECA, which gives it at each step (BSIG, KP)",
+        "PROCEDURE_CHARMECA appelle CHARMECA, qui la donne à chaque pas (BSIG, KP)",
+    ),
+    "kernel.statics.pressure-is-no-field-in-cells": (
+        "CHAR 'PRES' (PRES MODL1 'PRES' P1) EVOL1",
+        "CHAR 'PRES' (PRES MODL1 'PRES' P1) EVOL1",
+    ),
     "kernel.statics.load-not-mechanical": (
-        "MECA (or FORC) and DIMP are taken here",
-        "MECA (ou FORC) et DIMP sont admis ici",
+        "MECA (or FORC) and DIMP are taken here, PRES by PASAPAS",
+        "MECA (ou FORC) et DIMP sont admis ici, PRES par PASAPAS",
     ),
     "kernel.statics.loads-drive-motions": (
         "not held: {free}{more:? and {more} more}; hold it with BLOQ or RELA{apart:?; "
@@ -334,12 +346,27 @@ HINTS: dict[str, tuple[str, str]] = {
         "écrites de nouveau font un nouveau noeud, celui du maillage est MAIL1 POIN 'PROC' "
         "P1|ôtez-la du second membre, ou dites 'NOID'}",
     ),
+    "kernel.mesh.sides-do-not-fit": (
+        "divide both sides alike (the same numbers and sizes in DROI), or say 'PART' to join "
+        "only the cells that fit",
+        "découpez les deux côtés de la même façon (mêmes nombres et tailles dans DROI), ou dites "
+        "'PART' pour ne joindre que les éléments qui se correspondent",
+    ),
+    "kernel.statics.solution-without-multipliers": (
+        "{others:?a BLOQ or RELA made again has multipliers of its own: give REAC the one that "
+        "RESO, DYNAMIC or PASAPAS had|take the solution as RESO gives it; in DYNAMIC, "
+        "MAILLAGE_SAUVE keeps only its nodes: add EXTR RIG1 'MAIL' 'MULT'}",
+        "{others:?un BLOQ ou RELA refait a ses propres multiplicateurs : donnez à REAC celui "
+        "qu'avait RESO, DYNAMIC ou PASAPAS|prenez la solution telle que RESO la donne ; dans "
+        "DYNAMIC, MAILLAGE_SAUVE ne garde que ses noeuds : ajoutez EXTR RIG1 'MAIL' 'MULT'}",
+    ),
     "kernel.statics.no-equilibrium-full-uplift": (
         "less eccentric loads, a support, or a dynamic calculation; if the loads press, the "
-        "joint's sides are swapped: RACC and LIAI take the structure's first",
+        "joint's sides are swapped: RACC (INVE GEO1) GEO2 turns it round, and a joint JOI1 opens "
+        "where its second node goes along DIRECTION",
         "un chargement moins excentré, un appui, ou un calcul dynamique ; si le chargement "
-        "presse, les côtés du joint sont inversés : RACC et LIAI prennent d'abord celui de "
-        "la structure",
+        "presse, les côtés du joint sont inversés : RACC (INVE GEO1) GEO2 le retourne, et un "
+        "joint JOI1 s'ouvre quand son second nœud va selon DIRECTION",
     ),
     "kernel.stepping.motions-without-mass": (
         "not held: {free}{more:? and {more} more}; hold it with BLOQ or RELA{apart:?; "
@@ -348,6 +375,16 @@ HINTS: dict[str, tuple[str, str]] = {
         "non tenu : {free}{more:? et {more} {more:autre|autres}} ; bloquez-le par BLOQ ou "
         "RELA{apart:? ; {apart} {apart:noeud est sur celui|noeuds sont sur ceux} d'un autre "
         "corps (ELIM)}, ou donnez-lui une masse (MASS)",
+    ),
+    "kernel.stepping.conditions-hold-every-unknown": (
+        "leave some free: BLOQ of fewer nodes or unknowns, or RESO for the state that supports "
+        "impose",
+        "laissez-en libres : BLOQ de moins de noeuds ou d'inconnues, ou RESO pour l'état que "
+        "les appuis imposent",
+    ),
+    "kernel.matrices.mass-negative": (
+        "look for the sign in MASS or MANU, or in the factor of a matrix",
+        "cherchez le signe dans MASS ou MANU, ou dans le coefficient d'une matrice",
     ),
     "kernel.stepping.matrix-added-during-calculation": (
         "give RIGI a stiffness (of zero, if need be) with this unknown",
@@ -366,8 +403,8 @@ HINTS: dict[str, tuple[str, str]] = {
         "donnez MODELE et CARACTERISTIQUES avec ces joints",
     ),
     "kernel.stepping.load-not-mechanical": (
-        "MECA (or FORC) and DIMP are taken here",
-        "MECA (ou FORC) et DIMP sont admis ici",
+        "MECA (or FORC) and DIMP are taken here, PRES by PASAPAS",
+        "MECA (ou FORC) et DIMP sont admis ici, PRES par PASAPAS",
     ),
     "kernel.stepping.full-uplift": (
         "give it mass (MASS), a support, or loads that press it on its joints",
@@ -406,8 +443,10 @@ HINTS: dict[str, tuple[str, str]] = {
         "retirez 'NOMU'",
     ),
     "kernel.matrices.rigid-body-distances-needs": (
-        "or say 'NOVERIF'",
-        "ou dites 'NOVERIF'",
+        "tie the nodes to a centre that turns, a point: RELA 'CORI' 'DEPL' 'ROTA' C1 GEO1 ; "
+        "'NOVERIF' leaves a mechanism of nodes that lie too flat",
+        "liez les noeuds à un centre qui tourne, un point : RELA 'CORI' 'DEPL' 'ROTA' C1 GEO1 ; "
+        "'NOVERIF' laisse un mécanisme à des noeuds trop plats",
     ),
     "kernel.plasticity.time-no-solution-found": (
         "a smaller 'DSMIN'",

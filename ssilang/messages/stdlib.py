@@ -413,8 +413,10 @@ MESSAGES: dict[str, Message] = {
         "FTRAN : {1} fréquences seulement sous {2}, dont {3} sont écartées",
     ),
     "ftran-second-signal-nothing-some": Message(
-        "FTRAN: the second signal has nothing at some frequency",
-        "FTRAN : le second signal n'a rien à une certaine fréquence",
+        "FTRAN: the second signal has nothing at the frequency {1}",
+        "FTRAN : le second signal n'a rien à la fréquence {1}",
+        "a lower F0, or a larger N1, leaves it out",
+        "un F0 plus bas, ou un N1 plus grand, l'écarte",
     ),
     "fzero-function-same-sign-both": Message(
         "FZERO: the function has the same sign at both ends: {1} and {2}",

@@ -5,7 +5,7 @@ A family adds its forms with the decorator `form`; help texts and examples add u
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from typing import TYPE_CHECKING, Any
 
 from ssilang.language.registry import (
@@ -21,7 +21,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.say.errors import SsiError
-from ssilang.language.values import Mot, type_of
+from ssilang.language.values import ListMots, Mot, type_of
 from ssilang.messages.message import Teller
 
 if TYPE_CHECKING:
@@ -135,6 +135,16 @@ EXTR = shared_operator(
             "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'T' 3. ;\n"
             "LIST (MAXI (EXTR (SUIT C C) 2)) ; LIST (EXTR (ENUM 7 8) 2) ;\n"
             "T = EXTR 'POINT' ; LIST (DIME T) ;"
+        ),
+        (
+            "A = EVOL 'ROUG' 'MANU' 'TIME' (PROG 0. 1. 3.) 'UX' (PROG 5. 6. 8.) ;\n"
+            "B = EVOL 'BLEU' 'MANU' 'TIME' (PROG 0. 1. 3.) 'UY' (PROG 7. 7. 9.) ; C = A ET B ;\n"
+            "LIST (EXTR C 'ABSC' 2) ; LIST (EXTR C 'UY') ;\n"
+            "LIST (EXTR C 'COUR' 2) ; LIST (DIME (EXTR C 'COUR' 'TIME')) ;\n"
+            "LIST (EXTR A 'PAS' 2) ; LIST (EXTR A 'AVAN' 1.) ;\n"
+            "LIST (EXTR A 'COMP' 'INDI' 2 3 'ZERO') ;\n"
+            "LIST (EXTR A 'LEGX') ; LIST (EXTR C 'LEGY' 2) ; LIST (EXTR A 'LEGE') ;\n"
+            "LIST (EXTR C 'COUL') ;"
         ),
     ),
 )
@@ -485,35 +495,38 @@ def union(*pairs: tuple[str, str]) -> Callable[[UnionRule], UnionRule]:
     return add
 
 
-CallUnionRule = Callable[[Call, Any, Any], Any]
-CALL_UNIONS: dict[tuple[str, str], CallUnionRule] = {}
-"""ET for rules that read the words 'TELQUEL' and 'NOER'."""
+WordedUnionRule = Callable[[Collection[str], Any, Any], Any]
+WORDED_UNIONS: dict[tuple[str, str], WordedUnionRule] = {}
+"""ET for rules that heed the words 'TELQUEL' and 'NOER'."""
 
 
-def union_with_call(*pairs: tuple[str, str]) -> Callable[[CallUnionRule], CallUnionRule]:
-    """Decorator: what ET does on pairs of types, a function `(call, left, right)`.
+def worded_union(*pairs: tuple[str, str]) -> Callable[[WordedUnionRule], WordedUnionRule]:
+    """Decorator: what ET does on pairs of types, a function `(words, left, right)`.
 
-    `call.used` holds the words read: 'TELQUEL' and 'NOER' are given by `union_words(call)`.
+    `words` are those of 'TELQ' and 'NOER' that stand with ET.
     """
 
-    def add(entry: CallUnionRule) -> CallUnionRule:
+    def add(entry: WordedUnionRule) -> WordedUnionRule:
         for pair in pairs:
-            CALL_UNIONS[pair] = entry
+            WORDED_UNIONS[pair] = entry
         return entry
 
     return add
 
 
-def union_words(call: Call) -> set[str]:
-    """The words that stood with ET: 'TELQ', 'NOER'."""
+def _words_of_union(call: Call) -> set[str]:
+    """Words that stand with ET: before, between and behind objects, not in the place of words."""
     found: set[str] = set()
-    while (said := call.keyword(("TELQ", "NOER"))) is not None:
+    values = [o.value for o in call.operands]
+    words = [v for v in values if isinstance(v, str | ListMots)]
+    objects = len(values) - len(words) >= 2 and not any(isinstance(v, ListMots) for v in words)
+    while (said := call.keyword(("TELQ", "NOER") if objects else ("TELQ",))) is not None:
         found.add(said)
     return found
 
 
-def united(call: Call, left: Any, right: Any, span: Span) -> Any:
-    """What ET makes of two objects.
+def united(call: Call, left: Any, right: Any, span: Span, words: Collection[str] = ()) -> Any:
+    """What ET makes of two objects, with the words that stand with it.
 
     Raises
     ------
@@ -521,9 +534,9 @@ def united(call: Call, left: Any, right: Any, span: Span) -> Any:
         'no-rule' when their types do not go together.
     """
     types = type_of(left), type_of(right)
-    reading = CALL_UNIONS.get(types)
-    if reading is not None:
-        return reading(call, left, right)
+    worded = WORDED_UNIONS.get(types)
+    if worded is not None:
+        return worded(words, left, right)
     found = UNIONS.get(types) or UNIONS.get((types[0], "*")) or UNIONS.get(("*", types[1]))
     if found is None:
         raise SsiError("no-rule", span, operator="ET", left=types[0], right=types[1])
@@ -531,18 +544,18 @@ def united(call: Call, left: Any, right: Any, span: Span) -> Any:
 
 
 def _unite(call: Call) -> Any:
-    exact = call.keyword(("TELQ",)) is not None
+    words = _words_of_union(call)
     left = call.read("*")
     if left is not None and not call.operands and type_of(left.value) == "TABLE":
         return _unite_table(call, left.value)
     right = call.read("*") if left is not None else None
     if left is None or right is None:
         raise SsiError("two-operands", call.span, operator="ET")
-    if exact and isinstance(left.value, str) and isinstance(right.value, str):
+    while (said := call.keyword(("TELQ", "NOER"))) is not None:
+        words.add(said)
+    if "TELQ" in words and isinstance(left.value, str) and isinstance(right.value, str):
         return Mot(left.value + right.value)
-    result = united(call, left.value, right.value, left.span.to(right.span))
-    union_words(call)
-    return result
+    return united(call, left.value, right.value, left.span.to(right.span), words)
 
 
 def _unite_table(call: Call, table: Any) -> Any:
@@ -559,7 +572,12 @@ def _unite_table(call: Call, table: Any) -> Any:
 
 operator(
     "ET",
-    flag("exact", "TELQ", en="words are joined with their blanks", fr="mots avec leurs blancs"),
+    flag(
+        "exact",
+        "TELQ",
+        en="words with their blanks, meshes in the order given",
+        fr="mots avec leurs blancs, maillages dans l'ordre donné",
+    ),
     arg("first", en="object, or a table of objects", fr="objet, ou table d'objets"),
     opt("second", en="object joined to it", fr="objet qui s'y joint"),
     flag("merged", "NOER", en="doubles are no error", fr="les doublons ne sont pas une erreur"),
@@ -569,7 +587,11 @@ operator(
         "Joins two objects: union of meshes, sum of matrices, concatenation of lists, logical and.",
         "Réunit deux objets : union de maillages, somme de rigidités, suite de listes, et logique.",
         "OBJ3 = OBJ1 ET OBJ2 ('NOER') ; OBJ3 = ET ('TELQUEL') OBJ1 OBJ2 ; OBJ2 = ET TAB1 ;",
-        ("l = (PROG 1. 2.) ET 3. ; LIST l ;", "SI (VRAI ET FAUX) ; ERRE 5 ; FINSI ;"),
+        (
+            "l = (PROG 1. 2.) ET 3. ; LIST l ;",
+            "SI (VRAI ET FAUX) ; ERRE 5 ; FINSI ;",
+            "LIST (ET 'TELQUEL' 'a ' 'b') ;",
+        ),
     ),
     reads_itself="the types of its operands, words too, choose a rule, which may read more",
 )(_unite)

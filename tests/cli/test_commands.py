@@ -82,7 +82,7 @@ FREE = (
     ("language", "label", "said"),
     [
         ("en", "warning: ", "the matrix is singular, with 3 free motions"),
-        ("fr", "avertissement: ", "la matrice est singulière : 3 mouvements libres"),
+        ("fr", "avertissement : ", "la matrice est singulière : 3 mouvements libres"),
     ],
 )
 def test_what_does_not_stop_a_run_is_called_a_warning(ssilang, script, language, label, said):
@@ -97,14 +97,14 @@ def test_what_does_not_stop_a_run_is_called_a_warning(ssilang, script, language,
 def test_warnings_speak_the_language_of_the_run(ssilang, script):
     done = ssilang("run", script("SI (EGA 'ABC' 1) ; FINSI ;\n"), "--lang", "fr")
     assert done.code == 0
-    assert done.err.startswith("avertissement: le mot ABC est comparé à un nombre")
+    assert done.err.startswith("avertissement : le mot ABC est comparé à un nombre")
 
 
 def test_wrong_settings_are_told_in_the_language_asked_for(ssilang, script, capsys):
     with pytest.raises(SystemExit) as left:
         ssilang("run", script("A = 1 ;\n"), "--set", "A", "--lang", "fr")
     assert left.value.code == 2
-    assert capsys.readouterr().err.startswith("erreur: 'A' n'est pas NOM=VALEUR")
+    assert capsys.readouterr().err.startswith("erreur : 'A' n'est pas NOM=VALEUR")
 
 
 def test_opti_lang_switches_the_messages(ssilang, script):

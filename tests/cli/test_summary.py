@@ -124,3 +124,18 @@ def test_heavy_libraries_are_not_loaded_before_they_are_used(tmp_path: Path) -> 
     command = [sys.executable, "-c", code]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
     assert done.stdout.strip() == "[]"
+
+
+def test_energy_from_nowhere_is_told_beside_the_largest_and_in_joules(tmp_path: Path) -> None:
+    """A unit mass on a spring of 100 N/m under 1 N: the work of 0.02 m at its peak, the end."""
+    made = run(
+        tmp_path,
+        """OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; T = TABL ;
+        T . 'RIGI' = RIGI 'DEPL' 100. P1 ; T . 'MASS' = MASS 'DEPL' 1. P1 ;
+        T . 'CHAR' = CHAR 'MECA' (FORC 'FX' 1. P1) (EVOL MANU (PROG 0. 9.) (PROG 1. 1.)) ;
+        T . 'TEMPS_CALCULES' = PROG 0. 'PAS' 1.E-3 0.314 ; R = DYNAMIC T ;""",
+    )
+    (line,) = made["statistics"]["calculations"]
+    largest = line["energy_imbalance_joules"] / line["energy_imbalance"]
+    assert largest == pytest.approx(0.02, rel=1e-4)
+    assert 0.0 < line["energy_imbalance"] < 1e-9

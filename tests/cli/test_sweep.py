@@ -94,6 +94,17 @@ def test_a_sweep_goes_on_where_it_stopped(deck, tmp_path):
     assert len(pq.read_table(out / "sweep.parquet")) == 3
 
 
+def test_values_put_in_front_number_the_runs_anew(deck, tmp_path):
+    out = tmp_path / "out"
+    run(SweepOptions(deck, ["AG=0.2,0.3"], out=out, jobs=1))
+    code, said, _ = run(SweepOptions(deck, ["AG=0.1,0.2,0.3"], out=out, jobs=1))
+    assert code == 0
+    assert "2 of 3 runs are done already" in said
+    rows = pq.read_table(out / "sweep.parquet").to_pylist()
+    assert [(r["run"], r["AG"]) for r in rows] == [(1, 0.1), (2, 0.2), (3, 0.3)]
+    assert [r["square"] for r in rows] == pytest.approx([0.04, 0.16, 0.36])  # AG**2 N, N = 4
+
+
 def test_each_motion_is_a_run_that_may_read_its_file(tmp_path):
     motions = tmp_path / "motions"
     motions.mkdir()
@@ -111,6 +122,14 @@ def test_each_motion_is_a_run_that_may_read_its_file(tmp_path):
     assert code == 0, wrong
     rows = pq.read_table(tmp_path / "out" / "sweep.parquet").to_pylist()
     assert [r["peak"] for r in rows] == [1.5, 2.5]
+    # a file that is changed, and one that is put in front, are runs of their own
+    (motions / "b.csv").write_text("0. 0.\n1. 4.5\n")
+    (motions / "_.csv").write_text("0. 0.\n1. 5.5\n")
+    code, said, _ = run(options)
+    assert code == 0
+    assert "1 of 3 runs are done already" in said
+    rows = pq.read_table(tmp_path / "out" / "sweep.parquet").to_pylist()
+    assert [(r["run"], r["peak"]) for r in rows] == [(1, 5.5), (2, 1.5), (3, 4.5)]
 
 
 def dies_once(task: Task) -> dict[str, object]:

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import json
+import os
+import shutil
+import socket
 from pathlib import Path
 
 import pytest
 
+from ssilang.io.errors import OutputError
 from ssilang.io.run_output import RunOutput
 
 
@@ -80,3 +85,123 @@ def test_naming_the_file_again_begins_it_anew(output: RunOutput) -> None:
     output.add_lines("SORT", target, ["second"])
     output.close()
     assert target.read_text() == "second\n"
+
+
+def test_folders_whose_names_begin_alike_are_others(tmp_path: Path) -> None:
+    for name in ("deck", "deckhand", "r", "results"):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "x.csv").write_text("1")
+    output = RunOutput(tmp_path / "r", tmp_path / "deck", (tmp_path / "allow",))
+    assert output.source("x.csv") == tmp_path / "deck" / "x.csv"
+    for name in ("deckhand", "results"):
+        assert output.source(f"../{name}/x.csv") is None
+        assert output.source(str(tmp_path / name / "x.csv")) is None
+        assert output.target(f"../{name}/y.csv") is None
+    assert output.target(str(tmp_path / "allowed" / "y.csv")) is None
+    assert output.target(str(tmp_path / "allow" / "y.csv")) == tmp_path / "allow" / "y.csv"
+
+
+def test_links_in_another_case_s_folder_lead_nowhere(output: RunOutput, tmp_path: Path) -> None:
+    (tmp_path / "secret.csv").write_text("1")
+    (tmp_path / "private").mkdir()
+    (tmp_path / "private" / "summary.json").write_text("{}")
+    (tmp_path / "private" / "kept.csv").write_text("1")
+    before = output.directory.parent / "before"
+    before.mkdir(parents=True)
+    (before / "summary.json").write_text("{}")
+    (before / "x.csv").symlink_to(tmp_path / "secret.csv")
+    (before.parent / "linked").symlink_to(tmp_path / "private")
+    (before.parent / "third").mkdir()
+    (before.parent / "third" / "y.csv").write_text("1")
+    (before / "y.csv").symlink_to(before.parent / "third" / "y.csv")
+    for name in ("x.csv", "kept.csv", "y.csv"):
+        assert output.source(name) == output.inputs / name  # which is not there
+    (before / "z.csv").write_text("1")
+    assert output.source("z.csv") == before / "z.csv"
+
+
+@pytest.mark.parametrize("name", ["a" * 300, "a\0b", "loop", "loop/x", "a" * 4096 + "/b"])
+def test_names_that_no_file_can_have_are_refused(output: RunOutput, name: str) -> None:
+    for folder in (output.directory, output.inputs):
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / "loop").symlink_to("loop")
+    for ask in (output.target, output.source):
+        with pytest.raises(OutputError) as refused:
+            ask(name)
+        assert refused.value.code == "io.no-such-place"
+
+
+def test_the_output_folder_is_held_by_one_run(output: RunOutput) -> None:
+    other = RunOutput(output.directory, output.inputs)
+    output.hold()
+    with pytest.raises(OutputError) as refused:
+        other.hold()
+    assert refused.value.code == "io.folder-in-use"
+    assert refused.value.data["pid"] == os.getpid()
+    output.release()
+    assert list(output.directory.iterdir()) == []
+    other.hold()
+    other.release()
+
+
+def test_a_folder_that_is_exchanged_is_noticed(output: RunOutput) -> None:
+    output.hold()
+    assert output.target("a.csv") is not None
+    shutil.rmtree(output.directory)
+    for act in (lambda: output.target("a.csv"), output.close):
+        with pytest.raises(OutputError) as refused:
+            act()
+        assert refused.value.code == "io.output-folder-gone"
+    RunOutput(output.directory, output.inputs).hold()  # another run makes it again
+    with pytest.raises(OutputError):
+        output.check()
+    output.release()
+    assert (output.directory / ".running").exists()  # the other one's
+
+
+def killed(folder: Path, host: str) -> None:
+    """What a killed run leaves."""
+    folder.mkdir(parents=True)
+    (folder / ".running").write_text(json.dumps({"pid": 4, "host": host}))
+    (folder / "sub").mkdir()
+    for name in (".a.vtu.abc_1234.part", "sub/.b.csv.12345678.part", "c.part", ".d.part"):
+        (folder / name).write_text("half")
+
+
+def test_what_a_killed_run_left_is_taken_over_and_removed(output: RunOutput) -> None:
+    killed(output.directory, socket.gethostname())
+    below = output.directory / "other"
+    below.mkdir()
+    (below / ".running").write_text("")  # another run's folder
+    (below / ".e.vtu.abc_1234.part").write_text("half")
+    output.hold()
+    found = {str(p.relative_to(output.directory)) for p in output.directory.rglob("*.part")}
+    assert found == {"c.part", ".d.part", "other/.e.vtu.abc_1234.part"}
+    output.release()
+
+
+def test_a_run_of_another_host_is_not_taken_over(output: RunOutput) -> None:
+    killed(output.directory, "elsewhere")
+    with pytest.raises(OutputError) as refused:
+        output.hold()
+    assert refused.value.data["host"] == "elsewhere"
+    assert refused.value.data["elsewhere"] == output.directory / ".running"
+    assert (output.directory / ".a.vtu.abc_1234.part").exists()
+    (output.directory / ".running").unlink()
+    output.hold()
+    output.release()
+
+
+def test_a_lock_that_is_a_link_is_not_followed(output: RunOutput, tmp_path: Path) -> None:
+    output.directory.mkdir(parents=True)
+    (tmp_path / "precious").write_text("text")
+    (output.directory / ".running").symlink_to(tmp_path / "precious")
+    output.hold()
+    output.release()
+    assert (tmp_path / "precious").read_text() == "text"
+
+
+def test_a_folder_that_takes_no_lock_is_used_without(output: RunOutput, tmp_path: Path) -> None:
+    (tmp_path / "results").write_text("")  # a file where the folder should be
+    output.hold()
+    assert output.lock is None

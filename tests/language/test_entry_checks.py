@@ -129,3 +129,22 @@ def test_swapped_letters_count_once():
     assert slips("CHAR", "CHOIR") == 2
     assert meant("VITESSE", ["VITE", "DEPL"]) == "VITE"
     assert meant("XYZ", ["VITE", "DEPL"]) == ""
+
+
+def test_entries_without_effect_are_told_once_and_those_that_ask_for_nothing_are_not():
+    more = "T1 . 'SUBSTEPPING' = 3 ; T1 . 'NMAXSUBSTEPS' = 5 ; T1 . 'ACCELERATION' = FAUX ;"
+    result = run_text(BLOCK + more + "PASAPAS T1 ;")
+    assert result.exit_code == 0, result.message
+    (said,) = [w for w in result.session.warnings if w.code == "entries-without-effect"]
+    told, _ = sentence(said, "en")
+    assert "'SUBSTEPPING' and 'NMAXSUBSTEPS' without effect" in told
+    assert "ACCELERATION" not in told
+    told, _ = sentence(said, "fr")
+    assert "'SUBSTEPPING' et 'NMAXSUBSTEPS' sans effet" in told
+
+
+def test_an_entry_without_effect_here_that_the_script_reads_itself_is_no_warning():
+    more = "T1 . 'PRECISION' = 1.E-3 ; SI ((T1 . 'PRECISION') > 1.) ; FINSI ;"
+    result = run_text(BLOCK + more + "PASAPAS T1 ;")
+    assert result.exit_code == 0, result.message
+    assert not [w for w in result.session.warnings if w.code == "entries-without-effect"]

@@ -74,7 +74,7 @@ def test_warnings_speak_the_language(language: str) -> None:
     assert [p.severity for p in problems].count("warning") >= 2
     text = "\n".join(render(p, language) for p in problems)
     assert not foreign(text, language), text
-    assert text.count({"en": "warning:", "fr": "avertissement:"}[language]) >= 2
+    assert text.count({"en": "warning:", "fr": "avertissement :"}[language]) >= 2
 
 
 @pytest.mark.parametrize("language", ["en", "fr"])

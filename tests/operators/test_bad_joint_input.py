@@ -36,7 +36,9 @@ def test_full_uplift_without_mass_names_body_and_time(outcome):
     result = outcome(BODY + "T2 = DYNAMIC T1 ;")
     assert result.exit_code == 1
     # the load turns upwards at 0.5 s, where it is zero: the first step with a pull is that of 0.6
-    assert "time 0.6: full uplift of the body at node 2: all 1 joint points" in result.message
+    assert (
+        "time 0.6: full uplift of the body at node 2 (0. 0.): all 1 joint points" in result.message
+    )
 
 
 def test_missing_mass_is_warned_of(outcome):
@@ -159,7 +161,7 @@ def test_contradictory_supports_are_named_in_time_too(outcome):
         " T . 'TEMPS_CALCULES' = PROG 0. 'PAS' 0.1 1. ; T2 = DYNAMIC T ;"
     )
     assert result.exit_code == 1
-    assert "one on UX at node 1 cannot take the value" in result.message
+    assert "one on UX at node 1 (0. 0.) cannot take the value" in result.message
 
 
 BLOCK = """
@@ -185,13 +187,17 @@ def test_a_block_that_its_joint_does_not_hold_is_no_equilibrium(outcome, sides, 
     assert "full uplift" in result.message
 
 
-@pytest.mark.parametrize(("sides", "swapped"), [("A C", False), ("C A", True)])
+WALKS = [("A C", False), ("(INVE A) C", True), ("C A", True), ("(INVE C) A", False)]
+"""What RACC or LIAI is given, and whether the joint opens under its block's weight."""
+
+
+@pytest.mark.parametrize(("sides", "swapped"), WALKS)
 def test_swapped_sides_are_warned_of(outcome, sides, swapped):
     result = outcome(BLOCK.format(sides=sides, g="-9.81", nu="0.") + "PASAPAS T ;")
     assert any("its sides are swapped" in w for w in messages(result)) is swapped
 
 
-@pytest.mark.parametrize(("sides", "swapped"), [("A C", False), ("C A", True)])
+@pytest.mark.parametrize(("sides", "swapped"), WALKS)
 def test_swapped_sides_of_faces_are_warned_of_too(outcome, sides, swapped):
     text = f"""
     OPTI DIME 3 ELEM CUB8 ;
@@ -205,6 +211,39 @@ def test_swapped_sides_of_faces_are_warned_of_too(outcome, sides, swapped):
     T . 'TEMPS_CALCULES' = PROG 0. 1. ; PASAPAS T ;
     """
     result = outcome(text)
+    assert any("its sides are swapped" in w for w in messages(result)) is swapped
+    assert result.exit_code == int(swapped)
+
+
+POINTS = """
+OPTI DIME 2 ELEM QUA4 MODE PLAN DEFO ;
+C = DROI 1 (0. 0.) (1. 0.) ; SOL = C TRAN 1 (0. -1.) ;
+A = DROI 1 (0. 0.) (1. 0.) ; BLOC = A TRAN 1 (0. 1.) ;
+C1 = C POIN 'INIT' ; C2 = C POIN 'FINA' ; A1 = A POIN 'INIT' ; A2 = A POIN 'FINA' ;
+J = (MANU 'SEG2' {first}) ET (MANU 'SEG2' {second}) ;
+MJ = MODE J 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' 'JOI1' ;
+AJ = MATE MJ 'KN' 1.E9 'KS' 1.E9 'DIRECTION' (0. {way}) ;
+M = MODE (SOL ET BLOC) 'MECANIQUE' 'ELASTIQUE' ; MA = MATE M 'YOUN' 1.E9 'NU' 0. 'RHO' 2000. ;
+T = TABL ; T . 'MODELE' = M ET MJ ; T . 'CARACTERISTIQUES' = MA ET AJ ;
+T . 'BLOCAGES_MECANIQUES' = BLOQ 'DEPL' (COTE 3 SOL) ;
+T . 'CHARGEMENT' = CHAR 'MECA' ((MASS M MA) * (MANU 'CHPO' BLOC 1 'UY' -9.81)) ;
+T . 'TEMPS_CALCULES' = PROG 0. 1. ; PASAPAS T ;
+"""
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "way", "swapped"),
+    [
+        ("C1 A1", "C2 A2", "1.", False),
+        ("C1 A1", "C2 A2", "-1.", True),
+        ("A1 C1", "A2 C2", "-1.", False),
+        ("A1 C1", "A2 C2", "1.", True),
+    ],
+)
+def test_a_joint_of_two_points_is_turned_by_its_direction_or_its_points(
+    outcome, first, second, way, swapped
+):
+    result = outcome(POINTS.format(first=first, second=second, way=way))
     assert any("its sides are swapped" in w for w in messages(result)) is swapped
     assert result.exit_code == int(swapped)
 

@@ -113,3 +113,69 @@ def test_zero_hooke_matrices_make_no_stiffness(found):
     ).blocks[0]  # fmt: skip
     assert block.values.shape == (2, 8, 8)
     assert not block.values.any()
+
+
+STRAINED = (
+    "OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ; S = (DROI 2 (0. 0.) (2. 0.)) TRAN 1 (0. 1.) ; "
+    "M = MODE S MECANIQUE ELASTIQUE ; H = HOOK M (MATE M 'YOUN' 91. 'NU' 0.3) ; "
+    "U = (NOMC 'UX' (0.01 * (COOR 1 S))) ET (NOMC 'UY' (0.02 * (COOR 2 S))) ; E = EPSI M U ; "
+)
+
+
+@pytest.mark.parametrize(
+    "order", ["H * E M", "E * H M", "M H * E", "M E * H", "H M * E", "E * M H"]
+)
+def test_hooke_matrices_times_strains_are_stresses_in_any_order(found, order):
+    # plane stress: E / (1 - nu^2) = 100, so 100 (0.01 + 0.3 0.02), 100 (0.02 + 0.3 0.01)
+    x, y, title = found(
+        STRAINED + f"T = {order} ; X = EXTR T 'SMXX' 1 1 1 ; Y = EXTR T 'SMYY' 1 2 4 ; "
+        "N = EXTR T 'TYPE' ;",
+        "X", "Y", "N",
+    )  # fmt: skip
+    assert (x, y) == pytest.approx((1.6, 2.3), rel=1e-12)
+    assert str(title).rstrip() == "CONTRAINTES"
+
+
+def test_hooke_matrices_times_strains_ask_for_the_model(refused):
+    assert "wanted a MMODEL" in refused(STRAINED + "T = H * E ;")
+    assert "with a model" in refused(STRAINED + "T = M E * E ;")
+
+
+def test_products_by_names_take_a_factor_each(found, refused):
+    lists = "(MOTS 'A' 'B') (MOTS 'B' 'B') (MOTS 'Y' 'Z')"
+    values = found(
+        LINE + f"D = C * C {lists} (PROG 3. -1.) ; Q = C / C {lists} (PROG 4. 5.) ; "
+        "X1 = EXTR D 'Y' 1 1 1 ; X2 = EXTR D 'Z' 1 1 1 ; "
+        "X3 = EXTR Q 'Y' 1 1 1 ; X4 = EXTR Q 'Z' 1 1 1 ;",
+        "X1", "X2", "X3", "X4",
+    )  # fmt: skip
+    assert values == pytest.approx((30.0, -25.0, 0.1, 0.2))
+    assert "1 factor for 2 names" in refused(LINE + f"D = C * C {lists} (PROG 3.) ;")
+
+
+def test_lists_curves_and_points_in_cells_combine(found, refused):
+    script = (
+        LINE + "E = EVOL 'MANU' (PROG 1. 2.) (PROG 4. 5.) ; F = MANU 'CHML' L 'SCAL' E ; "
+        "G = MANU 'CHML' L 'SCAL' (PROG 2. 6.) ; P = MANU 'CHML' L 'SCAL' PB ; "
+    )
+    curve, factor, lists, quotient, x, y = found(
+        script + "Y1 = EXTR (EXTR (F * F) 'SCAL' 1 2 1) 'ORDO' ; "
+        "Y2 = EXTR (EXTR (S * F) 'SCAL' 1 1 1) 'ORDO' ; Y3 = EXTR (G * G) 'SCAL' 1 1 1 ; "
+        "Y4 = EXTR (G / S) 'SCAL' 1 1 1 ; X = COOR 1 (EXTR (P + P) 'SCAL' 1 1 1) ; "
+        "Y = COOR 1 (EXTR (P - P) 'SCAL' 1 1 1) ;",
+        "Y1", "Y2", "Y3", "Y4", "X", "Y",
+    )  # fmt: skip
+    assert curve.values.tolist() == [16.0, 25.0]
+    assert factor.values.tolist() == [12.0, 15.0]
+    assert lists.values.tolist() == [4.0, 36.0]
+    assert quotient.values.tolist() == pytest.approx([2 / 3, 2.0])
+    assert (x, y) == (8.0, 0.0)
+    assert "points add up" in refused(script + "Q = P * P ;")
+
+
+def test_largest_value_of_the_components_of_a_list(found):
+    values = found(
+        LINE + "X1 = MAXI C (MOTS 'A') ; X2 = MINI (MOTS 'B') C ; X3 = MAXI 'SANS' (MOTS 'B') C ;",
+        "X1", "X2", "X3",
+    )  # fmt: skip
+    assert values == (2.0, 5.0, 2.0)

@@ -15,6 +15,8 @@ T1 . 'MODELE' = MO ; T1 . 'CARACTERISTIQUES' = MA ;
 T1 . 'DEPL' = MANU 'CHPO' P 1 'UY' 0.1 ;
 T1 . 'TEMPS_CALCULES' = PROG 0. 'PAS' 0.005 2. ; T1 . 'PAS_SAUVES' = 1 ;
 """
+COARSE = BASE.replace("0.005", "0.02")
+"""Where two ways are compared that give the same at any step."""
 RUN = """
 T2 = DYNAMIC T1 ; LU = EXTR (EVOL 'TEMP' T2 'DEPL' 'UY' P) 'ORDO' ;
 LEC = T1 . 'ENERGIES' . 'ECART' ;
@@ -39,9 +41,9 @@ def lists(found, script):
 @pytest.mark.parametrize("scheme", SCHEMES)
 def test_a_force_of_time_is_the_load_of_that_curve(found, scheme):
     load = "T1 . 'CHAR' = CHAR 'MECA' (FORC (0. 1.) P) EVF ; "
-    given, _ = lists(found, BASE + scheme + EVO + load)
+    given, _ = lists(found, COARSE + scheme + EVO + load)
     force = "FORC (0. (IPOL TI (PROG 0. 1. 2.) (PROG -1. 2. -3.))) P"
-    made, gap = lists(found, BASE + scheme + procedure(("ADDI_FNL", force)))
+    made, gap = lists(found, COARSE + scheme + procedure(("ADDI_FNL", force)))
     assert np.abs(given).max() > 0.09
     assert np.abs(made - given).max() <= 1e-12
     if "CONSERVATIF" in scheme:
@@ -51,11 +53,11 @@ def test_a_force_of_time_is_the_load_of_that_curve(found, scheme):
 @pytest.mark.parametrize("scheme", SCHEMES)
 def test_constant_matrices_are_those_of_the_table(found, scheme):
     both = "T1 . 'RIGI' = (T1 . 'RIGI') ET (APPU 'UY' 30. P) ; T1 . 'AMOR' = APPU 'UY' 0.4 P ; "
-    given, _ = lists(found, BASE + scheme + both)
+    given, _ = lists(found, COARSE + scheme + both)
     added = "XK = APPU 'UY' 20. P ; XM = APPU 'UY' 10. P ; XC = APPU 'UY' 0.4 P ; " + procedure(
         ("ADDI_KNL", "XK"), ("ADDI_MATRICE", "XM"), ("ADDI_CNL", "XC")
     )
-    made, _ = lists(found, BASE + scheme + added)
+    made, _ = lists(found, COARSE + scheme + added)
     assert np.abs(made - given).max() <= 1e-11
 
 
@@ -78,7 +80,7 @@ def test_a_duffing_oscillator_converges_to_its_motion(found, entry):
         lambda t, y: [y[1], -4 * y[0] - 500 * y[0] ** 3], (0, 2), [0.1, 0.0], rtol=1e-10,
         atol=1e-12, t_eval=[2.0],
     ).y[0, -1]  # fmt: skip
-    errors = [abs(duffing(found, n, entry)[-1] - exact) for n in (250, 1000)]
+    errors = [abs(duffing(found, n, entry)[-1] - exact) for n in (160, 640)]
     assert errors[1] <= 2e-2 * 0.1
     assert errors[1] <= 0.3 * errors[0]  # the state is that of the step's start: first order
 

@@ -72,3 +72,10 @@ def test_integrals_of_several_curves_over_several_intervals_make_a_cloud(found):
         "L",
     )
     np.testing.assert_allclose(second.values, [3.0, 3.0])
+
+
+def test_clouds_are_joined_row_by_row(found, refused):
+    more = CLOUD + "M = NUAG 'COMP' 'Y' 7. 'COMP' 'X' 4. ; "
+    assert found(more + "J = N ET M ;", "J").columns == {"X": (0, 1, 2, 4), "Y": (5, 9, 6, 7)}
+    assert found(more + "J = (VIDE 'NUAGE') ET N ;", "J").columns == found(CLOUD, "N").columns
+    assert "X Y and Z" in refused(CLOUD + "J = N ET (NUAG 'COMP' 'Z' 7.) ;")

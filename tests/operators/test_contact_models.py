@@ -2,6 +2,8 @@
 
 import pytest
 
+from ssilang.cli.run import run_text
+
 PLANE = """
 OPTI DIME 2 ELEM QUA4 MODE PLAN CONT ;
 A = DROI 7 (-5. 1.) (5. 1.) ; S = A TRAN 5 (0. 10.) ;
@@ -130,3 +132,14 @@ def test_contour_drawn_in_both_senses_is_filled(found):
         "X",
     )
     assert area == pytest.approx(0.5)
+
+
+def test_adherence_is_refused_with_what_takes_its_place(tmp_path):
+    result = run_text(
+        "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; A = DROI 4 (0. 0.) (2. 0.) ; B = A PLUS (0. 0.) ; "
+        "M = MODE A 'CONTACT' 'FROTTANT' 'COULOMB' B ; C = MATE M 'MU' 0.3 'ADHE' 1. ;",
+        output_directory=tmp_path,
+    )
+    assert result.exit_code == 1
+    assert "ADHE is not built" in result.message
+    assert "JOINT_SDM" in result.message

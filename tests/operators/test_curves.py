@@ -252,3 +252,21 @@ def test_words_as_abscissas_stand_at_whole_numbers_and_come_back(found):
     assert [w.strip() for w in words.values] == ["A", "B", "C"]
     assert [w.strip() for w in second.values] == ["A", "C"]
     assert total == pytest.approx(1.5 + 3.0)  # trapezoids of width 1
+
+
+@pytest.mark.parametrize(
+    "phrase",
+    [
+        "IPOL 0.5 L M", "IPOL L M 0.5", "IPOL L 0.5 M", "IPOL E 0.5", "IPOL 0.5 E",
+        "IPOL L M 0.5 'SPLI'", "IPOL 'SPLI' 0.5 E",
+    ],
+)  # fmt: skip
+def test_place_of_the_number_in_an_interpolation_is_free(found, phrase):
+    lists = "L = PROG 0. 1. ; M = PROG 2. 4. ; E = EVOL 'MANU' L M ; "
+    assert found(f"{lists}X = {phrase} ;", "X") == pytest.approx(3.0)
+
+
+def test_all_ordinates_of_a_curve_that_goes_back(found):
+    for phrase in ("0.5 L M 'TOUS'", "'TOUS' L M 0.5"):
+        made = found(f"L = PROG 0. 1. 0. ; M = PROG 2. 4. 8. ; X = IPOL {phrase} ;", "X")
+        assert made.values.tolist() == [3.0, 6.0]

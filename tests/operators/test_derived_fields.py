@@ -232,3 +232,171 @@ def test_a_table_is_decomposed_without_naming_its_entry(found):
     listed = "N W = POD ((SUIT X) ET (2. * X)) 'CLASSIQUE' 1 ;"
     of_table, of_list = found(line + table + listed, "V", "W")
     assert of_table.values[0] == of_list.values[0] > 0.0
+
+
+@pytest.mark.parametrize(
+    ("mesh", "at"),
+    [
+        ("CHAN 'TRI7' (CHAN 'TRI6' S)", "0.3 0.4"),
+        ("CHAN 'QUA9' S", "0.3 0.4"),
+        ("VOLU (ENVE V)", "0.3 0.4 0.6"),  # TE10 and PY13
+        ("CHAN 'CU27' V", "0.3 0.4 0.6"),
+        ("CHAN 'TE15' (CHAN 'TE10' V)", "0.3 0.4 0.6"),
+    ],
+)
+def test_projection_reproduces_a_square_in_cells_of_second_degree(found, mesh, at):
+    dimension = len(at.split())
+    text = "OPTI DIME 2 ELEM QUA8 ; S = (DROI 2 (0 0) (1 0)) TRAN 2 (0 1) ; "
+    if dimension == 3:
+        text = (
+            "OPTI DIME 3 ELEM CU20 ; V = ((DROI 2 (0 0 0) (1 0 0)) TRAN 2 (0 1 0)) VOLU 2 "
+            "'TRAN' (0 0 1) ; "
+        )
+    text += (
+        f"P = {at} ; M = {mesh} ; X = NOMC 'T' (COOR 1 M) ; Y = NOMC 'T' (COOR 2 M) ; "
+        "C = CHAN 'CHAM' ((X * X) + (X * Y)) M ; V1 = EXTR (PROI (MANU 'POI1' P) C) 'T' P ; "
+        "A = MESU M ;"
+    )
+    value, size = found(text, "V1", "A")
+    assert value == pytest.approx(0.3 * 0.3 + 0.3 * 0.4)
+    assert size == pytest.approx(1.0)
+
+
+BRICK = (
+    "OPTI DIME 3 MODE TRID ELEM CUB8 ; V = ((DROI 1 (4. 1. 0.5) (5. 1. 0.5)) TRAN 1 (0. 1. 0.)) "
+    "VOLU 1 'TRAN' (0. 0. 1.) ; M = MODE V MECANIQUE ELASTIQUE ; "
+    "S = MANU 'CHML' M 'SMXX' 3. 'SMYY' -1. 'SMZZ' 2. 'SMXY' 0.5 'SMXZ' 0.7 'SMYZ' -0.4 "
+    "'TYPE' 'CONTRAINTES' 'STRESSES' ; O = 0. 0. 0. ; D = 0. 0. 1. ; "
+)
+SIGMA = np.array([[3.0, 0.5, 0.7], [0.5, -1.0, -0.4], [0.7, -0.4, 2.0]])
+
+
+def test_stresses_in_the_axes_of_a_torus(found):
+    """Large circle of radius 3 at the height 0.25: the axes by hand at one point."""
+    values = found(
+        BRICK + "T = RTEN S M 'TORI' 'CIRC' O D (0. 3. 0.25) ; X Y Z = COOR T ; "
+        "A1 = EXTR X 'SCAL' 1 1 3 ; A2 = EXTR Y 'SCAL' 1 1 3 ; A3 = EXTR Z 'SCAL' 1 1 3 ; "
+        "B1 = EXTR T 'SMXX' 1 1 3 ; B2 = EXTR T 'SMYY' 1 1 3 ; B3 = EXTR T 'SMZZ' 1 1 3 ; "
+        "B4 = EXTR T 'SMXZ' 1 1 3 ;",
+        "A1", "A2", "A3", "B1", "B2", "B3", "B4",
+    )  # fmt: skip
+    place, stress = np.array(values[:3]), values[3:]
+    radial = np.array([place[0], place[1], 0.0]) / np.hypot(place[0], place[1])
+    around = np.array([-radial[1], radial[0], 0.0])
+    outward = place - (3.0 * radial + [0.0, 0.0, 0.25])
+    outward = outward / np.linalg.norm(outward)
+    along = np.cross(outward, around)
+    seen = [v @ SIGMA @ v for v in (around, along, outward)]
+    assert stress == pytest.approx((*seen, around @ SIGMA @ outward), rel=1e-10)
+
+
+def test_straight_axes_of_a_torus_are_those_of_a_cylinder(found, refused):
+    gap = found(
+        BRICK + "X = MAXI 'ABS' ((RTEN S M 'TORI' O D) - (RTEN S M 'CYLI' O D)) ; "
+        "Y = MAXI 'ABS' ((RTEN S M 'TORI' 'CART' O D) - (RTEN S M 'CYLI' O D)) ;",
+        "X", "Y",
+    )  # fmt: skip
+    assert gap == (0.0, 0.0)
+    assert "wanted a POINT" in refused(BRICK + "T = RTEN S M 'TORI' 'CIRC' O D ;")
+
+
+def test_stresses_turned_by_a_field_of_rotations(found):
+    """A quarter turn about z, R = [0 -1 0, 1 0 0, 0 0 1]: Rt A R has A22 first."""
+    script = (
+        BRICK + "X Y Z = COOR V ; "
+        "R = GRAD M ((NOMC 'UX' (-1. * Y)) ET (NOMC 'UY' X) ET (NOMC 'UZ' Z)) ; "
+        "T = RTEN S M R ; U = RTEN S M R 'RART' ; B = RTEN T M R 'RART' ; "
+        "X1 = EXTR T 'SMXX' 1 1 1 ; X2 = EXTR T 'SMXZ' 1 1 1 ; X3 = EXTR U 'SMXZ' 1 1 1 ; "
+        "X4 = MAXI 'ABS' (B - S) ;"
+    )
+    R = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+    first, second, third, back = found(script, "X1", "X2", "X3", "X4")
+    assert (first, second) == pytest.approx(((R.T @ SIGMA @ R)[0, 0], (R.T @ SIGMA @ R)[0, 2]))
+    assert third == pytest.approx((R @ SIGMA @ R.T)[0, 2])
+    assert back == pytest.approx(0.0, abs=1e-13)
+
+
+SHELL = (
+    "OPTI DIME 3 MODE TRID ELEM TRI3 ; A = 0. 0. 0. ; B = 3. 0.4 1. ; C = 2.7 2. 1.5 ; "
+    "S = (A DROI 3 B) TRAN 2 (C MOIN B) ; M = MODE S MECANIQUE ELASTIQUE DKT ; "
+    "MA = MATE M 'YOUN' 10. 'NU' 0.25 'EPAI' 0.5 ; X Y Z = COOR S ; "
+    "U = (NOMC 'UX' (0.01 * X)) ET (NOMC 'UY' (0.02 * Y)) ; F = SIGM M MA U ; "
+)
+
+
+def _membrane(first, second):
+    """Forces in two axes of the surface, from the strains of space, by hand."""
+    e = np.diag([0.01, 0.02, 0.0])
+    e1, e2, g = first @ e @ first, second @ e @ second, 2 * first @ e @ second
+    stiff = 10.0 * 0.5 / (1 - 0.25**2)
+    shear = 10.0 * 0.5 / (2 * 1.25)
+    return stiff * (e1 + 0.25 * e2), stiff * (e2 + 0.25 * e1), shear * g
+
+
+@pytest.mark.parametrize(
+    ("vectors", "side"),
+    [("(0.2 1. 0.)", 1.0), ("(0.2 1. 0.) (1. 0. 0.)", -1.0)],
+    ids=["one", "two"],
+)
+def test_membrane_forces_of_shells_along_a_vector(found, vectors, side):
+    """The triangles differ in their own axes, the forces along the vector do not."""
+    normal = np.cross([3.0, 0.4, 1.0], [-0.3, 1.6, 0.5])
+    normal = normal / np.linalg.norm(normal)
+    first = np.array([0.2, 1.0, 0.0])
+    first = first - (first @ normal) * normal
+    first = first / np.linalg.norm(first)
+    values = found(
+        SHELL + f"R = RTEN F M {vectors} ; X1 = MAXI (EXCO 'N11' R) ; X2 = MINI (EXCO 'N11' R) ; "
+        "X3 = MAXI (EXCO 'N22' R) ; X4 = MAXI (EXCO 'N12' R) ; X5 = MINI (EXCO 'N12' R) ;",
+        "X1", "X2", "X3", "X4", "X5",
+    )  # fmt: skip
+    one, two, shear = _membrane(first, side * np.cross(normal, first))
+    assert values == pytest.approx((one, one, two, shear, shear), rel=1e-9)
+
+
+def test_moments_of_a_cylindrical_bending_at_half_a_right_angle(found):
+    """nu = 0, one curvature: at 45 degrees half of it on both axes, and half in torsion."""
+    script = (
+        "OPTI DIME 3 MODE TRID ELEM TRI3 ; "
+        "S = ((0. 0. 0.) DROI 3 (3. 0.5 0.)) TRAN 2 (0.3 2. 0.) ; "
+        "M = MODE S MECANIQUE ELASTIQUE DKT ; MA = MATE M 'YOUN' 12. 'NU' 0. 'EPAI' 1. ; "
+        "X Y Z = COOR S ; U = (NOMC 'UZ' (0.5 * (X ** 2))) ET (NOMC 'RY' (-1. * X)) ; "
+        "F = SIGM M MA U ; R = RTEN F M (1. 1. 0.) ; Q = RTEN F M (1. 0. 0.) ; "
+    )
+    values = found(
+        script + "X1 = MAXI 'ABS' (EXCO 'M11' R) ; X2 = MAXI 'ABS' (EXCO 'M22' R) ; "
+        "X3 = MAXI 'ABS' (EXCO 'M12' R) ; X4 = MAXI 'ABS' (EXCO 'M11' Q) ; "
+        "X5 = MAXI 'ABS' (EXCO 'M22' Q) ;",
+        "X1", "X2", "X3", "X4", "X5",
+    )  # fmt: skip
+    assert values == pytest.approx((0.5, 0.5, 0.5, 1.0, 0.0), abs=1e-9)
+
+
+def test_forces_of_shells_around_an_axis(found):
+    """A cylinder's generator and circumference: the hoop force is first, whatever the triangles."""
+    hoop, along = found(
+        "OPTI DIME 3 MODE TRID ELEM TRI3 ; P = 1. 0. 0. ; Q = 0. 1. 0. ; O = 0. 0. 0. ; "
+        "L = CERC 6 P O Q ; S = L TRAN 2 (0. 0. 1.) ; M = MODE S MECANIQUE ELASTIQUE DKT ; "
+        "MA = MATE M 'YOUN' 10. 'NU' 0. 'EPAI' 0.5 ; X Y Z = COOR S ; "
+        "U = (NOMC 'UX' (0.01 * X)) ET (NOMC 'UY' (0.01 * Y)) ; "
+        "R = RTEN (SIGM M MA U) M 'CYLI' O (0. 0. 1.) ; "
+        "X1 = MINI (EXCO 'N11' R) ; X2 = MAXI 'ABS' (EXCO 'N22' R) ;",
+        "X1", "X2",
+    )  # fmt: skip
+    assert hoop == pytest.approx(0.05, rel=1e-9)
+    assert along == pytest.approx(0.0, abs=1e-12)
+
+
+def test_strains_of_shells_turn_as_tensors(found):
+    shear, largest = found(
+        SHELL + "E = RTEN (EPSI M MA U) M (1. 0. 0.) ; T = RTEN (EPSI M MA U) M (-1. 0. 0.) ; "
+        "X1 = MAXI 'ABS' (E - T) ; X2 = MAXI (EXCO 'EPSS' (RTEN (EPSI M MA U) M (0.2 1. 0.))) ;",
+        "X1", "X2",
+    )  # fmt: skip
+    normal = np.cross([3.0, 0.4, 1.0], [-0.3, 1.6, 0.5])
+    normal = normal / np.linalg.norm(normal)
+    first = np.array([0.2, 1.0, 0.0])
+    first = first - (first @ normal) * normal
+    first = first / np.linalg.norm(first)
+    assert shear == pytest.approx(0.0, abs=1e-14)
+    assert largest == pytest.approx(first @ np.diag([0.01, 0.02, 0.0]) @ first)

@@ -73,3 +73,94 @@ def test_plates_are_refused_by_name():
     )
     assert result.exit_code == 1
     assert "finite displacements are not built for DKT" in result.message
+
+
+YIELDING = (
+    "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; S = (DROI 2 (0. 0.) (2. 0.)) TRAN 2 (0. 2.) ; "
+    "M = MODE S 'MECANIQUE' 'ELASTIQUE' 'PLASTIQUE' 'PARFAIT' ; "
+    "A = MATE M 'YOUN' 2.E5 'NU' 0.3 'SIGY' 200. ; B = BLOQ 'DEPL' (CONT S) ; X Y = COOR S ; "
+    "T = TABL ; T . 'MODELE' = M ; T . 'CARACTERISTIQUES' = A ; T . 'BLOCAGES_MECANIQUES' = B ; "
+    "T . 'GRANDS_DEPLACEMENTS' = VRAI ; TT = TABL ; TC = TABL ; TT . 0 = 0. ; TT . 1 = 1. ; "
+    "TC . 0 = DEPI B ((NOMC 'UX' (0. * X)) ET (NOMC 'UY' (0. * X))) ; "
+    "TC . 1 = DEPI B ((NOMC 'UX' (0.004 * X)) ET (NOMC 'UY' (0. * X))) ; LT = PROG 0. 1. ; "
+    "REPE I 6 ; AN = 15. * &I ; X1 = 1.004 * X ; K = &I + 1 ; TT . K = 1. + &I ; "
+    "TC . K = DEPI B ((NOMC 'UX' (((COS AN) * X1) - ((SIN AN) * Y) - X)) ET "
+    "(NOMC 'UY' (((SIN AN) * X1) + ((COS AN) * Y) - Y))) ; LT = LT ET (PROG (1. + &I)) ; FIN I ; "
+    "T . 'CHARGEMENT' = CHAR 'DIMP' TT TC ; T . 'TEMPS_CALCULES' = LT ; "
+)
+
+
+def test_a_yielded_body_that_turns_by_a_right_angle_takes_its_stresses_along(tmp_path):
+    result = run_text(
+        YIELDING + "PASAPAS T ; TS = T . 'CONTRAINTES' ; TV = T . 'VARIABLES_INTERNES' ; "
+        "X1 = MAXI (EXCO 'SMXX' (TS . 1)) ; Y1 = MAXI (EXCO 'SMYY' (TS . 1)) ; "
+        "X7 = MAXI (EXCO 'SMXX' (TS . 7)) ; Y7 = MAXI (EXCO 'SMYY' (TS . 7)) ; "
+        "Z7 = MAXI (ABS (EXCO 'SMXY' (TS . 7))) ; Z1 = MAXI (EXCO 'SMZZ' (TS . 1)) ; "
+        "P1 = MAXI (EXCO 'EPSE' (TV . 1)) ; P7 = MINI (EXCO 'EPSE' (TV . 7)) ;",
+        output_directory=tmp_path,
+    )
+    assert result.exit_code == 0, result.message
+    find = result.session.root.find
+    x, y, z = find("X1"), find("Y1"), find("Z1")
+    # Kirchhoff stress F S F^T / det F: S yields at 200 in Green's strain E = 0.004 + 0.004^2 / 2
+    home = np.array([x / 1.004, y * 1.004, z * 1.004])
+    mean = 2e5 / (3 * 0.4) * (0.004 + 0.004**2 / 2)
+    assert home.mean() == pytest.approx(mean)  # plastic flow changes no volume
+    assert np.sqrt(1.5 * ((home - mean) ** 2).sum()) == pytest.approx(200.0)
+    assert find("P1") > 1e-3
+    assert find("Y7") == pytest.approx(x, rel=1e-9)
+    assert find("X7") == pytest.approx(y, rel=1e-9)
+    assert find("Z7") < 1e-7 * x
+    assert find("P7") == pytest.approx(find("P1"), rel=1e-9)
+
+
+def test_a_yielding_body_pulled_out_carries_its_strength_times_its_stretch(tmp_path):
+    """Nominal force `F11 S11` with S11 = SIGY, the sides being free."""
+    result = run_text(
+        "OPTI DIME 3 ELEM CUB8 ; V = ((DROI 1 (0 0 0) (1 0 0)) TRAN 1 (0 1 0)) VOLU 'TRAN' 1 "
+        "(0 0 1) ; M = MODE V 'MECANIQUE' 'ELASTIQUE' 'PLASTIQUE' 'PARFAIT' ; "
+        "A = MATE M 'YOUN' 2.E5 'NU' 0.3 'SIGY' 200. ; "
+        "D = BLOQ 'UX' (V POIN 'PLAN' (1 0 0) (1 1 0) (1 0 1) 1.E-6) ; "
+        "T = TABL ; T . 'MODELE' = M ; T . 'CARACTERISTIQUES' = A ; "
+        "T . 'BLOCAGES_MECANIQUES' = (BLOQ 'UX' (V POIN 'PLAN' (0 0 0) (0 1 0) (0 0 1) 1.E-6)) ET "
+        "(BLOQ 'UY' (V POIN 'PLAN' (0 0 0) (1 0 0) (0 0 1) 1.E-6)) ET "
+        "(BLOQ 'UZ' (V POIN 'PLAN' (0 0 0) (1 0 0) (0 1 0) 1.E-6)) ET D ; "
+        "T . 'GRANDS_DEPLACEMENTS' = VRAI ; T . 'CHARGEMENT' = CHAR 'DIMP' (DEPI D 0.05) "
+        "(EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.)) ; T . 'TEMPS_CALCULES' = PROG 0. 'PAS' 0.1 1. ; "
+        "PASAPAS T ; R = RESU (REDU (EXCO 'FX' (T . 'REACTIONS' . 10)) "
+        "(V POIN 'PLAN' (1 0 0) (1 1 0) (1 0 1) 1.E-6)) ; "
+        "F = MAXI (ABS R) ;",
+        output_directory=tmp_path,
+    )
+    assert result.exit_code == 0, result.message
+    assert result.session.root.find("F") == pytest.approx(1.05 * 200.0, rel=1e-6)
+
+
+def test_a_yielding_body_goes_on_from_where_it_was(tmp_path):
+    once = YIELDING + "PASAPAS T ; E = MAXI (EXCO 'EPSE' (T . 'VARIABLES_INTERNES' . 7)) ; "
+    twice = (
+        YIELDING + "T . 'TEMPS_CALCULES' = PROG 0. 0.5 ; PASAPAS T ; "
+        "T . 'TEMPS_CALCULES' = PROG 0.5 1. 2. 3. 4. 5. 6. 7. ; PASAPAS T ; "
+        "E = MAXI (EXCO 'EPSE' (T . 'VARIABLES_INTERNES' . 8)) ; "
+    )
+    whole = once.replace("LT = PROG 0. 1. ;", "LT = PROG 0. 0.5 1. ;").replace(" . 7))", " . 8))")
+    found = []
+    for number, text in enumerate((whole, twice)):
+        result = run_text(text, output_directory=tmp_path / str(number))
+        assert result.exit_code == 0, result.message
+        found.append(result.session.root.find("E"))
+    assert found[1] == pytest.approx(found[0], rel=1e-9)
+
+
+def test_yielding_bars_in_finite_displacements_are_refused(tmp_path):
+    result = run_text(
+        "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; L = DROI 1 (0. 0.) (1. 0.) ; "
+        "M = MODE L 'MECANIQUE' 'ELASTIQUE' 'PLASTIQUE' 'PARFAIT' 'BARR' ; T = TABL ; "
+        "T . 'MODELE' = M ; "
+        "T . 'CARACTERISTIQUES' = MATE M 'YOUN' 1. 'NU' 0. 'SIGY' 1. 'SECT' 1. ; "
+        "T . 'BLOCAGES_MECANIQUES' = BLOQ 'UX' (L POIN 1) ; T . 'GRANDS_DEPLACEMENTS' = VRAI ; "
+        "T . 'TEMPS_CALCULES' = PROG 0. 1. ; PASAPAS T ;",
+        output_directory=tmp_path,
+    )
+    assert result.exit_code == 1
+    assert "built for plastic laws of continuous elements, not for BARR" in result.message

@@ -205,9 +205,9 @@ TL . 'LIAISON_B' = TABL 'LIAISON_B' ; TL . 'LIAISON_B' . 1 = L1 ;
 L1 . 'TYPE_LIAISON' = MOT 'POINT_PLAN' ; L1 . 'SUPPORT' = P1 ; L1 . 'NORMALE' = 0. -1. ;
 L1 . 'RAIDEUR' = 100. ; L1 . 'JEU' = 0. ;
 TC . 0 = MANU 'CHPO' A1 1 'FALF' -10. ; TI . 0 = MANU 'CHPO' A1 1 'ALFA' -0.1 ;
-TI . 'FREQUENCE' = 20. ; TN . 'VAL_FIN' = 11. ; TN . 'ISENS' = -1. ; TN . 'DS0' = 0.05 ;
+TI . 'FREQUENCE' = 16. ; TN . 'VAL_FIN' = 11.9 ; TN . 'ISENS' = -1. ; TN . 'DS0' = 0.05 ;
 TN . 'DSMAX' = 0.25 ; TN . 'DSMIN' = 1.E-4 ;
-R = DYNC TM TC TL TA TI TN 11 512 ; C = R . 'REPONSE' . 'COEFFICIENTS' ;
+R = DYNC TM TC TL TA TI TN 11 256 ; C = R . 'REPONSE' . 'COEFFICIENTS' ;
 W = R . 'REPONSE' . 'FREQUENCE' ; C0 = C . 0 . A1 ; C1 = C . 1 . A1 ; S1 = C . (-1) . A1 ;
 U = R . 'REPONSE' . 'STABILITE' ;
 """
@@ -234,7 +234,7 @@ def test_uplift_on_a_one_sided_spring_is_what_dynamic_settles_on(found):
     i = int(np.argmin(np.abs(w - 12.0)))
     assert not unstable[i]
     assert np.hypot(c1[i], s1[i]) > 1.2 * abs(c0[i])  # it leaves the spring
-    periods, steps = 40, 400
+    periods, steps = 32, 200
     step = 2 * np.pi / w[i] / steps
     history = found(
         IN_TIME.format(damping=1.0, step=f"{step:.17g}", end=f"{periods * steps * step:.17g}",

@@ -58,3 +58,27 @@ def test_vertytab(tmp_path):
     for bad in ("VERTYTAB T 'Y' 'FLOTTANT'", "VERTYTAB T 'X' 'ENTIER'"):
         result = run_text(f"T = TABL ; T . 'X' = 1. ; {bad} ;", output_directory=tmp_path)
         assert result.errors[0].code.startswith("stdlib.vertytab-")
+
+
+def test_calls_of_operators_are_counted_from_zero_on(tmp_path):
+    text = (
+        "L = PROG 1. ; TEMP 'ZERO' ; L = PROG 1. 2. ; REPE B 3 ; M = LECT 1 ; FIN B ; "
+        "T = TEMP 'NOEC' ; TEMP 'IMPR' 'APPE' ; X = T . 'TEMPS_CPU' . 'INITIAL' ;"
+    )
+    result = run(text, tmp_path)
+    calls = result.session.root.find("T").get("APPELS")
+    assert [calls.get(n).values.tolist() for n in ("PROG", "LECT")] == [[1], [3]]
+    counts = [line.split() for line in result.output.splitlines()]
+    assert counts == [["PROG", "1"], ["TEMP", "2"], ["LECT", "3"]]
+    assert result.session.root.find("X") >= 0
+
+
+def test_empty_objects_of_pictures_and_clouds(tmp_path):
+    text = (
+        "D V N A = VIDE 'DEFORME' 'VECTEUR' 'NUAGE' 'ANNOTATI' ; "
+        "L = (VIDE D) ET (VIDE V) ET (VIDE N) ET (VIDE A) ; "
+        "M = VIDE (A ET (ANNO 'ETIQ' (POIN 0.) 'x')) ;"
+    )
+    root = run("OPTI DIME 1 ; " + text, tmp_path).session.root
+    assert root.find("L") is True
+    assert root.find("M") is False

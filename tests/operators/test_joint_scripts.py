@@ -343,3 +343,82 @@ def test_a_joint_between_points_of_one_place_follows_its_supports(found):
     closed, opened = found(script, "F1", "F2")
     assert abs(closed + 10.0) < 1e-9
     assert opened == 0.0
+
+
+@pytest.mark.parametrize("place", ["NOEUD", "STRESSES"])
+def test_stiffness_given_at_nodes_is_the_mean_of_both_sides(place):
+    """Below 1E6 (1 + x), above 3E6: a rigid opening w meets `w int (4E6 + 1E6 x) / 2 dx`."""
+    result = run_text(
+        f"""OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;
+        L1 = DROI 3 (0. 0.) (2. 0.) ; L2 = DROI 3 (0. 0.) (2. 0.) ; J = RACC 1.E-6 L1 L2 ;
+        MO = MODE J 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' ;
+        LOW = NOMC 'SCAL' ((1.E6 * (COOR 1 L1)) + (MANU 'CHPO' L1 1 'SCAL' 1.E6)) ;
+        KN = LOW ET (MANU 'CHPO' L2 1 'SCAL' 3.E6) ;
+        MA = MATE MO 'KN' (CHAN 'CHAM' KN MO '{place}') 'KS' 0. ;
+        W = MANU 'CHPO' L2 1 'UY' 1.E-3 ; F = (RIGI MO MA) * W ;
+        TOTAL = MAXI (RESU (REDU F L2)) ;
+        RIGHT = XTY F (NOMC 'UY' (COOR 1 L2)) (MOTS 'FY') (MOTS 'UY') ;
+        """
+    )
+    assert result.exit_code == 0, result.message
+    find = result.session.root.find
+    assert find("TOTAL") == pytest.approx(1e-3 * (4e6 * 2 + 1e6 * 2) / 2)
+    assert find("RIGHT") == pytest.approx(1e-3 * (4e6 * 2 + 1e6 * 8 / 3) / 2)
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_anisotropic_joint_of_two_points_gives_its_matrix_times_the_jump(dimension, tmp_path):
+    """A joint turned in space: stresses `D e` in its axes, forces `R^T D R u`."""
+    size = 6 if dimension == 3 else 3
+    random = np.random.default_rng(5)
+    root = random.normal(size=(size, size))
+    D = root @ root.T + np.eye(size)
+    terms = " ".join(f"'D{i + 1}{j + 1}' {D[i, j]:.15E}" for i in range(size) for j in range(i + 1))
+    if dimension == 3:
+        axes, names = "'DIRECTION' (0. 0. 1.) (0. 1. 0.)", ("UX", "UY", "UZ", "RX", "RY", "RZ")
+        frame = np.array([[0.0, 0, 1], [0, 1, 0], [-1, 0, 0]])  # rows: normal, t1, t2 = n x t1
+        turn = np.kron(np.eye(2), frame)
+        ends = "P = 0. 0. 0. ; Q = 0. 0. 0.1 ;"
+    else:
+        axes, names = "'DIRECTION' (0. 1.)", ("UX", "UY", "RZ")
+        turn = np.array([[0.0, 1, 0], [-1, 0, 0], [0, 0, 1]])
+        ends = "P = 0. 0. ; Q = 0. 0.1 ;"
+    u = random.normal(size=size)
+    given = " ".join(f"'{n}' {v:.15E}" for n, v in zip(names, u, strict=True))
+    duals = {"UX": "FX", "UY": "FY", "UZ": "FZ", "RX": "MX", "RY": "MY", "RZ": "MZ"}
+    read = " ".join(f"F{i} = EXTR F '{duals[n]}' Q ;" for i, n in enumerate(names))
+    result = run_text(
+        f"OPTI DIME {dimension} ELEM SEG2 ; {ends} L = MANU 'SEG2' P Q ; "
+        "M = MODE L 'MECANIQUE' 'ELASTIQUE' 'ANISOTROPE' 'JOI1' ; "
+        f"A = MATE M {terms} {axes} ; U = MANU 'CHPO' Q {given} ; F = (RIGI M A) * U ; "
+        f"N = EXTR (SIGM M A U) 'EFFX' 1 1 1 ; B = MAXI (ABS (F - (BSIG M (SIGM M A U) A))) ; "
+        f"{read}",
+        output_directory=tmp_path,
+    )
+    assert result.exit_code == 0, result.message
+    find = result.session.root.find
+    strain = turn @ u
+    np.testing.assert_allclose(
+        [find(f"F{i}") for i in range(size)], turn.T @ D @ strain, rtol=1e-12, atol=1e-12
+    )
+    assert find("N") == pytest.approx((D @ strain)[0])
+    assert find("B") < 1e-12
+
+
+def test_surface_joints_have_no_anisotropy_and_moduli_must_be_positive(tmp_path):
+    plane = "OPTI DIME 2 ELEM SEG2 ; "
+    refused = run_text(
+        plane + "A = DROI 4 (0. 0.) (2. 0.) ; J = RACC 0.01 A (A PLUS (0. 0.)) ; "
+        "M = MODE J 'MECANIQUE' 'ELASTIQUE' 'ANISOTROPE' ;",
+        output_directory=tmp_path / "1",
+    )
+    assert refused.exit_code == 1
+    assert "only JOI1" in refused.message
+    refused = run_text(
+        plane + "L = MANU 'SEG2' (0. 0.) (0. 0.1) ; "
+        "M = MODE L 'MECANIQUE' 'ELASTIQUE' 'ANISOTROPE' 'JOI1' ; "
+        "K = RIGI M (MATE M 'D11' 1. 'D22' 1. 'D21' 2. 'D33' 1.) ;",
+        output_directory=tmp_path / "2",
+    )
+    assert refused.exit_code == 1
+    assert "negative energy" in refused.message

@@ -39,7 +39,8 @@ def mots(words):
         ("PROG 1. PAS 1. GEOM 2. 8.", [1, 2, 4, 8]),
         ("PROG 1. PAS 1. GEOM 2. NPAS 3", [1, 2, 4, 8]),
         ("PROG 0. PAS 0.3 1.", [0, 1 / 3, 2 / 3, 1]),
-        ("PROG 0. PAS -1. 5.", [0, 5]),
+        ("PROG 2. PAS -1. 2.", [2, 2]),
+        ("PROG 0.3 PAS -0.1 (0.1 + 0.2)", [0.3, 0.3]),
         ("PROG", []),
         ("LECT 1 2 PAS -2 NPAS 4 2 3 * 9 PAS 2 3 * 13",
          [1, 2, 0, -2, -4, -6, 2, 9, 9, 9, 11, 13, 13, 13]),
@@ -64,6 +65,12 @@ def test_sine_of_a_list_has_frequency_phase_and_amplitude():
 
 def test_end_of_steps_is_repeated_at_least_once(refused):
     assert "need an end" in refused("L = PROG 0. PAS 0.5 0 * 7. ;")
+
+
+@pytest.mark.parametrize("steps", ["0. PAS -1. 5.", "5. PAS 1. 0.", "0. PAS 0. 1.",
+                                   "0. PAS -1. GEOM 2. 8."])  # fmt: skip
+def test_steps_that_never_reach_their_end_are_refused(steps, refused):
+    assert "do not lead from" in refused(f"L = PROG {steps} ;")
 
 
 def test_step_that_does_not_divide_is_refused_for_integers(refused):
@@ -212,7 +219,7 @@ def test_lists_of_objects_join_objects_of_their_type(found, refused):
         "L = PROG 1000000000 * 1. ;",
         "L = PROG 1. PAS 1. NPAS 1000000000 ;",
         "L = PROG 0. PAS 1.E-12 1. ;",
-        "L = PROG 0. PAS 0.5 -3. 1E9 * 7. ;",
+        "L = PROG 0. PAS 0.5 3. 1E9 * 7. ;",
         "L = LECT 1 PAS 1 NPAS 1000000000 ;",
         "L = LECT 1 PAS 1 1000000000 ;",
         "L = MOTS 1000000000 * 'A' ;",
@@ -232,3 +239,16 @@ def test_steps_at_the_head_of_a_list_start_from_a_zero_left_out(found):
     reals, integers = found("A = PROG PAS 0.5 2. 7. ; B = LECT PAS 2 NPAS 3 ;", "A", "B")
     assert list(reals.values) == [0.5, 1.0, 1.5, 2.0, 7.0]
     assert list(integers.values) == [2, 4, 6]
+
+
+def test_each_operand_loses_its_doubles():
+    result = run_text(
+        "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0 0) (1 0) ; "
+        "A B C = UNIQ (PROG 0.3 (0.1 + 0.2) 1. 1.05 1.) (LECT 3 3 1) (L ET (INVE L)) ; "
+        "E = UNIQ 0.1 (PROG 1. 2. 1.05) ;"
+    )
+    assert result.exit_code == 0, result.message
+    a, b, c, e = map(result.session.root.find, "ABCE")
+    assert a.values.tolist() == [0.3, 1.0, 1.05]  # 0.1 + 0.2 is 0.3 but for rounding
+    assert (b.values.tolist(), c.n_cells) == ([3, 1], 2)
+    assert e.values.tolist() == [1.0, 2.0]

@@ -44,8 +44,8 @@ def test_one_list_serves_all_nodes_of_a_cell_or_each_has_its_own():
     expected = np.array([[1.0, 0, -1], [0, 1, -1], [-1, -1, 2]])
     np.testing.assert_array_equal(dense(made), expected)
     made = matrix(f"L = DROI 1 P0 P1 ; R = MANU 'RIGI' L (MOTS 'UX') (MOTS 'RZ') {terms} ;")
-    assert str(numbering_of(made).label(0)) == "UX at node 1"
-    assert str(numbering_of(made).label(1)) == "RZ at node 2"
+    assert str(numbering_of(made).label(0)) == "UX at node 1 (0. 0.)"
+    assert str(numbering_of(made).label(1)) == "RZ at node 2 (1. 0.)"
 
 
 def test_wrong_number_of_terms_is_said():

@@ -9,7 +9,7 @@ from ssilang.cli.run import RunOptions, run_text
     ("language", "told"),
     [
         ("en", "error 308: CONVT: ZUT is no unit of time"),
-        ("fr", "erreur 308: CONVT : ZUT n'est pas une unité de temps"),
+        ("fr", "erreur 308 : CONVT : ZUT n'est pas une unité de temps"),
     ],
 )
 def test_a_procedure_refuses_in_the_language_of_the_run(language, told, tmp_path):

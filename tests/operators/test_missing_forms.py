@@ -62,3 +62,79 @@ def test_vectors_in_tables(found, sign, expected):
     )
     made = found(script + f"T = {sign} ;", "T")
     assert [made.get(1), made.get(2)] == expected
+
+
+SPRINGS = (
+    "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; R = 2. 0. ; "
+    "K = (APPU 'UX' 4. P) ET (APPU 'UX' 5. Q) ET (APPU 'UX' 7. R) ; "
+    "C = RELA 2. 'UX' P '-' 1. 'UX' Q ; "
+)
+
+
+def test_condensation_by_the_matrix_of_dependence_gives_the_solution(found):
+    """Two springs on one unknown: (4/4 + 5) q = 1/2 + 1, and p = q / 2."""
+    values = found(
+        SPRINGS + "T D = CHAN 'COND' (K ET C) ; F = MANU 'CHPO' (P ET Q ET R) 'FX' 1. ; "
+        "V = RESO (CMCT K T) (F * D) ; U = V * T ; "
+        "X1 = EXTR U 'UX' P ; X2 = EXTR U 'UX' Q ; X3 = EXTR U 'UX' R ;",
+        "X1", "X2", "X3",
+    )  # fmt: skip
+    assert values == pytest.approx((0.125, 0.25, 1 / 7), rel=1e-12)
+
+
+def test_dependence_of_relations_alone_leaves_other_unknowns_as_they_are(found, refused):
+    stiffness, force, back = found(
+        SPRINGS + "T D = CHAN 'COND' C ; M = EXTR (CMCT K T) 'DIAG' ; X1 = MAXI M ; X2 = MINI M ; "
+        "G = D * (MANU 'CHPO' (P ET Q) 1 'FX' 3.) ; X3 = RESU G ; Y = MAXI 'ABS' G ; "
+        "U = (MANU 'CHPO' Q 1 'UX' 8.) * T ; Z = EXTR U 'UX' P ; S = X1 + X2 ;",
+        "S", "Y", "Z",
+    )  # fmt: skip
+    assert stiffness == pytest.approx(7 + 6)
+    # one of the two stays: q with 3 + 3/2
+    assert force == pytest.approx(4.5)
+    assert back == pytest.approx(4.0)
+    assert "no relation" in refused(SPRINGS + "T D = CHAN 'COND' K ;")
+
+
+def test_curves_in_cells_through_fields(found, refused):
+    start = (
+        "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (1. 0.) ; "
+        "M = MODE L MECANIQUE ELASTIQUE BARR ; "
+        "A = MANU 'CHML' M 'REPA' 'YOUN' (PROG 3. 4.) 'GRAVITE' ; "
+    )
+    first, second, name = found(
+        start + "C = MANU 'CHML' 'EVOL' 'T' 20. A 100. (0.5 * A) ; "
+        "X1 = IPOL 60. (EXTR C 'YOUN' 1 1 1) ; T = TABL ; T . 1. = A ; T . 2. = 3. * A ; "
+        "X2 = IPOL 1.5 (EXTR (MANU T 'CHML' 'EVOL' 'T') 'YOUN' 1 2 1) ; "
+        "N = EXTR (EXTR C 'DEVA') 1 ;",
+        "X1", "X2", "N",
+    )  # fmt: skip
+    assert (first, second) == pytest.approx((2.25, 8.0))
+    assert str(name).rstrip() == "T"
+    assert "increase" in refused(start + "C = MANU 'CHML' 'EVOL' 'T' 20. A 10. A ;")
+    said = refused(start + "C = MANU 'CHML' 'EVOL' 'T' 20. A 30. (NOMC 'NU' A) ;")
+    assert "one component" in said
+
+
+def test_amplification_of_a_deformed_shape(found):
+    chosen, own = found(
+        "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (3. 0.) ; U = MANU 'CHPO' L 'UX' 1. ; "
+        "X = EXTR (DEFO 3. L U) 'AMPL' ; Y = EXTR (DEFO L U) 'AMPL' ;",
+        "X", "Y",
+    )  # fmt: skip
+    assert chosen == 3.0
+    assert own > 0.0
+
+
+def test_table_of_fields_is_reduced_to_a_model(found, refused):
+    start = (
+        "OPTI DIME 2 ELEM QUA4 ; S = (DROI 4 (0. 0.) (4. 0.)) TRAN 1 (0. 1.) ; "
+        "M = MODE S MECANIQUE ELASTIQUE ; A = MATE M 'YOUN' 1. 'NU' 0.25 ; T = TABL 'ESCLAVE' ; "
+    )
+    total = found(
+        start + "T . 1 = REDU A (S ELEM (LECT 1 2)) ; T . 2 = REDU A (S ELEM (LECT 3 4)) ; "
+        "N = MODE (S ELEM (LECT 2 3)) MECANIQUE ELASTIQUE ; X = INTG N (REDU T N) 'NU' ;",
+        "X",
+    )
+    assert total == pytest.approx(0.5)
+    assert "no fields in cells" in refused(start + "X = REDU T M ;")

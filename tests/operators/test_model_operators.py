@@ -35,10 +35,13 @@ def value(run, text, name="X"):
     ("statement", "said"),
     [
         ("M = MODE S MECANIQUE PLASTIQUE HUJEUX ;", "HUJEUX is not available"),
+        ("M = MODE S MECANIQUE ELASTIQUE PLASTIQUE TUYAU_FISSURE ;", "TUYAU_FISSURE is not"),
+        ("M = MODE S MECANIQUE ELASTIQUE PLASTIQUE DRUCKER_PRAGER_2 ;", "gives no equation"),
+        ("M = MODE S MECANIQUE ELASTIQUE PLASTIQUE AMADEI ;", "FIMU SGMT I0"),
         ("M = MODE S MECANIQUE ELASTIQUE JOINT_SDM ;", "for joints only"),
         ("M = MODE S THERMIQUE ;", "THERMIQUE is not available"),
         ("M = MODE S MECANIQUE ELASTIQUE ISOTORPE ;", "ISOTROPE"),
-        ("M = MODE L MECANIQUE ELASTIQUE ;", "name one of"),
+        ("OPTI MODE AXIS ; M = MODE L MECANIQUE ELASTIQUE ;", "name one of"),
         ("M = MODE S MECANIQUE ELASTIQUE ; A = MATE M 'YONG' 3. ;", "YOUN"),
         ("M = MODE S MECANIQUE ELASTIQUE ; A = MATE M 'SECT' 3. ;", "SECT"),
         ("M = MODE S MECANIQUE ELASTIQUE ; A = MATE M 'YOUN' (0. 1.) ;", "number"),
@@ -205,6 +208,23 @@ def test_vibr_takes_a_mass_of_both_signs_for_a_buckling_load(run):
     assert value(run, text) == pytest.approx(4.0)
 
 
+def test_vibr_tells_of_a_mass_of_both_signs_and_refuses_one_that_is_negative(run, refused):
+    spring = "OPTI DIME 2 ; P = 0. 0. ; K = APPU 'DEPL' 4. P ; "
+    result, _ = run(
+        spring + "G = (MASS 'UX' 1. P) ET (MASS 'UY' -2. P) ; T = VIBR 'SIMU' 0. 1 K G ;"
+    )
+    (said,) = [w for w in result.session.warnings if w.code.endswith("mass-of-both-signs")]
+    assert said.data["value"] == -2.0
+    assert "negative: -2" in refused(spring + "T = VIBR 'SIMU' 0. 1 K (MASS 'DEPL' -2. P) ;")
+
+
+def test_vibr_says_why_there_is_no_solution_object(refused):
+    spring = "OPTI DIME 2 ; P = 0. 0. ; K = APPU 'DEPL' 4. P ; G = MASS 'DEPL' 1. P ; "
+    told = refused(spring + "T = VIBR 'SOLU' 'SIMU' 1. 1 K G ;")
+    assert "out of ssilang's scope" in told
+    assert "BASE_MODALE" in told
+
+
 @pytest.mark.parametrize("asked", ["RIGI M A", "MASS M A", "EPSI M U", "INTG M C"])
 def test_an_element_for_pressures_has_no_stiffness(refused, asked):
     told = refused(
@@ -223,3 +243,36 @@ def test_sections_have_no_axes_of_orthotropy(refused):
         "M = MODE L MECANIQUE ELASTIQUE BARR ; C = CARA M 'DIRE' (0. 1.) 'PARA' 'SECT' 0.1 ;"
     )
     assert "DIRE" in said
+
+
+@pytest.mark.parametrize("mode", ["DIME 2 MODE PLAN CONT", "DIME 2 MODE PLAN DEFO", "DIME 3"])
+def test_lines_without_an_element_are_bars_in_plane_and_space(run, mode):
+    end = "(3. 4. 0.)" if "3" in mode else "(3. 4.)"
+    start = "(0. 0. 0.)" if "3" in mode else "(0. 0.)"
+    result, err = run(
+        f"OPTI {mode} ELEM SEG2 ; L = DROI 1 {start} {end} ; "
+        "M = MODE L 'MECANIQUE' 'ELASTIQUE' ; E = EXTR M 'CONT' ; "
+        "A = MATE M 'YOUN' 10. 'NU' 0. 'SECT' 2. ; U = (NOMC 'UX' ((COOR 1 L) * 0.03)) ET "
+        "(NOMC 'UY' ((COOR 2 L) * 0.03)) ; N = MAXI (EXCO 'EFFX' (SIGM M A U)) ;"
+    )
+    assert result.exit_code == 0, err
+    assert list(result.session.root.find("E").values) == ["EFFX"]
+    assert result.session.root.find("N") == pytest.approx(10.0 * 2.0 * 0.03)
+
+
+def test_a_yielding_line_without_an_element_is_a_bar_and_no_joint(run):
+    result, err = run(
+        "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; L = DROI 1 (0. 0.) (1. 0.) ; "
+        "M = MODE L 'MECANIQUE' 'ELASTIQUE' 'PLASTIQUE' 'PARFAIT' ; E = EXTR M 'MATE' ;"
+    )
+    assert result.exit_code == 0, err
+    assert "SIGY" in result.session.root.find("E").values
+
+
+def test_lines_of_bodies_of_revolution_still_want_an_element(run):
+    result, err = run(
+        "OPTI DIME 2 MODE AXIS ELEM SEG2 ; L = DROI 1 (1. 0.) (2. 0.) ; "
+        "M = MODE L 'MECANIQUE' 'ELASTIQUE' ;"
+    )
+    assert result.exit_code == 1
+    assert "COQ2" in err

@@ -209,18 +209,34 @@ def test_restriction_to_points_and_to_where_another_field_is_not_zero(found):
     assert (a, b) == (1, 4)
 
 
-def test_value_outside_of_the_support_is_zero_but_its_component_must_exist(found, refused):
-    script = POINT + "R = 5. 5. ; X = EXTR C 'UX' R ; Y = EXTR C 'UX' P ;"
-    outside, inside = found(script, "X", "Y")
-    assert (outside, inside != 0.0) == (0.0, True)
-    assert "RZ" in refused(POINT + "R = 5. 5. ; X = EXTR C 'RZ' R ;")
+@pytest.mark.parametrize(
+    "statement",
+    ["EXTR C 'UX' R", "EXTR R C 'UX'", "EXTR C 'VALE' R", "EXTR (SUIT C C) 'VALE' R 'UX'"],
+)
+def test_a_point_that_carries_no_value_is_told_with_the_nearest_node(refused, statement):
+    said = refused(POINT + f"R = 4. 4. ; X = {statement} ;")
+    assert "UX has no value at node 3 (4. 4.)" in said
+    assert "2 (1. 0.), at a distance of 5" in said
+
+
+def test_forces_are_zero_where_none_acts(found, refused):
+    start = POINT + "R = 5. 5. ; F = FORC (3. 4.) P ; "
+    values = found(
+        start + "X1 = EXTR F 'FX' R ; X2 = EXTR F 'FX' P ; "
+        "X3 = EXTR (EXTR C 'VALE' 'UX' R 'NOID') 1 ; X4 = EXTR (EXTR C 'VALE' 'UY' (P ET R)) 2 ;",
+        "X1", "X2", "X3", "X4",
+    )  # fmt: skip
+    assert values == (0.0, 3.0, 0.0, 0.0)
+    assert "RZ" in refused(start + "X = EXTR C 'RZ' R ;")
 
 
 def test_negative_value_has_no_fractional_power():
     field = NodeField.of(TABLE, np.array([0]), {"T": np.array([-1.0])})
     from ssilang.operators.fields.signs import _node_number
 
-    with pytest.raises(FieldError):
+    with pytest.raises(
+        FieldError, check=lambda e: e.code == "operators.fields.negative-value-no-power"
+    ):
         _node_number("**", field, 0.5)
 
 
@@ -237,3 +253,17 @@ def test_vector_product_in_3d_is_orthogonal_to_both_factors(found):
 def test_number_raised_to_the_values_of_a_field(found, refused):
     assert found(POINT + "A = MAXI (2. ** C) ; B = MINI (2 ** C) ;", "A", "B") == (16.0, 8.0)
     assert "powers of a field" in refused(POINT + "A = -2. ** C ;")
+
+
+def test_inverse_of_a_field_is_one_over_its_values(found, refused):
+    field = found(POINT + "D = INVE C ;", "D")
+    for name, expected in (("UX", 1 / 3), ("UY", 0.25)):
+        np.testing.assert_allclose(field.components[name].values, expected)
+    assert "UX is 0 at (0, 0" in refused(POINT + "D = INVE (MANU 'CHPO' P 'UX' 0.) ;")
+
+
+@pytest.mark.parametrize("phrase", ["A ET B 'NOER'", "A ET 'NOER' B", "ET 'NOER' A B"])
+def test_diffuse_fields_that_differ_are_joined_where_it_is_said(found, refused, phrase):
+    fields = "OPTI DIME 2 ; P = 0. 0. ; A = MANU 'CHPO' P 'T' 3. 'NATU' 'DIFFUS' ; B = A + 1. ; "
+    assert found(fields + f"X = EXTR ({phrase}) 'T' P ;", "X") == 3.0
+    assert "T" in refused(fields + "X = A ET B ;")

@@ -199,3 +199,61 @@ def test_whether_a_component_exists_is_asked_of_fields_in_cells_alone(refused):
     said = refused("X = MASQ (PROG 1. 2.) 'EXISTE' 'A' ;")
     assert "'SUPERIEUR' or" in said
     assert "found EXISTE" in said
+
+
+BIG = st.integers(-(2**40), 2**40)
+
+
+@given(st.lists(st.tuples(BIG, BIG), min_size=1, max_size=5), st.sampled_from("+-*/"))
+@settings(max_examples=80)
+def test_lists_of_integers_follow_the_rules_of_single_ones(pairs, sign):
+    left, right = (" ".join(map(str, side)) for side in zip(*pairs, strict=True))
+    result = run_text(f"X = (LECT {left}) {sign} (LECT {right}) ;")
+    singles = [run_text(f"X = {a} {sign} {b} ;") for a, b in pairs]
+    if any(s.exit_code for s in singles):
+        assert result.exit_code == 1
+        assert "division by zero" in result.message
+        return
+    expected = [s.session.root.find("X") for s in singles]
+    if max(map(abs, expected)) >= 2**63:
+        assert result.exit_code == 1
+        assert "64 bits" in result.message
+    else:
+        assert result.session.root.find("X").values.tolist() == expected
+
+
+@pytest.mark.parametrize(
+    ("phrase", "expected"),
+    [
+        ("(LECT -7 7) / 2", [-3, 3]),
+        ("(LECT -7 7) / (LECT -2 -2)", [3, -3]),
+        ("(LECT 9007199254740993) / 1", [2**53 + 1]),  # a real has 53 bits
+        ("(LECT 3 -2) ** 3", [27, -8]),
+        ("(LECT 2) ** -1", [0]),
+        ("SOMM 'CUMU' (LECT 3 4)", [3, 7]),
+    ],
+)
+def test_integers_of_lists_are_exact(phrase, expected):
+    assert value(phrase).values.tolist() == expected
+
+
+def test_a_sum_of_a_list_may_be_longer_than_its_items():
+    assert value("SOMM (LECT 9000000000000000000 9000000000000000000)") == 18 * 10**18
+
+
+@pytest.mark.parametrize(
+    ("phrase", "says"),
+    [
+        ("(LECT 3000000000) * (LECT 4000000000)", "64 bits"),
+        ("(LECT 3) ** 50", "64 bits"),
+        ("(LECT 9000000000000000000) + 9000000000000000000", "64 bits"),
+        ("SOMM 'CUMU' (LECT 9000000000000000000 9000000000000000000)", "64 bits"),
+        ("(LECT 3) / 0", "division by zero"),
+        ("3 / (LECT 1 0)", "division by zero"),
+        ("(LECT 0) ** -1", "division by zero"),
+    ],
+)
+def test_what_a_list_of_integers_cannot_hold_is_refused(phrase, says):
+    result = run_text(f"X = {phrase} ;")
+    assert result.exit_code == 1
+    assert says in result.message

@@ -59,3 +59,47 @@ def test_a_file_may_be_called_like_an_option(printed):
         "T = LIRE 'CSV' 'debut.csv' 'DEBU' 2 'LIGN' ; "
         "SI (NEG (EXTR (T . 1) 2) 4.) ; ERRE 5 ; FINSI ;"
     )
+
+
+_TABLE = "T = TABL ; T . 'A' = PROG 3. 1. 2. 1. ; T . 'B' = LECT 30 10 20 11 ; "
+
+
+@pytest.mark.parametrize("odd", ["'DECR' T 'A'", "T 'DECR' 'A'", "T 'A' 'DECR'"])
+def test_a_table_is_sorted_whatever_the_place_of_the_word(found, odd):
+    table = found(_TABLE + f"U = ORDO {odd} ;", "U")
+    assert table.get("A").values.tolist() == [3, 2, 1, 1]
+    assert table.get("B").values.tolist() == [30, 20, 10, 11]
+
+
+@pytest.mark.parametrize("phrase", ["T 'A' 'UNIQ'", "'UNIQ' 0.2 T 'A'", "T 'UNIQ' 'A'"])
+def test_the_only_list_of_a_table_loses_its_doubles(found, phrase):
+    table = found(f"T = TABL ; T . 'A' = PROG 3. 1. 2. 1. ; U = ORDO {phrase} ;", "U")
+    assert table.get("A").values.tolist() == [1, 2, 3]
+
+
+def test_doubles_are_dropped_from_one_list_alone(refused):
+    assert "one list only" in refused(_TABLE + "U = ORDO T 'A' 'UNIQ' ;")
+
+
+def test_doubles_are_dropped_by_value_where_absolute_values_sort(found):
+    made = found("L = ORDO (PROG 2. 1. -1. 1. -1. 2.) 'ABSO' 'UNIQ' ;", "L")
+    assert made.values.tolist() == [1, -1, 2]
+
+
+def test_lists_of_a_table_go_to_their_cheapest_places(found):
+    # costs 1 1 are off the diagonal: the two lists are swapped
+    total, table = found(
+        "T = TABL ; T . 'A' = LECT 10 20 ; T . 'B' = MOTS 'X' 'Y' ; "
+        "N U = ORDO T 'COUT' (LECT 5 1 1 5) 'HONG' ;",
+        "N", "U",
+    )  # fmt: skip
+    assert total == 2
+    assert table.get("A").values.tolist() == [20, 10]
+    assert table.get("B").values == ["Y", "X"]
+
+
+@pytest.mark.parametrize("phrase", ["L M 'ET'", "L 'ET' M"])
+def test_all_words_of_a_list_are_looked_for_whatever_the_place_of_the_word(found, phrase):
+    lists = "L = MOTS 'A' 'B' ; M = MOTS 'A' 'C' ; "
+    assert found(lists + f"X = EXIS {phrase} ;", "X") is False
+    assert found(lists + f"X = EXIS {phrase.replace('ET', 'OU')} ;", "X") is True

@@ -185,3 +185,25 @@ def test_rigid_body_with_rotations_carries_solid_nodes_along():
         assert u.values_at("UX", [node])[0] == pytest.approx(-2.0 * y)
         assert u.values_at("UY", [node])[0] == pytest.approx(2.0 * x)
     assert u.values_at("RZ", [1])[0] == pytest.approx(2.0)
+
+
+def test_a_flat_rigid_body_is_told_to_turn_about_a_centre_and_does():
+    block = (
+        "OPTI DIME 3 MODE TRID ELEM CUB8 ; B = (DROI 2 (0 0 0) (2 0 0)) TRAN 2 (0 2 0) ; "
+        "V = B VOLU 'TRAN' 1 (0 0 1) ; M = MODE V 'MECANIQUE' 'ELASTIQUE' ; C = 1. 1. 0. ; "
+    )
+    refused = run_text(block + "R = RELA 'CORI' 'DEPL' B ;")
+    assert refused.exit_code == 1
+    assert "RELA 'CORI' 'DEPL' 'ROTA' C1 GEO1" in refused.message
+    made = run_text(
+        block + "R = RELA 'CORI' 'DEPL' 'ROTA' C B ; H = BLOQ 'DEPL' 'RX' 'RZ' C ; "
+        "T = BLOQ 'RY' C ; K = (RIGI M (MATE M 'YOUN' 1. 'NU' 0.)) ET R ET H ET T ; "
+        "U = RESO K (DEPI T 0.1) ; A = EXTR U 'UZ' (V POIN 'PROC' (2 0 0)) ; "
+        "Z = EXTR U 'UX' (V POIN 'PROC' (2 0 1)) ; S = MAXI (ABS (SIGM M (MATE M 'YOUN' 1. 'NU' "
+        "0.) U)) ;"
+    )
+    assert made.exit_code == 0, made.message
+    found = made.session.root.find
+    assert found("A") == pytest.approx(-0.1)  # the angle times the arm
+    assert found("Z") == pytest.approx(0.1)
+    assert abs(found("S")) < 1e-12

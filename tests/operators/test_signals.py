@@ -105,3 +105,39 @@ def test_time_above_a_level_of_a_triangle():
 def test_inverse_needs_two_frequencies():
     with pytest.raises(FieldError):
         inverse_fourier(np.array([0.0]), np.array([1.0 + 0j]))
+
+
+def test_signal_of_times_in_every_way(found):
+    curves = found(
+        "A = FDT 'ACCE' 'NOCO' 'COUP' (PROG 0. 1. 0.5 2.) ; B = FDT (PROG 0. 0.5 1. 2.) 'NOCO' "
+        "'ACCE' ; C = FDT 'ACCE' (PROG 0.5) (PROG 1. 2.) ; D = FDT 'ACCE' (PROG 0.) "
+        "(PROG 0. 1. 0.5 2.) ; E = FDT 'CONS' 0.5 'ACCE' (PROG 1. 2.) ;",
+        "A", "B", "C", "D", "E",
+    )  # fmt: skip
+    for curve in curves:
+        assert curve.parts[0].abscissas.tolist() == [0.0, 0.5]
+        assert curve.parts[0].ordinates.tolist() == [1.0, 2.0]
+
+
+def test_filters_of_first_order_and_powers_of_the_frequency(found):
+    high, power = found(
+        "A = FILT 2 'TYPE' 'PHAU' 2. 'DFRQ' 2. ; B = FILT 'DFRQ' 1. 2 'TYPE' 'OMEG' 2 'REIM' ;",
+        "A", "B",
+    )  # fmt: skip
+    # i r / (1 + i r) with r = f / cut-off: half the power and 45 degrees at the cut-off
+    np.testing.assert_allclose(high.parts[0].ordinates, [0, 0.5**0.5, 2 / 5**0.5])
+    np.testing.assert_allclose(high.parts[1].ordinates[1:], [45, np.degrees(np.arctan(0.5))])
+    np.testing.assert_allclose(power.parts[0].ordinates, [0, -4 * np.pi**2, -16 * np.pi**2])
+    np.testing.assert_allclose(power.parts[1].ordinates, 0)
+
+
+def test_transform_of_constant_fields_is_their_value_times_the_length(found):
+    real, imaginary, frequencies = found(
+        "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'UX' 3. ; "
+        "R I F = TFR 'REIM' 2 (SUIT C C C C) (PROG 0. 'PAS' 0.5 1.5) ; "
+        "A = EXTR R 'VALE' 'UX' P ; B = EXTR I 'VALE' 'UX' P ;",
+        "A", "B", "F",
+    )  # fmt: skip
+    assert frequencies.values.tolist() == [0.0, 0.5, 1.0]
+    np.testing.assert_allclose(real.values, [6.0, 0, 0], atol=1e-12)  # 3 over 2 s
+    np.testing.assert_allclose(imaginary.values, 0, atol=1e-12)

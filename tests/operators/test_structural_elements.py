@@ -1,6 +1,8 @@
 """Shells of bricks and cubic triangles as scripts use them."""
 
+import numpy as np
 import pytest
+from scipy.linalg import expm
 
 from ssilang.cli.run import run_text
 
@@ -44,7 +46,7 @@ def test_shell_of_bricks_balances_its_load_and_gives_skin_stress_at_nodes(tmp_pa
 def test_pressure_on_bricks_is_refused_for_other_elements(tmp_path):
     text = STRIP.replace("SHB8", "CUB8") + "F = PRES 'SHB8' MO 1. 'EXTERNE' ;"
     result = run_text(text, output_directory=tmp_path)
-    assert result.exit_code != 0
+    assert result.exit_code == 1
     assert "is for models of elements SHB8" in result.message
 
 
@@ -90,3 +92,43 @@ def test_shells_of_bricks_are_turned_to_go_across_along_a_direction(aim, tmp_pat
     assert w2 == pytest.approx(w1)
     # the first face is now the upper one: the pressure pushes down
     assert x == pytest.approx(-1000.0 * 10**4 / (8 * 2e11 * 0.1**3 / 12), rel=5e-3)
+
+
+@pytest.mark.parametrize(
+    ("cells", "held"),
+    [("G = MANU 'POI1' P ;", ""), ("G = MANU 'SEG2' P (1. 0.) ;", "ET (BLOQ 'UX' (1. 0.))")],
+)
+def test_a_spring_and_a_dashpot_in_series_move_in_time_as_maxwell_says(cells, held):
+    """`m v' = -f, f' = k v - (k / c) f`, by the exponential of its matrix."""
+    k, c = 400.0, 12.0
+    hold = "" if not held else "ET (BLOQ 'UX' (G POIN 2))"
+    result = run_text(
+        f"OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; P = 0. 0. ; {cells} "
+        "MO = MODE G 'MECANIQUE' 'ELASTIQUE' 'IMPEDANCE' 'REUSS' (MOTS UX) ; "
+        f"CA = MATE MO 'RAID' {k} 'VISC' {c} ; T1 = TABL ; "
+        f"T1 . 'RIGI' = (RIGI MO CA) {hold} ; T1 . 'AMOR' = AMOR MO CA ; "
+        "T1 . 'MASS' = MASS 'UX' 1. P ; T1 . 'VITE' = MANU 'CHPO' P 'UX' 1. ; "
+        "T1 . 'TEMPS_CALCULES' = PROG 0. 'PAS' 1.E-3 0.5 ; T2 = DYNAMIC T1 ; "
+        "E1 = EVOL 'TEMP' T2 'DEPL' 'UX' P ;"
+    )
+    assert result.exit_code == 0, result.message
+    part = result.session.root.find("E1").parts[0]
+    motion = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, -1.0], [0.0, k, -k / c]])
+    exact = [(expm(motion * t) @ [0.0, 1.0, 0.0])[0] for t in part.abscissas]
+    np.testing.assert_allclose(part.ordinates, exact, atol=1e-5)
+    assert exact[-1] > 0.08  # it stays there: nothing pulls it back
+
+
+def test_modes_of_a_spring_and_a_dashpot_in_series_are_those_of_maxwell():
+    result = run_text(
+        "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; P = 0. 0. ; G = MANU 'POI1' P ; "
+        "MO = MODE G 'MECANIQUE' 'ELASTIQUE' 'IMPEDANCE' 'REUSS' (MOTS UX) ; "
+        "CA = MATE MO 'RAID' 400. 'VISC' 12. ; "
+        "T = VIBR 'IRAM' 5. 1 (RIGI MO CA) (MASS 'UX' 1. P) (AMOR MO CA) ; "
+        "X = T . 'MODES' . 1 . 'FREQUENCE_REELLE' ; Y = T . 'MODES' . 1 . 'FREQUENCE_IMAGINAIRE' ;"
+    )
+    assert result.exit_code == 0, result.message
+    decay = np.roots([1.0, 400.0 / 12.0, 400.0])  # s^2 + (k / c) s + k / m, beside s = 0
+    found = result.session.root.find
+    assert 2 * np.pi * found("X") == pytest.approx(abs(decay[0].imag))
+    assert 2 * np.pi * found("Y") == pytest.approx(-decay[0].real)

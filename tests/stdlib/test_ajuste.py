@@ -104,5 +104,5 @@ def test_bounds_are_wanted_for_each_parameter():
         PLAIN + "T = TABL ; T . 'F' = PROG 1. ; T . 'K' = 2 ;"
         "T . 'L' = 2 ; T . 'PMIN' = PROG 0. ; T . 'PMAX' = PROG 1. ; Q P = AJUSTE T ;"
     )
-    assert result.exit_code != 0
+    assert result.exit_code == 1
     assert "a bound for each" in result.message

@@ -61,6 +61,9 @@ class AbstractCall(Call):
     def wordless(self) -> bool:
         return False  # what is unknown may be a word
 
+    def seen(self) -> tuple[tuple[str, ...], tuple[str, ...]] | None:
+        return None  # what stands there is looked at form by form, unknown ones are refused
+
     def stands(self, *types: str) -> bool:
         self._all_known()
         return super().stands(*types)

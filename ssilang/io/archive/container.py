@@ -5,9 +5,11 @@ from __future__ import annotations
 import io
 import json
 import zipfile
+import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
+from tokenize import TokenError
 from typing import Any
 
 import numpy as np
@@ -19,6 +21,11 @@ from ssilang.io.errors import InputError
 FORMAT = "ssilang-save"
 VERSION = 1
 _OBJECTS = "objects.json"
+DAMAGES = (
+    OSError, LookupError, ValueError, TypeError, AttributeError, OverflowError, EOFError,
+    RecursionError, SyntaxError, NotImplementedError, zipfile.BadZipFile, zlib.error, TokenError,
+)  # fmt: skip
+"""What Python and its libraries raise over bytes that are no archive of ours."""
 
 
 @dataclass
@@ -78,7 +85,7 @@ class Archive:
                 raise _too_large(self.path)
             raw = self.file.read(f"arrays/{number}.npy")
             array: NDArray[Any] = np.load(io.BytesIO(raw), allow_pickle=False)
-        except (OSError, KeyError, ValueError, zipfile.BadZipFile) as error:
+        except DAMAGES as error:
             raise _unreadable(self.path, error) from error
         return array
 
@@ -102,7 +109,11 @@ def read_archive(path: Path) -> Archive:
             raise ValueError(f"format {head['format']!r}")
         records = [Record(r["label"], r["names"]) for r in head["records"]]
         version, objects, settings = int(head["version"]), head["objects"], head["settings"]
-    except (OSError, KeyError, ValueError, TypeError, zipfile.BadZipFile) as error:
+        if not (isinstance(objects, list) and isinstance(settings, dict)):
+            raise TypeError("objects")
+        if not all(isinstance(r.label, str) and isinstance(r.names, dict) for r in records):
+            raise TypeError("records")
+    except DAMAGES as error:
         raise _unreadable(path, error) from error
     if version > VERSION:
         raise InputError("io.written-later-version-ssilang", name=path.name)

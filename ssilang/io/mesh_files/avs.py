@@ -127,7 +127,7 @@ def read_avs(path: Path, skip: int = 0) -> Structure | None:
             if _structure(lines) is None:
                 return None
         return _structure(lines)
-    except (ValueError, IndexError, StopIteration, KeyError, RuntimeError) as error:
+    except (ValueError, LookupError, OverflowError, StopIteration, RuntimeError) as error:
         raise InputError("io.no-readable-avs-file", name=path.name, error=error) from error
 
 
@@ -176,6 +176,8 @@ def _values(lines: Iterator[str], count: int) -> dict[str, FloatArray]:
     rows = [next(lines).split() for _ in range(count)]
     table = np.array([[float(t) for t in row[-sum(sizes) :]] for row in rows])
     table = table.reshape(count, sum(sizes))
+    if not np.isfinite(table).all():
+        raise ValueError("NaN")
     values: dict[str, FloatArray] = {}
     column = 0
     for name, size in zip(names, sizes, strict=True):

@@ -13,6 +13,7 @@ import numpy as np
 
 from ssilang.io.errors import InputError
 from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.mesh.cells import CELL_TYPES
 
 # I-DEAS element number -> cell type; orders along the contour, as Cast3M's
 _CELLS: dict[int, str] = {
@@ -67,11 +68,11 @@ def read_unv(path: Path) -> UnvMesh:
                 rows += _read_cells(body)
             elif number in (2467, 2470, 2477, 2435, 2452):
                 groups += _read_groups(body)
-    except (ValueError, IndexError, KeyError) as error:
+        if not points:
+            raise InputError("io.holds-no-nodes-dataset", name=path.name)
+        return _gathered(labels, points, rows, groups)
+    except (ValueError, LookupError, OverflowError) as error:
         raise InputError("io.no-readable-unv-file", name=path.name, error=error) from error
-    if not points:
-        raise InputError("io.holds-no-nodes-dataset", name=path.name)
-    return _gathered(labels, points, rows, groups)
 
 
 def _datasets(lines: list[str]) -> Iterator[tuple[int, list[str]]]:
@@ -84,7 +85,8 @@ def _datasets(lines: list[str]) -> Iterator[tuple[int, list[str]]]:
 def _read_nodes(body: list[str], labels: list[int], points: list[list[float]]) -> None:
     for head, line in zip(body[::2], body[1::2], strict=False):
         labels.append(int(head.split()[0]))
-        points.append([float(t.replace("D", "E").replace("d", "e")) for t in line.split()[:3]])
+        x, y, z = (float(t.replace("D", "E").replace("d", "e")) for t in line.split()[:3])
+        points.append([x, y, z])
 
 
 def _read_cells(body: list[str]) -> list[tuple[int, str, list[int]]]:
@@ -99,6 +101,8 @@ def _read_cells(body: list[str]) -> list[tuple[int, str, list[int]]]:
             nodes += [int(t) for t in body[i].split()]
             i += 1
         if kind in _CELLS:
+            if len(nodes) != CELL_TYPES[_CELLS[kind]].n_nodes:
+                raise ValueError(f"{label}: {_CELLS[kind]}, {len(nodes)}")
             found.append((label, _CELLS[kind], nodes))
     return found
 

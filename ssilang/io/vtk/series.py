@@ -51,7 +51,8 @@ class SeriesWriter:
     Raises
     ------
     OutputError
-        If a time does not grow, or the parts change from one step to the next.
+        If a time does not grow, the parts change from one step to the next, or files of the
+        series are gone.
     """
 
     def __init__(
@@ -114,6 +115,7 @@ class SeriesWriter:
         if self._entries and self.part_names != tuple(parts):
             old, new = ", ".join(self.part_names), ", ".join(parts)
             raise OutputError("io.series-parts-step-brings", old=old, new=new)
+        self._check(self._entries[-1:])
         number = len({e.time for e in self._entries}) + 1
         made = [self._write_part(time, number, name, part) for name, part in parts.items()]
         self._entries += made
@@ -145,7 +147,14 @@ class SeriesWriter:
         self.files.append(path)
         return Entry(time, name, path.name)
 
+    def _check(self, entries: list[Entry]) -> None:
+        """Check that files of the series are still there."""
+        gone = [e.file for e in entries if not (self.base.parent / e.file).is_file()]
+        if gone:
+            raise OutputError("io.series-files-gone", path=self.list_path, names=gone[:3])
+
     def _list(self) -> None:
+        self._check(self._entries)
         write_pvd(self.list_path, self._entries)
         self._listed_at = clock.monotonic()
         if self.list_path not in self.files:

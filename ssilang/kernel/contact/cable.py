@@ -74,7 +74,7 @@ def cable_relations(
         If the cable branches, or no node of it lies in the body.
     """
     x = line.nodes.coordinates[:, : len(unknowns)]
-    ends = _ends(x, bars.cells)
+    ends = _ends(line, x, bars.cells)
     slips, nodes = _slips(line, body, unknowns, ends)
     limits, offset = _limits(line, bars, ends, nodes, unknowns)
     none = np.zeros(len(nodes))
@@ -82,11 +82,11 @@ def cable_relations(
     return CableRelations(sliding(line, body, unknowns), rubbing)
 
 
-def _ends(x: FloatArray, cells: IntArray) -> _Ends:
+def _ends(line: Mesh, x: FloatArray, cells: IntArray) -> _Ends:
     node, other = cells.T.ravel(), cells[:, ::-1].T.ravel()
     counts = np.bincount(node)
     if (counts > 2).any():
-        at = int(np.argmax(counts)) + 1
+        at = line.nodes.told(int(np.argmax(counts)))
         raise MeshError("kernel.contact.cable-branches-node", at=at)
     along = x[cells[:, 1]] - x[cells[:, 0]]
     length = np.linalg.norm(along, axis=1)

@@ -124,11 +124,12 @@ def _change_velocity(
 def _impacts(stops: Stops, x: Motion, rate: FloatArray) -> None:
     """Velocities of rows that close, and of those that stay closed; the new set of closed rows."""
     m, closed = len(x.contact), stops.closed
-    now, closing, lasting = x.contact > 0.0, np.zeros(m, np.bool_), np.zeros(m, np.bool_)
+    closing, lasting = np.zeros(m, np.bool_), np.zeros(m, np.bool_)
     for i in range(m):
-        closing[i] = now[i] and not closed[i]
-        lasting[i] = now[i] and closed[i]
-    closed[:] = now
+        now = x.contact[i] > 0.0
+        closing[i] = now and not closed[i]
+        lasting[i] = now and closed[i]
+        closed[i] = now
     if stops.closing.by.shape[1]:
         _change_velocity(stops.G, stops.closing, closing, rate, x.v)
     if stops.lasting.by.shape[1]:

@@ -73,7 +73,8 @@ def sample_links(
         x, y = q[i].copy(), v[i].copy()
         state[:] = 0.0
         link_forces(x, y, 0.0, links, state, record, up)
-        f[i] = up
+        for m in range(n):
+            f[i, m] = up[m]
         for j in range(n):
             for which in range(2):
                 moved = x if which == 0 else y

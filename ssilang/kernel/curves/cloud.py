@@ -26,6 +26,24 @@ class Cloud:
     def __len__(self) -> int:
         return max((len(c) for c in self.columns.values()), default=0)
 
+    def joined(self, other: Cloud) -> Cloud:
+        """The rows of this one, then those of a cloud of the same columns.
+
+        Raises
+        ------
+        FieldError
+            If the columns differ and neither cloud is empty.
+        """
+        if not self.columns or not other.columns:
+            return other if not self.columns else self
+        if set(self.columns) != set(other.columns):
+            raise FieldError(
+                "kernel.curves.clouds-of-other-components",
+                first=list(self.columns),
+                second=list(other.columns),
+            )
+        return Cloud({k: (*v, *other.columns[k]) for k, v in self.columns.items()})
+
     def numbers(self, name: str) -> FloatArray:
         """A column of numbers, shape (n_rows,).
 

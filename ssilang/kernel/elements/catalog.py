@@ -115,8 +115,8 @@ ELEMENTS: dict[str, ElementKind] = {
         _solid("IC20", _VOLUME, 27, 27, "CU20", "incompressible"),
         ElementKind("M1D2", "SEG2", "solid", (Mode.UNIDIMENSIONAL,), {"RIGIDITE": 2}),
         ElementKind("M1D3", "SEG3", "solid", (Mode.UNIDIMENSIONAL,), {"RIGIDITE": 3}),
-        ElementKind("BARR", "SEG2", "bar", FRAME_MODES, _ROD, default=False),
-        ElementKind("BAR3", "SEG3", "bar", FRAME_MODES, _ROD, default=False),
+        ElementKind("BARR", "SEG2", "bar", FRAME_MODES, _ROD),
+        ElementKind("BAR3", "SEG3", "bar", FRAME_MODES, _ROD),
         ElementKind("POUT", "SEG2", "beam", FRAME_MODES, {"RIGIDITE": 2}, default=False),
         ElementKind(
             "TIMO", "SEG2", "timoshenko", FRAME_MODES, {"RIGIDITE": 1, "MASSE": 2}, default=False

@@ -9,6 +9,10 @@ the force is, on each unknown by itself,
 RAID k, VISC c, MASS (inertia of a point, AMOR per cent of the critical damping it then has) act
 on translations, on the shares ALFA BETA of modes and static shapes, and on the unknowns that the
 model names; where CPLE is given, CPLE, INER, AROT take their place on rotations.
+
+REUSS has matrices on a node of its own in each cell, where spring and dashpot meet: the spring
+lies between the first point and that node, the dashpot between it and the second point (or the
+ground). The node has no mass; its motion is that of Maxwell's internal variable.
 """
 
 from __future__ import annotations
@@ -17,7 +21,7 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import ComplexArray, FloatArray
+from ssilang.kernel.base.arrays import ComplexArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.elements.catalog import ELEMENTS, ElementKind, register_element
@@ -133,10 +137,8 @@ def dashpots(zone: Zone, parameters: ZoneField) -> FloatArray:
     Raises
     ------
     MaterialError
-        For REUSS, whose dashpot stands behind its spring, and for AMOR without MASS.
+        For AMOR without MASS.
     """
-    if law_of_impedance(zone) == "REUSS":
-        raise _only_in_frequency(zone)
     viscous = parameters.at("VISC", "RIGIDITE", 0.0)[:, 0] if _is_number(parameters, "VISC") else 0
     total = []
     stiffness = _values(zone, parameters, "RIGIDITE")
@@ -150,6 +152,51 @@ def dashpots(zone: Zone, parameters: ZoneField) -> FloatArray:
     layout = impedance_layout(zone, parameters)
     turning = total[1] if "CPLE" in parameters else total[0] + viscous
     return spread(zone, layout, (total[0] + viscous, turning))
+
+
+def in_series(zone: Zone, parameters: ZoneField, kind: str) -> tuple[FloatArray, Layout]:
+    """Matrices of REUSS: springs ('RIGIDITE') or dashpots on the points and the inner nodes."""
+    outer = impedance_layout(zone, parameters)
+    m, two = len(outer.unknowns), zone.cells.cell_type == "SEG2"
+    ends = m // 2 if two else m
+    plain = "CPLE" in parameters  # rotations then have a stiffness alone
+    inner = [i for i in range(ends) if not (plain and outer.unknowns[i] in _ROTATIONS)]
+    local = np.concatenate([outer.local, np.full(len(inner), 2 if two else 1)])
+    names = (*outer.unknowns, *(outer.unknowns[i] for i in inner))
+    raw = np.column_stack([zone.cells.raw, _inner_nodes(zone)])
+    layout = Layout(zone.cells.nodes, raw, local, names)
+    out = np.zeros((len(zone.cells), len(names), len(names)))
+    elastic = kind == "RIGIDITE"
+    if elastic:
+        values = _values(zone, parameters, "RIGIDITE", required=True)[0]
+        out[:, :m, :m] = spread(zone, outer, (0 * values, _values(zone, parameters, kind)[1]))
+        if not plain:
+            out[:, :m, :m] = 0.0
+    else:
+        values = np.broadcast_to(parameters.at("VISC", "RIGIDITE")[:, 0], (len(zone.cells),))
+    for place, i in enumerate(inner):
+        other = i if elastic else i + ends if two else None
+        _join(out, m + place, other, values)
+    return out, layout
+
+
+def _join(out: FloatArray, one: int, other: int | None, values: FloatArray) -> None:
+    """Add a spring between two rows, or between one and the ground."""
+    out[:, one, one] += values
+    if other is not None:
+        out[:, other, other] += values
+        out[:, one, other] -= values
+        out[:, other, one] -= values
+
+
+def _inner_nodes(zone: Zone) -> IntArray:
+    """Nodes (n_cells,) where springs and dashpots in series meet, the same for each matrix."""
+    known: dict[str, Any] = zone.options
+    if "INNER" not in known:
+        cells = zone.cells
+        known["INNER"] = cells.nodes.add(cells.coordinates.mean(axis=1))
+    nodes: IntArray = known["INNER"]
+    return nodes
 
 
 def dynamic_stiffness(
@@ -193,7 +240,7 @@ def spread_complex(
 
 def counts_damping(zone: Zone, parameters: ZoneField) -> bool:
     """Whether a zone has damping that only a matrix (AMOR) brings into a calculation."""
-    if law_of_impedance(zone) == "REUSS":
+    if law_of_impedance(zone) == "REUSS":  # in frequency it counts by itself
         return False
     return any(_is_number(parameters, n) for n in ("VISC", "AMOR", "AROT"))
 
@@ -244,11 +291,12 @@ class _ImpedanceFamily(StrainlessFamily):
     ) -> tuple[FloatArray, Layout]:
         """Springs or dashpots (n_cells, n_rows, n_rows)."""
         given = parameters.own()
+        if law_of_impedance(zone) == "REUSS":
+            return in_series(zone, given, kind)
         layout = impedance_layout(zone, given)
         if kind == "AMORTISSEMENT":
             return dashpots(zone, given), layout
-        law = law_of_impedance(zone)
-        if law == "REUSS" or (law == "COMPLEXE" and _curves(given)):
+        if law_of_impedance(zone) == "COMPLEXE" and _curves(given):
             raise _only_in_frequency(zone)
         return spread(zone, layout, _values(zone, given, "RIGIDITE", required=True)), layout
 

@@ -70,19 +70,25 @@ def transfer_matrix(element: str, source: Support, target: Support) -> FloatArra
 
 
 def carry(values: NDArray[Any], element: str, source: Support, target: Support) -> NDArray[Any]:
-    """Values (n_cells, n_points) moved to another support; constants stay as they are."""
+    """Values (n_cells, n_points) moved to another support; constants stay as they are.
+
+    Of values at the nodes of joints the mean of both sides counts.
+    """
     if values.shape[1] == 1 or source == target:
         return values
     if values.dtype == object:
         raise FieldError("kernel.elements.curves-points-vary-inside")
     matrix = transfer_matrix(element, source, target)
-    if matrix.shape[1] != values.shape[1]:
+    half = matrix.shape[1]
+    if source == "NOEUD" and values.shape[1] == 2 * half:
+        values = (values[:, :half] + values[:, half:]) / 2
+    if half != values.shape[1]:
         raise FieldError(
             "kernel.elements.field-values-cell-element",
             source=source,
             n_values=values.shape[1],
             element=element,
-            n_matrix=matrix.shape[1],
+            n_matrix=half,
         )
     return values @ matrix.T
 

@@ -9,13 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ssilang.kernel.base.errors import FieldError
-from ssilang.kernel.curves.algebra import combined
-from ssilang.kernel.curves.curve import Curve
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.mesh.mesh import CellBlock
 
 Values = NDArray[Any]
 SCALAR = "SCAL"
+ObjectRule = Callable[[str, object, object], object]
+"""Sum, product ... of two objects that cells hold, from the sign and the two."""
 
 
 def rebuilt(block: CellFieldBlock, components: Mapping[str, Values]) -> CellFieldBlock:
@@ -75,7 +75,9 @@ def _support(a: CellFieldBlock, b: CellFieldBlock, names: Iterable[str]) -> Cell
     return b if count[1] > count[0] else a
 
 
-def added(a: CellField, b: CellField, factor: float = 1.0) -> CellField:
+def added(
+    a: CellField, b: CellField, factor: float = 1.0, objects: ObjectRule | None = None
+) -> CellField:
     """`a + factor * b`: common components of common zones add up, the others are kept."""
     blocks = list(a.blocks)
     for block in b.blocks:
@@ -84,7 +86,7 @@ def added(a: CellField, b: CellField, factor: float = 1.0) -> CellField:
             scaled = {k: _scaled(v, factor) for k, v in block.components.items()}
             blocks.append(rebuilt(block, scaled))
         else:
-            blocks[place] = _added_block(blocks[place], block, factor)
+            blocks[place] = _added_block(blocks[place], block, factor, objects)
     return CellField(tuple(blocks), a.title or b.title)
 
 
@@ -92,7 +94,9 @@ def _scaled(values: Values, factor: float) -> Values:
     return values if values.dtype == object or factor == 1.0 else values * factor
 
 
-def _added_block(a: CellFieldBlock, b: CellFieldBlock, factor: float) -> CellFieldBlock:
+def _added_block(
+    a: CellFieldBlock, b: CellFieldBlock, factor: float, objects: ObjectRule | None
+) -> CellFieldBlock:
     made = dict(a.components)
     for name, values in b.components.items():
         if name not in made:
@@ -100,35 +104,31 @@ def _added_block(a: CellFieldBlock, b: CellFieldBlock, factor: float) -> CellFie
             continue
         _fitted(name, a, b)
         if made[name].dtype == object or values.dtype == object:
-            made[name] = _added_objects(name, made[name], values, factor)
+            sign = "+" if factor == 1.0 else "-"
+            made[name] = _of_objects(name, sign, made[name], values, objects)
         else:
             made[name] = made[name] + factor * values
     return rebuilt(_support(a, b, made), made)
 
 
-def _added_objects(name: str, a: Values, b: Values, factor: float) -> Values:
-    """Sums of curves (or of a curve and a number), cell by cell; equal pairs are added once."""
+def _of_objects(name: str, sign: str, a: Values, b: Values, objects: ObjectRule | None) -> Values:
+    """Objects (or an object and a number) combined point by point; equal pairs once."""
+    if objects is None:
+        raise FieldError("kernel.fields.component-holds-objects-not", name=name)
     wide = np.broadcast_shapes(a.shape, b.shape)
     x, y = np.broadcast_to(a, wide).ravel(), np.broadcast_to(b, wide).ravel()
     made = np.empty(x.size, dtype=object)
-    known: dict[tuple[int, int], object] = {}
+    known: dict[tuple[object, object], object] = {}
     for i, (left, right) in enumerate(zip(x, y, strict=True)):
-        pair = id(left), id(right)
+        pair = _pair_key(left), _pair_key(right)
         if pair not in known:
-            known[pair] = _added_object(name, left, right, factor)
+            known[pair] = objects(sign, left, right)
         made[i] = known[pair]
     return made.reshape(wide)
 
 
-def _added_object(name: str, a: object, b: object, factor: float) -> object:
-    if isinstance(a, Curve) and isinstance(b, Curve):
-        return combined(a, b, "+", lambda u, v: u + factor * v)
-    raise FieldError(
-        "kernel.fields.component-holds-objects-types",
-        name=name,
-        name_2=type(a).__name__,
-        name_3=type(b).__name__,
-    )
+def _pair_key(item: object) -> object:
+    return item if isinstance(item, float) else id(item)
 
 
 def united(a: CellField, b: CellField) -> CellField:
@@ -160,7 +160,9 @@ def _agree(a: Values, b: Values) -> bool:
     return bool(np.allclose(a, b, rtol=1e-6, atol=0.0)) if a.shape == b.shape else False
 
 
-def multiplied(a: CellField, b: CellField, divide: bool = False) -> CellField:
+def multiplied(
+    a: CellField, b: CellField, divide: bool = False, objects: ObjectRule | None = None
+) -> CellField:
     """Product (or quotient) by a scalar field, or component by component.
 
     Raises
@@ -177,23 +179,27 @@ def multiplied(a: CellField, b: CellField, divide: bool = False) -> CellField:
                 n_cells=len(mine.cells),
                 cell_type=mine.cells.cell_type,
             )
-        blocks.append(_multiplied_block(mine, other, divide))
+        blocks.append(_multiplied_block(mine, other, divide, objects))
     return CellField(tuple(blocks), a.title)
 
 
-def _multiplied_block(a: CellFieldBlock, b: CellFieldBlock, divide: bool) -> CellFieldBlock:
-    run = _quotient if divide else np.multiply
+def _multiplied_block(
+    a: CellFieldBlock, b: CellFieldBlock, divide: bool, objects: ObjectRule | None
+) -> CellFieldBlock:
+    def run(name: str, x: Values, y: Values) -> Values:
+        return _product(name, x, y, divide, objects)
+
     if len(b.components) == 1 and (SCALAR in b.components or len(a.components) > 1):
         (factor,) = b.components.values()
-        made = {k: run(numeric(k, v), factor) for k, v in a.components.items()}
+        made = {k: run(k, v, factor) for k, v in a.components.items()}
     elif list(a.components) == [SCALAR] and not divide:
         factor = a.components[SCALAR]
-        made = {k: run(factor, numeric(k, v)) for k, v in b.components.items()}
+        made = {k: run(k, factor, v) for k, v in b.components.items()}
     elif len(a.components) == len(b.components) == 1:
         ((name, x),), (y,) = a.components.items(), b.components.values()
-        made = {name: run(x, y)}
+        made = {name: run(name, x, y)}
     elif set(a.components) == set(b.components):
-        made = {k: run(numeric(k, v), b.components[k]) for k, v in a.components.items()}
+        made = {k: run(k, v, b.components[k]) for k, v in a.components.items()}
     else:
         raise FieldError(
             "kernel.fields.field-field-not-defined-2",
@@ -203,7 +209,13 @@ def _multiplied_block(a: CellFieldBlock, b: CellFieldBlock, divide: bool) -> Cel
     return rebuilt(_support(a, b, made), made)
 
 
-def _quotient(a: Values, b: Values) -> Values:
+def _product(
+    name: str, a: Values, b: Values, divide: bool, objects: ObjectRule | None = None
+) -> Values:
+    if a.dtype == object or b.dtype == object:
+        return _of_objects(name, "/" if divide else "*", a, b, objects)
+    if not divide:
+        return np.asarray(a * b)
     if np.any(b == 0):
         raise FieldError("kernel.fields.field-divide-zero")
     return np.asarray(a / b)
@@ -214,19 +226,25 @@ def multiplied_by_names(
     b: CellField,
     names: tuple[Iterable[str], Iterable[str], Iterable[str]],
     divide: bool = False,
+    factors: Iterable[float] | None = None,
 ) -> CellField:
-    """Components of `a` times components of `b` under new names, pair by pair."""
-    run = _quotient if divide else np.multiply
+    """Components of `a` times components of `b` under new names, pair by pair.
+
+    Each product (or quotient) is multiplied (divided) by its factor, if there are some.
+    """
     pairs = list(zip(*names, strict=True))
+    weights = [1.0] * len(pairs) if factors is None else list(factors)
     blocks = []
     for mine in a.blocks:
         other = next((o for o in b.blocks if same_cells(mine.cells, o.cells)), None)
         if other is None:
             continue
         made: dict[str, Values] = {}
-        for left, right, name in pairs:
+        for (left, right, name), weight in zip(pairs, weights, strict=True):
             if left in mine.components and right in other.components:
-                value = run(mine.components[left], other.components[right])
+                x, y = numeric(left, mine.components[left]), numeric(right, other.components[right])
+                value = _product(name, x, y, divide)
+                value = value / weight if divide else value * weight
                 made[name] = made[name] + value if name in made else value
         blocks.append(rebuilt(_support(mine, other, made), made))
     return CellField(tuple(blocks), a.title)

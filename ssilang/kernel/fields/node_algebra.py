@@ -10,6 +10,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.fields.node_field import Nature, NodeField, NodeValues
+from ssilang.kernel.mesh.nodes import NodeTable
 
 Function = Callable[[Any], Any]
 SCALAR = "SCAL"
@@ -89,11 +90,11 @@ def united(a: NodeField, b: NodeField, check: bool = True) -> NodeField:
     made = dict(a.components)
     for name, part in b.components.items():
         mine = made.get(name)
-        made[name] = part if mine is None else _merged(name, mine, part, check)
+        made[name] = part if mine is None else _merged(a.table, name, mine, part, check)
     return rebuilt(a, made)
 
 
-def _merged(name: str, a: NodeValues, b: NodeValues, check: bool) -> NodeValues:
+def _merged(table: NodeTable, name: str, a: NodeValues, b: NodeValues, check: bool) -> NodeValues:
     both, ia, ib = np.intersect1d(a.nodes, b.nodes, return_indices=True)
     gap = np.abs(a.values[ia] - b.values[ib])
     scale = np.maximum(np.abs(a.values[ia]), np.abs(b.values[ib]))
@@ -105,7 +106,7 @@ def _merged(name: str, a: NodeValues, b: NodeValues, check: bool) -> NodeValues:
             name=name,
             values=a.values[ia[k]],
             values_2=b.values[ib[k]],
-            both=both[k] + 1,
+            both=table.told(both[k]),
         )
     nodes = np.union1d(a.nodes, b.nodes)
     values = np.zeros(len(nodes))

@@ -11,6 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.elements.catalog import support_rule
 from ssilang.kernel.elements.families import register_family
 from ssilang.kernel.elements.family import (
@@ -111,6 +112,8 @@ class JointFamily(ElementFamily):
     def moduli(self, zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
         """Diagonal stiffness (n, g, s, s) at the joint's points."""
         joints = joint_cells(zone, parameters)
+        if "ANISOTROPE" in zone.behaviour:
+            return _full_moduli(joints, parameters, len(self.stress_names(zone)))
         n, g = joints.weights.shape
         order = component_order(zone)
         tangent = elastic_tangent(joint_parameters(joints, parameters), len(order))
@@ -147,6 +150,21 @@ class JointFamily(ElementFamily):
             rows = [i for i, u in enumerate(layout.unknowns) if u == unknown]
             values[:, np.array(rows)[:, None], rows] = scalar
         return values, layout
+
+
+def _full_moduli(joints: JointCells, given: ZoneField, size: int) -> FloatArray:
+    """Symmetric moduli (n, g, size, size) of a joint of two points, term by term (D11 D21 ...).
+
+    The components stand in the order of the stresses: normal force, shear, moments.
+    """
+    full = np.zeros((*joints.weights.shape, size, size))
+    for i in range(size):
+        for j in range(i + 1):
+            value = _first_given(joints, given, (f"D{i + 1}{j + 1}",))
+            full[..., i, j] = full[..., j, i] = value
+    if (np.linalg.eigvalsh(full)[..., 0] < -1e-9 * np.abs(full).max()).any():
+        raise MaterialError("kernel.interface.moduli-not-positive")
+    return full
 
 
 def _first_given(joints: JointCells, given: ZoneField, names: tuple[str, ...]) -> FloatArray:

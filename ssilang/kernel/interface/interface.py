@@ -203,7 +203,9 @@ def _places(numbering: Numbering, node: int, names: tuple[str, ...]) -> list[int
     if min(found) < 0:
         missing = names[found.index(min(found))]
         raise FieldError(
-            "kernel.interface.joint-needs-node-matrices", missing=missing, node=node + 1
+            "kernel.interface.joint-needs-node-matrices",
+            missing=missing,
+            node=numbering.table.told(node),
         )
     return found
 
@@ -242,7 +244,7 @@ def _jump_matrix(keys: IntArray, names: tuple[str, ...], numbering: Numbering) -
         raise FieldError(
             "kernel.interface.joint-needs-node-matrices",
             missing=names[i],
-            node=keys[pair, side] + 1,
+            node=numbering.table.told(keys[pair, side]),
         )
     rows = np.broadcast_to(np.arange(n_pairs * d).reshape(n_pairs, 1, d), columns.shape)
     signs = np.broadcast_to(np.array([1.0, -1.0])[None, :, None], columns.shape)

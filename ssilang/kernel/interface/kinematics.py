@@ -243,8 +243,9 @@ def point_values(
 ) -> FloatArray | None:
     """A component at the joint's points (n, g), None if it is not given.
 
-    Values constant in the cell are repeated; values at the cell's nodes are interpolated, as the
-    mean of both sides; values at as many points as the joint has are taken as they are.
+    Values constant in the cell are repeated; values at the cell's nodes, or at those of one side,
+    are interpolated, as the mean of both sides; values at as many points as the joint has are
+    taken as they are.
     """
     if given is None or name not in given:
         return None
@@ -258,8 +259,10 @@ def point_values(
     g, m = shape.shape
     values = np.broadcast_to(values.astype(float, copy=False), (n_cells, values.shape[1]))
     if values.shape[1] == 2 * m and support == "NOEUD":
-        mean: FloatArray = (values[:, :m] + values[:, m:]) / 2 @ shape.T
-        return mean
+        values = (values[:, :m] + values[:, m:]) / 2
+    if values.shape[1] == m > 1 and support == "NOEUD":
+        interpolated: FloatArray = values @ shape.T
+        return interpolated
     if values.shape[1] in (1, g):
         return np.broadcast_to(values, (n_cells, g)).copy()
     raise MaterialError(

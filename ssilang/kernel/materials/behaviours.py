@@ -21,7 +21,7 @@ ELASTICITIES: dict[str, tuple[str, ...]] = {
     ),
     "SECTION": ("timoshenko",),
     "ORTHOTROPE": (*SOLID_FAMILIES, *_SHELLS, "joint"),
-    "ANISOTROPE": SOLID_FAMILIES,
+    "ANISOTROPE": (*SOLID_FAMILIES, "joint"),  # of joints, those of two points
     "UNIDIRECTIONNEL": SOLID_FAMILIES,
     "MODAL": ("shape",),
     "STATIQUE": ("shape",),
@@ -54,12 +54,34 @@ LAYER_LAWS = ("PARFAIT", "ISOTROPE", "CINEMATIQUE")
 """Plastic laws of thin shells with points across the thickness."""
 
 OTHER_BEHAVIOURS = (
-    "PLASTIQUE_ENDOM", "ENDOMMAGEMENT", "VISCOPLASTIQUE", "VISCO_EXTERNE",
-    "NON_LINEAIRE", "HOMOGENEISE", "ARMATURE",
-    "CAOUTCHOUC", "CHABOCHE1", "CHABOCHE2", "CAM_CLAY", "HUJEUX", "UBIQUITOUS", "BETON",
-    "MOHR_COULOMB", "MAZARS",
+    "NON_LINEAIRE", "HOMOGENEISE", "ARMATURE", "CAOUTCHOUC",
+    # plasticity: of metals, concrete, pipes and global sections, of rock joints, of soils
+    "CHABOCHE1", "CHABOCHE2", "GAUVAIN", "GURSON", "STEINBERG", "ZERILLI", "PRESTON", "HINTE",
+    "BETON", "OTTOSEN", "OTTOVARI", "BETOCYCL", "DRUCKER_PRAGER_2", "ENDOMMAGEABLE", "GLOBAL",
+    "TUYAU_FISSURE", "LINESPRING", "BILIN_MOMY", "BILIN_EFFZ", "TAKEDA_MOMY", "TAKEMO_EFFZ",
+    "BA1D", "ACIER_UNI", "ACIER_ANCRAGE", "BETON_UNI", "INTIMP", "FRAGILE_UNI", "STRUT_UNI",
+    "CISAIL_NL", "INFILL_UNI", "PARFAIT_ANCRAGE", "RICBET_UNI", "OUGLOVA", "LIAISON_ACBE",
+    "ANCRAGE_ELIGEHAUSEN", "INTJOI", "AMADEI", "CAM_CLAY", "HUJEUX", "UBIQUITOUS",
+    "MOHR_COULOMB", "MRS_LADE", "DP_SOL", "IWPR3D_SOL", "VMT_FEFP", "RHMC_FEFP",
+    "POWDER_FEFP", "POWDERCAP_FEFP",
+    # damage
+    "ENDOMMAGEMENT", "MAZARS", "ROTATING_CRACK", "SIC_SIC", "MVM", "SICSCAL", "SICTENS",
+    "DAMAGE_TC", "DESMORAT", "FATSIN", "RICRAG", "GLRC_DM", "EFEM", "RICBET", "RICCOQ", "CONCYC",
+    "PLASTIQUE_ENDOM", "PSURY", "ROUSSELIER", "GURSON2", "DRAGON", "BETON_URGC", "BETON_INSA",
+    "BETON_DYNAR_LMT", "ENDO_PLAS",
+    # creep and viscosity
+    "POLYNOMIAL", "BLACKBURN", "BLACKBURN_2", "LEMAITRE", "RCCMR_316", "RCCMR_304", "CERAMIQUE",
+    "MAXWELL", "MAXOTT", "KELVIN", "VISCOPLASTIQUE", "VISCO_EXTERNE", "GUIONNET", "ONERA", "OHNO",
+    "VISCODOMMAGE", "POUDRE_A", "DDI", "KOCKS", "VISK2", "VISCOHINTE", "MISTRAL", "GATT_MONERIE",
+    "VISCODD", "SYCO1", "SYCO2",
 )  # fmt: skip
 """Laws that Cast3M has and that are not built here: refused by name."""
+
+UNPUBLISHED = {
+    "AMADEI": "FIMU SGMT I0 S0 B0 UP UR KNI FI0 VM",
+    "DRUCKER_PRAGER_2": "GF LTR LCS LBI SIGY EPM EPU LCAR",
+}
+"""Laws whose notice names parameters and no equation, with these parameters."""
 
 IMPEDANCE_LAWS = ("VOIGT", "REUSS", "COMPLEXE")
 """Words that follow IMPEDANCE, beside ELASTIQUE."""

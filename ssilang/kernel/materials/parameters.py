@@ -89,6 +89,12 @@ def material_names(zone: Zone) -> Names:
     """Parameters of the law of a zone."""
     if zone.formulation == "CONTACT":
         return _CONTACT[zone.behaviour[-1]]
+    if is_joint(zone) and "ANISOTROPE" in zone.behaviour:
+        size = 6 if zone.mode is Mode.THREE_DIMENSIONAL else 3
+        terms = ANISOTROPIC[: size * (size + 1) // 2]
+        diagonal = tuple(f"D{i}{i}" for i in range(1, size + 1))
+        rest = tuple(t for t in terms if t not in diagonal)
+        return Names(diagonal, (*rest, "RHO", *JOINT_POINT[6:], *JOINT_THERMAL, *AXES))
     if is_joint(zone):
         law = law_of(zone.behaviour)
         taken = ("RHO", *law.optional, *JOINT_POINT, *JOINT_THERMAL, *AXES)

@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.base.errors import FieldError
+from ssilang.kernel.base.errors import FieldError, KernelError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.fields.node_field import Nature, NodeField, NodeValues
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, Relations, dual_of
@@ -96,13 +96,13 @@ class Numbering:
         return name
 
     def label(self, index: int) -> Sentence:
-        """'UX at node 12' (node counted from 1, as scripts see it)."""
-        return unknown_label(self.name(index), self.nodes[index])
+        """'UX at node 12 (0. 4.)' (node counted from 1, as scripts see it)."""
+        return unknown_label(self.table, self.name(index), self.nodes[index])
 
 
-def unknown_label(name: str, node: int) -> Sentence:
-    """'UX at node 12' for node 11."""
-    return Sentence("kernel.matrices.unknown-at-node", name=name, node=int(node) + 1)
+def unknown_label(table: NodeTable, name: str, node: int) -> Sentence:
+    """'UX at node 12 (0. 4.)' for node 11."""
+    return Sentence("kernel.matrices.unknown-at-node", name=name, node=table.told(node))
 
 
 class ConstraintRows(NamedTuple):
@@ -264,6 +264,32 @@ def _places(block: ElementMatrices, numbering: Numbering) -> NDArray[np.int32]:
     return places
 
 
+NEGATIVE = 1e-12
+"""Share of the largest mass up to which a negative one is rounding."""
+
+
+def negative_mass(mass: sp.csr_array, numbering: Numbering) -> tuple[Sentence, float] | None:
+    """The unknown whose motion the most negative mass resists, and that mass; None without."""
+    diagonal = mass.diagonal()
+    if diagonal.size == 0 or diagonal.min() >= -NEGATIVE * np.abs(diagonal).max():
+        return None
+    worst = int(np.argmin(diagonal))
+    return numbering.label(worst), float(diagonal[worst])
+
+
+def refuse_negative_mass(mass: sp.csr_array, numbering: Numbering) -> None:
+    """Refuse a mass matrix that resists the motion of some unknown with a negative mass.
+
+    Raises
+    ------
+    KernelError
+        Naming the unknown with the most negative one.
+    """
+    found = negative_mass(mass, numbering)
+    if found is not None:
+        raise KernelError("kernel.matrices.mass-negative", unknown=found[0], mass=found[1])
+
+
 def is_symmetric(matrix: Matrix) -> bool:
     """True if every block is declared symmetric and every relation is associated."""
     blocks = all(b.symmetric for b in matrix.blocks)
@@ -354,7 +380,7 @@ def outside(field: NodeField, numbering: Numbering, dual: bool = True) -> list[S
             continue
         code = names.index(name) if name in names else -1
         missing = (numbering.index(part.nodes, code) < 0) & (part.values != 0.0)
-        lost += [unknown_label(name, node) for node in part.nodes[missing]]
+        lost += [unknown_label(field.table, name, node) for node in part.nodes[missing]]
     return lost
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import IntArray
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.fields.node_field import NodeField
@@ -18,6 +19,9 @@ from ssilang.kernel.matrices.assembly import (
 from ssilang.kernel.matrices.from_sparse import matrix_from_sparse
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.matrices.submatrices import together
+
+DEPENDENCE = "DEPENDAN"
+"""Kind of the matrices that give all unknowns by those that relations leave free."""
 
 
 def condensed_on_multipliers(relations: Matrix, inverse_mass: NodeField) -> Matrix:
@@ -60,23 +64,23 @@ def condensed_on_multipliers(relations: Matrix, inverse_mass: NodeField) -> Matr
 def condensed_by_relations(matrix: Matrix, relations: Matrix) -> Matrix:
     """`T^T K T`: the matrix without the unknowns that relations give by the others.
 
+    Parameters
+    ----------
+    relations : Matrix
+        Relations, or the first matrix of `dependence`.
+
     Raises
     ------
     FieldError
         If the relations cannot be eliminated.
     """
-    from ssilang.kernel.solvers.cholesky.elimination import eliminate
-
+    body = Matrix(matrix.table, matrix.blocks, (), matrix.kind)
     rows_only = Matrix(relations.table, (), relations.relations, relations.kind)
-    whole = together(Matrix(matrix.table, matrix.blocks, (), matrix.kind), rows_only)
-    numbering = numbering_of(whole)
-    K = assemble(Matrix(matrix.table, matrix.blocks, (), matrix.kind), numbering)
-    rows = constraint_matrix(rows_only, numbering)
-    found = eliminate(rows.C)
-    if not found.eliminated.all():
-        raise FieldError("kernel.matrices.some-relations-cannot-eliminated")
-    A = sp.csr_array(found.T.T @ K @ found.T)
-    kept = found.masters
+    given = relations.kind == DEPENDENCE
+    numbering = numbering_of(body if given else together(body, rows_only))
+    K = assemble(body, numbering)
+    T, kept = _given(relations, numbering) if given else _eliminated(rows_only, numbering)
+    A = sp.csr_array(T.T @ K @ T)
     masters = Numbering(
         numbering.table,
         numbering.unknowns,
@@ -86,3 +90,65 @@ def condensed_by_relations(matrix: Matrix, relations: Matrix) -> Matrix:
         numbering.version,
     )
     return matrix_from_sparse(A, masters, matrix.kind, is_symmetric(matrix))
+
+
+def _eliminated(relations: Matrix, numbering: Numbering) -> tuple[sp.csr_array, IntArray]:
+    """T (n, r) and the r unknowns that stay."""
+    from ssilang.kernel.solvers.cholesky.elimination import eliminate
+
+    rows = constraint_matrix(relations, numbering)
+    if not rows.C.shape[0]:
+        raise FieldError("kernel.matrices.matrix-no-relation")
+    found = eliminate(rows.C)
+    if not found.eliminated.all():
+        raise FieldError("kernel.matrices.some-relations-cannot-eliminated")
+    return found.T, found.masters
+
+
+def _given(matrix: Matrix, numbering: Numbering) -> tuple[sp.csr_array, IntArray]:
+    """The same from the matrix of `dependence`; unknowns that it does not know stay."""
+    parts = []
+    known = np.zeros(numbering.size, dtype=bool)
+    for block in matrix.blocks:
+        nodes = block.table.resolve(block.raw_nodes)
+        place = [
+            numbering.index(nodes[:, k], numbering.code(name))
+            for k, name in zip(block.local, block.unknowns, strict=True)
+        ]
+        for i, j in np.ndindex(len(place), len(place)):
+            values, there = block.values[:, i, j], (place[i] >= 0) & (place[j] >= 0)
+            known[place[i][there]] = known[place[j][there]] = True
+            kept = there & (values != 0.0)
+            parts.append((values[kept], place[i][kept], place[j][kept]))
+    free = np.flatnonzero(~known)
+    parts.append((np.ones(len(free)), free, free))
+    v, i, j = (np.concatenate(p) for p in zip(*parts, strict=True))
+    T = sp.csr_array((v, (i, j)), shape=(numbering.size, numbering.size))
+    masters = np.flatnonzero(np.diff(T.tocsc().indptr))
+    return sp.csr_array(T[:, masters]), masters
+
+
+def dependence(matrix: Matrix) -> tuple[Matrix, Matrix]:
+    """Matrices of `u = T v` and of `g = T^T f`, on all unknowns of a matrix with relations.
+
+    The first takes and gives unknowns (UX to UX), the second forces (FX to FX). Rows and columns
+    of the unknowns that stay are those of the identity.
+
+    Raises
+    ------
+    FieldError
+        Without relations, or if they cannot be eliminated.
+    """
+    numbering = numbering_of(matrix)
+    found, masters = _eliminated(matrix, numbering)
+    order = np.arange(len(masters))
+    shape = len(order), numbering.size
+    ones = sp.csr_array((np.ones(len(order)), (order, masters)), shape=shape)
+    T = sp.csr_array(found @ ones)
+    made = []
+    for A, names in ((T, numbering.unknowns), (sp.csr_array(T.T), numbering.duals)):
+        marks = Numbering(
+            numbering.table, names, names, numbering.nodes, numbering.codes, numbering.version
+        )
+        made.append(matrix_from_sparse(A, marks, DEPENDENCE, False))
+    return made[0], made[1]

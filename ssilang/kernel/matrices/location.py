@@ -9,7 +9,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.elements.shapes.polygons import SIDES, polygon_excess
 from ssilang.kernel.elements.shapes.reference import (
-    REFERENCE_CELLS,
+    reference_cell,
     shape_functions,
     shape_gradients,
 )
@@ -67,7 +67,7 @@ def _inverse_map(
     cell_type: str, corners: FloatArray, points: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """Reference coordinates (n, dim) by Gauss-Newton, and the distance left over (n,)."""
-    reference = REFERENCE_CELLS[cell_type]
+    reference = reference_cell(cell_type)
     dim = reference.nodes.shape[1]
     xi = np.tile(reference.nodes.mean(axis=0), (len(points), 1))
     for _ in range(15):
@@ -89,7 +89,7 @@ def _inverse_map(
 
 def _outside(cell_type: str, xi: FloatArray) -> FloatArray:
     """How far reference coordinates lie outside the cell, zero inside, shape (n,)."""
-    shape = REFERENCE_CELLS[cell_type].shape
+    shape = reference_cell(cell_type).shape
     if cell_type in SIDES:
         excess = polygon_excess(SIDES[cell_type], xi)
     else:

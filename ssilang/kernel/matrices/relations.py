@@ -99,7 +99,7 @@ def rows_from_table(
     kept = coefficients != 0.0
     counts = kept.sum(axis=1)
     if (counts == 0).any():
-        node = int(nodes[np.argmin(counts), 0]) + 1
+        node = table.told(nodes[np.argmin(counts), 0])
         raise FieldError("kernel.matrices.relation-node-no-coefficient", node=node)
     names = np.array(unknowns, dtype=object)
     where = np.broadcast_to(np.arange(len(unknowns)), kept.shape)[kept]
@@ -156,7 +156,7 @@ def blocked_along(
     d = np.broadcast_to(directions, (len(nodes), len(unknowns))).astype(float)
     length = np.linalg.norm(d, axis=1, keepdims=True)
     if (length == 0.0).any():
-        node = int(nodes[int(np.argmin(length))]) + 1
+        node = table.told(nodes[int(np.argmin(length))])
         raise FieldError("kernel.matrices.direction-node-no-length", node=node)
     d = d / length
     d[np.abs(d) < 1e-15] = 0.0
@@ -180,7 +180,7 @@ def radial_directions(
         away = away - np.outer(away @ unit, unit)
     distance = np.linalg.norm(away, axis=1)
     if (distance <= 1e-12 * max(distance.max(initial=0.0), 1e-300)).any():
-        node = int(nodes[int(np.argmin(distance))]) + 1
+        node = table.told(nodes[int(np.argmin(distance))])
         raise MeshError("kernel.matrices.node-lies-axis-no", node=node)
     return away
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import IntArray
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
-from ssilang.kernel.matrices.assembly import assemble, constraint_matrix, numbering_of
+from ssilang.kernel.matrices.assembly import Numbering, assemble, constraint_matrix, numbering_of
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, Relations
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.messages.message import Teller
@@ -231,15 +231,20 @@ def listed(matrix: Matrix, say: Teller, values: bool = True) -> list[str]:
         lines.append(say("kernel.matrices.listed-conditions", count=len(rows.multipliers)))
         for i, node in enumerate(rows.multipliers[: 20 if values else 0]):
             row = rows.C[[i]]
-            labels = [numbering.label(int(j)) for j in row.indices[:12]]
             terms = " ".join(
-                f"{v:+.6g} {say(label.code, **label.data)}"
-                for label, v in zip(labels, row.data[:12], strict=True)
+                f"{v:+.6g} {_unknown(numbering, int(j), say)}"
+                for j, v in zip(row.indices[:12], row.data[:12], strict=True)
             )
             more = " ..." if row.nnz > 12 else ""
             multiplier = say("kernel.matrices.listed-multiplier", node=node + 1)
             lines.append(f"    {terms}{more} {signs[int(rows.sense[i])]} d, {multiplier}")
     return lines
+
+
+def _unknown(numbering: Numbering, j: int, say: Teller) -> str:
+    """'UX at node 12'."""
+    node = int(numbering.nodes[j]) + 1
+    return say("kernel.matrices.unknown-at-node", name=numbering.name(j), node=node)
 
 
 def _shown(block: ElementMatrices, i: int, say: Teller) -> str:

@@ -8,6 +8,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import IntArray
 from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.mesh.combine import take
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 
 
@@ -96,6 +97,13 @@ def inner_contour(mesh: Mesh) -> Mesh:
 def envelope(mesh: Mesh) -> Mesh:
     """Faces of volume cells that belong to one cell only, oriented as the cells' faces are."""
     return _boundary(mesh, 3, (1, 1))
+
+
+def lone_surfaces(mesh: Mesh) -> Mesh:
+    """Surface cells whose nodes no other surface cell of the same type shares."""
+    blocks = (b for b in mesh.blocks if b.kind.dimension == 2 and not b.kind.joint)
+    flat = Mesh(mesh.nodes, tuple(blocks))
+    return take(flat, lambda b: sharing(b.connectivity)[0] == 1)
 
 
 def chained(mesh: Mesh) -> Mesh:

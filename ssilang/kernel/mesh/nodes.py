@@ -6,6 +6,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import MeshError
+
+FARTHEST = 1e100  # coordinates stay below: volumes are finite numbers
+
+
+def told_coordinates(values: FloatArray) -> str:
+    """Coordinates (n,) as messages write them, in six digits: '0. 4.'."""
+    digits = (f"{x + 0.0:.6g}" for x in values)
+    return " ".join(d if any(s in d for s in ".en") else f"{d}." for d in digits)
 
 
 class NodeTable:
@@ -45,8 +54,16 @@ class NodeTable:
         coordinates : array (m, 1..3)
             Missing columns are set to zero.
         density : float or array (m,)
+
+        Raises
+        ------
+        MeshError
+            For a coordinate that is no finite number, or so large that its cube is none.
         """
         rows = np.atleast_2d(np.asarray(coordinates, dtype=float))
+        if not (np.abs(rows) < FARTHEST).all():
+            far = rows[~(np.abs(rows) < FARTHEST)][0]
+            raise MeshError("kernel.mesh.node-out-of-range", value=far, limit=FARTHEST)
         m = len(rows)
         self._reserve(self._count + m)
         ids = np.arange(self._count, self._count + m, dtype=np.int64)
@@ -60,6 +77,14 @@ class NodeTable:
     def resolve(self, ids: IntArray) -> IntArray:
         """The surviving node numbers of `ids` after all merges (same shape)."""
         return self._alias[ids]
+
+    def shown(self, coordinates: FloatArray) -> FloatArray:
+        """The coordinates (3,) that messages write: two where no node of the table has a third."""
+        return coordinates[: 3 if self.coordinates[:, 2].any() else 2]
+
+    def told(self, node: int) -> str:
+        """A node as messages name it: its number, from 1, and where it is: '12 (0. 4.)'."""
+        return f"{int(node) + 1} ({told_coordinates(self.shown(self.coordinates[int(node)]))})"
 
     def merge(self, kept: IntArray, dropped: IntArray) -> None:
         """Make every `dropped[i]` an alias of `kept[i]` (arrays (m,), resolved on the way)."""

@@ -174,7 +174,8 @@ def check_consistent(mesh: Mesh) -> Mesh:
     for dimension in (1, 2):
         clash = _opposed(mesh, dimension)
         if len(clash):
-            raise MeshError("kernel.mesh.adjacent-cells-described-opposite", nodes=clash[:4] + 1)
+            told = [mesh.nodes.told(n) for n in clash[:4]]
+            raise MeshError("kernel.mesh.adjacent-cells-described-opposite", nodes=told)
     return mesh
 
 

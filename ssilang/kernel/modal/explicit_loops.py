@@ -60,25 +60,108 @@ class Saved(NamedTuple):
     records: FloatArray
 
 
+class Work(NamedTuple):
+    """Forces of links, damping and stiffness times motion, all forces, velocity seen by the links.
+
+    Each (n,); `record` (L, RECORDS) is what the links tell of the last evaluation.
+    """
+
+    links: FloatArray
+    Cv: FloatArray
+    Kq: FloatArray
+    total: FloatArray
+    rate: FloatArray
+    record: FloatArray
+
+
 @compiled
-def outer_force(loads: Loads, i: int) -> FloatArray:
-    """Force on the modes at the half step i."""
+def new_work(n: int, count: int, saved: Saved) -> Work:
+    """Room for what each evaluation of forces needs, of n modes and `count` links."""
+    record = np.zeros((count, saved.records.shape[2]))
+    return Work(np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n), record)
+
+
+@compiled
+def outer_force(loads: Loads, i: int, f: FloatArray) -> None:
+    """Force on the modes at the half step i, into `f` (n,)."""
     spaces, amplitudes = loads.spaces, loads.amplitudes
-    f = np.zeros(spaces.shape[1])
-    for p in range(spaces.shape[0]):
-        for j in range(spaces.shape[1]):
+    for j in range(len(f)):
+        f[j] = 0.0
+        for p in range(spaces.shape[0]):
             f[j] += amplitudes[p, i] * spaces[p, j]
-    return f
 
 
 @compiled
-def times_vector(A: FloatArray, x: FloatArray) -> FloatArray:
-    """`A x` without BLAS: the matrices are small."""
-    y = np.zeros(len(x))
+def times_vector(A: FloatArray, x: FloatArray, y: FloatArray) -> None:
+    """`y = A x` without BLAS: the matrices are small."""
     for i in range(len(x)):
+        y[i] = 0.0
         for j in range(len(x)):
             y[i] += A[i, j] * x[j]
-    return y
+
+
+@compiled
+def inner_force(system: System, q: FloatArray, v: FloatArray, work: Work, f: FloatArray) -> None:
+    """Forces of links, dampers and springs, into `f` (n,)."""
+    times_vector(system.C, v, work.Cv)
+    times_vector(system.K, q, work.Kq)
+    for j in range(len(f)):
+        f[j] = work.links[j] - work.Cv[j] - work.Kq[j]
+
+
+@compiled
+def acceleration(
+    inverse: FloatArray, system: System, q: FloatArray, v: FloatArray, outer: FloatArray,
+    work: Work, a: FloatArray,
+) -> None:  # fmt: skip
+    """Acceleration under all forces, into `a` (n,)."""
+    times_vector(system.K, q, work.Kq)
+    times_vector(system.C, v, work.Cv)
+    for j in range(len(a)):
+        work.total[j] = outer[j] + work.links[j] - work.Kq[j] - work.Cv[j]
+    times_vector(inverse, work.total, a)
+
+
+@compiled
+def links_push(
+    q: FloatArray, q_before: FloatArray, dt: float, t: float, links: LinkArrays, state: FloatArray,
+    work: Work,
+) -> None:  # fmt: skip
+    """Forces of the links, into `work.links`; they see the velocity since `q_before`."""
+    for j in range(len(q)):
+        work.rate[j] = (q[j] - q_before[j]) / dt
+    link_forces(q, work.rate, t, links, state, work.record, work.links)
+
+
+@compiled
+def add_work(
+    work: FloatArray, force: FloatArray, last: FloatArray, q: FloatArray, q_last: FloatArray
+) -> None:
+    """Add the work of a force between two displacements, by the trapezoidal rule."""
+    for j in range(len(q)):
+        work[j] += 0.5 * (last[j] + force[j]) * (q[j] - q_last[j])
+
+
+@compiled
+def keep(saved: Saved, i: int, variable: int, values: FloatArray) -> None:
+    """Put a vector (n,) into its row of a saved step."""
+    for j in range(len(values)):
+        saved.values[i, variable, j] = values[j]
+
+
+@compiled
+def keep_links(saved: Saved, i: int, record: FloatArray) -> None:
+    """Put the records of the links (L, RECORDS) into a saved step."""
+    for link in range(record.shape[0]):
+        for column in range(record.shape[1]):
+            saved.records[i, link, column] = record[link, column]
+
+
+@compiled
+def replace(old: FloatArray, new: FloatArray) -> None:
+    """Copy a vector (n,) into another one."""
+    for j in range(len(old)):
+        old[j] = new[j]
 
 
 @compiled
@@ -89,52 +172,68 @@ def de_vogelaere(
 
     The half velocity takes a parabola through the accelerations at -1/2, 0 and 1/2.
     """
-    C, K, t0, h, steps, every = system.C, system.K, plan.start, plan.h, plan.steps, plan.every
+    t0, h = plan.start, plan.h
     q, v, before, q_before, state = motion.q, motion.v, motion.before, motion.q_before, motion.links
-    values, records = saved.values, saved.records
     n = len(q)
-    fl, record = np.zeros(n), np.zeros((len(links.kinds), records.shape[2]))
-    if not motion.has_before:
-        q_before[:] = q - 0.5 * h * v
-    link_forces(q, (q - q_before) / (0.5 * h), t0, links, state, record, fl)
-    fe = outer_force(loads, 0)
-    inner = fl - times_vector(C, v) - times_vector(K, q)
-    a = times_vector(system.inverse, fe + inner)
-    if not motion.has_before:
-        before[:] = a
-        q_before[:] = q - 0.5 * h * v + h * h / 8.0 * a
-        f = fe + fl - times_vector(K, q_before) - times_vector(C, v - 0.5 * h * a)
-        before[:] = times_vector(system.inverse, f)
+    work = new_work(n, len(links.kinds), saved)
+    fe, feh, inner, innerh = np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n)
+    a, ah, vh, known = np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n)
+    qh, q1, v_before = np.zeros(n), np.zeros(n), np.zeros(n)
     work_out, work_in = np.zeros(n), np.zeros(n)
-    values[0, 0], values[0, 1], values[0, 2] = q, v, q_before
-    values[0, 3], values[0, 4], values[0, 5] = v - 0.5 * h * a, a, before
-    records[0] = record
-    for k in range(1, steps + 1):
+    # the start: accelerations now and half a step before
+    if not motion.has_before:
+        for j in range(n):
+            q_before[j] = q[j] - 0.5 * h * v[j]
+    links_push(q, q_before, 0.5 * h, t0, links, state, work)
+    outer_force(loads, 0, fe)
+    inner_force(system, q, v, work, inner)
+    for j in range(n):
+        work.total[j] = fe[j] + inner[j]
+    times_vector(system.inverse, work.total, a)
+    if not motion.has_before:
+        for j in range(n):
+            q_before[j] = q[j] - 0.5 * h * v[j] + h * h / 8.0 * a[j]
+            v_before[j] = v[j] - 0.5 * h * a[j]
+        acceleration(system.inverse, system, q_before, v_before, fe, work, before)
+    for j in range(n):
+        v_before[j] = v[j] - 0.5 * h * a[j]
+    for variable, vector in enumerate((q, v, q_before, v_before, a, before)):
+        keep(saved, 0, variable, vector)
+    keep_links(saved, 0, work.record)
+    for k in range(1, plan.steps + 1):
         t = t0 + (k - 1) * h
-        qh = q + 0.5 * h * v + h * h / 24.0 * (4.0 * a - before)
-        link_forces(qh, (qh - q) / (0.5 * h), t + 0.5 * h, links, state, record, fl)
-        feh = outer_force(loads, 2 * k - 1)
-        known = v + h / 24.0 * (8.0 * a - before)
-        ah = times_vector(system.half, feh + fl - times_vector(K, qh) - times_vector(C, known))
-        vh = known + 5.0 * h / 24.0 * ah
-        innerh = fl - times_vector(C, vh) - times_vector(K, qh)
-        work_out += 0.5 * (fe + feh) * (qh - q)
-        work_in += 0.5 * (inner + innerh) * (qh - q)
-        q1 = q + h * v + h * h / 6.0 * (a + 2.0 * ah)
-        link_forces(q1, (q1 - qh) / (0.5 * h), t + h, links, state, record, fl)
-        fe = outer_force(loads, 2 * k)
-        known = v + h / 6.0 * (a + 4.0 * ah)
-        a = times_vector(system.full, fe + fl - times_vector(K, q1) - times_vector(C, known))
-        v[:] = known + h / 6.0 * a
-        inner = fl - times_vector(C, v) - times_vector(K, q1)
-        work_out += 0.5 * (fe + feh) * (q1 - qh)
-        work_in += 0.5 * (inner + innerh) * (q1 - qh)
-        q[:], before[:], q_before[:] = q1, ah, qh
-        if k % every == 0:
-            i = k // every
-            values[i, 0], values[i, 1], values[i, 2], values[i, 3] = q, v, qh, vh
-            values[i, 4], values[i, 5], values[i, 6], values[i, 7] = a, ah, work_out, work_in
-            records[i] = record
+        # half a step: displacement, links, acceleration, velocity
+        for j in range(n):
+            qh[j] = q[j] + 0.5 * h * v[j] + h * h / 24.0 * (4.0 * a[j] - before[j])
+            known[j] = v[j] + h / 24.0 * (8.0 * a[j] - before[j])
+        links_push(qh, q, 0.5 * h, t + 0.5 * h, links, state, work)
+        outer_force(loads, 2 * k - 1, feh)
+        acceleration(system.half, system, qh, known, feh, work, ah)
+        for j in range(n):
+            vh[j] = known[j] + 5.0 * h / 24.0 * ah[j]
+        inner_force(system, qh, vh, work, innerh)
+        add_work(work_out, feh, fe, qh, q)
+        add_work(work_in, innerh, inner, qh, q)
+        # the whole step, from its start with what the half step gave
+        for j in range(n):
+            q1[j] = q[j] + h * v[j] + h * h / 6.0 * (a[j] + 2.0 * ah[j])
+            known[j] = v[j] + h / 6.0 * (a[j] + 4.0 * ah[j])
+        links_push(q1, qh, 0.5 * h, t + h, links, state, work)
+        outer_force(loads, 2 * k, fe)
+        acceleration(system.full, system, q1, known, fe, work, a)
+        for j in range(n):
+            v[j] = known[j] + h / 6.0 * a[j]
+        inner_force(system, q1, v, work, inner)
+        add_work(work_out, feh, fe, q1, qh)
+        add_work(work_in, innerh, inner, q1, qh)
+        replace(q, q1)
+        replace(before, ah)
+        replace(q_before, qh)
+        if k % plan.every == 0:
+            i = k // plan.every
+            for variable, vector in enumerate((q, v, qh, vh, a, ah, work_out, work_in)):
+                keep(saved, i, variable, vector)
+            keep_links(saved, i, work.record)
 
 
 @compiled
@@ -142,39 +241,59 @@ def newmark(
     system: System, loads: Loads, plan: Plan, links: LinkArrays, motion: Motion, saved: Saved
 ) -> None:
     """Newmark's scheme with gamma 1/2; links push where the step is predicted to end."""
-    C, K, t0, h, steps, every = system.C, system.K, plan.start, plan.h, plan.steps, plan.every
+    t0, h, beta = plan.start, plan.h, plan.beta
     q, v, before, q_before, state = motion.q, motion.v, motion.before, motion.q_before, motion.links
-    values, records, beta = saved.values, saved.records, plan.beta
     n = len(q)
-    fl, record = np.zeros(n), np.zeros((len(links.kinds), records.shape[2]))
-    if not motion.has_before:
-        q_before[:] = q - h * v
-    link_forces(q, (q - q_before) / h, t0, links, state, record, fl)
-    fe = outer_force(loads, 0)
-    inner = fl - times_vector(C, v) - times_vector(K, q)
-    a = times_vector(system.inverse, fe + inner)
+    work = new_work(n, len(links.kinds), saved)
+    fe, fe1, inner, inner1 = np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n)
+    a, a1, v1, known = np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n)
+    guess, q1, qh, vh, ah = np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n)
     work_out, work_in = np.zeros(n), np.zeros(n)
-    values[0, 0], values[0, 1], values[0, 2] = q, v, q - 0.5 * h * v + h * h / 8.0 * a
-    values[0, 3], values[0, 4], values[0, 5] = v - 0.5 * h * a, a, a
-    records[0] = record
-    for k in range(1, steps + 1):
-        guess = q + h * v + 0.5 * h * h * a
-        link_forces(guess, (guess - q) / h, t0 + k * h, links, state, record, fl)
-        fe1 = outer_force(loads, 2 * k)
-        q1 = q + h * v + h * h * (0.5 - beta) * a
-        known = v + 0.5 * h * a
-        a1 = times_vector(system.full, fe1 + fl - times_vector(K, q1) - times_vector(C, known))
-        q1 += beta * h * h * a1
-        v1 = known + 0.5 * h * a1
-        inner1 = fl - times_vector(C, v1) - times_vector(K, q1)
-        work_out += 0.5 * (fe + fe1) * (q1 - q)
-        work_in += 0.5 * (inner + inner1) * (q1 - q)
-        if k % every == 0:
-            i = k // every
-            values[i, 0], values[i, 1], values[i, 4] = q1, v1, a1
-            values[i, 2] = 0.5 * (q + q1) - h / 8.0 * (v1 - v)
-            values[i, 3], values[i, 5] = 0.5 * (v + v1), 0.5 * (a + a1)
-            values[i, 6], values[i, 7] = work_out, work_in
-            records[i] = record
-        q_before[:], before[:] = q, a
-        q[:], v[:], a, inner, fe = q1, v1, a1, inner1, fe1
+    # the start
+    if not motion.has_before:
+        for j in range(n):
+            q_before[j] = q[j] - h * v[j]
+    links_push(q, q_before, h, t0, links, state, work)
+    outer_force(loads, 0, fe)
+    inner_force(system, q, v, work, inner)
+    for j in range(n):
+        work.total[j] = fe[j] + inner[j]
+    times_vector(system.inverse, work.total, a)
+    for j in range(n):
+        qh[j] = q[j] - 0.5 * h * v[j] + h * h / 8.0 * a[j]
+        vh[j] = v[j] - 0.5 * h * a[j]
+    for variable, vector in enumerate((q, v, qh, vh, a, a)):
+        keep(saved, 0, variable, vector)
+    keep_links(saved, 0, work.record)
+    for k in range(1, plan.steps + 1):
+        # predictor
+        for j in range(n):
+            guess[j] = q[j] + h * v[j] + 0.5 * h * h * a[j]
+            q1[j] = q[j] + h * v[j] + h * h * (0.5 - beta) * a[j]
+            known[j] = v[j] + 0.5 * h * a[j]
+        links_push(guess, q, h, t0 + k * h, links, state, work)
+        outer_force(loads, 2 * k, fe1)
+        # corrector
+        acceleration(system.full, system, q1, known, fe1, work, a1)
+        for j in range(n):
+            q1[j] += beta * h * h * a1[j]
+            v1[j] = known[j] + 0.5 * h * a1[j]
+        inner_force(system, q1, v1, work, inner1)
+        add_work(work_out, fe1, fe, q1, q)
+        add_work(work_in, inner1, inner, q1, q)
+        if k % plan.every == 0:
+            i = k // plan.every
+            for j in range(n):
+                qh[j] = 0.5 * (q[j] + q1[j]) - h / 8.0 * (v1[j] - v[j])
+                vh[j] = 0.5 * (v[j] + v1[j])
+                ah[j] = 0.5 * (a[j] + a1[j])
+            for variable, vector in enumerate((q1, v1, qh, vh, a1, ah, work_out, work_in)):
+                keep(saved, i, variable, vector)
+            keep_links(saved, i, work.record)
+        replace(q_before, q)
+        replace(before, a)
+        replace(q, q1)
+        replace(v, v1)
+        replace(a, a1)
+        replace(inner, inner1)
+        replace(fe, fe1)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.compiled.apart import apart
 from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.modal.links import (
     A0,
@@ -269,6 +270,7 @@ def coupling(kind: int, x: float, v: float, t: float, row: FloatArray) -> float:
     return float(factor * v)
 
 
+@apart
 @compiled
 def link_forces(
     q: FloatArray, v: FloatArray, t: float, links: LinkArrays,

@@ -15,9 +15,11 @@ from ssilang.kernel.matrices.assembly import (
     constraint_matrix,
     is_symmetric,
     numbering_of,
+    refuse_negative_mass,
 )
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.solvers.cholesky.elimination import Elimination, eliminate
+from ssilang.kernel.solvers.factor import Ordering
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,6 +62,13 @@ class ReducedProblem:
             return A
         return sp.csr_array(sp.block_array([[A, self.S.T], [self.S, None]], format="csr"))
 
+    @property
+    def ordering(self) -> Ordering:
+        """Places of the unknowns that stay, for solvers that go by them."""
+        own = np.asarray(abs(self.T).argmax(axis=0)).ravel()
+        points = self.numbering.table.coordinates[self.numbering.nodes[own]]
+        return Ordering(points, np.zeros(0, np.int64))
+
     def restricted(self, kept: IntArray) -> ReducedProblem:
         """The problem with only the unknowns `kept` (k,), the others held at zero."""
         return replace(
@@ -84,7 +93,7 @@ def reduced_problem(
     Raises
     ------
     KernelError
-        If the matrices have no unknown, or a condition is non-associated.
+        If the matrices have no unknown, a condition is non-associated, or a mass is negative.
     """
     parts = [stiffness, mass] if damping is None else [stiffness, mass, damping]
     held = {id(r): r for m in parts for r in m.relations}
@@ -99,6 +108,8 @@ def reduced_problem(
     T = elimination.T
     K, M = assemble(stiffness, numbering), assemble(mass, numbering)
     C = None if damping is None else sp.csr_array(T.T @ assemble(damping, numbering) @ T)
+    if mass.kind.startswith("MASS") and not (M.diagonal() > 0.0).any():
+        refuse_negative_mass(M, numbering)  # a buckling load in its place has both signs
     left = np.flatnonzero(~elimination.eliminated)
     return ReducedProblem(
         numbering,

@@ -21,6 +21,7 @@ from ssilang.kernel.base.errors import (
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import (
+    MULTIPLIER,
     ConstraintRows,
     Numbering,
     assemble,
@@ -340,10 +341,19 @@ def solve(
         if not options.project:
             _taken(load, system.numbering)
         d = imposed_values(load, system.rows.multipliers)
+        _finite(system.numbering, f, d)
         found = system.solve(f, d, options.project)
         pair = (system.rows.multipliers, found.multipliers)
         solutions.append(vector_to_field(found.u, system.numbering, multipliers=pair))
     return solutions
+
+
+def _finite(numbering: Numbering, f: FloatArray, d: FloatArray) -> None:
+    """Refuse second members that hold what no calculation can use."""
+    wrong = np.flatnonzero(~np.isfinite(f))
+    if len(wrong) or not np.isfinite(d).all():
+        at = [numbering.label(int(i)) for i in wrong[:1]]
+        raise KernelError("kernel.statics.load-not-finite", at=at)
 
 
 def _taken(load: NodeField, numbering: Numbering) -> None:
@@ -356,8 +366,8 @@ def _taken(load: NodeField, numbering: Numbering) -> None:
             "kernel.statics.matrix-no-unknown-force",
             lost=lost[:4],
             more=max(len(lost) - 4, 0),
-            above=above[0] + 1 if len(above) else None,
-            below=below[0] + 1 if len(above) else None,
+            above=load.table.told(above[0]) if len(above) else None,
+            below=load.table.told(below[0]) if len(above) else None,
             n_above=len(above),
         )
 
@@ -366,10 +376,16 @@ def reactions(matrix: Matrix, solution: NodeField) -> NodeField:
     """Forces that the conditions in the matrix apply on the body, `-C^T LX` (REAC).
 
     Only the relations of the matrix count; the field is empty if it has none.
+
+    Raises
+    ------
+    KernelError
+        If the solution lacks multipliers of the relations; a field without components is zero.
     """
     numbering = numbering_of(matrix)
     rows = constraint_matrix(matrix, numbering)
-    multipliers = solution.values_at("LX", rows.multipliers)
+    _require_multipliers(rows, numbering, solution)
+    multipliers = solution.values_at(MULTIPLIER, rows.multipliers)
     forces = -(rows.D.T @ multipliers)
     used = np.diff(sp.csc_array(rows.D).indptr) > 0
     whole = vector_to_field(forces, numbering, dual=True)
@@ -380,6 +396,22 @@ def reactions(matrix: Matrix, solution: NodeField) -> NodeField:
         if part is not None and on.any():
             keep[name] = type(part)(part.nodes[on], part.values[on])
     return NodeField(matrix.table, keep, "DISCRET")
+
+
+def _require_multipliers(rows: ConstraintRows, numbering: Numbering, solution: NodeField) -> None:
+    part = solution.components.get(MULTIPLIER)
+    there = np.empty(0, dtype=np.int64) if part is None else part.nodes
+    missing = np.flatnonzero(~np.isin(rows.multipliers, there))
+    if not len(missing) or not solution.components:
+        return
+    held = rows.C[[int(missing[0])]].indices
+    raise KernelError(
+        "kernel.statics.solution-without-multipliers",
+        missing=len(missing),
+        n_rows=len(rows.multipliers),
+        others=len(there),
+        at=[numbering.label(int(i)) for i in held[:1]],
+    )
 
 
 def product(matrix: Matrix, field_: NodeField) -> NodeField:

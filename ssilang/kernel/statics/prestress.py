@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.mesh.nodes import NodeTable
 
 
 @dataclass(frozen=True)
@@ -66,7 +67,7 @@ class Cable:
         return Cable(self.bars[::-1], self.nodes[::-1])
 
 
-def cables_of(cells: IntArray) -> list[Cable]:
+def cables_of(nodes: NodeTable, cells: IntArray) -> list[Cable]:
     """The cables that bars (n, 2) make, each from the end at which its cells begin.
 
     Raises
@@ -76,7 +77,9 @@ def cables_of(cells: IntArray) -> list[Cable]:
     """
     count = np.bincount(cells.ravel())
     if (count > 2).any():
-        raise MeshError("kernel.statics.cable-branches-node", count=int(np.argmax(count)) + 1)
+        raise MeshError(
+            "kernel.statics.cable-branches-node", node=nodes.told(int(np.argmax(count)))
+        )
     touching: dict[int, list[int]] = {}
     for bar, ends in enumerate(cells.tolist()):
         for node in ends:
@@ -89,16 +92,16 @@ def cables_of(cells: IntArray) -> list[Cable]:
         if not left[touching[start][0]]:
             continue
         bars: list[int] = []
-        nodes, node = [start], start
+        along, node = [start], start
         while following := [b for b in touching[node] if left[b]]:
             left[following[0]] = False
             node = int(cells[following[0]].sum() - node)
             bars.append(following[0])
-            nodes.append(node)
-        cables.append(Cable(np.array(bars), np.array(nodes)))
+            along.append(node)
+        cables.append(Cable(np.array(bars), np.array(along)))
     if left.any():
-        node = int(cells[np.argmax(left), 0]) + 1
-        raise MeshError("kernel.statics.cable-node-ring-no", node=node)
+        told = nodes.told(cells[np.argmax(left), 0])
+        raise MeshError("kernel.statics.cable-node-ring-no", node=told)
     return cables
 
 

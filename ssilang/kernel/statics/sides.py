@@ -6,6 +6,8 @@ of its nodes alone. Which body stands on which side is seen from the cells that 
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -18,14 +20,34 @@ from ssilang.kernel.interface.kinematics import JointCells, joint_cells
 from ssilang.kernel.materials.model import Model
 from ssilang.kernel.matrices.matrix import Matrix
 
+_SAME_PLACE = 1e-6
 AGAINST = -0.1
 """Cosine of the normal with the way from lower to upper body, below which sides are swapped."""
 
 
+@dataclass(frozen=True)
+class SwappedJoints:
+    """A zone of joints that is the wrong way round.
+
+    Attributes
+    ----------
+    middle : array (3,)
+    points : bool
+        Whether they are joints of two points, whose direction was given.
+    overlap : float
+        How far the sides lie inside each other (m), 0 where they lie at the same place: there
+        the order of the nodes alone decides.
+    """
+
+    middle: FloatArray
+    points: bool
+    overlap: float
+
+
 def swapped_joints(
     stiffness: Matrix, model: Model | None, characteristics: CellField | None
-) -> tuple[FloatArray, ...]:
-    """Middle (3,) of each zone of joints all of whose cells have their bodies the wrong way round.
+) -> tuple[SwappedJoints, ...]:
+    """Each zone of joints all of whose cells have their bodies the wrong way round.
 
     Bodies are cells of `stiffness` that hold all nodes of a side; joints with no such cells, or
     with cells along their own plane (a footing of beams), are left alone.
@@ -39,8 +61,18 @@ def swapped_joints(
             continue
         cosine, middle = _cosines(joints, stiffness)
         if len(cosine) and (cosine < AGAINST).all():
-            found.append(middle)
+            found.append(SwappedJoints(middle, zone.element == "JOI1", _overlap(joints)))
     return tuple(found)
+
+
+def _overlap(joints: JointCells) -> float:
+    """Largest distance of the sides of a joint, 0 if it is rounding beside its size."""
+    points = joints.zone.cells.nodes.coordinates
+    resolve = joints.zone.cells.nodes.resolve
+    upper, lower = points[resolve(joints.upper)], points[resolve(joints.lower)]
+    gap = float(np.linalg.norm(upper - lower, axis=-1).max())
+    size = float(np.ptp(upper.reshape(-1, 3), axis=0).max())
+    return gap if gap > _SAME_PLACE * size else 0.0
 
 
 def _cosines(joints: JointCells, stiffness: Matrix) -> tuple[FloatArray, FloatArray]:

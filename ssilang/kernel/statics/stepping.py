@@ -227,7 +227,7 @@ def _lost(problem: Problem, motion: Motion, step: int, outcome: StepOutcome) -> 
             time=problem.times[step],
             open_points=open_points,
             n_points=joints.n_points,
-            node=node + 1,
+            node=problem.numbering.table.told(node),
         )
     return ConvergenceError(
         "kernel.statics.no-equilibrium-found-residual",

@@ -160,7 +160,7 @@ def _added(problem: Problem, matrix: Matrix | None) -> sp.csr_array:
         raise KernelError(
             "kernel.stepping.matrix-added-during-calculation",
             lost=lost[0][1],
-            lost_2=lost[0][0] + 1,
+            lost_2=matrix.table.told(lost[0][0]),
         )
     return assemble(bare, problem.numbering)
 

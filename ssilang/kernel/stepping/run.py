@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.base.errors import ConvergenceError
+from ssilang.kernel.base.errors import ConvergenceError, KernelError
 from ssilang.kernel.stepping.choose import Case, Choice, choose, method_of, refuse_combinations
 from ssilang.kernel.stepping.driven import Drive, Driver
 from ssilang.kernel.stepping.problem.bodies import full_uplift
@@ -56,7 +56,8 @@ class History:
     reduction : Reduction or None
         Of runs on a reduced basis.
     again : callable or None
-        Finds the energies of a run that did not keep them; `worst` is then its imbalance.
+        Finds the energies of a run that did not keep them; `worst` is then its imbalance, `seen`
+        the largest energy at the ends of its chunks.
     together : int
         Motions that advanced side by side; `seconds` is the share of one.
     """
@@ -70,6 +71,7 @@ class History:
     reduction: Reduction | None = None
     again: Callable[[], FloatArray] | None = None
     worst: float = 0.0
+    seen: float = 0.0
     together: int = 1
     method: Sentence | None = None
 
@@ -84,6 +86,11 @@ class History:
     def worst_imbalance(self) -> float:
         """The largest energy that came from nowhere, its absolute value."""
         return self.worst if self.again else float(np.abs(self.imbalance).max(initial=0.0))
+
+    @property
+    def largest_energy(self) -> float:
+        """The largest energy of any kind, its absolute value."""
+        return self.seen if self.again else float(np.abs(self.kept).max(initial=0.0))
 
     @property
     def imbalance(self) -> FloatArray:
@@ -108,6 +115,9 @@ class Integration:
 
     def __post_init__(self) -> None:
         p, self._drive = self.problem, None
+        if p.constraints.T.shape[1] == 0 and not p.loading.imposed.any():
+            size = p.numbering.size
+            raise KernelError("kernel.stepping.conditions-hold-every-unknown", count=size)
         if self.driver is not None:
             self._drive = Drive(self.problem, self.driver, self.full_newton)
             p = self._drive.start()
@@ -191,6 +201,7 @@ class Integration:
             recorder = recorder_of(self.motion, row, energies, balance=self._balance)
             done, turns, residual = choice.loop.run(factors, recorder)
             history.worst = float(self._balance[1])
+            history.seen = max(history.seen, float(np.abs(self.motion.energies).max(initial=0.0)))
             if turns > 0:
                 history.iterations = max(history.iterations, turns)
             problem = self.problem if self._drive is None else self._drive.problem
@@ -238,7 +249,7 @@ class Integration:
                 "kernel.stepping.full-uplift-of-body",
                 step=step,
                 time=time_,
-                node=body.node,
+                node=self.problem.numbering.table.told(body.node),
                 n_points=body.points,
             )
         if not np.isfinite(residual):

@@ -77,13 +77,18 @@ class Snapshot:
         return vector_to_field(self.a, self.problem.numbering)
 
     @property
-    def reactions(self) -> NodeField:
-        """Forces of the conditions on the body, by dual names."""
+    def support_forces(self) -> FloatArray:
+        """Forces (n,) of the conditions on the body."""
         rows = self.problem.constraints.D
         forces = rows.T @ self._multipliers
         if self.problem.contact is not None:
             forces = forces + self.problem.contact.pushing.T @ self.contact
-        return vector_to_field(forces, self.problem.numbering, dual=True)
+        return np.asarray(forces)
+
+    @property
+    def reactions(self) -> NodeField:
+        """Forces of the conditions on the body, by dual names."""
+        return vector_to_field(self.support_forces, self.problem.numbering, dual=True)
 
     @property
     def jumps(self) -> CellField | None:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
-from typing import Any, TypeGuard
+from itertools import takewhile
+from typing import Any
 
 from ssilang.language.registry import (
     ANY,
@@ -20,11 +21,15 @@ from ssilang.language.registry import (
     Keyword,
     Operator,
     Select,
+    Trial,
     find_operator,
 )
 from ssilang.language.run.call import Call, Operand, accepts, shortened
 from ssilang.language.say.errors import SsiError
 from ssilang.language.values import Mot, type_of
+
+Heads = tuple[tuple[int, Mapping[str, tuple[tuple[int, Keyword | Select, str], ...]]], ...]
+"""Keywords, with their place and their word, by what it begins with; by the length compared."""
 
 
 @dataclass(slots=True)
@@ -32,11 +37,12 @@ class _Level:
     """Keywords that may stand among the operands being read, and what they gave."""
 
     keywords: tuple[Keyword | Select, ...]
+    heads: Heads
     values: dict[str, Any] = field(default_factory=dict)
     seen: set[str] = field(default_factory=set)
 
 
-_Kept = tuple[list[Operand], int, list[tuple[_Level, dict[str, Any], set[str]]]]
+_Kept = tuple[list[Operand], int, bool, list[tuple[_Level, dict[str, Any], set[str]]]]
 
 
 class Binder:
@@ -68,13 +74,16 @@ class Binder:
         """
         made = _prepared(tuple(entries))
         keywords = made.keywords
-        if not keywords and not self._levels and len(made.operands) == len(entries) == 1:
-            _, only, read = made.operands[0]  # nothing can stand between
+        alone = len(made.operands) == len(entries) == 1 and not keywords
+        if alone and (self._wordless or not self._levels):  # nothing can stand between
+            _, only, read = made.operands[0]
             return {only.name: read(self, only, after)}
-        level = _Level(keywords, {k.name: [] if k.repeated else k.default for k in keywords})
+        level = _Level(
+            keywords, made.heads, {k.name: [] if k.repeated else k.default for k in keywords}
+        )
         self._levels.append(level)
         try:
-            leading = self._leading(entries, level) if made.leading else 0
+            leading = self._leading(made, level) if made.leading else 0
             self._keywords(self._levels[-1:] if begun else self._levels)
             for place, entry, reader in made.operands:
                 if place >= leading:
@@ -87,22 +96,18 @@ class Binder:
                 raise missing_keyword(self.call, k.words)
         return level.values
 
-    def _leading(self, entries: Sequence[Entry], level: _Level) -> int:
+    def _leading(self, made: _Prepared, level: _Level) -> int:
         """Read what leads, behind the word that chose the form; says how many entries that was."""
-        if not any(type(e) is Argument and e.leads for e in entries[:2]):
-            return 0
-        chosen = _is_choice(entries)
-        place, after = int(chosen), -1
-        if not _leads(entries[place : place + 1]):
-            return 0
-        if chosen:
-            if not self._keyword(_Level(level.keywords[:1], level.values, level.seen)):
+        after = -1
+        if made.choice is not None:
+            only = _Level((made.choice,), made.choice_heads, level.values, level.seen)
+            first = self.call.first_word()
+            if first is None or not self._keyword(only, first):
                 return 0  # something stands before the word
             after = self.call.keyword_end
-        while _leads(one := entries[place : place + 1]):
-            level.values[one[0].name] = self.operand(one[0], after)
-            place += 1
-        return place
+        for a in made.leading:
+            level.values[a.name] = self.operand(a, after)
+        return len(made.leading) + (made.choice is not None)
 
     # ---- keywords ------------------------------------------------------------------------------
 
@@ -110,23 +115,38 @@ class Binder:
         """Read keywords as long as the first unread word is one; says whether there were any."""
         if self._wordless:
             return False
-        open_ones = [level for level in reversed(levels) if level.keywords]
+        if len(levels) == 1:
+            open_ones = levels if levels[0].keywords else ()
+        else:
+            open_ones = [level for level in reversed(levels) if level.keywords]
         if not open_ones:
             return False
         found = False
-        while self.call.word_index() is not None and any(map(self._keyword, open_ones)):
+        while (word := self.call.first_word()) is not None:
+            for level in open_ones:
+                if self._keyword(level, word):
+                    break
+            else:
+                return found
             found = True
+            if self._wordless:
+                break
         return found
 
-    def _keyword(self, level: _Level) -> bool:
-        for k in level.keywords:
+    def _keyword(self, level: _Level, first: str) -> bool:
+        """Read the keyword that the first unread word is, if it is one of the level's."""
+        known: tuple[tuple[int, Keyword | Select, str], ...] = ()
+        for length, heads in level.heads:
+            more = heads.get(first[:length])
+            if more is not None:
+                known = more if not known else tuple(sorted(known + more, key=_place_of))
+        for _, k, word in known:
             if k.name in level.seen and not k.repeated:
                 continue
             if isinstance(k, Select) and k.unless is not None and self._is_a_name(k.unless):
                 continue
-            word = self.call.keyword(k.words, k.length)
-            if word is None:
-                continue
+            self.call.take_keyword()
+            self._wordless = self.call.wordless()  # reading only takes away
             level.seen.add(k.name)
             value = self._behind(k, word)
             if k.repeated:
@@ -145,7 +165,10 @@ class Binder:
         """What a keyword brings: the word, True, the values behind it, or the case it chose."""
         place = self.call.keyword_end
         if isinstance(k, Select):
-            return Chosen(word, self.bind(k.cases[word], place))
+            inner = k.cases[word]
+            if not inner and self._wordless:
+                return Chosen(word, {})
+            return Chosen(word, self.bind(inner, place))
         if not k.arguments:
             return True if len(k.words) == 1 else word
         parts = [self.operand(a, place) for a in k.arguments]
@@ -284,11 +307,12 @@ class Binder:
         return (
             list(self.call.operands),
             len(self.call.used),
+            self._wordless,
             [(v, dict(v.values), set(v.seen)) for v in levels],
         )
 
     def _put_back(self, kept: _Kept) -> None:
-        operands, used, levels = kept
+        operands, used, self._wordless, levels = kept
         self.call.operands[:] = operands
         del self.call.used[used:]
         for level, values, seen in levels:
@@ -298,18 +322,19 @@ class Binder:
             level.seen.update(seen)
 
 
+def _place_of(known: tuple[int, Keyword | Select, str]) -> int:
+    return known[0]
+
+
 def _given(a: Argument, operand: Operand) -> Any:
     return operand if a.whole else operand.value
 
 
-def _leads(entries: Sequence[Entry]) -> TypeGuard[Sequence[Argument]]:
-    return all(isinstance(e, Argument) and e.leads for e in entries) and len(entries) > 0
-
-
-def _is_choice(entries: Sequence[Entry]) -> bool:
-    """Whether the first entry is the word that chooses the form."""
+def _choice_of(entries: Sequence[Entry]) -> Keyword | None:
+    """The first entry where it is the word that chooses the form."""
     first = entries[0] if entries else None
-    return isinstance(first, Keyword) and first.name == "word" and not first.arguments
+    chooses = isinstance(first, Keyword) and first.name == "word" and not first.arguments
+    return first if chooses and isinstance(first, Keyword) else None
 
 
 _READERS: Mapping[type, Callable[[Binder, Any, int], Any]] = {
@@ -321,22 +346,43 @@ _READERS: Mapping[type, Callable[[Binder, Any, int], Any]] = {
 
 @dataclass(frozen=True, slots=True)
 class _Prepared:
-    """What is known of entries before any call: keywords, and operands with what reads them."""
+    """What is known of entries before any call: keywords, and operands with what reads them.
+
+    `leading` are those read before any keyword, behind the word `choice` if there is one.
+    """
 
     keywords: tuple[Keyword | Select, ...]
+    heads: Heads
     operands: tuple[tuple[int, Entry, Callable[[Binder, Any, int], Any]], ...]
-    leading: bool
+    choice: Keyword | None
+    choice_heads: Heads
+    leading: tuple[Argument, ...]
 
 
 @cache
 def _prepared(entries: tuple[Entry, ...]) -> _Prepared:
     readers = ((i, e, _READERS.get(type(e))) for i, e in enumerate(entries))
-    place = int(_is_choice(entries))
+    choice = _choice_of(entries)
+    chosen = () if choice is None else (choice,)
+    leads = takewhile(lambda e: isinstance(e, Argument) and e.leads, entries[len(chosen) :])
+    keywords = tuple(e for e in entries if isinstance(e, Keyword | Select))
     return _Prepared(
-        tuple(e for e in entries if isinstance(e, Keyword | Select)),
+        keywords,
+        _heads(keywords),
         tuple((i, e, reader) for i, e, reader in readers if reader is not None),
-        _leads(entries[place : place + 1]),
+        choice,
+        _heads(chosen),
+        tuple(e for e in leads if isinstance(e, Argument)),
     )
+
+
+def _heads(keywords: Sequence[Keyword | Select]) -> Heads:
+    heads: dict[int, dict[str, tuple[tuple[int, Keyword | Select, str], ...]]] = {}
+    for i, k in enumerate(keywords):
+        begun = heads.setdefault(k.length, {})
+        for short, word in shortened(k.words, k.length).items():
+            begun[short] = (*begun.get(short, ()), (i, k, word))
+    return tuple(heads.items())
 
 
 def missing_keyword(call: Call, words: Sequence[str]) -> SsiError:
@@ -367,11 +413,21 @@ def bind_operator(found: Operator, call: Call) -> Bound:
     SsiError
         That of the form which got furthest, operands put back.
     """
-    forms, main = _candidates(found, call)
-    if len(forms) == 1:
-        return _bound(forms[0], call, main)  # no other form needs the operands as they stood
+    trial = _trial(found, call)
+    main = trial.main
+    if len(trial.forms) == 1:
+        return _bound(trial.forms[0], call, main)  # no other form needs the operands as they stood
+    if len(trial.fitting) < len(trial.forms):
+        operands, used = list(call.operands), len(call.used)
+        for form in trial.fitting:
+            try:
+                return _bound(form, call, main)
+            except SsiError:
+                call.operands[:] = operands
+                del call.used[used:]
+    # all are tried, and the error of one is told
     worst: tuple[int, SsiError] | None = None
-    for form in forms:
+    for form in trial.forms:
         operands, used = list(call.operands), len(call.used)
         try:
             return _bound(form, call, main)
@@ -429,6 +485,60 @@ def _bound(form: Form, call: Call, main: int | None) -> Bound:
     if form.said is not None and "word" not in form.injected:
         values.pop("word", None)
     return Bound(form, values)
+
+
+_MOST_KNOWN = 500  # things to try that an operator keeps
+
+
+def _trial(found: Operator, call: Call) -> Trial:
+    """Forms to try; what stands there decides, and is looked up where it stood there before."""
+    every = found.choices
+    if every.only is not None:
+        return every.only
+    seen = call.seen()
+    if seen is None:
+        forms, main = _candidates(found, call)
+        return Trial(tuple(forms), main, tuple(forms))
+    key = (*seen, tuple(call.meets(w) for w in every.whens))
+    known = every.trials.get(key)
+    if known is None:
+        forms, main = _candidates(found, call)
+        kinds, words = seen
+        left = kinds if main is None else kinds[:main] + kinds[main + 1 :]
+        fitting = tuple(f for f in forms if _may_fit(f, left if f.main else kinds, words))
+        if len(every.trials) >= _MOST_KNOWN:  # words may be data
+            every.trials.clear()
+        known = every.trials[key] = Trial(tuple(forms), main, fitting)
+    return known
+
+
+def _may_fit(form: Form, kinds: Sequence[str], words: Sequence[str]) -> bool:
+    """Whether operands of these types, with these words, may be enough for a form.
+
+    Reading takes operands away, but for macros: what a form lacks now, it lacks whatever is read
+    before. Groups are not looked into.
+    """
+    if form.by_hand:
+        return True
+    wanted = 0
+    for e in form.rest:
+        if isinstance(e, Group | Either) or e.optional:
+            continue
+        wanted += 1
+        if isinstance(e, Argument):
+            if not any(_may_be(e.types, kind) for kind in kinds):
+                return False
+            continue
+        said = shortened(e.words, e.length)
+        if not any(word[: e.length] in said for word in words):
+            return False
+    return wanted <= len(kinds)
+
+
+def _may_be(types: Sequence[str], kind: str) -> bool:
+    """Whether an operand of a type may be read as one of the types, or for its name."""
+    name = NAME in types or (kind == "PROCEDUR" and "MOT" in types)
+    return name or accepts_kind(types, kind)
 
 
 def _candidates(found: Operator, call: Call) -> tuple[Sequence[Form], int | None]:
@@ -517,6 +627,8 @@ def run_operator(found: Operator, call: Call) -> Any:
     """Choose the form that the operands fit and run it; returns what the function returned."""
     bound = bind_operator(found, call)
     form, values = bound.form, bound.values
+    calls = call.session.calls
+    calls[found.name] = calls.get(found.name, 0) + 1
     if call.session.on_form is not None:
         call.session.on_form(found, form, values)
     if form.by_hand:

@@ -61,6 +61,11 @@ def _as_read(operand: Operand, types: Sequence[str]) -> Operand:
     return operand
 
 
+def _text_of(value: Mot | Procedure) -> str:
+    """What a word says, or the name of a procedure, in capitals."""
+    return (value.name if isinstance(value, Procedure) else str(value)).upper()
+
+
 @cache
 def shortened(words: tuple[str, ...], length: int) -> dict[str, str]:
     """Words by the characters that are compared; of two alike the first."""
@@ -68,7 +73,10 @@ def shortened(words: tuple[str, ...], length: int) -> dict[str, str]:
 
 
 _A_WORD = Mot("")
+_NAMED = (Mot, Procedure)  # what may be the name of an operator, a keyword or a procedure
+_NAMED_OR_TEXT = (Mot, Procedure, Texte)
 _BESIDE_WORDS = ("MOT", "LISTENTI")  # types that may also stand beside the main operand
+_MANY = 16  # operands from which what stands there is not looked up
 _MAX_EXPANSIONS = 10_000  # TEXTE objects put into one phrase
 
 
@@ -124,7 +132,7 @@ class Call:
                 del operands[i]
                 self.used.append(operand)
                 return _as_read(operand, types)
-            if isinstance(value, Mot | Procedure):
+            if isinstance(value, _NAMED):
                 return None
             i += 1
         return None
@@ -175,6 +183,11 @@ class Call:
         value = self.operands[i].value
         return value.name if isinstance(value, Procedure) else str(value).upper()
 
+    def first_word(self) -> str | None:
+        """The first unread word, or name of a procedure, in capitals, as keywords are compared."""
+        i = self.word_index()
+        return None if i is None else _text_of(self.operands[i].value).rstrip()
+
     def words(self) -> list[str]:
         """All unread words, in capitals, left unread."""
         if self.word_index() is None:
@@ -202,25 +215,28 @@ class Call:
         """Whether a word is the very next operand."""
         while self.operands and isinstance(self.operands[0].value, Texte):
             self._expand(0)
-        return bool(self.operands) and isinstance(self.operands[0].value, Mot | Procedure)
+        return bool(self.operands) and isinstance(self.operands[0].value, _NAMED)
 
     def keyword(self, words: Sequence[str], length: int = 4) -> str | None:
         """Consume the first unread word if it is one of `words`; returns that entry of `words`.
 
         Words compare on their first `length` characters, in capitals as the language's tables.
         """
-        i = self.word_index()
-        if i is None:
+        first = self.first_word()
+        if first is None:
             return None
-        value = self.operands[i].value
-        text = value.name if isinstance(value, Procedure) else str(value)
-        wanted = text.upper().rstrip()[:length]
-        word = shortened(tuple(words), length).get(wanted)
+        word = shortened(tuple(words), length).get(first[:length])
         if word is not None:
-            operand = self.operands.pop(i)
-            self.used.append(operand)
-            self._after = operand.span.end
+            self.take_keyword()
         return word
+
+    def take_keyword(self) -> None:
+        """Consume the first unread word, which is a keyword: values are looked for behind it."""
+        i = self.word_index()
+        assert i is not None
+        operand = self.operands.pop(i)
+        self.used.append(operand)
+        self._after = operand.span.end
 
     @property
     def keyword_end(self) -> int:
@@ -235,7 +251,7 @@ class Call:
             if isinstance(value, Texte):
                 self._expand(i)
                 continue
-            if isinstance(value, Mot | Procedure):
+            if isinstance(value, _NAMED):
                 return i
             i += 1
         return None
@@ -251,7 +267,7 @@ class Call:
                 continue
             if accepts(types, value):
                 found.append(i)
-            elif isinstance(value, Mot | Procedure) and not words:
+            elif isinstance(value, _NAMED) and not words:
                 break
             i += 1
         return found
@@ -269,7 +285,25 @@ class Call:
 
     def wordless(self) -> bool:
         """Whether certainly no word, procedure or text stands among the unread operands."""
-        return not any(isinstance(o.value, Mot | Procedure | Texte) for o in self.operands)
+        for operand in self.operands:  # noqa: SIM110
+            if isinstance(operand.value, _NAMED_OR_TEXT):
+                return False
+        return True
+
+    def seen(self) -> tuple[tuple[str, ...], tuple[str, ...]] | None:
+        """Types of all unread operands, and the words among them as `words` gives them.
+
+        None where that does not say all: macros, whose items are not known yet, or very many.
+        """
+        if len(self.operands) > _MANY:
+            return None
+        kinds = tuple([type_of(o.value) for o in self.operands])
+        if "TEXTE" in kinds:
+            return None
+        if "MOT" not in kinds and "PROCEDUR" not in kinds:
+            return kinds, ()
+        values = [o.value for o in self.operands]
+        return kinds, tuple([_text_of(v).rstrip() for v in values if isinstance(v, _NAMED)])
 
     def stands(self, *types: str) -> bool:
         """Whether an unread operand of one of the types stands in the phrase."""

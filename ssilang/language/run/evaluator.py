@@ -236,9 +236,13 @@ class Evaluator(PhraseRunner):
             'no-such-loop' for a QUIT or ITER that names nothing open, besides what nodes raise.
         """
         try:
-            self.run(nodes)
+            self.guarded(lambda: self._run_all(nodes), self.current_span, "")
         except (LeaveLoop, NextTurn, LeaveProcedure) as jump:
             raise SsiError("no-such-loop", self.current_span, name=jump.name) from None
+
+    def _run_all(self, nodes: Sequence[tree.Node]) -> None:
+        try:
+            self.run(nodes)
         except RecursionError:
             raise SsiError("nesting", self.current_span) from None
 
@@ -259,6 +263,9 @@ class Evaluator(PhraseRunner):
             return None
 
     def _assign(self, statement: tree.Statement, left: list[Operand]) -> None:
+        if len(left) == len(statement.targets) == 1 and not is_call(left):
+            self.store(statement.targets[0], left[0].value)
+            return
         targets = self._typed_targets(statement.targets)
         self.refuse_leftovers(left[:1] if left and is_call(left) else [])
         taken = []

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import os
+from collections.abc import Sequence
 from functools import cached_property
 from pathlib import Path
 
+from ssilang.language.say.errors import SsiError
 from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
 from ssilang.language.text.tree import Definition
@@ -27,10 +30,13 @@ class Library:
     ----------
     folder : Path
         Folder of the script, searched for names that begin with @.
+    allowed : sequence of Path
+        Further folders to which links may lead from there.
     """
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, allowed: Sequence[Path] = ()) -> None:
         self._folder = folder
+        self._allowed = allowed
         self._loaded: dict[str, Procedure | None] = {}
         self._standard = standard_procedures()
         self._declared: dict[str, Declaration | None] = {}
@@ -72,9 +78,16 @@ class Library:
             for suffix in _SUFFIXES:
                 for stem in (name, name.lower()):
                     path = self._folder / (stem + suffix)
-                    if path.is_file():
-                        return path
+                    if os.path.isfile(path):  # False for a name that no file can have
+                        return self._inside(path)
         return self._standard.get(name)
+
+    def _inside(self, path: Path) -> Path:
+        """A file beside the script, if it is no link that leads out of the folder."""
+        real = path.resolve()
+        if any(real.is_relative_to(f.resolve()) for f in (self._folder, *self._allowed)):
+            return path
+        raise SsiError("forbidden-path", None, path=str(real), folder=str(real.parent))
 
     def _load(self, path: Path) -> None:
         origin = "stdlib" if path in self._standard.values() else str(path)

@@ -56,10 +56,14 @@ class OperandReader(ABC):
         table = self._operand
         if len(items) == 1:
             return table[type(items[0])](items[0])
+        found: list[Operand] = []
+        if tree.Paren not in map(type, items):
+            for item in items:
+                found += table[type(item)](item)
+            return found
         parens = {
             i: self._paren(item) for i, item in enumerate(items) if isinstance(item, tree.Paren)
         }
-        found: list[Operand] = []
         for i, item in enumerate(items):
             found.extend(parens[i] if i in parens else table[type(item)](item))
         return found

@@ -114,27 +114,34 @@ class PhraseRunner(OperandReader):
         except SsiError as error:
             tell_held_word(error, operand)
             tell_line_begun(error, operand, call)
+            if error.code == "internal" and (cause := self._not_finite(call.used)) is not None:
+                told = {"operator": found.full_name, "operand": cause.span.text[:40]}
+                raise SsiError("operand-not-finite", cause.span, **told) from error
             raise
         span = operand.span
         self._silent = operand if results is None else None
         if isinstance(results, tuple):
             self._push(call, list(results), span)
         elif results is not None:
-            self._push(call, [results], span)
+            call.operands.insert(0, Operand(normalised(results), span, result=True))
 
-    def guarded(self, action: Callable[[], Any], span: Span, name: str) -> Any:
+    def guarded(self, action: Callable[[], Any], span: Span | None, name: str) -> Any:
         """Run what an operator does; whatever it raises becomes an error of the script."""
         try:
             result = action()
         except KeyboardInterrupt:
             self.session.was_interrupted()  # it is seen
             raise
-        except (SsiError, StopRun, LeaveLoop, NextTurn, LeaveProcedure, ReaderLeft):
+        except (
+            SsiError, SeveralErrors, StopRun, LeaveLoop, NextTurn, LeaveProcedure, ReaderLeft,
+        ):  # fmt: skip
             raise
         except RecursionError:
             raise SsiError("recursion", span, limit=self.session.limits.recursion) from None
         except MemoryError:
             raise SsiError("memory", span, operator=name) from None
+        except OverflowError:
+            raise SsiError("number-too-large", span, operator=name) from None
         except Exception as problem:
             if self.session.was_interrupted():  # it fails over what it swallowed
                 raise KeyboardInterrupt from problem
@@ -151,13 +158,20 @@ class PhraseRunner(OperandReader):
             raise KeyboardInterrupt
         return result
 
+    def _not_finite(self, operands: Sequence[Operand]) -> Operand | None:
+        """The first operand that holds NaN or an infinite number: what an operator failed over."""
+        flaw_of = self.session.flaw_of
+        return next((o for o in operands if flaw_of(o.value) == "entry-not-finite"), None)
+
     @staticmethod
     def _push(call: Call, results: Sequence[Any], span: Span) -> None:
         call.operands[:0] = [Operand(normalised(r), span, result=True) for r in results]
 
     def _implicit_point(self, call: Call) -> None:
+        if len(call.operands) < 2:
+            return
         numbers = [o for o in call.operands if type(o.value) in (int, float)]
-        if len(numbers) < 2 or len(numbers) != len(call.operands):
+        if len(numbers) != len(call.operands):
             return
         dimension = self.session.dimension()
         if dimension not in (2, 3) or self.session.make_point is None:
@@ -166,7 +180,8 @@ class PhraseRunner(OperandReader):
         if len(numbers) < dimension:
             raise SsiError("third-coordinate", span)
         if len(numbers) == dimension:
-            point = self.session.make_point([float(o.value) for o in numbers])
+            make = self.session.make_point
+            point = self.guarded(lambda: make([float(o.value) for o in numbers]), span, "POINT")
             call.operands[:] = [Operand(point, span, result=True)]
 
 

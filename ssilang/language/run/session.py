@@ -15,7 +15,7 @@ from typing import Any, Protocol, TextIO
 
 from ssilang.language.run.library import Library
 from ssilang.language.run.scopes import PREDEFINED, Frame
-from ssilang.language.say.errors import ReaderLeft, SsiError
+from ssilang.language.say.errors import ReaderLeft, SsiError, unprinted
 from ssilang.language.say.visible import visible
 from ssilang.language.text import tree
 from ssilang.language.text.source import Span
@@ -64,7 +64,7 @@ class Runner(Protocol):
     def refuse_leftovers(self, left: Sequence[Any], taken: Sequence[Any] = ()) -> None:
         """Raise the error for operands that nothing read, if there are any."""
 
-    def guarded(self, action: Callable[[], Any], span: Span, name: str) -> Any:
+    def guarded(self, action: Callable[[], Any], span: Span | None, name: str) -> Any:
         """Run what an operator does; whatever it raises becomes an error of the script."""
 
 
@@ -121,6 +121,9 @@ class Session:
     integrate: Any = None  # integrates in time instead of the kernel, for runs that go together
     given: dict[str, Any] = field(default_factory=dict)  # replaces a name's first assignment
     started: float = field(default_factory=time.perf_counter)
+    calls: dict[str, int] = field(
+        default_factory=dict
+    )  # how often operators ran, since TEMP 'ZERO'
     evaluator: Runner = field(init=False)  # puts itself here
 
     def __post_init__(self) -> None:
@@ -128,7 +131,7 @@ class Session:
         for name, value in PREDEFINED.items():
             self.root.assign(name, value)
         self.frame = self.root
-        self.library = Library(self.script_directory)
+        self.library = Library(self.script_directory, self.allowed)
 
     def print(self, text: str = "") -> None:
         """Print a line of results."""
@@ -136,6 +139,8 @@ class Session:
             self.out.write(visible(text) + "\n")
         except BrokenPipeError as closed:
             raise ReaderLeft from closed
+        except OSError as problem:
+            raise unprinted(problem) from problem
 
     def told(self, code: str, /, **data: object) -> str:
         """A text of the catalogue in the language of the run."""
@@ -156,6 +161,8 @@ class Session:
             self.on_warning(warning)
         except BrokenPipeError as closed:
             raise ReaderLeft from closed
+        except OSError:  # nobody can be told; it is in the summary
+            self.on_warning = None
 
     def note(self, text: str) -> None:
         """Say what a calculation does, to who asked to hear it."""
@@ -164,6 +171,8 @@ class Session:
                 self.on_note(text)
             except BrokenPipeError as closed:
                 raise ReaderLeft from closed
+            except OSError:
+                self.on_note = None
 
     on_warning: Callable[[Any], object] | None = None
     on_note: Callable[[str], object] | None = None

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-from ssilang.language.cast3m import IN_SCOPE, SUBJECTS, find_cast3m_word
+from ssilang.language.cast3m import IN_SCOPE, find_cast3m_word
 from ssilang.language.near import LIKE, VERY_LIKE, nearest
 from ssilang.language.registry import ANY, OPERATORS, find_operator, keywords_of
 from ssilang.language.say import hints
@@ -18,7 +18,6 @@ from ssilang.messages import message
 from ssilang.messages.message import Sentence
 from ssilang.resources import resource
 
-_OR = {"en": " or ", "fr": " ou "}
 _SHORT_LIKE = 0.6  # names of components have two letters: one slip is a third
 _LETTERS = 4  # that an operator goes by
 _LINE_SHOWN = 160  # characters of a source line
@@ -45,7 +44,8 @@ def render(error: SsiError, language: str = "en", names: Iterable[str] = ()) -> 
         Known variables and procedures, for the suggestion of a near name.
     """
     head, hint = sentence(error, language, names)
-    lines = [f"{_label(error, language)}: {head}"]
+    label = _label(error, language)
+    lines = [message.sentence("labelled", {"label": label, "head": head}, language)]
     place, calls = _seen(error)
     if place is not None:
         lines += _place(place, "-->")
@@ -156,7 +156,7 @@ def _derived(error: SsiError, language: str, names: Iterable[str]) -> dict[str, 
     """Parts of sentences computed from the data of the error."""
     data = error.data
     made: dict[str, object] = {}
-    join = _OR[language]
+    join = _or(language)
     if "expected" in data and isinstance(data["expected"], list):
         made["types"] = _types_text(data["expected"], language)
     if "words" in data and isinstance(data["words"], list):
@@ -208,14 +208,17 @@ def _types_text(types: list[str], language: str) -> str:
     if types == [ANY]:
         return message.sentence("any-object", {}, language)
     if len(types) <= 2:
-        return _OR[language].join(_article(t, language) for t in types)
+        return _or(language).join(_article(t, language) for t in types)
     return message.sentence("one-of-types", {"types": types}, language)
 
 
 def _article(kind: str, language: str) -> str:
-    if language == "fr":
-        return f"un {kind}"
-    return f"an {kind}" if kind[0] in "AEIO" else f"a {kind}"
+    code = "an-object-of-type" if kind[0] in "AEIO" else "a-object-of-type"
+    return message.sentence(code, {"kind": kind}, language)
+
+
+def _or(language: str) -> str:
+    return f" {message.teller(language)('help.or')} "
 
 
 def _expected(data: dict[str, object]) -> list[str]:
@@ -273,7 +276,7 @@ def elsewhere(word: str, language: str) -> str:
     data = {"name": found.name, "operator": found.kind == "operator"}
     if found.subject == IN_SCOPE:
         return message.sentence("not-built", data, language)
-    data["subject"] = SUBJECTS[found.subject][language == "fr"]
+    data["subject"] = Sentence(f"help.subject-{found.subject}")
     return message.sentence("out-of-scope", data, language)
 
 

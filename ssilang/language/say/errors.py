@@ -58,6 +58,11 @@ def interruption(stop: KeyboardInterrupt, span: Span | None) -> SsiError:
     return stop.error if isinstance(stop, Interrupted) else SsiError("interrupted", span)
 
 
+def unprinted(problem: OSError) -> SsiError:
+    """The error of a stream that takes nothing more: a full disk, a stream that is closed."""
+    return SsiError("cannot-print", None, reason=problem.strerror or problem)
+
+
 class ReaderLeft(BrokenPipeError):
     """Nobody reads any more what the run prints: it ends, without a message."""
 

@@ -25,61 +25,15 @@ from ssilang.language.registry import (
 from ssilang.language.text.source_files import read_source
 from ssilang.language.vocabulary.entries import read_declaration
 from ssilang.language.vocabulary.entries_table import entries_text
+from ssilang.messages.message import spoken, teller
 
 WIDTH = 88
 TABLE_WIDTH = 100
 
-_WORDS = {
-    "syntax": {"en": "Syntax", "fr": "Syntaxe"},
-    "arguments": {"en": "Arguments", "fr": "Arguments"},
-    "example": {"en": "Example", "fr": "Exemple"},
-    "optional": {"en": "optional", "fr": "facultatif"},
-    "several": {"en": "one or more", "fr": "un ou plusieurs"},
-    "any": {"en": "any object", "fr": "tout objet"},
-    "or": {"en": " or ", "fr": " ou "},
-    "word": {"en": "word", "fr": "mot"},
-    "operator": {"en": "operator", "fr": "opérateur"},
-    "procedure": {"en": "procedure", "fr": "procédure"},
-}
-
-_FAMILIES = {
-    "arithmetic": "calcul",
-    "clouds": "nuages",
-    "comparisons": "comparaisons",
-    "control": "conduite du calcul",
-    "curves": "évolutions",
-    "drawing": "dessin",
-    "dynamics": "dynamique",
-    "fields": "champs",
-    "files": "fichiers",
-    "functions": "fonctions",
-    "lists": "listes",
-    "load": "forces",
-    "loads": "chargements",
-    "matrix": "matrices",
-    "mesh": "maillage",
-    "modal": "analyse modale",
-    "model": "modèle",
-    "models": "modèles",
-    "numbers": "nombres",
-    "objects": "objets",
-    "output": "affichage",
-    "relations": "relations",
-    "session": "session",
-    "signals": "signaux",
-    "solve": "résolution",
-    "statics": "statique",
-    "stress": "contraintes",
-    "tables": "tables",
-    "words": "mots",
-    "procedures": "procédures",
-}
-"""Families of operators in French; in English they are called as the program calls them."""
-
 
 def family_text(family: str, language: str) -> str:
-    """What a family is called."""
-    return family if language == "en" else _FAMILIES[family]
+    """What a family of operators is called."""
+    return teller(language)(f"help.family-{family}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -163,6 +117,10 @@ def _sort_line(line: str, current: str, parts: dict[str, list[str]]) -> str:
 # ---- text ------------------------------------------------------------------------------------
 
 
+def _or(language: str) -> str:
+    return f" {teller(language)('help.or')} "
+
+
 def find_page(word: str, procedures: Mapping[str, Path]) -> Page | None:
     """The page that a user means: a procedure in full, else an operator by four letters."""
     word = word.upper().strip()
@@ -174,24 +132,24 @@ def find_page(word: str, procedures: Mapping[str, Path]) -> Page | None:
 
 def page_text(page: Page, language: str) -> str:
     """A page as plain text, at most `WIDTH` columns."""
-    kind = _WORDS[page.kind][language]
+    kind = teller(language)(f"help.{page.kind}")
     title = page.title if language == "en" else ""
     full = f" ({page.full_name})" if page.full_name != page.name else ""
     lines = [f"{page.name}{full} : {title or kind} [{family_text(page.family, language)}]", ""]
-    text = page.help.en if language == "en" else page.help.fr
+    text = page.help.told(language)
     for paragraph in text.split("\n"):
         lines += textwrap.wrap(paragraph, WIDTH)
     if page.help.syntax:
-        lines += ["", _WORDS["syntax"][language]]
+        lines += ["", teller(language)("help.syntax")]
         lines += ["    " + line.rstrip() for line in page.help.syntax.split("\n")]
     arguments = _arguments(page, language)
     if arguments:
-        lines += ["", _WORDS["arguments"][language], *arguments]
+        lines += ["", teller(language)("help.arguments"), *arguments]
     declared = read_declaration(page.name)
     if declared is not None:
         lines += entries_text(declared, language, TABLE_WIDTH)
     for example in page.help.examples:
-        lines += ["", _WORDS["example"][language]]
+        lines += ["", teller(language)("help.example")]
         lines += ["    " + line for line in example_lines(example)]
     return "\n".join(lines)
 
@@ -232,7 +190,7 @@ def describe(entry: Entry, language: str = "en") -> list[str]:
             note = _note(entry.optional and not entry.repeated, entry.repeated, language)
             return [f"{entry.name:<14} {_types(entry, language)}{_said(entry, language)}{note}"]
         case Keyword():
-            words = _WORDS["or"][language].join(f"'{w.strip()}'" for w in entry.words)
+            words = _or(language).join(f"'{w.strip()}'" for w in entry.words)
             values = "".join(
                 f" {a.name}: {_types(a, language)}{_said(a, language)}" for a in entry.arguments
             )
@@ -253,7 +211,7 @@ def describe(entry: Entry, language: str = "en") -> list[str]:
                 f"{entry.name}{_meaning(entry, language)}{_note(entry.optional, False, language)}"
             ]
             for n, one in enumerate(entry.groups):
-                lines += [f"  {_WORDS['or'][language].strip()}"] if n else []
+                lines += [f"  {teller(language)('help.or')}"] if n else []
                 lines += _indented(one.entries, language)
             return lines
 
@@ -263,7 +221,7 @@ def _indented(entries: Iterable[Entry], language: str) -> list[str]:
 
 
 def _meaning(entry: Entry, language: str) -> str:
-    text = entry.en if language == "en" else entry.fr
+    text = spoken(entry.en, entry.fr, language)
     return f": {text}" if text else ""
 
 
@@ -276,16 +234,16 @@ def _said(a: Argument, language: str) -> str:
 
 def _types(a: Argument, language: str) -> str:
     if a.types == (ANY,):
-        return _WORDS["any"][language]
-    return _WORDS["or"][language].join(a.types)
+        return teller(language)("help.any-object")
+    return _or(language).join(a.types)
 
 
 def _note(optional: bool, repeated: bool, language: str) -> str:
     words = []
     if optional:
-        words.append(_WORDS["optional"][language])
+        words.append(teller(language)("help.optional"))
     if repeated:
-        words.append(_WORDS["several"][language])
+        words.append(teller(language)("help.several"))
     return f"  ({', '.join(words)})" if words else ""
 
 
@@ -301,12 +259,12 @@ def overview(procedures: Iterable[Path], language: str) -> str:
     for family, members in operators_by_family().items():
         lines += ["", family_text(family, language).upper()]
         for found in members:
-            text = found.help.en if language == "en" else found.help.fr
+            text = found.help.told(language)
             lines.append(_entry_line(found.name, text))
-    lines += ["", _WORDS["procedure"][language].upper() + "S"]
+    lines += ["", family_text("procedures", language).upper()]
     for path in sorted(procedures):
         page = procedure_page(path)
-        lines.append(_entry_line(page.name, page.help.en if language == "en" else page.help.fr))
+        lines.append(_entry_line(page.name, page.help.told(language)))
     return "\n".join(lines[1:])
 
 

@@ -25,6 +25,7 @@ from pathlib import Path
 from typing import Any
 
 from ssilang.language.registry import find_operator
+from ssilang.messages.message import spoken
 from ssilang.resources import resource
 
 NUMBER, ANYTHING = "I", "*"
@@ -34,29 +35,29 @@ WRITTEN, READ, BOTH, UNUSED, REFUSED = "written", "read", "both", "unused", "ref
 ROLES = (READ, WRITTEN, BOTH, UNUSED, REFUSED)
 """`unused` entries are accepted and change nothing, `refused` ones are not available."""
 
-THEMES = {
-    "problem": ("Problem", "Problème"),
-    "times": ("Times", "Temps"),
-    "frequencies": ("Frequencies", "Fréquences"),
-    "scheme": ("Scheme", "Schéma"),
-    "steps": ("Steps", "Pas"),
-    "contact": ("Contact", "Contact"),
-    "kept": ("What is kept", "Ce qui est gardé"),
-    "files": ("Files", "Fichiers"),
-    "procedure": ("Procedures of the script", "Procédures du script"),
-    "path": ("Loads sought", "Charges cherchées"),
-    "start": ("Start", "Départ"),
-    "layers": ("Layers", "Couches"),
-    "modes": ("Modes", "Modes"),
-    "links": ("Links", "Liaisons"),
-    "law": ("Law", "Loi"),
-    "sizes": ("Sizes", "Dimensions"),
-    "drawing": ("Drawing", "Dessin"),
-    "results": ("Results", "Résultats"),
-    "unused": ("Accepted, without effect here", "Acceptés, sans effet ici"),
-    "refused": ("Not available", "Non disponibles"),
-}
-"""Groups of entries in the order in which they are shown: English, French."""
+THEMES = (
+    "problem",
+    "times",
+    "frequencies",
+    "scheme",
+    "steps",
+    "contact",
+    "kept",
+    "files",
+    "procedure",
+    "path",
+    "start",
+    "layers",
+    "modes",
+    "links",
+    "law",
+    "sizes",
+    "drawing",
+    "results",
+    "unused",
+    "refused",
+)
+"""Groups of entries in the order in which they are shown."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,7 +106,7 @@ class TableEntry:
 
     def said(self, language: str) -> str:
         """What it is."""
-        return self.en if language == "en" else self.fr
+        return spoken(self.en, self.fr, language)
 
     @property
     def is_read(self) -> bool:

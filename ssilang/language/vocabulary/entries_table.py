@@ -9,25 +9,19 @@ from itertools import groupby
 from ssilang.language.vocabulary.entries import (
     ANYTHING,
     NUMBER,
-    THEMES,
     Declaration,
     TableEntry,
     as_written,
 )
+from ssilang.messages.message import spoken, teller
 
-_HEADS = {
-    "en": ("index", "types", "unit", "default", "meaning"),
-    "fr": ("indice", "types", "unité", "défaut", "sens"),
-}
-_WORDS = {
-    "entries": {"en": "Entries of {}", "fr": "Indices de {}"},
-    "subtype": {"en": ", a table '{}'", "fr": ", table '{}'"},
-    "needed": {"en": "needed", "fr": "obligatoire"},
-    "allowed": {"en": "Allowed: {}", "fr": "Valeurs : {}"},
-    "any": {"en": "any", "fr": "tout"},
-    "number": {"en": "i (integer)", "fr": "i (entier)"},
-    "anything": {"en": "(any index)", "fr": "(tout indice)"},
-}
+_COLUMNS = (
+    "help.column-index",
+    "help.column-types",
+    "help.column-unit",
+    "help.column-default",
+    "help.column-meaning",
+)
 _MOST = (26, 10, 8, 16)
 """Widths of the columns but the last, at most."""
 _LISTED = 6
@@ -46,10 +40,10 @@ def entries_text(declared: Declaration, language: str, width: int) -> list[str]:
             continue
         lines += ["", _title(declared, argument.name, language)]
         rows = [row for _, rows in blocks for row in rows]
-        widths = _widths([_HEADS[language], *rows], width)
-        lines += _laid_out(_HEADS[language], widths)
+        widths = _widths([_heads(language), *rows], width)
+        lines += _laid_out(_heads(language), widths)
         for theme, rows in blocks:
-            lines += ["", f"  {THEMES[theme][language == 'fr']}"]
+            lines += ["", f"  {teller(language)(f'help.theme-{theme}')}"]
             lines += [line for row in rows for line in _laid_out(row, widths)]
     return lines
 
@@ -63,8 +57,8 @@ def entries_markdown(declared: Declaration, language: str) -> list[str]:
             continue
         lines += [f"## {_title(declared, argument.name, language)}", ""]
         for theme, rows in blocks:
-            lines += [f"### {THEMES[theme][language == 'fr']}", ""]
-            lines += ["| " + " | ".join(_HEADS[language]) + " |", "| --- " * 5 + "|"]
+            lines += [f"### {teller(language)(f'help.theme-{theme}')}", ""]
+            lines += ["| " + " | ".join(_heads(language)) + " |", "| --- " * 5 + "|"]
             for row in rows:
                 cells = [" ".join(cell.split()).replace("|", "\\|") for cell in row]
                 lines.append("| " + " | ".join([f"`{cells[0]}`", *cells[1:]]) + " |")
@@ -72,10 +66,14 @@ def entries_markdown(declared: Declaration, language: str) -> list[str]:
     return lines
 
 
+def _heads(language: str) -> Row:
+    index, types, unit, default, meaning = map(teller(language), _COLUMNS)
+    return index, types, unit, default, meaning
+
+
 def _title(declared: Declaration, name: str, language: str) -> str:
     subtype = next(a.subtype for a in declared.arguments if a.name == name)
-    more = _WORDS["subtype"][language].format(subtype) if subtype else ""
-    return _WORDS["entries"][language].format(name) + more
+    return teller(language)("help.entries", name=name, subtype=subtype)
 
 
 def _blocks(declared: Declaration, argument: str, language: str) -> Iterator[tuple[str, list[Row]]]:
@@ -98,14 +96,14 @@ def _row(group: Sequence[TableEntry], language: str) -> Row:
     index = " ".join(names) if len(names) > _LISTED else "\n".join(before + name for name in names)
     meaning = entry.said(language)
     if entry.values:
-        meaning += "\n" + _WORDS["allowed"][language].format(_allowed(entry))
-    types = " | ".join(entry.types) or _WORDS["any"][language]
+        meaning += "\n" + teller(language)("help.allowed", values=_allowed(entry))
+    types = " | ".join(entry.types) or teller(language)("help.any")
     return index, types, entry.unit, _default(entry, language), meaning
 
 
 def _index(index: str, language: str) -> str:
-    special = {NUMBER: "number", ANYTHING: "anything"}.get(index)
-    return _WORDS[special][language] if special else index
+    special = {NUMBER: "help.any-integer", ANYTHING: "help.any-index"}.get(index)
+    return teller(language)(special) if special else index
 
 
 def _allowed(entry: TableEntry) -> str:
@@ -114,12 +112,13 @@ def _allowed(entry: TableEntry) -> str:
 
 def _default(entry: TableEntry, language: str) -> str:
     if entry.needed:
-        return _WORDS["needed"][language]
+        return teller(language)("help.needed")
     default = entry.default
     if default is None:
         return ""
     if isinstance(default, tuple):
-        return str(default[language == "fr"])
+        en, fr = default
+        return spoken(en, fr, language)
     if isinstance(default, bool):
         return "VRAI" if default else "FAUX"
     return as_written(default) if isinstance(default, str) else f"{default:g}"

@@ -14,6 +14,7 @@ from ssilang.language.values import Annule, Mot, Procedure, Table, type_of
 from ssilang.language.vocabulary.entries import (
     NUMBER,
     REFUSED,
+    UNUSED,
     Declaration,
     TableEntry,
     as_written,
@@ -111,6 +112,30 @@ class TableCheck:
             if entry.needed and not any(self.declared.at(path, i) is entry for i, _ in given):
                 missing = 1 if entry.index == NUMBER else entry.index
                 raise self._error("entry-missing", shown((*where, missing)))
+        self._without_effect(table, path, where, given)
+
+    def _without_effect(
+        self,
+        table: Table,
+        path: tuple[str, ...],
+        where: tuple[object, ...],
+        given: list[tuple[Any, Any]],
+    ) -> None:
+        """Warn, once for a table, of what changes nothing; FAUX asks for nothing."""
+        known = [(i, v, self.declared.at(path, i)) for i, v in given if v is not False]
+        # other entries that nobody reads are those of tables that operators make
+        unused = [(i, e) for i, _, e in known if e is not None and e.theme == UNUSED]
+        readers = _Readers(self.session, self.place, table, len(path) > 1)
+        told = [(i, e) for i, e in unused if self.aloud and not readers.read(str(i).rstrip())]
+        if not told:
+            return
+        name, reasons = self.declared.name, {(e.en, e.fr) for _, e in told}
+        en, fr = next(iter(reasons)) if len(reasons) == 1 else ("", "")
+        names = [shown((*where, i)) for i, _ in told]
+        self.session.warn(
+            "entries-without-effect", self.place, procedure=name, operator=name, names=names,
+            en=en, fr=fr,
+        )  # fmt: skip
 
     def _known(self, entry: TableEntry, value: Any, where: tuple[object, ...]) -> None:
         if entry.role == REFUSED and value is not False:  # FAUX asks for nothing

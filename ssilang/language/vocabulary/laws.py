@@ -77,6 +77,13 @@ WORDS = (
         "Plasticité de von Mises à écrouissage isotrope donné par une courbe (ECRO ou TRAC)",
     ),
     _law(
+        "plastic", "J2",
+        "Von Mises' plasticity whose strength grows from SIG0 to SIGI by an exponential (VELO), "
+        "and by a line (KISO)",
+        "Plasticité de von Mises dont la limite croît de SIG0 à SIGI par une exponentielle (VELO) "
+        "et par une droite (KISO)",
+    ),
+    _law(
         "plastic", "CINEMATIQUE",
         "Von Mises' plasticity with linear kinematic hardening: SIGY and H",
         "Plasticité de von Mises à écrouissage cinématique linéaire : SIGY et H",

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from ssilang.messages.message import spoken
+
 
 @dataclass(frozen=True, slots=True)
 class Unit:
@@ -118,7 +120,7 @@ class Word:
 
     def meaning(self, language: str) -> str:
         """In English ('en') or French ('fr')."""
-        return self.fr if language == "fr" else self.en
+        return spoken(self.en, self.fr, language)
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,11 +11,17 @@ MESSAGES: dict[str, Message] = {
         "abscissas of a spline must increase strictly",
         "les abscisses d'une spline doivent croître strictement",
     ),
+    "clouds-of-other-components": Message(
+        "clouds are joined row by row: {first:words} and {second:words} are not the same "
+        "components",
+        "des nuages se joignent ligne par ligne : {first:words} et {second:words} ne sont pas les "
+        "mêmes composantes",
+    ),
     "cloud-no-component": Message(
         "the cloud has no component {name}",
         "le nuage n'a pas de composante {name}",
-        "it has {columns:words}",
-        "il a {columns:words}",
+        "it has {columns:?{columns:words}|none}",
+        "il a {columns:?{columns:words}|aucune composante}",
     ),
     "complex-curves-must-same": Message(
         "complex curves must have the same abscissas",

@@ -3,6 +3,10 @@
 from ssilang.messages.message import Message
 
 MESSAGES: dict[str, Message] = {
+    "no-shape-functions": Message(
+        "{cell_type} cells have no shape functions",
+        "les éléments {cell_type} n'ont pas de fonctions de forme",
+    ),
     "vect-along-beam-must": Message(
         "VECT is along the beam: it must show the side of the local axis y",
         "VECT est le long de la poutre : il doit montrer le côté de l'axe local y",

@@ -22,11 +22,16 @@ MESSAGES: dict[str, Message] = {
         "the fields have no energy: there is no mode",
         "les champs n'ont pas d'énergie : il n'y a pas de mode",
     ),
-    "component-holds-objects-types": Message(
-        "component {name} holds objects of types {name_2} and {name_3}",
-        "la composante {name} contient des objets de types {name_2} et {name_3}",
-        "only numbers and curves add up",
-        "seuls des nombres et des évolutions s'additionnent",
+    "curves-of-one-component": Message(
+        "curves are made of one component, here are {names:words}",
+        "les évolutions se font d'une seule composante, voici {names:words}",
+        "EXCO takes one of them",
+        "EXCO en extrait une",
+    ),
+    "curves-of-other-cells": Message(
+        "a zone of {n_cells} {n_cells:cell|cells} is not, at the same points, in all fields",
+        "une zone de {n_cells} {n_cells:élément|éléments} n'est pas, aux mêmes points, dans tous "
+        "les champs",
     ),
     "component-holds-objects-not": Message(
         "component {name} holds objects, not numbers",

@@ -9,6 +9,10 @@ MESSAGES: dict[str, Message] = {
         "GAUSS serves all faces, LOBATTO those of {nodal_weights}",
         "GAUSS vaut pour toutes les faces, LOBATTO pour celles en {nodal_weights}",
     ),
+    "moduli-not-positive": Message(
+        "the moduli D11 D21 ... of the joint give some motion a negative energy",
+        "les modules D11 D21 ... du joint donnent une énergie négative à certains mouvements",
+    ),
     "no-joint-law-called": Message(
         "no joint law is called {strange}",
         "aucune loi de joint ne s'appelle {strange}",

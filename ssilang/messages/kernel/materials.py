@@ -31,6 +31,10 @@ MESSAGES: dict[str, Message] = {
         "there are {plastic_laws}",
         "il y a {plastic_laws}",
     ),
+    "saturation-sinks": Message(
+        "the strength of J2 may not sink: KISO >= 0, VELO >= 0, SIGI >= SIG0",
+        "la limite de J2 ne peut pas descendre : KISO >= 0, VELO >= 0, SIGI >= SIG0",
+    ),
     "must": Message(
         "{name} = {parameters_min:g}: it must be > 0",
         "{name} = {parameters_min:g} : il faut une valeur > 0",

@@ -193,6 +193,10 @@ MESSAGES: dict[str, Message] = {
         "un corps rigide par les distances demande {plane:?trois noeuds non alignés|quatre "
         "noeuds hors d'un même plan}",
     ),
+    "mass-negative": Message(
+        "the mass of {unknown} is negative: {mass:g}",
+        "la masse de {unknown} est négative : {mass:g}",
+    ),
     # ---- what is printed
     "listed": Message(
         "RIGIDITE, {kind}: {count} {count:block|blocks} of element matrices",

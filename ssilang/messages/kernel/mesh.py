@@ -3,6 +3,16 @@
 from ssilang.messages.message import Message
 
 MESSAGES: dict[str, Message] = {
+    "no-facets-to-project-on": Message(
+        "the mesh has neither surfaces nor lines to project on",
+        "le maillage n'a ni surfaces ni lignes sur lesquelles projeter",
+    ),
+    "node-out-of-range": Message(
+        "a node would have the coordinate {value:g}",
+        "un noeud aurait la coordonnée {value:g}",
+        "coordinates are finite numbers below {limit:g}",
+        "les coordonnées sont des nombres finis, inférieurs à {limit:g}",
+    ),
     "point-opens-cone-lies": Message(
         "the point that opens the cone lies in the plane of its apex",
         "le point qui donne l'ouverture du cône est dans le plan de son sommet",
@@ -231,6 +241,18 @@ MESSAGES: dict[str, Message] = {
         "{tolerance:g}",
         "check that the two meshes correspond, or give a larger distance",
         "vérifiez que les deux maillages se correspondent, ou donnez une distance plus grande",
+    ),
+    "sides-do-not-fit": Message(
+        "the two sides are joined over {surface:?an area|a length} of {joined:.4g} only: over "
+        "{apart:.4g} more they face each other within {tolerance:g}, but {n_first} "
+        "{n_first:cell|cells} of the first and {n_second} of the second do not fit, the first of "
+        "them around ({place})",
+        "les deux côtés ne sont joints que sur une {surface:?aire|longueur} de {joined:.4g} : sur "
+        "{apart:.4g} de plus ils se font face à moins de {tolerance:g}, mais {n_first} "
+        "{n_first:élément|éléments} du premier et {n_second} du second ne se correspondent pas, "
+        "autour de ({place}) d'abord",
+        "give both sides the same nodes",
+        "donnez les mêmes noeuds aux deux côtés",
     ),
     "no-two-boundaries-inside": Message(
         "no two boundaries inside the mesh face each other within {tolerance:g}",
@@ -597,9 +619,10 @@ MESSAGES: dict[str, Message] = {
         "cherchez des lignes qui se croisent ou des points au même endroit",
     ),
     "volume-filled-tri3-qua4": Message(
-        "a volume is filled from TRI3 and QUA4, or from TRI6; this surface holds "
+        "a volume is filled from TRI3 and QUA4, or from TRI6 and QUA8; this surface holds "
         "{kinds:?{kinds}|nothing}",
-        "un volume se remplit à partir de TRI3 et QUA4, ou de TRI6 ; cette surface contient "
+        "un volume se remplit à partir de TRI3 et QUA4, ou de TRI6 et QUA8 ; cette surface "
+        "contient "
         "{kinds:?{kinds}|rien}",
     ),
     "germ-lies-outside-contour": Message(

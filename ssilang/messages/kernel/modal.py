@@ -21,6 +21,12 @@ MESSAGES: dict[str, Message] = {
         "the conditions hold every unknown: there is no mode",
         "les conditions bloquent toutes les inconnues : il n'y a pas de mode",
     ),
+    "modes-miss-equation": Message(
+        "what the search for modes found does not satisfy K x = (2 pi f)^2 M x: the mass matrix "
+        "has negative eigenvalues",
+        "ce que la recherche de modes a trouvé ne vérifie pas K x = (2 pi f)^2 M x : la matrice "
+        "de masse a des valeurs propres négatives",
+    ),
     "search-modes-not-converge": Message(
         "the search for modes does not converge: {problem_found}",
         "la recherche de modes ne converge pas : {problem_found}",

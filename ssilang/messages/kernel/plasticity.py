@@ -88,6 +88,12 @@ MESSAGES: dict[str, Message] = {
         "time {t:g}: no solution found at the shortest step",
         "temps {t:g} : pas de solution trouvée au plus petit pas",
     ),
+    "finite-yielding-not-built": Message(
+        "yielding in large displacements is built for plastic laws of continuous elements, not "
+        "for {element}",
+        "la plastification en grands déplacements est construite pour les lois plastiques des "
+        "massifs, pas pour {element}",
+    ),
     "finite-displacements-not-built": Message(
         "finite displacements are not built for {element} in this hypothesis",
         "les grands déplacements ne sont pas programmés pour {element} dans cette hypothèse",

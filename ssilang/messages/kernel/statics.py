@@ -42,8 +42,8 @@ MESSAGES: dict[str, Message] = {
         "la même inconnue est imposée deux fois, avec des valeurs différentes",
     ),
     "cable-branches-node": Message(
-        "the cable branches at node {count}",
-        "le câble a un branchement au noeud {count}",
+        "the cable branches at node {node}",
+        "le câble a un branchement au noeud {node}",
     ),
     "cable-node-ring-no": Message(
         "the cable at node {node} is a ring: it has no end to be pulled at",
@@ -129,6 +129,19 @@ MESSAGES: dict[str, Message] = {
         "a unilateral condition has no harmonic response",
         "une condition unilatérale n'a pas de réponse harmonique",
     ),
+    "pressure-without-sides": Message(
+        "a load of pressure stands on no side: the model has no zones of loads",
+        "un chargement de pression n'a pas de face : le modèle n'a pas de zones de chargement",
+    ),
+    "pressure-follows": Message(
+        "a load of pressure follows its sides in large displacements, and is given as a constant "
+        "one",
+        "en grands déplacements un chargement de pression suit ses faces ; il est donné constant",
+    ),
+    "pressure-is-no-field-in-cells": Message(
+        "a load of pressure is made of a field in cells",
+        "un chargement de pression est fait d'un champ par éléments",
+    ),
     "load-not-mechanical": Message(
         "the load {name} is not mechanical",
         "le chargement {name} n'est pas mécanique",
@@ -150,6 +163,23 @@ MESSAGES: dict[str, Message] = {
         "member}",
         "{n_above:?le noeud {above} est sur le noeud {below} de la matrice|ôtez-la du second "
         "membre}",
+    ),
+    "solution-without-multipliers": Message(
+        "{missing} of the {n_rows} {n_rows:condition|conditions} of the matrix {missing:has|have} "
+        "no multiplier LX in the solution{at:? (one holds {at})}: their reaction is not known",
+        "{missing} {missing:condition|conditions} de la matrice, sur {n_rows}, "
+        "{missing:n'a|n'ont} pas de multiplicateur LX dans la solution{at:? (l'une tient {at})} : "
+        "leur réaction n'est pas connue",
+        "{others:?conditions made again have multipliers of their own: use the very matrix that "
+        "was solved with|the solution must keep its multipliers}",
+        "{others:?des conditions refaites ont leurs propres multiplicateurs : prenez la matrice "
+        "même de la résolution|la solution doit garder ses multiplicateurs}",
+    ),
+    "load-not-finite": Message(
+        "the second member is not a finite number{at:? for {at}|: an imposed value}",
+        "le second membre n'est pas un nombre fini{at:? pour {at}| : une valeur imposée}",
+        "look for what was divided by zero, or grew without bound",
+        "cherchez ce qui a été divisé par zéro, ou a grandi sans borne",
     ),
     "no-equilibrium-full-uplift": Message(
         "load step {step}, time {time:g}: no equilibrium, full uplift: {open_points} of "

@@ -265,4 +265,10 @@ MESSAGES: dict[str, Message] = {
         "condensed, sparse: linear but for {q} joint unknowns",
         "condensé, creux : linéaire hormis {q} inconnues de joint",
     ),
+    "conditions-hold-every-unknown": Message(
+        "the conditions hold {count:the only unknown|all {count} unknowns}: there is no motion "
+        "to calculate",
+        "les conditions bloquent {count:la seule inconnue|les {count} inconnues} : il n'y a pas "
+        "de mouvement à calculer",
+    ),
 }

@@ -103,10 +103,6 @@ MESSAGES: dict[str, Message] = {
         "{n_low} lower and {n_high} upper bounds",
         "{n_low} bornes inférieures et {n_high} supérieures",
     ),
-    "all-of-one-number": Message(
-        "'TOUS' looks one number up",
-        "'TOUS' cherche un seul nombre",
-    ),
     "no-such-place": Message(
         "the curve has {count} {count:point|points}, places go from 1 to {count}",
         "la courbe a {count} {count:point|points}, les rangs vont de 1 à {count}",
@@ -142,6 +138,24 @@ MESSAGES: dict[str, Message] = {
     "lists-differ": Message(
         "the lists have {n_x}, {n_values} and {n_values_2} {n_values_2:item|items}",
         "les listes ont {n_x}, {n_values} et {n_values_2} {n_values_2:valeur|valeurs}",
+    ),
+    "no-such-component": Message(
+        "there is no component '{name}' here: {known:?there are {known}|the fields have "
+        "none at all}",
+        "il n'y a pas ici de composante '{name}' : {known:?il y a {known}|les champs "
+        "n'en ont aucune}",
+        "{near:?did you mean '{near}'?}",
+        "{near:?vouliez-vous dire '{near}' ?}",
+    ),
+    "no-value-at-node": Message(
+        "{name} has no value at node {node}: the nearest one that has it is {nearest}, at a "
+        "distance of {distance:.4g}",
+        "{name} n'a pas de valeur au noeud {node} : le plus proche qui en a une est {nearest}, à "
+        "une distance de {distance:.4g}",
+        "take a node of the mesh, as MAIL1 POIN 'PROC' P1 finds it; a point written anew is "
+        "another node",
+        "prenez un noeud du maillage, comme MAIL1 POIN 'PROC' P1 le trouve ; un point écrit à "
+        "nouveau est un autre noeud",
     ),
     "no-value-on-line": Message(
         "the field has no value of {name} at {n_missing} of the {n_nodes} "

@@ -3,6 +3,10 @@
 from ssilang.messages.message import Message
 
 MESSAGES: dict[str, Message] = {
+    "empty-shape": Message(
+        "the deformed shape is empty: it has no amplification",
+        "la déformée est vide : elle n'a pas d'amplification",
+    ),
     "no-colour-no-place": Message(
         "'{said}' is neither a colour nor one of {places:words}",
         "'{said}' n'est ni une couleur ni l'un de {places:words}",

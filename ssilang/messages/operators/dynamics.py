@@ -83,6 +83,15 @@ MESSAGES: dict[str, Message] = {
         "'MAILLAGE_VTK' is a TABLE without MAILLAGE",
         "'MAILLAGE_VTK' est une TABLE sans MAILLAGE",
     ),
+    "left-for-good": Message(
+        "all joints are open since t = {time:.4g} s at the latest, and open further to the end "
+        "({least:.3g} m at least): the structure leaves the ground for good",
+        "tous les joints sont ouverts depuis t = {time:.4g} s au plus tard, et s'ouvrent encore à "
+        "la fin (d'au moins {least:.3g} m) : la structure quitte le sol pour de bon",
+        "does the weight press it down? MASS times an acceleration of -9.81 upwards",
+        "le poids la presse-t-il ? MASS fois une accélération de -9.81 vers le haut",
+        severity="warning",
+    ),
     "joints-out-of-proportion": Message(
         "the joints are {stiffer:?{stiffer:.1e} times as stiff as|{softer:.1e} times softer "
         "than} the "
@@ -91,15 +100,6 @@ MESSAGES: dict[str, Message] = {
         "que les corps aux mêmes noeuds : des chiffres se perdent",
         "KN and KS are in Pa/m (N/m for JOI1); check their units",
         "KN et KS sont en Pa/m (N/m pour JOI1) ; vérifiez leurs unités",
-        severity="warning",
-    ),
-    "sides-swapped": Message(
-        "the joint around {x:.4g} {y:.4g} {z:.4g} opens where its bodies come together: its "
-        "sides are swapped",
-        "le joint autour de {x:.4g} {y:.4g} {z:.4g} s'ouvre quand ses corps se rapprochent : "
-        "ses côtés sont inversés",
-        "RACC and LIAI take the structure's side first",
-        "RACC et LIAI prennent d'abord le côté de la structure",
         severity="warning",
     ),
     "badly-conditioned": Message(

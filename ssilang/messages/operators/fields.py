@@ -3,6 +3,10 @@
 from ssilang.messages.message import Message
 
 MESSAGES: dict[str, Message] = {
+    "no-inverse-of-zero": Message(
+        "component {name} is 0 at ({at:.4g}): it has no inverse there",
+        "la composante {name} vaut 0 en ({at:.4g}) : elle n'y a pas d'inverse",
+    ),
     "field-no-component": Message(
         "the field has no component {name}",
         "le champ n'a pas de composante {name}",
@@ -227,6 +231,29 @@ MESSAGES: dict[str, Message] = {
     "three-word-counts-differ": Message(
         "the three lists have {counts} words",
         "les trois listes ont {counts} mots",
+    ),
+    "model-for-hooke": Message(
+        "with a model, matrices of Hooke are multiplied by strains",
+        "avec un modèle, ce sont des matrices de Hooke qu'on multiplie par des déformations",
+        "HOOK makes them, EPSI gives strains; without a model fields go component by component",
+        "HOOK les fabrique, EPSI donne les déformations ; sans modèle, les champs se multiplient "
+        "composante par composante",
+    ),
+    "table-of-fields": Message(
+        "the table has no fields in cells at numbers",
+        "la table n'a pas de champs par éléments à des indices numériques",
+    ),
+    "factor-count": Message(
+        "{n_factors} {n_factors:factor|factors} for {n_names} {n_names:name|names}",
+        "{n_factors} {n_factors:coefficient|coefficients} pour {n_names} {n_names:nom|noms}",
+        "as many numbers as each list has words",
+        "autant de nombres que chaque liste a de mots",
+    ),
+    "objects-do-not-go": Message(
+        "{sign} does not go with what the cells hold: {types:words}",
+        "{sign} ne va pas avec ce que portent les éléments : {types:words}",
+        "curves, lists and numbers combine; points add up",
+        "les évolutions, listes et nombres se combinent ; les points s'additionnent",
     ),
     "zero-no-power": Message(
         "zero has no power {exponent:g}",

@@ -29,6 +29,22 @@ MESSAGES: dict[str, Message] = {
         "the number of values must follow {name}*{kind}",
         "le nombre de valeurs doit suivre {name}*{kind}",
     ),
+    "figure-not-finite": Message(
+        "a figure, what is expected of it and its tolerance are finite numbers: this of '{name}' "
+        "is none",
+        "un résultat, ce qu'on en attend et sa tolérance sont des nombres finis : celui-ci de "
+        "'{name}' n'en est pas un",
+        "look for what was divided by zero, or grew without bound",
+        "cherchez ce qui a été divisé par zéro, ou a grandi sans borne",
+    ),
+    "record-not-in-si": Message(
+        "the record is in {unit}, and no factor makes metres and seconds of it: its values are "
+        "read as they are",
+        "l'enregistrement est en {unit}, et aucun facteur n'en fait des mètres et des secondes : "
+        "ses valeurs sont lues telles quelles",
+        "LIRE 'PEER' '{file}' {factor:g}; LIRE 'PEER' '{file}' 1. to have it so",
+        "LIRE 'PEER' '{file}' {factor:g} ; LIRE 'PEER' '{file}' 1. pour l'avoir ainsi",
+    ),
     "format-not-read": Message(
         "LIRE '{word}' is not supported",
         "LIRE '{word}' n'existe pas",

@@ -3,6 +3,10 @@
 from ssilang.messages.message import Message
 
 MESSAGES: dict[str, Message] = {
+    "no-list-in-table": Message(
+        "the table holds no list of numbers or words",
+        "la table ne contient aucune liste de nombres ou de mots",
+    ),
     "no-place-to-insert": Message(
         "the list has {n_value} {n_value:item|items}, nothing goes to place {place}",
         "la liste a {n_value} {n_value:élément|éléments}, rien ne se met au rang {place}",
@@ -48,6 +52,18 @@ MESSAGES: dict[str, Message] = {
         "des pas de {step} ne mènent pas de {start} à {end}",
         "LECT wants a step that divides the distance",
         "LECT veut un pas qui divise la distance",
+    ),
+    "steps-not-finite": Message(
+        "steps of {step:g} from {start:g} to {end:g} are no finite numbers",
+        "des pas de {step:g} de {start:g} à {end:g} ne sont pas des nombres finis",
+    ),
+    "steps-lead-away": Message(
+        "steps of {step:g} do not lead from {start:g} to {end:g}: {step:?they go the other way|"
+        "they go nowhere}",
+        "des pas de {step:g} ne mènent pas de {start:g} à {end:g} : {step:?ils vont dans l'autre "
+        "sens|ils ne mènent nulle part}",
+        "{meant:?the step has the sign of the distance: PAS {meant:g}}",
+        "{meant:?le pas a le signe de la distance : PAS {meant:g}}",
     ),
     "logarithm": Message(
         "a logarithm needs positive values",

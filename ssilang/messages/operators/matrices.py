@@ -56,6 +56,32 @@ MESSAGES: dict[str, Message] = {
         "a field whose product U K U is zero cannot be orthogonalised to",
         "on ne peut orthogonaliser à un champ dont le produit U K U est nul",
     ),
+    "sides-swapped": Message(
+        "the joint around ({place}) opens where its bodies come together: its sides are swapped",
+        "le joint autour de ({place}) s'ouvre quand ses corps se rapprochent : ses "
+        "côtés sont inversés",
+        "{overlap:?its sides lie {overlap:.4g} inside each other: move the bodies apart|{points:?"
+        "turn its DIRECTION round (MATE), or the order of its two points|the way in which the "
+        "first mesh of RACC or LIAI is walked decides: RACC (INVE GEO1) GEO2 turns it round}}",
+        "{overlap:?ses côtés sont l'un dans l'autre de {overlap:.4g} : écartez les corps|{points:?"
+        "inversez sa DIRECTION (MATE), ou l'ordre de ses deux points|le sens de parcours du "
+        "premier maillage de RACC ou LIAI décide : RACC (INVE GEO1) GEO2 le retourne}}",
+        severity="warning",
+    ),
+    "beam-ends-on-solid": Message(
+        "the {rotations:rotation|rotations} {rotations:and} at node {node} "
+        "{rotations:is|are} held by nothing but the {shell:?shell|beam} that ends there on a "
+        "solid: this is a hinge{more:?, as at {more} more {more:node|nodes}}",
+        "{rotations:la rotation|les rotations} {rotations:and} au noeud {node} "
+        "{rotations:n'est tenue|ne sont tenues} par rien d'autre que la {shell:?coque|poutre} qui "
+        "s'y termine sur un massif : c'est une articulation{more:?, comme à {more} "
+        "{more:autre noeud|autres noeuds}}",
+        "hold it by RELA, or let the {shell:?shell|beam} go on over a second node of the solid; a "
+        "hinge that is meant has a node of its own, tied to the solid's by RELA",
+        "tenez-la par RELA, ou prolongez la {shell:?coque|poutre} sur un second noeud du massif ; "
+        "une articulation voulue a son propre noeud, lié par RELA à celui du massif",
+        severity="warning",
+    ),
     "held-nodes-without-stiffness": Message(
         "{n_held} {n_held:node|nodes} that conditions hold have no stiffness, but lie on nodes "
         "that have "

@@ -3,6 +3,10 @@
 from ssilang.messages.message import Message
 
 MESSAGES: dict[str, Message] = {
+    "matrix-moved-by-field": Message(
+        "a matrix is moved by a vector, not by a field of displacements",
+        "une matrice se translate d'un vecteur, pas d'un champ de déplacements",
+    ),
     "axis-points": Message(
         "{needed} {needed:point says|points say} where it turns, {n_points} are given",
         "{needed} {needed:point dit|points disent} où l'on tourne, il y en a {n_points}",
@@ -292,8 +296,8 @@ MESSAGES: dict[str, Message] = {
     "no-envelope": Message(
         "the mesh has no envelope",
         "le maillage n'a pas d'enveloppe",
-        "it holds no volume cells; 'NOID' allows that",
-        "il ne contient pas d'éléments de volume ; 'NOID' le permet",
+        "it has no face of one cell only; 'NOID' allows that",
+        "il n'a aucune face d'un seul élément ; 'NOID' le permet",
     ),
     "point-outside": Message(
         "the point is outside of all elements of the mesh",

@@ -330,11 +330,22 @@ MESSAGES: dict[str, Message] = {
         "{n_modes} {n_modes:mode demande|modes demandent} autant d'amortissements réduits, pas "
         "{n_ratios}",
     ),
-    "no-solution-object": Message(
-        "'{word}' (an object SOLUTION) is not supported",
-        "'{word}' (un objet SOLUTION) n'est pas disponible",
-        "the table is",
-        "la table l'est",
+    "solution-out-of-scope": Message(
+        "'{word}' gives an object SOLUTION of Cast3M's old substructures (STRU), which are out "
+        "of ssilang's scope",
+        "'{word}' donne un objet SOLUTION des anciennes sous-structures de Cast3M (STRU), hors "
+        "du domaine de ssilang",
+        "without it VIBR gives the same modes in a table BASE_MODALE",
+        "sans lui, VIBR donne les mêmes modes dans une table BASE_MODALE",
+    ),
+    "mass-of-both-signs": Message(
+        "the mass of {unknown} is negative: {value:g}; the modes are those of a load of both "
+        "signs, as for buckling",
+        "la masse de {unknown} est négative : {value:g} ; les modes sont ceux d'une charge des "
+        "deux signes, comme au flambage",
+        "of a structure that vibrates, look for the sign in MASS or MANU",
+        "pour une structure qui vibre, cherchez le signe dans MASS ou MANU",
+        severity="warning",
     ),
     "complex-modes": Message(
         "damped or unsymmetric systems have complex modes",

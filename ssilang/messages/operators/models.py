@@ -19,15 +19,9 @@ MESSAGES: dict[str, Message] = {
         "aucune extrémité du câble allant du noeud {first} au noeud {last} n'est parmi "
         "les points de mise en tension",
     ),
-    "tori-not-available": Message(
-        "'TORI' is not available",
-        "'TORI' n'est pas disponible",
-        "'POLA', 'CYLI' and 'SPHE' are",
-        "'POLA', 'CYLI' et 'SPHE' le sont",
-    ),
     "rten-of-solids-only": Message(
-        "RTEN is for continuous elements, not {element}",
-        "RTEN vaut pour les éléments massifs, pas {element}",
+        "RTEN is for continuous elements and flat shells, not {element}",
+        "RTEN vaut pour les éléments massifs et les coques planes, pas {element}",
     ),
     "what-to-remove": Message(
         "what is to be removed?",
@@ -145,6 +139,23 @@ MESSAGES: dict[str, Message] = {
     "points-across": Message(
         "'INTEGRE' {count}: 2 to 15 points across",
         "'INTEGRE' {count} : 2 à 15 points dans l'épaisseur",
+    ),
+    "adherence-without-equation": Message(
+        "the coefficient of adherence ADHE is not built: its notice gives no equation",
+        "le coefficient d'adhérence ADHE n'est pas construit : sa notice ne donne pas d'équation",
+        "COHE is the cohesion of the sides; a joint JOINT_SDM holds in tension up to FU",
+        "COHE est la cohésion des bords ; un joint JOINT_SDM tient en traction jusqu'à FU",
+    ),
+    "anisotropy-of-two-points": Message(
+        "joints {name} have no elasticity ANISOTROPE: of joints, only JOI1 (two points) has it",
+        "les joints {name} n'ont pas d'élasticité ANISOTROPE : parmi les joints, seul JOI1 (deux "
+        "points) l'a",
+    ),
+    "law-without-equations": Message(
+        "the law {said} is not built: its notice names the parameters {names} and gives no "
+        "equation",
+        "la loi {said} n'est pas construite : sa notice nomme les paramètres {names} et ne donne "
+        "aucune équation",
     ),
     "joint-law-not-built": Message(
         "the joint law {said} is not built: what its parameters BETA (unloading) and CPLG "

@@ -42,6 +42,10 @@ MESSAGES: dict[str, Message] = {
         "a value is too large for an integer",
         "une valeur est trop grande pour un entier",
     ),
+    "list-integer-too-large": Message(
+        "a result is too large for a list of integers, whose items have 64 bits",
+        "un résultat est trop grand pour une liste d'entiers, dont les valeurs ont 64 bits",
+    ),
     "negative-width": Message(
         "the width of a law is not negative, this one is {width:g}",
         "la largeur d'une loi n'est pas négative, celle-ci vaut {width:g}",

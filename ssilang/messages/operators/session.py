@@ -3,12 +3,6 @@
 from ssilang.messages.message import Message
 
 MESSAGES: dict[str, Message] = {
-    "local-axes-kept": Message(
-        "the local axes of characteristics are not updated",
-        "les axes locaux des caractéristiques ne sont pas mis à jour",
-        "give new ones with MATE",
-        "donnez-en de nouveaux par MATE",
-    ),
     "no-procedure-runs": Message(
         "ARGU reads the arguments of a procedure, none is running",
         "ARGU lit les arguments d'une procédure, aucune n'est en cours",

@@ -8,10 +8,6 @@ MESSAGES: dict[str, Message] = {
         "les forces suiveuses d'une procédure ne sont pas faites pour les structures",
     ),
     "static-path": Message("the path of loads is static", "le trajet de chargement est statique"),
-    "plastic-in-finite-motion": Message(
-        "plastic bodies have small displacements only",
-        "les corps plastiques n'ont que de petits déplacements",
-    ),
     "precision-not-positive": Message(
         "the precision must be positive, not {precision:g}",
         "la précision doit être positive, pas {precision:g}",

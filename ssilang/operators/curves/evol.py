@@ -36,7 +36,12 @@ from ssilang.language.values import (
     ListReel,
     Table,
 )
-from ssilang.operators.curves.instants import InstantField, components_in_time, value_in_time
+from ssilang.operators.curves.instants import (
+    InstantField,
+    components_in_time,
+    refused_place,
+    value_in_time,
+)
 from ssilang.operators.curves.words import COLOUR, axis_name, read_colours
 from ssilang.operators.workspace import workspace
 
@@ -277,6 +282,8 @@ def _along_line(call: Call, colours: list[int]) -> Curve:
     part = component(field, name)
     nodes, s = line_abscissas(line)
     missing = ~np.isin(nodes, part.nodes)
+    if np.all(missing):
+        raise refused_place(call, [field], name, int(nodes[0]))
     if np.any(missing):
         call.session.warn(
             "operators.curves.no-value-on-line",
@@ -324,7 +331,7 @@ def _in_time(call: Call, colours: list[int]) -> Curve:
     parts: list[CurvePart] = []
     for name in names:
         for node in nodes:
-            values = value_in_time(fields, name, node)
+            values = value_in_time(call, fields, name, node)
             legend = f"{name} {node + 1}" if len(nodes) > 1 else name
             colour = colours[len(parts) % len(colours)]
             parts.append(CurvePart(times, values, "TEMP", name, legend, colour))

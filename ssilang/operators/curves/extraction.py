@@ -105,6 +105,15 @@ _ZERO = flag("zero", "ZERO", en="abscissas begin at 0", fr="les abscisses commen
     examples=(
         "E = EVOL 'MANU' (PROG 0. 1. 2.) (PROG 5. 6. 7.) ; LIST (EXTR E 'ORDO') ;",
         "E = EVOL 'MANU' (PROG 0. 1. 2.) (PROG 5. 6. 7.) ; LIST (EXTR E 'APRE' 1. 'ZERO') ;",
+        (
+            "E = (EVOL 'ROUG' 'MANU' 't' (PROG 0. 1. 2.) 'u' (PROG 5. 6. 7.)) ET\n"
+            "(EVOL 'VERT' 'MANU' 't' (PROG 0. 1. 2.) 'v' (PROG 8. 9. 7.)) ;\n"
+            "LIST (EXTR E 'ABSC' 2) ; LIST (EXTR E 'v') ; LIST (EXTR E 'COUL') ;\n"
+            "F = EXTR E 'COUR' 2 ; LIST (EXTR F 'ORDO') ; F = EXTR E 'COUR' 'u' ;\n"
+            "LIST (EXTR (EXTR F 'PAS' 2) 'ABSC') ; LIST (EXTR (EXTR F 'AVAN' 1.) 'ORDO') ;\n"
+            "LIST (EXTR (EXTR F 'COMP' 'INDI' 2 3 'ZERO') 'ABSC') ;\n"
+            "MESS (EXTR E 'LEGX') (EXTR E 'LEGY' 2) (EXTR E 'LEGE' 1) (EXTR E 'COUL' 1) ;"
+        ),
     ),
 )
 def extr_curve(call: Call, curve: Curve, what: Chosen) -> Any:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,6 +10,9 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import Numbering
+from ssilang.language.near import nearest
+from ssilang.language.run.call import Call
+from ssilang.language.say.errors import SsiError
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -30,32 +33,74 @@ class InstantField:
     make: Callable[[], NodeField]
 
 
-def value_in_time(fields: list[NodeField | InstantField], name: str, node: int) -> FloatArray:
-    """Values (n_fields,) of a component at a node; zero where it is not defined.
+AnyField = NodeField | InstantField
+
+
+def value_in_time(call: Call, fields: list[AnyField], name: str, node: int) -> FloatArray:
+    """Values (n_fields,) of a component at a node; zero in fields that lack it there.
 
     Fields that are not made yet stay so if an unknown of theirs is asked for.
+
+    Raises
+    ------
+    SsiError
+        If no field has the component there: `refused_place` says what there is.
     """
     places: dict[int, int] = {}
     found = np.zeros(len(fields))
-    at = np.asarray([node])
+    there = not fields
     for i, field in enumerate(fields):
         if isinstance(field, InstantField):
             key = id(field.numbering)
             if key not in places:
                 places[key] = _place(field.numbering, name, node)
             if places[key] >= 0:
-                found[i] = field.vector[places[key]]
+                found[i], there = field.vector[places[key]], True
                 continue
             field = field.make()
-        found[i] = field.values_at(name, at)[0]
+        value = value_at(field, name, node)
+        if value is not None:
+            found[i], there = value, True
+    if not there:
+        raise refused_place(call, fields, name, node)
     return found
+
+
+def value_at(field: NodeField, name: str, node: int) -> float | None:
+    """Value of a component at a node, None where the field has none."""
+    part = field.components.get(name)
+    if part is None or not len(part.nodes):
+        return None
+    i = min(int(np.searchsorted(part.nodes, node)), len(part.nodes) - 1)
+    return float(part.values[i]) if part.nodes[i] == node else None
+
+
+def refused_place(call: Call, fields: Sequence[AnyField], name: str, node: int) -> SsiError:
+    """The error for a component that no field has at a node: the nearest node, or the names."""
+    made = [f.make() if isinstance(f, InstantField) else f for f in fields]
+    parts = [f.components[name] for f in made if name in f.components]
+    support = [p.nodes for p in parts if len(p.nodes)]
+    if not support:
+        known = list(dict.fromkeys(n for f in made for n in f.components))
+        near = nearest(name, known)
+        return call.error("operators.curves.no-such-component", name=name, known=known, near=near)
+    nodes, table = np.unique(np.concatenate(support)), made[0].table
+    distance = np.linalg.norm(table.coordinates[nodes] - table.coordinates[node], axis=1)
+    i = int(np.argmin(distance))
+    return call.error(
+        "operators.curves.no-value-at-node",
+        name=name,
+        node=table.told(node),
+        nearest=table.told(int(nodes[i])),
+        distance=float(distance[i]),
+    )
 
 
 def _place(numbering: Numbering, name: str, node: int) -> int:
     return numbering.index_of(node, name) if name in numbering.unknowns else -1
 
 
-def components_in_time(fields: list[NodeField | InstantField]) -> set[str]:
+def components_in_time(fields: list[AnyField]) -> set[str]:
     """Names of the components of all fields; those of one numbering have the same."""
     found: set[str] = set()
     seen: set[int] = set()

@@ -48,15 +48,10 @@ from ssilang.operators.numbers.arithmetic import rule
 from ssilang.operators.numbers.functions import mapped
 from ssilang.operators.workspace import workspace
 
-_VALUE = arg(
-    "value",
-    "FLOTTANT",
-    "LISTREEL",
-    "CHPOINT",
-    "MCHAML",
-    en="where the function is wanted",
-    fr="où la fonction est cherchée",
-)
+_WHERE, _WHERE_FR = "where the function is wanted", "où la fonction est cherchée"
+_NUMBER = arg("value", "FLOTTANT", en=_WHERE, fr=_WHERE_FR)
+_NUMBER_OR_FIELD = arg("value", "FLOTTANT", "CHPOINT", "MCHAML", en=_WHERE, fr=_WHERE_FR)
+_LIST = arg("value", "LISTREEL", en=_WHERE, fr=_WHERE_FR)
 _FUNCTION = either(
     "function",
     group("curve", CURVE),
@@ -68,10 +63,7 @@ _FUNCTION = either(
 )
 
 
-@operator(
-    "IPOL",
-    _VALUE,
-    _FUNCTION,
+_SPLINE = (
     flag("smooth", "SPLI", en="by a cubic spline", fr="par spline cubique"),
     key(
         "left",
@@ -87,6 +79,30 @@ _FUNCTION = either(
         en="slope of the spline at the right end",
         fr="pente de la spline au bord droit",
     ),
+)
+
+
+def _interpolate(
+    call: Call,
+    value: Any,
+    function: Chosen,
+    smooth: bool,
+    left: float | None,
+    right: float | None,
+) -> Any:
+    """Interpolate."""
+    x, y = _points_of(call, function)
+    if smooth:
+        return mapped(lambda at: spline(x, y, at, left, right), value)
+    return mapped(lambda at: interpolated(x, y, at), value)
+
+
+# two lists beside a number or a field are the function, wherever these stand
+ipol = operator(
+    "IPOL",
+    _NUMBER_OR_FIELD,
+    _FUNCTION,
+    *_SPLINE,
     family="curves",
     gives=Like("value"),
     help=Help(
@@ -106,22 +122,21 @@ _FUNCTION = either(
         examples=(
             "LIST (IPOL 1.5 (PROG 0. 1. 2.) (PROG 0. 10. 30.)) ;",
             "LIST (IPOL (PROG 0.5 5.) (EVOL 'MANU' (PROG 0. 1.) (PROG 2. 4.))) ;",
+            "LIST (IPOL 'TOUS' 0.5 (PROG 0. 1. 0.) (PROG 2. 4. 8.)) ;",
+            (
+                "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (2. 0.) ; C = COOR 1 L ;\n"
+                "P = IPOL (COOR 'CURV' L) 0.7 ; LIST (COOR 1 P) ;\n"
+                "T = TABL 'RESULTAT' ; T . 1.5 = C ; T . 3. = 4. * C ;\n"
+                "LIST (MAXI (IPOL T 2.)) ;\n"
+                "N = NUAG 'COMP' 'X' (PROG 0. 2.) 'COMP' 'F' (PROG 1. 5.) ;\n"
+                "LIST (IPOL N (NOMC 'X' C) 'GRILL') ;"
+            ),
         ),
     ),
-)
-def ipol(
-    call: Call,
-    value: Any,
-    function: Chosen,
-    smooth: bool,
-    left: float | None,
-    right: float | None,
-) -> Any:
-    """Interpolate."""
-    x, y = _points_of(call, function)
-    if smooth:
-        return mapped(lambda at: spline(x, y, at, left, right), value)
-    return mapped(lambda at: interpolated(x, y, at), value)
+)(_interpolate)
+
+
+ipol.form(_LIST, _FUNCTION, *_SPLINE, gives=Like("value"))(_interpolate)
 
 
 def _points_of(call: Call, function: Chosen) -> tuple[FloatArray, FloatArray]:
@@ -132,11 +147,9 @@ def _points_of(call: Call, function: Chosen) -> tuple[FloatArray, FloatArray]:
     return part.abscissas, part.ordinates
 
 
-@ipol.form(said("TOUS"), _VALUE, _FUNCTION)
-def all_values(call: Call, value: Any, function: Chosen) -> ListReel:
+@ipol.form(said("TOUS"), _NUMBER, _FUNCTION)
+def all_values(call: Call, value: float, function: Chosen) -> ListReel:
     """All ordinates of a curve that goes back."""
-    if not isinstance(value, float):
-        raise call.error("operators.curves.all-of-one-number", value)
     return ListReel(crossings(*_points_of(call, function), value))
 
 

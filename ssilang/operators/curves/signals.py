@@ -97,7 +97,12 @@ _LIMITS = (
         "liste de champs : listes des champs réels et imaginaires, et fréquences.",
         syntax="EVOL1 = TFR N1 EVOL2 'REIM' | 'MOPH' ('FMIN' F1) ('FMAX' F2) (COUL1) (COUL2) ;\n"
         "LCHP1 LCHP2 LREE1 = TFR N1 LCHP3 LREE2 'REIM' | 'MOPH' ('FMIN' F1) ('FMAX' F2) ;",
-        examples=(_SIGNAL + "F = TFR 6 S 'MOPH' ; LIST (EXTR (EXTR F 'MODU') 1) ;",),
+        examples=(
+            _SIGNAL + "F = TFR 6 S 'MOPH' ; LIST (EXTR (EXTR F 'MODU') 1) ;",
+            "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'UX' 1. ; L = SUIT C C C C ;\n"
+            "R I F = TFR 2 L (PROG 0. 'PAS' 0.5 1.5) 'REIM' ; LIST F ;\n"
+            "LIST (EXTR R 'VALE' 'UX' P) ;",
+        ),
     ),
 )
 def tfr(
@@ -241,7 +246,11 @@ _CUT = arg("cut", "FLOTTANT", en="cut-off frequency", fr="fréquence de coupure"
         "pulsation (i 2 pi f)**N ('OMEG').",
         syntax="EVOL1 = FILT N1 'TYPE' 'PHAU' F1 | 'PBAS' F1 | 'OMEG' N2 ('SORT' 'REIM' | 'MOPH') "
         "'DFRQ' F2 ;",
-        examples=("LIST (DIME (FILT 4 'TYPE' 'PBAS' 2. 'DFRQ' 0.5)) ;",),
+        examples=(
+            "LIST (DIME (FILT 4 'TYPE' 'PBAS' 2. 'DFRQ' 0.5)) ;",
+            "LIST (FILT 2 'TYPE' 'PHAU' 2. 'DFRQ' 2.) ;\n"
+            "LIST (FILT 2 'TYPE' 'OMEG' 2 'SORT' 'REIM' 'DFRQ' 1.) ;",
+        ),
     ),
 )
 def filt(
@@ -385,7 +394,12 @@ _AXIS = arg("name", "MOT", en="name of the ordinates", fr="nom des ordonnées")
         "valeurs ('NOCO' : couples successifs avec 'COUP', sinon tous les temps puis toutes les "
         "valeurs, ou deux listes dont la première contient le pas ou 0).",
         syntax="EVOL1 = FDT MOT1 'CONS' X1 LREE1 ; EVOL1 = FDT MOT1 'NOCO' 'COUP' LREE2 | LREE3 ;",
-        examples=("LIST (FDT 'ACCE' 'CONS' 0.5 (PROG 1. 2. 3.)) ;",),
+        examples=(
+            "LIST (FDT 'ACCE' 'CONS' 0.5 (PROG 1. 2. 3.)) ;",
+            "LIST (FDT 'ACCE' 'NOCO' 'COUP' (PROG 0. 1. 0.5 2.)) ;\n"
+            "LIST (FDT 'ACCE' 'NOCO' (PROG 0. 0.5 1. 2.)) ; LIST (FDT 'ACCE' (PROG 0.5) "
+            "(PROG 1. 2.)) ;",
+        ),
     ),
 )
 def fdt(name: str, step: float, values: ListReel) -> Curve:

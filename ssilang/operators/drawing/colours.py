@@ -27,9 +27,10 @@ from ssilang.operators.workspace import workspace
     gives=Like("value"),
     syntax="OBJ2 = OBJ1 COUL (MOT1 | LISTMOTS1 | N1) ;",
     en="A curve, deformed shape or set of arrows in one colour for all its parts, or in one each "
-    "(LISTMOTS); without a colour, in that of OPTI COUL.",
+    "(the first ones of a LISTMOTS, which may be longer); without a colour, in that of OPTI COUL.",
     fr="Une évolution, une déformée ou des vecteurs dans une couleur pour toutes leurs parties, ou "
-    "dans une couleur pour chacune (LISTMOTS) ; sans couleur, dans celle d'OPTI COUL.",
+    "dans une couleur pour chacune (les premières d'un LISTMOTS, qui peut être plus long) ; sans "
+    "couleur, dans celle d'OPTI COUL.",
     examples=(
         "E = EVOL 'MANU' 't' (PROG 0. 1.) 'u' (PROG 1. 2.) ; F = (E ET E) COUL (MOTS ROUG VERT) ; "
         "DESS F ;",
@@ -40,7 +41,7 @@ def _recolour(call: Call, value: Any, given: ListMots | int | str | None) -> Any
         colours = [workspace(call.session).colour] * len(value.parts)
     elif isinstance(given, ListMots):
         colours = [index_of(str(v)) for v in given.values]
-        if len(colours) != len(value.parts):
+        if len(colours) < len(value.parts):
             raise call.error(
                 "operators.drawing.colour-count",
                 given,
@@ -49,7 +50,7 @@ def _recolour(call: Call, value: Any, given: ListMots | int | str | None) -> Any
             )
     else:
         colours = [_colour(call, given)] * len(value.parts)
-    parts = tuple(replace(p, colour=c) for p, c in zip(value.parts, colours, strict=True))
+    parts = tuple(replace(p, colour=c) for p, c in zip(value.parts, colours, strict=False))
     return replace(value, parts=parts)
 
 

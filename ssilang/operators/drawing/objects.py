@@ -10,14 +10,23 @@ from ssilang.kernel.fields.arrows import (
     principal_strokes,
 )
 from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.fields.deformed import Arrows, Deformed, DeformedPart
+from ssilang.kernel.fields.deformed import Arrows, Deformed, DeformedPart, automatic_scale
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Model
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.language.registry import Help, arg, choice, main, many, operator, opt, shared
+from ssilang.language.registry import (
+    Help,
+    arg,
+    choice,
+    main,
+    many,
+    operator,
+    opt,
+    shared,
+)
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots, register_type
-from ssilang.operators.dispatch import union
+from ssilang.operators.dispatch import EXTR, union
 from ssilang.operators.workspace import workspace
 
 register_type(Deformed, "DEFORME")
@@ -213,3 +222,24 @@ def _in_cells(
         return arrows_in_cells(mchaml, tuple([*columns, "", "", ""][:3]), scale, shade)  # type: ignore[arg-type]
     chosen = [w for w in single if w in names]
     return principal_strokes(mchaml, scale, tuple(chosen), tuple(colours))
+
+
+@EXTR.form(
+    main("shape", "DEFORME", en="deformed shapes", fr="déformées"),
+    choice("what", ("AMPL",), optional=False, en="amplification", fr="amplification"),
+    syntax="X1 = EXTR DEFO1 'AMPL' ;",
+    en="Of deformed shapes: the amplification of the first, also the one that a picture chooses.",
+    fr="De déformées : l'amplification de la première, aussi celle que choisit un dessin.",
+    examples=(
+        "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (1. 0.) ; U = MANU 'CHPO' L 'UX' 1. ; "
+        "LIST (EXTR (DEFO 3. L U) 'AMPL') ;",
+    ),
+)
+def amplification(call: Call, shape: Deformed, what: str) -> float:
+    """By how much the displacement is amplified."""
+    if not shape.parts:
+        raise call.error("operators.drawing.empty-shape", shape)
+    first = shape.parts[0]
+    if first.scale is not None:
+        return float(first.scale)
+    return automatic_scale(first.mesh, first.displacement)

@@ -22,10 +22,11 @@ from ssilang.operators.dynamics.motion_observers import TableObserver
 from ssilang.operators.dynamics.reports import (
     report,
     warn_motion_elsewhere,
+    warn_of_connections,
     warn_resolution,
-    warn_supports,
 )
 from ssilang.operators.dynamics.scheme_entries import contact_options, scheme_of
+from ssilang.operators.dynamics.watching import ExtremesObserver, UpliftWatch
 from ssilang.operators.session.progress import ProgressLine
 from ssilang.operators.statics.bodies import plastic_bodies
 from ssilang.operators.tables.entries import Entries
@@ -63,7 +64,7 @@ def zdyn(call: Call, table: Table) -> Table:
     times, saved = _times(entries)
     inputs = _with_bodies(entries, _inputs(entries, times))
     problem = make_problem(inputs)
-    warn_supports(entries, inputs)
+    warn_of_connections(entries, inputs)
     warn_motion_elsewhere(entries, problem, inputs)
     make_bodies = plastic_bodies(entries)
     bodies = None if make_bodies is None else make_bodies(problem, inputs)
@@ -71,8 +72,10 @@ def zdyn(call: Call, table: Table) -> Table:
     results = TableObserver(saved, nodes_asked(entries.get("MAILLAGE_SAUVE")))
     vtk, csv = vtk_observer(entries, times), csv_observer(entries, times)
     line = ProgressLine("DYNAMIC", entries.call.session.told)
-    observers = [o for o in (results, vtk, csv) if o is not None]
-    if not is_compiled("dynamics"):
+    extremes = ExtremesObserver(problem) if entries.flag("EXTREMES") else None
+    uplift = UpliftWatch.of(problem)
+    observers = [o for o in (results, vtk, csv, extremes, uplift) if o is not None]
+    if not is_compiled("stepping"):
         line.note("operators.dynamics.compiling")
     try:
         history = _integrated(entries, problem, observers, line, bodies)
@@ -81,6 +84,10 @@ def zdyn(call: Call, table: Table) -> Table:
     _say_reduction(entries, history)
     if csv is not None:
         entries.table.set(Mot("RESULTATS_CSV"), csv.table)
+    if extremes is not None:
+        entries.table.set(Mot("RESULTATS_EXTREMES"), extremes.table())
+    if uplift is not None and uplift.left:
+        entries.warn("operators.dynamics.left-for-good", time=uplift.since, least=uplift.opening)
     report(entries, problem, history)
     return results.table
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from ssilang.language.values import LazyTable, ListReel, Mot, promises
 from ssilang.messages.message import sentence
-from ssilang.operators.matrices.doubled import warn_doubled_supports
+from ssilang.operators.matrices.connections import warn_connections
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
@@ -49,7 +49,8 @@ def report(entries: Entries, problem: Problem, history: History) -> None:
         "most_interface_iterations": history.iterations,
         "seconds": history.seconds,
         "steps_per_second": steps / history.seconds if history.seconds > 0 else None,
-        "energy_imbalance": history.worst_imbalance,
+        "energy_imbalance": _relative(history.worst_imbalance, history.largest_energy),
+        "energy_imbalance_joules": history.worst_imbalance,
     }
     if history.reduction is not None:
         line |= {
@@ -62,6 +63,11 @@ def report(entries: Entries, problem: Problem, history: History) -> None:
             "seconds_preparing_the_basis": history.reduction.prepared,
         }
     session.statistics.setdefault("calculations", []).append(line)
+
+
+def _relative(imbalance: float, largest: float) -> float | None:
+    """The imbalance as a part of the largest energy, None where there was none."""
+    return imbalance / largest if largest > 0.0 else None
 
 
 def none_if_nan(value: float) -> float | None:
@@ -96,18 +102,20 @@ def warn_massless(entries: Entries, problem: Problem) -> None:
         return
     for body in loose_bodies(problem, np.zeros((joints.n_points, joints.dimension))):
         if body.mass == 0.0:
-            entries.warn("operators.dynamics.body-without-mass", node=body.node)
+            node = problem.numbering.table.told(body.node)
+            entries.warn("operators.dynamics.body-without-mass", node=node)
 
 
-def warn_supports(entries: Entries, inputs: Inputs) -> None:
-    """Warn of supports beside the body (lines made twice) and of joints the wrong way round."""
-    from ssilang.kernel.statics.sides import swapped_joints
-
-    warn_doubled_supports(
-        entries.call.session, entries.place, entries.procedure, inputs.stiffness, inputs.model
+def warn_of_connections(entries: Entries, inputs: Inputs) -> None:
+    """Warn of supports beside the body, joints the wrong way round, beams on single nodes."""
+    warn_connections(
+        entries.call.session,
+        entries.place,
+        entries.procedure,
+        inputs.stiffness,
+        inputs.model,
+        inputs.characteristics,
     )
-    for x, y, z in swapped_joints(inputs.stiffness, inputs.model, inputs.characteristics):
-        entries.warn("operators.dynamics.sides-swapped", x=x, y=y, z=z)
 
 
 def warn_motion_elsewhere(entries: Entries, problem: Problem, inputs: Inputs) -> None:

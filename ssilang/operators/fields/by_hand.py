@@ -8,6 +8,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.elements.zone_fields import n_points
+from ssilang.kernel.fields.cell_curves import through
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.fields.node_field import Nature, NodeField, NodeValues
 from ssilang.kernel.materials.model import Model
@@ -23,7 +24,7 @@ from ssilang.language.registry import (
     said,
 )
 from ssilang.language.run.call import Call
-from ssilang.language.values import ListMots, ListReel
+from ssilang.language.values import ListMots, ListReel, Table
 from ssilang.operators.dispatch import MANU
 from ssilang.operators.fields.components import NATURE, support_nodes
 from ssilang.operators.fields.signs import names_of, nature_of
@@ -144,6 +145,53 @@ def _merged(
 
 
 # ---- in cells -----------------------------------------------------------------------------------
+
+
+_CURVES = (
+    said("CHML", "CHAM"),
+    choice("curves", ("EVOL",), optional=False, en="curves", fr="évolutions"),
+    arg("name", "MOT", en="name of their abscissas", fr="nom de leurs abscisses"),
+)
+
+
+@MANU.form(
+    *_CURVES,
+    each(
+        "pairs",
+        arg("abscissa", "FLOTTANT", en="abscissa", fr="abscisse"),
+        arg("field", "MCHAML", en="values there", fr="valeurs en cette abscisse"),
+        at_least=1,
+    ),
+    syntax="CHAM1 = MANU 'CHML' 'EVOL' MOT1 X1 CHAM1 X2 CHAM2 ... | TAB1 ;",
+    en="With 'EVOL': in each cell a curve through the values that fields in cells have there, "
+    "against numbers that increase (the indices of a table of them).",
+    fr="Avec 'EVOL' : dans chaque élément une évolution passant par les valeurs qu'y ont des "
+    "champs par éléments, en fonction de nombres croissants (les indices d'une table de ceux-ci).",
+    examples=(
+        "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (1. 0.) ; A = MANU 'CHML' L 'YOUN' 3. ; "
+        "C = MANU 'CHML' 'EVOL' 'T' 20. A 100. (0.5 * A) ; LIST (EXTR C 'YOUN' 1 1 1) ; "
+        "T = TABL ; T . 20. = A ; T . 100. = 2. * A ; "
+        "LIST (EXTR (MANU 'CHML' 'EVOL' 'T' T) 'YOUN' 1 1 1) ;",
+    ),
+)
+def curves_in_cells(
+    call: Call, curves: str, name: str, pairs: list[tuple[float, CellField]]
+) -> CellField:
+    """Curves from fields in cells."""
+    return through(name.rstrip(), [x for x, _ in pairs], [f for _, f in pairs])
+
+
+@MANU.form(*_CURVES, arg("table", "TABLE", en="fields by abscissa", fr="champs par abscisse"))
+def curves_of_table(call: Call, curves: str, name: str, table: Table) -> CellField:
+    """Curves from a table of fields in cells."""
+    rows = [
+        (float(k), v)
+        for k, v in table.items()
+        if isinstance(k, int | float) and isinstance(v, CellField)
+    ]
+    if not rows:
+        raise call.error("operators.fields.table-of-fields", table)
+    return through(name.rstrip(), [x for x, _ in rows], [f for _, f in rows])
 
 
 @MANU.form(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import replace
-from functools import partial
+from functools import partial, reduce
 from typing import cast
 
 from ssilang.kernel.elements.results.reduction import field_on_mesh, field_on_model, model_on_mesh
@@ -16,12 +16,14 @@ from ssilang.kernel.elements.results.supports import (
     point_coordinates,
     values_at_points,
 )
+from ssilang.kernel.fields.cell_algebra import united
 from ssilang.kernel.fields.cell_field import CellField, Support
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Model
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.language.registry import When, arg, choice, main, opt, said
 from ssilang.language.run.call import Call
+from ssilang.language.values import Table
 from ssilang.operators.dispatch import CHAN, COOR, REDU
 from ssilang.operators.workspace import workspace
 
@@ -158,6 +160,25 @@ def redu_cells(field: CellField, support: Mesh | Model) -> CellField:
     if isinstance(support, Mesh):
         return field_on_mesh(field, support)
     return field_on_model(field, support)
+
+
+@REDU.form(
+    main("table", "TABLE", en="table ESCLAVE of fields", fr="table ESCLAVE de champs"),
+    _MODEL,
+    syntax="CHAM2 = REDU TAB1 MODL1 ;",
+    en="A table ESCLAVE of fields in cells, joined and restricted to a model.",
+    fr="Une table ESCLAVE de champs par éléments, réunis et réduits à un modèle.",
+    examples=(
+        _EXAMPLE + "T = TABL 'ESCLAVE' ; T . 1 = REDU A (S ELEM 1) ; T . 2 = REDU A (S ELEM 2) ; "
+        "LIST (INTG M (REDU T M) 'NU') ;",
+    ),
+)
+def redu_table(call: Call, table: Table, model: Model) -> CellField:
+    """The fields of a table on a model."""
+    fields = [v for k, v in table.items() if isinstance(k, int) and isinstance(v, CellField)]
+    if not fields:
+        raise call.error("operators.fields.table-of-fields", table)
+    return field_on_model(reduce(united, fields), model)
 
 
 _POINTS = main("field", "MCHAML", en="field in cells", fr="champ par éléments")

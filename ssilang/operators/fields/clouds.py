@@ -25,9 +25,16 @@ from ssilang.language.registry import (
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots, register_type, type_of
 from ssilang.messages.message import Teller
-from ssilang.operators.dispatch import DIME, EXTR, REDU, listing
+from ssilang.operators.dispatch import DIME, EXTR, REDU, listing, union
 
 register_type(Cloud, "NUAGE")
+
+
+@union(("NUAGE", "NUAGE"))
+def _joined(first: Cloud, second: Cloud) -> Cloud:
+    return first.joined(second)
+
+
 _EXAMPLE = "N = NUAG 'COMP' 'X' 0. 1. 2. 'COMP' 'Y' 5. 6. 9. ; "
 
 

@@ -27,6 +27,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots, ListReel, Mot
+from ssilang.operators.curves.instants import refused_place
 from ssilang.operators.dispatch import CHAN, COPI, ENLE, EXTR, REDU
 from ssilang.operators.fields.signs import names_of, nature_of, nature_word
 
@@ -331,18 +332,20 @@ def _component_names(field: NodeField) -> Collection[str]:
     syntax="LREE1 = EXTR CHPO1 'VALE' (MOT1 | LMOT1) (POIN1 | GEO1) ('NOID') ;\n"
     "MAIL1 = EXTR CHPO1 'MAIL' ('NOMU') ; LMOT1 = EXTR CHPO1 'COMP' ; "
     "MOT1 = EXTR CHPO1 'TITR' | 'TYPE' | 'NATU' ;",
-    en="Of a field at nodes: a value at a point (0. outside of its support), values as a list (in "
-    "the order of the points of a mesh), its mesh of points, names of components, title, type, "
-    "nature.",
-    fr="D'un champ par points : une valeur en un point (0. hors de son support), des valeurs en "
-    "liste (dans l'ordre des points d'un maillage), son maillage de points, noms des composantes, "
-    "titre, type, nature.",
+    en="Of a field at nodes: a value at a point, values as a list (in the order of the points of "
+    "a mesh, 0. where it has none), its mesh of points, names of components, title, type, nature. "
+    "A point that the field does not stand on is refused, but for fields of nature DISCRET "
+    "(forces), which are zero there, and with 'NOID'.",
+    fr="D'un champ par points : une valeur en un point, des valeurs en liste (dans l'ordre des "
+    "points d'un maillage, 0. là où il n'en a pas), son maillage de points, noms des composantes, "
+    "titre, type, nature. Un point qui ne porte pas le champ est refusé, sauf pour les champs de "
+    "nature DISCRET (des forces), qui y sont nuls, et avec 'NOID'.",
     examples=(_POINT_FIELD + "LIST (EXTR C 'UY' P) ; LIST (EXTR C 'VALE' 'UX') ;",),
 )
-def extract(field: NodeField, what: Chosen) -> ListReel | Mesh | ListMots | Mot:
+def extract(call: Call, field: NodeField, what: Chosen) -> ListReel | Mesh | ListMots | Mot:
     """A part of a field at nodes."""
     if what.word == "VALE":
-        return _values(field, what["names"], what["support"], what["lenient"])
+        return _values(call, field, what["names"], what["support"], what["lenient"])
     if what.word == "MAIL":
         return _points_of(field, what["without"])
     if what.word == "COMP":
@@ -357,17 +360,18 @@ def extract(field: NodeField, what: Chosen) -> ListReel | Mesh | ListMots | Mot:
     arg("point", "POINT", en="where", fr="où"),
     syntax="X1 = EXTR CHPO1 MOT1 POIN1 ;",
 )
-def value_at(field: NodeField, component: str, point: Point) -> float:
+def value_at(call: Call, field: NodeField, component: str, point: Point) -> float:
     """A component at a point."""
-    return _value_at(field, component.rstrip(), point)
+    name = component.rstrip()
+    node_algebra.component(field, name)
+    _checked_node(call, field, name, point)
+    return float(node_algebra.values_in_order(field, [name], np.asarray([point.node]))[0])
 
 
-def _value_at(field: NodeField, name: str, point: Point) -> float:
-    """The value at a point, 0. outside of the field's support, as for a list of values."""
-    part = node_algebra.component(field, name)
-    if point.node not in part.nodes:
-        return 0.0
-    return float(part.at(np.asarray([point.node]))[0])
+def _checked_node(call: Call, field: NodeField, name: str, point: Point) -> None:
+    """Refuse a point that the field does not stand on; forces are zero where none acts."""
+    if field.nature != "DISCRET" and point.node not in field.node_ids:
+        raise refused_place(call, [field], name, point.node)
 
 
 def _points_of(field: NodeField, without_multipliers: bool) -> Mesh:
@@ -379,12 +383,18 @@ def _points_of(field: NodeField, without_multipliers: bool) -> Mesh:
 
 
 def _values(
-    field: NodeField, wanted: ListMots | str | None, support: Point | Mesh | None, lenient: bool
+    call: Call,
+    field: NodeField,
+    wanted: ListMots | str | None,
+    support: Point | Mesh | None,
+    lenient: bool,
 ) -> ListReel:
     names = list(field.components) if wanted is None else names_of(wanted)
     if not lenient:
         for name in names:
             node_algebra.component(field, name)
+        if isinstance(support, Point) and names:
+            _checked_node(call, field, names[0], support)
     nodes = None if support is None else support_nodes(support)
     return ListReel(node_algebra.values_in_order(field, names, nodes))
 

@@ -61,10 +61,10 @@ def _of_lists(
     return ListEnti(best) if all(isinstance(v, ListEnti) for v in lists) else ListReel(best)
 
 
-def _components(call: Call, known: list[str], chosen: Choices) -> list[str]:
-    """The components to look at."""
+def _components(call: Call, known: list[str], chosen: Choices, only: ListMots | None) -> list[str]:
+    """The components to look at; a list without a word before it stands for 'AVEC'."""
     names = known
-    for said, value in chosen:
+    for said, value in [*chosen, *([] if only is None else [("AVEC", only)])]:
         listed = [value] if isinstance(value, str) else value.values
         words = {str(w).rstrip() for w in listed}
         names = [n for n in known if (n in words) == (said == "AVEC")]
@@ -86,10 +86,11 @@ def _of_node_fields(
     value: NodeField,
     absolute: bool,
     chosen: Choices,
+    only: ListMots | None,
     others: tuple[NodeField, ...],
     largest: bool,
 ) -> NodeField | float:
-    names = _components(call, list(value.components), chosen)
+    names = _components(call, list(value.components), chosen, only)
     if not others:
         if not names:
             raise call.error("operators.fields.field-empty", value)
@@ -112,14 +113,19 @@ def _pairwise(a: NodeField, b: NodeField, run: Any) -> NodeField:
 
 
 def _of_cell_field(
-    call: Call, value: CellField, absolute: bool, chosen: Choices, largest: bool
+    call: Call,
+    value: CellField,
+    absolute: bool,
+    chosen: Choices,
+    only: ListMots | None,
+    largest: bool,
 ) -> float:
     known = [
         n
         for n in cell_algebra.component_names(value)
         if any(n in b.components and b.components[n].dtype != object for b in value.blocks)
     ]
-    names = _components(call, known, chosen)
+    names = _components(call, known, chosen, only)
     return _of_arrays(call, cell_algebra.values_of(value, names), absolute, largest)
 
 
@@ -131,6 +137,13 @@ _CHOSEN = key(
     repeated=True,
     en="only these components, or all but these",
     fr="ces composantes seulement, ou toutes sauf elles",
+)
+_ONLY = opt(
+    "only",
+    "LISTMOTS",
+    kind="component",
+    en="only these components, as with 'AVEC'",
+    fr="ces composantes seulement, comme avec 'AVEC'",
 )
 
 
@@ -166,21 +179,25 @@ def _add_forms(operator: Operator, largest: bool, en: str, fr: str) -> None:
         main("value", "CHPOINT", en="field at nodes", fr="champ par points"),
         _ABSOLUTE,
         _CHOSEN,
+        _ONLY,
         many("others", "CHPOINT", en="fields at the same nodes", fr="champs aux mêmes noeuds"),
         gives=by("others", {True: "CHPOINT"}, "FLOTTANT"),
-        syntax=f"X1 = {name} CHP1 ('ABS') ('AVEC' | 'SANS' LMOT1) ; CHPO4 = {name} CHPO1 CHPO2 ;",
+        syntax=f"X1 = {name} CHP1 ('ABS') (('AVEC') | 'SANS' LMOT1) ; CHPO4 = {name} CHPO1 CHPO2 ;",
         en=f"Of a field: the {en} value, of all components or 'AVEC' / 'SANS' some; of several "
         "fields at nodes, value by value.",
         fr=f"D'un champ : la {fr} valeur, de toutes les composantes ou 'AVEC' / 'SANS' certaines "
         "; de plusieurs champs par points, valeur par valeur.",
         examples=(
-            f"OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; LIST ({name} (COOR 1 L)) ;",
+            f"OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; LIST ({name} (COOR 1 L)) ; "
+            "U = MANU 'CHPO' L 2 'UX' 3. 'UY' -5. ; "
+            f"LIST ({name} U (MOTS 'UX')) ; LIST ({name} 'ABS' U 'SANS' (MOTS 'UX')) ;",
         ),
     )(partial(_of_node_fields, largest=largest))
     operator.form(
         main("value", "MCHAML", en="field in cells", fr="champ par éléments"),
         _ABSOLUTE,
         _CHOSEN,
+        _ONLY,
         gives="FLOTTANT",
     )(partial(_of_cell_field, largest=largest))
 

@@ -2,40 +2,33 @@
 
 from __future__ import annotations
 
-from typing import cast
+from typing import NoReturn, cast
 
 from ssilang.kernel.elements.results.projection import by_least_squares, on_mesh, on_model
 from ssilang.kernel.fields.cell_field import CellField, Support
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Model
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.language.registry import Chosen, Help, arg, many, operator, opt, select
+from ssilang.language.registry import Help, arg, choice, many, operator, opt, said
 from ssilang.language.run.call import Call
 
 _FIELDS = many("fields", "MCHAML", at_least=1, en="field at nodes", fr="champ aux noeuds")
 
 
-_WAY = select(
-    "way",
-    {
-        "NOEUDS": [],
-        "GRAVITE": [],
-        "RIGIDITE": [],
-        "MASSE": [],
-        "STRESSES": [],
-        "MINI": [
-            opt(
-                "count",
-                "ENTIER",
-                default=3,
-                en="integration points in each direction",
-                fr="points d'intégration par direction",
-            )
-        ],
-        "POLY": [],
-    },
-    en="points of the result on a model, or least squares",
-    fr="points du résultat sur un modèle, ou moindres carrés",
+_SUPPORT = choice(
+    "support",
+    ("NOEUDS", "GRAVITE", "RIGIDITE", "MASSE", "STRESSES"),
+    en="points of the result on a model, its nodes by default",
+    fr="points du résultat sur un modèle, ses noeuds par défaut",
+)
+_MODEL = arg("place", "MMODEL", en="where to", fr="où")
+_MESH = arg("place", "MAILLAGE", en="where to", fr="où")
+_COUNT = opt(
+    "count",
+    "ENTIER",
+    default=3,
+    en="integration points in each direction",
+    fr="points d'intégration par direction",
 )
 
 
@@ -50,9 +43,9 @@ _TOLERANCE = opt(
 
 @operator(
     "PROI",
-    arg("place", "MMODEL", en="where to", fr="où"),
+    _MODEL,
     _FIELDS,
-    _WAY,
+    _SUPPORT,
     _TOLERANCE,
     family="fields",
     help=Help(
@@ -96,31 +89,38 @@ _TOLERANCE = opt(
     ),
 )
 def proi(
-    call: Call, place: Model, fields: tuple[CellField, ...], way: Chosen | None, tolerance: float
+    place: Model, fields: tuple[CellField, ...], support: str | None, tolerance: float
 ) -> CellField:
     """Projection on a model."""
-    word = _meant(call, way)
-    if word == "MINI" and way is not None:
-        points = way["count"]
-        if points < 1:
-            raise call.error("operators.fields.integration-points-none", points, points=points)
-        return by_least_squares(fields[-1], place, points, tolerance)
-    support = cast(Support, "NOEUD" if word in ("", "NOEUDS") else word)
-    return on_model(fields[-1], place, support, tolerance)
+    points = "NOEUD" if support in (None, "NOEUDS") else support
+    return on_model(fields[-1], place, cast(Support, points), tolerance)
 
 
-@proi.form(arg("place", "MAILLAGE", en="where to", fr="où"), _FIELDS, _WAY, _TOLERANCE)
+@proi.form(_MESH, _FIELDS, _SUPPORT, _TOLERANCE)
 def proi_on_mesh(
-    call: Call, place: Mesh, fields: tuple[CellField, ...], way: Chosen | None, tolerance: float
+    place: Mesh, fields: tuple[CellField, ...], support: str | None, tolerance: float
 ) -> NodeField:
     """Projection on a mesh."""
-    if _meant(call, way) == "MINI":
-        raise call.error("operators.fields.mini-needs-a-model", place)
     return on_mesh(fields[-1], place, tolerance)
 
 
-def _meant(call: Call, way: Chosen | None) -> str:
-    word = "" if way is None else way.word
-    if word == "POLY":
-        raise call.error("operators.fields.poly-not-available")
-    return word
+@proi.form(said("MINI"), _MODEL, _FIELDS, _COUNT, _TOLERANCE)
+def proi_by_least_squares(
+    call: Call, place: Model, fields: tuple[CellField, ...], count: int, tolerance: float
+) -> CellField:
+    """Projection on a model by least squares."""
+    if count < 1:
+        raise call.error("operators.fields.integration-points-none", count, points=count)
+    return by_least_squares(fields[-1], place, count, tolerance)
+
+
+@proi.form(said("MINI"), _MESH)
+def proi_by_least_squares_on_mesh(call: Call, place: Mesh) -> NoReturn:
+    """Only a model has the elements that least squares need."""
+    raise call.error("operators.fields.mini-needs-a-model", place)
+
+
+@proi.form(said("POLY"))
+def proi_by_polynomials(call: Call) -> NoReturn:
+    """Not built."""
+    raise call.error("operators.fields.poly-not-available")

@@ -2,20 +2,28 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from typing import Any
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError, NoResultError
 from ssilang.kernel.base.powers import real_power
+from ssilang.kernel.curves.algebra import combined
+from ssilang.kernel.curves.curve import Curve
+from ssilang.kernel.elements.families import elastic_stress
+from ssilang.kernel.elements.solids.hooke import HOOKE_COMPONENT
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import Nature, NodeField
+from ssilang.kernel.materials.model import Model
+from ssilang.kernel.mesh.mesh import Point
 from ssilang.language.registry import When, arg, main
 from ssilang.language.run.call import Call
-from ssilang.language.values import ListMots
-from ssilang.operators.dispatch import PSCA, PVEC, union_with_call, union_words
-from ssilang.operators.numbers.arithmetic import _ARRAY, SIGNS, rule, rule_with_call
+from ssilang.language.values import ListMots, type_of
+from ssilang.operators.dispatch import INVE, PSCA, PVEC, worded_union
+from ssilang.operators.numbers.arithmetic import _ARRAY, RULES, SIGNS, rule, rule_with_call
 
 _NATURES: dict[str, Nature] = {"INDE": "", "DIFF": "DIFFUS", "DISC": "DISCRET"}
 
@@ -122,9 +130,25 @@ for _kind in ("ENTIER", "FLOTTANT"):
     rule(SIGNS, _kind, "CHPOINT")(_number_node)
 
 
-@union_with_call(("CHPOINT", "CHPOINT"))
-def _join_node_fields(call: Call, a: NodeField, b: NodeField) -> NodeField:
-    return node_algebra.united(a, b, "NOER" not in union_words(call))
+@INVE.form(
+    main("field", "CHPOINT", en="nodal field", fr="champ par points"),
+    syntax="CHPO2 = INVE CHPO1 ;",
+    en="Of a nodal field: one over its values.",
+    fr="D'un champ par points : l'inverse de ses valeurs.",
+    examples=("OPTI DIME 2 ; P = 0. 0. ; C = INVE (MANU 'CHPO' P 'T' 4.) ; LIST (EXTR C 'T' P) ;",),
+)
+def _inverse(call: Call, field: NodeField) -> NodeField:
+    for name, part in field.components.items():
+        if not np.all(part.values):
+            node = part.nodes[np.flatnonzero(part.values == 0.0)[0]]
+            at = field.table.coordinates[node].tolist()
+            raise call.error("operators.fields.no-inverse-of-zero", field, name=name, at=at)
+    return node_algebra.applied(field, np.reciprocal)
+
+
+@worded_union(("CHPOINT", "CHPOINT"))
+def _join_node_fields(words: Collection[str], a: NodeField, b: NodeField) -> NodeField:
+    return node_algebra.united(a, b, "NOER" not in words)
 
 
 # ---- in cells -----------------------------------------------------------------------------------
@@ -132,15 +156,75 @@ def _join_node_fields(call: Call, a: NodeField, b: NodeField) -> NodeField:
 
 @rule("+ -", "MCHAML", "MCHAML")
 def _add_cells(sign: str, a: CellField, b: CellField) -> CellField:
-    return cell_algebra.added(a, b, 1.0 if sign == "+" else -1.0)
+    return cell_algebra.added(a, b, 1.0 if sign == "+" else -1.0, _of_objects)
+
+
+def _of_objects(sign: str, a: object, b: object) -> object:
+    """What cells hold, combined: curves, lists, points, and numbers with them."""
+    if isinstance(a, Curve) and isinstance(b, Curve):
+        return combined(a, b, sign, _ARRAY[sign])
+    if isinstance(a, Point) and isinstance(b, Point) and sign in "+-":
+        return _point_between(a, b, 1.0 if sign == "+" else -1.0)
+    types = type_of(a), type_of(b)
+    found = None if types[0] == types[1] == "POINT" else RULES.get((sign, *types))
+    if found is None:
+        raise FieldError("operators.fields.objects-do-not-go", sign=sign, types=types)
+    return found(a, b)
+
+
+def _point_between(a: Point, b: Point, factor: float) -> Point:
+    place = a.coordinates + factor * b.coordinates
+    density = float(a.nodes.density[a.node])
+    return Point(a.nodes, int(a.nodes.add(place[None], density)[0]))
 
 
 @rule_with_call("* /", "MCHAML", "MCHAML")
-def _multiply_cells(call: Call, sign: str, a: CellField, b: CellField) -> CellField:
+def _multiply_cells(
+    call: Call, sign: str, a: CellField, b: CellField, model: Model | None = None
+) -> CellField:
     names = _lists(call)
-    if names is None:
-        return cell_algebra.multiplied(a, b, sign == "/")
-    return cell_algebra.multiplied_by_names(a, b, names, sign == "/")
+    if names is not None:
+        factors = _coefficients(call, len(names[0]))
+        return cell_algebra.multiplied_by_names(a, b, names, sign == "/", factors)
+    if sign == "*" and _has_matrices(a) != _has_matrices(b):
+        found = call.required("MMODEL") if model is None else model
+        return _stresses(found, a, b) if _has_matrices(a) else _stresses(found, b, a)
+    if model is not None:
+        raise call.error("operators.fields.model-for-hooke", model)
+    return cell_algebra.multiplied(a, b, sign == "/", _of_objects)
+
+
+def _coefficients(call: Call, count: int) -> FloatArray | None:
+    """A factor for each triple of names, if a list of numbers follows them."""
+    given = call.read("LISTREEL")
+    if given is None:
+        return None
+    factors = np.asarray(given.value.values, dtype=float)
+    if len(factors) != count:
+        raise call.error(
+            "operators.fields.factor-count", given.value, n_factors=len(factors), n_names=count
+        )
+    return factors
+
+
+def _has_matrices(field: CellField) -> bool:
+    return any(HOOKE_COMPONENT in b.components for b in field.blocks)
+
+
+def _stresses(model: Model, matrices: CellField, strains: CellField) -> CellField:
+    """Elastic stresses of strains by matrices of Hooke."""
+    blocks = tuple(elastic_stress(zone, matrices, strains) for zone in model.zones)
+    return CellField(blocks, "CONTRAINTES")
+
+
+@rule_with_call("*", "MMODEL", "MCHAML")
+def _model_first(call: Call, sign: str, model: Model, a: CellField) -> CellField:
+    return _multiply_cells(call, sign, a, call.required("MCHAML"), model)
+
+
+@rule_with_call("*", "MCHAML", "MMODEL")
+def _model_second(call: Call, sign: str, a: CellField, model: Model) -> CellField:
+    return _multiply_cells(call, sign, a, call.required("MCHAML"), model)
 
 
 def _cell_number(

@@ -247,15 +247,22 @@ def _stl(call: Call, file: str) -> Mesh:
 @LIRE.form(
     said("PEER"),
     _FILE,
-    opt("factor", "FLOTTANT", default=1.0, en="factor of the values", fr="facteur des valeurs"),
+    opt("factor", "FLOTTANT", en="factor of the values", fr="facteur des valeurs"),
     syntax="EVO1 = LIRE 'PEER' FIC1 (FLOT1) ;",
     en="PEER: a ground motion in the format of the PEER database (.AT2, .VT2, .DT2) as an "
     "evolution in time, times FLOT1 (9.81 makes m/s2 of g).",
     fr="PEER : un accélérogramme au format de la base PEER (.AT2, .VT2, .DT2), évolution dans le "
     "temps, multipliée par FLOT1 (9.81 fait des m/s2 de g).",
 )
-def _peer(call: Call, file: str, factor: float) -> Curve:
+def _peer(call: Call, file: str, factor: float | None) -> Curve:
     record = read_peer(_file(call, str(file), ".AT2"))
+    if factor is None:
+        factor = 1.0
+        if record.in_si != 1.0:
+            call.warn(
+                "operators.files.record-not-in-si", file=file, unit=record.unit.lower(),
+                factor=record.in_si,
+            )  # fmt: skip
     part = CurvePart(
         record.times, factor * record.values, "TEMP", record.quantity, record.event[:40]
     )

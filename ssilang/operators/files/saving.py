@@ -6,16 +6,22 @@ from contextlib import closing
 from dataclasses import dataclass, field
 from typing import Any
 
+import numpy as np
+
 from ssilang.io.archive import Archive, Decoder, Encoder, Record, read_archive, write_archive
 from ssilang.io.archive.classes import Packing, register_packing
 from ssilang.io.errors import InputError
+from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Mode
+from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.language.registry import ANY, Help, arg, flag, key, many, operator
 from ssilang.language.run.call import Call, Operand
 from ssilang.language.run.scopes import PREDEFINED, Frame
+from ssilang.language.say.errors import SeveralErrors, SsiError
+from ssilang.language.text.printer import print_items
 from ssilang.language.text.source import Source
 from ssilang.language.text.structure import parse
-from ssilang.language.text.tree import Definition
+from ssilang.language.text.tree import Definition, Script
 from ssilang.language.values import (
     Annule,
     LazyRows,
@@ -41,8 +47,14 @@ from ssilang.operators.workspace import Workspace, workspace
 def _list_packing(cls: type) -> Packing:
     def fill(made: Any, values: Any) -> None:
         made.values = cls(values).values
+        flat = not isinstance(made.values, np.ndarray) or made.values.ndim == 1
+        if not flat or not all(isinstance(v, _HELD.get(cls, object)) for v in made.values):
+            raise TypeError(cls.__name__)
 
     return Packing(lambda v: v.values, lambda _: cls(), fill, mutable=True)
+
+
+_HELD: dict[type, type] = {ListChpo: NodeField}
 
 
 def _fill_table(made: Table, pairs: Any) -> None:
@@ -56,6 +68,8 @@ def _pack_objet(value: Objet) -> Any:
 
 def _fill_objet(made: Objet, parts: Any) -> None:
     made.class_name, attributes, methods = parts
+    if not isinstance(made.class_name, str):
+        raise TypeError("class_name")
     made.attributes.update(attributes)
     made.methods.update(methods)
 
@@ -67,28 +81,47 @@ def _source_of(value: Procedure) -> list[str]:
 
 def _procedure(parts: Any) -> Procedure:
     name, text, origin = parts
-    body = parse(Source(f"saved {name}", text.rstrip().rstrip(";") + ";")).body
+    if not all(isinstance(part, str) for part in parts):
+        raise TypeError("Procedure")
+    body = _parsed(Source(f"saved {name}", text.rstrip().rstrip(";") + ";")).body
     if len(body) == 1 and isinstance(body[0], Definition):
         return Procedure(name, body[0], origin)
-    whole = parse(Source(f"saved {name}", text))
+    whole = _parsed(Source(f"saved {name}", text))
     return Procedure(name, Definition(name, (), whole.body, (), False, whole.span), origin)
+
+
+def _configuration(coordinates: Any) -> Configuration:
+    if coordinates.ndim != 2 or coordinates.shape[1] != 3 or coordinates.dtype.kind != "f":
+        raise ValueError("Configuration")
+    return Configuration(coordinates)
+
+
+def _parsed(source: Source) -> Script:
+    try:
+        return parse(source)
+    except (SsiError, SeveralErrors) as error:
+        raise ValueError(source.name) from error
 
 
 def _texte(text: str) -> Texte:
     from ssilang.language.text.parser import parse_statements
 
-    statements = parse_statements(Source("saved text", text + ";")) if text.strip() else []
+    # behind a blank: a sign * in the first column would begin a comment
+    try:
+        statements = parse_statements(Source("saved text", f" {text};")) if text.strip() else []
+    except (SsiError, SeveralErrors) as error:
+        raise ValueError("text") from error
     return Texte(tuple(item for s in statements for item in s.items))
 
 
 def _text_of(value: Texte) -> str:
-    return " ".join(item.span.text for item in value.items)
+    return print_items(value.items)
 
 
 for _cls in (ListReel, ListEnti, ListMots, ListChpo, ListObje):
     register_packing(_cls, _cls.__name__, _list_packing(_cls))
 register_packing(Mot, "Mot", Packing(str, Mot))
-register_packing(Configuration, "Configuration", Packing(lambda c: c.coordinates, Configuration))
+register_packing(Configuration, "Configuration", Packing(lambda c: c.coordinates, _configuration))
 register_packing(Annule, "Annule", Packing(lambda _: None, lambda _: Annule()))
 register_packing(Texte, "Texte", Packing(_text_of, _texte))
 register_packing(Procedure, "Procedure", Packing(_source_of, _procedure))
@@ -263,15 +296,31 @@ def _restore(call: Call, archive: Archive, name: str, label: str) -> None:
     if label and label not in labels:
         known = ", ".join(x for x in labels if x) or "none"
         raise InputError("operators.files.no-such-label", name=name, label=label, known=known)
+    check_settings(archive, name)
     records = archive.records[: labels.index(label) + 1] if label else archive.records
     decoder = Decoder(archive, ws.nodes)
-    for record in records:
-        for held, code in record.names.items():
-            call.session.frame.assign(held, decoder.decode(code))
-    if added := archive.settings.get("INCO"):
+    for held, value in decoder.named(records):
+        call.session.frame.assign(held, value)
+    if added := dict(archive.settings.get("INCO", {})):
         ws.options["INCO"] = {**ws.options.get("INCO", {}), **added}
     if not ws.dimension:
         _restore_settings(ws, archive.settings)
+
+
+def check_settings(archive: Archive, name: str) -> None:
+    """Refuse settings that no session has; a file need not have them all."""
+    saved = archive.settings
+    element, added = saved.get("ELEM", ""), saved.get("INCO", {})
+    rules = {
+        "DIME": type(saved.get("DIME", 0)) is int and saved.get("DIME", 0) in range(4),
+        "ELEM": element == "" or (isinstance(element, str) and element in CELL_TYPES),
+        "MODE": isinstance(saved.get("MODE", ""), str),
+        "TITR": isinstance(saved.get("TITR", ""), str),
+        "INCO": isinstance(added, dict) and all(isinstance(v, str) for v in added.values()),
+    }
+    for word, holds in rules.items():
+        if not holds:
+            raise InputError("io.damaged-object", name=name, kind="OPTI", part=word)
 
 
 def _restore_settings(ws: Workspace, saved: dict[str, Any]) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Any
 
@@ -150,4 +151,7 @@ def _bila(
 ) -> None:
     if expected is not None and tolerance is None:
         raise call.missing(("FLOTTANT",))
+    for number in (value, expected, tolerance):
+        if number is not None and not math.isfinite(number):
+            raise call.error("operators.files.figure-not-finite", number, name=str(name).strip())
     call.session.checks.append(Check(str(name).strip(), value, expected, tolerance))

@@ -14,6 +14,7 @@ from ssilang.language.registry import flag, main, named
 from ssilang.language.run.call import Call
 from ssilang.operators.files.outputs import input_path, option_name, run_output
 from ssilang.operators.files.reading import LIRE
+from ssilang.operators.files.saving import check_settings
 from ssilang.operators.files.writing import SORT, target_path
 from ssilang.operators.workspace import workspace
 
@@ -78,8 +79,9 @@ def _restore(call: Call, archive: Archive, wanted: str) -> None:
         raise InputError(
             "operators.files.no-such-mesh", name=archive.path.name, wanted=wanted, known=known
         )
+    check_settings(archive, archive.path.name)
     ws = workspace(call.session)
     decoder = Decoder(archive, ws.nodes)
-    for name, code in names.items():
-        call.session.frame.assign(name, decoder.decode(code))
+    for name, value in decoder.named(archive.records[:1]):
+        call.session.frame.assign(name, value)
     ws.dimension = ws.dimension or int(archive.settings.get("DIME", 0))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import accumulate
 from typing import Any
 
 import numpy as np
@@ -31,6 +32,7 @@ from ssilang.language.values import (
     Mot,
     type_of,
 )
+from ssilang.operators.curves.instants import refused_place
 from ssilang.operators.dispatch import COPI, DIME, ENLE, EXTR, INVE, union
 from ssilang.operators.lists.progressions import check_length
 
@@ -87,8 +89,10 @@ def _plain(item: Any) -> Any:
     ),
     arg("point", "POINT", en="where", fr="où"),
     syntax="LREE1 = EXTR LCHP1 'VALE' POIN1 (MOT1 | LMOT1) ;",
-    en="Of a list of fields, with 'VALE': their values at a point, component by component.",
-    fr="D'une liste de champs, avec 'VALE' : leurs valeurs en un point, composante par composante.",
+    en="Of a list of fields, with 'VALE': their values at a point, component by component (zero "
+    "where a field does not stand on it; one that none stands on is refused).",
+    fr="D'une liste de champs, avec 'VALE' : leurs valeurs en un point, composante par composante "
+    "(zéro où un champ ne s'y appuie pas ; un point qui n'en porte aucun est refusé).",
     examples=(
         "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'T' 1. ; LIST (EXTR (SUIT C C) 'VALE' P) ;",
     ),
@@ -104,6 +108,8 @@ def _values_at(
         wanted = list(dict.fromkeys(n for f in fields for n in f.components))
         if any(set(f.components) != set(wanted) for f in fields):
             raise call.error("operators.lists.components-differ")
+    if fields and not any(f.nature == "DISCRET" or node[0] in f.node_ids for f in fields):
+        raise refused_place(call, fields, str(wanted[0]).rstrip(), int(node[0]))
     return ListReel([float(f.values_at(str(n).rstrip(), node)[0]) for n in wanted for f in fields])
 
 
@@ -290,9 +296,14 @@ for _kind in ("LISTMOTS", "LISTCHPO", "LISTOBJE"):
 )
 def somm(running: bool, value: ListReel | ListEnti) -> Any:
     """Sum a list."""
-    if running:
-        return type(value)(np.cumsum(value.values))
-    return value.values.sum()
+    if isinstance(value, ListReel):
+        return ListReel(np.cumsum(value.values)) if running else value.values.sum()
+    sums = list(accumulate(value.values.tolist()))  # exact: single integers may be longer
+    if not running:
+        return sums[-1] if sums else 0
+    if max(map(abs, sums), default=0) >= 2**63:
+        raise KernelError("operators.numbers.list-integer-too-large")
+    return ListEnti(sums)
 
 
 @INVE.form(

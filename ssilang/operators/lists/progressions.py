@@ -137,7 +137,7 @@ def _read_row(call: Call, items: Items, plain: frozenset[type]) -> None:
 
 
 def _repeated(call: Call, count: Any, kinds: tuple[str, ...]) -> list[Any]:
-    if count != int(count) or count < 0:
+    if not 0 <= count < math.inf or count != int(count):
         raise call.error("operators.lists.repetition-count", count, count=count)
     check_length(count)
     return [call.required(*kinds)] * int(count)
@@ -192,17 +192,31 @@ def integer_steps(start: int, step: int, end: int) -> list[int]:
     return list(range(start + step, end + (1 if step > 0 else -1), step))
 
 
+_SAME = 1e-12  # relative distance of two reals that rounding alone makes differ
+
+
 def real_steps(start: float, step: float, end: float, ratio: float | None = None) -> list[float]:
     """Reals behind `start` up to `end`, the step being adjusted so that `end` is hit.
 
     Without `ratio` the number of steps is the nearest that fits; with it, the smallest geometric
-    number of steps that reaches `end`, all scaled alike. A step of the wrong sign gives `end`.
+    number of steps that reaches `end`, all scaled alike.
+
+    Raises
+    ------
+    KernelError
+        If the step leads away from `end`, or nowhere, or one of the three is no finite number.
     """
     distance = end - start
+    if not all(map(math.isfinite, (distance, step, ratio or 0.0))):
+        raise KernelError("operators.lists.steps-not-finite", step=step, start=start, end=end)
+    if abs(distance) <= _SAME * max(abs(start), abs(end)):
+        return [end]
+    if step == 0 or (distance < 0) != (step < 0):
+        raise KernelError(
+            "operators.lists.steps-lead-away", step=step, start=start, end=end, meant=-step
+        )
     if ratio is not None:
         return _geometric_steps(start, step, end, ratio)
-    if step == 0 or distance / step <= 0:
-        return [end]
     count = max(round(distance / step), 1)
     values: list[float] = (start + distance * np.arange(1, count + 1) / count).tolist()
     values[-1] = end
@@ -211,7 +225,7 @@ def real_steps(start: float, step: float, end: float, ratio: float | None = None
 
 def _geometric_steps(start: float, step: float, end: float, ratio: float) -> list[float]:
     distance = end - start
-    if step == 0 or ratio <= 0 or distance / step <= 0:
+    if ratio <= 0:
         return [end]
     wanted, total = distance / step, 0.0
     lengths: list[float] = []

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left, insort
+from itertools import takewhile
 from typing import Any
 
 import numpy as np
 
+from ssilang.kernel.mesh.combine import without_duplicates
+from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.language.registry import (
     ANY,
     Help,
@@ -142,17 +146,21 @@ def sorting(values: Any, down: bool, absolute: bool = False, fold: bool = False)
     return [int(i) for i in order]
 
 
-def without_doubles(values: Any, order: list[int], tolerance: float, fold: bool) -> list[int]:
-    """Drop from sorted places those whose value equals the one kept before."""
+def without_doubles(
+    values: Any, order: list[int], tolerance: float, absolute: bool = False, fold: bool = False
+) -> list[int]:
+    """Drop from places, sorted that way, those whose value equals one kept before."""
     kept: list[int] = []
-    keys = _keys(values, False, fold)
+    keys, sizes = _keys(values, False, fold), _keys(values, absolute, fold)
+
+    def near(a: Any, b: Any) -> bool:
+        return bool(a == b if isinstance(a, str) else abs(a - b) <= tolerance)
+
     for i in order:
-        if kept:
-            last = keys[kept[-1]]
-            same = keys[i] == last if isinstance(keys, list) else abs(keys[i] - last) <= tolerance
-            if same:
-                continue
-        kept.append(i)
+        # 1 -1 1 stand side by side where absolute values count
+        beside = takewhile(lambda j: near(sizes[j], sizes[i]), reversed(kept))  # noqa: B023
+        if not any(near(keys[j], keys[i]) for j in beside):
+            kept.append(i)
     return kept
 
 
@@ -167,12 +175,14 @@ _ORDER = (
     flag("absolute", "ABSO", en="by absolute values", fr="selon les valeurs absolues"),
     flag("fold", "NOCA", en="whatever the case", fr="sans égard à la casse"),
 )
-_SORTED = main("value", *SORTABLE, en="list to sort by", fr="liste qui règle le tri")
-_OTHERS = many("others", *SORTABLE, en="lists that follow it", fr="listes qui la suivent")
-
-
-@ORDO.form(
-    _SORTED,
+_DISTINCT = key(
+    "distinct",
+    "UNIQ",
+    opt("tolerance", "FLOTTANT", default=0.0),
+    en="without doubles, within a tolerance",
+    fr="sans doublons, à une tolérance près",
+)
+_COST = (
     key(
         "cost",
         "COUT",
@@ -187,6 +197,14 @@ _OTHERS = many("others", *SORTABLE, en="lists that follow it", fr="listes qui la
         en="changes nothing: the best is found",
         fr="sans effet : le meilleur est trouvé",
     ),
+)
+_SORTED = main("value", *SORTABLE, en="list to sort by", fr="liste qui règle le tri")
+_OTHERS = many("others", *SORTABLE, en="lists that follow it", fr="listes qui la suivent")
+
+
+@ORDO.form(
+    _SORTED,
+    *_COST,
     *_ORDER,
     _OTHERS,
     gives=ANY,
@@ -206,13 +224,7 @@ def _sort_by_cost(
 @ORDO.form(
     _SORTED,
     *_ORDER,
-    key(
-        "distinct",
-        "UNIQ",
-        opt("tolerance", "FLOTTANT", default=0.0),
-        en="without doubles, within a tolerance",
-        fr="sans doublons, à une tolérance près",
-    ),
+    _DISTINCT,
     _OTHERS,
     gives=Like("value", ("others",)),
     syntax="LIS2 = ORDO LIS1 ('CROI' | 'DECR') ('ABSO') ('NOCA') ('UNIQ' (FLOT1)) ;\n"
@@ -243,7 +255,7 @@ def _sort_lists(
     if distinct is not None:
         if len(lists) > 1:
             raise call.error("operators.lists.one-list-without-doubles")
-        places = without_doubles(value.values, places, distinct, fold)
+        places = without_doubles(value.values, places, distinct, absolute, fold)
     return tuple(taken(v, places) for v in lists)
 
 
@@ -267,49 +279,127 @@ def _cheapest(call: Call, cost: Any, n: int) -> tuple[float | int, list[int]]:
     return costs[rows, order].sum().item(), [int(i) for i in order]
 
 
+_TABLE = main("table", "TABLE", en="table of lists", fr="table de listes")
+_INDEX_EN, _INDEX_FR = "index of the list to sort by", "indice de la liste qui règle le tri"
+
+
 @ORDO.form(
-    main("table", "TABLE", en="table of lists", fr="table de listes"),
-    lead("index", en="index of the list to sort by", fr="indice de la liste qui règle le tri"),
+    _TABLE,
+    *_COST,
     *_ORDER,
-    syntax="TAB2 = ORDO TAB1 OBJ1 ('CROI' | 'DECR') ('ABSO') ('NOCA') ;",
-    en="Of a table of lists: all sorted as the list at index OBJ1.",
-    fr="D'une table de listes : toutes triées comme la liste d'indice OBJ1.",
+    opt("index", en="changes nothing: all lists follow", fr="sans effet : toutes suivent"),
+    gives=ANY,
+    syntax="X1 TAB2 = ORDO TAB1 'COUT' LIS3 ('HONG' | 'COMP') ;",
+    examples=(
+        "T = TABL ; T . 'A' = LECT 10 20 ; X T = ORDO T 'COUT' (PROG 5. 1. 1. 5.) ;\n"
+        "LIST (T . 'A') ; LIST X ;",
+    ),
+)
+def _sort_table_by_cost(
+    call: Call, table: Table, cost: ListReel | ListEnti, **_: object
+) -> tuple[float | int, Table]:
+    lengths = {len(v) for _, v in table.items() if isinstance(v, Sortable)}
+    if not lengths:
+        raise call.error("operators.lists.no-list-in-table", table)
+    if len(lengths) != 1:
+        sizes = " ".join(map(str, sorted(lengths)))
+        raise call.error("operators.lists.sorted-lengths", table, sizes=sizes)
+    total, order = _cheapest(call, cost, lengths.pop())
+    return total, _in_order(table, order, len(order))
+
+
+# an index may be spelt like a keyword: it is one where no other index stands
+@ORDO.form(_TABLE, lead("index", en=_INDEX_EN, fr=_INDEX_FR), *_ORDER, _DISTINCT)
+@ORDO.form(
+    _TABLE,
+    *_ORDER,
+    _DISTINCT,
+    arg("index", en=_INDEX_EN, fr=_INDEX_FR),
+    syntax="TAB2 = ORDO TAB1 OBJ1 ('CROI' | 'DECR') ('ABSO') ('NOCA') ('UNIQ' (FLOT1)) ;",
+    en="Of a table of lists: all sorted as the list at index OBJ1; 'UNIQ' where it is the only "
+    "list.",
+    fr="D'une table de listes : toutes triées comme la liste d'indice OBJ1 ; 'UNIQ' si elle est "
+    "la seule liste.",
+    examples=(
+        "T = TABL ; T . 'UNIQ' = PROG 3. 1. 2. 1. ;\nT = ORDO T 'UNIQ' 'UNIQ' ;\n"
+        "LIST (T . 'UNIQ') ; T = ORDO T 'UNIQ' ; LIST (T . 'UNIQ') ;",
+    ),
 )
 def _sort_table(
-    call: Call, table: Table, index: Any, order: str, absolute: bool, fold: bool
+    call: Call,
+    table: Table,
+    index: Any,
+    order: str,
+    absolute: bool,
+    fold: bool,
+    distinct: float | None,
 ) -> Table:
     if not table.has(index):
         raise call.error("operators.lists.no-list-to-sort-by", index)
     first: Any = table.get(index)
-    if not isinstance(first, ListReel | ListEnti | ListMots):
+    if not isinstance(first, Sortable):
         raise call.error("operators.lists.index-holds-no-list", index)
     places = sorting(first.values, order == "DECR", absolute, fold)
+    if distinct is not None:
+        if sum(isinstance(v, Sortable) for _, v in table.items()) > 1:
+            raise call.error("operators.lists.one-list-without-doubles")
+        places = without_doubles(first.values, places, distinct, absolute, fold)
+    return _in_order(table, places, len(first))
+
+
+def _in_order(table: Table, places: list[int], length: int) -> Table:
+    """The table with its lists of that length in another order."""
     made = Table()
     for name, value in table.items():
-        same = isinstance(value, ListReel | ListEnti | ListMots) and len(value) == len(first)
+        same = isinstance(value, Sortable) and len(value) == length
         made.set(name, taken(value, places) if same else value)
     return made
 
 
 @UNIQ.form(
-    main("value", *SORTABLE, en="list", fr="liste"),
-    opt("tolerance", "FLOTTANT", default=0.0, en="absolute tolerance", fr="tolérance absolue"),
+    main("value", *SORTABLE, "MAILLAGE", en="list, or mesh", fr="liste, ou maillage"),
+    many("others", *SORTABLE, "MAILLAGE", en="further ones", fr="d'autres"),
+    opt(
+        "tolerance", "FLOTTANT", en="absolute tolerance of reals", fr="tolérance absolue des réels"
+    ),
     flag("fold", "NOCA", en="whatever the case", fr="sans égard à la casse"),
-    gives=Like("value"),
-    syntax="LIS2 = UNIQ LIS1 (FLOT1) ('NOCA') ;",
-    en="Of a list: without doubles, in order of first appearance.",
-    fr="D'une liste : sans doublons, dans l'ordre de première apparition.",
-    examples=("LIST (UNIQ (LECT 3 1 3 2 1)) ;",),
+    gives=Like("value", ("others",)),
+    syntax="OBJ3 (OBJ4 ...) = UNIQ OBJ1 (OBJ2 ...) (FLOT1) ('NOCA') ;",
+    en="Of lists and meshes: without doubles, the first ones kept; as many results as operands. "
+    "Cells are doubles on the same nodes, whatever their order and colour.",
+    fr="De listes et de maillages : sans doublons, les premiers sont gardés ; autant de résultats "
+    "que d'opérandes. Des éléments aux mêmes noeuds sont des doublons, quels que soient leur ordre "
+    "et leur couleur.",
+    examples=("LIST (UNIQ (LECT 3 1 3 2 1)) ; A B = UNIQ (PROG 1. 1.) (LECT 2 2) ; LIST B ;",),
 )
-def _unique(value: Sortable, tolerance: float, fold: bool) -> Any:
-    values: Any = value.values
-    if tolerance and not isinstance(value, ListMots):
-        kept: list[int] = []
-        for i in range(len(values)):
-            if not any(abs(values[i] - values[j]) <= tolerance for j in kept):
-                kept.append(i)
-        return taken(value, kept)
+def _unique(
+    value: Sortable | Mesh,
+    others: tuple[Sortable | Mesh, ...],
+    tolerance: float | None,
+    fold: bool,
+) -> Any:
+    return tuple(_without_doubles_of(v, tolerance, fold) for v in (value, *others))
+
+
+def _first_reals(numbers: list[float], tolerance: float | None) -> list[int]:
+    """Places of the numbers that none before them equals."""
+    kept: list[int] = []
+    known: list[float] = []  # sorted
+    for i, x in enumerate(numbers):
+        slack = 10 * _PRECISION * abs(x) if tolerance is None else tolerance
+        near = bisect_left(known, x - slack)
+        if near == len(known) or known[near] > x + slack:
+            kept.append(i)
+            insort(known, x)
+    return kept
+
+
+def _without_doubles_of(value: Sortable | Mesh, tolerance: float | None, fold: bool) -> Any:
+    if isinstance(value, Mesh):
+        return without_duplicates(value)
+    if isinstance(value, ListReel):
+        return taken(value, _first_reals(value.values.tolist(), tolerance))
     seen: dict[Any, int] = {}
-    for i, item in enumerate(_keys(values, False, fold)):
+    for i, item in enumerate(_keys(value.values, False, fold)):
         seen.setdefault(item, i)
     return taken(value, sorted(seen.values()))

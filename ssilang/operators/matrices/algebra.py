@@ -12,6 +12,7 @@ from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices import submatrices as parts
 from ssilang.kernel.matrices.assembly import assemble, field_to_vector, numbering_of
+from ssilang.kernel.matrices.condensation import dependence
 from ssilang.kernel.matrices.matrix import Matrix, dual_of
 from ssilang.kernel.matrices.matrix import imaginary as imaginary_of
 from ssilang.kernel.mesh.mesh import Mesh
@@ -244,6 +245,33 @@ def change_kind(matrix: Matrix, kind: str) -> Matrix:
 def dependent(matrix: Matrix) -> Matrix:
     """The matrix itself."""
     return matrix
+
+
+@CHAN.form(
+    said("COND"),
+    arg(
+        "matrix",
+        "RIGIDITE",
+        en="relations, alone or with a stiffness",
+        fr="relations, seules ou avec une rigidité",
+    ),
+    of=("RIGIDITE",),
+    syntax="RIG2 RIG3 = CHAN 'COND' RIG1 ;",
+    en="COND gives of relations the matrix of dependence T, which gives all unknowns of RIG1 by "
+    "those that the relations leave free (CHPO * RIG2, CMCT), and the one that condenses forces "
+    "(CHPO * RIG3). Unknowns that RIG1 does not have stay out of both products.",
+    fr="COND rend la matrice de dépendance T de relations, qui donne toutes les inconnues de RIG1 "
+    "par celles que les relations laissent libres (CHPO * RIG2, CMCT), et celle qui condense des "
+    "forces (CHPO * RIG3). Les inconnues absentes de RIG1 restent hors des deux produits.",
+    examples=(
+        "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; C = RELA 2. 'UX' P '-' 1. 'UX' Q ; "
+        "T D = CHAN 'COND' C ; LIST ((MANU 'CHPO' Q 1 'UX' 6.) * T) ; "
+        "LIST (D * (MANU 'CHPO' (P ET Q) 1 'FX' 1.)) ;",
+    ),
+)
+def condensing(matrix: Matrix) -> tuple[Matrix, Matrix]:
+    """Matrix of dependence and its dual."""
+    return dependence(matrix)
 
 
 _SHAPE = (

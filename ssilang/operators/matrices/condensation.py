@@ -42,7 +42,12 @@ def cmct(matrix: Matrix, diagonal: NodeField) -> Matrix:
 
 @cmct.form(
     arg("matrix", "RIGIDITE", en="matrix", fr="rigidité"),
-    arg("relations", "RIGIDITE", en="relations", fr="relations"),
+    arg(
+        "relations",
+        "RIGIDITE",
+        en="relations, or the first matrix that CHAN 'COND' makes of them",
+        fr="relations, ou la première matrice que CHAN 'COND' en fait",
+    ),
 )
 def cmct_of_matrix(matrix: Matrix, relations: Matrix) -> Matrix:
     """On the unknowns that stay."""

@@ -11,7 +11,7 @@ from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.absorbing import absorbing_boundary
 from ssilang.kernel.elements.beams.rotating import corotational
-from ssilang.kernel.elements.loads.follower import pressure_stiffness
+from ssilang.kernel.elements.loads.follower import gradient_stiffness, pressure_stiffness
 from ssilang.kernel.elements.solids.hooke import hooke_block
 from ssilang.kernel.elements.solids.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
 from ssilang.kernel.elements.zone_fields import zone_field
@@ -436,17 +436,15 @@ def ksig(call: Call, model: Model, fields: tuple[CellField, ...], buckling: bool
     return _assembled(shown, blocks, "MASSE" if buckling else "RIGIDITE")
 
 
+_WHOLE = flag("whole", "ASYM", en="the unsymmetric part too", fr="aussi la partie non symétrique")
+
+
 @operator(
     "KP",
     MODEL,
     arg("pressure", "CHPOINT", "MCHAML", en="pressure", fr="pression", unit="Pa"),
     _BUCKLING,
-    flag(
-        "whole",
-        "ASYM",
-        en="the unsymmetric part too",
-        fr="aussi la partie non symétrique",
-    ),
+    _WHOLE,
     family="matrix",
     help=Help(
         en="How the forces of a pressure change when the sides that carry it move and turn "
@@ -470,4 +468,49 @@ def kp(
     """Follower pressure."""
     shown = present(call, model, pressures=True)
     blocks = [pressure_stiffness(z, pressure, whole) for z in shown.zones]
+    return _assembled(shown, blocks, "MASSE" if buckling else "RIGIDITE")
+
+
+@kp.form(
+    MODEL,
+    arg(
+        "modulus",
+        "FLOTTANT",
+        en="gradient of the pressure",
+        fr="gradient de la pression",
+        unit="N/m3",
+    ),
+    opt(
+        "direction",
+        "POINT",
+        en="its direction, else the sides' normals",
+        fr="sa direction, sinon les normales des faces",
+    ),
+    _BUCKLING,
+    _WHOLE,
+    syntax="RIG1 = KP MODL1 X1 (VEC1) ('FLAM') ('ASYM') ;",
+    en="With a number X1: of a pressure that grows by X1 for each unit of way along VEC1, the "
+    "change of forces as the sides move in it. Without VEC1 it grows along the sides' own normals: "
+    "springs of X1 for each unit of area (Winkler's soil).",
+    fr="Avec un nombre X1 : d'une pression qui croît de X1 par unité de chemin selon VEC1, la "
+    "variation des forces quand les faces s'y déplacent. Sans VEC1 elle croît selon les normales "
+    "propres des faces : des ressorts de X1 par unité d'aire (sol de Winkler).",
+    examples=(
+        "OPTI DIME 3 MODE TRID ELEM TRI3 ; S = (DROI 2 (0. 0. 0.) (2. 0. 0.)) TRAN 1 (0. 1. 0.) ; "
+        "M = MODE S MECANIQUE DKT ; U = MANU 'CHPO' S 1 'UZ' 1. ; LIST (XTMX U (KP M 3.)) ; "
+        "LIST (XTMX U (KP M 3. (1. 0. 1.) 'ASYM')) ;",
+    ),
+)
+def kp_of_gradient(
+    call: Call,
+    model: Model,
+    modulus: float,
+    direction: Point | None,
+    buckling: bool,
+    whole: bool,
+) -> Matrix:
+    """Pressure that varies in space."""
+    shown = present(call, model, pressures=True)
+    along = None if direction is None else direction.coordinates
+    blocks = [gradient_stiffness(z, float(modulus), along, whole) for z in shown.zones]
     return _assembled(shown, blocks, "MASSE" if buckling else "RIGIDITE")

@@ -147,16 +147,22 @@ _SIDE = choice(
         "A sum of terms makes one relation for each node of the meshes (all of the same number of "
         "nodes, or of one); with 'MINI' the sum stays at or above the value, with 'MAXI' at or "
         "below. A field makes one relation, its values times the unknowns of their names; 'DUAL' "
-        "gives the force on the body for a multiplier of one. 'CORI' moves a mesh as a rigid body, "
-        "'ENSE' gives all nodes the same value, 'ACCRO' hooks nodes onto the cells that they "
-        "lie in, 'GLIS' does so but along the line, 'MILI' holds middle nodes between the corners.",
+        "gives the force on the body for a multiplier of one. 'CORI' moves a mesh as a rigid body: "
+        "'DEPL' keeps the distances of its nodes, which may not lie in a plane; 'DEPL' 'ROTA' "
+        "ties it to a centre that turns, the first node of GEO1 (beams, shells, or a point of its "
+        "own), and GEO2 are those of its nodes that have no rotations. 'ENSE' gives all nodes the "
+        "same value, 'ACCRO' hooks nodes onto the cells that they lie in, "
+        "'GLIS' does so but along the line, 'MILI' holds middle nodes between the corners.",
         "Relations linéaires, à ajouter à la matrice d'un système ; DEPI donne leur valeur "
         "(0 par défaut). Une somme de termes fait une relation par nœud des maillages (de même "
         "nombre de nœuds, ou d'un seul) ; avec 'MINI' la somme reste supérieure ou égale à la "
         "valeur, avec 'MAXI' inférieure ou égale. Un champ fait une relation, ses valeurs fois "
-        "les inconnues du même nom ; 'DUAL' donne le champ de la réaction. 'CORI' : corps rigide, "
-        "'ENSE' : même valeur partout, 'ACCRO' : nœuds accrochés aux éléments qui les "
-        "contiennent, 'GLIS' : de même sauf le long de la ligne, 'MILI' : nœuds milieux.",
+        "les inconnues du même nom ; 'DUAL' donne le champ de la réaction. 'CORI' : corps rigide ; "
+        "'DEPL' garde les distances de ses nœuds, qui ne sont pas coplanaires ; 'DEPL' 'ROTA' le "
+        "lie à un centre qui tourne, premier nœud de GEO1 (poutres, coques, ou un point à part), "
+        "GEO2 étant ceux de ses nœuds qui n'ont pas de rotations. 'ENSE' : même valeur partout, "
+        "'ACCRO' : nœuds accrochés aux éléments qui les contiennent, "
+        "'GLIS' : de même sauf le long de la ligne, 'MILI' : nœuds milieux.",
         "RIG1 = RELA ('MINI' | 'MAXI') (X1) MOT1 GEO1 + | - (X2) MOT2 GEO2 ... ;\n"
         "RIG1 = RELA ... (X1) 'DEPL' | 'ROTA' ('DIRE' VEC1) GEO1 + | - ... ;\n"
         "RIG1 = RELA ('MINI' | 'MAXI') CHPO1 ('DUAL' CHPO2) ;",
@@ -185,7 +191,13 @@ _SIDE = choice(
             (
                 "OPTI DIME 3 MODE TRID ELEM SEG2 ;\n"
                 "R = RELA 'CORI' 'DEPL' 'ROTA' (DROI 2 (0 0 0) (1 0 0)) ;\n"
-                "LIST (EXTR R 'COMP') ;"
+                "LIST (EXTR R 'COMP') ;\n"
+                "OPTI ELEM CUB8 ; B = (DROI 2 (0 0 0) (2 0 0)) TRAN 2 (0 2 0) ;\n"
+                "V = B VOLU 'TRAN' 1 (0 0 1) ; M = MODE V 'MECANIQUE' 'ELASTIQUE' ;\n"
+                "C = 1. 1. 0. ; R = RELA 'CORI' 'DEPL' 'ROTA' C B ;\n"
+                "H = BLOQ 'DEPL' 'RX' 'RZ' C ; T = BLOQ 'RY' C ;\n"
+                "K = (RIGI M (MATE M 'YOUN' 1. 'NU' 0.)) ET R ET H ET T ;\n"
+                "U = RESO K (DEPI T 0.1) ; LIST (EXTR U 'UZ' (V POIN 'PROC' (2 0 0))) ;"
             ),
             (
                 "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;\n"
@@ -243,8 +255,20 @@ _HOST = arg("host", "MAILLAGE", en="cells that hold them", fr="éléments qui le
     choice("turning", ("ROTA",), optional=False, en="nodes that turn", fr="noeuds qui tournent"),
     flag("moving", "DEPL", en="nodes that move", fr="noeuds qui se déplacent"),
     flag("unchecked", "NOVERIF", en="accepted", fr="accepté"),
-    arg("mesh", "MAILLAGE", "POINT", en="rigid body", fr="corps rigide"),
-    opt("rest", "MAILLAGE", "POINT", en="its nodes without rotations", fr="noeuds sans rotations"),
+    arg(
+        "mesh",
+        "MAILLAGE",
+        "POINT",
+        en="GEO1: nodes of the body that have rotations, or its centre; the first carries it",
+        fr="GEO1 : noeuds du corps qui ont des rotations, ou son centre ; le premier le porte",
+    ),
+    opt(
+        "rest",
+        "MAILLAGE",
+        "POINT",
+        en="GEO2: its nodes without rotations, such as the side of a solid",
+        fr="GEO2 : ses noeuds sans rotations, comme la face d'un massif",
+    ),
     syntax="RIG1 = RELA 'CORI' 'DEPL' ('NOVERIF') GEO1 | 'DEPL' 'ROTA' GEO1 (GEO2) ;",
 )
 def rigid_with_rotations(
@@ -272,7 +296,12 @@ def rigid_with_rotations(
         en="without a check that the nodes hold the body",
         fr="sans vérifier que les noeuds tiennent le corps",
     ),
-    arg("mesh", "MAILLAGE", en="rigid body", fr="corps rigide"),
+    arg(
+        "mesh",
+        "MAILLAGE",
+        en="GEO1: the body, four nodes not in a plane or more (in the plane three not on a line)",
+        fr="GEO1 : le corps, au moins quatre noeuds non coplanaires (trois non alignés en plan)",
+    ),
 )
 def rigid(call: Call, moving: bool, unchecked: bool, mesh: Mesh) -> Matrix:
     """A rigid body, by distances."""

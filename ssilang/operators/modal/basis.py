@@ -177,7 +177,9 @@ pjba = operator(
         "LCHP2 = PJBA LCHP1 TAB1 (N1) (RIG1) ;",
         (
             "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = APPU 'UX' 400. P1 ;"
-            " T1 = VIBR 'SIMU' 1. 1 K1 (MASS 'UX' 4. P1) ; LIST (PJBA (FORC 'FX' 2. P1) T1) ;",
+            " T1 = VIBR 'SIMU' 1. 1 K1 (MASS 'UX' 4. P1) ; LIST (PJBA (FORC 'FX' 2. P1) T1) ;\n"
+            "U = MANU 'CHPO' P1 'UX' 3. ;"
+            " LIST (EXTR (PJBA (SUIT U (2. * U)) T1 1 (MASS 'UX' 4. P1)) 2) ;",
         ),
     ),
 )(_pjba)

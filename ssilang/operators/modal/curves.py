@@ -14,6 +14,7 @@ from ssilang.kernel.statics.linear import product
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListEnti, ListReel, Table
 from ssilang.operators.curves.evol import KINDS, history, names_in_time, nodes_named
+from ssilang.operators.curves.instants import value_in_time
 from ssilang.operators.dispatch import extend_help
 from ssilang.operators.modal.basis import Shape, read_basis, shapes_of
 from ssilang.operators.modal.recombination import modal_history, pseudo_shapes
@@ -79,7 +80,7 @@ def _curves(
     """Curves of components at nodes: weights (m, n) times the n shapes there."""
     parts: list[CurvePart] = []
     for name, node in places:
-        shape = np.asarray([float(f.values_at(name, np.array([node]))[0]) for f in shapes])
+        shape = value_in_time(call, list(shapes), name, node)
         colour = colours[len(parts) % len(colours)]
         parts.append(CurvePart(times, weights @ shape, "TEMP", name, name, colour))
     return Curve(tuple(parts), workspace(call.session).title)
@@ -147,17 +148,11 @@ def _of_contributions(call: Call, colours: list[int]) -> Curve:
     if other is not None:
         shapes = shapes_of(call, other.value)
         call.keyword(("ALFA",))
-        places = [(s.unknown, s.mark.node) for s in shapes]
+        places = [(s.unknown, s.mark.node) for s in shapes if s.unknown == "ALFA"]
     else:
         places = _places_asked(call, fields[:1])
-    nodes = np.array([n for _, n in places])
     names = [c for c, _ in places]
-    weights = np.array(
-        [
-            [float(f.values_at(c, np.array([n]))[0]) for c, n in zip(names, nodes, strict=True)]
-            for f in fields
-        ]
-    )
+    weights = np.stack([value_in_time(call, list(fields), c, n) for c, n in places], axis=1)
     at = call.read("LISTREEL")
     if at is not None:
         weights, times = _at(call, at.value, times, weights), np.asarray(at.value.values)

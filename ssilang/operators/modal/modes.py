@@ -5,7 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from ssilang.kernel.matrices.assembly import is_symmetric
+from ssilang.kernel.matrices.assembly import (
+    assemble,
+    is_symmetric,
+    negative_mass,
+    numbering_of,
+)
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.matrices.submatrices import support_mesh
 from ssilang.kernel.mesh.mesh import Point
@@ -14,7 +19,7 @@ from ssilang.kernel.modal.modes import Mode, modes_between, modes_near
 from ssilang.language.registry import Chosen, Help, arg, flag, key, many, operator, opt, select
 from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
-from ssilang.operators.matrices.doubled import warn_doubled_supports
+from ssilang.operators.matrices.connections import warn_connections
 from ssilang.operators.workspace import workspace
 
 _FREQUENCY = arg("frequency", "FLOTTANT", en="frequency", fr="fréquence", unit="Hz")
@@ -47,11 +52,12 @@ def _vibr(
     **_: bool,
 ) -> Table:
     if solution:
-        raise call.error("operators.modal.no-solution-object", word="SOLU")
+        raise call.error("operators.modal.solution-out-of-scope", word="SOLU")
     if len(matrices) < 2:
         raise call.missing(("RIGIDITE",))
     stiffness, mass, damping = matrices_by_kind(matrices)
-    warn_doubled_supports(call.session, call.span, "VIBR", stiffness)
+    warn_connections(call.session, call.span, "VIBR", stiffness)
+    _warn_negative_mass(call, mass)
     if damping is not None or not (is_symmetric(stiffness) and is_symmetric(mass)):
         return _complex(call, method, stiffness, mass, damping)
     if method.word == "INTERVALLE":
@@ -64,6 +70,16 @@ def _vibr(
     else:
         modes = modes_near(stiffness, mass, _wanted(call, method))
     return modal_table(call, mass, [_real_entry(m, signed) for m in modes])
+
+
+def _warn_negative_mass(call: Call, mass: Matrix) -> None:
+    """Tell of a mass of both signs, which is a buckling load or a slip."""
+    found = None
+    if mass.kind.startswith("MASS"):
+        numbering = numbering_of(mass)
+        found = negative_mass(assemble(mass, numbering), numbering)
+    if found is not None:
+        call.warn("operators.modal.mass-of-both-signs", unknown=found[0], value=found[1])
 
 
 def matrices_by_kind(
@@ -229,6 +245,12 @@ operator(
             "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = APPU 'UX' 400. P1 ;"
             " M1 = MASS 'UX' 4. P1 ; T1 = VIBR 'SIMU' 1. 1 K1 M1 ;"
             " LIST (T1 . 'MODES' . 1 . 'FREQUENCE') ;",
+            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = (APPU 'UX' 400. P1) ET (APPU 'UY' 900. "
+            "P1) ; M1 = MASS 'DEPL' 4. P1 ;\n"
+            "T1 = VIBR 'PROCHE' (PROG 1.5 2.5) K1 M1 ; LIST (T1 . 'MODES' . 2 . 'FREQUENCE') ;\n"
+            "T1 = VIBR 'INTERVALLE' 1. 2. K1 M1 ; LIST (DIME (T1 . 'MODES')) ;\n"
+            "T1 = VIBR 'IRAM' 2. 1 K1 M1 (0.01 * K1) ;\n"
+            "LIST (T1 . 'MODES' . 1 . 'FREQUENCE_IMAGINAIRE') ;",
         ),
     ),
 )(_vibr)

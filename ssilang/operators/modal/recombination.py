@@ -297,11 +297,15 @@ reco = operator(
             "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = APPU 'UX' 400. P1 ;"
             " T1 = VIBR 'SIMU' 1. 1 K1 (MASS 'UX' 4. P1) ;"
             " Q1 = MANU 'CHPO' (T1 . 'MODES' . 1 . 'POINT_REPERE') 1 'ALFA' 3. ;"
-            " LIST (RECO Q1 T1) ;",
+            " LIST (RECO Q1 T1) ; LIST (EXTR (RECO (SUIT Q1 (2. * Q1)) T1 1) 2) ;",
             "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = APPU 'UX' 400. P1 ;"
             " T1 = VIBR 'SIMU' 1. 1 K1 (MASS 'UX' 4. P1) ; TI = TABL 'INITIAL' ;"
             " TI . 'VITESSE' = MANU 'CHPO' (T1 . 'MODES' . 1 . 'POINT_REPERE') 1 'ALFA' 3. ;"
             " R = DYNE 'DE_VOGELAERE' T1 TI 20 0.01 ; LIST (RECO R T1 0.15 'VITE') ;",
+            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = APPU 'UX' 400. P1 ;"
+            " T1 = VIBR 'SIMU' 1. 1 K1 (MASS 'UX' 4. P1) ;"
+            " Q1 = MANU 'CHPO' (T1 . 'MODES' . 1 . 'POINT_REPERE') 1 'ALFA' 3. ;"
+            " LIST (MAXI (EXTR (RECO (SUIT Q1 (2. * Q1)) T1) 2)) ;",
         ),
     ),
 )(_reco)

@@ -129,6 +129,8 @@ nnor = operator(
         (
             "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; U1 = MANU 'CHPO' P1 2 'UX' 4. 'UY' -8. ;"
             " LIST (NNOR U1) ; LIST (NNOR U1 'AVEC' (MOTS 'UX')) ;",
+            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; U1 = MANU 'CHPO' P1 2 'UX' 3. 'UY' -4. ;"
+            " LIST (NNOR 'EUCL' U1) ; LIST (NNOR 'EUCL' U1 (MASS 'DEPL' 4. P1)) ;",
         ),
     ),
 )(_nnor)

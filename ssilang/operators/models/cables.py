@@ -11,6 +11,7 @@ from ssilang.kernel.elements.zone_fields import n_points, zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.statics.prestress import NO_LOSSES, Cable, Losses, cables_of, tensions
 from ssilang.language.registry import Help, arg, operator, opt
 from ssilang.language.run.call import Call
@@ -90,6 +91,7 @@ def _nodes(ends: Mesh | Point | None) -> IntArray | None:
 
 def _losses(call: Call, table: Table) -> Losses:
     entries = Entries(call, table, "PREC")
+    entries.check()
     return Losses(**{name: entries.get(index) for index, name in _ENTRIES.items()})
 
 
@@ -109,24 +111,24 @@ def _zone(
     section = np.broadcast_to(seen.at("SECT", "GRAVITE")[:, 0], len(cells))
     stiffness = section * seen.at("YOUN", "GRAVITE")[:, 0]
     found = np.zeros(len(cells))
-    for cable in cables_of(cells):
+    for cable in cables_of(zone.cells.nodes, cells):
         b = cable.bars
-        pulled = _pulled(call, cable, ends)
+        pulled = _pulled(call, zone.cells.nodes, cable, ends)
         found[b] = tensions(cable, x, pulled, force, stiffness[b], section[b], losses)
     points = n_points(zone.element, "STRESSES")
     values: FloatArray = np.repeat(found[:, None, None], points, axis=2)
     return cell_block(zone, ("EFFX",), values)
 
 
-def _pulled(call: Call, cable: Cable, ends: IntArray | None) -> tuple[bool, bool]:
+def _pulled(call: Call, nodes: NodeTable, cable: Cable, ends: IntArray | None) -> tuple[bool, bool]:
     if ends is None:
         return False, True
     found = (int(cable.nodes[0]) in ends, int(cable.nodes[-1]) in ends)
     if not any(found):
         raise call.error(
             "operators.models.cable-end-not-pulled",
-            first=int(cable.nodes[0]) + 1,
-            last=int(cable.nodes[-1]) + 1,
+            first=nodes.told(cable.nodes[0]),
+            last=nodes.told(cable.nodes[-1]),
         )
     return found
 

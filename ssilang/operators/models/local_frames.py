@@ -13,11 +13,19 @@ from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.results.frames import (
     cylindrical_frames,
     fixed_frame,
+    given_rotations,
     material_frames,
     points_of,
     polar_frames,
     seen_in,
     spherical_frames,
+    torus_frames,
+)
+from ssilang.kernel.elements.results.shell_frames import (
+    SurfaceAxes,
+    is_flat_shell,
+    shell_in_axes,
+    shell_support,
 )
 from ssilang.kernel.elements.results.skin import SIDES, is_shell, shell_skin, skin_stress
 from ssilang.kernel.elements.results.tensors import tensor
@@ -33,6 +41,7 @@ from ssilang.operators.matrices.element import joined, present
 from ssilang.operators.statics.stresses import on_zones, state_and_rest
 
 Frames = Callable[[Zone, Support], FloatArray]
+Surface = Callable[[Zone, Support], SurfaceAxes]
 
 _EXAMPLE = (
     "OPTI DIME 2 ELEM QUA4 ; L = DROI 2 (1. 0.) (2. 0.) ; S = TRAN 1 L (0. 1.) ; "
@@ -62,29 +71,66 @@ _SECOND = opt(
             "POLA": [_CENTRE],
             "CYLI": [_CENTRE, _ON_AXIS],
             "SPHE": [_CENTRE, _ON_AXIS],
-            "TORI": [],
+            "TORI": [
+                choice(
+                    "section",
+                    ("CART", "CIRC"),
+                    default="CART",
+                    en="straight axes in each half plane of the axis (default), or those of its "
+                    "small circle",
+                    fr="axes droits dans chaque demi-plan méridien (par défaut), ou ceux de son "
+                    "petit cercle",
+                ),
+                _CENTRE,
+                _ON_AXIS,
+                opt(
+                    "on_circle",
+                    "POINT",
+                    en="centre of a small circle (CIRC)",
+                    fr="centre d'un petit cercle (CIRC)",
+                ),
+            ],
         },
-        en="polar, cylindrical or spherical coordinates",
-        fr="coordonnées polaires, cylindriques ou sphériques",
+        en="polar, cylindrical or spherical coordinates, or those of a torus",
+        fr="coordonnées polaires, cylindriques ou sphériques, ou celles d'un tore",
+    ),
+    choice(
+        "product",
+        ("RTAR", "RART"),
+        default="RTAR",
+        en="of matrices of rotation R: Rt A R (default) or R A Rt",
+        fr="de matrices de rotation R : Rt A R (par défaut) ou R A Rt",
     ),
     opt("first", "POINT", en="first axis", fr="premier axe"),
     _SECOND,
     family="stress",
     full_name="RTENS",
     help=Help(
-        en="Stresses or strains of continuous elements in another frame: along a vector (in space "
-        "two: the first axis and a vector of the plane of the first two), in the axes of "
-        "orthotropy of a field of parameters, or in polar ('POLA' centre), cylindrical ('CYLI' "
-        "centre, point of the axis) or spherical ('SPHE') coordinates. The components keep their "
-        "names. A nodal field of vectors is turned to the frame of the vectors.",
-        fr="Contraintes ou déformations de massifs dans un autre repère : selon un vecteur (en 3D "
-        "deux : le premier axe et un vecteur du plan des deux premiers), dans le repère "
-        "d'orthotropie d'un champ de caractéristiques, ou en coordonnées polaires ('POLA' "
-        "centre), cylindriques ('CYLI' centre, point de l'axe) ou sphériques ('SPHE'). Les "
-        "composantes gardent leurs noms. Un champ par points de vecteurs est tourné dans le "
-        "repère des vecteurs.",
+        en="Stresses or strains of continuous elements and flat shells in another frame: along a "
+        "vector (in space two: the first axis and a vector of the plane of the first two), in the "
+        "axes of orthotropy of a field of parameters, or in polar ('POLA' centre), cylindrical "
+        "('CYLI' centre, point of the axis) or spherical ('SPHE') coordinates, or those of a "
+        "torus ('TORI': 'CART' as 'CYLI'; 'CIRC': along the large circle, along the small one "
+        "whose centre is the third point, outwards), or by a field of matrices of rotation "
+        "(components UX,X UX,Y ... as those of GRAD). The components keep their names. In shells "
+        "the first axis is the projection of the first vector, or of the direction around the "
+        "axis; the side that counts as upper stays the element's. A nodal field of vectors is "
+        "turned to the frame of the vectors.",
+        fr="Contraintes ou déformations de massifs et de coques planes dans un autre repère : "
+        "selon un vecteur (en 3D deux : le premier axe et un vecteur du plan des deux premiers), "
+        "dans le repère d'orthotropie d'un champ de caractéristiques, ou en coordonnées polaires "
+        "('POLA' centre), cylindriques ('CYLI' centre, point de l'axe), sphériques ('SPHE') ou "
+        "celles d'un tore ('TORI' : 'CART' comme 'CYLI' ; 'CIRC' : le long du grand cercle, le "
+        "long du petit dont le centre est le troisième point, vers l'extérieur), ou par un champ "
+        "de matrices de rotation (composantes UX,X UX,Y ... comme celles de GRAD). Les "
+        "composantes gardent leurs noms. Dans les coques, le premier axe est la projection du "
+        "premier vecteur, ou de la direction orthoradiale ; le côté compté comme supérieur reste "
+        "celui de l'élément. Un champ par points de vecteurs est tourné dans le repère des "
+        "vecteurs.",
         syntax="CHAM3 = RTEN CHAM1 MODL1 | VEC1 (VEC2) | CHAM2 ;\n"
-        "CHAM3 = RTEN CHAM1 MODL1 'POLA' P1 | 'CYLI' P1 P2 | 'SPHE' P1 P2 ;\n"
+        "CHAM3 = RTEN CHAM1 MODL1 'POLA' P1 | 'CYLI' P1 P2 | 'SPHE' P1 P2 | "
+        "'TORI' ('CART') P1 P2 | 'TORI' 'CIRC' P1 P2 P3 ;\n"
+        "CHAM3 = RTEN CHAM1 MODL1 GRAD1 ('RTAR' | 'RART') ;\n"
         "CHPO2 = RTEN CHPO1 VEC1 (VEC2) ;",
         examples=(
             _EXAMPLE + "LIST (MAXI (RTEN (SIGM M A U) M 'POLA' (0. 0.))) ;",
@@ -95,7 +141,20 @@ _SECOND = opt(
                 "X Y Z = COOR V ; U = (NOMC 'UX' X) ET (NOMC 'UY' Y) ET (NOMC 'UZ' Z) ;\n"
                 "S = SIGM M A U ; O = 0 0 0 ; D = 0 0 1 ;\n"
                 "LIST (MAXI (RTEN S M 'CYLI' O D)) ; LIST (MAXI (RTEN S M 'SPHE' O D)) ;\n"
+                "LIST (MAXI (RTEN S M 'TORI' O D)) ;\n"
+                "LIST (MAXI (RTEN S M 'TORI' 'CIRC' O D (3 0 0))) ;\n"
+                "R = GRAD M ((NOMC 'UX' Y) ET (NOMC 'UY' (-1. * X)) ET (NOMC 'UZ' Z)) ;\n"
+                "LIST (MAXI (RTEN S M R)) ; LIST (MAXI (RTEN S M R 'RART')) ;\n"
                 "LIST (MAXI (EXCO 'UY' (RTEN U (0 1 0) (0 0 1)))) ;"
+            ),
+            (
+                "OPTI DIME 3 MODE TRID ELEM QUA4 ;\n"
+                "P = (DROI 1 (0 0 0) (1 0 0)) TRAN 1 (0 1 0) ;\n"
+                "M = MODE P 'MECANIQUE' 'ELASTIQUE' 'COQ4' ;\n"
+                "A = MATE M 'YOUN' 2. 'NU' 0. 'EPAI' 0.5 ;\n"
+                "S = SIGM M A (NOMC 'UX' (COOR 1 P)) ;\n"
+                "LIST (MAXI (EXCO 'N11' (RTEN S M (1 0 0)))) ;\n"
+                "LIST (MAXI (EXCO 'N22' (RTEN S M (0 1 0)))) ;"
             ),
         ),
     ),
@@ -106,20 +165,31 @@ def rten(
     field: CellField,
     material: CellField | None,
     frame: Chosen | None,
+    product: str,
     first: Point | None,
     second: Point | None,
 ) -> CellField:
     """Stresses or strains in another frame."""
+    turning = material is not None and any("UX,X" in b.components for b in material.blocks)
+    surface: Surface | None = None
     if frame is not None:
         frames = _round(call, frame)
+        surface = _round_surface(frame, frames)
     elif first is not None:
         frames = _fixed_frames(first, second)
-    elif material is not None:
-        frames = _of_material(material)
-    else:
+        surface = _fixed_surface(first, second)
+    elif material is None:
         raise call.missing(("POINT",))
+    elif turning:
+        frames = _of_rotations(material, product)
+    else:
+        frames = _of_material(material)
+        surface = _surface_of_material(material)
 
     def make(zone: Zone) -> CellFieldBlock:
+        if surface is not None and is_flat_shell(zone):
+            axes = surface(zone, shell_support(zone, field))
+            return shell_in_axes(zone, field, axes)
         if not is_solid(zone):
             raise FieldError("operators.models.rten-of-solids-only", element=zone.element)
         support = tensor(zone, field)[1]
@@ -143,22 +213,53 @@ def _fixed(first: Point, second: Point | None) -> FloatArray:
 
 
 def _fixed_frames(first: Point, second: Point | None) -> Frames:
-    rotation = _fixed(first, second)
-    return lambda zone, support: rotation
+    return lambda zone, support: _fixed(first, second)
+
+
+def _fixed_surface(first: Point, second: Point | None) -> Surface:
+    along = first.coordinates
+    normal = None if second is None else np.cross(along, second.coordinates)
+    return lambda zone, support: SurfaceAxes(along, normal=normal)
+
+
+def _surface_of_material(material: CellField) -> Surface:
+    return lambda zone, support: SurfaceAxes(material_frames(zone, material, support)[..., 0, :])
+
+
+def _round_surface(frame: Chosen, frames: Frames) -> Surface | None:
+    """Around the axis first, then to the side of the axis, or inwards where that is normal."""
+    if frame.word == "POLA":
+        return None
+    axis = frame["on_axis"].coordinates - frame["centre"].coordinates
+    around = 0 if frame.word == "TORI" and frame["section"] == "CIRC" else 1
+
+    def axes(zone: Zone, support: Support) -> SurfaceAxes:
+        rows = frames(zone, support)
+        inwards = -rows[..., 2 if around == 0 else 0, :]
+        return SurfaceAxes(rows[..., around, :], axis, inwards)
+
+    return axes
 
 
 def _of_material(material: CellField) -> Frames:
     return lambda zone, support: material_frames(zone, material, support)
 
 
+def _of_rotations(field: CellField, product: str) -> Frames:
+    return lambda zone, support: given_rotations(zone, field, support, product == "RTAR")
+
+
 def _round(call: Call, frame: Chosen) -> Frames:
-    if frame.word == "TORI":
-        raise call.error("operators.models.tori-not-available")
     centre = frame["centre"].coordinates
     if frame.word == "POLA":
         return lambda zone, support: polar_frames(points_of(zone, support), centre)
     on_axis = frame["on_axis"].coordinates
-    build = cylindrical_frames if frame.word == "CYLI" else spherical_frames
+    if frame.word == "TORI" and frame["section"] == "CIRC":
+        if frame["on_circle"] is None:
+            raise call.missing(("POINT",))
+        circle = frame["on_circle"].coordinates
+        return lambda zone, at: torus_frames(points_of(zone, at), centre, on_axis, circle)
+    build = spherical_frames if frame.word == "SPHE" else cylindrical_frames
     return lambda zone, support: build(points_of(zone, support), centre, on_axis)
 
 

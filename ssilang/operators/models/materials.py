@@ -77,6 +77,7 @@ _PAIRS = each(
         "for JOINT_SDM, FU GF FC FROT (KN <= FU**2/GF is refused, with the least KN). Plastic "
         "bodies besides: PARFAIT SIGY; ISOTROPE ECRO (curve of the strength over the plastic "
         "strain) or TRAC (of the stress over the whole strain, from zero); CINEMATIQUE SIGY H; "
+        "J2 SIG0 SIGI KISO VELO (strength SIG0 + KISO p + (SIGI - SIG0)(1 - exp(-VELO p))); "
         "DRUCKER_PARFAIT LTR LCS; DRUCKER_PRAGER ALFA BETA K ETA MU "
         "KL H GAMM DELT; RH_COULOMB COHE PHI (radians); PARFAIT_UNI SIGY H; "
         "BETON_BAEL FC; FLUAGE NORTON AF1 AF2 AF3 (creep strain "
@@ -98,7 +99,9 @@ _PAIRS = each(
         "pour JOINT_SDM, FU GF FC FROT (KN <= FU**2/GF est refusé, avec le plus petit "
         "KN). Corps plastiques, en plus : PARFAIT SIGY ; ISOTROPE ECRO (courbe de la limite en "
         "fonction de la déformation plastique) ou TRAC (de la contrainte en fonction de la "
-        "déformation totale, depuis zéro) ; CINEMATIQUE SIGY H ; DRUCKER_PARFAIT LTR LCS ; "
+        "déformation totale, depuis zéro) ; CINEMATIQUE SIGY H ; J2 SIG0 SIGI "
+        "KISO VELO (limite SIG0 + KISO p + (SIGI - SIG0)(1 - exp(-VELO p))) ; DRUCKER_PARFAIT LTR "
+        "LCS ; "
         "DRUCKER_PRAGER ALFA BETA K ETA MU KL H GAMM DELT ; RH_COULOMB COHE PHI (radians) ; "
         "PARFAIT_UNI SIGY H ; BETON_BAEL FC ; FLUAGE NORTON AF1 AF2 AF3 (déformation de fluage "
         "AF1 q**AF2 t**AF3 "
@@ -247,6 +250,8 @@ def _set_value(
 
 def _unknown(call: Call, written: str, model: Model, known: Known) -> Exception:
     name = written.upper().rstrip()
+    if name == "ADHE" and any(z.formulation == "CONTACT" for z in model.zones):
+        return call.error("operators.models.adherence-without-equation", written)
     names = tuple(dict.fromkeys(n for z in model.zones for n in known(z)))
     near = nearest_names(name, names, 0.5)
     zone = next(z for z in model.zones if not near or near[0] in known(z))

@@ -22,6 +22,7 @@ from ssilang.kernel.materials.behaviours import (
     OTHER_FORMULATIONS,
     PLASTIC_WORDS,
     UNDESCRIBED_LAWS,
+    UNPUBLISHED,
     full_word,
     normalised,
 )
@@ -58,6 +59,9 @@ LAW_WORDS = (
     "ELASTIQUE", *ELASTICITIES, *JOINT_WORDS, *PLASTIC_WORDS, *CREEP_WORDS, "IMPEDANCE",
     *IMPEDANCE_LAWS,
 )  # fmt: skip
+
+_OF_JOINTS = tuple(w for w in JOINT_WORDS if w != "PLASTIQUE")
+"""Words that only joints have."""
 
 
 @dataclass
@@ -118,10 +122,10 @@ MODE = shared(
         en="Gives a mesh its finite elements and its law.\n"
         "The formulation is MECANIQUE; the law is ELASTIQUE, followed by ISOTROPE (default), "
         "ORTHOTROPE, ANISOTROPE or UNIDIRECTIONNEL; joints also have JOINT_SDM. Continuous "
-        "elements and bars may add PLASTIQUE and PARFAIT, ISOTROPE (default) or CINEMATIQUE (von "
-        "Mises), DRUCKER_PARFAIT, DRUCKER_PRAGER or RH_COULOMB (rounded Mohr-Coulomb), or FLUAGE "
-        "NORTON (creep); shells DKT the laws of von Mises with INTEGRE N1, points across their "
-        "thickness. Beams TIMO "
+        "elements and bars may add PLASTIQUE and PARFAIT, ISOTROPE (default), J2 or CINEMATIQUE "
+        "(von Mises), DRUCKER_PARFAIT, DRUCKER_PRAGER or RH_COULOMB (rounded Mohr-Coulomb), or "
+        "FLUAGE NORTON (creep); shells DKT the laws of von Mises with INTEGRE N1, points across "
+        "their thickness. Beams TIMO "
         "are ELASTIQUE SECTION where their section is a model of fibres (POJS on points, TRIS, "
         "QUAS) given by MATE, and add PLASTIQUE SECTION where fibres yield (PARFAIT_UNI: along the "
         "fibre; BETON_BAEL: concrete without tension; or von Mises). MODAL and "
@@ -130,7 +134,8 @@ MODE = shared(
         "side), REUSS (one behind the other), COMPLEXE (functions of the frequency), on all "
         "translations (on rotations too with CPLE), on the unknowns of one or two lists of words, "
         "or with MODAL or STATIQUE on the share of that shape. Without a name of element, cells "
-        "get the continuous element of their name; BARR, POUT, TIMO, TUYA, "
+        "get the continuous element of their name, SEG2 and SEG3 bars (BARR, BAR3) in plane and "
+        "space; POUT, TIMO, TUYA, "
         "DKT, COQ2, COQ4, COQ6, COQ8, SHB8 (shell of cubes) and the joints are to be named "
         "(Q4RI, ICQ4, BBAR choose "
         "another integration; POLY takes the elements of a mesh of polygons). "
@@ -155,9 +160,9 @@ MODE = shared(
         fr="Donne à un maillage ses éléments finis et sa loi.\n"
         "La formulation est MECANIQUE ; la loi est ELASTIQUE, suivie d'ISOTROPE (par défaut), "
         "ORTHOTROPE, ANISOTROPE ou UNIDIRECTIONNEL ; les joints ont aussi JOINT_SDM. Les massifs "
-        "et les barres ajoutent PLASTIQUE et PARFAIT, ISOTROPE (par défaut) ou CINEMATIQUE (von "
-        "Mises), DRUCKER_PARFAIT, DRUCKER_PRAGER ou RH_COULOMB (Mohr-Coulomb arrondi), ou FLUAGE "
-        "NORTON ; les coques DKT ont les lois de von Mises avec INTEGRE N1, points dans "
+        "et les barres ajoutent PLASTIQUE et PARFAIT, ISOTROPE (par défaut), J2 ou CINEMATIQUE "
+        "(von Mises), DRUCKER_PARFAIT, DRUCKER_PRAGER ou RH_COULOMB (Mohr-Coulomb arrondi), "
+        "ou FLUAGE NORTON ; les coques DKT ont les lois de von Mises avec INTEGRE N1, points dans "
         "l'épaisseur. Les poutres "
         "TIMO sont ELASTIQUE SECTION quand leur section est un modèle de fibres (POJS sur des "
         "points, TRIS, QUAS) donné par MATE, avec PLASTIQUE SECTION si des fibres plastifient "
@@ -168,7 +173,8 @@ MODE = shared(
         "(en parallèle), REUSS (en série), COMPLEXE (fonctions de la fréquence), sur toutes les "
         "translations (et les rotations si CPLE est donné), sur les inconnues d'une ou deux "
         "listes de mots, ou avec MODAL ou STATIQUE sur la part de cette forme. Sans nom "
-        "d'élément, les mailles reçoivent l'élément massif de leur nom ; BARR, POUT, TIMO, TUYA, "
+        "d'élément, les mailles reçoivent l'élément massif de leur nom, les SEG2 et SEG3 des "
+        "barres (BARR, BAR3) dans le plan et l'espace ; POUT, TIMO, TUYA, "
         "DKT, COQ2, COQ4, COQ6, COQ8, SHB8 (coque de cubes) et les joints se nomment (Q4RI, "
         "ICQ4, BBAR choisissent une "
         "autre intégration ; POLY prend les éléments d'un maillage de polygones). "
@@ -204,7 +210,9 @@ MODE = shared(
         "MODL1 = MODE GEO1 'CHARGEMENT' 'PRESSION' (ELEM1 ...) ;",
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0 0) (1 0) ; "
-            "M = MODE L 'MECANIQUE' 'ELASTIQUE' 'BARR' ; LIST (TYPE M) ;",
+            "M = MODE L 'MECANIQUE' 'ELASTIQUE' ; LIST (TYPE M) ;\n"
+            "A = MATE M 'YOUN' 1. 'NU' 0. 'SECT' 2. ;\n"
+            "U = NOMC 'UX' (COOR 1 L) ; LIST (MAXI (EXCO 'EFFX' (SIGM M A U))) ;",
             (
                 "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ;\n"
                 "A = DROI 4 (0. 0.) (2. 0.) ; B = A PLUS (0. 0.) ;\n"
@@ -389,6 +397,8 @@ def _name(call: Call, word: str, wish: _Wish) -> None:
     """A formulation, a law or an element."""
     said = LONG_NAMES.get(word.upper().rstrip(), word.upper().rstrip())
     element = said if said in GENERIC_ELEMENTS else said[:4]
+    if said in OTHER_BEHAVIOURS:  # some begin as an element does: TUYAU_FISSURE
+        raise _unknown(call, said)
     if element in ELEMENTS or element in GENERIC_ELEMENTS:
         wish.elements.append(element)
     elif (law := full_word(said, LAW_WORDS)) is not None:
@@ -408,6 +418,9 @@ def _unknown(call: Call, said: str) -> Exception:
     known = (*FORMULATIONS, *LAW_WORDS, *ELEMENTS, *GENERIC_ELEMENTS)
     if said in UNDESCRIBED_LAWS:
         return call.error("operators.models.joint-law-not-built", said=said)
+    if said in UNPUBLISHED:
+        names = UNPUBLISHED[said]
+        raise call.error("operators.models.law-without-equations", said, said=said, names=names)
     written = next((o.value for o in call.used[::-1] if str(o.value).upper() == said), None)
     laws = (*ELASTICITIES, *JOINT_WORDS)
     if full_word(said, OTHER_FORMULATIONS):
@@ -443,6 +456,8 @@ def _zone(block: CellBlock, wish: _Wish, ws: Workspace) -> Zone:
     if ws.mode is Mode.FOURIER:
         options["harmonic"] = ws.fourier
     behaviour = normalised(wish.laws, kind.family)
+    if kind.family == "joint" and "ANISOTROPE" in behaviour and kind.name != "JOI1":
+        raise MeshError("operators.models.anisotropy-of-two-points", name=name)
     if wish.rule and kind.family == "joint":
         name = with_rule(name, wish.rule)
     constituent = wish.constituent
@@ -478,7 +493,7 @@ def _element(block: CellBlock, wish: _Wish, mode: Mode) -> str:
         if shape in wish.laws and cell == "POI1":
             return shape
     joints = [n for n in JOINT_NAMES if ELEMENTS[n].cell_type == cell]
-    if joints and (block.kind.joint or any(w in JOINT_WORDS for w in wish.laws)):
+    if joints and (block.kind.joint or any(w in _OF_JOINTS for w in wish.laws)):
         return joints[0]
     return default_element(cell, mode)
 

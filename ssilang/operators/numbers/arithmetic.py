@@ -127,12 +127,28 @@ def _list_rule(sign: str) -> Rule:
     return run
 
 
+_LARGEST = 2**63 - 1  # of an item of a list of integers, whatever its sign: ABS stays one
+
+
 def _integer_arrays(sign: str, x: Any, y: Any) -> Any:
-    if sign == "/":
-        return np.trunc(np.divide(x, y)).astype(np.int64)
-    if sign == "**":
-        return np.trunc(np.power(x.astype(float), y)).astype(np.int64)
-    return _ARRAY[sign](x, y)
+    """Lists of integers by the rules of single ones; what 64 bits cannot hold is an error."""
+    if sign in "+-*" and _stays_small(sign, x, y):
+        return _ARRAY[sign](x, y)
+    if sign == "/" and object not in (x.dtype, y.dtype) and np.all(y != 0):
+        quotient = x // y  # cut downwards
+        return quotient + ((quotient < 0) & (quotient * y != x))
+    made = np.vectorize(_INTEGER[sign], otypes=[object])(x, y)
+    if made.size and max(made.max(), -made.min()) > _LARGEST:
+        raise NoResultError("operators.numbers.list-integer-too-large")
+    return made.astype(np.int64)
+
+
+def _stays_small(sign: str, x: Any, y: Any) -> bool:
+    """Whether sums, or products, of two lists of integers keep far from what 64 bits hold."""
+    if object in (x.dtype, y.dtype):
+        return False
+    large, other = (float(np.max(np.abs(v.astype(float)), initial=0.0)) for v in (x, y))
+    return (large * other if sign == "*" else large + other) < 2.0**62
 
 
 for _sign in SIGNS.split():
@@ -205,15 +221,33 @@ def _sum_of_table(sign: str, call: Call, table: Table) -> Any:
     return total
 
 
+_FURTHER = {
+    "*": "\nCHAM3 = CHAM1 * CHAM2 (LMOT1 LMOT2 LMOT3 (LREE1)) ;\nSIG1 = HOO1 * EPS1 MODL1 ;",
+    "/": "\nCHAM3 = CHAM1 / CHAM2 (LMOT1 LMOT2 LMOT3 (LREE1)) ;",
+}
 _TEXTS = {
     "+": ("Sum of two objects.", "Somme de deux objets."),
     "-": ("Difference of two objects.", "Différence de deux objets."),
-    "*": ("Product of two objects.", "Produit de deux objets."),
+    "*": (
+        "Product of two objects. Of fields with three lists of names: component by component (in "
+        "cells with a factor each); of matrices of Hooke by strains, with the model: stresses.",
+        "Produit de deux objets. De champs avec trois listes de noms : composante par composante "
+        "(par éléments, avec un coefficient chacune) ; de matrices de Hooke par des déformations, "
+        "avec le modèle : contraintes.",
+    ),
     "/": (
         "Quotient; of two integers it is an integer, cut towards zero.",
         "Quotient ; entre deux entiers, c'est un entier tronqué vers zéro.",
     ),
     "**": ("Power.", "Puissance."),
+}
+_EXAMPLES = {
+    "*": (
+        "OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ; S = (DROI 1 (0. 0.) (1. 0.)) TRAN 1 (0. 1.) ; "
+        "M = MODE S MECANIQUE ELASTIQUE ; H = HOOK M (MATE M 'YOUN' 100. 'NU' 0.) ; "
+        "E = EPSI M (NOMC 'UX' (0.01 * (COOR 1 S))) ; LIST (MAXI (H * E M)) ; "
+        "LIST (MAXI (E * E (MOTS 'EPXX') (MOTS 'EPXX') (MOTS 'SQUA') (PROG 1.E4))) ;",
+    ),
 }
 for _sign, (_en, _fr) in _TEXTS.items():
     operator(
@@ -225,8 +259,8 @@ for _sign, (_en, _fr) in _TEXTS.items():
         help=Help(
             _en + " Phrases run from left to right, without precedence: 1 + 2 * 3 is 9.",
             _fr + " Les phrases vont de gauche à droite, sans priorité : 1 + 2 * 3 vaut 9.",
-            f"OBJ3 = OBJ1 {_sign} OBJ2 ;",
-            (f"x = 6 {_sign} 3 ; LIST x ;",),
+            f"OBJ3 = OBJ1 {_sign} OBJ2 ;" + _FURTHER.get(_sign, ""),
+            (f"x = 6 {_sign} 3 ; LIST x ;", *_EXAMPLES.get(_sign, ())),
         ),
         reads_itself="the types of its two operands choose a rule, which may read more",
     )(lambda call, s=_sign: compute(s, call))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import operator as python
 from collections.abc import Callable
 from functools import partial
@@ -26,7 +27,8 @@ def _equal_scalars(a: Any, b: Any) -> bool:
         if kinds != (bool, bool):
             raise TypeError("LOGIQUE")
         return bool(a == b)
-    return bool(a == int(b)) if kinds[0] is int else bool(a == b)
+    cut = kinds == (int, float) and math.isfinite(b)
+    return bool(a == int(b)) if cut else bool(a == b)
 
 
 def _ordered(compare: Callable[[Any, Any], bool]) -> Callable[[Any, Any], bool]:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Mapping
 from datetime import datetime
 from typing import Any
 
 from ssilang.language.registry import Help, choice, flag, key, many, operator, opt, said, shared
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
-from ssilang.language.values import Mot, Table
+from ssilang.language.values import ListEnti, Mot, Table
 
 _MONTHS = (
     "janvier", "février", "mars", "avril", "mai", "juin", "juillet", "août", "septembre",
@@ -29,15 +30,27 @@ TEMP = shared(
     "session",
     Help(
         en="Prints the time passed since TEMP was called last. 'ZERO' starts the count again; "
-        "'HORL' and 'CPU' give wall and processor time in milliseconds since ZERO; 'NOEC' gives a "
-        "table with both.",
+        "'HORL' and 'CPU' give wall and processor time in milliseconds since ZERO. 'IMPR' 'APPE' "
+        "prints how often each operator ran since ZERO. 'NOEC' gives a table: in 'TEMPS_HORLOGE' "
+        "and 'TEMPS_CPU' the milliseconds since the run began ('INITIAL') and since the last call "
+        "('DERNIER_APPEL'), in 'APPELS' how often each operator ran, a list of one number. "
+        "Phrases of numbers alone run no operator.",
         fr="Affiche le temps écoulé depuis le dernier appel. 'ZERO' remet à zéro ; 'HORL' et 'CPU' "
-        "rendent les temps horloge et processeur en millisecondes depuis ZERO ; 'NOEC' rend une "
-        "table des deux.",
-        syntax="TEMP ('ZERO' | 'IMPR' | 'PLAC') ; N1 = TEMP 'CPU' | 'HORL' ; TAB1 = TEMP 'NOEC' ;",
+        "rendent les temps horloge et processeur en millisecondes depuis ZERO. 'IMPR' 'APPE' "
+        "affiche le nombre d'appels de chaque opérateur depuis ZERO. 'NOEC' rend une table : dans "
+        "'TEMPS_HORLOGE' et 'TEMPS_CPU' les millisecondes depuis le début du calcul ('INITIAL') "
+        "et depuis le dernier appel ('DERNIER_APPEL'), dans 'APPELS' le nombre d'appels de chaque "
+        "opérateur, une liste d'un nombre. Les phrases de nombres n'appellent pas d'opérateur.",
+        syntax="TEMP ('ZERO' | 'IMPR' ('APPE') | 'PLAC') ; N1 = TEMP 'CPU' | 'HORL' ; "
+        "TAB1 = TEMP 'NOEC' ;",
         examples=(
             "TEMP 'ZERO' ; N = TEMP 'HORL' ;",
-            ("T = TEMP 'NOEC' ; LIST (TYPE T) ; TEMP 'SGAC' 'IMPR' ; TEMP 'SGAC' ;\nTEMP 'IMPR' ;"),
+            (
+                "TEMP 'ZERO' ; L = PROG 1. 2. ; M = PROG 3. ; T = TEMP 'NOEC' ;\n"
+                "LIST (T . 'APPELS' . 'PROG') ; LIST ((T . 'TEMPS_CPU' . 'INITIAL') >EG 0) ;\n"
+                "TEMP 'IMPR' 'APPE' ; TEMP 'SGAC' 'IMPR' ; TEMP 'SGAC' ;\n"
+                "TEMP 'IMPR' ; TEMP 'PLAC' ;"
+            ),
         ),
     ),
     full_name="TEMPS",
@@ -60,6 +73,7 @@ def _restart(session: Session) -> None:
     _read_clocks(session)
     clocks = _clocks(session)
     clocks["zero"] = clocks["last"]
+    session.calls.clear()
 
 
 @TEMP.form(said("CPU", "HORL"))
@@ -69,10 +83,21 @@ def _elapsed(session: Session, word: str) -> int:
 
 @TEMP.form(said("NOEC"))
 def _tabulated(session: Session) -> Table:
-    wall, cpu = _read_clocks(session)[1]
+    last, _ = _read_clocks(session)
+    now = _clocks(session)["last"]
+    begun = now[0] - session.started, now[1]
     made = Table()
-    made.set(Mot("TEMPS_HORLOGE"), wall)
-    made.set(Mot("TEMPS_CPU"), cpu)
+    for name, since, before in zip(("TEMPS_HORLOGE", "TEMPS_CPU"), begun, last, strict=True):
+        times = {"INITIAL": round(1000 * since), "DERNIER_APPEL": round(1000 * before)}
+        made.set(Mot(name), _table_of(times))
+    made.set(Mot("APPELS"), _table_of({k: ListEnti(v) for k, v in session.calls.items()}))
+    return made
+
+
+def _table_of(values: Mapping[str, object]) -> Table:
+    made = Table()
+    for name, value in values.items():
+        made.set(Mot(name), value)
     return made
 
 
@@ -88,9 +113,22 @@ def _garbage(session: Session) -> tuple[int, int]:
 
 
 @TEMP.form(
+    said("IMPR"),
+    flag("counts", "APPE", en="calls of each operator", fr="appels de chaque opérateur"),
+    _REST,
+)
+def _print_counts(session: Session, counts: bool, rest: tuple[Any, ...]) -> None:
+    if not counts:
+        _print_clocks(session, None, rest)
+        return
+    for name, count in sorted(session.calls.items(), key=lambda call: (call[1], call[0])):
+        session.print(f" {name:<8} {count:>12}")
+
+
+@TEMP.form(
     choice(
         "what",
-        ("PLAC", "IMPR", "EFFI", "APPE"),
+        ("PLAC",),
         en="the time that has passed is printed",
         fr="le temps écoulé est affiché",
     ),

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.elements.results.following_axes import following_axes
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.deformed import displacements
 from ssilang.kernel.fields.node_field import NodeField
@@ -29,26 +30,36 @@ register_type(Configuration, "CONFIGUR")
     "FORM",
     opt("start", "CONFIGUR", en="coordinates to begin with", fr="coordonnées de départ"),
     opt("field", "CHPOINT", en="displacements", fr="déplacements", unit="m"),
+    opt("model", "MMODEL", en="model of the parameters", fr="modèle des caractéristiques"),
     opt(
-        "axes",
-        "MMODEL",
+        "material",
         "MCHAML",
-        en="characteristics, refused: their local axes do not follow",
-        fr="caractéristiques, refusées : leurs axes locaux ne suivent pas",
+        en="parameters whose local axes follow",
+        fr="caractéristiques dont les axes locaux suivent",
     ),
+    gives=("CONFIGUR", "MCHAML"),
     family="mesh",
     full_name="FORME",
     help=Help(
         en="Moves all nodes: to the coordinates of a configuration if one is given, then by a "
         "field of displacements if one is given. Gives the configuration that is then in force; "
-        "alone it only gives the present one.",
+        "alone it only gives the present one. With a model and its parameters, gives these too: "
+        "the local axes of beams, pipes and joints JOI1 whose model says LIE have turned by "
+        "the mean of the rotations of the cell's nodes in that field (a rotation of any size).",
         fr="Déplace tous les noeuds : aux coordonnées d'une configuration si elle est donnée, "
         "puis d'un champ de déplacements s'il est donné. Rend la configuration alors en "
-        "vigueur ; seul, il rend la configuration présente.",
-        syntax="(CONF2 =) FORM (CONF1) (CHPO1) ;",
+        "vigueur ; seul, il rend la configuration présente. Avec un modèle et ses "
+        "caractéristiques, rend aussi celles-ci, où les axes locaux des poutres, des tuyaux et des "
+        "joints JOI1 dont le modèle dit LIE ont tourné de la moyenne des rotations des noeuds de "
+        "l'élément dans ce champ (une rotation quelconque).",
+        syntax="(CONF2 (CAR2) =) FORM (CONF1) (CHPO1) (MODL1 CAR1) ;",
         examples=(
             "OPTI DIME 2 ; P = 1. 0. ; C = FORM ; FORM (MANU 'CHPO' P 'UX' 2.) ; "
             "LIST (COOR 1 P) ; FORM C ; LIST (COOR 1 P) ;",
+            "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; L = DROI 1 (0. 0.) (0. 0.1) ; "
+            "M = MODE L 'MECANIQUE' 'ELASTIQUE' 'JOI1' 'LIE' ; "
+            "A = MATE M 'DIRECTION' (0. 1.) 'KN' 4. 'KS' 1. ; "
+            "C B = FORM (MANU 'CHPO' L 'RZ' (PI / 6.)) M A ; LIST (EXCO (MOTS 'V1X' 'V1Y') B) ;",
         ),
     ),
 )
@@ -56,15 +67,21 @@ def form(
     call: Call,
     start: Configuration | None,
     field: NodeField | None,
-    axes: Model | CellField | None,
-) -> Configuration:
+    model: Model | None,
+    material: CellField | None,
+) -> Configuration | tuple[Configuration, CellField]:
     """Move the nodes."""
     nodes = workspace(call.session).nodes
-    if axes is not None:
-        raise call.error("operators.session.local-axes-kept")
+    if (model is None) != (material is None):
+        raise call.missing(("MMODEL",) if model is None else ("MCHAML",))
+    if model is not None and field is None:
+        raise call.missing(("CHPOINT",))
     if start is not None:
         nodes.coordinates[: len(start.coordinates)] = start.coordinates
     if field is not None:
         ids = field.node_ids
         nodes.coordinates[ids] += displacements(nodes, field)[ids]
-    return Configuration(nodes.coordinates.copy())
+    made = Configuration(nodes.coordinates.copy())
+    if model is None or material is None or field is None:
+        return made
+    return made, following_axes(model, material, field)

@@ -5,8 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from ssilang.io.plots.labels import Annotation
+from ssilang.kernel.curves.cloud import Cloud
 from ssilang.kernel.curves.curve import Curve, Load
 from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.fields.deformed import Arrows, Deformed
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Model
 from ssilang.kernel.matrices.matrix import Matrix
@@ -44,11 +47,17 @@ _MAKERS: dict[str, Callable[[Workspace, str], Any]] = {
     "LISTOBJE": lambda ws, sub: ListObje(),
     "TABLE": lambda ws, sub: Table(sub),
     "CHARGEME": lambda ws, sub: Load(()),
+    "DEFORME": lambda ws, sub: Deformed(()),
+    "VECTEUR": lambda ws, sub: Arrows(()),
+    "NUAGE": lambda ws, sub: Cloud({}),
+    "ANNOTATI": lambda ws, sub: Annotation(),
 }
 
 
 def is_empty(value: Any) -> bool:
     """Whether an object holds nothing."""
+    if isinstance(value, Annotation):
+        return not value.categories and not value.tags
     for name in ("blocks", "components", "zones", "parts"):
         if hasattr(value, name):
             held = getattr(value, name)
@@ -106,7 +115,11 @@ def _group(call: Call) -> list[Any] | None:
         fr="Objets vides pour commencer des réunions, plusieurs à la fois, ou dans une table "
         "('TABULER', aux indices d'une liste) ; d'un objet autre qu'un mot : dit s'il est vide.",
         syntax="OBJ1 ... = VIDE ('TABULER' (LIS1)) MOT1(/MOT2)(*N1) ... ; LOG1 = VIDE OBJ1 ;",
-        examples=("L = VIDE 'LISTREEL' ; L = L ET 3. ; LIST L ; SI (VIDE L) ; ERRE 5 ; FINSI ;",),
+        examples=(
+            "L = VIDE 'LISTREEL' ; L = L ET 3. ; LIST L ; SI (VIDE L) ; ERRE 5 ; FINSI ;",
+            "D V N A = VIDE 'DEFORME' 'VECTEUR' 'NUAGE' 'ANNOTATI' ; LIST (VIDE N) ;\n"
+            "N = N ET (NUAG 'COMP' 'X' 1. 2.) ; LIST (VIDE N) ;",
+        ),
     ),
     reads_itself="types, sub-types and numbers are joined by / and *",
 )
@@ -115,7 +128,7 @@ def vide(call: Call) -> Any:
     if call.operands and not isinstance(call.operands[0].value, Mot):
         tested = call.read("*")
         assert tested is not None
-        if type_of(tested.value) not in (*_MAKERS, "DEFORME", "VECTEUR"):
+        if type_of(tested.value) not in _MAKERS:
             raise call.error(
                 "operators.session.never-empty", tested.value, found=type_of(tested.value)
             )

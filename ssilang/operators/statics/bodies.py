@@ -10,11 +10,14 @@ from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.plasticity.bulk import Bulk, State, bulk_of, state_from_fields
-from ssilang.kernel.plasticity.points import plastic_zones
+from ssilang.kernel.plasticity.points import is_plastic, plastic_zones
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
     from ssilang.kernel.stepping.problem.problem import Inputs, Problem
+
+_STATE = ("CONTRAINTES", "VARIABLES_INTERNES", "DEFORMATIONS_INELASTIQUES")
+"""Results that a calculation goes on from."""
 
 Bodies = Callable[["Problem", "Inputs"], tuple[Bulk, State]]
 
@@ -58,7 +61,16 @@ def finite_bodies(entries: Entries, zones: tuple[Zone, ...], start: Any) -> Bodi
 
     def make(problem: Problem, inputs: Inputs) -> tuple[Bulk, State]:
         from ssilang.kernel.plasticity.finite import finite_bulk, finite_state
+        from ssilang.kernel.plasticity.finite_yielding import yielding_bulk
 
+        yielding = tuple(z for z in zones if is_plastic(z))
+        if yielding:
+            elastic = tuple(z for z in zones if z not in yielding)
+            stress, variables, plastic = (start.of(word) for word in _STATE)
+            return yielding_bulk(
+                elastic, yielding, material, problem.numbering, problem.u,
+                (stress, variables, plastic), float(problem.times[0]),
+            )  # fmt: skip
         given = start.of("CONTRAINTES")
         bulk = finite_bulk(zones, material, problem.numbering, problem.u, given)
         return bulk, finite_state(problem.u)
@@ -71,11 +83,8 @@ def finite_zones(entries: Entries) -> tuple[Zone, ...]:
     model: Model | None = entries.get("MODELE")
     if model is None or not entries.flag("GRANDS_DEPLACEMENTS"):
         return ()
-    if plastic_zones(model):
-        raise entries.error("operators.statics.plastic-in-finite-motion")
     return tuple(z for z in model.zones if z.formulation == "MECANIQUE" and not is_joint(z))
 
 
 def _given(bulk: Bulk, start: Any) -> State | None:
-    words = ("CONTRAINTES", "VARIABLES_INTERNES", "DEFORMATIONS_INELASTIQUES")
-    return state_from_fields(bulk, *(start.of(word) for word in words))
+    return state_from_fields(bulk, *(start.of(word) for word in _STATE))

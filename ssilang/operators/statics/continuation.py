@@ -11,6 +11,7 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Model
 from ssilang.language.values import ListMots, ListReel, Mot, Table
+from ssilang.operators.curves.instants import value_in_time
 from ssilang.operators.dynamics.reports import report
 from ssilang.operators.modal.continuation import lengths_of
 from ssilang.operators.modal.harmonic_tables import asked_results, curve
@@ -111,8 +112,7 @@ def _fill(entries: Entries, trace: ArcTrace, followed: Followed) -> None:
         table.set(Mot("RESULTATS_STABILITE"), inner)
     x = np.array(followed.times)
     for asked in asked_results(entries, "RESULTATS"):
-        node = np.array([asked.point.node])
-        y = np.array([float(f.values_at(asked.component, node)[0]) for f in followed.fields])
+        y = value_in_time(entries.call, list(followed.fields), asked.component, asked.point.node)
         asked.table.set(Mot("RESULTATS"), ListReel(y))
         drawn = curve(x, y, ("t", asked.component), asked.title, asked.colour)
         asked.table.set(Mot("RESULTATS_EVOL"), drawn)

@@ -102,6 +102,7 @@ def _frequencies(entries: Entries, inputs: HarmonicInputs) -> FloatArray:
 
 def _inputs(entries: Entries) -> HarmonicInputs:
     from ssilang.kernel.statics.frequency import HarmonicInputs
+    from ssilang.kernel.statics.pressure_load import loaded_sides, with_pressures
 
     model: Model | None = entries.get("MODELE")
     zones = () if model is None else model.zones
@@ -137,7 +138,7 @@ def _inputs(entries: Entries) -> HarmonicInputs:
         _joined(entries, blocks["RIGIDITE"], (constant, supports), "RIGIDITE"),
         _joined(entries, blocks["MASSE"], (entries.get("MASSE_CONSTANTE"),), "MASSE"),
         damping,
-        entries.get("CHARGEMENT"),
+        with_pressures(entries.get("CHARGEMENT"), () if model is None else loaded_sides(model)),
         tuple(springs),
     )
 

@@ -18,13 +18,19 @@ from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.plasticity.bulk import stiffness_beside, without_stiffness
 from ssilang.kernel.plasticity.points import is_plastic, plastic_zones
+from ssilang.kernel.statics.pressure_load import loaded_sides, with_pressures
 from ssilang.kernel.statics.thermal_load import split_thermal
 from ssilang.kernel.stepping.times import nearest
 from ssilang.language.registry import Help, arg, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
 from ssilang.operators.dynamics.dynamic import integrated
-from ssilang.operators.dynamics.reports import report, warn_contrast, warn_resolution, warn_supports
+from ssilang.operators.dynamics.reports import (
+    report,
+    warn_contrast,
+    warn_of_connections,
+    warn_resolution,
+)
 from ssilang.operators.dynamics.scheme_entries import contact_options, scheme_of
 from ssilang.operators.session.progress import ProgressLine
 from ssilang.operators.session.user_procedures import StopCalculation
@@ -120,7 +126,7 @@ def _stretch(
         bodies = loaded_bodies(work, bodies)
     problem = make_problem(inputs)
     if bodies is None and not control_asked(work) and stage.entries is work:
-        warn_supports(work, inputs)
+        warn_of_connections(work, inputs)
     model: Model | None = given.get("MODELE")
     zones = () if model is None else model.zones
     results = ResultTables(entries.table, saved, stresses, dynamic, number, zones)
@@ -305,7 +311,9 @@ def _inputs(
     model: Model | None = entries.get("MODELE")
     linear = _linear_zones(entries)
     solids = [(z, m) for z, m in linear if not is_joint(z)]
-    load, thermal = split_thermal(entries.get("CHARGEMENT"), solids)
+    pressed = () if model is None else loaded_sides(model)
+    forces = with_pressures(entries.get("CHARGEMENT"), pressed, bool(finite_zones(entries)))
+    load, thermal = split_thermal(forces, solids)
     displacement = start.of("DEPLACEMENTS")
     stresses = Stresses(linear, thermal)
     given = start.of("CONTRAINTES")
@@ -314,13 +322,14 @@ def _inputs(
         parts = offset_load(stresses.offsets, solids)
         load = Load((*(load.parts if load else ()), *(LoadPart("MECA", f) for f in parts)))
     blocks = linear_blocks(solids, "RIGIDITE", stiffness)
-    plastic = (*plastic_zones(model), *finite_zones(entries))
-    blocks += [without_stiffness(z) for z in finite_zones(entries)]
+    finite = finite_zones(entries)
+    yielding = tuple(z for z in plastic_zones(model) if z not in finite)
+    blocks += [without_stiffness(z) for z in finite]
     if material is not None:
-        blocks += [stiffness_beside(z, material) for z in plastic_zones(model)]
+        blocks += [stiffness_beside(z, material) for z in yielding]
     heavy = linear_blocks(solids, "MASSE", mass) if dynamic else []
     if dynamic and material is not None:
-        heavy += [mass(z, material) for z in plastic]
+        heavy += [mass(z, material) for z in (*yielding, *finite)]
     sides = sides_of(model, material, stresses.offsets)
     more = [] if sides.gaps is None else [LoadPart("MECA", sides.gaps)]
     more += driven_parts(entries)

@@ -15,7 +15,7 @@ from ssilang.kernel.statics.stability import free_motion_fields, negative_eigenv
 from ssilang.language.registry import ANY, Help, Like, arg, flag, key, many, operator, opt, said
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, Table
-from ssilang.operators.matrices.doubled import warn_doubled_supports
+from ssilang.operators.matrices.connections import warn_connections
 from ssilang.operators.matrices.supports import static_links
 from ssilang.operators.workspace import workspace
 
@@ -91,7 +91,7 @@ def _reso(
     options = _options(words)
     if words["warned"]:
         return _or_warning(call, matrix, loads, options)
-    warn_doubled_supports(call.session, call.span, "RESO", matrix)
+    warn_connections(call.session, call.span, "RESO", matrix)
     solutions = tuple(solve(matrix, loads, options))
     _warn_condition(call, matrix, options)
     return solutions
@@ -297,15 +297,24 @@ operator(
     gives=Like("solution"),
     help=Help(
         "Forces that the conditions in a matrix apply on the body, - C^T LX, from a solution of "
-        "RESO. A table of modes or of static shapes is completed by REACTION_MODALE or REACTION.",
+        "RESO, DYNAMIC or PASAPAS with its multipliers. All conditions of RIG1 count and add up "
+        "at the nodes that they share, such as the master of a rigid body: the force of one BLOQ "
+        "or RELA is had by giving REAC that one alone, as it was when the solution was made. A "
+        "table of modes or of static shapes is completed by REACTION_MODALE or REACTION.",
         "Forces que les conditions d'une matrice exercent sur le corps, - C^T LX, d'après une "
-        "solution de RESO. Une table de modes ou de déformées statiques est complétée par "
-        "REACTION_MODALE ou REACTION.",
+        "solution de RESO, DYNAMIC ou PASAPAS avec ses multiplicateurs. Toutes les conditions de "
+        "RIG1 comptent et s'ajoutent aux noeuds qu'elles partagent, comme le maître d'un corps "
+        "rigide : la force d'un seul BLOQ ou RELA s'obtient en donnant celui-là seul à REAC, tel "
+        "qu'il était pour la solution. Une table de modes ou de déformées statiques est complétée "
+        "par REACTION_MODALE ou REACTION.",
         "CHPO2 = REAC RIG1 CHPO1 ;\nTAB2 = REAC RIG1 TAB1 ;",
         (
             "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; R1 = APPU 'UX' 100. P1 ;"
             " B1 = BLOQ 'UX' P1 ; U1 = RESO (R1 ET B1) (FORC 'FX' 5. P1) ;"
             " LIST (EXTR (REAC B1 U1) 'FX' P1) ;",
+            "OPTI DIME 2 ; P1 = 0. 0. ; P2 = 1. 0. ; R1 = APPU 'UX' 100. P2 ; B1 = BLOQ 'UX' P1 ;"
+            " B2 = RELA 'UX' P2 - 'UX' P1 ; U1 = RESO (R1 ET B1 ET B2) (FORC 'FX' 5. P2) ;"
+            " LIST (EXTR (REAC B2 U1) 'FX' P1) ; LIST (EXTR (REAC (B1 ET B2) U1) 'FX' P1) ;",
         ),
     ),
 )(_reac)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import textwrap
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import cache
 
 from ssilang.kernel.elements.catalog import ELEMENTS
@@ -26,80 +26,11 @@ from ssilang.language.say.reference import (
 from ssilang.language.search import Item, search
 from ssilang.language.vocabulary.examples import example
 from ssilang.language.vocabulary.terms import Option, Quantity, Word
+from ssilang.messages.message import teller
 from ssilang.operators.vocabulary import words
 from ssilang.resources import resource
 
 _SHOWN = 20  # lines of a search
-
-_TEXTS: Mapping[str, tuple[str, str]] = {
-    "formulation": ("formulation of MODE", "formulation de MODE"),
-    "parameter": ("parameter of MATE or CARA", "paramètre de MATE ou CARA"),
-    "option": ("option of OPTI", "option d'OPTI"),
-    "value": ("value of OPTI {}", "valeur d'OPTI {}"),
-    "law elasticity": ("law of elasticity", "loi d'élasticité"),
-    "law plastic": ("plastic law", "loi plastique"),
-    "law creep": ("law of creep", "loi de fluage"),
-    "law joint": ("law of joints", "loi de joint"),
-    "law impedance": ("law of impedance", "loi d'impédance"),
-    "law contact": ("word of contact", "mot du contact"),
-    "law load": ("word of loading", "mot de chargement"),
-    "law choice": ("word of MODE", "mot de MODE"),
-    "element body": ("element of bodies", "élément massif"),
-    "element incompressible": ("element of bodies", "élément massif"),
-    "element structure": ("element of structures", "élément de structure"),
-    "element section": ("element of sections", "élément de section"),
-    "element shell": ("element of shells", "élément de coque"),
-    "element load": ("loaded side", "bord chargé"),
-    "element joint": ("joint element", "élément joint"),
-    "element shape": ("point of a shape", "point d'une forme"),
-    "element impedance": ("spring and dashpot", "ressort et amortisseur"),
-    "element contact": ("side of contact", "bord de contact"),
-    "element generic": ("several elements", "plusieurs éléments"),
-    "component unknown": ("unknown", "inconnue"),
-    "component force": ("force", "force"),
-    "component strain": ("strain", "déformation"),
-    "component curvature": ("curvature", "courbure"),
-    "component jump": ("jump of a joint", "saut d'un joint"),
-    "component stress": ("stress", "contrainte"),
-    "component traction": ("traction of a joint", "traction d'un joint"),
-    "component section force": ("section force", "effort de section"),
-    "component principal": ("principal value", "valeur principale"),
-    "component variable": ("internal variable", "variable interne"),
-    "component scalar": ("component", "composante"),
-    "keyword": ("keyword of", "mot-clé de"),
-    "operator": ("operator", "opérateur"),
-    "procedure": ("procedure", "procédure"),
-    "elements": ("Elements", "Éléments"),
-    "cells": ("Cells", "Mailles"),
-    "hypotheses": ("Hypotheses", "Hypothèses"),
-    "unknowns": ("Unknowns", "Inconnues"),
-    "strains": ("Strains", "Déformations"),
-    "stresses": ("Stresses", "Contraintes"),
-    "laws": ("Laws", "Lois"),
-    "parameters": ("Parameters", "Paramètres"),
-    "required": ("required", "obligatoire"),
-    "axes": ("Set by DIRECTION, RADIAL", "Donnés par DIRECTION, RADIAL"),
-    "unused": ("Taken without effect", "Lus sans effet"),
-    "unit": ("Unit", "Unité"),
-    "default": ("Default", "Défaut"),
-    "range": ("Range", "Domaine"),
-    "usual": ("Usual (SI)", "Usuel (SI)"),
-    "dual": ("Dual", "Duale"),
-    "of_laws": ("Of laws", "Des lois"),
-    "of_elements": ("Of elements", "Des éléments"),
-    "values": ("Values", "Valeurs"),
-    "takes": ("Takes", "Valeur"),
-    "example": ("Example", "Exemple"),
-    "see": ("See also", "Voir aussi"),
-    "near": ("did you mean {}?", "vouliez-vous dire {} ?"),
-    "found": ("What help knows of '{}':", "Ce que l'aide sait de « {} » :"),
-    "more": ("... and {} more", "... et {} autres"),
-}  # fmt: skip
-
-
-def _text(key: str, language: str) -> str:
-    return _TEXTS[key][language == "fr"]
-
 
 # ---- the page of a word of the vocabulary -------------------------------------------------------
 
@@ -115,18 +46,23 @@ def vocabulary_text(kind: str, word: Word, language: str) -> str:
         examples = (example(_kind_of(owner), owner) for owner, _ in _owners(word))
         shown = next((e for e in examples if f"'{word.name}'" in e), "")
     if shown:
-        lines += ["", _text("example", language)]
+        lines += ["", teller(language)("help.example")]
         lines += ["    " + line for line in shown.split("\n")]
     see = _see_also(kind, word)
     if see:
-        lines += ["", *_filled(_text("see", language), see)]
+        lines += ["", *_filled(teller(language)("help.see"), see)]
     return "\n".join(lines)
 
 
 def label(kind: str, word: Word, language: str) -> str:
     """What sort of a word it is: 'law of joints'."""
-    text = _text(f"{kind} {word.kind}" if word.kind and kind != "parameter" else kind, language)
-    return text.format(*word.of) if kind == "value" else text
+    return teller(language)(label_code(kind, word), option=" ".join(word.of))
+
+
+def label_code(kind: str, word: Word) -> str:
+    """Where it stands in the catalogue what sort of a word it is."""
+    more = f"-{word.kind.replace(' ', '-')}" if word.kind and kind != "parameter" else ""
+    return f"help.word-{kind}{more}"
 
 
 def _filled(head: str, names: Iterable[str]) -> list[str]:
@@ -137,7 +73,7 @@ def _filled(head: str, names: Iterable[str]) -> list[str]:
 
 def _law(law: Word, language: str) -> Iterator[str | list[str]]:
     zone = words.sample_of_law(law)
-    head = _filled(_text("elements", language), words.elements_of_law(law))
+    head = _filled(teller(language)("help.elements"), words.elements_of_law(law))
     if head:
         yield head
     if zone is not None:
@@ -146,17 +82,17 @@ def _law(law: Word, language: str) -> Iterator[str | list[str]]:
 
 def _element(element: Word, language: str) -> Iterator[str | list[str]]:
     name = element.name
-    lines = _filled(_text("cells", language), words.cells_of(name))
+    lines = _filled(teller(language)("help.cells"), words.cells_of(name))
     if name not in ELEMENTS:
         yield lines
         return
     for part in words.components_of(name):
         modes = ", ".join(m.value for m in part.modes)
-        lines += _filled(_text("hypotheses", language), [modes])
-        lines += _filled("  " + _text("unknowns", language), part.unknowns)
-        lines += _filled("  " + _text("strains", language), part.strains)
-        lines += _filled("  " + _text("stresses", language), part.stresses)
-    lines += _filled(_text("laws", language), [", ".join(words.laws_of(name))])
+        lines += _filled(teller(language)("help.hypotheses"), [modes])
+        lines += _filled("  " + teller(language)("help.unknowns"), part.unknowns)
+        lines += _filled("  " + teller(language)("help.strains"), part.strains)
+        lines += _filled("  " + teller(language)("help.stresses"), part.stresses)
+    lines += _filled(teller(language)("help.laws"), [", ".join(words.laws_of(name))])
     yield lines
     zone = list(words.samples_of_element(name))[-1]
     yield _table(words.parameter_rows(zone, section=True), language)
@@ -165,17 +101,17 @@ def _element(element: Word, language: str) -> Iterator[str | list[str]]:
 def _table(rows: Sequence[words.Row], language: str) -> list[str]:
     """Name, unit, default, range and meaning of parameters."""
     used = [r for r in rows if not r.word.kind]
-    lines = [_text("parameters", language)] if used else []
+    lines = [teller(language)("help.parameters")] if used else []
     for row in used:
-        default = _text("required", language) if row.required else _number(row.default)
+        default = teller(language)("help.required") if row.required else _number(row.default)
         span = row.word.range.text(row.word.name)
         head = f"    {row.word.name:<5} {row.word.unit or '-':<7} {default:<11} {span:<20} "
         lines += textwrap.wrap(
             head + row.word.meaning(language), 100, subsequent_indent=" " * len(head)
         )
-    for kind in (words.AXES, words.UNUSED):
+    for kind, code in ((words.AXES, "help.axes"), (words.UNUSED, "help.unused")):
         names = [r.word.name for r in rows if r.word.kind == kind]
-        lines += [f"    {_text(kind, language)} : {' '.join(names)}"] if names else []
+        lines += [f"    {teller(language)(code)} : {' '.join(names)}"] if names else []
     return lines
 
 
@@ -194,25 +130,29 @@ def _kind_of(word: Word) -> str:
 def _parameter(word: Word, language: str) -> Iterator[str | list[str]]:
     assert isinstance(word, Quantity)
     facts = [
-        ("unit", "-" if word.unit is None else word.unit or "1"),
-        ("default", _number(word.default)),
-        ("range", word.range.text(word.name) or "-"),
-        ("usual", word.usual.text(word.name)),
+        ("help.unit", "-" if word.unit is None else word.unit or "1"),
+        ("help.default", _number(word.default)),
+        ("help.range", word.range.text(word.name) or "-"),
+        ("help.usual", word.usual.text(word.name)),
     ]
-    lines = [f"{_text(key, language):<14}{value}" for key, value in facts if value]
+    lines = [f"{teller(language)(key):<14}{value}" for key, value in facts if value]
     owners = [o for o, _ in _owners(word)]
-    lines += _filled(_text("of_laws", language), [o.name for o in owners if _kind_of(o) == "law"])
+    lines += _filled(
+        teller(language)("help.of-laws"), [o.name for o in owners if _kind_of(o) == "law"]
+    )
     elements = [o.name for o in owners if _kind_of(o) == "element"]
-    yield lines + _filled(_text("of_elements", language), elements)
+    yield lines + _filled(teller(language)("help.of-elements"), elements)
 
 
 def _component(word: Word, language: str) -> Iterator[str | list[str]]:
     assert isinstance(word, Quantity)
-    lines = [f"{_text('unit', language):<14}{word.unit or '1'}"] if word.unit is not None else []
+    lines = (
+        [f"{teller(language)('help.unit'):<14}{word.unit or '1'}"] if word.unit is not None else []
+    )
     dual = {**{d: p for p, d in PRIMAL_TO_DUAL.items()}, **PRIMAL_TO_DUAL}.get(word.name)
-    lines += _filled(_text("dual", language), [dual] if dual else [])
+    lines += _filled(teller(language)("help.dual"), [dual] if dual else [])
     owners = [e for e in words.elements_with(word.name) if _means(e, word)]
-    yield lines + _filled(_text("of_elements", language), owners)
+    yield lines + _filled(teller(language)("help.of-elements"), owners)
 
 
 def _means(element: str, word: Word) -> bool:
@@ -223,13 +163,13 @@ def _means(element: str, word: Word) -> bool:
 
 def _option(word: Word, language: str) -> Iterator[str | list[str]]:
     assert isinstance(word, Option)
-    facts = [("takes", word.takes), ("default", word.default)]
-    lines = [f"{_text(key, language):<14}{value}" for key, value in facts if value]
+    facts = [("help.takes", word.takes), ("help.default", word.default)]
+    lines = [f"{teller(language)(key):<14}{value}" for key, value in facts if value]
     if lines:
         yield lines
     if word.values:
         told = [f"    {v.name:<9} {v.meaning(language)}" for v in word.values]
-        yield [_text("values", language), *told]
+        yield [teller(language)("help.values"), *told]
 
 
 def _formulation(word: Word, language: str) -> Iterator[str | list[str]]:
@@ -237,7 +177,7 @@ def _formulation(word: Word, language: str) -> Iterator[str | list[str]]:
         word.name, ("elasticity", "plastic", "creep", "joint", "impedance")
     )
     laws = dict.fromkeys(w.name for w in vocabulary.words("law") if w.kind in kinds)
-    yield _filled(_text("laws", language), laws)
+    yield _filled(teller(language)("help.laws"), laws)
 
 
 _PARTS = {
@@ -284,9 +224,9 @@ def _pages() -> list[Page]:
 def items(language: str) -> Iterator[Item]:
     """Operators, procedures, words and pages of the manual."""
     for page in _pages():
-        own = page.help.fr if language == "fr" else page.help.en
+        own = page.help.told(language)
         whole = f"{page.full_name} {page.title} {page.help.en} {page.help.fr} {page.help.syntax}"
-        yield Item(page.name, _text(page.kind, language), first_sentence(own), whole)
+        yield Item(page.name, teller(language)(f"help.{page.kind}"), first_sentence(own), whole)
     for kind in vocabulary.KINDS:
         for word in vocabulary.words(kind):
             meaning = words.described(word, language)
@@ -314,7 +254,7 @@ def exact_pages(word: str, language: str) -> list[str]:
     known = [o for name, o in sorted(OPERATORS.items()) if o.name == name]
     readers = [o.name for o in known if said in keywords_of(o)]
     if readers:
-        pages.append("\n".join(_filled(f"{said} : {_text('keyword', language)} ", readers)))
+        pages.append("\n".join(_filled(f"{said} : {teller(language)('help.keyword')} ", readers)))
     if pages and len(said) > vocabulary.SHORT and said.isalpha():
         pages.append(found_text(word, language))
     return [p for p in pages if p]
@@ -334,9 +274,9 @@ def found_text(query: str, language: str) -> str:
         lines.setdefault((item.name, item.label), f"  {item.name:<17} {text}")
     if not lines:
         return ""
-    head, shown = _text("found", language).format(query.strip()), list(lines.values())[:_SHOWN]
+    head, shown = teller(language)("help.found", query=query.strip()), list(lines.values())[:_SHOWN]
     left = len(lines) - len(shown)
-    more = [f"  {_text('more', language).format(left)}"] if left else []
+    more = [f"  {teller(language)('help.more', count=left)}"] if left else []
     return "\n".join([head, *shown, *more])
 
 

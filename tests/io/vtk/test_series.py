@@ -91,3 +91,21 @@ def test_parts_may_not_change_within_a_series(tmp_path: Path) -> None:
         series.write_parts(1.0, {"soil": Part(mesh)})
         with pytest.raises(OutputError, match="soil"):
             series.write_parts(2.0, {"rock": Part(mesh)})
+
+
+def test_a_series_whose_files_are_gone_is_not_listed(tmp_path: Path) -> None:
+    mesh, field = bar()
+    for gone, again in (("bar.0002.vtu", True), ("bar.0001.vtu", False)):
+        series = SeriesWriter(tmp_path / "bar")
+        series.write(0.0, mesh, {"": field})
+        series.write(1.0, mesh, {"": field})
+        (tmp_path / gone).unlink()
+        if again:  # the file before is looked for at each step, all of them at the end
+            with pytest.raises(OutputError) as refused:
+                series.write(2.0, mesh, {"": field})
+            assert refused.value.code == "io.series-files-gone"
+        with pytest.raises(OutputError) as refused:
+            series.close()
+        assert refused.value.code == "io.series-files-gone"
+        assert refused.value.data["names"] == [gone]
+        assert not (tmp_path / "bar.pvd").exists()

@@ -26,6 +26,7 @@ VTK_EDGES = {
     "QUA8": [(0, 1), (1, 2), (2, 3), (3, 0)],
     "TE10": [(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)],
     "PR15": [(0, 1), (1, 2), (2, 0), (3, 4), (4, 5), (5, 3), (0, 3), (1, 4), (2, 5)],
+    "PY13": [(0, 1), (1, 2), (2, 3), (3, 0), (0, 4), (1, 4), (2, 4), (3, 4)],
     "CU20": [
         *[(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4)],
         *[(0, 4), (1, 5), (2, 6), (3, 7)],
@@ -37,6 +38,7 @@ SHAPES = {
     "QUA8": [(0, 0, 0), (2, 0, 0), (2, 1, 0), (0, 1, 0)],
     "TE10": [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)],
     "PR15": [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (0, 1, 1)],
+    "PY13": [(0, 0, 0), (2, 0, 0), (2, 1, 0), (0, 1, 0), (1, 0, 1)],
     "CU20": [(x, y, z) for z in (0, 1) for x, y in ((0, 0), (2, 0), (2, 1), (0, 1))],
 }
 
@@ -64,8 +66,9 @@ def quadratic_cell(name: str) -> Mesh:
 def test_quadratic_middles_follow_vtk_edges(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    # meshio 5.3 knows the node order of the 15-node wedge but not its dimension
+    # meshio 5.3 knows the node order of these two but not their dimension
     monkeypatch.setitem(meshio._mesh.topological_dimension, "wedge15", 3)
+    monkeypatch.setitem(meshio._mesh.topological_dimension, "pyramid13", 3)
     write_vtu(tmp_path / "cell.vtu", grid_of(quadratic_cell(name)))
     read = meshio.read(tmp_path / "cell.vtu")
     points = read.points[read.cells[0].data[0]]
@@ -95,6 +98,77 @@ def square_with_fields() -> tuple[Mesh, NodeField, CellField]:
     stress = {c: rng.normal(size=(6, 4)) for c in ("SMXX", "SMYY", "SMZZ", "SMXY")}
     cells = CellFieldBlock(mesh.blocks[0], {**stress, "VONM": np.arange(6.0)[:, None]}, "STRESSES")
     return mesh, field, CellField((cells,), "CONTRAINTES")
+
+
+# a joint's faces with their middles, walked as its cell lists them, and the opened volume or area
+JOINTS = {
+    "RAC2": ([(0, 0, 0), (2, 0, 0)], "line", 2.0),
+    "RAC3": ([(0, 0, 0), (1, 0, 0), (2, 0, 0)], "line", 2.0),
+    "LIA3": ([(0, 0, 0), (2, 0, 0), (0, 1, 0)], "surface", 1.0),
+    "LIA4": ([(0, 0, 0), (2, 0, 0), (2, 1, 0), (0, 1, 0)], "surface", 2.0),
+    "LIA6": (
+        [(0, 0, 0), (1, 0, 0), (2, 0, 0), (1, 0.5, 0), (0, 1, 0), (0, 0.5, 0)],
+        "surface",
+        1.0,
+    ),
+    "LIA8": (
+        [
+            (0, 0, 0),
+            (1, 0, 0),
+            (2, 0, 0),
+            (2, 0.5, 0),
+            (2, 1, 0),
+            (1, 1, 0),
+            (0, 1, 0),
+            (0, 0.5, 0),
+        ],
+        "surface",
+        2.0,
+    ),
+}
+
+
+@pytest.mark.parametrize("name", sorted(JOINTS))
+def test_an_opened_joint_fills_its_gap(name: str, tmp_path: Path) -> None:
+    """VTK's own measure of the cell between the faces, 1 apart: nodes in their right places."""
+    pyvista = pytest.importorskip("pyvista")
+    face, kind, measure = JOINTS[name]
+    up = np.array((0.0, 1.0, 0.0) if kind == "line" else (0.0, 0.0, 1.0))
+    table = NodeTable()
+    ids = table.add(np.concatenate([np.array(face, float), np.array(face, float) + up]))
+    write_vtu(tmp_path / "joint.vtu", grid_of(Mesh.of(table, name, ids[None, :])))
+    read = pyvista.read(tmp_path / "joint.vtu")
+    sizes = read.compute_cell_sizes()
+    found = sizes.cell_data["Area" if kind == "line" else "Volume"]
+    assert found == pytest.approx([measure])
+    # middles stand between the corners that VTK takes for their neighbours
+    middles = {"RAC3": [(0, 1), (2, 3)], "LIA6": [(0, 1), (1, 2), (2, 0), (3, 4), (4, 5), (5, 3)]}
+    points = read.points[read.cell_connectivity]
+    corners = len(points) - len(middles.get(name, []))
+    for middle, (a, b) in zip(points[corners:], middles.get(name, []), strict=True):
+        assert np.array_equal(middle, (points[a] + points[b]) / 2)
+
+
+@pytest.mark.parametrize(
+    ("family", "names"),
+    [
+        ("stress", ("SMXX", "SMYY", "SMZZ", "SMXY", "SMYZ", "SMXZ")),
+        ("strain", ("EPXX", "EPYY", "EPZZ", "GAXY", "GAYZ", "GAXZ")),
+        ("stress", ("SMRR", "SMZZ", "SMTT", "SMRZ", "SMZT", "SMRT")),
+        ("strain", ("EPRR", "EPZZ", "EPTT", "GARZ", "GAZT", "GART")),
+    ],
+)
+def test_six_different_components_stand_in_the_order_of_vtk(
+    family: str, names: tuple[str, ...], tmp_path: Path
+) -> None:
+    """XX YY ZZ XY YZ XZ, also where the components were given in another order."""
+    mesh, _, _ = square_with_fields()
+    values = {c: np.full((6, 4), 10.0 + k) for k, c in enumerate(names)}
+    turned = dict(sorted(values.items(), reverse=True))
+    cells = CellField((CellFieldBlock(mesh.blocks[0], turned, "STRESSES"),))
+    write_vtu(tmp_path / "s.vtu", grid_of(mesh, {}, {"": cells}))
+    tensor = meshio.read(tmp_path / "s.vtu").cell_data[family][0]
+    np.testing.assert_array_equal(tensor, np.tile(10.0 + np.arange(6.0), (6, 1)))
 
 
 @pytest.mark.parametrize("encoding", list(Encoding))

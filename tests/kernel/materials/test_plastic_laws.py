@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
+from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.materials.plastic.held_stress import respond_held
-from ssilang.kernel.materials.plastic.laws import PLASTIC_LAWS
+from ssilang.kernel.materials.plastic.laws import PLASTIC_LAWS, check_parameters
 from ssilang.kernel.materials.plastic.response import PointParameters, mises
 
 M = 60
@@ -15,6 +19,7 @@ CURVE = Curve((CurvePart(np.array([0.0, 0.01, 0.1]), np.array([1.0, 2.0, 3.0])),
 GIVEN = {
     "PARFAIT": {"SIGY": 1},
     "ISOTROPE": {},
+    "J2": {"SIG0": 1, "SIGI": 2, "KISO": 30, "VELO": 150},
     "CINEMATIQUE": {"SIGY": 1, "H": 100},
     "DRUCKER_PARFAIT": {"LTR": 1, "LCS": 5},
     "DRUCKER_PRAGER": {
@@ -161,6 +166,24 @@ def test_isotropic_bar_follows_its_curve_and_grows_both_ways() -> None:
     assert found == pytest.approx([1.5, -1.5, -2.0])
 
 
+def test_saturating_bar_follows_simo_and_hughes_and_grows_both_ways() -> None:
+    def strength(p: float) -> float:
+        return 1.0 + 30.0 * p + (2.0 - 1.0) * (1.0 - math.exp(-150.0 * p))
+
+    first = brentq(lambda p: strength(p) - 1000.0 * (0.012 - p), 0.0, 0.012)
+    second = brentq(lambda p: -strength(p) - 1000.0 * (-0.008 - (2 * first - p)), first, 0.05)
+    found = uniaxial("J2", [0.0005, 0.012, -0.008])
+    assert found == pytest.approx([0.5, strength(first), -strength(second)], rel=1e-9)
+
+
+def test_a_saturation_that_sinks_is_refused() -> None:
+    given = parameters("J2", 1)
+    sinking = PointParameters({**given.values, "SIGI": np.array([0.5])}, given.curves)
+    with pytest.raises(MaterialError) as caught:
+        check_parameters(PLASTIC_LAWS["J2"], sinking)
+    assert caught.value.code == "kernel.materials.saturation-sinks"
+
+
 def test_drucker_bar_has_the_strengths_given() -> None:
     assert uniaxial("DRUCKER_PARFAIT", [0.004]) == pytest.approx([1.0])
     assert uniaxial("DRUCKER_PARFAIT", [-0.04]) == pytest.approx([-5.0])
@@ -187,3 +210,31 @@ def test_drucker_cone_ends_at_the_ultimate_one(slope: float, limit: float, wante
     law = PLASTIC_LAWS["DRUCKER_PRAGER"]
     found, _ = respond_held(law, p, np.zeros((1, 6)), strain, np.zeros((1, 1)), (2,))
     assert found.stress[0, :2] == pytest.approx(wanted / 1.8, rel=1e-12)
+
+
+@pytest.mark.parametrize("share", [0.6, 0.99, 1.01, 1.6])
+@pytest.mark.parametrize("delta", [0.4, 1.0, 2.5])
+def test_flow_along_its_own_cone_ends_at_the_tip_only_where_the_deviator_is_used_up(
+    delta: float, share: float
+) -> None:
+    """One step without hardening: `x = f / (3 G beta delta + 9 B alpha gamma)`, and the deviator
+    falls by `3 G delta x`: by `share` of what it was."""
+    alpha, beta, strength, gamma = 0.3, 1.2, 2.0, 0.2
+    given = {"ALFA": alpha, "BETA": beta, "K": strength, "ETA": alpha, "MU": beta, "KL": strength,
+             "H": 0, "GAMM": gamma, "DELT": delta, "YOUN": 1e3, "NU": 0.25}  # fmt: skip
+    p = PointParameters({n: np.full(1, float(v)) for n, v in given.items()}, {})
+    shear, bulk = 400.0, 1000 / 1.5
+    q = 3.0
+    x = share * q / (3 * shear * delta)
+    over = x * (3 * shear * beta * delta + 9 * bulk * alpha * gamma)
+    trace = (over + strength - beta * q) / alpha
+    # q of shear alone is sqrt(3) s, s = G g
+    strain = np.array([[*[trace / (9 * bulk)] * 3, q / np.sqrt(3) / shear, 0.0, 0.0]])
+    found = PLASTIC_LAWS["DRUCKER_PRAGER"].respond(p, np.zeros((1, 6)), strain, np.zeros((1, 1)))
+    stress = found.stress[0]
+    if share < 1:
+        assert stress[:3].sum() == pytest.approx(trace - 9 * bulk * gamma * x, rel=1e-12)
+        assert np.sqrt(3) * stress[3] == pytest.approx((1 - share) * q, rel=1e-11)
+        assert found.variables[0, 0] == pytest.approx(x * np.sqrt(delta**2 + 2 * gamma**2))
+    else:
+        assert stress == pytest.approx([*[strength / alpha / 3] * 3, 0, 0, 0], abs=1e-12)

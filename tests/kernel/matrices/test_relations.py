@@ -46,7 +46,9 @@ def test_a_weighted_sum_over_respective_nodes_repeats_a_single_node():
         assert C[i, numbering.index_of(ids[4], "UX")] == 3.0
     with pytest.raises(MeshError, match="2 and 3 nodes"):
         make.relation_rows(table, [make.Term(1.0, "UX", ids[:2]), make.Term(1.0, "UX", ids[:3])])
-    with pytest.raises(FieldError):
+    with pytest.raises(
+        FieldError, check=lambda e: e.code == "kernel.matrices.relation-node-no-coefficient"
+    ):
         make.relation_rows(table, [make.Term(0.0, "UX", ids[:2])])
 
 
@@ -97,9 +99,11 @@ def test_direction_is_made_of_length_one_and_radial_is_the_radius():
     np.testing.assert_allclose(radial[:, :2], [[3, 4], [0, 2]])
     turned = make.orthoradial_directions(radial, None)
     np.testing.assert_allclose((radial * turned).sum(axis=1), 0.0)
-    with pytest.raises(MeshError):
+    with pytest.raises(MeshError, check=lambda e: e.code == "kernel.matrices.node-lies-axis-no"):
         make.radial_directions(table, ids, np.array([3.0, 4.0, 0.0]), None)
-    with pytest.raises(FieldError):
+    with pytest.raises(
+        FieldError, check=lambda e: e.code == "kernel.matrices.direction-node-no-length"
+    ):
         make.blocked_along(table, ids, PLANE, np.zeros(2))
     assert numbering.size == 4
 
@@ -192,5 +196,7 @@ def test_imposed_values_from_a_field_are_taken_by_name_and_node():
     scal = NodeField.of(table, ids, {"SCAL": np.array([4.0, 5.0, 6.0])})
     by_node = imposed.imposed_by_node([slanted], scal)
     np.testing.assert_allclose(by_node.values_at("FLX", slanted.multipliers), [4.0, 5.0, 6.0])
-    with pytest.raises(FieldError):
+    with pytest.raises(
+        FieldError, check=lambda e: e.code == "kernel.matrices.field-values-fits-conditions"
+    ):
         imposed.imposed_from_field([slanted], values)

@@ -171,3 +171,22 @@ def test_far_meshes_do_not_join() -> None:
         joint_mesh(first, second, 0.1)
     with pytest.raises(MeshError, match="POI1"):
         joint_mesh(poi1(nodes, first.node_ids), second, 0.1)
+
+
+@pytest.mark.parametrize(
+    ("cells", "apart", "counts"),
+    [
+        ((2, 3), 0.5, (2, 3)),  # 4 cells against 2 on one half, 3 on the other
+        ((3, 3), 1.0, (4, 6)),  # nothing fits
+    ],
+)
+def test_the_length_that_is_not_joined_is_told(cells, apart, counts):
+    nodes = NodeTable()
+    first = line(nodes, [0, 0], [1, 0], 4)
+    halves = [line(nodes, [0.5 * i, 0], [0.5 + 0.5 * i, 0], n) for i, n in enumerate(cells)]
+    with pytest.raises(MeshError, match="the two sides are joined over a length of") as told:
+        joint_mesh(first, union(*halves), 1e-3)
+    data = told.value.data
+    assert data["apart"] == pytest.approx(apart)
+    assert data["joined"] == pytest.approx(1.0 - apart)
+    assert (data["n_first"], data["n_second"]) == counts

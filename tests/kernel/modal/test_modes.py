@@ -181,3 +181,39 @@ def test_motions_without_stiffness_and_mass_are_left_out():
     found = [m.frequency for m in modes_near(K2, M2, [(0.0, 20)])]
     exact = np.sort(np.concatenate([fixed_free(7, 7, 3.0, 0.5), np.full(3, 1.0 / np.pi)]))
     np.testing.assert_allclose(found, exact, rtol=1e-9)
+
+
+@pytest.mark.parametrize("shift", [0.0, 0.05, 0.12])  # below all modes, and among them
+def test_a_grid_of_springs_finds_its_modes_near_any_frequency(shift):
+    n, k, m = 40, 3.0, 0.5  # 1600 masses moving across a net, clamped all around
+    table = NodeTable()
+    x, y = np.meshgrid(np.arange(n + 2.0), np.arange(n + 2.0), indexing="ij")
+    ids = table.add(np.column_stack([x.ravel(), y.ravel()])).reshape(x.shape)
+    pairs = np.concatenate(
+        [np.column_stack([ids[:-1].ravel(), ids[1:].ravel()]),
+         np.column_stack([ids[:, :-1].ravel(), ids[:, 1:].ravel()])]
+    )  # fmt: skip
+    spring = np.tile(k * np.array([[1.0, -1.0], [-1.0, 1.0]]), (len(pairs), 1, 1))
+    stiffness = ElementMatrices(table, pairs, np.arange(2), ("UX",) * 2, ("FX",) * 2, spring)
+    mass = ElementMatrices(
+        table, ids.reshape(-1, 1), np.zeros(1, np.int64), ("UX",), ("FX",),
+        np.full((ids.size, 1, 1), m), "MASSE",
+    )  # fmt: skip
+    rim = np.setdiff1d(ids, ids[1:-1, 1:-1])
+    K = held(table, Matrix(table, (stiffness,)), rim)
+    one = 2.0 - 2.0 * np.cos(np.arange(1, n + 1) * np.pi / (n + 1))
+    exact = np.sort(np.sqrt(k / m * (one[:, None] + one).ravel())) / (2.0 * np.pi)
+    wanted = np.sort(exact[np.argsort(np.abs(exact**2 - shift**2), kind="stable")[:9]])
+    found = [
+        mode.frequency for mode in modes_near(K, Matrix(table, (mass,), (), "MASSE"), [(shift, 9)])
+    ]
+    np.testing.assert_allclose(found, wanted, rtol=1e-8)
+
+
+def test_masses_that_are_all_negative_are_refused_by_their_place():
+    table, K, M = chain(3)
+    M = with_masses(M, np.array([0.0, -0.25, 0.0]).reshape(3, 1, 1))
+    with pytest.raises(KernelError) as caught:
+        modes_near(held(table, K, [0]), M, [(0.0, 1)])
+    assert caught.value.code == "kernel.matrices.mass-negative"
+    assert caught.value.data["mass"] == -0.25

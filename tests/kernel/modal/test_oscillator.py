@@ -86,9 +86,13 @@ def test_default_frequencies_step_by_the_duration_then_by_the_damping():
 
 
 def test_bad_signals_are_refused():
-    with pytest.raises(KernelError):
+    with pytest.raises(
+        KernelError, check=lambda e: e.code == "kernel.modal.signal-times-must-increase"
+    ):
         response(np.array([0.0, 0.0]), np.zeros(2), 1.0, 0.1)
-    with pytest.raises(KernelError):
+    with pytest.raises(
+        KernelError, check=lambda e: e.code == "kernel.modal.frequency-oscillator-must-positive"
+    ):
         response(np.array([0.0, 1.0]), np.zeros(2), -1.0, 0.1)
 
 

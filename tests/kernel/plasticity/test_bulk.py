@@ -52,7 +52,7 @@ def test_thick_tube_carries_its_limit_pressure_and_no_more(tmp_path: Path) -> No
     assert result.exit_code == 0, result.message
     assert at(result, "E") > 1e-3
     over = run_text(tube(1.01 * LIMIT), output_directory=tmp_path)
-    assert over.exit_code != 0
+    assert over.exit_code == 1
     assert "no equilibrium" in over.message
 
 

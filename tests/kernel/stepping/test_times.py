@@ -18,11 +18,20 @@ def test_rounded_times_are_one_run():
     assert [(r.first, r.last) for r in runs_of(times, 10**9)] == [(0, 100000)]
 
 
+def test_a_step_that_comes_back_is_the_same_number():
+    """Factors are kept by the step's length: one that differs by rounding would be made anew."""
+    times = np.concatenate([[0.0], np.cumsum([0.1, 0.1, 0.3, 0.1 * (1 + 1e-13), 0.3])])
+    steps = [r.dt for r in runs_of(times, 10)]
+    assert len(steps) == 4
+    assert steps[2] == steps[0]
+    assert steps[3] == steps[1]
+
+
 def test_saved_steps():
     times = np.linspace(0, 1, 11)
     assert np.flatnonzero(every(times, 4)).tolist() == [0, 4, 8, 10]
     assert np.flatnonzero(nearest(times, np.array([0.31, 1.0]))).tolist() == [3, 10]
     with pytest.raises(KernelError, match="outside"):
         nearest(times, np.array([1.2]))
-    with pytest.raises(KernelError):
+    with pytest.raises(KernelError, check=lambda e: e.code == "kernel.stepping.step-cannot-saved"):
         every(times, 0)

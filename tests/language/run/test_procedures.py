@@ -151,3 +151,17 @@ def test_replacing_a_procedure_of_the_library_is_told(tmp_path):
     result = run_text(text, output_directory=tmp_path)
     assert result.session.root.find("X") == 7
     assert [w.code for w in result.session.warnings] == ["overrides-procedure"]
+
+
+def test_a_name_forgotten_in_a_procedure_is_forgotten_there_alone(run):
+    script = run(
+        "Y = 7 ; DEBP P ; Y = 3 ; OUBL Y ; FINP (TYPE Y) ; DEBP Q ; OUBL Y ; FINP (TYPE Y) ;"
+        "A = P ; B = Q ; DEBP R ; OUBL Y ; Y = 4 ; FINP Y ; C = R ;"
+    )
+    assert [str(script[name]).strip() for name in "AB"] == ["ANNULE", "ANNULE"]
+    assert (script["C"], script["Y"]) == (4, 7)
+
+
+def test_a_forgotten_name_has_no_value_in_a_procedure(run, fails):
+    assert fails("Y = 7 ; DEBP P ; OUBL Y ; FINP (Y + 1) ; A = P ;") == "no-rule"
+    assert run("Y = 7 ; DEBP P ; FINP (Y + 1) ; A = P ;")["A"] == 8

@@ -38,3 +38,12 @@ def test_defects_are_named(statements: str, expected: dict[str, int]) -> None:
     found, output = names_after(CUBE + statements)
     assert found == expected
     assert all(f"({name})" in output for name in expected)
+
+
+@pytest.mark.parametrize("phrase", ["M 'CORR'", "'CORR' M"])
+def test_corrected_meshes_have_each_cell_once(phrase: str) -> None:
+    script = CUBE + f"M = V ET S ET (INVE S) ; N = VERM {phrase} ; VERM N ;"
+    result = run_text(script)
+    assert result.exit_code == 0, result.message
+    assert result.output.count("VERM") == 1
+    assert result.session.root.find("N").n_cells == 2

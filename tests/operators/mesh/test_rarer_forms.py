@@ -297,3 +297,118 @@ def test_skin_of_cells_in_the_direct_sense_faces_inwards(length, option, inwards
     normals = np.cross(faces[:, 1] - faces[:, 0], faces[:, 2] - faces[:, 0])
     sides = (normals * (faces.mean(axis=1) - middle)).sum(axis=1)
     assert ((sides < 0) == inwards).all()
+
+
+def test_envelope_of_a_surface_is_its_lone_cells() -> None:
+    flat = SPACE + "OPTI ELEM QUA4 ; S = (O D 3 A) TRAN 2 (0. 1. 0.) ; "
+    assert value(flat + "X = NBEL (ENVE S) ;") == 6
+    assert value(flat + "X = NBEL (ENVE (S ET (INVE (S ELEM 1)))) ;") == 5
+    assert "envelope" in message(flat + "X = ENVE (S ET S ET (O D 1 A)) ; Y = ENVE (O D 1 A) ;")
+
+
+def test_surface_under_an_element_of_lines_is_of_triangles() -> None:
+    side = (
+        "OPTI DIME 2 ELEM {} ; O = 0. 0. ; A = 2. 0. ; B = 0. 1. ; S = SURF (O D 4 A D 4 B D 4 O) ;"
+    )
+    for element, cell in (("SEG2", "TRI3"), ("SEG3", "TRI6")):
+        script = side.format(element)
+        assert value(script + "X = S ELEM 'TYPE' ;").values == [cell]
+        assert value(script + "X = MESU S ;") == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(
+    ("skin", "cells"),
+    [("E", {"TE10", "PY13"}), ("(CHAN 'TRI6' E)", {"TE10"})],
+)
+def test_quadratic_skins_are_filled_and_keep_their_middles(skin: str, cells: set[str]) -> None:
+    script = SPACE + (
+        "OPTI ELEM CU20 ; V = ((O D 2 A) TRAN 2 (0. 1. 0.)) VOLU 2 'TRAN' Z ; E = ENVE V ; "
+        f"F = {skin} ; W = VOLU F ; N = NBNO F ; G = ENVE W ; K = NBNO G ; "
+    )
+    assert set(value(script + "X = W ELEM 'TYPE' ;").values) == cells
+    assert value(script + "X = MESU W ;") == pytest.approx(1.0)
+    # the skin's nodes are those of the volume: all cells are common
+    assert value(script + "X = NBEL (G INTE F) ;") == value(script + "X = NBEL F ;")
+
+
+LINES = PLANE + "B2 = 2. 0. ; M = MANU 'SEG2' A B2 ; N = MANU 'SEG2' O A ; "
+
+
+@pytest.mark.parametrize(
+    ("phrase", "first"),
+    [
+        ("M ET N", 0.0),  # N continues into M
+        ("M ET N 'TELQUEL'", 1.0),
+        ("M ET 'TELQUEL' N", 1.0),
+        ("ET 'TELQ' M N", 1.0),
+    ],
+)
+def test_lines_are_joined_as_they_continue_or_as_given(phrase: str, first: float) -> None:
+    assert value(LINES + f"Y = {phrase} ; X = COOR 1 ((Y ELEM 1) POIN 'INIT') ;") == first
+
+
+def test_cells_of_a_mesh_of_several_types_come_first() -> None:
+    both = STRIP + "M = (0. 3.) D 1 (1. 3.) ; C = S ET L ; "
+    for phrase, height in (("M ET C", 0.0), ("C ET M", 0.0), ("ET 'TELQ' M C", 3.0)):
+        script = both + f"Y = ({phrase}) ELEM 'SEG2' ; X = COOR 2 ((Y ELEM 1) POIN 'INIT') ;"
+        assert value(script) == height
+
+
+def test_edges_are_sharp_from_the_angle_that_is_given() -> None:
+    cube = SPACE + "V = ((O D 2 A) TRAN 2 (0. 1. 0.)) VOLU 2 'TRAN' Z ; "
+    assert value(cube + "X = NBEL (ARET V 89.) ;") == 24  # twelve edges of two cells
+    assert value(cube + "X = NBEL (ARET V) ;") == 24
+    assert value(cube + "X = (ARET V 91.) ; N = NBEL X ;", "N") == 0
+
+
+def test_matrices_are_moved_with_their_nodes_and_relations() -> None:
+    script = (
+        PLANE + "L = O D 1 A ; V = 0. 2. ; K = (APPU 'UX' 4. L) ET (RELA 'UX' O '-' 'UX' A) ; "
+        "M R = L K PLUS V ; F = FORC (1. 0.) (M POIN 1) ; "
+        "U = RESO R F ; X = EXTR U 'UX' (M POIN 'INIT') ; Y = EXTR U 'UX' (M POIN 'FINA') ; "
+    )
+    # two springs of 4 that move together under 1
+    assert value(script) == pytest.approx(1 / 8)
+    assert value(script, "Y") == pytest.approx(1 / 8)
+    moved = PLANE + "K = APPU 'UX' 4. O ; U = MANU 'CHPO' O 'UX' 1. 'UY' 0. ; Q = K PLUS U ;"
+    assert "vector" in message(moved)
+
+
+def test_nodes_are_told_in_the_order_of_their_numbers() -> None:
+    script = PLANE + "L = O D 2 B ; M = TASS L 'NOOP' ; "
+    assert value(script + "X = NBEL M ;") == 5
+    assert value(script + "X = COOR 2 (M POIN 3) ;") == 1.0  # B is the third point made
+
+
+@pytest.mark.parametrize(
+    ("goal", "expected"),
+    [
+        ("S", 0.25),  # the plane z = x / 2 of QUA4
+        ("(CHAN 'QUAD' S)", 0.25),
+        ("(CHAN 'TRI3' S)", 0.25),
+        ("(S VOLU 1 'TRAN' (0. 0. -1.))", 0.25),  # the nearest face of the skin
+    ],
+)
+def test_points_go_on_a_mesh_along_a_vector(goal: str, expected: float) -> None:
+    script = SPACE + (
+        "OPTI ELEM QUA4 ; S = (O D 4 (1. 0. 0.5)) TRAN 3 (0. 1. 0.) ; OPTI ELEM CUB8 ; "
+        f"G = {goal} ; P = 0.5 0.41 7. ; Q = P PROJ 'CYLI' Z G ; X = COOR 3 Q ; "
+    )
+    assert value(script) == pytest.approx(expected)
+
+
+def test_meshes_go_on_a_mesh_away_from_a_point() -> None:
+    flat = SPACE + (
+        "OPTI ELEM QUA4 ; S = ((-9. -9. 2.) D 3 (9. -9. 2.)) TRAN 3 (0. 18. 0.) ; L = Z D 2 "
+        "(1. 0. 1.) ; M = L PROJ 'CONI' O S ; "
+    )
+    # twice as far from the origin as the line at height 1
+    assert value(flat + "X = MESU M ;") == pytest.approx(2.0)
+    assert value(flat + "X = COOR 3 (M POIN 'FINA') ;") == pytest.approx(2.0)
+    assert "no projection" in message(flat + "N = L PROJ 'CYLI' A S ;")
+
+
+def test_points_of_the_plane_go_on_a_line() -> None:
+    line = PLANE + "L = (O D 2 A D 2 B) ; Q = (5. 0.25) PROJ 'CYLI' A L ; "
+    assert value(line + "X = COOR 1 Q ;") == pytest.approx(1.0)
+    assert "lines" in message(PLANE + "Q = O PROJ 'CYLI' A (MANU 'POI1' B) ;")

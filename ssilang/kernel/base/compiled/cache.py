@@ -4,11 +4,13 @@ Numba keeps compiled code beside each module and looks at that module's file alo
 it is still good: a function keeps the old code of what it calls. The code of a module compiled here
 is therefore kept in a folder named after its text and that of all modules of the kernel that it
 imports, directly or not: an edit costs the code that it may change, and no other.
+
+Kept code is run unseen, so a folder is used only if nobody else could have put his own there
+(`private`); else a run compiles into a folder that ends with it.
 """
 
 from __future__ import annotations
 
-import getpass
 import hashlib
 import os
 import re
@@ -19,23 +21,34 @@ from functools import cache
 from pathlib import Path
 
 from ssilang.kernel.base.compiled import PLAIN
+from ssilang.kernel.base.compiled.private import (
+    fresh_folder,
+    opened_to_others,
+    private_folder,
+    user_number,
+)
 
 KEPT_SECONDS = 30 * 86400.0  # code of older states of a module is removed after this
 IMPORTED = re.compile(r"^from (ssilang\.kernel[\w.]*) import (\([^)]*\)|.*)$", re.MULTILINE)
 PACKAGE = Path(__file__).parents[3]  # ssilang
+
+REFUSED: list[tuple[Path, Path]] = []
+"""Folders that others could have written to, with what opens each: nothing was read from them."""
 
 
 def is_compiled(package: str) -> bool:
     """Whether functions of a package of the kernel ('dynamics') were compiled before."""
     given = os.environ.get("NUMBA_CACHE_DIR")
     if given:
-        return any(Path(given).glob(f"{package}_*/*.nbi"))
-    if PLAIN:
+        kept = _given(given)
+        return kept is not None and any(kept.glob(f"{package}_*/*.nbi"))
+    base = None if PLAIN else _base()
+    if base is None:
         return False
     kernel = PACKAGE / "kernel"
     paths = (p.relative_to(kernel).with_suffix("") for p in (kernel / package).rglob("*.py"))
     names = (".".join(("ssilang.kernel", *p.parts)) for p in paths)
-    folders = (_base() / f"{name}-{state_of(name)}" for name in names)
+    folders = (base / f"{name}-{state_of(name)}" for name in names)
     return any(any(folder.glob("*/*.nbi")) for folder in folders)
 
 
@@ -79,31 +92,50 @@ def _is_package(module: str, package: Path) -> bool:
 
 
 @cache
-def _base() -> Path:
-    """Folder of the user, or a temporary one, that can be written to."""
+def _base() -> Path | None:
+    """Folder that keeps code: the user's, a temporary one, a new one, or None if none is safe."""
     home = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
-    for base in (Path(home), Path(tempfile.gettempdir()) / f"cache-{getpass.getuser()}"):
-        folder = base / "ssilang"
-        try:
-            folder.mkdir(parents=True, exist_ok=True)
-        except OSError:
-            continue
-        if os.access(folder, os.W_OK):
-            return folder
-    return Path(tempfile.mkdtemp(prefix="ssilang-"))
+    kept = Path(home) / "ssilang" / "compiled"
+    other = Path(tempfile.gettempdir()) / f"ssilang-{user_number()}"
+    return _first_private(kept, other)
 
 
 @cache
-def folder_of(module: str) -> Path:
-    """Where the code of a module in its present state is kept; it counts as used now."""
-    folder = _base() / f"{module}-{state_of(module)}"
+def _given(name: str) -> Path | None:
+    """The folder that NUMBA_CACHE_DIR names, or a new one if others could have written to it."""
+    return _first_private(Path(name), closed=0o022)
+
+
+def _first_private(*folders: Path, closed: int = 0o077) -> Path | None:
+    for folder in folders:
+        fault = private_folder(folder, closed)
+        if fault is None:
+            return folder.resolve()
+        if os.path.lexists(folder):  # not only a place where nothing can be made
+            REFUSED.append((folder, fault))
+    return fresh_folder()
+
+
+@cache
+def folder_of(module: str) -> Path | None:
+    """Where the code of a module in its present state is kept; it counts as used now.
+
+    None: there is no place where nobody else could put his own.
+    """
+    given = os.environ.get("NUMBA_CACHE_DIR")
+    if given:
+        return _given(given)
+    base = _base()
+    if base is None:
+        return None
+    folder = base / f"{module}-{state_of(module)}"
     try:
-        folder.mkdir(exist_ok=True)
+        folder.mkdir(mode=0o700, exist_ok=True)
         os.utime(folder)
         _remove_old(module, folder)
     except OSError:  # another process removes the same folders, or the disk is full
         pass
-    return folder
+    return folder if opened_to_others(folder) is None else None
 
 
 def _remove_old(module: str, kept: Path) -> None:

@@ -38,12 +38,59 @@ def pressure_stiffness(
     MeshError
         For cells that are no sides.
     """
+    dim = _dimension(zone)
+    p = _at_points(zone, pressure)
+    build = _in_space if dim == 3 else _of_revolution if zone.mode in REVOLUTION else _in_plane
+    return _matrices(zone, build(zone, p), unsymmetric)
+
+
+def gradient_stiffness(
+    zone: Zone, modulus: float, direction: FloatArray | None, unsymmetric: bool = False
+) -> ElementMatrices:
+    """Change of the forces of a pressure that grows along a direction, as the sides move in it.
+
+    The pressure of a side grows by `modulus * (u . direction)`; its forces point along the side's
+    own normal. Without a direction it is that normal: springs of `modulus` for each unit of area.
+
+    Parameters
+    ----------
+    direction : array (3,), of any length
+
+    Raises
+    ------
+    MeshError
+        For cells that are no sides.
+    """
+    dim = _dimension(zone)
+    N, dN, x = _shapes(zone)
+    w = np.broadcast_to(face_rule(zone.cells.cell_type).weights, (len(x), len(N)))
+    tangents = np.einsum("pki,ckj->cpij", dN, x)
+    if dim == 3:
+        area = np.cross(tangents[:, :, 0], tangents[:, :, 1])
+    else:
+        t = tangents[:, :, 0]
+        area = np.stack([-t[..., 1], t[..., 0]], axis=-1)
+        if zone.mode in REVOLUTION:
+            w = w * circumference(zone) * (x[..., 0] @ N.T)
+    size = np.linalg.norm(area, axis=-1, keepdims=True)
+    along = area / size if direction is None else direction[:dim] / np.linalg.norm(direction[:dim])
+    along = np.broadcast_to(along, area.shape)
+    d = len(NODE_TRANSLATIONS[zone.mode])
+    values = np.zeros((*x.shape[:2], d, x.shape[1], d))
+    values[:, :, :dim, :, :dim] = np.einsum(
+        "cp,pa,cpi,pb,cpj->caibj", modulus * w, N, area, N, along
+    )
+    return _matrices(zone, _joined(values), unsymmetric)
+
+
+def _dimension(zone: Zone) -> int:
     dim = 3 if zone.mode is Mode.THREE_DIMENSIONAL else zone.mode.dimension
     if zone.cells.kind.dimension != dim - 1 or zone.cells.kind.joint:
         raise MeshError("kernel.elements.cells-carry-no-pressure", cell_type=zone.cells.cell_type)
-    p = _at_points(zone, pressure)
-    build = _in_space if dim == 3 else _of_revolution if zone.mode in REVOLUTION else _in_plane
-    values = build(zone, p)
+    return dim
+
+
+def _matrices(zone: Zone, values: FloatArray, unsymmetric: bool) -> ElementMatrices:
     if not unsymmetric:
         values = 0.5 * (values + np.swapaxes(values, 1, 2))
     names = NODE_TRANSLATIONS[zone.mode]

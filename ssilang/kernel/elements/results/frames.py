@@ -76,6 +76,40 @@ def spherical_frames(x: FloatArray, centre: FloatArray, on_axis: FloatArray) -> 
     return np.stack([r, np.cross(east, r), east], axis=-2)
 
 
+def torus_frames(
+    x: FloatArray, centre: FloatArray, on_axis: FloatArray, on_circle: FloatArray
+) -> FloatArray:
+    """Frames (..., 3, 3), rows: along the large circle, along the small one, out of the torus.
+
+    The small circles have their centres at the distance of `on_circle` from the axis, and at its
+    height along it.
+    """
+    large = cylindrical_frames(x, centre, on_axis)
+    axis = unit(on_axis - centre)
+    height = (on_circle - centre) @ axis
+    radius = np.linalg.norm(on_circle - centre - height * axis)
+    middle = centre + height * axis + radius * large[..., 0, :]
+    outward = unit(x - middle)
+    around = large[..., 1, :]
+    return np.stack([around, np.cross(outward, around), outward], axis=-2)
+
+
+def given_rotations(
+    zone: Zone, rotations: CellField, support: Support, transposed: bool
+) -> FloatArray:
+    """Matrices (n_cells, n_points, 3, 3) of a field of components UX,X UX,Y ... (or transposed).
+
+    Out of the plane, where a flat zone has no components, they are those of the identity.
+    """
+    seen, names = zone_field(zone, rotations), kinematics(zone).gradient
+    values = seen.matrix(names, support)
+    d = round(len(names) ** 0.5)
+    R = np.zeros((len(values), values.shape[-1], 3, 3))
+    R[..., 2, 2] = 1.0
+    R[..., :d, :d] = np.moveaxis(values.reshape(len(values), d, d, -1), -1, 1)
+    return np.swapaxes(R, -1, -2) if transposed else R
+
+
 SHELL_FRAMES = {"plate": plate_frames, "mindlin": quadrangle_frames}
 """Own frames of flat shells; their parameters V1X V1Y are cosines in them."""
 

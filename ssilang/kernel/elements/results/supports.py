@@ -57,6 +57,8 @@ def nodal_of_field(field: CellField, rule: Literal["MOYE", "SOMM"] = "MOYE") -> 
         for name, values in block.components.items():
             if values.dtype == object:
                 continue
+            if values.shape[1] > 1 and nodes.shape[1] == 2 * values.shape[1]:  # joints
+                values = np.tile(values, 2)
             at = np.broadcast_to(values, nodes.shape)
             parts.setdefault(name, []).append((nodes.ravel(), at.ravel()))
     if table is None:
@@ -82,17 +84,22 @@ def cells_of_nodal(
 ) -> CellField:
     """A field in cells interpolated from a nodal field; components absent on a zone are left out.
 
-    Absent values count as zero in cells where the component is defined at some node.
+    Absent values count as zero in cells where the component is defined at some node. Joints take
+    the mean of both sides; where a field stands on one side alone, the value of that side.
     """
     blocks = []
     for zone in model.zones:
         kind = ELEMENTS[zone.element]
         points = support_rule(zone.element, target).points
         shapes = shape_functions(kind.reference or kind.cell_type, points)
+        half = shapes.shape[1]
         components = {}
         for name, values in _at_cell_nodes(zone.cells, field).items():
-            half = shapes.shape[1]
-            if values.shape[1] == 2 * half:  # joints: mean of both sides
+            if values.shape[1] == 2 * half:
+                values = _both_sides(zone.cells, field.components[name], values)
+                if target == "NOEUD":
+                    components[name] = values
+                    continue
                 values = (values[:, :half] + values[:, half:]) / 2
             components[name] = values @ shapes.T
         if components:
@@ -100,6 +107,14 @@ def cells_of_nodal(
                 CellFieldBlock(zone.cells, components, target, zone.element, zone.constituent)
             )
     return CellField(tuple(blocks), title)
+
+
+def _both_sides(cells: CellBlock, part: NodeValues, values: FloatArray) -> FloatArray:
+    """Values at the nodes of joints; a node without takes that of the one that it faces."""
+    there = np.isin(cells.connectivity, part.nodes)
+    half = values.shape[1] // 2
+    facing = np.roll(values, half, axis=1)
+    return np.where(there, values, facing)
 
 
 def cells_of_mesh(mesh: Mesh, field: NodeField) -> CellField:

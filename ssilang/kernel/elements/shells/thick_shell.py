@@ -150,7 +150,7 @@ class ThickShell(ShellFamily):
         return values
 
     def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, Layout]:
-        """RHO EPAI of the translations, RHO EPAI^3 / 12 of the rotations about the surface."""
+        """RHO EPAI of the translations, RHO EPAI^3 / 12 of the fibres' rotations."""
         rule = support_rule(zone.element, "MASSE")
         kind = zone.cells.cell_type
         N, dN = shape_functions(kind, rule.points), shape_gradients(kind, rule.points)
@@ -162,8 +162,9 @@ class ThickShell(ShellFamily):
         h = np.broadcast_to(parameters.at("EPAI", "GRAVITE")[:, 0], (n,))
         scalar = np.einsum("cp,pa,pb->cab", area * (rho * h)[:, None], N, N)
         v = fibres(zone)
-        tangent = np.einsum("cab,ij->caibj", scalar, np.eye(3))
-        tangent -= np.einsum("cab,cai,cbj->caibj", scalar, v, v)
+        # fibres move by sum N_a theta_a x v_a: on curved cells those of two nodes are not parallel
+        tangent = np.einsum("cab,cak,cbk,ij->caibj", scalar, v, v, np.eye(3), optimize=True)
+        tangent -= np.einsum("cab,cbi,caj->caibj", scalar, v, v)
         values = np.zeros((n, k, 6, k, 6))
         for i in range(3):
             values[:, :, i, :, i] = scalar

@@ -64,9 +64,9 @@ def polar(F: FloatArray) -> tuple[FloatArray, FloatArray]:
     Raises
     ------
     FieldError
-        If F turns a volume inside out.
+        If F turns a volume inside out, or has terms that are no finite numbers.
     """
-    if (np.linalg.det(F) <= 0.0).any():
+    if not (np.linalg.det(F) > 0.0).all() or not np.isfinite(F).all():
         raise FieldError("kernel.elements.gradient-motion-determinant-not")
     left, stretch, right = np.linalg.svd(F)
     U = np.swapaxes(right, -1, -2) @ (stretch[..., None] * right)

@@ -68,6 +68,12 @@ PLASTIC_LAWS: dict[str, PlasticLaw] = {
     "CINEMATIQUE": PlasticLaw(
         von_mises.kinematic, ("SIGY", "H"), ("EPSE", *_CENTRE), positive=("SIGY",)
     ),
+    "J2": PlasticLaw(
+        von_mises.saturating,
+        ("SIG0", "SIGI", "KISO", "VELO"),
+        positive=("SIG0",),
+        check=von_mises.check_saturating,
+    ),
     "DRUCKER_PARFAIT": PlasticLaw(
         drucker_prager.perfect, ("LTR", "LCS"), check=drucker_prager.check_perfect
     ),

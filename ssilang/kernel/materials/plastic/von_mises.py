@@ -1,10 +1,11 @@
-"""Von Mises' plasticity: perfect, with isotropic or with linear kinematic hardening."""
+"""Von Mises' plasticity: perfect, with isotropic, saturating or linear kinematic hardening."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.materials.plastic.cone import Cone, Hardening, cone_return
 from ssilang.kernel.materials.plastic.response import PointParameters, Response, mises
 
@@ -35,6 +36,36 @@ def isotropic(
         return parameters.at(rows).curve("ECRO", p)
 
     return _isotropic(parameters, stress, strain, variables, strength)
+
+
+def saturating(
+    parameters: PointParameters, stress: FloatArray, strain: FloatArray, variables: FloatArray
+) -> Response:
+    """Law J2: `q <= SIG0 + KISO p + (SIGI - SIG0) (1 - exp(-VELO p))`; variable EPSE.
+
+    Simo and Hughes, Computational Inelasticity (1998), section 3.3: saturation and a line.
+    """
+    first, last = parameters["SIG0"], parameters["SIGI"]
+    slope, rate = parameters["KISO"], parameters["VELO"]
+
+    def strength(rows: IntArray, p: FloatArray) -> tuple[FloatArray, FloatArray]:
+        rise, left = (last - first)[rows], np.exp(-rate[rows] * p)
+        limit = first[rows] + slope[rows] * p + rise * (1.0 - left)
+        return limit, slope[rows] + rise * rate[rows] * left
+
+    return _isotropic(parameters, stress, strain, variables, strength)
+
+
+def check_saturating(parameters: PointParameters) -> None:
+    """Refuse strengths that sink.
+
+    Raises
+    ------
+    MaterialError
+    """
+    sinking = (parameters["KISO"] < 0) | (parameters["VELO"] < 0)
+    if sinking.any() or (parameters["SIGI"] < parameters["SIG0"]).any():
+        raise MaterialError("kernel.materials.saturation-sinks")
 
 
 def _isotropic(

@@ -26,7 +26,8 @@ def cut_open(surface: Mesh, line: Mesh) -> tuple[Mesh, Mesh]:
         raise MeshError("kernel.mesh.line-seg2-seg3-needed")
     ends, times = np.unique(block.connectivity[:, [0, -1]], return_counts=True)
     if (times > 2).any():
-        raise MeshError("kernel.mesh.line-branches-node", ends=int(ends[times > 2][0]) + 1)
+        node = line.nodes.told(ends[times > 2][0])
+        raise MeshError("kernel.mesh.line-branches-node", ends=node)
     right = _right_cells(surface, block)
     nodes = surface.nodes
     on_line = np.unique(block.connectivity)

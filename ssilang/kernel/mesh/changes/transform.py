@@ -142,7 +142,7 @@ def mapping_between(first: Mesh, second: Mesh) -> NodeCopier:
     pairs = dict(zip(first.node_ids.tolist(), target.tolist(), strict=True))
 
     def refuse(ids: IntArray) -> FloatArray:
-        raise MeshError("kernel.mesh.node-not-belong-mesh", ids=int(ids[0]) + 1)
+        raise MeshError("kernel.mesh.node-not-belong-mesh", ids=first.nodes.told(ids[0]))
 
     return NodeCopier(first.nodes, by_node=refuse, copies=pairs)
 

@@ -8,7 +8,9 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.boundary import contour, envelope
 from ssilang.kernel.mesh.combine import union
+from ssilang.kernel.mesh.generators.facing import Simplices, facing_parts
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
+from ssilang.kernel.mesh.nodes import told_coordinates
 from ssilang.kernel.mesh.orientation import surface_normals
 
 _JOINTS = {
@@ -22,7 +24,7 @@ _JOINTS = {
 _NORMAL_TO_FACE = 1e-6  # gaps smaller than this part of the cell size count as closed
 
 
-def joint_mesh(first: Mesh, second: Mesh, tolerance: float) -> Mesh:
+def joint_mesh(first: Mesh, second: Mesh, tolerance: float, part: bool = False) -> Mesh:
     """Joint cells between the cells of two meshes that face each other.
 
     A joint is made for every cell of `first` that has a cell of `second` of the same type whose
@@ -34,31 +36,84 @@ def joint_mesh(first: Mesh, second: Mesh, tolerance: float) -> Mesh:
     half is turned if need be so that the normal points from `second` to `first`; where they
     coincide the direction of `first` is taken as given.
 
+    Parameters
+    ----------
+    part : bool
+        Whether cells may face each other without being joined, where they do not fit together.
+
     Raises
     ------
     MeshError
-        If the tolerance is not positive, the meshes are not of lines or facets, or no cell of
-        one is close enough to a cell of the other.
+        If the tolerance is not positive, the meshes are not of lines or facets, no cell of
+        one is close enough to a cell of the other, or cells face each other that do not fit.
     """
     if tolerance <= 0.0:
         raise MeshError("kernel.mesh.facing-cells-paired-within")
-    made = []
+    made, joined = [], _Joined(first, second)
     for block in first.blocks:
         joint = _JOINTS.get(block.cell_type)
         if joint is None:
             raise MeshError("kernel.mesh.no-joint-cell-made", cell_type=block.cell_type)
         for other in second.blocks:
             if other.cell_type == block.cell_type:
-                rows, partner = _paired(block, other, tolerance)
+                rows, partner, theirs = _paired(block, other, tolerance)
                 if len(rows):
+                    joined.take(block, rows, other, theirs)
                     made.append(_oriented(block, joint, rows, partner))
+    if not part:
+        joined.refuse_misfits(tolerance)
     if not made:
         raise MeshError("kernel.mesh.no-cell-first-mesh", tolerance=tolerance)
     return union(*(Mesh(first.nodes, (b,)) for b in made), as_given=True)
 
 
-def _paired(block: CellBlock, other: CellBlock, tolerance: float) -> tuple[IntArray, IntArray]:
-    """Cells of `block` that have a partner (m,), and the partner's nodes (m, k) in their order."""
+class _Joined:
+    """Which cells of two sides have a joint."""
+
+    def __init__(self, first: Mesh, second: Mesh) -> None:
+        self.sides = (first, second)
+        self.taken = [{id(b): np.zeros(len(b), dtype=bool) for b in m.blocks} for m in self.sides]
+
+    def take(self, block: CellBlock, rows: IntArray, other: CellBlock, theirs: IntArray) -> None:
+        """Rows of a block of the first side, and of one of the second, are joined."""
+        self.taken[0][id(block)][rows] = True
+        self.taken[1][id(other)][theirs] = True
+
+    def refuse_misfits(self, tolerance: float) -> None:
+        """Raise the error for cells that face each other and have no joint."""
+        left = [self._cells(side, taken=False) for side in (0, 1)]
+        if left[0] is None or left[1] is None:
+            return
+        ours = facing_parts(left[0], left[1], tolerance)
+        if not ours.any():
+            return
+        theirs = facing_parts(left[1], left[0], tolerance)
+        joined, measure = self._cells(0, taken=True), left[0].measures()
+        centre = left[0].corners[int(np.argmax(ours))].mean(axis=0)
+        raise MeshError(
+            "kernel.mesh.sides-do-not-fit",
+            surface=left[0].corners.shape[1] > 2,
+            joined=0.0 if joined is None else float(joined.measures().sum()),
+            apart=float(ours @ measure),
+            n_first=len(np.unique(left[0].cell[ours > 0.0])),
+            n_second=len(np.unique(left[1].cell[theirs > 0.0])),
+            place=told_coordinates(self.sides[0].nodes.shown(centre)),
+            tolerance=tolerance,
+        )
+
+    def _cells(self, side: int, taken: bool) -> Simplices | None:
+        blocks = [
+            (b, np.flatnonzero(self.taken[side][id(b)] == taken)) for b in self.sides[side].blocks
+        ]
+        blocks = [(b, rows) for b, rows in blocks if len(rows) and b.cell_type in _JOINTS]
+        return Simplices.of(blocks) if blocks else None
+
+
+def _paired(
+    block: CellBlock, other: CellBlock, tolerance: float
+) -> tuple[IntArray, IntArray, IntArray]:
+    """Cells of `block` that have a partner (m,), the partner's nodes (m, k) in their order, and
+    the partner (m,)."""
     from scipy.spatial import cKDTree
 
     tree = cKDTree(other.coordinates.mean(axis=1))
@@ -67,7 +122,7 @@ def _paired(block: CellBlock, other: CellBlock, tolerance: float) -> tuple[IntAr
     rows = np.repeat(np.arange(len(block)), [len(c) for c in near])
     candidates = np.concatenate([np.asarray(c, dtype=np.int64) for c in near])
     if not len(rows):
-        return rows, np.empty((0, block.kind.n_nodes), dtype=np.int64)
+        return rows, np.empty((0, block.kind.n_nodes), dtype=np.int64), rows
     ours = block.coordinates[rows]
     theirs = other.coordinates[candidates]
     order, worst = _best_order(ours, theirs, block)
@@ -76,7 +131,7 @@ def _paired(block: CellBlock, other: CellBlock, tolerance: float) -> tuple[IntAr
     best = best[good[best]]
     best = best[np.sort(np.unique(rows[best], return_index=True)[1])]
     partner = np.take_along_axis(other.connectivity[candidates[best]], order[best], axis=1)
-    return rows[best], partner
+    return rows[best], partner, candidates[best]
 
 
 def _renumberings(n_nodes: int, degree: int, dimension: int) -> list[list[int]]:

@@ -49,7 +49,7 @@ def _neighbours(line: Mesh) -> tuple[IntArray, IntArray]:
     for column, ending in ((0, False), (1, True)):
         ids, times = np.unique(table[:, column], return_counts=True)
         if (times > 1).any():
-            node = int(ids[times > 1][0]) + 1
+            node = line.nodes.told(ids[times > 1][0])
             raise MeshError("kernel.mesh.several-cells-node-line", ending=ending, node=node)
     before = np.full(len(line.nodes), -1, dtype=np.int64)
     after = before.copy()

@@ -104,7 +104,7 @@ def different_nodes(nodes: NodeTable, start: int, end: int) -> None:
     MeshError
     """
     if start == end:
-        raise MeshError("kernel.mesh.line-starts-ends-same", start=start + 1)
+        raise MeshError("kernel.mesh.line-starts-ends-same", start=nodes.told(start))
 
 
 def polyline(

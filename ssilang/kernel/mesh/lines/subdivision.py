@@ -74,7 +74,7 @@ def subdivide(
     if count > 0:
         step = (length or 1.0) / count
         return Subdivision(np.linspace(0.0, 1.0, count + 1), step, step)
-    if start_size <= 0.0 or end_size <= 0.0:
+    if not (0.0 < start_size < math.inf and 0.0 < end_size < math.inf):
         raise MeshError(
             "kernel.mesh.mesh-sizes-must-positive", start_size=start_size, end_size=end_size
         )

@@ -7,7 +7,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements.shapes.quadrature import quadrature
-from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS, shape_gradients
+from ssilang.kernel.elements.shapes.reference import reference_cell, shape_gradients
 from ssilang.kernel.mesh.boundary import edges
 from ssilang.kernel.mesh.cells import POLYGON_SIDES
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
@@ -115,13 +115,14 @@ def node_sizes(mesh: Mesh) -> tuple[IntArray, FloatArray]:
 _POINTS = {
     "SEG2": 1, "SEG3": 5, "TRI3": 1, "TRI6": 7, "QUA4": 9, "QUA8": 25,
     "TET4": 1, "TE10": 27, "PRI6": 6, "PR15": 21, "PYR5": 27, "CUB8": 8, "CU20": 27,
+    "TRI7": 7, "QUA9": 25, "PY13": 27, "TE15": 27, "PR21": 21, "CU27": 27,
     **{name: 7 * n for name, n in POLYGON_SIDES.items()},
 }  # fmt: skip
 
 
 def _jacobian_sum(cell_type: str, x: FloatArray) -> FloatArray:
     """Sum of the Jacobian's measure over the quadrature points, for cells (n, n_nodes, 3)."""
-    rule = quadrature(REFERENCE_CELLS[cell_type].shape, _POINTS[cell_type])
+    rule = quadrature(reference_cell(cell_type).shape, _POINTS[cell_type])
     frames = np.einsum("gkd,nkj->ngdj", shape_gradients(cell_type, rule.points), x)
     dimension = frames.shape[2]
     if dimension == 3:

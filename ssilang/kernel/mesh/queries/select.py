@@ -10,6 +10,7 @@ from ssilang.kernel.mesh.changes.split import tetrahedra
 from ssilang.kernel.mesh.combine import take
 from ssilang.kernel.mesh.lines.lines import line_chain
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
+from ssilang.kernel.mesh.nodes import NodeTable
 
 
 def resting_on(mesh: Mesh, ids: IntArray, strictly: bool) -> Mesh:
@@ -95,7 +96,7 @@ def stretch(line: Mesh, start: int, end: int) -> Mesh:
     step = block.kind.n_nodes - 1
     stops = chain[::step]
     closed = stops[0] == stops[-1]
-    i, j = (_stop(stops[:-1] if closed else stops, node) for node in (start, end))
+    i, j = (_stop(line.nodes, stops[:-1] if closed else stops, node) for node in (start, end))
     n = len(block)
     if i == j:
         raise MeshError("kernel.mesh.two-points-line-part")
@@ -108,10 +109,10 @@ def stretch(line: Mesh, start: int, end: int) -> Mesh:
     return Mesh.of(line.nodes, block.cell_type, table, colours)
 
 
-def _stop(stops: IntArray, node: int) -> int:
+def _stop(nodes: NodeTable, stops: IntArray, node: int) -> int:
     found = np.flatnonzero(stops == node)
     if not len(found):
-        raise MeshError("kernel.mesh.node-no-end-cell", node=node + 1)
+        raise MeshError("kernel.mesh.node-no-end-cell", node=nodes.told(node))
     return int(found[0])
 
 

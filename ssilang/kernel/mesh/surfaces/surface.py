@@ -41,7 +41,8 @@ def contour_cells(contour: Mesh) -> IntArray:
         ends, times = np.unique(cells[:, [0, -1]], return_counts=True)
         open_ends = ends[times % 2 == 1]
         if len(open_ends):
-            raise MeshError("kernel.mesh.contour-not-closed-line", nodes=open_ends[:4] + 1)
+            told = [contour.nodes.told(n) for n in open_ends[:4]]
+            raise MeshError("kernel.mesh.contour-not-closed-line", nodes=told)
         if (times != 2).any():
             raise MeshError("kernel.mesh.lines-contour-not-run")
         return in_one_sense(cells)

@@ -17,18 +17,18 @@ _HEIGHTS = (0.35, 0.2, 0.1)  # of the pyramids, in sides of their base, tried in
 def fill_volume(skin: Mesh, colour: int = 0) -> Mesh:
     """The mesh inside a closed surface, which keeps the surface's cells as its faces.
 
-    Triangles carry tetrahedra, QUA4 carry pyramids; TRI6 give TE10.
+    Triangles carry tetrahedra, quadrangles carry pyramids; TRI6 and QUA8 give TE10 and PY13.
 
     Raises
     ------
     MeshError
-        If the skin is open, holds other cells, mixes degrees, holds QUA8, or cannot be filled.
+        If the skin is open, holds other cells, mixes degrees, or cannot be filled.
     """
     kinds = {b.cell_type for b in skin.blocks}
-    if not kinds or not (kinds <= {"TRI3", "QUA4"} or kinds <= {"TRI6"}):
+    if not kinds or not (kinds <= {"TRI3", "QUA4"} or kinds <= {"TRI6", "QUA8"}):
         raise MeshError("kernel.mesh.volume-filled-tri3-qua4", kinds=sorted(kinds))
     triangles = _corners(skin, ("TRI3", "TRI6"))
-    quads = _corners(skin, ("QUA4",))
+    quads = _corners(skin, ("QUA4", "QUA8"))
     if not len(quads):
         return _filled(skin, triangles, None, colour)
     for height in _HEIGHTS:
@@ -42,7 +42,7 @@ def fill_volume(skin: Mesh, colour: int = 0) -> Mesh:
 def _corners(skin: Mesh, kinds: tuple[str, ...]) -> IntArray:
     """Corner nodes of the cells of some types."""
     parts = [b.connectivity[:, list(b.kind.corners)] for b in skin.blocks if b.cell_type in kinds]
-    width = 4 if kinds == ("QUA4",) else 3
+    width = 4 if "QUA4" in kinds else 3
     return np.concatenate(parts) if parts else np.empty((0, width), dtype=np.int64)
 
 
@@ -69,8 +69,8 @@ def _filled(
     if pyramids is not None:
         tips = table[len(ids) + np.arange(len(bases))]
         shells = Mesh.of(nodes, "PYR5", np.column_stack([quads, tips]), colour)
-        return union(volume, shells, as_given=True)
-    if any(b.cell_type == "TRI6" for b in skin.blocks):
+        volume = union(volume, shells, as_given=True)
+    if any(b.kind.degree == 2 for b in skin.blocks):
         return quadratic(volume, skin)
     return volume
 

@@ -149,12 +149,12 @@ def _try_factors(
             factor = factorise(A, positive, backend, ordering)
         except SingularFactorError:
             continue
-        if not positive or _accurate(A, factor):
+        if not positive or accurate(A, factor):
             return factor
     return None
 
 
-def _accurate(A: sp.csr_array, factor: Factor) -> bool:
+def accurate(A: sp.csr_array, factor: Factor) -> bool:
     """True if a solution's residual is small: without pivoting it may not be (A not positive)."""
     x = np.random.default_rng(0).standard_normal(A.shape[0])
     b = A @ x

@@ -24,7 +24,7 @@ class LooseBody:
     Attributes
     ----------
     node : int
-        One of its nodes at a joint, counted from 1 as scripts do.
+        One of its nodes at a joint.
     mass : float
         That moves with it.
     open_points, points : int
@@ -115,7 +115,7 @@ def _node_at_joint(problem: Problem, mine: NDArray[np.bool_]) -> int:
     joints = problem.interface
     assert joints is not None
     columns = np.unique(joints.J.indices)
-    return int(problem.numbering.nodes[columns[mine[columns]]].min()) + 1
+    return int(problem.numbering.nodes[columns[mine[columns]]].min())
 
 
 def full_uplift(problem: Problem, t: FloatArray) -> LooseBody | None:

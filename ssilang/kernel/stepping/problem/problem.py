@@ -35,6 +35,7 @@ from ssilang.kernel.matrices.assembly import (
     constraint_matrix,
     field_to_vector,
     numbering_of,
+    refuse_negative_mass,
 )
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.stepping.newmark import Scheme
@@ -125,8 +126,8 @@ def make_problem(inputs: Inputs) -> Problem:
     Raises
     ------
     KernelError
-        If times do not increase, joints with a law stand in the stiffness alone, or values are
-        not finite.
+        If times do not increase, joints with a law stand in the stiffness alone, values are not
+        finite, or a mass is negative.
     """
     times = _checked_times(inputs.times)
     given_zones = () if inputs.model is None else joint_zones(inputs.model)
@@ -149,6 +150,7 @@ def make_problem(inputs: Inputs) -> Problem:
     interface = interface_of(zones, inputs.characteristics, numbering) if zones else None
     assembled = {k: _assembled(m, numbering) for k, m in matrices.items()}
     _refuse_not_finite(assembled, loading)
+    refuse_negative_mass(assembled["M"], numbering)
     if contact is not None and inputs.contact_options.modified_mass:
         assembled["M"] = without_contact_mass(assembled["M"], assembled["K"], contact.G)
     return Problem(

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.generators.interfaces import joint_mesh, joints_inside
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.language.registry import Help, arg, flag, many, operator
@@ -11,12 +14,18 @@ from ssilang.operators.mesh.tolerance import DISTANCE, tolerance_of
 from ssilang.operators.workspace import workspace
 
 
-def _joint(session: Session, first: Mesh, second: Mesh, distance: float | None) -> Mesh:
+def _joint(session: Session, first: Mesh, second: Mesh, distance: float | None, part: bool) -> Mesh:
     ws = workspace(session)
     near = tolerance_of(ws, distance, ws.nodes.coordinates[first.node_ids])
-    return joint_mesh(first, second, max(near, 1e-300))
+    return joint_mesh(first, second, max(near, 1e-300), part)
 
 
+_PART = flag(
+    "part",
+    "PART",
+    en="cells that face each other without fitting are left out, not refused",
+    fr="les éléments en face qui ne se correspondent pas sont laissés, pas refusés",
+)
 _EN = (
     "A joint is made for each cell of the first mesh and the cell of the second that faces it "
     "within a distance (a tenth of the density by default); its first half is the first mesh's. "
@@ -33,6 +42,7 @@ _FR = (
     DISTANCE,
     arg("first", "MAILLAGE", en="line", fr="ligne"),
     arg("second", "MAILLAGE", en="line that faces it", fr="ligne en face"),
+    _PART,
     family="mesh",
     full_name="RACCORD",
     help=Help(
@@ -40,18 +50,18 @@ _FR = (
         "first line sees the joint on the right.",
         fr="Ligne d'éléments de joint (RAC2, RAC3) entre deux lignes. " + _FR + "Un observateur "
         "qui parcourt la première ligne voit le joint à sa droite.",
-        syntax="GEO3 = RACC (FLOT1) GEO1 GEO2 ;",
+        syntax="GEO3 = RACC (FLOT1) GEO1 GEO2 ('PART') ;",
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; A = DROI 2 (0. 0.) (1. 0.) ; B = DROI 2 (0. 0.) (1. 0.) ;"
             " J = RACC 1E-3 A B ; LIST (NBEL J) ;",
         ),
     ),
 )
-def racc(session: Session, distance: float | None, first: Mesh, second: Mesh) -> Mesh:
+def racc(session: Session, distance: float | None, first: Mesh, second: Mesh, part: bool) -> Mesh:
     """Joints between lines."""
     if first.dimension > 1:
         raise MeshError("operators.mesh.lines-wanted")
-    return _joint(session, first, second, distance)
+    return _joint(session, first, second, distance, part)
 
 
 @operator(
@@ -59,6 +69,7 @@ def racc(session: Session, distance: float | None, first: Mesh, second: Mesh) ->
     DISTANCE,
     arg("first", "MAILLAGE", en="surface", fr="surface"),
     arg("second", "MAILLAGE", en="surface that faces it", fr="surface en face"),
+    _PART,
     family="mesh",
     full_name="LIAISON",
     help=Help(
@@ -68,18 +79,18 @@ def racc(session: Session, distance: float | None, first: Mesh, second: Mesh) ->
         fr="Surface d'éléments de joint (LIA3, LIA4, LIA6, LIA8) entre deux surfaces. "
         + _FR
         + "La normale de la première surface va de la seconde à la première (ouverture).",
-        syntax="GEO1 = LIAI (FLOT1) GEO2 GEO3 ;",
+        syntax="GEO1 = LIAI (FLOT1) GEO2 GEO3 ('PART') ;",
         examples=(
             "OPTI DIME 3 ELEM QUA4 ; L = DROI 2 (0. 0. 0.) (1. 0. 0.) ; A = L TRAN 2 (0. 1. 0.) ;"
             " B = A PLUS (0. 0. 0.) ; J = LIAI 1E-3 A B ; LIST (NBEL J) ;",
         ),
     ),
 )
-def liai(session: Session, distance: float | None, first: Mesh, second: Mesh) -> Mesh:
+def liai(session: Session, distance: float | None, first: Mesh, second: Mesh, part: bool) -> Mesh:
     """Joints between surfaces."""
     if first.dimension < 2:
         raise MeshError("operators.mesh.surfaces-wanted")
-    return _joint(session, first, second, distance)
+    return _joint(session, first, second, distance, part)
 
 
 @operator(
@@ -114,11 +125,18 @@ def genj(session: Session, mesh: Mesh, distance: float | None) -> Mesh:
     family="mesh",
     full_name="TASSER",
     help=Help(
-        en="Accepted and without effect: unknowns are renumbered when systems are solved.",
-        fr="Accepté et sans effet : les inconnues sont renumérotées à la résolution.",
-        syntax="TASS (GEO1 ...) ('NOOP') ;",
-        examples=("OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (1. 0.) ; TASS L ;",),
+        en="Nodes keep their numbers: unknowns are renumbered when systems are solved. Gives the "
+        "nodes in the order of these numbers, as POI1.",
+        fr="Les noeuds gardent leurs numéros : les inconnues sont renumérotées à la résolution. "
+        "Rend les noeuds dans l'ordre de ces numéros, en POI1.",
+        syntax="(GEO2 =) TASS (GEO1 ...) ('NOOP') ;",
+        examples=(
+            "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (1. 0.) ; TASS L ;\n"
+            "M = TASS L 'NOOP' ; LIST (NBEL M) ;",
+        ),
     ),
 )
-def tass(meshes: tuple[Mesh, ...], keep: bool) -> None:
-    """Do nothing."""
+def tass(session: Session, meshes: tuple[Mesh, ...], keep: bool) -> Mesh:
+    """The nodes by number, which stay as they are."""
+    nodes = workspace(session).nodes
+    return poi1(nodes, np.unique(nodes.resolve(np.arange(len(nodes)))))

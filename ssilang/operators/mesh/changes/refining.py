@@ -31,7 +31,7 @@ def refined(mesh: Mesh, sizes: NodeField) -> Mesh:
         raise MeshError("operators.mesh.refined-before")
     wanted = sizes.values_at(next(iter(sizes.components)), cells.node_ids, np.nan)
     if np.isnan(wanted).any():
-        node = int(cells.node_ids[np.isnan(wanted)][0]) + 1
+        node = mesh.nodes.told(cells.node_ids[np.isnan(wanted)][0])
         raise MeshError("operators.mesh.no-size-at-node", node=node)
     return divided_to_sizes(cells, wanted)
 

@@ -11,7 +11,8 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.materials.model import Mode, Model
+from ssilang.kernel.materials.model import Mode, Model, Zone
+from ssilang.kernel.matrices.matrix import Matrix, Relations
 from ssilang.kernel.mesh.changes.transform import (
     NodeCopier,
     PointMap,
@@ -25,6 +26,7 @@ from ssilang.kernel.mesh.changes.transform import (
 )
 from ssilang.kernel.mesh.generators.sweep import corresponding_nodes
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
+from ssilang.kernel.mesh.surfaces.facets import facet_shape
 from ssilang.language.registry import Argument, Chosen, Help, Like, arg, many, operator, said
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
@@ -40,6 +42,7 @@ from ssilang.operators.mesh.copies.maps import (
     VECTOR,
     positions,
     projection_of,
+    projection_on,
     rotation_matrix,
 )
 from ssilang.operators.mesh.copies.moves import displacements
@@ -63,6 +66,7 @@ class Copier:
         self.nodes = nodes
         self.rotation = rotation
         self._blocks: dict[int, tuple[CellBlock, CellBlock]] = {}
+        self._zones: dict[int, tuple[Zone, Zone]] = {}
 
     def block(self, block: CellBlock) -> CellBlock:
         """Copy of a block, the same one each time it is met."""
@@ -93,9 +97,38 @@ class Copier:
         made = CellField(blocks, field.title)
         return made if self.rotation is None else turned_cell_field(made, self.rotation)
 
+    def zone(self, zone: Zone) -> Zone:
+        """The zone on the copied cells, the same one in models and matrices."""
+        made = self._zones.get(id(zone))
+        if made is None:
+            made = self._zones[id(zone)] = (zone, replace(zone, cells=self.block(zone.cells)))
+        return made[1]
+
     def model(self, model: Model) -> Model:
         """The model on the copied cells."""
-        return Model(tuple(replace(z, cells=self.block(z.cells)) for z in model.zones))
+        return Model(tuple(self.zone(z) for z in model.zones))
+
+    def matrix(self, matrix: Matrix) -> Matrix:
+        """The matrix between the unknowns of the copied nodes; relations get multipliers anew."""
+        blocks = tuple(
+            replace(
+                b,
+                raw_nodes=self.nodes.of_nodes(b.nodes),
+                zone=None if b.zone is None else self.zone(b.zone),
+            )
+            for b in matrix.blocks
+        )
+        relations = tuple(self.relations(r) for r in matrix.relations)
+        return Matrix(matrix.table, blocks, relations, matrix.kind)
+
+    def relations(self, rows: Relations) -> Relations:
+        """Relations between the unknowns of the copied nodes."""
+        return replace(
+            rows,
+            raw_nodes=self.nodes.of_nodes(rows.nodes),
+            raw_multipliers=self.nodes.of_nodes(rows.multipliers),
+            dual=None if rows.dual is None else self.relations(rows.dual),
+        )
 
     def table(self, table: Table) -> Table:
         """A table of copies, indices kept."""
@@ -114,6 +147,7 @@ _COPIES: dict[type, Any] = {
     NodeField: Copier.node_field,
     CellField: Copier.cell_field,
     Model: Copier.model,
+    Matrix: Copier.matrix,
     Table: Copier.table,
 }
 
@@ -137,6 +171,9 @@ def _shifted(
     if isinstance(by, Point):
         return copies(call, objects, shift(sign * by.coordinates.copy()))
     nodes, field = workspace(call.session).nodes, by
+    for value in objects:
+        if isinstance(value, Matrix):
+            raise call.error("operators.mesh.matrix-moved-by-field", value)
 
     def moved(ids: IntArray) -> FloatArray:
         return nodes.coordinates[ids] + sign * displacements(field, ids)
@@ -145,10 +182,10 @@ def _shifted(
     return tuple(copier(v) for v in objects)
 
 
-def _objects(leaving: int, *left: str) -> Argument:
+def _objects(leaving: int, *left: str, types: Sequence[str] = GEOMETRIC) -> Argument:
     return many(
         "objects",
-        *GEOMETRIC,
+        *types,
         leaving=leaving,
         left=left,
         en="objects to copy",
@@ -157,7 +194,7 @@ def _objects(leaving: int, *left: str) -> Argument:
 
 
 _SHIFTED = (
-    _objects(1, "POINT", "CHPOINT"),
+    _objects(1, "POINT", "CHPOINT", types=(*GEOMETRIC, "RIGIDITE")),
     arg(
         "by",
         "POINT",
@@ -176,11 +213,17 @@ _SHIFTED = (
     family="mesh",
     help=Help(
         en="Copies of objects moved by a vector or by a field of displacements (UX UY UZ or UR "
-        "UZ); nodes that several objects share are copied once. As many results as objects.",
+        "UZ); nodes that several objects share are copied once. As many results as objects. A "
+        "matrix is moved by a vector only.",
         fr="Copies d'objets translatés d'un vecteur ou d'un champ de déplacements (UX UY UZ ou UR "
-        "UZ) ; les noeuds communs ne sont copiés qu'une fois. Autant de résultats que d'objets.",
+        "UZ) ; les noeuds communs ne sont copiés qu'une fois. Autant de résultats que d'objets. "
+        "Une matrice ne se translate que d'un vecteur.",
         syntax="OBJ2 ... = OBJ1 ... PLUS VEC1|CHPO1 ;",
-        examples=("OPTI DIME 2 ; P = 1. 0. ; Q = P PLUS (0. 2.) ; LIST (COOR 2 Q) ;",),
+        examples=(
+            "OPTI DIME 2 ; P = 1. 0. ; Q = P PLUS (0. 2.) ; LIST (COOR 2 Q) ;",
+            "OPTI DIME 2 ; P = 1. 0. ; R = APPU 'UX' 4. P ; Q S = P R PLUS (0. 2.) ;\n"
+            "LIST (EXTR (S * (MANU 'CHPO' Q 'UX' 3.)) 'FX' Q) ;",
+        ),
     ),
 )
 def plus(call: Call, objects: Sequence[Any], by: Point | NodeField) -> tuple[Any, ...]:
@@ -436,3 +479,24 @@ def projected_along(
 ) -> tuple[Any, ...]:
     """Copy and project along a vector."""
     return copies(call, objects, projection_of("CYLI", vector, surface))
+
+
+@proj.form(
+    RAYS[0],
+    _objects(1, "MAILLAGE"),
+    arg("goal", "MAILLAGE", en="mesh on which they go", fr="maillage d'arrivée"),
+    gives=Like("objects"),
+    syntax="GEO1 ... = GEO2 ... PROJ 'CYLI' VEC1 | 'CONI' SOMM1  GEO3 ;",
+    en="On a mesh: the nearest point of its skin, surfaces or lines, taken as flat facets.",
+    fr="Sur un maillage : le point le plus proche de sa peau, de ses surfaces ou de ses lignes, "
+    "prises comme des facettes planes.",
+    examples=(
+        "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (2. 1.) ;\n"
+        "Q = (1. 5.) PROJ 'CYLI' (0. 1.) L ; LIST (COOR 2 Q) ;",
+    ),
+)
+def projected_on_mesh(
+    call: Call, rays: tuple[str, Point], objects: Sequence[Any], goal: Mesh
+) -> tuple[Any, ...]:
+    """Copy and project on a mesh."""
+    return copies(call, objects, projection_on(*rays, facet_shape(goal)))

@@ -114,7 +114,12 @@ def shape_of(chosen: Chosen) -> Shape:
 
 def projection_of(way: str, point: Point, surface: Chosen) -> PointMap:
     """The projection along a vector ('CYLI') or from a point ('CONI')."""
-    shape, at = shape_of(surface), point.coordinates.copy()
+    return projection_on(way, point, shape_of(surface))
+
+
+def projection_on(way: str, point: Point, shape: Shape) -> PointMap:
+    """The projection along a vector ('CYLI') or from a point ('CONI') on a shape."""
+    at = point.coordinates.copy()
     if way == "CONI":
         return lambda x: project(shape, x, None, at)
     return lambda x: project(shape, x, at, None)

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from ssilang.kernel.mesh.combine import without_duplicates
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.queries.soundness import repeated_cells, unfit_faces, unmatched_middles
-from ssilang.language.registry import Help, arg, operator
+from ssilang.language.registry import Help, arg, operator, said
 from ssilang.language.run.session import Session
 
 _CHECKS = (
@@ -25,14 +26,34 @@ _CHECKS = (
         fr="Vérifie un maillage et dit ce qui ne va pas : éléments aux mêmes noeuds, éléments "
         "linéaires accolés à des éléments quadratiques, faces triangulaires sur des faces "
         "quadrangulaires. Éléments et noeuds trouvés sont nommés MESH1 MESH2 ..., NODE1 ...",
-        syntax="VERM GEO1 ;",
+        syntax="VERM GEO1 ;\nGEO2 = VERM GEO1 'CORR' ;",
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (1. 0.) ; M = L ET (INVE L) ; VERM M ;",
+            "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (1. 0.) ;\n"
+            "M = VERM (L ET (INVE L)) 'CORR' ; LIST (NBEL M) ;",
         ),
     ),
 )
 def verm(session: Session, mesh: Mesh) -> None:
     """Check a mesh."""
+    _tell(session, mesh)
+
+
+@verm.form(
+    said("CORR"),
+    arg("mesh", "MAILLAGE", en="mesh", fr="maillage"),
+    en="'CORR' also gives the mesh with one cell left where several stand on the same nodes; "
+    "what else is found is for the script to mend.",
+    fr="'CORR' rend de plus le maillage où un seul élément reste là où plusieurs ont les mêmes "
+    "noeuds ; le reste est à corriger dans le jeu de données.",
+)
+def corrected(session: Session, mesh: Mesh) -> Mesh:
+    """Check a mesh, and take doubled cells out of it."""
+    _tell(session, mesh)
+    return without_duplicates(mesh)
+
+
+def _tell(session: Session, mesh: Mesh) -> None:
     count = {"MESH": 0, "NODE": 0}
     for kind, check, code in _CHECKS:
         found = check(mesh)

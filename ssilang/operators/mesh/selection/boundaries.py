@@ -8,6 +8,7 @@ from ssilang.kernel.mesh.boundary import (
     contour,
     envelope,
     inner_contour,
+    lone_surfaces,
     sharp_edges,
 )
 from ssilang.kernel.mesh.combine import join_blocks
@@ -16,7 +17,7 @@ from ssilang.kernel.mesh.orientation import (
     flip,
     orient,
 )
-from ssilang.language.registry import Help, arg, choice, flag, operator
+from ssilang.language.registry import Help, arg, choice, flag, operator, opt
 
 
 def _whole_lines(mesh: Mesh) -> Mesh:
@@ -67,7 +68,7 @@ def cont(mesh: Mesh, which: str, allowed: bool) -> Mesh:
 
 @operator(
     "ENVE",
-    arg("mesh", "MAILLAGE", en="volume", fr="volume"),
+    arg("mesh", "MAILLAGE", en="volume, or surface", fr="volume, ou surface"),
     flag(
         "inwards",
         "ORIE",
@@ -79,12 +80,16 @@ def cont(mesh: Mesh, which: str, allowed: bool) -> Mesh:
     full_name="ENVELOPPE",
     help=Help(
         en="Skin of a volume: the faces of one cell only, described inwards where the volume's "
-        "cells are in the direct sense ('ORIE': in any case). 'NOID' allows an empty result.",
+        "cells are in the direct sense ('ORIE': in any case). Of a surface, whose cells are their "
+        "own faces: the cells that stand there once. 'NOID' allows an empty result.",
         fr="Enveloppe d'un volume : les faces d'un seul élément, décrites vers l'intérieur là "
-        "où les éléments du volume sont de sens direct ('ORIE' : toujours). 'NOID' permet un "
-        "résultat vide.",
+        "où les éléments du volume sont de sens direct ('ORIE' : toujours). D'une surface, dont "
+        "les éléments sont leurs propres faces : les éléments qui n'y sont qu'une fois. 'NOID' "
+        "permet un résultat vide.",
         syntax="SURF1 = ENVE VOLU1 ('ORIE') ('NOID') ;",
         examples=(
+            "OPTI DIME 3 ELEM QUA4 ; S = (DROI 2 (0. 0. 0.) (1. 0. 0.)) TRAN 2 (0. 1. 0.) ;"
+            " LIST (NBEL (ENVE (S ET (S ELEM 1)))) ;",
             "OPTI DIME 3 ELEM CUB8 ; S = (DROI 2 (0. 0. 0.) (1. 0. 0.)) TRAN 2 (0. 1. 0.) ;"
             " V = S VOLU 2 'TRAN' (0. 0. 1.) ; LIST (NBEL (ENVE V)) ;",
         ),
@@ -92,27 +97,41 @@ def cont(mesh: Mesh, which: str, allowed: bool) -> Mesh:
 )
 def enve(mesh: Mesh, inwards: bool, allowed: bool) -> Mesh:
     """Skin of a volume."""
-    skin = envelope(orient(mesh, 3) if inwards else mesh)
+    if mesh.dimension == 2:
+        skin = lone_surfaces(mesh)
+    else:
+        faces = envelope(orient(mesh, 3) if inwards else mesh)
+        skin = Mesh(faces.nodes, tuple(flip(b) for b in faces.blocks))
     if not skin.blocks and not allowed:
         raise MeshError("operators.mesh.no-envelope")
-    return Mesh(skin.nodes, tuple(flip(b) for b in skin.blocks))
+    return skin
 
 
 @operator(
     "ARET",
     arg("mesh", "MAILLAGE", en="surface or volume", fr="surface ou volume"),
+    opt(
+        "angle",
+        "FLOTTANT",
+        default=20.0,
+        en="turn of the skin from which on an edge is sharp",
+        fr="angle de la peau à partir duquel une arête est vive",
+        unit="degree",
+    ),
     family="mesh",
     full_name="ARETE",
     help=Help(
-        en="Sharp edges, as SEG2: where the skin turns by more than 20 degrees, or ends.",
-        fr="Arêtes vives, en SEG2 : là où la peau tourne de plus de 20 degrés, ou finit.",
-        syntax="GEO1 = ARET GEO2 ;",
+        en="Sharp edges, as SEG2: where the skin turns by more than 20 degrees, or the angle that "
+        "is given, or ends.",
+        fr="Arêtes vives, en SEG2 : là où la peau tourne de plus de 20 degrés, ou de l'angle "
+        "donné, ou finit.",
+        syntax="GEO1 = ARET GEO2 (FLOT1) ;",
         examples=(
             "OPTI DIME 3 ELEM CUB8 ; S = (DROI 2 (0. 0. 0.) (1. 0. 0.)) TRAN 2 (0. 1. 0.) ;"
             " V = S VOLU 2 'TRAN' (0. 0. 1.) ; LIST (NBEL (ARET V)) ;",
         ),
     ),
 )
-def aret(mesh: Mesh) -> Mesh:
+def aret(mesh: Mesh, angle: float) -> Mesh:
     """Sharp edges."""
-    return sharp_edges(mesh)
+    return sharp_edges(mesh, angle)

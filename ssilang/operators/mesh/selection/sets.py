@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.combine import (
     intersection,
     points_mesh,
     symmetric_difference,
     union,
-    without_duplicates,
 )
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.surfaces.surface_crossing import crossed
 from ssilang.language.registry import arg, flag, main, said
-from ssilang.language.run.call import Call
-from ssilang.operators.dispatch import DIFF, INTE, UNIQ, union_with_call, union_words
+from ssilang.operators.dispatch import DIFF, INTE, worded_union
 
 _SECOND = arg("second", "MAILLAGE", "POINT", en="mesh, or point", fr="maillage, ou point")
 _ALLOWED = flag("allowed", "NOVERIF", en="the result may be empty", fr="le résultat peut être vide")
@@ -25,12 +25,20 @@ def as_mesh(item: Mesh | Point) -> Mesh:
     return points_mesh([item], item.nodes) if isinstance(item, Point) else item
 
 
-@union_with_call(
+@worded_union(
     ("MAILLAGE", "MAILLAGE"), ("POINT", "MAILLAGE"), ("MAILLAGE", "POINT"), ("POINT", "POINT")
 )
-def unite_meshes(call: Call, left: Mesh | Point, right: Mesh | Point) -> Mesh:
-    """Cells of both; lines are put in the order in which they continue unless TELQ is said."""
-    return union(as_mesh(left), as_mesh(right), as_given="TELQ" in union_words(call))
+def unite_meshes(words: Collection[str], left: Mesh | Point, right: Mesh | Point) -> Mesh:
+    """Cells of both, in the order given if TELQ is said.
+
+    Else lines are put in the order in which they continue, and the cells of a mesh of several
+    types come before those of a mesh of one.
+    """
+    first, second = as_mesh(left), as_mesh(right)
+    as_given = "TELQ" in words
+    if not as_given and len(first.blocks) == 1 < len(second.blocks):
+        first, second = second, first
+    return union(first, second, as_given=as_given)
 
 
 @DIFF.form(
@@ -94,14 +102,3 @@ def surfaces_that_cross(first: Mesh, second: Mesh, allowed: bool) -> tuple[Mesh,
     if not cut[2].blocks and not allowed:
         raise MeshError("operators.mesh.no-crossing")
     return cut
-
-
-@UNIQ.form(
-    main("mesh", "MAILLAGE", en="mesh", fr="maillage"),
-    en="Of a mesh: each cell once, whatever the order of its nodes and its colour.",
-    fr="D'un maillage : chaque élément une fois, quels que soient l'ordre de ses noeuds et sa "
-    "couleur.",
-)
-def unique_cells(mesh: Mesh) -> Mesh:
-    """Each cell once."""
-    return without_duplicates(mesh)

@@ -106,18 +106,19 @@ def _curved_chart(shape: Chosen, boundary: FloatArray) -> Chart:
     help=Help(
         en="Mesh inside closed lines (holes run the other way): in their plane (the default), on a "
         "sphere, cylinder, cone or torus. OPTI ELEM decides between triangles, quadrangles with "
-        "some triangles, and (POLY) polygons with some triangles. A nodal "
-        "field of one component gives the mesh sizes to respect.",
+        "some triangles, and (POLY) polygons with some triangles; with an element of lines it is "
+        "triangles. A nodal field of one component gives the mesh sizes to respect.",
         fr="Maillage intérieur à des lignes fermées (les trous tournent en sens inverse) : dans "
         "leur plan (par défaut), sur une sphère, un cylindre, un cône ou un tore. OPTI ELEM "
         "choisit triangles, quadrangles avec quelques triangles, ou (POLY) polygones avec quelques "
-        "triangles. Un champ par points à une "
+        "triangles ; un élément de ligne donne des triangles. Un champ par points à une "
         "composante donne les tailles de maille à respecter.",
         syntax="SURF1 = SURF (CHPO1) LIG1 'PLANE' (CRIT) | 'SPHE' CENTR1 | 'CYLI' AXE1 AXE2 | "
         "'CONI' SOMM1 AXE1 | 'TORI' CENTR1 AXE1 CENTR2 ;",
         examples=(
             "OPTI DIME 2 ELEM TRI3 ; A = 0. 0. ; B = 1. 0. ; C = 0. 1. ;"
-            " L = A DROI 5 B DROI 5 C DROI 5 A ; S = SURF L 'PLANE' ;",
+            " L = A DROI 5 B DROI 5 C DROI 5 A ; S = SURF L 'PLANE' ;"
+            " OPTI ELEM SEG2 ; LIST (MESU (SURF L)) ;",
             (
                 "OPTI DIME 3 ELEM TRI3 ;\n"
                 "O = 0 0 0 ; A = 1 0 0 ; B = 0 1 0 ; C = 0 1 2 ; D = 1 0 2 ;\n"
@@ -161,7 +162,8 @@ def surf(
     else:
         chart = _curved_chart(shape, boundary)
     ws = workspace(session)
-    surface = chosen_family(ws).need_surface()
+    family = chosen_family(ws)
+    surface = family.surface or ("TRI6" if family.quadratic else "TRI3")
     return fill_surface(contour, chart, surface, ws.colour, _wanted_sizes(sizes))
 
 

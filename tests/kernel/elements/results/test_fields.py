@@ -190,7 +190,9 @@ def test_a_field_follows_the_reduction_of_its_model():
     assert zone_field(model.zones[0], values).at("YOUN", "RIGIDITE").ravel().tolist() == [3.0, 1.0]
     on_mesh = field_on_mesh(values, part)
     assert on_mesh.blocks[0].components["YOUN"].ravel().tolist() == [3.0, 1.0]
-    with pytest.raises(FieldError):
+    with pytest.raises(
+        FieldError, check=lambda e: e.code == "kernel.elements.no-cell-mesh-belongs"
+    ):
         model_on_mesh(model, Mesh.of(table, "QUA4", zone.cells.connectivity[[1]]))
 
 

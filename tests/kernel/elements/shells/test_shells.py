@@ -21,8 +21,10 @@ from ssilang.kernel.matrices.assembly import (
     vector_to_field,
 )
 from ssilang.kernel.matrices.matrix import Matrix
+from ssilang.kernel.matrices.relations import blocked
 from ssilang.kernel.mesh.mesh import CellBlock
 from ssilang.kernel.mesh.nodes import NodeTable
+from ssilang.kernel.modal.modes import modes_near
 from tests.kernel.elements.samples import ELASTIC, field, line_zone, material
 
 E, NU, H, RHO = 2.0e11, 0.3, 0.01, 7800.0
@@ -408,3 +410,48 @@ def _buckling_between_walls(e):
     free = (at > 1e-9) & (at < 1 - 1e-9)
     k, g = (assemble(m, numbering).toarray()[np.ix_(free, free)] for m in (K, G))
     return 1 / np.linalg.eigvals(np.linalg.solve(k, -g)).real.max()
+
+
+def test_mass_of_a_curved_thick_shell_is_positive_and_idle_about_its_fibres():
+    def curved(x):
+        turn = x[:, 0] / 0.5
+        return np.column_stack([0.5 * np.cos(turn), x[:, 1], 0.5 * np.sin(turn)])
+
+    zone, _, _ = quadrangles("COQ8", 1, 1, 0.6, 0.4, curved)
+    mass = families.mass(zone, material(zone, **PLATE)).values[0]
+    weights = np.linalg.eigvalsh(mass)
+    idle = np.abs(weights) < 1e-12 * weights[-1]
+    assert weights[0] > -1e-12 * weights[-1]
+    assert idle.sum() == 8  # the rotation of each node about its own fibre
+    spin = np.zeros((8, 6))  # a quarter of a cylinder's fibres turning about its axis
+    spin[:, 4] = 1.0
+    area = 0.6 * 0.4
+    inertia = spin.ravel() @ mass @ spin.ravel()
+    assert inertia == pytest.approx(RHO * H**3 / 12 * area, rel=1e-2)
+
+
+def test_clamped_thin_tube_vibrates_as_the_published_case_says():
+    """SDLA 01/89 (Guide de validation des progiciels, AFNOR 1990): 534 Hz, six waves around."""
+    radius, length, thickness = 0.076073, 0.3048, 0.254e-3
+    zone, _, _ = quadrangles(
+        "COQ8", 24, 5, np.pi / 2, length / 2,
+        lambda x: np.column_stack([radius * np.cos(x[:, 0]), x[:, 1], radius * np.sin(x[:, 0])]),
+    )  # fmt: skip
+    mat = material(zone, YOUN=2.06e11, NU=0.3, RHO=7850.0, EPAI=thickness)
+    table, place = zone.cells.nodes, zone.cells.nodes.coordinates
+    faces = {  # planes of symmetry, and the end that is held
+        ("UZ", "RX", "RY"): place[:, 2] < 1e-9,
+        ("UX", "RY", "RZ"): place[:, 0] < 1e-9,
+        ("UY", "RX", "RZ"): place[:, 1] > length / 2 - 1e-9,
+        ("UX", "UY", "UZ"): place[:, 1] < 1e-9,
+    }
+    used = np.unique(zone.cells.connectivity)
+    rows = tuple(
+        blocked(table, np.intersect1d(np.flatnonzero(there), used), list(names))
+        for names, there in faces.items()
+    )
+    stiffness = Matrix(table, (families.stiffness(zone, mat),), rows)
+    mass = Matrix(table, (families.mass(zone, mat),), (), "MASSE")
+    for near in (0.0, 300.0, 560.0):
+        mode = modes_near(stiffness, mass, [(near, 1)])[0]
+        assert mode.frequency == pytest.approx((534.62 + 533.84) / 2, rel=5e-3)

@@ -108,5 +108,7 @@ def test_work_is_stored_or_lost():
 
 @pytest.mark.parametrize("wrong", [{"KN": 0.0}, {"COHE": -1.0}, {"FNE": 1.0, "QT": 200.0}])
 def test_inadmissible_parameters_are_refused(wrong):
-    with pytest.raises(MaterialError):
+    with pytest.raises(
+        MaterialError, check=lambda e: e.code == "kernel.interface.joint-parameter-must"
+    ):
         check_mohr_parameters(parameters(**wrong))

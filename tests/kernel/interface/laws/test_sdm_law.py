@@ -129,13 +129,24 @@ def test_without_strength_it_is_the_unilateral_spring():
     np.testing.assert_allclose(t[:, 1], expected, atol=1e-12 * 1e6)
 
 
-@pytest.mark.parametrize("extra", [{}, {"FROT": 0.4}, {"FU": 1e5, "GF": 20.0, "FC": -2e4}])
+@pytest.mark.parametrize(
+    "extra",
+    [
+        {},
+        {"FROT": 0.4},
+        {"FU": 1e5, "GF": 20.0, "FC": -2e4},
+        {"FU": 1e5, "GF": 20.0, "FC": -2e4, "FROT": 0.7},
+    ],
+)
 @pytest.mark.parametrize("d", [2, 3])
 def test_tangent_is_the_derivative(extra, d):
     rng = np.random.default_rng(5)
     p = parameters(200, **extra)
     state = np.zeros((200, N_STATE))
     state[:, Variable.XI] = rng.uniform(0, 2e-4, 200)
+    if "FROT" in extra:  # points that slid before, some of them back
+        state[:, Variable.SLIP1] = rng.uniform(-2e-4, 2e-4, 200)
+        state[:, Variable.SLIP2] = rng.uniform(-2e-4, 2e-4, 200) * (d == 3)
     w = rng.uniform(-4e-4, 4e-4, (200, d))
     _, _new, D = answer(w, state, p)
     h = 1e-10
@@ -162,6 +173,16 @@ def test_friction_bounds_the_shear_and_counts_its_loss():
 def test_shear_is_lost_when_open_and_starts_anew_when_closed():
     t, _ = walk(np.array([[1e-3, -1e-3], [1e-3, 1e-4], [3e-3, -1e-3]]), parameters())
     np.testing.assert_allclose(t[:, 0], [4e5, 0.0, 4e8 * 2e-3])
+
+
+@pytest.mark.parametrize("normal", [-1e-4, 2e-4])
+def test_elastic_shear_stores_its_work_at_any_opening(normal):
+    p = parameters(SHEAR=1.0)
+    path = np.array([[0.0, normal], [1e-4, normal], [3e-4, normal], [-2e-4, normal]])
+    t, states = walk(path, p)
+    np.testing.assert_allclose(t[:, 0], 4e8 * path[:, 0], rtol=1e-12)
+    np.testing.assert_allclose(states[:, Variable.SHEAR_ENERGY], 2e8 * path[:, 0] ** 2, rtol=1e-12)
+    assert not states[:, Variable.SHEAR_LOSS].any()
 
 
 def test_too_soft_a_joint_is_refused_with_the_least_stiffness():

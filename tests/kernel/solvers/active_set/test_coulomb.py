@@ -144,5 +144,7 @@ def test_body_that_friction_cannot_hold_is_refused():
         W, np.zeros(3), B, B[:2], np.array([-10.0, 4.0]), 1, 1, np.array([0]), np.array([0.3]),
         np.zeros(1),
     )  # fmt: skip
-    with pytest.raises(ConvergenceError):
+    with pytest.raises(
+        ConvergenceError, check=lambda e: e.code == "kernel.solvers.no-state-contact-friction"
+    ):
         solve_coulomb(problem)

@@ -20,7 +20,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.compiled.compiler import compiled_fast, compiled_inline
 from ssilang.kernel.interface.condensed import Condensed
-from ssilang.kernel.interface.copies import copy_state
+from ssilang.kernel.interface.copies import copy_rows, copy_state
 from ssilang.kernel.interface.factors import is_factorised, solve_known
 from ssilang.kernel.interface.newton import Workspace, solve_interface
 from ssilang.kernel.interface.response import (
@@ -105,9 +105,11 @@ def _hold_back(step: ReducedStep, dashpots: Dashpots, q: int) -> None:
     for i in range(len(dashpots.phi)):
         dashpots.w[i] = n.c_v * dashpots.v[i] + n.c_a * dashpots.a[i]
         dashpots.z[i] = dashpots.w[i] + n.damping * dashpots.y[q + i]
-    dashpots.phi[:] = np.dot(step.E, dashpots.z)
+    copy_state(np.dot(step.E, dashpots.z), dashpots.phi)
     if q:
-        dashpots.y[:q] -= np.dot(step.SJB, dashpots.phi)
+        moved = np.dot(step.SJB, dashpots.phi)
+        for i in range(q):
+            dashpots.y[i] -= moved[i]
 
 
 @compiled_fast
@@ -118,14 +120,15 @@ def _advance_dashpots(
     n, q, z = step.newmark, len(h), dashpots.z
     if q:
         moved = np.dot(h, step.SJB)
-        dashpots.phi[:] -= n.damping * np.dot(step.E, moved)
+        back = np.dot(step.E, moved)
         for i in range(len(moved)):
+            dashpots.phi[i] -= n.damping * back[i]
             z[i] = dashpots.y[q + i] - moved[i]
     else:
-        z[:] = dashpots.y
-    z[:] -= np.dot(step.SBB, dashpots.phi)
-    lost = 0.0
+        copy_state(dashpots.y, z)
+    held, lost = np.dot(step.SBB, dashpots.phi), 0.0
     for i in range(len(z)):
+        z[i] -= held[i]
         v = dashpots.v[i]
         dashpots.v[i], dashpots.a[i] = advance(n, z[i], v, dashpots.a[i])
         lost += model.sense[i] * z[i] * (v + dashpots.v[i])
@@ -223,7 +226,7 @@ def run_reduced(
                 h[i] = end * (trial.f[i] - x.f[i])
             accept(trial, now)
             if len(to.jumps):
-                to.jumps[k] = x.w
+                copy_rows(x.w, to.jumps[k])
         # advance and account: dashpots, then all coordinates, the next step's prediction with them
         if d:
             x.energies[DAMPED] += 0.5 * _advance_dashpots(model, step, dashpots, h)
@@ -238,7 +241,7 @@ def run_reduced(
         if q:
             stored, lost = interface_energies(joints, x.w, x.t, x.state)
             x.energies[STORED], x.energies[LOST] = stored, lost
-        to.energies[k] = x.energies
+        copy_state(x.energies, to.energies[k])
         if to.row[k] >= 0:
             keep(x, to, to.row[k])
     return steps, worst, 0.0

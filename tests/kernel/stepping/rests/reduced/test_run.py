@@ -1,6 +1,7 @@
 """Reduced models against the whole one: error held below the estimate, what is refused."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.stepping.newmark import generalised_alpha, hht
 from ssilang.kernel.stepping.rests.reduced.basis import Basis
 from ssilang.kernel.stepping.rests.reduced.run import _PAIRS, integrate_reduced
+from ssilang.kernel.stepping.rests.reduced.trace import Difference
 from ssilang.kernel.stepping.run import integrate
 
 
@@ -149,6 +151,44 @@ def test_the_next_motion_finds_the_basis(monkeypatch):
     monkeypatch.setattr("ssilang.kernel.stepping.rests.reduced.run.Basis", None)  # none is made
     second = integrate_reduced(other, 1e-4)
     assert second.reduction.vectors == first.reduction.vectors
+
+
+def test_a_basis_kept_for_loads_at_other_places_is_not_taken(monkeypatch):
+    """A push on the far edge of the soil, which the first basis has never seen."""
+    problem = soil_block(steps=100)
+    integrate_reduced(problem, 1e-4)
+    forces = problem.loading.forces.copy()
+    far = int(np.flatnonzero(problem.constraints.T.sum(axis=1))[-3])
+    forces[:, 1] = 0.0
+    forces[far, 1] = 2e4
+    other = replace(problem, loading=replace(problem.loading, forces=forces))
+    whole, _, reduced, history = both(other, 1e-4)
+    assert history.loop == "reduced"
+    alone = Recorder(101)
+    _PAIRS.clear()
+    integrate_reduced(other, 1e-4, [alone])
+    np.testing.assert_array_equal(reduced.of("u"), alone.of("u"))
+    assert relative(reduced.of("u"), whole.of("u")) <= 2 * history.reduction.estimate
+
+
+@pytest.mark.parametrize("worst", [0, 1, 2])
+def test_the_estimate_is_the_worst_of_jumps_displacements_and_rotations(worst):
+    """Two traces in the same coordinates, of which one group differs by 30 %, the others by 1."""
+    names = ("UX", "RZ")
+    numbering = SimpleNamespace(unknowns=names, codes=np.array([0, 1]))
+    whole = SimpleNamespace(X=np.eye(2), size=2, whole=lambda z: z)
+    rows = np.ones((3, 2))
+    changes = np.where(np.arange(3) == worst, 1.3, 1.01)
+
+    def chunk(jumps, fields):
+        parts = SimpleNamespace(jumps=jumps * np.ones((3, 4)), u=fields, v=rows, a=rows)
+        return SimpleNamespace(steps=np.arange(3), rows=parts)
+
+    trace = SimpleNamespace(model=whole)
+    difference = Difference(SimpleNamespace(numbering=numbering))
+    difference.take(trace, trace, chunk(changes[0], rows * changes[1:]), chunk(1.0, rows))
+    assert difference.estimate == pytest.approx(0.3)
+    assert difference.relative[:3] == pytest.approx(changes - 1)
 
 
 def test_damping_that_is_not_symmetric_runs_the_whole_model():

@@ -1,0 +1,207 @@
+"""Plastic continuous elements in finite displacements: large rotations, small strains.
+
+The law of small strains is taken between Green-Lagrange strains and second Piola-Kirchhoff
+stresses (Bathe, Finite Element Procedures, section 6.6.3: total Lagrangian, large displacements and
+small strains). At each state the zone is an elastic one with the consistent tangent as moduli and
+an initial stress that gives the law's: forces, tangent and Cauchy stresses are then those of
+`FiniteSolid`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import FieldError
+from ssilang.kernel.elements.families import family_of
+from ssilang.kernel.elements.family import cell_block
+from ssilang.kernel.elements.zone_fields import zone_field
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.materials.model import Zone
+from ssilang.kernel.matrices.assembly import Numbering, block_indices
+from ssilang.kernel.plasticity.bulk import Answer, State, without_stiffness
+from ssilang.kernel.plasticity.finite import FiniteBulk, FiniteSolid, finite_bulk, finite_zone
+from ssilang.kernel.plasticity.points import PlasticPoints, PointState
+from ssilang.kernel.plasticity.zone_points import plastic_points
+
+Fields = tuple[CellField | None, CellField | None, CellField | None]
+"""Cauchy stresses, internal variables, plastic strains; None: none."""
+
+
+@dataclass(frozen=True, eq=False)
+class YieldingSolid:
+    """A zone: its kinematics in finite displacements, its law at the points."""
+
+    solid: FiniteSolid
+    points: PlasticPoints
+
+    def strains(self, u: FloatArray) -> FloatArray:
+        """Green-Lagrange strains (m, 6) of the displacements (n_cells, n_rows)."""
+        own = self.solid._strain(self.solid._transformation(u))
+        return self.points.spread(np.moveaxis(own, -1, 1))
+
+    def at(self, u: FloatArray, stress: FloatArray, tangent: FloatArray | None) -> FiniteSolid:
+        """The elastic zone with these stresses (m, 6) and this tangent (m, 6, 6) at u."""
+        D = self.solid.moduli
+        if tangent is not None:
+            chosen = np.array(self.points.components)
+            D = tangent[:, chosen[:, None], chosen[None, :]].reshape(D.shape)
+        own = self.solid._strain(self.solid._transformation(u))
+        wanted = np.moveaxis(self.points.gathered(stress), 1, -1)
+        return replace(self.solid, moduli=D, initial=wanted - np.einsum("npij,npj->npi", D, own))
+
+
+@dataclass(frozen=True, eq=False)
+class YieldingBulk(FiniteBulk):
+    """Bodies in finite displacements some of which yield; their state: u (n,), then the points'.
+
+    Attributes
+    ----------
+    yielding : tuple of YieldingSolid
+    at : tuple of array (n_cells, n_rows)
+        Unknown of each row of each element vector of these.
+    """
+
+    yielding: tuple[YieldingSolid, ...] = ()
+    at: tuple[NDArray[np.int32], ...] = ()
+
+    @property
+    def symmetric(self) -> bool:
+        """Whether all tangents are."""
+        return all(z.points.law.symmetric for z in self.yielding)
+
+    @property
+    def searched(self) -> bool:
+        """Newton's steps are cut where what is out of balance would grow."""
+        return True
+
+    def respond(self, state: State, du: FloatArray, time: float) -> Answer:
+        """Forces and tangent after a step `du` (n,)."""
+        before, old = _parts(state)
+        u = before + du
+        force = self._sum(u)
+        tangents = [z.tangent(u[p]) for z, p in zip(self.finite, self.places, strict=True)]
+        after = []
+        for zone, places, last in zip(self.yielding, self.at, old, strict=True):
+            points = zone.points
+            strain = zone.strains(u[places]) - zone.strains(before[places])
+            found, whole = points.respond(last.stress, strain, last.variables, time - last.time)
+            elastic = np.einsum(
+                "mij,mj->mi", points.parameters.compliance, found.stress - last.stress
+            )
+            after.append(
+                PointState(
+                    found.stress, last.plastic + whole - elastic, last.free, found.variables, time
+                )
+            )
+            now = zone.at(u[places], found.stress, found.tangent)
+            force += np.bincount(places.ravel(), now.forces(u[places]).ravel(), self.size)
+            tangents.append(now.tangent(u[places]))
+        whole_answer = replace(self, places=(*self.places, *self.at))
+        work = 0.5 * float((self.force(state) + force) @ du)
+        return Answer(force, whole_answer._assembled(tangents), _state(u, after), work)
+
+    def force(self, state: State) -> FloatArray:
+        """Internal forces (n,) of a state."""
+        u, points = _parts(state)
+        total = self._sum(u)
+        for zone, places, last in zip(self.yielding, self.at, points, strict=True):
+            now = zone.at(u[places], last.stress, None)
+            total += np.bincount(places.ravel(), now.forces(u[places]).ravel(), self.size)
+        return total
+
+    def stored(self, state: State) -> float:
+        """Elastic energy."""
+        total = super().stored(state)
+        for zone, last in zip(self.yielding, _parts(state)[1], strict=True):
+            strain = np.einsum("mij,mj->mi", zone.points.parameters.compliance, last.stress)
+            density = np.einsum("mi,mi->m", strain, last.stress)
+            total += 0.5 * float(density @ zone.points.weights.ravel())
+        return total
+
+    def stresses(self, state: State) -> list[CellFieldBlock]:
+        """Cauchy stresses."""
+        u, points = _parts(state)
+        blocks = super().stresses(state)
+        for zone, places, last in zip(self.yielding, self.at, points, strict=True):
+            shown = zone.at(u[places], last.stress, None).shown(u[places])
+            where = zone.points.zone
+            blocks.append(cell_block(where, family_of(where).stress_names(where), shown))
+        return blocks
+
+    def variables(self, state: State) -> list[CellFieldBlock]:
+        """Internal variables."""
+        pairs = zip(self.yielding, _parts(state)[1], strict=True)
+        return [z.points.variable_block(s) for z, s in pairs]
+
+    def plastic_strains(self, state: State) -> list[CellFieldBlock]:
+        """Plastic strains."""
+        pairs = zip(self.yielding, _parts(state)[1], strict=True)
+        blocks = (z.points.plastic_block(s) for z, s in pairs)
+        return [b for b in blocks if b is not None]
+
+
+def _state(u: FloatArray, points: Sequence[PointState]) -> State:
+    return cast(State, (u.copy(), *points))
+
+
+def _parts(state: State) -> tuple[FloatArray, tuple[PointState, ...]]:
+    u, *points = cast("tuple[Any, ...]", state)
+    return u, tuple(points)
+
+
+def yielding_bulk(
+    elastic: Sequence[Zone],
+    plastic: Sequence[Zone],
+    material: CellField,
+    numbering: Numbering,
+    u: FloatArray,
+    given: Fields,
+    time: float,
+) -> tuple[YieldingBulk, State]:
+    """Zones placed on a numbering, and their state at the displacement u (n,).
+
+    Raises
+    ------
+    FieldError
+        For elements other than continuous ones, and creep.
+    """
+    base = finite_bulk(elastic, material, numbering, u, given[0])
+    zones, places, states = [], [], []
+    for zone in plastic:
+        solid, points = finite_zone(zone, material), plastic_points(zone, material)
+        if not isinstance(solid, FiniteSolid) or points.law.timed:
+            raise FieldError("kernel.plasticity.finite-yielding-not-built", element=zone.element)
+        at: NDArray[np.int32] = block_indices(without_stiffness(zone), numbering).astype(np.int32)
+        made = YieldingSolid(solid, points)
+        zones.append(made)
+        places.append(at)
+        states.append(_start(made, u[at], given, time))
+    bulk = YieldingBulk(
+        (), base.places, numbering.size, {}, base.finite, tuple(zones), tuple(places)
+    )
+    return bulk, _state(u, states)
+
+
+def _start(made: YieldingSolid, u: FloatArray, given: Fields, time: float) -> PointState:
+    """The state of one zone's points: what fields hold, else virgin."""
+    points = made.points
+    zero = np.zeros((points.count, 6))
+    blank = PointState(zero, zero, zero, np.zeros((points.count, len(points.law.variables))), time)
+    state, _ = points.restored(blank, None, given[1], given[2])
+    if given[0] is None:
+        return state
+    names = family_of(points.zone).stress_names(points.zone)
+    seen = zone_field(points.zone, given[0])
+    if not any(n in seen for n in names):
+        return state
+    values = seen.matrix(names, "STRESSES")
+    values = np.broadcast_to(values, (*values.shape[:2], points.weights.shape[1]))
+    solid = made.solid.stressed(values, u)
+    home = solid._stress(solid._transformation(u))
+    return replace(state, stress=points.spread(np.moveaxis(home, -1, 1)))

@@ -1,0 +1,109 @@
+"""Warnings of what is not joined as it looks: supports, joints and ends of beams."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.interface.elements import is_joint
+from ssilang.kernel.materials.model import Model, Zone
+from ssilang.kernel.matrices.matrix import Matrix
+
+_KEY = "connections"
+
+
+def warn_connections(
+    session: Any,
+    span: Any,
+    operator: str,
+    matrix: Matrix,
+    model: Model | None = None,
+    characteristics: CellField | None = None,
+) -> None:
+    """Warn, once a matrix, of what is not joined as it looks.
+
+    Held nodes without stiffness on nodes of the body (lines made twice), joints whose sides are
+    swapped, beams that end on one node of a solid. Joints are those of `model`, whose law stands
+    beside the matrix, without it those that the matrix was made from.
+    """
+    if _KEY in matrix.cache:
+        return
+    matrix.cache[_KEY] = True
+    _warn_doubled_supports(session, span, operator, matrix, model)
+    made = _joints_in(matrix)
+    if model is None and made:
+        model = Model(made)
+    _warn_swapped_joints(session, span, operator, matrix, model, characteristics)
+    _warn_hinges(session, span, operator, matrix, model)
+
+
+def _joints_in(matrix: Matrix) -> tuple[Zone, ...]:
+    """Joints between lines and faces that the matrix was made from, which need no axes given."""
+    zones = (b.zone for b in matrix.blocks if b.zone is not None)
+    found = {id(z): z for z in zones if is_joint(z) and z.element != "JOI1"}
+    return tuple(found.values())
+
+
+def _warn_doubled_supports(
+    session: Any, span: Any, operator: str, matrix: Matrix, model: Model | None
+) -> None:
+    from ssilang.kernel.statics.doubled import doubled_supports
+
+    used = None if model is None or not model.zones else model.mesh.node_ids
+    found = doubled_supports(matrix, used)
+    if found is None:
+        return
+    x, y, z = matrix.table.coordinates[found.held[0]]
+    session.warn(
+        "operators.matrices.held-nodes-without-stiffness",
+        span,
+        operator=operator,
+        n_held=len(found.held),
+        x=x,
+        y=y,
+        z=z,
+    )
+
+
+def _warn_swapped_joints(
+    session: Any,
+    span: Any,
+    operator: str,
+    matrix: Matrix,
+    model: Model | None,
+    characteristics: CellField | None,
+) -> None:
+    from ssilang.kernel.mesh.nodes import told_coordinates
+    from ssilang.kernel.statics.sides import swapped_joints
+
+    for found in swapped_joints(matrix, model, characteristics):
+        session.warn(
+            "operators.matrices.sides-swapped",
+            span,
+            operator=operator,
+            place=told_coordinates(matrix.table.shown(np.round(found.middle, 9))),
+            points=found.points,
+            overlap=found.overlap,
+        )
+
+
+def _warn_hinges(
+    session: Any, span: Any, operator: str, matrix: Matrix, model: Model | None
+) -> None:
+    from ssilang.kernel.statics.hinges import hinges
+
+    joints = tuple(z for z in model.zones if is_joint(z)) if model is not None else ()
+    found = hinges(matrix, joints)
+    if found is None:
+        return
+    session.warn(
+        "operators.matrices.beam-ends-on-solid",
+        span,
+        operator=operator,
+        rotations=found.rotations,
+        node=matrix.table.told(int(found.nodes[0])),
+        more=len(found.nodes) - 1,
+        shell=found.shell,
+    )

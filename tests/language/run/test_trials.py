@@ -1,0 +1,31 @@
+"""Forms that operands cannot fit are not tried; what was found to try never hides another form."""
+
+import pytest
+
+from ssilang.cli.run import run_text
+from ssilang.language.run.call import Call
+
+FIELD = "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 2 'UX' 3. 'UY' 4. ;\n"
+
+
+@pytest.mark.parametrize("phrase", ["X = EXCO C 'UX'", "X = EXCO C (MOTS 'UX')", "X = MAXI C"])
+def test_no_error_is_made_where_a_later_form_fits(monkeypatch, phrase):
+    made = []
+    missing = Call.missing
+    monkeypatch.setattr(Call, "missing", lambda self, t: made.append(t) or missing(self, t))
+    assert run_text(f"{FIELD}{phrase} ;").exit_code == 0
+    assert not made
+
+
+def test_one_place_reads_other_types_and_words_at_each_turn():
+    script = (
+        f"{FIELD}T = TABL ; T . 1 = MOT 'UX' ; T . 2 = MOTS 'UY' ; T . 3 = MOT 'UY' ; S = 0. ;\n"
+        "REPE B 3 ; S = S + (MAXI (EXCO C (T . &B))) ; FIN B ;"
+    )
+    assert run_text(script).session.root.find("S") == 3.0 + 4.0 + 4.0
+
+
+def test_the_error_is_the_same_the_second_time():
+    first, second = (run_text("X = EXCO 3. 4. ;").message for _ in range(2))
+    assert first == second
+    assert "EXCO" in first

@@ -1,0 +1,78 @@
+"""FORM with a model: axes of beams and joints follow a motion, as the whole structure turned."""
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+NAMES = ("UX", "UY", "UZ", "RX", "RY", "RZ")
+TURN = np.array([0.3, -0.4, 0.9])
+"""Rotation vector, 59 degrees about an axis along nothing."""
+
+
+def _motion(points):
+    """A rigid turn of points, as a statement that makes the field U."""
+    parts = []
+    for name, place in points.items():
+        moved = Rotation.from_rotvec(TURN).apply(place) - place
+        values = [*moved, *TURN]
+        words = " ".join(f"'{n}' {v:.17g}" for n, v in zip(NAMES, values, strict=True))
+        parts.append(f"(MANU 'CHPO' {name} {words} 'NATURE' 'DIFFUS')")
+    return "U = " + " ET ".join(parts) + " ; "
+
+
+def _assembled(matrix):
+    block = matrix.blocks[0]
+    return np.asarray(block.values[0])
+
+
+def _turned(K):
+    R = np.kron(np.eye(len(K) // 3), Rotation.from_rotvec(TURN).as_matrix())
+    return R @ K @ R.T
+
+
+POINTS = {"PA": np.array([1.0, 0.0, 0.0]), "PB": np.array([2.0, 2.0, 1.0])}
+START = (
+    "OPTI DIME 3 ELEM SEG2 ; PA = 1. 0. 0. ; PB = 2. 2. 1. ; L = MANU 'SEG2' PA PB ; "
+    + _motion(POINTS)
+)
+BEAM = (
+    "M = MODE L MECANIQUE ELASTIQUE POUT ; A = MATE M 'YOUN' 3. 'NU' 0.25 'SECT' 1.5 'INRY' 2. "
+    "'INRZ' 0.7 'TORS' 0.9 'VECT' (0. 1. 1.) ; "
+)
+JOINT = (
+    "M = MODE L MECANIQUE ELASTIQUE JOI1 'LIE' ; A = MATE M 'DIRECTION' (0. 1. 0.) (1. 0. 0.) "
+    "'KN' 5. 'KS1' 2. 'KS2' 3. 'QN' 1. 'QS1' 4. 'QS2' 6. ; "
+)
+
+
+@pytest.mark.parametrize("model", [BEAM, JOINT], ids=["beam", "joint"])
+@pytest.mark.parametrize("order", ["U M A", "M A U", "M U A"])
+def test_stiffness_of_the_turned_structure_is_the_turned_stiffness(found, model, order):
+    before, after = found(
+        START + model + f"K1 = RIGI M A ; C B = FORM {order} ; K2 = RIGI M B ;", "K1", "K2"
+    )
+    assert _assembled(after) == pytest.approx(_turned(_assembled(before)), abs=1e-12)
+
+
+def test_axes_of_free_joints_stay(found):
+    script = START + JOINT.replace("'LIE'", "'LIBRE'")
+    before, after = found(script + "K1 = RIGI M A ; C B = FORM U M A ; K2 = RIGI M B ;", "K1", "K2")
+    lever = _assembled(after)[:3, :3]
+    assert lever == pytest.approx(_assembled(before)[:3, :3], abs=1e-12)
+
+
+def test_axes_of_a_flat_joint(found):
+    x, y = found(
+        "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; L = DROI 1 (0. 0.) (0. 0.1) ; "
+        "M = MODE L 'MECANIQUE' 'ELASTIQUE' 'JOI1' 'LIE' ; "
+        "A = MATE M 'DIRECTION' (0. 1.) 'KN' 4. 'KS' 1. ; "
+        "C B = FORM (MANU 'CHPO' L 'RZ' (PI / 6.)) M A ; "
+        "X = EXTR B 'V1X' 1 1 1 ; Y = EXTR B 'V1Y' 1 1 1 ;",
+        "X", "Y",
+    )  # fmt: skip
+    assert (x, y) == pytest.approx((-0.5, np.sqrt(3) / 2))
+
+
+def test_a_model_alone_is_refused_and_moves_nothing(refused):
+    said = refused(START + BEAM + "C B = FORM U M ;")
+    assert "wanted a MCHAML" in said

@@ -1,0 +1,103 @@
+"""Numbers past what a calculation can hold are told, wherever they come in."""
+
+from __future__ import annotations
+
+import pytest
+
+from ssilang.cli.run import run_text
+from ssilang.messages.message import sentence
+
+NAN = "X = EXTR ((PROG 0.) / (PROG 0.)) 1 ; Y = EXTR ((PROG 1.) / (PROG 0.)) 1 ; "
+PLANE = "OPTI DIME 2 ELEM SEG2 ; "
+
+
+def code_of(text, folder):
+    result = run_text(text, folder)
+    assert [e.code for e in result.errors] != [] or result.exit_code == 0
+    return result.errors[0].code if result.errors else ""
+
+
+@pytest.mark.parametrize(
+    ("text", "code"),
+    [
+        ("Z = FLOT (10 ** 400) ;", "number-too-large"),
+        ("Z = PROG (10 ** 400) ;", "number-too-large"),
+        ("Z = COS (10 ** 400) ;", "number-too-large"),
+        ("Z = (10 ** 400) * 1. ;", "arithmetic"),
+        ("Z = 10. ** 400 ;", "arithmetic"),
+        ("Z = 10 ** 4000 ;", "arithmetic"),
+        ("Z = ENTI (10 ** 400) ;", "number-too-large"),
+        ("Z = ENTI 1.E300 ;", "operators.numbers.integer-too-large"),
+        ("Z = ENTI 9.E18 ;", ""),
+        ("Z = 0 ** (-1) ;", "arithmetic"),
+        ("Z = 1 / 0 ;", "arithmetic"),
+        ("Z = LECT (10 ** 400) ;", "operators.lists.integer-too-large"),
+        ("Z = PROG 1000000000 * 0. ;", "operators.lists.too-long"),
+        ("Z = PROG 1000000 * 0. ;", ""),
+        ("Z = EXTR (PROG 1.) (10 ** 400) ;", "operators.lists.no-such-place"),
+        (PLANE + "L = DROI (10 ** 400) (0 0) (1 0) ;", "number-too-large"),
+        (PLANE + "P = (10 ** 400) (10 ** 400) ;", "number-too-large"),
+        (PLANE + "L = DROI 1 (0 0) (1.E300 0) ;", "kernel.mesh.node-out-of-range"),
+        (PLANE + "P = 1.E300 0. ;", "kernel.mesh.node-out-of-range"),
+        (PLANE + "P = 1.E99 0. ;", ""),
+        (NAN + PLANE + "P = X 0. ;", "kernel.mesh.node-out-of-range"),
+        (NAN + PLANE + "L = DROI (0 0) (1 0) 'DINI' X 'DFIN' 1. ;", "mesh-sizes-must-positive"),
+        (NAN + PLANE + "L = DROI (0 0) (1 0) 'DINI' 1. 'DFIN' Y ;", "mesh-sizes-must-positive"),
+        (NAN + "L = PROG 0. PAS X 1. ;", "operators.lists.steps-not-finite"),
+        (NAN + "L = PROG X PAS 0.1 1. ;", "operators.lists.steps-not-finite"),
+        (NAN + "L = PROG 0. PAS 0.1 Y ;", "operators.lists.too-long"),
+        (NAN + "L = PROG 0. PAS Y 1. ;", "operators.lists.steps-not-finite"),
+        (NAN + "L = PROG X * 3. ;", "operators.lists.repetition-count"),
+    ],
+)
+def test_a_number_that_is_too_large_or_none_is_told(text, code, tmp_path):
+    found = code_of(text, tmp_path)
+    assert found.endswith(code) if code else found == ""
+
+
+def test_an_operator_that_fails_over_nan_names_the_operand(tmp_path):
+    curve = "E = EVOL 'MANU' (PROG 0. PAS 0.02 NPAS 100) (PROG 101 * 1.) ; "
+    text = curve + "R = ONDE 5 E 'CRMO' 'FMIN' 1. 'FMAX' 3. 'NFRQ' {} ;"
+    result = run_text(NAN + text.format("X"), tmp_path)
+    assert [e.code for e in result.errors] == ["operand-not-finite"]
+    assert result.errors[0].span.text == "X"
+    assert result.message.startswith("error: ONDE cannot calculate with X, ")
+    assert run_text(NAN + text.format("5"), tmp_path).exit_code == 0
+
+
+def test_an_operator_that_fails_over_a_field_names_it(tmp_path):
+    text = (
+        "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; S = (DROI 1 (1 0) (2 0)) TRAN 1 (0. 1.) ;"
+        "M = MODE S 'MECANIQUE' 'ELASTIQUE' ; X2 Y2 = COOR S ;"
+        "U = (NOMC 'UX' (X2 * {})) ET (NOMC 'UY' (Y2 * 0.1)) ; G = GRAD M U ; R V = POLA M G ;"
+    )
+    result = run_text(NAN + text.format("Y"), tmp_path)
+    assert result.exit_code == 1
+    assert "internal" not in [e.code for e in result.errors]
+    assert run_text(NAN + text.format("0.1"), tmp_path).exit_code == 0
+
+
+@pytest.mark.parametrize(
+    ("text", "wanted"),
+    [
+        ("Z = 3 EGA Y ;", False),
+        ("Z = Y EGA 3 ;", False),
+        ("Z = 3 EGA X ;", False),
+        ("Z = 3 EGA 3.7 ;", True),  # the second number is cut to the type of the first
+        ("Z = (10 ** 400) EGA Y ;", False),
+        ("Z = (10 ** 400) EGA (10 ** 400) ;", True),
+        ("Z = (10 ** 400) < Y ;", True),
+    ],
+)
+def test_huge_numbers_compare(text, wanted, tmp_path):
+    result = run_text(NAN + text, tmp_path)
+    assert result.exit_code == 0, result.message
+    assert result.session.root.find("Z") is wanted
+
+
+def test_a_message_shows_an_integer_that_is_no_real():
+    data = {"start": 10**400, "step": 1, "end": 2}
+    assert "1000000000" in sentence("operators.lists.steps-not-finite", data, "en")
+    assert "steps of 1 from 3 to 2" in sentence(
+        "operators.lists.steps-not-finite", {**data, "start": 3}, "en"
+    )

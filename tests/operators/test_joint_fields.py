@@ -1,0 +1,76 @@
+"""Fields of joints: where their points are, how far these are open, which are open."""
+
+import numpy as np
+import pytest
+
+JOINT = (
+    "OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ; L1 = DROI 3 (0. 0.) (3. 0.) ; L2 = L1 PLUS (0. 0.) ; "
+    "J = RACC 1.E-3 L2 L1 ; M = MODE J MECANIQUE ELASTIQUE JOI2 ; "
+)
+GAUSS = np.array([i + 0.5 + s / 2 / np.sqrt(3.0) for i in range(3) for s in (-1, 1)])
+
+
+def _at_points(field):
+    return np.concatenate([np.ravel(b.components["SCAL"]) for b in field.blocks])
+
+
+@pytest.mark.parametrize(
+    "statement",
+    [
+        "C = CHAN 'CHAM' (COOR 1 J) M 'STRESSES'",
+        "C = CHAN 'CHAM' (COOR 1 L1) M 'STRESSES'",
+        "C = CHAN 'CHAM' (COOR 1 L2) M 'STRESSES'",
+        "C = CHAN 'STRESSES' M (CHAN 'CHAM' (COOR 1 L1) M)",
+        "C = CHAN 'STRESSES' (COOR 1 M) M",
+        "C = COOR 1 (EPSI M (MANU 'CHPO' J 1 'UX' 0.))",
+    ],
+)
+def test_coordinates_of_the_points_of_joints(found, statement):
+    """From both sides, or from one of them alone, which are at one place."""
+    assert _at_points(found(JOINT + statement + " ;", "C")) == pytest.approx(GAUSS, abs=1e-14)
+
+
+def test_sides_that_differ_give_their_mean(found):
+    mean, low = found(
+        JOINT + "F = (MANU 'CHPO' L1 1 'SCAL' 2.) ET (MANU 'CHPO' L2 1 'SCAL' 5.) ; "
+        "C = CHAN 'CHAM' F M 'STRESSES' ; N = CHAN 'CHAM' F M ; X = MAXI C ; Y = MINI N ;",
+        "X", "Y",
+    )  # fmt: skip
+    assert mean == pytest.approx(3.5)
+    assert low == 2.0
+
+
+def test_field_of_joints_at_nodes_stands_on_both_sides(found):
+    points, low, gap = found(
+        JOINT + "E = EPSI M (MANU 'CHPO' L2 1 'UY' 0.25) ; C = CHAN 'CHPO' M E ; "
+        "N = NBNO (EXTR C 'MAIL') ; X = MINI (EXCO 'DRN' C) ; "
+        "G = MAXI 'ABS' ((CHAN 'CHPO' M (COOR 1 M)) - (COOR 1 J)) ;",
+        "N", "X", "G",
+    )  # fmt: skip
+    assert (points, low, gap) == (8, pytest.approx(0.25), 0.0)
+
+
+def test_coordinates_of_joints_of_two_points(found):
+    script = (
+        "OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ; PA = 0. 1. ; PB = 0. 3. ; B = MANU 'SEG2' PA PB ; "
+        "M = MODE B MECANIQUE ELASTIQUE JOI1 ; X = MAXI (CHAN 'STRESSES' (COOR 2 M) M) ; "
+        "Y = MAXI (CHAN 'CHAM' (COOR 2 B) M 'STRESSES') ; "
+        "Z = MAXI (COOR 2 (CHAN 'STRESSES' (COOR 2 M) M)) ;"
+    )
+    assert found(script, "X", "Y", "Z") == (2.0, 2.0, 2.0)
+
+
+def test_open_points_are_found(found):
+    """The upper side turned about (0, 0) by 0.1 and pushed down by 0.15: open where x > 1.5."""
+    points, x, gap, cells, direct = found(
+        JOINT + "U = NOMC 'UY' ((0.1 * (COOR 1 L2)) - 0.15) ; E = EPSI M U ; "
+        "P = EXCO 'DRN' (CHAN 'CHPO' M E 'SUPP') 'SCAL' ; O = P POIN 'SUPERIEUR' 0. ; "
+        "N = NBNO O ; X = MINI (COOR 1 O) ; G = MAXI P ; "
+        "C = NBEL (E ELEM 'SUPERIEUR' 0. 'AVEC' (MOTS 'DRN')) ; "
+        "D = NBNO (E POIN 'SUPERIEUR' 0. 'AVEC' (MOTS 'DRN')) ;",
+        "N", "X", "G", "C", "D",
+    )  # fmt: skip
+    assert points == direct == 3
+    assert x == pytest.approx(GAUSS[3])
+    assert gap == pytest.approx(0.1 * GAUSS[-1] - 0.15)
+    assert cells == 2

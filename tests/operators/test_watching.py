@@ -1,0 +1,72 @@
+"""Largest values of a motion over all its steps, and structures that leave the ground."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from ssilang.cli.run import run_text
+from ssilang.kernel.statics.linear import reactions
+
+OSCILLATOR = """
+OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; T = TABL ;
+T . 'RIGI' = (RIGI 'DEPL' 100. P1) ET (BLOQ 'UY' P1) ;
+T . 'MASS' = MASS 'DEPL' 1. P1 ;
+T . 'CHAR' = CHAR 'MECA' (FORC 'FX' 1. P1) (EVOL MANU (PROG 0. 9.) (PROG 1. 1.)) ;
+T . 'TEMPS_CALCULES' = PROG 0. 'PAS' 1.E-3 1.2 ; T . 'PAS_SAUVES' = 'FINAL' ;
+T . 'EXTREMES' = VRAI ;
+"""
+
+BLOCK = """
+OPTI DIME 2 ELEM QUA4 MODE PLAN DEFO ;
+C = DROI 4 (0. 0.) (1. 0.) ; SOL = C TRAN 2 (0. -1.) ;
+A = DROI 4 (0. 0.) (1. 0.) ; BLOC = A TRAN 2 (0. 1.) ;
+J = RACC 0.01 A C ; M = MODE (SOL ET BLOC) 'MECANIQUE' 'ELASTIQUE' ;
+MA = MATE M 'YOUN' 1.E9 'NU' 0. 'RHO' 2000. ;
+MJ = MODE J 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' ; AJ = MATE MJ 'KN' 1.E8 'KS' 1.E8 ;
+T = TABL ; T . 'MODELE' = MJ ; T . 'CARACTERISTIQUES' = AJ ;
+T . 'RIGI' = (RIGI M MA) ET (BLOQ 'DEPL' (COTE 3 SOL)) ; T . 'MASS' = MASS M MA ;
+T . 'CHAR' = CHAR 'MECA' ((T . 'MASS') * (MANU 'CHPO' BLOC 1 'UY' {g}))
+  (EVOL MANU (PROG 0. 9.) (PROG 1. 1.)) ;
+T . 'TEMPS_CALCULES' = PROG 0. 'PAS' 2.E-4 0.2 ; T . 'EXTREMES' = VRAI ;
+"""
+
+
+def ran(text):
+    result = run_text(text)
+    assert result.exit_code == 0, result.message
+    return result
+
+
+@pytest.mark.parametrize("loop", ["", "T . 'NEWTON_COMPLET' = VRAI ;", "T . 'REDUCTION' = 1.E-6 ;"])
+def test_the_peak_of_an_oscillator_is_found_though_its_step_is_not_kept(loop):
+    result = ran(OSCILLATOR + loop + "R = DYNAMIC T ;")
+    table = result.session.root.find("T").get("RESULTATS_EXTREMES")
+    peak = table.get("DEPL").get("UX")
+    assert peak.get("VALEUR") == pytest.approx(0.02, rel=1e-5)  # 2 F/k
+    assert peak.get("TEMPS") == pytest.approx(np.pi / 10.0, abs=1.1e-3)
+    assert peak.get("POINT").coordinates[:2].tolist() == [0.0, 0.0]
+
+
+@pytest.mark.parametrize("step", ["", "T . 'CONSERVATIF' = VRAI ;"])
+def test_extremes_are_those_of_all_steps_kept(step):
+    result = ran(BLOCK.format(g=-9.81) + step + "T . 'PAS_SAUVES' = 1 ; R = DYNAMIC T ;")
+    table = result.session.root.find("T").get("RESULTATS_EXTREMES")
+    kept = [row for place, row in result.session.root.find("R").items() if type(place) is int]
+    lowest = min(float(row.get("DEPL").components["UY"].values.min()) for row in kept)
+    assert table.get("DEPL").get("UY").get("VALEUR") == pytest.approx(lowest, rel=1e-12)
+    pressure = min(float(b.components["SMN"].min()) for r in kept
+                   for b in r.get("CONTRAINTES").blocks)  # fmt: skip
+    assert table.get("COMPRESSION").get("VALEUR") == pytest.approx(pressure, rel=1e-12)
+    assert table.get("COMPRESSION").get("COORDONNEES").values[1] == 0.0
+    matrix = result.session.root.find("T").get("RIGI")
+    forces = np.array([reactions(matrix, r.get("DEPL")).components["FY"].values for r in kept])
+    peak = forces.ravel()[np.abs(forces).argmax()]
+    assert table.get("REACTIONS").get("FY").get("VALEUR") == pytest.approx(peak, rel=1e-9)
+
+
+@pytest.mark.parametrize(("g", "warned"), [("9.81", True), ("-9.81", False)])
+def test_a_structure_that_leaves_the_ground_for_good_is_told(g, warned):
+    result = ran(BLOCK.format(g=g) + "R = DYNAMIC T ;")
+    codes = [w.code for w in result.session.warnings]
+    assert ("operators.dynamics.left-for-good" in codes) is warned
