@@ -203,7 +203,8 @@ class Evaluator(PhraseRunner):
             return None
         target, item = statement.targets[0], statement.items[0]
         said = item.text if isinstance(item, tree.Quoted | tree.Name) else ""
-        word, _ = error.data.get("held_word", (said, ""))
+        held = error.data.get("held_word")
+        word = str(held[0]) if isinstance(held, tuple) else said
         index = target.indices[-1] if isinstance(target, tree.Path) else None
         if not word or not isinstance(index, tree.Quoted | tree.Name):
             return None
