@@ -166,7 +166,9 @@ class Checker:
             left = self.phrases.read(statement.items, scope, statement.span, one_name=one)
             values = self._outcome(statement, left)
         except SsiError as error:
-            self._report(error)
+            word = self.session.evaluator.word_of_entry(statement, error)
+            if word is None:
+                self._report(error)
             values = None
         self._assign(statement, values, scope)
 

@@ -13,7 +13,14 @@ from ssilang.kernel.curves.curve import Load
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.matrices.assembly import Numbering, assemble, field_to_vector, numbering_of
 from ssilang.kernel.matrices.matrix import Matrix
-from ssilang.kernel.modal.explicit import SCHEMES, VARIABLES, ModalRun, ModalState, march
+from ssilang.kernel.modal.explicit import (
+    SCHEMES,
+    VARIABLES,
+    ModalProblem,
+    ModalState,
+    ModalSteps,
+    integrate_modes,
+)
 from ssilang.kernel.modal.links import STATES, link_arrays
 from ssilang.kernel.modal.modes import eigenvalue
 from ssilang.kernel.stepping.problem.loading import loading_of
@@ -73,10 +80,11 @@ def _dyne(
     links = links_of(call, tables.get("links"), system.basis)
     start = _start(call, tables.get("start"), system, len(links))
     spaces, amplitudes = _forces(call, tables.get("loads"), system, start.time, h, steps)
-    run = march(
+    problem = ModalProblem(
         system.M, damping_of(call, tables.get("damping"), system), system.K, spaces, amplitudes,
-        link_arrays([r.link for r in links], len(system.M)), start, h, steps, every, scheme,
+        link_arrays([r.link for r in links], len(system.M)),
     )  # fmt: skip
+    run = integrate_modes(problem, start, ModalSteps(h, steps, every, scheme))
     return _results(run, system, links, tables.get("output"))
 
 
@@ -229,7 +237,9 @@ def _values(call: Call, table: Table, name: str, system: System) -> FloatArray |
 # --- what is given back ------------------------------------------------------------------------
 
 
-def _results(run: ModalRun, system: System, links: list[ReadLink], output: Table | None) -> Table:
+def _results(
+    run: ModalProblem, ModalRun, system: System, links: list[ReadLink], output: Table | None
+) -> Table:
     table = Table("RESULTAT_DYNE")
     table.set(Mot("TEMPS_DE_SORTIE"), ListReel(run.times))
     variables = None if output is None else output.get("VARIABLE")
@@ -245,7 +255,9 @@ def _results(run: ModalRun, system: System, links: list[ReadLink], output: Table
     return table
 
 
-def _as_fields(table: Table, run: ModalRun, system: System, chosen: list[int]) -> None:
+def _as_fields(
+    table: Table, run: ModalProblem, ModalRun, system: System, chosen: list[int]
+) -> None:
     for step, values in enumerate(run.values):
         entry = Table()
         for i in chosen:
@@ -253,7 +265,7 @@ def _as_fields(table: Table, run: ModalRun, system: System, chosen: list[int]) -
         table.set(step + 1, entry)
 
 
-def _as_lists(table: Table, run: ModalRun, system: System, chosen: list[int]) -> None:
+def _as_lists(table: Table, run: ModalProblem, ModalRun, system: System, chosen: list[int]) -> None:
     """A list for a single mode, else a table of lists by the number of the mode."""
     for i in chosen:
         lists = [ListReel(run.values[:, i, j]) for j in range(len(system.M))]
@@ -263,7 +275,9 @@ def _as_lists(table: Table, run: ModalRun, system: System, chosen: list[int]) ->
         table.set(Mot(VARIABLES[i]), lists[0] if len(lists) == 1 else numbered)
 
 
-def _add_links(table: Table, run: ModalRun, links: list[ReadLink], output: Table | None) -> None:
+def _add_links(
+    table: Table, run: ModalProblem, ModalRun, links: list[ReadLink], output: Table | None
+) -> None:
     for name in ("LIAISON_A", "LIAISON_B"):
         asked = None if output is None else output.get(Mot(name))
         if not isinstance(asked, Table):
@@ -275,7 +289,7 @@ def _add_links(table: Table, run: ModalRun, links: list[ReadLink], output: Table
                 table.set(read.table, made)
 
 
-def _restart(run: ModalRun, system: System) -> Table:
+def _restart(run: ModalProblem, ModalRun, system: System) -> Table:
     last = run.last
     assert last.before is not None
     assert last.q_before is not None
