@@ -238,7 +238,7 @@ def _values(call: Call, table: Table, name: str, system: System) -> FloatArray |
 
 
 def _results(
-    run: ModalProblem, ModalRun, system: System, links: list[ReadLink], output: Table | None
+    run: ModalRun, system: System, links: list[ReadLink], output: Table | None
 ) -> Table:
     table = Table("RESULTAT_DYNE")
     table.set(Mot("TEMPS_DE_SORTIE"), ListReel(run.times))
@@ -256,7 +256,7 @@ def _results(
 
 
 def _as_fields(
-    table: Table, run: ModalProblem, ModalRun, system: System, chosen: list[int]
+    table: Table, run: ModalRun, system: System, chosen: list[int]
 ) -> None:
     for step, values in enumerate(run.values):
         entry = Table()
@@ -265,7 +265,7 @@ def _as_fields(
         table.set(step + 1, entry)
 
 
-def _as_lists(table: Table, run: ModalProblem, ModalRun, system: System, chosen: list[int]) -> None:
+def _as_lists(table: Table, run: ModalRun, system: System, chosen: list[int]) -> None:
     """A list for a single mode, else a table of lists by the number of the mode."""
     for i in chosen:
         lists = [ListReel(run.values[:, i, j]) for j in range(len(system.M))]
@@ -276,7 +276,7 @@ def _as_lists(table: Table, run: ModalProblem, ModalRun, system: System, chosen:
 
 
 def _add_links(
-    table: Table, run: ModalProblem, ModalRun, links: list[ReadLink], output: Table | None
+    table: Table, run: ModalRun, links: list[ReadLink], output: Table | None
 ) -> None:
     for name in ("LIAISON_A", "LIAISON_B"):
         asked = None if output is None else output.get(Mot(name))
@@ -289,7 +289,7 @@ def _add_links(
                 table.set(read.table, made)
 
 
-def _restart(run: ModalProblem, ModalRun, system: System) -> Table:
+def _restart(run: ModalRun, system: System) -> Table:
     last = run.last
     assert last.before is not None
     assert last.q_before is not None
