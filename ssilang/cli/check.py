@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-from pathlib import Path
 from typing import TextIO
 
 from ssilang.cli.checking.scope import assigned_names
@@ -13,25 +12,19 @@ from ssilang.cli.run import RunOptions, make_session
 from ssilang.language.say.diagnostics import render
 from ssilang.language.say.errors import SeveralErrors, SsiError
 from ssilang.language.text.source import Source
-from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
 from ssilang.language.text.tree import Script
 
 
-def check_file(path: Path, syntax_only: bool, language: str, out: TextIO) -> bool:
-    """Check one script and print what is wrong with it; True if there are errors.
+def check_file(source: Source, syntax_only: bool, language: str, out: TextIO) -> bool:
+    """Check a script's file and print what is wrong with it; True if there are errors.
 
     Parameters
     ----------
     syntax_only : bool
         Look at the structure alone: statements, parentheses, quotes, blocks.
     """
-    try:
-        source = read_source(path)
-    except SsiError as error:
-        problems, names = [error], set[str]()
-    else:
-        problems, names = check_source(source, syntax_only)
+    problems, names = check_source(source, syntax_only)
     for problem in problems:
         out.write(coloured(render(problem, language, names), out) + "\n\n")
     return any(p.severity == "error" for p in problems)

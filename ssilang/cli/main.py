@@ -1,4 +1,4 @@
-"""The command line: `ssilang FILE`, `run`, `check`, `help`, `repl`."""
+"""The command line: `ssilang FILE`, `run`, `check`, `help`, `sweep`, `repl`, `version`."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 OK, FAILED, USAGE = 0, 1, 2
 
-_COMMANDS = ("run", "check", "help", "sweep", "repl")
+_COMMANDS = ("run", "check", "help", "sweep", "repl", "version")
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -30,7 +30,7 @@ def _parser() -> argparse.ArgumentParser:
         epilog="ssilang case.ssi is short for ssilang run case.ssi; ssilang alone is interactive.",
     )
     parser.add_argument("--version", action="version", version=f"ssilang {__version__}")
-    commands = parser.add_subparsers(dest="command", metavar="{run,check,help,sweep,repl}")
+    commands = parser.add_subparsers(dest="command", metavar="{run,check,help,sweep,repl,version}")
     run = commands.add_parser("run", help="run a script (- for standard input)")
     run.add_argument("file", nargs="?")
     _run_arguments(run)
@@ -52,6 +52,7 @@ def _parser() -> argparse.ArgumentParser:
     _sweep_arguments(commands.add_parser("sweep", help="run a script over parameters and motions"))
     repl = commands.add_parser("repl", help="interactive session")
     _run_arguments(repl)
+    commands.add_parser("version", help="version of the program")
     return parser
 
 
@@ -91,6 +92,9 @@ def _run_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--lang", choices=("en", "fr"), default="en", help="language of messages")
     parser.add_argument(
         "-v", "--verbose", action="store_true", help="say by which method motions are calculated"
+    )
+    parser.add_argument(
+        "-q", "--quiet", action="store_true", help="no closing line about files and warnings"
     )
     parser.add_argument("--debug", action="store_true", help="show Python's traceback too")
     parser.add_argument("--max-recursion", type=int, default=200, help="procedure calls in depth")
@@ -253,6 +257,7 @@ def _run_options(options: argparse.Namespace) -> RunOptions:
         allowed=[p.resolve() for p in options.allow],
         language=options.lang,
         debug=options.debug,
+        quiet=options.quiet,
         verbose=options.verbose,
         limits=Limits(options.max_recursion, options.max_statements),
         given=_given(getattr(options, "set", []), options.lang),
@@ -302,11 +307,21 @@ def _sweep(options: argparse.Namespace) -> int:
 
 def _check(options: argparse.Namespace) -> int:
     from ssilang.cli.check import check_file
+    from ssilang.language.say.diagnostics import render
+    from ssilang.language.say.errors import SsiError
+    from ssilang.language.text.source_files import read_source
 
-    failed = [
-        check_file(Path(f), options.syntax_only, options.lang, sys.stdout) for f in options.files
-    ]
-    return FAILED if any(failed) else OK
+    code = OK
+    for file in options.files:
+        try:
+            source = read_source(Path(file))
+        except SsiError as error:
+            sys.stderr.write(render(error, options.lang) + "\n")
+            code = USAGE
+            continue
+        failed = check_file(source, options.syntax_only, options.lang, sys.stdout)
+        code = max(code, FAILED) if failed else code
+    return code
 
 
 def _help(options: argparse.Namespace) -> int:
@@ -321,12 +336,20 @@ def _repl(options: argparse.Namespace) -> int:
     return start(_run_options(options))
 
 
+def _version(options: argparse.Namespace) -> int:
+    from ssilang import __version__
+
+    sys.stdout.write(f"ssilang {__version__}\n")
+    return OK
+
+
 _ACTIONS: dict[str, Callable[[argparse.Namespace], int]] = {
     "run": _run,
     "check": _check,
     "help": _help,
     "sweep": _sweep,
     "repl": _repl,
+    "version": _version,
 }
 
 if __name__ == "__main__":

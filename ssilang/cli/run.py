@@ -20,6 +20,7 @@ from ssilang.language.run.jumps import StopRun
 from ssilang.language.run.session import Limits, Session
 from ssilang.language.say.diagnostics import render
 from ssilang.language.say.errors import ReaderLeft, SeveralErrors, SsiError, interruption, unprinted
+from ssilang.language.say.visible import visible
 from ssilang.language.text.source import Source
 from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
@@ -158,7 +159,7 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
     code = ENDED_BY_CLOSED_PIPE if left else 1 if errors else 0
     result = RunResult(code, session, errors=errors, message=message)
     if options.summary and not refused:  # what stands there is the other run's
-        _summarise(result, source, err)
+        _summarise(result, source, err, options.quiet)
     _release_folder(session)
     return result
 
@@ -239,8 +240,8 @@ def _close_files(session: Session, errors: list[SsiError]) -> None:
         errors.append(SsiError.of(problem, None))
 
 
-def _summarise(result: RunResult, source: Source, err: TextIO) -> None:
-    """Write summary.json; tell a person at a terminal where the files are."""
+def _summarise(result: RunResult, source: Source, err: TextIO, quiet: bool) -> None:
+    """Write summary.json; one line says what the run leaves: files, warnings, energy."""
     from ssilang.cli.summary import write_summary
     from ssilang.io.errors import OutputError
     from ssilang.operators.files.outputs import run_output
@@ -253,9 +254,20 @@ def _summarise(result: RunResult, source: Source, err: TextIO) -> None:
             err.write(render(SsiError.of(problem, None), result.session.language) + "\n")
         result.exit_code = 1
         return
-    if err.isatty() and output.files:
-        told = {"count": len(output.files), "folder": output.directory}
-        err.write(sentence("cli.files-written", told, result.session.language) + "\n")
+    session = result.session
+    calculations: list[dict[str, Any]] = session.statistics.get("calculations", [])
+    imbalances = [c["energy_imbalance"] for c in calculations if c.get("energy_imbalance")]
+    quiet = quiet or result.exit_code == ENDED_BY_CLOSED_PIPE
+    if quiet or not (output.files or session.warnings or calculations):
+        return
+    told = {
+        "count": len(output.files),
+        "folder": output.directory,
+        "warnings": sum(w.severity == "warning" for w in session.warnings),
+        "energy": f"{100.0 * max(imbalances):.2g}" if imbalances else "",
+    }
+    with suppress(OSError):
+        err.write(visible(sentence("cli.files-written", told, session.language)) + "\n")
 
 
 def run_file(path: Path | str, options: RunOptions | None = None) -> RunResult:

@@ -2,9 +2,10 @@
 
 Keys: `deck` (path), `version`, `exit_code`, `seconds`, `statements`, `peak_memory_mb`, `files`
 (list of {`path` relative to the folder of the summary, `bytes`}), `warnings` and `errors` (lists
-of {`code`, `line`, `text`}), `figures` (list of {`name`, `value`, `expected`, `tolerance`, `ok`}:
-what SORT 'BILA' reported, the last three null where nothing was expected), `statistics` (what
-procedures and solvers left in `session.statistics`).
+of {`code`, `line`, `text`}), `pictures` (paths of those among the files), `figures` (numbers, a
+list of {`name`, `value`, `expected`, `tolerance`, `ok`}: what SORT 'BILA' reported, the last three
+null where nothing was expected), `statistics` (what procedures and solvers left in
+`session.statistics`).
 """
 
 from __future__ import annotations
@@ -25,6 +26,7 @@ from ssilang.language.say.errors import SsiError
 from ssilang.language.text.source import Source
 
 NAME = "summary.json"
+_PICTURES = frozenset({".png", ".svg", ".pdf", ".eps", ".ps"})
 
 
 def write_summary(
@@ -32,6 +34,7 @@ def write_summary(
 ) -> Path:
     """Write the summary of a finished run into its output folder."""
     path = output.directory / NAME
+    files = [_file(p, output.directory) for p in output.files if p.is_file()]
     made = {
         "deck": str(source.path) if source.path is not None else source.name,
         "version": __version__,
@@ -39,9 +42,10 @@ def write_summary(
         "seconds": round(time.perf_counter() - session.started, 3),
         "statements": session.evaluator.statement_count,
         "peak_memory_mb": _peak_memory(),
-        "files": [_file(p, output.directory) for p in output.files if p.is_file()],
+        "files": files,
         "warnings": [_message(w, session.language) for w in session.warnings],
         "errors": [_message(e, session.language) for e in errors],
+        "pictures": [f["path"] for f in files if Path(f["path"]).suffix in _PICTURES],
         "figures": [_figure(c) for c in session.checks],
         "statistics": session.statistics,
     }

@@ -618,10 +618,15 @@ def _injected(function: Function) -> tuple[str, ...]:
 
 
 def find_operator(word: str) -> Operator | None:
-    """The operator that a word names: signs in full, names on their first four letters."""
+    """The operator that a word names: signs in full, names on their first four letters.
+
+    A text of several words names none: 'MODE 1 frequency' is a label.
+    """
     found = OPERATORS.get(word)
     if found is not None:
         return found
+    if " " in word.rstrip():
+        return None
     return OPERATORS.get(word[:4].rstrip()) if len(word) > 4 or word.endswith(" ") else None
 
 

@@ -72,8 +72,10 @@ MESSAGES: dict[str, Message] = {
         "(chmod 700)",
     ),
     "files-written": Message(
-        "{count} {count:file|files} in {folder}",
-        "{count} {count:fichier|fichiers} dans {folder}",
+        "{count} {count:file|files} in {folder}, {warnings} {warnings:warning|warnings}"
+        "{energy:?, energy within {energy} %}",
+        "{count} {count:fichier|fichiers} dans {folder}, {warnings} "
+        "{warnings:avertissement|avertissements}{energy:?, énergie à {energy} % près}",
     ),
     "runs": Message("runs", "calculs"),
     # ---- the interactive session

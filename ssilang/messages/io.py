@@ -95,6 +95,12 @@ MESSAGES: dict[str, Message] = {
         "cells {cell_type} have no VTK counterpart",
         "les éléments {cell_type} n'ont pas d'équivalent VTK",
     ),
+    "archive-too-large": Message(
+        "{name} unpacks to more than {most:.0f} MB, which no SAUV writes into {size:.1f} MB",
+        "{name} se déploie sur plus de {most:.0f} Mo, ce qu'aucun SAUV n'écrit dans {size:.1f} Mo",
+        "the file is damaged or was made to fill the memory",
+        "le fichier est abîmé ou fait pour remplir la mémoire",
+    ),
     "no-file-sauv-ssilang": Message(
         "{name} is no file that SAUV of ssilang wrote: {error}",
         "{name} n'est pas un fichier écrit par SAUV de ssilang : {error}",

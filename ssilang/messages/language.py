@@ -67,6 +67,25 @@ MESSAGES: dict[str, Message] = {
         "a quote inside a string is written twice: 'l''axe'",
         "une apostrophe dans un texte se double : 'l''axe'",
     ),
+    "double-quotes": Message(
+        'a text stands between apostrophes, not between "',
+        'un texte se met entre apostrophes, pas entre "',
+        "write 'text'; an apostrophe inside is written twice: 'l''axe'",
+        "écrivez 'texte' ; une apostrophe dans le texte se double : 'l''axe'",
+    ),
+    "decimal-comma": Message(
+        "{text} is two numbers, {first} and {second}: a comma separates",
+        "{text} est deux nombres, {first} et {second} : une virgule sépare",
+        "the decimal sign is a dot: {first}.{second}; two numbers are written {first} {second}",
+        "le signe décimal est le point : {first}.{second} ; deux nombres s'écrivent "
+        "{first} {second}",
+    ),
+    "statement-goes-on": Message(
+        "{word} begins line {line} but the statement of line {first} goes on there: is the ; "
+        "before it missing?",
+        "{word} commence la ligne {line} mais l'instruction de la ligne {first} s'y poursuit : "
+        "manque-t-il le ; qui précède ?",
+    ),
     "early-quote": Message(
         "this apostrophe ends the text {text} and what follows is no text any more",
         "cette apostrophe ferme le texte {text} et la suite n'est plus du texte",
@@ -198,6 +217,15 @@ MESSAGES: dict[str, Message] = {
         "{excess_hint}",
         number=11,
     ),
+    "results-in-excess": Message(
+        "{caller} gives several results here: {types:words}",
+        "{caller} donne ici plusieurs résultats : {types:words}",
+        "give each a name in front of =, `A B ... = {caller} ... ;`, then use the one that is "
+        "wanted",
+        "donnez un nom à chacun devant =, `A B ... = {caller} ... ;`, puis servez-vous de celui "
+        "qu'il faut",
+        number=11,
+    ),
     "no-result": Message(
         "there is no result{wanted_text} for the name {name}",
         "il n'y a pas de résultat{wanted_text} pour le nom {name}",
@@ -209,6 +237,8 @@ MESSAGES: dict[str, Message] = {
         "the ; that ends this statement is missing: {name} = on line {line} begins another",
         "il manque le ; qui finit cette instruction : {name} = à la ligne {line} en commence une "
         "autre",
+        "{comment_hint}",
+        "{comment_hint}",
         number=37,
     ),
     "target": Message(

@@ -366,7 +366,7 @@ HINTS: dict[str, tuple[str, str]] = {
         "where its second node goes along DIRECTION",
         "un chargement moins excentré, un appui, ou un calcul dynamique ; si le chargement "
         "presse, les côtés du joint sont inversés : RACC (INVE GEO1) GEO2 le retourne, et un "
-        "joint JOI1 s'ouvre quand son second nœud va selon DIRECTION",
+        "joint JOI1 s'ouvre quand son second noeud va selon DIRECTION",
     ),
     "kernel.stepping.motions-without-mass": (
         "not held: {free}{more:? and {more} more}; hold it with BLOQ or RELA{apart:?; "

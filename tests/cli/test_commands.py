@@ -220,3 +220,41 @@ def test_deep_blocks_run_in_a_fresh_process(process, tmp_path):
     (tmp_path / "deep.ssi").write_text(text)
     done = process("deep.ssi")
     assert (done.code, done.out) == (0, "2\n"), done.err[-500:]
+
+
+def test_the_version_is_a_command_and_an_option(ssilang, capsys):
+    from ssilang import __version__
+
+    done = ssilang("version")
+    assert (done.code, done.out) == (0, f"ssilang {__version__}\n")
+
+
+def test_a_missing_file_is_wrong_usage_of_check_too(ssilang, script):
+    done = ssilang("check", "no_such_file.ssi")
+    assert done.code == 2
+    assert "no_such_file.ssi" in done.err
+    both = ssilang("check", "no_such_file.ssi", script("X = 1 2 ;\nY = ;\n"))
+    assert both.code == 2
+    assert "deck.ssi:1:" in both.out
+
+
+def test_the_language_may_stand_before_the_command(ssilang):
+    assert "RESO : opérateur" in ssilang("--lang", "fr", "help", "RESO").out
+
+
+def test_one_line_closes_a_run_that_leaves_something(ssilang, script, tmp_path):
+    out = str(tmp_path / "out")
+    done = ssilang("run", script(MASS_ON_A_SPRING), "--out", out)
+    assert "% " not in done.err
+    assert done.err.endswith(" %\n")
+    assert f"0 files in {out}, 0 warnings, energy within " in done.err
+    assert ssilang("run", script(MASS_ON_A_SPRING), "--out", out, "-q").err == ""
+    drawn = script("E = EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.) ;\nDESS E ;\n")
+    assert f" in {out}, 0 warnings\n" in ssilang("run", drawn, "--out", out).err
+    french = ssilang("run", drawn, "--out", out, "--lang", "fr").err
+    assert f" dans {out}, 0 avertissement\n" in french
+    import json
+
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    assert any(p.endswith(".png") for p in summary["pictures"])
+    assert summary["figures"] == []

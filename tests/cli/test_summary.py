@@ -71,7 +71,8 @@ def test_the_command_writes_below_results(tmp_path: Path) -> None:
     (tmp_path / "deck.ssi").write_text(SCRIPT)
     command = [sys.executable, "-m", "ssilang.cli.main", "deck.ssi"]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
-    assert (done.returncode, done.stderr) == (0, "")
+    folder = tmp_path / "results" / "deck"
+    assert (done.returncode, done.stderr) == (0, f"1 file in {folder}, 0 warnings\n")
     names = sorted(p.name for p in (tmp_path / "results" / "deck").iterdir())
     assert names == ["a.csv", "summary.json"]
 

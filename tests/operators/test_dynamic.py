@@ -135,6 +135,14 @@ def test_vtk_series_and_csv_file(tmp_path):
     assert set(table(result).get(1).get("DEPL").components) == {"UX", "UY"}
 
 
+def test_lists_asked_for_without_a_file_are_written_to_one(tmp_path):
+    asked = "T1 . 'PAS_SAUVES_CSV' = 'TOUS' ; T1 . 'MAILLAGE_CSV' = MANU 'POI1' P ;"
+    result = run(HOPPER + asked + "T2 = DYNAMIC T1 ; N = DIME (T1 . 'RESULTATS_CSV') ;", tmp_path)
+    lines = (tmp_path / "dynamic.csv").read_text().splitlines()
+    assert len(lines) == 502
+    assert len(lines[0].split(";")) == table(result, "N")
+
+
 def test_unresolved_contact_warns_with_the_step_to_use(tmp_path):
     text = HOPPER.replace("1000.", "1.E7") + "T2 = DYNAMIC T1 ;"
     result = run(text, tmp_path)

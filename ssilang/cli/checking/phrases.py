@@ -321,7 +321,7 @@ class PhraseReader:
                     self.session.evaluator.refuse_leftovers(left)
                 if len(left) > 1:
                     self.session.evaluator.refuse_leftovers(
-                        [o for o in left[1:] if not o.result] or left[1:]
+                        [o for o in left[1:] if not o.result] or left[1:], left[:1]
                     )
         except SsiError as error:
             self.report(error)

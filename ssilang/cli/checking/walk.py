@@ -166,7 +166,9 @@ class Checker:
             left = self.phrases.read(statement.items, scope, statement.span, one_name=one)
             values = self._outcome(statement, left)
         except SsiError as error:
-            self._report(error)
+            word = self.session.evaluator.word_of_entry(statement, error)
+            if word is None:
+                self._report(error)
             values = None
         self._assign(statement, values, scope)
 
@@ -230,7 +232,7 @@ class Checker:
         if len(left) < count:
             target = statement.targets[len(left)]
             raise no_result(statement.targets, target, count)
-        evaluator.refuse_leftovers(left[count:])
+        evaluator.refuse_leftovers(left[count:], left[:count])
         return [o.value for o in left]
 
     def _assign(self, statement: tree.Statement, values: list[Any] | None, scope: Scope) -> None:

@@ -71,6 +71,7 @@ class Archive:
     records: list[Record]
     settings: dict[str, Any]
     file: zipfile.ZipFile
+    left: int  # bytes that its arrays may still take
 
     def close(self) -> None:
         """Close the file."""
@@ -79,6 +80,9 @@ class Archive:
     def array(self, number: int) -> NDArray[Any]:
         """Array by its number."""
         try:
+            self.left -= self.file.getinfo(f"arrays/{number}.npy").file_size
+            if self.left < 0:
+                raise _too_large(self.path)
             raw = self.file.read(f"arrays/{number}.npy")
             array: NDArray[Any] = np.load(io.BytesIO(raw), allow_pickle=False)
         except DAMAGES as error:
@@ -96,6 +100,10 @@ def read_archive(path: Path) -> Archive:
     """
     try:
         file = zipfile.ZipFile(path)
+        bound = most_unpacked(path)
+        if sum(i.file_size for i in file.infolist()) > bound:
+            file.close()
+            raise _too_large(path)
         head = json.loads(file.read(_OBJECTS))
         if head["format"] != FORMAT:
             raise ValueError(f"format {head['format']!r}")
@@ -109,7 +117,21 @@ def read_archive(path: Path) -> Archive:
         raise _unreadable(path, error) from error
     if version > VERSION:
         raise InputError("io.written-later-version-ssilang", name=path.name)
-    return Archive(path, objects, records, settings, file)
+    return Archive(path, objects, records, settings, file, bound)
+
+
+_SMALL = 2**28  # bytes that any archive may take
+_DENSEST = 200  # bytes for each of the file's: fields that are nearly all zero are packed so
+
+
+def most_unpacked(path: Path) -> int:
+    """Bytes that an archive may take in memory, by the size of its file."""
+    return max(_SMALL, _DENSEST * path.stat().st_size)
+
+
+def _too_large(path: Path) -> InputError:
+    most, size = most_unpacked(path) / 1e6, path.stat().st_size / 1e6
+    return InputError("io.archive-too-large", name=path.name, most=most, size=size)
 
 
 def _unreadable(path: Path, error: Exception) -> InputError:

@@ -72,8 +72,11 @@ def condensed_by_relations(matrix: Matrix, relations: Matrix) -> Matrix:
     Raises
     ------
     FieldError
-        If the relations cannot be eliminated.
+        Without relations, or if they cannot be eliminated.
     """
+    if not relations.relations and relations.kind != DEPENDENCE:
+        swapped = bool(matrix.relations) and not matrix.blocks
+        raise FieldError("kernel.matrices.condensed-without-relations", swapped=swapped)
     body = Matrix(matrix.table, matrix.blocks, (), matrix.kind)
     rows_only = Matrix(relations.table, (), relations.relations, relations.kind)
     given = relations.kind == DEPENDENCE

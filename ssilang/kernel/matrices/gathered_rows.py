@@ -8,6 +8,8 @@ the same columns, and those come in runs.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -36,17 +38,16 @@ def assemble_rows(
         run = _run(block)
         order = _by_node(block, run)
         heads = np.ascontiguousarray(block[:, order[::run]])
-        start, users = _users(heads, n)
-        lengths = _row_lengths(heads, start, users, heads.shape[1], n)
+        users = _users(heads, n)
+        lengths = _row_lengths(heads, users, heads.shape[1], n)
         if run > 1:
             lengths = run * _spread(lengths, run)
         indptr = np.zeros(n + 1, dtype=np.int64)
         np.cumsum(lengths, out=indptr[1:])
         indices = np.empty(indptr[-1], dtype=np.int32)
         data = np.zeros(indptr[-1])
-        _fill(
-            heads, start, users, run, order, indptr, indices, data, np.ascontiguousarray(matrices)
-        )
+        elements = _Elements(heads, order, run, np.ascontiguousarray(matrices))
+        _fill(elements, users, indptr, indices, data)
         if indptr[-1] < 2**31:
             indptr = indptr.astype(np.int32)
         part = sp.csr_array((data, indices, indptr), shape=(n, n))
@@ -90,11 +91,26 @@ def _spread(lengths: NDArray[np.int64], run: int) -> NDArray[np.int64]:
     return spread
 
 
-def _users(places: Index, n: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Element rows that stand on each unknown: users[start[i]:start[i + 1]], flat row numbers."""
+class _Users(NamedTuple):
+    """Element rows that stand on each unknown: `rows[start[i]:start[i + 1]]`, flat numbers."""
+
+    start: NDArray[np.int64]
+    rows: NDArray[np.int64]
+
+
+class _Elements(NamedTuple):
+    """Places of the heads of runs, order and length of the runs, the elements' matrices."""
+
+    heads: Index
+    order: NDArray[np.int64]
+    run: int
+    values: FloatArray
+
+
+def _users(places: Index, n: int) -> _Users:
     start = np.zeros(n + 1, dtype=np.int64)
     np.cumsum(np.bincount(places.ravel(), minlength=n), out=start[1:])
-    return start, _sorted_users(places.ravel(), start)
+    return _Users(start, _sorted_users(places.ravel(), start))
 
 
 @compiled
@@ -108,15 +124,14 @@ def _sorted_users(flat: Index, start: NDArray[np.int64]) -> NDArray[np.int64]:
 
 
 @compiled
-def _row_lengths(
-    places: Index, start: NDArray[np.int64], users: NDArray[np.int64], width: int, n: int
-) -> NDArray[np.int64]:
+def _row_lengths(places: Index, users: _Users, width: int, n: int) -> NDArray[np.int64]:
     """Number of distinct columns of each row."""
+    start, rows = users
     lengths = np.zeros(n, dtype=np.int64)
     seen = np.full(n, -1, dtype=np.int32)
     for row in range(n):
         for k in range(start[row], start[row + 1]):
-            cell = users[k] // width
+            cell = rows[k] // width
             for j in range(width):
                 column = places[cell, j]
                 if seen[column] != row:
@@ -127,11 +142,15 @@ def _row_lengths(
 
 @compiled
 def _fill(
-    heads: Index, start: NDArray[np.int64], users: NDArray[np.int64], run: int,
-    order: NDArray[np.int64], indptr: NDArray[np.int64], indices: Index, data: FloatArray,
-    values: FloatArray,
-) -> None:  # fmt: skip
+    elements: _Elements,
+    users: _Users,
+    indptr: NDArray[np.int64],
+    indices: Index,
+    data: FloatArray,
+) -> None:
     """Columns and sums of each row, `run` rows at a time."""
+    heads, order, run, values = elements
+    start, rows = users
     n, width = len(indptr) - 1, heads.shape[1]
     place, found = np.full(n, -1, dtype=np.int64), np.empty(n, dtype=np.int32)
     for row in range(n):
@@ -139,7 +158,7 @@ def _fill(
             continue
         first, count = indptr[row], 0
         for k in range(start[row], start[row + 1]):
-            cell = users[k] // width
+            cell = rows[k] // width
             for j in range(width):
                 head = heads[cell, j]
                 if place[head] < first:
@@ -156,7 +175,7 @@ def _fill(
                 for j in range(run):
                     indices[at + k * run + j] = found[k] + j
         for k in range(start[row], start[row + 1]):
-            cell, node = users[k] // width, users[k] % width
+            cell, node = rows[k] // width, rows[k] % width
             for i in range(run):
                 terms, shift = values[cell, order[node * run + i]], i * length
                 for j in range(width):

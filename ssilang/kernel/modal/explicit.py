@@ -43,29 +43,37 @@ class ModalRun:
     last: ModalState
 
 
-def march(
-    M: FloatArray,
-    C: FloatArray,
-    K: FloatArray,
-    spaces: FloatArray,
-    amplitudes: FloatArray,
-    links: LinkArrays,
-    start: ModalState,
-    h: float,
-    steps: int,
-    every: int,
-    scheme: str,
-) -> ModalRun:
-    """Step through time.
+@dataclass(frozen=True, eq=False)
+class ModalProblem:
+    """What moves: modes, the forces on them and their links.
 
-    Parameters
+    Attributes
     ----------
     M, C, K : arrays (n, n)
     spaces, amplitudes : arrays (p, n) and (p, 2 steps + 1)
         Forces and their values at each half step.
-    h, steps, every : step (s), number of steps, steps from one saved to the next
-    scheme : str
-        One of SCHEMES.
+    """
+
+    M: FloatArray
+    C: FloatArray
+    K: FloatArray
+    spaces: FloatArray
+    amplitudes: FloatArray
+    links: LinkArrays
+
+
+@dataclass(frozen=True)
+class ModalSteps:
+    """Step h (s), number of steps, steps from one saved to the next, one of SCHEMES."""
+
+    h: float
+    count: int
+    every: int = 1
+    scheme: str = "DE_VOGELAERE"
+
+
+def integrate_modes(problem: ModalProblem, start: ModalState, steps: ModalSteps) -> ModalRun:
+    """Step through time.
 
     Raises
     ------
@@ -82,12 +90,14 @@ def march(
         newmark,
     )
 
-    if h <= 0.0 or steps < 1 or every < 1:
+    M, C, K, links = problem.M, problem.C, problem.K, problem.links
+    h, count, every, scheme = steps.h, steps.count, steps.every, steps.scheme
+    if h <= 0.0 or count < 1 or every < 1:
         raise KernelError("kernel.modal.step-numbers-steps-must")
     _check_mass(M)
     _check_step(M, K, h, scheme)
     n = len(M)
-    saved = steps // every + 1
+    saved = count // every + 1
     values = np.zeros((saved, len(VARIABLES), n))
     records = np.zeros((saved, len(links.kinds), RECORDS))
     state = np.zeros((len(links.kinds), STATES)) if start.links is None else start.links.copy()
@@ -95,8 +105,8 @@ def march(
     before = np.zeros(n) if start.before is None else start.before.copy()
     q_before = np.zeros(n) if start.q_before is None else start.q_before.copy()
     q, v = start.q.copy(), start.v.copy()
-    loads, beta = Loads(spaces, amplitudes), BETA.get(scheme, 0.0)
-    plan = Plan(start.time, h, steps, every, beta)
+    loads, beta = Loads(problem.spaces, problem.amplitudes), BETA.get(scheme, 0.0)
+    plan = Plan(start.time, h, count, every, beta)
     motion = Motion(q, v, before, q_before, has_before, state)
     inverse = _inverse(M)
     if scheme == "DE_VOGELAERE":
@@ -110,7 +120,7 @@ def march(
     if not np.isfinite(values).all():
         raise KernelError("kernel.modal.run-diverges")
     times = start.time + h * every * np.arange(saved, dtype=np.float64)
-    end = ModalState(start.time + h * steps, q, v, before, q_before, state)
+    end = ModalState(start.time + h * count, q, v, before, q_before, state)
     return ModalRun(times, values, records, end)
 
 

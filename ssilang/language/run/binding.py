@@ -189,7 +189,16 @@ class Binder:
             return _given(a, operand)
         if a.optional:
             return a.default
-        raise self.call.missing(a.types)
+        raise self._lacking(a)
+
+    def _lacking(self, a: Argument) -> SsiError:
+        """The error of an operand that is not there: a word stands where another must be said."""
+        if self.call.operands and isinstance(self.call.operands[0].value, str):
+            for level in reversed(self._levels):
+                unsaid = [k for k in level.keywords if not k.optional and k.name not in level.seen]
+                if unsaid and len(unsaid[0].words) > 1:
+                    return missing_keyword(self.call, unsaid[0].words)
+        return self.call.missing(a.types)
 
     def _several(self, a: Argument, after: int) -> tuple[Any, ...]:
         call = self.call

@@ -127,6 +127,8 @@ class Call:
                 continue
             late_enough = after < 0 or operand.span.start >= after
             if late_enough and accepts(types, value):
+                if type(value) is Mot and value[:1] == '"' and operand.span.text[:1] == '"':
+                    raise SsiError("double-quotes", operand.span)
                 del operands[i]
                 self.used.append(operand)
                 return _as_read(operand, types)

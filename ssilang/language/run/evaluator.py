@@ -21,6 +21,7 @@ from ssilang.language.values import (
     Texte,
     type_of,
 )
+from ssilang.language.vocabulary.entries import is_declared_value
 
 if TYPE_CHECKING:
     from ssilang.language.run.session import LoopObserver, Session
@@ -30,6 +31,9 @@ DIRECTIVES = frozenset(
     ["QUIT", "ITER", "MESS", "ERRE", "LIST", "TRAC", "DESS", "OPTI", "MENA", "SAUT", "RESP", "TITR"]
 )
 """Operators that give nothing, so that none of them can be a part of a condition."""
+
+
+_NOTHING_TO_READ = frozenset({"wrong-argument", "missing-argument", "missing-keyword"})
 
 
 def _behind_condition(items: Sequence[tree.Item]) -> tree.Item | None:
@@ -180,8 +184,33 @@ class Evaluator(PhraseRunner):
         one = len(statement.targets) == 1
         path = statement.targets[0]
         deep = isinstance(path, tree.Path) and len(path.indices) > 1
-        left = self.phrase(statement.items, statement.span, one_name=one and not deep)
+        try:
+            left = self.phrase(statement.items, statement.span, one_name=one and not deep)
+        except SsiError as error:
+            word = self.word_of_entry(statement, error)
+            if word is None:
+                raise
+            left = [word]
         self._assign(statement, left)
+
+    def word_of_entry(self, statement: tree.Statement, error: SsiError) -> Operand | None:
+        """The word that a table's entry is given, where it also names an operator.
+
+        `T . 'VITEUNIL' = 'MASSE'`: the operator finds nothing to read, and an entry of that index
+        is declared to take the word.
+        """
+        if error.code not in _NOTHING_TO_READ or not statement.targets or len(statement.items) != 1:
+            return None
+        target, item = statement.targets[0], statement.items[0]
+        said = item.text if isinstance(item, tree.Quoted | tree.Name) else ""
+        held = error.data.get("held_word")
+        word = str(held[0]) if isinstance(held, tuple) else said
+        index = target.indices[-1] if isinstance(target, tree.Path) else None
+        if not word or not isinstance(index, tree.Quoted | tree.Name):
+            return None
+        if not is_declared_value(index.text.rstrip(), word.upper().rstrip()):
+            return None
+        return Operand(Mot(word), item.span, result=True)
 
     def _unnamed(self, statement: tree.Statement) -> list[Operand]:
         """Run a statement without names; the results that nobody takes are dropped."""

@@ -83,6 +83,10 @@ def _unknown_word(operand: Operand, later: Mapping[str, Span]) -> SsiError:
 
 def _excess(operand: Operand, every: Sequence[Operand]) -> SsiError:
     text = operand.span.text
+    given = [o for o in every if o.result and o.span == operand.span]
+    if operand.result and len(given) > 1:
+        types = [type_of(o.value) for o in given]
+        return SsiError("results-in-excess", operand.span, caller=text, types=types)
     if isinstance(operand.value, int | float) and text[:1] in ("-", "+"):
         return SsiError("glued-sign", operand.span, number=text, sign=text[0], rest=text[1:])
     caller = _called_with_parentheses(operand.span)

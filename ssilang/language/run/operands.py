@@ -48,8 +48,8 @@ class OperandReader(ABC):
         """Value of a phrase of scalars by the short way, None if it is not one."""
 
     @abstractmethod
-    def refuse_leftovers(self, left: Sequence[Operand]) -> None:
-        """Raise the error for operands that nothing read, if there are any."""
+    def refuse_leftovers(self, left: Sequence[Operand], taken: Sequence[Operand] = ()) -> None:
+        """Raise the error for operands that nothing read, behind those taken, if there are any."""
 
     def operands_of(self, items: Sequence[tree.Item]) -> list[Operand]:
         """Operands of items: names replaced by their objects, parentheses run."""
@@ -91,7 +91,7 @@ class OperandReader(ABC):
                 self._warn_of_unread(unread[0], item)
                 return [Operand(results[0].value, item.span, results[0].name)]
             word = results[:1] if unread and isinstance(results[0].value, Mot) else []
-            self.refuse_leftovers(word + (unread or results[1:]))
+            self.refuse_leftovers(word + (unread or results[1:]), results[:1])
         value = results[0].value
         return [Operand(value, item.span, results[0].name)]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ssilang.language.run.call import Operand
+from ssilang.language.run.call import Call, Operand
 from ssilang.language.run.scopes import PREDEFINED
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text import tree
@@ -18,6 +18,22 @@ def tell_held_word(error: SsiError, operand: Operand) -> None:
         return
     if not operand.result and written.strip("'").upper()[:4] != str(operand.value).upper()[:4]:
         error.data.setdefault("held_word", (str(operand.value), written))
+
+
+def tell_line_begun(error: SsiError, operand: Operand, call: Call) -> None:
+    """Add that the operator begins a line if what stands on the lines before it is in its way."""
+    span, wrong = operand.span, error.span
+    if error.code not in _IN_THE_WAY or wrong is None or wrong.source is not span.source:
+        return
+    line, column = span.source.position(span.start)
+    if operand.result or span.source.line(line)[: column - 1].strip() or wrong.start >= span.start:
+        return
+    first = span.source.position(wrong.start)[0]
+    if first < line:
+        error.data.setdefault("begins_line", (span.text.strip("'"), line, first))
+
+
+_IN_THE_WAY = frozenset({"wrong-argument", "excess"})
 
 
 def unended(targets: Sequence[tree.Item]) -> Span | None:

@@ -16,6 +16,7 @@ from typing import Any, Protocol, TextIO
 from ssilang.language.run.library import Library
 from ssilang.language.run.scopes import PREDEFINED, Frame
 from ssilang.language.say.errors import ReaderLeft, SsiError, unprinted
+from ssilang.language.say.visible import visible
 from ssilang.language.text import tree
 from ssilang.language.text.source import Span
 from ssilang.messages.message import sentence
@@ -135,7 +136,7 @@ class Session:
     def print(self, text: str = "") -> None:
         """Print a line of results."""
         try:
-            self.out.write(text + "\n")
+            self.out.write(visible(text) + "\n")
         except BrokenPipeError as closed:
             raise ReaderLeft from closed
         except OSError as problem:

@@ -10,6 +10,7 @@ from ssilang.language.near import LIKE, VERY_LIKE, nearest
 from ssilang.language.registry import ANY, OPERATORS, find_operator, keywords_of
 from ssilang.language.say import hints
 from ssilang.language.say.errors import SsiError
+from ssilang.language.say.visible import visible
 from ssilang.language.text.source import Span
 from ssilang.language.values import type_of
 from ssilang.language.vocabulary import words_of
@@ -49,7 +50,7 @@ def render(error: SsiError, language: str = "en", names: Iterable[str] = ()) -> 
     if place is not None:
         lines += _place(place, "-->")
     lines += [f"  = {part}" for part in hint.split("\n") if part]
-    return "\n".join(lines + _calls(calls, language))
+    return visible("\n".join(lines + _calls(calls, language)))
 
 
 def _seen(error: SsiError) -> tuple[Span | None, list[tuple[str, Span]]]:
@@ -92,7 +93,8 @@ def sentence(error: SsiError, language: str, names: Iterable[str] = ()) -> tuple
         data["name"] = error.span.text.split(".")[0].strip() if error.span else "it"
     text = message.sentence(error.code, data, language)
     hint = message.hint(error.code, data, language, script=True).strip()
-    return text, "\n".join(h for h in (_held_hint(data, language), hint) if h)
+    before = (_held_hint(data, language), _line_hint(data, language))
+    return text, "\n".join(h for h in (*before, hint) if h)
 
 
 def _held_hint(data: dict[str, Any], language: str) -> str:
@@ -101,6 +103,16 @@ def _held_hint(data: dict[str, Any], language: str) -> str:
         return ""
     word, holder = data["held_word"]
     return message.sentence("held-word", {"word": word, "holder": holder}, language)
+
+
+def _line_hint(data: dict[str, Any], language: str) -> str:
+    """Says that the operator begins a line, and that a ; may be missing before it."""
+    if "begins_line" not in data:
+        return ""
+    word, line, first = data["begins_line"]
+    return message.sentence(
+        "statement-goes-on", {"word": word, "line": line, "first": first}, language
+    )
 
 
 def _label(error: SsiError, language: str) -> str:

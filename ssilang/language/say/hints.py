@@ -33,7 +33,7 @@ def foreign_hint(word: str) -> Hint:
 
 def comment_hint(text: str) -> Hint:
     """For a statement that begins as comments of other languages do."""
-    begins = re.match(r"\s*(#|//|!|%|\"\"\"|--|/)", text)
+    begins = re.match(r"\s*(#|//|!|%|\"\"\"|--|/|\*)", text)
     return Sentence("write-comment") if begins else ""
 
 

@@ -18,7 +18,7 @@ from ssilang.language.text.reader import (
     statement_of,
     symbol_of,
 )
-from ssilang.language.text.source import STATEMENT_END, Source, Span
+from ssilang.language.text.source import STATEMENT_END, STRING, Source, Span
 from ssilang.resources import resource
 
 MAX_ERRORS = 20
@@ -158,14 +158,15 @@ def _explain(source: Source, text: str, problem: UnexpectedInput) -> tuple[SsiEr
 def _syntax_error(source: Source, text: str, begin: int, place: int, end: int) -> SsiError:
     statement = text[begin:end]
     head = Span(source, begin, min(end, begin + len(statement.split("\n")[0])))
-    bare = re.sub(r"'[^']*(?:''[^']*)*'", lambda m: " " * len(m.group()), statement)
+    bare = re.sub(STRING, lambda m: " " * len(m.group()), statement)
     quote = bare.find("'")
     if quote >= 0:
         early = re.search(r"'[^'\n]*'(?=\w)", statement)
-        if early is not None and early.end() - 1 < quote:
+        opened = _first_opened(text, begin + quote)
+        if early is not None and begin + early.end() - 1 < opened:
             place = begin + early.end() - 1
             return SsiError("early-quote", Span(source, place, place + 1), text=early.group())
-        return SsiError("unclosed-string", Span(source, begin + quote, begin + quote + 1))
+        return SsiError("unclosed-string", Span(source, opened, opened + 1))
     if place < len(text) and text[place] == "=":
         return _second_equal(source, text, begin, place)
     if bare.count("(") != bare.count(")"):
@@ -176,6 +177,18 @@ def _syntax_error(source: Source, text: str, begin: int, place: int, end: int) -
     if before in (".", "%"):
         return SsiError("nothing-behind", Span(source, place, place + 1), sign=before)
     return SsiError("syntax", Span(source, place, place + 1), found=text[place])
+
+
+def _first_opened(text: str, last: int) -> int:
+    """Where the quote was opened that nothing closes; `last` is the odd one of the text.
+
+    All texts behind it are turned inside out: it opens the first that runs over the end of a
+    statement and of a line.
+    """
+    for m in re.finditer(STRING, text[:last]):
+        if re.search(r";[^\S\n]*\n", m.group()):
+            return m.start()
+    return last
 
 
 def _second_equal(source: Source, text: str, begin: int, place: int) -> SsiError:

@@ -8,7 +8,7 @@ from functools import lru_cache
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text import tree
 from ssilang.language.text.reader import Reader, Unsound
-from ssilang.language.text.source import STATEMENT_END, Source
+from ssilang.language.text.source import STATEMENT_END, STRING, Source, Span
 from ssilang.language.text.words import grammar_words
 
 
@@ -36,6 +36,29 @@ def parse_statements(source: Source, end: int | None = None) -> list[tree.Statem
         from ssilang.language.text.by_grammar import parse_by_grammar  # Lark takes time to start
 
         return parse_by_grammar(source, text)
+
+
+_COMMA = re.compile(STRING + r"|(?<![\w.,+-])([+-]?\d+),(\d+(?:[ED][+-]?\d+)?)(?![\w.,])", re.I)
+
+
+def decimal_commas(source: Source) -> list[SsiError]:
+    """An error for each `2,5` of what is run; (0,0) and 1,2,3 are lists of numbers."""
+    code = source.code
+    if "," not in code:
+        return []
+    errors = []
+    for m in _COMMA.finditer(code, 0, end_of_run(source) or len(code)):
+        in_parentheses = (
+            code[m.start() - 1 : m.start()] == "(" and code[m.end() : m.end() + 1] == ")"
+        )
+        statement = code[: m.start()].rpartition(";")[2].split()
+        if m.group(1) and not in_parentheses and statement[:1] != ["COMM"]:
+            first, second = m.groups()
+            span = Span(source, m.start(), m.end())
+            errors.append(
+                SsiError("decimal-comma", span, text=m.group(), first=first, second=second)
+            )
+    return errors
 
 
 _FIRST_WORD = re.compile(r"\s*'?(\w+)'?")

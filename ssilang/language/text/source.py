@@ -9,7 +9,8 @@ from functools import cached_property
 from pathlib import Path
 
 # strings, so that what stands in them is passed over, and the ends of statements
-STATEMENT_END = re.compile(r"'[^']*(?:''[^']*)*'|;")
+STRING = r"'[^']*(?:''[^']*)*'"
+STATEMENT_END = re.compile(STRING + "|;")
 # comment lines, and the lines that separate the procedures of a library file
 _COMMENT_LINE = re.compile(r"^(?:\*|\$\$\$\$).*$", re.MULTILINE)
 

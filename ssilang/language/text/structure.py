@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from ssilang.language.say.errors import SeveralErrors, SsiError
-from ssilang.language.text.parser import end_of_run, parse_statements
+from ssilang.language.text.parser import decimal_commas, end_of_run, parse_statements
 from ssilang.language.text.source import Source, Span
 from ssilang.language.text.tree import (
     Definition,
@@ -56,12 +56,15 @@ def parse(source: Source) -> Script:
         With all syntax errors, then all errors of nesting.
     """
     try:
-        return structure(parse_statements(source), source)
+        statements = parse_statements(source)
     except SeveralErrors:
         end = end_of_run(source)
         if end is None or not source.code[end:].strip():
             raise
-    return structure(parse_statements(source, end), source)
+        statements = parse_statements(source, end)
+    if commas := decimal_commas(source):
+        raise SeveralErrors(commas)
+    return structure(statements, source)
 
 
 def structure(statements: list[Statement], source: Source) -> Script:

@@ -179,6 +179,17 @@ def as_written(word: str) -> str:
     return f"MOT '{word}'" if find_operator(word[:4].rstrip() or word) else f"'{word}'"
 
 
+def is_declared_value(index: str, word: str) -> bool:
+    """Whether some procedure's entry of that index takes the word, as it is written."""
+    declared = (read_declaration(name) for name in declared_names())
+    return any(
+        entry.index == index and word in (*entry.values, *(entry.older or ()))
+        for declaration in declared
+        if declaration is not None
+        for entry in declaration.entries
+    )
+
+
 # ---- reading the files ------------------------------------------------------------------------
 
 

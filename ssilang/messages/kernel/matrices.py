@@ -167,6 +167,12 @@ MESSAGES: dict[str, Message] = {
         "a field of values fits conditions on a single unknown only",
         "un champ de valeurs ne va qu'avec des blocages d'une seule inconnue",
     ),
+    "condensed-without-relations": Message(
+        "the second matrix has no relations to condense by{swapped:?; the first one has: the "
+        "matrix stands first, its relations second}",
+        "la deuxième matrice n'a pas de relations pour condenser{swapped:? ; la première en a : "
+        "la matrice vient d'abord, ses relations ensuite}",
+    ),
     "matrix-no-relation": Message(
         "the matrix has no relation",
         "la rigidité n'a pas de relation",

@@ -88,8 +88,8 @@ MESSAGES: dict[str, Message] = {
         "({least:.3g} m at least): the structure leaves the ground for good",
         "tous les joints sont ouverts depuis t = {time:.4g} s au plus tard, et s'ouvrent encore à "
         "la fin (d'au moins {least:.3g} m) : la structure quitte le sol pour de bon",
-        "does the weight press it down? MASS times an acceleration of -9.81 upwards",
-        "le poids la presse-t-il ? MASS fois une accélération de -9.81 vers le haut",
+        "does the weight press it down (MASS times -9.81 along 'UY', or 'UZ' in space)?",
+        "le poids la presse-t-il (MASS fois -9.81 selon 'UY', ou 'UZ' dans l'espace) ?",
         severity="warning",
     ),
     "joints-out-of-proportion": Message(

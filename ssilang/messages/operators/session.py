@@ -95,6 +95,12 @@ MESSAGES: dict[str, Message] = {
         "{near:?did you mean {near}?|options are {options:words}}{told}",
         "{near:?vouliez-vous dire {near} ?|les options sont {options:words}}{told}",
     ),
+    "hidden-option": Message(
+        "{name} is a variable here, of type {found}, and hides the option of that name",
+        "{name} est ici une variable, de type {found}, et cache l'option de ce nom",
+        "write '{name}' {said}, or give the variable another name",
+        "écrivez '{name}' {said}, ou donnez un autre nom à la variable",
+    ),
     "no-help": Message(
         "there is no help about {said}",
         "il n'y a pas d'aide sur {said}",

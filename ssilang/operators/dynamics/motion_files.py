@@ -80,11 +80,8 @@ def csv_observer(entries: Entries, times: FloatArray) -> CsvObserver | None:
     nodes = nodes_asked(entries.needed("MAILLAGE_CSV"))
     assert nodes is not None
     components: ListMots | None = entries.get("COMPOSANTES_CSV")
-    name = entries.get("FICHIER_CSV")
-    path = None
-    if name is not None:
-        text = str(name).rstrip()
-        path = output_path(entries.call, text if text.lower().endswith(".csv") else text + ".csv")
-        run_output(entries.call.session).wrote(path)
+    text = str(entries.get("FICHIER_CSV")).rstrip()
+    path = output_path(entries.call, text if text.lower().endswith(".csv") else text + ".csv")
+    run_output(entries.call.session).wrote(path)
     chosen = None if components is None else [str(c).rstrip() for c in components.values]
     return CsvObserver(wanted, nodes, chosen, path)

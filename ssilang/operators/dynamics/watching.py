@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.base.arrays import BoolArray, FloatArray
+from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.mesh.mesh import Point
 from ssilang.language.values import ListReel, Mot, Table
 
@@ -17,14 +17,18 @@ if TYPE_CHECKING:
     from ssilang.kernel.stepping.problem.problem import Problem
     from ssilang.kernel.stepping.snapshot import Snapshot
 
-SAMPLES = 64
+SAMPLES = 24
 """Instants looked at to see whether all joints have opened for good."""
 
-FOR_GOOD = 5
+FOR_GOOD = 4
 """Samples in a row, at the end, in which all joints are open and open further."""
 
 FASTER = 0.1
 """Part of the way since they opened that their acceleration makes, 1 from rest."""
+
+
+TOGETHER = 100_000
+"""Values of displacements that are compared at a time."""
 
 
 @dataclass(frozen=True)
@@ -42,6 +46,7 @@ class ExtremesObserver:
 
     problem: Problem
     peaks: dict[tuple[str, str], Peak] = field(default_factory=dict)
+    waiting: list[Snapshot] = field(default_factory=list)
 
     @property
     def wanted(self) -> NDArray[np.bool_]:
@@ -49,35 +54,45 @@ class ExtremesObserver:
         return np.ones(len(self.problem.times), bool)
 
     def receive(self, snapshot: Snapshot) -> None:
-        """Compare one instant."""
-        numbering = snapshot.problem.numbering
-        forces = snapshot.support_forces
-        for name, dual in zip(numbering.unknowns, numbering.duals, strict=True):
-            mine = numbering.where(name)
-            self._take("DEPL", name, snapshot.time, snapshot.u, mine)
-            self._take("REACTIONS", dual, snapshot.time, forces, mine)
-        if snapshot.problem.interface is not None:
-            points = np.arange(len(snapshot.w))
-            t = snapshot.t
-            shear = np.linalg.norm(t[:, :-1], axis=1)
-            self._take("OUVERTURE", "", snapshot.time, np.maximum(snapshot.w[:, -1], 0.0), points)
-            self._take("COMPRESSION", "", snapshot.time, np.minimum(t[:, -1], 0.0), points)
-            self._take("CISAILLEMENT", "", snapshot.time, shear, points)
+        """Compare one instant, with those that came before it."""
+        self.waiting.append(snapshot)
+        if len(self.waiting) * max(len(snapshot.u), 1) >= TOGETHER:
+            self.close()
 
     def close(self) -> None:
-        """Nothing is open."""
-
-    def _take(self, kind: str, name: str, time: float, values: FloatArray, mine: Any) -> None:
-        if not len(mine):
+        """Compare the instants that wait."""
+        rows, self.waiting = self.waiting, []
+        if not rows:
             return
-        place = int(mine[np.argmax(np.abs(values[mine]))])
-        before = self.peaks.get((kind, name))
-        if before is None or abs(values[place]) > abs(before.value):
-            self.peaks[kind, name] = Peak(float(values[place]), time, place)
+        numbering, times = rows[0].problem.numbering, [s.time for s in rows]
+        u = np.stack([s.u for s in rows])
+        forces = np.stack([s.support_forces for s in rows])
+        for name, dual in zip(numbering.unknowns, numbering.duals, strict=True):
+            mine = numbering.where(name)
+            self._take("DEPL", name, times, u[:, mine], mine)
+            self._take("REACTIONS", dual, times, forces[:, mine], mine)
+        if rows[0].problem.interface is not None:
+            w, t = np.stack([s.w for s in rows]), np.stack([s.t for s in rows])
+            points = np.arange(w.shape[1])
+            shear = np.linalg.norm(t[..., :-1], axis=-1)
+            self._take("OUVERTURE", "", times, np.maximum(w[..., -1], 0.0), points)
+            self._take("COMPRESSION", "", times, np.minimum(t[..., -1], 0.0), points)
+            self._take("CISAILLEMENT", "", times, shear, points)
+
+    def _take(
+        self, kind: str, name: str, times: list[float], values: FloatArray, places: IntArray
+    ) -> None:
+        """Compare values (n_rows, n) at some unknowns or joint points."""
+        if not values.size:
+            return
+        row, column = np.unravel_index(int(np.abs(values).argmax()), values.shape)
+        found, before = float(values[row, column]), self.peaks.get((kind, name))
+        if before is None or abs(found) > abs(before.value):
+            self.peaks[kind, name] = Peak(found, times[int(row)], int(places[column]))
 
     def table(self) -> Table:
         """VALEUR, TEMPS and where, by quantity and, at nodes, by component."""
-        made = Table()
+        made, inner = Table(), dict[str, Table]()
         for (kind, name), peak in self.peaks.items():
             entry = Table()
             entry.set(Mot("VALEUR"), peak.value)
@@ -88,9 +103,10 @@ class ExtremesObserver:
                 continue
             table, node = self.problem.numbering.table, self.problem.numbering.nodes[peak.place]
             entry.set(Mot("POINT"), Point(table, int(node)))
-            if not made.has(kind):
-                made.set(Mot(kind), Table())
-            made.get(kind).set(Mot(name), entry)
+            if kind not in inner:
+                inner[kind] = Table()
+                made.set(Mot(kind), inner[kind])
+            inner[kind].set(Mot(name), entry)
         return made
 
     def _at_joint(self, point: int) -> FloatArray:

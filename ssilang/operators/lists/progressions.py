@@ -127,7 +127,7 @@ def _read_row(call: Call, items: Items, plain: frozenset[type]) -> None:
             items.append(value)
             i += 1
             continue
-        behind = operands[i + 2].value if i + 2 < len(operands) else None
+        behind: Any = operands[i + 2].value if i + 2 < len(operands) else None
         if type(value) is not int or value < 0 or type(behind) not in plain:
             break  # what is wrong is told where each is read by itself
         check_length(len(items) + value)

@@ -13,7 +13,15 @@ from ssilang.kernel.curves.curve import Load
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.matrices.assembly import Numbering, assemble, field_to_vector, numbering_of
 from ssilang.kernel.matrices.matrix import Matrix
-from ssilang.kernel.modal.explicit import SCHEMES, VARIABLES, ModalRun, ModalState, march
+from ssilang.kernel.modal.explicit import (
+    SCHEMES,
+    VARIABLES,
+    ModalProblem,
+    ModalRun,
+    ModalState,
+    ModalSteps,
+    integrate_modes,
+)
 from ssilang.kernel.modal.links import STATES, link_arrays
 from ssilang.kernel.modal.modes import eigenvalue
 from ssilang.kernel.stepping.problem.loading import loading_of
@@ -73,10 +81,11 @@ def _dyne(
     links = links_of(call, tables.get("links"), system.basis)
     start = _start(call, tables.get("start"), system, len(links))
     spaces, amplitudes = _forces(call, tables.get("loads"), system, start.time, h, steps)
-    run = march(
+    problem = ModalProblem(
         system.M, damping_of(call, tables.get("damping"), system), system.K, spaces, amplitudes,
-        link_arrays([r.link for r in links], len(system.M)), start, h, steps, every, scheme,
+        link_arrays([r.link for r in links], len(system.M)),
     )  # fmt: skip
+    run = integrate_modes(problem, start, ModalSteps(h, steps, every, scheme))
     return _results(run, system, links, tables.get("output"))
 
 

@@ -10,7 +10,7 @@ from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.deformed import displacements
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Model
-from ssilang.language.registry import Help, operator, opt
+from ssilang.language.registry import Help, by, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import register_type
 from ssilang.operators.workspace import workspace
@@ -37,7 +37,7 @@ register_type(Configuration, "CONFIGUR")
         en="parameters whose local axes follow",
         fr="caractéristiques dont les axes locaux suivent",
     ),
-    gives=("CONFIGUR", "MCHAML"),
+    gives=by("model", {None: "CONFIGUR"}, ("CONFIGUR", "MCHAML")),
     family="mesh",
     full_name="FORME",
     help=Help(

@@ -16,7 +16,7 @@ from ssilang.language.registry import ANY, Help, arg, each, flag, lead, operator
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SsiError
-from ssilang.language.values import ListMots, Mot
+from ssilang.language.values import ListMots, Mot, type_of
 from ssilang.operators.session.option_files import include, read_file_option
 from ssilang.operators.vocabulary.words import told_options, told_values
 from ssilang.operators.workspace import Workspace, workspace
@@ -289,6 +289,15 @@ def opti(call: Call) -> None:
 
 
 def _unknown_option(call: Call, said: str, word: str | None = None) -> SsiError:
+    hidden = next((o for o in (*call.operands, *call.used) if o.name[:4] in READERS), None)
+    if hidden is not None:
+        return SsiError(
+            "operators.session.hidden-option",
+            hidden.span,
+            name=hidden.name,
+            found=type_of(hidden.value),
+            said=word or said,
+        )
     near = nearest_names(said.strip()[:4], sorted(READERS), 0.5)
     told = told_options(near, call.session.language)
     return SsiError(

@@ -30,7 +30,7 @@ from ssilang.operators.workspace import workspace
 )
 def mess(call: Call) -> None:
     """Print one line."""
-    call.session.print(read_text(call))
+    call.session.print(read_text(call, apart=True))
 
 
 _OF_LIBRARY = "stdlib."

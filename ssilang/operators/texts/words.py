@@ -86,9 +86,13 @@ def _at_format(call: Call) -> bool:
     return said and str(first).upper().rstrip() in ("FORMAT", "FORM", "FORMA")
 
 
-def read_text(call: Call) -> str:
-    """Join all the words, numbers and logicals that can be read, with tab marks and formats."""
+def read_text(call: Call, apart: bool = False) -> str:
+    """Join all the words, numbers and logicals that can be read, with tab marks and formats.
+
+    `apart`: a blank between a number and the minus of the next one, for who reads the line.
+    """
     text, form = "", DEFAULT_FORMAT
+    number_before = False
     while True:
         if _at_format(call) and call.keyword(("FORM",)) is not None:
             form = str(call.required("MOT", after=call.keyword_end))
@@ -98,7 +102,10 @@ def read_text(call: Call) -> str:
             break
         item = _of_library(call, operand.value) or written(operand.value, form)
         tab = _tab(call)
-        blanks = 0 if tab is None else _place(*tab, len(text), len(item))
+        number = isinstance(operand.value, int | float)
+        glued = apart and number and number_before and item[:1] == "-" and text[-1:] != " "
+        number_before = number
+        blanks = int(glued) if tab is None else _place(*tab, len(text), len(item))
         check_length(len(text) + blanks + len(item))
         text += " " * blanks + item
     if call.operands:

@@ -154,3 +154,51 @@ def test_classes_have_their_homes():
     for name, module in HOMES.items():
         assert class_name(getattr(importlib.import_module(module), name)) == f":{name}"
         assert class_named(f":{name}").__module__ == module
+
+
+def _crafted(path: Path, arrays: dict[int, int], format_of: Path) -> None:
+    """An archive with the head of a sound one and arrays of so many zeros, highly packed."""
+    with zipfile.ZipFile(format_of) as sound, zipfile.ZipFile(path, "w") as made:
+        for name in sound.namelist():
+            if not name.startswith("arrays/"):
+                made.writestr(name, sound.read(name))
+        for number, size in arrays.items():
+            made.writestr(f"arrays/{number}.npy", bytes(size), zipfile.ZIP_DEFLATED)
+
+
+def test_an_archive_that_unpacks_past_any_use_is_refused_unread(tmp_path):
+    sound, crafted = tmp_path / "sound", tmp_path / "crafted"
+    saved(sound, X=1.0)
+    _crafted(crafted, dict.fromkeys(range(4), 80 * 2**20), sound)
+    assert crafted.stat().st_size < 2**20
+    with pytest.raises(InputError) as refused:
+        read_archive(crafted)
+    assert refused.value.code == "io.archive-too-large"
+    (tmp_path / "deck.ssi").write_text("OPTI REST 'crafted' ;\nREST ;\n")
+    result = run_file(tmp_path / "deck.ssi")
+    assert result.exit_code == 1
+    assert "crafted unpacks to more than 268 MB" in result.message
+    assert "deck.ssi:2:1" in result.message
+
+
+def test_an_array_that_is_asked_for_again_and_again_counts_each_time(tmp_path):
+    sound, crafted = tmp_path / "sound", tmp_path / "crafted"
+    saved(sound, X=np.zeros(3))
+    _crafted(crafted, {0: 200 * 2**20}, sound)
+    archive = read_archive(crafted)
+    with pytest.raises(InputError) as first:  # these zeros are no array
+        archive.array(0)
+    assert first.value.code == "io.no-file-sauv-ssilang"
+    with pytest.raises(InputError) as second:
+        archive.array(0)
+    assert second.value.code == "io.archive-too-large"
+    archive.close()
+
+
+def test_a_large_field_of_zeros_comes_back(tmp_path):
+    path = tmp_path / "zeros"
+    saved(path, X=np.zeros(2**22))  # 32 MB in some 33 kB
+    assert path.stat().st_size < 2**22 * 8 / 200
+    archive = read_archive(path)
+    assert archive.array(0).shape == (2**22,)
+    archive.close()

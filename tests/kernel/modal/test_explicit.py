@@ -5,7 +5,13 @@ import pytest
 
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.modal import links as law
-from ssilang.kernel.modal.explicit import SCHEMES, ModalState, march
+from ssilang.kernel.modal.explicit import (
+    SCHEMES,
+    ModalProblem,
+    ModalState,
+    ModalSteps,
+    integrate_modes,
+)
 from ssilang.kernel.modal.link_laws import plastic_force
 from ssilang.kernel.modal.links import Link, link_arrays
 
@@ -25,7 +31,8 @@ def run(M, C, K, q, v, h, steps, links=(), scheme="DE_VOGELAERE", force=None, ev
     half = np.arange(2 * steps + 1) * 0.5 * h
     amplitudes = np.zeros((0, len(half))) if force is None else force(half)[None]
     state = ModalState(0.0, q, v, None, None, None)
-    return march(M, C, K, spaces, amplitudes, link_arrays(links, n), state, h, steps, every, scheme)
+    problem = ModalProblem(M, C, K, spaces, amplitudes, link_arrays(links, n))
+    return integrate_modes(problem, state, ModalSteps(h, steps, every, scheme))
 
 
 def error(scheme, steps, xi):
@@ -150,8 +157,8 @@ def test_run_goes_on_where_it_stopped():
     whole = run(ONE, 0.1 * ONE, ONE, 0.0, 1.0, 0.01, 200, [wall])
     part = run(ONE, 0.1 * ONE, ONE, 0.0, 1.0, 0.01, 120, [wall])
     arrays = link_arrays([wall], 1)
-    rest = march(ONE, 0.1 * ONE, ONE, np.zeros((0, 1)), np.zeros((0, 161)), arrays, part.last,
-                 0.01, 80, 1, "DE_VOGELAERE")  # fmt: skip
+    still = ModalProblem(ONE, 0.1 * ONE, ONE, np.zeros((0, 1)), np.zeros((0, 161)), arrays)
+    rest = integrate_modes(still, part.last, ModalSteps(0.01, 80))
     np.testing.assert_allclose(rest.values[:, :2], whole.values[120:, :2], atol=1e-12)
     assert rest.times[0] == pytest.approx(1.2)
 

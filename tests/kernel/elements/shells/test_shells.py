@@ -455,3 +455,20 @@ def test_clamped_thin_tube_vibrates_as_the_published_case_says():
     for near in (0.0, 300.0, 560.0):
         mode = modes_near(stiffness, mass, [(near, 1)])[0]
         assert mode.frequency == pytest.approx((534.62 + 533.84) / 2, rel=5e-3)
+
+
+@pytest.mark.parametrize(("n", "rtol"), [(12, 1e-2), (24, 3e-3)])
+def test_simply_supported_plate_of_cut_rectangles_deflects_as_timoshenko_says(n, rtol):
+    """0.01160 P a^2 / D under a force in the middle, of 2 n^2 triangles."""
+    zone, x = plate(n, n, 1.0, 1.0)
+    edge = np.flatnonzero((np.abs(x[:, :2] - 0.5) > 0.5 - 1e-9).any(axis=1))
+    centre = int(np.argmin(np.linalg.norm(x - [0.5, 0.5, 0], axis=1)))
+
+    def fixed(numbering):
+        names = np.array([numbering.name(i) for i in range(numbering.size)])
+        on_edge = np.isin(numbering.nodes, edge) & (names == "UZ")
+        return on_edge | np.isin(names, ["UX", "UY", "RZ"])
+
+    load = NodeField.of(zone.cells.nodes, np.array([centre]), {"FZ": np.array([1.0])}, "DISCRET")
+    u = solved(zone, material(zone, **PLATE), fixed, load)
+    assert u.values_at("UZ", np.array([centre]))[0] == pytest.approx(0.01160 / D, rel=rtol)

@@ -49,7 +49,14 @@ def _products_at(x: Products, j: int) -> Products:
 @compiled
 def _sweep_at(x: Sweep, j: int) -> Sweep:
     return Sweep(
-        x.b[j], x.du[j], x.above[j], x.change[j], x.room[j], x.rise[j], x.coming[j], x.sums[j]
+        x.b[j],
+        x.du[j],
+        x.above[j],
+        x.change[j],
+        x.room[j],
+        x.load_change[j],
+        x.next_load_change[j],
+        x.sums[j],
     )
 
 
@@ -91,7 +98,7 @@ def _advance_all(
         own, products = _sweep_at(sweep, j), _products_at(batch.products, j)
         advance_range(plan, motion_at(batch.x, j), products, own, begin, end)
         add_work(plan.forces, own.du, begin, end, to.work[j, 0, k])
-        predict(plan, products, own.coming, own.b, begin, end)
+        predict(plan, products, own.next_load_change, own.b, begin, end)
 
 
 @compiled
@@ -130,8 +137,8 @@ def run_interleaved_batch(
     for j in range(count):
         ends.steps[j], ends.turns[j] = steps, 1
         for c in range(loads):
-            sweep.rise[j, c] = factors[j, 1, c] - factors[j, 0, c]
-        predict(plan, _products_at(batch.products, j), sweep.rise[j], b[j], start, n)
+            sweep.load_change[j, c] = factors[j, 1, c] - factors[j, 0, c]
+        predict(plan, _products_at(batch.products, j), sweep.load_change[j], b[j], start, n)
     for i in range(len(plan.branches)):
         s0, s1 = plan.branches[i]
         forward_many(L, s0, s1, b, L.first[s1], above, local)
@@ -163,4 +170,4 @@ def run_interleaved_batch(
         for j in range(count):
             if ends.steps[j] == steps:
                 _end_of_step(plan, joints, batch, sweep, factors, to, k, j)
-            copy_state(sweep.coming[j], sweep.rise[j])
+            copy_state(sweep.next_load_change[j], sweep.load_change[j])

@@ -140,7 +140,7 @@ class Sweep(NamedTuple):
     change : array (n,)
         `-J^T df` of the step's end.
     room : array (n,)
-    rise, coming : arrays (k,)
+    load_change, next_load_change : arrays (k,)
         Increments of the load factors in this step and in the next one.
     sums : array (5,)
         v.Mv, u.g, u.Cv, du.(Cv_0 + Cv_1), something finite if all is.
@@ -151,8 +151,8 @@ class Sweep(NamedTuple):
     above: FloatArray
     change: FloatArray
     room: FloatArray
-    rise: FloatArray
-    coming: FloatArray
+    load_change: FloatArray
+    next_load_change: FloatArray
     sums: FloatArray
 
 
@@ -167,9 +167,9 @@ def _row(A: Sparse, i: int, x: FloatArray) -> float:
 @apart
 @compiled_fast
 def predict(
-    plan: Plan, products: Products, rise: FloatArray, b: FloatArray, begin: int, end: int
+    plan: Plan, products: Products, load_change: FloatArray, b: FloatArray, begin: int, end: int
 ) -> None:
-    """b of the next step on a range of unknowns; `rise` (k,) are increments of the load factors."""
+    """b of the next step on a range of unknowns; `load_change` (k,): increments of the factors."""
     n, g, Mv, Ma, Cv, Ca = (
         plan.newmark, products.g, products.Mv, products.Ma, products.Cv, products.Ca,
     )  # fmt: skip
@@ -179,9 +179,9 @@ def predict(
     else:
         for i in range(begin, end):
             b[i] = from_past(n, Mv[i], Ma[i], 0.0, 0.0) - g[i]
-    for c in range(len(rise)):
-        if rise[c] != 0.0:
-            part = n.end * rise[c]
+    for c in range(len(load_change)):
+        if load_change[c] != 0.0:
+            part = n.end * load_change[c]
             for i in range(begin, end):
                 b[i] += part * plan.forces[c, i]
 
@@ -193,10 +193,10 @@ def _strain_forces(forces: FloatArray, sweep: Sweep, begin: int, end: int) -> No
     for i in range(begin, end):
         out[i] = change[i]
         change[i] = 0.0
-    for c in range(len(sweep.rise)):
-        if sweep.rise[c] != 0.0:
+    for c in range(len(sweep.load_change)):
+        if sweep.load_change[c] != 0.0:
             for i in range(begin, end):
-                out[i] += sweep.rise[c] * forces[c, i]
+                out[i] += sweep.load_change[c] * forces[c, i]
 
 
 @apart
@@ -256,8 +256,8 @@ def begin_step(sweep: Sweep, factors: FloatArray, k: int, work: FloatArray) -> N
         sweep.sums[i] = 0.0
     for c in range(len(work)):
         work[c] = 0.0
-        sweep.rise[c] = factors[k + 1, c] - factors[k, c]
-        sweep.coming[c] = factors[min(k + 2, last), c] - factors[k + 1, c]
+        sweep.load_change[c] = factors[k + 1, c] - factors[k, c]
+        sweep.next_load_change[c] = factors[min(k + 2, last), c] - factors[k + 1, c]
 
 
 @compiled
@@ -287,7 +287,7 @@ def settle_interface(
     for i in range(q):
         y = _row(plan.Jr, i, own)
         for c in range(plan.lift.shape[1]):
-            y += plan.lift[i, c] * sweep.rise[c]
+            y += plan.lift[i, c] * sweep.load_change[c]
         trial.y0[i] = trial.y[i] = y
     now = InterfaceState(flow.delta, flow.f, flow.w, flow.t, flow.state)
     condensed = Condensed(plan.S, plan.R, plan.newmark.end)
@@ -360,7 +360,7 @@ def run_interleaved(
     )  # fmt: skip
     b, du, above, local = sweep.b, sweep.du, sweep.above, np.empty(plan.room)
     start = L.first[0]  # 0, but not as a literal: that is a type of its own
-    predict(plan, products, sweep.rise, b, start, n)
+    predict(plan, products, sweep.load_change, b, start, n)
     for j in range(len(plan.branches)):
         s0, s1 = plan.branches[j]
         forward(L, s0, s1, b, L.first[s1], above, local)
@@ -386,7 +386,7 @@ def run_interleaved(
             advance_range(plan, x, products, sweep, begin, end)
             add_work(plan.forces, du, begin, end, work)
             if k + 1 < steps:
-                predict(plan, products, sweep.coming, b, begin, end)
+                predict(plan, products, sweep.next_load_change, b, begin, end)
                 forward(L, s0, s1, b, end, above, local)
         # the trunk's and the root's own unknowns
         for j in range(len(plan.trunk) + 1):
@@ -395,12 +395,12 @@ def run_interleaved(
                 begin, end = L.first[s], L.first[s + 1]
                 advance_range(plan, x, products, sweep, begin, end)
                 add_work(plan.forces, du, begin, end, work)
-                predict(plan, products, sweep.coming, b, begin, end)
+                predict(plan, products, sweep.next_load_change, b, begin, end)
         account(plan, joints, x, products, sweep, factors, to.work, k)
         if not np.isfinite(sweep.sums[4]):
             return k, -1, np.inf
         copy_state(x.energies, to.energies[k])
-        copy_state(sweep.coming, sweep.rise)
+        copy_state(sweep.next_load_change, sweep.load_change)
         if to.row[k] >= 0:
             keep(x, to, to.row[k])
     return steps, worst, 0.0

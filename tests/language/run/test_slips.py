@@ -1,0 +1,80 @@
+"""What beginners write: the right statement beside each slip is accepted."""
+
+import pytest
+
+from ssilang.cli.run import run_text
+
+SPELLINGS = ("'MASSE'", "MASSE", "masse", "(MOT 'MASSE')", "MOT 'MASSE'", "W")
+
+
+@pytest.mark.parametrize("value", SPELLINGS)
+def test_an_entry_takes_its_declared_word_though_an_operator_has_that_name(value, run):
+    script = run(f"W = MOT 'MASSE' ; T = TABL ; T . 'VITEUNIL' = {value} ;")
+    assert script.at("T", "VITEUNIL").upper() == "MASSE"
+
+
+@pytest.mark.parametrize("value", ["'MASSE'", "MASSE"])
+def test_an_entry_that_declares_no_such_word_runs_the_operator(value, fails):
+    assert fails(f"T = TABL ; T . 'AUTRE' = {value} ;") == "missing-argument"
+
+
+def test_an_operator_that_needs_nothing_runs(run):
+    assert run("T = TABL ; T . 'VITEUNIL' = 'TABL' ;").kind("T") == "TABLE"
+
+
+def test_a_label_of_several_words_is_no_operator(run):
+    script = run("L = 'MODE 1 frequency' ; T = MOTS L 'TABL of all' ; MESS L ;")
+    assert script.lines == ["MODE 1 frequency"]
+    assert [str(w) for w in script["T"].values] == ["MODE 1 frequency", "TABL of all"]
+
+
+def test_a_label_of_a_check_may_begin_as_an_operator_does(run):
+    script = run("T = TABL ; @VERIFIE T 'MODE 1 frequency' 1. 1. 0.1 ;")
+    assert any(line.startswith("MODE 1 frequency") for line in script.lines)
+
+
+@pytest.mark.parametrize(
+    "script",
+    ["X Y = 2 5 ;", "OPTI DIME 2 ; P = (0,5) ;", "L = LECT 1,2,3 ;", "L = LECT 2, 5 ;",
+     "MESS 'sizes 2,5' ;", "* 2,5\nX = 1 ;", "COMM 2,5 ;", "X = 1 ; FIN ; 2,5"],
+)  # fmt: skip
+def test_commas_that_separate_are_none_of_a_decimal(script, run):
+    run(script)
+
+
+@pytest.mark.parametrize("script", ["X = 2,5 ;", "L = PROG 1. -2,5 ;", "X = (2,5E3 * 2) ;"])
+def test_a_decimal_comma_is_refused_before_anything_runs(script):
+    result = run_text(f"MESS 'begun' ; {script}")
+    assert [e.code for e in result.errors] == ["decimal-comma"]
+    assert result.output == ""
+
+
+def test_numbers_of_a_message_do_not_run_together(run):
+    script = run("MESS 1 -2 -3 ; MESS -1. -2. ; MESS 'A' -2 ; MESS 12 34 ; X = CHAI 1 -2 ;")
+    assert script.lines == ["1 -2 -3", "-1.00000E+00 -2.00000E+00", "A-2", "1234"]
+    assert script["X"] == "1-2"
+
+
+def test_double_quotes_inside_of_a_text_are_letters(run):
+    assert run("MESS 'say \"hello\"' ;").lines == ['say "hello"']
+
+
+def test_a_text_over_several_lines_opens_no_false_quote():
+    result = run_text("TITR 'two\nlines' ;\nX = 1. ;\nMESS 'open ;\nY = 2. ;\n")
+    assert [e.code for e in result.errors] == ["unclosed-string"]
+    assert "script:4:6" in result.message
+
+
+@pytest.mark.parametrize("control", ["\x1b", "\x9b", "\x07", "\x00"])
+def test_control_characters_reach_nobody_as_such(control):
+    result = run_text(
+        f"MESS 'a{control}[31mred' ;\nMESS (L{control}[2J) ; X = {control}[31mfoo 3 ;"
+    )
+    assert result.exit_code == 1
+    assert control not in result.output + result.message
+    result = run_text(f"MESS 'a{control}[31mred\tb' ;")
+    assert result.output == f"a\\x{ord(control):02x}[31mred\tb\n"
+
+
+def test_an_option_in_quotes_is_read_beside_a_variable_of_its_name(run):
+    assert run("MODE = 3 ; OPTI DIME 2 'MODE' PLAN ELEM QUA4 ; X = MODE ;")["X"] == 3

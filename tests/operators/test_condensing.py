@@ -1,0 +1,29 @@
+"""CMCT: the matrix first, its relations second, and told when they are swapped."""
+
+import pytest
+
+from ssilang.cli.run import run_text
+
+START = (
+    "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; K = (APPU 'UX' 4. P) ET (APPU 'UX' 5. Q) ; "
+    "C = RELA 2. 'UX' P '+' 3. 'UX' Q ; "
+)
+
+
+def test_the_relation_leaves_one_unknown():
+    """2 u + 3 v = 0: with v = -2 u / 3 the stiffness is 4 + 5 x 4 / 9."""
+    result = run_text(START + "D = MAXI (EXTR (CMCT K C) 'DIAG') ;")
+    assert result.exit_code == 0, result.message
+    one, other = 4 + 5 * 4 / 9, 5 + 4 * 9 / 4
+    found = result.session.root.find("D")
+    assert found == pytest.approx(one) or found == pytest.approx(other)
+
+
+@pytest.mark.parametrize(
+    ("operands", "said"),
+    [("C K", "the matrix stands first, its relations second"), ("K K", "no relations to condense")],
+)
+def test_matrices_without_relations_are_refused(operands, said):
+    result = run_text(START + f"D = CMCT {operands} ;")
+    assert result.exit_code == 1
+    assert said in result.message
