@@ -1,4 +1,4 @@
-"""Strains that a change of temperature causes."""
+"""Strains without stress: those that a change of temperature causes, or as they are given."""
 
 from __future__ import annotations
 
@@ -61,6 +61,17 @@ def thermal_strain(zone: Zone, material: CellField, field: NodeField | CellField
         raise MaterialError("kernel.elements.thermal-expansion-joints-not")
     values[:, 0] = parameters.at("ALPH", "STRESSES", 0.0) * rise
     return values
+
+
+def given_strain(zone: Zone, field: CellField) -> FloatArray:
+    """A field of strains (n_cells, n_strains, n_points) at the points of 'STRESSES'.
+
+    Components that the field lacks, and all on zones that it does not cover, are zero.
+    """
+    seen, names = zone_field(zone, field), family_of(zone).strain_names(zone)
+    shape = (len(zone.cells), len(support_rule(zone.element, "STRESSES")))
+    columns = [np.broadcast_to(seen.at(n, "STRESSES", 0.0), shape) for n in names]
+    return np.stack(columns, axis=1)
 
 
 def _solid(zone: Zone, parameters: ZoneField, rise: FloatArray, n_strains: int) -> FloatArray:
