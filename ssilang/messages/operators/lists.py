@@ -57,6 +57,22 @@ MESSAGES: dict[str, Message] = {
         "numbers, lists of reals or nodal fields, all of one type",
         "des nombres, des listes de réels ou des champs par points, tous d'un même type",
     ),
+    "point-out-of-bounds": Message(
+        "the point VX0 is not between VXMIN and VXMAX",
+        "le point VX0 n'est pas entre VXMIN et VXMAX",
+    ),
+    "no-such-method": Message(
+        "EXCE: METHODE is {methods:or}, not {method}",
+        "EXCE : METHODE est {methods:or}, pas {method}",
+    ),
+    "setting-out-of-range": Message(
+        "'{index}' is a number between {low:g} and {high:g}",
+        "'{index}' est un nombre entre {low:g} et {high:g}",
+    ),
+    "numbers-in-entry": Message(
+        "'{index}' holds {found} {found:number|numbers} one after the other, {count} are wanted",
+        "'{index}' contient {found} {found:nombre|nombres} à la suite, il en faut {count}",
+    ),
     "no-such-place": Message(
         "the list has {size} {size:item|items}, there is none at place {place}",
         "la liste a {size} {size:élément|éléments}, il n'y en a pas au rang {place}",
