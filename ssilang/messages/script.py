@@ -320,16 +320,27 @@ HINTS: dict[str, tuple[str, str]] = {
         "joignez à MODELE le modèle MODE GEO1 'CHARGEMENT' 'PRESSION' de ces faces",
     ),
     "kernel.statics.pressure-follows": (
-        "PROCEDURE_CHARMECA calls CHARMECA, which gives it at each step (BSIG, KP)",
-        "PROCEDURE_CHARMECA appelle CHARMECA, qui la donne à chaque pas (BSIG, KP)",
+        "leave PRES out of CHARGEMENT; TAB1 . 'PROCEDURE_CHARMECA' = VRAI calls your procedure "
+        "CHARMECA where the bodies are: T . 'ADDI_SECOND' = BSIG MODL1 (PRES MODL1 'PRES' P1)",
+        "ôtez PRES de CHARGEMENT ; TAB1 . 'PROCEDURE_CHARMECA' = VRAI appelle votre procédure "
+        "CHARMECA sur la configuration courante : T . 'ADDI_SECOND' = BSIG MODL1 "
+        "(PRES MODL1 'PRES' P1)",
     ),
     "kernel.statics.pressure-is-no-field-in-cells": (
         "CHAR 'PRES' (PRES MODL1 'PRES' P1) EVOL1",
         "CHAR 'PRES' (PRES MODL1 'PRES' P1) EVOL1",
     ),
+    "kernel.statics.free-strains-in-large-displacements": (
+        "leave it out, or take out 'GRANDS_DEPLACEMENTS'",
+        "ôtez-le, ou ôtez 'GRANDS_DEPLACEMENTS'",
+    ),
+    "kernel.statics.given-strain-is-no-field-in-cells": (
+        "CHAR 'DEFI' (MANU 'CHML' MODL1 'EPXX' X1 ... 'TYPE' 'DEFORMATIONS' 'STRESSES') EVOL1",
+        "CHAR 'DEFI' (MANU 'CHML' MODL1 'EPXX' X1 ... 'TYPE' 'DEFORMATIONS' 'STRESSES') EVOL1",
+    ),
     "kernel.statics.load-not-mechanical": (
-        "MECA (or FORC) and DIMP are taken here, PRES by PASAPAS",
-        "MECA (ou FORC) et DIMP sont admis ici, PRES par PASAPAS",
+        "MECA (or FORC) and DIMP are taken here, PRES, T and DEFI by PASAPAS",
+        "MECA (ou FORC) et DIMP sont admis ici, PRES, T et DEFI par PASAPAS",
     ),
     "kernel.statics.loads-drive-motions": (
         "not held: {free}{more:? and {more} more}; hold it with BLOQ or RELA{apart:?; "
@@ -403,8 +414,8 @@ HINTS: dict[str, tuple[str, str]] = {
         "donnez MODELE et CARACTERISTIQUES avec ces joints",
     ),
     "kernel.stepping.load-not-mechanical": (
-        "MECA (or FORC) and DIMP are taken here, PRES by PASAPAS",
-        "MECA (ou FORC) et DIMP sont admis ici, PRES par PASAPAS",
+        "MECA (or FORC) and DIMP are taken here, PRES, T and DEFI by PASAPAS",
+        "MECA (ou FORC) et DIMP sont admis ici, PRES, T et DEFI par PASAPAS",
     ),
     "kernel.stepping.full-uplift": (
         "give it mass (MASS), a support, or loads that press it on its joints",

@@ -179,3 +179,52 @@ def test_largest_value_of_the_components_of_a_list(found):
         "X1", "X2", "X3",
     )  # fmt: skip
     assert values == (2.0, 5.0, 2.0)
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("MAXI C 'SANS' 'ABS' (MOTS 'A')", 5.0),
+        ("MAXI C 'AVEC' 'ABS' (MOTS 'A')", 2.0),
+        ("MAXI (-1. * C) 'SANS' (MOTS 'A') 'ABS'", 5.0),
+        ("MINI 'ABS' C (MOTS 'B') 'SANS'", 2.0),
+    ],
+)
+def test_the_word_before_a_list_of_components_and_its_list_may_be_apart(found, text, expected):
+    assert found(LINE + f"X = {text} ;", "X") == expected
+
+
+@pytest.mark.parametrize("text", ["MAXI C 'SANS' 'ABS'", "MAXI C 'SANS' 'A'", "MINI 'AVEC' C"])
+def test_a_word_of_components_without_its_list_is_told(refused, text):
+    assert "waits for the list" in refused(LINE + f"X = {text} ;")
+
+
+def test_a_field_is_dealt_out_over_a_table_of_models_and_joined_again(found):
+    script = (
+        "OPTI DIME 2 ELEM QUA4 ; S = (DROI 4 (0. 0.) (4. 0.)) TRAN 1 (0. 1.) ; "
+        "M = MODE S MECANIQUE ELASTIQUE ; A = CHAN 'STRESSES' M (CHAN 'CHAM' (COOR 1 S) M) ; "
+        "TM = PART 'ARLE' M 3 ; T = REDU A TM ; W = T . 'SOUSTYPE' ; N = DIME T ; "
+        "X = (INTG (TM . 1) (T . 1)) + (INTG (TM . 2) (T . 2)) + (INTG (TM . 3) (T . 3)) ; "
+        "Y = INTG M (REDU T M) ; "
+    )
+    kind, count, parts, whole = found(script, "W", "N", "X", "Y")
+    assert (str(kind), count) == ("ESCLAVE", 4)
+    assert parts == pytest.approx(8.0)  # the integral of x over the band
+    assert whole == pytest.approx(8.0)
+
+
+def test_a_table_without_models_is_told(refused):
+    assert "no models" in refused(LINE + "T = TABL ; T . 1 = 5 ; X = REDU C T ;")
+
+
+def test_the_sub_type_of_a_changed_field_is_any_word(found):
+    script = (
+        "OPTI DIME 2 ELEM QUA4 ; S = (DROI 1 (0. 0.) (1. 0.)) TRAN 1 (0. 1.) ; "
+        "M = MODE S MECANIQUE ELASTIQUE ; T = COOR 1 S ; "
+        "A = CHAN 'CHAM' T M 'STRESSES' 'MY OWN' ; B = CHAN 'CHAM' T S 'OTHER' ; "
+        "C = CHAN 'GRAVITE' M A 'DEFORMATIONS' ; D = CHAN 'GRAVITE' M A ; "
+        "N = NBEL (EXTR (CHAN 'CHAM' T M ET (CHAN 'CHAM' T M)) 'MAIL') ; "
+    )
+    a, b, c, d, n = found(script, "A", "B", "C", "D", "N")
+    assert (a.title, b.title, c.title, d.title) == ("MY OWN", "OTHER", "DEFORMATIONS", "MY OWN")
+    assert n == 1

@@ -252,3 +252,25 @@ def test_each_operand_loses_its_doubles():
     assert a.values.tolist() == [0.3, 1.0, 1.05]  # 0.1 + 0.2 is 0.3 but for rounding
     assert (b.values.tolist(), c.n_cells) == ([3, 1], 2)
     assert e.values.tolist() == [1.0, 2.0]
+
+
+def test_places_may_stand_before_a_list_of_another_type(found):
+    words, reals, integers = found(
+        "W = ENLE (LECT 1 3) (MOTS 'A' 'B' 'C') ; R = ENLE (LECT 2) (PROG 4. 5. 6.) ; "
+        "I = ENLE (LECT 1 3 7) (LECT 2 3) ;", "W", "R", "I",
+    )  # fmt: skip
+    assert [str(w) for w in words.values] == ["B"]
+    assert reals.values.tolist() == [4.0, 6.0]
+    assert integers.values.tolist() == [1]  # of two alike the first is the list
+
+
+def test_values_of_fields_on_one_point_need_no_point(found, refused):
+    script = (
+        "OPTI DIME 2 ELEM SEG2 ; P = 0. 0. ; Q = 1. 0. ; C = MANU 'CHPO' P 'T' 3. 'Q' 1. ; "
+        "L = SUIT C (2. * C) ; "
+    )
+    both, one = found(script + "A = EXTR L 'VALE' ; B = EXTR L 'VALE' 'Q' ;", "A", "B")
+    assert both.values.tolist() == [3.0, 6.0, 1.0, 2.0]
+    assert one.values.tolist() == [1.0, 2.0]
+    two = script + "D = MANU 'CHPO' Q 'T' 3. 'Q' 1. ; A = EXTR (SUIT C D) 'VALE' ;"
+    assert "stand on 2 points" in refused(two)

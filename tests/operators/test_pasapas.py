@@ -258,3 +258,77 @@ def test_fields_in_cells_come_in_the_order_of_the_models_zones(found):
     field, stress = found(script.replace("M = M1 ET M2", "M = M2 ET M1"), "X", "Y")
     assert [b.constituent for b in field.blocks] == ["C2", "C1"]
     assert stress == pytest.approx(100 * 0.01)
+
+
+PLATE = """
+OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ;
+P1 = 0. 0. ; L = DROI 2 P1 (2. 0.) ; S = L TRAN 2 (0. 1.) ; G = S COTE 4 ; R = S COTE 2 ;
+MO = MODE S 'MECANIQUE' 'ELASTIQUE' ; MA = MATE MO 'YOUN' 1.E5 'NU' 0.3 ;
+MP = MODE R 'CHARGEMENT' 'PRESSION' ; EV = EVOL 'MANU' (PROG 0. 1. 2.) (PROG 0. 1. 0.25) ;
+T = TABL ; T . 'MODELE' = MO ET MP ; T . 'CARACTERISTIQUES' = MA ;
+T . 'BLOCAGES_MECANIQUES' = (BLOQ 'UX' G) ET (BLOQ 'UY' P1) ;
+T . 'TEMPS_CALCULES' = PROG 0. 0.5 1. 2. ;
+"""
+STRAIN = (
+    "CHAR 'DEFI' (MANU 'CHML' MO 'EPXX' 1.E-3 'EPYY' 2.E-3 'TYPE' 'DEFORMATIONS' 'STRESSES') EV"
+)
+
+
+def test_pressure_on_an_edge_follows_its_curve(tmp_path):
+    find = run(
+        PLATE + "T . 'CHARGEMENT' = CHAR 'PRES' (PRES MP 'PRES' 300.) EV ; PASAPAS T ;", tmp_path
+    )
+    T = find("T")
+    for index, factor in enumerate((0.0, 0.5, 1.0, 0.25)):
+        u = T.get("DEPLACEMENTS").get(index).components
+        shortening, thickening = -factor * 300.0 / 1e5 * 2.0, factor * 0.3 * 300.0 / 1e5 * 1.0
+        assert u["UX"].values.min() == pytest.approx(shortening, rel=1e-10, abs=1e-18)
+        assert u["UY"].values.max() == pytest.approx(thickening, rel=1e-10, abs=1e-18)
+        stress = T.get("CONTRAINTES").get(index).blocks[0].components
+        assert stress["SMXX"] == pytest.approx(-300.0 * factor, rel=1e-10, abs=1e-9)
+        assert stress["SMYY"] == pytest.approx(0.0, abs=1e-9)
+
+
+def test_imposed_strains_move_a_free_plate_without_stress(tmp_path):
+    T = run(PLATE + f"T . 'CHARGEMENT' = {STRAIN} ; PASAPAS T ;", tmp_path)("T")
+    u = T.get("DEPLACEMENTS").get(2).components
+    assert u["UX"].values.max() == pytest.approx(1e-3 * 2.0, rel=1e-10)
+    assert u["UY"].values.max() == pytest.approx(2e-3 * 1.0, rel=1e-10)
+    assert T.get("CONTRAINTES").get(2).blocks[0].components["SMXX"] == pytest.approx(0.0, abs=1e-9)
+
+
+def test_imposed_strains_press_a_held_plate(tmp_path):
+    held = PLATE + "T . 'BLOCAGES_MECANIQUES' = BLOQ 'UX' 'UY' S ; "
+    T = run(held + f"T . 'CHARGEMENT' = {STRAIN} ; PASAPAS T ;", tmp_path)("T")
+    stress = T.get("CONTRAINTES").get(3).blocks[0].components
+    modulus = 0.25 * 1e5 / (1 - 0.3**2)
+    assert stress["SMXX"] == pytest.approx(-modulus * (1e-3 + 0.3 * 2e-3), rel=1e-10)
+    assert stress["SMYY"] == pytest.approx(-modulus * (2e-3 + 0.3 * 1e-3), rel=1e-10)
+
+
+def test_free_strains_that_no_body_takes_are_refused(refused):
+    large = PLATE + "T . 'GRANDS_DEPLACEMENTS' = VRAI ; "
+    warm = "T . 'CHARGEMENT' = CHAR 'T' (MANU 'CHPO' S 'T' 10.) EV ; PASAPAS T ;"
+    assert "the load T strains bodies without stress" in refused(large + warm)
+    assert "the load DEFI strains" in refused(large + f"T . 'CHARGEMENT' = {STRAIN} ; PASAPAS T ;")
+    wrong = STRAIN.replace("EPYY", "EPZY")
+    message = refused(PLATE + f"T . 'CHARGEMENT' = {wrong} ; PASAPAS T ;")
+    assert "this field has EPZY" in message
+    nodal = "T . 'CHARGEMENT' = CHAR 'DEFI' (MANU 'CHPO' S 'EPXX' 1.) EV ; PASAPAS T ;"
+    assert "are a field in cells" in refused(PLATE + nodal)
+
+
+def test_pressure_in_large_displacements_is_for_charmeca(refused, tmp_path):
+    load = "T . 'CHARGEMENT' = CHAR 'PRES' (PRES MP 'PRES' 1.) EV ; "
+    large = "T . 'GRANDS_DEPLACEMENTS' = VRAI ; "
+    message = refused(PLATE + load + large + "PASAPAS T ;")
+    assert "a pressure follows its sides" in message
+    assert "ADDI_SECOND" in message
+    cure = (
+        "DEBP CHARMECA TT*TABLE TI*FLOTTANT ; X = TABL ; M1 = TT . 'WTABLE' . 'PRESSE' ; "
+        "X . 'ADDI_SECOND' = BSIG M1 (PRES M1 'PRES' TI) ; FINP X ; " + PLATE + large
+        + "T . 'MODELE' = MO ; T . 'WTABLE' = TABL ; T . 'WTABLE' . 'PRESSE' = MP ; "
+        "T . 'PROCEDURE_CHARMECA' = VRAI ; T . 'TEMPS_CALCULES' = PROG 0. 1. ; PASAPAS T ; "
+    )  # fmt: skip
+    u = run(cure, tmp_path)("T").get("DEPLACEMENTS").get(1).components["UX"].values
+    assert u.min() == pytest.approx(-1.0 / 1e5 * 2.0, rel=1e-4)

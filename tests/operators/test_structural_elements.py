@@ -132,3 +132,18 @@ def test_modes_of_a_spring_and_a_dashpot_in_series_are_those_of_maxwell():
     found = result.session.root.find
     assert 2 * np.pi * found("X") == pytest.approx(abs(decay[0].imag))
     assert 2 * np.pi * found("Y") == pytest.approx(-decay[0].real)
+
+
+def test_pressure_on_shells_goes_towards_a_point(found, refused):
+    script = (
+        "OPTI DIME 3 MODE TRID ELEM QUA4 ; L = DROI 2 (0 0 0) (2 0 0) ; A = L TRAN 2 (0 1 0) ; "
+        "B = A PLUS (0 0 1) ; M = MODE (A ET B) 'MECANIQUE' 'ELASTIQUE' 'COQ4' ; "
+        "F = PRES 'COQU' M 3. 'POIN' (1. 0.5 0.5) (CARA M 'EPAI' 0.1) ; "
+        "X = MAXI (RESU (REDU F A)) ; Y = MINI (RESU (REDU F B)) ; "
+        "Z = MAXI 'ABS' (RESU (PRES 'COQU' M 3. 'NORM')) ; "
+    )
+    assert found(script, "X", "Y", "Z") == pytest.approx((6.0, -6.0, 12.0))
+    flat = script + "G = PRES 'COQU' M 3. 'POIN' (9. 9. 1.) ;"
+    assert "4 shell cells lie along the vector" in refused(flat)
+    steep = script + "G = PRES 'COQU' M 3. (1. 0. 0.03) ; H = PRES 'COQU' M 3. (1. 0. 0.01) ;"
+    assert "8 shell cells" in refused(steep)

@@ -109,3 +109,13 @@ def test_product_of_fields_by_component():
 
 def test_interpolation_between_two_lists():
     assert found("Y = @INTLIN (PROG 0. 2.) (PROG 1. 5.) 0.5 ;", "Y") == 2.0
+
+
+def test_remainders_by_the_items_of_a_list(found):
+    whole, pairs, reals = found(
+        "A = @MOD 7 (LECT 2 4) ; B = @MOD (LECT 7 8) (LECT 2 3) ; C = @MOD 7.5 (PROG 2. 4.) ;",
+        "A", "B", "C",
+    )  # fmt: skip
+    assert whole.values.tolist() == [7 % 2, 7 % 4]
+    assert pairs.values.tolist() == [7 % 2, 8 % 3]
+    assert reals.values.tolist() == [1.5, 3.5]

@@ -277,6 +277,27 @@ def negative_mass(mass: sp.csr_array, numbering: Numbering) -> tuple[Sentence, f
     return numbering.label(worst), float(diagonal[worst])
 
 
+def may_be_positive(matrix: sp.csr_array) -> bool:
+    """Whether a symmetric matrix has no negative diagonal term and no negative 2 x 2 minor."""
+    diagonal = matrix.diagonal()
+    if diagonal.size and diagonal.min() < -NEGATIVE * np.abs(diagonal).max():
+        return False
+    return not _has_negative_minor(matrix)
+
+
+def _has_negative_minor(matrix: sp.csr_array) -> bool:
+    """Whether some `a_ii a_jj - a_ij^2` is negative by more than rounding.
+
+    Such a matrix is of both signs, whatever its diagonal.
+    """
+    terms, diagonal = matrix.tocoo(), np.abs(matrix.diagonal())
+    off = terms.row != terms.col
+    squares = terms.data[off] ** 2
+    products = diagonal[terms.row[off]] * diagonal[terms.col[off]]
+    floor = (NEGATIVE * np.abs(matrix.data).max(initial=0.0)) ** 2
+    return bool((squares > (1.0 + 1e-9) * products + floor).any())
+
+
 def refuse_negative_mass(mass: sp.csr_array, numbering: Numbering) -> None:
     """Refuse a mass matrix that resists the motion of some unknown with a negative mass.
 

@@ -112,6 +112,15 @@ class Matrix:
 
     cache: dict[str, object] = field(default_factory=dict, repr=False)
 
+    @property
+    def inertial(self) -> bool:
+        """Whether its terms are masses.
+
+        A geometric stiffness made for VIBR is of the kind 'MASSE' too, its blocks are not.
+        """
+        blocks = any(b.kind.startswith("MASS") for b in self.blocks)
+        return blocks and self.kind.startswith("MASS")
+
     def scaled(self, factor: float) -> Matrix:
         """The matrix times a number; relations are not scaled (they are conditions)."""
         blocks = tuple(replace(b, values=factor * b.values) for b in self.blocks)

@@ -16,6 +16,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import KernelError, SingularFactorError
 from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.matrices.assembly import may_be_positive
 from ssilang.kernel.modal.reduced import ReducedProblem
 from ssilang.kernel.solvers.backends import dissection_pays, factorise
 from ssilang.kernel.solvers.cholesky.inverse import accurate, invert
@@ -52,9 +53,9 @@ def nearest(problem: ReducedProblem, shift: float, count: int) -> Pairs:
     moved, solve = found
     whole = problem.size <= DENSE or count >= problem.size // 2
     if whole:
-        theta, shapes = _all(problem, solve)
+        theta, shapes = _all(problem, moved, solve)
     else:
-        theta, shapes = _some(problem, solve, count)
+        theta, shapes = _some(problem, moved, solve, count)
     real = np.abs(theta) > MASSLESS * np.abs(theta).max(initial=0.0)
     values, shapes = moved + 1.0 / theta[real], shapes[:, real]
     order = np.argsort(np.abs(values - shift), kind="stable")[:count]
@@ -163,13 +164,13 @@ def _factor(A: sp.csr_array, problem: ReducedProblem) -> Factor | None:
         return None
 
 
-def _all(problem: ReducedProblem, solve: Solve) -> tuple[FloatArray, FloatArray]:
+def _all(problem: ReducedProblem, moved: float, solve: Solve) -> tuple[FloatArray, FloatArray]:
     """All theta and shapes: `R^T A^-1 R y = theta y` with `M = R R^T`, `x = A^-1 R y`."""
     import scipy.linalg as la
 
     weights, vectors = la.eigh(problem.M.toarray())
     if weights[0] < -1e-10 * abs(weights[-1]):
-        return _indefinite(problem, solve)
+        return _indefinite(problem, moved, solve)
     heavy = weights > 1e-14 * weights[-1]
     root = vectors[:, heavy] * np.sqrt(weights[heavy])
     image = solve(root)
@@ -178,40 +179,73 @@ def _all(problem: ReducedProblem, solve: Solve) -> tuple[FloatArray, FloatArray]
     return theta, _normal(problem, image @ y)
 
 
-def _indefinite(problem: ReducedProblem, solve: Solve) -> tuple[FloatArray, FloatArray]:
-    """The same where the "mass" has both signs (buckling) and A is positive.
+def _indefinite(
+    problem: ReducedProblem, moved: float, solve: Solve
+) -> tuple[FloatArray, FloatArray]:
+    """The same where the "mass" has both signs (buckling) and A, or else K, is positive.
 
-    With `A^-1 = L L^T` and `x = L y`: `L^T M L y = theta y`.
+    With `A^-1 = L L^T` and `x = L y`: `L^T M L y = theta y`. A shift above the first load that
+    buckles leaves A without such an L; K has one.
     """
     import scipy.linalg as la
 
-    flexibility = solve(np.eye(problem.size))
-    try:
-        lower = la.cholesky(0.5 * (flexibility + flexibility.T), lower=True)
-    except la.LinAlgError:
-        raise KernelError("kernel.modal.mass-matrix-negative-eigenvalues") from None
+    lower, base = _root(problem, solve), moved
+    if lower is None:
+        elastic = shifted_inverse(problem, 0.0)
+        if elastic is not None:
+            base, lower = elastic[0], _root(problem, elastic[1])
+    if lower is None:
+        raise KernelError("kernel.modal.mass-matrix-negative-eigenvalues")
     theta, y = la.eigh(lower.T @ problem.M.toarray() @ lower)
+    if base != moved:
+        real = np.abs(theta) > MASSLESS * np.abs(theta).max(initial=0.0)
+        theta, y = 1.0 / (base + 1.0 / theta[real] - moved), y[:, real]
     return theta, _normal(problem, lower @ y)
 
 
-def _some(problem: ReducedProblem, solve: Solve, count: int) -> tuple[FloatArray, FloatArray]:
-    """The largest |theta| by ARPACK, a few more than wanted so that none is missed."""
+def _root(problem: ReducedProblem, solve: Solve) -> FloatArray | None:
+    """L (r, r) of the inverse `L L^T` that `solve` applies; None if that is not positive."""
+    import scipy.linalg as la
+
+    inverse = solve(np.eye(problem.size))
+    try:
+        lower: FloatArray = la.cholesky(0.5 * (inverse + inverse.T), lower=True)
+    except la.LinAlgError:
+        return None
+    return lower
+
+
+def _some(
+    problem: ReducedProblem, moved: float, solve: Solve, count: int
+) -> tuple[FloatArray, FloatArray]:
+    """The largest |theta| by ARPACK, a few more than wanted so that none is missed.
+
+    Vectors are measured by the mass, or by K where the "mass" is a load (buckling).
+    """
     from scipy.sparse.linalg import ArpackError, LinearOperator, eigsh
 
     n = problem.size
     wanted = min(count + 4, n - 1)
     inverse = LinearOperator((n, n), matvec=solve, dtype=float)
     start = solve(problem.M @ np.random.default_rng(4).standard_normal(n))
+    asked = {"v0": start, "which": "LM", "ncv": min(n, max(2 * wanted + 10, 30)), "maxiter": 1000}
+    K, M = problem.K, problem.M
     try:
-        values, shapes = eigsh(
-            problem.K, wanted, M=problem.M, sigma=0.0, OPinv=inverse, v0=start, which="LM",
-            ncv=min(n, max(2 * wanted + 10, 30)), maxiter=1000,
-        )  # fmt: skip
+        if not may_be_positive(M) and moved == 0.0:
+            theta, shapes = eigsh(M, wanted, M=K, Minv=inverse, **asked)
+        elif not may_be_positive(M):
+            values, shapes = eigsh(
+                K, wanted, M=M, sigma=moved, mode="buckling", OPinv=inverse, **asked
+            )
+            theta = 1.0 / (values - moved)
+        else:
+            values, shapes = eigsh(K, wanted, M=M, sigma=0.0, OPinv=inverse, **asked)
+            theta = 1.0 / values
     except ArpackError as problem_found:
         raise KernelError(
             "kernel.modal.search-modes-not-converge", problem_found=problem_found
         ) from None
-    return 1.0 / values, _normal(problem, shapes)
+    return theta, _normal(problem, shapes)
 
 
 def _refuse_strangers(problem: ReducedProblem, values: FloatArray, shapes: FloatArray) -> None:

@@ -108,7 +108,7 @@ def reduced_problem(
     T = elimination.T
     K, M = assemble(stiffness, numbering), assemble(mass, numbering)
     C = None if damping is None else sp.csr_array(T.T @ assemble(damping, numbering) @ T)
-    if mass.kind.startswith("MASS") and not (M.diagonal() > 0.0).any():
+    if mass.inertial and not (M.diagonal() > 0.0).any():
         refuse_negative_mass(M, numbering)  # a buckling load in its place has both signs
     left = np.flatnonzero(~elimination.eliminated)
     return ReducedProblem(

@@ -1,4 +1,4 @@
-"""Temperatures in a load, as mechanical loads and as stresses to take off."""
+"""Free strains in a load (temperatures, given strains), as forces and as stresses to take off."""
 
 from __future__ import annotations
 
@@ -10,17 +10,20 @@ from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.curves.curve import Curve, CurvePart, Load, LoadPart
 from ssilang.kernel.elements.families import elastic_stress, family_of
 from ssilang.kernel.elements.family import cell_block
-from ssilang.kernel.elements.loads.thermal import thermal_strain
+from ssilang.kernel.elements.loads.thermal import given_strain, thermal_strain
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.stepping.problem.loading import TimeCurve, terms_of
 
+FREE = ("T", "DEFI")
+"""Loads that strain bodies without stress: temperatures, and strains as they are given."""
+
 
 @dataclass(frozen=True, eq=False)
 class ThermalStress:
-    """Stress of fully restrained expansion of one zone, times a curve in time."""
+    """Stress of a fully restrained free strain of one zone, times a curve in time."""
 
     zone: Zone
     block: CellFieldBlock
@@ -35,33 +38,92 @@ class ThermalStress:
         )
 
 
-def split_thermal(
+def check_strains(load: Load | None, zones: tuple[Zone, ...], moving: bool) -> None:
+    """Free strains are fields of strains that the bodies have, in small displacements.
+
+    Parameters
+    ----------
+    zones : all bodies
+    moving : bool
+        Whether they are in finite displacements, whose laws take no free strains.
+
+    Raises
+    ------
+    FieldError
+        If a strain stands on no body, or bodies move far.
+    """
+    for part in load.parts if load is not None else ():
+        name = part.name.strip()
+        if name not in FREE:
+            continue
+        if moving:
+            raise FieldError("kernel.statics.free-strains-in-large-displacements", name=name)
+        if name == "DEFI":
+            _check_names([field for field, _ in terms_of(part)], zones)
+
+
+def _check_names(fields: list[object], zones: tuple[Zone, ...]) -> None:
+    wanted = {n for z in zones for n in family_of(z).strain_names(z)}
+    for field in fields:
+        if not isinstance(field, CellField):
+            raise FieldError("kernel.statics.given-strain-is-no-field-in-cells")
+        found = {n for z in zones for n in zone_field(z, field).names}
+        if not found or not found <= wanted:
+            raise FieldError(
+                "kernel.statics.given-strain-names",
+                given=sorted(found - wanted),
+                wanted=sorted(wanted),
+            )
+
+
+def split_strains(
     load: Load | None, zones: list[tuple[Zone, CellField]]
 ) -> tuple[Load | None, list[ThermalStress]]:
-    """The load with its temperatures (T) turned into forces, and their stresses.
+    """The load with its free strains (T, DEFI) turned into forces, and their stresses.
 
-    Strains are ALPH (T - TALP); `zones` are those that expand, with their characteristics.
+    Strains of T are ALPH (T - TALP); `zones` are those that strain, with their characteristics.
     """
-    if load is None or not any(p.name.strip() == "T" for p in load.parts):
+    if load is None or not any(p.name.strip() in FREE for p in load.parts):
         return load, []
-    kept = [p for p in load.parts if p.name.strip() != "T"]
+    kept = [p for p in load.parts if p.name.strip() not in FREE]
     stresses: list[ThermalStress] = []
-    always: TimeCurve = (np.zeros(1), np.ones(1))
     for zone, material in zones:
-        reference = _restrained(zone, material, None)
-        stresses.append(ThermalStress(zone, reference, always))
-        for part in (p for p in load.parts if p.name.strip() == "T"):
-            for field, curve in terms_of(part):
-                if not isinstance(field, NodeField | CellField):
-                    raise FieldError("kernel.statics.load-needs-field-temperatures")
-                whole = _restrained(zone, material, field)
-                change = {k: v - reference.components[k] for k, v in whole.components.items()}
-                block = CellFieldBlock(
-                    whole.cells, change, whole.support, whole.element, whole.constituent
-                )
-                stresses.append(ThermalStress(zone, block, curve))
+        stresses += _thermal_stresses(load, zone, material)
+        stresses += _stresses_of_given(load, zone, material)
     parts = [_force(s, _of(zones, s.zone)) for s in stresses]
     return Load((*kept, *parts)), stresses
+
+
+def _terms(load: Load, name: str) -> list[tuple[object, TimeCurve]]:
+    return [t for p in load.parts if p.name.strip() == name for t in terms_of(p)]
+
+
+def _thermal_stresses(load: Load, zone: Zone, material: CellField) -> list[ThermalStress]:
+    """Those of the reference temperature, and of each field's difference from it."""
+    terms = _terms(load, "T")
+    if not terms:
+        return []
+    reference = _restrained(zone, material, None)
+    stresses = [ThermalStress(zone, reference, (np.zeros(1), np.ones(1)))]
+    for field, curve in terms:
+        if not isinstance(field, NodeField | CellField):
+            raise FieldError("kernel.statics.load-needs-field-temperatures")
+        whole = _restrained(zone, material, field)
+        change = {k: v - reference.components[k] for k, v in whole.components.items()}
+        block = CellFieldBlock(whole.cells, change, whole.support, whole.element, whole.constituent)
+        stresses.append(ThermalStress(zone, block, curve))
+    return stresses
+
+
+def _stresses_of_given(load: Load, zone: Zone, material: CellField) -> list[ThermalStress]:
+    names = family_of(zone).strain_names(zone)
+    stresses = []
+    for field, curve in _terms(load, "DEFI"):
+        if isinstance(field, CellField):  # checked before
+            strain = cell_block(zone, names, given_strain(zone, field))
+            block = elastic_stress(zone, material, CellField((strain,), "DEFORMATIONS"))
+            stresses.append(ThermalStress(zone, block, curve))
+    return stresses
 
 
 def _of(zones: list[tuple[Zone, CellField]], zone: Zone) -> CellField:

@@ -11,6 +11,7 @@ from typing import Any
 from ssilang.language.registry import (
     ANY,
     NAME,
+    SCALAR_RULES,
     Argument,
     Choices,
     Chosen,
@@ -184,6 +185,8 @@ class Binder:
             return self._several(a, after)
         if NAME in a.types:
             return self.call.take_name(a.optional)
+        if a.optional and a.types == ("MOT",) and self.call.peek_word() in SCALAR_RULES:
+            return a.default  # the ET, EGA ... behind the phrase is no name
         operand = self.call.read(*a.types, after=after)
         if operand is not None:
             return _given(a, operand)

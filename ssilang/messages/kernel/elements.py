@@ -288,6 +288,12 @@ MESSAGES: dict[str, Message] = {
         "les déformations planes généralisées demandent le point qui porte le mouvement de "
         "la section",
     ),
+    "pressure-along-face": Message(
+        "{count} {count:shell cell lies|shell cells lie} along the vector of the pressure: to "
+        "which side it pushes is not said",
+        "{count} {count:élément de coque est parallèle|éléments de coque sont parallèles} au "
+        "vecteur de la pression : le côté où elle pousse n'est pas dit",
+    ),
     "pressure-component-field": Message(
         "a pressure has one component, this field has {names:?{names}|none}",
         "une pression a une composante, ce champ {names:?a {names}|n'en a aucune}",

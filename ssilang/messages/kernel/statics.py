@@ -134,13 +134,30 @@ MESSAGES: dict[str, Message] = {
         "un chargement de pression n'a pas de face : le modèle n'a pas de zones de chargement",
     ),
     "pressure-follows": Message(
-        "a load of pressure follows its sides in large displacements, and is given as a constant "
-        "one",
-        "en grands déplacements un chargement de pression suit ses faces ; il est donné constant",
+        "in large displacements a pressure follows its sides as they turn, which a load that is "
+        "given beforehand does not",
+        "en grands déplacements une pression suit ses faces qui tournent, ce que ne fait pas un "
+        "chargement donné d'avance",
     ),
     "pressure-is-no-field-in-cells": Message(
         "a load of pressure is made of a field in cells",
         "un chargement de pression est fait d'un champ par éléments",
+    ),
+    "free-strains-in-large-displacements": Message(
+        "the load {name} strains bodies without stress, which is not available in large "
+        "displacements",
+        "le chargement {name} déforme sans contrainte, ce qui n'est pas disponible en grands "
+        "déplacements",
+    ),
+    "given-strain-is-no-field-in-cells": Message(
+        "imposed strains (DEFI) are a field in cells",
+        "des déformations imposées (DEFI) sont un champ par éléments",
+    ),
+    "given-strain-names": Message(
+        "imposed strains (DEFI) on these bodies have components {wanted:words}, this field has "
+        "{given:?{given:words}|none on them}",
+        "des déformations imposées (DEFI) ont sur ces corps les composantes {wanted:words}, ce "
+        "champ {given:?a {given:words}|n'en a aucune}",
     ),
     "load-not-mechanical": Message(
         "the load {name} is not mechanical",

@@ -111,6 +111,12 @@ MESSAGES: dict[str, Message] = {
         "the list is empty",
         "la liste est vide",
     ),
+    "components-not-listed": Message(
+        "{word} waits for the list of the components",
+        "{word} attend la liste des composantes",
+        "components are listed by MOTS, one alone too: {word} (MOTS 'UX')",
+        "MOTS fait une liste de composantes, même d'une seule : {word} (MOTS 'UX')",
+    ),
     "no-component-left": Message(
         "no component is left to look at",
         "il ne reste aucune composante à examiner",
@@ -242,6 +248,12 @@ MESSAGES: dict[str, Message] = {
     "table-of-fields": Message(
         "the table has no fields in cells at numbers",
         "la table n'a pas de champs par éléments à des indices numériques",
+    ),
+    "table-of-models": Message(
+        "the table has no models and no meshes",
+        "la table n'a ni modèles ni maillages",
+        "PART deals a model or a mesh out into such a table",
+        "PART partage un modèle ou un maillage en une telle table",
     ),
     "factor-count": Message(
         "{n_factors} {n_factors:factor|factors} for {n_names} {n_names:name|names}",

@@ -33,6 +33,12 @@ MESSAGES: dict[str, Message] = {
         "name the one wanted",
         "nommez celle que vous voulez",
     ),
+    "no-single-point": Message(
+        "the fields stand on {count} points",
+        "les champs s'appuient sur {count} points",
+        "name the point: EXTR LCHP1 'VALE' POIN1",
+        "nommez le point : EXTR LCHP1 'VALE' POIN1",
+    ),
     "empty-word": Message(
         "an empty word cannot be replaced",
         "un mot vide ne se remplace pas",

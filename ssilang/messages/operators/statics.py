@@ -114,12 +114,6 @@ MESSAGES: dict[str, Message] = {
         "each entry wants POINT_LIAISON (POINT) and DDL_LIAISON (MOT)",
         "chaque entrée demande POINT_LIAISON (POINT) et DDL_LIAISON (MOT)",
     ),
-    "pressure-by-point": Message(
-        "'POIN' is not available",
-        "'POIN' n'est pas disponible",
-        "'NORM' or a vector",
-        "'NORM' ou un vecteur",
-    ),
     "pressure-has-one-component": Message(
         "a pressure is a field with one component",
         "une pression est un champ à une composante",

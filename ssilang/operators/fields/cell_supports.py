@@ -23,7 +23,7 @@ from ssilang.kernel.materials.model import Model
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.language.registry import When, arg, choice, main, opt, said
 from ssilang.language.run.call import Call
-from ssilang.language.values import Table
+from ssilang.language.values import Mot, Table
 from ssilang.operators.dispatch import CHAN, COOR, REDU
 from ssilang.operators.workspace import workspace
 
@@ -34,19 +34,13 @@ _EXAMPLE = (
 )
 
 
-_TITLES = (
-    "SCALAIRE", "CONTRAINTES", "DEFORMATIONS", "CARACTERISTIQUES", "TEMPERATURES", "DEPLACEMENTS",
-    "FORCES", "GRADIENT", "VARIABLES INTERNES",
-)  # fmt: skip
-_TITLE = choice(
-    "title",
-    _TITLES,
-    length=max(map(len, _TITLES)),
-    en="sub-type of the result",
-    fr="sous-type du résultat",
-)
+_TITLE = opt("title", "MOT", en="sub-type of the result", fr="sous-type du résultat")
 _MODEL = arg("model", "MMODEL", en="model", fr="modèle")
 _SOURCE = arg("field", "CHPOINT", "MCHAML", en="field", fr="champ")
+
+
+def _trimmed(title: str | None) -> str | None:
+    return None if title is None else str(title).rstrip()
 
 
 @CHAN.form(
@@ -66,8 +60,8 @@ def chan_support(
 ) -> CellField:
     """Another support."""
     if isinstance(field, NodeField):
-        return cells_of_nodal(model, field, cast(Support, word))
-    return moved(model, field, cast(Support, word), title)
+        return cells_of_nodal(model, field, cast(Support, word), _trimmed(title) or "")
+    return moved(model, field, cast(Support, word), _trimmed(title))
 
 
 @CHAN.form(
@@ -90,10 +84,10 @@ def chan_cells(
 ) -> CellField:
     """Nodal field to field in cells."""
     if isinstance(place, Mesh):
-        return cells_of_mesh(place, cast(NodeField, field))
+        return cells_of_mesh(place, cast(NodeField, field), _trimmed(title) or "")
     if isinstance(field, CellField):
-        return moved(place, field, cast(Support, support), title)
-    return cells_of_nodal(place, field, cast(Support, support), title or "")
+        return moved(place, field, cast(Support, support), _trimmed(title))
+    return cells_of_nodal(place, field, cast(Support, support), _trimmed(title) or "")
 
 
 @CHAN.form(
@@ -160,6 +154,29 @@ def redu_cells(field: CellField, support: Mesh | Model) -> CellField:
     if isinstance(support, Mesh):
         return field_on_mesh(field, support)
     return field_on_model(field, support)
+
+
+@REDU.form(
+    main("field", "MCHAML", en="field in cells", fr="champ par éléments"),
+    arg("table", "TABLE", en="models or meshes", fr="modèles ou maillages"),
+    gives="TABLE",
+    syntax="TAB2 = REDU CHAM1 TAB1 ;",
+    en="A field in cells restricted to each model (or mesh) of a table ESCLAVE, as PART makes it: "
+    "a table ESCLAVE of fields.",
+    fr="Un champ par éléments réduit à chaque modèle (ou maillage) d'une table ESCLAVE, comme en "
+    "fait PART : une table ESCLAVE de champs.",
+    examples=(_EXAMPLE + "LIST (DIME (REDU A (PART 'ARLE' M 2))) ;",),
+)
+def redu_dealt(call: Call, field: CellField, table: Table) -> Table:
+    """Field in cells on each part of a model."""
+    made = Table()
+    made.set(Mot("SOUSTYPE"), Mot("ESCLAVE"))
+    for index, part in table.items():
+        if isinstance(part, Model | Mesh):
+            made.set(index, redu_cells(field, part))
+    if len(made) == 1:
+        raise call.error("operators.fields.table-of-models", table)
+    return made
 
 
 @REDU.form(

@@ -18,7 +18,6 @@ from ssilang.language.registry import (
     by,
     choice,
     flag,
-    key,
     main,
     many,
     operator,
@@ -29,8 +28,6 @@ from ssilang.language.values import ListEnti, ListMots, ListReel
 from ssilang.operators.dispatch import MAXI, MINI
 
 Numbers = ListReel | ListEnti
-Choices = list[tuple[str, ListMots | str]]
-"""'AVEC' or 'SANS', with names of components."""
 
 
 def _of_numbers(
@@ -61,15 +58,18 @@ def _of_lists(
     return ListEnti(best) if all(isinstance(v, ListEnti) for v in lists) else ListReel(best)
 
 
-def _components(call: Call, known: list[str], chosen: Choices, only: ListMots | None) -> list[str]:
-    """The components to look at; a list without a word before it stands for 'AVEC'."""
-    names = known
-    for said, value in [*chosen, *([] if only is None else [("AVEC", only)])]:
-        listed = [value] if isinstance(value, str) else value.values
-        words = {str(w).rstrip() for w in listed}
-        names = [n for n in known if (n in words) == (said == "AVEC")]
-        if not names:
-            raise call.error("operators.fields.no-component-left", value, known=known)
+def _components(
+    call: Call, known: list[str], which: str | None, listed: ListMots | None
+) -> list[str]:
+    """The components to look at; a list without a word stands for 'AVEC'."""
+    if listed is None and which is not None:
+        raise call.error("operators.fields.components-not-listed", word=which)
+    if listed is None:
+        return known
+    words = {str(w).rstrip() for w in listed.values}
+    names = [n for n in known if (n in words) != (which == "SANS")]
+    if not names:
+        raise call.error("operators.fields.no-component-left", listed, known=known)
     return names
 
 
@@ -85,12 +85,12 @@ def _of_node_fields(
     call: Call,
     value: NodeField,
     absolute: bool,
-    chosen: Choices,
-    only: ListMots | None,
+    which: str | None,
+    listed: ListMots | None,
     others: tuple[NodeField, ...],
     largest: bool,
 ) -> NodeField | float:
-    names = _components(call, list(value.components), chosen, only)
+    names = _components(call, list(value.components), which, listed)
     if not others:
         if not names:
             raise call.error("operators.fields.field-empty", value)
@@ -116,8 +116,8 @@ def _of_cell_field(
     call: Call,
     value: CellField,
     absolute: bool,
-    chosen: Choices,
-    only: ListMots | None,
+    which: str | None,
+    listed: ListMots | None,
     largest: bool,
 ) -> float:
     known = [
@@ -125,25 +125,19 @@ def _of_cell_field(
         for n in cell_algebra.component_names(value)
         if any(n in b.components and b.components[n].dtype != object for b in value.blocks)
     ]
-    names = _components(call, known, chosen, only)
+    names = _components(call, known, which, listed)
     return _of_arrays(call, cell_algebra.values_of(value, names), absolute, largest)
 
 
 _ABSOLUTE = flag("absolute", "ABS", en="of the absolute values", fr="des valeurs absolues")
-_CHOSEN = key(
-    "chosen",
-    ("AVEC", "SANS"),
-    arg("names", "LISTMOTS", "MOT", kind="component"),
-    repeated=True,
-    en="only these components, or all but these",
-    fr="ces composantes seulement, ou toutes sauf elles",
-)
-_ONLY = opt(
-    "only",
-    "LISTMOTS",
-    kind="component",
-    en="only these components, as with 'AVEC'",
-    fr="ces composantes seulement, comme avec 'AVEC'",
+_COMPONENTS = (
+    choice(
+        "which",
+        ("AVEC", "SANS"),
+        en="the components of the list, or all but them",
+        fr="les composantes de la liste, ou toutes sauf elles",
+    ),
+    opt("listed", "LISTMOTS", kind="component", en="components", fr="composantes"),
 )
 
 
@@ -178,8 +172,7 @@ def _add_forms(operator: Operator, largest: bool, en: str, fr: str) -> None:
     operator.form(
         main("value", "CHPOINT", en="field at nodes", fr="champ par points"),
         _ABSOLUTE,
-        _CHOSEN,
-        _ONLY,
+        *_COMPONENTS,
         many("others", "CHPOINT", en="fields at the same nodes", fr="champs aux mêmes noeuds"),
         gives=by("others", {True: "CHPOINT"}, "FLOTTANT"),
         syntax=f"X1 = {name} CHP1 ('ABS') (('AVEC') | 'SANS' LMOT1) ; CHPO4 = {name} CHPO1 CHPO2 ;",
@@ -196,8 +189,7 @@ def _add_forms(operator: Operator, largest: bool, en: str, fr: str) -> None:
     operator.form(
         main("value", "MCHAML", en="field in cells", fr="champ par éléments"),
         _ABSOLUTE,
-        _CHOSEN,
-        _ONLY,
+        *_COMPONENTS,
         gives="FLOTTANT",
     )(partial(_of_cell_field, largest=largest))
 
@@ -209,13 +201,7 @@ _add_forms(MINI, False, "smallest", "plus petite")
 @operator(
     "MAX1",
     arg("field", "CHPOINT", en="field", fr="champ"),
-    choice(
-        "which",
-        ("AVEC", "SANS"),
-        en="the components of the list, or all but them",
-        fr="les composantes de la liste, ou toutes sauf elles",
-    ),
-    opt("names", "LISTMOTS", kind="component", en="components", fr="composantes"),
+    *_COMPONENTS,
     family="fields",
     help=Help(
         en="Nodal field divided by its value of largest size, which becomes 1; among the "
@@ -229,12 +215,9 @@ _add_forms(MINI, False, "smallest", "plus petite")
         ),
     ),
 )
-def max1(call: Call, field: NodeField, which: str | None, names: ListMots | None) -> NodeField:
+def max1(call: Call, field: NodeField, which: str | None, listed: ListMots | None) -> NodeField:
     """Bring a field to one."""
-    chosen = list(field.components)
-    if names is not None:
-        words = {str(w).rstrip() for w in names.values}
-        chosen = [n for n in chosen if (n in words) != (which == "SANS")]
+    chosen = _components(call, list(field.components), which, listed)
     values = [field.components[n].values for n in chosen]
     every = np.concatenate(values) if values else np.zeros(0)
     largest = float(every[np.argmax(np.abs(every))]) if len(every) else 0.0

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from itertools import accumulate
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
 from ssilang.kernel.base.errors import KernelError
+from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.mesh import Point
 from ssilang.language.registry import (
     ANY,
@@ -87,21 +88,24 @@ def _plain(item: Any) -> Any:
         fr="composantes, toutes sinon",
         kind="component",
     ),
-    arg("point", "POINT", en="where", fr="où"),
-    syntax="LREE1 = EXTR LCHP1 'VALE' POIN1 (MOT1 | LMOT1) ;",
+    opt("point", "POINT", en="where", fr="où"),
+    syntax="LREE1 = EXTR LCHP1 'VALE' (POIN1) (MOT1 | LMOT1) ;",
     en="Of a list of fields, with 'VALE': their values at a point, component by component (zero "
-    "where a field does not stand on it; one that none stands on is refused).",
+    "where a field does not stand on it; one that none stands on is refused). The point may be "
+    "left out where all fields stand on a single one.",
     fr="D'une liste de champs, avec 'VALE' : leurs valeurs en un point, composante par composante "
-    "(zéro où un champ ne s'y appuie pas ; un point qui n'en porte aucun est refusé).",
+    "(zéro où un champ ne s'y appuie pas ; un point qui n'en porte aucun est refusé). Le point "
+    "peut manquer si tous les champs s'appuient sur un seul.",
     examples=(
-        "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'T' 1. ; LIST (EXTR (SUIT C C) 'VALE' P) ;",
+        "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'T' 1. ; LIST (EXTR (SUIT C C) 'VALE' P) ; "
+        "LIST (EXTR (SUIT C (2. * C)) 'VALE') ;",
     ),
 )
 def _values_at(
-    call: Call, value: ListChpo, taken: bool, names: ListMots | str | None, point: Point
+    call: Call, value: ListChpo, taken: bool, names: ListMots | str | None, point: Point | None
 ) -> ListReel:
-    node = np.asarray([point.node])
     fields: list[Any] = value.values
+    node = np.asarray([_only_node(call, value) if point is None else point.node])
     if names is not None:
         wanted = list(names.values) if isinstance(names, ListMots) else [names]
     else:
@@ -111,6 +115,14 @@ def _values_at(
     if fields and not any(f.nature == "DISCRET" or node[0] in f.node_ids for f in fields):
         raise refused_place(call, fields, str(wanted[0]).rstrip(), int(node[0]))
     return ListReel([float(f.values_at(str(n).rstrip(), node)[0]) for n in wanted for f in fields])
+
+
+def _only_node(call: Call, value: ListChpo) -> int:
+    """The one node that all fields of a list stand on."""
+    nodes = {int(i) for field in value.values for i in cast(NodeField, field).node_ids}
+    if len(nodes) != 1:
+        raise call.error("operators.lists.no-single-point", value, count=len(nodes))
+    return nodes.pop()
 
 
 def _extract(call: Call, value: AnyList, places: int | ListEnti) -> Any:
@@ -147,6 +159,21 @@ EXTR.form(_list("LISTOBJE"), _PLACES, gives=ANY)(_extract)
 def _remove(call: Call, value: AnyList, places: int | ListEnti) -> Any:
     gone = set(_places(call, len(value), places))
     return taken(value, [i for i in range(len(value)) if i not in gone])
+
+
+_OTHER_LISTS = tuple(kind for kind in LISTS if kind != "LISTENTI")
+
+
+@ENLE.form(
+    main("places", "LISTENTI", en="places, before the list", fr="rangs, avant la liste"),
+    arg("value", *_OTHER_LISTS, en="list", fr="liste"),
+    gives=Like("value"),
+    en="Places may stand before a list of another type.",
+    fr="Les rangs peuvent précéder une liste d'un autre type.",
+    examples=("LIST (ENLE (LECT 1 3) (MOTS 'A' 'B' 'C')) ;",),
+)
+def _remove_before(call: Call, places: ListEnti, value: AnyList) -> Any:
+    return _remove(call, value, places)
 
 
 @DIME.form(

@@ -17,6 +17,7 @@ from ssilang.kernel.modal.explicit import (
     SCHEMES,
     VARIABLES,
     ModalProblem,
+    ModalRun,
     ModalState,
     ModalSteps,
     integrate_modes,
@@ -237,9 +238,7 @@ def _values(call: Call, table: Table, name: str, system: System) -> FloatArray |
 # --- what is given back ------------------------------------------------------------------------
 
 
-def _results(
-    run: ModalProblem, ModalRun, system: System, links: list[ReadLink], output: Table | None
-) -> Table:
+def _results(run: ModalRun, system: System, links: list[ReadLink], output: Table | None) -> Table:
     table = Table("RESULTAT_DYNE")
     table.set(Mot("TEMPS_DE_SORTIE"), ListReel(run.times))
     variables = None if output is None else output.get("VARIABLE")
@@ -255,9 +254,7 @@ def _results(
     return table
 
 
-def _as_fields(
-    table: Table, run: ModalProblem, ModalRun, system: System, chosen: list[int]
-) -> None:
+def _as_fields(table: Table, run: ModalRun, system: System, chosen: list[int]) -> None:
     for step, values in enumerate(run.values):
         entry = Table()
         for i in chosen:
@@ -265,7 +262,7 @@ def _as_fields(
         table.set(step + 1, entry)
 
 
-def _as_lists(table: Table, run: ModalProblem, ModalRun, system: System, chosen: list[int]) -> None:
+def _as_lists(table: Table, run: ModalRun, system: System, chosen: list[int]) -> None:
     """A list for a single mode, else a table of lists by the number of the mode."""
     for i in chosen:
         lists = [ListReel(run.values[:, i, j]) for j in range(len(system.M))]
@@ -275,9 +272,7 @@ def _as_lists(table: Table, run: ModalProblem, ModalRun, system: System, chosen:
         table.set(Mot(VARIABLES[i]), lists[0] if len(lists) == 1 else numbered)
 
 
-def _add_links(
-    table: Table, run: ModalProblem, ModalRun, links: list[ReadLink], output: Table | None
-) -> None:
+def _add_links(table: Table, run: ModalRun, links: list[ReadLink], output: Table | None) -> None:
     for name in ("LIAISON_A", "LIAISON_B"):
         asked = None if output is None else output.get(Mot(name))
         if not isinstance(asked, Table):
@@ -289,7 +284,7 @@ def _add_links(
                 table.set(read.table, made)
 
 
-def _restart(run: ModalProblem, ModalRun, system: System) -> Table:
+def _restart(run: ModalRun, system: System) -> Table:
     last = run.last
     assert last.before is not None
     assert last.q_before is not None

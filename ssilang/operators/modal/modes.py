@@ -73,9 +73,9 @@ def _vibr(
 
 
 def _warn_negative_mass(call: Call, mass: Matrix) -> None:
-    """Tell of a mass of both signs, which is a buckling load or a slip."""
+    """Tell of a mass of both signs, which is a buckling load made by hand or a slip."""
     found = None
-    if mass.kind.startswith("MASS"):
+    if mass.inertial:
         numbering = numbering_of(mass)
         found = negative_mass(assemble(mass, numbering), numbering)
     if found is not None:

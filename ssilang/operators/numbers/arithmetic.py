@@ -85,12 +85,26 @@ def _real_power(a: float, b: float) -> float:
     return float(real_power(a, b)) if isinstance(value, complex) else float(value)
 
 
+def _held(run: Rule) -> Rule:
+    """The same on single reals; what no real can hold is an error, as a power's is."""
+
+    def checked(a: float, b: float) -> float:
+        value: float = run(a, b)
+        # no finite number differs from itself: infinite operands may give infinite results
+        if value - value != 0.0 and a - a == 0.0 and b - b == 0.0:
+            raise OverflowError
+        return value
+
+    return checked
+
+
 _INTEGER: dict[str, Rule] = {
     "+": python.add, "-": python.sub, "*": _integer_product,
     "/": _integer_divide, "**": _integer_power,
 }  # fmt: skip
 _REAL: dict[str, Rule] = {
-    "+": python.add, "-": python.sub, "*": python.mul, "/": python.truediv, "**": _real_power,
+    "+": _held(python.add), "-": _held(python.sub), "*": _held(python.mul),
+    "/": _held(python.truediv), "**": _real_power,
 }  # fmt: skip
 _ARRAY: dict[str, Rule] = {
     "+": np.add, "-": np.subtract, "*": np.multiply, "/": np.divide, "**": real_power,

@@ -217,22 +217,22 @@ _FACES = opt("faces", "MAILLAGE", en="sides", fr="faces")
         en="Nodal forces of a pressure on sides of continuous elements, pushing into them when "
         "positive. The pressure is a number on a mesh of sides, a nodal field with one component "
         "(on the outer sides of the model whose nodes all have a value), or a field in cells "
-        "over sides. On shells ('COQU') it pushes along their normal ('NORM') or to the side that "
-        "a vector shows. On shells of bricks ('SHB8') it pushes into the face of the first four "
-        "nodes ('INTERNE') or of the last four ('EXTERNE'). In pipes ('TUYA') the parameter PRES "
-        "pushes on closed ends. With a model CHARGEMENT PRESSION: the field of pressure, "
-        "whose forces BSIG gives along the sides' own normals.",
+        "over sides. On shells ('COQU') it pushes along their normal ('NORM'), to the side that a "
+        "vector shows or to that of a point ('POIN'). On shells of bricks ('SHB8') it pushes into "
+        "the face of the first four nodes ('INTERNE') or of the last four ('EXTERNE'). In pipes "
+        "('TUYA') the parameter PRES pushes on closed ends. With a model CHARGEMENT PRESSION: the "
+        "field of pressure, whose forces BSIG gives along the sides' own normals.",
         fr="Forces nodales d'une pression sur des faces d'éléments massifs, dirigée vers "
         "l'intérieur quand elle est positive. La pression est un nombre sur un maillage de "
         "faces, un champ par points à une composante (sur les faces extérieures du modèle dont "
         "tous les noeuds ont une valeur), ou un champ par éléments sur des faces. Sur les coques "
-        "('COQU') elle pousse selon la normale ('NORM') ou du côté que montre un vecteur. Sur les "
-        "coques de cubes ('SHB8') elle pousse sur la face des quatre premiers noeuds ('INTERNE') "
-        "ou des quatre derniers ('EXTERNE'). Dans les tuyaux ('TUYA') le paramètre PRES pousse "
-        "sur les bouts fermés. Avec un modèle CHARGEMENT PRESSION : le champ de "
-        "pression, dont BSIG donne les forces selon les normales propres des faces.",
+        "('COQU') elle pousse selon la normale ('NORM'), du côté que montre un vecteur ou de celui "
+        "d'un point ('POIN'). Sur les coques de cubes ('SHB8') elle pousse sur la face des quatre "
+        "premiers noeuds ('INTERNE') ou des quatre derniers ('EXTERNE'). Dans les tuyaux ('TUYA') "
+        "le paramètre PRES pousse sur les bouts fermés. Avec un modèle CHARGEMENT PRESSION : le "
+        "champ de pression, dont BSIG donne les forces selon les normales propres des faces.",
         syntax="FOR1 = PRES 'MASS' MODL1 | VAL1 GEO1 | CHPO1 | CHAM1 ;\n"
-        "FOR1 = PRES 'COQU' MODL1 | VAL1 | CHPO1 | CHAM1 'NORM' | VEC1 ;\n"
+        "FOR1 = PRES 'COQU' MODL1 | VAL1 | CHPO1 | CHAM1 'NORM' | VEC1 | 'POIN' P1 (CAR1) ;\n"
         "FOR1 = PRES 'SHB8' MODL1 | VAL1 | CHPO1 'INTERNE' | 'EXTERNE' ;\n"
         "FOR1 = PRES 'TUYA' MODL1 CAR1 ;\n"
         "CHAM2 = PRES MODL1 | MOT1 VAL1 (GEO1) | CHAM1 ;",
@@ -244,7 +244,8 @@ _FACES = opt("faces", "MAILLAGE", en="sides", fr="faces")
                 "OPTI DIME 3 MODE TRID ELEM TRI3 ;\n"
                 "M = MODE (MANU 'TRI3' (0 0 0) (1 0 0) (0 1 0)) 'MECANIQUE' 'ELASTIQUE'\n"
                 "'DKT' ;\n"
-                "F = PRES 'COQU' M 6. 'NORM' ; LIST (MAXI (RESU F)) ;"
+                "F = PRES 'COQU' M 6. 'NORM' ; LIST (MAXI (RESU F)) ;\n"
+                "F = PRES 'COQU' M 6. 'POIN' (0. 0. -1.) ; LIST (MINI (RESU F)) ;"
             ),
             (
                 "OPTI DIME 3 MODE TRID ELEM CUB8 ;\n"
@@ -291,8 +292,18 @@ def _on_faces(
     opt(
         "along", "POINT", en="vector on the side it pushes to", fr="vecteur du côté où elle pousse"
     ),
-    flag(
-        "towards", "POIN", en="towards a point: not available", fr="vers un point : non disponible"
+    key(
+        "towards",
+        "POIN",
+        arg("point", "POINT"),
+        en="point on the side it pushes to",
+        fr="point du côté où elle pousse",
+    ),
+    many(
+        "fields",
+        "MCHAML",
+        en="parameters of shells: accepted, change nothing",
+        fr="caractéristiques de coques : acceptées, sans effet",
     ),
 )
 def shell_pressure(
@@ -301,12 +312,12 @@ def shell_pressure(
     value: NodeField | CellField | float,
     normal: bool,
     along: Point | None,
-    towards: bool,
+    towards: Point | None,
+    fields: tuple[CellField, ...],
 ) -> NodeField:
     """Pressure on shells."""
-    if towards:
-        raise call.error("operators.statics.pressure-by-point")
-    return shell_load(model, value, None if along is None or normal else along.coordinates)
+    aim, point = (None if p is None or normal else p.coordinates for p in (along, towards))
+    return shell_load(model, value, aim, point)
 
 
 @pres.form(

@@ -19,7 +19,7 @@ from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.plasticity.bulk import stiffness_beside, without_stiffness
 from ssilang.kernel.plasticity.points import is_plastic, plastic_zones
 from ssilang.kernel.statics.pressure_load import loaded_sides, with_pressures
-from ssilang.kernel.statics.thermal_load import split_thermal
+from ssilang.kernel.statics.thermal_load import check_strains, split_strains
 from ssilang.kernel.stepping.times import nearest
 from ssilang.language.registry import Help, arg, operator
 from ssilang.language.run.call import Call
@@ -313,7 +313,10 @@ def _inputs(
     solids = [(z, m) for z, m in linear if not is_joint(z)]
     pressed = () if model is None else loaded_sides(model)
     forces = with_pressures(entries.get("CHARGEMENT"), pressed, bool(finite_zones(entries)))
-    load, thermal = split_thermal(forces, solids)
+    bodies = [z for z in model.zones if z.formulation == "MECANIQUE"] if model is not None else []
+    free = tuple(z for z in bodies if not is_joint(z))
+    check_strains(forces, free, bool(finite_zones(entries)))
+    load, thermal = split_strains(forces, solids)
     displacement = start.of("DEPLACEMENTS")
     stresses = Stresses(linear, thermal)
     given = start.of("CONTRAINTES")

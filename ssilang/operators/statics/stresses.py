@@ -278,13 +278,26 @@ def _state(model: Model, field: CellField) -> str:
     _THERMAL,
     family="stress",
     help=Help(
-        en="Thermal strains ALPH (T - TALP) of a temperature T (nodal field, or field in cells).",
+        en="Thermal strains ALPH (T - TALP) of a temperature T (nodal field, or field in cells). "
+        "On shells TINF T TSUP are those of the lower skin, the middle and the upper skin (the "
+        "normal's side): a parabola across the thickness, of which thin shells take the mean "
+        "(TINF + 4 T + TSUP) / 6 and the curvature ALPH (TSUP - TINF) / EPAI.",
         fr="Déformations thermiques ALPH (T - TALP) d'une température T (champ par points ou par "
-        "éléments).",
+        "éléments). Sur les coques TINF T TSUP sont celles de la peau inférieure, du milieu et de "
+        "la peau supérieure (du côté de la normale) : une parabole dans l'épaisseur, dont les "
+        "coques minces prennent la moyenne (TINF + 4 T + TSUP) / 6 et la courbure "
+        "ALPH (TSUP - TINF) / EPAI.",
         syntax="EPS1 = EPTH MODL1 MAT1 | CHPO1 | CHAM1 ;",
         examples=(
             _BAR + "B = A ET (MATE M 'ALPH' 1.E-5) ; T = MANU 'CHPO' L 1 'T' 100. ; "
             "LIST (MAXI (EPTH M B T)) ;",
+            (
+                "OPTI DIME 3 MODE TRID ELEM TRI3 ; S = MANU 'TRI3' (0 0 0) (1 0 0) (0 1 0) ;\n"
+                "M = MODE S 'MECANIQUE' 'ELASTIQUE' 'DKT' ;\n"
+                "A = MATE M 'YOUN' 1. 'NU' 0. 'EPAI' 0.1 'ALPH' 1.E-5 ;\n"
+                "E = EPTH M A (MANU 'CHPO' S 'TINF' 10. 'T' 20. 'TSUP' 30.) ;\n"
+                "LIST (MAXI (EXCO 'EPTT' E)) ; LIST (MAXI (EXCO 'RTSS' E)) ;"
+            ),
         ),
     ),
 )

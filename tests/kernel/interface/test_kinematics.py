@@ -143,3 +143,20 @@ def test_two_points_take_the_users_direction():
     np.testing.assert_allclose(frame, [[1, 0, 0], [0, 1, 0], [0, 0, 1]], atol=1e-15)
     with pytest.raises(MeshError, match="no length"):
         joint_cells(zone, None)
+
+
+@pytest.mark.parametrize("mode", [Mode.PLANE_STRAIN, Mode.THREE_DIMENSIONAL])
+def test_axes_of_two_points_are_those_of_the_line_between_them(mode):
+    """The normal goes from the first to the second; in the plane the tangent is 90 degrees on."""
+    d = mode.dimension
+    bench = Bench(mode)
+    step = np.array([3.0, 4.0, 12.0][:d])
+    ends = [bench.node(*np.zeros(d)), bench.node(*step)]
+    zone = bench.joint("SEG2", ends, "JOI1", KN=1.0, KS=1.0)
+    (frame,) = joint_cells(zone).frames[0]
+    normal = step / np.linalg.norm(step)
+    np.testing.assert_allclose(frame[-1], normal, rtol=1e-14)
+    np.testing.assert_allclose(frame @ frame.T, np.eye(d), atol=1e-14)
+    assert np.linalg.det(frame) == pytest.approx(1.0 if d == 3 else -1.0)
+    if d == 2:
+        np.testing.assert_allclose(frame[0], [-0.8, 0.6], rtol=1e-14)

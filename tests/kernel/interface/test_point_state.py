@@ -125,3 +125,12 @@ def test_opening_spends_the_fracture_energy():
     stored, lost = p.energies
     assert lost == pytest.approx(gf * (1 - np.exp(-fu * xi / gf)), rel=1e-7)
     assert stored + lost == pytest.approx(work, rel=1e-7)
+
+
+def test_a_joint_of_three_dimensions_opens_along_its_normal():
+    """Tension beside shear of the other sign: the traction across decides, not that along."""
+    p = parameters(TPHI=0.5, COHE=1e9, FTRC=1e9)
+    w, t = np.array([[-1e-3, -2e-3, 1e-3]]), np.array([[-4e5, -8e5, 1e6]])
+    state = np.zeros((1, N_STATE))
+    assert point_states(np.array([MOHR]), w, t, state, p)[0] == OPENING
+    assert point_states(np.array([MOHR]), -w, -t, state, p)[0] == CLOSED

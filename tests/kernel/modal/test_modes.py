@@ -217,3 +217,30 @@ def test_masses_that_are_all_negative_are_refused_by_their_place():
         modes_near(held(table, K, [0]), M, [(0.0, 1)])
     assert caught.value.code == "kernel.matrices.mass-negative"
     assert caught.value.data["mass"] == -0.25
+
+
+@pytest.mark.parametrize("limit", [eigen.DENSE, 2], ids=["all", "some"])
+@pytest.mark.parametrize("frequency", [0.0, 0.3, 0.62, 1.5])
+def test_loads_that_buckle_are_found_below_and_above_the_first(limit, frequency, monkeypatch):
+    monkeypatch.setattr(eigen, "DENSE", limit)
+    n = 24
+    table, stiffness, _ = chain(n, k=0.0)
+    nodes = stiffness.blocks[0].nodes
+    springs, loads = 2.0 + np.arange(n), np.where(np.arange(n) % 3 == 0, -1.0, 1.0)
+    ids = np.unique(nodes)
+    zero = np.zeros(1, np.int64)
+    ground = ElementMatrices(table, ids[:, None], zero, ("UX",), ("FX",), springs[:, None, None])
+    load = replace(ground, values=loads[:, None, None])  # not a mass, though of its kind
+    K, G = Matrix(table, (ground,)), Matrix(table, (load,), (), "MASSE")
+    exact = springs / loads
+    nearest = exact[np.argsort(np.abs(exact - eigenvalue(frequency)))][:3]
+    found = [eigenvalue(m.frequency) for m in modes_near(K, G, [(frequency, 3)])]
+    assert found == pytest.approx(sorted(nearest))
+
+
+def test_a_load_that_is_negative_throughout_is_no_mistaken_mass():
+    table, stiffness, _ = chain(3)
+    K = held(table, stiffness, [0])
+    pull = Matrix(table, (stiffness.scaled(-1.0).blocks[0],), (), "MASSE")
+    (mode,) = modes_near(K, pull, [(0.1, 1)])
+    assert eigenvalue(mode.frequency) == pytest.approx(-1.0)

@@ -165,12 +165,15 @@ def test_strong_material_moves_as_the_linear_calculation(tmp_path: Path) -> None
     assert at(result, "U") == pytest.approx(at(result, "V"), rel=1e-8)
 
 
-def test_expansion_held_beyond_yield_leaves_the_limit_stress(tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    "load", ["'T' (MANU CHPO L 1 'T' 1.)", "'DEFI' (MANU CHML M EPSS 1.E-3 TYPE DEFORMATIONS)"]
+)
+def test_expansion_held_beyond_yield_leaves_the_limit_stress(tmp_path: Path, load: str) -> None:
     script = (
         BAR.split("T = TABLE")[0].replace("'RHO'", "RHO")
         + "A = A ET (MATE M ALPH 1.E-3) ; B = BLOQ UX UY L ; "
         "T = TABLE ; T.MODELE = M ; T.CARACTERISTIQUES = A ; T.BLOCAGES_MECANIQUES = B ; "
-        "T.CHARGEMENT = CHAR 'T' (MANU CHPO L 1 'T' 1.) "
+        f"T.CHARGEMENT = CHAR {load} "
         "(EVOL MANU (PROG 0. 1. 2.) (PROG 0 30. 0)) ; "
         "T.TEMPS_CALCULES = PROG 0. 1. 2. ; PASAPAS T ; "
         "S1 = MAXI (T.CONTRAINTES . 1) 'ABS' ; S2 = MAXI (T.CONTRAINTES . 2) ; "

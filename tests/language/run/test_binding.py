@@ -331,3 +331,10 @@ def test_whole_operands_have_their_names(declare):
     declare(many("values", "FLOTTANT", whole=True))
     assert run("X = 3. ; A = ZZZZ X 4 ;")[0] == 0
     assert [(o.name, o.value) for o in declare.found[0]["values"]] == [("X", 3.0), ("", 4.0)]
+
+
+def test_a_free_word_is_no_sign_between_objects(declare):
+    declare(arg("n", "ENTIER"), opt("title", "MOT"))
+    assert run("A = ZZZZ 1 'ANY' ; A = ZZZZ 2 ; A = VRAI ET (EXIS (ZZZZ 3)) ;")[0] == 0
+    code, output = run("A = ZZZZ 4 ET 5 ;")
+    assert [v["title"] for v in declare.found] == ["ANY", None, None, None], (code, output)

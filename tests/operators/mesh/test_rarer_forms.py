@@ -171,6 +171,22 @@ def test_stitched_lines_and_cones() -> None:
     assert value(cone) == pytest.approx(1 / 3)
 
 
+def test_curved_line_joined_to_a_point() -> None:
+    """A quarter disc of six triangles whose mid nodes lie on the arc: parabolas, nearly exact."""
+    fan = PLANE + "OPTI ELEM QUA8 ; T = COUT (CERC 6 (1. 0.) O (0. 1.)) O ; "
+    assert value(fan + "X = MESU T ;") == pytest.approx(np.pi / 4, rel=1e-4)
+    assert value(fan + "X = NBNO (T ELEM 'TRI6') ;") == 13 + 7 + 1
+
+
+def test_moved_point_has_the_density_in_force() -> None:
+    script = PLANE + "DENS 0.1 ; P = 0. 0. ; DENS 0.5 ; Q = P PLUS (2. 0.) ; "
+    assert value(script + "X = COOR 3 Q ;") == 0.5
+    assert value(script + "X = COOR 3 (P MOIN (2. 0.)) ;") == 0.5
+    assert value(script + "X = COOR 3 P ;") == 0.1
+    # sizes 0.5 at both ends, whatever P's was
+    assert value(script + "X = NBEL (Q D (P MOIN (2. 0.))) ;") == 8
+
+
 def test_line_put_in_order() -> None:
     script = PLANE + "L = (A D 2 O) ET (A D 2 B) ; M = ORDO L ; "
     assert value(script + "X = MAXI (COOR M 'CURV') ;") == pytest.approx(2.0)

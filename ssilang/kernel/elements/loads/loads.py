@@ -230,7 +230,10 @@ def pipe_pressure(model: Model, material: CellField) -> NodeField:
 
 
 def shell_load(
-    model: Model, value: float | FloatArray | NodeField | CellField, along: FloatArray | None = None
+    model: Model,
+    value: float | FloatArray | NodeField | CellField,
+    along: FloatArray | None = None,
+    towards: FloatArray | None = None,
 ) -> NodeField:
     """Forces on shells: a pressure, or a force per area.
 
@@ -239,13 +242,24 @@ def shell_load(
     value : number or field with one component (pressure), array (3,) or field FX FY FZ (force)
     along : array (3,), optional
         The side to which a pressure pushes; the shells' own normals without.
+    towards : array (3,), optional
+        A point on the side to which a pressure pushes [m].
+
+    Raises
+    ------
+    MeshError
+        On other elements; if a cell lies along the vector, or in line with the point.
     """
     out = []
     for zone in model.zones:
         if ELEMENTS[zone.element].family not in SHELLS:
             raise MeshError("kernel.elements.load-shells-not-element", element=zone.element)
         geometry = face_geometry(zone.cells, zone.mode, harmonic(zone))
-        out.append(_scatter(zone, zone.cells, _shell_forces(zone, geometry, value, along)))
+        aim = along
+        if towards is not None:
+            corners = zone.cells.nodes.coordinates[zone.cells.connectivity]
+            aim = towards[: corners.shape[-1]] - corners.mean(axis=1)
+        out.append(_scatter(zone, zone.cells, _shell_forces(zone, geometry, value, aim)))
     return total(model.mesh.nodes, out)
 
 
@@ -268,10 +282,25 @@ def _shell_forces(
     if normals.shape[-1] == 2:  # a quarter turn from the line, not the other way
         normals = -normals
     if along is not None:
-        side = np.sign(np.einsum("cpd,d->c", normals, along[: normals.shape[-1]]))
-        normals = normals * side[:, None, None]
+        normals = normals * _side(normals, along)[:, None, None]
     pushed: FloatArray = np.einsum("cp,cpd,pk->ckd", p, normals, geometry.shapes)
     return pushed
+
+
+_LEAST_ANGLE = float(np.sin(np.radians(1.0)))
+"""Of a vector with a face, below which it shows no side."""
+
+
+def _side(normals: FloatArray, along: FloatArray) -> FloatArray:
+    """1 where vectors (3,) or (n_cells, 3) are on the side of normals, else -1, (n_cells,)."""
+    vectors, faces = np.atleast_2d(along)[:, : normals.shape[-1]], normals.sum(axis=1)
+    share = (faces * vectors).sum(axis=-1)
+    lengths = np.linalg.norm(vectors, axis=-1) * np.linalg.norm(faces, axis=-1)
+    along_face = np.abs(share) <= _LEAST_ANGLE * lengths
+    if along_face.any():
+        raise MeshError("kernel.elements.pressure-along-face", count=int(along_face.sum()))
+    side: FloatArray = np.sign(share)
+    return side
 
 
 def on_sides(model: Model, field: CellField) -> NodeField | CellField:

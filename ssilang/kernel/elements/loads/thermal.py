@@ -1,4 +1,4 @@
-"""Strains that a change of temperature causes."""
+"""Strains without stress: those that a change of temperature causes, or as they are given."""
 
 from __future__ import annotations
 
@@ -11,11 +11,16 @@ from ssilang.kernel.elements.catalog import ELEMENTS, SOLID_FAMILIES, support_ru
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.results.tensors import as_components
 from ssilang.kernel.elements.shapes.reference import shape_functions
+from ssilang.kernel.elements.shells.thick_shell import ACROSS
 from ssilang.kernel.elements.solids.solid_moduli import material_axes, symmetry_of
 from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Zone
+
+THIN_SHELLS = ("plate", "meridian", "mindlin")
+SKINS = ("TINF", "TSUP")
+"""Temperatures of a shell's lower and upper skin, beside that of its middle, T."""
 
 
 def temperature(zone: Zone, field: NodeField | CellField, name: str = "T") -> FloatArray:
@@ -40,7 +45,8 @@ def temperature(zone: Zone, field: NodeField | CellField, name: str = "T") -> Fl
 def thermal_strain(zone: Zone, material: CellField, field: NodeField | CellField) -> FloatArray:
     """Strains ALPH (T - TALP), (n_cells, n_strains, n_points); zero where ALPH is not given.
 
-    Orthotropic continuous elements expand by ALP1 ALP2 ALP3 along their axes.
+    Orthotropic elements expand by ALP1 ALP2 (ALP3) along their axes. Shells take TINF T TSUP, the
+    temperatures of the lower skin, the middle and the upper skin, or T alone.
     """
     family = family_of(zone)
     parameters = zone_field(zone, material)
@@ -59,8 +65,94 @@ def thermal_strain(zone: Zone, material: CellField, field: NodeField | CellField
         return values
     if kind == "joint":
         raise MaterialError("kernel.elements.thermal-expansion-joints-not")
+    if kind in THIN_SHELLS:
+        return _thin_shell(zone, parameters, field, names)
+    if kind == "thick":
+        values[:, :3] = _shell_rates(zone, parameters) * _across(zone, parameters, field)[:, None]
+        return values
     values[:, 0] = parameters.at("ALPH", "STRESSES", 0.0) * rise
     return values
+
+
+def _skins(zone: Zone, field: NodeField | CellField) -> tuple[FloatArray, FloatArray] | None:
+    """Temperatures (n_cells, n_points) of both skins; None where the middle's holds all across.
+
+    Raises
+    ------
+    FieldError
+        If one of the three temperatures is missing.
+    """
+    known = zone_field(zone, field).names if isinstance(field, CellField) else field.components
+    if not any(n in known for n in SKINS):
+        return None
+    missing = [n for n in ("T", *SKINS) if n not in known]
+    if missing:
+        raise FieldError("kernel.elements.field-no-component", name=missing[0], components=known)
+    lower, upper = (temperature(zone, field, n) for n in SKINS)
+    return lower, upper
+
+
+def _shell_rates(zone: Zone, parameters: ZoneField) -> FloatArray:
+    """Expansion (n_cells or 1, 3, n_points or 1) along s, t and shear, in the own frame."""
+    if symmetry_of(zone) == "ISOTROPE":
+        alpha = parameters.at("ALPH", "STRESSES", 0.0)
+        return np.stack([alpha, alpha, 0.0 * alpha], axis=1)
+    first, second = (parameters.at(f"ALP{i}", "STRESSES", 0.0) for i in (1, 2))
+    c, s = (parameters.at(n, "STRESSES") for n in ("V1X", "V1Y"))
+    rates = np.broadcast_arrays(
+        first * c**2 + second * s**2,
+        first * s**2 + second * c**2,
+        2 * c * s * (first - second),
+    )
+    return np.stack(rates, axis=1)
+
+
+def _thin_shell(
+    zone: Zone, parameters: ZoneField, field: NodeField | CellField, names: tuple[str, ...]
+) -> FloatArray:
+    """Membrane strains of the mean across the thickness, curvatures of the skins' difference.
+
+    The temperature is a parabola across the thickness, through T and those of both skins.
+    """
+    middle, skins = temperature(zone, field), _skins(zone, field)
+    mean, slope = middle, np.zeros_like(middle)
+    if skins is not None:
+        lower, upper = skins
+        mean = (lower + 4 * middle + upper) / 6
+        slope = (upper - lower) / parameters.at("EPAI", "STRESSES")
+    mean = mean - parameters.at("TALP", "STRESSES", 0.0)
+    rates = _shell_rates(zone, parameters)
+    along, around, shear = (rates[:, i] for i in range(3))
+    found = {
+        "EPSS": along * mean, "EPTT": around * mean, "EPZZ": around * mean, "GAST": shear * mean,
+        "RTSS": along * slope, "RTTT": around * slope, "RTZZ": around * slope,
+        "RTST": shear * slope,
+    }  # fmt: skip
+    nothing = np.zeros_like(mean)
+    return np.stack([np.broadcast_to(found.get(n, nothing), mean.shape) for n in names], axis=1)
+
+
+def _across(zone: Zone, parameters: ZoneField, field: NodeField | CellField) -> FloatArray:
+    """Change of temperature (n_cells, n_points) at the points across a thick shell."""
+    middle, skins = temperature(zone, field), _skins(zone, field)
+    found = middle - parameters.at("TALP", "STRESSES", 0.0)
+    if skins is None:
+        return found
+    lower, upper = skins
+    n_points = middle.shape[1]
+    height = np.where(np.arange(n_points) < n_points // 2, -1.0, 1.0) * ACROSS
+    return found + (upper - lower) / 2 * height + (lower + upper - 2 * middle) / 2 * height**2
+
+
+def given_strain(zone: Zone, field: CellField) -> FloatArray:
+    """A field of strains (n_cells, n_strains, n_points) at the points of 'STRESSES'.
+
+    Components that the field lacks, and all on zones that it does not cover, are zero.
+    """
+    seen, names = zone_field(zone, field), family_of(zone).strain_names(zone)
+    shape = (len(zone.cells), len(support_rule(zone.element, "STRESSES")))
+    columns = [np.broadcast_to(seen.at(n, "STRESSES", 0.0), shape) for n in names]
+    return np.stack(columns, axis=1)
 
 
 def _solid(zone: Zone, parameters: ZoneField, rise: FloatArray, n_strains: int) -> FloatArray:

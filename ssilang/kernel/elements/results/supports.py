@@ -117,14 +117,14 @@ def _both_sides(cells: CellBlock, part: NodeValues, values: FloatArray) -> Float
     return np.where(there, values, facing)
 
 
-def cells_of_mesh(mesh: Mesh, field: NodeField) -> CellField:
+def cells_of_mesh(mesh: Mesh, field: NodeField, title: str = "") -> CellField:
     """A field at the nodes of the cells of a mesh."""
     blocks = []
     for cells in mesh.blocks:
         components = _at_cell_nodes(cells, field)
         if components:
             blocks.append(CellFieldBlock(cells, components, "NOEUD"))
-    return CellField(tuple(blocks), "")
+    return CellField(tuple(blocks), title)
 
 
 def _at_cell_nodes(cells: CellBlock, field: NodeField) -> dict[str, FloatArray]:

@@ -33,7 +33,8 @@ from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.fields.cell_field import Support
 from ssilang.kernel.materials.model import Zone
 
-_ACROSS = 1 / np.sqrt(3.0)
+ACROSS = 1 / np.sqrt(3.0)
+"""Where the points stand across, in half thicknesses from the middle: first half below."""
 
 
 def fibres(zone: Zone, cells: slice = slice(None)) -> FloatArray:
@@ -86,7 +87,7 @@ class ThickShell(ShellFamily):
         kind = zone.cells.cell_type
         N, dN = shape_functions(kind, rule.points), shape_gradients(kind, rule.points)
         half = len(rule) // 2
-        zeta = np.where(np.arange(len(rule)) < half, -_ACROSS, _ACROSS)
+        zeta = np.where(np.arange(len(rule)) < half, -ACROSS, ACROSS)
         x = zone.cells.nodes.coordinates[zone.cells.connectivity[cells]]
         n, k = x.shape[:2]
         h = parameters.at("EPAI", "GRAVITE")

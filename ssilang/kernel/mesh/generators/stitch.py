@@ -51,7 +51,7 @@ def _zip(a: FloatArray, b: FloatArray) -> IntArray:
 def cone(mesh: Mesh, apex: int) -> Mesh:
     """Cells of `mesh` joined to a node: POI1 to SEG2, SEG2 to TRI3, TRI3 to TET4, QUA4 to PYR5.
 
-    Cells that hold the node are left out.
+    SEG3 give TRI6, whose new sides are straight. Cells that hold the node are left out.
 
     Raises
     ------
@@ -61,6 +61,10 @@ def cone(mesh: Mesh, apex: int) -> Mesh:
     away = take(mesh, lambda b: ~(b.connectivity == apex).any(axis=1))
     parts = []
     for block in away.blocks:
+        if block.cell_type == "SEG3":
+            line = Mesh(mesh.nodes, (block,))
+            parts.append(quadratic(cone(linear(line), apex), line))
+            continue
         name = _CONES.get(block.cell_type)
         if name is None:
             raise MeshError("kernel.mesh.cells-type-cannot-joined", cell_type=block.cell_type)

@@ -169,7 +169,12 @@ def _shifted(
     if not objects:
         raise call.missing(("POINT", "CHPOINT"))
     if isinstance(by, Point):
-        return copies(call, objects, shift(sign * by.coordinates.copy()))
+        made = copies(call, objects, shift(sign * by.coordinates.copy()))
+        ws = workspace(call.session)
+        for value in made:
+            if isinstance(value, Point):  # a point that is made has the density in force
+                ws.nodes.density[value.node] = ws.density
+        return made
     nodes, field = workspace(call.session).nodes, by
     for value in objects:
         if isinstance(value, Matrix):
@@ -214,10 +219,12 @@ _SHIFTED = (
     help=Help(
         en="Copies of objects moved by a vector or by a field of displacements (UX UY UZ or UR "
         "UZ); nodes that several objects share are copied once. As many results as objects. A "
-        "matrix is moved by a vector only.",
+        "matrix is moved by a vector only. A point moved by a vector gets the density in force, "
+        "as points do that are made.",
         fr="Copies d'objets translatés d'un vecteur ou d'un champ de déplacements (UX UY UZ ou UR "
         "UZ) ; les noeuds communs ne sont copiés qu'une fois. Autant de résultats que d'objets. "
-        "Une matrice ne se translate que d'un vecteur.",
+        "Une matrice ne se translate que d'un vecteur. Un point translaté d'un vecteur prend la "
+        "densité en vigueur, comme tout point créé.",
         syntax="OBJ2 ... = OBJ1 ... PLUS VEC1|CHPO1 ;",
         examples=(
             "OPTI DIME 2 ; P = 1. 0. ; Q = P PLUS (0. 2.) ; LIST (COOR 2 Q) ;",

@@ -23,15 +23,17 @@ from ssilang.operators.workspace import workspace
     full_name="COUTURE",
     help=Help(
         en="Triangles between two lines described in the same sense, whatever their numbers of "
-        "cells; or the cells of a mesh joined to a point (POI1 give SEG2, SEG2 TRI3, TRI3 TET4, "
-        "QUA4 PYR5), those that hold the point being left out.",
+        "cells; or the cells of a mesh joined to a point (POI1 give SEG2, SEG2 TRI3, SEG3 TRI6, "
+        "TRI3 TET4, QUA4 PYR5), those that hold the point being left out.",
         fr="Triangles entre deux lignes décrites dans le même sens, quels que soient leurs nombres "
         "d'éléments ; ou éléments d'un maillage joints à un point (POI1 donnent SEG2, SEG2 TRI3, "
-        "TRI3 TET4, QUA4 PYR5), sauf ceux qui touchent le point.",
+        "SEG3 TRI6, TRI3 TET4, QUA4 PYR5), sauf ceux qui touchent le point.",
         syntax="SURF1 = COUT LIG1 LIG2 ;\nMAIL2 = COUT MAIL1 POIN1 ;",
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; M = DROI 2 (0. 1.) (1. 1.) ;"
             " LIST (NBEL (COUT L M)) ;",
+            "OPTI DIME 2 ELEM QUA8 ; O = 0. 0. ; A = CERC 6 (1. 0.) O (0. 1.) ;"
+            " LIST (MESU (COUT O A)) ;",
         ),
     ),
 )

@@ -94,6 +94,32 @@ def test_tangent_is_the_derivative(extra, d):
         assert np.quantile(np.abs(slope - D[:, :, j]).max(axis=1), 0.98) < 1e-4
 
 
+@pytest.mark.parametrize(
+    ("path", "given", "plastic"),
+    [
+        # slip of 0.1 - 0.01 / 0.5 at the pressure 1: dilatancy lifts by its tangent times the slip
+        ([[0.1, -0.01]], {}, [[0.08, 0.0]]),
+        ([[0.06, 0.08, -0.01]], {}, [[0.048, 0.064, 0.0]]),
+        # tension of 1 at most: 0.03 - 0.01 stay open; what closes again adds nothing
+        ([[0.0, 0.03], [0.0, 0.01]], {"COHE": 9.0, "FTRC": 1.0}, [[0.0, 0.02]]),
+        # there and back again: lengths add up
+        ([[0.1, -0.01], [-0.1, -0.01]], {}, [[0.08, 0.0], [-0.16, 0.0]]),
+    ],
+)
+def test_cumulated_plastic_jump_is_the_length_of_its_path(path, given, plastic):
+    """`sqrt(2/3)` of it; KN 100, KS 50, Coulomb's tangent 1: slip ends at `t = 100 * 0.01`."""
+    _, states = walk(np.array(path), parameters(**given))
+    length = sum(np.sqrt(2 / 3) * np.linalg.norm(step) for step in plastic)
+    assert states[-1, Variable.CUMULATED] == pytest.approx(length, rel=1e-12)
+
+
+def test_dilatant_slip_counts_its_opening_in_the_cumulated_jump():
+    _, states = walk(np.array([[0.1, -0.01]]), parameters(TPSI=0.4))
+    slip, lift = states[-1, Variable.SLIP1], states[-1, Variable.XI]
+    assert lift == pytest.approx(0.4 * slip)
+    assert states[-1, Variable.CUMULATED] == pytest.approx(np.sqrt(2 / 3) * np.hypot(slip, lift))
+
+
 def test_work_is_stored_or_lost():
     p = parameters(TPSI=0.2, COHE=1.0, FTRC=0.5)
     a = np.linspace(0, 4 * np.pi, 40001)
