@@ -1,10 +1,10 @@
-"""QUIT ITER FIN ARGU RESP COMM: where statements go on, what procedures read and give."""
+"""QUIT ITER FIN ASSI ARGU RESP COMM: where statements go on, what procedures read and give."""
 
 from __future__ import annotations
 
 from typing import Any, NoReturn
 
-from ssilang.language.registry import Help, many, named, operator
+from ssilang.language.registry import Help, arg, many, named, operator, said, shared
 from ssilang.language.run.call import Call
 from ssilang.language.run.jumps import LeaveLoop, LeaveProcedure, NextTurn, StopRun
 from ssilang.language.run.session import Session
@@ -48,6 +48,31 @@ def quitter(session: Session, name: str) -> NoReturn:
 def iterer(name: str) -> NoReturn:
     """Go to the end of the turn."""
     raise NextTurn(name)
+
+
+ASSI = shared(
+    "ASSI",
+    "control",
+    Help(
+        "Has an assistant carry out the phrase that follows: here one process does all, so the "
+        "phrase simply runs, and the number of the assistant changes nothing.",
+        "Fait exécuter la phrase qui suit par un assistant : ici un seul processus fait tout, la "
+        "phrase s'exécute donc telle quelle, et le numéro de l'assistant est sans effet.",
+        "OBJ1 ... = ASSI N1 PHRASE ;",
+        ("X = ASSI 2 PROG 1. 2. ; LIST X ;",),
+    ),
+    full_name="ASSISTANT",
+)
+
+
+@ASSI.form(said("TOUS"), gives=())
+def _assistants(call: Call, **_: str) -> None:
+    raise call.error("operators.session.all-assistants")
+
+
+@ASSI.form(arg("number", "ENTIER", en="assistant", fr="assistant"), gives=())
+def _assistant(number: int) -> None:
+    """The phrase goes on."""
 
 
 @operator(
