@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, NoReturn
 
-from ssilang.language.registry import Help, arg, many, named, operator, said, shared
+from ssilang.language.registry import Help, flag, many, named, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.run.jumps import LeaveLoop, LeaveProcedure, NextTurn, StopRun
 from ssilang.language.run.session import Session
@@ -50,29 +50,26 @@ def iterer(name: str) -> NoReturn:
     raise NextTurn(name)
 
 
-ASSI = shared(
+@operator(
     "ASSI",
-    "control",
-    Help(
-        "Has an assistant carry out the phrase that follows: here one process does all, so the "
-        "phrase simply runs, and the number of the assistant changes nothing.",
-        "Fait exécuter la phrase qui suit par un assistant : ici un seul processus fait tout, la "
-        "phrase s'exécute donc telle quelle, et le numéro de l'assistant est sans effet.",
-        "OBJ1 ... = ASSI N1 PHRASE ;",
-        ("X = ASSI 2 PROG 1. 2. ; LIST X ;",),
-    ),
+    flag("every", "TOUS", en="not available", fr="non disponible"),
+    opt("number", "ENTIER", en="assistant, changes nothing", fr="assistant, sans effet"),
+    gives=(),
+    family="control",
     full_name="ASSISTANT",
+    help=Help(
+        en="Has an assistant carry out the phrase that follows: here one process does all, so the "
+        "phrase simply runs.",
+        fr="Fait exécuter la phrase qui suit par un assistant : ici un seul processus fait tout, "
+        "la phrase s'exécute donc telle quelle.",
+        syntax="OBJ1 ... = ASSI N1 PHRASE ;",
+        examples=("X = ASSI 2 PROG 1. 2. ; LIST X ;",),
+    ),
 )
-
-
-@ASSI.form(said("TOUS"), gives=())
-def _assistants(call: Call, **_: str) -> None:
-    raise call.error("operators.session.all-assistants")
-
-
-@ASSI.form(arg("number", "ENTIER", en="assistant", fr="assistant"), gives=())
-def _assistant(number: int) -> None:
+def assi(call: Call, every: bool, number: int | None) -> None:
     """The phrase goes on."""
+    if every:
+        raise call.error("operators.session.all-assistants")
 
 
 @operator(
