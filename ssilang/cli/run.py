@@ -256,7 +256,6 @@ def _summarise(result: RunResult, source: Source, err: TextIO, quiet: bool) -> N
         return
     session = result.session
     calculations: list[dict[str, Any]] = session.statistics.get("calculations", [])
-    imbalances = [c["energy_imbalance"] for c in calculations if c.get("energy_imbalance")]
     quiet = quiet or result.exit_code == ENDED_BY_CLOSED_PIPE
     if quiet or not (output.files or session.warnings or calculations):
         return
@@ -264,10 +263,25 @@ def _summarise(result: RunResult, source: Source, err: TextIO, quiet: bool) -> N
         "count": len(output.files),
         "folder": output.directory,
         "warnings": sum(w.severity == "warning" for w in session.warnings),
-        "energy": f"{100.0 * max(imbalances):.2g}" if imbalances else "",
+        **_energy(session, calculations),
     }
     with suppress(OSError):
         err.write(visible(sentence("cli.files-written", told, session.language)) + "\n")
+
+
+def _energy(session: Session, calculations: list[dict[str, Any]]) -> dict[str, str]:
+    """The worst imbalance, in per cent and, where OPTI 'UNIT' names units, as an energy."""
+    from ssilang.operators.workspace import workspace
+
+    found = [c for c in calculations if c.get("energy_imbalance")]
+    if not found:
+        return {"energy": "", "amount": ""}
+    worst, units = max(found, key=lambda c: c["energy_imbalance"]), workspace(session).units
+    told = {"energy": f"{100.0 * worst['energy_imbalance']:.2g}", "amount": ""}
+    if units is not None:
+        amount = worst["energy_imbalance_joules"] / units.factor("J")
+        told["amount"] = f"{amount:.2g} {units.written('J')}"
+    return told
 
 
 def run_file(path: Path | str, options: RunOptions | None = None) -> RunResult:

@@ -4,8 +4,9 @@ Keys: `deck` (path), `version`, `exit_code`, `seconds`, `statements`, `peak_memo
 (list of {`path` relative to the folder of the summary, `bytes`}), `warnings` and `errors` (lists
 of {`code`, `line`, `text`}), `pictures` (paths of those among the files), `figures` (numbers, a
 list of {`name`, `value`, `expected`, `tolerance`, `ok`}: what SORT 'BILA' reported, the last three
-null where nothing was expected), `statistics` (what procedures and solvers left in
-`session.statistics`).
+null where nothing was expected), `units` (the system of OPTI 'UNIT' and its units of length, force,
+mass, time, stress and energy; null without that option), `statistics` (what procedures and solvers
+left in `session.statistics`).
 """
 
 from __future__ import annotations
@@ -24,6 +25,7 @@ from ssilang.language.run.session import Check, Session
 from ssilang.language.say.diagnostics import sentence
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text.source import Source
+from ssilang.operators.workspace import workspace
 
 NAME = "summary.json"
 _PICTURES = frozenset({".png", ".svg", ".pdf", ".eps", ".ps"})
@@ -34,6 +36,7 @@ def write_summary(
 ) -> Path:
     """Write the summary of a finished run into its output folder."""
     path = output.directory / NAME
+    units = workspace(session).units
     files = [_file(p, output.directory) for p in output.files if p.is_file()]
     made = {
         "deck": str(source.path) if source.path is not None else source.name,
@@ -47,6 +50,7 @@ def write_summary(
         "errors": [_message(e, session.language) for e in errors],
         "pictures": [f["path"] for f in files if Path(f["path"]).suffix in _PICTURES],
         "figures": [_figure(c) for c in session.checks],
+        "units": None if units is None else {"system": units.name, **units.base()},
         "statistics": session.statistics,
     }
     write_text(path, json.dumps(plain(made), indent=2, ensure_ascii=False) + "\n")

@@ -19,10 +19,17 @@ _GAP = 3  # blank lines between two groups of columns
 
 @dataclass(frozen=True)
 class Column:
-    """A column: title ('' for none) and values, numbers or words."""
+    """A column: title ('' for none), values, numbers or words, and unit ('' for none)."""
 
     title: str
     values: Sequence[Any]
+    unit: str = ""
+
+    @property
+    def head(self) -> str:
+        """Its title, cut to its width, with its unit."""
+        title = self.title.strip()[:_TITLE_WIDTH]
+        return f"{title} ({self.unit})".lstrip() if self.unit else title
 
 
 def csv_lines(
@@ -46,8 +53,8 @@ def csv_lines(
         group = columns[start : start + width]
         if start:
             lines += [""] * _GAP
-        if any(c.title.strip() for c in group):
-            lines.append(separator.join(c.title.strip()[:_TITLE_WIDTH] for c in group))
+        if any(c.head for c in group):
+            lines.append(separator.join(c.head for c in group))
         for row in range(max((len(c.values) for c in group), default=0)):
             lines.append(separator.join(_cell(c.values, row, digits) for c in group))
     return lines

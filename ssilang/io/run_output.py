@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import os
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from time import monotonic
@@ -136,9 +137,9 @@ class RunOutput:
             write_text(path, "".join(line + "\n" for line in self._pending.pop(path)))
         self._flushed_at = monotonic()
 
-    def begin_series(self, path: Path) -> SeriesWriter:
+    def begin_series(self, path: Path, constants: Mapping[str, float]) -> SeriesWriter:
         """A new VTK series, finished and listed when the run ends."""
-        writer = self.series[strip_extension(path)] = SeriesWriter(path)
+        writer = self.series[strip_extension(path)] = SeriesWriter(path, constants=constants)
         return writer
 
     def wrote(self, *paths: Path) -> None:

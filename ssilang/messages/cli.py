@@ -73,9 +73,10 @@ MESSAGES: dict[str, Message] = {
     ),
     "files-written": Message(
         "{count} {count:file|files} in {folder}, {warnings} {warnings:warning|warnings}"
-        "{energy:?, energy within {energy} %}",
+        "{energy:?, energy within {energy} %}{amount:? ({amount})}",
         "{count} {count:fichier|fichiers} dans {folder}, {warnings} "
-        "{warnings:avertissement|avertissements}{energy:?, énergie à {energy} % près}",
+        "{warnings:avertissement|avertissements}{energy:?, énergie à {energy} % près}"
+        "{amount:? ({amount})}",
     ),
     "runs": Message("runs", "calculs"),
     # ---- the interactive session

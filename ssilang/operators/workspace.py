@@ -12,6 +12,7 @@ from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.mesh.mesh import Point
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.language.run.session import Session
+from ssilang.language.vocabulary.unit_systems import SYSTEMS, UnitSystem
 
 
 @dataclass
@@ -53,6 +54,11 @@ class Workspace:
     output: RunOutput | None = None
 
     @property
+    def units(self) -> UnitSystem | None:
+        """The deck's units, OPTI 'UNIT'; None if it says nothing of them."""
+        return SYSTEMS.get(str(self.options.get("UNIT", "")))
+
+    @property
     def in_frequency(self) -> bool:
         """Whether OPTI 'MODE' 'FREQ' is in force: PASAPAS sweeps frequencies."""
         return bool(self.options.get("FREQ"))
@@ -66,6 +72,12 @@ class Workspace:
 def workspace(session: Session) -> Workspace:
     """The session's workspace."""
     return cast(Workspace, session.workspace)
+
+
+def units_in_si(session: Session) -> dict[str, float]:
+    """The units that OPTI 'UNIT' declares with their sizes, nothing without it."""
+    units = workspace(session).units
+    return {} if units is None else units.in_si()
 
 
 def open_session(session: Session) -> Session:

@@ -128,8 +128,11 @@ def _write(
         )
 
 
-def frame(axes: Axes, view: View, bounds: FloatArray) -> None:
-    """Limits, equal scales; coordinates along the sides in the plane, a triad in space."""
+def frame(axes: Axes, view: View, bounds: FloatArray, names: tuple[str, str]) -> None:
+    """Limits, equal scales; coordinates along the sides in the plane, a triad in space.
+
+    `names` stand at the two sides of the plane, if they say something.
+    """
     axes.set_xlim(*bounds[:, 0])
     axes.set_ylim(*bounds[:, 1])
     axes.set_aspect("equal", adjustable="box")
@@ -138,6 +141,8 @@ def frame(axes: Axes, view: View, bounds: FloatArray) -> None:
         _triad(axes, view)
         return
     axes.tick_params(length=3, labelsize=8)
+    axes.set_xlabel(names[0], fontsize=8)
+    axes.set_ylabel(names[1], fontsize=8)
     for side in ("top", "right", "left", "bottom"):
         axes.spines[side].set_color("#c9ced4")
 

@@ -64,6 +64,8 @@ class PictureOptions:
         Iso-values to show, or how many.
     iso : 'SURFACE', 'LIGNE' or 'SULI'
         Filled bands, lines, or both.
+    axes : (str, str)
+        Stand at the sides of a picture in the plane.
     legend_name : str, optional
         Stands over the colour bar instead of the component.
     frame : Mesh, optional
@@ -92,6 +94,7 @@ class PictureOptions:
     levels: FloatArray | None = None
     level_count: int | None = None
     iso: str = "SURFACE"
+    axes: tuple[str, str] = ("", "")
     legend_name: str | None = None
     legend: bool = True
     frame: Mesh | None = None

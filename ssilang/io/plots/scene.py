@@ -158,7 +158,7 @@ def _draw_panel(
     notes.write_numbers(axes, view, prepared, options)
     if options.annotation is not None:
         draw_annotation(axes, view, options.annotation, size)
-    notes.frame(axes, view, bounds)
+    notes.frame(axes, view, bounds, options.axes)
     if levels is not None and options.legend:
         name = options.legend_name or next(x.component for x in layers if x.field is not None)
         notes.colour_bar(figure, axes, levels, to_mathtext(name), _range(prepared))

@@ -47,6 +47,8 @@ class SeriesWriter:
         Go on after the last step of the .pvd that is there.
     listed : bool
         False: no .pvd is written.
+    constants : mapping of str to float, optional
+        Field data of each file.
 
     Raises
     ------
@@ -62,10 +64,12 @@ class SeriesWriter:
         *,
         resume: bool = False,
         listed: bool = True,
+        constants: Mapping[str, float] | None = None,
     ) -> None:
         self.base = strip_extension(base)
         self.encoding = encoding
         self.listed = listed
+        self.constants = constants or {}
         self.files: list[Path] = []
         self._entries = read_pvd(self.list_path) if resume else []
         self._listed_at = clock.monotonic()
@@ -93,7 +97,8 @@ class SeriesWriter:
     def write_single(self, part: Part, time: float = 0.0) -> None:
         """Write the only file of a series: BASE.vtu, without a step's number."""
         path = self.base.with_name(self.base.name + ".vtu")
-        write_vtu(path, grid_of(part.mesh, part.point_fields, part.cell_fields), self.encoding)
+        grid = grid_of(part.mesh, part.point_fields, part.cell_fields)
+        write_vtu(path, grid, self.encoding, constants=self.constants)
         self.files.append(path)
         self._entries = [Entry(time, "", path.name)]
         self.close()
@@ -143,7 +148,7 @@ class SeriesWriter:
         suffix = f".{number:04d}.{tag}" if tag else f".{number:04d}"
         path = self.base.with_name(f"{self.base.name}{suffix}.vtu")
         grid = grid_of(part.mesh, part.point_fields, part.cell_fields)
-        write_vtu(path, grid, self.encoding, time)
+        write_vtu(path, grid, self.encoding, time, self.constants)
         self.files.append(path)
         return Entry(time, name, path.name)
 

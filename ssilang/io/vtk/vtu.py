@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import base64
 import zlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from enum import Enum
 from functools import lru_cache
 from pathlib import Path
@@ -34,7 +34,11 @@ class Encoding(Enum):
 
 
 def write_vtu(
-    path: Path, grid: Grid, encoding: Encoding = Encoding.ZIP, time: float | None = None
+    path: Path,
+    grid: Grid,
+    encoding: Encoding = Encoding.ZIP,
+    time: float | None = None,
+    constants: Mapping[str, float] | None = None,
 ) -> None:
     """Write `grid` to `path`, whole or not at all.
 
@@ -42,6 +46,8 @@ def write_vtu(
     ----------
     time : float, optional
         Stored as the field datum 'TimeValue', which ParaView shows.
+    constants : mapping of str to float, optional
+        Further field data, numbers by name (readers other than VTK's know no texts there).
 
     Raises
     ------
@@ -49,12 +55,13 @@ def write_vtu(
         If the file cannot be written.
     """
     with replacing(path) as stream:
-        for line in _lines(grid, encoding, time):
+        stamp = {} if time is None else {"TimeValue": time}
+        for line in _lines(grid, encoding, {**stamp, **(constants or {})}):
             stream.write(line.encode("utf-8"))
             stream.write(b"\n")
 
 
-def _lines(grid: Grid, encoding: Encoding, time: float | None) -> Iterator[str]:
+def _lines(grid: Grid, encoding: Encoding, constants: Mapping[str, float]) -> Iterator[str]:
     compressor = ' compressor="vtkZLibDataCompressor"' if encoding is Encoding.ZIP else ""
     yield '<?xml version="1.0"?>'
     yield (
@@ -62,9 +69,10 @@ def _lines(grid: Grid, encoding: Encoding, time: float | None) -> Iterator[str]:
         f' header_type="UInt64"{compressor}>'
     )
     yield "<UnstructuredGrid>"
-    if time is not None:
-        stamp = _element("TimeValue", DataArray(np.array([time])), encoding, ' NumberOfTuples="1"')
-        yield f"<FieldData>{stamp}</FieldData>"
+    if constants:
+        one = ' NumberOfTuples="1"'
+        told = (_element(n, DataArray(np.array([v])), encoding, one) for n, v in constants.items())
+        yield f"<FieldData>{''.join(told)}</FieldData>"
     yield f'<Piece NumberOfPoints="{len(grid.points)}" NumberOfCells="{len(grid.types)}">'
     yield from _section("PointData", grid.point_data, encoding)
     yield from _section("CellData", grid.cell_data, encoding)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -24,6 +24,14 @@ class CurvePart:
     words: tuple[str, ...] = ()  # ordinates given as words (LISTMOTS), empty otherwise
     kind: str = ""  # PREE PIMA (parts of a complex curve), MODU PHAS, HIST ENTI MOTS; '' for reals
     abscissa_words: tuple[str, ...] = ()  # abscissas given as words, standing at 1, 2, 3 ...
+    # SI units of both axes where they are certain; what is made from a curve has none
+    units: tuple[str, str] = field(default=("", ""), init=False)
+
+    def measured(self, abscissa: str, ordinate: str = "") -> CurvePart:
+        """The same curve with the SI units of its axes ('s', 'm/s'), '' where that is unknown."""
+        made = replace(self)
+        object.__setattr__(made, "units", (abscissa, ordinate))
+        return made
 
 
 @dataclass(frozen=True, eq=False)

@@ -61,6 +61,12 @@ _LANGUAGES = (
     Word("FRAN", "Messages in French", "Messages en français"),
     Word("ANGL", "Messages in English", "Messages en anglais"),
 )
+_UNITS = (
+    Word("SI", "m, N, kg, s, Pa", "m, N, kg, s, Pa"),
+    Word("KN-M", "m, kN, t, s, kPa", "m, kN, t, s, kPa"),
+    Word("MN-M", "m, MN, kt (1000 t), s, MPa", "m, MN, kt (1000 t), s, MPa"),
+    Word("N-MM", "mm, N, t, s, MPa", "mm, N, t, s, MPa"),
+)
 
 WORDS = (
     _o("DIME", "ENTIER", "", "Number of dimensions of space: 1, 2 or 3",
@@ -75,6 +81,14 @@ WORDS = (
        "Hypothèse de calcul", _MODES),
     _o("INCO", "LISTMOTS", "", "Further unknowns and their duals, two lists of words",
        "Inconnues supplémentaires et leurs duales, deux listes de mots"),
+    _o("UNIT", "MOT", "",
+       "Units that the deck is in, between quotes: from there on MATE and CARA warn of numbers "
+       "that look like another unit, and pictures, tables and the summary say units; no number "
+       "is converted (not in Cast3M)",
+       "Unités du jeu de données, entre apostrophes : à partir de là, MATE et CARA signalent les "
+       "nombres qui semblent être dans une autre unité, et les images, les tableaux et le résumé "
+       "disent les unités ; aucun nombre n'est converti (absent de Cast3M)",
+       _UNITS),
     _o("ERRE", "", "FATALE", "What an error does", "Ce que fait une erreur", _ERRORS),
     _kept("ECHO", "ENTIER", "1", "1: statements are printed as they run, 0: not",
           "1 : les instructions sont affichées à leur exécution, 0 : non"),

@@ -36,7 +36,7 @@ def _p(
 _MACRO = ("MACRO_SEMELLE", "MACRO_DISQUE", "MACRO_RESSORTS")
 _ONE_POINT = ("JOI1", *_MACRO)
 _SHELLS = ("plate", "meridian", "mindlin", "thick")
-_STIFF = between(1e4, 1e13)  # moduli of soft clay to diamond
+_STIFF = between(1e6, 1e12)  # moduli of soft clay to hard metal
 _AXES = {"1": ("first", "premier"), "2": ("second", "deuxième"), "3": ("third", "troisième")}
 _POISSON = (
     "Poisson's ratio, about 0.3 for soils and steel, 0.2 for concrete",
@@ -57,7 +57,7 @@ _ELASTIC = (
     # of bodies the kernel refuses 0.5 itself, with what to do about it
     _p("NU", "", *_POISSON, range=Range(-1.0, 0.5, open_low=True)),
     _p(
-        "RHO", "kg/m3", "Density", "Masse volumique", range=NOT_NEGATIVE, usual=between(1.0, 2.5e4)
+        "RHO", "kg/m3", "Density", "Masse volumique", range=NOT_NEGATIVE, usual=between(10.0, 2.5e4)
     ),
     _p(
         "RHO", "kg/m2", "Mass of the joint's own matter, for each unit of its surface",

@@ -61,6 +61,13 @@ MESSAGES: dict[str, Message] = {
         "{name} holds {done} {done:structure|structures}, all have been read",
         "{name} contient {done} {done:structure|structures}, toutes ont été lues",
     ),
+    "other-units": Message(
+        "{name} was saved in {saved}, and the deck is in {present}: no number is converted",
+        "{name} a été sauvé en {saved} et le jeu de données est en {present} : aucun nombre n'est "
+        "converti",
+        "OPTI 'UNIT' '{saved}' before REST, or other objects",
+        "OPTI 'UNIT' '{saved}' avant REST, ou d'autres objets",
+    ),
     "no-such-label": Message(
         "{name} has no record labelled '{label}'",
         "{name} n'a pas d'enregistrement de label '{label}'",

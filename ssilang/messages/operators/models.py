@@ -245,6 +245,17 @@ MESSAGES: dict[str, Message] = {
         "{text}: {described}",
         "{text}: {described}",
     ),
+    "unusual-value": Message(
+        "{name} = {value:g}{unit:? {unit}} is unusually {small:?small|large}: in {system} it is "
+        "usually {low:g} to {high:g}{unit:? {unit}} ({meaning})",
+        "{name} = {value:g}{unit:? {unit}} est anormalement {small:?petit|grand} : en {system}, "
+        "les valeurs usuelles vont de {low:g} à {high:g}{unit:? {unit}} ({meaning})",
+        "{likely:?it looks like {likely:or}: write {written:or}, or correct OPTI 'UNIT' if the "
+        "deck is in other units|correct it, or OPTI 'UNIT' if the deck is in other units}",
+        "{likely:?cela ressemble à des {likely:or} : écrivez {written:or}, ou corrigez OPTI "
+        "'UNIT' si le jeu de données est dans d'autres unités|corrigez-le, ou OPTI 'UNIT' si le "
+        "jeu de données est dans d'autres unités}",
+    ),
     "parameter-is-a-number": Message(
         "parameter {name} is a number, not a POINT",
         "le paramètre {name} est un nombre, pas un POINT",

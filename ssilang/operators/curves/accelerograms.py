@@ -278,5 +278,7 @@ def spectrum_part(
     """One response spectrum as a curve, over periods or over frequencies."""
     legend = f"{100.0 * damping:g} %"
     if abscissa == "PERI":
-        return CurvePart(periods, y, "PERIODE", f"RSPE-{kind}", legend, colour)
-    return CurvePart(1.0 / periods[::-1], y[::-1], "FREQUENCE", f"RSPE-{kind}", legend, colour)
+        made = CurvePart(periods, y, "PERIODE", f"RSPE-{kind}", legend, colour)
+        return made.measured("s")
+    made = CurvePart(1.0 / periods[::-1], y[::-1], "FREQUENCE", f"RSPE-{kind}", legend, colour)
+    return made.measured("Hz")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -36,6 +38,7 @@ from ssilang.language.values import (
     ListReel,
     Table,
 )
+from ssilang.language.vocabulary.unit_systems import result_unit
 from ssilang.operators.curves.instants import (
     InstantField,
     components_in_time,
@@ -294,7 +297,7 @@ def _along_line(call: Call, colours: list[int]) -> Curve:
             n_nodes=len(nodes),
         )
     made = CurvePart(s, part.at(nodes), "ABS", name, "", colours[0])
-    return Curve((made,), workspace(call.session).title)
+    return Curve((made.measured("m"),), workspace(call.session).title)
 
 
 def _only(call: Call, field: NodeField) -> str:
@@ -310,8 +313,17 @@ MISSING = object()
 _DEFAULT_INDEX = {"DYNAMIC": "DEPL", "PASAPAS": "DEPLACEMENTS"}
 
 
+def _unit_in_time(results: Table | None, index: str, name: str) -> str:
+    """SI unit of a component of what a calculation has left, '' where that is not certain."""
+    if isinstance(results, LazyRows) or (results and results.subtype in _DEFAULT_INDEX):
+        return result_unit(name, index)
+    return ""
+
+
 def _in_time(call: Call, colours: list[int]) -> Curve:
+    results = next((o.value for o in call.operands if isinstance(o.value, Table)), None)
     fields, times, title = history(call, unmade=True)
+    results = results if title else None
     chosen = call.read("LISTENTI")
     if chosen is not None:
         places = chosen.value.values - 1 if not title else chosen.value.values
@@ -319,7 +331,7 @@ def _in_time(call: Call, colours: list[int]) -> Curve:
             raise call.error("operators.curves.no-such-step", chosen.value, n_fields=len(fields))
         fields, times = [fields[int(i)] for i in places], times[places]
     if fields and isinstance(fields[0], CellField):
-        return _in_a_cell(call, fields, times, colours[0])
+        return _in_a_cell(call, fields, times, colours[0], partial(_unit_in_time, results, title))
     names = names_in_time(call, fields)
     support = call.read("POINT", "MAILLAGE")
     if support is None:
@@ -334,7 +346,8 @@ def _in_time(call: Call, colours: list[int]) -> Curve:
             values = value_in_time(call, fields, name, node)
             legend = f"{name} {node + 1}" if len(nodes) > 1 else name
             colour = colours[len(parts) % len(colours)]
-            parts.append(CurvePart(times, values, "TEMP", name, legend, colour))
+            made = CurvePart(times, values, "TEMP", name, legend, colour)
+            parts.append(made.measured("s", _unit_in_time(results, title, name)))
     return Curve(tuple(parts), workspace(call.session).title)
 
 
@@ -342,7 +355,13 @@ def _made(field: NodeField | InstantField) -> NodeField:
     return field.make() if isinstance(field, InstantField) else field
 
 
-def _in_a_cell(call: Call, fields: list[Any], times: FloatArray, colour: int) -> Curve:
+def _in_a_cell(
+    call: Call,
+    fields: list[Any],
+    times: FloatArray,
+    colour: int,
+    unit_of: Callable[[str], str],
+) -> Curve:
     """Component of fields in cells at point N3 of cell N2 of zone N1."""
     name = str(call.required("MOT")).rstrip()
     zone, cell, point = (call.required("ENTIER") for _ in range(3))
@@ -358,7 +377,7 @@ def _in_a_cell(call: Call, fields: list[Any], times: FloatArray, colour: int) ->
         row = held[cell - 1]
         values.append(float(row[min(point, len(row)) - 1]))
     part = CurvePart(times, np.asarray(values), "TEMP", name[:12], name, colour)
-    return Curve((part,), workspace(call.session).title)
+    return Curve((part.measured("s", unit_of(name)),), workspace(call.session).title)
 
 
 def nodes_named(support: Point | Mesh) -> list[int]:

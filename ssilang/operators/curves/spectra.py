@@ -137,7 +137,7 @@ def spo(
         f = default_frequencies(part.abscissas, xi) if frequencies is None else frequencies.values
         y = spectrum(part.abscissas, part.ordinates, f, float(xi), kind, wanted)
         legend = f"{100.0 * xi:g} %"
-        made.append(CurvePart(f, y, "FREQ", kind, legend, index_of(colour)))
+        made.append(CurvePart(f, y, "FREQ", kind, legend, index_of(colour)).measured("Hz"))
     return Curve(tuple(made), signal.title)
 
 

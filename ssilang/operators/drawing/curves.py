@@ -158,7 +158,8 @@ def dess(call: Call, curves: tuple[Operand, ...], table: Table | None, **said: A
     # the title of the evolution, else the one in force
     if "title" not in found and not curve.title.strip():
         found["title"] = workspace(call.session).title
-    figure = draw_curves(curve, CurveOptions(**found))
+    units = workspace(call.session).units
+    figure = draw_curves(curve, CurveOptions(**found, written=units.written if units else None))
     title = str(found.get("title") or curve.title)
     stem = picture_name(call.session, title, curves[0].name or "dess")
     save_picture(call.session, figure, stem, picture_formats(call.session, ("png", "svg")))

@@ -45,7 +45,7 @@ from ssilang.operators.drawing.pictures import (
     save_picture,
 )
 from ssilang.operators.files.outputs import run_output
-from ssilang.operators.workspace import workspace
+from ssilang.operators.workspace import Workspace, workspace
 
 
 @dataclass
@@ -248,6 +248,7 @@ def _draw(call: Call, session: Session, said: _Said) -> None:
     options.setdefault("title", ws.title)
     options["iso"] = _ISO.get(str(ws.options.get("ISOV", ""))[:4].upper(), "SURFACE")
     options["notes"] = made.notes
+    options["axes"] = _axes(ws)
     if said.qualify:
         options["labels"] = _labels(session, [layer.mesh for layer in made.layers])
     view = _view(session, said, [layer.mesh for layer in made.layers])
@@ -260,6 +261,16 @@ def _draw(call: Call, session: Session, said: _Said) -> None:
         frames = animation_frames(deformed, subjects, view, PictureOptions(**options))
         path = save_animation(frames, files[0].with_suffix(".gif"), said.animation == "OSCI")
         run_output(session).wrote(path)
+
+
+def _axes(ws: Workspace) -> tuple[str, str]:
+    """What stands at the sides of a picture in the plane: coordinates in the deck's units."""
+    if ws.units is None:
+        return "", ""
+    round_axis = ws.mode in (Mode.AXISYMMETRIC, Mode.FOURIER)
+    first, second = "rz" if round_axis else "xy"
+    unit = ws.units.written("m")
+    return f"{first} ({unit})", f"{second} ({unit})"
 
 
 def _view(session: Session, said: _Said, meshes: list[Mesh]) -> View:

@@ -19,6 +19,7 @@ from ssilang.language.values import ListMots, Table
 from ssilang.operators.dynamics.motion_observers import CsvObserver, VtkObserver
 from ssilang.operators.files.outputs import output_path, run_output
 from ssilang.operators.tables.entries import Entries
+from ssilang.operators.workspace import units_in_si, workspace
 
 if TYPE_CHECKING:
     pass
@@ -46,7 +47,8 @@ def vtk_observer(entries: Entries, times: FloatArray) -> VtkObserver | None:
     meshes = {"": given} if isinstance(given, Mesh) else _parts(entries, given)
     name = entries.get("FICHIER_VTK") or entries.default("FICHIER_VTK")
     path = output_path(entries.call, str(name).rstrip())
-    writer = run_output(entries.call.session).begin_series(path)
+    session = entries.call.session
+    writer = run_output(session).begin_series(path, units_in_si(session))
     return VtkObserver(wanted, meshes, writer, _stress(entries))
 
 
@@ -84,4 +86,4 @@ def csv_observer(entries: Entries, times: FloatArray) -> CsvObserver | None:
     path = output_path(entries.call, text if text.lower().endswith(".csv") else text + ".csv")
     run_output(entries.call.session).wrote(path)
     chosen = None if components is None else [str(c).rstrip() for c in components.values]
-    return CsvObserver(wanted, nodes, chosen, path)
+    return CsvObserver(wanted, nodes, chosen, path, workspace(entries.call.session).units)

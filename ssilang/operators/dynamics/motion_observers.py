@@ -18,6 +18,7 @@ from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.language.values import LazyRows, LazyTable, ListReel, Mot, Table, promises
+from ssilang.language.vocabulary.unit_systems import UnitSystem, result_unit
 from ssilang.operators.curves.instants import InstantField
 
 if TYPE_CHECKING:
@@ -203,6 +204,7 @@ class CsvObserver:
     nodes: IntArray
     components: list[str] | None = None
     path: Path | None = None
+    units: UnitSystem | None = None
     columns: dict[str, list[float]] = field(default_factory=lambda: {"TEMP": []})
 
     def receive(self, snapshot: Snapshot) -> None:
@@ -224,11 +226,19 @@ class CsvObserver:
         """Write the file, whole."""
         if self.path is None:
             return
-        lines = [";".join(self.columns)]
+        lines = [";".join(map(self._head, self.columns))]
         lines += [
             ";".join(f"{x:.12g}" for x in row) for row in zip(*self.columns.values(), strict=True)
         ]
         write_text(self.path, "\n".join(lines) + "\n")
+
+    def _head(self, name: str) -> str:
+        """Title of a column of the file, with the deck's units where they are known."""
+        if self.units is None:
+            return name
+        index, component = (*name.split("_"), "")[:2]
+        unit = self.units.written("s" if name == "TEMP" else result_unit(component, index))
+        return f"{name} ({unit})" if unit else name
 
     @property
     def table(self) -> Table:

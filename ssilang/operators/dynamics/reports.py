@@ -7,10 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ssilang.language.run.session import Session
 from ssilang.language.values import LazyTable, ListReel, Mot, promises
 from ssilang.messages.message import sentence
 from ssilang.operators.matrices.connections import warn_connections
 from ssilang.operators.tables.entries import Entries
+from ssilang.operators.workspace import workspace
 
 if TYPE_CHECKING:
     from ssilang.kernel.stepping.problem.problem import Inputs, Problem
@@ -50,7 +52,7 @@ def report(entries: Entries, problem: Problem, history: History) -> None:
         "seconds": history.seconds,
         "steps_per_second": steps / history.seconds if history.seconds > 0 else None,
         "energy_imbalance": _relative(history.worst_imbalance, history.largest_energy),
-        "energy_imbalance_joules": history.worst_imbalance,
+        "energy_imbalance_joules": history.worst_imbalance * _joules(session),
     }
     if history.reduction is not None:
         line |= {
@@ -63,6 +65,12 @@ def report(entries: Entries, problem: Problem, history: History) -> None:
             "seconds_preparing_the_basis": history.reduction.prepared,
         }
     session.statistics.setdefault("calculations", []).append(line)
+
+
+def _joules(session: Session) -> float:
+    """What the deck's unit of energy is in J; 1 where OPTI 'UNIT' names none."""
+    units = workspace(session).units
+    return 1.0 if units is None else units.factor("J")
 
 
 def _relative(imbalance: float, largest: float) -> float | None:

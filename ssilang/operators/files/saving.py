@@ -37,6 +37,7 @@ from ssilang.language.values import (
     Table,
     Texte,
 )
+from ssilang.language.vocabulary.unit_systems import SYSTEMS
 from ssilang.operators.files.outputs import input_path, option_name, output_path, run_output
 from ssilang.operators.session.configurations import Configuration
 from ssilang.operators.workspace import Workspace, workspace
@@ -257,6 +258,7 @@ def _settings(ws: Workspace) -> dict[str, Any]:
         "ELEM": ws.element,
         "TITR": ws.title,
         "INCO": ws.options.get("INCO", {}),
+        "UNIT": str(ws.options.get("UNIT", "")),
     }
 
 
@@ -303,8 +305,18 @@ def _restore(call: Call, archive: Archive, name: str, label: str) -> None:
         call.session.frame.assign(held, value)
     if added := dict(archive.settings.get("INCO", {})):
         ws.options["INCO"] = {**ws.options.get("INCO", {}), **added}
+    _restore_units(call, name, str(archive.settings.get("UNIT", "")))
     if not ws.dimension:
         _restore_settings(ws, archive.settings)
+
+
+def _restore_units(call: Call, name: str, saved: str) -> None:
+    """The units of the file, where the script has named none; others than its own are told."""
+    ws = workspace(call.session)
+    if ws.units is None:
+        ws.options.update({"UNIT": Mot(saved)} if saved else {})
+    elif saved and saved != ws.units.name:
+        call.warn("operators.files.other-units", name=name, saved=saved, present=ws.units.name)
 
 
 def check_settings(archive: Archive, name: str) -> None:
@@ -316,6 +328,7 @@ def check_settings(archive: Archive, name: str) -> None:
         "ELEM": element == "" or (isinstance(element, str) and element in CELL_TYPES),
         "MODE": isinstance(saved.get("MODE", ""), str),
         "TITR": isinstance(saved.get("TITR", ""), str),
+        "UNIT": saved.get("UNIT", "") in ("", *SYSTEMS),
         "INCO": isinstance(added, dict) and all(isinstance(v, str) for v in added.values()),
     }
     for word, holds in rules.items():

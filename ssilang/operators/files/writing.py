@@ -12,9 +12,11 @@ from ssilang.language.registry import Chosen, arg, choice, key, lead, many, opt,
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Check
 from ssilang.language.values import ListEnti, ListMots, ListReel, Table
+from ssilang.language.vocabulary.unit_systems import UnitSystem
 from ssilang.operators.dispatch import shared_operator
 from ssilang.operators.files.outputs import option_name, output_path, run_output
 from ssilang.operators.texts.words import TEXT, TEXT_IS_FREE, read_text
+from ssilang.operators.workspace import workspace
 
 SORT = shared_operator(
     "SORT",
@@ -94,26 +96,29 @@ def _exce(
             options[name] = n
     if separator is not None:
         options["separator"] = _SEPARATORS[separator["sign"]]
-    columns = [column for value in objects for column in _columns(value, "")]
+    units = workspace(call.session).units
+    columns = [column for value in objects for column in _columns(value, "", units)]
     if not columns:
         raise call.missing(("LISTREEL", "EVOLUTIO", "TABLE"))
     path = target_path(call, ".csv", (".txt", ".dat", ".xls"))
     run_output(call.session).add_lines("SORT", path, csv_lines(columns, **options))
 
 
-def _columns(value: Any, name: str) -> list[Column]:
+def _columns(value: Any, name: str, units: UnitSystem | None) -> list[Column]:
     if isinstance(value, ListReel | ListEnti | ListMots):
         return [Column(name, list(value.values))]
     if isinstance(value, Curve):
         made = []
         for part in value.parts:
-            made.append(Column(part.abscissa_name, list(part.abscissa_words or part.abscissas)))
-            made.append(Column(part.ordinate_name, list(part.words or part.ordinates)))
+            x, y = (units.written(u) if units and u else "" for u in part.units)
+            made.append(Column(part.abscissa_name, list(part.abscissa_words or part.abscissas), x))
+            made.append(Column(part.ordinate_name, list(part.words or part.ordinates), y))
         return made
     if isinstance(value, Table):
         found: list[Column] = []
         for index, inner in value.items():
-            found += _columns(inner, str(index) if isinstance(index, str | int | float) else "")
+            title = str(index) if isinstance(index, str | int | float) else ""
+            found += _columns(inner, title, units)
         return found
     return []
 

@@ -20,6 +20,7 @@ from ssilang.language.run.call import Call
 from ssilang.language.values import Table
 from ssilang.operators.files.outputs import run_output
 from ssilang.operators.files.writing import SORT, target_path
+from ssilang.operators.workspace import units_in_si
 
 _ENCODINGS = ("FORM", "BINA", "ZIP")
 _LISTS = ("AUTO", "NOUV", "SUIT", "NPVD")
@@ -37,6 +38,7 @@ class _Said:
     encoding: Encoding = Encoding.ZIP
     listing: str = "AUTO"
     time: float | None = None
+    constants: dict[str, float] = field(default_factory=dict)
 
     def add(self, value: Any, name: str) -> None:
         """Add an object under its name, or under a usual one."""
@@ -107,7 +109,8 @@ def _vtk(call: Call, word: str) -> None:
     parts = {name: _part(mesh, said) for name, mesh in said.meshes.items()}
     if said.time is None and len(parts) == 1:
         (part,) = parts.values()
-        writer = SeriesWriter(path, said.encoding, listed=said.listing != "NPVD")
+        listed = said.listing != "NPVD"
+        writer = SeriesWriter(path, said.encoding, listed=listed, constants=said.constants)
         writer.write_single(part)
         output.wrote(*writer.files)
         output.series.pop(path, None)
@@ -122,19 +125,20 @@ def _writer(output: RunOutput, path: Path, said: _Said, parts: tuple[str, ...]) 
     begun = output.series.get(path)
     time = said.time or 0.0
     if said.listing == "SUIT" and begun is None:
-        begun = SeriesWriter(path, said.encoding, resume=True)
+        begun = SeriesWriter(path, said.encoding, resume=True, constants=said.constants)
     elif said.listing == "NOUV" or (
         said.listing == "AUTO" and begun is not None and not begun.accepts(time, parts)
     ):
         begun = None
     if begun is None:
-        begun = SeriesWriter(path, said.encoding, listed=said.listing != "NPVD")
+        listed = said.listing != "NPVD"
+        begun = SeriesWriter(path, said.encoding, listed=listed, constants=said.constants)
     output.series[path] = begun
     return begun
 
 
 def _read(call: Call) -> _Said:
-    said = _Said()
+    said = _Said(constants=units_in_si(call.session))
     while True:
         # a word behind an object is looked at as its name first
         first = call.operands[0].value if call.operands else None

@@ -22,6 +22,7 @@ from ssilang.language.near import nearest_names
 from ssilang.language.registry import Chosen, Help, arg, each, many, operator, select
 from ssilang.language.run.call import Call
 from ssilang.operators.models.tension import material_names, tension_to_hardening
+from ssilang.operators.models.units import warn_of_units
 from ssilang.operators.vocabulary import words
 
 Known = Callable[[Zone], tuple[str, ...]]
@@ -206,6 +207,7 @@ def _parameters(
         check(model, given)
     for zone, values in zip(model.zones, given, strict=True):
         _refuse_outside(call, zone, values, said)
+        warn_of_units(call, zone, {n: (v, said[n]) for n, (v, _) in values.items() if n in said})
     return CellField(tuple(blocks), "CARACTERISTIQUES")
 
 

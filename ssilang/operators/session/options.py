@@ -17,6 +17,7 @@ from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SsiError
 from ssilang.language.values import ListMots, Mot, type_of
+from ssilang.language.vocabulary.unit_systems import SYSTEMS
 from ssilang.operators.session.option_files import include, read_file_option
 from ssilang.operators.vocabulary.words import told_options, told_values
 from ssilang.operators.workspace import Workspace, workspace
@@ -85,16 +86,26 @@ def _one_of(call: Call, option: str, words: tuple[str, ...]) -> str:
     for word in words:
         if said[:4] == word[:4].rstrip():
             return word
+    raise _no_value(call, option, said, words)
+
+
+def _no_value(
+    call: Call, option: str, said: str, words: tuple[str, ...], *, quoted: bool = False
+) -> SsiError:
     told = told_values(option, words, call.session.language)
-    raise SsiError(
+    return SsiError(
         "operators.session.no-value-of-option",
         call.used[-1].span,
         said=said,
         option=option,
-        near=nearest(said, words, 0.3),
-        values=words,
+        near=_shown(nearest(said, words, 0.3), quoted),
+        values=[_shown(w, quoted) for w in words],
         told="".join(f"\n{line}" for line in told),
     )
+
+
+def _shown(word: str, quoted: bool) -> str:
+    return f"'{word}'" if quoted and word else word
 
 
 @reader("DIME")
@@ -191,6 +202,14 @@ def _erre(call: Call, word: str) -> None:
     _store(call, word, Mot(_one_of(call, "ERRE", ("FATALE", "NORMALE", "CONTROLE", "IGNORE"))))
 
 
+@reader("UNIT")
+def _unit(call: Call, word: str) -> None:
+    said = value_word(call).upper().rstrip()
+    if said not in SYSTEMS:  # whole: MN-MM is not MN-M
+        raise _no_value(call, "UNIT", said, tuple(SYSTEMS), quoted=True)
+    _store(call, word, Mot(said))
+
+
 @reader("LANG")
 def _lang(call: Call, word: str) -> None:
     said = value_word(call).upper()
@@ -254,12 +273,16 @@ def _donn(call: Call, word: str) -> None:
     full_name="OPTION",
     help=Help(
         en="Sets options of the calculation; several may stand in one statement, values quoted or "
-        "not. An option keeps its value until it is set again; VALE reads it back.",
+        "not. An option keeps its value until it is set again; VALE reads it back. 'UNIT' says in "
+        "which units the deck is ('SI' 'KN-M' 'MN-M' 'N-MM'): materials given behind it are "
+        "looked at, and what is written says its units.",
         fr="Fixe des options du calcul ; plusieurs peuvent se suivre dans une instruction, valeurs "
-        "entre apostrophes ou non. VALE relit la valeur courante.",
+        "entre apostrophes ou non. VALE relit la valeur courante. 'UNIT' dit les unités du jeu de "
+        "données ('SI' 'KN-M' 'MN-M' 'N-MM') : les matériaux donnés ensuite sont examinés, et ce "
+        "qui est écrit dit ses unités.",
         syntax="OPTI 'DIME' N1 'MODE' MODE1 (MODE2) 'ELEM' TYPE1 'DENS' FLOT1 'COUL' COUL1 ... ;\n"
         "OPTI 'TRAC' UNITE 'FTRA' FICHIER ; OPTI 'SORT' FICHIER ; OPTI 'SAUV' FICHIER ; "
-        "OPTI 'REST' FICHIER ; OPTI 'ACQU' FICHIER ; OPTI 'DONN' FICHIER ;",
+        "OPTI 'REST' FICHIER ; OPTI 'ACQU' FICHIER ; OPTI 'DONN' FICHIER ; OPTI 'UNIT' SYSTEME ;",
         examples=("OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; LIST (VALE 'DIME') ;",),
     ),
     gives=(),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from datetime import datetime
 from itertools import cycle
@@ -52,6 +52,9 @@ class CurveOptions:
         First and last point drawn, from 1.
     dash_codes : mapping of int to sequence of int
         Dash of each segment: 0 full, 1 to 5 as TIRR TIRC TIRL TIRM POIN.
+    written : function, optional
+        What stands for an SI unit in the units of the data; without it the names of the curves
+        carry no units.
     """
 
     log_x: bool = False
@@ -81,6 +84,7 @@ class CurveOptions:
     names: Mapping[int, str] = field(default_factory=dict)
     spans: Mapping[int, tuple[int | None, int | None]] = field(default_factory=dict)
     dash_codes: Mapping[int, Any] = field(default_factory=dict)
+    written: Callable[[str], str] | None = None
 
 
 def draw_curves(curve: Curve, options: CurveOptions | None = None) -> Figure:
@@ -157,7 +161,7 @@ def _draw_panel(panel: Axes, lines: list[Line], curve: Curve, options: CurveOpti
         bars = "HIST" in (line.kind, curve.kind)
         draw_bars(panel, line) if bars else _draw_line(panel, line)
     _frame(panel, options)
-    _titles(panel, curve.parts[lines[0].number - 1] if lines else None, options)
+    _titles(panel, [curve.parts[line.number - 1] for line in lines], options)
     if options.extremes:
         _extremes(panel, lines)
     _legend(panel, lines, options)
@@ -284,9 +288,16 @@ def _graduate(axis: Any, step: float | None, form: str | None, log: bool) -> Non
         axis.set_major_formatter(FuncFormatter(lambda value, _: formatted(form, value)))
 
 
-def _titles(panel: Axes, first: CurvePart | None, options: CurveOptions) -> None:
-    x = options.x_title if options.x_title is not None else (first.abscissa_name if first else "")
-    y = options.y_title if options.y_title is not None else (first.ordinate_name if first else "")
+def _titles(panel: Axes, parts: list[CurvePart], options: CurveOptions) -> None:
+    first = parts[0] if parts else None
+    x, y = (first.abscissa_name, first.ordinate_name) if first else ("", "")
+    if options.written is not None and len({p.units for p in parts}) == 1:
+        x, y = (
+            f"{name.strip()} ({options.written(unit)})" if unit else name
+            for name, unit in zip((x, y), parts[0].units, strict=True)
+        )
+    x = options.x_title if options.x_title is not None else x
+    y = options.y_title if options.y_title is not None else y
     panel.set_xlabel(to_mathtext(x.strip()), loc="right" if options.x_title_at_end else "center")
     panel.set_ylabel(to_mathtext(y.strip()), loc="top" if options.y_title_at_end else "center")
     if first is not None and first.abscissa_words:

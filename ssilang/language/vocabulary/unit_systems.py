@@ -1,0 +1,122 @@
+"""Systems of units that a deck may be in: OPTI 'UNIT'.
+
+A system is a unit of length and one of force, with the second; the unit of mass is the one that
+makes force = mass times acceleration (a tonne with N and mm). The powers of a quantity stand in
+`terms.UNITS`, by its unit of the SI.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from ssilang.language import vocabulary
+from ssilang.language.vocabulary.terms import UNITS, Quantity, Range
+
+_SYMBOL = re.compile(r"[A-Za-z]+")
+
+
+@dataclass(frozen=True, slots=True)
+class UnitSystem:
+    """A system of units.
+
+    Attributes
+    ----------
+    name : str
+        As OPTI 'UNIT' takes it.
+    length, force : float
+        Its unit of length in m, of force in N.
+    symbols : mapping of str to str
+        What is written in it for m, kg, N, Pa and J, where that differs.
+    """
+
+    name: str
+    length: float
+    force: float
+    symbols: Mapping[str, str]
+
+    @property
+    def mass(self) -> float:
+        """Its unit of mass in kg."""
+        return self.force / self.length
+
+    def factor(self, unit: str) -> float:
+        """How many of a unit of the SI its unit here is: 1e9 for 'Pa/m' and N-MM."""
+        powers = UNITS[unit]
+        return float(self.mass**powers.mass * self.length**powers.length)
+
+    def written(self, unit: str) -> str:
+        """What stands here for a unit of the SI: 't/mm3' for 'kg/m3'."""
+        return _SYMBOL.sub(lambda found: self.symbols.get(found[0], found[0]), unit)
+
+    def base(self) -> dict[str, str]:
+        """The units of this system by what is measured in them, for machines."""
+        return {what: self.written(unit) for what, unit in _MEASURED.items()}
+
+    def in_si(self) -> dict[str, float]:
+        """The same with their sizes: 'length: mm' is 1e-3 m."""
+        return {
+            f"{what}: {self.written(unit)}": self.factor(unit) for what, unit in _MEASURED.items()
+        }
+
+
+_MEASURED = {
+    "length": "m", "force": "N", "mass": "kg", "time": "s", "stress": "Pa", "energy": "J",
+}  # fmt: skip
+
+SYSTEMS: dict[str, UnitSystem] = {
+    s.name: s
+    for s in (
+        UnitSystem("SI", 1.0, 1.0, {}),
+        UnitSystem("KN-M", 1.0, 1e3, {"kg": "t", "N": "kN", "Pa": "kPa", "J": "kJ"}),
+        UnitSystem("MN-M", 1.0, 1e6, {"kg": "kt", "N": "MN", "Pa": "MPa", "J": "MJ"}),
+        UnitSystem("N-MM", 1e-3, 1.0, {"m": "mm", "kg": "t", "Pa": "MPa", "J": "mJ"}),
+    )
+}
+
+_FURTHER: dict[str, dict[str, float]] = {
+    "Pa": {"GPa": 1e9}, "Pa/m": {"GPa/m": 1e9}, "m": {"cm": 1e-2}, "m2": {"cm2": 1e-4},
+    "m4": {"cm4": 1e-8}, "1/K": {"1e-6/K": 1e-6},
+}  # fmt: skip
+"""Units that data sheets use and that belong to none of the systems: how many of the SI one is."""
+
+
+def likely_units(value: float, unit: str, usual: Range, system: UnitSystem) -> dict[str, float]:
+    """Units in which an unusual value would be usual, with what it is in the system's unit.
+
+    Parameters
+    ----------
+    value : float
+        A number that was given as one of `system`.
+    unit : str
+        Its unit of the SI.
+    usual : Range
+        What is usual, in that unit.
+    """
+    known = {s.written(unit): s.factor(unit) for s in SYSTEMS.values()} | _FURTHER.get(unit, {})
+    known.pop(system.written(unit))
+    here = system.factor(unit)
+    return {name: value * size / here for name, size in known.items() if value * size in usual}
+
+
+_RATES = {
+    "DEPL": "", "DEPLACEMENTS": "", "VITE": "/s", "VITESSES": "/s", "ACCE": "/s2",
+    "ACCELERATIONS": "/s2",
+}  # fmt: skip
+"""What results at an index are, for each unit of an unknown."""
+
+
+def result_unit(component: str, index: str) -> str:
+    """SI unit of a component of what a calculation keeps at an index, '' if that is not certain.
+
+    UX is in m at 'DEPL' and in m/s at 'VITE'; forces and stresses are what they are.
+    """
+    meant = {w for w in vocabulary.meanings("component", component) if isinstance(w, Quantity)}
+    units = {w.unit or "" for w in meant}
+    if len(units) != 1:
+        return ""
+    unit, unknown = units.pop(), any(w.kind == "unknown" for w in meant)
+    if index in _RATES:
+        return unit + _RATES[index] if unknown and unit in ("m", "rad") else ""
+    return "" if unknown else unit

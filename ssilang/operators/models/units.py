@@ -1,0 +1,68 @@
+"""Numbers of materials that look like another unit than the deck's, where OPTI 'UNIT' says it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ssilang.kernel.materials.model import Zone
+from ssilang.language.run.call import Call
+from ssilang.language.vocabulary import Quantity
+from ssilang.language.vocabulary.unit_systems import UnitSystem, likely_units
+from ssilang.operators.vocabulary import words
+from ssilang.operators.workspace import workspace
+
+Given = tuple[NDArray[Any], Any]
+_CODE = "operators.models.unusual-value"
+
+
+def warn_of_units(call: Call, zone: Zone, given: Mapping[str, Given]) -> None:
+    """Warn of parameters out of what is usual in the deck's units; nought is one in any unit.
+
+    The library's own procedures give numbers that are no material's, and stay unheard.
+
+    Parameters
+    ----------
+    given : mapping of str to (array, object)
+        Parameters of the zone: their values, and what the script gave for them.
+    """
+    session, system = call.session, workspace(call.session).units
+    if system is None or session.frame.procedure in session.library.standard_names:
+        return
+    for name, (array, said) in given.items():
+        meant = words.parameter(name, zone)
+        if meant is None or meant.unit is None or array.dtype != float:
+            continue
+        numbers = array[np.isfinite(array) & (array != 0.0)]
+        ends = (float(numbers.min()), float(numbers.max())) if numbers.size else ()
+        here = system.factor(meant.unit)
+        unusual = next((v for v in ends if v * here not in meant.usual), None)
+        if unusual is not None:
+            _warn(call, meant, unusual, said, system)
+
+
+def _warn(call: Call, meant: Quantity, value: float, said: Any, system: UnitSystem) -> None:
+    """Say it where the value stands, once for each place and parameter."""
+    unit, low, high = meant.unit or "", meant.usual.low, meant.usual.high
+    here, likely = system.factor(unit), likely_units(value, unit, meant.usual, system)
+    warning = call.error(
+        _CODE,
+        said,
+        name=meant.name,
+        value=value,
+        unit=system.written(unit),
+        small=abs(value) * here < min(abs(low), abs(high)),
+        system=system.name,
+        low=low / here,
+        high=high / here,
+        meaning=meant.meaning(call.session.language),
+        likely=list(likely),
+        written=[f"{v:g}" for v in likely.values()],
+    )
+    warning.warns = True
+    before = [w for w in call.session.warnings if w.code == _CODE and w.span == warning.span]
+    if not any(w.data["name"] == meant.name for w in before):
+        call.session.report(warning)
