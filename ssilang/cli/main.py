@@ -13,93 +13,13 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ssilang.cli.usage import COMMANDS, parser
+
 if TYPE_CHECKING:
     from ssilang.cli.run import RunOptions
 
 OK, FAILED, USAGE = 0, 1, 2
-
-_COMMANDS = ("run", "check", "help", "sweep", "repl", "version")
-
-
-def _parser() -> argparse.ArgumentParser:
-    from ssilang import __version__
-
-    parser = argparse.ArgumentParser(
-        prog="ssilang",
-        description="Runs Gibiane scripts for soil-structure interaction with uplift.",
-        epilog="ssilang case.ssi is short for ssilang run case.ssi; ssilang alone is interactive.",
-    )
-    parser.add_argument("--version", action="version", version=f"ssilang {__version__}")
-    commands = parser.add_subparsers(dest="command", metavar="{run,check,help,sweep,repl,version}")
-    run = commands.add_parser("run", help="run a script (- for standard input)")
-    run.add_argument("file", nargs="?")
-    _run_arguments(run)
-    run.add_argument(
-        "--set",
-        action="append",
-        default=[],
-        metavar="NAME=VALUE",
-        help="value that the script's first assignment to NAME gives instead of its own",
-    )
-    run.add_argument("-i", "--interactive", action="store_true", help="keep the session after it")
-    check = commands.add_parser("check", help="report mistakes without running")
-    check.add_argument("files", nargs="+")
-    check.add_argument("--syntax-only", action="store_true", help="structure alone")
-    check.add_argument("--lang", choices=("en", "fr"), default="en", help="language of messages")
-    helper = commands.add_parser("help", help="help of a word, or what is known about it")
-    helper.add_argument("word", nargs="*")
-    helper.add_argument("--lang", choices=("en", "fr"), default="en")
-    _sweep_arguments(commands.add_parser("sweep", help="run a script over parameters and motions"))
-    repl = commands.add_parser("repl", help="interactive session")
-    _run_arguments(repl)
-    commands.add_parser("version", help="version of the program")
-    return parser
-
-
-def _sweep_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("file", type=Path)
-    parser.add_argument(
-        "--set",
-        action="append",
-        default=[],
-        metavar="NAME=VALUES",
-        help="values of NAME: a,b,c or first:last:step; several --set make all combinations",
-    )
-    parser.add_argument(
-        "--motions", type=Path, metavar="DIR", help="run each file of DIR; its path is MOTION"
-    )
-    parser.add_argument("--out", type=Path, help="output folder (default results/<case>_sweep)")
-    parser.add_argument("--jobs", type=int, default=0, help="processes (default: one a core)")
-    parser.add_argument(
-        "--together",
-        type=int,
-        default=8,
-        metavar="N",
-        help="most runs of a process whose steps are taken together (default 8; 1: none)",
-    )
-    parser.add_argument("--scheduler", default="", help="address of a Dask scheduler")
-    parser.add_argument(
-        "--allow", type=Path, action="append", default=[], help="further folder to read and write"
-    )
-    parser.add_argument("--lang", choices=("en", "fr"), default="en", help="language of messages")
-
-
-def _run_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--out", type=Path, help="output folder (default results/<case>)")
-    parser.add_argument(
-        "--allow", type=Path, action="append", default=[], help="further folder to read and write"
-    )
-    parser.add_argument("--lang", choices=("en", "fr"), default="en", help="language of messages")
-    parser.add_argument(
-        "-v", "--verbose", action="store_true", help="say by which method motions are calculated"
-    )
-    parser.add_argument(
-        "-q", "--quiet", action="store_true", help="no closing line about files and warnings"
-    )
-    parser.add_argument("--debug", action="store_true", help="show Python's traceback too")
-    parser.add_argument("--max-recursion", type=int, default=200, help="procedure calls in depth")
-    parser.add_argument("--max-statements", type=int, help="stop after so many statements")
-    parser.add_argument("--max-memory", type=int, metavar="MB", help="stop past so much memory")
+_LEADING = (*COMMANDS, "-h", "--help", "--version")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -108,12 +28,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     0 fine, 1 the script failed or was interrupted, 2 wrong usage, 141 nobody reads the output.
     """
     words = _command_first(list(sys.argv[1:] if arguments is None else arguments))
-    named = bool(words) and words[0] in (*_COMMANDS, "-h", "--help", "--version")
-    parser = _parser()
-    options = parser.parse_args(words if named else ["run", *words])
+    named = bool(words) and words[0] in _LEADING
+    reader = parser(words)
+    options = reader.parse_args(words if named else ["run", *words])
     if options.command == "run" and options.file is None:
         if named:
-            parser.error("run needs a file, or - for standard input")
+            reader.refuse("cli.usage-no-file")
         options.command, options.file = ("repl" if sys.stdin.isatty() else "run"), "-"
     _open_streams()
     if (gone := _folder_gone(getattr(options, "lang", "en"))) is not None:
@@ -152,7 +72,7 @@ def _command_first(words: list[str]) -> list[str]:
     """The arguments with the command in front of a --lang that is written before it."""
     length = 1 if words[:1] and words[0].startswith("--lang=") else 2
     leads = bool(words) and words[0].partition("=")[0] == "--lang"
-    if not leads or words[length : length + 1] == [] or words[length] not in _COMMANDS:
+    if not leads or words[length : length + 1] == [] or words[length] not in _LEADING:
         return words
     return [words[length], *words[:length], *words[length + 1 :]]
 

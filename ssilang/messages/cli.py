@@ -117,4 +117,126 @@ Ctrl-C arrête le calcul en cours, ou oublie ce qui est tapé ; Tab complète.""
     "list-of-help": Message(
         "`ssilang help` lists all of them", "`ssilang help --lang fr` en donne la liste"
     ),
+    # ---- usage of the command line
+    "usage": Message("usage: ", "utilisation : "),
+    "usage-positional": Message("positional arguments", "arguments"),
+    "usage-options": Message("options", "options"),
+    "usage-program": Message(
+        "Runs Gibiane scripts for soil-structure interaction with uplift.",
+        "Exécute des scripts Gibiane pour l'interaction sol-structure avec décollement.",
+    ),
+    "usage-short": Message(
+        "ssilang case.ssi is short for ssilang run case.ssi; ssilang alone is interactive.",
+        "ssilang cas.ssi abrège ssilang run cas.ssi ; ssilang seul est interactif.",
+    ),
+    "usage-help": Message("show this help and exit", "affiche cette aide et s'arrête"),
+    "usage-version-option": Message(
+        "show the program's version and exit", "affiche la version du programme et s'arrête"
+    ),
+    "usage-run": Message(
+        "run a script (- for standard input)", "exécute un script (- pour l'entrée standard)"
+    ),
+    "usage-check": Message("report mistakes without running", "signale les fautes sans exécuter"),
+    "usage-help-of": Message(
+        "help of a word, or what is known about it", "aide d'un mot, ou ce qu'on en sait"
+    ),
+    "usage-sweep": Message(
+        "run a script over parameters and motions",
+        "exécute un script pour plusieurs paramètres et accélérogrammes",
+    ),
+    "usage-repl": Message("interactive session", "session interactive"),
+    "usage-version": Message("version of the program", "version du programme"),
+    "usage-file": Message("script, or - for standard input", "script, ou - pour l'entrée standard"),
+    "usage-file-alone": Message("script", "script"),
+    "usage-files": Message("scripts", "scripts"),
+    "usage-word": Message(
+        "operator, procedure, keyword, entry ...; none lists all",
+        "opérateur, procédure, mot-clé, indice... ; sans mot, la liste de tous",
+    ),
+    "usage-syntax-only": Message("structure alone", "la structure seulement"),
+    "usage-lang": Message(
+        "language of messages (default en)", "langue des messages (en par défaut)"
+    ),
+    "usage-set-one": Message(
+        "value that the script's first assignment to NAME gives instead of its own",
+        "valeur que donne la première affectation de NAME dans le script, au lieu de la sienne",
+    ),
+    "usage-set-many": Message(
+        "values of NAME: a,b,c or first:last:step; several --set make all combinations",
+        "valeurs de NAME : a,b,c ou premier:dernier:pas ; plusieurs --set font toutes les "
+        "combinaisons",
+    ),
+    "usage-interactive": Message(
+        "keep the session after it", "garde la session ouverte après le script"
+    ),
+    "usage-motions": Message(
+        "run each file of DIR; its path is MOTION",
+        "exécute pour chaque fichier de DIR, dont le chemin est MOTION",
+    ),
+    "usage-out": Message(
+        "output folder (default results/<case>)",
+        "répertoire des résultats (results/<cas> par défaut)",
+    ),
+    "usage-out-sweep": Message(
+        "output folder (default results/<case>_sweep)",
+        "répertoire des résultats (results/<cas>_sweep par défaut)",
+    ),
+    "usage-jobs": Message("processes (default: one a core)", "processus (par défaut un par cœur)"),
+    "usage-together": Message(
+        "most runs of a process whose steps are taken together (default 8; 1: none)",
+        "nombre maximal de calculs d'un processus dont les pas se font ensemble (8 par défaut ; "
+        "1 : aucun)",
+    ),
+    "usage-scheduler": Message("address of a Dask scheduler", "adresse d'un ordonnanceur Dask"),
+    "usage-allow": Message(
+        "further folder to read and write", "autre répertoire où lire et écrire"
+    ),
+    "usage-verbose": Message(
+        "say by which method motions are calculated",
+        "dit par quelle méthode les mouvements sont calculés",
+    ),
+    "usage-quiet": Message(
+        "no closing line about files and warnings",
+        "sans la ligne finale sur les fichiers et les avertissements",
+    ),
+    "usage-debug": Message("show Python's traceback too", "montre aussi la trace de Python"),
+    "usage-max-recursion": Message(
+        "procedure calls in depth (default 200)",
+        "profondeur des appels de procédures (200 par défaut)",
+    ),
+    "usage-max-statements": Message(
+        "stop after so many statements", "s'arrête après ce nombre d'instructions"
+    ),
+    "usage-max-memory": Message("stop past so much memory", "s'arrête au-delà de cette mémoire"),
+    "usage-error": Message("{program}: error: {problem}", "{program} : erreur : {problem}"),
+    "usage-no-file": Message(
+        "run needs a file, or - for standard input",
+        "run demande un fichier, ou - pour l'entrée standard",
+    ),
+    "usage-required": Message(
+        "the following arguments are required: {names}",
+        "il manque les arguments suivants : {names}",
+    ),
+    "usage-unrecognized": Message(
+        "unrecognized arguments: {names}", "arguments inconnus : {names}"
+    ),
+    "usage-invalid-choice": Message(
+        "argument {name}: invalid choice: {value} (choose from {choices})",
+        "argument {name} : choix invalide {value} (à choisir parmi {choices})",
+    ),
+    "usage-invalid-int": Message(
+        "argument {name}: invalid int value: {value}",
+        "argument {name} : {value} n'est pas un entier",
+    ),
+    "usage-expected-one": Message(
+        "argument {name}: expected one argument", "argument {name} : il y faut une valeur"
+    ),
+    "usage-ignored": Message(
+        "argument {name}: ignored explicit argument {value}",
+        "argument {name} : la valeur {value} n'a pas de sens ici",
+    ),
+    "usage-ambiguous": Message(
+        "ambiguous option: {name} could match {choices}",
+        "option ambiguë : {name} peut être {choices}",
+    ),
 }

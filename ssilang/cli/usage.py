@@ -1,0 +1,168 @@
+"""What the command line accepts, and its help in the language asked for.
+
+Helps are codes of the catalogue, which is loaded only where one is told.
+"""
+
+from __future__ import annotations
+
+import argparse
+import re
+import sys
+from collections.abc import Iterable, Sequence
+from functools import partial
+from pathlib import Path
+from typing import Any, NoReturn
+
+from ssilang.messages.message import Teller, teller
+
+COMMANDS = ("run", "check", "help", "sweep", "repl", "version")
+LANGUAGES = ("en", "fr")
+
+_HEADINGS = {
+    "positional arguments": "cli.usage-positional",
+    "options": "cli.usage-options",
+}
+_MISTAKES = {
+    r"the following arguments are required: (?P<names>.*)": "cli.usage-required",
+    r"unrecognized arguments: (?P<names>.*)": "cli.usage-unrecognized",
+    r"argument (?P<name>.*?): invalid choice: (?P<value>'.*?') \(choose from (?P<choices>.*)\)": (
+        "cli.usage-invalid-choice"
+    ),
+    r"argument (?P<name>.*?): invalid int value: (?P<value>'.*')": "cli.usage-invalid-int",
+    r"argument (?P<name>.*?): expected one argument": "cli.usage-expected-one",
+    r"argument (?P<name>.*?): ignored explicit argument (?P<value>'.*')": "cli.usage-ignored",
+    r"ambiguous option: (?P<name>.*?) could match (?P<choices>.*)": "cli.usage-ambiguous",
+}
+"""How argparse words what is wrong; what else it may say stands as it is."""
+
+
+class _Formatter(argparse.HelpFormatter):
+    """Lays help out as argparse does, in the words of the catalogue."""
+
+    def __init__(self, prog: str, told: Teller) -> None:
+        super().__init__(prog)
+        self._told = told
+
+    def start_section(self, heading: str | None) -> None:
+        code = _HEADINGS.get(heading or "")
+        super().start_section(self._told(code) if code else heading)
+
+    def add_text(self, text: str | None) -> None:
+        is_code = (text or "").startswith("cli.")  # not so the version
+        super().add_text(self._told(text) if text and is_code else text)
+
+    def add_usage(
+        self,
+        usage: str | None,
+        actions: Iterable[argparse.Action],
+        groups: Iterable[Any],
+        prefix: str | None = None,
+    ) -> None:
+        prefix = self._told("cli.usage") if prefix is None else prefix
+        super().add_usage(usage, actions, groups, prefix)
+
+    def _get_help_string(self, action: argparse.Action) -> str | None:
+        return self._told(action.help) if action.help else action.help
+
+
+class Parser(argparse.ArgumentParser):
+    """A parser of the command line whose helps are codes."""
+
+    def __init__(self, told: Teller, **options: Any) -> None:
+        super().__init__(formatter_class=partial(_Formatter, told=told), add_help=False, **options)
+        self._told = told
+        self.add_argument("-h", "--help", action="help", help="cli.usage-help")
+
+    def error(self, message: str) -> NoReturn:
+        """Say how the command is used and what is wrong; the exit code is 2."""
+        self.print_usage(sys.stderr)
+        for pattern, code in _MISTAKES.items():
+            if (found := re.fullmatch(pattern, message)) is not None:
+                message = self._told(code, **found.groupdict())
+                break
+        self.exit(2, self._told("cli.usage-error", program=self.prog, problem=message) + "\n")
+
+    def refuse(self, code: str) -> NoReturn:
+        """The same for what the parser itself does not refuse."""
+        self.error(self._told(code))
+
+
+def parser(words: Sequence[str]) -> Parser:
+    """The parser, which speaks the language that the arguments ask for."""
+    from ssilang import __version__
+
+    told = teller(_language(words))
+    made = Parser(told, prog="ssilang", description="cli.usage-program", epilog="cli.usage-short")
+    made.add_argument(
+        "--version",
+        action="version",
+        version=f"ssilang {__version__}",
+        help="cli.usage-version-option",
+    )
+    commands = made.add_subparsers(dest="command", metavar=f"{{{','.join(COMMANDS)}}}")
+    command = partial(commands.add_parser, told=told)
+    _run(command("run", help="cli.usage-run"))
+    check = command("check", help="cli.usage-check")
+    check.add_argument("files", nargs="+", help="cli.usage-files")
+    check.add_argument("--syntax-only", action="store_true", help="cli.usage-syntax-only")
+    _language_argument(check)
+    helper = command("help", help="cli.usage-help-of")
+    helper.add_argument("word", nargs="*", help="cli.usage-word")
+    _language_argument(helper)
+    _sweep(command("sweep", help="cli.usage-sweep"))
+    _session_arguments(command("repl", help="cli.usage-repl"))
+    command("version", help="cli.usage-version")
+    return made
+
+
+def _language(words: Sequence[str]) -> str:
+    """The language of messages, which the parser needs before it reads."""
+    asked = "en"
+    for word, following in zip(words, [*words[1:], ""], strict=False):
+        option, sign, value = word.partition("=")
+        if option == "--lang":
+            asked = value if sign else following
+    return asked if asked in LANGUAGES else "en"
+
+
+def _run(run: argparse.ArgumentParser) -> None:
+    run.add_argument("file", nargs="?", help="cli.usage-file")
+    _session_arguments(run)
+    run.add_argument(
+        "--set", action="append", default=[], metavar="NAME=VALUE", help="cli.usage-set-one"
+    )
+    run.add_argument("-i", "--interactive", action="store_true", help="cli.usage-interactive")
+
+
+def _sweep(sweep: argparse.ArgumentParser) -> None:
+    sweep.add_argument("file", type=Path, help="cli.usage-file-alone")
+    sweep.add_argument(
+        "--set", action="append", default=[], metavar="NAME=VALUES", help="cli.usage-set-many"
+    )
+    sweep.add_argument("--motions", type=Path, metavar="DIR", help="cli.usage-motions")
+    sweep.add_argument("--out", type=Path, help="cli.usage-out-sweep")
+    sweep.add_argument("--jobs", type=int, default=0, help="cli.usage-jobs")
+    sweep.add_argument("--together", type=int, default=8, metavar="N", help="cli.usage-together")
+    sweep.add_argument("--scheduler", default="", help="cli.usage-scheduler")
+    _allowed(sweep)
+    _language_argument(sweep)
+
+
+def _session_arguments(to: argparse.ArgumentParser) -> None:
+    to.add_argument("--out", type=Path, help="cli.usage-out")
+    _allowed(to)
+    _language_argument(to)
+    to.add_argument("-v", "--verbose", action="store_true", help="cli.usage-verbose")
+    to.add_argument("-q", "--quiet", action="store_true", help="cli.usage-quiet")
+    to.add_argument("--debug", action="store_true", help="cli.usage-debug")
+    to.add_argument("--max-recursion", type=int, default=200, help="cli.usage-max-recursion")
+    to.add_argument("--max-statements", type=int, help="cli.usage-max-statements")
+    to.add_argument("--max-memory", type=int, metavar="MB", help="cli.usage-max-memory")
+
+
+def _allowed(to: argparse.ArgumentParser) -> None:
+    to.add_argument("--allow", type=Path, action="append", default=[], help="cli.usage-allow")
+
+
+def _language_argument(to: argparse.ArgumentParser) -> None:
+    to.add_argument("--lang", choices=LANGUAGES, default="en", help="cli.usage-lang")
