@@ -42,7 +42,10 @@ ROOMS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
          "kernel/interface/point_state.py", "kernel/interface/family.py"),
         ("kernel/interface", "operators/test_joint_scripts.py"),
     ),
-    "plastic laws": (("kernel/materials/plastic",), ("kernel/materials",)),
+    "plastic laws": (
+        ("kernel/materials/plastic",),
+        ("kernel/materials", "kernel/plasticity/test_creep.py"),
+    ),
     "shapes": (
         ("kernel/elements/shapes", "kernel/elements/solids"),
         ("kernel/elements/shapes", "kernel/elements/solids"),

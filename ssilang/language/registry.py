@@ -7,6 +7,7 @@ Operators register themselves with the decorator `operator`; everything that nee
 from __future__ import annotations
 
 import inspect
+import sys
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal
@@ -402,7 +403,7 @@ class Form:
         object.__setattr__(self, "plain", all(isinstance(e, Argument) for e in entries))
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class Trial:
     """What to try on the operands of a call.
 
@@ -414,11 +415,35 @@ class Trial:
         Index of the operand that chose them.
     fitting : tuple of Form
         Those of them that the operands may fit, by number, types and words.
+    keyed : bool
+        It was found for operands of these types with these words.
+    wordless : bool
+        Certainly no word stands among them.
+    keywords : int
+        Words among them that may be keywords of one of the forms, at the most.
+    said : Said or None
+        What words alone said, but for the main operand, when they stood there before.
     """
 
     forms: tuple[Form, ...]
     main: int | None
     fitting: tuple[Form, ...]
+    keyed: bool = False
+    wordless: bool = False
+    keywords: int = sys.maxsize
+    said: Said | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Said:
+    """A form and its arguments besides the main operand, where keywords alone say them.
+
+    `hidden` are those of names of the main operand that would hide a keyword.
+    """
+
+    form: Form
+    values: Mapping[str, Any]
+    hidden: tuple[Callable[[Any], Collection[str]], ...]
 
 
 class Choices:
@@ -458,9 +483,8 @@ class Operator:
     @property
     def choices(self) -> Choices:
         """What chooses among all forms."""
-        if self._choices is None or len(self._choices.forms) != len(self.forms):
+        if self._choices is None:
             self._choices = Choices(self.forms)
-            self._meant.clear()
         return self._choices
 
     def choices_where(self, meant: tuple[bool, ...]) -> Choices:
@@ -521,6 +545,8 @@ class Operator:
 
         def add(function: Function) -> Function:
             help = Help(en, fr, syntax, tuple(examples))
+            self._choices = None
+            self._meant.clear()
             self.forms.append(
                 Form(
                     tuple(entries) if entries or not by_hand else None,
@@ -646,19 +672,25 @@ def keywords_of(found: Operator) -> list[str]:
 
 
 def words_in(entries: Iterable[Entry]) -> Iterator[str]:
-    """All keywords of entries, inner ones too."""
+    """All words of keywords among entries, inner ones too."""
+    for found in keywords_in(entries):
+        yield from found.words
+
+
+def keywords_in(entries: Iterable[Entry]) -> Iterator[Keyword | Select]:
+    """All keywords among entries, inner ones too."""
     for entry in entries:
         match entry:
             case Keyword():
-                yield from entry.words
+                yield entry
             case Select():
-                yield from entry.words
+                yield entry
                 for inner in entry.cases.values():
-                    yield from words_in(inner)
+                    yield from keywords_in(inner)
             case Group():
-                yield from words_in(entry.entries)
+                yield from keywords_in(entry.entries)
             case Either():
-                yield from words_in(entry.groups)
+                yield from keywords_in(entry.groups)
 
 
 def arguments_in(entries: Iterable[Entry]) -> Iterator[Argument]:

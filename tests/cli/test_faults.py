@@ -94,7 +94,7 @@ def test_a_deck_s_name_that_no_file_can_have_is_told(shell):
 
 
 def test_a_word_that_fills_the_memory_is_told(shell, tmp_path):
-    (tmp_path / "large.ssi").write_text("X = CHAI '" + "b" * 10**7 + "' ;")
+    (tmp_path / "large.ssi").write_text("X = CHAI '" + "b" * (4 * 10**7) + "' ;")
     code, _, told = shell("$S large.ssi --max-memory 150")
     assert code == 1
     assert told.startswith("error: large.ssi needs more memory than there is")
@@ -132,12 +132,23 @@ def test_a_procedure_beside_the_script_is_no_link_out_of_its_folder(tmp_path):
 # ---- runs that meet or end
 
 
+def heeding():
+    """Heed signals, also where the tests run in the background or under nohup."""
+    for name in (signal.SIGHUP, signal.SIGINT):
+        signal.signal(name, signal.SIG_DFL)
+
+
 def started(folder, *before):
     """A run that goes on for ever, when it has begun."""
     (folder / "long.ssi").write_text(LONG)
     command = [*before, sys.executable, "-u", "-m", "ssilang.cli.main", "long.ssi"]
     process = subprocess.Popen(
-        command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        command,
+        cwd=folder,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        preexec_fn=heeding,
     )
     assert process.stdout.readline() == "begun\n"
     return process

@@ -288,3 +288,26 @@ def test_modes_are_sought_near_the_square_of_a_frequency():
     assert abs(FREQUENCIES[1] ** 2 - near**2) > abs(FREQUENCIES[0] ** 2 - near**2)
     table = objects(TWO_MASSES + f"T = VIBR 'PROC' (PROG {near}) (LECT 1) K1 M1 ;", "T")
     assert mode(table, 1).get("FREQUENCE") == pytest.approx(FREQUENCIES[0])
+
+
+def test_pseudo_mode_of_a_shock_is_that_of_a_unit_force_along_its_normal(found, refused):
+    """Springs 400 and 900 apart, both modes kept but one: what is left is the other's part."""
+    script = (
+        "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; P2 = 1. 0. ; "
+        "K = (APPU 'UX' 400. P1) ET (APPU 'UX' 900. P2) ET (APPU 'UY' 1600. P2) ; "
+        "M = (MASS 'UX' 4. (P1 ET P2)) ET (MASS 'UY' 4. P2) ; "
+        "T = VIBR 'SIMU' 1. 1 K M ; S = TABL 'POINT_DE_LIAISON' ; S . 1 = TABL ; "
+        "S . 1 . 'POINT' = P2 ; S . 1 . 'NORMALE' = (3. 4.) ; "
+    )
+    x, y, same = found(
+        script + "P = PSMO K (T . 'MODES') S ; D = P . 1 . 'DEPLACEMENT' ; "
+        "X = EXTR D 'UX' P2 ; Y = EXTR D 'UY' P2 ; Z = NOEU (P . 1 . 'POINT') ; W = NOEU P2 ; "
+        "L = Z EGA W ;",
+        "X", "Y", "L",
+    )  # fmt: skip
+    assert (x, y) == pytest.approx((0.6 / 900.0, 0.8 / 1600.0))
+    assert same
+    flat = script + "S . 1 . 'NORMALE' = (0. 0.) ; P = PSMO K (T . 'MODES') S ;"
+    assert "the NORMALE of entry 1 is zero" in refused(flat)
+    empty = script + "S . 2 = TABL ; P = PSMO K (T . 'MODES') S ;"
+    assert "entry 2 wants a POINT" in refused(empty)

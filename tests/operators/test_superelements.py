@@ -93,6 +93,43 @@ def test_condensed_mass_keeps_rigid_motions_and_bounds_the_frequency():
     assert whole <= condensed <= 1.02 * whole
 
 
+CHAIN = (
+    "OPTI ELEM SEG2 ; PA = 0. 0. ; PB = 1. 0. ; PC = 1. 0. ; PD = 2. 0. ; "
+    "K1 = MANU 'RIGI' (PA DROI 1 PB) (MOTS 'UX') (PROG 2. -2. 2.) ; "
+    "K2 = MANU 'RIGI' (PC DROI 1 PD) (MOTS 'UX') (PROG 3. -3. 3.) ; "
+    "G = APPU 'UX' 1. PA ; T = RELA 'UX' PB - 'UX' PC ; M = MASS 'UX' 6. PC ; "
+)
+
+
+@pytest.mark.parametrize("nomu", ["", "'NOMU'"])
+def test_condensed_mass_where_a_relation_ties_two_parts(nomu):
+    """Springs 1, 2, 3 in series, PD moved by one: the tied middle by (1 + 1/2) / (1 + 1/2 + 1/3).
+
+    The mass of 6 there counts by the square of that motion, whether or not the relation is kept.
+    """
+    script = (
+        f"SU = SUPE 'RIGI' {nomu} (K1 ET K2 ET G ET T) PD ; LC MC = SUPE 'MASS' SU M 'LCHP' ; "
+        "N = DIME LC ; U = EXTR LC 1 ; A = EXTR U 'UX' PC ; B = EXTR U 'UX' PA ; "
+        "C = EXTR U 'UX' PB ; X = EXTR (MC * (MANU 'CHPO' PD 1 'UX' 1.)) 'FX' PD ; "
+    )
+    n, c, a, b, x = found(CHAIN + script, "N", "A", "B", "C", "X")
+    assert n == 1
+    assert (c, b) == pytest.approx((9 / 11, 9 / 11), rel=1e-12)
+    assert a == pytest.approx(6 / 11, rel=1e-12)
+    assert x == pytest.approx(6 * (9 / 11) ** 2, rel=1e-12)
+
+
+def test_mass_of_masters_that_a_kept_condition_holds_is_refused():
+    """PB and PC are masters through the relations; the second one fixes PD."""
+    two = CHAIN + (
+        "H = (BLOQ 'UX' PC) ET (RELA 'UX' PD - 'UX' PC) ; "
+        "SU = SUPE 'RIGI' (K1 ET K2 ET G ET T ET H) PD ; "
+    )
+    assert "hold the master unknown UX" in refused(two + "X = SUPE 'MASS' SU M ;")
+    loose = CHAIN + "W = RELA 'UX' PB - 'UX' PA ; SU = SUPE 'RIGI' (K1 ET K2 ET W) PD ; "
+    assert "move freely" in refused(loose + "X = SUPE 'MASS' SU M ;")
+
+
 def test_condensed_stiffness_of_a_series_of_springs():
     """Two springs in series, the middle condensed: k1 k2 / (k1 + k2)."""
     script = (

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import pyvista
 
 from ssilang.cli.run import run_text
 from ssilang.operators.drawing import curves, scenes
@@ -154,3 +155,52 @@ def test_explorer_knows_one_word_alone(loading_drawn):
     result, _ = loading_drawn("EXPLORER T 'DEPL' ;")
     assert result.exit_code == 1
     assert "LISTMOTS" in result.message
+
+
+MODES = """
+OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ; S = ((0. 0.) DROI 4 (4. 0.)) TRAN 2 (0. 1.) ;
+MO = MODE S 'MECANIQUE' 'ELASTIQUE' ; MA = MATE MO 'YOUN' 1.E3 'NU' 0. 'RHO' 1. ; O = TABL ;
+R = (RIGI MO MA) ET (BLOQ 'DEPL' (COTE 4 S)) ; T = VIBR 'SIMU' 1. 2 R (MASS MO MA) 'TBAS' ;
+O . 'MAILLAGE' = S ; LD = COTE 2 S ;
+"""
+
+
+def test_modes_go_to_paraview_one_a_time(tmp_path):
+    text = MODES + "O . 'FICHIER_VTK' = 'shapes' ; EXPLORER T (MOTS 'VTK') O ; "
+    text += "OPTI 'SORT' 'kept' ; EXPLORER T (MOTS 'VTK') O ; SORT 'CHAI' 'a' ; "
+    result = run_text(text, tmp_path)
+    assert result.exit_code == 0, result.message
+    collection = (tmp_path / "shapes.pvd").read_text()
+    steps = [s.split('"') for s in collection.split("<DataSet ")[1:]]
+    assert len(steps) == 2
+    read = pyvista.read(tmp_path / steps[0][steps[0].index(" file=") + 1])
+    shape = result.session.root.find("T").get("MODES").get(1).get("DEFORMEE_MODALE")
+    written = np.abs(read.point_data["SHAPE"]).max()
+    parts = shape.components
+    assert written == pytest.approx(max(np.abs(parts[n].values).max() for n in ("UX", "UY")))
+    assert (tmp_path / "kept").read_text() == "a\n"
+
+
+def test_modes_are_drawn_with_arrows_a_second_mesh_and_words_for_trac(monkeypatch, tmp_path):
+    found, real = [], scenes.draw_scene
+
+    def seen(layers, *rest, **named):
+        found.append((layers, rest, named))
+        return real(layers, *rest, **named)
+
+    monkeypatch.setattr(scenes, "draw_scene", seen)
+    text = MODES + (
+        "O . 'MAILLAGE_2' = LD ; O . 'MAILLAGE_VECTEUR' = LD ; O . 'TITRE' = MOT 'DEPL' ; "
+        "O . 'LEGENDES' = MOTS 'first' 'second' ; O . 'OPTIONS_TRAC' = 'CACH NCLK' ; "
+        "EXPLORER T (MOTS 'DEFO') O ;"
+    )
+    result = run_text(text, tmp_path)
+    assert result.exit_code == 0, result.message
+    assert [len(layers) for layers, _, _ in found] == [2, 2]
+    assert [layers[1].scale for layers, _, _ in found] == [0.0, 0.0]
+    (moved, _), (_, options, *_), _ = found[0]
+    assert sorted(moved.arrows.parts[0].origins[:, 1]) == [0.0, 0.5, 1.0]
+    assert set(moved.arrows.parts[0].origins[:, 0]) == {4.0}  # the end of the beam alone
+    assert options.title.startswith("DEPL mode 1 :")
+    assert options.title.endswith(" Hz first")
+    assert options.hidden

@@ -151,3 +151,26 @@ def test_curves_in_time_at_points():
     np.testing.assert_allclose(e.parts[0].abscissas, [0, 0.5, 1, 1.5])
     np.testing.assert_allclose(e.parts[0].ordinates, [0, 4, 8, 12])
     assert (str(a), str(b)) == ("monte bout", "UX PT 4")
+
+
+BENDING = """
+OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ; S = ((0. 0.) DROI 4 (4. 0.)) TRAN 2 (0. 1.) ;
+MO = MODE S 'MECANIQUE' 'ELASTIQUE' ; T = TABL 'PASAPAS' ; T . 'MODELE' = MO ; LD = COTE 2 S ;
+T . 'CARACTERISTIQUES' = MATE MO 'YOUN' 1.E3 'NU' 0. ; B = BLOQ 'DEPL' (COTE 4 S) ;
+T . 'BLOCAGES_MECANIQUES' = B ; U = BLOQ 'UX' LD ; T . 'BLOCAGES_MECANIQUES' = B ET U ;
+T . 'CHARGEMENT' = CHAR 'DIMP' (DEPI U 0.2) (EVOL 'MANU' (PROG 0. 2.) (PROG 0. 2.)) ;
+T . 'TEMPS_CALCULES' = PROG 0. 1. 2. ; PASAPAS T ;
+"""
+
+
+def test_displacements_of_pasapas_along_a_line_and_in_time():
+    # the index spells an operator, and its fields hold multipliers that no line has
+    n, along, legend, m, history = found(
+        BENDING + "R = TRACHIS T 'DEPLACEMENTS' (COTE 1 S) ; N = DIME R ; DESTRA R ; "
+        "E = R . 3 . 'VALEUR' ; A = MOT R . 3 . 'LEGEND1' ; "
+        "Q = TRACHIT T 'DEPLACEMENTS' LD ; M = DIME Q ; F = Q . 1 . 'VALEUR' ; DESTRA Q ; ",
+        "N", "E", "A", "M", "F",
+    )  # fmt: skip
+    assert (n, m, str(legend)) == (6, 6, "DEPLACEMENTS")
+    np.testing.assert_allclose(along.parts[0].ordinates, 0.05 * np.arange(5), atol=1e-12)
+    np.testing.assert_allclose(history.parts[0].ordinates, [0, 0.2, 0.4], atol=1e-12)

@@ -111,7 +111,7 @@ def test_interpolation_between_two_lists():
     assert found("Y = @INTLIN (PROG 0. 2.) (PROG 1. 5.) 0.5 ;", "Y") == 2.0
 
 
-def test_remainders_by_the_items_of_a_list(found):
+def test_remainders_by_the_items_of_a_list():
     whole, pairs, reals = found(
         "A = @MOD 7 (LECT 2 4) ; B = @MOD (LECT 7 8) (LECT 2 3) ; C = @MOD 7.5 (PROG 2. 4.) ;",
         "A", "B", "C",

@@ -18,7 +18,7 @@ from ssilang.cli.checking.kinds import (
 from ssilang.cli.checking.scope import Scope
 from ssilang.language.registry import SCALAR_RULES, Operator, When, find_operator
 from ssilang.language.run.binding import Bound, bind_operator
-from ssilang.language.run.call import Call, Operand, accepts, name_of
+from ssilang.language.run.call import Call, Operand, Seen, accepts, name_of
 from ssilang.language.run.leftovers import is_call
 from ssilang.language.run.results import Results, results_of
 from ssilang.language.run.session import Session
@@ -61,7 +61,7 @@ class AbstractCall(Call):
     def wordless(self) -> bool:
         return False  # what is unknown may be a word
 
-    def seen(self) -> tuple[tuple[str, ...], tuple[str, ...]] | None:
+    def seen(self) -> Seen | None:
         return None  # what stands there is looked at form by form, unknown ones are refused
 
     def stands(self, *types: str) -> bool:

@@ -8,7 +8,7 @@ the stiffness that the masters feel, `Phi^T (f - K u0)` their loads, `Phi^T M Ph
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -50,6 +50,9 @@ class SuperElement:
         Of `source`, n unknowns.
     masters : array (m,)
         Their indices in `numbering`.
+    asked : array (a,)
+        Positions in `masters` of those that were asked for; the others are unknowns of kept
+        conditions.
     shapes : array (n, m)
         Displacement for a unit of each master.
     elimination, inverse, saddle
@@ -64,6 +67,7 @@ class SuperElement:
     stiffness: Matrix
     numbering: Numbering
     masters: IntArray
+    asked: IntArray
     shapes: FloatArray
     elimination: Elimination
     inverse: Inverse
@@ -98,6 +102,7 @@ def condense(
     kept[_chosen_unknowns(numbering, chosen)] = True
     if not kept.any():
         raise KernelError("kernel.matrices.none-master-unknowns-unknown")
+    asked = kept.copy()
     if not inside:
         for part in (conditions.C, conditions.D):
             kept[np.unique(part.indices)] = True
@@ -108,7 +113,8 @@ def condense(
         raise KernelError(
             "kernel.matrices.master-unknowns-make-too", n_masters=len(masters), largest=LARGEST
         )
-    return _made(matrix, numbering, masters, conditions if inside else None)
+    made = _made(matrix, numbering, masters, conditions if inside else None)
+    return replace(made, asked=np.flatnonzero(asked[masters]))
 
 
 def _chosen_unknowns(numbering: Numbering, chosen: Matrix | NodeField | IntArray) -> IntArray:
@@ -148,8 +154,8 @@ def _made(
     values = np.zeros((inner + m, m))
     values[inner:] = np.eye(m)
     draft = SuperElement(
-        matrix, matrix, numbering, masters, np.empty((n, 0)), elimination, inverse, saddle, rows,
-        inner,
+        matrix, matrix, numbering, masters, np.arange(m), np.empty((n, 0)), elimination, inverse,
+        saddle, rows, inner,
     )  # fmt: skip
     shapes = _responses(draft, np.zeros((n, m)), values)[0]
     _free_masters(draft, shapes)
@@ -159,9 +165,7 @@ def _made(
     block = _block(numbering, masters, full, "RIGIDITE", is_symmetric(matrix))
     relations = matrix.relations if inside is None else ()
     stiffness = Matrix(matrix.table, (block,), relations, matrix.kind)
-    return SuperElement(
-        matrix, stiffness, numbering, masters, shapes, elimination, inverse, saddle, rows, inner
-    )
+    return replace(draft, stiffness=stiffness, shapes=shapes)
 
 
 def _free_masters(element: SuperElement, shapes: FloatArray) -> None:
@@ -287,8 +291,49 @@ def inner_displacement(
     return vector_to_field(u[:, 0], numbering, multipliers=pair)
 
 
+def unit_shapes(element: SuperElement) -> FloatArray:
+    """Displacement (n, a) for a unit of each master asked for, the kept conditions holding.
+
+    With q = (qa, qb) the masters asked for and the others, and C the kept conditions, qb makes the
+    energy stationary under `Cb qb = -Ca qa`. Conditions between masters asked for alone stay for
+    the condensed body.
+
+    Raises
+    ------
+    KernelError
+        If the conditions hold a master that was asked for, or leave the others free to move.
+    """
+    asked = element.asked
+    others = np.setdiff1d(np.arange(len(element.masters)), asked)
+    if not len(others):
+        return element.shapes
+    K = element.stiffness.blocks[0].values[0]
+    K = K / (np.abs(K).max() or 1.0)  # beside the conditions' coefficients
+    rows = constraint_matrix(element.source, element.numbering)
+    C, D = (np.asarray(part[:, element.masters].todense()) for part in (rows.C, rows.D))
+    linked = (C[:, others] != 0.0).any(axis=1)
+    C, D = C[linked], D[linked]
+    zero = np.zeros((len(C), len(C)))
+    system = np.block([[K[np.ix_(others, others)], D[:, others].T], [C[:, others], zero]])
+    right = -np.vstack([K[np.ix_(others, asked)], C[:, asked]])
+    if np.linalg.matrix_rank(system[:, : len(others)]) < len(others):
+        raise KernelError("kernel.matrices.masters-leave-conditions-free")
+    found = np.linalg.lstsq(system, right)[0]
+    missed = np.abs(system @ found - right).max(axis=0)
+    worst = int(np.argmax(missed))
+    if missed[worst] > 1e-8 * max(np.abs(right).max(), np.abs(C).max(initial=0.0)):
+        label = element.numbering.label(int(element.masters[asked[worst]]))
+        raise KernelError("kernel.matrices.conditions-matrix-hold-master", label=label)
+    q = np.zeros((len(element.masters), len(asked)))
+    q[asked, np.arange(len(asked))] = 1.0
+    q[others] = found[: len(others)]
+    return element.shapes @ q
+
+
 def condensed_mass(element: SuperElement, mass: Matrix) -> Matrix:
-    """`Phi^T M Phi` on the masters (SUPE 'MASSE'); the conditions of `mass` do not count.
+    """`T^T M T` on the masters asked for (SUPE 'MASSE'), T of `unit_shapes`.
+
+    The conditions of `mass` do not count.
 
     Raises
     ------
@@ -296,15 +341,17 @@ def condensed_mass(element: SuperElement, mass: Matrix) -> Matrix:
         If the mass has unknowns that the stiffness lacks.
     """
     M = assemble(Matrix(mass.table, mass.blocks), element.numbering)
-    full = element.shapes.T @ (M @ element.shapes)
+    shapes = unit_shapes(element)
+    full = shapes.T @ (M @ shapes)
     symmetric = all(b.symmetric for b in mass.blocks)
     if symmetric:
         full = 0.5 * (full + full.T)
     kind = mass.blocks[0].kind if mass.blocks else "MASSE"
-    block = _block(element.numbering, element.masters, full, kind, symmetric)
+    masters = element.masters[element.asked]
+    block = _block(element.numbering, masters, full, kind, symmetric)
     return Matrix(mass.table, (block,), (), mass.kind)
 
 
 def shape_fields(element: SuperElement) -> list[NodeField]:
-    """The displacement of the body for a unit of each master, in their order."""
-    return [vector_to_field(shape, element.numbering) for shape in element.shapes.T]
+    """The displacement of the body for a unit of each master asked for, in their order."""
+    return [vector_to_field(shape, element.numbering) for shape in unit_shapes(element).T]

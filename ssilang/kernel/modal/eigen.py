@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -228,7 +229,12 @@ def _some(
     wanted = min(count + 4, n - 1)
     inverse = LinearOperator((n, n), matvec=solve, dtype=float)
     start = solve(problem.M @ np.random.default_rng(4).standard_normal(n))
-    asked = {"v0": start, "which": "LM", "ncv": min(n, max(2 * wanted + 10, 30)), "maxiter": 1000}
+    asked: dict[str, Any] = {
+        "v0": start,
+        "which": "LM",
+        "ncv": min(n, max(2 * wanted + 10, 30)),
+        "maxiter": 1000,
+    }
     K, M = problem.K, problem.M
     try:
         if not may_be_positive(M) and moved == 0.0:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cache
 from itertools import takewhile
 from typing import Any
@@ -21,9 +21,11 @@ from ssilang.language.registry import (
     Group,
     Keyword,
     Operator,
+    Said,
     Select,
     Trial,
     find_operator,
+    keywords_in,
 )
 from ssilang.language.run.call import Call, Operand, accepts, shortened
 from ssilang.language.say.errors import SsiError
@@ -39,24 +41,34 @@ class _Level:
 
     keywords: tuple[Keyword | Select, ...]
     heads: Heads
-    values: dict[str, Any] = field(default_factory=dict)
-    seen: set[str] = field(default_factory=set)
+    values: dict[str, Any]
+    seen: set[str]
 
 
-_Kept = tuple[list[Operand], int, bool, list[tuple[_Level, dict[str, Any], set[str]]]]
+_Kept = tuple[
+    list[Operand], int, tuple[bool, bool, int], list[tuple[_Level, dict[str, Any], set[str]]]
+]
 
 
 class Binder:
     """Reads the entries of one form from a call; inner entries see the outer keywords too."""
 
-    def __init__(self, call: Call, main: Any = None) -> None:
+    def __init__(self, call: Call, main: Any, trial: Trial) -> None:
         self.call = call
         self.main = main  # the operand that chose the form
+        self.taken = 0  # keywords
         self._levels: list[_Level] = []
-        self._wordless = call.wordless()
+        self._wordless = trial.wordless or call.wordless()
+        self._keywords_there = trial.keywords
+        self._keyless = self._wordless or not trial.keywords  # none is left to look for
 
     def bind(
-        self, entries: Sequence[Entry], after: int = -1, *, begun: bool = False, open: bool = False
+        self,
+        entries: tuple[Entry, ...],
+        after: int = -1,
+        *,
+        begun: bool = False,
+        open: bool = False,
     ) -> dict[str, Any]:
         """Values of entries by name.
 
@@ -73,37 +85,39 @@ class Binder:
         SsiError
             When a mandatory entry cannot be read.
         """
-        made = _prepared(tuple(entries))
-        keywords = made.keywords
-        alone = len(made.operands) == len(entries) == 1 and not keywords
-        if alone and (self._wordless or not self._levels):  # nothing can stand between
-            _, only, read = made.operands[0]
-            return {only.name: read(self, only, after)}
-        level = _Level(
-            keywords, made.heads, {k.name: [] if k.repeated else k.default for k in keywords}
-        )
+        made = _prepared(entries)
+        values = made.defaults.copy()
+        for name in made.lists:
+            values[name] = []
+        if made.flat and (self._wordless or (self._keyless and not made.wanted)):
+            for _, entry, read in made.operands:  # nothing can stand between
+                values[entry.name] = read(self, entry, after)
+            if made.wanted:
+                raise missing_keyword(self.call, made.wanted[0].words)
+            return values
+        level = _Level(made.keywords, made.heads, values, set())
         self._levels.append(level)
         try:
             leading = self._leading(made, level) if made.leading else 0
-            self._keywords(self._levels[-1:] if begun else self._levels)
-            for place, entry, reader in made.operands:
+            self._keywords(begun)
+            for place, entry, read in made.operands:
                 if place >= leading:
-                    level.values[entry.name] = reader(self, entry, after)
-                    self._keywords(self._levels[-1:] if open else self._levels)
+                    values[entry.name] = read(self, entry, after)
+                    self._keywords(open)
         finally:
             self._levels.pop()
-        for k in keywords:
-            if not k.optional and k.name not in level.seen:
+        for k in made.wanted:
+            if k.name not in level.seen:
                 raise missing_keyword(self.call, k.words)
-        return level.values
+        return values
 
     def _leading(self, made: _Prepared, level: _Level) -> int:
         """Read what leads, behind the word that chose the form; says how many entries that was."""
         after = -1
         if made.choice is not None:
             only = _Level((made.choice,), made.choice_heads, level.values, level.seen)
-            first = self.call.first_word()
-            if first is None or not self._keyword(only, first):
+            at = self.call.word_index()
+            if at is None or not self._keyword(only, at, self.call.text_at(at)):
                 return 0  # something stands before the word
             after = self.call.keyword_end
         for a in made.leading:
@@ -112,30 +126,35 @@ class Binder:
 
     # ---- keywords ------------------------------------------------------------------------------
 
-    def _keywords(self, levels: Sequence[_Level]) -> bool:
-        """Read keywords as long as the first unread word is one; says whether there were any."""
-        if self._wordless:
+    def _keywords(self, inmost: bool = False) -> bool:
+        """Read keywords as long as the first unread word is one; says whether there were any.
+
+        Those of all open levels, or of the `inmost` alone.
+        """
+        if self._keyless:
             return False
-        if len(levels) == 1:
-            open_ones = levels if levels[0].keywords else ()
+        levels = self._levels
+        if inmost or len(levels) == 1:
+            open_ones = levels[-1:] if levels[-1].keywords else ()
         else:
             open_ones = [level for level in reversed(levels) if level.keywords]
         if not open_ones:
             return False
-        found = False
-        while (word := self.call.first_word()) is not None:
+        call, found = self.call, False
+        while (at := call.word_index()) is not None:
+            word = call.text_at(at)
             for level in open_ones:
-                if self._keyword(level, word):
+                if self._keyword(level, at, word):
                     break
             else:
                 return found
             found = True
-            if self._wordless:
+            if self._keyless:
                 break
         return found
 
-    def _keyword(self, level: _Level, first: str) -> bool:
-        """Read the keyword that the first unread word is, if it is one of the level's."""
+    def _keyword(self, level: _Level, at: int, first: str) -> bool:
+        """Read the keyword that the first unread word, `first`, is if it is one of the level's."""
         known: tuple[tuple[int, Keyword | Select, str], ...] = ()
         for length, heads in level.heads:
             more = heads.get(first[:length])
@@ -146,8 +165,10 @@ class Binder:
                 continue
             if isinstance(k, Select) and k.unless is not None and self._is_a_name(k.unless):
                 continue
-            self.call.take_keyword()
+            self.call.take_keyword(at)
+            self.taken += 1
             self._wordless = self.call.wordless()  # reading only takes away
+            self._keyless = self._wordless or self.taken >= self._keywords_there
             level.seen.add(k.name)
             value = self._behind(k, word)
             if k.repeated:
@@ -222,13 +243,13 @@ class Binder:
                 operand = call.read(*a.types, after=after, only=only)
                 if operand is None:
                     # a keyword may stand between two operands, but for those of a keyword itself
-                    if after < 0 and self._keywords(self._levels):
+                    if after < 0 and self._levels and self._keywords():
                         continue
                     break
                 only = True
                 values.append(_given(a, operand))
-                if words:
-                    self._keywords(self._levels)
+                if words and self._levels:
+                    self._keywords()
         if not values and not a.optional:
             raise call.missing(a.types)
         return tuple(values)
@@ -319,12 +340,12 @@ class Binder:
         return (
             list(self.call.operands),
             len(self.call.used),
-            self._wordless,
+            (self._wordless, self._keyless, self.taken),
             [(v, dict(v.values), set(v.seen)) for v in levels],
         )
 
     def _put_back(self, kept: _Kept) -> None:
-        operands, used, self._wordless, levels = kept
+        operands, used, (self._wordless, self._keyless, self.taken), levels = kept
         self.call.operands[:] = operands
         del self.call.used[used:]
         for level, values, seen in levels:
@@ -360,11 +381,17 @@ _READERS: Mapping[type, Callable[[Binder, Any, int], Any]] = {
 class _Prepared:
     """What is known of entries before any call: keywords, and operands with what reads them.
 
-    `leading` are those read before any keyword, behind the word `choice` if there is one.
+    `leading` are those read before any keyword, behind the word `choice` if there is one;
+    `defaults` what keywords give that do not stand, `lists` those that collect, `wanted` those
+    that must stand. A `flat` one has no groups.
     """
 
     keywords: tuple[Keyword | Select, ...]
     heads: Heads
+    defaults: dict[str, Any]
+    lists: tuple[str, ...]
+    wanted: tuple[Keyword | Select, ...]
+    flat: bool
     operands: tuple[tuple[int, Entry, Callable[[Binder, Any, int], Any]], ...]
     choice: Keyword | None
     choice_heads: Heads
@@ -381,6 +408,10 @@ def _prepared(entries: tuple[Entry, ...]) -> _Prepared:
     return _Prepared(
         keywords,
         _heads(keywords),
+        {k.name: k.default for k in keywords if not k.repeated},
+        tuple(k.name for k in keywords if k.repeated),
+        tuple(k for k in keywords if not k.optional),
+        not any(isinstance(e, Group | Either) for e in entries),
         tuple((i, e, reader) for i, e, reader in readers if reader is not None),
         choice,
         _heads(chosen),
@@ -425,15 +456,17 @@ def bind_operator(found: Operator, call: Call) -> Bound:
     SsiError
         That of the form which got furthest, operands put back.
     """
-    trial = _trial(found, call)
-    main = trial.main
-    if len(trial.forms) == 1:
-        return _bound(trial.forms[0], call, main)  # no other form needs the operands as they stood
+    every = found.choices
+    trial = every.only or _trial(found, every, call)
+    if trial.said is not None and (again := _as_before(trial, trial.said, call)) is not None:
+        return again
+    if len(trial.forms) == 1:  # no other form needs the operands as they stood
+        return _bound(trial.forms[0], call, trial)
     if len(trial.fitting) < len(trial.forms):
         operands, used = list(call.operands), len(call.used)
         for form in trial.fitting:
             try:
-                return _bound(form, call, main)
+                return _bound(form, call, trial)
             except SsiError:
                 call.operands[:] = operands
                 del call.used[used:]
@@ -442,7 +475,7 @@ def bind_operator(found: Operator, call: Call) -> Bound:
     for form in trial.forms:
         operands, used = list(call.operands), len(call.used)
         try:
-            return _bound(form, call, main)
+            return _bound(form, call, trial)
         except SsiError as problem:
             depth = len(call.used) - used
             if worst is None or depth > worst[0] or _names_the_slip(worst, depth, problem):
@@ -476,51 +509,90 @@ def _expects_too(first: SsiError, other: SsiError) -> None:
         wanted += [t for t in more if t not in wanted]
 
 
-def _bound(form: Form, call: Call, main: int | None) -> Bound:
-    entries = form.entries or ()
-    values: dict[str, Any] = {}
+def _as_before(trial: Trial, said: Said, call: Call) -> Bound | None:
+    """The form and arguments that words have said before, where they still mean the same."""
+    main, choice, values = trial.main, None, dict(said.values)
+    if main is not None and said.form.main is not None:
+        if said.hidden:
+            names = {n for names_of in said.hidden for n in names_of(call.operands[main].value)}
+            if any(word in names for word in call.words()):
+                return None
+        choice = call.take(main, *said.form.main.types).value
+        values[said.form.main.name] = choice
+    call.take_keywords()
+    return Bound(said.form, values)
+
+
+def _bound(form: Form, call: Call, trial: Trial) -> Bound:
+    main, by_main = trial.main, form.main if trial.main is not None else None
     choice: Any = None
-    if main is not None and form.main is not None:
-        choice = values[form.main.name] = call.take(main, *form.main.types).value
-        entries = form.rest
+    before = len(call.used)
+    if main is not None and by_main is not None:
+        choice = call.take(main, *by_main.types).value
+        before += 1
     elif form.by_hand and form.said is not None:
         choice = call.keyword(form.said.words, form.said.length)
     if form.by_hand:
         return Bound(form, {}, choice)
-    binder = Binder(call, choice)
-    if form.plain:
-        for entry in entries:
-            assert isinstance(entry, Argument)
-            values[entry.name] = binder.operand(entry)
-    else:
-        values |= binder.bind(entries)
-    if form.said is not None and "word" not in form.injected:
-        values.pop("word", None)
+    entries = form.rest if by_main is not None else form.entries or ()
+    values: dict[str, Any] = {}
+    if entries:
+        binder = Binder(call, choice, trial)
+        if form.plain:
+            for entry in entries:
+                assert isinstance(entry, Argument)
+                values[entry.name] = binder.operand(entry)
+        else:
+            values = binder.bind(entries)
+        if form.said is not None and "word" not in form.injected:
+            values.pop("word", None)
+        words_alone = trial.keyed and binder.taken and not call.operands
+        if words_alone and len(call.used) == before + binder.taken:
+            _remember(trial, form, values)
+    if by_main is not None:
+        values[by_main.name] = choice
     return Bound(form, values)
+
+
+def _remember(trial: Trial, form: Form, values: Mapping[str, Any]) -> None:
+    """Keep what keywords alone have said: the same words say it again."""
+    if form is trial.fitting[0] and all(map(_lasts, values.values())):
+        selects = [k for k in keywords_in(form.rest) if isinstance(k, Select)]
+        hidden = tuple(k.unless for k in selects if k.unless is not None)
+        trial.said = Said(form, dict(values), hidden)
+
+
+def _lasts(value: Any) -> bool:
+    """Whether a value cannot be changed by who gets it."""
+    if isinstance(value, Chosen):
+        return all(map(_lasts, value.values.values()))
+    return value is None or isinstance(value, str | int | float) or value == ()
 
 
 _MOST_KNOWN = 500  # things to try that an operator keeps
 
 
-def _trial(found: Operator, call: Call) -> Trial:
+def _trial(found: Operator, every: Choices, call: Call) -> Trial:
     """Forms to try; what stands there decides, and is looked up where it stood there before."""
-    every = found.choices
-    if every.only is not None:
-        return every.only
     seen = call.seen()
     if seen is None:
         forms, main = _candidates(found, call)
         return Trial(tuple(forms), main, tuple(forms))
-    key = (*seen, tuple(call.meets(w) for w in every.whens))
+    key: tuple[object, ...] = seen
+    if every.whens:
+        key = (*seen, *[call.meets(w) for w in every.whens])
     known = every.trials.get(key)
     if known is None:
         forms, main = _candidates(found, call)
-        kinds, words = seen
+        kinds, words = tuple([type_of(o.value) for o in call.operands]), call.words()
         left = kinds if main is None else kinds[:main] + kinds[main + 1 :]
         fitting = tuple(f for f in forms if _may_fit(f, left if f.main else kinds, words))
         if len(every.trials) >= _MOST_KNOWN:  # words may be data
             every.trials.clear()
-        known = every.trials[key] = Trial(tuple(forms), main, fitting)
+        keywords = list(keywords_in(e for f in forms for e in f.rest))
+        most = sum(any(_is_one_of((word,), k) for k in keywords) for word in words)
+        known = Trial(tuple(forms), main, fitting, True, not words, most)
+        every.trials[key] = known
     return known
 
 
@@ -541,10 +613,15 @@ def _may_fit(form: Form, kinds: Sequence[str], words: Sequence[str]) -> bool:
             if not any(_may_be(e.types, kind) for kind in kinds):
                 return False
             continue
-        said = shortened(e.words, e.length)
-        if not any(word[: e.length] in said for word in words):
+        if not _is_one_of(words, e):
             return False
     return wanted <= len(kinds)
+
+
+def _is_one_of(words: Sequence[str], k: Keyword | Select) -> bool:
+    """Whether one of the words may be the keyword."""
+    said = shortened(k.words, k.length)
+    return any(word[: k.length] in said for word in words)
 
 
 def _may_be(types: Sequence[str], kind: str) -> bool:
@@ -646,8 +723,9 @@ def run_operator(found: Operator, call: Call) -> Any:
     if form.by_hand:
         chooses = form.main is not None or form.said is not None
         return form.function(call, bound.choice) if chooses else form.function(call)
-    if "session" in form.injected:
-        values["session"] = call.session
-    if "call" in form.injected:
-        values["call"] = call
+    if form.injected:
+        if "session" in form.injected:
+            values["session"] = call.session
+        if "call" in form.injected:
+            values["call"] = call
     return form.function(**values)

@@ -44,9 +44,12 @@ def accepts(types: Sequence[str], value: object) -> bool:
     if ANY in types:
         return True
     found = type_of(value)
-    if found in types:
-        return True
-    return (found == "ENTIER" and "FLOTTANT" in types) or (found == "PROCEDUR" and "MOT" in types)
+    return found in types or _is_wide(types, found)
+
+
+def _is_wide(types: Sequence[str], kind: str) -> bool:
+    """Whether a value of a type may be read as another: ENTIER as FLOTTANT, PROCEDUR as MOT."""
+    return (kind == "ENTIER" and "FLOTTANT" in types) or (kind == "PROCEDUR" and "MOT" in types)
 
 
 def _as_read(operand: Operand, types: Sequence[str]) -> Operand:
@@ -71,6 +74,9 @@ def shortened(words: tuple[str, ...], length: int) -> dict[str, str]:
     """Words by the characters that are compared; of two alike the first."""
     return {word[:length].rstrip(): word for word in reversed(words)}
 
+
+Seen = tuple[tuple[type, ...], tuple[str, ...]]
+"""Classes of operands, and the words among them."""
 
 _A_WORD = Mot("")
 _NAMED = (Mot, Procedure)  # what may be the name of an operator, a keyword or a procedure
@@ -125,13 +131,14 @@ class Call:
             if isinstance(value, Texte) and not wants_text:
                 self._expand(i)
                 continue
-            late_enough = after < 0 or operand.span.start >= after
-            if late_enough and accepts(types, value):
+            kind = type_of(value)
+            fits = kind in types or ANY in types
+            if (fits or _is_wide(types, kind)) and (after < 0 or operand.span.start >= after):
                 if type(value) is Mot and value[:1] == '"' and operand.span.text[:1] == '"':
                     raise SsiError("double-quotes", operand.span)
                 del operands[i]
                 self.used.append(operand)
-                return _as_read(operand, types)
+                return operand if fits else _as_read(operand, types)
             if isinstance(value, _NAMED):
                 return None
             i += 1
@@ -186,7 +193,11 @@ class Call:
     def first_word(self) -> str | None:
         """The first unread word, or name of a procedure, in capitals, as keywords are compared."""
         i = self.word_index()
-        return None if i is None else _text_of(self.operands[i].value).rstrip()
+        return None if i is None else self.text_at(i)
+
+    def text_at(self, index: int) -> str:
+        """What the word, or name of a procedure, at an index says, as keywords are compared."""
+        return _text_of(self.operands[index].value).rstrip()
 
     def words(self) -> list[str]:
         """All unread words, in capitals, left unread."""
@@ -222,19 +233,17 @@ class Call:
 
         Words compare on their first `length` characters, in capitals as the language's tables.
         """
-        first = self.first_word()
-        if first is None:
+        i = self.word_index()
+        if i is None:
             return None
-        word = shortened(tuple(words), length).get(first[:length])
+        word = shortened(tuple(words), length).get(self.text_at(i)[:length])
         if word is not None:
-            self.take_keyword()
+            self.take_keyword(i)
         return word
 
-    def take_keyword(self) -> None:
-        """Consume the first unread word, which is a keyword: values are looked for behind it."""
-        i = self.word_index()
-        assert i is not None
-        operand = self.operands.pop(i)
+    def take_keyword(self, index: int) -> None:
+        """Consume the word at an index, which is a keyword: values are looked for behind it."""
+        operand = self.operands.pop(index)
         self.used.append(operand)
         self._after = operand.span.end
 
@@ -245,15 +254,16 @@ class Call:
 
     def word_index(self) -> int | None:
         """Index of the first unread word or procedure."""
+        operands = self.operands
         i = 0
-        while i < len(self.operands):
-            value = self.operands[i].value
-            if isinstance(value, Texte):
-                self._expand(i)
-                continue
-            if isinstance(value, _NAMED):
+        while i < len(operands):
+            value = operands[i].value
+            if not isinstance(value, _NAMED_OR_TEXT):
+                i += 1
+            elif not isinstance(value, Texte):
                 return i
-            i += 1
+            else:
+                self._expand(i)
         return None
 
     def readable(self, *types: str) -> list[int]:
@@ -277,6 +287,11 @@ class Call:
         self.used += self.operands[:count]
         del self.operands[:count]
 
+    def take_keywords(self) -> None:
+        """Consume all operands, which are keywords."""
+        self._after = self.operands[-1].span.end
+        self.take_first(len(self.operands))
+
     def take(self, index: int, *types: str) -> Operand:
         """Consume the operand at an index of the unread ones, as one of the types."""
         operand = self.operands.pop(index)
@@ -290,20 +305,19 @@ class Call:
                 return False
         return True
 
-    def seen(self) -> tuple[tuple[str, ...], tuple[str, ...]] | None:
-        """Types of all unread operands, and the words among them as `words` gives them.
+    def seen(self) -> Seen | None:
+        """Classes of all unread operands, and what the words among them say as they are written.
 
         None where that does not say all: macros, whose items are not known yet, or very many.
         """
-        if len(self.operands) > _MANY:
-            return None
-        kinds = tuple([type_of(o.value) for o in self.operands])
-        if "TEXTE" in kinds:
-            return None
-        if "MOT" not in kinds and "PROCEDUR" not in kinds:
-            return kinds, ()
         values = [o.value for o in self.operands]
-        return kinds, tuple([_text_of(v).rstrip() for v in values if isinstance(v, _NAMED)])
+        if len(values) > _MANY:
+            return None
+        classes = tuple(map(type, values))
+        if Texte in classes:
+            return None
+        named = [v for v in values if isinstance(v, _NAMED)]
+        return classes, tuple([v if isinstance(v, Mot) else v.name for v in named])
 
     def stands(self, *types: str) -> bool:
         """Whether an unread operand of one of the types stands in the phrase."""

@@ -82,7 +82,7 @@ class PhraseRunner(OperandReader):
         return None
 
     def _reduce(self, call: Call) -> None:
-        while _begins_long_chain(call.operands):
+        while len(call.operands) > 2 * _PART and _begins_long_chain(call.operands):
             # what stands behind a sign is never reached from before it: the part runs by itself,
             # and the rest of the chain does not move at each sign
             part = Call(self.session, call.operands[:_PART], call.span)
@@ -186,12 +186,10 @@ class PhraseRunner(OperandReader):
 
 
 def _begins_long_chain(operands: Sequence[Operand]) -> bool:
-    """Whether a phrase begins with values and signs in turn, more than a part, a sign behind."""
-    return (
-        len(operands) > 2 * _PART
-        and all(isinstance(o.value, Mot) and o.value in _SIGNS for o in operands[1 : _PART + 1 : 2])
-        and not any(isinstance(o.value, Mot | Procedure | Texte) for o in operands[:_PART:2])
-    )
+    """Whether a long phrase begins with values and signs in turn, a sign behind the first part."""
+    return all(
+        isinstance(o.value, Mot) and o.value in _SIGNS for o in operands[1 : _PART + 1 : 2]
+    ) and not any(isinstance(o.value, Mot | Procedure | Texte) for o in operands[:_PART:2])
 
 
 def _words_of(item: tree.Quoted) -> list[tree.Item]:

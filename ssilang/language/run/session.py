@@ -58,6 +58,9 @@ class Runner(Protocol):
     def values_of(self, statement: tree.Statement) -> list[Any]:
         """Results of a statement without names on its left, or the object it names."""
 
+    def word_of_entry(self, statement: tree.Statement, error: SsiError) -> Any:
+        """The word that a declared entry takes where an operator of that name found nothing."""
+
     def operands_of(self, items: Sequence[tree.Item]) -> list[Any]:
         """Operands of items: names replaced by their objects, parentheses run."""
 

@@ -129,8 +129,12 @@ WORDS = (
         "Coque mince plane, triangle à 3 noeuds ; contraintes en un point",
     ),
     _element(
-        "shell", "COQ4", "Flat shell of 4 nodes with transverse shear (Mindlin)",
-        "Coque plane à 4 noeuds avec cisaillement transverse (Mindlin)",
+        "shell", "COQ4",
+        "Flat shell of 4 nodes with transverse shear (Mindlin); RIGI holds the rotation about the "
+        "normal by a small spring, which no stress of SIGM shows and BSIG does not give back",
+        "Coque plane à 4 noeuds avec cisaillement transverse (Mindlin) ; RIGI tient la rotation "
+        "autour de la normale par un petit ressort, qu'aucune contrainte de SIGM ne montre et que "
+        "BSIG ne rend pas",
     ),
     _element(
         "shell", "COQ6", "Thick curved shell, triangle of 6 nodes, two layers of points",

@@ -189,6 +189,10 @@ MESSAGES: dict[str, Message] = {
         "the conditions of the matrix hold the master unknown {label}",
         "les conditions de la matrice bloquent l'inconnue maîtresse {label}",
     ),
+    "masters-leave-conditions-free": Message(
+        "the unknowns of the kept conditions can move freely with the masters held",
+        "les inconnues des conditions gardées sont libres quand les maîtres sont tenus",
+    ),
     "unilateral-non-associated-conditions": Message(
         "unilateral and non-associated conditions cannot be condensed",
         "des conditions unilatérales ou non associées ne se condensent pas",

@@ -23,6 +23,56 @@ MESSAGES: dict[str, Message] = {
         "the objects of a list are of one type, here {kinds:and}",
         "les objets d'une liste sont d'un seul type, ici {kinds:and}",
     ),
+    "parameters-and-derivatives": Message(
+        "{n_parameters} {n_parameters:parameter|parameters} for {n_derivatives} "
+        "{n_derivatives:list|lists} of derivatives",
+        "{n_parameters} {n_parameters:paramètre|paramètres} pour {n_derivatives} "
+        "{n_derivatives:liste|listes} de dérivées",
+        "give the derivative by each parameter, in their order",
+        "donnez la dérivée par rapport à chaque paramètre, dans leur ordre",
+    ),
+    "one-value-a-point": Message(
+        "the list has {found} {found:value|values}, {count} are wanted here",
+        "la liste a {found} {found:valeur|valeurs}, il en faut {count} ici",
+    ),
+    "values-and-derivatives": Message(
+        "the procedure does not give two lists of reals",
+        "la procédure ne rend pas deux listes de réels",
+        "it gives the values, then their derivatives by the parameters, point after point",
+        "elle rend les valeurs, puis leurs dérivées par rapport aux paramètres, point après point",
+    ),
+    "gauss-newton-matrices": Message(
+        "GANE {word}: the matrix and the right-hand side are not available as objects",
+        "GANE {word} : la matrice et le second membre ne sont pas disponibles en objets",
+        "without {word}, GANE gives the solution of that system",
+        "sans {word}, GANE donne la solution de ce système",
+    ),
+    "no-derivatives": Message(
+        "the table has no values at 0 and derivatives at 1, 2 ...",
+        "la table n'a pas de valeurs en 0 et de dérivées en 1, 2 ...",
+    ),
+    "no-scalar-product": Message(
+        "the table holds values and derivatives of different types",
+        "la table contient des valeurs et des dérivées de types différents",
+        "numbers, lists of reals or nodal fields, all of one type",
+        "des nombres, des listes de réels ou des champs par points, tous d'un même type",
+    ),
+    "point-out-of-bounds": Message(
+        "the point VX0 is not between VXMIN and VXMAX",
+        "le point VX0 n'est pas entre VXMIN et VXMAX",
+    ),
+    "no-such-method": Message(
+        "EXCE: METHODE is {methods:or}, not {method}",
+        "EXCE : METHODE est {methods:or}, pas {method}",
+    ),
+    "setting-out-of-range": Message(
+        "'{index}' is a number between {low:g} and {high:g}",
+        "'{index}' est un nombre entre {low:g} et {high:g}",
+    ),
+    "numbers-in-entry": Message(
+        "'{index}' holds {found} {found:number|numbers} one after the other, {count} are wanted",
+        "'{index}' contient {found} {found:nombre|nombres} à la suite, il en faut {count}",
+    ),
     "no-such-place": Message(
         "the list has {size} {size:item|items}, there is none at place {place}",
         "la liste a {size} {size:élément|éléments}, il n'y en a pas au rang {place}",

@@ -15,6 +15,14 @@ MESSAGES: dict[str, Message] = {
         "only nodal forces times a curve can be projected",
         "on ne projette que des forces nodales multipliées par une évolution",
     ),
+    "shock-wants-point-and-normal": Message(
+        "entry {i} wants a POINT and a NORMALE, both points",
+        "l'indice {i} demande un POINT et une NORMALE, deux points",
+    ),
+    "shock-normal-is-zero": Message(
+        "the NORMALE of entry {i} is zero",
+        "la NORMALE de l'indice {i} est nulle",
+    ),
     "psmo-wants-stiffness-mass": Message(
         "PSMO wants one stiffness, and a mass for 'SEISME' and free bodies",
         "PSMO demande une rigidité, et une masse pour 'SEISME' et les corps libres",

@@ -40,8 +40,9 @@ SUPE = shared(
         "EXTR SUP1 'RIGI' gives the condensed stiffness. 'CHARGE': the loads on the masters "
         "that do "
         "what the loads on the body do. 'DEPLA': the displacement of the whole body from that of "
-        "the masters and its loads ('NOER' is accepted). 'MASSE': the mass that the masters feel; "
-        "with 'LCHP' the displacement of the body for a unit of each master comes first.",
+        "the masters and its loads ('NOER' is accepted). 'MASSE': the mass that the masters asked "
+        "for feel, the conditions in the matrix holding; with 'LCHP' the displacement of the body "
+        "for a unit of each of them comes first.",
         "Super-éléments. 'RIGIDITE' : la rigidité d'un corps condensée sur des inconnues "
         "maîtresses "
         ": toutes les inconnues aux noeuds d'un maillage, celles d'une autre matrice, ou les "
@@ -51,8 +52,9 @@ SUPE = shared(
         "'RIGI' "
         "donne la rigidité condensée. 'CHARGE' : les efforts sur les maîtres équivalents aux "
         "efforts sur le corps. 'DEPLA' : le déplacement de tout le corps à partir de celui des "
-        "maîtres et de ses efforts ('NOER' est accepté). 'MASSE' : la masse vue par les maîtres ; "
-        "avec 'LCHP' vient d'abord le déplacement du corps pour une unité de chaque maître.",
+        "maîtres et de ses efforts ('NOER' est accepté). 'MASSE' : la masse vue par les maîtres "
+        "demandés, les conditions de la matrice étant tenues ; avec 'LCHP' vient d'abord le "
+        "déplacement du corps pour une unité de chacun d'eux.",
         "SUP1 = SUPE 'RIGIDITE' ('NOMU') RIG1 | GEO1 | RIG2 | CHPO1 ;\n"
         "CHPO2 = SUPE 'CHARGE' SUP1 CHPO1 ;\nCHPO3 = SUPE 'DEPLA' SUP1 CHPO1 (CHPO2) ('NOER') ;\n"
         "(LCHP1) MAS2 = SUPE 'MASSE' SUP1 MAS1 ('LCHP') ;",

@@ -216,6 +216,7 @@ def _psmo(
     directions: list[str],
     matrices: tuple[Matrix, ...],
     basis: Table,
+    shocks: Table | None,
     field: NodeField | ListChpo | None,
 ) -> Table:
     modes = shapes_of(call, basis)
@@ -229,11 +230,30 @@ def _psmo(
     if field is not None:
         fields: list[Any] = field.values if isinstance(field, ListChpo) else [field]
         entries += [system.driven(f, seismic) for f in fields]
+    if shocks is not None:
+        entries += [system.struck(p, n) for p, n in _shock_points(call, shocks)]
     if not entries:
         raise call.error("operators.modal.nothing-drives-structure-chpoint")
     for number, entry in enumerate(entries, start=1):
         table.set(number, filled("", entry))
     return table
+
+
+def _shock_points(call: Call, table: Table) -> list[tuple[Point, Point]]:
+    """POINT and NORMALE of the entries 1, 2 ... of a table POINT_DE_LIAISON."""
+    found = []
+    for index, entry in table.items():
+        if not isinstance(index, int):
+            continue
+        point, normal = (
+            entry.get(n) if isinstance(entry, Table) else None for n in ("POINT", "NORMALE")
+        )
+        if not isinstance(point, Point) or not isinstance(normal, Point):
+            raise call.error("operators.modal.shock-wants-point-and-normal", table, i=index)
+        if not np.any(normal.coordinates):
+            raise call.error("operators.modal.shock-normal-is-zero", table, i=index)
+        found.append((point, normal))
+    return found
 
 
 class _Shifted:
@@ -277,6 +297,17 @@ class _Shifted:
             shape = self.complement(field)
         on_modes = _at_marks(field.table, self.modes, works, dual=True)
         return {"DEPLACEMENT": shape, "CHAMP_BASE_B": field, "CHAMP_BASE_A": on_modes}
+
+    def struck(self, point: Point, normal: Point) -> dict[str, Any]:
+        """A unit force at a point, along a normal."""
+        along = normal.coordinates / np.linalg.norm(normal.coordinates)
+        values = {
+            name: np.array([share])
+            for name, share in zip(("FX", "FY", "FZ"), along, strict=False)
+            if share
+        }
+        force = NodeField.of(point.nodes, np.array([point.node]), values, "DISCRET")
+        return {"DEPLACEMENT": self.complement(force), "POINT": point, "NORMALE": normal}
 
     def seismic(self, directions: list[str]) -> list[dict[str, Any]]:
         """Unit accelerations of the base along X, Y, Z: forces - M d."""
@@ -328,25 +359,36 @@ operator(
     ),
     arg("basis", "TABLE", en="modes", fr="modes"),
     opt(
+        "shocks",
+        "TABLE",
+        en="points of shocks: . i . 'POINT' and . 'NORMALE'",
+        fr="points de choc : . i . 'POINT' et . 'NORMALE'",
+    ),
+    opt(
         "field", "CHPOINT", "LISTCHPO", en="forces, or field of DEPI", fr="forces, ou champ de DEPI"
     ),
     family="modal",
     help=Help(
-        "Pseudo-modes: the static response to forces, to displacements of supports ('SEISME' and a "
-        "field of DEPI) or to a unit acceleration of the base ('SEISME' 'UX': forces - M d), minus "
-        "what the modes of the table hold of it. With free motions the response is taken at half "
+        "Pseudo-modes: the static response to forces, to a unit force at each point of shock along "
+        "its normal, to displacements of supports ('SEISME' and a field of DEPI) or to a unit "
+        "acceleration of the base ('SEISME' 'UX': forces - M d), minus what the modes of the table "
+        "hold of it. With free motions the response is taken at half "
         "the first frequency, or at 'FREQ'.",
-        "Pseudo-modes : réponse statique à des forces, à des déplacements d'appuis ('SEISME' et un "
-        "champ de DEPI) ou à une accélération unité de la base ('SEISME' 'UX' : forces - M d), "
-        "moins la part que portent les modes de la table. Avec des mouvements libres, la réponse "
+        "Pseudo-modes : réponse statique à des forces, à une force unité en chaque point de choc "
+        "selon sa normale, à des déplacements d'appuis ('SEISME' et un champ de DEPI) ou à une "
+        "accélération unité de la base ('SEISME' 'UX' : forces - M d), moins la part que portent "
+        "les modes de la table. Avec des mouvements libres, la réponse "
         "est prise à la moitié de la première fréquence, ou à 'FREQ'.",
-        "TAB2 = PSMO RIG1 (MASS1) TAB1 ('FREQ' F1) ('SEISME' ('UX') ('UY') ('UZ')) (CHPO1 | "
-        "LCHP1) ;",
+        "TAB2 = PSMO RIG1 (MASS1) TAB1 (TAB3) ('FREQ' F1) ('SEISME' ('UX') ('UY') ('UZ')) (CHPO1 "
+        "| LCHP1) ;",
         (
             "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; P2 = 1. 0. ;"
             " K1 = (APPU 'UX' 400. P1) ET (APPU 'UX' 900. P2) ; M1 = MASS 'UX' 4. (P1 ET P2) ;"
             " T1 = VIBR 'SIMU' 1. 1 K1 M1 ; PM = PSMO K1 (T1 . 'MODES') (FORC 'FX' 9. P2) ;"
-            " LIST (PM . 1 . 'DEPLACEMENT') ;",
+            " LIST (PM . 1 . 'DEPLACEMENT') ;\n"
+            "TS = TABL 'POINT_DE_LIAISON' ; TS . 1 = TABL ; TS . 1 . 'POINT' = P2 ;\n"
+            "TS . 1 . 'NORMALE' = (1. 0.) ; PS = PSMO K1 (T1 . 'MODES') TS ;\n"
+            "LIST (PS . 1 . 'DEPLACEMENT') ;",
         ),
     ),
 )(_psmo)

@@ -368,9 +368,8 @@ _CURRENT: dict[str, Callable[[Workspace], Any]] = {
 def vale(call: Call, said: str, harmonic: bool) -> Any:
     """Read an option back."""
     ws = workspace(call.session)
-    known = {*_CURRENT, *_DEFAULTS, *READERS}
-    word = next((w for w in known if w[:4] == said.upper().rstrip()[:4]), None)
-    if word is None:
+    word = said.upper()[:4].rstrip()
+    if not any(word in known for known in (_CURRENT, _DEFAULTS, READERS)):
         raise _unknown_option(call, said.upper(), said)
     if word == "MODE" and harmonic:
         return ws.fourier

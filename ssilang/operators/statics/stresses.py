@@ -199,10 +199,14 @@ def _logarithmic(zone: Zone, gradient: CellField, by_displacement: bool) -> Cell
     full_name="BSIGMA",
     help=Help(
         en="Nodal forces in balance with a field of stresses: the integral of B^T sigma; on a "
-        "model CHARGEMENT PRESSION, the forces of a field of pressure along the sides' normals.",
+        "model CHARGEMENT PRESSION, the forces of a field of pressure along the sides' normals. "
+        "The small springs by which RIGI holds the rotation of shells about their normal (1.E-5 of "
+        "the bending stiffness) have no stress: their moments are missing here.",
         fr="Forces nodales en équilibre avec un champ de contraintes : l'intégrale de B^T sigma ; "
         "sur un modèle CHARGEMENT PRESSION, les forces d'un champ de pression selon les normales "
-        "des faces.",
+        "des faces. Les petits ressorts par lesquels RIGI tient la rotation des coques autour de "
+        "leur normale (1.E-5 de la raideur de flexion) n'ont pas de contrainte : leurs moments "
+        "manquent ici.",
         syntax="FOR1 = BSIG ('NOER') MODL1 SIG1 (CAR1) ;",
         examples=(_BAR + "F = BSIG M (SIGM M A U) ; LIST (EXTR F 'FX' Q) ;",),
     ),

@@ -273,6 +273,50 @@ def test_a_name_of_the_main_operand_is_no_word_that_selects(declare):
     assert declare.found[1]["name"] == "TYPE"
 
 
+def test_a_word_selects_where_the_main_operand_has_no_such_name_at_each_turn(declare):
+    declare(
+        main("names", "LISTMOTS"),
+        select("what", {"TYPE": [], "TOUT": []}, optional=False, unless=lambda names: names.values),
+    )
+    declare(main("names", "LISTMOTS"), arg("name", "MOT"))
+    script = (
+        "T = TABL ; T . 1 = MOTS 'A' ; T . 2 = MOTS 'TYPE' ; T . 3 = MOTS 'B' ;\n"
+        "REPE B 3 ; L = T . &B ; A = ZZZZ L 'TYPE' ; FIN B ;"
+    )
+    assert run(script)[0] == 0
+    assert [getattr(f.get("what"), "word", None) for f in declare.found] == ["TYPE", None, "TYPE"]
+    assert declare.found[1]["name"] == "TYPE"
+    assert [f["names"].values for f in declare.found] == [["A"], ["TYPE"], ["B"]]
+
+
+def test_words_alone_give_each_call_values_of_its_own(declare):
+    declare(
+        main("n", "ENTIER"),
+        flag("a", "AAAA"),
+        flag(
+            "b",
+            "BBBB",
+        ),
+        opt("word", "MOT"),
+    )
+    script = (
+        "A = ZZZZ 1 'AAAA' ; A = ZZZZ 2 'AAAA' ; A = ZZZZ 'BBBB' 3 'AAAA' ; A = ZZZZ 4 'OTHER' ;"
+        "A = ZZZZ 5 'BBBB' ;"
+    )
+    twice = f"REPE I 2 ; {script} FIN I ;"
+    assert run(twice)[0] == 0
+    assert [tuple(f.values()) for f in declare.found[:5]] == [
+        tuple(f.values()) for f in declare.found[5:]
+    ]
+    assert [(f["n"], f["a"], f["b"], f["word"]) for f in declare.found[5:]] == [
+        (1, True, False, None),
+        (2, True, False, None),
+        (3, True, True, None),
+        (4, False, False, "OTHER"),
+        (5, False, True, None),
+    ]
+
+
 def test_forms_that_get_equally_far_tell_together_what_they_expect(declare):
     declare(arg("a", "MAILLAGE"))
     declare(arg("a", "LISTREEL"))

@@ -141,7 +141,8 @@ def _across(zone: Zone, parameters: ZoneField, field: NodeField | CellField) -> 
     lower, upper = skins
     n_points = middle.shape[1]
     height = np.where(np.arange(n_points) < n_points // 2, -1.0, 1.0) * ACROSS
-    return found + (upper - lower) / 2 * height + (lower + upper - 2 * middle) / 2 * height**2
+    found = found + (upper - lower) / 2 * height + (lower + upper - 2 * middle) / 2 * height**2
+    return np.asarray(found)
 
 
 def given_strain(zone: Zone, field: CellField) -> FloatArray:

@@ -24,17 +24,18 @@ def normal_arrays(
     `w - xi = -W0(-(a FU/k) exp(-a w))/a` with the principal branch of Lambert's function, which
     is real because KN > FU^2/GF.
     """
-    from scipy.special import lambertw
-
     w, xi_n, k, fu, gf, fc = np.broadcast_arrays(w, xi_n, k, fu, gf, fc)
     a = np.divide(fu, gf, out=np.zeros(w.shape), where=fu > 0)
     soften = (w > xi_n) & (k * (w - xi_n) > fu * np.exp(-a * xi_n))
     free = soften & (fu == 0)
     damaged = soften & (fu > 0)
     xi = np.where(free, w, xi_n).astype(float)
-    rate = a[damaged]
-    argument = -(rate * fu[damaged] / k[damaged]) * np.exp(-rate * w[damaged])
-    xi[damaged] = w[damaged] + lambertw(argument, 0).real / rate
+    if damaged.any():
+        from scipy.special import lambertw  # takes longer to import than most scripts to run
+
+        rate = a[damaged]
+        argument = -(rate * fu[damaged] / k[damaged]) * np.exp(-rate * w[damaged])
+        xi[damaged] = w[damaged] + lambertw(argument, 0).real / rate
     strength = fu * np.exp(-a * xi)
     below = -fc + k * xi_n
     line = np.divide(-k * fc, below, out=np.zeros(w.shape), where=below > 0)

@@ -68,6 +68,7 @@ import time
 import numpy as np
 import program
 
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a run in the background ignores it
 x = np.array([8.0, 16.0])
 print(program.caller(x, 1), x.copy(), program.halve(x, 1), x)
 for times in (-1, 5, 6):

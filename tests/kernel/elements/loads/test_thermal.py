@@ -13,7 +13,6 @@ LOWER, MIDDLE, UPPER = 0.0, 30.0, 60.0
 SKINS = f"'TINF' {LOWER} 'T' {MIDDLE} 'TSUP' {UPPER}"
 CELLS = {
     "DKT": "TRI3",
-    "DST": "TRI3",
     "COQ3": "TRI3",
     "COQ4": "QUA4",
     "COQ6": "TRI6",

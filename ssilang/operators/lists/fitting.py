@@ -1,0 +1,234 @@
+"""MOCA LEVM GANE: parameters of functions by least squares."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.fields import node_algebra
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.language.registry import Help, arg, flag, key, many, operator
+from ssilang.language.run.call import Call, Operand
+from ssilang.language.run.procedures import call_procedure
+from ssilang.language.values import ListReel, Procedure, Table
+
+_ROUNDS = 200
+"""Steps of LEVM, taken and refused."""
+
+_GAIN = 1e-12
+"""Share of its value by which the criterion falls where LEVM is done."""
+
+
+@operator(
+    "MOCA",
+    arg("start", "LISTREEL", en="parameters", fr="paramètres"),
+    arg("measured", "LISTREEL", en="measured values", fr="valeurs mesurées"),
+    arg("values", "LISTREEL", en="values for the parameters", fr="valeurs pour les paramètres"),
+    many(
+        "derivatives",
+        "LISTREEL",
+        at_least=1,
+        en="derivative by each parameter",
+        fr="dérivée par rapport à chaque paramètre",
+    ),
+    key("weights", "POIDS", arg("weights", "LISTREEL"), en="weights", fr="poids"),
+    family="lists",
+    help=Help(
+        en="The parameters that bring a function nearest to measured values: from its values and "
+        "derivatives for a first set of parameters, those for which the sum of (weight * "
+        "difference) ** 2 is least, the function taken for linear. Repeated, it serves for others.",
+        fr="Les paramètres qui approchent le mieux une fonction de valeurs mesurées : à partir de "
+        "ses valeurs et dérivées pour un premier jeu de paramètres, ceux qui rendent minimale la "
+        "somme des (poids * écart) ** 2, la fonction étant prise pour linéaire. Répété, il sert "
+        "pour les autres.",
+        syntax="LREE1 = MOCA LREE2 LREE3 LREE4 LREE5 (LREE6 ...) ('POIDS' LREE7) ;",
+        examples=(
+            "X = PROG 0. 1. 2. ; Y = PROG 1. 3. 5. ; U = PROG 3*1. ; "
+            "LIST (MOCA (PROG 0. 0.) Y (0. * X) U X) ;",
+        ),
+    ),
+)
+def moca(
+    call: Call,
+    start: ListReel,
+    measured: ListReel,
+    values: ListReel,
+    derivatives: tuple[ListReel, ...],
+    weights: ListReel | None,
+) -> ListReel:
+    """Linear least squares from a first set of parameters."""
+    if len(derivatives) != len(start.values):
+        raise call.error(
+            "operators.lists.parameters-and-derivatives",
+            n_parameters=len(start.values),
+            n_derivatives=len(derivatives),
+        )
+    w = _weights(call, weights, len(measured.values))
+    columns = [_of_length(call, d, len(w)) for d in derivatives]
+    gap = measured.values - _of_length(call, values, len(w))
+    step = np.linalg.lstsq(w[:, None] * np.column_stack(columns), w * gap, rcond=None)[0]
+    return ListReel(start.values + step)
+
+
+def _weights(call: Call, weights: ListReel | None, count: int) -> FloatArray:
+    return np.ones(count) if weights is None else _of_length(call, weights, count)
+
+
+def _of_length(call: Call, values: ListReel, count: int) -> FloatArray:
+    if len(values.values) != count:
+        raise call.error(
+            "operators.lists.one-value-a-point", values, found=len(values.values), count=count
+        )
+    return values.values
+
+
+@operator(
+    "LEVM",
+    key("abscissas", "ABSC", arg("list", "LISTREEL"), optional=False, en="points", fr="points"),
+    key("measured", "ORDO", arg("list", "LISTREEL"), optional=False, en="values", fr="valeurs"),
+    key("spreads", "SIGM", arg("list", "LISTREEL"), optional=False, en="weights", fr="poids"),
+    key(
+        "start",
+        "PARA",
+        arg("list", "LISTREEL"),
+        optional=False,
+        en="first parameters, none zero",
+        fr="premiers paramètres, non nuls",
+    ),
+    key(
+        "function",
+        "PROC",
+        arg("procedure", "PROCEDUR"),
+        optional=False,
+        en="`LY LDY = PROC1 LX LP`",
+        fr="`LY LDY = PROC1 LX LP`",
+    ),
+    family="lists",
+    help=Help(
+        en="The parameters of a function that bring it nearest to measured points, by Levenberg's "
+        "and Marquardt's damped steps, and the criterion, the sum of (weight * difference) ** 2. "
+        "The procedure is given the points and the parameters; it gives the values and their "
+        "derivatives by the parameters in one list, point after point.",
+        fr="Les paramètres qui approchent le mieux une fonction de points mesurés, par les pas "
+        "amortis de Levenberg et Marquardt, et le critère, la somme des (poids * écart) ** 2. La "
+        "procédure reçoit les points et les paramètres ; elle rend les valeurs, et leurs dérivées "
+        "par rapport aux paramètres en une seule liste, point après point.",
+        syntax="LREE1 X1 = LEVM 'ABSC' LREE2 'ORDO' LREE3 'SIGM' LREE4 'PARA' LREE5 'PROC' PROC1 ;",
+        examples=(
+            "DEBP EXPO X1*LISTREEL P1*LISTREEL ; K1 = EXTR P1 1 ; Y1 = EXP (K1 * X1) ; "
+            "FINP Y1 (X1 * Y1) ;\n"
+            "P C = LEVM 'ABSC' (PROG 1. 2.) 'ORDO' (PROG 2. 4.) 'SIGM' (PROG 1. 1.) "
+            "'PARA' (PROG 0.2) 'PROC' EXPO ; LIST P ;",
+        ),
+    ),
+)
+def levm(
+    call: Call,
+    abscissas: ListReel,
+    measured: ListReel,
+    spreads: ListReel,
+    start: ListReel,
+    function: Procedure,
+) -> tuple[ListReel, float]:
+    """Levenberg's and Marquardt's method."""
+    count = len(abscissas.values)
+    y, w = _of_length(call, measured, count), _of_length(call, spreads, count)
+
+    def missed(p: FloatArray) -> tuple[FloatArray, FloatArray]:
+        operands = [Operand(v, call.span) for v in (abscissas, ListReel(p))]
+        session = call.session
+        results = call_procedure(session.evaluator, function, Call(session, operands, call.span))
+        if len(results) != 2 or not all(isinstance(r, ListReel) for r in results):
+            raise call.error("operators.lists.values-and-derivatives", function)
+        values = _of_length(call, results[0], count)
+        slopes = _of_length(call, results[1], count * len(p)).reshape(count, len(p))
+        return w * (values - y), w[:, None] * slopes
+
+    p, criterion = _damped(missed, start.values.copy())
+    return ListReel(p), criterion
+
+
+def _damped(
+    missed: Callable[[FloatArray], tuple[FloatArray, FloatArray]], p: FloatArray
+) -> tuple[FloatArray, float]:
+    """Parameters (k,) of the least sum of squares, from `p`, and that sum.
+
+    Each step solves `(J^T J + d diag(J^T J)) h = - J^T f`; d falls after a step that gains and
+    grows after one that does not (Marquardt, J. SIAM 11, 1963).
+    """
+    damping = 1e-3
+    f, J = missed(p)
+    criterion = float(f @ f)
+    for _ in range(_ROUNDS):
+        normal, slope = J.T @ J, J.T @ f
+        scale = np.diag(normal).copy()
+        scale[scale == 0.0] = 1.0
+        step = np.linalg.lstsq(normal + damping * np.diag(scale), -slope, rcond=None)[0]
+        f_next, J_next = missed(p + step)
+        trial = float(f_next @ f_next)
+        if np.isfinite(trial) and trial <= criterion:
+            done = criterion - trial <= _GAIN * criterion
+            p, f, J, criterion, damping = p + step, f_next, J_next, trial, 0.1 * damping
+            if done:
+                break
+        else:
+            damping *= 10.0
+            if damping > 1e12:
+                break
+    return p, criterion
+
+
+@operator(
+    "GANE",
+    arg("table", "TABLE", en="0: values, 1 to n: derivatives", fr="0 : valeurs, 1 à n : dérivées"),
+    key(
+        "damping", "AMOR", arg("factor", "FLOTTANT"), default=0.0, en="damping", fr="amortissement"
+    ),
+    flag("matrices", "MATR", en="not available", fr="non disponible"),
+    family="lists",
+    full_name="GANEWTON",
+    help=Help(
+        en="The step of Gauss' and Newton's method towards the least f.f: the table of sub-type "
+        "VECTEUR holds f for the present variables at 0 and its derivatives at 1 to n (numbers, "
+        "lists or nodal fields), the result the steps H1 to Hn, [J^T J + nu I] H = - J^T f. "
+        "'AMOR' gives nu (Levenberg and Marquardt), else 0.",
+        fr="Le pas de la méthode de Gauss et Newton vers le plus petit f.f : la table de "
+        "sous-type VECTEUR contient f pour les variables actuelles en 0 et ses dérivées en 1 à n "
+        "(nombres, listes ou champs par points), le résultat les pas H1 à Hn, [J^T J + nu I] H = "
+        "- J^T f. 'AMOR' donne nu (Levenberg et Marquardt), sinon 0.",
+        syntax="TAB2 = GANE TAB1 ('AMOR' X1) ;",
+        examples=(
+            "T = TABL 'VECTEUR' ; T . 0 = PROG 1. 3. ; T . 1 = PROG 1. 1. ; "
+            "H = GANE T ; LIST (H . 1) ;",
+        ),
+    ),
+)
+def gane(call: Call, table: Table, damping: float, matrices: bool) -> Table:
+    """A step of Gauss and Newton."""
+    if matrices:
+        raise call.error("operators.lists.gauss-newton-matrices", word="MATR")
+    columns: list[object] = []
+    while table.has(len(columns)):
+        columns.append(table.get(len(columns)))
+    if len(columns) < 2:
+        raise call.error("operators.lists.no-derivatives", table)
+    products = np.array([[_inner(call, table, a, b) for b in columns] for a in columns[1:]])
+    normal = products[:, 1:] + damping * np.eye(len(columns) - 1)
+    step = np.linalg.lstsq(normal, -products[:, 0], rcond=None)[0]
+    made = Table("VECTEUR")
+    for i, h in enumerate(step, start=1):
+        made.set(i, float(h))
+    return made
+
+
+def _inner(call: Call, table: Table, a: object, b: object) -> float:
+    if isinstance(a, NodeField) and isinstance(b, NodeField):
+        names = [n for n in a.components if n in b.components]
+        return float(node_algebra.scalar_product(a, b, names, names).values.sum())
+    if isinstance(a, ListReel) and isinstance(b, ListReel):
+        return float(a.values @ _of_length(call, b, len(a.values)))
+    if isinstance(a, (int, float)) and isinstance(b, (int, float)):
+        return float(a) * float(b)
+    raise call.error("operators.lists.no-scalar-product", table)

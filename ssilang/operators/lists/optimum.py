@@ -1,0 +1,162 @@
+"""EXCE: a step towards the least value of a function under conditions."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.solvers.asymptotes import least, shares
+from ssilang.language.registry import Help, arg, operator
+from ssilang.language.run.call import Call
+from ssilang.language.values import Mot, Table
+
+_FIXED = 1.0 / 3.0  # T0: asymptotes x T0 and x / T0
+_MOVING = 0.7  # S0: they come nearer by it where a variable swings, else go off by 1/sqrt(S0)
+_GIVEN_UP = 50.0  # DELTA0: cost of giving up a condition, beside the change of F over the range
+_NEAREST, _FIRST, _FARTHEST = 0.01, 0.5, 10.0  # distances of moving ones, shares of the range
+_METHODS = ("STA", "MOV")
+_HISTORY = "EXCE_ASYMPTOTES"
+
+
+@operator(
+    "EXCE",
+    arg("table", "TABLE", en="values and slopes", fr="valeurs et pentes"),
+    family="lists",
+    full_name="EXCELLENCE",
+    help=Help(
+        en="A step of the method of moving asymptotes (Svanberg) towards the least F(X1 ... XN) "
+        "under C1(X) <= C1MAX ... and bounds. Tables by number: VX0 . i the present point; VF . 0 "
+        "the value of F there, VF . i its derivatives; MC . j . 0 and MC . j . i those of Cj; "
+        "VXMIN, VXMAX, VCMAX the bounds. The table comes back with the new point in VX0: work out "
+        "values and slopes there and call again. METHODE 'STA' (default) has asymptotes at T0 X "
+        "and X / T0 (T0 0.3333; variables of one sign, else at twice the range), 'MOV' asymptotes "
+        "that follow the steps (S0 0.7). From a point that misses conditions, these may be given "
+        "up at a cost: DELTA0 (50) times what F may change over the range.",
+        fr="Un pas de la méthode des asymptotes mobiles (Svanberg) vers le plus petit F(X1 ... XN) "
+        "sous C1(X) <= C1MAX ... et des bornes. Tables indicées par numéros : VX0 . i le point "
+        "actuel ; VF . 0 la valeur de F en ce point, VF . i ses dérivées ; MC . j . 0 et "
+        "MC . j . i celles de Cj ; VXMIN, VXMAX, VCMAX les bornes. La table revient avec le "
+        "nouveau point dans VX0 : y calculer valeurs et pentes et recommencer. METHODE 'STA' (par "
+        "défaut) a les asymptotes en T0 X et X / T0 (T0 0,3333 ; variables d'un seul signe, sinon "
+        "à deux fois l'étendue), 'MOV' des asymptotes qui suivent les pas (S0 0,7). À partir d'un "
+        "point qui manque des conditions, celles-ci peuvent être abandonnées à un coût : "
+        "DELTA0 (50) fois ce que F peut varier sur l'étendue.",
+        syntax="TAB1 = EXCE TAB1 ;",
+        examples=(
+            "T = TABL ; T . 'VX0' = TABL ; T . 'VX0' . 1 = 2. ; T . 'VF' = TABL ; "
+            "T . 'VF' . 0 = 4. ; T . 'VF' . 1 = 4. ; T . 'MC' = TABL ; T . 'MC' . 1 = TABL ; "
+            "T . 'MC' . 1 . 0 = -2. ; T . 'MC' . 1 . 1 = -1. ; T . 'VCMAX' = TABL ; "
+            "T . 'VCMAX' . 1 = -1. ; T . 'VXMIN' = TABL ; T . 'VXMIN' . 1 = 0.1 ; "
+            "T . 'VXMAX' = TABL ; T . 'VXMAX' . 1 = 9. ;\n"
+            "T = EXCE T ; LIST (T . 'VX0' . 1) ;",
+        ),
+    ),
+)
+def exce(call: Call, table: Table) -> Table:
+    """One convex problem."""
+    x = _numbers(call, table.get("VX0"), "VX0", None)
+    low, high = (_numbers(call, table.get(i), i, len(x)) for i in ("VXMIN", "VXMAX"))
+    bounds = (low, high)
+    if (x < bounds[0]).any() or (x > bounds[1]).any():
+        raise call.error("operators.lists.point-out-of-bounds", table)
+    values, slopes = _functions(call, table, len(x))
+    asymptotes = _asymptotes(call, table, x, bounds)
+    problem = shares(x, values, slopes, bounds, asymptotes)
+    best = least(problem, x, _ceiling(call, table, values, slopes, high - low))
+    table.set(Mot(_HISTORY), _history(table, x, asymptotes))
+    table.set(Mot("VX0"), _table_of(best))
+    return table
+
+
+def _functions(call: Call, table: Table, count: int) -> tuple[FloatArray, FloatArray]:
+    """Values (m + 1,), less their bounds, and slopes (m + 1, n) of F and the conditions."""
+    rows = [_numbers(call, table.get("VF"), "VF", count, 0)]
+    conditions = table.get("MC")
+    while isinstance(conditions, Table) and conditions.has(len(rows)):
+        rows.append(_numbers(call, conditions.get(len(rows)), "MC", count, 0))
+    values = np.array([row[0] for row in rows])
+    values[1:] -= _numbers(call, table.get("VCMAX"), "VCMAX", len(rows) - 1)
+    return values, np.array([row[1:] for row in rows])
+
+
+def _ceiling(
+    call: Call, table: Table, values: FloatArray, slopes: FloatArray, extent: FloatArray
+) -> FloatArray:
+    """Largest multipliers (m,): infinite for the conditions that the present point meets.
+
+    To give up what it misses of another one costs DELTA0 times what F may change over the range.
+    """
+    cost = _share(call, table, "DELTA0", _GIVEN_UP, 1.0, np.inf) * float(np.abs(slopes[0]) @ extent)
+    missed = values[1:] > 0.0
+    limits = np.full(len(missed), np.inf)
+    limits[missed] = max(cost, np.finfo(float).tiny) / values[1:][missed]
+    return limits
+
+
+def _asymptotes(
+    call: Call, table: Table, x: FloatArray, bounds: tuple[FloatArray, FloatArray]
+) -> tuple[FloatArray, FloatArray]:
+    """Lower and upper asymptotes (n,)."""
+    method = str(table.get("METHODE", "STA")).strip().upper()[:3]
+    if method not in _METHODS:
+        raise call.error("operators.lists.no-such-method", method=method, methods=list(_METHODS))
+    extent = bounds[1] - bounds[0]
+    if method == "STA":
+        t = _share(call, table, "T0", _FIXED, 0.0, 1.0)
+        near, far = np.abs(x) * t, np.abs(x) / t
+        wide = (bounds[0] < 0.0) & (bounds[1] > 0.0) | (x == 0.0)
+        lower = np.where(wide, x - 2.0 * extent, np.where(x > 0.0, near, -far))
+        return lower, np.where(wide, x + 2.0 * extent, np.where(x > 0.0, far, -near))
+    s = _share(call, table, "S0", _MOVING, 0.0, 1.0)
+    history = table.get(_HISTORY)
+    if not isinstance(history, Table):
+        return x - _FIRST * extent, x + _FIRST * extent
+    last, older, lower, upper = (_numbers(call, history.get(i), _HISTORY, len(x)) for i in range(4))
+    turn = (x - last) * (last - older)
+    factor = np.where(turn < 0.0, s, np.where(turn > 0.0, 1.0 / np.sqrt(s), 1.0))
+    below = np.clip(factor * (last - lower), _NEAREST * extent, _FARTHEST * extent)
+    above = np.clip(factor * (upper - last), _NEAREST * extent, _FARTHEST * extent)
+    return x - below, x + above
+
+
+def _history(table: Table, x: FloatArray, asymptotes: tuple[FloatArray, FloatArray]) -> Table:
+    """The present point, the one before it and the asymptotes, for the next step of MOV."""
+    before = table.get(_HISTORY)
+    older = before.get(0) if isinstance(before, Table) else _table_of(x)
+    made = Table()
+    made.set(0, _table_of(x))
+    made.set(1, older)
+    made.set(2, _table_of(asymptotes[0]))
+    made.set(3, _table_of(asymptotes[1]))
+    return made
+
+
+def _share(call: Call, table: Table, index: str, default: float, low: float, high: float) -> float:
+    """A setting between two values, both excluded."""
+    value = table.get(index, default)
+    if not isinstance(value, int | float) or not low < value < high:
+        raise call.error("operators.lists.setting-out-of-range", index=index, low=low, high=high)
+    return float(value)
+
+
+def _numbers(call: Call, held: object, index: str, count: int | None, first: int = 1) -> FloatArray:
+    """The numbers of a table from `first` on: up to `count`, or all that follow each other."""
+    found: list[float] = []
+    while isinstance(held, Table) and (count is None or first + len(found) <= count):
+        number = held.get(first + len(found))
+        if not isinstance(number, int | float):
+            break
+        found.append(float(number))
+    wanted = 1 if count is None else count - first + 1
+    if len(found) < wanted:
+        raise call.error(
+            "operators.lists.numbers-in-entry", index=index, found=len(found), count=wanted
+        )
+    return np.array(found)
+
+
+def _table_of(values: FloatArray) -> Table:
+    made = Table("VECTEUR")
+    for i, value in enumerate(values, start=1):
+        made.set(i, float(value))
+    return made

@@ -1,0 +1,105 @@
+"""MOCA LEVM GANE against numpy's least squares and functions whose parameters are known."""
+
+import numpy as np
+import pytest
+
+from ssilang.cli.run import run_text
+
+X = np.array([0.0, 0.5, 1.5, 2.0, 3.5])
+Y = np.array([1.2, 0.7, 2.9, 3.1, 6.4])
+W = np.array([1.0, 3.0, 0.5, 2.0, 1.0])
+
+
+def prog(values):
+    return "(PROG " + " ".join(f"{v:.17g}" for v in values) + ")"
+
+
+def test_moca_is_the_weighted_least_squares_whatever_the_first_parameters(found):
+    script = (
+        f"X = {prog(X)} ; Y = {prog(Y)} ; U = PROG 5*1. ; "
+        f"P = MOCA (PROG 7. -2.) Y ((7. * U) - (2. * X)) U X 'POIDS' {prog(W)} ; "
+        "Q = MOCA (PROG 0. 0.) Y (0. * X) U X ;"
+    )
+    J = np.column_stack([np.ones(5), X])
+    weighed = np.linalg.lstsq(W[:, None] * J, W * Y, rcond=None)[0]
+    assert found(script, "P").values == pytest.approx(weighed)
+    assert found(script, "Q").values == pytest.approx(np.linalg.lstsq(J, Y, rcond=None)[0])
+
+
+DECAY = (
+    "DEBP FCT X1*LISTREEL P1*LISTREEL ; A1 = EXTR P1 1 ; B1 = EXTR P1 2 ; "
+    "E1 = EXP (B1 * X1) ; Y1 = A1 * E1 ; D1 = PROG ; N1 = DIME X1 ; "
+    "REPE B N1 ; D1 = D1 ET (PROG (EXTR E1 &B) ((EXTR X1 &B) * (EXTR Y1 &B))) ; FIN B ; "
+    "FINP Y1 D1 ; "
+)
+
+
+def test_levm_finds_the_parameters_that_made_the_points(found):
+    points = prog(2.5 * np.exp(-0.8 * X))
+    script = DECAY + (
+        f"P C = LEVM 'ABSC' {prog(X)} 'ORDO' {points} 'SIGM' {prog(W)} "
+        "'PARA' (PROG 1. -0.1) 'PROC' FCT ;"
+    )
+    assert found(script, "P").values == pytest.approx([2.5, -0.8], rel=1e-6)
+    assert found(script, "C") == pytest.approx(0.0, abs=1e-12)
+
+
+def test_levm_gives_the_least_sum_of_noisy_points(found):
+    from scipy.optimize import least_squares
+
+    script = DECAY + (
+        f"P C = LEVM 'PROC' FCT 'PARA' (PROG 1. 0.3) 'ABSC' {prog(X)} 'SIGM' {prog(W)} "
+        f"'ORDO' {prog(Y)} ;"
+    )
+    best = least_squares(lambda p: W * (p[0] * np.exp(p[1] * X) - Y), [1.0, 0.3], xtol=1e-14)
+    assert found(script, "P").values == pytest.approx(best.x, rel=1e-4)
+    assert found(script, "C") == pytest.approx(2.0 * best.cost, rel=1e-8)
+
+
+@pytest.mark.parametrize("damping", [0.0, 0.7])
+def test_gane_solves_the_normal_equations(found, damping):
+    script = (
+        f"T = TABL 'VECTEUR' ; T . 0 = {prog(Y)} ; T . 1 = {prog(X)} ; T . 2 = {prog(W)} ; "
+        f"H = GANE T 'AMOR' {damping} ; A = H . 1 ; B = H . 2 ; S = EGA H . 'SOUSTYPE' 'VECTEUR' ;"
+    )
+    J = np.column_stack([X, W])
+    step = np.linalg.solve(J.T @ J + damping * np.eye(2), -J.T @ Y)
+    assert [found(script, "A"), found(script, "B")] == pytest.approx(step)
+    assert found(script, "S")
+
+
+def test_gane_takes_fields_and_numbers(found):
+    line = "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (2. 0.) ; C = MANU 'CHPO' L 1 'SCAL' 1. ; "
+    script = line + (
+        "T = TABL 'VECTEUR' ; T . 0 = COOR 1 L ; T . 1 = C ; H = GANE T ; A = H . 1 ; "
+        "T = TABL 'VECTEUR' ; T . 0 = 6. ; T . 1 = 2. ; H = GANE T ; B = H . 1 ;"
+    )
+    assert found(script, "A") == pytest.approx(-1.0)
+    assert found(script, "B") == pytest.approx(-3.0)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("X = MOCA (PROG 1. 2.) (PROG 1.) (PROG 1.) (PROG 1.) ;", "2 parameters for 1 list"),
+        ("X = MOCA (PROG 1.) (PROG 1. 2.) (PROG 1.) (PROG 1. 2.) ;", "1 value, 2 are wanted"),
+        ("T = TABL ; T . 0 = PROG 1. ; H = GANE T ;", "no values at 0 and derivatives"),
+        ("T = TABL ; T . 0 = 1. ; T . 1 = PROG 1. ; H = GANE T ;", "different types"),
+        ("T = TABL ; C R = GANE T 'MATR' ;", "not available as objects"),
+        (
+            "DEBP F X*LISTREEL P*LISTREEL ; FINP X ; P C = LEVM 'ABSC' (PROG 1.) 'ORDO' (PROG 1.) "
+            "'SIGM' (PROG 1.) 'PARA' (PROG 1.) 'PROC' F ;",
+            "does not give two lists",
+        ),
+    ],
+)
+def test_what_cannot_be_fitted_is_told(refused, text, said):
+    assert said in refused(text)
+
+
+def test_venv_reads_the_environment(monkeypatch):
+    monkeypatch.setenv("SSILANG_TEST_VALUE", "soft soil")
+    result = run_text("A = VENV 'SSILANG_TEST _VALUE' ; B = VENV 'SSILANG_TEST_NONE' ;")
+    assert result.exit_code == 0, result.message
+    assert str(result.session.root.find("A")) == "soft soil"
+    assert str(result.session.root.find("B")) == " "

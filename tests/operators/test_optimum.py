@@ -1,0 +1,58 @@
+"""EXCE against problems whose best point is known."""
+
+import pytest
+
+# Svanberg's cantilever of five hollow sections (1987): lightest under a bound of the deflection
+CANTILEVER = """
+LC1 = PROG 61. 37. 19. 7. 1. ; T = TABL ; T . 'METHODE' = MOT '{method}' ;
+T . 'VXMIN' = TABL ; T . 'VXMAX' = TABL ; T . 'VX0' = TABL ; T . 'VCMAX' = TABL ;
+T . 'VCMAX' . 1 = 1. ;
+REPE A 5 ; T . 'VXMIN' . &A = 1. ; T . 'VXMAX' . &A = 10. ; T . 'VX0' . &A = {start} ; FIN A ;
+REPE B 25 ;
+  F1 = TABL 'VECTEUR' ; C1 = TABL 'VECTEUR' ; S1 = 0. ; D1 = 0. ;
+  REPE C 5 ; X1 = T . 'VX0' . &C ; K1 = EXTR LC1 &C ; S1 = S1 + (0.0624 * X1) ;
+    D1 = D1 + (K1 / (X1 ** 3)) ; F1 . &C = 0.0624 ; C1 . &C = -3. * K1 / (X1 ** 4) ; FIN C ;
+  F1 . 0 = S1 ; C1 . 0 = D1 ; T . 'VF' = F1 ; T . 'MC' = TABL ; T . 'MC' . 1 = C1 ;
+  T = EXCE T ;
+FIN B ;
+V1 = T . 'VX0' ; L1 = PROG (V1 . 1) (V1 . 2) (V1 . 3) (V1 . 4) (V1 . 5) ;
+"""
+
+
+@pytest.mark.parametrize("method", ["STA", "MOV"])
+@pytest.mark.parametrize("start", [5.0, 2.0], ids=["holds", "misses the bound"])
+def test_the_lightest_cantilever_is_found(found, method, start):
+    sizes = found(CANTILEVER.format(method=method, start=start), "L1").values
+    assert sizes == pytest.approx([6.016, 5.309, 4.494, 3.502, 2.153], abs=2e-3)
+    assert 0.0624 * sizes.sum() == pytest.approx(1.340, abs=1e-3)
+
+
+LINE = (
+    "T = TABL ; T . 'VX0' = TABL ; T . 'VX0' . 1 = {x} ; T . 'VF' = TABL ; T . 'VF' . 0 = 1. ; "
+    "T . 'VF' . 1 = {slope} ; T . 'VXMIN' = TABL ; T . 'VXMIN' . 1 = -3. ; T . 'VXMAX' = TABL ; "
+    "T . 'VXMAX' . 1 = 5. ; "
+)
+
+
+@pytest.mark.parametrize("slope", [2.0, -2.0])
+def test_without_conditions_a_variable_of_any_sign_goes_down_to_its_bound(found, slope):
+    script = LINE.format(x=0.5, slope=slope) + "REPE B 9 ; T = EXCE T ; FIN B ; X = T . 'VX0' . 1 ;"
+    assert found(script, "X") == pytest.approx(-3.0 if slope > 0.0 else 5.0)
+
+
+def test_a_variable_without_influence_stays(found):
+    assert found(LINE.format(x=0.5, slope=0.0) + "T = EXCE T ; X = T . 'VX0' . 1 ;", "X") == 0.5
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        (LINE.format(x=7.0, slope=1.0), "not between VXMIN and VXMAX"),
+        (LINE.format(x=1.0, slope=1.0) + "T . 'METHODE' = 'LIN' ;", "STA or MOV, not LIN"),
+        (LINE.format(x=1.0, slope=1.0) + "T . 'T0' = 2. ;", "'T0' is a number between 0 and 1"),
+        (LINE.format(x=1.0, slope=1.0) + "T . 'VF' = TABL ;", "'VF' holds 0 numbers"),
+        ("T = TABL ;", "'VX0' holds 0 numbers"),
+    ],
+)
+def test_what_is_missing_is_told(refused, text, said):
+    assert said in refused(text + "T = EXCE T ;")
