@@ -186,6 +186,12 @@ MESSAGES: dict[str, Message] = {
         "STL holds TRI3 only, the mesh has {others:?{others}|no cells}",
         "STL ne contient que des TRI3, le maillage {others:?a des {others}|n'a pas d'éléments}",
     ),
+    "deck-holds-no-such-cells": Message(
+        "SORT '{word}' writes no {others:?{others}|mesh without cells}",
+        "SORT '{word}' n'écrit pas de {others:?{others}|maillage sans éléments}",
+        "cells that it writes here: {known}",
+        "éléments qu'il écrit ici : {known}",
+    ),
     "holds-no-triangles": Message(
         "{name} holds no triangles",
         "{name} ne contient pas de triangles",

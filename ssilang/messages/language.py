@@ -306,8 +306,8 @@ MESSAGES: dict[str, Message] = {
     "wrong-argument": Message(
         "{operator} wanted {types}, found {found_text}",
         "{operator} attendait {types}, trouvé {found_text}",
-        "{bare_hint}{point_hint}{word_hint}{keyword_hint}{syntax_hint}",
-        "{bare_hint}{point_hint}{word_hint}{keyword_hint}{syntax_hint}",
+        "{caller_hint}{bare_hint}{point_hint}{word_hint}{keyword_hint}{syntax_hint}",
+        "{caller_hint}{bare_hint}{point_hint}{word_hint}{keyword_hint}{syntax_hint}",
         number=37,
     ),
     "missing-keyword": Message(
@@ -519,6 +519,31 @@ MESSAGES: dict[str, Message] = {
         "printing is written MESS 'A is ' A ;",
         "un affichage s'écrit MESS 'A vaut ' A ;",
     ),
+    "write-extremes": Message(
+        "the largest value is MAXI, the smallest MINI; with 'ABS', by absolute values",
+        "la plus grande valeur est MAXI, la plus petite MINI ; avec 'ABS', en valeur absolue",
+    ),
+    "write-comparison": Message(
+        "comparisons are written A EGA B, A NEG B, A > B, A < B, A >EG B, A <EG B",
+        "les comparaisons s'écrivent A EGA B, A NEG B, A > B, A < B, A >EG B, A <EG B",
+    ),
+    "write-picture": Message(
+        "TRAC draws meshes and fields, DESS curves",
+        "TRAC dessine les maillages et les champs, DESS les courbes",
+    ),
+    "write-power": Message("a power is written A ** 3", "une puissance s'écrit A ** 3"),
+    "write-root": Message(
+        "a square root is written X ** 0.5", "une racine carrée s'écrit X ** 0.5"
+    ),
+    "write-count": Message(
+        "the number of items of a list is DIME, of the cells of a mesh NBEL, of its nodes NBNO",
+        "le nombre d'éléments d'une liste est DIME, celui des mailles d'un maillage NBEL, de ses "
+        "noeuds NBNO",
+    ),
+    "longer-word": Message(
+        "{word} is read as the operator of its first four letters: {problem}\n",
+        "{word} est lu comme l'opérateur de ses quatre premières lettres : {problem}\n",
+    ),
     "write-procedure": Message(
         "a procedure is written DEBP NAME A*FLOTTANT ; ... FINP B ;",
         "une procédure s'écrit DEBP NOM A*FLOTTANT ; ... FINP B ;",
@@ -538,6 +563,10 @@ MESSAGES: dict[str, Message] = {
     "excess-order": Message(
         "a phrase runs from left to right: put parentheses around what belongs together",
         "une phrase va de gauche à droite : mettez entre parenthèses ce qui va ensemble",
+    ),
+    "excess-join": Message(
+        "two objects of a kind are joined by ET: (A ...) ET (B ...)",
+        "deux objets de même type se réunissent par ET : (A ...) ET (B ...)",
     ),
     "excess-numbers": Message(
         "numbers side by side make a POINT where OPTI DIME 2 (or 3) was set and there are as many",

@@ -207,6 +207,10 @@ MESSAGES: dict[str, Message] = {
         "CINEMB: {1} places, {2} directions, {3} heads",
         "CINEMB : {1} positions, {2} directions, {3} verticales",
     ),
+    "cinemb-view-has-no-direction": Message(
+        "CINEMB: the direction of view {1} has no length",
+        "CINEMB : la direction de la vue {1} est de longueur nulle",
+    ),
     "cinemb-view-looks-along-head": Message(
         "CINEMB: view {1} looks along the head",
         "CINEMB : la vue {1} regarde le long de la verticale",

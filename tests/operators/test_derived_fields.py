@@ -400,3 +400,61 @@ def test_strains_of_shells_turn_as_tensors(found):
     first = first / np.linalg.norm(first)
     assert shear == pytest.approx(0.0, abs=1e-14)
     assert largest == pytest.approx(first @ np.diag([0.01, 0.02, 0.0]) @ first)
+
+
+UPRIGHT = (
+    "OPTI DIME 3 MODE TRID ELEM {cell} ; Q = (DROI 1 (0 0 0) ({x} {y} 0)) TRAN 1 (0 0 1) ; "
+    "M = MODE Q 'MECANIQUE' 'ELASTIQUE' '{element}' ; A = MATE M 'YOUN' 1. 'NU' 0.3 'EPAI' 0.1 ; "
+)
+
+
+def test_principal_directions_of_shells_are_global(found):
+    """Pulled along an edge at 36.87 degrees in the plane x y, whatever the cell's own frame."""
+    x, y, z, first, last = found(
+        UPRIGHT.format(cell="QUA4", element="COQ4", x=0.8, y=0.6)
+        + "U = ((NOMC 'UX' (COOR 1 Q)) * 0.8 * 0.8) + ((NOMC 'UX' (COOR 2 Q)) * 0.48)"
+        " + ((NOMC 'UY' (COOR 1 Q)) * 0.48) + ((NOMC 'UY' (COOR 2 Q)) * 0.36) ; "
+        "P = PRIN M (SIGM M A U) A ; X = MAXI 'ABS' (EXCO 'COX1' P) ; "
+        "Y = MAXI 'ABS' (EXCO 'COY1' P) ; Z = MAXI 'ABS' (EXCO 'COZ1' P) ; "
+        "S1 = MAXI (EXCO 'SI11' P) ; C = MAXI 'ABS' (EXCO 'COZ2' P) ;",
+        "X", "Y", "Z", "S1", "C",
+    )  # fmt: skip
+    assert (x, y, z) == pytest.approx((0.8, 0.6, 0.0), abs=1e-9)
+    assert first == pytest.approx(1 / (1 - 0.3**2))
+    assert last == pytest.approx(1.0)
+
+
+def test_third_principal_stress_of_a_line_shell_is_out_of_the_plane(found):
+    values = found(
+        "OPTI DIME 2 MODE AXIS ELEM SEG2 ; L = DROI 1 (3. 0.) (3. 1.) ; "
+        "M = MODE L 'MECANIQUE' 'ELASTIQUE' 'COQ2' ; A = MATE M 'YOUN' 1. 'NU' 0. 'EPAI' 0.1 ; "
+        "S = MANU 'CHML' M 'N11' 0.1 'N22' 0.3 'M11' 0. 'M22' 0. 'TYPE' 'CONTRAINTES' 'STRESSES' ; "
+        "P = PRIN M S A ; X = MAXI (EXCO 'SI11' P) ; Y = MAXI (EXCO 'SI33' P) ; "
+        "Z = MAXI 'ABS' (EXCO 'COY1' P) ;",
+        "X", "Y", "Z",
+    )  # fmt: skip
+    assert values == pytest.approx((1.0, 3.0, 1.0))
+
+
+def test_equivalent_stress_of_thin_shells_weighs_the_moments_by_calf(found):
+    state = (
+        "S = MANU 'CHML' M 'N11' 3. 'M11' 0.02 'TYPE' 'CONTRAINTES' 'STRESSES' ; "
+        "X = MAXI (VMIS M S A) ; Y = MAXI (VMIS M S (A ET (CARA M 'CALF' 1.))) ;"
+    )
+    x, y = found(UPRIGHT.format(cell="QUA4", element="COQ4", x=1, y=0) + state, "X", "Y")
+    membrane, bending = 3.0 / 0.1, 6 * 0.02 / 0.1**2
+    assert x == pytest.approx((membrane**2 + (2 / 3 * bending) ** 2) ** 0.5)
+    assert y == pytest.approx((membrane**2 + bending**2) ** 0.5)
+
+
+def test_equivalent_stresses_of_thick_shells_are_those_of_their_points(found, refused):
+    state = UPRIGHT.format(cell="QUA8", element="COQ8", x=1, y=0) + (
+        "S = MANU 'CHML' M 'SMSS' 4. 'SMTT' 1. 'SMST' 2. 'TYPE' 'CONTRAINTES' 'STRESSES' ; "
+        "X = MAXI (VMIS M S A) ; Y = MAXI (TRES M S A) ; I1 I2 I3 = INVA M S A ; Z = MAXI I1 ; "
+    )
+    x, y, z = found(state, "X", "Y", "Z")
+    assert x == pytest.approx((16 + 1 - 4 + 3 * 4) ** 0.5)
+    assert y == pytest.approx(5.0)  # principal values 5, 0, 0
+    assert z == pytest.approx(5.0)
+    assert "not on its sides" in refused(state + "T = TRES M S A 'SUPE' ;")
+    assert "principal directions of COQ8" in refused(state + "T = PRIN M S A ;")

@@ -82,3 +82,14 @@ def test_empty_objects_of_pictures_and_clouds(tmp_path):
     root = run("OPTI DIME 1 ; " + text, tmp_path).session.root
     assert root.find("L") is True
     assert root.find("M") is False
+
+
+def test_assi_runs_the_phrase_that_follows(tmp_path):
+    text = "N = 2 ; X = ASSI N PROG 1. 2. ; A B = 'ASSI' 1 (MAXI X) (MINI X) ; LIST A ; LIST B ;"
+    lines = run(text, tmp_path).output.split("\n")
+    assert [float(line.split(":")[1]) for line in lines if "value" in line] == [2.0, 1.0]
+
+
+def test_assi_for_all_is_refused_by_name(tmp_path):
+    result = run_text("X = ASSI 'TOUS' PROG 1. ;", output_directory=tmp_path)
+    assert "ASSI TOUS" in result.message

@@ -24,6 +24,27 @@ def test_constituent_of_a_model_changes(found):
     assert {z.constituent for z in model.zones} == {"SOIL"}
 
 
+def test_internal_variables_of_a_model_are_named(found):
+    """Those of a law once, in the order of its field; none of an elastic body."""
+    script = (
+        "OPTI DIME 2 ELEM QUA4 MODE PLAN DEFO ; S = ((0. 0.) D 2 (1. 0.)) TRAN 1 (0. 1.) ; "
+        "A = MODE (S ELEM 1) MECANIQUE ELASTIQUE PLASTIQUE CINEMATIQUE ; "
+        "B = MODE (S ELEM 2) MECANIQUE ELASTIQUE PLASTIQUE PARFAIT ; "
+        "X = EXTR (A ET B) 'VARI' ; Y = EXTR B 'VARI' ; "
+        "Z = EXTR (MODE S MECANIQUE ELASTIQUE) 'VARI' ; "
+    )
+    both, one, none = (list(v.values) for v in found(script, "X", "Y", "Z"))
+    axes = ["ALXX", "ALYY", "ALZZ", "ALXY", "ALXZ", "ALYZ"]
+    assert [str(n).rstrip() for n in both] == ["EPSE", *axes]
+    assert [str(n).rstrip() for n in one] == ["EPSE"]
+    assert none == []
+
+
+def test_gradients_of_a_bar_are_named(found):
+    names = found(MODELS + "X = EXTR M1 'GRAD' ;", "X")
+    assert [str(n).rstrip() for n in names.values] == ["UX,X", "UY,X"]
+
+
 def test_number_of_unknowns_of_a_bar(found):
     count = found(MODELS + "N = DIME (RIGI M1 (MATE M1 'YOUN' 1. 'NU' 0. 'SECT' 1.)) ;", "N")
     assert count == 10

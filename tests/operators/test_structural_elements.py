@@ -141,8 +141,9 @@ def test_pressure_on_shells_goes_towards_a_point(found, refused):
         "F = PRES 'COQU' M 3. 'POIN' (1. 0.5 0.5) (CARA M 'EPAI' 0.1) ; "
         "X = MAXI (RESU (REDU F A)) ; Y = MINI (RESU (REDU F B)) ; "
         "Z = MAXI 'ABS' (RESU (PRES 'COQU' M 3. 'NORM')) ; "
+        "W = MINI (RESU (FSUR 'COQU' M (0. 0. -2.) (CARA M 'EPAI' 0.1))) ; "
     )
-    assert found(script, "X", "Y", "Z") == pytest.approx((6.0, -6.0, 12.0))
+    assert found(script, "X", "Y", "Z", "W") == pytest.approx((6.0, -6.0, 12.0, -8.0))
     flat = script + "G = PRES 'COQU' M 3. 'POIN' (9. 9. 1.) ;"
     assert "4 shell cells lie along the vector" in refused(flat)
     steep = script + "G = PRES 'COQU' M 3. (1. 0. 0.03) ; H = PRES 'COQU' M 3. (1. 0. 0.01) ;"

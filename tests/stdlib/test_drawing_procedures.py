@@ -123,3 +123,9 @@ def test_turned_skin_and_loaded_shape_are_drawn(tmp_path):
     result = run_text(script, output_directory=tmp_path)
     assert result.exit_code == 0, result.message
     assert len(list(tmp_path.rglob("*.png"))) == 2
+
+
+def test_a_view_without_direction_is_told():
+    script = "OPTI DIME 3 ELEM SEG2 ; L = DROI 1 (0. 0. 0.) (1. 0. 0.) ; "
+    script += "D = CINEMA L (MANU 'POI1' (5. 5. 5.)) (MANU 'POI1' (0. 0. 0.)) (0. 0. 1.) ;"
+    assert "direction of view 1 has no length" in run_text(script).message

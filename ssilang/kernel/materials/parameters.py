@@ -68,10 +68,10 @@ _GEOMETRY: dict[str, Names] = {
         ("EPAI", "RAYO"),
         ("RACO", "VECT", "PRES", "CISA", "CFFX", "CFMX", "CFMY", "CFMZ", "CFPR"),
     ),
-    "mindlin": Names(("EPAI",), ("EXCE", "ALFA", "CALF")),
+    "mindlin": Names(("EPAI",), ("EXCE", "CALF")),
     "thick": Names(("EPAI",), ("EXCE",)),
-    "plate": Names(("EPAI",), ("EXCE", "ALFA", "CALF")),
-    "meridian": Names(("EPAI",), ("EXCE", "ALFA", "CALF", "DIM3")),
+    "plate": Names(("EPAI",), ("EXCE", "CALF")),
+    "meridian": Names(("EPAI",), ("EXCE", "CALF", "DIM3")),
 }
 _BEAM_PLANE = Names(("SECT", "INRZ"), ("SECY", "SECZ", "INRY", "TORS", "VECT", "DX", "DY", "DZ"))
 _BEAM_SPACE = Names(

@@ -11,6 +11,9 @@ from ssilang.language.say.errors import SsiError
 from ssilang.language.text.source import Span
 from ssilang.language.values import ANNULE, Mot, type_of
 
+_JOINED = frozenset({"RIGIDITE", "MAILLAGE", "MMODEL", "MCHAML", "CHARGEME", "EVOLUTIO"})
+"""Types of which ET makes one object of two."""
+
 
 def is_call(left: Sequence[Operand]) -> bool:
     """Whether leftovers begin with a bare unknown word before others: a misspelt call."""
@@ -91,7 +94,11 @@ def _excess(operand: Operand, every: Sequence[Operand]) -> SsiError:
         return SsiError("glued-sign", operand.span, number=text, sign=text[0], rest=text[1:])
     caller = _called_with_parentheses(operand.span)
     bare = all(type(o.value) in (int, float) and not o.name for o in every)
+    joined = type_of(operand.value) in _JOINED and any(
+        o is not operand and o.result and type_of(o.value) == type_of(operand.value) for o in every
+    )
     kind = "parentheses" if caller else "numbers" if bare and len(every) > 1 else "order"
+    kind = "join" if joined and not caller else kind
     return SsiError(
         "excess",
         operand.span,

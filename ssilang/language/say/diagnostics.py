@@ -165,6 +165,7 @@ def _derived(error: SsiError, language: str, names: Iterable[str]) -> dict[str, 
         made["found_word"] = Sentence("found-word", found=data["found"])
     if error.code == "wrong-argument":
         made["found_text"] = _found(data, language)
+        made["caller_hint"] = hints.caller_hint(_code_before(error.span), str(data.get("operator")))
     if error.code == "not-a-table":
         made["a_found"] = _article(str(data["found"]), language)
         named = data["name"] or (error.span.text.split(".")[0].strip() if error.span else "it")
@@ -203,6 +204,11 @@ def _text_from(span: Span | None) -> str:
     return span.source.text[span.start : span.start + 80] if span else ""
 
 
+def _code_before(span: Span | None) -> str:
+    """The source up to a place, without comments."""
+    return span.source.code[: span.start] if span else ""
+
+
 def _types_text(types: list[str], language: str) -> str:
     """Expected types as a phrase: 'a RIGIDITE', 'an ENTIER or a FLOTTANT', 'one of A, B or C'."""
     if types == [ANY]:
@@ -236,12 +242,21 @@ def _keyword_hint(data: dict[str, object]) -> hints.Hint:
     others = words_of(found.name)
     beginnings = {w[:_LETTERS] for w in (*keywords, *others)}
     for word in quoted:
-        if word.upper()[:_LETTERS] in beginnings:
+        dual = _dual_of_keyword(word.upper(), keywords) if word.upper() in others else ""
+        if word.upper()[:_LETTERS] in beginnings and not dual:
             continue
+        if dual:
+            return Sentence("no-keyword", word=word, operator=found.name.strip(), near=dual)
         near = nearest(word, keywords) or nearest(word, others, _SHORT_LIKE)
         if near:
             return Sentence("no-keyword", word=word, operator=found.name.strip(), near=near)
     return ""
+
+
+def _dual_of_keyword(word: str, keywords: list[str]) -> str:
+    """The keyword of two letters that differs from a component in the first alone: FX for UX."""
+    duals = [k for k in keywords if len(k) == len(word) == 2 and k[1] == word[1]]
+    return duals[0] if len(duals) == 1 and word not in keywords else ""
 
 
 def _found(data: dict[str, object], language: str) -> str:

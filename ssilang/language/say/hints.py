@@ -5,16 +5,28 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 
+from ssilang.language.registry import find_operator
 from ssilang.messages.message import Sentence
 
 Hint = Sentence | str
 """A hint, or '' where nothing is known."""
 
 FOREIGN: Mapping[str, str] = {
-    **dict.fromkeys(("IF", "ELSE", "ELSEIF", "ELIF", "ENDIF", "THEN", "SWITCH"), "write-condition"),
+    **dict.fromkeys(
+        ("IF", "ELSE", "ELSEIF", "ELIF", "ENDIF", "THEN", "SWITCH", "ALORS"), "write-condition"
+    ),
     **dict.fromkeys(("FOR", "WHILE", "DO", "ENDFOR", "ENDDO", "FOREACH", "POUR"), "write-loop"),
     **dict.fromkeys(("BREAK", "CONTINUE"), "write-leaving"),
-    **dict.fromkeys(("PRINT", "PRINTF", "DISP", "PUTS", "WRITE", "ECHO"), "write-printing"),
+    **dict.fromkeys(
+        ("PRINT", "PRINTF", "DISP", "PUTS", "WRITE", "ECHO", "AFFICHER", "AFFICHE"),
+        "write-printing",
+    ),
+    **dict.fromkeys(("EQ", "NE", "GT", "LT", "GE", "LE"), "write-comparison"),
+    **dict.fromkeys(("PLOT", "DRAW"), "write-picture"),
+    "^": "write-power",
+    **dict.fromkeys(("MAX", "MIN"), "write-extremes"),
+    **dict.fromkeys(("SQRT", "RACINE"), "write-root"),
+    **dict.fromkeys(("LEN", "LENGTH", "SIZE"), "write-count"),
     **dict.fromkeys(("FUNCTION", "DEF", "PROC", "RETURN", "SUBROUTINE"), "write-procedure"),
     **dict.fromkeys(("TRUE", "FALSE"), "write-truth"),
 }
@@ -37,7 +49,22 @@ def comment_hint(text: str) -> Hint:
     return Sentence("write-comment") if begins else ""
 
 
-_EXCESS = {"numbers": "excess-numbers", "parentheses": "excess-parentheses"}
+def caller_hint(before: str, operator: str) -> Hint:
+    """For an operator that a longer word of another language begins like: PRINT is PRIN.
+
+    `before` is the script up to what the operator has found.
+    """
+    words = re.findall(r"[A-Za-z]\w*", before.rpartition(";")[2])
+    named = find_operator(words[-1].upper()) if words else None
+    if named is None or named.full_name != operator or words[-1].upper() in (named.name, operator):
+        return ""
+    found = foreign_hint(words[-1])
+    return Sentence("longer-word", word=words[-1].upper(), problem=found) if found else ""
+
+
+_EXCESS = {
+    "numbers": "excess-numbers", "parentheses": "excess-parentheses", "join": "excess-join",
+}  # fmt: skip
 
 
 def excess_hint(data: Mapping[str, object]) -> Hint:

@@ -115,6 +115,15 @@ MESSAGES: dict[str, Message] = {
         "{wanted_kn:.1e} est aussi raide que les corps",
         severity="warning",
     ),
+    "no-mass": Message(
+        "nothing has mass: the motion is a series of equilibria under the loads of each time",
+        "rien n'a de masse : le mouvement est une suite d'équilibres sous le chargement de chaque "
+        "instant",
+        "give TAB1 . 'MASS' = MASS MODL1 MAT1 ; (MAT1 with RHO), or let PASAPAS find equilibria",
+        "donnez TAB1 . 'MASS' = MASS MODL1 MAT1 ; (MAT1 avec RHO), ou laissez PASAPAS trouver les "
+        "équilibres",
+        severity="warning",
+    ),
     "body-without-mass": Message(
         "the body at node {node} has no mass and only joints hold it: it follows its loads "
         "at once, and is lost where all its joints open",

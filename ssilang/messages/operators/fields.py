@@ -296,6 +296,20 @@ MESSAGES: dict[str, Message] = {
         "{what} is for continuous elements, not {element}",
         "{what} vaut pour les éléments massifs, pas pour {element}",
     ),
+    "no-side-of-thick-shell": Message(
+        "the stresses of {element} stand at points across the thickness, not on its sides",
+        "les contraintes de {element} sont en des points de l'épaisseur, non sur ses peaux",
+        "leave SUPE or INFE out",
+        "ôtez SUPE ou INFE",
+    ),
+    "no-directions-of-thick-shell": Message(
+        "principal directions of {element}, whose frames turn from point to point, are not "
+        "available",
+        "les directions principales de {element}, dont les repères tournent d'un point à l'autre, "
+        "ne sont pas disponibles",
+        "VMIS, TRES and INVA need no directions",
+        "VMIS, TRES et INVA n'en ont pas besoin",
+    ),
     "no-stress-tensor": Message(
         "element {element} has no stress tensor here",
         "l'élément {element} n'a pas ici de tenseur des contraintes",

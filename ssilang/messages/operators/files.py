@@ -51,6 +51,12 @@ MESSAGES: dict[str, Message] = {
         "formats that are read: CSV, PEER, AVS, UNV, STL, PROC",
         "formats qui se lisent : CSV, PEER, AVS, UNV, STL, PROC",
     ),
+    "format-not-written": Message(
+        "SORT '{word}' is not supported",
+        "SORT '{word}' n'existe pas",
+        "formats of meshes that are written: VTK, AVS, STL, NAS, ABAQ",
+        "formats de maillages qui s'écrivent : VTK, AVS, STL, NAS, ABAQ",
+    ),
     "no-such-procedure": Message(
         "{name} defines no procedure {wanted}",
         "{name} ne définit pas de procédure {wanted}",

@@ -7,6 +7,12 @@ MESSAGES: dict[str, Message] = {
         "ARGU reads the arguments of a procedure, none is running",
         "ARGU lit les arguments d'une procédure, aucune n'est en cours",
     ),
+    "all-assistants": Message(
+        "ASSI TOUS: the same phrase for all objects of a table is not available",
+        "ASSI TOUS : la même phrase pour tous les objets d'une table n'est pas disponible",
+        "write a loop over the table (REPE)",
+        "écrivez une boucle sur la table (REPE)",
+    ),
     "nothing-empty-of-type": Message(
         "no empty '{kind}' can be made",
         "aucun '{kind}' vide ne se fabrique",

@@ -102,7 +102,10 @@ def warn_resolution(entries: Entries, problem: Problem) -> None:
 
 
 def warn_massless(entries: Entries, problem: Problem) -> None:
-    """Warn of bodies without mass that only joints hold: MASS was forgotten, most often."""
+    """Warn where nothing has mass, or a body that only joints hold: forgotten, most often."""
+    if not problem.M.count_nonzero() and not problem.C.count_nonzero():
+        entries.warn("operators.dynamics.no-mass")
+        return
     from ssilang.kernel.stepping.problem.bodies import loose_bodies
 
     joints = problem.interface

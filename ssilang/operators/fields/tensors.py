@@ -12,7 +12,14 @@ from ssilang.kernel.elements.catalog import support_rule
 from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.results.equivalent import equivalent_of_lines
 from ssilang.kernel.elements.results.integrals import integrals
-from ssilang.kernel.elements.results.skin import is_shell, shell_equivalent, shell_tensor
+from ssilang.kernel.elements.results.skin import (
+    in_global_axes,
+    is_shell,
+    is_thick_shell,
+    shell_equivalent,
+    shell_tensor,
+    thick_tensor,
+)
 from ssilang.kernel.elements.results.structural_gradients import (
     is_structural,
     structural_gradient,
@@ -84,7 +91,7 @@ def _equivalent(
     def make(zone: Zone) -> CellFieldBlock:
         if what == "VMIS" and is_shell(zone) and material is not None:
             return _scalar(zone, *shell_equivalent(zone, field, material))
-        if is_solid(zone) or is_shell(zone):
+        if is_solid(zone) or is_shell(zone) or is_thick_shell(zone):
             T, support = _tensor(zone, field, material, side)
             return _scalar(zone, compute(T), support)
         if what == "VMIS":
@@ -102,6 +109,10 @@ def _tensor(
     """Tensors of a continuous zone, or of a shell at one side."""
     if is_solid(zone):
         return tensor(zone, field)[:2]
+    if is_thick_shell(zone):
+        if side != "MOYE":
+            raise FieldError("operators.fields.no-side-of-thick-shell", element=zone.element)
+        return thick_tensor(zone, field)
     if not is_shell(zone) or material is None:
         raise FieldError("operators.fields.no-stress-tensor", element=zone.element)
     return shell_tensor(zone, field, material, side)
@@ -115,10 +126,12 @@ def _tensor(
     help=Help(
         en="Von Mises stress of a stress field; in beams and bars the equivalent stress of the "
         "section forces with the parameters SECT INRY INRZ TORS and the distances DX DY DZ; in "
-        "shells that of the membrane forces and, weighed by ALFA (2/3), of the moments.",
+        "shells that of the membrane forces and, weighed by CALF (2/3), of the moments; "
+        "in COQ6 and COQ8 that of the stresses at each point.",
         fr="Contrainte de von Mises d'un champ de contraintes ; dans les poutres et barres la "
         "contrainte équivalente des efforts avec SECT INRY INRZ TORS et les distances DX DY DZ ; "
-        "dans les coques celle des efforts membranaires et, pondérée par ALFA (2/3), des moments.",
+        "dans les coques celle des efforts membranaires et, pondérée par CALF (2/3), des moments ; "
+        "dans COQ6 et COQ8 celle des contraintes en chaque point.",
         syntax="CHAM1 = VMIS MODL1 SIG1 (CAR1) ;",
         examples=(_SQUARE + "LIST (MAXI (VMIS M (SIGM M A U))) ;",),
     ),
@@ -163,11 +176,11 @@ def tres(call: Call, model: Model, fields: tuple[CellField, ...], side: str) -> 
     full_name="PRINCIPALE",
     help=Help(
         en="Principal stresses or strains SI11 SI22 SI33 and their directions COX1 COY1 COZ1 COX2 "
-        "...; they decrease in space. In the plane the third is the one out of the plane, unless "
-        "'TRID' is given.",
+        "..., global cosines; they decrease in space. In the plane the third is the one out of the "
+        "plane, unless 'TRID' is given.",
         fr="Contraintes ou déformations principales SI11 SI22 SI33 et leurs directions COX1 COY1 "
-        "COZ1 COX2 ... ; elles décroissent en 3D. En 2D la troisième est celle hors du plan, "
-        "sauf avec 'TRID'.",
+        "COZ1 COX2 ..., cosinus globaux ; elles décroissent en 3D. En 2D la troisième est celle "
+        "hors du plan, sauf avec 'TRID'.",
         syntax="CHAM2 = PRIN CHAM1 MODL1 ('TRID') ;\n"
         "CHAM2 = PRIN CHAM1 MODL1 CAR1 ('SUPE' | 'MOYE' | 'INFE') ;",
         examples=(_SQUARE + "LIST (MAXI (EXCO 'SI11' (PRIN (SIGM M A U) M))) ;",),
@@ -180,7 +193,11 @@ def prin(
     field, material = state_and_rest(fields)
 
     def make(zone: Zone) -> CellFieldBlock:
+        if is_thick_shell(zone):  # its frames turn from point to point
+            raise FieldError("operators.fields.no-directions-of-thick-shell", element=zone.element)
         T, support = _tensor(zone, field, material, side)
+        if is_shell(zone):
+            T = in_global_axes(zone, T)
         values = principal(zone, T, ordered and is_solid(zone))
         return cell_block(zone, PRINCIPAL, values, support)
 

@@ -6,18 +6,15 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.families import family_of
-from ssilang.kernel.elements.results.structural_gradients import is_structural, structural_names
+from ssilang.kernel.elements.results.structural_gradients import names_of_gradient
 from ssilang.kernel.elements.results.tensors import PRINCIPAL
-from ssilang.kernel.elements.solids.gradients import gradient_names
 from ssilang.kernel.elements.solids.hooke import hooke_block
 from ssilang.kernel.elements.zone_fields import n_points
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.materials.parameters import geometric_names, material_names
-from ssilang.kernel.materials.plastic.laws import plastic_law
-from ssilang.kernel.plasticity.points import is_plastic
+from ssilang.kernel.plasticity.points import variable_names
 from ssilang.language.registry import Help, arg, choice, operator
 from ssilang.language.run.call import Call
 from ssilang.operators.statics.stresses import on_zones
@@ -49,32 +46,20 @@ _TITLES: dict[str, tuple[str, Support]] = {
 }
 
 
-def _gradient_names(zone: Zone) -> tuple[str, ...]:
-    if is_structural(zone):
-        return structural_names(zone)
-    return gradient_names(zone) if is_solid(zone) else ()
-
-
-def _variable_names(zone: Zone) -> tuple[str, ...]:
-    """Those of a plastic law of bodies, EPSE for other laws."""
-    found = plastic_law(zone.behaviour) if is_plastic(zone) else None
-    return ("EPSE",) if found is None else found.variables
-
-
 def _names(zone: Zone, what: str) -> tuple[str, ...]:
     family = family_of(zone)
     tables: dict[str, Callable[[], tuple[str, ...]]] = {
         "DEPLACEM": lambda: tuple(dict.fromkeys(family.layout(zone).unknowns)),
         "FORCES": lambda: tuple(dict.fromkeys(family.layout(zone).duals)),
         "TEMPERAT": lambda: ("T",),
-        "GRADIENT": lambda: _gradient_names(zone),
+        "GRADIENT": lambda: names_of_gradient(zone),
         "CONTRAIN": lambda: family.stress_names(zone),
         "DEFORMAT": lambda: family.strain_names(zone),
         "DEFINELA": lambda: family.strain_names(zone),
         "PRINCIPA": lambda: PRINCIPAL,
         "MATERIAU": lambda: material_names(zone).all,
         "CARACTER": lambda: geometric_names(zone).all,
-        "VARINTER": lambda: _variable_names(zone),
+        "VARINTER": lambda: variable_names(zone) or ("EPSE",),
     }
     return tables[what]() if what in tables else ("SCAL",)
 

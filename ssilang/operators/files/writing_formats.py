@@ -1,13 +1,17 @@
-"""SORT 'AVS ', 'STL ' and 'MAT ': meshes, fields and matrices in others' text formats."""
+"""SORT 'AVS ', 'STL ', 'ABAQ', 'NAS ', 'MAT ': meshes, fields and matrices in others' formats."""
 
 from __future__ import annotations
+
+from typing import NoReturn
 
 from ssilang.io.atomic import write_text
 from ssilang.io.matrix_market import market_lines, node_lines, system_of, unknown_lines
 from ssilang.io.mesh_files.avs import avs_lines, structure_of
+from ssilang.io.mesh_files.decks import abaqus_lines, nastran_lines
 from ssilang.io.mesh_files.stl import stl_lines
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.changes.local_refinement import parted
 from ssilang.kernel.mesh.combine import poi1
@@ -16,6 +20,7 @@ from ssilang.language.registry import arg, choice, flag, key, opt, said
 from ssilang.language.run.call import Call
 from ssilang.operators.files.outputs import run_output
 from ssilang.operators.files.writing import SORT, target_path
+from ssilang.operators.workspace import workspace
 
 
 @SORT.form(
@@ -78,6 +83,57 @@ def _stl(call: Call, mesh: Mesh) -> None:
     output = run_output(call.session)
     output.reopen("SORT")
     output.add_lines("SORT", target_path(call, ".stl"), stl_lines(mesh))
+
+
+_MESH = arg("mesh", "MAILLAGE", en="mesh", fr="maillage")
+_PLANE = {Mode.PLANE_STRESS: "CPS", Mode.AXISYMMETRIC: "CAX", Mode.FOURIER: "CAX"}
+
+
+@SORT.form(
+    said("ABAQ"),
+    _MESH,
+    syntax="SORT 'ABAQ' MAIL1 ;",
+    en="ABAQ: the nodes and cells of a mesh of solids as an Abaqus deck (.inp); in two dimensions "
+    "OPTI MODE says which: CPS, CPE or CAX.",
+    fr="ABAQ : les noeuds et éléments d'un maillage massif en jeu de données d'Abaqus (.inp) ; en "
+    "dimension 2, OPTI MODE dit lesquels : CPS, CPE ou CAX.",
+    examples=(
+        "OPTI DIME 2 MODE AXIS ELEM QUA4 ; S = (DROI 2 (0. 0.) (1. 0.)) TRAN 1 (0. 1.) ; "
+        "OPTI SORT 'ring' ; SORT 'ABAQ' S ; OPTI ACQU 'ring.inp' ; LIST (ACQU 'BRUT') ;",
+    ),
+)
+def _abaq(call: Call, mesh: Mesh) -> None:
+    ws = workspace(call.session)
+    plane = _PLANE.get(ws.mode, "CPE") if ws.dimension == 2 else ""
+    lines = abaqus_lines(parted(mesh)[0], plane)
+    output = run_output(call.session)
+    output.reopen("SORT")
+    output.add_lines("SORT", target_path(call, ".inp"), lines)
+
+
+@SORT.form(
+    said("NAS"),
+    _MESH,
+    syntax="SORT 'NAS' MAIL1 ;",
+    en="NAS: the nodes and cells of a mesh as Nastran bulk data (.bdf), a property number for "
+    "each kind of cells.",
+    fr="NAS : les noeuds et éléments d'un maillage en données de Nastran (.bdf), un numéro de "
+    "propriété par type d'éléments.",
+    examples=(
+        "OPTI DIME 2 ELEM QUA4 ; S = (DROI 2 (0. 0.) (1. 0.)) TRAN 1 (0. 1.) ; "
+        "OPTI SORT 'plate' ; SORT 'NAS' S ; OPTI ACQU 'plate.bdf' ; LIST (ACQU 'BRUT') ;",
+    ),
+)
+def _nas(call: Call, mesh: Mesh) -> None:
+    lines = nastran_lines(parted(mesh)[0])
+    output = run_output(call.session)
+    output.reopen("SORT")
+    output.add_lines("SORT", target_path(call, ".bdf", (".nas",)), lines)
+
+
+@SORT.form(said("MED", "FER"), gives=())
+def _refused(call: Call, word: str) -> NoReturn:
+    raise call.error("operators.files.format-not-written", word=word)
 
 
 @SORT.form(

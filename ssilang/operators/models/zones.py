@@ -8,11 +8,12 @@ from typing import Any
 
 from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.families import family_of
+from ssilang.kernel.elements.results.structural_gradients import names_of_gradient
 from ssilang.kernel.elements.results.tensors import PRINCIPAL
-from ssilang.kernel.elements.solids.gradients import gradient_names
 from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.materials.parameters import geometric_names, material_names
 from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.kernel.plasticity.points import variable_names
 from ssilang.language.registry import (
     Chosen,
     Entry,
@@ -89,12 +90,12 @@ _NAMES: dict[str, Callable[[Zone], tuple[str, ...]]] = {
     "DEFO": lambda z: family_of(z).strain_names(z),
     "DEPL": lambda z: tuple(dict.fromkeys(family_of(z).layout(z).unknowns)),
     "FORC": lambda z: tuple(dict.fromkeys(family_of(z).layout(z).duals)),
-    "GRAD": lambda z: gradient_names(z) if is_solid(z) else (),
+    "GRAD": names_of_gradient,
     "GRAF": lambda z: (),
     "MATE": lambda z: material_names(z).all,
     "CONP": lambda z: PRINCIPAL if is_solid(z) else (),
     "TEMP": lambda z: ("T",),
-    "VARI": lambda z: (),
+    "VARI": variable_names,
 }
 
 
@@ -130,7 +131,7 @@ def _chosen(call: Call, model: Model, what: Chosen) -> Model:
 
 
 def _names(kind: str, en: str, fr: str) -> list[Entry]:
-    return [many("names", "MOT", kind=kind, en=en, fr=fr)]
+    return [many("names", "MOT", at_least=1, kind=kind, en=en, fr=fr)]
 
 
 @EXTR.form(
@@ -162,15 +163,17 @@ def _names(kind: str, en: str, fr: str) -> list[Entry]:
     ),
     syntax="OBJ1 = EXTR MODL1 'MAIL' | 'ZONE' ;\n"
     "MODL2 = EXTR MODL1 'FORM' | 'CONS' | 'ELEM' | 'COMP' MOT1 ... ;\n"
-    "LMOT1 = EXTR MODL1 'CONT' | 'DEFO' | 'DEPL' | 'FORC' | 'MATE' | 'GEOM' | 'GRAD' | 'CONP' ;",
+    "LMOT1 = EXTR MODL1 'CONT' | 'DEFO' | 'DEPL' | 'FORC' | 'MATE' | 'GEOM' | 'GRAD' | 'CONP' "
+    "| 'VARI' ;",
     en="Of a model: its mesh (MAIL), a table of its zones and their meshes (ZONE), the zones of a "
     "formulation, constituent or element, or the names of the components of its stresses (CONT), "
     "strains (DEFO), displacements (DEPL), forces (FORC), parameters (MATE, GEOM), gradients "
-    "(GRAD), principal stresses (CONP).",
+    "(GRAD), principal stresses (CONP), internal variables of a plastic law (VARI).",
     fr="D'un modèle : son maillage (MAIL), une table de ses zones et de leurs maillages (ZONE), "
     "les zones d'une formulation, d'un constituant ou d'un élément, ou les noms de composantes "
     "des contraintes (CONT), déformations (DEFO), déplacements (DEPL), forces (FORC), paramètres "
-    "(MATE, GEOM), gradients (GRAD), contraintes principales (CONP).",
+    "(MATE, GEOM), gradients (GRAD), contraintes principales (CONP), variables internes d'une loi "
+    "plastique (VARI).",
     examples=(
         "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0 0) (1 0) ; M = MODE L MECANIQUE ELASTIQUE BARR ; "
         "LIST (NBEL (EXTR M 'MAIL')) ; LIST (EXTR M 'CONT') ;",

@@ -1,10 +1,10 @@
-"""QUIT ITER FIN ARGU RESP COMM: where statements go on, what procedures read and give."""
+"""QUIT ITER FIN ASSI ARGU RESP COMM: where statements go on, what procedures read and give."""
 
 from __future__ import annotations
 
 from typing import Any, NoReturn
 
-from ssilang.language.registry import Help, many, named, operator
+from ssilang.language.registry import Help, flag, many, named, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.run.jumps import LeaveLoop, LeaveProcedure, NextTurn, StopRun
 from ssilang.language.run.session import Session
@@ -48,6 +48,28 @@ def quitter(session: Session, name: str) -> NoReturn:
 def iterer(name: str) -> NoReturn:
     """Go to the end of the turn."""
     raise NextTurn(name)
+
+
+@operator(
+    "ASSI",
+    flag("every", "TOUS", en="not available", fr="non disponible"),
+    opt("number", "ENTIER", en="assistant, changes nothing", fr="assistant, sans effet"),
+    gives=(),
+    family="control",
+    full_name="ASSISTANT",
+    help=Help(
+        en="Has an assistant carry out the phrase that follows: here one process does all, so the "
+        "phrase simply runs.",
+        fr="Fait exécuter la phrase qui suit par un assistant : ici un seul processus fait tout, "
+        "la phrase s'exécute donc telle quelle.",
+        syntax="OBJ1 ... = ASSI N1 PHRASE ;",
+        examples=("X = ASSI 2 PROG 1. 2. ; LIST X ;",),
+    ),
+)
+def assi(call: Call, every: bool, number: int | None) -> None:
+    """The phrase goes on."""
+    if every:
+        raise call.error("operators.session.all-assistants")
 
 
 @operator(

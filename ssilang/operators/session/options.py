@@ -46,6 +46,7 @@ _MODES: dict[str, Mode] = {
 _UNID = (
     "DYDZ", "DYCZ", "CYDZ", "CYCZ", "GYDZ", "GYCZ", "DYGZ", "CYGZ", "GYGZ", "AXDZ", "AXCZ", "AXGZ",
 )  # fmt: skip
+_ENGLISH = {"STRESS": "CONT", "STRAIN": "DEFO"}  # behind MODE PLAN
 _KNOWN_BY_SESSION = frozenset({"ECHO", "ERRE", "DEBU", "VERI"})
 
 
@@ -98,7 +99,7 @@ def _no_value(
         call.used[-1].span,
         said=said,
         option=option,
-        near=_shown(nearest(said, words, 0.3), quoted),
+        near=_shown(nearest(said, words, 0.5), quoted),
         values=[_shown(w, quoted) for w in words],
         told="".join(f"\n{line}" for line in told),
     )
@@ -321,7 +322,8 @@ def _unknown_option(call: Call, said: str, word: str | None = None) -> SsiError:
             found=type_of(hidden.value),
             said=word or said,
         )
-    near = nearest_names(said.strip()[:4], sorted(READERS), 0.5)
+    meant = _ENGLISH.get((word or said).upper().strip())
+    near = [meant] if meant else nearest_names(said.strip()[:4], sorted(READERS), 0.5)
     told = told_options(near, call.session.language)
     return SsiError(
         "operators.session.unknown-option",

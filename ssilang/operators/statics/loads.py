@@ -184,6 +184,12 @@ _PRESSURE = arg(
     fr="pression, par sa valeur ou en champ",
     unit="Pa",
 )
+_OF_SHELLS = many(
+    "fields",
+    "MCHAML",
+    en="parameters of shells: accepted, change nothing",
+    fr="caractéristiques de coques : acceptées, sans effet",
+)
 _FACES = opt("faces", "MAILLAGE", en="sides", fr="faces")
 
 
@@ -299,12 +305,7 @@ def _on_faces(
         en="point on the side it pushes to",
         fr="point du côté où elle pousse",
     ),
-    many(
-        "fields",
-        "MCHAML",
-        en="parameters of shells: accepted, change nothing",
-        fr="caractéristiques de coques : acceptées, sans effet",
-    ),
+    _OF_SHELLS,
 )
 def shell_pressure(
     call: Call,
@@ -433,7 +434,7 @@ def _values(density: NodeField | Point) -> NodeField | FloatArray:
         "points FX FY FZ (avec des moments MX MY MZ sur les poutres). CAR1 donne l'épaisseur "
         "DIM3 en contraintes planes.",
         syntax="FOR1 = FSUR 'MASS' MODL1 | VEC1 GEO1 | CHPO1 (CAR1) ;\n"
-        "FOR1 = FSUR 'COQU' MODL1 | VEC1 | CHPO1 ;\n"
+        "FOR1 = FSUR 'COQU' MODL1 | VEC1 | CHPO1 (CAR1) ;\n"
         "FOR1 = FSUR 'POUT' MODL1 | VEC1 | CHPO1 ('PROJ' VEC2) ;",
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0 0) (2 0) ; M = MODE L MECANIQUE ELASTIQUE POUT "
@@ -469,8 +470,10 @@ def fsur(
     return traction(model, faces, _values(density), joined(fields) if fields else None)
 
 
-@fsur.form(said("COQU"), MODEL, _DENSITY)
-def shell_forces(model: Model, density: NodeField | Point) -> NodeField:
+@fsur.form(said("COQU"), MODEL, _DENSITY, _OF_SHELLS)
+def shell_forces(
+    model: Model, density: NodeField | Point, fields: tuple[CellField, ...]
+) -> NodeField:
     """Forces on shells."""
     return shell_load(model, _values(density))
 

@@ -9,6 +9,7 @@ from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.beams.beam_frame import kept_rows
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.families import family_of
+from ssilang.kernel.elements.results.frames import SHELL_FRAMES
 from ssilang.kernel.elements.results.tensors import components_at_home
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
@@ -65,15 +66,49 @@ def shell_tensor(
     return T, support
 
 
+def in_global_axes(zone: Zone, T: FloatArray) -> FloatArray:
+    """Tensors (n_cells, n_points, 3, 3) of a thin shell's own frame, in the axes of the mesh."""
+    family = ELEMENTS[zone.element].family
+    if family == "meridian":
+        x = zone.cells.coordinates
+        along = (x[:, 1] - x[:, 0])[:, :2]
+        along = along / np.linalg.norm(along, axis=1, keepdims=True)
+        frames = np.zeros((len(x), 3, 3))  # rows: along the line, around, normal
+        frames[:, 0, :2] = along
+        frames[:, 1, 2] = 1.0
+        frames[:, 2, 0], frames[:, 2, 1] = along[:, 1], -along[:, 0]
+    else:
+        frames = SHELL_FRAMES[family](zone)[0]
+    turned: FloatArray = np.einsum("cki,cpkl,clj->cpij", frames, T, frames)
+    return turned
+
+
+def is_thick_shell(zone: Zone) -> bool:
+    """True for shells with stresses at points across the thickness."""
+    return ELEMENTS[zone.element].family == "thick"
+
+
+def thick_tensor(zone: Zone, field: CellField) -> tuple[FloatArray, Support]:
+    """Stress or strain tensors (n_cells, n_points, 3, 3) of a thick shell, in its own frames."""
+    family, seen = family_of(zone), zone_field(zone, field)
+    strains = any(n in seen for n in family.strain_names(zone))
+    names = family.strain_names(zone) if strains else family.stress_names(zone)
+    values, support = components_at_home(zone, field, names)
+    T = np.zeros((len(values), values.shape[2], 3, 3))
+    for row, (i, j) in enumerate(((0, 0), (1, 1), (0, 1), (0, 2), (1, 2))):
+        T[..., i, j] = T[..., j, i] = values[:, row] / (2 if strains and i != j else 1)
+    return T, support
+
+
 def shell_equivalent(
     zone: Zone, field: CellField, material: CellField
 ) -> tuple[FloatArray, Support]:
-    """Von Mises of the membrane forces and, weighed by ALFA (2/3), of the moments."""
+    """Von Mises of the membrane forces and, weighed by CALF (2/3), of the moments."""
     family, parameters = family_of(zone), zone_field(zone, material)
     names = family.stress_names(zone)
     values, support = components_at_home(zone, field, names)
     h = parameters.at("EPAI", support)
-    alpha = parameters.at("ALFA", support, 2 / 3)
+    alpha = parameters.at("CALF", support, 2 / 3)
     half = sum(n[0] == "M" for n in names)
     N, M = (_plane_mises(values[:, start : start + half]) for start in (0, half))
     return np.sqrt((N / h) ** 2 + (6 * alpha * M / h**2) ** 2), support

@@ -16,12 +16,14 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.beams.beam_frame import beam_frame
+from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.family import Layout
 from ssilang.kernel.elements.shapes.reference import shape_gradients
 from ssilang.kernel.elements.shells.mindlin import quadrangle_frames
 from ssilang.kernel.elements.shells.plate import plate_frames
+from ssilang.kernel.elements.solids.gradients import gradient_names
 from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
@@ -44,6 +46,13 @@ def structural_names(zone: Zone) -> tuple[str, ...]:
     moves = ("UX", "UY", "UZ")[: 3 if zone.mode is Mode.THREE_DIMENSIONAL else 2]
     axes = "XY" if ELEMENTS[zone.element].family in SHELLS else "X"
     return tuple(f"{u},{a}" for u in moves for a in axes)
+
+
+def names_of_gradient(zone: Zone) -> tuple[str, ...]:
+    """Components of the gradient of displacements of solids, beams and flat shells, else none."""
+    if is_structural(zone):
+        return structural_names(zone)
+    return gradient_names(zone) if is_solid(zone) else ()
 
 
 @dataclass(frozen=True, eq=False)
