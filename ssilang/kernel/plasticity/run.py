@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -102,27 +103,39 @@ def step_bulk_statics(run: BulkRun) -> History:
     ConvergenceError
         Where no equilibrium is found: a limit load, most often.
     """
-    problem, started = run.problem, time.perf_counter()
-    times = problem.times
+    problem = run.problem
+    factors = problem.loading.at(problem.times)
+    with _recorded(run) as history:
+        solver = BulkSolver(problem, problem.K, 1.0, run.bulk, run.state)
+        run.motion.reaction[:] = run.imbalance(solver.force, factors[0])
+        history.energies[0] = run.motion.energies
+        run.save(0)
+        for k in range(1, len(problem.times)):
+            _static_step(run, solver, history, k, factors)
+            _accept(run, history, k)
+    return history
+
+
+@contextmanager
+def _recorded(run: BulkRun) -> Iterator[History]:
+    """The history of a run that begins; where it ends the observers are closed."""
+    times, started = run.problem.times, time.perf_counter()
     history = History(times, np.zeros((len(times), N_ENERGIES)), solver="SuperLU")
     history.loop = f"full Newton (plastic bodies: {run.bulk.words})"
-    history.energies[0] = run.motion.energies
-    factors = problem.loading.at(times)
-    solver = BulkSolver(problem, problem.K, 1.0, run.bulk, run.state)
     try:
-        run.motion.reaction[:] = run.imbalance(solver.force, factors[0])
-        run.save(0)
-        for k in range(1, len(times)):
-            _static_step(run, solver, history, k, factors)
-            history.energies[k] = run.motion.energies
-            run.save(k)
-            if run.progress is not None:
-                run.progress(k, len(times) - 1)
+        yield history
     finally:
         for observer in run.observers:
             observer.close()
     history.seconds = time.perf_counter() - started
-    return history
+
+
+def _accept(run: BulkRun, history: History, k: int) -> None:
+    """Note the energies of a step that is done, hand its state over, tell how far the run is."""
+    history.energies[k] = run.motion.energies
+    run.save(k)
+    if run.progress is not None:
+        run.progress(k, len(history.times) - 1)
 
 
 def _static_step(
@@ -203,15 +216,12 @@ def integrate_bulk(run: BulkRun) -> History:
     ConvergenceError
         If a step does not converge; says at which time.
     """
-    problem, started = run.problem, time.perf_counter()
-    times = problem.times
-    history = History(times, np.zeros((len(times), N_ENERGIES)), solver="SuperLU")
-    history.loop = f"full Newton (plastic bodies: {run.bulk.words})"
-    factors = problem.loading.at(times)
-    _start(run, factors[0])
-    history.energies[0] = run.motion.energies
-    loop = _BulkLoop(run)
-    try:
+    times = run.problem.times
+    factors = run.problem.loading.at(times)
+    with _recorded(run) as history:
+        _start(run, factors[0])
+        history.energies[0] = run.motion.energies
+        loop = _BulkLoop(run)
         run.save(0)
         for k in range(1, len(times)):
             outcome = loop.step(float(times[k - 1]), float(times[k]), factors[k - 1 : k + 1])
@@ -224,14 +234,7 @@ def integrate_bulk(run: BulkRun) -> History:
                     turns=-outcome.turns,
                 )
             history.iterations = max(history.iterations, outcome.turns)
-            history.energies[k] = run.motion.energies
-            run.save(k)
-            if run.progress is not None:
-                run.progress(k, len(times) - 1)
-    finally:
-        for observer in run.observers:
-            observer.close()
-    history.seconds = time.perf_counter() - started
+            _accept(run, history, k)
     return history
 
 
