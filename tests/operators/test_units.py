@@ -6,14 +6,18 @@ the units of a deck.
 
 from __future__ import annotations
 
+import io
 import json
+import re
 from pathlib import Path
 from xml.etree import ElementTree
 
 import meshio
 import pytest
 
-from ssilang.cli.run import RunOptions, RunResult, run_text
+from ssilang.cli.check import check_source
+from ssilang.cli.run import RunOptions, RunResult, run_source, run_text
+from ssilang.language.text.source import Source
 from ssilang.language.vocabulary.terms import UNITS
 from ssilang.language.vocabulary.unit_systems import SYSTEMS, result_unit
 
@@ -270,6 +274,26 @@ def test_summary_says_the_units_and_energies_in_joules(tmp_path: Path) -> None:
         "system": "KN-M", "length": "m", "force": "kN", "mass": "t", "time": "s", "stress": "kPa",
         "energy": "kJ",
     }  # fmt: skip
+
+
+def test_the_closing_line_says_the_energy_in_the_units_of_the_deck(tmp_path: Path) -> None:
+    ends = {}
+    for system in ("", "N-MM"):
+        option = f"OPTI 'UNIT' '{system}' ;" if system else ""
+        told, folder = io.StringIO(), tmp_path / (system or "none")
+        options = RunOptions(output_directory=folder, summary=True)
+        source = Source("deck", MOTION.replace("{option}", option))
+        assert run_source(source, options, io.StringIO(), told).exit_code == 0
+        ends[system] = told.getvalue().splitlines()[-1]
+    assert re.search(r"energy within \S+ %$", ends[""])
+    assert re.search(r"energy within \S+ % \(\S+ mJ\)$", ends["N-MM"])
+
+
+def test_check_knows_the_words_and_finds_a_slip() -> None:
+    script = "OPTI DIME 2 'UNIT' 'N-MM' 'ELEM' 'QUA4' ; OPTI 'UNIT' 'SI' ;"
+    assert check_source(Source("deck", script))[0] == []
+    (slip,) = check_source(Source("deck", "OPTI DIME 2 'UNIY' 'SI' ;"))[0]
+    assert (slip.code, slip.data["near"]) == ("near-word", "UNIT")
 
 
 def test_units_are_saved_and_others_are_told(tmp_path: Path) -> None:
