@@ -228,3 +228,9 @@ def test_the_sub_type_of_a_changed_field_is_any_word(found):
     a, b, c, d, n = found(script, "A", "B", "C", "D", "N")
     assert (a.title, b.title, c.title, d.title) == ("MY OWN", "OTHER", "DEFORMATIONS", "MY OWN")
     assert n == 1
+
+
+def test_a_field_reduced_strictly_is_the_same_without_mixtures(found):
+    a, b = found(LINE + "X = REDU 'STRI' C (L ELEM 1) ; Y = REDU C (L ELEM 1) ;", "X", "Y")
+    assert a.blocks[0].components.keys() == b.blocks[0].components.keys()
+    assert [len(p.cells) for p in a.blocks] == [1]

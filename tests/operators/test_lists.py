@@ -274,3 +274,11 @@ def test_values_of_fields_on_one_point_need_no_point(found, refused):
     assert one.values.tolist() == [1.0, 2.0]
     two = script + "D = MANU 'CHPO' Q 'T' 3. 'Q' 1. ; A = EXTR (SUIT C D) 'VALE' ;"
     assert "stand on 2 points" in refused(two)
+
+
+def test_type_of_the_objects_of_a_list(found):
+    numbers, meshes = found(
+        "OPTI DIME 2 ELEM SEG2 ; A = EXTR (ENUM 7 8) 'TYPE' ; "
+        "B = EXTR 'TYPE' (ENUM (DROI 1 (0. 0.) (1. 0.))) ;", "A", "B",
+    )  # fmt: skip
+    assert (str(numbers), str(meshes)) == ("ENTIER  ", "MAILLAGE")

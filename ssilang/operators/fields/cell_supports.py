@@ -21,7 +21,7 @@ from ssilang.kernel.fields.cell_field import CellField, Support
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Model
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.language.registry import When, arg, choice, main, opt, said
+from ssilang.language.registry import When, arg, choice, flag, main, opt, said
 from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
 from ssilang.operators.dispatch import CHAN, COOR, REDU
@@ -133,11 +133,18 @@ def redu_model(model: Model, mesh: Mesh) -> Model:
     return model_on_mesh(model, mesh)
 
 
+_STRICT = flag(
+    "strict", "STRI", en="of models of mixtures: changes nothing here",
+    fr="des modèles de mélanges : sans effet ici",
+)  # fmt: skip
+
+
 @REDU.form(
     main("model", "MMODEL", en="model", fr="modèle"),
     arg("field", "MCHAML", en="field", fr="champ"),
+    _STRICT,
 )
-def redu_behind_model(model: Model, field: CellField) -> CellField:
+def redu_behind_model(model: Model, field: CellField, strict: bool) -> CellField:
     """Field in cells, given behind the model that restricts it."""
     return field_on_model(field, model)
 
@@ -145,11 +152,12 @@ def redu_behind_model(model: Model, field: CellField) -> CellField:
 @REDU.form(
     main("field", "MCHAML", en="field", fr="champ"),
     arg("support", "MAILLAGE", "MMODEL", en="cells that stay", fr="éléments gardés"),
-    syntax="CHAM2 = REDU CHAM1 GEO1 | MODL1 ;",
+    _STRICT,
+    syntax="CHAM2 = REDU ('STRI') CHAM1 GEO1 | MODL1 ;",
     en="A field in cells restricted to the cells of a mesh or model.",
     fr="Un champ par éléments réduit aux éléments d'un maillage ou d'un modèle.",
 )
-def redu_cells(field: CellField, support: Mesh | Model) -> CellField:
+def redu_cells(field: CellField, support: Mesh | Model, strict: bool = False) -> CellField:
     """Field in cells on a mesh or model."""
     if isinstance(support, Mesh):
         return field_on_mesh(field, support)

@@ -144,6 +144,21 @@ EXTR.form(
 )(_extract)
 for _kind in LISTS[1:-1]:
     EXTR.form(_list(_kind), _PLACES, gives=f"{_ITEM[_kind]}|{_kind}")(_extract)
+
+
+@EXTR.form(
+    _list("LISTOBJE"),
+    key("kind", "TYPE", optional=False, en="type of its objects", fr="type de ses objets"),
+    syntax="MOT1 = EXTR LOBJ1 'TYPE' ;",
+    en="Of a list of objects, with 'TYPE': the type of its objects, blank if it holds none.",
+    fr="D'une liste d'objets, avec 'TYPE' : le type de ses objets, blanc si elle est vide.",
+    examples=("LIST (EXTR (ENUM 7 8) 'TYPE') ;",),
+)
+def _type_of_items(value: ListObje, kind: bool) -> Mot:
+    first = type_of(value.values[0]) if value.values else ""  # all are of one type
+    return Mot(f"{first:8s}")
+
+
 EXTR.form(_list("LISTOBJE"), _PLACES, gives=ANY)(_extract)
 
 
