@@ -3,8 +3,6 @@
 import numpy as np
 import pytest
 
-from ssilang.cli.run import run_text
-
 X = np.array([0.0, 0.5, 1.5, 2.0, 3.5])
 Y = np.array([1.2, 0.7, 2.9, 3.1, 6.4])
 W = np.array([1.0, 3.0, 0.5, 2.0, 1.0])
@@ -95,11 +93,3 @@ def test_gane_takes_fields_and_numbers(found):
 )
 def test_what_cannot_be_fitted_is_told(refused, text, said):
     assert said in refused(text)
-
-
-def test_venv_reads_the_environment(monkeypatch):
-    monkeypatch.setenv("SSILANG_TEST_VALUE", "soft soil")
-    result = run_text("A = VENV 'SSILANG_TEST _VALUE' ; B = VENV 'SSILANG_TEST_NONE' ;")
-    assert result.exit_code == 0, result.message
-    assert str(result.session.root.find("A")) == "soft soil"
-    assert str(result.session.root.find("B")) == " "

@@ -102,19 +102,19 @@ def warn_resolution(entries: Entries, problem: Problem) -> None:
 
 
 def warn_massless(entries: Entries, problem: Problem) -> None:
-    """Warn where nothing has mass, or a body that only joints hold: forgotten, most often."""
-    if not problem.M.count_nonzero() and not problem.C.count_nonzero():
-        entries.warn("operators.dynamics.no-mass")
-        return
+    """Warn where a body that only joints hold, or all, has no mass: forgotten, most often."""
     from ssilang.kernel.stepping.problem.bodies import loose_bodies
 
     joints = problem.interface
-    if joints is None:
-        return
-    for body in loose_bodies(problem, np.zeros((joints.n_points, joints.dimension))):
-        if body.mass == 0.0:
-            node = problem.numbering.table.told(body.node)
-            entries.warn("operators.dynamics.body-without-mass", node=node)
+    bodies = []
+    if joints is not None:
+        bodies = loose_bodies(problem, np.zeros((joints.n_points, joints.dimension)))
+    massless = [body for body in bodies if body.mass == 0.0]
+    for body in massless:
+        node = problem.numbering.table.told(body.node)
+        entries.warn("operators.dynamics.body-without-mass", node=node)
+    if not massless and not problem.M.count_nonzero() and not problem.C.count_nonzero():
+        entries.warn("operators.dynamics.no-mass")
 
 
 def warn_of_connections(entries: Entries, inputs: Inputs) -> None:

@@ -1,8 +1,6 @@
-"""INFO, NOTI, AIDE: help during a session; SOUC: the flag of doubts; VENV: the environment."""
+"""INFO, NOTI, AIDE: help during a session; SOUC: the flag of doubts."""
 
 from __future__ import annotations
-
-import os
 
 from ssilang.language.registry import OPERATORS, Help, arg, operator, opt, shared
 from ssilang.language.run.call import Call
@@ -13,7 +11,7 @@ from ssilang.language.say.reference import (
     overview,
     procedure_page,
 )
-from ssilang.language.values import ListMots, Mot
+from ssilang.language.values import ListMots
 from ssilang.operators.vocabulary.pages import help_text, near_name
 
 
@@ -114,21 +112,3 @@ def _is_raised(session: Session) -> bool:
 def _level(session: Session) -> int:
     """The level of doubts, which lives in the session's options."""
     return int(session.options.get("SOUC", 0))
-
-
-@operator(
-    "VENV",
-    arg("said", "MOT", en="name of the variable", fr="nom de la variable"),
-    family="session",
-    help=Help(
-        en="The value of a variable of the environment, one blank if there is none of that name. "
-        "Blanks in the name do not count.",
-        fr="La valeur d'une variable d'environnement, un blanc s'il n'y en a pas de ce nom. Les "
-        "blancs du nom ne comptent pas.",
-        syntax="MOT2 = VENV MOT1 ;",
-        examples=("MOT1 = VENV 'NO_SUCH_VARIABLE' ; LIST (DIME MOT1) ;",),
-    ),
-)
-def venv(said: str) -> Mot:
-    """A variable of the environment."""
-    return Mot(os.environ.get(said.replace(" ", ""), "") or " ")
