@@ -138,6 +138,20 @@ def heeding():
         signal.signal(name, signal.SIG_DFL)
 
 
+STARTED: list[subprocess.Popen] = []
+
+
+@pytest.fixture(autouse=True)
+def no_run_is_left_behind():
+    """A test that fails leaves no run that goes on for ever."""
+    yield
+    while STARTED:
+        process = STARTED.pop()
+        if process.poll() is None:
+            process.kill()
+            process.wait()
+
+
 def started(folder, *before):
     """A run that goes on for ever, when it has begun."""
     (folder / "long.ssi").write_text(LONG)
@@ -150,6 +164,7 @@ def started(folder, *before):
         text=True,
         preexec_fn=heeding,
     )
+    STARTED.append(process)
     assert process.stdout.readline() == "begun\n"
     return process
 
