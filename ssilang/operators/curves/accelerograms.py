@@ -15,7 +15,7 @@ from ssilang.kernel.records.signals import constant_step
 from ssilang.language.registry import Help, arg, choice, key, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
-from ssilang.operators.curves.words import COLOUR, CURVE, one_part, shade
+from ssilang.operators.curves.words import COLOUR, CURVE, LIMITS, one_part, shade
 
 _KINDS = ("DEPL", "VITE", "ACCE")
 _RECORD = "A = EVOL 'MANU' 'TEMP' (PROG 0. PAS 0.1 1.) 'ACCE' (PROG 11 * 2.) ; "
@@ -142,22 +142,7 @@ def chsp(call: Call, spectrum: Curve, given: str, wanted: str, colour: str | Non
     "DSPR",
     arg("power", "ENTIER", en="2**N1 points", fr="2**N1 points"),
     CURVE,
-    key(
-        "lowest",
-        "FMIN",
-        arg("lowest", "FLOTTANT", unit="Hz"),
-        default=0.0,
-        en="lowest frequency, 0 without it",
-        fr="fréquence minimale, 0 sans elle",
-    ),
-    key(
-        "highest",
-        "FMAX",
-        arg("highest", "FLOTTANT", unit="Hz"),
-        default=0.0,
-        en="highest frequency, all without it",
-        fr="fréquence maximale, toutes sans elle",
-    ),
+    *LIMITS,
     COLOUR,
     family="signals",
     help=Help(

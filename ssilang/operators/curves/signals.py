@@ -33,7 +33,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListEnti, ListReel
-from ssilang.operators.curves.words import COLOUR, CURVE, one_part, shade
+from ssilang.operators.curves.words import COLOUR, CURVE, LIMITS, one_part, shade
 
 _SIGNAL = "S = EVOL 'MANU' 'TEMP' (PROG 0. PAS 0.01 NPAS 63) 'A' (PROG 64 * 1.) ; "
 
@@ -57,24 +57,6 @@ _POWER = arg("power", "ENTIER", en="2**N1 points", fr="2**N1 points")
 _REIM = "real and imaginary parts, or modulus and phase"
 _REIM_FR = "parties réelle et imaginaire, ou module et phase"
 _FORM = choice("form", ("REIM", "MOPH"), optional=False, en=_REIM, fr=_REIM_FR)
-_LIMITS = (
-    key(
-        "lowest",
-        "FMIN",
-        arg("lowest", "FLOTTANT", unit="Hz"),
-        default=0.0,
-        en="lowest frequency, 0 without it",
-        fr="fréquence minimale, 0 sans elle",
-    ),
-    key(
-        "highest",
-        "FMAX",
-        arg("highest", "FLOTTANT", unit="Hz"),
-        default=np.inf,
-        en="highest frequency, all without it",
-        fr="fréquence maximale, toutes sans elle",
-    ),
-)
 
 
 @operator(
@@ -82,7 +64,7 @@ _LIMITS = (
     _POWER,
     arg("signal", "EVOLUTIO", en="signal at constant step", fr="signal à pas constant"),
     _FORM,
-    *_LIMITS,
+    *LIMITS,
     COLOUR,
     choice("second_colour", NAMES, en="colour of the second curve", fr="couleur de la seconde"),
     family="signals",
@@ -136,7 +118,7 @@ def _check_power(call: Call, power: int) -> None:
     arg("fields", "LISTCHPO", en="fields at constant step", fr="champs à pas constant"),
     arg("times", "LISTREEL", en="their times", fr="leurs instants", unit="s"),
     _FORM,
-    *_LIMITS,
+    *LIMITS,
 )
 def tfr_of_fields(
     call: Call,

@@ -2,14 +2,35 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from ssilang.io.plots.palette import NAMES, index_of
 from ssilang.kernel.curves.curve import Curve, CurvePart
-from ssilang.language.registry import arg, choice
+from ssilang.language.registry import arg, choice, key
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots
 
 CURVE = arg("curve", "EVOLUTIO", en="curves", fr="évolutions")
 COLOUR = choice("colour", NAMES, en="colour", fr="couleur")
+LIMITS = (
+    key(
+        "lowest",
+        "FMIN",
+        arg("lowest", "FLOTTANT", unit="Hz"),
+        default=0.0,
+        en="lowest frequency, 0 without it",
+        fr="fréquence minimale, 0 sans elle",
+    ),
+    key(
+        "highest",
+        "FMAX",
+        arg("highest", "FLOTTANT", unit="Hz"),
+        default=np.inf,
+        en="highest frequency, all without it",
+        fr="fréquence maximale, toutes sans elle",
+    ),
+)
+"""Frequencies kept of a spectrum."""
 
 
 def shade(colour: str | None, default: int) -> int:
