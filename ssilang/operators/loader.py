@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import gc
 import importlib
 import pkgutil
 from functools import cache
@@ -13,11 +12,5 @@ import ssilang.operators as package
 @cache
 def load_operators() -> None:
     """Load all operators, once; modules import heavy libraries only inside their functions."""
-    collects = gc.isenabled()
-    gc.disable()  # what modules make stays: looking through it all again and again finds nothing
-    try:
-        for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
-            importlib.import_module(module.name)
-    finally:
-        if collects:
-            gc.enable()
+    for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
+        importlib.import_module(module.name)
