@@ -33,6 +33,25 @@ class Motion(NamedTuple):
     contact: FloatArray  # (m,) reactions of unilateral relations
 
 
+class Tap(NamedTuple):
+    """Rows of some steps that hold few entries of the fields, and the joints.
+
+    `row` (n_steps,) is the row of each step, -1 for none; parts without rows are not kept.
+    """
+
+    row: IntArray
+    at: IntArray  # (c,) entries of u, v, a and reaction
+    u: FloatArray  # (n_rows, c)
+    v: FloatArray
+    a: FloatArray
+    reaction: FloatArray
+    f: FloatArray  # (n_rows, q)
+    w: FloatArray  # (n_rows, n_points, d)
+    t: FloatArray
+    state: FloatArray
+    contact: FloatArray  # (n_rows, m)
+
+
 class Recorder(NamedTuple):
     """What some steps leave: a row of the state for steps that are kept, numbers for all.
 
@@ -53,6 +72,7 @@ class Recorder(NamedTuple):
     jumps: FloatArray  # (n_steps, n_points, d) of all steps, or none
     work: FloatArray  # (2, n_steps, k) of loads, of the joints on `lift` (k = 0: none)
     balance: FloatArray  # (2,) sum of energies at the start, largest departure from it
+    tap: Tap
 
 
 class Ends(NamedTuple):
@@ -81,8 +101,28 @@ def recorder_of(
         "jumps": np.zeros((0, *motion.w.shape)),
         "work": np.zeros((2, len(row), 0)),
         "balance": np.zeros(2),
+        "tap": closed_tap(len(row)),
     }
     return Recorder(row, energies, **(parts | more))
+
+
+DIRECTIONS = dict.fromkeys(PARTS, 1) | dict.fromkeys(("w", "t", "state"), 2)
+"""How many directions each part of the state has."""
+
+
+def tap_of(row: IntArray, at: IntArray, shapes: dict[str, tuple[int, ...]]) -> Tap:
+    """Room for the rows, numbered without gaps, of steps; `shapes` of the parts that are kept."""
+    rows = int(row.max(initial=-1)) + 1
+    parts = {
+        name: np.zeros((rows, *shapes[name]) if name in shapes else (0,) * (1 + directions))
+        for name, directions in DIRECTIONS.items()
+    }
+    return Tap(row, at, **parts)
+
+
+def closed_tap(n_steps: int) -> Tap:
+    """A tap that takes nothing of some steps."""
+    return tap_of(np.full(n_steps, -1, np.int64), np.zeros(0, np.int64), {})
 
 
 def rows_of(chosen: np.ndarray) -> IntArray:
@@ -111,4 +151,6 @@ def stacked(parts: Sequence[Any]) -> Any:
 
 def part_of(record: Any, j: int) -> Any:
     """The record of one of several motions."""
-    return type(record)(*(array[j] for array in record))
+    if isinstance(record, tuple):
+        return type(record)(*(part_of(fields, j) for fields in record))
+    return record[j]
