@@ -24,14 +24,13 @@ from ssilang.kernel.stepping.problem.initial import (
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.reduced.basis import Reduction
 from ssilang.kernel.stepping.snapshot import Observer, Snapshot, kept_instant, snapshot_of
-from ssilang.kernel.stepping.state import N_ENERGIES, Motion, recorder_of, rows_of
+from ssilang.kernel.stepping.state import LONGEST_CHUNK, N_ENERGIES, Motion, recorder_of, rows_of
 from ssilang.kernel.stepping.times import SAME, Run, runs_of
 from ssilang.kernel.stepping.track import Taps, Track, rows_of_tap
 from ssilang.messages.message import Sentence
 
 CHUNK_VALUES = 4_000_000  # saved values held at once
 CHUNK_SECONDS = 0.5  # wished duration of a chunk of steps: progress and interruption
-LONGEST_CHUNK = 1 << 16  # steps of a chunk at most: its arrays stay in the second cache
 FACTORS_KEPT = 4  # step sizes whose factors stay in memory
 
 Progress = Callable[[int, int], None]
@@ -216,7 +215,7 @@ class Integration:
                 rows_of(x[first + 1 : last + 1]) for x in (self.wanted, self.taps.wanted)
             )
             view = choice.loop.view(self.taps.unknowns)
-            tap = view.tap(tapped)
+            tap = view.tap(tapped, self.taps.room)
             recorder = recorder_of(self.motion, row, energies, balance=self._balance, tap=tap)
             done, turns, residual = choice.loop.run(factors, recorder)
             history.worst = float(self._balance[1])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
@@ -106,28 +107,76 @@ def recorder_of(
     return Recorder(row, energies, **(parts | more))
 
 
-DIRECTIONS = dict.fromkeys(PARTS, 1) | dict.fromkeys(("w", "t", "state"), 2)
-"""How many directions each part of the state has."""
+class Room:
+    """Memory for rows of taps that follow each other, taken in pieces that the system maps fast.
+
+    Parameters
+    ----------
+    rows : int
+        How many there will be in all.
+    """
+
+    def __init__(self, rows: int) -> None:
+        self._left = rows
+        self._free: dict[str, FloatArray] = {}
+
+    def take(self, name: str, rows: int, shape: tuple[int, ...]) -> FloatArray:
+        """Rows of a part, not set."""
+        free = self._free.get(name)
+        if free is None or len(free) < rows or free.shape[1:] != shape:
+            most = PIECE // max(8 * math.prod(shape), 1)
+            free = np.empty((max(rows, min(self._left, most)), *shape))
+        self._free[name] = free[rows:]
+        return free[:rows]
+
+    def tap(self, row: IntArray, at: IntArray, shapes: dict[str, tuple[int, ...]]) -> Tap:
+        """Room for the rows, numbered without gaps; `shapes` of the parts that are kept."""
+        rows = int(row.max(initial=-1)) + 1
+        parts = {
+            name: self.take(name, rows, shapes[name]) if name in shapes else np.empty(NO_ROWS[name])
+            for name in PARTS
+        }
+        self._left -= rows
+        return Tap(row, at, **parts)
+
+
+PIECE = 1 << 24
+"""Bytes of a piece of memory: above 4 MB numpy asks for large pages, which are mapped faster."""
+NO_ROWS = dict.fromkeys(PARTS, (0, 0)) | dict.fromkeys(("w", "t", "state"), (0, 0, 0))
 
 
 def tap_of(row: IntArray, at: IntArray, shapes: dict[str, tuple[int, ...]]) -> Tap:
-    """Room for the rows, numbered without gaps, of steps; `shapes` of the parts that are kept."""
-    rows = int(row.max(initial=-1)) + 1
-    parts = {
-        name: np.zeros((rows, *shapes[name]) if name in shapes else (0,) * (1 + directions))
-        for name, directions in DIRECTIONS.items()
-    }
-    return Tap(row, at, **parts)
+    """Room for the rows of steps alone."""
+    return Room(0).tap(row, at, shapes)
 
 
 def closed_tap(n_steps: int) -> Tap:
     """A tap that takes nothing of some steps."""
-    return tap_of(np.full(n_steps, -1, np.int64), np.zeros(0, np.int64), {})
+    return tap_of(none_kept(n_steps), np.zeros(0, np.int64), {})
+
+
+LONGEST_CHUNK = 1 << 16  # steps at a time at most: their arrays stay in the second cache
+NONE_KEPT, ALL_KEPT = np.full(LONGEST_CHUNK, -1, np.int64), np.arange(LONGEST_CHUNK)
+"""Rows of steps none or all of which are kept, never written: memory that is new costs more than
+steps."""
+
+
+def none_kept(n_steps: int) -> IntArray:
+    """Rows (n_steps,) of steps none of which is kept; not to be written."""
+    return NONE_KEPT[:n_steps] if n_steps <= LONGEST_CHUNK else np.full(n_steps, -1, np.int64)
 
 
 def rows_of(chosen: np.ndarray) -> IntArray:
-    """Row of each step (n_steps,) when the chosen ones are kept, -1 for the others."""
-    found, places = np.full(len(chosen), -1, np.int64), np.flatnonzero(chosen)
+    """Row of each step (n_steps,) when the chosen ones are kept, -1 for the others.
+
+    The rows are not to be written.
+    """
+    if chosen.all():
+        return ALL_KEPT[: len(chosen)] if len(chosen) <= LONGEST_CHUNK else np.arange(len(chosen))
+    found, places = none_kept(len(chosen)), np.flatnonzero(chosen)
+    if not len(places):
+        return found
+    found = found.copy()
     found[places] = np.arange(len(places))
     return found
 

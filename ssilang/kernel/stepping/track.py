@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
@@ -17,7 +17,7 @@ from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.stepping.problem.equilibrium import joint_forces, reactions
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.snapshot import Snapshot
-from ssilang.kernel.stepping.state import Motion, Tap, tap_of
+from ssilang.kernel.stepping.state import Motion, Room, Tap
 
 FIELDS = ("u", "v", "a")
 MOST_COORDINATES = 50_000_000
@@ -99,9 +99,9 @@ class View:
     map: Map | None = None
     joints: Callable[[Tap], JointRows] | None = None
 
-    def tap(self, row: IntArray) -> Tap:
-        """Room for what is kept."""
-        return tap_of(row, self.at, self.shapes)
+    def tap(self, row: IntArray, room: Room | None = None) -> Tap:
+        """Room for what is kept, not set."""
+        return (room or Room(0)).tap(row, self.at, self.shapes)
 
 
 def whole_view(motion: Motion, unknowns: IntArray, *without: str) -> View:
@@ -117,8 +117,8 @@ class Rows:
 
     Attributes
     ----------
-    steps : array (k,)
-        0 for the initial state.
+    steps : array (k,) or slice
+        Places of their times, 0 for the initial state.
     unknowns : array (p,)
         Increasing.
     tap : Tap
@@ -128,14 +128,14 @@ class Rows:
     """
 
     problem: Problem
-    steps: IntArray
+    steps: IntArray | slice
     unknowns: IntArray
     view: View
     tap: Tap
     factors: FloatArray
 
     def __len__(self) -> int:
-        return len(self.steps)
+        return len(self.tap.u)
 
     @property
     def times(self) -> FloatArray:
@@ -180,7 +180,7 @@ class Rows:
                 for name in self.view.shapes
             }  # fmt: skip
             few = replace(
-                few, steps=self.steps[which], factors=self.factors[which],
+                few, steps=np.arange(len(self.problem.times))[self.steps][which], factors=self.factors[which],
                 tap=self.tap._replace(**parts),
             )  # fmt: skip
         if len(unknowns) == len(self.unknowns):
@@ -189,7 +189,7 @@ class Rows:
         if self.view.map is not None:
             view = replace(self.view, map=self.view.map[places])
             return replace(few, unknowns=unknowns, view=view)
-        held = {
+        held: dict[str, Any] = {
             name: getattr(few.tap, name)[:, places]
             for name in (*FIELDS, "reaction") if name in self.view.shapes
         }  # fmt: skip
@@ -201,9 +201,8 @@ class Rows:
         if mapped is None or mapped.shape[0] >= mapped.shape[1]:
             return self
         joints, view = self.joints, self.view
-        tap = self.tap._replace(
-            **{name: self.values(name) for name in FIELDS}, **joints._asdict(), f=self.tap.f[:0]
-        )
+        fields: dict[str, Any] = {name: self.values(name) for name in FIELDS}
+        tap = self.tap._replace(**fields, **joints._asdict(), f=self.tap.f[:0])
         shapes = {k: v for k, v in view.shapes.items() if k != "f"}
         return replace(self, tap=tap, view=View(view.at, shapes))
 
@@ -213,7 +212,7 @@ class Rows:
         u, v, a, reaction = (one.values(name)[0] for name in (*FIELDS, "reaction"))
         w, t, state = (x[0] for x in one.joints)
         contact = one.tap.contact[0] if len(one.tap.contact) else np.zeros(0)
-        step = int(one.steps[0])
+        step = int(np.arange(len(self.problem.times))[one.steps][0])
         return Snapshot(
             self.problem, step, float(one.times[0]), u, v, a, reaction, w, t, state, contact
         )
@@ -246,6 +245,11 @@ def rows_of_tap(
 
     `factors` (n_steps + 1, n_loads) are those from `first` on.
     """
+    if not len(tap.u):
+        return None
+    if len(tap.u) == len(tap.row) == done:  # all of them
+        every = slice(first + 1, first + 1 + done)
+        return Rows(problem, every, unknowns, view, tap, factors[1:])
     kept = np.flatnonzero(tap.row[:done] >= 0)
     if not len(kept):
         return None
@@ -272,6 +276,11 @@ class Track:
     unknowns: IntArray
     pieces: list[Rows] = field(default_factory=list)
 
+    @cached_property
+    def _count(self) -> int:
+        """How many instants are wanted."""
+        return int(np.count_nonzero(self.wanted))
+
     def receive(self, snapshot: Snapshot) -> None:
         """Take one whole instant."""
         self.take(rows_of_snapshot(snapshot, self.unknowns))
@@ -279,7 +288,7 @@ class Track:
     def take(self, rows: Rows) -> None:
         """Take instants at the unknowns."""
         mapped = rows.view.map
-        if mapped is not None and 3 * mapped.shape[1] * int(self.wanted.sum()) > MOST_COORDINATES:
+        if mapped is not None and 3 * mapped.shape[1] * self._count > MOST_COORDINATES:
             rows = rows.settled()
         self.pieces.append(rows)
 
@@ -320,6 +329,7 @@ class Taps:
     n_times: int
     wanted: BoolArray = field(init=False)
     unknowns: IntArray = field(init=False)
+    room: Room = field(init=False)
 
     def __post_init__(self) -> None:
         self.wanted = np.zeros(self.n_times, bool)
@@ -327,6 +337,7 @@ class Taps:
             self.wanted |= track.wanted
         asked = [track.unknowns for track in self.tracks]
         self.unknowns = np.unique(np.concatenate([np.zeros(0, np.int64), *asked]))
+        self.room = Room(int(np.count_nonzero(self.wanted)))
 
     def give(self, rows: Rows) -> None:
         """Hand rows at all the unknowns, or more, to the tracks that want them."""

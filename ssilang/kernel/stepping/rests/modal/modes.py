@@ -257,6 +257,7 @@ class SmallLoop:
         if len(r.tap.u):
             tapped = np.zeros((2, len(r.tap.u), len(idle)))
             carry(self._unmoved(), r.tap.row, still.copy(), tapped)
+            r.tap.u[:, count:] = 0.0
             r.tap.v[:, count:], r.tap.a[:, count:] = tapped
         carry(self._unmoved(), r.row, still, led)
         self._z[1:, idle] = still
