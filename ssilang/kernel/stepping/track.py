@@ -138,6 +138,11 @@ class Rows:
         return len(self.tap.u)
 
     @property
+    def steps_taken(self) -> IntArray:
+        """The steps (k,) themselves."""
+        return np.arange(len(self.problem.times))[self.steps]
+
+    @property
     def times(self) -> FloatArray:
         """Of the instants (k,)."""
         return self.problem.times[self.steps]
@@ -180,7 +185,7 @@ class Rows:
                 for name in self.view.shapes
             }  # fmt: skip
             few = replace(
-                few, steps=np.arange(len(self.problem.times))[self.steps][which], factors=self.factors[which],
+                few, steps=self.steps_taken[which], factors=self.factors[which],
                 tap=self.tap._replace(**parts),
             )  # fmt: skip
         if len(unknowns) == len(self.unknowns):
@@ -212,7 +217,7 @@ class Rows:
         u, v, a, reaction = (one.values(name)[0] for name in (*FIELDS, "reaction"))
         w, t, state = (x[0] for x in one.joints)
         contact = one.tap.contact[0] if len(one.tap.contact) else np.zeros(0)
-        step = int(np.arange(len(self.problem.times))[one.steps][0])
+        step = int(one.steps_taken[0])
         return Snapshot(
             self.problem, step, float(one.times[0]), u, v, a, reaction, w, t, state, contact
         )
@@ -245,9 +250,9 @@ def rows_of_tap(
 
     `factors` (n_steps + 1, n_loads) are those from `first` on.
     """
-    if not len(tap.u):
+    if not len(tap.u) or not done:
         return None
-    if len(tap.u) == len(tap.row) == done:  # all of them
+    if len(tap.u) == done and tap.row[done - 1] == done - 1:  # all of them
         every = slice(first + 1, first + 1 + done)
         return Rows(problem, every, unknowns, view, tap, factors[1:])
     kept = np.flatnonzero(tap.row[:done] >= 0)
