@@ -7,6 +7,11 @@ MESSAGES: dict[str, Message] = {
         "follower loads of a procedure are not built for structures",
         "les forces suiveuses d'une procédure ne sont pas faites pour les structures",
     ),
+    "strains-of-large-displacements": Message(
+        "'DEFTO' of 'MES_SAUVEGARDES' keeps linear strains, not those of large displacements",
+        "'DEFTO' de 'MES_SAUVEGARDES' garde les déformations linéaires, pas celles des grands "
+        "déplacements",
+    ),
     "static-path": Message("the path of loads is static", "le trajet de chargement est statique"),
     "precision-not-positive": Message(
         "the precision must be positive, not {precision:g}",
