@@ -50,10 +50,7 @@ def test_modes_of_a_projected_problem_stand_on_the_body():
 
 
 def test_complex_modes_without_masses_are_told_and_drawn(tmp_path):
-    shown = (
-        "RECOVIBC T B ; POSTVIBR T (MOTS 'TABL' 'LIST' 'DEFO') ; "
-        "L = T . 'LISTE_FREQUENCES' ;"
-    )
+    shown = "RECOVIBC T B ; POSTVIBR T (MOTS 'TABL' 'LIST' 'DEFO') ; L = T . 'LISTE_FREQUENCES' ;"
     result = run_text(SCRIPT + shown, output_directory=tmp_path)
     assert result.exit_code == 0, result.message
     find = result.session.root.find
