@@ -273,7 +273,8 @@ def _geometric_steps(start: float, step: float, end: float, ratio: float) -> lis
         syntax="LREE1 = PROG X1 X2 ... (PAS S1 (GEOM R1) X3 | PAS S1 (GEOM R1) NPAS N1) "
         "(N2 * X4) ... ;\n"
         "LREE1 = PROG 'SINU' F1 ('PHAS' P1) ('AMPL' A1) LREE2 ;\n"
-        "LREE1 = PROG 'LINE' | 'EXPO' | 'LOGA' ('A' A1) ('B' B1) LREE2 ; LREE1 = PROG 'TABL' TAB1 ;",
+        "LREE1 = PROG 'LINE' | 'EXPO' | 'LOGA' ('A' A1) ('B' B1) LREE2 ;\n"
+        "LREE1 = PROG 'TABL' TAB1 ;",
         examples=(
             "LIST (PROG 0. PAS 0.5 2. 3 * 7.) ;",
             "LIST (PROG 'SINU' 1. (PROG 0. 0.25)) ;",

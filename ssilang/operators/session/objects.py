@@ -62,7 +62,7 @@ def type_word(value: Any) -> Mot:
     full_name="EXISTE",
     help=Help(
         en="Whether a name holds an object (a missing optional argument does not), a table has an "
-        "index, a field a component or a zone, a list an item, a loading a name (made of a type), a "
+        "index, a field a component or a zone, a list an item, a loading a name (of a type), a "
         "model a zone; behind * whether the object is of a type, or the name that of a file.",
         fr="Dit si un nom porte un objet (un argument facultatif absent n'en porte pas), si une "
         "table a un indice, un champ une composante ou une zone, une liste un élément, un "

@@ -22,7 +22,6 @@ from ssilang.kernel.interface.laws.columns import (
 from ssilang.kernel.interface.laws.columns import Parameter as Par
 from ssilang.kernel.interface.laws.columns import Variable as Var
 
-
 ROUNDING = 1e-10
 """What of the cohesion a normal traction may pull beyond the strength: faces that slide at no
 pressure at all stand exactly there."""
