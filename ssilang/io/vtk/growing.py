@@ -226,11 +226,12 @@ def write_once(file: GrowingFile, values: NDArray[np.generic]) -> int:
 
 
 def deflated(block: NDArray[np.generic]) -> bytes:
-    """A block's bytes, all first bytes of its numbers first, deflated."""
-    data = np.ascontiguousarray(block)
-    if data.itemsize > 1:
-        data = np.ascontiguousarray(data.view(np.uint8).reshape(-1, data.itemsize).T)
-    return zlib.compress(data.data, hdf5.LEVEL)
+    """A block's bytes, the first byte of each row first, then all second ones, deflated."""
+    rows = np.ascontiguousarray(block)
+    width = hdf5.row_size(rows.shape, rows.dtype)
+    if width > 1:
+        rows = np.ascontiguousarray(rows.view(np.uint8).reshape(-1, width).T)
+    return zlib.compress(rows.data, hdf5.LEVEL)
 
 
 class _Node:

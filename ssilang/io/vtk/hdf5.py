@@ -127,14 +127,22 @@ def compact(values: NDArray[np.generic]) -> list[bytes]:
 def chunked(
     shape: Sequence[int], dtype: np.dtype[np.generic], chunk: Sequence[int], tree: int
 ) -> list[bytes]:
-    """Messages of a dataset in shuffled and deflated chunks; `tree` is their index's address."""
+    """Messages of a dataset in shuffled and deflated chunks; `tree` is their index's address.
+
+    Whole rows are shuffled, not single numbers: a vector's components stay apart from each other.
+    """
     layout = struct.pack(
         f"<BBBQ{len(chunk) + 1}I", 3, 2, len(chunk) + 1, tree, *chunk, dtype.itemsize
     )
     filters = struct.pack("<BB", 2, 2)
-    filters += struct.pack("<HHHI", _SHUFFLE, 1, 1, dtype.itemsize)
+    filters += struct.pack("<HHHI", _SHUFFLE, 1, 1, row_size(chunk, dtype))
     filters += struct.pack("<HHHI", _DEFLATE, 1, 1, LEVEL)
     return [*_dataset(shape, dtype, layout, grows=True), _message(_FILTERS, filters)]
+
+
+def row_size(shape: Sequence[int], dtype: np.dtype[np.generic]) -> int:
+    """Bytes of a row."""
+    return dtype.itemsize * int(np.prod(shape[1:], dtype=np.int64))
 
 
 def _dataset(

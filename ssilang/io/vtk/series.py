@@ -15,7 +15,7 @@ from types import TracebackType
 from typing import Self
 
 from ssilang.io.errors import OutputError
-from ssilang.io.vtk.grid import DataArray, Grid, grid_of
+from ssilang.io.vtk.grid import DataArray, Grid, bare_grid, with_fields
 from ssilang.io.vtk.labels import Labels
 from ssilang.io.vtk.pvd import Entry, read_pvd, write_pvd
 from ssilang.io.vtk.vtu import Encoding, write_vtu
@@ -62,6 +62,7 @@ class Series(ABC):
         self.constants = constants or {}
         self.files: list[Path] = []
         self.labels: dict[str, tuple[Mesh, Labels]] = {}
+        self._bare: dict[str, tuple[Mesh, int, Grid]] = {}
 
     @property
     @abstractmethod
@@ -106,6 +107,15 @@ class Series(ABC):
         if self.part_names != parts:
             old, new = ", ".join(self.part_names), ", ".join(parts)
             raise OutputError("io.series-parts-step-brings", old=old, new=new)
+
+    def grid(self, name: str, part: Part) -> Grid:
+        """The grid of a part; what the mesh of the step before has is not made again."""
+        mesh = part.mesh
+        before, version, bare = self._bare.get(name, (None, 0, None))
+        if bare is None or before is not mesh or version != mesh.nodes.version:
+            bare = bare_grid(mesh)
+            self._bare[name] = (mesh, mesh.nodes.version, bare)
+        return with_fields(bare, mesh, part.point_fields, part.cell_fields)
 
     def write(
         self,
@@ -184,7 +194,7 @@ class SeriesWriter(Series):
     def write_single(self, part: Part, time: float = 0.0) -> None:
         """Write the only file of a series: BASE.vtu, without a step's number."""
         path = self.base.with_name(self.base.name + ".vtu")
-        write_vtu(path, labelled(part), self.encoding, constants=self._told(part))
+        write_vtu(path, self._labelled("", part), self.encoding, constants=self._told(part))
         self.files.append(path)
         self._entries = [Entry(time, "", path.name)]
         self.close()
@@ -206,9 +216,14 @@ class SeriesWriter(Series):
         tag = re.sub(r"[^\w\-]+", "_", name)
         suffix = f".{number:04d}.{tag}" if tag else f".{number:04d}"
         path = self.base.with_name(f"{self.base.name}{suffix}.vtu")
-        write_vtu(path, labelled(part), self.encoding, time, self._told(part))
+        write_vtu(path, self._labelled(name, part), self.encoding, time, self._told(part))
         self.files.append(path)
         return Entry(time, name, path.name)
+
+    def _labelled(self, name: str, part: Part) -> Grid:
+        grid = self.grid(name, part)
+        grid.cell_data.update((what, DataArray(n)) for what, n in part.labels.numbers.items())
+        return grid
 
     def _told(self, part: Part) -> dict[str, float]:
         return {**self.constants, **part.labels.names}
@@ -225,13 +240,6 @@ class SeriesWriter(Series):
         self._listed_at = clock.monotonic()
         if self.list_path not in self.files:
             self.files.append(self.list_path)
-
-
-def labelled(part: Part) -> Grid:
-    """The grid of a part, what its cells are called among its fields."""
-    grid = grid_of(part.mesh, part.point_fields, part.cell_fields)
-    grid.cell_data.update((name, DataArray(values)) for name, values in part.labels.numbers.items())
-    return grid
 
 
 def strip_extension(path: Path) -> Path:

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from ssilang.io.errors import OutputError
 from ssilang.io.vtk import hdf5
-from ssilang.io.vtk.grid import DataArray, Grid, grid_of
+from ssilang.io.vtk.grid import DataArray, Grid
 from ssilang.io.vtk.growing import (
     Column,
     GrowingFile,
@@ -62,10 +62,7 @@ class VtkHdfWriter(Series):
         return tuple(self._parts)
 
     def _write(self, time: float, parts: Mapping[str, Part]) -> None:
-        grids = {
-            name: grid_of(part.mesh, part.point_fields, part.cell_fields)
-            for name, part in parts.items()
-        }
+        grids = {name: self.grid(name, part) for name, part in parts.items()}
         if self._times is None:
             self._begin(grids, parts)
         self._check(grids)
@@ -234,7 +231,8 @@ class _OneGrid:
         """Whether a grid's mesh is this one, and its arrays have the widths of those before."""
         mine = self._grid
         same = grid is mine or all(
-            np.array_equal(getattr(grid, k), getattr(mine, k))
+            getattr(grid, k) is getattr(mine, k)
+            or np.array_equal(getattr(grid, k), getattr(mine, k))
             for k in ("points", "connectivity", "types")
         )
         return same and not any(
