@@ -17,7 +17,12 @@ from ssilang.language.vocabulary.entries import Declaration, TableEntry
 from ssilang.messages.message import teller
 from ssilang.operators.vocabulary.pages import vocabulary_text
 
-_DOUBLED = {"law": ("law", "element"), "element": ("law", "element")}
+_NAMED = {
+    "variable": "cli.name-variable",
+    "parameter": "cli.name-parameter",
+    "procedure": "cli.name-procedure",
+    "loop": "cli.name-loop",
+}
 
 
 @dataclass(frozen=True)
@@ -69,7 +74,7 @@ class Reader:
         kind = self.findings.types.get(at.start, "")
         line = self.document.source.position(at.start)[0]
         told = teller(self.language)
-        said = told(f"cli.name-{at.kind}", line=line)
+        said = told(_NAMED[at.kind], line=line)
         text = self.document.source.text[at.whole.start : at.whole.end]
         shown = "\n".join(text.split("\n")[:8])
         return f"**{name.name}**{f' : {kind}' if kind else ''} ({said})\n\n{fenced(shown, 'ssi')}"
