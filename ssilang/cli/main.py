@@ -259,6 +259,19 @@ def _format(options: argparse.Namespace) -> int:
     )
 
 
+def _new(options: argparse.Namespace) -> int:
+    from ssilang.cli.starters import write_starter
+
+    return write_starter(options.name, options.file, options.lang, sys.stdout, sys.stderr)
+
+
+def _completion(options: argparse.Namespace) -> int:
+    from ssilang.cli.shells import write_completion
+
+    write_completion(options.shell, parser([]), sys.stdout)
+    return OK
+
+
 def _lsp(options: argparse.Namespace) -> int:
     try:
         from ssilang.cli.editor.server import start
@@ -294,12 +307,14 @@ def _version(options: argparse.Namespace) -> int:
 
 _ACTIONS: dict[str, Callable[[argparse.Namespace], int]] = {
     "run": _run,
+    "new": _new,
     "check": _check,
     "format": _format,
     "help": _help,
     "sweep": _sweep,
     "repl": _repl,
     "lsp": _lsp,
+    "completion": _completion,
     "version": _version,
 }
 
