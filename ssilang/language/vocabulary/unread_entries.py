@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from ssilang.language.near import meant as near_word
@@ -41,21 +42,23 @@ def unread(
     """
     known = declared.inside(path).values()
     meant = next((e.index for e in known if word.upper() in e.means and not given(e.index)), "")
-    owners = {} if meant else _owners(library, declared, word)
-    if any(_named(script, owner) for owner in owners):
+    others = [] if meant else [n for n in library.declared_names if n != declared.name]
+    # what the script calls comes first: most tables end there, and the others are not read then
+    if _owners(library, [name for name in others if name in _called(script)], word):
         return None
+    owners = _owners(library, others, word)
     readers = " ".join(owner for owner, reads in owners.items() if reads)
     near = meant or near_word(word, (e.index for e in known if e.role != REFUSED))
     code = "entry-unknown" if near else "entry-of-another" if readers else "entry-unread"
     return code, {"near": near, "owners": readers}
 
 
-def _owners(library: Library, declared: Declaration, word: str) -> dict[str, bool]:
-    """Others that have an entry of that name, and whether they read it."""
+def _owners(library: Library, names: Iterable[str], word: str) -> dict[str, bool]:
+    """Which of these have an entry of that name, and whether they read it."""
     found: dict[str, bool] = {}
-    for name in library.declared_names:
+    for name in names:
         other = library.declared(name)
-        if other is None or name == declared.name:
+        if other is None:
             continue
         own = [e for e in other.entries if e.index == word and e.role in _COUNTS]
         if own:
@@ -63,9 +66,10 @@ def _owners(library: Library, declared: Declaration, word: str) -> dict[str, boo
     return found
 
 
-def _named(text: str, name: str) -> bool:
-    """Whether a script calls a procedure."""
-    return re.search(rf"(?<![\w'@]){re.escape(name)}(?!\w)", text, re.IGNORECASE) is not None
+@lru_cache(maxsize=8)
+def _called(text: str) -> frozenset[str]:
+    """Names that stand in a script, strings aside, in capitals."""
+    return frozenset(name.upper() for name in re.findall(r"(?<![\w'@])@?\w+", text))
 
 
 def reads(text: str, word: str) -> Iterator[str]:
