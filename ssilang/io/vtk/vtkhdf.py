@@ -45,6 +45,8 @@ class VtkHdfWriter(Series):
         gone or cannot be written.
     """
 
+    one_file = True
+
     def __init__(self, base: Path, *, constants: Mapping[str, float] | None = None) -> None:
         super().__init__(base, constants)
         self.path = self.base.with_name(self.base.name + ".vtkhdf")
@@ -54,7 +56,7 @@ class VtkHdfWriter(Series):
     @property
     def last_time(self) -> float | None:
         """Time of the last step, None before the first."""
-        return None if self._times is None else float(self._times.values[len(self._times) - 1])
+        return self._times.last if self._times else None
 
     @property
     def part_names(self) -> tuple[str, ...]:
@@ -80,6 +82,8 @@ class VtkHdfWriter(Series):
         """Let the file go; nothing is left to be written."""
         if self._times is not None:
             self._file.close()
+
+    release = close
 
     def _begin(self, grids: Mapping[str, Grid], parts: Mapping[str, Part]) -> None:
         file = self._file = GrowingFile(self.path)
