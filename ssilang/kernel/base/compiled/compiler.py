@@ -58,7 +58,7 @@ def _made(function: Function, freedom: set[str] | bool, inline: bool = False) ->
     options |= {"fastmath": freedom, "forceinline": inline, "cache": PLAIN and kept is not None}
     made = numba.njit(**options)(function)
     if kept is not None and not PLAIN and made is not function:  # it is where nothing is compiled
-        made._cache = KeptCode(function)
+        made._cache = KeptCode(function)  # type: ignore[no-untyped-call]
     return cast(Function, made)
 
 

@@ -15,10 +15,10 @@ from typing import Any
 
 from numba.core import environment
 from numba.core.caching import FunctionCache
-from numba.core.runtime import rtsys
+from numba.core.runtime.nrt import rtsys
 
 
-class KeptCode(FunctionCache):  # type: ignore[misc]
+class KeptCode(FunctionCache):
     """Where the code of one function is kept."""
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
