@@ -172,7 +172,7 @@ def _run_options(options: argparse.Namespace) -> RunOptions:
 
     if options.max_memory is not None:
         limit_memory(options.max_memory)
-    return RunOptions(
+    made = RunOptions(
         output_directory=options.out,
         allowed=[p.resolve() for p in options.allow],
         language=options.lang,
@@ -182,6 +182,9 @@ def _run_options(options: argparse.Namespace) -> RunOptions:
         limits=Limits(options.max_recursion, options.max_statements),
         given=_given(getattr(options, "set", []), options.lang),
     )
+    if options.petsc is not None:
+        made.petsc = options.petsc
+    return made
 
 
 def _given(settings: list[str], language: str) -> dict[str, object]:

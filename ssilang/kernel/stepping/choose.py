@@ -19,6 +19,7 @@ from ssilang.kernel.contact.impact import ImpactRule
 from ssilang.kernel.contact.modal import ContactLoop, contact_loop, takes
 from ssilang.kernel.contact.rows import BoolArray
 from ssilang.kernel.contact.solver import step_solver
+from ssilang.kernel.solvers.backends import PETSC, goes_to_petsc
 from ssilang.kernel.stepping.effective import Effective, effective_matrix, effective_of
 from ssilang.kernel.stepping.newmark import newmark_of
 from ssilang.kernel.stepping.problem.problem import SMALL, Problem
@@ -314,8 +315,13 @@ def choose(case: Case, renewable: bool = False) -> Choice:
     if isinstance(loop, AdaptiveLoop):
         solver = loop.solver
     else:
-        solver = "SuperLU" if rule.factorises else case.effective.inverse.factor.name
+        solver = _each_time(case.problem) if rule.factorises else case.effective.inverse.factor.name
     return Choice(rule, loop, solver)
+
+
+def _each_time(problem: Problem) -> str:
+    """The solver of a loop that factorises at each iteration."""
+    return PETSC if goes_to_petsc(problem.solver, problem.constraints.T.shape[1]) else "SuperLU"
 
 
 def only(name: str) -> tuple[Rule, ...]:

@@ -30,6 +30,7 @@ from ssilang.operators.dynamics.watching import ExtremesObserver, UpliftWatch
 from ssilang.operators.session.progress import ProgressLine
 from ssilang.operators.statics.bodies import plastic_bodies
 from ssilang.operators.tables.entries import Entries
+from ssilang.operators.workspace import solver_of
 
 if TYPE_CHECKING:
     from ssilang.kernel.plasticity.bulk import Bulk, State
@@ -201,6 +202,7 @@ def _inputs(entries: Entries, times: FloatArray) -> Inputs:
         entries.get("CARACTERISTIQUES"),
         scheme_of(entries),
         contact_options(entries),
+        solver=solver_of(entries.call.session),
     )
 
 
