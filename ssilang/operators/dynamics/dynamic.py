@@ -18,7 +18,6 @@ from ssilang.language.run.session import Session
 from ssilang.language.values import Mot, Table
 from ssilang.operators.dynamics.charmeca import AddedByProcedure
 from ssilang.operators.dynamics.motion_files import csv_observer, nodes_asked, vtk_observer
-from ssilang.operators.dynamics.motion_observers import TableObserver
 from ssilang.operators.dynamics.reports import (
     report,
     warn_motion_elsewhere,
@@ -59,6 +58,7 @@ def zdyn(call: Call, table: Table) -> Table:
     """Read the table, integrate, hand back the saved instants."""
     from ssilang.kernel.base.compiled.cache import is_compiled
     from ssilang.kernel.stepping.problem.problem import make_problem
+    from ssilang.operators.dynamics.histories import TableObserver
 
     entries = Entries(call, table, "DYNAMIC")
     times, saved = _times(entries)
@@ -69,8 +69,10 @@ def zdyn(call: Call, table: Table) -> Table:
     make_bodies = plastic_bodies(entries)
     bodies = None if make_bodies is None else make_bodies(problem, inputs)
     warn_resolution(entries, problem)
-    results = TableObserver(saved, nodes_asked(entries.get("MAILLAGE_SAUVE")))
-    vtk, csv = vtk_observer(entries, times), csv_observer(entries, times)
+    asked = nodes_asked(entries.get("MAILLAGE_SAUVE"))
+    whole = bodies is not None or entries.flag("CHARMECA")
+    results = TableObserver(saved, problem=problem, nodes=asked, whole=whole)
+    vtk, csv = vtk_observer(entries, times), csv_observer(entries, problem)
     line = ProgressLine("DYNAMIC", entries.call.session.told)
     extremes = ExtremesObserver(problem) if entries.flag("EXTREMES") else None
     uplift = UpliftWatch.of(problem)
