@@ -14,10 +14,10 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
-from ssilang.kernel.stepping.problem.equilibrium import joint_forces, reactions
+from ssilang.kernel.stepping.problem.equilibrium import joint_forces
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.snapshot import Snapshot
-from ssilang.kernel.stepping.state import Motion, Room, Tap
+from ssilang.kernel.stepping.state import Motion, Peaks, Room, Tap, peaks_of
 
 FIELDS = ("u", "v", "a")
 MOST_COORDINATES = 50_000_000
@@ -166,12 +166,12 @@ class Rows:
     def _balance(self, places: IntArray) -> FloatArray:
         """Reactions at places whose neighbours are among the unknowns too."""
         p, at = self.problem, self.unknowns[places]
-        u, v, a = (self.values(name) for name in FIELDS)
-        loads = expand(p.loading.forces[at], self.factors)
-        if len(at) == len(self.unknowns) == p.numbering.size:
-            return reactions(p, u, v, a, self.joints.t, loads)
-        M, C, K = (A[at][:, self.unknowns] for A in (p.M, p.C, p.K))
-        found: FloatArray = (M @ a.T + C @ v.T + K @ u.T).T - loads
+        near = np.unique(np.concatenate([A[at].indices for A in (p.K, p.M, p.C)]))
+        columns = np.searchsorted(self.unknowns, near)
+        u, v, a = (self.values(name, columns) for name in FIELDS)
+        M, C, K = (A[at][:, near] for A in (p.M, p.C, p.K))
+        found: FloatArray = (M @ a.T + C @ v.T + K @ u.T).T
+        found = found - expand(p.loading.forces[at], self.factors)
         if p.interface is not None:
             found = found + joint_forces(p, self.joints.t) @ p.interface.J[:, at]
         return found
@@ -328,10 +328,13 @@ class Taps:
     wanted : array (n_times,)
     unknowns : array (p,)
         Increasing.
+    peaks : Peaks
+        The largest values, for loops that compare them.
     """
 
     tracks: Sequence[Track]
     n_times: int
+    peaks: Peaks = field(default_factory=lambda: peaks_of(0, 0))
     wanted: BoolArray = field(init=False)
     unknowns: IntArray = field(init=False)
     room: Room = field(init=False)
