@@ -8,6 +8,7 @@ unknowns come as rows.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import ClassVar
 
 import numpy as np
 
@@ -15,7 +16,7 @@ from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.snapshot import Snapshot
 from ssilang.kernel.stepping.state import Peaks, peaks_of
-from ssilang.kernel.stepping.track import Rows, Track, rows_of_snapshot
+from ssilang.kernel.stepping.track import Rows, Track, balance_of, rows_of_snapshot
 
 JOINTS = ("OUVERTURE", "COMPRESSION", "CISAILLEMENT")
 
@@ -52,6 +53,7 @@ class Extremes(Track):
     problem: Problem = field(kw_only=True)
     asked: bool = field(kw_only=True, default=True)
     inside: bool = field(init=False, default=False)
+    keeps: ClassVar[bool] = False
     peaks: Peaks = field(init=False)
 
     def __post_init__(self) -> None:
@@ -73,10 +75,10 @@ class Extremes(Track):
         rows = [p.constraints.C, p.constraints.D]
         rows += [] if p.contact is None else [p.contact.pushing]
         self.held = np.unique(np.concatenate([A.indices for A in rows])).astype(np.int64)
-        near = [A[self.held].indices for A in (p.K, p.M, p.C)]
+        self.balance = balance_of(p, self.held)
         self.unknowns = np.arange(p.numbering.size)
         if self.inside:
-            self.unknowns = np.unique(np.concatenate([self.held, *near])).astype(np.int64)
+            self.unknowns = self.balance.near
         points = 0 if p.interface is None else p.interface.n_points
         self.peaks = peaks_of(p.numbering.size, points)
         self.forces, self.forces_when = np.zeros(len(self.held)), np.zeros(len(self.held))
@@ -87,10 +89,9 @@ class Extremes(Track):
 
     def take(self, rows: Rows) -> None:
         """Compare rows with what came before."""
-        steps, places = rows.steps_taken, np.searchsorted(rows.unknowns, self.held)
+        steps = rows.steps_taken
         if len(self.held):
-            reaction = rows.values("reaction", places)
-            _compare(reaction, steps, self.forces, self.forces_when)
+            _compare(rows.reactions(self.balance), steps, self.forces, self.forces_when)
         chosen = self.held if self.inside and steps[0] else rows.unknowns
         values, to = rows.values("u", np.searchsorted(rows.unknowns, chosen)), self.peaks
         u, when = to.u[chosen], to.when[chosen]

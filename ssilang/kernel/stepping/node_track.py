@@ -14,7 +14,7 @@ from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.interface.interface import interface_field, point_history, state_field
 from ssilang.kernel.matrices.assembly import MULTIPLIER, vector_to_field
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.track import Rows, Track
+from ssilang.kernel.stepping.track import Rows, Track, balance_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,7 +43,7 @@ class Followed:
         found = np.zeros((len(rows), len(self.nodes)))
         pushed, contact = rows.tap.contact, rows.problem.contact
         if len(self.at):
-            rest = rows.values("reaction", np.searchsorted(rows.unknowns, self.at))
+            rest = rows.reactions(balance_of(rows.problem, self.at))
             if contact is not None:
                 rest = rest - pushed @ contact.pushing[:, self.at]
             found += rest @ self.forces
@@ -92,8 +92,8 @@ class NodeTrack(Track):
             return
         self.shown = np.flatnonzero(np.isin(p.numbering.nodes, self.nodes))
         at = self.followed.at
-        near = [A[at].indices for A in (p.K, p.M, p.C)] if len(at) else []
-        self.unknowns = np.unique(np.concatenate([self.shown, at, *near]))
+        near = balance_of(p, at).near if len(at) else at
+        self.unknowns = np.union1d(self.shown, near)
 
     @cached_property
     def followed(self) -> Followed:

@@ -31,6 +31,7 @@ from ssilang.kernel.stepping.track import Taps, Track, rows_of_tap
 from ssilang.messages.message import Sentence
 
 CHUNK_VALUES = 4_000_000  # saved values held at once
+LOOKED_AT = 400_000  # those that are looked at and let go: their memory is taken again
 CHUNK_SECONDS = 0.5  # wished duration of a chunk of steps: progress and interruption
 FACTORS_KEPT = 4  # step sizes whose factors stay in memory
 
@@ -259,7 +260,8 @@ class Integration:
         n, tapped = len(self.motion.u), len(self.taps.unknowns)
         last = within(self.wanted, CHUNK_VALUES // max(4 * n, 1), first, last)
         most = max(n if self.problem.small else tapped, 1)  # loops on modes tap all of them
-        return within(self.taps.wanted, CHUNK_VALUES // (3 * most), first, last)
+        values = LOOKED_AT if self.taps.room is None else CHUNK_VALUES
+        return within(self.taps.wanted, values // (3 * most), first, last)
 
     def _choice(self, dt: float) -> Choice:
         dt = next((known for known in self._choices if abs(known - dt) <= SAME * known), dt)

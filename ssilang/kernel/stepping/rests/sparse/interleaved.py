@@ -258,13 +258,14 @@ class InterleavedLoop:
         steps = np.flatnonzero(kept.tap.row[:done] >= 0)
         if not len(steps):
             return
-        own, rows, tap = kept.tap, to.tap.row[first + steps], to.tap
-        count, c = len(steps), block.course
+        own, tap, count, c = kept.tap, to.tap, len(steps), block.course
+        start = int(tap.row[first + steps[0]])
+        rows = slice(start, start + count)
         for name, course in (("u", c.c), ("v", c.v), ("a", c.a)):
-            found = seen.matrix @ getattr(own, name)[:count].T
+            found = seen.of(getattr(own, name)[:count])
             if block.columns.X.shape[1]:
-                found = found + self._columns(block)[seen.unknowns] @ course[steps + 1].T
-            getattr(tap, name)[rows] = found.T
+                found += (self._columns(block)[seen.unknowns] @ course[steps + 1].T).T
+            getattr(tap, name)[rows] = found
         tap.w[rows], tap.t[rows], tap.state[rows] = own.w[:count], own.t[:count], own.state[:count]
 
 
@@ -275,6 +276,15 @@ class Seen:
     unknowns: IntArray
     at: IntArray
     matrix: sp.csr_array
+
+    def of(self, z: FloatArray) -> FloatArray:
+        """Unknowns (k, p) of entries (k, c)."""
+        entries = np.diff(self.matrix.indptr)
+        if entries.max(initial=0) > 1:
+            return np.asarray((self.matrix @ z.T).T)
+        found = np.zeros((len(z), len(entries)))
+        found[:, entries == 1] = z[:, self.matrix.indices] * self.matrix.data
+        return found
 
 
 @dataclass(frozen=True, eq=False)
