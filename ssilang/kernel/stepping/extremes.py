@@ -44,7 +44,7 @@ class Extremes(Track):
         Unknowns of the conditions.
     peaks : Peaks
         Of all displacements and joints.
-    forces, forces_when : arrays (h,)
+    forces, forces_when : arrays (n,)
         Largest forces of the conditions, and their steps.
     """
 
@@ -81,17 +81,23 @@ class Extremes(Track):
             self.unknowns = self.balance.near
         points = 0 if p.interface is None else p.interface.n_points
         self.peaks = peaks_of(p.numbering.size, points)
-        self.forces, self.forces_when = np.zeros(len(self.held)), np.zeros(len(self.held))
+        self.forces, self.forces_when = np.zeros(p.numbering.size), np.zeros(p.numbering.size)
 
     def receive(self, snapshot: Snapshot) -> None:
         """Compare one whole instant."""
-        self.take(rows_of_snapshot(snapshot, np.arange(self.problem.numbering.size)))
+        n = self.problem.numbering.size
+        self.take(rows_of_snapshot(snapshot, np.arange(n)))
+        if snapshot.problem is not self.problem:  # it may have relations of its own
+            step = np.array([snapshot.step])
+            _compare(snapshot.support_forces[None], step, self.forces, self.forces_when)
 
     def take(self, rows: Rows) -> None:
         """Compare rows with what came before."""
         steps = rows.steps_taken
         if len(self.held):
-            _compare(rows.reactions(self.balance), steps, self.forces, self.forces_when)
+            forces, when = self.forces[self.held], self.forces_when[self.held]
+            _compare(rows.reactions(self.balance), steps, forces, when)
+            self.forces[self.held], self.forces_when[self.held] = forces, when
         chosen = self.held if self.inside and steps[0] else rows.unknowns
         values, to = rows.values("u", np.searchsorted(rows.unknowns, chosen)), self.peaks
         u, when = to.u[chosen], to.when[chosen]
@@ -108,30 +114,23 @@ class Extremes(Track):
         """Of each kind (DEPL, REACTIONS: and component) the largest of all."""
         numbering, to = self.problem.numbering, self.peaks
         made: dict[tuple[str, str], Peak] = {}
-        every = np.arange(numbering.size)
-        for kind, names, places, value, when in (
-            ("DEPL", numbering.unknowns, every, to.u, to.when),
-            ("REACTIONS", numbering.duals, self.held, self.forces, self.forces_when),
-        ):
-            for code, name in enumerate(names):
-                mine = np.flatnonzero(numbering.codes[places] == code)
-                if len(mine) or kind == "REACTIONS":
-                    made[kind, name] = _largest(value, when, mine, places)
+        for code, (name, dual) in enumerate(zip(numbering.unknowns, numbering.duals, strict=True)):
+            mine = np.flatnonzero(numbering.codes == code)
+            made["DEPL", name] = _largest(to.u, to.when, mine)
+            made["REACTIONS", dual] = _largest(self.forces, self.forces_when, mine)
         points = np.arange(to.joints.shape[1])
         for i, name in enumerate(JOINTS):
             if len(points):
-                peak = _largest(to.joints[i], to.joints_when[i], points, points)
+                peak = _largest(to.joints[i], to.joints_when[i], points)
                 sign = -1.0 if name == "COMPRESSION" else 1.0
                 made[name, ""] = Peak(sign * peak.value, peak.step, peak.place)
         return made
 
 
-def _largest(value: FloatArray, when: FloatArray, mine: IntArray, places: IntArray) -> Peak:
-    """The largest of some values; a zero at the first place where there is none."""
-    if not len(mine):
-        return Peak(0.0, 0, 0)
+def _largest(value: FloatArray, when: FloatArray, mine: IntArray) -> Peak:
+    """The largest of some values."""
     at = int(mine[np.abs(value[mine]).argmax()])
-    return Peak(float(value[at]), int(when[at]), int(places[at]))
+    return Peak(float(value[at]), int(when[at]), at)
 
 
 def _compare(values: FloatArray, steps: IntArray, best: FloatArray, when: FloatArray) -> None:

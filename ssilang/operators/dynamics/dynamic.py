@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -25,13 +26,14 @@ from ssilang.operators.dynamics.reports import (
     warn_resolution,
 )
 from ssilang.operators.dynamics.scheme_entries import contact_options, scheme_of
-from ssilang.operators.dynamics.watching import ExtremesObserver, UpliftWatch
+from ssilang.operators.dynamics.watching import UpliftWatch, extremes_later, extremes_table
 from ssilang.operators.session.progress import ProgressLine
 from ssilang.operators.statics.bodies import plastic_bodies
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
     from ssilang.kernel.plasticity.bulk import Bulk, State
+    from ssilang.kernel.stepping.extremes import Extremes
     from ssilang.kernel.stepping.problem.problem import Inputs, Problem
     from ssilang.kernel.stepping.run import History
     from ssilang.kernel.stepping.snapshot import Observer
@@ -57,6 +59,7 @@ MOST_STEPS = 1e9
 def zdyn(call: Call, table: Table) -> Table:
     """Read the table, integrate, hand back the saved instants."""
     from ssilang.kernel.base.compiled.cache import is_compiled
+    from ssilang.kernel.stepping.extremes import Extremes
     from ssilang.kernel.stepping.problem.problem import make_problem
     from ssilang.operators.dynamics.histories import TableObserver
 
@@ -74,7 +77,7 @@ def zdyn(call: Call, table: Table) -> Table:
     results = TableObserver(saved, problem=problem, nodes=asked, whole=whole)
     vtk, csv = vtk_observer(entries, times), csv_observer(entries, problem)
     line = ProgressLine("DYNAMIC", entries.call.session.told)
-    extremes = ExtremesObserver(problem) if entries.flag("EXTREMES") else None
+    extremes = Extremes(problem=problem, asked=entries.flag("EXTREMES"))
     uplift = UpliftWatch.of(problem)
     observers = [o for o in (results, vtk, csv, extremes, uplift) if o is not None]
     if not is_compiled("stepping"):
@@ -86,8 +89,11 @@ def zdyn(call: Call, table: Table) -> Table:
     _say_reduction(entries, history)
     if csv is not None:
         entries.table.set(Mot("RESULTATS_CSV"), csv.table)
-    if extremes is not None:
-        entries.table.set(Mot("RESULTATS_EXTREMES"), extremes.table())
+    if extremes.known:
+        entries.table.set(Mot("RESULTATS_EXTREMES"), extremes_table(extremes))
+    elif not whole:
+        again = partial(_step_again, entries.get("REDUCTION"), problem)
+        entries.table.set(Mot("RESULTATS_EXTREMES"), extremes_later(problem, again))
     if uplift is not None and uplift.left:
         entries.warn("operators.dynamics.left-for-good", time=uplift.since, least=uplift.opening)
     report(entries, problem, history)
@@ -124,6 +130,17 @@ def _integrated(
     if not 0.0 < tolerance < 1.0:
         raise entries.error("operators.dynamics.tolerance-of-reduction", tolerance=tolerance)
     return integrate_reduced(problem, float(tolerance), observers, line)
+
+
+def _step_again(tolerance: float | None, problem: Problem, extremes: Extremes) -> None:
+    """The same motion for its largest values, which its loop does not give without cost."""
+    from ssilang.kernel.stepping.rests.reduced.run import integrate_reduced
+    from ssilang.kernel.stepping.run import integrate
+
+    if tolerance is None:
+        integrate(problem, [extremes])
+    else:
+        integrate_reduced(problem, float(tolerance), [extremes])
 
 
 def _say_reduction(entries: Entries, history: History) -> None:
