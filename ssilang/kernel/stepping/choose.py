@@ -173,6 +173,8 @@ class Rule:
         Whether a run without its energies costs much less.
     factorises : bool
         Whether the step's matrix is factorised at each iteration.
+    inside : bool
+        Whether the loop compares the largest values as it steps.
     """
 
     name: str
@@ -184,6 +186,7 @@ class Rule:
     renewable: bool = False
     light: bool = False
     factorises: bool = False
+    inside: bool = False
 
 
 RULES = (
@@ -193,21 +196,21 @@ RULES = (
         "kernel.stepping.loop-adaptive",
         lambda c: c.problem.scheme.adaptive
         and not (c.problem.interface is None and c.problem.contact is None),
-        _adaptive, renewable=True,
+        _adaptive, renewable=True, inside=True,
     ),
     Rule(
         "conserving", "conserving",
         "the energy-conserving step",
         "kernel.stepping.loop-conserving",
         lambda c: c.problem.scheme.conserving,
-        _conserving, renewable=True,
+        _conserving, renewable=True, inside=True,
     ),
     Rule(
         "full Newton", "full Newton",
         "Newton's method on all unknowns is asked for",
         "kernel.stepping.loop-full-newton",
         lambda c: c.full,
-        _full_newton, renewable=True, factorises=True,
+        _full_newton, renewable=True, factorises=True, inside=True,
     ),
     Rule(
         "relations on modes", "compiled",
@@ -221,7 +224,7 @@ RULES = (
         "unilateral relations",
         "kernel.stepping.loop-relations",
         lambda c: c.problem.contact is not None,
-        _condensed, renewable=True,
+        _condensed, renewable=True, inside=True,
     ),
     Rule(
         "one mode", "compiled",
@@ -263,21 +266,21 @@ RULES = (
         "small",
         "kernel.stepping.loop-dense",
         lambda c: c.small,
-        _dense,
+        _dense, inside=True,
     ),
     Rule(
         "dissection", "condensed",
         "a factor by nested dissection, the interface at its root, few curves of imposed values",
         "kernel.stepping.loop-dissection",
         lambda c: fits(c.problem, c.effective),
-        _interleaved,
+        _interleaved, inside=True,
     ),
     Rule(
         "condensed", "condensed",
         "all others",
         "kernel.stepping.loop-condensed",
         lambda c: True,
-        _condensed, renewable=True,
+        _condensed, renewable=True, inside=True,
     ),
 )  # fmt: skip
 
