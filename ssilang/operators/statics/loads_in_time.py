@@ -216,8 +216,8 @@ def char_in_lists(
     for held in objects.values:
         if type_of(held) not in _HELD:
             raise call.error("operators.statics.not-loaded", objects, found=type_of(held))
-    steps = tuple(zip(times.values.tolist(), objects.values, strict=True))
-    return Load((LoadPart(_short(name), None, None, steps),))
+    steps: list[tuple[float, Any]] = list(zip(times.values.tolist(), objects.values, strict=True))
+    return Load((LoadPart(_short(name), None, None, tuple(steps)),))
 
 
 # ---- values at a time ---------------------------------------------------------------------------
