@@ -15,8 +15,9 @@ from typing import Any, NoReturn
 
 from ssilang.messages.message import Teller, teller
 
-COMMANDS = ("run", "check", "help", "sweep", "repl", "version")
+COMMANDS = ("run", "check", "format", "help", "sweep", "repl", "lsp", "version")
 LANGUAGES = ("en", "fr")
+REPORTS = ("text", "json", "github")
 
 _HEADINGS = {
     "positional arguments": "cli.usage-positional",
@@ -105,12 +106,19 @@ def parser(words: Sequence[str]) -> Parser:
     check = command("check", help="cli.usage-check")
     check.add_argument("files", nargs="+", help="cli.usage-files")
     check.add_argument("--syntax-only", action="store_true", help="cli.usage-syntax-only")
+    check.add_argument("--format", choices=REPORTS, default="text", help="cli.usage-check-format")
     _language_argument(check)
+    layout = command("format", help="cli.usage-format")
+    layout.add_argument("files", nargs="+", help="cli.usage-format-files")
+    layout.add_argument("--check", action="store_true", help="cli.usage-format-check")
+    layout.add_argument("--diff", action="store_true", help="cli.usage-format-diff")
+    _language_argument(layout)
     helper = command("help", help="cli.usage-help-of")
     helper.add_argument("word", nargs="*", help="cli.usage-word")
     _language_argument(helper)
     _sweep(command("sweep", help="cli.usage-sweep"))
     _session_arguments(command("repl", help="cli.usage-repl"))
+    _language_argument(command("lsp", help="cli.usage-lsp"))
     command("version", help="cli.usage-version")
     return made
 
