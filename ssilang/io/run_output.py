@@ -8,13 +8,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from time import monotonic
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ssilang.io.atomic import write_text
 from ssilang.io.errors import OutputError
 from ssilang.io.plots.figure import Pictures
 from ssilang.io.run_lock import RunLock, hold
-from ssilang.io.vtk.series import SeriesWriter, strip_extension
+
+if TYPE_CHECKING:
+    from ssilang.io.vtk.series import SeriesWriter
 
 _SHOWN = 60  # letters of a name in a message
 _FLUSH_EVERY = 1.0  # seconds: a loop that adds lines does not rewrite the file at each turn
@@ -139,6 +141,8 @@ class RunOutput:
 
     def begin_series(self, path: Path, constants: Mapping[str, float]) -> SeriesWriter:
         """A new VTK series, finished and listed when the run ends."""
+        from ssilang.io.vtk.series import SeriesWriter, strip_extension
+
         writer = self.series[strip_extension(path)] = SeriesWriter(path, constants=constants)
         return writer
 
