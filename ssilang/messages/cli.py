@@ -20,16 +20,14 @@ MESSAGES: dict[str, Message] = {
         "{folder} n'est pas un répertoire d'accélérogrammes",
     ),
     "no-file": Message(
-        "there is no file in {folder}",
-        "il n'y a pas de fichier dans {folder}",
+        "there is no ground motion in {folder}",
+        "il n'y a pas d'accélérogramme dans {folder}",
+        "a motion is a text with lines of numbers: .AT2, .csv ...",
+        "un accélérogramme est un texte avec des lignes de nombres : .AT2, .csv ...",
     ),
     "set-twice": Message(
         "{name} is set twice",
         "{name} est donné deux fois",
-    ),
-    "sweep-writes-parquet-pip": Message(
-        "a sweep writes Parquet: pip install 'ssilang[sweep]'",
-        "un balayage écrit du Parquet : pip install 'ssilang[sweep]'",
     ),
     "cluster-needs-dask-distributed": Message(
         "a cluster needs dask.distributed: pip install 'ssilang[cluster]'",
@@ -46,6 +44,10 @@ MESSAGES: dict[str, Message] = {
     "runs-done": Message(
         "{done} of {total} runs are done already",
         "{done} calculs sur {total} sont déjà faits",
+    ),
+    "files-no-motions": Message(
+        "left out, no {count:motion|motions}: {names}",
+        "{count:laissé de côté, pas un mouvement|laissés de côté, pas des mouvements} : {names}",
     ),
     "run-failed": Message(
         "run {number} failed: {error} (runs/{folder})",

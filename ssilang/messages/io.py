@@ -91,6 +91,15 @@ MESSAGES: dict[str, Message] = {
         "the series has the parts ({old}), the step brings ({new})",
         "la série a les parties ({old}), le pas apporte ({new})",
     ),
+    "series-mesh-changed": Message(
+        "{path} has one mesh for all its steps, and this step's mesh{part}, or the width "
+        "of an array, is another",
+        "{path} a un seul maillage pour tous ses pas, et le maillage de ce pas{part}, ou "
+        "la largeur d'un tableau, en est un autre",
+        "begin another file, or write .vtu files, whose meshes may differ from step to step: 'VTU'",
+        "commencez un autre fichier, ou écrivez des fichiers .vtu, dont les maillages peuvent "
+        "changer d'un pas à l'autre : 'VTU'",
+    ),
     "cells-no-vtk-counterpart": Message(
         "cells {cell_type} have no VTK counterpart",
         "les éléments {cell_type} n'ont pas d'équivalent VTK",
