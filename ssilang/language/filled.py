@@ -11,7 +11,8 @@ from collections.abc import Iterator, Mapping, MutableMapping
 from importlib import import_module
 from typing import Any, ClassVar, TypeVar
 
-K, V = TypeVar("K"), TypeVar("V")
+K = TypeVar("K")
+V = TypeVar("V")
 
 Index = Mapping[str, Mapping[Any, tuple[str, ...]]]
 """Modules by name of a table and key, in the order in which what they bring stands there."""
@@ -79,7 +80,7 @@ class Filled(MutableMapping[K, V]):
             if key in self._waiting:
                 self._fill(key)
 
-    def get(self, key: K, default: Any = None) -> Any:
+    def get(self, key: K, default: V | None = None) -> V | None:  # type: ignore[override]
         """What stands under a key."""
         if key in self._waiting:
             self._fill(key)

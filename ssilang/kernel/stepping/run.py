@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -22,12 +23,14 @@ from ssilang.kernel.stepping.problem.initial import (
     with_contact,
 )
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.rests.reduced.basis import Reduction
 from ssilang.kernel.stepping.snapshot import Observer, Snapshot, kept_instant, snapshot_of
 from ssilang.kernel.stepping.state import LONGEST_CHUNK, N_ENERGIES, Motion, recorder_of, rows_of
 from ssilang.kernel.stepping.times import SAME, Run, runs_of
 from ssilang.kernel.stepping.track import Taps, Track, rows_of_tap
 from ssilang.messages.message import Sentence
+
+if TYPE_CHECKING:
+    from ssilang.kernel.stepping.rests.reduced.basis import Reduction
 
 CHUNK_VALUES = 4_000_000  # saved values held at once
 CHUNK_SECONDS = 0.5  # wished duration of a chunk of steps: progress and interruption
